@@ -1,0 +1,47 @@
+/* A case file: YAML, strict.  Every key that is read says its type, its default and its range here and now; what nobody
+ * has read by the time of CaseFinish is an error, as are wrong types and impossible values.  An error ends the job with
+ * "coracle <role>[rank]: error: file.yaml:12: key 'fluid.density': expected a number > 0, found '-3'".
+ * All functions may be called by any rank; each rank reads the file itself.  A case is parsed from argv:
+ * `program case.yaml [--set key=value]...`; a set replaces or adds the key (dotted path, list items as name[0].key).
+ *
+ * The top-level sections are: case (name), gravity, time, fluid, solid, coupler, output.  A participant opens the whole
+ * file but must read only its sections: CaseFinish checks the sections it names. */
+#ifndef CORACLE_CASE_FILE_H
+#define CORACLE_CASE_FILE_H
+#include <stdbool.h>
+
+typedef struct Case_s *Case;
+
+/* fail: called with the message when something is wrong; must not return. */
+int CaseOpen(int argc, char **argv, void (*fail)(void *context, const char *message), void *context, Case *c);
+int CaseClose(Case *c);
+const char *CasePath(Case c);
+/* 64-bit FNV-1a hash of the file's bytes and of the sets: the same on all participants of a job. */
+unsigned long long CaseHash(Case c);
+
+/* keys are dotted paths: "fluid.boundaries.left", "solid.bodies[0].centre" */
+bool CaseHas(Case c, const char *key);
+/* Number of items of the list at key; 0 if absent. */
+int CaseCount(Case c, const char *key);
+/* Required number within [lower, upper] (HUGE_VAL for open ends; `open` makes lower exclusive). */
+double CaseNumber(Case c, const char *key, double lower, double upper);
+double CasePositive(Case c, const char *key); /* > 0 */
+double CaseNumberOr(Case c, const char *key, double fallback, double lower, double upper);
+int CaseIntegerOr(Case c, const char *key, int fallback, int lower, int upper);
+bool CaseBoolOr(Case c, const char *key, bool fallback);
+/* n numbers as a flow list: [0.0, -9.81] */
+void CaseVector(Case c, const char *key, int n, double v[]);
+bool CaseVectorOptional(Case c, const char *key, int n, double v[]); /* false: absent, v untouched */
+/* Borrowed until CaseClose.  A relative path is resolved by CaseFile against the case file's folder. */
+const char *CaseString(Case c, const char *key);
+const char *CaseStringOr(Case c, const char *key, const char *fallback);
+const char *CaseFile(Case c, const char *key);
+/* One of the words in the null-terminated list; returns its index.  fallback < 0: required. */
+int CaseWord(Case c, const char *key, int fallback, const char *const words[]);
+/* Calls f(context, name) for each key of the map at key, in file order (names borrowed). */
+int CaseKeys(Case c, const char *key, void (*f)(void *context, const char *name), void *context);
+/* The error of a value that was read well but cannot be: names file, line and key. */
+_Noreturn void CaseRefuse(Case c, const char *key, const char *format, ...) __attribute__((format(printf, 3, 4)));
+/* Checks that every key under the sections (null-terminated list) has been read, and that no unknown top-level section exists. */
+int CaseFinish(Case c, const char *const sections[]);
+#endif
