@@ -1,0 +1,163 @@
+/* Kernels on plane triangles: area, barycentric coordinates, clipping, quadrature.  No memory, no MPI; a
+ * triangle is x[3][2], counter-clockwise, in metres.  Everything is exact up to round-off of the coordinates'
+ * differences. */
+#ifndef CORACLE_GEOMETRY_H
+#define CORACLE_GEOMETRY_H
+#include <math.h>
+#include <string.h>
+
+/* Vertices of a clipped triangle: 6 in exact arithmetic.  Round-off may leave a polygon a hair non-convex,
+ * then a half plane can cut every other vertex off: 3 -> 4 -> 6 -> 9. */
+#define GEOMETRY_CLIP_MAX 9
+
+typedef struct {
+  double lower[2], upper[2];
+} GeometryBox;
+
+/* Twice the signed area of p, q, r: > 0 when they turn counter-clockwise. */
+static inline double GeometryTurn(const double p[2], const double q[2], const double r[2])
+{
+  return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+}
+
+/* Signed area, m2. */
+static inline double GeometryArea(const double x[3][2])
+{
+  return 0.5 * GeometryTurn(x[0], x[1], x[2]);
+}
+
+/* A box that contains nothing and is neutral in GeometryBoxGrow. */
+static inline GeometryBox GeometryBoxEmpty(void)
+{
+  return (GeometryBox){{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
+}
+
+static inline void GeometryBoxGrow(GeometryBox *box, const double x[2])
+{
+  for (int c = 0; c < 2; c++) {
+    if (x[c] < box->lower[c]) box->lower[c] = x[c];
+    if (x[c] > box->upper[c]) box->upper[c] = x[c];
+  }
+}
+
+static inline GeometryBox GeometryBoxOf(const double x[3][2])
+{
+  GeometryBox box = GeometryBoxEmpty();
+  for (int i = 0; i < 3; i++) GeometryBoxGrow(&box, x[i]);
+  return box;
+}
+
+/* Closed boxes: touching counts. */
+static inline int GeometryBoxOverlap(const GeometryBox *a, const GeometryBox *b)
+{
+  return (a->lower[0] <= b->upper[0]) & (b->lower[0] <= a->upper[0]) & (a->lower[1] <= b->upper[1]) &
+         (b->lower[1] <= a->upper[1]);
+}
+
+/* The three P1 functions of triangle x at point p; their sum is 1 to the last bit or two. */
+static inline void GeometryBarycentric(const double x[3][2], const double p[2], double n[3])
+{
+  const double inverse = 1.0 / GeometryTurn(x[0], x[1], x[2]);
+  n[1] = GeometryTurn(x[2], x[0], p) * inverse;
+  n[2] = GeometryTurn(x[0], x[1], p) * inverse;
+  n[0] = 1.0 - n[1] - n[2];
+}
+
+/* Constant gradients of the three P1 functions, 1/m. */
+static inline void GeometryGradient(const double x[3][2], double grad[3][2])
+{
+  const double inverse = 1.0 / GeometryTurn(x[0], x[1], x[2]);
+  for (int i = 0; i < 3; i++) {
+    const double *p = x[(i + 1) % 3], *q = x[(i + 2) % 3];
+    grad[i][0] = (p[1] - q[1]) * inverse;
+    grad[i][1] = (q[0] - p[0]) * inverse;
+  }
+}
+
+/* Keeps what lies on the left of the line p -> q (Sutherland and Hodgman 1974).  A vertex on the line stays
+ * and cuts no edge; a crossing is a convex combination of the edge's ends, so it never leaves the edge. */
+static inline int GeometryClipHalfPlane(int n, const double in[][2], const double p[2], const double q[2],
+                                        double out[][2])
+{
+  double side[GEOMETRY_CLIP_MAX];
+  int inside = 0, m = 0;
+  for (int i = 0; i < n; i++) {
+    side[i] = GeometryTurn(p, q, in[i]);
+    inside += side[i] >= 0.0;
+  }
+  if (!inside) return 0;
+  if (inside == n) {
+    memcpy(out, in, (size_t)n * sizeof out[0]);
+    return n;
+  }
+  for (int i = 0; i < n; i++) {
+    const int j = i + 1 < n ? i + 1 : 0;
+    if (side[i] >= 0.0) {
+      out[m][0] = in[i][0];
+      out[m++][1] = in[i][1];
+    }
+    if ((side[i] > 0.0 && side[j] < 0.0) || (side[i] < 0.0 && side[j] > 0.0)) {
+      const double t = side[i] / (side[i] - side[j]);
+      out[m][0] = (1.0 - t) * in[i][0] + t * in[j][0];
+      out[m++][1] = (1.0 - t) * in[i][1] + t * in[j][1];
+    }
+  }
+  return m;
+}
+
+/* The convex polygon that triangles a and b share: its number of vertices (0: nothing), counter-clockwise. */
+static inline int GeometryClip(const double a[3][2], const double b[3][2],
+                               double polygon[GEOMETRY_CLIP_MAX][2])
+{
+  double buffer[GEOMETRY_CLIP_MAX][2];
+  int n = GeometryClipHalfPlane(3, a, b[0], b[1], polygon);
+  n = GeometryClipHalfPlane(n, (const double(*)[2])polygon, b[1], b[2], buffer);
+  n = GeometryClipHalfPlane(n, (const double(*)[2])buffer, b[2], b[0], polygon);
+  return n < 3 ? 0 : n;
+}
+
+/* Triangle k = 0 .. n - 3 of the fan around the polygon's first vertex. */
+static inline void GeometryFan(const double polygon[][2], int k, double x[3][2])
+{
+  for (int c = 0; c < 2; c++) {
+    x[0][c] = polygon[0][c];
+    x[1][c] = polygon[k + 1][c];
+    x[2][c] = polygon[k + 2][c];
+  }
+}
+
+static inline double GeometryPolygonArea(int n, const double polygon[][2])
+{
+  double area = 0.0;
+  for (int k = 0; k + 2 < n; k++) area += 0.5 * GeometryTurn(polygon[0], polygon[k + 1], polygon[k + 2]);
+  return area;
+}
+
+typedef struct {
+  int n;
+  double point[6][3]; /* barycentric */
+  double weight[6];   /* sum 1: multiply by the area */
+} GeometryQuadrature;
+
+/* Exact for polynomials of the degree: 2 (3 points), 3 (4 points), 4 (6 points); Strang and Fix 1973,
+ * Dunavant 1985. */
+static inline const GeometryQuadrature *GeometryQuadratureOf(int degree)
+{
+#define GEOMETRY_ORBIT(a)                                                                                    \
+  {1.0 - 2.0 * (a), a, a}, {a, 1.0 - 2.0 * (a), a},                                                          \
+  {                                                                                                          \
+    a, a, 1.0 - 2.0 * (a)                                                                                    \
+  }
+  static const GeometryQuadrature TWO = {3, {GEOMETRY_ORBIT(1.0 / 6.0)}, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}};
+  static const GeometryQuadrature THREE = {4,
+                                           {{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, GEOMETRY_ORBIT(0.2)},
+                                           {-27.0 / 48.0, 25.0 / 48.0, 25.0 / 48.0, 25.0 / 48.0}};
+  static const GeometryQuadrature FOUR = {
+      6,
+      {GEOMETRY_ORBIT(0.445948490915965), GEOMETRY_ORBIT(0.09157621350977073)},
+      {0.2233815896780115, 0.2233815896780115, 0.2233815896780115, 0.1099517436553219, 0.1099517436553219,
+       0.1099517436553219}};
+#undef GEOMETRY_ORBIT
+  return degree <= 2 ? &TWO : degree == 3 ? &THREE : &FOUR;
+}
+#endif
