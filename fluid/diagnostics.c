@@ -1,0 +1,131 @@
+/* What is measured of a flow: momentum, forces on boundaries, errors against exact fields. */
+#include "fluid_impl.h"
+
+PetscErrorCode FluidMomentumTotal(Fluid f, double momentum[2], double *energy)
+{
+  const PetscScalar *u;
+  double sum[3] = {0};
+  PetscFunctionBeginUser;
+  PetscCall(VecGetArrayRead(f->u, &u));
+  for (int e = 0; e < f->mesh->ne; e++)
+    for (int c = 0; c < 2; c++) {
+      double mu[3];
+      MassApply(f->geometry[e].area, u + 6 * e + 3 * c, mu);
+      for (int i = 0; i < 3; i++) {
+        sum[c] += f->rho[e] * mu[i];
+        sum[2] += 0.5 * f->rho[e] * mu[i] * u[6 * e + 3 * c + i];
+      }
+    }
+  PetscCall(VecRestoreArrayRead(f->u, &u));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_DOUBLE, MPI_SUM, f->mesh->comm));
+  momentum[0] = sum[0], momentum[1] = sum[1];
+  if (energy) *energy = sum[2];
+  PetscFunctionReturn(0);
+}
+
+/* int (p n - tau n + eta (u - g)) over one boundary face: what the scheme itself takes from the fluid there */
+static void FaceForce(Fluid f, int e, int i, const Boundary *b, const double u[6], const double p[], double force[2])
+{
+  const Mesh *m = f->mesh;
+  const FaceGeometry face = FaceGeometryOf(f->geometry + e, i);
+  const FaceSide k = FaceSideOf(f, e, i, 1.0, PENALTY_BOUNDARY);
+  const int node[2] = {k.a, k.b};
+  const double pressure = (p[m->p2[6 * e + k.a]] + 4.0 * p[m->p2[6 * e + 3 + i]] + p[m->p2[6 * e + k.b]]) / 6.0;
+  double t[2][6], project[2][2], slip[2] = {0};
+  Traction(k.e->g, k.mu, face.n, t);
+  BoundaryProjection(b, face.n, project);
+  for (int r = 0; r < 2 && b->kind != BOUNDARY_OPEN; r++) {
+    double v[2] = {0};
+    if (b->kind == BOUNDARY_VELOCITY) BoundaryVelocity(b, f->t, ElementVertex(m, e, node[r]), v);
+    for (int c = 0; c < 2; c++) slip[c] += 0.5 * (u[3 * c + node[r]] - v[c]);
+  }
+  for (int c = 0; c < 2; c++) {
+    double traction = 0.0;
+    for (int s = 0; s < 6; s++) traction += t[c][s] * u[s];
+    force[c] += face.length * (pressure * face.n[c] - traction +
+                               k.eta * (project[c][0] * slip[0] + project[c][1] * slip[1]));
+  }
+}
+
+PetscErrorCode FluidBoundaryForce(Fluid f, const char *boundary, double force[2])
+{
+  const Mesh *m = f->mesh;
+  const PetscScalar *u, *p;
+  Vec local;
+  PetscFunctionBeginUser;
+  force[0] = force[1] = 0.0;
+  PetscCall(VecGetArrayRead(f->u, &u));
+  PetscCall(VecGhostGetLocalForm(f->p, &local));
+  PetscCall(VecGetArrayRead(local, &p));
+  for (int e = 0; e < m->ne; e++)
+    for (int i = 0; i < 3; i++) {
+      const int tag = m->tag[3 * e + i];
+      if (tag >= 0 && !strcmp(m->tag_name[tag], boundary))
+        FaceForce(f, e, i, f->setup.boundary + tag, u + 6 * e, p, force);
+    }
+  PetscCall(VecRestoreArrayRead(local, &p));
+  PetscCall(VecGhostRestoreLocalForm(f->p, &local));
+  PetscCall(VecRestoreArrayRead(f->u, &u));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, force, 2, MPI_DOUBLE, MPI_SUM, m->comm));
+  PetscFunctionReturn(0);
+}
+
+/* Dunavant's rule of degree 5: weights sum to 1 */
+static const double QUADRATURE[7][4] = {
+    {1.0 / 3, 1.0 / 3, 1.0 / 3, 0.225},
+    {0.797426985353087, 0.101286507323456, 0.101286507323456, 0.125939180544827},
+    {0.101286507323456, 0.797426985353087, 0.101286507323456, 0.125939180544827},
+    {0.101286507323456, 0.101286507323456, 0.797426985353087, 0.125939180544827},
+    {0.059715871789770, 0.470142064105115, 0.470142064105115, 0.132394152788506},
+    {0.470142064105115, 0.059715871789770, 0.470142064105115, 0.132394152788506},
+    {0.470142064105115, 0.470142064105115, 0.059715871789770, 0.132394152788506}};
+
+/* Squared velocity error; sum of pressure error, of its square, and area. */
+static void ElementErrors(Fluid f, int e, double t, FieldFunction velocity, FieldFunction pressure, void *context,
+                          const double u[6], const double p[6], double sum[4])
+{
+  const Mesh *m = f->mesh;
+  for (int q = 0; q < 7; q++) {
+    const double *l = QUADRATURE[q], w = l[3] * f->geometry[e].area;
+    double x[2] = {0}, v[2], exact = 0.0;
+    for (int i = 0; i < 3; i++)
+      for (int c = 0; c < 2; c++) x[c] += l[i] * ElementVertex(m, e, i)[c];
+    if (velocity) velocity(context, t, x, v);
+    for (int c = 0; c < 2 && velocity; c++) {
+      const double d = l[0] * u[3 * c] + l[1] * u[3 * c + 1] + l[2] * u[3 * c + 2] - v[c];
+      sum[0] += w * d * d;
+    }
+    if (pressure) pressure(context, t, x, &exact);
+    double d = -exact;
+    for (int i = 0; i < 3; i++)
+      d += p[i] * l[i] * (2.0 * l[i] - 1.0) + p[3 + i] * 4.0 * l[(i + 1) % 3] * l[(i + 2) % 3];
+    sum[1] += w * d;
+    sum[2] += w * d * d;
+    sum[3] += w;
+  }
+}
+
+PetscErrorCode FluidErrors(Fluid f, double t, FieldFunction velocity, FieldFunction pressure, void *context,
+                           double *velocity_error, double *pressure_error)
+{
+  const Mesh *m = f->mesh;
+  const PetscScalar *u, *p;
+  Vec local;
+  double sum[4] = {0};
+  PetscFunctionBeginUser;
+  PetscCall(VecGetArrayRead(f->u, &u));
+  PetscCall(VecGhostGetLocalForm(f->p, &local));
+  PetscCall(VecGetArrayRead(local, &p));
+  for (int e = 0; e < m->ne; e++) {
+    double pe[6];
+    for (int k = 0; k < 6; k++) pe[k] = p[m->p2[6 * e + k]];
+    ElementErrors(f, e, t, velocity, pressure, context, u + 6 * e, pe, sum);
+  }
+  PetscCall(VecRestoreArrayRead(local, &p));
+  PetscCall(VecGhostRestoreLocalForm(f->p, &local));
+  PetscCall(VecRestoreArrayRead(f->u, &u));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 4, MPI_DOUBLE, MPI_SUM, m->comm));
+  if (velocity_error) *velocity_error = sqrt(sum[0]);
+  if (pressure_error) *pressure_error = sqrt(PetscMax(sum[2] - sum[1] * sum[1] / sum[3], 0.0));
+  PetscFunctionReturn(0);
+}

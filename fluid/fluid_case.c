@@ -1,0 +1,136 @@
+#include "fluid_case.h"
+
+/* --- mesh: a graded box, or a Gmsh file ------------------------------------------------------------------------ */
+
+typedef struct {
+  double lower[2], upper[2], size;
+} RefinedBox;
+
+typedef struct {
+  int n;
+  RefinedBox *box;
+  double size_max, growth;
+} SizeField;
+
+/* The smallest over the refined boxes of size + growth * distance to the box. */
+static double SizeAt(void *context, const double x[2])
+{
+  const SizeField *f = context;
+  double size = f->size_max;
+  for (int k = 0; k < f->n; k++) {
+    double d2 = 0.0;
+    for (int c = 0; c < 2; c++) {
+      const double d = fmax(fmax(f->box[k].lower[c] - x[c], x[c] - f->box[k].upper[c]), 0.0);
+      d2 += d * d;
+    }
+    size = fmin(size, f->box[k].size + f->growth * sqrt(d2));
+  }
+  return size;
+}
+
+static PetscErrorCode BoxMesh(Case c, PetscMPIInt rank, MeshSerial *serial)
+{
+  SizeField f = {0};
+  double lower[2], upper[2];
+  char key[64];
+  PetscFunctionBeginUser;
+  CaseVector(c, "fluid.mesh.lower", 2, lower);
+  CaseVector(c, "fluid.mesh.upper", 2, upper);
+  if (upper[0] <= lower[0] || upper[1] <= lower[1])
+    CaseRefuse(c, "fluid.mesh.upper", "expected a corner above and right of lower (%g, %g), found (%g, %g)", lower[0],
+               lower[1], upper[0], upper[1]);
+  f.size_max = CasePositive(c, "fluid.mesh.size_max");
+  f.growth = CaseNumberOr(c, "fluid.mesh.growth", 0.25, 0.0, HUGE_VAL);
+  f.n = CaseCount(c, "fluid.mesh.refine");
+  PetscCall(PetscMalloc1(f.n, &f.box));
+  for (int k = 0; k < f.n; k++) {
+    (void)snprintf(key, sizeof key, "fluid.mesh.refine[%d].lower", k);
+    CaseVector(c, key, 2, f.box[k].lower);
+    (void)snprintf(key, sizeof key, "fluid.mesh.refine[%d].upper", k);
+    CaseVector(c, key, 2, f.box[k].upper);
+    (void)snprintf(key, sizeof key, "fluid.mesh.refine[%d].size", k);
+    f.box[k].size = CasePositive(c, key);
+  }
+  if (rank == 0) PetscCall(MeshBox(lower, upper, f.size_max, SizeAt, &f, serial));
+  PetscCall(PetscFree(f.box));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidCaseMesh(Case c, MPI_Comm comm, Mesh **mesh)
+{
+  MeshSerial serial = {0};
+  PetscMPIInt rank;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (CaseHas(c, "fluid.mesh.file")) {
+    const char *path = CaseFile(c, "fluid.mesh.file"), *why = NULL;
+    if (rank == 0 && MeshReadGmsh(path, &serial, &why)) CaseRefuse(c, "fluid.mesh.file", "%s", why);
+  } else {
+    PetscCall(BoxMesh(c, rank, &serial));
+  }
+  PetscCall(MeshDistribute(comm, &serial, mesh));
+  PetscCall(MeshSerialDestroy(&serial));
+  PetscFunctionReturn(0);
+}
+
+/* --- boundaries -------------------------------------------------------------------------------------------------- */
+
+static void ReadBoundary(Case c, const char *name, Boundary *b)
+{
+  static const char *const WORDS[] = {"no_slip", "free_slip", "open", NULL}, *const PROFILES[] = {"uniform", "parabolic", NULL};
+  static const BoundaryKind KINDS[] = {BOUNDARY_VELOCITY, BOUNDARY_FREE_SLIP, BOUNDARY_OPEN};
+  char key[160], sub[192];
+  memset(b, 0, sizeof *b);
+  (void)snprintf(key, sizeof key, "fluid.boundaries.%s", name);
+  (void)snprintf(sub, sizeof sub, "%s.velocity", key);
+  if (CaseHas(c, sub)) {
+    b->kind = BOUNDARY_VELOCITY;
+    CaseVector(c, sub, 2, b->velocity);
+    (void)snprintf(sub, sizeof sub, "%s.profile", key);
+    b->parabolic = (PetscBool)(CaseWord(c, sub, 0, PROFILES) == 1);
+    return;
+  }
+  (void)snprintf(sub, sizeof sub, "%s.pressure", key);
+  if (CaseHas(c, sub)) {
+    b->kind = BOUNDARY_OPEN;
+    b->pressure = CaseNumber(c, sub, -HUGE_VAL, HUGE_VAL);
+    return;
+  }
+  b->kind = KINDS[CaseWord(c, key, -1, WORDS)];
+}
+
+/* A boundary of the case file must be one of the mesh's. */
+typedef struct {
+  Case c;
+  const Mesh *mesh;
+} BoundaryCheck;
+
+static void CheckBoundaryName(void *context, const char *name)
+{
+  const BoundaryCheck *check = context;
+  char known[512] = "", key[160];
+  for (int b = 0; b < check->mesh->ntags; b++) {
+    if (!strcmp(check->mesh->tag_name[b], name)) return;
+    const size_t used = strlen(known);
+    (void)snprintf(known + used, sizeof known - used, "%s%s", b ? ", " : "", check->mesh->tag_name[b]);
+  }
+  (void)snprintf(key, sizeof key, "fluid.boundaries.%s", name);
+  CaseRefuse(check->c, key, "the mesh has no boundary of this name; it has %s", known);
+}
+
+PetscErrorCode FluidCaseSetup(Case c, const Mesh *mesh, FluidSetup *setup)
+{
+  BoundaryCheck check = {c, mesh};
+  PetscFunctionBeginUser;
+  memset(setup, 0, sizeof *setup);
+  setup->rho = CasePositive(c, "fluid.density");
+  setup->mu = CasePositive(c, "fluid.viscosity");
+  setup->theta = CaseNumberOr(c, "fluid.theta", 0.5, 0.5, 1.0);
+  CaseVector(c, "gravity", 2, setup->gravity);
+  setup->cfl = CasePositive(c, "time.cfl");
+  setup->dt_max = CasePositive(c, "time.dt_max");
+  PetscCall(PetscMalloc1(mesh->ntags, &setup->boundary));
+  for (int b = 0; b < mesh->ntags; b++) ReadBoundary(c, mesh->tag_name[b], setup->boundary + b);
+  CaseKeys(c, "fluid.boundaries", CheckBoundaryName, &check);
+  PetscFunctionReturn(0);
+}

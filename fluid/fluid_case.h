@@ -1,0 +1,11 @@
+/* The fluid's part of the case file (sections fluid, gravity, time) and the mesh that it describes. */
+#ifndef FLUID_CASE_H
+#define FLUID_CASE_H
+#include "case_file.h"
+#include "fluid.h"
+
+/* Collective over comm.  Builds or reads the mesh and distributes it. */
+PetscErrorCode FluidCaseMesh(Case c, MPI_Comm comm, Mesh **mesh);
+/* Reads everything else.  setup->boundary is allocated: PetscFree it after FluidCreate has copied it. */
+PetscErrorCode FluidCaseSetup(Case c, const Mesh *mesh, FluidSetup *setup);
+#endif

@@ -1,0 +1,64 @@
+/* Private to the fluid: what is behind the handle. */
+#ifndef FLUID_IMPL_H
+#define FLUID_IMPL_H
+#include "fluid.h"
+
+enum { ASSEMBLY, MOMENTUM, PRESSURE, COUPLING };
+
+struct Fluid_s {
+  const Mesh *mesh; /* borrowed */
+  FluidSetup setup;
+  double t, dt_previous;
+  ElementGeometry *geometry; /* [ne + ng] */
+  double *rho, *mu;          /* [ne + ng] */
+  double *alpha;             /* [ne] */
+
+  /* velocity: ghosted block vectors (6 an element) */
+  Vec u, u_previous, u_star, u_next, beta, load, saved_u, saved_previous;
+  Mat momentum; /* BAIJ, written in place */
+  KSP momentum_ksp;
+  PetscInt *slot; /* [ne][4] block of the diagonal and of each face in the local diagonal (>= 0) or off-diagonal (-1 - k) part */
+  int preconditioner_age, fresh_iterations; /* steps since the preconditioner was made, iterations it took then */
+  double preconditioner_dt;
+
+  /* pressure: ghosted P2 vectors */
+  Vec p, phi, divergence, saved_p;
+  Mat laplacian; /* int 1/rho grad.grad */
+  KSP pressure_ksp;
+  int nfixed;
+  int *fixed; /* local P2 nodes (owned) on open boundaries, or the pinned one */
+  PetscBool has_open;
+
+  int ncoupling, capacity;
+  CoracleCoupling *coupling;
+  int *coupling_of; /* [ne] entry of coupling, or -1 */
+  double saved_t, saved_dt;
+  FluidStats stats;
+};
+
+/* boundary.c */
+PetscErrorCode BoundaryPrepare(Fluid f);
+void BoundaryVelocity(const Boundary *b, double t, const double x[2], double v[2]);
+double HydrostaticPressure(Fluid f, const double x[2]); /* rho g.(x - top), Pa */
+/* What element e's side of face i prescribes: its geometry and side; the boundary, or NULL inside. */
+const Boundary *BoundaryOfFace(Fluid f, int e, int i);
+/* project[c][d]: the directions in which a boundary prescribes the velocity */
+void BoundaryProjection(const Boundary *b, const double n[2], double project[2][2]);
+/* momentum.c, pressure.c */
+PetscErrorCode MomentumCreate(Fluid f);
+PetscErrorCode MomentumDestroy(Fluid f);
+PetscErrorCode PressureCreate(Fluid f);
+PetscErrorCode PressureDestroy(Fluid f);
+
+/* What element e contributes to the kernels of its face i; its two vertices are (i + 1) % 3 and (i + 2) % 3. */
+static inline FaceSide FaceSideOf(const struct Fluid_s *f, int e, int i, double theta, double share)
+{
+  const ElementGeometry *g = f->geometry + e;
+  return (FaceSide){g, theta * f->mu[e], theta * share * PENALTY_FACTOR * f->mu[e] * TraceConstant(g), (i + 1) % 3,
+                    (i + 2) % 3};
+}
+#define PENALTY_INTERIOR 0.5 /* each side's share: eta = factor mu (TC_K + TC_N)/2 */
+#define PENALTY_BOUNDARY 2.0
+
+static inline const double *ElementVertex(const Mesh *m, int e, int i) { return m->x + 2 * m->vertex[3 * e + i]; }
+#endif

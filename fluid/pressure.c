@@ -1,0 +1,215 @@
+/* The projection: int dt/rho grad phi.grad q = int u_hat*.grad q - <q, g.n> over P2, u+ = u* - dt/rho grad phi.
+ * grad(P2) lies in P1DG, so the second is exact and the matrix of the first is C^T M^-1 C itself.
+ * u_hat* = u* + M^-1 (us - ms u*): inside the solid the flow that must be free of divergence is the solid's. */
+#include "fluid_impl.h"
+
+/* Owned P2 nodes where phi = 0: on open boundaries; without any, global node 0. */
+static PetscErrorCode FindFixed(Fluid f)
+{
+  const Mesh *m = f->mesh;
+  char *fixed;
+  int has_open = 0;
+  Vec mark;
+  PetscScalar *v;
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(m->np2, &fixed));
+  for (int e = 0; e < m->ne; e++)
+    for (int i = 0; i < 3; i++) {
+      const Boundary *b = BoundaryOfFace(f, e, i);
+      if (!b || b->kind != BOUNDARY_OPEN) continue;
+      fixed[m->p2[6 * e + (i + 1) % 3]] = fixed[m->p2[6 * e + (i + 2) % 3]] = fixed[m->p2[6 * e + 3 + i]] = 1;
+      has_open = 1;
+    }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &has_open, 1, MPI_INT, MPI_MAX, m->comm));
+  f->has_open = (PetscBool)has_open;
+  if (!has_open && m->np2_owned > 0 && m->p2start == 0) fixed[0] = 1;
+  /* the owner of a node need not have an element with the face */
+  PetscCall(VecDuplicate(f->p, &mark));
+  Vec local;
+  PetscCall(VecGhostGetLocalForm(mark, &local));
+  PetscCall(VecGetArray(local, &v));
+  for (int k = 0; k < m->np2; k++) v[k] = fixed[k];
+  PetscCall(VecRestoreArray(local, &v));
+  PetscCall(VecGhostRestoreLocalForm(mark, &local));
+  PetscCall(VecGhostUpdateBegin(mark, ADD_VALUES, SCATTER_REVERSE));
+  PetscCall(VecGhostUpdateEnd(mark, ADD_VALUES, SCATTER_REVERSE));
+  PetscCall(VecGetArray(mark, &v));
+  PetscCall(PetscMalloc1(m->np2_owned, &f->fixed));
+  for (int k = 0; k < m->np2_owned; k++)
+    if (v[k] > 0.5) f->fixed[f->nfixed++] = k;
+  PetscCall(VecRestoreArray(mark, &v));
+  PetscCall(VecDestroy(&mark));
+  PetscCall(PetscFree(fixed));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode AssembleLaplacian(Fluid f)
+{
+  const Mesh *m = f->mesh;
+  PetscInt *rows;
+  PetscFunctionBeginUser;
+  PetscCall(MatCreateAIJ(m->comm, m->np2_owned, m->np2_owned, PETSC_DETERMINE, PETSC_DETERMINE, 28, NULL, 14, NULL,
+                         &f->laplacian));
+  PetscCall(MatSetOption(f->laplacian, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
+  for (int e = 0; e < m->ne; e++) {
+    double s[6][6];
+    PetscInt gid[6];
+    P2Stiffness(f->geometry + e, 1.0 / f->rho[e], s);
+    for (int k = 0; k < 6; k++) gid[k] = m->p2gid[m->p2[6 * e + k]];
+    PetscCall(MatSetValues(f->laplacian, 6, gid, 6, gid, &s[0][0], ADD_VALUES));
+  }
+  PetscCall(MatAssemblyBegin(f->laplacian, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(f->laplacian, MAT_FINAL_ASSEMBLY));
+  PetscCall(PetscMalloc1(f->nfixed, &rows));
+  for (int k = 0; k < f->nfixed; k++) rows[k] = m->p2start + f->fixed[k];
+  PetscCall(MatZeroRowsColumns(f->laplacian, f->nfixed, rows, 1.0, NULL, NULL));
+  PetscCall(PetscFree(rows));
+  PetscCall(MatSetOption(f->laplacian, MAT_SPD, PETSC_TRUE));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PressureCreate(Fluid f)
+{
+  const Mesh *m = f->mesh;
+  PetscMPIInt size;
+  PC pc;
+  Vec *all[] = {&f->p, &f->phi, &f->divergence, &f->saved_p};
+  PetscFunctionBeginUser;
+  PetscCall(VecCreateGhost(m->comm, m->np2_owned, PETSC_DETERMINE, m->np2 - m->np2_owned, m->p2gid + m->np2_owned, all[0]));
+  for (size_t k = 1; k < sizeof all / sizeof *all; k++) PetscCall(VecDuplicate(*all[0], all[k]));
+  PetscCall(FindFixed(f));
+  PetscCall(AssembleLaplacian(f));
+  PetscCallMPI(MPI_Comm_size(m->comm, &size));
+  PetscCall(KSPCreate(m->comm, &f->pressure_ksp));
+  PetscCall(KSPSetOptionsPrefix(f->pressure_ksp, "pressure_"));
+  PetscCall(KSPSetOperators(f->pressure_ksp, f->laplacian, f->laplacian));
+  PetscCall(KSPSetType(f->pressure_ksp, KSPPREONLY));
+  PetscCall(KSPSetTolerances(f->pressure_ksp, 1e-9, 1e-50, 1e5, 500));
+  PetscCall(KSPGetPC(f->pressure_ksp, &pc));
+  PetscCall(PCSetType(pc, PCCHOLESKY));
+  PetscCall(PCFactorSetMatSolverType(pc, size == 1 ? MATSOLVERCHOLMOD : MATSOLVERMUMPS));
+  PetscCall(KSPSetFromOptions(f->pressure_ksp));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PressureDestroy(Fluid f)
+{
+  Vec *all[] = {&f->p, &f->phi, &f->divergence, &f->saved_p};
+  PetscFunctionBeginUser;
+  for (size_t k = 0; k < sizeof all / sizeof *all; k++) PetscCall(VecDestroy(all[k]));
+  PetscCall(MatDestroy(&f->laplacian));
+  PetscCall(KSPDestroy(&f->pressure_ksp));
+  PetscCall(PetscFree(f->fixed));
+  PetscFunctionReturn(0);
+}
+
+/* r -= <q, g.n> on boundaries that prescribe the velocity: Simpson's rule, exact for q in P2 and constant g */
+static void BoundaryFlux(Fluid f, int e, double t, double r[6])
+{
+  for (int i = 0; i < 3; i++) {
+    const Boundary *b = BoundaryOfFace(f, e, i);
+    if (!b || b->kind != BOUNDARY_VELOCITY) continue;
+    const FaceGeometry face = FaceGeometryOf(f->geometry + e, i);
+    const int node[3] = {(i + 1) % 3, 3 + i, (i + 2) % 3};
+    const double *xa = ElementVertex(f->mesh, e, node[0]), *xb = ElementVertex(f->mesh, e, node[2]);
+    const double weight[3] = {1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
+    for (int k = 0; k < 3; k++) {
+      const double x[2] = {xa[0] + 0.5 * k * (xb[0] - xa[0]), xa[1] + 0.5 * k * (xb[1] - xa[1])};
+      double v[2];
+      BoundaryVelocity(b, t, x, v);
+      r[node[k]] -= weight[k] * face.length * (v[0] * face.n[0] + v[1] * face.n[1]);
+    }
+  }
+}
+
+/* mv = M u + (us - ms u) */
+static void BulkMomentum(Fluid f, int e, const double u[6], double mv[2][3])
+{
+  for (int c = 0; c < 2; c++) MassApply(f->geometry[e].area, u + 3 * c, mv[c]);
+  if (f->coupling_of[e] < 0) return;
+  const CoracleCoupling *k = f->coupling + f->coupling_of[e];
+  for (int c = 0; c < 2; c++)
+    for (int i = 0; i < 3; i++) {
+      mv[c][i] += k->us[c][i];
+      for (int j = 0; j < 3; j++) mv[c][i] -= k->ms[i][j] * u[3 * c + j];
+    }
+}
+
+static PetscErrorCode Divergence(Fluid f, double dt)
+{
+  const Mesh *m = f->mesh;
+  const PetscScalar *u;
+  PetscScalar *d;
+  Vec local;
+  PetscFunctionBeginUser;
+  PetscCall(VecGhostGetLocalForm(f->divergence, &local));
+  PetscCall(VecSet(local, 0.0));
+  PetscCall(VecGetArray(local, &d));
+  PetscCall(VecGetArrayRead(f->u_star, &u));
+  for (int e = 0; e < m->ne; e++) {
+    double mv[2][3], r[6] = {0};
+    BulkMomentum(f, e, u + 6 * e, mv);
+    P2GradientTranspose(f->geometry[e].g, (const double(*)[3])mv, r);
+    BoundaryFlux(f, e, f->t + dt, r);
+    for (int k = 0; k < 6; k++) d[m->p2[6 * e + k]] += r[k];
+  }
+  PetscCall(VecRestoreArrayRead(f->u_star, &u));
+  PetscCall(VecRestoreArray(local, &d));
+  PetscCall(VecGhostRestoreLocalForm(f->divergence, &local));
+  PetscCall(VecGhostUpdateBegin(f->divergence, ADD_VALUES, SCATTER_REVERSE));
+  PetscCall(VecGhostUpdateEnd(f->divergence, ADD_VALUES, SCATTER_REVERSE));
+  PetscCall(VecGetArray(f->divergence, &d));
+  for (int k = 0; k < f->nfixed; k++) d[f->fixed[k]] = 0.0;
+  PetscCall(VecRestoreArray(f->divergence, &d));
+  PetscCall(VecScale(f->divergence, 1.0 / dt));
+  PetscFunctionReturn(0);
+}
+
+/* u+ = u* - dt/rho grad phi */
+static PetscErrorCode SubtractGradient(Fluid f, double dt)
+{
+  const Mesh *m = f->mesh;
+  const PetscScalar *phi;
+  PetscScalar *u;
+  Vec local;
+  PetscFunctionBeginUser;
+  PetscCall(VecCopy(f->u_star, f->u_next));
+  PetscCall(VecGhostGetLocalForm(f->phi, &local));
+  PetscCall(VecGetArrayRead(local, &phi));
+  PetscCall(VecGetArray(f->u_next, &u));
+  for (int e = 0; e < m->ne; e++) {
+    double pe[6], grad[3][2];
+    for (int k = 0; k < 6; k++) pe[k] = phi[m->p2[6 * e + k]];
+    P2Gradient(f->geometry[e].g, pe, grad);
+    for (int c = 0; c < 2; c++)
+      for (int i = 0; i < 3; i++) u[6 * e + 3 * c + i] -= dt / f->rho[e] * grad[i][c];
+  }
+  PetscCall(VecRestoreArray(f->u_next, &u));
+  PetscCall(VecRestoreArrayRead(local, &phi));
+  PetscCall(VecGhostRestoreLocalForm(f->phi, &local));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidProject(Fluid f, double dt)
+{
+  const double start = MPI_Wtime();
+  PetscInt iterations;
+  KSPConvergedReason reason;
+  PetscFunctionBeginUser;
+  PetscCall(Divergence(f, dt));
+  PetscCall(KSPSolve(f->pressure_ksp, f->divergence, f->phi));
+  PetscCall(KSPGetConvergedReason(f->pressure_ksp, &reason));
+  PetscCall(KSPGetIterationNumber(f->pressure_ksp, &iterations));
+  PetscCheck(reason > 0, f->mesh->comm, PETSC_ERR_NOT_CONVERGED,
+             "the pressure equation did not converge at t = %g s: %s after %d iterations", f->t,
+             KSPConvergedReasons[reason], (int)iterations);
+  f->stats.pressure_iterations = iterations;
+  PetscCall(VecGhostUpdateBegin(f->phi, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostUpdateEnd(f->phi, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(SubtractGradient(f, dt));
+  PetscCall(VecAXPY(f->p, 1.0, f->phi));
+  PetscCall(VecGhostUpdateBegin(f->p, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostUpdateEnd(f->p, INSERT_VALUES, SCATTER_FORWARD));
+  f->stats.seconds[PRESSURE] += MPI_Wtime() - start;
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,99 @@
+#include "record.h"
+#include "output.h"
+
+#define COLUMNS                                                                                                              \
+  "t [s],dt [s],max speed [m/s],momentum x [kg/s],momentum y [kg/s],kinetic energy [J/m],momentum iterations,"               \
+  "pressure iterations,assembly [s],momentum [s],pressure [s],coupling [s]"
+
+struct Record_s {
+  Output output;
+  Series series;
+  double every, next;
+  /* scratch of a snapshot */
+  int *corner, *quadratic;   /* [ne][3], [ne][6] */
+  double *x_corner, *x_node; /* [ne][3][2], [np2][2] */
+  double *nodal, *cell;      /* [3 ne][2], [ne] */
+};
+
+/* Points and cells of the two grids: discontinuous triangles for P1DG, six-node triangles for P2. */
+static void BuildGrids(Record r, const Mesh *m)
+{
+  static const int VTK[6] = {0, 1, 2, 5, 3, 4}; /* midpoints of 01, 12, 20 lie opposite to vertices 2, 0, 1 */
+  for (int e = 0; e < m->ne; e++) {
+    for (int i = 0; i < 3; i++) r->corner[3 * e + i] = 3 * e + i;
+    for (int i = 0; i < 6; i++) {
+      const int node = m->p2[6 * e + VTK[i]], q = VTK[i];
+      const int a = m->vertex[3 * e + (q < 3 ? q : (q + 1) % 3)], b = m->vertex[3 * e + (q < 3 ? q : (q + 2) % 3)];
+      r->quadratic[6 * e + i] = node;
+      for (int c = 0; c < 2; c++) {
+        r->x_node[2 * node + c] = 0.5 * (m->x[2 * a + c] + m->x[2 * b + c]);
+        if (q < 3) r->x_corner[6 * e + 2 * q + c] = m->x[2 * a + c];
+      }
+    }
+  }
+}
+
+static PetscErrorCode Snapshot(Record r, Fluid f)
+{
+  const Mesh *m = FluidMesh(f);
+  const double *u = FluidVelocity(f);
+  PetscMPIInt rank;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(m->comm, &rank));
+  PetscCall(OutputBegin(r->output, FluidGetStats(f)->t));
+  PetscCall(OutputGrid(r->output, "velocity", 0, 3 * m->ne, r->x_corner, m->ne, 3, r->corner));
+  for (int e = 0; e < m->ne; e++)
+    for (int i = 0; i < 3; i++)
+      for (int c = 0; c < 2; c++) r->nodal[2 * (3 * e + i) + c] = u[6 * e + 3 * c + i];
+  PetscCall(OutputField(r->output, "velocity", OUTPUT_NODE, 2, r->nodal));
+  PetscCall(OutputField(r->output, "alpha", OUTPUT_CELL, 1, FluidSolidFraction(f)));
+  for (int e = 0; e < m->ne; e++) r->cell[e] = rank;
+  PetscCall(OutputField(r->output, "rank", OUTPUT_CELL, 1, r->cell));
+  PetscCall(OutputGrid(r->output, "pressure", 0, m->np2, r->x_node, m->ne, 6, r->quadratic));
+  PetscCall(OutputField(r->output, "pressure", OUTPUT_NODE, 1, FluidPressure(f)));
+  PetscCall(OutputEnd(r->output));
+  r->next += r->every;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RecordCreate(Case c, Fluid f, Record *record)
+{
+  const Mesh *m = FluidMesh(f);
+  const char *folder = CaseString(c, "output.folder");
+  Record r;
+  PetscFunctionBeginUser;
+  PetscCall(PetscNew(&r));
+  r->every = CasePositive(c, "output.every");
+  PetscCall(OutputCreate(m->comm, folder, "fluid", &r->output));
+  PetscCall(SeriesCreate(m->comm, folder, "fluid", COLUMNS, &r->series));
+  PetscCall(PetscMalloc6(3 * m->ne, &r->corner, 6 * m->ne, &r->quadratic, 6 * m->ne, &r->x_corner, 2 * m->np2, &r->x_node,
+                         6 * m->ne, &r->nodal, m->ne, &r->cell));
+  BuildGrids(r, m);
+  PetscCall(Snapshot(r, f));
+  *record = r;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RecordStep(Record r, Fluid f)
+{
+  const FluidStats *s = FluidGetStats(f);
+  double momentum[2], energy;
+  PetscFunctionBeginUser;
+  PetscCall(FluidMomentumTotal(f, momentum, &energy));
+  const double row[] = {s->t,       s->dt, s->max_speed, momentum[0], momentum[1], energy, s->momentum_iterations,
+                        s->pressure_iterations, s->seconds[0], s->seconds[1], s->seconds[2], s->seconds[3]};
+  PetscCall(SeriesRow(r->series, row));
+  if (s->t >= r->next * (1.0 - 1e-12)) PetscCall(Snapshot(r, f));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RecordDestroy(Record *r)
+{
+  PetscFunctionBeginUser;
+  if (!*r) PetscFunctionReturn(0);
+  PetscCall(OutputDestroy(&(*r)->output));
+  PetscCall(SeriesDestroy(&(*r)->series));
+  PetscCall(PetscFree6((*r)->corner, (*r)->quadratic, (*r)->x_corner, (*r)->x_node, (*r)->nodal, (*r)->cell));
+  PetscCall(PetscFree(*r));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,14 @@
+/* What the fluid leaves behind: fluid.h5/.xdmf snapshots and the series fluid.csv. */
+#ifndef FLUID_RECORD_H
+#define FLUID_RECORD_H
+#include "case_file.h"
+#include "fluid.h"
+
+typedef struct Record_s *Record;
+
+/* Collective.  Reads output.folder and output.every of the case and writes the snapshot of the initial state. */
+PetscErrorCode RecordCreate(Case c, Fluid fluid, Record *r);
+/* Collective, after every step: one row of the series, and a snapshot when it is due. */
+PetscErrorCode RecordStep(Record r, Fluid fluid);
+PetscErrorCode RecordDestroy(Record *r);
+#endif

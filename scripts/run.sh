@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, runs a coupled case with progress, and draws its figures.
+# Usage: scripts/run.sh CASE [--set key=value]... [--ranks F:C:S] [--out DIR]
+#   CASE   a folder of cases/, or a case file
+#   --set  overrides a key of the case file, e.g. --set time.end=1.0
+#   --ranks  ranks of fluid, coupler and solid (default 1:1:1)
+#   --out  output folder (default out/<case>)
+set -euo pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
+
+[ $# -ge 1 ] || { sed -n '2,7p' "$0" | cut -c3-; exit 2; }
+case=$1; shift
+ranks=1:1:1 out="" sets=()
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --set) sets+=(--set "${2:?--set needs key=value}"); shift 2 ;;
+    --ranks) ranks=${2:?--ranks needs F:C:S}; shift 2 ;;
+    --out) out=${2:?--out needs a folder}; shift 2 ;;
+    *) echo "run.sh: unknown argument '$1'" >&2; exit 2 ;;
+  esac
+done
+if [ -f "$case" ]; then
+  file=$case name=$(basename "${case%.*}")
+else
+  file=$root/cases/$case/case.yaml name=$case
+fi
+[ -f "$file" ] || { echo "run.sh: no case '$case': cases are $(cd "$root/cases" && echo *)" >&2; exit 2; }
+out=${out:-$root/out/$name}
+
+"$root/scripts/setup.sh"
+cd "$root"
+cmake --preset release >/dev/null
+cmake --build --preset release -- --quiet
+mkdir -p "$out"
+"$root/scripts/launch.sh" --bin "$root/build" --ranks "$ranks" "$file" --set "output.folder=$out" "${sets[@]}"
+
+figures=$root/cases/$name/figures.sh
+if [ -f "$figures" ]; then bash "$figures" "$out"; fi
+echo "results: $out (summary.json, *.csv, *.xdmf for ParaView, *.png)"

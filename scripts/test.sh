@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, and runs the tests.  Usage: scripts/test.sh [PRESET] [ctest arguments]
+#   PRESET: release (default), debug, sanitize
+set -euo pipefail
+cd "$(dirname "$0")/.."
+preset=release
+case "${1:-}" in release | debug | sanitize) preset=$1; shift ;; esac
+
+scripts/setup.sh
+cmake --preset "$preset" >build-log.txt 2>&1 || { cat build-log.txt; exit 1; }
+rm -f build-log.txt
+cmake --build --preset "$preset"
+unset CDPATH
+ctest --preset "$preset" --no-tests=error "$@"

@@ -1,0 +1,30 @@
+// Channel 2.2 x 0.41 m with a cylinder of diameter 0.1 m at (0.2, 0.2): benchmark 2D-1 of Schaefer and Turek (1996).
+// gmsh -2 -setnumber h 0.005 schaefer_turek.geo -o channel.msh
+DefineConstant[ h = 0.005 ];
+coarse = 5 * h;
+Point(1) = {0, 0, 0, coarse};
+Point(2) = {2.2, 0, 0, coarse};
+Point(3) = {2.2, 0.41, 0, coarse};
+Point(4) = {0, 0.41, 0, coarse};
+Point(5) = {0.2, 0.2, 0, h};
+Point(6) = {0.25, 0.2, 0, h};
+Point(7) = {0.2, 0.25, 0, h};
+Point(8) = {0.15, 0.2, 0, h};
+Point(9) = {0.2, 0.15, 0, h};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Circle(5) = {6, 5, 7};
+Circle(6) = {7, 5, 8};
+Circle(7) = {8, 5, 9};
+Circle(8) = {9, 5, 6};
+Curve Loop(1) = {1, 2, 3, 4};
+Curve Loop(2) = {5, 6, 7, 8};
+Plane Surface(1) = {1, 2};
+Physical Curve("bottom") = {1};
+Physical Curve("outlet") = {2};
+Physical Curve("top") = {3};
+Physical Curve("inlet") = {4};
+Physical Curve("cylinder") = {5, 6, 7, 8};
+Physical Surface("fluid") = {1};

@@ -1,0 +1,91 @@
+// ranks: 2
+/* Schaefer & Turek (1996), benchmark 2D-1: steady flow around a cylinder at Re 20.  Reference values of validation.md:
+ * C_D 5.579535, C_L 0.0106189, pressure drop 0.117520 Pa.  The mesh is made by gmsh from schaefer_turek.geo. */
+#include "fluid.h"
+#include <stdlib.h>
+
+#define MEAN_SPEED 0.2
+#define DIAMETER 0.1
+
+static PetscErrorCode ChannelMesh(double h, Mesh **mesh)
+{
+  PetscMPIInt rank;
+  MeshSerial serial = {0};
+  char command[1024], path[256];
+  const char *why = "";
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  if (rank == 0) {
+    (void)snprintf(path, sizeof path, "channel_%d.msh", (int)getpid());
+    (void)snprintf(command, sizeof command, "gmsh -2 -v 1 -setnumber h %g %s/schaefer_turek.geo -o %s", h, SOURCE_FOLDER,
+                   path);
+    PetscCheck(!system(command), PETSC_COMM_SELF, PETSC_ERR_LIB, "gmsh failed: %s", command);
+    PetscCheck(!MeshReadGmsh(path, &serial, &why), PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "%s", why);
+    (void)remove(path);
+  }
+  PetscCall(MeshDistribute(PETSC_COMM_WORLD, &serial, mesh));
+  PetscCall(MeshSerialDestroy(&serial));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ChannelFluid(const Mesh *mesh, Fluid *fluid)
+{
+  Boundary boundary[8] = {0};
+  FluidSetup setup = {.theta = 1.0, .rho = 1.0, .mu = 1e-3, .cfl = 0.5, .dt_max = 1.0, .boundary = boundary};
+  PetscFunctionBeginUser;
+  for (int b = 0; b < mesh->ntags; b++) {
+    boundary[b].kind = strcmp(mesh->tag_name[b], "outlet") ? BOUNDARY_VELOCITY : BOUNDARY_OPEN;
+    if (strcmp(mesh->tag_name[b], "inlet")) continue;
+    boundary[b].velocity[0] = 1.5 * MEAN_SPEED;
+    boundary[b].parabolic = PETSC_TRUE;
+  }
+  PetscCall(FluidCreate(mesh, &setup, fluid));
+  PetscCall(FluidSetInitial(*fluid, 0.0, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+/* Pressure at a point that is a vertex of the mesh, on any rank. */
+static PetscErrorCode PressureAt(Fluid fluid, double x, double y, double *p)
+{
+  const Mesh *m = FluidMesh(fluid);
+  double found = -PETSC_MAX_REAL;
+  PetscFunctionBeginUser;
+  for (int e = 0; e < m->ne; e++)
+    for (int i = 0; i < 3; i++) {
+      const double *v = m->x + 2 * m->vertex[3 * e + i];
+      if (hypot(v[0] - x, v[1] - y) < 1e-9) found = FluidPressure(fluid)[m->p2[6 * e + i]];
+    }
+  PetscCallMPI(MPI_Allreduce(&found, p, 1, MPI_DOUBLE, MPI_MAX, m->comm));
+  PetscFunctionReturn(0);
+}
+
+int main(int argc, char **argv)
+{
+  const double scale = 2.0 / (MEAN_SPEED * MEAN_SPEED * DIAMETER), dt = 0.02;
+  double force[2], before[2] = {0}, front, back, h = 0.004;
+  Mesh *mesh;
+  Fluid fluid;
+  int steps = 0;
+  PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
+  PetscCall(PetscOptionsGetReal(NULL, NULL, "-h", &h, NULL));
+  PetscCall(ChannelMesh(h, &mesh));
+  PetscCall(ChannelFluid(mesh, &fluid));
+  for (double change = 1.0; change > 1e-6 && steps < 1000; steps++) {
+    PetscCall(FluidStep(fluid, dt));
+    if (steps % 25) continue;
+    PetscCall(FluidBoundaryForce(fluid, "cylinder", force));
+    change = hypot(force[0] - before[0], force[1] - before[1]) / fabs(force[0]);
+    before[0] = force[0], before[1] = force[1];
+  }
+  PetscCall(PressureAt(fluid, 0.15, 0.2, &front));
+  PetscCall(PressureAt(fluid, 0.25, 0.2, &back));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "triangles %d, steps %d: C_D %.4f (5.5795)  C_L %.5f (0.01062)  dp %.5f (0.11752)\n",
+                        (int)mesh->nglobal, steps, scale * force[0], scale * force[1], front - back));
+  PetscCheck(fabs(scale * force[0] / 5.579535 - 1.0) < 0.005, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "drag off by more than 0.5 %%");
+  PetscCheck(fabs(scale * force[1] / 0.0106189 - 1.0) < 0.05, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "lift off by more than 5 %%");
+  PetscCheck(fabs((front - back) / 0.117520 - 1.0) < 0.01, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "dp off by more than 1 %%");
+  PetscCall(FluidDestroy(&fluid));
+  PetscCall(MeshDestroy(&mesh));
+  PetscCall(PetscFinalize());
+  return 0;
+}
