@@ -27,7 +27,7 @@ PetscErrorCode FluidMomentumTotal(Fluid f, double momentum[2], double *energy)
 static void FaceForce(Fluid f, int e, int i, const Boundary *b, const double u[6], const double p[], double force[2])
 {
   const Mesh *m = f->mesh;
-  const FaceGeometry face = FaceGeometryOf(f->geometry + e, i);
+  const FaceGeometry face = f->geometry[e].face[i];
   const FaceSide k = FaceSideOf(f, e, i, 1.0, PENALTY_BOUNDARY);
   const int node[2] = {k.a, k.b};
   const double pressure = (p[m->p2[6 * e + k.a]] + 4.0 * p[m->p2[6 * e + 3 + i]] + p[m->p2[6 * e + k.b]]) / 6.0;

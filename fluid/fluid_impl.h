@@ -54,7 +54,7 @@ PetscErrorCode PressureDestroy(Fluid f);
 static inline FaceSide FaceSideOf(const struct Fluid_s *f, int e, int i, double theta, double share)
 {
   const ElementGeometry *g = f->geometry + e;
-  return (FaceSide){g, theta * f->mu[e], theta * share * PENALTY_FACTOR * f->mu[e] * TraceConstant(g), (i + 1) % 3,
+  return (FaceSide){g, theta * f->mu[e], theta * share * PENALTY_FACTOR * f->mu[e] * g->trace, (i + 1) % 3,
                     (i + 2) % 3};
 }
 #define PENALTY_INTERIOR 0.5 /* each side's share: eta = factor mu (TC_K + TC_N)/2 */

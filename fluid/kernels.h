@@ -18,14 +18,16 @@
 #define PENALTY_FACTOR 1.25
 
 typedef struct {
-  double area;    /* m2 */
-  double g[3][2]; /* gradients of the barycentric coordinates, 1/m */
-} ElementGeometry;
+  double n[2];   /* outward unit normal */
+  double length; /* m */
+} FaceGeometry;
 
 typedef struct {
-  double n[2];    /* outward unit normal */
-  double length;  /* m */
-} FaceGeometry;
+  double area;          /* m2 */
+  double g[3][2];       /* gradients of the barycentric coordinates, 1/m */
+  double trace;         /* perimeter / area: the constant of the trace inequality of P1 gradients, 1/m */
+  FaceGeometry face[3]; /* face i lies opposite to vertex i */
+} ElementGeometry;
 
 static inline void ElementGeometryCompute(const double x0[2], const double x1[2], const double x2[2],
                                           ElementGeometry *e)
@@ -33,25 +35,15 @@ static inline void ElementGeometryCompute(const double x0[2], const double x1[2]
   const double *x[3] = {x0, x1, x2};
   const double twice = (x1[0] - x0[0]) * (x2[1] - x0[1]) - (x2[0] - x0[0]) * (x1[1] - x0[1]);
   e->area = 0.5 * twice;
+  e->trace = 0.0;
   for (int i = 0; i < 3; i++) {
     const double *a = x[(i + 1) % 3], *b = x[(i + 2) % 3];
+    const double length = hypot(b[0] - a[0], b[1] - a[1]);
     e->g[i][0] = (a[1] - b[1]) / twice;
     e->g[i][1] = (b[0] - a[0]) / twice;
+    e->face[i] = (FaceGeometry){{(b[1] - a[1]) / length, (a[0] - b[0]) / length}, length};
+    e->trace += length / e->area;
   }
-}
-
-static inline FaceGeometry FaceGeometryOf(const ElementGeometry *e, int f)
-{
-  const double g = sqrt(e->g[f][0] * e->g[f][0] + e->g[f][1] * e->g[f][1]);
-  return (FaceGeometry){{-e->g[f][0] / g, -e->g[f][1] / g}, 2.0 * e->area * g};
-}
-
-/* perimeter / area: the constant of the trace inequality of P1 gradients */
-static inline double TraceConstant(const ElementGeometry *e)
-{
-  double sum = 0.0;
-  for (int i = 0; i < 3; i++) sum += 2.0 * sqrt(e->g[i][0] * e->g[i][0] + e->g[i][1] * e->g[i][1]);
-  return sum;
 }
 
 /* m[i] = int_K N_i q for q in P1 with vertex values q */

@@ -145,7 +145,7 @@ static void AssembleFace(Fluid f, int e, int i, double dt, const double beta[], 
 {
   const Mesh *m = f->mesh;
   const double theta = f->setup.theta, rho = theta * f->rho[e];
-  const FaceGeometry face = FaceGeometryOf(f->geometry + e, i);
+  const FaceGeometry face = f->geometry[e].face[i];
   const int nb = m->neighbor[3 * e + i];
   const double *bk = beta + 6 * e;
   double bn[2], inflow[2][2] = {{0}};

@@ -109,7 +109,7 @@ static void BoundaryFlux(Fluid f, int e, double t, double r[6])
   for (int i = 0; i < 3; i++) {
     const Boundary *b = BoundaryOfFace(f, e, i);
     if (!b || b->kind != BOUNDARY_VELOCITY) continue;
-    const FaceGeometry face = FaceGeometryOf(f->geometry + e, i);
+    const FaceGeometry face = f->geometry[e].face[i];
     const int node[3] = {(i + 1) % 3, 3 + i, (i + 2) % 3};
     const double *xa = ElementVertex(f->mesh, e, node[0]), *xb = ElementVertex(f->mesh, e, node[2]);
     const double weight[3] = {1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
