@@ -1,0 +1,288 @@
+/* The tree behind a case file: from libyaml's document, and by --set arguments. */
+#include "case_impl.h"
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <yaml.h>
+
+enum { MAX_DEPTH = 32, MAX_NODES = 1000000 }; /* an alias that contains itself would never end */
+
+void CaseTreeDestroy(CaseNode **node)
+{
+  if (!*node) return;
+  for (int i = 0; i < (*node)->n; i++) CaseTreeDestroy(&(*node)->child[i]);
+  free((*node)->child);
+  free((*node)->key);
+  free((*node)->text);
+  free(*node);
+  *node = NULL;
+}
+
+static void Append(CaseNode *parent, CaseNode *child)
+{
+  if (parent->n == parent->capacity) {
+    parent->capacity = parent->capacity ? 2 * parent->capacity : 4;
+    parent->child = realloc(parent->child, (size_t)parent->capacity * sizeof *parent->child);
+  }
+  parent->child[parent->n++] = child;
+}
+
+CaseNode *CaseTreeChild(const CaseNode *map, const char *name)
+{
+  if (map->kind != NODE_MAP) return NULL;
+  for (int i = 0; i < map->n; i++)
+    if (!strcmp(map->child[i]->key, name)) return map->child[i];
+  return NULL;
+}
+
+/* --- from a document of libyaml ----------------------------------------------------------------------------
+ */
+
+typedef struct {
+  yaml_document_t *document;
+  const char *label;
+  char *problem;
+  int nodes;
+} Builder;
+
+static CaseNode *BuildNode(Builder *b, int index, int depth);
+
+static bool BuildMap(Builder *b, const yaml_node_t *y, int depth, CaseNode *node)
+{
+  for (const yaml_node_pair_t *pair = y->data.mapping.pairs.start; pair < y->data.mapping.pairs.top; pair++) {
+    const yaml_node_t *key = yaml_document_get_node(b->document, pair->key);
+    const int line = (int)key->start_mark.line + 1;
+    if (key->type != YAML_SCALAR_NODE) {
+      snprintf(b->problem, CASE_MESSAGE, "%s:%d: a key must be a word", b->label, line);
+      return false;
+    }
+    const char *name = (const char *)key->data.scalar.value;
+    const CaseNode *twin = CaseTreeChild(node, name);
+    if (twin) {
+      snprintf(b->problem, CASE_MESSAGE, "%s:%d: key '%s' is given twice (first in line %d)", b->label, line,
+               name, twin->line);
+      return false;
+    }
+    CaseNode *child = BuildNode(b, pair->value, depth + 1);
+    if (!child) return false;
+    child->key = strdup(name);
+    child->line = line;
+    Append(node, child);
+  }
+  return true;
+}
+
+static bool BuildList(Builder *b, const yaml_node_t *y, int depth, CaseNode *node)
+{
+  for (const yaml_node_item_t *item = y->data.sequence.items.start; item < y->data.sequence.items.top;
+       item++) {
+    CaseNode *child = BuildNode(b, *item, depth + 1);
+    if (!child) return false;
+    Append(node, child);
+  }
+  return true;
+}
+
+static CaseNode *BuildNode(Builder *b, int index, int depth)
+{
+  const yaml_node_t *y = yaml_document_get_node(b->document, index);
+  const int line = (int)y->start_mark.line + 1;
+  if (depth > MAX_DEPTH || ++b->nodes > MAX_NODES) {
+    snprintf(b->problem, CASE_MESSAGE, "%s:%d: nested too deeply (an alias within itself?)", b->label, line);
+    return NULL;
+  }
+  CaseNode *node = calloc(1, sizeof *node);
+  bool good = true;
+  node->line = line;
+  if (y->type == YAML_SCALAR_NODE) {
+    node->kind = NODE_SCALAR;
+    node->text = strdup((const char *)y->data.scalar.value);
+    node->quoted = y->data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
+  } else if (y->type == YAML_SEQUENCE_NODE) {
+    node->kind = NODE_LIST;
+    good = BuildList(b, y, depth, node);
+  } else {
+    node->kind = NODE_MAP;
+    good = BuildMap(b, y, depth, node);
+  }
+  if (!good) CaseTreeDestroy(&node);
+  return node;
+}
+
+static CaseNode *BuildDocument(yaml_parser_t *parser, Builder *b)
+{
+  yaml_document_t document, next;
+  CaseNode *root = NULL;
+  if (!yaml_parser_load(parser, &document)) return NULL;
+  b->document = &document;
+  if (yaml_document_get_root_node(&document))
+    root = BuildNode(b, 1, 0);
+  else
+    snprintf(b->problem, CASE_MESSAGE, "%s: is empty", b->label);
+  yaml_document_delete(&document);
+  if (!root) return NULL;
+  if (!yaml_parser_load(parser, &next)) {
+    CaseTreeDestroy(&root);
+    return NULL;
+  }
+  if (yaml_document_get_root_node(&next)) {
+    snprintf(b->problem, CASE_MESSAGE, "%s: holds more than one YAML document", b->label);
+    CaseTreeDestroy(&root);
+  }
+  yaml_document_delete(&next);
+  return root;
+}
+
+CaseNode *CaseTreeParse(const char *text, size_t size, const char *label, char problem[])
+{
+  yaml_parser_t parser;
+  Builder builder = {.label = label, .problem = problem};
+  if (!yaml_parser_initialize(&parser)) {
+    snprintf(problem, CASE_MESSAGE, "%s: libyaml did not start", label);
+    return NULL;
+  }
+  problem[0] = '\0';
+  yaml_parser_set_input_string(&parser, (const unsigned char *)text, size);
+  CaseNode *root = BuildDocument(&parser, &builder);
+  if (!root && !problem[0])
+    snprintf(problem, CASE_MESSAGE, "%s:%d: not valid YAML: %s%s%s", label, (int)parser.problem_mark.line + 1,
+             parser.problem ? parser.problem : "unreadable", parser.context ? " " : "",
+             parser.context ? parser.context : "");
+  yaml_parser_delete(&parser);
+  return root;
+}
+
+/* --- dotted paths
+ * ---------------------------------------------------------------------------------------------- */
+
+typedef enum { STEP_END, STEP_NAME, STEP_ITEM, STEP_BAD } PathStep;
+
+/* Takes one step off a path such as solid.bodies[0].centre. */
+static PathStep PathNext(const char **path, char name[CASE_NAME], int *item)
+{
+  const char *p = *path;
+  if (!*p) return STEP_END;
+  if (*p == '[') {
+    char *end;
+    if (!isdigit((unsigned char)p[1])) return STEP_BAD;
+    const long value = strtol(p + 1, &end, 10);
+    if (*end != ']' || value > MAX_NODES) return STEP_BAD;
+    *item = (int)value;
+    *path = end + 1;
+    if (**path == '.') ++*path;
+    return STEP_ITEM;
+  }
+  const size_t length = strcspn(p, ".[");
+  if (length == 0 || length >= CASE_NAME) return STEP_BAD;
+  memcpy(name, p, length);
+  name[length] = '\0';
+  *path = p + length;
+  if (**path == '.' && *++*path == '\0') return STEP_BAD;
+  return STEP_NAME;
+}
+
+static CaseNode *Walk(const CaseNode *root, const char *key, const CaseNode **nearest)
+{
+  const CaseNode *node = root;
+  for (;;) {
+    char name[CASE_NAME];
+    int item = 0;
+    const PathStep step = PathNext(&key, name, &item);
+    *nearest = node;
+    if (step == STEP_END) return (CaseNode *)node;
+    if (step == STEP_NAME)
+      node = CaseTreeChild(node, name);
+    else if (step == STEP_ITEM && node->kind == NODE_LIST && item < node->n)
+      node = node->child[item];
+    else
+      node = NULL;
+    if (!node) return NULL;
+  }
+}
+
+CaseNode *CaseTreeFind(CaseNode *root, const char *key)
+{
+  const CaseNode *nearest;
+  return Walk(root, key, &nearest);
+}
+
+const CaseNode *CaseTreeNearest(const CaseNode *root, const char *key)
+{
+  const CaseNode *nearest;
+  Walk(root, key, &nearest);
+  return nearest;
+}
+
+/* --- one --set argument
+ * ------------------------------------------------------------------------------------------ */
+
+static void MarkSet(CaseNode *node, const char *argument)
+{
+  node->set = argument;
+  for (int i = 0; i < node->n; i++) MarkSet(node->child[i], argument);
+}
+
+/* The node that a step leads to, made when it is a new name or the item after the last. */
+static CaseNode *Enter(CaseNode *node, PathStep step, const char *name, int item, const char **why)
+{
+  CaseNode *child = NULL;
+  if (step == STEP_NAME && node->kind == NODE_MAP)
+    child = CaseTreeChild(node, name);
+  else if (step == STEP_ITEM && node->kind == NODE_LIST && item <= node->n)
+    child = item < node->n ? node->child[item] : NULL;
+  else {
+    *why = step == STEP_BAD          ? "the key is malformed (expected name.name[0].name)"
+           : step == STEP_NAME       ? "the key goes through a value that is not a map"
+           : node->kind != NODE_LIST ? "the key has an index on a value that is not a list"
+                                     : "the list is shorter than this index";
+    return NULL;
+  }
+  if (child) return child;
+  child = calloc(1, sizeof *child);
+  child->kind = NODE_MAP;
+  if (step == STEP_NAME) child->key = strdup(name);
+  Append(node, child);
+  return child;
+}
+
+static CaseNode *EnterPath(CaseNode *root, const char *key, const char **why)
+{
+  CaseNode *node = root;
+  for (;;) {
+    char name[CASE_NAME];
+    int item = 0;
+    const PathStep step = PathNext(&key, name, &item);
+    if (step == STEP_END) return node;
+    if (!(node = Enter(node, step, name, item, why))) return NULL;
+  }
+}
+
+bool CaseTreeSet(CaseNode *root, const char *argument, char problem[])
+{
+  const char *equals = strchr(argument, '='), *why = NULL;
+  char label[CASE_KEY], key[CASE_KEY];
+  snprintf(label, sizeof label, "--set %s", argument);
+  if (!equals || equals == argument || (size_t)(equals - argument) >= sizeof key) {
+    snprintf(problem, CASE_MESSAGE, "%s: expected --set key=value", label);
+    return false;
+  }
+  snprintf(key, sizeof key, "%.*s", (int)(equals - argument), argument);
+  CaseNode *value = CaseTreeParse(equals + 1, strlen(equals + 1), label, problem);
+  if (!value) return false;
+  MarkSet(value, argument);
+  CaseNode *node = EnterPath(root, key, &why);
+  if (!node) {
+    snprintf(problem, CASE_MESSAGE, "%s: %s", label, why);
+    CaseTreeDestroy(&value);
+    return false;
+  }
+  /* the new value moves into the old node, which keeps its name and its place */
+  CaseNode old = *node;
+  *node = *value;
+  node->key = old.key;
+  old.key = NULL;
+  *value = old;
+  CaseTreeDestroy(&value);
+  return true;
+}

@@ -1,0 +1,122 @@
+#include "client_impl.h"
+#include <math.h>
+#include <stdlib.h>
+
+int CoracleOpen(const char *role, int argc, char **argv, MPI_Comm *app_comm, CoracleClient *client)
+{
+  CoracleClient c = calloc(1, sizeof *c);
+  ParticipantOpen(role, true, argc, argv, &c->p);
+  const int home = c->p->rank % c->p->count[ROLE_COUPLER];
+  MessageInit(&c->in, ROLE_COUPLER, home);
+  MessageInit(&c->out, ROLE_COUPLER, home);
+  c->fluid.proposed = HUGE_VAL;
+  *app_comm = c->p->app;
+  *client = c;
+  return 0;
+}
+
+void CoracleFail(CoracleClient c, const char *format, ...)
+{
+  va_list list;
+  va_start(list, format);
+  ParticipantFailList(c->p, format, list);
+}
+
+void ClientMisuse(CoracleClient c, const char *function, const char *why)
+{
+  ParticipantFail(c->p, "%s: %s", function, why);
+}
+
+void ClientExpect(CoracleClient c, const char *function, Role role, Stage stage, Stage other)
+{
+  static const char *const WHEN[] = {"before CoracleReady", "between CoracleEnd and CoracleBegin",
+                                     "between CoracleBegin and CoracleEnd", "after CORACLE_STOP"};
+  if (c->p->role != role) ParticipantFail(c->p, "%s is for a %s", function, ROLE_NAMES[role]);
+  if (c->stage == stage || c->stage == other) return;
+  if (stage == other)
+    ParticipantFail(c->p, "%s was called %s: its place is %s", function, WHEN[c->stage], WHEN[stage]);
+  ParticipantFail(c->p, "%s was called %s: its place is %s or %s", function, WHEN[c->stage], WHEN[stage],
+                  WHEN[other]);
+}
+
+void ClientSend(CoracleClient c)
+{
+  MessageSend(c->p, &c->out);
+  MessageFinish(c->p, &c->out);
+}
+
+void ClientTakeStep(CoracleClient c, const MessageHeader *h)
+{
+  c->action = (CoracleAction)h->action;
+  c->t = h->t;
+  c->dt = h->dt;
+  if (c->action != CORACLE_STOP && !(isfinite(c->t) && isfinite(c->dt) && c->dt > 0.0))
+    ParticipantFail(c->p, "the coupler wants a step from t = %g over dt = %g s", c->t, c->dt);
+}
+
+int CoracleReady(CoracleClient c)
+{
+  ClientExpect(c, "CoracleReady", c->p->role, STAGE_SETUP, STAGE_SETUP);
+  if (c->p->role == ROLE_SOLID)
+    SolidReady(c);
+  else
+    FluidReady(c);
+  c->stage = STAGE_BETWEEN;
+  return 0;
+}
+
+int CoracleBegin(CoracleClient c, double *t, double *dt, CoracleAction *action)
+{
+  ClientExpect(c, "CoracleBegin", c->p->role, STAGE_BETWEEN, STAGE_BETWEEN);
+  if (c->p->role == ROLE_SOLID) SolidBegin(c);
+  c->stage = c->action == CORACLE_STOP ? STAGE_STOPPED : STAGE_STEP;
+  if (c->action == CORACLE_RUN) {
+    ParticipantStep(c->p, c->p->step + 1);
+    StateSave(c);
+  } else if (c->action == CORACLE_REDO) {
+    StateRestore(c);
+  }
+  *t = c->t;
+  *dt = c->dt;
+  *action = c->action;
+  return 0;
+}
+
+int CoracleEnd(CoracleClient c, const double x[])
+{
+  ClientExpect(c, "CoracleEnd", c->p->role, STAGE_STEP, STAGE_STEP);
+  if (c->p->role == ROLE_SOLID)
+    SolidEnd(c, x);
+  else
+    FluidEnd(c);
+  c->stage = STAGE_BETWEEN;
+  return 0;
+}
+
+int CoracleReport(CoracleClient c, const char *key, double value, int sum)
+{
+  if (!ReportSet(&c->reports, key, value, sum != 0)) ClientMisuse(c, "CoracleReport", "the key is too long");
+  return 0;
+}
+
+int CoracleClose(CoracleClient *client)
+{
+  CoracleClient c = *client;
+  if (!c) return 0;
+  if (c->stage != STAGE_STOPPED)
+    ParticipantFail(c->p, "closed in step %d, before the end of the run (CORACLE_STOP)", c->p->step);
+  ReportResources(&c->reports, c->p);
+  MessageStart(&c->out, KIND_CLOSE, c->p->step)->count[0] = (int64_t)ReportCount(&c->reports);
+  MessageAdd(&c->out, c->reports.data, c->reports.size);
+  ClientSend(c);
+  ParticipantClose(&c->p);
+  MessageFree(&c->in);
+  MessageFree(&c->out);
+  SolidFree(c);
+  FluidFree(c);
+  StateFree(c);
+  BufferFree(&c->reports);
+  free(c);
+  *client = NULL;
+  return 0;
+}

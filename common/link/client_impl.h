@@ -1,0 +1,82 @@
+/* Private to the client's end of the link. */
+#ifndef CORACLE_CLIENT_IMPL_H
+#define CORACLE_CLIENT_IMPL_H
+#include "message.h"
+#include "report.h"
+
+enum { DIM = 2 };
+
+/* Where a client is in the run; every function says when it may be called. */
+typedef enum {
+  STAGE_SETUP,   /* before CoracleReady */
+  STAGE_BETWEEN, /* before CoracleBegin */
+  STAGE_STEP,    /* between CoracleBegin and CoracleEnd */
+  STAGE_STOPPED  /* CORACLE_STOP was received */
+} Stage;
+
+typedef struct {
+  int n, nfacets, nelements;
+  Buffer gid, x, u;      /* long long [n], double [n][2], double [n][2]: velocity given with the nodes, m/s */
+  Buffer integral;       /* double [n][2]: of u dt over the step so far, m */
+  Buffer facet, element; /* int [nfacets][2], int [nelements][3] */
+} SolidMesh;
+
+typedef struct {
+  SolidMesh mesh, before; /* before: as it was when the step began, if it has changed since */
+  bool has_nodes, has_before;
+  bool changed;   /* the coupler has not seen this mesh yet */
+  double elapsed; /* of the step, by substeps, s */
+  Buffer mean;    /* double [n][2] */
+} ClientSolid;
+
+typedef struct {
+  double lower[DIM], upper[DIM], proposed;
+  CoracleRegionFunction region;
+  void *context;
+  int n; /* elements last given by region */
+  bool changed, flow_set;
+  int ncoupling, ncorrection;
+  Buffer coupling, correction;
+} ClientFluid;
+
+typedef struct {
+  void *state;  /* the solver's memory ... */
+  Buffer saved; /* ... and its copy */
+  int (*f)(void *context, int save);
+  void *context;
+} BoundState;
+
+struct CoracleClient_s {
+  Participant *p;
+  Message in, out; /* from and to this rank's home */
+  Stage stage;
+  double t, dt; /* of the step, s */
+  CoracleAction action;
+  ClientSolid solid;
+  ClientFluid fluid;
+  Buffer states;  /* BoundState[] */
+  Buffer reports; /* Report[] */
+};
+
+/* Fails unless the client has this role and the stage is one of two. */
+void ClientExpect(CoracleClient c, const char *function, Role role, Stage stage, Stage other);
+_Noreturn void ClientMisuse(CoracleClient c, const char *function, const char *why);
+
+/* Sends c->out and waits until it has gone. */
+void ClientSend(CoracleClient c);
+/* Takes t, dt and action of the coming step from the coupler; checks that they make sense. */
+void ClientTakeStep(CoracleClient c, const MessageHeader *h);
+
+void StateSave(CoracleClient c);
+void StateRestore(CoracleClient c);
+void StateFree(CoracleClient c);
+
+void SolidReady(CoracleClient c);
+void SolidBegin(CoracleClient c); /* waits for the force */
+void SolidEnd(CoracleClient c, const double x[]);
+void SolidFree(CoracleClient c);
+
+void FluidReady(CoracleClient c);
+void FluidEnd(CoracleClient c); /* waits for the coupling */
+void FluidFree(CoracleClient c);
+#endif

@@ -1,0 +1,238 @@
+/* The solid's end: its mesh, the mean of its velocity over the substeps, the force on it. */
+#include "client_impl.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static double *Doubles(const Buffer *b)
+{
+  return (double *)(void *)b->data;
+}
+static int *Ints(const Buffer *b)
+{
+  return (int *)(void *)b->data;
+}
+static long long *Ids(const Buffer *b)
+{
+  return (long long *)(void *)b->data;
+}
+
+static void Copy(Buffer *to, const void *from, size_t bytes)
+{
+  BufferResize(to, bytes);
+  if (bytes) memcpy(to->data, from, bytes);
+}
+
+/* --- the mesh
+ * -------------------------------------------------------------------------------------------------- */
+
+static void MeshCopy(SolidMesh *to, const SolidMesh *from)
+{
+  to->n = from->n;
+  to->nfacets = from->nfacets;
+  to->nelements = from->nelements;
+  Copy(&to->gid, from->gid.data, from->gid.size);
+  Copy(&to->x, from->x.data, from->x.size);
+  Copy(&to->u, from->u.data, from->u.size);
+  Copy(&to->integral, from->integral.data, from->integral.size);
+  Copy(&to->facet, from->facet.data, from->facet.size);
+  Copy(&to->element, from->element.data, from->element.size);
+}
+
+static void MeshFree(SolidMesh *m)
+{
+  Buffer *all[] = {&m->gid, &m->x, &m->u, &m->integral, &m->facet, &m->element};
+  for (int k = 0; k < 6; k++) BufferFree(all[k]);
+}
+
+/* Before the mesh changes: within a step the old one is kept, for the step may be redone. */
+static void BeforeChange(CoracleClient c, const char *function)
+{
+  ClientSolid *s = &c->solid;
+  ClientExpect(c, function, ROLE_SOLID, STAGE_SETUP, STAGE_STEP);
+  if (c->stage == STAGE_STEP && !s->has_before) {
+    MeshCopy(&s->before, &s->mesh);
+    s->has_before = true;
+  }
+  s->changed = true;
+}
+
+static int CompareIds(const void *a, const void *b)
+{
+  const long long x = **(const long long *const *)a, y = **(const long long *const *)b;
+  return (x > y) - (x < y);
+}
+
+/* Pointers to the ids, in the ids' order. */
+static const long long **SortIds(const long long gid[], int n)
+{
+  const long long **sorted = malloc(((size_t)n + 1) * sizeof *sorted);
+  for (int i = 0; i < n; i++) sorted[i] = &gid[i];
+  qsort(sorted, (size_t)n, sizeof *sorted, CompareIds);
+  return sorted;
+}
+
+/* integral[n][2] on new nodes: a node whose id was there before keeps its own, a new one has moved with u so
+ * far. */
+static void CarryIntegral(const ClientSolid *s, int n, const long long gid[], const double u[],
+                          double integral[])
+{
+  const SolidMesh *m = &s->mesh;
+  const long long **sorted = SortIds(Ids(&m->gid), m->n);
+  for (int i = 0; i < n; i++) {
+    const long long *id = &gid[i];
+    const long long **found = bsearch(&id, sorted, (size_t)m->n, sizeof *sorted, CompareIds);
+    for (int d = 0; d < DIM; d++)
+      integral[DIM * i + d] =
+          found ? Doubles(&m->integral)[DIM * (*found - Ids(&m->gid)) + d] : s->elapsed * u[DIM * i + d];
+  }
+  free(sorted);
+}
+
+int CoracleSetNodes(CoracleClient c, int dim, int n, const long long gid[], const double x[],
+                    const double u[])
+{
+  SolidMesh *m = &c->solid.mesh;
+  const size_t bytes = DIM * (size_t)n * sizeof(double);
+  Buffer integral = {0};
+  BeforeChange(c, "CoracleSetNodes");
+  if (dim != DIM) ParticipantFail(c->p, "CoracleSetNodes: dim is %d, only %d is there yet", dim, DIM);
+  if (n < 0) ClientMisuse(c, "CoracleSetNodes", "n is negative");
+  MessageCheckFinite(c->p, "position", "node", (size_t)n, DIM, x);
+  MessageCheckFinite(c->p, "velocity", "node", (size_t)n, DIM, u);
+  BufferResize(&integral, bytes);
+  CarryIntegral(&c->solid, n, gid, u, Doubles(&integral));
+  BufferFree(&m->integral);
+  m->integral = integral;
+  m->n = n;
+  Copy(&m->gid, gid, (size_t)n * sizeof *gid);
+  Copy(&m->x, x, bytes);
+  Copy(&m->u, u, bytes);
+  c->solid.has_nodes = true;
+  return 0;
+}
+
+int CoracleSetSurface(CoracleClient c, int ne, const int conn[])
+{
+  BeforeChange(c, "CoracleSetSurface");
+  if (ne < 0) ClientMisuse(c, "CoracleSetSurface", "ne is negative");
+  c->solid.mesh.nfacets = ne;
+  Copy(&c->solid.mesh.facet, conn, DIM * (size_t)ne * sizeof *conn);
+  return 0;
+}
+
+int CoracleSetVolume(CoracleClient c, int ne, const int conn[])
+{
+  BeforeChange(c, "CoracleSetVolume");
+  if (ne < 0) ClientMisuse(c, "CoracleSetVolume", "ne is negative");
+  c->solid.mesh.nelements = ne;
+  Copy(&c->solid.mesh.element, conn, (DIM + 1) * (size_t)ne * sizeof *conn);
+  return 0;
+}
+
+static void CheckConnectivity(CoracleClient c, const char *what, int ne, int per, const int conn[])
+{
+  for (int e = 0; e < ne; e++)
+    for (int i = 0; i < per; i++)
+      if (conn[per * e + i] < 0 || conn[per * e + i] >= c->solid.mesh.n)
+        ParticipantFail(c->p, "%s %d refers to node %d of this rank's %d in step %d", what, e,
+                        conn[per * e + i], c->solid.mesh.n, c->p->step);
+}
+
+/* --- the exchanges
+ * ---------------------------------------------------------------------------------------------- */
+
+/* SURFACE or MOTION, with positions x and velocities u. */
+static void SendMotion(CoracleClient c, const double x[], const double u[])
+{
+  ClientSolid *s = &c->solid;
+  const SolidMesh *m = &s->mesh;
+  MessageHeader *h = MessageStart(&c->out, s->changed ? KIND_SURFACE : KIND_MOTION, c->p->step);
+  h->count[0] = m->n;
+  h->count[1] = m->nfacets;
+  h->count[2] = m->nelements;
+  if (s->changed) MessageAdd(&c->out, m->gid.data, m->gid.size);
+  MessageAdd(&c->out, x, m->x.size);
+  MessageAdd(&c->out, u, m->x.size);
+  if (s->changed) {
+    CheckConnectivity(c, "facet", m->nfacets, DIM, Ints(&m->facet));
+    CheckConnectivity(c, "element", m->nelements, DIM + 1, Ints(&m->element));
+    MessageAdd(&c->out, m->facet.data, m->facet.size);
+    MessageAdd(&c->out, m->element.data, m->element.size);
+  }
+  ClientSend(c);
+  s->changed = false;
+}
+
+void SolidReady(CoracleClient c)
+{
+  if (!c->solid.has_nodes)
+    ClientMisuse(c, "CoracleReady", "CoracleSetNodes comes first (with n = 0 on empty ranks)");
+  SendMotion(c, Doubles(&c->solid.mesh.x), Doubles(&c->solid.mesh.u));
+}
+
+/* The mesh that the step begins with: at REDO the one before it, which the coupler must then see again. */
+static void BeginMesh(ClientSolid *s, CoracleAction action)
+{
+  if (action == CORACLE_REDO && s->has_before) {
+    SolidMesh changed = s->mesh;
+    s->mesh = s->before;
+    s->before = changed;
+    s->changed = true;
+  }
+  s->has_before = false;
+  s->elapsed = 0.0;
+  if (s->mesh.n) memset(s->mesh.integral.data, 0, s->mesh.integral.size);
+}
+
+void SolidBegin(CoracleClient c)
+{
+  const int step = c->p->step;
+  const MessageHeader *h = MessageReceive(c->p, &c->in, KIND_FORCE, KIND_FORCE, step);
+  ClientTakeStep(c, h);
+  if (c->action == CORACLE_STOP) return;
+  BeginMesh(&c->solid, c->action);
+  if (h->count[0] != c->solid.mesh.n)
+    ParticipantFail(c->p, "the coupler has sent forces on %lld nodes in step %d, this rank has %d",
+                    (long long)h->count[0], step, c->solid.mesh.n);
+}
+
+int CoracleGetForce(CoracleClient c, const double **force)
+{
+  ClientExpect(c, "CoracleGetForce", ROLE_SOLID, STAGE_STEP, STAGE_STEP);
+  *force = (const double *)(const void *)(c->in.buffer.data + sizeof(MessageHeader));
+  return 0;
+}
+
+int CoracleSubstep(CoracleClient c, double h, const double u[])
+{
+  ClientSolid *s = &c->solid;
+  double *integral = Doubles(&s->mesh.integral);
+  ClientExpect(c, "CoracleSubstep", ROLE_SOLID, STAGE_STEP, STAGE_STEP);
+  if (!(h > 0.0)) ParticipantFail(c->p, "CoracleSubstep: h is %g s in step %d", h, c->p->step);
+  MessageCheckFinite(c->p, "velocity", "node", (size_t)s->mesh.n, DIM, u);
+  for (int i = 0; i < DIM * s->mesh.n; i++) integral[i] += h * u[i];
+  s->elapsed += h;
+  return 0;
+}
+
+void SolidEnd(CoracleClient c, const double x[])
+{
+  ClientSolid *s = &c->solid;
+  const SolidMesh *m = &s->mesh;
+  if (!(fabs(s->elapsed - c->dt) <= 1e-9 * c->dt))
+    ParticipantFail(c->p, "the substeps of step %d sum up to %.12g s, the step is %.12g s", c->p->step,
+                    s->elapsed, c->dt);
+  if (!x && m->n) ClientMisuse(c, "CoracleEnd", "a solid gives its positions");
+  MessageCheckFinite(c->p, "position", "node", (size_t)m->n, DIM, x);
+  double *mean = BufferResize(&s->mean, m->x.size);
+  for (int i = 0; i < DIM * m->n; i++) mean[i] = Doubles(&m->integral)[i] / c->dt;
+  SendMotion(c, x, mean);
+}
+
+void SolidFree(CoracleClient c)
+{
+  MeshFree(&c->solid.mesh);
+  MeshFree(&c->solid.before);
+  BufferFree(&c->solid.mean);
+}

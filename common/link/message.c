@@ -1,0 +1,170 @@
+#include "message.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { TAG = 1, UNIT = 8 }; /* messages are counted in units of 8 bytes: 16 GiB is their limit */
+static const uint32_t MAGIC = 0xC07AC1E1;
+
+static const char *const KIND_NAMES[KIND_END] = {"?",        "SURFACE",  "MOTION", "FORCE", "ASK",
+                                                 "ELEMENTS", "COUPLING", "FLOW",   "CLOSE"};
+
+/* --- buffers
+ * ------------------------------------------------------------------------------------------------- */
+
+static void Reserve(Buffer *b, size_t bytes)
+{
+  if (b->data && bytes <= b->capacity) return;
+  b->capacity = bytes + bytes / 2 + 64;
+  char *data = realloc(b->data, b->capacity);
+  if (!data) abort(); /* the other participants are told by the launcher */
+  b->data = data;
+}
+
+void *BufferResize(Buffer *b, size_t bytes)
+{
+  Reserve(b, bytes);
+  b->size = bytes;
+  return b->data;
+}
+
+void *BufferExtend(Buffer *b, size_t bytes)
+{
+  Reserve(b, b->size + bytes);
+  b->size += bytes;
+  return b->data + b->size - bytes;
+}
+
+void BufferFree(Buffer *b)
+{
+  free(b->data);
+  *b = (Buffer){0};
+}
+
+/* --- writing and sending
+ * -------------------------------------------------------------------------------------- */
+
+void MessageInit(Message *m, Role role, int rank)
+{
+  *m = (Message){.request = MPI_REQUEST_NULL, .role = role, .rank = rank};
+}
+
+void MessageFree(Message *m)
+{
+  BufferFree(&m->buffer);
+}
+
+MessageHeader *MessageStart(Message *m, MessageKind kind, int step)
+{
+  MessageHeader *header = BufferResize(&m->buffer, sizeof *header);
+  memset(header, 0, sizeof *header);
+  header->magic = MAGIC;
+  header->kind = kind;
+  header->step = step;
+  return header;
+}
+
+static size_t Padded(size_t bytes)
+{
+  return (bytes + UNIT - 1) / UNIT * UNIT;
+}
+
+void MessageAdd(Message *m, const void *block, size_t bytes)
+{
+  char *to = BufferExtend(&m->buffer, Padded(bytes));
+  if (bytes) memcpy(to, block, bytes);
+  memset(to + bytes, 0, Padded(bytes) - bytes);
+}
+
+static const MessageHeader *Header(const Message *m)
+{
+  return (const MessageHeader *)(const void *)m->buffer.data;
+}
+
+static const char *KindName(int kind)
+{
+  return kind > 0 && kind < KIND_END ? KIND_NAMES[kind] : "?";
+}
+
+void MessageSend(Participant *p, Message *m)
+{
+  const size_t units = m->buffer.size / UNIT;
+  if (units > INT32_MAX)
+    ParticipantFail(p, "%s of %zu bytes for %s rank %d is too long for one message: use more ranks",
+                    KindName(Header(m)->kind), m->buffer.size, ROLE_NAMES[m->role], m->rank);
+  MPI_Isend(m->buffer.data, (int)units, MPI_UINT64_T, p->world[m->role][m->rank], TAG, p->link, &m->request);
+}
+
+static const char *Host(const Participant *p, const Message *m)
+{
+  return p->host[p->world[m->role][m->rank]];
+}
+
+void MessageFinish(Participant *p, Message *m)
+{
+  if (!WaitRequest(&p->waiter, &m->request))
+    ParticipantFail(
+        p, "%s rank %d on %s has not taken %s of step %d within %g s: does it hang? (CORACLE_TIMEOUT)",
+        ROLE_NAMES[m->role], m->rank, Host(p, m), KindName(Header(m)->kind), Header(m)->step,
+        p->waiter.timeout);
+}
+
+/* --- receiving
+ * -------------------------------------------------------------------------------------------------- */
+
+static void WaitForIt(Participant *p, const Message *m, MessageKind kind, int step, MPI_Message *arrived,
+                      int *units)
+{
+  Wait wait = WaitStart(&p->waiter);
+  MPI_Status status;
+  for (;;) {
+    int here;
+    MPI_Improbe(p->world[m->role][m->rank], TAG, p->link, &here, arrived, &status);
+    if (here) break;
+    if (!WaitPause(&wait))
+      ParticipantFail(p,
+                      "waited %g s for %s of step %d from %s rank %d on %s: does it hang? (CORACLE_TIMEOUT)",
+                      p->waiter.timeout, KindName(kind), step, ROLE_NAMES[m->role], m->rank, Host(p, m));
+  }
+  WaitEnd(&wait);
+  MPI_Get_count(&status, MPI_UINT64_T, units);
+}
+
+const MessageHeader *MessageReceive(Participant *p, Message *m, MessageKind kind, MessageKind other, int step)
+{
+  MPI_Message arrived;
+  int units;
+  WaitForIt(p, m, kind, step, &arrived, &units);
+  BufferResize(&m->buffer, (size_t)units * UNIT);
+  MPI_Mrecv(m->buffer.data, units, MPI_UINT64_T, &arrived, MPI_STATUS_IGNORE);
+  const MessageHeader *h = Header(m);
+  if (m->buffer.size < sizeof *h || h->magic != MAGIC)
+    ParticipantFail(p, "what came from %s rank %d is no message of Coracle's", ROLE_NAMES[m->role], m->rank);
+  if ((h->kind != (int)kind && h->kind != (int)other) || h->step != step)
+    ParticipantFail(p, "expected %s of step %d from %s rank %d, got %s of step %d", KindName(kind), step,
+                    ROLE_NAMES[m->role], m->rank, KindName(h->kind), h->step);
+  m->at = sizeof *h;
+  return h;
+}
+
+const void *MessageTake(Participant *p, Message *m, size_t bytes)
+{
+  const char *block = m->buffer.data + m->at;
+  if (m->at + Padded(bytes) > m->buffer.size)
+    ParticipantFail(p, "%s of step %d from %s rank %d is shorter than its counts say",
+                    KindName(Header(m)->kind), Header(m)->step, ROLE_NAMES[m->role], m->rank);
+  m->at += Padded(bytes);
+  return block;
+}
+
+void MessageCheckFinite(Participant *p, const char *field, const char *entry, size_t n, int per,
+                        const double array[])
+{
+  double sum = 0.0;
+  for (size_t i = 0; i < n * (size_t)per; i++) sum += 0.0 * array[i]; /* 0 unless one is not finite */
+  if (sum == 0.0) return;
+  for (size_t i = 0; i < n * (size_t)per; i++)
+    if (!isfinite(array[i]))
+      ParticipantFail(p, "%s is %g at %s %zu, component %zu, in step %d", field, array[i], entry,
+                      i / (size_t)per, i % (size_t)per, p->step);
+}

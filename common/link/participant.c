@@ -1,0 +1,183 @@
+#include "participant.h"
+#include "leaving.h"
+#include "machine.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+/* --- failing
+ * ---------------------------------------------------------------------------------------------------- */
+
+static _Noreturn void Abort(void)
+{
+  fflush(NULL);
+  LeavingExpected();
+  MPI_Abort(MPI_COMM_WORLD, 1);
+  for (;;) pause(); /* until the launcher has ended this process */
+}
+
+void ParticipantFailList(Participant *p, const char *format, va_list list)
+{
+  LeavingExpected();
+  if (BoardClaim(p->board)) {
+    char text[ROLL_MESSAGE];
+    vsnprintf(text, sizeof text, format, list);
+    fflush(stdout);
+    fprintf(stderr, "coracle %s[%d]: error: %s\n", ROLE_NAMES[p->role], p->rank, text);
+  } else {
+    sleep(5); /* another rank speaks and ends the job */
+  }
+  Abort();
+}
+
+void ParticipantFail(Participant *p, const char *format, ...)
+{
+  va_list list;
+  va_start(list, format);
+  ParticipantFailList(p, format, list);
+}
+
+/* Before there is a board: world rank 0 speaks for all, the others wait for their end. */
+static _Noreturn void RefuseToStart(int world_rank, const char *role, const char *message)
+{
+  if (world_rank == 0)
+    fprintf(stderr, "coracle %s[0]: error: %s\n", role, message);
+  else
+    sleep(5);
+  Abort();
+}
+
+/* --- joining
+ * ----------------------------------------------------------------------------------------------------- */
+
+static bool StartMpi(void)
+{
+  int initialized;
+  MPI_Initialized(&initialized);
+  if (initialized) return false;
+  MachineEnvironment();
+  MPI_Init(NULL, NULL);
+  return true;
+}
+
+static unsigned long long HashArguments(int argc, char **argv)
+{
+  unsigned long long hash = 14695981039346656037ULL;
+  for (int i = 1; i < argc; i++)
+    for (const char *c = argv[i];; c++) {
+      hash = (hash ^ (unsigned char)*c) * 1099511628211ULL;
+      if (!*c) break;
+    }
+  return hash;
+}
+
+static void Describe(const char *role, bool client, int argc, char **argv, RollEntry *e)
+{
+  int *context, known;
+  Case c;
+  memset(e, 0, sizeof *e);
+  snprintf(e->role, sizeof e->role, "%s", role);
+  snprintf(e->version, sizeof e->version, "%s", CORACLE_VERSION);
+  gethostname(e->host, sizeof e->host - 1);
+  if (readlink("/proc/self/exe", e->program, sizeof e->program - 1) < 0)
+    snprintf(e->program, sizeof e->program, "%s", argc > 0 ? argv[0] : "?");
+  MPI_Comm_get_attr(MPI_COMM_WORLD, MPI_APPNUM, &context, &known);
+  e->context = known ? *context : -1;
+  e->argument_hash = HashArguments(argc, argv);
+  if (client && !strcmp(role, "coupler"))
+    snprintf(e->problem, sizeof e->problem, "CoracleOpen joins a fluid or a solid, not a coupler");
+  else if (CaseLoad(argc, argv, e->problem, &c) == 0) {
+    snprintf(e->case_path, sizeof e->case_path, "%s", CasePath(c));
+    e->file_hash = c->file_hash;
+    e->set_hash = c->set_hash;
+    CaseClose(&c);
+  }
+}
+
+/* Every rank tells world rank 0 who it is; it looks at them all, and speaks if they cannot run together. */
+static void CallRoll(const RollEntry *mine, Waiter *waiter)
+{
+  char message[ROLL_MESSAGE];
+  int rank, size;
+  MPI_Request request;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  RollEntry *entry = rank ? NULL : calloc((size_t)size, sizeof *entry);
+  MPI_Igather(mine, sizeof *mine, MPI_BYTE, entry, sizeof *entry, MPI_BYTE, 0, MPI_COMM_WORLD, &request);
+  if (!WaitRequest(waiter, &request)) {
+    snprintf(message, sizeof message, "not all %d ranks of this job have called CoracleOpen within %g s",
+             size, waiter->timeout);
+    RefuseToStart(rank, mine->role, message);
+  }
+  if (rank == 0 && !RollCheck(size, entry, message)) RefuseToStart(0, mine->role, message);
+  if (rank == 0 && RollNote(size, entry, message)) fprintf(stderr, "coracle: note: %s\n", message);
+  free(entry);
+  MPI_Ibarrier(MPI_COMM_WORLD, &request); /* nobody goes on before rank 0 has agreed */
+  if (!WaitRequest(waiter, &request)) RefuseToStart(1, mine->role, "");
+}
+
+static void MapRoles(Participant *p, const RollEntry *mine)
+{
+  int rank, size, role = RollRole(mine->role);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  int *roles = malloc((size_t)size * sizeof *roles);
+  p->host = malloc((size_t)size * sizeof *p->host);
+  MPI_Allgather(&role, 1, MPI_INT, roles, 1, MPI_INT, MPI_COMM_WORLD);
+  MPI_Allgather(mine->host, sizeof mine->host, MPI_BYTE, p->host, sizeof mine->host, MPI_BYTE,
+                MPI_COMM_WORLD);
+  for (int k = 0; k < NROLES; k++) p->world[k] = malloc((size_t)size * sizeof(int));
+  for (int i = 0; i < size; i++) p->world[roles[i]][p->count[roles[i]]++] = i;
+  free(roles);
+  p->role = (Role)role;
+  MPI_Comm_split(MPI_COMM_WORLD, role, rank, &p->app);
+  MPI_Comm_rank(p->app, &p->rank);
+  MPI_Comm_size(p->app, &p->size);
+  MPI_Comm_dup(MPI_COMM_WORLD, &p->link);
+}
+
+int ParticipantOpen(const char *role, bool client, int argc, char **argv, Participant **participant)
+{
+  Participant *p = calloc(1, sizeof *p);
+  RollEntry mine;
+  MachineShare share;
+  p->started_mpi = StartMpi();
+  p->start = WaitClock();
+  MachineGetShare(&share);
+  const char *wrong = WaiterInit(&p->waiter, share.shared);
+  Describe(role, client, argc, argv, &mine);
+  if (LeavingWatched()) wrong = "this process has joined already";
+  if (wrong) snprintf(mine.problem, sizeof mine.problem, "%s", wrong);
+  CallRoll(&mine, &p->waiter);
+  MapRoles(p, &mine);
+  BoardOpen(role, p->rank, &p->board);
+  LeavingWatch(p);
+  if (share.pinned) MachineNotePinned(role, p->rank);
+  *participant = p;
+  return 0;
+}
+
+void ParticipantStep(Participant *p, int step)
+{
+  p->step = step;
+  BoardStep(p->board, step);
+}
+
+int ParticipantClose(Participant **participant)
+{
+  Participant *p = *participant;
+  const bool finalize = p->started_mpi;
+  LeavingExpected();
+  LeavingUnwatch();
+  BoardClose(&p->board);
+  MPI_Comm_free(&p->link);
+  MPI_Comm_free(&p->app);
+  for (int k = 0; k < NROLES; k++) free(p->world[k]);
+  free(p->host);
+  free(p);
+  *participant = NULL;
+  if (finalize) MPI_Finalize();
+  return 0;
+}

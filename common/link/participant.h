@@ -1,0 +1,37 @@
+/* One rank of one participant of the job, on either end of the link: joining, failing and leaving.
+ *
+ *     MPI_COMM_WORLD   0 1 | 2       | 3         roll call: every rank says role, version, case, host,
+ * program role             fluid coupler   solid     split by the role's name, in order of world rank app 0 1
+ * 0         0         the participant's own communicator link             a duplicate of the world: what
+ * messages travel on */
+#ifndef CORACLE_PARTICIPANT_H
+#define CORACLE_PARTICIPANT_H
+#include "board.h"
+#include "coracle.h"
+#include "roll_call.h"
+#include "wait.h"
+#include <stdarg.h>
+
+typedef struct {
+  Role role;
+  int rank, size; /* within the role */
+  MPI_Comm app, link;
+  int count[NROLES];  /* ranks of each role */
+  int *world[NROLES]; /* [count] their world ranks */
+  char (*host)[64];   /* [world size] */
+  int step;           /* for messages */
+  double start;       /* WaitClock when joining, s */
+  bool started_mpi;
+  Waiter waiter;
+  Board board;
+} Participant;
+
+/* Joins as role; collective over the job.  `client`: role must not be coupler.  A process joins once. */
+int ParticipantOpen(const char *role, bool client, int argc, char **argv, Participant **p);
+/* Leaves in good order; collective over the job. */
+int ParticipantClose(Participant **p);
+/* "coracle <role>[rank]: error: ..." once, then the end of the job. */
+_Noreturn void ParticipantFail(Participant *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
+_Noreturn void ParticipantFailList(Participant *p, const char *format, va_list list);
+void ParticipantStep(Participant *p, int step);
+#endif

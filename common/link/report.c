@@ -1,0 +1,60 @@
+#include "report.h"
+#include <stdio.h>
+#include <string.h>
+#include <sys/resource.h>
+
+static Report *Find(Buffer *list, const char *key)
+{
+  Report *report = (Report *)(void *)list->data;
+  for (size_t i = 0; i < ReportCount(list); i++)
+    if (!strcmp(report[i].key, key)) return &report[i];
+  return NULL;
+}
+
+static Report *FindOrAdd(Buffer *list, const char *key, bool *fresh)
+{
+  Report *report = Find(list, key);
+  *fresh = !report;
+  if (report) return report;
+  report = BufferExtend(list, sizeof *report);
+  memset(report, 0, sizeof *report);
+  snprintf(report->key, sizeof report->key, "%s", key);
+  return report;
+}
+
+bool ReportSet(Buffer *list, const char *key, double value, bool sum)
+{
+  bool fresh;
+  if (strlen(key) >= sizeof((Report *)0)->key) return false;
+  Report *report = FindOrAdd(list, key, &fresh);
+  report->value = value;
+  report->sum = sum;
+  return true;
+}
+
+void ReportMerge(Buffer *list, size_t n, const Report other[])
+{
+  for (size_t i = 0; i < n; i++) {
+    bool fresh;
+    Report *report = FindOrAdd(list, other[i].key, &fresh);
+    if (fresh)
+      *report = other[i];
+    else if (other[i].sum)
+      report->value += other[i].value;
+    else if (other[i].value > report->value)
+      report->value = other[i].value;
+  }
+}
+
+void ReportResources(Buffer *list, const Participant *p)
+{
+  struct rusage use;
+  getrusage(RUSAGE_SELF, &use);
+  const double cpu = (double)(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
+                     1e-6 * (double)(use.ru_utime.tv_usec + use.ru_stime.tv_usec);
+  ReportSet(list, "ranks", 1.0, true);
+  ReportSet(list, "seconds_cpu", cpu, true);
+  ReportSet(list, "seconds_wall", WaitClock() - p->start, false);
+  ReportSet(list, "seconds_waiting", p->waiter.waited, false);
+  ReportSet(list, "peak_memory_mb", (double)use.ru_maxrss / 1024.0, true);
+}

@@ -1,0 +1,157 @@
+#include "server_impl.h"
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void SideInit(Side *side, const Participant *p, Role role)
+{
+  side->peer = calloc((size_t)p->count[role] + 1, sizeof *side->peer);
+  for (int rank = p->rank; rank < p->count[role]; rank += p->size) {
+    MessageInit(&side->peer[side->n].in, role, rank);
+    MessageInit(&side->peer[side->n++].out, role, rank);
+  }
+}
+
+static void SideFree(Side *side)
+{
+  for (int i = 0; i < side->n; i++) {
+    MessageFree(&side->peer[i].in);
+    MessageFree(&side->peer[i].out);
+    BufferFree(&side->peer[i].gid);
+    BufferFree(&side->peer[i].facet);
+    BufferFree(&side->peer[i].element);
+    BufferFree(&side->peer[i].coupled);
+  }
+  free(side->peer);
+}
+
+int SideFind(const Side *side, int i)
+{
+  int lower = 0, upper = side->n - 1; /* the last peer whose first <= i */
+  while (lower < upper) {
+    const int middle = (lower + upper + 1) / 2;
+    if (side->peer[middle].first <= i)
+      lower = middle;
+    else
+      upper = middle - 1;
+  }
+  return lower;
+}
+
+void SideSend(Server s, Side *side)
+{
+  for (int i = 0; i < side->n; i++) MessageSend(s->p, &side->peer[i].out);
+  for (int i = 0; i < side->n; i++) MessageFinish(s->p, &side->peer[i].out);
+}
+
+void SideStep(Server s, Side *side, CoracleAction action)
+{
+  if (side->stopped) ServerFail(s, "the run goes on after CORACLE_STOP");
+  if (action == CORACLE_RUN) side->step++;
+  if (action == CORACLE_REDO && side->step == 0) ServerFail(s, "CORACLE_REDO before the first step");
+  side->stopped = action == CORACLE_STOP;
+  ParticipantStep(s->p, side->step);
+}
+
+int ServerOpen(int argc, char **argv, MPI_Comm *app_comm, Server *server)
+{
+  Server s = calloc(1, sizeof *s);
+  ParticipantOpen("coupler", false, argc, argv, &s->p);
+  SideInit(&s->fluid, s->p, ROLE_FLUID);
+  SideInit(&s->solid, s->p, ROLE_SOLID);
+  s->proposed = HUGE_VAL;
+  *app_comm = s->p->app;
+  *server = s;
+  return 0;
+}
+
+void ServerFail(Server s, const char *format, ...)
+{
+  va_list list;
+  va_start(list, format);
+  ParticipantFailList(s->p, format, list);
+}
+
+int ServerRanks(Server s, const char *role)
+{
+  const int k = RollRole(role);
+  return k < 0 ? 0 : s->p->count[k];
+}
+
+double ServerWaited(Server s)
+{
+  return s->p->waiter.waited;
+}
+
+/* --- the end
+ * ----------------------------------------------------------------------------------------------------- */
+
+static void ReceiveClose(Server s, Side *side, Role role)
+{
+  for (int i = 0; i < side->n; i++) {
+    Message *m = &side->peer[i].in;
+    const MessageHeader *h = MessageReceive(s->p, m, KIND_CLOSE, KIND_CLOSE, side->step);
+    const size_t n = (size_t)h->count[0];
+    ReportMerge(&s->reports[role], n, MessageTake(s->p, m, n * sizeof(Report)));
+  }
+}
+
+/* Rank 0 takes in what the other coupler ranks have of a role. */
+static void GatherReports(Server s, Role role)
+{
+  Buffer *mine = &s->reports[role];
+  const int bytes = (int)mine->size;
+  int *count = calloc((size_t)s->p->size, sizeof *count),
+      *start = calloc((size_t)s->p->size + 1, sizeof *start);
+  MPI_Gather(&bytes, 1, MPI_INT, count, 1, MPI_INT, 0, s->p->app);
+  for (int i = 0; i < s->p->size; i++) start[i + 1] = start[i] + count[i];
+  Report *all = malloc((size_t)start[s->p->size] + 1);
+  MPI_Gatherv(mine->data, bytes, MPI_BYTE, all, count, start, MPI_BYTE, 0, s->p->app);
+  if (s->p->rank == 0)
+    ReportMerge(mine, (size_t)(start[s->p->size] - bytes) / sizeof *all, all + (size_t)bytes / sizeof *all);
+  free(all);
+  free(start);
+  free(count);
+}
+
+int ServerFinish(Server s)
+{
+  if (!s->fluid.stopped || !s->solid.stopped)
+    ServerFail(s, "ServerFinish comes after CORACLE_STOP to both clients");
+  ReceiveClose(s, &s->fluid, ROLE_FLUID);
+  ReceiveClose(s, &s->solid, ROLE_SOLID);
+  ReportResources(&s->reports[ROLE_COUPLER], s->p);
+  for (int role = 0; role < NROLES; role++) GatherReports(s, (Role)role);
+  return 0;
+}
+
+int ServerReports(Server s, void (*f)(void *context, const char *role, const char *key, double value),
+                  void *context)
+{
+  if (s->p->rank) return 0;
+  for (int role = 0; role < NROLES; role++) {
+    const Report *report = (const Report *)(const void *)s->reports[role].data;
+    for (size_t i = 0; i < ReportCount(&s->reports[role]); i++)
+      f(context, ROLE_NAMES[role], report[i].key, report[i].value);
+  }
+  return 0;
+}
+
+int ServerClose(Server *server)
+{
+  Server s = *server;
+  if (!s) return 0;
+  if (!s->fluid.stopped || !s->solid.stopped)
+    ServerFail(s, "closed in step %d, before CORACLE_STOP to both clients", s->p->step);
+  Buffer *all[] = {&s->gid, &s->x,      &s->u,      &s->facet,    &s->element, &s->vertices,
+                   &s->rho, &s->u_star, &s->u_plus, &s->pressure, &s->mu,      &s->owner};
+  for (size_t k = 0; k < sizeof all / sizeof *all; k++) BufferFree(all[k]);
+  for (int role = 0; role < NROLES; role++) BufferFree(&s->reports[role]);
+  SideFree(&s->fluid);
+  SideFree(&s->solid);
+  ParticipantClose(&s->p);
+  free(s);
+  *server = NULL;
+  return 0;
+}

@@ -1,0 +1,45 @@
+/* Private to the coupler's end of the link. */
+#ifndef CORACLE_SERVER_IMPL_H
+#define CORACLE_SERVER_IMPL_H
+#include "message.h"
+#include "report.h"
+#include "server.h"
+
+/* One client rank whose home is this coupler rank. */
+typedef struct {
+  Message in, out;
+  int first, n;               /* its nodes (solid) or elements (fluid) in the concatenated lists */
+  int first_start, n_start;   /* solid: the same when the step began, which is where a redone step begins */
+  Buffer gid, facet, element; /* solid: its mesh as it numbers it */
+  Buffer coupled; /* fluid: int [], its own index of the element of each coupling entry last sent */
+} Peer;
+
+typedef struct {
+  int n;
+  Peer *peer; /* [n] in order of client rank */
+  int step;   /* the step these clients are in */
+  bool stopped;
+} Side;
+
+struct Server_s {
+  Participant *p;
+  Side fluid, solid;
+  bool received_solid, asked, elements_changed, owes_correction;
+  double proposed;
+  /* solid's lists */
+  Buffer gid, x, u, facet, element;
+  /* fluid's lists */
+  Buffer vertices, rho, u_star, u_plus, pressure, mu;
+  int nelements;
+  double lower[2], upper[2];
+  Buffer owner; /* int []: the fluid peer of each coupling entry last sent, in the coupler's order */
+  Buffer reports[NROLES];
+};
+
+/* The peer whose list holds index i. */
+int SideFind(const Side *side, int i);
+/* Sends every peer's message and waits until all have gone. */
+void SideSend(Server s, Side *side);
+/* Counts a new step when it is one; fails when a client is asked to go on after STOP. */
+void SideStep(Server s, Side *side, CoracleAction action);
+#endif

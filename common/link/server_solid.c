@@ -1,0 +1,103 @@
+/* The coupler's end towards the solid. */
+#include "server_impl.h"
+#include <string.h>
+
+enum { DIM = 2 };
+
+static void Store(Server s, Message *m, Buffer *to, size_t bytes)
+{
+  const void *block = MessageTake(s->p, m, bytes);
+  memcpy(BufferResize(to, bytes), block, bytes);
+}
+
+/* Receives one peer's SURFACE or MOTION and puts its x and u at the end of the lists; returns whether its
+ * mesh is new. */
+static int ReceiveMotion(Server s, Peer *peer, int *nnodes)
+{
+  Message *m = &peer->in;
+  const MessageKind kind = s->received_solid ? KIND_MOTION : KIND_SURFACE;
+  const MessageHeader *h = MessageReceive(s->p, m, kind, KIND_SURFACE, s->solid.step);
+  const size_t n = (size_t)h->count[0], bytes = DIM * n * sizeof(double);
+  const bool whole = h->kind == KIND_SURFACE;
+  if (!whole && (int)n != peer->n)
+    ServerFail(s, "solid rank %d moves %zu nodes but has %d", m->rank, n, peer->n);
+  peer->first = *nnodes;
+  peer->n = (int)n;
+  if (whole) Store(s, m, &peer->gid, n * sizeof(long long));
+  memcpy(BufferExtend(&s->x, bytes), MessageTake(s->p, m, bytes), bytes);
+  memcpy(BufferExtend(&s->u, bytes), MessageTake(s->p, m, bytes), bytes);
+  if (whole) {
+    Store(s, m, &peer->facet, DIM * (size_t)h->count[1] * sizeof(int));
+    Store(s, m, &peer->element, (DIM + 1) * (size_t)h->count[2] * sizeof(int));
+  }
+  *nnodes += (int)n;
+  return whole;
+}
+
+static void AppendShifted(Buffer *list, const Buffer *conn, int shift)
+{
+  const size_t n = conn->size / sizeof(int);
+  const int *from = (const int *)(const void *)conn->data;
+  int *to = BufferExtend(list, conn->size);
+  for (size_t i = 0; i < n; i++) to[i] = from[i] + shift;
+}
+
+/* The peers' meshes, one after the other. */
+static void AssembleMesh(Server s)
+{
+  BufferResize(&s->gid, 0);
+  BufferResize(&s->facet, 0);
+  BufferResize(&s->element, 0);
+  for (int i = 0; i < s->solid.n; i++) {
+    const Peer *peer = &s->solid.peer[i];
+    if (peer->gid.size) memcpy(BufferExtend(&s->gid, peer->gid.size), peer->gid.data, peer->gid.size);
+    AppendShifted(&s->facet, &peer->facet, peer->first);
+    AppendShifted(&s->element, &peer->element, peer->first);
+  }
+}
+
+int ServerReceiveSolid(Server s, ServerSolid *solid)
+{
+  int nnodes = 0, changed = 0;
+  BufferResize(&s->x, 0);
+  BufferResize(&s->u, 0);
+  for (int i = 0; i < s->solid.n; i++) changed |= ReceiveMotion(s, &s->solid.peer[i], &nnodes);
+  if (changed || !s->received_solid) AssembleMesh(s);
+  MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, s->p->app);
+  s->received_solid = true;
+  *solid = (ServerSolid){.changed = changed,
+                         .nnodes = nnodes,
+                         .nfacets = (int)(s->facet.size / (DIM * sizeof(int))),
+                         .nelements = (int)(s->element.size / ((DIM + 1) * sizeof(int))),
+                         .gid = (const long long *)(const void *)s->gid.data,
+                         .x = (const double *)(const void *)s->x.data,
+                         .u = (const double *)(const void *)s->u.data,
+                         .facet = (const int *)(const void *)s->facet.data,
+                         .element = (const int *)(const void *)s->element.data};
+  return 0;
+}
+
+int ServerSendForce(Server s, double t, double dt, CoracleAction action, const double force[])
+{
+  const int step = s->solid.step; /* which the clients are in until they get this */
+  if (!s->received_solid) ServerFail(s, "ServerSendForce comes after the first ServerReceiveSolid");
+  SideStep(s, &s->solid, action);
+  for (int i = 0; i < s->solid.n; i++) {
+    Peer *peer = &s->solid.peer[i];
+    if (action == CORACLE_RUN) {
+      peer->first_start = peer->first;
+      peer->n_start = peer->n;
+    }
+    const size_t n = action == CORACLE_STOP ? 0 : (size_t)peer->n_start;
+    const double *its = n ? force + DIM * peer->first_start : NULL;
+    MessageCheckFinite(s->p, "force", "node", n, DIM, its);
+    MessageHeader *h = MessageStart(&peer->out, KIND_FORCE, step);
+    h->action = action;
+    h->t = t;
+    h->dt = dt;
+    h->count[0] = (int64_t)n;
+    MessageAdd(&peer->out, its, n * DIM * sizeof(double));
+  }
+  SideSend(s, &s->solid);
+  return 0;
+}

@@ -1,0 +1,71 @@
+#include "wait.h"
+#include <sched.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+static const double SPIN = 20e-6, YIELD = 100e-6, LONGEST = 200e-6; /* s */
+
+double WaitClock(void)
+{
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+const char *WaiterInit(Waiter *w, bool shares_core)
+{
+  static const char *const WORDS[] = {"spin", "yield", "sleep"};
+  const char *policy = getenv("CORACLE_WAIT"), *timeout = getenv("CORACLE_TIMEOUT");
+  *w = (Waiter){.policy = shares_core ? WAIT_SLEEP : WAIT_SPIN, .timeout = 600.0};
+  if (policy && *policy) {
+    int k = 0;
+    while (k < 3 && strcmp(policy, WORDS[k])) k++;
+    if (k == 3) return "CORACLE_WAIT must be spin, yield or sleep";
+    w->policy = (WaitPolicy)k;
+  }
+  if (timeout && *timeout) {
+    char *end;
+    w->timeout = strtod(timeout, &end);
+    if (*end || !(w->timeout > 0.0)) return "CORACLE_TIMEOUT must be a number of seconds > 0";
+  }
+  return NULL;
+}
+
+Wait WaitStart(Waiter *w)
+{
+  return (Wait){.waiter = w, .start = WaitClock()};
+}
+
+bool WaitPause(Wait *wait)
+{
+  const WaitPolicy policy = wait->waiter->policy;
+  if (policy == WAIT_SPIN && ++wait->looks % 1024) return true; /* the clock is dearer than a look */
+  const double waited = WaitClock() - wait->start;
+  if (waited > wait->waiter->timeout) return false;
+  if (policy == WAIT_SPIN || waited < SPIN) return true;
+  if (policy == WAIT_YIELD || waited < YIELD) {
+    sched_yield();
+  } else {
+    const double pause = waited / 8 < LONGEST ? waited / 8 : LONGEST;
+    nanosleep(&(struct timespec){.tv_nsec = (long)(1e9 * pause)}, NULL);
+  }
+  return true;
+}
+
+void WaitEnd(Wait *wait)
+{
+  wait->waiter->waited += WaitClock() - wait->start;
+}
+
+bool WaitRequest(Waiter *w, MPI_Request *request)
+{
+  Wait wait = WaitStart(w);
+  int done = 0;
+  for (;;) {
+    MPI_Test(request, &done, MPI_STATUS_IGNORE);
+    if (done || !WaitPause(&wait)) break;
+  }
+  WaitEnd(&wait);
+  return done != 0;
+}
