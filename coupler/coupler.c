@@ -1,0 +1,154 @@
+#include "coupler_impl.h"
+
+const char *const COUPLER_MODES[] = {"reaction", "stress_shell", "penalty_shell", NULL};
+static const CouplerActions *const ACTIONS[] = {&COUPLER_ACTIONS_REACTION, &COUPLER_ACTIONS_STRESS_SHELL,
+                                                &COUPLER_ACTIONS_PENALTY_SHELL};
+
+PetscErrorCode CouplerCreate(MPI_Comm comm, const CouplerOptions *options, Coupler *coupler)
+{
+  Coupler c;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscNew(&c));
+  c->comm = comm;
+  c->options = *options;
+  c->actions = ACTIONS[options->mode];
+  PetscCall(ShellCreate(comm, options->thickness, &c->shell));
+  PetscCall(OverlapCreate(comm, &c->overlap));
+  *coupler = c;
+  PetscFunctionReturn(0);
+}
+
+/* The old element that holds point p, or -1. */
+static int Locate(const Overlap o, const double p[2])
+{
+  const GeometryBox box = {{p[0], p[1]}, {p[0], p[1]}};
+  const int *hit, n = o->search ? SearchQuery(o->search, &box, &hit) : 0;
+  for (int h = 0; h < n; h++) {
+    double lambda[3];
+    GeometryBarycentric((const double(*)[2])o->x[hit[h]], p, lambda);
+    if (fmin(lambda[0], fmin(lambda[1], lambda[2])) >= -1e-12) return hit[h];
+  }
+  return -1;
+}
+
+/* Mean of what all ranks know, for elements that are new to the region. */
+static PetscErrorCode MeanViscosity(Coupler c, double *mean)
+{
+  double sum[2] = {0.0, c->overlap->nelements};
+
+  PetscFunctionBeginUser;
+  for (int k = 0; k < c->overlap->nelements; k++) sum[0] += c->mu[k];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, c->comm));
+  *mean = sum[1] > 0.0 ? sum[0] / sum[1] : c->options.viscosity;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CouplerSetElements(Coupler c, const ServerElements *elements)
+{
+  double mean, *mu;
+
+  PetscFunctionBeginUser;
+  PetscCall(MeanViscosity(c, &mean));
+  PetscCall(PetscMalloc1(elements->n, &mu));
+  for (int k = 0; k < elements->n; k++) {
+    const double *x = &elements->x[6 * k];
+    const double centre[2] = {(x[0] + x[2] + x[4]) / 3.0, (x[1] + x[3] + x[5]) / 3.0};
+    const int old = Locate(c->overlap, centre);
+    mu[k] = old >= 0 ? c->mu[old] : mean;
+  }
+  PetscCall(PetscFree(c->mu));
+  c->mu = mu;
+  PetscCall(OverlapSetElements(c->overlap, elements));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FreeStep(Coupler c)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscFree2(c->weight, c->coupling));
+  PetscCall(PetscFree3(c->vertex, c->node, c->force));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CouplerBuild(Coupler c, const ServerSolid *solid, double dt, int *n,
+                            const CoracleCoupling **coupling)
+{
+  const Overlap o = c->overlap;
+
+  PetscFunctionBeginUser;
+  PetscCall(ShellExtrude(c->shell, solid, solid->changed || !c->built ? PETSC_TRUE : PETSC_FALSE));
+  PetscCall(OverlapBuild(o, solid, c->shell));
+  PetscCall(FreeStep(c));
+  PetscCall(PetscMalloc2(o->pairs.n, &c->weight, o->nentries, &c->coupling));
+  PetscCall(PetscMalloc3(3 * (size_t)o->npieces, &c->vertex, solid->nnodes, &c->node,
+                         2 * (size_t)solid->nnodes, &c->force));
+  c->built = 1;
+  c->dt = dt;
+  c->nnodes = solid->nnodes;
+  c->us = solid->u;
+  PetscCall(c->actions->weigh(c));
+  WallTermAssemble(o, c->weight, c->coupling);
+  *n = o->nentries;
+  *coupling = c->coupling;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CouplerReact(Coupler c, const ServerFlow *flow, const double **force, ForceTotals *totals)
+{
+  PetscFunctionBeginUser;
+  c->flow = *flow;
+  PetscCall(PetscArraycpy(c->mu, flow->mu, c->overlap->nelements));
+  PetscCall(PetscArrayzero(c->vertex, 3 * (size_t)c->overlap->npieces));
+  PetscCall(c->actions->react(c));
+  for (int i = 0; i < c->nnodes; i++) {
+    for (int d = 0; d < 2; d++) c->force[2 * i + d] = c->node[i].reaction[d] + c->node[i].rest[d];
+  }
+  PetscCall(ForceSum(c->overlap, c->coupling, flow->u_star, c->nnodes, c->node, totals));
+  *force = c->force;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CouplerLeaveFluid(Coupler c, const ServerSolid *moved)
+{
+  PetscFunctionBeginUser;
+  ForceNoCorrection(c->overlap, c->coupling, c->flow.u_plus, c->correction);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CouplerCorrect(Coupler c, const ServerSolid *moved, int *n,
+                              const CoracleCorrection **correction)
+{
+  int changed = moved->changed;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, c->comm));
+  PetscCall(PetscFree(c->correction));
+  PetscCall(PetscMalloc1(c->overlap->nentries, &c->correction));
+  PetscCall(changed ? CouplerLeaveFluid(c, moved) : c->actions->correct(c, moved));
+  *n = c->overlap->nentries;
+  *correction = c->correction;
+  PetscFunctionReturn(0);
+}
+
+Shell CouplerShell(Coupler c)
+{
+  return c->shell;
+}
+Overlap CouplerOverlap(Coupler c)
+{
+  return c->overlap;
+}
+
+PetscErrorCode CouplerDestroy(Coupler *coupler)
+{
+  PetscFunctionBeginUser;
+  if (!*coupler) PetscFunctionReturn(0);
+  PetscCall(FreeStep(*coupler));
+  PetscCall(PetscFree((*coupler)->correction));
+  PetscCall(ShellDestroy(&(*coupler)->shell));
+  PetscCall(OverlapDestroy(&(*coupler)->overlap));
+  PetscCall(PetscFree((*coupler)->mu));
+  PetscCall(PetscFree(*coupler));
+  PetscFunctionReturn(0);
+}

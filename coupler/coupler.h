@@ -1,0 +1,54 @@
+/* The coupler: takes the solid's motion and the fluid's flow, gives the fluid its coupling term and the solid
+ * its force.  It knows no messages (scheme_staggered.c does); everything is collective over its communicator.
+ * One step:
+ *
+ *     CouplerBuild     solid at t^n, dt            ->  coupling of every fluid element that the solid or its
+ * shell touches CouplerReact     the fluid's u*, u+, p, mu   ->  force on the solid's nodes CouplerCorrect
+ * the solid's new velocity    ->  correction of the fluid, on the overlap of CouplerBuild
+ *
+ * Modes (method.md sections 3, 4, 8, 9):
+ *     reaction       the solid's inside is held by sigma = relaxation rho_f / dt, its surface by the wall
+ * term; the force is the reaction to both, plus the inertia of the fluid inside and buoyancy.  Conservative.
+ *     stress_shell   the paper, literal: wall term in the shell only, from the viscosity projected to the
+ * surface; force by the surface integral of [43], [44]. penalty_shell  Vire, Xiang, Pain 2015: a = rho_f / dt
+ * I in the shell only; force the reaction to it plus the surface integral of the pressure. */
+#ifndef CORACLE_COUPLER_H
+#define CORACLE_COUPLER_H
+#include "force.h"
+
+typedef struct Coupler_s *Coupler;
+
+typedef enum { COUPLER_REACTION, COUPLER_STRESS_SHELL, COUPLER_PENALTY_SHELL } CouplerMode;
+/* The modes' names in a case file, in the order of the enumeration, ended by NULL. */
+extern const char *const COUPLER_MODES[];
+
+typedef struct {
+  CouplerMode mode;
+  double thickness;  /* of the shell, dr, m */
+  double relaxation; /* sigma dt / rho_f, used by the mode reaction */
+  double gravity[2]; /* m/s2 */
+  double viscosity;  /* Pa s, on elements whose viscosity no flow has told yet: those of the first step */
+} CouplerOptions;
+
+PetscErrorCode CouplerCreate(MPI_Comm comm, const CouplerOptions *options, Coupler *coupler);
+/* The fluid's elements near the solid (copied).  Viscosities known on the elements before are carried over by
+ * place. */
+PetscErrorCode CouplerSetElements(Coupler coupler, const ServerElements *elements);
+/* The coupling over the coming step of dt seconds with the solid as it is: one entry per touched element. The
+ * solid's arrays are used until CouplerReact has returned; coupling is borrowed until the next CouplerBuild.
+ */
+PetscErrorCode CouplerBuild(Coupler coupler, const ServerSolid *solid, double dt, int *n,
+                            const CoracleCoupling **coupling);
+/* The force on the solid's nodes [nnodes][2], N, borrowed until the next CouplerBuild; the flow's arrays are
+ * used until CouplerCorrect has returned. */
+PetscErrorCode CouplerReact(Coupler coupler, const ServerFlow *flow, const double **force,
+                            ForceTotals *totals);
+/* One entry per entry of CouplerBuild.  After fracture (moved->changed) the old overlap has no new velocity
+ * and the fluid is left as it is for this step.  Borrowed until the next CouplerCorrect. */
+PetscErrorCode CouplerCorrect(Coupler coupler, const ServerSolid *moved, int *n,
+                              const CoracleCorrection **correction);
+/* For output and tests, borrowed until the next CouplerBuild. */
+Shell CouplerShell(Coupler coupler);
+Overlap CouplerOverlap(Coupler coupler);
+PetscErrorCode CouplerDestroy(Coupler *coupler);
+#endif

@@ -1,0 +1,33 @@
+#include "coupler_case.h"
+#include <math.h>
+#include <stdio.h>
+
+static void ReadOptions(Case file, CouplerOptions *o)
+{
+  o->mode = (CouplerMode)CaseWord(file, "coupler.mode", COUPLER_REACTION, COUPLER_MODES);
+  o->thickness = CasePositive(file, "coupler.shell_thickness");
+  o->relaxation = CaseNumberOr(file, "coupler.relaxation", 10.0, 0.0, HUGE_VAL);
+  if (o->relaxation <= 0.0)
+    CaseRefuse(file, "coupler.relaxation", "expected a number > 0, found %g", o->relaxation);
+  CaseVector(file, "gravity", 2, o->gravity);
+  /* The fluid tells its viscosity with its first flow; until then a single-phase fluid's is the case file's.
+   */
+  o->viscosity = CaseHas(file, "fluid.viscosity") ? CasePositive(file, "fluid.viscosity") : 0.0;
+}
+
+PetscErrorCode CouplerCaseRead(Case file, CouplerCase *c)
+{
+  static const char *const SECTIONS[] = {"case", "gravity", "time", "coupler", "output", NULL};
+
+  PetscFunctionBeginUser;
+  snprintf(c->name, sizeof c->name, "%s", CaseString(file, "case"));
+  snprintf(c->folder, sizeof c->folder, "%s", CaseString(file, "output.folder"));
+  c->every = CasePositive(file, "output.every");
+  c->end = CasePositive(file, "time.end");
+  c->dt_max = CasePositive(file, "time.dt_max");
+  /* the fluid's, read here so that the whole section can be checked */
+  (void)CaseNumberOr(file, "time.cfl", 0.5, 0.0, HUGE_VAL);
+  ReadOptions(file, &c->options);
+  PetscCall(CaseFinish(file, SECTIONS));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,41 @@
+/* The inside of the coupler, for its modes. */
+#ifndef CORACLE_COUPLER_IMPL_H
+#define CORACLE_COUPLER_IMPL_H
+#include "coupler.h"
+
+/* What a mode decides; each function is collective. */
+typedef struct {
+  PetscErrorCode (*weigh)(Coupler);                             /* fills weight */
+  PetscErrorCode (*react)(Coupler);                             /* fills node from flow */
+  PetscErrorCode (*correct)(Coupler, const ServerSolid *moved); /* fills correction */
+} CouplerActions;
+
+struct Coupler_s {
+  MPI_Comm comm;
+  CouplerOptions options;
+  const CouplerActions *actions;
+  Shell shell;
+  Overlap overlap;
+  double *mu;         /* [overlap->nelements] Pa s */
+  double dt;          /* of the step that was built, s */
+  int built, nnodes;  /* nodes at home */
+  const double *us;   /* [nnodes][2] the velocity that the fluid was given; borrowed from ServerSolid */
+  ServerFlow flow;    /* borrowed */
+  WallWeight *weight; /* [overlap->pairs.n] */
+  CoracleCoupling *coupling;     /* [overlap->nentries] */
+  CoracleCorrection *correction; /* [overlap->nentries] */
+  ForceVertex *vertex;           /* [overlap->npieces][3] */
+  ForceVertex *node;             /* [nnodes] */
+  double *force;                 /* [nnodes][2] */
+};
+
+extern const CouplerActions COUPLER_ACTIONS_REACTION, COUPLER_ACTIONS_STRESS_SHELL,
+    COUPLER_ACTIONS_PENALTY_SHELL;
+
+/* The correction of the modes that leave the fluid alone. */
+PetscErrorCode CouplerLeaveFluid(Coupler coupler, const ServerSolid *moved);
+/* Adds the surface integral of -p n [43] to node.rest. */
+PetscErrorCode CouplerAddSurfacePressure(Coupler coupler);
+/* P1 values of the P2 pressure p[6] on one element: its L2 projection. */
+void CouplerPressureP1(const double p[6], double p1[3]);
+#endif

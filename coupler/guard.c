@@ -1,0 +1,65 @@
+#include "guard.h"
+#include <math.h>
+#include <stdio.h>
+
+/* Density ratio of a free body that moved like this: m (dv/dt - g) = F, m over the displaced fluid's mass. */
+static double DensityRatio(const GuardStep *s, const double change[2])
+{
+  double b[2], along = 0.0, square = 0.0;
+  for (int c = 0; c < 2; c++) {
+    b[c] = change[c] / s->dt - s->gravity[c];
+    along += s->force[c] * b[c];
+    square += b[c] * b[c];
+  }
+  return square > 0.0 && s->displaced > 0.0 ? along / square / s->displaced : 0.0;
+}
+
+static int IsFinite(const GuardStep *s)
+{
+  return isfinite(s->velocity[0]) && isfinite(s->velocity[1]) && isfinite(s->force[0]) &&
+         isfinite(s->force[1]);
+}
+
+/* Counts alternating, growing changes; a change that a step of free fall could make is too small to matter.
+ */
+static int Alternates(Guard *g, const GuardStep *s, const double change[2])
+{
+  const double size = hypot(change[0], change[1]), before = hypot(g->change[0], g->change[1]);
+  const int opposite = change[0] * g->change[0] + change[1] * g->change[1] < -0.5 * size * before;
+  g->alternations = opposite && size > GUARD_GROWTH * before ? g->alternations + 1 : 0;
+  return g->alternations >= GUARD_ALTERNATIONS && size > hypot(s->gravity[0], s->gravity[1]) * s->dt;
+}
+
+int GuardCheck(Guard *g, const GuardStep *s, int nmessage, char message[])
+{
+  double change[2];
+  if (!IsFinite(s)) {
+    snprintf(message, (size_t)nmessage, "at t = %g s the force on the solid or its velocity is not a number",
+             s->t);
+    return 1;
+  }
+  if (hypot(s->velocity[0], s->velocity[1]) * s->dt > s->extent) {
+    snprintf(message, (size_t)nmessage,
+             "at t = %g s the solid moves at (%g, %g) m/s, more than the fluid's whole domain in one step",
+             s->t, s->velocity[0], s->velocity[1]);
+    return 1;
+  }
+  for (int c = 0; c < 2; c++) change[c] = s->velocity[c] - g->velocity[c];
+  /* the first step's change is against an initial velocity that is not known here */
+  const int diverges = g->nsteps > 0 && Alternates(g, s, change);
+  if (diverges) {
+    snprintf(message, (size_t)nmessage,
+             "at t = %g s the solid's mean velocity has changed sign-alternating and growing over %d steps, "
+             "now by "
+             "(%g, %g) m/s: the added mass is too large for a staggered step (solid to fluid density ratio "
+             "about %.2g); "
+             "a heavier solid or a strong coupling scheme is needed",
+             s->t, g->alternations, change[0], change[1], DensityRatio(s, change));
+  }
+  for (int c = 0; c < 2; c++) {
+    g->change[c] = g->nsteps > 0 ? change[c] : 0.0;
+    g->velocity[c] = s->velocity[c];
+  }
+  g->nsteps++;
+  return diverges;
+}

@@ -1,0 +1,58 @@
+/* coracle-coupler: the middle of the route.  coracle-coupler case.yaml [--set key=value]...
+ *
+ *     open, read the case
+ *     run the scheme (scheme_staggered.c): each step
+ *         fluid   u*, u+, p, mu                    -->  force on the solid
+ *         solid   new position, mean velocity      -->  correction of the fluid; shell and overlap at the new
+ * position fluid   <--  correction, coupling of the next step wait for all to close, write the summary */
+#include "scheme.h"
+#include "summary.h"
+
+static void Refuse(void *server, const char *message)
+{
+  ServerFail(server, "%s", message);
+}
+
+static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const char *file,
+                            PetscErrorCode code, PetscErrorType type, const char *message, void *server)
+{
+  ServerFail(server, "%s (in %s, %s:%d)", message ? message : "an error of PETSc", function, file, line);
+}
+
+static PetscErrorCode Run(Server server, const CouplerCase *c)
+{
+  Scheme scheme = {.server = server, .c = c};
+  RecordTotals totals;
+
+  PetscFunctionBeginUser;
+  PetscCall(CouplerCreate(PETSC_COMM_WORLD, &c->options, &scheme.coupler));
+  PetscCall(RegionCreate(PETSC_COMM_WORLD, c->options.thickness, &scheme.region));
+  PetscCall(RecordCreate(PETSC_COMM_WORLD, c, &scheme.record));
+  PetscCall(SchemeStaggered(&scheme));
+  PetscCall(ServerFinish(server));
+  PetscCall(RecordTotalsOf(scheme.record, CouplerOverlap(scheme.coupler)->nelements, &totals));
+  PetscCall(SummaryWrite(server, c, &totals));
+  PetscCall(RecordDestroy(&scheme.record));
+  PetscCall(RegionDestroy(&scheme.region));
+  PetscCall(CouplerDestroy(&scheme.coupler));
+  PetscFunctionReturn(0);
+}
+
+int main(int argc, char **argv)
+{
+  Server server;
+  MPI_Comm comm;
+  Case file;
+  CouplerCase c;
+  if (ServerOpen(argc, argv, &comm, &server)) return 1;
+  PETSC_COMM_WORLD = comm;
+  PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
+  PetscCall(PetscPushErrorHandler(Abort, server));
+  PetscCall(CaseOpen(argc, argv, Refuse, server, &file));
+  PetscCall(CouplerCaseRead(file, &c));
+  PetscCall(CaseClose(&file));
+  PetscCall(Run(server, &c));
+  PetscCall(PetscPopErrorHandler());
+  PetscCall(PetscFinalize());
+  return ServerClose(&server);
+}

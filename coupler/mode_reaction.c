@@ -1,0 +1,44 @@
+/* Mode reaction: sigma in the solid's volume, the wall term in its shell, and the force as the reaction to
+ * both. */
+#include "coupler_impl.h"
+
+static PetscErrorCode Weigh(Coupler c)
+{
+  const Overlap o = c->overlap;
+
+  PetscFunctionBeginUser;
+  for (int p = 0; p < o->pairs.n; p++) {
+    const int k = o->pairs.pair[p].b;
+    const OverlapPiece *piece = &o->piece[o->pairs.pair[p].a];
+    if (piece->is_shell) {
+      const double dxw = WallExtent((const double(*)[2])o->x[k], piece->normal);
+      c->weight[p] = WallWeightOf(c->mu[k] / (c->options.thickness * dxw), piece->normal);
+    } else {
+      c->weight[p] = WallWeightIsotropic(c->options.relaxation * o->rho[k] / c->dt);
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode React(Coupler c)
+{
+  PetscFunctionBeginUser;
+  ForceReaction(c->overlap, c->weight, c->flow.u_star, c->vertex);
+  ForceInertia(c->overlap, c->dt, c->options.gravity, c->flow.u_plus, c->vertex);
+  PetscCall(ForceBringHome(c->overlap, c->vertex, c->nnodes, c->node));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Correct(Coupler c, const ServerSolid *moved)
+{
+  double(*u)[3][2];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(c->overlap->npieces, &u));
+  PetscCall(OverlapNodesToPieces(c->overlap, moved->u, u));
+  ForceCorrection(c->overlap, (const double(*)[3][2])u, c->correction);
+  PetscCall(PetscFree(u));
+  PetscFunctionReturn(0);
+}
+
+const CouplerActions COUPLER_ACTIONS_REACTION = {Weigh, React, Correct};

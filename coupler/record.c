@@ -1,0 +1,162 @@
+#include "record.h"
+#include <sys/resource.h>
+
+static const char COLUMNS[] =
+    "t [s],dt [s],u_x [m/s],u_y [m/s],F_x [N],F_y [N],R_x [N],R_y [N],imbalance,pairs,"
+    "overlap [s],force [s],waiting [s]";
+
+struct Record_s {
+  MPI_Comm comm;
+  int rank, revision;
+  double end, every, next, down[2], start, said, fall_sum, fall_time;
+  Series series;
+  Output output;
+  RecordTotals totals;
+};
+
+PetscErrorCode RecordCreate(MPI_Comm comm, const CouplerCase *c, Record *record)
+{
+  const double *g = c->options.gravity, size = hypot(g[0], g[1]);
+  Record r;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscNew(&r));
+  r->comm = comm;
+  r->end = c->end;
+  r->every = c->every;
+  r->start = MPI_Wtime();
+  r->down[0] = size > 0.0 ? g[0] / size : 0.0;
+  r->down[1] = size > 0.0 ? g[1] / size : -1.0;
+  PetscCallMPI(MPI_Comm_rank(comm, &r->rank));
+  PetscCall(OutputCreate(comm, c->folder, "coupler", &r->output));
+  PetscCall(SeriesCreate(comm, c->folder, "coupler", COLUMNS, &r->series));
+  *record = r;
+  PetscFunctionReturn(0);
+}
+
+/* Every facet's two triangles with four nodes of their own, so that no rank needs another's. */
+static PetscErrorCode WriteShell(Record r, const Shell shell, const ServerSolid *solid)
+{
+  const int nf = shell->nfacets;
+  double(*x)[2], (*u)[2], (*normal)[2];
+  int(*cell)[3];
+
+  PetscFunctionBeginUser;
+  PetscCall(
+      PetscMalloc4(4 * (size_t)nf, &x, 4 * (size_t)nf, &u, 2 * (size_t)nf, &normal, 2 * (size_t)nf, &cell));
+  for (int e = 0; e < nf; e++) {
+    const double *corner[4] = {shell->x[2 * e][0], shell->x[2 * e][1], shell->x[2 * e][2],
+                               shell->x[2 * e + 1][2]};
+    const int node[4] = {shell->node[2 * e][0], shell->node[2 * e][1], shell->node[2 * e][2],
+                         shell->node[2 * e + 1][2]};
+    const int cells[2][3] = {{4 * e, 4 * e + 1, 4 * e + 2}, {4 * e, 4 * e + 2, 4 * e + 3}};
+    for (int i = 0; i < 4; i++) {
+      PetscCall(PetscArraycpy(x[4 * e + i], corner[i], 2));
+      PetscCall(PetscArraycpy(u[4 * e + i], &solid->u[2 * node[i]], 2));
+    }
+    for (int t = 0; t < 2; t++) {
+      PetscCall(PetscArraycpy(normal[2 * e + t], shell->normal[e], 2));
+      PetscCall(PetscArraycpy(cell[2 * e + t], cells[t], 3));
+    }
+  }
+  PetscCall(OutputGrid(r->output, "shell", r->revision++, 4 * nf, (double *)x, 2 * nf, 3, (int *)cell));
+  PetscCall(OutputField(r->output, "velocity", OUTPUT_NODE, 2, (double *)u));
+  PetscCall(OutputField(r->output, "normal", OUTPUT_CELL, 2, (double *)normal));
+  PetscCall(PetscFree4(x, u, normal, cell));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RecordShell(Record r, double t, const Coupler coupler, const ServerSolid *solid)
+{
+  PetscFunctionBeginUser;
+  if (t < r->next * (1.0 - 1e-12) && t < r->end) PetscFunctionReturn(0);
+  while (r->next <= t) r->next += r->every;
+  PetscCall(OutputBegin(r->output, t));
+  PetscCall(WriteShell(r, CouplerShell(coupler), solid));
+  PetscCall(OutputEnd(r->output));
+  PetscFunctionReturn(0);
+}
+
+/* About once a second, and at the end. */
+static void Say(Record r, const RecordedStep *s)
+{
+  const double now = MPI_Wtime(), spent = now - r->start;
+  if (r->rank || (now - r->said < 1.0 && s->t < r->end)) return;
+  r->said = now;
+  printf("coracle: t %.5g s of %g, step %lld, dt %.3g s, solid at (%.4g, %.4g) m/s, %.0f s done, about %.0f "
+         "s to go\n",
+         s->t, r->end, r->totals.steps, s->dt, s->motion.velocity[0], s->motion.velocity[1], spent,
+         spent * (r->end - s->t) / s->t);
+  fflush(stdout);
+}
+
+PetscErrorCode RecordStep(Record r, const RecordedStep *s)
+{
+  const double *u = s->motion.velocity, *force = s->totals.force, *reaction = s->totals.reaction;
+  const double row[] = {s->t,
+                        s->dt,
+                        u[0],
+                        u[1],
+                        force[0],
+                        force[1],
+                        reaction[0],
+                        reaction[1],
+                        s->totals.imbalance,
+                        (double)s->totals.npairs,
+                        s->overlap,
+                        s->force,
+                        s->waiting};
+  /* how much of the step lies in the last 5 % of the time */
+  const double late = PetscMax(0.0, s->t - PetscMax(s->t - s->dt, 0.95 * r->end));
+
+  PetscFunctionBeginUser;
+  r->fall_time += late;
+  r->fall_sum += late * (u[0] * r->down[0] + u[1] * r->down[1]);
+  r->totals.steps++;
+  r->totals.end = s->t;
+  r->totals.imbalance = PetscMax(r->totals.imbalance, s->totals.imbalance);
+  r->totals.overlap += s->overlap;
+  r->totals.force += s->force;
+  r->totals.waiting += s->waiting;
+  r->totals.nelements = s->motion.nelements;
+  r->totals.nfacets = s->motion.nfacets;
+  PetscCall(SeriesRow(r->series, row));
+  Say(r, s);
+  PetscFunctionReturn(0);
+}
+
+static double CpuSeconds(void)
+{
+  struct rusage use;
+  getrusage(RUSAGE_SELF, &use);
+  return (double)(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
+         1e-6 * (double)(use.ru_utime.tv_usec + use.ru_stime.tv_usec);
+}
+
+PetscErrorCode RecordTotalsOf(Record r, int nfluid, RecordTotals *totals)
+{
+  double sum[2] = {CpuSeconds(), nfluid}, most[3] = {r->totals.overlap, r->totals.force, r->totals.waiting};
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, r->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most, 3, MPI_DOUBLE, MPI_MAX, r->comm));
+  *totals = r->totals;
+  totals->terminal = r->fall_time > 0.0 ? r->fall_sum / r->fall_time : NAN;
+  totals->wall = MPI_Wtime() - r->start;
+  totals->cpu = sum[0];
+  totals->nfluid = (long long)sum[1];
+  totals->overlap = most[0];
+  totals->force = most[1];
+  totals->waiting = most[2];
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RecordDestroy(Record *record)
+{
+  PetscFunctionBeginUser;
+  if (!*record) PetscFunctionReturn(0);
+  PetscCall(OutputDestroy(&(*record)->output));
+  PetscCall(SeriesDestroy(&(*record)->series));
+  PetscCall(PetscFree(*record));
+  PetscFunctionReturn(0);
+}

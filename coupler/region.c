@@ -1,0 +1,133 @@
+#include "region.h"
+#include "geometry.h"
+#include "shell.h"
+#include <limits.h>
+
+PetscErrorCode RegionCreate(MPI_Comm comm, double thickness, Region *region)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscNew(region));
+  (*region)->comm = comm;
+  (*region)->thickness = thickness;
+  PetscFunctionReturn(0);
+}
+
+/* Boxes as {-lower, upper}, so that one MPI_MAX joins them over the ranks. */
+static PetscErrorCode JoinBoxes(MPI_Comm comm, int n, GeometryBox box[])
+{
+  PetscFunctionBeginUser;
+  for (int k = 0; k < n; k++) {
+    for (int c = 0; c < 2; c++) box[k].lower[c] *= -1.0;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, box, 4 * n, MPI_DOUBLE, MPI_MAX, comm));
+  for (int k = 0; k < n; k++) {
+    for (int c = 0; c < 2; c++) box[k].lower[c] *= -1.0;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Grows the box of the cluster (a cell of an 8 x 8 grid on the whole solid) that holds the simplex's centre.
+ */
+static void AddSimplex(const GeometryBox *whole, int n, const int node[], const double x[],
+                       GeometryBox cluster[])
+{
+  int cell[2];
+  for (int c = 0; c < 2; c++) {
+    const double extent = whole->upper[c] - whole->lower[c];
+    double centre = 0.0;
+    for (int i = 0; i < n; i++) centre += x[2 * node[i] + c] / n;
+    cell[c] = extent > 0.0 ? (int)(REGION_SIDE * (centre - whole->lower[c]) / extent) : 0;
+    cell[c] = PetscMin(PetscMax(cell[c], 0), REGION_SIDE - 1);
+  }
+  for (int i = 0; i < n; i++) GeometryBoxGrow(&cluster[cell[0] + REGION_SIDE * cell[1]], &x[2 * node[i]]);
+}
+
+static PetscErrorCode Clusters(Region r, const ServerSolid *solid, GeometryBox cluster[REGION_BOXES])
+{
+  GeometryBox whole = GeometryBoxEmpty();
+
+  PetscFunctionBeginUser;
+  for (int i = 0; i < solid->nnodes; i++) GeometryBoxGrow(&whole, &solid->x[2 * i]);
+  PetscCall(JoinBoxes(r->comm, 1, &whole));
+  for (int k = 0; k < REGION_BOXES; k++) cluster[k] = GeometryBoxEmpty();
+  for (int t = 0; t < solid->nelements; t++) AddSimplex(&whole, 3, &solid->element[3 * t], solid->x, cluster);
+  for (int e = 0; e < solid->nfacets; e++) AddSimplex(&whole, 2, &solid->facet[2 * e], solid->x, cluster);
+  PetscCall(JoinBoxes(r->comm, REGION_BOXES, cluster));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RegionUpdate(Region r, const ServerSolid *solid)
+{
+  GeometryBox cluster[REGION_BOXES];
+  double area = 0.0;
+
+  PetscFunctionBeginUser;
+  PetscCall(Clusters(r, solid, cluster));
+  r->nbox = 0;
+  for (int k = 0; k < REGION_BOXES; k++) {
+    if (cluster[k].lower[0] > cluster[k].upper[0]) continue;
+    area += (cluster[k].upper[0] - cluster[k].lower[0]) * (cluster[k].upper[1] - cluster[k].lower[1]);
+    PetscCall(PetscArraycpy(r->box[r->nbox][0], cluster[k].lower, 2));
+    PetscCall(PetscArraycpy(r->box[r->nbox++][1], cluster[k].upper, 2));
+  }
+  r->margin = PetscMax(0.2 * sqrt(area), 8.0 * r->thickness);
+  for (int k = 0; k < r->nbox; k++) {
+    for (int c = 0; c < 2; c++) {
+      r->box[k][0][c] -= r->margin + SHELL_OFFSET_LIMIT * r->thickness;
+      r->box[k][1][c] += r->margin + SHELL_OFFSET_LIMIT * r->thickness;
+    }
+  }
+  PetscCall(PetscFree(r->x));
+  PetscCall(PetscMalloc1(2 * (size_t)solid->nnodes, &r->x));
+  PetscCall(PetscArraycpy(r->x, solid->x, 2 * (size_t)solid->nnodes));
+  r->n = solid->nnodes;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RegionStale(Region r, const ServerSolid *solid, PetscBool *stale)
+{
+  int local = solid->changed || solid->nnodes != r->n, any;
+
+  PetscFunctionBeginUser;
+  for (int i = 0; i < solid->nnodes && !local; i++) {
+    /* not <=: a node at NaN is stale too */
+    local = !(hypot(solid->x[2 * i] - r->x[2 * i], solid->x[2 * i + 1] - r->x[2 * i + 1]) <= r->margin);
+  }
+  PetscCallMPI(MPI_Allreduce(&local, &any, 1, MPI_INT, MPI_MAX, r->comm));
+  *stale = any ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RegionOutside(Region r, const ServerSolid *solid, const ServerElements *elements,
+                             long long *gid, int *local)
+{
+  struct {
+    long value;
+    int rank;
+  } mine = {LONG_MAX, 0}, first;
+  int found = -1;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(r->comm, &mine.rank));
+  for (int i = 0; i < solid->nnodes; i++) {
+    const double *x = &solid->x[2 * i];
+    const int inside = x[0] >= elements->lower[0] && x[0] <= elements->upper[0] &&
+                       x[1] >= elements->lower[1] && x[1] <= elements->upper[1];
+    if (inside || solid->gid[i] >= mine.value) continue;
+    mine.value = (long)solid->gid[i];
+    found = i;
+  }
+  PetscCallMPI(MPI_Allreduce(&mine, &first, 1, MPI_LONG_INT, MPI_MINLOC, r->comm));
+  *gid = first.value == LONG_MAX ? -1 : first.value;
+  *local = *gid >= 0 && first.rank == mine.rank ? found : -1;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RegionDestroy(Region *region)
+{
+  PetscFunctionBeginUser;
+  if (!*region) PetscFunctionReturn(0);
+  PetscCall(PetscFree((*region)->x));
+  PetscCall(PetscFree(*region));
+  PetscFunctionReturn(0);
+}

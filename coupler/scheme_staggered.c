@@ -1,0 +1,167 @@
+#include "guard.h"
+#include "scheme.h"
+
+/* What lives from one step to the next. */
+typedef struct {
+  const Scheme *scheme;
+  ServerSolid solid;
+  ServerElements elements;
+  Guard guard;
+  double t, dt;
+} March;
+
+/* Asks the fluid for its elements near the solid. */
+static PetscErrorCode AskElements(March *m)
+{
+  const Scheme *s = m->scheme;
+
+  PetscFunctionBeginUser;
+  PetscCall(RegionUpdate(s->region, &m->solid));
+  PetscCall(ServerAskElements(s->server, s->region->nbox, &s->region->box[0][0][0], &m->elements));
+  PetscCall(CouplerSetElements(s->coupler, &m->elements));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode AskElementsIfNeeded(March *m)
+{
+  PetscBool stale;
+
+  PetscFunctionBeginUser;
+  PetscCall(RegionStale(m->scheme->region, &m->solid, &stale));
+  if (stale || ServerElementsChanged(m->scheme->server)) PetscCall(AskElements(m));
+  PetscFunctionReturn(0);
+}
+
+/* At the start the whole solid must be in the fluid. */
+static PetscErrorCode CheckInside(March *m)
+{
+  const double *lower = m->elements.lower, *upper = m->elements.upper;
+  long long gid;
+  int local;
+
+  PetscFunctionBeginUser;
+  PetscCall(RegionOutside(m->scheme->region, &m->solid, &m->elements, &gid, &local));
+  if (local >= 0) {
+    ServerFail(m->scheme->server,
+               "the solid's node %lld at (%g, %g) lies outside of the fluid domain [%g, %g] x [%g, %g]", gid,
+               m->solid.x[2 * local], m->solid.x[2 * local + 1], lower[0], upper[0], lower[1], upper[1]);
+  }
+  /* the others wait here for the end of the job */
+  if (gid >= 0) PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
+  PetscFunctionReturn(0);
+}
+
+/* The fluid's proposal within the case's bounds.  The last step ends exactly at the end, and the one before
+ * it is cut so that the last is no sliver. */
+static double NextStep(const March *m)
+{
+  const double left = m->scheme->c->end - m->t;
+  const double wanted = fmin(ServerProposedStep(m->scheme->server), m->scheme->c->dt_max);
+  if (!(wanted > 0.0))
+    ServerFail(m->scheme->server, "at t = %g s the fluid proposes a time step of %g s", m->t, wanted);
+  if (left <= wanted * (1.0 + 1e-9)) return left;
+  return left < 2.0 * wanted ? 0.5 * left : wanted;
+}
+
+static PetscErrorCode Watch(March *m, const RecordedStep *step)
+{
+  GuardStep seen = {.t = step->t, .dt = step->dt, .displaced = step->totals.displaced};
+  char message[512];
+
+  PetscFunctionBeginUser;
+  for (int c = 0; c < 2; c++) {
+    seen.velocity[c] = step->motion.velocity[c];
+    seen.force[c] = step->totals.force[c];
+    seen.gravity[c] = m->scheme->c->options.gravity[c];
+    seen.extent = hypot(seen.extent, m->elements.upper[c] - m->elements.lower[c]);
+  }
+  if (GuardCheck(&m->guard, &seen, sizeof message, message)) ServerFail(m->scheme->server, "%s", message);
+  PetscFunctionReturn(0);
+}
+
+/* The coupling of the coming step, and the correction of the one just made. */
+static PetscErrorCode SendCoupling(March *m, int ncorrection, const CoracleCorrection correction[])
+{
+  const Scheme *s = m->scheme;
+  const CoracleCoupling *coupling;
+  int n;
+
+  PetscFunctionBeginUser;
+  m->dt = NextStep(m);
+  PetscCall(CouplerBuild(s->coupler, &m->solid, m->dt, &n, &coupling));
+  PetscCall(RecordShell(s->record, m->t, s->coupler, &m->solid));
+  PetscCall(ServerSendCoupling(s->server, m->t, m->dt, CORACLE_RUN, ncorrection, correction, n, coupling));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Start(March *m)
+{
+  PetscFunctionBeginUser;
+  PetscCall(ServerReceiveSolid(m->scheme->server, &m->solid));
+  PetscCall(AskElements(m));
+  PetscCall(CheckInside(m));
+  PetscCall(SendCoupling(m, 0, NULL));
+  PetscFunctionReturn(0);
+}
+
+/* Fluid -> coupler -> solid -> coupler: what remains is to send the fluid its correction and the next
+ * coupling. */
+static PetscErrorCode Exchange(March *m, RecordedStep *step, int *n, const CoracleCorrection **correction)
+{
+  const Scheme *s = m->scheme;
+  const double *force;
+  ServerFlow flow;
+
+  PetscFunctionBeginUser;
+  PetscCall(ServerReceiveFlow(s->server, &flow));
+  const double start = MPI_Wtime();
+  PetscCall(CouplerReact(s->coupler, &flow, &force, &step->totals));
+  step->force = MPI_Wtime() - start;
+  PetscCall(ServerSendForce(s->server, m->t, m->dt, CORACLE_RUN, force));
+  PetscCall(ServerReceiveSolid(s->server, &m->solid));
+  PetscCall(CouplerCorrect(s->coupler, &m->solid, n, correction));
+  PetscCall(MotionOf(PETSC_COMM_WORLD, &m->solid, &step->motion));
+  step->dt = m->dt;
+  m->t = m->t + m->dt >= s->c->end * (1.0 - 1e-14) ? s->c->end : m->t + m->dt;
+  step->t = m->t;
+  PetscCall(Watch(m, step));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Stop(March *m, int ncorrection, const CoracleCorrection correction[])
+{
+  double *none;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(2 * (size_t)m->solid.nnodes, &none));
+  PetscCall(ServerSendCoupling(m->scheme->server, m->t, 0.0, CORACLE_STOP, ncorrection, correction, 0, NULL));
+  PetscCall(ServerSendForce(m->scheme->server, m->t, 0.0, CORACLE_STOP, none));
+  PetscCall(PetscFree(none));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SchemeStaggered(const Scheme *s)
+{
+  March m = {.scheme = s};
+  double waited, built;
+  const CoracleCorrection *correction;
+  int n;
+
+  PetscFunctionBeginUser;
+  PetscCall(Start(&m));
+  while (m.t < s->c->end) {
+    RecordedStep step = {0};
+    waited = ServerWaited(s->server);
+    PetscCall(Exchange(&m, &step, &n, &correction));
+    if (m.t < s->c->end) {
+      built = MPI_Wtime() - ServerWaited(s->server);
+      PetscCall(AskElementsIfNeeded(&m));
+      PetscCall(SendCoupling(&m, n, correction));
+      step.overlap = MPI_Wtime() - ServerWaited(s->server) - built;
+    }
+    step.waiting = ServerWaited(s->server) - waited;
+    PetscCall(RecordStep(s->record, &step));
+  }
+  PetscCall(Stop(&m, n, correction));
+  PetscFunctionReturn(0);
+}

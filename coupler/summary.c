@@ -1,0 +1,124 @@
+#include "summary.h"
+#include <errno.h>
+#include <string.h>
+
+#ifndef CORACLE_REVISION
+#define CORACLE_REVISION "unknown"
+#endif
+
+enum { REPORTS_MAX = 256 };
+
+typedef struct {
+  char role[32], key[64];
+  double value;
+} Report;
+
+typedef struct {
+  int n;
+  Report report[REPORTS_MAX];
+} Reports;
+
+static void Collect(void *context, const char *role, const char *key, double value)
+{
+  Reports *r = context;
+  if (r->n == REPORTS_MAX) return;
+  Report *report = &r->report[r->n++];
+  snprintf(report->role, sizeof report->role, "%s", role);
+  snprintf(report->key, sizeof report->key, "%s", key);
+  report->value = value;
+}
+
+static void Put(Reports *r, const char *key, double value)
+{
+  Collect(r, "coupler", key, value);
+}
+
+/* JSON knows no NaN. */
+static void WriteNumber(FILE *f, double value)
+{
+  if (isfinite(value)) {
+    fprintf(f, "%.17g", value);
+  } else {
+    fprintf(f, "null");
+  }
+}
+
+static void WriteString(FILE *f, const char *s)
+{
+  fputc('"', f);
+  for (; *s; s++) {
+    if (*s == '"' || *s == '\\') fputc('\\', f);
+    if ((unsigned char)*s < 0x20) {
+      fprintf(f, "\\u%04x", (unsigned)*s);
+    } else {
+      fputc(*s, f);
+    }
+  }
+  fputc('"', f);
+}
+
+static void WriteParticipant(FILE *f, const Reports *r, const char *role, int ranks)
+{
+  fprintf(f, "    \"%s\": {\"ranks\": %d", role, ranks);
+  for (int i = 0; i < r->n; i++) {
+    if (strcmp(r->report[i].role, role)) continue;
+    fprintf(f, ", ");
+    WriteString(f, r->report[i].key);
+    fprintf(f, ": ");
+    WriteNumber(f, r->report[i].value);
+  }
+  fprintf(f, "}");
+}
+
+static void WriteField(FILE *f, const char *key, double value)
+{
+  fprintf(f, "  \"%s\": ", key);
+  WriteNumber(f, value);
+  fprintf(f, ",\n");
+}
+
+static void WriteAll(FILE *f, Server server, const CouplerCase *c, const RecordTotals *t,
+                     const Reports *reports)
+{
+  static const char *const ROLES[] = {"fluid", "coupler", "solid"};
+  fprintf(f, "{\n  \"case\": ");
+  WriteString(f, c->name);
+  fprintf(f, ",\n  \"version\": \"%s\",\n  \"revision\": \"%s\",\n  \"mode\": \"%s\",\n", CORACLE_VERSION,
+          CORACLE_REVISION, COUPLER_MODES[c->options.mode]);
+  WriteField(f, "end_time", t->end);
+  WriteField(f, "steps", (double)t->steps);
+  WriteField(f, "terminal_velocity", t->terminal);
+  WriteField(f, "largest_momentum_imbalance", t->imbalance);
+  fprintf(f, "  \"elements\": {\"solid\": %lld, \"surface\": %lld, \"fluid_near_solid\": %lld},\n",
+          t->nelements, t->nfacets, t->nfluid);
+  fprintf(f, "  \"participants\": {\n");
+  for (int i = 0; i < 3; i++) {
+    WriteParticipant(f, reports, ROLES[i], ServerRanks(server, ROLES[i]));
+    fprintf(f, i < 2 ? ",\n" : "\n");
+  }
+  fprintf(f, "  }\n}\n");
+}
+
+PetscErrorCode SummaryWrite(Server server, const CouplerCase *c, const RecordTotals *t)
+{
+  static Reports reports;
+  char path[600];
+  PetscMPIInt rank;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  reports.n = 0;
+  Put(&reports, "wall_seconds", t->wall);
+  Put(&reports, "cpu_seconds", t->cpu);
+  Put(&reports, "overlap_seconds", t->overlap);
+  Put(&reports, "force_seconds", t->force);
+  Put(&reports, "waiting_seconds", t->waiting);
+  PetscCall(ServerReports(server, Collect, &reports));
+  if (rank) PetscFunctionReturn(0);
+  snprintf(path, sizeof path, "%s/summary.json", c->folder);
+  FILE *f = fopen(path, "w");
+  if (!f) ServerFail(server, "%s: %s", path, strerror(errno));
+  WriteAll(f, server, c, t, &reports);
+  if (fclose(f)) ServerFail(server, "%s: %s", path, strerror(errno));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,53 @@
+#include "wall_term.h"
+
+/* c[j] += int over the pair of N_K,j u_s, from the velocities at the piece's vertices: by component, then
+ * vertex of K. */
+static void CrossVelocity(const SupermeshPair *pair, const double u[3][2], double c[2][3])
+{
+  for (int d = 0; d < 2; d++) {
+    for (int j = 0; j < 3; j++)
+      c[d][j] = pair->ab[0][j] * u[0][d] + pair->ab[1][j] * u[1][d] + pair->ab[2][j] * u[2][d];
+  }
+}
+
+static void AddCoefficient(const WallWeight *a, const double bb[3][3], const double cu[2][3],
+                           CoracleCoupling *k)
+{
+  for (int i = 0; i < 3; i++) {
+    k->s[0][i] += a->xx * cu[0][i] + a->xy * cu[1][i];
+    k->s[1][i] += a->xy * cu[0][i] + a->yy * cu[1][i];
+    for (int j = 0; j < 3; j++) {
+      k->a[0][i][0][j] += a->xx * bb[i][j];
+      k->a[0][i][1][j] += a->xy * bb[i][j];
+      k->a[1][i][0][j] += a->xy * bb[i][j];
+      k->a[1][i][1][j] += a->yy * bb[i][j];
+    }
+  }
+}
+
+static void AddSolidMass(const double bb[3][3], const double cu[2][3], CoracleCoupling *k)
+{
+  for (int i = 0; i < 3; i++) {
+    for (int d = 0; d < 2; d++) k->us[d][i] += cu[d][i];
+    for (int j = 0; j < 3; j++) k->ms[i][j] += bb[i][j];
+  }
+}
+
+void WallTermAssemble(const Overlap o, const WallWeight weight[], CoracleCoupling coupling[])
+{
+  for (int e = 0; e < o->nentries; e++) coupling[e] = (CoracleCoupling){.element = o->element[e]};
+  for (int p = 0; p < o->pairs.n; p++) {
+    const SupermeshPair *pair = &o->pairs.pair[p];
+    const OverlapPiece *piece = &o->piece[pair->a];
+    CoracleCoupling *k = &coupling[o->entry[p]];
+    double cu[2][3];
+    CrossVelocity(pair, piece->u, cu);
+    AddCoefficient(&weight[p], pair->bb, (const double(*)[3])cu, k);
+    if (piece->is_shell) {
+      k->shell += pair->area / o->area[pair->b];
+    } else {
+      k->alpha += pair->area / o->area[pair->b];
+      AddSolidMass(pair->bb, (const double(*)[3])cu, k);
+    }
+  }
+}

@@ -1,0 +1,74 @@
+// ranks: 1 2 3
+/* The boxes hold the solid with its margin, are the same on all ranks, and are renewed when a node has left
+ * its margin; a node outside of the fluid is found by its smallest global id. */
+#include "region.h"
+#include "synthetic.h"
+
+static SyntheticSolid all, part;
+
+static void CheckBoxes(Region region)
+{
+  double other[REGION_BOXES][2][2];
+  int n = region->nbox;
+  CHECK(n > 0 && n <= REGION_BOXES, "%d boxes", n);
+  memcpy(other, region->box, sizeof other);
+  CHECK(!MPI_Bcast(&n, 1, MPI_INT, 0, PETSC_COMM_WORLD), "bcast");
+  CHECK(!MPI_Bcast(other, 4 * n, MPI_DOUBLE, 0, PETSC_COMM_WORLD), "bcast");
+  CHECK(n == region->nbox && !memcmp(other, region->box, sizeof(double[2][2]) * (size_t)n), "boxes differ");
+  for (int t = 0; t < all.nelements; t++) {
+    int inside = 0;
+    for (int b = 0; b < n && !inside; b++) {
+      inside = 1;
+      for (int i = 0; i < 3; i++) {
+        for (int c = 0; c < 2; c++) {
+          const double x = all.x[all.element[t][i]][c];
+          inside &= x - region->margin >= other[b][0][c] && x + region->margin <= other[b][1][c];
+        }
+      }
+    }
+    CHECK(inside, "element %d and its margin are in no box", t);
+  }
+}
+
+static PetscBool Stale(Region region)
+{
+  PetscBool stale;
+  CHECK(!RegionStale(region, &part.view, &stale), "stale");
+  return stale;
+}
+
+int main(int argc, char **argv)
+{
+  const double centre[2] = {0.5, 0.6}, dr = 0.001;
+  const ServerElements tank = {0, NULL, NULL, {0.0, 0.0}, {1.0, 1.0}},
+                       low = {0, NULL, NULL, {0.0, 0.0}, {1.0, 0.75}};
+  Region region;
+  long long gid;
+  int rank, size, local, found;
+  CHECK(!PetscInitialize(&argc, &argv, NULL, NULL), "PETSc");
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  SyntheticDisc(&all, centre, 0.2, 8, 60);
+  SyntheticSolidPart(&all, rank, size, &part);
+  part.view.changed = 0;
+  CHECK(!RegionCreate(PETSC_COMM_WORLD, dr, &region), "create");
+  CHECK(!RegionUpdate(region, &part.view), "update");
+  CheckBoxes(region);
+  CHECK(region->margin > 0.2 * 0.3 && region->margin < 0.2 * 0.5, "margin %g", region->margin);
+  CHECK(!Stale(region), "nothing has moved");
+  if (part.nnodes) part.x[part.nnodes - 1][1] -= 0.99 * region->margin;
+  CHECK(!Stale(region), "still within the margin");
+  if (part.nnodes && rank == 0) part.x[part.nnodes - 1][1] -= 0.02 * region->margin;
+  CHECK(Stale(region), "a node has left its margin");
+  SyntheticSolidPart(&all, rank, size, &part);
+  CHECK(!RegionOutside(region, &part.view, &tank, &gid, &local) && gid == -1 && local == -1, "inside");
+  CHECK(!RegionOutside(region, &part.view, &low, &gid, &local), "outside");
+  found = local >= 0;
+  MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT, MPI_SUM, PETSC_COMM_WORLD);
+  CHECK(found == 1, "%d ranks report", found);
+  if (local >= 0) CHECK(part.gid[local] == gid && part.x[local][1] > 0.75, "node %lld", gid);
+  for (int i = 0; i < all.nnodes; i++)
+    CHECK(all.x[i][1] <= 0.75 || all.gid[i] >= gid, "%lld is smaller", all.gid[i]);
+  CHECK(!RegionDestroy(&region), "destroy");
+  return PetscFinalize();
+}

@@ -1,0 +1,153 @@
+// ranks: 1 2 3 4
+/* Coupling, forces and corrections do not depend on how solid and fluid are dealt out to ranks (some of which
+ * are empty), in any mode; the default mode conserves momentum, solid mass and momentum of the solid on the
+ * fluid to round-off. */
+#include "synthetic.h"
+
+enum { ENTRY = 36 + 6 + 9 + 6 + 2 };
+
+static SyntheticSolid all_solid, solid, moved;
+static SyntheticFluid all_fluid, fluid;
+
+/* Everything a mode gives, by global number. */
+typedef struct {
+  double coupling[SYNTHETIC_MAX][ENTRY], correction[SYNTHETIC_MAX][6], force[SYNTHETIC_MAX][2];
+  ForceTotals totals;
+} Result;
+
+static Result alone, shared;
+
+static void MakeCase(void)
+{
+  const double centre[2] = {0.45, 0.5};
+  SyntheticDisc(&all_solid, centre, 0.31, 6, 44);
+  SyntheticFluidMake(&all_fluid, 23, 5);
+  srand(11);
+  for (int i = 0; i < all_solid.nnodes; i++) {
+    for (int c = 0; c < 2; c++) all_solid.u[i][c] = Random(-1.0, 1.0);
+  }
+  for (int k = 0; k < all_fluid.n; k++) {
+    all_fluid.rho[k] = Random(0.5, 2.0);
+    all_fluid.mu[k] = Random(0.5, 2.0);
+    for (int i = 0; i < 6; i++) {
+      all_fluid.u_star[k][i / 3][i % 3] = Random(-1.0, 1.0);
+      all_fluid.u_plus[k][i / 3][i % 3] = Random(-1.0, 1.0);
+      all_fluid.p[k][i] = Random(-1.0, 1.0);
+    }
+  }
+}
+
+static void Deal(MPI_Comm comm)
+{
+  int rank, size;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &size);
+  SyntheticSolidPart(&all_solid, rank, size, &solid);
+  SyntheticFluidPart(&all_fluid, rank, size, &fluid);
+  memcpy(&moved, &solid, sizeof solid);
+  SyntheticSolidView(&moved);
+  moved.view.changed = 0;
+  for (int i = 0; i < moved.nnodes; i++) {
+    for (int c = 0; c < 2; c++) moved.u[i][c] += sin(7.0 * (double)moved.gid[i] + c);
+  }
+}
+
+static int GlobalNode(long long gid)
+{
+  return (int)(gid - 100) / 3;
+}
+
+/* One step; two, so that the viscosities of the flow count in the wall term. */
+static void Run(MPI_Comm comm, CouplerMode mode, Result *r)
+{
+  const CouplerOptions options = {mode, 0.004, 10.0, {0.3, -9.81}, 0.7};
+  const CoracleCoupling *coupling;
+  const CoracleCorrection *correction;
+  const double *force;
+  Coupler c;
+  int n, nc;
+  memset(r, 0, sizeof *r);
+  Deal(comm);
+  CHECK(!CouplerCreate(comm, &options, &c), "create");
+  CHECK(!CouplerSetElements(c, &fluid.view), "elements");
+  for (int step = 0; step < 2; step++) {
+    CHECK(!CouplerBuild(c, &solid.view, 0.01, &n, &coupling), "build");
+    CHECK(!CouplerReact(c, &fluid.flow, &force, &r->totals), "react");
+  }
+  CHECK(!CouplerCorrect(c, &moved.view, &nc, &correction), "correct");
+  CHECK(n == nc, "%d couplings, %d corrections", n, nc);
+  for (int e = 0; e < n; e++) {
+    const int k = fluid.global[coupling[e].element];
+    CHECK(coupling[e].element == correction[e].element, "order");
+    CHECK(e == 0 || coupling[e].element > coupling[e - 1].element, "ascending");
+    memcpy(r->coupling[k], coupling[e].a, sizeof r->coupling[k]);
+    memcpy(r->correction[k], correction[e].us, sizeof r->correction[k]);
+  }
+  for (int i = 0; i < solid.nnodes; i++) {
+    for (int d = 0; d < 2; d++) r->force[GlobalNode(solid.gid[i])][d] += force[2 * i + d];
+  }
+  CHECK(!CouplerDestroy(&c), "destroy");
+  MPI_Allreduce(MPI_IN_PLACE, r->coupling, SYNTHETIC_MAX * (ENTRY + 8), MPI_DOUBLE, MPI_SUM, comm);
+}
+
+static void Compare(const char *what, int mode, int n, const double a[], const double b[])
+{
+  double scale = 0.0;
+  for (int i = 0; i < n; i++) scale = fmax(scale, fabs(a[i]));
+  CHECK(scale > 0.0, "mode %d: all %s is 0", mode, what);
+  for (int i = 0; i < n; i++) {
+    CHECK(fabs(a[i] - b[i]) <= 1e-12 * scale, "mode %d, %s %d: %.17g alone, %.17g shared", mode, what, i,
+          a[i], b[i]);
+  }
+}
+
+/* Sums over the fluid: mass and momentum of the solid, and what the couplings gave to the fluid. */
+static void CheckConservation(const Result *r)
+{
+  double area = 0.0, mass = 0.0, us[2] = {0.0}, momentum[2] = {0.0}, after[2] = {0.0}, expected[2] = {0.0};
+  for (int k = 0; k < all_fluid.n; k++) {
+    const double *entry = r->coupling[k];
+    area += entry[57] * GeometryArea((const double(*)[2])all_fluid.x[k]);
+    for (int i = 0; i < 9; i++) mass += entry[42 + i];
+    for (int i = 0; i < 6; i++) us[i / 3] += entry[51 + i];
+    for (int i = 0; i < 6; i++) after[i / 3] += r->correction[k][i];
+  }
+  for (int t = 0; t < all_solid.nelements; t++) {
+    const int *e = all_solid.element[t];
+    const double a = 0.5 * GeometryTurn(all_solid.x[e[0]], all_solid.x[e[1]], all_solid.x[e[2]]);
+    for (int i = 0; i < 3; i++) {
+      for (int c = 0; c < 2; c++) {
+        momentum[c] += a / 3.0 * all_solid.u[e[i]][c];
+        expected[c] += a / 3.0 * (all_solid.u[e[i]][c] + sin(7.0 * (double)all_solid.gid[e[i]] + c));
+      }
+    }
+  }
+  const double exact = SyntheticArea(&all_solid);
+  CHECK(fabs(area - exact) < 1e-14 && fabs(mass - exact) < 1e-14, "solid area %.17g %.17g, not %.17g", area,
+        mass, exact);
+  for (int c = 0; c < 2; c++) {
+    CHECK(fabs(us[c] - momentum[c]) < 1e-14, "momentum %d: %.17g, not %.17g", c, us[c], momentum[c]);
+    CHECK(fabs(after[c] - expected[c]) < 1e-14, "corrected momentum %d: %.17g, not %.17g", c, after[c],
+          expected[c]);
+  }
+  CHECK(r->totals.imbalance < 1e-13, "momentum imbalance %g", r->totals.imbalance);
+}
+
+int main(int argc, char **argv)
+{
+  CHECK(!PetscInitialize(&argc, &argv, NULL, NULL), "PETSc");
+  MakeCase();
+  for (int mode = 0; COUPLER_MODES[mode]; mode++) {
+    Run(PETSC_COMM_SELF, (CouplerMode)mode, &alone);
+    Run(PETSC_COMM_WORLD, (CouplerMode)mode, &shared);
+    Compare("coupling", mode, SYNTHETIC_MAX * ENTRY, &alone.coupling[0][0], &shared.coupling[0][0]);
+    Compare("correction", mode, SYNTHETIC_MAX * 6, &alone.correction[0][0], &shared.correction[0][0]);
+    Compare("force", mode, SYNTHETIC_MAX * 2, &alone.force[0][0], &shared.force[0][0]);
+    CHECK(fabs(alone.totals.displaced / shared.totals.displaced - 1.0) < 1e-13, "displaced mass");
+    if (mode == COUPLER_REACTION) CheckConservation(&shared);
+    if (mode == COUPLER_PENALTY_SHELL) CHECK(shared.totals.imbalance < 1e-12, "%g", shared.totals.imbalance);
+    if (mode == COUPLER_STRESS_SHELL)
+      CHECK(shared.totals.imbalance > 1e-6, "the measure of imbalance sees nothing");
+  }
+  return PetscFinalize();
+}
