@@ -269,7 +269,10 @@ bool CaseTreeSet(CaseNode *root, const char *argument, char problem[])
   }
   snprintf(key, sizeof key, "%.*s", (int)(equals - argument), argument);
   CaseNode *value = CaseTreeParse(equals + 1, strlen(equals + 1), label, problem);
-  if (!value) return false;
+  if (!value) {
+    snprintf(problem, CASE_MESSAGE, "%s: the value is not valid YAML", label);
+    return false;
+  }
   MarkSet(value, argument);
   CaseNode *node = EnterPath(root, key, &why);
   if (!node) {
