@@ -1,5 +1,4 @@
 #include "record.h"
-#include <sys/resource.h>
 
 static const char COLUMNS[] =
     "t [s],dt [s],u_x [m/s],u_y [m/s],F_x [N],F_y [N],R_x [N],R_y [N],imbalance,pairs,"
@@ -117,7 +116,6 @@ PetscErrorCode RecordStep(Record r, const RecordedStep *s)
   r->totals.imbalance = PetscMax(r->totals.imbalance, s->totals.imbalance);
   r->totals.overlap += s->overlap;
   r->totals.force += s->force;
-  r->totals.waiting += s->waiting;
   r->totals.nelements = s->motion.nelements;
   r->totals.nfacets = s->motion.nfacets;
   PetscCall(SeriesRow(r->series, row));
@@ -125,29 +123,19 @@ PetscErrorCode RecordStep(Record r, const RecordedStep *s)
   PetscFunctionReturn(0);
 }
 
-static double CpuSeconds(void)
-{
-  struct rusage use;
-  getrusage(RUSAGE_SELF, &use);
-  return (double)(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
-         1e-6 * (double)(use.ru_utime.tv_usec + use.ru_stime.tv_usec);
-}
-
 PetscErrorCode RecordTotalsOf(Record r, int nfluid, RecordTotals *totals)
 {
-  double sum[2] = {CpuSeconds(), nfluid}, most[3] = {r->totals.overlap, r->totals.force, r->totals.waiting};
+  double most[2] = {r->totals.overlap, r->totals.force};
+  long long sum = nfluid;
 
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, r->comm));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most, 3, MPI_DOUBLE, MPI_MAX, r->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_LONG_LONG, MPI_SUM, r->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, r->comm));
   *totals = r->totals;
   totals->terminal = r->fall_time > 0.0 ? r->fall_sum / r->fall_time : NAN;
-  totals->wall = MPI_Wtime() - r->start;
-  totals->cpu = sum[0];
-  totals->nfluid = (long long)sum[1];
+  totals->nfluid = sum;
   totals->overlap = most[0];
   totals->force = most[1];
-  totals->waiting = most[2];
   PetscFunctionReturn(0);
 }
 

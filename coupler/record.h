@@ -16,11 +16,10 @@ typedef struct {
 
 typedef struct {
   long long steps;
-  double imbalance; /* the largest */
-  double end;       /* s, time reached */
-  double terminal;  /* m/s, mean downward velocity over the last 5 % of the time */
-  double wall, cpu, overlap, force,
-      waiting; /* seconds: wall of rank 0, cpu of all ranks, the rest largest of all ranks */
+  double imbalance;                     /* the largest */
+  double end;                           /* s, time reached */
+  double terminal;                      /* m/s, mean downward velocity over the last 5 % of the time */
+  double overlap, force;                /* seconds, largest of all ranks */
   long long nelements, nfacets, nfluid; /* solid elements, facets, fluid elements near the solid at the end */
 } RecordTotals;
 

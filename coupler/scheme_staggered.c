@@ -10,6 +10,19 @@ typedef struct {
   double t, dt;
 } March;
 
+/* For what every rank has noticed: one message is enough, from rank 0; the others wait for the end of the
+ * job. */
+static PetscErrorCode FailTogether(Server server, const char *message)
+{
+  PetscMPIInt rank;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  if (rank == 0) ServerFail(server, "%s", message);
+  PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
+  PetscFunctionReturn(0);
+}
+
 /* Asks the fluid for its elements near the solid. */
 static PetscErrorCode AskElements(March *m)
 {
@@ -53,14 +66,20 @@ static PetscErrorCode CheckInside(March *m)
 
 /* The fluid's proposal within the case's bounds.  The last step ends exactly at the end, and the one before
  * it is cut so that the last is no sliver. */
-static double NextStep(const March *m)
+static PetscErrorCode NextStep(March *m)
 {
   const double left = m->scheme->c->end - m->t;
   const double wanted = fmin(ServerProposedStep(m->scheme->server), m->scheme->c->dt_max);
-  if (!(wanted > 0.0))
-    ServerFail(m->scheme->server, "at t = %g s the fluid proposes a time step of %g s", m->t, wanted);
-  if (left <= wanted * (1.0 + 1e-9)) return left;
-  return left < 2.0 * wanted ? 0.5 * left : wanted;
+  char message[128];
+
+  PetscFunctionBeginUser;
+  if (!(wanted > 0.0)) {
+    snprintf(message, sizeof message, "at t = %g s the fluid proposes a time step of %g s", m->t, wanted);
+    PetscCall(FailTogether(m->scheme->server, message));
+  }
+  m->dt = left < 2.0 * wanted ? 0.5 * left : wanted;
+  if (left <= wanted * (1.0 + 1e-9)) m->dt = left;
+  PetscFunctionReturn(0);
 }
 
 static PetscErrorCode Watch(March *m, const RecordedStep *step)
@@ -75,7 +94,8 @@ static PetscErrorCode Watch(March *m, const RecordedStep *step)
     seen.gravity[c] = m->scheme->c->options.gravity[c];
     seen.extent = hypot(seen.extent, m->elements.upper[c] - m->elements.lower[c]);
   }
-  if (GuardCheck(&m->guard, &seen, sizeof message, message)) ServerFail(m->scheme->server, "%s", message);
+  if (GuardCheck(&m->guard, &seen, sizeof message, message))
+    PetscCall(FailTogether(m->scheme->server, message));
   PetscFunctionReturn(0);
 }
 
@@ -87,7 +107,7 @@ static PetscErrorCode SendCoupling(March *m, int ncorrection, const CoracleCorre
   int n;
 
   PetscFunctionBeginUser;
-  m->dt = NextStep(m);
+  PetscCall(NextStep(m));
   PetscCall(CouplerBuild(s->coupler, &m->solid, m->dt, &n, &coupling));
   PetscCall(RecordShell(s->record, m->t, s->coupler, &m->solid));
   PetscCall(ServerSendCoupling(s->server, m->t, m->dt, CORACLE_RUN, ncorrection, correction, n, coupling));

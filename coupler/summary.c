@@ -28,11 +28,6 @@ static void Collect(void *context, const char *role, const char *key, double val
   report->value = value;
 }
 
-static void Put(Reports *r, const char *key, double value)
-{
-  Collect(r, "coupler", key, value);
-}
-
 /* JSON knows no NaN. */
 static void WriteNumber(FILE *f, double value)
 {
@@ -57,12 +52,13 @@ static void WriteString(FILE *f, const char *s)
   fputc('"', f);
 }
 
-static void WriteParticipant(FILE *f, const Reports *r, const char *role, int ranks)
+static void WriteParticipant(FILE *f, const Reports *r, const char *role)
 {
-  fprintf(f, "    \"%s\": {\"ranks\": %d", role, ranks);
+  int n = 0;
+  fprintf(f, "    \"%s\": {", role);
   for (int i = 0; i < r->n; i++) {
     if (strcmp(r->report[i].role, role)) continue;
-    fprintf(f, ", ");
+    fprintf(f, "%s", n++ ? ", " : "");
     WriteString(f, r->report[i].key);
     fprintf(f, ": ");
     WriteNumber(f, r->report[i].value);
@@ -77,8 +73,7 @@ static void WriteField(FILE *f, const char *key, double value)
   fprintf(f, ",\n");
 }
 
-static void WriteAll(FILE *f, Server server, const CouplerCase *c, const RecordTotals *t,
-                     const Reports *reports)
+static void WriteAll(FILE *f, const CouplerCase *c, const RecordTotals *t, const Reports *reports)
 {
   static const char *const ROLES[] = {"fluid", "coupler", "solid"};
   fprintf(f, "{\n  \"case\": ");
@@ -93,7 +88,7 @@ static void WriteAll(FILE *f, Server server, const CouplerCase *c, const RecordT
           t->nelements, t->nfacets, t->nfluid);
   fprintf(f, "  \"participants\": {\n");
   for (int i = 0; i < 3; i++) {
-    WriteParticipant(f, reports, ROLES[i], ServerRanks(server, ROLES[i]));
+    WriteParticipant(f, reports, ROLES[i]);
     fprintf(f, i < 2 ? ",\n" : "\n");
   }
   fprintf(f, "  }\n}\n");
@@ -108,17 +103,14 @@ PetscErrorCode SummaryWrite(Server server, const CouplerCase *c, const RecordTot
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
   reports.n = 0;
-  Put(&reports, "wall_seconds", t->wall);
-  Put(&reports, "cpu_seconds", t->cpu);
-  Put(&reports, "overlap_seconds", t->overlap);
-  Put(&reports, "force_seconds", t->force);
-  Put(&reports, "waiting_seconds", t->waiting);
+  Collect(&reports, "coupler", "seconds_overlap", t->overlap);
+  Collect(&reports, "coupler", "seconds_force", t->force);
   PetscCall(ServerReports(server, Collect, &reports));
   if (rank) PetscFunctionReturn(0);
   snprintf(path, sizeof path, "%s/summary.json", c->folder);
   FILE *f = fopen(path, "w");
   if (!f) ServerFail(server, "%s: %s", path, strerror(errno));
-  WriteAll(f, server, c, t, &reports);
+  WriteAll(f, c, t, &reports);
   if (fclose(f)) ServerFail(server, "%s: %s", path, strerror(errno));
   PetscFunctionReturn(0);
 }
