@@ -1,0 +1,136 @@
+/* A fluid without flow: checks every coupling entry and correction, and gives values that the coupler knows.
+ */
+#include "analytic.h"
+
+enum { MAX = 64 };
+
+typedef struct {
+  CoracleClient client;
+  int rank, adapted, step, asked;
+  int n, id[MAX];          /* elements last given */
+  int n_old, id_old[MAX];  /* elements of the step just made */
+  int coupled, entry[MAX]; /* elements' ids by entry of the step just made */
+  double x[MAX][3][2], rho[MAX];
+  double memory[5];
+  Fault fault;
+  int fault_step;
+} Fluid;
+
+static int Region(void *context, int nbox, const double box[], int *n, const double **x, const double **rho)
+{
+  Fluid *f = context;
+  if (nbox != 2 || box[0] != -1.0 || box[7] != 1e6) CoracleFail(f->client, "the boxes arrived wrongly");
+  f->asked++;
+  f->n = CellCount(f->rank, f->adapted);
+  for (int e = 0; e < f->n; e++) {
+    f->id[e] = CellId(f->rank, e, f->adapted);
+    f->rho[e] = CellDensity(f->id[e]);
+    for (int i = 0; i < 3; i++)
+      for (int c = 0; c < 2; c++) f->x[e][i][c] = CellVertex(f->id[e], i, c);
+  }
+  *n = f->n;
+  *x = &f->x[0][0][0];
+  *rho = f->rho;
+  return 0;
+}
+
+static void CheckCoupling(Fluid *f)
+{
+  const CoracleCoupling *k;
+  int seen[MAX] = {0}, expected = 0;
+  CoracleGetCoupling(f->client, &f->coupled, &k);
+  for (int i = 0; i < f->n; i++) expected += CellCoupled(f->id[i]);
+  if (f->coupled != expected)
+    CoracleFail(f->client, "%d coupling entries, expected %d", f->coupled, expected);
+  for (int i = 0; i < f->coupled; i++) {
+    const int e = k[i].element;
+    if (e < 0 || e >= f->n || seen[e]++) CoracleFail(f->client, "entry %d is of element %d", i, e);
+    CoracleCoupling right = CellCoupling(f->id[e], f->step);
+    right.element = e;
+    if (memcmp(&right, &k[i], sizeof right)) CoracleFail(f->client, "entry %d has wrong values", i);
+    f->entry[i] = f->id[e];
+  }
+}
+
+static void CheckCorrection(const Fluid *f)
+{
+  const CoracleCorrection *k;
+  int n;
+  CoracleGetCorrection(f->client, &n, &k);
+  if (n != f->coupled) CoracleFail(f->client, "%d corrections, expected %d", n, f->coupled);
+  for (int i = 0; i < n; i++) {
+    if (k[i].element < 0 || k[i].element >= f->n_old || f->id_old[k[i].element] != f->entry[i])
+      CoracleFail(f->client, "correction %d is of element %d", i, k[i].element);
+    for (int j = 0; j < 6; j++)
+      if ((&k[i].us[0][0])[j] != CellCorrection(f->entry[i], j, f->step))
+        CoracleFail(f->client, "correction %d has wrong values in step %d", i, f->step);
+  }
+}
+
+static void SetFlow(Fluid *f)
+{
+  double u_star[MAX][6], u_plus[MAX][6], p[MAX][6], mu[MAX];
+  for (int e = 0; e < f->n; e++) {
+    for (int k = 0; k < 6; k++) {
+      u_star[e][k] = CellFlow(f->id[e], 1, k, f->step);
+      u_plus[e][k] = CellFlow(f->id[e], 2, k, f->step);
+      p[e][k] = CellFlow(f->id[e], 3, k, f->step);
+    }
+    mu[e] = CellFlow(f->id[e], 4, 0, f->step);
+  }
+  if (f->fault == FAULT_NAN && f->step == f->fault_step && f->n) p[f->n - 1][4] = INFINITY;
+  CoracleSetFlow(f->client, &u_star[0][0], &u_plus[0][0], &p[0][0], mu);
+}
+
+static void Step(Fluid *f, CoracleAction action)
+{
+  const double start = f->step + (action == CORACLE_RUN);
+  if (action == CORACLE_RUN) f->step++;
+  if (f->memory[0] != start - 1.0)
+    CoracleFail(f->client, "the state of step %d has not been put back", f->step);
+  if (f->step == f->fault_step) Misbehave(f->fault);
+  CheckCoupling(f);
+  f->memory[0] += 1.0;
+  f->n_old = f->n;
+  memcpy(f->id_old, f->id, sizeof f->id);
+  SetFlow(f);
+  if (f->step == ADAPT_STEP) {
+    f->adapted = 1;
+    CoracleElementsChanged(f->client);
+  }
+  CoracleProposeStep(f->client, CellProposal(f->rank, f->step));
+  CoracleEnd(f->client, NULL);
+  CheckCorrection(f);
+}
+
+int main(int argc, char **argv)
+{
+  static Fluid f;
+  const double lower[] = {-2.0, -3.0}, upper[] = {4.0, 5.0};
+  MPI_Comm comm;
+  Case c;
+  int size;
+  double t, dt;
+  CoracleAction action;
+  CoracleOpen("fluid", argc, argv, &comm, &f.client);
+  CaseOpen(argc, argv, NULL, NULL, &c);
+  MPI_Comm_rank(comm, &f.rank);
+  MPI_Comm_size(comm, &size);
+  f.fault = (Fault)CaseWord(c, "fluid.fault", FAULT_NONE, FAULT_WORDS);
+  f.fault_step = f.rank == size - 1 ? CaseIntegerOr(c, "fluid.fault_step", 4, 0, STEPS) : -1;
+  CaseClose(&c);
+  CoracleSetRegion(f.client, 2, lower, upper, Region, &f);
+  CoracleBindState(f.client, f.memory, sizeof f.memory);
+  CoracleProposeStep(f.client, CellProposal(f.rank, 0));
+  CoracleReady(f.client);
+  for (;;) {
+    CoracleBegin(f.client, &t, &dt, &action);
+    if (action == CORACLE_STOP) break;
+    if (dt != StepSize(f.step + (action == CORACLE_RUN))) CoracleFail(f.client, "dt is %g", dt);
+    Step(&f, action);
+  }
+  if (f.step != STEPS || f.asked != 2) CoracleFail(f.client, "%d steps, asked %d times", f.step, f.asked);
+  CoracleReport(f.client, "cells", f.n, 1);
+  CoracleReport(f.client, "largest", f.rank + 0.5, 0);
+  return CoracleClose(&f.client);
+}

@@ -1,0 +1,137 @@
+/* A solid without mechanics: checks every force, and gives positions and velocities that the coupler knows.
+ */
+#include "analytic.h"
+
+typedef struct {
+  CoracleClient client;
+  int rank, n, remeshed, step, redone;
+  double x[64][2], u[64][2]; /* [n] */
+  double memory[16];         /* state that a step changes beyond recognition */
+  double shadow[16];         /* what it was when the step began */
+  int function_state, function_saved;
+  Fault fault;
+  int fault_step;
+} Solid;
+
+static void SetMesh(Solid *s, int step, double t)
+{
+  long long gid[64];
+  int facet[64][2], element[64][3];
+  s->n = NodeCount(s->rank, s->remeshed);
+  for (int i = 0; i < s->n; i++) {
+    gid[i] = NodeId(s->rank, i);
+    for (int c = 0; c < 2; c++) {
+      s->x[i][c] = NodePosition(gid[i], c, step);
+      s->u[i][c] = NodeVelocity(gid[i], c, t);
+    }
+  }
+  const int nf = FacetCount(s->rank, s->remeshed), ne = ElementCount(s->rank, s->remeshed);
+  for (int e = 0; e < nf; e++)
+    for (int i = 0; i < 2; i++) facet[e][i] = FacetNode(s->rank, e, i);
+  for (int e = 0; e < ne; e++)
+    for (int i = 0; i < 3; i++) element[e][i] = ElementNode(s->rank, e, i);
+  CoracleSetNodes(s->client, 2, s->n, gid, &s->x[0][0], &s->u[0][0]);
+  CoracleSetSurface(s->client, nf, &facet[0][0]);
+  CoracleSetVolume(s->client, ne, &element[0][0]);
+}
+
+static int SaveFunctionState(void *context, int save)
+{
+  Solid *s = context;
+  if (save)
+    s->function_saved = s->function_state;
+  else
+    s->function_state = s->function_saved;
+  return 0;
+}
+
+static void CheckForce(const Solid *s)
+{
+  const double *force;
+  CoracleGetForce(s->client, &force);
+  for (int i = 0; i < s->n; i++)
+    for (int c = 0; c < 2; c++)
+      if (force[2 * i + c] != NodeForce(NodeId(s->rank, i), c, s->step))
+        CoracleFail(s->client, "force %g on node %d in step %d", force[2 * i + c], i, s->step);
+}
+
+/* State at the start of a redone step must be the state at the start of its first try, bit by bit. */
+static void CheckState(Solid *s, CoracleAction action)
+{
+  if (action == CORACLE_RUN) {
+    s->redone = 0;
+    s->step++;
+    memcpy(s->shadow, s->memory, sizeof s->memory);
+  } else {
+    s->redone++;
+    s->remeshed = s->step > REMESH_STEP;
+    s->n = NodeCount(s->rank, s->remeshed);
+  }
+  if (memcmp(s->shadow, s->memory, sizeof s->memory) || s->function_state != s->step - 1)
+    CoracleFail(s->client, "the state of step %d has not been put back", s->step);
+}
+
+/* 1, 7, or a few uneven substeps; the mesh changes in the middle of REMESH_STEP. */
+static void Substeps(Solid *s, double t, double dt)
+{
+  const int m = s->step % 3 == 1 ? 1 : s->step % 3 == 2 ? 7 : 4;
+  double done = 0.0;
+  for (int k = 0; k < m; k++) {
+    const double h = m == 4 ? dt * (k + 1) / 10.0 : dt / m;
+    for (int i = 0; i < s->n; i++)
+      for (int c = 0; c < 2; c++) s->u[i][c] = NodeVelocity(NodeId(s->rank, i), c, t + done + 0.5 * h);
+    if (s->step == s->fault_step && s->fault == FAULT_NAN && k == m - 1 && s->n) s->u[s->n - 1][1] = NAN;
+    CoracleSubstep(s->client, h, &s->u[0][0]);
+    done += h;
+    if (s->step == REMESH_STEP && k == 1) {
+      s->remeshed = 1; /* a new node has moved with its velocity's mean so far */
+      SetMesh(s, s->step, t + 0.5 * done);
+    }
+  }
+}
+
+static void Step(Solid *s, double t, double dt)
+{
+  if (s->step == s->fault_step) {
+    if (s->fault == FAULT_CLOSE) CoracleClose(&s->client);
+    Misbehave(s->fault);
+  }
+  CheckForce(s);
+  Substeps(s, t, dt);
+  for (int i = 0; i < s->n; i++)
+    for (int c = 0; c < 2; c++) s->x[i][c] = NodePosition(NodeId(s->rank, i), c, s->step);
+  for (int k = 0; k < 16; k++) s->memory[k] = sin(1e3 * s->memory[k] + t + k);
+  s->function_state++;
+  CoracleEnd(s->client, &s->x[0][0]);
+}
+
+int main(int argc, char **argv)
+{
+  static Solid s;
+  MPI_Comm comm;
+  Case c;
+  int size;
+  double t, dt;
+  CoracleAction action;
+  const char *role = getenv("TEST_SOLID_ROLE");
+  CoracleOpen(role ? role : "solid", argc, argv, &comm, &s.client);
+  CaseOpen(argc, argv, NULL, NULL, &c);
+  MPI_Comm_rank(comm, &s.rank);
+  MPI_Comm_size(comm, &size);
+  s.fault = (Fault)CaseWord(c, "solid.fault", FAULT_NONE, FAULT_WORDS);
+  s.fault_step = s.rank == size - 1 ? CaseIntegerOr(c, "solid.fault_step", 4, 0, STEPS) : -1;
+  CaseClose(&c);
+  SetMesh(&s, 0, 0.0);
+  CoracleBindState(s.client, s.memory, sizeof s.memory);
+  CoracleBindStateFunction(s.client, SaveFunctionState, &s);
+  CoracleReady(s.client);
+  for (;;) {
+    CoracleBegin(s.client, &t, &dt, &action);
+    if (action == CORACLE_STOP) break;
+    CheckState(&s, action);
+    Step(&s, t, dt);
+  }
+  if (s.step != STEPS) CoracleFail(s.client, "stopped after %d steps", s.step);
+  CoracleReport(s.client, "nodes", s.n, 1);
+  return CoracleClose(&s.client);
+}

@@ -1,0 +1,215 @@
+/* A coupler without physics: checks that all arrives where it must, and that a redone step is the same bit by
+ * bit. */
+#include "analytic.h"
+#include "server.h"
+#include <stdio.h>
+
+enum { MAX = 512 };
+
+typedef struct {
+  Server server;
+  MPI_Comm comm;
+  int rank, size, step;
+  double t;
+  int n, id[MAX];                         /* fluid elements */
+  int ncoupled, entry[MAX];               /* ids by coupling entry */
+  double motion[4 * MAX], flow[19 * MAX]; /* of the first try of a step */
+  Fault fault;
+} Stub;
+
+/* --- the solid
+ * ---------------------------------------------------------------------------------------------------- */
+
+/* The lists must be the ranks' own, in order of rank. */
+static void CheckMesh(const Stub *s, const ServerSolid *solid, int remeshed)
+{
+  int n = 0, nf = 0, ne = 0;
+  for (int r = s->rank; r < ServerRanks(s->server, "solid"); r += s->size) {
+    for (int e = 0; e < FacetCount(r, remeshed); e++, nf++)
+      for (int i = 0; i < 2; i++)
+        if (nf >= solid->nfacets || solid->facet[2 * nf + i] != n + FacetNode(r, e, i))
+          ServerFail(s->server, "facet %d of solid rank %d", e, r);
+    for (int e = 0; e < ElementCount(r, remeshed); e++, ne++)
+      for (int i = 0; i < 3; i++)
+        if (ne >= solid->nelements || solid->element[3 * ne + i] != n + ElementNode(r, e, i))
+          ServerFail(s->server, "element %d of solid rank %d", e, r);
+    for (int i = 0; i < NodeCount(r, remeshed); i++, n++)
+      if (n >= solid->nnodes || solid->gid[n] != NodeId(r, i))
+        ServerFail(s->server, "node %d of solid rank %d", i, r);
+  }
+  if (n != solid->nnodes || nf != solid->nfacets || ne != solid->nelements)
+    ServerFail(s->server, "%d nodes, %d facets, %d elements", solid->nnodes, solid->nfacets,
+               solid->nelements);
+}
+
+static void CheckMotion(const Stub *s, const ServerSolid *solid, double mean_time)
+{
+  for (int i = 0; i < solid->nnodes; i++)
+    for (int c = 0; c < 2; c++) {
+      const double u = NodeVelocity(solid->gid[i], c, mean_time);
+      if (solid->x[2 * i + c] != NodePosition(solid->gid[i], c, s->step))
+        ServerFail(s->server, "position of node %d in step %d", i, s->step);
+      if (fabs(solid->u[2 * i + c] - u) > 1e-13 * (1 + fabs(u)))
+        ServerFail(s->server, "mean velocity of node %d in step %d is %.17g instead of %.17g", i, s->step,
+                   solid->u[2 * i + c], u);
+    }
+}
+
+static void ReceiveSolid(Stub *s, int redo)
+{
+  ServerSolid solid;
+  ServerReceiveSolid(s->server, &solid);
+  const size_t bytes = 2 * (size_t)solid.nnodes * sizeof(double);
+  if (solid.changed != (s->step == 0 || s->step == REMESH_STEP))
+    ServerFail(s->server, "changed is %d in step %d", solid.changed, s->step);
+  CheckMesh(s, &solid, s->step >= REMESH_STEP);
+  CheckMotion(s, &solid, s->step ? s->t + 0.5 * StepSize(s->step) : 0.0);
+  if (redo && (memcmp(s->motion, solid.x, bytes) || memcmp(s->motion + 2 * MAX, solid.u, bytes)))
+    ServerFail(s->server, "the redone motion of step %d is another", s->step);
+  memcpy(s->motion, solid.x, bytes);
+  memcpy(s->motion + 2 * MAX, solid.u, bytes);
+}
+
+static void SendForce(Stub *s, CoracleAction action)
+{
+  double force[MAX][2];
+  int n = 0;
+  for (int r = s->rank; r < ServerRanks(s->server, "solid"); r += s->size)
+    for (int i = 0; i < NodeCount(r, s->step > REMESH_STEP); i++, n++)
+      for (int c = 0; c < 2; c++) force[n][c] = NodeForce(NodeId(r, i), c, s->step);
+  if (s->fault == FAULT_NAN && s->step == 4 && n) force[0][0] = NAN;
+  ServerSendForce(s->server, s->t, StepSize(s->step), action, &force[0][0]);
+}
+
+/* --- the fluid
+ * ---------------------------------------------------------------------------------------------------- */
+
+static void AskElements(Stub *s)
+{
+  const double box[] = {-1.0, -1.0, 1.0, 1.0, 2.0, 2.0, 1e6, 1e6};
+  const int adapted = s->step >= ADAPT_STEP;
+  ServerElements e;
+  ServerAskElements(s->server, 2, box, &e);
+  s->n = 0;
+  for (int r = s->rank; r < ServerRanks(s->server, "fluid"); r += s->size)
+    for (int k = 0; k < CellCount(r, adapted); k++, s->n++) {
+      s->id[s->n] = CellOfDensity(e.rho[s->n]);
+      if (s->id[s->n] != CellId(r, k, adapted)) ServerFail(s->server, "element %d of fluid rank %d", k, r);
+      for (int i = 0; i < 6; i++)
+        if (e.x[6 * s->n + i] != CellVertex(s->id[s->n], i / 2, i % 2))
+          ServerFail(s->server, "vertices of element %d of fluid rank %d", k, r);
+    }
+  if (s->n != e.n) ServerFail(s->server, "%d elements instead of %d", e.n, s->n);
+  if (e.lower[0] != -2.0 || e.lower[1] != -3.0 || e.upper[0] != 4.0 || e.upper[1] != 5.0)
+    ServerFail(s->server, "bounds of the domain");
+}
+
+static void CheckFlow(const Stub *s, const ServerFlow *f)
+{
+  for (int e = 0; e < s->n; e++) {
+    for (int k = 0; k < 6; k++)
+      if (f->u_star[6 * e + k] != CellFlow(s->id[e], 1, k, s->step) ||
+          f->u_plus[6 * e + k] != CellFlow(s->id[e], 2, k, s->step) ||
+          f->p[6 * e + k] != CellFlow(s->id[e], 3, k, s->step))
+        ServerFail(s->server, "flow of element %d in step %d", e, s->step);
+    if (f->mu[e] != CellFlow(s->id[e], 4, 0, s->step)) ServerFail(s->server, "viscosity of element %d", e);
+  }
+}
+
+static void ReceiveFlow(Stub *s, int redo)
+{
+  ServerFlow f;
+  ServerReceiveFlow(s->server, &f);
+  CheckFlow(s, &f);
+  const double *lists[] = {f.u_star, f.u_plus, f.p, f.mu};
+  for (int k = 0; k < 4; k++) {
+    const size_t bytes = (k < 3 ? 6 : 1) * (size_t)s->n * sizeof(double);
+    if (redo && memcmp(s->flow + 6 * k * MAX, lists[k], bytes))
+      ServerFail(s->server, "the redone flow is another");
+    memcpy(s->flow + 6 * k * MAX, lists[k], bytes);
+  }
+  if (ServerProposedStep(s->server) != CellProposal(0, s->step)) ServerFail(s->server, "proposed step");
+  if (ServerElementsChanged(s->server) != (s->step == ADAPT_STEP)) ServerFail(s->server, "elements changed");
+}
+
+/* Entries in an order that mixes the fluid's ranks: from both ends to the middle. */
+static void SendCoupling(Stub *s, CoracleAction action, int coming)
+{
+  static CoracleCoupling coupling[MAX];
+  CoracleCorrection correction[MAX] = {0};
+  const int ncorrection = s->step ? s->ncoupled : 0;
+  for (int i = 0; i < ncorrection; i++)
+    for (int k = 0; k < 6; k++) (&correction[i].us[0][0])[k] = CellCorrection(s->entry[i], k, s->step);
+  s->ncoupled = 0;
+  for (int i = 0; i < s->n && action != CORACLE_STOP; i++) {
+    const int e = i % 2 ? s->n - 1 - i / 2 : i / 2;
+    if (!CellCoupled(s->id[e])) continue;
+    s->entry[s->ncoupled] = s->id[e];
+    coupling[s->ncoupled] = CellCoupling(s->id[e], coming);
+    coupling[s->ncoupled++].element = e;
+  }
+  ServerSendCoupling(s->server, s->t, StepSize(coming), action, ncorrection, correction, s->ncoupled,
+                     coupling);
+}
+
+/* --- the run
+ * -------------------------------------------------------------------------------------------------------- */
+
+/* Step s->step, the `redo`th time; the fluid has its coupling already. */
+static void Step(Stub *s, int redo)
+{
+  const int last = redo == Redos(s->step);
+  if (s->fault != FAULT_NONE && s->fault != FAULT_NAN && s->step == 4 && s->rank == s->size - 1)
+    Misbehave(s->fault);
+  ReceiveFlow(s, redo);
+  SendForce(s, redo ? CORACLE_REDO : CORACLE_RUN);
+  ReceiveSolid(s, redo);
+  if (ServerElementsChanged(s->server)) AskElements(s);
+  if (last) s->t += StepSize(s->step);
+  SendCoupling(s,
+               !last             ? CORACLE_REDO
+               : s->step < STEPS ? CORACLE_RUN
+                                 : CORACLE_STOP,
+               last ? s->step + 1 : s->step);
+}
+
+static void CheckReport(void *context, const char *role, const char *key, double value)
+{
+  Stub *s = context;
+  double expected = value;
+  const int fluids = ServerRanks(s->server, "fluid"), solids = ServerRanks(s->server, "solid");
+  if (!strcmp(key, "cells"))
+    for (int r = expected = 0; r < fluids; r++) expected += CellCount(r, 1);
+  if (!strcmp(key, "nodes"))
+    for (int r = expected = 0; r < solids; r++) expected += NodeCount(r, 1);
+  if (!strcmp(key, "largest")) expected = fluids - 0.5;
+  if (!strcmp(key, "ranks")) expected = ServerRanks(s->server, role);
+  if (!strcmp(key, "seconds_wall") && !(value > 0.0)) expected = 1.0;
+  if (value != expected)
+    ServerFail(s->server, "report %s.%s is %g instead of %g", role, key, value, expected);
+  s->n++;
+}
+
+int main(int argc, char **argv)
+{
+  static Stub s;
+  Case c;
+  ServerOpen(argc, argv, &s.comm, &s.server);
+  CaseOpen(argc, argv, NULL, NULL, &c);
+  MPI_Comm_rank(s.comm, &s.rank);
+  MPI_Comm_size(s.comm, &s.size);
+  s.fault = (Fault)CaseWord(c, "coupler.fault", FAULT_NONE, FAULT_WORDS);
+  CaseClose(&c);
+  ReceiveSolid(&s, 0);
+  AskElements(&s);
+  if (ServerProposedStep(s.server) != CellProposal(0, 0)) ServerFail(s.server, "first proposed step");
+  SendCoupling(&s, CORACLE_RUN, 1);
+  for (s.step = 1; s.step <= STEPS; s.step++)
+    for (int redo = 0; redo <= Redos(s.step); redo++) Step(&s, redo);
+  ServerSendForce(s.server, s.t, 0.0, CORACLE_STOP, NULL);
+  ServerFinish(s.server);
+  s.n = 0;
+  ServerReports(s.server, CheckReport, &s);
+  if (s.rank == 0 && s.n != 3 * 5 + 3) ServerFail(s.server, "%d reports", s.n);
+  return ServerClose(&s.server);
+}
