@@ -49,8 +49,8 @@ typedef struct {
 } MeshSerial;
 
 /* A graded mesh of [lower, upper]: a balanced quadtree of cells cut into triangles without hanging nodes.  size(context, x) is
- * the wanted edge length, m, at a point; cells are halved until their edge is at most the smallest size in them; edges
- * never exceed size_max.  Boundaries are named left, right, bottom, top. */
+ * the wanted cell edge, m, at a point; cells are halved until their edge is at most the smallest size in them and at most
+ * size_max (a diagonal is sqrt 2 longer).  Boundaries are named left, right, bottom, top.  Not collective. */
 PetscErrorCode MeshBox(const double lower[2], const double upper[2], double size_max,
                        double (*size)(void *context, const double x[2]), void *context, MeshSerial *mesh);
 /* Gmsh .msh, ASCII or binary, formats 2.2 and 4.1: triangles, boundary edges from physical curves (their names; a boundary edge without
@@ -63,4 +63,6 @@ PetscErrorCode MeshSerialDestroy(MeshSerial *mesh);
 /* Collective: partitions and distributes what rank 0 holds.  Same global mesh for any number of ranks. */
 PetscErrorCode MeshDistribute(MPI_Comm comm, const MeshSerial *serial, Mesh **mesh);
 PetscErrorCode MeshDestroy(Mesh **mesh);
+/* Not collective: the index of a boundary's name in tag_name, -1 if the mesh has none of that name. */
+int MeshTagIndex(const Mesh *mesh, const char *name);
 #endif

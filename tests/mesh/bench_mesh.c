@@ -1,0 +1,37 @@
+/* How long meshing, distributing and ordering take: bench_mesh [smallest size, default 0.0042]. */
+#include "mesh.h"
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct {
+  double smallest;
+} Strip;
+
+/* The falling disc's box: `smallest` in the strip that it sweeps, growing by 1/4 m/m outside. */
+static double SizeAt(void *context, const double x[2])
+{
+  const Strip *s = context;
+  const double dx = fmax(fmax(1.08 - x[0], x[0] - 1.42), 0.0), dy = fmax(fmax(1.0 - x[1], x[1] - 4.95), 0.0);
+  return s->smallest + 0.25 * hypot(dx, dy);
+}
+
+int main(int argc, char **argv)
+{
+  const double lower[2] = {0.0, 0.0}, upper[2] = {2.5, 5.5};
+  Strip strip = {argc > 1 ? atof(argv[1]) : 0.0042};
+  MeshSerial serial = {0};
+  Mesh *mesh;
+  PetscMPIInt rank;
+  PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  const double t0 = MPI_Wtime();
+  if (rank == 0) PetscCall(MeshBox(lower, upper, 0.06, SizeAt, &strip, &serial));
+  const double t1 = MPI_Wtime();
+  PetscCall(MeshDistribute(PETSC_COMM_WORLD, &serial, &mesh));
+  const double t2 = MPI_Wtime();
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%d triangles, %d P2 nodes: box %.3f s, distribution %.3f s\n",
+                        (int)mesh->nglobal, (int)mesh->np2_global, t1 - t0, t2 - t1));
+  PetscCall(MeshSerialDestroy(&serial));
+  PetscCall(MeshDestroy(&mesh));
+  return PetscFinalize();
+}

@@ -1,0 +1,38 @@
+/* Stops the whole test with what was expected and where. */
+#ifndef TEST_MESH_CHECK_H
+#define TEST_MESH_CHECK_H
+#include "mesh.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define CHECK(condition, ...)                                                                                \
+  do {                                                                                                       \
+    if (!(condition)) {                                                                                      \
+      fprintf(stderr, "%s:%d: %s: ", __FILE__, __LINE__, #condition);                                        \
+      fprintf(stderr, __VA_ARGS__);                                                                          \
+      fprintf(stderr, "\n");                                                                                 \
+      MPI_Abort(MPI_COMM_WORLD, 1);                                                                          \
+    }                                                                                                        \
+  } while (0)
+
+/* A strip of size `smallest` as the falling disc sweeps it, growing by 1/4 m/m outside. */
+typedef struct {
+  double smallest, lower[2], upper[2];
+} Strip;
+
+static inline double StripSize(void *context, const double x[2])
+{
+  const Strip *s = context;
+  double d[2];
+  for (int c = 0; c < 2; c++) d[c] = fmax(fmax(s->lower[c] - x[c], x[c] - s->upper[c]), 0.0);
+  return s->smallest + 0.25 * hypot(d[0], d[1]);
+}
+
+static inline double TriangleArea(const double x[], const int v[3])
+{
+  const double *a = &x[2 * v[0]], *b = &x[2 * v[1]], *c = &x[2 * v[2]];
+  return 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+}
+#endif
