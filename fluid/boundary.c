@@ -41,7 +41,8 @@ double HydrostaticPressure(Fluid f, const double x[2])
 {
   const double *g = f->setup.gravity;
   double p = 0.0;
-  for (int c = 0; c < 2; c++) p += f->setup.rho * g[c] * (x[c] - (g[c] > 0.0 ? f->mesh->lower[c] : f->mesh->upper[c]));
+  for (int c = 0; c < 2; c++)
+    p += f->setup.rho * g[c] * (x[c] - (g[c] > 0.0 ? f->mesh->lower[c] : f->mesh->upper[c]));
   return p;
 }
 
@@ -54,7 +55,7 @@ void BoundaryProjection(const Boundary *b, const double n[2], double project[2][
 {
   for (int c = 0; c < 2; c++)
     for (int d = 0; d < 2; d++)
-      project[c][d] = b->kind == BOUNDARY_FREE_SLIP ? n[c] * n[d]
+      project[c][d] = b->kind == BOUNDARY_FREE_SLIP  ? n[c] * n[d]
                       : b->kind == BOUNDARY_VELOCITY ? (double)(c == d)
                                                      : 0.0;
 }

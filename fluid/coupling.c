@@ -23,7 +23,8 @@ PetscErrorCode FluidSetCoupling(Fluid f, int n, const CoracleCoupling coupling[]
 }
 
 /* u <- u+ + M^-1 (us' - ms u+) on one element */
-static void CorrectElement(double area, const CoracleCoupling *k, const CoracleCorrection *correction, double u[6])
+static void CorrectElement(double area, const CoracleCoupling *k, const CoracleCorrection *correction,
+                           double u[6])
 {
   for (int c = 0; c < 2; c++) {
     double r[3], du[3];

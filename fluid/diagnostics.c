@@ -23,14 +23,17 @@ PetscErrorCode FluidMomentumTotal(Fluid f, double momentum[2], double *energy)
   PetscFunctionReturn(0);
 }
 
-/* int (p n - tau n + eta (u - g)) over one boundary face: what the scheme itself takes from the fluid there */
-static void FaceForce(Fluid f, int e, int i, const Boundary *b, const double u[6], const double p[], double force[2])
+/* int (p n - tau n + eta (u - g)) over one boundary face: what the scheme itself takes from the fluid there
+ */
+static void FaceForce(Fluid f, int e, int i, const Boundary *b, const double u[6], const double p[],
+                      double force[2])
 {
   const Mesh *m = f->mesh;
   const FaceGeometry face = f->geometry[e].face[i];
   const FaceSide k = FaceSideOf(f, e, i, 1.0, PENALTY_BOUNDARY);
   const int node[2] = {k.a, k.b};
-  const double pressure = (p[m->p2[6 * e + k.a]] + 4.0 * p[m->p2[6 * e + 3 + i]] + p[m->p2[6 * e + k.b]]) / 6.0;
+  const double pressure =
+      (p[m->p2[6 * e + k.a]] + 4.0 * p[m->p2[6 * e + 3 + i]] + p[m->p2[6 * e + k.b]]) / 6.0;
   double t[2][6], project[2][2], slip[2] = {0};
   Traction(k.e->g, k.mu, face.n, t);
   BoundaryProjection(b, face.n, project);
@@ -81,8 +84,8 @@ static const double QUADRATURE[7][4] = {
     {0.470142064105115, 0.470142064105115, 0.059715871789770, 0.132394152788506}};
 
 /* Squared velocity error; sum of pressure error, of its square, and area. */
-static void ElementErrors(Fluid f, int e, double t, FieldFunction velocity, FieldFunction pressure, void *context,
-                          const double u[6], const double p[6], double sum[4])
+static void ElementErrors(Fluid f, int e, double t, FieldFunction velocity, FieldFunction pressure,
+                          void *context, const double u[6], const double p[6], double sum[4])
 {
   const Mesh *m = f->mesh;
   for (int q = 0; q < 7; q++) {

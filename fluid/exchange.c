@@ -4,8 +4,8 @@ struct Exchange_s {
   CoracleClient client; /* borrowed */
   Fluid fluid;          /* borrowed */
   int n, capacity;
-  int *element;         /* [n] the fluid's local elements near the solid */
-  double *x, *rho;      /* [n][3][2], [n] */
+  int *element;    /* [n] the fluid's local elements near the solid */
+  double *x, *rho; /* [n][3][2], [n] */
   double *u_star, *u_plus, *p, *mu;
   CoracleCoupling *coupling;
   int coupling_capacity;
@@ -19,8 +19,8 @@ static PetscErrorCode Reserve(Exchange x, int n)
   PetscCall(PetscFree(x->element));
   PetscCall(PetscFree6(x->x, x->rho, x->u_star, x->u_plus, x->p, x->mu));
   PetscCall(PetscMalloc1(x->capacity, &x->element));
-  PetscCall(PetscMalloc6(6 * x->capacity, &x->x, x->capacity, &x->rho, 6 * x->capacity, &x->u_star, 6 * x->capacity,
-                         &x->u_plus, 6 * x->capacity, &x->p, x->capacity, &x->mu));
+  PetscCall(PetscMalloc6(6 * x->capacity, &x->x, x->capacity, &x->rho, 6 * x->capacity, &x->u_star,
+                         6 * x->capacity, &x->u_plus, 6 * x->capacity, &x->p, x->capacity, &x->mu));
   PetscFunctionReturn(0);
 }
 
@@ -41,7 +41,8 @@ static PetscBool InAnyBox(const Mesh *m, int e, int nbox, const double box[])
 }
 
 /* CoracleRegionFunction */
-static int ElementsInRegion(void *context, int nbox, const double box[], int *n, const double **x, const double **rho)
+static int ElementsInRegion(void *context, int nbox, const double box[], int *n, const double **x,
+                            const double **rho)
 {
   Exchange s = context;
   const Mesh *m = FluidMesh(s->fluid);
@@ -62,7 +63,10 @@ static int ElementsInRegion(void *context, int nbox, const double box[], int *n,
   return 0;
 }
 
-static int SaveOrRestore(void *context, int save) { return FluidState(context, save); }
+static int SaveOrRestore(void *context, int save)
+{
+  return FluidState(context, save);
+}
 
 PetscErrorCode ExchangeCreate(CoracleClient client, Fluid fluid, Exchange *exchange)
 {

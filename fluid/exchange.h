@@ -9,7 +9,8 @@ typedef struct Exchange_s *Exchange;
 PetscErrorCode ExchangeCreate(CoracleClient client, Fluid fluid, Exchange *x);
 /* Hands the coupling of the coming step to the fluid. */
 PetscErrorCode ExchangeReceiveCoupling(Exchange x);
-/* Sends u*, u+, p, mu near the solid, waits for the solid, and returns what corrects the inside (borrowed). */
+/* Sends u*, u+, p, mu near the solid, waits for the solid, and returns what corrects the inside (borrowed).
+ */
 PetscErrorCode ExchangeFlow(Exchange x, const CoracleCorrection **correction);
 PetscErrorCode ExchangeDestroy(Exchange *x);
 #endif

@@ -9,7 +9,8 @@ static PetscErrorCode CreateElements(Fluid f)
   PetscCall(PetscMalloc1(m->ne, &f->coupling_of));
   PetscCall(PetscCalloc1(m->ne, &f->alpha));
   for (int e = 0; e < m->ne + m->ng; e++) {
-    ElementGeometryCompute(ElementVertex(m, e, 0), ElementVertex(m, e, 1), ElementVertex(m, e, 2), f->geometry + e);
+    ElementGeometryCompute(ElementVertex(m, e, 0), ElementVertex(m, e, 1), ElementVertex(m, e, 2),
+                           f->geometry + e);
     f->rho[e] = f->setup.rho;
     f->mu[e] = f->setup.mu;
   }
@@ -53,11 +54,13 @@ PetscErrorCode FluidDestroy(Fluid *fluid)
 /* x of P2 node k of element e */
 static void P2NodePosition(const Mesh *m, int e, int k, double x[2])
 {
-  const double *a = ElementVertex(m, e, k < 3 ? k : (k + 1) % 3), *b = ElementVertex(m, e, k < 3 ? k : (k + 2) % 3);
+  const double *a = ElementVertex(m, e, k < 3 ? k : (k + 1) % 3),
+               *b = ElementVertex(m, e, k < 3 ? k : (k + 2) % 3);
   for (int c = 0; c < 2; c++) x[c] = 0.5 * (a[c] + b[c]);
 }
 
-/* p += what open boundaries hold above hydrostatic.  A node's owner need not have the boundary face: hence sum and count. */
+/* p += what open boundaries hold above hydrostatic.  A node's owner need not have the boundary face: hence
+ * sum and count. */
 static PetscErrorCode AddOpenPressure(Fluid f)
 {
   const Mesh *m = f->mesh;
@@ -95,7 +98,8 @@ static PetscErrorCode AddOpenPressure(Fluid f)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldFunction pressure, void *context)
+PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldFunction pressure,
+                               void *context)
 {
   const Mesh *m = f->mesh;
   PetscScalar *u, *p;
@@ -160,8 +164,10 @@ PetscErrorCode FluidState(Fluid f, int save)
     PetscCall(VecGhostRestoreLocalForm(save ? live[k] : kept[k], &from));
     PetscCall(VecGhostRestoreLocalForm(save ? kept[k] : live[k], &to));
   }
-  if (save) f->saved_t = f->t, f->saved_dt = f->dt_previous;
-  else f->t = f->saved_t, f->dt_previous = f->saved_dt;
+  if (save)
+    f->saved_t = f->t, f->saved_dt = f->dt_previous;
+  else
+    f->t = f->saved_t, f->dt_previous = f->saved_dt;
   PetscFunctionReturn(0);
 }
 
@@ -175,12 +181,39 @@ static const double *View(Vec v)
   return view;
 }
 
-const double *FluidVelocity(Fluid f) { return View(f->u); }
-const double *FluidVelocityStar(Fluid f) { return View(f->u_star); }
-const double *FluidVelocityPlus(Fluid f) { return View(f->u_next); }
-const double *FluidPressure(Fluid f) { return View(f->p); }
-const double *FluidDensity(Fluid f) { return f->rho; }
-const double *FluidViscosity(Fluid f) { return f->mu; }
-const double *FluidSolidFraction(Fluid f) { return f->alpha; }
-const FluidStats *FluidGetStats(Fluid f) { return &f->stats; }
-const Mesh *FluidMesh(Fluid f) { return f->mesh; }
+const double *FluidVelocity(Fluid f)
+{
+  return View(f->u);
+}
+const double *FluidVelocityStar(Fluid f)
+{
+  return View(f->u_star);
+}
+const double *FluidVelocityPlus(Fluid f)
+{
+  return View(f->u_next);
+}
+const double *FluidPressure(Fluid f)
+{
+  return View(f->p);
+}
+const double *FluidDensity(Fluid f)
+{
+  return f->rho;
+}
+const double *FluidViscosity(Fluid f)
+{
+  return f->mu;
+}
+const double *FluidSolidFraction(Fluid f)
+{
+  return f->alpha;
+}
+const FluidStats *FluidGetStats(Fluid f)
+{
+  return &f->stats;
+}
+const Mesh *FluidMesh(Fluid f)
+{
+  return f->mesh;
+}

@@ -1,5 +1,5 @@
-/* The fluid: incompressible Navier-Stokes with P1DG velocity and P2 pressure on a mesh of triangles, the solid present
- * through the coupling of coracle.h.  One step is
+/* The fluid: incompressible Navier-Stokes with P1DG velocity and P2 pressure on a mesh of triangles, the
+ * solid present through the coupling of coracle.h.  One step is
  *
  *   FluidMomentum   u*  from  (rho/dt M + theta L + a) u* = ...           momentum.c
  *   FluidProject    u+  = u* - dt/rho grad phi,  p += phi                 pressure.c
@@ -25,21 +25,21 @@ typedef enum {
 
 typedef struct {
   BoundaryKind kind;
-  double velocity[2];    /* m/s */
-  PetscBool parabolic;   /* velocity times 4 s (1 - s), s along the boundary's bounding box */
+  double velocity[2];        /* m/s */
+  PetscBool parabolic;       /* velocity times 4 s (1 - s), s along the boundary's bounding box */
   double lower[2], upper[2]; /* that box; set by FluidCreate */
-  double pressure;       /* where open: above hydrostatic, Pa */
-  FieldFunction function; /* instead of velocity; NULL: none */
+  double pressure;           /* where open: above hydrostatic, Pa */
+  FieldFunction function;    /* instead of velocity; NULL: none */
   void *context;
 } Boundary;
 
 typedef struct {
-  double theta;          /* 0.5 Crank-Nicolson .. 1 backward Euler */
-  double rho, mu;        /* kg/m3, Pa s */
-  double gravity[2];     /* m/s2 */
-  double cfl, dt_max;    /* step control */
-  Boundary *boundary;    /* [mesh->ntags], copied */
-  FieldFunction source;  /* body force per volume, N/m3, or NULL */
+  double theta;         /* 0.5 Crank-Nicolson .. 1 backward Euler */
+  double rho, mu;       /* kg/m3, Pa s */
+  double gravity[2];    /* m/s2 */
+  double cfl, dt_max;   /* step control */
+  Boundary *boundary;   /* [mesh->ntags], copied */
+  FieldFunction source; /* body force per volume, N/m3, or NULL */
   void *source_context;
 } FluidSetup;
 
@@ -54,29 +54,30 @@ typedef struct {
 PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *fluid); /* mesh borrowed */
 PetscErrorCode FluidDestroy(Fluid *fluid);
 /* Initial velocity by interpolation (NULL: rest) and hydrostatic pressure (or p by interpolation). */
-PetscErrorCode FluidSetInitial(Fluid fluid, double t, FieldFunction velocity, FieldFunction pressure, void *context);
+PetscErrorCode FluidSetInitial(Fluid fluid, double t, FieldFunction velocity, FieldFunction pressure,
+                               void *context);
 
 /* The solid's coupling of the coming step, element indices being local elements (copied); n = 0: no solid. */
 PetscErrorCode FluidSetCoupling(Fluid fluid, int n, const CoracleCoupling coupling[]);
 /* u* and u+ and p from t to t + dt */
 PetscErrorCode FluidMomentum(Fluid fluid, double dt);
 PetscErrorCode FluidProject(Fluid fluid, double dt);
-/* Gives the inside of the solid its new velocity; correction: one entry a coupling entry, or NULL without a solid.
- * Ends the step: t becomes t + dt. */
+/* Gives the inside of the solid its new velocity; correction: one entry a coupling entry, or NULL without a
+ * solid. Ends the step: t becomes t + dt. */
 PetscErrorCode FluidCorrect(Fluid fluid, double dt, const CoracleCorrection correction[]);
 /* The three in turn, for a fluid alone. */
 PetscErrorCode FluidStep(Fluid fluid, double dt);
 /* Largest dt of the CFL condition on this rank, capped by dt_max.  Not collective. */
 double FluidTimeStep(Fluid fluid);
 
-/* Views, borrowed, not collective: velocities [ne][2][3] of the owned elements, as of the last completed step, before the
- * projection of the step in hand and after it; pressure [np2]. */
+/* Views, borrowed, not collective: velocities [ne][2][3] of the owned elements, as of the last completed
+ * step, before the projection of the step in hand and after it; pressure [np2]. */
 const double *FluidVelocity(Fluid fluid);
 const double *FluidVelocityStar(Fluid fluid);
 const double *FluidVelocityPlus(Fluid fluid);
 const double *FluidPressure(Fluid fluid);
-const double *FluidDensity(Fluid fluid);   /* [ne] */
-const double *FluidViscosity(Fluid fluid); /* [ne] */
+const double *FluidDensity(Fluid fluid);       /* [ne] */
+const double *FluidViscosity(Fluid fluid);     /* [ne] */
 const double *FluidSolidFraction(Fluid fluid); /* [ne] alpha_s */
 const FluidStats *FluidGetStats(Fluid fluid);
 const Mesh *FluidMesh(Fluid fluid);
@@ -88,6 +89,6 @@ PetscErrorCode FluidMomentumTotal(Fluid fluid, double momentum[2], double *energ
 /* Force of the fluid on a boundary, N/m, from the interior-penalty traction (consistent with the scheme). */
 PetscErrorCode FluidBoundaryForce(Fluid fluid, const char *boundary, double force[2]);
 /* L2 errors against exact fields (any NULL skipped); pressure up to a constant. */
-PetscErrorCode FluidErrors(Fluid fluid, double t, FieldFunction velocity, FieldFunction pressure, void *context,
-                           double *velocity_error, double *pressure_error);
+PetscErrorCode FluidErrors(Fluid fluid, double t, FieldFunction velocity, FieldFunction pressure,
+                           void *context, double *velocity_error, double *pressure_error);
 #endif

@@ -1,6 +1,7 @@
 #include "fluid_case.h"
 
-/* --- mesh: a graded box, or a Gmsh file ------------------------------------------------------------------------ */
+/* --- mesh: a graded box, or a Gmsh file
+ * ------------------------------------------------------------------------ */
 
 typedef struct {
   double lower[2], upper[2], size;
@@ -37,8 +38,8 @@ static PetscErrorCode BoxMesh(Case c, PetscMPIInt rank, MeshSerial *serial)
   CaseVector(c, "fluid.mesh.lower", 2, lower);
   CaseVector(c, "fluid.mesh.upper", 2, upper);
   if (upper[0] <= lower[0] || upper[1] <= lower[1])
-    CaseRefuse(c, "fluid.mesh.upper", "expected a corner above and right of lower (%g, %g), found (%g, %g)", lower[0],
-               lower[1], upper[0], upper[1]);
+    CaseRefuse(c, "fluid.mesh.upper", "expected a corner above and right of lower (%g, %g), found (%g, %g)",
+               lower[0], lower[1], upper[0], upper[1]);
   f.size_max = CasePositive(c, "fluid.mesh.size_max");
   f.growth = CaseNumberOr(c, "fluid.mesh.growth", 0.25, 0.0, HUGE_VAL);
   f.n = CaseCount(c, "fluid.mesh.refine");
@@ -73,11 +74,14 @@ PetscErrorCode FluidCaseMesh(Case c, MPI_Comm comm, Mesh **mesh)
   PetscFunctionReturn(0);
 }
 
-/* --- boundaries -------------------------------------------------------------------------------------------------- */
+/* --- boundaries
+ * -------------------------------------------------------------------------------------------------- */
 
 static void ReadBoundary(Case c, const char *name, Boundary *b)
 {
-  static const char *const WORDS[] = {"no_slip", "free_slip", "open", NULL}, *const PROFILES[] = {"uniform", "parabolic", NULL};
+  static const char *const WORDS[] = {"no_slip", "free_slip", "open", NULL}, *const PROFILES[] = {"uniform",
+                                                                                                  "parabolic",
+                                                                                                  NULL};
   static const BoundaryKind KINDS[] = {BOUNDARY_VELOCITY, BOUNDARY_FREE_SLIP, BOUNDARY_OPEN};
   char key[160], sub[192];
   memset(b, 0, sizeof *b);

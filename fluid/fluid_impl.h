@@ -17,8 +17,10 @@ struct Fluid_s {
   Vec u, u_previous, u_star, u_next, beta, load, saved_u, saved_previous;
   Mat momentum; /* BAIJ, written in place */
   KSP momentum_ksp;
-  PetscInt *slot; /* [ne][4] block of the diagonal and of each face in the local diagonal (>= 0) or off-diagonal (-1 - k) part */
-  int preconditioner_age, fresh_iterations; /* steps since the preconditioner was made, iterations it took then */
+  PetscInt *slot; /* [ne][4] block of the diagonal and of each face in the local diagonal (>= 0) or
+                     off-diagonal (-1 - k) part */
+  int preconditioner_age,
+      fresh_iterations; /* steps since the preconditioner was made, iterations it took then */
   double preconditioner_dt;
 
   /* pressure: ghosted P2 vectors */
@@ -50,7 +52,8 @@ PetscErrorCode MomentumDestroy(Fluid f);
 PetscErrorCode PressureCreate(Fluid f);
 PetscErrorCode PressureDestroy(Fluid f);
 
-/* What element e contributes to the kernels of its face i; its two vertices are (i + 1) % 3 and (i + 2) % 3. */
+/* What element e contributes to the kernels of its face i; its two vertices are (i + 1) % 3 and (i + 2) % 3.
+ */
 static inline FaceSide FaceSideOf(const struct Fluid_s *f, int e, int i, double theta, double share)
 {
   const ElementGeometry *g = f->geometry + e;
@@ -60,5 +63,8 @@ static inline FaceSide FaceSideOf(const struct Fluid_s *f, int e, int i, double 
 #define PENALTY_INTERIOR 0.5 /* each side's share: eta = factor mu (TC_K + TC_N)/2 */
 #define PENALTY_BOUNDARY 2.0
 
-static inline const double *ElementVertex(const Mesh *m, int e, int i) { return m->x + 2 * m->vertex[3 * e + i]; }
+static inline const double *ElementVertex(const Mesh *m, int e, int i)
+{
+  return m->x + 2 * m->vertex[3 * e + i];
+}
 #endif

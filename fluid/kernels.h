@@ -1,12 +1,16 @@
-/* Pointwise physics of P1DG-P2: one element or one face in, one small block out.  No mesh, no MPI, no PETSc objects.
+/* Pointwise physics of P1DG-P2: one element or one face in, one small block out.  No mesh, no MPI, no PETSc
+ * objects.
  *
- * Weak form of the momentum equation on element K, test function w in P1(K)^2, L the advective and viscous operator:
+ * Weak form of the momentum equation on element K, test function w in P1(K)^2, L the advective and viscous
+ * operator:
  *
- *   (rho (u* - u^n)/dt, w) + theta L(u*, w) + (1 - theta) L(u^n, w) + (a u*, w) = (rho g - grad p, w) + (s, w)
+ *   (rho (u* - u^n)/dt, w) + theta L(u*, w) + (1 - theta) L(u^n, w) + (a u*, w) = (rho g - grad p, w) + (s,
+ * w)
  *
- *   L(u, w) = (rho beta.grad u, w) - <rho min(beta.n, 0) (u_K - u_N), w>                     upwind, not integrated by parts
- *           + (tau(u), grad w) - <{tau(u) n}, [w]> - <{tau(w) n}, [u]> + <eta [u], [w]>     symmetric interior penalty
- *   tau(u)  = mu (grad u + grad u^T - 2/3 div u I)
+ *   L(u, w) = (rho beta.grad u, w) - <rho min(beta.n, 0) (u_K - u_N), w>                     upwind, not
+ * integrated by parts
+ *           + (tau(u), grad w) - <{tau(u) n}, [w]> - <{tau(w) n}, [u]> + <eta [u], [w]>     symmetric
+ * interior penalty tau(u)  = mu (grad u + grad u^T - 2/3 div u I)
  *
  * A block is 6 x 6 in column-major order; row and column 3 c + i is component c at vertex i. */
 #ifndef FLUID_KERNELS_H
@@ -76,7 +80,8 @@ static inline void P2GradientTranspose(const double g[3][2], const double mv[2][
   for (int m = 0; m < 3; m++)
     for (int k = 0; k < 3; k++) {
       const double d = g[k][0] * mv[0][m] + g[k][1] * mv[1][m];
-      if (k == m) r[m] += 3.0 * d;
+      if (k == m)
+        r[m] += 3.0 * d;
       else {
         r[3 + (3 - k - m)] += 4.0 * d;
         r[k] -= d;
@@ -103,7 +108,8 @@ static inline void P2Stiffness(const ElementGeometry *e, double coefficient, dou
     }
 }
 
-/* Volume terms: block = rho/dt M + theta (rho (beta.grad u, w) + (tau(u), grad w)); beta[c][i] at the vertices. */
+/* Volume terms: block = rho/dt M + theta (rho (beta.grad u, w) + (tau(u), grad w)); beta[c][i] at the
+ * vertices. */
 static inline void MomentumVolume(const ElementGeometry *e, double rho_dt, double theta_rho, double theta_mu,
                                   const double beta[6], double block[36])
 {
@@ -134,7 +140,8 @@ static inline void Traction(const double g[3][2], double mu, const double n[2], 
   }
 }
 
-/* Inflow at the two Gauss points of a face gives w[i][j] = -int_F rho min(beta.n, 0) N_i N_j over its two nodes. */
+/* Inflow at the two Gauss points of a face gives w[i][j] = -int_F rho min(beta.n, 0) N_i N_j over its two
+ * nodes. */
 static inline void FaceInflow(double rho, double length, const double bn[2], double w[2][2])
 {
   const double GAUSS = 0.21132486540518712; /* (1 - 1/sqrt 3)/2 */
@@ -156,9 +163,10 @@ typedef struct {
   int a, b;       /* the face's two vertices, in the order of the element whose rows are assembled */
 } FaceSide;
 
-/* Interior face: rows of K.  own: block (K, K), added to; other: block (K, N), written.  inflow as FaceInflow, theta included. */
-static inline void MomentumFace(const FaceGeometry *face, const FaceSide *k, const FaceSide *nb, double inflow[2][2],
-                                double own[36], double other[36])
+/* Interior face: rows of K.  own: block (K, K), added to; other: block (K, N), written.  inflow as
+ * FaceInflow, theta included. */
+static inline void MomentumFace(const FaceGeometry *face, const FaceSide *k, const FaceSide *nb,
+                                double inflow[2][2], double own[36], double other[36])
 {
   const double quarter = 0.25 * face->length, eta = k->eta + nb->eta;
   const int rows[2] = {k->a, k->b}, cols[2] = {nb->a, nb->b};
@@ -183,10 +191,12 @@ static inline void MomentumFace(const FaceGeometry *face, const FaceSide *k, con
     }
 }
 
-/* Boundary face with the velocity prescribed in the directions that project[c][d] keeps (I: all, n n: free slip):
- * own block added to; load[2][2][...]: lift[6][4], column 2 d + r: rows' load per unit boundary velocity d at face node r. */
-static inline void MomentumBoundaryFace(const FaceGeometry *face, const FaceSide *k, const double project[2][2],
-                                        double inflow[2][2], double own[36], double lift[4][6])
+/* Boundary face with the velocity prescribed in the directions that project[c][d] keeps (I: all, n n: free
+ * slip): own block added to; load[2][2][...]: lift[6][4], column 2 d + r: rows' load per unit boundary
+ * velocity d at face node r. */
+static inline void MomentumBoundaryFace(const FaceGeometry *face, const FaceSide *k,
+                                        const double project[2][2], double inflow[2][2], double own[36],
+                                        double lift[4][6])
 {
   const double half = 0.5 * face->length;
   const int node[2] = {k->a, k->b};

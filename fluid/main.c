@@ -3,10 +3,13 @@
 #include "fluid_case.h"
 #include "record.h"
 
-static void Fail(void *client, const char *message) { CoracleFail(client, "%s", message); }
+static void Fail(void *client, const char *message)
+{
+  CoracleFail(client, "%s", message);
+}
 
-static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
-                            PetscErrorType type, const char *message, void *client)
+static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const char *file,
+                            PetscErrorCode code, PetscErrorType type, const char *message, void *client)
 {
   CoracleFail(client, "%s (in %s, %s:%d)", message ? message : "an error of PETSc", function, file, line);
 }
@@ -31,10 +34,12 @@ static PetscErrorCode Setup(Case c, MPI_Comm comm, Mesh **mesh, Fluid *fluid)
 
 static PetscErrorCode Report(CoracleClient client, Fluid fluid)
 {
-  static const char *const PHASES[] = {"seconds_assembly", "seconds_momentum", "seconds_pressure", "seconds_correction"};
+  static const char *const PHASES[] = {"seconds_assembly", "seconds_momentum", "seconds_pressure",
+                                       "seconds_correction"};
   PetscFunctionBeginUser;
   PetscCall(CoracleReport(client, "elements", FluidMesh(fluid)->ne, 1));
-  for (int k = 0; k < 4; k++) PetscCall(CoracleReport(client, PHASES[k], FluidGetStats(fluid)->seconds[k], 0));
+  for (int k = 0; k < 4; k++)
+    PetscCall(CoracleReport(client, PHASES[k], FluidGetStats(fluid)->seconds[k], 0));
   PetscFunctionReturn(0);
 }
 

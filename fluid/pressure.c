@@ -1,6 +1,6 @@
-/* The projection: int dt/rho grad phi.grad q = int u_hat*.grad q - <q, g.n> over P2, u+ = u* - dt/rho grad phi.
- * grad(P2) lies in P1DG, so the second is exact and the matrix of the first is C^T M^-1 C itself.
- * u_hat* = u* + M^-1 (us - ms u*): inside the solid the flow that must be free of divergence is the solid's. */
+/* The projection: int dt/rho grad phi.grad q = int u_hat*.grad q - <q, g.n> over P2, u+ = u* - dt/rho grad
+ * phi. grad(P2) lies in P1DG, so the second is exact and the matrix of the first is C^T M^-1 C itself. u_hat*
+ * = u* + M^-1 (us - ms u*): inside the solid the flow that must be free of divergence is the solid's. */
 #include "fluid_impl.h"
 
 /* Owned P2 nodes where phi = 0: on open boundaries; without any, global node 0. */
@@ -48,8 +48,8 @@ static PetscErrorCode AssembleLaplacian(Fluid f)
   const Mesh *m = f->mesh;
   PetscInt *rows;
   PetscFunctionBeginUser;
-  PetscCall(MatCreateAIJ(m->comm, m->np2_owned, m->np2_owned, PETSC_DETERMINE, PETSC_DETERMINE, 28, NULL, 14, NULL,
-                         &f->laplacian));
+  PetscCall(MatCreateAIJ(m->comm, m->np2_owned, m->np2_owned, PETSC_DETERMINE, PETSC_DETERMINE, 28, NULL, 14,
+                         NULL, &f->laplacian));
   PetscCall(MatSetOption(f->laplacian, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
   for (int e = 0; e < m->ne; e++) {
     double s[6][6];
@@ -68,27 +68,55 @@ static PetscErrorCode AssembleLaplacian(Fluid f)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PressureCreate(Fluid f)
+static PetscErrorCode DefaultOption(const char *name, const char *value)
 {
-  const Mesh *m = f->mesh;
+  PetscBool given;
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsHasName(NULL, NULL, name, &given));
+  if (!given) PetscCall(PetscOptionsSetValue(NULL, name, value));
+  PetscFunctionReturn(0);
+}
+
+/* A direct solver, factored once a mesh: PETSc's own Cholesky, whose two triangular solves are twice as fast
+ * here as those of the supernodal packages.  On several ranks one of them has the factor: its solve costs
+ * less than a distributed one, until the mesh is large; -pressure_pc_type and the like choose otherwise. */
+static PetscErrorCode CreateSolver(Fluid f)
+{
   PetscMPIInt size;
   PC pc;
-  Vec *all[] = {&f->p, &f->phi, &f->divergence, &f->saved_p};
   PetscFunctionBeginUser;
-  PetscCall(VecCreateGhost(m->comm, m->np2_owned, PETSC_DETERMINE, m->np2 - m->np2_owned, m->p2gid + m->np2_owned, all[0]));
-  for (size_t k = 1; k < sizeof all / sizeof *all; k++) PetscCall(VecDuplicate(*all[0], all[k]));
-  PetscCall(FindFixed(f));
-  PetscCall(AssembleLaplacian(f));
-  PetscCallMPI(MPI_Comm_size(m->comm, &size));
-  PetscCall(KSPCreate(m->comm, &f->pressure_ksp));
+  PetscCallMPI(MPI_Comm_size(f->mesh->comm, &size));
+  PetscCall(KSPCreate(f->mesh->comm, &f->pressure_ksp));
   PetscCall(KSPSetOptionsPrefix(f->pressure_ksp, "pressure_"));
   PetscCall(KSPSetOperators(f->pressure_ksp, f->laplacian, f->laplacian));
   PetscCall(KSPSetType(f->pressure_ksp, KSPPREONLY));
   PetscCall(KSPSetTolerances(f->pressure_ksp, 1e-9, 1e-50, 1e5, 500));
   PetscCall(KSPGetPC(f->pressure_ksp, &pc));
-  PetscCall(PCSetType(pc, PCCHOLESKY));
-  PetscCall(PCFactorSetMatSolverType(pc, size == 1 ? MATSOLVERCHOLMOD : MATSOLVERMUMPS));
+  if (size == 1) {
+    PetscCall(PCSetType(pc, PCCHOLESKY));
+    PetscCall(PCFactorSetMatOrderingType(pc, MATORDERINGAMD));
+  } else {
+    PetscCall(PCSetType(pc, PCTELESCOPE));
+    PetscCall(PCTelescopeSetReductionFactor(pc, size));
+    PetscCall(DefaultOption("-pressure_telescope_ksp_type", "preonly"));
+    PetscCall(DefaultOption("-pressure_telescope_pc_type", "cholesky"));
+    PetscCall(DefaultOption("-pressure_telescope_pc_factor_mat_ordering_type", "amd"));
+  }
   PetscCall(KSPSetFromOptions(f->pressure_ksp));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PressureCreate(Fluid f)
+{
+  const Mesh *m = f->mesh;
+  Vec *all[] = {&f->p, &f->phi, &f->divergence, &f->saved_p};
+  PetscFunctionBeginUser;
+  PetscCall(VecCreateGhost(m->comm, m->np2_owned, PETSC_DETERMINE, m->np2 - m->np2_owned,
+                           m->p2gid + m->np2_owned, all[0]));
+  for (size_t k = 1; k < sizeof all / sizeof *all; k++) PetscCall(VecDuplicate(*all[0], all[k]));
+  PetscCall(FindFixed(f));
+  PetscCall(AssembleLaplacian(f));
+  PetscCall(CreateSolver(f));
   PetscFunctionReturn(0);
 }
 
@@ -103,7 +131,8 @@ PetscErrorCode PressureDestroy(Fluid f)
   PetscFunctionReturn(0);
 }
 
-/* r -= <q, g.n> on boundaries that prescribe the velocity: Simpson's rule, exact for q in P2 and constant g */
+/* r -= <q, g.n> on boundaries that prescribe the velocity: Simpson's rule, exact for q in P2 and constant g
+ */
 static void BoundaryFlux(Fluid f, int e, double t, double r[6])
 {
   for (int i = 0; i < 3; i++) {

@@ -1,8 +1,9 @@
 #include "record.h"
 #include "output.h"
 
-#define COLUMNS                                                                                                              \
-  "t [s],dt [s],max speed [m/s],momentum x [kg/s],momentum y [kg/s],kinetic energy [J/m],momentum iterations,"               \
+#define COLUMNS                                                                                              \
+  "t [s],dt [s],max speed [m/s],momentum x [kg/s],momentum y [kg/s],kinetic energy [J/m],momentum "          \
+  "iterations,"                                                                                              \
   "pressure iterations,assembly [s],momentum [s],pressure [s],coupling [s]"
 
 struct Record_s {
@@ -23,7 +24,8 @@ static void BuildGrids(Record r, const Mesh *m)
     for (int i = 0; i < 3; i++) r->corner[3 * e + i] = 3 * e + i;
     for (int i = 0; i < 6; i++) {
       const int node = m->p2[6 * e + VTK[i]], q = VTK[i];
-      const int a = m->vertex[3 * e + (q < 3 ? q : (q + 1) % 3)], b = m->vertex[3 * e + (q < 3 ? q : (q + 2) % 3)];
+      const int a = m->vertex[3 * e + (q < 3 ? q : (q + 1) % 3)],
+                b = m->vertex[3 * e + (q < 3 ? q : (q + 2) % 3)];
       r->quadratic[6 * e + i] = node;
       for (int c = 0; c < 2; c++) {
         r->x_node[2 * node + c] = 0.5 * (m->x[2 * a + c] + m->x[2 * b + c]);
@@ -66,8 +68,8 @@ PetscErrorCode RecordCreate(Case c, Fluid f, Record *record)
   r->every = CasePositive(c, "output.every");
   PetscCall(OutputCreate(m->comm, folder, "fluid", &r->output));
   PetscCall(SeriesCreate(m->comm, folder, "fluid", COLUMNS, &r->series));
-  PetscCall(PetscMalloc6(3 * m->ne, &r->corner, 6 * m->ne, &r->quadratic, 6 * m->ne, &r->x_corner, 2 * m->np2, &r->x_node,
-                         6 * m->ne, &r->nodal, m->ne, &r->cell));
+  PetscCall(PetscMalloc6(3 * m->ne, &r->corner, 6 * m->ne, &r->quadratic, 6 * m->ne, &r->x_corner, 2 * m->np2,
+                         &r->x_node, 6 * m->ne, &r->nodal, m->ne, &r->cell));
   BuildGrids(r, m);
   PetscCall(Snapshot(r, f));
   *record = r;
@@ -80,8 +82,9 @@ PetscErrorCode RecordStep(Record r, Fluid f)
   double momentum[2], energy;
   PetscFunctionBeginUser;
   PetscCall(FluidMomentumTotal(f, momentum, &energy));
-  const double row[] = {s->t,       s->dt, s->max_speed, momentum[0], momentum[1], energy, s->momentum_iterations,
-                        s->pressure_iterations, s->seconds[0], s->seconds[1], s->seconds[2], s->seconds[3]};
+  const double row[] = {s->t,          s->dt,         s->max_speed,           momentum[0],
+                        momentum[1],   energy,        s->momentum_iterations, s->pressure_iterations,
+                        s->seconds[0], s->seconds[1], s->seconds[2],          s->seconds[3]};
   PetscCall(SeriesRow(r->series, row));
   if (s->t >= r->next * (1.0 - 1e-12)) PetscCall(Snapshot(r, f));
   PetscFunctionReturn(0);

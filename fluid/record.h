@@ -6,7 +6,8 @@
 
 typedef struct Record_s *Record;
 
-/* Collective.  Reads output.folder and output.every of the case and writes the snapshot of the initial state. */
+/* Collective.  Reads output.folder and output.every of the case and writes the snapshot of the initial state.
+ */
 PetscErrorCode RecordCreate(Case c, Fluid fluid, Record *r);
 /* Collective, after every step: one row of the series, and a snapshot when it is due. */
 PetscErrorCode RecordStep(Record r, Fluid fluid);

@@ -12,7 +12,10 @@ typedef struct {
   double omega;
 } Exact;
 
-static inline double Amplitude(const Exact *e, double t) { return 1.0 + 0.5 * sin(e->omega * t); }
+static inline double Amplitude(const Exact *e, double t)
+{
+  return 1.0 + 0.5 * sin(e->omega * t);
+}
 
 static inline void ExactVelocity(void *context, double t, const double x[2], double v[])
 {
@@ -39,7 +42,10 @@ static inline void ExactSource(void *context, double t, const double x[2], doubl
   s[1] += f * 2.0 * M_PI * cos(M_PI * x[0]) * cos(2.0 * M_PI * x[1]);
 }
 
-static inline double Uniform(void *context, const double x[2]) { return *(double *)context; }
+static inline double Uniform(void *context, const double x[2])
+{
+  return *(double *)context;
+}
 
 static inline PetscErrorCode SquareMesh(double h, Mesh **mesh)
 {
@@ -54,12 +60,13 @@ static inline PetscErrorCode SquareMesh(double h, Mesh **mesh)
   PetscFunctionReturn(0);
 }
 
-static inline PetscErrorCode ExactFluid(const Mesh *mesh, Exact *exact, Fluid *fluid)
+/* source: ExactSource, or NULL for a flow that is left to itself */
+static inline PetscErrorCode ExactFluid(const Mesh *mesh, Exact *exact, FieldFunction source, Fluid *fluid)
 {
   Boundary boundary[8] = {0};
   FluidSetup setup = {.theta = 0.5, .rho = RHO, .mu = MU, .cfl = 0.5, .dt_max = 1.0, .boundary = boundary};
   PetscFunctionBeginUser;
-  setup.source = ExactSource;
+  setup.source = source;
   setup.source_context = exact;
   for (int b = 0; b < mesh->ntags; b++) {
     boundary[b].kind = BOUNDARY_VELOCITY;

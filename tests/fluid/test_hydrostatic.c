@@ -6,7 +6,8 @@ static PetscErrorCode Rest(BoundaryKind kind)
 {
   const double h = 0.1;
   Boundary boundary[8] = {0};
-  FluidSetup setup = {.theta = 0.5, .rho = 1000.0, .mu = 1.0, .gravity = {1.0, -9.81}, .cfl = 0.5, .dt_max = 0.01};
+  FluidSetup setup = {
+      .theta = 0.5, .rho = 1000.0, .mu = 1.0, .gravity = {1.0, -9.81}, .cfl = 0.5, .dt_max = 0.01};
   Mesh *mesh;
   Fluid fluid;
   double speed = 0.0;
@@ -18,8 +19,8 @@ static PetscErrorCode Rest(BoundaryKind kind)
   PetscCall(FluidSetInitial(fluid, 0.0, NULL, NULL, NULL));
   for (int k = 0; k < 20; k++) PetscCall(FluidStep(fluid, 0.01));
   for (int k = 0; k < 6 * mesh->ne; k++) speed = fmax(speed, fabs(FluidVelocity(fluid)[k]));
-  PetscCheck(speed < 1e-10, PETSC_COMM_SELF, PETSC_ERR_PLIB, "boundary kind %d: a fluid at rest moves at %g m/s", kind,
-             speed);
+  PetscCheck(speed < 1e-10, PETSC_COMM_SELF, PETSC_ERR_PLIB,
+             "boundary kind %d: a fluid at rest moves at %g m/s", kind, speed);
   PetscCall(FluidDestroy(&fluid));
   PetscCall(MeshDestroy(&mesh));
   PetscFunctionReturn(0);

@@ -1,6 +1,7 @@
 // ranks: 2
-/* Schaefer & Turek (1996), benchmark 2D-1: steady flow around a cylinder at Re 20.  Reference values of validation.md:
- * C_D 5.579535, C_L 0.0106189, pressure drop 0.117520 Pa.  The mesh is made by gmsh from schaefer_turek.geo. */
+/* Schaefer & Turek (1996), benchmark 2D-1: steady flow around a cylinder at Re 20.  Reference values of
+ * validation.md: C_D 5.579535, C_L 0.0106189, pressure drop 0.117520 Pa.  The mesh is made by gmsh from
+ * schaefer_turek.geo. */
 #include "fluid.h"
 #include <stdlib.h>
 
@@ -17,8 +18,8 @@ static PetscErrorCode ChannelMesh(double h, Mesh **mesh)
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
   if (rank == 0) {
     (void)snprintf(path, sizeof path, "channel_%d.msh", (int)getpid());
-    (void)snprintf(command, sizeof command, "gmsh -2 -v 1 -setnumber h %g %s/schaefer_turek.geo -o %s", h, SOURCE_FOLDER,
-                   path);
+    (void)snprintf(command, sizeof command, "gmsh -2 -v 1 -setnumber h %g %s/schaefer_turek.geo -o %s", h,
+                   SOURCE_FOLDER, path);
     PetscCheck(!system(command), PETSC_COMM_SELF, PETSC_ERR_LIB, "gmsh failed: %s", command);
     PetscCheck(!MeshReadGmsh(path, &serial, &why), PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "%s", why);
     (void)remove(path);
@@ -79,11 +80,15 @@ int main(int argc, char **argv)
   }
   PetscCall(PressureAt(fluid, 0.15, 0.2, &front));
   PetscCall(PressureAt(fluid, 0.25, 0.2, &back));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "triangles %d, steps %d: C_D %.4f (5.5795)  C_L %.5f (0.01062)  dp %.5f (0.11752)\n",
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+                        "triangles %d, steps %d: C_D %.4f (5.5795)  C_L %.5f (0.01062)  dp %.5f (0.11752)\n",
                         (int)mesh->nglobal, steps, scale * force[0], scale * force[1], front - back));
-  PetscCheck(fabs(scale * force[0] / 5.579535 - 1.0) < 0.005, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "drag off by more than 0.5 %%");
-  PetscCheck(fabs(scale * force[1] / 0.0106189 - 1.0) < 0.05, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "lift off by more than 5 %%");
-  PetscCheck(fabs((front - back) / 0.117520 - 1.0) < 0.01, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "dp off by more than 1 %%");
+  PetscCheck(fabs(scale * force[0] / 5.579535 - 1.0) < 0.005, PETSC_COMM_WORLD, PETSC_ERR_PLIB,
+             "drag off by more than 0.5 %%");
+  PetscCheck(fabs(scale * force[1] / 0.0106189 - 1.0) < 0.05, PETSC_COMM_WORLD, PETSC_ERR_PLIB,
+             "lift off by more than 5 %%");
+  PetscCheck(fabs((front - back) / 0.117520 - 1.0) < 0.01, PETSC_COMM_WORLD, PETSC_ERR_PLIB,
+             "dp off by more than 1 %%");
   PetscCall(FluidDestroy(&fluid));
   PetscCall(MeshDestroy(&mesh));
   PetscCall(PetscFinalize());
