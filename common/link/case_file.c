@@ -458,7 +458,8 @@ int CaseFinish(Case c, const char *const sections[])
   for (int i = 0; i < c->root->n; i++) CheckSection(c, c->root->child[i]);
   for (int i = 0; sections[i]; i++) {
     const CaseNode *node = CaseTreeChild(c->root, sections[i]);
-    if (node) CheckRead(c, node, sections[i]);
+    const bool empty = node && node->n == 0 && (node->kind != NODE_SCALAR || !node->text[0]);
+    if (node && !empty) CheckRead(c, node, sections[i]);
   }
   return 0;
 }

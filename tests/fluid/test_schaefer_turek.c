@@ -4,6 +4,7 @@
  * schaefer_turek.geo. */
 #include "fluid.h"
 #include <stdlib.h>
+#include <unistd.h>
 
 #define MEAN_SPEED 0.2
 #define DIAMETER 0.1

@@ -103,6 +103,13 @@ static void Step(Fluid *f, CoracleAction action)
   CheckCorrection(f);
 }
 
+static const char *const SECTIONS[] = {"fluid", NULL};
+
+static void Fail(void *client, const char *message)
+{
+  CoracleFail(client, "%s", message);
+}
+
 int main(int argc, char **argv)
 {
   static Fluid f;
@@ -113,11 +120,12 @@ int main(int argc, char **argv)
   double t, dt;
   CoracleAction action;
   CoracleOpen("fluid", argc, argv, &comm, &f.client);
-  CaseOpen(argc, argv, NULL, NULL, &c);
+  CaseOpen(argc, argv, Fail, f.client, &c);
   MPI_Comm_rank(comm, &f.rank);
   MPI_Comm_size(comm, &size);
   f.fault = (Fault)CaseWord(c, "fluid.fault", FAULT_NONE, FAULT_WORDS);
-  f.fault_step = f.rank == size - 1 ? CaseIntegerOr(c, "fluid.fault_step", 4, 0, STEPS) : -1;
+  f.fault_step = f.rank == size - 1 ? 4 : -1;
+  CaseFinish(c, SECTIONS);
   CaseClose(&c);
   CoracleSetRegion(f.client, 2, lower, upper, Region, &f);
   CoracleBindState(f.client, f.memory, sizeof f.memory);

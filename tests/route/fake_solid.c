@@ -105,6 +105,13 @@ static void Step(Solid *s, double t, double dt)
   CoracleEnd(s->client, &s->x[0][0]);
 }
 
+static const char *const SECTIONS[] = {"solid", NULL};
+
+static void Fail(void *client, const char *message)
+{
+  CoracleFail(client, "%s", message);
+}
+
 int main(int argc, char **argv)
 {
   static Solid s;
@@ -115,11 +122,12 @@ int main(int argc, char **argv)
   CoracleAction action;
   const char *role = getenv("TEST_SOLID_ROLE");
   CoracleOpen(role ? role : "solid", argc, argv, &comm, &s.client);
-  CaseOpen(argc, argv, NULL, NULL, &c);
+  CaseOpen(argc, argv, Fail, s.client, &c);
   MPI_Comm_rank(comm, &s.rank);
   MPI_Comm_size(comm, &size);
   s.fault = (Fault)CaseWord(c, "solid.fault", FAULT_NONE, FAULT_WORDS);
-  s.fault_step = s.rank == size - 1 ? CaseIntegerOr(c, "solid.fault_step", 4, 0, STEPS) : -1;
+  s.fault_step = s.rank == size - 1 ? 4 : -1;
+  CaseFinish(c, SECTIONS);
   CaseClose(&c);
   SetMesh(&s, 0, 0.0);
   CoracleBindState(s.client, s.memory, sizeof s.memory);

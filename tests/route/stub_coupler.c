@@ -190,15 +190,23 @@ static void CheckReport(void *context, const char *role, const char *key, double
   s->n++;
 }
 
+static const char *const SECTIONS[] = {"coupler", NULL};
+
+static void Fail(void *server, const char *message)
+{
+  ServerFail(server, "%s", message);
+}
+
 int main(int argc, char **argv)
 {
   static Stub s;
   Case c;
   ServerOpen(argc, argv, &s.comm, &s.server);
-  CaseOpen(argc, argv, NULL, NULL, &c);
+  CaseOpen(argc, argv, Fail, s.server, &c);
   MPI_Comm_rank(s.comm, &s.rank);
   MPI_Comm_size(s.comm, &s.size);
   s.fault = (Fault)CaseWord(c, "coupler.fault", FAULT_NONE, FAULT_WORDS);
+  CaseFinish(c, SECTIONS);
   CaseClose(&c);
   ReceiveSolid(&s, 0);
   AskElements(&s);
