@@ -152,6 +152,8 @@ int ParticipantOpen(const char *role, bool client, int argc, char **argv, Partic
   if (wrong) snprintf(mine.problem, sizeof mine.problem, "%s", wrong);
   CallRoll(&mine, &p->waiter);
   MapRoles(p, &mine);
+  /* when one hangs all wait: the coupler, whose partners they all are, gives up first and so names the one */
+  if (client) p->waiter.timeout = 1.1 * p->waiter.timeout + 1.0;
   BoardOpen(role, p->rank, &p->board);
   LeavingWatch(p);
   if (share.pinned) MachineNotePinned(role, p->rank);

@@ -26,8 +26,9 @@ const char *WaiterInit(Waiter *w, bool shares_core)
   }
   if (timeout && *timeout) {
     char *end;
-    w->timeout = strtod(timeout, &end);
-    if (*end || !(w->timeout > 0.0)) return "CORACLE_TIMEOUT must be a number of seconds > 0";
+    const double seconds = strtod(timeout, &end);
+    if (*end || !(seconds > 0.0)) return "CORACLE_TIMEOUT must be a number of seconds > 0";
+    w->timeout = seconds;
   }
   return NULL;
 }

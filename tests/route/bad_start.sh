@@ -1,0 +1,89 @@
+#!/usr/bin/env bash
+# A run that cannot work must end within seconds with one message that says why.
+# Usage: bad_start.sh SCENARIO BIN CASE MPIRUN...   (BIN: where the fake participants are)
+set -uo pipefail
+scenario=$1 bin=$2 case=$3
+shift 3
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+good=$scratch/case.yaml # a path of its own: what is still running afterwards is ours
+cp "$case" "$good"
+
+fluid=("$bin/fake_fluid" "$good") coupler=("$bin/stub_coupler" "$good") solid=("$bin/fake_solid" "$good")
+f=2 c=1 s=1
+with() { fluid+=(--set "$1"); coupler+=(--set "$1"); solid+=(--set "$1"); }
+limit=10 extra=() more=() # extra: environment; more: a last part of the command line
+
+case $scenario in
+  no_coupler) c=0 expect='there is no coupler among the 3 ranks' ;;
+  no_solid) s=0 expect='there is no solid among the 3 ranks' ;;
+  no_fluid) f=0 expect='there is no fluid among the 2 ranks' ;;
+  two_fluids)
+    cp "$bin/fake_fluid" "$scratch/other_fluid"
+    more=(: -n 1 "$scratch/other_fluid" "$good") expect='two programs want to be the fluid: fluid rank 0 .* fluid rank 2' ;;
+  two_couplers)
+    cp "$bin/stub_coupler" "$scratch/other_coupler"
+    more=(: -n 1 "$scratch/other_coupler" "$good") expect='two programs want to be the coupler' ;;
+  different_files)
+    { cat "$good"; echo '# another'; } >"$scratch/other.yaml"
+    solid=("$bin/fake_solid" "$scratch/other.yaml") expect='different case files: solid rank 0 .*other.yaml' ;;
+  different_sets) solid+=(--set time.end=1); expect='different settings: the --set arguments of solid rank 0' ;;
+  wrong_role) extra=(TEST_SOLID_ROLE=solids) expect="'solids' is no role" ;;
+  coupler_as_client) extra=(TEST_SOLID_ROLE=coupler) expect='CoracleOpen joins a fluid or a solid' ;;
+  no_case_file) rm "$good"; expect='case.yaml.: No such file or directory' ;;
+  no_argument) fluid=("${fluid[0]}") coupler=("${coupler[0]}") solid=("${solid[0]}") expect='no case file' ;;
+  bad_yaml) echo 'time: [1, 2' >>"$good"; expect='case.yaml:[0-9]*: not valid YAML' ;;
+  bad_set) with time.end=[1; expect='the value is not valid YAML' ;;
+  unknown_section) echo 'fluidd: {a: 1}' >>"$good"; expect="unknown section 'fluidd' .did you mean 'fluid'" ;;
+  unknown_key) with solid.falt=none; expect="unknown key 'solid.falt' .did you mean 'fault'" ;;
+  bad_word) with fluid.fault=sing; expect="key 'fluid.fault': expected one of none, kill" ;;
+  bad_wait) extra=(CORACLE_WAIT=nap) expect='CORACLE_WAIT must be spin, yield or sleep' ;;
+  bad_timeout) extra=(CORACLE_TIMEOUT=soon) expect='CORACLE_TIMEOUT must be a number' ;;
+  solid_killed) with solid.fault=kill; expect='solid rank 0 .process [0-9]*. died in step 4' ;;
+  fluid_killed) with fluid.fault=kill; expect='fluid rank 1 .process [0-9]*. died in step 4' ;;
+  coupler_killed) with coupler.fault=kill; expect='coupler rank 0 .process [0-9]*. died in step' ;;
+  solid_finalizes) with solid.fault=finalize; expect='solid.0.: error: left the job in step 4' ;;
+  fluid_finalizes) with fluid.fault=finalize; expect='fluid.1.: error: left the job in step 4' ;;
+  coupler_finalizes) with coupler.fault=finalize; expect='coupler.0.: error: left the job in step 4' ;;
+  solid_exits) with solid.fault=exit; expect='solid.0.: error: the program exited in step 4' ;;
+  fluid_exits) with fluid.fault=exit; expect='fluid.1.: error: the program exited in step 4' ;;
+  coupler_exits) with coupler.fault=exit; expect='coupler.0.: error: the program exited in step 4' ;;
+  solid_closes) with solid.fault=close; expect='solid.0.: error: closed in step 4, before the end' ;;
+  solid_nan) with solid.fault=nan; expect='solid.0.: error: velocity is -*nan at node [0-9]*, component 1, in step 4' ;;
+  fluid_nan) with fluid.fault=nan; expect='fluid.1.: error: pressure is inf at element 6, component 4, in step 4' ;;
+  coupler_nan) with coupler.fault=nan; expect='coupler.0.: error: force is -*nan at node 0, component 0, in step 4' ;;
+  solid_hangs) with solid.fault=hang; extra=(CORACLE_TIMEOUT=2)
+    expect='error: waited 2 s for MOTION of step 4 from solid rank 0' ;;
+  fluid_hangs) with fluid.fault=hang; extra=(CORACLE_TIMEOUT=2)
+    expect='error: waited 2 s for FLOW of step 4 from fluid rank 1' ;;
+  coupler_hangs) with coupler.fault=hang; extra=(CORACLE_TIMEOUT=1)
+    expect='error: waited 2.1 s for [A-Z]* of step [34] from coupler rank 0' ;;
+  *) echo "no scenario '$scenario'" >&2; exit 2 ;;
+esac
+
+line=() # the parts of the command line that have ranks
+part() { [ "$1" -eq 0 ] || line+=(${line[0]+:} -n "$@"); }
+part "$f" "${fluid[@]}"
+part "$c" "${coupler[@]}"
+part "$s" "${solid[@]}"
+
+start=$(date +%s%N)
+timeout -k 5 30 env "${extra[@]}" "$@" "${line[@]}" "${more[@]}" >"$scratch/log" 2>&1
+status=$?
+elapsed=$((($(date +%s%N) - start) / 1000000)) # ms
+
+fail() {
+  echo "$scenario: $1 (status $status, ${elapsed} ms); expected '$expect', the run said:"
+  cat "$scratch/log"
+  exit 1
+}
+[ $status -ne 0 ] || fail 'the run ended as if all were well'
+[ $elapsed -lt $((1000 * limit)) ] || fail "took longer than $limit s"
+[ "$(grep -c 'error:' "$scratch/log")" -eq 1 ] || fail 'not exactly one error'
+grep -qE "^coracle [a-z]+\[[0-9]+\]: error: " "$scratch/log" || fail 'the error has another form'
+grep -q "$expect" "$scratch/log" || fail 'another error'
+for _ in 1 2 3 4 5 6 7 8; do
+  pgrep -f "$good" >/dev/null || exit 0
+  sleep 0.25
+done
+fail 'processes are left over'
