@@ -1,0 +1,52 @@
+/* Private to the Gmsh reader: what a file says, before it is judged.  Functions return 0 or a PETSc error
+ * code, without a trace-back: GmshRefuse has written why. */
+#ifndef CORACLE_MESH_GMSH_IMPL_H
+#define CORACLE_MESH_GMSH_IMPL_H
+#include "mesh.h"
+
+typedef struct {
+  int tag;
+  double x[3];
+} GmshNode;
+
+/* A line (node[2] unused) or a triangle. */
+typedef struct {
+  long number;
+  int node[3];  /* node tags */
+  int physical; /* tag of its physical group, 0: none */
+} GmshElement;
+
+typedef struct {
+  int dim, tag;
+  char name[64];
+} GmshName;
+
+/* A curve or surface of the geometry that is in a physical group. */
+typedef struct {
+  int dim, tag, physical;
+} GmshEntity;
+
+typedef struct {
+  const char *path;
+  char *data; /* the whole file, ended by a 0 */
+  size_t size, at;
+  int binary, version; /* version: 22 or 41 */
+  size_t nnode, nline, ntriangle, nname, nentity;
+  size_t line_capacity, triangle_capacity, entity_capacity;
+  GmshNode *node;
+  GmshElement *line, *triangle;
+  GmshName *name;
+  GmshEntity *entity;
+} GmshFile;
+
+/* Writes "<path>: <message>" where MeshReadGmsh's *error points to. */
+PetscErrorCode GmshRefuse(const GmshFile *file, const char *format, ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
+/* Reads file->path into the lists above. */
+PetscErrorCode GmshParse(GmshFile *file);
+
+#define GMSH_TRY(call)                                                                                       \
+  do {                                                                                                       \
+    const PetscErrorCode code_ = (call);                                                                     \
+    if (code_) return code_;                                                                                 \
+  } while (0)
+#endif
