@@ -1,11 +1,12 @@
-/* A case file: YAML, strict.  Every key that is read says its type, its default and its range here and now; what nobody
- * has read by the time of CaseFinish is an error, as are wrong types and impossible values.  An error ends the job with
- * "coracle <role>[rank]: error: file.yaml:12: key 'fluid.density': expected a number > 0, found '-3'".
- * All functions may be called by any rank; each rank reads the file itself.  A case is parsed from argv:
- * `program case.yaml [--set key=value]...`; a set replaces or adds the key (dotted path, list items as name[0].key).
+/* A case file: YAML, strict.  Every key that is read says its type, its default and its range here and now;
+ * what nobody has read by the time of CaseFinish is an error, as are wrong types and impossible values.  An
+ * error ends the job with "coracle <role>[rank]: error: file.yaml:12: key 'fluid.density': expected a number
+ * > 0, found '-3'". All functions may be called by any rank; each rank reads the file itself.  A case is
+ * parsed from argv: `program case.yaml [--set key=value]...`; a set replaces or adds the key (dotted path,
+ * list items as name[0].key).
  *
- * The top-level sections are: case (name), gravity, time, fluid, solid, coupler, output.  A participant opens the whole
- * file but must read only its sections: CaseFinish checks the sections it names. */
+ * The top-level sections are: case (name), gravity, time, fluid, solid, coupler, output.  A participant opens
+ * the whole file but must read only its sections: CaseFinish checks the sections it names. */
 #ifndef CORACLE_CASE_FILE_H
 #define CORACLE_CASE_FILE_H
 #include <stdbool.h>
@@ -41,7 +42,9 @@ int CaseWord(Case c, const char *key, int fallback, const char *const words[]);
 /* Calls f(context, name) for each key of the map at key, in file order (names borrowed). */
 int CaseKeys(Case c, const char *key, void (*f)(void *context, const char *name), void *context);
 /* The error of a value that was read well but cannot be: names file, line and key. */
-_Noreturn void CaseRefuse(Case c, const char *key, const char *format, ...) __attribute__((format(printf, 3, 4)));
-/* Checks that every key under the sections (null-terminated list) has been read, and that no unknown top-level section exists. */
+_Noreturn void CaseRefuse(Case c, const char *key, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* Checks that every key under the sections (null-terminated list) has been read, and that no unknown
+ * top-level section exists. */
 int CaseFinish(Case c, const char *const sections[]);
 #endif

@@ -17,16 +17,17 @@ typedef enum {
 typedef struct {
   int n, nfacets, nelements;
   Buffer gid, x, u;      /* long long [n], double [n][2], double [n][2]: velocity given with the nodes, m/s */
-  Buffer integral;       /* double [n][2]: of u dt over the step so far, m */
+  Buffer sums;           /* double [n][2][2] over the substeps so far: of h u, m, and of h tau u, m s */
   Buffer facet, element; /* int [nfacets][2], int [nelements][3] */
 } SolidMesh;
 
 typedef struct {
   SolidMesh mesh, before; /* before: as it was when the step began, if it has changed since */
   bool has_nodes, has_before;
-  bool changed;   /* the coupler has not seen this mesh yet */
-  double elapsed; /* of the step, by substeps, s */
-  Buffer mean;    /* double [n][2] */
+  bool changed; /* the coupler has not seen this mesh yet */
+  /* substeps of the step so far, each h long with its middle at tau after the step's start, s */
+  double elapsed, first, second, last; /* sums of h, h tau, h tau^2; tau of the last one */
+  Buffer velocity;                     /* double [2][n][2]: fitted, mean, m/s */
 } ClientSolid;
 
 typedef struct {

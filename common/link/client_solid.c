@@ -1,4 +1,4 @@
-/* The solid's end: its mesh, the mean of its velocity over the substeps, the force on it. */
+/* The solid's end: its mesh, its velocity over the substeps, the force on it. */
 #include "client_impl.h"
 #include <math.h>
 #include <stdlib.h>
@@ -34,14 +34,14 @@ static void MeshCopy(SolidMesh *to, const SolidMesh *from)
   Copy(&to->gid, from->gid.data, from->gid.size);
   Copy(&to->x, from->x.data, from->x.size);
   Copy(&to->u, from->u.data, from->u.size);
-  Copy(&to->integral, from->integral.data, from->integral.size);
+  Copy(&to->sums, from->sums.data, from->sums.size);
   Copy(&to->facet, from->facet.data, from->facet.size);
   Copy(&to->element, from->element.data, from->element.size);
 }
 
 static void MeshFree(SolidMesh *m)
 {
-  Buffer *all[] = {&m->gid, &m->x, &m->u, &m->integral, &m->facet, &m->element};
+  Buffer *all[] = {&m->gid, &m->x, &m->u, &m->sums, &m->facet, &m->element};
   for (int k = 0; k < 6; k++) BufferFree(all[k]);
 }
 
@@ -72,19 +72,19 @@ static const long long **SortIds(const long long gid[], int n)
   return sorted;
 }
 
-/* integral[n][2] on new nodes: a node whose id was there before keeps its own, a new one has moved with u so
- * far. */
-static void CarryIntegral(const ClientSolid *s, int n, const long long gid[], const double u[],
-                          double integral[])
+/* sums on new nodes: a node whose id was there before keeps its own, a new one has moved with u so far. */
+static void CarrySums(const ClientSolid *s, int n, const long long gid[], const double u[], double sums[])
 {
   const SolidMesh *m = &s->mesh;
   const long long **sorted = SortIds(Ids(&m->gid), m->n);
   for (int i = 0; i < n; i++) {
     const long long *id = &gid[i];
     const long long **found = bsearch(&id, sorted, (size_t)m->n, sizeof *sorted, CompareIds);
-    for (int d = 0; d < DIM; d++)
-      integral[DIM * i + d] =
-          found ? Doubles(&m->integral)[DIM * (*found - Ids(&m->gid)) + d] : s->elapsed * u[DIM * i + d];
+    const double *old = found ? Doubles(&m->sums) + 2 * DIM * (*found - Ids(&m->gid)) : NULL;
+    for (int d = 0; d < DIM; d++) {
+      sums[2 * DIM * i + d] = old ? old[d] : s->elapsed * u[DIM * i + d];
+      sums[2 * DIM * i + DIM + d] = old ? old[DIM + d] : s->first * u[DIM * i + d];
+    }
   }
   free(sorted);
 }
@@ -94,16 +94,16 @@ int CoracleSetNodes(CoracleClient c, int dim, int n, const long long gid[], cons
 {
   SolidMesh *m = &c->solid.mesh;
   const size_t bytes = DIM * (size_t)n * sizeof(double);
-  Buffer integral = {0};
+  Buffer sums = {0};
   BeforeChange(c, "CoracleSetNodes");
   if (dim != DIM) ParticipantFail(c->p, "CoracleSetNodes: dim is %d, only %d is there yet", dim, DIM);
   if (n < 0) ClientMisuse(c, "CoracleSetNodes", "n is negative");
   MessageCheckFinite(c->p, "position", "node", (size_t)n, DIM, x);
   MessageCheckFinite(c->p, "velocity", "node", (size_t)n, DIM, u);
-  BufferResize(&integral, bytes);
-  CarryIntegral(&c->solid, n, gid, u, Doubles(&integral));
-  BufferFree(&m->integral);
-  m->integral = integral;
+  BufferResize(&sums, 2 * bytes);
+  CarrySums(&c->solid, n, gid, u, Doubles(&sums));
+  BufferFree(&m->sums);
+  m->sums = sums;
   m->n = n;
   Copy(&m->gid, gid, (size_t)n * sizeof *gid);
   Copy(&m->x, x, bytes);
@@ -142,8 +142,8 @@ static void CheckConnectivity(CoracleClient c, const char *what, int ne, int per
 /* --- the exchanges
  * ---------------------------------------------------------------------------------------------- */
 
-/* SURFACE or MOTION, with positions x and velocities u. */
-static void SendMotion(CoracleClient c, const double x[], const double u[])
+/* SURFACE or MOTION, with positions x and velocities, fitted and mean. */
+static void SendMotion(CoracleClient c, const double x[], const double fitted[], const double mean[])
 {
   ClientSolid *s = &c->solid;
   const SolidMesh *m = &s->mesh;
@@ -153,7 +153,8 @@ static void SendMotion(CoracleClient c, const double x[], const double u[])
   h->count[2] = m->nelements;
   if (s->changed) MessageAdd(&c->out, m->gid.data, m->gid.size);
   MessageAdd(&c->out, x, m->x.size);
-  MessageAdd(&c->out, u, m->x.size);
+  MessageAdd(&c->out, fitted, m->x.size);
+  MessageAdd(&c->out, mean, m->x.size);
   if (s->changed) {
     CheckConnectivity(c, "facet", m->nfacets, DIM, Ints(&m->facet));
     CheckConnectivity(c, "element", m->nelements, DIM + 1, Ints(&m->element));
@@ -168,7 +169,8 @@ void SolidReady(CoracleClient c)
 {
   if (!c->solid.has_nodes)
     ClientMisuse(c, "CoracleReady", "CoracleSetNodes comes first (with n = 0 on empty ranks)");
-  SendMotion(c, Doubles(&c->solid.mesh.x), Doubles(&c->solid.mesh.u));
+  const SolidMesh *m = &c->solid.mesh;
+  SendMotion(c, Doubles(&m->x), Doubles(&m->u), Doubles(&m->u));
 }
 
 /* The mesh that the step begins with: at REDO the one before it, which the coupler must then see again. */
@@ -181,8 +183,8 @@ static void BeginMesh(ClientSolid *s, CoracleAction action)
     s->changed = true;
   }
   s->has_before = false;
-  s->elapsed = 0.0;
-  if (s->mesh.n) memset(s->mesh.integral.data, 0, s->mesh.integral.size);
+  s->elapsed = s->first = s->second = s->last = 0.0;
+  if (s->mesh.n) memset(s->mesh.sums.data, 0, s->mesh.sums.size);
 }
 
 void SolidBegin(CoracleClient c)
@@ -207,13 +209,37 @@ int CoracleGetForce(CoracleClient c, const double **force)
 int CoracleSubstep(CoracleClient c, double h, const double u[])
 {
   ClientSolid *s = &c->solid;
-  double *integral = Doubles(&s->mesh.integral);
+  double *sums = Doubles(&s->mesh.sums);
   ClientExpect(c, "CoracleSubstep", ROLE_SOLID, STAGE_STEP, STAGE_STEP);
   if (!(h > 0.0)) ParticipantFail(c->p, "CoracleSubstep: h is %g s in step %d", h, c->p->step);
   MessageCheckFinite(c->p, "velocity", "node", (size_t)s->mesh.n, DIM, u);
-  for (int i = 0; i < DIM * s->mesh.n; i++) integral[i] += h * u[i];
+  s->last = s->elapsed + 0.5 * h;
+  for (int i = 0; i < s->mesh.n; i++)
+    for (int d = 0; d < DIM; d++) {
+      sums[2 * DIM * i + d] += h * u[DIM * i + d];
+      sums[2 * DIM * i + DIM + d] += h * s->last * u[DIM * i + d];
+    }
   s->elapsed += h;
+  s->first += h * s->last;
+  s->second += h * s->last * s->last;
   return 0;
+}
+
+/* The mean over the step, and the least-squares line through the substeps' velocities at the last of them:
+ * the velocity at the step's end without the body's vibrations. */
+static void Velocities(ClientSolid *s)
+{
+  const SolidMesh *m = &s->mesh;
+  const double *sums = Doubles(&m->sums), middle = s->first / s->elapsed;
+  const double spread = s->second - middle * s->first; /* of tau; 0 for one substep */
+  const double lever = spread > 1e-12 * s->second ? (s->last - middle) / spread : 0.0;
+  double *fitted = (double *)BufferResize(&s->velocity, 2 * m->x.size), *mean = fitted + DIM * m->n;
+  for (int i = 0; i < m->n; i++)
+    for (int d = 0; d < DIM; d++) {
+      const double zeroth = sums[2 * DIM * i + d], first = sums[2 * DIM * i + DIM + d];
+      mean[DIM * i + d] = zeroth / s->elapsed;
+      fitted[DIM * i + d] = mean[DIM * i + d] + lever * (first - middle * zeroth);
+    }
 }
 
 void SolidEnd(CoracleClient c, const double x[])
@@ -225,14 +251,13 @@ void SolidEnd(CoracleClient c, const double x[])
                     s->elapsed, c->dt);
   if (!x && m->n) ClientMisuse(c, "CoracleEnd", "a solid gives its positions");
   MessageCheckFinite(c->p, "position", "node", (size_t)m->n, DIM, x);
-  double *mean = BufferResize(&s->mean, m->x.size);
-  for (int i = 0; i < DIM * m->n; i++) mean[i] = Doubles(&m->integral)[i] / c->dt;
-  SendMotion(c, x, mean);
+  Velocities(s);
+  SendMotion(c, x, Doubles(&s->velocity), Doubles(&s->velocity) + DIM * m->n);
 }
 
 void SolidFree(CoracleClient c)
 {
   MeshFree(&c->solid.mesh);
   MeshFree(&c->solid.before);
-  BufferFree(&c->solid.mean);
+  BufferFree(&c->solid.velocity);
 }

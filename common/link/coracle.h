@@ -16,8 +16,8 @@
  *     CoracleEnd(c, x)                                  CoracleSetFlow(c, ...); CoracleEnd(c, NULL)
  *                                                       apply the correction: CoracleGetCoupling(c, &k)
  *
- * The coupler decides t, dt and the action; the library restores bound state when a step is redone, so that an
- * adapter never holds a checkpoint of its own.  Arrays are C order, dim is 2 (3 to come), units are SI.
+ * The coupler decides t, dt and the action; the library restores bound state when a step is redone, so that
+ * an adapter never holds a checkpoint of its own.  Arrays are C order, dim is 2 (3 to come), units are SI.
  * All functions return 0, or end the whole job with one message: there is no partial failure to handle.
  * Ranks that own nothing are normal: pass n = 0. */
 #ifndef CORACLE_H
@@ -38,49 +38,60 @@ typedef enum {
   CORACLE_STOP  /* the run is over: close */
 } CoracleAction;
 
-/* --- joining ------------------------------------------------------------------------------------------------ */
+/* --- joining
+ * ------------------------------------------------------------------------------------------------ */
 
 /* Joins the job as `role` ("fluid" or "solid").  Collective over the whole job; calls MPI_Init if nobody has.
- * argv carries the case file and `--set key=value` pairs (see case_file.h); all participants must carry the same.
- * app_comm: [out] this participant's communicator, ready before PetscInitialize; owned by the library.
- * Refuses, naming the odd one out: two fluids, no coupler, different versions, different case files or settings. */
+ * argv carries the case file and `--set key=value` pairs (see case_file.h); all participants must carry the
+ * same. app_comm: [out] this participant's communicator, ready before PetscInitialize; owned by the library.
+ * Refuses, naming the odd one out: two fluids, no coupler, different versions, different case files or
+ * settings. */
 int CoracleOpen(const char *role, int argc, char **argv, MPI_Comm *app_comm, CoracleClient *c);
 
 /* Ends the whole job (not collective) with "coracle <role>[rank]: error: ..." on stderr. */
 _Noreturn void CoracleFail(CoracleClient c, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* A number for summary.json under participants.<role>.<key>; summed over the ranks when sum is not 0, else their
- * maximum.  Local; travels when the client closes. */
+/* A number for summary.json under participants.<role>.<key>; summed over the ranks when sum is not 0, else
+ * their maximum.  Local; travels when the client closes. */
 int CoracleReport(CoracleClient c, const char *key, double value, int sum);
 
-/* Leaves the job and nulls the handle.  Before CORACLE_STOP was received this is an error of the participant. */
+/* Leaves the job and nulls the handle.  Before CORACLE_STOP was received this is an error of the participant.
+ */
 int CoracleClose(CoracleClient *c);
 
-/* --- what a solid gives: once before CoracleReady, again between CoracleBegin and CoracleEnd after fracture ------ */
+/* --- what a solid gives: once before CoracleReady, again between CoracleBegin and CoracleEnd after fracture
+ * ------ */
 
 /* n nodes of this rank; gid[n]: global ids (a node shared by ranks has one id, each rank lists it);
  * x[n][dim]: positions, m;  u[n][dim]: velocities, m/s.  All copied. */
-int CoracleSetNodes(CoracleClient c, int dim, int n, const long long gid[], const double x[], const double u[]);
-/* conn[ne][dim]: this rank's surface facets; in 2D the solid lies on the left of the edge conn[e][0] -> conn[e][1]. */
+int CoracleSetNodes(CoracleClient c, int dim, int n, const long long gid[], const double x[],
+                    const double u[]);
+/* conn[ne][dim]: this rank's surface facets; in 2D the solid lies on the left of the edge conn[e][0] ->
+ * conn[e][1]. */
 int CoracleSetSurface(CoracleClient c, int ne, const int conn[]);
-/* conn[ne][dim + 1]: this rank's simplices of the volume, positively oriented; ne = 0 for a surface-only solid.
- * Every element and facet is given by one rank. */
+/* conn[ne][dim + 1]: this rank's simplices of the volume, positively oriented; ne = 0 for a surface-only
+ * solid. Every element and facet is given by one rank. */
 int CoracleSetVolume(CoracleClient c, int ne, const int conn[]);
 
-/* --- what a fluid gives --------------------------------------------------------------------------------------------- */
+/* --- what a fluid gives
+ * --------------------------------------------------------------------------------------------- */
 
-/* Called back (on every fluid rank, in CoracleReady and CoracleEnd) when the region near the solid has changed.
- * box[nbox][2][dim]: lower and upper corners of the region.  The fluid answers with those of its own elements that
- * overlap any box: x[n][dim + 1][dim] their vertices, rho[n] their density, kg/m3; both borrowed until the next call. */
+/* Called back (on every fluid rank, in CoracleReady and CoracleEnd) when the region near the solid has
+ * changed. box[nbox][2][dim]: lower and upper corners of the region.  The fluid answers with those of its own
+ * elements that overlap any box: x[n][dim + 1][dim] their vertices, rho[n] their density, kg/m3; both
+ * borrowed until the next call. */
 typedef int (*CoracleRegionFunction)(void *context, int nbox, const double box[], int *n, const double **x,
                                      const double **rho);
 /* lower[dim], upper[dim]: the bounds of the fluid's whole domain, the same on all ranks. */
 int CoracleSetRegion(CoracleClient c, int dim, const double lower[], const double upper[],
                      CoracleRegionFunction region, void *context);
-/* Tells that the fluid's elements have changed (mesh adaptation): region is called again in the next CoracleEnd. */
+/* Tells that the fluid's elements have changed (mesh adaptation): region is called again in the next
+ * CoracleEnd. */
 int CoracleElementsChanged(CoracleClient c);
 
-/* --- the run ------------------------------------------------------------------------------------------------------------ */
+/* --- the run
+ * ------------------------------------------------------------------------------------------------------------
+ */
 
 /* Registers `bytes` at `state` to be saved at CORACLE_RUN and put back at CORACLE_REDO. */
 int CoracleBindState(CoracleClient c, void *state, size_t bytes);
@@ -92,11 +103,14 @@ int CoracleReady(CoracleClient c);
 /* Waits for the next step: from *t over *dt, s. */
 int CoracleBegin(CoracleClient c, double *t, double *dt, CoracleAction *action);
 
-/* Solid: force[n][dim], N, on this rank's nodes from this rank's elements and facets: a node shared by ranks has its
- * force spread over them and the solid sums it, as it sums its internal forces.  Borrowed until CoracleEnd. */
+/* Solid: force[n][dim], N, on this rank's nodes from this rank's elements and facets: a node shared by ranks
+ * has its force spread over them and the solid sums it, as it sums its internal forces.  Borrowed until
+ * CoracleEnd. */
 int CoracleGetForce(CoracleClient c, const double **force);
-/* Solid: one substep of h seconds has been made with nodal velocities u[n][dim].  The library integrates u dt: what the
- * fluid sees is the mean over the step. */
+/* Solid: one substep of h seconds has been made with nodal velocities u[n][dim].  u is what moves the nodes:
+ * x += h u. From the substeps the library makes what the fluid sees: the mean velocity over the step
+ * (displacement / dt), and the line fitted to the velocities in the least-squares sense, taken at the last
+ * substep, for couplings that need the end's. */
 int CoracleSubstep(CoracleClient c, double h, const double u[]);
 
 /* Fluid: the flow on the elements last given by region, for the n of them:
@@ -104,17 +118,17 @@ int CoracleSubstep(CoracleClient c, double h, const double u[]);
  *   u_plus[n][dim][dim + 1]  velocity after it
  *   p[n][6]                  pressure on the P2 nodes: 3 vertices, then the midpoints opposite to them, Pa
  *   mu[n]                    dynamic viscosity, Pa s */
-int CoracleSetFlow(CoracleClient c, const double u_star[], const double u_plus[], const double p[], const double mu[]);
-/* Fluid, before CoracleReady and before every CoracleEnd: the largest next time step that this rank wants, s. */
+int CoracleSetFlow(CoracleClient c, const double u_star[], const double u_plus[], const double p[],
+                   const double mu[]);
+/* Fluid, before CoracleReady and before every CoracleEnd: the largest next time step that this rank wants, s.
+ */
 int CoracleProposeStep(CoracleClient c, double dt);
 
 /* What the solid does to one fluid element K (S the solid; i, j vertices; c, d components; nv = dim + 1 = 3):
- *   a[c][i][d][j]  = int_K a_cd N_i N_j    implicit coefficient, shell and volume together, kg/s (in 2D per metre)
- *   s[c][i]        = int_K (a u_s)_c N_i   explicit part of s_c, N
- *   ms[i][j]       = int_{K and S} N_i N_j sub-cell solid mass, m2
- *   us[c][i]       = int_{K and S} N_i (u_s)_c, m3/s (in 2D per metre)
- *   alpha          = |K and S| / |K|
- *   shell          = |K and shell| / |K|, the covered shell's volume fraction */
+ *   a[c][i][d][j]  = int_K a_cd N_i N_j    implicit coefficient, shell and volume together, kg/s (in 2D per
+ * metre) s[c][i]        = int_K (a u_s)_c N_i   explicit part of s_c, N ms[i][j]       = int_{K and S} N_i
+ * N_j sub-cell solid mass, m2 us[c][i]       = int_{K and S} N_i (u_s)_c, m3/s (in 2D per metre) alpha = |K
+ * and S| / |K| shell          = |K and shell| / |K|, the covered shell's volume fraction */
 typedef struct {
   int element; /* index into the elements last given by region */
   double a[2][3][2][3], s[2][3], ms[3][3], us[2][3], alpha, shell;
@@ -124,13 +138,15 @@ typedef struct {
   int element;
   double us[2][3];
 } CoracleCorrection;
-/* Fluid, after CoracleReady and after CoracleEnd: the coupling of the coming step.  Borrowed until the next CoracleEnd. */
+/* Fluid, after CoracleReady and after CoracleEnd: the coupling of the coming step.  Borrowed until the next
+ * CoracleEnd. */
 int CoracleGetCoupling(CoracleClient c, int *n, const CoracleCoupling **coupling);
-/* Fluid, after CoracleEnd: one entry for every coupling entry of the step just made (same order, and indices into the
- * elements of that step even when region has been called again since). */
+/* Fluid, after CoracleEnd: one entry for every coupling entry of the step just made (same order, and indices
+ * into the elements of that step even when region has been called again since). */
 int CoracleGetCorrection(CoracleClient c, int *n, const CoracleCorrection **correction);
 
-/* Ends the step.  Solid: x[n][dim] new positions; fluid: NULL.  Blocks until the coupler has what comes next. */
+/* Ends the step.  Solid: x[n][dim] new positions; fluid: NULL.  Blocks until the coupler has what comes next.
+ */
 int CoracleEnd(CoracleClient c, const double x[]);
 
 #ifdef __cplusplus

@@ -1,7 +1,8 @@
-/* The coupler's end of the link (coracle.h is the other end).  Client rank r of either role talks to coupler rank
- * r % size ("its home") and to nobody else; what a coupler rank receives from its clients is handed out as one
- * concatenated list in order of client rank, with indices already shifted.  Everything is collective over the coupler.
- * Errors end the job.  All arrays handed out are borrowed until the next call of the same function. */
+/* The coupler's end of the link (coracle.h is the other end).  Client rank r of either role talks to coupler
+ * rank r % size ("its home") and to nobody else; what a coupler rank receives from its clients is handed out
+ * as one concatenated list in order of client rank, with indices already shifted.  Everything is collective
+ * over the coupler. Errors end the job.  All arrays handed out are borrowed until the next call of the same
+ * function. */
 #ifndef CORACLE_SERVER_H
 #define CORACLE_SERVER_H
 #include "coracle.h"
@@ -9,22 +10,24 @@
 typedef struct Server_s *Server;
 
 typedef struct {
-  int changed;                       /* nodes, facets or elements were given anew (in this call) */
-  int nnodes, nfacets, nelements;    /* on this coupler rank */
-  const long long *gid;              /* [nnodes] */
-  const double *x, *u;               /* [nnodes][2] position, m; velocity: initial, then the mean over the last step */
-  const int *facet, *element;        /* [nfacets][2], [nelements][3] indices into the nodes of this rank */
+  int changed;                    /* nodes, facets or elements were given anew (in this call) */
+  int nnodes, nfacets, nelements; /* on this coupler rank */
+  const long long *gid;           /* [nnodes] */
+  const double *x;                /* [nnodes][2] position, m */
+  const double *u, *mean; /* [nnodes][2] velocity, m/s, over the last step: fitted to its end, and the mean;
+                             both initial at first */
+  const int *facet, *element; /* [nfacets][2], [nelements][3] indices into the nodes of this rank */
 } ServerSolid;
 
 typedef struct {
   int n;
-  const double *x, *rho;             /* [n][3][2], [n] */
-  double lower[2], upper[2];         /* the fluid's whole domain */
+  const double *x, *rho;     /* [n][3][2], [n] */
+  double lower[2], upper[2]; /* the fluid's whole domain */
 } ServerElements;
 
 typedef struct {
-  const double *u_star, *u_plus;     /* [n][2][3] */
-  const double *p, *mu;              /* [n][6], [n] */
+  const double *u_star, *u_plus; /* [n][2][3] */
+  const double *p, *mu;          /* [n][6], [n] */
 } ServerFlow;
 
 /* Joins as "coupler"; as CoracleOpen. */
@@ -33,15 +36,17 @@ _Noreturn void ServerFail(Server s, const char *format, ...) __attribute__((form
 
 /* The solid's mesh (first call, matches CoracleReady) or its motion (matches CoracleEnd). */
 int ServerReceiveSolid(Server s, ServerSolid *solid);
-/* Asks the fluid for its elements in the boxes: box[nbox][2][2], the same on all coupler ranks (matches the region callback
- * within CoracleReady or CoracleEnd; may be asked only there). */
+/* Asks the fluid for its elements in the boxes: box[nbox][2][2], the same on all coupler ranks (matches the
+ * region callback within CoracleReady or CoracleEnd; may be asked only there). */
 int ServerAskElements(Server s, int nbox, const double box[], ServerElements *elements);
-/* True when a fluid rank said CoracleElementsChanged with its last flow: the elements must be asked for again. */
+/* True when a fluid rank said CoracleElementsChanged with its last flow: the elements must be asked for
+ * again. */
 int ServerElementsChanged(Server s);
 /* The smallest step that the fluid's ranks proposed last, s; the same on all coupler ranks. */
 double ServerProposedStep(Server s);
-/* Ends the fluid's CoracleReady or CoracleEnd.  correction[ncorrection] has one entry per coupling entry of the last call, in
- * its order (0 at the first call or when stopping is not after a step); `element` of coupling indexes ServerElements. */
+/* Ends the fluid's CoracleReady or CoracleEnd.  correction[ncorrection] has one entry per coupling entry of
+ * the last call, in its order (0 at the first call or when stopping is not after a step); `element` of
+ * coupling indexes ServerElements. */
 int ServerSendCoupling(Server s, double t, double dt, CoracleAction action, int ncorrection,
                        const CoracleCorrection correction[], int ncoupling, const CoracleCoupling coupling[]);
 /* Matches the first half of the fluid's CoracleEnd. */
@@ -49,9 +54,11 @@ int ServerReceiveFlow(Server s, ServerFlow *flow);
 /* Ends the solid's CoracleBegin: force[nnodes][2], N. */
 int ServerSendForce(Server s, double t, double dt, CoracleAction action, const double force[]);
 
-/* Waits for every client to close; then the reports.  ServerReports calls f(context, role, key, value) on coupler rank 0. */
+/* Waits for every client to close; then the reports.  ServerReports calls f(context, role, key, value) on
+ * coupler rank 0. */
 int ServerFinish(Server s);
-int ServerReports(Server s, void (*f)(void *context, const char *role, const char *key, double value), void *context);
+int ServerReports(Server s, void (*f)(void *context, const char *role, const char *key, double value),
+                  void *context);
 /* Number of ranks of a role in the job. */
 int ServerRanks(Server s, const char *role);
 /* Seconds this rank has spent waiting for messages. */

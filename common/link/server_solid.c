@@ -26,6 +26,7 @@ static int ReceiveMotion(Server s, Peer *peer, int *nnodes)
   if (whole) Store(s, m, &peer->gid, n * sizeof(long long));
   memcpy(BufferExtend(&s->x, bytes), MessageTake(s->p, m, bytes), bytes);
   memcpy(BufferExtend(&s->u, bytes), MessageTake(s->p, m, bytes), bytes);
+  memcpy(BufferExtend(&s->mean, bytes), MessageTake(s->p, m, bytes), bytes);
   if (whole) {
     Store(s, m, &peer->facet, DIM * (size_t)h->count[1] * sizeof(int));
     Store(s, m, &peer->element, (DIM + 1) * (size_t)h->count[2] * sizeof(int));
@@ -61,6 +62,7 @@ int ServerReceiveSolid(Server s, ServerSolid *solid)
   int nnodes = 0, changed = 0;
   BufferResize(&s->x, 0);
   BufferResize(&s->u, 0);
+  BufferResize(&s->mean, 0);
   for (int i = 0; i < s->solid.n; i++) changed |= ReceiveMotion(s, &s->solid.peer[i], &nnodes);
   if (changed || !s->received_solid) AssembleMesh(s);
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, s->p->app);
@@ -72,6 +74,7 @@ int ServerReceiveSolid(Server s, ServerSolid *solid)
                          .gid = (const long long *)(const void *)s->gid.data,
                          .x = (const double *)(const void *)s->x.data,
                          .u = (const double *)(const void *)s->u.data,
+                         .mean = (const double *)(const void *)s->mean.data,
                          .facet = (const int *)(const void *)s->facet.data,
                          .element = (const int *)(const void *)s->element.data};
   return 0;

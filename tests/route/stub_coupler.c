@@ -49,9 +49,25 @@ static void CheckMotion(const Stub *s, const ServerSolid *solid, double mean_tim
       const double u = NodeVelocity(solid->gid[i], c, mean_time);
       if (solid->x[2 * i + c] != NodePosition(solid->gid[i], c, s->step))
         ServerFail(s->server, "position of node %d in step %d", i, s->step);
-      if (fabs(solid->u[2 * i + c] - u) > 1e-13 * (1 + fabs(u)))
+      if (fabs(solid->mean[2 * i + c] - u) > 1e-13 * (1 + fabs(u)))
         ServerFail(s->server, "mean velocity of node %d in step %d is %.17g instead of %.17g", i, s->step,
-                   solid->u[2 * i + c], u);
+                   solid->mean[2 * i + c], u);
+    }
+}
+
+/* Velocities linear in time lie on their fitted line: at one time for all nodes, that of the last substep. */
+static void CheckFit(const Stub *s, const ServerSolid *solid)
+{
+  const double start = s->step ? s->t : 0.0, end = s->step ? s->t + StepSize(s->step) : 0.0;
+  for (int i = 0; i < solid->nnodes; i++)
+    for (int c = 0; c < 2; c++) {
+      const double u0 = NodeVelocity(solid->gid[i], c, 0.0), slope = NodeVelocity(solid->gid[i], c, 1.0) - u0;
+      const double t = (solid->u[2 * i + c] - u0) / slope;
+      const double first = (solid->u[0] - NodeVelocity(solid->gid[0], 0, 0.0)) /
+                           (NodeVelocity(solid->gid[0], 0, 1.0) - NodeVelocity(solid->gid[0], 0, 0.0));
+      if (fabs(t - first) > 1e-12 || t < 0.5 * (start + end) - 1e-12 || t > end)
+        ServerFail(s->server, "fitted velocity of node %d in step %d is that of t = %.17g in [%g, %g]", i,
+                   s->step, t, start, end);
     }
 }
 
@@ -64,6 +80,7 @@ static void ReceiveSolid(Stub *s, int redo)
     ServerFail(s->server, "changed is %d in step %d", solid.changed, s->step);
   CheckMesh(s, &solid, s->step >= REMESH_STEP);
   CheckMotion(s, &solid, s->step ? s->t + 0.5 * StepSize(s->step) : 0.0);
+  if (s->step != REMESH_STEP) CheckFit(s, &solid); /* a new node's line is not known */
   if (redo && (memcmp(s->motion, solid.x, bytes) || memcmp(s->motion + 2 * MAX, solid.u, bytes)))
     ServerFail(s->server, "the redone motion of step %d is another", s->step);
   memcpy(s->motion, solid.x, bytes);
