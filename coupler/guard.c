@@ -27,7 +27,10 @@ static int Alternates(Guard *g, const GuardStep *s, const double change[2])
   const double size = hypot(change[0], change[1]), before = hypot(g->change[0], g->change[1]);
   const int opposite = change[0] * g->change[0] + change[1] * g->change[1] < -0.5 * size * before;
   g->alternations = opposite && size > GUARD_GROWTH * before ? g->alternations + 1 : 0;
-  return g->alternations >= GUARD_ALTERNATIONS && size > hypot(s->gravity[0], s->gravity[1]) * s->dt;
+  if (g->alternations == 0) g->first = size;
+  const int fast = 2 * g->alternations >= GUARD_ALTERNATIONS && size > GUARD_TOTAL_GROWTH * g->first;
+  return (fast || g->alternations >= GUARD_ALTERNATIONS) &&
+         size > hypot(s->gravity[0], s->gravity[1]) * s->dt;
 }
 
 int GuardCheck(Guard *g, const GuardStep *s, int nmessage, char message[])

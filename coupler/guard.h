@@ -4,14 +4,17 @@
 #ifndef CORACLE_GUARD_H
 #define CORACLE_GUARD_H
 
-/* So many alternations in a row, each this much larger than the one before, are no physics. */
+/* No physics: so many alternations in a row, each this much larger than the one before; or half as many that
+ * have grown this much altogether (far below the limit a few steps are enough for any number, and the fluid's
+ * time step shrinks along). */
 #define GUARD_ALTERNATIONS 6
 #define GUARD_GROWTH 1.1
+#define GUARD_TOTAL_GROWTH 10.0
 
 typedef struct {
   int nsteps, alternations;
-  double velocity[2], change[2];
-} Guard; /* zero-initialise */
+  double velocity[2], change[2], first; /* first: size of the change that the alternations began with, m/s */
+} Guard;                                /* zero-initialise */
 
 typedef struct {
   double t, dt;       /* the step just made ended at t, s */

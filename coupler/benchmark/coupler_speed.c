@@ -52,8 +52,8 @@ static void Disc(int rank, ServerSolid *s)
     facet[2 * i] = 1 + (RINGS - 1) * SECTORS + i;
     facet[2 * i + 1] = 1 + (RINGS - 1) * SECTORS + j;
   }
-  *s = rank ? (ServerSolid){0, 0, 0, 0, gid, x, u, facet, element}
-            : (ServerSolid){0, RINGS * SECTORS + 1, SECTORS, n / 3, gid, x, u, facet, element};
+  *s = rank ? (ServerSolid){0, 0, 0, 0, gid, x, u, u, facet, element}
+            : (ServerSolid){0, RINGS * SECTORS + 1, SECTORS, n / 3, gid, x, u, u, facet, element};
 }
 
 static PetscErrorCode Measure(Coupler c, const ServerSolid *solid, int nfluid, int rank)

@@ -28,8 +28,8 @@ typedef struct {
 
 static inline void SyntheticSolidView(SyntheticSolid *s)
 {
-  s->view = (ServerSolid){1,           s->nnodes,   s->nfacets,      s->nelements,     s->gid,
-                          &s->x[0][0], &s->u[0][0], &s->facet[0][0], &s->element[0][0]};
+  s->view = (ServerSolid){1,           s->nnodes,   s->nfacets,  s->nelements,    s->gid,
+                          &s->x[0][0], &s->u[0][0], &s->u[0][0], &s->facet[0][0], &s->element[0][0]};
 }
 
 static inline void SyntheticElement(SyntheticSolid *s, int a, int b, int c)

@@ -38,6 +38,10 @@ static double Light(int n)
 {
   return AddedMass(n, 0.5);
 }
+static double VeryLight(int n)
+{
+  return AddedMass(n, 0.1);
+}
 static double Heavy(int n)
 {
   return AddedMass(n, 2.0);
@@ -73,6 +77,7 @@ int main(void)
   const int light = Watch(Light, message);
   CHECK(light < 25, "a ratio of 0.5 was stopped at step %d only", light);
   CHECK(strstr(message, "density ratio") && strstr(message, "strong coupling"), "message: %s", message);
+  CHECK(Watch(VeryLight, message) <= 5 && strstr(message, "density ratio"), "ratio 0.1: %s", message);
   CHECK(Watch(Heavy, message) == STEPS, "ratio 2: %s", message);
   CHECK(Watch(Ringing, message) == STEPS, "ringing: %s", message);
   CHECK(Watch(Steady, message) == STEPS, "steady: %s", message);
