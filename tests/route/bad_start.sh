@@ -57,7 +57,7 @@ case $scenario in
   fluid_hangs) with fluid.fault=hang; extra=(CORACLE_TIMEOUT=2)
     expect='error: waited 2 s for FLOW of step 4 from fluid rank 1' ;;
   coupler_hangs) with coupler.fault=hang; extra=(CORACLE_TIMEOUT=1)
-    expect='error: waited 2.1 s for [A-Z]* of step [34] from coupler rank 0' ;;
+    expect='error: .*coupler rank 0 on .* does it hang' ;;
   *) echo "no scenario '$scenario'" >&2; exit 2 ;;
 esac
 
