@@ -30,8 +30,7 @@ struct Board_s {
 
 static Board WATCHED; /* what the signal handler looks at: a process has one board */
 
-/* --- in the signal handler: nothing but async-signal-safe calls -------------------------------------------
- */
+/* --- in the signal handler: nothing but async-signal-safe calls ----------------------------------------- */
 
 static char *PutText(char *to, char *end, const char *text)
 {
@@ -95,8 +94,7 @@ static void OnTerminate(int signal_number)
   raise(signal_number);
 }
 
-/* --- in ordinary code
- * ------------------------------------------------------------------------------------------ */
+/* --- in ordinary code ----------------------------------------------------------------------------------- */
 
 static void Watch(Board b)
 {

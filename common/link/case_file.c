@@ -9,8 +9,7 @@
 static const char *const SECTIONS[] = {"case",  "gravity", "time",   "fluid",
                                        "solid", "coupler", "output", NULL};
 
-/* --- opening
- * ----------------------------------------------------------------------------------------------------- */
+/* --- opening -------------------------------------------------------------------------------------------- */
 
 static unsigned long long Fnv1a(unsigned long long hash, const char *bytes, size_t n)
 {
@@ -143,8 +142,7 @@ unsigned long long CaseHash(Case c)
   return Fnv1a(c->file_hash, (const char *)&c->set_hash, sizeof c->set_hash);
 }
 
-/* --- failing
- * ------------------------------------------------------------------------------------------------------ */
+/* --- failing -------------------------------------------------------------------------------------------- */
 
 /* "file.yaml:12" or "--set key=value": where a node comes from. */
 static void Place(Case c, const CaseNode *node, char place[CASE_KEY])
@@ -202,9 +200,7 @@ static _Noreturn void Unexpected(Case c, const char *key, const CaseNode *node, 
   Die(c, node, "key '%s': expected %s, found %s", key, expected, Found(node, found));
 }
 
-/* --- finding
- * ---------------------------------------------------------------------------------------------------------
- */
+/* --- finding -------------------------------------------------------------------------------------------- */
 
 static void Push(char ***list, int *n, int *capacity, char *string)
 {
@@ -268,9 +264,7 @@ int CaseKeys(Case c, const char *key, void (*f)(void *context, const char *name)
   return 0;
 }
 
-/* --- numbers
- * ---------------------------------------------------------------------------------------------------------
- */
+/* --- numbers -------------------------------------------------------------------------------------------- */
 
 static bool ToNumber(const CaseNode *node, double *value)
 {
@@ -350,9 +344,7 @@ bool CaseVectorOptional(Case c, const char *key, int n, double v[])
   return true;
 }
 
-/* --- words
- * -------------------------------------------------------------------------------------------------------------
- */
+/* --- words ---------------------------------------------------------------------------------------------- */
 
 bool CaseBoolOr(Case c, const char *key, bool fallback)
 {
@@ -397,8 +389,7 @@ int CaseWord(Case c, const char *key, int fallback, const char *const words[])
   Unexpected(c, key, node, expected);
 }
 
-/* --- what nobody has read
- * ------------------------------------------------------------------------------------------------- */
+/* --- what nobody has read ------------------------------------------------------------------------------- */
 
 /* A key that was asked for, did not exist, and lies beside this one under a similar name. */
 static const char *Suggestion(Case c, const char *key)

@@ -36,8 +36,7 @@ CaseNode *CaseTreeChild(const CaseNode *map, const char *name)
   return NULL;
 }
 
-/* --- from a document of libyaml ----------------------------------------------------------------------------
- */
+/* --- from a document of libyaml ------------------------------------------------------------------------- */
 
 typedef struct {
   yaml_document_t *document;
@@ -153,8 +152,7 @@ CaseNode *CaseTreeParse(const char *text, size_t size, const char *label, char p
   return root;
 }
 
-/* --- dotted paths
- * ---------------------------------------------------------------------------------------------- */
+/* --- dotted paths --------------------------------------------------------------------------------------- */
 
 typedef enum { STEP_END, STEP_NAME, STEP_ITEM, STEP_BAD } PathStep;
 
@@ -214,8 +212,7 @@ const CaseNode *CaseTreeNearest(const CaseNode *root, const char *key)
   return nearest;
 }
 
-/* --- one --set argument
- * ------------------------------------------------------------------------------------------ */
+/* --- one --set argument --------------------------------------------------------------------------------- */
 
 static void MarkSet(CaseNode *node, const char *argument)
 {

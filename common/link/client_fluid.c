@@ -36,8 +36,7 @@ int CoracleProposeStep(CoracleClient c, double dt)
   return 0;
 }
 
-/* --- elements
- * -------------------------------------------------------------------------------------------------- */
+/* --- elements ------------------------------------------------------------------------------------------- */
 
 static void CheckDensity(CoracleClient c, int n, const double rho[])
 {
@@ -67,8 +66,7 @@ static void AnswerElements(CoracleClient c, int nbox)
   f->changed = false;
 }
 
-/* --- coupling
- * ---------------------------------------------------------------------------------------------------- */
+/* --- coupling ------------------------------------------------------------------------------------------- */
 
 static void TakeCoupling(CoracleClient c, const MessageHeader *h)
 {
@@ -117,8 +115,7 @@ int CoracleGetCorrection(CoracleClient c, int *n, const CoracleCorrection **corr
   return 0;
 }
 
-/* --- flow
- * -------------------------------------------------------------------------------------------------------- */
+/* --- flow ----------------------------------------------------------------------------------------------- */
 
 static void AddField(CoracleClient c, const char *field, int per, const double array[])
 {

@@ -23,8 +23,7 @@ static void Copy(Buffer *to, const void *from, size_t bytes)
   if (bytes) memcpy(to->data, from, bytes);
 }
 
-/* --- the mesh
- * -------------------------------------------------------------------------------------------------- */
+/* --- the mesh ------------------------------------------------------------------------------------------- */
 
 static void MeshCopy(SolidMesh *to, const SolidMesh *from)
 {
@@ -139,8 +138,7 @@ static void CheckConnectivity(CoracleClient c, const char *what, int ne, int per
                         conn[per * e + i], c->solid.mesh.n, c->p->step);
 }
 
-/* --- the exchanges
- * ---------------------------------------------------------------------------------------------- */
+/* --- the exchanges -------------------------------------------------------------------------------------- */
 
 /* SURFACE or MOTION, with positions x and velocities, fitted and mean. */
 static void SendMotion(CoracleClient c, const double x[], const double fitted[], const double mean[])

@@ -13,8 +13,7 @@ static BoundState *States(const Buffer *states)
 
 static int Bind(CoracleClient c, const char *function, BoundState state)
 {
-  if (c->stage != STAGE_SETUP && c->stage != STAGE_BETWEEN)
-    ClientMisuse(c, function, "state cannot be bound within a step");
+  if (c->p->step > 0) ClientMisuse(c, function, "state is bound before the first step");
   *(BoundState *)BufferExtend(&c->states, sizeof state) = state;
   return 0;
 }

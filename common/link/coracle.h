@@ -38,12 +38,12 @@ typedef enum {
   CORACLE_STOP  /* the run is over: close */
 } CoracleAction;
 
-/* --- joining
- * ------------------------------------------------------------------------------------------------ */
+/* --- joining -------------------------------------------------------------------------------------------- */
 
 /* Joins the job as `role` ("fluid" or "solid").  Collective over the whole job; calls MPI_Init if nobody has.
  * argv carries the case file and `--set key=value` pairs (see case_file.h); all participants must carry the
- * same. app_comm: [out] this participant's communicator, ready before PetscInitialize; owned by the library.
+ * same.
+ * app_comm: [out] this participant's communicator, ready before PetscInitialize; owned by the library.
  * Refuses, naming the odd one out: two fluids, no coupler, different versions, different case files or
  * settings. */
 int CoracleOpen(const char *role, int argc, char **argv, MPI_Comm *app_comm, CoracleClient *c);
@@ -55,15 +55,15 @@ _Noreturn void CoracleFail(CoracleClient c, const char *format, ...) __attribute
  * their maximum.  Local; travels when the client closes. */
 int CoracleReport(CoracleClient c, const char *key, double value, int sum);
 
-/* Leaves the job and nulls the handle.  Before CORACLE_STOP was received this is an error of the participant.
- */
+/* Leaves the job and nulls the handle; an error before CORACLE_STOP was received. */
 int CoracleClose(CoracleClient *c);
 
-/* --- what a solid gives: once before CoracleReady, again between CoracleBegin and CoracleEnd after fracture
- * ------ */
+/* --- what a solid gives: before CoracleReady, and after fracture between CoracleBegin and End ----------- */
 
 /* n nodes of this rank; gid[n]: global ids (a node shared by ranks has one id, each rank lists it);
- * x[n][dim]: positions, m;  u[n][dim]: velocities, m/s.  All copied. */
+ * x[n][dim]: positions, m;  u[n][dim]: velocities, m/s.  All copied.
+ * Within a step: nodes whose ids were there keep what their substeps have summed up, new ones are taken to
+ * have moved with u so far.  A redone step starts on the mesh that it first started on. */
 int CoracleSetNodes(CoracleClient c, int dim, int n, const long long gid[], const double x[],
                     const double u[]);
 /* conn[ne][dim]: this rank's surface facets; in 2D the solid lies on the left of the edge conn[e][0] ->
@@ -73,8 +73,7 @@ int CoracleSetSurface(CoracleClient c, int ne, const int conn[]);
  * solid. Every element and facet is given by one rank. */
 int CoracleSetVolume(CoracleClient c, int ne, const int conn[]);
 
-/* --- what a fluid gives
- * --------------------------------------------------------------------------------------------- */
+/* --- what a fluid gives --------------------------------------------------------------------------------- */
 
 /* Called back (on every fluid rank, in CoracleReady and CoracleEnd) when the region near the solid has
  * changed. box[nbox][2][dim]: lower and upper corners of the region.  The fluid answers with those of its own
@@ -89,11 +88,10 @@ int CoracleSetRegion(CoracleClient c, int dim, const double lower[], const doubl
  * CoracleEnd. */
 int CoracleElementsChanged(CoracleClient c);
 
-/* --- the run
- * ------------------------------------------------------------------------------------------------------------
- */
+/* --- the run -------------------------------------------------------------------------------------------- */
 
-/* Registers `bytes` at `state` to be saved at CORACLE_RUN and put back at CORACLE_REDO. */
+/* Registers `bytes` at `state` to be saved at CORACLE_RUN and put back at CORACLE_REDO; before the first
+ * step. */
 int CoracleBindState(CoracleClient c, void *state, size_t bytes);
 /* As above for state that is no flat buffer: called with save = 1 and save = 0. */
 int CoracleBindStateFunction(CoracleClient c, int (*f)(void *context, int save), void *context);
@@ -108,7 +106,7 @@ int CoracleBegin(CoracleClient c, double *t, double *dt, CoracleAction *action);
  * CoracleEnd. */
 int CoracleGetForce(CoracleClient c, const double **force);
 /* Solid: one substep of h seconds has been made with nodal velocities u[n][dim].  u is what moves the nodes:
- * x += h u. From the substeps the library makes what the fluid sees: the mean velocity over the step
+ * x += h u.  From the substeps the library makes what the fluid sees: the mean velocity over the step
  * (displacement / dt), and the line fitted to the velocities in the least-squares sense, taken at the last
  * substep, for couplings that need the end's. */
 int CoracleSubstep(CoracleClient c, double h, const double u[]);
@@ -120,15 +118,16 @@ int CoracleSubstep(CoracleClient c, double h, const double u[]);
  *   mu[n]                    dynamic viscosity, Pa s */
 int CoracleSetFlow(CoracleClient c, const double u_star[], const double u_plus[], const double p[],
                    const double mu[]);
-/* Fluid, before CoracleReady and before every CoracleEnd: the largest next time step that this rank wants, s.
- */
+/* Fluid, before CoracleReady and every CoracleEnd: the largest next time step that this rank wants, s. */
 int CoracleProposeStep(CoracleClient c, double dt);
 
-/* What the solid does to one fluid element K (S the solid; i, j vertices; c, d components; nv = dim + 1 = 3):
- *   a[c][i][d][j]  = int_K a_cd N_i N_j    implicit coefficient, shell and volume together, kg/s (in 2D per
- * metre) s[c][i]        = int_K (a u_s)_c N_i   explicit part of s_c, N ms[i][j]       = int_{K and S} N_i
- * N_j sub-cell solid mass, m2 us[c][i]       = int_{K and S} N_i (u_s)_c, m3/s (in 2D per metre) alpha = |K
- * and S| / |K| shell          = |K and shell| / |K|, the covered shell's volume fraction */
+/* What the solid does to one fluid element K (S the solid; i, j vertices; c, d components; in 2D per metre):
+ *   a[c][i][d][j]  = int_K a_cd N_i N_j          implicit coefficient, shell and volume together, kg/s
+ *   s[c][i]        = int_K (a u_s)_c N_i         explicit part of s_c, N
+ *   ms[i][j]       = int_{K and S} N_i N_j       sub-cell solid mass, m2
+ *   us[c][i]       = int_{K and S} N_i (u_s)_c   m3/s
+ *   alpha          = |K and S| / |K|             solid volume fraction
+ *   shell          = |K and shell| / |K|         volume fraction of the covered shell */
 typedef struct {
   int element; /* index into the elements last given by region */
   double a[2][3][2][3], s[2][3], ms[3][3], us[2][3], alpha, shell;
@@ -145,8 +144,7 @@ int CoracleGetCoupling(CoracleClient c, int *n, const CoracleCoupling **coupling
  * into the elements of that step even when region has been called again since). */
 int CoracleGetCorrection(CoracleClient c, int *n, const CoracleCorrection **correction);
 
-/* Ends the step.  Solid: x[n][dim] new positions; fluid: NULL.  Blocks until the coupler has what comes next.
- */
+/* Ends the step.  Solid: x[n][dim] new positions; fluid: NULL; blocks until the next coupling is here. */
 int CoracleEnd(CoracleClient c, const double x[]);
 
 #ifdef __cplusplus

@@ -9,8 +9,7 @@ static const uint32_t MAGIC = 0xC07AC1E1;
 static const char *const KIND_NAMES[KIND_END] = {"?",        "SURFACE",  "MOTION", "FORCE", "ASK",
                                                  "ELEMENTS", "COUPLING", "FLOW",   "CLOSE"};
 
-/* --- buffers
- * ------------------------------------------------------------------------------------------------- */
+/* --- buffers -------------------------------------------------------------------------------------------- */
 
 static void Reserve(Buffer *b, size_t bytes)
 {
@@ -41,8 +40,7 @@ void BufferFree(Buffer *b)
   *b = (Buffer){0};
 }
 
-/* --- writing and sending
- * -------------------------------------------------------------------------------------- */
+/* --- writing and sending -------------------------------------------------------------------------------- */
 
 void MessageInit(Message *m, Role role, int rank)
 {
@@ -109,8 +107,7 @@ void MessageFinish(Participant *p, Message *m)
         p->waiter.timeout);
 }
 
-/* --- receiving
- * -------------------------------------------------------------------------------------------------- */
+/* --- receiving ------------------------------------------------------------------------------------------ */
 
 static void WaitForIt(Participant *p, const Message *m, MessageKind kind, int step, MPI_Message *arrived,
                       int *units)

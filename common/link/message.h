@@ -73,8 +73,7 @@ const MessageHeader *MessageReceive(Participant *p, Message *m, MessageKind kind
 /* The next block; its size must be `bytes`.  Borrowed until the next receive. */
 const void *MessageTake(Participant *p, Message *m, size_t bytes);
 
-/* Fails when an array[n][per] about to travel holds a NaN or an infinity: names field, entry and component.
- */
+/* Fails when array[n][per], about to travel, holds a NaN or an infinity: names field, entry, component. */
 void MessageCheckFinite(Participant *p, const char *field, const char *entry, size_t n, int per,
                         const double array[]);
 #endif

@@ -1,7 +1,7 @@
 /* The coupler's end of the link (coracle.h is the other end).  Client rank r of either role talks to coupler
  * rank r % size ("its home") and to nobody else; what a coupler rank receives from its clients is handed out
  * as one concatenated list in order of client rank, with indices already shifted.  Everything is collective
- * over the coupler. Errors end the job.  All arrays handed out are borrowed until the next call of the same
+ * over the coupler.  Errors end the job.  All arrays handed out are borrowed until the next call of the same
  * function. */
 #ifndef CORACLE_SERVER_H
 #define CORACLE_SERVER_H
@@ -51,7 +51,8 @@ int ServerSendCoupling(Server s, double t, double dt, CoracleAction action, int 
                        const CoracleCorrection correction[], int ncoupling, const CoracleCoupling coupling[]);
 /* Matches the first half of the fluid's CoracleEnd. */
 int ServerReceiveFlow(Server s, ServerFlow *flow);
-/* Ends the solid's CoracleBegin: force[nnodes][2], N. */
+/* Ends the solid's CoracleBegin: force[nnodes][2], N, on the nodes last received; at CORACLE_REDO on those of
+ * the step's start, which differ when the solid has changed its mesh in the step. */
 int ServerSendForce(Server s, double t, double dt, CoracleAction action, const double force[]);
 
 /* Waits for every client to close; then the reports.  ServerReports calls f(context, role, key, value) on

@@ -22,8 +22,7 @@ static void ReduceProposed(Server s, double mine)
   MPI_Allreduce(&mine, &s->proposed, 1, MPI_DOUBLE, MPI_MIN, s->p->app);
 }
 
-/* --- elements
- * -------------------------------------------------------------------------------------------------- */
+/* --- elements ------------------------------------------------------------------------------------------- */
 
 static void SendAsk(Server s, int nbox, const double box[])
 {
@@ -89,8 +88,7 @@ double ServerProposedStep(Server s)
   return s->proposed;
 }
 
-/* --- flow
- * -------------------------------------------------------------------------------------------------------- */
+/* --- flow ----------------------------------------------------------------------------------------------- */
 
 static double ReceiveFlow(Server s, const Peer *peer, Message *m, int *changed)
 {
@@ -126,8 +124,7 @@ int ServerReceiveFlow(Server s, ServerFlow *flow)
   return 0;
 }
 
-/* --- coupling
- * ---------------------------------------------------------------------------------------------------- */
+/* --- coupling ------------------------------------------------------------------------------------------- */
 
 static int *Ints(const Buffer *b)
 {

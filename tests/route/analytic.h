@@ -22,8 +22,7 @@ static inline double StepSize(int step)
   return 0.1 / step;
 } /* s */
 
-/* --- the solid: rank 1 is empty
- * -------------------------------------------------------------------------------- */
+/* --- the solid: rank 1 is empty ------------------------------------------------------------------------- */
 static inline int NodeCount(int rank, int remeshed)
 {
   return rank == 1 ? 0 : 4 + rank + 2 * remeshed;
@@ -63,8 +62,7 @@ static inline double NodeForce(long long id, int c, int step)
   return cos((double)id) * (1 + c) + step;
 }
 
-/* --- the fluid: rank 2 is empty
- * ---------------------------------------------------------------------------------- */
+/* --- the fluid: rank 2 is empty ------------------------------------------------------------------------- */
 static inline int CellCount(int rank, int adapted)
 {
   return rank == 2 ? 0 : 5 + 2 * rank + 3 * adapted;
@@ -119,8 +117,7 @@ static inline double CellCorrection(int id, int k, int step)
   return 5.0 * id + k + 0.5 * step;
 }
 
-/* --- misbehaving on demand
- * ------------------------------------------------------------------------------------------ */
+/* --- misbehaving on demand ------------------------------------------------------------------------------ */
 typedef enum { FAULT_NONE, FAULT_KILL, FAULT_EXIT, FAULT_FINALIZE, FAULT_HANG, FAULT_NAN, FAULT_CLOSE } Fault;
 static const char *const FAULT_WORDS[] = {"none", "kill", "exit", "finalize", "hang", "nan", "close", NULL};
 

@@ -1,5 +1,4 @@
-/* A fluid without flow: checks every coupling entry and correction, and gives values that the coupler knows.
- */
+/* A fluid without flow: checks each coupling entry and correction, gives values that the coupler knows. */
 #include "analytic.h"
 
 enum { MAX = 64 };

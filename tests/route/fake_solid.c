@@ -1,5 +1,4 @@
-/* A solid without mechanics: checks every force, and gives positions and velocities that the coupler knows.
- */
+/* A solid without mechanics: checks each force, and gives positions and velocities that the coupler knows. */
 #include "analytic.h"
 
 typedef struct {

@@ -17,8 +17,7 @@ typedef struct {
   Fault fault;
 } Stub;
 
-/* --- the solid
- * ---------------------------------------------------------------------------------------------------- */
+/* --- the solid ------------------------------------------------------------------------------------------ */
 
 /* The lists must be the ranks' own, in order of rank. */
 static void CheckMesh(const Stub *s, const ServerSolid *solid, int remeshed)
@@ -98,8 +97,7 @@ static void SendForce(Stub *s, CoracleAction action)
   ServerSendForce(s->server, s->t, StepSize(s->step), action, &force[0][0]);
 }
 
-/* --- the fluid
- * ---------------------------------------------------------------------------------------------------- */
+/* --- the fluid ------------------------------------------------------------------------------------------ */
 
 static void AskElements(Stub *s)
 {
@@ -169,8 +167,7 @@ static void SendCoupling(Stub *s, CoracleAction action, int coming)
                      coupling);
 }
 
-/* --- the run
- * -------------------------------------------------------------------------------------------------------- */
+/* --- the run -------------------------------------------------------------------------------------------- */
 
 /* Step s->step, the `redo`th time; the fluid has its coupling already. */
 static void Step(Stub *s, int redo)
