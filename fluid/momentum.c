@@ -72,7 +72,7 @@ static PetscErrorCode CreateSolver(Fluid f)
   PetscCall(KSPSetOptionsPrefix(f->momentum_ksp, "momentum_"));
   PetscCall(KSPSetOperators(f->momentum_ksp, f->momentum, f->momentum));
   PetscCall(KSPSetType(f->momentum_ksp, KSPGMRES));
-  PetscCall(KSPSetTolerances(f->momentum_ksp, 1e-8, 1e-50, 1e5, 500));
+  PetscCall(KSPSetTolerances(f->momentum_ksp, 1e-7, 1e-50, 1e5, 500));
   PetscCall(KSPSetInitialGuessNonzero(f->momentum_ksp, PETSC_TRUE));
   PetscCall(KSPGetPC(f->momentum_ksp, &pc));
   PetscCallMPI(MPI_Comm_size(f->mesh->comm, &size));

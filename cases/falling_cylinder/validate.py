@@ -62,10 +62,8 @@ def reference_curve(name):
 
 
 def fall_curve(folder):
-    with open(folder / "solid.csv") as f:
-        rows = csv.DictReader(f)
-        column = next(k for k in rows.fieldnames if k.split()[0] == "v" or k.startswith("v0"))
-        return [(float(r["t [s]"]), -float(r[column])) for r in rows]
+    with open(folder / "coupler.csv") as f:
+        return [(float(r["t [s]"]), -float(r["u_y [m/s]"])) for r in csv.DictReader(f)]
 
 
 def run(name, ranks):
@@ -91,13 +89,14 @@ def row(name):
         u = interpolate(curve, t)
         r = interpolate(reference, t) if reference else None
         cells.append("" if u is None else "%.4f" % u if r is None else "%.4f (%+.1f %%)" % (u, 100 * (u / r - 1)))
-    cells += ["%.0e" % summary["largest_momentum_imbalance"], str(summary["steps"]), str(summary["elements"]),
-              "%.0f" % summary["wall_seconds"]]
+    cells += ["%.0e" % summary["largest_momentum_imbalance"], str(summary["steps"]),
+              str(summary["participants"]["fluid"]["elements"]),
+              "%.0f" % sum(p["seconds_cpu"] for p in summary["participants"].values())]
     return "| " + " | ".join(cells) + " |"
 
 
 def table():
-    print("| run | U at the end | error | " + " | ".join("U(%g)" % t for t in TIMES) + " | imbalance | steps | triangles | wall s |")
+    print("| run | U at the end | error | " + " | ".join("U(%g)" % t for t in TIMES) + " | imbalance | steps | triangles | CPU s |")
     print("|" + "---|" * (7 + len(TIMES)))
     for name in RUNS:
         if (OUT / name / "summary.json").exists():

@@ -4,7 +4,7 @@
 
 int main(int argc, char **argv)
 {
-  double h = 0.01, dt, t0, seconds;
+  double h = 0.01, mu = MU, dt, t0, seconds;
   PetscInt steps = 20, warm = 3;
   Exact exact = {1.0};
   Mesh *mesh;
@@ -12,8 +12,9 @@ int main(int argc, char **argv)
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   PetscCall(PetscOptionsGetReal(NULL, NULL, "-h", &h, NULL));
   PetscCall(PetscOptionsGetInt(NULL, NULL, "-steps", &steps, NULL));
+  PetscCall(PetscOptionsGetReal(NULL, NULL, "-mu", &mu, NULL));
   PetscCall(SquareMesh(h, &mesh));
-  PetscCall(ExactFluid(mesh, &exact, NULL, &fluid));
+  PetscCall(ExactFluid(mesh, &exact, NULL, mu, &fluid));
   dt = 0.5 * h;
   for (int k = 0; k < warm; k++) PetscCall(FluidStep(fluid, dt));
   const FluidStats before = *FluidGetStats(fluid);

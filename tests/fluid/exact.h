@@ -60,11 +60,12 @@ static inline PetscErrorCode SquareMesh(double h, Mesh **mesh)
   PetscFunctionReturn(0);
 }
 
-/* source: ExactSource, or NULL for a flow that is left to itself */
-static inline PetscErrorCode ExactFluid(const Mesh *mesh, Exact *exact, FieldFunction source, Fluid *fluid)
+/* source and mu: ExactSource and MU, or NULL and any for a flow that is left to itself */
+static inline PetscErrorCode ExactFluid(const Mesh *mesh, Exact *exact, FieldFunction source, double mu,
+                                        Fluid *fluid)
 {
   Boundary boundary[8] = {0};
-  FluidSetup setup = {.theta = 0.5, .rho = RHO, .mu = MU, .cfl = 0.5, .dt_max = 1.0, .boundary = boundary};
+  FluidSetup setup = {.theta = 0.5, .rho = RHO, .mu = mu, .cfl = 0.5, .dt_max = 1.0, .boundary = boundary};
   PetscFunctionBeginUser;
   setup.source = source;
   setup.source_context = exact;

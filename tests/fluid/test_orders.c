@@ -9,7 +9,7 @@ static PetscErrorCode Errors(double h, double omega, double dt, int steps, doubl
   Fluid fluid;
   PetscFunctionBeginUser;
   PetscCall(SquareMesh(h, &mesh));
-  PetscCall(ExactFluid(mesh, &exact, ExactSource, &fluid));
+  PetscCall(ExactFluid(mesh, &exact, ExactSource, MU, &fluid));
   for (int k = 0; k < steps; k++) PetscCall(FluidStep(fluid, dt));
   /* the projection's pressure belongs to the middle of the last step */
   PetscCall(FluidErrors(fluid, steps * dt, ExactVelocity, NULL, &exact, velocity, NULL));
