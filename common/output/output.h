@@ -16,7 +16,8 @@ PetscErrorCode OutputBegin(Output out, double t);
  * revision: while the same number is given for a grid name, topology and points are not written again but refer to the first. */
 PetscErrorCode OutputGrid(Output out, const char *grid, int revision, int n, const double x[], int ne, int nodes_per_cell,
                           const int connectivity[]);
-/* Collective: a field on the grid last given: value[n or ne][ncomp]; ncomp 1 scalar, 2 vector (a third 0 is added), 3 symmetric tensor. */
+/* Collective: a field on the grid last given: value[n or ne][ncomp]; ncomp 1 scalar, 2 vector (a third 0 is added),
+ * 3 symmetric tensor (xx, yy, xy).  Cells or nodes of a rank may be none. */
 PetscErrorCode OutputField(Output out, const char *field, OutputCentre centre, int ncomp, const double value[]);
 PetscErrorCode OutputEnd(Output out);
 PetscErrorCode OutputDestroy(Output *out);

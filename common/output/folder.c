@@ -1,0 +1,42 @@
+#include "folder.h"
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static PetscErrorCode MakeWithParents(const char *folder)
+{
+  char path[PETSC_MAX_PATH_LEN];
+  struct stat there;
+  PetscFunctionBeginUser;
+  const int n = snprintf(path, sizeof path, "%s", folder);
+  PetscCheck(n > 0 && n < (int)sizeof path, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ, "output folder '%s'", folder);
+  for (char *end = path + 1;; end++) {
+    if (*end && *end != '/') continue;
+    const char was = *end;
+    *end = 0;
+    PetscCheck(!mkdir(path, 0777) || errno == EEXIST, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE,
+               "output folder %s: %s", path, strerror(errno));
+    if (!was) break;
+    *end = was;
+  }
+  PetscCheck(!stat(path, &there) && S_ISDIR(there.st_mode), PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE,
+             "output folder %s: there is a file of that name", path);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode AgreeWithRoot(MPI_Comm comm, PetscErrorCode failed)
+{
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Bcast(&failed, 1, MPI_INT, 0, comm));
+  PetscFunctionReturn(failed);
+}
+
+PetscErrorCode FolderMake(MPI_Comm comm, const char *folder)
+{
+  PetscMPIInt rank;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(AgreeWithRoot(comm, rank == 0 ? MakeWithParents(folder) : 0));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,10 @@
+/* Private to the output room. */
+#ifndef CORACLE_OUTPUT_FOLDER_H
+#define CORACLE_OUTPUT_FOLDER_H
+#include <petscsys.h>
+
+/* Collective: rank 0 makes the folder with those above it, if missing. */
+PetscErrorCode FolderMake(MPI_Comm comm, const char *folder);
+/* Collective: the same error on all ranks when rank 0 had one; its own message comes from rank 0. */
+PetscErrorCode AgreeWithRoot(MPI_Comm comm, PetscErrorCode failed);
+#endif

@@ -1,0 +1,147 @@
+#include "hdf5_file.h"
+#include <string.h>
+
+/* The innermost message of HDF5's error stack. */
+static herr_t Innermost(unsigned depth, const H5E_error2_t *error, void *text)
+{
+  if (error->desc) snprintf(text, 256, "%s", error->desc);
+  return 0;
+}
+
+static const char *Reason(void)
+{
+  static char text[256];
+  text[0] = 0;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, Innermost, text);
+  return text;
+}
+
+/* HDF5 says failure by a negative value, of whatever type. */
+#define H5(call, what, path)                                                                                 \
+  PetscCheck((call) >= 0, PETSC_COMM_SELF, PETSC_ERR_LIB, "HDF5 cannot %s %s: %s", what, path, Reason())
+
+/* Metadata stays in the cache until it is flushed: no evictions, and no resizing, which would evict. */
+static PetscErrorCode HoldMetadata(hid_t access, const char *path)
+{
+  H5AC_cache_config_t config = {.version = H5AC__CURR_CACHE_CONFIG_VERSION};
+  PetscFunctionBeginUser;
+  H5(H5Pget_mdc_config(access, &config), "set up", path);
+  config.evictions_enabled = 0;
+  config.incr_mode = H5C_incr__off;
+  config.flash_incr_mode = H5C_flash_incr__off;
+  config.decr_mode = H5C_decr__off;
+  H5(H5Pset_mdc_config(access, &config), "set up", path);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Hdf5Create(MPI_Comm comm, const char *path, hid_t *file)
+{
+  hid_t access;
+  PetscFunctionBeginUser;
+  H5(H5Eset_auto2(H5E_DEFAULT, NULL, NULL), "keep its messages about", path); /* they come in ours */
+  H5(access = H5Pcreate(H5P_FILE_ACCESS), "set up", path);
+  H5(H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL), "use MPI for", path);
+  H5(H5Pset_coll_metadata_write(access, 1), "set up", path);
+  PetscCall(HoldMetadata(access, path));
+  H5(*file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access), "create", path);
+  H5(H5Pclose(access), "set up", path);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Hdf5Group(hid_t file, const char *path)
+{
+  hid_t group;
+  PetscFunctionBeginUser;
+  H5(group = H5Gcreate2(file, path, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "create group", path);
+  H5(H5Gclose(group), "close group", path);
+  PetscFunctionReturn(0);
+}
+
+/* This rank's rows, selected in memory and in the file. */
+static PetscErrorCode Select(const char *path, const Hdf5Rows *rows, hid_t space, hid_t *memory)
+{
+  const hsize_t from[2] = {(hsize_t)rows->start, 0}, count[2] = {(hsize_t)rows->n, (hsize_t)rows->ncol};
+  PetscFunctionBeginUser;
+  H5(*memory = H5Screate_simple(2, count, NULL), "describe", path);
+  if (rows->n) {
+    H5(H5Sselect_hyperslab(space, H5S_SELECT_SET, from, NULL, count, NULL), "select", path);
+  } else {
+    H5(H5Sselect_none(space), "select", path);
+    H5(H5Sselect_none(*memory), "select", path);
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Write(hid_t file, const char *path, const Hdf5Rows *rows, hid_t in_memory,
+                            hid_t in_file, const void *value)
+{
+  const hsize_t total[2] = {(hsize_t)rows->total, (hsize_t)rows->ncol};
+  const double nothing = 0.0; /* HDF5 wants an address from ranks without rows, too */
+  hid_t space, memory, set, transfer;
+  PetscFunctionBeginUser;
+  H5(space = H5Screate_simple(rows->ncol == 1 ? 1 : 2, total, NULL), "describe", path);
+  H5(set = H5Dcreate2(file, path, in_file, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "create", path);
+  H5(transfer = H5Pcreate(H5P_DATASET_XFER), "set up", path);
+  H5(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE), "set up", path);
+  PetscCall(Select(path, rows, space, &memory));
+  if (rows->total)
+    H5(H5Dwrite(set, in_memory, memory, space, transfer, rows->n ? value : &nothing), "write", path);
+  H5(H5Pclose(transfer), "close", path);
+  H5(H5Sclose(memory), "close", path);
+  H5(H5Sclose(space), "close", path);
+  H5(H5Dclose(set), "close", path);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Hdf5WriteDoubles(hid_t file, const char *path, const Hdf5Rows *rows, const double value[])
+{
+  return Write(file, path, rows, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, value);
+}
+
+int Hdf5IndexBytes(long long limit)
+{
+  return limit <= INT32_MAX ? 4 : 8;
+}
+
+PetscErrorCode Hdf5WriteIndices(hid_t file, const char *path, const Hdf5Rows *rows, long long limit,
+                                const long long value[])
+{
+  return Write(file, path, rows, H5T_NATIVE_LLONG, Hdf5IndexBytes(limit) == 4 ? H5T_STD_I32LE : H5T_STD_I64LE,
+               value);
+}
+
+PetscErrorCode Hdf5Link(hid_t file, const char *existing, const char *path)
+{
+  PetscFunctionBeginUser;
+  H5(H5Lcreate_hard(file, existing, file, path, H5P_DEFAULT, H5P_DEFAULT), "link", path);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Hdf5Attribute(hid_t file, const char *path, const char *name, double value)
+{
+  hid_t space, attribute;
+  PetscFunctionBeginUser;
+  H5(space = H5Screate(H5S_SCALAR), "describe", name);
+  H5(attribute =
+         H5Acreate_by_name(file, path, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+     "create attribute", name);
+  H5(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value), "write attribute", name);
+  H5(H5Aclose(attribute), "close attribute", name);
+  H5(H5Sclose(space), "close", name);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Hdf5Flush(hid_t file)
+{
+  PetscFunctionBeginUser;
+  H5(H5Fflush(file, H5F_SCOPE_GLOBAL), "flush", "the file");
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Hdf5Close(hid_t *file)
+{
+  PetscFunctionBeginUser;
+  H5(H5Fclose(*file), "close", "the file");
+  *file = H5I_INVALID_HID;
+  PetscFunctionReturn(0);
+}

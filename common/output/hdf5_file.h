@@ -1,0 +1,33 @@
+/* Private to the output room: the part of HDF5 that is used, with its errors turned into PETSc's.  All
+ * functions are collective over the communicator of the file.
+ *
+ * The file on disk is whole after each Hdf5Flush and stays so while the next snapshot is written: arrays go
+ * to new places at its end, and the metadata (which places belong to the file) is held back in memory until
+ * the next flush. */
+#ifndef CORACLE_HDF5_FILE_H
+#define CORACLE_HDF5_FILE_H
+#include <hdf5.h>
+#include <petscsys.h>
+
+/* A distributed array: this rank's rows of a [total][ncol] dataset. */
+typedef struct {
+  long long start, n, total; /* rows */
+  int ncol;                  /* 1: the dataset has one dimension */
+} Hdf5Rows;
+
+PetscErrorCode Hdf5Create(MPI_Comm comm, const char *path, hid_t *file);
+PetscErrorCode Hdf5Group(hid_t file, const char *path);
+/* A new dataset of doubles or of long long (kept as 4-byte integers in the file where values are below
+ * `limit` <= 2^31). */
+PetscErrorCode Hdf5WriteDoubles(hid_t file, const char *path, const Hdf5Rows *rows, const double value[]);
+PetscErrorCode Hdf5WriteIndices(hid_t file, const char *path, const Hdf5Rows *rows, long long limit,
+                                const long long value[]);
+/* A second name for a dataset. */
+PetscErrorCode Hdf5Link(hid_t file, const char *existing, const char *path);
+/* A number on a group, the same on all ranks. */
+PetscErrorCode Hdf5Attribute(hid_t file, const char *path, const char *name, double value);
+PetscErrorCode Hdf5Flush(hid_t file);
+PetscErrorCode Hdf5Close(hid_t *file);
+/* Bytes that an index takes in the file. */
+int Hdf5IndexBytes(long long limit);
+#endif

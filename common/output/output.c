@@ -1,0 +1,264 @@
+/* Layout of <name>.h5:
+ *
+ *   /snapshot/000000                 attribute time, s
+ *             /<grid>/points         [n][2] m
+ *                    /cells          [ne][nodes_per_cell] indices of points
+ *                    /node/<field>   [n], [n][3] or [n][6]
+ *                    /cell/<field>   [ne], ...
+ *
+ * Every snapshot is complete in itself: points and cells that have not changed are links to the earlier ones.
+ */
+#include "output.h"
+#include "folder.h"
+#include "hdf5_file.h"
+#include "xdmf.h"
+#include <ctype.h>
+#include <string.h>
+
+#define PATH 512
+#define GRIDS_MAX 32
+
+/* What was last written of a grid. */
+typedef struct {
+  char name[64];
+  int revision, nodes_per_cell;
+  long long snapshot; /* that holds the points and cells */
+  Hdf5Rows node, cell;
+} Grid;
+
+struct Output_s {
+  MPI_Comm comm; /* duplicated: HDF5's messages do not meet others */
+  PetscMPIInt rank;
+  hid_t file;
+  Xdmf xdmf; /* rank 0 only */
+  long long nsnapshot;
+  PetscBool open; /* between Begin and End */
+  int ngrid, current;
+  Grid grid[GRIDS_MAX];
+};
+
+PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name, Output *out)
+{
+  Output o;
+  char path[PETSC_MAX_PATH_LEN];
+  PetscFunctionBeginUser;
+  PetscCall(PetscNew(&o));
+  PetscCallMPI(MPI_Comm_dup(comm, &o->comm));
+  PetscCallMPI(MPI_Comm_rank(comm, &o->rank));
+  PetscCall(FolderMake(comm, folder));
+  snprintf(path, sizeof path, "%s/%s.h5", folder, name);
+  PetscCall(Hdf5Create(o->comm, path, &o->file));
+  PetscCall(Hdf5Group(o->file, "/snapshot"));
+  PetscCall(Hdf5Flush(o->file));
+  PetscCall(AgreeWithRoot(comm, o->rank == 0 ? XdmfCreate(folder, name, &o->xdmf) : 0));
+  *out = o;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode OutputBegin(Output o, double t)
+{
+  char path[PATH];
+  PetscFunctionBeginUser;
+  PetscCheck(!o->open, o->comm, PETSC_ERR_ORDER, "OutputBegin: the last snapshot has no OutputEnd");
+  o->open = PETSC_TRUE;
+  o->current = -1;
+  snprintf(path, sizeof path, "/snapshot/%06lld", o->nsnapshot);
+  PetscCall(Hdf5Group(o->file, path));
+  PetscCall(Hdf5Attribute(o->file, path, "time", t));
+  if (o->rank == 0) PetscCall(XdmfBegin(o->xdmf, t));
+  PetscFunctionReturn(0);
+}
+
+/* Names become parts of paths and XML. */
+static PetscErrorCode CheckName(const Output o, const char *name)
+{
+  PetscFunctionBeginUser;
+  for (const char *c = name; *c; c++) {
+    PetscCheck(isalnum((unsigned char)*c) || strchr("_- ", *c), o->comm, PETSC_ERR_ARG_WRONG,
+               "name '%s': letters, digits, '_', '-' and blanks are allowed", name);
+  }
+  PetscCheck(*name && strlen(name) < 64, o->comm, PETSC_ERR_ARG_WRONG, "name '%s': 1 to 63 characters", name);
+  PetscFunctionReturn(0);
+}
+
+/* This rank's place among the rows of all. */
+static PetscErrorCode Place(const Output o, int n, int ncol, Hdf5Rows *rows)
+{
+  *rows = (Hdf5Rows){.n = n, .total = n, .ncol = ncol};
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Exscan(&rows->n, &rows->start, 1, MPI_LONG_LONG, MPI_SUM, o->comm));
+  if (o->rank == 0) rows->start = 0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &rows->total, 1, MPI_LONG_LONG, MPI_SUM, o->comm));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FindGrid(Output o, const char *name, Grid **grid)
+{
+  PetscFunctionBeginUser;
+  for (o->current = 0; o->current < o->ngrid; o->current++) {
+    if (!strcmp(o->grid[o->current].name, name)) break;
+  }
+  *grid = &o->grid[o->current];
+  if (o->current < o->ngrid) PetscFunctionReturn(0);
+  PetscCheck(o->ngrid < GRIDS_MAX, o->comm, PETSC_ERR_ARG_OUTOFRANGE, "more than %d grids in a file",
+             GRIDS_MAX);
+  o->ngrid++;
+  **grid = (Grid){.snapshot = -1};
+  strcpy((*grid)->name, name);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode WriteCells(Output o, const char *path, const Grid *g, const int connectivity[])
+{
+  const size_t count = (size_t)g->cell.n * (size_t)g->nodes_per_cell;
+  Hdf5Rows rows = g->cell;
+  long long *global;
+  PetscFunctionBeginUser;
+  rows.ncol = g->nodes_per_cell;
+  PetscCall(PetscMalloc1(count, &global));
+  for (size_t k = 0; k < count; k++) global[k] = g->node.start + connectivity[k];
+  PetscCall(Hdf5WriteIndices(o->file, path, &rows, g->node.total, global));
+  PetscCall(PetscFree(global));
+  PetscFunctionReturn(0);
+}
+
+/* What a snapshot has of a grid: "" itself, "/points", "/cells", "/node", "/cell". */
+static void PathOf(long long snapshot, const Grid *g, const char *what, char path[PATH])
+{
+  snprintf(path, PATH, "/snapshot/%06lld/%s%s", snapshot, g->name, what);
+}
+
+/* Points and cells are those of an earlier snapshot. */
+static PetscErrorCode LinkShape(Output o, const Grid *g, const char *points, const char *cells)
+{
+  char earlier[PATH];
+  PetscFunctionBeginUser;
+  PathOf(g->snapshot, g, "/points", earlier);
+  PetscCall(Hdf5Link(o->file, earlier, points));
+  PathOf(g->snapshot, g, "/cells", earlier);
+  PetscCall(Hdf5Link(o->file, earlier, cells));
+  PetscFunctionReturn(0);
+}
+
+/* The groups of a grid, its points and its cells. */
+static PetscErrorCode WriteShape(Output o, Grid *g, PetscBool known, const double x[],
+                                 const int connectivity[])
+{
+  static const char *const GROUP[3] = {"", "/node", "/cell"};
+  char path[PATH], points[PATH], cells[PATH];
+  Hdf5Rows rows = g->node;
+  PetscFunctionBeginUser;
+  for (int k = 0; k < 3; k++) {
+    PathOf(o->nsnapshot, g, GROUP[k], path);
+    PetscCall(Hdf5Group(o->file, path));
+  }
+  PathOf(o->nsnapshot, g, "/points", points);
+  PathOf(o->nsnapshot, g, "/cells", cells);
+  if (known) {
+    PetscCall(LinkShape(o, g, points, cells));
+  } else {
+    rows.ncol = 2;
+    g->snapshot = o->nsnapshot;
+    PetscCall(Hdf5WriteDoubles(o->file, points, &rows, x));
+    PetscCall(WriteCells(o, cells, g, connectivity));
+  }
+  if (o->rank == 0 && g->cell.total) { /* readers of XDMF stumble over grids without cells */
+    PetscCall(XdmfGrid(o->xdmf, g->name, points, g->node.total, cells, g->cell.total, g->nodes_per_cell,
+                       Hdf5IndexBytes(g->node.total)));
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode OutputGrid(Output o, const char *name, int revision, int n, const double x[], int ne,
+                          int nodes_per_cell, const int connectivity[])
+{
+  Grid *g;
+  Hdf5Rows node, cell;
+  PetscFunctionBeginUser;
+  PetscCheck(o->open, o->comm, PETSC_ERR_ORDER, "OutputGrid '%s' comes before OutputBegin", name);
+  PetscCheck(nodes_per_cell == 2 || nodes_per_cell == 3 || nodes_per_cell == 6, o->comm,
+             PETSC_ERR_ARG_OUTOFRANGE, "grid '%s' has %d nodes a cell: 2, 3 and 6 are known", name,
+             nodes_per_cell);
+  PetscCall(CheckName(o, name));
+  PetscCall(FindGrid(o, name, &g));
+  PetscCall(Place(o, n, 1, &node));
+  PetscCall(Place(o, ne, 1, &cell));
+  const PetscBool known = g->snapshot >= 0 && g->revision == revision ? PETSC_TRUE : PETSC_FALSE;
+  PetscCheck(!known || (node.total == g->node.total && cell.total == g->cell.total &&
+                        nodes_per_cell == g->nodes_per_cell),
+             o->comm, PETSC_ERR_ARG_WRONG,
+             "grid '%s' has %lld nodes and %lld cells, in its revision %d it had %lld and %lld: give it a "
+             "new revision",
+             name, node.total, cell.total, revision, g->node.total, g->cell.total);
+  g->revision = revision;
+  g->nodes_per_cell = nodes_per_cell;
+  g->node = node;
+  g->cell = cell;
+  PetscCall(WriteShape(o, g, known, x, connectivity));
+  PetscFunctionReturn(0);
+}
+
+/* Columns in the file: a vector gets a third component 0, a tensor (xx, yy, xy) becomes (xx, xy, xz, yy, yz,
+ * zz). */
+static void Widen(long long n, int ncomp, const double value[], double wide[])
+{
+  for (long long k = 0; k < n; k++) {
+    const double *v = &value[k * ncomp];
+    if (ncomp == 2) {
+      memcpy(&wide[3 * k], (double[3]){v[0], v[1], 0.0}, 3 * sizeof(double));
+    } else {
+      memcpy(&wide[6 * k], (double[6]){v[0], v[2], 0.0, v[1], 0.0, 0.0}, 6 * sizeof(double));
+    }
+  }
+}
+
+PetscErrorCode OutputField(Output o, const char *field, OutputCentre centre, int ncomp, const double value[])
+{
+  static const int COLUMNS[4] = {0, 1, 3, 6};
+  char path[PATH];
+  double *wide = NULL;
+  PetscFunctionBeginUser;
+  PetscCheck(o->open && o->current >= 0, o->comm, PETSC_ERR_ORDER, "OutputField '%s' comes before OutputGrid",
+             field);
+  PetscCheck(ncomp >= 1 && ncomp <= 3, o->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "field '%s' has %d components: 1, 2 and 3 are known", field, ncomp);
+  PetscCall(CheckName(o, field));
+  const Grid *g = &o->grid[o->current];
+  Hdf5Rows rows = centre == OUTPUT_NODE ? g->node : g->cell;
+  rows.ncol = COLUMNS[ncomp];
+  snprintf(path, sizeof path, "/snapshot/%06lld/%s/%s/%s", o->nsnapshot, g->name,
+           centre == OUTPUT_NODE ? "node" : "cell", field);
+  if (ncomp > 1) {
+    PetscCall(PetscMalloc1((size_t)rows.n * (size_t)rows.ncol, &wide));
+    Widen(rows.n, ncomp, value, wide);
+  }
+  PetscCall(Hdf5WriteDoubles(o->file, path, &rows, wide ? wide : value));
+  PetscCall(PetscFree(wide));
+  if (o->rank == 0 && g->cell.total) {
+    PetscCall(
+        XdmfAttribute(o->xdmf, field, centre == OUTPUT_NODE ? "Node" : "Cell", path, rows.total, rows.ncol));
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode OutputEnd(Output o)
+{
+  PetscFunctionBeginUser;
+  PetscCheck(o->open, o->comm, PETSC_ERR_ORDER, "OutputEnd without OutputBegin");
+  PetscCall(Hdf5Flush(o->file)); /* the index comes after what it points to */
+  PetscCall(AgreeWithRoot(o->comm, o->rank == 0 ? XdmfEnd(o->xdmf) : 0));
+  o->nsnapshot++;
+  o->open = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode OutputDestroy(Output *out)
+{
+  PetscFunctionBeginUser;
+  if (!*out) PetscFunctionReturn(0);
+  PetscCall(Hdf5Close(&(*out)->file));
+  PetscCall(XdmfDestroy(&(*out)->xdmf));
+  PetscCallMPI(MPI_Comm_free(&(*out)->comm));
+  PetscCall(PetscFree(*out));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,61 @@
+#include "folder.h"
+#include "output.h"
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+struct Series_s {
+  FILE *file; /* rank 0 only */
+  int ncolumn;
+  char path[PETSC_MAX_PATH_LEN];
+};
+
+static PetscErrorCode Open(Series s, const char *columns)
+{
+  PetscFunctionBeginUser;
+  s->file = fopen(s->path, "w");
+  PetscCheck(s->file, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "%s: %s", s->path, strerror(errno));
+  fprintf(s->file, "%s\n", columns);
+  PetscCheck(!fflush(s->file), PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", s->path, strerror(errno));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SeriesCreate(MPI_Comm comm, const char *folder, const char *name, const char *columns,
+                            Series *series)
+{
+  Series s;
+  PetscMPIInt rank;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(FolderMake(comm, folder));
+  PetscCall(PetscNew(&s));
+  snprintf(s->path, sizeof s->path, "%s/%s.csv", folder, name);
+  s->ncolumn = 1;
+  for (const char *c = columns; *c; c++) s->ncolumn += *c == ',';
+  *series = s;
+  PetscCall(AgreeWithRoot(comm, rank == 0 ? Open(s, columns) : 0));
+  PetscFunctionReturn(0);
+}
+
+/* Each row is flushed, so that a run can be followed and a crash loses nothing. */
+PetscErrorCode SeriesRow(Series s, const double value[])
+{
+  PetscFunctionBeginUser;
+  if (!s->file) PetscFunctionReturn(0);
+  for (int k = 0; k < s->ncolumn; k++) fprintf(s->file, k ? ",%.10g" : "%.10g", value[k]);
+  fputc('\n', s->file);
+  PetscCheck(!fflush(s->file) && !ferror(s->file), PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", s->path,
+             strerror(errno));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SeriesDestroy(Series *s)
+{
+  PetscFunctionBeginUser;
+  if (!*s) PetscFunctionReturn(0);
+  if ((*s)->file)
+    PetscCheck(!fclose((*s)->file), PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", (*s)->path,
+               strerror(errno));
+  PetscCall(PetscFree(*s));
+  PetscFunctionReturn(0);
+}
