@@ -8,7 +8,7 @@
 typedef enum {
   WAIT_SPIN,  /* ask again at once: the lowest latency, for ranks with a core of their own */
   WAIT_YIELD, /* give the core away between two looks */
-  WAIT_SLEEP  /* sleep ever longer, up to 200 us: for ranks that share cores */
+  WAIT_SLEEP  /* sleep ever longer, up to 1 ms: for ranks that share cores */
 } WaitPolicy;
 
 typedef struct {
