@@ -50,7 +50,8 @@ typedef struct {
 
 /* A graded mesh of [lower, upper]: a balanced quadtree of cells cut into triangles without hanging nodes.  size(context, x) is
  * the wanted cell edge, m, at a point; cells are halved until their edge is at most the smallest size in them and at most
- * size_max (a diagonal is sqrt 2 longer).  Boundaries are named left, right, bottom, top.  Not collective. */
+ * size_max (a diagonal is sqrt 2 longer).  A cell looks at 3 x 3 points: what is narrower than half of size_max is found
+ * if the size grows gently around it.  Boundaries are named left, right, bottom, top.  Not collective. */
 PetscErrorCode MeshBox(const double lower[2], const double upper[2], double size_max,
                        double (*size)(void *context, const double x[2]), void *context, MeshSerial *mesh);
 /* Gmsh .msh, ASCII or binary, formats 2.2 and 4.1: triangles, boundary edges from physical curves (their names; a boundary edge without

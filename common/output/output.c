@@ -42,10 +42,10 @@ PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name,
   Output o;
   char path[PETSC_MAX_PATH_LEN];
   PetscFunctionBeginUser;
+  PetscCall(FolderMake(comm, folder));
   PetscCall(PetscNew(&o));
   PetscCallMPI(MPI_Comm_dup(comm, &o->comm));
   PetscCallMPI(MPI_Comm_rank(comm, &o->rank));
-  PetscCall(FolderMake(comm, folder));
   snprintf(path, sizeof path, "%s/%s.h5", folder, name);
   PetscCall(Hdf5Create(o->comm, path, &o->file));
   PetscCall(Hdf5Group(o->file, "/snapshot"));
