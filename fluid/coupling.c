@@ -3,7 +3,10 @@
 
 PetscErrorCode FluidSetCoupling(Fluid f, int n, const CoracleCoupling coupling[])
 {
+  int has_solid = n > 0;
   PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &has_solid, 1, MPI_INT, MPI_MAX, f->mesh->comm));
+  f->has_solid = (PetscBool)has_solid;
   for (int k = 0; k < f->ncoupling; k++) {
     f->coupling_of[f->coupling[k].element] = -1;
     f->alpha[f->coupling[k].element] = 0.0;

@@ -32,6 +32,7 @@ struct Fluid_s {
   PetscBool has_open;
 
   int ncoupling, capacity;
+  PetscBool has_solid; /* on any rank */
   CoracleCoupling *coupling;
   int *coupling_of; /* [ne] entry of coupling, or -1 */
   double saved_t, saved_dt;

@@ -277,7 +277,7 @@ static PetscErrorCode Assemble(Fluid f, double dt)
 
 static PetscErrorCode ChoosePreconditioner(Fluid f, double dt)
 {
-  const PetscBool keep = f->ncoupling == 0 && f->preconditioner_age > 0 &&
+  const PetscBool keep = !f->has_solid && f->preconditioner_age > 0 &&
                          f->preconditioner_age < PRECONDITIONER_AGE &&
                          fabs(dt - f->preconditioner_dt) < PRECONDITIONER_DT * f->preconditioner_dt &&
                          f->stats.momentum_iterations <= f->fresh_iterations + PRECONDITIONER_SLACK;
