@@ -17,9 +17,9 @@
     }                                                                                                        \
   } while (0)
 
-/* A strip of size `smallest` as the falling disc sweeps it, growing by 1/4 m/m outside. */
+/* A strip of size `smallest` as the falling disc sweeps it, growing by `growth` m/m outside. */
 typedef struct {
-  double smallest, lower[2], upper[2];
+  double smallest, lower[2], upper[2], growth;
 } Strip;
 
 static inline double StripSize(void *context, const double x[2])
@@ -27,7 +27,7 @@ static inline double StripSize(void *context, const double x[2])
   const Strip *s = context;
   double d[2];
   for (int c = 0; c < 2; c++) d[c] = fmax(fmax(s->lower[c] - x[c], x[c] - s->upper[c]), 0.0);
-  return s->smallest + 0.25 * hypot(d[0], d[1]);
+  return s->smallest + s->growth * hypot(d[0], d[1]);
 }
 
 static inline double TriangleArea(const double x[], const int v[3])
