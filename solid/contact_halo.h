@@ -1,0 +1,34 @@
+/* Targets of other ranks that this rank's edges may touch: their positions come before the contact forces are
+ * computed, the forces on them go back afterwards.  Every pair (edge, target) is computed once, by the edge's
+ * rank. */
+#ifndef SOLID_CONTACT_HALO_H
+#define SOLID_CONTACT_HALO_H
+#include "geometry.h"
+#include <petscsys.h>
+
+/* An element with a node on the surface. */
+typedef struct {
+  int node[3]; /* local nodes; nnodes + 3 k + i for the i-th node of target k of the halo */
+  int body;
+  double twice_area; /* at rest, m2 */
+} Target;
+
+typedef struct Halo_s *Halo;
+
+PetscErrorCode HaloCreate(MPI_Comm comm, Halo *h);
+/* Collective: offers own targets to the ranks whose edges' box they touch.  only_body: the one body of this
+ * rank's edges, -1 if there are several or none.  Received ones: HaloTargets. */
+PetscErrorCode HaloBuild(Halo h, int nnodes, const double x[], const GeometryBox *edges, int only_body, int n,
+                         const Target target[]);
+/* Collective: forgets those with keep[k] = 0; index[k] becomes the new place of target k or -1. */
+PetscErrorCode HaloKeep(Halo h, const char keep[], int index[]);
+int HaloTargets(Halo h, const Target **target);
+/* Collective over neighbours: x[nnodes][2] of the owners to halo positions. */
+PetscErrorCode HaloForward(Halo h, const double x[]);
+const double *HaloPositions(Halo h); /* [targets][3][2] */
+double *HaloForces(Halo h);          /* [targets][3][2], zeroed by HaloForward */
+/* Collective over neighbours: adds the halo's forces to the owners' force[nnodes][2], in order of the ranks.
+ */
+PetscErrorCode HaloReverse(Halo h, double force[]);
+PetscErrorCode HaloDestroy(Halo *h);
+#endif

@@ -1,0 +1,122 @@
+/* Contact by the potential method (Munjiza 2004): an edge of one body within a triangle of another, or behind
+ * a wall.
+ *
+ *     target triangle with potential             P------Q  contactor's edge, its body on the left
+ *     phi = 3 min(lambda_0, lambda_1, lambda_2)       |    n = (d_y, -d_x)/L, d = Q - P
+ *     0 on the edges, 1 in the centre                 v n
+ *
+ *     f = -(p/J) int phi n ds    on the contactor's edge, over its part in the triangle
+ *
+ * shared out to P and Q by the edge's linear functions and taken off the target's nodes by its lambda_i: sum
+ * and moment of the forces vanish to round-off.  J is the target's area over its rest area; with it the
+ * forces of an edge set that encloses a body C are exactly -dU/dx, U = p int_C (phi/J) dA, in the contactor's
+ * and in the target's nodes alike, so that contact conserves energy even between deforming bodies. */
+#ifndef SOLID_CONTACT_KERNEL_H
+#define SOLID_CONTACT_KERNEL_H
+#include "plane.h"
+#include <math.h>
+
+typedef struct {
+  Point p, q;         /* force per unit of p/J on the edge's ends, m */
+  Point t[3];         /* and on the target's nodes */
+  double largest_phi; /* at the ends of the part inside and at the kinks */
+  double twice_area;  /* of the target now, m2 */
+} ContactForces;
+
+/* int phi (1 - s) ds and int phi s ds over s in [s0, s1], phi linear from f0 to f1 there (Simpson: exact). */
+static inline void ContactPiece(double s0, double s1, double f0, double f1, double integral[2])
+{
+  const double w = (s1 - s0) / 6.0, sm = 0.5 * (s0 + s1), fm = 0.5 * (f0 + f1);
+  const double moment = w * (s0 * f0 + 4.0 * sm * fm + s1 * f1);
+  integral[0] += w * (f0 + 4.0 * fm + f1) - moment;
+  integral[1] += moment;
+}
+
+static inline double ContactPotential(const double at_p[3], const double at_q[3], double s)
+{
+  double phi = HUGE_VAL;
+  for (int i = 0; i < 3; i++) phi = fmin(phi, at_p[i] + s * (at_q[i] - at_p[i]));
+  return 3.0 * phi;
+}
+
+/* The part s0 .. s1 of the edge on which all lambda_i >= 0; 0 if there is none. */
+static inline int ContactClip(const double at_p[3], const double at_q[3], double *s0, double *s1)
+{
+  *s0 = 0.0;
+  *s1 = 1.0;
+  for (int i = 0; i < 3; i++) {
+    const double a = at_p[i], b = at_q[i];
+    if (a <= 0.0 && b <= 0.0) return 0;
+    if (a < 0.0) *s0 = fmax(*s0, a / (a - b));
+    if (b < 0.0) *s1 = fmin(*s1, a / (a - b));
+  }
+  return *s0 < *s1;
+}
+
+/* The integrals of phi over s0 .. s1: phi is linear between the places where two lambdas cross. */
+static inline double ContactIntegrate(const double at_p[3], const double at_q[3], double s0, double s1,
+                                      double integral[2])
+{
+  double kink[5] = {s0}, largest;
+  int n = 1;
+  for (int i = 0; i < 3; i++) {
+    const int j = (i + 1) % 3;
+    const double slope = (at_q[i] - at_p[i]) - (at_q[j] - at_p[j]), s = (at_p[j] - at_p[i]) / slope;
+    if (slope == 0.0 || !(s > s0 && s < s1)) continue;
+    int k = n++;
+    for (; k > 1 && kink[k - 1] > s; k--) kink[k] = kink[k - 1];
+    kink[k] = s;
+  }
+  kink[n++] = s1;
+  double left = fmax(ContactPotential(at_p, at_q, s0), 0.0);
+  largest = left;
+  for (int k = 1; k < n; k++) {
+    const double right = fmax(ContactPotential(at_p, at_q, kink[k]), 0.0);
+    ContactPiece(kink[k - 1], kink[k], left, right, integral);
+    left = right;
+    largest = fmax(largest, right);
+  }
+  return largest;
+}
+
+/* Returns 0 when edge and triangle do not meet; all forces are then unset. */
+static inline int ContactEdgeTriangle(Point p, Point q, const Point t[3], ContactForces *f)
+{
+  const double twice_area = PointCross(PointMinus(t[1], t[0]), PointMinus(t[2], t[0]));
+  const double inverse = 1.0 / twice_area;
+  double at_p[3], at_q[3], s0, s1, integral[2] = {0.0, 0.0};
+  for (int i = 0; i < 3; i++) {
+    const Point edge = PointMinus(t[(i + 2) % 3], t[(i + 1) % 3]);
+    at_p[i] = PointCross(edge, PointMinus(p, t[(i + 1) % 3])) * inverse;
+    at_q[i] = PointCross(edge, PointMinus(q, t[(i + 1) % 3])) * inverse;
+  }
+  if (!ContactClip(at_p, at_q, &s0, &s1)) return 0;
+  f->twice_area = twice_area;
+  f->largest_phi = ContactIntegrate(at_p, at_q, s0, s1, integral);
+  const Point n = {q.y - p.y, p.x - q.x}; /* outward normal times length */
+  f->p = (Point){-n.x * integral[0], -n.y * integral[0]};
+  f->q = (Point){-n.x * integral[1], -n.y * integral[1]};
+  for (int i = 0; i < 3; i++) {
+    const double share = at_p[i] * integral[0] + at_q[i] * integral[1];
+    f->t[i] = (Point){n.x * share, n.y * share};
+  }
+  return 1;
+}
+
+/* A rigid half plane: phi = 3 depth / height behind the wall, depth_p and depth_q those of the edge's ends.
+ * Returns the integrals of phi with the edge's functions, 0 in front of the wall. */
+static inline int ContactEdgeWall(double depth_p, double depth_q, double height, double integral[2])
+{
+  const double a = 3.0 * depth_p / height, b = 3.0 * depth_q / height;
+  integral[0] = integral[1] = 0.0;
+  if (a <= 0.0 && b <= 0.0) return 0;
+  const double cut = a / (a - b);
+  if (a >= 0.0 && b >= 0.0)
+    ContactPiece(0.0, 1.0, a, b, integral);
+  else if (a > 0.0)
+    ContactPiece(0.0, cut, a, 0.0, integral);
+  else
+    ContactPiece(cut, 1.0, 0.0, b, integral);
+  return 1;
+}
+#endif

@@ -1,0 +1,210 @@
+/* This rank's share of the assembly.  Every rank computes the same partition, so nothing is sent. */
+#include "solid_impl.h"
+#include <metis.h>
+#include <stdlib.h>
+
+/* part[nelements]: neighbouring elements together, as many on each rank. */
+static PetscErrorCode Partition(const Assembly *a, int size, int part[])
+{
+  idx_t ne = a->nelements, nn = a->nnodes, common = 2, parts = PetscMin(size, a->nelements), cut = 0;
+  idx_t *start, *node, *element_part, *node_part;
+  PetscFunctionBeginUser;
+  for (int e = 0; e < a->nelements; e++) part[e] = 0;
+  if (parts < 2) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc4((size_t)ne + 1, &start, 3 * (size_t)ne, &node, (size_t)ne, &element_part, (size_t)nn,
+                         &node_part));
+  for (idx_t e = 0; e <= ne; e++) start[e] = 3 * e;
+  for (idx_t k = 0; k < 3 * ne; k++) node[k] = a->element[k];
+  const int code = METIS_PartMeshDual(&ne, &nn, start, node, NULL, NULL, &common, &parts, NULL, NULL, &cut,
+                                      element_part, node_part);
+  PetscCheck(code == METIS_OK, PETSC_COMM_SELF, PETSC_ERR_LIB, "METIS_PartMeshDual failed with %d", code);
+  for (idx_t e = 0; e < ne; e++) part[e] = (int)element_part[e];
+  PetscCall(PetscFree4(start, node, element_part, node_part));
+  PetscFunctionReturn(0);
+}
+
+/* --- counting and numbering
+ * --------------------------------------------------------------------------------- */
+
+/* local[a->nnodes]: this rank's number of a node, in order of appearance, or -1. */
+static void NumberLocally(Solid s, const Assembly *a, const int part[], int local[])
+{
+  for (int n = 0; n < a->nnodes; n++) local[n] = -1;
+  for (int e = 0; e < a->nelements; e++) {
+    if (part[e] != s->rank) continue;
+    s->elements.n++;
+    for (int i = 0; i < 3; i++)
+      if (local[a->element[3 * e + i]] < 0) local[a->element[3 * e + i]] = s->nnodes++;
+  }
+  for (int k = 0; k < a->nfacets; k++) s->nfacets += part[a->facet_element[k]] == s->rank;
+}
+
+static PetscErrorCode Allocate(Solid s)
+{
+  Elements *e = &s->elements;
+  const size_t nn = (size_t)s->nnodes, ne = (size_t)e->n, nf = (size_t)s->nfacets;
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc7(nn, &s->gid, nn, &s->node_body, nn, &s->surface, nn, &s->mass, nn, &s->inverse_mass,
+                         nn + 1, &s->corner_start, 3 * ne, &s->corner));
+  PetscCall(PetscCalloc7(2 * nn, &s->rest, 2 * nn, &s->x, 2 * nn, &s->v, 2 * nn, &s->force, 2 * nn, &s->load,
+                         2 * nn, &s->saved.x, 2 * nn, &s->saved.v));
+  PetscCall(PetscMalloc4(3 * ne, &s->element, 2 * nf, &s->facet, nf, &s->facet_element, (size_t)s->nbodies,
+                         &s->body));
+  PetscCall(PetscMalloc3(ne, &e->node[0], ne, &e->node[1], ne, &e->node[2]));
+  PetscCall(PetscMalloc4(ne, &e->inverse[0], ne, &e->inverse[1], ne, &e->inverse[2], ne, &e->inverse[3]));
+  PetscCall(PetscMalloc4(ne, &e->mu, ne, &e->lambda, ne, &e->eta, ne, &e->density));
+  PetscCall(PetscMalloc4(ne, &e->body, ne, &e->number, 3 * ne, &e->force[0], 3 * ne, &e->force[1]));
+  PetscFunctionReturn(0);
+}
+
+/* --- nodes
+ * -------------------------------------------------------------------------------------------------- */
+
+static Tensor RestEdges(const Assembly *a, int e)
+{
+  const int *n = a->element + 3 * e;
+  return TensorOfEdges(PointAt(a->rest, n[0]), PointAt(a->rest, n[1]), PointAt(a->rest, n[2]));
+}
+
+static void TakeNodes(Solid s, const Assembly *a, const int local[])
+{
+  for (int n = 0; n < a->nnodes; n++) {
+    const int i = local[n];
+    if (i < 0) continue;
+    s->gid[i] = n;
+    s->node_body[i] = a->node_body[n];
+    for (int c = 0; c < 2; c++) {
+      s->rest[2 * i + c] = a->rest[2 * n + c];
+      s->x[2 * i + c] = a->x[2 * n + c];
+      s->v[2 * i + c] = a->u[2 * n + c];
+    }
+  }
+  for (int k = 0; k < 2 * a->nfacets; k++)
+    if (local[a->facet[k]] >= 0) s->surface[local[a->facet[k]]] = 1;
+}
+
+/* Over all elements in the assembly's order, so that every copy of a node has the same bits. */
+static void LumpMass(Solid s, const Assembly *a, const int local[])
+{
+  for (int e = 0; e < a->nelements; e++) {
+    const double m = a->body[a->element_body[e]].material.density * TensorDeterminant(RestEdges(a, e)) / 6.0;
+    for (int i = 0; i < 3; i++) {
+      const int n = local[a->element[3 * e + i]];
+      if (n >= 0) s->mass[n] += m;
+    }
+  }
+  for (int n = 0; n < a->nnodes; n++)
+    if (local[n] >= 0) s->inverse_mass[local[n]] = a->fixed[n] ? 0.0 : 1.0 / s->mass[local[n]];
+}
+
+typedef struct {
+  int rank, global, local;
+} Copy;
+
+static int CompareCopies(const void *a, const void *b)
+{
+  const Copy *p = a, *q = b;
+  return p->rank != q->rank ? (p->rank > q->rank) - (p->rank < q->rank)
+                            : (p->global > q->global) - (p->global < q->global);
+}
+
+/* The other ranks' copies of this rank's nodes. */
+static PetscErrorCode FindCopies(Solid s, const Assembly *a, const int part[], const int local[])
+{
+  Copy *copy;
+  int n = 0, kept = 0, *rank, *node;
+  PetscFunctionBeginUser;
+  for (int k = 0; k < 3 * a->nelements; k++) n += part[k / 3] != s->rank && local[a->element[k]] >= 0;
+  PetscCall(PetscMalloc3((size_t)n, &copy, (size_t)n, &rank, (size_t)n, &node));
+  n = 0;
+  for (int k = 0; k < 3 * a->nelements; k++)
+    if (part[k / 3] != s->rank && local[a->element[k]] >= 0)
+      copy[n++] = (Copy){part[k / 3], a->element[k], local[a->element[k]]};
+  qsort(copy, (size_t)n, sizeof *copy, CompareCopies);
+  for (int k = 0; k < n; k++) {
+    if (k > 0 && !CompareCopies(&copy[k], &copy[k - 1])) continue;
+    rank[kept] = copy[k].rank;
+    node[kept++] = copy[k].local;
+  }
+  PetscCall(ShareCreate(s->comm, s->nnodes, kept, rank, node, &s->share));
+  PetscCall(PetscFree3(copy, rank, node));
+  PetscFunctionReturn(0);
+}
+
+/* --- elements
+ * ----------------------------------------------------------------------------------------------- */
+
+/* eta = 2 h beta sqrt(E rho), h the smallest height at rest. */
+static double Viscosity(const Assembly *a, int e)
+{
+  const Material *m = &a->body[a->element_body[e]].material;
+  double longest = 0.0;
+  for (int i = 0; i < 3; i++) {
+    const Point d = PointMinus(PointAt(a->rest, a->element[3 * e + (i + 1) % 3]),
+                               PointAt(a->rest, a->element[3 * e + i]));
+    longest = fmax(longest, hypot(d.x, d.y));
+  }
+  const double height = TensorDeterminant(RestEdges(a, e)) / longest;
+  return 2.0 * height * m->damping * sqrt(m->youngs_modulus * m->density);
+}
+
+static void TakeElement(Solid s, const Assembly *a, int from, int k, const int local[])
+{
+  Elements *e = &s->elements;
+  const Material *m = &a->body[a->element_body[from]].material;
+  const ElementLaw law = ElementLawOf(m->youngs_modulus, m->poisson_ratio, Viscosity(a, from));
+  const Tensor inverse = TensorInverse(RestEdges(a, from));
+  for (int i = 0; i < 3; i++) s->element[3 * k + i] = e->node[i][k] = local[a->element[3 * from + i]];
+  e->inverse[0][k] = inverse.xx;
+  e->inverse[1][k] = inverse.xy;
+  e->inverse[2][k] = inverse.yx;
+  e->inverse[3][k] = inverse.yy;
+  e->mu[k] = law.mu;
+  e->lambda[k] = law.lambda;
+  e->eta[k] = law.eta;
+  e->density[k] = m->density;
+  e->body[k] = a->element_body[from];
+  e->number[k] = from;
+  if (law.eta > 0.0) e->damped = PETSC_TRUE;
+}
+
+/* Elements, facets, and for each node the places of its corners' forces. */
+static void TakeElements(Solid s, const Assembly *a, const int part[], const int local[], int renumber[])
+{
+  const int ne = s->elements.n;
+  for (int from = 0, k = 0; from < a->nelements; from++) {
+    if (part[from] != s->rank) continue;
+    renumber[from] = k;
+    TakeElement(s, a, from, k++, local);
+  }
+  for (int from = 0, k = 0; from < a->nfacets; from++) {
+    if (part[a->facet_element[from]] != s->rank) continue;
+    for (int i = 0; i < 2; i++) s->facet[2 * k + i] = local[a->facet[2 * from + i]];
+    s->facet_element[k++] = renumber[a->facet_element[from]];
+  }
+  for (int k = 0; k < 3 * ne; k++) s->corner_start[s->element[k] + 1]++;
+  for (int n = 0; n < s->nnodes; n++) s->corner_start[n + 1] += s->corner_start[n];
+  for (int k = 3 * ne - 1; k >= 0; k--) /* fills from behind, then shifts back */
+    s->corner[--s->corner_start[s->element[k] + 1]] = (k % 3) * ne + k / 3;
+  for (int n = 0; n < s->nnodes; n++) s->corner_start[n] = s->corner_start[n + 1];
+  s->corner_start[s->nnodes] = 3 * ne;
+}
+
+PetscErrorCode SolidTakeShare(Solid s, const Assembly *a)
+{
+  int *part, *local, *renumber;
+  PetscFunctionBeginUser;
+  PetscCall(
+      PetscMalloc3((size_t)a->nelements, &part, (size_t)a->nnodes, &local, (size_t)a->nelements, &renumber));
+  s->nbodies = a->nbodies;
+  PetscCall(Partition(a, s->size, part));
+  NumberLocally(s, a, part, local);
+  PetscCall(Allocate(s));
+  PetscCall(PetscArraycpy(s->body, a->body, (size_t)a->nbodies));
+  TakeNodes(s, a, local);
+  LumpMass(s, a, local);
+  TakeElements(s, a, part, local, renumber);
+  PetscCall(FindCopies(s, a, part, local));
+  PetscCall(PetscFree3(part, local, renumber));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,135 @@
+/* The loops over this rank's elements. */
+#include "solid_impl.h"
+#include <stdio.h>
+
+static inline Tensor RestInverse(const Elements *e, int k)
+{
+  return (Tensor){e->inverse[0][k], e->inverse[1][k], e->inverse[2][k], e->inverse[3][k]};
+}
+
+static inline Tensor EdgesOf(const Elements *e, int k, const double value[])
+{
+  return TensorOfEdges(PointAt(value, e->node[0][k]), PointAt(value, e->node[1][k]),
+                       PointAt(value, e->node[2][k]));
+}
+
+void SolidElementShape(const Elements *e, int k, const double x[], Tensor *edges, Tensor *f)
+{
+  *edges = EdgesOf(e, k, x);
+  *f = TensorProduct(*edges, RestInverse(e, k));
+}
+
+/* Forces of all corners; returns the number of elements that are inside out (or not a number).  Local
+ * pointers that alias nothing let the compiler vectorise. */
+static inline int CornerForces(const Elements *e, const double *restrict x, const double *restrict v,
+                               int damped)
+{
+  const int n = e->n;
+  const int *restrict a = e->node[0], *restrict b = e->node[1], *restrict c = e->node[2];
+  const double *restrict ixx = e->inverse[0], *restrict ixy = e->inverse[1], *restrict iyx = e->inverse[2],
+                         *restrict iyy = e->inverse[3], *restrict mu = e->mu, *restrict lambda = e->lambda,
+                         *restrict eta = e->eta;
+  double *restrict fx = e->force[0], *restrict fy = e->force[1];
+  int bad = 0;
+  for (int k = 0; k < n; k++) {
+    const Tensor edges = TensorOfEdges(PointAt(x, a[k]), PointAt(x, b[k]), PointAt(x, c[k]));
+    const Tensor f = TensorProduct(edges, (Tensor){ixx[k], ixy[k], iyx[k], iyy[k]});
+    const double j = TensorDeterminant(f);
+    ElementStress t = ElementElasticStress(f, j, mu[k], lambda[k]);
+    if (damped) {
+      const Tensor rate = TensorOfEdges(PointAt(v, a[k]), PointAt(v, b[k]), PointAt(v, c[k]));
+      const ElementStress d = ElementViscousStress(edges, rate, eta[k]);
+      t = (ElementStress){t.xx + d.xx, t.yy + d.yy, t.xy + d.xy};
+    }
+    const ElementForces g = ElementForcesOf(edges, t);
+    fx[k] = g.a.x;
+    fy[k] = g.a.y;
+    fx[n + k] = g.b.x;
+    fy[n + k] = g.b.y;
+    fx[2 * n + k] = g.c.x;
+    fy[2 * n + k] = g.c.y;
+    bad += !(j > 0.0);
+  }
+  return bad;
+}
+
+static void SumCorners(const Solid s)
+{
+  const int *restrict start = s->corner_start, *restrict corner = s->corner;
+  const double *restrict fx = s->elements.force[0], *restrict fy = s->elements.force[1];
+  double *restrict force = s->force;
+  for (int n = 0; n < s->nnodes; n++) {
+    double x = 0.0, y = 0.0;
+    for (int k = start[n]; k < start[n + 1]; k++) {
+      x += fx[corner[k]];
+      y += fy[corner[k]];
+    }
+    force[2 * n] = x;
+    force[2 * n + 1] = y;
+  }
+}
+
+/* Names the first element that is inside out, and ends the job. */
+static PetscErrorCode FailOnElement(const Solid s)
+{
+  const Elements *e = &s->elements;
+  char message[320];
+  PetscFunctionBeginUser;
+  for (int k = 0; k < e->n; k++) {
+    Tensor edges, f;
+    SolidElementShape(e, k, s->x, &edges, &f);
+    const double j = TensorDeterminant(f);
+    if (j > 0.0) continue;
+    const Point p = PointAt(s->x, e->node[0][k]);
+    (void)snprintf(
+        message, sizeof message,
+        "body %d: element %d at (%g, %g) %s at t = %.9g s (area %.3g of its rest area): the load is too "
+        "large for its stiffness, or solid.courant too large",
+        e->body[k], e->number[k] - s->body[e->body[k]].first_element, p.x, p.y,
+        j == j ? "has turned inside out" : "is not a number any more", s->stats.t, j);
+    break;
+  }
+  if (s->setup.fail) s->setup.fail(s->setup.context, message);
+  (void)fprintf(stderr, "%s\n", message);
+  PetscCallMPI(MPI_Abort(s->comm, 1));
+  PetscFunctionReturn(PETSC_ERR_FP);
+}
+
+PetscErrorCode SolidInternalForces(Solid s)
+{
+  PetscFunctionBeginUser;
+  const int bad = s->elements.damped ? CornerForces(&s->elements, s->x, s->v, 1)
+                                     : CornerForces(&s->elements, s->x, s->v, 0);
+  if (bad) PetscCall(FailOnElement(s));
+  SumCorners(s);
+  PetscFunctionReturn(0);
+}
+
+double SolidElementLimit(Solid s, double contact)
+{
+  const Elements *e = &s->elements;
+  double limit = HUGE_VAL;
+  for (int k = 0; k < e->n; k++) {
+    Tensor edges, f;
+    SolidElementShape(e, k, s->x, &edges, &f);
+    ElementRates rates =
+        ElementRatesOf(edges, f, e->density[k], (ElementLaw){e->mu[k], e->lambda[k], e->eta[k]});
+    rates.stiffness += contact;
+    limit = fmin(limit, ElementStableStep(rates));
+  }
+  return limit;
+}
+
+void SolidStress(Solid s, double stress[])
+{
+  const Elements *e = &s->elements;
+  for (int k = 0; k < e->n; k++) {
+    Tensor edges, f;
+    SolidElementShape(e, k, s->x, &edges, &f);
+    const ElementStress t = ElementElasticStress(f, TensorDeterminant(f), e->mu[k], e->lambda[k]);
+    const ElementStress d = ElementViscousStress(edges, EdgesOf(e, k, s->v), e->eta[k]);
+    stress[3 * k] = t.xx + d.xx;
+    stress[3 * k + 1] = t.yy + d.yy;
+    stress[3 * k + 2] = t.xy + d.xy;
+  }
+}

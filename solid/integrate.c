@@ -1,0 +1,174 @@
+/* Time stepping: forces, substeps, and how long a substep may be. */
+#include "solid_impl.h"
+
+enum { CHECK_EVERY = 20 }; /* substeps between two looks at the stability limit, at most */
+
+static double Clock(void)
+{
+  return MPI_Wtime();
+}
+
+PetscErrorCode SolidForces(Solid s, const double **force)
+{
+  PetscFunctionBeginUser;
+  *force = s->force;
+  if (s->force_valid) PetscFunctionReturn(0);
+  const double start = Clock();
+  PetscCall(SolidInternalForces(s));
+  const double elements = Clock();
+  if (s->contact) PetscCall(ContactAddForces(s->contact, s));
+  const double contact = Clock();
+  PetscCall(ShareSum(s->share, s->force));
+  s->force_valid = PETSC_TRUE;
+  s->stats.seconds[0] += elements - start;
+  s->stats.seconds[1] += contact - elements;
+  s->stats.seconds[2] += Clock() - contact;
+  PetscFunctionReturn(0);
+}
+
+/* --- the substep's length
+ * ----------------------------------------------------------------------------------- */
+
+PetscErrorCode SolidLimit(Solid s, double *limit)
+{
+  PetscFunctionBeginUser;
+  *limit = SolidElementLimit(s, s->contact ? ContactRate(s->contact) : 0.0);
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, limit, 1, MPI_DOUBLE, MPI_MIN, s->comm));
+  PetscFunctionReturn(0);
+}
+
+/* moved: how far the farthest surface node is from its place at the last search; speed, acceleration: largest
+ * now. */
+typedef struct {
+  double moved, speed, acceleration;
+} Motion;
+
+static PetscErrorCode MotionNow(Solid s, Motion *m)
+{
+  const double *force;
+  double largest[3] = {0.0, 0.0, 0.0};
+  PetscFunctionBeginUser;
+  PetscCall(SolidForces(s, &force));
+  for (int n = 0; n < s->nnodes; n++) {
+    if (!s->surface[n]) continue;
+    double speed = 0.0, acceleration = 0.0;
+    for (int c = 0; c < 2; c++) {
+      const double a = (force[2 * n + c] + s->load[2 * n + c]) * s->inverse_mass[n] + s->setup.gravity[c];
+      speed += s->v[2 * n + c] * s->v[2 * n + c];
+      acceleration += a * a;
+    }
+    largest[1] = fmax(largest[1], speed);
+    largest[2] = fmax(largest[2], acceleration);
+  }
+  largest[0] = ContactMoved(s->contact, s);
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 3, MPI_DOUBLE, MPI_MAX, s->comm));
+  *m = (Motion){largest[0], sqrt(largest[1]), sqrt(largest[2])};
+  PetscFunctionReturn(0);
+}
+
+/* How far a node gets in k substeps of h if speed and acceleration do not double. */
+static double Travel(const Motion *m, int k, double h)
+{
+  return m->moved + 2.0 * k * h * (m->speed + k * h * m->acceleration);
+}
+
+static int SafeSubsteps(const Motion *m, double reach, double h)
+{
+  int k = CHECK_EVERY;
+  while (k > 1 && Travel(m, k, h) > reach) k /= 2;
+  return k;
+}
+
+/* Searches anew when the candidates may not last, and always at the start of a step: they then follow from x
+ * alone, and a step that is redone has the same bits.  *substeps: how many until the next check. */
+static PetscErrorCode CheckContact(Solid s, int *substeps)
+{
+  Motion m;
+  double limit;
+  PetscFunctionBeginUser;
+  PetscCall(SolidLimit(s, &limit));
+  PetscCall(MotionNow(s, &m));
+  const double h = PetscMin(s->setup.courant * limit, s->dt);
+  if (s->done == 0.0 || Travel(&m, CHECK_EVERY, h) > ContactReach(s->contact)) {
+    const Motion from_here = {0.0, m.speed, m.acceleration};
+    PetscCall(ContactSearch(s->contact, s, 2.0 * Travel(&from_here, 2, h)));
+    s->force_valid = PETSC_FALSE;
+    m.moved = 0.0;
+  }
+  *substeps = SafeSubsteps(&m, ContactReach(s->contact), h);
+  PetscFunctionReturn(0);
+}
+
+/* Substeps for the rest of the step, none longer than courant times the limit. */
+static PetscErrorCode Plan(Solid s)
+{
+  const double start = Clock(), rest = s->dt - s->done;
+  double limit;
+  PetscFunctionBeginUser;
+  s->until_check = CHECK_EVERY;
+  if (s->contact) PetscCall(CheckContact(s, &s->until_check));
+  PetscCall(SolidLimit(s, &limit));
+  s->remaining = PetscMax(1, (int)ceil(rest / (s->setup.courant * limit) * (1.0 - 1e-12)));
+  s->h = rest / s->remaining;
+  s->stats.seconds[3] += Clock() - start;
+  PetscFunctionReturn(0);
+}
+
+/* --- the step
+ * ----------------------------------------------------------------------------------------------- */
+
+PetscErrorCode SolidStart(Solid s, double dt, const double load[])
+{
+  PetscFunctionBeginUser;
+  if (load) {
+    PetscCall(PetscArraycpy(s->load, load, 2 * (size_t)s->nnodes));
+    PetscCall(ShareSum(s->share, s->load));
+  } else {
+    PetscCall(PetscArrayzero(s->load, 2 * (size_t)s->nnodes));
+  }
+  s->dt = dt;
+  s->done = 0.0;
+  s->stats.substeps = 0;
+  PetscCall(Plan(s));
+  PetscFunctionReturn(0);
+}
+
+PetscBool SolidRemaining(Solid s)
+{
+  return (PetscBool)(s->remaining > 0);
+}
+
+/* v += h (f/m + g), x += h v; fixed nodes stay. */
+static void Move(Solid s)
+{
+  const double h = s->h, *restrict force = s->force, *restrict load = s->load,
+               *restrict inverse_mass = s->inverse_mass;
+  double *restrict x = s->x, *restrict v = s->v;
+  for (int n = 0; n < s->nnodes; n++) {
+    const double free_node = inverse_mass[n] > 0.0 ? h : 0.0;
+    for (int c = 0; c < 2; c++) {
+      v[2 * n + c] +=
+          h * inverse_mass[n] * (force[2 * n + c] + load[2 * n + c]) + free_node * s->setup.gravity[c];
+      x[2 * n + c] += h * v[2 * n + c];
+    }
+  }
+}
+
+PetscErrorCode SolidSubstep(Solid s, double *h)
+{
+  const double *force;
+  PetscFunctionBeginUser;
+  if (s->until_check == 0) PetscCall(Plan(s));
+  PetscCall(SolidForces(s, &force));
+  Move(s);
+  s->force_valid = PETSC_FALSE;
+  *h = s->h;
+  s->done += s->h;
+  s->stats.t += s->h;
+  s->stats.h = s->h;
+  s->stats.substeps++;
+  s->stats.total++;
+  s->remaining--;
+  s->until_check--;
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,92 @@
+/* coracle-solid: the solid participant.  coracle-solid case.yaml [--set key=value]... */
+#include "exchange.h"
+#include "record.h"
+#include "solid_case.h"
+
+static void Fail(void *client, const char *message)
+{
+  CoracleFail(client, "%s", message);
+}
+
+static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const char *file,
+                            PetscErrorCode code, PetscErrorType type, const char *message, void *client)
+{
+  CoracleFail(client, "%s (in %s, %s:%d)", message ? message : "an error of PETSc", function, file, line);
+}
+
+/* The sections of the case that concern the solid, all of whose keys must have been read. */
+static const char *const SECTIONS[] = {"solid", NULL};
+
+static PetscErrorCode Setup(Case c, MPI_Comm comm, CoracleClient client, Solid *solid)
+{
+  SolidSetup setup = {.fail = Fail, .context = client};
+  Assembly assembly = {0};
+  PetscFunctionBeginUser;
+  PetscCall(SolidCaseRead(c, &assembly, &setup));
+  PetscCall(CaseFinish(c, SECTIONS));
+  PetscCall(SolidCreate(comm, &assembly, &setup, solid));
+  PetscCall(AssemblyDestroy(&assembly));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Report(CoracleClient client, Solid solid)
+{
+  static const char *const PHASES[] = {"seconds_elements", "seconds_contact", "seconds_exchange",
+                                       "seconds_limit"};
+  const SolidStats *stats = SolidGetStats(solid);
+  SolidView v;
+  PetscFunctionBeginUser;
+  SolidGetView(solid, &v);
+  PetscCall(CoracleReport(client, "elements", v.nelements, 1));
+  PetscCall(CoracleReport(client, "bodies", v.nbodies, 0));
+  PetscCall(CoracleReport(client, "substeps", (double)stats->total, 0));
+  PetscCall(CoracleReport(client, "contact_searches", stats->searches, 0));
+  for (int k = 0; k < 4; k++) PetscCall(CoracleReport(client, PHASES[k], stats->seconds[k], 0));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Run(CoracleClient client, Solid solid, Record record)
+{
+  Exchange exchange;
+  CoracleAction action;
+  const double *load;
+  double dt, h;
+  PetscFunctionBeginUser;
+  PetscCall(ExchangeCreate(client, solid, &exchange));
+  for (int steps = 0;; steps++) {
+    PetscCall(ExchangeBegin(&exchange, &dt, &action, &load));
+    if (steps > 0 && action != CORACLE_REDO) PetscCall(RecordStep(record, solid, exchange.waited));
+    if (action == CORACLE_STOP) break;
+    PetscCall(SolidStart(solid, dt, load));
+    while (SolidRemaining(solid)) {
+      PetscCall(SolidSubstep(solid, &h));
+      PetscCall(ExchangeSubstep(&exchange, h));
+    }
+    PetscCall(ExchangeMotion(&exchange));
+  }
+  PetscFunctionReturn(0);
+}
+
+int main(int argc, char **argv)
+{
+  CoracleClient client;
+  MPI_Comm comm;
+  Case c;
+  Solid solid;
+  Record record;
+  if (CoracleOpen("solid", argc, argv, &comm, &client)) return 1;
+  PETSC_COMM_WORLD = comm;
+  PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
+  PetscCall(PetscPushErrorHandler(Abort, client));
+  PetscCall(CaseOpen(argc, argv, Fail, client, &c));
+  PetscCall(Setup(c, comm, client, &solid));
+  PetscCall(RecordCreate(c, comm, solid, &record));
+  PetscCall(CaseClose(&c));
+  PetscCall(Run(client, solid, record));
+  PetscCall(Report(client, solid));
+  PetscCall(RecordDestroy(&record));
+  PetscCall(SolidDestroy(&solid));
+  PetscCall(PetscPopErrorHandler());
+  PetscCall(PetscFinalize());
+  return CoracleClose(&client);
+}

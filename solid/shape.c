@@ -1,0 +1,122 @@
+#include "shape.h"
+
+static PetscErrorCode Allocate(int nv, int ne, int nb, int ntags, const char *const names[], MeshSerial *m)
+{
+  PetscFunctionBeginUser;
+  memset(m, 0, sizeof *m);
+  m->nv = nv;
+  m->ne = ne;
+  m->nb = nb;
+  m->ntags = ntags;
+  PetscCall(PetscMalloc1(2 * (size_t)nv, &m->x));
+  PetscCall(PetscMalloc1(3 * (size_t)ne, &m->vertex));
+  PetscCall(PetscMalloc1(2 * (size_t)nb, &m->facet));
+  PetscCall(PetscMalloc1((size_t)nb, &m->facet_tag));
+  PetscCall(PetscMalloc1((size_t)ntags, &m->tag_name));
+  for (int k = 0; k < ntags; k++) PetscCall(PetscStrncpy(m->tag_name[k], names[k], sizeof m->tag_name[k]));
+  PetscFunctionReturn(0);
+}
+
+static void SetTriangle(MeshSerial *m, int e, int a, int b, int c)
+{
+  m->vertex[3 * e] = a;
+  m->vertex[3 * e + 1] = b;
+  m->vertex[3 * e + 2] = c;
+}
+
+static void SetFacet(MeshSerial *m, int b, int from, int to, int tag)
+{
+  m->facet[2 * b] = from;
+  m->facet[2 * b + 1] = to;
+  m->facet_tag[b] = tag;
+}
+
+/* Node i (taken round) of ring k; ring 0 is the centre. */
+static int RingNode(int k, int i)
+{
+  return k == 0 ? 0 : 1 + 3 * k * (k - 1) + i % (6 * k);
+}
+
+/* The triangles between rings k - 1 and k: in each of six sectors k point inwards and k - 1 outwards.
+ *
+ *     ring k      0---1---2---3
+ *                  \ / \ / \ /
+ *     ring k-1      0---1---2                                                                              */
+static int FillRing(MeshSerial *m, int k, int e)
+{
+  for (int sector = 0; sector < 6; sector++)
+    for (int i = 0; i < k; i++) {
+      const int outer = sector * k + i, inner = sector * (k - 1) + i;
+      SetTriangle(m, e++, RingNode(k, outer), RingNode(k, outer + 1), RingNode(k - 1, inner));
+      if (i < k - 1)
+        SetTriangle(m, e++, RingNode(k - 1, inner), RingNode(k, outer + 1), RingNode(k - 1, inner + 1));
+    }
+  return e;
+}
+
+PetscErrorCode ShapeDisc(const double centre[2], double radius, double size, MeshSerial *mesh)
+{
+  static const char *const NAMES[] = {"boundary"};
+  const int rings = PetscMax(2, (int)ceil(M_PI * radius / (3.0 * size))), sides = 6 * rings;
+  /* polygon of n sides and circumradius R: area n R^2 sin(2 pi/n)/2 */
+  const double circumradius = radius * sqrt(2.0 * M_PI / (sides * sin(2.0 * M_PI / sides)));
+  PetscFunctionBeginUser;
+  PetscCall(Allocate(1 + 3 * rings * (rings + 1), 6 * rings * rings, sides, 1, NAMES, mesh));
+  for (int k = 0, e = 0; k <= rings; k++) {
+    for (int i = 0; i < PetscMax(1, 6 * k); i++) {
+      const double angle = k ? 2.0 * M_PI * i / (6 * k) : 0.0, r = circumradius * k / rings;
+      mesh->x[2 * RingNode(k, i)] = centre[0] + r * cos(angle);
+      mesh->x[2 * RingNode(k, i) + 1] = centre[1] + r * sin(angle);
+    }
+    if (k) e = FillRing(mesh, k, e);
+  }
+  for (int i = 0; i < sides; i++) SetFacet(mesh, i, RingNode(rings, i), RingNode(rings, i + 1), 0);
+  PetscFunctionReturn(0);
+}
+
+static void FillCells(MeshSerial *m, int nx, int ny)
+{
+  for (int j = 0, e = 0; j < ny; j++)
+    for (int i = 0; i < nx; i++, e += 2) {
+      const int a = j * (nx + 1) + i, b = a + 1, c = b + nx + 1, d = c - 1;
+      if ((i + j) % 2) {
+        SetTriangle(m, e, a, b, d);
+        SetTriangle(m, e + 1, b, c, d);
+      } else {
+        SetTriangle(m, e, a, b, c);
+        SetTriangle(m, e + 1, a, c, d);
+      }
+    }
+}
+
+static void FillSides(MeshSerial *m, int nx, int ny)
+{
+  const int row = nx + 1;
+  int b = 0;
+  for (int j = ny; j > 0; j--) SetFacet(m, b++, j * row, (j - 1) * row, 0);
+  for (int j = 0; j < ny; j++) SetFacet(m, b++, j * row + nx, (j + 1) * row + nx, 1);
+  for (int i = 0; i < nx; i++) SetFacet(m, b++, i, i + 1, 2);
+  for (int i = nx; i > 0; i--) SetFacet(m, b++, ny * row + i, ny * row + i - 1, 3);
+}
+
+PetscErrorCode ShapeRectangle(const double centre[2], double width, double height, double angle, double size,
+                              MeshSerial *mesh)
+{
+  static const char *const NAMES[] = {"left", "right", "bottom", "top"};
+  /* a hair of slack, so that 1.0 / 0.1 gives 10 */
+  const int nx = PetscMax(1, (int)ceil(width / size - 1e-9)),
+            ny = PetscMax(1, (int)ceil(height / size - 1e-9));
+  const double cosine = cos(angle), sine = sin(angle);
+  PetscFunctionBeginUser;
+  PetscCall(Allocate((nx + 1) * (ny + 1), 2 * nx * ny, 2 * (nx + ny), 4, NAMES, mesh));
+  for (int j = 0; j <= ny; j++)
+    for (int i = 0; i <= nx; i++) {
+      const double x = width * ((double)i / nx - 0.5), y = height * ((double)j / ny - 0.5);
+      double *node = mesh->x + 2 * (j * (nx + 1) + i);
+      node[0] = centre[0] + cosine * x - sine * y;
+      node[1] = centre[1] + sine * x + cosine * y;
+    }
+  FillCells(mesh, nx, ny);
+  FillSides(mesh, nx, ny);
+  PetscFunctionReturn(0);
+}

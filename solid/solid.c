@@ -1,0 +1,151 @@
+#include "solid_impl.h"
+
+PetscErrorCode SolidCreate(MPI_Comm comm, const Assembly *assembly, const SolidSetup *setup, Solid *solid)
+{
+  Solid s;
+  PetscFunctionBeginUser;
+  PetscCall(PetscNew(&s));
+  s->comm = comm;
+  s->setup = *setup;
+  PetscCallMPI(MPI_Comm_rank(comm, &s->rank));
+  PetscCallMPI(MPI_Comm_size(comm, &s->size));
+  PetscCall(SolidTakeShare(s, assembly));
+  if (s->nbodies > 1 || setup->walls) {
+    PetscCall(ContactCreate(s, &s->contact));
+    PetscCall(ContactSearch(s->contact, s, 0.0));
+  }
+  *solid = s;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SolidDestroy(Solid *solid)
+{
+  PetscFunctionBeginUser;
+  if (!*solid) PetscFunctionReturn(0);
+  Solid s = *solid;
+  Elements *e = &s->elements;
+  PetscCall(ContactDestroy(&s->contact));
+  PetscCall(ShareDestroy(&s->share));
+  PetscCall(
+      PetscFree7(s->gid, s->node_body, s->surface, s->mass, s->inverse_mass, s->corner_start, s->corner));
+  PetscCall(PetscFree7(s->rest, s->x, s->v, s->force, s->load, s->saved.x, s->saved.v));
+  PetscCall(PetscFree4(s->element, s->facet, s->facet_element, s->body));
+  PetscCall(PetscFree3(e->node[0], e->node[1], e->node[2]));
+  PetscCall(PetscFree4(e->inverse[0], e->inverse[1], e->inverse[2], e->inverse[3]));
+  PetscCall(PetscFree4(e->mu, e->lambda, e->eta, e->density));
+  PetscCall(PetscFree4(e->body, e->number, e->force[0], e->force[1]));
+  PetscCall(PetscFree(*solid));
+  PetscFunctionReturn(0);
+}
+
+void SolidGetView(Solid s, SolidView *view)
+{
+  *view = (SolidView){s->nnodes, s->elements.n, s->nfacets, s->nbodies, s->gid,   s->rest,
+                      s->x,      s->v,          s->load,    s->element, s->facet, s->elements.body};
+}
+
+const SolidStats *SolidGetStats(Solid s)
+{
+  return &s->stats;
+}
+
+PetscErrorCode SolidState(Solid s, int save)
+{
+  SavedState *k = &s->saved;
+  const size_t n = 2 * (size_t)s->nnodes;
+  PetscFunctionBeginUser;
+  PetscCall(PetscArraycpy(save ? k->x : s->x, save ? s->x : k->x, n));
+  PetscCall(PetscArraycpy(save ? k->v : s->v, save ? s->v : k->v, n));
+  if (save) {
+    k->h = s->h;
+    k->t = s->stats.t;
+  } else {
+    s->h = k->h;
+    s->stats.t = k->t;
+    s->force_valid = PETSC_FALSE;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* --- sums over bodies
+ * --------------------------------------------------------------------------------------- */
+
+/* First sums: mass, mass x, mass v, load, kinetic energy; then strain energy. */
+enum { M, MX, MY, MU, MV, FX, FY, KINETIC, STRAIN, NSUMS };
+
+static void AddNodes(const Solid s, int n, double sum[][NSUMS])
+{
+  for (int i = 0; i < s->nnodes; i++) {
+    if (s->node_body[i] >= n || !ShareOwns(s->share, i)) continue;
+    double *k = sum[s->node_body[i]];
+    const double m = s->mass[i], *v = s->v + 2 * i;
+    k[M] += m;
+    for (int c = 0; c < 2; c++) {
+      const double f = s->force[2 * i + c] + s->load[2 * i + c];
+      const double a = s->inverse_mass[i] > 0.0 ? f / m + s->setup.gravity[c] : 0.0;
+      k[MX + c] += m * s->x[2 * i + c];
+      k[MU + c] += m * v[c];
+      k[FX + c] += s->load[2 * i + c];
+      k[KINETIC] += 0.5 * m * v[c] * (v[c] + s->h * a);
+    }
+  }
+}
+
+static void AddStrainEnergy(const Solid s, int n, double sum[][NSUMS])
+{
+  const Elements *e = &s->elements;
+  for (int k = 0; k < e->n; k++) {
+    Tensor edges, f;
+    if (e->body[k] >= n) continue;
+    SolidElementShape(e, k, s->x, &edges, &f);
+    const double j = TensorDeterminant(f), area = 0.5 * TensorDeterminant(edges) / j;
+    sum[e->body[k]][STRAIN] += area * ElementEnergy(f, j, (ElementLaw){e->mu[k], e->lambda[k], 0.0});
+  }
+}
+
+/* Angular momentum and moment of inertia about the mass centres. */
+static PetscErrorCode AngularVelocities(const Solid s, int n, BodyState state[])
+{
+  double(*sum)[2];
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1((size_t)n, &sum));
+  for (int i = 0; i < s->nnodes; i++) {
+    const int b = s->node_body[i];
+    if (b >= n || !ShareOwns(s->share, i)) continue;
+    const Point r = {s->x[2 * i] - state[b].x[0], s->x[2 * i + 1] - state[b].x[1]};
+    const Point v = {s->v[2 * i] - state[b].v[0], s->v[2 * i + 1] - state[b].v[1]};
+    sum[b][0] += s->mass[i] * PointCross(r, v);
+    sum[b][1] += s->mass[i] * (r.x * r.x + r.y * r.y);
+  }
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2 * n, MPI_DOUBLE, MPI_SUM, s->comm));
+  for (int b = 0; b < n; b++) {
+    state[b].inertia = sum[b][1];
+    state[b].angular_velocity = sum[b][0] / sum[b][1];
+  }
+  PetscCall(PetscFree(sum));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SolidBodies(Solid s, int n, BodyState state[])
+{
+  double(*sum)[NSUMS];
+  const double *force;
+  PetscFunctionBeginUser;
+  PetscCall(SolidForces(s, &force));
+  PetscCall(PetscCalloc1((size_t)n, &sum));
+  AddNodes(s, n, sum);
+  AddStrainEnergy(s, n, sum);
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, NSUMS * n, MPI_DOUBLE, MPI_SUM, s->comm));
+  for (int b = 0; b < n; b++) {
+    const double *k = sum[b];
+    state[b] = (BodyState){.mass = k[M], .kinetic = k[KINETIC], .strain = k[STRAIN]};
+    for (int c = 0; c < 2; c++) {
+      state[b].x[c] = k[MX + c] / k[M];
+      state[b].v[c] = k[MU + c] / k[M];
+      state[b].load[c] = k[FX + c];
+    }
+  }
+  PetscCall(AngularVelocities(s, n, state));
+  PetscCall(PetscFree(sum));
+  PetscFunctionReturn(0);
+}

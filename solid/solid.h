@@ -1,0 +1,83 @@
+/* The solid: deformable bodies by the combined finite-discrete element method (FEMDEM), explicit in time.
+ * Elements are dealt out to ranks with METIS; a node at a border is on every rank that has one of its
+ * elements, with the same bits.  A step is
+ *
+ *     SolidStart(s, dt, load)                 what the fluid does is constant over the step
+ *     while (SolidRemaining(s))
+ *       SolidSubstep(s, &h)                   v += h (f/m + g);  x += h v
+ *
+ *     f = internal (element.h) + contact (contact_kernel.h) + load        [1] of method.md
+ *
+ * h = courant x the stability limit (SolidLimit), less so that the substeps fill dt.  Units are SI, per metre
+ * of depth. All functions are collective over the communicator unless said otherwise; ranks without elements
+ * are normal. */
+#ifndef SOLID_H
+#define SOLID_H
+#include "assembly.h"
+
+typedef struct Solid_s *Solid;
+
+typedef struct {
+  double gravity[2];         /* m/s2 */
+  double courant;            /* fraction of the stability limit, 0 .. 1 */
+  PetscBool walls;           /* rigid walls around the tank */
+  double lower[2], upper[2]; /* its corners, m */
+  /* called on the rank that finds an element inside out; must not return.  NULL: message and MPI_Abort */
+  void (*fail)(void *context, const char *message);
+  void *context;
+} SolidSetup;
+
+/* assembly is borrowed during the call; the same on all ranks. */
+PetscErrorCode SolidCreate(MPI_Comm comm, const Assembly *assembly, const SolidSetup *setup, Solid *solid);
+PetscErrorCode SolidDestroy(Solid *solid);
+
+/* load[nnodes][2]: this rank's part of the force on its nodes, N; summed over the ranks that share a node,
+ * kept during the step; NULL: none. */
+PetscErrorCode SolidStart(Solid s, double dt, const double load[]);
+PetscBool SolidRemaining(Solid s); /* not collective, the same on all ranks */
+/* *h: the substep just made; SolidVelocity then is the displacement over it divided by h. */
+PetscErrorCode SolidSubstep(Solid s, double *h);
+/* Largest stable substep now, s: 4/(d + sqrt(d^2 + 4 w^2)), w^2 and d bounds of the elements' and contact's
+ * frequencies and viscous rates. */
+PetscErrorCode SolidLimit(Solid s, double *limit);
+/* Saves (1) or puts back (0) what a step changes.  Not collective. */
+PetscErrorCode SolidState(Solid s, int save);
+
+/* Views: borrowed, not collective. */
+typedef struct {
+  int nnodes, nelements, nfacets, nbodies;
+  const long long *gid;              /* [nnodes] */
+  const double *rest, *x, *v, *load; /* [nnodes][2] */
+  const int *element,
+      *facet;      /* [nelements][3], [nfacets][2] local nodes; facets have the solid on their left */
+  const int *body; /* [nelements] */
+} SolidView;
+void SolidGetView(Solid s, SolidView *view);
+
+typedef struct {
+  double t;          /* s */
+  int substeps;      /* of the last step */
+  double h;          /* last substep, s */
+  long long total;   /* substeps so far */
+  int searches;      /* contact searches so far */
+  double seconds[4]; /* elements, contact, exchange between ranks, limit and search */
+} SolidStats;
+const SolidStats *SolidGetStats(Solid s);
+
+/* Cauchy stress (xx, yy, xy), Pa, stress[nelements][3].  Not collective. */
+void SolidStress(Solid s, double stress[]);
+
+typedef struct {
+  double mass;             /* kg/m */
+  double inertia;          /* kg m about the mass centre */
+  double x[2], v[2];       /* mass centre, m, and its velocity, m/s */
+  double angular_velocity; /* rad/s: angular momentum over moment of inertia, about the mass centre */
+  double load[2];          /* what the fluid does, N/m */
+  double kinetic, strain;  /* J/m; kinetic at the time of x: sum m v.(v + h a)/2 */
+} BodyState;
+/* state[n]: of the first n bodies. */
+PetscErrorCode SolidBodies(Solid s, int n, BodyState state[]);
+/* Internal and contact forces at the present state, force[nnodes][2], N, summed over ranks; borrowed until
+ * the next call of anything. */
+PetscErrorCode SolidForces(Solid s, const double **force);
+#endif

@@ -1,0 +1,75 @@
+/* The solid's own data, for the files of this room. */
+#ifndef SOLID_IMPL_H
+#define SOLID_IMPL_H
+#include "element.h"
+#include "share.h"
+#include "solid.h"
+
+typedef struct Contact_s *Contact;
+
+/* Structure of arrays, so that the element loop is vectorised. */
+typedef struct {
+  int n;
+  int *node[3];       /* local nodes, counter-clockwise */
+  double *inverse[4]; /* D0^-1: xx, xy, yx, yy of the rest edges' inverse, 1/m */
+  double *mu, *lambda, *eta, *density;
+  int *body;
+  int *number;      /* in the assembly */
+  double *force[2]; /* [3][n]: corner i of element e at i n + e */
+  PetscBool damped; /* any eta > 0 */
+} Elements;
+
+/* What a step changes. */
+typedef struct {
+  double *x, *v, h, t;
+} SavedState;
+
+struct Solid_s {
+  MPI_Comm comm;
+  PetscMPIInt rank, size;
+  SolidSetup setup;
+  int nnodes, nfacets, nbodies;
+  Body *body; /* [nbodies] */
+  /* nodes */
+  long long *gid;
+  int *node_body, *surface;    /* [nnodes]; surface: some rank has a facet there */
+  double *rest, *x, *v;        /* [nnodes][2] */
+  double *force, *load;        /* [nnodes][2] internal and contact; the fluid's, summed over ranks */
+  double *mass, *inverse_mass; /* [nnodes] all ranks' elements; inverse 0 where fixed */
+  int *corner_start, *corner;  /* [nnodes + 1], [3 ne]: where a node's forces lie in elements.force */
+  Elements elements;
+  int *element;               /* [ne][3] */
+  int *facet, *facet_element; /* [nfacets][2], [nfacets] */
+  Share share;
+  Contact contact; /* NULL: one body and no walls */
+  /* the step in hand */
+  double dt, done, h;
+  int remaining, until_check; /* substeps */
+  PetscBool force_valid;      /* force belongs to x and v */
+  SolidStats stats;
+  SavedState saved;
+};
+
+/* forces.c: internal forces of this rank's elements into force; fails on an element with J <= 0. */
+PetscErrorCode SolidInternalForces(Solid s);
+/* Largest omega^2 and 2 xi omega over this rank's elements, and the smallest stable step with omega^2 +
+ * contact. */
+double SolidElementLimit(Solid s, double contact);
+void SolidElementShape(const Elements *e, int k, const double x[], Tensor *edges, Tensor *f);
+
+/* distribute.c: everything that comes from the assembly. */
+PetscErrorCode SolidTakeShare(Solid s, const Assembly *a);
+
+/* contact.c */
+PetscErrorCode ContactCreate(Solid s, Contact *contact);
+/* Collective: new candidates, for motions of surface nodes up to ContactReach. */
+PetscErrorCode ContactSearch(Contact c, Solid s, double least_buffer);
+/* Adds to force; every rank's edges against its own targets and those of other ranks. */
+PetscErrorCode ContactAddForces(Contact c, Solid s);
+/* Not collective: how far a node may move before a new search, and how far the farthest has; bound of
+ * omega^2. */
+double ContactReach(Contact c);
+double ContactMoved(Contact c, Solid s);
+double ContactRate(Contact c);
+PetscErrorCode ContactDestroy(Contact *c);
+#endif

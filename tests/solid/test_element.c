@@ -1,0 +1,146 @@
+/* One element: rotation gives no force, an affine map its exact stress, forces are -dW/dx, the viscous force
+ * dissipates, and the bounds of its frequencies hold. */
+#include "build.h"
+#include "element.h"
+
+static const Point REST[3] = {{0.1, -0.2}, {1.3, 0.1}, {0.4, 0.9}};
+
+static Tensor Edges(const Point x[3])
+{
+  return TensorOfEdges(x[0], x[1], x[2]);
+}
+
+static Tensor Gradient(const Point x[3])
+{
+  return TensorProduct(Edges(x), TensorInverse(Edges(REST)));
+}
+
+static void Map(Tensor f, Point x[3])
+{
+  for (int i = 0; i < 3; i++)
+    x[i] = (Point){f.xx * REST[i].x + f.xy * REST[i].y + 3.0, f.yx * REST[i].x + f.yy * REST[i].y - 2.0};
+}
+
+static ElementForces Forces(const Point x[3], ElementLaw law)
+{
+  const Tensor f = Gradient(x);
+  return ElementForcesOf(Edges(x), ElementElasticStress(f, TensorDeterminant(f), law.mu, law.lambda));
+}
+
+static double Energy(const Point x[3], ElementLaw law)
+{
+  const Tensor f = Gradient(x);
+  return 0.5 * TensorDeterminant(Edges(REST)) * ElementEnergy(f, TensorDeterminant(f), law);
+}
+
+static void Rotation(ElementLaw law)
+{
+  const double angle = 73.0 * M_PI / 180.0;
+  Point x[3];
+  Map((Tensor){cos(angle), -sin(angle), sin(angle), cos(angle)}, x);
+  const ElementForces f = Forces(x, law);
+  const double largest = fmax(fmax(hypot(f.a.x, f.a.y), hypot(f.b.x, f.b.y)), hypot(f.c.x, f.c.y));
+  CHECK(largest < 1e-14 * law.mu, "force %g after a rotation", largest);
+}
+
+/* F = diag(2, 0.5 + ...): stress written out by hand. */
+static void Affine(ElementLaw law)
+{
+  const Tensor f = {1.3, 0.2, -0.1, 0.8};
+  const double j = 1.3 * 0.8 + 0.2 * 0.1, volumetric = 0.5 * law.lambda * (j - 1.0 / j);
+  const double xx = law.mu / j * (1.3 * 1.3 + 0.2 * 0.2 - 1.0) + volumetric;
+  const double yy = law.mu / j * (0.1 * 0.1 + 0.8 * 0.8 - 1.0) + volumetric;
+  const double xy = law.mu / j * (1.3 * -0.1 + 0.2 * 0.8);
+  const ElementStress t = ElementElasticStress(f, j, law.mu, law.lambda);
+  CHECK(fabs(t.xx - xx) + fabs(t.yy - yy) + fabs(t.xy - xy) < 1e-14 * law.mu, "%g %g %g", t.xx, t.yy, t.xy);
+  /* small strains: Hooke's law in plane strain, sigma = E/((1+nu)(1-2nu)) [(1-nu) e_xx + nu e_yy] ... */
+  const ElementStress s = ElementElasticStress((Tensor){1.0 + 1e-6, 0.0, 0.0, 1.0 - 2e-6},
+                                               (1.0 + 1e-6) * (1.0 - 2e-6), law.mu, law.lambda);
+  const double hooke = (law.lambda + 2.0 * law.mu) * 1e-6 - law.lambda * 2e-6;
+  CHECK(fabs(s.xx - hooke) < 1e-5 * law.mu * 1e-6 * 10.0, "%g, Hooke %g", s.xx, hooke);
+}
+
+static void EnergyGradient(ElementLaw law)
+{
+  Point x[3];
+  Map((Tensor){1.2, 0.5, -0.3, 0.7}, x);
+  const ElementForces f = Forces(x, law);
+  const double *force = &f.a.x;
+  double *coordinate = &x[0].x;
+  for (int k = 0; k < 6; k++) {
+    const double h = 1e-5, kept = coordinate[k];
+    coordinate[k] = kept + h;
+    const double up = Energy(x, law);
+    coordinate[k] = kept - h;
+    const double down = Energy(x, law);
+    coordinate[k] = kept;
+    const double expected = -(up - down) / (2.0 * h);
+    CHECK(fabs(force[k] - expected) < 1e-8 * law.mu, "force %d is %.12g, -dW/dx %.12g", k, force[k],
+          expected);
+  }
+}
+
+/* The viscous power is eta |sym grad v|^2 A. */
+static void Dissipation(void)
+{
+  const double eta = 3.0;
+  const Point v[3] = {{0.3, -0.7}, {1.1, 0.2}, {-0.4, 0.5}};
+  const Tensor l = TensorProduct(Edges(v), TensorInverse(Edges(REST)));
+  const ElementForces f = ElementForcesOf(Edges(REST), ElementViscousStress(Edges(REST), Edges(v), eta));
+  const double power =
+      f.a.x * v[0].x + f.a.y * v[0].y + f.b.x * v[1].x + f.b.y * v[1].y + f.c.x * v[2].x + f.c.y * v[2].y;
+  const double shear = 0.5 * (l.xy + l.yx);
+  const double expected =
+      -0.5 * TensorDeterminant(Edges(REST)) * eta * (l.xx * l.xx + l.yy * l.yy + 2.0 * shear * shear);
+  CHECK(fabs(power / expected - 1.0) < 1e-13, "power %g, expected %g", power, expected);
+}
+
+/* Rayleigh quotients d.K.d/(m d.d) of the tangent stiffness, by differences of forces, in 200 directions:
+ * none is above the bound and the best found by power iteration comes near it. */
+static double Quotient(const Point x[3], ElementLaw law, double mass, double d[6])
+{
+  const double h = 1e-6;
+  double quotient = 0.0, norm = 0.0, image[6];
+  Point up[3], down[3];
+  for (int k = 0; k < 6; k++) {
+    (&up[0].x)[k] = (&x[0].x)[k] + h * d[k];
+    (&down[0].x)[k] = (&x[0].x)[k] - h * d[k];
+  }
+  const ElementForces fu = Forces(up, law), fd = Forces(down, law);
+  for (int k = 0; k < 6; k++) {
+    image[k] = -((&fu.a.x)[k] - (&fd.a.x)[k]) / (2.0 * h * mass);
+    quotient += d[k] * image[k];
+    norm += image[k] * image[k];
+  }
+  for (int k = 0; k < 6; k++) d[k] = image[k] / sqrt(norm);
+  return quotient;
+}
+
+static void Bound(ElementLaw law, Tensor f, double least)
+{
+  const double density = 1000.0, mass = density * TensorDeterminant(Edges(REST)) / 6.0;
+  double d[6] = {0.5, -0.3, 0.4, 0.3, -0.4, 0.5}, largest = 0.0;
+  Point x[3];
+  Map(f, x);
+  for (int k = 0; k < 200; k++) largest = fmax(largest, Quotient(x, law, mass, d));
+  const ElementRates rates = ElementRatesOf(Edges(x), f, density, law);
+  CHECK(largest <= rates.stiffness * (1.0 + 1e-6), "omega^2 %g is above its bound %g", largest,
+        rates.stiffness);
+  CHECK(largest >= least * rates.stiffness, "omega^2 %g is far below its bound %g", largest, rates.stiffness);
+}
+
+int main(void)
+{
+  const ElementLaw law = ElementLawOf(1.0e6, 0.3, 0.0);
+  CHECK(fabs(law.mu / 384615.384615384615 - 1.0) < 1e-14 &&
+            fabs(law.lambda / 576923.076923076923 - 1.0) < 1e-14,
+        "Lame constants %g %g", law.mu, law.lambda);
+  Rotation(law);
+  Affine(law);
+  EnergyGradient(law);
+  Dissipation();
+  Bound(law, (Tensor){1.0, 0.0, 0.0, 1.0}, 0.5);
+  Bound(law, (Tensor){1.4, 0.3, -0.2, 0.9}, 0.3);
+  Bound(law, (Tensor){0.5, 0.1, 0.3, 0.7}, 0.3);
+  return 0;
+}

@@ -1,0 +1,102 @@
+// ranks: 1 2 3
+/* Patch test on a shaken mesh: a finite rotation by 73 degrees leaves no force, an affine map a uniform exact
+ * stress and no force inside; rest coordinates are kept apart from positions. */
+#include "build.h"
+
+static const double E = 2.0e6;
+
+static double LargestForce(Solid s, int inside_only)
+{
+  SolidView v = ViewOf(s, NULL, NULL);
+  const double *force;
+  char *outer = calloc((size_t)v.nnodes + 1, 1);
+  double largest = 0.0;
+  (void)SolidForces(s, &force);
+  for (int n = 0; n < v.nnodes; n++) /* the unit square's sides, at rest */
+    outer[n] = fabs(v.rest[2 * n]) > 0.4999 || fabs(v.rest[2 * n + 1]) > 0.4999;
+  for (int n = 0; n < v.nnodes; n++)
+    if (!inside_only || !outer[n]) largest = fmax(largest, hypot(force[2 * n], force[2 * n + 1]));
+  free(outer);
+  return largest;
+}
+
+static PetscErrorCode Mapped(const double f[4], Solid *s)
+{
+  const BodySetup setup = BodyAtRest(MaterialOf(1000.0, E, 0.3, 0.0));
+  const SolidSetup options = {.courant = 0.5};
+  Assembly a = {0};
+  double *x;
+  AddRectangle(&a, 0.0, 0.0, 1.0, 1.0, 0.0, 0.1, 1, &setup);
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, s));
+  SolidView v = ViewOf(*s, &x, NULL);
+  for (int n = 0; n < v.nnodes; n++) {
+    x[2 * n] = f[0] * v.rest[2 * n] + f[1] * v.rest[2 * n + 1] + 5.0;
+    x[2 * n + 1] = f[2] * v.rest[2 * n] + f[3] * v.rest[2 * n + 1] - 7.0;
+  }
+  return AssemblyDestroy(&a);
+}
+
+static PetscErrorCode Rotation(void)
+{
+  const double angle = 73.0 * M_PI / 180.0, f[4] = {cos(angle), -sin(angle), sin(angle), cos(angle)};
+  Solid s;
+  PetscCall(Mapped(f, &s));
+  const double largest = LargestForce(s, 0);
+  CHECK(largest < 1e-13 * E, "a rotation leaves a force of %g, %g of E", largest, largest / E);
+  return SolidDestroy(&s);
+}
+
+static PetscErrorCode Affine(void)
+{
+  const double f[4] = {1.3, 0.4, -0.2, 0.9}, j = 1.3 * 0.9 + 0.4 * 0.2, mu = E / 2.6,
+               lambda = 0.3 * E / (1.3 * 0.4);
+  const double volumetric = 0.5 * lambda * (j - 1.0 / j);
+  const double exact[3] = {mu / j * (1.3 * 1.3 + 0.4 * 0.4 - 1.0) + volumetric,
+                           mu / j * (0.2 * 0.2 + 0.9 * 0.9 - 1.0) + volumetric,
+                           mu / j * (-1.3 * 0.2 + 0.4 * 0.9)};
+  Solid s;
+  PetscCall(Mapped(f, &s));
+  SolidView v = ViewOf(s, NULL, NULL);
+  double *stress = calloc(3 * (size_t)v.nelements + 1, sizeof *stress);
+  SolidStress(s, stress);
+  for (int k = 0; k < 3 * v.nelements; k++)
+    CHECK(fabs(stress[k] - exact[k % 3]) < 1e-12 * E, "element %d: stress %.15g, exact %.15g", k / 3,
+          stress[k], exact[k % 3]);
+  const double largest = LargestForce(s, 1);
+  CHECK(largest < 1e-13 * E, "uniform stress leaves a force of %g inside", largest);
+  free(stress);
+  return SolidDestroy(&s);
+}
+
+/* A body that is given stretched has the stress of its stretch, and pulls back. */
+static PetscErrorCode Stretched(void)
+{
+  BodySetup setup = BodyAtRest(MaterialOf(1000.0, E, 0.3, 0.0));
+  const SolidSetup options = {.courant = 0.5};
+  const double j = 1.5, mu = E / 2.6, lambda = 0.3 * E / (1.3 * 0.4),
+               volumetric = 0.5 * lambda * (j - 1.0 / j);
+  Assembly a = {0};
+  Solid s;
+  setup.stretch[0] = 1.5;
+  AddDisc(&a, 2.0, 1.0, 0.5, 0.1, &setup);
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, &s));
+  SolidView v = ViewOf(s, NULL, NULL);
+  double *stress = calloc(3 * (size_t)v.nelements + 1, sizeof *stress);
+  SolidStress(s, stress);
+  for (int e = 0; e < v.nelements; e++)
+    CHECK(fabs(stress[3 * e] - (mu / j * 1.25 + volumetric)) + fabs(stress[3 * e + 1] - volumetric) <
+              1e-12 * E,
+          "element %d: %g %g", e, stress[3 * e], stress[3 * e + 1]);
+  free(stress);
+  PetscCall(AssemblyDestroy(&a));
+  return SolidDestroy(&s);
+}
+
+int main(int argc, char **argv)
+{
+  PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
+  PetscCall(Rotation());
+  PetscCall(Affine());
+  PetscCall(Stretched());
+  return PetscFinalize();
+}
