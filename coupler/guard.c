@@ -33,6 +33,17 @@ static int Alternates(Guard *g, const GuardStep *s, const double change[2])
          size > hypot(s->gravity[0], s->gravity[1]) * s->dt;
 }
 
+/* what, then why it may be so and what to do */
+static void Tell(const GuardStep *s, const double change[2], const char *what, int nmessage, char message[])
+{
+  snprintf(message, (size_t)nmessage,
+           "at t = %g s the solid's velocity has become (%g, %g) m/s, %s: with a solid to fluid density "
+           "ratio of about %.2g "
+           "the added mass is too large for a staggered step; a heavier solid or a strong coupling scheme is "
+           "needed",
+           s->t, s->velocity[0], s->velocity[1], what, DensityRatio(s, change));
+}
+
 int GuardCheck(Guard *g, const GuardStep *s, int nmessage, char message[])
 {
   double change[2];
@@ -41,28 +52,18 @@ int GuardCheck(Guard *g, const GuardStep *s, int nmessage, char message[])
              s->t);
     return 1;
   }
-  if (hypot(s->velocity[0], s->velocity[1]) * s->dt > s->extent) {
-    snprintf(message, (size_t)nmessage,
-             "at t = %g s the solid moves at (%g, %g) m/s, more than the fluid's whole domain in one step",
-             s->t, s->velocity[0], s->velocity[1]);
-    return 1;
-  }
   for (int c = 0; c < 2; c++) change[c] = s->velocity[c] - g->velocity[c];
   /* the first step's change is against an initial velocity that is not known here */
   const int diverges = g->nsteps > 0 && Alternates(g, s, change);
-  if (diverges) {
-    snprintf(message, (size_t)nmessage,
-             "at t = %g s the solid's mean velocity has changed sign-alternating and growing over %d steps, "
-             "now by "
-             "(%g, %g) m/s: the added mass is too large for a staggered step (solid to fluid density ratio "
-             "about %.2g); "
-             "a heavier solid or a strong coupling scheme is needed",
-             s->t, g->alternations, change[0], change[1], DensityRatio(s, change));
-  }
+  const int leaps = hypot(s->velocity[0], s->velocity[1]) * s->dt > s->extent;
+  if (diverges)
+    Tell(s, change, "changing with alternating sign and growing size from step to step", nmessage, message);
+  else if (leaps)
+    Tell(s, change, "more than the fluid's whole domain in one step", nmessage, message);
   for (int c = 0; c < 2; c++) {
     g->change[c] = g->nsteps > 0 ? change[c] : 0.0;
     g->velocity[c] = s->velocity[c];
   }
   g->nsteps++;
-  return diverges;
+  return diverges || leaps;
 }

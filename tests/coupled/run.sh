@@ -1,0 +1,16 @@
+# Sourced: run LABEL RANKS [launch.sh arguments] runs disc.yaml in $scratch/LABEL and leaves its output in $scratch/LABEL.log.
+# The caller's first arguments: ROOT BUILD.
+root=$1 build=$2
+shift 2
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+python=$(command -v /usr/bin/python3 || command -v python3)
+
+run() {
+  local label=$1 ranks=$2
+  shift 2
+  timeout -k 5 120 "$root/scripts/launch.sh" --bin "$build" --ranks "$ranks" "${case:-$here/disc.yaml}" \
+    --set "output.folder=$scratch/$label" "$@" >"$scratch/$label.log" 2>&1
+}
+must() { run "$@" || { echo "$1 failed:"; cat "$scratch/$1.log"; exit 1; }; }
