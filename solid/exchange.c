@@ -43,8 +43,11 @@ PetscErrorCode ExchangeMotion(Exchange *x)
 {
   const double start = MPI_Wtime();
   SolidView v;
+  const double *seen;
   PetscFunctionBeginUser;
   SolidGetView(x->solid, &v);
+  PetscCall(SolidSeenVelocity(x->solid, &seen));
+  PetscCall(CoracleSetVelocity(x->client, seen));
   PetscCall(CoracleEnd(x->client, v.x));
   x->waited += MPI_Wtime() - start;
   PetscFunctionReturn(0);

@@ -126,6 +126,7 @@ PetscErrorCode SolidStart(Solid s, double dt, const double load[])
   } else {
     PetscCall(PetscArrayzero(s->load, 2 * (size_t)s->nnodes));
   }
+  PetscCall(PetscArraycpy(s->start, s->x, 2 * (size_t)s->nnodes));
   s->dt = dt;
   s->done = 0.0;
   s->stats.substeps = 0;

@@ -14,6 +14,7 @@ PetscErrorCode SolidCreate(MPI_Comm comm, const Assembly *assembly, const SolidS
     PetscCall(ContactCreate(s, &s->contact));
     PetscCall(ContactSearch(s->contact, s, 0.0));
   }
+  PetscCall(PetscMalloc2(2 * s->nnodes, &s->start, 2 * s->nnodes, &s->seen));
   *solid = s;
   PetscFunctionReturn(0);
 }
@@ -29,6 +30,7 @@ PetscErrorCode SolidDestroy(Solid *solid)
   PetscCall(
       PetscFree7(s->gid, s->node_body, s->surface, s->mass, s->inverse_mass, s->corner_start, s->corner));
   PetscCall(PetscFree7(s->rest, s->x, s->v, s->force, s->load, s->saved.x, s->saved.v));
+  PetscCall(PetscFree2(s->start, s->seen));
   PetscCall(PetscFree4(s->element, s->facet, s->facet_element, s->body));
   PetscCall(PetscFree3(e->node[0], e->node[1], e->node[2]));
   PetscCall(PetscFree4(e->inverse[0], e->inverse[1], e->inverse[2], e->inverse[3]));
@@ -99,7 +101,7 @@ static void AddStrainEnergy(const Solid s, int n, double sum[][NSUMS])
     if (e->body[k] >= n) continue;
     SolidElementShape(e, k, s->x, &edges, &f);
     const double j = TensorDeterminant(f), area = 0.5 * TensorDeterminant(edges) / j;
-    sum[e->body[k]][STRAIN] += area * ElementEnergy(f, j, (ElementLaw){e->mu[k], e->lambda[k], 0.0});
+    sum[e->body[k]][STRAIN] += area * ElementEnergy(f, (ElementLaw){e->mu[k], e->lambda[k], 0.0});
   }
 }
 

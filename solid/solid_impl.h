@@ -44,6 +44,7 @@ struct Solid_s {
   Contact contact; /* NULL: one body and no walls */
   /* the step in hand */
   double dt, done, h;
+  double *start, *seen;       /* [nnodes][2] positions when it began; what the fluid sees */
   int remaining, until_check; /* substeps */
   PetscBool force_valid;      /* force belongs to x and v */
   SolidStats stats;

@@ -27,7 +27,9 @@ typedef struct {
   bool changed; /* the coupler has not seen this mesh yet */
   /* substeps of the step so far, each h long with its middle at tau after the step's start, s */
   double elapsed, first, second, last; /* sums of h, h tau, h tau^2; tau of the last one */
-  Buffer velocity;                     /* double [2][n][2]: fitted, mean, m/s */
+  Buffer velocity;                     /* double [2][n][2]: fitted or given, mean, m/s */
+  Buffer given;                        /* double [n][2], of CoracleSetVelocity; m/s */
+  bool has_given;
 } ClientSolid;
 
 typedef struct {

@@ -182,6 +182,7 @@ static void BeginMesh(ClientSolid *s, CoracleAction action)
   }
   s->has_before = false;
   s->elapsed = s->first = s->second = s->last = 0.0;
+  s->has_given = false;
   if (s->mesh.n) memset(s->mesh.sums.data, 0, s->mesh.sums.size);
 }
 
@@ -223,6 +224,16 @@ int CoracleSubstep(CoracleClient c, double h, const double u[])
   return 0;
 }
 
+int CoracleSetVelocity(CoracleClient c, const double u[])
+{
+  ClientSolid *s = &c->solid;
+  ClientExpect(c, "CoracleSetVelocity", ROLE_SOLID, STAGE_STEP, STAGE_STEP);
+  MessageCheckFinite(c->p, "velocity", "node", (size_t)s->mesh.n, DIM, u);
+  Copy(&s->given, u, s->mesh.x.size);
+  s->has_given = true;
+  return 0;
+}
+
 /* The mean over the step, and the least-squares line through the substeps' velocities at the last of them:
  * the velocity at the step's end without the body's vibrations. */
 static void Velocities(ClientSolid *s)
@@ -250,6 +261,7 @@ void SolidEnd(CoracleClient c, const double x[])
   if (!x && m->n) ClientMisuse(c, "CoracleEnd", "a solid gives its positions");
   MessageCheckFinite(c->p, "position", "node", (size_t)m->n, DIM, x);
   Velocities(s);
+  if (s->has_given && m->n) memcpy(s->velocity.data, s->given.data, m->x.size);
   SendMotion(c, x, Doubles(&s->velocity), Doubles(&s->velocity) + DIM * m->n);
 }
 
@@ -258,4 +270,5 @@ void SolidFree(CoracleClient c)
   MeshFree(&c->solid.mesh);
   MeshFree(&c->solid.before);
   BufferFree(&c->solid.velocity);
+  BufferFree(&c->solid.given);
 }

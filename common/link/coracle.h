@@ -110,6 +110,9 @@ int CoracleGetForce(CoracleClient c, const double **force);
  * (displacement / dt), and the line fitted to the velocities in the least-squares sense, taken at the last
  * substep, for couplings that need the end's. */
 int CoracleSubstep(CoracleClient c, double h, const double u[]);
+/* Solid, optional, between the last substep and CoracleEnd: u[n][dim], m/s, instead of that fitted line, from
+ * a solid that knows better what of its velocity is motion and what vibration.  For this step only. */
+int CoracleSetVelocity(CoracleClient c, const double u[]);
 
 /* Fluid: the flow on the elements last given by region, for the n of them:
  *   u_star[n][dim][dim + 1]  velocity with the coupling solved, before the pressure correction, m/s
