@@ -66,11 +66,14 @@ static inline ElementForces ElementForcesOf(Tensor edges, ElementStress t)
   return f;
 }
 
-/* W: strain energy per unit of rest area, J/m3. */
-static inline double ElementEnergy(Tensor f, double j, ElementLaw law)
+/* W: strain energy per unit of rest area, J/m3; written in F - I so that small strains keep their digits. */
+static inline double ElementEnergy(Tensor f, ElementLaw law)
 {
-  const double trace = f.xx * f.xx + f.xy * f.xy + f.yx * f.yx + f.yy * f.yy, logarithm = log(j);
-  return 0.5 * law.mu * (trace - 2.0 - 2.0 * logarithm) + 0.25 * law.lambda * (j * j - 1.0 - 2.0 * logarithm);
+  const Tensor e = {f.xx - 1.0, f.xy, f.yx, f.yy - 1.0};
+  const double trace = e.xx + e.yy, growth = trace + TensorDeterminant(e); /* J - 1 */
+  const double square = e.xx * e.xx + e.xy * e.xy + e.yx * e.yx + e.yy * e.yy, logarithm = log1p(growth);
+  return 0.5 * law.mu * (2.0 * trace + square - 2.0 * logarithm) +
+         0.25 * law.lambda * (growth * (growth + 2.0) - 2.0 * logarithm);
 }
 
 /* Bounds on what the element adds to M^-1 K and M^-1 C (K the tangent stiffness, C the viscous matrix, M the

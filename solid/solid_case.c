@@ -160,7 +160,7 @@ PetscErrorCode SolidCaseRead(Case c, Assembly *a, SolidSetup *setup)
   char key[KEY];
   PetscFunctionBeginUser;
   CaseVector(c, "gravity", 2, setup->gravity);
-  setup->courant = CaseNumberOr(c, "solid.courant", 0.5, 0.01, 1.0);
+  setup->courant = CaseNumberOr(c, "solid.courant", 0.8, 0.01, 1.0);
   CaseKeys(c, "solid.materials", CheckMaterial, c);
   if (nbodies == 0) CaseRefuse(c, "solid.bodies", "expected a list of at least one body");
   for (int b = 0; b < nbodies; b++) PetscCall(AddBody(c, b, a));

@@ -22,7 +22,7 @@ static PetscErrorCode Measure(Solid s, Totals *t)
 static PetscErrorCode Collide(double offset, double *restitution)
 {
   BodySetup left = BodyAtRest(MaterialOf(1000.0, 1.0e6, 0.3, 0.0)), right = left;
-  const SolidSetup options = {.courant = 0.5};
+  const SolidSetup options = {.courant = 0.8};
   Assembly a = {0};
   BodyState b[2];
   Totals before, now;

@@ -30,7 +30,7 @@ static ElementForces Forces(const Point x[3], ElementLaw law)
 static double Energy(const Point x[3], ElementLaw law)
 {
   const Tensor f = Gradient(x);
-  return 0.5 * TensorDeterminant(Edges(REST)) * ElementEnergy(f, TensorDeterminant(f), law);
+  return 0.5 * TensorDeterminant(Edges(REST)) * ElementEnergy(f, law);
 }
 
 static void Rotation(ElementLaw law)

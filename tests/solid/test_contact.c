@@ -1,0 +1,168 @@
+/* Contact forces: against a brute-force energy, dF = -dU/dx, U = p sum over (C, T) of the integral of
+ * phi_T/J_T over the common part of contactor C and target T; equal and opposite; the same through the cell
+ * grid as over all pairs. */
+#include "build.h"
+#include "cell_grid.h"
+#include "contact_kernel.h"
+#include "geometry.h"
+
+/* int phi over the triangle part: phi is linear on the target's three thirds between its centre and its
+ * edges. */
+static double PotentialIntegral(const double c[3][2], const double t[3][2])
+{
+  double sum = 0.0, centre[2];
+  for (int k = 0; k < 2; k++) centre[k] = (t[0][k] + t[1][k] + t[2][k]) / 3.0;
+  for (int i = 0; i < 3; i++) {
+    const int a = (i + 1) % 3, b = (i + 2) % 3;
+    const double third[3][2] = {{t[a][0], t[a][1]}, {t[b][0], t[b][1]}, {centre[0], centre[1]}};
+    double polygon[GEOMETRY_CLIP_MAX][2];
+    const int n = GeometryClip(c, third, polygon);
+    for (int k = 0; k + 2 < n; k++) {
+      double x[3][2], mean = 0.0, lambda[3];
+      GeometryFan((const double(*)[2])polygon, k, x);
+      for (int v = 0; v < 3; v++) {
+        GeometryBarycentric(t, x[v], lambda);
+        mean += lambda[i];
+      }
+      sum += GeometryArea((const double(*)[2])x) * mean;
+    }
+  }
+  return sum; /* 3 lambda_i, mean of three vertices */
+}
+
+static void Corners(const SolidView *v, const double at[], int e, double x[3][2])
+{
+  for (int i = 0; i < 3; i++)
+    for (int c = 0; c < 2; c++) x[i][c] = at[2 * v->element[3 * e + i] + c];
+}
+
+static double ContactEnergy(const SolidView *v, double penalty)
+{
+  double sum = 0.0, c[3][2], t[3][2], rest[3][2];
+  for (int i = 0; i < v->nelements; i++)
+    for (int j = 0; j < v->nelements; j++) {
+      if (v->body[i] == v->body[j]) continue;
+      Corners(v, v->x, i, c);
+      Corners(v, v->x, j, t);
+      Corners(v, v->rest, j, rest);
+      const double jacobian = GeometryArea((const double(*)[2])t) / GeometryArea((const double(*)[2])rest);
+      sum += PotentialIntegral((const double(*)[2])c, (const double(*)[2])t) / jacobian;
+    }
+  return penalty * sum;
+}
+
+/* Two discs pushed into each other and shaken: total force by SolidForces, elastic part by the strain energy.
+ */
+static PetscErrorCode EnergyGradient(void)
+{
+  const double penalty = 7.0e4, young = 1.0e5;
+  BodySetup setup = BodyAtRest(MaterialOf(1000.0, young, 0.3, 0.0));
+  const SolidSetup options = {.courant = 0.5};
+  Assembly a = {0};
+  Solid s;
+  const double *f;
+  double *x, force[600], sum[2] = {0.0, 0.0};
+  setup.material.penalty = penalty;
+  AddDisc(&a, -0.098, 0.003, 0.1, 0.05, &setup);
+  setup.material.penalty = 2.0 * penalty;
+  AddDisc(&a, 0.098, 0.011, 0.1, 0.04, &setup);
+  PetscCall(SolidCreate(PETSC_COMM_SELF, &a, &options, &s));
+  SolidView v = ViewOf(s, &x, NULL);
+  CHECK(2 * v.nnodes <= 600, "%d nodes", v.nnodes);
+  for (int k = 0; k < 2 * v.nnodes; k++) x[k] += 1e-3 * sin(12.9898 * k + 4.1);
+  PetscCall(SolidStart(s, 1e-9, NULL)); /* candidates of the shaken places */
+  PetscCall(SolidForces(s, &f));
+  PetscCall(PetscArraycpy(force, f, 2 * (size_t)v.nnodes));
+  for (int k = 0; k < 2 * v.nnodes; k++) {
+    const double h = 1e-7, kept = x[k];
+    double energy[2];
+    BodyState b[2];
+    for (int side = 0; side < 2; side++) {
+      x[k] = kept + (side ? -h : h);
+      PetscCall(SolidBodies(s, 2, b));
+      energy[side] = b[0].strain + b[1].strain + ContactEnergy(&v, penalty);
+    }
+    x[k] = kept;
+    const double expected = -(energy[0] - energy[1]) / (2.0 * h);
+    CHECK(fabs(force[k] - expected) < 1e-6 * young * 0.01, "node %d: force %.9g, -dU/dx %.9g", k / 2,
+          force[k], expected);
+    sum[k % 2] += force[k];
+  }
+  CHECK(ContactEnergy(&v, penalty) > 0.0, "the discs do not touch");
+  CHECK(fabs(sum[0]) + fabs(sum[1]) < 1e-13 * young, "the forces sum up to %g %g", sum[0], sum[1]);
+  PetscCall(AssemblyDestroy(&a));
+  return SolidDestroy(&s);
+}
+
+/* --- the cell grid
+ * ------------------------------------------------------------------------------------------ */
+
+enum { NBOXES = 400 };
+static int hits[NBOXES][NBOXES];
+
+static PetscErrorCode Count(void *context, int i, int j)
+{
+  (void)context;
+  hits[i][j]++;
+  return 0;
+}
+
+static double Random(unsigned *state)
+{
+  *state = *state * 1664525u + 1013904223u;
+  return (double)(*state >> 8) / 16777216.0;
+}
+
+/* Boxes of very different sizes, negative coordinates too: every overlapping pair is told once, no other. */
+static PetscErrorCode Grid(void)
+{
+  static GeometryBox a[NBOXES], b[NBOXES];
+  unsigned state = 7;
+  int pairs = 0;
+  for (int k = 0; k < 2 * NBOXES; k++) {
+    GeometryBox *box = k < NBOXES ? &a[k] : &b[k - NBOXES];
+    const double size = pow(10.0, -3.0 + 3.3 * Random(&state));
+    for (int c = 0; c < 2; c++) {
+      box->lower[c] = 4.0 * Random(&state) - 2.0;
+      box->upper[c] = box->lower[c] + size * Random(&state);
+    }
+  }
+  PetscCall(CellGridPairs(NBOXES, a, NBOXES, b, Count, NULL));
+  for (int i = 0; i < NBOXES; i++)
+    for (int j = 0; j < NBOXES; j++) {
+      const int expected = GeometryBoxOverlap(&a[i], &b[j]);
+      CHECK(hits[i][j] == expected, "pair %d %d told %d times, expected %d", i, j, hits[i][j], expected);
+      pairs += expected;
+    }
+  CHECK(pairs > 500, "only %d pairs", pairs);
+  return 0;
+}
+
+/* --- overlap at the start
+ * ----------------------------------------------------------------------------------- */
+
+static PetscErrorCode Overlap(double x, double radius, int expected)
+{
+  const BodySetup setup = BodyAtRest(MaterialOf(1000.0, 1e6, 0.3, 0.0));
+  Assembly a = {0};
+  int first, second;
+  AddRectangle(&a, 0.0, 0.0, 1.0, 1.0, 0.0, 0.125, 0, &setup);
+  AddRectangle(&a, x, 0.0, 2.0 * radius, 2.0 * radius, 0.0, 0.125, 0, &setup);
+  PetscCall(AssemblyOverlap(&a, &first, &second));
+  CHECK((first == 0 && second == 1) == expected, "x = %g, radius %g: bodies %d and %d", x, radius, first,
+        second);
+  return AssemblyDestroy(&a);
+}
+
+int main(int argc, char **argv)
+{
+  PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
+  PetscCall(EnergyGradient());
+  PetscCall(Grid());
+  PetscCall(Overlap(1.2, 0.5, 0));
+  PetscCall(Overlap(1.0, 0.5, 0)); /* side by side, touching */
+  PetscCall(Overlap(0.99, 0.5, 1));
+  PetscCall(Overlap(0.0, 0.1, 1)); /* one within the other */
+  PetscCall(Overlap(0.0, 0.5, 1)); /* one exactly over the other */
+  return PetscFinalize();
+}
