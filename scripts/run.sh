@@ -30,7 +30,7 @@ out=${out:-$root/out/$name}
 "$root/scripts/setup.sh"
 cd "$root"
 cmake --preset release >/dev/null
-cmake --build --preset release -- --quiet
+cmake --build --preset release --target coracle-fluid coracle-coupler coracle-solid -- --quiet
 mkdir -p "$out"
 "$root/scripts/launch.sh" --bin "$root/build" --ranks "$ranks" "$file" --set "output.folder=$out" "${sets[@]}"
 

@@ -1,9 +1,10 @@
-/* A distributed mesh of triangles, what the fluid computes on.  Built on rank 0 (box mesher or Gmsh file), partitioned
- * with METIS, distributed with one layer of face-neighbour ghosts, elements renumbered for locality on each rank.
+/* A distributed mesh of triangles, what the fluid computes on.  Built on rank 0 (box mesher or Gmsh file),
+ * partitioned with METIS, distributed with one layer of face-neighbour ghosts, elements renumbered for
+ * locality on each rank.
  *
- *            2                 local vertex i; face i lies opposite to vertex i, from vertex (i+1)%3 to (i+2)%3,
- *           / \                so that the outward normal is the right-hand side of that direction (elements are
- *        4 /   \ 3             counter-clockwise).  P2 nodes: 0..2 vertices, 3 + i the midpoint of face i.
+ *            2                 local vertex i; face i lies opposite to vertex i, from vertex (i+1)%3 to
+ * (i+2)%3, / \                so that the outward normal is the right-hand side of that direction (elements
+ * are 4 /   \ 3             counter-clockwise).  P2 nodes: 0..2 vertices, 3 + i the midpoint of face i.
  *         /     \
  *        0---5---1
  */
@@ -12,12 +13,12 @@
 #include <petscsys.h>
 
 typedef struct {
-  MPI_Comm comm;        /* borrowed */
-  int dim;              /* 2 */
-  int nv;               /* local vertices, of owned and ghost elements */
-  double *x;            /* [nv][2], m */
-  int ne, ng;           /* owned elements; ghosts follow: share a face with an owned element, owned by another rank */
-  int *vertex;          /* [ne + ng][3] local vertices, counter-clockwise */
+  MPI_Comm comm; /* borrowed */
+  int dim;       /* 2 */
+  int nv;        /* local vertices, of owned and ghost elements */
+  double *x;     /* [nv][2], m */
+  int ne, ng;  /* owned elements; ghosts follow: share a face with an owned element, owned by another rank */
+  int *vertex; /* [ne + ng][3] local vertices, counter-clockwise */
   PetscInt estart;      /* owned elements have global numbers estart .. estart + ne - 1 */
   PetscInt nglobal;     /* elements on all ranks */
   PetscInt *egid;       /* [ne + ng] global element numbers */
@@ -26,38 +27,41 @@ typedef struct {
   int *tag;             /* [ne][3] index of the boundary's name for boundary faces, else -1 */
   int ntags;            /* boundary names, the same on all ranks */
   char (*tag_name)[64]; /* [ntags] */
-  int np2, np2_owned;   /* P2 nodes of the owned elements on this rank: owned nodes first, then those of other ranks */
+  int np2, np2_owned;   /* P2 nodes of the owned elements on this rank: owned nodes first, then those of other
+                           ranks */
   PetscInt p2start;     /* owned P2 nodes have global numbers p2start .. p2start + np2_owned - 1 */
   PetscInt np2_global;
-  PetscInt *p2gid;      /* [np2] */
-  int *p2;              /* [ne][6] local P2 nodes */
+  PetscInt *p2gid;           /* [np2] */
+  int *p2;                   /* [ne][6] local P2 nodes */
   double lower[2], upper[2]; /* bounds of the whole domain */
 } Mesh;
 
 /* An undistributed mesh (rank 0 only; empty elsewhere). */
 typedef struct {
   int nv, ne, nb;
-  double *x;       /* [nv][2] */
-  int *vertex;     /* [ne][3] counter-clockwise */
-  int *facet;      /* [nb][2] boundary edges */
-  int *facet_tag;  /* [nb] */
+  double *x;      /* [nv][2] */
+  int *vertex;    /* [ne][3] counter-clockwise */
+  int *facet;     /* [nb][2] boundary edges */
+  int *facet_tag; /* [nb] */
   int ntags;
   char (*tag_name)[64];
-  int *region;     /* [ne] or NULL: physical surface of each element */
+  int *region; /* [ne] or NULL: physical surface of each element */
   int nregions;
   char (*region_name)[64];
 } MeshSerial;
 
-/* A graded mesh of [lower, upper]: a balanced quadtree of cells cut into triangles without hanging nodes.  size(context, x) is
- * the wanted cell edge, m, at a point; cells are halved until their edge is at most the smallest size in them and at most
- * size_max (a diagonal is sqrt 2 longer).  A cell looks at 3 x 3 points: what is narrower than half of size_max is found
- * if the size grows gently around it.  Boundaries are named left, right, bottom, top.  Not collective. */
+/* A graded mesh of [lower, upper]: a balanced quadtree of cells cut into triangles without hanging nodes.
+ * size(context, x) is the wanted cell edge, m, at a point; cells are halved until their edge is at most the
+ * smallest size in them and at most size_max (a diagonal is sqrt 2 longer).  A cell looks at 3 x 3 points:
+ * what is narrower than half of size_max is found if the size grows gently around it.  Boundaries are named
+ * left, right, bottom, top.  Not collective. */
 PetscErrorCode MeshBox(const double lower[2], const double upper[2], double size_max,
                        double (*size)(void *context, const double x[2]), void *context, MeshSerial *mesh);
-/* Gmsh .msh, ASCII or binary, formats 2.2 and 4.1: triangles, boundary edges from physical curves (their names; a boundary edge without
- * one is called "boundary").  Triangles given clockwise are turned; a degenerate or repeated one, or one with a
- * vertex that does not exist, is an error that names file and element.  On failure *error (a static buffer) says why and a
- * PETSc error code is returned without a trace-back. */
+/* Gmsh .msh, ASCII or binary, formats 2.2 and 4.1: triangles, boundary edges from physical curves (their
+ * names; a boundary edge without one is called "boundary").  Triangles given clockwise are turned; a
+ * degenerate or repeated one, or one with a vertex that does not exist, is an error that names file and
+ * element.  On failure *error (a static buffer) says why and a PETSc error code is returned without a
+ * trace-back. */
 PetscErrorCode MeshReadGmsh(const char *path, MeshSerial *mesh, const char **error);
 PetscErrorCode MeshSerialDestroy(MeshSerial *mesh);
 

@@ -1,5 +1,6 @@
-/* What a run leaves behind: HDF5 with XDMF for ParaView, CSV series.  Everything written is readable at any moment: the
- * HDF5 file is flushed after each snapshot and the XDMF index rewritten (to a temporary name, then renamed). */
+/* What a run leaves behind: HDF5 with XDMF for ParaView, CSV series.  Everything written is readable at any
+ * moment: the HDF5 file is flushed after each snapshot and the XDMF index rewritten (to a temporary name,
+ * then renamed). */
 #ifndef CORACLE_OUTPUT_H
 #define CORACLE_OUTPUT_H
 #include <petscsys.h>
@@ -11,20 +12,24 @@ typedef enum { OUTPUT_NODE, OUTPUT_CELL } OutputCentre;
 PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name, Output *out);
 /* Collective: starts the snapshot of time t, s. */
 PetscErrorCode OutputBegin(Output out, double t);
-/* Collective: a grid of this snapshot: nodes x[n][2], cells connectivity[ne][nodes_per_cell] in this rank's node
- * indices.  nodes_per_cell: 2 Polyline/edge, 3 Triangle, 6 Triangle_6 (VTK order: midpoints of 01, 12, 20).
- * revision: while the same number is given for a grid name, topology and points are not written again but refer to the first. */
-PetscErrorCode OutputGrid(Output out, const char *grid, int revision, int n, const double x[], int ne, int nodes_per_cell,
-                          const int connectivity[]);
-/* Collective: a field on the grid last given: value[n or ne][ncomp]; ncomp 1 scalar, 2 vector (a third 0 is added),
- * 3 symmetric tensor (xx, yy, xy).  Cells or nodes of a rank may be none. */
-PetscErrorCode OutputField(Output out, const char *field, OutputCentre centre, int ncomp, const double value[]);
+/* Collective: a grid of this snapshot: nodes x[n][2], cells connectivity[ne][nodes_per_cell] in this rank's
+ * node indices.  nodes_per_cell: 2 Polyline/edge, 3 Triangle, 6 Triangle_6 (VTK order: midpoints of 01, 12,
+ * 20). revision: while the same number is given for a grid name, topology and points are not written again
+ * but refer to the first. */
+PetscErrorCode OutputGrid(Output out, const char *grid, int revision, int n, const double x[], int ne,
+                          int nodes_per_cell, const int connectivity[]);
+/* Collective: a field on the grid last given: value[n or ne][ncomp]; ncomp 1 scalar, 2 vector (a third 0 is
+ * added), 3 symmetric tensor (xx, yy, xy).  Cells or nodes of a rank may be none. */
+PetscErrorCode OutputField(Output out, const char *field, OutputCentre centre, int ncomp,
+                           const double value[]);
 PetscErrorCode OutputEnd(Output out);
 PetscErrorCode OutputDestroy(Output *out);
 
-/* A time series, rank 0's numbers: <folder>/<name>.csv; the header is `columns` (comma-separated, with units: "t [s],U [m/s]"). */
+/* A time series, rank 0's numbers: <folder>/<name>.csv; the header is `columns` (comma-separated, with units:
+ * "t [s],U [m/s]"). */
 typedef struct Series_s *Series;
-PetscErrorCode SeriesCreate(MPI_Comm comm, const char *folder, const char *name, const char *columns, Series *s);
+PetscErrorCode SeriesCreate(MPI_Comm comm, const char *folder, const char *name, const char *columns,
+                            Series *s);
 /* Not collective: rank 0 appends one row of as many numbers as columns; others return at once. */
 PetscErrorCode SeriesRow(Series s, const double value[]);
 PetscErrorCode SeriesDestroy(Series *s);
