@@ -120,7 +120,7 @@ static PetscErrorCode FindCopies(Solid s, const Assembly *a, const int part[], c
   for (int k = 0; k < 3 * a->nelements; k++)
     if (part[k / 3] != s->rank && local[a->element[k]] >= 0)
       copy[n++] = (Copy){part[k / 3], a->element[k], local[a->element[k]]};
-  qsort(copy, (size_t)n, sizeof *copy, CompareCopies);
+  if (n > 0) qsort(copy, (size_t)n, sizeof *copy, CompareCopies);
   for (int k = 0; k < n; k++) {
     if (k > 0 && !CompareCopies(&copy[k], &copy[k - 1])) continue;
     rank[kept] = copy[k].rank;
