@@ -17,10 +17,11 @@ static void ReadOptions(Case file, CouplerOptions *o)
 
 PetscErrorCode CouplerCaseRead(Case file, CouplerCase *c)
 {
-  static const char *const SECTIONS[] = {"case", "gravity", "time", "coupler", "output", NULL};
+  static const char *const SECTIONS[] = {"case", "note", "gravity", "time", "coupler", "output", NULL};
 
   PetscFunctionBeginUser;
   snprintf(c->name, sizeof c->name, "%s", CaseString(file, "case"));
+  snprintf(c->note, sizeof c->note, "%s", CaseStringOr(file, "note", ""));
   snprintf(c->folder, sizeof c->folder, "%s", CaseString(file, "output.folder"));
   c->every = CasePositive(file, "output.every");
   c->end = CasePositive(file, "time.end");

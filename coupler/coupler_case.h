@@ -1,11 +1,11 @@
-/* What the coupler reads from the case file: sections case, gravity, time, coupler, output. */
+/* What the coupler reads from the case file: sections case, note, gravity, time, coupler, output. */
 #ifndef CORACLE_COUPLER_CASE_H
 #define CORACLE_COUPLER_CASE_H
 #include "case_file.h"
 #include "coupler.h"
 
 typedef struct {
-  char name[128], folder[512];
+  char name[128], note[512], folder[512];
   double end, dt_max, every; /* s */
   CouplerOptions options;
 } CouplerCase;

@@ -27,6 +27,7 @@ PetscErrorCode RecordCreate(MPI_Comm comm, const CouplerCase *c, Record *record)
   r->down[0] = size > 0.0 ? g[0] / size : 0.0;
   r->down[1] = size > 0.0 ? g[1] / size : -1.0;
   PetscCallMPI(MPI_Comm_rank(comm, &r->rank));
+  if (!r->rank && c->note[0]) printf("coracle: %s: %s\n", c->name, c->note);
   PetscCall(OutputCreate(comm, c->folder, "coupler", &r->output));
   PetscCall(SeriesCreate(comm, c->folder, "coupler", COLUMNS, &r->series));
   *record = r;

@@ -78,6 +78,8 @@ static void WriteAll(FILE *f, const CouplerCase *c, const RecordTotals *t, const
   static const char *const ROLES[] = {"fluid", "coupler", "solid"};
   fprintf(f, "{\n  \"case\": ");
   WriteString(f, c->name);
+  fprintf(f, ",\n  \"note\": ");
+  WriteString(f, c->note);
   fprintf(f, ",\n  \"version\": \"%s\",\n  \"revision\": \"%s\",\n  \"mode\": \"%s\",\n", CORACLE_VERSION,
           CORACLE_REVISION, COUPLER_MODES[c->options.mode]);
   WriteField(f, "end_time", t->end);

@@ -5,8 +5,9 @@
  * parsed from argv: `program case.yaml [--set key=value]...`; a set replaces or adds the key (dotted path,
  * list items as name[0].key).
  *
- * The top-level sections are: case (name), gravity, time, fluid, solid, coupler, output.  A participant opens
- * the whole file but must read only its sections: CaseFinish checks the sections it names. */
+ * The top-level sections are: case (name), note (what a reader of the results must know), gravity, time,
+ * fluid, solid, coupler, output.  A participant opens the whole file but must read only its sections:
+ * CaseFinish checks the sections it names. */
 #ifndef CORACLE_CASE_FILE_H
 #define CORACLE_CASE_FILE_H
 #include <stdbool.h>
