@@ -29,6 +29,7 @@ PetscErrorCode CouplerCaseRead(Case file, CouplerCase *c)
   /* the fluid's, read here so that the whole section can be checked */
   (void)CaseNumberOr(file, "time.cfl", 0.5, 0.0, HUGE_VAL);
   ReadOptions(file, &c->options);
+  PetscCall(PetscOptionsInsertString(NULL, CaseStringOr(file, "coupler.petsc", "")));
   PetscCall(CaseFinish(file, SECTIONS));
   PetscFunctionReturn(0);
 }

@@ -26,6 +26,7 @@ else
 fi
 [ -f "$file" ] || { echo "run.sh: no case '$case': cases are $(cd "$root/cases" && echo *)" >&2; exit 2; }
 out=${out:-$root/out/$name}
+file=$(realpath "$file") out=$(realpath -m "$out")
 
 "$root/scripts/setup.sh"
 cd "$root"

@@ -22,6 +22,7 @@ static PetscErrorCode Setup(Case c, MPI_Comm comm, CoracleClient client, Solid *
   SolidSetup setup = {.fail = Fail, .context = client};
   Assembly assembly = {0};
   PetscFunctionBeginUser;
+  PetscCall(PetscOptionsInsertString(NULL, CaseStringOr(c, "solid.petsc", "")));
   PetscCall(SolidCaseRead(c, &assembly, &setup));
   PetscCall(CaseFinish(c, SECTIONS));
   PetscCall(SolidCreate(comm, &assembly, &setup, solid));

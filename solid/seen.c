@@ -1,53 +1,141 @@
-/* The velocity that the fluid sees. */
+/* The velocity that the fluid sees: each body's rigid motion at the step's end, and of its deformation what
+ * the fluid's step can resolve.  A staggered exchange answers a vibration about one and a half steps late;
+ * late by more than half a period the answer drives the vibration instead of damping it. */
 #include "solid_impl.h"
 
-/* Sums over a body of w, the velocity now less the mean: mass, m x, m w, m x cross w, m |x|^2. */
-enum { M, MX, MY, MU, MV, SPIN, INERTIA, NSUMS };
+/* Deformation slower than the first is seen whole, faster than the second not at all: omega dt. */
+#define SEEN_WHOLE 0.5
+#define SEEN_NOT 1.0
 
-static PetscErrorCode BodySums(const Solid s, const double w[], double sum[][NSUMS])
+/* Sums over a body: mass, m x; m v, m x cross v, m |x|^2, v the velocity now; and the same two of the mean
+ * velocity.  Then of the mean's deformation d: m |d|^2, and int 2 mu e:e + lambda (tr e)^2 of its strain rate
+ * e. */
+enum { M, MX, MY, MU, MV, SPIN, INERTIA, MEAN_U, MEAN_V, MEAN_SPIN, NSUMS };
+enum { KINETIC, STRAIN, NENERGIES };
+
+typedef struct {
+  double centre[2], end[2], end_spin, mean[2], mean_spin;
+} RigidMotion;
+
+static void RigidVelocity(const double centre[2], const double v[2], double omega, const double x[2],
+                          double u[2])
 {
-  PetscFunctionBeginUser;
+  u[0] = v[0] - omega * (x[1] - centre[1]);
+  u[1] = v[1] + omega * (x[0] - centre[0]);
+}
+
+static double MeanVelocity(const Solid s, int i)
+{
+  return (s->x[i] - s->start[i]) / s->dt;
+}
+
+static void AddMotion(const Solid s, double sum[][NSUMS])
+{
   for (int i = 0; i < s->nnodes; i++) {
     if (!ShareOwns(s->share, i)) continue;
     double *k = sum[s->node_body[i]];
-    const double m = s->mass[i], *x = s->x + 2 * i, *wi = w + 2 * i;
+    const double m = s->mass[i], *x = s->x + 2 * i, *v = s->v + 2 * i;
+    const double mean[2] = {MeanVelocity(s, 2 * i), MeanVelocity(s, 2 * i + 1)};
     k[M] += m;
     for (int c = 0; c < 2; c++) {
       k[MX + c] += m * x[c];
-      k[MU + c] += m * wi[c];
+      k[MU + c] += m * v[c];
+      k[MEAN_U + c] += m * mean[c];
     }
-    k[SPIN] += m * (x[0] * wi[1] - x[1] * wi[0]);
+    k[SPIN] += m * (x[0] * v[1] - x[1] * v[0]);
+    k[MEAN_SPIN] += m * (x[0] * mean[1] - x[1] * mean[0]);
     k[INERTIA] += m * (x[0] * x[0] + x[1] * x[1]);
   }
-  if (s->size > 1)
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, NSUMS * s->nbodies, MPI_DOUBLE, MPI_SUM, s->comm));
-  PetscFunctionReturn(0);
 }
 
-/* The rigid motion with the body's momentum and angular momentum, at x. */
-static void RigidVelocity(const double k[NSUMS], const double x[2], double v[2])
-{
-  const double centre[2] = {k[MX] / k[M], k[MY] / k[M]};
-  const double spin = k[SPIN] - (centre[0] * k[MV] - centre[1] * k[MU]);
-  const double omega = spin / (k[INERTIA] - (centre[0] * k[MX] + centre[1] * k[MY]));
-  v[0] = k[MU] / k[M] - omega * (x[1] - centre[1]);
-  v[1] = k[MV] / k[M] + omega * (x[0] - centre[0]);
-}
-
-PetscErrorCode SolidSeenVelocity(Solid s, const double **seen)
+/* The rigid motions with the bodies' momentum and angular momentum, of the velocity now and of the mean. */
+static PetscErrorCode RigidMotions(const Solid s, RigidMotion motion[])
 {
   double(*sum)[NSUMS];
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1((size_t)s->nbodies, &sum));
-  for (int i = 0; i < 2 * s->nnodes; i++) s->seen[i] = s->v[i] - (s->x[i] - s->start[i]) / s->dt;
-  PetscCall(BodySums(s, s->seen, sum));
-  for (int i = 0; i < s->nnodes; i++) {
-    double rigid[2];
-    RigidVelocity(sum[s->node_body[i]], s->x + 2 * i, rigid);
-    for (int c = 0; c < 2; c++)
-      s->seen[2 * i + c] = (s->x[2 * i + c] - s->start[2 * i + c]) / s->dt + rigid[c];
+  AddMotion(s, sum);
+  if (s->size > 1)
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, NSUMS * s->nbodies, MPI_DOUBLE, MPI_SUM, s->comm));
+  for (int b = 0; b < s->nbodies; b++) {
+    const double *k = sum[b], x = k[MX] / k[M], y = k[MY] / k[M];
+    const double inertia = k[INERTIA] - (x * k[MX] + y * k[MY]);
+    motion[b] = (RigidMotion){.centre = {x, y},
+                              .end = {k[MU] / k[M], k[MV] / k[M]},
+                              .end_spin = (k[SPIN] - (x * k[MV] - y * k[MU])) / inertia,
+                              .mean = {k[MEAN_U] / k[M], k[MEAN_V] / k[M]},
+                              .mean_spin = (k[MEAN_SPIN] - (x * k[MEAN_V] - y * k[MEAN_U])) / inertia};
   }
   PetscCall(PetscFree(sum));
+  PetscFunctionReturn(0);
+}
+
+/* seen = the deformation's share of the mean velocity */
+static void Deformation(const Solid s, const RigidMotion motion[])
+{
+  for (int i = 0; i < s->nnodes; i++) {
+    const RigidMotion *r = motion + s->node_body[i];
+    double rigid[2];
+    RigidVelocity(r->centre, r->mean, r->mean_spin, s->x + 2 * i, rigid);
+    for (int c = 0; c < 2; c++) s->seen[2 * i + c] = MeanVelocity(s, 2 * i + c) - rigid[c];
+  }
+}
+
+/* 2 mu e:e + lambda (tr e)^2 times the area, e the symmetric gradient of d on element k as it is now */
+static double StrainPower(const Elements *e, int k, const double x[], const double d[])
+{
+  double g[2][2] = {{0}}, area = 0.0;
+  for (int i = 0; i < 3; i++) {
+    const double *p = x + 2 * e->node[(i + 1) % 3][k], *q = x + 2 * e->node[(i + 2) % 3][k];
+    const double *di = d + 2 * e->node[i][k], normal[2] = {p[1] - q[1], q[0] - p[0]};
+    area += 0.5 * (p[0] * q[1] - q[0] * p[1]);
+    for (int c = 0; c < 2; c++)
+      for (int b = 0; b < 2; b++) g[c][b] += di[c] * normal[b];
+  }
+  const double shear = 0.5 * (g[0][1] + g[1][0]), trace = g[0][0] + g[1][1];
+  const double square = g[0][0] * g[0][0] + g[1][1] * g[1][1] + 2.0 * shear * shear;
+  return (2.0 * e->mu[k] * square + e->lambda[k] * trace * trace) / (4.0 * area);
+}
+
+/* share[b]: how much of body b's deformation is seen, by its Rayleigh quotient omega^2 = strain power / (m
+ * |d|^2): never below the square of the body's slowest vibration, whatever the deformation. */
+static PetscErrorCode Shares(const Solid s, double share[])
+{
+  double(*sum)[NENERGIES];
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1((size_t)s->nbodies, &sum));
+  for (int i = 0; i < s->nnodes; i++) {
+    const double *d = s->seen + 2 * i;
+    if (ShareOwns(s->share, i)) sum[s->node_body[i]][KINETIC] += s->mass[i] * (d[0] * d[0] + d[1] * d[1]);
+  }
+  for (int k = 0; k < s->elements.n; k++)
+    sum[s->elements.body[k]][STRAIN] += StrainPower(&s->elements, k, s->x, s->seen);
+  if (s->size > 1)
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, NENERGIES * s->nbodies, MPI_DOUBLE, MPI_SUM, s->comm));
+  for (int b = 0; b < s->nbodies; b++) {
+    const double omega = sum[b][KINETIC] > 0.0 ? sqrt(sum[b][STRAIN] / sum[b][KINETIC]) : 0.0;
+    share[b] = fmin(1.0, fmax(0.0, (SEEN_NOT - omega * s->dt) / (SEEN_NOT - SEEN_WHOLE)));
+  }
+  PetscCall(PetscFree(sum));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SolidSeenVelocity(Solid s, const double **seen)
+{
+  RigidMotion *motion;
+  double *share;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(s->nbodies, &motion, s->nbodies, &share));
+  PetscCall(RigidMotions(s, motion));
+  Deformation(s, motion);
+  PetscCall(Shares(s, share));
+  for (int i = 0; i < s->nnodes; i++) {
+    const int b = s->node_body[i];
+    double rigid[2];
+    RigidVelocity(motion[b].centre, motion[b].end, motion[b].end_spin, s->x + 2 * i, rigid);
+    for (int c = 0; c < 2; c++) s->seen[2 * i + c] = rigid[c] + share[b] * s->seen[2 * i + c];
+  }
+  PetscCall(PetscFree2(motion, share));
   *seen = s->seen;
   PetscFunctionReturn(0);
 }

@@ -37,10 +37,9 @@ PetscErrorCode SolidStart(Solid s, double dt, const double load[]);
 PetscBool SolidRemaining(Solid s); /* not collective, the same on all ranks */
 /* *h: the substep just made; SolidVelocity then is the displacement over it divided by h. */
 PetscErrorCode SolidSubstep(Solid s, double *h);
-/* After the last substep: the velocity at the step's end without the bodies' vibrations, seen[nnodes][2],
- * m/s, borrowed until the next SolidStart.  It is the mean over the step plus the rigid part (momentum and
- * angular momentum of each body) of what the velocity now is above the mean: vibrations, which carry neither,
- * are averaged out, and the rigid motion is not half a step late. */
+/* After the last substep: the velocity that the fluid is to see, seen[nnodes][2], m/s, borrowed until the
+ * next SolidStart: the bodies' rigid motion at the step's end (same momentum and angular momentum), plus the
+ * deformation's share of the mean velocity over the step as far as a step of dt resolves it (seen.c). */
 PetscErrorCode SolidSeenVelocity(Solid s, const double **seen);
 /* Largest stable substep now, s: 4/(d + sqrt(d^2 + 4 w^2)), w^2 and d bounds of the elements' and contact's
  * frequencies and viscous rates. */
