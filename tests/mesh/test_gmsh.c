@@ -1,6 +1,6 @@
 /* Gmsh files: the same mesh from text and binary of both formats; damaged ones are refused with the reason.
  */
-#include "check.h"
+#include "strip.h"
 #include <unistd.h>
 
 static char path[64];

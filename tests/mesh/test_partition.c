@@ -1,7 +1,7 @@
 // ranks: 1 2 3 5
 /* Distribution: the same triangles on any number of ranks, neighbours that agree, P2 numbers without gaps,
  * ranks without elements. */
-#include "check.h"
+#include "strip.h"
 
 typedef struct {
   double upper[2], size_max;

@@ -1,20 +1,9 @@
 /* Bodies for the solid's tests, and the little checks that they share. */
 #ifndef TESTS_SOLID_BUILD_H
 #define TESTS_SOLID_BUILD_H
+#include "check.h"
 #include "shape.h"
 #include "solid.h"
-#include <stdio.h>
-#include <stdlib.h>
-
-#define CHECK(condition, ...)                                                                                \
-  do {                                                                                                       \
-    if (!(condition)) {                                                                                      \
-      fprintf(stderr, "%s:%d: %s: ", __FILE__, __LINE__, #condition);                                        \
-      fprintf(stderr, __VA_ARGS__);                                                                          \
-      fputc('\n', stderr);                                                                                   \
-      exit(1);                                                                                               \
-    }                                                                                                        \
-  } while (0)
 
 static inline Material MaterialOf(double density, double youngs_modulus, double poisson_ratio, double damping)
 {

@@ -2,19 +2,8 @@
  * diagonal. */
 #ifndef TESTS_RANDOM_MESH_H
 #define TESTS_RANDOM_MESH_H
+#include "check.h"
 #include "geometry.h"
-#include <stdio.h>
-#include <stdlib.h>
-
-#define CHECK(condition, ...)                                                                                \
-  do {                                                                                                       \
-    if (!(condition)) {                                                                                      \
-      fprintf(stderr, "%s:%d: %s: ", __FILE__, __LINE__, #condition);                                        \
-      fprintf(stderr, __VA_ARGS__);                                                                          \
-      fprintf(stderr, "\n");                                                                                 \
-      exit(1);                                                                                               \
-    }                                                                                                        \
-  } while (0)
 
 static inline double Random(double lower, double upper)
 {

@@ -1,22 +1,13 @@
-/* Stops the whole test with what was expected and where; reading back with HDF5 alone. */
-#ifndef TEST_OUTPUT_CHECK_H
-#define TEST_OUTPUT_CHECK_H
+/* Reading back with HDF5 alone. */
+#ifndef TESTS_OUTPUT_READ_BACK_H
+#define TESTS_OUTPUT_READ_BACK_H
+#include "check.h"
 #include "output.h"
 #include <hdf5.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define CHECK(condition, ...)                                                                                \
-  do {                                                                                                       \
-    if (!(condition)) {                                                                                      \
-      fprintf(stderr, "%s:%d: %s: ", __FILE__, __LINE__, #condition);                                        \
-      fprintf(stderr, __VA_ARGS__);                                                                          \
-      fprintf(stderr, "\n");                                                                                 \
-      exit(1);                                                                                               \
-    }                                                                                                        \
-  } while (0)
 
 /* All of a dataset as doubles; dims [rank 1: n, 0], caller frees. */
 static inline double *ReadDataset(hid_t file, const char *path, hsize_t dims[2])
