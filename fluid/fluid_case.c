@@ -138,3 +138,19 @@ PetscErrorCode FluidCaseSetup(Case c, const Mesh *mesh, FluidSetup *setup)
   CaseKeys(c, "fluid.boundaries", CheckBoundaryName, &check);
   PetscFunctionReturn(0);
 }
+
+PetscErrorCode FluidCaseCheckOptions(Case c)
+{
+  const char *given = CaseStringOr(c, "fluid.petsc", "");
+  PetscInt n;
+  char **names, **values, option[256];
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsLeftGet(NULL, &n, &names, &values));
+  for (PetscInt k = 0; k < n; k++) {
+    (void)snprintf(option, sizeof option, "-%s", names[k]);
+    if (strstr(given, option))
+      CaseRefuse(c, "fluid.petsc", "no solver of the fluid has the option %s", option);
+  }
+  PetscCall(PetscOptionsLeftRestore(NULL, &n, &names, &values));
+  PetscFunctionReturn(0);
+}

@@ -8,4 +8,7 @@
 PetscErrorCode FluidCaseMesh(Case c, MPI_Comm comm, Mesh **mesh);
 /* Reads everything else.  setup->boundary is allocated: PetscFree it after FluidCreate has copied it. */
 PetscErrorCode FluidCaseSetup(Case c, const Mesh *mesh, FluidSetup *setup);
+/* After the first step, when every solver has asked for its options: refuses those of fluid.petsc that none
+ * has.  Collective. */
+PetscErrorCode FluidCaseCheckOptions(Case c);
 #endif

@@ -53,7 +53,7 @@ static PetscErrorCode Run(CoracleClient client, Case c, MPI_Comm comm)
   PetscCall(Setup(c, comm, &mesh, &fluid));
   PetscCall(RecordCreate(c, fluid, &record));
   PetscCall(ExchangeCreate(client, fluid, &exchange));
-  for (;;) {
+  for (int steps = 0;; steps++) {
     const CoracleCorrection *correction;
     CoracleAction action;
     double t, dt;
@@ -62,6 +62,7 @@ static PetscErrorCode Run(CoracleClient client, Case c, MPI_Comm comm)
     PetscCall(ExchangeReceiveCoupling(exchange));
     PetscCall(FluidMomentum(fluid, dt));
     PetscCall(FluidProject(fluid, dt));
+    if (steps == 0) PetscCall(FluidCaseCheckOptions(c));
     PetscCall(ExchangeFlow(exchange, &correction));
     PetscCall(FluidCorrect(fluid, dt, correction));
     PetscCall(RecordStep(record, fluid));

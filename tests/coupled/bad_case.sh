@@ -52,6 +52,7 @@ case $scenario in
   overlapping) with 'solid.bodies[1]={shape: disc, centre: [1.05, 1.1], radius: 0.1, size: 0.05, material: disc}'
     expect="solid.*overlap" ;;
   bad_option) with 'fluid.petsc=-momentum_ksp_type nonsense'; expect="fluid.*nonsense" ;;
+  unused_option) with 'fluid.petsc=-momentum_kps_type gmres'; expect="'fluid.petsc'.*-momentum_kps_type" ;;
   bad_folder) with output.folder=/proc/nowhere; sets+=(--set output.folder=/proc/nowhere); expect="/proc/nowhere" ;;
   *) echo "no scenario '$scenario'" >&2; exit 2 ;;
 esac
