@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs the tests.  Usage: scripts/test.sh [PRESET] [ctest arguments]
-#   PRESET: release (default), debug, sanitize
+#   PRESET: release (default), debug, sanitize.  Long validation runs: scripts/test.sh -L validation
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=release
@@ -13,4 +13,5 @@ cmake --build --preset "$preset"
 # Open MPI does not free what it takes at start; with detect_leaks=1 its reports are all there is to see
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=0}
 export OPENBLAS_NUM_THREADS=1
-ctest --preset "$preset" --no-tests=error -j 2 "$@"
+[ $# -gt 0 ] || set -- -LE validation -j 2
+ctest --preset "$preset" --no-tests=error "$@"

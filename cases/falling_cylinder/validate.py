@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Runs the validation of the falling cylinder and writes its table.
 
-    cases/falling_cylinder/validate.py [--ranks F:C:S] [--only NAME ...] [--table]
+    cases/falling_cylinder/validate.py [--ranks F:C:S] [--only NAME ...] [--table] [--check]
 
 Each run is scripts/run.sh with a few keys set; it is skipped when its summary.json exists already (delete
-out/validation/<name> to run it again).  --table only prints the table of what has been run.  References are those of
+out/validation/<name> to run it again).  --table only prints the table of what has been run, --check exits with 1 when a number is out of its bounds.  References are those of
 body-fitted finite elements (reference/*.csv and the terminal speeds below), errors are against them.
 """
 import argparse
@@ -106,15 +106,45 @@ def table():
             print(row(name))
 
 
+def terminal(name):
+    return json.load(open(OUT / name / "summary.json"))["terminal_velocity"]
+
+
+def check():
+    """What must hold: (statement, measured, bound) of every run that is there."""
+    there = [name for name in RUNS if (OUT / name / "summary.json").exists()]
+    claims = []
+    for name, bound in (("closed-0.01", 0.015), ("closed-0.005", 0.01), ("open-0.01", 0.02)):
+        if name in there:
+            claims.append((name + ": terminal speed", abs(terminal(name) / RUNS[name][1] - 1), bound))
+    for name in ("closed-0.01", "closed-0.005", "re200-0.01"):
+        if name in there:
+            curve, reference = fall_curve(OUT / name), reference_curve(RUNS[name][0])
+            worst = max(abs(u / interpolate(reference, t) - 1) for t, u in curve if t >= 0.5)
+            claims.append((name + ": U(t) from 0.5 s on", worst, 0.03))
+    for name, what, bound in (("dr-0.001", "dr twice as large", 0.003), ("dt-half", "dt halved", 0.01)):
+        if name in there and "closed-0.01" in there:
+            claims.append((what, abs(terminal(name) / terminal("closed-0.01") - 1), bound))
+    for name in there:
+        imbalance = json.load(open(OUT / name / "summary.json"))["largest_momentum_imbalance"]
+        claims.append((name + ": momentum imbalance", imbalance, 1e-10))
+    for what, measured, bound in claims:
+        print("%-45s %8.2g  bound %g%s" % (what, measured, bound, "" if measured <= bound else "  FAILED"))
+    return all(measured <= bound for _, measured, bound in claims)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--ranks", default="1:1:1")
     parser.add_argument("--only", nargs="*", default=list(RUNS), choices=list(RUNS))
     parser.add_argument("--table", action="store_true")
+    parser.add_argument("--check", action="store_true")
     arguments = parser.parse_args()
     for name in [] if arguments.table else arguments.only:
         run(name, arguments.ranks)
     table()
+    if arguments.check and not check():
+        raise SystemExit(1)
 
 
 if __name__ == "__main__":
