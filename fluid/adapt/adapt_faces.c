@@ -1,0 +1,78 @@
+#include "adapt_impl.h"
+
+/* Corners by the smaller vertex of the face that they look at, as chains: head[v], next[c], ... */
+typedef struct {
+  int *head, *next;
+} FaceTable;
+
+static int Lower(const MeshSerial *m, int c)
+{
+  return PetscMin(m->vertex[Next(c)], m->vertex[Prev(c)]);
+}
+static int Upper(const MeshSerial *m, int c)
+{
+  return PetscMax(m->vertex[Next(c)], m->vertex[Prev(c)]);
+}
+
+/* The first corner in the chain that looks at the edge between two vertices, NONE if there is no such edge.
+ */
+static int Find(const MeshSerial *m, const FaceTable *table, int lower, int upper)
+{
+  int c = table->head[lower];
+  while (c != NONE && Upper(m, c) != upper) c = table->next[c];
+  return c;
+}
+
+static PetscErrorCode CheckTriangle(const MeshSerial *m, int e)
+{
+  const int *v = &m->vertex[3 * e];
+  PetscFunctionBeginUser;
+  for (int i = 0; i < 3; i++) {
+    PetscCheck(v[i] >= 0 && v[i] < m->nv, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
+               "triangle %d has the vertex %d; there are %d", e, v[i], m->nv);
+  }
+  const double *a = &m->x[2 * v[0]], *b = &m->x[2 * v[1]], *c = &m->x[2 * v[2]];
+  PetscCheck((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0.0, PETSC_COMM_SELF,
+             PETSC_ERR_ARG_WRONG, "triangle %d near (%g, %g) is clockwise or flat", e, a[0], a[1]);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Join(const MeshSerial *m, int c, int d, int across[])
+{
+  const double *p = &m->x[2 * m->vertex[Next(c)]];
+  PetscFunctionBeginUser;
+  PetscCheck(across[d] == NONE && m->vertex[Next(c)] == m->vertex[Prev(d)], PETSC_COMM_SELF,
+             PETSC_ERR_ARG_WRONG, "triangles %d and %d near (%g, %g) overlap on an edge", d / 3, c / 3, p[0],
+             p[1]);
+  across[c] = d;
+  across[d] = c;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode AdaptFaces(const MeshSerial *mesh, int across[], int mark[])
+{
+  FaceTable table;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(mesh->nv, &table.head, 3 * mesh->ne, &table.next));
+  for (int v = 0; v < mesh->nv; v++) table.head[v] = NONE;
+  for (int c = 0; c < 3 * mesh->ne; c++) {
+    if (c % 3 == 0) PetscCall(CheckTriangle(mesh, c / 3));
+    const int lower = Lower(mesh, c), d = Find(mesh, &table, lower, Upper(mesh, c));
+    across[c] = mark[c] = NONE;
+    if (d == NONE) {
+      table.next[c] = table.head[lower];
+      table.head[lower] = c;
+    } else {
+      PetscCall(Join(mesh, c, d, across));
+    }
+  }
+  for (int k = 0; k < mesh->nb; k++) {
+    const int p = mesh->facet[2 * k], q = mesh->facet[2 * k + 1];
+    const int c = Find(mesh, &table, PetscMin(p, q), PetscMax(p, q));
+    if (c == NONE) continue; /* off the mesh */
+    mark[c] = mesh->facet_tag[k];
+    if (across[c] != NONE) mark[across[c]] = mark[c];
+  }
+  PetscCall(PetscFree2(table.head, table.next));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,119 @@
+/* Private to the adapt room: a mesh that can be changed in place.
+ *
+ * A corner is 3 triangle + i and also names the face opposite to it, from vertex[Next(c)] to vertex[Prev(c)].
+ * across[c] is the corner of the neighbour that looks at the same face.  Dead slots are chained and used
+ * again. */
+#ifndef CORACLE_ADAPT_IMPL_H
+#define CORACLE_ADAPT_IMPL_H
+#include "adapt.h"
+#include "metric_tensor.h"
+#include <float.h>
+#include <stdbool.h>
+
+enum { NONE = -1, MAX_STAR = 64 };
+typedef enum { FREE, ON_LINE, FIXED } VertexKind;
+
+#define LONG_EDGE 1.4142135623730951
+#define SHORT_EDGE 0.7071067811865476
+
+/* The input, on which the metric is a function. */
+typedef struct {
+  const MeshSerial *mesh; /* borrowed */
+  int *across;            /* [ne][3] */
+  double *log_metric;     /* [nv][3] */
+} Background;
+
+typedef struct {
+  int nv, ne;         /* slots in use, dead ones included */
+  int max_v, max_e;   /* room */
+  int dead_v, dead_e; /* first of the chain of dead slots, NONE */
+  double *x;          /* [nv][2] */
+  double *metric;     /* [nv][3] */
+  int *corner;        /* [nv] one of the vertex's corners; NONE if dead (then home is the next dead one) */
+  int *home;          /* [nv] the background triangle that the vertex lies in */
+  int *origin;        /* [nv] number in the input or NONE */
+  int *stamp;         /* [nv] tick at which a triangle around it changed last */
+  char *kind;         /* [nv] VertexKind */
+  int *vertex;        /* [ne][3]; vertex[3e] is NONE if dead (then vertex[3e + 1] is the next dead one) */
+  int *across;        /* [ne][3], NONE on the boundary */
+  int *mark;         /* [ne][3] NONE or the line that the face lies on: a tag or ntags for one without name */
+  int *region;       /* [ne] */
+  char *frozen_mark; /* [ntags + 1] */
+  double scale;      /* largest coordinate, which bounds round-off */
+  int tick;
+  Background background;
+  AdaptReport report;
+} Adapt;
+
+/* The triangles around a vertex, counter-clockwise, by the corner that lies at the vertex. */
+typedef struct {
+  int n;
+  bool closed; /* false at the boundary: the first and the last triangle do not meet */
+  int corner[MAX_STAR];
+} Star;
+
+static inline int Next(int c)
+{
+  return c % 3 == 2 ? c - 2 : c + 1;
+}
+static inline int Prev(int c)
+{
+  return c % 3 == 0 ? c + 2 : c - 1;
+}
+
+/* Smallest height over longest edge of a triangle. */
+#define FLAT 1e-10
+
+/* Quality of a triangle with these vertices, at most 0 if it is flat or clockwise; *square as MetricQuality.
+ */
+static inline double AdaptQuality(const Adapt *a, int p, int q, int r, double *square)
+{
+  const double *const x[3] = {&a->x[2 * p], &a->x[2 * q], &a->x[2 * r]};
+  const double *const m[3] = {&a->metric[3 * p], &a->metric[3 * q], &a->metric[3 * r]};
+  const double ux = x[1][0] - x[0][0], uy = x[1][1] - x[0][1];
+  const double wx = x[2][0] - x[0][0], wy = x[2][1] - x[0][1];
+  const double vx = wx - ux, vy = wy - uy, u2 = ux * ux + uy * uy, w2 = wx * wx + wy * wy,
+               v2 = vx * vx + vy * vy;
+  const double longest = PetscMax(PetscMax(u2, w2), v2);
+  /* the second part bounds the effect of rounding the coordinates themselves */
+  if (!(ux * wy - uy * wx > FLAT * longest + 8.0 * DBL_EPSILON * a->scale * sqrt(longest))) return -1.0;
+  return MetricQuality(x, m, square);
+}
+
+static inline double AdaptLength(const Adapt *a, int p, int q)
+{
+  return MetricLength(&a->x[2 * p], &a->x[2 * q], &a->metric[3 * p], &a->metric[3 * q]);
+}
+
+/* adapt_build.c: from and to a MeshSerial. */
+PetscErrorCode AdaptCreate(const MeshSerial *mesh, const double metric[], const AdaptOptions *options,
+                           Adapt *a);
+PetscErrorCode AdaptDestroy(Adapt *a);
+PetscErrorCode AdaptExtract(const Adapt *a, AdaptResult *result);
+/* adapt_faces.c: the corner across each face, NONE on the boundary, and the tag of its facet, NONE without.
+ */
+PetscErrorCode AdaptFaces(const MeshSerial *mesh, int across[], int mark[]);
+
+/* adapt_mesh.c: slots, stars, measures. */
+PetscErrorCode AdaptReserve(Adapt *a); /* room for one more vertex and two triangles */
+int AdaptNewVertex(Adapt *a);
+int AdaptNewTriangle(Adapt *a);
+void AdaptKillVertex(Adapt *a, int v);
+void AdaptKillTriangle(Adapt *a, int e);
+void AdaptSetTriangle(Adapt *a, int e, int p, int q, int r); /* also their corners and stamps */
+void AdaptJoin(Adapt *a, int c, int d, int mark);            /* two faces become neighbours; d may be NONE */
+bool AdaptStar(const Adapt *a, int v, Star *star);           /* false if it is larger than MAX_STAR */
+/* Quality of a triangle with these vertices, at most 0 if it is flat or clockwise; *square as MetricQuality.
+ */
+double AdaptQuality(const Adapt *a, int p, int q, int r, double *square);
+double AdaptLength(const Adapt *a, int p, int q);
+
+/* adapt_background.c: metric at a point near background triangle *home, which is updated. */
+void BackgroundMetric(const Background *b, const double x[2], int *home, double metric[3]);
+
+/* One sweep each over what changed after tick `since`; they return how much they did. */
+PetscErrorCode AdaptSplit(Adapt *a, int since, int *done); /* adapt_split.c */
+int AdaptCollapse(Adapt *a, int since);                    /* adapt_collapse.c */
+int AdaptSwap(Adapt *a, int since);                        /* adapt_swap.c */
+int AdaptSmooth(Adapt *a, int since);                      /* adapt_smooth.c */
+#endif
