@@ -1,23 +1,12 @@
-/* Stops the test with what was expected and where; and what every adapted mesh must keep. */
-#ifndef TEST_ADAPT_CHECK_H
-#define TEST_ADAPT_CHECK_H
+/* What every adapted mesh must keep, and analytic metrics to adapt to. */
+#ifndef TEST_ADAPT_KEPT_H
+#define TEST_ADAPT_KEPT_H
 #include "adapt.h"
+#include "check.h"
 #include "metric.h"
 #include "metric_tensor.h"
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-
-#define CHECK(condition, ...)                                                                                \
-  do {                                                                                                       \
-    if (!(condition)) {                                                                                      \
-      fprintf(stderr, "%s:%d: %s: ", __FILE__, __LINE__, #condition);                                        \
-      fprintf(stderr, __VA_ARGS__);                                                                          \
-      fprintf(stderr, "\n");                                                                                 \
-      MPI_Abort(MPI_COMM_WORLD, 1);                                                                          \
-    }                                                                                                        \
-  } while (0)
 
 /* Uniform random numbers in [0, 1): Marsaglia's xorshift64*. */
 static inline double Random(unsigned long long *state)

@@ -1,0 +1,163 @@
+/* What stays: frozen vertices and lines bit by bit, a hole, an adapted mesh when it is adapted again; the
+ * same bits twice; wrong input is refused. */
+#include "kept.h"
+
+static const double LOWER[2] = {0.0, 0.0}, UPPER[2] = {1.0, 1.0};
+
+static void Fine(const void *context, const double x[2], double m[3])
+{
+  const double h = 0.01 + 0.1 * fabs(x[0] + x[1] - 0.9);
+  MetricOf(h, 0.3 * h, 0.8, m);
+}
+
+static void Coarse(const void *context, const double x[2], double m[3])
+{
+  MetricOf(0.4, 0.4, 0.0, m);
+}
+
+static int IsFacet(const MeshSerial *m, int p, int q)
+{
+  int k = 0;
+  while (k < m->nb && (m->facet[2 * k] != p || m->facet[2 * k + 1] != q)) k++;
+  return k < m->nb;
+}
+
+/* Adds facets of a new tag on all edges for which `is` holds. */
+static void AddTag(MeshSerial *m, const char *name, int (*is)(const double p[2], const double q[2]))
+{
+  CHECK(!PetscRealloc((size_t)(m->ntags + 1) * sizeof *m->tag_name, &m->tag_name), "no memory");
+  snprintf(m->tag_name[m->ntags], sizeof *m->tag_name, "%s", name);
+  CHECK(!PetscRealloc((size_t)(m->nb + 3 * m->ne) * 2 * sizeof(int), &m->facet), "no memory");
+  CHECK(!PetscRealloc((size_t)(m->nb + 3 * m->ne) * sizeof(int), &m->facet_tag), "no memory");
+  for (int c = 0; c < 3 * m->ne; c++) {
+    const int p = m->vertex[c], q = m->vertex[c - c % 3 + (c + 1) % 3];
+    if (!is(&m->x[2 * p], &m->x[2 * q]) || IsFacet(m, q, p)) continue; /* an inner edge comes twice */
+    m->facet[2 * m->nb] = p;
+    m->facet[2 * m->nb + 1] = q;
+    m->facet_tag[m->nb++] = m->ntags;
+  }
+  m->ntags++;
+}
+
+static int OnCut(const double p[2], const double q[2])
+{
+  return p[1] == 0.5 && q[1] == 0.5;
+}
+
+static int CountTag(const MeshSerial *m, int tag)
+{
+  int n = 0;
+  for (int k = 0; k < m->nb; k++) n += m->facet_tag[k] == tag;
+  return n;
+}
+
+/* A frozen line through the middle and a frozen side, refined and coarsened: no facet comes or goes. */
+static void CheckFrozenLines(MetricAt at)
+{
+  MeshSerial m;
+  AdaptResult r;
+  Box(LOWER, UPPER, 0.0625, &m);
+  AddTag(&m, "cut", OnCut);
+  char *frozen = calloc((size_t)m.ntags, 1);
+  frozen[0] = frozen[m.ntags - 1] = 1;
+  const AdaptOptions options = {.frozen_tag = frozen};
+  double *metric = SampleMetric(&m, at, NULL);
+  CHECK(!MeshAdapt(&m, metric, &options, &r), "not adapted");
+  CheckKept(&m, &r);
+  for (int tag = 0; tag < m.ntags; tag += m.ntags - 1) {
+    CHECK(CountTag(&m, tag) == 16 && CountTag(&r.mesh, tag) == 16, "%s: %d facets", m.tag_name[tag],
+          CountTag(&r.mesh, tag));
+  }
+  for (int k = 0; k < r.mesh.nb; k++) {
+    const int v = r.mesh.facet[2 * k];
+    CHECK(!frozen[r.mesh.facet_tag[k]] || r.origin[v] >= 0, "vertex %d of a frozen line moved", v);
+  }
+  free(metric);
+  free(frozen);
+  AdaptResultDestroy(&r);
+  MeshSerialDestroy(&m);
+}
+
+static int OnHole(const double p[2], const double q[2])
+{
+  const double x = 0.5 * (p[0] + q[0]) - 0.5, y = 0.5 * (p[1] + q[1]) - 0.5;
+  return fabs(fmax(fabs(x), fabs(y)) - 0.25) < 1e-12;
+}
+
+/* A square hole: lines end at its corners, and walks in the old mesh must get around it. */
+static void CheckHole(void)
+{
+  MeshSerial m;
+  AdaptResult fine, coarse;
+  int ne = 0;
+  Box(LOWER, UPPER, 0.0625, &m);
+  for (int e = 0; e < m.ne; e++) {
+    double x = -0.5, y = -0.5;
+    for (int i = 0; i < 3; i++)
+      x += m.x[2 * m.vertex[3 * e + i]] / 3.0, y += m.x[2 * m.vertex[3 * e + i] + 1] / 3.0;
+    if (fmax(fabs(x), fabs(y)) < 0.25) continue;
+    memmove(&m.vertex[3 * ne++], &m.vertex[3 * e], 3 * sizeof(int));
+  }
+  m.ne = ne;
+  AddTag(&m, "hole", OnHole);
+  AdaptTo(&m, Fine, NULL, 3, &fine);
+  CHECK(fabs(TagLength(&fine.mesh, m.ntags - 1) - 2.0) < 1e-12, "the hole's side is %g",
+        TagLength(&m, m.ntags - 1));
+  AdaptTo(&fine.mesh, Coarse, NULL, 2, &coarse);
+  CHECK(coarse.mesh.ne < 60, "%d triangles are left", coarse.mesh.ne);
+  AdaptResultDestroy(&fine);
+  AdaptResultDestroy(&coarse);
+  MeshSerialDestroy(&m);
+}
+
+static void CheckAgain(void)
+{
+  MeshSerial m;
+  AdaptResult first, again, twin;
+  Box(LOWER, UPPER, 0.0625, &m);
+  AdaptTo(&m, Fine, NULL, 3, &first);
+  CHECK(!MeshAdapt(&first.mesh, first.metric, NULL, &again), "not adapted");
+  CHECK(!MeshAdapt(&first.mesh, first.metric, NULL, &twin), "not adapted");
+  const AdaptReport *r = &again.report;
+  CHECK(50 * (r->splits + r->collapses) < first.mesh.nv, "%d splits and %d collapses of %d vertices",
+        r->splits, r->collapses, first.mesh.nv);
+  CHECK(10 * (r->moves + r->swaps) < first.mesh.nv, "%d moves and %d swaps", r->moves, r->swaps);
+  CHECK(again.mesh.nv == twin.mesh.nv && again.mesh.ne == twin.mesh.ne &&
+            !memcmp(again.mesh.x, twin.mesh.x, (size_t)again.mesh.nv * 2 * sizeof(double)) &&
+            !memcmp(again.mesh.vertex, twin.mesh.vertex, (size_t)again.mesh.ne * 3 * sizeof(int)),
+        "the same input twice, two meshes");
+  AdaptResultDestroy(&first);
+  AdaptResultDestroy(&again);
+  AdaptResultDestroy(&twin);
+  MeshSerialDestroy(&m);
+}
+
+static void CheckRefused(void)
+{
+  MeshSerial m;
+  AdaptResult r;
+  Box(LOWER, UPPER, 0.5, &m);
+  double *metric = SampleMetric(&m, Coarse, NULL);
+  PetscPushErrorHandler(PetscIgnoreErrorHandler, NULL);
+  metric[0] = -1.0;
+  CHECK(MeshAdapt(&m, metric, NULL, &r) == PETSC_ERR_ARG_OUTOFRANGE, "a negative metric is taken");
+  metric[0] = metric[2];
+  const int first = m.vertex[0];
+  m.vertex[0] = m.vertex[1];
+  m.vertex[1] = first;
+  CHECK(MeshAdapt(&m, metric, NULL, &r) == PETSC_ERR_ARG_WRONG, "a clockwise triangle is taken");
+  PetscPopErrorHandler();
+  free(metric);
+  MeshSerialDestroy(&m);
+}
+
+int main(int argc, char **argv)
+{
+  PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
+  CheckFrozenLines(Fine);
+  CheckFrozenLines(Coarse);
+  CheckHole();
+  CheckAgain();
+  CheckRefused();
+  return PetscFinalize();
+}
