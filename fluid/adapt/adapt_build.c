@@ -1,6 +1,33 @@
 #include "adapt_impl.h"
 #include <string.h>
 
+static PetscErrorCode CheckTriangle(const MeshSerial *m, int e)
+{
+  const int *v = &m->vertex[3 * e];
+  PetscFunctionBeginUser;
+  for (int i = 0; i < 3; i++) {
+    PetscCheck(v[i] >= 0 && v[i] < m->nv, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
+               "triangle %d has the vertex %d; there are %d", e, v[i], m->nv);
+  }
+  const double *a = &m->x[2 * v[0]], *b = &m->x[2 * v[1]], *c = &m->x[2 * v[2]];
+  PetscCheck((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0.0, PETSC_COMM_SELF,
+             PETSC_ERR_ARG_WRONG, "triangle %d near (%g, %g) is clockwise or flat", e, a[0], a[1]);
+  PetscFunctionReturn(0);
+}
+
+/* Before anything is allocated. */
+static PetscErrorCode CheckInput(const MeshSerial *m, const double metric[])
+{
+  PetscFunctionBeginUser;
+  for (int e = 0; e < m->ne; e++) PetscCall(CheckTriangle(m, e));
+  for (int v = 0; v < m->nv; v++) {
+    PetscCheck(MetricIsValid(&metric[3 * v]), PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
+               "the metric (%g, %g, %g) at (%g, %g) is not positive definite", metric[3 * v],
+               metric[3 * v + 1], metric[3 * v + 2], m->x[2 * v], m->x[2 * v + 1]);
+  }
+  PetscFunctionReturn(0);
+}
+
 /* A boundary face, or one between two regions, that no facet names. */
 static void MarkUnnamed(Adapt *a, int unnamed)
 {
@@ -62,9 +89,6 @@ static PetscErrorCode CopyVertices(Adapt *a, const MeshSerial *m, const double m
 {
   PetscFunctionBeginUser;
   for (int v = 0; v < m->nv; v++) {
-    PetscCheck(MetricIsValid(&metric[3 * v]), PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-               "the metric (%g, %g, %g) at (%g, %g) is not positive definite", metric[3 * v],
-               metric[3 * v + 1], metric[3 * v + 2], m->x[2 * v], m->x[2 * v + 1]);
     MetricLog(&metric[3 * v], &a->background.log_metric[3 * v]);
     a->origin[v] = v;
     a->stamp[v] = 0;
@@ -96,6 +120,7 @@ PetscErrorCode AdaptCreate(const MeshSerial *mesh, const double metric[], const 
 {
   PetscFunctionBeginUser;
   memset(a, 0, sizeof *a);
+  PetscCall(CheckInput(mesh, metric));
   a->dead_v = a->dead_e = NONE;
   a->background.mesh = mesh;
   PetscCall(PetscMalloc2(3 * mesh->ne, &a->background.across, 3 * mesh->nv, &a->background.log_metric));

@@ -23,20 +23,6 @@ static int Find(const MeshSerial *m, const FaceTable *table, int lower, int uppe
   return c;
 }
 
-static PetscErrorCode CheckTriangle(const MeshSerial *m, int e)
-{
-  const int *v = &m->vertex[3 * e];
-  PetscFunctionBeginUser;
-  for (int i = 0; i < 3; i++) {
-    PetscCheck(v[i] >= 0 && v[i] < m->nv, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
-               "triangle %d has the vertex %d; there are %d", e, v[i], m->nv);
-  }
-  const double *a = &m->x[2 * v[0]], *b = &m->x[2 * v[1]], *c = &m->x[2 * v[2]];
-  PetscCheck((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0.0, PETSC_COMM_SELF,
-             PETSC_ERR_ARG_WRONG, "triangle %d near (%g, %g) is clockwise or flat", e, a[0], a[1]);
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode Join(const MeshSerial *m, int c, int d, int across[])
 {
   const double *p = &m->x[2 * m->vertex[Next(c)]];
@@ -56,7 +42,6 @@ PetscErrorCode AdaptFaces(const MeshSerial *mesh, int across[], int mark[])
   PetscCall(PetscMalloc2(mesh->nv, &table.head, 3 * mesh->ne, &table.next));
   for (int v = 0; v < mesh->nv; v++) table.head[v] = NONE;
   for (int c = 0; c < 3 * mesh->ne; c++) {
-    if (c % 3 == 0) PetscCall(CheckTriangle(mesh, c / 3));
     const int lower = Lower(mesh, c), d = Find(mesh, &table, lower, Upper(mesh, c));
     across[c] = mark[c] = NONE;
     if (d == NONE) {

@@ -75,7 +75,7 @@ static bool Move(Adapt *a, int v)
   double *x = &a->x[2 * v], *m = &a->metric[3 * v];
   const double x0[2] = {x[0], x[1]}, m0[3] = {m[0], m[1], m[2]};
   double step = 1.0;
-  for (int trial = 0; trial < 3; trial++, step *= 0.5) {
+  for (int trial = 0; trial < 2; trial++, step *= 0.5) {
     int home = a->home[v];
     for (int k = 0; k < 2; k++) x[k] = x0[k] + step * (target[k] - x0[k]);
     if (a->kind[v] == ON_LINE) Project(a, end, x);

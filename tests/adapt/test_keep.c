@@ -10,6 +10,13 @@ static void Fine(const void *context, const double x[2], double m[3])
   MetricOf(h, 0.3 * h, 0.8, m);
 }
 
+/* log M is linear: its interpolation is exact. */
+static void LogLinear(const void *context, const double x[2], double m[3])
+{
+  const double h = *(const double *)context * exp(2.0 * x[0] - x[1]);
+  MetricOf(h, 0.4 * h, 0.8, m);
+}
+
 static void Coarse(const void *context, const double x[2], double m[3])
 {
   MetricOf(0.4, 0.4, 0.0, m);
@@ -84,6 +91,25 @@ static int OnHole(const double p[2], const double q[2])
   return fabs(fmax(fabs(x), fabs(y)) - 0.25) < 1e-12;
 }
 
+/* The metric on every new or moved vertex is that of its place, wherever the walk to it in the old mesh
+ * began. */
+static void CheckMetricKept(const MeshSerial *from, double size)
+{
+  AdaptResult r;
+  double *metric = SampleMetric(from, LogLinear, &size), exact[3];
+  CHECK(!MeshAdapt(from, metric, NULL, &r), "not adapted");
+  CheckKept(from, &r);
+  for (int v = 0; v < r.mesh.nv; v++) {
+    LogLinear(&size, &r.mesh.x[2 * v], exact);
+    for (int k = 0; k < 3; k++) {
+      const double error = fabs(r.metric[3 * v + k] - exact[k]) / (exact[0] + exact[2]);
+      CHECK(error < 1e-10, "metric at (%g, %g) is wrong by %g", r.mesh.x[2 * v], r.mesh.x[2 * v + 1], error);
+    }
+  }
+  free(metric);
+  AdaptResultDestroy(&r);
+}
+
 /* A square hole: lines end at its corners, and walks in the old mesh must get around it. */
 static void CheckHole(void)
 {
@@ -103,6 +129,9 @@ static void CheckHole(void)
   AdaptTo(&m, Fine, NULL, 3, &fine);
   CHECK(fabs(TagLength(&fine.mesh, m.ntags - 1) - 2.0) < 1e-12, "the hole's side is %g",
         TagLength(&m, m.ntags - 1));
+  CheckMetricKept(&m, 0.01);
+  CheckMetricKept(&fine.mesh, 0.05);
+  CheckMetricKept(&fine.mesh, 0.2);
   AdaptTo(&fine.mesh, Coarse, NULL, 2, &coarse);
   CHECK(coarse.mesh.ne < 60, "%d triangles are left", coarse.mesh.ne);
   AdaptResultDestroy(&fine);
