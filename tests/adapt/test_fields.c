@@ -47,6 +47,8 @@ static void CheckFit(const char *name, const AdaptReport *r, const char *which)
     printf("%-6s %-8s %7d edges, %.2f %% unit, in [%.3f, %.3f], quality worst %.3f mean %.3f\n", name, which,
            r->edges, 100.0 * share, r->shortest, r->longest, r->quality_worst, r->quality_mean);
   CHECK(share > 0.95, "%s: %.2f %% of the edges are unit in the %s metric", name, 100.0 * share, which);
+  CHECK(r->shortest > 0.3 && r->longest < 1.6, "%s: edges from %g to %g in the %s metric", name, r->shortest,
+        r->longest, which);
   CHECK(r->quality_worst > 0.2, "%s: worst quality %g in the %s metric", name, r->quality_worst, which);
 }
 
