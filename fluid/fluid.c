@@ -18,6 +18,15 @@ static PetscErrorCode CreateElements(Fluid f)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode FluidDefaultOption(const char *name, const char *value)
+{
+  PetscBool given;
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsHasName(NULL, NULL, name, &given));
+  if (!given) PetscCall(PetscOptionsSetValue(NULL, name, value));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *fluid)
 {
   Fluid f;

@@ -39,6 +39,9 @@ struct Fluid_s {
   FluidStats stats;
 };
 
+/* Sets an option of PETSc that nobody has given: for solvers that are made inside of others. */
+PetscErrorCode FluidDefaultOption(const char *name, const char *value);
+
 /* boundary.c */
 PetscErrorCode BoundaryPrepare(Fluid f);
 void BoundaryVelocity(const Boundary *b, double t, const double x[2], double v[2]);

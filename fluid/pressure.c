@@ -68,15 +68,6 @@ static PetscErrorCode AssembleLaplacian(Fluid f)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode DefaultOption(const char *name, const char *value)
-{
-  PetscBool given;
-  PetscFunctionBeginUser;
-  PetscCall(PetscOptionsHasName(NULL, NULL, name, &given));
-  if (!given) PetscCall(PetscOptionsSetValue(NULL, name, value));
-  PetscFunctionReturn(0);
-}
-
 /* A direct solver, factored once a mesh: PETSc's own Cholesky, whose two triangular solves are twice as fast
  * here as those of the supernodal packages.  On several ranks one of them has the factor: its solve costs
  * less than a distributed one, until the mesh is large; -pressure_pc_type and the like choose otherwise. */
@@ -98,9 +89,9 @@ static PetscErrorCode CreateSolver(Fluid f)
   } else {
     PetscCall(PCSetType(pc, PCTELESCOPE));
     PetscCall(PCTelescopeSetReductionFactor(pc, size));
-    PetscCall(DefaultOption("-pressure_telescope_ksp_type", "preonly"));
-    PetscCall(DefaultOption("-pressure_telescope_pc_type", "cholesky"));
-    PetscCall(DefaultOption("-pressure_telescope_pc_factor_mat_ordering_type", "amd"));
+    PetscCall(FluidDefaultOption("-pressure_telescope_ksp_type", "preonly"));
+    PetscCall(FluidDefaultOption("-pressure_telescope_pc_type", "cholesky"));
+    PetscCall(FluidDefaultOption("-pressure_telescope_pc_factor_mat_ordering_type", "amd"));
   }
   PetscCall(KSPSetFromOptions(f->pressure_ksp));
   PetscFunctionReturn(0);
