@@ -116,7 +116,6 @@ PetscErrorCode ExchangeFlow(Exchange x, const CoracleCorrection **correction)
     PetscCall(PetscArraycpy(x->u_plus + 6 * k, u_plus + 6 * e, 6));
     for (int i = 0; i < 6; i++) x->p[6 * k + i] = p[m->p2[6 * e + i]];
     x->mu[k] = mu[e];
-    x->rho[k] = FluidDensity(x->fluid)[e];
   }
   PetscCall(CoracleSetFlow(x->client, x->u_star, x->u_plus, x->p, x->mu));
   PetscCall(CoracleProposeStep(x->client, FluidTimeStep(x->fluid)));

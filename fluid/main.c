@@ -20,14 +20,13 @@ static const char *const SECTIONS[] = {"fluid", NULL};
 static PetscErrorCode Setup(Case c, MPI_Comm comm, Mesh **mesh, Fluid *fluid)
 {
   FluidSetup setup;
-  double velocity[2];
   PetscFunctionBeginUser;
   PetscCall(PetscOptionsInsertString(NULL, CaseStringOr(c, "fluid.petsc", "")));
   PetscCall(FluidCaseMesh(c, comm, mesh));
   PetscCall(FluidCaseSetup(c, *mesh, &setup));
   PetscCall(CaseFinish(c, SECTIONS));
   PetscCall(FluidCreate(*mesh, &setup, fluid));
-  PetscCall(FluidSetInitial(*fluid, 0.0, NULL, NULL, velocity));
+  PetscCall(FluidSetInitial(*fluid, 0.0, NULL, NULL, NULL));
   PetscCall(PetscFree(setup.boundary));
   PetscFunctionReturn(0);
 }
