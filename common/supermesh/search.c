@@ -143,6 +143,16 @@ int SearchQuery(Search s, const GeometryBox *box, const int **hit)
   return n;
 }
 
+int SearchCover(Search s, int max, GeometryBox cover[])
+{
+  int first = 1, n = 0;
+  while (2 * first <= max && first < s->nleaf) first *= 2;
+  for (int i = first; i < 2 * first; i++) {
+    if (s->node[i].lower[0] <= s->node[i].upper[0]) cover[n++] = s->node[i];
+  }
+  return n;
+}
+
 void SearchDestroy(Search *search)
 {
   Search s = *search;

@@ -21,20 +21,28 @@ static void IntegrateFan(int n, const double polygon[][2], const double z[][6], 
   }
 }
 
-int SupermeshIntegrate(const double a[3][2], const double b[3][2], SupermeshPair *pair)
+/* The common polygon and the functions N_A (3) and N_B (3) at its vertices; 0 when there is next to none. */
+static int Common(const double a[3][2], const double b[3][2], double polygon[GEOMETRY_CLIP_MAX][2],
+                  double z[GEOMETRY_CLIP_MAX][6], double *area)
 {
-  double polygon[GEOMETRY_CLIP_MAX][2], z[GEOMETRY_CLIP_MAX][6], m[6][6];
   const double area_a = GeometryArea(a), area_b = GeometryArea(b);
   if (!(area_a > 0.0 && area_b > 0.0)) return 0;
   const int n = GeometryClip(a, b, polygon);
-  const double area = GeometryPolygonArea(n, (const double(*)[2])polygon);
-  if (area <= SLIVER * fmin(area_a, area_b)) return 0;
+  *area = GeometryPolygonArea(n, (const double(*)[2])polygon);
+  if (*area <= SLIVER * fmin(area_a, area_b)) return 0;
   for (int k = 0; k < n; k++) {
     GeometryBarycentric(a, polygon[k], &z[k][0]);
     GeometryBarycentric(b, polygon[k], &z[k][3]);
   }
+  return n;
+}
+
+int SupermeshIntegrate(const double a[3][2], const double b[3][2], SupermeshPair *pair)
+{
+  double polygon[GEOMETRY_CLIP_MAX][2], z[GEOMETRY_CLIP_MAX][6], m[6][6];
+  const int n = Common(a, b, polygon, z, &pair->area);
+  if (!n) return 0;
   IntegrateFan(n, (const double(*)[2])polygon, (const double(*)[6])z, m);
-  pair->area = area;
   for (int i = 0; i < 3; i++) {
     for (int j = 0; j < 3; j++) {
       pair->aa[i][j] = m[i][j];
@@ -43,6 +51,26 @@ int SupermeshIntegrate(const double a[3][2], const double b[3][2], SupermeshPair
     }
   }
   return 1;
+}
+
+int SupermeshMixed(const double a[3][2], const double b[3][2], double mixed[3][3])
+{
+  double polygon[GEOMETRY_CLIP_MAX][2], z[GEOMETRY_CLIP_MAX][6], area;
+  const int n = Common(a, b, polygon, z, &area);
+  if (!n) return 0;
+  memset(mixed, 0, 9 * sizeof(double));
+  for (int k = 1; k + 1 < n; k++) {
+    const double w = GeometryTurn(polygon[0], polygon[k], polygon[k + 1]) / 24.0;
+    double s[6];
+    for (int i = 0; i < 6; i++) s[i] = z[0][i] + z[k][i] + z[k + 1][i];
+    for (int i = 0; i < 3; i++) {
+      for (int j = 0; j < 3; j++) {
+        mixed[i][j] += w * (z[0][i] * z[0][3 + j] + z[k][i] * z[k][3 + j] + z[k + 1][i] * z[k + 1][3 + j] +
+                            s[i] * s[3 + j]);
+      }
+    }
+  }
+  return n > 0;
 }
 
 static int Reserve(SupermeshPairs *pairs, int n)
@@ -79,32 +107,4 @@ void SupermeshPairsDestroy(SupermeshPairs *pairs)
 {
   free(pairs->pair);
   *pairs = (SupermeshPairs){0};
-}
-
-/* The inverse of the P1 mass matrix area/12 (I + 1 1^T) is 12/area (I - 1 1^T / 4). */
-static void InvertMass(double area, double q[3])
-{
-  const double quarter = 0.25 * (q[0] + q[1] + q[2]);
-  for (int i = 0; i < 3; i++) q[i] = 12.0 / area * (q[i] - quarter);
-}
-
-void SupermeshProject(const SupermeshPairs *pairs, SupermeshDirection direction, int nt,
-                      const double x[][3][2], int ncomp, const double source[], double target[])
-{
-  const int forward = direction == SUPERMESH_A_TO_B;
-  memset(target, 0, (size_t)nt * (size_t)ncomp * 3 * sizeof *target);
-  for (int p = 0; p < pairs->n; p++) {
-    const SupermeshPair *pair = &pairs->pair[p];
-    const double *from = source + (size_t)(forward ? pair->a : pair->b) * (size_t)ncomp * 3;
-    double *to = target + (size_t)(forward ? pair->b : pair->a) * (size_t)ncomp * 3;
-    for (int c = 0; c < ncomp; c++, from += 3, to += 3) {
-      for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) to[i] += (forward ? pair->ab[j][i] : pair->ab[i][j]) * from[j];
-      }
-    }
-  }
-  for (int t = 0; t < nt; t++) {
-    for (int c = 0; c < ncomp; c++)
-      InvertMass(GeometryArea(x[t]), target + ((size_t)t * (size_t)ncomp + (size_t)c) * 3);
-  }
 }

@@ -27,6 +27,22 @@ static void CheckQuery(Search search, int n, const GeometryBox set[], GeometryBo
   }
 }
 
+/* Every box is in one of the cover's, and there are several unless the set is tiny. */
+static void CheckCover(Search search, int n, const GeometryBox set[])
+{
+  GeometryBox cover[16];
+  const int ncover = SearchCover(search, 16, cover);
+  CHECK(ncover <= 16 && (n > 0) == (ncover > 0) && (n < N || ncover > 8), "%d boxes cover %d", ncover, n);
+  for (int i = 0; i < n; i++) {
+    int inside = 0;
+    for (int k = 0; k < ncover; k++) {
+      inside += cover[k].lower[0] <= set[i].lower[0] && set[i].upper[0] <= cover[k].upper[0] &&
+                cover[k].lower[1] <= set[i].lower[1] && set[i].upper[1] <= cover[k].upper[1];
+    }
+    CHECK(inside > 0, "box %d is not covered", i);
+  }
+}
+
 int main(void)
 {
   static GeometryBox set[N];
@@ -37,6 +53,7 @@ int main(void)
     Search search;
     CHECK(SearchCreate(counts[k], set, &search) == 0, "no memory");
     for (int q = 0; q < 500; q++) CheckQuery(search, counts[k], set, q < counts[k] ? set[q] : RandomBox());
+    CheckCover(search, counts[k], set);
     SearchDestroy(&search);
     CHECK(search == NULL, "the handle is nulled");
   }

@@ -1,4 +1,5 @@
 /* Pair integrals against quadrature, partition of unity, and Galerkin projection between random meshes. */
+#include "projection.h"
 #include "random_mesh.h"
 #include "supermesh.h"
 
@@ -71,9 +72,10 @@ static double Integral(int n, const double x[][3][2], int comp, const double f[]
 }
 
 /* Component 0 is a P1 field, component 1 random values. */
-static void CheckProjection(SupermeshDirection direction, int ns, const double xs[][3][2], int nt,
-                            const double xt[][3][2])
+static void CheckProjection(int ns, const double xs[][3][2], int nt, const double xt[][3][2])
 {
+  Search search;
+  Projection projection;
   double(*source)[2][3] = malloc(sizeof(double[2][3]) * (size_t)ns), (*target)[2][3];
   target = malloc(sizeof(double[2][3]) * (size_t)nt);
   for (int s = 0; s < ns; s++) {
@@ -82,7 +84,10 @@ static void CheckProjection(SupermeshDirection direction, int ns, const double x
       source[s][1][v] = Random(-1.0, 1.0);
     }
   }
-  SupermeshProject(&pairs, direction, nt, xt, 2, &source[0][0][0], &target[0][0][0]);
+  CHECK(SearchCreateTriangles(ns, xs, &search) == 0, "no memory");
+  CHECK(ProjectionCreate(nt, xt, search, xs, &projection) == 0, "no memory");
+  CHECK(ProjectionPairs(projection) == pairs.n, "%d pairs, not %d", ProjectionPairs(projection), pairs.n);
+  ProjectionApply(projection, 2, &source[0][0][0], NULL, &target[0][0][0]);
   for (int t = 0; t < nt; t++) {
     for (int v = 0; v < 3; v++) {
       CHECK(fabs(target[t][0][v] - Linear(xt[t][v])) < 1e-11, "a P1 field is not reproduced: error %g",
@@ -94,6 +99,8 @@ static void CheckProjection(SupermeshDirection direction, int ns, const double x
     const double after = Integral(nt, xt, c, (const double(*)[2][3])target);
     CHECK(fabs(after - before) < 1e-12, "integral %d changes by %g", c, after - before);
   }
+  ProjectionDestroy(&projection);
+  SearchDestroy(&search);
   free(source);
   free(target);
 }
@@ -107,8 +114,8 @@ int main(void)
   CHECK(SearchCreateTriangles(nb, xb, &search) == 0, "no memory");
   CHECK(SupermeshIntersect(na, xa, search, xb, &pairs) == 0, "no memory");
   CheckPairs();
-  CheckProjection(SUPERMESH_A_TO_B, na, xa, nb, xb);
-  CheckProjection(SUPERMESH_B_TO_A, nb, xb, na, xa);
+  CheckProjection(na, xa, nb, xb);
+  CheckProjection(nb, xb, na, xa);
   SearchDestroy(&search);
   SupermeshPairsDestroy(&pairs);
   free(a);

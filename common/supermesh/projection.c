@@ -1,0 +1,106 @@
+#include "projection.h"
+#include "supermesh.h"
+#include <stdlib.h>
+
+/* What a source gives to a target. */
+typedef struct {
+  int source;
+  double mixed[3][3]; /* int N_T,i N_S,j, m2 */
+} Share;
+
+struct Projection_s {
+  int nt, capacity;
+  int *first;   /* [nt + 1] shares of target t: first[t] .. first[t + 1] - 1 */
+  double *area; /* [nt] m2 */
+  Share *share;
+};
+
+static int Reserve(Projection p, int n)
+{
+  if (n <= p->capacity) return 0;
+  const int capacity = n + n / 2 + 64;
+  Share *share = realloc(p->share, (size_t)capacity * sizeof *share);
+  if (!share) return 1;
+  p->share = share;
+  p->capacity = capacity;
+  return 0;
+}
+
+/* The shares of one target; returns their new total, -1 without memory. */
+static int AddTarget(Projection p, int n, const double target[3][2], Search search,
+                     const double source[][3][2])
+{
+  const GeometryBox box = GeometryBoxOf(target);
+  const int *hit, nhit = SearchQuery(search, &box, &hit);
+  if (nhit < 0 || Reserve(p, n + nhit)) return -1;
+  for (int h = 0; h < nhit; h++) {
+    if (!SupermeshMixed(target, source[hit[h]], p->share[n].mixed)) continue;
+    p->share[n++].source = hit[h];
+  }
+  return n;
+}
+
+int ProjectionCreate(int nt, const double target[][3][2], Search search, const double source[][3][2],
+                     Projection *projection)
+{
+  Projection p = calloc(1, sizeof *p);
+  int n = 0;
+  *projection = p;
+  if (!p) return 1;
+  p->nt = nt;
+  p->first = malloc(((size_t)nt + 1) * sizeof *p->first);
+  p->area = malloc(((size_t)nt + 1) * sizeof *p->area);
+  if (!p->first || !p->area) n = -1;
+  for (int t = 0; t < nt && n >= 0; t++) {
+    p->first[t] = n;
+    p->area[t] = GeometryArea(target[t]);
+    n = AddTarget(p, n, target[t], search, source);
+  }
+  if (n < 0) {
+    ProjectionDestroy(projection);
+    return 1;
+  }
+  p->first[nt] = n;
+  return 0;
+}
+
+/* The inverse of the P1 mass matrix area/12 (I + 1 1^T) is 12/area (I - 1 1^T / 4). */
+static void InvertMass(double area, double q[3])
+{
+  const double quarter = 0.25 * (q[0] + q[1] + q[2]);
+  for (int i = 0; i < 3; i++) q[i] = 12.0 / area * (q[i] - quarter);
+}
+
+void ProjectionApply(Projection p, int ncomp, const double source[], const int place[], double target[])
+{
+  const size_t stride = 3 * (size_t)ncomp;
+  for (int t = 0; t < p->nt; t++) {
+    double *to = target + stride * (size_t)(place ? place[t] : t);
+    memset(to, 0, stride * sizeof *to);
+    for (const Share *s = p->share + p->first[t]; s < p->share + p->first[t + 1]; s++) {
+      const double *from = source + stride * (size_t)s->source;
+      for (int c = 0; c < ncomp; c++) {
+        for (int i = 0; i < 3; i++) {
+          for (int j = 0; j < 3; j++) to[3 * c + i] += s->mixed[i][j] * from[3 * c + j];
+        }
+      }
+    }
+    for (int c = 0; c < ncomp; c++) InvertMass(p->area[t], to + 3 * c);
+  }
+}
+
+int ProjectionPairs(Projection p)
+{
+  return p->first[p->nt];
+}
+
+void ProjectionDestroy(Projection *projection)
+{
+  Projection p = *projection;
+  if (!p) return;
+  free(p->first);
+  free(p->area);
+  free(p->share);
+  free(p);
+  *projection = NULL;
+}
