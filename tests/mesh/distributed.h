@@ -7,12 +7,12 @@
 typedef struct {
   double upper[2], size_max;
   Strip strip;
-} Box;
+} BoxCase;
 
 static const double LOWER[2] = {0.0, 0.0};
 
 /* Owned elements of all ranks fill estart .. nglobal, and their area is the box's. */
-static inline void CheckOwned(const Mesh *m, const Box *box)
+static inline void CheckOwned(const Mesh *m, const BoxCase *box)
 {
   double area = 0.0;
   PetscInt ne = m->ne, before = 0;
@@ -50,7 +50,7 @@ static inline void CheckFace(const Mesh *m, int k, int touched[])
     touched[other - m->ne]++;
 }
 
-static inline void CheckFaces(const Mesh *m, const Box *box)
+static inline void CheckFaces(const Mesh *m, const BoxCase *box)
 {
   int *touched = calloc((size_t)m->ng + 1, sizeof *touched);
   double length[4] = {0.0};
@@ -127,7 +127,7 @@ static inline void CheckNodes(const Mesh *m, int vertices)
   free(mine);
 }
 
-static inline void CheckDistributed(const Mesh *m, const Box *box, int vertices)
+static inline void CheckDistributed(const Mesh *m, const BoxCase *box, int vertices)
 {
   CheckOwned(m, box);
   CheckFaces(m, box);

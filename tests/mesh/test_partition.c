@@ -3,7 +3,7 @@
  * ranks without elements. */
 #include "distributed.h"
 
-static PetscErrorCode Distributed(Box *box, Mesh **mesh)
+static PetscErrorCode Distributed(BoxCase *box, Mesh **mesh)
 {
   MeshSerial serial = {0};
   PetscMPIInt rank;
@@ -33,8 +33,8 @@ static void CheckQuality(const Mesh *m)
 int main(int argc, char **argv)
 {
   /* a graded mesh, and two triangles: from three ranks on some have none */
-  Box box[] = {{{2.5, 5.5}, 0.1, {0.02, {1.08, 1.0}, {1.42, 4.95}, 0.25}},
-               {{1.0, 1.0}, 10.0, {10.0, {0, 0}, {1, 1}, 0.0}}};
+  BoxCase box[] = {{{2.5, 5.5}, 0.1, {0.02, {1.08, 1.0}, {1.42, 4.95}, 0.25}},
+                   {{1.0, 1.0}, 10.0, {10.0, {0, 0}, {1, 1}, 0.0}}};
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   for (int k = 0; k < 2; k++) {
     MeshSerial serial;

@@ -5,7 +5,7 @@
 #include "distributed.h"
 #include "piece.h"
 
-static const Box BOX = {{1.0, 2.0}, 0.2, {0.04, {0.3, 0.3}, {0.4, 1.0}, 0.3}};
+static const BoxCase BOX = {{1.0, 2.0}, 0.2, {0.04, {0.3, 0.3}, {0.4, 1.0}, 0.3}};
 static int rank, size;
 
 /* Rank 0 has the box, the others nothing; gids are scattered and larger than an int. */
