@@ -1,6 +1,6 @@
-/* A distributed mesh of triangles, what the fluid computes on.  Built on rank 0 (box mesher or Gmsh file),
- * partitioned with METIS, distributed with one layer of face-neighbour ghosts, elements renumbered for
- * locality on each rank.
+/* A distributed mesh of triangles, what the fluid computes on.  Made on rank 0 (box mesher or Gmsh file),
+ * partitioned with METIS, or built from pieces that are on all ranks already (piece.h); one layer of
+ * face-neighbour ghosts, elements renumbered for locality on each rank.
  *
  *            2                 local vertex i; face i lies opposite to vertex i, from vertex (i+1)%3 to
  * (i+2)%3, / \                so that the outward normal is the right-hand side of that direction (elements
@@ -15,7 +15,7 @@
 typedef struct {
   MPI_Comm comm; /* borrowed */
   int dim;       /* 2 */
-  int nv;        /* local vertices, of owned and ghost elements */
+  int nv;        /* local vertices: of owned elements, then those of ghosts alone */
   double *x;     /* [nv][2], m */
   int ne, ng;  /* owned elements; ghosts follow: share a face with an owned element, owned by another rank */
   int *vertex; /* [ne + ng][3] local vertices, counter-clockwise */

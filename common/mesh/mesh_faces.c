@@ -1,6 +1,5 @@
 #include "mesh_impl.h"
 #include "mesh_table.h"
-#include <string.h>
 
 PetscErrorCode MeshFacesDestroy(MeshFaces *faces)
 {
@@ -9,20 +8,13 @@ PetscErrorCode MeshFacesDestroy(MeshFaces *faces)
   PetscFunctionReturn(0);
 }
 
-static void FaceEnds(const MeshSerial *s, int ef, int *a, int *b)
-{
-  const int *v = &s->vertex[ef - ef % 3];
-  *a = v[(ef + 1) % 3];
-  *b = v[(ef + 2) % 3];
-}
-
-/* Face ef (3 element + face) meets `other`, the face that came first on the same edge. */
+/* Face ef meets `other`, the face that came first on the same edge. */
 static PetscErrorCode Join(const MeshSerial *s, int ef, int other, MeshFaces *f)
 {
   int a, b, p, q;
   PetscFunctionBeginUser;
-  FaceEnds(s, ef, &a, &b);
-  FaceEnds(s, other, &p, &q);
+  MeshFaceEnds(s, ef, &a, &b);
+  MeshFaceEnds(s, other, &p, &q);
   PetscCheck(f->neighbor[other] < 0, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
              "more than two triangles share the edge from (%g, %g) to (%g, %g)", s->x[2 * a], s->x[2 * a + 1],
              s->x[2 * b], s->x[2 * b + 1]);
@@ -36,45 +28,38 @@ static PetscErrorCode Join(const MeshSerial *s, int ef, int other, MeshFaces *f)
   PetscFunctionReturn(0);
 }
 
-/* Names the boundary faces; named edges inside the domain or off the mesh are passed over. */
-static PetscErrorCode Name(const MeshSerial *s, MeshTable *edges, MeshFaces *f)
+/* Each edge's first face goes into the table, the second one is joined to it. */
+static PetscErrorCode JoinAll(const MeshSerial *s, MeshTable *edges, MeshFaces *f)
 {
   PetscFunctionBeginUser;
-  for (int k = 0; k < s->nb; k++) {
-    int *ef = MeshTableEdge(edges, s->facet[2 * k], s->facet[2 * k + 1]);
-    if (*ef >= 0 && f->neighbor[*ef] < 0) f->tag[*ef] = s->facet_tag[k];
-  }
+  f->nedge = 0;
   for (int ef = 0; ef < 3 * s->ne; ef++) {
     int a, b;
-    FaceEnds(s, ef, &a, &b);
-    PetscCheck(f->neighbor[ef] >= 0 || f->tag[ef] >= 0, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
-               "the boundary edge from (%g, %g) to (%g, %g) has no name", s->x[2 * a], s->x[2 * a + 1],
-               s->x[2 * b], s->x[2 * b + 1]);
+    MeshFaceEnds(s, ef, &a, &b);
+    int *first = MeshTableEdge(edges, a, b);
+    f->neighbor[ef] = f->face[ef] = f->tag[ef] = -1;
+    if (*first < 0) {
+      *first = ef;
+      f->edge[ef] = f->nedge++;
+    } else {
+      PetscCall(Join(s, ef, *first, f));
+    }
   }
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode MeshFacesCreate(const MeshSerial *serial, MeshFaces *faces)
+PetscErrorCode MeshFacesCreate(const MeshSerial *s, MeshFaces *f)
 {
-  const int n = 3 * serial->ne;
-  MeshTable edges; /* the face that was first on an edge */
+  const int n = 3 * s->ne;
+  MeshTable edges;
   PetscFunctionBeginUser;
   PetscCall(MeshTableCreate(&edges, (size_t)n + 1));
-  PetscCall(PetscMalloc4(n, &faces->edge, n, &faces->neighbor, n, &faces->face, n, &faces->tag));
-  faces->nedge = 0;
-  for (int ef = 0; ef < n; ef++) {
-    int a, b;
-    FaceEnds(serial, ef, &a, &b);
-    int *first = MeshTableEdge(&edges, a, b);
-    faces->neighbor[ef] = faces->face[ef] = faces->tag[ef] = -1;
-    if (*first < 0) {
-      *first = ef;
-      faces->edge[ef] = faces->nedge++;
-    } else {
-      PetscCall(Join(serial, ef, *first, faces));
-    }
+  PetscCall(PetscMalloc4(n, &f->edge, n, &f->neighbor, n, &f->face, n, &f->tag));
+  const PetscErrorCode failed = JoinAll(s, &edges, f);
+  for (int k = 0; k < s->nb && !failed; k++) { /* named edges inside or off the mesh are passed over */
+    int *ef = MeshTableEdge(&edges, s->facet[2 * k], s->facet[2 * k + 1]);
+    if (*ef >= 0 && f->neighbor[*ef] < 0) f->tag[*ef] = s->facet_tag[k];
   }
-  PetscCall(Name(serial, &edges, faces));
   PetscCall(MeshTableDestroy(&edges));
-  PetscFunctionReturn(0);
+  PetscFunctionReturn(failed);
 }

@@ -1,25 +1,52 @@
-/* Private to the mesh room: what rank 0 works out about the whole mesh before it hands out the parts. */
+/* Private to the mesh room: faces of a piece, here and to other ranks; the order of its elements. */
 #ifndef CORACLE_MESH_IMPL_H
 #define CORACLE_MESH_IMPL_H
-#include "mesh.h"
+#include "mesh_route.h"
+#include "piece.h"
 
 /* Faces of a MeshSerial; arrays are [ne][3], face i opposite to vertex i. */
 typedef struct {
   int nedge;
   int *edge;     /* number of the edge that is face i */
-  int *neighbor; /* element across, -1 on the boundary */
-  int *face;     /* which face of the neighbour it is, -1 on the boundary */
-  int *tag;      /* boundary name, -1 inside */
+  int *neighbor; /* element across, -1 where there is none here */
+  int *face;     /* which face of the neighbour it is, -1 where there is none */
+  int *tag;      /* boundary name, -1 inside or without one */
 } MeshFaces;
 
-/* Errors: an edge of more than two triangles, two neighbours that turn opposite ways, a boundary edge without
- * a name. */
+/* Errors: an edge of more than two triangles, two neighbours that turn opposite ways.  To be destroyed all
+ * the same. */
 PetscErrorCode MeshFacesCreate(const MeshSerial *serial, MeshFaces *faces);
 PetscErrorCode MeshFacesDestroy(MeshFaces *faces);
 
-/* Reverse Cuthill-McKee order of each part's elements (George and Liu, 1981): order[start[r] .. start[r + 1]
- * - 1] lists the elements of part r, neighbours close to each other, which keeps ILU factors accurate and
- * caches warm. */
-PetscErrorCode MeshOrder(int ne, const int neighbor[], int nparts, const int part[], int start[],
-                         int order[]);
+/* The vertices that face ef = 3 element + face runs from and to. */
+static inline void MeshFaceEnds(const MeshSerial *s, int ef, int *a, int *b)
+{
+  const int *v = &s->vertex[ef - ef % 3];
+  *a = v[(ef + 1) % 3];
+  *b = v[(ef + 2) % 3];
+}
+
+/* Faces of all pieces.  An open face has no neighbour on this rank; the rim is the vertices of open faces.  A
+ * closed face between two vertices of the rim must not be another rank's open one. */
+typedef struct {
+  MeshFaces local;
+  int size, rank;
+  long long *start; /* [size + 1] element e of rank r has the number start[r] + e */
+  int nopen, nrim, nclosed;
+  int *open;           /* [nopen] ascending, 3 element + face */
+  long long *across;   /* [nopen] 3 element + face of the one that another rank has, -1 on the boundary */
+  int *across_rank;    /* [nopen] and that rank, -1 */
+  int *closed;         /* [nclosed] */
+  int *rim;            /* [nrim] ascending */
+  MeshMet *owners;     /* [nrim] the ranks that have the vertex */
+  MeshRendezvous meet; /* of the open faces, then the rim, then the closed faces */
+} PieceFaces;
+
+/* Collective.  Errors: those of MeshBuild. */
+PetscErrorCode PieceFacesCreate(MPI_Comm comm, const MeshPiece *piece, PieceFaces *faces);
+PetscErrorCode PieceFacesDestroy(PieceFaces *faces);
+
+/* Reverse Cuthill-McKee order of elements (George and Liu, 1981): order[ne] lists them, neighbours close to
+ * each other, which keeps ILU factors accurate and caches warm. */
+PetscErrorCode MeshOrder(int ne, const int neighbor[], int order[]);
 #endif

@@ -1,27 +1,16 @@
 #include "mesh_impl.h"
 
-/* A part's graph: elements joined across faces. */
+/* Elements joined across faces. */
 typedef struct {
   const int *neighbor; /* [ne][3] */
-  const int *part;     /* [ne] */
   int *mark;           /* [ne] number of the last search that reached the element */
   int search;
 } Graph;
 
-static PetscBool Reaches(const Graph *g, int e, int i)
-{
-  const int o = g->neighbor[3 * e + i];
-  return o >= 0 && g->part[o] == g->part[e] && g->mark[o] != g->search ? PETSC_TRUE : PETSC_FALSE;
-}
-
 static int Degree(const Graph *g, int e)
 {
-  int degree = 0;
-  for (int i = 0; i < 3; i++) {
-    const int o = g->neighbor[3 * e + i];
-    degree += o >= 0 && g->part[o] == g->part[e];
-  }
-  return degree;
+  const int *o = &g->neighbor[3 * e];
+  return (o[0] >= 0) + (o[1] >= 0) + (o[2] >= 0);
 }
 
 /* Breadth first from `root`, few-neighboured elements first (Cuthill-McKee); returns how many were reached.
@@ -36,7 +25,7 @@ static int Breadth(Graph *g, int root, int queue[])
     for (int degree = 1; degree <= 3; degree++) {
       for (int i = 0; i < 3; i++) {
         const int o = g->neighbor[3 * queue[k] + i];
-        if (!Reaches(g, queue[k], i) || Degree(g, o) != degree) continue;
+        if (o < 0 || g->mark[o] == g->search || Degree(g, o) != degree) continue;
         g->mark[o] = g->search;
         queue[n++] = o;
       }
@@ -54,9 +43,9 @@ static void Reverse(int n, int list[])
   }
 }
 
-/* A connected piece that holds `e`: two searches from the last element of the one before find a far end to
- * start at. */
-static int OrderPiece(Graph *g, int e, int queue[])
+/* All that is connected to `e`: two searches from the last element of the one before find a far end to start
+ * at. */
+static int OrderConnected(Graph *g, int e, int queue[])
 {
   int n = 0;
   for (int pass = 0; pass < 3; pass++) {
@@ -67,23 +56,15 @@ static int OrderPiece(Graph *g, int e, int queue[])
   return n;
 }
 
-PetscErrorCode MeshOrder(int ne, const int neighbor[], int nparts, const int part[], int start[], int order[])
+PetscErrorCode MeshOrder(int ne, const int neighbor[], int order[])
 {
-  Graph g = {.neighbor = neighbor, .part = part};
-  int *next;
+  Graph g = {.neighbor = neighbor};
+  int next = 0;
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(ne, &g.mark));
-  PetscCall(PetscMalloc1(nparts, &next));
-  for (int r = 0; r <= nparts; r++) start[r] = 0;
-  for (int e = 0; e < ne; e++) start[part[e] + 1]++;
-  for (int r = 0; r < nparts; r++) {
-    start[r + 1] += start[r];
-    next[r] = start[r];
-  }
   for (int e = 0; e < ne; e++) {
-    if (!g.mark[e]) next[part[e]] += OrderPiece(&g, e, &order[next[part[e]]]);
+    if (!g.mark[e]) next += OrderConnected(&g, e, &order[next]);
   }
-  PetscCall(PetscFree(next));
   PetscCall(PetscFree(g.mark));
   PetscFunctionReturn(0);
 }

@@ -1,0 +1,42 @@
+#include "piece.h"
+
+/* Rank 0 has all triangles, the others none. */
+static PetscErrorCode Whole(const MeshSerial *serial, MeshPiece *piece)
+{
+  PetscFunctionBeginUser;
+  piece->serial = *serial; /* borrowed */
+  PetscCall(PetscMalloc1(serial->nv, &piece->gid));
+  for (int v = 0; v < serial->nv; v++) piece->gid[v] = v;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode HandOut(MPI_Comm comm, const MeshPiece *whole, Mesh **mesh)
+{
+  MeshPiece own;
+  PetscErrorCode failed;
+  int *part;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(whole->serial.ne, &part));
+  failed = MeshPiecePartition(comm, whole, NULL, part);
+  if (!failed) {
+    PetscCall(MeshPieceMigrate(comm, whole, part, 0, NULL, &own, NULL));
+    failed = MeshBuild(comm, &own, mesh);
+    PetscCall(MeshPieceDestroy(&own));
+  }
+  PetscCall(PetscFree(part));
+  PetscFunctionReturn(failed);
+}
+
+PetscErrorCode MeshDistribute(MPI_Comm comm, const MeshSerial *serial, Mesh **mesh)
+{
+  MeshPiece whole = {0};
+  PetscErrorCode failed;
+  int rank, size;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  if (rank == 0) PetscCall(Whole(serial, &whole));
+  failed = size == 1 ? MeshBuild(comm, &whole, mesh) : HandOut(comm, &whole, mesh);
+  PetscCall(PetscFree(whole.gid));
+  PetscFunctionReturn(failed);
+}

@@ -1,0 +1,100 @@
+#include "mesh_build.h"
+#include "mesh_table.h"
+#include <string.h>
+
+static int ByNumber(const void *p, const void *q)
+{
+  const Ghost *a = p, *b = q;
+  if (a->egid != b->egid) return a->egid < b->egid ? -1 : 1;
+  return (a->face > b->face) - (a->face < b->face);
+}
+
+/* What this rank tells about its element at open face k; the target is numbered as the receiver's piece. */
+static Ghost Tell(const Build *b, const Mesh *m, int k)
+{
+  const PieceFaces *f = &b->faces;
+  const int ef = f->open[k], v = b->piece->vertex[ef];
+  Ghost g = {.target = f->across[k] - 3 * f->start[f->across_rank[k]],
+             .egid = m->estart + b->number[ef / 3],
+             .gid = b->gid[v],
+             .face = ef % 3};
+  memcpy(g.x, &b->piece->x[2 * v], sizeof g.x);
+  return g;
+}
+
+/* The ghosts' local numbers follow those of the owned elements; one may lie behind several faces. */
+static void Number(Ghosts *g, Mesh *m)
+{
+  m->ng = 0;
+  for (int k = 0; k < g->n; k++) {
+    if (k == 0 || g->ghost[k].egid != g->ghost[k - 1].egid) m->ng++;
+    g->ghost[k].element = m->ne + m->ng - 1;
+  }
+}
+
+PetscErrorCode GhostsCreate(const Build *b, Mesh *m, Ghosts *g)
+{
+  const PieceFaces *f = &b->faces;
+  int *to, *slot, n = 0;
+  MeshRoute route;
+  Ghost *told, *out;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc4(f->nopen, &to, f->nopen, &slot, f->nopen, &told, f->nopen, &out));
+  for (int k = 0; k < f->nopen; k++) {
+    if (f->across[k] < 0) continue;
+    to[n] = f->across_rank[k];
+    told[n++] = Tell(b, m, k);
+  }
+  PetscCall(MeshRouteCreate(m->comm, n, to, slot, &route));
+  for (int k = 0; k < n; k++) out[slot[k]] = told[k];
+  g->n = route.in_start[route.size];
+  PetscCall(PetscMalloc1(g->n, &g->ghost));
+  PetscCall(MeshRouteSend(&route, sizeof *out, out, g->ghost));
+  PetscCall(MeshRouteDestroy(&route));
+  PetscCall(PetscFree4(to, slot, told, out));
+  if (g->n) qsort(g->ghost, (size_t)g->n, sizeof *g->ghost, ByNumber);
+  Number(g, m);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode GhostsDestroy(Ghosts *g)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscFree(g->ghost));
+  PetscFunctionReturn(0);
+}
+
+static int *Find(MeshTable *vertices, long long gid)
+{
+  return MeshTableAt(vertices, (int)(gid >> 32), (int)gid);
+}
+
+/* Faces lead to the ghosts; two corners of a ghost are those of the face, turned round, the third comes with
+ * it. */
+static void Attach(const Build *b, const Ghost *g, MeshTable *vertices, Mesh *m)
+{
+  const int e = b->number[g->target / 3], i = (int)(g->target % 3), face = g->face;
+  int *opposite = Find(vertices, g->gid), *corner = &m->vertex[3 * g->element];
+  m->neighbor[3 * e + i] = g->element;
+  m->neighbor_face[3 * e + i] = face;
+  m->egid[g->element] = (PetscInt)g->egid;
+  corner[(face + 1) % 3] = m->vertex[3 * e + (i + 2) % 3];
+  corner[(face + 2) % 3] = m->vertex[3 * e + (i + 1) % 3];
+  if (*opposite < 0) {
+    *opposite = m->nv;
+    memcpy(&m->x[2 * m->nv++], g->x, sizeof g->x);
+  }
+  corner[face] = *opposite;
+}
+
+PetscErrorCode GhostsFill(const Build *b, const Ghosts *g, Mesh *m)
+{
+  const PieceFaces *f = &b->faces;
+  MeshTable vertices; /* an owned vertex of a ghost lies on the rim */
+  PetscFunctionBeginUser;
+  PetscCall(MeshTableCreate(&vertices, (size_t)(f->nrim + g->n)));
+  for (int k = 0; k < f->nrim; k++) *Find(&vertices, b->gid[f->rim[k]]) = b->vertex[f->rim[k]];
+  for (int k = 0; k < g->n; k++) Attach(b, &g->ghost[k], &vertices, m);
+  PetscCall(MeshTableDestroy(&vertices));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,258 @@
+#include "adapt_parallel.h"
+#include "adapt_near.h"
+#include <string.h>
+
+enum { MOST_PASSES = 8 };
+
+/* A part may be so much larger than the mean. */
+#define IMBALANCE 1.03
+
+/* The mesh between two passes. */
+typedef struct {
+  MPI_Comm comm;
+  int rank, size;
+  MeshPiece piece;
+  int *weight;        /* [ne][3] for the next partition: where it should not cut */
+  double *data;       /* [nv][DATA]: metric and the distance from what was frozen in the last pass */
+  long long next_gid; /* above all that are in use */
+  AdaptReport report; /* of the whole mesh, so far */
+} Parallel;
+
+enum { DATA = 4 };
+
+/* The same error everywhere. */
+static PetscErrorCode Agree(MPI_Comm comm, PetscErrorCode here)
+{
+  int all = (int)here;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_MAX, comm));
+  PetscFunctionReturn(here ? here : (PetscErrorCode)all);
+}
+
+/* What a pass works on: the piece with facets of one more tag on faces to other ranks. */
+typedef struct {
+  MeshSerial mesh; /* facets and tags of its own, the rest borrowed */
+  double *metric;
+  char *frozen, *frozen_tag, *idle;
+} Frozen;
+
+static PetscErrorCode FreezeFaces(const MeshSerial *from, const char face[], MeshSerial *to)
+{
+  const int ntags = from->ntags;
+  int nb = from->nb;
+  PetscFunctionBeginUser;
+  *to = *from;
+  to->ntags = ntags + 1;
+  for (int k = 0; k < 3 * from->ne; k++) nb += face[k];
+  PetscCall(PetscMalloc1(2 * nb, &to->facet));
+  PetscCall(PetscMalloc1(nb, &to->facet_tag));
+  PetscCall(PetscCalloc1(ntags + 1, &to->tag_name));
+  PetscCall(PetscArraycpy(to->facet, from->facet, 2 * from->nb));
+  PetscCall(PetscArraycpy(to->facet_tag, from->facet_tag, from->nb));
+  if (ntags) memcpy(to->tag_name, from->tag_name, (size_t)ntags * sizeof *to->tag_name);
+  for (int k = 0; k < 3 * from->ne; k++) {
+    if (!face[k]) continue;
+    to->facet[2 * to->nb] = from->vertex[k - k % 3 + (k + 1) % 3];
+    to->facet[2 * to->nb + 1] = from->vertex[k - k % 3 + (k + 2) % 3];
+    to->facet_tag[to->nb++] = ntags;
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Freeze(const Parallel *p, Frozen *f)
+{
+  const MeshSerial *s = &p->piece.serial;
+  char *face;
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(3 * s->ne, &face));
+  PetscCall(PetscMalloc2(3 * s->nv, &f->metric, s->nv, &f->idle));
+  PetscCall(PetscCalloc1(s->nv, &f->frozen));
+  PetscCall(PetscCalloc1(s->ntags + 1, &f->frozen_tag));
+  f->frozen_tag[s->ntags] = 1;
+  if (p->size > 1) PetscCall(MeshPieceShared(p->comm, &p->piece, face, f->frozen));
+  PetscCall(FreezeFaces(s, face, &f->mesh));
+  for (int v = 0; v < s->nv; v++) {
+    for (int k = 0; k < 3; k++) f->metric[3 * v + k] = p->data[DATA * v + k];
+    f->idle[v] = p->data[DATA * v + 3] >= NEAR_IDLE;
+  }
+  PetscCall(PetscFree(face));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FrozenDestroy(Frozen *f)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscFree(f->mesh.facet));
+  PetscCall(PetscFree(f->mesh.facet_tag));
+  PetscCall(PetscFree(f->mesh.tag_name));
+  PetscCall(PetscFree2(f->metric, f->idle));
+  PetscCall(PetscFree(f->frozen));
+  PetscCall(PetscFree(f->frozen_tag));
+  PetscFunctionReturn(0);
+}
+
+/* Facets of the last tag go, and so does its name. */
+static void Thaw(MeshSerial *m)
+{
+  int nb = 0;
+  m->ntags--;
+  for (int k = 0; k < m->nb; k++) {
+    if (m->facet_tag[k] == m->ntags) continue;
+    m->facet[2 * nb] = m->facet[2 * k];
+    m->facet[2 * nb + 1] = m->facet[2 * k + 1];
+    m->facet_tag[nb++] = m->facet_tag[k];
+  }
+  m->nb = nb;
+}
+
+/* Old vertices keep their global numbers, new ones get those that follow. */
+static PetscErrorCode NumberVertices(Parallel *p, const long long old[], const AdaptResult *r,
+                                     long long gid[])
+{
+  long long fresh = 0, before = 0, all;
+  PetscFunctionBeginUser;
+  for (int v = 0; v < r->mesh.nv; v++) fresh += r->origin[v] < 0;
+  PetscCallMPI(MPI_Exscan(&fresh, &before, 1, MPI_LONG_LONG, MPI_SUM, p->comm));
+  PetscCallMPI(MPI_Allreduce(&fresh, &all, 1, MPI_LONG_LONG, MPI_SUM, p->comm));
+  long long next = p->next_gid + (p->rank ? before : 0);
+  for (int v = 0; v < r->mesh.nv; v++) gid[v] = r->origin[v] < 0 ? next++ : old[r->origin[v]];
+  p->next_gid += all;
+  PetscFunctionReturn(0);
+}
+
+/* The result, with the vertices' distances from what was frozen, becomes the piece. */
+static PetscErrorCode Take(Parallel *p, const int distance[], AdaptResult *r)
+{
+  const int nv = r->mesh.nv;
+  MeshPiece new = {.serial = r->mesh};
+  double *data;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(nv, &new.gid));
+  PetscCall(PetscMalloc1(DATA * nv, &data));
+  PetscCall(NumberVertices(p, p->piece.gid, r, new.gid));
+  for (int v = 0; v < nv; v++) {
+    for (int k = 0; k < 3; k++) data[DATA * v + k] = r->metric[3 * v + k];
+    data[DATA * v + 3] = distance[v];
+  }
+  memset(&r->mesh, 0, sizeof r->mesh); /* taken over */
+  Thaw(&new.serial);
+  PetscCall(PetscFree(p->data));
+  PetscCall(MeshPieceDestroy(&p->piece));
+  p->piece = new;
+  p->data = data;
+  PetscFunctionReturn(0);
+}
+
+/* Looks at the result near what was frozen; *fits: another pass would change little. */
+static PetscErrorCode Judge(Parallel *p, const char frozen[], AdaptResult *r, bool *fits)
+{
+  Near near;
+  int *distance;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(r->mesh.nv, &distance));
+  NearDistances(r, frozen, distance);
+  NearMeasure(r, distance, p->piece.serial.ntags, &near);
+  PetscCall(NearReduce(p->comm, &near, &r->report, &p->report, fits));
+  PetscCall(PetscMalloc1(3 * r->mesh.ne + 1, &p->weight)); /* NULL would mean: no weights */
+  PetscCall(NearWeights(r, distance, p->weight));
+  PetscCall(Take(p, distance, r));
+  PetscCall(PetscFree(distance));
+  PetscFunctionReturn(0);
+}
+
+/* One adaptation with frozen cuts; *fits: another pass would change little. */
+static PetscErrorCode Pass(Parallel *p, const AdaptOptions *options, bool *fits)
+{
+  Frozen f;
+  AdaptResult r = {0};
+  PetscFunctionBeginUser;
+  PetscCall(Freeze(p, &f));
+  const AdaptOptions own = {.rounds = options->rounds,
+                            .straight = options->straight,
+                            .frozen = f.frozen,
+                            .frozen_tag = f.frozen_tag,
+                            .idle = f.idle};
+  const PetscErrorCode failed = Agree(p->comm, MeshAdapt(&f.mesh, f.metric, &own, &r));
+  if (!failed) PetscCall(Judge(p, f.frozen, &r, fits));
+  PetscCall(AdaptResultDestroy(&r));
+  PetscCall(FrozenDestroy(&f));
+  PetscFunctionReturn(failed);
+}
+
+/* New parts: away from the last cuts, or just as METIS likes it. */
+static PetscErrorCode Repartition(Parallel *p, bool away)
+{
+  MeshPiece moved;
+  double *data;
+  int *part;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(p->piece.serial.ne, &part));
+  PetscCall(MeshPiecePartition(p->comm, &p->piece, away ? p->weight : NULL, part));
+  PetscCall(MeshPieceMigrate(p->comm, &p->piece, part, DATA, p->data, &moved, &data));
+  PetscCall(PetscFree(part));
+  PetscCall(PetscFree(p->weight));
+  PetscCall(PetscFree(p->data));
+  PetscCall(MeshPieceDestroy(&p->piece));
+  p->piece = moved;
+  p->data = data;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode IsBalanced(const Parallel *p, bool *balanced)
+{
+  long long most = p->piece.serial.ne, all = most;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_LONG_LONG, MPI_MAX, p->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_LONG_LONG, MPI_SUM, p->comm));
+  *balanced = (double)most * p->size <= IMBALANCE * (double)all;
+  PetscFunctionReturn(0);
+}
+
+/* The parts of the last pass are equal, but keep away from old cuts at the price of longer ones. */
+static PetscErrorCode Passes(Parallel *p, const AdaptOptions *options)
+{
+  bool fits = false, balanced = true;
+  int pass = 0;
+  PetscFunctionBeginUser;
+  for (; pass < MOST_PASSES && !fits; pass++) {
+    if (pass > 0) PetscCall(Repartition(p, true));
+    const PetscErrorCode failed = Pass(p, options, &fits);
+    if (failed) PetscFunctionReturn(failed);
+  }
+  PetscCall(IsBalanced(p, &balanced));
+  if (pass > 1 || !balanced) PetscCall(Repartition(p, false));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ParallelCreate(const Mesh *mesh, const double metric[], Parallel *p)
+{
+  PetscFunctionBeginUser;
+  memset(p, 0, sizeof *p);
+  p->comm = mesh->comm;
+  PetscCallMPI(MPI_Comm_rank(p->comm, &p->rank));
+  PetscCallMPI(MPI_Comm_size(p->comm, &p->size));
+  PetscCall(MeshPieceOf(mesh, &p->piece));
+  p->next_gid = mesh->np2_global;
+  PetscCall(PetscMalloc1(DATA * p->piece.serial.nv, &p->data));
+  for (int v = 0; v < p->piece.serial.nv; v++) {
+    for (int k = 0; k < 3; k++) p->data[DATA * v + k] = metric[3 * v + k];
+    p->data[DATA * v + 3] = 0.0; /* all are looked at in the first pass */
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode MeshAdaptParallel(const Mesh *mesh, const double metric[], const AdaptOptions *options,
+                                 Mesh **adapted, AdaptReport *report)
+{
+  const AdaptOptions usual = {0};
+  Parallel p;
+  PetscFunctionBeginUser;
+  PetscCall(ParallelCreate(mesh, metric, &p));
+  const PetscErrorCode failed = Passes(&p, options ? options : &usual);
+  if (!failed) PetscCall(MeshBuild(p.comm, &p.piece, adapted));
+  if (!failed && report) *report = p.report;
+  PetscCall(PetscFree(p.data));
+  PetscCall(PetscFree(p.weight));
+  PetscCall(MeshPieceDestroy(&p.piece));
+  PetscFunctionReturn(failed);
+}
