@@ -121,22 +121,25 @@ static int Reserve(Search s, int n)
   return 0;
 }
 
+/* Whether a box counts is random to the processor: it is added, and the count then moves on or does not,
+ * which spares it the guess. */
 int SearchQuery(Search s, const GeometryBox *box, const int **hit)
 {
-  int stack[STACK], top = 0, n = 0;
-  stack[top++] = 1;
+  int stack[STACK] = {1}, top = GeometryBoxOverlap(&s->node[1], box), n = 0;
   while (top) {
     const int i = stack[--top];
-    if (!GeometryBoxOverlap(&s->node[i], box)) continue;
     if (i < s->nleaf) {
-      stack[top++] = 2 * i + 1;
-      stack[top++] = 2 * i;
+      for (int child = 2 * i + 1; child >= 2 * i; child--) {
+        stack[top] = child;
+        top += GeometryBoxOverlap(&s->node[child], box);
+      }
       continue;
     }
     if (Reserve(s, n + LEAF)) return -1;
-    const int first = LEAF * (i - s->nleaf);
-    for (int j = first; j < first + LEAF && j < s->n; j++) {
-      if (GeometryBoxOverlap(&s->box[j], box)) s->hit[n++] = s->order[j];
+    const int first = LEAF * (i - s->nleaf), last = first + LEAF < s->n ? first + LEAF : s->n;
+    for (int j = first; j < last; j++) {
+      s->hit[n] = s->order[j];
+      n += GeometryBoxOverlap(&s->box[j], box);
     }
   }
   *hit = s->hit;
