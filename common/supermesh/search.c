@@ -2,14 +2,21 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-enum { LEAF = 4, STACK = 64 };
+enum { WIDTH = 4, STACK = 64, LEVELS = 20 };
 
-/* node[1] is the root, 2i and 2i + 1 are the children of i, node[nleaf + l] is leaf l: boxes LEAF l .. LEAF l
- * + LEAF - 1 of the sorted list. */
+/* WIDTH boxes side by side, so that they are compared in one go; a box that is not there is empty.  Behind
+ * box k of an inner node stands node child + k, of a leaf the item order[-1 - child + k]. */
+typedef struct {
+  double lower[2][WIDTH], upper[2][WIDTH];
+  int child;
+} Node;
+
+/* Leaves first, in the order of the curve, then level by level; the root is last. */
 struct Search_s {
-  int n, nleaf, capacity;
+  int nlevels, first[LEVELS + 1]; /* nodes of level l: first[l] .. first[l + 1] - 1 */
+  int capacity;
   int *order, *hit;
-  GeometryBox *box, *node;
+  Node *node;
 };
 
 static GeometryBox Join(const GeometryBox *a, const GeometryBox *b)
@@ -62,36 +69,74 @@ static void RadixSort(int n, const uint32_t key[], int order[], int other[])
   }
 }
 
-static void BuildTree(Search s)
+static void SetLane(Node *node, int k, GeometryBox box)
 {
-  for (int l = 0; l < s->nleaf; l++) {
-    GeometryBox all = GeometryBoxEmpty();
-    for (int i = LEAF * l; i < LEAF * (l + 1) && i < s->n; i++) all = Join(&all, &s->box[i]);
-    s->node[s->nleaf + l] = all;
+  for (int c = 0; c < 2; c++) {
+    node->lower[c][k] = box.lower[c];
+    node->upper[c][k] = box.upper[c];
   }
-  for (int i = s->nleaf - 1; i > 0; i--) s->node[i] = Join(&s->node[2 * i], &s->node[2 * i + 1]);
+}
+
+static GeometryBox Lane(const Node *node, int k)
+{
+  return (GeometryBox){{node->lower[0][k], node->lower[1][k]}, {node->upper[0][k], node->upper[1][k]}};
+}
+
+static int LevelsOf(int n, int first[LEVELS + 1])
+{
+  int nlevels = 0, nodes = n;
+  first[0] = 0;
+  do {
+    nodes = nodes > WIDTH ? (nodes - 1) / WIDTH + 1 : 1;
+    first[nlevels + 1] = first[nlevels] + nodes;
+    nlevels++;
+  } while (nodes > 1);
+  return nlevels;
+}
+
+/* What box a lane of level l has: of item i of the sorted set, or around node i of the level below. */
+static GeometryBox LaneBox(const Search s, int l, int i, const GeometryBox box[])
+{
+  if (l == 0) return box[s->order[i]];
+  GeometryBox all = GeometryBoxEmpty();
+  for (int k = 0; k < WIDTH; k++) {
+    const GeometryBox part = Lane(&s->node[s->first[l - 1] + i], k);
+    all = Join(&all, &part);
+  }
+  return all;
+}
+
+static void BuildTree(Search s, int n, const GeometryBox box[])
+{
+  for (int l = 0; l < s->nlevels; l++) {
+    const int below = l > 0 ? s->first[l] - s->first[l - 1] : n;
+    for (int i = 0; i < s->first[l + 1] - s->first[l]; i++) {
+      Node *node = &s->node[s->first[l] + i];
+      node->child = l > 0 ? s->first[l - 1] + WIDTH * i : -1 - WIDTH * i;
+      for (int k = 0; k < WIDTH; k++) {
+        const int item = WIDTH * i + k;
+        SetLane(node, k, item < below ? LaneBox(s, l, item, box) : GeometryBoxEmpty());
+      }
+    }
+  }
 }
 
 int SearchCreate(int n, const GeometryBox box[], Search *search)
 {
   Search s = calloc(1, sizeof *s);
-  const size_t count = n > 0 ? (size_t)n : 1;
+  const size_t count = (size_t)(n > 0 ? n : 0) + WIDTH; /* a leaf that is not full looks beyond */
   if (!s) return 1;
   uint32_t *key = calloc(count, sizeof *key);
   int *other = malloc(count * sizeof *other);
-  s->n = n;
-  s->nleaf = 1;
-  while (s->nleaf * LEAF < n) s->nleaf *= 2;
+  s->nlevels = LevelsOf(n, s->first);
   s->order = malloc(count * sizeof *s->order);
-  s->box = malloc(count * sizeof *s->box);
-  s->node = malloc(2 * (size_t)s->nleaf * sizeof *s->node);
+  s->node = malloc((size_t)s->first[s->nlevels] * sizeof *s->node);
   *search = s;
-  const int failed = !key || !other || !s->order || !s->box || !s->node;
+  const int failed = !key || !other || !s->order || !s->node;
   if (!failed) {
     MortonKeys(n, box, key);
     RadixSort(n, key, s->order, other);
-    for (int i = 0; i < n; i++) s->box[i] = box[s->order[i]];
-    BuildTree(s);
+    BuildTree(s, n, box);
   } else {
     SearchDestroy(search);
   }
@@ -121,22 +166,32 @@ static int Reserve(Search s, int n)
   return 0;
 }
 
+/* hit[k]: does box k of the node overlap?  Without branches: which do is random to the processor. */
+static void OverlapNode(const Node *node, const GeometryBox *box, int hit[WIDTH])
+{
+  for (int k = 0; k < WIDTH; k++) {
+    hit[k] = (node->lower[0][k] <= box->upper[0]) & (box->lower[0] <= node->upper[0][k]) &
+             (node->lower[1][k] <= box->upper[1]) & (box->lower[1] <= node->upper[1][k]);
+  }
+}
+
 int SearchQuery(Search s, const GeometryBox *box, const int **hit)
 {
-  int stack[STACK], top = 0, n = 0;
-  stack[top++] = 1;
+  int stack[STACK] = {s->first[s->nlevels] - 1}, top = 1, n = 0, overlap[WIDTH];
   while (top) {
-    const int i = stack[--top];
-    if (!GeometryBoxOverlap(&s->node[i], box)) continue;
-    if (i < s->nleaf) {
-      stack[top++] = 2 * i + 1;
-      stack[top++] = 2 * i;
+    const Node *node = &s->node[stack[--top]];
+    OverlapNode(node, box, overlap);
+    if (node->child >= 0) {
+      for (int k = WIDTH - 1; k >= 0; k--) {
+        stack[top] = node->child + k;
+        top += overlap[k];
+      }
       continue;
     }
-    if (Reserve(s, n + LEAF)) return -1;
-    const int first = LEAF * (i - s->nleaf);
-    for (int j = first; j < first + LEAF && j < s->n; j++) {
-      if (GeometryBoxOverlap(&s->box[j], box)) s->hit[n++] = s->order[j];
+    if (Reserve(s, n + WIDTH)) return -1;
+    for (int k = 0; k < WIDTH; k++) {
+      s->hit[n] = s->order[-1 - node->child + k];
+      n += overlap[k];
     }
   }
   *hit = s->hit;
@@ -145,10 +200,13 @@ int SearchQuery(Search s, const GeometryBox *box, const int **hit)
 
 int SearchCover(Search s, int max, GeometryBox cover[])
 {
-  int first = 1, n = 0;
-  while (2 * first <= max && first < s->nleaf) first *= 2;
-  for (int i = first; i < 2 * first; i++) {
-    if (s->node[i].lower[0] <= s->node[i].upper[0]) cover[n++] = s->node[i];
+  int level = s->nlevels - 1, n = 0;
+  while (level > 0 && WIDTH * (s->first[level] - s->first[level - 1]) <= max) level--;
+  for (int i = s->first[level]; i < s->first[level + 1]; i++) {
+    for (int k = 0; k < WIDTH; k++) {
+      const GeometryBox box = Lane(&s->node[i], k);
+      if (box.lower[0] <= box.upper[0]) cover[n++] = box;
+    }
   }
   return n;
 }
@@ -159,7 +217,6 @@ void SearchDestroy(Search *search)
   if (!s) return;
   free(s->order);
   free(s->hit);
-  free(s->box);
   free(s->node);
   free(s);
   *search = NULL;

@@ -14,7 +14,7 @@ int SearchCreateTriangles(int n, const double x[][3][2], Search *search);
 /* The number of boxes that overlap or touch `box`; their indices in *hit, borrowed until the next query; -1
  * when there is no memory. */
 int SearchQuery(Search search, const GeometryBox *box, const int **hit);
-/* At most max >= 1 boxes that cover the set, each around neighbours on the curve; their number. */
+/* At most max >= 4 boxes that cover the set, each around neighbours on the curve; their number. */
 int SearchCover(Search search, int max, GeometryBox cover[]);
 void SearchDestroy(Search *search);
 #endif

@@ -10,7 +10,8 @@
 typedef struct {
   int n;
   unsigned seed;
-  double radius; /* of the disc; 1: everywhere */
+  double radius;   /* of the disc; 1: everywhere */
+  double power[2]; /* column i is at (i / n)^power[0], rows likewise; 0: even */
 } Shaken;
 
 /* In [0, 1), a function of the arguments; splitmix64. */
@@ -32,15 +33,23 @@ static inline unsigned ShakenSeed(const Shaken *s, int i, int j)
   return x * x + y * y < s->radius * s->radius ? s->seed : 12345u;
 }
 
-/* Corner (i, j) of the cells moves by up to a fifth of a cell, which cannot turn a triangle over; the rim
- * stays. */
+static inline double ShakenLine(const Shaken *s, int axis, int i)
+{
+  return s->power[axis] > 0.0 ? pow((double)i / s->n, s->power[axis]) : (double)i / s->n;
+}
+
+/* Corner (i, j) of the cells moves by up to a fifth of the smaller cell beside it, which cannot turn a
+ * triangle over; the rim stays. */
 static inline void ShakenCorner(const Shaken *s, int i, int j, double x[2])
 {
-  const double h = 1.0 / s->n;
-  const unsigned seed = ShakenSeed(s, i, j);
-  const int k = i + (s->n + 1) * j, inner = i > 0 && i < s->n && j > 0 && j < s->n;
-  x[0] = h * (i + (inner ? 0.4 * Chance(seed, k, 0) - 0.2 : 0.0));
-  x[1] = h * (j + (inner ? 0.4 * Chance(seed, k, 1) - 0.2 : 0.0));
+  const int k = i + (s->n + 1) * j, at[2] = {i, j}, inner = i > 0 && i < s->n && j > 0 && j < s->n;
+  for (int axis = 0; axis < 2; axis++) {
+    x[axis] = ShakenLine(s, axis, at[axis]);
+    if (!inner) continue;
+    const double below = x[axis] - ShakenLine(s, axis, at[axis] - 1);
+    const double above = ShakenLine(s, axis, at[axis] + 1) - x[axis];
+    x[axis] += fmin(below, above) * (0.4 * Chance(ShakenSeed(s, i, j), k, axis) - 0.2);
+  }
 }
 
 static inline void ShakenFacets(int n, MeshSerial *m)

@@ -239,8 +239,10 @@ static PetscErrorCode Check(Maker maker, const void *a, const void *b, int least
 
 int main(int argc, char **argv)
 {
-  const Shaken random[2] = {{17, 1, 1.0}, {23, 2, 1.0}}, part[2] = {{20, 3, 0.3}, {20, 4, 0.3}};
-  const Shaken few[2] = {{1, 1, 1.0}, {2, 2, 1.0}};
+  const Shaken random[2] = {{17, 1, 1.0, {0}}, {23, 2, 1.0, {0}}};
+  const Shaken part[2] = {{20, 3, 0.3, {0}}, {20, 4, 0.3, {0}}};
+  const Shaken few[2] = {{1, 1, 1.0, {0}}, {2, 2, 1.0, {0}}};
+  const Shaken thin[2] = {{16, 1, 1.0, {3.0, 0.0}}, {18, 2, 1.0, {0.0, 3.0}}}; /* 1 : 300, crossing */
   const double graded[3][3] = {{0.3, 0.4, 0.008}, {0.34, 0.43, 0.016}, {0.6, 0.7, 0.009}};
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   PetscCall(Check(MakeShaken, &random[0], &random[1], 0, 0));
@@ -249,6 +251,7 @@ int main(int argc, char **argv)
   PetscCall(Check(MakeShaken, &part[0], &part[0], 800, 800));
   PetscCall(Check(MakeShaken, &few[0], &few[1], 0, 0)); /* some ranks have nothing */
   PetscCall(Check(MakeShaken, &few[1], &random[0], 0, 0));
+  PetscCall(Check(MakeShaken, &thin[0], &thin[1], 0, 0));
   PetscCall(Check(MakeGraded, graded[0], graded[1], 50, 2000));
   PetscCall(Check(MakeGraded, graded[1], graded[2], 0, 0));
   return PetscFinalize();
