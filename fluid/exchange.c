@@ -2,7 +2,8 @@
 
 struct Exchange_s {
   CoracleClient client; /* borrowed */
-  Fluid fluid;          /* borrowed */
+  Fluid fluid;          /* borrowed: that of the step in hand, and the one whose elements are given */
+  Fluid given;
   int n, capacity;
   int *element;    /* [n] the fluid's local elements near the solid */
   double *x, *rho; /* [n][3][2], [n] */
@@ -45,7 +46,7 @@ static int ElementsInRegion(void *context, int nbox, const double box[], int *n,
                             const double **rho)
 {
   Exchange s = context;
-  const Mesh *m = FluidMesh(s->fluid);
+  const Mesh *m = FluidMesh(s->given);
   int count = 0;
   for (int e = 0; e < m->ne; e++) count += InAnyBox(m, e, nbox, box);
   if (Reserve(s, count)) return 1;
@@ -54,7 +55,7 @@ static int ElementsInRegion(void *context, int nbox, const double box[], int *n,
     if (!InAnyBox(m, e, nbox, box)) continue;
     for (int i = 0; i < 3; i++)
       for (int c = 0; c < 2; c++) s->x[6 * s->n + 2 * i + c] = m->x[2 * m->vertex[3 * e + i] + c];
-    s->rho[s->n] = FluidDensity(s->fluid)[e];
+    s->rho[s->n] = FluidDensity(s->given)[e];
     s->element[s->n++] = e;
   }
   *n = s->n;
@@ -65,7 +66,8 @@ static int ElementsInRegion(void *context, int nbox, const double box[], int *n,
 
 static int SaveOrRestore(void *context, int save)
 {
-  return FluidState(context, save);
+  Exchange s = context;
+  return FluidState(s->fluid, save);
 }
 
 PetscErrorCode ExchangeCreate(CoracleClient client, Fluid fluid, Exchange *exchange)
@@ -75,9 +77,9 @@ PetscErrorCode ExchangeCreate(CoracleClient client, Fluid fluid, Exchange *excha
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&x));
   x->client = client;
-  x->fluid = fluid;
+  x->fluid = x->given = fluid;
   PetscCall(CoracleSetRegion(client, m->dim, m->lower, m->upper, ElementsInRegion, x));
-  PetscCall(CoracleBindStateFunction(client, SaveOrRestore, fluid));
+  PetscCall(CoracleBindStateFunction(client, SaveOrRestore, x));
   PetscCall(CoracleProposeStep(client, FluidTimeStep(fluid)));
   PetscCall(CoracleReady(client));
   *exchange = x;
@@ -103,7 +105,7 @@ PetscErrorCode ExchangeReceiveCoupling(Exchange x)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ExchangeFlow(Exchange x, const CoracleCorrection **correction)
+PetscErrorCode ExchangeFlow(Exchange x, Fluid next, const CoracleCorrection **correction)
 {
   const Mesh *m = FluidMesh(x->fluid);
   const double *u_star = FluidVelocityStar(x->fluid), *u_plus = FluidVelocityPlus(x->fluid);
@@ -119,7 +121,10 @@ PetscErrorCode ExchangeFlow(Exchange x, const CoracleCorrection **correction)
   }
   PetscCall(CoracleSetFlow(x->client, x->u_star, x->u_plus, x->p, x->mu));
   PetscCall(CoracleProposeStep(x->client, FluidTimeStep(x->fluid)));
+  if (next) PetscCall(CoracleElementsChanged(x->client));
+  if (next) x->given = next;
   PetscCall(CoracleEnd(x->client, NULL));
+  x->fluid = x->given;
   PetscCall(CoracleGetCorrection(x->client, &n, correction));
   PetscFunctionReturn(0);
 }

@@ -10,7 +10,7 @@ PetscErrorCode ExchangeCreate(CoracleClient client, Fluid fluid, Exchange *x);
 /* Hands the coupling of the coming step to the fluid. */
 PetscErrorCode ExchangeReceiveCoupling(Exchange x);
 /* Sends u*, u+, p, mu near the solid, waits for the solid, and returns what corrects the inside (borrowed).
- */
-PetscErrorCode ExchangeFlow(Exchange x, const CoracleCorrection **correction);
+ * next: the fluid on another mesh that goes on after this step (borrowed), or NULL when the mesh stays. */
+PetscErrorCode ExchangeFlow(Exchange x, Fluid next, const CoracleCorrection **correction);
 PetscErrorCode ExchangeDestroy(Exchange *x);
 #endif

@@ -44,6 +44,15 @@ PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *flu
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode FluidCreateLike(Fluid like, const Mesh *mesh, Fluid *fluid)
+{
+  const double start = MPI_Wtime();
+  PetscFunctionBeginUser;
+  PetscCall(FluidCreate(mesh, &like->setup, fluid));
+  (*fluid)->stats.seconds[ADAPTATION] = MPI_Wtime() - start;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode FluidDestroy(Fluid *fluid)
 {
   Fluid f = *fluid;

@@ -48,14 +48,24 @@ typedef struct Fluid_s *Fluid;
 typedef struct {
   int momentum_iterations, pressure_iterations;
   double t, dt, max_speed;
-  double seconds[4]; /* assembly, momentum, pressure, coupling */
+  double seconds[5]; /* assembly, momentum, pressure, coupling, adaptation with transfer */
 } FluidStats;
 
 PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *fluid); /* mesh borrowed */
+/* The same fluid on another mesh with the same boundary names, without state: FluidTransfer. */
+PetscErrorCode FluidCreateLike(Fluid like, const Mesh *mesh, Fluid *fluid);
 PetscErrorCode FluidDestroy(Fluid *fluid);
 /* Initial velocity by interpolation (NULL: rest) and hydrostatic pressure (or p by interpolation). */
 PetscErrorCode FluidSetInitial(Fluid fluid, double t, FieldFunction velocity, FieldFunction pressure,
                                void *context);
+
+/* Takes the state between two steps over from a fluid on another mesh of the same domain: velocity by
+ * Galerkin projection, which conserves momentum to round-off; pressure by interpolation; time and counters.
+ */
+PetscErrorCode FluidTransfer(Fluid from, Fluid to);
+/* After that, with the coupling of the coming step set: takes the part of the bulk velocity off that is not
+ * free of divergence, which else would come out as a jump of the pressure. */
+PetscErrorCode FluidMakeSolenoidal(Fluid fluid);
 
 /* The solid's coupling of the coming step, element indices being local elements (copied); n = 0: no solid. */
 PetscErrorCode FluidSetCoupling(Fluid fluid, int n, const CoracleCoupling coupling[]);

@@ -139,6 +139,21 @@ PetscErrorCode FluidCaseSetup(Case c, const Mesh *mesh, FluidSetup *setup)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode FluidCaseAdaptation(Case c, PetscBool *adapts, AdaptationSetup *s)
+{
+  PetscFunctionBeginUser;
+  *adapts = (PetscBool)CaseHas(c, "fluid.adapt");
+  if (!*adapts) PetscFunctionReturn(0);
+  s->size_min = CasePositive(c, "fluid.adapt.size_min");
+  s->size_max = CaseNumber(c, "fluid.adapt.size_max", s->size_min, HUGE_VAL);
+  s->velocity_error = CasePositive(c, "fluid.adapt.velocity_error");
+  s->growth = CaseNumberOr(c, "fluid.adapt.growth", 1.5, 1.01, 10.0);
+  s->anisotropy = CaseNumberOr(c, "fluid.adapt.anisotropy", 5.0, 1.0, 1000.0);
+  s->elements_max = CaseNumberOr(c, "fluid.adapt.elements_max", 200000.0, 100.0, 1e9);
+  s->every = CaseIntegerOr(c, "fluid.adapt.every", 20, 1, 1000000);
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode FluidCaseCheckOptions(Case c)
 {
   const char *given = CaseStringOr(c, "fluid.petsc", "");

@@ -3,7 +3,7 @@
 #define FLUID_IMPL_H
 #include "fluid.h"
 
-enum { ASSEMBLY, MOMENTUM, PRESSURE, COUPLING };
+enum { ASSEMBLY, MOMENTUM, PRESSURE, COUPLING, ADAPTATION };
 
 struct Fluid_s {
   const Mesh *mesh; /* borrowed */
@@ -22,6 +22,7 @@ struct Fluid_s {
   int preconditioner_age,
       fresh_iterations; /* steps since the preconditioner was made, iterations it took then */
   double preconditioner_dt;
+  double *preconditioned; /* [ne][36] the diagonal blocks that it was made of */
 
   /* pressure: ghosted P2 vectors */
   Vec p, phi, divergence, saved_p;
@@ -53,6 +54,14 @@ void BoundaryProjection(const Boundary *b, const double n[2], double project[2][
 /* momentum.c, pressure.c */
 PetscErrorCode MomentumCreate(Fluid f);
 PetscErrorCode MomentumDestroy(Fluid f);
+/* The sequential parts of the momentum matrix; *offdiagonal is NULL on one rank, garray its global block
+ * columns. */
+PetscErrorCode MomentumParts(Fluid f, Mat *diagonal, Mat *offdiagonal, const PetscInt **garray);
+/* preconditioner.c: before the solution of the assembled equation, whose rows may be scaled, and after it */
+PetscErrorCode PreconditionerCreate(Fluid f);
+PetscErrorCode PreconditionerChoose(Fluid f, double dt);
+void PreconditionerUsed(Fluid f);
+PetscErrorCode PreconditionerDestroy(Fluid f);
 PetscErrorCode PressureCreate(Fluid f);
 PetscErrorCode PressureDestroy(Fluid f);
 

@@ -1,4 +1,5 @@
 /* coracle-fluid: the fluid participant.  coracle-fluid case.yaml [--set key=value]... */
+#include "adaptation.h"
 #include "exchange.h"
 #include "fluid_case.h"
 #include "record.h"
@@ -17,60 +18,115 @@ static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const
 /* The sections of the case that concern the fluid, all of whose keys must have been read. */
 static const char *const SECTIONS[] = {"fluid", NULL};
 
-static PetscErrorCode Setup(Case c, MPI_Comm comm, Mesh **mesh, Fluid *fluid)
+/* What the time loop holds; mesh, fluid and all that is as large as they change with the mesh. */
+typedef struct {
+  CoracleClient client;
+  Case c;
+  Mesh *mesh;
+  Fluid fluid;
+  Exchange exchange;
+  Record record;
+  Adaptation adaptation; /* NULL: the mesh stays */
+  PetscBool new_mesh;    /* since the last step */
+} March;
+
+static PetscErrorCode Setup(March *m, MPI_Comm comm)
 {
   FluidSetup setup;
+  AdaptationSetup adaptation;
+  PetscBool adapts;
   PetscFunctionBeginUser;
-  PetscCall(PetscOptionsInsertString(NULL, CaseStringOr(c, "fluid.petsc", "")));
-  PetscCall(FluidCaseMesh(c, comm, mesh));
-  PetscCall(FluidCaseSetup(c, *mesh, &setup));
-  PetscCall(CaseFinish(c, SECTIONS));
-  PetscCall(FluidCreate(*mesh, &setup, fluid));
-  PetscCall(FluidSetInitial(*fluid, 0.0, NULL, NULL, NULL));
+  PetscCall(PetscOptionsInsertString(NULL, CaseStringOr(m->c, "fluid.petsc", "")));
+  PetscCall(FluidCaseMesh(m->c, comm, &m->mesh));
+  PetscCall(FluidCaseSetup(m->c, m->mesh, &setup));
+  PetscCall(FluidCaseAdaptation(m->c, &adapts, &adaptation));
+  PetscCall(CaseFinish(m->c, SECTIONS));
+  if (adapts) PetscCall(AdaptationCreate(&adaptation, &m->adaptation));
+  PetscCall(FluidCreate(m->mesh, &setup, &m->fluid));
+  PetscCall(FluidSetInitial(m->fluid, 0.0, NULL, NULL, NULL));
   PetscCall(PetscFree(setup.boundary));
+  PetscCall(RecordCreate(m->c, m->fluid, &m->record));
+  PetscCall(ExchangeCreate(m->client, m->fluid, &m->exchange));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode Report(CoracleClient client, Fluid fluid)
 {
   static const char *const PHASES[] = {"seconds_assembly", "seconds_momentum", "seconds_pressure",
-                                       "seconds_correction"};
+                                       "seconds_correction", "seconds_adaptation"};
   PetscFunctionBeginUser;
   PetscCall(CoracleReport(client, "elements", FluidMesh(fluid)->ne, 1));
-  for (int k = 0; k < 4; k++)
+  for (int k = 0; k < 5; k++)
     PetscCall(CoracleReport(client, PHASES[k], FluidGetStats(fluid)->seconds[k], 0));
+  PetscFunctionReturn(0);
+}
+
+/* When it is time: another mesh for the flow of the step in hand, and a fluid on it. */
+static PetscErrorCode Remesh(March *m, Mesh **mesh, Fluid *fluid)
+{
+  PetscBool due = PETSC_FALSE;
+  PetscFunctionBeginUser;
+  *mesh = NULL;
+  *fluid = NULL;
+  if (m->adaptation) PetscCall(AdaptationDue(m->adaptation, m->fluid, &due));
+  if (!due) PetscFunctionReturn(0);
+  PetscCall(AdaptationMesh(m->adaptation, m->fluid, mesh));
+  PetscCall(FluidCreateLike(m->fluid, *mesh, fluid));
+  PetscFunctionReturn(0);
+}
+
+/* The step has been completed on the old mesh: what follows is on the new one. */
+static PetscErrorCode Change(March *m, Mesh *mesh, Fluid fluid)
+{
+  PetscFunctionBeginUser;
+  PetscCall(FluidTransfer(m->fluid, fluid));
+  PetscCall(FluidDestroy(&m->fluid));
+  PetscCall(MeshDestroy(&m->mesh));
+  m->mesh = mesh;
+  m->fluid = fluid;
+  m->new_mesh = PETSC_TRUE;
+  RecordNewMesh(m->record);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Step(March *m, double dt)
+{
+  const CoracleCorrection *correction;
+  Mesh *mesh;
+  Fluid next;
+  PetscFunctionBeginUser;
+  PetscCall(ExchangeReceiveCoupling(m->exchange));
+  if (m->new_mesh) PetscCall(FluidMakeSolenoidal(m->fluid));
+  m->new_mesh = PETSC_FALSE;
+  PetscCall(FluidMomentum(m->fluid, dt));
+  PetscCall(FluidProject(m->fluid, dt));
+  PetscCall(Remesh(m, &mesh, &next));
+  PetscCall(ExchangeFlow(m->exchange, next, &correction));
+  PetscCall(FluidCorrect(m->fluid, dt, correction));
+  PetscCall(RecordStep(m->record, m->fluid));
+  if (next) PetscCall(Change(m, mesh, next));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode Run(CoracleClient client, Case c, MPI_Comm comm)
 {
-  Mesh *mesh;
-  Fluid fluid;
-  Exchange exchange;
-  Record record;
+  March m = {.client = client, .c = c};
+  CoracleAction action;
+  double t, dt;
   PetscFunctionBeginUser;
-  PetscCall(Setup(c, comm, &mesh, &fluid));
-  PetscCall(RecordCreate(c, fluid, &record));
-  PetscCall(ExchangeCreate(client, fluid, &exchange));
-  for (int steps = 0;; steps++) {
-    const CoracleCorrection *correction;
-    CoracleAction action;
-    double t, dt;
-    PetscCall(CoracleBegin(client, &t, &dt, &action));
-    if (action == CORACLE_STOP) break;
-    PetscCall(ExchangeReceiveCoupling(exchange));
-    PetscCall(FluidMomentum(fluid, dt));
-    PetscCall(FluidProject(fluid, dt));
+  PetscCall(Setup(&m, comm));
+  PetscCall(CoracleBegin(client, &t, &dt, &action));
+  for (int steps = 0; action != CORACLE_STOP; steps++) {
+    PetscCall(Step(&m, dt));
     if (steps == 0) PetscCall(FluidCaseCheckOptions(c));
-    PetscCall(ExchangeFlow(exchange, &correction));
-    PetscCall(FluidCorrect(fluid, dt, correction));
-    PetscCall(RecordStep(record, fluid));
+    PetscCall(CoracleBegin(client, &t, &dt, &action));
   }
-  PetscCall(Report(client, fluid));
-  PetscCall(RecordDestroy(&record));
-  PetscCall(ExchangeDestroy(&exchange));
-  PetscCall(FluidDestroy(&fluid));
-  PetscCall(MeshDestroy(&mesh));
+  PetscCall(Report(client, m.fluid));
+  PetscCall(RecordDestroy(&m.record));
+  PetscCall(ExchangeDestroy(&m.exchange));
+  PetscCall(AdaptationDestroy(&m.adaptation));
+  PetscCall(FluidDestroy(&m.fluid));
+  PetscCall(MeshDestroy(&m.mesh));
   PetscFunctionReturn(0);
 }
 

@@ -1,13 +1,6 @@
 /* The momentum equation: assembled in place, one pass over the elements; solved for u*. */
 #include "fluid_impl.h"
 
-/* Preconditioner: made anew when it has aged, when dt has changed, when it takes this many iterations more,
- * and in every step with a solid, whose stiff terms have moved on (measured: 9 iterations instead of 17 to
- * 25, one factorisation costs 5). */
-#define PRECONDITIONER_AGE 25
-#define PRECONDITIONER_SLACK 3
-#define PRECONDITIONER_DT 0.1
-
 static PetscErrorCode CreateMatrix(Fluid f)
 {
   const Mesh *m = f->mesh;
@@ -27,16 +20,15 @@ static PetscErrorCode CreateMatrix(Fluid f)
   PetscFunctionReturn(0);
 }
 
-/* The sequential parts of the matrix; *offdiagonal is NULL on one rank, garray its global block columns. */
-static PetscErrorCode LocalParts(Mat a, Mat *diagonal, Mat *offdiagonal, const PetscInt **garray)
+PetscErrorCode MomentumParts(Fluid f, Mat *diagonal, Mat *offdiagonal, const PetscInt **garray)
 {
   PetscBool parallel;
   PetscFunctionBeginUser;
-  PetscCall(PetscObjectTypeCompare((PetscObject)a, MATMPIBAIJ, &parallel));
-  *diagonal = a;
+  PetscCall(PetscObjectTypeCompare((PetscObject)f->momentum, MATMPIBAIJ, &parallel));
+  *diagonal = f->momentum;
   *offdiagonal = NULL;
   *garray = NULL;
-  if (parallel) PetscCall(MatMPIBAIJGetSeqBAIJ(a, diagonal, offdiagonal, garray));
+  if (parallel) PetscCall(MatMPIBAIJGetSeqBAIJ(f->momentum, diagonal, offdiagonal, garray));
   PetscFunctionReturn(0);
 }
 
@@ -72,7 +64,7 @@ static PetscErrorCode CreateSolver(Fluid f)
   PetscCall(KSPSetOptionsPrefix(f->momentum_ksp, "momentum_"));
   PetscCall(KSPSetOperators(f->momentum_ksp, f->momentum, f->momentum));
   PetscCall(KSPSetType(f->momentum_ksp, KSPGMRES));
-  PetscCall(KSPSetTolerances(f->momentum_ksp, 1e-7, 1e-50, 1e5, 500));
+  PetscCall(KSPSetTolerances(f->momentum_ksp, 1e-6, 1e-50, 1e5, 500));
   PetscCall(KSPSetInitialGuessNonzero(f->momentum_ksp, PETSC_TRUE));
   PetscCall(KSPGetPC(f->momentum_ksp, &pc));
   PetscCallMPI(MPI_Comm_size(f->mesh->comm, &size));
@@ -103,10 +95,11 @@ PetscErrorCode MomentumCreate(Fluid f)
   PetscCall(PetscFree(ghosts));
   PetscCall(CreateMatrix(f));
   PetscCall(PetscMalloc1(4 * m->ne, &f->slot));
-  PetscCall(LocalParts(f->momentum, &diagonal, &offdiagonal, &garray));
+  PetscCall(MomentumParts(f, &diagonal, &offdiagonal, &garray));
   PetscCall(FindSlots(f, diagonal, NULL, m->estart, PETSC_FALSE));
   if (offdiagonal) PetscCall(FindSlots(f, offdiagonal, garray, 0, PETSC_TRUE));
   PetscCall(CreateSolver(f));
+  PetscCall(PreconditionerCreate(f));
   PetscFunctionReturn(0);
 }
 
@@ -119,6 +112,7 @@ PetscErrorCode MomentumDestroy(Fluid f)
   PetscCall(MatDestroy(&f->momentum));
   PetscCall(KSPDestroy(&f->momentum_ksp));
   PetscCall(PetscFree(f->slot));
+  PetscCall(PreconditionerDestroy(f));
   PetscFunctionReturn(0);
 }
 
@@ -245,7 +239,7 @@ static PetscErrorCode Assemble(Fluid f, double dt)
   const PetscScalar *beta, *u, *p;
   Vec beta_local, p_local;
   PetscFunctionBeginUser;
-  PetscCall(LocalParts(f->momentum, &diagonal, &offdiagonal, &garray));
+  PetscCall(MomentumParts(f, &diagonal, &offdiagonal, &garray));
   PetscCall(VecGhostGetLocalForm(f->beta, &beta_local));
   PetscCall(VecGhostGetLocalForm(f->p, &p_local));
   PetscCall(MatSeqBAIJGetArray(diagonal, &ad));
@@ -280,21 +274,6 @@ static PetscErrorCode Assemble(Fluid f, double dt)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ChoosePreconditioner(Fluid f, double dt)
-{
-  const PetscBool keep = !f->has_solid && f->preconditioner_age > 0 &&
-                         f->preconditioner_age < PRECONDITIONER_AGE &&
-                         fabs(dt - f->preconditioner_dt) < PRECONDITIONER_DT * f->preconditioner_dt &&
-                         f->stats.momentum_iterations <= f->fresh_iterations + PRECONDITIONER_SLACK;
-  PetscFunctionBeginUser;
-  PetscCall(KSPSetReusePreconditioner(f->momentum_ksp, keep));
-  if (!keep) {
-    f->preconditioner_age = 0;
-    f->preconditioner_dt = dt;
-  }
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode Solve(Fluid f)
 {
   PetscInt iterations;
@@ -307,7 +286,7 @@ static PetscErrorCode Solve(Fluid f)
              "the momentum equation did not converge at t = %g s: %s after %d iterations", f->t,
              KSPConvergedReasons[reason], (int)iterations);
   f->stats.momentum_iterations = iterations;
-  if (f->preconditioner_age++ == 0) f->fresh_iterations = iterations;
+  PreconditionerUsed(f);
   PetscFunctionReturn(0);
 }
 
@@ -323,7 +302,7 @@ PetscErrorCode FluidMomentum(Fluid f, double dt)
     PetscCall(MatMult(f->momentum, f->u, f->u_next));
     PetscCall(VecAXPY(f->load, -w, f->u_next));
   }
-  PetscCall(ChoosePreconditioner(f, dt));
+  PetscCall(PreconditionerChoose(f, dt));
   const double assembled = MPI_Wtime();
   PetscCall(Solve(f));
   f->stats.seconds[ASSEMBLY] += assembled - start;

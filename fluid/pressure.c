@@ -94,6 +94,7 @@ static PetscErrorCode CreateSolver(Fluid f)
     PetscCall(FluidDefaultOption("-pressure_telescope_pc_factor_mat_ordering_type", "amd"));
   }
   PetscCall(KSPSetFromOptions(f->pressure_ksp));
+  PetscCall(KSPSetUp(f->pressure_ksp));
   PetscFunctionReturn(0);
 }
 
@@ -155,7 +156,8 @@ static void BulkMomentum(Fluid f, int e, const double u[6], double mv[2][3])
     }
 }
 
-static PetscErrorCode Divergence(Fluid f, double dt)
+/* of the bulk velocity made of u, at time t, over dt */
+static PetscErrorCode Divergence(Fluid f, Vec velocity, double t, double dt)
 {
   const Mesh *m = f->mesh;
   const PetscScalar *u;
@@ -165,15 +167,15 @@ static PetscErrorCode Divergence(Fluid f, double dt)
   PetscCall(VecGhostGetLocalForm(f->divergence, &local));
   PetscCall(VecSet(local, 0.0));
   PetscCall(VecGetArray(local, &d));
-  PetscCall(VecGetArrayRead(f->u_star, &u));
+  PetscCall(VecGetArrayRead(velocity, &u));
   for (int e = 0; e < m->ne; e++) {
     double mv[2][3], r[6] = {0};
     BulkMomentum(f, e, u + 6 * e, mv);
     P2GradientTranspose(f->geometry[e].g, (const double(*)[3])mv, r);
-    BoundaryFlux(f, e, f->t + dt, r);
+    BoundaryFlux(f, e, t, r);
     for (int k = 0; k < 6; k++) d[m->p2[6 * e + k]] += r[k];
   }
-  PetscCall(VecRestoreArrayRead(f->u_star, &u));
+  PetscCall(VecRestoreArrayRead(velocity, &u));
   PetscCall(VecRestoreArray(local, &d));
   PetscCall(VecGhostRestoreLocalForm(f->divergence, &local));
   PetscCall(VecGhostUpdateBegin(f->divergence, ADD_VALUES, SCATTER_REVERSE));
@@ -185,18 +187,17 @@ static PetscErrorCode Divergence(Fluid f, double dt)
   PetscFunctionReturn(0);
 }
 
-/* u+ = u* - dt/rho grad phi */
-static PetscErrorCode SubtractGradient(Fluid f, double dt)
+/* velocity -= dt/rho grad phi */
+static PetscErrorCode SubtractGradient(Fluid f, double dt, Vec velocity)
 {
   const Mesh *m = f->mesh;
   const PetscScalar *phi;
   PetscScalar *u;
   Vec local;
   PetscFunctionBeginUser;
-  PetscCall(VecCopy(f->u_star, f->u_next));
   PetscCall(VecGhostGetLocalForm(f->phi, &local));
   PetscCall(VecGetArrayRead(local, &phi));
-  PetscCall(VecGetArray(f->u_next, &u));
+  PetscCall(VecGetArray(velocity, &u));
   for (int e = 0; e < m->ne; e++) {
     double pe[6], grad[3][2];
     for (int k = 0; k < 6; k++) pe[k] = phi[m->p2[6 * e + k]];
@@ -204,19 +205,18 @@ static PetscErrorCode SubtractGradient(Fluid f, double dt)
     for (int c = 0; c < 2; c++)
       for (int i = 0; i < 3; i++) u[6 * e + 3 * c + i] -= dt / f->rho[e] * grad[i][c];
   }
-  PetscCall(VecRestoreArray(f->u_next, &u));
+  PetscCall(VecRestoreArray(velocity, &u));
   PetscCall(VecRestoreArrayRead(local, &phi));
   PetscCall(VecGhostRestoreLocalForm(f->phi, &local));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode FluidProject(Fluid f, double dt)
+/* phi, with ghosts, for which u* - dt/rho grad phi is free of divergence */
+static PetscErrorCode Solve(Fluid f)
 {
-  const double start = MPI_Wtime();
   PetscInt iterations;
   KSPConvergedReason reason;
   PetscFunctionBeginUser;
-  PetscCall(Divergence(f, dt));
   PetscCall(KSPSolve(f->pressure_ksp, f->divergence, f->phi));
   PetscCall(KSPGetConvergedReason(f->pressure_ksp, &reason));
   PetscCall(KSPGetIterationNumber(f->pressure_ksp, &iterations));
@@ -226,10 +226,32 @@ PetscErrorCode FluidProject(Fluid f, double dt)
   f->stats.pressure_iterations = iterations;
   PetscCall(VecGhostUpdateBegin(f->phi, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGhostUpdateEnd(f->phi, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(SubtractGradient(f, dt));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidProject(Fluid f, double dt)
+{
+  const double start = MPI_Wtime();
+  PetscFunctionBeginUser;
+  PetscCall(Divergence(f, f->u_star, f->t + dt, dt));
+  PetscCall(Solve(f));
+  PetscCall(VecCopy(f->u_star, f->u_next));
+  PetscCall(SubtractGradient(f, dt, f->u_next));
   PetscCall(VecAXPY(f->p, 1.0, f->phi));
   PetscCall(VecGhostUpdateBegin(f->p, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGhostUpdateEnd(f->p, INSERT_VALUES, SCATTER_FORWARD));
+  f->stats.seconds[PRESSURE] += MPI_Wtime() - start;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidMakeSolenoidal(Fluid f)
+{
+  const double start = MPI_Wtime(), dt = 1.0; /* any: it is taken out again */
+  PetscFunctionBeginUser;
+  PetscCall(Divergence(f, f->u, f->t, dt));
+  PetscCall(Solve(f));
+  PetscCall(SubtractGradient(f, dt, f->u));
+  PetscCall(SubtractGradient(f, dt, f->u_previous)); /* their difference extrapolates */
   f->stats.seconds[PRESSURE] += MPI_Wtime() - start;
   PetscFunctionReturn(0);
 }

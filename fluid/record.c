@@ -4,20 +4,24 @@
 #define COLUMNS                                                                                              \
   "t [s],dt [s],max speed [m/s],momentum x [kg/s],momentum y [kg/s],kinetic energy [J/m],momentum "          \
   "iterations,"                                                                                              \
-  "pressure iterations,assembly [s],momentum [s],pressure [s],coupling [s]"
+  "pressure iterations,assembly [s],momentum [s],pressure [s],coupling [s],adaptation [s],triangles"
 
 struct Record_s {
   Output output;
   Series series;
   double every, next;
-  /* scratch of a snapshot */
+  int revision; /* of the mesh */
+};
+
+/* Points, cells and scratch of the two grids of a snapshot. */
+typedef struct {
   int *corner, *quadratic;   /* [ne][3], [ne][6] */
   double *x_corner, *x_node; /* [ne][3][2], [np2][2] */
   double *nodal, *cell;      /* [3 ne][2], [ne] */
-};
+} Grids;
 
 /* Points and cells of the two grids: discontinuous triangles for P1DG, six-node triangles for P2. */
-static void BuildGrids(Record r, const Mesh *m)
+static void BuildGrids(Grids *r, const Mesh *m)
 {
   static const int VTK[6] = {0, 1, 2, 5, 3, 4}; /* midpoints of 01, 12, 20 lie opposite to vertices 2, 0, 1 */
   for (int e = 0; e < m->ne; e++) {
@@ -40,20 +44,25 @@ static PetscErrorCode Snapshot(Record r, Fluid f)
   const Mesh *m = FluidMesh(f);
   const double *u = FluidVelocity(f);
   PetscMPIInt rank;
+  Grids g;
   PetscFunctionBeginUser;
+  PetscCall(PetscMalloc6(3 * m->ne, &g.corner, 6 * m->ne, &g.quadratic, 6 * m->ne, &g.x_corner, 2 * m->np2,
+                         &g.x_node, 6 * m->ne, &g.nodal, m->ne, &g.cell));
+  BuildGrids(&g, m);
   PetscCallMPI(MPI_Comm_rank(m->comm, &rank));
   PetscCall(OutputBegin(r->output, FluidGetStats(f)->t));
-  PetscCall(OutputGrid(r->output, "velocity", 0, 3 * m->ne, r->x_corner, m->ne, 3, r->corner));
+  PetscCall(OutputGrid(r->output, "velocity", r->revision, 3 * m->ne, g.x_corner, m->ne, 3, g.corner));
   for (int e = 0; e < m->ne; e++)
     for (int i = 0; i < 3; i++)
-      for (int c = 0; c < 2; c++) r->nodal[2 * (3 * e + i) + c] = u[6 * e + 3 * c + i];
-  PetscCall(OutputField(r->output, "velocity", OUTPUT_NODE, 2, r->nodal));
+      for (int c = 0; c < 2; c++) g.nodal[2 * (3 * e + i) + c] = u[6 * e + 3 * c + i];
+  PetscCall(OutputField(r->output, "velocity", OUTPUT_NODE, 2, g.nodal));
   PetscCall(OutputField(r->output, "alpha", OUTPUT_CELL, 1, FluidSolidFraction(f)));
-  for (int e = 0; e < m->ne; e++) r->cell[e] = rank;
-  PetscCall(OutputField(r->output, "rank", OUTPUT_CELL, 1, r->cell));
-  PetscCall(OutputGrid(r->output, "pressure", 0, m->np2, r->x_node, m->ne, 6, r->quadratic));
+  for (int e = 0; e < m->ne; e++) g.cell[e] = rank;
+  PetscCall(OutputField(r->output, "rank", OUTPUT_CELL, 1, g.cell));
+  PetscCall(OutputGrid(r->output, "pressure", r->revision, m->np2, g.x_node, m->ne, 6, g.quadratic));
   PetscCall(OutputField(r->output, "pressure", OUTPUT_NODE, 1, FluidPressure(f)));
   PetscCall(OutputEnd(r->output));
+  PetscCall(PetscFree6(g.corner, g.quadratic, g.x_corner, g.x_node, g.nodal, g.cell));
   r->next += r->every;
   PetscFunctionReturn(0);
 }
@@ -68,9 +77,6 @@ PetscErrorCode RecordCreate(Case c, Fluid f, Record *record)
   r->every = CasePositive(c, "output.every");
   PetscCall(OutputCreate(m->comm, folder, "fluid", &r->output));
   PetscCall(SeriesCreate(m->comm, folder, "fluid", COLUMNS, &r->series));
-  PetscCall(PetscMalloc6(3 * m->ne, &r->corner, 6 * m->ne, &r->quadratic, 6 * m->ne, &r->x_corner, 2 * m->np2,
-                         &r->x_node, 6 * m->ne, &r->nodal, m->ne, &r->cell));
-  BuildGrids(r, m);
   PetscCall(Snapshot(r, f));
   *record = r;
   PetscFunctionReturn(0);
@@ -82,12 +88,28 @@ PetscErrorCode RecordStep(Record r, Fluid f)
   double momentum[2], energy;
   PetscFunctionBeginUser;
   PetscCall(FluidMomentumTotal(f, momentum, &energy));
-  const double row[] = {s->t,          s->dt,         s->max_speed,           momentum[0],
-                        momentum[1],   energy,        s->momentum_iterations, s->pressure_iterations,
-                        s->seconds[0], s->seconds[1], s->seconds[2],          s->seconds[3]};
+  const double row[] = {s->t,
+                        s->dt,
+                        s->max_speed,
+                        momentum[0],
+                        momentum[1],
+                        energy,
+                        s->momentum_iterations,
+                        s->pressure_iterations,
+                        s->seconds[0],
+                        s->seconds[1],
+                        s->seconds[2],
+                        s->seconds[3],
+                        s->seconds[4],
+                        FluidMesh(f)->nglobal};
   PetscCall(SeriesRow(r->series, row));
   if (s->t >= r->next * (1.0 - 1e-12)) PetscCall(Snapshot(r, f));
   PetscFunctionReturn(0);
+}
+
+void RecordNewMesh(Record r)
+{
+  r->revision++;
 }
 
 PetscErrorCode RecordDestroy(Record *r)
@@ -96,7 +118,6 @@ PetscErrorCode RecordDestroy(Record *r)
   if (!*r) PetscFunctionReturn(0);
   PetscCall(OutputDestroy(&(*r)->output));
   PetscCall(SeriesDestroy(&(*r)->series));
-  PetscCall(PetscFree6((*r)->corner, (*r)->quadratic, (*r)->x_corner, (*r)->x_node, (*r)->nodal, (*r)->cell));
   PetscCall(PetscFree(*r));
   PetscFunctionReturn(0);
 }

@@ -11,5 +11,7 @@ typedef struct Record_s *Record;
 PetscErrorCode RecordCreate(Case c, Fluid fluid, Record *r);
 /* Collective, after every step: one row of the series, and a snapshot when it is due. */
 PetscErrorCode RecordStep(Record r, Fluid fluid);
+/* The mesh has changed: the next snapshot writes it. */
+void RecordNewMesh(Record r);
 PetscErrorCode RecordDestroy(Record *r);
 #endif

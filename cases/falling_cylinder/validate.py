@@ -1,55 +1,48 @@
 #!/usr/bin/env python3
-"""Runs the validation of the falling cylinder and writes its table.
+"""Runs the falling cylinder's validation, the rows of the paper's Tables 1 to 3 among it, and writes its tables.
 
-    cases/falling_cylinder/validate.py [--ranks F:C:S] [--only NAME ...] [--table] [--check]
+    cases/falling_cylinder/validate.py [--jobs N] [--only PATTERN ...] [--table] [--readme] [--check]
 
-Each run is scripts/run.sh with a few keys set; it is skipped when its summary.json exists already (delete
-out/validation/<name> to run it again).  --table only prints the table of what has been run, --check exits with 1 when a number is out of its bounds.  References are those of
-body-fitted finite elements (reference/*.csv and the terminal speeds below), errors are against them.
+A run is skipped when its summary.json is there (out/validation/<name>; delete the folder to run it again), and begun
+again when it is not: stop and go on as you like.  --only takes names with wildcards.  --table only prints the tables of
+what has been run, --readme also puts them into README.md, --check exits with 1 when a number is out of its bounds.
 """
 import argparse
+import concurrent.futures
 import csv
+import fnmatch
 import json
 import pathlib
 import subprocess
 
+import rows
+
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 OUT = ROOT / "out" / "validation"
-
-# lateral sides open: traction-free
-OPEN = ["fluid.boundaries.left=open", "fluid.boundaries.right=open"]
-# the approach to the terminal speed takes 6 s there
-TALL = ["fluid.mesh.upper=[2.5, 10]", "fluid.mesh.refine[0].lower=[1.08, 0.9]", "fluid.mesh.refine[0].upper=[1.42, 9.45]",
-        "solid.bodies[0].centre=[1.25, 9.25]", "time.end=6"]
-FINE = ["fluid.mesh.refine[0].size=0.005", "solid.bodies[0].size=0.0075"]
-# the tank of the runs at Re 200: the disc falls 1.9 m/s
-LONG = ["fluid.mesh.upper=[2.5, 7.5]", "fluid.mesh.refine[0].lower=[1.05, 0.9]", "fluid.mesh.refine[0].upper=[1.45, 6.95]",
-        "solid.bodies[0].centre=[1.25, 6.75]", "fluid.viscosity=2.278"]
-
-
-def density(rho):
-    return ["solid.materials.disc.density=%g" % rho]
-
-
-# name: (reference curve, terminal reference or None, settings)
-RUNS = {
-    "closed-0.02": ("nu0.017173", 1.2326, ["fluid.mesh.refine[0].size=0.02", "solid.bodies[0].size=0.025"]),
-    "closed-0.01": ("nu0.017173", 1.2326, []),
-    "closed-0.005": ("nu0.017173", 1.2326, FINE),
-    "open-0.01": (None, 1.426, OPEN + TALL),
-    "dr-0.001": ("nu0.017173", 1.2326, ["coupler.shell_thickness=0.001"]),
-    "dt-half": ("nu0.017173", 1.2326, ["time.cfl=0.25", "time.dt_max=0.005"]),
-    "stress_shell": ("nu0.017173", 1.2326, ["coupler.mode=stress_shell"]),
-    "penalty_shell": ("nu0.017173", 1.2326, ["coupler.mode=penalty_shell"]),
-    "re200-0.01": ("nu0.002278", None, LONG),
-    "re200-0.005": ("nu0.002278", None, LONG + FINE),
-    "ratio-0.5": (None, None, density(500) + ["solid.bodies[0].centre=[1.25, 1.5]", "time.end=1.0"]),
-    "ratio-1.05": (None, None, density(1050) + ["time.end=1.0"]),
-    "ratio-4": (None, None, density(4000) + ["fluid.viscosity=29.673", "time.end=1.6"]),
-    "ratio-6": (None, None, density(6000) + ["fluid.viscosity=38.404", "time.end=1.3"]),
+TABLES = rows.tables()
+COARSE = ["fluid.adapt.size_min=0.02", "fluid.mesh.refine[0].size=0.02", "solid.bodies[0].size=0.03"]
+# What else is run, all at Re 20 (row Yc20-020 but for the keys given): name: (keys, ranks)
+CHECKS = {
+    "ranks-1": (["time.end=4"], "1:1:1"),
+    "ranks-2": (["time.end=4"], "2:1:1"),
+    "ranks-3": (["time.end=4"], "3:2:2"),
+    "dt-half": (["time.end=4", "time.cfl=0.25", "time.dt_max=0.005"], "1:1:1"),
+    "every-10": (["time.end=4", "fluid.adapt.every=10"], "1:1:1"),
+    "Le-0.06": (["time.end=4", "fluid.adapt.size_max=0.06", "fluid.mesh.size_max=0.06"], "1:1:1"),
+    "cost-0.02": (["time.end=2.5"] + COARSE, "1:1:1"),
+    "cost-0.01": (["time.end=2.5"], "1:1:1"),
+    "stress_shell": (["time.end=4", "coupler.mode=stress_shell"], "1:1:1"),
+    "penalty_shell": (["time.end=4", "coupler.mode=penalty_shell"], "1:1:1"),
+    "ratio-0.5": (["time.end=1", "solid.materials.disc.density=500", "solid.bodies[0].centre=[1.25, 9]",
+                   "fluid.mesh.refine[0].lower=[1.1, 8.85]", "fluid.mesh.refine[0].upper=[1.4, 9.15]"], "1:1:1"),
+    "ratio-1.05": (["time.end=1", "solid.materials.disc.density=1050"], "1:1:1"),
 }
-TIMES = [0.2, 0.5, 1.0, 2.0, 3.0]
+CURVES = {20: "nu0.017173", 100: "nu0.004401", 200: "nu0.002278"}  # reference U(t), closed sides, ratio 2
+
+
+def read_csv(path):
+    return list(csv.DictReader(line for line in open(path) if not line.startswith("#")))
 
 
 def interpolate(curve, t):
@@ -59,94 +52,178 @@ def interpolate(curve, t):
     return None
 
 
-def reference_curve(name):
-    rows = [line for line in open(HERE / "reference" / (name + ".csv")) if not line.startswith("#")]
-    return [(float(r["t[s]"]), float(r["U_fall"])) for r in csv.DictReader(rows)]
+def reference_curve(re):
+    return [(float(r["t[s]"]), float(r["U_fall"])) for r in read_csv(HERE / "reference" / (CURVES[re] + ".csv"))]
 
 
-def fall_curve(folder):
-    with open(folder / "coupler.csv") as f:
-        return [(float(r["t [s]"]), -float(r["u_y [m/s]"])) for r in csv.DictReader(f)]
+class Result:
+    """What a run has left behind."""
+
+    def __init__(self, name):
+        self.name, folder = name, OUT / name
+        self.summary = json.load(open(folder / "summary.json"))
+        self.motion = [tuple(float(r[k]) for k in ("t [s]", "dt [s]", "u_x [m/s]", "u_y [m/s]"))
+                       for r in read_csv(folder / "coupler.csv")]
+        self.curve = [(t, -uy) for t, _, _, uy in self.motion]
+        self.triangles = max(int(float(r["triangles"])) for r in read_csv(folder / "fluid.csv"))
+        parts = self.summary["participants"].values()
+        self.cpu, self.wall = sum(p["seconds_cpu"] for p in parts), max(p["seconds_wall"] for p in parts)
+        fluid = self.summary["participants"]["fluid"]
+        self.adaptation = fluid["seconds_adaptation"] / fluid["seconds_wall"]
+        self.shedding = self._shedding()
+        self.speed = self.shedding[0] if self.shedding else self.summary["terminal_velocity"]
+
+    def _shedding(self):
+        """Mean fall speed over whole periods in the run's second half, Strouhal number, peak-to-peak sway in diameters;
+        None where the lateral speed does not swing."""
+        half, ups = 0.5 * self.motion[-1][0], []
+        for (t0, _, a, _), (t1, _, b, _) in zip(self.motion, self.motion[1:]):
+            if t0 > half and a < 0.0 <= b:
+                ups.append(t0 - a * (t1 - t0) / (b - a))
+        # numerical noise swings too, fast and by little
+        swing = max(abs(ux) for t, _, ux, _ in self.motion if t > half)
+        if len(ups) < 3 or swing < 0.01 * abs(self.curve[-1][1]):
+            return None
+        inside = [m for m in self.motion if ups[0] < m[0] <= ups[-1]]
+        speed = -sum(dt * uy for _, dt, _, uy in inside) / sum(dt for _, dt, _, _ in inside)
+        x, path = 0.0, []
+        for _, dt, ux, _ in inside:
+            x += dt * ux
+            path.append(x)
+        frequency = (len(ups) - 1) / (ups[-1] - ups[0])
+        return speed, 2.0 * rows.RADIUS * frequency / speed, (max(path) - min(path)) / (2.0 * rows.RADIUS)
 
 
-def run(name, ranks):
+def results(names):
+    return {name: Result(name) for name in names if (OUT / name / "summary.json").exists()}
+
+
+def run(name):
     folder = OUT / name
     if (folder / "summary.json").exists():
         return
-    command = [str(ROOT / "scripts" / "run.sh"), "falling_cylinder", "--out", str(folder), "--ranks", ranks]
-    for key in RUNS[name][2]:
+    keys, ranks = CHECKS[name] if name in CHECKS else (TABLES[name].settings(), "1:1:1")
+    command = [str(ROOT / "scripts" / "launch.sh"), "--ranks", ranks, str(HERE / "case.yaml"),
+               "--set", "output.folder=%s" % folder]
+    for key in keys:
         command += ["--set", key]
-    print("==", name, " ".join(command), flush=True)
-    subprocess.run(command, check=True)
+    folder.mkdir(parents=True, exist_ok=True)
+    print("begun", name, flush=True)
+    with open(folder / "log.txt", "w") as log:
+        failed = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT).returncode
+    print("%s %s%s" % ("FAILED" if failed else "done", name, ": see %s/log.txt" % folder if failed else ""), flush=True)
 
 
-def row(name):
-    curve_name, terminal, _ = RUNS[name]
-    folder = OUT / name
-    summary = json.load(open(folder / "summary.json"))
-    curve = fall_curve(folder)
-    cells = [name, "%.4f" % summary["terminal_velocity"]]
-    cells.append("%+.2f %%" % (100 * (summary["terminal_velocity"] / terminal - 1)) if terminal else "")
-    reference = reference_curve(curve_name) if curve_name else None
-    for t in TIMES:
-        u = interpolate(curve, t)
-        r = interpolate(reference, t) if reference else None
-        cells.append("" if u is None else "%.4f" % u if r is None else "%.4f (%+.1f %%)" % (u, 100 * (u / r - 1)))
-    cells += ["%.0e" % summary["largest_momentum_imbalance"], str(summary["steps"]),
-              str(summary["participants"]["fluid"]["elements"]),
-              "%.0f" % sum(p["seconds_cpu"] for p in summary["participants"].values())]
-    return "| " + " | ".join(cells) + " |"
+def percent(measured, reference):
+    return "%+.1f %%" % (100.0 * (measured / reference - 1.0))
 
 
-def table():
-    print("| run | U at the end | error | " + " | ".join("U(%g)" % t for t in TIMES) + " | imbalance | steps | triangles | CPU s |")
-    print("|" + "---|" * (7 + len(TIMES)))
-    for name in RUNS:
-        if (OUT / name / "summary.json").exists():
-            print(row(name))
+def rows_table(there):
+    yield "| row | le | dr | nu | ratio | sides | U paper | U | Re | St | body-fitted | error | Clift at this Re | Er | paper's Er " \
+          "| Clift at its own Re | error | triangles | steps | CPU s | wall s |"
+    yield "|" + "---|" * 21
+    for name, r in there.items():
+        row = TABLES[name]
+        re = row.reynolds(r.speed)
+        sf, own = row.correlation(re), row.correlation()
+        reference, kind = row.reference or (None, "")
+        cells = [name, "%g" % row.le, "%g" % row.dr, "%g" % row.nu, "%g" % row.ratio, row.sides, "%.4f" % row.paper[0],
+                 "%.4f" % r.speed, "%.1f" % re, "%.3f" % r.shedding[1] if r.shedding else "",
+                 "%.4f%s" % (reference, " (fixed)" if kind == "fixed" else ""), percent(r.speed, reference),
+                 "%.4f" % sf, percent(r.speed, sf), percent(*row.paper), "%.4f" % own, percent(r.speed, own),
+                 str(r.triangles), str(r.summary["steps"]), "%.0f" % r.cpu, "%.0f" % r.wall]
+        yield "| " + " | ".join(cells) + " |"
 
 
-def terminal(name):
-    return json.load(open(OUT / name / "summary.json"))["terminal_velocity"]
+def checks_table(there):
+    times = (0.2, 0.5, 1.0, 2.0, 2.5, 4.0)
+    reference = reference_curve(20)
+    yield "| run | U at the end | " + " | ".join("U(%g)" % t for t in times) + " | imbalance | triangles | steps | adaptation | CPU s |"
+    yield "|" + "---|" * (7 + len(times))
+    for name, r in there.items():
+        cells = [name, "%.4f" % r.summary["terminal_velocity"]]
+        for t in times:
+            u = interpolate(r.curve, t)
+            cells.append("" if u is None else "%.4f" % u if name.startswith("ratio") else
+                         "%.4f (%s)" % (u, percent(u, interpolate(reference, t))))
+        cells += ["%.0e" % r.summary["largest_momentum_imbalance"], str(r.triangles), str(r.summary["steps"]),
+                  "%.0f %%" % (100.0 * r.adaptation), "%.0f" % r.cpu]
+        yield "| " + " | ".join(cells) + " |"
 
 
-def check():
-    """What must hold: (statement, measured, bound) of every run that is there."""
-    there = [name for name in RUNS if (OUT / name / "summary.json").exists()]
-    claims = []
-    for name, bound in (("closed-0.01", 0.015), ("closed-0.005", 0.01), ("open-0.01", 0.02)):
-        if name in there:
-            claims.append((name + ": terminal speed", abs(terminal(name) / RUNS[name][1] - 1), bound))
-    for name in ("closed-0.01", "closed-0.005", "re200-0.01"):
-        if name in there:
-            curve, reference = fall_curve(OUT / name), reference_curve(RUNS[name][0])
-            worst = max(abs(u / interpolate(reference, t) - 1) for t, u in curve if t >= 0.5)
-            claims.append((name + ": U(t) from 0.5 s on", worst, 0.03))
-    for name, what, bound in (("dr-0.001", "dr twice as large", 0.003), ("dt-half", "dt halved", 0.01)):
-        if name in there and "closed-0.01" in there:
-            claims.append((what, abs(terminal(name) / terminal("closed-0.01") - 1), bound))
+def claims(there):
+    """What must hold of the runs that are there: (statement, measured, bound)."""
+    def error(name):
+        return abs(there[name].speed / TABLES[name].reference[0] - 1.0)
+
+    def both(a, b):
+        return a in there and b in there
+
     for name in there:
-        summary = json.load(open(OUT / name / "summary.json"))
-        if summary["mode"] == "stress_shell":
-            continue  # its force is sampled on the surface, not the reaction: the paper's form does not conserve
-        imbalance = summary["largest_momentum_imbalance"]
-        claims.append((name + ": momentum imbalance", imbalance, 1e-10))
-    for what, measured, bound in claims:
+        row = TABLES.get(name)
+        if row is None or row.mode != "reaction" or row.le > 0.005 or row.reference[1] == "fixed":
+            continue
+        yield name + ": terminal speed", error(name), 0.01 if row.re == 20 or row.le < 0.005 else 0.02
+    for re in (20, 100, 200):
+        y, r = "Y020-%03d" % re, "Yr20-%03d" % re
+        if both(y, r):
+            yield r + ": dr twice as large", abs(there[r].speed / there[y].speed - 1.0), 0.003
+    for name, st in (("Y020-200", rows.STROUHAL[("closed", 2, 200)]), ("Yf20-200", rows.STROUHAL[("closed", 2, 200)])):
+        if name in there:
+            yield name + ": Strouhal number", abs(there[name].shedding[1] / st - 1.0) if there[name].shedding else 1.0, 0.04
+    for name in ("ranks-2", "ranks-3"):
+        if both("ranks-1", name):
+            yield name + ": terminal speed as on 1", abs(there[name].speed / there["ranks-1"].speed - 1.0), 0.002
+    for name, what, bound in (("dt-half", "dt halved", 0.01), ("every-10", "adapting three times as often", 0.003),
+                              ("Le-0.06", "Le of the paper", 0.003)):
+        if both("ranks-1", name):
+            yield what, abs(there[name].speed / there["ranks-1"].speed - 1.0), bound
+    for name in ("cost-0.02", "cost-0.01"):
+        if name in there:
+            yield name + ": U(2.5)", abs(interpolate(there[name].curve, 2.5) / 1.219 - 1.0), 0.01
+    for name, r in there.items():
+        if r.summary["mode"] != "stress_shell":  # its force is sampled on the surface: the paper's form does not conserve
+            yield name + ": momentum imbalance", r.summary["largest_momentum_imbalance"], 1e-10
+
+
+def check(there):
+    good = True
+    for what, measured, bound in claims(there):
+        good &= measured <= bound
         print("%-45s %8.2g  bound %g%s" % (what, measured, bound, "" if measured <= bound else "  FAILED"))
-    return all(measured <= bound for _, measured, bound in claims)
+    return good
+
+
+def put_into_readme(mark, lines):
+    path = HERE / "README.md"
+    begin, end = "<!-- %s -->\n" % mark, "<!-- end of %s -->\n" % mark
+    text = path.read_text()
+    head, rest = text.split(begin)
+    path.write_text(head + begin + "\n".join(lines) + "\n" + end + rest.split(end)[1])
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--ranks", default="1:1:1")
-    parser.add_argument("--only", nargs="*", default=list(RUNS), choices=list(RUNS))
+    parser.add_argument("--jobs", type=int, default=1, help="runs at a time")
+    parser.add_argument("--only", nargs="*", default=["*"], metavar="PATTERN")
     parser.add_argument("--table", action="store_true")
+    parser.add_argument("--readme", action="store_true")
     parser.add_argument("--check", action="store_true")
     arguments = parser.parse_args()
-    for name in [] if arguments.table else arguments.only:
-        run(name, arguments.ranks)
-    table()
-    if arguments.check and not check():
+    names = [n for n in [*TABLES, *CHECKS] if any(fnmatch.fnmatch(n, p) for p in arguments.only)]
+    if not arguments.table:
+        subprocess.run([str(ROOT / "scripts" / "setup.sh")], check=True)
+        subprocess.run(["cmake", "--preset", "release"], check=True, cwd=ROOT, stdout=subprocess.DEVNULL)
+        subprocess.run(["cmake", "--build", "--preset", "release"], check=True, cwd=ROOT, stdout=subprocess.DEVNULL)
+        with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+            list(pool.map(run, names))
+    of_tables, of_checks = results(TABLES), results(CHECKS)
+    for mark, lines in (("rows", rows_table(of_tables)), ("checks", checks_table(of_checks))):
+        lines = list(lines)
+        print("\n".join(lines) + "\n")
+        if arguments.readme:
+            put_into_readme(mark, lines)
+    if arguments.check and not check({**of_tables, **of_checks}):
         raise SystemExit(1)
 
 

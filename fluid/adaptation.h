@@ -1,0 +1,25 @@
+/* When the fluid's mesh is adapted, and to which metric: the interpolation error of the velocity, and the
+ * size le in the band that the solid's surface will sweep until the next time. */
+#ifndef FLUID_ADAPTATION_H
+#define FLUID_ADAPTATION_H
+#include "fluid.h"
+
+typedef struct {
+  double size_min, size_max; /* le, Le: lengths of edges, m */
+  double velocity_error;     /* of linear interpolation, for each component, m/s */
+  double growth;             /* of sizes from one edge to the next, > 1 */
+  double anisotropy;         /* longest by shortest size of an element, >= 1 */
+  double elements_max;       /* the budget: where the metric asks for more, the error is raised */
+  int every;                 /* steps, at most, between two adaptations */
+} AdaptationSetup;
+
+typedef struct Adaptation_s *Adaptation;
+
+PetscErrorCode AdaptationCreate(const AdaptationSetup *setup, Adaptation *adaptation);
+/* Collective, once a step when its flow is known (u+): is it time for another mesh?  True `every` steps after
+ * the last one, or when the solid may leave its band in the next step. */
+PetscErrorCode AdaptationDue(Adaptation adaptation, Fluid fluid, PetscBool *due);
+/* Collective: the mesh adapted to the flow of the step in hand and to the solid. */
+PetscErrorCode AdaptationMesh(Adaptation adaptation, Fluid fluid, Mesh **mesh);
+PetscErrorCode AdaptationDestroy(Adaptation *adaptation);
+#endif
