@@ -5,6 +5,8 @@
 /* Outside of all old elements by more than round-off, in barycentric coordinates. */
 static const double OUTSIDE = -1e-6;
 
+enum { NOT_SEARCHED = -2 };
+
 /* Of the hits, the piece with the largest smallest barycentric coordinate at x; returns that coordinate. */
 static double Locate(Transfer t, int nhit, const int hit[], const double x[2], TransferNode *node)
 {
@@ -25,17 +27,17 @@ static double Locate(Transfer t, int nhit, const int hit[], const double x[2], T
  * touches the element's box. */
 static PetscErrorCode LocateNodes(Transfer t, int k, char located[])
 {
-  const int *p2 = &t->to->p2[6 * t->changed.element[k]], *hit, nhit_none = -2;
+  const int *p2 = &t->to->p2[6 * t->changed.element[k]], *hit = NULL;
   const double(*x)[2] = (const double(*)[2])t->changed.x[k];
   const GeometryBox box = GeometryBoxOf(x);
-  int nhit = nhit_none;
+  int nhit = NOT_SEARCHED;
   PetscFunctionBeginUser;
   for (int i = 0; i < 6; i++) {
     const double *p = x[i < 3 ? i : (i + 1) % 3], *q = x[i < 3 ? i : (i + 2) % 3];
     const double at[2] = {0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])};
     TransferNode *node = &t->node[t->nnodes];
     if (p2[i] >= t->to->np2_owned || located[p2[i]]) continue;
-    if (nhit == nhit_none) nhit = SearchQuery(t->search, &box, &hit);
+    if (nhit == NOT_SEARCHED) nhit = SearchQuery(t->search, &box, &hit);
     PetscCheck(nhit >= 0, PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory to search %d pieces", t->npieces);
     PetscCheck(Locate(t, nhit, hit, at, node) > OUTSIDE, PETSC_COMM_SELF, PETSC_ERR_ARG_INCOMP,
                "(%g, %g) of the new mesh lies in no triangle of the old one", at[0], at[1]);
