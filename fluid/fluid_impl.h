@@ -19,8 +19,8 @@ struct Fluid_s {
   KSP momentum_ksp;
   PetscInt *slot; /* [ne][4] block of the diagonal and of each face in the local diagonal (>= 0) or
                      off-diagonal (-1 - k) part */
-  int preconditioner_age,
-      fresh_iterations; /* steps since the preconditioner was made, iterations it took then */
+  /* steps since the preconditioner was made, iterations it took then, and more than that since */
+  int preconditioner_age, fresh_iterations, extra_iterations;
   double preconditioner_dt;
   double *preconditioned; /* [ne][36] the diagonal blocks that it was made of */
 

@@ -1,10 +1,10 @@
 /* When the momentum equation's preconditioner is made anew, and what keeps it useful in between. */
 #include "fluid_impl.h"
 
-/* Made anew when it is this many steps old, when it takes so many iterations more than at first, and when dt
- * has changed by this fraction.  One factorisation costs nine iterations. */
+/* Made anew when it is this many steps old, when dt has changed by this fraction, and when the iterations
+ * that it has taken more than at first add up to what a factorisation costs. */
 #define PRECONDITIONER_AGE 25
-#define PRECONDITIONER_SLACK 3
+#define PRECONDITIONER_COST 9
 #define PRECONDITIONER_DT 0.1
 /* A row is scaled when its diagonal block has changed by more than this fraction. */
 #define ROW_CHANGE 0.05
@@ -108,7 +108,7 @@ PetscErrorCode PreconditionerChoose(Fluid f, double dt)
 {
   const PetscBool keep = f->preconditioner_age > 0 && f->preconditioner_age < PRECONDITIONER_AGE &&
                          fabs(dt - f->preconditioner_dt) < PRECONDITIONER_DT * f->preconditioner_dt &&
-                         f->stats.momentum_iterations <= f->fresh_iterations + PRECONDITIONER_SLACK;
+                         f->extra_iterations < PRECONDITIONER_COST;
   PetscFunctionBeginUser;
   PetscCall(KSPSetReusePreconditioner(f->momentum_ksp, keep));
   PetscCall(keep ? ScaleChangedRows(f) : RememberDiagonal(f));
@@ -121,5 +121,9 @@ PetscErrorCode PreconditionerChoose(Fluid f, double dt)
 
 void PreconditionerUsed(Fluid f)
 {
-  if (f->preconditioner_age++ == 0) f->fresh_iterations = f->stats.momentum_iterations;
+  if (f->preconditioner_age++ == 0) {
+    f->fresh_iterations = f->stats.momentum_iterations;
+    f->extra_iterations = 0;
+  }
+  f->extra_iterations += f->stats.momentum_iterations - f->fresh_iterations;
 }
