@@ -10,14 +10,14 @@ static PetscErrorCode Whole(const MeshSerial *serial, MeshPiece *piece)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode HandOut(MPI_Comm comm, const MeshPiece *whole, Mesh **mesh)
+static PetscErrorCode HandOut(MPI_Comm comm, int size, const MeshPiece *whole, Mesh **mesh)
 {
   MeshPiece own;
   PetscErrorCode failed;
   int *part;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(whole->serial.ne, &part));
-  failed = MeshPiecePartition(comm, whole, NULL, part);
+  failed = MeshPiecePartition(comm, whole, size, NULL, part);
   if (!failed) {
     PetscCall(MeshPieceMigrate(comm, whole, part, 0, NULL, &own, NULL));
     failed = MeshBuild(comm, &own, mesh);
@@ -36,7 +36,7 @@ PetscErrorCode MeshDistribute(MPI_Comm comm, const MeshSerial *serial, Mesh **me
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCallMPI(MPI_Comm_size(comm, &size));
   if (rank == 0) PetscCall(Whole(serial, &whole));
-  failed = size == 1 ? MeshBuild(comm, &whole, mesh) : HandOut(comm, &whole, mesh);
+  failed = size == 1 ? MeshBuild(comm, &whole, mesh) : HandOut(comm, size, &whole, mesh);
   PetscCall(PetscFree(whole.gid));
   PetscFunctionReturn(failed);
 }

@@ -1,10 +1,10 @@
 /* A distributed mesh on its way: what a Mesh is made of, moved about and made into again.
  *
- *   rank 0        rank 1          Each triangle is on one rank.  Vertices on more than one rank are known to
- *   7---4   |   4---1             be the same by their global number gid, which need not be contiguous.
- *   |\  |   |   |\  |             Facets are the triangles' edges on the boundary of the whole domain; those
- *   | \ |   |   | \ |             on an edge with triangles on both sides, here or elsewhere, are passed
- * over. 9---2   |   2---5
+ *   rank 0        rank 1        Each triangle is on one rank.  Vertices on more than one rank are known to
+ *   7---4   |   4---1           be the same by their global number gid, which need not be contiguous.
+ *   |\  |   |   |\  |           Facets are the triangles' edges on the boundary of the whole domain; those
+ *   | \ |   |   | \ |           on an edge with triangles on both sides, here or elsewhere, are passed
+ *   9---2   |   2---5           over.
  *
  * All collective, on any number of ranks, of which any may have no triangles; the same input gives the same
  * result in every run.  Errors are returned on all ranks. */
@@ -26,11 +26,12 @@ PetscErrorCode MeshPieceOf(const Mesh *mesh, MeshPiece *piece);
 /* Nonzero for faces[ne][3] to triangles of other ranks and for vertices[nv] that other ranks have too. */
 PetscErrorCode MeshPieceShared(MPI_Comm comm, const MeshPiece *piece, char faces[], char vertices[]);
 
-/* A rank for each triangle, part[ne]: METIS on the graph of the triangles, equal numbers of them and few
- * edges between parts.  weight[ne][3] of the faces, at least 1, or NULL on all ranks: faces of large weight
- * are cut only if it cannot be avoided; the larger of two sides counts.  The graph is gathered on rank 0, the
- * mesh is not. */
-PetscErrorCode MeshPiecePartition(MPI_Comm comm, const MeshPiece *piece, const int weight[], int part[]);
+/* A rank below nparts <= ranks for each triangle, part[ne]: METIS on the graph of the triangles, equal
+ * numbers of them and few edges between parts.  weight[ne][3] of the faces, at least 1, or NULL on all ranks:
+ * faces of large weight are cut only if it cannot be avoided; the larger of two sides counts.  The graph is
+ * gathered on rank 0, the mesh is not. */
+PetscErrorCode MeshPiecePartition(MPI_Comm comm, const MeshPiece *piece, int nparts, const int weight[],
+                                  int part[]);
 
 /* Triangles go to part[ne]; *moved has them by the rank that they came from and their order there.  Per
  * vertex, data[nv][ncomp] goes along and comes out in *moved_data, PetscFree'd by the caller; both may be

@@ -99,7 +99,8 @@ static PetscErrorCode Cut(const Graph *g, int nparts, int part[])
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode MeshPiecePartition(MPI_Comm comm, const MeshPiece *piece, const int weight[], int part[])
+PetscErrorCode MeshPiecePartition(MPI_Comm comm, const MeshPiece *piece, int nparts, const int weight[],
+                                  int part[])
 {
   const int ne = piece->serial.ne;
   int size, *all;
@@ -109,7 +110,7 @@ PetscErrorCode MeshPiecePartition(MPI_Comm comm, const MeshPiece *piece, const i
   if (failed) PetscFunctionReturn(failed);
   PetscCallMPI(MPI_Comm_size(comm, &size));
   PetscCall(PetscMalloc1(g.n, &all));
-  failed = MeshAgree(comm, Cut(&g, size, all));
+  failed = MeshAgree(comm, Cut(&g, nparts, all));
   for (int r = 0; r < size; r++) g.count[r] /= 3, g.start[r] /= 3;
   if (!failed) PetscCallMPI(MPI_Scatterv(all, g.count, g.start, MPI_INT, part, ne, MPI_INT, 0, comm));
   PetscCall(PetscFree(all));

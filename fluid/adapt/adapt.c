@@ -60,7 +60,12 @@ PetscErrorCode MeshAdapt(const MeshSerial *mesh, const double metric[], const Ad
   Adapt a;
   PetscFunctionBeginUser;
   if (!options) options = &usual;
-  PetscCall(AdaptCreate(mesh, metric, options, &a));
+  memset(result, 0, sizeof *result);
+  const PetscErrorCode refused = AdaptCreate(mesh, metric, options, &a);
+  if (refused) {
+    PetscCall(AdaptDestroy(&a));
+    PetscFunctionReturn(refused);
+  }
   PetscCall(Rounds(&a, options->rounds > 0 ? options->rounds : MOST_ROUNDS));
   PetscCall(AdaptExtract(&a, result));
   PetscCall(AdaptDestroy(&a));
@@ -86,30 +91,40 @@ static void MeasureEdge(const MeshSerial *m, const double metric[], int p, int q
   r->longest = fmax(r->longest, l);
 }
 
+static void MeasureEdges(const MeshSerial *m, const double metric[], const int across[], AdaptReport *r)
+{
+  r->edges = r->edges_unit = 0;
+  r->shortest = INFINITY;
+  r->longest = 0.0;
+  for (int c = 0; c < 3 * m->ne; c++) {
+    if (across[c] == NONE || c < across[c]) MeasureEdge(m, metric, m->vertex[Next(c)], m->vertex[Prev(c)], r);
+  }
+}
+
+static void MeasureTriangles(const MeshSerial *m, const double metric[], AdaptReport *r)
+{
+  double sum = 0.0;
+  r->quality_worst = INFINITY;
+  for (int e = 0; e < m->ne; e++) {
+    const int *v = &m->vertex[3 * e];
+    const double *const x[3] = {&m->x[2 * v[0]], &m->x[2 * v[1]], &m->x[2 * v[2]]};
+    const double *const t[3] = {&metric[3 * v[0]], &metric[3 * v[1]], &metric[3 * v[2]]};
+    double square;
+    const double quality = MetricQuality(x, t, &square);
+    r->quality_worst = fmin(r->quality_worst, quality);
+    sum += quality;
+  }
+  r->quality_mean = m->ne ? sum / m->ne : 0.0;
+}
+
 PetscErrorCode AdaptMeasure(const MeshSerial *mesh, const double metric[], AdaptReport *report)
 {
   int *across, *mark;
-  double sum = 0.0;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2(3 * mesh->ne, &across, 3 * mesh->ne, &mark));
-  PetscCall(AdaptFaces(mesh, across, mark));
-  report->edges = report->edges_unit = 0;
-  report->shortest = report->quality_worst = INFINITY;
-  report->longest = 0.0;
-  for (int c = 0; c < 3 * mesh->ne; c++) {
-    if (across[c] == NONE || c < across[c])
-      MeasureEdge(mesh, metric, mesh->vertex[Next(c)], mesh->vertex[Prev(c)], report);
-  }
-  for (int e = 0; e < mesh->ne; e++) {
-    const int *v = &mesh->vertex[3 * e];
-    const double *const x[3] = {&mesh->x[2 * v[0]], &mesh->x[2 * v[1]], &mesh->x[2 * v[2]]};
-    const double *const m[3] = {&metric[3 * v[0]], &metric[3 * v[1]], &metric[3 * v[2]]};
-    double square;
-    const double quality = MetricQuality(x, m, &square);
-    report->quality_worst = fmin(report->quality_worst, quality);
-    sum += quality;
-  }
-  report->quality_mean = mesh->ne ? sum / mesh->ne : 0.0;
+  const PetscErrorCode failed = AdaptFaces(mesh, across, mark);
+  if (!failed) MeasureEdges(mesh, metric, across, report);
+  if (!failed) MeasureTriangles(mesh, metric, report);
   PetscCall(PetscFree2(across, mark));
-  PetscFunctionReturn(0);
+  PetscFunctionReturn(failed);
 }

@@ -33,7 +33,7 @@ static double Try(const Adapt *a, const Star *star, int u, double bound)
     }
     const double quality = AdaptQuality(a, u, p, q, &square);
     worst = PetscMin(worst, quality);
-    if (worst <= bound || AdaptLength(a, u, p) > LONG_EDGE || AdaptLength(a, u, q) > LONG_EDGE) return -1.0;
+    if (worst <= bound || AdaptIsLong(a, u, p) || AdaptIsLong(a, u, q)) return -1.0;
   }
   return worst;
 }
@@ -42,7 +42,7 @@ static double Try(const Adapt *a, const Star *star, int u, double bound)
 static void Consider(const Adapt *a, const Star *star, int v, int u, int mark, double bound, Choice *best)
 {
   if (a->kind[v] == ON_LINE && mark == NONE) return;
-  if (AdaptLength(a, v, u) >= SHORT_EDGE) return;
+  if (!AdaptIsShort(a, v, u)) return;
   const double quality = Try(a, star, u, PetscMax(bound, best->quality));
   if (quality > best->quality) *best = (Choice){u, quality};
 }
@@ -82,8 +82,8 @@ static bool CollapseVertex(Adapt *a, int v)
   bool needed = false;
   for (int i = 0; i < star.n && !needed; i++) {
     const int c = star.corner[i];
-    needed = AdaptLength(a, v, a->vertex[Next(c)]) < SHORT_EDGE ||
-             (!star.closed && AdaptLength(a, v, a->vertex[Prev(c)]) < SHORT_EDGE);
+    needed =
+        AdaptIsShort(a, v, a->vertex[Next(c)]) || (!star.closed && AdaptIsShort(a, v, a->vertex[Prev(c)]));
   }
   if (!needed) return false;
   const double worst = WorstOf(a, &star, v), bound = PetscMin(QUALITY_KEPT, worst);

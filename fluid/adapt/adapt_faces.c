@@ -35,29 +35,42 @@ static PetscErrorCode Join(const MeshSerial *m, int c, int d, int across[])
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode JoinAll(const MeshSerial *m, const FaceTable *table, int across[])
+{
+  PetscFunctionBeginUser;
+  for (int v = 0; v < m->nv; v++) table->head[v] = NONE;
+  for (int c = 0; c < 3 * m->ne; c++) {
+    const int lower = Lower(m, c), d = Find(m, table, lower, Upper(m, c));
+    across[c] = NONE;
+    if (d == NONE) {
+      table->next[c] = table->head[lower];
+      table->head[lower] = c;
+    } else {
+      PetscCall(Join(m, c, d, across));
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+static void MarkFacets(const MeshSerial *m, const FaceTable *table, const int across[], int mark[])
+{
+  for (int c = 0; c < 3 * m->ne; c++) mark[c] = NONE;
+  for (int k = 0; k < m->nb; k++) {
+    const int p = m->facet[2 * k], q = m->facet[2 * k + 1];
+    const int c = Find(m, table, PetscMin(p, q), PetscMax(p, q));
+    if (c == NONE) continue; /* off the mesh */
+    mark[c] = m->facet_tag[k];
+    if (across[c] != NONE) mark[across[c]] = mark[c];
+  }
+}
+
 PetscErrorCode AdaptFaces(const MeshSerial *mesh, int across[], int mark[])
 {
   FaceTable table;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2(mesh->nv, &table.head, 3 * mesh->ne, &table.next));
-  for (int v = 0; v < mesh->nv; v++) table.head[v] = NONE;
-  for (int c = 0; c < 3 * mesh->ne; c++) {
-    const int lower = Lower(mesh, c), d = Find(mesh, &table, lower, Upper(mesh, c));
-    across[c] = mark[c] = NONE;
-    if (d == NONE) {
-      table.next[c] = table.head[lower];
-      table.head[lower] = c;
-    } else {
-      PetscCall(Join(mesh, c, d, across));
-    }
-  }
-  for (int k = 0; k < mesh->nb; k++) {
-    const int p = mesh->facet[2 * k], q = mesh->facet[2 * k + 1];
-    const int c = Find(mesh, &table, PetscMin(p, q), PetscMax(p, q));
-    if (c == NONE) continue; /* off the mesh */
-    mark[c] = mesh->facet_tag[k];
-    if (across[c] != NONE) mark[across[c]] = mark[c];
-  }
+  const PetscErrorCode failed = JoinAll(mesh, &table, across);
+  if (!failed) MarkFacets(mesh, &table, across, mark);
   PetscCall(PetscFree2(table.head, table.next));
-  PetscFunctionReturn(0);
+  PetscFunctionReturn(failed);
 }

@@ -85,6 +85,33 @@ static inline double AdaptLength(const Adapt *a, int p, int q)
   return MetricLength(&a->x[2 * p], &a->x[2 * q], &a->metric[3 * p], &a->metric[3 * q]);
 }
 
+/* Squares of an edge's length in the metrics of its ends: the length lies between their roots. */
+static inline void AdaptSquares(const Adapt *a, int p, int q, double *smaller, double *larger)
+{
+  const double x = a->x[2 * q] - a->x[2 * p], y = a->x[2 * q + 1] - a->x[2 * p + 1];
+  const double s = MetricSquare(&a->metric[3 * p], x, y), t = MetricSquare(&a->metric[3 * q], x, y);
+  *smaller = PetscMin(s, t);
+  *larger = PetscMax(s, t);
+}
+
+static inline bool AdaptIsLong(const Adapt *a, int p, int q)
+{
+  double smaller, larger;
+  AdaptSquares(a, p, q, &smaller, &larger);
+  if (larger <= LONG_EDGE * LONG_EDGE || smaller > LONG_EDGE * LONG_EDGE)
+    return smaller > LONG_EDGE * LONG_EDGE;
+  return AdaptLength(a, p, q) > LONG_EDGE;
+}
+
+static inline bool AdaptIsShort(const Adapt *a, int p, int q)
+{
+  double smaller, larger;
+  AdaptSquares(a, p, q, &smaller, &larger);
+  if (smaller >= SHORT_EDGE * SHORT_EDGE || larger < SHORT_EDGE * SHORT_EDGE)
+    return larger < SHORT_EDGE * SHORT_EDGE;
+  return AdaptLength(a, p, q) < SHORT_EDGE;
+}
+
 /* adapt_build.c: from and to a MeshSerial. */
 PetscErrorCode AdaptCreate(const MeshSerial *mesh, const double metric[], const AdaptOptions *options,
                            Adapt *a);
@@ -103,10 +130,6 @@ void AdaptKillTriangle(Adapt *a, int e);
 void AdaptSetTriangle(Adapt *a, int e, int p, int q, int r); /* also their corners and stamps */
 void AdaptJoin(Adapt *a, int c, int d, int mark);            /* two faces become neighbours; d may be NONE */
 bool AdaptStar(const Adapt *a, int v, Star *star);           /* false if it is larger than MAX_STAR */
-/* Quality of a triangle with these vertices, at most 0 if it is flat or clockwise; *square as MetricQuality.
- */
-double AdaptQuality(const Adapt *a, int p, int q, int r, double *square);
-double AdaptLength(const Adapt *a, int p, int q);
 
 /* adapt_background.c: metric at a point near background triangle *home, which is updated. */
 void BackgroundMetric(const Background *b, const double x[2], int *home, double metric[3]);

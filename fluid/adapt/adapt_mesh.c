@@ -84,25 +84,28 @@ void AdaptJoin(Adapt *a, int c, int d, int mark)
   a->mark[d] = mark;
 }
 
-bool AdaptStar(const Adapt *a, int v, Star *star)
+/* Corners of the triangles around a vertex from `first` on, counter-clockwise; false if there are too many.
+ */
+static bool Turn(const Adapt *a, int first, Star *star)
 {
-  const int start = a->corner[v];
-  int first = start, c;
-  star->closed = false;
-  do { /* clockwise to the boundary */
-    const int o = a->across[Prev(first)];
-    if (o == NONE) break;
-    first = Prev(o);
-    star->closed = first == start;
-  } while (!star->closed);
-  c = first;
+  int c = first;
   star->n = 0;
-  do { /* counter-clockwise */
+  do {
     if (star->n == MAX_STAR) return false;
     star->corner[star->n++] = c;
     const int o = a->across[Next(c)];
-    if (o == NONE) break;
+    star->closed = o != NONE;
+    if (!star->closed) break;
     c = Next(o);
   } while (c != first);
   return true;
+}
+
+bool AdaptStar(const Adapt *a, int v, Star *star)
+{
+  int first = a->corner[v];
+  if (!Turn(a, first, star)) return false;
+  if (star->closed) return true;
+  for (int o = a->across[Prev(first)]; o != NONE; o = a->across[Prev(first)]) first = Prev(o); /* clockwise */
+  return Turn(a, first, star);
 }

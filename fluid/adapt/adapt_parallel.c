@@ -2,7 +2,9 @@
 #include "adapt_near.h"
 #include <string.h>
 
-enum { MOST_PASSES = 8 };
+/* A pass in which a part would have less than so many triangles makes do with fewer parts; twice as many in
+ * the next one: a mesh of few triangles cannot be cut away from everywhere. */
+enum { MOST_PASSES = 8, SMALL_PART = 50 };
 
 /* A part may be so much larger than the mean. */
 #define IMBALANCE 1.03
@@ -179,15 +181,19 @@ static PetscErrorCode Pass(Parallel *p, const AdaptOptions *options, bool *fits)
   PetscFunctionReturn(failed);
 }
 
-/* New parts: away from the last cuts, or just as METIS likes it. */
-static PetscErrorCode Repartition(Parallel *p, bool away)
+/* New parts: `least` > 0 triangles in each if these are enough, and away from the last cuts; or, for 0, on
+ * all ranks and just as METIS likes it. */
+static PetscErrorCode Repartition(Parallel *p, long long least)
 {
+  long long all = p->piece.serial.ne;
   MeshPiece moved;
   double *data;
-  int *part;
+  int *part, nparts = p->size;
   PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_LONG_LONG, MPI_SUM, p->comm));
+  if (least > 0) nparts = (int)PetscMin((long long)nparts, PetscMax(1, all / least));
   PetscCall(PetscMalloc1(p->piece.serial.ne, &part));
-  PetscCall(MeshPiecePartition(p->comm, &p->piece, away ? p->weight : NULL, part));
+  PetscCall(MeshPiecePartition(p->comm, &p->piece, nparts, least > 0 ? p->weight : NULL, part));
   PetscCall(MeshPieceMigrate(p->comm, &p->piece, part, DATA, p->data, &moved, &data));
   PetscCall(PetscFree(part));
   PetscCall(PetscFree(p->weight));
@@ -215,12 +221,12 @@ static PetscErrorCode Passes(Parallel *p, const AdaptOptions *options)
   int pass = 0;
   PetscFunctionBeginUser;
   for (; pass < MOST_PASSES && !fits; pass++) {
-    if (pass > 0) PetscCall(Repartition(p, true));
+    if (pass > 0) PetscCall(Repartition(p, (long long)SMALL_PART << pass));
     const PetscErrorCode failed = Pass(p, options, &fits);
     if (failed) PetscFunctionReturn(failed);
   }
   PetscCall(IsBalanced(p, &balanced));
-  if (pass > 1 || !balanced) PetscCall(Repartition(p, false));
+  if (pass > 1 || !balanced) PetscCall(Repartition(p, 0));
   PetscFunctionReturn(0);
 }
 

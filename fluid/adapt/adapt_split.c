@@ -81,6 +81,7 @@ PetscErrorCode AdaptSplit(Adapt *a, int since, int *done)
     const int *v = &a->vertex[3 * e];
     double length, beyond;
     if (v[0] == NONE || a->stamp[v[0]] < since || a->stamp[v[1]] < since || a->stamp[v[2]] < since) continue;
+    if (!AdaptIsLong(a, v[0], v[1]) && !AdaptIsLong(a, v[1], v[2]) && !AdaptIsLong(a, v[2], v[0])) continue;
     const int c = Longest(a, e, &length), o = a->across[c];
     if (length <= LONG_EDGE || (a->mark[c] != NONE && a->frozen_mark[a->mark[c]])) continue;
     /* a triangle is cut across its longest face only: no angle gets small (Rivara, 1984) */

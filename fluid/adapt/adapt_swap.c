@@ -42,10 +42,10 @@ int AdaptSwap(Adapt *a, int since)
       continue;
     }
     const int o = a->across[c];
-    if (o == NONE || a->mark[c] != NONE) continue;
+    /* an edge is looked at from its first side only, as is one that changes meanwhile; NONE is below all */
+    if (c > o || a->mark[c] != NONE) continue;
     if (a->stamp[a->vertex[Next(c)]] < since || a->stamp[a->vertex[Prev(c)]] < since) continue;
-    /* an edge is looked at from its first side only, as is one that changes meanwhile */
-    if (c > o || !IsBetter(a, c, o)) continue;
+    if (!IsBetter(a, c, o)) continue;
     Swap(a, c, o);
     done++;
   }

@@ -1,5 +1,6 @@
 /* Seconds of a refinement and of the small changes that follow a ring on its way, on any number of ranks:
- * bench_parallel [size on the ring, default 0.004] [step of the ring in sizes, default 1]. */
+ * bench_parallel [size on the ring, default 0.004] [step of the ring in sizes, default 1] [steps, default 5].
+ */
 #include "adapt_parallel.h"
 #include "piece.h"
 #include <math.h>
@@ -52,6 +53,7 @@ int main(int argc, char **argv)
 {
   const double lower[2] = {0.0, 0.0}, upper[2] = {1.0, 1.0};
   double size = argc > 1 ? atof(argv[1]) : 0.004, step = argc > 2 ? atof(argv[2]) : 1.0, coarse = 0.05;
+  const int steps = argc > 3 ? atoi(argv[3]) : 5;
   MeshSerial box = {0};
   Mesh *mesh;
   PetscMPIInt rank;
@@ -60,7 +62,7 @@ int main(int argc, char **argv)
   if (!rank) PetscCall(MeshBox(lower, upper, coarse, Uniform, &coarse, &box));
   PetscCall(MeshDistribute(PETSC_COMM_WORLD, &box, &mesh));
   PetscCall(MeshSerialDestroy(&box));
-  for (int k = 0; k < 8; k++) PetscCall(Step(&mesh, size, 0.5 + fmax(0, k - 2) * step * size));
+  for (int k = 0; k < 3 + steps; k++) PetscCall(Step(&mesh, size, 0.5 + fmax(0, k - 2) * step * size));
   PetscCall(MeshDestroy(&mesh));
   return PetscFinalize();
 }

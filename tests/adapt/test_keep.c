@@ -161,27 +161,40 @@ static void CheckAgain(void)
   MeshSerialDestroy(&m);
 }
 
+/* What is refused leaves nothing behind. */
+static void Refuse(const MeshSerial *m, const double metric[], PetscErrorCode code, const char *what)
+{
+  PetscLogDouble before, after;
+  AdaptResult r;
+  PetscMallocGetCurrentUsage(&before);
+  PetscPushErrorHandler(PetscIgnoreErrorHandler, NULL);
+  CHECK(MeshAdapt(m, metric, NULL, &r) == code, "%s is taken", what);
+  PetscPopErrorHandler();
+  PetscMallocGetCurrentUsage(&after);
+  CHECK(after == before, "%s: %g bytes are left", what, after - before);
+}
+
 static void CheckRefused(void)
 {
   MeshSerial m;
-  AdaptResult r;
   Box(LOWER, UPPER, 0.5, &m);
   double *metric = SampleMetric(&m, Coarse, NULL);
-  PetscPushErrorHandler(PetscIgnoreErrorHandler, NULL);
   metric[0] = -1.0;
-  CHECK(MeshAdapt(&m, metric, NULL, &r) == PETSC_ERR_ARG_OUTOFRANGE, "a negative metric is taken");
+  Refuse(&m, metric, PETSC_ERR_ARG_OUTOFRANGE, "a negative metric");
   metric[0] = metric[2];
   const int first = m.vertex[0];
   m.vertex[0] = m.vertex[1];
   m.vertex[1] = first;
-  CHECK(MeshAdapt(&m, metric, NULL, &r) == PETSC_ERR_ARG_WRONG, "a clockwise triangle is taken");
-  PetscPopErrorHandler();
+  Refuse(&m, metric, PETSC_ERR_ARG_WRONG, "a clockwise triangle");
+  memcpy(m.vertex, &m.vertex[3], 3 * sizeof(int));
+  Refuse(&m, metric, PETSC_ERR_ARG_WRONG, "a triangle twice");
   free(metric);
   MeshSerialDestroy(&m);
 }
 
 int main(int argc, char **argv)
 {
+  PetscCall(PetscOptionsSetValue(NULL, "-malloc_debug", "1")); /* so that it counts what is allocated */
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   CheckFrozenLines(Fine);
   CheckFrozenLines(Coarse);

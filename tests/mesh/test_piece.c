@@ -149,7 +149,7 @@ static int CutInBand(int heavy)
   int *weight = malloc((3 * (size_t)s->ne + 1) * sizeof *weight);
   int *part = malloc(((size_t)s->ne + 1) * sizeof *part);
   for (int k = 0; k < 3 * s->ne; k++) weight[k] = InBand(s, k) ? heavy : 1;
-  CHECK(!MeshPiecePartition(PETSC_COMM_WORLD, &piece, weight, part), "not cut");
+  CHECK(!MeshPiecePartition(PETSC_COMM_WORLD, &piece, size, weight, part), "not cut");
   CHECK(!MeshPieceMigrate(PETSC_COMM_WORLD, &piece, part, 0, NULL, &moved, NULL), "not moved");
   char *face = calloc(3 * (size_t)m->ne + 1, 1), *vertex = calloc((size_t)m->nv + 1, 1);
   CHECK(!MeshPieceShared(PETSC_COMM_WORLD, &moved, face, vertex), "what is shared is not known");
