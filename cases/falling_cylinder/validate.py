@@ -27,7 +27,7 @@ CHECKS = {
     "ranks-1": (["time.end=4"], "1:1:1"),
     "ranks-2": (["time.end=4"], "2:1:1"),
     "ranks-3": (["time.end=4"], "3:2:2"),
-    "dt-half": (["time.end=4", "time.cfl=0.25", "time.dt_max=0.005"], "1:1:1"),
+    "dt-half": (["time.end=4", "time.cfl=0.5", "time.dt_max=0.005"], "1:1:1"),
     "every-10": (["time.end=4", "fluid.adapt.every=10"], "1:1:1"),
     "Le-0.06": (["time.end=4", "fluid.adapt.size_max=0.06", "fluid.mesh.size_max=0.06"], "1:1:1"),
     "cost-0.02": (["time.end=2.5"] + COARSE, "1:1:1"),
