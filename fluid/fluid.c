@@ -49,7 +49,7 @@ PetscErrorCode FluidCreateLike(Fluid like, const Mesh *mesh, Fluid *fluid)
   const double start = MPI_Wtime();
   PetscFunctionBeginUser;
   PetscCall(FluidCreate(mesh, &like->setup, fluid));
-  (*fluid)->stats.seconds[ADAPTATION] = MPI_Wtime() - start;
+  (*fluid)->stats.seconds[SETUP] = MPI_Wtime() - start;
   PetscFunctionReturn(0);
 }
 

@@ -3,7 +3,7 @@
 #define FLUID_IMPL_H
 #include "fluid.h"
 
-enum { ASSEMBLY, MOMENTUM, PRESSURE, COUPLING, ADAPTATION };
+enum { ASSEMBLY, MOMENTUM, PRESSURE, COUPLING, ADAPTATION, SETUP };
 
 struct Fluid_s {
   const Mesh *mesh; /* borrowed */

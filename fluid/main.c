@@ -53,10 +53,10 @@ static PetscErrorCode Setup(March *m, MPI_Comm comm)
 static PetscErrorCode Report(CoracleClient client, Fluid fluid)
 {
   static const char *const PHASES[] = {"seconds_assembly", "seconds_momentum", "seconds_pressure",
-                                       "seconds_correction", "seconds_adaptation"};
+                                       "seconds_correction", "seconds_adaptation", "seconds_setup"};
   PetscFunctionBeginUser;
   PetscCall(CoracleReport(client, "elements", FluidMesh(fluid)->ne, 1));
-  for (int k = 0; k < 5; k++)
+  for (int k = 0; k < 6; k++)
     PetscCall(CoracleReport(client, PHASES[k], FluidGetStats(fluid)->seconds[k], 0));
   PetscFunctionReturn(0);
 }

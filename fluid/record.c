@@ -4,7 +4,8 @@
 #define COLUMNS                                                                                              \
   "t [s],dt [s],max speed [m/s],momentum x [kg/s],momentum y [kg/s],kinetic energy [J/m],momentum "          \
   "iterations,"                                                                                              \
-  "pressure iterations,assembly [s],momentum [s],pressure [s],coupling [s],adaptation [s],triangles"
+  "pressure iterations,assembly [s],momentum [s],pressure [s],coupling [s],adaptation [s],setup "            \
+  "[s],triangles,largest part"
 
 struct Record_s {
   Output output;
@@ -85,9 +86,14 @@ PetscErrorCode RecordCreate(Case c, Fluid f, Record *record)
 PetscErrorCode RecordStep(Record r, Fluid f)
 {
   const FluidStats *s = FluidGetStats(f);
+  const Mesh *m = FluidMesh(f);
   double momentum[2], energy;
+  PetscMPIInt size;
+  int most;
   PetscFunctionBeginUser;
   PetscCall(FluidMomentumTotal(f, momentum, &energy));
+  PetscCallMPI(MPI_Comm_size(m->comm, &size));
+  PetscCallMPI(MPI_Allreduce(&m->ne, &most, 1, MPI_INT, MPI_MAX, m->comm));
   const double row[] = {s->t,
                         s->dt,
                         s->max_speed,
@@ -101,7 +107,9 @@ PetscErrorCode RecordStep(Record r, Fluid f)
                         s->seconds[2],
                         s->seconds[3],
                         s->seconds[4],
-                        FluidMesh(f)->nglobal};
+                        s->seconds[5],
+                        m->nglobal,
+                        (double)most * size / m->nglobal};
   PetscCall(SeriesRow(r->series, row));
   if (s->t >= r->next * (1.0 - 1e-12)) PetscCall(Snapshot(r, f));
   PetscFunctionReturn(0);
