@@ -48,7 +48,8 @@ typedef struct Fluid_s *Fluid;
 typedef struct {
   int momentum_iterations, pressure_iterations;
   double t, dt, max_speed;
-  double seconds[6]; /* assembly, momentum, pressure, coupling; adaptation with transfer, set-up on new meshes */
+  double
+      seconds[6]; /* assembly, momentum, pressure, coupling; adaptation with transfer, set-up on new meshes */
 } FluidStats;
 
 PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *fluid); /* mesh borrowed */

@@ -52,7 +52,7 @@ static PetscErrorCode Setup(March *m, MPI_Comm comm)
 
 static PetscErrorCode Report(CoracleClient client, Fluid fluid)
 {
-  static const char *const PHASES[] = {"seconds_assembly", "seconds_momentum", "seconds_pressure",
+  static const char *const PHASES[] = {"seconds_assembly",   "seconds_momentum",   "seconds_pressure",
                                        "seconds_correction", "seconds_adaptation", "seconds_setup"};
   PetscFunctionBeginUser;
   PetscCall(CoracleReport(client, "elements", FluidMesh(fluid)->ne, 1));
