@@ -242,7 +242,7 @@ static PetscErrorCode NeedsCreate(Adaptation a, Fluid f, Needs *n)
   PetscCall(SizesNearSolid(a, f, n->part.nv, scratch));
   PetscCall(MetricFromSizes(n->part.nv, scratch, n->near));
   PetscCall(VertexVelocity(f, mean, scratch));
-  for (int c = 0; c < 2; c++) PetscCall(HessianRecover(&view, mean[c], n->hessian[c]));
+  PetscCall(HessianRecover(&view, 2, (const double *const *)mean, n->hessian));
   PetscCall(PetscFree3(mean[0], mean[1], scratch));
   PetscFunctionReturn(0);
 }
@@ -267,6 +267,10 @@ static PetscErrorCode Metric(const AdaptationSetup *s, MPI_Comm comm, const Need
     if (count <= s->elements_max) break;
     error *= 1.1 * count / s->elements_max; /* their number goes with 1/error */
   }
+  PetscCheck(
+      count <= s->elements_max, comm, PETSC_ERR_ARG_OUTOFRANGE,
+      "fluid.adapt.elements_max is %g: sizes up to %g m and the solid's band alone take %.0f triangles",
+      s->elements_max, s->size_max, count);
   PetscFunctionReturn(0);
 }
 

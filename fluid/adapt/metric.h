@@ -13,10 +13,13 @@
 /* Isotropic: M = I/h^2, h[nv] in m, positive. */
 PetscErrorCode MetricFromSizes(int nv, const double h[], double metric[]);
 
-/* Second derivatives hessian[nv][3] of a field given on the vertices: the least-squares cubic through two or
- * more rings of neighbours in coordinates in which these are round.  Order 2 on any mesh for a smooth field;
- * with too few vertices for a cubic it is a quadratic's, order 1, and zero if there are not even six. */
-PetscErrorCode HessianRecover(const MeshSerial *mesh, const double field[], double hessian[]);
+/* Second derivatives hessian[f][nv][3] of fields field[f][nv] given on the vertices, at most HESSIAN_FIELDS
+ * of them, which share the work: the least-squares cubic through two or more rings of neighbours in
+ * coordinates in which these are round.  Order 2 on any mesh for a smooth field; with too few vertices for a
+ * cubic it is a quadratic's, order 1, and zero if there are not even six. */
+enum { HESSIAN_FIELDS = 4 };
+PetscErrorCode HessianRecover(const MeshSerial *mesh, int nfields, const double *const field[],
+                              double *const hessian[]);
 
 /* Linear interpolation on a triangle errs by at most 2/9 max e^T |H| e over its edges (Frey and Alauzet,
  * Comput. Methods Appl. Mech. Engrg. 194, 2005), so M = 2/(9 error) |H| makes the error equal on unit edges.

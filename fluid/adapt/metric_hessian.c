@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_PATCH = 160, CUBIC = 10, QUADRATIC = 6, MAX_RINGS = 5 };
+enum { MAX_PATCH = 160, CUBIC = 10, QUADRATIC = 6, MAX_RINGS = 5, MAX_FIELDS = HESSIAN_FIELDS };
 
 /* Vertices next to a vertex; those of v are near[start[v] .. start[v + 1] - 1], each listed once or twice. */
 typedef struct {
@@ -76,8 +76,8 @@ static void Basis(double x, double y, double f[CUBIC])
   memcpy(f, value, sizeof value);
 }
 
-/* Solves the n x n normal equations by Cholesky; 0 if they are close to singular. */
-static int Solve(int n, double a[CUBIC][CUBIC], double r[CUBIC])
+/* Solves the n x n normal equations by Cholesky for nr right-hand sides; 0 if they are close to singular. */
+static int Solve(int n, double a[CUBIC][CUBIC], int nr, double r[MAX_FIELDS][CUBIC])
 {
   for (int j = 0; j < n; j++) {
     const double before = a[j][j];
@@ -88,56 +88,66 @@ static int Solve(int n, double a[CUBIC][CUBIC], double r[CUBIC])
       for (int k = 0; k < j; k++) a[i][j] -= a[i][k] * a[j][k];
       a[i][j] /= a[j][j];
     }
-    for (int k = 0; k < j; k++) r[j] -= a[j][k] * r[k];
-    r[j] /= a[j][j];
   }
-  for (int j = n - 1; j >= 0; j--) {
-    for (int k = j + 1; k < n; k++) r[j] -= a[k][j] * r[k];
-    r[j] /= a[j][j];
+  for (int f = 0; f < nr; f++) {
+    for (int j = 0; j < n; j++) {
+      for (int k = 0; k < j; k++) r[f][j] -= a[j][k] * r[f][k];
+      r[f][j] /= a[j][j];
+    }
+    for (int j = n - 1; j >= 0; j--) {
+      for (int k = j + 1; k < n; k++) r[f][j] -= a[k][j] * r[f][k];
+      r[f][j] /= a[j][j];
+    }
   }
   return 1;
 }
 
-/* Least squares with n monomials, near vertices weighing more; H = B^T H_y B. */
-static int Fit(const double x[], const double field[], const Patch *p, int n, double hessian[3])
+/* Least squares with n monomials, near vertices weighing more; H = B^T H_y B for vertex p->vertex[0]. */
+static int Fit(const double x[], int nfields, const double *const field[], const Patch *p, int n,
+               double *const hessian[])
 {
   const int center = p->vertex[0];
-  double b[3], a[CUBIC][CUBIC] = {{0.0}}, r[CUBIC] = {0.0};
+  double b[3], a[CUBIC][CUBIC] = {{0.0}}, r[MAX_FIELDS][CUBIC] = {{0.0}};
   if (p->n < n || !Normalise(x, p, b)) return 0;
   for (int i = 0; i < p->n; i++) {
     const int v = p->vertex[i];
     const double dx = x[2 * v] - x[2 * center], dy = x[2 * v + 1] - x[2 * center + 1];
     const double y0 = b[0] * dx, y1 = b[1] * dx + b[2] * dy, weight = 1.0 / (0.5 + y0 * y0 + y1 * y1);
-    double f[CUBIC];
-    Basis(y0, y1, f);
+    double basis[CUBIC];
+    Basis(y0, y1, basis);
     for (int j = 0; j < n; j++) {
-      r[j] += weight * f[j] * (field[v] - field[center]);
-      for (int k = 0; k <= j; k++) a[j][k] += weight * f[j] * f[k];
+      for (int f = 0; f < nfields; f++) r[f][j] += weight * basis[j] * (field[f][v] - field[f][center]);
+      for (int k = 0; k <= j; k++) a[j][k] += weight * basis[j] * basis[k];
     }
   }
-  if (!Solve(n, a, r)) return 0;
-  hessian[0] = b[0] * b[0] * r[3] + 2.0 * b[0] * b[1] * r[4] + b[1] * b[1] * r[5];
-  hessian[1] = b[2] * (b[0] * r[4] + b[1] * r[5]);
-  hessian[2] = b[2] * b[2] * r[5];
+  if (!Solve(n, a, nfields, r)) return 0;
+  for (int f = 0; f < nfields; f++) {
+    double *h = hessian[f] + 3 * center;
+    h[0] = b[0] * b[0] * r[f][3] + 2.0 * b[0] * b[1] * r[f][4] + b[1] * b[1] * r[f][5];
+    h[1] = b[2] * (b[0] * r[f][4] + b[1] * r[f][5]);
+    h[2] = b[2] * b[2] * r[f][5];
+  }
   return 1;
 }
 
-PetscErrorCode HessianRecover(const MeshSerial *mesh, const double field[], double hessian[])
+PetscErrorCode HessianRecover(const MeshSerial *mesh, int nfields, const double *const field[],
+                              double *const hessian[])
 {
   Graph g;
   PetscFunctionBeginUser;
+  PetscCheck(nfields <= HESSIAN_FIELDS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "%d fields, at most %d",
+             nfields, HESSIAN_FIELDS);
   PetscCall(GraphCreate(mesh, &g));
+  for (int f = 0; f < nfields; f++) PetscCall(PetscArrayzero(hessian[f], 3 * mesh->nv));
   for (int v = 0; v < mesh->nv; v++) {
     Patch p = {1, 0, {v}};
-    double *h = &hessian[3 * v];
     int ring = 0, done = 0, more = 1;
-    h[0] = h[1] = h[2] = 0.0;
     g.seen[v] = v;
     while (!done && more && ring < MAX_RINGS) {
       more = AddRing(&g, &p);
-      if (++ring >= 2 && p.n >= CUBIC + 4) done = Fit(mesh->x, field, &p, CUBIC, h);
+      if (++ring >= 2 && p.n >= CUBIC + 4) done = Fit(mesh->x, nfields, field, &p, CUBIC, hessian);
     }
-    if (!done) Fit(mesh->x, field, &p, QUADRATIC, h);
+    if (!done) Fit(mesh->x, nfields, field, &p, QUADRATIC, hessian);
   }
   PetscCall(PetscFree3(g.start, g.near, g.seen));
   PetscFunctionReturn(0);

@@ -46,7 +46,7 @@ static double Error(double size, double (*field)(const double[2]), void (*exact)
   ShakenBox(size, &m);
   double *f = malloc((size_t)m.nv * sizeof *f), *h = malloc((size_t)m.nv * 3 * sizeof *h);
   for (int v = 0; v < m.nv; v++) f[v] = field(&m.x[2 * v]);
-  CHECK(!HessianRecover(&m, f, h), "not recovered");
+  CHECK(!HessianRecover(&m, 1, (const double *const[]){f}, (double *const[]){h}), "not recovered");
   for (int v = 0; v < m.nv; v++) {
     double e[3];
     exact(&m.x[2 * v], e);
@@ -85,7 +85,9 @@ static void CheckFront(void)
   for (int k = 0; k < 8; k++) {
     double *f = malloc((size_t)from->nv * sizeof *f), *m = malloc((size_t)from->nv * 3 * sizeof *m);
     for (int v = 0; v < from->nv; v++) f[v] = Front(&from->x[2 * v]);
-    CHECK(!HessianRecover(from, f, m) && !MetricFromHessian(from->nv, m, 1e-3, 0.2, m), "no metric");
+    CHECK(!HessianRecover(from, 1, (const double *const[]){f}, (double *const[]){m}) &&
+              !MetricFromHessian(from->nv, m, 1e-3, 0.2, m),
+          "no metric");
     CHECK(!MetricBound(from->nv, 1e-4, 0.2, 1000.0, m) && !MetricGrade(from, 2.0, m, NULL), "no bounds");
     CHECK(!MeshAdapt(from, m, NULL, &result), "not adapted");
     CheckKept(from, &result);

@@ -53,6 +53,10 @@ case $scenario in
     expect="solid.*overlap" ;;
   bad_option) with 'fluid.petsc=-momentum_ksp_type nonsense'; expect="fluid.*nonsense" ;;
   unused_option) with 'fluid.petsc=-momentum_kps_type gmres'; expect="'fluid.petsc'.*-momentum_kps_type" ;;
+  adapt_sizes) with 'fluid.adapt={size_min: 0.1, size_max: 0.05, velocity_error: 0.01}'; expect="'fluid.adapt.size_max'" ;;
+  adapt_nothing) with 'fluid.adapt={size_min: 0.1, size_max: 0.2}'; expect="'fluid.adapt.velocity_error'" ;;
+  adapt_budget) with 'fluid.adapt={size_min: 0.01, size_max: 0.2, velocity_error: 0.1, elements_max: 500}'
+    expect="fluid.adapt.elements_max.*500.*the solid's band" ;;
   bad_folder) with output.folder=/proc/nowhere; sets+=(--set output.folder=/proc/nowhere); expect="/proc/nowhere" ;;
   *) echo "no scenario '$scenario'" >&2; exit 2 ;;
 esac

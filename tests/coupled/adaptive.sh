@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# The mesh follows the disc: on any number of ranks the same fall as on a mesh that is fine all along the way, with fewer
+# triangles, balanced parts, and what the fluid gains still being what the solid loses.  Usage: adaptive.sh ROOT BUILD
+set -euo pipefail
+source "$(dirname "$0")/run.sh"
+adapt=(--set time.end=0.2 --set time.dt_max=0.004 --set fluid.adapt.size_min=0.02 --set fluid.adapt.size_max=0.25 --set fluid.adapt.velocity_error=0.005
+  --set fluid.adapt.every=10 --set "fluid.mesh.refine[0].size=0.02" --set "solid.bodies[0].size=0.03")
+must static 1:1:1 "${adapt[@]:0:4}" "${adapt[@]:12}" --set "fluid.mesh.refine[0].lower=[0.8, 0.6]"
+for ranks in 1:1:1 2:1:1 3:2:1; do must "$ranks" "$ranks" "${adapt[@]}"; done
+"$python" - "$scratch" <<'E2'
+import csv, json, sys
+def rows(label, name):
+    return list(csv.DictReader(open("%s/%s/%s.csv" % (sys.argv[1], label, name))))
+def speed(label):
+    return float(rows(label, "coupler")[-1]["u_y [m/s]"])
+def triangles(label):
+    return {int(float(r["triangles"])) for r in rows(label, "fluid")[2:]}  # the first mesh is of the case file
+static, one = speed("static"), speed("1:1:1")
+assert -0.45 < static < -0.35, "the disc falls at %g m/s" % -static
+assert abs(one - static) < 0.005 * abs(static), "%g m/s on adapted meshes, %g on a fine one" % (one, static)
+assert max(triangles("1:1:1")) < 0.7 * max(triangles("static")), "%s triangles, %s without adapting" % (triangles("1:1:1"), triangles("static"))
+for label in ("1:1:1", "2:1:1", "3:2:1"):
+    u = speed(label)
+    assert abs(u - one) < 0.002 * abs(one), "%s: %.9g m/s instead of %.9g" % (label, u, one)
+    imbalance = json.load(open("%s/%s/summary.json" % (sys.argv[1], label)))["largest_momentum_imbalance"]
+    assert imbalance < 1e-10, "%s: momentum imbalance %g" % (label, imbalance)
+    assert len(triangles(label)) > 3, "%s: the mesh has changed %d times" % (label, len(triangles(label)) - 1)
+    largest = max(float(r["largest part"]) for r in rows(label, "fluid"))
+    assert largest < 1.1, "%s: a part has %g of the mean" % (label, largest)
+E2
