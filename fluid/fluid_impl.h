@@ -19,10 +19,7 @@ struct Fluid_s {
   KSP momentum_ksp;
   PetscInt *slot; /* [ne][4] block of the diagonal and of each face in the local diagonal (>= 0) or
                      off-diagonal (-1 - k) part */
-  /* steps since the preconditioner was made, iterations it took then, and more than that since */
-  int preconditioner_age, fresh_iterations, extra_iterations;
-  double preconditioner_dt;
-  double *preconditioned; /* [ne][36] the diagonal blocks that it was made of */
+  struct Preconditioner_s *preconditioner;
 
   /* pressure: ghosted P2 vectors */
   Vec p, phi, divergence, saved_p;
@@ -54,13 +51,13 @@ void BoundaryProjection(const Boundary *b, const double n[2], double project[2][
 /* momentum.c, pressure.c */
 PetscErrorCode MomentumCreate(Fluid f);
 PetscErrorCode MomentumDestroy(Fluid f);
-/* The sequential parts of the momentum matrix; *offdiagonal is NULL on one rank, garray its global block
- * columns. */
-PetscErrorCode MomentumParts(Fluid f, Mat *diagonal, Mat *offdiagonal, const PetscInt **garray);
-/* preconditioner.c: before the solution of the assembled equation, whose rows may be scaled, and after it */
+/* preconditioner.c: a BAIJ matrix with a block for each element and each pair of neighbours, at 0; its
+ * sequential parts (*offdiagonal is NULL on one rank, garray its global block columns); and the
+ * preconditioner, made anew of the assembled momentum matrix. */
+PetscErrorCode MomentumPattern(const Mesh *m, PetscInt block, Mat *matrix);
+PetscErrorCode MatrixParts(Mat matrix, Mat *diagonal, Mat *offdiagonal, const PetscInt **garray);
 PetscErrorCode PreconditionerCreate(Fluid f);
-PetscErrorCode PreconditionerChoose(Fluid f, double dt);
-void PreconditionerUsed(Fluid f);
+PetscErrorCode PreconditionerUpdate(Fluid f);
 PetscErrorCode PreconditionerDestroy(Fluid f);
 PetscErrorCode PressureCreate(Fluid f);
 PetscErrorCode PressureDestroy(Fluid f);
