@@ -1,4 +1,4 @@
-/* Private to the mesh room: messages between all ranks whose contents alone decide who talks to whom, and the
+/* Messages between all ranks whose contents alone decide who talks to whom, and the
  * meeting of ranks that hold the same thing without knowing of each other.  All collective. */
 #ifndef CORACLE_MESH_ROUTE_H
 #define CORACLE_MESH_ROUTE_H
