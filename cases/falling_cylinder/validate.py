@@ -66,7 +66,7 @@ class Result:
                        for r in read_csv(folder / "coupler.csv")]
         self.curve = [(t, -uy) for t, _, _, uy in self.motion]
         series = read_csv(folder / "fluid.csv")
-        self.triangles = max(int(float(r["triangles"])) for r in series)
+        self.triangles = max(int(float(r["triangles"])) for r in series[2:])  # the first mesh is of the case file
         parts = self.summary["participants"].values()
         self.cpu, self.wall = sum(p["seconds_cpu"] for p in parts), max(p["seconds_wall"] for p in parts)
         fluid = self.summary["participants"]["fluid"]
@@ -76,15 +76,20 @@ class Result:
         self.speed = self.shedding[0] if self.shedding else self.summary["terminal_velocity"]
 
     def _shedding(self):
-        """Mean fall speed over whole periods in the run's second half, Strouhal number, peak-to-peak sway in diameters;
-        None where the lateral speed does not swing."""
-        half, ups = 0.5 * self.motion[-1][0], []
-        for (t0, _, a, _), (t1, _, b, _) in zip(self.motion, self.motion[1:]):
-            if t0 > half and a < 0.0 <= b:
+        """Over the last whole periods, at most three: mean fall speed, Strouhal number, peak-to-peak sway in diameters; None where
+        the lateral speed does not swing."""
+        late = [(t, ux) for t, _, ux, _ in self.motion if t > 0.5 * self.motion[-1][0]]
+        swing = max(abs(ux) for t, ux in late if t > 0.7 * late[-1][0])
+        if swing < 0.01 * abs(self.curve[-1][1]):
+            return None
+        ups, armed = [], False
+        for (t0, a), (t1, b) in zip(late, late[1:]):
+            armed = armed or a < -0.3 * swing  # small wiggles around 0 are none
+            if armed and a < 0.0 <= b:
                 ups.append(t0 - a * (t1 - t0) / (b - a))
-        # numerical noise swings too, fast and by little
-        swing = max(abs(ux) for t, _, ux, _ in self.motion if t > half)
-        if len(ups) < 3 or swing < 0.01 * abs(self.curve[-1][1]):
+                armed = False
+        ups = ups[-4:]
+        if len(ups) < 2:
             return None
         inside = [m for m in self.motion if ups[0] < m[0] <= ups[-1]]
         speed = -sum(dt * uy for _, dt, _, uy in inside) / sum(dt for _, dt, _, _ in inside)
