@@ -220,7 +220,7 @@ def main():
     parser.add_argument("--readme", action="store_true")
     parser.add_argument("--check", action="store_true")
     arguments = parser.parse_args()
-    names = [n for n in [*TABLES, *CHECKS] if any(fnmatch.fnmatch(n, p) for p in arguments.only)]
+    names = list(dict.fromkeys(n for p in arguments.only for n in [*TABLES, *CHECKS] if fnmatch.fnmatch(n, p)))
     if not arguments.table:
         subprocess.run([str(ROOT / "scripts" / "setup.sh")], check=True)
         subprocess.run(["cmake", "--preset", "release"], check=True, cwd=ROOT, stdout=subprocess.DEVNULL)

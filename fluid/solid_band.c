@@ -1,0 +1,117 @@
+#include "solid_band.h"
+#include "fluid_impl.h"
+#include "search.h"
+
+/* Where a piece of the solid's surface is and where it will be at the next adaptation. */
+typedef struct {
+  double from[2], to[2];
+} Sweep;
+
+/* The solid's velocity in an element, from (int a) u_s = int a u_s, which holds for volumes and shells. */
+static void SolidVelocity(const CoracleCoupling *k, double u[2])
+{
+  double a[2][2] = {{0.0}}, s[2] = {0.0};
+  for (int c = 0; c < 2; c++)
+    for (int i = 0; i < 3; i++) {
+      s[c] += k->s[c][i];
+      for (int d = 0; d < 2; d++)
+        for (int j = 0; j < 3; j++) a[c][d] += k->a[c][i][d][j];
+    }
+  const double det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+  u[0] = det > 0.0 ? (a[1][1] * s[0] - a[0][1] * s[1]) / det : 0.0;
+  u[1] = det > 0.0 ? (a[0][0] * s[1] - a[1][0] * s[0]) / det : 0.0;
+}
+
+PetscErrorCode SolidBandSpeed(Fluid f, double *speed)
+{
+  PetscFunctionBeginUser;
+  *speed = 0.0;
+  for (int k = 0; k < f->ncoupling; k++) {
+    double u[2];
+    SolidVelocity(f->coupling + k, u);
+    *speed = fmax(*speed, hypot(u[0], u[1]));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, speed, 1, MPI_DOUBLE, MPI_MAX, f->mesh->comm));
+  PetscFunctionReturn(0);
+}
+
+/* This rank's part of the surface, and how far it goes until the next adaptation. */
+static int LocalSweeps(Fluid f, double ahead, Sweep sweep[])
+{
+  int n = 0;
+  for (int k = 0; k < f->ncoupling; k++) {
+    const CoracleCoupling *coupling = f->coupling + k;
+    double u[2];
+    if (!(coupling->shell > 0.0)) continue;
+    SolidVelocity(coupling, u);
+    for (int c = 0; c < 2; c++) {
+      double x = 0.0;
+      for (int i = 0; i < 3; i++) x += ElementVertex(f->mesh, coupling->element, i)[c] / 3.0;
+      sweep[n].from[c] = x;
+      sweep[n].to[c] = x + ahead * u[c];
+    }
+    n++;
+  }
+  return n;
+}
+
+/* The surface of all ranks; *all is allocated. */
+static PetscErrorCode Sweeps(Fluid f, double ahead, int *n, Sweep **all)
+{
+  MPI_Comm comm = f->mesh->comm;
+  PetscMPIInt size, mine, *count, *first;
+  Sweep *local;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCall(PetscMalloc3(f->ncoupling, &local, size, &count, size + 1, &first));
+  mine = 4 * LocalSweeps(f, ahead, local);
+  PetscCallMPI(MPI_Allgather(&mine, 1, MPI_INT, count, 1, MPI_INT, comm));
+  first[0] = 0;
+  for (int r = 0; r < size; r++) first[r + 1] = first[r] + count[r];
+  *n = first[size] / 4;
+  PetscCall(PetscMalloc1(*n, all));
+  PetscCallMPI(MPI_Allgatherv(local, mine, MPI_DOUBLE, *all, count, first, MPI_DOUBLE, comm));
+  PetscCall(PetscFree3(local, count, first));
+  PetscFunctionReturn(0);
+}
+
+static double Distance(const Sweep *s, const double x[2])
+{
+  const double d[2] = {s->to[0] - s->from[0], s->to[1] - s->from[1]};
+  const double r[2] = {x[0] - s->from[0], x[1] - s->from[1]};
+  const double square = d[0] * d[0] + d[1] * d[1];
+  const double k = square > 0.0 ? fmin(fmax((r[0] * d[0] + r[1] * d[1]) / square, 0.0), 1.0) : 0.0;
+  return hypot(r[0] - k * d[0], r[1] - k * d[1]);
+}
+
+PetscErrorCode SolidBandSizes(Fluid f, const SolidBand *b, int nv, double size[])
+{
+  const double near = b->reach + 2.0 * SOLID_BAND * b->size_min;
+  Sweep *sweep;
+  GeometryBox *box;
+  Search search;
+  int n;
+  PetscFunctionBeginUser;
+  PetscCall(Sweeps(f, b->ahead, &n, &sweep));
+  PetscCall(PetscMalloc1(n, &box));
+  for (int k = 0; k < n; k++)
+    for (int c = 0; c < 2; c++) {
+      box[k].lower[c] = fmin(sweep[k].from[c], sweep[k].to[c]) - near;
+      box[k].upper[c] = fmax(sweep[k].from[c], sweep[k].to[c]) + near;
+    }
+  PetscCheck(!SearchCreate(n, box, &search), PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory for the surface");
+  for (int v = 0; v < nv; v++) {
+    const double *x = f->mesh->x + 2 * v;
+    const GeometryBox point = {{x[0], x[1]}, {x[0], x[1]}};
+    const int *hit, nhit = SearchQuery(search, &point, &hit);
+    size[v] = b->size_max;
+    for (int h = 0; h < nhit; h++) {
+      const double outside = fmax(Distance(sweep + hit[h], x) - SOLID_BAND * b->size_min, 0.0);
+      size[v] = fmin(size[v], b->size_min + b->slope * outside);
+    }
+  }
+  SearchDestroy(&search);
+  PetscCall(PetscFree(box));
+  PetscCall(PetscFree(sweep));
+  PetscFunctionReturn(0);
+}
