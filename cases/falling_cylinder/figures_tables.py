@@ -87,8 +87,8 @@ def errors_panel(axes, there, measures, against):
                   label=f"paper, {label}")
     axes.plot(*our_points(there, "Y020", "open", against), "P--", color="k", linewidth=0.8, markersize=7,
               label="Coracle, le 0.005, open sides")
-    for series, label, colour, marker in measures:
-        axes.plot(*our_points(there, series, "closed", against), marker + "-", color=colour, linewidth=0.8, markersize=5,
+    for k, (series, label, colour, marker) in enumerate(measures):  # ever smaller, for they may lie on each other
+        axes.plot(*our_points(there, series, "closed", against), marker + "-", color=colour, linewidth=0.8, markersize=9.5 - 3 * k,
                   label=f"Coracle, {label}, closed sides")
     axes.set(xlim=(0.0, 230.0), xlabel="Reynolds number")
     axes.grid(alpha=0.25)
