@@ -65,7 +65,8 @@ def main():
     for path in arguments.reference:
         table = read_table(path)
         name = os.path.splitext(os.path.basename(path))[0]
-        axes.plot(column(table, path, "t"), column(table, path, "U_fall"), "--", color="0.4", label=f"reference {name}")
+        axes.plot(column(table, path, "t"), column(table, path, "U_fall"), "--", color="k", linewidth=1.0, zorder=3,
+                  label=f"reference {name}")
     for k, terminal in enumerate(arguments.terminal):
         name, value = terminal.rsplit("=", 1)
         axes.axhline(float(value), color=f"C{k + 1}", linewidth=0.8, label=f"{name}: {float(value):.4g} m/s")

@@ -1,0 +1,143 @@
+"""Snapshots of a run (fluid.h5, solid.h5) and how they are painted; needs numpy, h5py and matplotlib."""
+import os
+
+os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")  # the run may still be writing: read beside it, never in its way
+
+import h5py
+import matplotlib
+
+matplotlib.use("Agg")
+import numpy as np
+from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.tri import Triangulation
+
+# A six-node triangle (midpoints of 01, 12, 20 are 3, 4, 5) as four straight ones.
+QUARTERS = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]])
+
+
+class Grid:
+    """A grid of one snapshot: points [n, 2], cells [ne, k], fields by name."""
+
+    def __init__(self, group):
+        self.points = group["points"][()]
+        self.cells = group["cells"][()]
+        self.node = {name: values[()] for name, values in group["node"].items()}
+        self.cell = {name: values[()] for name, values in group["cell"].items()}
+
+    def triangles(self):
+        """Corners [nt, 3] of its straight triangles."""
+        return self.cells[:, QUARTERS].reshape(-1, 3) if self.cells.shape[1] == 6 else self.cells
+
+    def node_areas(self):
+        """The part of the area that belongs to each point, m2."""
+        triangles = self.triangles()
+        a, b, c = self.points[triangles].transpose(1, 0, 2)
+        thirds = abs((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 6.0
+        return np.bincount(triangles.ravel(), np.repeat(thirds, 3), len(self.points))
+
+
+class Window:
+    """A rectangle of the plane, m."""
+
+    def __init__(self, lower, upper):
+        self.lower, self.upper = np.asarray(lower, float), np.asarray(upper, float)
+
+    @classmethod
+    def around(cls, points):
+        return cls(np.nanmin(points, axis=0), np.nanmax(points, axis=0))
+
+    @property
+    def centre(self):
+        return 0.5 * (self.lower + self.upper)
+
+    @property
+    def size(self):
+        return self.upper - self.lower
+
+    def frame(self, axes):
+        axes.set(xlim=(self.lower[0], self.upper[0]), ylim=(self.lower[1], self.upper[1]), aspect="equal")
+
+    def triangulation(self, grid):
+        """The grid's triangles that reach into the window."""
+        triangles = grid.triangles()
+        corners = grid.points[triangles]
+        inside = ((corners.max(axis=1) >= self.lower) & (corners.min(axis=1) <= self.upper)).all(axis=1)
+        return Triangulation(*grid.points.T, triangles[inside])
+
+    def percentiles(self, grid, values, *percents):
+        """Percentiles of nodal values over the window's points."""
+        inside = ((grid.points >= self.lower) & (grid.points <= self.upper)).all(axis=1)
+        return np.percentile(values[inside], percents)
+
+
+def read_snapshot(path, time=None):
+    """Time and grids of the snapshot nearest to `time`, or of the last one; LookupError where there is none."""
+    with h5py.File(path, "r") as file:
+        snapshots = [file["snapshot"][name] for name in sorted(file["snapshot"])]
+        snapshots = [s for s in snapshots if len(s) and len(s) == len(snapshots[0])]  # a running case's last may be in the making
+        if not snapshots:
+            raise LookupError(f"{path} has no snapshot yet")
+        times = np.array([s.attrs["time"] for s in snapshots])
+        k = len(times) - 1 if time is None else int(np.argmin(abs(times - time)))
+        return times[k], {name: Grid(group) for name, group in snapshots[k].items()}
+
+
+def read_bodies(folder, time):
+    """The solid's grid at this time; None where the run has no solid."""
+    path = os.path.join(folder, "solid.h5")
+    if not os.path.exists(path):
+        return None
+    found, grids = read_snapshot(path, time)
+    if abs(found - time) > 1e-6 * max(1.0, abs(time)):
+        raise LookupError(f"{path}: the solid is of t = {found:g} s, the fluid of {time:g} s")
+    return grids["solid"]
+
+
+def outline(grid):
+    """The edges of one triangle only, as a line broken by nan."""
+    edges = np.sort(np.concatenate([grid.cells[:, [0, 1]], grid.cells[:, [1, 2]], grid.cells[:, [2, 0]]]), axis=1)
+    edges, count = np.unique(edges, axis=0, return_counts=True)
+    ends = grid.points[edges[count == 1]]
+    return np.concatenate([ends, np.full((len(ends), 1, 2), np.nan)], axis=1).reshape(-1, 2)
+
+
+def without_hydrostatic(grid, weight):
+    """p + weight y less its mean over the domain; the weight rho g, N/m3, comes from a fit along the side walls if None."""
+    x, y = grid.points.T
+    p = grid.node["pressure"]
+    if weight is None:
+        margin = 0.05 * np.ptp(x)
+        wall = (x < x.min() + margin) | (x > x.max() - margin)
+        weight = -np.polyfit(y[wall], p[wall], 1)[0]
+    p = p + weight * y
+    return p - np.average(p, weights=grid.node_areas()), weight
+
+
+def centred(low, high, even=True):
+    """A diverging colour map for low < 0 < high, neutral at 0: equally steep on both sides, or (not even) full at both ends."""
+    below, above = (max(-low, high),) * 2 if even else (-low, high)
+    place = np.interp(np.linspace(low, high, 256), [-below, 0.0, above], [0.0, 0.5, 1.0])
+    return LinearSegmentedColormap.from_list("centred", matplotlib.colormaps["RdBu_r"](place))
+
+
+def paint(axes, grid, values, window, limits, colour_map, label, body=None, ticks=None, cover=False):
+    """Gouraud shading of nodal values in the window, a colour bar above, the bodies' outline; their inside grey if `cover`."""
+    shade = axes.tripcolor(window.triangulation(grid), values, shading="gouraud", cmap=colour_map,
+                           vmin=limits[0], vmax=limits[1])
+    axes.figure.colorbar(shade, ax=axes, label=label, location="top", fraction=0.03, pad=0.01, shrink=0.85, extend="both",
+                         ticks=ticks)
+    if body is not None:
+        if cover:
+            axes.tripcolor(Triangulation(*body.points.T, body.cells), np.zeros(len(body.points)), cmap="Greys", vmin=-0.3, vmax=1.0)
+        axes.plot(*outline(body).T, "k", linewidth=0.8)
+    window.frame(axes)
+
+
+def paint_mesh(axes, grid, window, body=None, linewidth=0.4, inside=False):
+    """The fluid's triangles in the window and the bodies' outline; their own triangles too if `inside`."""
+    axes.triplot(window.triangulation(grid), color="0.35", linewidth=linewidth)
+    if body is not None:
+        if inside:
+            axes.triplot(Triangulation(*body.points.T, body.cells), color="C3", linewidth=linewidth, alpha=0.6)
+        axes.plot(*outline(body).T, "C3", linewidth=1.2)
+    window.frame(axes)
