@@ -7,6 +7,8 @@
 
 /* Tries to meet the budget of elements. */
 #define BUDGET_ROUNDS 10
+/* Passes at most from the first mesh to one that is fine near the solid. */
+#define FIRST_PASSES 12
 
 struct Adaptation_s {
   AdaptationSetup setup;
@@ -166,5 +168,54 @@ PetscErrorCode AdaptationMesh(Adaptation a, Fluid f, Mesh **mesh)
   PetscCall(PetscFree(metric));
   PetscCall(NeedsDestroy(&needs));
   f->stats.seconds[ADAPTATION] += MPI_Wtime() - start;
+  PetscFunctionReturn(0);
+}
+
+/* --- the first mesh
+ * ------------------------------------------------------------------------------------------- */
+
+static double BoxDistance(const double box[4], const double x[2])
+{
+  double d[2];
+  for (int c = 0; c < 2; c++) d[c] = fmax(fmax(box[c] - x[c], x[c] - box[2 + c]), 0.0);
+  return hypot(d[0], d[1]);
+}
+
+/* One pass: le in the boxes, and elsewhere what the mesh has. */
+static PetscErrorCode RefineBoxes(const AdaptationSetup *s, const Mesh *m, int nbox, const double box[],
+                                  Mesh **mesh)
+{
+  const MeshSerial part = {.nv = m->nv, .ne = m->ne, .x = m->x, .vertex = m->vertex};
+  SharedVertices shared;
+  double *size, *metric;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(m->nv, &size, 3 * m->nv, &metric));
+  for (int v = 0; v < m->nv; v++) {
+    size[v] = s->size_max;
+    for (int b = 0; b < nbox; b++)
+      size[v] = fmin(size[v], s->size_min + log(s->growth) * BoxDistance(box + 4 * b, m->x + 2 * v));
+  }
+  PetscCall(MetricFromSizes(m->nv, size, metric));
+  PetscCall(SharedVerticesCreate(m, &shared));
+  PetscCall(MetricGradeParallel(m->comm, &part, &shared, s->growth, metric));
+  PetscCall(MeshAdaptParallel(m, metric, NULL, mesh, NULL));
+  PetscCall(SharedVerticesDestroy(&shared));
+  PetscCall(PetscFree2(size, metric));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode AdaptationFirstMesh(Adaptation a, const Mesh *given, int nbox, const double box[], Mesh **mesh)
+{
+  Mesh *finer;
+  PetscFunctionBeginUser;
+  PetscCall(RefineBoxes(&a->setup, given, nbox, box, mesh));
+  /* a coarse mesh sees little of a small box: again, until there is nothing new to see */
+  for (int pass = 0; pass < FIRST_PASSES; pass++) {
+    PetscCall(RefineBoxes(&a->setup, *mesh, nbox, box, &finer));
+    const double gain = (double)finer->nglobal / (double)(*mesh)->nglobal;
+    PetscCall(MeshDestroy(mesh));
+    *mesh = finer;
+    if (gain < 1.02) break;
+  }
   PetscFunctionReturn(0);
 }

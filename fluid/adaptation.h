@@ -21,5 +21,9 @@ PetscErrorCode AdaptationCreate(const AdaptationSetup *setup, Adaptation *adapta
 PetscErrorCode AdaptationDue(Adaptation adaptation, Fluid fluid, PetscBool *due);
 /* Collective: the mesh adapted to the flow of the step in hand and to the solid. */
 PetscErrorCode AdaptationMesh(Adaptation adaptation, Fluid fluid, Mesh **mesh);
+/* Collective, before the first step, when all that is known are boxes around the solid, box[nbox][2][2] lower
+ * and upper corners, m: the mesh with le in them, where it is coarser. */
+PetscErrorCode AdaptationFirstMesh(Adaptation adaptation, const Mesh *given, int nbox, const double box[],
+                                   Mesh **mesh);
 PetscErrorCode AdaptationDestroy(Adaptation *adaptation);
 #endif

@@ -4,6 +4,8 @@ struct Exchange_s {
   CoracleClient client; /* borrowed */
   Fluid fluid;          /* borrowed: that of the step in hand, and the one whose elements are given */
   Fluid given;
+  ExchangeFirst first; /* until it has been called */
+  void *context;
   int n, capacity;
   int *element;    /* [n] the fluid's local elements near the solid */
   double *x, *rho; /* [n][3][2], [n] */
@@ -46,8 +48,11 @@ static int ElementsInRegion(void *context, int nbox, const double box[], int *n,
                             const double **rho)
 {
   Exchange s = context;
-  const Mesh *m = FluidMesh(s->given);
+  const ExchangeFirst first = s->first;
   int count = 0;
+  s->first = NULL;
+  if (first && first(s->context, nbox, box, &s->given)) return 1;
+  const Mesh *m = FluidMesh(s->given);
   for (int e = 0; e < m->ne; e++) count += InAnyBox(m, e, nbox, box);
   if (Reserve(s, count)) return 1;
   s->n = 0;
@@ -70,7 +75,8 @@ static int SaveOrRestore(void *context, int save)
   return FluidState(s->fluid, save);
 }
 
-PetscErrorCode ExchangeCreate(CoracleClient client, Fluid fluid, Exchange *exchange)
+PetscErrorCode ExchangeCreate(CoracleClient client, Fluid fluid, ExchangeFirst first, void *context,
+                              Exchange *exchange)
 {
   const Mesh *m = FluidMesh(fluid);
   Exchange x;
@@ -78,10 +84,13 @@ PetscErrorCode ExchangeCreate(CoracleClient client, Fluid fluid, Exchange *excha
   PetscCall(PetscNew(&x));
   x->client = client;
   x->fluid = x->given = fluid;
+  x->first = first;
+  x->context = context;
   PetscCall(CoracleSetRegion(client, m->dim, m->lower, m->upper, ElementsInRegion, x));
   PetscCall(CoracleBindStateFunction(client, SaveOrRestore, x));
   PetscCall(CoracleProposeStep(client, FluidTimeStep(fluid)));
   PetscCall(CoracleReady(client));
+  x->fluid = x->given;
   *exchange = x;
   PetscFunctionReturn(0);
 }

@@ -30,6 +30,22 @@ typedef struct {
   PetscBool new_mesh;    /* since the last step */
 } March;
 
+/* ExchangeFirst: the solid has shown where it is, and the fluid starts on a mesh that is fine there. */
+static PetscErrorCode FirstMesh(void *context, int nbox, const double box[], Fluid *fluid)
+{
+  March *m = context;
+  Mesh *mesh;
+  PetscFunctionBeginUser;
+  PetscCall(AdaptationFirstMesh(m->adaptation, m->mesh, nbox, box, &mesh));
+  PetscCall(FluidCreateLike(m->fluid, mesh, fluid));
+  PetscCall(FluidSetInitial(*fluid, 0.0, NULL, NULL, NULL));
+  PetscCall(FluidDestroy(&m->fluid));
+  PetscCall(MeshDestroy(&m->mesh));
+  m->mesh = mesh;
+  m->fluid = *fluid;
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode Setup(March *m, MPI_Comm comm)
 {
   FluidSetup setup;
@@ -45,8 +61,8 @@ static PetscErrorCode Setup(March *m, MPI_Comm comm)
   PetscCall(FluidCreate(m->mesh, &setup, &m->fluid));
   PetscCall(FluidSetInitial(m->fluid, 0.0, NULL, NULL, NULL));
   PetscCall(PetscFree(setup.boundary));
+  PetscCall(ExchangeCreate(m->client, m->fluid, adapts ? FirstMesh : NULL, m, &m->exchange));
   PetscCall(RecordCreate(m->c, m->fluid, &m->record));
-  PetscCall(ExchangeCreate(m->client, m->fluid, &m->exchange));
   PetscFunctionReturn(0);
 }
 

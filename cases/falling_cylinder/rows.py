@@ -70,7 +70,7 @@ class Row:
         keys = ["case=%s" % self.name, "note=%s sides, full tank" % self.sides,
                 "fluid.viscosity=%.6g" % (self.nu * RHO_F), "solid.materials.disc.density=%g" % (self.ratio * RHO_F),
                 "fluid.adapt.size_min=%g" % self.le, "fluid.adapt.velocity_error=%.3g" % (speed * error_size),
-                "fluid.mesh.refine[0].size=%g" % self.le, "solid.bodies[0].size=%g" % (1.5 * self.le),
+                "solid.bodies[0].size=%g" % (1.5 * self.le),
                 "coupler.shell_thickness=%g" % self.dr, "coupler.mode=%s" % self.mode,
                 "time.end=%.3g" % ((START - END) / speed * (0.5 if self.re == 20 else 1.0))]
         if self.re > 20:
