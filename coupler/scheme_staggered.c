@@ -1,6 +1,9 @@
 #include "guard.h"
 #include "scheme.h"
 
+/* Of dt_max: a shorter step is an error. */
+#define LEAST_STEP 1e-6
+
 /* What lives from one step to the next. */
 typedef struct {
   const Scheme *scheme;
@@ -81,11 +84,15 @@ static PetscErrorCode NextStep(March *m)
 {
   const double left = m->scheme->c->end - m->t;
   const double wanted = fmin(ServerProposedStep(m->scheme->server), m->scheme->c->dt_max);
-  char message[128];
+  char message[192];
 
   PetscFunctionBeginUser;
-  if (!(wanted > 0.0)) {
-    snprintf(message, sizeof message, "at t = %g s the fluid proposes a time step of %g s", m->t, wanted);
+  /* a flow that runs away takes ever shorter steps and would never end */
+  if (!(wanted > LEAST_STEP * m->scheme->c->dt_max)) {
+    snprintf(message, sizeof message,
+             "at t = %g s the fluid proposes a time step of %g s, less than %g of time.dt_max: its velocity "
+             "runs away",
+             m->t, wanted, LEAST_STEP);
     PetscCall(FailTogether(m->scheme->server, message));
   }
   m->dt = left < 2.0 * wanted ? 0.5 * left : wanted;
