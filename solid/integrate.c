@@ -16,7 +16,7 @@ PetscErrorCode SolidForces(Solid s, const double **force)
   const double start = Clock();
   PetscCall(SolidInternalForces(s));
   const double elements = Clock();
-  if (s->contact) PetscCall(ContactAddForces(s->contact, s));
+  PetscCall(ContactAddForces(s->contact, s));
   const double contact = Clock();
   PetscCall(ShareSum(s->share, s->force));
   s->force_valid = PETSC_TRUE;
@@ -32,7 +32,7 @@ PetscErrorCode SolidForces(Solid s, const double **force)
 PetscErrorCode SolidLimit(Solid s, double *limit)
 {
   PetscFunctionBeginUser;
-  *limit = SolidElementLimit(s, s->contact ? ContactRate(s->contact) : 0.0);
+  *limit = SolidElementLimit(s, ContactRate(s->contact));
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, limit, 1, MPI_DOUBLE, MPI_MIN, s->comm));
   PetscFunctionReturn(0);
 }
@@ -79,17 +79,22 @@ static int SafeSubsteps(const Motion *m, double reach, double h)
   return k;
 }
 
-/* Searches anew when the candidates may not last, and always at the start of a step: they then follow from x
- * alone, and a step that is redone has the same bits.  *substeps: how many until the next check. */
+/* Searches anew always at the start of a step, so that candidates follow from x alone and a step that is
+ * redone has the same bits, and when the candidates may not last.  *substeps: how many until the next check.
+ */
 static PetscErrorCode CheckContact(Solid s, int *substeps)
 {
   Motion m;
   double limit;
   PetscFunctionBeginUser;
+  if (s->done == 0.0) {
+    PetscCall(ContactSearch(s->contact, s, 0.0));
+    s->force_valid = PETSC_FALSE;
+  }
   PetscCall(SolidLimit(s, &limit));
   PetscCall(MotionNow(s, &m));
   const double h = PetscMin(s->setup.courant * limit, s->dt);
-  if (s->done == 0.0 || Travel(&m, CHECK_EVERY, h) > ContactReach(s->contact)) {
+  if (Travel(&m, CHECK_EVERY, h) > ContactReach(s->contact)) {
     const Motion from_here = {0.0, m.speed, m.acceleration};
     PetscCall(ContactSearch(s->contact, s, 2.0 * Travel(&from_here, 2, h)));
     s->force_valid = PETSC_FALSE;
@@ -105,8 +110,7 @@ static PetscErrorCode Plan(Solid s)
   const double start = Clock(), rest = s->dt - s->done;
   double limit;
   PetscFunctionBeginUser;
-  s->until_check = CHECK_EVERY;
-  if (s->contact) PetscCall(CheckContact(s, &s->until_check));
+  PetscCall(CheckContact(s, &s->until_check));
   PetscCall(SolidLimit(s, &limit));
   s->remaining = PetscMax(1, (int)ceil(rest / (s->setup.courant * limit) * (1.0 - 1e-12)));
   s->h = rest / s->remaining;
@@ -139,6 +143,23 @@ PetscBool SolidRemaining(Solid s)
   return (PetscBool)(s->remaining > 0);
 }
 
+/* Driven nodes go their own way: from where they were (before: 1, puts it down) by their velocity's mean. */
+static void MoveDriven(Solid s, int before)
+{
+  for (int k = 0; k < s->ndriven; k++) {
+    const int n = s->driven[k].node;
+    const Drive *d = &s->drive[s->driven[k].drive];
+    for (int c = 0; c < 2; c++) {
+      if (before) {
+        s->held[2 * k + c] = s->x[2 * n + c];
+      } else if (d->driven[c]) {
+        s->v[2 * n + c] = DriveVelocity(d, c, s->stats.t, s->h);
+        s->x[2 * n + c] = s->held[2 * k + c] + s->h * s->v[2 * n + c];
+      }
+    }
+  }
+}
+
 /* v += h (f/m + g), x += h v; fixed nodes stay. */
 static void Move(Solid s)
 {
@@ -161,8 +182,12 @@ PetscErrorCode SolidSubstep(Solid s, double *h)
   PetscFunctionBeginUser;
   if (s->until_check == 0) PetscCall(Plan(s));
   PetscCall(SolidForces(s, &force));
+  ContactCommit(s->contact);
+  MoveDriven(s, 1);
   Move(s);
+  MoveDriven(s, 0);
   s->force_valid = PETSC_FALSE;
+  s->moved_for = s->h;
   *h = s->h;
   s->done += s->h;
   s->stats.t += s->h;

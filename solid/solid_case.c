@@ -24,7 +24,7 @@ static double Property(Case c, const char *material, const char *name, double lo
 
 static Material ReadMaterial(Case c, const char *name)
 {
-  Material m;
+  Material m = {0};
   char key[KEY];
   m.density = Property(c, name, "density", 0.0, 0.0);
   m.youngs_modulus = Property(c, name, "youngs_modulus", 0.0, 0.0);

@@ -70,17 +70,25 @@ static PetscErrorCode Decays(double damping)
   return SolidDestroy(&s);
 }
 
+/* Grows beyond all bounds, until an element turns inside out; a damped one may also go on forever with
+ * shorter substeps, as its limit falls with its shape. */
 static PetscErrorCode Explodes(double damping)
 {
   Assembly a;
   Solid s;
-  double limit;
+  double limit, start, now = 0.0;
   message[0] = '\0';
   PetscCall(Vibrating(1.75, damping, 1e-5, &a, &s));
   PetscCall(SolidLimit(s, &limit));
-  if (!setjmp(stopped)) PetscCall(Run(s, 5e3 * limit, 50.0 * limit));
-  CHECK(strstr(message, "body 0: element") && strstr(message, "inside out at t ="), "above the limit: '%s'",
-        message);
+  PetscCall(TotalEnergy(s, 1, &start));
+  if (!setjmp(stopped)) {
+    PetscCall(Run(s, 500.0 * limit, 50.0 * limit));
+    PetscCall(TotalEnergy(s, 1, &now));
+    CHECK(damping > 0.0 && fabs(now) > 1e3 * start, "above the limit: energy %g of %g", now, start);
+  } else {
+    CHECK(strstr(message, "body 0: element") && strstr(message, "inside out at t ="), "above the limit: '%s'",
+          message);
+  }
   PetscCall(AssemblyDestroy(&a));
   return SolidDestroy(&s);
 }
