@@ -5,19 +5,20 @@
 
 void ContactMaterials(const Solid s, int material, int other, double *friction, double *damping)
 {
-  const Material *a = &s->material[material], *b = other < 0 ? a : &s->material[other];
-  const double wall_friction = s->setup.wall_friction, wall_damping = s->setup.wall_damping;
-  const PetscBool wall = (PetscBool)(other < 0);
-  *friction = sqrt(a->friction * (wall && s->setup.wall_is_set ? wall_friction : b->friction));
-  *damping = sqrt(a->contact_damping * (wall && s->setup.wall_is_set ? wall_damping : b->contact_damping));
+  const PetscBool wall = (PetscBool)(other < 0), own = (PetscBool)(wall && s->setup.rough_walls);
+  const Material *a = &s->material[material], *b = wall ? a : &s->material[other];
+  const double rough = own && s->setup.wall_friction >= 0.0 ? s->setup.wall_friction : b->friction;
+  const double damped = own && s->setup.wall_damping >= 0.0 ? s->setup.wall_damping : b->contact_damping;
+  *friction = sqrt(a->friction * rough);
+  *damping = sqrt(a->contact_damping * damped);
   for (int k = 0; k < s->setup.nrules; k++) {
     const ContactRule *r = &s->setup.rule[k];
     const char *one = a->name, *two = wall ? CONTACT_WALLS : b->name;
     if (!(!strcmp(r->between[0], one) && !strcmp(r->between[1], two)) &&
         !(!strcmp(r->between[1], one) && !strcmp(r->between[0], two)))
       continue;
-    *friction = r->friction;
-    *damping = r->damping;
+    if (r->friction >= 0.0) *friction = r->friction;
+    if (r->damping >= 0.0) *damping = r->damping;
   }
 }
 

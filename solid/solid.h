@@ -23,18 +23,20 @@ typedef struct Solid_s *Solid;
  * means of their friction and of their contact damping. */
 typedef struct {
   char between[2][MATERIAL_NAME];
-  double friction, damping;
+  double friction, damping; /* < 0: not overridden */
 } ContactRule;
+
+enum { MOST_RULES = 32 };
 
 typedef struct {
   double gravity[2];         /* m/s2 */
   double courant;            /* fraction of the stability limit, 0 .. 1 */
   PetscBool walls;           /* rigid walls around the tank */
   double lower[2], upper[2]; /* its corners, m */
-  PetscBool wall_is_set;     /* walls have the next two; else they are like what touches them */
+  PetscBool rough_walls;     /* the next two hold where >= 0; else walls are like what touches them */
   double wall_friction, wall_damping;
   int nrules;
-  const ContactRule *rule; /* [nrules] the last that fits holds; borrowed until SolidDestroy */
+  ContactRule rule[MOST_RULES]; /* [nrules] the last that fits holds */
   /* called on the rank that finds an element inside out; must not return.  NULL: message and MPI_Abort */
   void (*fail)(void *context, const char *message);
   void *context;

@@ -1,4 +1,3 @@
-// ranks: 1 2
 /* What lies stays: a block on the floor and a stack of three come to rest and keep their potential energy; a
  * small heap of blocks that fall on each other comes to rest (hundreds: test_rest 300). */
 #include "build.h"
@@ -96,7 +95,7 @@ int main(int argc, char **argv)
   const int n = argc > 1 ? atoi(argv[1]) : 0;
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   if (n > 0) {
-    PetscCall(Heap(n, 4.0));
+    PetscCall(Heap(n, 6.0));
   } else {
     PetscCall(Stack(1));
     PetscCall(Stack(3));
