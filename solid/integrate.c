@@ -2,6 +2,7 @@
 #include "solid_impl.h"
 
 enum { CHECK_EVERY = 20 }; /* substeps between two looks at the stability limit, at most */
+#define KEEP 0.75          /* of the allowed length, down to which the last one is kept */
 
 static double Clock(void)
 {
@@ -104,6 +105,14 @@ static PetscErrorCode CheckContact(Solid s, int *substeps)
   PetscFunctionReturn(0);
 }
 
+/* Keeps the last substep's length while that is allowed and not much shorter than what is: every change of
+ * length costs the scheme some of its energy conservation, and changes in time with a vibration would feed
+ * it. */
+static double ChooseLength(const Solid s, double allowed)
+{
+  return s->moved_for <= allowed && s->moved_for > KEEP * allowed ? s->moved_for : allowed;
+}
+
 /* Substeps for the rest of the step, none longer than courant times the limit. */
 static PetscErrorCode Plan(Solid s)
 {
@@ -112,7 +121,8 @@ static PetscErrorCode Plan(Solid s)
   PetscFunctionBeginUser;
   PetscCall(CheckContact(s, &s->until_check));
   PetscCall(SolidLimit(s, &limit));
-  s->remaining = PetscMax(1, (int)ceil(rest / (s->setup.courant * limit) * (1.0 - 1e-12)));
+  const double length = ChooseLength(s, s->setup.courant * limit);
+  s->remaining = PetscMax(1, (int)ceil(rest / length * (1.0 - 1e-9)));
   s->h = rest / s->remaining;
   s->stats.seconds[3] += Clock() - start;
   PetscFunctionReturn(0);

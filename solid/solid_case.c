@@ -67,3 +67,18 @@ PetscErrorCode SolidCaseRead(Case c, Assembly *a, SolidSetup *setup)
   if (first >= 0) CaseRefuse(c, BodyKey(key, second, ""), "the body overlaps solid.bodies[%d]", first);
   PetscFunctionReturn(0);
 }
+
+PetscErrorCode SolidFromCase(Case c, MPI_Comm comm, void (*fail)(void *context, const char *message),
+                             void *context, Solid *solid)
+{
+  static const char *const SECTIONS[] = {"solid", NULL};
+  SolidSetup setup = {.fail = fail, .context = context};
+  Assembly assembly = {0};
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsInsertString(NULL, CaseStringOr(c, "solid.petsc", "")));
+  PetscCall(SolidCaseRead(c, &assembly, &setup));
+  PetscCall(CaseFinish(c, SECTIONS));
+  PetscCall(SolidCreate(comm, &assembly, &setup, solid));
+  PetscCall(AssemblyDestroy(&assembly));
+  PetscFunctionReturn(0);
+}
