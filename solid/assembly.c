@@ -158,8 +158,8 @@ static void FixNodes(Assembly *a, const MeshSerial *m, const BodySetup *setup, c
       if (strcmp(m->tag_name[m->facet_tag[b]], setup->fixed_name[k])) continue;
       for (int i = 0; i < 2; i++) a->fixed[renumber[m->facet[2 * b + i]]] = 1;
     }
-  for (int n = 0; n < a->nnodes; n++)
-    if (a->fixed[n]) a->u[2 * n] = a->u[2 * n + 1] = 0.0;
+  for (int v = 0; v < m->nv; v++)
+    if (renumber[v] >= 0 && a->fixed[renumber[v]]) a->u[2 * renumber[v]] = a->u[2 * renumber[v] + 1] = 0.0;
 }
 
 static PetscErrorCode DriveNodes(Assembly *a, const MeshSerial *m, const BodySetup *setup,
