@@ -81,23 +81,23 @@ static int SafeSubsteps(const Motion *m, double reach, double h)
 }
 
 /* Searches anew always at the start of a step, so that candidates follow from x alone and a step that is
- * redone has the same bits, and when the candidates may not last.  *substeps: how many until the next check.
- */
-static PetscErrorCode CheckContact(Solid s, int *substeps)
+ * redone has the same bits, and when the candidates may not last.  *limit: of stability; *substeps: how many
+ * until the next check. */
+static PetscErrorCode CheckContact(Solid s, double *limit, int *substeps)
 {
   Motion m;
-  double limit;
   PetscFunctionBeginUser;
   if (s->done == 0.0) {
     PetscCall(ContactSearch(s->contact, s, 0.0));
     s->force_valid = PETSC_FALSE;
   }
-  PetscCall(SolidLimit(s, &limit));
+  PetscCall(SolidLimit(s, limit));
   PetscCall(MotionNow(s, &m));
-  const double h = PetscMin(s->setup.courant * limit, s->dt);
+  const double h = PetscMin(s->setup.courant * *limit, s->dt);
   if (Travel(&m, CHECK_EVERY, h) > ContactReach(s->contact)) {
     const Motion from_here = {0.0, m.speed, m.acceleration};
     PetscCall(ContactSearch(s->contact, s, 2.0 * Travel(&from_here, 2, h)));
+    PetscCall(SolidLimit(s, limit));
     s->force_valid = PETSC_FALSE;
     m.moved = 0.0;
   }
@@ -119,8 +119,7 @@ static PetscErrorCode Plan(Solid s)
   const double start = Clock(), rest = s->dt - s->done;
   double limit;
   PetscFunctionBeginUser;
-  PetscCall(CheckContact(s, &s->until_check));
-  PetscCall(SolidLimit(s, &limit));
+  PetscCall(CheckContact(s, &limit, &s->until_check));
   const double length = ChooseLength(s, s->setup.courant * limit);
   s->remaining = PetscMax(1, (int)ceil(rest / length * (1.0 - 1e-9)));
   s->h = rest / s->remaining;

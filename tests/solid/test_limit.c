@@ -1,6 +1,6 @@
 /* The stability limit: at it, 1e5 substeps of free vibration keep the energy, with and without damping; the
- * bound is not idle, three quarters above it the motion blows up; SolidSubstep ends a run whose element turns
- * inside out. */
+ * bound is not idle, three quarters above it (twice, damped) the motion blows up; SolidSubstep ends a run
+ * whose element turns inside out. */
 #include "build.h"
 #include <setjmp.h>
 
@@ -70,25 +70,17 @@ static PetscErrorCode Decays(double damping)
   return SolidDestroy(&s);
 }
 
-/* Grows beyond all bounds, until an element turns inside out; a damped one may also go on forever with
- * shorter substeps, as its limit falls with its shape. */
-static PetscErrorCode Explodes(double damping)
+static PetscErrorCode Explodes(double factor, double damping)
 {
   Assembly a;
   Solid s;
-  double limit, start, now = 0.0;
+  double limit;
   message[0] = '\0';
-  PetscCall(Vibrating(1.75, damping, 1e-5, &a, &s));
+  PetscCall(Vibrating(factor, damping, 1e-5, &a, &s));
   PetscCall(SolidLimit(s, &limit));
-  PetscCall(TotalEnergy(s, 1, &start));
-  if (!setjmp(stopped)) {
-    PetscCall(Run(s, 500.0 * limit, 50.0 * limit));
-    PetscCall(TotalEnergy(s, 1, &now));
-    CHECK(damping > 0.0 && fabs(now) > 1e3 * start, "above the limit: energy %g of %g", now, start);
-  } else {
-    CHECK(strstr(message, "body 0: element") && strstr(message, "inside out at t ="), "above the limit: '%s'",
-          message);
-  }
+  if (!setjmp(stopped)) PetscCall(Run(s, 5e3 * limit, 50.0 * limit));
+  CHECK(strstr(message, "body 0: element") && strstr(message, "inside out at t ="), "above the limit: '%s'",
+        message);
   PetscCall(AssemblyDestroy(&a));
   return SolidDestroy(&s);
 }
@@ -99,7 +91,7 @@ int main(int argc, char **argv)
   PetscCall(Conserves());
   PetscCall(Decays(0.05));
   PetscCall(Decays(0.9));
-  PetscCall(Explodes(0.0));
-  PetscCall(Explodes(0.5));
+  PetscCall(Explodes(1.75, 0.0));
+  PetscCall(Explodes(2.0, 0.5));
   return PetscFinalize();
 }
