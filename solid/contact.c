@@ -12,6 +12,8 @@ static PetscErrorCode FindTargets(Contact c, Solid s)
 {
   const Elements *e = &s->elements;
   PetscFunctionBeginUser;
+  PetscCall(PetscFree(c->target));
+  c->ntargets = 0;
   for (int k = 0; k < e->n; k++)
     c->ntargets += s->surface[e->node[0][k]] || s->surface[e->node[1][k]] || s->surface[e->node[2][k]];
   PetscCall(PetscMalloc1((size_t)c->ntargets, &c->target));
@@ -73,7 +75,10 @@ static PetscErrorCode Measure(Contact c, Solid s)
   double sum[2] = {0.0, s->nfacets}, *half;
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(2 * (size_t)s->nnodes, &half));
-  for (int b = 0; b < s->nbodies; b++) c->height[b] = HUGE_VAL;
+  for (int b = 0; b < s->nbodies; b++) {
+    c->height[b] = HUGE_VAL;
+    c->softness[b] = 0.0;
+  }
   for (int k = 0; k < c->ntargets; k++) {
     const int b = c->target[k].body;
     c->height[b] = fmin(c->height[b], TargetHeight(&c->target[k]));
@@ -112,14 +117,23 @@ PetscErrorCode ContactCreate(Solid s, Contact *contact)
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&c));
   if (s->size > 1) PetscCall(HaloCreate(s->comm, &c->halo));
-  PetscCall(PetscCalloc5((size_t)s->nbodies, &c->height, (size_t)s->nbodies, &c->softness, (size_t)s->nbodies,
-                         &c->backing, 2 * (size_t)s->nnodes, &c->searched, (size_t)s->nfacets,
-                         &c->first_pair));
+  PetscCall(PetscCalloc3((size_t)s->nbodies, &c->height, (size_t)s->nbodies, &c->softness, (size_t)s->nbodies,
+                         &c->backing));
   c->rough = AnyRough(s);
+  PetscCall(ContactRenew(c, s));
+  *contact = c;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ContactRenew(Contact c, Solid s)
+{
+  PetscFunctionBeginUser;
+  PetscCall(ContactForgetPairs(c));
+  PetscCall(PetscRealloc(2 * (size_t)s->nnodes * sizeof *c->searched, &c->searched));
+  PetscCall(PetscRealloc((size_t)s->nfacets * sizeof *c->first_pair, &c->first_pair));
   PetscCall(FindTargets(c, s));
   PetscCall(Measure(c, s));
   PetscCall(MeasureBacking(c, s));
-  *contact = c;
   PetscFunctionReturn(0);
 }
 
@@ -292,7 +306,9 @@ PetscErrorCode ContactDestroy(Contact *c)
   PetscFunctionBeginUser;
   if (!*c) PetscFunctionReturn(0);
   PetscCall(HaloDestroy(&(*c)->halo));
-  PetscCall(PetscFree5((*c)->height, (*c)->softness, (*c)->backing, (*c)->searched, (*c)->first_pair));
+  PetscCall(PetscFree3((*c)->height, (*c)->softness, (*c)->backing));
+  PetscCall(PetscFree((*c)->searched));
+  PetscCall(PetscFree((*c)->first_pair));
   PetscCall(PetscFree((*c)->target));
   PetscCall(PetscFree((*c)->candidate));
   PetscCall(PetscFree((*c)->wall));

@@ -23,6 +23,7 @@ typedef struct {
  * it does not start anew when the edge slides from one element of the other to the next. */
 typedef struct {
   int facet, other; /* other: a body, or a wall < 0 */
+  int edge;         /* 3 element + side: the facet, whatever its number becomes */
   int next;         /* pair of the same facet, -1: none */
   ContactLaw law;
   double slip; /* of the spring when the last substep began, m */
@@ -32,7 +33,7 @@ typedef struct {
   ContactResponse response;
 } Pair;
 
-/* What is kept of a pair while candidates are searched or a step is redone: edge = 3 element + side. */
+/* What is kept of a pair while candidates are searched or a step is redone. */
 typedef struct {
   int edge, other;
   double slip;
@@ -77,8 +78,8 @@ const double *ContactPosition(const Contact c, const Solid s, int node);
 /* contact_pair.c */
 /* The pair of the facet and the other, made with the slip that history has of it. */
 PetscErrorCode ContactPairOf(Contact c, Solid s, int facet, int other, ContactLaw law, int *pair);
-/* Before a search: the pairs' slips into history, and no pairs. */
-PetscErrorCode ContactForgetPairs(Contact c, Solid s);
+/* Puts the pairs' slips into history, for those that the next search makes; there are none till then. */
+PetscErrorCode ContactForgetPairs(Contact c);
 /* Friction and damping of two materials; other < 0: the walls. */
 void ContactMaterials(const Solid s, int material, int other, double *friction, double *damping);
 #endif

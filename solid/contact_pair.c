@@ -51,26 +51,25 @@ static PetscErrorCode Reserve(Slips *h, int n)
 }
 
 /* The slips of the pairs that have one, sorted. */
-static PetscErrorCode Collect(const Contact c, const Solid s, Slips *h)
+static PetscErrorCode Collect(const Contact c, Slips *h)
 {
   PetscFunctionBeginUser;
   PetscCall(Reserve(h, c->npairs));
   h->n = 0;
   for (int k = 0; k < c->npairs; k++) {
     const Pair *p = &c->pair[k];
-    if (p->slip != 0.0) h->slip[h->n++] = (Slip){EdgeOf(s, p->facet), p->other, p->slip};
+    if (p->slip != 0.0) h->slip[h->n++] = (Slip){p->edge, p->other, p->slip};
   }
   if (h->n > 1) qsort(h->slip, (size_t)h->n, sizeof *h->slip, CompareSlips);
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ContactForgetPairs(Contact c, Solid s)
+PetscErrorCode ContactForgetPairs(Contact c)
 {
   PetscFunctionBeginUser;
-  if (!c->restored) PetscCall(Collect(c, s, &c->history));
-  c->restored = PETSC_FALSE;
-  c->npairs = 0;
-  for (int k = 0; k < s->nfacets; k++) c->first_pair[k] = -1;
+  if (!c->restored) PetscCall(Collect(c, &c->history));
+  c->restored = PETSC_TRUE;
+  c->ncandidates = c->nwalls = c->npairs = 0;
   PetscFunctionReturn(0);
 }
 
@@ -90,6 +89,7 @@ PetscErrorCode ContactPairOf(Contact c, Solid s, int facet, int other, ContactLa
   *pair = c->npairs++;
   c->pair[*pair] = (Pair){.facet = facet,
                           .other = other,
+                          .edge = key.edge,
                           .next = c->first_pair[facet],
                           .law = law,
                           .slip = found ? found->slip : 0.0};
@@ -102,15 +102,15 @@ void ContactCommit(Contact c)
   for (int k = 0; k < c->npairs; k++) c->pair[k].slip = c->pair[k].now;
 }
 
-PetscErrorCode ContactState(Contact c, Solid s, int save)
+PetscErrorCode ContactState(Contact c, int save)
 {
+  const Slips *from = save ? &c->history : &c->saved;
   Slips *to = save ? &c->saved : &c->history;
   PetscFunctionBeginUser;
   if (save && !c->restored) {
-    PetscCall(Collect(c, s, to));
+    PetscCall(Collect(c, to));
     PetscFunctionReturn(0);
   }
-  const Slips *from = save ? &c->history : &c->saved;
   PetscCall(Reserve(to, from->n));
   PetscCall(PetscArraycpy(to->slip, from->slip, (size_t)from->n));
   to->n = from->n;

@@ -222,9 +222,10 @@ PetscErrorCode ContactSearch(Contact c, Solid s, double least_buffer)
 {
   GeometryBox *edge;
   PetscFunctionBeginUser;
-  PetscCall(ContactForgetPairs(c, s));
+  PetscCall(ContactForgetPairs(c));
+  c->restored = PETSC_FALSE;
+  for (int k = 0; k < s->nfacets; k++) c->first_pair[k] = -1;
   c->buffer = fmax(c->shortest_buffer, least_buffer);
-  c->ncandidates = c->nwalls = 0;
   for (int k = 0; k < 4; k++) c->rate[k] = 0.0;
   PetscCall(PetscMalloc1((size_t)s->nfacets, &edge));
   for (int k = 0; k < s->nfacets; k++) {

@@ -68,7 +68,7 @@ PetscErrorCode SolidState(Solid s, int save)
     s->moved_for = k->moved_for;
     s->force_valid = PETSC_FALSE;
   }
-  PetscCall(ContactState(s->contact, s, save));
+  PetscCall(ContactState(s->contact, save));
   PetscFunctionReturn(0);
 }
 

@@ -71,6 +71,9 @@ PetscErrorCode SolidTakeShare(Solid s, const Assembly *a);
 
 /* contact.c */
 PetscErrorCode ContactCreate(Solid s, Contact *contact);
+/* Collective: nodes, elements or facets have changed; a search must follow.  Slips stay with element and
+ * side. */
+PetscErrorCode ContactRenew(Contact c, Solid s);
 /* Collective: new candidates, for motions of surface nodes up to ContactReach. */
 PetscErrorCode ContactSearch(Contact c, Solid s, double least_buffer);
 /* Adds to force; every rank's edges against its own targets and those of other ranks. */
@@ -83,6 +86,6 @@ ElementRates ContactRate(Contact c);
 /* Not collective: the springs of friction keep what the forces just used; saved and put back with the state.
  * After that there is no contact force until the next search, which SolidStart makes. */
 void ContactCommit(Contact c);
-PetscErrorCode ContactState(Contact c, Solid s, int save);
+PetscErrorCode ContactState(Contact c, int save);
 PetscErrorCode ContactDestroy(Contact *c);
 #endif
