@@ -8,15 +8,16 @@
 #                   hydra (mpiexec -configfile FILE), srun (srun -n N --multi-prog FILE)
 #   --write FILE    with --print: into FILE, and say how to use it
 #   --mpirun ARGS   more arguments for mpirun, e.g. --mpirun "--hostfile nodes" (one string, split at blanks)
+#   --alone         the solid alone: coracle-solid --alone, on the solid's ranks of --ranks (no fluid, no coupler)
 #   --cluster       ranks have cores of their own: leave binding and slots to mpirun (default within a batch job)
 # The case and the --set arguments go to all three programs, as they must.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 
 die() { echo "launch.sh: $*" >&2; exit 2; }
-usage() { sed -n '2,14p' "$0" | cut -c3-; exit "$1"; }
+usage() { sed -n '2,13p' "$0" | cut -c3-; exit "$1"; }
 
-ranks=1:1:1 bin=$root/build print="" write="" mpirun_args="" case="" sets=()
+ranks=1:1:1 bin=$root/build print="" write="" mpirun_args="" case="" sets=() alone="" parts=(fluid coupler solid)
 cluster=${SLURM_JOB_ID:-${PBS_JOBID:-${LSB_JOBID:-}}}
 declare -A program=([fluid]="" [coupler]="" [solid]="")
 while [ $# -gt 0 ]; do
@@ -34,6 +35,7 @@ while [ $# -gt 0 ]; do
       esac
       shift 2 ;;
     --cluster) cluster=yes; shift ;;
+    --alone) alone=--alone parts=(solid); shift ;;
     -h | --help) usage 0 ;;
     -*) die "unknown option '$1' (see --help)" ;;
     *) [ -z "$case" ] || die "two case files: '$case' and '$1'"; case=$1; shift ;;
@@ -43,9 +45,10 @@ done
 [ -f "$case" ] || die "no case file '$case'"
 [[ $ranks =~ ^([1-9][0-9]*):([1-9][0-9]*):([1-9][0-9]*)$ ]] || die "--ranks '$ranks': expected F:C:S, each at least 1"
 declare -A n=([fluid]=${BASH_REMATCH[1]} [coupler]=${BASH_REMATCH[2]} [solid]=${BASH_REMATCH[3]})
-total=$((n[fluid] + n[coupler] + n[solid]))
+total=0
+for part in "${parts[@]}"; do total=$((total + n[$part])); done
 
-for part in fluid coupler solid; do
+for part in "${parts[@]}"; do
   if [ -z "${program[$part]}" ]; then
     for candidate in "$bin/coracle-$part" "$bin/$part/coracle-$part" "$bin/bin/coracle-$part"; do
       [ -x "$candidate" ] && program[$part]=$candidate && break
@@ -80,20 +83,20 @@ read -ra more <<<"$mpirun_args"
 options+=("${more[@]}")
 
 colon=()
-for part in fluid coupler solid; do
-  colon+=(${colon[0]+:} -n "${n[$part]}" "${each[@]}" "${program[$part]}" "$case" "${sets[@]}")
+for part in "${parts[@]}"; do
+  colon+=(${colon[0]+:} -n "${n[$part]}" "${each[@]}" "${program[$part]}" $alone "$case" "${sets[@]}")
 done
 
 # One line for each program, by the launcher's own grammar.
 lines() {
   local part first=0 last
-  for part in fluid coupler solid; do
+  for part in "${parts[@]}"; do
     case $1 in
-      appfile) echo "-np ${n[$part]} ${each[*]} ${program[$part]} $case ${sets[*]}" ;;
-      hydra) echo "-n ${n[$part]} ${program[$part]} $case ${sets[*]}" ;;
+      appfile) echo "-np ${n[$part]} ${each[*]} ${program[$part]}${alone:+ $alone} $case ${sets[*]}" ;;
+      hydra) echo "-n ${n[$part]} ${program[$part]}${alone:+ $alone} $case ${sets[*]}" ;;
       srun)
         last=$((first + n[$part] - 1))
-        echo "$first-$last ${program[$part]} $case ${sets[*]}"
+        echo "$first-$last ${program[$part]}${alone:+ $alone} $case ${sets[*]}"
         first=$((last + 1)) ;;
     esac
   done

@@ -46,19 +46,59 @@ static PetscErrorCode CheckElements(const MeshSerial *m)
   return 0;
 }
 
-static PetscErrorCode CheckFixedNames(const MeshSerial *m, const BodySetup *setup)
+/* what: "boundary" or "region" */
+static PetscErrorCode CheckName(const char *what, const char *name, int n, char (*known)[64])
 {
-  for (int k = 0; k < setup->nfixed; k++) {
-    char known[160] = "";
-    int found = 0;
-    for (int t = 0; t < m->ntags; t++) {
-      const size_t used = strlen(known);
-      found |= !strcmp(m->tag_name[t], setup->fixed_name[k]);
-      (void)snprintf(known + used, sizeof known - used, "%s%s", t ? ", " : "", m->tag_name[t]);
-    }
-    if (!found) return Refuse("the body has no boundary '%s'; it has %s", setup->fixed_name[k], known);
+  char all[160] = "";
+  for (int t = 0; t < n; t++) {
+    const size_t used = strlen(all);
+    if (!strcmp(known[t], name)) return 0;
+    (void)snprintf(all + used, sizeof all - used, "%s%s", t ? ", " : "", known[t]);
   }
-  return 0;
+  return Refuse("the body has no %s '%s'; it has %s", what, name, n ? all : "none");
+}
+
+static PetscErrorCode CheckNames(const MeshSerial *m, const BodySetup *setup)
+{
+  PetscErrorCode code = 0;
+  for (int k = 0; k < setup->nfixed && !code; k++)
+    code = CheckName("boundary", setup->fixed_name[k], m->ntags, m->tag_name);
+  for (int k = 0; k < setup->ndriven && !code; k++)
+    code = CheckName("boundary", setup->driven[k].boundary, m->ntags, m->tag_name);
+  for (int k = 0; k < setup->nregions && !code; k++)
+    code = CheckName("region", setup->region[k].region, m->nregions, m->region_name);
+  return code;
+}
+
+/* --- materials
+ * ---------------------------------------------------------------------------------------------- */
+
+/* The place of a material in the assembly, where it is put if it is not there. */
+static PetscErrorCode AddMaterial(Assembly *a, const Material *m, int *place)
+{
+  PetscFunctionBeginUser;
+  for (*place = 0; *place < a->nmaterials; (*place)++)
+    if (m->name[0] && !strcmp(a->material[*place].name, m->name)) PetscFunctionReturn(0);
+  PetscCall(PetscRealloc((size_t)(a->nmaterials + 1) * sizeof *a->material, &a->material));
+  a->material[a->nmaterials] = *m;
+  if (m->thickness == 0.0) a->material[a->nmaterials].thickness = 1.0;
+  a->nmaterials++;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode GiveMaterials(Assembly *a, const MeshSerial *m, const BodySetup *setup, int first)
+{
+  int place;
+  PetscFunctionBeginUser;
+  PetscCall(AddMaterial(a, &setup->material, &place));
+  for (int e = first; e < a->nelements; e++) a->element_material[e] = place;
+  for (int k = 0; k < setup->nregions; k++) {
+    PetscCall(AddMaterial(a, &setup->region[k].material, &place));
+    for (int e = first; e < a->nelements; e++)
+      if (!strcmp(m->region_name[m->region[e - first]], setup->region[k].region))
+        a->element_material[e] = place;
+  }
+  PetscFunctionReturn(0);
 }
 
 /* --- nodes
@@ -118,8 +158,33 @@ static void FixNodes(Assembly *a, const MeshSerial *m, const BodySetup *setup, c
       if (strcmp(m->tag_name[m->facet_tag[b]], setup->fixed_name[k])) continue;
       for (int i = 0; i < 2; i++) a->fixed[renumber[m->facet[2 * b + i]]] = 1;
     }
-  for (int n = 0; n < a->nnodes; n++)
-    if (a->fixed[n]) a->u[2 * n] = a->u[2 * n + 1] = 0.0;
+  for (int v = 0; v < m->nv; v++)
+    if (renumber[v] >= 0 && a->fixed[renumber[v]]) a->u[2 * renumber[v]] = a->u[2 * renumber[v] + 1] = 0.0;
+}
+
+static PetscErrorCode DriveNodes(Assembly *a, const MeshSerial *m, const BodySetup *setup,
+                                 const int renumber[])
+{
+  PetscFunctionBeginUser;
+  for (int k = 0; k < setup->ndriven; k++) {
+    Drive drive = setup->driven[k].drive;
+    double *row;
+    PetscCall(PetscMalloc1(3 * (size_t)drive.nrows, &row));
+    PetscCall(PetscArraycpy(row, drive.row, 3 * (size_t)drive.nrows));
+    drive.row = row;
+    PetscCall(PetscRealloc((size_t)(a->ndrives + 1) * sizeof *a->drive, &a->drive));
+    a->drive[a->ndrives] = drive;
+    PetscCall(PetscRealloc(((size_t)a->ndriven + 2 * (size_t)m->nb) * sizeof *a->driven, &a->driven));
+    for (int i = 0; i < 2 * m->nb; i++) {
+      if (strcmp(m->tag_name[m->facet_tag[i / 2]], setup->driven[k].boundary)) continue;
+      const int n = renumber[m->facet[i]];
+      a->driven[a->ndriven++] = (DrivenNode){n, a->ndrives};
+      for (int c = 0; c < 2; c++)
+        if (drive.driven[c]) a->u[2 * n + c] = DriveVelocity(&drive, c, 0.0, 1e-12);
+    }
+    a->ndrives++;
+  }
+  PetscFunctionReturn(0);
 }
 
 static void MassCentre(const MeshSerial *m, double centre[2])
@@ -205,6 +270,7 @@ static PetscErrorCode AddElements(Assembly *a, const MeshSerial *m, const int re
   PetscFunctionBeginUser;
   PetscCall(PetscRealloc(3 * (size_t)n * sizeof *a->element, &a->element));
   PetscCall(PetscRealloc((size_t)n * sizeof *a->element_body, &a->element_body));
+  PetscCall(PetscRealloc((size_t)n * sizeof *a->element_material, &a->element_material));
   for (int k = 0; k < 3 * m->ne; k++) a->element[3 * first + k] = renumber[m->vertex[k]];
   for (int e = first; e < n; e++) a->element_body[e] = a->nbodies;
   a->nelements = n;
@@ -218,14 +284,16 @@ PetscErrorCode AssemblyAdd(Assembly *a, const MeshSerial *mesh, const BodySetup 
   PetscErrorCode code;
   PetscFunctionBeginUser;
   *error = why;
-  if ((code = CheckElements(mesh)) || (code = CheckFixedNames(mesh, setup))) PetscFunctionReturn(code);
+  if ((code = CheckElements(mesh)) || (code = CheckNames(mesh, setup))) PetscFunctionReturn(code);
   MassCentre(mesh, body.centre);
   PetscCall(PetscMalloc1((size_t)mesh->nv, &renumber));
   NumberNodes(a, mesh, renumber);
   PetscCall(GrowNodes(a, a->nnodes + CountNodes(mesh, renumber)));
   PlaceNodes(a, mesh, setup, body.centre, renumber);
   FixNodes(a, mesh, setup, renumber);
+  PetscCall(DriveNodes(a, mesh, setup, renumber));
   PetscCall(AddElements(a, mesh, renumber));
+  PetscCall(GiveMaterials(a, mesh, setup, body.first_element));
   PetscCall(PetscFree(renumber));
   PetscCall(PetscRealloc((size_t)(a->nbodies + 1) * sizeof *a->body, &a->body));
   a->body[a->nbodies++] = body;
@@ -246,7 +314,7 @@ typedef struct {
 static int ReachesInto(const Assembly *a, int facet, int e)
 {
   const int *behind = a->element + 3 * a->facet_element[facet];
-  ContactForces f;
+  ContactIntegrals f;
   Point t[3], centre = {0.0, 0.0};
   for (int i = 0; i < 3; i++) {
     t[i] = PointAt(a->x, a->element[3 * e + i]);
@@ -302,6 +370,11 @@ PetscErrorCode AssemblyDestroy(Assembly *a)
   PetscCall(PetscFree(a->node_body));
   PetscCall(PetscFree(a->element));
   PetscCall(PetscFree(a->element_body));
+  for (int k = 0; k < a->ndrives; k++) PetscCall(PetscFree(a->drive[k].row));
+  PetscCall(PetscFree(a->drive));
+  PetscCall(PetscFree(a->driven));
+  PetscCall(PetscFree(a->material));
+  PetscCall(PetscFree(a->element_material));
   PetscCall(PetscFree(a->facet));
   PetscCall(PetscFree(a->facet_element));
   PetscCall(PetscFree(a->body));

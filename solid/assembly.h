@@ -3,24 +3,47 @@
  * collective. */
 #ifndef SOLID_ASSEMBLY_H
 #define SOLID_ASSEMBLY_H
+#include "drive.h"
 #include "mesh.h"
 
+enum { MATERIAL_NAME = 48 };
+
+/* Zeros are good for everything after the penalty. */
 typedef struct {
   double density;        /* kg/m3 */
   double youngs_modulus; /* Pa */
-  double poisson_ratio;  /* 0 <= nu < 0.5, plane strain */
-  double damping; /* 0 <= beta < 1:  eta = 2 h beta sqrt(E rho), h the element's smallest height at rest */
-  double penalty; /* of contact, Pa */
+  double poisson_ratio;  /* 0 <= nu < 0.5 */
+  double damping;  /* 0 <= beta < 1:  eta = 2 h beta sqrt(E rho), h the element's smallest height at rest */
+  double penalty;  /* of contact, Pa */
+  double friction; /* Coulomb's coefficient on the same material */
+  double contact_damping;   /* of contact with the same material, fraction of the critical */
+  double thickness;         /* m; 0 stands for 1: per metre of depth */
+  int plane_stress;         /* else plane strain */
+  char name[MATERIAL_NAME]; /* bodies with equal names share the material; "" is always one of its own */
 } Material;
 
 typedef struct {
+  const char *boundary;
+  Drive drive;
+} BoundaryDrive;
+
+typedef struct {
+  const char *region; /* physical surface of the mesh */
   Material material;
+} RegionMaterial;
+
+typedef struct {
+  Material material;       /* of all elements in none of the regions */
   double stretch[2];       /* current = centre + stretch (rest - centre): 1, 1 for a body at rest */
   double velocity[2];      /* m/s */
   double angular_velocity; /* rad/s about the mass centre, counter-clockwise */
   int fixed;               /* whole body */
   int nfixed;              /* or these boundaries */
   const char *const *fixed_name;
+  int nregions;
+  const RegionMaterial *region;
+  int ndriven;
+  const BoundaryDrive *driven; /* rows are copied */
 } BodySetup;
 
 typedef struct {
@@ -31,19 +54,24 @@ typedef struct {
 
 typedef struct {
   int nnodes, nelements, nfacets, nbodies;
-  double *rest, *x, *u; /* [nnodes][2] rest coordinates X0, initial positions, m, and velocities, m/s */
-  int *fixed;           /* [nnodes] */
-  int *node_body;       /* [nnodes] */
-  int *element;         /* [nelements][3] counter-clockwise */
-  int *element_body;    /* [nelements] */
-  int *facet;           /* [nfacets][2] surface edges, the solid on their left */
-  int *facet_element;   /* [nfacets] the element behind */
-  Body *body;           /* [nbodies] */
+  double *rest, *x, *u;  /* [nnodes][2] rest coordinates X0, initial positions, m, and velocities, m/s */
+  int *fixed;            /* [nnodes] */
+  int *node_body;        /* [nnodes] */
+  int *element;          /* [nelements][3] counter-clockwise */
+  int *element_body;     /* [nelements] */
+  int *element_material; /* [nelements] */
+  int *facet;            /* [nfacets][2] surface edges, the solid on their left */
+  int *facet_element;    /* [nfacets] the element behind */
+  Body *body;            /* [nbodies] */
+  int nmaterials, ndrives, ndriven;
+  Material *material; /* [nmaterials] */
+  Drive *drive;       /* [ndrives] */
+  DrivenNode *driven; /* [ndriven] in order of the drives: the last one of a node and component holds */
 } Assembly;
 
 /* Adds a body; mesh holds its rest coordinates and is not kept.  On failure *error (a static buffer) says
- * why: a degenerate element, an edge with more than two triangles, a boundary to fix that does not exist; the
- * assembly is then of no use any more. */
+ * why: a degenerate element, an edge with more than two triangles, a boundary or region that does not exist;
+ * the assembly is then of no use any more. */
 PetscErrorCode AssemblyAdd(Assembly *a, const MeshSerial *mesh, const BodySetup *setup, const char **error);
 /* The first pair of bodies one of which reaches into the other; *first = -1 if there is none. */
 PetscErrorCode AssemblyOverlap(const Assembly *a, int *first, int *second);

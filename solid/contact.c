@@ -1,34 +1,9 @@
-/* Contact between bodies and with the walls: which pairs, and their forces. */
-#include "cell_grid.h"
-#include "contact_halo.h"
-#include "contact_kernel.h"
-#include "solid_impl.h"
-
-/* An edge that may touch a target before the next search. */
-typedef struct {
-  int facet, target;
-  double strength; /* p times the target's rest area doubled: over its area now, that is p/J */
-} Candidate;
-
-/* An edge that may touch a wall. */
-typedef struct {
-  int facet, axis;
-  double outward, at; /* -1 or 1, and the wall's coordinate */
-} WallCandidate;
-
-struct Contact_s {
-  int ntargets, nall; /* this rank's; with those of the halo */
-  Target *target;     /* [nall] */
-  int ncandidates, candidate_capacity, nwalls, wall_capacity;
-  Candidate *candidate;
-  WallCandidate *wall;
-  Halo halo;        /* NULL on one rank or with one body */
-  double *height;   /* [nbodies] smallest height of the surface elements at rest, m */
-  double *softness; /* [nbodies] largest (half the edges' lengths at a node)/(its mass), m/kg */
-  double *searched; /* [nnodes][2] positions of the last search */
-  double buffer, shortest_buffer;
-  double rate[2]; /* bounds of omega^2 by bodies and by walls, 1/s2 */
-};
+/* Contact between bodies, of a body with itself and with the walls: the forces.
+ *
+ *     pass 1   every candidate that touches: integrals, normal force, relative velocity  -> sums of its pair
+ *     pass 2   every pair: damping and friction from its sums and its spring              (ContactRespond)
+ *     pass 3   every touch: its share of the pair's force, on the edge's ends and the target's nodes */
+#include "contact_impl.h"
 
 /* --- what never changes
  * ------------------------------------------------------------------------------------- */
@@ -37,6 +12,8 @@ static PetscErrorCode FindTargets(Contact c, Solid s)
 {
   const Elements *e = &s->elements;
   PetscFunctionBeginUser;
+  PetscCall(PetscFree(c->target));
+  c->ntargets = 0;
   for (int k = 0; k < e->n; k++)
     c->ntargets += s->surface[e->node[0][k]] || s->surface[e->node[1][k]] || s->surface[e->node[2][k]];
   PetscCall(PetscMalloc1((size_t)c->ntargets, &c->target));
@@ -44,8 +21,14 @@ static PetscErrorCode FindTargets(Contact c, Solid s)
   for (int k = 0; k < e->n; k++) {
     const int node[3] = {e->node[0][k], e->node[1][k], e->node[2][k]};
     if (!s->surface[node[0]] && !s->surface[node[1]] && !s->surface[node[2]]) continue;
-    const double twice = 1.0 / (e->inverse[0][k] * e->inverse[3][k] - e->inverse[1][k] * e->inverse[2][k]);
-    c->target[c->ntargets++] = (Target){{node[0], node[1], node[2]}, e->body[k], twice};
+    Target *t = &c->target[c->ntargets++];
+    *t = (Target){.body = e->body[k], .material = e->material[k]};
+    t->twice_area = 1.0 / (e->inverse[0][k] * e->inverse[3][k] - e->inverse[1][k] * e->inverse[2][k]);
+    for (int i = 0; i < 3; i++) {
+      t->node[i] = node[i];
+      t->gid[i] = s->gid[node[i]];
+      for (int d = 0; d < 2; d++) t->rest[2 * i + d] = s->rest[2 * node[i] + d];
+    }
   }
   PetscFunctionReturn(0);
 }
@@ -56,14 +39,34 @@ static double FacetLength(const Solid s, int k)
   return hypot(d.x, d.y);
 }
 
-static double TargetHeight(const Solid s, const Target *t)
+static double TargetHeight(const Target *t)
 {
   double longest = 0.0;
   for (int i = 0; i < 3; i++) {
-    const Point d = PointMinus(PointAt(s->rest, t->node[(i + 1) % 3]), PointAt(s->rest, t->node[i]));
+    const Point d = PointMinus(PointAt(t->rest, (i + 1) % 3), PointAt(t->rest, i));
     longest = fmax(longest, hypot(d.x, d.y));
   }
   return t->twice_area / longest;
+}
+
+/* The mass behind a metre of a body's surface, as if it were a square lying on a side. */
+static PetscErrorCode MeasureBacking(Contact c, Solid s)
+{
+  double *sum; /* [nbodies][3] mass, perimeter, held nodes */
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(3 * (size_t)s->nbodies, &sum));
+  for (int n = 0; n < s->nnodes; n++) {
+    if (!ShareOwns(s->share, n)) continue;
+    sum[3 * s->node_body[n]] += s->mass[n];
+    sum[3 * s->node_body[n] + 2] += s->inverse_mass[n] == 0.0;
+  }
+  for (int k = 0; k < s->nfacets; k++)
+    sum[3 * s->elements.body[s->facet_element[k]] + 1] += FacetLength(s, k);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3 * s->nbodies, MPI_DOUBLE, MPI_SUM, s->comm));
+  for (int b = 0; b < s->nbodies; b++)
+    c->backing[b] = sum[3 * b + 2] > 0.0 ? HUGE_VAL : 4.0 * sum[3 * b] / sum[3 * b + 1];
+  PetscCall(PetscFree(sum));
+  PetscFunctionReturn(0);
 }
 
 /* height, softness and the shortest buffer, over all ranks. */
@@ -72,10 +75,13 @@ static PetscErrorCode Measure(Contact c, Solid s)
   double sum[2] = {0.0, s->nfacets}, *half;
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(2 * (size_t)s->nnodes, &half));
-  for (int b = 0; b < s->nbodies; b++) c->height[b] = HUGE_VAL;
+  for (int b = 0; b < s->nbodies; b++) {
+    c->height[b] = HUGE_VAL;
+    c->softness[b] = 0.0;
+  }
   for (int k = 0; k < c->ntargets; k++) {
     const int b = c->target[k].body;
-    c->height[b] = fmin(c->height[b], TargetHeight(s, &c->target[k]));
+    c->height[b] = fmin(c->height[b], TargetHeight(&c->target[k]));
   }
   for (int k = 0; k < s->nfacets; k++) {
     const double length = FacetLength(s, k);
@@ -95,183 +101,39 @@ static PetscErrorCode Measure(Contact c, Solid s)
   PetscFunctionReturn(0);
 }
 
+static PetscBool AnyRough(const Solid s)
+{
+  PetscBool rough = PETSC_FALSE;
+  for (int m = 0; m < s->nmaterials; m++)
+    if (s->material[m].friction > 0.0 || s->material[m].contact_damping > 0.0) rough = PETSC_TRUE;
+  for (int k = 0; k < s->setup.nrules; k++)
+    if (s->setup.rule[k].friction > 0.0 || s->setup.rule[k].damping > 0.0) rough = PETSC_TRUE;
+  return rough;
+}
+
 PetscErrorCode ContactCreate(Solid s, Contact *contact)
 {
   Contact c;
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&c));
-  if (s->nbodies > 1 && s->size > 1) PetscCall(HaloCreate(s->comm, &c->halo));
-  PetscCall(PetscCalloc3((size_t)s->nbodies, &c->height, (size_t)s->nbodies, &c->softness,
-                         2 * (size_t)s->nnodes, &c->searched));
-  PetscCall(FindTargets(c, s));
-  PetscCall(Measure(c, s));
+  if (s->size > 1) PetscCall(HaloCreate(s->comm, &c->halo));
+  PetscCall(PetscCalloc3((size_t)s->nbodies, &c->height, (size_t)s->nbodies, &c->softness, (size_t)s->nbodies,
+                         &c->backing));
+  c->rough = AnyRough(s);
+  PetscCall(ContactRenew(c, s));
   *contact = c;
   PetscFunctionReturn(0);
 }
 
-/* --- search
- * ------------------------------------------------------------------------------------------------- */
-
-typedef struct {
-  Contact c;
-  Solid s;
-  char *keep; /* [halo targets] */
-} SearchContext;
-
-static double Penalty(const Solid s, int one, int other)
-{
-  return fmin(s->body[one].material.penalty, s->body[other].material.penalty);
-}
-
-static PetscErrorCode AddCandidate(void *context, int facet, int target)
-{
-  const SearchContext *x = context;
-  Contact c = x->c;
-  const Solid s = x->s;
-  const Target *t = &c->target[target];
-  const int body = s->elements.body[s->facet_element[facet]];
-  PetscFunctionBeginUser;
-  if (t->body == body) PetscFunctionReturn(0);
-  if (c->ncandidates == c->candidate_capacity) {
-    c->candidate_capacity = 2 * c->candidate_capacity + 64;
-    PetscCall(PetscRealloc((size_t)c->candidate_capacity * sizeof *c->candidate, &c->candidate));
-  }
-  const double penalty = Penalty(s, body, t->body);
-  c->candidate[c->ncandidates++] = (Candidate){facet, target, penalty * t->twice_area};
-  if (target >= c->ntargets) x->keep[target - c->ntargets] = 1;
-  /* d(p phi)/dx = 3 p/height; a node takes half of its edges, |u_c - u_t|^2 <= 2 |u_c|^2 + 2 |u_t|^2, and
-   * both bodies are contactor and target */
-  c->rate[0] = fmax(c->rate[0], 6.0 * penalty * fmax(c->softness[body], c->softness[t->body]) *
-                                    (1.0 / c->height[body] + 1.0 / c->height[t->body]));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode AddWall(Contact c, WallCandidate wall)
+PetscErrorCode ContactRenew(Contact c, Solid s)
 {
   PetscFunctionBeginUser;
-  if (c->nwalls == c->wall_capacity) {
-    c->wall_capacity = 2 * c->wall_capacity + 64;
-    PetscCall(PetscRealloc((size_t)c->wall_capacity * sizeof *c->wall, &c->wall));
-  }
-  c->wall[c->nwalls++] = wall;
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode FindWalls(Contact c, Solid s, const GeometryBox edge[])
-{
-  const double *lower = s->setup.lower, *upper = s->setup.upper;
-  PetscFunctionBeginUser;
-  for (int k = 0; k < s->nfacets; k++) {
-    const int body = s->elements.body[s->facet_element[k]], before = c->nwalls;
-    for (int axis = 0; axis < 2; axis++) {
-      if (edge[k].lower[axis] < lower[axis])
-        PetscCall(AddWall(c, (WallCandidate){k, axis, -1.0, lower[axis]}));
-      if (edge[k].upper[axis] > upper[axis])
-        PetscCall(AddWall(c, (WallCandidate){k, axis, 1.0, upper[axis]}));
-    }
-    /* in a corner two walls act */
-    c->rate[1] = fmax(c->rate[1], 3.0 * (c->nwalls - before) * s->body[body].material.penalty *
-                                      c->softness[body] / c->height[body]);
-  }
-  PetscFunctionReturn(0);
-}
-
-static const double *Position(const Contact c, const Solid s, int node)
-{
-  return node < s->nnodes ? s->x + 2 * node : HaloPositions(c->halo) + 2 * (node - s->nnodes);
-}
-
-static Point PointOf(const Contact c, const Solid s, int node)
-{
-  const double *x = Position(c, s, node);
-  return (Point){x[0], x[1]};
-}
-
-/* Brings other ranks' targets near this rank's edges behind its own. */
-static PetscErrorCode BringTargets(Contact c, Solid s, const GeometryBox edge[])
-{
-  GeometryBox all = GeometryBoxEmpty();
-  const Target *foreign;
-  int only_body = s->nfacets ? s->elements.body[s->facet_element[0]] : -1;
-  PetscFunctionBeginUser;
-  c->nall = c->ntargets;
-  if (!c->halo) PetscFunctionReturn(0);
-  for (int k = 0; k < s->nfacets; k++) {
-    GeometryBoxGrow(&all, edge[k].lower);
-    GeometryBoxGrow(&all, edge[k].upper);
-    if (s->elements.body[s->facet_element[k]] != only_body) only_body = -1;
-  }
-  PetscCall(HaloBuild(c->halo, s->nnodes, s->x, &all, only_body, c->ntargets, c->target));
-  PetscCall(HaloForward(c->halo, s->x));
-  const int n = HaloTargets(c->halo, &foreign);
-  c->nall += n;
-  PetscCall(PetscRealloc((size_t)c->nall * sizeof *c->target, &c->target));
-  PetscCall(PetscArraycpy(c->target + c->ntargets, foreign, (size_t)n));
-  PetscFunctionReturn(0);
-}
-
-/* Forgets the targets of other ranks that no candidate has. */
-static PetscErrorCode DropTargets(Contact c, const char keep[])
-{
-  const Target *foreign;
-  int *index;
-  PetscFunctionBeginUser;
-  if (!c->halo) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc1((size_t)(c->nall - c->ntargets), &index));
-  PetscCall(HaloKeep(c->halo, keep, index));
-  for (int k = 0; k < c->ncandidates; k++) {
-    int *target = &c->candidate[k].target;
-    if (*target >= c->ntargets) *target = c->ntargets + index[*target - c->ntargets];
-  }
-  const int n = HaloTargets(c->halo, &foreign);
-  c->nall = c->ntargets + n;
-  PetscCall(PetscArraycpy(c->target + c->ntargets, foreign, (size_t)n));
-  PetscCall(PetscFree(index));
-  PetscFunctionReturn(0);
-}
-
-/* Every pair of boxes closer than the buffer. */
-static PetscErrorCode FindPairs(Contact c, Solid s, const GeometryBox edge[])
-{
-  SearchContext context = {c, s, NULL};
-  GeometryBox *box;
-  PetscFunctionBeginUser;
-  PetscCall(BringTargets(c, s, edge));
-  PetscCall(PetscMalloc1((size_t)c->nall, &box));
-  PetscCall(PetscCalloc1((size_t)(c->nall - c->ntargets), &context.keep));
-  for (int k = 0; k < c->nall; k++) {
-    box[k] = GeometryBoxEmpty();
-    for (int i = 0; i < 3; i++) GeometryBoxGrow(&box[k], Position(c, s, c->target[k].node[i]));
-  }
-  PetscCall(CellGridPairs(s->nfacets, edge, c->nall, box, AddCandidate, &context));
-  PetscCall(DropTargets(c, context.keep));
-  PetscCall(PetscFree(context.keep));
-  PetscCall(PetscFree(box));
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode ContactSearch(Contact c, Solid s, double least_buffer)
-{
-  GeometryBox *edge;
-  PetscFunctionBeginUser;
-  c->buffer = fmax(c->shortest_buffer, least_buffer);
-  c->ncandidates = c->nwalls = 0;
-  c->rate[0] = c->rate[1] = 0.0;
-  PetscCall(PetscMalloc1((size_t)s->nfacets, &edge));
-  for (int k = 0; k < s->nfacets; k++) {
-    edge[k] = GeometryBoxEmpty();
-    for (int i = 0; i < 2; i++) GeometryBoxGrow(&edge[k], s->x + 2 * s->facet[2 * k + i]);
-    for (int axis = 0; axis < 2; axis++) {
-      edge[k].lower[axis] -= c->buffer;
-      edge[k].upper[axis] += c->buffer;
-    }
-  }
-  if (s->setup.walls) PetscCall(FindWalls(c, s, edge));
-  if (s->nbodies > 1) PetscCall(FindPairs(c, s, edge));
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->rate, 2, MPI_DOUBLE, MPI_MAX, s->comm));
-  PetscCall(PetscArraycpy(c->searched, s->x, 2 * (size_t)s->nnodes));
-  PetscCall(PetscFree(edge));
-  s->stats.searches++;
+  PetscCall(ContactForgetPairs(c));
+  PetscCall(PetscRealloc(2 * (size_t)s->nnodes * sizeof *c->searched, &c->searched));
+  PetscCall(PetscRealloc((size_t)s->nfacets * sizeof *c->first_pair, &c->first_pair));
+  PetscCall(FindTargets(c, s));
+  PetscCall(Measure(c, s));
+  PetscCall(MeasureBacking(c, s));
   PetscFunctionReturn(0);
 }
 
@@ -291,13 +153,115 @@ double ContactMoved(Contact c, Solid s)
   return sqrt(largest);
 }
 
-double ContactRate(Contact c)
+ElementRates ContactRate(Contact c)
 {
-  return c->rate[0] + c->rate[1];
+  return (ElementRates){c->rate[0] + c->rate[1], c->rate[2] + c->rate[3]};
 }
 
 /* --- forces
  * ------------------------------------------------------------------------------------------------- */
+
+static Point VelocityOf(const Contact c, const Solid s, int node)
+{
+  if (node < s->nnodes) return PointAt(s->v, node);
+  return PointAt(HaloVelocities(c->halo), node - s->nnodes);
+}
+
+/* Relative velocity at the force's place, into the pair's sums with the normal force as weight. */
+static void AddMotion(const Contact c, const Solid s, const Touch *touch, const int *edge, const Target *t,
+                      Point d, Pair *pair)
+{
+  const ContactIntegrals *k = &touch->integrals;
+  const double sum = k->edge[0] + k->edge[1];
+  Point v = {0.0, 0.0};
+  if (!(sum > 0.0)) return;
+  for (int i = 0; i < 2; i++) {
+    const Point u = PointAt(s->v, edge[i]);
+    v.x += k->edge[i] / sum * u.x;
+    v.y += k->edge[i] / sum * u.y;
+  }
+  for (int i = 0; t && i < 3; i++) {
+    const Point u = VelocityOf(c, s, t->node[i]);
+    v.x -= k->target[i] / sum * u.x;
+    v.y -= k->target[i] / sum * u.y;
+  }
+  const double scale = touch->scale * sum; /* normal force over the edge's length */
+  pair->normal += scale * hypot(d.x, d.y);
+  pair->inside += k->inside;
+  pair->vn += scale * (v.x * d.y - v.y * d.x);
+  pair->vt += scale * (v.x * d.x + v.y * d.y);
+}
+
+static Point EdgeVector(const Solid s, const int *edge)
+{
+  return PointMinus(PointAt(s->x, edge[1]), PointAt(s->x, edge[0]));
+}
+
+static int TouchTarget(const Contact c, Solid s, const Candidate *k, Touch *touch)
+{
+  const Target *t = &c->target[k->target];
+  const int *edge = s->facet + 2 * k->facet;
+  Point corner[3];
+  for (int i = 0; i < 3; i++) corner[i] = PointAt(ContactPosition(c, s, t->node[i]), 0);
+  if (!ContactEdgeTriangle(PointAt(s->x, edge[0]), PointAt(s->x, edge[1]), corner, &touch->integrals))
+    return 0;
+  touch->scale = k->strength / touch->integrals.twice_area;
+  if (c->rough) AddMotion(c, s, touch, edge, t, EdgeVector(s, edge), &c->pair[k->pair]);
+  return 1;
+}
+
+static int TouchWall(const Contact c, Solid s, const WallCandidate *w, Touch *touch)
+{
+  const int *edge = s->facet + 2 * w->facet, element = s->facet_element[w->facet];
+  const Material *m = &s->material[s->elements.material[element]];
+  const double depth_p = w->outward * (s->x[2 * edge[0] + w->axis] - w->at);
+  const double depth_q = w->outward * (s->x[2 * edge[1] + w->axis] - w->at);
+  const double height = c->height[s->elements.body[element]];
+  if (!ContactEdgeWall(depth_p, depth_q, height, &touch->integrals)) return 0;
+  touch->scale = m->penalty * m->thickness;
+  if (c->rough) AddMotion(c, s, touch, edge, NULL, EdgeVector(s, edge), &c->pair[w->pair]);
+  return 1;
+}
+
+/* All that touches now; the pairs' sums. */
+static PetscErrorCode FindTouches(Contact c, Solid s, int *ntouches)
+{
+  const int most = c->ncandidates + c->nwalls;
+  int n = 0;
+  PetscFunctionBeginUser;
+  if (most > c->touch_capacity) {
+    c->touch_capacity = most + most / 2;
+    PetscCall(PetscRealloc((size_t)c->touch_capacity * sizeof *c->touch, &c->touch));
+  }
+  for (int k = 0; k < c->npairs; k++)
+    c->pair[k].normal = c->pair[k].inside = c->pair[k].vn = c->pair[k].vt = 0.0;
+  for (int k = 0; k < c->ncandidates; k++) {
+    c->touch[n].candidate = k;
+    n += TouchTarget(c, s, &c->candidate[k], &c->touch[n]);
+  }
+  for (int k = 0; k < c->nwalls; k++) {
+    c->touch[n].candidate = -1 - k;
+    n += TouchWall(c, s, &c->wall[k], &c->touch[n]);
+  }
+  *ntouches = n;
+  PetscFunctionReturn(0);
+}
+
+/* The spring stretches by the last substep's motion.  Nothing here changes `slip`: forces may be asked for
+ * several times. */
+static void Respond(Contact c, const Solid s)
+{
+  for (int k = 0; k < c->npairs; k++) {
+    Pair *p = &c->pair[k];
+    p->now = 0.0;
+    p->response = (ContactResponse){0.0, 0.0, 0.0};
+    if (!(p->normal > 0.0)) continue;
+    /* vn and vt were summed with the edge's length as a factor, as was the normal force */
+    const double vn = p->vn / p->normal, vt = p->vt / p->normal;
+    p->response = ContactRespond(p->law, p->normal, p->inside, p->slip + s->moved_for * vt, vn, vt);
+    p->now = p->response.slip;
+  }
+}
 
 static void Add(double force[], int node, double scale, Point f)
 {
@@ -305,41 +269,34 @@ static void Add(double force[], int node, double scale, Point f)
   force[2 * node + 1] += scale * f.y;
 }
 
-static void AddPair(const Contact c, Solid s, const Candidate *k)
+static void AddTouch(const Contact c, Solid s, const Touch *touch)
 {
-  const Target *t = &c->target[k->target];
-  const int *edge = s->facet + 2 * k->facet;
-  const Point corner[3] = {PointOf(c, s, t->node[0]), PointOf(c, s, t->node[1]), PointOf(c, s, t->node[2])};
-  ContactForces f;
-  if (!ContactEdgeTriangle(PointAt(s->x, edge[0]), PointAt(s->x, edge[1]), corner, &f)) return;
-  const double scale = k->strength / f.twice_area;
-  Add(s->force, edge[0], scale, f.p);
-  Add(s->force, edge[1], scale, f.q);
-  for (int i = 0; i < 3; i++) {
-    if (t->node[i] < s->nnodes)
-      Add(s->force, t->node[i], scale, f.t[i]);
+  const Candidate *k = touch->candidate < 0 ? NULL : &c->candidate[touch->candidate];
+  const WallCandidate *w = k ? NULL : &c->wall[-1 - touch->candidate];
+  const int *edge = s->facet + 2 * (k ? k->facet : w->facet);
+  const ContactResponse *r = &c->pair[k ? k->pair : w->pair].response;
+  const Point d = EdgeVector(s, edge);
+  const double normal = 1.0 + r->normal, tangential = r->tangential;
+  const Point f = {-d.y * normal + d.x * tangential, d.x * normal + d.y * tangential}; /* on the edge */
+  for (int i = 0; i < 2; i++) Add(s->force, edge[i], touch->scale * touch->integrals.edge[i], f);
+  for (int i = 0; k && i < 3; i++) {
+    const int node = c->target[k->target].node[i];
+    const double scale = -touch->scale * touch->integrals.target[i];
+    if (node < s->nnodes)
+      Add(s->force, node, scale, f);
     else
-      Add(HaloForces(c->halo), t->node[i] - s->nnodes, scale, f.t[i]);
+      Add(HaloForces(c->halo), node - s->nnodes, scale, f);
   }
-}
-
-static void AddWallForce(const Contact c, Solid s, const WallCandidate *w)
-{
-  const int *edge = s->facet + 2 * w->facet, body = s->elements.body[s->facet_element[w->facet]];
-  const Point p = PointAt(s->x, edge[0]), q = PointAt(s->x, edge[1]), n = {q.y - p.y, p.x - q.x};
-  const double depth_p = w->outward * ((w->axis ? p.y : p.x) - w->at);
-  const double depth_q = w->outward * ((w->axis ? q.y : q.x) - w->at);
-  double integral[2];
-  if (!ContactEdgeWall(depth_p, depth_q, c->height[body], integral)) return;
-  for (int i = 0; i < 2; i++) Add(s->force, edge[i], -s->body[body].material.penalty * integral[i], n);
 }
 
 PetscErrorCode ContactAddForces(Contact c, Solid s)
 {
+  int n;
   PetscFunctionBeginUser;
-  if (c->halo) PetscCall(HaloForward(c->halo, s->x));
-  for (int k = 0; k < c->ncandidates; k++) AddPair(c, s, &c->candidate[k]);
-  for (int k = 0; k < c->nwalls; k++) AddWallForce(c, s, &c->wall[k]);
+  if (c->halo) PetscCall(HaloForward(c->halo, s->x, c->rough ? s->v : NULL));
+  PetscCall(FindTouches(c, s, &n));
+  Respond(c, s);
+  for (int k = 0; k < n; k++) AddTouch(c, s, &c->touch[k]);
   if (c->halo) PetscCall(HaloReverse(c->halo, s->force));
   PetscFunctionReturn(0);
 }
@@ -349,10 +306,16 @@ PetscErrorCode ContactDestroy(Contact *c)
   PetscFunctionBeginUser;
   if (!*c) PetscFunctionReturn(0);
   PetscCall(HaloDestroy(&(*c)->halo));
-  PetscCall(PetscFree3((*c)->height, (*c)->softness, (*c)->searched));
+  PetscCall(PetscFree3((*c)->height, (*c)->softness, (*c)->backing));
+  PetscCall(PetscFree((*c)->searched));
+  PetscCall(PetscFree((*c)->first_pair));
   PetscCall(PetscFree((*c)->target));
   PetscCall(PetscFree((*c)->candidate));
   PetscCall(PetscFree((*c)->wall));
+  PetscCall(PetscFree((*c)->pair));
+  PetscCall(PetscFree((*c)->touch));
+  PetscCall(PetscFree((*c)->history.slip));
+  PetscCall(PetscFree((*c)->saved.slip));
   PetscCall(PetscFree(*c));
   PetscFunctionReturn(0);
 }

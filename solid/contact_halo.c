@@ -1,6 +1,6 @@
 #include "contact_halo.h"
 
-enum { TAG_TARGETS = 81, TAG_KEEP, TAG_POSITIONS, TAG_FORCES };
+enum { TAG_TARGETS = 81, TAG_KEEP, TAG_POSITIONS, TAG_VELOCITIES, TAG_FORCES };
 
 /* One side's lists: targets of (or for) rank r at start[r] .. start[r + 1] - 1. */
 typedef struct {
@@ -12,15 +12,14 @@ typedef struct {
 
 typedef struct {
   double lower[2], upper[2];
-  int only_body, pad;
 } Offer;
 
 struct Halo_s {
   MPI_Comm comm;
   PetscMPIInt rank, size;
   int nnodes;
-  Side out, in;  /* own targets that others need; theirs that this rank needs */
-  double *force; /* [in.n][3][2] */
+  Side out, in;             /* own targets that others need; theirs that this rank needs */
+  double *force, *velocity; /* [in.n][3][2] */
   MPI_Request *request;
 };
 
@@ -72,7 +71,7 @@ static PetscBool Wanted(const Offer *o, const Target *t, const double x[])
   const GeometryBox edges = {{o->lower[0], o->lower[1]}, {o->upper[0], o->upper[1]}};
   GeometryBox box = GeometryBoxEmpty();
   for (int i = 0; i < 3; i++) GeometryBoxGrow(&box, x + 2 * t->node[i]);
-  return (PetscBool)(t->body != o->only_body && GeometryBoxOverlap(&edges, &box));
+  return (PetscBool)GeometryBoxOverlap(&edges, &box);
 }
 
 /* The received targets' nodes lie behind this rank's own. */
@@ -82,10 +81,10 @@ static void Renumber(Halo h)
     for (int i = 0; i < 3; i++) h->in.target[k].node[i] = h->nnodes + 3 * k + i;
 }
 
-PetscErrorCode HaloBuild(Halo h, int nnodes, const double x[], const GeometryBox *edges, int only_body, int n,
+PetscErrorCode HaloBuild(Halo h, int nnodes, const double x[], const GeometryBox *edges, int n,
                          const Target target[])
 {
-  Offer mine = {{edges->lower[0], edges->lower[1]}, {edges->upper[0], edges->upper[1]}, only_body, 0}, *offer;
+  Offer mine = {{edges->lower[0], edges->lower[1]}, {edges->upper[0], edges->upper[1]}}, *offer;
   int *count;
   PetscFunctionBeginUser;
   h->nnodes = nnodes;
@@ -108,6 +107,7 @@ PetscErrorCode HaloBuild(Halo h, int nnodes, const double x[], const GeometryBox
   h->in.n = h->in.start[h->size];
   PetscCall(Reserve(&h->in, h->in.n));
   PetscCall(PetscRealloc(6 * (size_t)h->in.n * sizeof *h->force, &h->force));
+  PetscCall(PetscRealloc(6 * (size_t)h->in.n * sizeof *h->velocity, &h->velocity));
   PetscCall(Travel(h, &h->out, h->out.target, &h->in, h->in.target, sizeof(Target), TAG_TARGETS));
   Renumber(h);
   PetscCall(PetscFree2(offer, count));
@@ -147,16 +147,30 @@ int HaloTargets(Halo h, const Target **target)
   return h->in.n;
 }
 
-PetscErrorCode HaloForward(Halo h, const double x[])
+static void Pack(Halo h, const double value[])
+{
+  for (int k = 0; k < h->out.n; k++)
+    for (int i = 0; i < 3; i++)
+      for (int c = 0; c < 2; c++) h->out.value[6 * k + 2 * i + c] = value[2 * h->out.target[k].node[i] + c];
+}
+
+PetscErrorCode HaloForward(Halo h, const double x[], const double v[])
 {
   PetscFunctionBeginUser;
   if (h->out.n == 0 && h->in.n == 0) PetscFunctionReturn(0);
-  for (int k = 0; k < h->out.n; k++)
-    for (int i = 0; i < 3; i++)
-      for (int c = 0; c < 2; c++) h->out.value[6 * k + 2 * i + c] = x[2 * h->out.target[k].node[i] + c];
+  Pack(h, x);
   PetscCall(Travel(h, &h->out, h->out.value, &h->in, h->in.value, 6 * sizeof(double), TAG_POSITIONS));
+  if (v) {
+    Pack(h, v);
+    PetscCall(Travel(h, &h->out, h->out.value, &h->in, h->velocity, 6 * sizeof(double), TAG_VELOCITIES));
+  }
   for (int k = 0; k < 6 * h->in.n; k++) h->force[k] = 0.0;
   PetscFunctionReturn(0);
+}
+
+const double *HaloVelocities(Halo h)
+{
+  return h->velocity;
 }
 
 const double *HaloPositions(Halo h)
@@ -190,6 +204,7 @@ PetscErrorCode HaloDestroy(Halo *h)
   PetscCall(PetscFree((*h)->in.target));
   PetscCall(PetscFree((*h)->in.value));
   PetscCall(PetscFree((*h)->force));
+  PetscCall(PetscFree((*h)->velocity));
   PetscCall(PetscFree(*h));
   PetscFunctionReturn(0);
 }

@@ -9,24 +9,26 @@
 /* An element with a node on the surface. */
 typedef struct {
   int node[3]; /* local nodes; nnodes + 3 k + i for the i-th node of target k of the halo */
-  int body;
+  int body, material, unused;
+  long long gid[3];  /* of its nodes */
+  double rest[6];    /* [3][2] rest coordinates, m */
   double twice_area; /* at rest, m2 */
 } Target;
 
 typedef struct Halo_s *Halo;
 
 PetscErrorCode HaloCreate(MPI_Comm comm, Halo *h);
-/* Collective: offers own targets to the ranks whose edges' box they touch.  only_body: the one body of this
- * rank's edges, -1 if there are several or none.  Received ones: HaloTargets. */
-PetscErrorCode HaloBuild(Halo h, int nnodes, const double x[], const GeometryBox *edges, int only_body, int n,
+/* Collective: offers own targets to the ranks whose edges' box they touch.  Received ones: HaloTargets. */
+PetscErrorCode HaloBuild(Halo h, int nnodes, const double x[], const GeometryBox *edges, int n,
                          const Target target[]);
 /* Collective: forgets those with keep[k] = 0; index[k] becomes the new place of target k or -1. */
 PetscErrorCode HaloKeep(Halo h, const char keep[], int index[]);
 int HaloTargets(Halo h, const Target **target);
-/* Collective over neighbours: x[nnodes][2] of the owners to halo positions. */
-PetscErrorCode HaloForward(Halo h, const double x[]);
-const double *HaloPositions(Halo h); /* [targets][3][2] */
-double *HaloForces(Halo h);          /* [targets][3][2], zeroed by HaloForward */
+/* Collective over neighbours: x[nnodes][2] and, unless v is NULL, v[nnodes][2] of the owners to the halo. */
+PetscErrorCode HaloForward(Halo h, const double x[], const double v[]);
+const double *HaloPositions(Halo h);  /* [targets][3][2] */
+const double *HaloVelocities(Halo h); /* [targets][3][2] */
+double *HaloForces(Halo h);           /* [targets][3][2], zeroed by HaloForward */
 /* Collective over neighbours: adds the halo's forces to the owners' force[nnodes][2], in order of the ranks.
  */
 PetscErrorCode HaloReverse(Halo h, double force[]);

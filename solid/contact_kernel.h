@@ -8,20 +8,24 @@
  *     f = -(p/J) int phi n ds    on the contactor's edge, over its part in the triangle
  *
  * shared out to P and Q by the edge's linear functions and taken off the target's nodes by its lambda_i: sum
- * and moment of the forces vanish to round-off.  J is the target's area over its rest area; with it the
- * forces of an edge set that encloses a body C are exactly -dU/dx, U = p int_C (phi/J) dA, in the contactor's
- * and in the target's nodes alike, so that contact conserves energy even between deforming bodies. */
+ * and moment of the forces vanish to round-off, whatever the force's direction (friction is shared out so
+ * too).  J is the target's area over its rest area; with it the forces of an edge set that encloses a body C
+ * are exactly -dU/dx, U = p int_C (phi/J) dA, in the contactor's and in the target's nodes alike, so that
+ * contact conserves energy even between deforming bodies. */
 #ifndef SOLID_CONTACT_KERNEL_H
 #define SOLID_CONTACT_KERNEL_H
 #include "plane.h"
 #include <math.h>
 
+/* Integrals over the part of the edge inside, in the edge's own measure (times its length they are lengths).
+ */
 typedef struct {
-  Point p, q;         /* force per unit of p/J on the edge's ends, m */
-  Point t[3];         /* and on the target's nodes */
+  double edge[2];     /* of phi (1 - s), phi s: the shares of the edge's ends */
+  double target[3];   /* of phi lambda_i: the shares of the target's nodes */
   double largest_phi; /* at the ends of the part inside and at the kinks */
+  double inside;      /* how much of the edge is inside, 0 .. 1 */
   double twice_area;  /* of the target now, m2 */
-} ContactForces;
+} ContactIntegrals;
 
 /* int phi (1 - s) ds and int phi s ds over s in [s0, s1], phi linear from f0 to f1 there (Simpson: exact). */
 static inline void ContactPiece(double s0, double s1, double f0, double f1, double integral[2])
@@ -79,44 +83,72 @@ static inline double ContactIntegrate(const double at_p[3], const double at_q[3]
   return largest;
 }
 
-/* Returns 0 when edge and triangle do not meet; all forces are then unset. */
-static inline int ContactEdgeTriangle(Point p, Point q, const Point t[3], ContactForces *f)
+/* Returns 0 when edge and triangle do not meet; *c is then unset. */
+static inline int ContactEdgeTriangle(Point p, Point q, const Point t[3], ContactIntegrals *c)
 {
   const double twice_area = PointCross(PointMinus(t[1], t[0]), PointMinus(t[2], t[0]));
   const double inverse = 1.0 / twice_area;
-  double at_p[3], at_q[3], s0, s1, integral[2] = {0.0, 0.0};
+  double at_p[3], at_q[3], s0, s1;
   for (int i = 0; i < 3; i++) {
     const Point edge = PointMinus(t[(i + 2) % 3], t[(i + 1) % 3]);
     at_p[i] = PointCross(edge, PointMinus(p, t[(i + 1) % 3])) * inverse;
     at_q[i] = PointCross(edge, PointMinus(q, t[(i + 1) % 3])) * inverse;
   }
   if (!ContactClip(at_p, at_q, &s0, &s1)) return 0;
-  f->twice_area = twice_area;
-  f->largest_phi = ContactIntegrate(at_p, at_q, s0, s1, integral);
-  const Point n = {q.y - p.y, p.x - q.x}; /* outward normal times length */
-  f->p = (Point){-n.x * integral[0], -n.y * integral[0]};
-  f->q = (Point){-n.x * integral[1], -n.y * integral[1]};
-  for (int i = 0; i < 3; i++) {
-    const double share = at_p[i] * integral[0] + at_q[i] * integral[1];
-    f->t[i] = (Point){n.x * share, n.y * share};
-  }
+  c->edge[0] = c->edge[1] = 0.0;
+  c->twice_area = twice_area;
+  c->inside = s1 - s0;
+  c->largest_phi = ContactIntegrate(at_p, at_q, s0, s1, c->edge);
+  for (int i = 0; i < 3; i++) c->target[i] = at_p[i] * c->edge[0] + at_q[i] * c->edge[1];
   return 1;
 }
 
 /* A rigid half plane: phi = 3 depth / height behind the wall, depth_p and depth_q those of the edge's ends.
- * Returns the integrals of phi with the edge's functions, 0 in front of the wall. */
-static inline int ContactEdgeWall(double depth_p, double depth_q, double height, double integral[2])
+ * Sets edge and inside; returns 0 in front of the wall. */
+static inline int ContactEdgeWall(double depth_p, double depth_q, double height, ContactIntegrals *c)
 {
   const double a = 3.0 * depth_p / height, b = 3.0 * depth_q / height;
-  integral[0] = integral[1] = 0.0;
+  c->edge[0] = c->edge[1] = 0.0;
   if (a <= 0.0 && b <= 0.0) return 0;
   const double cut = a / (a - b);
-  if (a >= 0.0 && b >= 0.0)
-    ContactPiece(0.0, 1.0, a, b, integral);
-  else if (a > 0.0)
-    ContactPiece(0.0, cut, a, 0.0, integral);
-  else
-    ContactPiece(cut, 1.0, 0.0, b, integral);
+  const double s0 = a >= 0.0 ? 0.0 : cut, s1 = b >= 0.0 ? 1.0 : cut;
+  ContactPiece(s0, s1, fmax(a, 0.0), fmax(b, 0.0), c->edge);
+  c->inside = s1 - s0;
   return 1;
+}
+
+/* Friction and damping of all that one edge touches of one body.  Normal force N > 0, relative velocity of
+ * the contactor (v.n towards the target, v.t along the edge), slip = what the tangential spring is stretched
+ * by. */
+typedef struct {
+  double friction;  /* Coulomb's mu */
+  double stiffness; /* of the tangential spring, N/m */
+  double viscosity; /* N s/m, for the whole edge */
+} ContactLaw;
+
+typedef struct {
+  double normal, tangential; /* on the contactor, as multiples of N: against v.n > 0, and along the edge */
+  double slip;               /* m; cut back to what friction can hold */
+} ContactResponse;
+
+static inline double ContactClamp(double value, double bound)
+{
+  return fmax(-bound, fmin(bound, value));
+}
+
+/* Viscous force c v.n, no larger than N, so that nothing sticks and nothing jumps at first touch; tangential
+ * spring and dashpot, together no larger than mu times the whole normal force.  Each part takes energy or
+ * stores it: the spring is cut back when it slips, and the dashpot always works against the motion. */
+static inline ContactResponse ContactRespond(ContactLaw law, double n, double inside, double slip, double vn,
+                                             double vt)
+{
+  ContactResponse r;
+  const double viscosity = law.viscosity * fmin(inside, 1.0);
+  const double viscous = ContactClamp(viscosity * vn, n), cap = law.friction * (n + viscous);
+  const double spring = ContactClamp(law.stiffness * slip, cap);
+  r.normal = viscous / n;
+  r.tangential = -ContactClamp(spring + viscosity * vt, cap) / n;
+  r.slip = law.stiffness > 0.0 ? spring / law.stiffness : 0.0;
+  return r;
 }
 #endif

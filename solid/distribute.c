@@ -53,7 +53,9 @@ static PetscErrorCode Allocate(Solid s)
   PetscCall(PetscMalloc3(ne, &e->node[0], ne, &e->node[1], ne, &e->node[2]));
   PetscCall(PetscMalloc4(ne, &e->inverse[0], ne, &e->inverse[1], ne, &e->inverse[2], ne, &e->inverse[3]));
   PetscCall(PetscMalloc4(ne, &e->mu, ne, &e->lambda, ne, &e->eta, ne, &e->density));
-  PetscCall(PetscMalloc4(ne, &e->body, ne, &e->number, 3 * ne, &e->force[0], 3 * ne, &e->force[1]));
+  PetscCall(PetscMalloc7(ne, &e->body, ne, &e->number, 3 * ne, &e->force[0], 3 * ne, &e->force[1], ne,
+                         &e->thickness, ne, &e->sheet, ne, &e->material));
+  PetscCall(PetscMalloc1((size_t)s->nmaterials, &s->material));
   PetscFunctionReturn(0);
 }
 
@@ -87,7 +89,8 @@ static void TakeNodes(Solid s, const Assembly *a, const int local[])
 static void LumpMass(Solid s, const Assembly *a, const int local[])
 {
   for (int e = 0; e < a->nelements; e++) {
-    const double m = a->body[a->element_body[e]].material.density * TensorDeterminant(RestEdges(a, e)) / 6.0;
+    const Material *of = &a->material[a->element_material[e]];
+    const double m = of->density * of->thickness * TensorDeterminant(RestEdges(a, e)) / 6.0;
     for (int i = 0; i < 3; i++) {
       const int n = local[a->element[3 * e + i]];
       if (n >= 0) s->mass[n] += m;
@@ -137,7 +140,7 @@ static PetscErrorCode FindCopies(Solid s, const Assembly *a, const int part[], c
 /* eta = 2 h beta sqrt(E rho), h the smallest height at rest. */
 static double Viscosity(const Assembly *a, int e)
 {
-  const Material *m = &a->body[a->element_body[e]].material;
+  const Material *m = &a->material[a->element_material[e]];
   double longest = 0.0;
   for (int i = 0; i < 3; i++) {
     const Point d = PointMinus(PointAt(a->rest, a->element[3 * e + (i + 1) % 3]),
@@ -151,7 +154,7 @@ static double Viscosity(const Assembly *a, int e)
 static void TakeElement(Solid s, const Assembly *a, int from, int k, const int local[])
 {
   Elements *e = &s->elements;
-  const Material *m = &a->body[a->element_body[from]].material;
+  const Material *m = &a->material[a->element_material[from]];
   const ElementLaw law = ElementLawOf(m->youngs_modulus, m->poisson_ratio, Viscosity(a, from));
   const Tensor inverse = TensorInverse(RestEdges(a, from));
   for (int i = 0; i < 3; i++) s->element[3 * k + i] = e->node[i][k] = local[a->element[3 * from + i]];
@@ -159,13 +162,17 @@ static void TakeElement(Solid s, const Assembly *a, int from, int k, const int l
   e->inverse[1][k] = inverse.xy;
   e->inverse[2][k] = inverse.yx;
   e->inverse[3][k] = inverse.yy;
-  e->mu[k] = law.mu;
-  e->lambda[k] = law.lambda;
-  e->eta[k] = law.eta;
-  e->density[k] = m->density;
+  e->mu[k] = m->thickness * law.mu;
+  e->lambda[k] = m->thickness * law.lambda;
+  e->eta[k] = m->thickness * law.eta;
+  e->density[k] = m->thickness * m->density;
+  e->thickness[k] = m->thickness;
+  e->sheet[k] = m->plane_stress;
+  e->material[k] = a->element_material[from];
   e->body[k] = a->element_body[from];
   e->number[k] = from;
   if (law.eta > 0.0) e->damped = PETSC_TRUE;
+  if (m->plane_stress) e->sheets = PETSC_TRUE;
 }
 
 /* Elements, facets, and for each node the places of its corners' forces. */
@@ -190,6 +197,26 @@ static void TakeElements(Solid s, const Assembly *a, const int part[], const int
   s->corner_start[s->nnodes] = 3 * ne;
 }
 
+/* The drives, and which of this rank's nodes they move. */
+static PetscErrorCode TakeDrives(Solid s, const Assembly *a, const int local[])
+{
+  int nrows = 0;
+  PetscFunctionBeginUser;
+  s->ndrives = a->ndrives;
+  for (int k = 0; k < a->ndrives; k++) nrows += a->drive[k].nrows;
+  PetscCall(PetscMalloc4((size_t)a->ndriven, &s->driven, (size_t)a->ndrives, &s->drive, 3 * (size_t)nrows,
+                         &s->drive_rows, 2 * (size_t)a->ndriven, &s->held));
+  for (int k = 0, row = 0; k < a->ndrives; row += a->drive[k++].nrows) {
+    s->drive[k] = a->drive[k];
+    s->drive[k].row = s->drive_rows + 3 * row;
+    PetscCall(PetscArraycpy(s->drive_rows + 3 * row, a->drive[k].row, 3 * (size_t)a->drive[k].nrows));
+  }
+  for (int k = 0; k < a->ndriven; k++)
+    if (local[a->driven[k].node] >= 0)
+      s->driven[s->ndriven++] = (DrivenNode){local[a->driven[k].node], a->driven[k].drive};
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode SolidTakeShare(Solid s, const Assembly *a)
 {
   int *part, *local, *renumber;
@@ -197,14 +224,17 @@ PetscErrorCode SolidTakeShare(Solid s, const Assembly *a)
   PetscCall(
       PetscMalloc3((size_t)a->nelements, &part, (size_t)a->nnodes, &local, (size_t)a->nelements, &renumber));
   s->nbodies = a->nbodies;
+  s->nmaterials = a->nmaterials;
   PetscCall(Partition(a, s->size, part));
   NumberLocally(s, a, part, local);
   PetscCall(Allocate(s));
   PetscCall(PetscArraycpy(s->body, a->body, (size_t)a->nbodies));
+  PetscCall(PetscArraycpy(s->material, a->material, (size_t)a->nmaterials));
   TakeNodes(s, a, local);
   LumpMass(s, a, local);
   TakeElements(s, a, part, local, renumber);
   PetscCall(FindCopies(s, a, part, local));
+  PetscCall(TakeDrives(s, a, local));
   PetscCall(PetscFree3(part, local, renumber));
   PetscFunctionReturn(0);
 }

@@ -21,11 +21,11 @@ void SolidElementShape(const Elements *e, int k, const double x[], Tensor *edges
 
 /* Forces of all corners; returns the number of elements that are inside out (or not a number).  The arrays do
  * not overlap (ivdep), so that the loop is vectorised without asking at run time. */
-static inline int CornerForces(const Elements *e, const double x[], const double v[], int damped)
+static inline int CornerForces(const Elements *e, const double x[], const double v[], int damped, int sheets)
 {
   const int n = e->n, *a = e->node[0], *b = e->node[1], *c = e->node[2];
   const double *ixx = e->inverse[0], *ixy = e->inverse[1], *iyx = e->inverse[2], *iyy = e->inverse[3];
-  const double *mu = e->mu, *lambda = e->lambda, *eta = e->eta;
+  const double *mu = e->mu, *lambda = e->lambda, *eta = e->eta, *sheet = e->sheet;
   double *fx = e->force[0], *fy = e->force[1];
   int bad = 0;
 #pragma GCC ivdep
@@ -34,6 +34,11 @@ static inline int CornerForces(const Elements *e, const double x[], const double
     const Tensor f = TensorProduct(edges, (Tensor){ixx[k], ixy[k], iyx[k], iyy[k]});
     const double j = TensorDeterminant(f);
     ElementStress t = ElementElasticStress(f, j, mu[k], lambda[k]);
+    if (sheets) {
+      const ElementStress p = ElementSheetStress(f, j, mu[k], lambda[k]);
+      t = (ElementStress){sheet[k] > 0.0 ? p.xx : t.xx, sheet[k] > 0.0 ? p.yy : t.yy,
+                          sheet[k] > 0.0 ? p.xy : t.xy};
+    }
     if (damped) {
       const Tensor rate = TensorOfEdges(PointAt(v, a[k]), PointAt(v, b[k]), PointAt(v, c[k]));
       const ElementStress d = ElementViscousStress(edges, rate, eta[k]);
@@ -96,38 +101,60 @@ static PetscErrorCode FailOnElement(const Solid s)
 PetscErrorCode SolidInternalForces(Solid s)
 {
   PetscFunctionBeginUser;
-  const int bad = s->elements.damped ? CornerForces(&s->elements, s->x, s->v, 1)
-                                     : CornerForces(&s->elements, s->x, s->v, 0);
+  const Elements *e = &s->elements;
+  const int bad = e->sheets   ? CornerForces(e, s->x, s->v, 1, 1)
+                  : e->damped ? CornerForces(e, s->x, s->v, 1, 0)
+                              : CornerForces(e, s->x, s->v, 0, 0);
   if (bad) PetscCall(FailOnElement(s));
   SumCorners(s);
   PetscFunctionReturn(0);
 }
 
-double SolidElementLimit(Solid s, double contact)
+double SolidElementLimit(Solid s, ElementRates contact)
 {
   const Elements *e = &s->elements;
   double limit = HUGE_VAL;
   for (int k = 0; k < e->n; k++) {
     Tensor edges, f;
     SolidElementShape(e, k, s->x, &edges, &f);
-    ElementRates rates =
-        ElementRatesOf(edges, f, e->density[k], (ElementLaw){e->mu[k], e->lambda[k], e->eta[k]});
-    rates.stiffness += contact;
+    ElementRates rates = ElementRatesOf(edges, f, e->density[k], ElementsLaw(e, k));
+    rates.stiffness += contact.stiffness;
+    rates.damping += contact.damping;
     limit = fmin(limit, ElementStableStep(rates));
   }
   return limit;
+}
+
+ElementLaw ElementsLaw(const Elements *e, int k)
+{
+  return (ElementLaw){e->mu[k], e->lambda[k], e->eta[k], e->sheet[k] > 0.0};
 }
 
 void SolidStress(Solid s, double stress[])
 {
   const Elements *e = &s->elements;
   for (int k = 0; k < e->n; k++) {
+    const ElementLaw law = ElementsLaw(e, k);
     Tensor edges, f;
     SolidElementShape(e, k, s->x, &edges, &f);
-    const ElementStress t = ElementElasticStress(f, TensorDeterminant(f), e->mu[k], e->lambda[k]);
-    const ElementStress d = ElementViscousStress(edges, EdgesOf(e, k, s->v), e->eta[k]);
-    stress[3 * k] = t.xx + d.xx;
-    stress[3 * k + 1] = t.yy + d.yy;
-    stress[3 * k + 2] = t.xy + d.xy;
+    const double j = TensorDeterminant(f);
+    const ElementStress t = law.sheet ? ElementSheetStress(f, j, law.mu, law.lambda)
+                                      : ElementElasticStress(f, j, law.mu, law.lambda);
+    const ElementStress d = ElementViscousStress(edges, EdgesOf(e, k, s->v), law.eta);
+    const double across = law.sheet ? sqrt(ElementThinning(j, law.mu, law.lambda)) : 1.0;
+    const double scale = 1.0 / (e->thickness[k] * across);
+    stress[3 * k] = scale * (t.xx + d.xx);
+    stress[3 * k + 1] = scale * (t.yy + d.yy);
+    stress[3 * k + 2] = scale * (t.xy + d.xy);
+  }
+}
+
+void SolidEnergyDensity(Solid s, double density[])
+{
+  const Elements *e = &s->elements;
+  for (int k = 0; k < e->n; k++) {
+    Tensor edges, f;
+    SolidElementShape(e, k, s->x, &edges, &f);
+    density[k] = ElementEnergy(f, ElementsLaw(e, k)) / e->thickness[k];
   }
 }

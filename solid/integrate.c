@@ -2,6 +2,7 @@
 #include "solid_impl.h"
 
 enum { CHECK_EVERY = 20 }; /* substeps between two looks at the stability limit, at most */
+#define KEEP 0.75          /* of the allowed length, down to which the last one is kept */
 
 static double Clock(void)
 {
@@ -16,7 +17,7 @@ PetscErrorCode SolidForces(Solid s, const double **force)
   const double start = Clock();
   PetscCall(SolidInternalForces(s));
   const double elements = Clock();
-  if (s->contact) PetscCall(ContactAddForces(s->contact, s));
+  PetscCall(ContactAddForces(s->contact, s));
   const double contact = Clock();
   PetscCall(ShareSum(s->share, s->force));
   s->force_valid = PETSC_TRUE;
@@ -32,7 +33,7 @@ PetscErrorCode SolidForces(Solid s, const double **force)
 PetscErrorCode SolidLimit(Solid s, double *limit)
 {
   PetscFunctionBeginUser;
-  *limit = SolidElementLimit(s, s->contact ? ContactRate(s->contact) : 0.0);
+  *limit = SolidElementLimit(s, ContactRate(s->contact));
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, limit, 1, MPI_DOUBLE, MPI_MIN, s->comm));
   PetscFunctionReturn(0);
 }
@@ -79,24 +80,37 @@ static int SafeSubsteps(const Motion *m, double reach, double h)
   return k;
 }
 
-/* Searches anew when the candidates may not last, and always at the start of a step: they then follow from x
- * alone, and a step that is redone has the same bits.  *substeps: how many until the next check. */
-static PetscErrorCode CheckContact(Solid s, int *substeps)
+/* Searches anew always at the start of a step, so that candidates follow from x alone and a step that is
+ * redone has the same bits, and when the candidates may not last.  *limit: of stability; *substeps: how many
+ * until the next check. */
+static PetscErrorCode CheckContact(Solid s, double *limit, int *substeps)
 {
   Motion m;
-  double limit;
   PetscFunctionBeginUser;
-  PetscCall(SolidLimit(s, &limit));
+  if (s->done == 0.0) {
+    PetscCall(ContactSearch(s->contact, s, 0.0));
+    s->force_valid = PETSC_FALSE;
+  }
+  PetscCall(SolidLimit(s, limit));
   PetscCall(MotionNow(s, &m));
-  const double h = PetscMin(s->setup.courant * limit, s->dt);
-  if (s->done == 0.0 || Travel(&m, CHECK_EVERY, h) > ContactReach(s->contact)) {
+  const double h = PetscMin(s->setup.courant * *limit, s->dt);
+  if (Travel(&m, CHECK_EVERY, h) > ContactReach(s->contact)) {
     const Motion from_here = {0.0, m.speed, m.acceleration};
     PetscCall(ContactSearch(s->contact, s, 2.0 * Travel(&from_here, 2, h)));
+    PetscCall(SolidLimit(s, limit));
     s->force_valid = PETSC_FALSE;
     m.moved = 0.0;
   }
   *substeps = SafeSubsteps(&m, ContactReach(s->contact), h);
   PetscFunctionReturn(0);
+}
+
+/* Keeps the last substep's length while that is allowed and not much shorter than what is: every change of
+ * length costs the scheme some of its energy conservation, and changes in time with a vibration would feed
+ * it. */
+static double ChooseLength(const Solid s, double allowed)
+{
+  return s->moved_for <= allowed && s->moved_for > KEEP * allowed ? s->moved_for : allowed;
 }
 
 /* Substeps for the rest of the step, none longer than courant times the limit. */
@@ -105,10 +119,9 @@ static PetscErrorCode Plan(Solid s)
   const double start = Clock(), rest = s->dt - s->done;
   double limit;
   PetscFunctionBeginUser;
-  s->until_check = CHECK_EVERY;
-  if (s->contact) PetscCall(CheckContact(s, &s->until_check));
-  PetscCall(SolidLimit(s, &limit));
-  s->remaining = PetscMax(1, (int)ceil(rest / (s->setup.courant * limit) * (1.0 - 1e-12)));
+  PetscCall(CheckContact(s, &limit, &s->until_check));
+  const double length = ChooseLength(s, s->setup.courant * limit);
+  s->remaining = PetscMax(1, (int)ceil(rest / length * (1.0 - 1e-9)));
   s->h = rest / s->remaining;
   s->stats.seconds[3] += Clock() - start;
   PetscFunctionReturn(0);
@@ -139,6 +152,23 @@ PetscBool SolidRemaining(Solid s)
   return (PetscBool)(s->remaining > 0);
 }
 
+/* Driven nodes go their own way: from where they were (before: 1, puts it down) by their velocity's mean. */
+static void MoveDriven(Solid s, int before)
+{
+  for (int k = 0; k < s->ndriven; k++) {
+    const int n = s->driven[k].node;
+    const Drive *d = &s->drive[s->driven[k].drive];
+    for (int c = 0; c < 2; c++) {
+      if (before) {
+        s->held[2 * k + c] = s->x[2 * n + c];
+      } else if (d->driven[c]) {
+        s->v[2 * n + c] = DriveVelocity(d, c, s->stats.t, s->h);
+        s->x[2 * n + c] = s->held[2 * k + c] + s->h * s->v[2 * n + c];
+      }
+    }
+  }
+}
+
 /* v += h (f/m + g), x += h v; fixed nodes stay. */
 static void Move(Solid s)
 {
@@ -161,8 +191,12 @@ PetscErrorCode SolidSubstep(Solid s, double *h)
   PetscFunctionBeginUser;
   if (s->until_check == 0) PetscCall(Plan(s));
   PetscCall(SolidForces(s, &force));
+  ContactCommit(s->contact);
+  MoveDriven(s, 1);
   Move(s);
+  MoveDriven(s, 0);
   s->force_valid = PETSC_FALSE;
+  s->moved_for = s->h;
   *h = s->h;
   s->done += s->h;
   s->stats.t += s->h;

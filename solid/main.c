@@ -1,4 +1,7 @@
-/* coracle-solid: the solid participant.  coracle-solid case.yaml [--set key=value]... */
+/* coracle-solid: the solid participant.  coracle-solid case.yaml [--set key=value]...
+ *
+ * coracle-solid --alone case.yaml [--set key=value]...: the solid without coupler and fluid (alone.h). */
+#include "alone.h"
 #include "exchange.h"
 #include "record.h"
 #include "solid_case.h"
@@ -12,22 +15,6 @@ static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const
                             PetscErrorCode code, PetscErrorType type, const char *message, void *client)
 {
   CoracleFail(client, "%s (in %s, %s:%d)", message ? message : "an error of PETSc", function, file, line);
-}
-
-/* The sections of the case that concern the solid, all of whose keys must have been read. */
-static const char *const SECTIONS[] = {"solid", NULL};
-
-static PetscErrorCode Setup(Case c, MPI_Comm comm, CoracleClient client, Solid *solid)
-{
-  SolidSetup setup = {.fail = Fail, .context = client};
-  Assembly assembly = {0};
-  PetscFunctionBeginUser;
-  PetscCall(PetscOptionsInsertString(NULL, CaseStringOr(c, "solid.petsc", "")));
-  PetscCall(SolidCaseRead(c, &assembly, &setup));
-  PetscCall(CaseFinish(c, SECTIONS));
-  PetscCall(SolidCreate(comm, &assembly, &setup, solid));
-  PetscCall(AssemblyDestroy(&assembly));
-  PetscFunctionReturn(0);
 }
 
 static PetscErrorCode Report(CoracleClient client, Solid solid)
@@ -68,6 +55,18 @@ static PetscErrorCode Run(CoracleClient client, Solid solid, Record record)
   PetscFunctionReturn(0);
 }
 
+/* Takes --alone out of argv. */
+static int TakeAlone(int *argc, char **argv)
+{
+  int kept = 0, found = 0;
+  for (int k = 0; k < *argc; k++) {
+    found |= !strcmp(argv[k], "--alone");
+    if (strcmp(argv[k], "--alone")) argv[kept++] = argv[k];
+  }
+  *argc = kept;
+  return found;
+}
+
 int main(int argc, char **argv)
 {
   CoracleClient client;
@@ -75,12 +74,13 @@ int main(int argc, char **argv)
   Case c;
   Solid solid;
   Record record;
+  if (TakeAlone(&argc, argv)) return Alone(argc, argv);
   if (CoracleOpen("solid", argc, argv, &comm, &client)) return 1;
   PETSC_COMM_WORLD = comm;
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
   PetscCall(PetscPushErrorHandler(Abort, client));
   PetscCall(CaseOpen(argc, argv, Fail, client, &c));
-  PetscCall(Setup(c, comm, client, &solid));
+  PetscCall(SolidFromCase(c, comm, Fail, client, &solid));
   PetscCall(RecordCreate(c, comm, solid, &record));
   PetscCall(CaseClose(&c));
   PetscCall(Run(client, solid, record));

@@ -10,7 +10,7 @@ struct Record_s {
   Series series;
   int nbodies, revision;
   double every, next, start;
-  double *displacement, *stress, *body; /* [nnodes][2], [nelements][3], [nelements] */
+  double *displacement, *stress, *cell; /* [nnodes][2], [nelements][3], [nelements] */
 };
 
 static PetscErrorCode CreateSeries(Record r, const char *folder)
@@ -31,20 +31,32 @@ static PetscErrorCode CreateSeries(Record r, const char *folder)
   PetscFunctionReturn(0);
 }
 
+static double Principal(const double t[3], double sign)
+{
+  return 0.5 * (t[0] + t[1]) + sign * hypot(0.5 * (t[0] - t[1]), t[2]);
+}
+
 static PetscErrorCode Snapshot(Record r, Solid s)
 {
   SolidView v;
   PetscFunctionBeginUser;
   SolidGetView(s, &v);
   for (int i = 0; i < 2 * v.nnodes; i++) r->displacement[i] = v.x[i] - v.rest[i];
-  for (int e = 0; e < v.nelements; e++) r->body[e] = v.body[e];
   SolidStress(s, r->stress);
   PetscCall(OutputBegin(r->output, SolidGetStats(s)->t));
   PetscCall(OutputGrid(r->output, "solid", r->revision++, v.nnodes, v.x, v.nelements, 3, v.element));
   PetscCall(OutputField(r->output, "velocity", OUTPUT_NODE, 2, v.v));
   PetscCall(OutputField(r->output, "displacement", OUTPUT_NODE, 2, r->displacement));
   PetscCall(OutputField(r->output, "stress", OUTPUT_CELL, 3, r->stress));
-  PetscCall(OutputField(r->output, "body", OUTPUT_CELL, 1, r->body));
+  for (int k = 0; k < 2; k++) { /* the larger and the smaller principal stress of the plane */
+    for (int e = 0; e < v.nelements; e++) r->cell[e] = Principal(r->stress + 3 * e, k ? -1.0 : 1.0);
+    PetscCall(
+        OutputField(r->output, k ? "principal_stress_2" : "principal_stress_1", OUTPUT_CELL, 1, r->cell));
+  }
+  SolidEnergyDensity(s, r->cell);
+  PetscCall(OutputField(r->output, "strain_energy", OUTPUT_CELL, 1, r->cell));
+  for (int e = 0; e < v.nelements; e++) r->cell[e] = v.body[e];
+  PetscCall(OutputField(r->output, "body", OUTPUT_CELL, 1, r->cell));
   PetscCall(OutputEnd(r->output));
   r->next += r->every;
   PetscFunctionReturn(0);
@@ -63,7 +75,7 @@ PetscErrorCode RecordCreate(Case c, MPI_Comm comm, Solid solid, Record *record)
   r->every = CasePositive(c, "output.every");
   r->start = MPI_Wtime();
   PetscCall(PetscMalloc3(2 * (size_t)v.nnodes, &r->displacement, 3 * (size_t)v.nelements, &r->stress,
-                         (size_t)v.nelements, &r->body));
+                         (size_t)v.nelements, &r->cell));
   PetscCall(OutputCreate(comm, folder, "solid", &r->output));
   PetscCall(CreateSeries(r, folder));
   PetscCall(Snapshot(r, solid));
@@ -101,7 +113,7 @@ PetscErrorCode RecordDestroy(Record *r)
   if (!*r) PetscFunctionReturn(0);
   PetscCall(OutputDestroy(&(*r)->output));
   PetscCall(SeriesDestroy(&(*r)->series));
-  PetscCall(PetscFree3((*r)->displacement, (*r)->stress, (*r)->body));
+  PetscCall(PetscFree3((*r)->displacement, (*r)->stress, (*r)->cell));
   PetscCall(PetscFree(*r));
   PetscFunctionReturn(0);
 }

@@ -94,7 +94,9 @@ static double StrainPower(const Elements *e, int k, const double x[], const doub
   }
   const double shear = 0.5 * (g[0][1] + g[1][0]), trace = g[0][0] + g[1][1];
   const double square = g[0][0] * g[0][0] + g[1][1] * g[1][1] + 2.0 * shear * shear;
-  return (2.0 * e->mu[k] * square + e->lambda[k] * trace * trace) / (4.0 * area);
+  const double mu = e->mu[k], lambda = e->lambda[k];
+  const double bulk = e->sheet[k] > 0.0 ? 2.0 * lambda * mu / (lambda + 2.0 * mu) : lambda;
+  return (2.0 * mu * square + bulk * trace * trace) / (4.0 * area);
 }
 
 /* share[b]: how much of body b's deformation is seen, by its Rayleigh quotient omega^2 = strain power / (m

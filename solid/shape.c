@@ -120,3 +120,33 @@ PetscErrorCode ShapeRectangle(const double centre[2], double width, double heigh
   FillSides(mesh, nx, ny);
   PetscFunctionReturn(0);
 }
+
+/*     outer   b---c        cells of two triangles, diagonals alternating
+ *             |   |
+ *     inner   a---d   i counts counter-clockwise */
+PetscErrorCode ShapeRing(const double centre[2], double inner, double outer, int layers, double size,
+                         MeshSerial *mesh)
+{
+  static const char *const NAMES[] = {"inner", "outer"};
+  const int n = PetscMax(6, 2 * (int)ceil(M_PI * outer / size - 1e-9));
+  const double factor = sqrt(2.0 * M_PI / (n * sin(2.0 * M_PI / n)));
+  PetscFunctionBeginUser;
+  PetscCall(Allocate(n * (layers + 1), 2 * n * layers, 2 * n, 2, NAMES, mesh));
+  for (int j = 0; j <= layers; j++)
+    for (int i = 0; i < n; i++) {
+      const double angle = 2.0 * M_PI * i / n, r = factor * (inner + (outer - inner) * j / layers);
+      mesh->x[2 * (j * n + i)] = centre[0] + r * cos(angle);
+      mesh->x[2 * (j * n + i) + 1] = centre[1] + r * sin(angle);
+    }
+  for (int j = 0, e = 0; j < layers; j++)
+    for (int i = 0; i < n; i++, e += 2) {
+      const int a = j * n + i, d = j * n + (i + 1) % n, b = a + n, c = d + n;
+      SetTriangle(mesh, e, a, b, (i + j) % 2 ? d : c);
+      SetTriangle(mesh, e + 1, (i + j) % 2 ? b : a, c, d);
+    }
+  for (int i = 0; i < n; i++) {
+    SetFacet(mesh, i, (i + 1) % n, i, 0);
+    SetFacet(mesh, n + i, layers * n + i, layers * n + (i + 1) % n, 1);
+  }
+  PetscFunctionReturn(0);
+}

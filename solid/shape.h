@@ -11,4 +11,9 @@ PetscErrorCode ShapeDisc(const double centre[2], double radius, double size, Mes
  * its sides; diagonals alternate.  Boundary names: left, right, bottom, top, as before turning. */
 PetscErrorCode ShapeRectangle(const double centre[2], double width, double height, double angle, double size,
                               MeshSerial *mesh);
+/* A ring with `layers` elements through its wall and edges no longer than size along its outer side; polygons
+ * of an even number of sides, with radii such that its area is pi (outer^2 - inner^2).  Boundary names:
+ * inner, outer. */
+PetscErrorCode ShapeRing(const double centre[2], double inner, double outer, int layers, double size,
+                         MeshSerial *mesh);
 #endif

@@ -10,10 +10,8 @@ PetscErrorCode SolidCreate(MPI_Comm comm, const Assembly *assembly, const SolidS
   PetscCallMPI(MPI_Comm_rank(comm, &s->rank));
   PetscCallMPI(MPI_Comm_size(comm, &s->size));
   PetscCall(SolidTakeShare(s, assembly));
-  if (s->nbodies > 1 || setup->walls) {
-    PetscCall(ContactCreate(s, &s->contact));
-    PetscCall(ContactSearch(s->contact, s, 0.0));
-  }
+  PetscCall(ContactCreate(s, &s->contact));
+  PetscCall(ContactSearch(s->contact, s, 0.0));
   PetscCall(PetscMalloc2(2 * s->nnodes, &s->start, 2 * s->nnodes, &s->seen));
   *solid = s;
   PetscFunctionReturn(0);
@@ -32,10 +30,12 @@ PetscErrorCode SolidDestroy(Solid *solid)
   PetscCall(PetscFree7(s->rest, s->x, s->v, s->force, s->load, s->saved.x, s->saved.v));
   PetscCall(PetscFree2(s->start, s->seen));
   PetscCall(PetscFree4(s->element, s->facet, s->facet_element, s->body));
+  PetscCall(PetscFree(s->material));
+  PetscCall(PetscFree4(s->driven, s->drive, s->drive_rows, s->held));
   PetscCall(PetscFree3(e->node[0], e->node[1], e->node[2]));
   PetscCall(PetscFree4(e->inverse[0], e->inverse[1], e->inverse[2], e->inverse[3]));
   PetscCall(PetscFree4(e->mu, e->lambda, e->eta, e->density));
-  PetscCall(PetscFree4(e->body, e->number, e->force[0], e->force[1]));
+  PetscCall(PetscFree7(e->body, e->number, e->force[0], e->force[1], e->thickness, e->sheet, e->material));
   PetscCall(PetscFree(*solid));
   PetscFunctionReturn(0);
 }
@@ -61,11 +61,14 @@ PetscErrorCode SolidState(Solid s, int save)
   if (save) {
     k->h = s->h;
     k->t = s->stats.t;
+    k->moved_for = s->moved_for;
   } else {
     s->h = k->h;
     s->stats.t = k->t;
+    s->moved_for = k->moved_for;
     s->force_valid = PETSC_FALSE;
   }
+  PetscCall(ContactState(s->contact, save));
   PetscFunctionReturn(0);
 }
 
@@ -101,7 +104,7 @@ static void AddStrainEnergy(const Solid s, int n, double sum[][NSUMS])
     if (e->body[k] >= n) continue;
     SolidElementShape(e, k, s->x, &edges, &f);
     const double j = TensorDeterminant(f), area = 0.5 * TensorDeterminant(edges) / j;
-    sum[e->body[k]][STRAIN] += area * ElementEnergy(f, (ElementLaw){e->mu[k], e->lambda[k], 0.0});
+    sum[e->body[k]][STRAIN] += area * ElementEnergy(f, ElementsLaw(e, k));
   }
 }
 

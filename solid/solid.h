@@ -17,11 +17,26 @@
 
 typedef struct Solid_s *Solid;
 
+#define CONTACT_WALLS "walls" /* their name in a rule */
+
+/* Overrides, for two materials or a material and the walls, what follows from the materials: the geometric
+ * means of their friction and of their contact damping. */
+typedef struct {
+  char between[2][MATERIAL_NAME];
+  double friction, damping; /* < 0: not overridden */
+} ContactRule;
+
+enum { MOST_RULES = 32 };
+
 typedef struct {
   double gravity[2];         /* m/s2 */
   double courant;            /* fraction of the stability limit, 0 .. 1 */
   PetscBool walls;           /* rigid walls around the tank */
   double lower[2], upper[2]; /* its corners, m */
+  PetscBool rough_walls;     /* the next two hold where >= 0; else walls are like what touches them */
+  double wall_friction, wall_damping;
+  int nrules;
+  ContactRule rule[MOST_RULES]; /* [nrules] the last that fits holds */
   /* called on the rank that finds an element inside out; must not return.  NULL: message and MPI_Abort */
   void (*fail)(void *context, const char *message);
   void *context;
@@ -70,6 +85,8 @@ const SolidStats *SolidGetStats(Solid s);
 
 /* Cauchy stress (xx, yy, xy), Pa, stress[nelements][3].  Not collective. */
 void SolidStress(Solid s, double stress[]);
+/* Strain energy per unit of rest volume, J/m3, density[nelements].  Not collective. */
+void SolidEnergyDensity(Solid s, double density[]);
 
 typedef struct {
   double mass;             /* kg/m */

@@ -10,18 +10,19 @@ typedef struct Contact_s *Contact;
 /* Structure of arrays, so that the element loop is vectorised. */
 typedef struct {
   int n;
-  int *node[3];       /* local nodes, counter-clockwise */
-  double *inverse[4]; /* D0^-1: xx, xy, yx, yy of the rest edges' inverse, 1/m */
-  double *mu, *lambda, *eta, *density;
-  int *body;
-  int *number;      /* in the assembly */
-  double *force[2]; /* [3][n]: corner i of element e at i n + e */
-  PetscBool damped; /* any eta > 0 */
+  int *node[3];                        /* local nodes, counter-clockwise */
+  double *inverse[4];                  /* D0^-1: xx, xy, yx, yy of the rest edges' inverse, 1/m */
+  double *mu, *lambda, *eta, *density; /* times the thickness */
+  double *thickness, *sheet;           /* m; 1 in plane stress, 0 in plane strain */
+  int *body, *material;
+  int *number;              /* in the assembly */
+  double *force[2];         /* [3][n]: corner i of element e at i n + e */
+  PetscBool damped, sheets; /* any eta > 0, any in plane stress */
 } Elements;
 
 /* What a step changes. */
 typedef struct {
-  double *x, *v, h, t;
+  double *x, *v, h, t, moved_for;
 } SavedState;
 
 struct Solid_s {
@@ -30,6 +31,8 @@ struct Solid_s {
   SolidSetup setup;
   int nnodes, nfacets, nbodies;
   Body *body; /* [nbodies] */
+  int nmaterials;
+  Material *material; /* [nmaterials] */
   /* nodes */
   long long *gid;
   int *node_body, *surface;    /* [nnodes]; surface: some rank has a facet there */
@@ -41,21 +44,26 @@ struct Solid_s {
   int *element;               /* [ne][3] */
   int *facet, *facet_element; /* [nfacets][2], [nfacets] */
   Share share;
-  Contact contact; /* NULL: one body and no walls */
+  Contact contact;
+  int ndriven;
+  DrivenNode *driven; /* [ndriven] */
+  Drive *drive;
+  double *drive_rows, *held; /* [ndriven][2] room for places before a substep */
+  int ndrives;
   /* the step in hand */
-  double dt, done, h;
-  double *start, *seen;       /* [nnodes][2] positions when it began; what the fluid sees */
-  int remaining, until_check; /* substeps */
-  PetscBool force_valid;      /* force belongs to x and v */
+  double dt, done, h, moved_for; /* moved_for: length of the last substep made, s */
+  double *start, *seen;          /* [nnodes][2] positions when it began; what the fluid sees */
+  int remaining, until_check;    /* substeps */
+  PetscBool force_valid;         /* force belongs to x and v */
   SolidStats stats;
   SavedState saved;
 };
 
 /* forces.c: internal forces of this rank's elements into force; fails on an element with J <= 0. */
 PetscErrorCode SolidInternalForces(Solid s);
-/* Largest omega^2 and 2 xi omega over this rank's elements, and the smallest stable step with omega^2 +
- * contact. */
-double SolidElementLimit(Solid s, double contact);
+/* The smallest stable step over this rank's elements, each with contact's rates added. */
+double SolidElementLimit(Solid s, ElementRates contact);
+ElementLaw ElementsLaw(const Elements *e, int k);
 void SolidElementShape(const Elements *e, int k, const double x[], Tensor *edges, Tensor *f);
 
 /* distribute.c: everything that comes from the assembly. */
@@ -63,14 +71,21 @@ PetscErrorCode SolidTakeShare(Solid s, const Assembly *a);
 
 /* contact.c */
 PetscErrorCode ContactCreate(Solid s, Contact *contact);
+/* Collective: nodes, elements or facets have changed; a search must follow.  Slips stay with element and
+ * side. */
+PetscErrorCode ContactRenew(Contact c, Solid s);
 /* Collective: new candidates, for motions of surface nodes up to ContactReach. */
 PetscErrorCode ContactSearch(Contact c, Solid s, double least_buffer);
 /* Adds to force; every rank's edges against its own targets and those of other ranks. */
 PetscErrorCode ContactAddForces(Contact c, Solid s);
-/* Not collective: how far a node may move before a new search, and how far the farthest has; bound of
- * omega^2. */
+/* Not collective: how far a node may move before a new search, and how far the farthest has; bounds of
+ * omega^2 and 2 xi omega. */
 double ContactReach(Contact c);
 double ContactMoved(Contact c, Solid s);
-double ContactRate(Contact c);
+ElementRates ContactRate(Contact c);
+/* Not collective: the springs of friction keep what the forces just used; saved and put back with the state.
+ * After that there is no contact force until the next search, which SolidStart makes. */
+void ContactCommit(Contact c);
+PetscErrorCode ContactState(Contact c, int save);
 PetscErrorCode ContactDestroy(Contact *c);
 #endif

@@ -7,7 +7,11 @@
 
 static inline Material MaterialOf(double density, double youngs_modulus, double poisson_ratio, double damping)
 {
-  return (Material){density, youngs_modulus, poisson_ratio, damping, youngs_modulus};
+  return (Material){.density = density,
+                    .youngs_modulus = youngs_modulus,
+                    .poisson_ratio = poisson_ratio,
+                    .damping = damping,
+                    .penalty = youngs_modulus};
 }
 
 static inline BodySetup BodyAtRest(Material material)

@@ -72,8 +72,68 @@ static void MeshFile(void)
   CHECK(fixed == 2, "%d fixed", fixed);
 }
 
+/* Regions of a mesh, contact's table, walls, planes, drives and rings. */
+static void Full(void)
+{
+  CheckCase(
+      "gravity: [0, 0]\n"
+      "solid:\n"
+      "  walls: {lower: [-9, -9], upper: [9, 9], friction: 0.7}\n"
+      "  contact:\n"
+      "    - {between: [hard, soft], friction: 0.1}\n"
+      "    - {between: [soft, walls], friction: 0.2, damping: 0.3}\n"
+      "  materials:\n"
+      "    soft: {density: 1000, youngs_modulus: 1e5, poisson_ratio: 0.4, friction: 0.5, contact_damping: "
+      "0.6}\n"
+      "    hard: {density: 2000, youngs_modulus: 1e8, poisson_ratio: 0.2, plane: stress, thickness: 0.01}\n"
+      "  bodies:\n"
+      "    - {mesh: " SOURCE_FOLDER "/regions.msh, material: soft, regions: {hard: hard},\n"
+      "       driven: [{boundary: clamp, component: x, table: [[0, 1, 0], [2, 3, 0]]}]}\n"
+      "    - {shape: ring, centre: [5, 0], radius: 1, thickness: 0.1, size: 0.2, layers: 2, material: soft,\n"
+      "       stretch: [1.5, 1.0]}\n"
+      "    - {shape: ring, centre: [-5, 0], inner_radius: 0.5, outer_radius: 1, size: 0.2, material: soft,\n"
+      "       driven: [{boundary: inner, velocity: [4, 5]}]}\n",
+      NULL, Read, NULL);
+  CHECK(assembly.nmaterials == 2, "%d materials", assembly.nmaterials);
+  const Material *soft = &assembly.material[0], *hard = &assembly.material[1];
+  CHECK(soft->friction == 0.5 && soft->contact_damping == 0.6 && !soft->plane_stress &&
+            soft->thickness == 1.0,
+        "soft");
+  CHECK(hard->plane_stress && hard->thickness == 0.01, "hard");
+  for (int e = 0; e < assembly.nelements; e++)
+    CHECK(assembly.element_material[e] == (e == 2 || e == 3), "element %d", e);
+  CHECK(setup.nrules == 2 && setup.rule[0].friction == 0.1 && setup.rule[0].damping < 0.0 &&
+            setup.rule[1].damping == 0.3 && setup.rough_walls && setup.wall_friction == 0.7 &&
+            setup.wall_damping < 0.0,
+        "contact");
+  CHECK(assembly.ndrives == 2 && assembly.drive[0].nrows == 2 && !assembly.drive[0].driven[1], "drives");
+  const double mean = DriveVelocity(&assembly.drive[0], 0, 1.0, 2.0); /* 2 to 3, then 3 */
+  CHECK(fabs(mean - 2.75) < 1e-14, "mean velocity %g", mean);
+  double area[3] = {0.0, 0.0, 0.0};
+  for (int e = 0; e < assembly.nelements; e++) {
+    const int *n = assembly.element + 3 * e;
+    const double *x = assembly.rest;
+    area[assembly.element_body[e]] +=
+        0.5 * ((x[2 * n[1]] - x[2 * n[0]]) * (x[2 * n[2] + 1] - x[2 * n[0] + 1]) -
+               (x[2 * n[1] + 1] - x[2 * n[0] + 1]) * (x[2 * n[2]] - x[2 * n[0]]));
+  }
+  CHECK(fabs(area[1] / (M_PI * 0.2) - 1.0) < 1e-12 && fabs(area[2] / (M_PI * 0.75) - 1.0) < 1e-12,
+        "rings of %g and %g m2", area[1], area[2]);
+}
+
 static void Refusals(void)
 {
+  CheckCase(HEAD "  bodies:\n    - {mesh: " SOURCE_FOLDER "/regions.msh, material: m, regions: {wood: m}}\n",
+            NULL, Read, ":6: key 'solid.bodies[0]': the body has no region 'wood'; it has soft, hard");
+  CheckCase(HEAD "  contact: [{between: [m, stone], friction: 1}]\n  bodies:\n" DISC, NULL, Read,
+            ":5: key 'solid.contact[0].between[1]': there is no material 'stone' in solid.materials");
+  CheckCase(HEAD
+            "  bodies:\n    - {shape: ring, centre: [0, 0], radius: 1, thickness: 3, size: 1, material: m}\n",
+            NULL, Read, ":6: key 'solid.bodies[0].thickness': the ring has no hole or no wall");
+  CheckCase(HEAD
+            "  bodies:\n    - {shape: disc, centre: [0, 0], radius: 0.1, size: 0.05, material: m, driven: "
+            "[{boundary: boundary, table: [[1, 0, 0], [1, 0, 0]]}]}\n",
+            NULL, Read, ":6: key 'solid.bodies[0].driven[0].table[1]': the table's times must rise");
   CheckCase(HEAD "  bodies:\n" DISC, NULL, Read, NULL);
   CheckCase(HEAD, NULL, Read, ":2: key 'solid.bodies': expected a list of at least one body");
   CheckCase(
@@ -108,6 +168,7 @@ int main(int argc, char **argv)
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   Everything();
   MeshFile();
+  Full();
   Refusals();
   PetscCall(AssemblyDestroy(&assembly));
   return PetscFinalize();

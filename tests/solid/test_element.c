@@ -24,7 +24,9 @@ static void Map(Tensor f, Point x[3])
 static ElementForces Forces(const Point x[3], ElementLaw law)
 {
   const Tensor f = Gradient(x);
-  return ElementForcesOf(Edges(x), ElementElasticStress(f, TensorDeterminant(f), law.mu, law.lambda));
+  const double j = TensorDeterminant(f);
+  return ElementForcesOf(Edges(x), law.sheet ? ElementSheetStress(f, j, law.mu, law.lambda)
+                                             : ElementElasticStress(f, j, law.mu, law.lambda));
 }
 
 static double Energy(const Point x[3], ElementLaw law)
@@ -58,6 +60,21 @@ static void Affine(ElementLaw law)
                                                (1.0 + 1e-6) * (1.0 - 2e-6), law.mu, law.lambda);
   const double hooke = (law.lambda + 2.0 * law.mu) * 1e-6 - law.lambda * 2e-6;
   CHECK(fabs(s.xx - hooke) < 1e-5 * law.mu * 1e-6 * 10.0, "%g, Hooke %g", s.xx, hooke);
+}
+
+/* Plane stress: a pull along x with the strain across for which nothing acts across has sigma = E eps, and at
+ * any stretch the whole law's stress across the sheet vanishes. */
+static void Sheet(double young, double poisson)
+{
+  const ElementLaw law = ElementLawOf(young, poisson, 0.0);
+  const double eps = 1e-7;
+  const Tensor pull = {1.0 + eps, 0.0, 0.0, 1.0 - poisson * eps};
+  const ElementStress s = ElementSheetStress(pull, TensorDeterminant(pull), law.mu, law.lambda);
+  CHECK(fabs(s.xx / (young * eps) - 1.0) < 1e-5, "sigma_xx %g, E eps %g", s.xx, young * eps);
+  CHECK(fabs(s.yy) < 1e-5 * young * eps, "sigma_yy %g", s.yy);
+  const double j = 1.7, across = ElementThinning(j, law.mu, law.lambda);
+  const double zz = law.mu * (across - 1.0) + 0.5 * law.lambda * (j * j * across - 1.0);
+  CHECK(fabs(zz) < 1e-14 * young, "stress across %g", zz);
 }
 
 static void EnergyGradient(ElementLaw law)
@@ -132,6 +149,8 @@ static void Bound(ElementLaw law, Tensor f, double least)
 int main(void)
 {
   const ElementLaw law = ElementLawOf(1.0e6, 0.3, 0.0);
+  ElementLaw sheet = law;
+  sheet.sheet = 1;
   CHECK(fabs(law.mu / 384615.384615384615 - 1.0) < 1e-14 &&
             fabs(law.lambda / 576923.076923076923 - 1.0) < 1e-14,
         "Lame constants %g %g", law.mu, law.lambda);
@@ -139,6 +158,12 @@ int main(void)
   Affine(law);
   EnergyGradient(law);
   Dissipation();
+  Rotation(sheet);
+  EnergyGradient(sheet);
+  Sheet(1.0e6, 0.3);
+  Bound(sheet, (Tensor){1.0, 0.0, 0.0, 1.0}, 0.3);
+  Bound(sheet, (Tensor){1.4, 0.3, -0.2, 0.9}, 0.2);
+  Bound(sheet, (Tensor){0.5, 0.1, 0.3, 0.7}, 0.2);
   Bound(law, (Tensor){1.0, 0.0, 0.0, 1.0}, 0.5);
   Bound(law, (Tensor){1.4, 0.3, -0.2, 0.9}, 0.3);
   Bound(law, (Tensor){0.5, 0.1, 0.3, 0.7}, 0.3);

@@ -1,9 +1,10 @@
 // ranks: 1 2 3
-/* Patch test on a shaken mesh: a finite rotation by 73 degrees leaves no force, an affine map a uniform exact
- * stress and no force inside; rest coordinates are kept apart from positions. */
+/* Patch test on a shaken mesh, plane strain and plane stress: a finite rotation by 73 degrees leaves no
+ * force; a pull, a shear and a general affine map a uniform exact stress and no force inside; rest
+ * coordinates are kept apart from positions. */
 #include "build.h"
 
-static const double E = 2.0e6;
+static const double E = 2.0e6, NU = 0.3, THICKNESS = 0.25;
 
 static double LargestForce(Solid s, int inside_only)
 {
@@ -20,12 +21,14 @@ static double LargestForce(Solid s, int inside_only)
   return largest;
 }
 
-static PetscErrorCode Mapped(const double f[4], Solid *s)
+static PetscErrorCode Mapped(const double f[4], int sheet, Solid *s)
 {
-  const BodySetup setup = BodyAtRest(MaterialOf(1000.0, E, 0.3, 0.0));
+  BodySetup setup = BodyAtRest(MaterialOf(1000.0, E, 0.3, 0.0));
   const SolidSetup options = {.courant = 0.5};
   Assembly a = {0};
   double *x;
+  setup.material.plane_stress = sheet;
+  setup.material.thickness = THICKNESS;
   AddRectangle(&a, 0.0, 0.0, 1.0, 1.0, 0.0, 0.1, 1, &setup);
   PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, s));
   SolidView v = ViewOf(*s, &x, NULL);
@@ -36,26 +39,41 @@ static PetscErrorCode Mapped(const double f[4], Solid *s)
   return AssemblyDestroy(&a);
 }
 
-static PetscErrorCode Rotation(void)
+static PetscErrorCode Rotation(int sheet)
 {
   const double angle = 73.0 * M_PI / 180.0, f[4] = {cos(angle), -sin(angle), sin(angle), cos(angle)};
   Solid s;
-  PetscCall(Mapped(f, &s));
+  PetscCall(Mapped(f, sheet, &s));
   const double largest = LargestForce(s, 0);
   CHECK(largest < 1e-13 * E, "a rotation leaves a force of %g, %g of E", largest, largest / E);
   return SolidDestroy(&s);
 }
 
-static PetscErrorCode Affine(void)
+/* Cauchy's stress of the affine map f; of a sheet with its stretch across, found by bisection so that nothing
+ * acts across. */
+static void ExactStress(const double f[4], int sheet, double stress[3])
 {
-  const double f[4] = {1.3, 0.4, -0.2, 0.9}, j = 1.3 * 0.9 + 0.4 * 0.2, mu = E / 2.6,
-               lambda = 0.3 * E / (1.3 * 0.4);
-  const double volumetric = 0.5 * lambda * (j - 1.0 / j);
-  const double exact[3] = {mu / j * (1.3 * 1.3 + 0.4 * 0.4 - 1.0) + volumetric,
-                           mu / j * (0.2 * 0.2 + 0.9 * 0.9 - 1.0) + volumetric,
-                           mu / j * (-1.3 * 0.2 + 0.4 * 0.9)};
+  const double mu = E / (2.0 * (1.0 + NU)), lambda = NU * E / ((1.0 + NU) * (1.0 - 2.0 * NU));
+  const double plane = f[0] * f[3] - f[1] * f[2];
+  double low = 0.1, high = 10.0, across = 1.0;
+  while (sheet && high - low > 1e-15) {
+    across = 0.5 * (low + high);
+    const double j = plane * across;
+    *(mu / j * (across * across - 1.0) + 0.5 * lambda * (j - 1.0 / j) > 0.0 ? &high : &low) = across;
+    if (across <= low && across >= high) break;
+  }
+  const double j = plane * across, volumetric = 0.5 * lambda * (j - 1.0 / j);
+  stress[0] = mu / j * (f[0] * f[0] + f[1] * f[1] - 1.0) + volumetric;
+  stress[1] = mu / j * (f[2] * f[2] + f[3] * f[3] - 1.0) + volumetric;
+  stress[2] = mu / j * (f[0] * f[2] + f[1] * f[3]);
+}
+
+static PetscErrorCode Affine(const double f[4], int sheet)
+{
+  double exact[3];
   Solid s;
-  PetscCall(Mapped(f, &s));
+  ExactStress(f, sheet, exact);
+  PetscCall(Mapped(f, sheet, &s));
   SolidView v = ViewOf(s, NULL, NULL);
   double *stress = calloc(3 * (size_t)v.nelements + 1, sizeof *stress);
   SolidStress(s, stress);
@@ -95,8 +113,14 @@ static PetscErrorCode Stretched(void)
 int main(int argc, char **argv)
 {
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
-  PetscCall(Rotation());
-  PetscCall(Affine());
+  for (int sheet = 0; sheet < 2; sheet++) {
+    const double pull[4] = {1.2, 0.0, 0.0, 0.93}, shear[4] = {1.0, 0.3, 0.0, 1.0},
+                 all[4] = {1.3, 0.4, -0.2, 0.9};
+    PetscCall(Rotation(sheet));
+    PetscCall(Affine(pull, sheet));
+    PetscCall(Affine(shear, sheet));
+    PetscCall(Affine(all, sheet));
+  }
   PetscCall(Stretched());
   return PetscFinalize();
 }

@@ -1,0 +1,9 @@
+/* The solid alone: the same case file, outputs and substeps, but neither coupler nor fluid.  Its steps are
+ * time.dt_max long (the rows of solid.csv) and end with time.end; nothing but gravity, walls, drives and
+ * contact acts on the bodies. */
+#ifndef SOLID_ALONE_H
+#define SOLID_ALONE_H
+
+/* The whole program, argv without --alone; returns its exit code. */
+int Alone(int argc, char **argv);
+#endif

@@ -1,0 +1,246 @@
+/* One body and its materials, from the case. */
+#include "case_body.h"
+#include "shape.h"
+#include <stdarg.h>
+#include <stdio.h>
+
+enum { KEY = CASE_BODY_KEY };
+
+const char *BodyKey(char key[CASE_BODY_KEY], int body, const char *name)
+{
+  (void)snprintf(key, KEY, "solid.bodies[%d]%s%s", body, name[0] ? "." : "", name);
+  return key;
+}
+
+/* --- materials
+ * ---------------------------------------------------------------------------------------------- */
+
+static double Property(Case c, const char *material, const char *name, double lower, double upper)
+{
+  char key[KEY];
+  (void)snprintf(key, sizeof key, "solid.materials.%s.%s", material, name);
+  return lower < upper ? CaseNumber(c, key, lower, upper) : CasePositive(c, key);
+}
+
+static Material ReadMaterial(Case c, const char *name)
+{
+  static const char *const PLANES[] = {"strain", "stress", NULL};
+  Material m = {0};
+  char key[KEY];
+  m.density = Property(c, name, "density", 0.0, 0.0);
+  m.youngs_modulus = Property(c, name, "youngs_modulus", 0.0, 0.0);
+  m.poisson_ratio = Property(c, name, "poisson_ratio", 0.0, 0.499);
+  (void)snprintf(key, sizeof key, "solid.materials.%s.damping", name);
+  m.damping = CaseNumberOr(c, key, 0.0, 0.0, 0.999);
+  (void)snprintf(key, sizeof key, "solid.materials.%s.penalty", name);
+  m.penalty = CaseHas(c, key) ? CasePositive(c, key) : m.youngs_modulus;
+  (void)snprintf(key, sizeof key, "solid.materials.%s.friction", name);
+  m.friction = CaseNumberOr(c, key, 0.0, 0.0, HUGE_VAL);
+  (void)snprintf(key, sizeof key, "solid.materials.%s.contact_damping", name);
+  m.contact_damping = CaseNumberOr(c, key, 0.0, 0.0, 10.0);
+  (void)snprintf(key, sizeof key, "solid.materials.%s.plane", name);
+  m.plane_stress = CaseWord(c, key, 0, PLANES);
+  (void)snprintf(key, sizeof key, "solid.materials.%s.thickness", name);
+  m.thickness = CaseHas(c, key) ? CasePositive(c, key) : 1.0;
+  if (strlen(name) >= MATERIAL_NAME || !strcmp(name, CONTACT_WALLS))
+    CaseRefuse(c, key, "a material's name must be shorter than %d characters and not '%s'", MATERIAL_NAME,
+               CONTACT_WALLS);
+  (void)snprintf(m.name, sizeof m.name, "%s", name);
+  return m;
+}
+
+/* Every material is read, also those that no body has. */
+void CaseCheckMaterial(void *c, const char *name)
+{
+  (void)ReadMaterial(c, name);
+}
+
+void CaseMaterialExists(Case c, const char *key, const char *name)
+{
+  char material[KEY];
+  (void)snprintf(material, sizeof material, "solid.materials.%.100s", name);
+  if (!CaseHas(c, material)) CaseRefuse(c, key, "there is no material '%s' in solid.materials", name);
+}
+
+static Material MaterialAt(Case c, const char *key)
+{
+  const char *name = CaseString(c, key);
+  CaseMaterialExists(c, key, name);
+  return ReadMaterial(c, name);
+}
+
+/* --- bodies
+ * ------------------------------------------------------------------------------------------------- */
+
+static PetscErrorCode ReadMeshFile(Case c, int body, MeshSerial *mesh)
+{
+  char key[KEY];
+  const char *path = CaseFile(c, BodyKey(key, body, "mesh")), *why = NULL;
+  double translate[2] = {0.0, 0.0};
+  PetscFunctionBeginUser;
+  if (MeshReadGmsh(path, mesh, &why)) CaseRefuse(c, key, "%s", why);
+  (void)CaseVectorOptional(c, BodyKey(key, body, "translate"), 2, translate);
+  const double scale = CaseHas(c, BodyKey(key, body, "scale")) ? CasePositive(c, key) : 1.0;
+  for (int k = 0; k < 2 * mesh->nv; k++) mesh->x[k] = scale * mesh->x[k] + translate[k % 2];
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ReadRing(Case c, int body, const double centre[2], double size, MeshSerial *mesh)
+{
+  double inner, outer;
+  char key[KEY];
+  PetscFunctionBeginUser;
+  if (CaseHas(c, BodyKey(key, body, "radius"))) { /* of the wall's middle */
+    const double radius = CasePositive(c, key), thickness = CasePositive(c, BodyKey(key, body, "thickness"));
+    inner = radius - 0.5 * thickness;
+    outer = radius + 0.5 * thickness;
+  } else {
+    outer = CasePositive(c, BodyKey(key, body, "outer_radius"));
+    inner = CasePositive(c, BodyKey(key, body, "inner_radius"));
+  }
+  if (!(inner > 0.0 && inner < outer)) CaseRefuse(c, key, "the ring has no hole or no wall");
+  const int layers = CaseIntegerOr(c, BodyKey(key, body, "layers"),
+                                   PetscMax(1, (int)ceil((outer - inner) / size - 1e-9)), 1, 1000);
+  PetscCall(ShapeRing(centre, inner, outer, layers, size, mesh));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ReadShape(Case c, int body, MeshSerial *mesh)
+{
+  static const char *const SHAPES[] = {"disc", "rectangle", "ring", NULL};
+  double centre[2];
+  char key[KEY];
+  PetscFunctionBeginUser;
+  if (CaseHas(c, BodyKey(key, body, "mesh"))) {
+    PetscCall(ReadMeshFile(c, body, mesh));
+    PetscFunctionReturn(0);
+  }
+  const int shape = CaseWord(c, BodyKey(key, body, "shape"), -1, SHAPES);
+  CaseVector(c, BodyKey(key, body, "centre"), 2, centre);
+  const double size = CasePositive(c, BodyKey(key, body, "size"));
+  if (shape == 0) {
+    PetscCall(ShapeDisc(centre, CasePositive(c, BodyKey(key, body, "radius")), size, mesh));
+  } else if (shape == 1) {
+    const double width = CasePositive(c, BodyKey(key, body, "width"));
+    const double height = CasePositive(c, BodyKey(key, body, "height"));
+    const double angle = CaseNumberOr(c, BodyKey(key, body, "angle"), 0.0, -HUGE_VAL, HUGE_VAL);
+    PetscCall(ShapeRectangle(centre, width, height, angle, size, mesh));
+  } else {
+    PetscCall(ReadRing(c, body, centre, size, mesh));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* true, or a list of boundary names (*name is allocated). */
+static PetscErrorCode ReadFixed(Case c, int body, BodySetup *setup, const char ***name)
+{
+  char key[KEY], item[KEY + 16];
+  PetscFunctionBeginUser;
+  *name = NULL;
+  BodyKey(key, body, "fixed");
+  (void)snprintf(item, sizeof item, "%s[0]", key);
+  if (!CaseHas(c, item)) {
+    setup->fixed = CaseBoolOr(c, key, false);
+    PetscFunctionReturn(0);
+  }
+  setup->nfixed = CaseCount(c, key);
+  PetscCall(PetscMalloc1((size_t)setup->nfixed, name));
+  for (int k = 0; k < setup->nfixed; k++) {
+    (void)snprintf(item, sizeof item, "%s[%d]", key, k);
+    (*name)[k] = CaseString(c, item);
+  }
+  setup->fixed_name = *name;
+  PetscFunctionReturn(0);
+}
+
+/* One item of `driven`: rows are allocated. */
+static PetscErrorCode ReadDrive(Case c, const char *item, BoundaryDrive *d)
+{
+  static const char *const COMPONENTS[] = {"both", "x", "y", NULL};
+  char key[KEY + 64];
+  double *row;
+  PetscFunctionBeginUser;
+  (void)snprintf(key, sizeof key, "%s.boundary", item);
+  d->boundary = CaseString(c, key);
+  (void)snprintf(key, sizeof key, "%s.component", item);
+  const int component = CaseWord(c, key, 0, COMPONENTS);
+  d->drive.driven[0] = component != 2;
+  d->drive.driven[1] = component != 1;
+  (void)snprintf(key, sizeof key, "%s.table", item);
+  const int nrows = CaseHas(c, key) ? CaseCount(c, key) : 0;
+  d->drive.nrows = PetscMax(nrows, 1);
+  PetscCall(PetscCalloc1(3 * (size_t)d->drive.nrows, &row));
+  d->drive.row = row;
+  for (int k = 0; k < nrows; k++) {
+    (void)snprintf(key, sizeof key, "%s.table[%d]", item, k);
+    CaseVector(c, key, 3, row + 3 * k);
+    if (k > 0 && !(row[3 * k] > row[3 * k - 3])) CaseRefuse(c, key, "the table's times must rise");
+  }
+  if (nrows == 0) {
+    (void)snprintf(key, sizeof key, "%s.velocity", item);
+    CaseVector(c, key, 2, row + 1);
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ReadDriven(Case c, int body, BodySetup *setup, BoundaryDrive **driven)
+{
+  char key[KEY], item[KEY + 16];
+  PetscFunctionBeginUser;
+  setup->ndriven = CaseCount(c, BodyKey(key, body, "driven"));
+  PetscCall(PetscCalloc1((size_t)setup->ndriven, driven));
+  for (int k = 0; k < setup->ndriven; k++) {
+    (void)snprintf(item, sizeof item, "%s[%d]", key, k);
+    PetscCall(ReadDrive(c, item, &(*driven)[k]));
+  }
+  setup->driven = *driven;
+  PetscFunctionReturn(0);
+}
+
+/* The map `regions`: physical surface -> material. */
+enum { MOST_REGIONS = 64 };
+typedef struct {
+  Case c;
+  int body, n;
+  RegionMaterial region[MOST_REGIONS];
+} Regions;
+
+static void ReadRegion(void *context, const char *name)
+{
+  Regions *r = context;
+  char key[KEY], item[KEY + 80];
+  (void)snprintf(item, sizeof item, "%s.%.64s", BodyKey(key, r->body, "regions"), name);
+  if (r->n == MOST_REGIONS) CaseRefuse(r->c, key, "more than %d regions", MOST_REGIONS);
+  r->region[r->n++] = (RegionMaterial){name, MaterialAt(r->c, item)};
+}
+
+PetscErrorCode CaseReadBody(Case c, int body, Assembly *a)
+{
+  BodySetup setup = {.stretch = {1.0, 1.0}};
+  Regions regions = {.c = c, .body = body};
+  MeshSerial mesh = {0};
+  BoundaryDrive *driven;
+  const char **name, *why = NULL;
+  char key[KEY];
+  PetscFunctionBeginUser;
+  setup.material = MaterialAt(c, BodyKey(key, body, "material"));
+  CaseKeys(c, BodyKey(key, body, "regions"), ReadRegion, &regions);
+  setup.nregions = regions.n;
+  setup.region = regions.region;
+  PetscCall(ReadShape(c, body, &mesh));
+  PetscCall(ReadFixed(c, body, &setup, &name));
+  PetscCall(ReadDriven(c, body, &setup, &driven));
+  (void)CaseVectorOptional(c, BodyKey(key, body, "stretch"), 2, setup.stretch);
+  if (!(setup.stretch[0] > 0.0 && setup.stretch[1] > 0.0)) CaseRefuse(c, key, "expected two numbers > 0");
+  (void)CaseVectorOptional(c, BodyKey(key, body, "velocity"), 2, setup.velocity);
+  if (setup.fixed && (setup.velocity[0] != 0.0 || setup.velocity[1] != 0.0))
+    CaseRefuse(c, key, "a fixed body has no velocity");
+  setup.angular_velocity = CaseNumberOr(c, BodyKey(key, body, "angular_velocity"), 0.0, -HUGE_VAL, HUGE_VAL);
+  if (setup.fixed && setup.angular_velocity != 0.0) CaseRefuse(c, key, "a fixed body does not turn");
+  if (AssemblyAdd(a, &mesh, &setup, &why)) CaseRefuse(c, BodyKey(key, body, ""), "%s", why);
+  for (int k = 0; k < setup.ndriven; k++) PetscCall(PetscFree(driven[k].drive.row));
+  PetscCall(PetscFree(driven));
+  PetscCall(PetscFree(name));
+  PetscCall(MeshSerialDestroy(&mesh));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,17 @@
+/* The case's materials and bodies, for solid_case.c.  Not collective; all refuse what cannot be. */
+#ifndef SOLID_CASE_BODY_H
+#define SOLID_CASE_BODY_H
+#include "case_file.h"
+#include "solid.h"
+
+enum { CASE_BODY_KEY = 192 };
+
+/* "solid.bodies[i].name" */
+const char *BodyKey(char key[CASE_BODY_KEY], int body, const char *name);
+/* Reads all keys of a material (c: the Case; for CaseKeys). */
+void CaseCheckMaterial(void *c, const char *name);
+/* Refuses key when there is no material of that name. */
+void CaseMaterialExists(Case c, const char *key, const char *name);
+/* Adds solid.bodies[body]. */
+PetscErrorCode CaseReadBody(Case c, int body, Assembly *a);
+#endif

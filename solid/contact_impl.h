@@ -1,0 +1,85 @@
+/* The contact's own data, for contact.c, contact_search.c and contact_pair.c. */
+#ifndef SOLID_CONTACT_IMPL_H
+#define SOLID_CONTACT_IMPL_H
+#include "contact_halo.h"
+#include "contact_kernel.h"
+#include "solid_impl.h"
+
+enum { WALL_LEFT = -4, WALL_RIGHT, WALL_BOTTOM, WALL_TOP, NOTHING = -5 };
+
+/* An edge that may touch a target before the next search. */
+typedef struct {
+  int facet, target, pair;
+  double strength; /* p times the target's rest area doubled: over its area now, that is p/J */
+} Candidate;
+
+/* An edge that may touch a wall. */
+typedef struct {
+  int facet, axis, pair;
+  double outward, at; /* -1 or 1, and the wall's coordinate */
+} WallCandidate;
+
+/* One edge and all that it touches of one body (its own too) or wall: friction has its history here, so that
+ * it does not start anew when the edge slides from one element of the other to the next. */
+typedef struct {
+  int facet, other; /* other: a body, or a wall < 0 */
+  int edge;         /* 3 element + side: the facet, whatever its number becomes */
+  int next;         /* pair of the same facet, -1: none */
+  ContactLaw law;
+  double slip; /* of the spring when the last substep began, m */
+  double now;  /* with the motion of the last substep */
+  /* this evaluation's sums over targets */
+  double normal, inside, vn, vt; /* N; share of the edge; velocities times the normal force */
+  ContactResponse response;
+} Pair;
+
+/* What is kept of a pair while candidates are searched or a step is redone. */
+typedef struct {
+  int edge, other;
+  double slip;
+} Slip;
+
+typedef struct {
+  int n, capacity;
+  Slip *slip;
+} Slips;
+
+/* A candidate that touches now. */
+typedef struct {
+  int candidate; /* -1 - k: wall candidate k */
+  double scale;  /* of the integrals to a force over the edge's length, N/m */
+  ContactIntegrals integrals;
+} Touch;
+
+struct Contact_s {
+  int ntargets, nall; /* this rank's; with those of the halo */
+  Target *target;     /* [nall] */
+  int ncandidates, candidate_capacity, nwalls, wall_capacity, npairs, pair_capacity, touch_capacity;
+  Candidate *candidate;
+  WallCandidate *wall;
+  Pair *pair;
+  Touch *touch;
+  int *first_pair; /* [nfacets] -1: none */
+  Slips history, saved;
+  PetscBool restored; /* history, not the pairs, holds the slips */
+  PetscBool rough;    /* any friction or damping: velocities are needed */
+  Halo halo;          /* NULL on one rank */
+  double *height;     /* [nbodies] smallest height of the surface elements at rest, m */
+  double *softness;   /* [nbodies] largest (half the edges' lengths at a node)/(its mass), m/kg */
+  double *backing;    /* [nbodies] mass behind a metre of surface, 4 M/perimeter, kg/m2; HUGE_VAL: held */
+  double *searched;   /* [nnodes][2] positions of the last search */
+  double buffer, shortest_buffer;
+  double rate[4]; /* bounds of omega^2 by bodies and by walls, 1/s2; of 2 xi omega by both, 1/s */
+};
+
+/* contact_search.c */
+const double *ContactPosition(const Contact c, const Solid s, int node);
+
+/* contact_pair.c */
+/* The pair of the facet and the other, made with the slip that history has of it. */
+PetscErrorCode ContactPairOf(Contact c, Solid s, int facet, int other, ContactLaw law, int *pair);
+/* Puts the pairs' slips into history, for those that the next search makes; there are none till then. */
+PetscErrorCode ContactForgetPairs(Contact c);
+/* Friction and damping of two materials; other < 0: the walls. */
+void ContactMaterials(const Solid s, int material, int other, double *friction, double *damping);
+#endif

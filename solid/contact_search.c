@@ -1,0 +1,246 @@
+/* Which edges may touch which targets and walls before the next search. */
+#include "cell_grid.h"
+#include "contact_impl.h"
+
+/* Neighbours on the mesh of one body that lie this close at rest become candidates when they have come closer
+ * by half: till then they cost nothing. */
+#define APPROACH 0.5
+
+typedef struct {
+  Contact c;
+  Solid s;
+  char *keep; /* [halo targets] */
+} SearchContext;
+
+const double *ContactPosition(const Contact c, const Solid s, int node)
+{
+  return node < s->nnodes ? s->x + 2 * node : HaloPositions(c->halo) + 2 * (node - s->nnodes);
+}
+
+/* --- distances
+ * ---------------------------------------------------------------------------------------------- */
+
+/* Squared distance from a to the segment p q. */
+static double PointSegment(Point a, Point p, Point q)
+{
+  const Point d = PointMinus(q, p), r = PointMinus(a, p);
+  const double s = fmax(0.0, fmin(1.0, (r.x * d.x + r.y * d.y) / (d.x * d.x + d.y * d.y)));
+  const double x = r.x - s * d.x, y = r.y - s * d.y;
+  return x * x + y * y;
+}
+
+static double Distance(Point p, Point q, const Point t[3])
+{
+  ContactIntegrals inside;
+  double least = HUGE_VAL;
+  if (ContactEdgeTriangle(p, q, t, &inside)) return 0.0;
+  for (int i = 0; i < 3; i++) {
+    const Point a = t[i], b = t[(i + 1) % 3];
+    least = fmin(least, fmin(PointSegment(p, a, b), PointSegment(q, a, b)));
+    least = fmin(least, PointSegment(a, p, q));
+  }
+  return sqrt(least);
+}
+
+/* Farther than the buffer they cannot touch before the next search.  Of one body: a pair that shares a node
+ * never touches by itself, neighbours at rest only once they have come closer, and a buffer that is long
+ * because the body as a whole is fast is not needed. */
+static PetscBool MayTouch(const Contact c, const Solid s, int facet, const Target *t)
+{
+  const int *edge = s->facet + 2 * facet, body = s->elements.body[s->facet_element[facet]];
+  Point now[3], rest[3];
+  if (t->body == body)
+    for (int i = 0; i < 6; i++)
+      if (t->gid[i % 3] == s->gid[edge[i / 3]]) return PETSC_FALSE;
+  for (int i = 0; i < 3; i++) {
+    now[i] = PointAt(ContactPosition(c, s, t->node[i]), 0);
+    rest[i] = PointAt(t->rest, i);
+  }
+  const double distance = Distance(PointAt(s->x, edge[0]), PointAt(s->x, edge[1]), now);
+  if (distance > c->buffer) return PETSC_FALSE;
+  if (t->body != body) return PETSC_TRUE;
+  const double apart = Distance(PointAt(s->rest, edge[0]), PointAt(s->rest, edge[1]), rest);
+  return (PetscBool)(distance <= c->shortest_buffer &&
+                     (apart == 0.0 || apart > c->shortest_buffer || distance < APPROACH * apart));
+}
+
+/* --- candidates
+ * --------------------------------------------------------------------------------------------- */
+
+/* Mass behind a metre of both surfaces. */
+static double Together(double one, double other)
+{
+  if (one == HUGE_VAL || other == HUGE_VAL) return fmin(one, other);
+  return one * other / (one + other);
+}
+
+/* Tangential spring half as stiff as the normal contact of the whole edge, 3 p L/height; damping as a
+ * fraction of the critical 2 sqrt(k m).  *rate: its viscous rate per metre and mass, c/L. */
+static ContactLaw LawOf(const Solid s, int facet, double friction, double damping, double penalty,
+                        double height, double backing, double *rate)
+{
+  const Point d =
+      PointMinus(PointAt(s->rest, s->facet[2 * facet + 1]), PointAt(s->rest, s->facet[2 * facet]));
+  const double length = hypot(d.x, d.y), stiffness = 3.0 * penalty / height;
+  *rate = damping > 0.0 && backing < HUGE_VAL ? 2.0 * damping * sqrt(stiffness * backing) : 0.0;
+  return (ContactLaw){friction, friction > 0.0 ? 0.5 * stiffness * length : 0.0, *rate * length};
+}
+
+static PetscErrorCode AddCandidate(void *context, int facet, int target)
+{
+  const SearchContext *x = context;
+  Contact c = x->c;
+  const Solid s = x->s;
+  const Target *t = &c->target[target];
+  const int element = s->facet_element[facet], body = s->elements.body[element];
+  const Material *own = &s->material[s->elements.material[element]], *other = &s->material[t->material];
+  double friction, damping, viscous;
+  int pair;
+  PetscFunctionBeginUser;
+  if (!MayTouch(c, s, facet, t)) PetscFunctionReturn(0);
+  if (c->ncandidates == c->candidate_capacity) {
+    c->candidate_capacity = 2 * c->candidate_capacity + 64;
+    PetscCall(PetscRealloc((size_t)c->candidate_capacity * sizeof *c->candidate, &c->candidate));
+  }
+  const double penalty = fmin(own->penalty, other->penalty) * fmin(own->thickness, other->thickness);
+  const double softness = fmax(c->softness[body], c->softness[t->body]);
+  ContactMaterials(s, s->elements.material[element], t->material, &friction, &damping);
+  const ContactLaw law = LawOf(s, facet, friction, damping, penalty, c->height[t->body],
+                               Together(c->backing[body], c->backing[t->body]), &viscous);
+  PetscCall(ContactPairOf(c, s, facet, t->body, law, &pair));
+  c->candidate[c->ncandidates++] = (Candidate){facet, target, pair, penalty * t->twice_area};
+  if (target >= c->ntargets) x->keep[target - c->ntargets] = 1;
+  /* d(p phi)/dx = 3 p/height; a node takes half of its edges, |u_c - u_t|^2 <= 2 |u_c|^2 + 2 |u_t|^2, and
+   * both bodies are contactor and target */
+  c->rate[0] =
+      fmax(c->rate[0], 6.0 * penalty * softness * (1.0 / c->height[body] + 1.0 / c->height[t->body]));
+  c->rate[2] = fmax(c->rate[2], 4.0 * viscous * softness);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode AddWall(Contact c, Solid s, int facet, int axis, double outward, double at)
+{
+  const int element = s->facet_element[facet], body = s->elements.body[element];
+  const Material *m = &s->material[s->elements.material[element]];
+  const int wall = WALL_LEFT + 2 * axis + (outward > 0.0);
+  double friction, damping, viscous;
+  PetscFunctionBeginUser;
+  if (c->nwalls == c->wall_capacity) {
+    c->wall_capacity = 2 * c->wall_capacity + 64;
+    PetscCall(PetscRealloc((size_t)c->wall_capacity * sizeof *c->wall, &c->wall));
+  }
+  WallCandidate *w = &c->wall[c->nwalls++];
+  *w = (WallCandidate){facet, axis, -1, outward, at};
+  ContactMaterials(s, s->elements.material[element], wall, &friction, &damping);
+  const ContactLaw law = LawOf(s, facet, friction, damping, m->penalty * m->thickness, c->height[body],
+                               c->backing[body], &viscous);
+  PetscCall(ContactPairOf(c, s, facet, wall, law, &w->pair));
+  c->rate[3] = fmax(c->rate[3], 2.0 * viscous * c->softness[body]); /* in a corner two walls act */
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FindWalls(Contact c, Solid s, const GeometryBox edge[])
+{
+  const double *lower = s->setup.lower, *upper = s->setup.upper;
+  PetscFunctionBeginUser;
+  for (int k = 0; k < s->nfacets; k++) {
+    const int element = s->facet_element[k], body = s->elements.body[element], before = c->nwalls;
+    const Material *m = &s->material[s->elements.material[element]];
+    for (int axis = 0; axis < 2; axis++) {
+      if (edge[k].lower[axis] < lower[axis]) PetscCall(AddWall(c, s, k, axis, -1.0, lower[axis]));
+      if (edge[k].upper[axis] > upper[axis]) PetscCall(AddWall(c, s, k, axis, 1.0, upper[axis]));
+    }
+    /* in a corner two walls act */
+    c->rate[1] = fmax(c->rate[1], 3.0 * (c->nwalls - before) * m->penalty * m->thickness * c->softness[body] /
+                                      c->height[body]);
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Brings other ranks' targets near this rank's edges behind its own. */
+static PetscErrorCode BringTargets(Contact c, Solid s, const GeometryBox edge[])
+{
+  GeometryBox all = GeometryBoxEmpty();
+  const Target *foreign;
+  PetscFunctionBeginUser;
+  c->nall = c->ntargets;
+  if (!c->halo) PetscFunctionReturn(0);
+  for (int k = 0; k < s->nfacets; k++) {
+    GeometryBoxGrow(&all, edge[k].lower);
+    GeometryBoxGrow(&all, edge[k].upper);
+  }
+  PetscCall(HaloBuild(c->halo, s->nnodes, s->x, &all, c->ntargets, c->target));
+  PetscCall(HaloForward(c->halo, s->x, NULL));
+  const int n = HaloTargets(c->halo, &foreign);
+  c->nall += n;
+  PetscCall(PetscRealloc((size_t)c->nall * sizeof *c->target, &c->target));
+  PetscCall(PetscArraycpy(c->target + c->ntargets, foreign, (size_t)n));
+  PetscFunctionReturn(0);
+}
+
+/* Forgets the targets of other ranks that no candidate has. */
+static PetscErrorCode DropTargets(Contact c, const char keep[])
+{
+  const Target *foreign;
+  int *index;
+  PetscFunctionBeginUser;
+  if (!c->halo) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1((size_t)(c->nall - c->ntargets), &index));
+  PetscCall(HaloKeep(c->halo, keep, index));
+  for (int k = 0; k < c->ncandidates; k++) {
+    int *target = &c->candidate[k].target;
+    if (*target >= c->ntargets) *target = c->ntargets + index[*target - c->ntargets];
+  }
+  const int n = HaloTargets(c->halo, &foreign);
+  c->nall = c->ntargets + n;
+  PetscCall(PetscArraycpy(c->target + c->ntargets, foreign, (size_t)n));
+  PetscCall(PetscFree(index));
+  PetscFunctionReturn(0);
+}
+
+/* Every pair closer than the buffer. */
+static PetscErrorCode FindPairs(Contact c, Solid s, const GeometryBox edge[])
+{
+  SearchContext context = {c, s, NULL};
+  GeometryBox *box;
+  PetscFunctionBeginUser;
+  PetscCall(BringTargets(c, s, edge));
+  PetscCall(PetscMalloc1((size_t)c->nall, &box));
+  PetscCall(PetscCalloc1((size_t)(c->nall - c->ntargets), &context.keep));
+  for (int k = 0; k < c->nall; k++) {
+    box[k] = GeometryBoxEmpty();
+    for (int i = 0; i < 3; i++) GeometryBoxGrow(&box[k], ContactPosition(c, s, c->target[k].node[i]));
+  }
+  PetscCall(CellGridPairs(s->nfacets, edge, c->nall, box, AddCandidate, &context));
+  PetscCall(DropTargets(c, context.keep));
+  PetscCall(PetscFree(context.keep));
+  PetscCall(PetscFree(box));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ContactSearch(Contact c, Solid s, double least_buffer)
+{
+  GeometryBox *edge;
+  PetscFunctionBeginUser;
+  PetscCall(ContactForgetPairs(c));
+  c->restored = PETSC_FALSE;
+  for (int k = 0; k < s->nfacets; k++) c->first_pair[k] = -1;
+  c->buffer = fmax(c->shortest_buffer, least_buffer);
+  for (int k = 0; k < 4; k++) c->rate[k] = 0.0;
+  PetscCall(PetscMalloc1((size_t)s->nfacets, &edge));
+  for (int k = 0; k < s->nfacets; k++) {
+    edge[k] = GeometryBoxEmpty();
+    for (int i = 0; i < 2; i++) GeometryBoxGrow(&edge[k], s->x + 2 * s->facet[2 * k + i]);
+    for (int axis = 0; axis < 2; axis++) {
+      edge[k].lower[axis] -= c->buffer;
+      edge[k].upper[axis] += c->buffer;
+    }
+  }
+  if (s->setup.walls) PetscCall(FindWalls(c, s, edge));
+  PetscCall(FindPairs(c, s, edge));
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->rate, 4, MPI_DOUBLE, MPI_MAX, s->comm));
+  PetscCall(PetscArraycpy(c->searched, s->x, 2 * (size_t)s->nnodes));
+  PetscCall(PetscFree(edge));
+  s->stats.searches++;
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,23 @@
+#!/bin/sh
+# The solid alone, on one rank and on two: outputs, the same series, and what Coulomb says.
+# alone.sh SOURCE BUILD
+set -eu
+folder=$2/alone
+mkdir -p "$folder"
+for ranks in 1 2; do
+  "$1/scripts/launch.sh" --alone --ranks 1:1:$ranks --bin "$2" "$1/tests/solid/alone.yaml" \
+    --set output.folder="$folder/$ranks" >"$folder/$ranks.log"
+  grep -q 'coracle: t 0.2 s of 0.2, step 20' "$folder/$ranks.log" || { echo "no progress line in $folder/$ranks.log"; exit 1; }
+  [ -s "$folder/$ranks/solid.h5" ] || { echo "no $folder/$ranks/solid.h5"; exit 1; }
+done
+# u0 is column 4; 5 - 0.2 * 8 = 3.4 m/s2 once it slides
+tail -n 2 "$folder/1/solid.csv" | awk -F, '
+  { if (NR == 1) { t = $1; u = $4 } else { a = ($4 - u) / ($1 - t); if (a < 3.366 || a > 3.434) { print "acceleration", a; exit 1 } } }'
+paste -d, "$folder/1/solid.csv" "$folder/2/solid.csv" | awk -F, 'NR > 1 {
+  n = NF / 2
+  for (k = 1; k <= 10; k++) if (($k - $(k + n)) ^ 2 > 1e-16) { print "row", NR, "column", k ":", $k, "and", $(k + n); exit 1 } }'
+# what is wrong is said once, by name
+if "$2/solid/coracle-solid" --alone "$1/tests/solid/alone.yaml" --set time.end=-1 >"$folder/bad.log" 2>&1; then
+  echo "a negative end was taken"; exit 1
+fi
+grep -q "key 'time.end': expected a number > 0" "$folder/bad.log" || { cat "$folder/bad.log"; exit 1; }

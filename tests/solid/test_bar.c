@@ -1,0 +1,70 @@
+/* A step of velocity at the end of a slender bar (a driven boundary) travels with sqrt(E/rho) in plane stress
+ * and sqrt(E/(1 - nu^2)/rho) in plane strain, within 1 %. */
+#include "build.h"
+
+static const double YOUNG = 1.0e6, DENSITY = 1000.0, POISSON = 0.3, SPEED = 1e-3;
+
+/* Mean velocity along the bar of the nodes of one cross section. */
+static double Section(const SolidView *v, double x)
+{
+  double sum = 0.0;
+  int n = 0;
+  for (int i = 0; i < v->nnodes; i++) {
+    if (fabs(v->rest[2 * i] - x) > 1e-6) continue;
+    sum += v->v[2 * i];
+    n++;
+  }
+  return sum / n;
+}
+
+static PetscErrorCode WaveSpeed(int plane_stress, double *speed)
+{
+  const SolidSetup options = {.courant = 0.8};
+  const double row[3] = {0.0, SPEED, 0.0}, at[2] = {0.3, 0.7};
+  const BoundaryDrive drive = {"left", {{1, 0}, 1, row}};
+  BodySetup setup = BodyAtRest(MaterialOf(DENSITY, YOUNG, POISSON, 0.0));
+  Assembly a = {0};
+  double passed[2] = {0.0, 0.0}, before[2] = {0.0, 0.0}, h;
+  Solid s;
+  setup.material.plane_stress = plane_stress;
+  setup.material.thickness = 0.02;
+  setup.ndriven = 1;
+  setup.driven = &drive;
+  AddRectangle(&a, 0.5, 0.0, 1.0, 0.01, 0.0, 0.0025, 0, &setup);
+  PetscCall(SolidCreate(PETSC_COMM_SELF, &a, &options, &s));
+  SolidView v = ViewOf(s, NULL, NULL);
+  PetscCall(SolidStart(s, 0.03, NULL));
+  while (SolidRemaining(s) && passed[1] == 0.0) {
+    PetscCall(SolidSubstep(s, &h));
+    for (int k = 0; k < 2; k++) { /* when half of the step has arrived */
+      const double now = Section(&v, at[k]);
+      if (passed[k] == 0.0 && now > 0.5 * SPEED)
+        passed[k] = SolidGetStats(s)->t - h * (now - 0.5 * SPEED) / (now - before[k]);
+      before[k] = now;
+    }
+  }
+  CHECK(passed[1] > 0.0, "the wave has not arrived");
+  *speed = (at[1] - at[0]) / (passed[1] - passed[0]);
+  double driven = 0.0;
+  for (int i = 0; i < v.nnodes; i++)
+    if (v.rest[2 * i] < 1e-9) driven = v.x[2 * i] - v.rest[2 * i];
+  CHECK(fabs(driven - SPEED * SolidGetStats(s)->t) < 1e-15, "the end has gone %g", driven);
+  PetscCall(AssemblyDestroy(&a));
+  return SolidDestroy(&s);
+}
+
+int main(int argc, char **argv)
+{
+  PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
+  for (int stress = 0; stress < 2; stress++) {
+    const double modulus = stress ? YOUNG : YOUNG / (1.0 - POISSON * POISSON),
+                 exact = sqrt(modulus / DENSITY);
+    double speed;
+    PetscCall(WaveSpeed(stress, &speed));
+    if (getenv("VERBOSE"))
+      printf("plane %s: %.4f m/s, exact %.4f, %+.2f %%\n", stress ? "stress" : "strain", speed, exact,
+             100.0 * (speed / exact - 1.0));
+    CHECK(fabs(speed / exact - 1.0) < 0.01, "wave speed %g, exact %g", speed, exact);
+  }
+  return PetscFinalize();
+}

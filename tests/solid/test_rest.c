@@ -1,0 +1,105 @@
+/* What lies stays: a block on the floor and a stack of three come to rest and keep their potential energy; a
+ * small heap of blocks that fall on each other comes to rest (hundreds: test_rest 300). */
+#include "build.h"
+
+static const double G = 9.81;
+
+static Material Stone(double youngs_modulus)
+{
+  Material m = MaterialOf(2000.0, youngs_modulus, 0.25, 0.3);
+  m.friction = 0.5;
+  m.contact_damping = 0.5;
+  return m;
+}
+
+/* Sum m g y of all bodies, J/m, and the largest speed of a mass centre. */
+static PetscErrorCode Potential(Solid s, int n, double *energy, double *speed)
+{
+  BodyState *b = malloc((size_t)n * sizeof *b);
+  PetscCall(SolidBodies(s, n, b));
+  *energy = *speed = 0.0;
+  for (int k = 0; k < n; k++) {
+    *energy += b[k].mass * G * b[k].x[1];
+    *speed = fmax(*speed, hypot(b[k].v[0], b[k].v[1]));
+  }
+  free(b);
+  return 0;
+}
+
+/* Stiff, so that the column's own bending dies out too. */
+static PetscErrorCode Stack(int n)
+{
+  const SolidSetup options = {
+      .gravity = {0.0, -G}, .courant = 0.8, .walls = PETSC_TRUE, .lower = {-1.0, 0.0}, .upper = {1.0, 2.0}};
+  const BodySetup setup = BodyAtRest(Stone(2.0e7));
+  Assembly a = {0};
+  Solid s;
+  double before, now, speed, weight = 0.0;
+  for (int k = 0; k < n; k++) AddRectangle(&a, 0.003 * k, 0.05 + 0.1 * k, 0.2, 0.1, 0.0, 0.05, 1, &setup);
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, &s));
+  PetscCall(Run(s, 2.0, 0.02));
+  PetscCall(Potential(s, n, &before, &speed));
+  for (int k = 0; k < 10; k++) {
+    PetscCall(Run(s, 0.1, 0.02));
+    PetscCall(Potential(s, n, &now, &speed));
+    weight = n * 2000.0 * 0.02 * G;
+    CHECK(fabs(now - before) < 1e-8 * weight, "%d blocks: potential energy rises by %g J/m at rest", n,
+          now - before);
+    CHECK(speed < 1e-7, "%d blocks: speed %g at rest", n, speed);
+  }
+  if (getenv("VERBOSE"))
+    printf("%d blocks: speed %.1e, height %+.1e in a second\n", n, speed, (now - before) / weight);
+  PetscCall(AssemblyDestroy(&a));
+  return SolidDestroy(&s);
+}
+
+/* Blocks in rows, each a little turned and shifted, fall into a box.  After `time` none is faster than 1 mm/s
+ * and none has left, and the kinetic energy has only a trace left. */
+static PetscErrorCode Heap(int n, double time)
+{
+  const int columns = n > 100 ? 10 : 4, rows = (n + columns - 1) / columns;
+  const double size = 0.05, pitch = 0.075, width = columns * pitch * 1.25;
+  const SolidSetup options = {.gravity = {0.0, -G},
+                              .courant = 0.8,
+                              .walls = PETSC_TRUE,
+                              .lower = {0.0, 0.0},
+                              .upper = {width, (rows + 2) * pitch + 0.2}};
+  const BodySetup setup = BodyAtRest(Stone(2.0e6));
+  Assembly a = {0};
+  Solid s;
+  double before, after, speed;
+  for (int k = 0; k < n; k++) {
+    const int row = k / columns, column = k % columns;
+    AddRectangle(&a, (column + 0.7 + 0.5 * (row % 2)) * pitch, (row + 0.6) * pitch, size, size,
+                 0.4 * sin(12.9898 * k), 0.5 * size, 0, &setup);
+  }
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, &s));
+  const double start = MPI_Wtime();
+  PetscCall(Potential(s, n, &before, &speed));
+  PetscCall(Run(s, time, 0.01));
+  PetscCall(Potential(s, n, &after, &speed));
+  if (getenv("VERBOSE"))
+    printf(
+        "%d blocks: fastest %.1e m/s after %g s, potential energy %.4g -> %.4g J/m, %lld substeps, %.1f s\n",
+        n, speed, time, before, after, SolidGetStats(s)->total, MPI_Wtime() - start);
+  CHECK(speed < 1e-3, "a block of the heap still moves with %g m/s", speed);
+  CHECK(after < 0.9 * before, "potential energy %g of %g: nothing has fallen", after, before);
+  const double full = n * size * size / width; /* height of the heap without holes */
+  CHECK(after > 0.5 * full * n * 2000.0 * size * size * G, "the heap lies too low: %g J/m", after);
+  PetscCall(AssemblyDestroy(&a));
+  return SolidDestroy(&s);
+}
+
+int main(int argc, char **argv)
+{
+  const int n = argc > 1 ? atoi(argv[1]) : 0;
+  PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
+  if (n > 0) {
+    PetscCall(Heap(n, 6.0));
+  } else {
+    PetscCall(Stack(1));
+    PetscCall(Stack(3));
+    PetscCall(Heap(20, 2.0));
+  }
+  return PetscFinalize();
+}
