@@ -4,8 +4,8 @@
 #include "solid_impl.h"
 
 /* Deformation slower than the first is seen whole, faster than the second not at all: omega dt. */
-#define SEEN_WHOLE 0.5
-#define SEEN_NOT 1.0
+#define SEEN_WHOLE 0.1
+#define SEEN_NOT 0.25
 
 /* Sums over a body: mass, m x; m v, m x cross v, m |x|^2, v the velocity now; and the same two of the mean
  * velocity.  Then of the mean's deformation d: m |d|^2, and int 2 mu e:e + lambda (tr e)^2 of its strain rate
