@@ -67,6 +67,8 @@ static PetscErrorCode CheckNames(const MeshSerial *m, const BodySetup *setup)
     code = CheckName("boundary", setup->driven[k].boundary, m->ntags, m->tag_name);
   for (int k = 0; k < setup->nregions && !code; k++)
     code = CheckName("region", setup->region[k].region, m->nregions, m->region_name);
+  for (int k = 0; k < setup->joints.nregions && !code; k++)
+    code = CheckName("region", setup->joints.region[k], m->nregions, m->region_name);
   return code;
 }
 
@@ -270,11 +272,40 @@ static PetscErrorCode AddElements(Assembly *a, const MeshSerial *m, const int re
   PetscFunctionBeginUser;
   PetscCall(PetscRealloc(3 * (size_t)n * sizeof *a->element, &a->element));
   PetscCall(PetscRealloc((size_t)n * sizeof *a->element_body, &a->element_body));
+  PetscCall(PetscRealloc((size_t)n * sizeof *a->jointed, &a->jointed));
   PetscCall(PetscRealloc((size_t)n * sizeof *a->element_material, &a->element_material));
   for (int k = 0; k < 3 * m->ne; k++) a->element[3 * first + k] = renumber[m->vertex[k]];
   for (int e = first; e < n; e++) a->element_body[e] = a->nbodies;
   a->nelements = n;
   PetscFunctionReturn(0);
+}
+
+static int InJoints(const MeshSerial *m, int e, const JointSetup *j)
+{
+  double centre[2] = {0.0, 0.0};
+  int inside = j->all;
+  for (int i = 0; i < 3; i++) {
+    centre[0] += Vertex(m, e, i).x / 3.0;
+    centre[1] += Vertex(m, e, i).y / 3.0;
+  }
+  for (int k = 0; k < j->nboxes; k++)
+    inside |= centre[0] >= j->box[k][0] && centre[1] >= j->box[k][1] && centre[0] <= j->box[k][2] &&
+              centre[1] <= j->box[k][3];
+  for (int k = 0; k < j->nregions; k++)
+    inside |= m->region && m->region[e] >= 0 && !strcmp(m->region_name[m->region[e]], j->region[k]);
+  return inside;
+}
+
+static PetscErrorCode GiveJoints(Assembly *a, const MeshSerial *m, const JointSetup *joints, int first)
+{
+  for (int e = 0; e < m->ne; e++) {
+    const Material *of = &a->material[a->element_material[first + e]];
+    a->jointed[first + e] = InJoints(m, e, joints);
+    for (int k = 0; k < 2 && a->jointed[first + e]; k++)
+      if (!(of->strength[k] > 0.0 && of->fracture_energy[k] > 0.0))
+        return Refuse("joints need a material with tensile_strength, shear_strength and fracture_energy");
+  }
+  return 0;
 }
 
 PetscErrorCode AssemblyAdd(Assembly *a, const MeshSerial *mesh, const BodySetup *setup, const char **error)
@@ -294,6 +325,8 @@ PetscErrorCode AssemblyAdd(Assembly *a, const MeshSerial *mesh, const BodySetup 
   PetscCall(DriveNodes(a, mesh, setup, renumber));
   PetscCall(AddElements(a, mesh, renumber));
   PetscCall(GiveMaterials(a, mesh, setup, body.first_element));
+  code = GiveJoints(a, mesh, &setup->joints, body.first_element);
+  if (code) PetscFunctionReturn(code);
   PetscCall(PetscFree(renumber));
   PetscCall(PetscRealloc((size_t)(a->nbodies + 1) * sizeof *a->body, &a->body));
   a->body[a->nbodies++] = body;
@@ -370,6 +403,7 @@ PetscErrorCode AssemblyDestroy(Assembly *a)
   PetscCall(PetscFree(a->node_body));
   PetscCall(PetscFree(a->element));
   PetscCall(PetscFree(a->element_body));
+  PetscCall(PetscFree(a->jointed));
   for (int k = 0; k < a->ndrives; k++) PetscCall(PetscFree(a->drive[k].row));
   PetscCall(PetscFree(a->drive));
   PetscCall(PetscFree(a->driven));

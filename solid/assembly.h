@@ -16,11 +16,21 @@ typedef struct {
   double damping;  /* 0 <= beta < 1:  eta = 2 h beta sqrt(E rho), h the element's smallest height at rest */
   double penalty;  /* of contact, Pa */
   double friction; /* Coulomb's coefficient on the same material */
-  double contact_damping;   /* of contact with the same material, fraction of the critical */
-  double thickness;         /* m; 0 stands for 1: per metre of depth */
-  int plane_stress;         /* else plane strain */
-  char name[MATERIAL_NAME]; /* bodies with equal names share the material; "" is always one of its own */
+  double contact_damping;    /* of contact with the same material, fraction of the critical */
+  double thickness;          /* m; 0 stands for 1: per metre of depth */
+  int plane_stress;          /* else plane strain */
+  double strength[2];        /* of joints: in tension and in shear, Pa */
+  double fracture_energy[2]; /* per unit of new surface, mode I and mode II, J/m2 */
+  char name[MATERIAL_NAME];  /* bodies with equal names share the material; "" is always one of its own */
 } Material;
+
+/* Where a body may crack: the edges between two elements that lie in one of the boxes or regions. */
+typedef struct {
+  int all;
+  int nboxes, nregions;
+  const double (*box)[4];    /* lower x, y, upper x, y: holds the element's centre at rest */
+  const char *const *region; /* physical surfaces of the mesh */
+} JointSetup;
 
 typedef struct {
   const char *boundary;
@@ -40,6 +50,7 @@ typedef struct {
   int fixed;               /* whole body */
   int nfixed;              /* or these boundaries */
   const char *const *fixed_name;
+  JointSetup joints;
   int nregions;
   const RegionMaterial *region;
   int ndriven;
@@ -60,6 +71,7 @@ typedef struct {
   int *element;          /* [nelements][3] counter-clockwise */
   int *element_body;     /* [nelements] */
   int *element_material; /* [nelements] */
+  int *jointed;          /* [nelements] may part from its jointed neighbours */
   int *facet;            /* [nfacets][2] surface edges, the solid on their left */
   int *facet_element;    /* [nfacets] the element behind */
   Body *body;            /* [nbodies] */

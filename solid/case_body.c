@@ -22,6 +22,19 @@ static double Property(Case c, const char *material, const char *name, double lo
   return lower < upper ? CaseNumber(c, key, lower, upper) : CasePositive(c, key);
 }
 
+/* What joints need; all of it or nothing. */
+static void ReadStrength(Case c, const char *name, Material *m)
+{
+  char key[KEY];
+  (void)snprintf(key, sizeof key, "solid.materials.%s.tensile_strength", name);
+  if (!CaseHas(c, key)) return;
+  m->strength[0] = Property(c, name, "tensile_strength", 0.0, 0.0);
+  m->strength[1] = Property(c, name, "shear_strength", 0.0, 0.0);
+  m->fracture_energy[0] = m->fracture_energy[1] = Property(c, name, "fracture_energy", 0.0, 0.0);
+  (void)snprintf(key, sizeof key, "solid.materials.%s.shear_fracture_energy", name);
+  if (CaseHas(c, key)) m->fracture_energy[1] = CasePositive(c, key);
+}
+
 static Material ReadMaterial(Case c, const char *name)
 {
   static const char *const PLANES[] = {"strain", "stress", NULL};
@@ -42,6 +55,7 @@ static Material ReadMaterial(Case c, const char *name)
   m.plane_stress = CaseWord(c, key, 0, PLANES);
   (void)snprintf(key, sizeof key, "solid.materials.%s.thickness", name);
   m.thickness = CaseHas(c, key) ? CasePositive(c, key) : 1.0;
+  ReadStrength(c, name, &m);
   if (strlen(name) >= MATERIAL_NAME || !strcmp(name, CONTACT_WALLS))
     CaseRefuse(c, key, "a material's name must be shorter than %d characters and not '%s'", MATERIAL_NAME,
                CONTACT_WALLS);
@@ -214,13 +228,50 @@ static void ReadRegion(void *context, const char *name)
   r->region[r->n++] = (RegionMaterial){name, MaterialAt(r->c, item)};
 }
 
+/* Item k of a list of joints: a box, or the name of a physical surface. */
+static void ReadJointRegion(Case c, const char *key, JointSetup *joints, double (*box)[4],
+                            const char **region)
+{
+  char corner[2][KEY + 32];
+  (void)snprintf(corner[0], sizeof corner[0], "%s.lower", key);
+  (void)snprintf(corner[1], sizeof corner[1], "%s.upper", key);
+  if (!CaseHas(c, corner[0]) && !CaseHas(c, corner[1])) {
+    region[joints->nregions++] = CaseString(c, key);
+    return;
+  }
+  for (int i = 0; i < 2; i++) CaseVector(c, corner[i], 2, box[joints->nboxes] + 2 * i);
+  joints->nboxes++;
+}
+
+/* all, none, or a list (*box and *region are allocated). */
+static PetscErrorCode ReadJoints(Case c, int body, JointSetup *joints, double (**box)[4],
+                                 const char ***region)
+{
+  static const char *const WORDS[] = {"none", "all", NULL};
+  char key[KEY], item[KEY + 16];
+  PetscFunctionBeginUser;
+  BodyKey(key, body, "joints");
+  (void)snprintf(item, sizeof item, "%s[0]", key);
+  const int n = CaseHas(c, item) ? CaseCount(c, key) : 0;
+  PetscCall(PetscMalloc2((size_t)n, box, (size_t)n, region));
+  if (n == 0) joints->all = CaseWord(c, key, 0, WORDS);
+  for (int k = 0; k < n; k++) {
+    (void)snprintf(item, sizeof item, "%s[%d]", key, k);
+    ReadJointRegion(c, item, joints, *box, *region);
+  }
+  joints->box = *box;
+  joints->region = *region;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode CaseReadBody(Case c, int body, Assembly *a)
 {
   BodySetup setup = {.stretch = {1.0, 1.0}};
   Regions regions = {.c = c, .body = body};
   MeshSerial mesh = {0};
   BoundaryDrive *driven;
-  const char **name, *why = NULL;
+  const char **name, **joint_region, *why = NULL;
+  double(*joint_box)[4];
   char key[KEY];
   PetscFunctionBeginUser;
   setup.material = MaterialAt(c, BodyKey(key, body, "material"));
@@ -230,6 +281,7 @@ PetscErrorCode CaseReadBody(Case c, int body, Assembly *a)
   PetscCall(ReadShape(c, body, &mesh));
   PetscCall(ReadFixed(c, body, &setup, &name));
   PetscCall(ReadDriven(c, body, &setup, &driven));
+  PetscCall(ReadJoints(c, body, &setup.joints, &joint_box, &joint_region));
   (void)CaseVectorOptional(c, BodyKey(key, body, "stretch"), 2, setup.stretch);
   if (!(setup.stretch[0] > 0.0 && setup.stretch[1] > 0.0)) CaseRefuse(c, key, "expected two numbers > 0");
   (void)CaseVectorOptional(c, BodyKey(key, body, "velocity"), 2, setup.velocity);
@@ -241,6 +293,7 @@ PetscErrorCode CaseReadBody(Case c, int body, Assembly *a)
   for (int k = 0; k < setup.ndriven; k++) PetscCall(PetscFree(driven[k].drive.row));
   PetscCall(PetscFree(driven));
   PetscCall(PetscFree(name));
+  PetscCall(PetscFree2(joint_box, joint_region));
   PetscCall(MeshSerialDestroy(&mesh));
   PetscFunctionReturn(0);
 }

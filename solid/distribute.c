@@ -26,8 +26,10 @@ static PetscErrorCode Partition(const Assembly *a, int size, int part[])
 /* --- counting and numbering
  * --------------------------------------------------------------------------------- */
 
-/* local[a->nnodes]: this rank's number of a node, in order of appearance, or -1. */
-static void NumberLocally(Solid s, const Assembly *a, const int part[], int local[])
+/* local[a->nnodes]: this rank's number of a node, in order of appearance, or -1.  It also has the nodes of
+ * other ranks' elements that it looks at. */
+static void NumberLocally(Solid s, const Assembly *a, int nlooks, const Look look[], const int part[],
+                          int local[])
 {
   for (int n = 0; n < a->nnodes; n++) local[n] = -1;
   for (int e = 0; e < a->nelements; e++) {
@@ -36,20 +38,48 @@ static void NumberLocally(Solid s, const Assembly *a, const int part[], int loca
     for (int i = 0; i < 3; i++)
       if (local[a->element[3 * e + i]] < 0) local[a->element[3 * e + i]] = s->nnodes++;
   }
+  for (int k = 0; k < nlooks; k++)
+    for (int i = 0; look[k].rank == s->rank && i < 3; i++)
+      if (local[a->element[3 * look[k].element + i]] < 0)
+        local[a->element[3 * look[k].element + i]] = s->nnodes++;
   for (int k = 0; k < a->nfacets; k++) s->nfacets += part[a->facet_element[k]] == s->rank;
+}
+
+/* Room for a node of its own for each corner at a joint, and for both sides of every joint. */
+static PetscErrorCode FindCapacities(Solid s, const Assembly *a, const InteriorEdges *edges, const int part[],
+                                     const int local[])
+{
+  char *parts;
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1((size_t)a->nnodes, &parts));
+  s->node_capacity = s->nnodes;
+  s->facet_capacity = s->nfacets;
+  for (int k = 0; k < edges->n; k++) {
+    const InteriorEdge *edge = &edges->edge[k];
+    if (edge->joint < 0) continue;
+    for (int i = 0; i < 2; i++) {
+      parts[edge->node[i]] = 1;
+      s->facet_capacity += part[edge->element[i]] == s->rank;
+    }
+  }
+  for (int k = 0; k < 3 * a->nelements; k++)
+    s->node_capacity += parts[a->element[k]] && local[a->element[k]] >= 0;
+  PetscCall(PetscFree(parts));
+  PetscFunctionReturn(0);
 }
 
 static PetscErrorCode Allocate(Solid s)
 {
   Elements *e = &s->elements;
-  const size_t nn = (size_t)s->nnodes, ne = (size_t)e->n, nf = (size_t)s->nfacets;
+  const size_t nn = (size_t)s->node_capacity, ne = (size_t)e->n, nf = (size_t)s->facet_capacity;
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc7(nn, &s->gid, nn, &s->node_body, nn, &s->surface, nn, &s->mass, nn, &s->inverse_mass,
                          nn + 1, &s->corner_start, 3 * ne, &s->corner));
   PetscCall(PetscCalloc7(2 * nn, &s->rest, 2 * nn, &s->x, 2 * nn, &s->v, 2 * nn, &s->force, 2 * nn, &s->load,
                          2 * nn, &s->saved.x, 2 * nn, &s->saved.v));
-  PetscCall(PetscMalloc4(3 * ne, &s->element, 2 * nf, &s->facet, nf, &s->facet_element, (size_t)s->nbodies,
-                         &s->body));
+  PetscCall(PetscMalloc6(3 * ne, &s->element, 2 * nf, &s->facet, nf, &s->facet_element, nf, &s->facet_side,
+                         nn, &s->base, (size_t)s->nbodies, &s->body));
+  PetscCall(PetscCalloc1(nn, &s->prescribed));
   PetscCall(PetscMalloc3(ne, &e->node[0], ne, &e->node[1], ne, &e->node[2]));
   PetscCall(PetscMalloc4(ne, &e->inverse[0], ne, &e->inverse[1], ne, &e->inverse[2], ne, &e->inverse[3]));
   PetscCall(PetscMalloc4(ne, &e->mu, ne, &e->lambda, ne, &e->eta, ne, &e->density));
@@ -74,6 +104,7 @@ static void TakeNodes(Solid s, const Assembly *a, const int local[])
     const int i = local[n];
     if (i < 0) continue;
     s->gid[i] = n;
+    s->base[i] = i;
     s->node_body[i] = a->node_body[n];
     for (int c = 0; c < 2; c++) {
       s->rest[2 * i + c] = a->rest[2 * n + c];
@@ -111,26 +142,36 @@ static int CompareCopies(const void *a, const void *b)
                             : (p->global > q->global) - (p->global < q->global);
 }
 
-/* The other ranks' copies of this rank's nodes. */
-static PetscErrorCode FindCopies(Solid s, const Assembly *a, const int part[], const int local[])
+/* Adds the other ranks that have a corner of element e, which rank has or looks at. */
+static int AddCopies(const Solid s, const Assembly *a, int e, int rank, const int local[], Copy copy[], int n)
 {
+  for (int i = 0; i < 3 && rank != s->rank; i++) {
+    const int node = a->element[3 * e + i];
+    if (local[node] >= 0) copy[n++] = (Copy){rank, node, local[node]};
+  }
+  return n;
+}
+
+/* The other ranks' copies of this rank's nodes. */
+static PetscErrorCode FindCopies(Solid s, const Assembly *a, int nlooks, const Look look[], const int part[],
+                                 const int local[])
+{
+  Copies *c = &s->copies;
   Copy *copy;
-  int n = 0, kept = 0, *rank, *node;
+  int n = 0;
   PetscFunctionBeginUser;
-  for (int k = 0; k < 3 * a->nelements; k++) n += part[k / 3] != s->rank && local[a->element[k]] >= 0;
-  PetscCall(PetscMalloc3((size_t)n, &copy, (size_t)n, &rank, (size_t)n, &node));
-  n = 0;
-  for (int k = 0; k < 3 * a->nelements; k++)
-    if (part[k / 3] != s->rank && local[a->element[k]] >= 0)
-      copy[n++] = (Copy){part[k / 3], a->element[k], local[a->element[k]]};
+  PetscCall(PetscMalloc1(3 * (size_t)a->nelements + 3 * (size_t)nlooks, &copy));
+  for (int e = 0; e < a->nelements; e++) n = AddCopies(s, a, e, part[e], local, copy, n);
+  for (int k = 0; k < nlooks; k++) n = AddCopies(s, a, look[k].element, look[k].rank, local, copy, n);
   if (n > 0) qsort(copy, (size_t)n, sizeof *copy, CompareCopies);
+  PetscCall(PetscMalloc2((size_t)n, &c->rank, (size_t)n, &c->node));
   for (int k = 0; k < n; k++) {
     if (k > 0 && !CompareCopies(&copy[k], &copy[k - 1])) continue;
-    rank[kept] = copy[k].rank;
-    node[kept++] = copy[k].local;
+    c->rank[c->n] = copy[k].rank;
+    c->node[c->n++] = copy[k].local;
   }
-  PetscCall(ShareCreate(s->comm, s->nnodes, kept, rank, node, &s->share));
-  PetscCall(PetscFree3(copy, rank, node));
+  PetscCall(ShareCreate(s->comm, s->nnodes, c->n, c->rank, c->node, &s->share));
+  PetscCall(PetscFree(copy));
   PetscFunctionReturn(0);
 }
 
@@ -138,7 +179,7 @@ static PetscErrorCode FindCopies(Solid s, const Assembly *a, const int part[], c
  * ----------------------------------------------------------------------------------------------- */
 
 /* eta = 2 h beta sqrt(E rho), h the smallest height at rest. */
-static double Viscosity(const Assembly *a, int e)
+double SolidViscosity(const Assembly *a, int e)
 {
   const Material *m = &a->material[a->element_material[e]];
   double longest = 0.0;
@@ -155,7 +196,7 @@ static void TakeElement(Solid s, const Assembly *a, int from, int k, const int l
 {
   Elements *e = &s->elements;
   const Material *m = &a->material[a->element_material[from]];
-  const ElementLaw law = ElementLawOf(m->youngs_modulus, m->poisson_ratio, Viscosity(a, from));
+  const ElementLaw law = ElementLawOf(m->youngs_modulus, m->poisson_ratio, SolidViscosity(a, from));
   const Tensor inverse = TensorInverse(RestEdges(a, from));
   for (int i = 0; i < 3; i++) s->element[3 * k + i] = e->node[i][k] = local[a->element[3 * from + i]];
   e->inverse[0][k] = inverse.xx;
@@ -175,10 +216,21 @@ static void TakeElement(Solid s, const Assembly *a, int from, int k, const int l
   if (m->plane_stress) e->sheets = PETSC_TRUE;
 }
 
+void SolidListCorners(Solid s)
+{
+  const int ne = s->elements.n;
+  for (int n = 0; n <= s->nnodes; n++) s->corner_start[n] = 0;
+  for (int k = 0; k < 3 * ne; k++) s->corner_start[s->element[k] + 1]++;
+  for (int n = 0; n < s->nnodes; n++) s->corner_start[n + 1] += s->corner_start[n];
+  for (int k = 3 * ne - 1; k >= 0; k--) /* fills from behind, then shifts back */
+    s->corner[--s->corner_start[s->element[k] + 1]] = (k % 3) * ne + k / 3;
+  for (int n = 0; n < s->nnodes; n++) s->corner_start[n] = s->corner_start[n + 1];
+  s->corner_start[s->nnodes] = 3 * ne;
+}
+
 /* Elements, facets, and for each node the places of its corners' forces. */
 static void TakeElements(Solid s, const Assembly *a, const int part[], const int local[], int renumber[])
 {
-  const int ne = s->elements.n;
   for (int from = 0, k = 0; from < a->nelements; from++) {
     if (part[from] != s->rank) continue;
     renumber[from] = k;
@@ -186,15 +238,12 @@ static void TakeElements(Solid s, const Assembly *a, const int part[], const int
   }
   for (int from = 0, k = 0; from < a->nfacets; from++) {
     if (part[a->facet_element[from]] != s->rank) continue;
+    const int *node = a->element + 3 * a->facet_element[from];
     for (int i = 0; i < 2; i++) s->facet[2 * k + i] = local[a->facet[2 * from + i]];
+    s->facet_side[k] = a->facet[2 * from] == node[0] ? 0 : a->facet[2 * from] == node[1] ? 1 : 2;
     s->facet_element[k++] = renumber[a->facet_element[from]];
   }
-  for (int k = 0; k < 3 * ne; k++) s->corner_start[s->element[k] + 1]++;
-  for (int n = 0; n < s->nnodes; n++) s->corner_start[n + 1] += s->corner_start[n];
-  for (int k = 3 * ne - 1; k >= 0; k--) /* fills from behind, then shifts back */
-    s->corner[--s->corner_start[s->element[k] + 1]] = (k % 3) * ne + k / 3;
-  for (int n = 0; n < s->nnodes; n++) s->corner_start[n] = s->corner_start[n + 1];
-  s->corner_start[s->nnodes] = 3 * ne;
+  SolidListCorners(s);
 }
 
 /* The drives, and which of this rank's nodes they move. */
@@ -204,8 +253,9 @@ static PetscErrorCode TakeDrives(Solid s, const Assembly *a, const int local[])
   PetscFunctionBeginUser;
   s->ndrives = a->ndrives;
   for (int k = 0; k < a->ndrives; k++) nrows += a->drive[k].nrows;
-  PetscCall(PetscMalloc4((size_t)a->ndriven, &s->driven, (size_t)a->ndrives, &s->drive, 3 * (size_t)nrows,
-                         &s->drive_rows, 2 * (size_t)a->ndriven, &s->held));
+  PetscCall(PetscMalloc2((size_t)a->ndrives, &s->drive, 3 * (size_t)nrows, &s->drive_rows));
+  PetscCall(PetscMalloc1((size_t)a->ndriven, &s->driven));
+  PetscCall(PetscMalloc1(2 * (size_t)a->ndriven, &s->held));
   for (int k = 0, row = 0; k < a->ndrives; row += a->drive[k++].nrows) {
     s->drive[k] = a->drive[k];
     s->drive[k].row = s->drive_rows + 3 * row;
@@ -214,27 +264,37 @@ static PetscErrorCode TakeDrives(Solid s, const Assembly *a, const int local[])
   for (int k = 0; k < a->ndriven; k++)
     if (local[a->driven[k].node] >= 0)
       s->driven[s->ndriven++] = (DrivenNode){local[a->driven[k].node], a->driven[k].drive};
+  for (int k = 0; k < s->ndriven; k++) s->prescribed[s->driven[k].node] = 1;
+  s->ndriven_first = s->ndriven;
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode SolidTakeShare(Solid s, const Assembly *a)
 {
-  int *part, *local, *renumber;
+  InteriorEdges edges;
+  Look *look;
+  int *part, *local, *renumber, nlooks;
   PetscFunctionBeginUser;
+  PetscCall(InteriorEdgesFind(a, &edges));
   PetscCall(
       PetscMalloc3((size_t)a->nelements, &part, (size_t)a->nnodes, &local, (size_t)a->nelements, &renumber));
   s->nbodies = a->nbodies;
   s->nmaterials = a->nmaterials;
   PetscCall(Partition(a, s->size, part));
-  NumberLocally(s, a, part, local);
+  PetscCall(InteriorEdgesLooks(&edges, a, part, &nlooks, &look));
+  NumberLocally(s, a, nlooks, look, part, local);
+  PetscCall(FindCapacities(s, a, &edges, part, local));
   PetscCall(Allocate(s));
   PetscCall(PetscArraycpy(s->body, a->body, (size_t)a->nbodies));
   PetscCall(PetscArraycpy(s->material, a->material, (size_t)a->nmaterials));
   TakeNodes(s, a, local);
   LumpMass(s, a, local);
   TakeElements(s, a, part, local, renumber);
-  PetscCall(FindCopies(s, a, part, local));
+  PetscCall(FindCopies(s, a, nlooks, look, part, local));
   PetscCall(TakeDrives(s, a, local));
+  if (edges.njoints) PetscCall(JointsCreate(s, a, &edges, nlooks, look, part, local, &s->joints));
+  PetscCall(InteriorEdgesDestroy(&edges));
+  PetscCall(PetscFree(look));
   PetscCall(PetscFree3(part, local, renumber));
   PetscFunctionReturn(0);
 }

@@ -5,15 +5,36 @@ static int SaveOrRestore(void *solid, int save)
   return SolidState(solid, save);
 }
 
+static PetscErrorCode GiveMesh(Exchange *x, const SolidView *v, const double u[])
+{
+  PetscFunctionBeginUser;
+  PetscCall(CoracleSetNodes(x->client, 2, v->nnodes, v->gid, v->x, u));
+  PetscCall(CoracleSetSurface(x->client, v->nfacets, v->facet));
+  PetscCall(CoracleSetVolume(x->client, v->nelements, v->element));
+  x->revision = v->revision;
+  PetscFunctionReturn(0);
+}
+
+/* Cracks have changed the mesh in this step.  The substeps have told the velocities of the nodes that were
+ * there when it began, which come first; new ones get the mean over the step from here. */
+static PetscErrorCode GiveCrackedMesh(Exchange *x, const SolidView *v)
+{
+  double *mean;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(2 * (size_t)v->nnodes, &mean));
+  for (int k = 0; k < 2 * v->nnodes; k++) mean[k] = (v->x[k] - v->start[k]) / x->dt;
+  PetscCall(GiveMesh(x, v, mean));
+  PetscCall(PetscFree(mean));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode ExchangeCreate(CoracleClient client, Solid solid, Exchange *x)
 {
   SolidView v;
   PetscFunctionBeginUser;
-  *x = (Exchange){client, solid, 0.0};
+  *x = (Exchange){.client = client, .solid = solid};
   SolidGetView(solid, &v);
-  PetscCall(CoracleSetNodes(client, 2, v.nnodes, v.gid, v.x, v.v));
-  PetscCall(CoracleSetSurface(client, v.nfacets, v.facet));
-  PetscCall(CoracleSetVolume(client, v.nelements, v.element));
+  PetscCall(GiveMesh(x, &v, v.v));
   PetscCall(CoracleBindStateFunction(client, SaveOrRestore, solid));
   PetscCall(CoracleReady(client));
   PetscFunctionReturn(0);
@@ -22,9 +43,13 @@ PetscErrorCode ExchangeCreate(CoracleClient client, Solid solid, Exchange *x)
 PetscErrorCode ExchangeBegin(Exchange *x, double *dt, CoracleAction *action, const double **load)
 {
   const double start = MPI_Wtime();
+  SolidView v;
   double t;
   PetscFunctionBeginUser;
   PetscCall(CoracleBegin(x->client, &t, dt, action));
+  SolidGetView(x->solid, &v);
+  x->revision = v.revision; /* a redone step: of the mesh that both have put back */
+  x->dt = *dt;
   if (*action != CORACLE_STOP) PetscCall(CoracleGetForce(x->client, load));
   x->waited += MPI_Wtime() - start;
   PetscFunctionReturn(0);
@@ -47,6 +72,7 @@ PetscErrorCode ExchangeMotion(Exchange *x)
   PetscFunctionBeginUser;
   SolidGetView(x->solid, &v);
   PetscCall(SolidSeenVelocity(x->solid, &seen));
+  if (v.revision != x->revision) PetscCall(GiveCrackedMesh(x, &v));
   PetscCall(CoracleSetVelocity(x->client, seen));
   PetscCall(CoracleEnd(x->client, v.x));
   x->waited += MPI_Wtime() - start;

@@ -8,6 +8,8 @@ typedef struct {
   CoracleClient client; /* borrowed */
   Solid solid;          /* borrowed */
   double waited;        /* seconds within the link */
+  double dt;            /* of the step, s */
+  int revision;         /* of the mesh that the coupler has */
 } Exchange;
 
 /* Gives nodes, surface and volume, binds the state and makes the first exchange.  Collective. */

@@ -21,12 +21,14 @@ void SolidElementShape(const Elements *e, int k, const double x[], Tensor *edges
 
 /* Forces of all corners; returns the number of elements that are inside out (or not a number).  The arrays do
  * not overlap (ivdep), so that the loop is vectorised without asking at run time. */
-static inline int CornerForces(const Elements *e, const double x[], const double v[], int damped, int sheets)
+static inline int CornerForces(const Elements *e, const double x[], const double v[], int damped, int sheets,
+                               int jointed)
 {
   const int n = e->n, *a = e->node[0], *b = e->node[1], *c = e->node[2];
   const double *ixx = e->inverse[0], *ixy = e->inverse[1], *iyx = e->inverse[2], *iyy = e->inverse[3];
   const double *mu = e->mu, *lambda = e->lambda, *eta = e->eta, *sheet = e->sheet;
   double *fx = e->force[0], *fy = e->force[1];
+  double *sxx = e->stress[0], *syy = e->stress[1], *sxy = e->stress[2];
   int bad = 0;
 #pragma GCC ivdep
   for (int k = 0; k < n; k++) {
@@ -38,6 +40,11 @@ static inline int CornerForces(const Elements *e, const double x[], const double
       const ElementStress p = ElementSheetStress(f, j, mu[k], lambda[k]);
       t = (ElementStress){sheet[k] > 0.0 ? p.xx : t.xx, sheet[k] > 0.0 ? p.yy : t.yy,
                           sheet[k] > 0.0 ? p.xy : t.xy};
+    }
+    if (jointed) {
+      sxx[k] = t.xx;
+      syy[k] = t.yy;
+      sxy[k] = t.xy;
     }
     if (damped) {
       const Tensor rate = TensorOfEdges(PointAt(v, a[k]), PointAt(v, b[k]), PointAt(v, c[k]));
@@ -102,9 +109,11 @@ PetscErrorCode SolidInternalForces(Solid s)
 {
   PetscFunctionBeginUser;
   const Elements *e = &s->elements;
-  const int bad = e->sheets   ? CornerForces(e, s->x, s->v, 1, 1)
-                  : e->damped ? CornerForces(e, s->x, s->v, 1, 0)
-                              : CornerForces(e, s->x, s->v, 0, 0);
+  const int bad =
+      e->stress[0] ? (e->sheets ? CornerForces(e, s->x, s->v, 1, 1, 1) : CornerForces(e, s->x, s->v, 1, 0, 1))
+      : e->sheets  ? CornerForces(e, s->x, s->v, 1, 1, 0)
+      : e->damped  ? CornerForces(e, s->x, s->v, 1, 0, 0)
+                   : CornerForces(e, s->x, s->v, 0, 0, 0);
   if (bad) PetscCall(FailOnElement(s));
   SumCorners(s);
   PetscFunctionReturn(0);

@@ -17,13 +17,16 @@ PetscErrorCode SolidForces(Solid s, const double **force)
   const double start = Clock();
   PetscCall(SolidInternalForces(s));
   const double elements = Clock();
+  if (s->joints) JointsAddForces(s->joints, s);
+  const double joints = Clock();
   PetscCall(ContactAddForces(s->contact, s));
   const double contact = Clock();
   PetscCall(ShareSum(s->share, s->force));
   s->force_valid = PETSC_TRUE;
   s->stats.seconds[0] += elements - start;
-  s->stats.seconds[1] += contact - elements;
+  s->stats.seconds[1] += contact - joints;
   s->stats.seconds[2] += Clock() - contact;
+  s->stats.seconds[4] += joints - elements;
   PetscFunctionReturn(0);
 }
 
@@ -33,7 +36,9 @@ PetscErrorCode SolidForces(Solid s, const double **force)
 PetscErrorCode SolidLimit(Solid s, double *limit)
 {
   PetscFunctionBeginUser;
-  *limit = SolidElementLimit(s, ContactRate(s->contact));
+  ElementRates rates = ContactRate(s->contact);
+  if (s->joints) rates.stiffness += JointsRate(s->joints);
+  *limit = SolidElementLimit(s, rates);
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, limit, 1, MPI_DOUBLE, MPI_MIN, s->comm));
   PetscFunctionReturn(0);
 }
@@ -133,6 +138,8 @@ static PetscErrorCode Plan(Solid s)
 PetscErrorCode SolidStart(Solid s, double dt, const double load[])
 {
   PetscFunctionBeginUser;
+  if (s->unsettled) PetscCall(JointsSettle(s->joints, s));
+  s->unsettled = PETSC_FALSE;
   if (load) {
     PetscCall(PetscArraycpy(s->load, load, 2 * (size_t)s->nnodes));
     PetscCall(ShareSum(s->share, s->load));
@@ -185,12 +192,28 @@ static void Move(Solid s)
   }
 }
 
+/* Edges loaded to their strength part before the substep; what is left of the step is planned anew. */
+static PetscErrorCode Crack(Solid s)
+{
+  const double *force;
+  PetscBool changed;
+  PetscFunctionBeginUser;
+  const double start = Clock();
+  PetscCall(JointsAdvance(s->joints, s, &changed));
+  s->stats.seconds[4] += Clock() - start;
+  if (!changed) PetscFunctionReturn(0);
+  PetscCall(Plan(s));
+  PetscCall(SolidForces(s, &force));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode SolidSubstep(Solid s, double *h)
 {
   const double *force;
   PetscFunctionBeginUser;
   if (s->until_check == 0) PetscCall(Plan(s));
   PetscCall(SolidForces(s, &force));
+  if (s->joints) PetscCall(Crack(s));
   ContactCommit(s->contact);
   MoveDriven(s, 1);
   Move(s);

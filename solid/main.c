@@ -20,7 +20,7 @@ static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const
 static PetscErrorCode Report(CoracleClient client, Solid solid)
 {
   static const char *const PHASES[] = {"seconds_elements", "seconds_contact", "seconds_exchange",
-                                       "seconds_limit"};
+                                       "seconds_limit", "seconds_joints"};
   const SolidStats *stats = SolidGetStats(solid);
   SolidView v;
   PetscFunctionBeginUser;
@@ -29,7 +29,7 @@ static PetscErrorCode Report(CoracleClient client, Solid solid)
   PetscCall(CoracleReport(client, "bodies", v.nbodies, 0));
   PetscCall(CoracleReport(client, "substeps", (double)stats->total, 0));
   PetscCall(CoracleReport(client, "contact_searches", stats->searches, 0));
-  for (int k = 0; k < 4; k++) PetscCall(CoracleReport(client, PHASES[k], stats->seconds[k], 0));
+  for (int k = 0; k < 5; k++) PetscCall(CoracleReport(client, PHASES[k], stats->seconds[k], 0));
   PetscFunctionReturn(0);
 }
 

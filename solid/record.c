@@ -2,7 +2,7 @@
 #include "output.h"
 #include <stdio.h>
 
-enum { MAX_BODIES = 8, PER_BODY = 10, COMMON = 5 };
+enum { MAX_BODIES = 8, PER_BODY = 10, COMMON = 7 };
 
 struct Record_s {
   MPI_Comm comm;
@@ -10,7 +10,6 @@ struct Record_s {
   Series series;
   int nbodies, revision;
   double every, next, start;
-  double *displacement, *stress, *cell; /* [nnodes][2], [nelements][3], [nelements] */
 };
 
 static PetscErrorCode CreateSeries(Record r, const char *folder)
@@ -26,7 +25,8 @@ static PetscErrorCode CreateSeries(Record r, const char *folder)
         b, b, b, b, b, b, b, b, b, b);
   }
   const size_t used = strlen(columns);
-  (void)snprintf(columns + used, sizeof columns - used, ",substeps,dt_s [s],computing [s],waiting [s]");
+  (void)snprintf(columns + used, sizeof columns - used,
+                 ",fracture [J/m],broken joints,substeps,dt_s [s],computing [s],waiting [s]");
   PetscCall(SeriesCreate(r->comm, folder, "solid", columns, &r->series));
   PetscFunctionReturn(0);
 }
@@ -36,28 +36,47 @@ static double Principal(const double t[3], double sign)
   return 0.5 * (t[0] + t[1]) + sign * hypot(0.5 * (t[0] - t[1]), t[2]);
 }
 
+/* Fields of the elements that are numbers. */
+static PetscErrorCode CellFields(Record r, Solid s, const SolidView *v, const double stress[])
+{
+  double *value;
+  int *fragment, pieces;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2((size_t)v->nelements, &value, (size_t)v->nelements, &fragment));
+  for (int k = 0; k < 2; k++) { /* the larger and the smaller principal stress of the plane */
+    for (int e = 0; e < v->nelements; e++) value[e] = Principal(stress + 3 * e, k ? -1.0 : 1.0);
+    PetscCall(OutputField(r->output, k ? "principal_stress_2" : "principal_stress_1", OUTPUT_CELL, 1, value));
+  }
+  SolidEnergyDensity(s, value);
+  PetscCall(OutputField(r->output, "strain_energy", OUTPUT_CELL, 1, value));
+  for (int e = 0; e < v->nelements; e++) value[e] = v->body[e];
+  PetscCall(OutputField(r->output, "body", OUTPUT_CELL, 1, value));
+  PetscCall(SolidFragments(s, fragment, &pieces));
+  for (int e = 0; e < v->nelements; e++) value[e] = fragment[e];
+  PetscCall(OutputField(r->output, "fragment", OUTPUT_CELL, 1, value));
+  SolidDamage(s, value);
+  PetscCall(OutputField(r->output, "damage", OUTPUT_CELL, 1, value));
+  PetscCall(PetscFree2(value, fragment));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode Snapshot(Record r, Solid s)
 {
   SolidView v;
+  double *displacement, *stress;
   PetscFunctionBeginUser;
   SolidGetView(s, &v);
-  for (int i = 0; i < 2 * v.nnodes; i++) r->displacement[i] = v.x[i] - v.rest[i];
-  SolidStress(s, r->stress);
+  PetscCall(PetscMalloc2(2 * (size_t)v.nnodes, &displacement, 3 * (size_t)v.nelements, &stress));
+  for (int i = 0; i < 2 * v.nnodes; i++) displacement[i] = v.x[i] - v.rest[i];
+  SolidStress(s, stress);
   PetscCall(OutputBegin(r->output, SolidGetStats(s)->t));
   PetscCall(OutputGrid(r->output, "solid", r->revision++, v.nnodes, v.x, v.nelements, 3, v.element));
   PetscCall(OutputField(r->output, "velocity", OUTPUT_NODE, 2, v.v));
-  PetscCall(OutputField(r->output, "displacement", OUTPUT_NODE, 2, r->displacement));
-  PetscCall(OutputField(r->output, "stress", OUTPUT_CELL, 3, r->stress));
-  for (int k = 0; k < 2; k++) { /* the larger and the smaller principal stress of the plane */
-    for (int e = 0; e < v.nelements; e++) r->cell[e] = Principal(r->stress + 3 * e, k ? -1.0 : 1.0);
-    PetscCall(
-        OutputField(r->output, k ? "principal_stress_2" : "principal_stress_1", OUTPUT_CELL, 1, r->cell));
-  }
-  SolidEnergyDensity(s, r->cell);
-  PetscCall(OutputField(r->output, "strain_energy", OUTPUT_CELL, 1, r->cell));
-  for (int e = 0; e < v.nelements; e++) r->cell[e] = v.body[e];
-  PetscCall(OutputField(r->output, "body", OUTPUT_CELL, 1, r->cell));
+  PetscCall(OutputField(r->output, "displacement", OUTPUT_NODE, 2, displacement));
+  PetscCall(OutputField(r->output, "stress", OUTPUT_CELL, 3, stress));
+  PetscCall(CellFields(r, s, &v, stress));
   PetscCall(OutputEnd(r->output));
+  PetscCall(PetscFree2(displacement, stress));
   r->next += r->every;
   PetscFunctionReturn(0);
 }
@@ -74,8 +93,6 @@ PetscErrorCode RecordCreate(Case c, MPI_Comm comm, Solid solid, Record *record)
   r->nbodies = PetscMin(v.nbodies, MAX_BODIES);
   r->every = CasePositive(c, "output.every");
   r->start = MPI_Wtime();
-  PetscCall(PetscMalloc3(2 * (size_t)v.nnodes, &r->displacement, 3 * (size_t)v.nelements, &r->stress,
-                         (size_t)v.nelements, &r->cell));
   PetscCall(OutputCreate(comm, folder, "solid", &r->output));
   PetscCall(CreateSeries(r, folder));
   PetscCall(Snapshot(r, solid));
@@ -87,6 +104,7 @@ PetscErrorCode RecordStep(Record r, Solid s, double waited)
 {
   const SolidStats *stats = SolidGetStats(s);
   BodyState state[MAX_BODIES];
+  FractureState fracture;
   double row[COMMON + MAX_BODIES * PER_BODY];
   int n = 0;
   PetscFunctionBeginUser;
@@ -98,6 +116,9 @@ PetscErrorCode RecordStep(Record r, Solid s, double waited)
                                     k->load[0], k->load[1], k->kinetic, k->strain, k->mass};
     for (int i = 0; i < PER_BODY; i++) row[n++] = value[i];
   }
+  PetscCall(SolidFracture(s, &fracture));
+  row[n++] = fracture.energy;
+  row[n++] = fracture.broken;
   row[n++] = stats->substeps;
   row[n++] = stats->h;
   row[n++] = MPI_Wtime() - r->start - waited;
@@ -113,7 +134,6 @@ PetscErrorCode RecordDestroy(Record *r)
   if (!*r) PetscFunctionReturn(0);
   PetscCall(OutputDestroy(&(*r)->output));
   PetscCall(SeriesDestroy(&(*r)->series));
-  PetscCall(PetscFree3((*r)->displacement, (*r)->stress, (*r)->cell));
   PetscCall(PetscFree(*r));
   PetscFunctionReturn(0);
 }

@@ -50,30 +50,49 @@ static void Add(const Share s, int neighbour, double value[])
     for (int c = 0; c < 2; c++) value[2 * s->node[k] + c] += s->in[2 * k + c];
 }
 
-PetscErrorCode ShareSum(Share s, double value[])
+/* in: what the neighbours have */
+static PetscErrorCode Exchange(Share s, const double value[])
 {
-  int j = 0;
   PetscFunctionBeginUser;
-  if (s->nneighbours == 0) PetscFunctionReturn(0);
   for (int k = 0; k < s->n; k++)
     for (int c = 0; c < 2; c++) s->out[2 * k + c] = value[2 * s->node[k] + c];
-  for (j = 0; j < s->nneighbours; j++) {
+  for (int j = 0; j < s->nneighbours; j++) {
     const int first = 2 * s->start[j], count = 2 * s->start[j + 1] - first;
     PetscCallMPI(
         MPI_Irecv(s->in + first, count, MPI_DOUBLE, s->neighbour[j], SHARE_TAG, s->comm, &s->request[2 * j]));
     PetscCallMPI(MPI_Isend(s->out + first, count, MPI_DOUBLE, s->neighbour[j], SHARE_TAG, s->comm,
                            &s->request[2 * j + 1]));
   }
+  PetscCallMPI(MPI_Waitall(2 * s->nneighbours, s->request, MPI_STATUSES_IGNORE));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ShareSum(Share s, double value[])
+{
+  int j = 0;
+  PetscFunctionBeginUser;
+  if (s->nneighbours == 0) PetscFunctionReturn(0);
+  PetscCall(Exchange(s, value));
   for (int i = 0; i < s->nshared; i++)
     for (int c = 0; c < 2; c++) {
       s->own[2 * i + c] = value[2 * s->shared[i] + c];
       value[2 * s->shared[i] + c] = 0.0;
     }
-  PetscCallMPI(MPI_Waitall(2 * s->nneighbours, s->request, MPI_STATUSES_IGNORE));
   for (j = 0; j < s->nneighbours && s->neighbour[j] < s->me; j++) Add(s, j, value);
   for (int i = 0; i < s->nshared; i++)
     for (int c = 0; c < 2; c++) value[2 * s->shared[i] + c] += s->own[2 * i + c];
   for (; j < s->nneighbours; j++) Add(s, j, value);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ShareLeast(Share s, double value[])
+{
+  PetscFunctionBeginUser;
+  if (s->nneighbours == 0) PetscFunctionReturn(0);
+  PetscCall(Exchange(s, value));
+  for (int k = 0; k < s->n; k++)
+    for (int c = 0; c < 2; c++)
+      value[2 * s->node[k] + c] = PetscMin(value[2 * s->node[k] + c], s->in[2 * k + c]);
   PetscFunctionReturn(0);
 }
 

@@ -18,6 +18,8 @@ PetscErrorCode ShareCreate(MPI_Comm comm, int nnodes, int n, const int rank[], c
 /* Collective over neighbours: value[nnodes][2] becomes the sum over the ranks.  No messages where nothing is
  * shared. */
 PetscErrorCode ShareSum(Share s, double value[]);
+/* The same with the least instead of the sum. */
+PetscErrorCode ShareLeast(Share s, double value[]);
 /* Not collective: no lower rank has the node. */
 PetscBool ShareOwns(Share s, int node);
 PetscErrorCode ShareDestroy(Share *s);

@@ -12,7 +12,7 @@ PetscErrorCode SolidCreate(MPI_Comm comm, const Assembly *assembly, const SolidS
   PetscCall(SolidTakeShare(s, assembly));
   PetscCall(ContactCreate(s, &s->contact));
   PetscCall(ContactSearch(s->contact, s, 0.0));
-  PetscCall(PetscMalloc2(2 * s->nnodes, &s->start, 2 * s->nnodes, &s->seen));
+  PetscCall(PetscMalloc2(2 * s->node_capacity, &s->start, 2 * s->node_capacity, &s->seen));
   *solid = s;
   PetscFunctionReturn(0);
 }
@@ -24,16 +24,22 @@ PetscErrorCode SolidDestroy(Solid *solid)
   Solid s = *solid;
   Elements *e = &s->elements;
   PetscCall(ContactDestroy(&s->contact));
+  PetscCall(JointsDestroy(&s->joints));
+  PetscCall(PetscFree2(s->copies.rank, s->copies.node));
   PetscCall(ShareDestroy(&s->share));
   PetscCall(
       PetscFree7(s->gid, s->node_body, s->surface, s->mass, s->inverse_mass, s->corner_start, s->corner));
   PetscCall(PetscFree7(s->rest, s->x, s->v, s->force, s->load, s->saved.x, s->saved.v));
   PetscCall(PetscFree2(s->start, s->seen));
-  PetscCall(PetscFree4(s->element, s->facet, s->facet_element, s->body));
+  PetscCall(PetscFree6(s->element, s->facet, s->facet_element, s->facet_side, s->base, s->body));
+  PetscCall(PetscFree(s->prescribed));
   PetscCall(PetscFree(s->material));
-  PetscCall(PetscFree4(s->driven, s->drive, s->drive_rows, s->held));
+  PetscCall(PetscFree2(s->drive, s->drive_rows));
+  PetscCall(PetscFree(s->driven));
+  PetscCall(PetscFree(s->held));
   PetscCall(PetscFree3(e->node[0], e->node[1], e->node[2]));
   PetscCall(PetscFree4(e->inverse[0], e->inverse[1], e->inverse[2], e->inverse[3]));
+  PetscCall(PetscFree3(e->stress[0], e->stress[1], e->stress[2]));
   PetscCall(PetscFree4(e->mu, e->lambda, e->eta, e->density));
   PetscCall(PetscFree7(e->body, e->number, e->force[0], e->force[1], e->thickness, e->sheet, e->material));
   PetscCall(PetscFree(*solid));
@@ -42,8 +48,10 @@ PetscErrorCode SolidDestroy(Solid *solid)
 
 void SolidGetView(Solid s, SolidView *view)
 {
-  *view = (SolidView){s->nnodes, s->elements.n, s->nfacets, s->nbodies, s->gid,   s->rest,
-                      s->x,      s->v,          s->load,    s->element, s->facet, s->elements.body};
+  *view = (SolidView){s->nnodes,   s->elements.n,    s->nfacets,        s->nbodies,
+                      s->revision, s->gid,           s->rest,           s->x,
+                      s->v,        s->load,          s->start,          s->element,
+                      s->facet,    s->elements.body, s->elements.number};
 }
 
 const SolidStats *SolidGetStats(Solid s)
@@ -54,8 +62,9 @@ const SolidStats *SolidGetStats(Solid s)
 PetscErrorCode SolidState(Solid s, int save)
 {
   SavedState *k = &s->saved;
-  const size_t n = 2 * (size_t)s->nnodes;
   PetscFunctionBeginUser;
+  if (s->joints) PetscCall(JointsState(s->joints, s, save));
+  const size_t n = 2 * (size_t)s->nnodes;
   PetscCall(PetscArraycpy(save ? k->x : s->x, save ? s->x : k->x, n));
   PetscCall(PetscArraycpy(save ? k->v : s->v, save ? s->v : k->v, n));
   if (save) {

@@ -65,11 +65,14 @@ PetscErrorCode SolidState(Solid s, int save);
 /* Views: borrowed, not collective. */
 typedef struct {
   int nnodes, nelements, nfacets, nbodies;
-  const long long *gid;              /* [nnodes] */
-  const double *rest, *x, *v, *load; /* [nnodes][2] */
+  int revision; /* changes when cracks have made new nodes, elements or facets; new nodes and facets come last
+                 */
+  const long long *gid;                      /* [nnodes] */
+  const double *rest, *x, *v, *load, *start; /* [nnodes][2]; start: x when the step began */
   const int *element,
-      *facet;      /* [nelements][3], [nfacets][2] local nodes; facets have the solid on their left */
-  const int *body; /* [nelements] */
+      *facet;        /* [nelements][3], [nfacets][2] local nodes; facets have the solid on their left */
+  const int *body;   /* [nelements] */
+  const int *number; /* [nelements] in the assembly */
 } SolidView;
 void SolidGetView(Solid s, SolidView *view);
 
@@ -79,7 +82,7 @@ typedef struct {
   double h;          /* last substep, s */
   long long total;   /* substeps so far */
   int searches;      /* contact searches so far */
-  double seconds[4]; /* elements, contact, exchange between ranks, limit and search */
+  double seconds[5]; /* elements, contact, exchange between ranks, limit and search, joints */
 } SolidStats;
 const SolidStats *SolidGetStats(Solid s);
 
@@ -98,7 +101,20 @@ typedef struct {
 } BodyState;
 /* state[n]: of the first n bodies. */
 PetscErrorCode SolidBodies(Solid s, int n, BodyState state[]);
-/* Internal and contact forces at the present state, force[nnodes][2], N, summed over ranks; borrowed until
- * the next call of anything. */
+
+typedef struct {
+  int live, broken; /* joints that have come to life and are not broken yet; that are broken */
+  double length;    /* of the cracks, m: edges and half edges that hold no more; half of the new surface */
+  double energy;    /* what all joints have taken up and not given back, J/m; a broken one keeps it */
+} FractureState;
+PetscErrorCode SolidFracture(Solid s, FractureState *state);
+/* damage[nelements]: largest D of the element's joints, 0 .. 1.  Not collective. */
+void SolidDamage(Solid s, double damage[]);
+/* fragment[nelements]: 0 .. *n - 1, in order of the lowest node: pieces that whole and living joints hold
+ * together.
+ */
+PetscErrorCode SolidFragments(Solid s, int fragment[], int *n);
+/* Internal, joint and contact forces at the present state, force[nnodes][2], N, summed over ranks; borrowed
+ * until the next call of anything. */
 PetscErrorCode SolidForces(Solid s, const double **force);
 #endif

@@ -2,10 +2,12 @@
 #ifndef SOLID_IMPL_H
 #define SOLID_IMPL_H
 #include "element.h"
+#include "interior_edges.h"
 #include "share.h"
 #include "solid.h"
 
 typedef struct Contact_s *Contact;
+typedef struct Joints_s *Joints;
 
 /* Structure of arrays, so that the element loop is vectorised. */
 typedef struct {
@@ -15,14 +17,21 @@ typedef struct {
   double *mu, *lambda, *eta, *density; /* times the thickness */
   double *thickness, *sheet;           /* m; 1 in plane stress, 0 in plane strain */
   int *body, *material;
-  int *number;              /* in the assembly */
-  double *force[2];         /* [3][n]: corner i of element e at i n + e */
+  int *number;       /* in the assembly */
+  double *force[2];  /* [3][n]: corner i of element e at i n + e */
+  double *stress[3]; /* NULL without joints: elastic xx, yy, xy of the last forces, Pa times thickness */
   PetscBool damped, sheets; /* any eta > 0, any in plane stress */
 } Elements;
+
+/* node[k], a node of the start, is also on rank[k]. */
+typedef struct {
+  int n, *rank, *node;
+} Copies;
 
 /* What a step changes. */
 typedef struct {
   double *x, *v, h, t, moved_for;
+  int nnodes, nfacets, revision;
 } SavedState;
 
 struct Solid_s {
@@ -30,12 +39,17 @@ struct Solid_s {
   PetscMPIInt rank, size;
   SolidSetup setup;
   int nnodes, nfacets, nbodies;
-  Body *body; /* [nbodies] */
+  int node_capacity,
+      facet_capacity; /* of all arrays [nnodes] and [nfacets]: for the case that all joints break */
+  int revision;       /* changes when nodes, elements or facets do */
+  Body *body;         /* [nbodies] */
   int nmaterials;
   Material *material; /* [nmaterials] */
   /* nodes */
   long long *gid;
   int *node_body, *surface;    /* [nnodes]; surface: some rank has a facet there */
+  int *prescribed;             /* [nnodes] some drive moves it */
+  int *base;                   /* [nnodes] the node of the start that it was then, on this rank */
   double *rest, *x, *v;        /* [nnodes][2] */
   double *force, *load;        /* [nnodes][2] internal and contact; the fluid's, summed over ranks */
   double *mass, *inverse_mass; /* [nnodes] all ranks' elements; inverse 0 where fixed */
@@ -43,10 +57,13 @@ struct Solid_s {
   Elements elements;
   int *element;               /* [ne][3] */
   int *facet, *facet_element; /* [nfacets][2], [nfacets] */
+  int *facet_side;            /* [nfacets] from that corner of the element to the next */
+  Copies copies;
   Share share;
   Contact contact;
-  int ndriven;
-  DrivenNode *driven; /* [ndriven] */
+  Joints joints;              /* NULL: none */
+  int ndriven, ndriven_first; /* now, and at the start: parts of split nodes come last */
+  DrivenNode *driven;         /* [ndriven] */
   Drive *drive;
   double *drive_rows, *held; /* [ndriven][2] room for places before a substep */
   int ndrives;
@@ -55,6 +72,7 @@ struct Solid_s {
   double *start, *seen;          /* [nnodes][2] positions when it began; what the fluid sees */
   int remaining, until_check;    /* substeps */
   PetscBool force_valid;         /* force belongs to x and v */
+  PetscBool unsettled;           /* after SolidState(0): JointsSettle is due */
   SolidStats stats;
   SavedState saved;
 };
@@ -68,6 +86,26 @@ void SolidElementShape(const Elements *e, int k, const double x[], Tensor *edges
 
 /* distribute.c: everything that comes from the assembly. */
 PetscErrorCode SolidTakeShare(Solid s, const Assembly *a);
+/* eta of an element of the assembly, Pa s */
+double SolidViscosity(const Assembly *a, int e);
+/* corner_start and corner, from element */
+void SolidListCorners(Solid s);
+
+/* joints_create.c */
+PetscErrorCode JointsCreate(Solid s, const Assembly *a, const InteriorEdges *edges, int nlooks,
+                            const Look look[], const int part[], const int local[], Joints *joints);
+PetscErrorCode JointsDestroy(Joints *j);
+/* joints.c: adds to force and remembers damage. */
+void JointsAddForces(Joints j, Solid s);
+/* Collective: edges loaded to their strength come to life, broken ones become surface; *changed: nodes,
+ * elements and facets are new, forces and limit too. */
+PetscErrorCode JointsAdvance(Joints j, Solid s, PetscBool *changed);
+/* Bound of omega^2, 1/s2. */
+double JointsRate(Joints j);
+/* break.c: saves or puts back damage and topology; not collective. */
+PetscErrorCode JointsState(Joints j, Solid s, int save);
+/* Collective: after JointsState(0), what needs messages. */
+PetscErrorCode JointsSettle(Joints j, Solid s);
 
 /* contact.c */
 PetscErrorCode ContactCreate(Solid s, Contact *contact);

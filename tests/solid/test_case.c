@@ -72,6 +72,53 @@ static void MeshFile(void)
   CHECK(fixed == 2, "%d fixed", fixed);
 }
 
+/* Elements of the body that may part. */
+static int Jointed(int body)
+{
+  int n = 0;
+  for (int e = 0; e < assembly.nelements; e++) n += assembly.element_body[e] == body && assembly.jointed[e];
+  return n;
+}
+
+#define STRONG                                                                                               \
+  "gravity: [0, 0]\nsolid:\n  materials:\n    m: {density: 1000, youngs_modulus: 1e6, poisson_ratio: 0.3}\n" \
+  "    r: {density: 1000, youngs_modulus: 1e6, poisson_ratio: 0.3, tensile_strength: 1e4, shear_strength: "  \
+  "2e4,\n"                                                                                                   \
+  "        fracture_energy: 5%s}\n  bodies:\n"
+#define BLOCK                                                                                                \
+  "    - {shape: rectangle, centre: [%g, 0], width: 1, height: 1, size: 0.5, material: %s, joints: %s}\n"
+
+static void Joints(void)
+{
+  char text[1600];
+  int n = snprintf(text, sizeof text, STRONG, ", shear_fracture_energy: 7");
+  n += snprintf(text + n, sizeof text - (size_t)n, BLOCK, 0.0, "r", "all");
+  n += snprintf(text + n, sizeof text - (size_t)n, BLOCK, 2.0, "r", "none");
+  n += snprintf(text + n, sizeof text - (size_t)n, BLOCK, 4.0, "r",
+                "[{lower: [3.5, -0.5], upper: [4, 0]}, {lower: [4, 0], upper: [4.5, 0.5]}]");
+  (void)snprintf(text + n, sizeof text - (size_t)n,
+                 "    - {mesh: " SOURCE_FOLDER
+                 "/square.msh, translate: [5, 0], material: r, joints: [plate]}\n"
+                 "    - {mesh: " SOURCE_FOLDER "/square.msh, translate: [7, 0], material: m}\n");
+  CheckCase(text, NULL, Read, NULL);
+  CHECK(Jointed(0) == 8 && Jointed(1) == 0 && Jointed(2) == 4 && Jointed(3) == 4 && Jointed(4) == 0,
+        "jointed %d %d %d %d %d", Jointed(0), Jointed(1), Jointed(2), Jointed(3), Jointed(4));
+  const Material *m = &assembly.body[0].material;
+  CHECK(m->strength[0] == 1e4 && m->strength[1] == 2e4 && m->fracture_energy[0] == 5.0 &&
+            m->fracture_energy[1] == 7.0,
+        "strengths");
+  n = snprintf(text, sizeof text, STRONG, "");
+  (void)snprintf(text + n, sizeof text - (size_t)n, BLOCK, 0.0, "m", "all");
+  CheckCase(text, NULL, Read,
+            ":8: key 'solid.bodies[0]': joints need a material with tensile_strength, shear_strength and "
+            "fracture_energy");
+  (void)snprintf(text + n, sizeof text - (size_t)n, BLOCK, 0.0, "r", "some");
+  CheckCase(text, NULL, Read, ":8: key 'solid.bodies[0].joints': expected one of none, all, found 'some'");
+  (void)snprintf(text + n, sizeof text - (size_t)n,
+                 "    - {mesh: " SOURCE_FOLDER "/square.msh, material: r, joints: [crust]}\n");
+  CheckCase(text, NULL, Read, ":8: key 'solid.bodies[0]': the body has no region 'crust'; it has plate");
+}
+
 /* Regions of a mesh, contact's table, walls, planes, drives and rings. */
 static void Full(void)
 {
@@ -168,6 +215,7 @@ int main(int argc, char **argv)
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   Everything();
   MeshFile();
+  Joints();
   Full();
   Refusals();
   PetscCall(AssemblyDestroy(&assembly));

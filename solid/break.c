@@ -1,0 +1,295 @@
+/* How a body comes apart: nodes split where the ties of their star are cut, broken edges become surface. */
+#include "joints_impl.h"
+#include <stdlib.h>
+
+static int FindJoint(const Joints j, int number)
+{
+  int low = 0, high = j->n;
+  while (low < high) {
+    const int middle = (low + high) / 2;
+    if (j->joint[middle].number < number)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low < j->n && j->joint[low].number == number ? low : -1;
+}
+
+/* --- nodes
+ * -------------------------------------------------------------------------------------------------- */
+
+/* root[c]: the lowest corner of the star that uncut ties connect with c. */
+static void ConnectCorners(const Joints j, int star, int root[])
+{
+  const Tie *tie = j->tie + j->star_tie[star];
+  const int n = j->star_tie[star + 1] - j->star_tie[star];
+  int merged = 1;
+  for (int c = 0; c < j->star_corner[star + 1] - j->star_corner[star]; c++) root[c] = c;
+  while (merged) {
+    merged = 0;
+    for (int k = 0; k < n; k++) {
+      if (tie[k].joint >= 0 && j->memory[tie[k].joint].stage != JOINT_WHOLE) continue;
+      int *one = &root[tie[k].corner[0]], *two = &root[tie[k].corner[1]];
+      merged |= *one != *two;
+      *one = *two = PetscMin(*one, *two);
+    }
+  }
+}
+
+/* A node at the same place with the same velocity and history. */
+static int CopyNode(Solid s, int from, long long gid)
+{
+  double *const field[] = {s->rest, s->x, s->v, s->start, s->load};
+  const int n = s->nnodes++;
+  for (int k = 0; k < 5; k++)
+    for (int c = 0; c < 2; c++) field[k][2 * n + c] = field[k][2 * from + c];
+  s->gid[n] = gid;
+  s->node_body[n] = s->node_body[from];
+  s->base[n] = s->base[from];
+  s->mass[n] = 0.0;
+  s->inverse_mass[n] = s->inverse_mass[from];
+  s->prescribed[n] = s->prescribed[from];
+  return n;
+}
+
+static void SetCornerNode(Joints j, Solid s, Corner *corner, int node)
+{
+  const int ne = s->elements.n;
+  corner->node = node;
+  if (corner->place >= ne)
+    j->ghost[corner->place - ne].node[corner->corner] = node;
+  else if (corner->place >= 0)
+    s->element[3 * corner->place + corner->corner] = s->elements.node[corner->corner][corner->place] = node;
+}
+
+/* What a corner's node was before its star split. */
+typedef struct {
+  double mass, load[2];
+} Before;
+
+/* Each node's mass from its corners; the parts of a node share its load by their masses, so that none is
+ * accelerated otherwise than before. */
+static void ShareMass(Solid s, int n, const Corner corner[], const Before before[])
+{
+  for (int c = 0; c < n; c++) s->mass[corner[c].node] = 0.0;
+  for (int c = 0; c < n; c++) s->mass[corner[c].node] += corner[c].mass;
+  for (int c = 0; c < n; c++) {
+    const int k = corner[c].node;
+    if (s->inverse_mass[k] > 0.0) s->inverse_mass[k] = 1.0 / s->mass[k];
+    for (int i = 0; i < 2; i++) s->load[2 * k + i] = before[c].load[i] * (s->mass[k] / before[c].mass);
+  }
+}
+
+static void SplitStar(Joints j, Solid s, int star)
+{
+  Corner *corner = j->corner + j->star_corner[star];
+  const int n = j->star_corner[star + 1] - j->star_corner[star];
+  int root[STAR_CORNERS], node[STAR_CORNERS];
+  Before before[STAR_CORNERS];
+  ConnectCorners(j, star, root);
+  for (int c = 0; c < n; c++) {
+    const int old = corner[c].node;
+    before[c] = (Before){s->mass[old], {s->load[2 * old], s->load[2 * old + 1]}};
+    node[c] = root[c] == c ? old : node[root[c]];
+    for (int b = 0; b < c && root[c] == c; b++) /* the old node stays with the first of its parts */
+      if (node[b] == old) {
+        node[c] = CopyNode(s, old, j->first_gid + 3 * (long long)corner[c].element + corner[c].corner);
+        break;
+      }
+  }
+  for (int c = 0; c < n; c++) SetCornerNode(j, s, &corner[c], node[c]);
+  ShareMass(s, n, corner, before);
+}
+
+/* Parts of a driven node are driven as it is. */
+static PetscErrorCode DriveParts(Solid s)
+{
+  PetscFunctionBeginUser;
+  s->ndriven = s->ndriven_first;
+  for (int n = 0; n < s->nnodes; n++) {
+    if (s->base[n] == n || !s->prescribed[n]) continue;
+    PetscCall(PetscRealloc((size_t)(s->ndriven + s->ndriven_first) * sizeof *s->driven, &s->driven));
+    for (int k = 0; k < s->ndriven_first; k++)
+      if (s->driven[k].node == s->base[n]) s->driven[s->ndriven++] = (DrivenNode){n, s->driven[k].drive};
+  }
+  PetscCall(PetscRealloc(2 * (size_t)s->ndriven * sizeof *s->held, &s->held));
+  PetscFunctionReturn(0);
+}
+
+/* --- surface
+ * ------------------------------------------------------------------------------------------------ */
+
+static void PlaceFacets(Solid s, int first)
+{
+  for (int k = first; k < s->nfacets; k++)
+    for (int i = 0; i < 2; i++)
+      s->facet[2 * k + i] = s->element[3 * s->facet_element[k] + (s->facet_side[k] + i) % 3];
+}
+
+/* This rank's sides of a broken edge. */
+static void AddFacets(Solid s, const Joint *joint)
+{
+  for (int i = 0; i < 2; i++) {
+    if (joint->place[i] < 0 || joint->place[i] >= s->elements.n) continue;
+    s->facet_element[s->nfacets] = joint->place[i];
+    s->facet_side[s->nfacets++] = joint->side[i];
+  }
+}
+
+static PetscErrorCode MarkSurface(Solid s)
+{
+  double *on;
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(2 * (size_t)s->nnodes, &on));
+  for (int k = 0; k < 2 * s->nfacets; k++) on[2 * s->facet[k]] = 1.0;
+  PetscCall(ShareSum(s->share, on));
+  for (int n = 0; n < s->nnodes; n++) s->surface[n] = on[2 * n] > 0.0;
+  PetscCall(PetscFree(on));
+  PetscFunctionReturn(0);
+}
+
+/* --- ranks
+ * -------------------------------------------------------------------------------------------------- */
+
+typedef struct {
+  int rank, node;
+  long long gid;
+} Copy;
+
+static int CompareCopies(const void *a, const void *b)
+{
+  const Copy *p = a, *q = b;
+  return p->rank != q->rank ? (p->rank > q->rank) - (p->rank < q->rank)
+                            : (p->gid > q->gid) - (p->gid < q->gid);
+}
+
+/* A part of a node is on all ranks that had the node. */
+static PetscErrorCode RenewShare(Solid s)
+{
+  const Copies *c = &s->copies;
+  int n = 0, *first, *next, *rank, *node;
+  Copy *copy;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2((size_t)s->nnodes, &first, (size_t)s->nnodes, &next)); /* the parts of each base */
+  for (int k = 0; k < s->nnodes; k++) first[k] = -1;
+  for (int k = s->nnodes - 1; k >= 0; k--) {
+    next[k] = first[s->base[k]];
+    first[s->base[k]] = k;
+  }
+  for (int k = 0; k < c->n; k++)
+    for (int part = first[c->node[k]]; part >= 0; part = next[part]) n++;
+  PetscCall(PetscMalloc3((size_t)n, &copy, (size_t)n, &rank, (size_t)n, &node));
+  n = 0;
+  for (int k = 0; k < c->n; k++)
+    for (int part = first[c->node[k]]; part >= 0; part = next[part])
+      copy[n++] = (Copy){c->rank[k], part, s->gid[part]};
+  if (n > 0) qsort(copy, (size_t)n, sizeof *copy, CompareCopies);
+  for (int k = 0; k < n; k++) {
+    rank[k] = copy[k].rank;
+    node[k] = copy[k].node;
+  }
+  PetscCall(ShareDestroy(&s->share));
+  PetscCall(ShareCreate(s->comm, s->nnodes, n, rank, node, &s->share));
+  PetscCall(PetscFree3(copy, rank, node));
+  PetscCall(PetscFree2(first, next));
+  PetscFunctionReturn(0);
+}
+
+/* --- the whole
+ * ---------------------------------------------------------------------------------------------- */
+
+static void ApplyEvent(Joints j, int event, Solid s)
+{
+  const int k = FindJoint(j, event / 2);
+  if (k < 0) return;
+  const Joint *joint = &j->joint[k];
+  if (event % 2 == 0) {
+    j->memory[k].stage = JOINT_LIVE;
+    for (int end = 0; end < 2; end++)
+      if (joint->star[end] >= 0) j->touched[joint->star[end]] = 1;
+  } else {
+    j->memory[k].stage = JOINT_BROKEN;
+    AddFacets(s, joint);
+  }
+}
+
+PetscErrorCode JointsSettle(Joints j, Solid s)
+{
+  PetscFunctionBeginUser;
+  PetscCall(DriveParts(s));
+  PetscCall(RenewShare(s));
+  PetscCall(MarkSurface(s));
+  PetscCall(JointsMeasureRate(j, s));
+  PetscCall(ContactRenew(s->contact, s));
+  PetscCall(ContactSearch(s->contact, s, 0.0));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode JointsApply(Joints j, Solid s, int n, const int event[])
+{
+  PetscFunctionBeginUser;
+  for (int k = 0; k < n; k++) ApplyEvent(j, event[k], s);
+  for (int star = 0; star < j->nstars; star++)
+    if (j->touched[star]) SplitStar(j, s, star);
+  PlaceFacets(s, 0);
+  SolidListCorners(s);
+  JointsList(j, s);
+  JointsBeginEnds(j, s);
+  JointsFindBrinks(j, s, PETSC_FALSE);
+  JointsList(j, s);
+  for (int star = 0; star < j->nstars; star++) j->touched[star] = 0;
+  s->revision++;
+  s->force_valid = PETSC_FALSE;
+  PetscCall(JointsSettle(j, s));
+  PetscFunctionReturn(0);
+}
+
+/* --- a step that is redone
+ * ---------------------------------------------------------------------------------- */
+
+static PetscErrorCode Save(Joints j, Solid s)
+{
+  SavedState *k = &s->saved;
+  PetscFunctionBeginUser;
+  k->nnodes = s->nnodes;
+  k->nfacets = s->nfacets;
+  k->revision = s->revision;
+  PetscCall(PetscArraycpy(j->saved, j->memory, (size_t)j->n));
+  PetscCall(PetscArraycpy(j->saved_corner, j->corner, (size_t)j->ncorners));
+  PetscFunctionReturn(0);
+}
+
+/* Nodes and facets of the failed try lie behind those of the state. */
+static PetscErrorCode Restore(Joints j, Solid s)
+{
+  const SavedState *k = &s->saved;
+  const PetscBool changed = (PetscBool)(s->revision != k->revision);
+  PetscFunctionBeginUser;
+  PetscCall(PetscArraycpy(j->memory, j->saved, (size_t)j->n));
+  if (!changed) PetscFunctionReturn(0);
+  s->nnodes = k->nnodes;
+  s->nfacets = k->nfacets;
+  s->revision = k->revision;
+  for (int star = 0; star < j->nstars; star++) {
+    const int first = j->star_corner[star], n = j->star_corner[star + 1] - first;
+    Before before[STAR_CORNERS];
+    for (int c = 0; c < n; c++) {
+      before[c] = (Before){1.0, {0.0, 0.0}}; /* the coming step has loads of its own */
+      SetCornerNode(j, s, &j->corner[first + c], j->saved_corner[first + c].node);
+    }
+    ShareMass(s, n, j->corner + first, before);
+  }
+  PlaceFacets(s, 0);
+  SolidListCorners(s);
+  JointsFindBrinks(j, s, PETSC_TRUE);
+  JointsList(j, s);
+  s->unsettled = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode JointsState(Joints j, Solid s, int save)
+{
+  PetscFunctionBeginUser;
+  PetscCall(save ? Save(j, s) : Restore(j, s));
+  PetscFunctionReturn(0);
+}

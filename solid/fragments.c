@@ -1,0 +1,124 @@
+/* What cracks have done: sums over the joints, damage of the elements, and the pieces that are left. */
+#include "joints_impl.h"
+
+PetscErrorCode SolidFracture(Solid s, FractureState *state)
+{
+  double sum[4] = {0.0, 0.0, 0.0, 0.0};
+  const double *force;
+  const Joints j = s->joints;
+  PetscFunctionBeginUser;
+  *state = (FractureState){0};
+  if (!j) PetscFunctionReturn(0);
+  PetscCall(SolidForces(s, &force));
+  for (int k = 0; k < j->n; k++) {
+    const JointMemory *m = &j->memory[k];
+    if (!j->joint[k].mine || m->stage == JOINT_WHOLE) continue;
+    sum[m->stage == JOINT_LIVE ? 0 : 1] += 1.0;
+    for (int end = 0; end < 2; end++)
+      if (m->end[end].damage >= 1.0) sum[2] += 0.5 * j->joint[k].length;
+    sum[3] += 0.5 * j->joint[k].length * (m->end[0].absorbed + m->end[1].absorbed);
+  }
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 4, MPI_DOUBLE, MPI_SUM, s->comm));
+  *state = (FractureState){(int)sum[0], (int)sum[1], sum[2], sum[3]};
+  PetscFunctionReturn(0);
+}
+
+void SolidDamage(Solid s, double damage[])
+{
+  const Joints j = s->joints;
+  for (int e = 0; e < s->elements.n; e++) damage[e] = 0.0;
+  for (int k = 0; j && k < j->n; k++) {
+    if (!j->joint[k].held) continue;
+    const double most = fmax(j->memory[k].end[0].damage, j->memory[k].end[1].damage);
+    for (int i = 0; i < 2; i++) {
+      const int e = j->joint[k].place[i];
+      if (e < s->elements.n) damage[e] = fmax(damage[e], most);
+    }
+  }
+}
+
+/* --- pieces
+ * ------------------------------------------------------------------------------------------------- */
+
+static void Lower(double label[], int n, const int node[], PetscBool *changed)
+{
+  double least = HUGE_VAL;
+  for (int i = 0; i < n; i++) least = fmin(least, label[2 * node[i]]);
+  for (int i = 0; i < n; i++) {
+    if (label[2 * node[i]] > least) *changed = PETSC_TRUE;
+    label[2 * node[i]] = least;
+  }
+}
+
+/* One sweep over what holds nodes together: elements, and joints that are not broken. */
+static PetscBool Sweep(const Solid s, double label[])
+{
+  const Joints j = s->joints;
+  PetscBool changed = PETSC_FALSE;
+  for (int e = 0; e < s->elements.n; e++) Lower(label, 3, s->element + 3 * e, &changed);
+  for (int e = s->elements.n - 1; e >= 0; e--) Lower(label, 3, s->element + 3 * e, &changed);
+  for (int k = 0; j && k < j->nlive; k++)
+    for (int end = 0; end < 2; end++) {
+      const int *corner = j->joint[j->live[k]].corner[end];
+      const int node[2] = {j->corner[corner[0]].node, j->corner[corner[1]].node};
+      Lower(label, 2, node, &changed);
+    }
+  return changed;
+}
+
+/* label[nnodes][2], the first: the lowest global number of the piece's nodes. */
+static PetscErrorCode LabelNodes(Solid s, double label[])
+{
+  int any = 1;
+  PetscFunctionBeginUser;
+  for (int n = 0; n < s->nnodes; n++) label[2 * n] = label[2 * n + 1] = (double)s->gid[n];
+  while (any) {
+    PetscBool changed = PETSC_FALSE;
+    while (Sweep(s, label)) changed = PETSC_TRUE;
+    PetscCall(ShareLeast(s->share, label));
+    any = changed;
+    if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, s->comm));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* number[e] = place of the element's label among all labels of all ranks */
+static PetscErrorCode NumberLabels(Solid s, const double label[], int number[], int *n)
+{
+  PetscInt mine = s->elements.n, *own, *all;
+  PetscMPIInt count, *counts, *start;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1((size_t)mine, &own));
+  for (int e = 0; e < s->elements.n; e++) own[e] = (PetscInt)label[2 * s->element[3 * e]];
+  PetscCall(PetscSortRemoveDupsInt(&mine, own));
+  PetscCall(PetscMPIIntCast(mine, &count));
+  PetscCall(PetscMalloc2((size_t)s->size, &counts, (size_t)s->size + 1, &start));
+  PetscCallMPI(MPI_Allgather(&count, 1, MPI_INT, counts, 1, MPI_INT, s->comm));
+  start[0] = 0;
+  for (int r = 0; r < s->size; r++) start[r + 1] = start[r] + counts[r];
+  PetscInt total = start[s->size];
+  PetscCall(PetscMalloc1((size_t)total, &all));
+  PetscCallMPI(MPI_Allgatherv(own, count, MPIU_INT, all, counts, start, MPIU_INT, s->comm));
+  PetscCall(PetscSortRemoveDupsInt(&total, all));
+  for (int e = 0; e < s->elements.n; e++) {
+    PetscInt place;
+    PetscCall(PetscFindInt((PetscInt)label[2 * s->element[3 * e]], total, all, &place));
+    number[e] = (int)place;
+  }
+  *n = (int)total;
+  PetscCall(PetscFree2(counts, start));
+  PetscCall(PetscFree(own));
+  PetscCall(PetscFree(all));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SolidFragments(Solid s, int fragment[], int *n)
+{
+  double *label;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(2 * (size_t)s->nnodes, &label));
+  PetscCall(LabelNodes(s, label));
+  PetscCall(NumberLabels(s, label, fragment, n));
+  PetscCall(PetscFree(label));
+  PetscFunctionReturn(0);
+}

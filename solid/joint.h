@@ -1,0 +1,149 @@
+/* The joint: what holds two triangles together along their common edge once that edge is loaded to its
+ * strength, and how it comes apart.  Two ends, each with half of the edge's length L (at rest); per end
+ *
+ *        a2----------b2    element 2         d = x2 - x1 at the end,  e along the midline a -> b,
+ *        :   o ^     :                       n to its right, out of element 1
+ *        a1----------b1    element 1         opening o = d.n,  slip s = d.e
+ *
+ *     O = max(o + o0, 0),  S = s + s0,  a = F_t/k + D r_t,  b = F_s/k + D r_s,  r_i = G_i/(A F_i)
+ *     intact      (O/a)^2 + (S/b)^2 <= 1 at D = 0     sigma = k O, tau = k S
+ *     softening   D = the least in 0 .. 1 with (O/a)^2 + (S/b)^2 <= 1, never less than before
+ *                 sigma = z(D) F_t O/a,  tau = z(D) F_s S/b
+ *     pressed     sigma = k (o + c (1 - D)) < 0       as contact presses, damaged or not
+ *
+ * with z(D) of method.md 8 and A = int_0^1 z dD.  Strength and what is left of it are ellipses: (sigma/F_t)^2
+ * + (tau/F_s)^2 = z^2 while D grows; unloading goes straight to the origin.  (o0, s0) and c are chosen when
+ * the joint comes to life: it then pulls as the elements did (JointBegin), and needs no softness before.
+ *
+ * Energy.  With O = a cos q, S = b sin q the work while D grows is, per unit of edge,
+ *     sigma do + tau ds = z/A (G_I cos^2 q + G_II sin^2 q) dD + z (F_s b - F_t a) sin q cos q dq
+ * so that an end dissipates exactly G_I in tension, G_II in shear, G_I cos^2 q + G_II sin^2 q at a constant
+ * mixture; for G_I = G_II it is G on every path up to (F_s^2 - F_t^2)/2k. */
+#ifndef SOLID_JOINT_H
+#define SOLID_JOINT_H
+#include "plane.h"
+#include <math.h>
+
+#define JOINT_SOFTENING_AREA 0.386307294743945 /* int_0^1 z(D) dD */
+
+typedef struct {
+  double strength[2]; /* tension, shear, Pa */
+  double energy[2];   /* mode I, mode II, J/m2 */
+  double stiffness;   /* k: that of contact on this edge, Pa/m */
+} JointLaw;
+
+typedef struct {
+  double damage, left;   /* D, z(D) */
+  double strong;         /* >= 1: strengths of this end over those of the law */
+  double offset[3];      /* o0, s0, c, m */
+  double opening, slip;  /* last seen, m */
+  double tension, shear; /* what it then pulled with, Pa */
+  double absorbed;       /* int tension do + shear ds, J/m2: the energy of fracture when broken */
+} JointEnd;
+
+typedef struct {
+  double normal, shear; /* Pa */
+} JointTraction;
+
+/* z(D): 1 at D = 0, 0 at D = 1 */
+static inline double JointSoftening(double damage)
+{
+  const double a = 0.63, b = 1.8, c = 6.0, ab = a + b, left = 1.0 - damage, square = left * left;
+  return (1.0 - (ab - 1.0) / ab * exp(damage * (a + c * b) / (ab * (1.0 - ab)))) *
+         (a * left + b * square * square * square);
+}
+
+/* An end comes to life under the traction that the edge carries.  One that carries more than its strength is
+ * that much stronger: its pull then is continuous, and its energy the same. */
+static inline JointEnd JointBegin(const JointLaw *law, double normal, double shear)
+{
+  const double x = fmax(normal, 0.0) / law->strength[0], y = shear / law->strength[1];
+  JointEnd end = {
+      .left = 1.0, .strong = fmax(1.0, sqrt(x * x + y * y)), .tension = fmax(normal, 0.0), .shear = shear};
+  end.offset[0] = end.tension / law->stiffness;
+  end.offset[1] = shear / law->stiffness;
+  end.offset[2] = normal / law->stiffness;
+  return end;
+}
+
+/* The damage that brings (O, S) onto the ellipse of half axes start + D range: Newton's method, which comes
+ * from below, for the function is convex and falls. */
+static inline double JointDamage(double damage, double opening, double slip, const double start[2],
+                                 const double range[2])
+{
+  for (int k = 0; k < 50 && damage < 1.0; k++) {
+    const double a = start[0] + damage * range[0], b = start[1] + damage * range[1];
+    const double x = opening / a, y = slip / b, beyond = x * x + y * y - 1.0;
+    if (beyond <= 1e-14) break;
+    damage += 0.5 * beyond / (x * x * range[0] / a + y * y * range[1] / b);
+  }
+  return fmin(damage, 1.0);
+}
+
+/* The traction at an opening and a slip; remembers damage and energy. */
+static inline JointTraction JointPull(const JointLaw *law, JointEnd *end, double opening, double slip)
+{
+  const double k = law->stiffness, f[2] = {end->strong * law->strength[0], end->strong * law->strength[1]};
+  const double start[2] = {f[0] / k, f[1] / k};
+  const double range[2] = {law->energy[0] / (JOINT_SOFTENING_AREA * f[0]),
+                           law->energy[1] / (JOINT_SOFTENING_AREA * f[1])};
+  const double closing = end->offset[2] * (1.0 - end->damage);
+  const double o = fmax(opening + fmin(closing, 0.0) + end->offset[0], 0.0), s = slip + end->offset[1];
+  const double damage = JointDamage(end->damage, o, s, start, range);
+  if (damage > end->damage) end->left = damage < 1.0 ? JointSoftening(damage) : 0.0;
+  end->damage = damage;
+  const double tension = end->left * f[0] * o / (start[0] + end->damage * range[0]);
+  const double shear = end->left * f[1] * s / (start[1] + end->damage * range[1]);
+  end->absorbed += 0.5 * (end->tension + tension) * (opening - end->opening) +
+                   0.5 * (end->shear + shear) * (slip - end->slip);
+  end->opening = opening;
+  end->slip = slip;
+  end->tension = tension;
+  end->shear = shear;
+  return (JointTraction){tension + k * fmin(opening + end->offset[2] * (1.0 - end->damage), 0.0), shear};
+}
+
+/* --- the edge in the plane
+ * ------------------------------------------------------------------------------------ */
+
+typedef struct {
+  Point along, normal; /* unit vectors e and n of the midline */
+  double length;       /* of the midline, m */
+  double opening[2], slip[2];
+} JointShape;
+
+/* one, two: the ends' positions on element 1 and on element 2. */
+static inline JointShape JointShapeOf(const Point one[2], const Point two[2])
+{
+  const Point line = {0.5 * (one[1].x + two[1].x - one[0].x - two[0].x),
+                      0.5 * (one[1].y + two[1].y - one[0].y - two[0].y)};
+  JointShape shape = {.length = sqrt(line.x * line.x + line.y * line.y)};
+  shape.along = (Point){line.x / shape.length, line.y / shape.length};
+  shape.normal = (Point){shape.along.y, -shape.along.x};
+  for (int i = 0; i < 2; i++) {
+    const Point d = PointMinus(two[i], one[i]);
+    shape.opening[i] = d.x * shape.normal.x + d.y * shape.normal.y;
+    shape.slip[i] = d.x * shape.along.x + d.y * shape.along.y;
+  }
+  return shape;
+}
+
+/* Forces of the tractions t on element 1's nodes (one) and element 2's (two); half: L/2.  They are those of
+ * the virtual work sum_i half (sigma do + tau ds): the turning of the midline with its four nodes gives the
+ * couple m = sum_i half (sigma s - tau o) and with it neither momentum nor angular momentum changes. */
+static inline void JointForces(const JointShape *shape, const JointTraction t[2], double half, Point one[2],
+                               Point two[2])
+{
+  const Point e = shape->along, n = shape->normal;
+  double couple = 0.0;
+  for (int i = 0; i < 2; i++)
+    couple += half * (t[i].normal * shape->slip[i] - t[i].shear * shape->opening[i]);
+  for (int i = 0; i < 2; i++) {
+    const Point pull = {half * (t[i].normal * n.x + t[i].shear * e.x),
+                        half * (t[i].normal * n.y + t[i].shear * e.y)};
+    const double turn = (i == 0 ? -0.5 : 0.5) * couple / shape->length;
+    one[i] = (Point){pull.x + turn * n.x, pull.y + turn * n.y};
+    two[i] = (Point){-pull.x + turn * n.x, -pull.y + turn * n.y};
+  }
+}
+#endif

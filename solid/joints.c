@@ -1,0 +1,219 @@
+/* Joints at work: which edges have reached their strength, and what living joints pull with. */
+#include "joints_impl.h"
+
+/* --- lists
+ * -------------------------------------------------------------------------------------------------- */
+
+static void WatchAdd(Watch *w, const Joints j, int k)
+{
+  const Joint *joint = &j->joint[k];
+  w->joint[w->n] = k;
+  for (int i = 0; i < 2; i++) {
+    w->place[i][w->n] = joint->place[i];
+    w->node[i][w->n] = j->corner[joint->corner[i][0]].node;
+    w->inverse_square[i][w->n] = 1.0 / (joint->law.strength[i] * joint->law.strength[i]);
+  }
+  w->n++;
+}
+
+void JointsList(Joints j, Solid s)
+{
+  j->nlive = j->watch.n = 0;
+  for (int k = 0; k < j->n; k++) {
+    if (j->joint[k].held && j->memory[k].stage == JOINT_LIVE) j->live[j->nlive++] = k;
+    if (j->joint[k].mine && j->memory[k].stage == JOINT_WHOLE && !j->edge[k][0] && !j->edge[k][1])
+      WatchAdd(&j->watch, j, k);
+  }
+}
+
+/* --- what the edges carry
+ * ----------------------------------------------------------------------------------- */
+
+/* (sigma/F_t)^2 + (tau/F_s)^2 >= 1 with the mean of both elements' stresses; multiplied by the edge's length
+ * to the fourth, so that nothing is divided by. */
+static inline int Overloaded(const Watch *w, int k, double *const stress[3], const double x[])
+{
+  const int p = w->place[0][k], q = w->place[1][k];
+  const Point d = PointMinus(PointAt(x, w->node[1][k]), PointAt(x, w->node[0][k]));
+  const double xx = 0.5 * (stress[0][p] + stress[0][q]), yy = 0.5 * (stress[1][p] + stress[1][q]);
+  const double xy = 0.5 * (stress[2][p] + stress[2][q]);
+  const Point t = {xx * d.y - xy * d.x, xy * d.y - yy * d.x};
+  const double normal = t.x * d.y - t.y * d.x, shear = t.x * d.x + t.y * d.y, square = d.x * d.x + d.y * d.y;
+  const double tension = fmax(normal, 0.0);
+  return tension * tension * w->inverse_square[0][k] + shear * shear * w->inverse_square[1][k] >=
+         square * square;
+}
+
+static int CountOverloaded(const Watch *watch, double *const stress[3], const double x[])
+{
+  const Watch w = *watch;
+  int n = 0;
+#pragma GCC ivdep
+  for (int k = 0; k < w.n; k++) n += Overloaded(&w, k, stress, x);
+  return n;
+}
+
+static JointShape ShapeOf(const Joints j, Solid s, const Joint *joint)
+{
+  Point at[2][2];
+  for (int i = 0; i < 2; i++)
+    for (int end = 0; end < 2; end++) at[i][end] = PointAt(s->x, j->corner[joint->corner[end][i]].node);
+  return JointShapeOf(at[0], at[1]);
+}
+
+static PetscBool Parted(const Joints j, const Joint *joint, int end)
+{
+  return (PetscBool)(j->corner[joint->corner[end][0]].node != j->corner[joint->corner[end][1]].node);
+}
+
+/* Ends whose nodes have parted pull as their fans did, per metre of edge at rest. */
+void JointsBeginEnds(Joints j, Solid s)
+{
+  Brink *parted = j->brink; /* scratch: brinks are found anew afterwards */
+  int n = 0;
+  for (int k = 0; k < j->nlive; k++)
+    for (int end = 0; end < 2; end++)
+      if (j->memory[j->live[k]].end[end].strong == 0.0 && Parted(j, &j->joint[j->live[k]], end))
+        parted[n++] = JointsPartedBrink(j, j->live[k], end);
+  for (int k = 0; k < n; k++) {
+    const Joint *joint = &j->joint[parted[k].joint];
+    const JointShape shape = ShapeOf(j, s, joint);
+    const Point t = JointsBrinkTraction(j, s, &parted[k]), m = shape.normal, e = shape.along;
+    j->memory[parted[k].joint].end[parted[k].end] =
+        JointBegin(&joint->law, t.x * m.x + t.y * m.y, t.x * e.x + t.y * e.y);
+  }
+}
+
+/* A node on the brink that bears the strength. */
+static PetscBool Breaks(const Joints j, Solid s, const Brink *b)
+{
+  const Joint *joint = &j->joint[b->joint];
+  const JointShape shape = ShapeOf(j, s, joint);
+  const Point t = JointsBrinkTraction(j, s, b), m = shape.normal, e = shape.along;
+  const double x = fmax(t.x * m.x + t.y * m.y, 0.0) / joint->law.strength[0];
+  const double y = (t.x * e.x + t.y * e.y) / joint->law.strength[1];
+  return (PetscBool)(x * x + y * y >= 1.0);
+}
+
+/* --- forces
+ * ------------------------------------------------------------------------------------------------- */
+
+static void Add(double force[], int node, Point f)
+{
+  force[2 * node] += f.x;
+  force[2 * node + 1] += f.y;
+}
+
+void JointsAddForces(Joints j, Solid s)
+{
+  for (int k = 0; k < j->nlive; k++) {
+    const Joint *joint = &j->joint[j->live[k]];
+    JointEnd *end = j->memory[j->live[k]].end;
+    const JointShape shape = ShapeOf(j, s, joint);
+    JointTraction t[2] = {{0.0, 0.0}, {0.0, 0.0}};
+    Point one[2], two[2];
+    for (int i = 0; i < 2; i++)
+      if (end[i].strong > 0.0) t[i] = JointPull(&joint->law, &end[i], shape.opening[i], shape.slip[i]);
+    if (!joint->mine) continue;
+    JointForces(&shape, t, 0.5 * joint->length, one, two);
+    for (int i = 0; i < 2; i++) {
+      Add(s->force, j->corner[joint->corner[i][0]].node, one[i]);
+      Add(s->force, j->corner[joint->corner[i][1]].node, two[i]);
+    }
+  }
+}
+
+/* --- events
+ * ------------------------------------------------------------------------------------------------- */
+
+static PetscBool Broken(const JointMemory *m)
+{
+  return (PetscBool)(m->end[0].damage >= 1.0 && m->end[1].damage >= 1.0);
+}
+
+/* This rank's, allocated: 2 number for a joint that comes to life, 2 number + 1 for one that breaks. */
+static PetscErrorCode FindEvents(const Joints j, Solid s, int *n, int **event)
+{
+  const Watch *w = &j->watch;
+  double *const *stress = s->elements.stress;
+  const int overloaded = CountOverloaded(w, stress, s->x);
+  int broken = 0;
+  PetscFunctionBeginUser;
+  for (int k = 0; k < j->nlive; k++) broken += j->joint[j->live[k]].mine && Broken(&j->memory[j->live[k]]);
+  *n = 0;
+  PetscCall(PetscMalloc1((size_t)(overloaded + broken + j->nbrinks), event));
+  for (int k = 0; overloaded && k < w->n; k++)
+    if (Overloaded(w, k, stress, s->x) && *n < overloaded)
+      (*event)[(*n)++] = 2 * j->joint[w->joint[k]].number;
+  for (int k = 0; k < j->nbrinks; k++)
+    if (Breaks(j, s, &j->brink[k])) (*event)[(*n)++] = 2 * j->joint[j->brink[k].joint].number;
+  for (int k = 0; broken && k < j->nlive; k++)
+    if (j->joint[j->live[k]].mine && Broken(&j->memory[j->live[k]]))
+      (*event)[(*n)++] = 2 * j->joint[j->live[k]].number + 1;
+  PetscFunctionReturn(0);
+}
+
+/* Every rank's events, allocated. */
+static PetscErrorCode GatherEvents(Solid s, int n, const int mine[], int *total, int **all)
+{
+  PetscMPIInt *count, *start;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2((size_t)s->size, &count, (size_t)s->size, &start));
+  PetscCallMPI(MPI_Allgather(&n, 1, MPI_INT, count, 1, MPI_INT, s->comm));
+  *total = 0;
+  for (int r = 0; r < s->size; r++) {
+    start[r] = *total;
+    *total += count[r];
+  }
+  PetscCall(PetscMalloc1((size_t)*total, all));
+  PetscCallMPI(MPI_Allgatherv(mine, n, MPI_INT, *all, count, start, MPI_INT, s->comm));
+  PetscCall(PetscFree2(count, start));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode JointsAdvance(Joints j, Solid s, PetscBool *changed)
+{
+  int *event, *all, n, any;
+  PetscFunctionBeginUser;
+  JointsGhostForces(j, s);
+  PetscCall(FindEvents(j, s, &n, &event));
+  any = n;
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, s->comm));
+  *changed = (PetscBool)(any > 0);
+  if (any) {
+    PetscCall(GatherEvents(s, n, event, &n, &all));
+    PetscCall(PetscSortRemoveDupsInt(&n, all));
+    PetscCall(JointsApply(j, s, n, all));
+    PetscCall(PetscFree(all));
+  }
+  PetscCall(PetscFree(event));
+  PetscFunctionReturn(0);
+}
+
+/* --- the limit
+ * ---------------------------------------------------------------------------------------------- */
+
+/* An end of stiffness k L/2 between two nodes, |u2 - u1|^2 <= 2 |u1|^2 + 2 |u2|^2, gives each of them k L. */
+PetscErrorCode JointsMeasureRate(Joints j, Solid s)
+{
+  double *sum;
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(2 * (size_t)s->nnodes, &sum));
+  for (int k = 0; k < j->nlive; k++) {
+    const Joint *joint = &j->joint[j->live[k]];
+    for (int end = 0; end < 2; end++)
+      for (int i = 0; i < 2 && joint->mine && j->memory[j->live[k]].end[end].strong > 0.0; i++)
+        sum[2 * j->corner[joint->corner[end][i]].node] += joint->law.stiffness * joint->length;
+  }
+  PetscCall(ShareSum(s->share, sum));
+  j->rate = 0.0;
+  for (int n = 0; n < s->nnodes; n++) j->rate = fmax(j->rate, sum[2 * n] * s->inverse_mass[n]);
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &j->rate, 1, MPI_DOUBLE, MPI_MAX, s->comm));
+  PetscCall(PetscFree(sum));
+  PetscFunctionReturn(0);
+}
+
+double JointsRate(Joints j)
+{
+  return j->rate;
+}

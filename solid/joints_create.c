@@ -1,0 +1,261 @@
+/* The joints of this rank, from the assembly. */
+#include "joints_impl.h"
+#include <stdlib.h>
+
+typedef struct {
+  Solid s;
+  const Assembly *a;
+  const InteriorEdges *edges;
+  int nlooks;
+  const Look *look;
+  const int *part, *local;
+  int *place; /* [a->nelements] as in Corner */
+  int *star;  /* [a->nnodes] or -1 */
+} Making;
+
+static Tensor RestEdges(const Assembly *a, int e)
+{
+  const int *n = a->element + 3 * e;
+  return TensorOfEdges(PointAt(a->rest, n[0]), PointAt(a->rest, n[1]), PointAt(a->rest, n[2]));
+}
+
+/* --- elements
+ * ----------------------------------------------------------------------------------------------- */
+
+static void AddGhost(Joints j, const Making *m, int e)
+{
+  const Material *of = &m->a->material[m->a->element_material[e]];
+  Ghost *g = &j->ghost[j->nghosts];
+  *g = (Ghost){.inverse = TensorInverse(RestEdges(m->a, e))};
+  g->law = ElementLawOf(of->youngs_modulus, of->poisson_ratio, SolidViscosity(m->a, e));
+  g->law.mu *= of->thickness;
+  g->law.lambda *= of->thickness;
+  g->law.eta *= of->thickness;
+  g->law.sheet = of->plane_stress;
+  for (int i = 0; i < 3; i++) g->node[i] = m->local[m->a->element[3 * e + i]];
+  m->place[e] = m->s->elements.n + j->nghosts++;
+}
+
+/* Own elements, and those of others that this rank looks at. */
+static PetscErrorCode PlaceElements(Joints j, const Making *m)
+{
+  PetscFunctionBeginUser;
+  for (int e = 0; e < m->a->nelements; e++) m->place[e] = -1;
+  for (int k = 0; k < m->s->elements.n; k++) m->place[m->s->elements.number[k]] = k;
+  PetscCall(PetscMalloc1((size_t)m->nlooks, &j->ghost));
+  for (int k = 0; k < m->nlooks; k++)
+    if (m->look[k].rank == m->s->rank) AddGhost(j, m, m->look[k].element);
+  const size_t n = (size_t)(m->s->elements.n + j->nghosts);
+  double **stress = m->s->elements.stress;
+  PetscCall(PetscCalloc3(n, &stress[0], n, &stress[1], n, &stress[2]));
+  PetscFunctionReturn(0);
+}
+
+/* --- stars
+ * -------------------------------------------------------------------------------------------------- */
+
+static void NumberStars(Joints j, const Making *m)
+{
+  for (int n = 0; n < m->a->nnodes; n++) m->star[n] = -1;
+  for (int k = 0; k < m->edges->n; k++)
+    for (int i = 0; i < 2 && m->edges->edge[k].joint >= 0; i++) {
+      const int n = m->edges->edge[k].node[i];
+      if (m->local[n] >= 0 && m->star[n] < 0) m->star[n] = j->nstars++;
+    }
+}
+
+/* Elements in ascending order. */
+static PetscErrorCode GatherCorners(Joints j, const Making *m)
+{
+  const Assembly *a = m->a;
+  int *start;
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1((size_t)j->nstars + 2, &j->star_corner));
+  start = j->star_corner + 1; /* shifted: filling moves it to where it belongs */
+  for (int k = 0; k < 3 * a->nelements; k++)
+    if (m->star[a->element[k]] >= 0) start[m->star[a->element[k]] + 1]++;
+  for (int s = 0; s < j->nstars; s++) start[s + 1] += start[s];
+  j->ncorners = start[j->nstars];
+  for (int s = 0; s < j->nstars; s++)
+    PetscCheck(start[s + 1] - start[s] <= STAR_CORNERS, PETSC_COMM_SELF, PETSC_ERR_SUP,
+               "a node with joints has %d elements, at most %d can be", start[s + 1] - start[s],
+               STAR_CORNERS);
+  PetscCall(PetscMalloc2((size_t)j->ncorners, &j->corner, (size_t)j->ncorners, &j->saved_corner));
+  for (int k = 0; k < 3 * a->nelements; k++) {
+    const int e = k / 3, star = m->star[a->element[k]];
+    if (star < 0) continue;
+    const Material *of = &a->material[a->element_material[e]];
+    const double mass = of->density * of->thickness * TensorDeterminant(RestEdges(a, e)) / 6.0;
+    j->corner[start[star]++] = (Corner){e, k % 3, m->place[e], m->local[a->element[k]], mass};
+  }
+  PetscFunctionReturn(0);
+}
+
+static int FindCorner(const Joints j, int star, int element)
+{
+  for (int k = j->star_corner[star]; k < j->star_corner[star + 1]; k++)
+    if (j->corner[k].element == element) return k - j->star_corner[star];
+  return -1;
+}
+
+/* Parts of a star that no edge connects from the start (two bodies' corners that meet in a node) stay tied.
+ */
+static int TieLoose(const Joints j, int star, int n, Tie tie[])
+{
+  const int corners = j->star_corner[star + 1] - j->star_corner[star];
+  int root[STAR_CORNERS], merged = 1;
+  for (int c = 0; c < corners; c++) root[c] = c;
+  while (merged) {
+    merged = 0;
+    for (int k = 0; k < n; k++) {
+      int *one = &root[tie[k].corner[0]], *two = &root[tie[k].corner[1]];
+      merged |= *one != *two;
+      *one = *two = PetscMin(*one, *two);
+    }
+  }
+  for (int c = 1; c < corners; c++)
+    if (root[c] == c) tie[n++] = (Tie){{0, c}, -1};
+  return n;
+}
+
+/* index[njoints]: this rank's joints by number, or -1 */
+static PetscErrorCode GatherTies(Joints j, const Making *m, const int index[])
+{
+  int *start, *count;
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1((size_t)j->nstars + 1, &j->star_tie));
+  start = j->star_tie;
+  for (int s = 0; s < j->nstars; s++) /* an edge has two corners, and loose parts are fewer than corners */
+    start[s + 1] = start[s] + 2 * (j->star_corner[s + 1] - j->star_corner[s]);
+  PetscCall(PetscMalloc1((size_t)start[j->nstars], &j->tie));
+  PetscCall(PetscCalloc1((size_t)j->nstars, &count));
+  for (int k = 0; k < m->edges->n; k++)
+    for (int i = 0; i < 2; i++) {
+      const InteriorEdge *edge = &m->edges->edge[k];
+      const int s = m->star[edge->node[i]];
+      if (s < 0) continue;
+      j->tie[start[s] + count[s]++] =
+          (Tie){{FindCorner(j, s, edge->element[0]), FindCorner(j, s, edge->element[1])},
+                edge->joint < 0 ? -1 : index[edge->joint]};
+    }
+  for (int s = 0, kept = 0; s < j->nstars; s++) {
+    const int from = start[s], n = TieLoose(j, s, count[s], j->tie + from);
+    for (int k = 0; k < n; k++) j->tie[kept + k] = j->tie[from + k];
+    start[s] = kept;
+    kept += n;
+    j->nties = kept;
+  }
+  start[j->nstars] = j->nties;
+  PetscCall(PetscFree(count));
+  PetscFunctionReturn(0);
+}
+
+/* --- joints
+ * ------------------------------------------------------------------------------------------------- */
+
+/* Between two materials the weaker one counts.  All is times the thickness, as the elements' stresses are. It
+ * is pressed as contact presses: an edge on both sides of which phi = 3 depth/height acts with the penalty.
+ */
+static JointLaw LawOf(const Assembly *a, const InteriorEdge *edge, double length)
+{
+  const Material *one = &a->material[a->element_material[edge->element[0]]];
+  const Material *two = &a->material[a->element_material[edge->element[1]]];
+  const double thickness = fmin(one->thickness, two->thickness);
+  JointLaw law = {.stiffness = 0.0};
+  for (int i = 0; i < 2; i++) {
+    law.strength[i] = thickness * fmin(one->strength[i], two->strength[i]);
+    law.energy[i] = thickness * fmin(one->fracture_energy[i], two->fracture_energy[i]);
+    law.stiffness += 3.0 * thickness * fmin(one->penalty, two->penalty) * length /
+                     TensorDeterminant(RestEdges(a, edge->element[i]));
+  }
+  return law;
+}
+
+static Joint JointOf(const Joints j, const Making *m, const InteriorEdge *edge)
+{
+  const Assembly *a = m->a;
+  const Point d = PointMinus(PointAt(a->rest, edge->node[1]), PointAt(a->rest, edge->node[0]));
+  Joint joint = {.number = edge->joint, .body = a->element_body[edge->element[0]], .length = hypot(d.x, d.y)};
+  joint.law = LawOf(a, edge, joint.length);
+  for (int i = 0; i < 2; i++) {
+    joint.place[i] = m->place[edge->element[i]];
+    joint.side[i] = edge->side[i];
+    joint.star[i] = m->star[edge->node[i]];
+  }
+  joint.held =
+      (PetscBool)(m->part[edge->element[0]] == m->s->rank || m->part[edge->element[1]] == m->s->rank);
+  joint.mine = (PetscBool)(m->part[edge->element[0]] == m->s->rank);
+  for (int end = 0; end < 2; end++)
+    for (int i = 0; i < 2; i++)
+      joint.corner[end][i] =
+          joint.held ? j->star_corner[joint.star[end]] + FindCorner(j, joint.star[end], edge->element[i])
+                     : -1;
+  return joint;
+}
+
+static PetscErrorCode GatherJoints(Joints j, const Making *m, int index[])
+{
+  PetscFunctionBeginUser;
+  for (int pass = 0; pass < 2; pass++) {
+    j->n = 0;
+    for (int k = 0; k < m->edges->n; k++) {
+      const InteriorEdge *edge = &m->edges->edge[k];
+      if (edge->joint < 0) continue;
+      index[edge->joint] = -1;
+      if (m->star[edge->node[0]] < 0 && m->star[edge->node[1]] < 0) continue;
+      index[edge->joint] = j->n;
+      if (pass) j->joint[j->n] = JointOf(j, m, edge);
+      j->n++;
+    }
+    if (!pass) PetscCall(PetscMalloc1((size_t)j->n, &j->joint));
+  }
+  const size_t n = (size_t)j->n;
+  Watch *w = &j->watch;
+  PetscCall(PetscCalloc5(n, &j->memory, n, &j->saved, n, &j->live, n, &j->edge, 2 * n, &j->brink));
+  PetscCall(PetscMalloc7(n, &w->joint, n, &w->place[0], n, &w->place[1], n, &w->node[0], n, &w->node[1], n,
+                         &w->inverse_square[0], n, &w->inverse_square[1]));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode JointsCreate(Solid s, const Assembly *a, const InteriorEdges *edges, int nlooks,
+                            const Look look[], const int part[], const int local[], Joints *joints)
+{
+  Making m = {s, a, edges, nlooks, look, part, local, NULL, NULL};
+  Joints j;
+  int *index;
+  PetscFunctionBeginUser;
+  PetscCall(PetscNew(&j));
+  PetscCall(PetscMalloc3((size_t)a->nelements, &m.place, (size_t)a->nnodes, &m.star, (size_t)edges->njoints,
+                         &index));
+  PetscCall(PlaceElements(j, &m));
+  NumberStars(j, &m);
+  PetscCall(GatherCorners(j, &m));
+  PetscCall(GatherJoints(j, &m, index));
+  PetscCall(GatherTies(j, &m, index));
+  PetscCall(PetscCalloc1((size_t)j->nstars, &j->touched));
+  j->first_gid = a->nnodes;
+  JointsFindBrinks(j, s, PETSC_TRUE);
+  JointsList(j, s);
+  PetscCall(PetscFree3(m.place, m.star, index));
+  *joints = j;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode JointsDestroy(Joints *j)
+{
+  PetscFunctionBeginUser;
+  if (!*j) PetscFunctionReturn(0);
+  PetscCall(PetscFree((*j)->star_corner));
+  PetscCall(PetscFree((*j)->star_tie));
+  PetscCall(PetscFree2((*j)->corner, (*j)->saved_corner));
+  PetscCall(PetscFree((*j)->tie));
+  PetscCall(PetscFree((*j)->joint));
+  PetscCall(PetscFree((*j)->ghost));
+  Watch *w = &(*j)->watch;
+  PetscCall(PetscFree5((*j)->memory, (*j)->saved, (*j)->live, (*j)->edge, (*j)->brink));
+  PetscCall(PetscFree7(w->joint, w->place[0], w->place[1], w->node[0], w->node[1], w->inverse_square[0],
+                       w->inverse_square[1]));
+  PetscCall(PetscFree((*j)->touched));
+  PetscCall(PetscFree(*j));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,164 @@
+/* The joint's law by itself: energies of tension, shear and mixed paths, no healing, pressure on damaged
+ * joints, continuity with what the edge carried; its forces are those of its work and keep momentum and
+ * angular momentum. */
+#include "check.h"
+#include "joint.h"
+
+enum { STEPS = 200000 };
+
+static const double STRENGTH[2] = {3e6, 7e6};
+
+static JointLaw Law(double mode_one, double mode_two)
+{
+  return (JointLaw){{STRENGTH[0], STRENGTH[1]}, {mode_one, mode_two}, 6e13};
+}
+
+/* The opening or slip at which one mode alone has damage D, from coming to life on. */
+static double Reach(const JointLaw *law, int mode, double damage)
+{
+  return damage * law->energy[mode] / (JOINT_SOFTENING_AREA * STRENGTH[mode]);
+}
+
+/* The work until the end is broken, at a constant mixture of modes, or with the slip first and then the
+ * opening. */
+static double Work(const JointLaw *law, double angle, int bent)
+{
+  const double x = cos(angle), y = sin(angle);
+  JointEnd end = JointBegin(law, x * STRENGTH[0], y * STRENGTH[1]);
+  JointTraction before = {x * STRENGTH[0], y * STRENGTH[1]};
+  double work = 0.0, o = 0.0, s = 0.0;
+  CHECK(fabs(end.strong - 1.0) < 1e-12, "strength %g", end.strong);
+  for (int k = 1; k <= STEPS; k++) {
+    const double part = (bent ? 3.0 : 1.1) * k / STEPS, slip_part = bent ? fmin(0.3, 2.0 * part) : part;
+    const double next_o = x * Reach(law, 0, part), next_s = y * Reach(law, 1, slip_part), damage = end.damage;
+    const JointTraction now = JointPull(law, &end, next_o, next_s);
+    work +=
+        0.5 * (before.normal + now.normal) * (next_o - o) + 0.5 * (before.shear + now.shear) * (next_s - s);
+    CHECK(bent || fabs(end.damage - fmin(part, 1.0)) < 1e-9, "D = %g instead of %g", end.damage, part);
+    CHECK(end.damage >= damage, "D falls from %g to %g", damage, end.damage);
+    before = now;
+    o = next_o;
+    s = next_s;
+  }
+  CHECK(end.damage == 1.0 && before.normal == 0.0 && before.shear == 0.0, "not broken at %g: D = %g", angle,
+        end.damage);
+  CHECK(fabs(end.absorbed / work - 1.0) < 1e-9, "absorbed %.12g, work %.12g", end.absorbed, work);
+  return work;
+}
+
+static void Energies(void)
+{
+  const JointLaw equal = Law(120.0, 120.0), other = Law(120.0, 300.0);
+  for (int k = 0; k <= 6; k++) {
+    const double angle = k * M_PI / 12.0, c = cos(angle), s = sin(angle);
+    const double work = Work(&equal, angle, 0), mixed = Work(&other, angle, 0);
+    const double expected = 120.0 * c * c + 300.0 * s * s;
+    CHECK(fabs(work / 120.0 - 1.0) < 1e-6, "%.9g J/m2 at angle %g", work, angle);
+    CHECK(fabs(mixed / expected - 1.0) < 1e-6, "%.9g J/m2 instead of %g at angle %g", mixed, expected, angle);
+  }
+  for (int k = 1; k <= 3; k++) {
+    const double work = Work(&equal, k * M_PI / 12.0, 1);
+    const double ramp = 0.5 * (STRENGTH[1] * STRENGTH[1] - STRENGTH[0] * STRENGTH[0]) / equal.stiffness;
+    CHECK(ramp < 0.003 * 120.0 && fabs(work - 120.0) < ramp, "%g J/m2 on the bent path %d", work, k);
+  }
+}
+
+/* Pulled to half its range, let go, pulled again: the same line down and up, the old strength is gone. */
+static void NoHealing(void)
+{
+  const JointLaw law = Law(120.0, 120.0);
+  const double range = law.energy[0] / (JOINT_SOFTENING_AREA * STRENGTH[0]);
+  JointEnd end = JointBegin(&law, STRENGTH[0], 0.0);
+  const double peak = JointPull(&law, &end, 0.3 * range, 0.0).normal, damage = end.damage;
+  CHECK(fabs(peak / (STRENGTH[0] * JointSoftening(0.3)) - 1.0) < 1e-12, "%g Pa", peak);
+  const double zero = -end.offset[0];
+  for (int back = 0; back < 2; back++)
+    for (int k = 0; k <= 10; k++) {
+      const double part = back ? 0.1 * k : 1.0 - 0.1 * k, o = zero + part * (0.3 * range - zero);
+      const double pressure = fmin(0.0, law.stiffness * (o + end.offset[2] * (1.0 - damage)));
+      const double pull = JointPull(&law, &end, o, 0.0).normal - pressure;
+      CHECK(fabs(pull - part * peak) < 1e-9 * peak, "%g Pa instead of %g", pull, part * peak);
+      CHECK(end.damage == damage, "D = %g", end.damage);
+    }
+  const double further = JointPull(&law, &end, 0.6 * range, 0.0).normal;
+  CHECK(fabs(further / (STRENGTH[0] * JointSoftening(0.6)) - 1.0) < 1e-12, "%g Pa", further);
+}
+
+static void Pressed(void)
+{
+  const JointLaw law = Law(120.0, 300.0);
+  JointEnd end = JointBegin(&law, STRENGTH[0], 0.0);
+  (void)JointPull(&law, &end, 1.0, 0.0);
+  const JointTraction t = JointPull(&law, &end, -1e-7, 0.0);
+  CHECK(fabs(t.normal / (-1e-7 * law.stiffness) - 1.0) < 1e-12 && t.shear == 0.0, "a broken end: %g Pa",
+        t.normal);
+  /* sheared under pressure: the pressure stays while the shear goes, its joint closing a little */
+  end = JointBegin(&law, -2e6, STRENGTH[1]);
+  const JointTraction first = JointPull(&law, &end, 0.0, 0.0);
+  CHECK(fabs(first.normal / -2e6 - 1.0) < 1e-12 && fabs(first.shear / STRENGTH[1] - 1.0) < 1e-12, "%g %g",
+        first.normal, first.shear);
+  (void)JointPull(&law, &end, 0.0, 1.0);
+  const JointTraction last = JointPull(&law, &end, -2e6 / law.stiffness, 1.0);
+  CHECK(end.damage == 1.0 && last.shear == 0.0 && fabs(last.normal / -2e6 - 1.0) < 1e-12, "%g", last.normal);
+}
+
+/* It comes to life with what the edge carried, below its strength, on it, and above. */
+static void Continuity(void)
+{
+  const JointLaw law = Law(120.0, 300.0);
+  const double normal[4] = {1e6, 2e6, -4e6, 5e6}, shear[4] = {2e6, -7e6, 7.5e6, 1e6};
+  for (int k = 0; k < 4; k++) {
+    JointEnd end = JointBegin(&law, normal[k], shear[k]);
+    const JointTraction t = JointPull(&law, &end, 0.0, 0.0);
+    CHECK(fabs(t.normal - normal[k]) < 1e-3 && fabs(t.shear - shear[k]) < 1e-3, "%g %g", t.normal, t.shear);
+    CHECK(end.damage < 1e-12, "D = %g", end.damage);
+  }
+}
+
+/* A potential of springs: forces are -dU/dx by central differences, their sum and moment vanish. */
+static double Potential(const Point one[2], const Point two[2])
+{
+  const JointShape shape = JointShapeOf(one, two);
+  double u = 0.0;
+  for (int i = 0; i < 2; i++)
+    u += 0.5 * (3.0 * shape.opening[i] * shape.opening[i] + 7.0 * shape.slip[i] * shape.slip[i]);
+  return u;
+}
+
+static void Forces(void)
+{
+  Point p[4] = {{0.1, 0.2}, {1.1, -0.1}, {0.15, 0.1}, {1.2, -0.3}}, f[4];
+  const JointShape shape = JointShapeOf(p, p + 2);
+  JointTraction t[2];
+  for (int i = 0; i < 2; i++) t[i] = (JointTraction){3.0 * shape.opening[i], 7.0 * shape.slip[i]};
+  JointForces(&shape, t, 1.0, f, f + 2);
+  Point sum = {0.0, 0.0};
+  double moment = 0.0;
+  for (int i = 0; i < 4; i++) {
+    sum = (Point){sum.x + f[i].x, sum.y + f[i].y};
+    moment += PointCross(p[i], f[i]);
+    for (int c = 0; c < 2; c++) {
+      double *x = c ? &p[i].y : &p[i].x;
+      const double old = *x, h = 1e-6;
+      *x = old + h;
+      const double up = Potential(p, p + 2);
+      *x = old - h;
+      const double down = Potential(p, p + 2);
+      *x = old;
+      const double force = c ? f[i].y : f[i].x;
+      CHECK(fabs(force + (up - down) / (2.0 * h)) < 1e-8, "node %d: %.12g, -dU/dx %.12g", i, force,
+            -(up - down) / (2.0 * h));
+    }
+  }
+  CHECK(fabs(sum.x) + fabs(sum.y) + fabs(moment) < 1e-14, "sum %g %g, moment %g", sum.x, sum.y, moment);
+}
+
+int main(void)
+{
+  Energies();
+  NoHealing();
+  Pressed();
+  Continuity();
+  Forces();
+  return 0;
+}
