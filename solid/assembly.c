@@ -1,6 +1,7 @@
 #include "assembly.h"
 #include "cell_grid.h"
 #include "contact_kernel.h"
+#include "element_edges.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -205,27 +206,15 @@ static void MassCentre(const MeshSerial *m, double centre[2])
 /* --- elements and surface
  * ----------------------------------------------------------------------------------- */
 
-typedef struct {
-  int low, high, element, side;
-} Edge;
-
-static int CompareEdges(const void *a, const void *b)
-{
-  const Edge *p = a, *q = b;
-  if (p->low != q->low) return p->low < q->low ? -1 : 1;
-  if (p->high != q->high) return p->high < q->high ? -1 : 1;
-  return (p->element > q->element) - (p->element < q->element);
-}
-
 static int CompareOwners(const void *a, const void *b)
 {
-  const Edge *p = a, *q = b;
+  const ElementEdge *p = a, *q = b;
   if (p->element != q->element) return p->element < q->element ? -1 : 1;
   return p->side - q->side;
 }
 
 /* Keeps of the sorted edges those that occur once; -1 if one occurs more than twice. */
-static int KeepSurface(int n, Edge edge[])
+static int KeepSurface(int n, ElementEdge edge[])
 {
   int kept = 0;
   for (int k = 0, next; k < n; k = next) {
@@ -240,14 +229,9 @@ static int KeepSurface(int n, Edge edge[])
 static PetscErrorCode AddSurface(Assembly *a, int first)
 {
   const int n = 3 * (a->nelements - first);
-  Edge *edge;
+  ElementEdge *edge;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1((size_t)n, &edge));
-  for (int k = 0; k < n; k++) {
-    const int e = first + k / 3, i = k % 3, p = a->element[3 * e + i], q = a->element[3 * e + (i + 1) % 3];
-    edge[k] = (Edge){PetscMin(p, q), PetscMax(p, q), e, i};
-  }
-  qsort(edge, (size_t)n, sizeof *edge, CompareEdges);
+  PetscCall(ElementEdgesSorted(first, a->nelements, a->element, &edge));
   const int kept = KeepSurface(n, edge);
   if (kept < 0) {
     PetscCall(PetscFree(edge));

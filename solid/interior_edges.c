@@ -1,17 +1,6 @@
 #include "interior_edges.h"
+#include "element_edges.h"
 #include <stdlib.h>
-
-typedef struct {
-  int low, high, element, side;
-} Edge;
-
-static int CompareEdges(const void *a, const void *b)
-{
-  const Edge *p = a, *q = b;
-  if (p->low != q->low) return p->low < q->low ? -1 : 1;
-  if (p->high != q->high) return p->high < q->high ? -1 : 1;
-  return (p->element > q->element) - (p->element < q->element);
-}
 
 static PetscBool HasJoints(const Assembly *a)
 {
@@ -20,29 +9,16 @@ static PetscBool HasJoints(const Assembly *a)
   return PETSC_FALSE;
 }
 
-static PetscErrorCode SortedEdges(const Assembly *a, Edge **edge)
-{
-  const int n = 3 * a->nelements;
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1((size_t)n, edge));
-  for (int k = 0; k < n; k++) {
-    const int p = a->element[k], q = a->element[3 * (k / 3) + (k + 1) % 3];
-    (*edge)[k] = (Edge){PetscMin(p, q), PetscMax(p, q), k / 3, k % 3};
-  }
-  qsort(*edge, (size_t)n, sizeof **edge, CompareEdges);
-  PetscFunctionReturn(0);
-}
-
 PetscErrorCode InteriorEdgesFind(const Assembly *a, InteriorEdges *edges)
 {
-  Edge *edge;
+  ElementEdge *edge;
   PetscFunctionBeginUser;
   *edges = (InteriorEdges){0};
   if (!HasJoints(a)) PetscFunctionReturn(0);
-  PetscCall(SortedEdges(a, &edge));
+  PetscCall(ElementEdgesSorted(0, a->nelements, a->element, &edge));
   PetscCall(PetscMalloc1(3 * (size_t)a->nelements / 2 + 1, &edges->edge));
   for (int k = 0; k + 1 < 3 * a->nelements; k++) {
-    const Edge *p = &edge[k], *q = &edge[k + 1];
+    const ElementEdge *p = &edge[k], *q = &edge[k + 1];
     if (p->low != q->low || p->high != q->high) continue;
     const int *node = a->element + 3 * p->element, parts = a->jointed[p->element] && a->jointed[q->element];
     edges->edge[edges->n++] = (InteriorEdge){{node[p->side], node[(p->side + 1) % 3]},

@@ -4,6 +4,7 @@
 #include "check.h"
 #include "shape.h"
 #include "solid.h"
+#include <math.h>
 
 static inline Material MaterialOf(double density, double youngs_modulus, double poisson_ratio, double damping)
 {
@@ -69,6 +70,41 @@ static inline PetscErrorCode Run(Solid s, double time, double dt)
     PetscCall(SolidStart(s, time / steps, NULL));
     while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
   }
+  return 0;
+}
+
+/* Of two bodies together. */
+typedef struct {
+  double p[2], spin, energy;
+} Totals;
+
+static inline PetscErrorCode TotalsOf(Solid s, Totals *t, BodyState b[2])
+{
+  PetscCall(SolidBodies(s, 2, b));
+  *t = (Totals){.energy = b[0].kinetic + b[0].strain + b[1].kinetic + b[1].strain};
+  for (int c = 0; c < 2; c++) t->p[c] = b[0].mass * b[0].v[c] + b[1].mass * b[1].v[c];
+  for (int k = 0; k < 2; k++)
+    t->spin +=
+        b[k].mass * (b[k].x[0] * b[k].v[1] - b[k].x[1] * b[k].v[0]) + b[k].inertia * b[k].angular_velocity;
+  return 0;
+}
+
+/* mine[n], four numbers a node, NAN where this rank has no copy: all copies have the same bits.  Unless
+ * `sparse`, each node must be somewhere. */
+static inline PetscErrorCode CopiesAgree(const double mine[], int n, int sparse)
+{
+  double *low = malloc((size_t)n * sizeof *low), *high = malloc((size_t)n * sizeof *high);
+  for (int k = 0; k < n; k++) {
+    low[k] = isnan(mine[k]) ? HUGE_VAL : mine[k];
+    high[k] = isnan(mine[k]) ? -HUGE_VAL : mine[k];
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, low, n, MPI_DOUBLE, MPI_MIN, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, high, n, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD));
+  for (int k = 0; k < n; k++)
+    CHECK(low[k] == high[k] || (sparse && low[k] > high[k]), "node %d: %.17g and %.17g", k / 4, low[k],
+          high[k]);
+  free(low);
+  free(high);
   return 0;
 }
 

@@ -3,29 +3,13 @@
  * at every moment, energy within 1e-3 afterwards. */
 #include "build.h"
 
-typedef struct {
-  double p[2], spin, energy;
-} Totals;
-
-static PetscErrorCode Measure(Solid s, Totals *t)
-{
-  BodyState b[2];
-  PetscCall(SolidBodies(s, 2, b));
-  *t = (Totals){.energy = b[0].kinetic + b[0].strain + b[1].kinetic + b[1].strain};
-  for (int c = 0; c < 2; c++) t->p[c] = b[0].mass * b[0].v[c] + b[1].mass * b[1].v[c];
-  for (int k = 0; k < 2; k++)
-    t->spin +=
-        b[k].mass * (b[k].x[0] * b[k].v[1] - b[k].x[1] * b[k].v[0]) + b[k].inertia * b[k].angular_velocity;
-  return 0;
-}
-
 static PetscErrorCode Collide(double offset, double *restitution)
 {
   BodySetup left = BodyAtRest(MaterialOf(1000.0, 1.0e6, 0.3, 0.0)), right = left;
   const SolidSetup options = {.courant = 0.8};
   Assembly a = {0};
   BodyState b[2];
-  Totals before, now;
+  Totals before = {0}, now = {0};
   Solid s;
   double scale;
   left.velocity[0] = 0.5;
@@ -34,12 +18,12 @@ static PetscErrorCode Collide(double offset, double *restitution)
   AddDisc(&a, -0.105, 0.0, 0.1, 0.02, &left);
   AddDisc(&a, 0.105, offset, 0.1, 0.02, &right);
   PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, &s));
-  PetscCall(Measure(s, &before));
+  PetscCall(TotalsOf(s, &before, b));
   PetscCall(SolidBodies(s, 2, b));
   scale = b[0].mass * 0.5 + b[1].mass * 0.25;
   for (int k = 0; k < 60; k++) {
     PetscCall(Run(s, 1e-3, 1e-3));
-    PetscCall(Measure(s, &now));
+    PetscCall(TotalsOf(s, &now, b));
     for (int c = 0; c < 2; c++)
       CHECK(fabs(now.p[c] - before.p[c]) < 1e-12 * scale, "momentum %d off by %g", c, now.p[c] - before.p[c]);
     CHECK(fabs(now.spin - before.spin) < 1e-12 * scale * 0.2, "angular momentum off by %g",

@@ -62,21 +62,6 @@ static PetscErrorCode Slopes(int wall)
 /* --- discs that rub
  * ----------------------------------------------------------------------------------------- */
 
-typedef struct {
-  double p[2], spin, energy;
-} Totals;
-
-static PetscErrorCode Measure(Solid s, Totals *t, BodyState b[2])
-{
-  PetscCall(SolidBodies(s, 2, b));
-  *t = (Totals){.energy = b[0].kinetic + b[0].strain + b[1].kinetic + b[1].strain};
-  for (int c = 0; c < 2; c++) t->p[c] = b[0].mass * b[0].v[c] + b[1].mass * b[1].v[c];
-  for (int k = 0; k < 2; k++)
-    t->spin +=
-        b[k].mass * (b[k].x[0] * b[k].v[1] - b[k].x[1] * b[k].v[0]) + b[k].inertia * b[k].angular_velocity;
-  return 0;
-}
-
 /* Obliquely, one turning.  *turned: I times the change of the first one's spin over (R times its change of
  * momentum), that is mu when the discs slip all the time; *lost: share of the energy. */
 static PetscErrorCode Rub(double friction, double damping, double *turned, double *lost)
@@ -85,7 +70,7 @@ static PetscErrorCode Rub(double friction, double damping, double *turned, doubl
   const SolidSetup options = {.courant = 0.5};
   Assembly a = {0};
   BodyState b[2], first;
-  Totals before, now;
+  Totals before = {0}, now = {0};
   Solid s;
   left.material.friction = friction;
   left.material.contact_damping = damping;
@@ -96,12 +81,12 @@ static PetscErrorCode Rub(double friction, double damping, double *turned, doubl
   AddDisc(&a, -0.105, 0.0, 0.1, 0.02, &left);
   AddDisc(&a, 0.105, 0.05, 0.1, 0.02, &right);
   PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, &s));
-  PetscCall(Measure(s, &before, b));
+  PetscCall(TotalsOf(s, &before, b));
   first = b[0];
   double scale = b[0].mass * 0.75, highest = before.energy;
   for (int k = 0; k < 55; k++) {
     PetscCall(Run(s, 1e-3, 1e-3));
-    PetscCall(Measure(s, &now, b));
+    PetscCall(TotalsOf(s, &now, b));
     highest = fmax(highest, now.energy);
     for (int c = 0; c < 2; c++)
       CHECK(fabs(now.p[c] - before.p[c]) < 1e-12 * scale, "momentum %d off by %g", c, now.p[c] - before.p[c]);
