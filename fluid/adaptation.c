@@ -1,6 +1,7 @@
 #include "adaptation.h"
 #include "adapt_parallel.h"
 #include "fluid_impl.h"
+#include "geometry.h"
 #include "metric.h"
 #include "metric_share.h"
 #include "solid_band.h"
@@ -174,13 +175,6 @@ PetscErrorCode AdaptationMesh(Adaptation a, Fluid f, Mesh **mesh)
 /* --- the first mesh
  * ------------------------------------------------------------------------------------------- */
 
-static double BoxDistance(const double box[4], const double x[2])
-{
-  double d[2];
-  for (int c = 0; c < 2; c++) d[c] = fmax(fmax(box[c] - x[c], x[c] - box[2 + c]), 0.0);
-  return hypot(d[0], d[1]);
-}
-
 /* One pass: le in the boxes, and elsewhere what the mesh has. */
 static PetscErrorCode RefineBoxes(const AdaptationSetup *s, const Mesh *m, int nbox, const double box[],
                                   Mesh **mesh)
@@ -192,8 +186,11 @@ static PetscErrorCode RefineBoxes(const AdaptationSetup *s, const Mesh *m, int n
   PetscCall(PetscMalloc2(m->nv, &size, 3 * m->nv, &metric));
   for (int v = 0; v < m->nv; v++) {
     size[v] = s->size_max;
-    for (int b = 0; b < nbox; b++)
-      size[v] = fmin(size[v], s->size_min + log(s->growth) * BoxDistance(box + 4 * b, m->x + 2 * v));
+    for (int b = 0; b < nbox; b++) {
+      const double *k = box + 4 * b;
+      const GeometryBox at = {{k[0], k[1]}, {k[2], k[3]}};
+      size[v] = fmin(size[v], s->size_min + log(s->growth) * GeometryBoxDistance(&at, m->x + 2 * v));
+    }
   }
   PetscCall(MetricFromSizes(m->nv, size, metric));
   PetscCall(SharedVerticesCreate(m, &shared));

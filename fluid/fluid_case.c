@@ -1,10 +1,12 @@
 #include "fluid_case.h"
+#include "geometry.h"
 
 /* --- mesh: a graded box, or a Gmsh file
  * ------------------------------------------------------------------------ */
 
 typedef struct {
-  double lower[2], upper[2], size;
+  GeometryBox at;
+  double size;
 } RefinedBox;
 
 typedef struct {
@@ -18,14 +20,8 @@ static double SizeAt(void *context, const double x[2])
 {
   const SizeField *f = context;
   double size = f->size_max;
-  for (int k = 0; k < f->n; k++) {
-    double d2 = 0.0;
-    for (int c = 0; c < 2; c++) {
-      const double d = fmax(fmax(f->box[k].lower[c] - x[c], x[c] - f->box[k].upper[c]), 0.0);
-      d2 += d * d;
-    }
-    size = fmin(size, f->box[k].size + f->growth * sqrt(d2));
-  }
+  for (int k = 0; k < f->n; k++)
+    size = fmin(size, f->box[k].size + f->growth * GeometryBoxDistance(&f->box[k].at, x));
   return size;
 }
 
@@ -46,9 +42,9 @@ static PetscErrorCode BoxMesh(Case c, PetscMPIInt rank, MeshSerial *serial)
   PetscCall(PetscMalloc1(f.n, &f.box));
   for (int k = 0; k < f.n; k++) {
     (void)snprintf(key, sizeof key, "fluid.mesh.refine[%d].lower", k);
-    CaseVector(c, key, 2, f.box[k].lower);
+    CaseVector(c, key, 2, f.box[k].at.lower);
     (void)snprintf(key, sizeof key, "fluid.mesh.refine[%d].upper", k);
-    CaseVector(c, key, 2, f.box[k].upper);
+    CaseVector(c, key, 2, f.box[k].at.upper);
     (void)snprintf(key, sizeof key, "fluid.mesh.refine[%d].size", k);
     f.box[k].size = CasePositive(c, key);
   }

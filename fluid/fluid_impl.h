@@ -51,11 +51,11 @@ void BoundaryProjection(const Boundary *b, const double n[2], double project[2][
 /* momentum.c, pressure.c */
 PetscErrorCode MomentumCreate(Fluid f);
 PetscErrorCode MomentumDestroy(Fluid f);
-/* preconditioner.c: a BAIJ matrix with a block for each element and each pair of neighbours, at 0; its
- * sequential parts (*offdiagonal is NULL on one rank, garray its global block columns); and the
- * preconditioner, made anew of the assembled momentum matrix. */
+/* A BAIJ matrix with a block for each element and each pair of neighbours, at 0; its sequential parts
+ * (*offdiagonal is NULL on one rank, garray its global block columns). */
 PetscErrorCode MomentumPattern(const Mesh *m, PetscInt block, Mat *matrix);
 PetscErrorCode MatrixParts(Mat matrix, Mat *diagonal, Mat *offdiagonal, const PetscInt **garray);
+/* preconditioner.c: made anew of the assembled momentum matrix by each update */
 PetscErrorCode PreconditionerCreate(Fluid f);
 PetscErrorCode PreconditionerUpdate(Fluid f);
 PetscErrorCode PreconditionerDestroy(Fluid f);

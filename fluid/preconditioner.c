@@ -15,36 +15,6 @@ struct Preconditioner_s {
   Vec residual, correction; /* of one component */
 };
 
-PetscErrorCode MomentumPattern(const Mesh *m, PetscInt block, Mat *matrix)
-{
-  double zero[36] = {0};
-  PetscFunctionBeginUser;
-  PetscCall(MatCreateBAIJ(m->comm, block, block * m->ne, block * m->ne, PETSC_DETERMINE, PETSC_DETERMINE, 4,
-                          NULL, 3, NULL, matrix));
-  for (int e = 0; e < m->ne; e++) {
-    PetscInt cols[4] = {m->egid[e]}, n = 1;
-    for (int i = 0; i < 3; i++)
-      if (m->neighbor[3 * e + i] >= 0) cols[n++] = m->egid[m->neighbor[3 * e + i]];
-    for (PetscInt k = 0; k < n; k++)
-      PetscCall(MatSetValuesBlocked(*matrix, 1, &m->egid[e], 1, &cols[k], zero, INSERT_VALUES));
-  }
-  PetscCall(MatAssemblyBegin(*matrix, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(*matrix, MAT_FINAL_ASSEMBLY));
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode MatrixParts(Mat matrix, Mat *diagonal, Mat *offdiagonal, const PetscInt **garray)
-{
-  PetscBool parallel;
-  PetscFunctionBeginUser;
-  PetscCall(PetscObjectTypeCompare((PetscObject)matrix, MATMPIBAIJ, &parallel));
-  *diagonal = matrix;
-  *offdiagonal = NULL;
-  *garray = NULL;
-  if (parallel) PetscCall(MatMPIBAIJGetSeqBAIJ(matrix, diagonal, offdiagonal, garray));
-  PetscFunctionReturn(0);
-}
-
 /* PCSHELL: one component after the other */
 static PetscErrorCode Apply(PC shell, Vec r, Vec z)
 {

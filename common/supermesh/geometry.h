@@ -54,6 +54,17 @@ static inline int GeometryBoxOverlap(const GeometryBox *a, const GeometryBox *b)
          (b->lower[1] <= a->upper[1]);
 }
 
+/* From the nearest point of the box, 0 inside, m. */
+static inline double GeometryBoxDistance(const GeometryBox *box, const double x[2])
+{
+  double square = 0.0;
+  for (int c = 0; c < 2; c++) {
+    const double d = fmax(fmax(box->lower[c] - x[c], x[c] - box->upper[c]), 0.0);
+    square += d * d;
+  }
+  return sqrt(square);
+}
+
 /* The three P1 functions of triangle x at point p; their sum is 1 to the last bit or two. */
 static inline void GeometryBarycentric(const double x[3][2], const double p[2], double n[3])
 {
