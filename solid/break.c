@@ -216,6 +216,7 @@ static void ApplyEvent(Joints j, int event, Solid s)
 PetscErrorCode JointsSettle(Joints j, Solid s)
 {
   PetscFunctionBeginUser;
+  s->npieces = 0;
   PetscCall(DriveParts(s));
   PetscCall(RenewShare(s));
   PetscCall(MarkSurface(s));

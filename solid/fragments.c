@@ -82,14 +82,14 @@ static PetscErrorCode LabelNodes(Solid s, double label[])
   PetscFunctionReturn(0);
 }
 
-/* number[e] = place of the element's label among all labels of all ranks */
+/* number[nnodes] = place of the node's label among all labels of all ranks */
 static PetscErrorCode NumberLabels(Solid s, const double label[], int number[], int *n)
 {
-  PetscInt mine = s->elements.n, *own, *all;
+  PetscInt mine = s->nnodes, *own, *all;
   PetscMPIInt count, *counts, *start;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1((size_t)mine, &own));
-  for (int e = 0; e < s->elements.n; e++) own[e] = (PetscInt)label[2 * s->element[3 * e]];
+  for (int i = 0; i < s->nnodes; i++) own[i] = (PetscInt)label[2 * i];
   PetscCall(PetscSortRemoveDupsInt(&mine, own));
   PetscCall(PetscMPIIntCast(mine, &count));
   PetscCall(PetscMalloc2((size_t)s->size, &counts, (size_t)s->size + 1, &start));
@@ -100,10 +100,10 @@ static PetscErrorCode NumberLabels(Solid s, const double label[], int number[], 
   PetscCall(PetscMalloc1((size_t)total, &all));
   PetscCallMPI(MPI_Allgatherv(own, count, MPIU_INT, all, counts, start, MPIU_INT, s->comm));
   PetscCall(PetscSortRemoveDupsInt(&total, all));
-  for (int e = 0; e < s->elements.n; e++) {
+  for (int i = 0; i < s->nnodes; i++) {
     PetscInt place;
-    PetscCall(PetscFindInt((PetscInt)label[2 * s->element[3 * e]], total, all, &place));
-    number[e] = (int)place;
+    PetscCall(PetscFindInt((PetscInt)label[2 * i], total, all, &place));
+    number[i] = (int)place;
   }
   *n = (int)total;
   PetscCall(PetscFree2(counts, start));
@@ -112,13 +112,26 @@ static PetscErrorCode NumberLabels(Solid s, const double label[], int number[], 
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SolidFragments(Solid s, int fragment[], int *n)
+PetscErrorCode SolidPieces(Solid s, int *n, const int **piece)
 {
   double *label;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(2 * (size_t)s->nnodes, &label));
-  PetscCall(LabelNodes(s, label));
-  PetscCall(NumberLabels(s, label, fragment, n));
-  PetscCall(PetscFree(label));
+  if (s->npieces == 0) {
+    PetscCall(PetscMalloc1(2 * (size_t)s->nnodes, &label));
+    PetscCall(LabelNodes(s, label));
+    PetscCall(NumberLabels(s, label, s->piece, &s->npieces));
+    PetscCall(PetscFree(label));
+  }
+  *n = s->npieces;
+  *piece = s->piece;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SolidFragments(Solid s, int fragment[], int *n)
+{
+  const int *piece;
+  PetscFunctionBeginUser;
+  PetscCall(SolidPieces(s, n, &piece));
+  for (int e = 0; e < s->elements.n; e++) fragment[e] = piece[s->element[3 * e]];
   PetscFunctionReturn(0);
 }

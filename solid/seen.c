@@ -1,13 +1,14 @@
-/* The velocity that the fluid sees: each body's rigid motion at the step's end, and of its deformation what
- * the fluid's step can resolve.  A staggered exchange answers a vibration about one and a half steps late;
- * late by more than half a period the answer drives the vibration instead of damping it. */
+/* The velocity that the fluid sees: the rigid motion of each piece (a body that has not come apart is one) at
+ * the step's end, and of its deformation what the fluid's step can resolve.  A staggered exchange answers a
+ * vibration about one and a half steps late; late by more than half a period the answer drives the vibration
+ * instead of damping it. */
 #include "solid_impl.h"
 
 /* Deformation slower than the first is seen whole, faster than the second not at all: omega dt. */
 #define SEEN_WHOLE 0.1
 #define SEEN_NOT 0.25
 
-/* Sums over a body: mass, m x; m v, m x cross v, m |x|^2, v the velocity now; and the same two of the mean
+/* Sums over a piece: mass, m x; m v, m x cross v, m |x|^2, v the velocity now; and the same two of the mean
  * velocity.  Then of the mean's deformation d: m |d|^2, and int 2 mu e:e + lambda (tr e)^2 of its strain rate
  * e. */
 enum { M, MX, MY, MU, MV, SPIN, INERTIA, MEAN_U, MEAN_V, MEAN_SPIN, NSUMS };
@@ -29,11 +30,11 @@ static double MeanVelocity(const Solid s, int i)
   return (s->x[i] - s->start[i]) / s->dt;
 }
 
-static void AddMotion(const Solid s, double sum[][NSUMS])
+static void AddMotion(const Solid s, const int piece[], double sum[][NSUMS])
 {
   for (int i = 0; i < s->nnodes; i++) {
     if (!ShareOwns(s->share, i)) continue;
-    double *k = sum[s->node_body[i]];
+    double *k = sum[piece[i]];
     const double m = s->mass[i], *x = s->x + 2 * i, *v = s->v + 2 * i;
     const double mean[2] = {MeanVelocity(s, 2 * i), MeanVelocity(s, 2 * i + 1)};
     k[M] += m;
@@ -48,16 +49,15 @@ static void AddMotion(const Solid s, double sum[][NSUMS])
   }
 }
 
-/* The rigid motions with the bodies' momentum and angular momentum, of the velocity now and of the mean. */
-static PetscErrorCode RigidMotions(const Solid s, RigidMotion motion[])
+/* The rigid motions with the pieces' momentum and angular momentum, of the velocity now and of the mean. */
+static PetscErrorCode RigidMotions(const Solid s, int n, const int piece[], RigidMotion motion[])
 {
   double(*sum)[NSUMS];
   PetscFunctionBeginUser;
-  PetscCall(PetscCalloc1((size_t)s->nbodies, &sum));
-  AddMotion(s, sum);
-  if (s->size > 1)
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, NSUMS * s->nbodies, MPI_DOUBLE, MPI_SUM, s->comm));
-  for (int b = 0; b < s->nbodies; b++) {
+  PetscCall(PetscCalloc1((size_t)n, &sum));
+  AddMotion(s, piece, sum);
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, NSUMS * n, MPI_DOUBLE, MPI_SUM, s->comm));
+  for (int b = 0; b < n; b++) {
     const double *k = sum[b], x = k[MX] / k[M], y = k[MY] / k[M];
     const double inertia = k[INERTIA] - (x * k[MX] + y * k[MY]);
     motion[b] = (RigidMotion){.centre = {x, y},
@@ -71,10 +71,10 @@ static PetscErrorCode RigidMotions(const Solid s, RigidMotion motion[])
 }
 
 /* seen = the deformation's share of the mean velocity */
-static void Deformation(const Solid s, const RigidMotion motion[])
+static void Deformation(const Solid s, const int piece[], const RigidMotion motion[])
 {
   for (int i = 0; i < s->nnodes; i++) {
-    const RigidMotion *r = motion + s->node_body[i];
+    const RigidMotion *r = motion + piece[i];
     double rigid[2];
     RigidVelocity(r->centre, r->mean, r->mean_spin, s->x + 2 * i, rigid);
     for (int c = 0; c < 2; c++) s->seen[2 * i + c] = MeanVelocity(s, 2 * i + c) - rigid[c];
@@ -99,22 +99,22 @@ static double StrainPower(const Elements *e, int k, const double x[], const doub
   return (2.0 * mu * square + bulk * trace * trace) / (4.0 * area);
 }
 
-/* share[b]: how much of body b's deformation is seen, by its Rayleigh quotient omega^2 = strain power / (m
- * |d|^2): never below the square of the body's slowest vibration, whatever the deformation. */
-static PetscErrorCode Shares(const Solid s, double share[])
+/* share[b]: how much of piece b's deformation is seen, by its Rayleigh quotient omega^2 = strain power / (m
+ * |d|^2): never below the square of the piece's slowest vibration, whatever the deformation. */
+static PetscErrorCode Shares(const Solid s, int n, const int piece[], double share[])
 {
   double(*sum)[NENERGIES];
   PetscFunctionBeginUser;
-  PetscCall(PetscCalloc1((size_t)s->nbodies, &sum));
+  PetscCall(PetscCalloc1((size_t)n, &sum));
   for (int i = 0; i < s->nnodes; i++) {
     const double *d = s->seen + 2 * i;
-    if (ShareOwns(s->share, i)) sum[s->node_body[i]][KINETIC] += s->mass[i] * (d[0] * d[0] + d[1] * d[1]);
+    if (ShareOwns(s->share, i)) sum[piece[i]][KINETIC] += s->mass[i] * (d[0] * d[0] + d[1] * d[1]);
   }
   for (int k = 0; k < s->elements.n; k++)
-    sum[s->elements.body[k]][STRAIN] += StrainPower(&s->elements, k, s->x, s->seen);
+    sum[piece[s->element[3 * k]]][STRAIN] += StrainPower(&s->elements, k, s->x, s->seen);
   if (s->size > 1)
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, NENERGIES * s->nbodies, MPI_DOUBLE, MPI_SUM, s->comm));
-  for (int b = 0; b < s->nbodies; b++) {
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, NENERGIES * n, MPI_DOUBLE, MPI_SUM, s->comm));
+  for (int b = 0; b < n; b++) {
     const double omega = sum[b][KINETIC] > 0.0 ? sqrt(sum[b][STRAIN] / sum[b][KINETIC]) : 0.0;
     share[b] = fmin(1.0, fmax(0.0, (SEEN_NOT - omega * s->dt) / (SEEN_NOT - SEEN_WHOLE)));
   }
@@ -126,13 +126,16 @@ PetscErrorCode SolidSeenVelocity(Solid s, const double **seen)
 {
   RigidMotion *motion;
   double *share;
+  const int *piece;
+  int n;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2(s->nbodies, &motion, s->nbodies, &share));
-  PetscCall(RigidMotions(s, motion));
-  Deformation(s, motion);
-  PetscCall(Shares(s, share));
+  PetscCall(SolidPieces(s, &n, &piece));
+  PetscCall(PetscMalloc2((size_t)n, &motion, (size_t)n, &share));
+  PetscCall(RigidMotions(s, n, piece, motion));
+  Deformation(s, piece, motion);
+  PetscCall(Shares(s, n, piece, share));
   for (int i = 0; i < s->nnodes; i++) {
-    const int b = s->node_body[i];
+    const int b = piece[i];
     double rigid[2];
     RigidVelocity(motion[b].centre, motion[b].end, motion[b].end_spin, s->x + 2 * i, rigid);
     for (int c = 0; c < 2; c++) s->seen[2 * i + c] = rigid[c] + share[b] * s->seen[2 * i + c];

@@ -53,7 +53,7 @@ PetscBool SolidRemaining(Solid s); /* not collective, the same on all ranks */
 /* *h: the substep just made; SolidVelocity then is the displacement over it divided by h. */
 PetscErrorCode SolidSubstep(Solid s, double *h);
 /* After the last substep: the velocity that the fluid is to see, seen[nnodes][2], m/s, borrowed until the
- * next SolidStart: the bodies' rigid motion at the step's end (same momentum and angular momentum), plus the
+ * next SolidStart: the pieces' rigid motion at the step's end (same momentum and angular momentum), plus the
  * deformation's share of the mean velocity over the step as far as a step of dt resolves it (seen.c). */
 PetscErrorCode SolidSeenVelocity(Solid s, const double **seen);
 /* Largest stable substep now, s: 4/(d + sqrt(d^2 + 4 w^2)), w^2 and d bounds of the elements' and contact's

@@ -70,6 +70,7 @@ struct Solid_s {
   /* the step in hand */
   double dt, done, h, moved_for; /* moved_for: length of the last substep made, s */
   double *start, *seen;          /* [nnodes][2] positions when it began; what the fluid sees */
+  int npieces, *piece;           /* [nnodes] SolidPieces has found; npieces 0: since the last crack not yet */
   int remaining, until_check;    /* substeps */
   PetscBool force_valid;         /* force belongs to x and v */
   PetscBool unsettled;           /* after SolidState(0): JointsSettle is due */
@@ -83,6 +84,10 @@ PetscErrorCode SolidInternalForces(Solid s);
 double SolidElementLimit(Solid s, ElementRates contact);
 ElementLaw ElementsLaw(const Elements *e, int k);
 void SolidElementShape(const Elements *e, int k, const double x[], Tensor *edges, Tensor *f);
+
+/* fragments.c, collective: piece[nnodes], borrowed: 0 .. *n - 1 as in SolidFragments; kept until nodes split.
+ */
+PetscErrorCode SolidPieces(Solid s, int *n, const int **piece);
 
 /* distribute.c: everything that comes from the assembly. */
 PetscErrorCode SolidTakeShare(Solid s, const Assembly *a);

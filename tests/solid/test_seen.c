@@ -1,7 +1,7 @@
-// ranks: 1 2
+// ranks: 1 2 3
 /* What the fluid sees of a disc that moves (and spins) and swells: all of it while the step resolves the
- * swelling, the rigid motion alone when it does not. */
-#include "build.h"
+ * swelling, the rigid motion alone when it does not; and of a bar that has come apart: each piece's own. */
+#include "crack.h"
 
 #define STEP 1e-3
 #define SWELLING 0.5 /* 1/s */
@@ -46,6 +46,94 @@ static PetscErrorCode Difference(double youngs_modulus, double swelling, double 
   PetscFunctionReturn(0);
 }
 
+/* A bar whose halves fly apart, each with a spin of its own. */
+static PetscErrorCode Torn(Solid *s)
+{
+  const SolidSetup options = {.courant = 0.8};
+  const double box[1][4] = {{-0.02, -1.0, 0.02, 1.0}};
+  BodySetup setup = BodyAtRest(RockOf(3e6, 9e6, 5.0, 0.0));
+  Assembly a = {0};
+  double *v;
+  PetscFunctionBeginUser;
+  setup.joints = (JointSetup){.nboxes = 1, .box = box};
+  AddRectangle(&a, 0.0, 0.0, 0.4, 0.1, 0.0, 0.02, 0, &setup);
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, s));
+  const SolidView view = ViewOf(*s, NULL, &v);
+  for (int n = 0; n < view.nnodes; n++) {
+    const double *x = view.x + 2 * n, side = x[0] < 0.0 ? -1.0 : 1.0;
+    v[2 * n] = 2.0 * side;
+    v[2 * n + 1] = 3.0 + 5.0 * (fabs(x[0]) - 0.1);
+  }
+  PetscCall(AssemblyDestroy(&a));
+  PetscFunctionReturn(0);
+}
+
+/* Of element e moving with v: adds mass (over density) and the momentum of v to sum; largest strain rate. */
+static double AddElement(const SolidView *view, int e, const double v[], double sum[4])
+{
+  const int *node = view->element + 3 * e;
+  double twice = 0.0, twice_now = 0.0, g[2][2] = {{0}};
+  for (int i = 0; i < 3; i++) {
+    const int p = node[(i + 1) % 3], q = node[(i + 2) % 3];
+    const double normal[2] = {view->x[2 * p + 1] - view->x[2 * q + 1], view->x[2 * q] - view->x[2 * p]};
+    twice += view->rest[2 * p] * view->rest[2 * q + 1] - view->rest[2 * q] * view->rest[2 * p + 1];
+    twice_now += view->x[2 * p] * view->x[2 * q + 1] - view->x[2 * q] * view->x[2 * p + 1];
+    for (int c = 0; c < 2; c++)
+      for (int b = 0; b < 2; b++) g[c][b] += v[2 * node[i] + c] * normal[b];
+  }
+  for (int i = 0; i < 3; i++) {
+    const double *x = view->x + 2 * node[i], *u = v + 2 * node[i], m = twice / 6.0;
+    sum[0] += m;
+    sum[1] += m * u[0];
+    sum[2] += m * u[1];
+    sum[3] += m * (x[0] * u[1] - x[1] * u[0]);
+  }
+  return fmax(fmax(fabs(g[0][0]), fabs(g[1][1])), fabs(g[0][1] + g[1][0])) / twice_now;
+}
+
+enum { MOST = 16 };
+
+/* The fastest to the left and to the right must be faster than the bar, which does not move. */
+static void CheckMomentum(int pieces, double sum[][2][4])
+{
+  double slowest = 0.0, fastest = 0.0;
+  for (int k = 0; k < pieces; k++) {
+    const double *now = sum[k][0], *shown = sum[k][1];
+    slowest = fmin(slowest, shown[1] / shown[0]);
+    fastest = fmax(fastest, shown[1] / shown[0]);
+    for (int c = 1; c < 4; c++)
+      CHECK(fabs(shown[c] - now[c]) < 1e-12 * now[0], "piece %d: momentum %d %.15g, seen %.15g", k, c, now[c],
+            shown[c]);
+  }
+  CHECK(slowest < -1.5 && fastest > 1.5, "pieces fly at %g to %g m/s", slowest, fastest);
+}
+
+static PetscErrorCode CheckPieces(void)
+{
+  Solid s;
+  const double *seen;
+  double sum[MOST][2][4] = {{{0}}}, strain = 0.0; /* [piece][velocity, seen] */
+  int pieces;
+  PetscFunctionBeginUser;
+  PetscCall(Torn(&s));
+  PetscCall(Run(s, 1e-3, 1e-4));
+  PetscCall(SolidSeenVelocity(s, &seen));
+  const SolidView view = ViewOf(s, NULL, NULL);
+  int *fragment = malloc(((size_t)view.nelements + 1) * sizeof *fragment);
+  PetscCall(SolidFragments(s, fragment, &pieces));
+  CHECK(pieces >= 2 && pieces <= MOST, "%d pieces", pieces);
+  for (int e = 0; e < view.nelements; e++) {
+    (void)AddElement(&view, e, view.v, sum[fragment[e]][0]);
+    strain = fmax(strain, AddElement(&view, e, seen, sum[fragment[e]][1]));
+  }
+  free(fragment);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 8 * MOST, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
+  CheckMomentum(pieces, sum);
+  CHECK(strain < 1e-9, "stiff pieces are seen to deform at %g 1/s", strain);
+  PetscCall(SolidDestroy(&s));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   double difference;
@@ -55,6 +143,7 @@ int main(int argc, char **argv)
   CHECK(difference < 1e-12, "a stiff disc is seen to deform at %g m/s", difference);
   PetscCall(Difference(1e1, SWELLING, &difference));
   CHECK(difference < 1e-3 * SWELLING * 0.1, "a soft disc's swelling is seen wrong by %g m/s", difference);
+  PetscCall(CheckPieces());
   PetscCall(PetscFinalize());
   return 0;
 }
