@@ -18,7 +18,12 @@
  * Energy.  With O = a cos q, S = b sin q the work while D grows is, per unit of edge,
  *     sigma do + tau ds = z/A (G_I cos^2 q + G_II sin^2 q) dD + z (F_s b - F_t a) sin q cos q dq
  * so that an end dissipates exactly G_I in tension, G_II in shear, G_I cos^2 q + G_II sin^2 q at a constant
- * mixture; for G_I = G_II it is G on every path up to (F_s^2 - F_t^2)/2k. */
+ * mixture; for G_I = G_II it is G on every path up to (F_s^2 - F_t^2)/2k.
+ *
+ * The last end.  Two pieces that turn about an end do not open it: on its half of the edge they would hang
+ * for ever, and folded back to back (midline of length 0) have no joint's shape.  So from when the other end
+ * has broken its tension is that of the middle of its half, o = 3/4 o_i + 1/4 o_j, s alike, less what they
+ * were beyond its own then: no traction jumps, and G still is what it takes.  It is pressed where it was. */
 #ifndef SOLID_JOINT_H
 #define SOLID_JOINT_H
 #include "plane.h"
@@ -37,6 +42,8 @@ typedef struct {
   double strong;         /* >= 1: strengths of this end over those of the law */
   double offset[3];      /* o0, s0, c, m */
   double opening, slip;  /* last seen, m */
+  double reach;          /* the other end's part in them: 0, or 1/4 once it has broken; */
+  double shift[2];       /* then they are less by this, m */
   double tension, shear; /* what it then pulled with, Pa */
   double absorbed;       /* int tension do + shear ds, J/m2: the energy of fracture when broken */
 } JointEnd;
@@ -80,8 +87,15 @@ static inline double JointDamage(double damage, double opening, double slip, con
   return fmin(damage, 1.0);
 }
 
-/* The traction at an opening and a slip; remembers damage and energy. */
-static inline JointTraction JointPull(const JointLaw *law, JointEnd *end, double opening, double slip)
+/* The other end has broken; theirs are its opening and slip, own this end's. */
+static inline void JointLast(JointEnd *end, const double own[2], const double theirs[2])
+{
+  end->reach = 0.25;
+  for (int c = 0; c < 2; c++) end->shift[c] = end->reach * (theirs[c] - own[c]);
+}
+
+/* The traction without what presses, at an opening and a slip; remembers damage and energy. */
+static inline JointTraction JointTension(const JointLaw *law, JointEnd *end, double opening, double slip)
 {
   const double k = law->stiffness, f[2] = {end->strong * law->strength[0], end->strong * law->strength[1]};
   const double start[2] = {f[0] / k, f[1] / k};
@@ -100,7 +114,19 @@ static inline JointTraction JointPull(const JointLaw *law, JointEnd *end, double
   end->slip = slip;
   end->tension = tension;
   end->shear = shear;
-  return (JointTraction){tension + k * fmin(opening + end->offset[2] * (1.0 - end->damage), 0.0), shear};
+  return (JointTraction){tension, shear};
+}
+
+static inline double JointPressure(const JointLaw *law, const JointEnd *end, double opening)
+{
+  return law->stiffness * fmin(opening + end->offset[2] * (1.0 - end->damage), 0.0);
+}
+
+/* The traction of an end by itself. */
+static inline JointTraction JointPull(const JointLaw *law, JointEnd *end, double opening, double slip)
+{
+  const JointTraction t = JointTension(law, end, opening, slip);
+  return (JointTraction){t.normal + JointPressure(law, end, opening), t.shear};
 }
 
 /* --- the edge in the plane
@@ -126,6 +152,25 @@ static inline JointShape JointShapeOf(const Point one[2], const Point two[2])
     shape.slip[i] = d.x * shape.along.x + d.y * shape.along.y;
   }
   return shape;
+}
+
+/* The tractions t of both ends. */
+static inline void JointTractions(const JointLaw *law, JointEnd end[2], const JointShape *shape,
+                                  JointTraction t[2])
+{
+  const double *o = shape->opening, *s = shape->slip;
+  t[0] = t[1] = (JointTraction){0.0, 0.0};
+  for (int i = 0; i < 2; i++) {
+    JointEnd *k = &end[i];
+    if (!(k->strong > 0.0)) continue;
+    const double own = 1.0 - k->reach, theirs = k->reach;
+    const JointTraction pull = JointTension(law, k, own * o[i] + theirs * o[1 - i] - k->shift[0],
+                                            own * s[i] + theirs * s[1 - i] - k->shift[1]);
+    t[i].normal += own * pull.normal + JointPressure(law, k, o[i]);
+    t[i].shear += own * pull.shear;
+    t[1 - i].normal += theirs * pull.normal;
+    t[1 - i].shear += theirs * pull.shear;
+  }
 }
 
 /* Forces of the tractions t on element 1's nodes (one) and element 2's (two); half: L/2.  They are those of

@@ -110,10 +110,9 @@ void JointsAddForces(Joints j, Solid s)
     const Joint *joint = &j->joint[j->live[k]];
     JointEnd *end = j->memory[j->live[k]].end;
     const JointShape shape = ShapeOf(j, s, joint);
-    JointTraction t[2] = {{0.0, 0.0}, {0.0, 0.0}};
+    JointTraction t[2];
     Point one[2], two[2];
-    for (int i = 0; i < 2; i++)
-      if (end[i].strong > 0.0) t[i] = JointPull(&joint->law, &end[i], shape.opening[i], shape.slip[i]);
+    JointTractions(&joint->law, end, &shape, t);
     if (!joint->mine) continue;
     JointForces(&shape, t, 0.5 * joint->length, one, two);
     for (int i = 0; i < 2; i++) {
@@ -125,6 +124,22 @@ void JointsAddForces(Joints j, Solid s)
 
 /* --- events
  * ------------------------------------------------------------------------------------------------- */
+
+/* Ends that have just become the last of their joint. */
+static void FindLastEnds(const Joints j, Solid s)
+{
+  for (int k = 0; k < j->nlive; k++) {
+    JointEnd *end = j->memory[j->live[k]].end;
+    for (int i = 0; i < 2; i++) {
+      if (end[1 - i].damage < 1.0 || end[i].damage >= 1.0) continue;
+      if (end[i].strong == 0.0 || end[i].reach > 0.0) continue;
+      const JointShape shape = ShapeOf(j, s, &j->joint[j->live[k]]);
+      const double own[2] = {shape.opening[i], shape.slip[i]};
+      const double theirs[2] = {shape.opening[1 - i], shape.slip[1 - i]};
+      JointLast(&end[i], own, theirs);
+    }
+  }
+}
 
 static PetscBool Broken(const JointMemory *m)
 {
@@ -176,6 +191,7 @@ PetscErrorCode JointsAdvance(Joints j, Solid s, PetscBool *changed)
   int *event, *all, n, any;
   PetscFunctionBeginUser;
   JointsGhostForces(j, s);
+  FindLastEnds(j, s);
   PetscCall(FindEvents(j, s, &n, &event));
   any = n;
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, s->comm));
@@ -193,7 +209,8 @@ PetscErrorCode JointsAdvance(Joints j, Solid s, PetscBool *changed)
 /* --- the limit
  * ---------------------------------------------------------------------------------------------- */
 
-/* An end of stiffness k L/2 between two nodes, |u2 - u1|^2 <= 2 |u1|^2 + 2 |u2|^2, gives each of them k L. */
+/* An end of stiffness k L/2 between two nodes, |u2 - u1|^2 <= 2 |u1|^2 + 2 |u2|^2, gives each of them k L.
+ * A last end pulls and presses at two places: twice that. */
 PetscErrorCode JointsMeasureRate(Joints j, Solid s)
 {
   double *sum;
@@ -201,9 +218,11 @@ PetscErrorCode JointsMeasureRate(Joints j, Solid s)
   PetscCall(PetscCalloc1(2 * (size_t)s->nnodes, &sum));
   for (int k = 0; k < j->nlive; k++) {
     const Joint *joint = &j->joint[j->live[k]];
+    const JointEnd *ends = j->memory[j->live[k]].end;
+    const double last = ends[0].reach > 0.0 || ends[1].reach > 0.0 ? 2.0 : 1.0;
     for (int end = 0; end < 2; end++)
-      for (int i = 0; i < 2 && joint->mine && j->memory[j->live[k]].end[end].strong > 0.0; i++)
-        sum[2 * j->corner[joint->corner[end][i]].node] += joint->law.stiffness * joint->length;
+      for (int i = 0; i < 2 && joint->mine && ends[end].strong > 0.0; i++)
+        sum[2 * j->corner[joint->corner[end][i]].node] += last * joint->law.stiffness * joint->length;
   }
   PetscCall(ShareSum(s->share, sum));
   j->rate = 0.0;

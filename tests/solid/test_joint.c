@@ -1,6 +1,6 @@
 /* The joint's law by itself: energies of tension, shear and mixed paths, no healing, pressure on damaged
- * joints, continuity with what the edge carried; its forces are those of its work and keep momentum and
- * angular momentum. */
+ * joints, continuity with what the edge carried, one end that hangs on; its forces are those of its work and
+ * keep momentum and angular momentum. */
 #include "check.h"
 #include "joint.h"
 
@@ -153,8 +153,45 @@ static void Forces(void)
   CHECK(fabs(sum.x) + fabs(sum.y) + fabs(moment) < 1e-14, "sum %g %g, moment %g", sum.x, sum.y, moment);
 }
 
+/* Element 2 turns about the common end 0, until it lies back to back with element 1. */
+static void Hinge(void)
+{
+  enum { TURNS = 100000 };
+  const JointLaw law = Law(120.0, 300.0);
+  const double length = 0.01;
+  JointEnd end[2] = {JointBegin(&law, STRENGTH[0], 0.0), JointBegin(&law, STRENGTH[0], 0.0)};
+  Point one[2] = {{0.0, 0.0}, {length, 0.0}}, two[2] = {{0.0, 0.0}, {length, 0.0}};
+  double before = STRENGTH[0] * 0.5 * length * length, work = 0.0; /* moment about the common end, N m/m */
+  for (int k = 1; k <= TURNS; k++) {
+    const double angle = 0.99 * M_PI * k / TURNS;
+    JointTraction t[2], last[2];
+    Point f[4];
+    two[1] = (Point){length * cos(angle), -length * sin(angle)};
+    const JointShape shape = JointShapeOf(one, two);
+    JointTractions(&law, end, &shape, t);
+    JointForces(&shape, t, 0.5 * length, f, f + 2);
+    const double moment = PointCross(two[1], f[3]);
+    work += 0.5 * (before + moment) * 0.99 * M_PI / TURNS;
+    before = moment;
+    if (end[1].damage < 1.0 || end[0].reach > 0.0) continue;
+    JointLast(&end[0], (double[2]){shape.opening[0], shape.slip[0]},
+              (double[2]){shape.opening[1], shape.slip[1]});
+    JointTractions(&law, end, &shape, last);
+    CHECK(fabs(last[0].normal + last[1].normal - t[0].normal - t[1].normal) < 1e-9 * STRENGTH[0],
+          "%g Pa, and %g once it is the last end", t[0].normal + t[1].normal,
+          last[0].normal + last[1].normal);
+    CHECK(end[0].damage < 1e-3, "D = %g of the end that has not opened", end[0].damage);
+    before = PointCross(two[1], (JointForces(&shape, last, 0.5 * length, f, f + 2), f[3]));
+  }
+  CHECK(end[0].damage == 1.0 && before == 0.0, "D = %g, %g N m/m at the end", end[0].damage, before);
+  CHECK(fabs(work / (120.0 * length) - 1.0) < 2e-4, "%.9g J/m to tear %g m", work, length);
+  CHECK(fabs(0.5 * (end[0].absorbed + end[1].absorbed) / 120.0 - 1.0) < 2e-4, "%g and %g J/m2 absorbed",
+        end[0].absorbed, end[1].absorbed);
+}
+
 int main(void)
 {
+  Hinge();
   Energies();
   NoHealing();
   Pressed();
