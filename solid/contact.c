@@ -158,6 +158,11 @@ ElementRates ContactRate(Contact c)
   return (ElementRates){c->rate[0] + c->rate[1], c->rate[2] + c->rate[3]};
 }
 
+Point ContactWalls(Contact c)
+{
+  return c->walls;
+}
+
 /* --- forces
  * ------------------------------------------------------------------------------------------------- */
 
@@ -269,7 +274,7 @@ static void Add(double force[], int node, double scale, Point f)
   force[2 * node + 1] += scale * f.y;
 }
 
-static void AddTouch(const Contact c, Solid s, const Touch *touch)
+static void AddTouch(Contact c, Solid s, const Touch *touch)
 {
   const Candidate *k = touch->candidate < 0 ? NULL : &c->candidate[touch->candidate];
   const WallCandidate *w = k ? NULL : &c->wall[-1 - touch->candidate];
@@ -278,7 +283,11 @@ static void AddTouch(const Contact c, Solid s, const Touch *touch)
   const Point d = EdgeVector(s, edge);
   const double normal = 1.0 + r->normal, tangential = r->tangential;
   const Point f = {-d.y * normal + d.x * tangential, d.x * normal + d.y * tangential}; /* on the edge */
-  for (int i = 0; i < 2; i++) Add(s->force, edge[i], touch->scale * touch->integrals.edge[i], f);
+  for (int i = 0; i < 2; i++) {
+    const double scale = touch->scale * touch->integrals.edge[i];
+    Add(s->force, edge[i], scale, f);
+    if (w) c->walls = (Point){c->walls.x + scale * f.x, c->walls.y + scale * f.y};
+  }
   for (int i = 0; k && i < 3; i++) {
     const int node = c->target[k->target].node[i];
     const double scale = -touch->scale * touch->integrals.target[i];
@@ -296,6 +305,7 @@ PetscErrorCode ContactAddForces(Contact c, Solid s)
   if (c->halo) PetscCall(HaloForward(c->halo, s->x, c->rough ? s->v : NULL));
   PetscCall(FindTouches(c, s, &n));
   Respond(c, s);
+  c->walls = (Point){0.0, 0.0};
   for (int k = 0; k < n; k++) AddTouch(c, s, &c->touch[k]);
   if (c->halo) PetscCall(HaloReverse(c->halo, s->force));
   PetscFunctionReturn(0);

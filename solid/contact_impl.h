@@ -69,6 +69,7 @@ struct Contact_s {
   double *backing;    /* [nbodies] mass behind a metre of surface, 4 M/perimeter, kg/m2; HUGE_VAL: held */
   double *searched;   /* [nnodes][2] positions of the last search */
   double buffer, shortest_buffer;
+  Point walls;    /* what they did to this rank's edges, N */
   double rate[4]; /* bounds of omega^2 by bodies and by walls, 1/s2; of 2 xi omega by both, 1/s */
 };
 

@@ -3,23 +3,33 @@
 
 PetscErrorCode SolidFracture(Solid s, FractureState *state)
 {
-  double sum[4] = {0.0, 0.0, 0.0, 0.0};
+  double sum[5] = {0.0, 0.0, 0.0, 0.0, 0.0};
   const double *force;
+  const int *piece;
   const Joints j = s->joints;
   PetscFunctionBeginUser;
   *state = (FractureState){0};
+  PetscCall(SolidPieces(s, &state->pieces, &piece));
   if (!j) PetscFunctionReturn(0);
   PetscCall(SolidForces(s, &force));
   for (int k = 0; k < j->n; k++) {
     const JointMemory *m = &j->memory[k];
     if (!j->joint[k].mine || m->stage == JOINT_WHOLE) continue;
     sum[m->stage == JOINT_LIVE ? 0 : 1] += 1.0;
-    for (int end = 0; end < 2; end++)
-      if (m->end[end].damage >= 1.0) sum[2] += 0.5 * j->joint[k].length;
-    sum[3] += 0.5 * j->joint[k].length * (m->end[0].absorbed + m->end[1].absorbed);
+    for (int end = 0; end < 2; end++) {
+      const double half = 0.5 * j->joint[k].length, energy = half * m->end[end].absorbed;
+      sum[3] += energy;
+      if (m->end[end].damage < 1.0) continue;
+      sum[2] += half;
+      sum[4] += energy;
+    }
   }
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 4, MPI_DOUBLE, MPI_SUM, s->comm));
-  *state = (FractureState){(int)sum[0], (int)sum[1], sum[2], sum[3]};
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 5, MPI_DOUBLE, MPI_SUM, s->comm));
+  state->live = (int)sum[0];
+  state->broken = (int)sum[1];
+  state->length = sum[2];
+  state->energy = sum[3];
+  state->torn = sum[4];
   PetscFunctionReturn(0);
 }
 

@@ -150,6 +150,7 @@ PetscErrorCode SolidStart(Solid s, double dt, const double load[])
   s->dt = dt;
   s->done = 0.0;
   s->stats.substeps = 0;
+  s->budget = (SolidBudget){.work = 0.0};
   PetscCall(Plan(s));
   PetscFunctionReturn(0);
 }
@@ -169,7 +170,9 @@ static void MoveDriven(Solid s, int before)
       if (before) {
         s->held[2 * k + c] = s->x[2 * n + c];
       } else if (d->driven[c]) {
-        s->v[2 * n + c] = DriveVelocity(d, c, s->stats.t, s->h);
+        const double v = DriveVelocity(d, c, s->stats.t, s->h);
+        if (ShareOwns(s->share, n)) s->budget.held[c] += s->mass[n] * (v - s->v[2 * n + c]);
+        s->v[2 * n + c] = v;
         s->x[2 * n + c] = s->held[2 * k + c] + s->h * s->v[2 * n + c];
       }
     }
@@ -215,6 +218,7 @@ PetscErrorCode SolidSubstep(Solid s, double *h)
   PetscCall(SolidForces(s, &force));
   if (s->joints) PetscCall(Crack(s));
   ContactCommit(s->contact);
+  BudgetAddSubstep(s);
   MoveDriven(s, 1);
   Move(s);
   MoveDriven(s, 0);

@@ -2,7 +2,7 @@
 #include "output.h"
 #include <stdio.h>
 
-enum { MAX_BODIES = 8, PER_BODY = 10, COMMON = 7 };
+enum { MAX_BODIES = 8, PER_BODY = 10, COMMON = 15 };
 
 struct Record_s {
   MPI_Comm comm;
@@ -14,7 +14,7 @@ struct Record_s {
 
 static PetscErrorCode CreateSeries(Record r, const char *folder)
 {
-  char columns[MAX_BODIES * 160 + 160] = "t [s]";
+  char columns[MAX_BODIES * 160 + 320] = "t [s]";
   PetscFunctionBeginUser;
   for (int b = 0; b < r->nbodies; b++) {
     const size_t used = strlen(columns);
@@ -26,7 +26,9 @@ static PetscErrorCode CreateSeries(Record r, const char *folder)
   }
   const size_t used = strlen(columns);
   (void)snprintf(columns + used, sizeof columns - used,
-                 ",fracture [J/m],broken joints,substeps,dt_s [s],computing [s],waiting [s]");
+                 ",fracture [J/m],torn [J/m],broken joints,cracks [m],pieces,walls_x [N s/m],walls_y [N "
+                 "s/m],held_x [N s/m],"
+                 "held_y [N s/m],work [J/m],substeps,dt_s [s],computing [s],waiting [s]");
   PetscCall(SeriesCreate(r->comm, folder, "solid", columns, &r->series));
   PetscFunctionReturn(0);
 }
@@ -105,6 +107,7 @@ PetscErrorCode RecordStep(Record r, Solid s, double waited)
   const SolidStats *stats = SolidGetStats(s);
   BodyState state[MAX_BODIES];
   FractureState fracture;
+  SolidBudget budget;
   double row[COMMON + MAX_BODIES * PER_BODY];
   int n = 0;
   PetscFunctionBeginUser;
@@ -118,7 +121,17 @@ PetscErrorCode RecordStep(Record r, Solid s, double waited)
   }
   PetscCall(SolidFracture(s, &fracture));
   row[n++] = fracture.energy;
+  row[n++] = fracture.torn;
   row[n++] = fracture.broken;
+  row[n++] = fracture.length;
+  row[n++] = fracture.pieces;
+  PetscCall(SolidGetBudget(s, &budget));
+  for (int c = 0; c < 2; c++) {
+    row[n + c] = budget.walls[c];
+    row[n + 2 + c] = budget.held[c];
+  }
+  n += 4;
+  row[n++] = budget.work;
   row[n++] = stats->substeps;
   row[n++] = stats->h;
   row[n++] = MPI_Wtime() - r->start - waited;

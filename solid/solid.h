@@ -102,10 +102,20 @@ typedef struct {
 /* state[n]: of the first n bodies. */
 PetscErrorCode SolidBodies(Solid s, int n, BodyState state[]);
 
+/* What acted on all bodies over the last step.  Momentum: the change of sum m v is load dt + walls + held + m
+ * g dt, to round-off. */
+typedef struct {
+  double walls[2], held[2]; /* impulse of the tank's walls; of what holds fixed and driven nodes, N s/m */
+  double work;              /* of the fluid, J/m */
+} SolidBudget;
+PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget);
+
 typedef struct {
   int live, broken; /* joints that have come to life and are not broken yet; that are broken */
+  int pieces;       /* that whole and living joints hold together */
   double length;    /* of the cracks, m: edges and half edges that hold no more; half of the new surface */
   double energy;    /* what all joints have taken up and not given back, J/m; a broken one keeps it */
+  double torn;      /* the part of it of the edges and half edges that hold no more, J/m */
 } FractureState;
 PetscErrorCode SolidFracture(Solid s, FractureState *state);
 /* damage[nelements]: largest D of the element's joints, 0 .. 1.  Not collective. */

@@ -72,6 +72,7 @@ struct Solid_s {
   double *start, *seen;          /* [nnodes][2] positions when it began; what the fluid sees */
   int npieces, *piece;           /* [nnodes] SolidPieces has found; npieces 0: since the last crack not yet */
   int remaining, until_check;    /* substeps */
+  SolidBudget budget;            /* this rank's part */
   PetscBool force_valid;         /* force belongs to x and v */
   PetscBool unsettled;           /* after SolidState(0): JointsSettle is due */
   SolidStats stats;
@@ -88,6 +89,9 @@ void SolidElementShape(const Elements *e, int k, const double x[], Tensor *edges
 /* fragments.c, collective: piece[nnodes], borrowed: 0 .. *n - 1 as in SolidFragments; kept until nodes split.
  */
 PetscErrorCode SolidPieces(Solid s, int *n, const int **piece);
+
+/* budget.c, not collective: what the walls and what holds fixed nodes do in the substep to come. */
+void BudgetAddSubstep(Solid s);
 
 /* distribute.c: everything that comes from the assembly. */
 PetscErrorCode SolidTakeShare(Solid s, const Assembly *a);
@@ -125,6 +129,8 @@ PetscErrorCode ContactAddForces(Contact c, Solid s);
  * omega^2 and 2 xi omega. */
 double ContactReach(Contact c);
 double ContactMoved(Contact c, Solid s);
+/* Not collective: the force of the walls on this rank's edges in the last ContactAddForces, N. */
+Point ContactWalls(Contact c);
 ElementRates ContactRate(Contact c);
 /* Not collective: the springs of friction keep what the forces just used; saved and put back with the state.
  * After that there is no contact force until the next search, which SolidStart makes. */

@@ -1,0 +1,30 @@
+/* What walls, holds and the fluid do to all bodies together over a step: the other side of their momentum and
+ * energy. */
+#include "solid_impl.h"
+
+/* What holds a fixed node takes all that would accelerate it. */
+void BudgetAddSubstep(Solid s)
+{
+  const Point walls = ContactWalls(s->contact);
+  s->budget.walls[0] += s->h * walls.x;
+  s->budget.walls[1] += s->h * walls.y;
+  for (int n = 0; n < s->nnodes; n++) {
+    if (s->inverse_mass[n] > 0.0 || !ShareOwns(s->share, n)) continue;
+    for (int c = 0; c < 2; c++)
+      s->budget.held[c] -=
+          s->h * (s->force[2 * n + c] + s->load[2 * n + c] + s->mass[n] * s->setup.gravity[c]);
+  }
+}
+
+PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget)
+{
+  const SolidBudget *b = &s->budget;
+  double sum[5] = {b->walls[0], b->walls[1], b->held[0], b->held[1], 0.0};
+  PetscFunctionBeginUser;
+  for (int n = 0; n < s->nnodes; n++)
+    for (int c = 0; c < 2 && ShareOwns(s->share, n); c++)
+      sum[4] += s->load[2 * n + c] * (s->x[2 * n + c] - s->start[2 * n + c]);
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 5, MPI_DOUBLE, MPI_SUM, s->comm));
+  *budget = (SolidBudget){{sum[0], sum[1]}, {sum[2], sum[3]}, sum[4]};
+  PetscFunctionReturn(0);
+}
