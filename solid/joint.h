@@ -173,6 +173,25 @@ static inline void JointTractions(const JointLaw *law, JointEnd end[2], const Jo
   }
 }
 
+/* sigma do + tau ds an end would do more, per (unit of time)^2, if it opened and slipped with these
+ * velocities: as stiff as it is on the way back to the origin, or where it is pressed.  Pa m/s2 */
+static inline double JointStiffening(const JointLaw *law, const JointEnd end[2], const JointShape *shape,
+                                     int i, const double opening[2], const double slip[2])
+{
+  const JointEnd *k = &end[i];
+  const double k0 = law->stiffness, own = 1.0 - k->reach, pressure = JointPressure(law, k, shape->opening[i]);
+  const double rate[2] = {own * opening[i] + k->reach * opening[1 - i],
+                          own * slip[i] + k->reach * slip[1 - i]};
+  double power = pressure < 0.0 ? k0 * opening[i] * opening[i] : 0.0;
+  for (int mode = 0; mode < 2; mode++) {
+    const double f = k->strong * law->strength[mode];
+    if (mode == 0 && pressure < 0.0) continue;
+    power += k->left * f / (f / k0 + k->damage * law->energy[mode] / (JOINT_SOFTENING_AREA * f)) *
+             rate[mode] * rate[mode];
+  }
+  return power;
+}
+
 /* Forces of the tractions t on element 1's nodes (one) and element 2's (two); half: L/2.  They are those of
  * the virtual work sum_i half (sigma do + tau ds): the turning of the midline with its four nodes gives the
  * couple m = sum_i half (sigma s - tau o) and with it neither momentum nor angular momentum changes. */

@@ -122,6 +122,27 @@ void JointsAddForces(Joints j, Solid s)
   }
 }
 
+void JointsAddStrainPower(Joints j, Solid s, const double d[], const int piece[], int stride, double power[])
+{
+  for (int k = 0; j && k < j->nlive; k++) {
+    const Joint *joint = &j->joint[j->live[k]];
+    const JointEnd *end = j->memory[j->live[k]].end;
+    const JointShape shape = ShapeOf(j, s, joint);
+    double opening[2], slip[2];
+    if (!joint->mine) continue;
+    for (int i = 0; i < 2; i++) {
+      const Point u = PointMinus(PointAt(d, j->corner[joint->corner[i][1]].node),
+                                 PointAt(d, j->corner[joint->corner[i][0]].node));
+      opening[i] = u.x * shape.normal.x + u.y * shape.normal.y;
+      slip[i] = u.x * shape.along.x + u.y * shape.along.y;
+    }
+    for (int i = 0; i < 2; i++)
+      if (end[i].strong > 0.0)
+        power[stride * piece[j->corner[joint->corner[i][0]].node]] +=
+            0.5 * joint->length * JointStiffening(&joint->law, end, &shape, i, opening, slip);
+  }
+}
+
 /* --- events
  * ------------------------------------------------------------------------------------------------- */
 

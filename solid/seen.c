@@ -100,7 +100,8 @@ static double StrainPower(const Elements *e, int k, const double x[], const doub
 }
 
 /* share[b]: how much of piece b's deformation is seen, by its Rayleigh quotient omega^2 = strain power / (m
- * |d|^2): never below the square of the piece's slowest vibration, whatever the deformation. */
+ * |d|^2): never below the square of the piece's slowest vibration, whatever the deformation.  Living joints
+ * are springs of it. */
 static PetscErrorCode Shares(const Solid s, int n, const int piece[], double share[])
 {
   double(*sum)[NENERGIES];
@@ -112,6 +113,7 @@ static PetscErrorCode Shares(const Solid s, int n, const int piece[], double sha
   }
   for (int k = 0; k < s->elements.n; k++)
     sum[piece[s->element[3 * k]]][STRAIN] += StrainPower(&s->elements, k, s->x, s->seen);
+  JointsAddStrainPower(s->joints, s, s->seen, piece, NENERGIES, &sum[0][STRAIN]);
   if (s->size > 1)
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, NENERGIES * n, MPI_DOUBLE, MPI_SUM, s->comm));
   for (int b = 0; b < n; b++) {

@@ -153,6 +153,25 @@ static void Forces(void)
   CHECK(fabs(sum.x) + fabs(sum.y) + fabs(moment) < 1e-14, "sum %g %g, moment %g", sum.x, sum.y, moment);
 }
 
+/* Let go a little: the traction falls as JointStiffening says, pulled and pressed. */
+static void Stiffness(void)
+{
+  const JointLaw law = Law(120.0, 300.0);
+  const double at[3][2] = {{0.5, 0.4}, {0.1, 0.8}, {-0.1, 0.3}}; /* opening and slip in reaches */
+  for (int k = 0; k < 3; k++) {
+    JointEnd end[2] = {JointBegin(&law, STRENGTH[0], 0.0), {.strong = 0.0}};
+    JointShape shape = {.opening = {at[k][0] * Reach(&law, 0, 1.0), 0.0},
+                        .slip = {at[k][1] * Reach(&law, 1, 1.0), 0.0}};
+    const double way[2] = {-1e-4 * fabs(shape.opening[0]) - 1e-10, -1e-4 * shape.slip[0]};
+    const JointTraction far = JointPull(&law, &end[0], shape.opening[0], shape.slip[0]);
+    const JointTraction near = JointPull(&law, &end[0], shape.opening[0] + way[0], shape.slip[0] + way[1]);
+    const double expected = (near.normal - far.normal) * way[0] + (near.shear - far.shear) * way[1];
+    const double power =
+        JointStiffening(&law, end, &shape, 0, (double[2]){way[0], 0.0}, (double[2]){way[1], 0.0});
+    CHECK(fabs(power / expected - 1.0) < 1e-6, "%d: %.12g instead of %.12g", k, power, expected);
+  }
+}
+
 /* Element 2 turns about the common end 0, until it lies back to back with element 1. */
 static void Hinge(void)
 {
@@ -191,6 +210,7 @@ static void Hinge(void)
 
 int main(void)
 {
+  Stiffness();
   Hinge();
   Energies();
   NoHealing();
