@@ -34,6 +34,7 @@ void BoundaryVelocity(const Boundary *b, double t, const double x[2], double v[2
     const double s = (x[c] - b->lower[c]) / (b->upper[c] - b->lower[c]);
     scale = 4.0 * s * (1.0 - s);
   }
+  if (t < b->rise) scale *= 0.5 * (1.0 - cos(M_PI * fmax(t, 0.0) / b->rise));
   for (int c = 0; c < 2; c++) v[c] = scale * b->velocity[c];
 }
 

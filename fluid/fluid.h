@@ -28,6 +28,7 @@ typedef struct {
   double velocity[2];        /* m/s */
   PetscBool parabolic;       /* velocity times 4 s (1 - s), s along the boundary's bounding box */
   double lower[2], upper[2]; /* that box; set by FluidCreate */
+  double rise;               /* s: until then velocity times (1 - cos(pi t/rise))/2; 0: at once */
   double pressure;           /* where open: above hydrostatic, Pa */
   FieldFunction function;    /* instead of velocity; NULL: none */
   void *context;

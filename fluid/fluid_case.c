@@ -88,6 +88,8 @@ static void ReadBoundary(Case c, const char *name, Boundary *b)
     CaseVector(c, sub, 2, b->velocity);
     (void)snprintf(sub, sizeof sub, "%s.profile", key);
     b->parabolic = (PetscBool)(CaseWord(c, sub, 0, PROFILES) == 1);
+    (void)snprintf(sub, sizeof sub, "%s.rise", key);
+    b->rise = CaseNumberOr(c, sub, 0.0, 0.0, HUGE_VAL);
     return;
   }
   (void)snprintf(sub, sizeof sub, "%s.pressure", key);

@@ -16,15 +16,23 @@ void BudgetAddSubstep(Solid s)
   }
 }
 
+void BudgetAddDriven(Solid s, int n, int c, double v)
+{
+  if (!ShareOwns(s->share, n)) return;
+  const double impulse = s->mass[n] * (v - s->v[2 * n + c]);
+  s->budget.held[c] += impulse;
+  s->budget.held_work += impulse * v;
+}
+
 PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget)
 {
   const SolidBudget *b = &s->budget;
-  double sum[5] = {b->walls[0], b->walls[1], b->held[0], b->held[1], 0.0};
+  double sum[6] = {b->walls[0], b->walls[1], b->held[0], b->held[1], 0.0, b->held_work};
   PetscFunctionBeginUser;
   for (int n = 0; n < s->nnodes; n++)
     for (int c = 0; c < 2 && ShareOwns(s->share, n); c++)
       sum[4] += s->load[2 * n + c] * (s->x[2 * n + c] - s->start[2 * n + c]);
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 5, MPI_DOUBLE, MPI_SUM, s->comm));
-  *budget = (SolidBudget){{sum[0], sum[1]}, {sum[2], sum[3]}, sum[4]};
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 6, MPI_DOUBLE, MPI_SUM, s->comm));
+  *budget = (SolidBudget){{sum[0], sum[1]}, {sum[2], sum[3]}, sum[4], sum[5]};
   PetscFunctionReturn(0);
 }

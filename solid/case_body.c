@@ -194,6 +194,8 @@ static PetscErrorCode ReadDrive(Case c, const char *item, BoundaryDrive *d)
     (void)snprintf(key, sizeof key, "%s.velocity", item);
     CaseVector(c, key, 2, row + 1);
   }
+  (void)snprintf(key, sizeof key, "%s.release", item);
+  if (CaseHas(c, key)) d->drive.release = CasePositive(c, key);
   PetscFunctionReturn(0);
 }
 

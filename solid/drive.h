@@ -8,6 +8,7 @@ typedef struct {
   int driven[2];     /* which components; the others stay free */
   int nrows;         /* at least 1 */
   const double *row; /* [nrows][3] t, u, v; s and m/s, t rising */
+  double release;    /* s: from then on the nodes are free; 0: never */
 } Drive;
 
 typedef struct {

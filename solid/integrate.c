@@ -166,12 +166,13 @@ static void MoveDriven(Solid s, int before)
   for (int k = 0; k < s->ndriven; k++) {
     const int n = s->driven[k].node;
     const Drive *d = &s->drive[s->driven[k].drive];
+    if (d->release > 0.0 && s->stats.t >= d->release * (1.0 - 1e-12)) continue;
     for (int c = 0; c < 2; c++) {
       if (before) {
         s->held[2 * k + c] = s->x[2 * n + c];
       } else if (d->driven[c]) {
         const double v = DriveVelocity(d, c, s->stats.t, s->h);
-        if (ShareOwns(s->share, n)) s->budget.held[c] += s->mass[n] * (v - s->v[2 * n + c]);
+        BudgetAddDriven(s, n, c, v);
         s->v[2 * n + c] = v;
         s->x[2 * n + c] = s->held[2 * k + c] + s->h * s->v[2 * n + c];
       }

@@ -2,7 +2,7 @@
 #include "output.h"
 #include <stdio.h>
 
-enum { MAX_BODIES = 8, PER_BODY = 10, COMMON = 15 };
+enum { MAX_BODIES = 8, PER_BODY = 10, COMMON = 16 };
 
 struct Record_s {
   MPI_Comm comm;
@@ -28,7 +28,7 @@ static PetscErrorCode CreateSeries(Record r, const char *folder)
   (void)snprintf(columns + used, sizeof columns - used,
                  ",fracture [J/m],torn [J/m],broken joints,cracks [m],pieces,walls_x [N s/m],walls_y [N "
                  "s/m],held_x [N s/m],"
-                 "held_y [N s/m],work [J/m],substeps,dt_s [s],computing [s],waiting [s]");
+                 "held_y [N s/m],work [J/m],held work [J/m],substeps,dt_s [s],computing [s],waiting [s]");
   PetscCall(SeriesCreate(r->comm, folder, "solid", columns, &r->series));
   PetscFunctionReturn(0);
 }
@@ -132,6 +132,7 @@ PetscErrorCode RecordStep(Record r, Solid s, double waited)
   }
   n += 4;
   row[n++] = budget.work;
+  row[n++] = budget.held_work;
   row[n++] = stats->substeps;
   row[n++] = stats->h;
   row[n++] = MPI_Wtime() - r->start - waited;

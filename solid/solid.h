@@ -106,7 +106,7 @@ PetscErrorCode SolidBodies(Solid s, int n, BodyState state[]);
  * g dt, to round-off. */
 typedef struct {
   double walls[2], held[2]; /* impulse of the tank's walls; of what holds fixed and driven nodes, N s/m */
-  double work;              /* of the fluid, J/m */
+  double work, held_work;   /* of the fluid; of what drives nodes, J/m */
 } SolidBudget;
 PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget);
 

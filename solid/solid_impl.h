@@ -92,6 +92,8 @@ PetscErrorCode SolidPieces(Solid s, int *n, const int **piece);
 
 /* budget.c, not collective: what the walls and what holds fixed nodes do in the substep to come. */
 void BudgetAddSubstep(Solid s);
+/* Component c of node n, free so far, is going to be driven with v. */
+void BudgetAddDriven(Solid s, int n, int c, double v);
 
 /* distribute.c: everything that comes from the assembly. */
 PetscErrorCode SolidTakeShare(Solid s, const Assembly *a);

@@ -17,7 +17,7 @@ class Budget:
     """Of all bodies together, per metre of depth; impulses and energies since the first row.
 
     momentum[c] changes by fluid[c] + walls[c] + held[c] + weight[c], cumulative impulses, N s/m;  kinetic, strain, fracture, torn
-    (the part of fracture of what holds no more), J/m;  work of the fluid and of gravity, cumulative, J/m."""
+    (the part of fracture of what holds no more), J/m;  work of the fluid, of what drives nodes and of gravity, cumulative, J/m."""
 
     def __init__(self, folder):
         s = read_series(folder + "/solid.csv")
@@ -33,7 +33,7 @@ class Budget:
             self.walls.append(cumulative(s["walls_" + axis][1:]))
             self.held.append(cumulative(s["held_" + axis][1:]))
             self.weight.append(cumulative(mass[1:] * GRAVITY[c] * dt))
-        self.work = cumulative(s["work"][1:])
+        self.work, self.held_work = cumulative(s["work"][1:]), cumulative(s["held work"][1:])
         height = sum(s["mass" + b] * s["y" + b] for b in bodies)
         self.gravity = GRAVITY[1] * (height - height[0])
         self.force = [total("fx"), total("fy")]
@@ -46,9 +46,9 @@ class Budget:
 
     @property
     def excess(self):
-        """Energy beyond what was there and what fluid and gravity gave, J/m: minus what damping, friction and contact have, so
+        """Energy beyond what was there and what fluid, thrower and gravity gave, J/m: minus what damping, friction and contact have, so
         never above 0."""
-        energy = self.kinetic + self.strain + self.fracture - self.work - self.gravity
+        energy = self.kinetic + self.strain + self.fracture - self.work - self.held_work - self.gravity
         return energy - energy[0]
 
     def first_crack(self):
