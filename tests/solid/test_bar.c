@@ -21,7 +21,7 @@ static PetscErrorCode WaveSpeed(int plane_stress, double *speed)
 {
   const SolidSetup options = {.courant = 0.8};
   const double row[3] = {0.0, SPEED, 0.0}, at[2] = {0.3, 0.7};
-  const BoundaryDrive drive = {"left", {{1, 0}, 1, row}};
+  const BoundaryDrive drive = {"left", {.driven = {1, 0}, .nrows = 1, .row = row}};
   BodySetup setup = BodyAtRest(MaterialOf(DENSITY, YOUNG, POISSON, 0.0));
   Assembly a = {0};
   double passed[2] = {0.0, 0.0}, before[2] = {0.0, 0.0}, h;
