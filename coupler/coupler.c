@@ -67,29 +67,39 @@ static PetscErrorCode FreeStep(Coupler c)
 {
   PetscFunctionBeginUser;
   PetscCall(PetscFree2(c->weight, c->coupling));
-  PetscCall(PetscFree3(c->vertex, c->node, c->force));
+  PetscCall(PetscFree5(c->vertex, c->now, c->firmness, c->node, c->force));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode NewStep(Coupler c, const ServerSolid *solid)
+{
+  const Overlap o = c->overlap;
+  const size_t npieces = (size_t)o->npieces, nnodes = (size_t)solid->nnodes;
+
+  PetscFunctionBeginUser;
+  PetscCall(FreeStep(c));
+  PetscCall(PetscMalloc2(o->pairs.n, &c->weight, o->nentries, &c->coupling));
+  PetscCall(PetscMalloc5(3 * npieces, &c->vertex, npieces, &c->now, npieces, &c->firmness, nnodes, &c->node,
+                         2 * nnodes, &c->force));
+  for (size_t t = 0; t < npieces; t++) c->firmness[t] = 1.0;
+  for (size_t t = 0; t < npieces; t++) PetscCall(PetscArraycpy(&c->now[t][0][0], &o->piece[t].u[0][0], 6));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode CouplerBuild(Coupler c, const ServerSolid *solid, double dt, int *n,
                             const CoracleCoupling **coupling)
 {
-  const Overlap o = c->overlap;
-
   PetscFunctionBeginUser;
-  PetscCall(ShellExtrude(c->shell, solid, solid->changed || !c->built ? PETSC_TRUE : PETSC_FALSE));
-  PetscCall(OverlapBuild(o, solid, c->shell));
-  PetscCall(FreeStep(c));
-  PetscCall(PetscMalloc2(o->pairs.n, &c->weight, o->nentries, &c->coupling));
-  PetscCall(PetscMalloc3(3 * (size_t)o->npieces, &c->vertex, solid->nnodes, &c->node,
-                         2 * (size_t)solid->nnodes, &c->force));
-  c->built = 1;
   c->dt = dt;
+  PetscCall(ShellExtrude(c->shell, solid, solid->changed || !c->built ? PETSC_TRUE : PETSC_FALSE));
+  PetscCall(OverlapBuild(c->overlap, solid, c->shell));
+  PetscCall(NewStep(c, solid));
+  c->built = 1;
   c->nnodes = solid->nnodes;
   c->us = solid->u;
-  PetscCall(c->actions->weigh(c));
-  WallTermAssemble(o, c->weight, c->coupling);
-  *n = o->nentries;
+  PetscCall(c->actions->weigh(c, solid));
+  WallTermAssemble(c->overlap, c->weight, c->firmness, c->coupling);
+  *n = c->overlap->nentries;
   *coupling = c->coupling;
   PetscFunctionReturn(0);
 }
@@ -104,7 +114,7 @@ PetscErrorCode CouplerReact(Coupler c, const ServerFlow *flow, const double **fo
   for (int i = 0; i < c->nnodes; i++) {
     for (int d = 0; d < 2; d++) c->force[2 * i + d] = c->node[i].reaction[d] + c->node[i].rest[d];
   }
-  PetscCall(ForceSum(c->overlap, c->coupling, flow->u_star, c->nnodes, c->node, totals));
+  PetscCall(ForceSum(c->overlap, c->coupling, flow, c->nnodes, c->node, totals));
   *force = c->force;
   PetscFunctionReturn(0);
 }
@@ -112,7 +122,6 @@ PetscErrorCode CouplerReact(Coupler c, const ServerFlow *flow, const double **fo
 PetscErrorCode CouplerLeaveFluid(Coupler c, const ServerSolid *moved)
 {
   PetscFunctionBeginUser;
-  ForceNoCorrection(c->overlap, c->coupling, c->flow.u_plus, c->correction);
   PetscFunctionReturn(0);
 }
 
@@ -124,7 +133,8 @@ PetscErrorCode CouplerCorrect(Coupler c, const ServerSolid *moved, int *n,
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, c->comm));
   PetscCall(PetscFree(c->correction));
-  PetscCall(PetscMalloc1(c->overlap->nentries, &c->correction));
+  PetscCall(PetscCalloc1(c->overlap->nentries, &c->correction));
+  for (int e = 0; e < c->overlap->nentries; e++) c->correction[e].element = c->overlap->element[e];
   PetscCall(changed ? CouplerLeaveFluid(c, moved) : c->actions->correct(c, moved));
   *n = c->overlap->nentries;
   *correction = c->correction;

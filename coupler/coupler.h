@@ -2,16 +2,18 @@
  * its force.  It knows no messages (scheme_staggered.c does); everything is collective over its communicator.
  * One step:
  *
- *     CouplerBuild     solid at t^n, dt            ->  coupling of every fluid element that the solid or its
- * shell touches CouplerReact     the fluid's u*, u+, p, mu   ->  force on the solid's nodes CouplerCorrect
- * the solid's new velocity    ->  correction of the fluid, on the overlap of CouplerBuild
+ *     CouplerBuild     solid at t^n, dt           ->  coupling of every fluid element that the solid or its shell touches
+ *     CouplerReact     the fluid's u*, u+, p, mu  ->  force on the solid's nodes
+ *     CouplerCorrect   the solid's new velocity   ->  correction of the fluid, on the overlap of CouplerBuild
  *
  * Modes (method.md sections 3, 4, 8, 9):
- *     reaction       the solid's inside is held by sigma = relaxation rho_f / dt, its surface by the wall
- * term; the force is the reaction to both, plus the inertia of the fluid inside and buoyancy.  Conservative.
- *     stress_shell   the paper, literal: wall term in the shell only, from the viscosity projected to the
- * surface; force by the surface integral of [43], [44]. penalty_shell  Vire, Xiang, Pain 2015: a = rho_f / dt
- * I in the shell only; force the reaction to it plus the surface integral of the pressure. */
+ *     reaction         the solid's inside is held by sigma = relaxation rho_f/dt, its surface by the wall term; the force
+ *                      is the reaction to both, plus the inertia of the fluid inside and buoyancy.  Conservative.  What
+ *                      gives way by itself is held implicitly (inertia.h).
+ *     stress_shell     the paper, literal: wall term in the shell only, from the viscosity projected to the surface;
+ *                      force by the surface integral of [43], [44].
+ *     penalty_shell    Vire, Xiang, Pain 2015: a = rho_f/dt I in the shell only; force the reaction to it plus the surface
+ *                      integral of the pressure. */
 #ifndef CORACLE_COUPLER_H
 #define CORACLE_COUPLER_H
 #include "force.h"

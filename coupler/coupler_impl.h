@@ -5,7 +5,7 @@
 
 /* What a mode decides; each function is collective. */
 typedef struct {
-  PetscErrorCode (*weigh)(Coupler);                             /* fills weight */
+  PetscErrorCode (*weigh)(Coupler, const ServerSolid *);        /* fills weight */
   PetscErrorCode (*react)(Coupler);                             /* fills node from flow */
   PetscErrorCode (*correct)(Coupler, const ServerSolid *moved); /* fills correction */
 } CouplerActions;
@@ -16,12 +16,14 @@ struct Coupler_s {
   const CouplerActions *actions;
   Shell shell;
   Overlap overlap;
-  double *mu;         /* [overlap->nelements] Pa s */
-  double dt;          /* of the step that was built, s */
-  int built, nnodes;  /* nodes at home */
-  const double *us;   /* [nnodes][2] the velocity that the fluid was given; borrowed from ServerSolid */
-  ServerFlow flow;    /* borrowed */
-  WallWeight *weight; /* [overlap->pairs.n] */
+  double *mu;                    /* [overlap->nelements] Pa s */
+  double dt;                     /* of the step that was built, s */
+  int built, nnodes;             /* nodes at home */
+  const double *us;              /* [nnodes][2] the solid's velocity; borrowed from ServerSolid */
+  double (*now)[3][2];           /* [overlap->npieces] the solid's when the step began */
+  double *firmness;              /* [overlap->npieces] */
+  ServerFlow flow;               /* borrowed */
+  WallWeight *weight;            /* [overlap->pairs.n] */
   CoracleCoupling *coupling;     /* [overlap->nentries] */
   CoracleCorrection *correction; /* [overlap->nentries] */
   ForceVertex *vertex;           /* [overlap->npieces][3] */

@@ -12,13 +12,22 @@ static void Slip(const SupermeshPair *pair, const double u[6], const double us[3
   }
 }
 
-void ForceReaction(const Overlap o, const WallWeight weight[], const double u_star[], ForceVertex vertex[])
+/* The velocity that the reaction is to, on the pair's element. */
+static void Met(double firmness, const double u_star[6], const double u_plus[6], double u[6])
+{
+  for (int i = 0; i < 6; i++)
+    u[i] = firmness == 1.0 ? u_star[i] : firmness * u_star[i] + (1.0 - firmness) * u_plus[i];
+}
+
+void ForceReaction(const Overlap o, const WallWeight weight[], const double firmness[],
+                   const ServerFlow *flow, ForceVertex vertex[])
 {
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
     ForceVertex *v = &vertex[3 * pair->a];
-    double q[3][2], r[2];
-    Slip(pair, &u_star[6 * pair->b], o->piece[pair->a].u, q);
+    double u[6], q[3][2], r[2];
+    Met(firmness[pair->a], &flow->u_star[6 * pair->b], &flow->u_plus[6 * pair->b], u);
+    Slip(pair, u, o->piece[pair->a].u, q);
     for (int i = 0; i < 3; i++) {
       WallApply(&weight[p], q[i], r);
       v[i].reaction[0] += r[0];
@@ -28,7 +37,7 @@ void ForceReaction(const Overlap o, const WallWeight weight[], const double u_st
 }
 
 void ForceInertia(const Overlap o, double dt, const double gravity[2], const double u_plus[],
-                  ForceVertex vertex[])
+                  const double now[][3][2], ForceVertex vertex[])
 {
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
@@ -36,7 +45,7 @@ void ForceInertia(const Overlap o, double dt, const double gravity[2], const dou
     const double rho = o->rho[pair->b];
     ForceVertex *v = &vertex[3 * pair->a];
     double q[3][2];
-    Slip(pair, &u_plus[6 * pair->b], o->piece[pair->a].u, q);
+    Slip(pair, &u_plus[6 * pair->b], now[pair->a], q);
     for (int i = 0; i < 3; i++) {
       const double mass = rho * (pair->aa[i][0] + pair->aa[i][1] + pair->aa[i][2]);
       for (int c = 0; c < 2; c++) v[i].rest[c] += rho / dt * q[i][c] - mass * gravity[c];
@@ -51,14 +60,18 @@ PetscErrorCode ForceBringHome(Overlap o, const ForceVertex vertex[], int nnodes,
   PetscFunctionReturn(0);
 }
 
-/* One element's gain: sum over its functions of s - a u*. */
-static void ElementGain(const CoracleCoupling *k, const double u[6], double gain[2])
+/* One element's gain: sum over its functions of s - a u* - give (u+ - u*). */
+static void ElementGain(const CoracleCoupling *k, const double u_star[6], const double u_plus[6],
+                        double gain[2])
 {
   for (int c = 0; c < 2; c++) {
     gain[c] = 0.0;
     for (int i = 0; i < 3; i++) {
       gain[c] += k->s[c][i];
-      for (int j = 0; j < 3; j++) gain[c] -= k->a[c][i][0][j] * u[j] + k->a[c][i][1][j] * u[3 + j];
+      for (int j = 0; j < 6; j++) {
+        gain[c] -= k->a[c][i][j / 3][j % 3] * u_star[j];
+        gain[c] -= k->give[c][i][j / 3][j % 3] * (u_plus[j] - u_star[j]);
+      }
     }
   }
 }
@@ -73,7 +86,7 @@ static double DisplacedMass(const Overlap o)
   return mass;
 }
 
-PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const double u_star[], int nnodes,
+PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const ServerFlow *flow, int nnodes,
                         const ForceVertex node[], ForceTotals *totals)
 {
   enum { GAIN, REACTION = 2, FORCE = 4, SCALE = 6, MASS, PAIRS, COUNT };
@@ -81,8 +94,9 @@ PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const
 
   PetscFunctionBeginUser;
   for (int e = 0; e < o->nentries; e++) {
+    const int k = 6 * coupling[e].element;
     double gain[2];
-    ElementGain(&coupling[e], &u_star[6 * coupling[e].element], gain);
+    ElementGain(&coupling[e], &flow->u_star[k], &flow->u_plus[k], gain);
     for (int c = 0; c < 2; c++) sum[GAIN + c] += gain[c];
     sum[SCALE] += hypot(gain[0], gain[1]);
   }
@@ -107,30 +121,27 @@ PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const
   PetscFunctionReturn(0);
 }
 
-void ForceCorrection(const Overlap o, const double u[][3][2], CoracleCorrection correction[])
+/* r -= int over the pair of N_K u+ */
+static void TakeFluid(const SupermeshPair *pair, const double u_plus[6], double r[2][3])
 {
-  for (int e = 0; e < o->nentries; e++) correction[e] = (CoracleCorrection){.element = o->element[e]};
-  for (int p = 0; p < o->pairs.n; p++) {
-    const SupermeshPair *pair = &o->pairs.pair[p];
-    if (o->piece[pair->a].is_shell) continue;
-    CoracleCorrection *k = &correction[o->entry[p]];
-    for (int c = 0; c < 2; c++) {
-      for (int j = 0; j < 3; j++) {
-        for (int i = 0; i < 3; i++) k->us[c][j] += pair->ab[i][j] * u[pair->a][i][c];
-      }
+  for (int c = 0; c < 2; c++) {
+    for (int i = 0; i < 3; i++) {
+      for (int j = 0; j < 3; j++) r[c][i] -= pair->bb[i][j] * u_plus[3 * c + j];
     }
   }
 }
 
-void ForceNoCorrection(const Overlap o, const CoracleCoupling coupling[], const double u_plus[],
-                       CoracleCorrection correction[])
+void ForceCorrection(const Overlap o, const double u[][3][2], const double u_plus[],
+                     CoracleCorrection correction[])
 {
-  for (int e = 0; e < o->nentries; e++) {
-    const double *u = &u_plus[6 * o->element[e]];
-    correction[e] = (CoracleCorrection){.element = o->element[e]};
+  for (int p = 0; p < o->pairs.n; p++) {
+    const SupermeshPair *pair = &o->pairs.pair[p];
+    if (o->piece[pair->a].is_shell) continue;
+    CoracleCorrection *k = &correction[o->entry[p]];
+    TakeFluid(pair, &u_plus[6 * pair->b], k->r);
     for (int c = 0; c < 2; c++) {
-      for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) correction[e].us[c][i] += coupling[e].ms[i][j] * u[3 * c + j];
+      for (int j = 0; j < 3; j++) {
+        for (int i = 0; i < 3; i++) k->r[c][j] += pair->ab[i][j] * u[pair->a][i][c];
       }
     }
   }

@@ -23,7 +23,8 @@ typedef struct {
 
 /* Totals over all ranks of one step. */
 typedef struct {
-  double gain[2]; /* N, momentum per time given to the fluid, from the fluid's side: sum over K of s - a u* */
+  double gain[2]; /* N, momentum per time given to the fluid, from the fluid's side: sum over K of s - a u* -
+                     give (u+ - u*) */
   double reaction[2]; /* N, the reaction summed over the solid's nodes */
   double force[2];    /* N, the whole force on the solid */
   double imbalance;   /* |gain + reaction| / sum over K of |s - a u*| */
@@ -31,20 +32,20 @@ typedef struct {
   long long npairs;
 } ForceTotals;
 
-/* Local: vertex[npieces][3].reaction += of all pairs. */
-void ForceReaction(const Overlap overlap, const WallWeight weight[], const double u_star[],
-                   ForceVertex vertex[]);
-/* Local: vertex[npieces][3].rest += added inertia and buoyancy of the volume pairs. */
+/* Local: vertex[npieces][3].reaction += of all pairs, to u* where the solid is firm (firmness[npieces] 1), to
+ * u+ as far as it gives way. */
+void ForceReaction(const Overlap overlap, const WallWeight weight[], const double firmness[],
+                   const ServerFlow *flow, ForceVertex vertex[]);
+/* Local: vertex[npieces][3].rest += added inertia and buoyancy of the volume pairs; now[npieces][3][2]: the
+ * solid's velocity when the step began. */
 void ForceInertia(const Overlap overlap, double dt, const double gravity[2], const double u_plus[],
-                  ForceVertex vertex[]);
+                  const double now[][3][2], ForceVertex vertex[]);
 /* Collective: brings the contributions home: node[nnodes]. */
 PetscErrorCode ForceBringHome(Overlap overlap, const ForceVertex vertex[], int nnodes, ForceVertex node[]);
-/* Collective: the totals; coupling is what the fluid was sent, u_star what came back. */
-PetscErrorCode ForceSum(const Overlap overlap, const CoracleCoupling coupling[], const double u_star[],
+/* Collective: the totals; coupling is what the fluid was sent, flow what came back. */
+PetscErrorCode ForceSum(const Overlap overlap, const CoracleCoupling coupling[], const ServerFlow *flow,
                         int nnodes, const ForceVertex node[], ForceTotals *totals);
-/* Local: us[c][j] = int_{K and S} N_j u, u[npieces][3][2] the solid's new velocity on the old overlap. */
-void ForceCorrection(const Overlap overlap, const double u[][3][2], CoracleCorrection correction[]);
-/* Local: us = ms u+: the fluid stays as it is. */
-void ForceNoCorrection(const Overlap overlap, const CoracleCoupling coupling[], const double u_plus[],
-                       CoracleCorrection correction[]);
+/* Local: adds to r (coracle.h); u[npieces][3][2]: the solid's new velocity on the old overlap. */
+void ForceCorrection(const Overlap overlap, const double u[][3][2], const double u_plus[],
+                     CoracleCorrection correction[]);
 #endif

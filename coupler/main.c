@@ -3,8 +3,9 @@
  *     open, read the case
  *     run the scheme (scheme_staggered.c): each step
  *         fluid   u*, u+, p, mu                    -->  force on the solid
- *         solid   new position and velocity        -->  correction of the fluid; shell and overlap at the new
- * position fluid   <--  correction, coupling of the next step wait for all to close, write the summary */
+ *         solid   new position and velocity        -->  correction of the fluid; shell and overlap at the new position
+ *         fluid   <--  correction, coupling of the next step
+ *     wait for all to close, write the summary */
 #include "scheme.h"
 #include "summary.h"
 

@@ -7,7 +7,7 @@
  * term of their own: total pressure brings buoyancy. */
 #include "coupler_impl.h"
 
-static PetscErrorCode Weigh(Coupler c)
+static PetscErrorCode Weigh(Coupler c, const ServerSolid *solid)
 {
   const Overlap o = c->overlap;
 
@@ -22,7 +22,7 @@ static PetscErrorCode Weigh(Coupler c)
 static PetscErrorCode React(Coupler c)
 {
   PetscFunctionBeginUser;
-  ForceReaction(c->overlap, c->weight, c->flow.u_star, c->vertex);
+  ForceReaction(c->overlap, c->weight, c->firmness, &c->flow, c->vertex);
   PetscCall(ForceBringHome(c->overlap, c->vertex, c->nnodes, c->node));
   PetscCall(CouplerAddSurfacePressure(c));
   PetscFunctionReturn(0);

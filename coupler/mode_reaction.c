@@ -1,8 +1,9 @@
 /* Mode reaction: sigma in the solid's volume, the wall term in its shell, and the force as the reaction to
  * both. */
 #include "coupler_impl.h"
+#include "inertia.h"
 
-static PetscErrorCode Weigh(Coupler c)
+static PetscErrorCode Weigh(Coupler c, const ServerSolid *solid)
 {
   const Overlap o = c->overlap;
 
@@ -17,14 +18,16 @@ static PetscErrorCode Weigh(Coupler c)
       c->weight[p] = WallWeightIsotropic(c->options.relaxation * o->rho[k] / c->dt);
     }
   }
+  PetscCall(InertiaYield(o, solid, c->dt, c->options.gravity, c->weight, c->firmness));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode React(Coupler c)
 {
   PetscFunctionBeginUser;
-  ForceReaction(c->overlap, c->weight, c->flow.u_star, c->vertex);
-  ForceInertia(c->overlap, c->dt, c->options.gravity, c->flow.u_plus, c->vertex);
+  ForceReaction(c->overlap, c->weight, c->firmness, &c->flow, c->vertex);
+  ForceInertia(c->overlap, c->dt, c->options.gravity, c->flow.u_plus, (const double(*)[3][2])c->now,
+               c->vertex);
   PetscCall(ForceBringHome(c->overlap, c->vertex, c->nnodes, c->node));
   PetscFunctionReturn(0);
 }
@@ -35,8 +38,8 @@ static PetscErrorCode Correct(Coupler c, const ServerSolid *moved)
 
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(c->overlap->npieces, &u));
-  PetscCall(OverlapNodesToPieces(c->overlap, moved->u, u));
-  ForceCorrection(c->overlap, (const double(*)[3][2])u, c->correction);
+  PetscCall(OverlapNodesToPieces(c->overlap, 2, moved->u, &u[0][0][0]));
+  ForceCorrection(c->overlap, (const double(*)[3][2])u, c->flow.u_plus, c->correction);
   PetscCall(PetscFree(u));
   PetscFunctionReturn(0);
 }

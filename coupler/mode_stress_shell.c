@@ -102,7 +102,7 @@ static PetscErrorCode CoefficientOnPieces(Coupler c, double (*piece)[3])
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Weigh(Coupler c)
+static PetscErrorCode Weigh(Coupler c, const ServerSolid *solid)
 {
   const Overlap o = c->overlap;
   double(*k)[3];

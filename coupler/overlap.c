@@ -150,18 +150,18 @@ PetscErrorCode OverlapReverseAdd(Overlap o, int ncomp, const double piece[], dou
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode OverlapNodesToPieces(Overlap o, const double node[], double (*piece)[3][2])
+PetscErrorCode OverlapNodesToPieces(Overlap o, int ncomp, const double node[], double piece[])
 {
-  double(*home)[3][2];
+  double *home;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(o->nhome, &home));
+  PetscCall(PetscMalloc1((size_t)o->nhome * 3 * (size_t)ncomp, &home));
   for (int t = 0; t < o->nhome; t++) {
     for (int i = 0; i < 3; i++) {
-      for (int c = 0; c < 2; c++) home[t][i][c] = node[2 * o->node[t][i] + c];
+      for (int c = 0; c < ncomp; c++) home[(3 * t + i) * ncomp + c] = node[ncomp * o->node[t][i] + c];
     }
   }
-  PetscCall(OverlapForward(o, 6, (const double *)home, (double *)piece));
+  PetscCall(OverlapForward(o, 3 * ncomp, home, piece));
   PetscCall(PetscFree(home));
   PetscFunctionReturn(0);
 }

@@ -57,8 +57,8 @@ PetscErrorCode OverlapBuild(Overlap overlap, const ServerSolid *solid, const She
 PetscErrorCode OverlapForward(Overlap overlap, int ncomp, const double home[], double piece[]);
 /* home[nhome][ncomp] += piece[npieces][ncomp] */
 PetscErrorCode OverlapReverseAdd(Overlap overlap, int ncomp, const double piece[], double home[]);
-/* Nodal values [nnodes][2] to the pieces' vertices [npieces][3][2]. */
-PetscErrorCode OverlapNodesToPieces(Overlap overlap, const double node[], double (*piece)[3][2]);
+/* Nodal values [nnodes][ncomp] to the pieces' vertices [npieces][3][ncomp]. */
+PetscErrorCode OverlapNodesToPieces(Overlap overlap, int ncomp, const double node[], double piece[]);
 /* Contributions of vertices [npieces][3][ncomp] summed on the nodes [nnodes][ncomp] at home (overwritten). */
 PetscErrorCode OverlapPiecesToNodes(Overlap overlap, int ncomp, const double piece[], int nnodes,
                                     double node[]);

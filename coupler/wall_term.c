@@ -10,44 +10,54 @@ static void CrossVelocity(const SupermeshPair *pair, const double u[3][2], doubl
   }
 }
 
-static void AddCoefficient(const WallWeight *a, const double bb[3][3], const double cu[2][3],
-                           CoracleCoupling *k)
+/* to += f a N_i N_j */
+static void AddTensor(double f, const WallWeight *a, const double bb[3][3], double to[2][3][2][3])
 {
   for (int i = 0; i < 3; i++) {
-    k->s[0][i] += a->xx * cu[0][i] + a->xy * cu[1][i];
-    k->s[1][i] += a->xy * cu[0][i] + a->yy * cu[1][i];
     for (int j = 0; j < 3; j++) {
-      k->a[0][i][0][j] += a->xx * bb[i][j];
-      k->a[0][i][1][j] += a->xy * bb[i][j];
-      k->a[1][i][0][j] += a->xy * bb[i][j];
-      k->a[1][i][1][j] += a->yy * bb[i][j];
+      to[0][i][0][j] += f * a->xx * bb[i][j];
+      to[0][i][1][j] += f * a->xy * bb[i][j];
+      to[1][i][0][j] += f * a->xy * bb[i][j];
+      to[1][i][1][j] += f * a->yy * bb[i][j];
     }
   }
 }
 
-static void AddSolidMass(const double bb[3][3], const double cu[2][3], CoracleCoupling *k)
+static void AddSource(const WallWeight *a, const double cu[2][3], double s[2][3])
 {
   for (int i = 0; i < 3; i++) {
-    for (int d = 0; d < 2; d++) k->us[d][i] += cu[d][i];
-    for (int j = 0; j < 3; j++) k->ms[i][j] += bb[i][j];
+    s[0][i] += a->xx * cu[0][i] + a->xy * cu[1][i];
+    s[1][i] += a->xy * cu[0][i] + a->yy * cu[1][i];
   }
 }
 
-void WallTermAssemble(const Overlap o, const WallWeight weight[], CoracleCoupling coupling[])
+static void AddSolidMass(double firmness, const double bb[3][3], const double cu[2][3], CoracleCoupling *k)
+{
+  for (int i = 0; i < 3; i++) {
+    for (int d = 0; d < 2; d++) k->us[d][i] += firmness * cu[d][i];
+    for (int j = 0; j < 3; j++) k->ms[i][j] += firmness * bb[i][j];
+  }
+}
+
+void WallTermAssemble(const Overlap o, const WallWeight weight[], const double firmness[],
+                      CoracleCoupling coupling[])
 {
   for (int e = 0; e < o->nentries; e++) coupling[e] = (CoracleCoupling){.element = o->element[e]};
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
     const OverlapPiece *piece = &o->piece[pair->a];
     CoracleCoupling *k = &coupling[o->entry[p]];
+    const double b = firmness[pair->a];
     double cu[2][3];
     CrossVelocity(pair, piece->u, cu);
-    AddCoefficient(&weight[p], pair->bb, (const double(*)[3])cu, k);
+    AddTensor(1.0, &weight[p], pair->bb, k->a);
+    if (b < 1.0) AddTensor(1.0 - b, &weight[p], pair->bb, k->give);
+    AddSource(&weight[p], (const double(*)[3])cu, k->s);
     if (piece->is_shell) {
       k->shell += pair->area / o->area[pair->b];
     } else {
       k->alpha += pair->area / o->area[pair->b];
-      AddSolidMass(pair->bb, (const double(*)[3])cu, k);
+      AddSolidMass(b, pair->bb, (const double(*)[3])cu, k);
     }
   }
 }

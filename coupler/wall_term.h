@@ -38,6 +38,11 @@ static inline WallWeight WallWeightIsotropic(double k)
   return (WallWeight){k, 0.0, k};
 }
 
+static inline WallWeight WallWeightScaled(const WallWeight *a, double factor)
+{
+  return (WallWeight){factor * a->xx, factor * a->xy, factor * a->yy};
+}
+
 /* a v */
 static inline void WallApply(const WallWeight *a, const double v[2], double av[2])
 {
@@ -46,6 +51,8 @@ static inline void WallApply(const WallWeight *a, const double v[2], double av[2
 }
 
 /* Local: one entry per element of the overlap, from the pairs' weights and the pieces' velocities (coracle.h
- * says what the entries hold).  coupling[overlap->nentries]. */
-void WallTermAssemble(const Overlap overlap, const WallWeight weight[], CoracleCoupling coupling[]);
+ * says what the entries hold).  firmness[overlap->npieces]: b of the entries' ms and us (inertia.h);
+ * coupling[overlap->nentries]. */
+void WallTermAssemble(const Overlap overlap, const WallWeight weight[], const double firmness[],
+                      CoracleCoupling coupling[]);
 #endif

@@ -25,17 +25,12 @@ PetscErrorCode FluidSetCoupling(Fluid f, int n, const CoracleCoupling coupling[]
   PetscFunctionReturn(0);
 }
 
-/* u <- u+ + M^-1 (us' - ms u+) on one element */
-static void CorrectElement(double area, const CoracleCoupling *k, const CoracleCorrection *correction,
-                           double u[6])
+/* u += M^-1 r on one element */
+static void CorrectElement(double area, const CoracleCorrection *correction, double u[6])
 {
   for (int c = 0; c < 2; c++) {
-    double r[3], du[3];
-    for (int i = 0; i < 3; i++) {
-      r[i] = correction->us[c][i];
-      for (int j = 0; j < 3; j++) r[i] -= k->ms[i][j] * u[3 * c + j];
-    }
-    MassSolve(area, r, du);
+    double du[3];
+    MassSolve(area, correction->r[c], du);
     for (int i = 0; i < 3; i++) u[3 * c + i] += du[i];
   }
 }
@@ -50,7 +45,7 @@ PetscErrorCode FluidCorrect(Fluid f, double dt, const CoracleCorrection correcti
     PetscCall(VecGetArray(f->u_next, &u));
     for (int k = 0; k < f->ncoupling; k++) {
       const int e = f->coupling[k].element;
-      CorrectElement(f->geometry[e].area, f->coupling + k, correction + k, u + 6 * e);
+      CorrectElement(f->geometry[e].area, correction + k, u + 6 * e);
     }
     PetscCall(VecRestoreArray(f->u_next, &u));
   }

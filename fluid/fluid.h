@@ -3,7 +3,7 @@
  *
  *   FluidMomentum   u*  from  (rho/dt M + theta L + a) u* = ...           momentum.c
  *   FluidProject    u+  = u* - dt/rho grad phi,  p += phi                 pressure.c
- *   FluidCorrect    u   = u+ + M^-1 (us' - ms u+)                         coupling.c
+ *   FluidCorrect    u   = u+ + M^-1 r                                     coupling.c
  *
  * Velocity is a block Vec: element e, component c, vertex i at 6 e + 3 c + i.  rho and mu are per element.
  * All functions are collective over mesh->comm unless said otherwise. */

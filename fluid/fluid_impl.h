@@ -26,8 +26,14 @@ struct Fluid_s {
   Mat laplacian; /* int 1/rho grad.grad */
   KSP pressure_ksp;
   int nfixed;
-  int *fixed; /* local P2 nodes (owned) on open boundaries, or the pinned one */
+  int *fixed;     /* local P2 nodes (owned) on open boundaries, or the pinned one */
+  char *is_fixed; /* [np2] with ghosts */
   PetscBool has_open;
+  /* where a solid gives way to the pressure: giving.c */
+  PetscBool gives; /* on any rank, in the step in hand */
+  Mat giving;
+  KSP giving_ksp;
+  double (*response)[6][6]; /* [ncoupling] */
 
   int ncoupling, capacity;
   PetscBool has_solid; /* on any rank */
@@ -61,6 +67,11 @@ PetscErrorCode PreconditionerUpdate(Fluid f);
 PetscErrorCode PreconditionerDestroy(Fluid f);
 PetscErrorCode PressureCreate(Fluid f);
 PetscErrorCode PressureDestroy(Fluid f);
+/* giving.c: matrix and responses of the step in hand; u -= response to grad phi, or false where nothing gives
+ * way */
+PetscErrorCode GivingPrepare(Fluid f, double dt);
+PetscBool GivingVelocity(Fluid f, int e, const double grad[3][2], double u[6]);
+PetscErrorCode GivingDestroy(Fluid f);
 
 /* What element e contributes to the kernels of its face i; its two vertices are (i + 1) % 3 and (i + 2) % 3.
  */

@@ -33,13 +33,19 @@ static PetscErrorCode FindFixed(Fluid f)
   PetscCall(VecGhostRestoreLocalForm(mark, &local));
   PetscCall(VecGhostUpdateBegin(mark, ADD_VALUES, SCATTER_REVERSE));
   PetscCall(VecGhostUpdateEnd(mark, ADD_VALUES, SCATTER_REVERSE));
-  PetscCall(VecGetArray(mark, &v));
+  PetscCall(VecGhostUpdateBegin(mark, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostUpdateEnd(mark, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostGetLocalForm(mark, &local));
+  PetscCall(VecGetArray(local, &v));
   PetscCall(PetscMalloc1(m->np2_owned, &f->fixed));
-  for (int k = 0; k < m->np2_owned; k++)
-    if (v[k] > 0.5) f->fixed[f->nfixed++] = k;
-  PetscCall(VecRestoreArray(mark, &v));
+  for (int k = 0; k < m->np2; k++) {
+    fixed[k] = v[k] > 0.5;
+    if (fixed[k] && k < m->np2_owned) f->fixed[f->nfixed++] = k;
+  }
+  PetscCall(VecRestoreArray(local, &v));
+  PetscCall(VecGhostRestoreLocalForm(mark, &local));
   PetscCall(VecDestroy(&mark));
-  PetscCall(PetscFree(fixed));
+  f->is_fixed = fixed;
   PetscFunctionReturn(0);
 }
 
@@ -120,6 +126,8 @@ PetscErrorCode PressureDestroy(Fluid f)
   PetscCall(MatDestroy(&f->laplacian));
   PetscCall(KSPDestroy(&f->pressure_ksp));
   PetscCall(PetscFree(f->fixed));
+  PetscCall(PetscFree(f->is_fixed));
+  PetscCall(GivingDestroy(f));
   PetscFunctionReturn(0);
 }
 
@@ -187,7 +195,7 @@ static PetscErrorCode Divergence(Fluid f, Vec velocity, double t, double dt)
   PetscFunctionReturn(0);
 }
 
-/* velocity -= dt/rho grad phi */
+/* velocity -= dt/rho grad phi, or what a solid that gives way makes of it */
 static PetscErrorCode SubtractGradient(Fluid f, double dt, Vec velocity)
 {
   const Mesh *m = f->mesh;
@@ -202,6 +210,7 @@ static PetscErrorCode SubtractGradient(Fluid f, double dt, Vec velocity)
     double pe[6], grad[3][2];
     for (int k = 0; k < 6; k++) pe[k] = phi[m->p2[6 * e + k]];
     P2Gradient(f->geometry[e].g, pe, grad);
+    if (GivingVelocity(f, e, (const double(*)[2])grad, u + 6 * e)) continue;
     for (int c = 0; c < 2; c++)
       for (int i = 0; i < 3; i++) u[6 * e + 3 * c + i] -= dt / f->rho[e] * grad[i][c];
   }
@@ -217,9 +226,10 @@ static PetscErrorCode Solve(Fluid f)
   PetscInt iterations;
   KSPConvergedReason reason;
   PetscFunctionBeginUser;
-  PetscCall(KSPSolve(f->pressure_ksp, f->divergence, f->phi));
-  PetscCall(KSPGetConvergedReason(f->pressure_ksp, &reason));
-  PetscCall(KSPGetIterationNumber(f->pressure_ksp, &iterations));
+  const KSP ksp = f->gives ? f->giving_ksp : f->pressure_ksp;
+  PetscCall(KSPSolve(ksp, f->divergence, f->phi));
+  PetscCall(KSPGetConvergedReason(ksp, &reason));
+  PetscCall(KSPGetIterationNumber(ksp, &iterations));
   PetscCheck(reason > 0, f->mesh->comm, PETSC_ERR_NOT_CONVERGED,
              "the pressure equation did not converge at t = %g s: %s after %d iterations", f->t,
              KSPConvergedReasons[reason], (int)iterations);
@@ -233,6 +243,7 @@ PetscErrorCode FluidProject(Fluid f, double dt)
 {
   const double start = MPI_Wtime();
   PetscFunctionBeginUser;
+  PetscCall(GivingPrepare(f, dt));
   PetscCall(Divergence(f, f->u_star, f->t + dt, dt));
   PetscCall(Solve(f));
   PetscCall(VecCopy(f->u_star, f->u_next));
@@ -248,6 +259,7 @@ PetscErrorCode FluidMakeSolenoidal(Fluid f)
 {
   const double start = MPI_Wtime(), dt = 1.0; /* any: it is taken out again */
   PetscFunctionBeginUser;
+  f->gives = PETSC_FALSE;
   PetscCall(Divergence(f, f->u, f->t, dt));
   PetscCall(Solve(f));
   PetscCall(SubtractGradient(f, dt, f->u));

@@ -68,12 +68,13 @@ PetscErrorCode ExchangeMotion(Exchange *x)
 {
   const double start = MPI_Wtime();
   SolidView v;
-  const double *seen;
+  SolidSeen seen;
   PetscFunctionBeginUser;
   SolidGetView(x->solid, &v);
-  PetscCall(SolidSeenVelocity(x->solid, &seen));
+  PetscCall(SolidSee(x->solid, &seen));
   if (v.revision != x->revision) PetscCall(GiveCrackedMesh(x, &v));
-  PetscCall(CoracleSetVelocity(x->client, seen));
+  PetscCall(CoracleSetVelocity(x->client, seen.u));
+  PetscCall(CoracleSetInertia(x->client, seen.mobility, seen.acceleration));
   PetscCall(CoracleEnd(x->client, v.x));
   x->waited += MPI_Wtime() - start;
   PetscFunctionReturn(0);

@@ -119,14 +119,19 @@ PetscErrorCode SolidInternalForces(Solid s)
   PetscFunctionReturn(0);
 }
 
-double SolidElementLimit(Solid s, ElementRates contact)
+ElementRates SolidElementRates(Solid s, int k)
 {
   const Elements *e = &s->elements;
+  Tensor edges, f;
+  SolidElementShape(e, k, s->x, &edges, &f);
+  return ElementRatesOf(edges, f, e->density[k], ElementsLaw(e, k));
+}
+
+double SolidElementLimit(Solid s, ElementRates contact)
+{
   double limit = HUGE_VAL;
-  for (int k = 0; k < e->n; k++) {
-    Tensor edges, f;
-    SolidElementShape(e, k, s->x, &edges, &f);
-    ElementRates rates = ElementRatesOf(edges, f, e->density[k], ElementsLaw(e, k));
+  for (int k = 0; k < s->elements.n; k++) {
+    ElementRates rates = SolidElementRates(s, k);
     rates.stiffness += contact.stiffness;
     rates.damping += contact.damping;
     limit = fmin(limit, ElementStableStep(rates));

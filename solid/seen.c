@@ -1,12 +1,19 @@
-/* The velocity that the fluid sees: the rigid motion of each piece (a body that has not come apart is one) at
- * the step's end, and of its deformation what the fluid's step can resolve.  A staggered exchange answers a
- * vibration about one and a half steps late; late by more than half a period the answer drives the vibration
- * instead of damping it. */
+/* What the fluid sees, piece by piece (a body that has not come apart is one).
+ *
+ * Where the fluid's step resolves the waves in a piece it sees the velocities as they are, and every node
+ * gives way by itself (coracle.h, CoracleSetInertia): the exchange is implicit.  Any other piece gives way as
+ * a whole only: the fluid sees its rigid motion at the step's end, and of its deformation what the step can
+ * resolve.  That exchange answers a vibration about one and a half steps late; late by more than half a
+ * period the answer drives the vibration instead of damping it. */
 #include "solid_impl.h"
 
 /* Deformation slower than the first is seen whole, faster than the second not at all: omega dt. */
 #define SEEN_WHOLE 0.1
 #define SEEN_NOT 0.25
+/* Waves are resolved up to w dt, w the bound on the fastest vibration that substeps obey: 1.5 to 2.5 times
+ * the real one. */
+#define RESOLVED 10.0
+#define RESOLVED_WHOLLY 2.0 /* a share that says so */
 
 /* Sums over a piece: mass, m x; m v, m x cross v, m |x|^2, v the velocity now; and the same two of the mean
  * velocity.  Then of the mean's deformation d: m |d|^2, and int 2 mu e:e + lambda (tr e)^2 of its strain rate
@@ -124,8 +131,48 @@ static PetscErrorCode Shares(const Solid s, int n, const int piece[], double sha
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SolidSeenVelocity(Solid s, const double **seen)
+/* share[b] = RESOLVED_WHOLLY for pieces whose waves a step of dt resolves. */
+static PetscErrorCode MarkResolved(const Solid s, int n, const int piece[], double share[])
 {
+  double *fastest; /* w^2 */
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1((size_t)n, &fastest));
+  for (int k = 0; k < s->elements.n; k++) {
+    const int b = piece[s->element[3 * k]];
+    fastest[b] = fmax(fastest[b], SolidElementRates(s, k).stiffness);
+  }
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, fastest, n, MPI_DOUBLE, MPI_MAX, s->comm));
+  for (int b = 0; b < n; b++)
+    if (sqrt(fastest[b]) * s->dt < RESOLVED) share[b] = RESOLVED_WHOLLY;
+  PetscCall(PetscFree(fastest));
+  PetscFunctionReturn(0);
+}
+
+static void SeeWholly(Solid s, int i, const double force[2])
+{
+  s->mobility[i] = s->inverse_mass[i];
+  for (int c = 0; c < 2; c++) {
+    const double gravity = s->inverse_mass[i] > 0.0 ? s->setup.gravity[c] : 0.0;
+    s->seen[2 * i + c] = s->v[2 * i + c];
+    s->acceleration[2 * i + c] = s->inverse_mass[i] * force[c] + gravity;
+  }
+}
+
+/* seen: the mean deformation until now */
+static void SeeRigid(Solid s, int i, const RigidMotion *r, double share)
+{
+  double rigid[2];
+  RigidVelocity(r->centre, r->end, r->end_spin, s->x + 2 * i, rigid);
+  s->mobility[i] = 0.0;
+  for (int c = 0; c < 2; c++) {
+    s->seen[2 * i + c] = rigid[c] + share * s->seen[2 * i + c];
+    s->acceleration[2 * i + c] = 0.0;
+  }
+}
+
+PetscErrorCode SolidSee(Solid s, SolidSeen *seen)
+{
+  const double *force;
   RigidMotion *motion;
   double *share;
   const int *piece;
@@ -136,13 +183,16 @@ PetscErrorCode SolidSeenVelocity(Solid s, const double **seen)
   PetscCall(RigidMotions(s, n, piece, motion));
   Deformation(s, piece, motion);
   PetscCall(Shares(s, n, piece, share));
+  PetscCall(MarkResolved(s, n, piece, share));
+  PetscCall(SolidForces(s, &force));
   for (int i = 0; i < s->nnodes; i++) {
     const int b = piece[i];
-    double rigid[2];
-    RigidVelocity(motion[b].centre, motion[b].end, motion[b].end_spin, s->x + 2 * i, rigid);
-    for (int c = 0; c < 2; c++) s->seen[2 * i + c] = rigid[c] + share[b] * s->seen[2 * i + c];
+    if (share[b] == RESOLVED_WHOLLY)
+      SeeWholly(s, i, force + 2 * i);
+    else
+      SeeRigid(s, i, motion + b, share[b]);
   }
   PetscCall(PetscFree2(motion, share));
-  *seen = s->seen;
+  *seen = (SolidSeen){s->seen, s->mobility, s->acceleration};
   PetscFunctionReturn(0);
 }

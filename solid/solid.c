@@ -12,8 +12,8 @@ PetscErrorCode SolidCreate(MPI_Comm comm, const Assembly *assembly, const SolidS
   PetscCall(SolidTakeShare(s, assembly));
   PetscCall(ContactCreate(s, &s->contact));
   PetscCall(ContactSearch(s->contact, s, 0.0));
-  PetscCall(PetscMalloc3(2 * s->node_capacity, &s->start, 2 * s->node_capacity, &s->seen, s->node_capacity,
-                         &s->piece));
+  PetscCall(PetscMalloc5(2 * s->node_capacity, &s->start, 2 * s->node_capacity, &s->seen, s->node_capacity,
+                         &s->mobility, 2 * s->node_capacity, &s->acceleration, s->node_capacity, &s->piece));
   *solid = s;
   PetscFunctionReturn(0);
 }
@@ -31,7 +31,7 @@ PetscErrorCode SolidDestroy(Solid *solid)
   PetscCall(
       PetscFree7(s->gid, s->node_body, s->surface, s->mass, s->inverse_mass, s->corner_start, s->corner));
   PetscCall(PetscFree7(s->rest, s->x, s->v, s->force, s->load, s->saved.x, s->saved.v));
-  PetscCall(PetscFree3(s->start, s->seen, s->piece));
+  PetscCall(PetscFree5(s->start, s->seen, s->mobility, s->acceleration, s->piece));
   PetscCall(PetscFree6(s->element, s->facet, s->facet_element, s->facet_side, s->base, s->body));
   PetscCall(PetscFree(s->prescribed));
   PetscCall(PetscFree(s->material));

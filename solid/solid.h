@@ -52,10 +52,16 @@ PetscErrorCode SolidStart(Solid s, double dt, const double load[]);
 PetscBool SolidRemaining(Solid s); /* not collective, the same on all ranks */
 /* *h: the substep just made; SolidVelocity then is the displacement over it divided by h. */
 PetscErrorCode SolidSubstep(Solid s, double *h);
-/* After the last substep: the velocity that the fluid is to see, seen[nnodes][2], m/s, borrowed until the
- * next SolidStart: the pieces' rigid motion at the step's end (same momentum and angular momentum), plus the
- * deformation's share of the mean velocity over the step as far as a step of dt resolves it (seen.c). */
-PetscErrorCode SolidSeenVelocity(Solid s, const double **seen);
+/* What the fluid is to see (seen.c). */
+typedef struct {
+  const double *u;        /* [nnodes][2] the bodies' rigid motion, plus their deformation as far as steps of
+                             dt resolve it, m/s */
+  const double *mobility; /* [nnodes] 1/kg, as coracle.h has it: of the nodes whose deformation is seen */
+  const double *acceleration; /* [nnodes][2] m/s2, theirs without the fluid's force */
+} SolidSeen;
+/* Collective, after the last substep, when all is as at the step's end; borrowed until the next SolidStart.
+ */
+PetscErrorCode SolidSee(Solid s, SolidSeen *seen);
 /* Largest stable substep now, s: 4/(d + sqrt(d^2 + 4 w^2)), w^2 and d bounds of the elements' and contact's
  * frequencies and viscous rates. */
 PetscErrorCode SolidLimit(Solid s, double *limit);

@@ -68,19 +68,21 @@ struct Solid_s {
   double *drive_rows, *held; /* [ndriven][2] room for places before a substep */
   int ndrives;
   /* the step in hand */
-  double dt, done, h, moved_for; /* moved_for: length of the last substep made, s */
-  double *start, *seen;          /* [nnodes][2] positions when it began; what the fluid sees */
-  int npieces, *piece;           /* [nnodes] SolidPieces has found; npieces 0: since the last crack not yet */
-  int remaining, until_check;    /* substeps */
-  SolidBudget budget;            /* this rank's part */
-  PetscBool force_valid;         /* force belongs to x and v */
-  PetscBool unsettled;           /* after SolidState(0): JointsSettle is due */
+  double dt, done, h, moved_for;          /* moved_for: length of the last substep made, s */
+  double *start;                          /* [nnodes][2] positions when it began */
+  double *seen, *mobility, *acceleration; /* [nnodes][2], [nnodes], [nnodes][2] of SolidSee */
+  int npieces, *piece;        /* [nnodes] SolidPieces has found; npieces 0: since the last crack not yet */
+  int remaining, until_check; /* substeps */
+  SolidBudget budget;         /* this rank's part */
+  PetscBool force_valid;      /* force belongs to x and v */
+  PetscBool unsettled;        /* after SolidState(0): JointsSettle is due */
   SolidStats stats;
   SavedState saved;
 };
 
 /* forces.c: internal forces of this rank's elements into force; fails on an element with J <= 0. */
 PetscErrorCode SolidInternalForces(Solid s);
+ElementRates SolidElementRates(Solid s, int k);
 /* The smallest stable step over this rank's elements, each with contact's rates added. */
 double SolidElementLimit(Solid s, ElementRates contact);
 ElementLaw ElementsLaw(const Elements *e, int k);

@@ -30,6 +30,8 @@ typedef struct {
   Buffer velocity;                     /* double [2][n][2]: fitted or given, mean, m/s */
   Buffer given;                        /* double [n][2], of CoracleSetVelocity; m/s */
   bool has_given;
+  Buffer inertia; /* double [3][n], of CoracleSetInertia: mobility, 1/kg; acceleration [n][2], m/s2 */
+  bool has_inertia;
 } ClientSolid;
 
 typedef struct {

@@ -140,6 +140,18 @@ static void CheckConnectivity(CoracleClient c, const char *what, int ne, int per
 
 /* --- the exchanges -------------------------------------------------------------------------------------- */
 
+/* Mobilities and accelerations of CoracleSetInertia, none by default. */
+static void AddInertia(CoracleClient c)
+{
+  ClientSolid *s = &c->solid;
+  const size_t bytes = (1 + DIM) * (size_t)s->mesh.n * sizeof(double);
+  if (s->has_inertia && s->inertia.size != bytes)
+    ClientMisuse(c, "CoracleSetInertia", "it comes after CoracleSetNodes");
+  if (!s->has_inertia && bytes) memset(BufferResize(&s->inertia, bytes), 0, bytes);
+  MessageAdd(&c->out, s->inertia.data, bytes);
+  s->has_inertia = false;
+}
+
 /* SURFACE or MOTION, with positions x and velocities, fitted and mean. */
 static void SendMotion(CoracleClient c, const double x[], const double fitted[], const double mean[])
 {
@@ -153,6 +165,7 @@ static void SendMotion(CoracleClient c, const double x[], const double fitted[],
   MessageAdd(&c->out, x, m->x.size);
   MessageAdd(&c->out, fitted, m->x.size);
   MessageAdd(&c->out, mean, m->x.size);
+  AddInertia(c);
   if (s->changed) {
     CheckConnectivity(c, "facet", m->nfacets, DIM, Ints(&m->facet));
     CheckConnectivity(c, "element", m->nelements, DIM + 1, Ints(&m->element));
@@ -234,6 +247,22 @@ int CoracleSetVelocity(CoracleClient c, const double u[])
   return 0;
 }
 
+int CoracleSetInertia(CoracleClient c, const double mobility[], const double acceleration[])
+{
+  ClientSolid *s = &c->solid;
+  const size_t n = (size_t)s->mesh.n;
+  ClientExpect(c, "CoracleSetInertia", ROLE_SOLID, STAGE_SETUP, STAGE_STEP);
+  MessageCheckFinite(c->p, "mobility", "node", n, 1, mobility);
+  MessageCheckFinite(c->p, "acceleration", "node", n, DIM, acceleration);
+  for (size_t i = 0; i < n; i++)
+    if (mobility[i] < 0.0) ParticipantFail(c->p, "the mobility of node %zu is %g 1/kg", i, mobility[i]);
+  double *to = (double *)BufferResize(&s->inertia, (1 + DIM) * n * sizeof *to);
+  if (n) memcpy(to, mobility, n * sizeof *to);
+  if (n) memcpy(to + n, acceleration, DIM * n * sizeof *to);
+  s->has_inertia = true;
+  return 0;
+}
+
 /* The mean over the step, and the least-squares line through the substeps' velocities at the last of them:
  * the velocity at the step's end without the body's vibrations. */
 static void Velocities(ClientSolid *s)
@@ -271,4 +300,5 @@ void SolidFree(CoracleClient c)
   MeshFree(&c->solid.before);
   BufferFree(&c->solid.velocity);
   BufferFree(&c->solid.given);
+  BufferFree(&c->solid.inertia);
 }

@@ -113,6 +113,15 @@ int CoracleSubstep(CoracleClient c, double h, const double u[]);
 /* Solid, optional, between the last substep and CoracleEnd: u[n][dim], m/s, instead of that fitted line, from
  * a solid that knows better what of its velocity is motion and what vibration.  For this step only. */
 int CoracleSetVelocity(CoracleClient c, const double u[]);
+/* Solid, optional, before CoracleReady and where CoracleSetVelocity is: how nodes give way to the fluid by
+ * themselves.
+ *   mobility[n]           1/kg, velocity that a unit of impulse on the node gives it: one over its mass, all
+ *                         ranks' elements together; 0 where it is held, or too stiff to move but as a body
+ *   acceleration[n][dim]  m/s2, what all forces but the fluid's give it now, gravity too; 0 where mobility is
+ * The coupler then takes the solid's inertia into the fluid's solve, so that soft and thin bodies can be held
+ * as firmly as one likes; without it, or where mobility is 0, the fluid meets the velocity as it is.  For the
+ * next step only. */
+int CoracleSetInertia(CoracleClient c, const double mobility[], const double acceleration[]);
 
 /* Fluid: the flow on the elements last given by region, for the n of them:
  *   u_star[n][dim][dim + 1]  velocity with the coupling solved, before the pressure correction, m/s
@@ -127,18 +136,19 @@ int CoracleProposeStep(CoracleClient c, double dt);
 /* What the solid does to one fluid element K (S the solid; i, j vertices; c, d components; in 2D per metre):
  *   a[c][i][d][j]  = int_K a_cd N_i N_j          implicit coefficient, shell and volume together, kg/s
  *   s[c][i]        = int_K (a u_s)_c N_i         explicit part of s_c, N
- *   ms[i][j]       = int_{K and S} N_i N_j       sub-cell solid mass, m2
- *   us[c][i]       = int_{K and S} N_i (u_s)_c   m3/s
- *   alpha          = |K and S| / |K|             solid volume fraction
- *   shell          = |K and shell| / |K|         volume fraction of the covered shell */
+ *   give[c][i][d][j]             of a, what gives way as the pressure moves the fluid: u+ = u* - dt W^-1 grad
+ * phi, W = rho M/dt + give ms[i][j]       = int_{K and S} b N_i N_j     sub-cell solid mass, m2; b = 1, less
+ * where nodes give way us[c][i]       = int_{K and S} b N_i (u_s)_c m3/s alpha          = |K and S| / |K|
+ * solid volume fraction shell          = |K and shell| / |K|         volume fraction of the covered shell */
 typedef struct {
   int element; /* index into the elements last given by region */
-  double a[2][3][2][3], s[2][3], ms[3][3], us[2][3], alpha, shell;
+  double a[2][3][2][3], give[2][3][2][3], s[2][3], ms[3][3], us[2][3], alpha, shell;
 } CoracleCoupling;
-/* The correction of the step just made: us again, with the solid's new velocity on the old overlap. */
+/* The correction of the step just made, on its overlap: u += M^-1 r with the element's mass matrix M and
+ * r[c][i] = int_{K and S} N_i (u_s - u_plus)_c, u_s the solid's new velocity, m3/s. */
 typedef struct {
   int element;
-  double us[2][3];
+  double r[2][3];
 } CoracleCorrection;
 /* Fluid, after CoracleReady and after CoracleEnd: the coupling of the coming step.  Borrowed until the next
  * CoracleEnd. */

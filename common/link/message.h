@@ -3,14 +3,15 @@
  *
  *     header: kind, step, action, flag, counts, t, dt | block | block | ...      blocks are padded to 8 bytes
  *
- *     SURFACE    solid -> coupler   count = nodes, facets, elements: gid, x, u, facets, elements   (Ready;
- * End after a change) MOTION     solid -> coupler   count = nodes: x, mean u (End) FORCE      solid <-
- * coupler   count = nodes: force; action, t, dt                            (Begin) ASK        fluid <-
- * coupler   count = boxes: corners                                         (within Ready, End) ELEMENTS fluid
- * -> coupler   count = elements: vertices, density; bounds; dt = proposed     (answers ASK) COUPLING   fluid
- * <- coupler   count = corrections, couplings; action, t, dt                  (ends Ready, End) FLOW fluid ->
- * coupler   count = elements: u*, u+, p, mu; flag = mesh changed; dt = proposed   (End) CLOSE      both  ->
- * coupler   count = reports                                                (Close)
+ *     SURFACE    solid -> coupler   count = nodes, facets, elements: gid, x, velocities, inertia, facets, elements
+ *                                   (Ready; End after a change)
+ *     MOTION     solid -> coupler   count = nodes: x, velocities (fitted or given, mean), mobility, acceleration  (End)
+ *     FORCE      solid <- coupler   count = nodes: force; action, t, dt                                     (Begin)
+ *     ASK        fluid <- coupler   count = boxes: corners                                    (within Ready, End)
+ *     ELEMENTS   fluid -> coupler   count = elements: vertices, density; bounds; dt = proposed      (answers ASK)
+ *     COUPLING   fluid <- coupler   count = corrections, couplings; action, t, dt                (ends Ready, End)
+ *     FLOW       fluid -> coupler   count = elements: u*, u+, p, mu; flag = mesh changed; dt = proposed       (End)
+ *     CLOSE      both  -> coupler   count = reports                                                         (Close)
  *
  * Kind and step travel with every message: one that does not fit ends the job with both sides' names. */
 #ifndef CORACLE_MESSAGE_H

@@ -16,6 +16,7 @@ typedef struct {
   const double *x;                /* [nnodes][2] position, m */
   const double *u, *mean; /* [nnodes][2] velocity, m/s, over the last step: fitted to its end, and the mean;
                              both initial at first */
+  const double *mobility, *acceleration; /* [nnodes] 1/kg, [nnodes][2] m/s2: of CoracleSetInertia, else 0 */
   const int *facet, *element; /* [nfacets][2], [nelements][3] indices into the nodes of this rank */
 } ServerSolid;
 

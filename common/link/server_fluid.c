@@ -142,7 +142,7 @@ static void AddCorrections(Server s, int k, int n, const CoracleCorrection corre
     CoracleCorrection *c = BufferExtend(scratch, sizeof *c);
     memset(c, 0, sizeof *c); /* the padding, too: what travels is defined */
     c->element = Ints(&peer->coupled)[mine++];
-    memcpy(c->us, correction[i].us, sizeof c->us);
+    memcpy(c->r, correction[i].r, sizeof c->r);
   }
   MessageAdd(&peer->out, scratch->data, scratch->size);
 }
@@ -192,7 +192,7 @@ static void CheckCorrections(Server s, int n, const CoracleCorrection correction
   const int expected = s->owes_correction ? (int)(s->owner.size / sizeof(int)) : 0;
   if (n != expected)
     ServerFail(s, "%d corrections after step %d, which had %d coupling entries", n, s->fluid.step, expected);
-  for (int i = 0; i < n; i++) CheckEntry(s, "correction", i, 6, &correction[i].us[0][0]);
+  for (int i = 0; i < n; i++) CheckEntry(s, "correction", i, 6, &correction[i].r[0][0]);
 }
 
 static int CountOwned(const int owner[], int n, int k)

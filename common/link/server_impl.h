@@ -27,7 +27,7 @@ struct Server_s {
   bool received_solid, asked, elements_changed, owes_correction;
   double proposed;
   /* solid's lists */
-  Buffer gid, x, u, mean, facet, element;
+  Buffer gid, x, u, mean, mobility, acceleration, facet, element;
   /* fluid's lists */
   Buffer vertices, rho, u_star, u_plus, pressure, mu;
   int nelements;

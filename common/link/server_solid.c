@@ -27,6 +27,8 @@ static int ReceiveMotion(Server s, Peer *peer, int *nnodes)
   memcpy(BufferExtend(&s->x, bytes), MessageTake(s->p, m, bytes), bytes);
   memcpy(BufferExtend(&s->u, bytes), MessageTake(s->p, m, bytes), bytes);
   memcpy(BufferExtend(&s->mean, bytes), MessageTake(s->p, m, bytes), bytes);
+  memcpy(BufferExtend(&s->mobility, bytes / DIM), MessageTake(s->p, m, bytes / DIM), bytes / DIM);
+  memcpy(BufferExtend(&s->acceleration, bytes), MessageTake(s->p, m, bytes), bytes);
   if (whole) {
     Store(s, m, &peer->facet, DIM * (size_t)h->count[1] * sizeof(int));
     Store(s, m, &peer->element, (DIM + 1) * (size_t)h->count[2] * sizeof(int));
@@ -63,6 +65,8 @@ int ServerReceiveSolid(Server s, ServerSolid *solid)
   BufferResize(&s->x, 0);
   BufferResize(&s->u, 0);
   BufferResize(&s->mean, 0);
+  BufferResize(&s->mobility, 0);
+  BufferResize(&s->acceleration, 0);
   for (int i = 0; i < s->solid.n; i++) changed |= ReceiveMotion(s, &s->solid.peer[i], &nnodes);
   if (changed || !s->received_solid) AssembleMesh(s);
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, s->p->app);
@@ -75,6 +79,8 @@ int ServerReceiveSolid(Server s, ServerSolid *solid)
                          .x = (const double *)(const void *)s->x.data,
                          .u = (const double *)(const void *)s->u.data,
                          .mean = (const double *)(const void *)s->mean.data,
+                         .mobility = (const double *)(const void *)s->mobility.data,
+                         .acceleration = (const double *)(const void *)s->acceleration.data,
                          .facet = (const int *)(const void *)s->facet.data,
                          .element = (const int *)(const void *)s->element.data};
   return 0;

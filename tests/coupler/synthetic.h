@@ -14,7 +14,7 @@ typedef struct {
   ServerSolid view;
   int nnodes, nfacets, nelements;
   long long gid[SYNTHETIC_MAX];
-  double x[SYNTHETIC_MAX][2], u[SYNTHETIC_MAX][2];
+  double x[SYNTHETIC_MAX][2], u[SYNTHETIC_MAX][2], mobility[SYNTHETIC_MAX], acceleration[SYNTHETIC_MAX][2];
   int facet[SYNTHETIC_MAX][2], element[SYNTHETIC_MAX][3];
 } SyntheticSolid;
 
@@ -28,8 +28,18 @@ typedef struct {
 
 static inline void SyntheticSolidView(SyntheticSolid *s)
 {
-  s->view = (ServerSolid){1,           s->nnodes,   s->nfacets,  s->nelements,    s->gid,
-                          &s->x[0][0], &s->u[0][0], &s->u[0][0], &s->facet[0][0], &s->element[0][0]};
+  s->view = (ServerSolid){.changed = 1,
+                          .nnodes = s->nnodes,
+                          .nfacets = s->nfacets,
+                          .nelements = s->nelements,
+                          .gid = s->gid,
+                          .x = &s->x[0][0],
+                          .u = &s->u[0][0],
+                          .mean = &s->u[0][0],
+                          .mobility = s->mobility,
+                          .acceleration = &s->acceleration[0][0],
+                          .facet = &s->facet[0][0],
+                          .element = &s->element[0][0]};
 }
 
 static inline void SyntheticElement(SyntheticSolid *s, int a, int b, int c)
@@ -103,11 +113,12 @@ static inline void SyntheticSolidPart(const SyntheticSolid *all, int rank, int s
   memset(part, 0, sizeof *part);
   for (int i = 0; i < all->nnodes; i++) local[i] = -1;
 #define SYNTHETIC_LOCAL(node)                                                                                \
-  (local[node] >= 0                                                                                          \
-       ? local[node]                                                                                         \
-       : (part->gid[part->nnodes] = all->gid[node],                                                          \
-          memcpy(part->x[part->nnodes], all->x[node], sizeof part->x[0]),                                    \
-          memcpy(part->u[part->nnodes], all->u[node], sizeof part->u[0]), local[node] = part->nnodes++))
+  (local[node] >= 0 ? local[node]                                                                            \
+                    : (part->gid[part->nnodes] = all->gid[node],                                             \
+                       memcpy(part->x[part->nnodes], all->x[node], sizeof part->x[0]),                       \
+                       memcpy(part->u[part->nnodes], all->u[node], sizeof part->u[0]),                       \
+                       memcpy(part->acceleration[part->nnodes], all->acceleration[node], sizeof part->u[0]), \
+                       part->mobility[part->nnodes] = all->mobility[node], local[node] = part->nnodes++))
   for (int t = 0; t < all->nelements; t++) {
     if (t % deal != rank) continue;
     for (int i = 0; i < 3; i++) part->element[part->nelements][i] = SYNTHETIC_LOCAL(all->element[t][i]);

@@ -76,18 +76,14 @@ static void Implicit(const CoracleCoupling *c, double dt, const double x[3][2], 
   memcpy(u, r, sizeof r);
 }
 
-/* M u += us' - ms u+ */
-static void Correct(const CoracleCoupling *c, const CoracleCorrection *k, const double x[3][2],
-                    double u[2][3])
+/* M u += r */
+static void Correct(const CoracleCorrection *k, const double x[3][2], double u[2][3])
 {
   for (int d = 0; d < 2; d++) {
     double m[6][6], r[6];
     for (int i = 0; i < 3; i++) {
-      r[i] = k->us[d][i];
-      for (int j = 0; j < 3; j++) {
-        r[i] -= c->ms[i][j] * u[d][j];
-        m[i][j] = GeometryArea(x) / (i == j ? 6.0 : 12.0);
-      }
+      r[i] = k->r[d][i];
+      for (int j = 0; j < 3; j++) m[i][j] = GeometryArea(x) / (i == j ? 6.0 : 12.0);
     }
     Solve(3, m, r);
     for (int i = 0; i < 3; i++) u[d][i] += r[i];
@@ -121,7 +117,7 @@ static void FluidStep(CoracleClient client, double dt)
   for (int e = 0; e < n; e++) {
     const int k = global[kept[e].element];
     CHECK(correction[e].element == kept[e].element, "order");
-    Correct(&kept[e], &correction[e], (const double(*)[2])fluid.x[k], fluid.u_plus[k]);
+    Correct(&correction[e], (const double(*)[2])fluid.x[k], fluid.u_plus[k]);
   }
 }
 

@@ -61,7 +61,7 @@ static void CheckCorrection(const Fluid *f)
     if (k[i].element < 0 || k[i].element >= f->n_old || f->id_old[k[i].element] != f->entry[i])
       CoracleFail(f->client, "correction %d is of element %d", i, k[i].element);
     for (int j = 0; j < 6; j++)
-      if ((&k[i].us[0][0])[j] != CellCorrection(f->entry[i], j, f->step))
+      if ((&k[i].r[0][0])[j] != CellCorrection(f->entry[i], j, f->step))
         CoracleFail(f->client, "correction %d has wrong values in step %d", i, f->step);
   }
 }

@@ -154,7 +154,7 @@ static void SendCoupling(Stub *s, CoracleAction action, int coming)
   CoracleCorrection correction[MAX] = {0};
   const int ncorrection = s->step ? s->ncoupled : 0;
   for (int i = 0; i < ncorrection; i++)
-    for (int k = 0; k < 6; k++) (&correction[i].us[0][0])[k] = CellCorrection(s->entry[i], k, s->step);
+    for (int k = 0; k < 6; k++) (&correction[i].r[0][0])[k] = CellCorrection(s->entry[i], k, s->step);
   s->ncoupled = 0;
   for (int i = 0; i < s->n && action != CORACLE_STOP; i++) {
     const int e = i % 2 ? s->n - 1 - i / 2 : i / 2;
