@@ -30,9 +30,10 @@ struct Fluid_s {
   char *is_fixed; /* [np2] with ghosts */
   PetscBool has_open;
   /* where a solid gives way to the pressure: giving.c */
-  PetscBool gives; /* on any rank, in the step in hand */
-  Mat giving;
+  PetscBool gives;             /* on any rank, in the step in hand */
+  Mat giving, giving_factored; /* now, and when it was factored last */
   KSP giving_ksp;
+  PetscInt giving_iterations;
   double (*response)[6][6]; /* [ncoupling] */
 
   int ncoupling, capacity;
@@ -67,6 +68,8 @@ PetscErrorCode PreconditionerUpdate(Fluid f);
 PetscErrorCode PreconditionerDestroy(Fluid f);
 PetscErrorCode PressureCreate(Fluid f);
 PetscErrorCode PressureDestroy(Fluid f);
+/* A solver with a direct factor as preconditioner; operators, tolerances and options are still to be set. */
+PetscErrorCode PressureSolver(Fluid f, const char *prefix, KSPType type, KSP *ksp);
 /* giving.c: matrix and responses of the step in hand; u -= response to grad phi, or false where nothing gives
  * way */
 PetscErrorCode GivingPrepare(Fluid f, double dt);

@@ -1,24 +1,20 @@
-/* Solids that give way within the projection (coracle.h: give): on their elements the pressure moves fluid
- * and solid together, u+ = u* - dt W^-1 M grad phi with W = rho M/dt + give, and the pressure's matrix is C^T
- * M W^-1 M C/dt there.  It changes with every step; the constant one, whose factor is there, preconditions
- * it: the two differ by the ratio of the solid's density to the fluid's, on a few elements. */
+/* Solids that give way within the projection (coracle.h: give): on their elements the pressure moves fluid and
+ * solid together, u+ = u* - dt W^-1 M grad phi with W = rho M/dt + give, and the pressure's matrix is
+ * C^T M W^-1 M C/dt there.  It changes with every step, but little: CG with the factor of a few steps ago. */
 #include "fluid_impl.h"
 
-enum { NU = 6 }; /* velocity unknowns of an element: component, then vertex */
+#define ITERATIONS_MAX 8 /* with an old factor, before it is made anew */
+enum { NU = 6 };         /* velocity unknowns of an element: component, then vertex */
 
 static PetscErrorCode Create(Fluid f)
 {
-  PC pc;
   PetscFunctionBeginUser;
-  PetscCall(KSPGetPC(f->pressure_ksp, &pc));
-  PetscCall(KSPCreate(f->mesh->comm, &f->giving_ksp));
-  PetscCall(KSPSetOptionsPrefix(f->giving_ksp, "pressure_giving_"));
-  PetscCall(KSPSetType(f->giving_ksp, KSPCG));
-  PetscCall(KSPSetPC(f->giving_ksp, pc));
+  PetscCall(PressureSolver(f, "pressure_giving_", KSPCG, &f->giving_ksp));
   PetscCall(KSPSetTolerances(f->giving_ksp, 1e-7, 1e-50, 1e5, 500));
   PetscCall(KSPSetFromOptions(f->giving_ksp));
   PetscCall(MatDuplicate(f->laplacian, MAT_COPY_VALUES, &f->giving));
   PetscCall(MatSetOption(f->giving, MAT_SPD, PETSC_TRUE));
+  f->giving_iterations = ITERATIONS_MAX + 1;
   PetscFunctionReturn(0);
 }
 
@@ -27,7 +23,21 @@ PetscErrorCode GivingDestroy(Fluid f)
   PetscFunctionBeginUser;
   PetscCall(KSPDestroy(&f->giving_ksp));
   PetscCall(MatDestroy(&f->giving));
+  PetscCall(MatDestroy(&f->giving_factored));
   PetscCall(PetscFree(f->response));
+  PetscFunctionReturn(0);
+}
+
+/* Factors the matrix as it is now, if the last factor has become a bad preconditioner. */
+static PetscErrorCode Refactor(Fluid f)
+{
+  PetscFunctionBeginUser;
+  if (f->giving_iterations > ITERATIONS_MAX) {
+    if (!f->giving_factored) PetscCall(MatDuplicate(f->giving, MAT_COPY_VALUES, &f->giving_factored));
+    PetscCall(MatCopy(f->giving, f->giving_factored, SAME_NONZERO_PATTERN));
+    PetscCall(MatSetOption(f->giving_factored, MAT_SPD, PETSC_TRUE));
+  }
+  PetscCall(KSPSetOperators(f->giving_ksp, f->giving, f->giving_factored));
   PetscFunctionReturn(0);
 }
 
@@ -145,7 +155,7 @@ PetscErrorCode GivingPrepare(Fluid f, double dt)
     if (Gives(f->coupling + k)) PetscCall(AddElement(f, dt, k));
   PetscCall(MatAssemblyBegin(f->giving, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(f->giving, MAT_FINAL_ASSEMBLY));
-  PetscCall(KSPSetOperators(f->giving_ksp, f->giving, f->laplacian));
+  PetscCall(Refactor(f));
   PetscFunctionReturn(0);
 }
 

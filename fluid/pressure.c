@@ -74,31 +74,48 @@ static PetscErrorCode AssembleLaplacian(Fluid f)
   PetscFunctionReturn(0);
 }
 
-/* A direct solver, factored once a mesh: PETSc's own Cholesky, whose two triangular solves are twice as fast
- * here as those of the supernodal packages.  On several ranks one of them has the factor: its solve costs
- * less than a distributed one, until the mesh is large; -pressure_pc_type and the like choose otherwise. */
-static PetscErrorCode CreateSolver(Fluid f)
+static PetscErrorCode DefaultOf(const char *prefix, const char *option, const char *value)
+{
+  char name[96];
+  PetscFunctionBeginUser;
+  PetscCall(PetscSNPrintf(name, sizeof name, "-%s%s", prefix, option));
+  PetscCall(FluidDefaultOption(name, value));
+  PetscFunctionReturn(0);
+}
+
+/* A direct factor: PETSc's own Cholesky, whose two triangular solves are twice as fast here as those of the supernodal
+ * packages.  On several ranks one of them has the factor: its solve costs less than a distributed one, until the
+ * mesh is large; -<prefix>pc_type and the like choose otherwise. */
+PetscErrorCode PressureSolver(Fluid f, const char *prefix, KSPType type, KSP *ksp)
 {
   PetscMPIInt size;
   PC pc;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_size(f->mesh->comm, &size));
-  PetscCall(KSPCreate(f->mesh->comm, &f->pressure_ksp));
-  PetscCall(KSPSetOptionsPrefix(f->pressure_ksp, "pressure_"));
-  PetscCall(KSPSetOperators(f->pressure_ksp, f->laplacian, f->laplacian));
-  PetscCall(KSPSetType(f->pressure_ksp, KSPPREONLY));
-  PetscCall(KSPSetTolerances(f->pressure_ksp, 1e-9, 1e-50, 1e5, 500));
-  PetscCall(KSPGetPC(f->pressure_ksp, &pc));
+  PetscCall(KSPCreate(f->mesh->comm, ksp));
+  PetscCall(KSPSetOptionsPrefix(*ksp, prefix));
+  PetscCall(KSPSetType(*ksp, type));
+  PetscCall(KSPGetPC(*ksp, &pc));
   if (size == 1) {
     PetscCall(PCSetType(pc, PCCHOLESKY));
     PetscCall(PCFactorSetMatOrderingType(pc, MATORDERINGAMD));
   } else {
     PetscCall(PCSetType(pc, PCTELESCOPE));
     PetscCall(PCTelescopeSetReductionFactor(pc, size));
-    PetscCall(FluidDefaultOption("-pressure_telescope_ksp_type", "preonly"));
-    PetscCall(FluidDefaultOption("-pressure_telescope_pc_type", "cholesky"));
-    PetscCall(FluidDefaultOption("-pressure_telescope_pc_factor_mat_ordering_type", "amd"));
+    PetscCall(DefaultOf(prefix, "telescope_ksp_type", "preonly"));
+    PetscCall(DefaultOf(prefix, "telescope_pc_type", "cholesky"));
+    PetscCall(DefaultOf(prefix, "telescope_pc_factor_mat_ordering_type", "amd"));
   }
+  PetscFunctionReturn(0);
+}
+
+/* Factored once a mesh. */
+static PetscErrorCode CreateSolver(Fluid f)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PressureSolver(f, "pressure_", KSPPREONLY, &f->pressure_ksp));
+  PetscCall(KSPSetOperators(f->pressure_ksp, f->laplacian, f->laplacian));
+  PetscCall(KSPSetTolerances(f->pressure_ksp, 1e-9, 1e-50, 1e5, 500));
   PetscCall(KSPSetFromOptions(f->pressure_ksp));
   PetscCall(KSPSetUp(f->pressure_ksp));
   PetscFunctionReturn(0);
@@ -234,6 +251,7 @@ static PetscErrorCode Solve(Fluid f)
              "the pressure equation did not converge at t = %g s: %s after %d iterations", f->t,
              KSPConvergedReasons[reason], (int)iterations);
   f->stats.pressure_iterations = iterations;
+  if (f->gives) f->giving_iterations = iterations;
   PetscCall(VecGhostUpdateBegin(f->phi, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGhostUpdateEnd(f->phi, INSERT_VALUES, SCATTER_FORWARD));
   PetscFunctionReturn(0);
