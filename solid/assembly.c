@@ -76,6 +76,14 @@ static PetscErrorCode CheckNames(const MeshSerial *m, const BodySetup *setup)
 /* --- materials
  * ---------------------------------------------------------------------------------------------- */
 
+ElementLaw MaterialLaw(const Material *m)
+{
+  ElementLaw law = ElementLawOf(m->youngs_modulus, m->poisson_ratio, 0.0);
+  law.sheet = m->plane_stress;
+  law.corotated = m->corotated;
+  return law;
+}
+
 /* The place of a material in the assembly, where it is put if it is not there. */
 static PetscErrorCode AddMaterial(Assembly *a, const Material *m, int *place)
 {

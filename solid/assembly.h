@@ -4,6 +4,7 @@
 #ifndef SOLID_ASSEMBLY_H
 #define SOLID_ASSEMBLY_H
 #include "drive.h"
+#include "element.h"
 #include "mesh.h"
 
 enum { MATERIAL_NAME = 48 };
@@ -19,10 +20,14 @@ typedef struct {
   double contact_damping;    /* of contact with the same material, fraction of the critical */
   double thickness;          /* m; 0 stands for 1: per metre of depth */
   int plane_stress;          /* else plane strain */
+  int corotated;             /* linear in the Biot strain (element.h), else neo-Hookean */
   double strength[2];        /* of joints: in tension and in shear, Pa */
   double fracture_energy[2]; /* per unit of new surface, mode I and mode II, J/m2 */
   char name[MATERIAL_NAME];  /* bodies with equal names share the material; "" is always one of its own */
 } Material;
+
+/* Without viscosity, per metre of thickness. */
+ElementLaw MaterialLaw(const Material *m);
 
 /* Where a body may crack: the edges between two elements that lie in one of the boxes or regions. */
 typedef struct {

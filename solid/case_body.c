@@ -38,6 +38,7 @@ static void ReadStrength(Case c, const char *name, Material *m)
 static Material ReadMaterial(Case c, const char *name)
 {
   static const char *const PLANES[] = {"strain", "stress", NULL};
+  static const char *const LAWS[] = {"neo_hookean", "corotated", NULL};
   Material m = {0};
   char key[KEY];
   m.density = Property(c, name, "density", 0.0, 0.0);
@@ -53,6 +54,8 @@ static Material ReadMaterial(Case c, const char *name)
   m.contact_damping = CaseNumberOr(c, key, 0.0, 0.0, 10.0);
   (void)snprintf(key, sizeof key, "solid.materials.%s.plane", name);
   m.plane_stress = CaseWord(c, key, 0, PLANES);
+  (void)snprintf(key, sizeof key, "solid.materials.%s.law", name);
+  m.corotated = CaseWord(c, key, 0, LAWS);
   (void)snprintf(key, sizeof key, "solid.materials.%s.thickness", name);
   m.thickness = CaseHas(c, key) ? CasePositive(c, key) : 1.0;
   ReadStrength(c, name, &m);
