@@ -50,6 +50,7 @@ typedef struct {
 typedef struct {
   Material material;       /* of all elements in none of the regions */
   double stretch[2];       /* current = centre + stretch (rest - centre): 1, 1 for a body at rest */
+  const double *position;  /* [mesh nv][2] instead of that; or NULL */
   double velocity[2];      /* m/s */
   double angular_velocity; /* rad/s about the mass centre, counter-clockwise */
   int fixed;               /* whole body */
@@ -87,8 +88,8 @@ typedef struct {
 } Assembly;
 
 /* Adds a body; mesh holds its rest coordinates and is not kept.  On failure *error (a static buffer) says
- * why: a degenerate element, an edge with more than two triangles, a boundary or region that does not exist;
- * the assembly is then of no use any more. */
+ * why: a degenerate element, one that starts inside out, an edge with more than two triangles, a boundary or
+ * region that does not exist; the assembly is then of no use any more. */
 PetscErrorCode AssemblyAdd(Assembly *a, const MeshSerial *mesh, const BodySetup *setup, const char **error);
 /* The first pair of bodies one of which reaches into the other; *first = -1 if there is none. */
 PetscErrorCode AssemblyOverlap(const Assembly *a, int *first, int *second);

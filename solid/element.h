@@ -126,6 +126,18 @@ static inline ElementStress ElementElasticStress(Tensor f, double j, ElementLaw 
       f, (ElementCoefficients){law.corotated ? linear.b : neo.b, law.corotated ? linear.one : one});
 }
 
+/* l_n: the stretch across a wall whose faces are free of stress (T_nn = 0; a sheet's T_33 too), stretched by
+ * `along`.  Not > 0 where the corotated law leaves no wall. */
+static inline double ElementFreeStretch(double along, ElementLaw law)
+{
+  const double mu = law.mu, lambda = law.lambda, half = mu + 0.5 * lambda, square = along * along;
+  if (law.corotated)
+    return 1.0 - ElementPlaneLambda(law) * (along - 1.0) / (2.0 * mu + ElementPlaneLambda(law));
+  if (law.sheet) /* l_n = l_3: lambda/2 l_t^2 l_n^4 + mu l_n^2 = mu + lambda/2 */
+    return sqrt(2.0 * half / (mu + sqrt(mu * mu + 2.0 * lambda * half * square)));
+  return sqrt(half / (mu + 0.5 * lambda * square));
+}
+
 /* eta sym(grad v), grad v = Dv D^-1, Dv the edges' velocities. */
 static inline ElementStress ElementViscousStress(Tensor edges, Tensor velocity, double eta)
 {

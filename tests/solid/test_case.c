@@ -157,7 +157,12 @@ static void Full(void)
   CHECK(assembly.ndrives == 2 && assembly.drive[0].nrows == 2 && !assembly.drive[0].driven[1], "drives");
   const double mean = DriveVelocity(&assembly.drive[0], 0, 1.0, 2.0); /* 2 to 3, then 3 */
   CHECK(fabs(mean - 2.75) < 1e-14, "mean velocity %g", mean);
-  double area[3] = {0.0, 0.0, 0.0};
+  double area[3] = {0.0, 0.0, 0.0}, span[2] = {0.0, 0.0};
+  for (int n = 0; n < assembly.nnodes; n++) /* the stretched ring's wall is 0.1 at its right, thinner above */
+    for (int c = 0; c < 2 && assembly.node_body[n] == 1; c++)
+      span[c] = fmax(span[c], assembly.x[2 * n + c] - (c ? 0.0 : 5.0));
+  CHECK(fabs(span[0] / 1.55 - 1.0) < 0.01 && fabs(span[1] / 1.0355 - 1.0) < 0.01, "stretched ring %g %g",
+        span[0], span[1]);
   for (int e = 0; e < assembly.nelements; e++) {
     const int *n = assembly.element + 3 * e;
     const double *x = assembly.rest;
@@ -178,6 +183,10 @@ static void Refusals(void)
   CheckCase(HEAD
             "  bodies:\n    - {shape: ring, centre: [0, 0], radius: 1, thickness: 3, size: 1, material: m}\n",
             NULL, Read, ":6: key 'solid.bodies[0].thickness': the ring has no hole or no wall");
+  CheckCase(HEAD
+            "  bodies:\n    - {shape: ring, centre: [0, 0], radius: 1, thickness: 1, size: 0.5, material: m, "
+            "stretch: [1.0, 0.2]}\n",
+            NULL, Read, ":6: key 'solid.bodies[0]': its stretch turns element 1 at (0.351152, 0) inside out");
   CheckCase(HEAD
             "  bodies:\n    - {shape: disc, centre: [0, 0], radius: 0.1, size: 0.05, material: m, driven: "
             "[{boundary: boundary, table: [[1, 0, 0], [1, 0, 0]]}]}\n",

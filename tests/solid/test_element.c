@@ -133,6 +133,16 @@ static void CorotatedSheet(ElementLaw law, Tensor f)
   CHECK(fabs(free_stress) < 1e-14 * law.mu, "stress across the sheet %g", free_stress);
 }
 
+/* The stretch across a wall with free faces: nothing acts across, whatever acts along. */
+static void FreeWall(ElementLaw law)
+{
+  for (double along = 0.6; along < 2.5; along += 0.3) {
+    const Tensor f = {along, 0.0, 0.0, ElementFreeStretch(along, law)};
+    const ElementStress t = ElementElasticStress(f, TensorDeterminant(f), law);
+    CHECK(fabs(t.yy) < 1e-14 * law.mu, "stress across the wall %g, along it %g", t.yy, t.xx);
+  }
+}
+
 static void EnergyGradient(ElementLaw law)
 {
   Point x[3];
@@ -226,6 +236,7 @@ static void Corotated(ElementLaw law)
     Rotation(law);
     EnergyGradient(law);
     SmallEnergy(law);
+    FreeWall(law);
     for (size_t k = 0; k < sizeof MAPS / sizeof *MAPS; k++) {
       Biot(law, MAPS[k]);
       Bound(law, MAPS[k], 20.0, 0.5);
@@ -252,6 +263,8 @@ int main(void)
   Sheet(1.0e6, 0.3);
   SmallEnergy(law);
   SmallEnergy(sheet);
+  FreeWall(law);
+  FreeWall(sheet);
   Corotated(law);
   Bound(sheet, (Tensor){1.0, 0.0, 0.0, 1.0}, 0.0, 0.3);
   Bound(sheet, (Tensor){1.4, 0.3, -0.2, 0.9}, 0.0, 0.2);
