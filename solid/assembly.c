@@ -47,6 +47,18 @@ static PetscErrorCode CheckElements(const MeshSerial *m)
   return 0;
 }
 
+/* Where the body starts, if that is given. */
+static PetscErrorCode CheckPositions(const MeshSerial *m, const double x[])
+{
+  for (int e = 0; x && e < m->ne; e++) {
+    const int *n = m->vertex + 3 * e;
+    const Point a = PointAt(x, n[0]);
+    if (!(TensorDeterminant(TensorOfEdges(a, PointAt(x, n[1]), PointAt(x, n[2]))) > 0.0))
+      return Refuse("its stretch turns element %d at (%g, %g) inside out", e, a.x, a.y);
+  }
+  return 0;
+}
+
 /* what: "boundary" or "region" */
 static PetscErrorCode CheckName(const char *what, const char *name, int n, char (*known)[64])
 {
@@ -75,6 +87,14 @@ static PetscErrorCode CheckNames(const MeshSerial *m, const BodySetup *setup)
 
 /* --- materials
  * ---------------------------------------------------------------------------------------------- */
+
+ElementLaw MaterialLaw(const Material *m)
+{
+  ElementLaw law = ElementLawOf(m->youngs_modulus, m->poisson_ratio, 0.0);
+  law.sheet = m->plane_stress;
+  law.corotated = m->corotated;
+  return law;
+}
 
 /* The place of a material in the assembly, where it is put if it is not there. */
 static PetscErrorCode AddMaterial(Assembly *a, const Material *m, int *place)
@@ -145,7 +165,8 @@ static void PlaceNodes(Assembly *a, const MeshSerial *m, const BodySetup *setup,
     if (n < 0) continue;
     for (int c = 0; c < 2; c++) {
       a->rest[2 * n + c] = m->x[2 * v + c];
-      a->x[2 * n + c] = centre[c] + setup->stretch[c] * (m->x[2 * v + c] - centre[c]);
+      a->x[2 * n + c] = setup->position ? setup->position[2 * v + c]
+                                        : centre[c] + setup->stretch[c] * (m->x[2 * v + c] - centre[c]);
     }
     a->u[2 * n] = setup->velocity[0] - setup->angular_velocity * (a->x[2 * n + 1] - centre[1]);
     a->u[2 * n + 1] = setup->velocity[1] + setup->angular_velocity * (a->x[2 * n] - centre[0]);
@@ -299,7 +320,9 @@ PetscErrorCode AssemblyAdd(Assembly *a, const MeshSerial *mesh, const BodySetup 
   PetscErrorCode code;
   PetscFunctionBeginUser;
   *error = why;
-  if ((code = CheckElements(mesh)) || (code = CheckNames(mesh, setup))) PetscFunctionReturn(code);
+  if ((code = CheckElements(mesh)) || (code = CheckPositions(mesh, setup->position)) ||
+      (code = CheckNames(mesh, setup)))
+    PetscFunctionReturn(code);
   MassCentre(mesh, body.centre);
   PetscCall(PetscMalloc1((size_t)mesh->nv, &renumber));
   NumberNodes(a, mesh, renumber);

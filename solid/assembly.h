@@ -4,6 +4,7 @@
 #ifndef SOLID_ASSEMBLY_H
 #define SOLID_ASSEMBLY_H
 #include "drive.h"
+#include "element.h"
 #include "mesh.h"
 
 enum { MATERIAL_NAME = 48 };
@@ -19,10 +20,14 @@ typedef struct {
   double contact_damping;    /* of contact with the same material, fraction of the critical */
   double thickness;          /* m; 0 stands for 1: per metre of depth */
   int plane_stress;          /* else plane strain */
+  int corotated;             /* linear in the Biot strain (element.h), else neo-Hookean */
   double strength[2];        /* of joints: in tension and in shear, Pa */
   double fracture_energy[2]; /* per unit of new surface, mode I and mode II, J/m2 */
   char name[MATERIAL_NAME];  /* bodies with equal names share the material; "" is always one of its own */
 } Material;
+
+/* Without viscosity, per metre of thickness. */
+ElementLaw MaterialLaw(const Material *m);
 
 /* Where a body may crack: the edges between two elements that lie in one of the boxes or regions. */
 typedef struct {
@@ -45,6 +50,7 @@ typedef struct {
 typedef struct {
   Material material;       /* of all elements in none of the regions */
   double stretch[2];       /* current = centre + stretch (rest - centre): 1, 1 for a body at rest */
+  const double *position;  /* [mesh nv][2] instead of that; or NULL */
   double velocity[2];      /* m/s */
   double angular_velocity; /* rad/s about the mass centre, counter-clockwise */
   int fixed;               /* whole body */
@@ -82,8 +88,8 @@ typedef struct {
 } Assembly;
 
 /* Adds a body; mesh holds its rest coordinates and is not kept.  On failure *error (a static buffer) says
- * why: a degenerate element, an edge with more than two triangles, a boundary or region that does not exist;
- * the assembly is then of no use any more. */
+ * why: a degenerate element, one that starts inside out, an edge with more than two triangles, a boundary or
+ * region that does not exist; the assembly is then of no use any more. */
 PetscErrorCode AssemblyAdd(Assembly *a, const MeshSerial *mesh, const BodySetup *setup, const char **error);
 /* The first pair of bodies one of which reaches into the other; *first = -1 if there is none. */
 PetscErrorCode AssemblyOverlap(const Assembly *a, int *first, int *second);

@@ -98,9 +98,7 @@ void JointsGhostForces(Joints j, Solid s)
     const Tensor edges = TensorOfEdges(PointAt(s->x, n[0]), PointAt(s->x, n[1]), PointAt(s->x, n[2]));
     const Tensor rate = TensorOfEdges(PointAt(s->v, n[0]), PointAt(s->v, n[1]), PointAt(s->v, n[2]));
     const Tensor f = TensorProduct(edges, k->inverse);
-    const double determinant = TensorDeterminant(f);
-    const ElementStress t = k->law.sheet ? ElementSheetStress(f, determinant, k->law.mu, k->law.lambda)
-                                         : ElementElasticStress(f, determinant, k->law.mu, k->law.lambda);
+    const ElementStress t = ElementElasticStress(f, TensorDeterminant(f), k->law);
     const ElementStress d = ElementViscousStress(edges, rate, k->law.eta);
     const ElementForces all = ElementForcesOf(edges, (ElementStress){t.xx + d.xx, t.yy + d.yy, t.xy + d.xy});
     stress[0][place] = t.xx;

@@ -38,6 +38,7 @@ static void ReadStrength(Case c, const char *name, Material *m)
 static Material ReadMaterial(Case c, const char *name)
 {
   static const char *const PLANES[] = {"strain", "stress", NULL};
+  static const char *const LAWS[] = {"neo_hookean", "corotated", NULL};
   Material m = {0};
   char key[KEY];
   m.density = Property(c, name, "density", 0.0, 0.0);
@@ -53,6 +54,8 @@ static Material ReadMaterial(Case c, const char *name)
   m.contact_damping = CaseNumberOr(c, key, 0.0, 0.0, 10.0);
   (void)snprintf(key, sizeof key, "solid.materials.%s.plane", name);
   m.plane_stress = CaseWord(c, key, 0, PLANES);
+  (void)snprintf(key, sizeof key, "solid.materials.%s.law", name);
+  m.corotated = CaseWord(c, key, 0, LAWS);
   (void)snprintf(key, sizeof key, "solid.materials.%s.thickness", name);
   m.thickness = CaseHas(c, key) ? CasePositive(c, key) : 1.0;
   ReadStrength(c, name, &m);
@@ -119,22 +122,31 @@ static PetscErrorCode ReadRing(Case c, int body, const double centre[2], double 
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ReadShape(Case c, int body, MeshSerial *mesh)
+typedef enum { SHAPE_DISC, SHAPE_RECTANGLE, SHAPE_RING, SHAPE_FILE } Shape;
+
+static Shape ReadShapeName(Case c, int body)
 {
   static const char *const SHAPES[] = {"disc", "rectangle", "ring", NULL};
+  char key[KEY];
+  return CaseHas(c, BodyKey(key, body, "mesh")) ? SHAPE_FILE
+                                                : (Shape)CaseWord(c, BodyKey(key, body, "shape"), -1, SHAPES);
+}
+
+static PetscErrorCode ReadShape(Case c, int body, MeshSerial *mesh)
+{
+  const Shape shape = ReadShapeName(c, body);
   double centre[2];
   char key[KEY];
   PetscFunctionBeginUser;
-  if (CaseHas(c, BodyKey(key, body, "mesh"))) {
+  if (shape == SHAPE_FILE) {
     PetscCall(ReadMeshFile(c, body, mesh));
     PetscFunctionReturn(0);
   }
-  const int shape = CaseWord(c, BodyKey(key, body, "shape"), -1, SHAPES);
   CaseVector(c, BodyKey(key, body, "centre"), 2, centre);
   const double size = CasePositive(c, BodyKey(key, body, "size"));
-  if (shape == 0) {
+  if (shape == SHAPE_DISC) {
     PetscCall(ShapeDisc(centre, CasePositive(c, BodyKey(key, body, "radius")), size, mesh));
-  } else if (shape == 1) {
+  } else if (shape == SHAPE_RECTANGLE) {
     const double width = CasePositive(c, BodyKey(key, body, "width"));
     const double height = CasePositive(c, BodyKey(key, body, "height"));
     const double angle = CaseNumberOr(c, BodyKey(key, body, "angle"), 0.0, -HUGE_VAL, HUGE_VAL);
@@ -142,6 +154,24 @@ static PetscErrorCode ReadShape(Case c, int body, MeshSerial *mesh)
   } else {
     PetscCall(ReadRing(c, body, centre, size, mesh));
   }
+  PetscFunctionReturn(0);
+}
+
+/* A ring keeps its wall (*position is allocated), other shapes are stretched as they are. */
+static PetscErrorCode ReadStretch(Case c, int body, const MeshSerial *mesh, BodySetup *setup,
+                                  double **position)
+{
+  double centre[2];
+  char key[KEY];
+  PetscFunctionBeginUser;
+  *position = NULL;
+  (void)CaseVectorOptional(c, BodyKey(key, body, "stretch"), 2, setup->stretch);
+  if (!(setup->stretch[0] > 0.0 && setup->stretch[1] > 0.0)) CaseRefuse(c, key, "expected two numbers > 0");
+  if (!CaseHas(c, key) || ReadShapeName(c, body) != SHAPE_RING) PetscFunctionReturn(0);
+  CaseVector(c, BodyKey(key, body, "centre"), 2, centre);
+  PetscCall(PetscMalloc1(2 * (size_t)mesh->nv, position));
+  ShapeRingStretched(centre, setup->stretch, MaterialLaw(&setup->material), mesh, *position);
+  setup->position = *position;
   PetscFunctionReturn(0);
 }
 
@@ -273,7 +303,7 @@ PetscErrorCode CaseReadBody(Case c, int body, Assembly *a)
   MeshSerial mesh = {0};
   BoundaryDrive *driven;
   const char **name, **joint_region, *why = NULL;
-  double(*joint_box)[4];
+  double(*joint_box)[4], *position;
   char key[KEY];
   PetscFunctionBeginUser;
   setup.material = MaterialAt(c, BodyKey(key, body, "material"));
@@ -284,8 +314,7 @@ PetscErrorCode CaseReadBody(Case c, int body, Assembly *a)
   PetscCall(ReadFixed(c, body, &setup, &name));
   PetscCall(ReadDriven(c, body, &setup, &driven));
   PetscCall(ReadJoints(c, body, &setup.joints, &joint_box, &joint_region));
-  (void)CaseVectorOptional(c, BodyKey(key, body, "stretch"), 2, setup.stretch);
-  if (!(setup.stretch[0] > 0.0 && setup.stretch[1] > 0.0)) CaseRefuse(c, key, "expected two numbers > 0");
+  PetscCall(ReadStretch(c, body, &mesh, &setup, &position));
   (void)CaseVectorOptional(c, BodyKey(key, body, "velocity"), 2, setup.velocity);
   if (setup.fixed && (setup.velocity[0] != 0.0 || setup.velocity[1] != 0.0))
     CaseRefuse(c, key, "a fixed body has no velocity");
@@ -295,6 +324,7 @@ PetscErrorCode CaseReadBody(Case c, int body, Assembly *a)
   for (int k = 0; k < setup.ndriven; k++) PetscCall(PetscFree(driven[k].drive.row));
   PetscCall(PetscFree(driven));
   PetscCall(PetscFree(name));
+  PetscCall(PetscFree(position));
   PetscCall(PetscFree2(joint_box, joint_region));
   PetscCall(MeshSerialDestroy(&mesh));
   PetscFunctionReturn(0);

@@ -82,7 +82,7 @@ static PetscErrorCode Allocate(Solid s)
   PetscCall(PetscCalloc1(nn, &s->prescribed));
   PetscCall(PetscMalloc3(ne, &e->node[0], ne, &e->node[1], ne, &e->node[2]));
   PetscCall(PetscMalloc4(ne, &e->inverse[0], ne, &e->inverse[1], ne, &e->inverse[2], ne, &e->inverse[3]));
-  PetscCall(PetscMalloc4(ne, &e->mu, ne, &e->lambda, ne, &e->eta, ne, &e->density));
+  PetscCall(PetscMalloc5(ne, &e->mu, ne, &e->lambda, ne, &e->eta, ne, &e->density, ne, &e->corotated));
   PetscCall(PetscMalloc7(ne, &e->body, ne, &e->number, 3 * ne, &e->force[0], 3 * ne, &e->force[1], ne,
                          &e->thickness, ne, &e->sheet, ne, &e->material));
   PetscCall(PetscMalloc1((size_t)s->nmaterials, &s->material));
@@ -179,7 +179,7 @@ static PetscErrorCode FindCopies(Solid s, const Assembly *a, int nlooks, const L
  * ----------------------------------------------------------------------------------------------- */
 
 /* eta = 2 h beta sqrt(E rho), h the smallest height at rest. */
-double SolidViscosity(const Assembly *a, int e)
+static double Viscosity(const Assembly *a, int e)
 {
   const Material *m = &a->material[a->element_material[e]];
   double longest = 0.0;
@@ -192,28 +192,39 @@ double SolidViscosity(const Assembly *a, int e)
   return 2.0 * height * m->damping * sqrt(m->youngs_modulus * m->density);
 }
 
+ElementLaw SolidLawOf(const Assembly *a, int e)
+{
+  const Material *m = &a->material[a->element_material[e]];
+  ElementLaw law = MaterialLaw(m);
+  law.mu *= m->thickness;
+  law.lambda *= m->thickness;
+  law.eta = m->thickness * Viscosity(a, e);
+  return law;
+}
+
 static void TakeElement(Solid s, const Assembly *a, int from, int k, const int local[])
 {
   Elements *e = &s->elements;
   const Material *m = &a->material[a->element_material[from]];
-  const ElementLaw law = ElementLawOf(m->youngs_modulus, m->poisson_ratio, SolidViscosity(a, from));
+  const ElementLaw law = SolidLawOf(a, from);
   const Tensor inverse = TensorInverse(RestEdges(a, from));
   for (int i = 0; i < 3; i++) s->element[3 * k + i] = e->node[i][k] = local[a->element[3 * from + i]];
   e->inverse[0][k] = inverse.xx;
   e->inverse[1][k] = inverse.xy;
   e->inverse[2][k] = inverse.yx;
   e->inverse[3][k] = inverse.yy;
-  e->mu[k] = m->thickness * law.mu;
-  e->lambda[k] = m->thickness * law.lambda;
-  e->eta[k] = m->thickness * law.eta;
+  e->mu[k] = law.mu;
+  e->lambda[k] = law.lambda;
+  e->eta[k] = law.eta;
   e->density[k] = m->thickness * m->density;
   e->thickness[k] = m->thickness;
-  e->sheet[k] = m->plane_stress;
+  e->sheet[k] = law.sheet;
+  e->corotated[k] = law.corotated;
   e->material[k] = a->element_material[from];
   e->body[k] = a->element_body[from];
   e->number[k] = from;
   if (law.eta > 0.0) e->damped = PETSC_TRUE;
-  if (m->plane_stress) e->sheets = PETSC_TRUE;
+  e->laws = PetscMax(e->laws, law.corotated ? WITH_COROTATED : law.sheet ? WITH_SHEETS : STRAIN_ONLY);
 }
 
 void SolidListCorners(Solid s)

@@ -20,13 +20,15 @@ void SolidElementShape(const Elements *e, int k, const double x[], Tensor *edges
 }
 
 /* Forces of all corners; returns the number of elements that are inside out (or not a number).  The arrays do
- * not overlap (ivdep), so that the loop is vectorised without asking at run time. */
-static inline int CornerForces(const Elements *e, const double x[], const double v[], int damped, int sheets,
-                               int jointed)
+ * not overlap (ivdep), so that the loop is vectorised without asking at run time; laws (which there may be),
+ * damped and jointed are constants of the caller, so that what is not needed falls away. */
+static inline __attribute__((always_inline)) int
+CornerForces(const Elements *e, const double x[], const double v[], ElementLaws laws, int damped, int jointed)
 {
   const int n = e->n, *a = e->node[0], *b = e->node[1], *c = e->node[2];
   const double *ixx = e->inverse[0], *ixy = e->inverse[1], *iyx = e->inverse[2], *iyy = e->inverse[3];
-  const double *mu = e->mu, *lambda = e->lambda, *eta = e->eta, *sheet = e->sheet;
+  const double *mu = e->mu, *lambda = e->lambda, *eta = e->eta;
+  const double *sheet = e->sheet, *corotated = e->corotated;
   double *fx = e->force[0], *fy = e->force[1];
   double *sxx = e->stress[0], *syy = e->stress[1], *sxy = e->stress[2];
   int bad = 0;
@@ -35,12 +37,9 @@ static inline int CornerForces(const Elements *e, const double x[], const double
     const Tensor edges = TensorOfEdges(PointAt(x, a[k]), PointAt(x, b[k]), PointAt(x, c[k]));
     const Tensor f = TensorProduct(edges, (Tensor){ixx[k], ixy[k], iyx[k], iyy[k]});
     const double j = TensorDeterminant(f);
-    ElementStress t = ElementElasticStress(f, j, mu[k], lambda[k]);
-    if (sheets) {
-      const ElementStress p = ElementSheetStress(f, j, mu[k], lambda[k]);
-      t = (ElementStress){sheet[k] > 0.0 ? p.xx : t.xx, sheet[k] > 0.0 ? p.yy : t.yy,
-                          sheet[k] > 0.0 ? p.xy : t.xy};
-    }
+    const ElementLaw law = {mu[k], lambda[k], eta[k], laws != STRAIN_ONLY && sheet[k] > 0.0,
+                            laws == WITH_COROTATED && corotated[k] > 0.0};
+    ElementStress t = ElementElasticStress(f, j, law);
     if (jointed) {
       sxx[k] = t.xx;
       syy[k] = t.yy;
@@ -58,7 +57,7 @@ static inline int CornerForces(const Elements *e, const double x[], const double
     fy[n + k] = g.b.y;
     fx[2 * n + k] = g.c.x;
     fy[2 * n + k] = g.c.y;
-    bad += !(j > 0.0);
+    bad += !ElementSound(f, j, law);
   }
   return bad;
 }
@@ -89,14 +88,17 @@ static PetscErrorCode FailOnElement(const Solid s)
     Tensor edges, f;
     SolidElementShape(e, k, s->x, &edges, &f);
     const double j = TensorDeterminant(f);
-    if (j > 0.0) continue;
+    if (ElementSound(f, j, ElementsLaw(e, k))) continue;
     const Point p = PointAt(s->x, e->node[0][k]);
     (void)snprintf(
         message, sizeof message,
         "body %d: element %d at (%g, %g) %s at t = %.9g s (area %.3g of its rest area): the load is too "
         "large for its stiffness, or solid.courant too large",
         e->body[k], e->number[k] - s->body[e->body[k]].first_element, p.x, p.y,
-        j == j ? "has turned inside out" : "is not a number any more", s->stats.t, j);
+        j > 0.0  ? "has no thickness left"
+        : j == j ? "has turned inside out"
+                 : "is not a number any more",
+        s->stats.t, j);
     break;
   }
   if (s->setup.fail) s->setup.fail(s->setup.context, message);
@@ -109,11 +111,15 @@ PetscErrorCode SolidInternalForces(Solid s)
 {
   PetscFunctionBeginUser;
   const Elements *e = &s->elements;
-  const int bad =
-      e->stress[0] ? (e->sheets ? CornerForces(e, s->x, s->v, 1, 1, 1) : CornerForces(e, s->x, s->v, 1, 0, 1))
-      : e->sheets  ? CornerForces(e, s->x, s->v, 1, 1, 0)
-      : e->damped  ? CornerForces(e, s->x, s->v, 1, 0, 0)
-                   : CornerForces(e, s->x, s->v, 0, 0, 0);
+  const double *x = s->x, *v = s->v;
+  const int jointed = e->stress[0] != NULL;
+  const int bad = e->laws == WITH_COROTATED ? (jointed ? CornerForces(e, x, v, WITH_COROTATED, 1, 1)
+                                                       : CornerForces(e, x, v, WITH_COROTATED, 1, 0))
+                  : e->laws == WITH_SHEETS  ? (jointed ? CornerForces(e, x, v, WITH_SHEETS, 1, 1)
+                                                       : CornerForces(e, x, v, WITH_SHEETS, 1, 0))
+                  : jointed                 ? CornerForces(e, x, v, STRAIN_ONLY, 1, 1)
+                  : e->damped               ? CornerForces(e, x, v, STRAIN_ONLY, 1, 0)
+                                            : CornerForces(e, x, v, STRAIN_ONLY, 0, 0);
   if (bad) PetscCall(FailOnElement(s));
   SumCorners(s);
   PetscFunctionReturn(0);
@@ -141,7 +147,7 @@ double SolidElementLimit(Solid s, ElementRates contact)
 
 ElementLaw ElementsLaw(const Elements *e, int k)
 {
-  return (ElementLaw){e->mu[k], e->lambda[k], e->eta[k], e->sheet[k] > 0.0};
+  return (ElementLaw){e->mu[k], e->lambda[k], e->eta[k], e->sheet[k] > 0.0, e->corotated[k] > 0.0};
 }
 
 void SolidStress(Solid s, double stress[])
@@ -152,11 +158,9 @@ void SolidStress(Solid s, double stress[])
     Tensor edges, f;
     SolidElementShape(e, k, s->x, &edges, &f);
     const double j = TensorDeterminant(f);
-    const ElementStress t = law.sheet ? ElementSheetStress(f, j, law.mu, law.lambda)
-                                      : ElementElasticStress(f, j, law.mu, law.lambda);
+    const ElementStress t = ElementElasticStress(f, j, law);
     const ElementStress d = ElementViscousStress(edges, EdgesOf(e, k, s->v), law.eta);
-    const double across = law.sheet ? sqrt(ElementThinning(j, law.mu, law.lambda)) : 1.0;
-    const double scale = 1.0 / (e->thickness[k] * across);
+    const double scale = 1.0 / (e->thickness[k] * ElementAcross(f, j, law));
     stress[3 * k] = scale * (t.xx + d.xx);
     stress[3 * k + 1] = scale * (t.yy + d.yy);
     stress[3 * k + 2] = scale * (t.xy + d.xy);

@@ -24,14 +24,8 @@ static Tensor RestEdges(const Assembly *a, int e)
 
 static void AddGhost(Joints j, const Making *m, int e)
 {
-  const Material *of = &m->a->material[m->a->element_material[e]];
   Ghost *g = &j->ghost[j->nghosts];
-  *g = (Ghost){.inverse = TensorInverse(RestEdges(m->a, e))};
-  g->law = ElementLawOf(of->youngs_modulus, of->poisson_ratio, SolidViscosity(m->a, e));
-  g->law.mu *= of->thickness;
-  g->law.lambda *= of->thickness;
-  g->law.eta *= of->thickness;
-  g->law.sheet = of->plane_stress;
+  *g = (Ghost){.inverse = TensorInverse(RestEdges(m->a, e)), .law = SolidLawOf(m->a, e)};
   for (int i = 0; i < 3; i++) g->node[i] = m->local[m->a->element[3 * e + i]];
   m->place[e] = m->s->elements.n + j->nghosts++;
 }

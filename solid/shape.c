@@ -150,3 +150,19 @@ PetscErrorCode ShapeRing(const double centre[2], double inner, double outer, int
   }
   PetscFunctionReturn(0);
 }
+
+void ShapeRingStretched(const double centre[2], const double stretch[2], ElementLaw law,
+                        const MeshSerial *mesh, double x[])
+{
+  const Point inner = PointAt(mesh->x, 0), outer = PointAt(mesh->x, mesh->nv - 1);
+  const double middle = 0.5 * (hypot(inner.x - centre[0], inner.y - centre[1]) +
+                               hypot(outer.x - centre[0], outer.y - centre[1]));
+  for (int v = 0; v < mesh->nv; v++) {
+    const double rx = mesh->x[2 * v] - centre[0], ry = mesh->x[2 * v + 1] - centre[1], r = hypot(rx, ry);
+    const double cosine = rx / r, sine = ry / r;
+    const double along = hypot(stretch[0] * sine, stretch[1] * cosine); /* of the tangent */
+    const double across = ElementFreeStretch(along, law) * (r - middle) / along;
+    x[2 * v] = centre[0] + stretch[0] * middle * cosine + across * stretch[1] * cosine;
+    x[2 * v + 1] = centre[1] + stretch[1] * middle * sine + across * stretch[0] * sine;
+  }
+}

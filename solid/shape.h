@@ -1,6 +1,7 @@
 /* Triangulations of the built-in bodies, undistributed.  Not collective; destroy with MeshSerialDestroy. */
 #ifndef SOLID_SHAPE_H
 #define SOLID_SHAPE_H
+#include "element.h"
 #include "mesh.h"
 
 /* A disc of m rings, ring k having 6 k nodes; its boundary is a regular polygon of 6 m edges no longer than
@@ -16,4 +17,14 @@ PetscErrorCode ShapeRectangle(const double centre[2], double width, double heigh
  * inner, outer. */
 PetscErrorCode ShapeRing(const double centre[2], double inner, double outer, int layers, double size,
                          MeshSerial *mesh);
+/* Where the nodes of a ring at rest, of ShapeRing about this centre, are when its wall's middle line, the
+ * circle of the mean radius R, has become an ellipse, x[nv][2], m.  The wall stays normal to it, with the
+ * thickness at which nothing acts on its faces (ElementFreeStretch of the line's own stretch):
+ *
+ *     (R + d) e_r  ->  m + l_n d n,    m = centre + R (s_x cos, s_y sin),   n its outer normal
+ *
+ * An affine map would stretch the wall across too, which then vibrates through its thickness.  What is left
+ * across is of order thickness/R of what acts along, as bending is. */
+void ShapeRingStretched(const double centre[2], const double stretch[2], ElementLaw law,
+                        const MeshSerial *mesh, double x[]);
 #endif

@@ -41,7 +41,7 @@ PetscErrorCode SolidDestroy(Solid *solid)
   PetscCall(PetscFree3(e->node[0], e->node[1], e->node[2]));
   PetscCall(PetscFree4(e->inverse[0], e->inverse[1], e->inverse[2], e->inverse[3]));
   PetscCall(PetscFree3(e->stress[0], e->stress[1], e->stress[2]));
-  PetscCall(PetscFree4(e->mu, e->lambda, e->eta, e->density));
+  PetscCall(PetscFree5(e->mu, e->lambda, e->eta, e->density, e->corotated));
   PetscCall(PetscFree7(e->body, e->number, e->force[0], e->force[1], e->thickness, e->sheet, e->material));
   PetscCall(PetscFree(*solid));
   PetscFunctionReturn(0);

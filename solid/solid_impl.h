@@ -9,6 +9,9 @@
 typedef struct Contact_s *Contact;
 typedef struct Joints_s *Joints;
 
+/* Each with those before it. */
+typedef enum { STRAIN_ONLY, WITH_SHEETS, WITH_COROTATED } ElementLaws; /* the first: neo-Hookean */
+
 /* Structure of arrays, so that the element loop is vectorised. */
 typedef struct {
   int n;
@@ -16,11 +19,13 @@ typedef struct {
   double *inverse[4];                  /* D0^-1: xx, xy, yx, yy of the rest edges' inverse, 1/m */
   double *mu, *lambda, *eta, *density; /* times the thickness */
   double *thickness, *sheet;           /* m; 1 in plane stress, 0 in plane strain */
+  double *corotated;                   /* 1, or 0: neo-Hookean */
   int *body, *material;
   int *number;       /* in the assembly */
   double *force[2];  /* [3][n]: corner i of element e at i n + e */
   double *stress[3]; /* NULL without joints: elastic xx, yy, xy of the last forces, Pa times thickness */
-  PetscBool damped, sheets; /* any eta > 0, any in plane stress */
+  PetscBool damped;  /* any eta > 0 */
+  ElementLaws laws;  /* that any element has */
 } Elements;
 
 /* node[k], a node of the start, is also on rank[k]. */
@@ -99,8 +104,8 @@ void BudgetAddDriven(Solid s, int n, int c, double v);
 
 /* distribute.c: everything that comes from the assembly. */
 PetscErrorCode SolidTakeShare(Solid s, const Assembly *a);
-/* eta of an element of the assembly, Pa s */
-double SolidViscosity(const Assembly *a, int e);
+/* Of an element of the assembly, times its thickness. */
+ElementLaw SolidLawOf(const Assembly *a, int e);
 /* corner_start and corner, from element */
 void SolidListCorners(Solid s);
 

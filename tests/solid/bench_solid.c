@@ -1,13 +1,15 @@
-/* Element-substeps per second on one core: bench_solid [size]. */
+/* Element-substeps per second on one core, of each law: bench_solid [size]. */
 #include "build.h"
 
-static PetscErrorCode Measure(double size, double damping)
+static PetscErrorCode Measure(double size, double damping, int sheet, int corotated)
 {
-  const BodySetup setup = BodyAtRest(MaterialOf(1000.0, 1.0e6, 0.3, damping));
+  BodySetup setup = BodyAtRest(MaterialOf(1000.0, 1.0e6, 0.3, damping));
   const SolidSetup options = {.courant = 0.5};
   Assembly a = {0};
   Solid s;
   double limit, h;
+  setup.material.plane_stress = sheet;
+  setup.material.corotated = corotated;
   AddRectangle(&a, 0.0, 0.0, 1.0, 1.0, 0.3, size, 1, &setup);
   PetscCall(SolidCreate(PETSC_COMM_SELF, &a, &options, &s));
   PetscCall(SolidLimit(s, &limit));
@@ -16,7 +18,8 @@ static PetscErrorCode Measure(double size, double damping)
   PetscCall(SolidStart(s, 0.4999 * limit * substeps, NULL));
   while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
   const double seconds = MPI_Wtime() - start;
-  printf("%8d elements, damping %.1f: %.3g element-substeps/s\n", a.nelements, damping,
+  printf("%8d elements, damping %.1f, plane %s, %s: %.3g element-substeps/s\n", a.nelements, damping,
+         sheet ? "stress" : "strain", corotated ? "corotated" : "neo-Hookean",
          (double)a.nelements * (double)SolidGetStats(s)->total / seconds);
   PetscCall(AssemblyDestroy(&a));
   return SolidDestroy(&s);
@@ -26,7 +29,9 @@ int main(int argc, char **argv)
 {
   const double sizes[] = {0.05, 0.02, 0.01, 0.003};
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
-  for (int k = 0; k < 4; k++)
-    for (int damped = 0; damped < 2; damped++) PetscCall(Measure(sizes[k], 0.2 * damped));
+  for (int k = 0; k < (argc > 1 ? 1 : 4); k++)
+    for (int law = 0; law < 3; law++)
+      for (int damped = 0; damped < 2; damped++)
+        PetscCall(Measure(argc > 1 ? atof(argv[1]) : sizes[k], 0.2 * damped, law == 1, law == 2));
   return PetscFinalize();
 }

@@ -131,8 +131,9 @@ static void Full(void)
       "    - {between: [soft, walls], friction: 0.2, damping: 0.3}\n"
       "  materials:\n"
       "    soft: {density: 1000, youngs_modulus: 1e5, poisson_ratio: 0.4, friction: 0.5, contact_damping: "
-      "0.6}\n"
-      "    hard: {density: 2000, youngs_modulus: 1e8, poisson_ratio: 0.2, plane: stress, thickness: 0.01}\n"
+      "0.6, law: neo_hookean}\n"
+      "    hard: {density: 2000, youngs_modulus: 1e8, poisson_ratio: 0.2, plane: stress, thickness: 0.01,\n"
+      "      law: corotated}\n"
       "  bodies:\n"
       "    - {mesh: " SOURCE_FOLDER "/regions.msh, material: soft, regions: {hard: hard},\n"
       "       driven: [{boundary: clamp, component: x, table: [[0, 1, 0], [2, 3, 0]]}]}\n"
@@ -146,7 +147,7 @@ static void Full(void)
   CHECK(soft->friction == 0.5 && soft->contact_damping == 0.6 && !soft->plane_stress &&
             soft->thickness == 1.0,
         "soft");
-  CHECK(hard->plane_stress && hard->thickness == 0.01, "hard");
+  CHECK(hard->plane_stress && hard->thickness == 0.01 && hard->corotated && !soft->corotated, "hard");
   for (int e = 0; e < assembly.nelements; e++)
     CHECK(assembly.element_material[e] == (e == 2 || e == 3), "element %d", e);
   CHECK(setup.nrules == 2 && setup.rule[0].friction == 0.1 && setup.rule[0].damping < 0.0 &&
@@ -156,7 +157,12 @@ static void Full(void)
   CHECK(assembly.ndrives == 2 && assembly.drive[0].nrows == 2 && !assembly.drive[0].driven[1], "drives");
   const double mean = DriveVelocity(&assembly.drive[0], 0, 1.0, 2.0); /* 2 to 3, then 3 */
   CHECK(fabs(mean - 2.75) < 1e-14, "mean velocity %g", mean);
-  double area[3] = {0.0, 0.0, 0.0};
+  double area[3] = {0.0, 0.0, 0.0}, span[2] = {0.0, 0.0};
+  for (int n = 0; n < assembly.nnodes; n++) /* the stretched ring's wall is 0.1 at its right, thinner above */
+    for (int c = 0; c < 2 && assembly.node_body[n] == 1; c++)
+      span[c] = fmax(span[c], assembly.x[2 * n + c] - (c ? 0.0 : 5.0));
+  CHECK(fabs(span[0] / 1.55 - 1.0) < 0.01 && fabs(span[1] / 1.0355 - 1.0) < 0.01, "stretched ring %g %g",
+        span[0], span[1]);
   for (int e = 0; e < assembly.nelements; e++) {
     const int *n = assembly.element + 3 * e;
     const double *x = assembly.rest;
@@ -178,9 +184,17 @@ static void Refusals(void)
             "  bodies:\n    - {shape: ring, centre: [0, 0], radius: 1, thickness: 3, size: 1, material: m}\n",
             NULL, Read, ":6: key 'solid.bodies[0].thickness': the ring has no hole or no wall");
   CheckCase(HEAD
+            "  bodies:\n    - {shape: ring, centre: [0, 0], radius: 1, thickness: 1, size: 0.5, material: m, "
+            "stretch: [1.0, 0.2]}\n",
+            NULL, Read, ":6: key 'solid.bodies[0]': its stretch turns element 1 at (0.351152, 0) inside out");
+  CheckCase(HEAD
             "  bodies:\n    - {shape: disc, centre: [0, 0], radius: 0.1, size: 0.05, material: m, driven: "
             "[{boundary: boundary, table: [[1, 0, 0], [1, 0, 0]]}]}\n",
             NULL, Read, ":6: key 'solid.bodies[0].driven[0].table[1]': the table's times must rise");
+  CheckCase("gravity: [0, 0]\nsolid:\n  materials:\n    m: {density: 1, youngs_modulus: 1, poisson_ratio: 0, "
+            "law: hooke}\n",
+            NULL, Read,
+            ":4: key 'solid.materials.m.law': expected one of neo_hookean, corotated, found 'hooke'");
   CheckCase(HEAD "  bodies:\n" DISC, NULL, Read, NULL);
   CheckCase(HEAD, NULL, Read, ":2: key 'solid.bodies': expected a list of at least one body");
   CheckCase(

@@ -1,6 +1,7 @@
 // ranks: 1 2 3
-/* Two bodies break each other, one of them in a part only: the same on any number of ranks, shared nodes with
- * the same bits on all of them, and a step that is redone after other cracks to the last bit. */
+/* Two bodies, of both elastic laws, break each other, one of them in a part only: the same on any number of
+ * ranks, shared nodes with the same bits on all of them, and a step that is redone after other cracks to the
+ * last bit. */
 #include "crack.h"
 
 enum { STEPS = 12 };
@@ -11,6 +12,7 @@ static void Bodies(Assembly *a)
   BodySetup left = BodyAtRest(RockOf(3e6, 9e6, 20.0, 0.1)), right = left;
   left.joints.all = 1;
   left.velocity[0] = 4.0;
+  right.material.corotated = 1;
   right.velocity[0] = -8.0;
   right.joints = (JointSetup){.nboxes = 1, .box = box};
   AddDisc(a, -0.0505, 0.0, 0.05, 0.012, &left);

@@ -1,6 +1,6 @@
 // ranks: 1 2 3
-/* Patch test on a shaken mesh, plane strain and plane stress: a finite rotation by 73 degrees leaves no
- * force; a pull, a shear and a general affine map a uniform exact stress and no force inside; rest
+/* Patch test on a shaken mesh, both laws, plane strain and plane stress: a finite rotation by 73 degrees
+ * leaves no force; a pull, a shear and a general affine map a uniform exact stress and no force inside; rest
  * coordinates are kept apart from positions. */
 #include "build.h"
 
@@ -21,13 +21,16 @@ static double LargestForce(Solid s, int inside_only)
   return largest;
 }
 
-static PetscErrorCode Mapped(const double f[4], int sheet, Solid *s)
+typedef enum { STRAIN, STRESS, BIOT_STRAIN, BIOT_STRESS, NLAWS } Law; /* BIOT: corotated */
+
+static PetscErrorCode Mapped(const double f[4], Law law, Solid *s)
 {
   BodySetup setup = BodyAtRest(MaterialOf(1000.0, E, 0.3, 0.0));
   const SolidSetup options = {.courant = 0.5};
   Assembly a = {0};
   double *x;
-  setup.material.plane_stress = sheet;
+  setup.material.plane_stress = law % 2;
+  setup.material.corotated = law >= BIOT_STRAIN;
   setup.material.thickness = THICKNESS;
   AddRectangle(&a, 0.0, 0.0, 1.0, 1.0, 0.0, 0.1, 1, &setup);
   PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, s));
@@ -39,18 +42,18 @@ static PetscErrorCode Mapped(const double f[4], int sheet, Solid *s)
   return AssemblyDestroy(&a);
 }
 
-static PetscErrorCode Rotation(int sheet)
+static PetscErrorCode Rotation(Law law)
 {
   const double angle = 73.0 * M_PI / 180.0, f[4] = {cos(angle), -sin(angle), sin(angle), cos(angle)};
   Solid s;
-  PetscCall(Mapped(f, sheet, &s));
+  PetscCall(Mapped(f, law, &s));
   const double largest = LargestForce(s, 0);
   CHECK(largest < 1e-13 * E, "a rotation leaves a force of %g, %g of E", largest, largest / E);
   return SolidDestroy(&s);
 }
 
-/* Cauchy's stress of the affine map f; of a sheet with its stretch across, found by bisection so that nothing
- * acts across. */
+/* Cauchy's stress of the affine map f, neo-Hookean; of a sheet with its stretch across, found by bisection so
+ * that nothing acts across. */
 static void ExactStress(const double f[4], int sheet, double stress[3])
 {
   const double mu = E / (2.0 * (1.0 + NU)), lambda = NU * E / ((1.0 + NU) * (1.0 - 2.0 * NU));
@@ -68,12 +71,30 @@ static void ExactStress(const double f[4], int sheet, double stress[3])
   stress[2] = mu / j * (f[0] * f[2] + f[1] * f[3]);
 }
 
-static PetscErrorCode Affine(const double f[4], int sheet)
+/* Corotated: the space's law P = 2 mu (F - R) + lambda (tr U - 3) R with U's principal stretches a, b, both
+ * from F's invariants, and c across; T = sum of (2 mu (a - 1) + lambda (a + b + c - 3))/(b c) n n^T, n the
+ * principal axes of B. */
+static void BiotStress(const double f[4], int sheet, double stress[3])
+{
+  const double mu = E / (2.0 * (1.0 + NU)), lambda = NU * E / ((1.0 + NU) * (1.0 - 2.0 * NU));
+  const double xx = f[0] * f[0] + f[1] * f[1], yy = f[2] * f[2] + f[3] * f[3];
+  const double xy = f[0] * f[2] + f[1] * f[3], angle = 0.5 * atan2(2.0 * xy, xx - yy);
+  const double a = sqrt(0.5 * (xx + yy) + hypot(0.5 * (xx - yy), xy)), b = (f[0] * f[3] - f[1] * f[2]) / a;
+  const double c = sheet ? 1.0 - lambda * (a + b - 2.0) / (lambda + 2.0 * mu) : 1.0;
+  const double volumetric = lambda * (a + b + c - 3.0);
+  const double first = (2.0 * mu * (a - 1.0) + volumetric) / (b * c),
+               second = (2.0 * mu * (b - 1.0) + volumetric) / (a * c);
+  stress[0] = first * pow(cos(angle), 2) + second * pow(sin(angle), 2);
+  stress[1] = first * pow(sin(angle), 2) + second * pow(cos(angle), 2);
+  stress[2] = (first - second) * sin(angle) * cos(angle);
+}
+
+static PetscErrorCode Affine(const double f[4], Law law)
 {
   double exact[3];
   Solid s;
-  ExactStress(f, sheet, exact);
-  PetscCall(Mapped(f, sheet, &s));
+  (law >= BIOT_STRAIN ? BiotStress : ExactStress)(f, law % 2, exact);
+  PetscCall(Mapped(f, law, &s));
   SolidView v = ViewOf(s, NULL, NULL);
   double *stress = calloc(3 * (size_t)v.nelements + 1, sizeof *stress);
   SolidStress(s, stress);
@@ -113,13 +134,13 @@ static PetscErrorCode Stretched(void)
 int main(int argc, char **argv)
 {
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
-  for (int sheet = 0; sheet < 2; sheet++) {
+  for (Law law = STRAIN; law < NLAWS; law++) {
     const double pull[4] = {1.2, 0.0, 0.0, 0.93}, shear[4] = {1.0, 0.3, 0.0, 1.0},
                  all[4] = {1.3, 0.4, -0.2, 0.9};
-    PetscCall(Rotation(sheet));
-    PetscCall(Affine(pull, sheet));
-    PetscCall(Affine(shear, sheet));
-    PetscCall(Affine(all, sheet));
+    PetscCall(Rotation(law));
+    PetscCall(Affine(pull, law));
+    PetscCall(Affine(shear, law));
+    PetscCall(Affine(all, law));
   }
   PetscCall(Stretched());
   return PetscFinalize();
