@@ -1,7 +1,8 @@
 #include "inertia.h"
 #include "node_sum.h"
 
-/* A node's mass beyond that of the fluid in its place counts, and never less than this part of it. */
+/* A node's mass beyond that of the fluid in its place counts (less than 0 for a light solid: with the fluid's own it is
+ * still positive), and never less than this part of it, for m - m_f divides. */
 #define LEAST_MASS 1e-3
 
 /* Where a node gives way its volume is held that much more firmly: no stability is at stake, and what slips
@@ -63,7 +64,8 @@ static void YieldNode(const ServerSolid *solid, int i, double dt, const double g
                       const double z[NSUMS], double *b, double v[2])
 {
   const double mobility = solid->mobility[i];
-  const double share = fmax(1.0 - z[DISPLACED] * mobility, LEAST_MASS); /* of the node's mass that counts */
+  const double beyond = 1.0 - z[DISPLACED] * mobility;
+  const double share = fabs(beyond) < LEAST_MASS ? LEAST_MASS : beyond; /* of the node's mass that counts */
   *b = share / (share + dt * z[IMPEDANCE] * mobility);
   for (int c = 0; c < 2; c++)
     v[c] = solid->u[2 * i + c] +

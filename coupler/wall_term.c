@@ -51,7 +51,7 @@ void WallTermAssemble(const Overlap o, const WallWeight weight[], const double f
     double cu[2][3];
     CrossVelocity(pair, piece->u, cu);
     AddTensor(1.0, &weight[p], pair->bb, k->a);
-    if (b < 1.0) AddTensor(1.0 - b, &weight[p], pair->bb, k->give);
+    if (b != 1.0) AddTensor(1.0 - b, &weight[p], pair->bb, k->give);
     AddSource(&weight[p], (const double(*)[3])cu, k->s);
     if (piece->is_shell) {
       k->shell += pair->area / o->area[pair->b];

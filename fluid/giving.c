@@ -119,7 +119,7 @@ static void Change(const ElementGeometry *g, double rho, double dt, const double
 
 static PetscBool Gives(const CoracleCoupling *k)
 {
-  return (PetscBool)(k->give[0][0][0][0] > 0.0);
+  return (PetscBool)(k->give[0][0][0][0] != 0.0);
 }
 
 static PetscErrorCode AddElement(Fluid f, double dt, int k)

@@ -12,7 +12,7 @@
 #define SEEN_NOT 0.25
 /* Waves are resolved up to w dt, w the bound on the fastest vibration that substeps obey: 1.5 to 2.5 times
  * the real one. */
-#define RESOLVED 10.0
+#define RESOLVED 12.0
 #define RESOLVED_WHOLLY 2.0 /* a share that says so */
 
 /* Sums over a piece: mass, m x; m v, m x cross v, m |x|^2, v the velocity now; and the same two of the mean

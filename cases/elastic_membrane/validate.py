@@ -23,7 +23,7 @@ ROOT = HERE.parent.parent
 OUT = ROOT / "out" / "validation" / "elastic_membrane"
 # A massless line T = T0 (stretch - 1), T0 = 10 N/m: as dense as the fluid, law linear in the stretch, E h = T0.
 LINE = ["solid.materials.membrane={law: corotated, density: 1, youngs_modulus: 2000, poisson_ratio: 0, damping: 0.2}",
-        "time.dt_max=0.00025"]
+        "time.dt_max=0.0004"]
 
 
 def sizes(le, size):
@@ -32,12 +32,12 @@ def sizes(le, size):
 
 # name: (keys other than case.yaml's, ranks)
 RUNS = {
-    "y1": (["time.end=5"], "1:1:1"),
-    "y2": (["coupler.shell_thickness=0.001"], "1:1:1"),
-    "y3": (["coupler.shell_thickness=0.002"], "1:1:1"),
+    "y1": (["time.end=4"], "1:1:1"),
+    "y2": (["time.end=1.5", "coupler.shell_thickness=0.001"], "1:1:1"),
+    "y3": (["time.end=1.5", "coupler.shell_thickness=0.002"], "1:1:1"),
     "y1-le-0.008": (sizes(0.008, 0.01), "1:1:1"),
     "y1-le-0.016": (sizes(0.016, 0.01), "1:1:1"),
-    "y1-dt-half": (["time.end=0.5", "time.dt_max=0.00025"], "1:1:1"),
+    "y1-dt-half": (["time.end=0.5", "time.dt_max=0.0004"], "1:1:1"),
     "ranks-1": (sizes(0.016, 0.01) + ["time.end=0.5"], "1:1:1"),
     "ranks-2": (sizes(0.016, 0.01) + ["time.end=0.5"], "2:1:1"),
     "ranks-3": (sizes(0.016, 0.01) + ["time.end=0.5"], "3:2:2"),
