@@ -27,22 +27,23 @@ LINE = ["solid.materials.membrane={law: corotated, density: 1, youngs_modulus: 2
 
 
 def sizes(le, size):
+    """le, and the elements along the wall."""
     return ["fluid.adapt.size_min=%g" % le, "solid.bodies[0].size=%g" % size]
 
 
 # name: (keys other than case.yaml's, ranks)
 RUNS = {
-    "y1": (["time.end=4"], "1:1:1"),
-    "y2": (["time.end=1.5", "coupler.shell_thickness=0.001"], "1:1:1"),
-    "y3": (["time.end=1.5", "coupler.shell_thickness=0.002"], "1:1:1"),
-    "y1-le-0.008": (sizes(0.008, 0.01), "1:1:1"),
+    "y1": (sizes(0.004, 0.005) + ["time.end=4"], "1:1:1"),
+    "y2": (sizes(0.004, 0.005) + ["time.end=1.5", "coupler.shell_thickness=0.001"], "1:1:1"),
+    "y3": (sizes(0.004, 0.005) + ["time.end=1.5", "coupler.shell_thickness=0.002"], "1:1:1"),
+    "y1-le-0.008": ([], "1:1:1"),
     "y1-le-0.016": (sizes(0.016, 0.01), "1:1:1"),
-    "y1-dt-half": (["time.end=0.5", "time.dt_max=0.0004"], "1:1:1"),
+    "y1-dt-half": (["time.dt_max=0.0005"], "1:1:1"),
     "ranks-1": (sizes(0.016, 0.01) + ["time.end=0.5"], "1:1:1"),
     "ranks-2": (sizes(0.016, 0.01) + ["time.end=0.5"], "2:1:1"),
     "ranks-3": (sizes(0.016, 0.01) + ["time.end=0.5"], "3:2:2"),
-    "line": (LINE, "1:1:1"),
-    "line-le-0.008": (LINE + sizes(0.008, 0.01), "1:1:1"),
+    "line": (LINE + sizes(0.004, 0.005), "1:1:1"),
+    "line-le-0.008": (LINE, "1:1:1"),
     "line-le-0.016": (LINE + sizes(0.016, 0.01), "1:1:1"),
 }
 ROWS = ("y1", "y2", "y3")
@@ -72,7 +73,7 @@ class Result:
         self.shape = membrane.history(self.folder)
         parts = self.summary["participants"].values()
         self.cpu, self.wall = sum(p["seconds_cpu"] for p in parts), max(p["seconds_wall"] for p in parts)
-        self.le = next((float(k.split("=")[1]) for k in RUNS[name][0] if "size_min" in k), 0.004)
+        self.le = next((float(k.split("=")[1]) for k in RUNS[name][0] if "size_min" in k), 0.008)
         self.triangles = int(membrane.last_row(self.folder / "fluid.csv")["triangles"])
 
     @property
