@@ -26,7 +26,7 @@ static PetscErrorCode JoinBoxes(MPI_Comm comm, int n, GeometryBox box[])
   PetscFunctionReturn(0);
 }
 
-/* Grows the box of the cluster (a cell of an 8 x 8 grid on the whole solid) that holds the simplex's centre.
+/* Grows the box of the cluster (a cell of a square grid on the whole solid) that holds the simplex's centre.
  */
 static void AddSimplex(const GeometryBox *whole, int n, const int node[], const double x[],
                        GeometryBox cluster[])
@@ -56,13 +56,26 @@ static PetscErrorCode Clusters(Region r, const ServerSolid *solid, GeometryBox c
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode RegionUpdate(Region r, const ServerSolid *solid)
+/* How far the fastest node gets in the steps for which a region should do. */
+static PetscErrorCode Reach(Region r, const ServerSolid *solid, double dt, double *reach)
+{
+  double speed = 0.0;
+
+  PetscFunctionBeginUser;
+  for (int i = 0; i < solid->nnodes; i++) speed = fmax(speed, hypot(solid->u[2 * i], solid->u[2 * i + 1]));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &speed, 1, MPI_DOUBLE, MPI_MAX, r->comm));
+  *reach = REGION_STEPS * dt * speed;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RegionUpdate(Region r, const ServerSolid *solid, double dt)
 {
   GeometryBox cluster[REGION_BOXES];
-  double area = 0.0;
+  double area = 0.0, reach;
 
   PetscFunctionBeginUser;
   PetscCall(Clusters(r, solid, cluster));
+  PetscCall(Reach(r, solid, dt, &reach));
   r->nbox = 0;
   for (int k = 0; k < REGION_BOXES; k++) {
     if (cluster[k].lower[0] > cluster[k].upper[0]) continue;
@@ -70,7 +83,7 @@ PetscErrorCode RegionUpdate(Region r, const ServerSolid *solid)
     PetscCall(PetscArraycpy(r->box[r->nbox][0], cluster[k].lower, 2));
     PetscCall(PetscArraycpy(r->box[r->nbox++][1], cluster[k].upper, 2));
   }
-  r->margin = PetscMax(0.2 * sqrt(area), 8.0 * r->thickness);
+  r->margin = PetscMax(PetscMin(reach, 0.2 * sqrt(area)), 8.0 * r->thickness);
   for (int k = 0; k < r->nbox; k++) {
     for (int c = 0; c < 2; c++) {
       r->box[k][0][c] -= r->margin + SHELL_OFFSET_LIMIT * r->thickness;

@@ -6,7 +6,7 @@
 #include "server.h"
 #include <petscsys.h>
 
-enum { REGION_SIDE = 8, REGION_BOXES = REGION_SIDE * REGION_SIDE };
+enum { REGION_SIDE = 16, REGION_BOXES = REGION_SIDE * REGION_SIDE, REGION_STEPS = 20 };
 
 typedef struct {
   MPI_Comm comm;
@@ -19,9 +19,9 @@ typedef struct {
 } * Region;
 
 PetscErrorCode RegionCreate(MPI_Comm comm, double thickness, Region *region);
-/* Collective: boxes around the solid as it is now.  The margin is the larger of a fifth of the body's size
- * (the root of the clusters' area) and 8 shell thicknesses. */
-PetscErrorCode RegionUpdate(Region region, const ServerSolid *solid);
+/* Collective: boxes around the solid as it is now.  The margin is what the fastest node travels in REGION_STEPS steps of
+ * dt, but at most a fifth of the body's size (the root of the clusters' area) and at least 8 shell thicknesses. */
+PetscErrorCode RegionUpdate(Region region, const ServerSolid *solid, double dt);
 /* Collective: has some node moved farther than the margin since, or is the solid another one? */
 PetscErrorCode RegionStale(Region region, const ServerSolid *solid, PetscBool *stale);
 /* Collective: the smallest global id of the nodes outside of the domain and, on the one rank that gets *local

@@ -43,7 +43,7 @@ static PetscErrorCode AskElements(March *m)
   const Scheme *s = m->scheme;
 
   PetscFunctionBeginUser;
-  PetscCall(RegionUpdate(s->region, &m->solid));
+  PetscCall(RegionUpdate(s->region, &m->solid, m->dt));
   PetscCall(ServerAskElements(s->server, s->region->nbox, &s->region->box[0][0][0], &m->elements));
   PetscCall(CouplerSetElements(s->coupler, &m->elements));
   PetscFunctionReturn(0);

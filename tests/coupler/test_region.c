@@ -52,7 +52,12 @@ int main(int argc, char **argv)
   SyntheticSolidPart(&all, rank, size, &part);
   part.view.changed = 0;
   CHECK(!RegionCreate(PETSC_COMM_WORLD, dr, &region), "create");
-  CHECK(!RegionUpdate(region, &part.view), "update");
+  CHECK(!RegionUpdate(region, &part.view, 0.0), "update");
+  CHECK(region->margin == 8.0 * dr, "at rest: margin %g", region->margin);
+  for (int i = 0; i < part.nnodes; i++) part.u[i][0] = part.nnodes > 0 && rank == 0 ? 1.0 : 0.0;
+  CHECK(!RegionUpdate(region, &part.view, 1e-3), "update");
+  CHECK(fabs(region->margin - 1e-3 * REGION_STEPS) < 1e-15, "slow: margin %g", region->margin);
+  CHECK(!RegionUpdate(region, &part.view, 1.0), "update");
   CheckBoxes(region);
   CHECK(region->margin > 0.2 * 0.3 && region->margin < 0.2 * 0.5, "margin %g", region->margin);
   CHECK(!Stale(region), "nothing has moved");
