@@ -63,7 +63,7 @@ class Result:
         """Areas of the block's fragments in the last snapshot, parts of the whole, the largest first."""
         with h5py.File(folder / "solid.h5") as file:
             solid = file["snapshot"][sorted(file["snapshot"])[-1]]["solid"]
-            x, body = solid["points"][()] - solid["node/displacement"][()], solid["cell/body"][()].ravel()
+            x, body = solid["points"][()] - solid["node/displacement"][:, :2], solid["cell/body"][()].ravel()
             corner, fragment = x[solid["cells"][()]], solid["cell/fragment"][()].ravel().astype(int)
         d1, d2 = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
         area = np.where(body == 0, 0.5 * (d1[:, 0] * d2[:, 1] - d1[:, 1] * d2[:, 0]), 0.0)
@@ -128,7 +128,8 @@ def runs_table(there):
         n = int(np.searchsorted(r.t, END * (1 - 1e-9)))
         n = min(n, len(r.t) - 1)
         if r.message:
-            yield "| %s | stopped at %.3f s: %s |" % (name, r.t[-1], r.message.strip().split(";")[0][:150]) + " |" * 13
+            why = "shaken apart" if "alternating sign" in r.message else r.message.strip()
+            yield "| %s | stopped at %.3f s: %s |" % (name, r.t[-1], why) + " |" * 13
             continue
         yield "| " + " | ".join([
             name, "%.4f" % b.first_crack(), "%.1f" % r.stream, "%.1f" % r.lost, "%.0f" % r.foot, "%.2f" % b.cracks[n],
@@ -173,11 +174,12 @@ def claims(there):
     first = base.budget.first_crack()
     for name in ("solid-2", "solid-3"):
         if name in there:
-            yield name + ": to 1e-6 until less before the first crack", first - (there[name].until(base, 1e-6) or END), 0.002
+            yield name + ": s before 0.5 at which 1e-6 of the force differs", 0.5 - (there[name].until(base, 1e-6) or END), 0.0
+            yield name + ": first crack as in base, s", abs(there[name].budget.first_crack() - first), 0.001
     for name in ("ranks-2", "ranks-3", "le-0.005", "dt-half", "courant-half", "size-0.011"):
         if name in there:
             yield name + ": the stream's force as in base", abs(there[name].stream / base.stream - 1.0), 0.03
-            yield name + ": first crack as in base, s", abs(there[name].budget.first_crack() - first), 0.005
+            yield name + ": first crack as in base, s", abs(there[name].budget.first_crack() - first), 0.01
             yield name + ": the projectile's loss as in base", abs(there[name].lost / base.lost - 1.0), 0.1
 
 
