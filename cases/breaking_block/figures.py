@@ -108,11 +108,13 @@ def draw_budget(folder):
     middle.plot(b.t, -b.excess, label="to damping, friction, contact")
     middle.plot(b.t, b.fracture, label="fracture")
     middle.set(ylabel="energy [J/m]")
-    right.plot(b.t, b.pieces, label="pieces")
-    right.plot(b.t, b.broken, label="broken joints")
-    for axis in (left, middle, right):
-        axis.set(xlabel="t [s]", xlim=(0.0, b.t[-1]))
-        axis.legend(frameon=False, fontsize=9)
+    right.plot(b.t, b.pieces, label=f"pieces, {b.pieces[-1]:.0f} in the end")
+    right.plot(b.t, b.broken, label=f"broken joints, {b.broken[-1]:.0f} in the end")
+    first = b.first_crack() or 0.0
+    for axis, span, place in ((left, (0.0, b.t[-1]), (1.0, 0.31)), (middle, (0.0, b.t[-1]), (1.0, 0.5)),
+                              (right, (max(first - 0.01, 0.0), first + 0.05), (1.0, 0.5))):
+        axis.set(xlabel="t [s]", xlim=span)
+        axis.legend(frameon=False, fontsize=9, loc="center right", bbox_to_anchor=place)
     return figure
 
 
