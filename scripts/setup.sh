@@ -4,7 +4,7 @@
 set -euo pipefail
 
 packages=(build-essential cmake ninja-build pkg-config git libopenmpi-dev openmpi-bin libpetsc-real-dev libmetis-dev
-  libhdf5-openmpi-dev libyaml-dev libopenblas0-pthread gmsh python3 python3-numpy python3-h5py python3-matplotlib)
+  libhdf5-openmpi-dev libyaml-dev libopenblas0-pthread gmsh python3 python3-numpy python3-h5py python3-matplotlib python3-pil)
 
 if ! command -v dpkg-query >/dev/null; then
   cat >&2 <<'EOF'

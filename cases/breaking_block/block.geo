@@ -1,5 +1,5 @@
-// The block, unstructured so that cracks have no preferred direction: gmsh -2 -format msh41 block.geo [-setnumber size 0.0125] -o block.msh
-DefineConstant[size = 0.0125]; // m
+// The block, unstructured so that cracks have no preferred direction: gmsh -2 -format msh41 block.geo [-setnumber size 0.016] -o block.msh
+DefineConstant[size = 0.016]; // m
 width = 0.1; height = 0.32;
 Point(1) = {-width / 2, 0, 0, size};
 Point(2) = {width / 2, 0, 0, size};

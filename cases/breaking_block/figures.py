@@ -23,7 +23,8 @@ from budget import Budget
 from snapshot import Window, outline, read_snapshot
 
 STRONGEST = 40.0  # 1/s, end of the colour scale of the vorticity
-SMALL = 3  # triangles: fragments of no more are all of one colour
+SERIES = (0.4, 0.7, 0.76, 0.86, 1.1, 1.4, 1.8, 2.2)  # s
+SMALL = 2  # triangles: fragments of no more are all of one colour
 COLOURS = [plt.colormaps["Set2"](k) for k in range(7)] + [plt.colormaps["Set3"](k) for k in (0, 2, 3, 4, 5, 6, 9, 11)]
 SAND, STEEL = (0.80, 0.72, 0.55, 1.0), (0.35, 0.35, 0.38, 1.0)
 
@@ -82,11 +83,10 @@ def triangulation_points(triangulation):
     return np.column_stack([triangulation.x, triangulation.y])
 
 
-def draw_series(folder, times, colours):
-    end = times[-1]
+def draw_series(folder, colours):
     figure, axes = plt.subplots(4, 2, figsize=(13, 8.2), sharex=True, sharey=True, layout="constrained")
-    for axis, part in zip(axes.flat, (0.0, 0.03, 0.06, 0.1, 0.2, 0.4, 0.7, 1.0)):
-        shade = draw(axis, folder, part * end, colours)
+    for axis, time in zip(axes.flat, SERIES):
+        shade = draw(axis, folder, time, colours)
     for axis in axes[:, 0]:
         axis.set_ylabel("y [m]")
     for axis in axes[-1]:
@@ -99,7 +99,7 @@ def draw_budget(folder):
     b = Budget(folder)
     figure, (left, middle, right) = plt.subplots(1, 3, figsize=(14, 4.2), layout="constrained")
     left.plot(b.t, b.momentum[0] - b.momentum[0][0], "k", linewidth=2, label="change of the solids' momentum")
-    for given, label in ((b.fluid[0], "impulse of the fluid"), (b.held[0], "of the held foot"), (b.walls[0], "of the walls")):
+    for given, label in ((b.fluid[0], "impulse of the fluid"), (b.held[0], "of foot and thrower"), (b.walls[0], "of the walls")):
         left.plot(b.t, given, label=label)
     left.plot(b.t, b.fluid[0] + b.held[0] + b.walls[0], "--", color="0.7", linewidth=1, label="sum of the impulses")
     left.set(ylabel="along the channel [N s/m]")
@@ -108,11 +108,13 @@ def draw_budget(folder):
     middle.plot(b.t, -b.excess, label="to damping, friction, contact")
     middle.plot(b.t, b.fracture, label="fracture")
     middle.set(ylabel="energy [J/m]")
-    right.plot(b.t, b.pieces, label="pieces")
-    right.plot(b.t, b.broken, label="broken joints")
-    for axis in (left, middle, right):
-        axis.set(xlabel="t [s]", xlim=(0.0, b.t[-1]))
-        axis.legend(frameon=False, fontsize=9)
+    right.plot(b.t, b.pieces, label=f"pieces, {b.pieces[-1]:.0f} in the end")
+    right.plot(b.t, b.broken, label=f"broken joints, {b.broken[-1]:.0f} in the end")
+    first = b.first_crack() or 0.0
+    for axis, span, place in ((left, (0.0, b.t[-1]), (1.0, 0.31)), (middle, (0.0, b.t[-1]), (1.0, 0.5)),
+                              (right, (max(first - 0.01, 0.0), first + 0.05), (1.0, 0.5))):
+        axis.set(xlabel="t [s]", xlim=span)
+        axis.legend(frameon=False, fontsize=9, loc="center right", bbox_to_anchor=place)
     return figure
 
 
@@ -137,7 +139,7 @@ def main():
     folder = arguments.folder
     times = snapshot_times(folder)
     colours = element_colours(folder, times[-1])
-    for figure, name in ((draw_series(folder, times, colours), "breaking.png"), (draw_budget(folder), "budget.png")):
+    for figure, name in ((draw_series(folder, colours), "breaking.png"), (draw_budget(folder), "budget.png")):
         path = os.path.join(folder, name)
         figure.savefig(path, dpi=120)
         print(path)

@@ -8,8 +8,9 @@
  *     +-----------|-----------+
  *       o                   o
  *
- *     bench_bend [cells ...]      prints a table and fails if at the finest mesh the energy of the cracks, or
- * the work that is missing, is off by more than 5 % of G_f times the length of the cracks */
+ *     bench_bend [cells ...]      prints a table and fails if at the finest mesh the energy of the cracks is
+ * off by more than 5 % of G_f times their length, or the work that is missing by more than 5 % of the energy
+ * that all joints took */
 #include "crack.h"
 
 #define SPAN 0.24    /* m */
@@ -118,21 +119,20 @@ int main(int argc, char **argv)
   const int n = argc > 1 ? argc - 1 : 2;
   double cracks = 0.0, missing = 0.0;
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
-  printf("cells  P_max [N/m]  6 M/(l^2 f_t)  crack [l]  energy of cracks/(G_f cracks)  missing work/(G_f "
-         "cracks)  "
-         "live\n");
+  printf("cells  P_max [N/m]  6 M/(l^2 f_t)  crack [l]  energy of cracks/(G_f cracks)  missing work/that of "
+         "joints  live\n");
   for (int k = 0; k < n; k++) {
     const int cells = argc > 1 ? atoi(argv[k + 1]) : standard[k];
     Bend b;
     PetscCall(BendIt(cells, &b));
-    cracks = b.f.energy / (ENERGY * b.f.length);
-    missing = b.missing / (ENERGY * b.f.length);
-    printf("%5d  %11.4g  %13.4f  %9.3f  %29.4f  %26.4f  %4d\n", cells, b.peak,
+    cracks = b.f.torn / (ENERGY * b.f.length);
+    missing = b.missing / b.f.energy; /* with that of the joints that are being torn */
+    printf("%5d  %11.4g  %13.4f  %9.3f  %29.4f  %27.4f  %4d\n", cells, b.peak,
            1.5 * b.peak * SPAN / ((HEIGHT - NOTCH) * (HEIGHT - NOTCH) * TENSILE),
            b.f.length / (HEIGHT - NOTCH), cracks, missing, b.f.live);
     CHECK(b.f.length > 0.9 * (HEIGHT - NOTCH), "only %g m have cracked", b.f.length);
   }
   CHECK(fabs(cracks - 1.0) < 0.05, "the cracks have taken %g of G_f l", cracks);
-  CHECK(fabs(missing - 1.0) < 0.05, "%g of G_f l is missing", missing);
+  CHECK(fabs(missing - 1.0) < 0.05, "%g of what the joints took is missing", missing);
   return PetscFinalize();
 }

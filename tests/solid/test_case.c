@@ -140,7 +140,7 @@ static void Full(void)
       "    - {shape: ring, centre: [5, 0], radius: 1, thickness: 0.1, size: 0.2, layers: 2, material: soft,\n"
       "       stretch: [1.5, 1.0]}\n"
       "    - {shape: ring, centre: [-5, 0], inner_radius: 0.5, outer_radius: 1, size: 0.2, material: soft,\n"
-      "       driven: [{boundary: inner, velocity: [4, 5]}]}\n",
+      "       driven: [{boundary: inner, velocity: [4, 5], release: 6}]}\n",
       NULL, Read, NULL);
   CHECK(assembly.nmaterials == 2, "%d materials", assembly.nmaterials);
   const Material *soft = &assembly.material[0], *hard = &assembly.material[1];
@@ -154,7 +154,9 @@ static void Full(void)
             setup.rule[1].damping == 0.3 && setup.rough_walls && setup.wall_friction == 0.7 &&
             setup.wall_damping < 0.0,
         "contact");
-  CHECK(assembly.ndrives == 2 && assembly.drive[0].nrows == 2 && !assembly.drive[0].driven[1], "drives");
+  CHECK(assembly.ndrives == 2 && assembly.drive[0].nrows == 2 && !assembly.drive[0].driven[1] &&
+            assembly.drive[0].release == 0.0 && assembly.drive[1].release == 6.0,
+        "drives");
   const double mean = DriveVelocity(&assembly.drive[0], 0, 1.0, 2.0); /* 2 to 3, then 3 */
   CHECK(fabs(mean - 2.75) < 1e-14, "mean velocity %g", mean);
   double area[3] = {0.0, 0.0, 0.0}, span[2] = {0.0, 0.0};

@@ -1,0 +1,85 @@
+"""Looks at two runs of breaking.sh: breaking.py CASE_FOLDER ONE_RANK TWO_RANKS; silent where all is well."""
+import json
+import os
+import sys
+import xml.etree.ElementTree as xml
+
+os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
+import h5py
+import numpy as np
+
+sys.path.insert(0, sys.argv[1])
+from budget import Budget
+
+TOUGHNESS = 12.8  # J/m2
+
+
+def must(condition, message):
+    if not condition:
+        sys.exit("breaking: " + message)
+
+
+def check_balance(folder):
+    b = Budget(folder)
+    imbalance = json.load(open(folder + "/summary.json"))["largest_momentum_imbalance"]
+    must(imbalance < 1e-10, f"fluid and solid: momentum imbalance {imbalance:g}")
+    for c in range(2):
+        must(b.momentum_error(c) < 1e-6, f"momentum {c} of the solids: {b.momentum_error(c):g} not accounted for")
+    must(b.excess.max() < 1e-3 * b.held_work[-1], f"{b.excess.max():g} J/m from nothing, {b.held_work[-1]:g} put in")
+    must(b.broken[-1] >= 5 and b.pieces[-1] >= 4, f"{b.broken[-1]:g} joints broken, {b.pieces[-1]:g} pieces")
+    toughness = b.torn[-1] / b.cracks[-1]
+    must(abs(toughness / TOUGHNESS - 1.0) < 0.04, f"cracks cost {toughness:g} J/m2 instead of {TOUGHNESS:g}")
+    return b
+
+
+def check_file(folder, name):
+    """What the XDMF says is what the HDF5 has, at every time and of whatever size; the number of times."""
+    sizes = set()
+    with h5py.File(f"{folder}/{name}.h5") as file:
+        for item in xml.parse(f"{folder}/{name}.xdmf").iter("DataItem"):
+            of, path = item.text.strip().split(":")
+            must(of == name + ".h5" and path in file, f"{name}.xdmf: there is no {item.text.strip()}")
+            said = tuple(int(n) for n in item.get("Dimensions").split())
+            must(file[path].size == np.prod(said), f"{name}.xdmf: {path} has {file[path].shape}, not {said}")
+            sizes.add(said[0])
+    return len(sizes)
+
+
+def check_solid(folder):
+    """Elements stay, nodes grow in number; the two largest fragments move apart."""
+    with h5py.File(folder + "/solid.h5") as file:
+        snapshots = [file["snapshot"][name]["solid"] for name in sorted(file["snapshot"])]
+        for s in snapshots:
+            points, cells = s["points"][()], s["cells"][()]
+            must(len(np.unique(cells)) == len(points), "a node has no element, or an element a node that is not there")
+            must(all(len(s["node"][f]) == len(points) for f in s["node"]), "a field of the nodes has another length")
+        first, last = snapshots[0], snapshots[-1]
+        must(len(last["points"]) > len(first["points"]) + 10 and len(last["cells"]) == len(first["cells"]), "nothing has split")
+        block = first["cell/body"][()].ravel() == 0
+        fragment = last["cell/fragment"][()].ravel().astype(int)
+        largest = np.argsort(-np.bincount(fragment[block]), kind="stable")[:2]
+        middle = [s["points"][()][:, :2][s["cells"][()]].mean(axis=1) for s in (first, last)]
+        apart = [np.hypot(*(x[fragment == largest[0]].mean(axis=0) - x[fragment == largest[1]].mean(axis=0))) for x in middle]
+        must(abs(apart[1] - apart[0]) > 0.005, f"the two largest fragments were {apart[0]:g} m apart, and are {apart[1]:g} m")
+
+
+def check_ranks(one, two):
+    """Until just before the first crack to round-off, which contact and fluid let grow."""
+    n = int(np.argmax(one.broken > 0)) - 1
+    must(n > 10 and abs(one.t[n] / two.t[n] - 1.0) < 1e-9, f"steps differ at {one.t[n]:g} s: {two.t[n]:g} s")
+    scale = abs(one.force[0][:n]).max()
+    difference = abs(one.force[0][:n] - two.force[0][:n]).max() / scale
+    must(difference < 1e-6, f"the fluid's force differs by {difference:g} between one rank and two")
+    must(abs(one.first_crack() / two.first_crack() - 1.0) < 1e-6, f"first crack at {one.first_crack():g} and {two.first_crack():g} s")
+
+
+one, two = (check_balance(folder) for folder in sys.argv[2:4])
+for folder in sys.argv[2:4]:
+    for name, least in (("solid", 4), ("fluid", 8), ("coupler", 4)):
+        sizes = check_file(folder, name)
+        must(sizes >= least, f"{name}.h5 has arrays of {sizes} sizes only")
+    check_solid(folder)
+check_ranks(one, two)
+if os.environ.get("VERBOSE"):
+    for b in (one, two):
+        print(b.broken[-1], b.pieces[-1], b.first_crack(), b.torn[-1] / b.cracks[-1], b.momentum_error(0), b.momentum_error(1), b.excess.max())

@@ -1,0 +1,25 @@
+/* A velocity that is prescribed rises smoothly and keeps its profile. */
+#include "check.h"
+#include "fluid_impl.h"
+
+int main(void)
+{
+  Boundary b = {.kind = BOUNDARY_VELOCITY,
+                .velocity = {2.0, -1.0},
+                .parabolic = PETSC_TRUE,
+                .lower = {0.0, 0.0},
+                .upper = {0.0, 4.0},
+                .rise = 0.5};
+  const double time[5] = {0.0, 0.125, 0.25, 0.5, 7.0}, part[5] = {0.0, 0.5 - M_SQRT1_2 / 2.0, 0.5, 1.0, 1.0};
+  const double x[2] = {0.0, 1.0}; /* three quarters of the largest */
+  double v[2];
+  for (int k = 0; k < 5; k++) {
+    BoundaryVelocity(&b, time[k], x, v);
+    for (int c = 0; c < 2; c++)
+      CHECK(fabs(v[c] - 0.75 * part[k] * b.velocity[c]) < 1e-15, "%g m/s at %g s", v[c], time[k]);
+  }
+  b.rise = 0.0;
+  BoundaryVelocity(&b, 0.0, x, v);
+  CHECK(v[0] == 1.5 && v[1] == -0.75, "%g, %g m/s at once", v[0], v[1]);
+  return 0;
+}
