@@ -12,8 +12,8 @@
  *                      gives way by itself is held implicitly (inertia.h).
  *     stress_shell     the paper, literal: wall term in the shell only, from the viscosity projected to the surface;
  *                      force by the surface integral of [43], [44].
- *     penalty_shell    Vire, Xiang, Pain 2015: a = rho_f/dt I in the shell only; force the reaction to it plus the surface
- *                      integral of the pressure. */
+ *     penalty_shell    Vire, Xiang, Pain 2015: a = rho_f/dt I in the shell only; force the reaction to it, plus the
+ *                      inertia of the fluid inside and buoyancy.  Conservative. */
 #ifndef CORACLE_COUPLER_H
 #define CORACLE_COUPLER_H
 #include "force.h"

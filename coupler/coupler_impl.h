@@ -34,10 +34,11 @@ struct Coupler_s {
 extern const CouplerActions COUPLER_ACTIONS_REACTION, COUPLER_ACTIONS_STRESS_SHELL,
     COUPLER_ACTIONS_PENALTY_SHELL;
 
-/* The correction of the modes that leave the fluid alone. */
+/* The force of the modes that conserve momentum: the reaction to the weights, inertia and weight of the fluid inside. */
+PetscErrorCode CouplerReactConserving(Coupler coupler);
+/* The correction that gives the fluid inside the solid the solid's velocity; and that of modes that leave it alone. */
+PetscErrorCode CouplerFillSolid(Coupler coupler, const ServerSolid *moved);
 PetscErrorCode CouplerLeaveFluid(Coupler coupler, const ServerSolid *moved);
-/* Adds the surface integral of -p n [43] to node.rest. */
-PetscErrorCode CouplerAddSurfacePressure(Coupler coupler);
 /* P1 values of the P2 pressure p[6] on one element: its L2 projection. */
 void CouplerPressureP1(const double p[6], double p1[3]);
 #endif

@@ -22,26 +22,4 @@ static PetscErrorCode Weigh(Coupler c, const ServerSolid *solid)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode React(Coupler c)
-{
-  PetscFunctionBeginUser;
-  ForceReaction(c->overlap, c->weight, c->firmness, &c->flow, c->vertex);
-  ForceInertia(c->overlap, c->dt, c->options.gravity, c->flow.u_plus, (const double(*)[3][2])c->now,
-               c->vertex);
-  PetscCall(ForceBringHome(c->overlap, c->vertex, c->nnodes, c->node));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode Correct(Coupler c, const ServerSolid *moved)
-{
-  double(*u)[3][2];
-
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(c->overlap->npieces, &u));
-  PetscCall(OverlapNodesToPieces(c->overlap, 2, moved->u, &u[0][0][0]));
-  ForceCorrection(c->overlap, (const double(*)[3][2])u, c->flow.u_plus, c->correction);
-  PetscCall(PetscFree(u));
-  PetscFunctionReturn(0);
-}
-
-const CouplerActions COUPLER_ACTIONS_REACTION = {Weigh, React, Correct};
+const CouplerActions COUPLER_ACTIONS_REACTION = {Weigh, CouplerReactConserving, CouplerFillSolid};

@@ -133,22 +133,6 @@ static void AddTraction(Coupler c, int e, int where, const double t[2][2])
   }
 }
 
-PetscErrorCode CouplerAddSurfacePressure(Coupler c)
-{
-  double(*p)[2];
-
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(c->shell->nfacets, &p));
-  PetscCall(SurfaceFromFluid(c->overlap, 1, c->shell, PressureSource, c, (double *)p));
-  for (int e = 0; e < c->shell->nfacets; e++) {
-    const double *n = c->shell->normal[e];
-    const double t[2][2] = {{-p[e][0] * n[0], -p[e][0] * n[1]}, {-p[e][1] * n[0], -p[e][1] * n[1]}};
-    AddTraction(c, e, 1, t);
-  }
-  PetscCall(PetscFree(p));
-  PetscFunctionReturn(0);
-}
-
 /* [43], [44] on one facet: the wall term counts as reaction (what s_c gives the fluid), tau n - p n as the
  * rest. */
 static void AddFacetForce(Coupler c, int e, const double f[FIELDS][2])
