@@ -87,5 +87,6 @@ typedef struct {
 PetscErrorCode AssemblyAdd(Assembly *a, const MeshSerial *mesh, const BodySetup *setup, const char **error);
 /* The first pair of bodies one of which reaches into the other; *first = -1 if there is none. */
 PetscErrorCode AssemblyOverlap(const Assembly *a, int *first, int *second);
+PetscErrorCode AssemblyCopy(const Assembly *from, Assembly *to);
 PetscErrorCode AssemblyDestroy(Assembly *a);
 #endif

@@ -15,8 +15,9 @@ static PetscErrorCode GiveMesh(Exchange *x, const SolidView *v, const double u[]
   PetscFunctionReturn(0);
 }
 
-/* Cracks have changed the mesh in this step.  The substeps have told the velocities of the nodes that were
- * there when it began, which come first; new ones get the mean over the step from here. */
+/* Cracks have changed the mesh in this step, or elements their ranks.  The substeps have told the velocities
+ * of the nodes that were there when it began, which come first; new ones get the mean over the step from
+ * here. */
 static PetscErrorCode GiveCrackedMesh(Exchange *x, const SolidView *v)
 {
   double *mean;

@@ -175,7 +175,11 @@ static Joint JointOf(const Joints j, const Making *m, const InteriorEdge *edge)
 {
   const Assembly *a = m->a;
   const Point d = PointMinus(PointAt(a->rest, edge->node[1]), PointAt(a->rest, edge->node[0]));
-  Joint joint = {.number = edge->joint, .body = a->element_body[edge->element[0]], .length = hypot(d.x, d.y)};
+  Joint joint = {.number = edge->joint,
+                 .first = edge->element[0],
+                 .second = edge->element[1],
+                 .body = a->element_body[edge->element[0]],
+                 .length = hypot(d.x, d.y)};
   joint.law = LawOf(a, edge, joint.length);
   for (int i = 0; i < 2; i++) {
     joint.place[i] = m->place[edge->element[i]];

@@ -58,6 +58,7 @@ PetscErrorCode SolidCaseRead(Case c, Assembly *a, SolidSetup *setup)
   PetscFunctionBeginUser;
   CaseVector(c, "gravity", 2, setup->gravity);
   setup->courant = CaseNumberOr(c, "solid.courant", 0.8, 0.01, 1.0);
+  setup->rebalance = CaseNumberOr(c, "solid.rebalance", 500.0, 0.0, HUGE_VAL);
   CaseKeys(c, "solid.materials", CaseCheckMaterial, c);
   if (nbodies == 0) CaseRefuse(c, "solid.bodies", "expected a list of at least one body");
   for (int b = 0; b < nbodies; b++) PetscCall(CaseReadBody(c, b, a));
