@@ -54,6 +54,7 @@ static PetscErrorCode Run(CoracleClient client, Solid solid, Record record)
     PetscCall(SolidRebalance(solid));
     PetscCall(ExchangeMotion(&exchange));
   }
+  PetscCall(ExchangeDestroy(&exchange));
   PetscFunctionReturn(0);
 }
 

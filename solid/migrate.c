@@ -3,10 +3,11 @@
  *
  *     damage of joints    of the rank of the joint's first element; cracks are cut again, and by the numbers
  *                         of their corners the parts of nodes get the gid that they had (joints_impl.h)
- *     nodes               x, v, .. by gid, of the rank of the lowest element there, which has it for certain
+ *     nodes               x, v, .. by gid, of a rank that has them for certain (abroad.h)
  *     slips               to the rank of the edge's element, by its number in the assembly
  *
  * The share before stays as it is while a saved state is in it. */
+#include "abroad.h"
 #include "contact_impl.h"
 #include "deal.h"
 #include "joints_impl.h"
@@ -25,9 +26,9 @@ static PetscErrorCode AnswerJoint(void *joints, long long number, void *record)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode TakeJoints(Solid s, Solid new)
+static PetscErrorCode TakeJoints(Solid s, Solid fresh)
 {
-  const Joints j = new->joints;
+  const Joints j = fresh->joints;
   long long *key;
   int *of;
   PetscFunctionBeginUser;
@@ -39,7 +40,7 @@ static PetscErrorCode TakeJoints(Solid s, Solid new)
   }
   PetscCall(DealAsk(s->comm, j->n, of, key, sizeof *j->memory, AnswerJoint, s->joints, j->memory));
   PetscCall(PetscFree2(key, of));
-  JointsReplay(j, new);
+  JointsReplay(j, fresh);
   PetscFunctionReturn(0);
 }
 
@@ -50,75 +51,42 @@ typedef struct {
   double x[2], v[2], start[2], load[2];
 } NodeState;
 
-typedef struct {
-  long long gid;
-  int node;
-} Named;
-
-typedef struct {
-  Solid s;
-  Named *name; /* [s->nnodes] by gid */
-} NodeNames;
-
-static int CompareNames(const void *a, const void *b)
+static PetscErrorCode AnswerNode(void *context, long long gid, void *record)
 {
-  const Named *p = a, *q = b;
-  return (p->gid > q->gid) - (p->gid < q->gid);
-}
-
-static PetscErrorCode AnswerNode(void *names, long long gid, void *record)
-{
-  const NodeNames *k = names;
-  const Named wanted = {gid, -1};
+  const NodeNames *names = context;
+  const Solid s = names->s;
+  const int n = NodeNamesFind(names, gid);
   NodeState *to = record;
   PetscFunctionBeginUser;
-  const Named *found = bsearch(&wanted, k->name, (size_t)k->s->nnodes, sizeof *k->name, CompareNames);
-  PetscCheck(found, PETSC_COMM_SELF, PETSC_ERR_PLIB, "node %lld is not here", gid);
+  PetscCheck(n >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "node %lld is not here", gid);
   for (int c = 0; c < 2; c++) {
-    const int i = 2 * found->node + c;
-    to->x[c] = k->s->x[i];
-    to->v[c] = k->s->v[i];
-    to->start[c] = k->s->start[i];
-    to->load[c] = k->s->load[i];
+    to->x[c] = s->x[2 * n + c];
+    to->v[c] = s->v[2 * n + c];
+    to->start[c] = s->start[2 * n + c];
+    to->load[c] = s->load[2 * n + c];
   }
   PetscFunctionReturn(0);
 }
 
-/* of[n]: the rank of the corner that has given the node its gid: an element's own, or the lowest at a node of
- * the start. */
-static PetscErrorCode NodeOwners(Solid s, int n, const long long gid[], int of[])
+static PetscErrorCode TakeNodes(Solid s, Solid fresh)
 {
-  const Assembly *a = s->assembly;
-  int *lowest;
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1((size_t)a->nnodes, &lowest));
-  for (int k = 3 * a->nelements - 1; k >= 0; k--) lowest[a->element[k]] = k / 3;
-  for (int k = 0; k < n; k++)
-    of[k] = s->part[gid[k] < a->nnodes ? lowest[gid[k]] : (int)((gid[k] - a->nnodes) / 3)];
-  PetscCall(PetscFree(lowest));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode TakeNodes(Solid s, Solid new)
-{
-  NodeNames names = {s, NULL};
+  NodeNames names;
   NodeState *state;
   int *of;
   PetscFunctionBeginUser;
-  PetscCall(
-      PetscMalloc3((size_t)s->nnodes, &names.name, (size_t) new->nnodes, &of, (size_t) new->nnodes, &state));
-  for (int n = 0; n < s->nnodes; n++) names.name[n] = (Named){s->gid[n], n};
-  if (s->nnodes) qsort(names.name, (size_t)s->nnodes, sizeof *names.name, CompareNames);
-  PetscCall(NodeOwners(s, new->nnodes, new->gid, of));
-  PetscCall(DealAsk(s->comm, new->nnodes, of, new->gid, sizeof *state, AnswerNode, &names, state));
-  for (int k = 0; k < 2 * new->nnodes; k++) {
+  PetscCall(PetscMalloc2((size_t)fresh->nnodes, &of, (size_t)fresh->nnodes, &state));
+  PetscCall(NodeNamesCreate(s, &names));
+  PetscCall(NodeOwners(s, fresh->nnodes, fresh->gid, of));
+  PetscCall(DealAsk(s->comm, fresh->nnodes, of, fresh->gid, sizeof *state, AnswerNode, &names, state));
+  for (int k = 0; k < 2 * fresh->nnodes; k++) {
     const NodeState *from = &state[k / 2];
-    new->x[k] = from->x[k % 2];
-    new->v[k] = from->v[k % 2];
-    new->start[k] = from->start[k % 2];
-    new->load[k] = from->load[k % 2];
+    fresh->x[k] = from->x[k % 2];
+    fresh->v[k] = from->v[k % 2];
+    fresh->start[k] = from->start[k % 2];
+    fresh->load[k] = from->load[k % 2];
   }
-  PetscCall(PetscFree3(names.name, of, state));
+  PetscCall(NodeNamesDestroy(&names));
+  PetscCall(PetscFree2(of, state));
   PetscFunctionReturn(0);
 }
 
@@ -132,10 +100,10 @@ static int CompareNumbers(const void *a, const void *b)
 }
 
 /* Slips travel with their edges numbered as in the assembly. */
-static PetscErrorCode TakeSlips(Solid s, Solid new, const int part[])
+static PetscErrorCode TakeSlips(Solid s, Solid fresh, const int part[])
 {
   const Slips *h;
-  const Elements *e = &new->elements;
+  const Elements *e = &fresh->elements;
   Slip *out, *in;
   void *received;
   int *to, n;
@@ -156,7 +124,7 @@ static PetscErrorCode TakeSlips(Solid s, Solid new, const int part[])
     PetscCheck(found, PETSC_COMM_SELF, PETSC_ERR_PLIB, "element %d is not here", number);
     in[k].edge = 3 * (int)(found - e->number) + in[k].edge % 3;
   }
-  PetscCall(ContactTakeSlips(new->contact, n, in));
+  PetscCall(ContactTakeSlips(fresh->contact, n, in));
   PetscCall(PetscFree2(out, to));
   PetscCall(PetscFree(in));
   PetscFunctionReturn(0);
@@ -166,18 +134,19 @@ static PetscErrorCode TakeSlips(Solid s, Solid new, const int part[])
  * ---------------------------------------------------------------------------------------------- */
 
 /* What is the same on all ranks. */
-static void TakeTime(const Solid s, Solid new)
+static void TakeTime(const Solid s, Solid fresh)
 {
-  new->h = s->h;
-  new->dt = s->dt;
-  new->done = s->done;
-  new->moved_for = s->moved_for;
-  new->stats = s->stats;
-  new->balance = s->balance;
-  new->assembly = s->assembly;
-  new->before = s->before;
-  new->kept = s->kept;
-  new->revision = s->revision + 1;
+  fresh->h = s->h;
+  fresh->dt = s->dt;
+  fresh->done = s->done;
+  fresh->moved_for = s->moved_for;
+  fresh->stats = s->stats;
+  fresh->balance = s->balance;
+  fresh->assembly = s->assembly;
+  fresh->before = s->before;
+  fresh->kept = s->kept;
+  fresh->revision = s->revision;
+  fresh->share_number = s->share_number + 1;
 }
 
 /* The share with everything but `before` freed. */
@@ -198,33 +167,33 @@ static void Swap(Solid a, Solid b)
 
 PetscErrorCode SolidRedistribute(Solid s, const int part[])
 {
-  Solid new;
+  Solid fresh;
   PetscFunctionBeginUser;
   PetscCheck(s->part || s->size == 1, s->comm, PETSC_ERR_ARG_WRONGSTATE, "the solid has no `rebalance`");
   if (!s->part) PetscFunctionReturn(0);
-  PetscCall(PetscNew(&new));
-  new->comm = s->comm;
-  new->rank = s->rank;
-  new->size = s->size;
-  new->setup = s->setup;
-  PetscCall(SolidTakeShare(new, s->assembly, part));
-  PetscCall(PetscMalloc1((size_t)s->assembly->nelements, &new->part));
-  PetscCall(PetscArraycpy(new->part, part, (size_t)s->assembly->nelements));
-  PetscCall(ContactCreate(new, &new->contact));
-  PetscCall(TakeJoints(s, new));
-  PetscCall(TakeNodes(s, new));
-  PetscCall(TakeSlips(s, new, part));
-  TakeTime(s, new);
-  if (new->joints)
-    PetscCall(JointsSettle(new->joints, new));
+  PetscCall(PetscNew(&fresh));
+  fresh->comm = s->comm;
+  fresh->rank = s->rank;
+  fresh->size = s->size;
+  fresh->setup = s->setup;
+  PetscCall(SolidTakeShare(fresh, s->assembly, part));
+  PetscCall(PetscMalloc1((size_t)s->assembly->nelements, &fresh->part));
+  PetscCall(PetscArraycpy(fresh->part, part, (size_t)s->assembly->nelements));
+  PetscCall(ContactCreate(fresh, &fresh->contact));
+  PetscCall(TakeJoints(s, fresh));
+  PetscCall(TakeNodes(s, fresh));
+  PetscCall(TakeSlips(s, fresh, part));
+  TakeTime(s, fresh);
+  if (fresh->joints)
+    PetscCall(JointsSettle(fresh->joints, fresh));
   else
-    PetscCall(ContactSearch(new->contact, new, 0.0));
-  new->stats.rebalanced++;
-  Swap(s, new);
+    PetscCall(ContactSearch(fresh->contact, fresh, 0.0));
+  fresh->stats.rebalanced++;
+  Swap(s, fresh);
   if (s->kept && !s->before)
-    s->before = new;
+    s->before = fresh;
   else
-    PetscCall(Forget(&new));
+    PetscCall(Forget(&fresh));
   PetscFunctionReturn(0);
 }
 

@@ -84,10 +84,10 @@ PetscErrorCode SolidDestroy(Solid *solid)
 
 void SolidGetView(Solid s, SolidView *view)
 {
-  *view = (SolidView){s->nnodes,   s->elements.n,    s->nfacets,        s->nbodies,
-                      s->revision, s->gid,           s->rest,           s->x,
-                      s->v,        s->load,          s->start,          s->element,
-                      s->facet,    s->elements.body, s->elements.number};
+  *view = (SolidView){s->nnodes,         s->elements.n, s->nfacets, s->nbodies, s->revision,
+                      s->share_number,   s->gid,        s->rest,    s->x,       s->v,
+                      s->load,           s->start,      s->element, s->facet,   s->elements.body,
+                      s->elements.number};
 }
 
 const SolidStats *SolidGetStats(Solid s)

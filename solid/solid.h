@@ -56,7 +56,7 @@ PetscErrorCode SolidSubstep(Solid s, double *h);
 /* After the last substep: deals the elements out anew if the work has got out of balance, or bodies have come
  * to touch across ranks, so far that `rebalance` substeps of a perfectly shared solid have been lost since
  * the last look that was better.  Looks at counts, never at clocks: the same run does the same.  All local
- * numbers then are others, and the view's revision; nodes keep their gid, and everything its value.  Putting
+ * numbers then are others, and the view's share; nodes keep their gid, and everything its value.  Putting
  * a state back puts back the share of that time too. */
 PetscErrorCode SolidRebalance(Solid s);
 /* The same to part[elements of the assembly], the same on all ranks: the rank that is to have each element.
@@ -77,6 +77,7 @@ typedef struct {
   int nnodes, nelements, nfacets, nbodies;
   int revision; /* changes when cracks have made new nodes, elements or facets; new nodes and facets come last
                  */
+  int share;    /* changes when elements have changed ranks: all local numbers are others */
   const long long *gid;                      /* [nnodes] */
   const double *rest, *x, *v, *load, *start; /* [nnodes][2]; start: x when the step began */
   const int *element,

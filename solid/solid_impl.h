@@ -83,9 +83,10 @@ struct Solid_s {
   SavedState saved;
   /* other ranks' shares: NULL unless elements may change ranks */
   Assembly *assembly;
-  int *part;      /* [assembly->nelements] the rank that has it */
-  Solid before;   /* the share of the saved state, if it was another; NULL */
-  PetscBool kept; /* there is a saved state */
+  int share_number; /* which of the shares since the start this is */
+  int *part;        /* [assembly->nelements] the rank that has it */
+  Solid before;     /* the share of the saved state, if it was another; NULL */
+  PetscBool kept;   /* there is a saved state */
   Balance balance;
 };
 

@@ -58,11 +58,11 @@ static PetscErrorCode Scatter(Solid s, int nelements, int step)
 {
   PetscMPIInt size;
   int *part = malloc((size_t)nelements * sizeof *part);
-  const int revision = ViewOf(s, NULL, NULL).revision;
+  const int share = ViewOf(s, NULL, NULL).share;
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
   for (int e = 0; e < nelements; e++) part[e] = step == 0 ? size - 1 : (e / (1 + step % 5) + step) % size;
   PetscCall(SolidRedistribute(s, part));
-  CHECK(size == 1 || ViewOf(s, NULL, NULL).revision != revision, "the revision is still %d", revision);
+  CHECK(size == 1 || ViewOf(s, NULL, NULL).share != share, "the share is still %d", share);
   free(part);
   return 0;
 }
