@@ -43,6 +43,7 @@ typedef struct {
 } RegionMaterial;
 
 typedef struct {
+  int entry;               /* in the case file, for messages */
   Material material;       /* of all elements in none of the regions */
   double stretch[2];       /* current = centre + stretch (rest - centre): 1, 1 for a body at rest */
   double velocity[2];      /* m/s */
@@ -60,6 +61,7 @@ typedef struct {
 typedef struct {
   Material material;
   int first_element; /* in the assembly */
+  int entry;         /* of its setup */
   double centre[2];  /* of mass, at the start */
 } Body;
 

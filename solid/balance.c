@@ -13,7 +13,7 @@
 
 /* Work of a joint, and of what travels in a substep: a target, a node that ranks share, a look at another
  * rank's element; measured on two ranks. */
-enum { WORK_JOINT = 1, WORK_LIVING = 10, TRAVEL_TARGET = 2, TRAVEL_NODE = 2, WORK_LOOK = 3 };
+enum { WORK_JOINT = 1, WORK_LIVING = 12, TRAVEL_TARGET = 8, TRAVEL_NODE = 2, WORK_LOOK = 3 };
 
 typedef struct {
   double work, all;
