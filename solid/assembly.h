@@ -20,6 +20,7 @@ typedef struct {
   double thickness;          /* m; 0 stands for 1: per metre of depth */
   int plane_stress;          /* else plane strain */
   double strength[2];        /* of joints: in tension and in shear, Pa */
+  double internal_friction;  /* of joints: what pressure adds to the shear strength, over the pressure */
   double fracture_energy[2]; /* per unit of new surface, mode I and mode II, J/m2 */
   char name[MATERIAL_NAME];  /* bodies with equal names share the material; "" is always one of its own */
 } Material;

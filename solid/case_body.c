@@ -31,6 +31,8 @@ static void ReadStrength(Case c, const char *name, Material *m)
   m->strength[0] = Property(c, name, "tensile_strength", 0.0, 0.0);
   m->strength[1] = Property(c, name, "shear_strength", 0.0, 0.0);
   m->fracture_energy[0] = m->fracture_energy[1] = Property(c, name, "fracture_energy", 0.0, 0.0);
+  (void)snprintf(key, sizeof key, "solid.materials.%s.internal_friction", name);
+  m->internal_friction = CaseNumberOr(c, key, 0.0, 0.0, 10.0);
   (void)snprintf(key, sizeof key, "solid.materials.%s.shear_fracture_energy", name);
   if (CaseHas(c, key)) m->fracture_energy[1] = CasePositive(c, key);
 }

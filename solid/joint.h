@@ -10,6 +10,8 @@
  *     softening   D = the least in 0 .. 1 with (O/a)^2 + (S/b)^2 <= 1, never less than before
  *                 sigma = z(D) F_t O/a,  tau = z(D) F_s S/b
  *     pressed     sigma = k (o + c (1 - D)) < 0       as contact presses, damaged or not
+ *     rubbing     q += k ds, cut back to |q| <= f |sigma| where pressed; tau is what is told above plus q, so
+ *                 that a sound edge bears F_s + f |sigma| (Mohr and Coulomb)
  *
  * with z(D) of method.md 8 and A = int_0^1 z dD.  Strength and what is left of it are ellipses: (sigma/F_t)^2
  * + (tau/F_s)^2 = z^2 while D grows; unloading goes straight to the origin.  (o0, s0) and c are chosen when
@@ -30,6 +32,7 @@ typedef struct {
   double strength[2]; /* tension, shear, Pa */
   double energy[2];   /* mode I, mode II, J/m2 */
   double stiffness;   /* k: that of contact on this edge, Pa/m */
+  double friction;    /* f: pressure adds f times itself to the shear strength */
 } JointLaw;
 
 typedef struct {
@@ -38,6 +41,7 @@ typedef struct {
   double offset[3];      /* o0, s0, c, m */
   double opening, slip;  /* last seen, m */
   double tension, shear; /* what it then pulled with, Pa */
+  double rubbing;        /* q: friction's share of the shear, Pa */
   double absorbed;       /* int tension do + shear ds, J/m2: the energy of fracture when broken */
 } JointEnd;
 
@@ -53,15 +57,34 @@ static inline double JointSoftening(double damage)
          (a * left + b * square * square * square);
 }
 
+/* What friction bears of a shear, at most f times the pressure. */
+static inline double JointRubbing(const JointLaw *law, double normal, double shear)
+{
+  const double most = -law->friction * fmin(normal, 0.0);
+  return fmax(-most, fmin(most, shear));
+}
+
+/* Of the traction on an edge, over its strength: (sigma/F_t)^2 + (tau'/F_s)^2, tau' what friction does not
+ * bear. */
+static inline double JointLoad(const JointLaw *law, double normal, double shear)
+{
+  const double x = fmax(normal, 0.0) / law->strength[0];
+  const double y = (shear - JointRubbing(law, normal, shear)) / law->strength[1];
+  return x * x + y * y;
+}
+
 /* An end comes to life under the traction that the edge carries.  One that carries more than its strength is
  * that much stronger: its pull then is continuous, and its energy the same. */
 static inline JointEnd JointBegin(const JointLaw *law, double normal, double shear)
 {
-  const double x = fmax(normal, 0.0) / law->strength[0], y = shear / law->strength[1];
-  JointEnd end = {
-      .left = 1.0, .strong = fmax(1.0, sqrt(x * x + y * y)), .tension = fmax(normal, 0.0), .shear = shear};
+  const double rubbing = JointRubbing(law, normal, shear);
+  JointEnd end = {.left = 1.0,
+                  .strong = fmax(1.0, sqrt(JointLoad(law, normal, shear))),
+                  .tension = fmax(normal, 0.0),
+                  .shear = shear - rubbing,
+                  .rubbing = rubbing};
   end.offset[0] = end.tension / law->stiffness;
-  end.offset[1] = shear / law->stiffness;
+  end.offset[1] = end.shear / law->stiffness;
   end.offset[2] = normal / law->stiffness;
   return end;
 }
@@ -96,11 +119,13 @@ static inline JointTraction JointPull(const JointLaw *law, JointEnd *end, double
   const double shear = end->left * f[1] * s / (start[1] + end->damage * range[1]);
   end->absorbed += 0.5 * (end->tension + tension) * (opening - end->opening) +
                    0.5 * (end->shear + shear) * (slip - end->slip);
+  const double pressed = k * fmin(opening + end->offset[2] * (1.0 - end->damage), 0.0);
+  end->rubbing = JointRubbing(law, pressed, end->rubbing + k * (slip - end->slip));
   end->opening = opening;
   end->slip = slip;
   end->tension = tension;
   end->shear = shear;
-  return (JointTraction){tension + k * fmin(opening + end->offset[2] * (1.0 - end->damage), 0.0), shear};
+  return (JointTraction){tension + pressed, shear + end->rubbing};
 }
 
 /* --- the edge in the plane

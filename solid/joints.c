@@ -13,7 +13,7 @@ static void WatchAdd(Watch *w, const Joints j, int k)
     w->node[i][w->n] = j->corner[joint->corner[i][0]].node;
     w->inverse_square[i][w->n] = 1.0 / (joint->law.strength[i] * joint->law.strength[i]);
   }
-  w->n++;
+  w->friction[w->n++] = joint->law.friction;
 }
 
 void JointsList(Joints j, Solid s)
@@ -29,8 +29,8 @@ void JointsList(Joints j, Solid s)
 /* --- what the edges carry
  * ----------------------------------------------------------------------------------- */
 
-/* (sigma/F_t)^2 + (tau/F_s)^2 >= 1 with the mean of both elements' stresses; multiplied by the edge's length
- * to the fourth, so that nothing is divided by. */
+/* (sigma/F_t)^2 + (tau'/F_s)^2 >= 1, tau' = |tau| less the friction of a pressed edge, with the mean of both
+ * elements' stresses; multiplied by the edge's length to the fourth, so that nothing is divided by. */
 static inline int Overloaded(const Watch *w, int k, double *const stress[3], const double x[])
 {
   const int p = w->place[0][k], q = w->place[1][k];
@@ -40,7 +40,8 @@ static inline int Overloaded(const Watch *w, int k, double *const stress[3], con
   const Point t = {xx * d.y - xy * d.x, xy * d.y - yy * d.x};
   const double normal = t.x * d.y - t.y * d.x, shear = t.x * d.x + t.y * d.y, square = d.x * d.x + d.y * d.y;
   const double tension = fmax(normal, 0.0);
-  return tension * tension * w->inverse_square[0][k] + shear * shear * w->inverse_square[1][k] >=
+  const double beyond = fmax(fabs(shear) + w->friction[k] * fmin(normal, 0.0), 0.0);
+  return tension * tension * w->inverse_square[0][k] + beyond * beyond * w->inverse_square[1][k] >=
          square * square;
 }
 
@@ -90,9 +91,7 @@ static PetscBool Breaks(const Joints j, Solid s, const Brink *b)
   const Joint *joint = &j->joint[b->joint];
   const JointShape shape = ShapeOf(j, s, joint);
   const Point t = JointsBrinkTraction(j, s, b), m = shape.normal, e = shape.along;
-  const double x = fmax(t.x * m.x + t.y * m.y, 0.0) / joint->law.strength[0];
-  const double y = (t.x * e.x + t.y * e.y) / joint->law.strength[1];
-  return (PetscBool)(x * x + y * y >= 1.0);
+  return (PetscBool)(JointLoad(&joint->law, t.x * m.x + t.y * m.y, t.x * e.x + t.y * e.y) >= 1.0);
 }
 
 /* --- forces
@@ -193,7 +192,8 @@ PetscErrorCode JointsAdvance(Joints j, Solid s, PetscBool *changed)
 /* --- the limit
  * ---------------------------------------------------------------------------------------------- */
 
-/* An end of stiffness k L/2 between two nodes, |u2 - u1|^2 <= 2 |u1|^2 + 2 |u2|^2, gives each of them k L. */
+/* An end of stiffness k L/2 between two nodes, |u2 - u1|^2 <= 2 |u1|^2 + 2 |u2|^2, gives each of them k L;
+ * along the edge twice that with friction. */
 PetscErrorCode JointsMeasureRate(Joints j, Solid s)
 {
   double *sum;
@@ -203,7 +203,8 @@ PetscErrorCode JointsMeasureRate(Joints j, Solid s)
     const Joint *joint = &j->joint[j->live[k]];
     for (int end = 0; end < 2; end++)
       for (int i = 0; i < 2 && joint->mine && j->memory[j->live[k]].end[end].strong > 0.0; i++)
-        sum[2 * j->corner[joint->corner[end][i]].node] += joint->law.stiffness * joint->length;
+        sum[2 * j->corner[joint->corner[end][i]].node] +=
+            (joint->law.friction > 0.0 ? 2.0 : 1.0) * joint->law.stiffness * joint->length;
   }
   PetscCall(ShareSum(s->share, sum));
   j->rate = 0.0;

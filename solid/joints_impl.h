@@ -65,6 +65,7 @@ typedef struct {
   int n, *joint;
   int *place[2], *node[2];
   double *inverse_square[2]; /* of the strengths, 1/Pa2 */
+  double *friction;
 } Watch;
 
 /* An end of a whole joint of this rank at the surface or at the tip of a crack: if its tie is cut its node
