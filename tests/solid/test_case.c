@@ -60,12 +60,14 @@ static void Repeated(void)
 {
   CheckCase("gravity: [0, -9.81]\nsolid:\n  rebalance: 7\n  materials:\n    m: {density: 1000, "
             "youngs_modulus: 1e6, "
-            "poisson_ratio: 0.3, tensile_strength: 1, shear_strength: 1, fracture_energy: 1}\n  bodies:\n"
+            "poisson_ratio: 0.3, tensile_strength: 1, shear_strength: 1, fracture_energy: 1, "
+            "internal_friction: 0.7}\n  bodies:\n"
             "    - {shape: disc, centre: [9, 9], radius: 0.1, size: 0.05, material: m}\n"
             "    - {shape: rectangle, centre: [0, 0], width: 1, height: 1, size: 0.5, material: m,\n"
             "       joints: [{lower: [-0.5, -0.5], upper: [0, 0.5]}], repeat: {n: [3, 2], step: [1.5, 2]}}\n",
             NULL, Read, NULL);
   CHECK(setup.rebalance == 7.0 && assembly.nbodies == 7, "%d bodies", assembly.nbodies);
+  CHECK(assembly.body[0].material.internal_friction == 0.7, "internal friction");
   int jointed[7] = {0};
   for (int e = 0; e < assembly.nelements; e++) jointed[assembly.element_body[e]] += assembly.jointed[e];
   for (int b = 1; b < 7; b++) {

@@ -11,6 +11,7 @@ static Material Rough(void)
 {
   Material m = RockOf(3e6, 9e6, 20.0, 0.1);
   m.friction = 0.5;
+  m.internal_friction = 0.3;
   m.contact_damping = 0.1;
   return m;
 }
