@@ -46,6 +46,7 @@ static PetscErrorCode Run(Solid solid, Record record, double end, double longest
   for (int step = 1; step <= steps; step++) {
     PetscCall(SolidStart(solid, dt, NULL));
     while (SolidRemaining(solid)) PetscCall(SolidSubstep(solid, &h));
+    PetscCall(SolidRebalance(solid));
     PetscCall(RecordStep(record, solid, 0.0));
     Say(solid, step, steps, dt, start, &said);
   }

@@ -100,8 +100,8 @@ ElementLaw MaterialLaw(const Material *m)
 static PetscErrorCode AddMaterial(Assembly *a, const Material *m, int *place)
 {
   PetscFunctionBeginUser;
-  for (*place = 0; *place < a->nmaterials; (*place)++)
-    if (m->name[0] && !strcmp(a->material[*place].name, m->name)) PetscFunctionReturn(0);
+  for (*place = m->name[0] ? 0 : a->nmaterials; *place < a->nmaterials; (*place)++)
+    if (!strcmp(a->material[*place].name, m->name)) PetscFunctionReturn(0);
   PetscCall(PetscRealloc((size_t)(a->nmaterials + 1) * sizeof *a->material, &a->material));
   a->material[a->nmaterials] = *m;
   if (m->thickness == 0.0) a->material[a->nmaterials].thickness = 1.0;
@@ -316,7 +316,7 @@ static PetscErrorCode GiveJoints(Assembly *a, const MeshSerial *m, const JointSe
 PetscErrorCode AssemblyAdd(Assembly *a, const MeshSerial *mesh, const BodySetup *setup, const char **error)
 {
   int *renumber;
-  Body body = {.material = setup->material, .first_element = a->nelements};
+  Body body = {.material = setup->material, .first_element = a->nelements, .entry = setup->entry};
   PetscErrorCode code;
   PetscFunctionBeginUser;
   *error = why;

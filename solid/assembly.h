@@ -22,6 +22,7 @@ typedef struct {
   int plane_stress;          /* else plane strain */
   int corotated;             /* linear in the Biot strain (element.h), else neo-Hookean */
   double strength[2];        /* of joints: in tension and in shear, Pa */
+  double internal_friction;  /* of joints: what pressure adds to the shear strength, over the pressure */
   double fracture_energy[2]; /* per unit of new surface, mode I and mode II, J/m2 */
   char name[MATERIAL_NAME];  /* bodies with equal names share the material; "" is always one of its own */
 } Material;
@@ -48,6 +49,7 @@ typedef struct {
 } RegionMaterial;
 
 typedef struct {
+  int entry;               /* in the case file, for messages */
   Material material;       /* of all elements in none of the regions */
   double stretch[2];       /* current = centre + stretch (rest - centre): 1, 1 for a body at rest */
   const double *position;  /* [mesh nv][2] instead of that; or NULL */
@@ -66,6 +68,7 @@ typedef struct {
 typedef struct {
   Material material;
   int first_element; /* in the assembly */
+  int entry;         /* of its setup */
   double centre[2];  /* of mass, at the start */
 } Body;
 
@@ -93,5 +96,6 @@ typedef struct {
 PetscErrorCode AssemblyAdd(Assembly *a, const MeshSerial *mesh, const BodySetup *setup, const char **error);
 /* The first pair of bodies one of which reaches into the other; *first = -1 if there is none. */
 PetscErrorCode AssemblyOverlap(const Assembly *a, int *first, int *second);
+PetscErrorCode AssemblyCopy(const Assembly *from, Assembly *to);
 PetscErrorCode AssemblyDestroy(Assembly *a);
 #endif

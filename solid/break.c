@@ -2,7 +2,7 @@
 #include "joints_impl.h"
 #include <stdlib.h>
 
-static int FindJoint(const Joints j, int number)
+int JointsFind(Joints j, int number)
 {
   int low = 0, high = j->n;
   while (low < high) {
@@ -200,7 +200,7 @@ static PetscErrorCode RenewShare(Solid s)
 
 static void ApplyEvent(Joints j, int event, Solid s)
 {
-  const int k = FindJoint(j, event / 2);
+  const int k = JointsFind(j, event / 2);
   if (k < 0) return;
   const Joint *joint = &j->joint[k];
   if (event % 2 == 0) {
@@ -243,6 +243,23 @@ PetscErrorCode JointsApply(Joints j, Solid s, int n, const int event[])
   s->force_valid = PETSC_FALSE;
   PetscCall(JointsSettle(j, s));
   PetscFunctionReturn(0);
+}
+
+void JointsReplay(Joints j, Solid s)
+{
+  for (int k = 0; k < j->n; k++) {
+    if (j->memory[k].stage == JOINT_WHOLE) continue;
+    for (int end = 0; end < 2; end++)
+      if (j->joint[k].star[end] >= 0) j->touched[j->joint[k].star[end]] = 1;
+    if (j->memory[k].stage == JOINT_BROKEN) AddFacets(s, &j->joint[k]);
+  }
+  for (int star = 0; star < j->nstars; star++)
+    if (j->touched[star]) SplitStar(j, s, star);
+  PlaceFacets(s, 0);
+  SolidListCorners(s);
+  JointsFindBrinks(j, s, PETSC_TRUE);
+  JointsList(j, s);
+  for (int star = 0; star < j->nstars; star++) j->touched[star] = 0;
 }
 
 /* --- a step that is redone

@@ -31,6 +31,8 @@ static void ReadStrength(Case c, const char *name, Material *m)
   m->strength[0] = Property(c, name, "tensile_strength", 0.0, 0.0);
   m->strength[1] = Property(c, name, "shear_strength", 0.0, 0.0);
   m->fracture_energy[0] = m->fracture_energy[1] = Property(c, name, "fracture_energy", 0.0, 0.0);
+  (void)snprintf(key, sizeof key, "solid.materials.%s.internal_friction", name);
+  m->internal_friction = CaseNumberOr(c, key, 0.0, 0.0, 10.0);
   (void)snprintf(key, sizeof key, "solid.materials.%s.shear_fracture_energy", name);
   if (CaseHas(c, key)) m->fracture_energy[1] = CasePositive(c, key);
 }
@@ -296,13 +298,58 @@ static PetscErrorCode ReadJoints(Case c, int body, JointSetup *joints, double (*
   PetscFunctionReturn(0);
 }
 
+/* How often the body is there along x and y, and how far apart. */
+typedef struct {
+  int n[2];
+  double step[2]; /* m */
+} Repeat;
+
+static Repeat ReadRepeat(Case c, int body)
+{
+  Repeat r = {.n = {1, 1}};
+  double n[2];
+  char key[KEY];
+  if (!CaseVectorOptional(c, BodyKey(key, body, "repeat.n"), 2, n)) return r;
+  for (int k = 0; k < 2; k++) {
+    if (!(n[k] >= 1.0 && n[k] <= 1e6 && n[k] == floor(n[k])))
+      CaseRefuse(c, key, "expected two integers >= 1");
+    r.n[k] = (int)n[k];
+  }
+  CaseVector(c, BodyKey(key, body, "repeat.step"), 2, r.step);
+  return r;
+}
+
+static void Shift(MeshSerial *mesh, JointSetup *joints, double (*box)[4], double dx, double dy)
+{
+  const double by[2] = {dx, dy};
+  for (int k = 0; k < 2 * mesh->nv; k++) mesh->x[k] += by[k % 2];
+  for (int k = 0; k < 4 * joints->nboxes; k++) box[k / 4][k % 4] += by[k % 2];
+}
+
+/* Row after row. */
+static PetscErrorCode AddRepeated(Case c, Assembly *a, MeshSerial *mesh, BodySetup *setup, double (*box)[4])
+{
+  const Repeat r = ReadRepeat(c, setup->entry);
+  const char *why = NULL;
+  char key[KEY];
+  PetscFunctionBeginUser;
+  for (int k = 0; k < r.n[1]; k++) {
+    for (int i = 0; i < r.n[0]; i++) {
+      if (AssemblyAdd(a, mesh, setup, &why)) CaseRefuse(c, BodyKey(key, setup->entry, ""), "%s", why);
+      Shift(mesh, &setup->joints, box, r.step[0], 0.0);
+    }
+    Shift(mesh, &setup->joints, box, -r.n[0] * r.step[0], r.step[1]);
+  }
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode CaseReadBody(Case c, int body, Assembly *a)
 {
-  BodySetup setup = {.stretch = {1.0, 1.0}};
+  BodySetup setup = {.entry = body, .stretch = {1.0, 1.0}};
   Regions regions = {.c = c, .body = body};
   MeshSerial mesh = {0};
   BoundaryDrive *driven;
-  const char **name, **joint_region, *why = NULL;
+  const char **name, **joint_region;
   double(*joint_box)[4], *position;
   char key[KEY];
   PetscFunctionBeginUser;
@@ -320,7 +367,7 @@ PetscErrorCode CaseReadBody(Case c, int body, Assembly *a)
     CaseRefuse(c, key, "a fixed body has no velocity");
   setup.angular_velocity = CaseNumberOr(c, BodyKey(key, body, "angular_velocity"), 0.0, -HUGE_VAL, HUGE_VAL);
   if (setup.fixed && setup.angular_velocity != 0.0) CaseRefuse(c, key, "a fixed body does not turn");
-  if (AssemblyAdd(a, &mesh, &setup, &why)) CaseRefuse(c, BodyKey(key, body, ""), "%s", why);
+  PetscCall(AddRepeated(c, a, &mesh, &setup, joint_box));
   for (int k = 0; k < setup.ndriven; k++) PetscCall(PetscFree(driven[k].drive.row));
   PetscCall(PetscFree(driven));
   PetscCall(PetscFree(name));

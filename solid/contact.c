@@ -22,7 +22,7 @@ static PetscErrorCode FindTargets(Contact c, Solid s)
     const int node[3] = {e->node[0][k], e->node[1][k], e->node[2][k]};
     if (!s->surface[node[0]] && !s->surface[node[1]] && !s->surface[node[2]]) continue;
     Target *t = &c->target[c->ntargets++];
-    *t = (Target){.body = e->body[k], .material = e->material[k]};
+    *t = (Target){.body = e->body[k], .material = e->material[k], .number = e->number[k]};
     t->twice_area = 1.0 / (e->inverse[0][k] * e->inverse[3][k] - e->inverse[1][k] * e->inverse[2][k]);
     for (int i = 0; i < 3; i++) {
       t->node[i] = node[i];

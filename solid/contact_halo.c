@@ -147,6 +147,11 @@ int HaloTargets(Halo h, const Target **target)
   return h->in.n;
 }
 
+int HaloTraffic(Halo h)
+{
+  return h->in.n + h->out.n;
+}
+
 static void Pack(Halo h, const double value[])
 {
   for (int k = 0; k < h->out.n; k++)

@@ -8,11 +8,11 @@
 
 /* An element with a node on the surface. */
 typedef struct {
-  int node[3]; /* local nodes; nnodes + 3 k + i for the i-th node of target k of the halo */
-  int body, material, unused;
-  long long gid[3];  /* of its nodes */
-  double rest[6];    /* [3][2] rest coordinates, m */
-  double twice_area; /* at rest, m2 */
+  int node[3];                /* local nodes; nnodes + 3 k + i for the i-th node of target k of the halo */
+  int body, material, number; /* the last: in the assembly */
+  long long gid[3];           /* of its nodes */
+  double rest[6];             /* [3][2] rest coordinates, m */
+  double twice_area;          /* at rest, m2 */
 } Target;
 
 typedef struct Halo_s *Halo;
@@ -24,6 +24,8 @@ PetscErrorCode HaloBuild(Halo h, int nnodes, const double x[], const GeometryBox
 /* Collective: forgets those with keep[k] = 0; index[k] becomes the new place of target k or -1. */
 PetscErrorCode HaloKeep(Halo h, const char keep[], int index[]);
 int HaloTargets(Halo h, const Target **target);
+/* Targets that travel in a substep, to this rank and from it. */
+int HaloTraffic(Halo h);
 /* Collective over neighbours: x[nnodes][2] and, unless v is NULL, v[nnodes][2] of the owners to the halo. */
 PetscErrorCode HaloForward(Halo h, const double x[], const double v[]);
 const double *HaloPositions(Halo h);  /* [targets][3][2] */

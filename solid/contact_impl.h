@@ -81,6 +81,8 @@ const double *ContactPosition(const Contact c, const Solid s, int node);
 PetscErrorCode ContactPairOf(Contact c, Solid s, int facet, int other, ContactLaw law, int *pair);
 /* Puts the pairs' slips into history, for those that the next search makes; there are none till then. */
 PetscErrorCode ContactForgetPairs(Contact c);
+/* The springs of a contact that has no pairs yet; sorts them. */
+PetscErrorCode ContactTakeSlips(Contact c, int n, Slip slip[]);
 /* Friction and damping of two materials; other < 0: the walls. */
 void ContactMaterials(const Solid s, int material, int other, double *friction, double *damping);
 #endif

@@ -73,6 +73,17 @@ PetscErrorCode ContactForgetPairs(Contact c)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode ContactTakeSlips(Contact c, int n, Slip slip[])
+{
+  PetscFunctionBeginUser;
+  if (n > 1) qsort(slip, (size_t)n, sizeof *slip, CompareSlips);
+  PetscCall(Reserve(&c->history, n));
+  PetscCall(PetscArraycpy(c->history.slip, slip, (size_t)n));
+  c->history.n = n;
+  c->restored = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode ContactPairOf(Contact c, Solid s, int facet, int other, ContactLaw law, int *pair)
 {
   PetscFunctionBeginUser;

@@ -1,27 +1,6 @@
-/* This rank's share of the assembly.  Every rank computes the same partition, so nothing is sent. */
+/* This rank's share of the assembly, which every rank has: nothing is sent. */
 #include "solid_impl.h"
-#include <metis.h>
 #include <stdlib.h>
-
-/* part[nelements]: neighbouring elements together, as many on each rank. */
-static PetscErrorCode Partition(const Assembly *a, int size, int part[])
-{
-  idx_t ne = a->nelements, nn = a->nnodes, common = 2, parts = PetscMin(size, a->nelements), cut = 0;
-  idx_t *start, *node, *element_part, *node_part;
-  PetscFunctionBeginUser;
-  for (int e = 0; e < a->nelements; e++) part[e] = 0;
-  if (parts < 2) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc4((size_t)ne + 1, &start, 3 * (size_t)ne, &node, (size_t)ne, &element_part, (size_t)nn,
-                         &node_part));
-  for (idx_t e = 0; e <= ne; e++) start[e] = 3 * e;
-  for (idx_t k = 0; k < 3 * ne; k++) node[k] = a->element[k];
-  const int code = METIS_PartMeshDual(&ne, &nn, start, node, NULL, NULL, &common, &parts, NULL, NULL, &cut,
-                                      element_part, node_part);
-  PetscCheck(code == METIS_OK, PETSC_COMM_SELF, PETSC_ERR_LIB, "METIS_PartMeshDual failed with %d", code);
-  for (idx_t e = 0; e < ne; e++) part[e] = (int)element_part[e];
-  PetscCall(PetscFree4(start, node, element_part, node_part));
-  PetscFunctionReturn(0);
-}
 
 /* --- counting and numbering
  * --------------------------------------------------------------------------------- */
@@ -280,18 +259,16 @@ static PetscErrorCode TakeDrives(Solid s, const Assembly *a, const int local[])
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SolidTakeShare(Solid s, const Assembly *a)
+PetscErrorCode SolidTakeShare(Solid s, const Assembly *a, const int part[])
 {
   InteriorEdges edges;
   Look *look;
-  int *part, *local, *renumber, nlooks;
+  int *local, *renumber, nlooks;
   PetscFunctionBeginUser;
   PetscCall(InteriorEdgesFind(a, &edges));
-  PetscCall(
-      PetscMalloc3((size_t)a->nelements, &part, (size_t)a->nnodes, &local, (size_t)a->nelements, &renumber));
+  PetscCall(PetscMalloc2((size_t)a->nnodes, &local, (size_t)a->nelements, &renumber));
   s->nbodies = a->nbodies;
   s->nmaterials = a->nmaterials;
-  PetscCall(Partition(a, s->size, part));
   PetscCall(InteriorEdgesLooks(&edges, a, part, &nlooks, &look));
   NumberLocally(s, a, nlooks, look, part, local);
   PetscCall(FindCapacities(s, a, &edges, part, local));
@@ -303,9 +280,11 @@ PetscErrorCode SolidTakeShare(Solid s, const Assembly *a)
   TakeElements(s, a, part, local, renumber);
   PetscCall(FindCopies(s, a, nlooks, look, part, local));
   PetscCall(TakeDrives(s, a, local));
+  PetscCall(PetscMalloc5(2 * s->node_capacity, &s->start, 2 * s->node_capacity, &s->seen, s->node_capacity,
+                         &s->mobility, 2 * s->node_capacity, &s->acceleration, s->node_capacity, &s->piece));
   if (edges.njoints) PetscCall(JointsCreate(s, a, &edges, nlooks, look, part, local, &s->joints));
   PetscCall(InteriorEdgesDestroy(&edges));
   PetscCall(PetscFree(look));
-  PetscCall(PetscFree3(part, local, renumber));
+  PetscCall(PetscFree2(local, renumber));
   PetscFunctionReturn(0);
 }

@@ -1,15 +1,26 @@
-/* The solid's side of the link: what it gives, what it gets, and the time it waits. */
+/* The solid's side of the link: what it gives, what it gets, and the time it waits.  The coupler knows the
+ * nodes on the ranks where they were when it was told of the mesh; when elements change ranks it need not
+ * know (a new mesh costs the fluid a step's correction): positions, velocities and forces then travel between
+ * the present share and the one that was told, until cracks make a new mesh. */
 #ifndef SOLID_EXCHANGE_H
 #define SOLID_EXCHANGE_H
 #include "coracle.h"
 #include "solid.h"
+
+/* This rank's mesh as the coupler knows it. */
+typedef struct {
+  int n, share, revision;
+  long long *gid; /* [n] */
+} Told;
 
 typedef struct {
   CoracleClient client; /* borrowed */
   Solid solid;          /* borrowed */
   double waited;        /* seconds within the link */
   double dt;            /* of the step, s */
-  int revision;         /* of the mesh that the coupler has */
+  Told told, before;    /* before: gid is NULL unless this step has told of a new mesh */
+  PetscBool away;       /* the step has begun on another share than the one told */
+  double *load;         /* [nnodes][2] of the present share, when away */
 } Exchange;
 
 /* Gives nodes, surface and volume, binds the state and makes the first exchange.  Collective. */
@@ -20,4 +31,5 @@ PetscErrorCode ExchangeBegin(Exchange *x, double *dt, CoracleAction *action, con
 PetscErrorCode ExchangeSubstep(Exchange *x, double h);
 /* Sends the new positions. */
 PetscErrorCode ExchangeMotion(Exchange *x);
+PetscErrorCode ExchangeDestroy(Exchange *x);
 #endif

@@ -10,6 +10,8 @@
  *     softening   D = the least in 0 .. 1 with (O/a)^2 + (S/b)^2 <= 1, never less than before
  *                 sigma = z(D) F_t O/a,  tau = z(D) F_s S/b
  *     pressed     sigma = k (o + c (1 - D)) < 0       as contact presses, damaged or not
+ *     rubbing     q += k ds, cut back to |q| <= f |sigma| where pressed; tau is what is told above plus q, so
+ *                 that a sound edge bears F_s + f |sigma| (Mohr and Coulomb)
  *
  * with z(D) of method.md 8 and A = int_0^1 z dD.  Strength and what is left of it are ellipses: (sigma/F_t)^2
  * + (tau/F_s)^2 = z^2 while D grows; unloading goes straight to the origin.  (o0, s0) and c are chosen when
@@ -35,6 +37,7 @@ typedef struct {
   double strength[2]; /* tension, shear, Pa */
   double energy[2];   /* mode I, mode II, J/m2 */
   double stiffness;   /* k: that of contact on this edge, Pa/m */
+  double friction;    /* f: pressure adds f times itself to the shear strength */
 } JointLaw;
 
 typedef struct {
@@ -45,6 +48,8 @@ typedef struct {
   double reach;          /* the other end's part in them: 0, or 1/4 once it has broken; */
   double shift[2];       /* then they are less by this, m */
   double tension, shear; /* what it then pulled with, Pa */
+  double rubbing;        /* q: friction's share of the shear, Pa */
+  double rubbed;         /* the end's own slip when last pressed, m */
   double absorbed;       /* int tension do + shear ds, J/m2: the energy of fracture when broken */
 } JointEnd;
 
@@ -60,15 +65,34 @@ static inline double JointSoftening(double damage)
          (a * left + b * square * square * square);
 }
 
+/* What friction bears of a shear, at most f times the pressure. */
+static inline double JointRubbing(const JointLaw *law, double normal, double shear)
+{
+  const double most = -law->friction * fmin(normal, 0.0);
+  return fmax(-most, fmin(most, shear));
+}
+
+/* Of the traction on an edge, over its strength: (sigma/F_t)^2 + (tau'/F_s)^2, tau' what friction does not
+ * bear. */
+static inline double JointLoad(const JointLaw *law, double normal, double shear)
+{
+  const double x = fmax(normal, 0.0) / law->strength[0];
+  const double y = (shear - JointRubbing(law, normal, shear)) / law->strength[1];
+  return x * x + y * y;
+}
+
 /* An end comes to life under the traction that the edge carries.  One that carries more than its strength is
  * that much stronger: its pull then is continuous, and its energy the same. */
 static inline JointEnd JointBegin(const JointLaw *law, double normal, double shear)
 {
-  const double x = fmax(normal, 0.0) / law->strength[0], y = shear / law->strength[1];
-  JointEnd end = {
-      .left = 1.0, .strong = fmax(1.0, sqrt(x * x + y * y)), .tension = fmax(normal, 0.0), .shear = shear};
+  const double rubbing = JointRubbing(law, normal, shear);
+  JointEnd end = {.left = 1.0,
+                  .strong = fmax(1.0, sqrt(JointLoad(law, normal, shear))),
+                  .tension = fmax(normal, 0.0),
+                  .shear = shear - rubbing,
+                  .rubbing = rubbing};
   end.offset[0] = end.tension / law->stiffness;
-  end.offset[1] = shear / law->stiffness;
+  end.offset[1] = end.shear / law->stiffness;
   end.offset[2] = normal / law->stiffness;
   return end;
 }
@@ -122,11 +146,20 @@ static inline double JointPressure(const JointLaw *law, const JointEnd *end, dou
   return law->stiffness * fmin(opening + end->offset[2] * (1.0 - end->damage), 0.0);
 }
 
+/* What presses an end, and rubs on it, at its own opening and slip; remembers the friction. */
+static inline JointTraction JointPress(const JointLaw *law, JointEnd *end, double opening, double slip)
+{
+  const double pressure = JointPressure(law, end, opening);
+  end->rubbing = JointRubbing(law, pressure, end->rubbing + law->stiffness * (slip - end->rubbed));
+  end->rubbed = slip;
+  return (JointTraction){pressure, end->rubbing};
+}
+
 /* The traction of an end by itself. */
 static inline JointTraction JointPull(const JointLaw *law, JointEnd *end, double opening, double slip)
 {
-  const JointTraction t = JointTension(law, end, opening, slip);
-  return (JointTraction){t.normal + JointPressure(law, end, opening), t.shear};
+  const JointTraction t = JointTension(law, end, opening, slip), p = JointPress(law, end, opening, slip);
+  return (JointTraction){t.normal + p.normal, t.shear + p.shear};
 }
 
 /* --- the edge in the plane
@@ -166,8 +199,9 @@ static inline void JointTractions(const JointLaw *law, JointEnd end[2], const Jo
     const double own = 1.0 - k->reach, theirs = k->reach;
     const JointTraction pull = JointTension(law, k, own * o[i] + theirs * o[1 - i] - k->shift[0],
                                             own * s[i] + theirs * s[1 - i] - k->shift[1]);
-    t[i].normal += own * pull.normal + JointPressure(law, k, o[i]);
-    t[i].shear += own * pull.shear;
+    const JointTraction press = JointPress(law, k, o[i], s[i]);
+    t[i].normal += own * pull.normal + press.normal;
+    t[i].shear += own * pull.shear + press.shear;
     t[1 - i].normal += theirs * pull.normal;
     t[1 - i].shear += theirs * pull.shear;
   }
@@ -183,6 +217,7 @@ static inline double JointStiffening(const JointLaw *law, const JointEnd end[2],
   const double rate[2] = {own * opening[i] + k->reach * opening[1 - i],
                           own * slip[i] + k->reach * slip[1 - i]};
   double power = pressure < 0.0 ? k0 * opening[i] * opening[i] : 0.0;
+  if (fabs(k->rubbing) < -law->friction * pressure) power += k0 * slip[i] * slip[i];
   for (int mode = 0; mode < 2; mode++) {
     const double f = k->strong * law->strength[mode];
     if (mode == 0 && pressure < 0.0) continue;

@@ -13,7 +13,7 @@ static void WatchAdd(Watch *w, const Joints j, int k)
     w->node[i][w->n] = j->corner[joint->corner[i][0]].node;
     w->inverse_square[i][w->n] = 1.0 / (joint->law.strength[i] * joint->law.strength[i]);
   }
-  w->n++;
+  w->friction[w->n++] = joint->law.friction;
 }
 
 void JointsList(Joints j, Solid s)
@@ -29,8 +29,8 @@ void JointsList(Joints j, Solid s)
 /* --- what the edges carry
  * ----------------------------------------------------------------------------------- */
 
-/* (sigma/F_t)^2 + (tau/F_s)^2 >= 1 with the mean of both elements' stresses; multiplied by the edge's length
- * to the fourth, so that nothing is divided by. */
+/* (sigma/F_t)^2 + (tau'/F_s)^2 >= 1, tau' = |tau| less the friction of a pressed edge, with the mean of both
+ * elements' stresses; multiplied by the edge's length to the fourth, so that nothing is divided by. */
 static inline int Overloaded(const Watch *w, int k, double *const stress[3], const double x[])
 {
   const int p = w->place[0][k], q = w->place[1][k];
@@ -40,7 +40,8 @@ static inline int Overloaded(const Watch *w, int k, double *const stress[3], con
   const Point t = {xx * d.y - xy * d.x, xy * d.y - yy * d.x};
   const double normal = t.x * d.y - t.y * d.x, shear = t.x * d.x + t.y * d.y, square = d.x * d.x + d.y * d.y;
   const double tension = fmax(normal, 0.0);
-  return tension * tension * w->inverse_square[0][k] + shear * shear * w->inverse_square[1][k] >=
+  const double beyond = fmax(fabs(shear) + w->friction[k] * fmin(normal, 0.0), 0.0);
+  return tension * tension * w->inverse_square[0][k] + beyond * beyond * w->inverse_square[1][k] >=
          square * square;
 }
 
@@ -90,9 +91,7 @@ static PetscBool Breaks(const Joints j, Solid s, const Brink *b)
   const Joint *joint = &j->joint[b->joint];
   const JointShape shape = ShapeOf(j, s, joint);
   const Point t = JointsBrinkTraction(j, s, b), m = shape.normal, e = shape.along;
-  const double x = fmax(t.x * m.x + t.y * m.y, 0.0) / joint->law.strength[0];
-  const double y = (t.x * e.x + t.y * e.y) / joint->law.strength[1];
-  return (PetscBool)(x * x + y * y >= 1.0);
+  return (PetscBool)(JointLoad(&joint->law, t.x * m.x + t.y * m.y, t.x * e.x + t.y * e.y) >= 1.0);
 }
 
 /* --- forces
@@ -146,9 +145,10 @@ void JointsAddStrainPower(Joints j, Solid s, const double d[], const int piece[]
 /* --- events
  * ------------------------------------------------------------------------------------------------- */
 
-/* Ends that have just become the last of their joint. */
-static void FindLastEnds(const Joints j, Solid s)
+/* How many ends have just become the last of their joint. */
+static int FindLastEnds(const Joints j, Solid s)
 {
+  int found = 0;
   for (int k = 0; k < j->nlive; k++) {
     JointEnd *end = j->memory[j->live[k]].end;
     for (int i = 0; i < 2; i++) {
@@ -158,8 +158,10 @@ static void FindLastEnds(const Joints j, Solid s)
       const double own[2] = {shape.opening[i], shape.slip[i]};
       const double theirs[2] = {shape.opening[1 - i], shape.slip[1 - i]};
       JointLast(&end[i], own, theirs);
+      found++;
     }
   }
+  return found;
 }
 
 static PetscBool Broken(const JointMemory *m)
@@ -209,15 +211,17 @@ static PetscErrorCode GatherEvents(Solid s, int n, const int mine[], int *total,
 
 PetscErrorCode JointsAdvance(Joints j, Solid s, PetscBool *changed)
 {
-  int *event, *all, n, any;
+  enum { EVENTS, LAST_ENDS, NKINDS };
+  int *event, *all, n, any[NKINDS];
   PetscFunctionBeginUser;
   JointsGhostForces(j, s);
-  FindLastEnds(j, s);
+  any[LAST_ENDS] = FindLastEnds(j, s);
   PetscCall(FindEvents(j, s, &n, &event));
-  any = n;
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, s->comm));
-  *changed = (PetscBool)(any > 0);
-  if (any) {
+  any[EVENTS] = n;
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, any, NKINDS, MPI_INT, MPI_MAX, s->comm));
+  *changed = (PetscBool)(any[EVENTS] > 0 || any[LAST_ENDS] > 0);
+  if (*changed && !any[EVENTS]) PetscCall(JointsMeasureRate(j, s));
+  if (any[EVENTS]) {
     PetscCall(GatherEvents(s, n, event, &n, &all));
     PetscCall(PetscSortRemoveDupsInt(&n, all));
     PetscCall(JointsApply(j, s, n, all));
@@ -230,8 +234,8 @@ PetscErrorCode JointsAdvance(Joints j, Solid s, PetscBool *changed)
 /* --- the limit
  * ---------------------------------------------------------------------------------------------- */
 
-/* An end of stiffness k L/2 between two nodes, |u2 - u1|^2 <= 2 |u1|^2 + 2 |u2|^2, gives each of them k L.
- * A last end pulls and presses at two places: twice that. */
+/* An end of stiffness k L/2 between two nodes, |u2 - u1|^2 <= 2 |u1|^2 + 2 |u2|^2, gives each of them k L;
+ * along the edge twice that with friction.  A last end pulls and presses at two places: twice that. */
 PetscErrorCode JointsMeasureRate(Joints j, Solid s)
 {
   double *sum;
@@ -243,7 +247,8 @@ PetscErrorCode JointsMeasureRate(Joints j, Solid s)
     const double last = ends[0].reach > 0.0 || ends[1].reach > 0.0 ? 2.0 : 1.0;
     for (int end = 0; end < 2; end++)
       for (int i = 0; i < 2 && joint->mine && ends[end].strong > 0.0; i++)
-        sum[2 * j->corner[joint->corner[end][i]].node] += last * joint->law.stiffness * joint->length;
+        sum[2 * j->corner[joint->corner[end][i]].node] +=
+            last * (joint->law.friction > 0.0 ? 2.0 : 1.0) * joint->law.stiffness * joint->length;
   }
   PetscCall(ShareSum(s->share, sum));
   j->rate = 0.0;

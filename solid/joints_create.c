@@ -155,7 +155,7 @@ static JointLaw LawOf(const Assembly *a, const InteriorEdge *edge, double length
   const Material *one = &a->material[a->element_material[edge->element[0]]];
   const Material *two = &a->material[a->element_material[edge->element[1]]];
   const double thickness = fmin(one->thickness, two->thickness);
-  JointLaw law = {.stiffness = 0.0};
+  JointLaw law = {.friction = fmin(one->internal_friction, two->internal_friction)};
   for (int i = 0; i < 2; i++) {
     law.strength[i] = thickness * fmin(one->strength[i], two->strength[i]);
     law.energy[i] = thickness * fmin(one->fracture_energy[i], two->fracture_energy[i]);
@@ -169,7 +169,11 @@ static Joint JointOf(const Joints j, const Making *m, const InteriorEdge *edge)
 {
   const Assembly *a = m->a;
   const Point d = PointMinus(PointAt(a->rest, edge->node[1]), PointAt(a->rest, edge->node[0]));
-  Joint joint = {.number = edge->joint, .body = a->element_body[edge->element[0]], .length = hypot(d.x, d.y)};
+  Joint joint = {.number = edge->joint,
+                 .first = edge->element[0],
+                 .second = edge->element[1],
+                 .body = a->element_body[edge->element[0]],
+                 .length = hypot(d.x, d.y)};
   joint.law = LawOf(a, edge, joint.length);
   for (int i = 0; i < 2; i++) {
     joint.place[i] = m->place[edge->element[i]];
@@ -208,6 +212,7 @@ static PetscErrorCode GatherJoints(Joints j, const Making *m, int index[])
   PetscCall(PetscCalloc5(n, &j->memory, n, &j->saved, n, &j->live, n, &j->edge, 2 * n, &j->brink));
   PetscCall(PetscMalloc7(n, &w->joint, n, &w->place[0], n, &w->place[1], n, &w->node[0], n, &w->node[1], n,
                          &w->inverse_square[0], n, &w->inverse_square[1]));
+  PetscCall(PetscMalloc1(n, &w->friction));
   PetscFunctionReturn(0);
 }
 
@@ -249,6 +254,7 @@ PetscErrorCode JointsDestroy(Joints *j)
   PetscCall(PetscFree5((*j)->memory, (*j)->saved, (*j)->live, (*j)->edge, (*j)->brink));
   PetscCall(PetscFree7(w->joint, w->place[0], w->place[1], w->node[0], w->node[1], w->inverse_square[0],
                        w->inverse_square[1]));
+  PetscCall(PetscFree(w->friction));
   PetscCall(PetscFree((*j)->touched));
   PetscCall(PetscFree(*j));
   PetscFunctionReturn(0);

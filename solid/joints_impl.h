@@ -46,7 +46,8 @@ typedef struct {
 } JointMemory;
 
 typedef struct {
-  int number; /* the same on all ranks */
+  int number;        /* the same on all ranks */
+  int first, second; /* its elements, in the assembly */
   int body;
   int place[2];     /* its elements, as in Corner */
   int side[2];      /* of its elements */
@@ -64,6 +65,7 @@ typedef struct {
   int n, *joint;
   int *place[2], *node[2];
   double *inverse_square[2]; /* of the strengths, 1/Pa2 */
+  double *friction;
 } Watch;
 
 /* An end of a whole joint of this rank at the surface or at the tip of a crack: if its tie is cut its node
@@ -109,6 +111,8 @@ void JointsList(Joints j, Solid s);
 void JointsBeginEnds(Joints j, Solid s);
 PetscErrorCode JointsMeasureRate(Joints j, Solid s);
 
+/* break.c: the joint of that number, or -1. */
+int JointsFind(Joints j, int number);
 /* break.c: collective: event[n] as in joints.c, the same on all ranks, ascending. */
 PetscErrorCode JointsApply(Joints j, Solid s, int n, const int event[]);
 #endif

@@ -29,6 +29,7 @@ static PetscErrorCode Report(CoracleClient client, Solid solid)
   PetscCall(CoracleReport(client, "bodies", v.nbodies, 0));
   PetscCall(CoracleReport(client, "substeps", (double)stats->total, 0));
   PetscCall(CoracleReport(client, "contact_searches", stats->searches, 0));
+  PetscCall(CoracleReport(client, "rebalanced", stats->rebalanced, 0));
   for (int k = 0; k < 5; k++) PetscCall(CoracleReport(client, PHASES[k], stats->seconds[k], 0));
   PetscFunctionReturn(0);
 }
@@ -50,8 +51,10 @@ static PetscErrorCode Run(CoracleClient client, Solid solid, Record record)
       PetscCall(SolidSubstep(solid, &h));
       PetscCall(ExchangeSubstep(&exchange, h));
     }
+    PetscCall(SolidRebalance(solid));
     PetscCall(ExchangeMotion(&exchange));
   }
+  PetscCall(ExchangeDestroy(&exchange));
   PetscFunctionReturn(0);
 }
 

@@ -62,23 +62,58 @@ static PetscErrorCode CellFields(Record r, Solid s, const SolidView *v, const do
   PetscFunctionReturn(0);
 }
 
+/* What a snapshot has of the nodes: those of this rank's elements (a rank also knows parts of split nodes that only
+ * others' elements have). */
+typedef struct {
+  int n, *element;                     /* [nelements][3] */
+  double *x, *velocity, *displacement; /* [n][2] */
+} Written;
+
+static PetscErrorCode WrittenCreate(const SolidView *v, Written *w)
+{
+  const size_t most = 2 * (size_t)v->nnodes;
+  int *number;
+  PetscFunctionBeginUser;
+  w->n = 0;
+  PetscCall(PetscMalloc4(3 * (size_t)v->nelements, &w->element, most, &w->x, most, &w->velocity, most,
+                         &w->displacement));
+  PetscCall(PetscMalloc1((size_t)v->nnodes, &number));
+  for (int i = 0; i < v->nnodes; i++) number[i] = -1;
+  for (int k = 0; k < 3 * v->nelements; k++) number[v->element[k]] = 0;
+  for (int i = 0; i < v->nnodes; i++) {
+    if (number[i] < 0) continue;
+    number[i] = w->n++;
+    for (int c = 0; c < 2; c++) {
+      const int from = 2 * i + c, to = 2 * number[i] + c;
+      w->x[to] = v->x[from];
+      w->velocity[to] = v->v[from];
+      w->displacement[to] = v->x[from] - v->rest[from];
+    }
+  }
+  for (int k = 0; k < 3 * v->nelements; k++) w->element[k] = number[v->element[k]];
+  PetscCall(PetscFree(number));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode Snapshot(Record r, Solid s)
 {
   SolidView v;
-  double *displacement, *stress;
+  Written w;
+  double *stress;
   PetscFunctionBeginUser;
   SolidGetView(s, &v);
-  PetscCall(PetscMalloc2(2 * (size_t)v.nnodes, &displacement, 3 * (size_t)v.nelements, &stress));
-  for (int i = 0; i < 2 * v.nnodes; i++) displacement[i] = v.x[i] - v.rest[i];
+  PetscCall(WrittenCreate(&v, &w));
+  PetscCall(PetscMalloc1(3 * (size_t)v.nelements, &stress));
   SolidStress(s, stress);
   PetscCall(OutputBegin(r->output, SolidGetStats(s)->t));
-  PetscCall(OutputGrid(r->output, "solid", r->revision++, v.nnodes, v.x, v.nelements, 3, v.element));
-  PetscCall(OutputField(r->output, "velocity", OUTPUT_NODE, 2, v.v));
-  PetscCall(OutputField(r->output, "displacement", OUTPUT_NODE, 2, displacement));
+  PetscCall(OutputGrid(r->output, "solid", r->revision++, w.n, w.x, v.nelements, 3, w.element));
+  PetscCall(OutputField(r->output, "velocity", OUTPUT_NODE, 2, w.velocity));
+  PetscCall(OutputField(r->output, "displacement", OUTPUT_NODE, 2, w.displacement));
   PetscCall(OutputField(r->output, "stress", OUTPUT_CELL, 3, stress));
   PetscCall(CellFields(r, s, &v, stress));
   PetscCall(OutputEnd(r->output));
-  PetscCall(PetscFree2(displacement, stress));
+  PetscCall(PetscFree(stress));
+  PetscCall(PetscFree4(w.element, w.x, w.velocity, w.displacement));
   r->next += r->every;
   PetscFunctionReturn(0);
 }

@@ -1,4 +1,28 @@
+#include "partition.h"
 #include "solid_impl.h"
+
+/* The first share; elements that may change ranks later need the assembly. */
+static PetscErrorCode Distribute(Solid s, const Assembly *a)
+{
+  PartitionGraph graph;
+  int *part;
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1((size_t)a->nelements, &part));
+  if (s->size > 1) {
+    PetscCall(PartitionGraphCreate(a, &graph));
+    PetscCall(PartitionGraphNear(&graph, a));
+    PetscCall(PartitionGraphCut(&graph, a->nelements, s->size, part));
+  }
+  PetscCall(SolidTakeShare(s, a, part));
+  if (s->size > 1 && s->setup.rebalance > 0.0) {
+    s->part = part;
+    PetscCall(PetscNew(&s->assembly));
+    PetscCall(AssemblyCopy(a, s->assembly));
+  } else {
+    PetscCall(PetscFree(part));
+  }
+  PetscFunctionReturn(0);
+}
 
 PetscErrorCode SolidCreate(MPI_Comm comm, const Assembly *assembly, const SolidSetup *setup, Solid *solid)
 {
@@ -9,21 +33,18 @@ PetscErrorCode SolidCreate(MPI_Comm comm, const Assembly *assembly, const SolidS
   s->setup = *setup;
   PetscCallMPI(MPI_Comm_rank(comm, &s->rank));
   PetscCallMPI(MPI_Comm_size(comm, &s->size));
-  PetscCall(SolidTakeShare(s, assembly));
+  PetscCall(Distribute(s, assembly));
   PetscCall(ContactCreate(s, &s->contact));
   PetscCall(ContactSearch(s->contact, s, 0.0));
-  PetscCall(PetscMalloc5(2 * s->node_capacity, &s->start, 2 * s->node_capacity, &s->seen, s->node_capacity,
-                         &s->mobility, 2 * s->node_capacity, &s->acceleration, s->node_capacity, &s->piece));
   *solid = s;
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SolidDestroy(Solid *solid)
+/* All that depends on which elements this rank has. */
+PetscErrorCode SolidFreeShare(Solid s)
 {
-  PetscFunctionBeginUser;
-  if (!*solid) PetscFunctionReturn(0);
-  Solid s = *solid;
   Elements *e = &s->elements;
+  PetscFunctionBeginUser;
   PetscCall(ContactDestroy(&s->contact));
   PetscCall(JointsDestroy(&s->joints));
   PetscCall(PetscFree2(s->copies.rank, s->copies.node));
@@ -43,16 +64,30 @@ PetscErrorCode SolidDestroy(Solid *solid)
   PetscCall(PetscFree3(e->stress[0], e->stress[1], e->stress[2]));
   PetscCall(PetscFree5(e->mu, e->lambda, e->eta, e->density, e->corotated));
   PetscCall(PetscFree7(e->body, e->number, e->force[0], e->force[1], e->thickness, e->sheet, e->material));
+  PetscCall(PetscFree(s->part));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SolidDestroy(Solid *solid)
+{
+  Solid s = *solid;
+  PetscFunctionBeginUser;
+  if (!s) PetscFunctionReturn(0);
+  if (s->before) PetscCall(SolidFreeShare(s->before));
+  PetscCall(PetscFree(s->before));
+  PetscCall(SolidFreeShare(s));
+  if (s->assembly) PetscCall(AssemblyDestroy(s->assembly));
+  PetscCall(PetscFree(s->assembly));
   PetscCall(PetscFree(*solid));
   PetscFunctionReturn(0);
 }
 
 void SolidGetView(Solid s, SolidView *view)
 {
-  *view = (SolidView){s->nnodes,   s->elements.n,    s->nfacets,        s->nbodies,
-                      s->revision, s->gid,           s->rest,           s->x,
-                      s->v,        s->load,          s->start,          s->element,
-                      s->facet,    s->elements.body, s->elements.number};
+  *view = (SolidView){s->nnodes,         s->elements.n, s->nfacets, s->nbodies, s->revision,
+                      s->share_number,   s->gid,        s->rest,    s->x,       s->v,
+                      s->load,           s->start,      s->element, s->facet,   s->elements.body,
+                      s->elements.number};
 }
 
 const SolidStats *SolidGetStats(Solid s)
@@ -64,15 +99,18 @@ PetscErrorCode SolidState(Solid s, int save)
 {
   SavedState *k = &s->saved;
   PetscFunctionBeginUser;
+  PetscCall(save ? SolidKeepShare(s) : SolidPutBackShare(s));
   if (s->joints) PetscCall(JointsState(s->joints, s, save));
   const size_t n = 2 * (size_t)s->nnodes;
   PetscCall(PetscArraycpy(save ? k->x : s->x, save ? s->x : k->x, n));
   PetscCall(PetscArraycpy(save ? k->v : s->v, save ? s->v : k->v, n));
   if (save) {
+    k->balance = s->balance;
     k->h = s->h;
     k->t = s->stats.t;
     k->moved_for = s->moved_for;
   } else {
+    s->balance = k->balance;
     s->h = k->h;
     s->stats.t = k->t;
     s->moved_for = k->moved_for;

@@ -31,6 +31,7 @@ enum { MOST_RULES = 32 };
 typedef struct {
   double gravity[2];         /* m/s2 */
   double courant;            /* fraction of the stability limit, 0 .. 1 */
+  double rebalance;          /* SolidRebalance acts once so many substeps are lost; 0: never */
   PetscBool walls;           /* rigid walls around the tank */
   double lower[2], upper[2]; /* its corners, m */
   PetscBool rough_walls;     /* the next two hold where >= 0; else walls are like what touches them */
@@ -52,6 +53,15 @@ PetscErrorCode SolidStart(Solid s, double dt, const double load[]);
 PetscBool SolidRemaining(Solid s); /* not collective, the same on all ranks */
 /* *h: the substep just made; SolidVelocity then is the displacement over it divided by h. */
 PetscErrorCode SolidSubstep(Solid s, double *h);
+/* After the last substep: deals the elements out anew if the work has got out of balance, or bodies have come
+ * to touch across ranks, so far that `rebalance` substeps of a perfectly shared solid have been lost since
+ * the last look that was better.  Looks at counts, never at clocks: the same run does the same.  All local
+ * numbers then are others, and the view's share; nodes keep their gid, and everything its value.  Putting
+ * a state back puts back the share of that time too. */
+PetscErrorCode SolidRebalance(Solid s);
+/* The same to part[elements of the assembly], the same on all ranks: the rank that is to have each element.
+ * Needs rebalance > 0. */
+PetscErrorCode SolidRedistribute(Solid s, const int part[]);
 /* What the fluid is to see (seen.c). */
 typedef struct {
   const double *u;        /* [nnodes][2] the bodies' rigid motion, plus their deformation as far as steps of
@@ -73,6 +83,7 @@ typedef struct {
   int nnodes, nelements, nfacets, nbodies;
   int revision; /* changes when cracks have made new nodes, elements or facets; new nodes and facets come last
                  */
+  int share;    /* changes when elements have changed ranks: all local numbers are others */
   const long long *gid;                      /* [nnodes] */
   const double *rest, *x, *v, *load, *start; /* [nnodes][2]; start: x when the step began */
   const int *element,
@@ -88,6 +99,7 @@ typedef struct {
   double h;          /* last substep, s */
   long long total;   /* substeps so far */
   int searches;      /* contact searches so far */
+  int rebalanced;    /* times that elements have changed ranks */
   double seconds[5]; /* elements, contact, exchange between ranks, limit and search, joints */
 } SolidStats;
 const SolidStats *SolidGetStats(Solid s);

@@ -46,8 +46,8 @@ static void ReadWalls(Case c, const Assembly *a, SolidSetup *setup)
   for (int n = 0; n < a->nnodes; n++)
     for (int k = 0; k < 2; k++)
       if (a->x[2 * n + k] < setup->lower[k] || a->x[2 * n + k] > setup->upper[k])
-        CaseRefuse(c, BodyKey(key, a->node_body[n], ""), "the body reaches through solid.walls at (%g, %g)",
-                   a->x[2 * n], a->x[2 * n + 1]);
+        CaseRefuse(c, BodyKey(key, a->body[a->node_body[n]].entry, ""),
+                   "the body reaches through solid.walls at (%g, %g)", a->x[2 * n], a->x[2 * n + 1]);
 }
 
 PetscErrorCode SolidCaseRead(Case c, Assembly *a, SolidSetup *setup)
@@ -58,13 +58,16 @@ PetscErrorCode SolidCaseRead(Case c, Assembly *a, SolidSetup *setup)
   PetscFunctionBeginUser;
   CaseVector(c, "gravity", 2, setup->gravity);
   setup->courant = CaseNumberOr(c, "solid.courant", 0.8, 0.01, 1.0);
+  setup->rebalance = CaseNumberOr(c, "solid.rebalance", 200.0, 0.0, HUGE_VAL);
   CaseKeys(c, "solid.materials", CaseCheckMaterial, c);
   if (nbodies == 0) CaseRefuse(c, "solid.bodies", "expected a list of at least one body");
   for (int b = 0; b < nbodies; b++) PetscCall(CaseReadBody(c, b, a));
   ReadWalls(c, a, setup);
   ReadRules(c, setup);
   PetscCall(AssemblyOverlap(a, &first, &second));
-  if (first >= 0) CaseRefuse(c, BodyKey(key, second, ""), "the body overlaps solid.bodies[%d]", first);
+  if (first >= 0)
+    CaseRefuse(c, BodyKey(key, a->body[second].entry, ""), "the body overlaps solid.bodies[%d]",
+               a->body[first].entry);
   PetscFunctionReturn(0);
 }
 

@@ -33,10 +33,16 @@ typedef struct {
   int n, *rank, *node;
 } Copies;
 
+/* How much the present share loses against the best that it has been (balance.c). */
+typedef struct {
+  double best, loss; /* best: 0 until the first look */
+} Balance;
+
 /* What a step changes. */
 typedef struct {
   double *x, *v, h, t, moved_for;
   int nnodes, nfacets, revision;
+  Balance balance;
 } SavedState;
 
 struct Solid_s {
@@ -83,6 +89,13 @@ struct Solid_s {
   PetscBool unsettled;        /* after SolidState(0): JointsSettle is due */
   SolidStats stats;
   SavedState saved;
+  /* other ranks' shares: NULL unless elements may change ranks */
+  Assembly *assembly;
+  int share_number; /* which of the shares since the start this is */
+  int *part;        /* [assembly->nelements] the rank that has it */
+  Solid before;     /* the share of the saved state, if it was another; NULL */
+  PetscBool kept;   /* there is a saved state */
+  Balance balance;
 };
 
 /* forces.c: internal forces of this rank's elements into force; fails on an element with J <= 0. */
@@ -103,11 +116,18 @@ void BudgetAddSubstep(Solid s);
 void BudgetAddDriven(Solid s, int n, int c, double v);
 
 /* distribute.c: everything that comes from the assembly. */
-PetscErrorCode SolidTakeShare(Solid s, const Assembly *a);
+PetscErrorCode SolidTakeShare(Solid s, const Assembly *a, const int part[]);
 /* Of an element of the assembly, times its thickness. */
 ElementLaw SolidLawOf(const Assembly *a, int e);
 /* corner_start and corner, from element */
 void SolidListCorners(Solid s);
+
+/* migrate.c: all but the assembly. */
+PetscErrorCode SolidFreeShare(Solid s);
+/* Not collective: the share that the saved state belongs to is the present one again. */
+PetscErrorCode SolidPutBackShare(Solid s);
+/* Not collective: the present share is that of the state which is about to be saved. */
+PetscErrorCode SolidKeepShare(Solid s);
 
 /* joints_create.c */
 PetscErrorCode JointsCreate(Solid s, const Assembly *a, const InteriorEdges *edges, int nlooks,
@@ -125,7 +145,9 @@ void JointsAddStrainPower(Joints j, Solid s, const double d[], const int piece[]
 double JointsRate(Joints j);
 /* break.c: saves or puts back damage and topology; not collective. */
 PetscErrorCode JointsState(Joints j, Solid s, int save);
-/* Collective: after JointsState(0), what needs messages. */
+/* Not collective: nodes and facets as the joints' memory says, in a share that is whole. */
+void JointsReplay(Joints j, Solid s);
+/* Collective: after JointsState(0) and JointsReplay, what needs messages. */
 PetscErrorCode JointsSettle(Joints j, Solid s);
 
 /* contact.c */

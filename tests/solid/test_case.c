@@ -55,6 +55,36 @@ static void Everything(void)
   CHECK(fixed[0] == 0 && fixed[1] == 7 && fixed[2] > 7, "fixed %d %d %d", fixed[0], fixed[1], fixed[2]);
 }
 
+/* One entry, six bodies: two rows of three, joints' boxes move along; messages name the entry. */
+static void Repeated(void)
+{
+  CheckCase("gravity: [0, -9.81]\nsolid:\n  rebalance: 7\n  materials:\n    m: {density: 1000, "
+            "youngs_modulus: 1e6, "
+            "poisson_ratio: 0.3, tensile_strength: 1, shear_strength: 1, fracture_energy: 1, "
+            "internal_friction: 0.7}\n  bodies:\n"
+            "    - {shape: disc, centre: [9, 9], radius: 0.1, size: 0.05, material: m}\n"
+            "    - {shape: rectangle, centre: [0, 0], width: 1, height: 1, size: 0.5, material: m,\n"
+            "       joints: [{lower: [-0.5, -0.5], upper: [0, 0.5]}], repeat: {n: [3, 2], step: [1.5, 2]}}\n",
+            NULL, Read, NULL);
+  CHECK(setup.rebalance == 7.0 && assembly.nbodies == 7, "%d bodies", assembly.nbodies);
+  CHECK(assembly.body[0].material.internal_friction == 0.7, "internal friction");
+  int jointed[7] = {0};
+  for (int e = 0; e < assembly.nelements; e++) jointed[assembly.element_body[e]] += assembly.jointed[e];
+  for (int b = 1; b < 7; b++) {
+    const double *centre = assembly.body[b].centre;
+    CHECK(fabs(centre[0] - 1.5 * ((b - 1) % 3)) + fabs(centre[1] - 2.0 * ((b - 1) / 3)) < 1e-13,
+          "body %d at (%g, %g)", b, centre[0], centre[1]);
+    CHECK(jointed[b] == jointed[1] && jointed[b] > 0, "body %d has %d jointed elements", b, jointed[b]);
+  }
+  CheckCase(HEAD "  bodies:\n" DISC
+                 "    - {shape: disc, centre: [1, 0], radius: 0.1, size: 0.05, material: m, "
+                 "repeat: {n: [3, 1], step: [0.1, 0]}}\n",
+            NULL, Read, ":7: key 'solid.bodies[1]': the body overlaps solid.bodies[1]");
+  CheckCase(HEAD "  bodies:\n    - {shape: disc, centre: [1, 0], radius: 0.1, size: 0.05, material: m, "
+                 "repeat: {n: [3, 0.5], step: [1, 1]}}\n",
+            NULL, Read, ":6: key 'solid.bodies[0].repeat.n': expected two integers >= 1");
+}
+
 static void MeshFile(void)
 {
   CheckCase(HEAD "  bodies:\n    - {mesh: " SOURCE_FOLDER
@@ -230,6 +260,7 @@ int main(int argc, char **argv)
 {
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   Everything();
+  Repeated();
   MeshFile();
   Joints();
   Full();

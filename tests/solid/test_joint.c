@@ -10,7 +10,7 @@ static const double STRENGTH[2] = {3e6, 7e6};
 
 static JointLaw Law(double mode_one, double mode_two)
 {
-  return (JointLaw){{STRENGTH[0], STRENGTH[1]}, {mode_one, mode_two}, 6e13};
+  return (JointLaw){{STRENGTH[0], STRENGTH[1]}, {mode_one, mode_two}, 6e13, 0.0};
 }
 
 /* The opening or slip at which one mode alone has damage D, from coming to life on. */
@@ -208,6 +208,35 @@ static void Hinge(void)
         end[0].absorbed, end[1].absorbed);
 }
 
+/* Mohr and Coulomb: a pressed edge bears F_s + f p, comes to life without a jump, slides against f times the
+ * pressure to and fro when it is broken, and its energy of fracture does not count that. */
+static void Rubbing(void)
+{
+  JointLaw law = Law(120.0, 300.0);
+  law.friction = 0.7;
+  const double p = 5e6, bears = STRENGTH[1] + 0.7 * p, reach = Reach(&law, 1, 1.0);
+  for (int sign = -1; sign <= 1; sign += 2) {
+    CHECK(JointLoad(&law, -p, 0.999 * sign * bears) < 1.0 && JointLoad(&law, -p, 1.001 * sign * bears) > 1.0,
+          "bears %g Pa", bears);
+    JointEnd end = JointBegin(&law, -p, sign * bears);
+    JointTraction t = JointPull(&law, &end, 0.0, 0.0);
+    CHECK(fabs(t.normal + p) + fabs(t.shear - sign * bears) < 1e-6 * p && end.strong == 1.0,
+          "begins with %g, %g", t.normal, t.shear);
+    for (int k = 1; k <= STEPS; k++) { /* pressed as hard, whatever its damage */
+      const double opening = -p / law.stiffness - end.offset[2] * (1.0 - end.damage);
+      t = JointPull(&law, &end, opening, sign * 1.1 * reach * k / STEPS);
+      const double cohesion = end.left * STRENGTH[1];
+      CHECK(fabs(t.shear - sign * (cohesion - 0.7 * t.normal)) < 1e-5 * bears, "%g Pa at D = %g", t.shear,
+            end.damage);
+    }
+    CHECK(end.damage == 1.0 && fabs(end.absorbed / 300.0 - 1.0) < 1e-5, "absorbed %g J/m2", end.absorbed);
+    t = JointPull(&law, &end, -p / law.stiffness, 0.9 * sign * reach);
+    CHECK(fabs(t.shear + sign * 0.7 * p) < 1e-6 * p, "%g Pa on the way back", t.shear);
+    t = JointPull(&law, &end, 1e-9, 0.0);
+    CHECK(t.normal == 0.0 && t.shear == 0.0, "%g, %g Pa when open", t.normal, t.shear);
+  }
+}
+
 int main(void)
 {
   Stiffness();
@@ -217,5 +246,6 @@ int main(void)
   Pressed();
   Continuity();
   Forces();
+  Rubbing();
   return 0;
 }

@@ -1,0 +1,253 @@
+#include "partition.h"
+#include "cell_grid.h"
+#include "element_edges.h"
+#include <metis.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+/* --- links
+ * -------------------------------------------------------------------------------------------------- */
+
+PetscErrorCode PartitionGraphLink(PartitionGraph *g, int a, int b, int weight)
+{
+  PetscFunctionBeginUser;
+  if (g->nlinks == g->capacity) {
+    g->capacity = 2 * g->capacity + 64;
+    PetscCall(PetscRealloc((size_t)g->capacity * sizeof *g->link, &g->link));
+  }
+  g->link[g->nlinks++] = (PartitionLink){a, b, weight};
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PartitionGraphCreate(const Assembly *a, PartitionGraph *g)
+{
+  ElementEdge *edge;
+  PetscFunctionBeginUser;
+  *g = (PartitionGraph){.capacity = 4 * a->nelements};
+  PetscCall(PetscMalloc1((size_t)g->capacity, &g->link));
+  PetscCall(PetscMalloc2((size_t)a->nelements, &g->work, (size_t)a->nelements, &g->at));
+  for (int e = 0; e < a->nelements; e++) g->work[e] = WORK_ELEMENT;
+  PetscCall(ElementEdgesSorted(0, a->nelements, a->element, &edge));
+  for (int k = 0; k + 1 < 3 * a->nelements; k++)
+    if (edge[k].low == edge[k + 1].low && edge[k].high == edge[k + 1].high)
+      PetscCall(PartitionGraphLink(g, edge[k].element, edge[k + 1].element, LINK_WHOLE));
+  PetscCall(PetscFree(edge));
+  PetscFunctionReturn(0);
+}
+
+typedef struct {
+  const Assembly *a;
+  PartitionGraph *g;
+} NearSearch;
+
+static PetscErrorCode NearFound(void *context, int facet, int e)
+{
+  const NearSearch *s = context;
+  const int own = s->a->facet_element[facet];
+  PetscFunctionBeginUser;
+  if (s->a->element_body[own] == s->a->element_body[e]) PetscFunctionReturn(0);
+  s->g->work[own] += WORK_CANDIDATE;
+  PetscCall(PartitionGraphLink(s->g, own, e, LINK_NEAR));
+  PetscFunctionReturn(0);
+}
+
+static double FacetSpan(const Assembly *a, int k)
+{
+  const double *p = a->x + 2 * a->facet[2 * k], *q = a->x + 2 * a->facet[2 * k + 1];
+  return hypot(q[0] - p[0], q[1] - p[1]);
+}
+
+/* As the first search for contact does, but with boxes alone. */
+PetscErrorCode PartitionGraphNear(PartitionGraph *g, const Assembly *a)
+{
+  NearSearch search = {a, g};
+  GeometryBox *facet, *element;
+  double buffer = 0.0;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2((size_t)a->nfacets, &facet, (size_t)a->nelements, &element));
+  for (int k = 0; k < a->nfacets; k++) buffer += 0.5 * FacetSpan(a, k) / a->nfacets;
+  for (int k = 0; k < a->nfacets; k++) {
+    facet[k] = GeometryBoxEmpty();
+    for (int i = 0; i < 2; i++) GeometryBoxGrow(&facet[k], a->x + 2 * a->facet[2 * k + i]);
+    for (int c = 0; c < 2; c++) {
+      facet[k].lower[c] -= buffer;
+      facet[k].upper[c] += buffer;
+    }
+  }
+  for (int e = 0; e < a->nelements; e++) {
+    element[e] = GeometryBoxEmpty();
+    g->at[e][0] = g->at[e][1] = 0.0;
+    for (int i = 0; i < 3; i++) {
+      const double *x = a->x + 2 * a->element[3 * e + i];
+      GeometryBoxGrow(&element[e], x);
+      for (int c = 0; c < 2; c++) g->at[e][c] += x[c] / 3.0;
+    }
+  }
+  if (a->nbodies > 1) PetscCall(CellGridPairs(a->nfacets, facet, a->nelements, element, NearFound, &search));
+  PetscCall(PetscFree2(facet, element));
+  PetscFunctionReturn(0);
+}
+
+/* --- the curve
+ * ---------------------------------------------------------------------------------------------- */
+
+typedef struct {
+  uint64_t key;
+  int element;
+} Stop;
+
+/* Place along Hilbert's curve through 2^16 x 2^16 cells. */
+static uint64_t HilbertKey(uint32_t x, uint32_t y)
+{
+  uint64_t key = 0;
+  for (uint32_t s = 1u << 15; s > 0; s /= 2) {
+    const uint32_t rx = (x & s) > 0, ry = (y & s) > 0;
+    key += (uint64_t)s * s * ((3 * rx) ^ ry);
+    if (ry) continue;
+    if (rx) {
+      x = 0xffff - x;
+      y = 0xffff - y;
+    }
+    const uint32_t swap = x;
+    x = y;
+    y = swap;
+  }
+  return key;
+}
+
+static int CompareStops(const void *a, const void *b)
+{
+  const Stop *p = a, *q = b;
+  return p->key != q->key ? (p->key > q->key) - (p->key < q->key) : p->element - q->element;
+}
+
+static PetscErrorCode LinkCurve(PartitionGraph *g, int n)
+{
+  GeometryBox all = GeometryBoxEmpty();
+  Stop *stop;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1((size_t)n, &stop));
+  for (int e = 0; e < n; e++) GeometryBoxGrow(&all, g->at[e]);
+  const double size = fmax(fmax(all.upper[0] - all.lower[0], all.upper[1] - all.lower[1]), 1e-300);
+  for (int e = 0; e < n; e++)
+    stop[e] = (Stop){HilbertKey((uint32_t)(65535.0 * ((g->at[e][0] - all.lower[0]) / size)),
+                                (uint32_t)(65535.0 * ((g->at[e][1] - all.lower[1]) / size))),
+                     e};
+  qsort(stop, (size_t)n, sizeof *stop, CompareStops);
+  for (int k = 0; k + 1 < n; k++)
+    PetscCall(PartitionGraphLink(g, stop[k].element, stop[k + 1].element, LINK_CURVE));
+  PetscCall(PetscFree(stop));
+  PetscFunctionReturn(0);
+}
+
+/* --- METIS
+ * -------------------------------------------------------------------------------------------------- */
+
+/* Adds a link to vertex a's row, which is start[a] .. fill[a] - 1 so far. */
+static void AddToRow(int a, int b, int weight, const idx_t start[], idx_t fill[], idx_t to[], idx_t w[])
+{
+  idx_t k = start[a];
+  while (k < fill[a] && to[k] != b) k++;
+  if (k == fill[a]) {
+    to[fill[a]++] = b;
+    w[k] = 0;
+  }
+  w[k] += weight;
+}
+
+/* Rows of the graph, equal links merged; to and w have room for 2 nlinks. */
+static PetscErrorCode Rows(const PartitionGraph *g, int n, idx_t start[], idx_t to[], idx_t w[])
+{
+  idx_t *fill, kept = 0;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1((size_t)n + 1, &fill));
+  for (int e = 0; e <= n; e++) start[e] = 0;
+  for (int k = 0; k < g->nlinks; k++) {
+    start[g->link[k].a + 1]++;
+    start[g->link[k].b + 1]++;
+  }
+  for (int e = 0; e < n; e++) start[e + 1] += start[e];
+  for (int e = 0; e < n; e++) fill[e] = start[e];
+  for (int k = 0; k < g->nlinks; k++) {
+    const PartitionLink *l = &g->link[k];
+    AddToRow(l->a, l->b, l->weight, start, fill, to, w);
+    AddToRow(l->b, l->a, l->weight, start, fill, to, w);
+  }
+  for (int e = 0; e < n; e++) {
+    const idx_t first = start[e];
+    start[e] = kept;
+    for (idx_t k = first; k < fill[e]; k++, kept++) {
+      to[kept] = to[k];
+      w[kept] = w[k];
+    }
+  }
+  start[n] = kept;
+  PetscCall(PetscFree(fill));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Metis(const PartitionGraph *g, int n, int parts, int part[])
+{
+  idx_t nv = n, constraints = 1, nparts = parts, cut, *start, *to, *w, *work, *of;
+  const size_t room = 2 * (size_t)g->nlinks;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc5((size_t)n + 1, &start, room, &to, room, &w, (size_t)n, &work, (size_t)n, &of));
+  PetscCall(Rows(g, n, start, to, w));
+  for (int e = 0; e < n; e++) work[e] = g->work[e];
+  const int code = parts > 8 ? METIS_PartGraphKway(&nv, &constraints, start, to, work, NULL, w, &nparts, NULL,
+                                                   NULL, NULL, &cut, of)
+                             : METIS_PartGraphRecursive(&nv, &constraints, start, to, work, NULL, w, &nparts,
+                                                        NULL, NULL, NULL, &cut, of);
+  PetscCheck(code == METIS_OK, PETSC_COMM_SELF, PETSC_ERR_LIB, "METIS failed with %d", code);
+  for (int e = 0; e < n; e++) part[e] = (int)of[e];
+  PetscCall(PetscFree5(start, to, w, work, of));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PartitionGraphCut(PartitionGraph *g, int nelements, int parts, int part[])
+{
+  PetscFunctionBeginUser;
+  for (int e = 0; e < nelements; e++) part[e] = 0;
+  if (PetscMin(parts, nelements) > 1) {
+    PetscCall(LinkCurve(g, nelements));
+    PetscCall(Metis(g, nelements, PetscMin(parts, nelements), part));
+  }
+  PetscCall(PetscFree(g->link));
+  PetscCall(PetscFree2(g->work, g->at));
+  PetscFunctionReturn(0);
+}
+
+/* --- names of the parts
+ * ------------------------------------------------------------------------------------- */
+
+typedef struct {
+  int common, before, now;
+} Overlap;
+
+static int CompareOverlaps(const void *a, const void *b)
+{
+  const Overlap *p = a, *q = b;
+  if (p->common != q->common) return p->common < q->common ? 1 : -1;
+  return p->before != q->before ? p->before - q->before : p->now - q->now;
+}
+
+/* The largest common parts first. */
+PetscErrorCode PartitionKeep(int nelements, int parts, const int before[], int part[])
+{
+  Overlap *o;
+  int *name, *taken;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc3((size_t)parts * (size_t)parts, &o, (size_t)parts, &name, (size_t)parts, &taken));
+  for (int k = 0; k < parts * parts; k++) o[k] = (Overlap){0, k / parts, k % parts};
+  for (int e = 0; e < nelements; e++) o[before[e] * parts + part[e]].common++;
+  qsort(o, (size_t)parts * (size_t)parts, sizeof *o, CompareOverlaps);
+  for (int p = 0; p < parts; p++) name[p] = taken[p] = -1;
+  for (int k = 0; k < parts * parts; k++)
+    if (name[o[k].now] < 0 && taken[o[k].before] < 0) {
+      name[o[k].now] = o[k].before;
+      taken[o[k].before] = o[k].now;
+    }
+  for (int e = 0; e < nelements; e++) part[e] = name[part[e]];
+  PetscCall(PetscFree3(o, name, taken));
+  PetscFunctionReturn(0);
+}

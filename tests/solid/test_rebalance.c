@@ -1,0 +1,225 @@
+// ranks: 1 2 3
+/* Elements change ranks while bodies slide, are driven and break: the answer is that of one rank to
+ * round-off, a step that is redone after another try and another redistribution has the same bits, and what
+ * has moved away from its rank's other bodies is dealt out anew by itself. */
+#include "contact_impl.h"
+#include "crack.h"
+
+enum { STEPS = 6, CALM, SCATTERED, REDONE };
+
+static Material Rough(void)
+{
+  Material m = RockOf(3e6, 9e6, 20.0, 0.1);
+  m.friction = 0.5;
+  m.internal_friction = 0.3;
+  m.contact_damping = 0.1;
+  return m;
+}
+
+/* Two that break each other, one on a driven plate, and one that slides on a held one. */
+static void Bodies(Assembly *a)
+{
+  static const double ROW[3] = {0.0, 3.0, 0.0};
+  static const BoundaryDrive PUSHED = {"bottom", {.driven = {1, 1}, .nrows = 1, .row = ROW}};
+  const double box[1][4] = {{0.0, -1.0, 0.06, 1.0}};
+  BodySetup left = BodyAtRest(Rough()), right = left, sliding = left, held = left;
+  left.joints.all = 1;
+  left.velocity[0] = 4.0;
+  right.velocity[0] = -8.0;
+  right.joints = (JointSetup){.nboxes = 1, .box = box};
+  right.ndriven = 1;
+  right.driven = &PUSHED;
+  sliding.velocity[0] = 5.0;
+  sliding.velocity[1] = -1.0;
+  sliding.joints.all = 1;
+  held.fixed = 1;
+  AddDisc(a, -0.0505, 0.0, 0.05, 0.012, &left);
+  AddRectangle(a, 0.0505, 0.01, 0.1, 0.08, 0.0, 0.012, 1, &right);
+  AddRectangle(a, 0.3, 0.0301, 0.1, 0.02, 0.0, 0.01, 1, &sliding);
+  AddRectangle(a, 0.3, 0.01, 0.2, 0.02, 0.0, 0.01, 1, &held);
+}
+
+/* As a fluid that pushes to the right, stronger in a step that is tried. */
+static PetscErrorCode Step(Solid s, double strength)
+{
+  SolidView v = ViewOf(s, NULL, NULL);
+  double *load = calloc(2 * (size_t)v.nnodes + 1, sizeof *load), h;
+  for (int k = 0; k < v.nfacets; k++)
+    for (int i = 0; i < 2; i++)
+      load[2 * v.facet[2 * k + i]] +=
+          strength * (v.x[2 * v.facet[2 * k + 1] + 1] - v.x[2 * v.facet[2 * k] + 1]);
+  PetscCall(SolidStart(s, 1e-5, load));
+  while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
+  free(load);
+  return 0;
+}
+
+/* Elements far and near, some ranks with none in the first step. */
+static PetscErrorCode Scatter(Solid s, int nelements, int step)
+{
+  PetscMPIInt size;
+  int *part = malloc((size_t)nelements * sizeof *part);
+  const int share = ViewOf(s, NULL, NULL).share;
+  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  for (int e = 0; e < nelements; e++) part[e] = step == 0 ? size - 1 : (e / (1 + step % 5) + step) % size;
+  PetscCall(SolidRedistribute(s, part));
+  CHECK(size == 1 || ViewOf(s, NULL, NULL).share != share, "the share is still %d", share);
+  free(part);
+  return 0;
+}
+
+typedef struct {
+  double *all; /* [nids][4] x and v by global number, NAN for nodes that this rank has not */
+  FractureState f;
+  BodyState body[4];
+  int pieces;
+} Answer;
+
+static PetscErrorCode Tell(Solid s, int nids, Answer *out)
+{
+  const SolidView v = ViewOf(s, NULL, NULL);
+  int *fragment = malloc(((size_t)v.nelements + 1) * sizeof *fragment);
+  out->all = malloc(4 * (size_t)nids * sizeof *out->all);
+  for (int k = 0; k < 4 * nids; k++) out->all[k] = NAN;
+  for (int n = 0; n < v.nnodes; n++)
+    for (int c = 0; c < 2; c++) {
+      out->all[4 * v.gid[n] + c] = v.x[2 * n + c];
+      out->all[4 * v.gid[n] + 2 + c] = v.v[2 * n + c];
+    }
+  PetscCall(SolidBodies(s, 4, out->body));
+  PetscCall(SolidFracture(s, &out->f));
+  PetscCall(SolidFragments(s, fragment, &out->pieces));
+  free(fragment);
+  return 0;
+}
+
+static PetscErrorCode Simulate(MPI_Comm comm, int how, int nids, Answer *out)
+{
+  const SolidSetup options = {.courant = 0.8, .rebalance = 1e9};
+  Assembly a = {0};
+  Solid s;
+  Bodies(&a);
+  PetscCall(SolidCreate(comm, &a, &options, &s));
+  for (int k = 0; k < STEPS; k++) {
+    if (how == REDONE) {
+      PetscCall(SolidState(s, 1));
+      PetscCall(Step(s, 2e7));
+      PetscCall(Scatter(s, a.nelements, k + 3));
+      if (k % 2) PetscCall(Scatter(s, a.nelements, k + 4));
+      PetscCall(SolidState(s, 0));
+    }
+    PetscCall(Step(s, 1e6));
+    if (how != CALM) PetscCall(Scatter(s, a.nelements, k));
+  }
+  PetscCall(Tell(s, nids, out));
+  PetscCall(AssemblyDestroy(&a));
+  return SolidDestroy(&s);
+}
+
+static PetscErrorCode Compare(const Answer *one, const Answer *many, const Answer *redone, int n)
+{
+  double largest = 0.0;
+  for (int k = 0; k < n; k++) {
+    const double a = many->all[k], b = redone->all[k];
+    CHECK(isnan(a) == isnan(b) && !(a < b || a > b), "node %d: %.17g, redone %.17g", k / 4, a, b);
+    if (isnan(a)) continue;
+    CHECK(!isnan(one->all[k]), "node %d is not there on one rank", k / 4);
+    largest = fmax(largest, fabs(a - one->all[k]) / (k % 4 < 2 ? 0.1 : 10.0));
+  }
+  if (getenv("VERBOSE"))
+    printf("largest difference %.2e; %d broken, %d live, %d pieces\n", largest, many->f.broken, many->f.live,
+           many->pieces);
+  CHECK(largest < 1e-11, "differs from one rank by %g", largest);
+  CHECK(one->f.broken > 20 && one->pieces > 4, "%d broken, %d pieces", one->f.broken, one->pieces);
+  CHECK(one->f.broken == many->f.broken && one->f.live == many->f.live && one->pieces == many->pieces,
+        "%d broken and %d", one->f.broken, many->f.broken);
+  CHECK(fabs(one->f.energy / many->f.energy - 1.0) < 1e-11 && many->f.energy == redone->f.energy,
+        "energy %.12g, %.12g, %.12g", one->f.energy, many->f.energy, redone->f.energy);
+  for (int b = 0; b < 4; b++)
+    CHECK(fabs(one->body[b].load[0] - many->body[b].load[0]) < 1e-9 * 1e5 &&
+              fabs(one->body[b].kinetic - many->body[b].kinetic) <= 1e-9 * one->body[b].kinetic,
+          "body %d: load %g and %g, kinetic energy %g and %g", b, one->body[b].load[0], many->body[b].load[0],
+          one->body[b].kinetic, many->body[b].kinetic);
+  return CopiesAgree(many->all, n, 1);
+}
+
+static PetscErrorCode Forced(void)
+{
+  Answer one, many, redone;
+  Assembly a = {0};
+  Bodies(&a);
+  const int nids = a.nnodes + 3 * a.nelements;
+  PetscCall(Simulate(PETSC_COMM_SELF, CALM, nids, &one));
+  PetscCall(Simulate(PETSC_COMM_WORLD, SCATTERED, nids, &many));
+  PetscCall(Simulate(PETSC_COMM_WORLD, REDONE, nids, &redone));
+  PetscCall(Compare(&one, &many, &redone, 4 * nids));
+  free(one.all);
+  free(many.all);
+  free(redone.all);
+  return AssemblyDestroy(&a);
+}
+
+/* --- by itself
+ * ---------------------------------------------------------------------------------------------- */
+
+/* Two rows of blocks, the upper sliding by half its length over the lower.  *travelling: targets that travel
+ * in a substep at the end. */
+static PetscErrorCode Slide(MPI_Comm comm, double rebalance, BodyState state[], int n, int *travelling,
+                            int *rebalanced)
+{
+  const SolidSetup options = {.gravity = {0.0, -10.0}, .courant = 0.8, .rebalance = rebalance};
+  BodySetup setup = BodyAtRest(MaterialOf(1000.0, 1e6, 0.3, 0.3));
+  Assembly a = {0};
+  Solid s;
+  setup.material.friction = 0.02;
+  for (int k = 0; k < n; k++) {
+    const int upper = k >= n / 2;
+    setup.fixed = !upper;
+    setup.velocity[0] = 4.0 * upper;
+    AddRectangle(&a, 0.101 * (k % (n / 2)), 0.1001 * upper, 0.1, 0.1, 0.0, 0.025, 0, &setup);
+  }
+  PetscCall(SolidCreate(comm, &a, &options, &s));
+  for (int k = 0; k < 20; k++) {
+    double h;
+    PetscCall(SolidStart(s, 2.5e-3, NULL));
+    while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
+    PetscCall(SolidRebalance(s));
+  }
+  PetscCall(SolidBodies(s, n, state));
+  *travelling = s->contact->halo ? HaloTraffic(s->contact->halo) : 0;
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, travelling, 1, MPI_INT, MPI_SUM, comm));
+  *rebalanced = SolidGetStats(s)->rebalanced;
+  PetscCall(AssemblyDestroy(&a));
+  return SolidDestroy(&s);
+}
+
+static PetscErrorCode Automatic(void)
+{
+  enum { N = 8 };
+  BodyState one[N], off[N], on[N];
+  PetscMPIInt size;
+  int travelling[3], rebalanced[3];
+  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  PetscCall(Slide(PETSC_COMM_SELF, 3.0, one, N, &travelling[0], &rebalanced[0]));
+  PetscCall(Slide(PETSC_COMM_WORLD, 0.0, off, N, &travelling[1], &rebalanced[1]));
+  PetscCall(Slide(PETSC_COMM_WORLD, 3.0, on, N, &travelling[2], &rebalanced[2]));
+  if (getenv("VERBOSE"))
+    printf("%d targets travel, %d after %d redistributions\n", travelling[1], travelling[2], rebalanced[2]);
+  CHECK(rebalanced[1] == 0 && (size == 1 || rebalanced[2] > 0), "%d redistributions", rebalanced[2]);
+  CHECK(size == 1 || travelling[2] < travelling[1], "%d targets travel, %d without redistribution",
+        travelling[2], travelling[1]);
+  for (int b = 0; b < N; b++)
+    for (int c = 0; c < 2; c++)
+      CHECK(fabs(one[b].x[c] - on[b].x[c]) < 1e-11 && fabs(one[b].v[c] - on[b].v[c]) < 1e-10,
+            "body %d: x differs by %g, v by %g", b, one[b].x[c] - on[b].x[c], one[b].v[c] - on[b].v[c]);
+  CHECK(one[N - 1].x[0] > 0.17 + 0.101 * (N / 2 - 1), "the last block is at %g", one[N - 1].x[0]);
+  return 0;
+}
+
+int main(int argc, char **argv)
+{
+  PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
+  PetscCall(Forced());
+  PetscCall(Automatic());
+  return PetscFinalize();
+}
