@@ -125,6 +125,7 @@ int CaseClose(Case *c)
   for (int i = 0; i < (*c)->nasked; i++) free((*c)->asked[i]);
   for (int i = 0; i < (*c)->nkept; i++) free((*c)->kept[i]);
   free((*c)->asked);
+  free((*c)->slot);
   free((*c)->kept);
   free((*c)->path);
   free((*c)->folder);
@@ -211,11 +212,37 @@ static void Push(char ***list, int *n, int *capacity, char *string)
   (*list)[(*n)++] = string;
 }
 
+/* Where the key is, or would be, among those asked for. */
+static int *SlotOf(Case c, const char *key)
+{
+  unsigned long long k = Fnv1a(FNV_START, key, strlen(key)) % (unsigned long long)c->nslots;
+  while (c->slot[k] >= 0 && strcmp(c->asked[c->slot[k]], key)) k = (k + 1) % (unsigned long long)c->nslots;
+  return &c->slot[k];
+}
+
+static bool Asked(Case c, const char *key)
+{
+  return c->nslots && *SlotOf(c, key) >= 0;
+}
+
+static void Remember(Case c, const char *key)
+{
+  if (2 * (c->nasked + 1) > c->nslots) {
+    c->nslots = c->nslots ? 2 * c->nslots : 256;
+    c->slot = realloc(c->slot, (size_t)c->nslots * sizeof *c->slot);
+    for (int k = 0; k < c->nslots; k++) c->slot[k] = -1;
+    for (int i = 0; i < c->nasked; i++) *SlotOf(c, c->asked[i]) = i;
+  }
+  *SlotOf(c, key) = c->nasked;
+  Push(&c->asked, &c->nasked, &c->asked_capacity, strdup(key));
+}
+
 static CaseNode *Ask(Case c, const char *key)
 {
-  bool known = false;
-  for (int i = c->nasked - 1; i >= 0 && !known; i--) known = !strcmp(c->asked[i], key);
-  if (!known) Push(&c->asked, &c->nasked, &c->asked_capacity, strdup(key));
+  if (!Asked(c, key)) {
+    Remember(c, key);
+    CaseTreeMark(c->root, key);
+  }
   return CaseTreeFind(c->root, key);
 }
 
@@ -404,22 +431,13 @@ static const char *Suggestion(Case c, const char *key)
   return NULL;
 }
 
-static bool AskedBelow(Case c, const char *key)
-{
-  const size_t n = strlen(key);
-  for (int i = 0; i < c->nasked; i++)
-    if (!strncmp(c->asked[i], key, n) && strchr(".[", c->asked[i][n]) && c->asked[i][n]) return true;
-  return false;
-}
-
 /* Nothing under an unknown map was ever asked for: the map itself is the unknown key, not its first value. */
 static void CheckRead(Case c, const CaseNode *node, const char *key)
 {
   const bool leaf = node->kind == NODE_SCALAR || (node->n == 0 && !node->read);
-  bool asked = false;
-  for (int i = 0; i < c->nasked && !asked; i++) asked = !strcmp(c->asked[i], key);
+  const bool asked = Asked(c, key);
   if (node->read || (leaf && node->kind != NODE_SCALAR && asked)) return;
-  if (leaf || (!asked && !AskedBelow(c, key))) {
+  if (leaf || (!asked && !node->below)) {
     const char *better = Suggestion(c, key);
     if (better) Die(c, node, "unknown key '%s' (did you mean '%s'?)", key, better);
     Die(c, node, "unknown key '%s'", key);

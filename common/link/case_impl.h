@@ -15,6 +15,7 @@ typedef struct CaseNode_s {
   char *text;      /* of a scalar */
   bool quoted;     /* '3' and "3" are strings, 3 is a number */
   bool read;       /* some reader has asked for this value */
+  bool below;      /* or for a key below it */
   int line;        /* in the file, from 1 */
   const char *set; /* borrowed: the --set argument that the value comes from, or NULL */
   int n, capacity;
@@ -27,6 +28,8 @@ struct Case_s {
   unsigned long long file_hash, set_hash;
   int nasked, asked_capacity;
   char **asked; /* [nasked] every key that was asked for: what a misspelt key is compared with */
+  int nslots;
+  int *slot; /* [nslots] hashed places in asked, -1: empty */
   int nkept, kept_capacity;
   char **kept; /* [nkept] strings handed out by CaseFile */
   void (*fail)(void *context, const char *message);
@@ -40,6 +43,8 @@ void CaseTreeDestroy(CaseNode **node);
 CaseNode *CaseTreeChild(const CaseNode *map, const char *name);
 /* The node at a dotted path, or NULL. */
 CaseNode *CaseTreeFind(CaseNode *root, const char *key);
+/* Says to all nodes above the key that something below them was asked for. */
+void CaseTreeMark(CaseNode *root, const char *key);
 /* The deepest node on the way to key that exists: root at the least. */
 const CaseNode *CaseTreeNearest(const CaseNode *root, const char *key);
 /* Applies one `key=value`; false with a problem when it cannot be. */

@@ -180,22 +180,38 @@ static PathStep PathNext(const char **path, char name[CASE_NAME], int *item)
   return STEP_NAME;
 }
 
+/* One step down: STEP_END leaves the node. */
+static PathStep Descend(const CaseNode **node, const char **key)
+{
+  char name[CASE_NAME];
+  int item = 0;
+  const PathStep step = PathNext(key, name, &item);
+  if (step == STEP_NAME)
+    *node = CaseTreeChild(*node, name);
+  else if (step == STEP_ITEM && (*node)->kind == NODE_LIST && item < (*node)->n)
+    *node = (*node)->child[item];
+  else if (step != STEP_END)
+    *node = NULL;
+  return step;
+}
+
 static CaseNode *Walk(const CaseNode *root, const char *key, const CaseNode **nearest)
 {
   const CaseNode *node = root;
-  for (;;) {
-    char name[CASE_NAME];
-    int item = 0;
-    const PathStep step = PathNext(&key, name, &item);
+  for (*nearest = root; node;) {
     *nearest = node;
-    if (step == STEP_END) return (CaseNode *)node;
-    if (step == STEP_NAME)
-      node = CaseTreeChild(node, name);
-    else if (step == STEP_ITEM && node->kind == NODE_LIST && item < node->n)
-      node = node->child[item];
-    else
-      node = NULL;
-    if (!node) return NULL;
+    if (Descend(&node, &key) == STEP_END) break;
+  }
+  return (CaseNode *)node;
+}
+
+void CaseTreeMark(CaseNode *root, const char *key)
+{
+  const CaseNode *node = root;
+  while (node) {
+    CaseNode *above = (CaseNode *)node;
+    if (Descend(&node, &key) == STEP_END) break;
+    above->below = true;
   }
 }
 
