@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Runs the elastic membrane's rows and variants, and writes their tables.
 
     cases/elastic_membrane/validate.py [--jobs N] [--only PATTERN ...] [--table] [--readme] [--check]
