@@ -1,17 +1,16 @@
 #!/usr/bin/python3
 """Runs the breaking block on several ranks, meshes and steps, and writes its tables.
 
-    cases/breaking_block/validate.py [--only PATTERN ...] [--table] [--readme] [--check]
+    cases/breaking_block/validate.py [--jobs N] [--only PATTERN ...] [--table] [--readme] [--check]
 
 A run is skipped when it has ended before (out/validation/breaking_block/<name>; delete the folder to run it again).  --only takes
 names with wildcards.  --table only prints the tables of what has been run, --readme also puts them into README.md, --check exits
 with 1 when a number is out of its bounds.
 """
-import argparse
-import fnmatch
 import json
 import pathlib
 import subprocess
+import sys
 
 import h5py
 import numpy as np
@@ -19,8 +18,10 @@ import numpy as np
 from budget import Budget, read_series
 
 HERE = pathlib.Path(__file__).resolve().parent
-ROOT = HERE.parent.parent
-OUT = ROOT / "out" / "validation" / "breaking_block"
+sys.path.insert(0, str(HERE.parent.parent / "scripts"))
+import validation
+
+OUT = validation.OUT / "breaking_block"
 TOUGHNESS, TENSILE, SHEAR, YOUNG = 12.8, 8.0e4, 1.6e5, 5.0e7  # J/m2 and Pa, of case.yaml
 STREAM, RELEASE, END = 0.55, 0.7, 0.95  # s: the stream is nearly there; the projectile is free; the block is in pieces
 # name: (keys, ranks, size of the block's triangles, m); all but the first end at END
@@ -108,15 +109,15 @@ def run(name):
                    check=True, stdout=subprocess.DEVNULL)
     if name != "base":
         keys = ["time.end=%g" % END, "output.every=0.05"] + keys
-    command = [ROOT / "scripts" / "launch.sh", "--ranks", ranks, HERE / "case.yaml"]
-    for key in ["case=%s" % name, "output.folder=%s" % folder, "solid.bodies[0].mesh=%s" % (folder / "block.msh")] + keys:
-        command += ["--set", key]
-    print("begun", name, flush=True)
-    with open(folder / "log.txt", "w") as log:
-        failed = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT).returncode
+    keys = ["case=%s" % name, "solid.bodies[0].mesh=%s" % (folder / "block.msh"), *keys]
+    failed = validation.launch(HERE, folder, keys, ranks)
     errors = [line for line in open(folder / "log.txt") if ": error: " in line]
     (folder / "message.txt").write_text((errors[0].split(": error: ")[1] if errors else "failed") if failed else "")
     print("done" if not failed else "stopped", name, flush=True)
+
+
+def results(names):
+    return {name: Result(name) for name in names if (OUT / name / "message.txt").exists()}
 
 
 def runs_table(there):
@@ -183,44 +184,5 @@ def claims(there):
             yield name + ": the projectile's loss as in base", abs(there[name].lost / base.lost - 1.0), 0.1
 
 
-def check(there):
-    good = True
-    for what, measured, bound in claims(there):
-        good &= bool(measured <= bound)
-        print("%-60s %8.2g  bound %.2g%s" % (what, measured, bound, "" if measured <= bound else "  FAILED"))
-    return good
-
-
-def put_into_readme(mark, lines):
-    path = HERE / "README.md"
-    begin, end = "<!-- %s -->\n" % mark, "<!-- end of %s -->\n" % mark
-    head, rest = path.read_text().split(begin)
-    path.write_text(head + begin + "\n".join(lines) + "\n" + end + rest.split(end)[1])
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--only", nargs="*", default=["*"], metavar="PATTERN")
-    parser.add_argument("--table", action="store_true")
-    parser.add_argument("--readme", action="store_true")
-    parser.add_argument("--check", action="store_true")
-    arguments = parser.parse_args()
-    if not arguments.table:
-        subprocess.run([ROOT / "scripts" / "setup.sh"], check=True)
-        subprocess.run(["cmake", "--preset", "release"], check=True, cwd=ROOT, stdout=subprocess.DEVNULL)
-        subprocess.run(["cmake", "--build", "--preset", "release", "--target", "coracle-fluid", "coracle-coupler", "coracle-solid"],
-                       check=True, cwd=ROOT, stdout=subprocess.DEVNULL)
-        for name in RUNS:
-            if any(fnmatch.fnmatch(name, p) for p in arguments.only):
-                run(name)
-    there = {name: Result(name) for name in RUNS if (OUT / name / "message.txt").exists()}
-    for mark, lines in (("runs", list(runs_table(there))), ("ranks", list(ranks_table(there)))):
-        print("\n".join(lines) + "\n")
-        if arguments.readme:
-            put_into_readme(mark, lines)
-    if arguments.check and not check(there):
-        raise SystemExit(1)
-
-
 if __name__ == "__main__":
-    main()
+    validation.main(__doc__, HERE, RUNS, run, results, {"runs": runs_table, "ranks": ranks_table}, claims)

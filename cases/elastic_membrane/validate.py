@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Runs the elastic membrane's rows and variants, and writes their tables.
 
     cases/elastic_membrane/validate.py [--jobs N] [--only PATTERN ...] [--table] [--readme] [--check]
@@ -7,20 +7,18 @@ A run is skipped when its summary.json is there (out/validation/elastic_membrane
 takes names with wildcards.  --table only prints the tables of what has been run, --readme also puts them into README.md, --check
 exits with 1 when a number is out of its bounds.  Needs numpy and h5py.
 """
-import argparse
-import concurrent.futures
-import fnmatch
+import functools
 import json
 import pathlib
-import subprocess
 
 import numpy as np
 
-import membrane
+import membrane  # puts scripts/ on the path
+import validation
 
 HERE = pathlib.Path(__file__).resolve().parent
-ROOT = HERE.parent.parent
-OUT = ROOT / "out" / "validation" / "elastic_membrane"
+OUT = validation.OUT / "elastic_membrane"
+percent = functools.partial(validation.percent, digits=2)
 # A massless line T = T0 (stretch - 1), T0 = 10 N/m: as dense as the fluid, law linear in the stretch, E h = T0.
 LINE = ["solid.materials.membrane={law: corotated, density: 1, youngs_modulus: 2000, poisson_ratio: 0, damping: 0.2}",
         "time.dt_max=0.0004"]
@@ -50,18 +48,7 @@ ROWS = ("y1", "y2", "y3")
 
 
 def run(name):
-    folder = OUT / name
-    if (folder / "summary.json").exists():
-        return
-    keys, ranks = RUNS[name]
-    command = [str(ROOT / "scripts" / "launch.sh"), "--ranks", ranks, str(HERE / "case.yaml"), "--set", "output.folder=%s" % folder]
-    for key in keys:
-        command += ["--set", key]
-    folder.mkdir(parents=True, exist_ok=True)
-    print("begun", name, flush=True)
-    with open(folder / "log.txt", "w") as log:
-        failed = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT).returncode
-    print("%s %s%s" % ("FAILED" if failed else "done", name, ": see %s/log.txt" % folder if failed else ""), flush=True)
+    validation.run(HERE, OUT / name, *RUNS[name])
 
 
 class Result:
@@ -82,12 +69,8 @@ class Result:
         return max(abs(self.shape["area"] / self.shape["area"][0] - 1.0))
 
 
-def results():
-    return {name: Result(name) for name in RUNS if (OUT / name / "summary.json").exists()}
-
-
-def percent(measured, reference):
-    return "%+.2f %%" % (100.0 * (measured / reference - 1.0))
+def results(names):
+    return {name: Result(name) for name in names if (OUT / name / "summary.json").exists()}
 
 
 def rows_table(there):
@@ -167,44 +150,6 @@ def claims(there):
             yield name + ": rx as on 1", abs(there[name].shape["rx"][-1] / there["ranks-1"].shape["rx"][-1] - 1.0), 0.002
 
 
-def check(there):
-    good = True
-    for what, measured, bound in claims(there):
-        good &= bool(measured <= bound)
-        print("%-45s %8.2g  bound %g%s" % (what, measured, bound, "" if measured <= bound else "  FAILED"))
-    return good
-
-
-def put_into_readme(mark, lines):
-    path = HERE / "README.md"
-    begin, end = "<!-- %s -->\n" % mark, "<!-- end of %s -->\n" % mark
-    head, rest = path.read_text().split(begin)
-    path.write_text(head + begin + "\n".join(lines) + "\n" + end + rest.split(end)[1])
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--jobs", type=int, default=1, help="runs at a time")
-    parser.add_argument("--only", nargs="*", default=["*"], metavar="PATTERN")
-    parser.add_argument("--table", action="store_true")
-    parser.add_argument("--readme", action="store_true")
-    parser.add_argument("--check", action="store_true")
-    arguments = parser.parse_args()
-    if not arguments.table:
-        subprocess.run([str(ROOT / "scripts" / "setup.sh")], check=True)
-        subprocess.run(["cmake", "--preset", "release"], check=True, cwd=ROOT, stdout=subprocess.DEVNULL)
-        subprocess.run(["cmake", "--build", "--preset", "release"], check=True, cwd=ROOT, stdout=subprocess.DEVNULL)
-        with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-            list(pool.map(run, [n for n in RUNS if any(fnmatch.fnmatch(n, p) for p in arguments.only)]))
-    there = results()
-    for mark, lines in (("rows", rows_table(there)), ("line", line_table(there)), ("profiles", profiles_table(there))):
-        lines = list(lines)
-        print("\n".join(lines) + "\n")
-        if arguments.readme:
-            put_into_readme(mark, lines)
-    if arguments.check and not check(there):
-        raise SystemExit(1)
-
-
 if __name__ == "__main__":
-    main()
+    tables = {"rows": rows_table, "line": line_table, "profiles": profiles_table}
+    validation.main(__doc__, HERE, RUNS, run, results, tables, claims)

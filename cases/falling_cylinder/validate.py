@@ -7,19 +7,20 @@ A run is skipped when its summary.json is there (out/validation/<name>; delete t
 again when it is not: stop and go on as you like.  --only takes names with wildcards.  --table only prints the tables of
 what has been run, --readme also puts them into README.md, --check exits with 1 when a number is out of its bounds.
 """
-import argparse
-import concurrent.futures
 import csv
-import fnmatch
 import json
 import pathlib
-import subprocess
+import sys
 
 import rows
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-OUT = ROOT / "out" / "validation"
+sys.path.insert(0, str(ROOT / "scripts"))
+import validation
+from validation import percent
+
+OUT = validation.OUT
 TABLES = rows.tables()
 COARSE = ["fluid.adapt.size_min=0.02", "solid.bodies[0].size=0.03"]
 # What else is run, all at Re 20 (row Yc20-020 but for the keys given): name: (keys, ranks)
@@ -105,23 +106,8 @@ def results(names):
 
 
 def run(name):
-    folder = OUT / name
-    if (folder / "summary.json").exists():
-        return
     keys, ranks = CHECKS[name] if name in CHECKS else (TABLES[name].settings(), "1:1:1")
-    command = [str(ROOT / "scripts" / "launch.sh"), "--ranks", ranks, str(HERE / "case.yaml"),
-               "--set", "output.folder=%s" % folder]
-    for key in keys:
-        command += ["--set", key]
-    folder.mkdir(parents=True, exist_ok=True)
-    print("begun", name, flush=True)
-    with open(folder / "log.txt", "w") as log:
-        failed = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT).returncode
-    print("%s %s%s" % ("FAILED" if failed else "done", name, ": see %s/log.txt" % folder if failed else ""), flush=True)
-
-
-def percent(measured, reference):
-    return "%+.1f %%" % (100.0 * (measured / reference - 1.0))
+    validation.run(HERE, OUT / name, keys, ranks)
 
 
 def rows_table(there):
@@ -129,6 +115,8 @@ def rows_table(there):
           "| Clift at its own Re | error | triangles | steps | CPU s | wall s |"
     yield "|" + "---|" * 21
     for name, r in there.items():
+        if name not in TABLES:
+            continue
         row = TABLES[name]
         re = row.reynolds(r.speed)
         sf, own = row.correlation(re), row.correlation()
@@ -147,6 +135,8 @@ def checks_table(there):
     yield "| run | U at the end | " + " | ".join("U(%g)" % t for t in times) + " | imbalance | triangles | steps | adaptation | set-up | largest part | CPU s |"
     yield "|" + "---|" * (9 + len(times))
     for name, r in there.items():
+        if name not in CHECKS:
+            continue
         cells = [name, "%.4f" % r.summary["terminal_velocity"]]
         for t in times:
             u = interpolate(r.curve, t)
@@ -196,46 +186,5 @@ def claims(there):
             yield name + ": momentum imbalance", r.summary["largest_momentum_imbalance"], 1e-10
 
 
-def check(there):
-    good = True
-    for what, measured, bound in claims(there):
-        good &= measured <= bound
-        print("%-45s %8.2g  bound %g%s" % (what, measured, bound, "" if measured <= bound else "  FAILED"))
-    return good
-
-
-def put_into_readme(mark, lines):
-    path = HERE / "README.md"
-    begin, end = "<!-- %s -->\n" % mark, "<!-- end of %s -->\n" % mark
-    text = path.read_text()
-    head, rest = text.split(begin)
-    path.write_text(head + begin + "\n".join(lines) + "\n" + end + rest.split(end)[1])
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--jobs", type=int, default=1, help="runs at a time")
-    parser.add_argument("--only", nargs="*", default=["*"], metavar="PATTERN")
-    parser.add_argument("--table", action="store_true")
-    parser.add_argument("--readme", action="store_true")
-    parser.add_argument("--check", action="store_true")
-    arguments = parser.parse_args()
-    names = list(dict.fromkeys(n for p in arguments.only for n in [*TABLES, *CHECKS] if fnmatch.fnmatch(n, p)))
-    if not arguments.table:
-        subprocess.run([str(ROOT / "scripts" / "setup.sh")], check=True)
-        subprocess.run(["cmake", "--preset", "release"], check=True, cwd=ROOT, stdout=subprocess.DEVNULL)
-        subprocess.run(["cmake", "--build", "--preset", "release"], check=True, cwd=ROOT, stdout=subprocess.DEVNULL)
-        with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-            list(pool.map(run, names))
-    of_tables, of_checks = results(TABLES), results(CHECKS)
-    for mark, lines in (("rows", rows_table(of_tables)), ("checks", checks_table(of_checks))):
-        lines = list(lines)
-        print("\n".join(lines) + "\n")
-        if arguments.readme:
-            put_into_readme(mark, lines)
-    if arguments.check and not check({**of_tables, **of_checks}):
-        raise SystemExit(1)
-
-
 if __name__ == "__main__":
-    main()
+    validation.main(__doc__, HERE, [*TABLES, *CHECKS], run, results, {"rows": rows_table, "checks": checks_table}, claims)
