@@ -13,7 +13,6 @@
 /* Waves are resolved up to w dt, w the bound on the fastest vibration that substeps obey: 1.5 to 2.5 times
  * the real one. */
 #define RESOLVED 12.0
-#define RESOLVED_WHOLLY 2.0 /* a share that says so */
 
 /* Sums over a piece: mass, m x; m v, m x cross v, m |x|^2, v the velocity now; and the same two of the mean
  * velocity.  Then of the mean's deformation d: m |d|^2, and int 2 mu e:e + lambda (tr e)^2 of its strain rate
@@ -131,8 +130,8 @@ static PetscErrorCode Shares(const Solid s, int n, const int piece[], double sha
   PetscFunctionReturn(0);
 }
 
-/* share[b] = RESOLVED_WHOLLY for pieces whose waves a step of dt resolves. */
-static PetscErrorCode MarkResolved(const Solid s, int n, const int piece[], double share[])
+/* resolved[b]: a step of dt resolves the waves in piece b. */
+static PetscErrorCode FindResolved(const Solid s, int n, const int piece[], PetscBool resolved[])
 {
   double *fastest; /* w^2 */
   PetscFunctionBeginUser;
@@ -142,8 +141,7 @@ static PetscErrorCode MarkResolved(const Solid s, int n, const int piece[], doub
     fastest[b] = fmax(fastest[b], SolidElementRates(s, k).stiffness);
   }
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, fastest, n, MPI_DOUBLE, MPI_MAX, s->comm));
-  for (int b = 0; b < n; b++)
-    if (sqrt(fastest[b]) * s->dt < RESOLVED) share[b] = RESOLVED_WHOLLY;
+  for (int b = 0; b < n; b++) resolved[b] = (PetscBool)(sqrt(fastest[b]) * s->dt < RESOLVED);
   PetscCall(PetscFree(fastest));
   PetscFunctionReturn(0);
 }
@@ -174,25 +172,26 @@ PetscErrorCode SolidSee(Solid s, SolidSeen *seen)
 {
   const double *force;
   RigidMotion *motion;
+  PetscBool *resolved;
   double *share;
   const int *piece;
   int n;
   PetscFunctionBeginUser;
   PetscCall(SolidPieces(s, &n, &piece));
-  PetscCall(PetscMalloc2((size_t)n, &motion, (size_t)n, &share));
+  PetscCall(PetscMalloc3((size_t)n, &motion, (size_t)n, &share, (size_t)n, &resolved));
   PetscCall(RigidMotions(s, n, piece, motion));
   Deformation(s, piece, motion);
   PetscCall(Shares(s, n, piece, share));
-  PetscCall(MarkResolved(s, n, piece, share));
+  PetscCall(FindResolved(s, n, piece, resolved));
   PetscCall(SolidForces(s, &force));
   for (int i = 0; i < s->nnodes; i++) {
     const int b = piece[i];
-    if (share[b] == RESOLVED_WHOLLY)
+    if (resolved[b])
       SeeWholly(s, i, force + 2 * i);
     else
       SeeRigid(s, i, motion + b, share[b]);
   }
-  PetscCall(PetscFree2(motion, share));
+  PetscCall(PetscFree3(motion, share, resolved));
   *seen = (SolidSeen){s->seen, s->mobility, s->acceleration};
   PetscFunctionReturn(0);
 }
