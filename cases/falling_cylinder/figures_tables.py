@@ -4,7 +4,7 @@
     cases/falling_cylinder/figures_tables.py [--validation DIR] [--only FIGURE ...]
 
 Writes into DIR/figures (DIR: out/validation): figure4.png (errors of the terminal speed), figure5.png and figure6.png (fields of
-Y020-200 and Y040-200), figure7.png (Af20-200 beside Yf20-200), speed.png (U(t)), sway.png (u_x(t)).  Draws what is there and says
+Y020-200 and Y040-200), figure7.png (Af20-200 beside Yf20-200, or both at le 0.005 m), speed.png (U(t)), sway.png (u_x(t)).  Draws what is there and says
 what is missing: figure4 takes finished rows only, the others also rows still running.  Needs numpy, h5py and matplotlib.
 """
 import argparse
@@ -187,7 +187,7 @@ def figure6(folder):
 
 
 def figure7(folder):
-    names = ["Af20-200", "Yf20-200"]
+    names = ["Af20-200", "Yf20-200"] if snapshot_there(folder, "Af20-200") else ["Af20-200-le-0.005", "Y020-200"]
     there = [name for name in names if snapshot_there(folder, name)]
     tell_missing("figure7", names, there)
     figure, axes = side_by_side(2)
