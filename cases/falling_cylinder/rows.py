@@ -4,8 +4,8 @@ import math
 
 RADIUS, GRAVITY, RHO_F, START, END = 0.125, 9.81, 1000.0, 18.0, 3.0  # m, m/s2, kg/m3, m: where the disc starts, where a run ends
 # At Re 20 between closed sides half of the way is enough.  At 100 and 200 the wake is unstable and what makes it swing, and when, is noise; here it is
-# this lateral speed at the start, in terminal speeds, which drag takes away in half a second.  At Re 100 the swing grows slowly.
-KICK = {100: 0.3, 200: 0.03}
+# this lateral speed at the start, in terminal speeds, which drag takes away in half a second.  At Re 100, and with open sides, the swing grows slowly.
+KICK = {("closed", 100): 0.3, ("closed", 200): 0.03, ("open", 100): 0.3, ("open", 200): 0.3}
 NU = {(2, 20): 0.017173, (2, 100): 0.004401, (2, 200): 0.002278,  # m2/s, by density ratio and nominal Re
       (4, 20): 0.029673, (4, 100): 0.007621, (4, 200): 0.003946,
       (6, 20): 0.038404, (6, 100): 0.009852, (6, 200): 0.005096}
@@ -76,7 +76,7 @@ class Row:
         if self.mode == "penalty_shell":  # whose force shakes the disc apart if its vibrations are not damped
             keys += ["solid.materials.disc.damping=0.95"]
         if self.re > 20:
-            keys += ["solid.bodies[0].velocity=[%.3g, 0]" % (KICK[self.re] * speed)]
+            keys += ["solid.bodies[0].velocity=[%.3g, 0]" % (KICK[(self.sides, self.re)] * speed)]
         if self.sides == "open":
             keys += ["fluid.boundaries.left=open", "fluid.boundaries.right=open"]
         return keys
