@@ -130,8 +130,9 @@ static PetscErrorCode Shares(const Solid s, int n, const int piece[], double sha
   PetscFunctionReturn(0);
 }
 
-/* resolved[b]: a step of dt resolves the waves in piece b. */
-static PetscErrorCode FindResolved(const Solid s, int n, const int piece[], PetscBool resolved[])
+/* resolved[b]: a step of dt resolves the waves in piece b; *any of them, on all ranks. */
+static PetscErrorCode FindResolved(const Solid s, int n, const int piece[], PetscBool resolved[],
+                                   PetscBool *any)
 {
   double *fastest; /* w^2 */
   PetscFunctionBeginUser;
@@ -141,7 +142,11 @@ static PetscErrorCode FindResolved(const Solid s, int n, const int piece[], Pets
     fastest[b] = fmax(fastest[b], SolidElementRates(s, k).stiffness);
   }
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, fastest, n, MPI_DOUBLE, MPI_MAX, s->comm));
-  for (int b = 0; b < n; b++) resolved[b] = (PetscBool)(sqrt(fastest[b]) * s->dt < RESOLVED);
+  *any = PETSC_FALSE;
+  for (int b = 0; b < n; b++) {
+    resolved[b] = (PetscBool)(sqrt(fastest[b]) * s->dt < RESOLVED);
+    if (resolved[b]) *any = PETSC_TRUE;
+  }
   PetscCall(PetscFree(fastest));
   PetscFunctionReturn(0);
 }
@@ -170,9 +175,9 @@ static void SeeRigid(Solid s, int i, const RigidMotion *r, double share)
 
 PetscErrorCode SolidSee(Solid s, SolidSeen *seen)
 {
-  const double *force;
+  const double *force = NULL;
   RigidMotion *motion;
-  PetscBool *resolved;
+  PetscBool *resolved, any;
   double *share;
   const int *piece;
   int n;
@@ -182,8 +187,8 @@ PetscErrorCode SolidSee(Solid s, SolidSeen *seen)
   PetscCall(RigidMotions(s, n, piece, motion));
   Deformation(s, piece, motion);
   PetscCall(Shares(s, n, piece, share));
-  PetscCall(FindResolved(s, n, piece, resolved));
-  PetscCall(SolidForces(s, &force));
+  PetscCall(FindResolved(s, n, piece, resolved, &any));
+  if (any) PetscCall(SolidForces(s, &force));
   for (int i = 0; i < s->nnodes; i++) {
     const int b = piece[i];
     if (resolved[b])

@@ -136,10 +136,12 @@ int CoracleProposeStep(CoracleClient c, double dt);
 /* What the solid does to one fluid element K (S the solid; i, j vertices; c, d components; in 2D per metre):
  *   a[c][i][d][j]  = int_K a_cd N_i N_j          implicit coefficient, shell and volume together, kg/s
  *   s[c][i]        = int_K (a u_s)_c N_i         explicit part of s_c, N
- *   give[c][i][d][j]             of a, what gives way as the pressure moves the fluid: u+ = u* - dt W^-1 grad
- * phi, W = rho M/dt + give ms[i][j]       = int_{K and S} b N_i N_j     sub-cell solid mass, m2; b = 1, less
- * where nodes give way us[c][i]       = int_{K and S} b N_i (u_s)_c m3/s alpha          = |K and S| / |K|
- * solid volume fraction shell          = |K and shell| / |K|         volume fraction of the covered shell */
+ *   give           = of a, what gives way as the pressure moves the fluid: u+ = u* - dt W^-1 M grad phi,
+ *                    W = rho M/dt + give
+ *   ms[i][j]       = int_{K and S} b N_i N_j     sub-cell solid mass, m2; b = 1, less where nodes give way
+ *   us[c][i]       = int_{K and S} b N_i (u_s)_c m3/s
+ *   alpha          = |K and S| / |K|             solid volume fraction
+ *   shell          = |K and shell| / |K|         volume fraction of the covered shell */
 typedef struct {
   int element; /* index into the elements last given by region */
   double a[2][3][2][3], give[2][3][2][3], s[2][3], ms[3][3], us[2][3], alpha, shell;

@@ -4,13 +4,24 @@
 #include "solid_impl.h"
 #include <stdlib.h>
 
+/* This rank's nodes by gid.  Not collective. */
+typedef struct {
+  long long gid;
+  int node;
+} NodeName;
+
+typedef struct {
+  Solid s;        /* borrowed */
+  NodeName *name; /* [nnodes] */
+} NodeNames;
+
 static int CompareNames(const void *a, const void *b)
 {
   const NodeName *p = a, *q = b;
   return (p->gid > q->gid) - (p->gid < q->gid);
 }
 
-PetscErrorCode NodeNamesCreate(Solid s, NodeNames *names)
+static PetscErrorCode NodeNamesCreate(Solid s, NodeNames *names)
 {
   PetscFunctionBeginUser;
   names->s = s;
@@ -20,7 +31,8 @@ PetscErrorCode NodeNamesCreate(Solid s, NodeNames *names)
   PetscFunctionReturn(0);
 }
 
-int NodeNamesFind(const NodeNames *names, long long gid)
+/* -1: not here */
+static int NodeNamesFind(const NodeNames *names, long long gid)
 {
   const NodeName wanted = {gid, -1};
   const NodeName *found =
@@ -28,7 +40,7 @@ int NodeNamesFind(const NodeNames *names, long long gid)
   return found ? found->node : -1;
 }
 
-PetscErrorCode NodeNamesDestroy(NodeNames *names)
+static PetscErrorCode NodeNamesDestroy(NodeNames *names)
 {
   PetscFunctionBeginUser;
   PetscCall(PetscFree(names->name));
@@ -37,7 +49,7 @@ PetscErrorCode NodeNamesDestroy(NodeNames *names)
 
 /* The rank of the corner that has given the node its gid: an element's own, or the lowest at a node of the
  * start. */
-PetscErrorCode NodeOwners(Solid s, int n, const long long gid[], int of[])
+static PetscErrorCode NodeOwners(Solid s, int n, const long long gid[], int of[])
 {
   const Assembly *a = s->assembly;
   int *lowest;
@@ -50,14 +62,38 @@ PetscErrorCode NodeOwners(Solid s, int n, const long long gid[], int of[])
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Answer(void *context, long long gid, void *record)
+typedef struct {
+  NodeNames names;
+  NodeAnswer answer;
+} Question;
+
+static PetscErrorCode AnswerByName(void *context, long long gid, void *record)
 {
-  const NodeNames *names = context;
-  const Solid s = names->s;
-  const int n = NodeNamesFind(names, gid);
-  NodeMotion *m = record;
+  const Question *q = context;
+  const int n = NodeNamesFind(&q->names, gid);
   PetscFunctionBeginUser;
   PetscCheck(n >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "node %lld is not here", gid);
+  q->answer(q->names.s, n, record);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode NodesAsk(Solid s, int n, const long long gid[], size_t bytes, NodeAnswer answer, void *record)
+{
+  Question q = {.answer = answer};
+  int *of;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1((size_t)n, &of));
+  PetscCall(NodeOwners(s, n, gid, of));
+  PetscCall(NodeNamesCreate(s, &q.names));
+  PetscCall(DealAsk(s->comm, n, of, gid, bytes, AnswerByName, &q, record));
+  PetscCall(NodeNamesDestroy(&q.names));
+  PetscCall(PetscFree(of));
+  PetscFunctionReturn(0);
+}
+
+static void AnswerMotion(const Solid s, int n, void *record)
+{
+  NodeMotion *m = record;
   m->mobility = s->mobility[n];
   for (int c = 0; c < 2; c++) {
     m->x[c] = s->x[2 * n + c];
@@ -65,20 +101,12 @@ static PetscErrorCode Answer(void *context, long long gid, void *record)
     m->acceleration[c] = s->acceleration[2 * n + c];
     m->mean[c] = (s->x[2 * n + c] - s->start[2 * n + c]) / s->dt;
   }
-  PetscFunctionReturn(0);
 }
 
 PetscErrorCode AbroadMotion(Solid s, int n, const long long gid[], NodeMotion motion[])
 {
-  NodeNames names;
-  int *of;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1((size_t)n, &of));
-  PetscCall(NodeOwners(s, n, gid, of));
-  PetscCall(NodeNamesCreate(s, &names));
-  PetscCall(DealAsk(s->comm, n, of, gid, sizeof *motion, Answer, &names, motion));
-  PetscCall(NodeNamesDestroy(&names));
-  PetscCall(PetscFree(of));
+  PetscCall(NodesAsk(s, n, gid, sizeof *motion, AnswerMotion, motion));
   PetscFunctionReturn(0);
 }
 

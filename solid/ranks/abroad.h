@@ -14,20 +14,8 @@ PetscErrorCode AbroadMotion(Solid s, int n, const long long gid[], NodeMotion mo
 /* Collective: forces load[n][2] on nodes gid[n], this rank's part, to home[nnodes][2] for SolidStart. */
 PetscErrorCode AbroadLoad(Solid s, int n, const long long gid[], const double load[], double home[]);
 
-/* This rank's nodes by gid.  Not collective. */
-typedef struct {
-  long long gid;
-  int node;
-} NodeName;
-
-typedef struct {
-  Solid s;        /* borrowed */
-  NodeName *name; /* [nnodes] */
-} NodeNames;
-
-PetscErrorCode NodeNamesCreate(Solid s, NodeNames *names);
-int NodeNamesFind(const NodeNames *names, long long gid); /* -1: not here */
-PetscErrorCode NodeNamesDestroy(NodeNames *names);
-/* of[n]: a rank that has the node.  Not collective. */
-PetscErrorCode NodeOwners(Solid s, int n, const long long gid[], int of[]);
+/* Fills the record of this rank's node. */
+typedef void (*NodeAnswer)(const Solid s, int node, void *record);
+/* Collective: record[n], `bytes` long each, is what a rank that has node gid[k] for certain answers. */
+PetscErrorCode NodesAsk(Solid s, int n, const long long gid[], size_t bytes, NodeAnswer answer, void *record);
 #endif

@@ -51,33 +51,23 @@ typedef struct {
   double x[2], v[2], start[2], load[2];
 } NodeState;
 
-static PetscErrorCode AnswerNode(void *context, long long gid, void *record)
+static void AnswerNode(const Solid s, int n, void *record)
 {
-  const NodeNames *names = context;
-  const Solid s = names->s;
-  const int n = NodeNamesFind(names, gid);
   NodeState *to = record;
-  PetscFunctionBeginUser;
-  PetscCheck(n >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "node %lld is not here", gid);
   for (int c = 0; c < 2; c++) {
     to->x[c] = s->x[2 * n + c];
     to->v[c] = s->v[2 * n + c];
     to->start[c] = s->start[2 * n + c];
     to->load[c] = s->load[2 * n + c];
   }
-  PetscFunctionReturn(0);
 }
 
 static PetscErrorCode TakeNodes(Solid s, Solid fresh)
 {
-  NodeNames names;
   NodeState *state;
-  int *of;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2((size_t)fresh->nnodes, &of, (size_t)fresh->nnodes, &state));
-  PetscCall(NodeNamesCreate(s, &names));
-  PetscCall(NodeOwners(s, fresh->nnodes, fresh->gid, of));
-  PetscCall(DealAsk(s->comm, fresh->nnodes, of, fresh->gid, sizeof *state, AnswerNode, &names, state));
+  PetscCall(PetscMalloc1((size_t)fresh->nnodes, &state));
+  PetscCall(NodesAsk(s, fresh->nnodes, fresh->gid, sizeof *state, AnswerNode, state));
   for (int k = 0; k < 2 * fresh->nnodes; k++) {
     const NodeState *from = &state[k / 2];
     fresh->x[k] = from->x[k % 2];
@@ -85,8 +75,7 @@ static PetscErrorCode TakeNodes(Solid s, Solid fresh)
     fresh->start[k] = from->start[k % 2];
     fresh->load[k] = from->load[k % 2];
   }
-  PetscCall(NodeNamesDestroy(&names));
-  PetscCall(PetscFree2(of, state));
+  PetscCall(PetscFree(state));
   PetscFunctionReturn(0);
 }
 

@@ -50,7 +50,8 @@ static void SolveElement(const CoracleCoupling *k, double area, double u[2][3])
   }
 }
 
-/* One step without pressure but for kick, which u+ has beyond u*; largest |v - u| over the nodes inside. */
+/* One step without pressure but for kick, which u+ has beyond u*.  v: the centre's velocity after it; returns how far
+ * that is from free fall, of what free fall has added. */
 static double Step(double kick, ForceTotals *totals, double v[2])
 {
   const CouplerOptions options = {COUPLER_REACTION, 0.002, 10.0, {0.0, 0.0}, 0.0};
