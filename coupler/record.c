@@ -28,8 +28,8 @@ PetscErrorCode RecordCreate(MPI_Comm comm, const CouplerCase *c, Record *record)
   r->down[1] = size > 0.0 ? g[1] / size : -1.0;
   PetscCallMPI(MPI_Comm_rank(comm, &r->rank));
   if (!r->rank && c->note[0]) printf("coracle: %s: %s\n", c->name, c->note);
-  PetscCall(OutputCreate(comm, c->folder, "coupler", &r->output));
-  PetscCall(SeriesCreate(comm, c->folder, "coupler", COLUMNS, &r->series));
+  PetscCall(OutputCreate(comm, c->folder, "coupler", NULL, &r->output));
+  PetscCall(SeriesCreate(comm, c->folder, "coupler", COLUMNS, NULL, &r->series));
   *record = r;
   PetscFunctionReturn(0);
 }

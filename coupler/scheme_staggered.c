@@ -26,14 +26,14 @@ static PetscErrorCode FailTogether(Server server, const char *message)
   PetscFunctionReturn(0);
 }
 
-/* The solid's mesh or motion.  The paper's modes hand the fluid the solid's mean velocity over the step; the
- * reaction needs the velocity at its end: with the mean, half a step late, its inertia term is unstable below
- * rho_s/rho_f of about 1. */
+/* The solid's mesh or motion.  The paper's mode hands the fluid the solid's mean velocity over the step.  A
+ * reaction needs the velocity at its end, without vibrations: with the mean, half a step late, its inertia term
+ * is unstable below rho_s/rho_f of about 1, and it drives the vibrations of a disc until that turns inside out. */
 static PetscErrorCode ReceiveSolid(March *m)
 {
   PetscFunctionBeginUser;
   PetscCall(ServerReceiveSolid(m->scheme->server, &m->solid));
-  if (m->scheme->c->options.mode != COUPLER_REACTION) m->solid.u = m->solid.mean;
+  if (m->scheme->c->options.mode == COUPLER_STRESS_SHELL) m->solid.u = m->solid.mean;
   PetscFunctionReturn(0);
 }
 

@@ -76,8 +76,8 @@ PetscErrorCode RecordCreate(Case c, Fluid f, Record *record)
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&r));
   r->every = CasePositive(c, "output.every");
-  PetscCall(OutputCreate(m->comm, folder, "fluid", &r->output));
-  PetscCall(SeriesCreate(m->comm, folder, "fluid", COLUMNS, &r->series));
+  PetscCall(OutputCreate(m->comm, folder, "fluid", NULL, &r->output));
+  PetscCall(SeriesCreate(m->comm, folder, "fluid", COLUMNS, NULL, &r->series));
   PetscCall(Snapshot(r, f));
   *record = r;
   PetscFunctionReturn(0);

@@ -29,7 +29,7 @@ static PetscErrorCode CreateSeries(Record r, const char *folder)
                  ",fracture [J/m],torn [J/m],broken joints,cracks [m],pieces,walls_x [N s/m],walls_y [N "
                  "s/m],held_x [N s/m],"
                  "held_y [N s/m],work [J/m],held work [J/m],substeps,dt_s [s],computing [s],waiting [s]");
-  PetscCall(SeriesCreate(r->comm, folder, "solid", columns, &r->series));
+  PetscCall(SeriesCreate(r->comm, folder, "solid", columns, NULL, &r->series));
   PetscFunctionReturn(0);
 }
 
@@ -130,7 +130,7 @@ PetscErrorCode RecordCreate(Case c, MPI_Comm comm, Solid solid, Record *record)
   r->nbodies = PetscMin(v.nbodies, MAX_BODIES);
   r->every = CasePositive(c, "output.every");
   r->start = MPI_Wtime();
-  PetscCall(OutputCreate(comm, folder, "solid", &r->output));
+  PetscCall(OutputCreate(comm, folder, "solid", NULL, &r->output));
   PetscCall(CreateSeries(r, folder));
   PetscCall(Snapshot(r, solid));
   *record = r;

@@ -73,8 +73,6 @@ class Row:
                 "solid.bodies[0].size=%g" % (1.5 * self.le),
                 "coupler.shell_thickness=%g" % self.dr, "coupler.mode=%s" % self.mode,
                 "time.end=%.3g" % ((START - END) / speed * (0.5 if self.re == 20 and self.sides == "closed" else 1.0))]
-        if self.mode == "penalty_shell":  # whose force shakes the disc apart if its vibrations are not damped
-            keys += ["solid.materials.disc.damping=0.95"]
         if self.re > 20:
             keys += ["solid.bodies[0].velocity=[%.3g, 0]" % (KICK[(self.sides, self.re)] * speed)]
         if self.sides == "open":

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const SECTIONS[] = {"case",  "note",    "gravity", "time", "fluid",
-                                       "solid", "coupler", "output",  NULL};
+static const char *const SECTIONS[] = {"case",  "note",    "gravity", "time",   "fluid",
+                                       "solid", "coupler", "output",  "resume", NULL};
 
 /* --- opening -------------------------------------------------------------------------------------------- */
 

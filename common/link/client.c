@@ -1,6 +1,7 @@
 #include "client_impl.h"
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 int CoracleOpen(const char *role, int argc, char **argv, MPI_Comm *app_comm, CoracleClient *client)
 {
@@ -53,6 +54,38 @@ void ClientTakeStep(CoracleClient c, const MessageHeader *h)
   if (c->action != CORACLE_STOP && !(isfinite(c->t) && isfinite(c->dt) && c->dt > 0.0))
     ParticipantFail(c->p, "the coupler wants a step from t = %g over dt = %g s", c->t, c->dt);
 }
+
+/* --- checkpoints ---------------------------------------------------------------------------------------- */
+
+void ClientTakeFolder(CoracleClient c, const MessageHeader *h)
+{
+  const size_t bytes = (size_t)h->count[2];
+  BufferResize(&c->save, bytes);
+  if (bytes) memcpy(c->save.data, MessageTake(c->p, &c->in, bytes), bytes);
+  c->asked_save = false;
+}
+
+const char *CoracleSaveFolder(CoracleClient c)
+{
+  ClientExpect(c, "CoracleSaveFolder", c->p->role, STAGE_STEP, STAGE_STEP);
+  if (c->action != CORACLE_RUN || !c->save.size) return NULL;
+  c->asked_save = true;
+  return c->save.data;
+}
+
+const char *CoracleResumeFolder(CoracleClient c)
+{
+  ClientExpect(c, "CoracleResumeFolder", c->p->role, STAGE_SETUP, STAGE_SETUP);
+  c->asked_resume = true;
+  return c->p->resume;
+}
+
+int ClientFlags(CoracleClient c)
+{
+  return (c->asked_save ? FLAG_SAVED : 0) | (c->asked_resume ? FLAG_RESUMES : 0);
+}
+
+/* --- the run -------------------------------------------------------------------------------------------- */
 
 int CoracleReady(CoracleClient c)
 {
@@ -116,6 +149,7 @@ int CoracleClose(CoracleClient *client)
   FluidFree(c);
   StateFree(c);
   BufferFree(&c->reports);
+  BufferFree(&c->save);
   free(c);
   *client = NULL;
   return 0;

@@ -58,6 +58,7 @@ static void AnswerElements(CoracleClient c, int nbox)
   MessageHeader *h = MessageStart(&c->out, KIND_ELEMENTS, c->p->step);
   h->count[0] = f->n;
   h->dt = f->proposed;
+  h->flag = ClientFlags(c);
   MessageAdd(&c->out, f->lower, sizeof f->lower);
   MessageAdd(&c->out, f->upper, sizeof f->upper);
   MessageAdd(&c->out, x, (size_t)f->n * NV * DIM * sizeof *x);
@@ -77,6 +78,7 @@ static void TakeCoupling(CoracleClient c, const MessageHeader *h)
   bytes = (size_t)h->count[1] * sizeof(CoracleCoupling);
   f->ncoupling = (int)h->count[1];
   memcpy(BufferResize(&f->coupling, bytes), MessageTake(c->p, &c->in, bytes), bytes);
+  ClientTakeFolder(c, h);
   ClientTakeStep(c, h);
 }
 
@@ -140,7 +142,7 @@ void FluidEnd(CoracleClient c)
 {
   MessageHeader *h = (MessageHeader *)(void *)c->out.buffer.data;
   if (!c->fluid.flow_set) ClientMisuse(c, "CoracleEnd", "CoracleSetFlow comes first, in every step");
-  h->flag = c->fluid.changed;
+  h->flag = ClientFlags(c) | (c->fluid.changed ? FLAG_CHANGED : 0);
   h->dt = c->fluid.proposed;
   c->fluid.flow_set = false;
   ClientSend(c);

@@ -32,6 +32,7 @@ typedef struct {
   bool has_given;
   Buffer inertia; /* double [3][n], of CoracleSetInertia: mobility, 1/kg; acceleration [n][2], m/s2 */
   bool has_inertia;
+  const double *force; /* [n][2] in the message, N */
 } ClientSolid;
 
 typedef struct {
@@ -55,6 +56,8 @@ struct CoracleClient_s {
   Participant *p;
   Message in, out; /* from and to this rank's home */
   Stage stage;
+  Buffer save; /* path of the checkpoint due in this step, or empty */
+  bool asked_save, asked_resume;
   double t, dt; /* of the step, s */
   CoracleAction action;
   ClientSolid solid;
@@ -71,6 +74,11 @@ _Noreturn void ClientMisuse(CoracleClient c, const char *function, const char *w
 void ClientSend(CoracleClient c);
 /* Takes t, dt and action of the coming step from the coupler; checks that they make sense. */
 void ClientTakeStep(CoracleClient c, const MessageHeader *h);
+
+/* Takes the folder of a checkpoint, the next block, if there is one. */
+void ClientTakeFolder(CoracleClient c, const MessageHeader *h);
+/* FLAG_SAVED and FLAG_RESUMES as they are now. */
+int ClientFlags(CoracleClient c);
 
 void StateSave(CoracleClient c);
 void StateRestore(CoracleClient c);

@@ -161,6 +161,7 @@ static void SendMotion(CoracleClient c, const double x[], const double fitted[],
   h->count[0] = m->n;
   h->count[1] = m->nfacets;
   h->count[2] = m->nelements;
+  h->flag = ClientFlags(c);
   if (s->changed) MessageAdd(&c->out, m->gid.data, m->gid.size);
   MessageAdd(&c->out, x, m->x.size);
   MessageAdd(&c->out, fitted, m->x.size);
@@ -209,12 +210,14 @@ void SolidBegin(CoracleClient c)
   if (h->count[0] != c->solid.mesh.n)
     ParticipantFail(c->p, "the coupler has sent forces on %lld nodes in step %d, this rank has %d",
                     (long long)h->count[0], step, c->solid.mesh.n);
+  c->solid.force = MessageTake(c->p, &c->in, DIM * (size_t)h->count[0] * sizeof(double));
+  ClientTakeFolder(c, h);
 }
 
 int CoracleGetForce(CoracleClient c, const double **force)
 {
   ClientExpect(c, "CoracleGetForce", ROLE_SOLID, STAGE_STEP, STAGE_STEP);
-  *force = (const double *)(const void *)(c->in.buffer.data + sizeof(MessageHeader));
+  *force = c->solid.force;
   return 0;
 }
 

@@ -123,6 +123,16 @@ int CoracleSetVelocity(CoracleClient c, const double u[]);
  * next step only. */
 int CoracleSetInertia(CoracleClient c, const double mobility[], const double acceleration[]);
 
+/* A checkpoint, from which another run can go on (keys output.checkpoint and resume of the case): the folder
+ * into which to save what the participant is at t, when one is due in the step that CoracleBegin has begun,
+ * else NULL.  Who asks has to have saved, on all ranks, by CoracleEnd, in files called after its role; while one
+ * participant never asks there are no checkpoints.  The same on all ranks; borrowed until CoracleEnd. */
+const char *CoracleSaveFolder(CoracleClient c);
+/* After CoracleOpen: the folder that an earlier run has given so, from which this one goes on, or NULL: from
+ * the start.  Who asks has to be, by CoracleReady, what it was then; the next CoracleBegin has that t.  The run
+ * is refused if one does not ask. */
+const char *CoracleResumeFolder(CoracleClient c);
+
 /* Fluid: the flow on the elements last given by region, for the n of them:
  *   u_star[n][dim][dim + 1]  velocity with the coupling solved, before the pressure correction, m/s
  *   u_plus[n][dim][dim + 1]  velocity after it

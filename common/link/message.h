@@ -6,11 +6,12 @@
  *     SURFACE    solid -> coupler   count = nodes, facets, elements: gid, x, velocities, inertia, facets, elements
  *                                   (Ready; End after a change)
  *     MOTION     solid -> coupler   count = nodes: x, velocities (fitted or given, mean), mobility, acceleration  (End)
- *     FORCE      solid <- coupler   count = nodes: force; action, t, dt                                     (Begin)
+ *     FORCE      solid <- coupler   count = nodes, -, bytes of path: force, where to save; action, t, dt    (Begin)
  *     ASK        fluid <- coupler   count = boxes: corners                                    (within Ready, End)
  *     ELEMENTS   fluid -> coupler   count = elements: vertices, density; bounds; dt = proposed      (answers ASK)
- *     COUPLING   fluid <- coupler   count = corrections, couplings; action, t, dt                (ends Ready, End)
- *     FLOW       fluid -> coupler   count = elements: u*, u+, p, mu; flag = mesh changed; dt = proposed       (End)
+ *     COUPLING   fluid <- coupler   count = corrections, couplings, bytes of path: .., where to save; action, t, dt
+ *                                                                                             (ends Ready, End)
+ *     FLOW       fluid -> coupler   count = elements: u*, u+, p, mu; flag; dt = proposed                      (End)
  *     CLOSE      both  -> coupler   count = reports                                                         (Close)
  *
  * Kind and step travel with every message: one that does not fit ends the job with both sides' names. */
@@ -31,6 +32,9 @@ typedef enum {
   KIND_CLOSE,
   KIND_END
 } MessageKind;
+
+/* flag: of FLOW; of FLOW, MOTION and SURFACE; of ELEMENTS and SURFACE. */
+enum { FLAG_CHANGED = 1, FLAG_SAVED = 2, FLAG_RESUMES = 4 };
 
 typedef struct {
   uint32_t magic;

@@ -136,6 +136,39 @@ static void MapRoles(Participant *p, const RollEntry *mine)
   MPI_Comm_dup(MPI_COMM_WORLD, &p->link);
 }
 
+static void Refuse(void *p, const char *message)
+{
+  ParticipantFail(p, "%s", message);
+}
+
+/* The folder that the case's `resume` means, or "". */
+static void FindResume(Participant *p, int argc, char **argv, size_t size, char folder[])
+{
+  Case c;
+  folder[0] = 0;
+  CaseOpen(argc, argv, Refuse, p, &c);
+  const char *resume = CaseStringOr(c, "resume", "");
+  const bool last = !strcmp(resume, "last");
+  if (last)
+    snprintf(folder, size, "%s/checkpoint", CaseString(c, "output.folder"));
+  else
+    snprintf(folder, size, "%s", resume);
+  if (folder[0] && access(folder, F_OK)) {
+    if (!last) CaseRefuse(c, "resume", "there is no checkpoint '%s'", folder);
+    folder[0] = 0;
+  }
+  CaseClose(&c);
+}
+
+/* Rank 0 looks for all. */
+static void Resume(Participant *p, int argc, char **argv)
+{
+  char folder[4096];
+  if (p->rank == 0) FindResume(p, argc, argv, sizeof folder, folder);
+  MPI_Bcast(folder, sizeof folder, MPI_CHAR, 0, p->app);
+  if (folder[0]) p->resume = strdup(folder);
+}
+
 int ParticipantOpen(const char *role, bool client, int argc, char **argv, Participant **participant)
 {
   Participant *p = calloc(1, sizeof *p);
@@ -155,6 +188,7 @@ int ParticipantOpen(const char *role, bool client, int argc, char **argv, Partic
   BoardOpen(role, p->rank, &p->board);
   LeavingWatch(p);
   if (share.pinned) MachineNotePinned(role, p->rank);
+  Resume(p, argc, argv);
   *participant = p;
   return 0;
 }
@@ -176,6 +210,7 @@ int ParticipantClose(Participant **participant)
   MPI_Comm_free(&p->app);
   for (int k = 0; k < NROLES; k++) free(p->world[k]);
   free(p->host);
+  free(p->resume);
   free(p);
   *participant = NULL;
   if (finalize) MPI_Finalize();

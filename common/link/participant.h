@@ -21,6 +21,7 @@ typedef struct {
   char (*host)[64];   /* [world size] */
   int step;           /* for messages */
   double start;       /* WaitClock when joining, s */
+  char *resume;       /* folder of the checkpoint that the run goes on from; NULL: none */
   bool started_mpi;
   Waiter waiter;
   Board board;

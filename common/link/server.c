@@ -54,6 +54,51 @@ void SideStep(Server s, Side *side, CoracleAction action)
   ParticipantStep(s->p, side->step);
 }
 
+/* --- checkpoints ---------------------------------------------------------------------------------------- */
+
+const char *ServerResumeFolder(Server s)
+{
+  return s->p->resume;
+}
+
+int ServerSave(Server s, const char *folder)
+{
+  const size_t bytes = strlen(folder) + 1;
+  memcpy(BufferResize(&s->save, bytes), folder, bytes);
+  for (int i = 0; i < s->fluid.n; i++) s->fluid.peer[i].saved = false;
+  for (int i = 0; i < s->solid.n; i++) s->solid.peer[i].saved = false;
+  return 0;
+}
+
+void SideAskSave(Server s, Peer *peer, CoracleAction action)
+{
+  const size_t bytes = action == CORACLE_RUN ? s->save.size : 0;
+  ((MessageHeader *)(void *)peer->out.buffer.data)->count[2] = (int64_t)bytes;
+  MessageAdd(&peer->out, s->save.data, bytes);
+}
+
+void SideFlags(Server s, Role role, Peer *peer, const MessageHeader *h)
+{
+  if (h->flag & FLAG_SAVED) peer->saved = true;
+  if (s->p->resume && h->step == 0 && !(h->flag & FLAG_RESUMES))
+    ServerFail(s, "the %s begins anew, the run goes on from %s: it cannot resume", ROLE_NAMES[role],
+               s->p->resume);
+}
+
+const char *ServerUnsaved(Server s)
+{
+  int missing[NROLES] = {0};
+  for (int i = 0; i < s->fluid.n; i++) missing[ROLE_FLUID] |= !s->fluid.peer[i].saved;
+  for (int i = 0; i < s->solid.n; i++) missing[ROLE_SOLID] |= !s->solid.peer[i].saved;
+  MPI_Allreduce(MPI_IN_PLACE, missing, NROLES, MPI_INT, MPI_LOR, s->p->app);
+  BufferResize(&s->save, 0);
+  for (int role = 0; role < NROLES; role++)
+    if (missing[role]) return ROLE_NAMES[role];
+  return NULL;
+}
+
+/* --- joining -------------------------------------------------------------------------------------------- */
+
 int ServerOpen(int argc, char **argv, MPI_Comm *app_comm, Server *server)
 {
   Server s = calloc(1, sizeof *s);
@@ -148,6 +193,7 @@ int ServerClose(Server *server)
                    &s->acceleration, &s->rho,     &s->u_star,   &s->u_plus,
                    &s->pressure,     &s->mu,      &s->owner};
   for (size_t k = 0; k < sizeof all / sizeof *all; k++) BufferFree(all[k]);
+  BufferFree(&s->save);
   for (int role = 0; role < NROLES; role++) BufferFree(&s->reports[role]);
   SideFree(&s->fluid);
   SideFree(&s->solid);

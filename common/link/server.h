@@ -56,6 +56,14 @@ int ServerReceiveFlow(Server s, ServerFlow *flow);
  * the step's start, which differ when the solid has changed its mesh in the step. */
 int ServerSendForce(Server s, double t, double dt, CoracleAction action, const double force[]);
 
+/* The folder of the checkpoint that the run goes on from, or NULL; a client that does not is refused. */
+const char *ServerResumeFolder(Server s);
+/* Has all clients save into the folder (the same on all coupler ranks; copied) as the coming step begins, before
+ * that is sent. */
+int ServerSave(Server s, const char *folder);
+/* After that step: NULL when all have saved, else a role that has not. */
+const char *ServerUnsaved(Server s);
+
 /* Waits for every client to close; then the reports.  ServerReports calls f(context, role, key, value) on
  * coupler rank 0. */
 int ServerFinish(Server s);

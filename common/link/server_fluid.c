@@ -39,6 +39,7 @@ static double ReceiveElements(Server s, Peer *peer, double bounds[2 * DIM])
 {
   Message *m = &peer->in;
   const MessageHeader *h = MessageReceive(s->p, m, KIND_ELEMENTS, KIND_ELEMENTS, s->fluid.step);
+  SideFlags(s, ROLE_FLUID, peer, h);
   const double *lower = MessageTake(s->p, m, DIM * sizeof *lower),
                *upper = MessageTake(s->p, m, DIM * sizeof *upper);
   for (int d = 0; d < DIM; d++) {
@@ -90,7 +91,7 @@ double ServerProposedStep(Server s)
 
 /* --- flow ----------------------------------------------------------------------------------------------- */
 
-static double ReceiveFlow(Server s, const Peer *peer, Message *m, int *changed)
+static double ReceiveFlow(Server s, Peer *peer, Message *m, int *changed)
 {
   const MessageHeader *h = MessageReceive(s->p, m, KIND_FLOW, KIND_FLOW, s->fluid.step);
   const size_t n = (size_t)h->count[0];
@@ -100,7 +101,8 @@ static double ReceiveFlow(Server s, const Peer *peer, Message *m, int *changed)
   Append(s, m, &s->u_plus, n * DIM * NV * sizeof(double));
   Append(s, m, &s->pressure, n * NP2 * sizeof(double));
   Append(s, m, &s->mu, n * sizeof(double));
-  *changed |= h->flag;
+  SideFlags(s, ROLE_FLUID, peer, h);
+  *changed |= h->flag & FLAG_CHANGED;
   return h->dt;
 }
 
@@ -224,6 +226,7 @@ int ServerSendCoupling(Server s, double t, double dt, CoracleAction action, int 
     h->count[1] = CountOwned(own, ncoupling, k);
     AddCorrections(s, k, ncorrection, correction, &scratch);
     AddCouplings(s, k, ncoupling, coupling, own, &scratch);
+    SideAskSave(s, &s->fluid.peer[k], action);
   }
   SideSend(s, &s->fluid);
   BufferFree(&s->owner);

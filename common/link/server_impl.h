@@ -11,6 +11,7 @@ typedef struct {
   int first, n;               /* its nodes (solid) or elements (fluid) in the concatenated lists */
   int first_start, n_start;   /* solid: the same when the step began, which is where a redone step begins */
   Buffer gid, facet, element; /* solid: its mesh as it numbers it */
+  bool saved;                 /* the checkpoint that was asked for last */
   Buffer coupled; /* fluid: int [], its own index of the element of each coupling entry last sent */
 } Peer;
 
@@ -26,6 +27,7 @@ struct Server_s {
   Side fluid, solid;
   bool received_solid, asked, elements_changed, owes_correction;
   double proposed;
+  Buffer save; /* path of the checkpoint that is due, or empty */
   /* solid's lists */
   Buffer gid, x, u, mean, mobility, acceleration, facet, element;
   /* fluid's lists */
@@ -40,6 +42,10 @@ struct Server_s {
 int SideFind(const Side *side, int i);
 /* Sends every peer's message and waits until all have gone. */
 void SideSend(Server s, Side *side);
+/* Asks a peer for a checkpoint with a message that begins a step: to be called last. */
+void SideAskSave(Server s, Peer *peer, CoracleAction action);
+/* Takes note of what the flags of a peer's message say. */
+void SideFlags(Server s, Role role, Peer *peer, const MessageHeader *h);
 /* Counts a new step when it is one; fails when a client is asked to go on after STOP. */
 void SideStep(Server s, Side *side, CoracleAction action);
 #endif

@@ -19,6 +19,7 @@ static int ReceiveMotion(Server s, Peer *peer, int *nnodes)
   const MessageHeader *h = MessageReceive(s->p, m, kind, KIND_SURFACE, s->solid.step);
   const size_t n = (size_t)h->count[0], bytes = DIM * n * sizeof(double);
   const bool whole = h->kind == KIND_SURFACE;
+  SideFlags(s, ROLE_SOLID, peer, h);
   if (!whole && (int)n != peer->n)
     ServerFail(s, "solid rank %d moves %zu nodes but has %d", m->rank, n, peer->n);
   peer->first = *nnodes;
@@ -106,6 +107,7 @@ int ServerSendForce(Server s, double t, double dt, CoracleAction action, const d
     h->dt = dt;
     h->count[0] = (int64_t)n;
     MessageAdd(&peer->out, its, n * DIM * sizeof(double));
+    SideAskSave(s, peer, action);
   }
   SideSend(s, &s->solid);
   return 0;

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 static PetscErrorCode MakeWithParents(const char *folder)
 {
@@ -39,4 +40,13 @@ PetscErrorCode FolderMake(MPI_Comm comm, const char *folder)
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(AgreeWithRoot(comm, rank == 0 ? MakeWithParents(folder) : 0));
   PetscFunctionReturn(0);
+}
+
+PetscBool FolderHas(MPI_Comm comm, const char *path)
+{
+  PetscMPIInt rank, there;
+  MPI_Comm_rank(comm, &rank);
+  there = rank == 0 && !access(path, F_OK);
+  MPI_Bcast(&there, 1, MPI_INT, 0, comm);
+  return there ? PETSC_TRUE : PETSC_FALSE;
 }

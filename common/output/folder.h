@@ -5,6 +5,8 @@
 
 /* Collective: rank 0 makes the folder with those above it, if missing. */
 PetscErrorCode FolderMake(MPI_Comm comm, const char *folder);
+/* Collective: whether rank 0 finds a file of that path. */
+PetscBool FolderHas(MPI_Comm comm, const char *path);
 /* Collective: the same error on all ranks when rank 0 had one; its own message comes from rank 0. */
 PetscErrorCode AgreeWithRoot(MPI_Comm comm, PetscErrorCode failed);
 #endif

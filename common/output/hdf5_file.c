@@ -34,16 +34,34 @@ static PetscErrorCode HoldMetadata(hid_t access, const char *path)
   PetscFunctionReturn(0);
 }
 
+/* The list is the caller's to close. */
+static PetscErrorCode Access(MPI_Comm comm, const char *path, hid_t *access)
+{
+  PetscFunctionBeginUser;
+  H5(H5Eset_auto2(H5E_DEFAULT, NULL, NULL), "keep its messages about", path); /* they come in ours */
+  H5(*access = H5Pcreate(H5P_FILE_ACCESS), "set up", path);
+  H5(H5Pset_fapl_mpio(*access, comm, MPI_INFO_NULL), "use MPI for", path);
+  H5(H5Pset_coll_metadata_write(*access, 1), "set up", path);
+  PetscCall(HoldMetadata(*access, path));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode Hdf5Create(MPI_Comm comm, const char *path, hid_t *file)
 {
   hid_t access;
   PetscFunctionBeginUser;
-  H5(H5Eset_auto2(H5E_DEFAULT, NULL, NULL), "keep its messages about", path); /* they come in ours */
-  H5(access = H5Pcreate(H5P_FILE_ACCESS), "set up", path);
-  H5(H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL), "use MPI for", path);
-  H5(H5Pset_coll_metadata_write(access, 1), "set up", path);
-  PetscCall(HoldMetadata(access, path));
+  PetscCall(Access(comm, path, &access));
   H5(*file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access), "create", path);
+  H5(H5Pclose(access), "set up", path);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Hdf5Open(MPI_Comm comm, const char *path, PetscBool change, hid_t *file)
+{
+  hid_t access;
+  PetscFunctionBeginUser;
+  PetscCall(Access(comm, path, &access));
+  H5(*file = H5Fopen(path, change ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access), "open", path);
   H5(H5Pclose(access), "set up", path);
   PetscFunctionReturn(0);
 }
@@ -54,6 +72,18 @@ PetscErrorCode Hdf5Group(hid_t file, const char *path)
   PetscFunctionBeginUser;
   H5(group = H5Gcreate2(file, path, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "create group", path);
   H5(H5Gclose(group), "close group", path);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Hdf5Place(MPI_Comm comm, int n, int ncol, Hdf5Rows *rows)
+{
+  PetscMPIInt rank;
+  PetscFunctionBeginUser;
+  *rows = (Hdf5Rows){.n = n, .total = n, .ncol = ncol};
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCallMPI(MPI_Exscan(&rows->n, &rows->start, 1, MPI_LONG_LONG, MPI_SUM, comm));
+  if (rank == 0) rows->start = 0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &rows->total, 1, MPI_LONG_LONG, MPI_SUM, comm));
   PetscFunctionReturn(0);
 }
 
@@ -110,6 +140,64 @@ PetscErrorCode Hdf5WriteIndices(hid_t file, const char *path, const Hdf5Rows *ro
                value);
 }
 
+static PetscErrorCode Read(hid_t file, const char *path, const Hdf5Rows *rows, hid_t in_memory, void *value)
+{
+  double nothing; /* HDF5 wants an address from ranks without rows, too */
+  hid_t space, memory, set, transfer;
+  PetscFunctionBeginUser;
+  H5(set = H5Dopen2(file, path, H5P_DEFAULT), "open", path);
+  H5(space = H5Dget_space(set), "describe", path);
+  H5(transfer = H5Pcreate(H5P_DATASET_XFER), "set up", path);
+  H5(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE), "set up", path);
+  PetscCall(Select(path, rows, space, &memory));
+  if (rows->total)
+    H5(H5Dread(set, in_memory, memory, space, transfer, rows->n ? value : &nothing), "read", path);
+  H5(H5Pclose(transfer), "close", path);
+  H5(H5Sclose(memory), "close", path);
+  H5(H5Sclose(space), "close", path);
+  H5(H5Dclose(set), "close", path);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Hdf5ReadDoubles(hid_t file, const char *path, const Hdf5Rows *rows, double value[])
+{
+  return Read(file, path, rows, H5T_NATIVE_DOUBLE, value);
+}
+
+PetscErrorCode Hdf5ReadIndices(hid_t file, const char *path, const Hdf5Rows *rows, long long value[])
+{
+  return Read(file, path, rows, H5T_NATIVE_LLONG, value);
+}
+
+PetscErrorCode Hdf5Shape(hid_t file, const char *path, long long *rows, int *ncol)
+{
+  hsize_t dims[2] = {0, 1};
+  hid_t set, space;
+  PetscFunctionBeginUser;
+  H5(set = H5Dopen2(file, path, H5P_DEFAULT), "open", path);
+  H5(space = H5Dget_space(set), "describe", path);
+  PetscCheck(H5Sget_simple_extent_ndims(space) <= 2, PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED,
+             "%s has more than two dimensions", path);
+  H5(H5Sget_simple_extent_dims(space, dims, NULL), "describe", path);
+  H5(H5Sclose(space), "close", path);
+  H5(H5Dclose(set), "close", path);
+  *rows = (long long)dims[0];
+  *ncol = (int)dims[1];
+  PetscFunctionReturn(0);
+}
+
+PetscBool Hdf5Has(hid_t file, const char *path)
+{
+  return H5Lexists(file, path, H5P_DEFAULT) > 0 ? PETSC_TRUE : PETSC_FALSE;
+}
+
+PetscErrorCode Hdf5Remove(hid_t file, const char *path)
+{
+  PetscFunctionBeginUser;
+  H5(H5Ldelete(file, path, H5P_DEFAULT), "remove", path);
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode Hdf5Link(hid_t file, const char *existing, const char *path)
 {
   PetscFunctionBeginUser;
@@ -129,6 +217,21 @@ PetscErrorCode Hdf5Attribute(hid_t file, const char *path, const char *name, dou
   H5(H5Aclose(attribute), "close attribute", name);
   H5(H5Sclose(space), "close", name);
   PetscFunctionReturn(0);
+}
+
+PetscErrorCode Hdf5ReadAttribute(hid_t file, const char *path, const char *name, double *value)
+{
+  hid_t attribute;
+  PetscFunctionBeginUser;
+  H5(attribute = H5Aopen_by_name(file, path, name, H5P_DEFAULT, H5P_DEFAULT), "open attribute", name);
+  H5(H5Aread(attribute, H5T_NATIVE_DOUBLE, value), "read attribute", name);
+  H5(H5Aclose(attribute), "close attribute", name);
+  PetscFunctionReturn(0);
+}
+
+PetscBool Hdf5HasAttribute(hid_t file, const char *path, const char *name)
+{
+  return H5Aexists_by_name(file, path, name, H5P_DEFAULT) > 0 ? PETSC_TRUE : PETSC_FALSE;
 }
 
 PetscErrorCode Hdf5Flush(hid_t file)

@@ -16,16 +16,30 @@ typedef struct {
 } Hdf5Rows;
 
 PetscErrorCode Hdf5Create(MPI_Comm comm, const char *path, hid_t *file);
+/* An existing file; `change`: also to write into. */
+PetscErrorCode Hdf5Open(MPI_Comm comm, const char *path, PetscBool change, hid_t *file);
 PetscErrorCode Hdf5Group(hid_t file, const char *path);
+/* The rows of n on each rank that follow each other by rank. */
+PetscErrorCode Hdf5Place(MPI_Comm comm, int n, int ncol, Hdf5Rows *rows);
 /* A new dataset of doubles or of long long (kept as 4-byte integers in the file where values are below
  * `limit` <= 2^31). */
 PetscErrorCode Hdf5WriteDoubles(hid_t file, const char *path, const Hdf5Rows *rows, const double value[]);
 PetscErrorCode Hdf5WriteIndices(hid_t file, const char *path, const Hdf5Rows *rows, long long limit,
                                 const long long value[]);
+/* This rank's rows of a dataset, whose shape must be that. */
+PetscErrorCode Hdf5ReadDoubles(hid_t file, const char *path, const Hdf5Rows *rows, double value[]);
+PetscErrorCode Hdf5ReadIndices(hid_t file, const char *path, const Hdf5Rows *rows, long long value[]);
+PetscErrorCode Hdf5Shape(hid_t file, const char *path, long long *rows, int *ncol);
+/* Whether there is something of that name directly under a group that exists. */
+PetscBool Hdf5Has(hid_t file, const char *path);
+/* Takes a name out of the file. */
+PetscErrorCode Hdf5Remove(hid_t file, const char *path);
 /* A second name for a dataset. */
 PetscErrorCode Hdf5Link(hid_t file, const char *existing, const char *path);
 /* A number on a group, the same on all ranks. */
 PetscErrorCode Hdf5Attribute(hid_t file, const char *path, const char *name, double value);
+PetscErrorCode Hdf5ReadAttribute(hid_t file, const char *path, const char *name, double *value);
+PetscBool Hdf5HasAttribute(hid_t file, const char *path, const char *name);
 PetscErrorCode Hdf5Flush(hid_t file);
 PetscErrorCode Hdf5Close(hid_t *file);
 /* Bytes that an index takes in the file. */

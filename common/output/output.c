@@ -37,21 +37,62 @@ struct Output_s {
   Grid grid[GRIDS_MAX];
 };
 
-PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name, Output *out)
+static PetscErrorCode BeginFile(Output o, const char *path)
+{
+  PetscFunctionBeginUser;
+  PetscCall(Hdf5Create(o->comm, path, &o->file));
+  PetscCall(Hdf5Group(o->file, "/snapshot"));
+  PetscCall(Hdf5Flush(o->file));
+  PetscFunctionReturn(0);
+}
+
+/* Without the snapshots that were made after the checkpoint. */
+static PetscErrorCode ContinueFile(Output o, const char *path)
+{
+  char later[PATH];
+  PetscFunctionBeginUser;
+  PetscCall(Hdf5Open(o->comm, path, PETSC_TRUE, &o->file));
+  for (long long k = o->nsnapshot;; k++) {
+    snprintf(later, sizeof later, "/snapshot/%06lld", k);
+    if (!Hdf5Has(o->file, later)) break;
+    PetscCall(Hdf5Remove(o->file, later));
+  }
+  PetscCall(Hdf5Flush(o->file));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name, Checkpoint from, Output *out)
 {
   Output o;
   char path[PETSC_MAX_PATH_LEN];
+  double snapshots = 0.0, length = 0.0;
   PetscFunctionBeginUser;
   PetscCall(FolderMake(comm, folder));
   PetscCall(PetscNew(&o));
   PetscCallMPI(MPI_Comm_dup(comm, &o->comm));
   PetscCallMPI(MPI_Comm_rank(comm, &o->rank));
   snprintf(path, sizeof path, "%s/%s.h5", folder, name);
-  PetscCall(Hdf5Create(o->comm, path, &o->file));
-  PetscCall(Hdf5Group(o->file, "/snapshot"));
-  PetscCall(Hdf5Flush(o->file));
-  PetscCall(AgreeWithRoot(comm, o->rank == 0 ? XdmfCreate(folder, name, &o->xdmf) : 0));
+  if (from && FolderHas(comm, path)) {
+    PetscCall(CheckpointGetNumber(from, "output snapshots", &snapshots));
+    PetscCall(CheckpointGetNumber(from, "output index length", &length));
+    o->nsnapshot = (long long)snapshots;
+    PetscCall(ContinueFile(o, path));
+  } else {
+    PetscCall(BeginFile(o, path));
+  }
+  PetscCall(AgreeWithRoot(comm, o->rank == 0 ? XdmfCreate(folder, name, (size_t)length, &o->xdmf) : 0));
   *out = o;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode OutputSave(Output o, Checkpoint to)
+{
+  double length = o->rank == 0 ? (double)XdmfLength(o->xdmf) : 0.0;
+  PetscFunctionBeginUser;
+  PetscCheck(!o->open, o->comm, PETSC_ERR_ORDER, "OutputSave: the last snapshot has no OutputEnd");
+  PetscCallMPI(MPI_Bcast(&length, 1, MPI_DOUBLE, 0, o->comm));
+  PetscCall(CheckpointPutNumber(to, "output snapshots", (double)o->nsnapshot));
+  PetscCall(CheckpointPutNumber(to, "output index length", length));
   PetscFunctionReturn(0);
 }
 
@@ -78,17 +119,6 @@ static PetscErrorCode CheckName(const Output o, const char *name)
                "name '%s': letters, digits, '_', '-' and blanks are allowed", name);
   }
   PetscCheck(*name && strlen(name) < 64, o->comm, PETSC_ERR_ARG_WRONG, "name '%s': 1 to 63 characters", name);
-  PetscFunctionReturn(0);
-}
-
-/* This rank's place among the rows of all. */
-static PetscErrorCode Place(const Output o, int n, int ncol, Hdf5Rows *rows)
-{
-  *rows = (Hdf5Rows){.n = n, .total = n, .ncol = ncol};
-  PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Exscan(&rows->n, &rows->start, 1, MPI_LONG_LONG, MPI_SUM, o->comm));
-  if (o->rank == 0) rows->start = 0;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &rows->total, 1, MPI_LONG_LONG, MPI_SUM, o->comm));
   PetscFunctionReturn(0);
 }
 
@@ -181,8 +211,8 @@ PetscErrorCode OutputGrid(Output o, const char *name, int revision, int n, const
              nodes_per_cell);
   PetscCall(CheckName(o, name));
   PetscCall(FindGrid(o, name, &g));
-  PetscCall(Place(o, n, 1, &node));
-  PetscCall(Place(o, ne, 1, &cell));
+  PetscCall(Hdf5Place(o->comm, n, 1, &node));
+  PetscCall(Hdf5Place(o->comm, ne, 1, &cell));
   const PetscBool known = g->snapshot >= 0 && g->revision == revision ? PETSC_TRUE : PETSC_FALSE;
   PetscCheck(!known || (node.total == g->node.total && cell.total == g->cell.total &&
                         nodes_per_cell == g->nodes_per_cell),

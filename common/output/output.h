@@ -3,13 +3,18 @@
  * then renamed). */
 #ifndef CORACLE_OUTPUT_H
 #define CORACLE_OUTPUT_H
-#include <petscsys.h>
+#include "checkpoint.h"
 
 typedef struct Output_s *Output;
 typedef enum { OUTPUT_NODE, OUTPUT_CELL } OutputCentre;
 
-/* Collective: <folder>/<name>.h5 and .xdmf, truncated.  The folder is made if missing. */
-PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name, Output *out);
+/* Collective: <folder>/<name>.h5 and .xdmf, truncated.  The folder is made if missing.  With a checkpoint (else
+ * NULL): goes on with the files as they were at OutputSave, without what came later; where they are not in
+ * the folder it begins new ones. */
+PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name, Checkpoint from,
+                            Output *out);
+/* Collective: between snapshots. */
+PetscErrorCode OutputSave(Output out, Checkpoint to);
 /* Collective: starts the snapshot of time t, s. */
 PetscErrorCode OutputBegin(Output out, double t);
 /* Collective: a grid of this snapshot: nodes x[n][2], cells connectivity[ne][nodes_per_cell] in this rank's
@@ -26,10 +31,11 @@ PetscErrorCode OutputEnd(Output out);
 PetscErrorCode OutputDestroy(Output *out);
 
 /* A time series, rank 0's numbers: <folder>/<name>.csv; the header is `columns` (comma-separated, with units:
- * "t [s],U [m/s]"). */
+ * "t [s],U [m/s]").  Collective; `from` and SeriesSave as above. */
 typedef struct Series_s *Series;
 PetscErrorCode SeriesCreate(MPI_Comm comm, const char *folder, const char *name, const char *columns,
-                            Series *s);
+                            Checkpoint from, Series *s);
+PetscErrorCode SeriesSave(Series s, Checkpoint to);
 /* Not collective: rank 0 appends one row of as many numbers as columns; others return at once. */
 PetscErrorCode SeriesRow(Series s, const double value[]);
 PetscErrorCode SeriesDestroy(Series *s);

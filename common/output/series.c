@@ -3,14 +3,16 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 struct Series_s {
-  FILE *file; /* rank 0 only */
+  MPI_Comm comm; /* borrowed */
+  FILE *file;    /* rank 0 only */
   int ncolumn;
   char path[PETSC_MAX_PATH_LEN];
 };
 
-static PetscErrorCode Open(Series s, const char *columns)
+static PetscErrorCode Begin(Series s, const char *columns)
 {
   PetscFunctionBeginUser;
   s->file = fopen(s->path, "w");
@@ -20,20 +22,44 @@ static PetscErrorCode Open(Series s, const char *columns)
   PetscFunctionReturn(0);
 }
 
+/* Without the rows after the first `length` bytes. */
+static PetscErrorCode Continue(Series s, long length)
+{
+  PetscFunctionBeginUser;
+  s->file = fopen(s->path, "r+");
+  PetscCheck(s->file && !ftruncate(fileno(s->file), length) && !fseek(s->file, length, SEEK_SET),
+             PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "%s: %s", s->path, strerror(errno));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode SeriesCreate(MPI_Comm comm, const char *folder, const char *name, const char *columns,
-                            Series *series)
+                            Checkpoint from, Series *series)
 {
   Series s;
   PetscMPIInt rank;
+  double length = 0.0;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(FolderMake(comm, folder));
   PetscCall(PetscNew(&s));
+  s->comm = comm;
   snprintf(s->path, sizeof s->path, "%s/%s.csv", folder, name);
   s->ncolumn = 1;
   for (const char *c = columns; *c; c++) s->ncolumn += *c == ',';
   *series = s;
-  PetscCall(AgreeWithRoot(comm, rank == 0 ? Open(s, columns) : 0));
+  if (from && FolderHas(comm, s->path)) PetscCall(CheckpointGetNumber(from, "series length", &length));
+  PetscCall(AgreeWithRoot(comm, rank != 0      ? 0
+                                : length > 0.0 ? Continue(s, (long)length)
+                                               : Begin(s, columns)));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SeriesSave(Series s, Checkpoint to)
+{
+  double length = s->file ? (double)ftell(s->file) : 0.0;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Bcast(&length, 1, MPI_DOUBLE, 0, s->comm));
+  PetscCall(CheckpointPutNumber(to, "series length", length));
   PetscFunctionReturn(0);
 }
 

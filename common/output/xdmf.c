@@ -31,14 +31,17 @@ static PetscErrorCode Say(Xdmf x, const char *format, ...)
   PetscFunctionReturn(0);
 }
 
+#define HEAD                                                                                                 \
+  "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n<Grid Name=\"%s\" GridType=\"Collection\" "    \
+  "CollectionType=\"Temporal\">\n"
+
 /* The whole file: to a temporary name, then renamed. */
 static PetscErrorCode Publish(Xdmf x)
 {
   PetscFunctionBeginUser;
   FILE *f = fopen(x->temporary, "w");
   PetscCheck(f, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "%s: %s", x->temporary, strerror(errno));
-  fprintf(f, "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n");
-  fprintf(f, "<Grid Name=\"%s\" GridType=\"Collection\" CollectionType=\"Temporal\">\n", x->name);
+  fprintf(f, HEAD, x->name);
   if (x->length) fwrite(x->text, 1, x->length, f);
   fprintf(f, "</Grid>\n</Domain>\n</Xdmf>\n");
   const int wrong = ferror(f);
@@ -49,7 +52,25 @@ static PetscErrorCode Publish(Xdmf x)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode XdmfCreate(const char *folder, const char *name, Xdmf *xdmf)
+/* The snapshots of an index that is there already. */
+static PetscErrorCode Continue(Xdmf x, size_t length)
+{
+  char head[512];
+  const int skip = snprintf(head, sizeof head, HEAD, x->name);
+  PetscFunctionBeginUser;
+  x->length = length;
+  x->capacity = length + 1;
+  PetscCall(PetscCalloc1(x->capacity, &x->text));
+  FILE *f = fopen(x->path, "r");
+  PetscCheck(f, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "%s: %s", x->path, strerror(errno));
+  const int whole = !fseek(f, skip, SEEK_SET) && fread(x->text, 1, length, f) == length;
+  fclose(f);
+  PetscCheck(whole, PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED, "%s is shorter than when it was checkpointed",
+             x->path);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode XdmfCreate(const char *folder, const char *name, size_t length, Xdmf *xdmf)
 {
   Xdmf x;
   PetscFunctionBeginUser;
@@ -57,9 +78,15 @@ PetscErrorCode XdmfCreate(const char *folder, const char *name, Xdmf *xdmf)
   snprintf(x->name, sizeof x->name, "%s", name);
   snprintf(x->path, sizeof x->path, "%s/%s.xdmf", folder, name);
   snprintf(x->temporary, sizeof x->temporary, "%s.part", x->path);
+  if (length) PetscCall(Continue(x, length));
   PetscCall(Publish(x));
   *xdmf = x;
   PetscFunctionReturn(0);
+}
+
+size_t XdmfLength(Xdmf x)
+{
+  return x->length;
 }
 
 PetscErrorCode XdmfBegin(Xdmf x, double t)

@@ -12,7 +12,9 @@
 
 typedef struct Xdmf_s *Xdmf;
 
-PetscErrorCode XdmfCreate(const char *folder, const char *name, Xdmf *xdmf);
+/* length: goes on with the first so many bytes of an index that is there (XdmfLength then), 0: a new one. */
+PetscErrorCode XdmfCreate(const char *folder, const char *name, size_t length, Xdmf *xdmf);
+size_t XdmfLength(Xdmf x);
 PetscErrorCode XdmfBegin(Xdmf x, double t);
 /* n points, ne cells; paths are of datasets in <name>.h5. */
 PetscErrorCode XdmfGrid(Xdmf x, const char *grid, const char *points, long long n, const char *cells,

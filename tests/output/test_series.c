@@ -12,7 +12,7 @@ int main(int argc, char **argv)
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
   snprintf(folder, sizeof folder, "/tmp/coracle_series_%d", (int)getpid());
   PetscCallMPI(MPI_Bcast(folder, sizeof folder, MPI_CHAR, 0, PETSC_COMM_WORLD));
-  PetscCall(SeriesCreate(PETSC_COMM_WORLD, folder, "drop", "t [s],U [m/s],n", &s));
+  PetscCall(SeriesCreate(PETSC_COMM_WORLD, folder, "drop", "t [s],U [m/s],n", NULL, &s));
   snprintf(path, sizeof path, "%s/drop.csv", folder);
   PetscCall(SeriesRow(s, (double[]){0.0, 1.0 / 3.0, 1e6 + rank}));
   PetscCall(SeriesRow(s, (double[]){1e-300, -2.0, 3.0}));
@@ -28,7 +28,7 @@ int main(int argc, char **argv)
     remove(folder);
   }
   PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
-  CHECK(SeriesCreate(PETSC_COMM_WORLD, "/dev/null", "x", "t", &s), "a folder that is a file");
+  CHECK(SeriesCreate(PETSC_COMM_WORLD, "/dev/null", "x", "t", NULL, &s), "a folder that is a file");
   PetscCall(PetscPopErrorHandler());
   return PetscFinalize();
 }
