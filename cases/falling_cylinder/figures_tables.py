@@ -63,19 +63,19 @@ def paper_points(series, against):
     for re in (20, 100, 200):
         row = validate.TABLES[f"{series}-{re:03d}"]
         speed, semi_empirical = row.paper
-        compared = semi_empirical if against == "correlation" else rows.REFERENCE[("open", 2, re)][0]
+        compared = semi_empirical if against == "correlation" else validate.TABLES[f"Y020-{re:03d}-open"].expected
         found.append((row.reynolds(speed), 100.0 * (speed / compared - 1.0)))
     return np.array(found).T
 
 
 def our_points(there, series, sides, against):
-    """The same of our finished rows: Er at their own Re, or against the body-fitted speed with the same sides."""
+    """The same of our finished rows: Er at their own Re, or against the body-fitted speed of the same disc, free or held."""
     found = []
     for name, result in there.items():
         row = validate.TABLES[name]
-        if name.startswith(series) and row.sides == sides:
-            re = row.reynolds(result.speed)
-            compared = row.correlation(re) if against == "correlation" else row.reference[0]
+        re = row.reynolds(result.speed)
+        compared = row.reference if against == "body-fitted" else None if row.held else row.correlation(re)
+        if name.startswith(series) and row.sides == sides and compared:
             found.append((re, 100.0 * (result.speed / compared - 1.0)))
     return np.array(sorted(found)).T if found else np.empty((2, 0))
 
@@ -96,7 +96,7 @@ def errors_panel(axes, there, measures, against):
 
 def figure4(folder):
     names = [f"{series}-{re:03d}" for series in ("Yc20", "Y020", "Yf20", "Yr20") for re in (20, 100, 200)]
-    names += [f"Y020-{re:03d}-open" for re in (20, 100, 200)]
+    names += [f"Y020-{re:03d}-open" for re in (20, 100, 200)] + [f"Y020-{re}-open-held" for re in (100, 200)]
     there = validate.results(names)
     tell_missing("figure4", names, there)
     figure, axes = plt.subplots(3, 2, figsize=(12, 11), height_ratios=[1, 1, 0.22], sharey="row", layout="constrained")
@@ -215,8 +215,9 @@ def speed(folder):
             curve = curves[f"Y020-{re:03d}{suffix}"]
             if curve:
                 axis.plot(curve[0], -curve[2], color=colour, label=f"Coracle, {sides} sides")
-            axis.axhline(rows.REFERENCE[(sides, 2, re)][0], color=colour, linestyle=":", linewidth=1.2,
-                         label=f"body-fitted, {sides}: terminal {rows.REFERENCE[(sides, 2, re)][0]:g} m/s")
+            terminal = validate.TABLES[f"Y020-{re:03d}{suffix}"].expected
+            axis.axhline(terminal, color=colour, linestyle=":", linewidth=1.2,
+                         label=f"body-fitted, {sides}: terminal {terminal:g} m/s")
         t, _, v = reference_motion(re)
         axis.plot(t, -v, "k--", linewidth=1.0, label="body-fitted, closed sides")
         axis.axhline(rows.PAPER[f"Y020-{re:03d}"][0], color="0.6", linewidth=0.8,
@@ -231,7 +232,7 @@ def lateral(folder, name, re):
     """t and u_x over the body-fitted terminal speed, of a row or of the reference; None where there is nothing."""
     found = reference_motion(re) if name == "body-fitted" else motion(folder, name)
     row = validate.TABLES.get(name, validate.TABLES[f"Y020-{re}"])
-    return found and (found[0], found[1] / row.reference[0])
+    return found and (found[0], found[1] / row.expected)
 
 
 def sway(folder):

@@ -62,9 +62,8 @@ class Result:
     def __init__(self, name):
         self.name, folder = name, OUT / name
         self.summary = json.load(open(folder / "summary.json"))
-        self.motion = [tuple(float(r[k]) for k in ("t [s]", "dt [s]", "u_x [m/s]", "u_y [m/s]"))
-                       for r in read_csv(folder / "coupler.csv")]
-        self.curve = [(t, -uy) for t, _, _, uy in self.motion]
+        self.motion = [{k: float(v) for k, v in r.items()} for r in read_csv(folder / "coupler.csv")]
+        self.curve = [(m["t [s]"], -m["u_y [m/s]"]) for m in self.motion]
         series = read_csv(folder / "fluid.csv")
         self.triangles = max(int(float(r["triangles"])) for r in series[2:])  # the first mesh is of the case file
         parts = self.summary["participants"].values()
@@ -72,15 +71,17 @@ class Result:
         fluid = self.summary["participants"]["fluid"]
         self.adaptation, self.setup = (fluid["seconds_" + key] / fluid["seconds_wall"] for key in ("adaptation", "setup"))
         self.balance = max(float(r["largest part"]) for r in series)
-        self.shedding = self._shedding()
+        row = TABLES.get(name)
+        self.shedding = self._shedding("F_x [N]", row.weight) if row and row.held else \
+            self._shedding("u_x [m/s]", self.curve[-1][1])
         self.speed = self.shedding[0] if self.shedding else self.summary["terminal_velocity"]
 
-    def _shedding(self):
-        """Over the last whole periods, at most three: mean fall speed, Strouhal number, peak-to-peak sway in diameters; None where
-        the lateral speed does not swing."""
-        late = [(t, ux) for t, _, ux, _ in self.motion if t > 0.5 * self.motion[-1][0]]
-        swing = max(abs(ux) for t, ux in late if t > 0.7 * late[-1][0])
-        if swing < 0.01 * abs(self.curve[-1][1]):
+    def _shedding(self, key, scale):
+        """Over the last whole periods, at most three: mean fall speed and Strouhal number; None where what is `key` (of the
+        disc aside) does not swing by 1 % of scale."""
+        late = [(m["t [s]"], m[key]) for m in self.motion if m["t [s]"] > 0.5 * self.motion[-1]["t [s]"]]
+        swing = max(abs(value) for t, value in late if t > 0.7 * late[-1][0])
+        if swing < 0.01 * abs(scale):
             return None
         ups, armed = [], False
         for (t0, a), (t1, b) in zip(late, late[1:]):
@@ -91,14 +92,9 @@ class Result:
         ups = ups[-4:]
         if len(ups) < 2:
             return None
-        inside = [m for m in self.motion if ups[0] < m[0] <= ups[-1]]
-        speed = -sum(dt * uy for _, dt, _, uy in inside) / sum(dt for _, dt, _, _ in inside)
-        x, path = 0.0, []
-        for _, dt, ux, _ in inside:
-            x += dt * ux
-            path.append(x)
-        frequency = (len(ups) - 1) / (ups[-1] - ups[0])
-        return speed, 2.0 * rows.RADIUS * frequency / speed, (max(path) - min(path)) / (2.0 * rows.RADIUS)
+        inside = [m for m in self.motion if ups[0] < m["t [s]"] <= ups[-1]]
+        speed = -sum(m["dt [s]"] * m["u_y [m/s]"] for m in inside) / sum(m["dt [s]"] for m in inside)
+        return speed, 2.0 * rows.RADIUS * (len(ups) - 1) / (ups[-1] - ups[0]) / speed
 
 
 def results(names):
@@ -120,10 +116,9 @@ def rows_table(there):
         row = TABLES[name]
         re = row.reynolds(r.speed)
         sf, own = row.correlation(re), row.correlation()
-        reference, kind = row.reference or (None, "")
         cells = [name, "%g" % row.le, "%g" % row.dr, "%g" % row.nu, "%g" % row.ratio, row.sides, "%.4f" % row.paper[0],
                  "%.4f" % r.speed, "%.1f" % re, "%.3f" % r.shedding[1] if r.shedding else "",
-                 "%.4f%s" % (reference, " (fixed)" if kind == "fixed" else ""), percent(r.speed, reference),
+                 *(["%.4f" % row.reference, percent(r.speed, row.reference)] if row.reference else ["", ""]),
                  "%.4f" % sf, percent(r.speed, sf), percent(*row.paper), "%.4f" % own, percent(r.speed, own),
                  str(r.triangles), str(r.summary["steps"]), "%.0f" % r.cpu, "%.0f" % r.wall]
         yield "| " + " | ".join(cells) + " |"
@@ -150,14 +145,14 @@ def checks_table(there):
 def claims(there):
     """What must hold of the runs that are there: (statement, measured, bound)."""
     def error(name):
-        return abs(there[name].speed / TABLES[name].reference[0] - 1.0)
+        return abs(there[name].speed / TABLES[name].reference - 1.0)
 
     def both(a, b):
         return a in there and b in there
 
     for name in there:
         row = TABLES.get(name)
-        if row is None or row.mode != "reaction" or row.le > 0.005 or row.reference[1] == "fixed":
+        if row is None or row.mode != "reaction" or row.le > 0.005 or not row.reference:
             continue
         yield name + ": terminal speed", error(name), 0.01 if row.re == 20 or row.le < 0.005 else 0.02
     for re in (20, 100, 200):
