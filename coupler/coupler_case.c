@@ -24,6 +24,7 @@ PetscErrorCode CouplerCaseRead(Case file, CouplerCase *c)
   snprintf(c->note, sizeof c->note, "%s", CaseStringOr(file, "note", ""));
   snprintf(c->folder, sizeof c->folder, "%s", CaseString(file, "output.folder"));
   c->every = CasePositive(file, "output.every");
+  c->checkpoint = CaseNumberOr(file, "output.checkpoint", 600.0, 0.0, HUGE_VAL);
   c->end = CasePositive(file, "time.end");
   c->dt_max = CasePositive(file, "time.dt_max");
   /* the fluid's, read here so that the whole section can be checked */

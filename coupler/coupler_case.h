@@ -7,6 +7,7 @@
 typedef struct {
   char name[128], note[512], folder[512];
   double end, dt_max, every; /* s */
+  double checkpoint;         /* seconds by the clock from one to the next, 0: none */
   CouplerOptions options;
 } CouplerCase;
 

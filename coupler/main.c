@@ -23,12 +23,14 @@ static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const
 static PetscErrorCode Run(Server server, const CouplerCase *c)
 {
   Scheme scheme = {.server = server, .c = c};
+  const char *folder = ServerResumeFolder(server);
   RecordTotals totals;
 
   PetscFunctionBeginUser;
+  if (folder) PetscCall(CheckpointOpen(PETSC_COMM_WORLD, folder, "coupler", &scheme.from));
   PetscCall(CouplerCreate(PETSC_COMM_WORLD, &c->options, &scheme.coupler));
   PetscCall(RegionCreate(PETSC_COMM_WORLD, c->options.thickness, &scheme.region));
-  PetscCall(RecordCreate(PETSC_COMM_WORLD, c, &scheme.record));
+  PetscCall(RecordCreate(PETSC_COMM_WORLD, c, scheme.from, &scheme.record));
   PetscCall(SchemeStaggered(&scheme));
   PetscCall(ServerFinish(server));
   PetscCall(RecordTotalsOf(scheme.record, CouplerOverlap(scheme.coupler)->nelements, &totals));
@@ -36,6 +38,7 @@ static PetscErrorCode Run(Server server, const CouplerCase *c)
   PetscCall(RecordDestroy(&scheme.record));
   PetscCall(RegionDestroy(&scheme.region));
   PetscCall(CouplerDestroy(&scheme.coupler));
+  PetscCall(CheckpointClose(&scheme.from));
   PetscFunctionReturn(0);
 }
 

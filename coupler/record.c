@@ -13,7 +13,59 @@ struct Record_s {
   RecordTotals totals;
 };
 
-PetscErrorCode RecordCreate(MPI_Comm comm, const CouplerCase *c, Record *record)
+/* What a checkpoint has of a record, by name. */
+typedef struct {
+  const char *name;
+  double *value;
+} Kept;
+enum { NKEPT = 6 };
+
+/* steps is a copy of totals.steps, which is no double. */
+static void KeptOf(Record r, double *steps, Kept kept[NKEPT])
+{
+  *steps = (double)r->totals.steps;
+  const Kept all[NKEPT] = {{"steps", steps},
+                           {"next", &r->next},
+                           {"fall sum", &r->fall_sum},
+                           {"fall time", &r->fall_time},
+                           {"imbalance", &r->totals.imbalance},
+                           {"end", &r->totals.end}};
+  for (int k = 0; k < NKEPT; k++) kept[k] = all[k];
+}
+
+PetscErrorCode RecordSave(Record r, Checkpoint to)
+{
+  Kept kept[NKEPT];
+  double steps;
+
+  PetscFunctionBeginUser;
+  KeptOf(r, &steps, kept);
+  for (int k = 0; k < NKEPT; k++) PetscCall(CheckpointPutNumber(to, kept[k].name, *kept[k].value));
+  PetscCall(OutputSave(r->output, to));
+  PetscCall(SeriesSave(r->series, to));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Load(Record r, Checkpoint from)
+{
+  Kept kept[NKEPT];
+  double steps;
+
+  PetscFunctionBeginUser;
+  KeptOf(r, &steps, kept);
+  for (int k = 0; k < NKEPT; k++) PetscCall(CheckpointGetNumber(from, kept[k].name, kept[k].value));
+  r->totals.steps = (long long)steps;
+  r->totals.resumed = r->totals.end;
+  if (!r->rank) printf("coracle: goes on from t = %.5g s, step %lld\n", r->totals.resumed, r->totals.steps);
+  PetscFunctionReturn(0);
+}
+
+long long RecordSteps(Record r)
+{
+  return r->totals.steps;
+}
+
+PetscErrorCode RecordCreate(MPI_Comm comm, const CouplerCase *c, Checkpoint from, Record *record)
 {
   const double *g = c->options.gravity, size = hypot(g[0], g[1]);
   Record r;
@@ -28,8 +80,9 @@ PetscErrorCode RecordCreate(MPI_Comm comm, const CouplerCase *c, Record *record)
   r->down[1] = size > 0.0 ? g[1] / size : -1.0;
   PetscCallMPI(MPI_Comm_rank(comm, &r->rank));
   if (!r->rank && c->note[0]) printf("coracle: %s: %s\n", c->name, c->note);
-  PetscCall(OutputCreate(comm, c->folder, "coupler", NULL, &r->output));
-  PetscCall(SeriesCreate(comm, c->folder, "coupler", COLUMNS, NULL, &r->series));
+  PetscCall(OutputCreate(comm, c->folder, "coupler", from, &r->output));
+  PetscCall(SeriesCreate(comm, c->folder, "coupler", COLUMNS, from, &r->series));
+  if (from) PetscCall(Load(r, from));
   *record = r;
   PetscFunctionReturn(0);
 }
@@ -86,7 +139,7 @@ static void Say(Record r, const RecordedStep *s)
   printf("coracle: t %.5g s of %g, step %lld, dt %.3g s, solid at (%.4g, %.4g) m/s, %.0f s done, about %.0f "
          "s to go\n",
          s->t, r->end, r->totals.steps, s->dt, s->motion.velocity[0], s->motion.velocity[1], spent,
-         spent * (r->end - s->t) / s->t);
+         spent * (r->end - s->t) / (s->t - r->totals.resumed));
   fflush(stdout);
 }
 

@@ -16,17 +16,21 @@ typedef struct {
 
 typedef struct {
   long long steps;
-  double imbalance;                     /* the largest */
-  double end;                           /* s, time reached */
-  double terminal;                      /* m/s, mean downward velocity over the last 5 % of the time */
-  double overlap, force;                /* seconds, largest of all ranks */
+  double resumed;        /* s, where the run has gone on from a checkpoint; 0: from the start */
+  double imbalance;      /* the largest */
+  double end;            /* s, time reached */
+  double terminal;       /* m/s, mean downward velocity over the last 5 % of the time */
+  double overlap, force; /* seconds, largest of all ranks */
   long long nelements, nfacets, nfluid; /* solid elements, facets, fluid elements near the solid at the end */
 } RecordTotals;
 
 typedef struct Record_s *Record;
 
 /* Collective, as all of these. */
-PetscErrorCode RecordCreate(MPI_Comm comm, const CouplerCase *c, Record *record);
+PetscErrorCode RecordCreate(MPI_Comm comm, const CouplerCase *c, Checkpoint from, Record *record);
+/* With what RecordCreate then goes on from. */
+PetscErrorCode RecordSave(Record record, Checkpoint to);
+long long RecordSteps(Record record); /* not collective */
 /* The shell at time t if a snapshot is due. */
 PetscErrorCode RecordShell(Record record, double t, const Coupler coupler, const ServerSolid *solid);
 PetscErrorCode RecordStep(Record record, const RecordedStep *step);

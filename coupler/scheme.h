@@ -11,6 +11,7 @@ typedef struct {
   Coupler coupler;
   Region region;
   Record record;
+  Checkpoint from; /* that the run goes on from; NULL: from the start */
 } Scheme;
 
 /* Collective.  Each step once: the fluid implicit, the solid with the force of the same step (method.md

@@ -1,3 +1,4 @@
+#include "checkpoints.h"
 #include "guard.h"
 #include "scheme.h"
 
@@ -10,6 +11,7 @@ typedef struct {
   ServerSolid solid;
   ServerElements elements;
   Guard guard;
+  Checkpoints checkpoints;
   double t, dt;
 } March;
 
@@ -117,6 +119,45 @@ static PetscErrorCode Watch(March *m, const RecordedStep *step)
   PetscFunctionReturn(0);
 }
 
+/* --- checkpoints ---------------------------------------------------------------------------------------- */
+
+/* What goes on: the step that comes, the guard's memory. */
+static PetscErrorCode Load(March *m, Checkpoint from)
+{
+  Guard *g = &m->guard;
+  double row[7];
+
+  PetscFunctionBeginUser;
+  PetscCall(CheckpointGetNumber(from, "t", &m->t));
+  PetscCall(CheckpointGetNumber(from, "dt", &m->dt));
+  PetscCall(CheckpointGetDoubles(from, "guard", 0, 1, 7, row));
+  *g = (Guard){(int)row[0], (int)row[1], {row[2], row[3]}, {row[4], row[5]}, row[6]};
+  PetscFunctionReturn(0);
+}
+
+/* As the step that has been sent begins. */
+static PetscErrorCode Save(March *m)
+{
+  const Guard *g = &m->guard;
+  const double row[7] = {g->nsteps,    g->alternations, g->velocity[0], g->velocity[1],
+                         g->change[0], g->change[1],    g->first};
+  PetscMPIInt rank;
+  Checkpoint to;
+
+  PetscFunctionBeginUser;
+  if (!m->checkpoints.due[0]) PetscFunctionReturn(0);
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  PetscCall(CheckpointCreate(PETSC_COMM_WORLD, m->checkpoints.due, "coupler", &to));
+  PetscCall(CheckpointPutNumber(to, "t", m->t));
+  PetscCall(CheckpointPutNumber(to, "dt", m->dt));
+  PetscCall(CheckpointPutDoubles(to, "guard", rank ? 0 : 1, 7, row));
+  PetscCall(RecordSave(m->scheme->record, to));
+  PetscCall(CheckpointClose(&to));
+  PetscFunctionReturn(0);
+}
+
+/* --- the exchanges -------------------------------------------------------------------------------------- */
+
 /* The coupling of the coming step, and the correction of the one just made. */
 static PetscErrorCode SendCoupling(March *m, int ncorrection, const CoracleCorrection correction[])
 {
@@ -125,7 +166,6 @@ static PetscErrorCode SendCoupling(March *m, int ncorrection, const CoracleCorre
   int n;
 
   PetscFunctionBeginUser;
-  PetscCall(NextStep(m));
   PetscCall(CouplerBuild(s->coupler, &m->solid, m->dt, &n, &coupling));
   PetscCall(RecordShell(s->record, m->t, s->coupler, &m->solid));
   PetscCall(ServerSendCoupling(s->server, m->t, m->dt, CORACLE_RUN, ncorrection, correction, n, coupling));
@@ -135,9 +175,14 @@ static PetscErrorCode SendCoupling(March *m, int ncorrection, const CoracleCorre
 static PetscErrorCode Start(March *m)
 {
   PetscFunctionBeginUser;
+  PetscCall(CheckpointsCreate(PETSC_COMM_WORLD, m->scheme->server, m->scheme->c, &m->checkpoints));
+  if (m->scheme->from) PetscCall(Load(m, m->scheme->from));
   PetscCall(ReceiveSolid(m));
   PetscCall(AskElements(m));
-  PetscCall(CheckInside(m));
+  if (!m->scheme->from) {
+    PetscCall(CheckInside(m));
+    PetscCall(NextStep(m));
+  }
   PetscCall(SendCoupling(m, 0, NULL));
   PetscFunctionReturn(0);
 }
@@ -191,14 +236,18 @@ PetscErrorCode SchemeStaggered(const Scheme *s)
     RecordedStep step = {0};
     waited = ServerWaited(s->server);
     PetscCall(Exchange(&m, &step, &n, &correction));
+    PetscCall(CheckpointsFinish(&m.checkpoints));
     if (m.t < s->c->end) {
       built = MPI_Wtime() - ServerWaited(s->server);
       PetscCall(AskElementsIfNeeded(&m));
+      PetscCall(NextStep(&m));
+      PetscCall(CheckpointsAsk(&m.checkpoints, RecordSteps(s->record) + 1));
       PetscCall(SendCoupling(&m, n, correction));
       step.overlap = MPI_Wtime() - ServerWaited(s->server) - built;
     }
     step.waiting = ServerWaited(s->server) - waited;
     PetscCall(RecordStep(s->record, &step));
+    PetscCall(Save(&m));
   }
   PetscCall(Stop(&m, n, correction));
   PetscFunctionReturn(0);

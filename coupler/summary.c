@@ -82,6 +82,7 @@ static void WriteAll(FILE *f, const CouplerCase *c, const RecordTotals *t, const
   WriteString(f, c->note);
   fprintf(f, ",\n  \"version\": \"%s\",\n  \"revision\": \"%s\",\n  \"mode\": \"%s\",\n", CORACLE_VERSION,
           CORACLE_REVISION, COUPLER_MODES[c->options.mode]);
+  WriteField(f, "resumed_at", t->resumed);
   WriteField(f, "end_time", t->end);
   WriteField(f, "steps", (double)t->steps);
   WriteField(f, "terminal_velocity", t->terminal);

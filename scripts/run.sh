@@ -1,20 +1,22 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, runs a coupled case with progress, and draws its figures.
-# Usage: scripts/run.sh CASE [--set key=value]... [--ranks F:C:S] [--out DIR]
+# Usage: scripts/run.sh CASE [--set key=value]... [--ranks F:C:S] [--out DIR] [--resume]
 #   CASE   a folder of cases/, or a case file
 #   --set  overrides a key of the case file, e.g. --set time.end=1.0
 #   --ranks  ranks of fluid, coupler and solid (default 1:1:1)
 #   --out  output folder (default out/<case>)
+#   --resume  goes on from the last checkpoint in the output folder, if there is one
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 
-[ $# -ge 1 ] || { sed -n '2,7p' "$0" | cut -c3-; exit 2; }
+[ $# -ge 1 ] || { sed -n '2,8p' "$0" | cut -c3-; exit 2; }
 case=$1; shift
 ranks=1:1:1 out="" sets=()
 while [ $# -gt 0 ]; do
   case "$1" in
     --set) sets+=(--set "${2:?--set needs key=value}"); shift 2 ;;
     --ranks) ranks=${2:?--ranks needs F:C:S}; shift 2 ;;
+    --resume) sets+=(--set resume=last); shift ;;
     --out) out=${2:?--out needs a folder}; shift 2 ;;
     *) echo "run.sh: unknown argument '$1'" >&2; exit 2 ;;
   esac

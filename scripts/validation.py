@@ -18,14 +18,14 @@ PROGRAMS = ("coracle-fluid", "coracle-coupler", "coracle-solid")
 
 
 def launch(case, folder, keys, ranks):
-    """Runs `case`/case.yaml with `keys` ("key=value") on `ranks` ("F:C:S") into `folder`, what it prints into log.txt there; whether
-    it failed."""
+    """Runs `case`/case.yaml with `keys` ("key=value") on `ranks` ("F:C:S") into `folder`, from the last checkpoint there if it was
+    stopped, what it prints into log.txt there; whether it failed."""
     command = [ROOT / "scripts" / "launch.sh", "--ranks", ranks, case / "case.yaml"]
-    for key in ["output.folder=%s" % folder, *keys]:
+    for key in ["output.folder=%s" % folder, "resume=last", *keys]:
         command += ["--set", key]
     folder.mkdir(parents=True, exist_ok=True)
     print("begun " + folder.name, flush=True)
-    with open(folder / "log.txt", "w") as log:
+    with open(folder / "log.txt", "a") as log:
         return subprocess.run(command, stdout=log, stderr=subprocess.STDOUT).returncode != 0
 
 

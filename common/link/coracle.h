@@ -91,9 +91,11 @@ int CoracleElementsChanged(CoracleClient c);
 /* --- the run -------------------------------------------------------------------------------------------- */
 
 /* Registers `bytes` at `state` to be saved at CORACLE_RUN and put back at CORACLE_REDO; before the first
- * step. */
+ * step.  It is also what the library saves in checkpoints and, in a run that goes on from one, puts back at once
+ * (on as many ranks): bind before the mesh is given. */
 int CoracleBindState(CoracleClient c, void *state, size_t bytes);
-/* As above for state that is no flat buffer: called with save = 1 and save = 0. */
+/* As above for state that is no flat buffer: called with save = 1 and save = 0.  Checkpoints then are the
+ * participant's own affair (CoracleSaveFolder). */
 int CoracleBindStateFunction(CoracleClient c, int (*f)(void *context, int save), void *context);
 
 /* The first exchange: surface, volume and elements travel, the first coupling data come back. */

@@ -200,7 +200,7 @@ static void RunCoupler(int argc, char **argv, const char *folder, double end)
   scheme.server = server;
   CHECK(!CouplerCreate(comm, &c.options, &scheme.coupler) &&
             !RegionCreate(comm, c.options.thickness, &scheme.region) &&
-            !RecordCreate(comm, &c, &scheme.record),
+            !RecordCreate(comm, &c, NULL, &scheme.record),
         "create");
   CHECK(!SchemeStaggered(&scheme) && !ServerFinish(server), "run");
   CHECK(!RecordTotalsOf(scheme.record, 0, &totals), "totals");

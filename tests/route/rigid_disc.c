@@ -117,8 +117,8 @@ int main(int argc, char **argv)
   ReadCase(&d, argc, argv, rank);
   const size_t bytes = 2 * ((size_t)d.n + 1) * sizeof(double);
   double *before = malloc(bytes), *after = malloc(bytes), *u = malloc(bytes);
+  CoracleBindState(d.client, &d.now, sizeof d.now); /* first: a resumed run now is where it was */
   GiveMesh(&d, before);
-  CoracleBindState(d.client, &d.now, sizeof d.now);
   CoracleReady(d.client);
   for (;;) {
     const double *force;

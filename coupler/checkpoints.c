@@ -1,0 +1,113 @@
+#include "checkpoints.h"
+#include <dirent.h>
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define NAME "checkpoint"
+
+PetscErrorCode CheckpointsCreate(MPI_Comm comm, Server server, const CouplerCase *c, Checkpoints *k)
+{
+  PetscFunctionBeginUser;
+  *k = (Checkpoints){
+      .comm = comm, .server = server, .folder = c->folder, .every = c->checkpoint, .last = MPI_Wtime()};
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode IsRoot(const Checkpoints *k, PetscBool *root)
+{
+  PetscMPIInt rank;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(k->comm, &rank));
+  *root = rank ? PETSC_FALSE : PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+/* The folder of a checkpoint with what is in it. */
+static void Remove(const char *folder)
+{
+  char path[PETSC_MAX_PATH_LEN];
+  DIR *list = opendir(folder);
+  if (!list) return;
+  for (const struct dirent *entry; (entry = readdir(list));) {
+    snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
+    if (strcmp(entry->d_name, ".") && strcmp(entry->d_name, "..")) unlink(path);
+  }
+  closedir(list);
+  rmdir(folder);
+}
+
+/* All checkpoints but the one that the link means: the one before, and what runs that were killed have left. */
+static void RemoveOthers(const Checkpoints *k, const char *kept)
+{
+  char path[PETSC_MAX_PATH_LEN];
+  DIR *list = opendir(k->folder);
+  if (!list) return;
+  for (const struct dirent *entry; (entry = readdir(list));) {
+    const size_t n = strlen(NAME ".");
+    if (strncmp(entry->d_name, NAME ".", n) || !strcmp(entry->d_name, kept)) continue;
+    if (strspn(entry->d_name + n, "0123456789") != strlen(entry->d_name + n)) continue;
+    snprintf(path, sizeof path, "%s/%s", k->folder, entry->d_name);
+    Remove(path);
+  }
+  closedir(list);
+}
+
+/* The link means the new checkpoint, from one moment to the next. */
+static PetscErrorCode Publish(const Checkpoints *k)
+{
+  const char *name = strrchr(k->due, '/') + 1;
+  char link[sizeof k->due], new[sizeof k->due];
+
+  PetscFunctionBeginUser;
+  snprintf(link, sizeof link, "%s/" NAME, k->folder);
+  snprintf(new, sizeof new, "%s/" NAME ".new", k->folder);
+  unlink(new);
+  PetscCheck(!symlink(name, new) && !rename(new, link), PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", link,
+             strerror(errno));
+  RemoveOthers(k, name);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CheckpointsAsk(Checkpoints *k, long long steps)
+{
+  PetscBool root;
+  int due;
+
+  PetscFunctionBeginUser;
+  if (k->every <= 0.0 || k->impossible) PetscFunctionReturn(0);
+  PetscCall(IsRoot(k, &root));
+  due = MPI_Wtime() - k->last >= k->every;
+  PetscCallMPI(MPI_Bcast(&due, 1, MPI_INT, 0, k->comm));
+  if (!due) PetscFunctionReturn(0);
+  snprintf(k->due, sizeof k->due, "%s/" NAME ".%lld", k->folder, steps);
+  if (root) {
+    Remove(k->due);
+    PetscCheck(!mkdir(k->due, 0777), PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", k->due,
+               strerror(errno));
+  }
+  PetscCallMPI(MPI_Barrier(k->comm)); /* nobody is asked to save where nothing is yet */
+  PetscCall(ServerSave(k->server, k->due));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CheckpointsFinish(Checkpoints *k)
+{
+  PetscBool root;
+
+  PetscFunctionBeginUser;
+  if (!k->due[0]) PetscFunctionReturn(0);
+  PetscCall(IsRoot(k, &root));
+  const char *unsaved = ServerUnsaved(k->server);
+  if (unsaved && root) {
+    fprintf(stderr, "coracle: note: no checkpoints: the %s saves none\n", unsaved);
+    Remove(k->due);
+  }
+  if (!unsaved && root) PetscCall(Publish(k));
+  k->impossible = unsaved ? PETSC_TRUE : PETSC_FALSE;
+  k->due[0] = 0;
+  k->last = MPI_Wtime();
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,28 @@
+/* When checkpoints are made, and where they are:
+ *
+ *     <output.folder>/checkpoint -> checkpoint.1234     the last whole one, made as the step after 1234 began
+ *                     checkpoint.1234/fluid.h5 coupler.h5 solid.h5
+ *
+ * A new one is made beside it in a step in which all participants save; the link is then moved, which happens
+ * at once or not at all, and the old one removed.  A run that is killed leaves a whole checkpoint. */
+#ifndef CORACLE_CHECKPOINTS_H
+#define CORACLE_CHECKPOINTS_H
+#include "coupler_case.h"
+#include "server.h"
+
+typedef struct {
+  MPI_Comm comm;
+  Server server;        /* borrowed */
+  const char *folder;   /* the output's, borrowed */
+  double every, last;   /* seconds between two, 0: none; clock when the last was made */
+  char due[600];        /* the one in the step in hand, or "" */
+  PetscBool impossible; /* a participant saves nothing */
+} Checkpoints;
+
+/* All collective. */
+PetscErrorCode CheckpointsCreate(MPI_Comm comm, Server server, const CouplerCase *c, Checkpoints *k);
+/* Before the step after `steps` is sent: if it is time, has all clients save, and `due` is where to save, too. */
+PetscErrorCode CheckpointsAsk(Checkpoints *k, long long steps);
+/* After that step. */
+PetscErrorCode CheckpointsFinish(Checkpoints *k);
+#endif
