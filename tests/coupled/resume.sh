@@ -1,0 +1,66 @@
+#!/usr/bin/env bash
+# A run that is killed goes on from its last checkpoint as if nothing had happened: the same steps, motion, cracks and files, also on other ranks and with
+# another solid; and what cannot go on says so.  Usage: resume.sh ROOT BUILD
+set -euo pipefail
+source "$(dirname "$0")/run.sh"
+
+# kill_and_resume LABEL RANKS RANKS_AFTER [launch.sh arguments]: LABEL is killed after some steps and resumed.
+kill_and_resume() {
+  local label=$1 ranks=$2 after=$3
+  shift 3
+  run "$label" "$ranks" "$@" --set output.checkpoint=1e-9 &
+  for _ in $(seq 600); do
+    [ ! -e "$scratch/$label/coupler.csv" ] || [ "$(wc -l <"$scratch/$label/coupler.csv")" -le 12 ] || break
+    sleep 0.05
+  done
+  pkill -9 -f "^[^ ]*coracle-coupler .*output.folder=$scratch/$label( |$)" || { echo "$label has ended before it could be killed"; exit 1; }
+  wait $! && { echo "$label has survived"; exit 1; }
+  cp "$scratch/$label.log" "$scratch/$label.killed.log"
+  must "$label" "$after" "$@" --set output.checkpoint=1e-9 --set resume=last
+  grep -q "goes on from t" "$scratch/$label.log" || { echo "$label has begun anew:"; cat "$scratch/$label.log"; exit 1; }
+}
+
+adapt=(--set time.end=0.2 --set time.dt_max=0.004 --set fluid.adapt.size_min=0.02 --set fluid.adapt.size_max=0.25 --set fluid.adapt.velocity_error=0.005
+  --set fluid.adapt.every=7 --set "solid.bodies[0].size=0.03" --set output.every=0.02)
+brittle='{density: 2000.0, youngs_modulus: 1.0e6, poisson_ratio: 0.3, damping: 0.2, tensile_strength: 6.0e3, shear_strength: 1.2e4, fracture_energy: 1.0}'
+bar='{shape: rectangle, centre: [1.0, 1.1], width: 0.3, height: 0.1, size: 0.025, material: disc, joints: all, fixed: [left]}'
+cracks=(--set "solid.materials.disc=$brittle" --set "solid.bodies[0]=$bar" --set time.end=0.4)
+other=(--set time.end=0.3 --solid "$build/tests/route/rigid_disc")
+
+must disc 1:1:1 "${adapt[@]}"
+must cracks 1:1:1 "${cracks[@]}"
+must other 1:1:1 "${other[@]}"
+kill_and_resume disc-again 1:1:1 1:1:1 "${adapt[@]}"
+kill_and_resume disc-spread 2:1:1 1:2:2 "${adapt[@]}"
+kill_and_resume cracks-again 1:1:2 1:1:1 "${cracks[@]}"
+kill_and_resume other-again 1:1:1 1:1:1 "${other[@]}"
+run no-checkpoint 1:1:1 --set resume="$scratch/nothing" && { echo "it has gone on from nothing"; exit 1; }
+grep -q "resume.*there is no checkpoint" "$scratch/no-checkpoint.log" || { cat "$scratch/no-checkpoint.log"; exit 1; }
+
+"$python" - "$scratch" <<'E2'
+import csv, json, re, sys
+def rows(label, name):
+    return list(csv.DictReader(open("%s/%s/%s.csv" % (sys.argv[1], label, name))))
+def compare(one, two, columns, tolerance):
+    for name, keys in columns.items():
+        a, b = rows(one, name), rows(two, name)
+        assert len(a) == len(b), "%s.csv has %d rows, after resuming %d" % (name, len(a), len(b))
+        for key in keys:
+            largest = max(abs(float(r[key])) for r in a)
+            for r, s in zip(a, b):
+                assert abs(float(r[key]) - float(s[key])) <= tolerance * largest, "%s, %s at %s s: %s, after resuming %s" % (
+                    two, key, r["t [s]"], r[key], s[key])
+    for name in ("fluid", "coupler", "solid"):
+        indices = [open("%s/%s/%s.xdmf" % (sys.argv[1], label, name)).read() for label in (one, two)] if name in columns else []
+        times = [re.findall('Time Value="(.*)"', index) for index in indices]
+        assert not times or len(times[0]) > 2 and len(times[0]) == len(times[1]), "%s.xdmf: %s, after resuming %s" % (name, *times)
+    a, b = (json.load(open("%s/%s/summary.json" % (sys.argv[1], label))) for label in (one, two))
+    assert a["steps"] == b["steps"] and b["resumed_at"] > 0 and b["largest_momentum_imbalance"] < 1e-10, (a, b)
+motion = {"coupler": ["t [s]", "u_y [m/s]"], "fluid": ["t [s]", "kinetic energy [J/m]", "triangles"], "solid": ["t [s]", "y0 [m]", "v0 [m/s]"]}
+compare("disc", "disc-again", motion, 1e-9)
+compare("disc", "disc-spread", {"coupler": ["t [s]"]} , 0.02)
+u = [float(rows(label, "coupler")[-1]["u_y [m/s]"]) for label in ("disc", "disc-spread")]
+assert abs(u[0] / u[1] - 1) < 0.002, "resumed on other ranks it falls at %g m/s instead of %g" % (u[1], u[0])
+compare("cracks", "cracks-again", {"coupler": ["t [s]"], "solid": ["t [s]", "v0 [m/s]", "broken joints", "fracture [J/m]"]}, 1e-5)
+compare("other", "other-again", {"coupler": ["t [s]", "u_y [m/s]"]}, 1e-9)
+E2
