@@ -33,6 +33,29 @@ PetscErrorCode AdaptationDestroy(Adaptation *adaptation)
   return PetscFree(*adaptation);
 }
 
+PetscErrorCode AdaptationSave(Adaptation a, Checkpoint to)
+{
+  PetscFunctionBeginUser;
+  PetscCall(CheckpointPutNumber(to, "adaptation steps", a->steps));
+  PetscCall(CheckpointPutNumber(to, "adaptation first", a->first));
+  PetscCall(CheckpointPutNumber(to, "adaptation moved", a->moved));
+  PetscCall(CheckpointPutNumber(to, "adaptation reach", a->reach));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode AdaptationLoad(Adaptation a, Checkpoint from)
+{
+  double steps, first;
+  PetscFunctionBeginUser;
+  PetscCall(CheckpointGetNumber(from, "adaptation steps", &steps));
+  PetscCall(CheckpointGetNumber(from, "adaptation first", &first));
+  PetscCall(CheckpointGetNumber(from, "adaptation moved", &a->moved));
+  PetscCall(CheckpointGetNumber(from, "adaptation reach", &a->reach));
+  a->steps = (int)steps;
+  a->first = first ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode AdaptationDue(Adaptation a, Fluid f, PetscBool *due)
 {
   double speed;

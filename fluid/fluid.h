@@ -9,6 +9,7 @@
  * All functions are collective over mesh->comm unless said otherwise. */
 #ifndef FLUID_H
 #define FLUID_H
+#include "checkpoint.h"
 #include "coracle.h"
 #include "kernels.h"
 #include "mesh.h"
@@ -68,6 +69,13 @@ PetscErrorCode FluidTransfer(Fluid from, Fluid to);
 /* After that, with the coupling of the coming step set: takes the part of the bulk velocity off that is not
  * free of divergence, which else would come out as a jump of the pressure. */
 PetscErrorCode FluidMakeSolenoidal(Fluid fluid);
+
+/* The state between two steps in a checkpoint, and out of it on a mesh that MeshLoad has given, with its
+ * rows. On as many ranks as saved it the fluid goes on to the last bit as it would have, as far as a run
+ * repeats itself; to the solvers' tolerance on others, and where a solid gives way (the factor of giving.c is
+ * new). */
+PetscErrorCode FluidSave(Fluid fluid, Checkpoint to);
+PetscErrorCode FluidLoad(Fluid fluid, const PetscInt row[], Checkpoint from);
 
 /* The solid's coupling of the coming step, element indices being local elements (copied); n = 0: no solid. */
 PetscErrorCode FluidSetCoupling(Fluid fluid, int n, const CoracleCoupling coupling[]);

@@ -1,5 +1,6 @@
 #include "fluid_case.h"
 #include "geometry.h"
+#include "mesh_checkpoint.h"
 
 /* --- mesh: a graded box, or a Gmsh file
  * ------------------------------------------------------------------------ */
@@ -25,7 +26,7 @@ static double SizeAt(void *context, const double x[2])
   return size;
 }
 
-static PetscErrorCode BoxMesh(Case c, PetscMPIInt rank, MeshSerial *serial)
+static PetscErrorCode BoxMesh(Case c, PetscBool make, MeshSerial *serial)
 {
   SizeField f = {0};
   double lower[2], upper[2];
@@ -48,24 +49,29 @@ static PetscErrorCode BoxMesh(Case c, PetscMPIInt rank, MeshSerial *serial)
     (void)snprintf(key, sizeof key, "fluid.mesh.refine[%d].size", k);
     f.box[k].size = CasePositive(c, key);
   }
-  if (rank == 0) PetscCall(MeshBox(lower, upper, f.size_max, SizeAt, &f, serial));
+  if (make) PetscCall(MeshBox(lower, upper, f.size_max, SizeAt, &f, serial));
   PetscCall(PetscFree(f.box));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode FluidCaseMesh(Case c, MPI_Comm comm, Mesh **mesh)
+/* The keys are read in any case. */
+PetscErrorCode FluidCaseMesh(Case c, MPI_Comm comm, Checkpoint from, Mesh **mesh, PetscInt **row)
 {
   MeshSerial serial = {0};
   PetscMPIInt rank;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  const PetscBool make = (PetscBool)(rank == 0 && !from);
   if (CaseHas(c, "fluid.mesh.file")) {
     const char *path = CaseFile(c, "fluid.mesh.file"), *why = NULL;
-    if (rank == 0 && MeshReadGmsh(path, &serial, &why)) CaseRefuse(c, "fluid.mesh.file", "%s", why);
+    if (make && MeshReadGmsh(path, &serial, &why)) CaseRefuse(c, "fluid.mesh.file", "%s", why);
   } else {
-    PetscCall(BoxMesh(c, rank, &serial));
+    PetscCall(BoxMesh(c, make, &serial));
   }
-  PetscCall(MeshDistribute(comm, &serial, mesh));
+  if (from)
+    PetscCall(MeshLoad(comm, from, mesh, row));
+  else
+    PetscCall(MeshDistribute(comm, &serial, mesh));
   PetscCall(MeshSerialDestroy(&serial));
   PetscFunctionReturn(0);
 }
@@ -101,28 +107,60 @@ static void ReadBoundary(Case c, const char *name, Boundary *b)
   b->kind = KINDS[CaseWord(c, key, -1, WORDS)];
 }
 
-/* A boundary of the case file must be one of the mesh's. */
+/* The boundaries of the case file and those of the mesh. */
 typedef struct {
   Case c;
   const Mesh *mesh;
+  int nlisted, nknown; /* in the case file, and of these in the mesh */
+  char listed[512];
 } BoundaryCheck;
 
+static void AppendName(char list[512], const char *name)
+{
+  const size_t used = strlen(list);
+  (void)snprintf(list + used, 512 - used, "%s%s", used ? ", " : "", name);
+}
+
+static void MeshBoundaries(const Mesh *m, char list[512])
+{
+  list[0] = 0;
+  for (int b = 0; b < m->ntags; b++) AppendName(list, m->tag_name[b]);
+}
+
+/* A boundary of the case file must be one of the mesh's. */
 static void CheckBoundaryName(void *context, const char *name)
 {
   const BoundaryCheck *check = context;
-  char known[512] = "", key[160];
-  for (int b = 0; b < check->mesh->ntags; b++) {
-    if (!strcmp(check->mesh->tag_name[b], name)) return;
-    const size_t used = strlen(known);
-    (void)snprintf(known + used, sizeof known - used, "%s%s", b ? ", " : "", check->mesh->tag_name[b]);
-  }
+  char known[512], key[160];
+  if (MeshTagIndex(check->mesh, name) >= 0) return;
+  MeshBoundaries(check->mesh, known);
   (void)snprintf(key, sizeof key, "fluid.boundaries.%s", name);
   CaseRefuse(check->c, key, "the mesh has no boundary of this name; it has %s", known);
 }
 
+static void ListBoundaryName(void *context, const char *name)
+{
+  BoundaryCheck *check = context;
+  check->nlisted++;
+  check->nknown += MeshTagIndex(check->mesh, name) >= 0;
+  AppendName(check->listed, name);
+}
+
+void FluidCaseCheckResumed(Case c, const Mesh *mesh, const char *folder)
+{
+  BoundaryCheck check = {.c = c, .mesh = mesh};
+  char found[512];
+  CaseKeys(c, "fluid.boundaries", ListBoundaryName, &check);
+  if (check.nlisted == mesh->ntags && check.nknown == mesh->ntags) return;
+  MeshBoundaries(mesh, found);
+  CaseRefuse(c, "resume",
+             "expected a mesh with the %d boundaries of fluid.boundaries (%s), found %d (%s) in %s/fluid.h5",
+             check.nlisted, check.listed, mesh->ntags, found, folder);
+}
+
 PetscErrorCode FluidCaseSetup(Case c, const Mesh *mesh, FluidSetup *setup)
 {
-  BoundaryCheck check = {c, mesh};
+  BoundaryCheck check = {.c = c, .mesh = mesh};
   PetscFunctionBeginUser;
   memset(setup, 0, sizeof *setup);
   setup->rho = CasePositive(c, "fluid.density");

@@ -5,8 +5,11 @@
 #include "case_file.h"
 #include "fluid.h"
 
-/* Collective over comm.  Builds or reads the mesh and distributes it. */
-PetscErrorCode FluidCaseMesh(Case c, MPI_Comm comm, Mesh **mesh);
+/* Collective over comm.  Builds or reads the mesh and distributes it; with a checkpoint (else NULL) the mesh
+ * is the one that was saved there, and *row as of MeshLoad. */
+PetscErrorCode FluidCaseMesh(Case c, MPI_Comm comm, Checkpoint from, Mesh **mesh, PetscInt **row);
+/* Refuses the checkpoint in `folder`, whose mesh this is, unless its boundaries are those of the case. */
+void FluidCaseCheckResumed(Case c, const Mesh *mesh, const char *folder);
 /* Reads everything else.  setup->boundary is allocated: PetscFree it after FluidCreate has copied it. */
 PetscErrorCode FluidCaseSetup(Case c, const Mesh *mesh, FluidSetup *setup);
 /* Whether the mesh adapts, and how (fluid.adapt). */

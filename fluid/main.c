@@ -2,6 +2,7 @@
 #include "adaptation.h"
 #include "exchange.h"
 #include "fluid_case.h"
+#include "mesh_checkpoint.h"
 #include "record.h"
 
 static void Fail(void *client, const char *message)
@@ -46,23 +47,73 @@ static PetscErrorCode FirstMesh(void *context, int nbox, const double box[], Flu
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Setup(March *m, MPI_Comm comm)
+/* --- checkpoints ---------------------------------------------------------------------------------------- */
+
+/* If a checkpoint is due: what the fluid is as the step begins. */
+static PetscErrorCode Save(const March *m)
+{
+  const char *folder = CoracleSaveFolder(m->client);
+  Checkpoint to;
+  PetscFunctionBeginUser;
+  if (!folder) PetscFunctionReturn(0);
+  PetscCall(CheckpointCreate(m->mesh->comm, folder, "fluid", &to));
+  PetscCall(MeshSave(m->mesh, to));
+  PetscCall(FluidSave(m->fluid, to));
+  PetscCall(CheckpointPutNumber(to, "new mesh", m->new_mesh));
+  if (m->adaptation) PetscCall(AdaptationSave(m->adaptation, to));
+  PetscCall(RecordSave(m->record, to));
+  PetscCall(CheckpointClose(&to));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Load(March *m, Checkpoint from, const PetscInt row[])
+{
+  double new_mesh;
+  PetscFunctionBeginUser;
+  PetscCall(FluidLoad(m->fluid, row, from));
+  PetscCall(CheckpointGetNumber(from, "new mesh", &new_mesh));
+  m->new_mesh = new_mesh ? PETSC_TRUE : PETSC_FALSE;
+  if (m->adaptation) PetscCall(AdaptationLoad(m->adaptation, from));
+  PetscFunctionReturn(0);
+}
+
+/* --- the run -------------------------------------------------------------------------------------------- */
+
+/* What the case says, with the mesh of a checkpoint if there is one. */
+static PetscErrorCode Create(March *m, MPI_Comm comm, const char *resume, Checkpoint from, PetscInt **row)
 {
   FluidSetup setup;
   AdaptationSetup adaptation;
   PetscBool adapts;
   PetscFunctionBeginUser;
   PetscCall(PetscOptionsInsertString(NULL, CaseStringOr(m->c, "fluid.petsc", "")));
-  PetscCall(FluidCaseMesh(m->c, comm, &m->mesh));
+  PetscCall(FluidCaseMesh(m->c, comm, from, &m->mesh, row));
+  if (from) FluidCaseCheckResumed(m->c, m->mesh, resume);
   PetscCall(FluidCaseSetup(m->c, m->mesh, &setup));
   PetscCall(FluidCaseAdaptation(m->c, &adapts, &adaptation));
   PetscCall(CaseFinish(m->c, SECTIONS));
   if (adapts) PetscCall(AdaptationCreate(&adaptation, &m->adaptation));
   PetscCall(FluidCreate(m->mesh, &setup, &m->fluid));
-  PetscCall(FluidSetInitial(m->fluid, 0.0, NULL, NULL, NULL));
   PetscCall(PetscFree(setup.boundary));
-  PetscCall(ExchangeCreate(m->client, m->fluid, adapts ? FirstMesh : NULL, m, &m->exchange));
-  PetscCall(RecordCreate(m->c, m->fluid, &m->record));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Setup(March *m, MPI_Comm comm)
+{
+  const char *resume = CoracleResumeFolder(m->client);
+  Checkpoint from = NULL;
+  PetscInt *row = NULL;
+  PetscFunctionBeginUser;
+  if (resume) PetscCall(CheckpointOpen(comm, resume, "fluid", &from));
+  PetscCall(Create(m, comm, resume, from, &row));
+  if (from)
+    PetscCall(Load(m, from, row));
+  else
+    PetscCall(FluidSetInitial(m->fluid, 0.0, NULL, NULL, NULL));
+  PetscCall(PetscFree(row));
+  PetscCall(ExchangeCreate(m->client, m->fluid, m->adaptation && !from ? FirstMesh : NULL, m, &m->exchange));
+  PetscCall(RecordCreate(m->c, m->fluid, from, &m->record));
+  PetscCall(CheckpointClose(&from));
   PetscFunctionReturn(0);
 }
 
@@ -133,6 +184,7 @@ static PetscErrorCode Run(CoracleClient client, Case c, MPI_Comm comm)
   PetscCall(Setup(&m, comm));
   PetscCall(CoracleBegin(client, &t, &dt, &action));
   for (int steps = 0; action != CORACLE_STOP; steps++) {
+    PetscCall(Save(&m));
     PetscCall(Step(&m, dt));
     if (steps == 0) PetscCall(FluidCaseCheckOptions(c));
     PetscCall(CoracleBegin(client, &t, &dt, &action));

@@ -68,7 +68,7 @@ static PetscErrorCode Snapshot(Record r, Fluid f)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode RecordCreate(Case c, Fluid f, Record *record)
+PetscErrorCode RecordCreate(Case c, Fluid f, Checkpoint from, Record *record)
 {
   const Mesh *m = FluidMesh(f);
   const char *folder = CaseString(c, "output.folder");
@@ -76,10 +76,22 @@ PetscErrorCode RecordCreate(Case c, Fluid f, Record *record)
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&r));
   r->every = CasePositive(c, "output.every");
-  PetscCall(OutputCreate(m->comm, folder, "fluid", NULL, &r->output));
-  PetscCall(SeriesCreate(m->comm, folder, "fluid", COLUMNS, NULL, &r->series));
-  PetscCall(Snapshot(r, f));
+  PetscCall(OutputCreate(m->comm, folder, "fluid", from, &r->output));
+  PetscCall(SeriesCreate(m->comm, folder, "fluid", COLUMNS, from, &r->series));
+  if (from)
+    PetscCall(CheckpointGetNumber(from, "next output", &r->next));
+  else
+    PetscCall(Snapshot(r, f));
   *record = r;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RecordSave(Record r, Checkpoint to)
+{
+  PetscFunctionBeginUser;
+  PetscCall(OutputSave(r->output, to));
+  PetscCall(SeriesSave(r->series, to));
+  PetscCall(CheckpointPutNumber(to, "next output", r->next));
   PetscFunctionReturn(0);
 }
 

@@ -146,7 +146,7 @@ static PetscErrorCode SetBounds(Mesh *m)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode BuildCreate(MPI_Comm comm, const MeshPiece *piece, Build *b)
+static PetscErrorCode BuildCreate(MPI_Comm comm, const MeshPiece *piece, PetscBool keep, Build *b)
 {
   PetscFunctionBeginUser;
   b->piece = &piece->serial;
@@ -156,7 +156,8 @@ static PetscErrorCode BuildCreate(MPI_Comm comm, const MeshPiece *piece, Build *
   b->nnodes = piece->serial.nv + b->faces.local.nedge;
   PetscCall(PetscMalloc2(piece->serial.ne, &b->order, piece->serial.ne, &b->number));
   PetscCall(PetscMalloc3(piece->serial.nv, &b->vertex, b->nnodes, &b->foreign, b->nnodes, &b->p2gid));
-  PetscCall(MeshOrder(piece->serial.ne, b->faces.local.neighbor, b->order));
+  for (int e = 0; e < piece->serial.ne; e++) b->order[e] = e;
+  if (!keep) PetscCall(MeshOrder(piece->serial.ne, b->faces.local.neighbor, b->order));
   for (int e = 0; e < piece->serial.ne; e++) b->number[b->order[e]] = e;
   PetscFunctionReturn(0);
 }
@@ -189,12 +190,13 @@ static PetscErrorCode Fill(Build *b, Mesh *m)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode MeshBuild(MPI_Comm comm, const MeshPiece *piece, Mesh **mesh)
+PetscErrorCode MeshBuildOrdered(MPI_Comm comm, const MeshPiece *piece, PetscBool keep, int order[],
+                                Mesh **mesh)
 {
   Build b;
   Mesh *m;
   PetscFunctionBeginUser;
-  const PetscErrorCode failed = BuildCreate(comm, piece, &b);
+  const PetscErrorCode failed = BuildCreate(comm, piece, keep, &b);
   if (failed) PetscFunctionReturn(failed);
   PetscCall(PetscNew(mesh));
   m = *mesh;
@@ -206,6 +208,12 @@ PetscErrorCode MeshBuild(MPI_Comm comm, const MeshPiece *piece, Mesh **mesh)
   m->ntags = piece->serial.ntags;
   PetscCall(Fill(&b, m));
   if (m->ntags) memcpy(m->tag_name, piece->serial.tag_name, (size_t)m->ntags * sizeof *m->tag_name);
+  if (order) PetscCall(PetscArraycpy(order, b.order, m->ne));
   PetscCall(BuildDestroy(&b));
   PetscFunctionReturn(0);
+}
+
+PetscErrorCode MeshBuild(MPI_Comm comm, const MeshPiece *piece, Mesh **mesh)
+{
+  return MeshBuildOrdered(comm, piece, PETSC_FALSE, NULL, mesh);
 }

@@ -1,8 +1,22 @@
-/* Private to the mesh room: faces of a piece, here and to other ranks; the order of its elements. */
+/* Private to the mesh room: what makes a piece; its faces, here and to other ranks; the order of its
+ * elements. */
 #ifndef CORACLE_MESH_IMPL_H
 #define CORACLE_MESH_IMPL_H
 #include "mesh_route.h"
 #include "piece.h"
+
+/* Parts of a piece that a list of triangles makes.  Not collective. */
+
+/* Joins vertices that were listed more than once: local[n] is what those of gid[n] became, as they are met.
+ * Sets gid and serial.nv. */
+PetscErrorCode PieceMerge(int n, const long long gid[], int local[], MeshPiece *piece);
+/* The facets: faces with a name, tag[ne][3], else -1. */
+PetscErrorCode PieceFacets(const int tag[], MeshSerial *serial);
+
+/* Collective.  MeshBuild; order[ne], or NULL, says which triangle of the piece each element was.  keep: the
+ * one of the same number, so that the piece of a Mesh gives the same Mesh again, to the last bit. */
+PetscErrorCode MeshBuildOrdered(MPI_Comm comm, const MeshPiece *piece, PetscBool keep, int order[],
+                                Mesh **mesh);
 
 /* Faces of a MeshSerial; arrays are [ne][3], face i opposite to vertex i. */
 typedef struct {

@@ -1,4 +1,5 @@
-#include "piece.h"
+#include "mesh_impl.h"
+#include "mesh_table.h"
 #include <string.h>
 
 PetscErrorCode MeshPieceDestroy(MeshPiece *piece)
@@ -6,6 +7,38 @@ PetscErrorCode MeshPieceDestroy(MeshPiece *piece)
   PetscFunctionBeginUser;
   PetscCall(MeshSerialDestroy(&piece->serial));
   PetscCall(PetscFree(piece->gid));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PieceMerge(int n, const long long gid[], int local[], MeshPiece *piece)
+{
+  MeshTable table;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(n, &piece->gid));
+  PetscCall(MeshTableCreate(&table, (size_t)n));
+  for (int k = 0; k < n; k++) {
+    int *v = MeshTableAt(&table, (int)(gid[k] >> 32), (int)gid[k]);
+    if (*v < 0) {
+      piece->gid[piece->serial.nv] = gid[k];
+      *v = piece->serial.nv++;
+    }
+    local[k] = *v;
+  }
+  PetscCall(MeshTableDestroy(&table));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PieceFacets(const int tag[], MeshSerial *s)
+{
+  PetscFunctionBeginUser;
+  for (int k = 0; k < 3 * s->ne; k++) s->nb += tag[k] >= 0;
+  PetscCall(PetscMalloc1(2 * s->nb, &s->facet));
+  PetscCall(PetscMalloc1(s->nb, &s->facet_tag));
+  for (int k = 0, b = 0; k < 3 * s->ne; k++) {
+    if (tag[k] < 0) continue;
+    MeshFaceEnds(s, k, &s->facet[2 * b], &s->facet[2 * b + 1]);
+    s->facet_tag[b++] = tag[k];
+  }
   PetscFunctionReturn(0);
 }
 
@@ -30,15 +63,7 @@ PetscErrorCode MeshPieceOf(const Mesh *m, MeshPiece *piece)
   PetscCall(CopyVertices(m, piece));
   PetscCall(PetscMalloc1(3 * m->ne, &s->vertex));
   PetscCall(PetscArraycpy(s->vertex, m->vertex, 3 * m->ne));
-  for (int k = 0; k < 3 * m->ne; k++) s->nb += m->tag[k] >= 0;
-  PetscCall(PetscMalloc1(2 * s->nb, &s->facet));
-  PetscCall(PetscMalloc1(s->nb, &s->facet_tag));
-  for (int k = 0, b = 0; k < 3 * m->ne; k++) {
-    if (m->tag[k] < 0) continue;
-    s->facet[2 * b] = m->vertex[k - k % 3 + (k + 1) % 3];
-    s->facet[2 * b + 1] = m->vertex[k - k % 3 + (k + 2) % 3];
-    s->facet_tag[b++] = m->tag[k];
-  }
+  PetscCall(PieceFacets(m->tag, s));
   s->ntags = m->ntags;
   PetscCall(PetscMalloc1(m->ntags, &s->tag_name));
   if (m->ntags) memcpy(s->tag_name, m->tag_name, (size_t)m->ntags * sizeof *m->tag_name);

@@ -1,5 +1,4 @@
 #include "mesh_impl.h"
-#include "mesh_table.h"
 #include <string.h>
 
 /* A triangle on its way: corners by their place among the vertices that the same rank sends to the same rank.
@@ -71,25 +70,6 @@ static PetscErrorCode CargoDestroy(Cargo *c)
   PetscFunctionReturn(0);
 }
 
-/* Joins what arrived twice: local[k] is the vertex that the k-th arrival became, the first of its gid. */
-static PetscErrorCode Merge(int n, const long long gid[], int local[], MeshPiece *to)
-{
-  MeshTable table;
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(n, &to->gid));
-  PetscCall(MeshTableCreate(&table, (size_t)n));
-  for (int k = 0; k < n; k++) {
-    int *v = MeshTableAt(&table, (int)(gid[k] >> 32), (int)gid[k]);
-    if (*v < 0) {
-      to->gid[to->serial.nv] = gid[k];
-      *v = to->serial.nv++;
-    }
-    local[k] = *v;
-  }
-  PetscCall(MeshTableDestroy(&table));
-  PetscFunctionReturn(0);
-}
-
 /* Vertices travel as a gid and as `ncomp` numbers, of which the first two are the coordinates. */
 static PetscErrorCode ReceiveVertices(const MeshPiece *from, const Cargo *c, int ncomp, const double data[],
                                       int local[], MeshPiece *to, double **to_data)
@@ -107,7 +87,7 @@ static PetscErrorCode ReceiveVertices(const MeshPiece *from, const Cargo *c, int
   }
   PetscCall(MeshRouteSend(route, sizeof *gid, gid, gid_in));
   PetscCall(MeshRouteSend(route, (size_t)w * sizeof *in, value, in));
-  PetscCall(Merge(m, gid_in, local, to));
+  PetscCall(PieceMerge(m, gid_in, local, to));
   PetscCall(PetscMalloc1(2 * to->serial.nv, &to->serial.x));
   if (ncomp) PetscCall(PetscMalloc1(ncomp * to->serial.nv, to_data));
   for (int k = 0; k < m; k++) {
@@ -118,40 +98,30 @@ static PetscErrorCode ReceiveVertices(const MeshPiece *from, const Cargo *c, int
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Facets(const Parcel parcel[], MeshSerial *s)
-{
-  PetscFunctionBeginUser;
-  for (int k = 0; k < 3 * s->ne; k++) s->nb += parcel[k / 3].tag[k % 3] >= 0;
-  PetscCall(PetscMalloc1(2 * s->nb, &s->facet));
-  PetscCall(PetscMalloc1(s->nb, &s->facet_tag));
-  for (int k = 0, b = 0; k < 3 * s->ne; k++) {
-    const int tag = parcel[k / 3].tag[k % 3];
-    if (tag < 0) continue;
-    MeshFaceEnds(s, k, &s->facet[2 * b], &s->facet[2 * b + 1]);
-    s->facet_tag[b++] = tag;
-  }
-  PetscFunctionReturn(0);
-}
-
+/* local[k] is the vertex that the k-th arrival became. */
 static PetscErrorCode ReceiveElements(const Cargo *c, const int local[], MeshSerial *s)
 {
   const MeshRoute *route = &c->elements;
   Parcel *in;
+  int *tag;
   PetscFunctionBeginUser;
   s->ne = route->in_start[route->size];
-  PetscCall(PetscMalloc1(s->ne, &in));
+  PetscCall(PetscMalloc2(s->ne, &in, 3 * s->ne, &tag));
   PetscCall(MeshRouteSend(route, sizeof *in, c->parcel, in));
   PetscCall(PetscMalloc1(3 * s->ne, &s->vertex));
   if (s->nregions) PetscCall(PetscMalloc1(s->ne, &s->region));
   for (int r = 0; r < route->size; r++) {
     const int *vertex = &local[c->vertices.in_start[r]];
     for (int e = route->in_start[r]; e < route->in_start[r + 1]; e++) {
-      for (int i = 0; i < 3; i++) s->vertex[3 * e + i] = vertex[in[e].vertex[i]];
+      for (int i = 0; i < 3; i++) {
+        s->vertex[3 * e + i] = vertex[in[e].vertex[i]];
+        tag[3 * e + i] = in[e].tag[i];
+      }
       if (s->region) s->region[e] = in[e].region;
     }
   }
-  PetscCall(Facets(in, s));
-  PetscCall(PetscFree(in));
+  PetscCall(PieceFacets(tag, s));
+  PetscCall(PetscFree2(in, tag));
   PetscFunctionReturn(0);
 }
 

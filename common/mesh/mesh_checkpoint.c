@@ -1,0 +1,183 @@
+#include "mesh_checkpoint.h"
+#include "mesh_impl.h"
+#include <string.h>
+
+#define NAME ((int)sizeof(((Mesh *)NULL)->tag_name[0]))
+
+static PetscErrorCode SaveNames(const Mesh *m, PetscMPIInt rank, Checkpoint to)
+{
+  const int n = rank == 0 ? m->ntags : 0;
+  long long *code;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(NAME * n, &code));
+  for (int k = 0; k < NAME * n; k++) code[k] = m->tag_name[k / NAME][k % NAME];
+  PetscCall(CheckpointPutIndices(to, "mesh names", n, NAME, code));
+  PetscCall(PetscFree(code));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode MeshSave(const Mesh *m, Checkpoint to)
+{
+  const long long part = m->ne;
+  long long *vertex, *tag;
+  double *corner;
+  PetscMPIInt rank;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(m->comm, &rank));
+  PetscCall(PetscMalloc3(3 * m->ne, &vertex, 3 * m->ne, &tag, 6 * m->ne, &corner));
+  for (int k = 0; k < 3 * m->ne; k++) {
+    vertex[k] = m->p2gid[m->p2[6 * (k / 3) + k % 3]];
+    tag[k] = m->tag[k];
+    for (int c = 0; c < 2; c++) corner[2 * k + c] = m->x[2 * m->vertex[k] + c];
+  }
+  PetscCall(CheckpointPutDoubles(to, "mesh corners", m->ne, 6, corner));
+  PetscCall(CheckpointPutIndices(to, "mesh vertices", m->ne, 3, vertex));
+  PetscCall(CheckpointPutIndices(to, "mesh tags", m->ne, 3, tag));
+  PetscCall(CheckpointPutIndices(to, "mesh parts", 1, 1, &part));
+  PetscCall(SaveNames(m, rank, to));
+  PetscCall(PetscFree3(vertex, tag, corner));
+  PetscFunctionReturn(0);
+}
+
+/* Rows that a rank reads when they are dealt out evenly: start .. start + n - 1; row r is read by rank
+ * r / block. */
+static void Slab(long long total, int size, int rank, long long *block, long long *start, int *n)
+{
+  *block = (total + size - 1) / size;
+  *start = PetscMin(rank * *block, total);
+  *n = (int)(PetscMin(*start + *block, total) - *start);
+}
+
+/* This rank's rows: those that the same rank has saved, if there were as many, else a slab. */
+static PetscErrorCode OwnRows(MPI_Comm comm, Checkpoint from, PetscBool *same, long long *start, int *n)
+{
+  long long parts, total, block, *part;
+  PetscMPIInt rank, size;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCall(CheckpointRows(from, "mesh parts", &parts));
+  PetscCall(CheckpointRows(from, "mesh vertices", &total));
+  *same = (PetscBool)(parts == size);
+  Slab(total, size, rank, &block, start, n);
+  if (!*same) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(size, &part));
+  PetscCall(CheckpointGetIndices(from, "mesh parts", 0, size, 1, part));
+  *start = 0;
+  for (int r = 0; r < rank; r++) *start += part[r];
+  *n = (int)part[rank];
+  PetscCall(PetscFree(part));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode LoadNames(Checkpoint from, MeshSerial *s)
+{
+  long long n, *code;
+  PetscFunctionBeginUser;
+  PetscCall(CheckpointRows(from, "mesh names", &n));
+  s->ntags = (int)n;
+  PetscCall(PetscMalloc1(NAME * n, &code));
+  PetscCall(PetscMalloc1(n, &s->tag_name));
+  PetscCall(CheckpointGetIndices(from, "mesh names", 0, s->ntags, NAME, code));
+  for (int k = 0; k < NAME * s->ntags; k++) s->tag_name[k / NAME][k % NAME] = (char)code[k];
+  PetscCall(PetscFree(code));
+  PetscFunctionReturn(0);
+}
+
+/* The triangles of n rows; the row is each one's region, which goes where it goes. */
+static PetscErrorCode LoadPiece(Checkpoint from, long long start, int n, MeshPiece *piece)
+{
+  MeshSerial *s = &piece->serial;
+  long long *vertex, *tag;
+  double *corner;
+  int *local_tag;
+  PetscFunctionBeginUser;
+  memset(piece, 0, sizeof *piece);
+  s->ne = n;
+  s->nregions = 1;
+  PetscCall(PetscMalloc4(3 * n, &vertex, 3 * n, &tag, 6 * n, &corner, 3 * n, &local_tag));
+  PetscCall(CheckpointGetDoubles(from, "mesh corners", start, n, 6, corner));
+  PetscCall(CheckpointGetIndices(from, "mesh vertices", start, n, 3, vertex));
+  PetscCall(CheckpointGetIndices(from, "mesh tags", start, n, 3, tag));
+  PetscCall(PetscMalloc1(n, &s->region));
+  PetscCall(PetscMalloc1(3 * n, &s->vertex));
+  PetscCall(PieceMerge(3 * n, vertex, s->vertex, piece));
+  PetscCall(PetscMalloc1(2 * s->nv, &s->x));
+  for (int e = 0; e < n; e++) s->region[e] = (int)start + e;
+  for (int k = 0; k < 3 * n; k++) {
+    local_tag[k] = (int)tag[k];
+    for (int c = 0; c < 2; c++) s->x[2 * s->vertex[k] + c] = corner[2 * k + c];
+  }
+  PetscCall(PieceFacets(local_tag, s));
+  PetscCall(PetscFree4(vertex, tag, corner, local_tag));
+  PetscCall(LoadNames(from, s));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Repartition(MPI_Comm comm, MeshPiece *piece)
+{
+  MeshPiece moved;
+  PetscMPIInt size;
+  int *part;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCall(PetscMalloc1(piece->serial.ne, &part));
+  PetscCall(MeshPiecePartition(comm, piece, size, NULL, part));
+  PetscCall(MeshPieceMigrate(comm, piece, part, 0, NULL, &moved, NULL));
+  PetscCall(PetscFree(part));
+  PetscCall(MeshPieceDestroy(piece));
+  *piece = moved;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode MeshLoad(MPI_Comm comm, Checkpoint from, Mesh **mesh, PetscInt **row)
+{
+  MeshPiece piece;
+  PetscBool same = PETSC_FALSE;
+  long long start = 0;
+  int n = 0, *order;
+  PetscFunctionBeginUser;
+  PetscCall(OwnRows(comm, from, &same, &start, &n));
+  PetscCall(LoadPiece(from, start, n, &piece));
+  if (!same) PetscCall(Repartition(comm, &piece));
+  PetscCall(PetscMalloc1(piece.serial.ne, &order));
+  PetscCall(PetscMalloc1(piece.serial.ne, row));
+  PetscCall(MeshBuildOrdered(comm, &piece, same, order, mesh));
+  for (int e = 0; e < piece.serial.ne; e++) (*row)[e] = piece.serial.region[order[e]];
+  PetscCall(PetscFree(order));
+  PetscCall(MeshPieceDestroy(&piece));
+  PetscFunctionReturn(0);
+}
+
+/* Ranks read slabs and ask each other for rows. */
+PetscErrorCode MeshLoadDoubles(const Mesh *m, const PetscInt row[], Checkpoint from, const char *name,
+                               int ncol, double value[])
+{
+  const size_t bytes = (size_t)ncol * sizeof *value;
+  long long block, start;
+  int n, *to, *slot;
+  PetscInt *wanted, *asked;
+  double *slab, *answer, *back;
+  MeshRoute route;
+  PetscMPIInt rank, size;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(m->comm, &rank));
+  PetscCallMPI(MPI_Comm_size(m->comm, &size));
+  Slab(m->nglobal, size, rank, &block, &start, &n);
+  PetscCall(PetscMalloc5(m->ne, &to, m->ne, &slot, m->ne, &wanted, ncol * n, &slab, ncol * m->ne, &back));
+  PetscCall(CheckpointGetDoubles(from, name, start, n, ncol, slab));
+  for (int e = 0; e < m->ne; e++) to[e] = (int)(row[e] / block);
+  PetscCall(MeshRouteCreate(m->comm, m->ne, to, slot, &route));
+  for (int e = 0; e < m->ne; e++) wanted[slot[e]] = row[e];
+  const int nasked = route.in_start[size];
+  PetscCall(PetscMalloc2(nasked, &asked, ncol * nasked, &answer));
+  PetscCall(MeshRouteSend(&route, sizeof *asked, wanted, asked));
+  for (int k = 0; k < nasked; k++)
+    PetscCall(PetscArraycpy(answer + ncol * k, slab + ncol * (asked[k] - start), ncol));
+  PetscCall(MeshRouteReply(&route, bytes, answer, back));
+  for (int e = 0; e < m->ne; e++) PetscCall(PetscArraycpy(value + ncol * e, back + ncol * slot[e], ncol));
+  PetscCall(PetscFree2(asked, answer));
+  PetscCall(PetscFree5(to, slot, wanted, slab, back));
+  PetscCall(MeshRouteDestroy(&route));
+  PetscFunctionReturn(0);
+}

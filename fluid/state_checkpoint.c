@@ -1,0 +1,97 @@
+/* The state of the fluid in a checkpoint and out of it: tables with a row an element, in the order of the
+ * elements' global numbers, as in mesh_checkpoint.h. */
+#include "fluid_impl.h"
+#include "mesh_checkpoint.h"
+
+#define PHASES ((int)(sizeof((FluidStats *)NULL)->seconds / sizeof(double)))
+
+static PetscErrorCode SaveVelocity(Vec velocity, int ne, const char *name, Checkpoint to)
+{
+  const PetscScalar *u;
+  PetscFunctionBeginUser;
+  PetscCall(VecGetArrayRead(velocity, &u));
+  PetscCall(CheckpointPutDoubles(to, name, ne, 6, u));
+  PetscCall(VecRestoreArrayRead(velocity, &u));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode LoadVelocity(Fluid f, const PetscInt row[], Checkpoint from, const char *name,
+                                   Vec velocity)
+{
+  PetscScalar *u;
+  PetscFunctionBeginUser;
+  PetscCall(VecGetArrayWrite(velocity, &u));
+  PetscCall(MeshLoadDoubles(f->mesh, row, from, name, 6, u));
+  PetscCall(VecRestoreArrayWrite(velocity, &u));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SavePressure(Fluid f, Checkpoint to)
+{
+  const Mesh *m = f->mesh;
+  const double *p = FluidPressure(f);
+  double *nodes;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(6 * m->ne, &nodes));
+  for (int k = 0; k < 6 * m->ne; k++) nodes[k] = p[m->p2[k]];
+  PetscCall(CheckpointPutDoubles(to, "pressure", m->ne, 6, nodes));
+  PetscCall(PetscFree(nodes));
+  PetscFunctionReturn(0);
+}
+
+/* Elements of this rank have all of its nodes, also those of other ranks. */
+static PetscErrorCode LoadPressure(Fluid f, const PetscInt row[], Checkpoint from)
+{
+  const Mesh *m = f->mesh;
+  double *nodes;
+  PetscScalar *p;
+  Vec local;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(6 * m->ne, &nodes));
+  PetscCall(MeshLoadDoubles(m, row, from, "pressure", 6, nodes));
+  PetscCall(VecGhostGetLocalForm(f->p, &local));
+  PetscCall(VecGetArray(local, &p));
+  for (int k = 0; k < 6 * m->ne; k++) p[m->p2[k]] = nodes[k];
+  PetscCall(VecRestoreArray(local, &p));
+  PetscCall(VecGhostRestoreLocalForm(f->p, &local));
+  PetscCall(PetscFree(nodes));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidSave(Fluid f, Checkpoint to)
+{
+  PetscFunctionBeginUser;
+  PetscCall(CheckpointPutNumber(to, "time", f->t));
+  PetscCall(CheckpointPutNumber(to, "previous step", f->dt_previous));
+  PetscCall(SaveVelocity(f->u, f->mesh->ne, "velocity", to));
+  PetscCall(SaveVelocity(f->u_previous, f->mesh->ne, "previous velocity", to));
+  PetscCall(SavePressure(f, to));
+  PetscCall(CheckpointPutDoubles(to, "seconds", 1, PHASES, f->stats.seconds));
+  PetscFunctionReturn(0);
+}
+
+/* Each rank goes on with its own, those that there were not with the last one's. */
+static PetscErrorCode LoadSeconds(Fluid f, Checkpoint from)
+{
+  long long ranks;
+  PetscMPIInt rank;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(f->mesh->comm, &rank));
+  PetscCall(CheckpointRows(from, "seconds", &ranks));
+  PetscCall(CheckpointGetDoubles(from, "seconds", PetscMin(rank, ranks - 1), 1, PHASES, f->stats.seconds));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidLoad(Fluid f, const PetscInt row[], Checkpoint from)
+{
+  PetscFunctionBeginUser;
+  PetscCall(CheckpointGetNumber(from, "time", &f->t));
+  PetscCall(CheckpointGetNumber(from, "previous step", &f->dt_previous));
+  PetscCall(LoadVelocity(f, row, from, "velocity", f->u));
+  PetscCall(LoadVelocity(f, row, from, "previous velocity", f->u_previous));
+  PetscCall(LoadPressure(f, row, from));
+  PetscCall(LoadSeconds(f, from));
+  PetscCall(VecCopy(f->u, f->u_next)); /* of which the next step is proposed */
+  f->stats.t = f->t;
+  PetscFunctionReturn(0);
+}
