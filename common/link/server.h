@@ -46,7 +46,7 @@ int ServerElementsChanged(Server s);
 /* The smallest step that the fluid's ranks proposed last, s; the same on all coupler ranks. */
 double ServerProposedStep(Server s);
 /* Ends the fluid's CoracleReady or CoracleEnd.  correction[ncorrection] has one entry per coupling entry of
- * the last call, in its order (0 at the first call or when stopping is not after a step); `element` of
+ * the last call, in its order (0 at the first call or when stopping is not after a step, and as you like at CORACLE_REDO); `element` of
  * coupling indexes ServerElements. */
 int ServerSendCoupling(Server s, double t, double dt, CoracleAction action, int ncorrection,
                        const CoracleCorrection correction[], int ncoupling, const CoracleCoupling coupling[]);
