@@ -161,27 +161,26 @@ PetscErrorCode CouplerReactConserving(Coupler c)
 
 PetscErrorCode CouplerFillSolid(Coupler c, const ServerSolid *moved)
 {
-  double(*u)[3][2];
+  double(*u)[3][2], (*node)[2];
 
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(c->overlap->npieces, &u));
-  PetscCall(OverlapNodesToPieces(c->overlap, 2, moved->u, &u[0][0][0]));
+  PetscCall(PetscMalloc2(c->overlap->npieces, &u, c->nnodes, &node));
+  for (int i = 0; i < c->nnodes; i++)
+    PetscCall(PetscArraycpy(node[i], &moved->u[2 * (moved->now ? moved->now[i] : i)], 2));
+  PetscCall(OverlapNodesToPieces(c->overlap, 2, &node[0][0], &u[0][0][0]));
   ForceCorrection(c->overlap, (const double(*)[3][2])u, c->flow.u_plus, c->correction);
-  PetscCall(PetscFree(u));
+  PetscCall(PetscFree2(u, node));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode CouplerCorrect(Coupler c, const ServerSolid *moved, int *n,
                               const CoracleCorrection **correction)
 {
-  int changed = moved->changed;
-
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, c->comm));
   PetscCall(PetscFree(c->correction));
   PetscCall(PetscCalloc1(c->overlap->nentries, &c->correction));
   for (int e = 0; e < c->overlap->nentries; e++) c->correction[e].element = c->overlap->element[e];
-  PetscCall(changed ? CouplerLeaveFluid(c, moved) : c->actions->correct(c, moved));
+  PetscCall(moved->lost ? CouplerLeaveFluid(c, moved) : c->actions->correct(c, moved));
   *n = c->overlap->nentries;
   *correction = c->correction;
   PetscFunctionReturn(0);

@@ -228,7 +228,7 @@ static PetscErrorCode AimAgain(March *m, int tries)
              m->t, tries, m->tries.difference);
     PetscCall(FailTogether(s->server, message));
   }
-  PetscCall(TriesNext(&m->tries, &m->solid, &u));
+  PetscCall(TriesNext(&m->tries, &u));
   PetscCall(CouplerAim(s->coupler, u, &n, &coupling));
   PetscCall(ServerSendCoupling(s->server, m->t, m->dt, CORACLE_REDO, 0, NULL, n, coupling));
   PetscFunctionReturn(0);
@@ -243,11 +243,11 @@ static PetscErrorCode Exchange(March *m, RecordedStep *step, int *n, const Corac
   PetscFunctionBeginUser;
   for (step->tries = 1;; step->tries++) {
     PetscCall(Try(m, step->tries == 1 ? CORACLE_RUN : CORACLE_REDO, step));
-    PetscCall(TriesAgree(&m->tries, &m->solid, &agree));
+    PetscCall(TriesAgree(&m->tries, step->tries, &m->solid, &agree));
     if (agree) break;
     PetscCall(AimAgain(m, step->tries));
   }
-  PetscCall(TriesEnd(&m->tries, &m->solid));
+  PetscCall(TriesEnd(&m->tries));
   PetscCall(CouplerCorrect(s->coupler, &m->solid, n, correction));
   PetscCall(MotionOf(PETSC_COMM_WORLD, &m->solid, &step->motion));
   step->dt = m->dt;

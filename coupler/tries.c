@@ -15,7 +15,7 @@ PetscErrorCode TriesCreate(MPI_Comm comm, int most, double tolerance, Tries *t)
 static PetscErrorCode FreeNodes(Tries *t)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscFree4(t->start, t->met, t->rate, t->mobility));
+  PetscCall(PetscFree5(t->start, t->met, t->end, t->rate, t->mobility));
   PetscFunctionReturn(0);
 }
 
@@ -35,23 +35,22 @@ static PetscErrorCode Resize(Tries *t, const ServerSolid *solid)
   PetscFunctionBeginUser;
   if (!solid->changed && t->n >= 0) PetscFunctionReturn(0);
   PetscCall(FreeNodes(t));
-  PetscCall(PetscMalloc4(2 * n, &t->start, 2 * n, &t->met, 2 * n, &t->rate, n, &t->mobility));
+  PetscCall(PetscMalloc5(2 * n, &t->start, 2 * n, &t->met, 2 * n, &t->end, 2 * n, &t->rate, n, &t->mobility));
   t->n = solid->nnodes;
   t->has_rate = PETSC_FALSE;
   PetscCall(AccelerationBegin(t->acceleration, -1));
   PetscFunctionReturn(0);
 }
 
-/* Root mean square of u - v, v NULL: 0, over the nodes that take part. */
-static PetscErrorCode Rms(const Tries *t, const double u[], const double v[], double *rms)
+/* Root mean square of end - start, over the nodes that take part; start NULL: 0. */
+static PetscErrorCode Rms(const Tries *t, const double start[], double *rms)
 {
   double sum[2] = {0.0, 0.0};
 
   PetscFunctionBeginUser;
   for (int i = 0; i < t->n; i++) {
     if (t->mobility[i] > 0.0) continue;
-    const double x = u[2 * i] - (v ? v[2 * i] : 0.0), y = u[2 * i + 1] - (v ? v[2 * i + 1] : 0.0);
-    sum[0] += x * x + y * y;
+    for (int k = 2 * i; k < 2 * i + 2; k++) sum[0] += PetscSqr(t->end[k] - (start ? start[k] : 0.0));
     sum[1] += 1.0;
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, t->comm));
@@ -78,40 +77,44 @@ PetscErrorCode TriesBegin(Tries *t, const ServerSolid *solid, double dt, const d
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode TriesAgree(Tries *t, const ServerSolid *solid, PetscBool *agree)
+PetscErrorCode TriesAgree(Tries *t, int tries, const ServerSolid *solid, PetscBool *agree)
 {
   double size;
 
   PetscFunctionBeginUser;
   *agree = PETSC_TRUE;
-  if (t->most == 1 || solid->changed) PetscFunctionReturn(0);
-  PetscCall(Rms(t, solid->u, t->met, &t->difference));
-  PetscCall(Rms(t, solid->u, NULL, &size));
+  if (t->most == 1 || solid->lost) PetscFunctionReturn(0);
+  for (int i = 0; i < t->n; i++) {
+    const int now = solid->now ? solid->now[i] : i;
+    PetscCall(PetscArraycpy(&t->end[2 * i], t->mobility[i] > 0.0 ? &t->met[2 * i] : &solid->u[2 * now], 2));
+  }
+  PetscCall(Rms(t, t->met, &t->difference));
+  PetscCall(Rms(t, NULL, &size));
   t->largest = fmax(t->largest, size);
   size = fmax(size, fmax(t->least, LEAST_OF_LARGEST * t->largest));
   *agree = t->difference <= t->tolerance * size ? PETSC_TRUE : PETSC_FALSE; /* not so for NaN */
+  if (solid->changed && tries == t->most) *agree = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode TriesNext(Tries *t, const ServerSolid *solid, const double **u)
+PetscErrorCode TriesNext(Tries *t, const double **u)
 {
-  double *next, *result;
+  double *next;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2(2 * (size_t)t->n, &next, 2 * (size_t)t->n, &result));
-  for (int k = 0; k < 2 * t->n; k++) result[k] = t->mobility[k / 2] > 0.0 ? t->met[k] : solid->u[k];
-  PetscCall(AccelerationNext(t->acceleration, t->met, result, next));
+  PetscCall(PetscMalloc1(2 * (size_t)t->n, &next));
+  PetscCall(AccelerationNext(t->acceleration, t->met, t->end, next));
   PetscCall(PetscArraycpy(t->met, next, 2 * (size_t)t->n));
-  PetscCall(PetscFree2(next, result));
+  PetscCall(PetscFree(next));
   *u = t->met;
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode TriesEnd(Tries *t, const ServerSolid *solid)
+PetscErrorCode TriesEnd(Tries *t)
 {
   PetscFunctionBeginUser;
   if (t->most == 1) PetscFunctionReturn(0);
-  t->has_rate = solid->changed ? PETSC_FALSE : PETSC_TRUE; /* another mesh: Resize comes */
-  for (int k = 0; t->has_rate && k < 2 * t->n; k++) t->rate[k] = (solid->u[k] - t->start[k]) / t->dt;
+  t->has_rate = PETSC_TRUE;
+  for (int k = 0; k < 2 * t->n; k++) t->rate[k] = (t->end[k] - t->start[k]) / t->dt;
   PetscFunctionReturn(0);
 }

@@ -18,6 +18,7 @@ typedef struct {
   int n;             /* nodes on this rank */
   double *start;     /* [n][2] velocity as the step began, m/s */
   double *met;       /* [n][2] what the fluid meets */
+  double *end;       /* [n][2] what the last try has led to; met where nodes give way */
   double *rate;      /* [n][2] acceleration of the last step, m/s2 */
   double *mobility;  /* [n] */
   double dt, least;  /* of the step, s; a velocity that is nothing, m/s */
@@ -32,11 +33,11 @@ PetscErrorCode TriesDestroy(Tries *t);
 /* A step of dt seconds from the solid as it is; *u [n][2]: the velocity to begin with, NULL: the solid's own. */
 PetscErrorCode TriesBegin(Tries *t, const ServerSolid *solid, double dt, const double gravity[2],
                           const double **u);
-/* Whether the try stands that has led to `solid`: it agrees, there is one try only, or cracks have changed the
- * mesh, so that there is nothing to compare. */
-PetscErrorCode TriesAgree(Tries *t, const ServerSolid *solid, PetscBool *agree);
+/* Whether the try stands that has led to `solid`: it agrees, or there is nothing to compare (one try only, or nodes
+ * on other ranks after fracture), or it is the last and cracks, which come or do not, keep it from agreeing. */
+PetscErrorCode TriesAgree(Tries *t, int tries, const ServerSolid *solid, PetscBool *agree);
 /* The velocity of the next try. */
-PetscErrorCode TriesNext(Tries *t, const ServerSolid *solid, const double **u);
+PetscErrorCode TriesNext(Tries *t, const double **u);
 /* The step has ended. */
-PetscErrorCode TriesEnd(Tries *t, const ServerSolid *solid);
+PetscErrorCode TriesEnd(Tries *t);
 #endif

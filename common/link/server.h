@@ -10,7 +10,11 @@
 typedef struct Server_s *Server;
 
 typedef struct {
-  int changed;                    /* nodes, facets or elements were given anew (in this call) */
+  int changed; /* nodes, facets or elements were given anew (in this call) */
+  const int
+      *now; /* then, within a step: which of the nodes each one is that this rank had when the step began;
+                     NULL: the same ones, or some are on other ranks now (lost) */
+  int lost;
   int nnodes, nfacets, nelements; /* on this coupler rank */
   const long long *gid;           /* [nnodes] */
   const double *x;                /* [nnodes][2] position, m */

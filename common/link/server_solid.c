@@ -1,5 +1,6 @@
 /* The coupler's end towards the solid. */
 #include "server_impl.h"
+#include <stdlib.h>
 #include <string.h>
 
 enum { DIM = 2 };
@@ -60,8 +61,36 @@ static void AssembleMesh(Server s)
   }
 }
 
+static int CompareIds(const void *a, const void *b)
+{
+  const long long x = **(const long long *const *)a, y = **(const long long *const *)b;
+  return (x > y) - (x < y);
+}
+
+/* Finds the nodes of the step's start by their ids; whether all are on their rank, on all ranks. */
+static bool FindStart(Server s, int nnodes)
+{
+  const long long *start = (const long long *)(const void *)s->start_gid.data;
+  const long long *gid = (const long long *)(const void *)s->gid.data;
+  const size_t n = s->start_gid.size / sizeof *start;
+  const long long **sorted = malloc(((size_t)nnodes + 1) * sizeof *sorted);
+  int *now = BufferResize(&s->now, n * sizeof *now), all = 1;
+  for (int i = 0; i < nnodes; i++) sorted[i] = &gid[i];
+  qsort(sorted, (size_t)nnodes, sizeof *sorted, CompareIds);
+  for (size_t i = 0; i < n; i++) {
+    const long long *id = &start[i];
+    const long long **found = bsearch(&id, sorted, (size_t)nnodes, sizeof *sorted, CompareIds);
+    now[i] = found ? (int)(*found - gid) : -1;
+    all &= found != NULL;
+  }
+  free(sorted);
+  MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_LAND, s->p->app);
+  return all;
+}
+
 int ServerReceiveSolid(Server s, ServerSolid *solid)
 {
+  const bool first = !s->received_solid;
   int nnodes = 0, changed = 0;
   BufferResize(&s->x, 0);
   BufferResize(&s->u, 0);
@@ -72,7 +101,10 @@ int ServerReceiveSolid(Server s, ServerSolid *solid)
   if (changed || !s->received_solid) AssembleMesh(s);
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, s->p->app);
   s->received_solid = true;
+  const bool found = changed && !first && FindStart(s, nnodes);
   *solid = (ServerSolid){.changed = changed,
+                         .now = found ? (const int *)(const void *)s->now.data : NULL,
+                         .lost = changed && !first && !found,
                          .nnodes = nnodes,
                          .nfacets = (int)(s->facet.size / (DIM * sizeof(int))),
                          .nelements = (int)(s->element.size / ((DIM + 1) * sizeof(int))),
@@ -92,6 +124,7 @@ int ServerSendForce(Server s, double t, double dt, CoracleAction action, const d
   const int step = s->solid.step; /* which the clients are in until they get this */
   if (!s->received_solid) ServerFail(s, "ServerSendForce comes after the first ServerReceiveSolid");
   SideStep(s, &s->solid, action);
+  if (action == CORACLE_RUN) memcpy(BufferResize(&s->start_gid, s->gid.size), s->gid.data, s->gid.size);
   for (int i = 0; i < s->solid.n; i++) {
     Peer *peer = &s->solid.peer[i];
     if (action == CORACLE_RUN) {
