@@ -1,4 +1,5 @@
 #include "coupler_impl.h"
+#include "motion.h"
 
 const char *const COUPLER_MODES[] = {"reaction", "stress_shell", "penalty_shell", NULL};
 static const CouplerActions *const ACTIONS[] = {&COUPLER_ACTIONS_REACTION, &COUPLER_ACTIONS_STRESS_SHELL,
@@ -161,13 +162,13 @@ PetscErrorCode CouplerReactConserving(Coupler c)
 
 PetscErrorCode CouplerFillSolid(Coupler c, const ServerSolid *moved)
 {
-  double(*u)[3][2], (*node)[2];
+  double(*u)[3][2], *node;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2(c->overlap->npieces, &u, c->nnodes, &node));
-  for (int i = 0; i < c->nnodes; i++)
-    PetscCall(PetscArraycpy(node[i], &moved->u[2 * (moved->now ? moved->now[i] : i)], 2));
-  PetscCall(OverlapNodesToPieces(c->overlap, 2, &node[0][0], &u[0][0][0]));
+  PetscCall(PetscMalloc2(c->overlap->npieces, &u, 2 * (size_t)c->nnodes, &node));
+  PetscCall(PetscArrayzero(node, 2 * (size_t)c->nnodes));
+  PetscCall(MotionOnStart(moved, moved->u, c->nnodes, node));
+  PetscCall(OverlapNodesToPieces(c->overlap, 2, node, &u[0][0][0]));
   ForceCorrection(c->overlap, (const double(*)[3][2])u, c->flow.u_plus, c->correction);
   PetscCall(PetscFree2(u, node));
   PetscFunctionReturn(0);

@@ -1,4 +1,5 @@
 #include "tries.h"
+#include "motion.h"
 
 /* Of the velocity that gravity gives in a step, and of the largest so far: what counts as nothing. */
 #define LEAST_OF_GRAVITY 1e-2
@@ -84,10 +85,9 @@ PetscErrorCode TriesAgree(Tries *t, int tries, const ServerSolid *solid, PetscBo
   PetscFunctionBeginUser;
   *agree = PETSC_TRUE;
   if (t->most == 1 || solid->lost) PetscFunctionReturn(0);
-  for (int i = 0; i < t->n; i++) {
-    const int now = solid->now ? solid->now[i] : i;
-    PetscCall(PetscArraycpy(&t->end[2 * i], t->mobility[i] > 0.0 ? &t->met[2 * i] : &solid->u[2 * now], 2));
-  }
+  PetscCall(PetscArraycpy(t->end, t->met, 2 * (size_t)t->n));
+  PetscCall(MotionOnStart(solid, solid->u, t->n, t->end));
+  for (int k = 0; k < 2 * t->n; k++) t->end[k] = t->mobility[k / 2] > 0.0 ? t->met[k] : t->end[k];
   PetscCall(Rms(t, t->met, &t->difference));
   PetscCall(Rms(t, NULL, &size));
   t->largest = fmax(t->largest, size);

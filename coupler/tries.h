@@ -33,8 +33,8 @@ PetscErrorCode TriesDestroy(Tries *t);
 /* A step of dt seconds from the solid as it is; *u [n][2]: the velocity to begin with, NULL: the solid's own. */
 PetscErrorCode TriesBegin(Tries *t, const ServerSolid *solid, double dt, const double gravity[2],
                           const double **u);
-/* Whether the try stands that has led to `solid`: it agrees, or there is nothing to compare (one try only, or nodes
- * on other ranks after fracture), or it is the last and cracks, which come or do not, keep it from agreeing. */
+/* Whether the try stands that has led to `solid`: it agrees, or there is nothing to compare (one try only, or a mesh
+ * that is another one), or it is the last and cracks, which come or do not, keep it from agreeing. */
 PetscErrorCode TriesAgree(Tries *t, int tries, const ServerSolid *solid, PetscBool *agree);
 /* The velocity of the next try. */
 PetscErrorCode TriesNext(Tries *t, const double **u);

@@ -11,10 +11,9 @@ typedef struct Server_s *Server;
 
 typedef struct {
   int changed; /* nodes, facets or elements were given anew (in this call) */
+  int lost;    /* then, within a step: it cannot be said what has become of the nodes of its start */
   const int
-      *now; /* then, within a step: which of the nodes each one is that this rank had when the step began;
-                     NULL: the same ones, or some are on other ranks now (lost) */
-  int lost;
+      *before; /* [nelements][3] else: the elements in the nodes that this rank had when the step began */
   int nnodes, nfacets, nelements; /* on this coupler rank */
   const long long *gid;           /* [nnodes] */
   const double *x;                /* [nnodes][2] position, m */
