@@ -1,4 +1,5 @@
 #include "coupler_impl.h"
+#include "motion.h"
 
 const char *const COUPLER_MODES[] = {"reaction", "stress_shell", "penalty_shell", NULL};
 static const CouplerActions *const ACTIONS[] = {&COUPLER_ACTIONS_REACTION, &COUPLER_ACTIONS_STRESS_SHELL,
@@ -68,6 +69,7 @@ static PetscErrorCode FreeStep(Coupler c)
   PetscFunctionBeginUser;
   PetscCall(PetscFree2(c->weight, c->coupling));
   PetscCall(PetscFree5(c->vertex, c->now, c->firmness, c->node, c->force));
+  PetscCall(PetscFree2(c->given, c->mobility));
   PetscFunctionReturn(0);
 }
 
@@ -81,6 +83,7 @@ static PetscErrorCode NewStep(Coupler c, const ServerSolid *solid)
   PetscCall(PetscMalloc2(o->pairs.n, &c->weight, o->nentries, &c->coupling));
   PetscCall(PetscMalloc5(3 * npieces, &c->vertex, npieces, &c->now, npieces, &c->firmness, nnodes, &c->node,
                          2 * nnodes, &c->force));
+  PetscCall(PetscMalloc2(npieces, &c->given, npieces, &c->mobility));
   for (size_t t = 0; t < npieces; t++) c->firmness[t] = 1.0;
   for (size_t t = 0; t < npieces; t++) PetscCall(PetscArraycpy(&c->now[t][0][0], &o->piece[t].u[0][0], 6));
   PetscFunctionReturn(0);
@@ -98,8 +101,30 @@ PetscErrorCode CouplerBuild(Coupler c, const ServerSolid *solid, double dt, int 
   c->nnodes = solid->nnodes;
   c->us = solid->u;
   PetscCall(c->actions->weigh(c, solid));
+  PetscCall(OverlapNodesToPieces(c->overlap, 1, solid->mobility, &c->mobility[0][0]));
+  for (int t = 0; t < c->overlap->npieces; t++)
+    PetscCall(PetscArraycpy(&c->given[t][0][0], &c->overlap->piece[t].u[0][0], 6));
   WallTermAssemble(c->overlap, c->weight, c->firmness, c->coupling);
   *n = c->overlap->nentries;
+  *coupling = c->coupling;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CouplerAim(Coupler c, const double u[], int *n, const CoracleCoupling **coupling)
+{
+  const Overlap o = c->overlap;
+  double(*aim)[3][2];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(o->npieces, &aim));
+  PetscCall(OverlapNodesToPieces(o, 2, u, &aim[0][0][0]));
+  for (int t = 0; t < o->npieces; t++)
+    for (int i = 0; i < 3; i++)
+      PetscCall(PetscArraycpy(o->piece[t].u[i], c->mobility[t][i] > 0.0 ? c->given[t][i] : aim[t][i], 2));
+  PetscCall(PetscFree(aim));
+  c->us = u;
+  WallTermAssemble(o, c->weight, c->firmness, c->coupling);
+  *n = o->nentries;
   *coupling = c->coupling;
   PetscFunctionReturn(0);
 }
@@ -137,27 +162,26 @@ PetscErrorCode CouplerReactConserving(Coupler c)
 
 PetscErrorCode CouplerFillSolid(Coupler c, const ServerSolid *moved)
 {
-  double(*u)[3][2];
+  double(*u)[3][2], *node;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(c->overlap->npieces, &u));
-  PetscCall(OverlapNodesToPieces(c->overlap, 2, moved->u, &u[0][0][0]));
+  PetscCall(PetscMalloc2(c->overlap->npieces, &u, 2 * (size_t)c->nnodes, &node));
+  PetscCall(PetscArrayzero(node, 2 * (size_t)c->nnodes));
+  PetscCall(MotionOnStart(moved, moved->u, c->nnodes, node));
+  PetscCall(OverlapNodesToPieces(c->overlap, 2, node, &u[0][0][0]));
   ForceCorrection(c->overlap, (const double(*)[3][2])u, c->flow.u_plus, c->correction);
-  PetscCall(PetscFree(u));
+  PetscCall(PetscFree2(u, node));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode CouplerCorrect(Coupler c, const ServerSolid *moved, int *n,
                               const CoracleCorrection **correction)
 {
-  int changed = moved->changed;
-
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, c->comm));
   PetscCall(PetscFree(c->correction));
   PetscCall(PetscCalloc1(c->overlap->nentries, &c->correction));
   for (int e = 0; e < c->overlap->nentries; e++) c->correction[e].element = c->overlap->element[e];
-  PetscCall(changed ? CouplerLeaveFluid(c, moved) : c->actions->correct(c, moved));
+  PetscCall(moved->lost ? CouplerLeaveFluid(c, moved) : c->actions->correct(c, moved));
   *n = c->overlap->nentries;
   *correction = c->correction;
   PetscFunctionReturn(0);

@@ -1,5 +1,5 @@
 /* The coupler: takes the solid's motion and the fluid's flow, gives the fluid its coupling term and the solid
- * its force.  It knows no messages (scheme_staggered.c does); everything is collective over its communicator.
+ * its force.  It knows no messages (scheme.c does); everything is collective over its communicator.
  * One step:
  *
  *     CouplerBuild     solid at t^n, dt           ->  coupling of every fluid element that the solid or its shell touches
@@ -37,16 +37,19 @@ PetscErrorCode CouplerCreate(MPI_Comm comm, const CouplerOptions *options, Coupl
  * place. */
 PetscErrorCode CouplerSetElements(Coupler coupler, const ServerElements *elements);
 /* The coupling over the coming step of dt seconds with the solid as it is: one entry per touched element. The
- * solid's arrays are used until CouplerReact has returned; coupling is borrowed until the next CouplerBuild.
+ * solid's velocity is used until CouplerReact has returned or CouplerAim gives another; coupling is borrowed until the next CouplerBuild.
  */
 PetscErrorCode CouplerBuild(Coupler coupler, const ServerSolid *solid, double dt, int *n,
                             const CoracleCoupling **coupling);
-/* The force on the solid's nodes [nnodes][2], N, borrowed until the next CouplerBuild; the flow's arrays are
+/* For another try of the step: the coupling with u[nnodes][2], m/s, as the solid's velocity, but where nodes give
+ * way by themselves (mobility > 0).  u is used as the solid's arrays are. */
+PetscErrorCode CouplerAim(Coupler coupler, const double u[], int *n, const CoracleCoupling **coupling);
+/* The force on the solid's nodes [nnodes][2], N, borrowed until the next call of this; the flow's arrays are
  * used until CouplerCorrect has returned. */
 PetscErrorCode CouplerReact(Coupler coupler, const ServerFlow *flow, const double **force,
                             ForceTotals *totals);
-/* One entry per entry of CouplerBuild.  After fracture (moved->changed) the old overlap has no new velocity
- * and the fluid is left as it is for this step.  Borrowed until the next CouplerCorrect. */
+/* One entry per entry of CouplerBuild.  Where nodes of the old overlap are on other ranks after fracture
+ * (moved->lost) the fluid is left as it is for this step.  Borrowed until the next CouplerCorrect. */
 PetscErrorCode CouplerCorrect(Coupler coupler, const ServerSolid *moved, int *n,
                               const CoracleCorrection **correction);
 /* For output and tests, borrowed until the next CouplerBuild. */

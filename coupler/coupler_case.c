@@ -30,6 +30,8 @@ PetscErrorCode CouplerCaseRead(Case file, CouplerCase *c)
   /* the fluid's, read here so that the whole section can be checked */
   (void)CaseNumberOr(file, "time.cfl", 0.5, 0.0, HUGE_VAL);
   ReadOptions(file, &c->options);
+  c->tries = CaseIntegerOr(file, "coupler.tries", 1, 1, 1000);
+  c->tolerance = CaseNumberOr(file, "coupler.tolerance", 1e-4, 1e-12, 1.0);
   PetscCall(PetscOptionsInsertString(NULL, CaseStringOr(file, "coupler.petsc", "")));
   PetscCall(CaseFinish(file, SECTIONS));
   PetscFunctionReturn(0);

@@ -1,7 +1,7 @@
 /* coracle-coupler: the middle of the route.  coracle-coupler case.yaml [--set key=value]...
  *
  *     open, read the case
- *     run the scheme (scheme_staggered.c): each step
+ *     run the scheme (scheme.c): each step
  *         fluid   u*, u+, p, mu                    -->  force on the solid
  *         solid   new position and velocity        -->  correction of the fluid; shell and overlap at the new position
  *         fluid   <--  correction, coupling of the next step
@@ -31,7 +31,7 @@ static PetscErrorCode Run(Server server, const CouplerCase *c)
   PetscCall(CouplerCreate(PETSC_COMM_WORLD, &c->options, &scheme.coupler));
   PetscCall(RegionCreate(PETSC_COMM_WORLD, c->options.thickness, &scheme.region));
   PetscCall(RecordCreate(PETSC_COMM_WORLD, c, scheme.from, &scheme.record));
-  PetscCall(SchemeStaggered(&scheme));
+  PetscCall(SchemeRun(&scheme));
   PetscCall(ServerFinish(server));
   PetscCall(RecordTotalsOf(scheme.record, CouplerOverlap(scheme.coupler)->nelements, &totals));
   PetscCall(SummaryWrite(server, c, &totals));

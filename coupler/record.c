@@ -2,7 +2,7 @@
 
 static const char COLUMNS[] =
     "t [s],dt [s],u_x [m/s],u_y [m/s],F_x [N],F_y [N],R_x [N],R_y [N],imbalance,pairs,"
-    "overlap [s],force [s],waiting [s]";
+    "overlap [s],force [s],waiting [s],tries";
 
 struct Record_s {
   MPI_Comm comm;
@@ -18,17 +18,16 @@ typedef struct {
   const char *name;
   double *value;
 } Kept;
-enum { NKEPT = 6 };
+enum { NKEPT = 7 };
 
-/* steps is a copy of totals.steps, which is no double. */
-static void KeptOf(Record r, double *steps, Kept kept[NKEPT])
+/* count is a copy of the totals' steps and tries, which are no doubles. */
+static void KeptOf(Record r, double count[2], Kept kept[NKEPT])
 {
-  *steps = (double)r->totals.steps;
-  const Kept all[NKEPT] = {{"steps", steps},
-                           {"next", &r->next},
-                           {"fall sum", &r->fall_sum},
-                           {"fall time", &r->fall_time},
-                           {"imbalance", &r->totals.imbalance},
+  count[0] = (double)r->totals.steps;
+  count[1] = (double)r->totals.tries;
+  const Kept all[NKEPT] = {{"steps", &count[0]},         {"tries", &count[1]},
+                           {"next", &r->next},           {"fall sum", &r->fall_sum},
+                           {"fall time", &r->fall_time}, {"imbalance", &r->totals.imbalance},
                            {"end", &r->totals.end}};
   for (int k = 0; k < NKEPT; k++) kept[k] = all[k];
 }
@@ -36,10 +35,10 @@ static void KeptOf(Record r, double *steps, Kept kept[NKEPT])
 PetscErrorCode RecordSave(Record r, Checkpoint to)
 {
   Kept kept[NKEPT];
-  double steps;
+  double count[2];
 
   PetscFunctionBeginUser;
-  KeptOf(r, &steps, kept);
+  KeptOf(r, count, kept);
   for (int k = 0; k < NKEPT; k++) PetscCall(CheckpointPutNumber(to, kept[k].name, *kept[k].value));
   PetscCall(OutputSave(r->output, to));
   PetscCall(SeriesSave(r->series, to));
@@ -49,12 +48,13 @@ PetscErrorCode RecordSave(Record r, Checkpoint to)
 static PetscErrorCode Load(Record r, Checkpoint from)
 {
   Kept kept[NKEPT];
-  double steps;
+  double count[2];
 
   PetscFunctionBeginUser;
-  KeptOf(r, &steps, kept);
+  KeptOf(r, count, kept);
   for (int k = 0; k < NKEPT; k++) PetscCall(CheckpointGetNumber(from, kept[k].name, kept[k].value));
-  r->totals.steps = (long long)steps;
+  r->totals.steps = (long long)count[0];
+  r->totals.tries = (long long)count[1];
   r->totals.resumed = r->totals.end;
   if (!r->rank) printf("coracle: goes on from t = %.5g s, step %lld\n", r->totals.resumed, r->totals.steps);
   PetscFunctionReturn(0);
@@ -158,7 +158,8 @@ PetscErrorCode RecordStep(Record r, const RecordedStep *s)
                         (double)s->totals.npairs,
                         s->overlap,
                         s->force,
-                        s->waiting};
+                        s->waiting,
+                        s->tries};
   /* how much of the step lies in the last 5 % of the time */
   const double late = PetscMax(0.0, s->t - PetscMax(s->t - s->dt, 0.95 * r->end));
 
@@ -166,6 +167,7 @@ PetscErrorCode RecordStep(Record r, const RecordedStep *s)
   r->fall_time += late;
   r->fall_sum += late * (u[0] * r->down[0] + u[1] * r->down[1]);
   r->totals.steps++;
+  r->totals.tries += s->tries;
   r->totals.end = s->t;
   r->totals.imbalance = PetscMax(r->totals.imbalance, s->totals.imbalance);
   r->totals.overlap += s->overlap;

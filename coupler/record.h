@@ -12,10 +12,11 @@ typedef struct {
   Motion motion;
   ForceTotals totals;
   double overlap, force, waiting; /* seconds spent in this step */
+  int tries;
 } RecordedStep;
 
 typedef struct {
-  long long steps;
+  long long steps, tries;
   double resumed;        /* s, where the run has gone on from a checkpoint; 0: from the start */
   double imbalance;      /* the largest */
   double end;            /* s, time reached */

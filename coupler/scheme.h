@@ -1,5 +1,4 @@
-/* How the coupled steps follow each other.  A scheme runs from time 0 to the end; another one (strong
- * coupling) is another file with the same signature. */
+/* How the coupled steps follow each other. */
 #ifndef CORACLE_SCHEME_H
 #define CORACLE_SCHEME_H
 #include "record.h"
@@ -14,7 +13,7 @@ typedef struct {
   Checkpoint from; /* that the run goes on from; NULL: from the start */
 } Scheme;
 
-/* Collective.  Each step once: the fluid implicit, the solid with the force of the same step (method.md
- * sections 6 and 9). */
-PetscErrorCode SchemeStaggered(const Scheme *scheme);
+/* Collective: runs to the end.  A try of a step: the fluid implicit, the solid with the force of the same step
+ * (method.md sections 6 and 9); tries.h says how many. */
+PetscErrorCode SchemeRun(const Scheme *scheme);
 #endif

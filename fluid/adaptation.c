@@ -11,12 +11,16 @@
 /* Passes at most from the first mesh to one that is fine near the solid. */
 #define FIRST_PASSES 12
 
-struct Adaptation_s {
-  AdaptationSetup setup;
+typedef struct {
   int steps;       /* since the last adaptation */
   PetscBool first; /* none has been made yet */
   double moved;    /* at most, since then, m */
   double reach;    /* how far the solid may move before the next, m */
+} Past;
+
+struct Adaptation_s {
+  AdaptationSetup setup;
+  Past past, before; /* before: when AdaptationDue was asked last */
 };
 
 PetscErrorCode AdaptationCreate(const AdaptationSetup *setup, Adaptation *adaptation)
@@ -24,7 +28,7 @@ PetscErrorCode AdaptationCreate(const AdaptationSetup *setup, Adaptation *adapta
   PetscFunctionBeginUser;
   PetscCall(PetscNew(adaptation));
   (*adaptation)->setup = *setup;
-  (*adaptation)->first = PETSC_TRUE;
+  (*adaptation)->past.first = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
 
@@ -36,10 +40,10 @@ PetscErrorCode AdaptationDestroy(Adaptation *adaptation)
 PetscErrorCode AdaptationSave(Adaptation a, Checkpoint to)
 {
   PetscFunctionBeginUser;
-  PetscCall(CheckpointPutNumber(to, "adaptation steps", a->steps));
-  PetscCall(CheckpointPutNumber(to, "adaptation first", a->first));
-  PetscCall(CheckpointPutNumber(to, "adaptation moved", a->moved));
-  PetscCall(CheckpointPutNumber(to, "adaptation reach", a->reach));
+  PetscCall(CheckpointPutNumber(to, "adaptation steps", a->past.steps));
+  PetscCall(CheckpointPutNumber(to, "adaptation first", a->past.first));
+  PetscCall(CheckpointPutNumber(to, "adaptation moved", a->past.moved));
+  PetscCall(CheckpointPutNumber(to, "adaptation reach", a->past.reach));
   PetscFunctionReturn(0);
 }
 
@@ -49,10 +53,10 @@ PetscErrorCode AdaptationLoad(Adaptation a, Checkpoint from)
   PetscFunctionBeginUser;
   PetscCall(CheckpointGetNumber(from, "adaptation steps", &steps));
   PetscCall(CheckpointGetNumber(from, "adaptation first", &first));
-  PetscCall(CheckpointGetNumber(from, "adaptation moved", &a->moved));
-  PetscCall(CheckpointGetNumber(from, "adaptation reach", &a->reach));
-  a->steps = (int)steps;
-  a->first = first ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(CheckpointGetNumber(from, "adaptation moved", &a->past.moved));
+  PetscCall(CheckpointGetNumber(from, "adaptation reach", &a->past.reach));
+  a->past.steps = (int)steps;
+  a->past.first = first ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -61,16 +65,23 @@ PetscErrorCode AdaptationDue(Adaptation a, Fluid f, PetscBool *due)
   double speed;
   PetscFunctionBeginUser;
   PetscCall(SolidBandSpeed(f, &speed));
-  a->steps++;
-  a->moved += speed * f->stats.dt;
-  *due = a->first || a->steps >= a->setup.every || a->moved + speed * f->stats.dt > a->reach;
+  a->before = a->past;
+  a->past.steps++;
+  a->past.moved += speed * f->stats.dt;
+  *due =
+      a->past.first || a->past.steps >= a->setup.every || a->past.moved + speed * f->stats.dt > a->past.reach;
   if (!*due) PetscFunctionReturn(0);
-  a->first = PETSC_FALSE;
-  a->steps = 0;
-  a->moved = 0.0;
+  a->past.first = PETSC_FALSE;
+  a->past.steps = 0;
+  a->past.moved = 0.0;
   /* at rest the solid may start with an acceleration that nobody knows here: hence the least */
-  a->reach = fmax(speed * a->setup.every * f->stats.dt, SOLID_BAND * a->setup.size_min);
+  a->past.reach = fmax(speed * a->setup.every * f->stats.dt, SOLID_BAND * a->setup.size_min);
   PetscFunctionReturn(0);
+}
+
+void AdaptationForget(Adaptation a)
+{
+  a->past = a->before;
 }
 
 /* Means around the vertices, weighted by area, of the velocity u+ of the step in hand: mean[2][nv]. */
@@ -131,7 +142,8 @@ static PetscErrorCode NeedsCreate(Adaptation a, Fluid f, Needs *n)
 {
   const AdaptationSetup *s = &a->setup;
   const Mesh *m = f->mesh;
-  const SolidBand band = {s->size_min, s->size_max, log(s->growth), (s->every + 1) * f->stats.dt, a->reach};
+  const SolidBand band = {s->size_min, s->size_max, log(s->growth), (s->every + 1) * f->stats.dt,
+                          a->past.reach};
   /* with the ghosts, which lend their values to the second derivatives */
   const MeshSerial view = {.nv = m->nv, .ne = m->ne + m->ng, .x = m->x, .vertex = m->vertex};
   double *mean[2], *scratch;

@@ -19,6 +19,8 @@ PetscErrorCode AdaptationCreate(const AdaptationSetup *setup, Adaptation *adapta
 /* Collective, once a step when its flow is known (u+): is it time for another mesh?  True `every` steps after
  * the last one, or when the solid may leave its band in the next step. */
 PetscErrorCode AdaptationDue(Adaptation adaptation, Fluid fluid, PetscBool *due);
+/* Not collective: the step that AdaptationDue was asked about last will be redone. */
+void AdaptationForget(Adaptation adaptation);
 /* Collective: the mesh adapted to the flow of the step in hand and to the solid. */
 PetscErrorCode AdaptationMesh(Adaptation adaptation, Fluid fluid, Mesh **mesh);
 /* Collective, before the first step, when all that is known are boxes around the solid, box[nbox][2][2] lower

@@ -114,7 +114,7 @@ PetscErrorCode ExchangeReceiveCoupling(Exchange x)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ExchangeFlow(Exchange x, Fluid next, const CoracleCorrection **correction)
+PetscErrorCode ExchangeFlow(Exchange x, Fluid next, PetscBool *stands, const CoracleCorrection **correction)
 {
   const Mesh *m = FluidMesh(x->fluid);
   const double *u_star = FluidVelocityStar(x->fluid), *u_plus = FluidVelocityPlus(x->fluid);
@@ -133,7 +133,11 @@ PetscErrorCode ExchangeFlow(Exchange x, Fluid next, const CoracleCorrection **co
   if (next) PetscCall(CoracleElementsChanged(x->client));
   if (next) x->given = next;
   PetscCall(CoracleEnd(x->client, NULL));
-  x->fluid = x->given;
+  *stands = CoracleStands(x->client) ? PETSC_TRUE : PETSC_FALSE;
+  if (*stands)
+    x->fluid = x->given;
+  else
+    x->given = x->fluid;
   PetscCall(CoracleGetCorrection(x->client, &n, correction));
   PetscFunctionReturn(0);
 }

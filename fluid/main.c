@@ -156,19 +156,34 @@ static PetscErrorCode Change(March *m, Mesh *mesh, Fluid fluid)
   PetscFunctionReturn(0);
 }
 
+/* The step will be redone. */
+static PetscErrorCode Forget(March *m, Mesh **mesh, Fluid *fluid)
+{
+  PetscFunctionBeginUser;
+  if (m->adaptation) AdaptationForget(m->adaptation);
+  PetscCall(FluidDestroy(fluid));
+  PetscCall(MeshDestroy(mesh));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode Step(March *m, double dt)
 {
   const CoracleCorrection *correction;
   Mesh *mesh;
   Fluid next;
+  PetscBool stands;
   PetscFunctionBeginUser;
   PetscCall(ExchangeReceiveCoupling(m->exchange));
   if (m->new_mesh) PetscCall(FluidMakeSolenoidal(m->fluid));
-  m->new_mesh = PETSC_FALSE;
   PetscCall(FluidMomentum(m->fluid, dt));
   PetscCall(FluidProject(m->fluid, dt));
   PetscCall(Remesh(m, &mesh, &next));
-  PetscCall(ExchangeFlow(m->exchange, next, &correction));
+  PetscCall(ExchangeFlow(m->exchange, next, &stands, &correction));
+  if (!stands) {
+    PetscCall(Forget(m, &mesh, &next));
+    PetscFunctionReturn(0);
+  }
+  m->new_mesh = PETSC_FALSE;
   PetscCall(FluidCorrect(m->fluid, dt, correction));
   PetscCall(RecordStep(m->record, m->fluid));
   if (next) PetscCall(Change(m, mesh, next));

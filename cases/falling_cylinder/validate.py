@@ -36,6 +36,8 @@ CHECKS = {
     "stress_shell": (["time.end=4", "coupler.mode=stress_shell"], "1:1:1"),
     "penalty_shell": (["time.end=4", "coupler.mode=penalty_shell"], "1:1:1"),
     "ratio-0.5": (["time.end=1", "solid.materials.disc.density=500", "solid.bodies[0].centre=[1.25, 9]"], "1:1:1"),
+    "strong": (["time.end=4", "coupler.tries=30"], "1:1:1"),
+    "ratio-0.05-strong": (["time.end=1", "solid.materials.disc.density=50", "solid.bodies[0].centre=[1.25, 9]", "coupler.tries=30"], "1:1:1"),
     "ratio-1.05": (["time.end=1", "solid.materials.disc.density=1050"], "1:1:1"),
 }
 CURVES = {20: "nu0.017173", 100: "nu0.004401", 200: "nu0.002278"}  # reference U(t), closed sides, ratio 2

@@ -109,6 +109,12 @@ int CoracleGetCoupling(CoracleClient c, int *n, const CoracleCoupling **coupling
   return 0;
 }
 
+int CoracleStands(CoracleClient c)
+{
+  ClientExpect(c, "CoracleStands", ROLE_FLUID, STAGE_BETWEEN, STAGE_BETWEEN);
+  return c->action != CORACLE_REDO;
+}
+
 int CoracleGetCorrection(CoracleClient c, int *n, const CoracleCorrection **correction)
 {
   ClientExpect(c, "CoracleGetCorrection", ROLE_FLUID, STAGE_BETWEEN, STAGE_BETWEEN);
@@ -147,6 +153,7 @@ void FluidEnd(CoracleClient c)
   c->fluid.flow_set = false;
   ClientSend(c);
   WaitForCoupling(c);
+  if (c->action == CORACLE_REDO) c->fluid.changed = false;
 }
 
 void FluidFree(CoracleClient c)

@@ -85,7 +85,7 @@ typedef int (*CoracleRegionFunction)(void *context, int nbox, const double box[]
 int CoracleSetRegion(CoracleClient c, int dim, const double lower[], const double upper[],
                      CoracleRegionFunction region, void *context);
 /* Tells that the fluid's elements have changed (mesh adaptation): region is called again in the next
- * CoracleEnd. */
+ * CoracleEnd, if the step stands. */
 int CoracleElementsChanged(CoracleClient c);
 
 /* --- the run -------------------------------------------------------------------------------------------- */
@@ -164,6 +164,10 @@ typedef struct {
   int element;
   double r[2][3];
 } CoracleCorrection;
+/* Fluid, after CoracleEnd: 1 when the step just made stands, 0 when it will be redone: there is no correction
+ * then, and what it did beside its bound state (a mesh it has adapted, a row it would write) is void.  A solid
+ * learns this by the next action. */
+int CoracleStands(CoracleClient c);
 /* Fluid, after CoracleReady and after CoracleEnd: the coupling of the coming step.  Borrowed until the next
  * CoracleEnd. */
 int CoracleGetCoupling(CoracleClient c, int *n, const CoracleCoupling **coupling);

@@ -188,10 +188,23 @@ int ServerClose(Server *server)
   if (!s) return 0;
   if (!s->fluid.stopped || !s->solid.stopped)
     ServerFail(s, "closed in step %d, before CORACLE_STOP to both clients", s->p->step);
-  Buffer *all[] = {&s->gid,          &s->mean,    &s->x,        &s->u,
-                   &s->facet,        &s->element, &s->vertices, &s->mobility,
-                   &s->acceleration, &s->rho,     &s->u_star,   &s->u_plus,
-                   &s->pressure,     &s->mu,      &s->owner};
+  Buffer *all[] = {&s->start_gid,
+                   &s->start_element,
+                   &s->gid,
+                   &s->mean,
+                   &s->x,
+                   &s->u,
+                   &s->facet,
+                   &s->element,
+                   &s->vertices,
+                   &s->mobility,
+                   &s->acceleration,
+                   &s->rho,
+                   &s->u_star,
+                   &s->u_plus,
+                   &s->pressure,
+                   &s->mu,
+                   &s->owner};
   for (size_t k = 0; k < sizeof all / sizeof *all; k++) BufferFree(all[k]);
   BufferFree(&s->save);
   for (int role = 0; role < NROLES; role++) BufferFree(&s->reports[role]);

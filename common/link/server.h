@@ -10,7 +10,10 @@
 typedef struct Server_s *Server;
 
 typedef struct {
-  int changed;                    /* nodes, facets or elements were given anew (in this call) */
+  int changed; /* nodes, facets or elements were given anew (in this call) */
+  int lost;    /* then, within a step: it cannot be said what has become of the nodes of its start */
+  const int
+      *before; /* [nelements][3] else: the elements in the nodes that this rank had when the step began */
   int nnodes, nfacets, nelements; /* on this coupler rank */
   const long long *gid;           /* [nnodes] */
   const double *x;                /* [nnodes][2] position, m */
@@ -46,7 +49,7 @@ int ServerElementsChanged(Server s);
 /* The smallest step that the fluid's ranks proposed last, s; the same on all coupler ranks. */
 double ServerProposedStep(Server s);
 /* Ends the fluid's CoracleReady or CoracleEnd.  correction[ncorrection] has one entry per coupling entry of
- * the last call, in its order (0 at the first call or when stopping is not after a step); `element` of
+ * the last call, in its order (0 at the first call or when stopping is not after a step, and as you like at CORACLE_REDO); `element` of
  * coupling indexes ServerElements. */
 int ServerSendCoupling(Server s, double t, double dt, CoracleAction action, int ncorrection,
                        const CoracleCorrection correction[], int ncoupling, const CoracleCoupling coupling[]);

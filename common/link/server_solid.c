@@ -1,5 +1,6 @@
 /* The coupler's end towards the solid. */
 #include "server_impl.h"
+#include <stdlib.h>
 #include <string.h>
 
 enum { DIM = 2 };
@@ -60,8 +61,37 @@ static void AssembleMesh(Server s)
   }
 }
 
+static int CompareIds(const void *a, const void *b)
+{
+  const long long x = *(const long long *)a, y = *(const long long *)b;
+  return (x > y) - (x < y);
+}
+
+/* Whether the elements are those that the step began with, on all ranks: each corner the node that it was, or one
+ * that is new. */
+static bool SameElements(Server s)
+{
+  const long long *gid = (const long long *)(const void *)s->gid.data;
+  const long long *start_gid = (const long long *)(const void *)s->start_gid.data;
+  const int *element = (const int *)(const void *)s->element.data;
+  const int *start = (const int *)(const void *)s->start_element.data;
+  const size_t n = s->start_gid.size / sizeof *gid, ncorners = s->element.size / sizeof *element;
+  long long *sorted = malloc(s->start_gid.size + 1);
+  int same = s->element.size == s->start_element.size;
+  if (n) memcpy(sorted, start_gid, s->start_gid.size);
+  qsort(sorted, n, sizeof *sorted, CompareIds);
+  for (size_t k = 0; k < ncorners && same; k++) {
+    const long long *id = &gid[element[k]];
+    same = *id == start_gid[start[k]] || !bsearch(id, sorted, n, sizeof *sorted, CompareIds);
+  }
+  free(sorted);
+  MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_LAND, s->p->app);
+  return same;
+}
+
 int ServerReceiveSolid(Server s, ServerSolid *solid)
 {
+  const bool first = !s->received_solid;
   int nnodes = 0, changed = 0;
   BufferResize(&s->x, 0);
   BufferResize(&s->u, 0);
@@ -72,7 +102,10 @@ int ServerReceiveSolid(Server s, ServerSolid *solid)
   if (changed || !s->received_solid) AssembleMesh(s);
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, s->p->app);
   s->received_solid = true;
+  const bool same = changed && !first && SameElements(s);
   *solid = (ServerSolid){.changed = changed,
+                         .lost = changed && !first && !same,
+                         .before = same ? (const int *)(const void *)s->start_element.data : NULL,
                          .nnodes = nnodes,
                          .nfacets = (int)(s->facet.size / (DIM * sizeof(int))),
                          .nelements = (int)(s->element.size / ((DIM + 1) * sizeof(int))),
@@ -92,6 +125,10 @@ int ServerSendForce(Server s, double t, double dt, CoracleAction action, const d
   const int step = s->solid.step; /* which the clients are in until they get this */
   if (!s->received_solid) ServerFail(s, "ServerSendForce comes after the first ServerReceiveSolid");
   SideStep(s, &s->solid, action);
+  if (action == CORACLE_RUN) {
+    memcpy(BufferResize(&s->start_gid, s->gid.size), s->gid.data, s->gid.size);
+    memcpy(BufferResize(&s->start_element, s->element.size), s->element.data, s->element.size);
+  }
   for (int i = 0; i < s->solid.n; i++) {
     Peer *peer = &s->solid.peer[i];
     if (action == CORACLE_RUN) {

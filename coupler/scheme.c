@@ -1,6 +1,7 @@
+#include "scheme.h"
 #include "checkpoints.h"
 #include "guard.h"
-#include "scheme.h"
+#include "tries.h"
 
 /* Of dt_max: a shorter step is an error. */
 #define LEAST_STEP 1e-6
@@ -12,6 +13,7 @@ typedef struct {
   ServerElements elements;
   Guard guard;
   Checkpoints checkpoints;
+  Tries tries;
   double t, dt;
 } March;
 
@@ -163,10 +165,13 @@ static PetscErrorCode SendCoupling(March *m, int ncorrection, const CoracleCorre
 {
   const Scheme *s = m->scheme;
   const CoracleCoupling *coupling;
+  const double *u;
   int n;
 
   PetscFunctionBeginUser;
   PetscCall(CouplerBuild(s->coupler, &m->solid, m->dt, &n, &coupling));
+  PetscCall(TriesBegin(&m->tries, &m->solid, m->dt, s->c->options.gravity, &u));
+  if (u) PetscCall(CouplerAim(s->coupler, u, &n, &coupling));
   PetscCall(RecordShell(s->record, m->t, s->coupler, &m->solid));
   PetscCall(ServerSendCoupling(s->server, m->t, m->dt, CORACLE_RUN, ncorrection, correction, n, coupling));
   PetscFunctionReturn(0);
@@ -175,6 +180,7 @@ static PetscErrorCode SendCoupling(March *m, int ncorrection, const CoracleCorre
 static PetscErrorCode Start(March *m)
 {
   PetscFunctionBeginUser;
+  PetscCall(TriesCreate(PETSC_COMM_WORLD, m->scheme->c->tries, m->scheme->c->tolerance, &m->tries));
   PetscCall(CheckpointsCreate(PETSC_COMM_WORLD, m->scheme->server, m->scheme->c, &m->checkpoints));
   if (m->scheme->from) PetscCall(Load(m, m->scheme->from));
   PetscCall(ReceiveSolid(m));
@@ -187,9 +193,8 @@ static PetscErrorCode Start(March *m)
   PetscFunctionReturn(0);
 }
 
-/* Fluid -> coupler -> solid -> coupler: what remains is to send the fluid its correction and the next
- * coupling. */
-static PetscErrorCode Exchange(March *m, RecordedStep *step, int *n, const CoracleCorrection **correction)
+/* Fluid -> coupler -> solid -> coupler. */
+static PetscErrorCode Try(March *m, CoracleAction action, RecordedStep *step)
 {
   const Scheme *s = m->scheme;
   const double *force;
@@ -199,9 +204,50 @@ static PetscErrorCode Exchange(March *m, RecordedStep *step, int *n, const Corac
   PetscCall(ServerReceiveFlow(s->server, &flow));
   const double start = MPI_Wtime();
   PetscCall(CouplerReact(s->coupler, &flow, &force, &step->totals));
-  step->force = MPI_Wtime() - start;
-  PetscCall(ServerSendForce(s->server, m->t, m->dt, CORACLE_RUN, force));
+  step->force += MPI_Wtime() - start;
+  PetscCall(ServerSendForce(s->server, m->t, m->dt, action, force));
   PetscCall(ReceiveSolid(m));
+  PetscFunctionReturn(0);
+}
+
+/* The fluid makes the step again, with another velocity of the solid. */
+static PetscErrorCode AimAgain(March *m, int tries)
+{
+  const Scheme *s = m->scheme;
+  const CoracleCoupling *coupling;
+  const double *u;
+  char message[256];
+  int n;
+
+  PetscFunctionBeginUser;
+  if (tries == m->tries.most) {
+    snprintf(message, sizeof message,
+             "the step from t = %g s does not converge: after %d tries the solid ends with a velocity %g m/s "
+             "away from what "
+             "the fluid has met; shorter steps (time.dt_max) help, or coupler.tries",
+             m->t, tries, m->tries.difference);
+    PetscCall(FailTogether(s->server, message));
+  }
+  PetscCall(TriesNext(&m->tries, &u));
+  PetscCall(CouplerAim(s->coupler, u, &n, &coupling));
+  PetscCall(ServerSendCoupling(s->server, m->t, m->dt, CORACLE_REDO, 0, NULL, n, coupling));
+  PetscFunctionReturn(0);
+}
+
+/* The step; what remains is to send the fluid its correction and the next coupling. */
+static PetscErrorCode Exchange(March *m, RecordedStep *step, int *n, const CoracleCorrection **correction)
+{
+  const Scheme *s = m->scheme;
+  PetscBool agree;
+
+  PetscFunctionBeginUser;
+  for (step->tries = 1;; step->tries++) {
+    PetscCall(Try(m, step->tries == 1 ? CORACLE_RUN : CORACLE_REDO, step));
+    PetscCall(TriesAgree(&m->tries, step->tries, &m->solid, &agree));
+    if (agree) break;
+    PetscCall(AimAgain(m, step->tries));
+  }
+  PetscCall(TriesEnd(&m->tries));
   PetscCall(CouplerCorrect(s->coupler, &m->solid, n, correction));
   PetscCall(MotionOf(PETSC_COMM_WORLD, &m->solid, &step->motion));
   step->dt = m->dt;
@@ -223,7 +269,7 @@ static PetscErrorCode Stop(March *m, int ncorrection, const CoracleCorrection co
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SchemeStaggered(const Scheme *s)
+PetscErrorCode SchemeRun(const Scheme *s)
 {
   March m = {.scheme = s};
   double waited, built;
@@ -250,5 +296,6 @@ PetscErrorCode SchemeStaggered(const Scheme *s)
     PetscCall(Save(&m));
   }
   PetscCall(Stop(&m, n, correction));
+  PetscCall(TriesDestroy(&m.tries));
   PetscFunctionReturn(0);
 }

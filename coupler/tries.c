@@ -1,0 +1,120 @@
+#include "tries.h"
+#include "motion.h"
+
+/* Of the velocity that gravity gives in a step, and of the largest so far: what counts as nothing. */
+#define LEAST_OF_GRAVITY 1e-2
+#define LEAST_OF_LARGEST 1e-4
+
+PetscErrorCode TriesCreate(MPI_Comm comm, int most, double tolerance, Tries *t)
+{
+  PetscFunctionBeginUser;
+  *t = (Tries){.comm = comm, .most = most, .tolerance = tolerance, .n = -1};
+  PetscCall(AccelerationCreate(comm, &t->acceleration));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FreeNodes(Tries *t)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscFree5(t->start, t->met, t->end, t->rate, t->mobility));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TriesDestroy(Tries *t)
+{
+  PetscFunctionBeginUser;
+  PetscCall(FreeNodes(t));
+  PetscCall(AccelerationDestroy(&t->acceleration));
+  PetscFunctionReturn(0);
+}
+
+/* Room for the solid's nodes; those of another mesh have no past. */
+static PetscErrorCode Resize(Tries *t, const ServerSolid *solid)
+{
+  const size_t n = (size_t)solid->nnodes;
+
+  PetscFunctionBeginUser;
+  if (!solid->changed && t->n >= 0) PetscFunctionReturn(0);
+  PetscCall(FreeNodes(t));
+  PetscCall(PetscMalloc5(2 * n, &t->start, 2 * n, &t->met, 2 * n, &t->end, 2 * n, &t->rate, n, &t->mobility));
+  t->n = solid->nnodes;
+  t->has_rate = PETSC_FALSE;
+  PetscCall(AccelerationBegin(t->acceleration, -1));
+  PetscFunctionReturn(0);
+}
+
+/* Root mean square of end - start, over the nodes that take part; start NULL: 0. */
+static PetscErrorCode Rms(const Tries *t, const double start[], double *rms)
+{
+  double sum[2] = {0.0, 0.0};
+
+  PetscFunctionBeginUser;
+  for (int i = 0; i < t->n; i++) {
+    if (t->mobility[i] > 0.0) continue;
+    for (int k = 2 * i; k < 2 * i + 2; k++) sum[0] += PetscSqr(t->end[k] - (start ? start[k] : 0.0));
+    sum[1] += 1.0;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, t->comm));
+  *rms = sum[1] > 0.0 ? sqrt(sum[0] / sum[1]) : 0.0;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TriesBegin(Tries *t, const ServerSolid *solid, double dt, const double gravity[2],
+                          const double **u)
+{
+  const size_t n = (size_t)solid->nnodes;
+
+  PetscFunctionBeginUser;
+  *u = NULL;
+  if (t->most == 1) PetscFunctionReturn(0);
+  PetscCall(Resize(t, solid));
+  PetscCall(PetscArraycpy(t->start, solid->u, 2 * n));
+  PetscCall(PetscArraycpy(t->mobility, solid->mobility, n));
+  for (size_t k = 0; k < 2 * n; k++) t->met[k] = t->start[k] + (t->has_rate ? dt * t->rate[k] : 0.0);
+  t->dt = dt;
+  t->least = LEAST_OF_GRAVITY * dt * hypot(gravity[0], gravity[1]);
+  PetscCall(AccelerationBegin(t->acceleration, 2 * solid->nnodes));
+  *u = t->met;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TriesAgree(Tries *t, int tries, const ServerSolid *solid, PetscBool *agree)
+{
+  double size;
+
+  PetscFunctionBeginUser;
+  *agree = PETSC_TRUE;
+  if (t->most == 1 || solid->lost) PetscFunctionReturn(0);
+  PetscCall(PetscArraycpy(t->end, t->met, 2 * (size_t)t->n));
+  PetscCall(MotionOnStart(solid, solid->u, t->n, t->end));
+  for (int k = 0; k < 2 * t->n; k++) t->end[k] = t->mobility[k / 2] > 0.0 ? t->met[k] : t->end[k];
+  PetscCall(Rms(t, t->met, &t->difference));
+  PetscCall(Rms(t, NULL, &size));
+  t->largest = fmax(t->largest, size);
+  size = fmax(size, fmax(t->least, LEAST_OF_LARGEST * t->largest));
+  *agree = t->difference <= t->tolerance * size ? PETSC_TRUE : PETSC_FALSE; /* not so for NaN */
+  if (solid->changed && tries == t->most) *agree = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TriesNext(Tries *t, const double **u)
+{
+  double *next;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(2 * (size_t)t->n, &next));
+  PetscCall(AccelerationNext(t->acceleration, t->met, t->end, next));
+  PetscCall(PetscArraycpy(t->met, next, 2 * (size_t)t->n));
+  PetscCall(PetscFree(next));
+  *u = t->met;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TriesEnd(Tries *t)
+{
+  PetscFunctionBeginUser;
+  if (t->most == 1) PetscFunctionReturn(0);
+  t->has_rate = PETSC_TRUE;
+  for (int k = 0; k < 2 * t->n; k++) t->rate[k] = (t->end[k] - t->start[k]) / t->dt;
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Strong coupling: a disc of a twentieth of the fluid's density rises smoothly, on any number of ranks and while the mesh adapts, in few tries a
+# step; a heavy one moves off as it should; and a step that does not converge ends the run with a reason.  Usage: strong.sh ROOT BUILD
+set -euo pipefail
+source "$(dirname "$0")/run.sh"
+light=(--set solid.materials.disc.density=50 --set time.end=0.3 --set coupler.tries=30)
+adapt=(--set fluid.adapt.size_min=0.02 --set fluid.adapt.size_max=0.25 --set fluid.adapt.velocity_error=0.005 --set fluid.adapt.every=7
+  --set "fluid.mesh.refine[0].size=0.2" --set "solid.bodies[0].size=0.03")
+must one 1:1:1 "${light[@]}"
+must three 2:2:3 "${light[@]}"
+must adaptive 1:1:1 "${light[@]}" "${adapt[@]}"
+must staggered 1:1:1 --set time.end=0.2 --set time.dt_max=0.00125
+must long 1:1:1 --set time.end=0.2 --set coupler.tries=30
+must long-staggered 1:1:1 --set time.end=0.2
+if run few 1:1:1 "${light[@]}" --set coupler.tries=2; then echo "two tries were enough"; exit 1; fi
+grep -q 'error: the step from t = .* does not converge' "$scratch/few.log" || { cat "$scratch/few.log"; exit 1; }
+"$python" - "$scratch" <<'E2'
+import csv, json, sys
+def rows(label, name="coupler"):
+    return [{k: float(v) for k, v in r.items()} for r in csv.DictReader(open("%s/%s/%s.csv" % (sys.argv[1], label, name)))]
+def speeds(label):
+    return [r["u_y [m/s]"] for r in rows(label)]
+for label in ("one", "three", "adaptive"):
+    u, tries = speeds(label)[5:], [r["tries"] for r in rows(label)]
+    assert u[-1] > 0.5 and all(b > a for a, b in zip(u, u[1:])), "%s: velocities %s" % (label, u)
+    assert 1.5 < sum(tries) / len(tries) < 4, "%s: %s tries" % (label, tries)
+    summary = json.load(open("%s/%s/summary.json" % (sys.argv[1], label)))
+    assert summary["largest_momentum_imbalance"] < 1e-10 and summary["tries"] == sum(tries), "%s: %s" % (label, summary)
+    assert len(rows(label, "fluid")) == len(rows(label, "solid")) == len(tries), "%s: rows for tries that do not stand" % label
+one, three = speeds("one")[-1], speeds("three")[-1]
+assert abs(one / three - 1) < 1e-3, "one rank %g m/s, three %g" % (one, three)
+assert len({r["triangles"] for r in rows("adaptive", "fluid")}) > 3, "the mesh has not changed"
+# steps eight times as long: staggered they are late, strong they are not
+fine, strong, late = (speeds(label)[-1] for label in ("staggered", "long", "long-staggered"))
+assert abs(strong - fine) < 0.5 * abs(late - fine), "%g m/s in long strong steps, %g staggered, %g in short ones" % (strong, late, fine)
+E2
