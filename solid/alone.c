@@ -62,7 +62,7 @@ int Alone(int argc, char **argv)
   PetscCall(CaseOpen(argc, argv, Refuse, NULL, &c));
   const double end = CasePositive(c, "time.end"), longest = CasePositive(c, "time.dt_max");
   PetscCall(SolidFromCase(c, PETSC_COMM_WORLD, Fail, NULL, &solid));
-  PetscCall(RecordCreate(c, PETSC_COMM_WORLD, solid, &record));
+  PetscCall(RecordCreate(c, PETSC_COMM_WORLD, solid, NULL, &record));
   PetscCall(CaseClose(&c));
   PetscCall(Run(solid, record, end, longest));
   PetscCall(RecordDestroy(&record));

@@ -39,10 +39,13 @@ static PetscErrorCode GiveCrackedMesh(Exchange *x, const SolidView *v)
 PetscErrorCode ExchangeCreate(CoracleClient client, Solid solid, Exchange *x)
 {
   SolidView v;
+  SolidSeen seen;
   PetscFunctionBeginUser;
   *x = (Exchange){.client = client, .solid = solid};
   SolidGetView(solid, &v);
-  PetscCall(GiveMesh(x, &v, v.v));
+  SolidGetSeen(solid, &seen);
+  PetscCall(GiveMesh(x, &v, seen.u));
+  PetscCall(CoracleSetInertia(client, seen.mobility, seen.acceleration));
   PetscCall(CoracleBindStateFunction(client, SaveOrRestore, solid));
   PetscCall(CoracleReady(client));
   PetscFunctionReturn(0);

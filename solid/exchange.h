@@ -23,7 +23,8 @@ typedef struct {
   double *load;         /* [nnodes][2] of the present share, when away */
 } Exchange;
 
-/* Gives nodes, surface and volume, binds the state and makes the first exchange.  Collective. */
+/* Gives nodes, surface and volume with what was seen last, binds the state and makes the first exchange.
+ * Collective. */
 PetscErrorCode ExchangeCreate(CoracleClient client, Solid solid, Exchange *x);
 /* Waits for the next step; *load: the force on this rank's nodes, N, borrowed until ExchangeMotion. */
 PetscErrorCode ExchangeBegin(Exchange *x, double *dt, CoracleAction *action, const double **load);

@@ -11,10 +11,22 @@ static void Fail(void *client, const char *message)
   CoracleFail(client, "%s", message);
 }
 
+static const char CHECKPOINT[] = "solid"; /* its file, without .h5 */
+
+typedef struct {
+  CoracleClient client;
+  const char *resume; /* folder of the checkpoint that is being read, or NULL */
+} Blame;
+
 static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const char *file,
-                            PetscErrorCode code, PetscErrorType type, const char *message, void *client)
+                            PetscErrorCode code, PetscErrorType type, const char *message, void *blame)
 {
-  CoracleFail(client, "%s (in %s, %s:%d)", message ? message : "an error of PETSc", function, file, line);
+  const Blame *b = blame;
+  if (!message) message = "an error of PETSc";
+  if (b->resume)
+    CoracleFail(b->client, "cannot go on from %s/%s.h5: %s (in %s, %s:%d)", b->resume, CHECKPOINT, message,
+                function, file, line);
+  CoracleFail(b->client, "%s (in %s, %s:%d)", message, function, file, line);
 }
 
 static PetscErrorCode Report(CoracleClient client, Solid solid)
@@ -34,6 +46,39 @@ static PetscErrorCode Report(CoracleClient client, Solid solid)
   PetscFunctionReturn(0);
 }
 
+/* --- checkpoints
+ * -------------------------------------------------------------------------------------------- */
+
+/* *from: the checkpoint that the run goes on from, NULL: from the start. */
+static PetscErrorCode Resume(Blame *blame, Solid solid, Checkpoint *from)
+{
+  PetscFunctionBeginUser;
+  *from = NULL;
+  blame->resume = CoracleResumeFolder(blame->client);
+  if (!blame->resume) PetscFunctionReturn(0);
+  PetscCall(CheckpointOpen(PETSC_COMM_WORLD, blame->resume, CHECKPOINT, from));
+  PetscCall(SolidLoad(solid, *from));
+  blame->resume = NULL;
+  PetscFunctionReturn(0);
+}
+
+/* If one is due. */
+static PetscErrorCode Save(CoracleClient client, Solid solid, Record record, double waited)
+{
+  const char *folder = CoracleSaveFolder(client);
+  Checkpoint to;
+  PetscFunctionBeginUser;
+  if (!folder) PetscFunctionReturn(0);
+  PetscCall(CheckpointCreate(PETSC_COMM_WORLD, folder, CHECKPOINT, &to));
+  PetscCall(SolidSave(solid, to));
+  PetscCall(RecordSave(record, waited, to));
+  PetscCall(CheckpointClose(&to));
+  PetscFunctionReturn(0);
+}
+
+/* --- the run
+ * ------------------------------------------------------------------------------------------------ */
+
 static PetscErrorCode Run(CoracleClient client, Solid solid, Record record)
 {
   Exchange exchange;
@@ -46,6 +91,7 @@ static PetscErrorCode Run(CoracleClient client, Solid solid, Record record)
     PetscCall(ExchangeBegin(&exchange, &dt, &action, &load));
     if (steps > 0 && action != CORACLE_REDO) PetscCall(RecordStep(record, solid, exchange.waited));
     if (action == CORACLE_STOP) break;
+    PetscCall(Save(client, solid, record, exchange.waited));
     PetscCall(SolidStart(solid, dt, load));
     while (SolidRemaining(solid)) {
       PetscCall(SolidSubstep(solid, &h));
@@ -77,14 +123,18 @@ int main(int argc, char **argv)
   Case c;
   Solid solid;
   Record record;
+  Checkpoint from;
   if (TakeAlone(&argc, argv)) return Alone(argc, argv);
   if (CoracleOpen("solid", argc, argv, &comm, &client)) return 1;
   PETSC_COMM_WORLD = comm;
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
-  PetscCall(PetscPushErrorHandler(Abort, client));
+  Blame blame = {client, NULL};
+  PetscCall(PetscPushErrorHandler(Abort, &blame));
   PetscCall(CaseOpen(argc, argv, Fail, client, &c));
   PetscCall(SolidFromCase(c, comm, Fail, client, &solid));
-  PetscCall(RecordCreate(c, comm, solid, &record));
+  PetscCall(Resume(&blame, solid, &from));
+  PetscCall(RecordCreate(c, comm, solid, from, &record));
+  PetscCall(CheckpointClose(&from));
   PetscCall(CaseClose(&c));
   PetscCall(Run(client, solid, record));
   PetscCall(Report(client, solid));

@@ -9,10 +9,12 @@ struct Record_s {
   Output output;
   Series series;
   int nbodies, revision;
-  double every, next, start;
+  double every, next;
+  double start;  /* s, by the clock, as if runs that this one goes on from had been just before it; */
+  double waited; /* s, theirs */
 };
 
-static PetscErrorCode CreateSeries(Record r, const char *folder)
+static PetscErrorCode CreateSeries(Record r, const char *folder, Checkpoint from)
 {
   char columns[MAX_BODIES * 160 + 320] = "t [s]";
   PetscFunctionBeginUser;
@@ -29,7 +31,7 @@ static PetscErrorCode CreateSeries(Record r, const char *folder)
                  ",fracture [J/m],torn [J/m],broken joints,cracks [m],pieces,walls_x [N s/m],walls_y [N "
                  "s/m],held_x [N s/m],"
                  "held_y [N s/m],work [J/m],held work [J/m],substeps,dt_s [s],computing [s],waiting [s]");
-  PetscCall(SeriesCreate(r->comm, folder, "solid", columns, NULL, &r->series));
+  PetscCall(SeriesCreate(r->comm, folder, "solid", columns, from, &r->series));
   PetscFunctionReturn(0);
 }
 
@@ -118,7 +120,32 @@ static PetscErrorCode Snapshot(Record r, Solid s)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode RecordCreate(Case c, MPI_Comm comm, Solid solid, Record *record)
+/* The first rank's seconds, which the series has. */
+PetscErrorCode RecordSave(Record r, double waited, Checkpoint to)
+{
+  double seconds[2] = {MPI_Wtime() - r->start, r->waited + waited};
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Bcast(seconds, 2, MPI_DOUBLE, 0, r->comm));
+  PetscCall(CheckpointPutNumber(to, "record seconds", seconds[0]));
+  PetscCall(CheckpointPutNumber(to, "record waited", seconds[1]));
+  PetscCall(CheckpointPutNumber(to, "record next", r->next));
+  PetscCall(OutputSave(r->output, to));
+  PetscCall(SeriesSave(r->series, to));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Load(Record r, Checkpoint from)
+{
+  double seconds;
+  PetscFunctionBeginUser;
+  PetscCall(CheckpointGetNumber(from, "record seconds", &seconds));
+  PetscCall(CheckpointGetNumber(from, "record waited", &r->waited));
+  PetscCall(CheckpointGetNumber(from, "record next", &r->next));
+  r->start -= seconds;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RecordCreate(Case c, MPI_Comm comm, Solid solid, Checkpoint from, Record *record)
 {
   const char *folder = CaseString(c, "output.folder");
   SolidView v;
@@ -130,9 +157,9 @@ PetscErrorCode RecordCreate(Case c, MPI_Comm comm, Solid solid, Record *record)
   r->nbodies = PetscMin(v.nbodies, MAX_BODIES);
   r->every = CasePositive(c, "output.every");
   r->start = MPI_Wtime();
-  PetscCall(OutputCreate(comm, folder, "solid", NULL, &r->output));
-  PetscCall(CreateSeries(r, folder));
-  PetscCall(Snapshot(r, solid));
+  PetscCall(OutputCreate(comm, folder, "solid", from, &r->output));
+  PetscCall(CreateSeries(r, folder, from));
+  PetscCall(from ? Load(r, from) : Snapshot(r, solid));
   *record = r;
   PetscFunctionReturn(0);
 }
@@ -170,6 +197,7 @@ PetscErrorCode RecordStep(Record r, Solid s, double waited)
   row[n++] = budget.held_work;
   row[n++] = stats->substeps;
   row[n++] = stats->h;
+  waited += r->waited;
   row[n++] = MPI_Wtime() - r->start - waited;
   row[n++] = waited;
   PetscCall(SeriesRow(r->series, row));

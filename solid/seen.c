@@ -197,6 +197,11 @@ PetscErrorCode SolidSee(Solid s, SolidSeen *seen)
       SeeRigid(s, i, motion + b, share[b]);
   }
   PetscCall(PetscFree3(motion, share, resolved));
-  *seen = (SolidSeen){s->seen, s->mobility, s->acceleration};
+  SolidGetSeen(s, seen);
   PetscFunctionReturn(0);
+}
+
+void SolidGetSeen(Solid s, SolidSeen *seen)
+{
+  *seen = (SolidSeen){s->seen, s->mobility, s->acceleration};
 }

@@ -14,6 +14,7 @@
 #ifndef SOLID_H
 #define SOLID_H
 #include "assembly.h"
+#include "checkpoint.h"
 
 typedef struct Solid_s *Solid;
 
@@ -72,11 +73,22 @@ typedef struct {
 /* Collective, after the last substep, when all is as at the step's end; borrowed until the next SolidStart.
  */
 PetscErrorCode SolidSee(Solid s, SolidSeen *seen);
+/* Not collective: what SolidSee has last found, before the first step the velocities, with mobility 0. */
+void SolidGetSeen(Solid s, SolidSeen *seen);
 /* Largest stable substep now, s: 4/(d + sqrt(d^2 + 4 w^2)), w^2 and d bounds of the elements' and contact's
  * frequencies and viscous rates. */
 PetscErrorCode SolidLimit(Solid s, double *limit);
 /* Saves (1) or puts back (0) what a step changes.  Not collective. */
 PetscErrorCode SolidState(Solid s, int save);
+
+/* Between two steps: all that the steps so far have made of the solid, into a checkpoint. */
+PetscErrorCode SolidSave(Solid s, Checkpoint to);
+/* Right after SolidCreate, from the same assembly on any number of ranks: the solid as it was at SolidSave,
+ * with its time and its counters.  On as many ranks as then it goes on with the same bits; on others the
+ * elements are dealt out as suits the present state if there is `rebalance`, else as at the start.  A
+ * checkpoint of other bodies is an error that says what has been expected and found.  There is no budget
+ * before the next step. */
+PetscErrorCode SolidLoad(Solid s, Checkpoint from);
 
 /* Views: borrowed, not collective. */
 typedef struct {

@@ -12,6 +12,11 @@ typedef struct Joints_s *Joints;
 /* Each with those before it. */
 typedef enum { STRAIN_ONLY, WITH_SHEETS, WITH_COROTATED } ElementLaws; /* the first: neo-Hookean */
 
+/* What all shares are of, the same on all ranks. */
+typedef struct {
+  int elements, nodes, joints; /* nodes of the start */
+} Whole;
+
 /* Structure of arrays, so that the element loop is vectorised. */
 typedef struct {
   int n;
@@ -49,6 +54,7 @@ struct Solid_s {
   MPI_Comm comm;
   PetscMPIInt rank, size;
   SolidSetup setup;
+  Whole whole;
   int nnodes, nfacets, nbodies;
   int node_capacity,
       facet_capacity; /* of all arrays [nnodes] and [nfacets]: for the case that all joints break */
@@ -122,6 +128,9 @@ ElementLaw SolidLawOf(const Assembly *a, int e);
 /* corner_start and corner, from element */
 void SolidListCorners(Solid s);
 
+/* balance.c, collective: elements to ranks as suits the solid as it is now.  Needs rebalance > 0. */
+PetscErrorCode SolidDealOut(Solid s);
+
 /* migrate.c: all but the assembly. */
 PetscErrorCode SolidFreeShare(Solid s);
 /* Not collective: the share that the saved state belongs to is the present one again. */
@@ -145,8 +154,10 @@ void JointsAddStrainPower(Joints j, Solid s, const double d[], const int piece[]
 double JointsRate(Joints j);
 /* break.c: saves or puts back damage and topology; not collective. */
 PetscErrorCode JointsState(Joints j, Solid s, int save);
-/* Not collective: nodes and facets as the joints' memory says, in a share that is whole. */
-void JointsReplay(Joints j, Solid s);
+/* Not collective: what the joints' memory says has happened happens again, revision by revision, in a share
+ * that is whole.  So nodes and facets get the numbers that they have on a rank which had its elements all the
+ * time, and sums their bits. */
+PetscErrorCode JointsReplay(Joints j, Solid s);
 /* Collective: after JointsState(0) and JointsReplay, what needs messages. */
 PetscErrorCode JointsSettle(Joints j, Solid s);
 

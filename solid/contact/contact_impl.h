@@ -79,6 +79,8 @@ const double *ContactPosition(const Contact c, const Solid s, int node);
 /* contact_pair.c */
 /* The pair of the facet and the other, made with the slip that history has of it. */
 PetscErrorCode ContactPairOf(Contact c, Solid s, int facet, int other, ContactLaw law, int *pair);
+/* The slips that there are, sorted; borrowed until the next search. */
+PetscErrorCode ContactSlips(Contact c, int *n, const Slip **slip);
 /* Puts the pairs' slips into history, for those that the next search makes; there are none till then. */
 PetscErrorCode ContactForgetPairs(Contact c);
 /* The springs of a contact that has no pairs yet; sorts them. */

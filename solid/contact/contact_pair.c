@@ -64,10 +64,21 @@ static PetscErrorCode Collect(const Contact c, Slips *h)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ContactForgetPairs(Contact c)
+PetscErrorCode ContactSlips(Contact c, int *n, const Slip **slip)
 {
   PetscFunctionBeginUser;
   if (!c->restored) PetscCall(Collect(c, &c->history));
+  *n = c->history.n;
+  *slip = c->history.slip;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ContactForgetPairs(Contact c)
+{
+  const Slip *slip;
+  int n;
+  PetscFunctionBeginUser;
+  PetscCall(ContactSlips(c, &n, &slip));
   c->restored = PETSC_TRUE;
   c->ncandidates = c->nwalls = c->npairs = 0;
   PetscFunctionReturn(0);

@@ -198,19 +198,40 @@ static PetscErrorCode RenewShare(Solid s)
 /* --- the whole
  * ---------------------------------------------------------------------------------------------- */
 
-static void ApplyEvent(Joints j, int event, Solid s)
+static void Touch(Joints j, int star)
+{
+  if (star < 0 || j->touched[star]) return;
+  j->touched[star] = 1;
+  j->cut[j->ntouched++] = star;
+}
+
+/* With which the solid has come to that revision. */
+static void ApplyEvent(Joints j, Solid s, int revision, int event)
 {
   const int k = JointsFind(j, event / 2);
   if (k < 0) return;
-  const Joint *joint = &j->joint[k];
+  j->memory[k].since[event % 2] = revision;
   if (event % 2 == 0) {
     j->memory[k].stage = JOINT_LIVE;
-    for (int end = 0; end < 2; end++)
-      if (joint->star[end] >= 0) j->touched[joint->star[end]] = 1;
+    for (int end = 0; end < 2; end++) Touch(j, j->joint[k].star[end]);
   } else {
     j->memory[k].stage = JOINT_BROKEN;
-    AddFacets(s, joint);
+    AddFacets(s, &j->joint[k]);
   }
+}
+
+static PetscErrorCode SplitTouched(Joints j, Solid s)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscSortInt(j->ntouched, j->cut));
+  for (int k = 0; k < j->ntouched; k++) SplitStar(j, s, j->cut[k]);
+  PetscFunctionReturn(0);
+}
+
+static void ForgetTouched(Joints j)
+{
+  for (int k = 0; k < j->ntouched; k++) j->touched[j->cut[k]] = 0;
+  j->ntouched = 0;
 }
 
 PetscErrorCode JointsSettle(Joints j, Solid s)
@@ -229,37 +250,68 @@ PetscErrorCode JointsSettle(Joints j, Solid s)
 PetscErrorCode JointsApply(Joints j, Solid s, int n, const int event[])
 {
   PetscFunctionBeginUser;
-  for (int k = 0; k < n; k++) ApplyEvent(j, event[k], s);
-  for (int star = 0; star < j->nstars; star++)
-    if (j->touched[star]) SplitStar(j, s, star);
+  s->revision++;
+  for (int k = 0; k < n; k++) ApplyEvent(j, s, s->revision, event[k]);
+  PetscCall(SplitTouched(j, s));
   PlaceFacets(s, 0);
   SolidListCorners(s);
   JointsList(j, s);
   JointsBeginEnds(j, s);
   JointsFindBrinks(j, s, PETSC_FALSE);
   JointsList(j, s);
-  for (int star = 0; star < j->nstars; star++) j->touched[star] = 0;
-  s->revision++;
+  ForgetTouched(j);
   s->force_valid = PETSC_FALSE;
   PetscCall(JointsSettle(j, s));
   PetscFunctionReturn(0);
 }
 
-void JointsReplay(Joints j, Solid s)
+/* --- once more
+ * ---------------------------------------------------------------------------------------------- */
+
+typedef struct {
+  int revision, event;
+} Past;
+
+static int ComparePast(const void *a, const void *b)
 {
+  const Past *p = a, *q = b;
+  return p->revision != q->revision ? (p->revision > q->revision) - (p->revision < q->revision)
+                                    : (p->event > q->event) - (p->event < q->event);
+}
+
+/* All that has happened to this rank's joints, as it followed, allocated; the joints become whole. */
+static PetscErrorCode TakePast(Joints j, int *n, Past **past)
+{
+  PetscFunctionBeginUser;
+  *n = 0;
+  PetscCall(PetscMalloc1(2 * (size_t)j->n, past));
   for (int k = 0; k < j->n; k++) {
-    if (j->memory[k].stage == JOINT_WHOLE) continue;
-    for (int end = 0; end < 2; end++)
-      if (j->joint[k].star[end] >= 0) j->touched[j->joint[k].star[end]] = 1;
-    if (j->memory[k].stage == JOINT_BROKEN) AddFacets(s, &j->joint[k]);
+    for (int i = 0; i < 2; i++)
+      if (j->memory[k].since[i]) (*past)[(*n)++] = (Past){j->memory[k].since[i], 2 * j->joint[k].number + i};
+    j->memory[k].stage = JOINT_WHOLE;
   }
-  for (int star = 0; star < j->nstars; star++)
-    if (j->touched[star]) SplitStar(j, s, star);
+  if (*n > 1) qsort(*past, (size_t)*n, sizeof **past, ComparePast);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode JointsReplay(Joints j, Solid s)
+{
+  Past *past;
+  int n;
+  PetscFunctionBeginUser;
+  PetscCall(TakePast(j, &n, &past));
+  for (int k = 0; k < n;) {
+    const int revision = past[k].revision;
+    for (; k < n && past[k].revision == revision; k++) ApplyEvent(j, s, revision, past[k].event);
+    PetscCall(SplitTouched(j, s));
+    ForgetTouched(j);
+  }
   PlaceFacets(s, 0);
   SolidListCorners(s);
   JointsFindBrinks(j, s, PETSC_TRUE);
   JointsList(j, s);
-  for (int star = 0; star < j->nstars; star++) j->touched[star] = 0;
+  PetscCall(PetscFree(past));
+  PetscFunctionReturn(0);
 }
 
 /* --- a step that is redone

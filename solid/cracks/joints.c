@@ -145,7 +145,8 @@ void JointsAddStrainPower(Joints j, Solid s, const double d[], const int piece[]
 /* --- events
  * ------------------------------------------------------------------------------------------------- */
 
-/* How many ends have just become the last of their joint. */
+/* How many ends of this rank's joints have just become the last.  Not of those that it only follows: their
+ * last bits may differ from the owner's, and the substeps are not to depend on them. */
 static int FindLastEnds(const Joints j, Solid s)
 {
   int found = 0;
@@ -158,7 +159,7 @@ static int FindLastEnds(const Joints j, Solid s)
       const double own[2] = {shape.opening[i], shape.slip[i]};
       const double theirs[2] = {shape.opening[1 - i], shape.slip[1 - i]};
       JointLast(&end[i], own, theirs);
-      found++;
+      found += j->joint[j->live[k]].mine;
     }
   }
   return found;

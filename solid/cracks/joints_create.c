@@ -231,7 +231,7 @@ PetscErrorCode JointsCreate(Solid s, const Assembly *a, const InteriorEdges *edg
   PetscCall(GatherCorners(j, &m));
   PetscCall(GatherJoints(j, &m, index));
   PetscCall(GatherTies(j, &m, index));
-  PetscCall(PetscCalloc1((size_t)j->nstars, &j->touched));
+  PetscCall(PetscCalloc2((size_t)j->nstars, &j->touched, (size_t)j->nstars, &j->cut));
   j->first_gid = a->nnodes;
   JointsFindBrinks(j, s, PETSC_TRUE);
   JointsList(j, s);
@@ -255,7 +255,7 @@ PetscErrorCode JointsDestroy(Joints *j)
   PetscCall(PetscFree7(w->joint, w->place[0], w->place[1], w->node[0], w->node[1], w->inverse_square[0],
                        w->inverse_square[1]));
   PetscCall(PetscFree(w->friction));
-  PetscCall(PetscFree((*j)->touched));
+  PetscCall(PetscFree2((*j)->touched, (*j)->cut));
   PetscCall(PetscFree(*j));
   PetscFunctionReturn(0);
 }

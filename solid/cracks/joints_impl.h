@@ -42,6 +42,7 @@ typedef enum { JOINT_WHOLE, JOINT_LIVE, JOINT_BROKEN } JointStage;
 /* What a step changes. */
 typedef struct {
   JointStage stage;
+  int since[2]; /* revisions of the solid with which it came to life, and with which it broke; 0: not yet */
   JointEnd end[2]; /* strong = 0: its nodes are still one */
 } JointMemory;
 
@@ -91,7 +92,8 @@ struct Joints_s {
   int nbrinks;
   Brink *brink;        /* [2 n] */
   char (*edge)[2];     /* [n] that end is on the brink, while its joint is whole */
-  int *touched;        /* [nstars] scratch: the star's ties have been cut */
+  int *touched;        /* [nstars] scratch: the star's ties have been cut; */
+  int ntouched, *cut;  /* [ntouched] those stars */
   long long first_gid; /* corner i of element e makes node first_gid + 3 e + i */
   double rate;         /* 1/s2, over all ranks */
 };

@@ -4,24 +4,13 @@
 #include "solid_impl.h"
 #include <stdlib.h>
 
-/* This rank's nodes by gid.  Not collective. */
-typedef struct {
-  long long gid;
-  int node;
-} NodeName;
-
-typedef struct {
-  Solid s;        /* borrowed */
-  NodeName *name; /* [nnodes] */
-} NodeNames;
-
 static int CompareNames(const void *a, const void *b)
 {
   const NodeName *p = a, *q = b;
   return (p->gid > q->gid) - (p->gid < q->gid);
 }
 
-static PetscErrorCode NodeNamesCreate(Solid s, NodeNames *names)
+PetscErrorCode NodeNamesCreate(Solid s, NodeNames *names)
 {
   PetscFunctionBeginUser;
   names->s = s;
@@ -31,16 +20,15 @@ static PetscErrorCode NodeNamesCreate(Solid s, NodeNames *names)
   PetscFunctionReturn(0);
 }
 
-/* -1: not here */
-static int NodeNamesFind(const NodeNames *names, long long gid)
+int NodeNamesFind(const NodeNames *names, long long gid)
 {
   const NodeName wanted = {gid, -1};
-  const NodeName *found =
-      bsearch(&wanted, names->name, (size_t)names->s->nnodes, sizeof *names->name, CompareNames);
+  const size_t n = (size_t)names->s->nnodes;
+  const NodeName *found = n ? bsearch(&wanted, names->name, n, sizeof *names->name, CompareNames) : NULL;
   return found ? found->node : -1;
 }
 
-static PetscErrorCode NodeNamesDestroy(NodeNames *names)
+PetscErrorCode NodeNamesDestroy(NodeNames *names)
 {
   PetscFunctionBeginUser;
   PetscCall(PetscFree(names->name));

@@ -4,6 +4,21 @@
 #define SOLID_ABROAD_H
 #include "solid.h"
 
+/* This rank's nodes by gid.  Not collective. */
+typedef struct {
+  long long gid;
+  int node;
+} NodeName;
+
+typedef struct {
+  Solid s;        /* borrowed */
+  NodeName *name; /* [nnodes] */
+} NodeNames;
+
+PetscErrorCode NodeNamesCreate(Solid s, NodeNames *names);
+int NodeNamesFind(const NodeNames *names, long long gid); /* -1: not here */
+PetscErrorCode NodeNamesDestroy(NodeNames *names);
+
 typedef struct {
   double x[2], mean[2];                      /* m; over the step, m/s */
   double seen[2], mobility, acceleration[2]; /* what SolidSee has left */

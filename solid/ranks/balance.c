@@ -140,22 +140,28 @@ static PetscErrorCode NewPart(Solid s, int part[])
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SolidRebalance(Solid s)
+PetscErrorCode SolidDealOut(Solid s)
 {
-  Balance *b = &s->balance;
-  double now;
   int *part;
   PetscFunctionBeginUser;
-  if (!s->part) PetscFunctionReturn(0);
-  PetscCall(Inefficiency(s, &now));
-  if (b->best == 0.0 || now < b->best) b->best = now;
-  b->loss += (now - b->best) * s->stats.substeps;
-  if (b->loss < s->setup.rebalance) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1((size_t)s->assembly->nelements, &part));
   PetscCall(NewPart(s, part));
   PetscCall(SolidRedistribute(s, part));
   s->balance = (Balance){0};
   PetscCall(Inefficiency(s, &s->balance.best));
   PetscCall(PetscFree(part));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SolidRebalance(Solid s)
+{
+  Balance *b = &s->balance;
+  double now;
+  PetscFunctionBeginUser;
+  if (!s->part) PetscFunctionReturn(0);
+  PetscCall(Inefficiency(s, &now));
+  if (b->best == 0.0 || now < b->best) b->best = now;
+  b->loss += (now - b->best) * s->stats.substeps;
+  if (b->loss >= s->setup.rebalance) PetscCall(SolidDealOut(s));
   PetscFunctionReturn(0);
 }

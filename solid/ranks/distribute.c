@@ -267,6 +267,7 @@ PetscErrorCode SolidTakeShare(Solid s, const Assembly *a, const int part[])
   PetscFunctionBeginUser;
   PetscCall(InteriorEdgesFind(a, &edges));
   PetscCall(PetscMalloc2((size_t)a->nnodes, &local, (size_t)a->nelements, &renumber));
+  s->whole = (Whole){a->nelements, a->nnodes, edges.njoints};
   s->nbodies = a->nbodies;
   s->nmaterials = a->nmaterials;
   PetscCall(InteriorEdgesLooks(&edges, a, part, &nlooks, &look));
@@ -280,8 +281,9 @@ PetscErrorCode SolidTakeShare(Solid s, const Assembly *a, const int part[])
   TakeElements(s, a, part, local, renumber);
   PetscCall(FindCopies(s, a, nlooks, look, part, local));
   PetscCall(TakeDrives(s, a, local));
-  PetscCall(PetscMalloc5(2 * s->node_capacity, &s->start, 2 * s->node_capacity, &s->seen, s->node_capacity,
+  PetscCall(PetscCalloc5(2 * s->node_capacity, &s->start, 2 * s->node_capacity, &s->seen, s->node_capacity,
                          &s->mobility, 2 * s->node_capacity, &s->acceleration, s->node_capacity, &s->piece));
+  PetscCall(PetscArraycpy(s->seen, s->v, 2 * (size_t)s->nnodes));
   if (edges.njoints) PetscCall(JointsCreate(s, a, &edges, nlooks, look, part, local, &s->joints));
   PetscCall(InteriorEdgesDestroy(&edges));
   PetscCall(PetscFree(look));

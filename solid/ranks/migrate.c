@@ -1,20 +1,23 @@
 /* Elements change ranks.  The new share is taken from the assembly as the first one was, so that it is whole
- * and at rest; then what has happened since is asked of the ranks that had it:
+ * and at rest; then what has happened since is asked of the ranks that had it (state.h):
  *
- *     damage of joints    of the rank of the joint's first element; cracks are cut again, and by the numbers
- *                         of their corners the parts of nodes get the gid that they had (joints_impl.h)
- *     nodes               x, v, .. by gid, of a rank that has them for certain (abroad.h)
- *     slips               to the rank of the edge's element, by its number in the assembly
+ *     damage of joints    of the rank of the joint's first element; cracks are cut again
+ *     nodes               of a rank that has them for certain (abroad.h)
+ *     slips               to the rank of the edge's element
  *
  * The share before stays as it is while a saved state is in it. */
 #include "abroad.h"
-#include "contact_impl.h"
 #include "deal.h"
-#include "joints_impl.h"
-#include <stdlib.h>
+#include "state.h"
 
-/* --- joints
- * ------------------------------------------------------------------------------------------------- */
+/* --- the state
+ * ---------------------------------------------------------------------------------------------- */
+
+/* The share that has it, and the rank that is to have each element. */
+typedef struct {
+  Solid s;
+  const int *part;
+} Former;
 
 static PetscErrorCode AnswerJoint(void *joints, long long number, void *record)
 {
@@ -26,13 +29,12 @@ static PetscErrorCode AnswerJoint(void *joints, long long number, void *record)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode TakeJoints(Solid s, Solid fresh)
+static PetscErrorCode AskJoints(void *former, Joints j)
 {
-  const Joints j = fresh->joints;
+  const Solid s = ((Former *)former)->s;
   long long *key;
   int *of;
   PetscFunctionBeginUser;
-  if (!s->joints) PetscFunctionReturn(0);
   PetscCall(PetscMalloc2((size_t)j->n, &key, (size_t)j->n, &of));
   for (int k = 0; k < j->n; k++) {
     key[k] = j->joint[k].number;
@@ -40,82 +42,30 @@ static PetscErrorCode TakeJoints(Solid s, Solid fresh)
   }
   PetscCall(DealAsk(s->comm, j->n, of, key, sizeof *j->memory, AnswerJoint, s->joints, j->memory));
   PetscCall(PetscFree2(key, of));
-  JointsReplay(j, fresh);
   PetscFunctionReturn(0);
 }
 
-/* --- nodes
- * -------------------------------------------------------------------------------------------------- */
-
-typedef struct {
-  double x[2], v[2], start[2], load[2];
-} NodeState;
-
-static void AnswerNode(const Solid s, int n, void *record)
+static PetscErrorCode AskNodes(void *former, Solid to, NodeState node[])
 {
-  NodeState *to = record;
-  for (int c = 0; c < 2; c++) {
-    to->x[c] = s->x[2 * n + c];
-    to->v[c] = s->v[2 * n + c];
-    to->start[c] = s->start[2 * n + c];
-    to->load[c] = s->load[2 * n + c];
-  }
-}
-
-static PetscErrorCode TakeNodes(Solid s, Solid fresh)
-{
-  NodeState *state;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1((size_t)fresh->nnodes, &state));
-  PetscCall(NodesAsk(s, fresh->nnodes, fresh->gid, sizeof *state, AnswerNode, state));
-  for (int k = 0; k < 2 * fresh->nnodes; k++) {
-    const NodeState *from = &state[k / 2];
-    fresh->x[k] = from->x[k % 2];
-    fresh->v[k] = from->v[k % 2];
-    fresh->start[k] = from->start[k % 2];
-    fresh->load[k] = from->load[k % 2];
-  }
-  PetscCall(PetscFree(state));
+  PetscCall(NodesAsk(((Former *)former)->s, to->nnodes, to->gid, sizeof *node, StateOfNode, node));
   PetscFunctionReturn(0);
 }
 
-/* --- springs of friction
- * ------------------------------------------------------------------------------------ */
-
-static int CompareNumbers(const void *a, const void *b)
+static PetscErrorCode SendSlips(void *former, Solid to, int *n, Slip **slip)
 {
-  const int *p = a, *q = b;
-  return (*p > *q) - (*p < *q);
-}
-
-/* Slips travel with their edges numbered as in the assembly. */
-static PetscErrorCode TakeSlips(Solid s, Solid fresh, const int part[])
-{
-  const Slips *h;
-  const Elements *e = &fresh->elements;
-  Slip *out, *in;
+  const Former *from = former;
+  Slip *own;
   void *received;
-  int *to, n;
+  int nown, *rank;
   PetscFunctionBeginUser;
-  PetscCall(ContactForgetPairs(s->contact));
-  h = &s->contact->history;
-  PetscCall(PetscMalloc2((size_t)h->n, &out, (size_t)h->n, &to));
-  for (int k = 0; k < h->n; k++) {
-    const int number = s->elements.number[h->slip[k].edge / 3];
-    out[k] = (Slip){3 * number + h->slip[k].edge % 3, h->slip[k].other, h->slip[k].slip};
-    to[k] = part[number];
-  }
-  PetscCall(Deal(s->comm, h->n, to, sizeof *out, out, &n, &received));
-  in = received;
-  for (int k = 0; k < n; k++) {
-    const int number = in[k].edge / 3;
-    const int *found = bsearch(&number, e->number, (size_t)e->n, sizeof *e->number, CompareNumbers);
-    PetscCheck(found, PETSC_COMM_SELF, PETSC_ERR_PLIB, "element %d is not here", number);
-    in[k].edge = 3 * (int)(found - e->number) + in[k].edge % 3;
-  }
-  PetscCall(ContactTakeSlips(fresh->contact, n, in));
-  PetscCall(PetscFree2(out, to));
-  PetscCall(PetscFree(in));
+  PetscCall(StateOfSlips(from->s, &nown, &own));
+  PetscCall(PetscMalloc1((size_t)nown, &rank));
+  for (int k = 0; k < nown; k++) rank[k] = from->part[own[k].edge / 3];
+  PetscCall(Deal(to->comm, nown, rank, sizeof *own, own, n, &received));
+  *slip = received;
+  PetscCall(PetscFree(rank));
+  PetscCall(PetscFree(own));
   PetscFunctionReturn(0);
 }
 
@@ -157,6 +107,8 @@ static void Swap(Solid a, Solid b)
 
 PetscErrorCode SolidRedistribute(Solid s, const int part[])
 {
+  Former former = {s, part};
+  const StateSource ranks = {&former, AskJoints, AskNodes, SendSlips};
   Solid fresh;
   PetscFunctionBeginUser;
   PetscCheck(s->part || s->size == 1, s->comm, PETSC_ERR_ARG_WRONGSTATE, "the solid has no `rebalance`");
@@ -170,14 +122,8 @@ PetscErrorCode SolidRedistribute(Solid s, const int part[])
   PetscCall(PetscMalloc1((size_t)s->assembly->nelements, &fresh->part));
   PetscCall(PetscArraycpy(fresh->part, part, (size_t)s->assembly->nelements));
   PetscCall(ContactCreate(fresh, &fresh->contact));
-  PetscCall(TakeJoints(s, fresh));
-  PetscCall(TakeNodes(s, fresh));
-  PetscCall(TakeSlips(s, fresh, part));
   TakeTime(s, fresh);
-  if (fresh->joints)
-    PetscCall(JointsSettle(fresh->joints, fresh));
-  else
-    PetscCall(ContactSearch(fresh->contact, fresh, 0.0));
+  PetscCall(SolidTakeState(fresh, &ranks));
   fresh->stats.rebalanced++;
   Swap(s, fresh);
   if (s->kept && !s->before)

@@ -2,71 +2,10 @@
 /* Elements change ranks while bodies slide, are driven and break: the answer is that of one rank to
  * round-off, a step that is redone after another try and another redistribution has the same bits, and what
  * has moved away from its rank's other bodies is dealt out anew by itself. */
+#include "breaking.h"
 #include "contact_impl.h"
-#include "crack.h"
 
 enum { STEPS = 6, CALM, SCATTERED, REDONE };
-
-static Material Rough(void)
-{
-  Material m = RockOf(3e6, 9e6, 20.0, 0.1);
-  m.friction = 0.5;
-  m.internal_friction = 0.3;
-  m.contact_damping = 0.1;
-  return m;
-}
-
-/* Two that break each other, one on a driven plate, and one that slides on a held one. */
-static void Bodies(Assembly *a)
-{
-  static const double ROW[3] = {0.0, 3.0, 0.0};
-  static const BoundaryDrive PUSHED = {"bottom", {.driven = {1, 1}, .nrows = 1, .row = ROW}};
-  const double box[1][4] = {{0.0, -1.0, 0.06, 1.0}};
-  BodySetup left = BodyAtRest(Rough()), right = left, sliding = left, held = left;
-  left.joints.all = 1;
-  left.velocity[0] = 4.0;
-  right.velocity[0] = -8.0;
-  right.joints = (JointSetup){.nboxes = 1, .box = box};
-  right.ndriven = 1;
-  right.driven = &PUSHED;
-  sliding.velocity[0] = 5.0;
-  sliding.velocity[1] = -1.0;
-  sliding.joints.all = 1;
-  held.fixed = 1;
-  AddDisc(a, -0.0505, 0.0, 0.05, 0.012, &left);
-  AddRectangle(a, 0.0505, 0.01, 0.1, 0.08, 0.0, 0.012, 1, &right);
-  AddRectangle(a, 0.3, 0.0301, 0.1, 0.02, 0.0, 0.01, 1, &sliding);
-  AddRectangle(a, 0.3, 0.01, 0.2, 0.02, 0.0, 0.01, 1, &held);
-}
-
-/* As a fluid that pushes to the right, stronger in a step that is tried. */
-static PetscErrorCode Step(Solid s, double strength)
-{
-  SolidView v = ViewOf(s, NULL, NULL);
-  double *load = calloc(2 * (size_t)v.nnodes + 1, sizeof *load), h;
-  for (int k = 0; k < v.nfacets; k++)
-    for (int i = 0; i < 2; i++)
-      load[2 * v.facet[2 * k + i]] +=
-          strength * (v.x[2 * v.facet[2 * k + 1] + 1] - v.x[2 * v.facet[2 * k] + 1]);
-  PetscCall(SolidStart(s, 1e-5, load));
-  while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
-  free(load);
-  return 0;
-}
-
-/* Elements far and near, some ranks with none in the first step. */
-static PetscErrorCode Scatter(Solid s, int nelements, int step)
-{
-  PetscMPIInt size;
-  int *part = malloc((size_t)nelements * sizeof *part);
-  const int share = ViewOf(s, NULL, NULL).share;
-  MPI_Comm_size(PETSC_COMM_WORLD, &size);
-  for (int e = 0; e < nelements; e++) part[e] = step == 0 ? size - 1 : (e / (1 + step % 5) + step) % size;
-  PetscCall(SolidRedistribute(s, part));
-  CHECK(size == 1 || ViewOf(s, NULL, NULL).share != share, "the share is still %d", share);
-  free(part);
-  return 0;
-}
 
 typedef struct {
   double *all; /* [nids][4] x and v by global number, NAN for nodes that this rank has not */

@@ -1,0 +1,33 @@
+/* What has happened to the solid since the start: of its nodes, its joints and its springs of friction, by
+ * numbers that are the same on any ranks.  A share that is taken from the assembly is whole and at rest; it
+ * becomes the solid's by being told its state, by the ranks that had the elements before (migrate.c) or by a
+ * file (saved.c). */
+#ifndef SOLID_STATE_H
+#define SOLID_STATE_H
+#include "contact_impl.h"
+#include "joints_impl.h"
+
+/* Of one node; numbers alone, a row of a file. */
+typedef struct {
+  double x[2], v[2], start[2], load[2];
+  double seen[2], mobility, acceleration[2]; /* what SolidSee has left */
+} NodeState;
+
+/* Not collective: fills a NodeState; a NodeAnswer of abroad.h. */
+void StateOfNode(const Solid s, int node, void *record);
+/* Not collective: this rank's slips, allocated, with edges numbered 3 (element in the assembly) + side. */
+PetscErrorCode StateOfSlips(Solid s, int *n, Slip **slip);
+/* Not collective: this rank's element of that number in the assembly, or -1. */
+int StateElement(const Solid s, long long number);
+
+/* Who tells; all are collective. */
+typedef struct {
+  void *context;
+  PetscErrorCode (*joints)(void *context, Joints j);                  /* memory of those that are not whole */
+  PetscErrorCode (*nodes)(void *context, Solid to, NodeState node[]); /* [to->nnodes] by gid */
+  PetscErrorCode (*slips)(void *context, Solid to, int *n, Slip **slip); /* as above, of to's elements */
+} StateSource;
+
+/* Collective: s is a share as the assembly has it. */
+PetscErrorCode SolidTakeState(Solid s, const StateSource *from);
+#endif

@@ -1,0 +1,67 @@
+/* Bodies that slide, are driven and break, for the tests of what changes ranks and of what is saved. */
+#ifndef TESTS_SOLID_BREAKING_H
+#define TESTS_SOLID_BREAKING_H
+#include "crack.h"
+
+static inline Material Rough(void)
+{
+  Material m = RockOf(3e6, 9e6, 20.0, 0.1);
+  m.friction = 0.5;
+  m.internal_friction = 0.3;
+  m.contact_damping = 0.1;
+  return m;
+}
+
+/* Two that break each other, one on a plate that is driven faster and faster, and one that slides on a held
+ * one. */
+static inline void Bodies(Assembly *a)
+{
+  static const double ROWS[6] = {0.0, 3.0, 0.0, 1e-4, 4.0, 0.5};
+  static const BoundaryDrive PUSHED = {"bottom", {.driven = {1, 1}, .nrows = 2, .row = ROWS}};
+  const double box[1][4] = {{0.0, -1.0, 0.06, 1.0}};
+  BodySetup left = BodyAtRest(Rough()), right = left, sliding = left, held = left;
+  left.joints.all = 1;
+  left.velocity[0] = 4.0;
+  right.velocity[0] = -8.0;
+  right.joints = (JointSetup){.nboxes = 1, .box = box};
+  right.ndriven = 1;
+  right.driven = &PUSHED;
+  sliding.velocity[0] = 5.0;
+  sliding.velocity[1] = -1.0;
+  sliding.joints.all = 1;
+  held.fixed = 1;
+  AddDisc(a, -0.0505, 0.0, 0.05, 0.012, &left);
+  AddRectangle(a, 0.0505, 0.01, 0.1, 0.08, 0.0, 0.012, 1, &right);
+  AddRectangle(a, 0.3, 0.0301, 0.1, 0.02, 0.0, 0.01, 1, &sliding);
+  AddRectangle(a, 0.3, 0.01, 0.2, 0.02, 0.0, 0.01, 1, &held);
+}
+
+/* As a fluid that pushes to the right, stronger in a step that is tried. */
+static inline PetscErrorCode Step(Solid s, double strength)
+{
+  SolidView v = ViewOf(s, NULL, NULL);
+  double *load = calloc(2 * (size_t)v.nnodes + 1, sizeof *load), h;
+  for (int k = 0; k < v.nfacets; k++)
+    for (int i = 0; i < 2; i++)
+      load[2 * v.facet[2 * k + i]] +=
+          strength * (v.x[2 * v.facet[2 * k + 1] + 1] - v.x[2 * v.facet[2 * k] + 1]);
+  PetscCall(SolidStart(s, 1e-5, load));
+  while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
+  free(load);
+  return 0;
+}
+
+/* Elements far and near, some ranks with none in the first step. */
+static inline PetscErrorCode Scatter(Solid s, int nelements, int step)
+{
+  PetscMPIInt size;
+  int *part = malloc((size_t)nelements * sizeof *part);
+  const int share = ViewOf(s, NULL, NULL).share;
+  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  for (int e = 0; e < nelements; e++) part[e] = step == 0 ? size - 1 : (e / (1 + step % 5) + step) % size;
+  PetscCall(SolidRedistribute(s, part));
+  CHECK(size == 1 || ViewOf(s, NULL, NULL).share != share, "the share is still %d", share);
+  free(part);
+  return 0;
+}
+#endif
