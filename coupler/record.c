@@ -7,7 +7,7 @@ static const char COLUMNS[] =
 struct Record_s {
   MPI_Comm comm;
   int rank, revision;
-  double end, every, next, down[2], start, said, fall_sum, fall_time;
+  double end, down[2], start, said, fall_sum, fall_time;
   Series series;
   Output output;
   RecordTotals totals;
@@ -18,16 +18,18 @@ typedef struct {
   const char *name;
   double *value;
 } Kept;
-enum { NKEPT = 7 };
+enum { NKEPT = 6 };
 
 /* count is a copy of the totals' steps and tries, which are no doubles. */
 static void KeptOf(Record r, double count[2], Kept kept[NKEPT])
 {
   count[0] = (double)r->totals.steps;
   count[1] = (double)r->totals.tries;
-  const Kept all[NKEPT] = {{"steps", &count[0]},         {"tries", &count[1]},
-                           {"next", &r->next},           {"fall sum", &r->fall_sum},
-                           {"fall time", &r->fall_time}, {"imbalance", &r->totals.imbalance},
+  const Kept all[NKEPT] = {{"steps", &count[0]},
+                           {"tries", &count[1]},
+                           {"fall sum", &r->fall_sum},
+                           {"fall time", &r->fall_time},
+                           {"imbalance", &r->totals.imbalance},
                            {"end", &r->totals.end}};
   for (int k = 0; k < NKEPT; k++) kept[k] = all[k];
 }
@@ -74,13 +76,12 @@ PetscErrorCode RecordCreate(MPI_Comm comm, const CouplerCase *c, Checkpoint from
   PetscCall(PetscNew(&r));
   r->comm = comm;
   r->end = c->end;
-  r->every = c->every;
   r->start = MPI_Wtime();
   r->down[0] = size > 0.0 ? g[0] / size : 0.0;
   r->down[1] = size > 0.0 ? g[1] / size : -1.0;
   PetscCallMPI(MPI_Comm_rank(comm, &r->rank));
   if (!r->rank && c->note[0]) printf("coracle: %s: %s\n", c->name, c->note);
-  PetscCall(OutputCreate(comm, c->folder, "coupler", from, &r->output));
+  PetscCall(OutputCreate(comm, c->folder, "coupler", c->every, from, &r->output));
   PetscCall(SeriesCreate(comm, c->folder, "coupler", COLUMNS, from, &r->series));
   if (from) PetscCall(Load(r, from));
   *record = r;
@@ -122,8 +123,7 @@ static PetscErrorCode WriteShell(Record r, const Shell shell, const ServerSolid 
 PetscErrorCode RecordShell(Record r, double t, const Coupler coupler, const ServerSolid *solid)
 {
   PetscFunctionBeginUser;
-  if (t < r->next * (1.0 - 1e-12) && t < r->end) PetscFunctionReturn(0);
-  while (r->next <= t) r->next += r->every;
+  if (!OutputDue(r->output, t)) PetscFunctionReturn(0);
   PetscCall(OutputBegin(r->output, t));
   PetscCall(WriteShell(r, CouplerShell(coupler), solid));
   PetscCall(OutputEnd(r->output));

@@ -10,7 +10,6 @@
 struct Record_s {
   Output output;
   Series series;
-  double every, next;
   int revision; /* of the mesh */
 };
 
@@ -64,7 +63,6 @@ static PetscErrorCode Snapshot(Record r, Fluid f)
   PetscCall(OutputField(r->output, "pressure", OUTPUT_NODE, 1, FluidPressure(f)));
   PetscCall(OutputEnd(r->output));
   PetscCall(PetscFree6(g.corner, g.quadratic, g.x_corner, g.x_node, g.nodal, g.cell));
-  r->next += r->every;
   PetscFunctionReturn(0);
 }
 
@@ -75,13 +73,9 @@ PetscErrorCode RecordCreate(Case c, Fluid f, Checkpoint from, Record *record)
   Record r;
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&r));
-  r->every = CasePositive(c, "output.every");
-  PetscCall(OutputCreate(m->comm, folder, "fluid", from, &r->output));
+  PetscCall(OutputCreate(m->comm, folder, "fluid", CasePositive(c, "output.every"), from, &r->output));
   PetscCall(SeriesCreate(m->comm, folder, "fluid", COLUMNS, from, &r->series));
-  if (from)
-    PetscCall(CheckpointGetNumber(from, "next output", &r->next));
-  else
-    PetscCall(Snapshot(r, f));
+  if (!from) PetscCall(Snapshot(r, f));
   *record = r;
   PetscFunctionReturn(0);
 }
@@ -91,7 +85,6 @@ PetscErrorCode RecordSave(Record r, Checkpoint to)
   PetscFunctionBeginUser;
   PetscCall(OutputSave(r->output, to));
   PetscCall(SeriesSave(r->series, to));
-  PetscCall(CheckpointPutNumber(to, "next output", r->next));
   PetscFunctionReturn(0);
 }
 
@@ -123,7 +116,7 @@ PetscErrorCode RecordStep(Record r, Fluid f)
                         m->nglobal,
                         (double)most * size / m->nglobal};
   PetscCall(SeriesRow(r->series, row));
-  if (s->t >= r->next * (1.0 - 1e-12)) PetscCall(Snapshot(r, f));
+  if (OutputDue(r->output, s->t)) PetscCall(Snapshot(r, f));
   PetscFunctionReturn(0);
 }
 

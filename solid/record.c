@@ -9,7 +9,6 @@ struct Record_s {
   Output output;
   Series series;
   int nbodies, revision;
-  double every, next;
   double start;  /* s, by the clock, as if runs that this one goes on from had been just before it; */
   double waited; /* s, theirs */
 };
@@ -116,7 +115,6 @@ static PetscErrorCode Snapshot(Record r, Solid s)
   PetscCall(OutputEnd(r->output));
   PetscCall(PetscFree(stress));
   PetscCall(PetscFree4(w.element, w.x, w.velocity, w.displacement));
-  r->next += r->every;
   PetscFunctionReturn(0);
 }
 
@@ -128,7 +126,6 @@ PetscErrorCode RecordSave(Record r, double waited, Checkpoint to)
   PetscCallMPI(MPI_Bcast(seconds, 2, MPI_DOUBLE, 0, r->comm));
   PetscCall(CheckpointPutNumber(to, "record seconds", seconds[0]));
   PetscCall(CheckpointPutNumber(to, "record waited", seconds[1]));
-  PetscCall(CheckpointPutNumber(to, "record next", r->next));
   PetscCall(OutputSave(r->output, to));
   PetscCall(SeriesSave(r->series, to));
   PetscFunctionReturn(0);
@@ -140,7 +137,6 @@ static PetscErrorCode Load(Record r, Checkpoint from)
   PetscFunctionBeginUser;
   PetscCall(CheckpointGetNumber(from, "record seconds", &seconds));
   PetscCall(CheckpointGetNumber(from, "record waited", &r->waited));
-  PetscCall(CheckpointGetNumber(from, "record next", &r->next));
   r->start -= seconds;
   PetscFunctionReturn(0);
 }
@@ -155,9 +151,8 @@ PetscErrorCode RecordCreate(Case c, MPI_Comm comm, Solid solid, Checkpoint from,
   SolidGetView(solid, &v);
   r->comm = comm;
   r->nbodies = PetscMin(v.nbodies, MAX_BODIES);
-  r->every = CasePositive(c, "output.every");
   r->start = MPI_Wtime();
-  PetscCall(OutputCreate(comm, folder, "solid", from, &r->output));
+  PetscCall(OutputCreate(comm, folder, "solid", CasePositive(c, "output.every"), from, &r->output));
   PetscCall(CreateSeries(r, folder, from));
   PetscCall(from ? Load(r, from) : Snapshot(r, solid));
   *record = r;
@@ -201,7 +196,7 @@ PetscErrorCode RecordStep(Record r, Solid s, double waited)
   row[n++] = MPI_Wtime() - r->start - waited;
   row[n++] = waited;
   PetscCall(SeriesRow(r->series, row));
-  if (stats->t >= r->next * (1.0 - 1e-12)) PetscCall(Snapshot(r, s));
+  if (OutputDue(r->output, stats->t)) PetscCall(Snapshot(r, s));
   PetscFunctionReturn(0);
 }
 

@@ -32,7 +32,8 @@ struct Output_s {
   hid_t file;
   Xdmf xdmf; /* rank 0 only */
   long long nsnapshot;
-  PetscBool open; /* between Begin and End */
+  double every, next; /* s: when the next snapshot is due */
+  PetscBool open;     /* between Begin and End */
   int ngrid, current;
   Grid grid[GRIDS_MAX];
 };
@@ -61,7 +62,8 @@ static PetscErrorCode ContinueFile(Output o, const char *path)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name, Checkpoint from, Output *out)
+PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name, double every,
+                            Checkpoint from, Output *out)
 {
   Output o;
   char path[PETSC_MAX_PATH_LEN];
@@ -71,6 +73,8 @@ PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name,
   PetscCall(PetscNew(&o));
   PetscCallMPI(MPI_Comm_dup(comm, &o->comm));
   PetscCallMPI(MPI_Comm_rank(comm, &o->rank));
+  o->every = every;
+  if (from) PetscCall(CheckpointGetNumber(from, "output next", &o->next));
   snprintf(path, sizeof path, "%s/%s.h5", folder, name);
   if (from && FolderHas(comm, path)) {
     PetscCall(CheckpointGetNumber(from, "output snapshots", &snapshots));
@@ -91,9 +95,18 @@ PetscErrorCode OutputSave(Output o, Checkpoint to)
   PetscFunctionBeginUser;
   PetscCheck(!o->open, o->comm, PETSC_ERR_ORDER, "OutputSave: the last snapshot has no OutputEnd");
   PetscCallMPI(MPI_Bcast(&length, 1, MPI_DOUBLE, 0, o->comm));
+  PetscCall(CheckpointPutNumber(to, "output next", o->next));
   PetscCall(CheckpointPutNumber(to, "output snapshots", (double)o->nsnapshot));
   PetscCall(CheckpointPutNumber(to, "output index length", length));
   PetscFunctionReturn(0);
+}
+
+/* Times are sums of steps and may miss a multiple by round-off. */
+#define NEARLY (1.0 - 1e-9)
+
+PetscBool OutputDue(Output o, double t)
+{
+  return t >= o->next * NEARLY ? PETSC_TRUE : PETSC_FALSE;
 }
 
 PetscErrorCode OutputBegin(Output o, double t)
@@ -102,6 +115,7 @@ PetscErrorCode OutputBegin(Output o, double t)
   PetscFunctionBeginUser;
   PetscCheck(!o->open, o->comm, PETSC_ERR_ORDER, "OutputBegin: the last snapshot has no OutputEnd");
   o->open = PETSC_TRUE;
+  o->next = o->every * (floor(t / (o->every * NEARLY)) + 1.0);
   o->current = -1;
   snprintf(path, sizeof path, "/snapshot/%06lld", o->nsnapshot);
   PetscCall(Hdf5Group(o->file, path));

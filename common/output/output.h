@@ -8,14 +8,16 @@
 typedef struct Output_s *Output;
 typedef enum { OUTPUT_NODE, OUTPUT_CELL } OutputCentre;
 
-/* Collective: <folder>/<name>.h5 and .xdmf, truncated.  The folder is made if missing.  With a checkpoint (else
- * NULL): goes on with the files as they were at OutputSave, without what came later; where they are not in
- * the folder it begins new ones. */
-PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name, Checkpoint from,
-                            Output *out);
+/* Collective: <folder>/<name>.h5 and .xdmf, truncated; a snapshot is due `every` s.  The folder is made if missing.
+ * With a checkpoint (else NULL): goes on with the files as they were at OutputSave, without what came later; where
+ * they are not in the folder it begins new ones. */
+PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name, double every,
+                            Checkpoint from, Output *out);
 /* Collective: between snapshots. */
 PetscErrorCode OutputSave(Output out, Checkpoint to);
-/* Collective: starts the snapshot of time t, s. */
+/* Not collective: at the start, and then whenever a multiple of `every` has come since the last snapshot. */
+PetscBool OutputDue(Output out, double t);
+/* Collective: starts the snapshot of time t, s, due or not. */
 PetscErrorCode OutputBegin(Output out, double t);
 /* Collective: a grid of this snapshot: nodes x[n][2], cells connectivity[ne][nodes_per_cell] in this rank's
  * node indices.  nodes_per_cell: 2 Polyline/edge, 3 Triangle, 6 Triangle_6 (VTK order: midpoints of 01, 12,

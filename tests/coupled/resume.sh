@@ -24,7 +24,7 @@ adapt=(--set time.end=0.2 --set time.dt_max=0.004 --set fluid.adapt.size_min=0.0
   --set fluid.adapt.every=7 --set "solid.bodies[0].size=0.03" --set output.every=0.02)
 brittle='{density: 2000.0, youngs_modulus: 1.0e6, poisson_ratio: 0.3, damping: 0.2, tensile_strength: 6.0e3, shear_strength: 1.2e4, fracture_energy: 1.0}'
 bar='{shape: rectangle, centre: [1.0, 1.1], width: 0.3, height: 0.1, size: 0.025, material: disc, joints: all, fixed: [left]}'
-cracks=(--set "solid.materials.disc=$brittle" --set "solid.bodies[0]=$bar" --set time.end=0.4)
+cracks=(--set "solid.materials.disc=$brittle" --set "solid.bodies[0]=$bar" --set time.end=0.4 --set coupler.relaxation=1)
 other=(--set time.end=0.3 --solid "$build/tests/route/rigid_disc")
 
 must disc 1:1:1 "${adapt[@]}"
