@@ -170,7 +170,7 @@ static PetscErrorCode SendCoupling(March *m, int ncorrection, const CoracleCorre
 
   PetscFunctionBeginUser;
   PetscCall(CouplerBuild(s->coupler, &m->solid, m->dt, &n, &coupling));
-  PetscCall(TriesBegin(&m->tries, &m->solid, m->dt, s->c->options.gravity, &u));
+  PetscCall(TriesBegin(&m->tries, &m->solid, m->dt, &u));
   if (u) PetscCall(CouplerAim(s->coupler, u, &n, &coupling));
   PetscCall(RecordShell(s->record, m->t, s->coupler, &m->solid));
   PetscCall(ServerSendCoupling(s->server, m->t, m->dt, CORACLE_RUN, ncorrection, correction, n, coupling));
@@ -180,7 +180,8 @@ static PetscErrorCode SendCoupling(March *m, int ncorrection, const CoracleCorre
 static PetscErrorCode Start(March *m)
 {
   PetscFunctionBeginUser;
-  PetscCall(TriesCreate(PETSC_COMM_WORLD, m->scheme->c->tries, m->scheme->c->tolerance, &m->tries));
+  PetscCall(TriesCreate(PETSC_COMM_WORLD, m->scheme->c->tries, m->scheme->c->tolerance,
+                        m->scheme->c->options.thickness, &m->tries));
   PetscCall(CheckpointsCreate(PETSC_COMM_WORLD, m->scheme->server, m->scheme->c, &m->checkpoints));
   if (m->scheme->from) PetscCall(Load(m, m->scheme->from));
   PetscCall(ReceiveSolid(m));

@@ -1,14 +1,13 @@
 #include "tries.h"
 #include "motion.h"
 
-/* Of the velocity that gravity gives in a step, and of the largest so far: what counts as nothing. */
-#define LEAST_OF_GRAVITY 1e-2
-#define LEAST_OF_LARGEST 1e-4
+/* Of the shell's thickness: places that differ by less at a step's end are the same. */
+#define NOTHING 1e-4
 
-PetscErrorCode TriesCreate(MPI_Comm comm, int most, double tolerance, Tries *t)
+PetscErrorCode TriesCreate(MPI_Comm comm, int most, double tolerance, double thickness, Tries *t)
 {
   PetscFunctionBeginUser;
-  *t = (Tries){.comm = comm, .most = most, .tolerance = tolerance, .n = -1};
+  *t = (Tries){.comm = comm, .most = most, .tolerance = tolerance, .thickness = thickness, .n = -1};
   PetscCall(AccelerationCreate(comm, &t->acceleration));
   PetscFunctionReturn(0);
 }
@@ -59,8 +58,7 @@ static PetscErrorCode Rms(const Tries *t, const double start[], double *rms)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode TriesBegin(Tries *t, const ServerSolid *solid, double dt, const double gravity[2],
-                          const double **u)
+PetscErrorCode TriesBegin(Tries *t, const ServerSolid *solid, double dt, const double **u)
 {
   const size_t n = (size_t)solid->nnodes;
 
@@ -72,7 +70,6 @@ PetscErrorCode TriesBegin(Tries *t, const ServerSolid *solid, double dt, const d
   PetscCall(PetscArraycpy(t->mobility, solid->mobility, n));
   for (size_t k = 0; k < 2 * n; k++) t->met[k] = t->start[k] + (t->has_rate ? dt * t->rate[k] : 0.0);
   t->dt = dt;
-  t->least = LEAST_OF_GRAVITY * dt * hypot(gravity[0], gravity[1]);
   PetscCall(AccelerationBegin(t->acceleration, 2 * solid->nnodes));
   *u = t->met;
   PetscFunctionReturn(0);
@@ -90,9 +87,9 @@ PetscErrorCode TriesAgree(Tries *t, int tries, const ServerSolid *solid, PetscBo
   for (int k = 0; k < 2 * t->n; k++) t->end[k] = t->mobility[k / 2] > 0.0 ? t->met[k] : t->end[k];
   PetscCall(Rms(t, t->met, &t->difference));
   PetscCall(Rms(t, NULL, &size));
-  t->largest = fmax(t->largest, size);
-  size = fmax(size, fmax(t->least, LEAST_OF_LARGEST * t->largest));
-  *agree = t->difference <= t->tolerance * size ? PETSC_TRUE : PETSC_FALSE; /* not so for NaN */
+  /* not so for NaN */
+  *agree =
+      t->difference <= fmax(t->tolerance * size, NOTHING * t->thickness / t->dt) ? PETSC_TRUE : PETSC_FALSE;
   if (solid->changed && tries == t->most) *agree = PETSC_TRUE;
   PetscFunctionReturn(0);
 }

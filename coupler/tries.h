@@ -14,25 +14,24 @@ typedef struct {
   MPI_Comm comm;
   int most;          /* 1: staggered */
   double tolerance;  /* of the difference, over the velocity; root mean squares */
-  double largest;    /* root mean square of the velocity in any step, m/s */
+  double thickness;  /* of the shell, m */
   int n;             /* nodes on this rank */
   double *start;     /* [n][2] velocity as the step began, m/s */
   double *met;       /* [n][2] what the fluid meets */
   double *end;       /* [n][2] what the last try has led to; met where nodes give way */
   double *rate;      /* [n][2] acceleration of the last step, m/s2 */
   double *mobility;  /* [n] */
-  double dt, least;  /* of the step, s; a velocity that is nothing, m/s */
+  double dt;         /* of the step, s */
   double difference; /* of the last try, m/s */
   PetscBool has_rate;
   Acceleration acceleration;
 } Tries;
 
 /* All collective. */
-PetscErrorCode TriesCreate(MPI_Comm comm, int most, double tolerance, Tries *t);
+PetscErrorCode TriesCreate(MPI_Comm comm, int most, double tolerance, double thickness, Tries *t);
 PetscErrorCode TriesDestroy(Tries *t);
 /* A step of dt seconds from the solid as it is; *u [n][2]: the velocity to begin with, NULL: the solid's own. */
-PetscErrorCode TriesBegin(Tries *t, const ServerSolid *solid, double dt, const double gravity[2],
-                          const double **u);
+PetscErrorCode TriesBegin(Tries *t, const ServerSolid *solid, double dt, const double **u);
 /* Whether the try stands that has led to `solid`: it agrees, or there is nothing to compare (one try only, or a mesh
  * that is another one), or it is the last and cracks, which come or do not, keep it from agreeing. */
 PetscErrorCode TriesAgree(Tries *t, int tries, const ServerSolid *solid, PetscBool *agree);
