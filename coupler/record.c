@@ -34,6 +34,18 @@ static void KeptOf(Record r, double count[2], Kept kept[NKEPT])
   for (int k = 0; k < NKEPT; k++) kept[k] = all[k];
 }
 
+/* The most of all ranks, as the summary has them. */
+static PetscErrorCode PutSeconds(Record r, Checkpoint to)
+{
+  double most[2] = {r->totals.overlap, r->totals.force};
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, r->comm));
+  PetscCall(CheckpointPutNumber(to, "seconds of overlap", most[0]));
+  PetscCall(CheckpointPutNumber(to, "seconds of force", most[1]));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode RecordSave(Record r, Checkpoint to)
 {
   Kept kept[NKEPT];
@@ -42,6 +54,7 @@ PetscErrorCode RecordSave(Record r, Checkpoint to)
   PetscFunctionBeginUser;
   KeptOf(r, count, kept);
   for (int k = 0; k < NKEPT; k++) PetscCall(CheckpointPutNumber(to, kept[k].name, *kept[k].value));
+  PetscCall(PutSeconds(r, to));
   PetscCall(OutputSave(r->output, to));
   PetscCall(SeriesSave(r->series, to));
   PetscFunctionReturn(0);
@@ -55,6 +68,8 @@ static PetscErrorCode Load(Record r, Checkpoint from)
   PetscFunctionBeginUser;
   KeptOf(r, count, kept);
   for (int k = 0; k < NKEPT; k++) PetscCall(CheckpointGetNumber(from, kept[k].name, kept[k].value));
+  PetscCall(CheckpointGetNumber(from, "seconds of overlap", &r->totals.overlap));
+  PetscCall(CheckpointGetNumber(from, "seconds of force", &r->totals.force));
   r->totals.steps = (long long)count[0];
   r->totals.tries = (long long)count[1];
   r->totals.resumed = r->totals.end;

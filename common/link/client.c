@@ -106,6 +106,7 @@ int CoracleBegin(CoracleClient c, double *t, double *dt, CoracleAction *action)
   if (c->action == CORACLE_RUN) {
     ParticipantStep(c->p, c->p->step + 1);
     StateSave(c);
+    if (c->save.size) ParticipantSaveUsed(c->p, c->save.data);
   } else if (c->action == CORACLE_REDO) {
     StateRestore(c);
   }

@@ -12,6 +12,9 @@
 #include "wait.h"
 #include <stdarg.h>
 
+/* Seconds: of processors, on all ranks; by the clock; waiting for messages, at most. */
+enum { USED_CPU, USED_WALL, USED_WAITING, NUSED };
+
 typedef struct {
   Role role;
   int rank, size; /* within the role */
@@ -22,6 +25,7 @@ typedef struct {
   int step;           /* for messages */
   double start;       /* WaitClock when joining, s */
   char *resume;       /* folder of the checkpoint that the run goes on from; NULL: none */
+  double used[NUSED]; /* rank 0: by the participant in the runs before that, s */
   bool started_mpi;
   Waiter waiter;
   Board board;
@@ -29,6 +33,10 @@ typedef struct {
 
 /* Joins as role; collective over the job.  `client`: role must not be coupler.  A process joins once. */
 int ParticipantOpen(const char *role, bool client, int argc, char **argv, Participant **p);
+/* Local: what this rank has used so far; with what runs before have, on rank 0. */
+void ParticipantUsed(const Participant *p, double used[NUSED]);
+/* Collective over the participant: into a checkpoint. */
+void ParticipantSaveUsed(Participant *p, const char *folder);
 /* Leaves in good order; collective over the job. */
 int ParticipantClose(Participant **p);
 /* "coracle <role>[rank]: error: ..." once, then the end of the job. */

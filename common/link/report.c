@@ -49,12 +49,12 @@ void ReportMerge(Buffer *list, size_t n, const Report other[])
 void ReportResources(Buffer *list, const Participant *p)
 {
   struct rusage use;
+  double used[NUSED];
   getrusage(RUSAGE_SELF, &use);
-  const double cpu = (double)(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
-                     1e-6 * (double)(use.ru_utime.tv_usec + use.ru_stime.tv_usec);
+  ParticipantUsed(p, used);
   ReportSet(list, "ranks", 1.0, true);
-  ReportSet(list, "seconds_cpu", cpu, true);
-  ReportSet(list, "seconds_wall", WaitClock() - p->start, false);
-  ReportSet(list, "seconds_waiting", p->waiter.waited, false);
+  ReportSet(list, "seconds_cpu", used[USED_CPU], true);
+  ReportSet(list, "seconds_wall", used[USED_WALL], false);
+  ReportSet(list, "seconds_waiting", used[USED_WAITING], false);
   ReportSet(list, "peak_memory_mb", (double)use.ru_maxrss / 1024.0, true);
 }

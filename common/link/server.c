@@ -65,6 +65,7 @@ int ServerSave(Server s, const char *folder)
 {
   const size_t bytes = strlen(folder) + 1;
   memcpy(BufferResize(&s->save, bytes), folder, bytes);
+  ParticipantSaveUsed(s->p, folder);
   for (int i = 0; i < s->fluid.n; i++) s->fluid.peer[i].saved = false;
   for (int i = 0; i < s->solid.n; i++) s->solid.peer[i].saved = false;
   return 0;
