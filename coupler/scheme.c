@@ -170,8 +170,10 @@ static PetscErrorCode SendCoupling(March *m, int ncorrection, const CoracleCorre
 
   PetscFunctionBeginUser;
   PetscCall(CouplerBuild(s->coupler, &m->solid, m->dt, &n, &coupling));
-  PetscCall(TriesBegin(&m->tries, &m->solid, m->dt, &u));
-  if (u) PetscCall(CouplerAim(s->coupler, u, &n, &coupling));
+  if (m->tries.most > 1) {
+    PetscCall(TriesBegin(&m->tries, &m->solid, m->dt, &u));
+    PetscCall(CouplerAim(s->coupler, u, &n, &coupling));
+  }
   PetscCall(RecordShell(s->record, m->t, s->coupler, &m->solid));
   PetscCall(ServerSendCoupling(s->server, m->t, m->dt, CORACLE_RUN, ncorrection, correction, n, coupling));
   PetscFunctionReturn(0);

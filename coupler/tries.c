@@ -63,8 +63,6 @@ PetscErrorCode TriesBegin(Tries *t, const ServerSolid *solid, double dt, const d
   const size_t n = (size_t)solid->nnodes;
 
   PetscFunctionBeginUser;
-  *u = NULL;
-  if (t->most == 1) PetscFunctionReturn(0);
   PetscCall(Resize(t, solid));
   PetscCall(PetscArraycpy(t->start, solid->u, 2 * n));
   PetscCall(PetscArraycpy(t->mobility, solid->mobility, n));

@@ -30,7 +30,7 @@ typedef struct {
 /* All collective. */
 PetscErrorCode TriesCreate(MPI_Comm comm, int most, double tolerance, double thickness, Tries *t);
 PetscErrorCode TriesDestroy(Tries *t);
-/* A step of dt seconds from the solid as it is; *u [n][2]: the velocity to begin with, NULL: the solid's own. */
+/* A step of dt seconds, of several tries, from the solid as it is; *u [n][2]: the velocity to begin with. */
 PetscErrorCode TriesBegin(Tries *t, const ServerSolid *solid, double dt, const double **u);
 /* Whether the try stands that has led to `solid`: it agrees, or there is nothing to compare (one try only, or a mesh
  * that is another one), or it is the last and cracks, which come or do not, keep it from agreeing. */

@@ -7,7 +7,7 @@ light=(--set solid.materials.disc.density=50 --set time.end=0.3 --set coupler.tr
 adapt=(--set fluid.adapt.size_min=0.02 --set fluid.adapt.size_max=0.25 --set fluid.adapt.velocity_error=0.005 --set fluid.adapt.every=7
   --set "fluid.mesh.refine[0].size=0.2" --set "solid.bodies[0].size=0.03")
 must one 1:1:1 "${light[@]}"
-must three 2:2:3 "${light[@]}"
+must three 2:3:2 "${light[@]}"
 must adaptive 1:1:1 "${light[@]}" "${adapt[@]}"
 must staggered 1:1:1 --set time.end=0.2 --set time.dt_max=0.00125
 must long 1:1:1 --set time.end=0.2 --set coupler.tries=30
