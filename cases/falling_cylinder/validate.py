@@ -3,8 +3,8 @@
 
     cases/falling_cylinder/validate.py [--jobs N] [--only PATTERN ...] [--table] [--readme] [--check]
 
-A run is skipped when its summary.json is there (out/validation/<name>; delete the folder to run it again), and begun
-again when it is not: stop and go on as you like.  --only takes names with wildcards.  --table only prints the tables of
+A run is skipped when its summary.json is there (out/validation/<name>; delete the folder to run it again), and goes on
+from its last checkpoint when it is not: stop and go on as you like.  --only takes names with wildcards.  --table only prints the tables of
 what has been run, --readme also puts them into README.md, --check exits with 1 when a number is out of its bounds.
 """
 import csv
@@ -176,6 +176,8 @@ def claims(there):
     for name in ("cost-0.02", "cost-0.01"):
         if name in there:
             yield name + ": U(2.5)", abs(interpolate(there[name].curve, 2.5) / 1.219 - 1.0), 0.01
+    if "strong" in there:
+        yield "strong: U(0.2)", abs(interpolate(there["strong"].curve, 0.2) / interpolate(reference_curve(20), 0.2) - 1.0), 0.01
     for name, r in there.items():
         if name != "every-10":
             yield name + ": adaptation with transfer, of the run", r.adaptation, 0.1
