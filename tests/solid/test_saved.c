@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { BEFORE = 4, AFTER = 3, NBODIES = 4 };
+enum { BEFORE = 3, AFTER = 2, NBODIES = 4 };
 /* What elements do after each step; or there are no joints. */
 enum { STAY, SCATTER, REBALANCE, WHOLE, NHOWS };
 #define DIFFERENT 1e-10 /* relative, on other ranks */
