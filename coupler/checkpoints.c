@@ -1,19 +1,11 @@
 #include "checkpoints.h"
+#include "folder.h"
+#include "participant.h"
 #include <dirent.h>
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#define NAME "checkpoint"
-
-PetscErrorCode CheckpointsCreate(MPI_Comm comm, Server server, const CouplerCase *c, Checkpoints *k)
-{
-  PetscFunctionBeginUser;
-  *k = (Checkpoints){
-      .comm = comm, .server = server, .folder = c->folder, .every = c->checkpoint, .last = MPI_Wtime()};
-  PetscFunctionReturn(0);
-}
 
 static PetscErrorCode IsRoot(const Checkpoints *k, PetscBool *root)
 {
@@ -46,13 +38,30 @@ static void RemoveOthers(const Checkpoints *k, const char *kept)
   DIR *list = opendir(k->folder);
   if (!list) return;
   for (const struct dirent *entry; (entry = readdir(list));) {
-    const size_t n = strlen(NAME ".");
-    if (strncmp(entry->d_name, NAME ".", n) || !strcmp(entry->d_name, kept)) continue;
+    const size_t n = strlen(CORACLE_CHECKPOINT ".");
+    if (strncmp(entry->d_name, CORACLE_CHECKPOINT ".", n) || !strcmp(entry->d_name, kept)) continue;
     if (strspn(entry->d_name + n, "0123456789") != strlen(entry->d_name + n)) continue;
     snprintf(path, sizeof path, "%s/%s", k->folder, entry->d_name);
     Remove(path);
   }
   closedir(list);
+}
+
+PetscErrorCode CheckpointsCreate(MPI_Comm comm, Server server, const CouplerCase *c, Checkpoints *k)
+{
+  const char *resume = ServerResumeFolder(server);
+  char link[sizeof k->due];
+  PetscBool root;
+
+  PetscFunctionBeginUser;
+  *k = (Checkpoints){
+      .comm = comm, .server = server, .folder = c->folder, .every = c->checkpoint, .last = MPI_Wtime()};
+  PetscCall(IsRoot(k, &root));
+  if ((resume && FolderHolds(comm, k->folder, resume)) || !root) PetscFunctionReturn(0);
+  snprintf(link, sizeof link, "%s/" CORACLE_CHECKPOINT, k->folder);
+  unlink(link);
+  RemoveOthers(k, "");
+  PetscFunctionReturn(0);
 }
 
 /* The link means the new checkpoint, from one moment to the next. */
@@ -62,8 +71,8 @@ static PetscErrorCode Publish(const Checkpoints *k)
   char link[sizeof k->due], new[sizeof k->due];
 
   PetscFunctionBeginUser;
-  snprintf(link, sizeof link, "%s/" NAME, k->folder);
-  snprintf(new, sizeof new, "%s/" NAME ".new", k->folder);
+  snprintf(link, sizeof link, "%s/" CORACLE_CHECKPOINT, k->folder);
+  snprintf(new, sizeof new, "%s/" CORACLE_CHECKPOINT ".new", k->folder);
   unlink(new);
   PetscCheck(!symlink(name, new) && !rename(new, link), PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", link,
              strerror(errno));
@@ -71,7 +80,7 @@ static PetscErrorCode Publish(const Checkpoints *k)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CheckpointsAsk(Checkpoints *k, long long steps)
+PetscErrorCode CheckpointsAsk(Checkpoints *k, long long steps, PetscBool end)
 {
   PetscBool root;
   int due;
@@ -79,10 +88,10 @@ PetscErrorCode CheckpointsAsk(Checkpoints *k, long long steps)
   PetscFunctionBeginUser;
   if (k->every <= 0.0 || k->impossible) PetscFunctionReturn(0);
   PetscCall(IsRoot(k, &root));
-  due = MPI_Wtime() - k->last >= k->every;
+  due = end || MPI_Wtime() - k->last >= k->every;
   PetscCallMPI(MPI_Bcast(&due, 1, MPI_INT, 0, k->comm));
   if (!due) PetscFunctionReturn(0);
-  snprintf(k->due, sizeof k->due, "%s/" NAME ".%lld", k->folder, steps);
+  snprintf(k->due, sizeof k->due, "%s/" CORACLE_CHECKPOINT ".%lld", k->folder, steps);
   if (root) {
     Remove(k->due);
     PetscCheck(!mkdir(k->due, 0777), PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", k->due,

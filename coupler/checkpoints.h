@@ -1,7 +1,8 @@
 /* When checkpoints are made, and where they are:
  *
- *     <output.folder>/checkpoint -> checkpoint.1234     the last whole one, made as the step after 1234 began
- *                     checkpoint.1234/fluid.h5 coupler.h5 solid.h5
+ *     <output.folder>/checkpoint -> checkpoint.1234     the last whole one, made before the 1234th step or at the end
+ *                     checkpoint.1234/fluid.h5 coupler.h5 solid.h5      or what else clients save, .state (link)
+ *                                     fluid.seconds ..                  what they have used
  *
  * A new one is made beside it in a step in which all participants save; the link is then moved, which happens
  * at once or not at all, and the old one removed.  A run that is killed leaves a whole checkpoint. */
@@ -19,10 +20,11 @@ typedef struct {
   PetscBool impossible; /* a participant saves nothing */
 } Checkpoints;
 
-/* All collective. */
+/* All collective.  A run that goes on from none of this folder's checkpoints removes them. */
 PetscErrorCode CheckpointsCreate(MPI_Comm comm, Server server, const CouplerCase *c, Checkpoints *k);
-/* Before the step after `steps` is sent: if it is time, has all clients save, and `due` is where to save, too. */
-PetscErrorCode CheckpointsAsk(Checkpoints *k, long long steps);
-/* After that step. */
+/* Before the step after `steps`, or the end, is sent: if it is time, has all clients save, and `due` is where to save,
+ * too. */
+PetscErrorCode CheckpointsAsk(Checkpoints *k, long long steps, PetscBool end);
+/* After that step, or when all clients have closed. */
 PetscErrorCode CheckpointsFinish(Checkpoints *k);
 #endif

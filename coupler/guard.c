@@ -39,9 +39,10 @@ static void Tell(const GuardStep *s, const double change[2], const char *what, i
   snprintf(message, (size_t)nmessage,
            "at t = %g s the solid's velocity has become (%g, %g) m/s, %s: with a solid to fluid density "
            "ratio of about %.2g "
-           "the added mass is too large for one try a step; a heavier solid is needed, or several tries "
-           "(coupler.tries: 30)",
-           s->t, s->velocity[0], s->velocity[1], what, DensityRatio(s, change));
+           "the added mass is too large for %s",
+           s->t, s->velocity[0], s->velocity[1], what, DensityRatio(s, change),
+           s->tries > 1 ? "steps of this length; shorter ones (time.dt_max) or a heavier solid are needed"
+                        : "one try a step; a heavier solid is needed, or several tries (coupler.tries: 30)");
 }
 
 int GuardCheck(Guard *g, const GuardStep *s, int nmessage, char message[])

@@ -23,6 +23,7 @@ typedef struct {
   double gravity[2];  /* m/s2 */
   double displaced;   /* fluid mass inside the solid, kg */
   double extent;      /* of the fluid's domain, m */
+  int tries;          /* that a step may take */
 } GuardStep;
 
 /* Local, the same on all ranks given the same numbers: 0 when all is well; else 1, and message says what and

@@ -4,8 +4,8 @@
  *     run the scheme (scheme.c): each step
  *         fluid   u*, u+, p, mu                    -->  force on the solid
  *         solid   new position and velocity        -->  correction of the fluid; shell and overlap at the new position
- *         fluid   <--  correction, coupling of the next step
- *     wait for all to close, write the summary */
+ *         fluid   <--  correction, coupling of the next step; or the same step again, with another velocity
+ *     write the summary */
 #include "scheme.h"
 #include "summary.h"
 
@@ -32,7 +32,6 @@ static PetscErrorCode Run(Server server, const CouplerCase *c)
   PetscCall(RegionCreate(PETSC_COMM_WORLD, c->options.thickness, &scheme.region));
   PetscCall(RecordCreate(PETSC_COMM_WORLD, c, scheme.from, &scheme.record));
   PetscCall(SchemeRun(&scheme));
-  PetscCall(ServerFinish(server));
   PetscCall(RecordTotalsOf(scheme.record, CouplerOverlap(scheme.coupler)->nelements, &totals));
   PetscCall(SummaryWrite(server, c, &totals));
   PetscCall(RecordDestroy(&scheme.record));

@@ -7,7 +7,8 @@ static const char COLUMNS[] =
 struct Record_s {
   MPI_Comm comm;
   int rank, revision;
-  double end, down[2], start, said, fall_sum, fall_time;
+  double end, down[2], start, said, fall_end, fall_sum,
+      fall_time; /* fall_end: the end of whose last 5 % it is */
   Series series;
   Output output;
   RecordTotals totals;
@@ -18,18 +19,16 @@ typedef struct {
   const char *name;
   double *value;
 } Kept;
-enum { NKEPT = 6 };
+enum { NKEPT = 7 };
 
 /* count is a copy of the totals' steps and tries, which are no doubles. */
 static void KeptOf(Record r, double count[2], Kept kept[NKEPT])
 {
   count[0] = (double)r->totals.steps;
   count[1] = (double)r->totals.tries;
-  const Kept all[NKEPT] = {{"steps", &count[0]},
-                           {"tries", &count[1]},
-                           {"fall sum", &r->fall_sum},
-                           {"fall time", &r->fall_time},
-                           {"imbalance", &r->totals.imbalance},
+  const Kept all[NKEPT] = {{"steps", &count[0]},         {"tries", &count[1]},
+                           {"fall end", &r->fall_end},   {"fall sum", &r->fall_sum},
+                           {"fall time", &r->fall_time}, {"imbalance", &r->totals.imbalance},
                            {"end", &r->totals.end}};
   for (int k = 0; k < NKEPT; k++) kept[k] = all[k];
 }
@@ -70,6 +69,8 @@ static PetscErrorCode Load(Record r, Checkpoint from)
   for (int k = 0; k < NKEPT; k++) PetscCall(CheckpointGetNumber(from, kept[k].name, kept[k].value));
   PetscCall(CheckpointGetNumber(from, "seconds of overlap", &r->totals.overlap));
   PetscCall(CheckpointGetNumber(from, "seconds of force", &r->totals.force));
+  if (r->fall_end != r->end) r->fall_sum = r->fall_time = 0.0;
+  r->fall_end = r->end;
   r->totals.steps = (long long)count[0];
   r->totals.tries = (long long)count[1];
   r->totals.resumed = r->totals.end;
@@ -90,7 +91,7 @@ PetscErrorCode RecordCreate(MPI_Comm comm, const CouplerCase *c, Checkpoint from
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&r));
   r->comm = comm;
-  r->end = c->end;
+  r->end = r->fall_end = c->end;
   r->start = MPI_Wtime();
   r->down[0] = size > 0.0 ? g[0] / size : 0.0;
   r->down[1] = size > 0.0 ? g[1] / size : -1.0;

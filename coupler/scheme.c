@@ -84,10 +84,10 @@ static PetscErrorCode CheckInside(March *m)
 
 /* The fluid's proposal within the case's bounds.  The last step ends exactly at the end, and the one before
  * it is cut so that the last is no sliver. */
-static PetscErrorCode NextStep(March *m)
+static PetscErrorCode NextStep(March *m, double proposed)
 {
   const double left = m->scheme->c->end - m->t;
-  const double wanted = fmin(ServerProposedStep(m->scheme->server), m->scheme->c->dt_max);
+  const double wanted = fmin(proposed, m->scheme->c->dt_max);
   char message[192];
 
   PetscFunctionBeginUser;
@@ -106,7 +106,8 @@ static PetscErrorCode NextStep(March *m)
 
 static PetscErrorCode Watch(March *m, const RecordedStep *step)
 {
-  GuardStep seen = {.t = step->t, .dt = step->dt, .displaced = step->totals.displaced};
+  GuardStep seen = {
+      .t = step->t, .dt = step->dt, .displaced = step->totals.displaced, .tries = m->tries.most};
   char message[512];
 
   PetscFunctionBeginUser;
@@ -123,10 +124,11 @@ static PetscErrorCode Watch(March *m, const RecordedStep *step)
 
 /* --- checkpoints ---------------------------------------------------------------------------------------- */
 
-/* What goes on: the step that comes, the guard's memory. */
+/* What goes on: the step that comes (0 long at the end, where it is not known), the guard's memory. */
 static PetscErrorCode Load(March *m, Checkpoint from)
 {
   Guard *g = &m->guard;
+  char message[128];
   double row[7];
 
   PetscFunctionBeginUser;
@@ -134,10 +136,15 @@ static PetscErrorCode Load(March *m, Checkpoint from)
   PetscCall(CheckpointGetNumber(from, "dt", &m->dt));
   PetscCall(CheckpointGetDoubles(from, "guard", 0, 1, 7, row));
   *g = (Guard){(int)row[0], (int)row[1], {row[2], row[3]}, {row[4], row[5]}, row[6]};
+  if (m->t >= m->scheme->c->end) {
+    snprintf(message, sizeof message, "the checkpoint to go on from is at t = %g s already, time.end is %g s",
+             m->t, m->scheme->c->end);
+    PetscCall(FailTogether(m->scheme->server, message));
+  }
   PetscFunctionReturn(0);
 }
 
-/* As the step that has been sent begins. */
+/* As the step that has been sent begins, or at the end. */
 static PetscErrorCode Save(March *m)
 {
   const Guard *g = &m->guard;
@@ -188,10 +195,8 @@ static PetscErrorCode Start(March *m)
   if (m->scheme->from) PetscCall(Load(m, m->scheme->from));
   PetscCall(ReceiveSolid(m));
   PetscCall(AskElements(m));
-  if (!m->scheme->from) {
-    PetscCall(CheckInside(m));
-    PetscCall(NextStep(m));
-  }
+  if (!m->scheme->from) PetscCall(CheckInside(m));
+  PetscCall(NextStep(m, m->dt > 0.0 ? m->dt : ServerProposedStep(m->scheme->server)));
   PetscCall(SendCoupling(m, 0, NULL));
   PetscFunctionReturn(0);
 }
@@ -289,8 +294,8 @@ PetscErrorCode SchemeRun(const Scheme *s)
     if (m.t < s->c->end) {
       built = MPI_Wtime() - ServerWaited(s->server);
       PetscCall(AskElementsIfNeeded(&m));
-      PetscCall(NextStep(&m));
-      PetscCall(CheckpointsAsk(&m.checkpoints, RecordSteps(s->record) + 1));
+      PetscCall(NextStep(&m, ServerProposedStep(s->server)));
+      PetscCall(CheckpointsAsk(&m.checkpoints, RecordSteps(s->record) + 1, PETSC_FALSE));
       PetscCall(SendCoupling(&m, n, correction));
       step.overlap = MPI_Wtime() - ServerWaited(s->server) - built;
     }
@@ -298,7 +303,12 @@ PetscErrorCode SchemeRun(const Scheme *s)
     PetscCall(RecordStep(s->record, &step));
     PetscCall(Save(&m));
   }
+  m.dt = 0.0;
+  PetscCall(CheckpointsAsk(&m.checkpoints, RecordSteps(s->record), PETSC_TRUE));
   PetscCall(Stop(&m, n, correction));
+  PetscCall(Save(&m));
+  PetscCall(ServerFinish(s->server));
+  PetscCall(CheckpointsFinish(&m.checkpoints));
   PetscCall(TriesDestroy(&m.tries));
   PetscFunctionReturn(0);
 }

@@ -40,6 +40,7 @@ PetscErrorCode AdaptationDestroy(Adaptation *adaptation)
 PetscErrorCode AdaptationSave(Adaptation a, Checkpoint to)
 {
   PetscFunctionBeginUser;
+  if (!a) PetscFunctionReturn(0);
   PetscCall(CheckpointPutNumber(to, "adaptation steps", a->past.steps));
   PetscCall(CheckpointPutNumber(to, "adaptation first", a->past.first));
   PetscCall(CheckpointPutNumber(to, "adaptation moved", a->past.moved));
@@ -51,6 +52,7 @@ PetscErrorCode AdaptationLoad(Adaptation a, Checkpoint from)
 {
   double steps, first;
   PetscFunctionBeginUser;
+  if (!a || !CheckpointHasNumber(from, "adaptation steps")) PetscFunctionReturn(0);
   PetscCall(CheckpointGetNumber(from, "adaptation steps", &steps));
   PetscCall(CheckpointGetNumber(from, "adaptation first", &first));
   PetscCall(CheckpointGetNumber(from, "adaptation moved", &a->past.moved));

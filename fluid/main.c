@@ -49,7 +49,7 @@ static PetscErrorCode FirstMesh(void *context, int nbox, const double box[], Flu
 
 /* --- checkpoints ---------------------------------------------------------------------------------------- */
 
-/* If a checkpoint is due: what the fluid is as the step begins. */
+/* If a checkpoint is due: what the fluid is as the step begins, or at the end. */
 static PetscErrorCode Save(const March *m)
 {
   const char *folder = CoracleSaveFolder(m->client);
@@ -60,7 +60,7 @@ static PetscErrorCode Save(const March *m)
   PetscCall(MeshSave(m->mesh, to));
   PetscCall(FluidSave(m->fluid, to));
   PetscCall(CheckpointPutNumber(to, "new mesh", m->new_mesh));
-  if (m->adaptation) PetscCall(AdaptationSave(m->adaptation, to));
+  PetscCall(AdaptationSave(m->adaptation, to));
   PetscCall(RecordSave(m->record, to));
   PetscCall(CheckpointClose(&to));
   PetscFunctionReturn(0);
@@ -73,7 +73,7 @@ static PetscErrorCode Load(March *m, Checkpoint from, const PetscInt row[])
   PetscCall(FluidLoad(m->fluid, row, from));
   PetscCall(CheckpointGetNumber(from, "new mesh", &new_mesh));
   m->new_mesh = new_mesh ? PETSC_TRUE : PETSC_FALSE;
-  if (m->adaptation) PetscCall(AdaptationLoad(m->adaptation, from));
+  PetscCall(AdaptationLoad(m->adaptation, from));
   PetscFunctionReturn(0);
 }
 
@@ -204,6 +204,7 @@ static PetscErrorCode Run(CoracleClient client, Case c, MPI_Comm comm)
     if (steps == 0) PetscCall(FluidCaseCheckOptions(c));
     PetscCall(CoracleBegin(client, &t, &dt, &action));
   }
+  PetscCall(Save(&m));
   PetscCall(Report(client, m.fluid));
   PetscCall(RecordDestroy(&m.record));
   PetscCall(ExchangeDestroy(&m.exchange));

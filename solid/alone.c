@@ -60,6 +60,7 @@ int Alone(int argc, char **argv)
   Record record;
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
   PetscCall(CaseOpen(argc, argv, Refuse, NULL, &c));
+  if (CaseHas(c, "resume")) CaseRefuse(c, "resume", "the solid alone makes no checkpoints");
   const double end = CasePositive(c, "time.end"), longest = CasePositive(c, "time.dt_max");
   PetscCall(SolidFromCase(c, PETSC_COMM_WORLD, Fail, NULL, &solid));
   PetscCall(RecordCreate(c, PETSC_COMM_WORLD, solid, NULL, &record));

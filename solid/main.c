@@ -90,8 +90,8 @@ static PetscErrorCode Run(CoracleClient client, Solid solid, Record record)
   for (int steps = 0;; steps++) {
     PetscCall(ExchangeBegin(&exchange, &dt, &action, &load));
     if (steps > 0 && action != CORACLE_REDO) PetscCall(RecordStep(record, solid, exchange.waited));
-    if (action == CORACLE_STOP) break;
     PetscCall(Save(client, solid, record, exchange.waited));
+    if (action == CORACLE_STOP) break;
     PetscCall(SolidStart(solid, dt, load));
     while (SolidRemaining(solid)) {
       PetscCall(SolidSubstep(solid, &h));

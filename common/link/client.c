@@ -67,8 +67,8 @@ void ClientTakeFolder(CoracleClient c, const MessageHeader *h)
 
 const char *CoracleSaveFolder(CoracleClient c)
 {
-  ClientExpect(c, "CoracleSaveFolder", c->p->role, STAGE_STEP, STAGE_STEP);
-  if (c->action != CORACLE_RUN || !c->save.size) return NULL;
+  ClientExpect(c, "CoracleSaveFolder", c->p->role, STAGE_STEP, STAGE_STOPPED);
+  if (c->action == CORACLE_REDO || !c->save.size) return NULL;
   c->asked_save = true;
   return c->save.data;
 }
@@ -82,7 +82,8 @@ const char *CoracleResumeFolder(CoracleClient c)
 
 int ClientFlags(CoracleClient c)
 {
-  return (c->asked_save ? FLAG_SAVED : 0) | (c->asked_resume ? FLAG_RESUMES : 0);
+  const bool itself = StateIsBuffers(c), saved = c->asked_save || (itself && c->save.size > 0);
+  return (saved ? FLAG_SAVED : 0) | (c->p->resume && (itself || c->asked_resume) ? FLAG_RESUMES : 0);
 }
 
 /* --- the run -------------------------------------------------------------------------------------------- */
@@ -106,10 +107,12 @@ int CoracleBegin(CoracleClient c, double *t, double *dt, CoracleAction *action)
   if (c->action == CORACLE_RUN) {
     ParticipantStep(c->p, c->p->step + 1);
     StateSave(c);
-    if (c->save.size) ParticipantSaveUsed(c->p, c->save.data);
   } else if (c->action == CORACLE_REDO) {
     StateRestore(c);
+  } else if (c->save.size) {
+    StateSave(c);
   }
+  if (c->action != CORACLE_REDO && c->save.size) ParticipantSaveUsed(c->p, c->save.data);
   *t = c->t;
   *dt = c->dt;
   *action = c->action;
@@ -140,7 +143,9 @@ int CoracleClose(CoracleClient *client)
   if (c->stage != STAGE_STOPPED)
     ParticipantFail(c->p, "closed in step %d, before the end of the run (CORACLE_STOP)", c->p->step);
   ReportResources(&c->reports, c->p);
-  MessageStart(&c->out, KIND_CLOSE, c->p->step)->count[0] = (int64_t)ReportCount(&c->reports);
+  MessageHeader *h = MessageStart(&c->out, KIND_CLOSE, c->p->step);
+  h->count[0] = (int64_t)ReportCount(&c->reports);
+  h->flag = ClientFlags(c);
   MessageAdd(&c->out, c->reports.data, c->reports.size);
   ClientSend(c);
   ParticipantClose(&c->p);

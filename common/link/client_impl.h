@@ -80,7 +80,9 @@ void ClientTakeFolder(CoracleClient c, const MessageHeader *h);
 /* FLAG_SAVED and FLAG_RESUMES as they are now. */
 int ClientFlags(CoracleClient c);
 
-void StateSave(CoracleClient c);
+void StateSave(CoracleClient c); /* and into the checkpoint that is due */
+/* Whether all state is in bound buffers: then the library saves it and puts it back without being asked. */
+bool StateIsBuffers(CoracleClient c);
 void StateRestore(CoracleClient c);
 void StateFree(CoracleClient c);
 

@@ -205,13 +205,13 @@ void SolidBegin(CoracleClient c)
   const int step = c->p->step;
   const MessageHeader *h = MessageReceive(c->p, &c->in, KIND_FORCE, KIND_FORCE, step);
   ClientTakeStep(c, h);
+  c->solid.force = MessageTake(c->p, &c->in, DIM * (size_t)h->count[0] * sizeof(double));
+  ClientTakeFolder(c, h);
   if (c->action == CORACLE_STOP) return;
   BeginMesh(&c->solid, c->action);
   if (h->count[0] != c->solid.mesh.n)
     ParticipantFail(c->p, "the coupler has sent forces on %lld nodes in step %d, this rank has %d",
                     (long long)h->count[0], step, c->solid.mesh.n);
-  c->solid.force = MessageTake(c->p, &c->in, DIM * (size_t)h->count[0] * sizeof(double));
-  ClientTakeFolder(c, h);
 }
 
 int CoracleGetForce(CoracleClient c, const double **force)

@@ -13,7 +13,7 @@ static BoundState *States(const Buffer *states)
   return (BoundState *)(void *)states->data;
 }
 
-/* --- checkpoints: <folder>/<role>.<rank>.state, of every buffer its size and its bytes ------------------- */
+/* --- checkpoints: <folder>/<role>.<rank>.state: the number of ranks, and of every buffer its size and its bytes */
 
 enum { STATE_PATH = 4200 };
 
@@ -22,47 +22,62 @@ static void StatePath(CoracleClient c, const char *folder, char path[STATE_PATH]
   snprintf(path, STATE_PATH, "%s/%s.%d.state", folder, ROLE_NAMES[c->p->role], c->p->rank);
 }
 
-/* Whether buffers are all that there is. */
-static bool AllFlat(CoracleClient c)
+static bool IsBuffer(const BoundState *s)
 {
-  for (size_t i = 0; i < StateCount(&c->states); i++)
-    if (States(&c->states)[i].f) return false;
-  return StateCount(&c->states) > 0;
+  return !s->f;
+}
+
+static size_t CountBuffers(CoracleClient c)
+{
+  size_t count = 0;
+  for (size_t i = 0; i < StateCount(&c->states); i++) count += IsBuffer(&States(&c->states)[i]);
+  return count;
+}
+
+bool StateIsBuffers(CoracleClient c)
+{
+  return CountBuffers(c) > 0 && CountBuffers(c) == StateCount(&c->states);
 }
 
 /* The buffers as they have just been saved. */
 static void Write(CoracleClient c)
 {
+  const size_t ranks = (size_t)c->p->size;
   char path[STATE_PATH];
   StatePath(c, c->save.data, path);
   FILE *file = fopen(path, "wb");
+  if (file) fwrite(&ranks, sizeof ranks, 1, file);
   for (size_t i = 0; file && i < StateCount(&c->states); i++) {
-    const Buffer *saved = &States(&c->states)[i].saved;
-    fwrite(&saved->size, sizeof saved->size, 1, file);
-    if (saved->size) fwrite(saved->data, 1, saved->size, file);
+    const BoundState *s = &States(&c->states)[i];
+    if (!IsBuffer(s)) continue;
+    fwrite(&s->saved.size, sizeof s->saved.size, 1, file);
+    if (s->saved.size) fwrite(s->saved.data, 1, s->saved.size, file);
   }
   const bool wrong = !file || ferror(file);
   if ((file && fclose(file)) || wrong) ParticipantFail(c->p, "%s: %s", path, strerror(errno));
-  c->asked_save = true;
 }
 
 /* Buffer number `which` out of the checkpoint that the run goes on from. */
 static void Read(CoracleClient c, size_t which, void *state, size_t bytes)
 {
   char path[STATE_PATH];
-  size_t size = 0;
+  size_t ranks = 0, size = 0;
   StatePath(c, c->p->resume, path);
   FILE *file = fopen(path, "rb");
   if (!file)
-    ParticipantFail(c->p, "%s: %s (it was saved on as many ranks as it can be put back on)", path,
+    ParticipantFail(c->p, "cannot go on: %s: %s (bound state needs as many ranks as it was saved on)", path,
                     strerror(errno));
-  bool good = fread(&size, sizeof size, 1, file) == 1;
+  bool good = fread(&ranks, sizeof ranks, 1, file) == 1;
+  if (good && ranks != (size_t)c->p->size)
+    ParticipantFail(c->p, "cannot go on: its bound state was saved on %zu ranks, here are %d", ranks,
+                    c->p->size);
+  good = good && fread(&size, sizeof size, 1, file) == 1;
   for (; good && which > 0; which--)
     good = !fseek(file, (long)size, SEEK_CUR) && fread(&size, sizeof size, 1, file) == 1;
   if (!good || size != bytes || fread(state, 1, bytes, file) != bytes)
-    ParticipantFail(c->p, "%s does not hold the %zu bytes of state that are bound", path, bytes);
+    ParticipantFail(c->p, "cannot go on: %s does not hold the %zu bytes of state that are bound", path,
+                    bytes);
   fclose(file);
-  c->asked_resume = true;
 }
 
 /* --- binding -------------------------------------------------------------------------------------------- */
@@ -79,7 +94,7 @@ int CoracleBindState(CoracleClient c, void *state, size_t bytes)
   BoundState bound = {.state = state};
   BufferResize(&bound.saved, bytes);
   Bind(c, "CoracleBindState", bound);
-  if (c->p->resume && AllFlat(c)) Read(c, StateCount(&c->states) - 1, state, bytes);
+  if (c->p->resume) Read(c, CountBuffers(c) - 1, state, bytes);
   return 0;
 }
 
@@ -101,7 +116,7 @@ static void SaveOrRestore(CoracleClient c, BoundState *s, bool save)
 void StateSave(CoracleClient c)
 {
   for (size_t i = 0; i < StateCount(&c->states); i++) SaveOrRestore(c, &States(&c->states)[i], true);
-  if (c->save.size && AllFlat(c)) Write(c);
+  if (c->save.size && CountBuffers(c) > 0) Write(c);
 }
 
 void StateRestore(CoracleClient c)

@@ -14,10 +14,10 @@
  *     CoracleGetForce(c, &force)                        CoracleGetCoupling(c, &k)
  *       m substeps: advance by h; CoracleSubstep        solve from t to t + dt
  *     CoracleEnd(c, x)                                  CoracleSetFlow(c, ...); CoracleEnd(c, NULL)
- *                                                       apply the correction: CoracleGetCoupling(c, &k)
+ *                                                       if CoracleStands(c): CoracleGetCorrection
  *
  * The coupler decides t, dt and the action; the library restores bound state when a step is redone, so that
- * an adapter never holds a checkpoint of its own.  Arrays are C order, dim is 2 (3 to come), units are SI.
+ * an adapter need not keep what a step changes.  Arrays are C order, dim is 2 (3 to come), units are SI.
  * All functions return 0, or end the whole job with one message: there is no partial failure to handle.
  * Ranks that own nothing are normal: pass n = 0. */
 #ifndef CORACLE_H
@@ -94,7 +94,7 @@ int CoracleElementsChanged(CoracleClient c);
  * step.  It is also what the library saves in checkpoints and, in a run that goes on from one, puts back at once
  * (on as many ranks): bind before the mesh is given. */
 int CoracleBindState(CoracleClient c, void *state, size_t bytes);
-/* As above for state that is no flat buffer: called with save = 1 and save = 0.  Checkpoints then are the
+/* As above for state that is no flat buffer: called with save = 1 and save = 0.  In checkpoints it is the
  * participant's own affair (CoracleSaveFolder). */
 int CoracleBindStateFunction(CoracleClient c, int (*f)(void *context, int save), void *context);
 
@@ -126,8 +126,8 @@ int CoracleSetVelocity(CoracleClient c, const double u[]);
 int CoracleSetInertia(CoracleClient c, const double mobility[], const double acceleration[]);
 
 /* A checkpoint, from which another run can go on (keys output.checkpoint and resume of the case): the folder
- * into which to save what the participant is at t, when one is due in the step that CoracleBegin has begun,
- * else NULL.  Who asks has to have saved, on all ranks, by CoracleEnd, in files called after its role; while one
+ * into which to save what the participant is at t, when one is due in the step that CoracleBegin has begun
+ * (or at CORACLE_STOP), else NULL.  Who asks has to have saved, on all ranks, by CoracleEnd, in files called after its role; while one
  * participant never asks there are no checkpoints.  The same on all ranks; borrowed until CoracleEnd. */
 const char *CoracleSaveFolder(CoracleClient c);
 /* After CoracleOpen: the folder that an earlier run has given so, from which this one goes on, or NULL: from

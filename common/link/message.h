@@ -33,7 +33,7 @@ typedef enum {
   KIND_END
 } MessageKind;
 
-/* flag: of FLOW; of FLOW, MOTION and SURFACE; of ELEMENTS and SURFACE. */
+/* flag: of FLOW; of FLOW, MOTION, SURFACE and CLOSE; of all that a client sends. */
 enum { FLAG_CHANGED = 1, FLAG_SAVED = 2, FLAG_RESUMES = 4 };
 
 typedef struct {

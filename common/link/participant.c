@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -146,17 +147,19 @@ static void Refuse(void *p, const char *message)
 /* The folder that the case's `resume` means, or "". */
 static void FindResume(Participant *p, int argc, char **argv, size_t size, char folder[])
 {
+  struct stat link;
   Case c;
   folder[0] = 0;
   CaseOpen(argc, argv, Refuse, p, &c);
   const char *resume = CaseStringOr(c, "resume", "");
   const bool last = !strcmp(resume, "last");
   if (last)
-    snprintf(folder, size, "%s/checkpoint", CaseString(c, "output.folder"));
+    snprintf(folder, size, "%s/" CORACLE_CHECKPOINT, CaseString(c, "output.folder"));
   else
     snprintf(folder, size, "%s", resume);
   if (folder[0] && access(folder, F_OK)) {
-    if (!last) CaseRefuse(c, "resume", "there is no checkpoint '%s'", folder);
+    if (!last || !lstat(folder, &link)) CaseRefuse(c, "resume", "there is no checkpoint '%s'", folder);
+    if (p->role == ROLE_COUPLER) printf("coracle: there is no %s: begins at the start\n", folder);
     folder[0] = 0;
   }
   CaseClose(&c);

@@ -12,6 +12,9 @@
 #include "wait.h"
 #include <stdarg.h>
 
+/* The link to the last checkpoint in a run's output folder (coupler/checkpoints.h). */
+#define CORACLE_CHECKPOINT "checkpoint"
+
 /* Seconds: of processors, on all ranks; by the clock; waiting for messages, at most. */
 enum { USED_CPU, USED_WALL, USED_WAITING, NUSED };
 

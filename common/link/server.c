@@ -73,7 +73,7 @@ int ServerSave(Server s, const char *folder)
 
 void SideAskSave(Server s, Peer *peer, CoracleAction action)
 {
-  const size_t bytes = action == CORACLE_RUN ? s->save.size : 0;
+  const size_t bytes = action == CORACLE_REDO ? 0 : s->save.size;
   ((MessageHeader *)(void *)peer->out.buffer.data)->count[2] = (int64_t)bytes;
   MessageAdd(&peer->out, s->save.data, bytes);
 }
@@ -81,9 +81,13 @@ void SideAskSave(Server s, Peer *peer, CoracleAction action)
 void SideFlags(Server s, Role role, Peer *peer, const MessageHeader *h)
 {
   if (h->flag & FLAG_SAVED) peer->saved = true;
-  if (s->p->resume && h->step == 0 && !(h->flag & FLAG_RESUMES))
-    ServerFail(s, "the %s begins anew, the run goes on from %s: it cannot resume", ROLE_NAMES[role],
-               s->p->resume);
+  const bool resumes = h->flag & FLAG_RESUMES;
+  if (h->step > 0 || resumes == (s->p->resume != NULL)) return;
+  if (resumes)
+    ServerFail(s, "the %s goes on from a checkpoint that is not to be found here", ROLE_NAMES[role]);
+  ServerFail(
+      s, "the run goes on from %s, but the %s begins at the start: it does not find that, or cannot resume",
+      s->p->resume, ROLE_NAMES[role]);
 }
 
 const char *ServerUnsaved(Server s)
@@ -137,6 +141,7 @@ static void ReceiveClose(Server s, Side *side, Role role)
   for (int i = 0; i < side->n; i++) {
     Message *m = &side->peer[i].in;
     const MessageHeader *h = MessageReceive(s->p, m, KIND_CLOSE, KIND_CLOSE, side->step);
+    SideFlags(s, role, &side->peer[i], h);
     const size_t n = (size_t)h->count[0];
     ReportMerge(&s->reports[role], n, MessageTake(s->p, m, n * sizeof(Report)));
   }

@@ -1,11 +1,12 @@
 #include "checkpoint.h"
 #include "hdf5_file.h"
 #include <limits.h>
+#include <string.h>
 
 struct Checkpoint_s {
   MPI_Comm comm; /* duplicated: HDF5's messages do not meet others */
   hid_t file;
-  char path[PETSC_MAX_PATH_LEN];
+  char folder[PETSC_MAX_PATH_LEN - 64], path[PETSC_MAX_PATH_LEN];
 };
 
 static PetscErrorCode Create(MPI_Comm comm, const char *folder, const char *name, Checkpoint *checkpoint)
@@ -14,6 +15,9 @@ static PetscErrorCode Create(MPI_Comm comm, const char *folder, const char *name
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&c));
   PetscCallMPI(MPI_Comm_dup(comm, &c->comm));
+  PetscCheck(strlen(folder) < sizeof c->folder && strlen(name) < 60, comm, PETSC_ERR_ARG_SIZ,
+             "checkpoint in %s", folder);
+  strcpy(c->folder, folder);
   snprintf(c->path, sizeof c->path, "%s/%s.h5", folder, name);
   *checkpoint = c;
   PetscFunctionReturn(0);
@@ -45,6 +49,16 @@ PetscErrorCode CheckpointClose(Checkpoint *c)
   PetscFunctionReturn(0);
 }
 
+const char *CheckpointFolder(Checkpoint c)
+{
+  return c->folder;
+}
+
+PetscBool CheckpointHasNumber(Checkpoint c, const char *name)
+{
+  return Hdf5HasAttribute(c->file, "/", name);
+}
+
 PetscErrorCode CheckpointPutNumber(Checkpoint c, const char *name, double value)
 {
   return Hdf5Attribute(c->file, "/", name, value);
@@ -53,7 +67,7 @@ PetscErrorCode CheckpointPutNumber(Checkpoint c, const char *name, double value)
 PetscErrorCode CheckpointGetNumber(Checkpoint c, const char *name, double *value)
 {
   PetscFunctionBeginUser;
-  PetscCheck(Hdf5HasAttribute(c->file, "/", name), PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED,
+  PetscCheck(CheckpointHasNumber(c, name), PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED,
              "%s has no number '%s'", c->path, name);
   PetscCall(Hdf5ReadAttribute(c->file, "/", name, value));
   PetscFunctionReturn(0);

@@ -10,6 +10,8 @@ typedef struct Checkpoint_s *Checkpoint;
 PetscErrorCode CheckpointCreate(MPI_Comm comm, const char *folder, const char *name, Checkpoint *c);
 PetscErrorCode CheckpointOpen(MPI_Comm comm, const char *folder, const char *name, Checkpoint *c);
 PetscErrorCode CheckpointClose(Checkpoint *c);
+const char *CheckpointFolder(Checkpoint c); /* borrowed; not collective */
+PetscBool CheckpointHasNumber(Checkpoint c, const char *name);
 
 /* The same on all ranks; kept to the last bit. */
 PetscErrorCode CheckpointPutNumber(Checkpoint c, const char *name, double value);

@@ -1,6 +1,7 @@
 #include "folder.h"
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -49,4 +50,20 @@ PetscBool FolderHas(MPI_Comm comm, const char *path)
   there = rank == 0 && !access(path, F_OK);
   MPI_Bcast(&there, 1, MPI_INT, 0, comm);
   return there ? PETSC_TRUE : PETSC_FALSE;
+}
+
+PetscBool FolderHolds(MPI_Comm comm, const char *folder, const char *checkpoint)
+{
+  PetscMPIInt rank, holds = 0;
+  MPI_Comm_rank(comm, &rank);
+  if (rank == 0) {
+    char *whole = realpath(folder, NULL), *inside = realpath(checkpoint, NULL);
+    char *last = inside ? strrchr(inside, '/') : NULL;
+    if (last) *last = 0;
+    holds = whole && last && !strcmp(whole, inside);
+    free(whole);
+    free(inside);
+  }
+  MPI_Bcast(&holds, 1, MPI_INT, 0, comm);
+  return holds ? PETSC_TRUE : PETSC_FALSE;
 }

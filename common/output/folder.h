@@ -7,6 +7,8 @@
 PetscErrorCode FolderMake(MPI_Comm comm, const char *folder);
 /* Collective: whether rank 0 finds a file of that path. */
 PetscBool FolderHas(MPI_Comm comm, const char *path);
+/* Collective: whether a checkpoint, which is there, is one of the runs in folder. */
+PetscBool FolderHolds(MPI_Comm comm, const char *folder, const char *checkpoint);
 /* Collective: the same error on all ranks when rank 0 had one; its own message comes from rank 0. */
 PetscErrorCode AgreeWithRoot(MPI_Comm comm, PetscErrorCode failed);
 #endif

@@ -61,7 +61,8 @@ PetscErrorCode Hdf5Open(MPI_Comm comm, const char *path, PetscBool change, hid_t
   hid_t access;
   PetscFunctionBeginUser;
   PetscCall(Access(comm, path, &access));
-  H5(*file = H5Fopen(path, change ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access), "open", path);
+  H5(*file = H5Fopen(path, change ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access),
+     change ? "open" : "go on (resume) from", path);
   H5(H5Pclose(access), "set up", path);
   PetscFunctionReturn(0);
 }

@@ -34,6 +34,7 @@ struct Output_s {
   long long nsnapshot;
   double every, next; /* s: when the next snapshot is due */
   PetscBool open;     /* between Begin and End */
+  PetscBool later;    /* there are snapshots from after the checkpoint */
   int ngrid, current;
   Grid grid[GRIDS_MAX];
 };
@@ -47,18 +48,17 @@ static PetscErrorCode BeginFile(Output o, const char *path)
   PetscFunctionReturn(0);
 }
 
-/* Without the snapshots that were made after the checkpoint. */
-static PetscErrorCode ContinueFile(Output o, const char *path)
+/* Takes away the snapshots that were made after the checkpoint. */
+static PetscErrorCode CutLater(Output o)
 {
   char later[PATH];
   PetscFunctionBeginUser;
-  PetscCall(Hdf5Open(o->comm, path, PETSC_TRUE, &o->file));
   for (long long k = o->nsnapshot;; k++) {
     snprintf(later, sizeof later, "/snapshot/%06lld", k);
     if (!Hdf5Has(o->file, later)) break;
     PetscCall(Hdf5Remove(o->file, later));
   }
-  PetscCall(Hdf5Flush(o->file));
+  o->later = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -76,11 +76,12 @@ PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name,
   o->every = every;
   if (from) PetscCall(CheckpointGetNumber(from, "output next", &o->next));
   snprintf(path, sizeof path, "%s/%s.h5", folder, name);
-  if (from && FolderHas(comm, path)) {
+  if (from && FolderHolds(comm, folder, CheckpointFolder(from)) && FolderHas(comm, path)) {
     PetscCall(CheckpointGetNumber(from, "output snapshots", &snapshots));
     PetscCall(CheckpointGetNumber(from, "output index length", &length));
     o->nsnapshot = (long long)snapshots;
-    PetscCall(ContinueFile(o, path));
+    PetscCall(Hdf5Open(o->comm, path, PETSC_TRUE, &o->file));
+    o->later = PETSC_TRUE;
   } else {
     PetscCall(BeginFile(o, path));
   }
@@ -117,6 +118,7 @@ PetscErrorCode OutputBegin(Output o, double t)
   o->open = PETSC_TRUE;
   o->next = o->every * (floor(t / (o->every * NEARLY)) + 1.0);
   o->current = -1;
+  if (o->later) PetscCall(CutLater(o));
   snprintf(path, sizeof path, "/snapshot/%06lld", o->nsnapshot);
   PetscCall(Hdf5Group(o->file, path));
   PetscCall(Hdf5Attribute(o->file, path, "time", t));

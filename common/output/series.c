@@ -8,6 +8,7 @@
 struct Series_s {
   MPI_Comm comm; /* borrowed */
   FILE *file;    /* rank 0 only */
+  long length;   /* of what is kept of a file that goes on, until the first row: then 0 */
   int ncolumn;
   char path[PETSC_MAX_PATH_LEN];
 };
@@ -22,13 +23,16 @@ static PetscErrorCode Begin(Series s, const char *columns)
   PetscFunctionReturn(0);
 }
 
-/* Without the rows after the first `length` bytes. */
+/* The first row will follow the first `length` bytes of what is there. */
 static PetscErrorCode Continue(Series s, long length)
 {
   PetscFunctionBeginUser;
   s->file = fopen(s->path, "r+");
-  PetscCheck(s->file && !ftruncate(fileno(s->file), length) && !fseek(s->file, length, SEEK_SET),
-             PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "%s: %s", s->path, strerror(errno));
+  PetscCheck(s->file && !fseek(s->file, 0, SEEK_END), PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "%s: %s", s->path,
+             strerror(errno));
+  PetscCheck(ftell(s->file) >= length, PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED,
+             "%s is shorter than when it was checkpointed", s->path);
+  s->length = length;
   PetscFunctionReturn(0);
 }
 
@@ -47,7 +51,8 @@ PetscErrorCode SeriesCreate(MPI_Comm comm, const char *folder, const char *name,
   s->ncolumn = 1;
   for (const char *c = columns; *c; c++) s->ncolumn += *c == ',';
   *series = s;
-  if (from && FolderHas(comm, s->path)) PetscCall(CheckpointGetNumber(from, "series length", &length));
+  if (from && FolderHolds(comm, folder, CheckpointFolder(from)) && FolderHas(comm, s->path))
+    PetscCall(CheckpointGetNumber(from, "series length", &length));
   PetscCall(AgreeWithRoot(comm, rank != 0      ? 0
                                 : length > 0.0 ? Continue(s, (long)length)
                                                : Begin(s, columns)));
@@ -56,7 +61,7 @@ PetscErrorCode SeriesCreate(MPI_Comm comm, const char *folder, const char *name,
 
 PetscErrorCode SeriesSave(Series s, Checkpoint to)
 {
-  double length = s->file ? (double)ftell(s->file) : 0.0;
+  double length = !s->file ? 0.0 : s->length ? (double)s->length : (double)ftell(s->file);
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Bcast(&length, 1, MPI_DOUBLE, 0, s->comm));
   PetscCall(CheckpointPutNumber(to, "series length", length));
@@ -68,6 +73,11 @@ PetscErrorCode SeriesRow(Series s, const double value[])
 {
   PetscFunctionBeginUser;
   if (!s->file) PetscFunctionReturn(0);
+  if (s->length) {
+    PetscCheck(!ftruncate(fileno(s->file), s->length) && !fseek(s->file, s->length, SEEK_SET),
+               PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", s->path, strerror(errno));
+    s->length = 0;
+  }
   for (int k = 0; k < s->ncolumn; k++) fprintf(s->file, k ? ",%.10g" : "%.10g", value[k]);
   fputc('\n', s->file);
   PetscCheck(!fflush(s->file) && !ferror(s->file), PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", s->path,

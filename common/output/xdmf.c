@@ -78,8 +78,7 @@ PetscErrorCode XdmfCreate(const char *folder, const char *name, size_t length, X
   snprintf(x->name, sizeof x->name, "%s", name);
   snprintf(x->path, sizeof x->path, "%s/%s.xdmf", folder, name);
   snprintf(x->temporary, sizeof x->temporary, "%s.part", x->path);
-  if (length) PetscCall(Continue(x, length));
-  PetscCall(Publish(x));
+  PetscCall(length ? Continue(x, length) : Publish(x));
   *xdmf = x;
   PetscFunctionReturn(0);
 }

@@ -27,15 +27,41 @@ bar='{shape: rectangle, centre: [1.0, 1.1], width: 0.3, height: 0.1, size: 0.025
 cracks=(--set "solid.materials.disc=$brittle" --set "solid.bodies[0]=$bar" --set time.end=0.4 --set coupler.relaxation=1)
 other=(--set time.end=0.3 --solid "$build/tests/route/rigid_disc")
 
+strong=(--set time.end=0.3 --set solid.materials.disc.density=300 --set coupler.tries=30)
+
 must disc 1:1:1 "${adapt[@]}"
 must cracks 1:1:1 "${cracks[@]}"
 must other 1:1:1 "${other[@]}"
+must strong 1:1:1 "${strong[@]}"
 kill_and_resume disc-again 1:1:1 1:1:1 "${adapt[@]}"
 kill_and_resume disc-spread 2:1:1 1:2:2 "${adapt[@]}"
 kill_and_resume cracks-again 1:1:2 1:1:1 "${cracks[@]}"
 kill_and_resume other-again 1:1:1 1:1:1 "${other[@]}"
-run no-checkpoint 1:1:1 --set resume="$scratch/nothing" && { echo "it has gone on from nothing"; exit 1; }
-grep -q "resume.*there is no checkpoint" "$scratch/no-checkpoint.log" || { cat "$scratch/no-checkpoint.log"; exit 1; }
+kill_and_resume strong-again 1:1:1 1:2:1 "${strong[@]}"
+
+# a run that has ended goes on to a later end, for a run of any length leaves a checkpoint
+must longer 1:1:1 --set time.end=0.05
+must longer 1:1:1 --set time.end=0.1 --set resume=last
+must whole 1:1:1 --set time.end=0.1
+
+# fails LABEL MESSAGE [launch.sh arguments]: LABEL ends with an error.
+fails() {
+  local label=$1 message=$2
+  shift 2
+  run "$label" 1:1:1 "$@" && { echo "$label has run: $message was expected"; exit 1; }
+  grep -q "error:.*$message" "$scratch/$label.log" || { cat "$scratch/$label.log"; exit 1; }
+}
+fails nothing "resume.*there is no checkpoint" --set resume="$scratch/nothing"
+fails longer "checkpoint to go on from is at t = 0.1 s already, time.end is 0.09 s" --set time.end=0.09 --set resume=last
+cp -r "$scratch/longer" "$scratch/broken"
+truncate -s 1000 "$scratch/broken/checkpoint/fluid.h5"
+fails broken "go on .*checkpoint/fluid.h5" --set time.end=0.2 --set resume=last
+cmp "$scratch/longer/coupler.csv" "$scratch/broken/coupler.csv" || { echo "a run that could not go on has changed the files"; exit 1; }
+rm -r "$scratch"/broken/checkpoint.*
+fails broken "resume.*there is no checkpoint" --set resume=last
+must other-folder 1:1:1 --set time.end=0.15 --set resume="$scratch/longer/checkpoint"
+must longer 1:1:1 --set time.end=0.02 --set output.checkpoint=0
+[ ! -e "$scratch/longer/checkpoint" ] || { echo "a new run has left the checkpoint of the one before"; exit 1; }
 
 "$python" - "$scratch" <<'E2'
 import csv, json, re, sys
@@ -58,9 +84,12 @@ def compare(one, two, columns, tolerance):
     assert a["steps"] == b["steps"] and b["resumed_at"] > 0 and b["largest_momentum_imbalance"] < 1e-10, (a, b)
 motion = {"coupler": ["t [s]", "u_y [m/s]"], "fluid": ["t [s]", "kinetic energy [J/m]", "triangles"], "solid": ["t [s]", "y0 [m]", "v0 [m/s]"]}
 compare("disc", "disc-again", motion, 1e-9)
-compare("disc", "disc-spread", {"coupler": ["t [s]"]} , 0.02)
 u = [float(rows(label, "coupler")[-1]["u_y [m/s]"]) for label in ("disc", "disc-spread")]
 assert abs(u[0] / u[1] - 1) < 0.002, "resumed on other ranks it falls at %g m/s instead of %g" % (u[1], u[0])
 compare("cracks", "cracks-again", {"coupler": ["t [s]"], "solid": ["t [s]", "v0 [m/s]", "broken joints", "fracture [J/m]"]}, 1e-5)
 compare("other", "other-again", {"coupler": ["t [s]", "u_y [m/s]"]}, 1e-9)
+compare("strong", "strong-again", {"coupler": ["t [s]", "u_y [m/s]"]}, 1e-3)  # what earlier tries have shown is not saved
+times = [float(r["t [s]"]) for r in rows("other-folder", "coupler")]
+assert abs(times[0] - 0.11) < 1e-9 and abs(times[-1] - 0.15) < 1e-9, "in another folder: %s" % times
+assert abs(float(rows("whole", "coupler")[-1]["u_y [m/s]"]) + 0.2419) < 0.01
 E2
