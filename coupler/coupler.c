@@ -1,5 +1,4 @@
 #include "coupler_impl.h"
-#include "motion.h"
 
 const char *const COUPLER_MODES[] = {"reaction", "stress_shell", "penalty_shell", NULL};
 static const CouplerActions *const ACTIONS[] = {&COUPLER_ACTIONS_REACTION, &COUPLER_ACTIONS_STRESS_SHELL,
@@ -162,15 +161,13 @@ PetscErrorCode CouplerReactConserving(Coupler c)
 
 PetscErrorCode CouplerFillSolid(Coupler c, const ServerSolid *moved)
 {
-  double(*u)[3][2], *node;
+  double(*u)[3][2];
 
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2(c->overlap->npieces, &u, 2 * (size_t)c->nnodes, &node));
-  PetscCall(PetscArrayzero(node, 2 * (size_t)c->nnodes));
-  PetscCall(MotionOnStart(moved, moved->u, c->nnodes, node));
-  PetscCall(OverlapNodesToPieces(c->overlap, 2, node, &u[0][0][0]));
+  PetscCall(PetscMalloc1(c->overlap->npieces, &u));
+  PetscCall(OverlapNodesToPieces(c->overlap, 2, moved->u, &u[0][0][0]));
   ForceCorrection(c->overlap, (const double(*)[3][2])u, c->flow.u_plus, c->correction);
-  PetscCall(PetscFree2(u, node));
+  PetscCall(PetscFree(u));
   PetscFunctionReturn(0);
 }
 
@@ -181,7 +178,7 @@ PetscErrorCode CouplerCorrect(Coupler c, const ServerSolid *moved, int *n,
   PetscCall(PetscFree(c->correction));
   PetscCall(PetscCalloc1(c->overlap->nentries, &c->correction));
   for (int e = 0; e < c->overlap->nentries; e++) c->correction[e].element = c->overlap->element[e];
-  PetscCall(moved->lost ? CouplerLeaveFluid(c, moved) : c->actions->correct(c, moved));
+  PetscCall(moved->changed ? CouplerLeaveFluid(c, moved) : c->actions->correct(c, moved));
   *n = c->overlap->nentries;
   *correction = c->correction;
   PetscFunctionReturn(0);

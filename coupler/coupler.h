@@ -48,8 +48,8 @@ PetscErrorCode CouplerAim(Coupler coupler, const double u[], int *n, const Corac
  * used until CouplerCorrect has returned. */
 PetscErrorCode CouplerReact(Coupler coupler, const ServerFlow *flow, const double **force,
                             ForceTotals *totals);
-/* One entry per entry of CouplerBuild.  Where nodes of the old overlap are on other ranks after fracture
- * (moved->lost) the fluid is left as it is for this step.  Borrowed until the next CouplerCorrect. */
+/* One entry per entry of CouplerBuild.  After fracture (moved->changed) the old overlap has no new velocity
+ * and the fluid is left as it is for this step.  Borrowed until the next CouplerCorrect. */
 PetscErrorCode CouplerCorrect(Coupler coupler, const ServerSolid *moved, int *n,
                               const CoracleCorrection **correction);
 /* For output and tests, borrowed until the next CouplerBuild. */

@@ -1,13 +1,12 @@
 #!/usr/bin/env bash
 # A beam held at its left end cracks there under its weight and sinks in the tank: shell and overlap follow its pieces, momentum goes from fluid to solid to
-# round-off, and any number of ranks gives the same answer.
-# The pieces are smaller than elements of the fluid: relaxation 1 (coupler/README.md).  Usage: fracture.sh ROOT BUILD
+# round-off, and any number of ranks gives the same answer.  Usage: fracture.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
 brittle='{density: 2000.0, youngs_modulus: 1.0e6, poisson_ratio: 0.3, damping: 0.2, tensile_strength: 6.0e3, shear_strength: 1.2e4, fracture_energy: 1.0}'
 bar='{shape: rectangle, centre: [1.0, 1.1], width: 0.3, height: 0.1, size: 0.025, material: disc, joints: all, fixed: [left]}'
 for ranks in 1:1:1 1:2:2; do
-  must "$ranks" "$ranks" --set "solid.materials.disc=$brittle" --set "solid.bodies[0]=$bar" --set time.end=0.4 --set coupler.relaxation=1
+  must "$ranks" "$ranks" --set "solid.materials.disc=$brittle" --set "solid.bodies[0]=$bar" --set time.end=0.4
 done
 "$python" - "$scratch" <<'E2'
 import csv, json, sys

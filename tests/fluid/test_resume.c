@@ -18,7 +18,7 @@ static const char *const CASE =
     "output: {every: 0.02}\n"
     "resume: last\n";
 
-static char folder[256], output[300];
+static char output[256], folder[300];
 static Checkpoint from;
 static Mesh *mesh; /* outlives what is refused */
 static PetscInt *row;
@@ -150,12 +150,12 @@ static PetscErrorCode CheckRefused(const char *set_folder)
 
 static PetscErrorCode Remove(void)
 {
-  static const char *const FILES[] = {"output/fluid.csv", "output/fluid.h5", "output/fluid.xdmf",
-                                      "output",           "fluid.h5",        ""};
+  static const char *const FILES[] = {"fluid.csv",    "fluid.h5", "fluid.xdmf", "checkpoint.3/fluid.h5",
+                                      "checkpoint.3", ""};
   PetscFunctionBeginUser;
   for (int k = 0; k < 6; k++) {
     char path[512];
-    snprintf(path, sizeof path, "%s/%s", folder, FILES[k]);
+    snprintf(path, sizeof path, "%s/%s", output, FILES[k]);
     CHECK(!remove(path));
   }
   PetscFunctionReturn(0);
@@ -168,10 +168,11 @@ int main(int argc, char **argv)
   PetscMPIInt rank;
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  snprintf(folder, sizeof folder, "/tmp/coracle_resume_%d", (int)getpid());
-  PetscCallMPI(MPI_Bcast(folder, sizeof folder, MPI_CHAR, 0, PETSC_COMM_WORLD));
-  snprintf(output, sizeof output, "%s/output", folder);
+  snprintf(output, sizeof output, "/tmp/coracle_resume_%d", (int)getpid());
+  PetscCallMPI(MPI_Bcast(output, sizeof output, MPI_CHAR, 0, PETSC_COMM_WORLD));
+  snprintf(folder, sizeof folder, "%s/checkpoint.3", output);
   snprintf(set_folder, sizeof set_folder, "output.folder=%s", output);
+  if (rank == 0) PetscCall(PetscMkdir(output));
   if (rank == 0) PetscCall(PetscMkdir(folder));
   CheckCase(CASE, sets, Run, NULL);
   PetscCall(Finish());

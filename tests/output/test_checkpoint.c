@@ -2,9 +2,10 @@
 /* Checkpoints give back what was put into them, and say what is missing; files go on from one as if what came after it had never
  * been, and anew where they are not. */
 #include "read_back.h"
+#include <sys/stat.h>
 #include <unistd.h>
 
-static char folder[64];
+static char folder[64], inside[80]; /* inside: where the run in folder has its checkpoints */
 
 static void Path(char path[128], const char *name)
 {
@@ -91,13 +92,13 @@ static PetscErrorCode Run(PetscBool resume, int from)
   Output out;
   Series s;
   PetscFunctionBeginUser;
-  if (resume) PetscCall(CheckpointOpen(PETSC_COMM_WORLD, folder, "files", &c));
+  if (resume) PetscCall(CheckpointOpen(PETSC_COMM_WORLD, inside, "files", &c));
   PetscCall(OutputCreate(PETSC_COMM_WORLD, folder, "run", 0.2, c, &out));
   PetscCall(SeriesCreate(PETSC_COMM_WORLD, folder, "run", "t [s],k", c, &s));
   PetscCall(CheckpointClose(&c));
   PetscCall(Write(out, s, from, resume ? 12 : 5));
   if (!resume) {
-    PetscCall(CheckpointCreate(PETSC_COMM_WORLD, folder, "files", &c));
+    PetscCall(CheckpointCreate(PETSC_COMM_WORLD, inside, "files", &c));
     PetscCall(OutputSave(out, c));
     PetscCall(SeriesSave(s, c));
     PetscCall(CheckpointClose(&c));
@@ -145,13 +146,13 @@ static void CheckFiles(int first)
 
 static void RemoveAll(int rank, PetscBool folder_too)
 {
-  static const char *const FILES[] = {"run.csv", "run.h5", "run.xdmf", "part.h5", "files.h5"};
+  static const char *const FILES[] = {"run.csv", "run.h5", "run.xdmf", "part.h5", "checkpoint.5/files.h5"};
   char path[128];
   for (int k = 0; k < (folder_too ? 5 : 3) && rank == 0; k++) {
     Path(path, FILES[k]);
     unlink(path);
   }
-  if (rank == 0 && folder_too) rmdir(folder);
+  if (rank == 0 && folder_too) CHECK(!rmdir(inside) && !rmdir(folder), "files are left");
   MPI_Barrier(PETSC_COMM_WORLD);
 }
 
@@ -163,6 +164,8 @@ int main(int argc, char **argv)
   snprintf(folder, sizeof folder, "/tmp/coracle_checkpoint_XXXXXX");
   if (rank == 0) CHECK(mkdtemp(folder), "no folder");
   CHECK(!MPI_Bcast(folder, sizeof folder, MPI_CHAR, 0, PETSC_COMM_WORLD), "broadcast");
+  snprintf(inside, sizeof inside, "%s/checkpoint.5", folder);
+  if (rank == 0) CHECK(!mkdir(inside, 0777), "no folder");
   CHECK(!Put(rank, size) && !Get(PETSC_COMM_WORLD, size), "all ranks");
   if (rank == 0) CHECK(!Get(PETSC_COMM_SELF, size), "one rank");
   CHECK(!MPI_Barrier(PETSC_COMM_WORLD), "barrier");
