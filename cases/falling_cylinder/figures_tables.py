@@ -105,7 +105,7 @@ def figure4(folder):
         errors_panel(axes[1, k], there, measures, "body-fitted")
         what = "fluid mesh size" if letter == "a" else "shell thickness"
         axes[0, k].set_title(f"({letter}) {what}, against the correlation at the same Re", fontsize=10)
-        axes[1, k].set_title(f"({letter}) {what}, against body-fitted elements", fontsize=10)
+        axes[1, k].set_title(f"({letter}) {what}, against body-fitted elements (open at Re 100, 200: held discs)", fontsize=10)
         axes[2, k].axis("off")
         axes[2, k].legend(*axes[0, k].get_legend_handles_labels(), loc="center", ncol=2, fontsize=9, frameon=False)
     axes[0, 0].set_ylabel("Er [%]")

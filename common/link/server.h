@@ -11,9 +11,10 @@ typedef struct Server_s *Server;
 
 typedef struct {
   int changed; /* nodes, facets or elements were given anew (in this call) */
-  int lost;    /* then, within a step: it cannot be said what has become of the nodes of its start */
-  const int
-      *before; /* [nelements][3] else: the elements in the nodes that this rank had when the step began */
+  int lost;    /* within a step, and so that it cannot be said what has become of the nodes of its start */
+  /* changed within a step and not lost: the elements in the nodes that this rank had when the step began,
+   * [nelements][3]; else NULL */
+  const int *before;
   int nnodes, nfacets, nelements; /* on this coupler rank */
   const long long *gid;           /* [nnodes] */
   const double *x;                /* [nnodes][2] position, m */
