@@ -31,7 +31,8 @@ static void Remove(const char *folder)
   rmdir(folder);
 }
 
-/* All checkpoints but the one that the link means: the one before, and what runs that were killed have left. */
+/* All checkpoints but the one that the link means: the one before, and what runs that were killed have
+ * left. */
 static void RemoveOthers(const Checkpoints *k, const char *kept)
 {
   char path[PETSC_MAX_PATH_LEN];

@@ -1,11 +1,11 @@
 /* When checkpoints are made, and where they are:
  *
- *     <output.folder>/checkpoint -> checkpoint.1234     the last whole one, made before the 1234th step or at the end
- *                     checkpoint.1234/fluid.h5 coupler.h5 solid.h5      or what else clients save, .state (link)
- *                                     fluid.seconds ..                  what they have used
+ *     <output.folder>/checkpoint -> checkpoint.1234   the last whole one, of the 1234th step's start or the end
+ *                     checkpoint.1234/fluid.h5 coupler.h5 solid.h5    or what else clients save; .state (link)
+ *                                     fluid.seconds ..                what they have used
  *
- * A new one is made beside it in a step in which all participants save; the link is then moved, which happens
- * at once or not at all, and the old one removed.  A run that is killed leaves a whole checkpoint. */
+ * A new one is made beside it in a step in which all participants save; the link is then moved, which
+ * happens at once or not at all, and the old one removed.  A run that is killed leaves a whole checkpoint. */
 #ifndef CORACLE_CHECKPOINTS_H
 #define CORACLE_CHECKPOINTS_H
 #include "coupler_case.h"
@@ -22,8 +22,8 @@ typedef struct {
 
 /* All collective.  A run that goes on from none of this folder's checkpoints removes them. */
 PetscErrorCode CheckpointsCreate(MPI_Comm comm, Server server, const CouplerCase *c, Checkpoints *k);
-/* Before the step after `steps`, or the end, is sent: if it is time, has all clients save, and `due` is where to save,
- * too. */
+/* Before the step after `steps`, or the end, is sent: if it is time, has all clients save, and `due` is
+ * where to save, too. */
 PetscErrorCode CheckpointsAsk(Checkpoints *k, long long steps, PetscBool end);
 /* After that step, or when all clients have closed. */
 PetscErrorCode CheckpointsFinish(Checkpoints *k);

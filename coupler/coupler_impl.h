@@ -19,7 +19,7 @@ struct Coupler_s {
   double *mu;                    /* [overlap->nelements] Pa s */
   double dt;                     /* of the step that was built, s */
   int built, nnodes;             /* nodes at home */
-  const double *us;              /* [nnodes][2] the solid's velocity; borrowed from ServerSolid, or from who aims */
+  const double *us;              /* [nnodes][2] the solid's velocity; borrowed */
   double (*now)[3][2];           /* [overlap->npieces] the solid's when the step began */
   double (*given)[3][2];         /* [overlap->npieces] what the fluid meets where nodes give way */
   double (*mobility)[3];         /* [overlap->npieces] of the nodes */

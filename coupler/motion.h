@@ -11,8 +11,8 @@ typedef struct {
 
 /* Collective.  Every element is given by one rank, so nodes shared by ranks count once. */
 PetscErrorCode MotionOf(MPI_Comm comm, const ServerSolid *solid, Motion *motion);
-/* Not collective: what the solid's nodes have, value[nnodes][2], on the nodes that the step began with, start[n][2]:
- * where cracks have split one, the mean over the corners of its elements.  Nodes without elements keep what is there
- * in start. */
+/* Not collective: what the solid's nodes have, value[nnodes][2], on the nodes that the step began with,
+ * start[n][2]: where cracks have split one, the mean over the corners of its elements.  Nodes without
+ * elements keep what is there in start. */
 PetscErrorCode MotionOnStart(const ServerSolid *solid, const double value[], int n, double start[]);
 #endif

@@ -30,9 +30,10 @@ static PetscErrorCode FailTogether(Server server, const char *message)
   PetscFunctionReturn(0);
 }
 
-/* The solid's mesh or motion.  The paper's mode hands the fluid the solid's mean velocity over the step.  A
- * reaction needs the velocity at its end, without vibrations: with the mean, half a step late, its inertia term
- * is unstable below rho_s/rho_f of about 1, and it drives the vibrations of a disc until that turns inside out. */
+/* The solid's mesh or motion.  The paper's mode hands the fluid the solid's mean velocity over the step. A
+ * reaction needs the velocity at its end, without vibrations: with the mean, half a step late, its inertia
+ * term is unstable below rho_s/rho_f of about 1, and it drives the vibrations of a disc until that turns
+ * inside out. */
 static PetscErrorCode ReceiveSolid(March *m)
 {
   PetscFunctionBeginUser;

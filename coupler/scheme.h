@@ -13,7 +13,7 @@ typedef struct {
   Checkpoint from; /* that the run goes on from; NULL: from the start */
 } Scheme;
 
-/* Collective: runs to the end, until all clients have closed.  A try of a step: the fluid implicit, the solid with the force of the same step
- * (method.md sections 6 and 9); tries.h says how many. */
+/* Collective: runs to the end, until all clients have closed.  A try of a step: the fluid implicit, the
+ * solid with the force of the same step (method.md sections 6 and 9); tries.h says how many. */
 PetscErrorCode SchemeRun(const Scheme *scheme);
 #endif

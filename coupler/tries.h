@@ -1,10 +1,10 @@
-/* Strong coupling: a step is tried until the velocity that the solid ends with is the one that the fluid has met
- * in it.
+/* Strong coupling: a step is tried until the velocity that the solid ends with is the one that the fluid
+ * has met in it.
  *
  *     predict v of the solid;   do   fluid with v -> force -> solid's v'   until v' = v;   v <- accelerate.h
  *
- * A staggered step is one try in which the fluid meets the velocity of the step before.  The geometry is that of the
- * step's start in either case.  Nodes that give way by themselves (inertia.h) take no part. */
+ * A staggered step is one try in which the fluid meets the velocity of the step before.  The geometry is
+ * that of the step's start in either case.  Nodes that give way by themselves (inertia.h) take no part. */
 #ifndef CORACLE_TRIES_H
 #define CORACLE_TRIES_H
 #include "accelerate.h"
@@ -32,8 +32,9 @@ PetscErrorCode TriesCreate(MPI_Comm comm, int most, double tolerance, double thi
 PetscErrorCode TriesDestroy(Tries *t);
 /* A step of dt seconds, of several tries, from the solid as it is; *u [n][2]: the velocity to begin with. */
 PetscErrorCode TriesBegin(Tries *t, const ServerSolid *solid, double dt, const double **u);
-/* Whether the try stands that has led to `solid`: it agrees, or there is nothing to compare (one try only, or a mesh
- * that is another one), or it is the last and cracks, which come or do not, keep it from agreeing. */
+/* Whether the try stands that has led to `solid`: it agrees, or there is nothing to compare (one try only,
+ * or a mesh that is another one), or it is the last and cracks, which come or do not, keep it from
+ * agreeing. */
 PetscErrorCode TriesAgree(Tries *t, int tries, const ServerSolid *solid, PetscBool *agree);
 /* The velocity of the next try. */
 PetscErrorCode TriesNext(Tries *t, const double **u);

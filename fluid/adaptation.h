@@ -27,8 +27,8 @@ PetscErrorCode AdaptationMesh(Adaptation adaptation, Fluid fluid, Mesh **mesh);
  * and upper corners, m: the mesh with le in them, where it is coarser. */
 PetscErrorCode AdaptationFirstMesh(Adaptation adaptation, const Mesh *given, int nbox, const double box[],
                                    Mesh **mesh);
-/* Collective, between two steps: what says when the next one is due; NULL: nothing.  A checkpoint of a run that did not
- * adapt leaves it as at the start. */
+/* Collective, between two steps: what says when the next one is due; NULL: nothing.  A checkpoint of a run
+ * that did not adapt leaves it as at the start. */
 PetscErrorCode AdaptationSave(Adaptation adaptation, Checkpoint to);
 PetscErrorCode AdaptationLoad(Adaptation adaptation, Checkpoint from);
 PetscErrorCode AdaptationDestroy(Adaptation *adaptation);

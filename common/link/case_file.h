@@ -6,8 +6,8 @@
  * list items as name[0].key).
  *
  * The top-level sections are: case (name), note (what a reader of the results must know), gravity, time,
- * fluid, solid, coupler, output; resume (a checkpoint's folder, or `last`: that of output.folder, if there is one),
- * which the library reads.  A participant opens the whole file but must read only its sections:
+ * fluid, solid, coupler, output; resume (a checkpoint's folder, or `last`: that of output.folder, if there
+ * is one), which the library reads.  A participant opens the whole file but must read only its sections:
  * CaseFinish checks the sections it names. */
 #ifndef CORACLE_CASE_FILE_H
 #define CORACLE_CASE_FILE_H

@@ -13,7 +13,9 @@ static BoundState *States(const Buffer *states)
   return (BoundState *)(void *)states->data;
 }
 
-/* --- checkpoints: <folder>/<role>.<rank>.state: the number of ranks, and of every buffer its size and its bytes */
+/* --- checkpoints ---------------------------------------------------------------------------------------- */
+
+/* <folder>/<role>.<rank>.state: the number of ranks, and of every buffer its size and its bytes */
 
 enum { STATE_PATH = 4200 };
 

@@ -91,8 +91,8 @@ int CoracleElementsChanged(CoracleClient c);
 /* --- the run -------------------------------------------------------------------------------------------- */
 
 /* Registers `bytes` at `state` to be saved at CORACLE_RUN and put back at CORACLE_REDO; before the first
- * step.  It is also what the library saves in checkpoints and, in a run that goes on from one, puts back at once
- * (on as many ranks): bind before the mesh is given. */
+ * step.  It is also what the library saves in checkpoints and, in a run that goes on from one, puts back
+ * at once (on as many ranks): bind before the mesh is given. */
 int CoracleBindState(CoracleClient c, void *state, size_t bytes);
 /* As above for state that is no flat buffer: called with save = 1 and save = 0.  In checkpoints it is the
  * participant's own affair (CoracleSaveFolder). */
@@ -125,14 +125,15 @@ int CoracleSetVelocity(CoracleClient c, const double u[]);
  * next step only. */
 int CoracleSetInertia(CoracleClient c, const double mobility[], const double acceleration[]);
 
-/* A checkpoint, from which another run can go on (keys output.checkpoint and resume of the case): the folder
- * into which to save what the participant is at t, when one is due in the step that CoracleBegin has begun
- * (or at CORACLE_STOP), else NULL.  Who asks has to have saved, on all ranks, by CoracleEnd, in files called after its role; while one
- * participant never asks there are no checkpoints.  The same on all ranks; borrowed until CoracleEnd. */
+/* A checkpoint, from which another run can go on (keys output.checkpoint and resume of the case): the
+ * folder into which to save what the participant is at t, when one is due in the step that CoracleBegin
+ * has begun (or at CORACLE_STOP), else NULL.  Who asks has to have saved, on all ranks, by CoracleEnd, in
+ * files called after its role; while one participant never asks there are no checkpoints.  The same on all
+ * ranks; borrowed until CoracleEnd. */
 const char *CoracleSaveFolder(CoracleClient c);
-/* After CoracleOpen: the folder that an earlier run has given so, from which this one goes on, or NULL: from
- * the start.  Who asks has to be, by CoracleReady, what it was then; the next CoracleBegin has that t.  The run
- * is refused if one does not ask. */
+/* After CoracleOpen: the folder that an earlier run has given so, from which this one goes on, or NULL:
+ * from the start.  Who asks has to be, by CoracleReady, what it was then; the next CoracleBegin has that
+ * t.  The run is refused if one does not ask. */
 const char *CoracleResumeFolder(CoracleClient c);
 
 /* Fluid: the flow on the elements last given by region, for the n of them:
@@ -164,9 +165,9 @@ typedef struct {
   int element;
   double r[2][3];
 } CoracleCorrection;
-/* Fluid, after CoracleEnd: 1 when the step just made stands, 0 when it will be redone: there is no correction
- * then, and what it did beside its bound state (a mesh it has adapted, a row it would write) is void.  A solid
- * learns this by the next action. */
+/* Fluid, after CoracleEnd: 1 when the step just made stands, 0 when it will be redone: there is no
+ * correction then, and what it did beside its bound state (a mesh it has adapted, a row it would write) is
+ * void.  A solid learns this by the next action. */
 int CoracleStands(CoracleClient c);
 /* Fluid, after CoracleReady and after CoracleEnd: the coupling of the coming step.  Borrowed until the next
  * CoracleEnd. */

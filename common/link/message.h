@@ -6,12 +6,12 @@
  *     SURFACE    solid -> coupler   count = nodes, facets, elements: gid, x, velocities, inertia, facets, elements
  *                                   (Ready; End after a change)
  *     MOTION     solid -> coupler   count = nodes: x, velocities (fitted or given, mean), mobility, acceleration  (End)
- *     FORCE      solid <- coupler   count = nodes, -, bytes of path: force, where to save; action, t, dt    (Begin)
+ *     FORCE      solid <- coupler   count = nodes, -, bytes of path: force, where to save; action, t, dt (Begin)
  *     ASK        fluid <- coupler   count = boxes: corners                                    (within Ready, End)
  *     ELEMENTS   fluid -> coupler   count = elements: vertices, density; bounds; dt = proposed      (answers ASK)
- *     COUPLING   fluid <- coupler   count = corrections, couplings, bytes of path: .., where to save; action, t, dt
- *                                                                                             (ends Ready, End)
- *     FLOW       fluid -> coupler   count = elements: u*, u+, p, mu; flag; dt = proposed                      (End)
+ *     COUPLING   fluid <- coupler   count = corrections, couplings, bytes of path: .., where to save; action,
+ *                                   t, dt                                                    (ends Ready, End)
+ *     FLOW       fluid -> coupler   count = elements: u*, u+, p, mu; flag; dt = proposed                  (End)
  *     CLOSE      both  -> coupler   count = reports                                                         (Close)
  *
  * Kind and step travel with every message: one that does not fit ends the job with both sides' names. */

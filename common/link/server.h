@@ -49,9 +49,9 @@ int ServerAskElements(Server s, int nbox, const double box[], ServerElements *el
 int ServerElementsChanged(Server s);
 /* The smallest step that the fluid's ranks proposed last, s; the same on all coupler ranks. */
 double ServerProposedStep(Server s);
-/* Ends the fluid's CoracleReady or CoracleEnd.  correction[ncorrection] has one entry per coupling entry of
- * the last call, in its order (0 at the first call or when stopping is not after a step, and as you like at CORACLE_REDO); `element` of
- * coupling indexes ServerElements. */
+/* Ends the fluid's CoracleReady or CoracleEnd.  correction[ncorrection] has one entry per coupling entry
+ * of the last call, in its order (0 at the first call or when stopping is not after a step, and as you
+ * like at CORACLE_REDO); `element` of coupling indexes ServerElements. */
 int ServerSendCoupling(Server s, double t, double dt, CoracleAction action, int ncorrection,
                        const CoracleCorrection correction[], int ncoupling, const CoracleCoupling coupling[]);
 /* Matches the first half of the fluid's CoracleEnd. */
@@ -62,8 +62,8 @@ int ServerSendForce(Server s, double t, double dt, CoracleAction action, const d
 
 /* The folder of the checkpoint that the run goes on from, or NULL; a client that does not is refused. */
 const char *ServerResumeFolder(Server s);
-/* Has all clients save into the folder (the same on all coupler ranks; copied) as the coming step begins, before
- * that is sent. */
+/* Has all clients save into the folder (the same on all coupler ranks; copied) as the coming step begins,
+ * before that is sent. */
 int ServerSave(Server s, const char *folder);
 /* After that step: NULL when all have saved, else a role that has not. */
 const char *ServerUnsaved(Server s);

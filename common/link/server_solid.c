@@ -67,8 +67,8 @@ static int CompareIds(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-/* Whether the elements are those that the step began with, on all ranks: each corner the node that it was, or one
- * that is new. */
+/* Whether the elements are those that the step began with, on all ranks: each corner the node that it was,
+ * or one that is new. */
 static bool SameElements(Server s)
 {
   const long long *gid = (const long long *)(const void *)s->gid.data;

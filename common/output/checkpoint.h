@@ -1,6 +1,6 @@
-/* A participant's part of a checkpoint, <folder>/<name>.h5: numbers, and tables whose rows are spread over the
- * ranks.  Any number of ranks may read what any other has written.  Everything is collective; what is missing
- * or of another shape is an error that names file and entry. */
+/* A participant's part of a checkpoint, <folder>/<name>.h5: numbers, and tables whose rows are spread over
+ * the ranks.  Any number of ranks may read what any other has written.  Everything is collective; what is
+ * missing or of another shape is an error that names file and entry. */
 #ifndef CORACLE_CHECKPOINT_H
 #define CORACLE_CHECKPOINT_H
 #include <petscsys.h>

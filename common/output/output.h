@@ -8,9 +8,10 @@
 typedef struct Output_s *Output;
 typedef enum { OUTPUT_NODE, OUTPUT_CELL } OutputCentre;
 
-/* Collective: <folder>/<name>.h5 and .xdmf, truncated; a snapshot is due `every` s.  The folder is made if missing.
- * With a checkpoint (else NULL) of a run in this folder: goes on with its files as they were at OutputSave; what came
- * later is cut off by the first snapshot, when the run is sure to go on.  With another's it begins new ones. */
+/* Collective: <folder>/<name>.h5 and .xdmf, truncated; a snapshot is due `every` s.  The folder is made if
+ * missing.  With a checkpoint (else NULL) of a run in this folder: goes on with its files as they were at
+ * OutputSave; what came later is cut off by the first snapshot, when the run is sure to go on.  With
+ * another's it begins new ones. */
 PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name, double every,
                             Checkpoint from, Output *out);
 /* Collective: between snapshots. */

@@ -1,6 +1,7 @@
 // ranks: 1 2 3
-/* Quasi-Newton on x = H(x) where plain repetition explodes: as many tries as the equation has gains (0, where H does not
- * change, is one) and two more, fewer once it is known, and a nonlinear one converges faster than linearly. */
+/* Quasi-Newton on x = H(x) where plain repetition explodes: as many tries as the equation has gains (0,
+ * where H does not change, is one) and two more, fewer once it is known, and a nonlinear one converges
+ * faster than linearly. */
 #include "accelerate.h"
 #include "check.h"
 #include <math.h>
