@@ -9,6 +9,11 @@ adapt=(--set fluid.adapt.size_min=0.02 --set fluid.adapt.size_max=0.25 --set flu
 must one 1:1:1 "${light[@]}"
 must three 2:3:2 "${light[@]}"
 must adaptive 1:1:1 "${light[@]}" "${adapt[@]}"
+brittle='{density: 2000.0, youngs_modulus: 1.0e6, poisson_ratio: 0.3, damping: 0.2, tensile_strength: 6.0e3, shear_strength: 1.2e4, fracture_energy: 1.0}'
+bar='{shape: rectangle, centre: [1.0, 1.1], width: 0.3, height: 0.1, size: 0.025, material: disc, joints: all, fixed: [left]}'
+for ranks in 1:1:1 1:2:2; do
+  must "cracks-$ranks" "$ranks" --set "solid.materials.disc=$brittle" --set "solid.bodies[0]=$bar" --set time.end=0.4 --set coupler.relaxation=1 --set coupler.tries=30
+done
 must staggered 1:1:1 --set time.end=0.2 --set time.dt_max=0.00125
 must long 1:1:1 --set time.end=0.2 --set coupler.tries=30
 must long-staggered 1:1:1 --set time.end=0.2
@@ -27,6 +32,12 @@ for label in ("one", "three", "adaptive"):
     summary = json.load(open("%s/%s/summary.json" % (sys.argv[1], label)))
     assert summary["largest_momentum_imbalance"] < 1e-10 and summary["tries"] == sum(tries), "%s: %s" % (label, summary)
     assert len(rows(label, "fluid")) == len(rows(label, "solid")) == len(tries), "%s: rows for tries that do not stand" % label
+for label in ("cracks-1:1:1", "cracks-1:2:2"):
+    solid, tries = rows(label, "solid"), [r["tries"] for r in rows(label)]
+    assert solid[-1]["broken joints"] >= 3 and max(tries) > 1, "%s: %g broken joints, tries %s" % (label, solid[-1]["broken joints"], tries)
+    assert json.load(open("%s/%s/summary.json" % (sys.argv[1], label)))["largest_momentum_imbalance"] < 1e-10
+broken = [rows(label, "solid")[-1]["broken joints"] for label in ("cracks-1:1:1", "cracks-1:2:2")]
+assert broken[0] == broken[1], "broken joints: %s" % broken
 one, three = speeds("one")[-1], speeds("three")[-1]
 assert abs(one / three - 1) < 1e-3, "one rank %g m/s, three %g" % (one, three)
 assert len({r["triangles"] for r in rows("adaptive", "fluid")}) > 3, "the mesh has not changed"
