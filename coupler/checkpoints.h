@@ -1,6 +1,6 @@
 /* When checkpoints are made, and where they are:
  *
- *     <output.folder>/checkpoint -> checkpoint.1234   the last whole one, of the 1234th step's start or the end
+ *     <output.folder>/checkpoint -> checkpoint.1234   the last whole one, made after 1234 steps
  *                     checkpoint.1234/fluid.h5 coupler.h5 solid.h5    or what else clients save; .state (link)
  *                                     fluid.seconds ..                what they have used
  *

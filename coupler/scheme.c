@@ -232,8 +232,7 @@ static PetscErrorCode AimAgain(March *m, int tries)
   if (tries == m->tries.most) {
     snprintf(message, sizeof message,
              "the step from t = %g s does not converge: after %d tries the solid ends with a velocity %g m/s "
-             "away from what "
-             "the fluid has met; shorter steps (time.dt_max) help, or coupler.tries",
+             "away from what the fluid has met; shorter steps (time.dt_max) help, or coupler.tries",
              m->t, tries, m->tries.difference);
     PetscCall(FailTogether(s->server, message));
   }
