@@ -68,7 +68,6 @@ static PetscErrorCode FreeStep(Coupler c)
   PetscFunctionBeginUser;
   PetscCall(PetscFree2(c->weight, c->coupling));
   PetscCall(PetscFree5(c->vertex, c->now, c->firmness, c->node, c->force));
-  PetscCall(PetscFree2(c->given, c->mobility));
   PetscFunctionReturn(0);
 }
 
@@ -82,7 +81,6 @@ static PetscErrorCode NewStep(Coupler c, const ServerSolid *solid)
   PetscCall(PetscMalloc2(o->pairs.n, &c->weight, o->nentries, &c->coupling));
   PetscCall(PetscMalloc5(3 * npieces, &c->vertex, npieces, &c->now, npieces, &c->firmness, nnodes, &c->node,
                          2 * nnodes, &c->force));
-  PetscCall(PetscMalloc2(npieces, &c->given, npieces, &c->mobility));
   for (size_t t = 0; t < npieces; t++) c->firmness[t] = 1.0;
   for (size_t t = 0; t < npieces; t++) PetscCall(PetscArraycpy(&c->now[t][0][0], &o->piece[t].u[0][0], 6));
   PetscFunctionReturn(0);
@@ -100,27 +98,26 @@ PetscErrorCode CouplerBuild(Coupler c, const ServerSolid *solid, double dt, int 
   c->nnodes = solid->nnodes;
   c->us = solid->u;
   PetscCall(c->actions->weigh(c, solid));
-  PetscCall(OverlapNodesToPieces(c->overlap, 1, solid->mobility, &c->mobility[0][0]));
-  for (int t = 0; t < c->overlap->npieces; t++)
-    PetscCall(PetscArraycpy(&c->given[t][0][0], &c->overlap->piece[t].u[0][0], 6));
   WallTermAssemble(c->overlap, c->weight, c->firmness, c->coupling);
   *n = c->overlap->nentries;
   *coupling = c->coupling;
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CouplerAim(Coupler c, const double u[], int *n, const CoracleCoupling **coupling)
+PetscErrorCode CouplerAim(Coupler c, const double mobility[], const double u[], int *n,
+                          const CoracleCoupling **coupling)
 {
   const Overlap o = c->overlap;
-  double(*aim)[3][2];
+  double(*aim)[3][2], (*gives)[3];
 
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(o->npieces, &aim));
+  PetscCall(PetscMalloc2(o->npieces, &aim, o->npieces, &gives));
   PetscCall(OverlapNodesToPieces(o, 2, u, &aim[0][0][0]));
+  PetscCall(OverlapNodesToPieces(o, 1, mobility, &gives[0][0]));
   for (int t = 0; t < o->npieces; t++)
     for (int i = 0; i < 3; i++)
-      PetscCall(PetscArraycpy(o->piece[t].u[i], c->mobility[t][i] > 0.0 ? c->given[t][i] : aim[t][i], 2));
-  PetscCall(PetscFree(aim));
+      if (gives[t][i] == 0.0) PetscCall(PetscArraycpy(o->piece[t].u[i], aim[t][i], 2));
+  PetscCall(PetscFree2(aim, gives));
   c->us = u;
   WallTermAssemble(o, c->weight, c->firmness, c->coupling);
   *n = o->nentries;

@@ -42,8 +42,9 @@ PetscErrorCode CouplerSetElements(Coupler coupler, const ServerElements *element
 PetscErrorCode CouplerBuild(Coupler coupler, const ServerSolid *solid, double dt, int *n,
                             const CoracleCoupling **coupling);
 /* For another try of the step: the coupling with u[nnodes][2], m/s, as the solid's velocity, but where
- * nodes give way by themselves (mobility > 0).  u is used as the solid's arrays are. */
-PetscErrorCode CouplerAim(Coupler coupler, const double u[], int *n, const CoracleCoupling **coupling);
+ * nodes give way by themselves (mobility[nnodes] > 0).  u is used as the solid's arrays are. */
+PetscErrorCode CouplerAim(Coupler coupler, const double mobility[], const double u[], int *n,
+                          const CoracleCoupling **coupling);
 /* The force on the solid's nodes [nnodes][2], N, borrowed until the next call of this; the flow's arrays are
  * used until CouplerCorrect has returned. */
 PetscErrorCode CouplerReact(Coupler coupler, const ServerFlow *flow, const double **force,

@@ -21,8 +21,6 @@ struct Coupler_s {
   int built, nnodes;             /* nodes at home */
   const double *us;              /* [nnodes][2] the solid's velocity; borrowed */
   double (*now)[3][2];           /* [overlap->npieces] the solid's when the step began */
-  double (*given)[3][2];         /* [overlap->npieces] what the fluid meets where nodes give way */
-  double (*mobility)[3];         /* [overlap->npieces] of the nodes */
   double *firmness;              /* [overlap->npieces] */
   ServerFlow flow;               /* borrowed */
   WallWeight *weight;            /* [overlap->pairs.n] */

@@ -180,7 +180,7 @@ static PetscErrorCode SendCoupling(March *m, int ncorrection, const CoracleCorre
   PetscCall(CouplerBuild(s->coupler, &m->solid, m->dt, &n, &coupling));
   if (m->tries.most > 1) {
     PetscCall(TriesBegin(&m->tries, &m->solid, m->dt, &u));
-    PetscCall(CouplerAim(s->coupler, u, &n, &coupling));
+    PetscCall(CouplerAim(s->coupler, m->tries.mobility, u, &n, &coupling));
   }
   PetscCall(RecordShell(s->record, m->t, s->coupler, &m->solid));
   PetscCall(ServerSendCoupling(s->server, m->t, m->dt, CORACLE_RUN, ncorrection, correction, n, coupling));
@@ -237,7 +237,7 @@ static PetscErrorCode AimAgain(March *m, int tries)
     PetscCall(FailTogether(s->server, message));
   }
   PetscCall(TriesNext(&m->tries, &u));
-  PetscCall(CouplerAim(s->coupler, u, &n, &coupling));
+  PetscCall(CouplerAim(s->coupler, m->tries.mobility, u, &n, &coupling));
   PetscCall(ServerSendCoupling(s->server, m->t, m->dt, CORACLE_REDO, 0, NULL, n, coupling));
   PetscFunctionReturn(0);
 }

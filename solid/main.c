@@ -11,22 +11,10 @@ static void Fail(void *client, const char *message)
   CoracleFail(client, "%s", message);
 }
 
-static const char CHECKPOINT[] = "solid"; /* its file, without .h5 */
-
-typedef struct {
-  CoracleClient client;
-  const char *resume; /* folder of the checkpoint that is being read, or NULL */
-} Blame;
-
 static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const char *file,
-                            PetscErrorCode code, PetscErrorType type, const char *message, void *blame)
+                            PetscErrorCode code, PetscErrorType type, const char *message, void *client)
 {
-  const Blame *b = blame;
-  if (!message) message = "an error of PETSc";
-  if (b->resume)
-    CoracleFail(b->client, "cannot go on from %s/%s.h5: %s (in %s, %s:%d)", b->resume, CHECKPOINT, message,
-                function, file, line);
-  CoracleFail(b->client, "%s (in %s, %s:%d)", message, function, file, line);
+  CoracleFail(client, "%s (in %s, %s:%d)", message ? message : "an error of PETSc", function, file, line);
 }
 
 static PetscErrorCode Report(CoracleClient client, Solid solid)
@@ -50,15 +38,14 @@ static PetscErrorCode Report(CoracleClient client, Solid solid)
  * -------------------------------------------------------------------------------------------- */
 
 /* *from: the checkpoint that the run goes on from, NULL: from the start. */
-static PetscErrorCode Resume(Blame *blame, Solid solid, Checkpoint *from)
+static PetscErrorCode Resume(CoracleClient client, Solid solid, Checkpoint *from)
 {
+  const char *folder = CoracleResumeFolder(client);
   PetscFunctionBeginUser;
   *from = NULL;
-  blame->resume = CoracleResumeFolder(blame->client);
-  if (!blame->resume) PetscFunctionReturn(0);
-  PetscCall(CheckpointOpen(PETSC_COMM_WORLD, blame->resume, CHECKPOINT, from));
+  if (!folder) PetscFunctionReturn(0);
+  PetscCall(CheckpointOpen(PETSC_COMM_WORLD, folder, "solid", from));
   PetscCall(SolidLoad(solid, *from));
-  blame->resume = NULL;
   PetscFunctionReturn(0);
 }
 
@@ -69,7 +56,7 @@ static PetscErrorCode Save(CoracleClient client, Solid solid, Record record, dou
   Checkpoint to;
   PetscFunctionBeginUser;
   if (!folder) PetscFunctionReturn(0);
-  PetscCall(CheckpointCreate(PETSC_COMM_WORLD, folder, CHECKPOINT, &to));
+  PetscCall(CheckpointCreate(PETSC_COMM_WORLD, folder, "solid", &to));
   PetscCall(SolidSave(solid, to));
   PetscCall(RecordSave(record, waited, to));
   PetscCall(CheckpointClose(&to));
@@ -128,11 +115,10 @@ int main(int argc, char **argv)
   if (CoracleOpen("solid", argc, argv, &comm, &client)) return 1;
   PETSC_COMM_WORLD = comm;
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
-  Blame blame = {client, NULL};
-  PetscCall(PetscPushErrorHandler(Abort, &blame));
+  PetscCall(PetscPushErrorHandler(Abort, client));
   PetscCall(CaseOpen(argc, argv, Fail, client, &c));
   PetscCall(SolidFromCase(c, comm, Fail, client, &solid));
-  PetscCall(Resume(&blame, solid, &from));
+  PetscCall(Resume(client, solid, &from));
   PetscCall(RecordCreate(c, comm, solid, from, &record));
   PetscCall(CheckpointClose(&from));
   PetscCall(CaseClose(&c));

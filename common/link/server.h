@@ -12,7 +12,7 @@ typedef struct Server_s *Server;
 typedef struct {
   int changed; /* nodes, facets or elements were given anew (in this call) */
   int lost;    /* within a step, and so that it cannot be said what has become of the nodes of its start */
-  /* changed within a step and not lost: the elements in the nodes that this rank had when the step began,
+  /* changed on this rank within a step and not lost: the elements in the nodes that this rank had when the step began,
    * [nelements][3]; else NULL */
   const int *before;
   int nnodes, nfacets, nelements; /* on this coupler rank */

@@ -30,7 +30,8 @@ struct Server_s {
   Buffer save; /* path of the checkpoint that is due, or empty */
   /* solid's lists */
   Buffer gid, x, u, mean, mobility, acceleration, facet, element;
-  Buffer start_gid, start_element; /* the solid's when the step began */
+  bool kept_start;                 /* the solid's mesh has changed on this rank in the step */
+  Buffer start_gid, start_element; /* what it was when the step began */
   /* fluid's lists */
   Buffer vertices, rho, u_star, u_plus, pressure, mu;
   int nelements;

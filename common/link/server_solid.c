@@ -47,9 +47,21 @@ static void AppendShifted(Buffer *list, const Buffer *conn, int shift)
   for (size_t i = 0; i < n; i++) to[i] = from[i] + shift;
 }
 
-/* The peers' meshes, one after the other. */
+static void Swap(Buffer *a, Buffer *b)
+{
+  const Buffer c = *a;
+  *a = *b;
+  *b = c;
+}
+
+/* The peers' meshes, one after the other; that of the step's start is kept. */
 static void AssembleMesh(Server s)
 {
+  if (!s->kept_start) {
+    Swap(&s->gid, &s->start_gid);
+    Swap(&s->element, &s->start_element);
+  }
+  s->kept_start = true;
   BufferResize(&s->gid, 0);
   BufferResize(&s->facet, 0);
   BufferResize(&s->element, 0);
@@ -67,8 +79,8 @@ static int CompareIds(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-/* Whether the elements are those that the step began with, on all ranks: each corner the node that it was,
- * or one that is new. */
+/* Whether the elements are those that the step began with: each corner the node that it was, or one that is
+ * new. */
 static bool SameElements(Server s)
 {
   const long long *gid = (const long long *)(const void *)s->gid.data;
@@ -85,7 +97,6 @@ static bool SameElements(Server s)
     same = *id == start_gid[start[k]] || !bsearch(id, sorted, n, sizeof *sorted, CompareIds);
   }
   free(sorted);
-  MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_LAND, s->p->app);
   return same;
 }
 
@@ -102,10 +113,12 @@ int ServerReceiveSolid(Server s, ServerSolid *solid)
   if (changed || !s->received_solid) AssembleMesh(s);
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, s->p->app);
   s->received_solid = true;
-  const bool same = changed && !first && SameElements(s);
+  const bool mine = changed && !first && s->kept_start;
+  int lost = mine && !SameElements(s);
+  if (changed) MPI_Allreduce(MPI_IN_PLACE, &lost, 1, MPI_INT, MPI_LOR, s->p->app);
   *solid = (ServerSolid){.changed = changed,
-                         .lost = changed && !first && !same,
-                         .before = same ? (const int *)(const void *)s->start_element.data : NULL,
+                         .lost = lost,
+                         .before = mine && !lost ? (const int *)(const void *)s->start_element.data : NULL,
                          .nnodes = nnodes,
                          .nfacets = (int)(s->facet.size / (DIM * sizeof(int))),
                          .nelements = (int)(s->element.size / ((DIM + 1) * sizeof(int))),
@@ -125,10 +138,7 @@ int ServerSendForce(Server s, double t, double dt, CoracleAction action, const d
   const int step = s->solid.step; /* which the clients are in until they get this */
   if (!s->received_solid) ServerFail(s, "ServerSendForce comes after the first ServerReceiveSolid");
   SideStep(s, &s->solid, action);
-  if (action == CORACLE_RUN) {
-    memcpy(BufferResize(&s->start_gid, s->gid.size), s->gid.data, s->gid.size);
-    memcpy(BufferResize(&s->start_element, s->element.size), s->element.data, s->element.size);
-  }
+  if (action == CORACLE_RUN) s->kept_start = false;
   for (int i = 0; i < s->solid.n; i++) {
     Peer *peer = &s->solid.peer[i];
     if (action == CORACLE_RUN) {

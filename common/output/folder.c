@@ -43,15 +43,6 @@ PetscErrorCode FolderMake(MPI_Comm comm, const char *folder)
   PetscFunctionReturn(0);
 }
 
-PetscBool FolderHas(MPI_Comm comm, const char *path)
-{
-  PetscMPIInt rank, there;
-  MPI_Comm_rank(comm, &rank);
-  there = rank == 0 && !access(path, F_OK);
-  MPI_Bcast(&there, 1, MPI_INT, 0, comm);
-  return there ? PETSC_TRUE : PETSC_FALSE;
-}
-
 PetscBool FolderHolds(MPI_Comm comm, const char *folder, const char *checkpoint)
 {
   PetscMPIInt rank, holds = 0;
@@ -66,4 +57,14 @@ PetscBool FolderHolds(MPI_Comm comm, const char *folder, const char *checkpoint)
   }
   MPI_Bcast(&holds, 1, MPI_INT, 0, comm);
   return holds ? PETSC_TRUE : PETSC_FALSE;
+}
+
+PetscBool FolderGoesOn(MPI_Comm comm, const char *folder, const char *file, Checkpoint from)
+{
+  PetscMPIInt rank, there;
+  if (!from || !FolderHolds(comm, folder, CheckpointFolder(from))) return PETSC_FALSE;
+  MPI_Comm_rank(comm, &rank);
+  there = rank == 0 && !access(file, F_OK);
+  MPI_Bcast(&there, 1, MPI_INT, 0, comm);
+  return there ? PETSC_TRUE : PETSC_FALSE;
 }

@@ -103,24 +103,36 @@ static PetscErrorCode Select(const char *path, const Hdf5Rows *rows, hid_t space
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Write(hid_t file, const char *path, const Hdf5Rows *rows, hid_t in_memory,
-                            hid_t in_file, const void *value)
+/* This rank's rows between memory and an open dataset, out to it or in from it; closes both. */
+static PetscErrorCode Move(hid_t set, hid_t space, const char *path, const Hdf5Rows *rows, hid_t in_memory,
+                           const void *out, void *in)
 {
-  const hsize_t total[2] = {(hsize_t)rows->total, (hsize_t)rows->ncol};
-  const double nothing = 0.0; /* HDF5 wants an address from ranks without rows, too */
-  hid_t space, memory, set, transfer;
+  double nothing = 0.0; /* HDF5 wants an address from ranks without rows, too */
+  hid_t memory, transfer;
   PetscFunctionBeginUser;
-  H5(space = H5Screate_simple(rows->ncol == 1 ? 1 : 2, total, NULL), "describe", path);
-  H5(set = H5Dcreate2(file, path, in_file, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "create", path);
   H5(transfer = H5Pcreate(H5P_DATASET_XFER), "set up", path);
   H5(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE), "set up", path);
   PetscCall(Select(path, rows, space, &memory));
-  if (rows->total)
-    H5(H5Dwrite(set, in_memory, memory, space, transfer, rows->n ? value : &nothing), "write", path);
+  if (rows->total && in)
+    H5(H5Dread(set, in_memory, memory, space, transfer, in), "read", path);
+  else if (rows->total)
+    H5(H5Dwrite(set, in_memory, memory, space, transfer, rows->n ? out : &nothing), "write", path);
   H5(H5Pclose(transfer), "close", path);
   H5(H5Sclose(memory), "close", path);
   H5(H5Sclose(space), "close", path);
   H5(H5Dclose(set), "close", path);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Write(hid_t file, const char *path, const Hdf5Rows *rows, hid_t in_memory,
+                            hid_t in_file, const void *value)
+{
+  const hsize_t total[2] = {(hsize_t)rows->total, (hsize_t)rows->ncol};
+  hid_t space, set;
+  PetscFunctionBeginUser;
+  H5(space = H5Screate_simple(rows->ncol == 1 ? 1 : 2, total, NULL), "describe", path);
+  H5(set = H5Dcreate2(file, path, in_file, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "create", path);
+  PetscCall(Move(set, space, path, rows, in_memory, value, NULL));
   PetscFunctionReturn(0);
 }
 
@@ -143,20 +155,12 @@ PetscErrorCode Hdf5WriteIndices(hid_t file, const char *path, const Hdf5Rows *ro
 
 static PetscErrorCode Read(hid_t file, const char *path, const Hdf5Rows *rows, hid_t in_memory, void *value)
 {
-  double nothing; /* HDF5 wants an address from ranks without rows, too */
-  hid_t space, memory, set, transfer;
+  double nothing;
+  hid_t space, set;
   PetscFunctionBeginUser;
   H5(set = H5Dopen2(file, path, H5P_DEFAULT), "open", path);
   H5(space = H5Dget_space(set), "describe", path);
-  H5(transfer = H5Pcreate(H5P_DATASET_XFER), "set up", path);
-  H5(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE), "set up", path);
-  PetscCall(Select(path, rows, space, &memory));
-  if (rows->total)
-    H5(H5Dread(set, in_memory, memory, space, transfer, rows->n ? value : &nothing), "read", path);
-  H5(H5Pclose(transfer), "close", path);
-  H5(H5Sclose(memory), "close", path);
-  H5(H5Sclose(space), "close", path);
-  H5(H5Dclose(set), "close", path);
+  PetscCall(Move(set, space, path, rows, in_memory, NULL, rows->n ? value : &nothing));
   PetscFunctionReturn(0);
 }
 

@@ -76,7 +76,7 @@ PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name,
   o->every = every;
   if (from) PetscCall(CheckpointGetNumber(from, "output next", &o->next));
   snprintf(path, sizeof path, "%s/%s.h5", folder, name);
-  if (from && FolderHolds(comm, folder, CheckpointFolder(from)) && FolderHas(comm, path)) {
+  if (FolderGoesOn(comm, folder, path, from)) {
     PetscCall(CheckpointGetNumber(from, "output snapshots", &snapshots));
     PetscCall(CheckpointGetNumber(from, "output index length", &length));
     o->nsnapshot = (long long)snapshots;

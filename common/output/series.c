@@ -51,7 +51,7 @@ PetscErrorCode SeriesCreate(MPI_Comm comm, const char *folder, const char *name,
   s->ncolumn = 1;
   for (const char *c = columns; *c; c++) s->ncolumn += *c == ',';
   *series = s;
-  if (from && FolderHolds(comm, folder, CheckpointFolder(from)) && FolderHas(comm, s->path))
+  if (FolderGoesOn(comm, folder, s->path, from))
     PetscCall(CheckpointGetNumber(from, "series length", &length));
   PetscCall(AgreeWithRoot(comm, rank != 0      ? 0
                                 : length > 0.0 ? Continue(s, (long)length)

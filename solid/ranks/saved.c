@@ -132,7 +132,7 @@ static PetscErrorCode GetNodes(void *checkpoint, Solid to, NodeState node[])
   PetscCall(GetRows(checkpoint, &NODES, TakeNode, &f));
   PetscCall(NodeNamesDestroy(&f.names));
   PetscCheck(f.found == to->nnodes, PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED,
-             "the checkpoint has %d of %d nodes", f.found, to->nnodes);
+             "%s/solid.h5 has %d of %d nodes", CheckpointFolder(checkpoint), f.found, to->nnodes);
   PetscFunctionReturn(0);
 }
 
@@ -299,8 +299,8 @@ static PetscErrorCode CheckFits(Solid s, Checkpoint from)
   for (int k = 0; k < NCOUNTS; k++) {
     PetscCall(CheckpointGetNumber(from, COUNTS[k], &found));
     PetscCheck(found == expected[k], s->comm, PETSC_ERR_FILE_UNEXPECTED,
-               "the checkpoint is of other bodies: it has %.0f %s, the case has %d", found, COUNTS[k],
-               expected[k]);
+               "cannot go on from %s/solid.h5: it is of other bodies: it has %.0f %s, the case has %d",
+               CheckpointFolder(from), found, COUNTS[k], expected[k]);
   }
   PetscFunctionReturn(0);
 }
