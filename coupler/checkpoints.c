@@ -1,6 +1,6 @@
-#include "checkpoints.h"
-#include "folder.h"
-#include "participant.h"
+#include "coupler/checkpoints.h"
+#include "common/link/participant.h"
+#include "common/output/folder.h"
 #include <dirent.h>
 #include <errno.h>
 #include <string.h>
@@ -50,7 +50,7 @@ static void RemoveOthers(const Checkpoints *k, const char *kept)
 
 PetscErrorCode CheckpointsCreate(MPI_Comm comm, Server server, const CouplerCase *c, Checkpoints *k)
 {
-  const char *resume = ServerResumeFolder(server);
+  const char *resume = ServerResumePath(server);
   char link[sizeof k->due];
   PetscBool root;
 

@@ -8,8 +8,8 @@
  * happens at once or not at all, and the old one removed.  A run that is killed leaves a whole checkpoint. */
 #ifndef CORACLE_CHECKPOINTS_H
 #define CORACLE_CHECKPOINTS_H
-#include "coupler_case.h"
-#include "server.h"
+#include "common/link/server.h"
+#include "coupler/coupler_case.h"
 
 typedef struct {
   MPI_Comm comm;

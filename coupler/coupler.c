@@ -1,4 +1,4 @@
-#include "coupler_impl.h"
+#include "coupler/coupler_impl.h"
 
 const char *const COUPLER_MODES[] = {"reaction", "stress_shell", "penalty_shell", NULL};
 static const CouplerActions *const ACTIONS[] = {&COUPLER_ACTIONS_REACTION, &COUPLER_ACTIONS_STRESS_SHELL,
@@ -104,8 +104,8 @@ PetscErrorCode CouplerBuild(Coupler c, const ServerSolid *solid, double dt, int 
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CouplerAim(Coupler c, const double mobility[], const double u[], int *n,
-                          const CoracleCoupling **coupling)
+PetscErrorCode CouplerSetInterfaceVelocity(Coupler c, const double mobility[], const double u[], int *n,
+                                           const CoracleCoupling **coupling)
 {
   const Overlap o = c->overlap;
   double(*aim)[3][2], (*gives)[3];
@@ -140,7 +140,7 @@ PetscErrorCode CouplerReact(Coupler c, const ServerFlow *flow, const double **fo
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CouplerLeaveFluid(Coupler c, const ServerSolid *moved)
+PetscErrorCode CouplerNoCorrection(Coupler c, const ServerSolid *moved)
 {
   PetscFunctionBeginUser;
   PetscFunctionReturn(0);
@@ -152,7 +152,7 @@ PetscErrorCode CouplerReactConserving(Coupler c)
   ForceReaction(c->overlap, c->weight, c->firmness, &c->flow, c->vertex);
   ForceInertia(c->overlap, c->dt, c->options.gravity, c->flow.u_plus, (const double(*)[3][2])c->now,
                c->vertex);
-  PetscCall(ForceBringHome(c->overlap, c->vertex, c->nnodes, c->node));
+  PetscCall(ForceAssembleToOwners(c->overlap, c->vertex, c->nnodes, c->node));
   PetscFunctionReturn(0);
 }
 
@@ -175,7 +175,7 @@ PetscErrorCode CouplerCorrect(Coupler c, const ServerSolid *moved, int *n,
   PetscCall(PetscFree(c->correction));
   PetscCall(PetscCalloc1(c->overlap->nentries, &c->correction));
   for (int e = 0; e < c->overlap->nentries; e++) c->correction[e].element = c->overlap->element[e];
-  PetscCall(moved->changed ? CouplerLeaveFluid(c, moved) : c->actions->correct(c, moved));
+  PetscCall(moved->changed ? CouplerNoCorrection(c, moved) : c->actions->correct(c, moved));
   *n = c->overlap->nentries;
   *correction = c->correction;
   PetscFunctionReturn(0);

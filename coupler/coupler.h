@@ -16,7 +16,7 @@
  *                      inertia of the fluid inside and buoyancy.  Conservative. */
 #ifndef CORACLE_COUPLER_H
 #define CORACLE_COUPLER_H
-#include "force.h"
+#include "coupler/force.h"
 
 typedef struct Coupler_s *Coupler;
 
@@ -37,14 +37,14 @@ PetscErrorCode CouplerCreate(MPI_Comm comm, const CouplerOptions *options, Coupl
  * place. */
 PetscErrorCode CouplerSetElements(Coupler coupler, const ServerElements *elements);
 /* The coupling over the coming step of dt seconds with the solid as it is: one entry per touched element.
- * The solid's velocity is used until CouplerReact has returned or CouplerAim gives another; coupling is
+ * The solid's velocity is used until CouplerReact has returned or CouplerSetInterfaceVelocity gives another; coupling is
  * borrowed until the next CouplerBuild. */
 PetscErrorCode CouplerBuild(Coupler coupler, const ServerSolid *solid, double dt, int *n,
                             const CoracleCoupling **coupling);
 /* For another try of the step: the coupling with u[nnodes][2], m/s, as the solid's velocity, but where
  * nodes give way by themselves (mobility[nnodes] > 0).  u is used as the solid's arrays are. */
-PetscErrorCode CouplerAim(Coupler coupler, const double mobility[], const double u[], int *n,
-                          const CoracleCoupling **coupling);
+PetscErrorCode CouplerSetInterfaceVelocity(Coupler coupler, const double mobility[], const double u[], int *n,
+                                           const CoracleCoupling **coupling);
 /* The force on the solid's nodes [nnodes][2], N, borrowed until the next call of this; the flow's arrays are
  * used until CouplerCorrect has returned. */
 PetscErrorCode CouplerReact(Coupler coupler, const ServerFlow *flow, const double **force,

@@ -1,4 +1,4 @@
-#include "coupler_case.h"
+#include "coupler/coupler_case.h"
 #include <math.h>
 #include <stdio.h>
 

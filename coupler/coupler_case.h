@@ -1,8 +1,8 @@
 /* What the coupler reads from the case file: sections case, note, gravity, time, coupler, output. */
 #ifndef CORACLE_COUPLER_CASE_H
 #define CORACLE_COUPLER_CASE_H
-#include "case_file.h"
-#include "coupler.h"
+#include "common/link/case_file.h"
+#include "coupler/coupler.h"
 
 typedef struct {
   char name[128], note[512], folder[512];

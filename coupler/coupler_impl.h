@@ -1,7 +1,7 @@
 /* The inside of the coupler, for its modes. */
 #ifndef CORACLE_COUPLER_IMPL_H
 #define CORACLE_COUPLER_IMPL_H
-#include "coupler.h"
+#include "coupler/coupler.h"
 
 /* What a mode decides; each function is collective. */
 typedef struct {
@@ -38,7 +38,7 @@ extern const CouplerActions COUPLER_ACTIONS_REACTION, COUPLER_ACTIONS_STRESS_SHE
 PetscErrorCode CouplerReactConserving(Coupler coupler);
 /* The correction that gives the fluid inside the solid the solid's velocity; and that of modes that leave it alone. */
 PetscErrorCode CouplerFillSolid(Coupler coupler, const ServerSolid *moved);
-PetscErrorCode CouplerLeaveFluid(Coupler coupler, const ServerSolid *moved);
+PetscErrorCode CouplerNoCorrection(Coupler coupler, const ServerSolid *moved);
 /* P1 values of the P2 pressure p[6] on one element: its L2 projection. */
 void CouplerPressureP1(const double p[6], double p1[3]);
 #endif

@@ -1,4 +1,4 @@
-#include "force.h"
+#include "coupler/force.h"
 
 /* q[i] = int over the pair of N_T,i (u - u_s): u [2][3] on the fluid element, u_s [3][2] on the piece. */
 static void Slip(const SupermeshPair *pair, const double u[6], const double us[3][2], double q[3][2])
@@ -53,7 +53,7 @@ void ForceInertia(const Overlap o, double dt, const double gravity[2], const dou
   }
 }
 
-PetscErrorCode ForceBringHome(Overlap o, const ForceVertex vertex[], int nnodes, ForceVertex node[])
+PetscErrorCode ForceAssembleToOwners(Overlap o, const ForceVertex vertex[], int nnodes, ForceVertex node[])
 {
   PetscFunctionBeginUser;
   PetscCall(OverlapPiecesToNodes(o, 4, (const double *)vertex, nnodes, (double *)node));

@@ -14,7 +14,7 @@
  * inside the solid. */
 #ifndef CORACLE_FORCE_H
 #define CORACLE_FORCE_H
-#include "wall_term.h"
+#include "coupler/wall_term.h"
 
 /* Contributions of pieces' vertices: the reaction, and everything else. */
 typedef struct {
@@ -41,7 +41,8 @@ void ForceReaction(const Overlap overlap, const WallWeight weight[], const doubl
 void ForceInertia(const Overlap overlap, double dt, const double gravity[2], const double u_plus[],
                   const double now[][3][2], ForceVertex vertex[]);
 /* Collective: brings the contributions home: node[nnodes]. */
-PetscErrorCode ForceBringHome(Overlap overlap, const ForceVertex vertex[], int nnodes, ForceVertex node[]);
+PetscErrorCode ForceAssembleToOwners(Overlap overlap, const ForceVertex vertex[], int nnodes,
+                                     ForceVertex node[]);
 /* Collective: the totals; coupling is what the fluid was sent, flow what came back. */
 PetscErrorCode ForceSum(const Overlap overlap, const CoracleCoupling coupling[], const ServerFlow *flow,
                         int nnodes, const ForceVertex node[], ForceTotals *totals);

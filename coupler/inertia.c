@@ -1,5 +1,5 @@
-#include "inertia.h"
-#include "node_sum.h"
+#include "coupler/inertia.h"
+#include "coupler/node_sum.h"
 
 /* A node's mass beyond that of the fluid in its place counts (less than 0 for a light solid: with the fluid's own it is
  * still positive), and never less than this part of it, for m - m_f divides. */
@@ -7,14 +7,14 @@
 
 /* Where a node gives way its volume is held that much more firmly: no stability is at stake, and what slips
  * through is dt f/m over the relaxation. */
-#define FIRMER 1e4
+#define PENALTY_SCALE 1e4
 
 enum { IMPEDANCE, DISPLACED, NSUMS };
 
 /* z[nnodes]: over all ranks' pairs the sums of int a N_i, a the mean of the weight's two eigenvalues, kg/s,
  * and of int rho N_i over the volume, kg. */
-static PetscErrorCode Resist(const Overlap o, const ServerSolid *solid, const WallWeight weight[],
-                             double z[][NSUMS])
+static PetscErrorCode Impedance(const Overlap o, const ServerSolid *solid, const WallWeight weight[],
+                                double z[][NSUMS])
 {
   double(*vertex)[3][NSUMS];
   NodeSum sum;
@@ -44,7 +44,7 @@ static double Largest(const double v[3])
   return fmax(v[0], fmax(v[1], v[2]));
 }
 
-static PetscErrorCode HoldFirmly(Overlap o, const double mobility[], WallWeight weight[])
+static PetscErrorCode ScalePenalty(Overlap o, const double mobility[], WallWeight weight[])
 {
   double(*vertex)[3];
 
@@ -53,7 +53,8 @@ static PetscErrorCode HoldFirmly(Overlap o, const double mobility[], WallWeight 
   PetscCall(OverlapNodesToPieces(o, 1, mobility, &vertex[0][0]));
   for (int p = 0; p < o->pairs.n; p++) {
     const int t = o->pairs.pair[p].a;
-    if (!o->piece[t].is_shell && Largest(vertex[t]) > 0.0) weight[p] = WallWeightScaled(&weight[p], FIRMER);
+    if (!o->piece[t].is_shell && Largest(vertex[t]) > 0.0)
+      weight[p] = WallWeightScaled(&weight[p], PENALTY_SCALE);
   }
   PetscCall(PetscFree(vertex));
   PetscFunctionReturn(0);
@@ -73,7 +74,8 @@ static void YieldNode(const ServerSolid *solid, int i, double dt, const double g
 }
 
 /* Firmness and v' of the pieces. */
-static PetscErrorCode Meet(Overlap o, const double b[], const double v[][2], double firmness[])
+static PetscErrorCode ApplyEffectiveVelocity(Overlap o, const double b[], const double v[][2],
+                                             double firmness[])
 {
   double(*vertex)[3], (*velocity)[3][2];
 
@@ -100,10 +102,10 @@ PetscErrorCode InertiaYield(Overlap o, const ServerSolid *solid, double dt, cons
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &yields, 1, MPI_INT, MPI_LOR, o->comm));
   if (!yields) PetscFunctionReturn(0);
   PetscCall(PetscMalloc3(solid->nnodes, &z, solid->nnodes, &b, solid->nnodes, &v));
-  PetscCall(HoldFirmly(o, solid->mobility, weight));
-  PetscCall(Resist(o, solid, weight, z));
+  PetscCall(ScalePenalty(o, solid->mobility, weight));
+  PetscCall(Impedance(o, solid, weight, z));
   for (int i = 0; i < solid->nnodes; i++) YieldNode(solid, i, dt, gravity, z[i], &b[i], v[i]);
-  PetscCall(Meet(o, b, (const double(*)[2])v, firmness));
+  PetscCall(ApplyEffectiveVelocity(o, b, (const double(*)[2])v, firmness));
   for (int p = 0; p < o->pairs.n; p++) weight[p] = WallWeightScaled(&weight[p], firmness[o->pairs.pair[p].a]);
   PetscCall(PetscFree3(z, b, v));
   PetscFunctionReturn(0);

@@ -16,8 +16,8 @@
  * Where nothing gives way b = 1 and v' = v^n. */
 #ifndef CORACLE_INERTIA_H
 #define CORACLE_INERTIA_H
-#include "overlap.h"
-#include "wall_term.h"
+#include "coupler/overlap.h"
+#include "coupler/wall_term.h"
 
 /* Collective, if any node has a mobility: firmness[npieces], the mean of b over the piece's vertices; weight
  * *= it; the pieces' velocity becomes v'. */

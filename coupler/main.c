@@ -6,8 +6,8 @@
  *         solid   new position and velocity        -->  correction of the fluid; shell and overlap at the new position
  *         fluid   <--  correction, coupling of the next step; or the same step again, with another velocity
  *     write the summary */
-#include "scheme.h"
-#include "summary.h"
+#include "coupler/summary.h"
+#include "coupler/time_loop.h"
 
 static void Refuse(void *server, const char *message)
 {
@@ -22,19 +22,19 @@ static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const
 
 static PetscErrorCode Run(Server server, const CouplerCase *c)
 {
-  Scheme scheme = {.server = server, .c = c};
-  const char *folder = ServerResumeFolder(server);
-  RecordTotals totals;
+  TimeLoop scheme = {.server = server, .c = c};
+  const char *folder = ServerResumePath(server);
+  WriterTotals totals;
 
   PetscFunctionBeginUser;
   if (folder) PetscCall(CheckpointOpen(PETSC_COMM_WORLD, folder, "coupler", &scheme.from));
   PetscCall(CouplerCreate(PETSC_COMM_WORLD, &c->options, &scheme.coupler));
   PetscCall(RegionCreate(PETSC_COMM_WORLD, c->options.thickness, &scheme.region));
-  PetscCall(RecordCreate(PETSC_COMM_WORLD, c, scheme.from, &scheme.record));
-  PetscCall(SchemeRun(&scheme));
-  PetscCall(RecordTotalsOf(scheme.record, CouplerOverlap(scheme.coupler)->nelements, &totals));
+  PetscCall(WriterCreate(PETSC_COMM_WORLD, c, scheme.from, &scheme.record));
+  PetscCall(TimeLoopRun(&scheme));
+  PetscCall(WriterTotalsOf(scheme.record, CouplerOverlap(scheme.coupler)->nelements, &totals));
   PetscCall(SummaryWrite(server, c, &totals));
-  PetscCall(RecordDestroy(&scheme.record));
+  PetscCall(WriterDestroy(&scheme.record));
   PetscCall(RegionDestroy(&scheme.region));
   PetscCall(CouplerDestroy(&scheme.coupler));
   PetscCall(CheckpointClose(&scheme.from));

@@ -2,7 +2,7 @@
  * The force is the reaction to it, so that momentum is kept, and the fluid inside takes the solid's velocity at the step's
  * end [5].  With the pressure integrated over the surface instead, and the inside left alone, a disc falls half as
  * fast as it should and the flow inside of it runs away. */
-#include "coupler_impl.h"
+#include "coupler/coupler_impl.h"
 
 static PetscErrorCode Weigh(Coupler c, const ServerSolid *solid)
 {

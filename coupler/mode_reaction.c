@@ -1,7 +1,7 @@
 /* Mode reaction: sigma in the solid's volume, the wall term in its shell, and the force as the reaction to
  * both. */
-#include "coupler_impl.h"
-#include "inertia.h"
+#include "coupler/coupler_impl.h"
+#include "coupler/inertia.h"
 
 static PetscErrorCode Weigh(Coupler c, const ServerSolid *solid)
 {

@@ -7,8 +7,8 @@
  * is the velocity in [44]: viscous forces from the projected velocity are unstable in an explicit exchange
  * (method.md section 9). Not conservative: [44]'s wall term is evaluated from projected fields.  The fluid is
  * not corrected. */
-#include "coupler_impl.h"
-#include "surface.h"
+#include "coupler/coupler_impl.h"
+#include "coupler/surface.h"
 
 /* Fields fluid -> surface. */
 enum { PRESSURE, VELOCITY, STRESS = VELOCITY + 2, VISCOSITY = STRESS + 3, EXTENT, FIELDS };
@@ -165,4 +165,4 @@ static PetscErrorCode React(Coupler c)
   PetscFunctionReturn(0);
 }
 
-const CouplerActions COUPLER_ACTIONS_STRESS_SHELL = {Weigh, React, CouplerLeaveFluid};
+const CouplerActions COUPLER_ACTIONS_STRESS_SHELL = {Weigh, React, CouplerNoCorrection};

@@ -1,5 +1,5 @@
-#include "node_sum.h"
-#include "route.h"
+#include "coupler/node_sum.h"
+#include "common/transfer/route.h"
 #include <stdlib.h>
 
 /* Copies meet on rank gid % size, where those of one node are put in one group. */

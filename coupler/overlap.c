@@ -1,4 +1,4 @@
-#include "overlap.h"
+#include "coupler/overlap.h"
 
 PetscErrorCode OverlapCreate(MPI_Comm comm, Overlap *overlap)
 {

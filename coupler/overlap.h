@@ -16,10 +16,10 @@
  * Fields are there to be read; functions are collective unless said otherwise. */
 #ifndef CORACLE_OVERLAP_H
 #define CORACLE_OVERLAP_H
-#include "route.h"
-#include "server.h"
-#include "shell.h"
-#include "supermesh.h"
+#include "common/link/server.h"
+#include "common/supermesh/supermesh.h"
+#include "common/transfer/route.h"
+#include "coupler/shell.h"
 
 typedef struct {
   double x[3][2], u[3][2]; /* m; m/s, the velocity that the fluid is given */

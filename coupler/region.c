@@ -1,6 +1,6 @@
-#include "region.h"
-#include "geometry.h"
-#include "shell.h"
+#include "coupler/region.h"
+#include "common/supermesh/geometry.h"
+#include "coupler/shell.h"
 #include <limits.h>
 
 PetscErrorCode RegionCreate(MPI_Comm comm, double thickness, Region *region)

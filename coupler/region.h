@@ -3,7 +3,7 @@
  * asked again. */
 #ifndef CORACLE_REGION_H
 #define CORACLE_REGION_H
-#include "server.h"
+#include "common/link/server.h"
 #include <petscsys.h>
 
 enum { REGION_SIDE = 16, REGION_BOXES = REGION_SIDE * REGION_SIDE, REGION_STEPS = 20 };

@@ -1,4 +1,4 @@
-#include "shell.h"
+#include "coupler/shell.h"
 #include <math.h>
 
 PetscErrorCode ShellCreate(MPI_Comm comm, double thickness, Shell *shell)

@@ -12,8 +12,8 @@
  * edge. */
 #ifndef CORACLE_SHELL_H
 #define CORACLE_SHELL_H
-#include "node_sum.h"
-#include "server.h"
+#include "common/link/server.h"
+#include "coupler/node_sum.h"
 
 /* At sharp corners the offset is cut to this many thicknesses (reached where the surface turns by 120
  * degrees). */

@@ -1,4 +1,4 @@
-#include "summary.h"
+#include "coupler/summary.h"
 #include <errno.h>
 #include <string.h>
 
@@ -73,7 +73,7 @@ static void WriteField(FILE *f, const char *key, double value)
   fprintf(f, ",\n");
 }
 
-static void WriteAll(FILE *f, const CouplerCase *c, const RecordTotals *t, const Reports *reports)
+static void WriteAll(FILE *f, const CouplerCase *c, const WriterTotals *t, const Reports *reports)
 {
   static const char *const ROLES[] = {"fluid", "coupler", "solid"};
   fprintf(f, "{\n  \"case\": ");
@@ -98,7 +98,7 @@ static void WriteAll(FILE *f, const CouplerCase *c, const RecordTotals *t, const
   fprintf(f, "  }\n}\n");
 }
 
-PetscErrorCode SummaryWrite(Server server, const CouplerCase *c, const RecordTotals *t)
+PetscErrorCode SummaryWrite(Server server, const CouplerCase *c, const WriterTotals *t)
 {
   static Reports reports;
   char path[600];

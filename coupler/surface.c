@@ -1,4 +1,4 @@
-#include "surface.h"
+#include "coupler/surface.h"
 
 /* What is summed for a shell triangle: right-hand sides, covered mass, covered area. */
 enum { MASS = 3 * SURFACE_FIELDS_MAX, AREA = MASS + 9, SUMS = AREA + 1 };

@@ -9,7 +9,7 @@
  * uses what it has; where less than half of a triangle is covered its field is taken as constant. */
 #ifndef CORACLE_SURFACE_H
 #define CORACLE_SURFACE_H
-#include "overlap.h"
+#include "coupler/overlap.h"
 
 enum { SURFACE_FIELDS_MAX = 8 };
 

@@ -1,4 +1,4 @@
-#include "wall_term.h"
+#include "coupler/wall_term.h"
 
 /* c[j] += int over the pair of N_K,j u_s, from the velocities at the piece's vertices: by component, then
  * vertex of K. */

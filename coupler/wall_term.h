@@ -7,7 +7,7 @@
  * times Gram matrices is positive semidefinite. */
 #ifndef CORACLE_WALL_TERM_H
 #define CORACLE_WALL_TERM_H
-#include "overlap.h"
+#include "coupler/overlap.h"
 
 typedef struct {
   double xx, xy, yy; /* kg/(m3 s) */

@@ -1,10 +1,10 @@
-#include "adaptation.h"
-#include "adapt_parallel.h"
-#include "fluid_impl.h"
-#include "geometry.h"
-#include "metric.h"
-#include "metric_share.h"
-#include "solid_band.h"
+#include "fluid/adaptation.h"
+#include "common/supermesh/geometry.h"
+#include "fluid/adapt/adapt_parallel.h"
+#include "fluid/adapt/metric.h"
+#include "fluid/adapt/metric_share.h"
+#include "fluid/fluid_impl.h"
+#include "fluid/solid_band.h"
 
 /* Tries to meet the budget of elements. */
 #define BUDGET_ROUNDS 10

@@ -2,7 +2,7 @@
  * size le in the band that the solid's surface will sweep until the next time. */
 #ifndef FLUID_ADAPTATION_H
 #define FLUID_ADAPTATION_H
-#include "fluid.h"
+#include "fluid/fluid.h"
 
 typedef struct {
   double size_min, size_max; /* le, Le: lengths of edges, m */

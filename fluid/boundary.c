@@ -1,5 +1,5 @@
 /* Boundaries: what is prescribed where. */
-#include "fluid_impl.h"
+#include "fluid/fluid_impl.h"
 
 PetscErrorCode BoundaryPrepare(Fluid f)
 {

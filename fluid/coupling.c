@@ -1,5 +1,5 @@
 /* The solid in the fluid: which element carries which coupling data, and the correction that ends a step. */
-#include "fluid_impl.h"
+#include "fluid/fluid_impl.h"
 
 PetscErrorCode FluidSetCoupling(Fluid f, int n, const CoracleCoupling coupling[])
 {

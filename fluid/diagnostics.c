@@ -1,5 +1,5 @@
 /* What is measured of a flow: momentum, forces on boundaries, errors against exact fields. */
-#include "fluid_impl.h"
+#include "fluid/fluid_impl.h"
 
 PetscErrorCode FluidMomentumTotal(Fluid f, double momentum[2], double *energy)
 {

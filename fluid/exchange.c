@@ -1,4 +1,4 @@
-#include "exchange.h"
+#include "fluid/exchange.h"
 
 struct Exchange_s {
   CoracleClient client; /* borrowed */
@@ -133,7 +133,7 @@ PetscErrorCode ExchangeFlow(Exchange x, Fluid next, PetscBool *stands, const Cor
   if (next) PetscCall(CoracleElementsChanged(x->client));
   if (next) x->given = next;
   PetscCall(CoracleEnd(x->client, NULL));
-  *stands = CoracleStands(x->client) ? PETSC_TRUE : PETSC_FALSE;
+  *stands = CoracleStepAccepted(x->client) ? PETSC_TRUE : PETSC_FALSE;
   if (*stands)
     x->fluid = x->given;
   else

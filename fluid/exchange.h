@@ -1,7 +1,7 @@
 /* The fluid's side of the link: which elements are near the solid, and what travels for them. */
 #ifndef FLUID_EXCHANGE_H
 #define FLUID_EXCHANGE_H
-#include "fluid.h"
+#include "fluid/fluid.h"
 
 typedef struct Exchange_s *Exchange;
 

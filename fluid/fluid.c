@@ -1,5 +1,5 @@
 /* The fluid's life: create, initial state, step control, views. */
-#include "fluid_impl.h"
+#include "fluid/fluid_impl.h"
 
 static PetscErrorCode CreateElements(Fluid f)
 {

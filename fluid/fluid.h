@@ -9,10 +9,10 @@
  * All functions are collective over mesh->comm unless said otherwise. */
 #ifndef FLUID_H
 #define FLUID_H
-#include "checkpoint.h"
-#include "coracle.h"
-#include "kernels.h"
-#include "mesh.h"
+#include "common/link/coracle.h"
+#include "common/mesh/mesh.h"
+#include "common/output/checkpoint.h"
+#include "fluid/kernels.h"
 #include <petscksp.h>
 
 /* v: value(s) at x and t */

@@ -1,6 +1,6 @@
-#include "fluid_case.h"
-#include "geometry.h"
-#include "mesh_checkpoint.h"
+#include "fluid/fluid_case.h"
+#include "common/mesh/mesh_checkpoint.h"
+#include "common/supermesh/geometry.h"
 
 /* --- mesh: a graded box, or a Gmsh file
  * ------------------------------------------------------------------------ */

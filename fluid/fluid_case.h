@@ -1,9 +1,9 @@
 /* The fluid's part of the case file (sections fluid, gravity, time) and the mesh that it describes. */
 #ifndef FLUID_CASE_H
 #define FLUID_CASE_H
-#include "adaptation.h"
-#include "case_file.h"
-#include "fluid.h"
+#include "common/link/case_file.h"
+#include "fluid/adaptation.h"
+#include "fluid/fluid.h"
 
 /* Collective over comm.  Builds or reads the mesh and distributes it; with a checkpoint (else NULL) the mesh
  * is the one that was saved there, and *row as of MeshLoad. */

@@ -1,7 +1,7 @@
 /* Private to the fluid: what is behind the handle. */
 #ifndef FLUID_IMPL_H
 #define FLUID_IMPL_H
-#include "fluid.h"
+#include "fluid/fluid.h"
 
 enum { ASSEMBLY, MOMENTUM, PRESSURE, COUPLING, ADAPTATION, SETUP };
 
@@ -72,9 +72,9 @@ PetscErrorCode PressureDestroy(Fluid f);
 PetscErrorCode PressureSolver(Fluid f, const char *prefix, KSPType type, KSP *ksp);
 /* giving.c: matrix and responses of the step in hand; u -= response to grad phi, or false where nothing gives
  * way */
-PetscErrorCode GivingPrepare(Fluid f, double dt);
-PetscBool GivingVelocity(Fluid f, int e, const double grad[3][2], double u[6]);
-PetscErrorCode GivingDestroy(Fluid f);
+PetscErrorCode WeightedProjectionPrepare(Fluid f, double dt);
+PetscBool WeightedProjectionVelocity(Fluid f, int e, const double grad[3][2], double u[6]);
+PetscErrorCode WeightedProjectionDestroy(Fluid f);
 
 /* What element e contributes to the kernels of its face i; its two vertices are (i + 1) % 3 and (i + 2) % 3.
  */

@@ -1,9 +1,9 @@
 /* coracle-fluid: the fluid participant.  coracle-fluid case.yaml [--set key=value]... */
-#include "adaptation.h"
-#include "exchange.h"
-#include "fluid_case.h"
-#include "mesh_checkpoint.h"
-#include "record.h"
+#include "common/mesh/mesh_checkpoint.h"
+#include "fluid/adaptation.h"
+#include "fluid/exchange.h"
+#include "fluid/fluid_case.h"
+#include "fluid/writer.h"
 
 static void Fail(void *client, const char *message)
 {
@@ -26,15 +26,15 @@ typedef struct {
   Mesh *mesh;
   Fluid fluid;
   Exchange exchange;
-  Record record;
+  Writer record;
   Adaptation adaptation; /* NULL: the mesh stays */
   PetscBool new_mesh;    /* since the last step */
-} March;
+} RunState;
 
 /* ExchangeFirst: the solid has shown where it is, and the fluid starts on a mesh that is fine there. */
 static PetscErrorCode FirstMesh(void *context, int nbox, const double box[], Fluid *fluid)
 {
-  March *m = context;
+  RunState *m = context;
   Mesh *mesh;
   PetscFunctionBeginUser;
   PetscCall(AdaptationFirstMesh(m->adaptation, m->mesh, nbox, box, &mesh));
@@ -50,9 +50,9 @@ static PetscErrorCode FirstMesh(void *context, int nbox, const double box[], Flu
 /* --- checkpoints ---------------------------------------------------------------------------------------- */
 
 /* If a checkpoint is due: what the fluid is as the step begins, or at the end. */
-static PetscErrorCode Save(const March *m)
+static PetscErrorCode Save(const RunState *m)
 {
-  const char *folder = CoracleSaveFolder(m->client);
+  const char *folder = CoracleCheckpointPath(m->client);
   Checkpoint to;
   PetscFunctionBeginUser;
   if (!folder) PetscFunctionReturn(0);
@@ -61,12 +61,12 @@ static PetscErrorCode Save(const March *m)
   PetscCall(FluidSave(m->fluid, to));
   PetscCall(CheckpointPutNumber(to, "new mesh", m->new_mesh));
   PetscCall(AdaptationSave(m->adaptation, to));
-  PetscCall(RecordSave(m->record, to));
+  PetscCall(WriterSave(m->record, to));
   PetscCall(CheckpointClose(&to));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Load(March *m, Checkpoint from, const PetscInt row[])
+static PetscErrorCode Load(RunState *m, Checkpoint from, const PetscInt row[])
 {
   double new_mesh;
   PetscFunctionBeginUser;
@@ -80,7 +80,7 @@ static PetscErrorCode Load(March *m, Checkpoint from, const PetscInt row[])
 /* --- the run -------------------------------------------------------------------------------------------- */
 
 /* What the case says, with the mesh of a checkpoint if there is one. */
-static PetscErrorCode Create(March *m, MPI_Comm comm, const char *resume, Checkpoint from, PetscInt **row)
+static PetscErrorCode Create(RunState *m, MPI_Comm comm, const char *resume, Checkpoint from, PetscInt **row)
 {
   FluidSetup setup;
   AdaptationSetup adaptation;
@@ -98,9 +98,9 @@ static PetscErrorCode Create(March *m, MPI_Comm comm, const char *resume, Checkp
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Setup(March *m, MPI_Comm comm)
+static PetscErrorCode Setup(RunState *m, MPI_Comm comm)
 {
-  const char *resume = CoracleResumeFolder(m->client);
+  const char *resume = CoracleResumePath(m->client);
   Checkpoint from = NULL;
   PetscInt *row = NULL;
   PetscFunctionBeginUser;
@@ -112,7 +112,7 @@ static PetscErrorCode Setup(March *m, MPI_Comm comm)
     PetscCall(FluidSetInitial(m->fluid, 0.0, NULL, NULL, NULL));
   PetscCall(PetscFree(row));
   PetscCall(ExchangeCreate(m->client, m->fluid, m->adaptation && !from ? FirstMesh : NULL, m, &m->exchange));
-  PetscCall(RecordCreate(m->c, m->fluid, from, &m->record));
+  PetscCall(WriterCreate(m->c, m->fluid, from, &m->record));
   PetscCall(CheckpointClose(&from));
   PetscFunctionReturn(0);
 }
@@ -129,7 +129,7 @@ static PetscErrorCode Report(CoracleClient client, Fluid fluid)
 }
 
 /* When it is time: another mesh for the flow of the step in hand, and a fluid on it. */
-static PetscErrorCode Remesh(March *m, Mesh **mesh, Fluid *fluid)
+static PetscErrorCode Remesh(RunState *m, Mesh **mesh, Fluid *fluid)
 {
   PetscBool due = PETSC_FALSE;
   PetscFunctionBeginUser;
@@ -143,7 +143,7 @@ static PetscErrorCode Remesh(March *m, Mesh **mesh, Fluid *fluid)
 }
 
 /* The step has been completed on the old mesh: what follows is on the new one. */
-static PetscErrorCode Change(March *m, Mesh *mesh, Fluid fluid)
+static PetscErrorCode Change(RunState *m, Mesh *mesh, Fluid fluid)
 {
   PetscFunctionBeginUser;
   PetscCall(FluidTransfer(m->fluid, fluid));
@@ -152,12 +152,12 @@ static PetscErrorCode Change(March *m, Mesh *mesh, Fluid fluid)
   m->mesh = mesh;
   m->fluid = fluid;
   m->new_mesh = PETSC_TRUE;
-  RecordNewMesh(m->record);
+  WriterNewMesh(m->record);
   PetscFunctionReturn(0);
 }
 
 /* The step will be redone. */
-static PetscErrorCode Forget(March *m, Mesh **mesh, Fluid *fluid)
+static PetscErrorCode Forget(RunState *m, Mesh **mesh, Fluid *fluid)
 {
   PetscFunctionBeginUser;
   if (m->adaptation) AdaptationForget(m->adaptation);
@@ -166,7 +166,7 @@ static PetscErrorCode Forget(March *m, Mesh **mesh, Fluid *fluid)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Step(March *m, double dt)
+static PetscErrorCode Step(RunState *m, double dt)
 {
   const CoracleCorrection *correction;
   Mesh *mesh;
@@ -185,14 +185,14 @@ static PetscErrorCode Step(March *m, double dt)
   }
   m->new_mesh = PETSC_FALSE;
   PetscCall(FluidCorrect(m->fluid, dt, correction));
-  PetscCall(RecordStep(m->record, m->fluid));
+  PetscCall(WriterStep(m->record, m->fluid));
   if (next) PetscCall(Change(m, mesh, next));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode Run(CoracleClient client, Case c, MPI_Comm comm)
 {
-  March m = {.client = client, .c = c};
+  RunState m = {.client = client, .c = c};
   CoracleAction action;
   double t, dt;
   PetscFunctionBeginUser;
@@ -206,7 +206,7 @@ static PetscErrorCode Run(CoracleClient client, Case c, MPI_Comm comm)
   }
   PetscCall(Save(&m));
   PetscCall(Report(client, m.fluid));
-  PetscCall(RecordDestroy(&m.record));
+  PetscCall(WriterDestroy(&m.record));
   PetscCall(ExchangeDestroy(&m.exchange));
   PetscCall(AdaptationDestroy(&m.adaptation));
   PetscCall(FluidDestroy(&m.fluid));

@@ -1,5 +1,5 @@
 /* The momentum equation: assembled in place, one pass over the elements; solved for u*. */
-#include "fluid_impl.h"
+#include "fluid/fluid_impl.h"
 
 PetscErrorCode MomentumPattern(const Mesh *m, PetscInt block, Mat *matrix)
 {

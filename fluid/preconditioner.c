@@ -6,7 +6,7 @@
  * An incomplete factorisation of P is eight times cheaper than one of A, and moves a quarter of the memory,
  * which is what the iterations wait for.  It is made anew in every step: the solid's stiff terms move with
  * it. */
-#include "fluid_impl.h"
+#include "fluid/fluid_impl.h"
 
 struct Preconditioner_s {
   Mat p; /* BAIJ like the momentum matrix, 3 unknowns an element: block k of the one is block k of the other

@@ -1,7 +1,7 @@
 /* The projection: int dt/rho grad phi.grad q = int u_hat*.grad q - <q, g.n> over P2, u+ = u* - dt/rho grad
  * phi. grad(P2) lies in P1DG, so the second is exact and the matrix of the first is C^T M^-1 C itself. u_hat*
  * = u* + M^-1 (us - ms u*): inside the solid the flow that must be free of divergence is the solid's. */
-#include "fluid_impl.h"
+#include "fluid/fluid_impl.h"
 
 /* Owned P2 nodes where phi = 0: on open boundaries; without any, global node 0. */
 static PetscErrorCode FindFixed(Fluid f)
@@ -144,7 +144,7 @@ PetscErrorCode PressureDestroy(Fluid f)
   PetscCall(KSPDestroy(&f->pressure_ksp));
   PetscCall(PetscFree(f->fixed));
   PetscCall(PetscFree(f->is_fixed));
-  PetscCall(GivingDestroy(f));
+  PetscCall(WeightedProjectionDestroy(f));
   PetscFunctionReturn(0);
 }
 
@@ -227,7 +227,7 @@ static PetscErrorCode SubtractGradient(Fluid f, double dt, Vec velocity)
     double pe[6], grad[3][2];
     for (int k = 0; k < 6; k++) pe[k] = phi[m->p2[6 * e + k]];
     P2Gradient(f->geometry[e].g, pe, grad);
-    if (GivingVelocity(f, e, (const double(*)[2])grad, u + 6 * e)) continue;
+    if (WeightedProjectionVelocity(f, e, (const double(*)[2])grad, u + 6 * e)) continue;
     for (int c = 0; c < 2; c++)
       for (int i = 0; i < 3; i++) u[6 * e + 3 * c + i] -= dt / f->rho[e] * grad[i][c];
   }
@@ -261,7 +261,7 @@ PetscErrorCode FluidProject(Fluid f, double dt)
 {
   const double start = MPI_Wtime();
   PetscFunctionBeginUser;
-  PetscCall(GivingPrepare(f, dt));
+  PetscCall(WeightedProjectionPrepare(f, dt));
   PetscCall(Divergence(f, f->u_star, f->t + dt, dt));
   PetscCall(Solve(f));
   PetscCall(VecCopy(f->u_star, f->u_next));

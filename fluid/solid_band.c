@@ -1,6 +1,6 @@
-#include "solid_band.h"
-#include "fluid_impl.h"
-#include "search.h"
+#include "fluid/solid_band.h"
+#include "common/supermesh/search.h"
+#include "fluid/fluid_impl.h"
 
 /* Where a piece of the solid's surface is and where it will be at the next adaptation. */
 typedef struct {

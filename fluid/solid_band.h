@@ -3,7 +3,7 @@
  * and velocities. */
 #ifndef FLUID_SOLID_BAND_H
 #define FLUID_SOLID_BAND_H
-#include "fluid.h"
+#include "fluid/fluid.h"
 
 /* Fine elements on each side of the surface, in multiples of le. */
 #define SOLID_BAND 2.0

@@ -1,7 +1,7 @@
 /* The state of the fluid in a checkpoint and out of it: tables with a row an element, in the order of the
  * elements' global numbers, as in mesh_checkpoint.h. */
-#include "fluid_impl.h"
-#include "mesh_checkpoint.h"
+#include "common/mesh/mesh_checkpoint.h"
+#include "fluid/fluid_impl.h"
 
 #define PHASES ((int)(sizeof((FluidStats *)NULL)->seconds / sizeof(double)))
 

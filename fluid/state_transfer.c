@@ -1,6 +1,6 @@
 /* The state of the fluid from one mesh to the next. */
-#include "fluid_impl.h"
-#include "transfer.h"
+#include "common/transfer/transfer.h"
+#include "fluid/fluid_impl.h"
 
 /* u and u of the step before, in one go: [ne][2 fields][2][3]. */
 static PetscErrorCode Velocities(Fluid from, Fluid to, Transfer transfer)

@@ -1,6 +1,6 @@
-#include "alone.h"
-#include "record.h"
-#include "solid_case.h"
+#include "solid/alone.h"
+#include "solid/solid_case.h"
+#include "solid/writer.h"
 #include <stdio.h>
 #include <unistd.h>
 
@@ -37,7 +37,7 @@ static void Say(const Solid s, int step, int steps, double dt, double start, dou
   fflush(stdout);
 }
 
-static PetscErrorCode Run(Solid solid, Record record, double end, double longest)
+static PetscErrorCode Run(Solid solid, Writer record, double end, double longest)
 {
   const int steps = PetscMax(1, (int)ceil(end / longest * (1.0 - 1e-12)));
   const double start = MPI_Wtime(), dt = end / steps;
@@ -47,7 +47,7 @@ static PetscErrorCode Run(Solid solid, Record record, double end, double longest
     PetscCall(SolidStart(solid, dt, NULL));
     while (SolidRemaining(solid)) PetscCall(SolidSubstep(solid, &h));
     PetscCall(SolidRebalance(solid));
-    PetscCall(RecordStep(record, solid, 0.0));
+    PetscCall(WriterStep(record, solid, 0.0));
     Say(solid, step, steps, dt, start, &said);
   }
   PetscFunctionReturn(0);
@@ -57,16 +57,16 @@ int Alone(int argc, char **argv)
 {
   Case c;
   Solid solid;
-  Record record;
+  Writer record;
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
   PetscCall(CaseOpen(argc, argv, Refuse, NULL, &c));
   if (CaseHas(c, "resume")) CaseRefuse(c, "resume", "the solid alone makes no checkpoints");
   const double end = CasePositive(c, "time.end"), longest = CasePositive(c, "time.dt_max");
   PetscCall(SolidFromCase(c, PETSC_COMM_WORLD, Fail, NULL, &solid));
-  PetscCall(RecordCreate(c, PETSC_COMM_WORLD, solid, NULL, &record));
+  PetscCall(WriterCreate(c, PETSC_COMM_WORLD, solid, NULL, &record));
   PetscCall(CaseClose(&c));
   PetscCall(Run(solid, record, end, longest));
-  PetscCall(RecordDestroy(&record));
+  PetscCall(WriterDestroy(&record));
   PetscCall(SolidDestroy(&solid));
   return PetscFinalize();
 }

@@ -1,6 +1,6 @@
 /* What walls, holds and the fluid do to all bodies together over a step: the other side of their momentum and
  * energy. */
-#include "solid_impl.h"
+#include "solid/solid_impl.h"
 
 /* What holds a fixed node takes all that would accelerate it. */
 void BudgetAddSubstep(Solid s)
@@ -9,7 +9,7 @@ void BudgetAddSubstep(Solid s)
   s->budget.walls[0] += s->h * walls.x;
   s->budget.walls[1] += s->h * walls.y;
   for (int n = 0; n < s->nnodes; n++) {
-    if (s->inverse_mass[n] > 0.0 || !ShareOwns(s->share, n)) continue;
+    if (s->inverse_mass[n] > 0.0 || !SubdomainOwns(s->share, n)) continue;
     for (int c = 0; c < 2; c++)
       s->budget.held[c] -=
           s->h * (s->force[2 * n + c] + s->load[2 * n + c] + s->mass[n] * s->setup.gravity[c]);
@@ -18,7 +18,7 @@ void BudgetAddSubstep(Solid s)
 
 void BudgetAddDriven(Solid s, int n, int c, double v)
 {
-  if (!ShareOwns(s->share, n)) return;
+  if (!SubdomainOwns(s->share, n)) return;
   const double impulse = s->mass[n] * (v - s->v[2 * n + c]);
   s->budget.held[c] += impulse;
   s->budget.held_work += impulse * v;
@@ -30,7 +30,7 @@ PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget)
   double sum[6] = {b->walls[0], b->walls[1], b->held[0], b->held[1], 0.0, b->held_work};
   PetscFunctionBeginUser;
   for (int n = 0; n < s->nnodes; n++)
-    for (int c = 0; c < 2 && ShareOwns(s->share, n); c++)
+    for (int c = 0; c < 2 && SubdomainOwns(s->share, n); c++)
       sum[4] += s->load[2 * n + c] * (s->x[2 * n + c] - s->start[2 * n + c]);
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 6, MPI_DOUBLE, MPI_SUM, s->comm));
   *budget = (SolidBudget){{sum[0], sum[1]}, {sum[2], sum[3]}, sum[4], sum[5]};

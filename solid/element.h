@@ -30,7 +30,7 @@
  * waves have no real speed any more, rho c^2 = mu + (mu + lambda)(1 - 2/q) < 0, and it wrinkles. */
 #ifndef SOLID_ELEMENT_H
 #define SOLID_ELEMENT_H
-#include "plane.h"
+#include "solid/plane.h"
 #include <math.h>
 
 typedef struct {

@@ -1,5 +1,5 @@
-#include "exchange.h"
-#include "abroad.h"
+#include "solid/exchange.h"
+#include "solid/ranks/node_directory.h"
 
 static int SaveOrRestore(void *solid, int save)
 {
@@ -39,11 +39,11 @@ static PetscErrorCode GiveCrackedMesh(Exchange *x, const SolidView *v)
 PetscErrorCode ExchangeCreate(CoracleClient client, Solid solid, Exchange *x)
 {
   SolidView v;
-  SolidSeen seen;
+  InterfaceMotion seen;
   PetscFunctionBeginUser;
   *x = (Exchange){.client = client, .solid = solid};
   SolidGetView(solid, &v);
-  SolidGetSeen(solid, &seen);
+  SolidGetInterfaceMotion(solid, &seen);
   PetscCall(GiveMesh(x, &v, seen.u));
   PetscCall(CoracleSetInertia(client, seen.mobility, seen.acceleration));
   PetscCall(CoracleBindStateFunction(client, SaveOrRestore, solid));
@@ -81,7 +81,7 @@ PetscErrorCode ExchangeBegin(Exchange *x, double *dt, CoracleAction *action, con
   if (*action != CORACLE_STOP) PetscCall(CoracleGetForce(x->client, load));
   if (*action != CORACLE_STOP && x->away) {
     PetscCall(PetscRealloc(2 * (size_t)v.nnodes * sizeof *x->load + 1, &x->load));
-    PetscCall(AbroadLoad(x->solid, x->told.n, x->told.gid, *load, x->load));
+    PetscCall(NodeDirectoryLoad(x->solid, x->told.n, x->told.gid, *load, x->load));
     *load = x->load;
   }
   x->waited += MPI_Wtime() - start;
@@ -109,7 +109,7 @@ static PetscErrorCode SendAbroad(Exchange *x)
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc6(n, &motion, 2 * n + 1, &at, 2 * n + 1, &mean, 2 * n + 1, &seen, n + 1, &mobility,
                          2 * n + 1, &acceleration));
-  PetscCall(AbroadMotion(x->solid, x->told.n, x->told.gid, motion));
+  PetscCall(NodeDirectoryMotion(x->solid, x->told.n, x->told.gid, motion));
   for (size_t k = 0; k < 2 * n; k++) {
     at[k] = motion[k / 2].x[k % 2];
     seen[k] = motion[k / 2].seen[k % 2];
@@ -129,10 +129,10 @@ PetscErrorCode ExchangeMotion(Exchange *x)
 {
   const double start = MPI_Wtime();
   SolidView v;
-  SolidSeen seen;
+  InterfaceMotion seen;
   PetscFunctionBeginUser;
   SolidGetView(x->solid, &v);
-  PetscCall(SolidSee(x->solid, &seen));
+  PetscCall(SolidUpdateInterfaceMotion(x->solid, &seen));
   if (v.revision != x->told.revision) PetscCall(GiveCrackedMesh(x, &v));
   if (v.share == x->told.share) {
     PetscCall(CoracleSetVelocity(x->client, seen.u));

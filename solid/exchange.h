@@ -4,8 +4,8 @@
  * the present share and the one that was told, until cracks make a new mesh. */
 #ifndef SOLID_EXCHANGE_H
 #define SOLID_EXCHANGE_H
-#include "coracle.h"
-#include "solid.h"
+#include "common/link/coracle.h"
+#include "solid/solid.h"
 
 /* This rank's mesh as the coupler knows it. */
 typedef struct {

@@ -1,5 +1,5 @@
 /* The loops over this rank's elements. */
-#include "solid_impl.h"
+#include "solid/solid_impl.h"
 #include <stdio.h>
 
 static inline Tensor RestInverse(const Elements *e, int k)

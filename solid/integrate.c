@@ -1,5 +1,5 @@
 /* Time stepping: forces, substeps, and how long a substep may be. */
-#include "solid_impl.h"
+#include "solid/solid_impl.h"
 
 enum { CHECK_EVERY = 20 }; /* substeps between two looks at the stability limit, at most */
 #define KEEP 0.75          /* of the allowed length, down to which the last one is kept */
@@ -21,7 +21,7 @@ PetscErrorCode SolidForces(Solid s, const double **force)
   const double joints = Clock();
   PetscCall(ContactAddForces(s->contact, s));
   const double contact = Clock();
-  PetscCall(ShareSum(s->share, s->force));
+  PetscCall(SubdomainSum(s->share, s->force));
   s->force_valid = PETSC_TRUE;
   s->stats.seconds[0] += elements - start;
   s->stats.seconds[1] += contact - joints;
@@ -47,9 +47,9 @@ PetscErrorCode SolidLimit(Solid s, double *limit)
  * now. */
 typedef struct {
   double moved, speed, acceleration;
-} Motion;
+} BulkMotion;
 
-static PetscErrorCode MotionNow(Solid s, Motion *m)
+static PetscErrorCode MotionNow(Solid s, BulkMotion *m)
 {
   const double *force;
   double largest[3] = {0.0, 0.0, 0.0};
@@ -68,17 +68,17 @@ static PetscErrorCode MotionNow(Solid s, Motion *m)
   }
   largest[0] = ContactMoved(s->contact, s);
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 3, MPI_DOUBLE, MPI_MAX, s->comm));
-  *m = (Motion){largest[0], sqrt(largest[1]), sqrt(largest[2])};
+  *m = (BulkMotion){largest[0], sqrt(largest[1]), sqrt(largest[2])};
   PetscFunctionReturn(0);
 }
 
 /* How far a node gets in k substeps of h if speed and acceleration do not double. */
-static double Travel(const Motion *m, int k, double h)
+static double Travel(const BulkMotion *m, int k, double h)
 {
   return m->moved + 2.0 * k * h * (m->speed + k * h * m->acceleration);
 }
 
-static int SafeSubsteps(const Motion *m, double reach, double h)
+static int SafeSubsteps(const BulkMotion *m, double reach, double h)
 {
   int k = CHECK_EVERY;
   while (k > 1 && Travel(m, k, h) > reach) k /= 2;
@@ -90,7 +90,7 @@ static int SafeSubsteps(const Motion *m, double reach, double h)
  * until the next check. */
 static PetscErrorCode CheckContact(Solid s, double *limit, int *substeps)
 {
-  Motion m;
+  BulkMotion m;
   PetscFunctionBeginUser;
   if (s->done == 0.0) {
     PetscCall(ContactSearch(s->contact, s, 0.0));
@@ -100,7 +100,7 @@ static PetscErrorCode CheckContact(Solid s, double *limit, int *substeps)
   PetscCall(MotionNow(s, &m));
   const double h = PetscMin(s->setup.courant * *limit, s->dt);
   if (Travel(&m, CHECK_EVERY, h) > ContactReach(s->contact)) {
-    const Motion from_here = {0.0, m.speed, m.acceleration};
+    const BulkMotion from_here = {0.0, m.speed, m.acceleration};
     PetscCall(ContactSearch(s->contact, s, 2.0 * Travel(&from_here, 2, h)));
     PetscCall(SolidLimit(s, limit));
     s->force_valid = PETSC_FALSE;
@@ -142,7 +142,7 @@ PetscErrorCode SolidStart(Solid s, double dt, const double load[])
   s->unsettled = PETSC_FALSE;
   if (load) {
     PetscCall(PetscArraycpy(s->load, load, 2 * (size_t)s->nnodes));
-    PetscCall(ShareSum(s->share, s->load));
+    PetscCall(SubdomainSum(s->share, s->load));
   } else {
     PetscCall(PetscArrayzero(s->load, 2 * (size_t)s->nnodes));
   }
@@ -165,13 +165,13 @@ static void MoveDriven(Solid s, int before)
 {
   for (int k = 0; k < s->ndriven; k++) {
     const int n = s->driven[k].node;
-    const Drive *d = &s->drive[s->driven[k].drive];
+    const PrescribedMotion *d = &s->drive[s->driven[k].drive];
     if (d->release > 0.0 && s->stats.t >= d->release * (1.0 - 1e-12)) continue;
     for (int c = 0; c < 2; c++) {
       if (before) {
         s->held[2 * k + c] = s->x[2 * n + c];
       } else if (d->driven[c]) {
-        const double v = DriveVelocity(d, c, s->stats.t, s->h);
+        const double v = PrescribedVelocity(d, c, s->stats.t, s->h);
         BudgetAddDriven(s, n, c, v);
         s->v[2 * n + c] = v;
         s->x[2 * n + c] = s->held[2 * k + c] + s->h * s->v[2 * n + c];

@@ -1,10 +1,10 @@
 /* coracle-solid: the solid participant.  coracle-solid case.yaml [--set key=value]...
  *
  * coracle-solid --alone case.yaml [--set key=value]...: the solid without coupler and fluid (alone.h). */
-#include "alone.h"
-#include "exchange.h"
-#include "record.h"
-#include "solid_case.h"
+#include "solid/alone.h"
+#include "solid/exchange.h"
+#include "solid/solid_case.h"
+#include "solid/writer.h"
 
 static void Fail(void *client, const char *message)
 {
@@ -40,7 +40,7 @@ static PetscErrorCode Report(CoracleClient client, Solid solid)
 /* *from: the checkpoint that the run goes on from, NULL: from the start. */
 static PetscErrorCode Resume(CoracleClient client, Solid solid, Checkpoint *from)
 {
-  const char *folder = CoracleResumeFolder(client);
+  const char *folder = CoracleResumePath(client);
   PetscFunctionBeginUser;
   *from = NULL;
   if (!folder) PetscFunctionReturn(0);
@@ -50,15 +50,15 @@ static PetscErrorCode Resume(CoracleClient client, Solid solid, Checkpoint *from
 }
 
 /* If one is due. */
-static PetscErrorCode Save(CoracleClient client, Solid solid, Record record, double waited)
+static PetscErrorCode Save(CoracleClient client, Solid solid, Writer record, double waited)
 {
-  const char *folder = CoracleSaveFolder(client);
+  const char *folder = CoracleCheckpointPath(client);
   Checkpoint to;
   PetscFunctionBeginUser;
   if (!folder) PetscFunctionReturn(0);
   PetscCall(CheckpointCreate(PETSC_COMM_WORLD, folder, "solid", &to));
   PetscCall(SolidSave(solid, to));
-  PetscCall(RecordSave(record, waited, to));
+  PetscCall(WriterSave(record, waited, to));
   PetscCall(CheckpointClose(&to));
   PetscFunctionReturn(0);
 }
@@ -66,7 +66,7 @@ static PetscErrorCode Save(CoracleClient client, Solid solid, Record record, dou
 /* --- the run
  * ------------------------------------------------------------------------------------------------ */
 
-static PetscErrorCode Run(CoracleClient client, Solid solid, Record record)
+static PetscErrorCode Run(CoracleClient client, Solid solid, Writer record)
 {
   Exchange exchange;
   CoracleAction action;
@@ -76,7 +76,7 @@ static PetscErrorCode Run(CoracleClient client, Solid solid, Record record)
   PetscCall(ExchangeCreate(client, solid, &exchange));
   for (int steps = 0;; steps++) {
     PetscCall(ExchangeBegin(&exchange, &dt, &action, &load));
-    if (steps > 0 && action != CORACLE_REDO) PetscCall(RecordStep(record, solid, exchange.waited));
+    if (steps > 0 && action != CORACLE_REDO) PetscCall(WriterStep(record, solid, exchange.waited));
     PetscCall(Save(client, solid, record, exchange.waited));
     if (action == CORACLE_STOP) break;
     PetscCall(SolidStart(solid, dt, load));
@@ -109,7 +109,7 @@ int main(int argc, char **argv)
   MPI_Comm comm;
   Case c;
   Solid solid;
-  Record record;
+  Writer record;
   Checkpoint from;
   if (TakeAlone(&argc, argv)) return Alone(argc, argv);
   if (CoracleOpen("solid", argc, argv, &comm, &client)) return 1;
@@ -119,12 +119,12 @@ int main(int argc, char **argv)
   PetscCall(CaseOpen(argc, argv, Fail, client, &c));
   PetscCall(SolidFromCase(c, comm, Fail, client, &solid));
   PetscCall(Resume(client, solid, &from));
-  PetscCall(RecordCreate(c, comm, solid, from, &record));
+  PetscCall(WriterCreate(c, comm, solid, from, &record));
   PetscCall(CheckpointClose(&from));
   PetscCall(CaseClose(&c));
   PetscCall(Run(client, solid, record));
   PetscCall(Report(client, solid));
-  PetscCall(RecordDestroy(&record));
+  PetscCall(WriterDestroy(&record));
   PetscCall(SolidDestroy(&solid));
   PetscCall(PetscPopErrorHandler());
   PetscCall(PetscFinalize());

@@ -1,8 +1,8 @@
-#include "partition.h"
-#include "solid_impl.h"
+#include "solid/ranks/partition.h"
+#include "solid/solid_impl.h"
 
 /* The first share; elements that may change ranks later need the assembly. */
-static PetscErrorCode Distribute(Solid s, const Assembly *a)
+static PetscErrorCode Distribute(Solid s, const Model *a)
 {
   PartitionGraph graph;
   int *part;
@@ -17,14 +17,14 @@ static PetscErrorCode Distribute(Solid s, const Assembly *a)
   if (s->size > 1 && s->setup.rebalance > 0.0) {
     s->part = part;
     PetscCall(PetscNew(&s->assembly));
-    PetscCall(AssemblyCopy(a, s->assembly));
+    PetscCall(ModelCopy(a, s->assembly));
   } else {
     PetscCall(PetscFree(part));
   }
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SolidCreate(MPI_Comm comm, const Assembly *assembly, const SolidSetup *setup, Solid *solid)
+PetscErrorCode SolidCreate(MPI_Comm comm, const Model *assembly, const SolidSetup *setup, Solid *solid)
 {
   Solid s;
   PetscFunctionBeginUser;
@@ -48,7 +48,7 @@ PetscErrorCode SolidFreeShare(Solid s)
   PetscCall(ContactDestroy(&s->contact));
   PetscCall(JointsDestroy(&s->joints));
   PetscCall(PetscFree2(s->copies.rank, s->copies.node));
-  PetscCall(ShareDestroy(&s->share));
+  PetscCall(SubdomainDestroy(&s->share));
   PetscCall(
       PetscFree7(s->gid, s->node_body, s->surface, s->mass, s->inverse_mass, s->corner_start, s->corner));
   PetscCall(PetscFree7(s->rest, s->x, s->v, s->force, s->load, s->saved.x, s->saved.v));
@@ -76,7 +76,7 @@ PetscErrorCode SolidDestroy(Solid *solid)
   if (s->before) PetscCall(SolidFreeShare(s->before));
   PetscCall(PetscFree(s->before));
   PetscCall(SolidFreeShare(s));
-  if (s->assembly) PetscCall(AssemblyDestroy(s->assembly));
+  if (s->assembly) PetscCall(ModelDestroy(s->assembly));
   PetscCall(PetscFree(s->assembly));
   PetscCall(PetscFree(*solid));
   PetscFunctionReturn(0);
@@ -129,7 +129,7 @@ enum { M, MX, MY, MU, MV, FX, FY, KINETIC, STRAIN, NSUMS };
 static void AddNodes(const Solid s, int n, double sum[][NSUMS])
 {
   for (int i = 0; i < s->nnodes; i++) {
-    if (s->node_body[i] >= n || !ShareOwns(s->share, i)) continue;
+    if (s->node_body[i] >= n || !SubdomainOwns(s->share, i)) continue;
     double *k = sum[s->node_body[i]];
     const double m = s->mass[i], *v = s->v + 2 * i;
     k[M] += m;
@@ -164,7 +164,7 @@ static PetscErrorCode AngularVelocities(const Solid s, int n, BodyState state[])
   PetscCall(PetscCalloc1((size_t)n, &sum));
   for (int i = 0; i < s->nnodes; i++) {
     const int b = s->node_body[i];
-    if (b >= n || !ShareOwns(s->share, i)) continue;
+    if (b >= n || !SubdomainOwns(s->share, i)) continue;
     const Point r = {s->x[2 * i] - state[b].x[0], s->x[2 * i + 1] - state[b].x[1]};
     const Point v = {s->v[2 * i] - state[b].v[0], s->v[2 * i + 1] - state[b].v[1]};
     sum[b][0] += s->mass[i] * PointCross(r, v);

@@ -13,8 +13,8 @@
  * are normal. */
 #ifndef SOLID_H
 #define SOLID_H
-#include "assembly.h"
-#include "checkpoint.h"
+#include "common/output/checkpoint.h"
+#include "solid/bodies/model.h"
 
 typedef struct Solid_s *Solid;
 
@@ -45,7 +45,7 @@ typedef struct {
 } SolidSetup;
 
 /* assembly is borrowed during the call; the same on all ranks. */
-PetscErrorCode SolidCreate(MPI_Comm comm, const Assembly *assembly, const SolidSetup *setup, Solid *solid);
+PetscErrorCode SolidCreate(MPI_Comm comm, const Model *assembly, const SolidSetup *setup, Solid *solid);
 PetscErrorCode SolidDestroy(Solid *solid);
 
 /* load[nnodes][2]: this rank's part of the force on its nodes, N; summed over the ranks that share a node,
@@ -69,12 +69,12 @@ typedef struct {
                              dt resolve it, m/s */
   const double *mobility; /* [nnodes] 1/kg, as coracle.h has it: of the nodes whose deformation is seen */
   const double *acceleration; /* [nnodes][2] m/s2, theirs without the fluid's force */
-} SolidSeen;
+} InterfaceMotion;
 /* Collective, after the last substep, when all is as at the step's end; borrowed until the next SolidStart.
  */
-PetscErrorCode SolidSee(Solid s, SolidSeen *seen);
-/* Not collective: what SolidSee has last found, before the first step the velocities, with mobility 0. */
-void SolidGetSeen(Solid s, SolidSeen *seen);
+PetscErrorCode SolidUpdateInterfaceMotion(Solid s, InterfaceMotion *seen);
+/* Not collective: what SolidUpdateInterfaceMotion has last found, before the first step the velocities, with mobility 0. */
+void SolidGetInterfaceMotion(Solid s, InterfaceMotion *seen);
 /* Largest stable substep now, s: 4/(d + sqrt(d^2 + 4 w^2)), w^2 and d bounds of the elements' and contact's
  * frequencies and viscous rates. */
 PetscErrorCode SolidLimit(Solid s, double *limit);

@@ -1,5 +1,5 @@
-#include "solid_case.h"
-#include "case_body.h"
+#include "solid/solid_case.h"
+#include "solid/bodies/case_body.h"
 #include <stdio.h>
 
 /* Friction and damping of walls; absent: those of what touches them. */
@@ -35,7 +35,7 @@ static void ReadRules(Case c, SolidSetup *setup)
   }
 }
 
-static void ReadWalls(Case c, const Assembly *a, SolidSetup *setup)
+static void ReadWalls(Case c, const Model *a, SolidSetup *setup)
 {
   char key[CASE_BODY_KEY];
   setup->walls = (PetscBool)CaseHas(c, "solid.walls");
@@ -50,7 +50,7 @@ static void ReadWalls(Case c, const Assembly *a, SolidSetup *setup)
                    "the body reaches through solid.walls at (%g, %g)", a->x[2 * n], a->x[2 * n + 1]);
 }
 
-PetscErrorCode SolidCaseRead(Case c, Assembly *a, SolidSetup *setup)
+PetscErrorCode SolidCaseRead(Case c, Model *a, SolidSetup *setup)
 {
   const int nbodies = CaseCount(c, "solid.bodies");
   int first, second;
@@ -64,7 +64,7 @@ PetscErrorCode SolidCaseRead(Case c, Assembly *a, SolidSetup *setup)
   for (int b = 0; b < nbodies; b++) PetscCall(CaseReadBody(c, b, a));
   ReadWalls(c, a, setup);
   ReadRules(c, setup);
-  PetscCall(AssemblyOverlap(a, &first, &second));
+  PetscCall(ModelOverlap(a, &first, &second));
   if (first >= 0)
     CaseRefuse(c, BodyKey(key, a->body[second].entry, ""), "the body overlaps solid.bodies[%d]",
                a->body[first].entry);
@@ -76,12 +76,12 @@ PetscErrorCode SolidFromCase(Case c, MPI_Comm comm, void (*fail)(void *context, 
 {
   static const char *const SECTIONS[] = {"solid", NULL};
   SolidSetup setup = {.fail = fail, .context = context};
-  Assembly assembly = {0};
+  Model assembly = {0};
   PetscFunctionBeginUser;
   PetscCall(PetscOptionsInsertString(NULL, CaseStringOr(c, "solid.petsc", "")));
   PetscCall(SolidCaseRead(c, &assembly, &setup));
   PetscCall(CaseFinish(c, SECTIONS));
   PetscCall(SolidCreate(comm, &assembly, &setup, solid));
-  PetscCall(AssemblyDestroy(&assembly));
+  PetscCall(ModelDestroy(&assembly));
   PetscFunctionReturn(0);
 }

@@ -1,13 +1,13 @@
 /* The solid's part of the case file: sections solid and gravity.  All keys are listed in README.md. */
 #ifndef SOLID_CASE_H
 #define SOLID_CASE_H
-#include "case_file.h"
-#include "solid.h"
+#include "common/link/case_file.h"
+#include "solid/solid.h"
 
 /* Not collective; every rank reads the same.  Refuses what cannot be (see case_file.h): unknown materials or
  * boundaries, degenerate elements, bodies that overlap or lie outside the walls.  setup->fail is left alone.
  */
-PetscErrorCode SolidCaseRead(Case c, Assembly *a, SolidSetup *setup);
+PetscErrorCode SolidCaseRead(Case c, Model *a, SolidSetup *setup);
 
 /* Collective: options for PETSc, bodies and set-up of the case, whose section solid must then have been read
  * in full; fail and context as in SolidSetup. */

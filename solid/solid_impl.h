@@ -1,10 +1,10 @@
 /* The solid's own data, for the files of this room. */
 #ifndef SOLID_IMPL_H
 #define SOLID_IMPL_H
-#include "element.h"
-#include "interior_edges.h"
-#include "share.h"
-#include "solid.h"
+#include "solid/cracks/interior_edges.h"
+#include "solid/element.h"
+#include "solid/ranks/subdomain.h"
+#include "solid/solid.h"
 
 typedef struct Contact_s *Contact;
 typedef struct Joints_s *Joints;
@@ -76,18 +76,19 @@ struct Solid_s {
   int *facet, *facet_element; /* [nfacets][2], [nfacets] */
   int *facet_side;            /* [nfacets] from that corner of the element to the next */
   Copies copies;
-  Share share;
+  Subdomain share;
   Contact contact;
   Joints joints;              /* NULL: none */
   int ndriven, ndriven_first; /* now, and at the start: parts of split nodes come last */
   DrivenNode *driven;         /* [ndriven] */
-  Drive *drive;
+  PrescribedMotion *drive;
   double *drive_rows, *held; /* [ndriven][2] room for places before a substep */
   int ndrives;
   /* the step in hand */
-  double dt, done, h, moved_for;          /* moved_for: length of the last substep made, s */
-  double *start;                          /* [nnodes][2] positions when it began */
-  double *seen, *mobility, *acceleration; /* [nnodes][2], [nnodes], [nnodes][2] of SolidSee */
+  double dt, done, h, moved_for; /* moved_for: length of the last substep made, s */
+  double *start;                 /* [nnodes][2] positions when it began */
+  double *seen, *mobility,
+      *acceleration;          /* [nnodes][2], [nnodes], [nnodes][2] of SolidUpdateInterfaceMotion */
   int npieces, *piece;        /* [nnodes] SolidPieces has found; npieces 0: since the last crack not yet */
   int remaining, until_check; /* substeps */
   SolidBudget budget;         /* this rank's part */
@@ -96,7 +97,7 @@ struct Solid_s {
   SolidStats stats;
   SavedState saved;
   /* other ranks' shares: NULL unless elements may change ranks */
-  Assembly *assembly;
+  Model *assembly;
   int share_number; /* which of the shares since the start this is */
   int *part;        /* [assembly->nelements] the rank that has it */
   Solid before;     /* the share of the saved state, if it was another; NULL */
@@ -122,9 +123,9 @@ void BudgetAddSubstep(Solid s);
 void BudgetAddDriven(Solid s, int n, int c, double v);
 
 /* distribute.c: everything that comes from the assembly. */
-PetscErrorCode SolidTakeShare(Solid s, const Assembly *a, const int part[]);
+PetscErrorCode SolidTakeShare(Solid s, const Model *a, const int part[]);
 /* Of an element of the assembly, times its thickness. */
-ElementLaw SolidLawOf(const Assembly *a, int e);
+ElementLaw SolidLawOf(const Model *a, int e);
 /* corner_start and corner, from element */
 void SolidListCorners(Solid s);
 
@@ -139,7 +140,7 @@ PetscErrorCode SolidPutBackShare(Solid s);
 PetscErrorCode SolidKeepShare(Solid s);
 
 /* joints_create.c */
-PetscErrorCode JointsCreate(Solid s, const Assembly *a, const InteriorEdges *edges, int nlooks,
+PetscErrorCode JointsCreate(Solid s, const Model *a, const InteriorEdges *edges, int nlooks,
                             const Look look[], const int part[], const int local[], Joints *joints);
 PetscErrorCode JointsDestroy(Joints *j);
 /* joints.c: adds to force and remembers damage. */

@@ -1,4 +1,4 @@
-#include "case_impl.h"
+#include "common/link/case_impl.h"
 #include <errno.h>
 #include <math.h>
 #include <stdarg.h>

@@ -2,7 +2,7 @@
  * prints or ends a run: what goes wrong is written into a buffer and reported by the caller. */
 #ifndef CORACLE_CASE_IMPL_H
 #define CORACLE_CASE_IMPL_H
-#include "case_file.h"
+#include "common/link/case_file.h"
 #include <stddef.h>
 
 enum { CASE_NAME = 128, CASE_KEY = 512, CASE_MESSAGE = 1024 };

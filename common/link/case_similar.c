@@ -1,5 +1,5 @@
 /* Whether a word is a misspelling of another: for "did you mean ...?" */
-#include "case_impl.h"
+#include "common/link/case_impl.h"
 #include <string.h>
 
 static int Least(int a, int b, int c)

@@ -1,5 +1,5 @@
 /* The tree behind a case file: from libyaml's document, and by --set arguments. */
-#include "case_impl.h"
+#include "common/link/case_impl.h"
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>

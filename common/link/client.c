@@ -1,4 +1,4 @@
-#include "client_impl.h"
+#include "common/link/client_impl.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -57,7 +57,7 @@ void ClientTakeStep(CoracleClient c, const MessageHeader *h)
 
 /* --- checkpoints ---------------------------------------------------------------------------------------- */
 
-void ClientTakeFolder(CoracleClient c, const MessageHeader *h)
+void ClientTakePath(CoracleClient c, const MessageHeader *h)
 {
   const size_t bytes = (size_t)h->count[2];
   BufferResize(&c->save, bytes);
@@ -65,7 +65,7 @@ void ClientTakeFolder(CoracleClient c, const MessageHeader *h)
   c->asked_save = false;
 }
 
-const char *CoracleSaveFolder(CoracleClient c)
+const char *CoracleCheckpointPath(CoracleClient c)
 {
   ClientExpect(c, "CoracleSaveFolder", c->p->role, STAGE_STEP, STAGE_STOPPED);
   if (c->action == CORACLE_REDO || !c->save.size) return NULL;
@@ -73,7 +73,7 @@ const char *CoracleSaveFolder(CoracleClient c)
   return c->save.data;
 }
 
-const char *CoracleResumeFolder(CoracleClient c)
+const char *CoracleResumePath(CoracleClient c)
 {
   ClientExpect(c, "CoracleResumeFolder", c->p->role, STAGE_SETUP, STAGE_SETUP);
   c->asked_resume = true;

@@ -1,5 +1,5 @@
 /* The fluid's end: its elements near the solid, the flow on them, and what the solid does to them. */
-#include "client_impl.h"
+#include "common/link/client_impl.h"
 #include <math.h>
 #include <string.h>
 
@@ -78,7 +78,7 @@ static void TakeCoupling(CoracleClient c, const MessageHeader *h)
   bytes = (size_t)h->count[1] * sizeof(CoracleCoupling);
   f->ncoupling = (int)h->count[1];
   memcpy(BufferResize(&f->coupling, bytes), MessageTake(c->p, &c->in, bytes), bytes);
-  ClientTakeFolder(c, h);
+  ClientTakePath(c, h);
   ClientTakeStep(c, h);
 }
 
@@ -109,7 +109,7 @@ int CoracleGetCoupling(CoracleClient c, int *n, const CoracleCoupling **coupling
   return 0;
 }
 
-int CoracleStands(CoracleClient c)
+int CoracleStepAccepted(CoracleClient c)
 {
   ClientExpect(c, "CoracleStands", ROLE_FLUID, STAGE_BETWEEN, STAGE_BETWEEN);
   return c->action != CORACLE_REDO;

@@ -1,8 +1,8 @@
 /* Private to the client's end of the link. */
 #ifndef CORACLE_CLIENT_IMPL_H
 #define CORACLE_CLIENT_IMPL_H
-#include "message.h"
-#include "report.h"
+#include "common/link/message.h"
+#include "common/link/report.h"
 
 enum { DIM = 2 };
 
@@ -76,7 +76,7 @@ void ClientSend(CoracleClient c);
 void ClientTakeStep(CoracleClient c, const MessageHeader *h);
 
 /* Takes the folder of a checkpoint, the next block, if there is one. */
-void ClientTakeFolder(CoracleClient c, const MessageHeader *h);
+void ClientTakePath(CoracleClient c, const MessageHeader *h);
 /* FLAG_SAVED and FLAG_RESUMES as they are now. */
 int ClientFlags(CoracleClient c);
 

@@ -1,5 +1,5 @@
 /* The solid's end: its mesh, its velocity over the substeps, the force on it. */
-#include "client_impl.h"
+#include "common/link/client_impl.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -206,7 +206,7 @@ void SolidBegin(CoracleClient c)
   const MessageHeader *h = MessageReceive(c->p, &c->in, KIND_FORCE, KIND_FORCE, step);
   ClientTakeStep(c, h);
   c->solid.force = MessageTake(c->p, &c->in, DIM * (size_t)h->count[0] * sizeof(double));
-  ClientTakeFolder(c, h);
+  ClientTakePath(c, h);
   if (c->action == CORACLE_STOP) return;
   BeginMesh(&c->solid, c->action);
   if (h->count[0] != c->solid.mesh.n)

@@ -1,5 +1,5 @@
 /* State that the library saves when a step begins and puts back when it is redone. */
-#include "client_impl.h"
+#include "common/link/client_impl.h"
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>

@@ -14,7 +14,7 @@
  *     CoracleGetForce(c, &force)                        CoracleGetCoupling(c, &k)
  *       m substeps: advance by h; CoracleSubstep        solve from t to t + dt
  *     CoracleEnd(c, x)                                  CoracleSetFlow(c, ...); CoracleEnd(c, NULL)
- *                                                       if CoracleStands(c): CoracleGetCorrection
+ *                                                       if CoracleStepAccepted(c): CoracleGetCorrection
  *
  * The coupler decides t, dt and the action; the library restores bound state when a step is redone, so that
  * an adapter need not keep what a step changes.  Arrays are C order, dim is 2 (3 to come), units are SI.
@@ -95,7 +95,7 @@ int CoracleElementsChanged(CoracleClient c);
  * at once (on as many ranks): bind before the mesh is given. */
 int CoracleBindState(CoracleClient c, void *state, size_t bytes);
 /* As above for state that is no flat buffer: called with save = 1 and save = 0.  In checkpoints it is the
- * participant's own affair (CoracleSaveFolder). */
+ * participant's own affair (CoracleCheckpointPath). */
 int CoracleBindStateFunction(CoracleClient c, int (*f)(void *context, int save), void *context);
 
 /* The first exchange: surface, volume and elements travel, the first coupling data come back. */
@@ -130,11 +130,11 @@ int CoracleSetInertia(CoracleClient c, const double mobility[], const double acc
  * has begun (or at CORACLE_STOP), else NULL.  Who asks has to have saved, on all ranks, by CoracleEnd, in
  * files called after its role; while one participant never asks there are no checkpoints.  The same on all
  * ranks; borrowed until CoracleEnd. */
-const char *CoracleSaveFolder(CoracleClient c);
+const char *CoracleCheckpointPath(CoracleClient c);
 /* After CoracleOpen: the folder that an earlier run has given so, from which this one goes on, or NULL:
  * from the start.  Who asks has to be, by CoracleReady, what it was then; the next CoracleBegin has that
  * t.  The run is refused if one does not ask. */
-const char *CoracleResumeFolder(CoracleClient c);
+const char *CoracleResumePath(CoracleClient c);
 
 /* Fluid: the flow on the elements last given by region, for the n of them:
  *   u_star[n][dim][dim + 1]  velocity with the coupling solved, before the pressure correction, m/s
@@ -168,7 +168,7 @@ typedef struct {
 /* Fluid, after CoracleEnd: 1 when the step just made stands, 0 when it will be redone: there is no
  * correction then, and what it did beside its bound state (a mesh it has adapted, a row it would write) is
  * void.  A solid learns this by the next action. */
-int CoracleStands(CoracleClient c);
+int CoracleStepAccepted(CoracleClient c);
 /* Fluid, after CoracleReady and after CoracleEnd: the coupling of the coming step.  Borrowed until the next
  * CoracleEnd. */
 int CoracleGetCoupling(CoracleClient c, int *n, const CoracleCoupling **coupling);

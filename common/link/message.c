@@ -1,4 +1,4 @@
-#include "message.h"
+#include "common/link/message.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

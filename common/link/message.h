@@ -17,7 +17,7 @@
  * Kind and step travel with every message: one that does not fit ends the job with both sides' names. */
 #ifndef CORACLE_MESSAGE_H
 #define CORACLE_MESSAGE_H
-#include "participant.h"
+#include "common/link/participant.h"
 #include <stddef.h>
 #include <stdint.h>
 

@@ -1,6 +1,6 @@
-#include "participant.h"
-#include "leaving.h"
-#include "machine.h"
+#include "common/link/participant.h"
+#include "common/link/affinity.h"
+#include "common/link/exit_guard.h"
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,16 +15,16 @@
 static _Noreturn void Abort(void)
 {
   fflush(NULL);
-  LeavingExpected();
+  ExitGuardExpected();
   MPI_Abort(MPI_COMM_WORLD, 1);
   for (;;) pause(); /* until the launcher has ended this process */
 }
 
 void ParticipantFailList(Participant *p, const char *format, va_list list)
 {
-  LeavingExpected();
-  if (BoardClaim(p->board)) {
-    char text[ROLL_MESSAGE];
+  ExitGuardExpected();
+  if (FailureBoardClaim(p->board)) {
+    char text[HANDSHAKE_MESSAGE];
     vsnprintf(text, sizeof text, format, list);
     fflush(stdout);
     fprintf(stderr, "coracle %s[%d]: error: %s\n", ROLE_NAMES[p->role], p->rank, text);
@@ -58,7 +58,7 @@ static bool StartMpi(void)
   int initialized;
   MPI_Initialized(&initialized);
   if (initialized) return false;
-  MachineEnvironment();
+  AffinityEnvironment();
   MPI_Init(NULL, NULL);
   return true;
 }
@@ -74,7 +74,7 @@ static unsigned long long HashArguments(int argc, char **argv)
   return hash;
 }
 
-static void Describe(const char *role, bool client, int argc, char **argv, RollEntry *e)
+static void Describe(const char *role, bool client, int argc, char **argv, HandshakeEntry *e)
 {
   int *context, known;
   Case c;
@@ -98,30 +98,30 @@ static void Describe(const char *role, bool client, int argc, char **argv, RollE
 }
 
 /* Every rank tells world rank 0 who it is; it looks at them all, and speaks if they cannot run together. */
-static void CallRoll(const RollEntry *mine, Waiter *waiter)
+static void CallRoll(const HandshakeEntry *mine, Waiter *waiter)
 {
-  char message[ROLL_MESSAGE];
+  char message[HANDSHAKE_MESSAGE];
   int rank, size;
   MPI_Request request;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &size);
-  RollEntry *entry = rank ? NULL : calloc((size_t)size, sizeof *entry);
+  HandshakeEntry *entry = rank ? NULL : calloc((size_t)size, sizeof *entry);
   MPI_Igather(mine, sizeof *mine, MPI_BYTE, entry, sizeof *entry, MPI_BYTE, 0, MPI_COMM_WORLD, &request);
   if (!WaitRequest(waiter, &request)) {
     snprintf(message, sizeof message, "not all %d ranks of this job have called CoracleOpen within %g s",
              size, waiter->timeout);
     RefuseToStart(rank, mine->role, message);
   }
-  if (rank == 0 && !RollCheck(size, entry, message)) RefuseToStart(0, mine->role, message);
-  if (rank == 0 && RollNote(size, entry, message)) fprintf(stderr, "coracle: note: %s\n", message);
+  if (rank == 0 && !HandshakeCheck(size, entry, message)) RefuseToStart(0, mine->role, message);
+  if (rank == 0 && HandshakeNote(size, entry, message)) fprintf(stderr, "coracle: note: %s\n", message);
   free(entry);
   MPI_Ibarrier(MPI_COMM_WORLD, &request); /* nobody goes on before rank 0 has agreed */
   if (!WaitRequest(waiter, &request)) RefuseToStart(1, mine->role, "");
 }
 
-static void MapRoles(Participant *p, const RollEntry *mine)
+static void MapRoles(Participant *p, const HandshakeEntry *mine)
 {
-  int rank, size, role = RollRole(mine->role);
+  int rank, size, role = HandshakeRole(mine->role);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &size);
   int *roles = malloc((size_t)size * sizeof *roles);
@@ -219,22 +219,22 @@ static void Resume(Participant *p, int argc, char **argv)
 int ParticipantOpen(const char *role, bool client, int argc, char **argv, Participant **participant)
 {
   Participant *p = calloc(1, sizeof *p);
-  RollEntry mine;
-  MachineShare share;
+  HandshakeEntry mine;
+  Affinity share;
   p->started_mpi = StartMpi();
   p->start = WaitClock();
-  MachineGetShare(&share);
+  AffinityGet(&share);
   const char *wrong = WaiterInit(&p->waiter, share.shared);
   Describe(role, client, argc, argv, &mine);
-  if (LeavingWatched()) wrong = "this process has joined already";
+  if (ExitGuardWatched()) wrong = "this process has joined already";
   if (wrong) snprintf(mine.problem, sizeof mine.problem, "%s", wrong);
   CallRoll(&mine, &p->waiter);
   MapRoles(p, &mine);
   /* when one hangs all wait: the coupler, whose partners they all are, gives up first and so names the one */
   if (client) p->waiter.timeout = 1.1 * p->waiter.timeout + 1.0;
-  BoardOpen(role, p->rank, &p->board);
-  LeavingWatch(p);
-  if (share.pinned) MachineNotePinned(role, p->rank);
+  FailureBoardOpen(role, p->rank, &p->board);
+  ExitGuardWatch(p);
+  if (share.pinned) AffinityNotePinned(role, p->rank);
   Resume(p, argc, argv);
   *participant = p;
   return 0;
@@ -243,16 +243,16 @@ int ParticipantOpen(const char *role, bool client, int argc, char **argv, Partic
 void ParticipantStep(Participant *p, int step)
 {
   p->step = step;
-  BoardStep(p->board, step);
+  FailureBoardStep(p->board, step);
 }
 
 int ParticipantClose(Participant **participant)
 {
   Participant *p = *participant;
   const bool finalize = p->started_mpi;
-  LeavingExpected();
-  LeavingUnwatch();
-  BoardClose(&p->board);
+  ExitGuardExpected();
+  ExitGuardUnwatch();
+  FailureBoardClose(&p->board);
   MPI_Comm_free(&p->link);
   MPI_Comm_free(&p->app);
   for (int k = 0; k < NROLES; k++) free(p->world[k]);

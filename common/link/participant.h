@@ -6,10 +6,10 @@
  * messages travel on */
 #ifndef CORACLE_PARTICIPANT_H
 #define CORACLE_PARTICIPANT_H
-#include "board.h"
-#include "coracle.h"
-#include "roll_call.h"
-#include "wait.h"
+#include "common/link/coracle.h"
+#include "common/link/failure_board.h"
+#include "common/link/handshake.h"
+#include "common/link/wait.h"
 #include <stdarg.h>
 
 /* The link to the last checkpoint in a run's output folder (coupler/checkpoints.h). */
@@ -31,7 +31,7 @@ typedef struct {
   double used[NUSED]; /* rank 0: by the participant in the runs before that, s */
   bool started_mpi;
   Waiter waiter;
-  Board board;
+  FailureBoard board;
 } Participant;
 
 /* Joins as role; collective over the job.  `client`: role must not be coupler.  A process joins once. */

@@ -1,4 +1,4 @@
-#include "report.h"
+#include "common/link/report.h"
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>

@@ -1,7 +1,7 @@
 /* Numbers that a participant reports for the run's summary: kept by each rank, merged over the ranks. */
 #ifndef CORACLE_REPORT_H
 #define CORACLE_REPORT_H
-#include "message.h"
+#include "common/link/message.h"
 
 typedef struct {
   char key[56];

@@ -1,10 +1,10 @@
-#include "server_impl.h"
+#include "common/link/server_impl.h"
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static void SideInit(Side *side, const Participant *p, Role role)
+static void SideInit(ClientList *side, const Participant *p, Role role)
 {
   side->peer = calloc((size_t)p->count[role] + 1, sizeof *side->peer);
   for (int rank = p->rank; rank < p->count[role]; rank += p->size) {
@@ -13,7 +13,7 @@ static void SideInit(Side *side, const Participant *p, Role role)
   }
 }
 
-static void SideFree(Side *side)
+static void SideFree(ClientList *side)
 {
   for (int i = 0; i < side->n; i++) {
     MessageFree(&side->peer[i].in);
@@ -26,7 +26,7 @@ static void SideFree(Side *side)
   free(side->peer);
 }
 
-int SideFind(const Side *side, int i)
+int ClientListFind(const ClientList *side, int i)
 {
   int lower = 0, upper = side->n - 1; /* the last peer whose first <= i */
   while (lower < upper) {
@@ -39,13 +39,13 @@ int SideFind(const Side *side, int i)
   return lower;
 }
 
-void SideSend(Server s, Side *side)
+void ClientListSend(Server s, ClientList *side)
 {
   for (int i = 0; i < side->n; i++) MessageSend(s->p, &side->peer[i].out);
   for (int i = 0; i < side->n; i++) MessageFinish(s->p, &side->peer[i].out);
 }
 
-void SideStep(Server s, Side *side, CoracleAction action)
+void ClientListStep(Server s, ClientList *side, CoracleAction action)
 {
   if (side->stopped) ServerFail(s, "the run goes on after CORACLE_STOP");
   if (action == CORACLE_RUN) side->step++;
@@ -56,7 +56,7 @@ void SideStep(Server s, Side *side, CoracleAction action)
 
 /* --- checkpoints ---------------------------------------------------------------------------------------- */
 
-const char *ServerResumeFolder(Server s)
+const char *ServerResumePath(Server s)
 {
   return s->p->resume;
 }
@@ -71,14 +71,14 @@ int ServerSave(Server s, const char *folder)
   return 0;
 }
 
-void SideAskSave(Server s, Peer *peer, CoracleAction action)
+void ClientListAskSave(Server s, ClientRank *peer, CoracleAction action)
 {
   const size_t bytes = action == CORACLE_REDO ? 0 : s->save.size;
   ((MessageHeader *)(void *)peer->out.buffer.data)->count[2] = (int64_t)bytes;
   MessageAdd(&peer->out, s->save.data, bytes);
 }
 
-void SideFlags(Server s, Role role, Peer *peer, const MessageHeader *h)
+void ClientListFlags(Server s, Role role, ClientRank *peer, const MessageHeader *h)
 {
   if (h->flag & FLAG_SAVED) peer->saved = true;
   const bool resumes = h->flag & FLAG_RESUMES;
@@ -125,7 +125,7 @@ void ServerFail(Server s, const char *format, ...)
 
 int ServerRanks(Server s, const char *role)
 {
-  const int k = RollRole(role);
+  const int k = HandshakeRole(role);
   return k < 0 ? 0 : s->p->count[k];
 }
 
@@ -136,12 +136,12 @@ double ServerWaited(Server s)
 
 /* --- the end -------------------------------------------------------------------------------------------- */
 
-static void ReceiveClose(Server s, Side *side, Role role)
+static void ReceiveClose(Server s, ClientList *side, Role role)
 {
   for (int i = 0; i < side->n; i++) {
     Message *m = &side->peer[i].in;
     const MessageHeader *h = MessageReceive(s->p, m, KIND_CLOSE, KIND_CLOSE, side->step);
-    SideFlags(s, role, &side->peer[i], h);
+    ClientListFlags(s, role, &side->peer[i], h);
     const size_t n = (size_t)h->count[0];
     ReportMerge(&s->reports[role], n, MessageTake(s->p, m, n * sizeof(Report)));
   }

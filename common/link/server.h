@@ -5,7 +5,7 @@
  * function. */
 #ifndef CORACLE_SERVER_H
 #define CORACLE_SERVER_H
-#include "coracle.h"
+#include "common/link/coracle.h"
 
 typedef struct Server_s *Server;
 
@@ -61,7 +61,7 @@ int ServerReceiveFlow(Server s, ServerFlow *flow);
 int ServerSendForce(Server s, double t, double dt, CoracleAction action, const double force[]);
 
 /* The folder of the checkpoint that the run goes on from, or NULL; a client that does not is refused. */
-const char *ServerResumeFolder(Server s);
+const char *ServerResumePath(Server s);
 /* Has all clients save into the folder (the same on all coupler ranks; copied) as the coming step begins,
  * before that is sent. */
 int ServerSave(Server s, const char *folder);

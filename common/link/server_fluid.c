@@ -1,5 +1,5 @@
 /* The coupler's end towards the fluid. */
-#include "server_impl.h"
+#include "common/link/server_impl.h"
 #include <math.h>
 #include <string.h>
 
@@ -31,15 +31,15 @@ static void SendAsk(Server s, int nbox, const double box[])
     MessageStart(m, KIND_ASK, s->fluid.step)->count[0] = nbox;
     MessageAdd(m, box, (size_t)nbox * 2 * DIM * sizeof *box);
   }
-  SideSend(s, &s->fluid);
+  ClientListSend(s, &s->fluid);
 }
 
 /* bounds[2][DIM]: lower, and upper with its sign turned, so that both are minima. */
-static double ReceiveElements(Server s, Peer *peer, double bounds[2 * DIM])
+static double ReceiveElements(Server s, ClientRank *peer, double bounds[2 * DIM])
 {
   Message *m = &peer->in;
   const MessageHeader *h = MessageReceive(s->p, m, KIND_ELEMENTS, KIND_ELEMENTS, s->fluid.step);
-  SideFlags(s, ROLE_FLUID, peer, h);
+  ClientListFlags(s, ROLE_FLUID, peer, h);
   const double *lower = MessageTake(s->p, m, DIM * sizeof *lower),
                *upper = MessageTake(s->p, m, DIM * sizeof *upper);
   for (int d = 0; d < DIM; d++) {
@@ -91,7 +91,7 @@ double ServerProposedStep(Server s)
 
 /* --- flow ----------------------------------------------------------------------------------------------- */
 
-static double ReceiveFlow(Server s, Peer *peer, Message *m, int *changed)
+static double ReceiveFlow(Server s, ClientRank *peer, Message *m, int *changed)
 {
   const MessageHeader *h = MessageReceive(s->p, m, KIND_FLOW, KIND_FLOW, s->fluid.step);
   const size_t n = (size_t)h->count[0];
@@ -101,7 +101,7 @@ static double ReceiveFlow(Server s, Peer *peer, Message *m, int *changed)
   Append(s, m, &s->u_plus, n * DIM * NV * sizeof(double));
   Append(s, m, &s->pressure, n * NP2 * sizeof(double));
   Append(s, m, &s->mu, n * sizeof(double));
-  SideFlags(s, ROLE_FLUID, peer, h);
+  ClientListFlags(s, ROLE_FLUID, peer, h);
   *changed |= h->flag & FLAG_CHANGED;
   return h->dt;
 }
@@ -136,7 +136,7 @@ static int *Ints(const Buffer *b)
 /* The corrections of one peer, in the order of its coupling entries, with its own indices of that time. */
 static void AddCorrections(Server s, int k, int n, const CoracleCorrection correction[], Buffer *scratch)
 {
-  Peer *peer = &s->fluid.peer[k];
+  ClientRank *peer = &s->fluid.peer[k];
   int mine = 0;
   BufferResize(scratch, 0);
   for (int i = 0; i < n; i++) {
@@ -152,7 +152,7 @@ static void AddCorrections(Server s, int k, int n, const CoracleCorrection corre
 static void AddCouplings(Server s, int k, int n, const CoracleCoupling coupling[], const int owner[],
                          Buffer *scratch)
 {
-  Peer *peer = &s->fluid.peer[k];
+  ClientRank *peer = &s->fluid.peer[k];
   BufferResize(scratch, 0);
   BufferResize(&peer->coupled, 0);
   for (int i = 0; i < n; i++) {
@@ -216,8 +216,8 @@ int ServerSendCoupling(Server s, double t, double dt, CoracleAction action, int 
   CheckCorrections(s, action, ncorrection, correction);
   CheckCouplings(s, ncoupling, coupling);
   int *own = BufferResize(&owner, (size_t)ncoupling * sizeof *own);
-  for (int i = 0; i < ncoupling; i++) own[i] = SideFind(&s->fluid, coupling[i].element);
-  SideStep(s, &s->fluid, action);
+  for (int i = 0; i < ncoupling; i++) own[i] = ClientListFind(&s->fluid, coupling[i].element);
+  ClientListStep(s, &s->fluid, action);
   for (int k = 0; k < s->fluid.n; k++) {
     MessageHeader *h = MessageStart(&s->fluid.peer[k].out, KIND_COUPLING, step);
     h->action = action;
@@ -227,9 +227,9 @@ int ServerSendCoupling(Server s, double t, double dt, CoracleAction action, int 
     h->count[1] = CountOwned(own, ncoupling, k);
     AddCorrections(s, k, ncorrection, correction, &scratch);
     AddCouplings(s, k, ncoupling, coupling, own, &scratch);
-    SideAskSave(s, &s->fluid.peer[k], action);
+    ClientListAskSave(s, &s->fluid.peer[k], action);
   }
-  SideSend(s, &s->fluid);
+  ClientListSend(s, &s->fluid);
   BufferFree(&s->owner);
   s->owner = owner;
   BufferFree(&scratch);

@@ -1,9 +1,9 @@
 /* Private to the coupler's end of the link. */
 #ifndef CORACLE_SERVER_IMPL_H
 #define CORACLE_SERVER_IMPL_H
-#include "message.h"
-#include "report.h"
-#include "server.h"
+#include "common/link/message.h"
+#include "common/link/report.h"
+#include "common/link/server.h"
 
 /* One client rank whose home is this coupler rank. */
 typedef struct {
@@ -13,18 +13,18 @@ typedef struct {
   Buffer gid, facet, element; /* solid: its mesh as it numbers it */
   bool saved;                 /* the checkpoint that was asked for last */
   Buffer coupled; /* fluid: int [], its own index of the element of each coupling entry last sent */
-} Peer;
+} ClientRank;
 
 typedef struct {
   int n;
-  Peer *peer; /* [n] in order of client rank */
-  int step;   /* the step these clients are in */
+  ClientRank *peer; /* [n] in order of client rank */
+  int step;         /* the step these clients are in */
   bool stopped;
-} Side;
+} ClientList;
 
 struct Server_s {
   Participant *p;
-  Side fluid, solid;
+  ClientList fluid, solid;
   bool received_solid, asked, elements_changed, owes_correction;
   double proposed;
   Buffer save; /* path of the checkpoint that is due, or empty */
@@ -41,13 +41,13 @@ struct Server_s {
 };
 
 /* The peer whose list holds index i. */
-int SideFind(const Side *side, int i);
+int ClientListFind(const ClientList *side, int i);
 /* Sends every peer's message and waits until all have gone. */
-void SideSend(Server s, Side *side);
+void ClientListSend(Server s, ClientList *side);
 /* Asks a peer for a checkpoint with a message that begins a step: to be called last. */
-void SideAskSave(Server s, Peer *peer, CoracleAction action);
+void ClientListAskSave(Server s, ClientRank *peer, CoracleAction action);
 /* Takes note of what the flags of a peer's message say. */
-void SideFlags(Server s, Role role, Peer *peer, const MessageHeader *h);
+void ClientListFlags(Server s, Role role, ClientRank *peer, const MessageHeader *h);
 /* Counts a new step when it is one; fails when a client is asked to go on after STOP. */
-void SideStep(Server s, Side *side, CoracleAction action);
+void ClientListStep(Server s, ClientList *side, CoracleAction action);
 #endif

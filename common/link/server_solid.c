@@ -1,5 +1,5 @@
 /* The coupler's end towards the solid. */
-#include "server_impl.h"
+#include "common/link/server_impl.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,14 +13,14 @@ static void Store(Server s, Message *m, Buffer *to, size_t bytes)
 
 /* Receives one peer's SURFACE or MOTION and puts its x and u at the end of the lists; returns whether its
  * mesh is new. */
-static int ReceiveMotion(Server s, Peer *peer, int *nnodes)
+static int ReceiveMotion(Server s, ClientRank *peer, int *nnodes)
 {
   Message *m = &peer->in;
   const MessageKind kind = s->received_solid ? KIND_MOTION : KIND_SURFACE;
   const MessageHeader *h = MessageReceive(s->p, m, kind, KIND_SURFACE, s->solid.step);
   const size_t n = (size_t)h->count[0], bytes = DIM * n * sizeof(double);
   const bool whole = h->kind == KIND_SURFACE;
-  SideFlags(s, ROLE_SOLID, peer, h);
+  ClientListFlags(s, ROLE_SOLID, peer, h);
   if (!whole && (int)n != peer->n)
     ServerFail(s, "solid rank %d moves %zu nodes but has %d", m->rank, n, peer->n);
   peer->first = *nnodes;
@@ -66,7 +66,7 @@ static void AssembleMesh(Server s)
   BufferResize(&s->facet, 0);
   BufferResize(&s->element, 0);
   for (int i = 0; i < s->solid.n; i++) {
-    const Peer *peer = &s->solid.peer[i];
+    const ClientRank *peer = &s->solid.peer[i];
     if (peer->gid.size) memcpy(BufferExtend(&s->gid, peer->gid.size), peer->gid.data, peer->gid.size);
     AppendShifted(&s->facet, &peer->facet, peer->first);
     AppendShifted(&s->element, &peer->element, peer->first);
@@ -137,10 +137,10 @@ int ServerSendForce(Server s, double t, double dt, CoracleAction action, const d
 {
   const int step = s->solid.step; /* which the clients are in until they get this */
   if (!s->received_solid) ServerFail(s, "ServerSendForce comes after the first ServerReceiveSolid");
-  SideStep(s, &s->solid, action);
+  ClientListStep(s, &s->solid, action);
   if (action == CORACLE_RUN) s->kept_start = false;
   for (int i = 0; i < s->solid.n; i++) {
-    Peer *peer = &s->solid.peer[i];
+    ClientRank *peer = &s->solid.peer[i];
     if (action == CORACLE_RUN) {
       peer->first_start = peer->first;
       peer->n_start = peer->n;
@@ -154,8 +154,8 @@ int ServerSendForce(Server s, double t, double dt, CoracleAction action, const d
     h->dt = dt;
     h->count[0] = (int64_t)n;
     MessageAdd(&peer->out, its, n * DIM * sizeof(double));
-    SideAskSave(s, peer, action);
+    ClientListAskSave(s, peer, action);
   }
-  SideSend(s, &s->solid);
+  ClientListSend(s, &s->solid);
   return 0;
 }

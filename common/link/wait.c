@@ -1,4 +1,4 @@
-#include "wait.h"
+#include "common/link/wait.h"
 #include <math.h>
 #include <sched.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "mesh.h"
+#include "common/mesh/mesh.h"
 #include <string.h>
 
 int MeshTagIndex(const Mesh *mesh, const char *name)

@@ -9,8 +9,8 @@
  *
  * Square cells give angles of 45 and 90 degrees only.  Cells are stretched to fit the box, at most 2:1, which
  * leaves atan(1/2) = 26.6 degrees in the worst case. */
-#include "mesh.h"
-#include "mesh_table.h"
+#include "common/mesh/mesh.h"
+#include "common/mesh/mesh_table.h"
 #include <string.h>
 
 enum { LEFT, RIGHT, BOTTOM, TOP, SIDES };

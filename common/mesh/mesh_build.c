@@ -1,6 +1,6 @@
 /* A Mesh from pieces: elements in reverse Cuthill-McKee order, vertices and P2 nodes as these meet them, then
  * the ghosts (mesh_ghosts.c). */
-#include "mesh_build.h"
+#include "common/mesh/mesh_build.h"
 #include <string.h>
 
 static PetscErrorCode Allocate(const Build *b, Mesh *m)
@@ -56,7 +56,7 @@ static void NodesOf(const Build *b, int e, int node[6])
 /* Nodes that lower ranks have too belong to the lowest of these. */
 static void MarkForeign(Build *b)
 {
-  const PieceFaces *f = &b->faces;
+  const PartFaces *f = &b->faces;
   for (int k = 0; k < b->nnodes; k++) b->foreign[k] = 0;
   for (int k = 0; k < f->nrim; k++) b->foreign[f->rim[k]] = f->owners[k].lowest < f->rank;
   for (int k = 0; k < f->nopen; k++)
@@ -89,7 +89,7 @@ static PetscErrorCode NumberNodes(Build *b, Mesh *m)
 /* Those that have a node meet: its owner knows the number, the others say -1. */
 static PetscErrorCode LearnNumbers(Build *b)
 {
-  const PieceFaces *f = &b->faces;
+  const PartFaces *f = &b->faces;
   const int known = f->nopen + f->nrim, n = known + f->nclosed;
   int *node;
   long long *value;
@@ -146,12 +146,12 @@ static PetscErrorCode SetBounds(Mesh *m)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode BuildCreate(MPI_Comm comm, const MeshPiece *piece, PetscBool keep, Build *b)
+static PetscErrorCode BuildCreate(MPI_Comm comm, const MeshPart *piece, PetscBool keep, Build *b)
 {
   PetscFunctionBeginUser;
   b->piece = &piece->serial;
   b->gid = piece->gid;
-  const PetscErrorCode failed = PieceFacesCreate(comm, piece, &b->faces);
+  const PetscErrorCode failed = PartFacesCreate(comm, piece, &b->faces);
   if (failed) PetscFunctionReturn(failed);
   b->nnodes = piece->serial.nv + b->faces.local.nedge;
   PetscCall(PetscMalloc2(piece->serial.ne, &b->order, piece->serial.ne, &b->number));
@@ -165,7 +165,7 @@ static PetscErrorCode BuildCreate(MPI_Comm comm, const MeshPiece *piece, PetscBo
 static PetscErrorCode BuildDestroy(Build *b)
 {
   PetscFunctionBeginUser;
-  PetscCall(PieceFacesDestroy(&b->faces));
+  PetscCall(PartFacesDestroy(&b->faces));
   PetscCall(PetscFree2(b->order, b->number));
   PetscCall(PetscFree3(b->vertex, b->foreign, b->p2gid));
   PetscFunctionReturn(0);
@@ -190,7 +190,7 @@ static PetscErrorCode Fill(Build *b, Mesh *m)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode MeshBuildOrdered(MPI_Comm comm, const MeshPiece *piece, PetscBool keep, int order[],
+PetscErrorCode MeshBuildOrdered(MPI_Comm comm, const MeshPart *piece, PetscBool keep, int order[],
                                 Mesh **mesh)
 {
   Build b;
@@ -213,7 +213,7 @@ PetscErrorCode MeshBuildOrdered(MPI_Comm comm, const MeshPiece *piece, PetscBool
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode MeshBuild(MPI_Comm comm, const MeshPiece *piece, Mesh **mesh)
+PetscErrorCode MeshBuild(MPI_Comm comm, const MeshPart *piece, Mesh **mesh)
 {
   return MeshBuildOrdered(comm, piece, PETSC_FALSE, NULL, mesh);
 }

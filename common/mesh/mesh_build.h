@@ -1,12 +1,12 @@
 /* Private to the mesh room: a Mesh in the making. */
 #ifndef CORACLE_MESH_BUILD_H
 #define CORACLE_MESH_BUILD_H
-#include "mesh_impl.h"
+#include "common/mesh/mesh_impl.h"
 
 typedef struct {
   const MeshSerial *piece; /* borrowed */
   const long long *gid;    /* [piece->nv] borrowed */
-  PieceFaces faces;
+  PartFaces faces;
   int *order;      /* [ne] element of the piece that has this number in the Mesh */
   int *number;     /* [ne] and the other way */
   int *vertex;     /* [nv] local vertex of the Mesh, -1 for one of no element */

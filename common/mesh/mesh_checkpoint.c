@@ -1,5 +1,5 @@
-#include "mesh_checkpoint.h"
-#include "mesh_impl.h"
+#include "common/mesh/mesh_checkpoint.h"
+#include "common/mesh/mesh_impl.h"
 #include <string.h>
 
 #define NAME ((int)sizeof(((Mesh *)NULL)->tag_name[0]))
@@ -85,7 +85,7 @@ static PetscErrorCode LoadNames(Checkpoint from, MeshSerial *s)
 }
 
 /* The triangles of n rows; the row is each one's region, which goes where it goes. */
-static PetscErrorCode LoadPiece(Checkpoint from, long long start, int n, MeshPiece *piece)
+static PetscErrorCode LoadPiece(Checkpoint from, long long start, int n, MeshPart *piece)
 {
   MeshSerial *s = &piece->serial;
   long long *vertex, *tag;
@@ -101,38 +101,38 @@ static PetscErrorCode LoadPiece(Checkpoint from, long long start, int n, MeshPie
   PetscCall(CheckpointGetIndices(from, "mesh tags", start, n, 3, tag));
   PetscCall(PetscMalloc1(n, &s->region));
   PetscCall(PetscMalloc1(3 * n, &s->vertex));
-  PetscCall(PieceMerge(3 * n, vertex, s->vertex, piece));
+  PetscCall(PartMerge(3 * n, vertex, s->vertex, piece));
   PetscCall(PetscMalloc1(2 * s->nv, &s->x));
   for (int e = 0; e < n; e++) s->region[e] = (int)start + e;
   for (int k = 0; k < 3 * n; k++) {
     local_tag[k] = (int)tag[k];
     for (int c = 0; c < 2; c++) s->x[2 * s->vertex[k] + c] = corner[2 * k + c];
   }
-  PetscCall(PieceFacets(local_tag, s));
+  PetscCall(PartFacets(local_tag, s));
   PetscCall(PetscFree4(vertex, tag, corner, local_tag));
   PetscCall(LoadNames(from, s));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Repartition(MPI_Comm comm, MeshPiece *piece)
+static PetscErrorCode Repartition(MPI_Comm comm, MeshPart *piece)
 {
-  MeshPiece moved;
+  MeshPart moved;
   PetscMPIInt size;
   int *part;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_size(comm, &size));
   PetscCall(PetscMalloc1(piece->serial.ne, &part));
-  PetscCall(MeshPiecePartition(comm, piece, size, NULL, part));
-  PetscCall(MeshPieceMigrate(comm, piece, part, 0, NULL, &moved, NULL));
+  PetscCall(MeshPartPartition(comm, piece, size, NULL, part));
+  PetscCall(MeshPartMigrate(comm, piece, part, 0, NULL, &moved, NULL));
   PetscCall(PetscFree(part));
-  PetscCall(MeshPieceDestroy(piece));
+  PetscCall(MeshPartDestroy(piece));
   *piece = moved;
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode MeshLoad(MPI_Comm comm, Checkpoint from, Mesh **mesh, PetscInt **row)
 {
-  MeshPiece piece;
+  MeshPart piece;
   PetscBool same = PETSC_FALSE;
   long long start = 0;
   int n = 0, *order;
@@ -145,7 +145,7 @@ PetscErrorCode MeshLoad(MPI_Comm comm, Checkpoint from, Mesh **mesh, PetscInt **
   PetscCall(MeshBuildOrdered(comm, &piece, same, order, mesh));
   for (int e = 0; e < piece.serial.ne; e++) (*row)[e] = piece.serial.region[order[e]];
   PetscCall(PetscFree(order));
-  PetscCall(MeshPieceDestroy(&piece));
+  PetscCall(MeshPartDestroy(&piece));
   PetscFunctionReturn(0);
 }
 

@@ -10,8 +10,8 @@
  * All collective, on any number of ranks. */
 #ifndef CORACLE_MESH_CHECKPOINT_H
 #define CORACLE_MESH_CHECKPOINT_H
-#include "checkpoint.h"
-#include "mesh.h"
+#include "common/mesh/mesh.h"
+#include "common/output/checkpoint.h"
 
 PetscErrorCode MeshSave(const Mesh *mesh, Checkpoint to);
 /* row[mesh->ne], to be PetscFree'd: the rows of this rank's elements.  As many ranks as have saved it get the

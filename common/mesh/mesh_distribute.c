@@ -1,7 +1,7 @@
-#include "piece.h"
+#include "common/mesh/part.h"
 
 /* Rank 0 has all triangles, the others none. */
-static PetscErrorCode Whole(const MeshSerial *serial, MeshPiece *piece)
+static PetscErrorCode Whole(const MeshSerial *serial, MeshPart *piece)
 {
   PetscFunctionBeginUser;
   piece->serial = *serial; /* borrowed */
@@ -10,18 +10,18 @@ static PetscErrorCode Whole(const MeshSerial *serial, MeshPiece *piece)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode HandOut(MPI_Comm comm, int size, const MeshPiece *whole, Mesh **mesh)
+static PetscErrorCode HandOut(MPI_Comm comm, int size, const MeshPart *whole, Mesh **mesh)
 {
-  MeshPiece own;
+  MeshPart own;
   PetscErrorCode failed;
   int *part;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(whole->serial.ne, &part));
-  failed = MeshPiecePartition(comm, whole, size, NULL, part);
+  failed = MeshPartPartition(comm, whole, size, NULL, part);
   if (!failed) {
-    PetscCall(MeshPieceMigrate(comm, whole, part, 0, NULL, &own, NULL));
+    PetscCall(MeshPartMigrate(comm, whole, part, 0, NULL, &own, NULL));
     failed = MeshBuild(comm, &own, mesh);
-    PetscCall(MeshPieceDestroy(&own));
+    PetscCall(MeshPartDestroy(&own));
   }
   PetscCall(PetscFree(part));
   PetscFunctionReturn(failed);
@@ -29,7 +29,7 @@ static PetscErrorCode HandOut(MPI_Comm comm, int size, const MeshPiece *whole, M
 
 PetscErrorCode MeshDistribute(MPI_Comm comm, const MeshSerial *serial, Mesh **mesh)
 {
-  MeshPiece whole = {0};
+  MeshPart whole = {0};
   PetscErrorCode failed;
   int rank, size;
   PetscFunctionBeginUser;

@@ -1,5 +1,5 @@
-#include "mesh_impl.h"
-#include "mesh_table.h"
+#include "common/mesh/mesh_impl.h"
+#include "common/mesh/mesh_table.h"
 
 PetscErrorCode MeshFacesDestroy(MeshFaces *faces)
 {

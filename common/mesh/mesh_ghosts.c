@@ -1,5 +1,5 @@
-#include "mesh_build.h"
-#include "mesh_table.h"
+#include "common/mesh/mesh_build.h"
+#include "common/mesh/mesh_table.h"
 #include <string.h>
 
 static int ByNumber(const void *p, const void *q)
@@ -12,7 +12,7 @@ static int ByNumber(const void *p, const void *q)
 /* What this rank tells about its element at open face k; the target is numbered as the receiver's piece. */
 static Ghost Tell(const Build *b, const Mesh *m, int k)
 {
-  const PieceFaces *f = &b->faces;
+  const PartFaces *f = &b->faces;
   const int ef = f->open[k], v = b->piece->vertex[ef];
   Ghost g = {.target = f->across[k] - 3 * f->start[f->across_rank[k]],
              .egid = m->estart + b->number[ef / 3],
@@ -34,7 +34,7 @@ static void Number(Ghosts *g, Mesh *m)
 
 PetscErrorCode GhostsCreate(const Build *b, Mesh *m, Ghosts *g)
 {
-  const PieceFaces *f = &b->faces;
+  const PartFaces *f = &b->faces;
   int *to, *slot, n = 0;
   MeshRoute route;
   Ghost *told, *out;
@@ -89,7 +89,7 @@ static void Attach(const Build *b, const Ghost *g, MeshTable *vertices, Mesh *m)
 
 PetscErrorCode GhostsFill(const Build *b, const Ghosts *g, Mesh *m)
 {
-  const PieceFaces *f = &b->faces;
+  const PartFaces *f = &b->faces;
   MeshTable vertices; /* an owned vertex of a ghost lies on the rim */
   PetscFunctionBeginUser;
   PetscCall(MeshTableCreate(&vertices, (size_t)(f->nrim + g->n)));

@@ -1,6 +1,6 @@
 /* From what a Gmsh file says to a mesh: every triangle is judged, the boundary found and named. */
-#include "mesh_gmsh_impl.h"
-#include "mesh_table.h"
+#include "common/mesh/mesh_gmsh_impl.h"
+#include "common/mesh/mesh_table.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
  * code, without a trace-back: GmshRefuse has written why. */
 #ifndef CORACLE_MESH_GMSH_IMPL_H
 #define CORACLE_MESH_GMSH_IMPL_H
-#include "mesh.h"
+#include "common/mesh/mesh.h"
 
 typedef struct {
   int tag;

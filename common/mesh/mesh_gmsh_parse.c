@@ -7,7 +7,7 @@
  * entity
  *
  * Text and binary differ in how a number is read only, so one routine serves both. */
-#include "mesh_gmsh_impl.h"
+#include "common/mesh/mesh_gmsh_impl.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

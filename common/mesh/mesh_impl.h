@@ -2,20 +2,20 @@
  * elements. */
 #ifndef CORACLE_MESH_IMPL_H
 #define CORACLE_MESH_IMPL_H
-#include "mesh_route.h"
-#include "piece.h"
+#include "common/mesh/mesh_route.h"
+#include "common/mesh/part.h"
 
 /* Parts of a piece that a list of triangles makes.  Not collective. */
 
 /* Joins vertices that were listed more than once: local[n] is what those of gid[n] became, as they are met.
  * Sets gid and serial.nv. */
-PetscErrorCode PieceMerge(int n, const long long gid[], int local[], MeshPiece *piece);
+PetscErrorCode PartMerge(int n, const long long gid[], int local[], MeshPart *piece);
 /* The facets: faces with a name, tag[ne][3], else -1. */
-PetscErrorCode PieceFacets(const int tag[], MeshSerial *serial);
+PetscErrorCode PartFacets(const int tag[], MeshSerial *serial);
 
 /* Collective.  MeshBuild; order[ne], or NULL, says which triangle of the piece each element was.  keep: the
  * one of the same number, so that the piece of a Mesh gives the same Mesh again, to the last bit. */
-PetscErrorCode MeshBuildOrdered(MPI_Comm comm, const MeshPiece *piece, PetscBool keep, int order[],
+PetscErrorCode MeshBuildOrdered(MPI_Comm comm, const MeshPart *piece, PetscBool keep, int order[],
                                 Mesh **mesh);
 
 /* Faces of a MeshSerial; arrays are [ne][3], face i opposite to vertex i. */
@@ -54,11 +54,11 @@ typedef struct {
   int *rim;            /* [nrim] ascending */
   MeshMet *owners;     /* [nrim] the ranks that have the vertex */
   MeshRendezvous meet; /* of the open faces, then the rim, then the closed faces */
-} PieceFaces;
+} PartFaces;
 
 /* Collective.  Errors: those of MeshBuild. */
-PetscErrorCode PieceFacesCreate(MPI_Comm comm, const MeshPiece *piece, PieceFaces *faces);
-PetscErrorCode PieceFacesDestroy(PieceFaces *faces);
+PetscErrorCode PartFacesCreate(MPI_Comm comm, const MeshPart *piece, PartFaces *faces);
+PetscErrorCode PartFacesDestroy(PartFaces *faces);
 
 /* Reverse Cuthill-McKee order of elements (George and Liu, 1981): order[ne] lists them, neighbours close to
  * each other, which keeps ILU factors accurate and caches warm. */

@@ -1,4 +1,4 @@
-#include "mesh_impl.h"
+#include "common/mesh/mesh_impl.h"
 
 /* Elements joined across faces. */
 typedef struct {

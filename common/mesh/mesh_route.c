@@ -1,4 +1,4 @@
-#include "mesh_route.h"
+#include "common/mesh/mesh_route.h"
 #include <stdint.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
-#include "checkpoint.h"
-#include "hdf5_file.h"
+#include "common/output/checkpoint.h"
+#include "common/output/hdf5_file.h"
 #include <limits.h>
 #include <string.h>
 

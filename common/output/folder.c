@@ -1,4 +1,4 @@
-#include "folder.h"
+#include "common/output/folder.h"
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>

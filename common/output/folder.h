@@ -1,7 +1,7 @@
 /* Private to the output room. */
 #ifndef CORACLE_OUTPUT_FOLDER_H
 #define CORACLE_OUTPUT_FOLDER_H
-#include "checkpoint.h"
+#include "common/output/checkpoint.h"
 
 /* Collective: rank 0 makes the folder with those above it, if missing. */
 PetscErrorCode FolderMake(MPI_Comm comm, const char *folder);

@@ -1,4 +1,4 @@
-#include "hdf5_file.h"
+#include "common/output/hdf5_file.h"
 #include <string.h>
 
 /* The innermost message of HDF5's error stack. */

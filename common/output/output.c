@@ -8,10 +8,10 @@
  *
  * Every snapshot is complete in itself: points and cells that have not changed are links to the earlier ones.
  */
-#include "output.h"
-#include "folder.h"
-#include "hdf5_file.h"
-#include "xdmf.h"
+#include "common/output/output.h"
+#include "common/output/folder.h"
+#include "common/output/hdf5_file.h"
+#include "common/output/xdmf.h"
 #include <ctype.h>
 #include <string.h>
 

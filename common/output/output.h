@@ -3,7 +3,7 @@
  * then renamed). */
 #ifndef CORACLE_OUTPUT_H
 #define CORACLE_OUTPUT_H
-#include "checkpoint.h"
+#include "common/output/checkpoint.h"
 
 typedef struct Output_s *Output;
 typedef enum { OUTPUT_NODE, OUTPUT_CELL } OutputCentre;

@@ -1,5 +1,5 @@
-#include "folder.h"
-#include "output.h"
+#include "common/output/folder.h"
+#include "common/output/output.h"
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>

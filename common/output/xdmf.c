@@ -1,4 +1,4 @@
-#include "xdmf.h"
+#include "common/output/xdmf.h"
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
-#include "projection.h"
-#include "supermesh.h"
+#include "common/supermesh/projection.h"
+#include "common/supermesh/supermesh.h"
 #include <stdlib.h>
 
 /* What a source gives to a target. */

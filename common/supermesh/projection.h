@@ -8,7 +8,7 @@
  * Serial, no MPI; 0 is returned, or 1 when there is no memory. */
 #ifndef CORACLE_PROJECTION_H
 #define CORACLE_PROJECTION_H
-#include "search.h"
+#include "common/supermesh/search.h"
 
 typedef struct Projection_s *Projection;
 

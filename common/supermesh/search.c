@@ -1,4 +1,4 @@
-#include "search.h"
+#include "common/supermesh/search.h"
 #include <stdint.h>
 #include <stdlib.h>
 

@@ -3,7 +3,7 @@
  * the boxes' sizes (a mesh graded by a factor of 1000 costs the same as a uniform one).  Serial, no MPI. */
 #ifndef CORACLE_SEARCH_H
 #define CORACLE_SEARCH_H
-#include "geometry.h"
+#include "common/supermesh/geometry.h"
 
 typedef struct Search_s *Search;
 

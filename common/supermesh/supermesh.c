@@ -1,4 +1,4 @@
-#include "supermesh.h"
+#include "common/supermesh/supermesh.h"
 #include <stdlib.h>
 
 static const double SLIVER = 1e-14;

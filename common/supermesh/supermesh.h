@@ -12,7 +12,7 @@
  * cover the other set. Serial, no MPI; 0 is returned, or 1 when there is no memory. */
 #ifndef CORACLE_SUPERMESH_H
 #define CORACLE_SUPERMESH_H
-#include "search.h"
+#include "common/supermesh/search.h"
 
 typedef struct {
   int a, b;

@@ -1,4 +1,4 @@
-#include "match.h"
+#include "common/transfer/match.h"
 #include <string.h>
 
 /* The finaliser of splitmix64 (Steele, Lea and Flood 2014): every bit of v reaches every bit of the result.

@@ -1,5 +1,5 @@
-#include "route.h"
-#include "mesh_route.h"
+#include "common/transfer/route.h"
+#include "common/mesh/mesh_route.h"
 
 struct Route_s {
   MeshRoute way;

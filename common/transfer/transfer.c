@@ -1,4 +1,4 @@
-#include "transfer_impl.h"
+#include "common/transfer/transfer_impl.h"
 
 /* Areas of both meshes on all ranks agree. */
 static PetscErrorCode CheckDomain(Transfer t)

@@ -12,7 +12,7 @@
  * All functions are collective over the meshes' communicator. */
 #ifndef CORACLE_TRANSFER_H
 #define CORACLE_TRANSFER_H
-#include "mesh.h"
+#include "common/mesh/mesh.h"
 
 typedef struct Transfer_s *Transfer;
 

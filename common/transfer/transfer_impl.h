@@ -1,9 +1,9 @@
 /* Private to the transfer room. */
 #ifndef CORACLE_TRANSFER_IMPL_H
 #define CORACLE_TRANSFER_IMPL_H
-#include "projection.h"
-#include "route.h"
-#include "transfer.h"
+#include "common/supermesh/projection.h"
+#include "common/transfer/route.h"
+#include "common/transfer/transfer.h"
 
 /* An unchanged element, where it has arrived: vertex i of new element `target` is vertex (i + turn) % 3 of
  * the arriving one. */

@@ -1,8 +1,8 @@
 /* Which elements are in both meshes?  An element of either mesh is shown to a rank that its hash chooses (a
  * directory), where equal ones meet; the directory answers the old element's rank, which alone then knows
  * where its element goes. */
-#include "match.h"
-#include "transfer_impl.h"
+#include "common/transfer/match.h"
+#include "common/transfer/transfer_impl.h"
 
 typedef struct {
   double x[3][2];

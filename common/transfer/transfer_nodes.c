@@ -1,6 +1,6 @@
 /* P2 fields: nodes of unchanged elements keep their values; others are located among the pieces by the rank
  * that owns them; ranks that share a node take its owner's value. */
-#include "transfer_impl.h"
+#include "common/transfer/transfer_impl.h"
 
 /* Outside of all old elements by more than round-off, in barycentric coordinates. */
 static const double OUTSIDE = -1e-6;

@@ -1,6 +1,6 @@
 /* Changed old elements go to every rank one of whose boxes they touch.  A rank has up to BOXES boxes, each
  * around a cluster of its changed new elements. */
-#include "transfer_impl.h"
+#include "common/transfer/transfer_impl.h"
 
 enum { BOXES = 64 };
 

@@ -1,4 +1,4 @@
-#include "adapt_impl.h"
+#include "fluid/adapt/adapt_impl.h"
 #include <string.h>
 
 enum { MOST_ROUNDS = 60, LAST_ROUNDS = 6 };

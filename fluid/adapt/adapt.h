@@ -15,7 +15,7 @@
  * of the input's triangles.  Not collective, deterministic. */
 #ifndef CORACLE_ADAPT_H
 #define CORACLE_ADAPT_H
-#include "mesh.h"
+#include "common/mesh/mesh.h"
 
 typedef struct {
   int rounds;             /* at most so many; 0: 60, which is more than any metric met so far needed */

@@ -1,4 +1,4 @@
-#include "adapt_impl.h"
+#include "fluid/adapt/adapt_impl.h"
 
 /* Twice the areas that x spans with the faces of triangle e; their sum is twice the triangle's. */
 static void Areas(const MeshSerial *m, int e, const double x[2], double area[3])

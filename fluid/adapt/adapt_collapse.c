@@ -1,4 +1,4 @@
-#include "adapt_impl.h"
+#include "fluid/adapt/adapt_impl.h"
 
 /* What a collapse may leave behind: this quality, or the one that was there. */
 #define QUALITY_KEPT 0.35

@@ -1,4 +1,4 @@
-#include "adapt_impl.h"
+#include "fluid/adapt/adapt_impl.h"
 #include <string.h>
 
 /* Facets are the faces on named lines: all of the boundary's, and one side of those inside. */

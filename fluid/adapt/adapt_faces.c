@@ -1,4 +1,4 @@
-#include "adapt_impl.h"
+#include "fluid/adapt/adapt_impl.h"
 
 /* Corners by the smaller vertex of the face that they look at, as chains: head[v], next[c], ... */
 typedef struct {

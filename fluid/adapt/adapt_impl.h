@@ -5,8 +5,8 @@
  * again. */
 #ifndef CORACLE_ADAPT_IMPL_H
 #define CORACLE_ADAPT_IMPL_H
-#include "adapt.h"
-#include "metric_tensor.h"
+#include "fluid/adapt/adapt.h"
+#include "fluid/adapt/metric_tensor.h"
 #include <float.h>
 #include <stdbool.h>
 

@@ -1,4 +1,4 @@
-#include "adapt_impl.h"
+#include "fluid/adapt/adapt_impl.h"
 
 static PetscErrorCode GrowVertices(Adapt *a)
 {

@@ -1,4 +1,4 @@
-#include "adapt_near.h"
+#include "fluid/adapt/adapt_near.h"
 #include <string.h>
 
 /* Another pass is worth its while below this share of unit edges at frozen vertices, or beyond these bounds.

@@ -1,8 +1,8 @@
 /* Private to the adapt room: how good a mesh is near what was frozen, and where not to cut it next. */
 #ifndef CORACLE_ADAPT_NEAR_H
 #define CORACLE_ADAPT_NEAR_H
-#include "adapt_impl.h"
-#include "piece.h"
+#include "common/mesh/part.h"
+#include "fluid/adapt/adapt_impl.h"
 
 /* Distances are counted in edges from the nearest frozen vertex; from NEAR_IDLE on, vertices look right. */
 enum { NEAR_IDLE = 4, NEAR_FAR = 9 };
@@ -11,7 +11,7 @@ enum { NEAR_IDLE = 4, NEAR_FAR = 9 };
  */
 void NearDistances(const AdaptResult *result, const char frozen[], int distance[]);
 
-/* Weights of faces for MeshPiecePartition: large near what was frozen, very large where that does not fit the
+/* Weights of faces for MeshPartPartition: large near what was frozen, very large where that does not fit the
  * metric. */
 PetscErrorCode NearWeights(const AdaptResult *result, const int distance[], int weight[]);
 

@@ -1,5 +1,5 @@
-#include "adapt_parallel.h"
-#include "adapt_near.h"
+#include "fluid/adapt/adapt_parallel.h"
+#include "fluid/adapt/adapt_near.h"
 #include <string.h>
 
 /* A pass in which a part would have less than so many triangles makes do with fewer parts; twice as many in
@@ -13,7 +13,7 @@ enum { MOST_PASSES = 8, SMALL_PART = 50 };
 typedef struct {
   MPI_Comm comm;
   int rank, size;
-  MeshPiece piece;
+  MeshPart piece;
   int *weight;        /* [ne][3] for the next partition: where it should not cut */
   double *data;       /* [nv][DATA]: metric and the distance from what was frozen in the last pass */
   long long next_gid; /* above all that are in use */
@@ -71,7 +71,7 @@ static PetscErrorCode Freeze(const Parallel *p, Frozen *f)
   PetscCall(PetscCalloc1(s->nv, &f->frozen));
   PetscCall(PetscCalloc1(s->ntags + 1, &f->frozen_tag));
   f->frozen_tag[s->ntags] = 1;
-  if (p->size > 1) PetscCall(MeshPieceShared(p->comm, &p->piece, face, f->frozen));
+  if (p->size > 1) PetscCall(MeshPartShared(p->comm, &p->piece, face, f->frozen));
   PetscCall(FreezeFaces(s, face, &f->mesh));
   for (int v = 0; v < s->nv; v++) {
     for (int k = 0; k < 3; k++) f->metric[3 * v + k] = p->data[DATA * v + k];
@@ -126,7 +126,7 @@ static PetscErrorCode NumberVertices(Parallel *p, const long long old[], const A
 static PetscErrorCode Take(Parallel *p, const int distance[], AdaptResult *r)
 {
   const int nv = r->mesh.nv;
-  MeshPiece new = {.serial = r->mesh};
+  MeshPart new = {.serial = r->mesh};
   double *data;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(nv, &new.gid));
@@ -139,7 +139,7 @@ static PetscErrorCode Take(Parallel *p, const int distance[], AdaptResult *r)
   memset(&r->mesh, 0, sizeof r->mesh); /* taken over */
   Thaw(&new.serial);
   PetscCall(PetscFree(p->data));
-  PetscCall(MeshPieceDestroy(&p->piece));
+  PetscCall(MeshPartDestroy(&p->piece));
   p->piece = new;
   p->data = data;
   PetscFunctionReturn(0);
@@ -186,19 +186,19 @@ static PetscErrorCode Pass(Parallel *p, const AdaptOptions *options, bool *fits)
 static PetscErrorCode Repartition(Parallel *p, long long least)
 {
   long long all = p->piece.serial.ne;
-  MeshPiece moved;
+  MeshPart moved;
   double *data;
   int *part, nparts = p->size;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_LONG_LONG, MPI_SUM, p->comm));
   if (least > 0) nparts = (int)PetscMin((long long)nparts, PetscMax(1, all / least));
   PetscCall(PetscMalloc1(p->piece.serial.ne, &part));
-  PetscCall(MeshPiecePartition(p->comm, &p->piece, nparts, least > 0 ? p->weight : NULL, part));
-  PetscCall(MeshPieceMigrate(p->comm, &p->piece, part, DATA, p->data, &moved, &data));
+  PetscCall(MeshPartPartition(p->comm, &p->piece, nparts, least > 0 ? p->weight : NULL, part));
+  PetscCall(MeshPartMigrate(p->comm, &p->piece, part, DATA, p->data, &moved, &data));
   PetscCall(PetscFree(part));
   PetscCall(PetscFree(p->weight));
   PetscCall(PetscFree(p->data));
-  PetscCall(MeshPieceDestroy(&p->piece));
+  PetscCall(MeshPartDestroy(&p->piece));
   p->piece = moved;
   p->data = data;
   PetscFunctionReturn(0);
@@ -237,7 +237,7 @@ static PetscErrorCode ParallelCreate(const Mesh *mesh, const double metric[], Pa
   p->comm = mesh->comm;
   PetscCallMPI(MPI_Comm_rank(p->comm, &p->rank));
   PetscCallMPI(MPI_Comm_size(p->comm, &p->size));
-  PetscCall(MeshPieceOf(mesh, &p->piece));
+  PetscCall(MeshPartOf(mesh, &p->piece));
   p->next_gid = mesh->np2_global;
   PetscCall(PetscMalloc1(DATA * p->piece.serial.nv, &p->data));
   for (int v = 0; v < p->piece.serial.nv; v++) {
@@ -259,6 +259,6 @@ PetscErrorCode MeshAdaptParallel(const Mesh *mesh, const double metric[], const 
   if (!failed && report) *report = p.report;
   PetscCall(PetscFree(p.data));
   PetscCall(PetscFree(p.weight));
-  PetscCall(MeshPieceDestroy(&p.piece));
+  PetscCall(MeshPartDestroy(&p.piece));
   PetscFunctionReturn(failed);
 }

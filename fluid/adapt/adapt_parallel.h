@@ -9,7 +9,7 @@
  * changes, a refinement takes two to five. */
 #ifndef CORACLE_ADAPT_PARALLEL_H
 #define CORACLE_ADAPT_PARALLEL_H
-#include "adapt.h"
+#include "fluid/adapt/adapt.h"
 
 /* Collective.  metric[mesh->nv][3] as in metric.h, on the vertices of owned elements (those of ghosts alone
  * are not read), the same on all ranks that have a vertex.  options may be NULL; `frozen`, `frozen_tag` and

@@ -1,4 +1,4 @@
-#include "adapt_impl.h"
+#include "fluid/adapt/adapt_impl.h"
 
 /* A move must raise the worst score around the vertex by so much; stars that are this good are left alone. */
 #define GAIN 1.01

@@ -1,4 +1,4 @@
-#include "adapt_impl.h"
+#include "fluid/adapt/adapt_impl.h"
 
 /* The longest face of triangle e. */
 static int Longest(const Adapt *a, int e, double *length)

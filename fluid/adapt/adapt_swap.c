@@ -1,4 +1,4 @@
-#include "adapt_impl.h"
+#include "fluid/adapt/adapt_impl.h"
 
 /* By how much a swap must raise the worse quality of the two: keeps ties from swapping for ever. */
 #define GAIN 1.01

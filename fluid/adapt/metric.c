@@ -1,5 +1,5 @@
-#include "metric.h"
-#include "metric_tensor.h"
+#include "fluid/adapt/metric.h"
+#include "fluid/adapt/metric_tensor.h"
 
 PetscErrorCode MetricFromSizes(int nv, const double h[], double metric[])
 {

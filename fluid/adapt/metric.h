@@ -8,7 +8,7 @@
  * Nothing here is collective.  Errors: PETSC_ERR_ARG_OUTOFRANGE for an argument without sense. */
 #ifndef CORACLE_METRIC_H
 #define CORACLE_METRIC_H
-#include "mesh.h"
+#include "common/mesh/mesh.h"
 
 /* Isotropic: M = I/h^2, h[nv] in m, positive. */
 PetscErrorCode MetricFromSizes(int nv, const double h[], double metric[]);

@@ -1,4 +1,4 @@
-#include "metric.h"
+#include "fluid/adapt/metric.h"
 #include <math.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
-#include "metric_share.h"
-#include "metric_tensor.h"
+#include "fluid/adapt/metric_share.h"
+#include "fluid/adapt/metric_tensor.h"
 
 typedef struct {
   PetscInt id;

@@ -1,7 +1,7 @@
 /* The metric of a distributed mesh: the same on all ranks that share a vertex. */
 #ifndef CORACLE_METRIC_SHARE_H
 #define CORACLE_METRIC_SHARE_H
-#include "metric.h"
+#include "fluid/adapt/metric.h"
 
 /* The vertices of faces to other ranks, each once. */
 typedef struct {

@@ -1,6 +1,6 @@
 /* One body and its materials, from the case. */
-#include "case_body.h"
-#include "shape.h"
+#include "solid/bodies/case_body.h"
+#include "solid/bodies/shape.h"
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -200,7 +200,7 @@ static PetscErrorCode ReadFixed(Case c, int body, BodySetup *setup, const char *
 }
 
 /* One item of `driven`: rows are allocated. */
-static PetscErrorCode ReadDrive(Case c, const char *item, BoundaryDrive *d)
+static PetscErrorCode ReadDrive(Case c, const char *item, BoundaryMotion *d)
 {
   static const char *const COMPONENTS[] = {"both", "x", "y", NULL};
   char key[KEY + 64];
@@ -231,7 +231,7 @@ static PetscErrorCode ReadDrive(Case c, const char *item, BoundaryDrive *d)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ReadDriven(Case c, int body, BodySetup *setup, BoundaryDrive **driven)
+static PetscErrorCode ReadDriven(Case c, int body, BodySetup *setup, BoundaryMotion **driven)
 {
   char key[KEY], item[KEY + 16];
   PetscFunctionBeginUser;
@@ -327,7 +327,7 @@ static void Shift(MeshSerial *mesh, JointSetup *joints, double (*box)[4], double
 }
 
 /* Row after row. */
-static PetscErrorCode AddRepeated(Case c, Assembly *a, MeshSerial *mesh, BodySetup *setup, double (*box)[4])
+static PetscErrorCode AddRepeated(Case c, Model *a, MeshSerial *mesh, BodySetup *setup, double (*box)[4])
 {
   const Repeat r = ReadRepeat(c, setup->entry);
   const char *why = NULL;
@@ -335,7 +335,7 @@ static PetscErrorCode AddRepeated(Case c, Assembly *a, MeshSerial *mesh, BodySet
   PetscFunctionBeginUser;
   for (int k = 0; k < r.n[1]; k++) {
     for (int i = 0; i < r.n[0]; i++) {
-      if (AssemblyAdd(a, mesh, setup, &why)) CaseRefuse(c, BodyKey(key, setup->entry, ""), "%s", why);
+      if (ModelAdd(a, mesh, setup, &why)) CaseRefuse(c, BodyKey(key, setup->entry, ""), "%s", why);
       Shift(mesh, &setup->joints, box, r.step[0], 0.0);
     }
     Shift(mesh, &setup->joints, box, -r.n[0] * r.step[0], r.step[1]);
@@ -343,12 +343,12 @@ static PetscErrorCode AddRepeated(Case c, Assembly *a, MeshSerial *mesh, BodySet
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CaseReadBody(Case c, int body, Assembly *a)
+PetscErrorCode CaseReadBody(Case c, int body, Model *a)
 {
   BodySetup setup = {.entry = body, .stretch = {1.0, 1.0}};
   Regions regions = {.c = c, .body = body};
   MeshSerial mesh = {0};
-  BoundaryDrive *driven;
+  BoundaryMotion *driven;
   const char **name, **joint_region;
   double(*joint_box)[4], *position;
   char key[KEY];

@@ -1,8 +1,8 @@
 /* The case's materials and bodies, for solid_case.c.  Not collective; all refuse what cannot be. */
 #ifndef SOLID_CASE_BODY_H
 #define SOLID_CASE_BODY_H
-#include "case_file.h"
-#include "solid.h"
+#include "common/link/case_file.h"
+#include "solid/solid.h"
 
 enum { CASE_BODY_KEY = 192 };
 
@@ -13,5 +13,5 @@ void CaseCheckMaterial(void *c, const char *name);
 /* Refuses key when there is no material of that name. */
 void CaseMaterialExists(Case c, const char *key, const char *name);
 /* Adds solid.bodies[body]. */
-PetscErrorCode CaseReadBody(Case c, int body, Assembly *a);
+PetscErrorCode CaseReadBody(Case c, int body, Model *a);
 #endif

@@ -1,4 +1,4 @@
-#include "element_edges.h"
+#include "solid/bodies/element_edges.h"
 #include <stdlib.h>
 
 static int CompareEdges(const void *a, const void *b)

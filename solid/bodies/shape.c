@@ -1,4 +1,4 @@
-#include "shape.h"
+#include "solid/bodies/shape.h"
 
 static PetscErrorCode Allocate(int nv, int ne, int nb, int ntags, const char *const names[], MeshSerial *m)
 {

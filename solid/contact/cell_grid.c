@@ -1,4 +1,4 @@
-#include "cell_grid.h"
+#include "solid/contact/cell_grid.h"
 
 typedef struct {
   int cell[2], box;

@@ -9,7 +9,7 @@
  *     |   |a*b|b  |     Serial, no MPI. */
 #ifndef SOLID_CELL_GRID_H
 #define SOLID_CELL_GRID_H
-#include "geometry.h"
+#include "common/supermesh/geometry.h"
 #include <petscsys.h>
 
 typedef PetscErrorCode (*CellGridFunction)(void *context, int a, int b);

@@ -3,7 +3,7 @@
  *     pass 1   every candidate that touches: integrals, normal force, relative velocity  -> sums of its pair
  *     pass 2   every pair: damping and friction from its sums and its spring              (ContactRespond)
  *     pass 3   every touch: its share of the pair's force, on the edge's ends and the target's nodes */
-#include "contact_impl.h"
+#include "solid/contact/contact_impl.h"
 
 /* --- what never changes
  * ------------------------------------------------------------------------------------- */
@@ -56,7 +56,7 @@ static PetscErrorCode MeasureBacking(Contact c, Solid s)
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(3 * (size_t)s->nbodies, &sum));
   for (int n = 0; n < s->nnodes; n++) {
-    if (!ShareOwns(s->share, n)) continue;
+    if (!SubdomainOwns(s->share, n)) continue;
     sum[3 * s->node_body[n]] += s->mass[n];
     sum[3 * s->node_body[n] + 2] += s->inverse_mass[n] == 0.0;
   }
@@ -88,7 +88,7 @@ static PetscErrorCode Measure(Contact c, Solid s)
     sum[0] += length;
     for (int i = 0; i < 2; i++) half[2 * s->facet[2 * k + i]] += 0.5 * length;
   }
-  PetscCall(ShareSum(s->share, half));
+  PetscCall(SubdomainSum(s->share, half));
   for (int n = 0; n < s->nnodes; n++) {
     double *softness = &c->softness[s->node_body[n]];
     *softness = fmax(*softness, half[2 * n] / s->mass[n]);

@@ -1,4 +1,4 @@
-#include "contact_halo.h"
+#include "solid/contact/contact_halo.h"
 
 enum { TAG_TARGETS = 81, TAG_KEEP, TAG_POSITIONS, TAG_VELOCITIES, TAG_FORCES };
 
@@ -8,7 +8,7 @@ typedef struct {
   int *start;     /* [size + 1] */
   Target *target; /* [n] */
   double *value;  /* [n][3][2] what travels per substep */
-} Side;
+} ClientList;
 
 typedef struct {
   double lower[2], upper[2];
@@ -18,7 +18,7 @@ struct Halo_s {
   MPI_Comm comm;
   PetscMPIInt rank, size;
   int nnodes;
-  Side out, in;             /* own targets that others need; theirs that this rank needs */
+  ClientList out, in;       /* own targets that others need; theirs that this rank needs */
   double *force, *velocity; /* [in.n][3][2] */
   MPI_Request *request;
 };
@@ -37,7 +37,7 @@ PetscErrorCode HaloCreate(MPI_Comm comm, Halo *halo)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Reserve(Side *s, int n)
+static PetscErrorCode Reserve(ClientList *s, int n)
 {
   PetscFunctionBeginUser;
   if (n <= s->capacity) PetscFunctionReturn(0);
@@ -48,8 +48,8 @@ static PetscErrorCode Reserve(Side *s, int n)
 }
 
 /* Sends from's parts and receives to's, `bytes` a target. */
-static PetscErrorCode Travel(Halo h, const Side *from, const void *send, const Side *to, void *receive,
-                             size_t bytes, int tag)
+static PetscErrorCode Travel(Halo h, const ClientList *from, const void *send, const ClientList *to,
+                             void *receive, size_t bytes, int tag)
 {
   int n = 0;
   PetscFunctionBeginUser;
@@ -114,7 +114,7 @@ PetscErrorCode HaloBuild(Halo h, int nnodes, const double x[], const GeometryBox
   PetscFunctionReturn(0);
 }
 
-static void Compress(Side *s, int size, const char keep[], int index[])
+static void Compress(ClientList *s, int size, const char keep[], int index[])
 {
   int kept = 0;
   for (int r = 0, k = 0; r < size; r++) {

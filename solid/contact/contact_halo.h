@@ -3,7 +3,7 @@
  * rank. */
 #ifndef SOLID_CONTACT_HALO_H
 #define SOLID_CONTACT_HALO_H
-#include "geometry.h"
+#include "common/supermesh/geometry.h"
 #include <petscsys.h>
 
 /* An element with a node on the surface. */

@@ -1,9 +1,9 @@
 /* The contact's own data, for contact.c, contact_search.c and contact_pair.c. */
 #ifndef SOLID_CONTACT_IMPL_H
 #define SOLID_CONTACT_IMPL_H
-#include "contact_halo.h"
-#include "contact_kernel.h"
-#include "solid_impl.h"
+#include "solid/contact/contact_halo.h"
+#include "solid/contact/contact_kernel.h"
+#include "solid/solid_impl.h"
 
 enum { WALL_LEFT = -4, WALL_RIGHT, WALL_BOTTOM, WALL_TOP, NOTHING = -5 };
 

@@ -14,7 +14,7 @@
  * contact conserves energy even between deforming bodies. */
 #ifndef SOLID_CONTACT_KERNEL_H
 #define SOLID_CONTACT_KERNEL_H
-#include "plane.h"
+#include "solid/plane.h"
 #include <math.h>
 
 /* Integrals over the part of the edge inside, in the edge's own measure (times its length they are lengths).

@@ -1,6 +1,6 @@
 /* The memory of friction: one spring for every edge and what it touches, which survives new candidates and
  * steps that are redone. */
-#include "contact_impl.h"
+#include "solid/contact/contact_impl.h"
 #include <stdlib.h>
 
 void ContactMaterials(const Solid s, int material, int other, double *friction, double *damping)

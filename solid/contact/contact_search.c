@@ -1,6 +1,6 @@
 /* Which edges may touch which targets and walls before the next search. */
-#include "cell_grid.h"
-#include "contact_impl.h"
+#include "solid/contact/cell_grid.h"
+#include "solid/contact/contact_impl.h"
 
 /* Neighbours on the mesh of one body that lie this close at rest become candidates when they have come closer
  * by half: till then they cost nothing. */

@@ -1,5 +1,5 @@
 /* How a body comes apart: nodes split where the ties of their star are cut, broken edges become surface. */
-#include "joints_impl.h"
+#include "solid/cracks/joints_impl.h"
 #include <stdlib.h>
 
 int JointsFind(Joints j, int number)
@@ -142,7 +142,7 @@ static PetscErrorCode MarkSurface(Solid s)
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(2 * (size_t)s->nnodes, &on));
   for (int k = 0; k < 2 * s->nfacets; k++) on[2 * s->facet[k]] = 1.0;
-  PetscCall(ShareSum(s->share, on));
+  PetscCall(SubdomainSum(s->share, on));
   for (int n = 0; n < s->nnodes; n++) s->surface[n] = on[2 * n] > 0.0;
   PetscCall(PetscFree(on));
   PetscFunctionReturn(0);
@@ -188,8 +188,8 @@ static PetscErrorCode RenewShare(Solid s)
     rank[k] = copy[k].rank;
     node[k] = copy[k].node;
   }
-  PetscCall(ShareDestroy(&s->share));
-  PetscCall(ShareCreate(s->comm, s->nnodes, n, rank, node, &s->share));
+  PetscCall(SubdomainDestroy(&s->share));
+  PetscCall(SubdomainCreate(s->comm, s->nnodes, n, rank, node, &s->share));
   PetscCall(PetscFree3(copy, rank, node));
   PetscCall(PetscFree2(first, next));
   PetscFunctionReturn(0);

@@ -1,5 +1,5 @@
 /* What cracks have done: sums over the joints, damage of the elements, and the pieces that are left. */
-#include "joints_impl.h"
+#include "solid/cracks/joints_impl.h"
 
 PetscErrorCode SolidFracture(Solid s, FractureState *state)
 {
@@ -85,7 +85,7 @@ static PetscErrorCode LabelNodes(Solid s, double label[])
   while (any) {
     PetscBool changed = PETSC_FALSE;
     while (Sweep(s, label)) changed = PETSC_TRUE;
-    PetscCall(ShareLeast(s->share, label));
+    PetscCall(SubdomainLeast(s->share, label));
     any = changed;
     if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, s->comm));
   }

@@ -1,15 +1,15 @@
-#include "interior_edges.h"
-#include "element_edges.h"
+#include "solid/cracks/interior_edges.h"
+#include "solid/bodies/element_edges.h"
 #include <stdlib.h>
 
-static PetscBool HasJoints(const Assembly *a)
+static PetscBool HasJoints(const Model *a)
 {
   for (int e = 0; e < a->nelements; e++)
     if (a->jointed[e]) return PETSC_TRUE;
   return PETSC_FALSE;
 }
 
-PetscErrorCode InteriorEdgesFind(const Assembly *a, InteriorEdges *edges)
+PetscErrorCode InteriorEdgesFind(const Model *a, InteriorEdges *edges)
 {
   ElementEdge *edge;
   PetscFunctionBeginUser;
@@ -52,7 +52,7 @@ static int SortUnique(int n, int pair[][2])
 }
 
 /* first[nnodes + 1] into pair: nodes with joints, each with the ranks that have elements there. */
-static PetscErrorCode RanksAtNodes(const InteriorEdges *edges, const Assembly *a, const int part[],
+static PetscErrorCode RanksAtNodes(const InteriorEdges *edges, const Model *a, const int part[],
                                    int (**pair)[2], int first[])
 {
   int n = 0;
@@ -74,7 +74,7 @@ static PetscErrorCode RanksAtNodes(const InteriorEdges *edges, const Assembly *a
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode InteriorEdgesLooks(const InteriorEdges *edges, const Assembly *a, const int part[], int *n,
+PetscErrorCode InteriorEdgesLooks(const InteriorEdges *edges, const Model *a, const int part[], int *n,
                                   Look **look)
 {
   int(*at)[2], (*pair)[2], *first;

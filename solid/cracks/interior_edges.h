@@ -2,7 +2,7 @@
  * that may part.  Not collective, the same on all ranks. */
 #ifndef SOLID_INTERIOR_EDGES_H
 #define SOLID_INTERIOR_EDGES_H
-#include "assembly.h"
+#include "solid/bodies/model.h"
 
 typedef struct {
   int node[2];             /* as element[0] has them, counter-clockwise */
@@ -20,9 +20,9 @@ typedef struct {
   int rank, element;
 } Look;
 
-PetscErrorCode InteriorEdgesFind(const Assembly *a, InteriorEdges *edges);
+PetscErrorCode InteriorEdgesFind(const Model *a, InteriorEdges *edges);
 /* *look is allocated, [*n], sorted by rank and element. */
-PetscErrorCode InteriorEdgesLooks(const InteriorEdges *edges, const Assembly *a, const int part[], int *n,
+PetscErrorCode InteriorEdgesLooks(const InteriorEdges *edges, const Model *a, const int part[], int *n,
                                   Look **look);
 PetscErrorCode InteriorEdgesDestroy(InteriorEdges *edges);
 #endif

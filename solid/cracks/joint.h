@@ -28,7 +28,7 @@
  * were beyond its own then: no traction jumps, and G still is what it takes.  It is pressed where it was. */
 #ifndef SOLID_JOINT_H
 #define SOLID_JOINT_H
-#include "plane.h"
+#include "solid/plane.h"
 #include <math.h>
 
 #define JOINT_SOFTENING_AREA 0.386307294743945 /* int_0^1 z(D) dD */

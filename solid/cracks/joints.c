@@ -1,5 +1,5 @@
 /* Joints at work: which edges have reached their strength, and what living joints pull with. */
-#include "joints_impl.h"
+#include "solid/cracks/joints_impl.h"
 
 /* --- lists
  * -------------------------------------------------------------------------------------------------- */
@@ -251,7 +251,7 @@ PetscErrorCode JointsMeasureRate(Joints j, Solid s)
         sum[2 * j->corner[joint->corner[end][i]].node] +=
             last * (joint->law.friction > 0.0 ? 2.0 : 1.0) * joint->law.stiffness * joint->length;
   }
-  PetscCall(ShareSum(s->share, sum));
+  PetscCall(SubdomainSum(s->share, sum));
   j->rate = 0.0;
   for (int n = 0; n < s->nnodes; n++) j->rate = fmax(j->rate, sum[2 * n] * s->inverse_mass[n]);
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &j->rate, 1, MPI_DOUBLE, MPI_MAX, s->comm));

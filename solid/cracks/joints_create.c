@@ -1,10 +1,10 @@
 /* The joints of this rank, from the assembly. */
-#include "joints_impl.h"
+#include "solid/cracks/joints_impl.h"
 #include <stdlib.h>
 
 typedef struct {
   Solid s;
-  const Assembly *a;
+  const Model *a;
   const InteriorEdges *edges;
   int nlooks;
   const Look *look;
@@ -13,7 +13,7 @@ typedef struct {
   int *star;  /* [a->nnodes] or -1 */
 } Making;
 
-static Tensor RestEdges(const Assembly *a, int e)
+static Tensor RestEdges(const Model *a, int e)
 {
   const int *n = a->element + 3 * e;
   return TensorOfEdges(PointAt(a->rest, n[0]), PointAt(a->rest, n[1]), PointAt(a->rest, n[2]));
@@ -61,7 +61,7 @@ static void NumberStars(Joints j, const Making *m)
 /* Elements in ascending order. */
 static PetscErrorCode GatherCorners(Joints j, const Making *m)
 {
-  const Assembly *a = m->a;
+  const Model *a = m->a;
   int *start;
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1((size_t)j->nstars + 2, &j->star_corner));
@@ -150,7 +150,7 @@ static PetscErrorCode GatherTies(Joints j, const Making *m, const int index[])
 /* Between two materials the weaker one counts.  All is times the thickness, as the elements' stresses are. It
  * is pressed as contact presses: an edge on both sides of which phi = 3 depth/height acts with the penalty.
  */
-static JointLaw LawOf(const Assembly *a, const InteriorEdge *edge, double length)
+static JointLaw LawOf(const Model *a, const InteriorEdge *edge, double length)
 {
   const Material *one = &a->material[a->element_material[edge->element[0]]];
   const Material *two = &a->material[a->element_material[edge->element[1]]];
@@ -167,7 +167,7 @@ static JointLaw LawOf(const Assembly *a, const InteriorEdge *edge, double length
 
 static Joint JointOf(const Joints j, const Making *m, const InteriorEdge *edge)
 {
-  const Assembly *a = m->a;
+  const Model *a = m->a;
   const Point d = PointMinus(PointAt(a->rest, edge->node[1]), PointAt(a->rest, edge->node[0]));
   Joint joint = {.number = edge->joint,
                  .first = edge->element[0],
@@ -216,7 +216,7 @@ static PetscErrorCode GatherJoints(Joints j, const Making *m, int index[])
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode JointsCreate(Solid s, const Assembly *a, const InteriorEdges *edges, int nlooks,
+PetscErrorCode JointsCreate(Solid s, const Model *a, const InteriorEdges *edges, int nlooks,
                             const Look look[], const int part[], const int local[], Joints *joints)
 {
   Making m = {s, a, edges, nlooks, look, part, local, NULL, NULL};

@@ -9,8 +9,8 @@
  * same. */
 #ifndef SOLID_JOINTS_IMPL_H
 #define SOLID_JOINTS_IMPL_H
-#include "joint.h"
-#include "solid_impl.h"
+#include "solid/cracks/joint.h"
+#include "solid/solid_impl.h"
 #include <stdint.h>
 
 enum { STAR_CORNERS = 64 }; /* of one node, at most: bits of a Fan */

@@ -6,10 +6,10 @@
  * loses  i = max c/(sum w/ranks) - 1  of every substep.  Some of it no share can avoid, so that what counts
  * is how much worse i is than at its best since the last redistribution; this is summed up over the substeps
  * until it exceeds what a redistribution costs, `rebalance` substeps. */
-#include "contact_impl.h"
-#include "deal.h"
-#include "joints_impl.h"
-#include "partition.h"
+#include "solid/contact/contact_impl.h"
+#include "solid/cracks/joints_impl.h"
+#include "solid/ranks/partition.h"
+#include "solid/ranks/sparse_exchange.h"
 
 /* Work of a joint, and of what travels in a substep: a target, a node that ranks share, a look at another
  * rank's element; measured on two ranks. */
@@ -108,14 +108,14 @@ static PetscErrorCode GatherGraph(Solid s, PartitionGraph *g)
   PetscCall(FindPlaces(s, place));
   PetscCall(FindLinks(s, &mine));
   PetscCall(PetscCalloc1((size_t)PetscMax(s->elements.n, mine.nlinks), &zero));
-  PetscCall(Deal(s->comm, s->elements.n, zero, sizeof *place, place, &n, &received));
+  PetscCall(SparseExchange(s->comm, s->elements.n, zero, sizeof *place, place, &n, &received));
   all = received;
   for (int k = 0; k < n; k++) {
     g->work[all[k].number] = all[k].work;
     for (int d = 0; d < 2; d++) g->at[all[k].number][d] = all[k].at[d];
   }
   PetscCall(PetscFree(all));
-  PetscCall(Deal(s->comm, mine.nlinks, zero, sizeof *link, mine.link, &n, &received));
+  PetscCall(SparseExchange(s->comm, mine.nlinks, zero, sizeof *link, mine.link, &n, &received));
   link = received;
   for (int k = 0; k < n; k++) PetscCall(PartitionGraphLink(g, link[k].a, link[k].b, link[k].weight));
   PetscCall(PetscFree(link));

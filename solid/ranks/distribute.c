@@ -1,5 +1,5 @@
 /* This rank's share of the assembly, which every rank has: nothing is sent. */
-#include "solid_impl.h"
+#include "solid/solid_impl.h"
 #include <stdlib.h>
 
 /* --- counting and numbering
@@ -7,7 +7,7 @@
 
 /* local[a->nnodes]: this rank's number of a node, in order of appearance, or -1.  It also has the nodes of
  * other ranks' elements that it looks at. */
-static void NumberLocally(Solid s, const Assembly *a, int nlooks, const Look look[], const int part[],
+static void NumberLocally(Solid s, const Model *a, int nlooks, const Look look[], const int part[],
                           int local[])
 {
   for (int n = 0; n < a->nnodes; n++) local[n] = -1;
@@ -25,7 +25,7 @@ static void NumberLocally(Solid s, const Assembly *a, int nlooks, const Look loo
 }
 
 /* Room for a node of its own for each corner at a joint, and for both sides of every joint. */
-static PetscErrorCode FindCapacities(Solid s, const Assembly *a, const InteriorEdges *edges, const int part[],
+static PetscErrorCode FindCapacities(Solid s, const Model *a, const InteriorEdges *edges, const int part[],
                                      const int local[])
 {
   char *parts;
@@ -71,13 +71,13 @@ static PetscErrorCode Allocate(Solid s)
 /* --- nodes
  * -------------------------------------------------------------------------------------------------- */
 
-static Tensor RestEdges(const Assembly *a, int e)
+static Tensor RestEdges(const Model *a, int e)
 {
   const int *n = a->element + 3 * e;
   return TensorOfEdges(PointAt(a->rest, n[0]), PointAt(a->rest, n[1]), PointAt(a->rest, n[2]));
 }
 
-static void TakeNodes(Solid s, const Assembly *a, const int local[])
+static void TakeNodes(Solid s, const Model *a, const int local[])
 {
   for (int n = 0; n < a->nnodes; n++) {
     const int i = local[n];
@@ -96,7 +96,7 @@ static void TakeNodes(Solid s, const Assembly *a, const int local[])
 }
 
 /* Over all elements in the assembly's order, so that every copy of a node has the same bits. */
-static void LumpMass(Solid s, const Assembly *a, const int local[])
+static void LumpMass(Solid s, const Model *a, const int local[])
 {
   for (int e = 0; e < a->nelements; e++) {
     const Material *of = &a->material[a->element_material[e]];
@@ -122,7 +122,7 @@ static int CompareCopies(const void *a, const void *b)
 }
 
 /* Adds the other ranks that have a corner of element e, which rank has or looks at. */
-static int AddCopies(const Solid s, const Assembly *a, int e, int rank, const int local[], Copy copy[], int n)
+static int AddCopies(const Solid s, const Model *a, int e, int rank, const int local[], Copy copy[], int n)
 {
   for (int i = 0; i < 3 && rank != s->rank; i++) {
     const int node = a->element[3 * e + i];
@@ -132,7 +132,7 @@ static int AddCopies(const Solid s, const Assembly *a, int e, int rank, const in
 }
 
 /* The other ranks' copies of this rank's nodes. */
-static PetscErrorCode FindCopies(Solid s, const Assembly *a, int nlooks, const Look look[], const int part[],
+static PetscErrorCode FindCopies(Solid s, const Model *a, int nlooks, const Look look[], const int part[],
                                  const int local[])
 {
   Copies *c = &s->copies;
@@ -149,7 +149,7 @@ static PetscErrorCode FindCopies(Solid s, const Assembly *a, int nlooks, const L
     c->rank[c->n] = copy[k].rank;
     c->node[c->n++] = copy[k].local;
   }
-  PetscCall(ShareCreate(s->comm, s->nnodes, c->n, c->rank, c->node, &s->share));
+  PetscCall(SubdomainCreate(s->comm, s->nnodes, c->n, c->rank, c->node, &s->share));
   PetscCall(PetscFree(copy));
   PetscFunctionReturn(0);
 }
@@ -158,7 +158,7 @@ static PetscErrorCode FindCopies(Solid s, const Assembly *a, int nlooks, const L
  * ----------------------------------------------------------------------------------------------- */
 
 /* eta = 2 h beta sqrt(E rho), h the smallest height at rest. */
-static double Viscosity(const Assembly *a, int e)
+static double Viscosity(const Model *a, int e)
 {
   const Material *m = &a->material[a->element_material[e]];
   double longest = 0.0;
@@ -171,7 +171,7 @@ static double Viscosity(const Assembly *a, int e)
   return 2.0 * height * m->damping * sqrt(m->youngs_modulus * m->density);
 }
 
-ElementLaw SolidLawOf(const Assembly *a, int e)
+ElementLaw SolidLawOf(const Model *a, int e)
 {
   const Material *m = &a->material[a->element_material[e]];
   ElementLaw law = MaterialLaw(m);
@@ -181,7 +181,7 @@ ElementLaw SolidLawOf(const Assembly *a, int e)
   return law;
 }
 
-static void TakeElement(Solid s, const Assembly *a, int from, int k, const int local[])
+static void TakeElement(Solid s, const Model *a, int from, int k, const int local[])
 {
   Elements *e = &s->elements;
   const Material *m = &a->material[a->element_material[from]];
@@ -219,7 +219,7 @@ void SolidListCorners(Solid s)
 }
 
 /* Elements, facets, and for each node the places of its corners' forces. */
-static void TakeElements(Solid s, const Assembly *a, const int part[], const int local[], int renumber[])
+static void TakeElements(Solid s, const Model *a, const int part[], const int local[], int renumber[])
 {
   for (int from = 0, k = 0; from < a->nelements; from++) {
     if (part[from] != s->rank) continue;
@@ -237,7 +237,7 @@ static void TakeElements(Solid s, const Assembly *a, const int part[], const int
 }
 
 /* The drives, and which of this rank's nodes they move. */
-static PetscErrorCode TakeDrives(Solid s, const Assembly *a, const int local[])
+static PetscErrorCode TakeDrives(Solid s, const Model *a, const int local[])
 {
   int nrows = 0;
   PetscFunctionBeginUser;
@@ -259,7 +259,7 @@ static PetscErrorCode TakeDrives(Solid s, const Assembly *a, const int local[])
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SolidTakeShare(Solid s, const Assembly *a, const int part[])
+PetscErrorCode SolidTakeShare(Solid s, const Model *a, const int part[])
 {
   InteriorEdges edges;
   Look *look;

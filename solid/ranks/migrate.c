@@ -6,9 +6,9 @@
  *     slips               to the rank of the edge's element
  *
  * The share before stays as it is while a saved state is in it. */
-#include "abroad.h"
-#include "deal.h"
-#include "state.h"
+#include "solid/ranks/node_directory.h"
+#include "solid/ranks/sparse_exchange.h"
+#include "solid/ranks/state.h"
 
 /* --- the state
  * ---------------------------------------------------------------------------------------------- */
@@ -40,7 +40,8 @@ static PetscErrorCode AskJoints(void *former, Joints j)
     key[k] = j->joint[k].number;
     of[k] = s->part[j->joint[k].first];
   }
-  PetscCall(DealAsk(s->comm, j->n, of, key, sizeof *j->memory, AnswerJoint, s->joints, j->memory));
+  PetscCall(
+      SparseExchangeRequest(s->comm, j->n, of, key, sizeof *j->memory, AnswerJoint, s->joints, j->memory));
   PetscCall(PetscFree2(key, of));
   PetscFunctionReturn(0);
 }
@@ -62,7 +63,7 @@ static PetscErrorCode SendSlips(void *former, Solid to, int *n, Slip **slip)
   PetscCall(StateOfSlips(from->s, &nown, &own));
   PetscCall(PetscMalloc1((size_t)nown, &rank));
   for (int k = 0; k < nown; k++) rank[k] = from->part[own[k].edge / 3];
-  PetscCall(Deal(to->comm, nown, rank, sizeof *own, own, n, &received));
+  PetscCall(SparseExchange(to->comm, nown, rank, sizeof *own, own, n, &received));
   *slip = received;
   PetscCall(PetscFree(rank));
   PetscCall(PetscFree(own));

@@ -1,6 +1,6 @@
-#include "partition.h"
-#include "cell_grid.h"
-#include "element_edges.h"
+#include "solid/ranks/partition.h"
+#include "solid/bodies/element_edges.h"
+#include "solid/contact/cell_grid.h"
 #include <metis.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -19,7 +19,7 @@ PetscErrorCode PartitionGraphLink(PartitionGraph *g, int a, int b, int weight)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PartitionGraphCreate(const Assembly *a, PartitionGraph *g)
+PetscErrorCode PartitionGraphCreate(const Model *a, PartitionGraph *g)
 {
   ElementEdge *edge;
   PetscFunctionBeginUser;
@@ -36,7 +36,7 @@ PetscErrorCode PartitionGraphCreate(const Assembly *a, PartitionGraph *g)
 }
 
 typedef struct {
-  const Assembly *a;
+  const Model *a;
   PartitionGraph *g;
 } NearSearch;
 
@@ -51,14 +51,14 @@ static PetscErrorCode NearFound(void *context, int facet, int e)
   PetscFunctionReturn(0);
 }
 
-static double FacetSpan(const Assembly *a, int k)
+static double FacetSpan(const Model *a, int k)
 {
   const double *p = a->x + 2 * a->facet[2 * k], *q = a->x + 2 * a->facet[2 * k + 1];
   return hypot(q[0] - p[0], q[1] - p[1]);
 }
 
 /* As the first search for contact does, but with boxes alone. */
-PetscErrorCode PartitionGraphNear(PartitionGraph *g, const Assembly *a)
+PetscErrorCode PartitionGraphNear(PartitionGraph *g, const Model *a)
 {
   NearSearch search = {a, g};
   GeometryBox *facet, *element;

@@ -1,4 +1,4 @@
-#include "state.h"
+#include "solid/ranks/state.h"
 #include <stdlib.h>
 
 /* --- nodes

@@ -4,13 +4,13 @@
  * file (saved.c). */
 #ifndef SOLID_STATE_H
 #define SOLID_STATE_H
-#include "contact_impl.h"
-#include "joints_impl.h"
+#include "solid/contact/contact_impl.h"
+#include "solid/cracks/joints_impl.h"
 
 /* Of one node; numbers alone, a row of a file. */
 typedef struct {
   double x[2], v[2], start[2], load[2];
-  double seen[2], mobility, acceleration[2]; /* what SolidSee has left */
+  double seen[2], mobility, acceleration[2]; /* what SolidUpdateInterfaceMotion has left */
 } NodeState;
 
 /* Not collective: fills a NodeState; a NodeAnswer of abroad.h. */

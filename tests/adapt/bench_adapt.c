@@ -1,7 +1,7 @@
 /* Triangles per second of one refinement, one coarsening and one change in place: bench_adapt [size, default
  * 0.0042]. The size field is that of a moving ring: `size` on the ring, growing by 0.2 m/m away from it. */
-#include "adapt.h"
-#include "metric.h"
+#include "fluid/adapt/adapt.h"
+#include "fluid/adapt/metric.h"
 #include <math.h>
 #include <stdlib.h>
 #include <time.h>

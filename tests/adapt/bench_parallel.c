@@ -1,8 +1,8 @@
 /* Seconds of a refinement and of the small changes that follow a ring on its way, on any number of ranks:
  * bench_parallel [size on the ring, default 0.004] [step of the ring in sizes, default 1] [steps, default 5].
  */
-#include "adapt_parallel.h"
-#include "piece.h"
+#include "common/mesh/part.h"
+#include "fluid/adapt/adapt_parallel.h"
 #include <math.h>
 #include <stdlib.h>
 

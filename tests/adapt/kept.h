@@ -1,10 +1,10 @@
 /* What every adapted mesh must keep, and analytic metrics to adapt to. */
 #ifndef TEST_ADAPT_KEPT_H
 #define TEST_ADAPT_KEPT_H
-#include "adapt.h"
-#include "check.h"
-#include "metric.h"
-#include "metric_tensor.h"
+#include "fluid/adapt/adapt.h"
+#include "fluid/adapt/metric.h"
+#include "fluid/adapt/metric_tensor.h"
+#include "tests/check.h"
 #include <math.h>
 #include <string.h>
 

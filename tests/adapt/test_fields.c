@@ -1,7 +1,7 @@
 /* Analytic metrics: a ring as of a moving solid, a shear layer stretched 1000 times, a boundary layer, a
  * curved front: more than 95 % unit edges, in the analytic metric too, worst quality above 0.2, everything
  * kept. */
-#include "kept.h"
+#include "tests/adapt/kept.h"
 
 typedef struct {
   const char *name;

@@ -1,6 +1,6 @@
 /* Recovered Hessians: exact for cubics on any mesh, order 2 for a smooth field on shaken meshes; and a mesh
  * adapted to them spreads the interpolation error. */
-#include "kept.h"
+#include "tests/adapt/kept.h"
 
 static double Cubic(const double x[2])
 {

@@ -1,6 +1,6 @@
 /* What stays: frozen vertices and lines bit by bit, a hole, an adapted mesh when it is adapted again; the
  * same bits twice; wrong input is refused. */
-#include "kept.h"
+#include "tests/adapt/kept.h"
 
 static const double LOWER[2] = {0.0, 0.0}, UPPER[2] = {1.0, 1.0};
 

@@ -1,6 +1,6 @@
 /* Metric algebra and fields: logarithm and exponential, lengths against quadrature, intersection contains
  * both, bounds, gradation, budget. */
-#include "kept.h"
+#include "tests/adapt/kept.h"
 
 typedef unsigned long long Seed;
 

@@ -1,9 +1,9 @@
 // ranks: 1 2 3
 /* Adaptation of a distributed mesh: as good as on one rank, cuts between ranks included; everything kept,
  * parts of equal size, the same bits twice; 20 times in a row.  parallel print: also says how good. */
-#include "adapt_parallel.h"
-#include "kept.h"
-#include "mesh/distributed.h"
+#include "fluid/adapt/adapt_parallel.h"
+#include "tests/adapt/kept.h"
+#include "tests/mesh/distributed.h"
 
 typedef struct {
   const char *name;

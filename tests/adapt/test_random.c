@@ -1,7 +1,7 @@
 /* Random meshes with two regions and random metrics, smooth and rough, stretched up to 1000 times: every
  * result is a valid mesh that kept area, regions, tags and frozen vertices.  random [number, default 1500]
  * [first]. */
-#include "kept.h"
+#include "tests/adapt/kept.h"
 
 typedef unsigned long long Seed;
 

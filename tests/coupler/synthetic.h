@@ -5,8 +5,8 @@
  * compared whatever the split. */
 #ifndef TESTS_SYNTHETIC_H
 #define TESTS_SYNTHETIC_H
-#include "coupler.h"
-#include "random_mesh.h"
+#include "coupler/coupler.h"
+#include "tests/supermesh/random_mesh.h"
 
 enum { SYNTHETIC_MAX = 4000 };
 

@@ -5,8 +5,8 @@
  * element; the solid is a rigid disc that translates.  With P the fluid's momentum, m the solid's mass, M_f
  * that of the fluid inside and v the solid's velocity, P + (m - M_f) v - (m - M_f) g t     stays what it was,
  * whatever the time steps, to round-off. */
-#include "scheme.h"
-#include "synthetic.h"
+#include "coupler/time_loop.h"
+#include "tests/coupler/synthetic.h"
 
 static const double GRAVITY[2] = {0.4, -1.0}, RHO = 3.0, DENSITY = 7.0, DT = 0.013;
 static const char *const CASE = "case: exchange\n";
@@ -188,8 +188,8 @@ static void RunSolid(int argc, char **argv, double end, double momentum[2])
 static void RunCoupler(int argc, char **argv, const char *folder, double end)
 {
   CouplerCase c = {.name = "exchange", .end = end, .dt_max = 2.0 * DT, .every = 0.2, .tries = 1};
-  Scheme scheme = {.c = &c};
-  RecordTotals totals;
+  TimeLoop scheme = {.c = &c};
+  WriterTotals totals;
   Server server;
   MPI_Comm comm;
   c.options = (CouplerOptions){COUPLER_REACTION, 0.002, 10.0, {GRAVITY[0], GRAVITY[1]}, 0.1};
@@ -200,14 +200,14 @@ static void RunCoupler(int argc, char **argv, const char *folder, double end)
   scheme.server = server;
   CHECK(!CouplerCreate(comm, &c.options, &scheme.coupler) &&
             !RegionCreate(comm, c.options.thickness, &scheme.region) &&
-            !RecordCreate(comm, &c, NULL, &scheme.record),
+            !WriterCreate(comm, &c, NULL, &scheme.record),
         "create");
-  CHECK(!SchemeRun(&scheme), "run");
-  CHECK(!RecordTotalsOf(scheme.record, 0, &totals), "totals");
+  CHECK(!TimeLoopRun(&scheme), "run");
+  CHECK(!WriterTotalsOf(scheme.record, 0, &totals), "totals");
   CHECK(totals.imbalance < 1e-11, "imbalance %g", totals.imbalance);
   CHECK(totals.steps > 30 && totals.terminal > 0.05, "%lld steps, terminal velocity %g", totals.steps,
         totals.terminal);
-  CHECK(!RecordDestroy(&scheme.record) && !RegionDestroy(&scheme.region) && !CouplerDestroy(&scheme.coupler),
+  CHECK(!WriterDestroy(&scheme.record) && !RegionDestroy(&scheme.region) && !CouplerDestroy(&scheme.coupler),
         "destroy");
   CHECK(!PetscFinalize() && !ServerClose(&server), "close");
 }

@@ -1,8 +1,8 @@
 // ranks: 1 2 3
 /* Forces on a closed polygon against what mechanics says: buoyancy, rigid motion, accelerated fluid, the wall
  * term's weights. */
-#include "coupler_impl.h"
-#include "synthetic.h"
+#include "coupler/coupler_impl.h"
+#include "tests/coupler/synthetic.h"
 
 static SyntheticSolid all_solid, solid;
 static SyntheticFluid all_fluid, fluid;

@@ -1,8 +1,8 @@
 // ranks: 1 2 3
 /* Nodes that give way: fluid and solid exchange what is theirs to round-off, move together however light the
  * solid is, and fall freely together. */
-#include "coupler_impl.h"
-#include "synthetic.h"
+#include "coupler/coupler_impl.h"
+#include "tests/coupler/synthetic.h"
 
 static SyntheticSolid all_solid, solid;
 static SyntheticFluid all_fluid, fluid;

@@ -1,8 +1,8 @@
 // ranks: 1 2 3
 /* The boxes hold the solid with its margin, are the same on all ranks, and are renewed when a node has left
  * its margin; a node outside of the fluid is found by its smallest global id. */
-#include "region.h"
-#include "synthetic.h"
+#include "coupler/region.h"
+#include "tests/coupler/synthetic.h"
 
 static SyntheticSolid all, part;
 

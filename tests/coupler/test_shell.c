@@ -1,6 +1,6 @@
 // ranks: 1 2 3
 /* The shell of a disc and of a square, its surface dealt out to ranks: exact areas, offsets and normals. */
-#include "synthetic.h"
+#include "tests/coupler/synthetic.h"
 
 static SyntheticSolid all, part;
 

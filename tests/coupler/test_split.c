@@ -2,7 +2,7 @@
 /* Coupling, forces and corrections do not depend on how solid and fluid are dealt out to ranks (some of which
  * are empty), in any mode; the default mode conserves momentum, solid mass and momentum of the solid on the
  * fluid to round-off. */
-#include "synthetic.h"
+#include "tests/coupler/synthetic.h"
 #include <stddef.h>
 
 enum { ENTRY = (sizeof(CoracleCoupling) - offsetof(CoracleCoupling, a)) / sizeof(double) };
@@ -38,7 +38,7 @@ static void MakeCase(void)
   }
 }
 
-static void Deal(MPI_Comm comm)
+static void SparseExchange(MPI_Comm comm)
 {
   int rank, size;
   MPI_Comm_rank(comm, &rank);
@@ -68,7 +68,7 @@ static void Run(MPI_Comm comm, CouplerMode mode, Result *r)
   Coupler c;
   int n, nc;
   memset(r, 0, sizeof *r);
-  Deal(comm);
+  SparseExchange(comm);
   CHECK(!CouplerCreate(comm, &options, &c), "create");
   CHECK(!CouplerSetElements(c, &fluid.view), "elements");
   for (int step = 0; step < 2; step++) {

@@ -1,6 +1,6 @@
 /* Time per step of the fluid alone, split; and velocity unknowns per second.  bench_fluid -h 0.01 -steps 20
  */
-#include "exact.h"
+#include "tests/fluid/exact.h"
 
 int main(int argc, char **argv)
 {

@@ -1,16 +1,16 @@
 // ranks: 1 2 3
 /* A flow with a known solution on a mesh that adapts to it: its error follows the one asked for, momentum
  * goes over to round-off, the pressure does not jump; and a fluid at rest stays at rest. */
-#include "adaptation.h"
-#include "check.h"
-#include "exact.h"
+#include "fluid/adaptation.h"
+#include "tests/check.h"
+#include "tests/fluid/exact.h"
 
 typedef struct {
   Mesh *mesh;
   Fluid fluid;
   Adaptation adaptation;
   int meshes;
-} March;
+} RunState;
 
 static double Norm(const double v[2])
 {
@@ -31,7 +31,7 @@ static PetscErrorCode TransferKeeps(Fluid from, Fluid to)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Step(March *m, double dt)
+static PetscErrorCode Step(RunState *m, double dt)
 {
   PetscBool due;
   Mesh *mesh;
@@ -54,7 +54,7 @@ static PetscErrorCode Step(March *m, double dt)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Destroy(March *m)
+static PetscErrorCode Destroy(RunState *m)
 {
   PetscFunctionBeginUser;
   PetscCall(AdaptationDestroy(&m->adaptation));
@@ -74,7 +74,7 @@ static PetscErrorCode Vortex(double asked, double *velocity, double *pressure, P
                                  .elements_max = 1e5,
                                  .every = 3};
   Exact exact = {2.0};
-  March m = {0};
+  RunState m = {0};
   PetscFunctionBeginUser;
   PetscCall(SquareMesh(0.02, &m.mesh));
   PetscCall(ExactFluid(m.mesh, &exact, ExactSource, MU, &m.fluid));
@@ -99,7 +99,7 @@ static PetscErrorCode Rest(void)
   Boundary boundary[8] = {0};
   FluidSetup fluid = {
       .theta = 0.5, .rho = 1000.0, .mu = 1.0, .gravity = {1.0, -9.81}, .cfl = 0.5, .dt_max = 0.01};
-  March m = {0};
+  RunState m = {0};
   double speed = 0.0;
   PetscFunctionBeginUser;
   PetscCall(SquareMesh(0.1, &m.mesh));

@@ -1,6 +1,6 @@
 /* A velocity that is prescribed rises smoothly and keeps its profile. */
-#include "check.h"
-#include "fluid_impl.h"
+#include "fluid/fluid_impl.h"
+#include "tests/check.h"
 
 int main(void)
 {

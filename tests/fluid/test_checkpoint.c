@@ -2,10 +2,10 @@
 /* A flow under a lid on a mesh that adapts, also to a solid that is faster and faster, goes on from
  * checkpoints as if nothing had happened: to the last bit where a run repeats itself, which PETSc's sums over
  * three ranks or more do not (they are made as messages arrive); to the solvers' tolerance on any ranks. */
-#include "adaptation.h"
-#include "check.h"
-#include "exact.h"
-#include "mesh_checkpoint.h"
+#include "common/mesh/mesh_checkpoint.h"
+#include "fluid/adaptation.h"
+#include "tests/check.h"
+#include "tests/fluid/exact.h"
 #include <string.h>
 #include <unistd.h>
 
@@ -22,9 +22,9 @@ typedef struct {
   Adaptation adaptation;
   PetscBool new_mesh;
   unsigned adapted; /* bit k: in the k-th step */
-} March;
+} RunState;
 
-static PetscErrorCode Create(Mesh *mesh, March *m)
+static PetscErrorCode Create(Mesh *mesh, RunState *m)
 {
   const AdaptationSetup adaptation = {.size_min = 0.02,
                                       .size_max = 0.3,
@@ -48,7 +48,7 @@ static PetscErrorCode Create(Mesh *mesh, March *m)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Destroy(March *m)
+static PetscErrorCode Destroy(RunState *m)
 {
   PetscFunctionBeginUser;
   PetscCall(AdaptationDestroy(&m->adaptation));
@@ -63,7 +63,7 @@ static double Turn(const double a[2], const double b[2], const double x[2])
 }
 
 /* A piece of a solid that does nothing to the fluid but be seen; at rest at first. */
-static PetscErrorCode SetSolid(March *m)
+static PetscErrorCode SetSolid(RunState *m)
 {
   const double x[2] = {0.6123, 0.4371}, velocity[2] = {30.0 * FluidGetStats(m->fluid)->t, 0.0};
   CoracleCoupling k = {.shell = 0.1};
@@ -87,7 +87,7 @@ static PetscErrorCode SetSolid(March *m)
 }
 
 /* As in main.c. */
-static PetscErrorCode Step(March *m)
+static PetscErrorCode Step(RunState *m)
 {
   PetscBool due;
   Mesh *mesh;
@@ -124,7 +124,7 @@ static PetscErrorCode Open(MPI_Comm comm, int step, PetscBool write, Checkpoint 
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Save(const March *m, int step)
+static PetscErrorCode Save(const RunState *m, int step)
 {
   Checkpoint to;
   PetscFunctionBeginUser;
@@ -138,7 +138,7 @@ static PetscErrorCode Save(const March *m, int step)
 }
 
 /* *row: NULL, or where to leave the rows of the elements. */
-static PetscErrorCode Load(MPI_Comm comm, int step, March *m, PetscInt **row)
+static PetscErrorCode Load(MPI_Comm comm, int step, RunState *m, PetscInt **row)
 {
   Checkpoint from;
   Mesh *mesh;
@@ -164,7 +164,7 @@ static PetscErrorCode Load(MPI_Comm comm, int step, March *m, PetscInt **row)
 
 #define SAME(a, b, n) (!memcmp(a, b, (size_t)(n) * sizeof *(a)))
 
-static void CheckSame(const March *a, const March *b, int step)
+static void CheckSame(const RunState *a, const RunState *b, int step)
 {
   const Mesh *m = a->mesh, *n = b->mesh;
   CHECK(m->ne == n->ne && m->np2 == n->np2, "from step %d: %d triangles instead of %d", step, n->ne, m->ne);
@@ -193,7 +193,7 @@ static PetscErrorCode Difference(MPI_Comm comm, int n, const double a[], const d
 /* The ranks of comm go on where all have saved, to where all have saved again on the same mesh. */
 static PetscErrorCode CheckAgrees(MPI_Comm comm, int from, int to)
 {
-  March m;
+  RunState m;
   Checkpoint later;
   PetscInt *row;
   double *u, *p, *mine, du, dp;
@@ -218,10 +218,10 @@ static PetscErrorCode CheckAgrees(MPI_Comm comm, int from, int to)
 }
 
 /* As many ranks as have saved; `repeats`: a run repeats itself. */
-static PetscErrorCode CheckTogether(PetscBool repeats, const March *uninterrupted, int step,
+static PetscErrorCode CheckTogether(PetscBool repeats, const RunState *uninterrupted, int step,
                                     const FluidStats *then)
 {
-  March m;
+  RunState m;
   PetscFunctionBeginUser;
   PetscCall(Load(PETSC_COMM_WORLD, step, &m, NULL));
   CHECK(SAME(then->seconds, FluidGetStats(m.fluid)->seconds, 6), "seconds after step %d", step);
@@ -239,7 +239,7 @@ int main(int argc, char **argv)
 {
   char path[512];
   FluidStats then[3];
-  March m;
+  RunState m;
   Mesh *mesh;
   Exact exact = {0.0};
   PetscMPIInt rank, size;

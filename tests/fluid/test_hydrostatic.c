@@ -1,6 +1,6 @@
 // ranks: 1 2 3
 /* A tank under gravity at rest stays at rest to 1e-10, closed and open. */
-#include "exact.h"
+#include "tests/fluid/exact.h"
 
 static PetscErrorCode Rest(BoundaryKind kind)
 {

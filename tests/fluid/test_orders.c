@@ -1,6 +1,6 @@
 // ranks: 1 2
 /* Manufactured solution: observed orders of velocity and pressure in space, and of velocity in time. */
-#include "exact.h"
+#include "tests/fluid/exact.h"
 
 static PetscErrorCode Errors(double h, double omega, double dt, int steps, double *velocity, double *pressure)
 {

@@ -1,10 +1,10 @@
 // ranks: 1 2 3
 /* The fluid's part of a case that goes on from a checkpoint: its keys are read and checked as ever, its files
  * go on where they were, and a checkpoint of other boundaries is refused. */
-#include "fluid_case.h"
-#include "link/catch.h"
-#include "mesh_checkpoint.h"
-#include "record.h"
+#include "common/mesh/mesh_checkpoint.h"
+#include "fluid/fluid_case.h"
+#include "fluid/writer.h"
+#include "tests/link/catch.h"
 
 static const char *const CASE =
     "gravity: [0.0, -9.81]\n"
@@ -38,24 +38,24 @@ static PetscErrorCode Read(Case c, FluidSetup *setup)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Save(Fluid fluid, Record record)
+static PetscErrorCode Save(Fluid fluid, Writer record)
 {
   Checkpoint to;
   PetscFunctionBeginUser;
   PetscCall(CheckpointCreate(PETSC_COMM_WORLD, folder, "fluid", &to));
   PetscCall(MeshSave(mesh, to));
   PetscCall(FluidSave(fluid, to));
-  PetscCall(RecordSave(record, to));
+  PetscCall(WriterSave(record, to));
   PetscCall(CheckpointClose(&to));
   PetscFunctionReturn(0);
 }
 
 /* Until t = 0.05 s; from the start there is a checkpoint at 0.03 s on the way. */
-static PetscErrorCode March(Case c)
+static PetscErrorCode RunState(Case c)
 {
   FluidSetup setup;
   Fluid fluid;
-  Record record;
+  Writer record;
   PetscFunctionBeginUser;
   PetscCall(Read(c, &setup));
   PetscCall(FluidCreate(mesh, &setup, &fluid));
@@ -64,20 +64,20 @@ static PetscErrorCode March(Case c)
     PetscCall(FluidLoad(fluid, row, from));
   else
     PetscCall(FluidSetInitial(fluid, 0.0, NULL, NULL, NULL));
-  PetscCall(RecordCreate(c, fluid, from, &record));
+  PetscCall(WriterCreate(c, fluid, from, &record));
   for (int step = from ? 3 : 0; step < 5; step++) {
     if (step == 3 && !from) PetscCall(Save(fluid, record));
     PetscCall(FluidStep(fluid, 0.01));
-    PetscCall(RecordStep(record, fluid));
+    PetscCall(WriterStep(record, fluid));
   }
-  PetscCall(RecordDestroy(&record));
+  PetscCall(WriterDestroy(&record));
   PetscCall(FluidDestroy(&fluid));
   PetscFunctionReturn(0);
 }
 
 static void Run(Case c)
 {
-  CHECK(!March(c));
+  CHECK(!RunState(c));
 }
 
 static void OnlyRead(Case c)

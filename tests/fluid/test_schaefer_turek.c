@@ -2,7 +2,7 @@
 /* Schaefer & Turek (1996), benchmark 2D-1: steady flow around a cylinder at Re 20.  Reference values of
  * validation.md: C_D 5.579535, C_L 0.0106189, pressure drop 0.117520 Pa.  The mesh is made by gmsh from
  * schaefer_turek.geo. */
-#include "fluid.h"
+#include "fluid/fluid.h"
 #include <stdlib.h>
 #include <unistd.h>
 

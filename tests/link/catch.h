@@ -1,7 +1,7 @@
 /* Runs a piece of a test that must fail with a given message, or must not fail at all. */
 #ifndef TEST_CATCH_H
 #define TEST_CATCH_H
-#include "case_file.h"
+#include "common/link/case_file.h"
 #include <setjmp.h>
 #include <stdio.h>
 #include <stdlib.h>

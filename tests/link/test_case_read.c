@@ -1,6 +1,6 @@
 /* What a good case file gives: types, defaults, lists, order, overrides, hashes. */
-#include "case_impl.h"
-#include "catch.h"
+#include "common/link/case_impl.h"
+#include "tests/link/catch.h"
 #include <math.h>
 
 static const char GOOD[] = "case: disc\n"

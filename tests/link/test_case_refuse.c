@@ -1,5 +1,5 @@
 /* What a bad case file is told: the exact message, with file, line and key. */
-#include "catch.h"
+#include "tests/link/catch.h"
 #include <math.h>
 
 static const char *const FLUID[] = {"fluid", NULL};

@@ -1,5 +1,5 @@
 /* How long meshing, distributing and ordering take: bench_mesh [smallest size, default 0.0042]. */
-#include "mesh.h"
+#include "common/mesh/mesh.h"
 #include <math.h>
 #include <stdlib.h>
 

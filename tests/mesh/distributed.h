@@ -2,7 +2,7 @@
  * owners hold them, P2 numbers without gaps. */
 #ifndef TESTS_MESH_DISTRIBUTED_H
 #define TESTS_MESH_DISTRIBUTED_H
-#include "strip.h"
+#include "tests/mesh/strip.h"
 
 typedef struct {
   double upper[2], size_max;

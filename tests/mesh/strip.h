@@ -1,8 +1,8 @@
 /* A strip of small triangles, and the area of one. */
 #ifndef TESTS_MESH_STRIP_H
 #define TESTS_MESH_STRIP_H
-#include "check.h"
-#include "mesh.h"
+#include "common/mesh/mesh.h"
+#include "tests/check.h"
 #include <math.h>
 #include <string.h>
 

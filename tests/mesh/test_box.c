@@ -1,5 +1,5 @@
 /* Box meshes: exact area, conforming, no small angle, the wanted sizes, named boundary, mirror symmetry. */
-#include "strip.h"
+#include "tests/mesh/strip.h"
 
 typedef struct {
   double lower[2], upper[2], size_max;

@@ -1,8 +1,8 @@
 // ranks: 1 2 3 5
 /* A mesh in a checkpoint: as many ranks get back what they saved to the last bit, others the same triangles;
  * what was saved with the elements comes to them. */
-#include "distributed.h"
-#include "mesh_checkpoint.h"
+#include "common/mesh/mesh_checkpoint.h"
+#include "tests/mesh/distributed.h"
 #include <unistd.h>
 
 static const BoxCase GRADED = {{1.0, 2.0}, 0.2, {0.04, {0.3, 0.3}, {0.4, 1.0}, 0.3}};

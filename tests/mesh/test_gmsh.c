@@ -1,6 +1,6 @@
 /* Gmsh files: the same mesh from text and binary of both formats; damaged ones are refused with the reason.
  */
-#include "strip.h"
+#include "tests/mesh/strip.h"
 #include <unistd.h>
 
 static char path[64];

@@ -1,7 +1,7 @@
 // ranks: 1 2 3 5
 /* Distribution: the same triangles on any number of ranks, neighbours that agree, P2 numbers without gaps,
  * ranks without elements. */
-#include "distributed.h"
+#include "tests/mesh/distributed.h"
 
 static PetscErrorCode Distributed(BoxCase *box, Mesh **mesh)
 {

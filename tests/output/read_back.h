@@ -1,8 +1,8 @@
 /* Reading back with HDF5 alone. */
 #ifndef TESTS_OUTPUT_READ_BACK_H
 #define TESTS_OUTPUT_READ_BACK_H
-#include "check.h"
-#include "output.h"
+#include "common/output/output.h"
+#include "tests/check.h"
 #include <hdf5.h>
 #include <math.h>
 #include <stdio.h>

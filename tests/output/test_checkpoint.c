@@ -1,7 +1,7 @@
 // ranks: 1 2 3
 /* Checkpoints give back what was put into them, and say what is missing; files go on from one as if what
  * came after it had never been, and anew where they are not. */
-#include "read_back.h"
+#include "tests/output/read_back.h"
 #include <sys/stat.h>
 #include <unistd.h>
 

@@ -1,6 +1,6 @@
 /* A writer that is killed in the middle of a snapshot leaves every whole snapshot readable: on one rank and
  * on two. */
-#include "read_back.h"
+#include "tests/output/read_back.h"
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -1,7 +1,7 @@
 // ranks: 1 2 3
 /* What is written is read back: values in place on any number of ranks, unchanged points shared, ranks and
  * whole grids without cells, one entry a snapshot in the index, and misuse told. */
-#include "read_back.h"
+#include "tests/output/read_back.h"
 #include <unistd.h>
 
 /* Rank r has r + 1 - (last rank) strips ... rank k owns k triangles in the row y = k, so that rank 0 has

@@ -1,6 +1,6 @@
 // ranks: 1 2 3
 /* Series: the header, rows of rank 0 only, on disk as soon as they are given. */
-#include "read_back.h"
+#include "tests/output/read_back.h"
 #include <unistd.h>
 
 int main(int argc, char **argv)

@@ -2,8 +2,8 @@
  * step, so that each side knows what it must receive.  Node ids and element ids are unique in the job. */
 #ifndef TEST_ANALYTIC_H
 #define TEST_ANALYTIC_H
-#include "case_file.h"
-#include "coracle.h"
+#include "common/link/case_file.h"
+#include "common/link/coracle.h"
 #include <math.h>
 #include <signal.h>
 #include <stdlib.h>

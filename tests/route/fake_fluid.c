@@ -1,5 +1,5 @@
 /* A fluid without flow: checks each coupling entry and correction, gives values that the coupler knows. */
-#include "analytic.h"
+#include "tests/route/analytic.h"
 
 enum { MAX = 64 };
 

@@ -1,5 +1,5 @@
 /* A solid without mechanics: checks each force, and gives positions and velocities that the coupler knows. */
-#include "analytic.h"
+#include "tests/route/analytic.h"
 
 typedef struct {
   CoracleClient client;

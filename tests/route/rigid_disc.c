@@ -7,8 +7,8 @@
  *        /\ /\       facets i -> i + 1 run counter-clockwise, so that the disc lies on their left;
  *     3 |--n--| 0    triangles (n, i, i + 1) are the slices of the pie;
  *        \/_\/       rank 0 holds it all, other ranks are empty. */
-#include "case_file.h"
-#include "coracle.h"
+#include <case_file.h>
+#include <coracle.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,13 +17,13 @@
 typedef struct {
   double x[2], angle; /* centre, m; rad */
   double v[2], spin;  /* m/s, rad/s */
-} Motion;
+} BulkMotion;
 
 typedef struct {
   CoracleClient client;
   int n; /* nodes on the circle; 0 on empty ranks */
   double radius, mass, inertia, gravity[2];
-  Motion now;
+  BulkMotion now;
 } Disc;
 
 static void Fail(void *client, const char *message)
@@ -32,7 +32,7 @@ static void Fail(void *client, const char *message)
 }
 
 /* position[n + 1][2] of the nodes */
-static void Nodes(const Disc *d, const Motion *m, double position[])
+static void Nodes(const Disc *d, const BulkMotion *m, double position[])
 {
   for (int i = 0; d->n && i <= d->n; i++) {
     const double phi = m->angle + 2.0 * M_PI * i / d->n, r = i < d->n ? d->radius : 0.0;

@@ -1,7 +1,7 @@
 /* A coupler without physics: checks that all arrives where it must, and that a redone step is the same bit by
  * bit. */
-#include "analytic.h"
-#include "server.h"
+#include "common/link/server.h"
+#include "tests/route/analytic.h"
 #include <stdio.h>
 
 enum { MAX = 512 };

@@ -11,7 +11,7 @@
  *     bench_bend [cells ...]      prints a table and fails if at the finest mesh the energy of the cracks is
  * off by more than 5 % of G_f times their length, or the work that is missing by more than 5 % of the energy
  * that all joints took */
-#include "crack.h"
+#include "tests/solid/crack.h"
 
 #define SPAN 0.24    /* m */
 #define HEIGHT 0.06  /* m */
@@ -52,7 +52,7 @@ static PetscErrorCode Cut(MeshSerial *m)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Bodies(Assembly *a, int cells)
+static PetscErrorCode Bodies(Model *a, int cells)
 {
   const double box[1][4] = {{-SPAN / 6.0, -1.0, SPAN / 6.0, 1.0}}, y = 0.5 * HEIGHT + RADIUS * (1.0 + 1e-5);
   const double centre[2] = {0.0, 0.0};
@@ -72,7 +72,7 @@ static PetscErrorCode Bodies(Assembly *a, int cells)
 }
 
 /* The load comes down with this speed; its nodes are fixed and keep their velocity. */
-static void Lower(Solid s, const Assembly *a, double speed)
+static void Lower(Solid s, const Model *a, double speed)
 {
   double *v;
   const SolidView view = ViewOf(s, NULL, &v);
@@ -83,7 +83,7 @@ static void Lower(Solid s, const Assembly *a, double speed)
 static PetscErrorCode BendIt(int cells, Bend *b)
 {
   const SolidSetup options = {.courant = 0.8};
-  Assembly a = {0};
+  Model a = {0};
   BodyState state;
   Solid s;
   double before = 0.0, force = 0.0, speed, last = 0.0;
@@ -108,7 +108,7 @@ static PetscErrorCode BendIt(int cells, Bend *b)
              1e3 * SPEED * (SolidGetStats(s)->t - 0.5 * START), -force, b->work, state.strain, state.kinetic,
              b->missing, b->f.energy, b->f.live, b->f.broken);
   }
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   PetscCall(SolidDestroy(&s));
   PetscFunctionReturn(0);
 }

@@ -4,8 +4,8 @@
  * velocities, the look at the balance), and a redistribution; memory in kB a body of the rank that has most.
  *
  *     [mpirun -n 2] bench_bodies [blocks along a side ...] */
-#include "build.h"
-#include "solid_impl.h"
+#include "solid/solid_impl.h"
+#include "tests/solid/build.h"
 #include <sys/resource.h>
 #include <time.h>
 
@@ -22,7 +22,7 @@ static double Memory(void)
   return (double)usage.ru_maxrss; /* kB */
 }
 
-static void Build(Assembly *a, int side)
+static void Build(Model *a, int side)
 {
   BodySetup setup = BodyAtRest(MaterialOf(1000.0, 1.0e6, 0.3, 0.2));
   setup.material.friction = 0.3;
@@ -47,10 +47,10 @@ static PetscErrorCode Substeps(Solid s, int n, double *seconds)
 static PetscErrorCode OncePerStep(Solid s, double *seconds)
 {
   const double start = Processor();
-  SolidSeen seen;
+  InterfaceMotion seen;
   BodyState state[8];
   PetscCall(SolidBodies(s, 8, state));
-  PetscCall(SolidSee(s, &seen));
+  PetscCall(SolidUpdateInterfaceMotion(s, &seen));
   PetscCall(SolidRebalance(s));
   *seconds = Processor() - start;
   return 0;
@@ -75,7 +75,7 @@ static PetscErrorCode Measure(int side)
                               .upper = {0.1 * side, 0.1 * side + 1.0}};
   const double n = (double)side * side, memory = Memory();
   double t[6], grown;
-  Assembly a = {0};
+  Model a = {0};
   Solid s;
   t[0] = Processor();
   Build(&a, side);
@@ -95,7 +95,7 @@ static PetscErrorCode Measure(int side)
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%7d %9.2f %8.2f %8.2f %8.3f %8.3f %8.2f %8.2f\n", side * side,
                         1e6 * t[0] / n, 1e6 * t[1] / n, 1e6 * t[2] / n, 1e6 * t[3] / n, 1e6 * t[4] / n,
                         1e6 * t[5] / n, grown / n));
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 

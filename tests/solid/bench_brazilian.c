@@ -9,8 +9,8 @@
  * prints a table, first two discs whose shear strength does not grow, and fails if the finest disc's strength
  * is off by more than 5 %, if its load curve up to the first peak differs from the last but one's by more
  * than 3 % of the peak, or if the disc does not split. */
-#include "crack.h"
-#include "solid_impl.h"
+#include "solid/solid_impl.h"
+#include "tests/solid/crack.h"
 
 #define RADIUS 0.025 /* m */
 #define TENSILE 5e6  /* Pa */
@@ -45,11 +45,11 @@ static PetscErrorCode DiscWithJaws(int rings, MeshSerial *m)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode MakeDisc(int rings, double friction, Assembly *a)
+static PetscErrorCode MakeDisc(int rings, double friction, Model *a)
 {
   static const double ROW[2][6] = {{0.0, 0.0, 0.0, RAMP, SPEED, 0.0}, {0.0, 0.0, 0.0, RAMP, -SPEED, 0.0}};
-  const BoundaryDrive driven[] = {{"left", {.driven = {1, 0}, .nrows = 2, .row = ROW[0]}},
-                                  {"right", {.driven = {1, 0}, .nrows = 2, .row = ROW[1]}}};
+  const BoundaryMotion driven[] = {{"left", {.driven = {1, 0}, .nrows = 2, .row = ROW[0]}},
+                                   {"right", {.driven = {1, 0}, .nrows = 2, .row = ROW[1]}}};
   BodySetup setup = BodyAtRest(RockOf(TENSILE, SHEAR * TENSILE, 4.0, 0.3));
   MeshSerial mesh;
   PetscFunctionBeginUser;
@@ -77,7 +77,7 @@ static PetscErrorCode Load(Solid s, double *load)
 static PetscErrorCode Press(int rings, double friction, Curve *curve)
 {
   const SolidSetup options = {.courant = 0.8};
-  Assembly a = {0};
+  Model a = {0};
   FractureState f;
   Solid s;
   PetscFunctionBeginUser;
@@ -97,7 +97,7 @@ static PetscErrorCode Press(int rings, double friction, Curve *curve)
   }
   PetscCall(SolidFracture(s, &f));
   curve->length = f.length;
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   PetscCall(SolidDestroy(&s));
   PetscFunctionReturn(0);
 }

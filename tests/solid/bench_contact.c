@@ -1,7 +1,7 @@
 /* Cost of contact against size: walls of touching blocks of 8 elements, 1e3 to 1e5 elements in all. Processor
  * time in microseconds per element of a search, and of a substep with all its contact forces. */
-#include "build.h"
-#include "solid_impl.h"
+#include "solid/solid_impl.h"
+#include "tests/solid/build.h"
 #include <time.h>
 
 static double Processor(void)
@@ -18,7 +18,7 @@ static PetscErrorCode Measure(int side)
                               .lower = {0.0, 0.0},
                               .upper = {0.1 * side, 0.1 * side + 1.0}};
   const int repeats = 1 + 200000 / (8 * side * side);
-  Assembly a = {0};
+  Model a = {0};
   Solid s;
   double limit, h;
   setup.material.friction = 0.3;
@@ -40,7 +40,7 @@ static PetscErrorCode Measure(int side)
                substep = (Processor() - start) / (double)(SolidGetStats(s)->total - before);
   printf("%7d elements, %6d bodies: search %.3f, substep %.4f microseconds per element\n", a.nelements,
          a.nbodies, 1e6 * search / n, 1e6 * substep / n);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 

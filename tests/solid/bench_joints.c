@@ -1,12 +1,12 @@
 /* Joint-substeps per second on one core, intact and alive: bench_joints [size].  The living ones are the
  * joints of a body all of whose edges carry more than their strength. */
-#include "crack.h"
+#include "tests/solid/crack.h"
 
 static PetscErrorCode Measure(double size, double stretch)
 {
   BodySetup setup = BodyAtRest(RockOf(3e6, 3e6, 1e4, 0.0));
   const SolidSetup options = {.courant = 0.3};
-  Assembly a = {0};
+  Model a = {0};
   FractureState f;
   Solid s;
   double limit, h;
@@ -32,7 +32,7 @@ static PetscErrorCode Measure(double size, double stretch)
       "element-substeps/s in all\n",
       a.nelements, joints, f.live, stats->searches - before.searches,
       joints * total / (stats->seconds[4] - before.seconds[4]), a.nelements * total / seconds);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 

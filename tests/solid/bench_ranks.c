@@ -7,7 +7,7 @@
  *
  * elastic: one block; heap: blocks of 8 elements that touch, with friction; joints: a block with all edges
  * joints, whole, and one with living ones. */
-#include "crack.h"
+#include "tests/solid/crack.h"
 #include <time.h>
 
 enum { TRIES = 10 };
@@ -55,13 +55,13 @@ int(MPI_Allreduce)(const void *from, void *to, int n, MPI_Datatype type, MPI_Op 
 /* --- the solids
  * --------------------------------------------------------------------------------------------- */
 
-static void Elastic(Assembly *a)
+static void Elastic(Model *a)
 {
   const BodySetup setup = BodyAtRest(MaterialOf(1000.0, 1e6, 0.3, 0.2));
   AddRectangle(a, 0.0, 0.0, 1.0, 1.0, 0.3, 0.0045, 1, &setup);
 }
 
-static void Heap(Assembly *a)
+static void Heap(Model *a)
 {
   enum { SIDE = 112 };
   BodySetup setup = BodyAtRest(MaterialOf(1000.0, 1e6, 0.3, 0.2));
@@ -74,7 +74,7 @@ static void Heap(Assembly *a)
   }
 }
 
-static void Joined(Assembly *a, double stretch)
+static void Joined(Model *a, double stretch)
 {
   BodySetup setup = BodyAtRest(RockOf(3e6, 3e6, 1e4, 0.0));
   setup.joints.all = 1;
@@ -82,12 +82,12 @@ static void Joined(Assembly *a, double stretch)
   AddRectangle(a, 0.0, 0.0, 1.0, 1.0, 0.3, 0.006, 0, &setup);
 }
 
-static void Whole(Assembly *a)
+static void Whole(Model *a)
 {
   Joined(a, 1.0);
 }
 
-static void Living(Assembly *a)
+static void Living(Model *a)
 {
   Joined(a, 1.0 + 4e-4);
 }
@@ -98,10 +98,10 @@ typedef struct {
   double clock, busy, talk; /* s per substep, the least: by the clock, outside MPI, within MPI */
 } Runner;
 
-static PetscErrorCode RunnerCreate(MPI_Comm comm, void (*bodies)(Assembly *), Runner *r)
+static PetscErrorCode RunnerCreate(MPI_Comm comm, void (*bodies)(Model *), Runner *r)
 {
   const SolidSetup options = {.gravity = {0.0, -9.81}, .courant = 0.5};
-  Assembly a = {0};
+  Model a = {0};
   double limit;
   bodies(&a);
   *r = (Runner){
@@ -109,7 +109,7 @@ static PetscErrorCode RunnerCreate(MPI_Comm comm, void (*bodies)(Assembly *), Ru
   PetscCall(SolidCreate(comm, &a, &options, &r->s));
   PetscCall(SolidLimit(r->s, &limit));
   PetscCall(Run(r->s, 4.0 * limit, 4.0 * limit)); /* some overlap, and joints come to life */
-  return AssemblyDestroy(&a);
+  return ModelDestroy(&a);
 }
 
 /* The fastest substeps by each of the clocks. */
@@ -143,7 +143,7 @@ static PetscErrorCode Wait(void)
   return 0;
 }
 
-static PetscErrorCode Measure(const char *name, void (*bodies)(Assembly *), int rank, int size)
+static PetscErrorCode Measure(const char *name, void (*bodies)(Model *), int rank, int size)
 {
   Runner one, all;
   PetscCall(RunnerCreate(PETSC_COMM_WORLD, bodies, &all));
@@ -168,7 +168,7 @@ int main(int argc, char **argv)
 {
   static const struct {
     const char *name;
-    void (*bodies)(Assembly *);
+    void (*bodies)(Model *);
   } CASES[] = {{"elastic", Elastic}, {"heap", Heap}, {"joints", Whole}, {"living", Living}};
   PetscMPIInt rank, size;
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));

@@ -1,11 +1,11 @@
 /* Element-substeps per second on one core, of each law: bench_solid [size]. */
-#include "build.h"
+#include "tests/solid/build.h"
 
 static PetscErrorCode Measure(double size, double damping, int sheet, int corotated)
 {
   BodySetup setup = BodyAtRest(MaterialOf(1000.0, 1.0e6, 0.3, damping));
   const SolidSetup options = {.courant = 0.5};
-  Assembly a = {0};
+  Model a = {0};
   Solid s;
   double limit, h;
   setup.material.plane_stress = sheet;
@@ -21,7 +21,7 @@ static PetscErrorCode Measure(double size, double damping, int sheet, int corota
   printf("%8d elements, damping %.1f, plane %s, %s: %.3g element-substeps/s\n", a.nelements, damping,
          sheet ? "stress" : "strain", corotated ? "corotated" : "neo-Hookean",
          (double)a.nelements * (double)SolidGetStats(s)->total / seconds);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 

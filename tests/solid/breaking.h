@@ -1,7 +1,7 @@
 /* Bodies that slide, are driven and break, for the tests of what changes ranks and of what is saved. */
 #ifndef TESTS_SOLID_BREAKING_H
 #define TESTS_SOLID_BREAKING_H
-#include "crack.h"
+#include "tests/solid/crack.h"
 
 static inline Material Rough(void)
 {
@@ -14,10 +14,10 @@ static inline Material Rough(void)
 
 /* Two that break each other, one on a plate that is driven faster and faster, and one that slides on a held
  * one. */
-static inline void Bodies(Assembly *a)
+static inline void Bodies(Model *a)
 {
   static const double ROWS[6] = {0.0, 3.0, 0.0, 1e-4, 4.0, 0.5};
-  static const BoundaryDrive PUSHED = {"bottom", {.driven = {1, 1}, .nrows = 2, .row = ROWS}};
+  static const BoundaryMotion PUSHED = {"bottom", {.driven = {1, 1}, .nrows = 2, .row = ROWS}};
   const double box[1][4] = {{0.0, -1.0, 0.06, 1.0}};
   BodySetup left = BodyAtRest(Rough()), right = left, sliding = left, held = left;
   left.joints.all = 1;

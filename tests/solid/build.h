@@ -1,9 +1,9 @@
 /* Bodies for the solid's tests, and the little checks that they share. */
 #ifndef TESTS_SOLID_BUILD_H
 #define TESTS_SOLID_BUILD_H
-#include "check.h"
-#include "shape.h"
-#include "solid.h"
+#include "solid/bodies/shape.h"
+#include "solid/solid.h"
+#include "tests/check.h"
 #include <math.h>
 
 static inline Material MaterialOf(double density, double youngs_modulus, double poisson_ratio, double damping)
@@ -20,15 +20,14 @@ static inline BodySetup BodyAtRest(Material material)
   return (BodySetup){.material = material, .stretch = {1.0, 1.0}};
 }
 
-static inline void AddMesh(Assembly *a, MeshSerial *mesh, const BodySetup *setup)
+static inline void AddMesh(Model *a, MeshSerial *mesh, const BodySetup *setup)
 {
   const char *why = NULL;
-  CHECK(!AssemblyAdd(a, mesh, setup, &why), "%s", why);
+  CHECK(!ModelAdd(a, mesh, setup, &why), "%s", why);
   (void)MeshSerialDestroy(mesh);
 }
 
-static inline void AddDisc(Assembly *a, double x, double y, double radius, double size,
-                           const BodySetup *setup)
+static inline void AddDisc(Model *a, double x, double y, double radius, double size, const BodySetup *setup)
 {
   const double centre[2] = {x, y};
   MeshSerial mesh;
@@ -37,7 +36,7 @@ static inline void AddDisc(Assembly *a, double x, double y, double radius, doubl
 }
 
 /* A rectangle whose inner nodes are shaken by 0.2 size when `shake` is not 0. */
-static inline void AddRectangle(Assembly *a, double x, double y, double width, double height, double angle,
+static inline void AddRectangle(Model *a, double x, double y, double width, double height, double angle,
                                 double size, int shake, const BodySetup *setup)
 {
   const double centre[2] = {x, y};

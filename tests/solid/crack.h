@@ -1,7 +1,7 @@
 /* Jointed bodies for the tests of fracture. */
 #ifndef TESTS_SOLID_CRACK_H
 #define TESTS_SOLID_CRACK_H
-#include "build.h"
+#include "tests/solid/build.h"
 
 /* A rock: strengths in Pa, energy in J/m2. */
 static inline Material RockOf(double tensile, double shear, double energy, double damping)
@@ -15,7 +15,7 @@ static inline Material RockOf(double tensile, double shear, double energy, doubl
 
 /* Gives nodes that are fixed, and so keep their velocity for ever, one along `axis`: -speed those on the left
  * of `middle` at rest, speed the others. */
-static inline void Draw(Solid s, const Assembly *a, int axis, double middle, double speed)
+static inline void Draw(Solid s, const Model *a, int axis, double middle, double speed)
 {
   double *v;
   const SolidView view = ViewOf(s, NULL, &v);

@@ -1,6 +1,6 @@
 /* A step of velocity at the end of a slender bar (a driven boundary) travels with sqrt(E/rho) in plane stress
  * and sqrt(E/(1 - nu^2)/rho) in plane strain, within 1 %; a boundary can be let go. */
-#include "build.h"
+#include "tests/solid/build.h"
 
 static const double YOUNG = 1.0e6, DENSITY = 1000.0, POISSON = 0.3, SPEED = 1e-3;
 
@@ -21,9 +21,9 @@ static PetscErrorCode WaveSpeed(int plane_stress, double *speed)
 {
   const SolidSetup options = {.courant = 0.8};
   const double row[3] = {0.0, SPEED, 0.0}, at[2] = {0.3, 0.7};
-  const BoundaryDrive drive = {"left", {{1, 0}, 1, row, 0.0}};
+  const BoundaryMotion drive = {"left", {{1, 0}, 1, row, 0.0}};
   BodySetup setup = BodyAtRest(MaterialOf(DENSITY, YOUNG, POISSON, 0.0));
-  Assembly a = {0};
+  Model a = {0};
   double passed[2] = {0.0, 0.0}, before[2] = {0.0, 0.0}, h;
   Solid s;
   setup.material.plane_stress = plane_stress;
@@ -49,7 +49,7 @@ static PetscErrorCode WaveSpeed(int plane_stress, double *speed)
   for (int i = 0; i < v.nnodes; i++)
     if (v.rest[2 * i] < 1e-9) driven = v.x[2 * i] - v.rest[2 * i];
   CHECK(fabs(driven - SPEED * SolidGetStats(s)->t) < 1e-15, "the end has gone %g", driven);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
@@ -59,9 +59,9 @@ static PetscErrorCode Thrown(void)
 {
   const SolidSetup options = {.courant = 0.8, .gravity = {0.0, -10.0}};
   const double row[6] = {0.1, 0.0, 0.0, 0.2, 3.0, 0.0};
-  const BoundaryDrive drive = {"boundary", {{1, 1}, 2, row, 0.2}};
+  const BoundaryMotion drive = {"boundary", {{1, 1}, 2, row, 0.2}};
   BodySetup setup = BodyAtRest(MaterialOf(DENSITY, 1e8, POISSON, 0.3));
-  Assembly a = {0};
+  Model a = {0};
   double impulse[2] = {0.0, 0.0}, work = 0.0, h;
   BodyState b;
   SolidBudget budget;
@@ -86,7 +86,7 @@ static PetscErrorCode Thrown(void)
   CHECK(fabs((impulse[1] - 10.0 * 0.3 * b.mass) / (b.mass * b.v[1]) - 1.0) < 1e-12, "%.15g N s upwards",
         impulse[1]);
   CHECK(fabs(work / (4.5 * b.mass) - 1.0) < 0.01, "%g J of work, %g wanted", work, 4.5 * b.mass);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   PetscCall(SolidDestroy(&s));
   PetscFunctionReturn(0);
 }

@@ -1,5 +1,5 @@
 /* First bending frequency of a clamped plate strip (plane strain) against Timoshenko's beam, within 1 %. */
-#include "build.h"
+#include "tests/solid/build.h"
 
 static const double LENGTH = 1.6, HEIGHT = 0.1, DENSITY = 1000.0, YOUNG = 1.0e6, POISSON = 0.3;
 
@@ -71,7 +71,7 @@ static PetscErrorCode Frequency(int through, double euler, double *omega)
   static const char *const LEFT[] = {"left"};
   const SolidSetup options = {.courant = 0.9};
   BodySetup setup = BodyAtRest(MaterialOf(DENSITY, YOUNG, POISSON, 0.0));
-  Assembly a = {0};
+  Model a = {0};
   Solid s;
   double *velocity, h, before = 0.0, now = 0.0;
   setup.nfixed = 1;
@@ -94,7 +94,7 @@ static PetscErrorCode Frequency(int through, double euler, double *omega)
   CHECK(now <= 0.0 && before > 0.0, "no half period within 4/omega");
   *omega = M_PI / (SolidGetStats(s)->t - h * now / (now - before));
   free(mode);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 

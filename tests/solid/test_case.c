@@ -1,8 +1,8 @@
 /* The solid's keys of a case file: what is read, and what a bad one is told. */
-#include "../link/catch.h"
+#include "tests/link/catch.h"
 #undef CHECK
-#include "build.h"
-#include "solid_case.h"
+#include "solid/solid_case.h"
+#include "tests/solid/build.h"
 
 #define HEAD                                                                                                 \
   "gravity: [0, -9.81]\nsolid:\n  materials:\n    m: {density: 1000, youngs_modulus: 1e6, poisson_ratio: "   \
@@ -10,12 +10,12 @@
 #define DISC "    - {shape: disc, centre: [0, 0], radius: 0.1, size: 0.05, material: m}\n"
 
 static const char *const SECTIONS[] = {"solid", NULL};
-static Assembly assembly;
+static Model assembly;
 static SolidSetup setup;
 
 static void Read(Case c)
 {
-  (void)AssemblyDestroy(&assembly);
+  (void)ModelDestroy(&assembly);
   memset(&setup, 0, sizeof setup);
   (void)SolidCaseRead(c, &assembly, &setup);
   CaseFinish(c, SECTIONS);
@@ -187,7 +187,7 @@ static void Full(void)
   CHECK(assembly.ndrives == 2 && assembly.drive[0].nrows == 2 && !assembly.drive[0].driven[1] &&
             assembly.drive[0].release == 0.0 && assembly.drive[1].release == 6.0,
         "drives");
-  const double mean = DriveVelocity(&assembly.drive[0], 0, 1.0, 2.0); /* 2 to 3, then 3 */
+  const double mean = PrescribedVelocity(&assembly.drive[0], 0, 1.0, 2.0); /* 2 to 3, then 3 */
   CHECK(fabs(mean - 2.75) < 1e-14, "mean velocity %g", mean);
   double area[3] = {0.0, 0.0, 0.0}, span[2] = {0.0, 0.0};
   for (int n = 0; n < assembly.nnodes; n++) /* the stretched ring's wall is 0.1 at its right, thinner above */
@@ -265,6 +265,6 @@ int main(int argc, char **argv)
   Joints();
   Full();
   Refusals();
-  PetscCall(AssemblyDestroy(&assembly));
+  PetscCall(ModelDestroy(&assembly));
   return PetscFinalize();
 }

@@ -1,13 +1,13 @@
 // ranks: 1 2
 /* Two elastic discs meet head on and obliquely without friction: momentum and angular momentum to round-off
  * at every moment, energy within 1e-3 afterwards. */
-#include "build.h"
+#include "tests/solid/build.h"
 
 static PetscErrorCode Collide(double offset, double *restitution)
 {
   BodySetup left = BodyAtRest(MaterialOf(1000.0, 1.0e6, 0.3, 0.0)), right = left;
   const SolidSetup options = {.courant = 0.8};
-  Assembly a = {0};
+  Model a = {0};
   BodyState b[2];
   Totals before = {0}, now = {0};
   Solid s;
@@ -38,7 +38,7 @@ static PetscErrorCode Collide(double offset, double *restitution)
   if (getenv("VERBOSE"))
     printf("offset %g: energy %+.2e, restitution %.4f, substeps %lld, searches %d\n", offset, change,
            *restitution, SolidGetStats(s)->total, SolidGetStats(s)->searches);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 

@@ -1,10 +1,10 @@
 /* Contact forces: against a brute-force energy, dF = -dU/dx, U = p sum over (C, T) of the integral of
  * phi_T/J_T over the common part of contactor C and target T; equal and opposite; the same through the cell
  * grid as over all pairs. */
-#include "build.h"
-#include "cell_grid.h"
-#include "contact_kernel.h"
-#include "geometry.h"
+#include "common/supermesh/geometry.h"
+#include "solid/contact/cell_grid.h"
+#include "solid/contact/contact_kernel.h"
+#include "tests/solid/build.h"
 
 /* int phi over the triangle part: phi is linear on the target's three thirds between its centre and its
  * edges. */
@@ -58,7 +58,7 @@ static PetscErrorCode EnergyGradient(void)
   const double penalty = 7.0e4, young = 1.0e5;
   BodySetup setup = BodyAtRest(MaterialOf(1000.0, young, 0.3, 0.0));
   const SolidSetup options = {.courant = 0.5};
-  Assembly a = {0};
+  Model a = {0};
   Solid s;
   const double *f;
   double *x, force[600], sum[2] = {0.0, 0.0};
@@ -90,7 +90,7 @@ static PetscErrorCode EnergyGradient(void)
   }
   CHECK(ContactEnergy(&v, penalty) > 0.0, "the discs do not touch");
   CHECK(fabs(sum[0]) + fabs(sum[1]) < 1e-13 * young, "the forces sum up to %g %g", sum[0], sum[1]);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
@@ -144,14 +144,14 @@ static PetscErrorCode Grid(void)
 static PetscErrorCode Overlap(double x, double radius, int expected)
 {
   const BodySetup setup = BodyAtRest(MaterialOf(1000.0, 1e6, 0.3, 0.0));
-  Assembly a = {0};
+  Model a = {0};
   int first, second;
   AddRectangle(&a, 0.0, 0.0, 1.0, 1.0, 0.0, 0.125, 0, &setup);
   AddRectangle(&a, x, 0.0, 2.0 * radius, 2.0 * radius, 0.0, 0.125, 0, &setup);
-  PetscCall(AssemblyOverlap(&a, &first, &second));
+  PetscCall(ModelOverlap(&a, &first, &second));
   CHECK((first == 0 && second == 1) == expected, "x = %g, radius %g: bodies %d and %d", x, radius, first,
         second);
-  return AssemblyDestroy(&a);
+  return ModelDestroy(&a);
 }
 
 int main(int argc, char **argv)

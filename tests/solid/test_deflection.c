@@ -3,7 +3,7 @@
  * test_deflection [cells through the height]: 6 cells within 5 % (linear triangles are stiff in bending, by
  * O(h^2)), from 12 on within 1 %; the shortening, of second order in the deflection, within 2.5 times that.
  */
-#include "build.h"
+#include "tests/solid/build.h"
 
 static const double LENGTH = 1.0, HEIGHT = 0.05, YOUNG = 1.0e6, ALPHA = 2.0;
 
@@ -15,7 +15,7 @@ int main(int argc, char **argv)
   BodySetup setup = BodyAtRest(MaterialOf(1000.0, YOUNG, 0.3, 0.0));
   const double inertia = HEIGHT * HEIGHT * HEIGHT / 12.0, total = ALPHA * YOUNG * inertia / (LENGTH * LENGTH);
   const double dt = 0.06; /* a hundredth of the first period */
-  Assembly a = {0};
+  Model a = {0};
   BodyState b;
   Solid s;
   double *velocity, h, tip[2] = {0.0, 0.0};
@@ -51,7 +51,7 @@ int main(int argc, char **argv)
   CHECK(fabs(down / 0.49346 - 1.0) < bound, "deflection %g, Bisshopp and Drucker 0.49346", down);
   CHECK(fabs(shorter / 0.16064 - 1.0) < 2.5 * bound, "shortening %g, Bisshopp and Drucker 0.16064", shorter);
   free(load);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   PetscCall(SolidDestroy(&s));
   return PetscFinalize();
 }

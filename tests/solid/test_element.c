@@ -1,7 +1,7 @@
 /* One element, both laws: rotation gives no force, an affine map its exact stress, forces are -dW/dx, the
  * viscous force dissipates, and the bounds of its frequencies hold. */
-#include "build.h"
-#include "element.h"
+#include "solid/element.h"
+#include "tests/solid/build.h"
 
 static const Point REST[3] = {{0.1, -0.2}, {1.3, 0.1}, {0.4, 0.9}};
 

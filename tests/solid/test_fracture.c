@@ -1,7 +1,7 @@
 /* Bodies that break: energies per new surface in tension and in shear, the balance of energy without damping,
  * no healing, momentum and angular momentum to round-off through breaking, and intact bodies that feel no
  * joints. */
-#include "crack.h"
+#include "tests/solid/crack.h"
 
 static const char *const SIDES[] = {"left", "right"};
 
@@ -16,7 +16,7 @@ static BodySetup Bar(Material m, const double (*box)[4])
 }
 
 /* The force on the nodes that are held at x > 0. */
-static PetscErrorCode Reaction(Solid s, const Assembly *a, int axis, double *sum)
+static PetscErrorCode Reaction(Solid s, const Model *a, int axis, double *sum)
 {
   const SolidView v = ViewOf(s, NULL, NULL);
   const double *force;
@@ -37,7 +37,7 @@ static PetscErrorCode Energy(int axis, int corotated, double length, double widt
   m.corotated = corotated;
   const BodySetup setup = Bar(m, box);
   const double expected = m.fracture_energy[axis] * width;
-  Assembly a = {0};
+  Model a = {0};
   FractureState f;
   Solid s;
   AddRectangle(&a, 0.0, 0.0, length, width, 0.0, size, 0, &setup);
@@ -59,7 +59,7 @@ static PetscErrorCode Energy(int axis, int corotated, double length, double widt
   CHECK(fabs(f.energy / expected - 1.0) < 0.02, "%g J/m instead of %g", f.energy, expected);
   free(fragment);
   free(damage);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
@@ -70,7 +70,7 @@ static PetscErrorCode NoHealing(void)
   const double size = 0.01, box[1][4] = {{-1.01 * size, -1.0, 1.01 * size, 1.0}};
   const BodySetup setup = Bar(RockOf(3e6, 9e6, 30.0, 0.4), box);
   const SolidSetup options = {.courant = 0.8};
-  Assembly a = {0};
+  Model a = {0};
   FractureState f;
   Solid s;
   double peak = 0.0, again = 0.0, left = 0.0, now = 0.0, before;
@@ -96,7 +96,7 @@ static PetscErrorCode NoHealing(void)
   CHECK(fabs(peak / (3e6 * 0.04) - 1.0) < 0.03, "peak %g N", peak);
   CHECK(left < 0.8 * peak && fabs(again / left - 1.0) < 0.03, "left at %g N, later %g N at most", left,
         again);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
@@ -106,7 +106,7 @@ static PetscErrorCode Balance(void)
 {
   BodySetup setup = BodyAtRest(RockOf(3e6, 9e6, 30.0, 0.0));
   const SolidSetup options = {.courant = 0.1};
-  Assembly a = {0};
+  Model a = {0};
   FractureState f;
   Solid s;
   double *v, first, last;
@@ -125,7 +125,7 @@ static PetscErrorCode Balance(void)
            f.energy, f.broken, f.live, (last + f.energy) / first - 1.0);
   CHECK(f.broken > 20 && f.energy > 0.05 * first, "%d broken, %g J/m of %g", f.broken, f.energy, first);
   CHECK(fabs((last + f.energy) / first - 1.0) < 2e-3, "energy off by %g", (last + f.energy) / first - 1.0);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
@@ -134,10 +134,10 @@ static PetscErrorCode Balance(void)
 static PetscErrorCode DrivenSheet(void)
 {
   static const double row[3] = {0.0, -3.0, 0.0};
-  const BoundaryDrive driven = {"left", {{1, 0}, 1, row, 0.0}};
+  const BoundaryMotion driven = {"left", {{1, 0}, 1, row, 0.0}};
   BodySetup setup = BodyAtRest(RockOf(3e6, 9e6, 10.0, 0.0));
   const SolidSetup options = {.courant = 0.8};
-  Assembly a = {0};
+  Model a = {0};
   FractureState f;
   Solid s;
   double *v;
@@ -166,7 +166,7 @@ static PetscErrorCode DrivenSheet(void)
   CHECK(parts > 0 && f.broken > 10, "%d parts, %d broken", parts, f.broken);
   CHECK(f.energy > 10.0 * 0.4 * f.length * 0.98 && f.energy < 10.0 * 0.4 * 2.0 * f.length,
         "%g J in %g m of crack", f.energy, f.length);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
@@ -192,7 +192,7 @@ static PetscErrorCode Collision(void)
 {
   BodySetup left = BodyAtRest(RockOf(3e6, 9e6, 20.0, 0.1)), right = left;
   const SolidSetup options = {.courant = 0.8};
-  Assembly a = {0};
+  Model a = {0};
   Momentum before, now;
   FractureState f;
   Solid s;
@@ -215,7 +215,7 @@ static PetscErrorCode Collision(void)
   PetscCall(SolidFracture(s, &f));
   if (getenv("VERBOSE")) printf("collision: %d broken, %d live\n", f.broken, f.live);
   CHECK(f.broken > 30, "%d broken", f.broken);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
@@ -228,7 +228,7 @@ static PetscErrorCode Intact(void)
   for (int k = 0; k < 2; k++) {
     BodySetup setup = BodyAtRest(RockOf(3e6, 9e6, 30.0, 0.0));
     const SolidSetup options = {.courant = 0.8};
-    Assembly a = {0};
+    Model a = {0};
     setup.joints.all = k;
     setup.stretch[0] = 1.0 + 5e-5;
     AddRectangle(&a, 0.0, 0.0, 0.1, 0.05, 0.3, 0.01, 1, &setup);
@@ -236,7 +236,7 @@ static PetscErrorCode Intact(void)
     PetscCall(SolidLimit(s[k], &limit[k]));
     PetscCall(Run(s[k], 1e-4, 1e-5));
     v[k] = ViewOf(s[k], NULL, NULL);
-    PetscCall(AssemblyDestroy(&a));
+    PetscCall(ModelDestroy(&a));
   }
   CHECK(limit[0] == limit[1] && v[0].nnodes == v[1].nnodes, "limits %g %g", limit[0], limit[1]);
   for (int n = 0; n < 2 * v[0].nnodes; n++)

@@ -2,11 +2,11 @@
 /* Two bodies, of both elastic laws, break each other, one of them in a part only: the same on any number of
  * ranks, shared nodes with the same bits on all of them, and a step that is redone after other cracks to the
  * last bit. */
-#include "crack.h"
+#include "tests/solid/crack.h"
 
 enum { STEPS = 12 };
 
-static void Bodies(Assembly *a)
+static void Bodies(Model *a)
 {
   const double box[1][4] = {{0.0, -1.0, 0.06, 1.0}};
   BodySetup left = BodyAtRest(RockOf(3e6, 9e6, 20.0, 0.1)), right = left;
@@ -45,7 +45,7 @@ static PetscErrorCode Step(Solid s, double strength)
 static PetscErrorCode Simulate(MPI_Comm comm, int redo, double *all, int nids, FractureState *f, int *pieces)
 {
   const SolidSetup options = {.courant = 0.8};
-  Assembly a = {0};
+  Model a = {0};
   Solid s;
   Bodies(&a);
   PetscCall(SolidCreate(comm, &a, &options, &s));
@@ -69,13 +69,13 @@ static PetscErrorCode Simulate(MPI_Comm comm, int redo, double *all, int nids, F
   PetscCall(SolidFracture(s, f));
   PetscCall(SolidFragments(s, fragment, pieces));
   free(fragment);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
 int main(int argc, char **argv)
 {
-  Assembly a = {0};
+  Model a = {0};
   FractureState one, many, redone;
   int pieces[3];
   double largest = 0.0;
@@ -107,6 +107,6 @@ int main(int argc, char **argv)
   free(serial);
   free(mine);
   free(again);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return PetscFinalize();
 }

@@ -3,7 +3,7 @@
  * g (sin a - mu cos a) within 1 %, on a wall and on another body; a rubbing pair of discs keeps momentum and
  * angular momentum to round-off while its energy only falls; what friction holds it holds over a redone step.
  */
-#include "build.h"
+#include "tests/solid/build.h"
 
 static const double G = 9.81, YOUNG = 1.0e7;
 
@@ -25,7 +25,7 @@ static PetscErrorCode Slope(int wall, double angle, double friction, double *acc
                               .lower = {-1.0, 0.0},
                               .upper = {5.0, 1.0}};
   BodySetup block = BodyAtRest(Rough(friction)), floor = block;
-  Assembly a = {0};
+  Model a = {0};
   BodyState b[3];
   Solid s;
   AddRectangle(&a, 0.0, 0.05, 0.2, 0.1, 0.0, 0.05, 0, &block);
@@ -41,7 +41,7 @@ static PetscErrorCode Slope(int wall, double angle, double friction, double *acc
   if (getenv("VERBOSE"))
     printf("%s, angle %.3f, mu %.2f: slid %.3g, acceleration %.5f, Coulomb %.5f\n", wall ? "wall" : "body",
            angle, friction, *slid, *acceleration, G * (sin(angle) - friction * cos(angle)));
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
@@ -68,7 +68,7 @@ static PetscErrorCode Rub(double friction, double damping, double *turned, doubl
 {
   BodySetup left = BodyAtRest(MaterialOf(1000.0, 1.0e6, 0.3, 0.0)), right;
   const SolidSetup options = {.courant = 0.5};
-  Assembly a = {0};
+  Model a = {0};
   BodyState b[2], first;
   Totals before = {0}, now = {0};
   Solid s;
@@ -101,7 +101,7 @@ static PetscErrorCode Rub(double friction, double damping, double *turned, doubl
     printf("mu %.2f, damping %.2f: energy lost %.4f, highest %+.2e, turned by %.4f\n", friction, damping,
            *lost, highest / before.energy - 1.0, *turned);
   CHECK(highest < before.energy * (1.0 + 1e-3), "energy rises by %g", highest / before.energy - 1.0);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
@@ -131,7 +131,7 @@ static PetscErrorCode Squeezed(MPI_Comm comm, int redo, double *all, int *nnodes
   const SolidSetup options = {
       .gravity = {3.0, -G}, .courant = 0.8, .walls = PETSC_TRUE, .lower = {-1.0, 0.0}, .upper = {1.0, 1.0}};
   BodySetup setup = BodyAtRest(Rough(0.3));
-  Assembly a = {0};
+  Model a = {0};
   Solid s;
   double h;
   for (int k = 0; k < 3; k++) {
@@ -153,7 +153,7 @@ static PetscErrorCode Squeezed(MPI_Comm comm, int redo, double *all, int *nnodes
   for (int n = 0; n < v.nnodes; n++)
     for (int c = 0; c < 2; c++) all[2 * v.gid[n] + c] = v.x[2 * n + c];
   free(load);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 

@@ -1,6 +1,6 @@
 /* A disc pressed between two walls: the deformable one by Hertz's law of the cylinder, the stiff one by the
  * contact potential's own law, both within 5 %. */
-#include "build.h"
+#include "tests/solid/build.h"
 
 static const double RADIUS = 0.05;
 
@@ -10,12 +10,12 @@ static PetscErrorCode Pressed(double size, double young, double penalty, double 
   const SolidSetup options = {
       .courant = 0.8, .walls = PETSC_TRUE, .lower = {-1.0, depth - RADIUS}, .upper = {1.0, RADIUS - depth}};
   BodySetup setup = BodyAtRest(MaterialOf(1000.0, young, 0.3, 0.2));
-  Assembly a = {0};
+  Model a = {0};
   setup.material.penalty = penalty;
   AddDisc(&a, 0.0, 0.0, RADIUS, size, &setup);
   PetscCall(SolidCreate(PETSC_COMM_SELF, &a, &options, s));
   PetscCall(SolidStart(*s, 1e-9, NULL));
-  return AssemblyDestroy(&a);
+  return ModelDestroy(&a);
 }
 
 /* Forces on the lower half, N/m: the lower wall's when nothing is stressed within. */

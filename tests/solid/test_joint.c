@@ -1,8 +1,8 @@
 /* The joint's law by itself: energies of tension, shear and mixed paths, no healing, pressure on damaged
  * joints, continuity with what the edge carried, one end that hangs on; its forces are those of its work and
  * keep momentum and angular momentum. */
-#include "check.h"
-#include "joint.h"
+#include "solid/cracks/joint.h"
+#include "tests/check.h"
 
 enum { STEPS = 200000 };
 

@@ -1,7 +1,7 @@
 /* The stability limit of both laws: at it, 1e5 substeps of free vibration keep the energy, with and without
  * damping; the bound is not idle, three quarters above it (twice, damped) the motion blows up; SolidSubstep
  * ends a run whose element turns inside out. */
-#include "build.h"
+#include "tests/solid/build.h"
 #include <setjmp.h>
 
 static jmp_buf stopped;
@@ -17,7 +17,7 @@ static void Fail(void *context, const char *text)
 }
 
 /* A disc that vibrates in many modes, with substeps of factor times the limit. */
-static PetscErrorCode Vibrating(int corotated, double factor, double damping, double amplitude, Assembly *a,
+static PetscErrorCode Vibrating(int corotated, double factor, double damping, double amplitude, Model *a,
                                 Solid *s)
 {
   const SolidSetup options = {.courant = factor, .fail = Fail};
@@ -35,7 +35,7 @@ static PetscErrorCode Vibrating(int corotated, double factor, double damping, do
 static PetscErrorCode Conserves(int corotated)
 {
   double limit, before = 0.0, now = 0.0, worst = 0.0;
-  Assembly a;
+  Model a;
   Solid s;
   PetscCall(Vibrating(corotated, 1.0, 0.0, 1e-6, &a, &s));
   PetscCall(SolidLimit(s, &limit));
@@ -51,7 +51,7 @@ static PetscErrorCode Conserves(int corotated)
     printf("%s: energy within %.2e over %lld substeps\n", corotated ? "corotated" : "neo-Hookean", worst,
            SolidGetStats(s)->total);
   CHECK(worst < 1e-3, "energy off by %g", worst);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
@@ -59,7 +59,7 @@ static PetscErrorCode Conserves(int corotated)
 static PetscErrorCode Decays(int corotated, double damping)
 {
   double limit, start = 0.0, before, now = 0.0;
-  Assembly a;
+  Model a;
   Solid s;
   PetscCall(Vibrating(corotated, 1.0, damping, 1e-5, &a, &s));
   PetscCall(SolidLimit(s, &limit));
@@ -72,7 +72,7 @@ static PetscErrorCode Decays(int corotated, double damping)
     before = now;
   }
   CHECK(fabs(now) < 1e-6 * start, "damping %g: energy %g of %g is left", damping, now, start);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
@@ -82,7 +82,7 @@ static PetscErrorCode Swings(int sheet)
 {
   const SolidSetup options = {.courant = 1.0, .fail = Fail};
   BodySetup setup = BodyAtRest(MaterialOf(1000.0, 1.0e6, 0.3, 0.0));
-  Assembly a = {0};
+  Model a = {0};
   Solid s;
   double limit, now_limit, before = 0.0, now = 0.0, worst = 0.0;
   setup.material.corotated = 1;
@@ -104,13 +104,13 @@ static PetscErrorCode Swings(int sheet)
     printf("corotated, sheet %d: energy within %.2e over %lld substeps\n", sheet, worst,
            SolidGetStats(s)->total);
   CHECK(worst < 0.02, "energy off by %g", worst);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
 static PetscErrorCode Explodes(int corotated, double factor, double damping)
 {
-  Assembly a;
+  Model a;
   Solid s;
   double limit;
   message[0] = '\0';
@@ -121,7 +121,7 @@ static PetscErrorCode Explodes(int corotated, double factor, double damping)
   expected = 0;
   CHECK(strstr(message, "body 0: element") && strstr(message, "inside out at t ="), "above the limit: '%s'",
         message);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 

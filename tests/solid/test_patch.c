@@ -2,7 +2,7 @@
 /* Patch test on a shaken mesh, both laws, plane strain and plane stress: a finite rotation by 73 degrees
  * leaves no force; a pull, a shear and a general affine map a uniform exact stress and no force inside; rest
  * coordinates are kept apart from positions. */
-#include "build.h"
+#include "tests/solid/build.h"
 
 static const double E = 2.0e6, NU = 0.3, THICKNESS = 0.25;
 
@@ -27,7 +27,7 @@ static PetscErrorCode Mapped(const double f[4], Law law, Solid *s)
 {
   BodySetup setup = BodyAtRest(MaterialOf(1000.0, E, 0.3, 0.0));
   const SolidSetup options = {.courant = 0.5};
-  Assembly a = {0};
+  Model a = {0};
   double *x;
   setup.material.plane_stress = law % 2;
   setup.material.corotated = law >= BIOT_STRAIN;
@@ -39,7 +39,7 @@ static PetscErrorCode Mapped(const double f[4], Law law, Solid *s)
     x[2 * n] = f[0] * v.rest[2 * n] + f[1] * v.rest[2 * n + 1] + 5.0;
     x[2 * n + 1] = f[2] * v.rest[2 * n] + f[3] * v.rest[2 * n + 1] - 7.0;
   }
-  return AssemblyDestroy(&a);
+  return ModelDestroy(&a);
 }
 
 static PetscErrorCode Rotation(Law law)
@@ -114,7 +114,7 @@ static PetscErrorCode Stretched(void)
   const SolidSetup options = {.courant = 0.5};
   const double j = 1.5, mu = E / 2.6, lambda = 0.3 * E / (1.3 * 0.4),
                volumetric = 0.5 * lambda * (j - 1.0 / j);
-  Assembly a = {0};
+  Model a = {0};
   Solid s;
   setup.stretch[0] = 1.5;
   AddDisc(&a, 2.0, 1.0, 0.5, 0.1, &setup);
@@ -127,7 +127,7 @@ static PetscErrorCode Stretched(void)
               1e-12 * E,
           "element %d: %g %g", e, stress[3 * e], stress[3 * e + 1]);
   free(stress);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 

@@ -2,11 +2,11 @@
 /* The same motion on any number of ranks, to round-off: three bodies of which two collide and one is a single
  * element pair that leaves ranks without elements of it, walls, a load, and a step that is redone to the last
  * bit. */
-#include "build.h"
+#include "tests/solid/build.h"
 
 enum { STEPS = 40 };
 
-static void Bodies(Assembly *a)
+static void Bodies(Model *a)
 {
   BodySetup setup = BodyAtRest(MaterialOf(1000.0, 1.0e6, 0.3, 0.1));
   setup.velocity[0] = 1.0;
@@ -48,7 +48,7 @@ static PetscErrorCode Simulate(MPI_Comm comm, int redo, double *all, int nnodes,
                               .walls = PETSC_TRUE,
                               .lower = {-0.5, 0.0},
                               .upper = {0.6, 1.0}};
-  Assembly a = {0};
+  Model a = {0};
   Solid s;
   Bodies(&a);
   CHECK(a.nnodes == nnodes, "%d nodes", a.nnodes);
@@ -73,7 +73,7 @@ static PetscErrorCode Simulate(MPI_Comm comm, int redo, double *all, int nnodes,
   CHECK(b[0].v[0] < 0.0 && b[1].v[0] > 0.0, "the bodies have not met: %g %g", b[0].v[0], b[1].v[0]);
   CHECK(b[2].v[1] > -0.3, "the third has not met the floor: %g", b[2].v[1]);
   *searches = SolidGetStats(s)->searches;
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
@@ -82,7 +82,7 @@ static PetscErrorCode Tiny(void)
 {
   const BodySetup setup = BodyAtRest(MaterialOf(1000.0, 1.0e6, 0.3, 0.0));
   const SolidSetup options = {.gravity = {0.0, -9.81}, .courant = 0.8};
-  Assembly a = {0};
+  Model a = {0};
   BodyState b;
   Solid s;
   AddRectangle(&a, 0.0, 0.0, 0.1, 0.1, 0.0, 0.1, 0, &setup);
@@ -90,13 +90,13 @@ static PetscErrorCode Tiny(void)
   PetscCall(Run(s, 0.1, 0.01));
   PetscCall(SolidBodies(s, 1, &b));
   CHECK(fabs(b.v[1] + 0.981) < 1e-12, "falls with %g", b.v[1]);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
 int main(int argc, char **argv)
 {
-  Assembly a = {0};
+  Model a = {0};
   int searches, serial_searches;
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   Bodies(&a);
@@ -119,6 +119,6 @@ int main(int argc, char **argv)
   free(serial);
   free(mine);
   free(redone);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return PetscFinalize();
 }

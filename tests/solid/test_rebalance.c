@@ -2,8 +2,8 @@
 /* Elements change ranks while bodies slide, are driven and break: the answer is that of one rank to
  * round-off, a step that is redone after another try and another redistribution has the same bits, and what
  * has moved away from its rank's other bodies is dealt out anew by itself. */
-#include "breaking.h"
-#include "contact_impl.h"
+#include "solid/contact/contact_impl.h"
+#include "tests/solid/breaking.h"
 
 enum { STEPS = 6, CALM, SCATTERED, REDONE };
 
@@ -35,7 +35,7 @@ static PetscErrorCode Tell(Solid s, int nids, Answer *out)
 static PetscErrorCode Simulate(MPI_Comm comm, int how, int nids, Answer *out)
 {
   const SolidSetup options = {.courant = 0.8, .rebalance = 1e9};
-  Assembly a = {0};
+  Model a = {0};
   Solid s;
   Bodies(&a);
   PetscCall(SolidCreate(comm, &a, &options, &s));
@@ -51,7 +51,7 @@ static PetscErrorCode Simulate(MPI_Comm comm, int how, int nids, Answer *out)
     if (how != CALM) PetscCall(Scatter(s, a.nelements, k));
   }
   PetscCall(Tell(s, nids, out));
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
@@ -85,7 +85,7 @@ static PetscErrorCode Compare(const Answer *one, const Answer *many, const Answe
 static PetscErrorCode Forced(void)
 {
   Answer one, many, redone;
-  Assembly a = {0};
+  Model a = {0};
   Bodies(&a);
   const int nids = a.nnodes + 3 * a.nelements;
   PetscCall(Simulate(PETSC_COMM_SELF, CALM, nids, &one));
@@ -95,7 +95,7 @@ static PetscErrorCode Forced(void)
   free(one.all);
   free(many.all);
   free(redone.all);
-  return AssemblyDestroy(&a);
+  return ModelDestroy(&a);
 }
 
 /* --- by itself
@@ -108,7 +108,7 @@ static PetscErrorCode Slide(MPI_Comm comm, double rebalance, BodyState state[], 
 {
   const SolidSetup options = {.gravity = {0.0, -10.0}, .courant = 0.8, .rebalance = rebalance};
   BodySetup setup = BodyAtRest(MaterialOf(1000.0, 1e6, 0.3, 0.3));
-  Assembly a = {0};
+  Model a = {0};
   Solid s;
   setup.material.friction = 0.02;
   for (int k = 0; k < n; k++) {
@@ -128,7 +128,7 @@ static PetscErrorCode Slide(MPI_Comm comm, double rebalance, BodyState state[], 
   *travelling = s->contact->halo ? HaloTraffic(s->contact->halo) : 0;
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, travelling, 1, MPI_INT, MPI_SUM, comm));
   *rebalanced = SolidGetStats(s)->rebalanced;
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 

@@ -1,6 +1,6 @@
 /* What lies stays: a block on the floor and a stack of three come to rest and keep their potential energy; a
  * small heap of blocks that fall on each other comes to rest (hundreds: test_rest 300). */
-#include "build.h"
+#include "tests/solid/build.h"
 
 static const double G = 9.81;
 
@@ -32,7 +32,7 @@ static PetscErrorCode Stack(int n)
   const SolidSetup options = {
       .gravity = {0.0, -G}, .courant = 0.8, .walls = PETSC_TRUE, .lower = {-1.0, 0.0}, .upper = {1.0, 2.0}};
   const BodySetup setup = BodyAtRest(Stone(2.0e7));
-  Assembly a = {0};
+  Model a = {0};
   Solid s;
   double before, now, speed, weight = 0.0;
   for (int k = 0; k < n; k++) AddRectangle(&a, 0.003 * k, 0.05 + 0.1 * k, 0.2, 0.1, 0.0, 0.05, 1, &setup);
@@ -49,7 +49,7 @@ static PetscErrorCode Stack(int n)
   }
   if (getenv("VERBOSE"))
     printf("%d blocks: speed %.1e, height %+.1e in a second\n", n, speed, (now - before) / weight);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
@@ -65,7 +65,7 @@ static PetscErrorCode Heap(int n, double time)
                               .lower = {0.0, 0.0},
                               .upper = {width, (rows + 2) * pitch + 0.2}};
   const BodySetup setup = BodyAtRest(Stone(2.0e6));
-  Assembly a = {0};
+  Model a = {0};
   Solid s;
   double before, after, speed;
   for (int k = 0; k < n; k++) {
@@ -86,7 +86,7 @@ static PetscErrorCode Heap(int n, double time)
   CHECK(after < 0.9 * before, "potential energy %g of %g: nothing has fallen", after, before);
   const double full = n * size * size / width; /* height of the heap without holes */
   CHECK(after > 0.5 * full * n * 2000.0 * size * size * G, "the heap lies too low: %g J/m", after);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 

@@ -1,11 +1,11 @@
 // ranks: 1 2
 /* A thin ring pinched between two driven discs folds until its own walls meet: they stop each other, with and
  * without friction; and a ring whose rest shape is a circle pulls back from the ellipse it is given as. */
-#include "build.h"
+#include "tests/solid/build.h"
 
 static const double RADIUS = 0.1, WALL = 0.01;
 
-static void AddRing(Assembly *a, double x, double y, const BodySetup *setup)
+static void AddRing(Model *a, double x, double y, const BodySetup *setup)
 {
   const double centre[2] = {x, y};
   MeshSerial mesh;
@@ -35,7 +35,7 @@ static PetscErrorCode Pinch(double friction)
   const SolidSetup options = {.courant = 0.8};
   const double speed = 1.0, start = 0.002, radius = 0.02, way = RADIUS + 0.5 * WALL + start - 0.9 * WALL;
   BodySetup ring = BodyAtRest(MaterialOf(1000.0, 1.0e5, 0.3, 0.5)), disc;
-  Assembly a = {0};
+  Model a = {0};
   Solid s;
   double gap, narrowest;
   ring.material.friction = friction;
@@ -45,7 +45,7 @@ static PetscErrorCode Pinch(double friction)
   AddRing(&a, 0.0, 0.0, &ring);
   for (int k = -1; k <= 1; k += 2) { /* both discs go `way` and stop */
     const double row[6] = {way / speed, 0.0, -k * speed, way / speed + 1e-6, 0.0, 0.0};
-    const BoundaryDrive drive = {"boundary", {{1, 1}, 2, row, 0.0}};
+    const BoundaryMotion drive = {"boundary", {{1, 1}, 2, row, 0.0}};
     disc.driven = &drive;
     AddDisc(&a, 0.0, k * (RADIUS + 0.5 * WALL + start + radius), radius, 0.008, &disc);
   }
@@ -61,7 +61,7 @@ static PetscErrorCode Pinch(double friction)
   /* squeezed to 0.9 of their thickness, the walls touch and do not reach into each other */
   CHECK(gap < 0.02 * WALL && gap > -0.15 * WALL, "gap %g", gap);
   CHECK(narrowest < 0.97 && narrowest > 0.8, "the walls are squeezed to %g", narrowest);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
@@ -73,7 +73,7 @@ static PetscErrorCode Ellipse(void)
   const SolidSetup options = {.courant = 0.8};
   const double circle = 2.0 * RADIUS - WALL;
   BodySetup ring = BodyAtRest(MaterialOf(1000.0, 1.0e5, 0.3, 0.0));
-  Assembly a = {0};
+  Model a = {0};
   Solid s;
   double gap, wall, first, energy = 0.0, start = 0.0, mean = 0.0, highest = 0.0, worst = 0.0;
   ring.stretch[0] = 1.05;
@@ -97,7 +97,7 @@ static PetscErrorCode Ellipse(void)
   CHECK(fabs(mean / circle - 1.0) < 0.02, "mean height %g of the circle's", mean / circle);
   CHECK(highest / circle > 1.03 && highest / circle < 1.2, "highest %g of the circle's", highest / circle);
   CHECK(worst < 0.02, "energy off by %g", worst);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 

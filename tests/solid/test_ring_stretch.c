@@ -2,14 +2,14 @@
  * what it bears along it, its middle line encloses pi R^2 s_x s_y, and when it is let go it moves as a hoop
  * (without Poisson's effect and with the corotated law as a line membrane) and does not ring through its
  * thickness, as one does that is stretched affinely. */
-#include "build.h"
+#include "tests/solid/build.h"
 
 static const double RADIUS = 0.5, E = 1e4, DENSITY = 1000.0, STRETCH[2] = {1.5, 1.0}, CENTRE[2] = {3.0, -2.0};
 enum { LAYERS = 4 };
 
 typedef enum { STRAIN, STRESS, BIOT_STRAIN, BIOT_STRESS, NLAWS } Law;
 
-static PetscErrorCode Build(Law law, double poisson, double wall, int affine, MeshSerial *mesh, Assembly *a,
+static PetscErrorCode Build(Law law, double poisson, double wall, int affine, MeshSerial *mesh, Model *a,
                             Solid *s)
 {
   const SolidSetup options = {.courant = 0.8};
@@ -22,7 +22,7 @@ static PetscErrorCode Build(Law law, double poisson, double wall, int affine, Me
   double *x = malloc(2 * (size_t)mesh->nv * sizeof *x);
   ShapeRingStretched(CENTRE, STRETCH, MaterialLaw(&setup.material), mesh, x);
   setup.position = affine ? NULL : x;
-  CHECK(!AssemblyAdd(a, mesh, &setup, &why), "%s", why);
+  CHECK(!ModelAdd(a, mesh, &setup, &why), "%s", why);
   free(x);
   PetscCall(SolidCreate(PETSC_COMM_SELF, a, &options, s));
   return 0;
@@ -55,7 +55,7 @@ static double Across(Solid s)
 }
 
 /* Within the nodes that lie in the wall's middle at rest; the mesh has them row by row. */
-static double AreaWithin(const MeshSerial *m, const Assembly *a)
+static double AreaWithin(const MeshSerial *m, const Model *a)
 {
   const int sides = m->nb / 2;
   Point *line = calloc((size_t)sides, sizeof *line);
@@ -131,7 +131,7 @@ static PetscErrorCode Ring(Law law, double poisson, double thickness, int affine
 {
   const double wall = thickness * RADIUS;
   MeshSerial mesh;
-  Assembly a = {0};
+  Model a = {0};
   Solid s;
   double hoop[2], within[2];
   PetscCall(Build(law, poisson, wall, affine, &mesh, &a, &s));
@@ -165,7 +165,7 @@ static PetscErrorCode Ring(Law law, double poisson, double thickness, int affine
           "%g of a membrane's energy", hoop[0] / membrane);
   }
   PetscCall(MeshSerialDestroy(&mesh));
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 

@@ -1,6 +1,6 @@
 /* Built-in bodies: area, quality, orientation, surface and boundary names; what an assembly refuses. */
-#include "build.h"
-#include "plane.h"
+#include "solid/plane.h"
+#include "tests/solid/build.h"
 
 static Point At(const MeshSerial *m, int v)
 {
@@ -71,7 +71,7 @@ static PetscErrorCode Surface(void)
 {
   static const char *const NAMES[] = {"bottom", "right"};
   BodySetup setup = BodyAtRest(MaterialOf(1000.0, 1e6, 0.3, 0.0));
-  Assembly a = {0};
+  Model a = {0};
   double circulation = 0.0;
   int fixed = 0;
   setup.nfixed = 2;
@@ -88,7 +88,7 @@ static PetscErrorCode Surface(void)
     fixed += a.fixed[n];
   }
   CHECK(fixed == 15, "%d fixed", fixed);
-  return AssemblyDestroy(&a);
+  return ModelDestroy(&a);
 }
 
 static void Refused(int vertex_moved, double x, const char *name, const char *expected)
@@ -96,16 +96,16 @@ static void Refused(int vertex_moved, double x, const char *name, const char *ex
   const double centre[2] = {0.0, 0.0};
   BodySetup setup = BodyAtRest(MaterialOf(1000.0, 1e6, 0.3, 0.0));
   MeshSerial m;
-  Assembly a = {0};
+  Model a = {0};
   const char *why = "";
   (void)ShapeRectangle(centre, 1.0, 1.0, 0.0, 0.5, &m);
   m.x[2 * vertex_moved] = x;
   setup.nfixed = name != NULL;
   setup.fixed_name = &name;
-  const PetscErrorCode code = AssemblyAdd(&a, &m, &setup, &why);
+  const PetscErrorCode code = ModelAdd(&a, &m, &setup, &why);
   CHECK(code && strstr(why, expected), "got '%s', expected '%s'", why, expected);
   (void)MeshSerialDestroy(&m);
-  (void)AssemblyDestroy(&a);
+  (void)ModelDestroy(&a);
 }
 
 int main(int argc, char **argv)

@@ -1,7 +1,7 @@
 // ranks: 1 2
 /* A damped disc falls on the tank's floor and comes to rest there: on it, not in it, carried with its weight.
  */
-#include "build.h"
+#include "tests/solid/build.h"
 
 int main(int argc, char **argv)
 {
@@ -12,7 +12,7 @@ int main(int argc, char **argv)
                               .lower = {-0.3, 0.0},
                               .upper = {0.3, 1.0}};
   BodySetup setup = BodyAtRest(MaterialOf(1000.0, young, 0.3, 0.5));
-  Assembly a = {0};
+  Model a = {0};
   BodyState b;
   Solid s;
   double lowest = 1.0;
@@ -47,7 +47,7 @@ int main(int argc, char **argv)
   PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
   if (size == 1)
     CHECK(fabs(sum[1] / weight - 1.0) < 1e-3, "the floor carries %g of the weight", sum[1] / weight);
-  PetscCall(AssemblyDestroy(&a));
+  PetscCall(ModelDestroy(&a));
   PetscCall(SolidDestroy(&s));
   return PetscFinalize();
 }

@@ -2,8 +2,8 @@
  * diagonal. */
 #ifndef TESTS_RANDOM_MESH_H
 #define TESTS_RANDOM_MESH_H
-#include "check.h"
-#include "geometry.h"
+#include "common/supermesh/geometry.h"
+#include "tests/check.h"
 
 static inline double Random(double lower, double upper)
 {

@@ -1,6 +1,6 @@
 /* Clipping neither makes nor loses area, also when edges and vertices coincide; quadratures are exact to
  * their degree. */
-#include "random_mesh.h"
+#include "tests/supermesh/random_mesh.h"
 
 static void RandomTriangle(double x[3][2])
 {

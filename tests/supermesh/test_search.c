@@ -1,7 +1,7 @@
 /* The search finds exactly what comparing all with all finds, for boxes whose sizes differ by a factor of
  * 1000. */
-#include "random_mesh.h"
-#include "search.h"
+#include "common/supermesh/search.h"
+#include "tests/supermesh/random_mesh.h"
 
 enum { N = 3000 };
 

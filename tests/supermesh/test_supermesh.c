@@ -1,7 +1,7 @@
 /* Pair integrals against quadrature, partition of unity, and Galerkin projection between random meshes. */
-#include "projection.h"
-#include "random_mesh.h"
-#include "supermesh.h"
+#include "common/supermesh/projection.h"
+#include "common/supermesh/supermesh.h"
+#include "tests/supermesh/random_mesh.h"
 
 enum { NA = 13, NB = 21 };
 

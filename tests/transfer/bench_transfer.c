@@ -1,7 +1,7 @@
 /* Microseconds of this rank a new triangle: bench_transfer [cells a side, default 71 (10 082 triangles)].
  * All triangles changed, a disc of them, none. */
-#include "shaken.h"
-#include "transfer.h"
+#include "common/transfer/transfer.h"
+#include "tests/transfer/shaken.h"
 #include <time.h>
 
 enum { COMPS = 4, REPEATS = 5 };

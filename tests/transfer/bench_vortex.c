@@ -2,7 +2,7 @@
  * must hold.  bench_vortex [transfers, default 1000] [csv, default vortex.csv] [cells a side ..., default 16
  * 32 48] writes a table that scripts/plot_transfer.py draws.  Exit code 1 when the energy ever grows, falls
  * by more than theory allows, or momentum drifts, or the loss of a transfer is not O(h^4). */
-#include "vortex.h"
+#include "tests/transfer/vortex.h"
 
 /* Mean relative loss of the last half of the transfers. */
 static PetscErrorCode Follow(int n, int transfers, FILE *csv, double *rate)

@@ -2,9 +2,9 @@
  * vertices shaken.  The seed decides inside of a disc; outside all meshes of the same n are the same. */
 #ifndef TESTS_TRANSFER_SHAKEN_H
 #define TESTS_TRANSFER_SHAKEN_H
-#include "check.h"
-#include "geometry.h"
-#include "mesh.h"
+#include "common/mesh/mesh.h"
+#include "common/supermesh/geometry.h"
+#include "tests/check.h"
 #include <stdint.h>
 
 typedef struct {

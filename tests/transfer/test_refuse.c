@@ -1,7 +1,7 @@
 // ranks: 1 3
 /* Meshes of different domains are refused with the reason. */
-#include "shaken.h"
-#include "transfer.h"
+#include "common/transfer/transfer.h"
+#include "tests/transfer/shaken.h"
 
 static char said[1024];
 

@@ -2,8 +2,8 @@
 /* Between random, graded, partly identical and identical meshes, each with its own partition: integrals are
  * conserved, P1 and P2 fields come out as they went in, unchanged elements are copied, energy does not grow,
  * any number of ranks gives the same answer. */
-#include "shaken.h"
-#include "transfer.h"
+#include "common/transfer/transfer.h"
+#include "tests/transfer/shaken.h"
 
 enum { COMPS = 3 };
 typedef double Values[COMPS][3];

@@ -1,7 +1,7 @@
 // ranks: 1 2 3
 /* A vortex transferred between random meshes: energy never grows and falls by O(h^4) a transfer, momentum
  * stays; bench_vortex runs a thousand transfers. */
-#include "vortex.h"
+#include "tests/transfer/vortex.h"
 
 enum { TRANSFERS = 20 };
 

@@ -1,0 +1,156 @@
+#include "common/link/failure_board.h"
+#include <errno.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+typedef struct {
+  _Atomic int pid, step; /* pid 0: closed in good order */
+  int rank;
+  char role[16];
+} BoardSlot;
+
+typedef struct {
+  _Atomic int claimed;
+  BoardSlot slot[];
+} BoardMemory;
+
+struct FailureBoard_s {
+  MPI_Comm node; /* the ranks of this computer */
+  MPI_Win window;
+  BoardMemory *memory;
+  BoardSlot *mine;
+  int n;
+  char prefix[64]; /* "coracle solid[0]: " */
+};
+
+static FailureBoard WATCHED; /* what the signal handler looks at: a process has one board */
+
+/* --- in the signal handler: nothing but async-signal-safe calls ----------------------------------------- */
+
+static char *PutText(char *to, char *end, const char *text)
+{
+  while (*text && to < end) *to++ = *text++;
+  return to;
+}
+
+static char *PutNumber(char *to, char *end, int value)
+{
+  char digits[12], *d = digits + sizeof digits;
+  *--d = '\0';
+  do *--d = (char)('0' + value % 10);
+  while ((value /= 10) > 0);
+  return PutText(to, end, d);
+}
+
+static const BoardSlot *FindDead(const FailureBoard b)
+{
+  for (int i = 0; i < b->n; i++) {
+    const int pid = b->memory->slot[i].pid;
+    if (pid > 0 && kill(pid, 0) && errno == ESRCH) return &b->memory->slot[i];
+  }
+  return NULL;
+}
+
+static void SayWhoDied(const FailureBoard b)
+{
+  char text[256], *end = text + sizeof text, *to = PutText(text, end, b->prefix);
+  const BoardSlot *dead = FindDead(b);
+  if (dead) {
+    to = PutText(to, end, "error: ");
+    to = PutText(to, end, dead->role);
+    to = PutText(to, end, " rank ");
+    to = PutNumber(to, end, dead->rank);
+    to = PutText(to, end, " (process ");
+    to = PutNumber(to, end, dead->pid);
+    to = PutText(to, end, ") died in step ");
+    to = PutNumber(to, end, dead->step);
+    to = PutText(to, end, ", killed or crashed: the job ends\n");
+  } else {
+    to = PutText(to, end, "ended by the launcher in step ");
+    to = PutNumber(to, end, b->mine->step);
+    to = PutText(to, end, "\n");
+  }
+  if (write(STDERR_FILENO, text, (size_t)(to - text)) < 0) return; /* nobody listens any more */
+}
+
+static void OnTerminate(int signal_number)
+{
+  const int saved = errno;
+  const FailureBoard b = WATCHED;
+  if (b) {
+    /* the others stay a moment, so that the one who speaks does not take them for the dead */
+    if (FailureBoardClaim(b))
+      SayWhoDied(b);
+    else
+      nanosleep(&(struct timespec){.tv_nsec = 300000000}, NULL);
+  }
+  errno = saved;
+  signal(signal_number, SIG_DFL);
+  raise(signal_number);
+}
+
+/* --- in ordinary code ----------------------------------------------------------------------------------- */
+
+static void Watch(FailureBoard b)
+{
+  struct sigaction old, action = {.sa_handler = OnTerminate};
+  WATCHED = b;
+  if (sigaction(SIGTERM, NULL, &old) == 0 && old.sa_handler == SIG_DFL) sigaction(SIGTERM, &action, NULL);
+}
+
+static void Unwatch(void)
+{
+  struct sigaction old;
+  WATCHED = NULL;
+  if (sigaction(SIGTERM, NULL, &old) == 0 && old.sa_handler == OnTerminate) signal(SIGTERM, SIG_DFL);
+}
+
+int FailureBoardOpen(const char *role, int rank, FailureBoard *board)
+{
+  FailureBoard b = calloc(1, sizeof *b);
+  int me, unit;
+  MPI_Aint bytes;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &b->node);
+  MPI_Comm_rank(b->node, &me);
+  MPI_Comm_size(b->node, &b->n);
+  bytes = me ? 0 : (MPI_Aint)(sizeof(BoardMemory) + (size_t)b->n * sizeof(BoardSlot));
+  MPI_Win_allocate_shared(bytes, 1, MPI_INFO_NULL, b->node, &b->memory, &b->window);
+  MPI_Win_shared_query(b->window, 0, &bytes, &unit, &b->memory);
+  if (me == 0) memset(b->memory, 0, (size_t)bytes);
+  MPI_Barrier(b->node);
+  b->mine = &b->memory->slot[me];
+  b->mine->rank = rank;
+  snprintf(b->mine->role, sizeof b->mine->role, "%s", role);
+  snprintf(b->prefix, sizeof b->prefix, "coracle %s[%d]: ", role, rank);
+  b->mine->pid = (int)getpid();
+  MPI_Barrier(b->node);
+  Watch(b);
+  *board = b;
+  return 0;
+}
+
+int FailureBoardClose(FailureBoard *board)
+{
+  if (!*board) return 0;
+  Unwatch();
+  (*board)->mine->pid = 0;
+  MPI_Win_free(&(*board)->window);
+  MPI_Comm_free(&(*board)->node);
+  free(*board);
+  *board = NULL;
+  return 0;
+}
+
+bool FailureBoardClaim(FailureBoard board)
+{
+  return atomic_exchange(&board->memory->claimed, 1) == 0;
+}
+void FailureBoardStep(FailureBoard board, int step)
+{
+  board->mine->step = step;
+}

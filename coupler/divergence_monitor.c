@@ -1,0 +1,71 @@
+#include "coupler/divergence_monitor.h"
+#include <math.h>
+#include <stdio.h>
+
+/* Density ratio of a free body that moved like this: m (dv/dt - g) = F, m over the displaced fluid's mass. */
+static double DensityRatio(const DivergenceMonitorStep *s, const double change[2])
+{
+  double b[2], along = 0.0, square = 0.0;
+  for (int c = 0; c < 2; c++) {
+    b[c] = change[c] / s->dt - s->gravity[c];
+    along += s->force[c] * b[c];
+    square += b[c] * b[c];
+  }
+  return square > 0.0 && s->displaced > 0.0 ? along / square / s->displaced : 0.0;
+}
+
+static int IsFinite(const DivergenceMonitorStep *s)
+{
+  return isfinite(s->velocity[0]) && isfinite(s->velocity[1]) && isfinite(s->force[0]) &&
+         isfinite(s->force[1]);
+}
+
+/* Counts alternating, growing changes; a change that a step of free fall could make is too small to matter.
+ */
+static int Alternates(DivergenceMonitor *g, const DivergenceMonitorStep *s, const double change[2])
+{
+  const double size = hypot(change[0], change[1]), before = hypot(g->change[0], g->change[1]);
+  const int opposite = change[0] * g->change[0] + change[1] * g->change[1] < -0.5 * size * before;
+  g->alternations = opposite && size > GUARD_GROWTH * before ? g->alternations + 1 : 0;
+  if (g->alternations == 0) g->first = size;
+  const int fast = 2 * g->alternations >= GUARD_ALTERNATIONS && size > GUARD_TOTAL_GROWTH * g->first;
+  return (fast || g->alternations >= GUARD_ALTERNATIONS) &&
+         size > hypot(s->gravity[0], s->gravity[1]) * s->dt;
+}
+
+/* what, then why it may be so and what to do */
+static void Tell(const DivergenceMonitorStep *s, const double change[2], const char *what, int nmessage,
+                 char message[])
+{
+  snprintf(message, (size_t)nmessage,
+           "at t = %g s the solid's velocity has become (%g, %g) m/s, %s: with a solid to fluid density "
+           "ratio of about %.2g "
+           "the added mass is too large for %s",
+           s->t, s->velocity[0], s->velocity[1], what, DensityRatio(s, change),
+           s->tries > 1 ? "steps of this length; shorter ones (time.dt_max) or a heavier solid are needed"
+                        : "one try a step; a heavier solid is needed, or several tries (coupler.tries: 30)");
+}
+
+int DivergenceMonitorCheck(DivergenceMonitor *g, const DivergenceMonitorStep *s, int nmessage, char message[])
+{
+  double change[2];
+  if (!IsFinite(s)) {
+    snprintf(message, (size_t)nmessage, "at t = %g s the force on the solid or its velocity is not a number",
+             s->t);
+    return 1;
+  }
+  for (int c = 0; c < 2; c++) change[c] = s->velocity[c] - g->velocity[c];
+  /* the first step's change is against an initial velocity that is not known here */
+  const int diverges = g->nsteps > 0 && Alternates(g, s, change);
+  const int leaps = hypot(s->velocity[0], s->velocity[1]) * s->dt > s->extent;
+  if (diverges)
+    Tell(s, change, "changing with alternating sign and growing size from step to step", nmessage, message);
+  else if (leaps)
+    Tell(s, change, "more than the fluid's whole domain in one step", nmessage, message);
+  for (int c = 0; c < 2; c++) {
+    g->change[c] = g->nsteps > 0 ? change[c] : 0.0;
+    g->velocity[c] = s->velocity[c];
+  }
+  g->nsteps++;
+  return diverges || leaps;
+}

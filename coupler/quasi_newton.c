@@ -1,0 +1,160 @@
+#include "coupler/quasi_newton.h"
+
+enum { MOST_COLUMNS = 30 };
+
+/* A column is dropped when newer ones leave less than this part of it. */
+#define FILTER 1e-3
+
+/* The first step of the first solve, when nothing is known. */
+#define RELAXATION 0.5
+
+typedef struct {
+  double *v, *w; /* [n] */
+} Column;
+
+struct QuasiNewton_s {
+  MPI_Comm comm;
+  int n, ncolumns;
+  Column column[MOST_COLUMNS]; /* the newest first */
+  double *q[MOST_COLUMNS];     /* [n] */
+  double *r, *hx;              /* [n] of the x before */
+  PetscBool before;            /* there is one */
+};
+
+static PetscErrorCode FreeColumn(Column *c)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscFree2(c->v, c->w));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Reset(QuasiNewton a, int n)
+{
+  PetscFunctionBeginUser;
+  for (int k = 0; k < a->ncolumns; k++) PetscCall(FreeColumn(&a->column[k]));
+  for (int k = 0; k < MOST_COLUMNS; k++) PetscCall(PetscFree(a->q[k]));
+  PetscCall(PetscFree2(a->r, a->hx));
+  a->ncolumns = 0;
+  a->n = n;
+  if (n < 0) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc2((size_t)n, &a->r, (size_t)n, &a->hx));
+  for (int k = 0; k < MOST_COLUMNS; k++) PetscCall(PetscMalloc1((size_t)n, &a->q[k]));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode QuasiNewtonCreate(MPI_Comm comm, QuasiNewton *acceleration)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscNew(acceleration));
+  (*acceleration)->comm = comm;
+  (*acceleration)->n = -1;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode QuasiNewtonDestroy(QuasiNewton *acceleration)
+{
+  PetscFunctionBeginUser;
+  if (!*acceleration) PetscFunctionReturn(0);
+  PetscCall(Reset(*acceleration, -1));
+  PetscCall(PetscFree(*acceleration));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode QuasiNewtonBegin(QuasiNewton a, int n)
+{
+  int other = a->n != n;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &other, 1, MPI_INT, MPI_LOR, a->comm));
+  if (other) PetscCall(Reset(a, n));
+  a->before = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/* What has changed since the x before, in front of all columns. */
+static PetscErrorCode AddColumn(QuasiNewton a, const double x[], const double hx[])
+{
+  Column c;
+
+  PetscFunctionBeginUser;
+  if (a->ncolumns == MOST_COLUMNS) PetscCall(FreeColumn(&a->column[--a->ncolumns]));
+  PetscCall(PetscMalloc2((size_t)a->n, &c.v, (size_t)a->n, &c.w));
+  for (int i = 0; i < a->n; i++) {
+    c.v[i] = hx[i] - x[i] - a->r[i];
+    c.w[i] = hx[i] - a->hx[i];
+  }
+  for (int k = a->ncolumns++; k > 0; k--) a->column[k] = a->column[k - 1];
+  a->column[0] = c;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Dot(QuasiNewton a, const double x[], const double y[], double *dot)
+{
+  PetscFunctionBeginUser;
+  *dot = 0.0;
+  for (int i = 0; i < a->n; i++) *dot += x[i] * y[i];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, dot, 1, MPI_DOUBLE, MPI_SUM, a->comm));
+  PetscFunctionReturn(0);
+}
+
+/* Column k orthogonal to those before it, r[0 .. k][k] of V = Q R; *good: something is left of it. */
+static PetscErrorCode Orthogonal(QuasiNewton a, int k, double r[][MOST_COLUMNS], PetscBool *good)
+{
+  double whole, left;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscArraycpy(a->q[k], a->column[k].v, a->n));
+  PetscCall(Dot(a, a->q[k], a->q[k], &whole));
+  for (int j = 0; j < k; j++) {
+    PetscCall(Dot(a, a->q[j], a->q[k], &r[j][k]));
+    for (int i = 0; i < a->n; i++) a->q[k][i] -= r[j][k] * a->q[j][i];
+  }
+  PetscCall(Dot(a, a->q[k], a->q[k], &left));
+  *good = left > FILTER * FILTER * whole ? PETSC_TRUE : PETSC_FALSE;
+  if (!*good) PetscFunctionReturn(0);
+  r[k][k] = sqrt(left);
+  for (int i = 0; i < a->n; i++) a->q[k][i] /= r[k][k];
+  PetscFunctionReturn(0);
+}
+
+/* V = Q R of the columns that are good; others are dropped. */
+static PetscErrorCode Factor(QuasiNewton a, double r[][MOST_COLUMNS])
+{
+  PetscFunctionBeginUser;
+  for (int k = 0; k < a->ncolumns;) {
+    PetscBool good = PETSC_FALSE;
+    PetscCall(Orthogonal(a, k, r, &good));
+    if (good) {
+      k++;
+      continue;
+    }
+    PetscCall(FreeColumn(&a->column[k]));
+    a->ncolumns--;
+    for (int j = k; j < a->ncolumns; j++) a->column[j] = a->column[j + 1];
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode QuasiNewtonNext(QuasiNewton a, const double x[], const double hx[], double next[])
+{
+  double r[MOST_COLUMNS][MOST_COLUMNS], c[MOST_COLUMNS];
+
+  PetscFunctionBeginUser;
+  if (a->before) PetscCall(AddColumn(a, x, hx));
+  for (int i = 0; i < a->n; i++) {
+    a->r[i] = hx[i] - x[i];
+    a->hx[i] = hx[i];
+  }
+  a->before = PETSC_TRUE;
+  PetscCall(Factor(a, r));
+  for (int k = a->ncolumns - 1; k >= 0; k--) { /* R c = -Q^T r */
+    PetscCall(Dot(a, a->q[k], a->r, &c[k]));
+    c[k] = -c[k];
+    for (int j = k + 1; j < a->ncolumns; j++) c[k] -= r[k][j] * c[j];
+    c[k] /= r[k][k];
+  }
+  for (int i = 0; i < a->n; i++) next[i] = a->ncolumns ? hx[i] : x[i] + RELAXATION * a->r[i];
+  for (int k = 0; k < a->ncolumns; k++)
+    for (int i = 0; i < a->n; i++) next[i] += c[k] * a->column[k].w[i];
+  PetscFunctionReturn(0);
+}

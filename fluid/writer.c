@@ -1,0 +1,136 @@
+#include "fluid/writer.h"
+#include "common/output/output.h"
+
+#define COLUMNS                                                                                              \
+  "t [s],dt [s],max speed [m/s],momentum x [kg/s],momentum y [kg/s],kinetic energy [J/m],momentum "          \
+  "iterations,"                                                                                              \
+  "pressure iterations,assembly [s],momentum [s],pressure [s],coupling [s],adaptation [s],setup "            \
+  "[s],triangles,largest part"
+
+struct Writer_s {
+  Output output;
+  Series series;
+  int revision; /* of the mesh */
+};
+
+/* Points, cells and scratch of the two grids of a snapshot. */
+typedef struct {
+  int *corner, *quadratic;   /* [ne][3], [ne][6] */
+  double *x_corner, *x_node; /* [ne][3][2], [np2][2] */
+  double *nodal, *cell;      /* [3 ne][2], [ne] */
+} Grids;
+
+/* Points and cells of the two grids: discontinuous triangles for P1DG, six-node triangles for P2. */
+static void BuildGrids(Grids *r, const Mesh *m)
+{
+  static const int VTK[6] = {0, 1, 2, 5, 3, 4}; /* midpoints of 01, 12, 20 lie opposite to vertices 2, 0, 1 */
+  for (int e = 0; e < m->ne; e++) {
+    for (int i = 0; i < 3; i++) r->corner[3 * e + i] = 3 * e + i;
+    for (int i = 0; i < 6; i++) {
+      const int node = m->p2[6 * e + VTK[i]], q = VTK[i];
+      const int a = m->vertex[3 * e + (q < 3 ? q : (q + 1) % 3)],
+                b = m->vertex[3 * e + (q < 3 ? q : (q + 2) % 3)];
+      r->quadratic[6 * e + i] = node;
+      for (int c = 0; c < 2; c++) {
+        r->x_node[2 * node + c] = 0.5 * (m->x[2 * a + c] + m->x[2 * b + c]);
+        if (q < 3) r->x_corner[6 * e + 2 * q + c] = m->x[2 * a + c];
+      }
+    }
+  }
+}
+
+static PetscErrorCode Snapshot(Writer r, Fluid f)
+{
+  const Mesh *m = FluidMesh(f);
+  const double *u = FluidVelocity(f);
+  PetscMPIInt rank;
+  Grids g;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc6(3 * m->ne, &g.corner, 6 * m->ne, &g.quadratic, 6 * m->ne, &g.x_corner, 2 * m->np2,
+                         &g.x_node, 6 * m->ne, &g.nodal, m->ne, &g.cell));
+  BuildGrids(&g, m);
+  PetscCallMPI(MPI_Comm_rank(m->comm, &rank));
+  PetscCall(OutputBegin(r->output, FluidGetStats(f)->t));
+  PetscCall(OutputGrid(r->output, "velocity", r->revision, 3 * m->ne, g.x_corner, m->ne, 3, g.corner));
+  for (int e = 0; e < m->ne; e++)
+    for (int i = 0; i < 3; i++)
+      for (int c = 0; c < 2; c++) g.nodal[2 * (3 * e + i) + c] = u[6 * e + 3 * c + i];
+  PetscCall(OutputField(r->output, "velocity", OUTPUT_NODE, 2, g.nodal));
+  PetscCall(OutputField(r->output, "alpha", OUTPUT_CELL, 1, FluidSolidFraction(f)));
+  for (int e = 0; e < m->ne; e++) g.cell[e] = rank;
+  PetscCall(OutputField(r->output, "rank", OUTPUT_CELL, 1, g.cell));
+  PetscCall(OutputGrid(r->output, "pressure", r->revision, m->np2, g.x_node, m->ne, 6, g.quadratic));
+  PetscCall(OutputField(r->output, "pressure", OUTPUT_NODE, 1, FluidPressure(f)));
+  PetscCall(OutputEnd(r->output));
+  PetscCall(PetscFree6(g.corner, g.quadratic, g.x_corner, g.x_node, g.nodal, g.cell));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode WriterCreate(Case c, Fluid f, Checkpoint from, Writer *record)
+{
+  const Mesh *m = FluidMesh(f);
+  const char *folder = CaseString(c, "output.folder");
+  Writer r;
+  PetscFunctionBeginUser;
+  PetscCall(PetscNew(&r));
+  PetscCall(OutputCreate(m->comm, folder, "fluid", CasePositive(c, "output.every"), from, &r->output));
+  PetscCall(SeriesCreate(m->comm, folder, "fluid", COLUMNS, from, &r->series));
+  if (!from) PetscCall(Snapshot(r, f));
+  *record = r;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode WriterSave(Writer r, Checkpoint to)
+{
+  PetscFunctionBeginUser;
+  PetscCall(OutputSave(r->output, to));
+  PetscCall(SeriesSave(r->series, to));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode WriterStep(Writer r, Fluid f)
+{
+  const FluidStats *s = FluidGetStats(f);
+  const Mesh *m = FluidMesh(f);
+  double momentum[2], energy;
+  PetscMPIInt size;
+  int most;
+  PetscFunctionBeginUser;
+  PetscCall(FluidMomentumTotal(f, momentum, &energy));
+  PetscCallMPI(MPI_Comm_size(m->comm, &size));
+  PetscCallMPI(MPI_Allreduce(&m->ne, &most, 1, MPI_INT, MPI_MAX, m->comm));
+  const double row[] = {s->t,
+                        s->dt,
+                        s->max_speed,
+                        momentum[0],
+                        momentum[1],
+                        energy,
+                        s->momentum_iterations,
+                        s->pressure_iterations,
+                        s->seconds[0],
+                        s->seconds[1],
+                        s->seconds[2],
+                        s->seconds[3],
+                        s->seconds[4],
+                        s->seconds[5],
+                        m->nglobal,
+                        (double)most * size / m->nglobal};
+  PetscCall(SeriesRow(r->series, row));
+  if (OutputDue(r->output, s->t)) PetscCall(Snapshot(r, f));
+  PetscFunctionReturn(0);
+}
+
+void WriterNewMesh(Writer r)
+{
+  r->revision++;
+}
+
+PetscErrorCode WriterDestroy(Writer *r)
+{
+  PetscFunctionBeginUser;
+  if (!*r) PetscFunctionReturn(0);
+  PetscCall(OutputDestroy(&(*r)->output));
+  PetscCall(SeriesDestroy(&(*r)->series));
+  PetscCall(PetscFree(*r));
+  PetscFunctionReturn(0);
+}

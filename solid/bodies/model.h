@@ -1,0 +1,101 @@
+/* All bodies of the run before they are dealt out to ranks.  Every rank builds the same assembly from the
+ * case file and takes its share in SolidCreate, so that setting up needs no messages.  Nothing here is
+ * collective. */
+#ifndef SOLID_ASSEMBLY_H
+#define SOLID_ASSEMBLY_H
+#include "common/mesh/mesh.h"
+#include "solid/element.h"
+#include "solid/prescribed_motion.h"
+
+enum { MATERIAL_NAME = 48 };
+
+/* Zeros are good for everything after the penalty. */
+typedef struct {
+  double density;        /* kg/m3 */
+  double youngs_modulus; /* Pa */
+  double poisson_ratio;  /* 0 <= nu < 0.5 */
+  double damping;  /* 0 <= beta < 1:  eta = 2 h beta sqrt(E rho), h the element's smallest height at rest */
+  double penalty;  /* of contact, Pa */
+  double friction; /* Coulomb's coefficient on the same material */
+  double contact_damping;    /* of contact with the same material, fraction of the critical */
+  double thickness;          /* m; 0 stands for 1: per metre of depth */
+  int plane_stress;          /* else plane strain */
+  int corotated;             /* linear in the Biot strain (element.h), else neo-Hookean */
+  double strength[2];        /* of joints: in tension and in shear, Pa */
+  double internal_friction;  /* of joints: what pressure adds to the shear strength, over the pressure */
+  double fracture_energy[2]; /* per unit of new surface, mode I and mode II, J/m2 */
+  char name[MATERIAL_NAME];  /* bodies with equal names share the material; "" is always one of its own */
+} Material;
+
+/* Without viscosity, per metre of thickness. */
+ElementLaw MaterialLaw(const Material *m);
+
+/* Where a body may crack: the edges between two elements that lie in one of the boxes or regions. */
+typedef struct {
+  int all;
+  int nboxes, nregions;
+  const double (*box)[4];    /* lower x, y, upper x, y: holds the element's centre at rest */
+  const char *const *region; /* physical surfaces of the mesh */
+} JointSetup;
+
+typedef struct {
+  const char *boundary;
+  PrescribedMotion drive;
+} BoundaryMotion;
+
+typedef struct {
+  const char *region; /* physical surface of the mesh */
+  Material material;
+} RegionMaterial;
+
+typedef struct {
+  int entry;               /* in the case file, for messages */
+  Material material;       /* of all elements in none of the regions */
+  double stretch[2];       /* current = centre + stretch (rest - centre): 1, 1 for a body at rest */
+  const double *position;  /* [mesh nv][2] instead of that; or NULL */
+  double velocity[2];      /* m/s */
+  double angular_velocity; /* rad/s about the mass centre, counter-clockwise */
+  int fixed;               /* whole body */
+  int nfixed;              /* or these boundaries */
+  const char *const *fixed_name;
+  JointSetup joints;
+  int nregions;
+  const RegionMaterial *region;
+  int ndriven;
+  const BoundaryMotion *driven; /* rows are copied */
+} BodySetup;
+
+typedef struct {
+  Material material;
+  int first_element; /* in the assembly */
+  int entry;         /* of its setup */
+  double centre[2];  /* of mass, at the start */
+} Body;
+
+typedef struct {
+  int nnodes, nelements, nfacets, nbodies;
+  double *rest, *x, *u;  /* [nnodes][2] rest coordinates X0, initial positions, m, and velocities, m/s */
+  int *fixed;            /* [nnodes] */
+  int *node_body;        /* [nnodes] */
+  int *element;          /* [nelements][3] counter-clockwise */
+  int *element_body;     /* [nelements] */
+  int *element_material; /* [nelements] */
+  int *jointed;          /* [nelements] may part from its jointed neighbours */
+  int *facet;            /* [nfacets][2] surface edges, the solid on their left */
+  int *facet_element;    /* [nfacets] the element behind */
+  Body *body;            /* [nbodies] */
+  int nmaterials, ndrives, ndriven;
+  Material *material;      /* [nmaterials] */
+  PrescribedMotion *drive; /* [ndrives] */
+  DrivenNode *driven;      /* [ndriven] in order of the drives: the last one of a node and component holds */
+} Model;
+
+/* Adds a body; mesh holds its rest coordinates and is not kept.  On failure *error (a static buffer) says
+ * why: a degenerate element, one that starts inside out, an edge with more than two triangles, a boundary or
+ * region that does not exist; the assembly is then of no use any more. */
+PetscErrorCode ModelAdd(Model *a, const MeshSerial *mesh, const BodySetup *setup, const char **error);
+/* The first pair of bodies one of which reaches into the other; *first = -1 if there is none. */
+PetscErrorCode ModelOverlap(const Model *a, int *first, int *second);
+PetscErrorCode ModelCopy(const Model *from, Model *to);
+PetscErrorCode ModelDestroy(Model *a);
+#endif

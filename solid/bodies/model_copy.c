@@ -1,0 +1,37 @@
+#include "solid/bodies/model.h"
+
+static PetscErrorCode CopyBytes(const void *from, size_t bytes, void *to)
+{
+  char *copy;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(bytes + 1, &copy));
+  if (bytes) PetscCall(PetscMemcpy(copy, from, bytes));
+  *(void **)to = copy;
+  PetscFunctionReturn(0);
+}
+
+#define COPY(field, n)                                                                                       \
+  PetscCall(CopyBytes(from->field, (size_t)(n) * sizeof *from->field, (void *)&to->field))
+
+PetscErrorCode ModelCopy(const Model *from, Model *to)
+{
+  PetscFunctionBeginUser;
+  *to = *from;
+  COPY(rest, 2 * from->nnodes);
+  COPY(x, 2 * from->nnodes);
+  COPY(u, 2 * from->nnodes);
+  COPY(fixed, from->nnodes);
+  COPY(node_body, from->nnodes);
+  COPY(element, 3 * from->nelements);
+  COPY(element_body, from->nelements);
+  COPY(element_material, from->nelements);
+  COPY(jointed, from->nelements);
+  COPY(facet, 2 * from->nfacets);
+  COPY(facet_element, from->nfacets);
+  COPY(body, from->nbodies);
+  COPY(material, from->nmaterials);
+  COPY(drive, from->ndrives);
+  COPY(driven, from->ndriven);
+  for (int k = 0; k < from->ndrives; k++) COPY(drive[k].row, 3 * from->drive[k].nrows);
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,211 @@
+#include "solid/writer.h"
+#include "common/output/output.h"
+#include <stdio.h>
+
+enum { MAX_BODIES = 8, PER_BODY = 10, COMMON = 16 };
+
+struct Writer_s {
+  MPI_Comm comm;
+  Output output;
+  Series series;
+  int nbodies, revision;
+  double start;  /* s, by the clock, as if runs that this one goes on from had been just before it; */
+  double waited; /* s, theirs */
+};
+
+static PetscErrorCode CreateSeries(Writer r, const char *folder, Checkpoint from)
+{
+  char columns[MAX_BODIES * 160 + 320] = "t [s]";
+  PetscFunctionBeginUser;
+  for (int b = 0; b < r->nbodies; b++) {
+    const size_t used = strlen(columns);
+    (void)snprintf(
+        columns + used, sizeof columns - used,
+        ",x%d [m],y%d [m],u%d [m/s],v%d [m/s],omega%d [rad/s],fx%d [N/m],fy%d [N/m],kinetic%d [J/m],"
+        "strain%d [J/m],mass%d [kg/m]",
+        b, b, b, b, b, b, b, b, b, b);
+  }
+  const size_t used = strlen(columns);
+  (void)snprintf(columns + used, sizeof columns - used,
+                 ",fracture [J/m],torn [J/m],broken joints,cracks [m],pieces,walls_x [N s/m],walls_y [N "
+                 "s/m],held_x [N s/m],"
+                 "held_y [N s/m],work [J/m],held work [J/m],substeps,dt_s [s],computing [s],waiting [s]");
+  PetscCall(SeriesCreate(r->comm, folder, "solid", columns, from, &r->series));
+  PetscFunctionReturn(0);
+}
+
+static double Principal(const double t[3], double sign)
+{
+  return 0.5 * (t[0] + t[1]) + sign * hypot(0.5 * (t[0] - t[1]), t[2]);
+}
+
+/* Fields of the elements that are numbers. */
+static PetscErrorCode CellFields(Writer r, Solid s, const SolidView *v, const double stress[])
+{
+  double *value;
+  int *fragment, pieces;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2((size_t)v->nelements, &value, (size_t)v->nelements, &fragment));
+  for (int k = 0; k < 2; k++) { /* the larger and the smaller principal stress of the plane */
+    for (int e = 0; e < v->nelements; e++) value[e] = Principal(stress + 3 * e, k ? -1.0 : 1.0);
+    PetscCall(OutputField(r->output, k ? "principal_stress_2" : "principal_stress_1", OUTPUT_CELL, 1, value));
+  }
+  SolidEnergyDensity(s, value);
+  PetscCall(OutputField(r->output, "strain_energy", OUTPUT_CELL, 1, value));
+  for (int e = 0; e < v->nelements; e++) value[e] = v->body[e];
+  PetscCall(OutputField(r->output, "body", OUTPUT_CELL, 1, value));
+  PetscCall(SolidFragments(s, fragment, &pieces));
+  for (int e = 0; e < v->nelements; e++) value[e] = fragment[e];
+  PetscCall(OutputField(r->output, "fragment", OUTPUT_CELL, 1, value));
+  SolidDamage(s, value);
+  PetscCall(OutputField(r->output, "damage", OUTPUT_CELL, 1, value));
+  PetscCall(PetscFree2(value, fragment));
+  PetscFunctionReturn(0);
+}
+
+/* What a snapshot has of the nodes: those of this rank's elements (a rank also knows parts of split nodes that only
+ * others' elements have). */
+typedef struct {
+  int n, *element;                     /* [nelements][3] */
+  double *x, *velocity, *displacement; /* [n][2] */
+} Written;
+
+static PetscErrorCode WrittenCreate(const SolidView *v, Written *w)
+{
+  const size_t most = 2 * (size_t)v->nnodes;
+  int *number;
+  PetscFunctionBeginUser;
+  w->n = 0;
+  PetscCall(PetscMalloc4(3 * (size_t)v->nelements, &w->element, most, &w->x, most, &w->velocity, most,
+                         &w->displacement));
+  PetscCall(PetscMalloc1((size_t)v->nnodes, &number));
+  for (int i = 0; i < v->nnodes; i++) number[i] = -1;
+  for (int k = 0; k < 3 * v->nelements; k++) number[v->element[k]] = 0;
+  for (int i = 0; i < v->nnodes; i++) {
+    if (number[i] < 0) continue;
+    number[i] = w->n++;
+    for (int c = 0; c < 2; c++) {
+      const int from = 2 * i + c, to = 2 * number[i] + c;
+      w->x[to] = v->x[from];
+      w->velocity[to] = v->v[from];
+      w->displacement[to] = v->x[from] - v->rest[from];
+    }
+  }
+  for (int k = 0; k < 3 * v->nelements; k++) w->element[k] = number[v->element[k]];
+  PetscCall(PetscFree(number));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Snapshot(Writer r, Solid s)
+{
+  SolidView v;
+  Written w;
+  double *stress;
+  PetscFunctionBeginUser;
+  SolidGetView(s, &v);
+  PetscCall(WrittenCreate(&v, &w));
+  PetscCall(PetscMalloc1(3 * (size_t)v.nelements, &stress));
+  SolidStress(s, stress);
+  PetscCall(OutputBegin(r->output, SolidGetStats(s)->t));
+  PetscCall(OutputGrid(r->output, "solid", r->revision++, w.n, w.x, v.nelements, 3, w.element));
+  PetscCall(OutputField(r->output, "velocity", OUTPUT_NODE, 2, w.velocity));
+  PetscCall(OutputField(r->output, "displacement", OUTPUT_NODE, 2, w.displacement));
+  PetscCall(OutputField(r->output, "stress", OUTPUT_CELL, 3, stress));
+  PetscCall(CellFields(r, s, &v, stress));
+  PetscCall(OutputEnd(r->output));
+  PetscCall(PetscFree(stress));
+  PetscCall(PetscFree4(w.element, w.x, w.velocity, w.displacement));
+  PetscFunctionReturn(0);
+}
+
+/* The first rank's seconds, which the series has. */
+PetscErrorCode WriterSave(Writer r, double waited, Checkpoint to)
+{
+  double seconds[2] = {MPI_Wtime() - r->start, r->waited + waited};
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Bcast(seconds, 2, MPI_DOUBLE, 0, r->comm));
+  PetscCall(CheckpointPutNumber(to, "record seconds", seconds[0]));
+  PetscCall(CheckpointPutNumber(to, "record waited", seconds[1]));
+  PetscCall(OutputSave(r->output, to));
+  PetscCall(SeriesSave(r->series, to));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Load(Writer r, Checkpoint from)
+{
+  double seconds;
+  PetscFunctionBeginUser;
+  PetscCall(CheckpointGetNumber(from, "record seconds", &seconds));
+  PetscCall(CheckpointGetNumber(from, "record waited", &r->waited));
+  r->start -= seconds;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode WriterCreate(Case c, MPI_Comm comm, Solid solid, Checkpoint from, Writer *record)
+{
+  const char *folder = CaseString(c, "output.folder");
+  SolidView v;
+  Writer r;
+  PetscFunctionBeginUser;
+  PetscCall(PetscNew(&r));
+  SolidGetView(solid, &v);
+  r->comm = comm;
+  r->nbodies = PetscMin(v.nbodies, MAX_BODIES);
+  r->start = MPI_Wtime();
+  PetscCall(OutputCreate(comm, folder, "solid", CasePositive(c, "output.every"), from, &r->output));
+  PetscCall(CreateSeries(r, folder, from));
+  PetscCall(from ? Load(r, from) : Snapshot(r, solid));
+  *record = r;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode WriterStep(Writer r, Solid s, double waited)
+{
+  const SolidStats *stats = SolidGetStats(s);
+  BodyState state[MAX_BODIES];
+  FractureState fracture;
+  SolidBudget budget;
+  double row[COMMON + MAX_BODIES * PER_BODY];
+  int n = 0;
+  PetscFunctionBeginUser;
+  PetscCall(SolidBodies(s, r->nbodies, state));
+  row[n++] = stats->t;
+  for (int b = 0; b < r->nbodies; b++) {
+    const BodyState *k = &state[b];
+    const double value[PER_BODY] = {k->x[0],    k->x[1],    k->v[0],    k->v[1],   k->angular_velocity,
+                                    k->load[0], k->load[1], k->kinetic, k->strain, k->mass};
+    for (int i = 0; i < PER_BODY; i++) row[n++] = value[i];
+  }
+  PetscCall(SolidFracture(s, &fracture));
+  row[n++] = fracture.energy;
+  row[n++] = fracture.torn;
+  row[n++] = fracture.broken;
+  row[n++] = fracture.length;
+  row[n++] = fracture.pieces;
+  PetscCall(SolidGetBudget(s, &budget));
+  for (int c = 0; c < 2; c++) {
+    row[n + c] = budget.walls[c];
+    row[n + 2 + c] = budget.held[c];
+  }
+  n += 4;
+  row[n++] = budget.work;
+  row[n++] = budget.held_work;
+  row[n++] = stats->substeps;
+  row[n++] = stats->h;
+  waited += r->waited;
+  row[n++] = MPI_Wtime() - r->start - waited;
+  row[n++] = waited;
+  PetscCall(SeriesRow(r->series, row));
+  if (OutputDue(r->output, stats->t)) PetscCall(Snapshot(r, s));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode WriterDestroy(Writer *r)
+{
+  PetscFunctionBeginUser;
+  if (!*r) PetscFunctionReturn(0);
+  PetscCall(OutputDestroy(&(*r)->output));
+  PetscCall(SeriesDestroy(&(*r)->series));
+  PetscCall(PetscFree(*r));
+  PetscFunctionReturn(0);
+}

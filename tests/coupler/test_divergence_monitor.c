@@ -1,0 +1,89 @@
+/* The guard stops an added-mass instability within a few steps and leaves everything else alone: a fall, a
+ * damped ringing, a bouncing body, a steady oscillation.  The iteration is that of explicit staggering: m (v'
+ * - v)/dt = (m - m_f) g - m_a (v - v_old)/dt. */
+#include "coupler/divergence_monitor.h"
+#include "tests/supermesh/random_mesh.h"
+
+enum { STEPS = 400 };
+
+static const double DT = 0.001;
+
+/* Steps until the guard speaks, or STEPS; velocity(n) of step n. */
+static int Watch(double (*velocity)(int n), char message[512])
+{
+  DivergenceMonitor guard = {0};
+  for (int n = 0; n < STEPS; n++) {
+    const DivergenceMonitorStep step = {.t = n * DT,
+                                        .dt = DT,
+                                        .velocity = {0.0, velocity(n)},
+                                        .force = {0.0, 1.0},
+                                        .gravity = {0.0, -9.81},
+                                        .displaced = 2.0,
+                                        .extent = 5.0};
+    if (DivergenceMonitorCheck(&guard, &step, 512, message)) return n;
+  }
+  return STEPS;
+}
+
+static double AddedMass(int n, double ratio)
+{
+  static double v, change;
+  if (n == 0) v = 0.0, change = -9.81 * DT;
+  change = (ratio - 1.0) / ratio * -9.81 * DT - change / ratio;
+  v += change;
+  return v;
+}
+
+static double Light(int n)
+{
+  return AddedMass(n, 0.5);
+}
+static double VeryLight(int n)
+{
+  return AddedMass(n, 0.1);
+}
+static double Heavy(int n)
+{
+  return AddedMass(n, 2.0);
+}
+static double Ringing(int n)
+{
+  return 10.0 * (n % 2 ? 1.0 : -1.0) * pow(0.98, n);
+}
+static double Steady(int n)
+{
+  return n % 2 ? 3.0 : -3.0;
+}
+static double Bounce(int n)
+{
+  return (n / 20 % 2 ? 1.0 : -1.0) * (1.0 + 0.01 * n);
+}
+static double Noise(int n)
+{
+  return 1e-9 * (n % 2 ? 1.0 : -1.0) * pow(1.2, n % 40);
+}
+static double NotANumber(int n)
+{
+  return n < 7 ? 0.0 : NAN;
+}
+static double Runaway(int n)
+{
+  return pow(1.5, n);
+}
+
+int main(void)
+{
+  char message[512] = "";
+  const int light = Watch(Light, message);
+  CHECK(light < 25, "a ratio of 0.5 was stopped at step %d only", light);
+  CHECK(strstr(message, "density ratio") && strstr(message, "coupler.tries"), "message: %s", message);
+  CHECK(Watch(VeryLight, message) <= 5 && strstr(message, "density ratio"), "ratio 0.1: %s", message);
+  CHECK(Watch(Heavy, message) == STEPS, "ratio 2: %s", message);
+  CHECK(Watch(Ringing, message) == STEPS, "ringing: %s", message);
+  CHECK(Watch(Steady, message) == STEPS, "steady: %s", message);
+  CHECK(Watch(Bounce, message) == STEPS, "bounce: %s", message);
+  CHECK(Watch(Noise, message) == STEPS, "noise: %s", message);
+  CHECK(Watch(NotANumber, message) == 7 && strstr(message, "not a number"), "message: %s", message);
+  CHECK(Watch(Runaway, message) < 25 && strstr(message, "whole domain"), "message: %s", message);
+  return 0;
+}

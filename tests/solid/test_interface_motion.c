@@ -1,0 +1,149 @@
+// ranks: 1 2 3
+/* What the fluid sees of a disc that moves (and spins) and swells: all of it while the step resolves the
+ * swelling, the rigid motion alone when it does not; and of a bar that has come apart: each piece's own. */
+#include "tests/solid/crack.h"
+
+#define STEP 1e-3
+#define SWELLING 0.5 /* 1/s */
+
+/* Largest difference over the nodes between what is seen and rigid motion + swelling (x - centre), m/s. */
+static PetscErrorCode Difference(double youngs_modulus, double swelling, double *largest)
+{
+  const SolidSetup options = {.courant = 0.8};
+  BodySetup setup = BodyAtRest(MaterialOf(1000.0, youngs_modulus, 0.3, 0.0));
+  Model a = {0};
+  BodyState b;
+  Solid s;
+  SolidView view;
+  InterfaceMotion seen;
+  double h;
+  PetscFunctionBeginUser;
+  setup.velocity[0] = 1.0;
+  setup.velocity[1] = -2.0;
+  setup.angular_velocity = swelling > 0.0 ? 0.0 : 3.0; /* a mean over a turning step has a part of its own */
+  AddDisc(&a, 0.3, 0.2, 0.1, 0.02, &setup);
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, &s));
+  SolidGetView(s, &view);
+  double *v = (double *)view.v; /* the test's own solid: writable */
+  for (int n = 0; n < view.nnodes; n++) {
+    v[2 * n] += SWELLING * (view.x[2 * n] - 0.3);
+    v[2 * n + 1] += SWELLING * (view.x[2 * n + 1] - 0.2);
+  }
+  PetscCall(SolidStart(s, STEP, NULL));
+  while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
+  PetscCall(SolidUpdateInterfaceMotion(s, &seen));
+  PetscCall(SolidBodies(s, 1, &b));
+  *largest = 0.0;
+  for (int n = 0; n < view.nnodes; n++) {
+    const double r[2] = {view.x[2 * n] - b.x[0], view.x[2 * n + 1] - b.x[1]};
+    const double u[2] = {b.v[0] - b.angular_velocity * r[1] + swelling * r[0],
+                         b.v[1] + b.angular_velocity * r[0] + swelling * r[1]};
+    for (int c = 0; c < 2; c++) *largest = fmax(*largest, fabs(seen.u[2 * n + c] - u[c]));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD));
+  PetscCall(SolidDestroy(&s));
+  PetscCall(ModelDestroy(&a));
+  PetscFunctionReturn(0);
+}
+
+/* A bar whose halves fly apart, each with a spin of its own. */
+static PetscErrorCode Torn(Solid *s)
+{
+  const SolidSetup options = {.courant = 0.8};
+  const double box[1][4] = {{-0.02, -1.0, 0.02, 1.0}};
+  BodySetup setup = BodyAtRest(RockOf(3e6, 9e6, 5.0, 0.0));
+  Model a = {0};
+  double *v;
+  PetscFunctionBeginUser;
+  setup.joints = (JointSetup){.nboxes = 1, .box = box};
+  AddRectangle(&a, 0.0, 0.0, 0.4, 0.1, 0.0, 0.02, 0, &setup);
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, s));
+  const SolidView view = ViewOf(*s, NULL, &v);
+  for (int n = 0; n < view.nnodes; n++) {
+    const double *x = view.x + 2 * n, side = x[0] < 0.0 ? -1.0 : 1.0;
+    v[2 * n] = 2.0 * side;
+    v[2 * n + 1] = 3.0 + 5.0 * (fabs(x[0]) - 0.1);
+  }
+  PetscCall(ModelDestroy(&a));
+  PetscFunctionReturn(0);
+}
+
+/* Of element e moving with v: adds mass (over density) and the momentum of v to sum; largest strain rate. */
+static double AddElement(const SolidView *view, int e, const double v[], double sum[4])
+{
+  const int *node = view->element + 3 * e;
+  double twice = 0.0, twice_now = 0.0, g[2][2] = {{0}};
+  for (int i = 0; i < 3; i++) {
+    const int p = node[(i + 1) % 3], q = node[(i + 2) % 3];
+    const double normal[2] = {view->x[2 * p + 1] - view->x[2 * q + 1], view->x[2 * q] - view->x[2 * p]};
+    twice += view->rest[2 * p] * view->rest[2 * q + 1] - view->rest[2 * q] * view->rest[2 * p + 1];
+    twice_now += view->x[2 * p] * view->x[2 * q + 1] - view->x[2 * q] * view->x[2 * p + 1];
+    for (int c = 0; c < 2; c++)
+      for (int b = 0; b < 2; b++) g[c][b] += v[2 * node[i] + c] * normal[b];
+  }
+  for (int i = 0; i < 3; i++) {
+    const double *x = view->x + 2 * node[i], *u = v + 2 * node[i], m = twice / 6.0;
+    sum[0] += m;
+    sum[1] += m * u[0];
+    sum[2] += m * u[1];
+    sum[3] += m * (x[0] * u[1] - x[1] * u[0]);
+  }
+  return fmax(fmax(fabs(g[0][0]), fabs(g[1][1])), fabs(g[0][1] + g[1][0])) / twice_now;
+}
+
+enum { MOST = 16 };
+
+/* The fastest to the left and to the right must be faster than the bar, which does not move. */
+static void CheckMomentum(int pieces, double sum[][2][4])
+{
+  double slowest = 0.0, fastest = 0.0;
+  for (int k = 0; k < pieces; k++) {
+    const double *now = sum[k][0], *shown = sum[k][1];
+    slowest = fmin(slowest, shown[1] / shown[0]);
+    fastest = fmax(fastest, shown[1] / shown[0]);
+    for (int c = 1; c < 4; c++)
+      CHECK(fabs(shown[c] - now[c]) < 1e-12 * now[0], "piece %d: momentum %d %.15g, seen %.15g", k, c, now[c],
+            shown[c]);
+  }
+  CHECK(slowest < -1.5 && fastest > 1.5, "pieces fly at %g to %g m/s", slowest, fastest);
+}
+
+static PetscErrorCode CheckPieces(void)
+{
+  Solid s;
+  InterfaceMotion seen;
+  double sum[MOST][2][4] = {{{0}}}, strain = 0.0; /* [piece][velocity, seen] */
+  int pieces;
+  PetscFunctionBeginUser;
+  PetscCall(Torn(&s));
+  PetscCall(Run(s, 1e-3, 1e-4));
+  PetscCall(SolidUpdateInterfaceMotion(s, &seen));
+  const SolidView view = ViewOf(s, NULL, NULL);
+  int *fragment = malloc(((size_t)view.nelements + 1) * sizeof *fragment);
+  PetscCall(SolidFragments(s, fragment, &pieces));
+  CHECK(pieces >= 2 && pieces <= MOST, "%d pieces", pieces);
+  for (int e = 0; e < view.nelements; e++) {
+    (void)AddElement(&view, e, view.v, sum[fragment[e]][0]);
+    strain = fmax(strain, AddElement(&view, e, seen.u, sum[fragment[e]][1]));
+  }
+  free(fragment);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 8 * MOST, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
+  CheckMomentum(pieces, sum);
+  CHECK(strain < 1e-9, "stiff pieces are seen to deform at %g 1/s", strain);
+  PetscCall(SolidDestroy(&s));
+  PetscFunctionReturn(0);
+}
+
+int main(int argc, char **argv)
+{
+  double difference;
+  PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
+  /* slowest vibrations: about 2 sqrt(E / rho) / r = 200 and 0.2 times STEP's inverse */
+  PetscCall(Difference(1e11, 0.0, &difference));
+  CHECK(difference < 1e-12, "a stiff disc is seen to deform at %g m/s", difference);
+  PetscCall(Difference(1e1, SWELLING, &difference));
+  CHECK(difference < 1e-3 * SWELLING * 0.1, "a soft disc's swelling is seen wrong by %g m/s", difference);
+  PetscCall(CheckPieces());
+  PetscCall(PetscFinalize());
+  return 0;
+}
