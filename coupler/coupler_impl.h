@@ -39,6 +39,4 @@ PetscErrorCode CouplerReactConserving(Coupler coupler);
 /* The correction that gives the fluid inside the solid the solid's velocity; and that of modes that leave it alone. */
 PetscErrorCode CouplerFillSolid(Coupler coupler, const ServerSolid *moved);
 PetscErrorCode CouplerNoCorrection(Coupler coupler, const ServerSolid *moved);
-/* P1 values of the P2 pressure p[6] on one element: its L2 projection. */
-void CouplerPressureP1(const double p[6], double p1[3]);
 #endif

@@ -74,8 +74,8 @@ static PetscErrorCode MakeRoute(Overlap o, const OverlapPiece home[])
       source[n++] = t;
     }
   }
-  PetscCall(RouteDestroy(&o->route));
-  PetscCall(RouteCreate(o->comm, n, rank, source, &o->route));
+  PetscCall(ScatterDestroy(&o->route));
+  PetscCall(ScatterCreate(o->comm, n, rank, source, &o->route));
   PetscCall(PetscFree2(rank, source));
   PetscFunctionReturn(0);
 }
@@ -127,9 +127,9 @@ PetscErrorCode OverlapBuild(Overlap o, const ServerSolid *solid, const Shell she
   PetscCall(PetscMalloc1(o->nhome, &home));
   PetscCall(HomePieces(o, solid, shell, home));
   PetscCall(MakeRoute(o, home));
-  o->npieces = RouteArriving(o->route);
+  o->npieces = ScatterArriving(o->route);
   PetscCall(PetscMalloc1(o->npieces, &o->piece));
-  PetscCall(RouteForward(o->route, sizeof *home, home, o->piece));
+  PetscCall(ScatterForward(o->route, sizeof *home, home, o->piece));
   PetscCall(PetscFree(home));
   PetscCall(FindPairs(o));
   PetscCall(MakeEntries(o));
@@ -139,14 +139,14 @@ PetscErrorCode OverlapBuild(Overlap o, const ServerSolid *solid, const Shell she
 PetscErrorCode OverlapForward(Overlap o, int ncomp, const double home[], double piece[])
 {
   PetscFunctionBeginUser;
-  PetscCall(RouteForward(o->route, (size_t)ncomp * sizeof *home, home, piece));
+  PetscCall(ScatterForward(o->route, (size_t)ncomp * sizeof *home, home, piece));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode OverlapReverseAdd(Overlap o, int ncomp, const double piece[], double home[])
 {
   PetscFunctionBeginUser;
-  PetscCall(RouteReverseAdd(o->route, ncomp, piece, home));
+  PetscCall(ScatterReverseAdd(o->route, ncomp, piece, home));
   PetscFunctionReturn(0);
 }
 
@@ -196,7 +196,7 @@ PetscErrorCode OverlapDestroy(Overlap *overlap)
   PetscCall(PetscFree(o->node));
   PetscCall(PetscFree(o->piece));
   PetscCall(PetscFree2(o->element, o->entry));
-  PetscCall(RouteDestroy(&o->route));
+  PetscCall(ScatterDestroy(&o->route));
   PetscCall(PetscFree(*overlap));
   PetscFunctionReturn(0);
 }

@@ -16,9 +16,9 @@
  * Fields are there to be read; functions are collective unless said otherwise. */
 #ifndef CORACLE_OVERLAP_H
 #define CORACLE_OVERLAP_H
+#include "common/exchange/scatter.h"
 #include "common/link/server.h"
 #include "common/supermesh/supermesh.h"
-#include "common/transfer/route.h"
 #include "coupler/shell.h"
 
 typedef struct {
@@ -38,7 +38,7 @@ typedef struct {
   /* the solid's triangles at home, and the route from there to the pieces */
   int nhome, nvolume; /* nvolume volume elements, then the shell's triangles */
   int (*node)[3];     /* [nhome] */
-  Route route;
+  Scatter route;
   /* the pieces on this rank and the pairs */
   int npieces;
   OverlapPiece *piece;  /* [npieces] */

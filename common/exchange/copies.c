@@ -6,11 +6,11 @@
 /* Items with several copies are shared; a group has all copies of one thing. */
 struct Copies_s {
   int n, nshared, ngroups;
-  Exchange exchange; /* shared items -> all ranks that have the thing, this one too */
-  int *item;         /* [nshared] */
-  int *item_group;   /* [nshared] */
-  int *group;        /* [arriving] of what arrives */
-  int *owner;        /* [n] lowest rank with a copy */
+  Scatter scatter; /* shared items -> all ranks that have the thing, this one too */
+  int *item;       /* [nshared] */
+  int *item_group; /* [nshared] */
+  int *group;      /* [arriving] of what arrives */
+  int *owner;      /* [n] lowest rank with a copy */
   char *arrived, *result;
   size_t arrived_capacity, result_capacity;
   char *begun; /* [ngroups] */
@@ -81,11 +81,11 @@ static int TellAll(int n, const Arrival arrival[], const int rank[], int me, Hol
 }
 
 /* rank[k]: where arrival k comes from. */
-static PetscErrorCode SourceRanks(Exchange e, int rank[])
+static PetscErrorCode SourceRanks(Scatter e, int rank[])
 {
-  const ExchangeRanks *from;
+  const ScatterRanks *from;
   PetscFunctionBeginUser;
-  PetscCall(ExchangeGetSources(e, &from));
+  PetscCall(ScatterGetSources(e, &from));
   for (int j = 0; j < from->n; j++)
     for (int k = from->start[j]; k < from->start[j + 1]; k++) rank[k] = from->rank[j];
   PetscFunctionReturn(0);
@@ -95,7 +95,7 @@ static PetscErrorCode SourceRanks(Exchange e, int rank[])
 static PetscErrorCode FindHolders(MPI_Comm comm, int n, const CopiesKey key[], int *nholders, Holder **holder)
 {
   PetscMPIInt size, me;
-  Exchange meet;
+  Scatter meet;
   Arrival *mine, *arrival;
   int *to, *rank, *back;
   Holder *told;
@@ -108,22 +108,22 @@ static PetscErrorCode FindHolders(MPI_Comm comm, int n, const CopiesKey key[], i
     mine[i] = (Arrival){key[i], i, 0};
     to[i] = MeetingRank(key[i], size);
   }
-  PetscCall(ExchangeCreate(comm, n, to, NULL, &meet));
-  const int narrived = ExchangeArriving(meet);
+  PetscCall(ScatterCreate(comm, n, to, NULL, &meet));
+  const int narrived = ScatterArriving(meet);
   PetscCall(PetscMalloc2(narrived, &arrival, narrived, &rank));
-  PetscCall(ExchangeForward(meet, sizeof *mine, mine, arrival));
+  PetscCall(ScatterForward(meet, sizeof *mine, mine, arrival));
   PetscCall(SourceRanks(meet, rank));
   for (int k = 0; k < narrived; k++) arrival[k].place = k;
   if (narrived) qsort(arrival, (size_t)narrived, sizeof *arrival, ByKey);
   const int ntold = TellAll(narrived, arrival, rank, me, NULL, NULL);
   PetscCall(PetscMalloc2(ntold, &told, ntold, &back));
   TellAll(narrived, arrival, rank, me, told, back);
-  PetscCall(ExchangeRecords(comm, ntold, back, sizeof *told, told, nholders, &in));
+  PetscCall(ScatterRecords(comm, ntold, back, sizeof *told, told, nholders, &in));
   *holder = in;
   PetscCall(PetscFree2(told, back));
   PetscCall(PetscFree2(arrival, rank));
   PetscCall(PetscFree2(mine, to));
-  PetscCall(ExchangeDestroy(&meet));
+  PetscCall(ScatterDestroy(&meet));
   PetscFunctionReturn(0);
 }
 
@@ -158,13 +158,13 @@ static PetscErrorCode Allocate(int n, Copies *copies)
 /* Groups of the shared items and of what arrives: one for each thing, thing[n] by item. */
 static PetscErrorCode MakeGroups(Copies c, const long long thing[])
 {
-  const int narriving = ExchangeArriving(c->exchange);
+  const int narriving = ScatterArriving(c->scatter);
   long long *sorted, *there;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2(c->nshared, &sorted, narriving, &there));
   PetscCall(PetscMalloc1(c->nshared, &c->item_group));
   PetscCall(PetscMalloc1(narriving, &c->group));
-  PetscCall(ExchangeForward(c->exchange, sizeof *thing, thing, there));
+  PetscCall(ScatterForward(c->scatter, sizeof *thing, thing, there));
   for (int k = 0; k < c->nshared; k++) sorted[k] = thing[c->item[k]];
   if (c->nshared) qsort(sorted, (size_t)c->nshared, sizeof *sorted, ByNumber);
   for (int k = 0; k < c->nshared; k++)
@@ -200,7 +200,7 @@ PetscErrorCode CopiesCreate(MPI_Comm comm, int n, const CopiesKey key[], Copies 
     c->item[c->nshared++] = item[k];
     c->owner[item[k]] = rank[k];
   }
-  PetscCall(ExchangeCreate(comm, nholders, rank, item, &c->exchange));
+  PetscCall(ScatterCreate(comm, nholders, rank, item, &c->scatter));
   PetscCall(MakeGroups(c, thing));
   PetscCall(PetscFree3(thing, rank, item));
   PetscCall(PetscFree(holder));
@@ -254,7 +254,7 @@ PetscErrorCode CopiesCreateMatched(MPI_Comm comm, int nitems, int n, const int r
   PetscCall(PetscMalloc1(n, &c->item_group));
   ListShared(c, me, n, rank, item, group);
   Interleave(c, me, n, rank, item, to, row);
-  PetscCall(ExchangeCreateMatched(comm, n + c->nshared, to, row, n + c->nshared, to, &c->exchange));
+  PetscCall(ScatterCreateMatched(comm, n + c->nshared, to, row, n + c->nshared, to, &c->scatter));
   PetscCall(PetscMalloc1(n + c->nshared, &c->group));
   for (int k = 0; k < n + c->nshared; k++) c->group[k] = group[row[k]];
   PetscCall(PetscMalloc1(c->ngroups, &c->begun));
@@ -267,7 +267,7 @@ PetscErrorCode CopiesDestroy(Copies *copies)
   Copies c = *copies;
   PetscFunctionBeginUser;
   if (!c) PetscFunctionReturn(0);
-  PetscCall(ExchangeDestroy(&c->exchange));
+  PetscCall(ScatterDestroy(&c->scatter));
   PetscCall(PetscFree(c->item));
   PetscCall(PetscFree(c->item_group));
   PetscCall(PetscFree(c->group));
@@ -298,14 +298,14 @@ static PetscErrorCode Reserve(size_t bytes, size_t *capacity, char **buffer)
 static PetscErrorCode Gather(Copies c, size_t bytes, const void *value)
 {
   PetscFunctionBeginUser;
-  PetscCall(Reserve(bytes * (size_t)ExchangeArriving(c->exchange), &c->arrived_capacity, &c->arrived));
+  PetscCall(Reserve(bytes * (size_t)ScatterArriving(c->scatter), &c->arrived_capacity, &c->arrived));
   PetscCall(Reserve(bytes * (size_t)c->ngroups, &c->result_capacity, &c->result));
-  PetscCall(ExchangeForward(c->exchange, bytes, value, c->arrived));
+  PetscCall(ScatterForward(c->scatter, bytes, value, c->arrived));
   PetscFunctionReturn(0);
 }
 
 /* value[item] = result of its group */
-static void Scatter(Copies c, size_t bytes, void *value)
+static void Distribute(Copies c, size_t bytes, void *value)
 {
   for (int k = 0; k < c->nshared; k++)
     memcpy((char *)value + bytes * (size_t)c->item[k], c->result + bytes * (size_t)c->item_group[k], bytes);
@@ -319,9 +319,9 @@ PetscErrorCode CopiesSum(Copies c, int ncomp, double value[])
   const double *in = (const double *)(const void *)c->arrived;
   double *sum = (double *)(void *)c->result;
   PetscCall(PetscArrayzero(sum, (size_t)ncomp * (size_t)c->ngroups));
-  for (int k = 0; k < ExchangeArriving(c->exchange); k++)
+  for (int k = 0; k < ScatterArriving(c->scatter); k++)
     for (int d = 0; d < ncomp; d++) sum[ncomp * c->group[k] + d] += in[ncomp * k + d];
-  Scatter(c, bytes, value);
+  Distribute(c, bytes, value);
   PetscFunctionReturn(0);
 }
 
@@ -333,10 +333,10 @@ PetscErrorCode CopiesMin(Copies c, int ncomp, double value[])
   const double *in = (const double *)(const void *)c->arrived;
   double *least = (double *)(void *)c->result;
   for (int k = 0; k < ncomp * c->ngroups; k++) least[k] = PETSC_INFINITY;
-  for (int k = 0; k < ExchangeArriving(c->exchange); k++)
+  for (int k = 0; k < ScatterArriving(c->scatter); k++)
     for (int d = 0; d < ncomp; d++)
       least[ncomp * c->group[k] + d] = PetscMin(least[ncomp * c->group[k] + d], in[ncomp * k + d]);
-  Scatter(c, bytes, value);
+  Distribute(c, bytes, value);
   PetscFunctionReturn(0);
 }
 
@@ -345,7 +345,7 @@ PetscErrorCode CopiesReduce(Copies c, size_t bytes, CopiesFold fold, void *value
   PetscFunctionBeginUser;
   PetscCall(Gather(c, bytes, value));
   PetscCall(PetscArrayzero(c->begun, c->ngroups));
-  for (int k = 0; k < ExchangeArriving(c->exchange); k++) {
+  for (int k = 0; k < ScatterArriving(c->scatter); k++) {
     const char *next = c->arrived + bytes * (size_t)k;
     char *into = c->result + bytes * (size_t)c->group[k];
     if (c->begun[c->group[k]])
@@ -354,6 +354,6 @@ PetscErrorCode CopiesReduce(Copies c, size_t bytes, CopiesFold fold, void *value
       memcpy(into, next, bytes);
     c->begun[c->group[k]] = 1;
   }
-  Scatter(c, bytes, value);
+  Distribute(c, bytes, value);
   PetscFunctionReturn(0);
 }

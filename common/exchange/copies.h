@@ -11,7 +11,7 @@
  * Values are taken in the order of the ranks, copies on one rank in the order of their items. */
 #ifndef CORACLE_COPIES_H
 #define CORACLE_COPIES_H
-#include "common/exchange/exchange.h"
+#include "common/exchange/scatter.h"
 
 typedef struct Copies_s *Copies;
 

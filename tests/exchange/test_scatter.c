@@ -1,5 +1,5 @@
 // ranks: 1 2 3 5
-/* Exchanges bring rows where they belong and back; reductions over copies are those of a plain sum in the
+/* Scatters bring rows where they belong and back; reductions over copies are those of a plain sum in the
  * order of the ranks, with the same bits on all ranks. */
 #include "common/exchange/copies.h"
 #include "tests/check.h"
@@ -34,7 +34,7 @@ static double Value(int of, int row)
   return 1.0 + 1e-3 * Hash(of, row, 3);
 }
 
-static PetscErrorCode Make(Exchange *e)
+static PetscErrorCode Make(Scatter *e)
 {
   int to[ITEMS], row[ITEMS];
   PetscFunctionBeginUser;
@@ -42,22 +42,22 @@ static PetscErrorCode Make(Exchange *e)
     to[k] = To(rank, k);
     row[k] = Row(rank, k);
   }
-  PetscCall(ExchangeCreate(PETSC_COMM_WORLD, rank % 2 ? ITEMS : ITEMS / 2, to, row, e));
+  PetscCall(ScatterCreate(PETSC_COMM_WORLD, rank % 2 ? ITEMS : ITEMS / 2, to, row, e));
   PetscFunctionReturn(0);
 }
 
 /* What arrives is what the items say, in their order; kept[]: but those that were dropped. */
-static void CheckArrivals(Exchange e, const double arrived[], int (*kept)(int from, int item))
+static void CheckArrivals(Scatter e, const double arrived[], int (*kept)(int from, int item))
 {
   int n = 0;
   for (int r = 0; r < size; r++) {
     for (int k = 0; k < (r % 2 ? ITEMS : ITEMS / 2); k++) {
       if (To(r, k) != rank || !kept(r, k)) continue;
-      CHECK(n < ExchangeArriving(e) && arrived[n] == Value(r, Row(r, k)), "arrival %d: %.17g", n, arrived[n]);
+      CHECK(n < ScatterArriving(e) && arrived[n] == Value(r, Row(r, k)), "arrival %d: %.17g", n, arrived[n]);
       n++;
     }
   }
-  CHECK(n == ExchangeArriving(e), "%d arrivals, not %d", ExchangeArriving(e), n);
+  CHECK(n == ScatterArriving(e), "%d arrivals, not %d", ScatterArriving(e), n);
 }
 
 static int All(int from, int item)
@@ -71,43 +71,43 @@ static int Third(int from, int item)
 }
 
 /* Every arrival is doubled and added where it came from, item by item in the order of the ranks. */
-static void CheckReverse(Exchange e, double arrived[], int (*kept)(int from, int item))
+static void CheckReverse(Scatter e, double arrived[], int (*kept)(int from, int item))
 {
   double back[ROWS] = {0.0}, expected[ROWS] = {0.0}, copy[ROWS];
-  for (int k = 0; k < ExchangeArriving(e); k++) arrived[k] *= 2.0;
-  CHECK(!ExchangeReverseAdd(e, 1, arrived, back), "not added");
+  for (int k = 0; k < ScatterArriving(e); k++) arrived[k] *= 2.0;
+  CHECK(!ScatterReverseAdd(e, 1, arrived, back), "not added");
   for (int r = 0; r < size; r++)
     for (int k = 0; k < (rank % 2 ? ITEMS : ITEMS / 2); k++)
       if (To(rank, k) == r && kept(rank, k)) expected[Row(rank, k)] += 2.0 * Value(rank, Row(rank, k));
   for (int i = 0; i < ROWS; i++) copy[i] = -1.0;
-  CHECK(!ExchangeReverse(e, sizeof *copy, arrived, copy), "not returned");
+  CHECK(!ScatterReverse(e, sizeof *copy, arrived, copy), "not returned");
   for (int i = 0; i < ROWS; i++) {
     CHECK(back[i] == expected[i], "row %d: %.17g, not %.17g", i, back[i], expected[i]);
     CHECK(copy[i] == (expected[i] > 0.0 ? 2.0 * Value(rank, i) : -1.0), "row %d: %.17g", i, copy[i]);
   }
 }
 
-static void CheckExchange(void)
+static void CheckScatter(void)
 {
-  Exchange e;
+  Scatter e;
   double local[ROWS], *arrived;
   char *keep;
   int n = 0;
   for (int i = 0; i < ROWS; i++) local[i] = Value(rank, i);
   CHECK(!Make(&e), "not made");
-  arrived = malloc((size_t)ExchangeArriving(e) * sizeof *arrived + 1);
-  keep = malloc((size_t)ExchangeArriving(e) + 1);
-  CHECK(!ExchangeForward(e, sizeof *local, local, arrived), "not sent");
+  arrived = malloc((size_t)ScatterArriving(e) * sizeof *arrived + 1);
+  keep = malloc((size_t)ScatterArriving(e) + 1);
+  CHECK(!ScatterForward(e, sizeof *local, local, arrived), "not sent");
   CheckArrivals(e, arrived, All);
   CheckReverse(e, arrived, All);
   for (int r = 0; r < size; r++)
     for (int k = 0; k < (r % 2 ? ITEMS : ITEMS / 2); k++)
       if (To(r, k) == rank) keep[n++] = (char)Third(r, k);
-  CHECK(!ExchangeKeep(e, keep), "not reduced");
-  CHECK(!ExchangeForward(e, sizeof *local, local, arrived), "not sent");
+  CHECK(!ScatterKeep(e, keep), "not reduced");
+  CHECK(!ScatterForward(e, sizeof *local, local, arrived), "not sent");
   CheckArrivals(e, arrived, Third);
   CheckReverse(e, arrived, Third);
-  CHECK(!ExchangeDestroy(&e) && !e, "not destroyed");
+  CHECK(!ScatterDestroy(&e) && !e, "not destroyed");
   free(arrived);
   free(keep);
 }
@@ -130,12 +130,12 @@ static void CheckRequest(void)
     of[k] = To(rank, k);
     key[k] = k;
   }
-  CHECK(!ExchangeRequest(PETSC_COMM_WORLD, ITEMS, of, key, sizeof *record, Answer, &rank, record),
+  CHECK(!ScatterRequest(PETSC_COMM_WORLD, ITEMS, of, key, sizeof *record, Answer, &rank, record),
         "not asked");
   for (int k = 0; k < ITEMS; k++)
     CHECK(record[k][0] == k * k && record[k][1] == of[k], "answer %d is wrong", k);
-  CHECK(!ExchangeRecords(PETSC_COMM_WORLD, rank == 0 ? size : 0, (int[]){0, 1, 2, 3, 4}, sizeof(int),
-                         (int[]){10, 11, 12, 13, 14}, &n, &arrived),
+  CHECK(!ScatterRecords(PETSC_COMM_WORLD, rank == 0 ? size : 0, (int[]){0, 1, 2, 3, 4}, sizeof(int),
+                        (int[]){10, 11, 12, 13, 14}, &n, &arrived),
         "not sent");
   in = arrived;
   CHECK(n == 1 && in[0] == 10 + rank, "%d records, the first is %d", n, in[0]);
@@ -217,7 +217,7 @@ int main(int argc, char **argv)
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
-  CheckExchange();
+  CheckScatter();
   CheckRequest();
   CheckCopies();
   CheckMatched();

@@ -1,13 +1,13 @@
-#include "common/exchange/exchange.h"
+#include "common/exchange/scatter.h"
 #include <string.h>
 
-enum { EXCHANGE_TAG = 61 };
+enum { SCATTER_TAG = 61 };
 
-struct Exchange_s {
+struct Scatter_s {
   MPI_Comm comm; /* borrowed */
   PetscMPIInt me;
   int nout, nin;
-  ExchangeRanks out, in;
+  ScatterRanks out, in;
   int *row;         /* [nout] in the order of the ranks that the items go to */
   PetscBool packed; /* row[k] = k: items leave from the caller's array */
   char *buffer;     /* of items that leave or have come back */
@@ -17,7 +17,7 @@ struct Exchange_s {
   size_t record_bytes;
 };
 
-static PetscErrorCode RanksCreate(int n, ExchangeRanks *r)
+static PetscErrorCode RanksCreate(int n, ScatterRanks *r)
 {
   PetscFunctionBeginUser;
   r->n = n;
@@ -27,7 +27,7 @@ static PetscErrorCode RanksCreate(int n, ExchangeRanks *r)
 }
 
 /* Items by rank, of a list of ranks that ascends. */
-static PetscErrorCode RanksOf(int n, const int rank[], ExchangeRanks *r)
+static PetscErrorCode RanksOf(int n, const int rank[], ScatterRanks *r)
 {
   int distinct = 0;
   PetscFunctionBeginUser;
@@ -41,9 +41,9 @@ static PetscErrorCode RanksOf(int n, const int rank[], ExchangeRanks *r)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Allocate(MPI_Comm comm, int nout, Exchange *exchange)
+static PetscErrorCode Allocate(MPI_Comm comm, int nout, Scatter *scatter)
 {
-  Exchange e;
+  Scatter e;
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&e));
   e->comm = comm;
@@ -51,12 +51,12 @@ static PetscErrorCode Allocate(MPI_Comm comm, int nout, Exchange *exchange)
   e->record = MPI_DATATYPE_NULL;
   PetscCallMPI(MPI_Comm_rank(comm, &e->me));
   PetscCall(PetscMalloc1(nout, &e->row));
-  *exchange = e;
+  *scatter = e;
   PetscFunctionReturn(0);
 }
 
 /* Once the lists are made. */
-static PetscErrorCode Finish(Exchange e)
+static PetscErrorCode Finish(Scatter e)
 {
   PetscFunctionBeginUser;
   e->packed = PETSC_TRUE;
@@ -66,7 +66,7 @@ static PetscErrorCode Finish(Exchange e)
 }
 
 /* Sorts the items by rank, those of one rank stay in their order. */
-static PetscErrorCode SortItems(MPI_Comm comm, int n, const int to[], const int row[], Exchange e)
+static PetscErrorCode SortItems(MPI_Comm comm, int n, const int to[], const int row[], Scatter e)
 {
   PetscMPIInt size;
   int *next, ranks = 0;
@@ -90,7 +90,7 @@ static PetscErrorCode SortItems(MPI_Comm comm, int n, const int to[], const int 
 }
 
 /* Who sends how much to this rank: each rank knows only where it sends itself. */
-static PetscErrorCode FindSources(Exchange e)
+static PetscErrorCode FindSources(Scatter e)
 {
   PetscMPIInt nfrom, *from, *count;
   int *items;
@@ -111,32 +111,32 @@ static PetscErrorCode FindSources(Exchange e)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ExchangeCreate(MPI_Comm comm, int n, const int to[], const int row[], Exchange *exchange)
+PetscErrorCode ScatterCreate(MPI_Comm comm, int n, const int to[], const int row[], Scatter *scatter)
 {
   PetscFunctionBeginUser;
-  PetscCall(Allocate(comm, n, exchange));
-  PetscCall(SortItems(comm, n, to, row, *exchange));
-  PetscCall(FindSources(*exchange));
-  PetscCall(Finish(*exchange));
+  PetscCall(Allocate(comm, n, scatter));
+  PetscCall(SortItems(comm, n, to, row, *scatter));
+  PetscCall(FindSources(*scatter));
+  PetscCall(Finish(*scatter));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ExchangeCreateMatched(MPI_Comm comm, int nout, const int to[], const int row[], int nin,
-                                     const int from[], Exchange *exchange)
+PetscErrorCode ScatterCreateMatched(MPI_Comm comm, int nout, const int to[], const int row[], int nin,
+                                    const int from[], Scatter *scatter)
 {
   PetscFunctionBeginUser;
-  PetscCall(Allocate(comm, nout, exchange));
-  (*exchange)->nin = nin;
-  for (int k = 0; k < nout; k++) (*exchange)->row[k] = row ? row[k] : k;
-  PetscCall(RanksOf(nout, to, &(*exchange)->out));
-  PetscCall(RanksOf(nin, from, &(*exchange)->in));
-  PetscCall(Finish(*exchange));
+  PetscCall(Allocate(comm, nout, scatter));
+  (*scatter)->nin = nin;
+  for (int k = 0; k < nout; k++) (*scatter)->row[k] = row ? row[k] : k;
+  PetscCall(RanksOf(nout, to, &(*scatter)->out));
+  PetscCall(RanksOf(nin, from, &(*scatter)->in));
+  PetscCall(Finish(*scatter));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ExchangeDestroy(Exchange *exchange)
+PetscErrorCode ScatterDestroy(Scatter *scatter)
 {
-  Exchange e = *exchange;
+  Scatter e = *scatter;
   PetscFunctionBeginUser;
   if (!e) PetscFunctionReturn(0);
   PetscCall(PetscFree(e->out.rank));
@@ -147,23 +147,23 @@ PetscErrorCode ExchangeDestroy(Exchange *exchange)
   PetscCall(PetscFree(e->buffer));
   PetscCall(PetscFree(e->request));
   if (e->record != MPI_DATATYPE_NULL) PetscCallMPI(MPI_Type_free(&e->record));
-  PetscCall(PetscFree(*exchange));
+  PetscCall(PetscFree(*scatter));
   PetscFunctionReturn(0);
 }
 
-int ExchangeArriving(Exchange e)
+int ScatterArriving(Scatter e)
 {
   return e->nin;
 }
 
-PetscErrorCode ExchangeGetSources(Exchange e, const ExchangeRanks **sources)
+PetscErrorCode ScatterGetSources(Scatter e, const ScatterRanks **sources)
 {
   PetscFunctionBeginUser;
   *sources = &e->in;
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ExchangeGetLeaving(Exchange e, const ExchangeRanks **targets, const int **row)
+PetscErrorCode ScatterGetLeaving(Scatter e, const ScatterRanks **targets, const int **row)
 {
   PetscFunctionBeginUser;
   *targets = &e->out;
@@ -171,7 +171,7 @@ PetscErrorCode ExchangeGetLeaving(Exchange e, const ExchangeRanks **targets, con
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Reserve(Exchange e, size_t bytes)
+static PetscErrorCode Reserve(Scatter e, size_t bytes)
 {
   PetscFunctionBeginUser;
   if (bytes * (size_t)e->nout > e->capacity) {
@@ -183,7 +183,7 @@ static PetscErrorCode Reserve(Exchange e, size_t bytes)
 }
 
 /* The type of one record, kept until another size is wanted. */
-static PetscErrorCode SetRecord(Exchange e, size_t bytes)
+static PetscErrorCode SetRecord(Scatter e, size_t bytes)
 {
   PetscFunctionBeginUser;
   if (e->record != MPI_DATATYPE_NULL && bytes == e->record_bytes) PetscFunctionReturn(0);
@@ -195,8 +195,8 @@ static PetscErrorCode SetRecord(Exchange e, size_t bytes)
 }
 
 /* What stays on this rank goes from one list to the other. */
-static PetscErrorCode CopySelf(Exchange e, const ExchangeRanks *from, int j, const char *send,
-                               const ExchangeRanks *to, char *receive)
+static PetscErrorCode CopySelf(Scatter e, const ScatterRanks *from, int j, const char *send,
+                               const ScatterRanks *to, char *receive)
 {
   int k = 0;
   PetscFunctionBeginUser;
@@ -207,8 +207,8 @@ static PetscErrorCode CopySelf(Exchange e, const ExchangeRanks *from, int j, con
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Transport(Exchange e, size_t bytes, const ExchangeRanks *from, const char *send,
-                                const ExchangeRanks *to, char *receive)
+static PetscErrorCode Transport(Scatter e, size_t bytes, const ScatterRanks *from, const char *send,
+                                const ScatterRanks *to, char *receive)
 {
   int n = 0;
   PetscFunctionBeginUser;
@@ -216,7 +216,7 @@ static PetscErrorCode Transport(Exchange e, size_t bytes, const ExchangeRanks *f
   for (int j = 0; j < to->n; j++) {
     if (to->rank[j] == e->me) continue;
     PetscCallMPI(MPI_Irecv(receive + bytes * (size_t)to->start[j], to->start[j + 1] - to->start[j], e->record,
-                           to->rank[j], EXCHANGE_TAG, e->comm, &e->request[n++]));
+                           to->rank[j], SCATTER_TAG, e->comm, &e->request[n++]));
   }
   for (int j = 0; j < from->n; j++) {
     if (from->rank[j] == e->me) {
@@ -224,13 +224,13 @@ static PetscErrorCode Transport(Exchange e, size_t bytes, const ExchangeRanks *f
       continue;
     }
     PetscCallMPI(MPI_Isend(send + bytes * (size_t)from->start[j], from->start[j + 1] - from->start[j],
-                           e->record, from->rank[j], EXCHANGE_TAG, e->comm, &e->request[n++]));
+                           e->record, from->rank[j], SCATTER_TAG, e->comm, &e->request[n++]));
   }
   PetscCallMPI(MPI_Waitall(n, e->request, MPI_STATUSES_IGNORE));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ExchangeForward(Exchange e, size_t bytes, const void *local, void *arrived)
+PetscErrorCode ScatterForward(Scatter e, size_t bytes, const void *local, void *arrived)
 {
   const char *from = local;
   PetscFunctionBeginUser;
@@ -244,7 +244,7 @@ PetscErrorCode ExchangeForward(Exchange e, size_t bytes, const void *local, void
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ExchangeReverse(Exchange e, size_t bytes, const void *arrived, void *local)
+PetscErrorCode ScatterReverse(Scatter e, size_t bytes, const void *arrived, void *local)
 {
   PetscFunctionBeginUser;
   PetscCall(Reserve(e, bytes));
@@ -254,7 +254,7 @@ PetscErrorCode ExchangeReverse(Exchange e, size_t bytes, const void *arrived, vo
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ExchangeReverseAdd(Exchange e, int ncomp, const double arrived[], double local[])
+PetscErrorCode ScatterReverseAdd(Scatter e, int ncomp, const double arrived[], double local[])
 {
   const size_t bytes = (size_t)ncomp * sizeof *local;
   PetscFunctionBeginUser;
@@ -269,7 +269,7 @@ PetscErrorCode ExchangeReverseAdd(Exchange e, int ncomp, const double arrived[],
 }
 
 /* The ranks that still have items, and the rows of these unless row is NULL; returns their number. */
-static int Compress(ExchangeRanks *r, const char keep[], int row[])
+static int Compress(ScatterRanks *r, const char keep[], int row[])
 {
   int ranks = 0, kept = 0;
   for (int j = 0, k = 0; j < r->n; j++) {
@@ -287,7 +287,7 @@ static int Compress(ExchangeRanks *r, const char keep[], int row[])
   return kept;
 }
 
-PetscErrorCode ExchangeKeep(Exchange e, const char keep[])
+PetscErrorCode ScatterKeep(Scatter e, const char keep[])
 {
   char *kept;
   PetscFunctionBeginUser;
@@ -301,41 +301,41 @@ PetscErrorCode ExchangeKeep(Exchange e, const char keep[])
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ExchangeRecords(MPI_Comm comm, int n, const int to[], size_t bytes, const void *record,
-                               int *narrived, void **arrived)
+PetscErrorCode ScatterRecords(MPI_Comm comm, int n, const int to[], size_t bytes, const void *record,
+                              int *narrived, void **arrived)
 {
-  Exchange e;
+  Scatter e;
   char *in;
   PetscFunctionBeginUser;
-  PetscCall(ExchangeCreate(comm, n, to, NULL, &e));
+  PetscCall(ScatterCreate(comm, n, to, NULL, &e));
   *narrived = e->nin;
   PetscCall(PetscMalloc1(bytes * (size_t)e->nin + 1, &in));
-  PetscCall(ExchangeForward(e, bytes, record, in));
-  PetscCall(ExchangeDestroy(&e));
+  PetscCall(ScatterForward(e, bytes, record, in));
+  PetscCall(ScatterDestroy(&e));
   *arrived = in;
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ExchangeRequest(MPI_Comm comm, int n, const int of[], const long long key[], size_t bytes,
-                               ExchangeAnswer answer, void *context, void *record)
+PetscErrorCode ScatterRequest(MPI_Comm comm, int n, const int of[], const long long key[], size_t bytes,
+                              ScatterAnswer answer, void *context, void *record)
 {
-  Exchange e;
+  Scatter e;
   long long *asked;
   char *answers;
   PetscFunctionBeginUser;
-  PetscCall(ExchangeCreate(comm, n, of, NULL, &e));
+  PetscCall(ScatterCreate(comm, n, of, NULL, &e));
   PetscCall(PetscMalloc1(e->nin, &asked));
   PetscCall(PetscCalloc1(bytes * (size_t)e->nin + 1, &answers));
-  PetscCall(ExchangeForward(e, sizeof *key, key, asked));
+  PetscCall(ScatterForward(e, sizeof *key, key, asked));
   for (int k = 0; k < e->nin; k++) PetscCall(answer(context, asked[k], answers + bytes * (size_t)k));
-  PetscCall(ExchangeReverse(e, bytes, answers, record));
+  PetscCall(ScatterReverse(e, bytes, answers, record));
   PetscCall(PetscFree(asked));
   PetscCall(PetscFree(answers));
-  PetscCall(ExchangeDestroy(&e));
+  PetscCall(ScatterDestroy(&e));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ExchangeError(MPI_Comm comm, PetscErrorCode here)
+PetscErrorCode CollectiveError(MPI_Comm comm, PetscErrorCode here)
 {
   int all = (int)here;
   PetscFunctionBeginUser;
