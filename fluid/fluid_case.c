@@ -2,8 +2,7 @@
 #include "common/mesh/mesh_checkpoint.h"
 #include "common/supermesh/geometry.h"
 
-/* --- mesh: a graded box, or a Gmsh file
- * ------------------------------------------------------------------------ */
+/* --- mesh: a graded box, or a Gmsh file ------------------------------------------------------------------ */
 
 typedef struct {
   GeometryBox at;
@@ -76,8 +75,7 @@ PetscErrorCode FluidCaseMesh(Case c, MPI_Comm comm, Checkpoint from, Mesh **mesh
   PetscFunctionReturn(0);
 }
 
-/* --- boundaries
- * -------------------------------------------------------------------------------------------------- */
+/* --- boundaries ----------------------------------------------------------------------------------------- */
 
 static void ReadBoundary(Case c, const char *name, Boundary *b)
 {
@@ -192,14 +190,14 @@ PetscErrorCode FluidCaseAdaptation(Case c, PetscBool *adapts, AdaptationSetup *s
 
 PetscErrorCode FluidCaseCheckOptions(Case c)
 {
-  const char *given = CaseStringOr(c, "fluid.petsc", "");
+  const char *options = CaseStringOr(c, "fluid.petsc", "");
   PetscInt n;
   char **names, **values, option[256];
   PetscFunctionBeginUser;
   PetscCall(PetscOptionsLeftGet(NULL, &n, &names, &values));
   for (PetscInt k = 0; k < n; k++) {
     (void)snprintf(option, sizeof option, "-%s", names[k]);
-    if (strstr(given, option))
+    if (strstr(options, option))
       CaseRefuse(c, "fluid.petsc", "no solver of the fluid has the option %s", option);
   }
   PetscCall(PetscOptionsLeftRestore(NULL, &n, &names, &values));
