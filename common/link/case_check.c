@@ -27,6 +27,11 @@ void CaseFaultsApply(Case c)
   for (int i = 0; i < c->faults->n; i++) CaseTreeRemove(c->root, c->faults->key[i]);
 }
 
+bool CaseFaultless(Case c)
+{
+  return !c->faults || c->faults->n == 0;
+}
+
 /* One reading: true when it went through. */
 static bool ReadOnce(int argc, char **argv, CaseReader read, void *context, CaseFaults *faults)
 {

@@ -71,6 +71,8 @@ typedef void (*CaseReader)(Case c, void *context);
  * longjmp at the next: it must make nothing that may not be left behind.  For one process. */
 int CaseCheck(int argc, char **argv, CaseReader read, void *context,
               void (*tell)(void *context, const char *message));
+/* Within read: whether no fault has been found (so far). */
+bool CaseFaultless(Case c);
 /* Prints a line for each key that read asks for, fields separated by tabs: key, required or optional, type, range,
  * default, unit, meaning. */
 int CaseKeysOf(int argc, char **argv, CaseReader read, void *context,
