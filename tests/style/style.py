@@ -17,9 +17,9 @@ IDENTIFIERS = {
                     r"Machine\w*": "affinity", r"Side|Side[A-Z]\w*|Peer|peer": "clients", r"home": "owner rank", r"told": "registered"},
     "coupler": {r"[Tt]ries\w*|\w+_tries": "coupling iterations", r"most": "max_iterations", r"met": "iterate", r"\w*Agree": "HasConverged",
                 r"\w*Aim|aim": "SetInterfaceVelocity", r"rate|has_rate": "acceleration", r"March": "time loop", r"[Gg]uard\w*": "divergence monitor",
-                r"n?pieces?|\w*Pieces?\w*": "source triangle", r"nentries|entry": "coupled element", r"near": "bounds", r"\w*[Ff]irm\w*|FIRMER": "implicit factor",
+                r"n?pieces?|\w*Pieces?\w*": "source triangle", r"nentries": "coupled element", r"near": "bounds", r"\w*[Ff]irm\w*|FIRMER": "implicit factor",
                 r"gives?|giving": "implicit inertia, compliant", r"HoldFirmly|Resist|Meet|\w*BringHome|\w*[Ww]eigh": "see the glossary",
-                r"\w*LeaveFluid": "NoCorrection", r"Motion|MotionOf|motion": "bulk motion"},
+                r"\w*LeaveFluid": "NoCorrection", r"Motion|MotionOf": "bulk motion"},
     "fluid": {r"[Gg]iv(es|ing)\w*|give": "inertia-weighted projection", r"\w*u_plus|\w*VelocityPlus": "projected velocity", r"given": "exchanged",
               r"Needs|needs": "sizing", r"Past|past": "history", r"\w+Forget|Forget|Change": "accept, discard mesh", r"idle": "inactive"},
     "solid": {r"\w*[Ss]een\w*|\w*See": "interface motion", r"\w*[Aa]broad\w*|away": "remote, node directory", r"[Ss]hare|Share[A-Z]\w*": "subdomain",
@@ -89,7 +89,7 @@ def words():
     for name in files(".c", ".h", ".md", ".py", ".sh", ".yaml"):
         text = read(name)
         for pattern, instead in PROSE.items():
-            for m in re.finditer(r"\b(?:%s)" % pattern.replace(" ", r"[\s*#]+"), text, flags=re.I):
+            for m in re.finditer(r"\b(?:%s)" % pattern.replace(" ", r"(?:\\s|[*#])+"), text, flags=re.I):
                 problems.append(f"{name}:{line_of(text, m.start())}: '{' '.join(m.group(0).split())}': the field says {instead}")
     return problems
 
