@@ -111,24 +111,29 @@ PetscErrorCode PhasesGetPolygon(Phases f, int e, int p, Polygon *polygon)
   PetscFunctionReturn(0);
 }
 
-void PhasesSplit(Phases f, int e, const Polygon *polygon, const double origin[2], double weight,
-                 double area[])
+void PhasesSplitBy(int np, int single, const HalfPlane line[], const double x0[2], const Polygon *polygon,
+                   const double origin[2], double weight, double area[])
 {
-  if (f->single[e] >= 0) {
-    area[f->single[e]] += weight * PolygonArea(polygon);
+  if (single >= 0) {
+    area[single] += weight * PolygonArea(polygon);
     return;
   }
   Polygon rest = *polygon, part;
-  for (int p = 0; p + 1 < f->np && rest.n; p++) {
-    const HalfPlane h = PhasesLine(f, e, p, origin);
-    Keep(&rest, &h, 1, &part);
+  for (int p = 0; p + 1 < np && rest.n; p++) {
+    const HalfPlane h = PhasesMoveLine(line[p], x0, origin);
+    const Polygon before = rest;
+    Keep(&before, &h, 1, &part);
+    Keep(&before, &h, 0, &rest);
     if (part.n) area[p] += weight * PolygonArea(&part);
-    if (part.n || !IsTrivial(&h)) {
-      const Polygon before = rest;
-      Keep(&before, &h, 0, &rest);
-    }
   }
-  if (rest.n) area[f->np - 1] += weight * PolygonArea(&rest);
+  if (rest.n) area[np - 1] += weight * PolygonArea(&rest);
+}
+
+void PhasesSplit(Phases f, int e, const Polygon *polygon, const double origin[2], double weight,
+                 double area[])
+{
+  PhasesSplitBy(f->np, f->single[e], &f->line[(size_t)e * (size_t)(f->np - 1)], f->stars->element[e].x[0],
+                polygon, origin, weight, area);
 }
 
 PetscErrorCode PhasesGetStats(Phases f, PhasesStats *stats)

@@ -13,6 +13,7 @@
  * PhasesAdvect.  All functions are collective unless they say otherwise. */
 #ifndef CORACLE_PHASES_H
 #define CORACLE_PHASES_H
+#include "common/transfer/transfer.h"
 #include "fluid/phases/plic.h"
 #include "fluid/phases/stars.h"
 
@@ -50,8 +51,10 @@ typedef struct {
 PetscErrorCode PhasesAdvect(Phases phases, double dt, const double flux[], const double velocity[],
                             const PhasesInflow *inflow, double swept[]);
 
-/* Volumes of `to` from lines and volumes of `from`, whose mesh covers the same domain. */
-PetscErrorCode PhasesRemap(Phases from, Phases to);
+/* Volumes of `to` from lines and volumes of `from`, both on the meshes that the transfer was made of: copies where
+ * elements are the same, else exact intersections of each phase's polygons with the new elements.  Conserves each
+ * phase to round-off and stays within [0, area].  Needs the lines of `from`. */
+PetscErrorCode PhasesRemap(Phases from, Transfer transfer, Phases to);
 
 typedef struct {
   double volume[PHASES_MAX]; /* of each phase, m2 */

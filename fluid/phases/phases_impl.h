@@ -22,15 +22,22 @@ void PhasesPart(Phases phases, int e, int p, const double origin[2], Polygon *pa
 /* The same, of those that phases 0 .. p - 1 leave together. */
 void PhasesRest(Phases phases, int e, int p, const double origin[2], Polygon *rest);
 /* The half plane of line p of element e, relative to origin. */
+static inline HalfPlane PhasesMoveLine(HalfPlane h, const double x0[2], const double origin[2])
+{
+  h.d += h.n[0] * (x0[0] - origin[0]) + h.n[1] * (x0[1] - origin[1]);
+  return h;
+}
+
 static inline HalfPlane PhasesLine(Phases f, int e, int p, const double origin[2])
 {
-  const double *x = f->stars->element[e].x[0];
-  HalfPlane h = f->line[(size_t)e * (size_t)(f->np - 1) + (size_t)p];
-  h.d += h.n[0] * (x[0] - origin[0]) + h.n[1] * (x[1] - origin[1]);
-  return h;
+  return PhasesMoveLine(f->line[(size_t)e * (size_t)(f->np - 1) + (size_t)p], f->stars->element[e].x[0],
+                        origin);
 }
 /* area[np] += weight * |polygon and phase p| in local element e; polygon lies in the element, relative to
  * origin. */
 void PhasesSplit(Phases phases, int e, const Polygon *polygon, const double origin[2], double weight,
                  double area[]);
+/* The same in an element whose first vertex is x0 and that has these lines[np - 1], or is of a single phase. */
+void PhasesSplitBy(int np, int single, const HalfPlane line[], const double x0[2], const Polygon *polygon,
+                   const double origin[2], double weight, double area[]);
 #endif
