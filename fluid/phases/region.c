@@ -2,7 +2,7 @@
 #include "common/supermesh/search.h"
 #include "fluid/phases/phases_impl.h"
 
-enum { SECTORS = 2048 };
+enum { SIDES = 2048 };
 
 typedef struct {
   int n;
@@ -54,21 +54,32 @@ static PetscErrorCode HalfPlaneTriangles(const Mesh *m, const Region *r, Triangl
   PetscFunctionReturn(0);
 }
 
-/* Sectors of a regular polygon with the disc's area. */
+/* The regular polygon between corners i and j: halved again and again, so that triangles are as large as they can
+ * be away from its outline. */
+static void Halve(const double corner[][2], int i, int j, Triangles *t)
+{
+  const int middle = (i + j) / 2;
+  if (j - i < 2) return;
+  Set(t->x[t->n++], corner[i], corner[middle], corner[j % SIDES]);
+  Halve(corner, i, middle, t);
+  Halve(corner, middle, j, t);
+}
+
+/* A regular polygon with the disc's area. */
 static PetscErrorCode DiscTriangles(const Region *r, Triangles *t)
 {
-  const double step = 2.0 * PETSC_PI / SECTORS, radius = r->radius * sqrt(step / sin(step));
+  const double step = 2.0 * PETSC_PI / SIDES, radius = r->radius * sqrt(step / sin(step));
+  double(*corner)[2];
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(SECTORS, &t->x));
-  for (int k = 0; k < SECTORS; k++) {
-    double p[2][2];
-    for (int i = 0; i < 2; i++) {
-      const double angle = step * ((k + i) % SECTORS);
-      p[i][0] = r->a[0] + radius * cos(angle);
-      p[i][1] = r->a[1] + radius * sin(angle);
-    }
-    Set(t->x[t->n++], r->a, p[0], p[1]);
+  PetscCall(PetscMalloc1(SIDES, &t->x));
+  PetscCall(PetscMalloc1(SIDES, &corner));
+  for (int k = 0; k < SIDES; k++) {
+    corner[k][0] = r->a[0] + radius * cos(step * k);
+    corner[k][1] = r->a[1] + radius * sin(step * k);
   }
+  Halve((const double(*)[2])corner, 0, SIDES / 2, t);
+  Halve((const double(*)[2])corner, SIDES / 2, SIDES, t);
+  PetscCall(PetscFree(corner));
   PetscFunctionReturn(0);
 }
 

@@ -1,6 +1,6 @@
 /* Regions of the plane that belong to phases, as a case file lists them: boxes, half planes, discs, polygons.
- * Later ones are painted over earlier ones.  A region becomes triangles, a disc 2048 sectors whose total area is
- * the disc's, and these are intersected with the elements: fractions are exact to round-off for straight sides,
+ * Later ones are painted over earlier ones.  A region becomes triangles, a disc those of a
+ * regular polygon of 2048 sides and the disc's area, and these are intersected with the elements: fractions are exact to round-off for straight sides,
  * and to 1e-6 of the radius in place for discs. */
 #ifndef CORACLE_PHASES_REGION_H
 #define CORACLE_PHASES_REGION_H
