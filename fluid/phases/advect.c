@@ -10,7 +10,7 @@
 #include "fluid/phases/phases_impl.h"
 #include "fluid/phases/trace.h"
 
-#define OUTSIDE 1e-9 /* share of a swept area that round-off may leave uncovered */
+#define OUTSIDE 1e-12 /* of the square of an edge: what round-off may leave uncovered of a swept area */
 
 typedef struct {
   Phases f;
@@ -21,7 +21,7 @@ typedef struct {
   double (*shift)[2]; /* [nowned] */
   int stamp, *mark;   /* [nl] */
   int n, *list;       /* elements that a face may sweep, by ascending global number */
-  double lost;        /* largest share of a swept area that is nowhere */
+  double lost;        /* largest swept area that is nowhere, over the square of its edge */
 } Step;
 
 /* A swept region: corners relative to its face's first vertex. */
@@ -153,7 +153,8 @@ static int Apart(const Swept *r, const double x[3][2])
   return 0;
 }
 
-/* area[np] of the listed elements' phases in the region; returns the share of it that they do not cover. */
+/* area[np] of the listed elements' phases in the region; returns what they do not cover of it, over the square of
+ * the edge. */
 static double Collect(const Step *t, const Swept *r, double area[])
 {
   Polygon triangle[3], moved, part;
@@ -188,7 +189,8 @@ static double Collect(const Step *t, const Swept *r, double area[])
       PhasesSplit(t->f, e, &part, r->origin, sign[k], area);
     }
   }
-  return all > 0.0 ? (all - covered) / all : 0.0;
+  const double *edge = r->corner[1];
+  return (all - covered) / (edge[0] * edge[0] + edge[1] * edge[1]);
 }
 
 /* What the elements leave of the swept area, `rest`, comes from outside of open boundaries, or is round-off. */
@@ -324,8 +326,8 @@ PetscErrorCode PhasesAdvect(Phases f, double dt, const double flux[], const doub
   PetscCall(StepEnd(&t));
   PetscCheck(
       !(lost > 0.0), f->stars->mesh->comm, PETSC_ERR_ARG_OUTOFRANGE,
-      "a step of %g s sweeps areas out of reach (a share of %g): the fluid crosses more than an element "
-      "a step",
+      "a step of %g s sweeps areas out of reach (%g of an edge squared): the fluid crosses more than an "
+      "element a step",
       dt, lost);
   PetscFunctionReturn(0);
 }

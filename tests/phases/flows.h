@@ -21,7 +21,7 @@ typedef struct {
 /* Rider and Kothe (1998): the single vortex of the unit square. */
 static inline double VortexPsi(const double x[2])
 {
-  const int wall = x[0] <= 0.0 || x[0] >= 1.0 || x[1] <= 0.0 || x[1] >= 1.0;
+  const int wall = fmin(fmin(x[0], 1.0 - x[0]), fmin(x[1], 1.0 - x[1])) < 1e-12;
   const double s = sin(M_PI * x[0]), c = sin(M_PI * x[1]);
   return wall ? 0.0 : s * s * c * c / M_PI;
 }
