@@ -146,9 +146,9 @@ static void MakeSwept(const Step *t, int a, int b, double swept, Swept *r)
 static int Apart(const Swept *r, const double x[3][2])
 {
   for (int c = 0; c < 2; c++) {
-    const double low = fmin(fmin(x[0][c], x[1][c]), x[2][c]) - r->origin[c];
-    const double high = fmax(fmax(x[0][c], x[1][c]), x[2][c]) - r->origin[c];
-    if (low >= r->high[c] || high <= r->low[c]) return 1;
+    const double low = r->low[c] + r->origin[c], high = r->high[c] + r->origin[c];
+    if (x[0][c] >= high && x[1][c] >= high && x[2][c] >= high) return 1;
+    if (x[0][c] <= low && x[1][c] <= low && x[2][c] <= low) return 1;
   }
   return 0;
 }
@@ -276,6 +276,19 @@ static void Update(Step *t, const double swept[])
   }
 }
 
+/* A vertex of a face that is not among elements of one phase. */
+static int NearInterface(const Step *t, int v)
+{
+  const Stars *s = t->s;
+  for (int k = s->start[v]; k < s->start[v + 1]; k++) {
+    for (int i = 0; i < 3; i++) {
+      const int w = s->vertex[s->around[k] / 3][i];
+      if (w >= s->nowned || t->calm[w] < 0 || t->calm[w] != t->calm[v]) return 1;
+    }
+  }
+  return 0;
+}
+
 static PetscErrorCode StepBegin(Phases f, double dt, const double flux[], const double velocity[], Step *t)
 {
   const Stars *s = f->stars;
@@ -293,7 +306,10 @@ static PetscErrorCode StepBegin(Phases f, double dt, const double flux[], const 
   PetscCall(PetscCalloc1(s->nl, &t->mark));
   PetscCall(PetscMalloc1(s->nl, &t->list));
   PetscCall(FindCalm(t));
-  for (int v = 0; v < s->nowned; v++) TraceVertex(&t->flow, v, t->shift[v]);
+  for (int v = 0; v < s->nowned; v++) {
+    t->shift[v][0] = t->shift[v][1] = 0.0;
+    if (NearInterface(t, v)) TraceVertex(&t->flow, v, t->shift[v]);
+  }
   PetscFunctionReturn(0);
 }
 

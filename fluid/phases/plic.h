@@ -38,10 +38,10 @@ static inline void PlicEvaluate(int n, const PlicCell cell[], double theta, Plic
   h->n[0] = cos(theta);
   h->n[1] = sin(theta);
   h->d = PolygonFindOffset(&cell[0].part, h->n, cell[0].volume);
-  const double middle = PolygonCutBy(&cell[0].part, h).middle;
+  const double middle = PolygonCutBy(&cell[0].part, cell[0].rest, h).middle;
   s->energy = 0.0;
   for (int j = 1; j < n; j++) {
-    const PolygonCut cut = PolygonCutBy(&cell[j].part, h);
+    const PolygonCut cut = PolygonCutBy(&cell[j].part, cell[j].rest, h);
     const double e = (cut.area - cell[j].volume) / cell[j].area;
     const double g = cut.length * (middle - cut.middle) / cell[j].area;
     s->energy += e * e;
@@ -50,6 +50,9 @@ static inline void PlicEvaluate(int n, const PlicCell cell[], double theta, Plic
   }
   s->step = gg > 0.0 ? -eg / gg : 0.0;
 }
+
+/* Above this E the interface is not straight: what the last digits of theta change is below the error of any line. */
+#define PLIC_CURVED 1e-8
 
 /* Gauss-Newton from theta; steps are halved until E decreases. */
 static inline PlicState PlicDescend(int n, const PlicCell cell[], double theta)
@@ -67,7 +70,8 @@ static inline PlicState PlicDescend(int n, const PlicCell cell[], double theta)
     if (next.energy > now.energy) break;
     const double before = now.energy;
     now = next;
-    if (fabs(step) < 1e-7 || before - now.energy < 1e-6 * now.energy) break;
+    if (fabs(step) < (now.energy > PLIC_CURVED ? 1e-4 : 1e-7) || before - now.energy < 1e-6 * now.energy)
+      break;
   }
   return now;
 }

@@ -102,29 +102,69 @@ static inline void PolygonClipTriangle(const Polygon *in, const double x[3][2], 
   PolygonClip(&b, &h2, out);
 }
 
-/* Area of the part within the half plane (unit normal), and the line's segment in the polygon. */
-static inline PolygonCut PolygonCutBy(const Polygon *p, const HalfPlane *h)
+/* Area of the part within the half plane (unit normal) of a polygon of area `all`, and the line's segment in it. */
+static inline PolygonCut PolygonCutBy(const Polygon *p, double all, const HalfPlane *h)
 {
   PolygonCut cut = {0.0, 0.0, 0.0};
-  double low = HUGE_VAL, high = -HUGE_VAL;
-  Polygon part;
-  PolygonClip(p, h, &part);
-  if (!part.n) return cut;
-  cut.area = PolygonArea(&part);
-  for (int i = 0; i < p->n; i++) { /* where the line crosses the outline */
-    const double *a = p->x[i], *b = p->x[i + 1 < p->n ? i + 1 : 0];
-    const double sa = h->d - h->n[0] * a[0] - h->n[1] * a[1], sb = h->d - h->n[0] * b[0] - h->n[1] * b[1];
-    if ((sa >= 0.0) == (sb >= 0.0)) continue;
-    const double w = sa / (sa - sb);
-    const double t = (1.0 - w) * (h->n[0] * a[1] - h->n[1] * a[0]) + w * (h->n[0] * b[1] - h->n[1] * b[0]);
-    low = fmin(low, t);
-    high = fmax(high, t);
+  double s[POLYGON_MAX], low = HUGE_VAL, high = -HUGE_VAL, twice = 0.0;
+  const double *first = NULL, *last = NULL;
+  double cross[4][2];
+  int inside = 0, n = 0;
+  for (int i = 0; i < p->n; i++) {
+    s[i] = h->d - h->n[0] * p->x[i][0] - h->n[1] * p->x[i][1];
+    inside += s[i] >= 0.0;
   }
-  if (high > low) {
-    cut.length = high - low;
-    cut.middle = 0.5 * (high + low);
+  if (!inside) return cut;
+  if (inside == p->n) {
+    cut.area = all;
+    return cut;
   }
+  for (int i = 0; i < p->n; i++) { /* a fan around the first vertex that stays */
+    const int j = i + 1 < p->n ? i + 1 : 0;
+    const double *next[2] = {s[i] >= 0.0 ? p->x[i] : NULL, NULL};
+    if ((s[i] >= 0.0) != (s[j] >= 0.0) && n < 4) {
+      const double w = s[i] / (s[i] - s[j]);
+      for (int c = 0; c < 2; c++) cross[n][c] = (1.0 - w) * p->x[i][c] + w * p->x[j][c];
+      const double t = h->n[0] * cross[n][1] - h->n[1] * cross[n][0];
+      low = t < low ? t : low;
+      high = t > high ? t : high;
+      next[1] = cross[n++];
+    }
+    for (int k = 0; k < 2; k++) {
+      if (!next[k]) continue;
+      if (!first) {
+        first = next[k];
+        continue;
+      }
+      if (last)
+        twice +=
+            (last[0] - first[0]) * (next[k][1] - first[1]) - (last[1] - first[1]) * (next[k][0] - first[0]);
+      last = next[k];
+    }
+  }
+  cut.area = 0.5 * twice;
+  cut.length = high - low;
+  cut.middle = 0.5 * (high + low);
   return cut;
+}
+
+/* PolygonFindOffset of a triangle: the part is a triangle at one end, or all but one at the other. */
+static inline double PolygonTriangleOffset(const Polygon *p, const double n[2], double area)
+{
+  const double all = PolygonArea(p);
+  double s[3];
+  for (int i = 0; i < 3; i++) s[i] = n[0] * p->x[i][0] + n[1] * p->x[i][1];
+  for (int i = 0; i < 3; i++) { /* sorts three numbers */
+    const int j = i % 2;
+    const double low = s[j] < s[j + 1] ? s[j] : s[j + 1], high = s[j] < s[j + 1] ? s[j + 1] : s[j];
+    s[j] = low;
+    s[j + 1] = high;
+  }
+  if (area <= 0.0) return s[0];
+  if (area >= all) return s[2];
+  const double below = all * (s[1] - s[0]) / (s[2] - s[0]);
+  if (area <= below) return s[0] + sqrt(area / all * (s[1] - s[0]) * (s[2] - s[0]));
+  return s[2] - sqrt((all - area) / all * (s[2] - s[1]) * (s[2] - s[0]));
 }
 
 /* d such that the part n.x <= d of a convex polygon has the given area, to round-off: the vertices sorted along
@@ -133,6 +173,7 @@ static inline double PolygonFindOffset(const Polygon *p, const double n[2], doub
 {
   double s[POLYGON_MAX] = {0.0}, below = 0.0, width = 0.0;
   const int m = p->n;
+  if (m == 3) return PolygonTriangleOffset(p, n, area);
   for (int i = 0; i < m; i++) s[i] = n[0] * p->x[i][0] + n[1] * p->x[i][1];
   for (int i = 1; i < m; i++) {
     const double v = s[i];

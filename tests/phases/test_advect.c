@@ -142,7 +142,7 @@ static PetscErrorCode Return(const char *name, int n, const Flow *flow, int nreg
   PetscCall(PetscMalloc1(2 * mesh->ne, &start));
   PetscCall(PetscArraycpy(start, volume, 2 * mesh->ne));
   PetscCall(PhasesGetStats(s.phases, &first));
-  PetscCall(March(s.phases, mesh, flow, 0.0, flow->end / steps, steps, &worst));
+  PetscCall(March(s.phases, mesh, flow, 0.0, flow->end / steps, steps, &worst, NULL));
   *error = Difference(mesh, 2, start, volume);
   if (print)
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%-8s %4d %7d  %.3e m2  %.2f %%\n", name, n, (int)mesh->nglobal,
@@ -170,7 +170,7 @@ static PetscErrorCode Three(void)
   PetscCall(SetMake(mesh, 3, &s));
   PetscCall(PhasesFill(s.phases, 3, region));
   PetscCall(PhasesGetStats(s.phases, &first));
-  PetscCall(March(s.phases, mesh, &flow, 0.0, 2.0 / 96, 96, &worst));
+  PetscCall(March(s.phases, mesh, &flow, 0.0, 2.0 / 96, 96, &worst, NULL));
   Bounds("three phases", &first, &worst, 3);
   PetscCall(SetDestroy(&s));
   PetscFunctionReturn(0);
@@ -188,7 +188,7 @@ static PetscErrorCode TooLong(void)
   PetscCall(SetMake(mesh, 2, &s));
   PetscCall(PhasesFill(s.phases, DiscRegions(region), region));
   PetscCall(PetscPushErrorHandler(Catch, NULL));
-  const PetscErrorCode code = March(s.phases, mesh, &flow, 0.0, 0.5, 1, &worst);
+  const PetscErrorCode code = March(s.phases, mesh, &flow, 0.0, 0.5, 1, &worst, NULL);
   PetscCall(PetscPopErrorHandler());
   CHECK(code == PETSC_ERR_ARG_OUTOFRANGE && strstr(reason, "crosses more than an"), "error %d: %s", (int)code,
         reason);

@@ -58,13 +58,15 @@ static void CheckDerivative(int k)
   double area[2];
   cell[0].part = RandomPolygon(k);
   cell[1].part = RandomPolygon(k + 50000);
+  for (int i = 0; i < 2; i++) cell[i].rest = PolygonArea(&cell[i].part);
   cell[0].volume = (0.5 + 0.4 * Random(k, 2)) * PolygonArea(&cell[0].part);
   for (int i = 0; i < 2; i++) {
     PlicEvaluate(2, cell, theta + (i ? eps : -eps), &s);
-    area[i] = PolygonCutBy(&cell[1].part, &s.line).area;
+    area[i] = PolygonCutBy(&cell[1].part, cell[1].rest, &s.line).area;
   }
   PlicEvaluate(2, cell, theta, &s);
-  const PolygonCut own = PolygonCutBy(&cell[0].part, &s.line), cut = PolygonCutBy(&cell[1].part, &s.line);
+  const PolygonCut own = PolygonCutBy(&cell[0].part, cell[0].rest, &s.line),
+                   cut = PolygonCutBy(&cell[1].part, cell[1].rest, &s.line);
   const double slope = cut.length * (own.middle - cut.middle), difference = (area[1] - area[0]) / (2.0 * eps);
   CHECK(fabs(slope - difference) < 1e-4, "polygon %d: dA/dtheta = %g, by differences %g", k, slope,
         difference);
