@@ -14,17 +14,40 @@
 typedef struct {
   double (*psi)(const double x[2]);
   void (*velocity)(const double x[2], double u[2]);
-  double period; /* the factor is cos(pi t / period); 0: 1 */
+  double period; /* of the factor; 0: it is 1 */
+  int sine;      /* sin(2 pi t / period); else cos(pi t / period) */
   double speed;  /* largest |u|, m/s */
   double end;    /* s: the interface should be back then */
 } Flow;
 
+static inline double FlowFactor(const Flow *flow, double t)
+{
+  if (!(flow->period > 0.0)) return 1.0;
+  return flow->sine ? sin(2.0 * M_PI * t / flow->period) : cos(M_PI * t / flow->period);
+}
+
+static inline int OnWall(const double x[2])
+{
+  return fmin(fmin(x[0], 1.0 - x[0]), fmin(x[1], 1.0 - x[1])) < 1e-12;
+}
+
+/* The time-reversed vortex of Basilisk's test reversed.c: it slides along the walls. */
+static inline double SlidingPsi(const double x[2])
+{
+  return OnWall(x) ? 0.0 : 1.5 * sin(M_PI * x[0]) * sin(M_PI * x[1]) / M_PI;
+}
+
+static inline void SlidingVelocity(const double x[2], double u[2])
+{
+  u[0] = 1.5 * sin(M_PI * x[0]) * cos(M_PI * x[1]);
+  u[1] = -1.5 * cos(M_PI * x[0]) * sin(M_PI * x[1]);
+}
+
 /* Rider and Kothe (1998): the single vortex of the unit square. */
 static inline double VortexPsi(const double x[2])
 {
-  const int wall = fmin(fmin(x[0], 1.0 - x[0]), fmin(x[1], 1.0 - x[1])) < 1e-12;
   const double s = sin(M_PI * x[0]), c = sin(M_PI * x[1]);
-  return wall ? 0.0 : s * s * c * c / M_PI;
+  return OnWall(x) ? 0.0 : s * s * c * c / M_PI;
 }
 
 static inline void VortexVelocity(const double x[2], double u[2])
@@ -48,12 +71,17 @@ static inline void RotationVelocity(const double x[2], double u[2])
 
 static inline Flow VortexFlow(double period)
 {
-  return (Flow){VortexPsi, VortexVelocity, period, 1.0, period};
+  return (Flow){VortexPsi, VortexVelocity, period, 0, 1.0, period};
 }
 
 static inline Flow RotationFlow(void)
 {
-  return (Flow){RotationPsi, RotationVelocity, 0.0, 2.0 * M_PI * M_SQRT1_2, 1.0};
+  return (Flow){RotationPsi, RotationVelocity, 0.0, 0, 2.0 * M_PI * M_SQRT1_2, 1.0};
+}
+
+static inline Flow SlidingFlow(void)
+{
+  return (Flow){SlidingPsi, SlidingVelocity, 15.0, 1, 1.5, 15.0};
 }
 
 /* A disc of phase 0 in phase 1. */
@@ -62,6 +90,14 @@ static inline int DiscRegions(Region region[BODY_REGIONS])
 {
   region[0] = (Region){.shape = REGION_BOX, .phase = 1, .a = {-1.0, -1.0}, .b = {2.0, 2.0}};
   region[1] = (Region){.shape = REGION_DISC, .phase = 0, .a = {0.5, 0.75}, .radius = 0.15};
+  return 2;
+}
+
+/* That of reversed.c. */
+static inline int SlidingRegions(Region region[BODY_REGIONS])
+{
+  DiscRegions(region);
+  region[1] = (Region){.shape = REGION_DISC, .phase = 0, .a = {0.3, 0.263662}, .radius = 0.2};
   return 2;
 }
 
@@ -93,7 +129,7 @@ static inline PetscErrorCode UnstructuredMesh(MPI_Comm comm, double h, Mesh **me
 /* flux[ne][3] and velocity[ne][3][2] at time t. */
 static inline void FlowAt(const Flow *flow, const Mesh *m, double t, double flux[], double velocity[])
 {
-  const double factor = flow->period > 0.0 ? cos(M_PI * t / flow->period) : 1.0;
+  const double factor = FlowFactor(flow, t);
   for (int k = 0; k < 3 * m->ne; k++) {
     const double *a = Corner(m, k / 3, (k + 1) % 3), *b = Corner(m, k / 3, (k + 2) % 3);
     flux[k] = factor * flow->psi(b) - factor * flow->psi(a);

@@ -68,7 +68,7 @@ static PetscErrorCode Straight(int np)
 {
   static const double LAST[PHASES_MAX] = {0.0};
   const Shaken shaken = {.n = 14, .seed = 8u, .radius = 1.0};
-  const Flow flow = {Uniform, UniformVelocity, 0.0, 1.0, 1.0};
+  const Flow flow = {Uniform, UniformVelocity, 0.0, 0, 1.0, 1.0};
   double fraction[4][PHASES_MAX], *flux, *velocity, *swept, worst = 0.0, excess = 0.0;
   const PhasesInflow inflow = {(const double(*)[PHASES_MAX])fraction};
   const double *volume, dt = 0.03;
@@ -153,6 +153,41 @@ static PetscErrorCode Return(const char *name, int n, const Flow *flow, int nreg
   PetscFunctionReturn(0);
 }
 
+/* What all ranks together get is what each gets alone, for every element of the mesh. */
+static PetscErrorCode Ranks(void)
+{
+  const Shaken shaken = {.n = 16, .seed = 21u, .radius = 1.0};
+  const Flow flow = VortexFlow(2.0);
+  PhasesStats stats = {0};
+  Region region[BODY_REGIONS];
+  const double *volume[2];
+  double worst = 0.0;
+  Set s[2];
+  PetscFunctionBeginUser;
+  for (int alone = 0; alone < 2; alone++) {
+    Mesh *mesh;
+    PetscCall(ShakenMesh(alone ? PETSC_COMM_SELF : PETSC_COMM_WORLD, &shaken, &mesh));
+    PetscCall(SetMake(mesh, 2, &s[alone]));
+    PetscCall(PhasesFill(s[alone].phases, DiscRegions(region), region));
+    PetscCall(March(s[alone].phases, mesh, &flow, 0.0, 2.0 / 64, 40, &stats, NULL));
+    PetscCall(PhasesGetVolumes(s[alone].phases, &volume[alone]));
+  }
+  for (int e = 0; e < s[0].mesh->ne; e++) {
+    const double(*x)[2] = (const double(*)[2])s[0].stars->element[e].x;
+    int found = -1;
+    for (int o = 0; o < s[1].mesh->ne && found < 0; o++) {
+      int same = 0;
+      for (int i = 0; i < 9; i++) same += !memcmp(x[i / 3], s[1].stars->element[o].x[i % 3], sizeof x[0]);
+      if (same == 3) found = o;
+    }
+    CHECK(found >= 0, "element %d is not in the mesh of one rank", e);
+    worst = fmax(worst, fabs(volume[0][2 * e] - volume[1][2 * found]) / ElementArea(s[0].mesh, e));
+  }
+  CHECK(worst < 1e-9, "an element's fraction differs by %g from that on one rank", worst);
+  for (int alone = 0; alone < 2; alone++) PetscCall(SetDestroy(&s[alone]));
+  PetscFunctionReturn(0);
+}
+
 /* Three phases, a drop half of each of two in the third, sheared. */
 static PetscErrorCode Three(void)
 {
@@ -212,6 +247,7 @@ int main(int argc, char **argv)
   const int zalesak = ZalesakRegions(region);
   PetscCall(Return("zalesak", 32, &rotation, zalesak, region, &fine));
   CHECK(fine < 6.5e-3, "Zalesak's disc: error %g m2", fine);
+  PetscCall(Ranks());
   PetscCall(Three());
   PetscCall(TooLong());
   return PetscFinalize();
