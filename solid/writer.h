@@ -1,6 +1,6 @@
 /* What the solid leaves behind: solid.h5/.xdmf snapshots and the series solid.csv. */
-#ifndef SOLID_RECORD_H
-#define SOLID_RECORD_H
+#ifndef SOLID_WRITER_H
+#define SOLID_WRITER_H
 #include "common/link/case_file.h"
 #include "solid/solid.h"
 

@@ -1,5 +1,5 @@
 /* Cost against the number of bodies: walls of touching blocks of 8 elements, 1e3 to 1e5 bodies.  In
- * microseconds of the clock per body: to read shapes into the assembly, to make the solid of it
+ * microseconds of the clock per body: to read shapes into the model, to make the solid of it
  * (distribution, joints, contact), a search, a substep, all that is once a step (bodies' states, seen
  * velocities, the look at the balance), and a redistribution; memory in kB a body of the rank that has most.
  *
@@ -47,10 +47,10 @@ static PetscErrorCode Substeps(Solid s, int n, double *seconds)
 static PetscErrorCode OncePerStep(Solid s, double *seconds)
 {
   const double start = Processor();
-  InterfaceMotion seen;
+  InterfaceMotion interface;
   BodyState state[8];
   PetscCall(SolidBodies(s, 8, state));
-  PetscCall(SolidUpdateInterfaceMotion(s, &seen));
+  PetscCall(SolidUpdateInterfaceMotion(s, &interface));
   PetscCall(SolidRebalance(s));
   *seconds = Processor() - start;
   return 0;

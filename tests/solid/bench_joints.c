@@ -1,4 +1,4 @@
-/* Joint-substeps per second on one core, intact and alive: bench_joints [size].  The living ones are the
+/* Joint-substeps per second on one core, intact and active: bench_joints [size].  The active ones are the
  * joints of a body all of whose edges carry more than their strength. */
 #include "tests/solid/crack.h"
 
@@ -15,7 +15,7 @@ static PetscErrorCode Measure(double size, double stretch)
   AddRectangle(&a, 0.0, 0.0, 1.0, 1.0, 0.3, size, 0, &setup);
   PetscCall(SolidCreate(PETSC_COMM_SELF, &a, &options, &s));
   PetscCall(SolidLimit(s, &limit));
-  PetscCall(SolidStart(s, 0.1 * limit, NULL)); /* the joints come to life */
+  PetscCall(SolidStart(s, 0.1 * limit, NULL)); /* the joints activate */
   while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
   PetscCall(SolidLimit(s, &limit));
   const SolidStats before = *SolidGetStats(s);
@@ -30,7 +30,7 @@ static PetscErrorCode Measure(double size, double stretch)
   printf(
       "%8d elements, %8.0f joints, %8d alive, %3d searches: %.3g joint-substeps/s in the joints alone, %.3g "
       "element-substeps/s in all\n",
-      a.nelements, joints, f.live, stats->searches - before.searches,
+      a.nelements, joints, f.active, stats->searches - before.searches,
       joints * total / (stats->seconds[4] - before.seconds[4]), a.nelements * total / seconds);
   PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);

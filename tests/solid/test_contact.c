@@ -94,8 +94,7 @@ static PetscErrorCode EnergyGradient(void)
   return SolidDestroy(&s);
 }
 
-/* --- the cell grid
- * ------------------------------------------------------------------------------------------ */
+/* --- the cell grid ------------------------------------------------------------------------------------ */
 
 enum { NBOXES = 400 };
 static int hits[NBOXES][NBOXES];
@@ -138,8 +137,7 @@ static PetscErrorCode Grid(void)
   return 0;
 }
 
-/* --- overlap at the start
- * ----------------------------------------------------------------------------------- */
+/* --- overlap at the start ----------------------------------------------------------------------------- */
 
 static PetscErrorCode Overlap(double x, double radius, int expected)
 {

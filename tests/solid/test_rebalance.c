@@ -66,11 +66,11 @@ static PetscErrorCode Compare(const Answer *one, const Answer *many, const Answe
     largest = fmax(largest, fabs(a - one->all[k]) / (k % 4 < 2 ? 0.1 : 10.0));
   }
   if (getenv("VERBOSE"))
-    printf("largest difference %.2e; %d broken, %d live, %d pieces\n", largest, many->f.broken, many->f.live,
-           many->pieces);
+    printf("largest difference %.2e; %d broken, %d live, %d pieces\n", largest, many->f.broken,
+           many->f.active, many->pieces);
   CHECK(largest < 1e-11, "differs from one rank by %g", largest);
   CHECK(one->f.broken > 20 && one->pieces > 4, "%d broken, %d pieces", one->f.broken, one->pieces);
-  CHECK(one->f.broken == many->f.broken && one->f.live == many->f.live && one->pieces == many->pieces,
+  CHECK(one->f.broken == many->f.broken && one->f.active == many->f.active && one->pieces == many->pieces,
         "%d broken and %d", one->f.broken, many->f.broken);
   CHECK(fabs(one->f.energy / many->f.energy - 1.0) < 1e-11 && many->f.energy == redone->f.energy,
         "energy %.12g, %.12g, %.12g", one->f.energy, many->f.energy, redone->f.energy);
@@ -98,8 +98,7 @@ static PetscErrorCode Forced(void)
   return ModelDestroy(&a);
 }
 
-/* --- by itself
- * ---------------------------------------------------------------------------------------------- */
+/* --- by itself ---------------------------------------------------------------------------------------- */
 
 /* Two rows of blocks, the upper sliding by half its length over the lower.  *travelling: targets that travel
  * in a substep at the end. */
