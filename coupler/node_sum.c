@@ -66,21 +66,21 @@ PetscErrorCode NodeSumCreate(MPI_Comm comm, int n, const long long gid[], NodeSu
 
 PetscErrorCode NodeSumApply(NodeSum s, int ncomp, double value[])
 {
-  double *there, *total;
+  double *remote, *total;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1((size_t)s->narriving * (size_t)ncomp, &there));
+  PetscCall(PetscMalloc1((size_t)s->narriving * (size_t)ncomp, &remote));
   PetscCall(PetscCalloc1((size_t)s->ngroups * (size_t)ncomp, &total));
-  PetscCall(RouteForward(s->route, (size_t)ncomp * sizeof *value, value, there));
+  PetscCall(RouteForward(s->route, (size_t)ncomp * sizeof *value, value, remote));
   for (int i = 0; i < s->narriving; i++) {
-    for (int c = 0; c < ncomp; c++) total[s->group[i] * ncomp + c] += there[i * ncomp + c];
+    for (int c = 0; c < ncomp; c++) total[s->group[i] * ncomp + c] += remote[i * ncomp + c];
   }
   for (int i = 0; i < s->narriving; i++) {
-    for (int c = 0; c < ncomp; c++) there[i * ncomp + c] = total[s->group[i] * ncomp + c];
+    for (int c = 0; c < ncomp; c++) remote[i * ncomp + c] = total[s->group[i] * ncomp + c];
   }
   PetscCall(PetscArrayzero(value, (size_t)s->n * (size_t)ncomp));
-  PetscCall(RouteReverseAdd(s->route, ncomp, there, value));
-  PetscCall(PetscFree(there));
+  PetscCall(RouteReverseAdd(s->route, ncomp, remote, value));
+  PetscCall(PetscFree(remote));
   PetscCall(PetscFree(total));
   PetscFunctionReturn(0);
 }
