@@ -189,7 +189,7 @@ static inline double ElementEnergy(Tensor f, ElementLaw law)
  * and L = grad v,  sum_i |v_i|^2 >= |L|^2 / s,  s the largest eigenvalue of sum_i g_i g_i^T, and
  *     A L:a:L <= A |L|^2 a,   a = 2 mu/J + lambda (1/J - J) + 2 lambda J + max(principal stress, 0),
  * a being the tangent modulus of the law above with its geometric part.  Plane stress's energy is the least over
- * l_3, so its tangent lies below that of the law with l_3 held: J^2 becomes (J l_3)^2 in 1/J (2 mu + lambda
+ * l_3, so its tangent lies below that of the law with l_3 fixed: J^2 becomes (J l_3)^2 in 1/J (2 mu + lambda
  * ...).
  *
  * The corotated law's W = mu/2 d^2 + (mu + lambda)/2 (q - 2)^2 (see its energy) is, d being linear in F and q

@@ -21,8 +21,8 @@ static PetscErrorCode GiveMesh(Exchange *x, const SolidView *v, const double u[]
   PetscFunctionReturn(0);
 }
 
-/* Cracks have changed the mesh in this step.  The substeps have told the velocities of the nodes that were
- * there when it began; others get the mean over the step from here. */
+/* Cracks have changed the mesh in this step.  The substeps have reported the velocities of the nodes that existed
+ * when it began; the others get the mean over the step. */
 static PetscErrorCode GiveCrackedMesh(Exchange *x, const SolidView *v)
 {
   double *mean;
@@ -86,8 +86,8 @@ PetscErrorCode ExchangeBegin(Exchange *x, double *dt, CoracleAction *action, con
   PetscFunctionReturn(0);
 }
 
-/* A step away from the subdomain that was told is one substep to the coupler: it makes nothing of them but the
- * mean when it is given what is to be seen. */
+/* On another partition than the registered one a step is one substep to the coupler, which only takes the mean of
+ * the substeps' velocities where the interface velocity is set. */
 PetscErrorCode ExchangeSubstep(Exchange *x, double h)
 {
   SolidView v;

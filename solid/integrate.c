@@ -1,7 +1,7 @@
 /* Time stepping: forces, substeps, and how long a substep may be. */
 #include "solid/solid_impl.h"
 
-enum { CHECK_EVERY = 20 }; /* substeps between two looks at the stability limit, at most */
+enum { CHECK_EVERY = 20 }; /* substeps between two checks of the stability limit, at most */
 #define KEEP 0.75          /* of the allowed length, down to which the last one is kept */
 
 static double Clock(void)

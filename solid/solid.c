@@ -1,7 +1,7 @@
 #include "solid/ranks/partition.h"
 #include "solid/solid_impl.h"
 
-/* The first share; elements that may change ranks later need the model. */
+/* The first subdomain; elements that may change ranks later need the model. */
 static PetscErrorCode Distribute(Solid s, const Model *a)
 {
   PartitionGraph graph;

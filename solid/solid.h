@@ -56,18 +56,18 @@ PetscBool SolidRemaining(Solid s); /* not collective, the same on all ranks */
 PetscErrorCode SolidSubstep(Solid s, double *h);
 /* After the last substep: deals the elements out anew if the work has got out of balance, or bodies have come
  * to touch across ranks, so far that `rebalance` substeps of a perfectly shared solid have been lost since
- * the last look that was better.  Looks at counts, never at clocks: the same run does the same.  All local
+ * the last check that was better.  Counts decide, never clocks: the same run does the same.  All local
  * numbers then are others, and the view's partition; nodes keep their gid, and everything its value.  Putting
  * a state back puts back the subdomain of that time too. */
 PetscErrorCode SolidRebalance(Solid s);
 /* The same to part[elements of the model], the same on all ranks: the rank that is to have each element.
  * Needs rebalance > 0. */
 PetscErrorCode SolidRedistribute(Solid s, const int part[]);
-/* What the fluid is to see (interface_motion.c). */
+/* What the solid sends the coupler of its motion (interface_motion.c). */
 typedef struct {
   const double *u;        /* [nnodes][2] the bodies' rigid motion, plus their deformation as far as steps of
                              dt resolve it, m/s */
-  const double *mobility; /* [nnodes] 1/kg, as coracle.h has it: of the nodes whose deformation is seen */
+  const double *mobility; /* [nnodes] 1/kg, as coracle.h has it: 0 where a fragment moves as a rigid body */
   const double *acceleration; /* [nnodes][2] m/s2, theirs without the fluid's force */
 } InterfaceMotion;
 /* Collective, after the last substep, when all is as at the step's end; borrowed until the next SolidStart.
@@ -133,7 +133,7 @@ typedef struct {
 /* state[n]: of the first n bodies. */
 PetscErrorCode SolidBodies(Solid s, int n, BodyState state[]);
 
-/* What acted on all bodies over the last step.  Momentum: the change of sum m v is load dt + walls + held + m
+/* What acted on all bodies over the last step.  Momentum: the change of sum m v is load dt + walls + reaction + m
  * g dt, to round-off. */
 typedef struct {
   double walls[2],

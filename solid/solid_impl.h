@@ -40,7 +40,7 @@ typedef struct {
 
 /* How much the present subdomain loses against the best that it has been (balance.c). */
 typedef struct {
-  double best, loss; /* best: 0 until the first look */
+  double best, loss; /* best: 0 until the first check */
 } Balance;
 
 /* What a step changes. */
@@ -65,7 +65,7 @@ struct Solid_s {
   /* nodes */
   long long *gid;
   int *node_body, *surface;    /* [nnodes]; surface: some rank has a facet there */
-  int *is_prescribed;          /* [nnodes] some drive moves it */
+  int *is_prescribed;          /* [nnodes] a prescribed motion moves it */
   int *base;                   /* [nnodes] the node of the start that it was then, on this rank */
   double *rest, *x, *v;        /* [nnodes][2] */
   double *force, *load;        /* [nnodes][2] internal and contact; the fluid's, summed over ranks */
@@ -119,7 +119,7 @@ PetscErrorCode SolidPieces(Solid s, int *n, const int **piece);
 
 /* budget.c, not collective: what the walls and what holds fixed nodes do in the substep to come. */
 void BudgetAddSubstep(Solid s);
-/* Component c of node n, free so far, is going to be driven with v. */
+/* Component c of node n, free so far, is going to move with the prescribed v. */
 void BudgetAddPrescribed(Solid s, int n, int c, double v);
 
 /* distribute.c: everything that comes from the model. */
@@ -155,8 +155,8 @@ void JointsAddStrainPower(Joints j, Solid s, const double d[], const int piece[]
 double JointsRate(Joints j);
 /* break.c: saves or puts back damage and topology; not collective. */
 PetscErrorCode JointsState(Joints j, Solid s, int save);
-/* Not collective: what the joints' memory says has happened happens again, revision by revision, in a share
- * that is whole.  So nodes and facets get the numbers that they have on a rank which had its elements all the
+/* Not collective: what the joints' memory says has happened happens again, revision by revision, in a subdomain
+ * that is intact.  So nodes and facets get the numbers that they have on a rank which had its elements all the
  * time, and sums their bits. */
 PetscErrorCode JointsReplay(Joints j, Solid s);
 /* Collective: after JointsState(0) and JointsReplay, what needs messages. */

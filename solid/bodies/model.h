@@ -88,7 +88,7 @@ typedef struct {
   Material *material;       /* [nmaterials] */
   PrescribedMotion *motion; /* [nmotions] */
   PrescribedNode
-      *prescribed; /* [nprescribed] in order of the drives: the last one of a node and component holds */
+      *prescribed; /* [nprescribed] in order of the motions: the last one of a node and component counts */
 } Model;
 
 /* Adds a body; mesh holds its rest coordinates and is not kept.  On failure *error (a static buffer) says

@@ -2,7 +2,7 @@
  *
  *     pass 1   every candidate that touches: integrals, normal force, relative velocity  -> sums of its pair
  *     pass 2   every pair: damping and friction from its sums and its spring              (ContactRespond)
- *     pass 3   every touch: its share of the pair's force, on the edge's ends and the target's nodes */
+ *     pass 3   every active pair: its share of the pair's force, on the edge's ends and the target's nodes */
 #include "solid/contact/contact_impl.h"
 
 /* --- what never changes ------------------------------------------------------------------------------- */
@@ -51,7 +51,7 @@ static double TargetHeight(const Target *t)
 /* The mass behind a metre of a body's surface, as if it were a square lying on a side. */
 static PetscErrorCode MeasureArealMass(Contact c, Solid s)
 {
-  double *sum; /* [nbodies][3] mass, perimeter, held nodes */
+  double *sum; /* [nbodies][3] mass, perimeter, fixed nodes */
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(3 * (size_t)s->nbodies, &sum));
   for (int n = 0; n < s->nnodes; n++) {
@@ -68,7 +68,7 @@ static PetscErrorCode MeasureArealMass(Contact c, Solid s)
   PetscFunctionReturn(0);
 }
 
-/* height, softness and the shortest buffer, over all ranks. */
+/* height, compliance and the shortest buffer, over all ranks. */
 static PetscErrorCode Measure(Contact c, Solid s)
 {
   double sum[2] = {0.0, s->nfacets}, *half;

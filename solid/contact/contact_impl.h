@@ -66,7 +66,7 @@ struct Contact_s {
   Halo halo;          /* NULL on one rank */
   double *height;     /* [nbodies] smallest height of the surface elements at rest, m */
   double *compliance; /* [nbodies] largest (half the edges' lengths at a node)/(its mass), m/kg */
-  double *areal_mass; /* [nbodies] mass behind a metre of surface, 4 M/perimeter, kg/m2; HUGE_VAL: held */
+  double *areal_mass; /* [nbodies] mass behind a metre of surface, 4 M/perimeter, kg/m2; HUGE_VAL: fixed */
   double *searched;   /* [nnodes][2] positions of the last search */
   double buffer, shortest_buffer;
   Point walls;    /* what they did to this rank's edges, N */

@@ -66,7 +66,7 @@ typedef struct {
   double mass, load[2];
 } Before;
 
-/* Each node's mass from its corners; the parts of a node share its load by their masses, so that none is
+/* Each node's mass from its corners; the load of a node is split between its parts by their masses, so that none is
  * accelerated otherwise than before. */
 static void SplitMass(Solid s, int n, const Corner corner[], const Before before[])
 {
@@ -100,7 +100,7 @@ static void SplitStar(Joints j, Solid s, int star)
   SplitMass(s, n, corner, before);
 }
 
-/* Parts of a prescribed node are driven as it is. */
+/* Parts of a prescribed node have its prescribed motion. */
 static PetscErrorCode PrescribeParts(Solid s)
 {
   PetscFunctionBeginUser;
@@ -194,7 +194,7 @@ static PetscErrorCode RenewSubdomain(Solid s)
   PetscFunctionReturn(0);
 }
 
-/* --- the whole ---------------------------------------------------------------------------------------- */
+/* --- all joints --------------------------------------------------------------------------------------- */
 
 static void MarkStar(Joints j, int star)
 {

@@ -1,6 +1,6 @@
 /* Crack-tip nodes: where the cut of one more edge would split a node.  There the edge's load is not the
  * stress beside it but what its node has to bear.  Let A and B be the corners that the cut would part, with
- * the elements' forces F on them and the masses m; they move together because B pulls A with
+ * the elements' forces F on them and the masses m; they move together because B exerts on A
  *
  *     H = (m_A F_B - m_B F_A)/(m_A + m_B)
  *

@@ -30,7 +30,7 @@ PetscErrorCode InteriorEdgesFind(const Model *a, InteriorEdges *edges)
   PetscFunctionReturn(0);
 }
 
-/* --- looks -------------------------------------------------------------------------------------------- */
+/* --- ghosts ------------------------------------------------------------------------------------------- */
 
 static int ComparePairs(const void *a, const void *b)
 {

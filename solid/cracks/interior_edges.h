@@ -15,13 +15,13 @@ typedef struct {
   InteriorEdge *edge;
 } InteriorEdges;
 
-/* Rank `rank` looks at another rank's element: it has one that shares a node with joints with it. */
+/* Rank `rank` needs another rank's element as a ghost: it has one that shares a node with joints with it. */
 typedef struct {
   int rank, element;
 } GhostElement;
 
 PetscErrorCode InteriorEdgesFind(const Model *a, InteriorEdges *edges);
-/* *look is allocated, [*n], sorted by rank and element. */
+/* *ghost is allocated, [*n], sorted by rank and element. */
 PetscErrorCode InteriorEdgesGhosts(const InteriorEdges *edges, const Model *a, const int part[], int *n,
                                    GhostElement **ghost);
 PetscErrorCode InteriorEdgesDestroy(InteriorEdges *edges);

@@ -1,4 +1,4 @@
-/* Joints at work: which edges have reached their strength, and what active joints pull with. */
+/* Joints at work: which edges have reached their strength, and the tractions of active joints. */
 #include "solid/cracks/joints_impl.h"
 
 /* --- lists -------------------------------------------------------------------------------------------- */
@@ -65,7 +65,7 @@ static PetscBool Parted(const Joints j, const Joint *joint, int end)
   return (PetscBool)(j->corner[joint->corner[end][0]].node != j->corner[joint->corner[end][1]].node);
 }
 
-/* Ends whose nodes have parted pull as their corner sets did, per metre of edge at rest. */
+/* Ends whose nodes have parted start with the traction between their corner sets, per metre of edge at rest. */
 void JointsBeginEnds(Joints j, Solid s)
 {
   CrackTip *parted = j->tip; /* scratch: crack tips are found anew afterwards */
@@ -232,7 +232,7 @@ PetscErrorCode JointsAdvance(Joints j, Solid s, PetscBool *changed)
 /* --- the limit ---------------------------------------------------------------------------------------- */
 
 /* An end of stiffness k L/2 between two nodes, |u2 - u1|^2 <= 2 |u1|^2 + 2 |u2|^2, gives each of them k L;
- * along the edge twice that with friction.  A last end pulls and presses at two places: twice that. */
+ * along the edge twice that with friction.  A last end has its tension and its pressure at two places: twice that. */
 PetscErrorCode JointsMeasureRate(Joints j, Solid s)
 {
   double *sum;

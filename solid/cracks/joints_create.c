@@ -29,7 +29,7 @@ static void AddGhost(Joints j, const Making *m, int e)
   m->place[e] = m->s->elements.n + j->nghosts++;
 }
 
-/* Own elements, and those of others that this rank looks at. */
+/* Own elements, and the ghosts. */
 static PetscErrorCode PlaceElements(Joints j, const Making *m)
 {
   PetscFunctionBeginUser;

@@ -3,7 +3,7 @@
  *     c = elements + candidates of contact + joints (its work)  +  what it exchanges with others
  *
  * in units of partition.h, and all wait for the largest one: against a perfect partition of the work w the solid
- * loses  i = max c/(sum w/ranks) - 1  of every substep.  Some of it no share can avoid, so that what counts
+ * loses  i = max c/(sum w/ranks) - 1  of every substep.  Some of it no partition can avoid, so that what counts
  * is how much worse i is than at its best since the last redistribution; this is summed up over the substeps
  * until it exceeds what a redistribution costs, `rebalance` substeps. */
 #include "solid/contact/contact_impl.h"
@@ -11,7 +11,7 @@
 #include "solid/ranks/partition.h"
 #include "solid/ranks/sparse_exchange.h"
 
-/* Work of a joint, and of what travels in a substep: a target, a node that ranks share, a look at another
+/* Work of a joint, and of what travels in a substep: a target, a node on several ranks, a ghost element of another
  * rank's element; measured on two ranks. */
 enum { WORK_JOINT = 1, WORK_ACTIVE = 12, TRAVEL_TARGET = 8, TRAVEL_NODE = 2, WORK_GHOST = 3 };
 

@@ -1,4 +1,4 @@
-/* The solid in a checkpoint.  Its state is told by the file as other ranks tell it when elements change ranks
+/* The solid in a checkpoint.  Its state comes from the file as it comes from other ranks when elements change ranks
  * (state.h, migrate.c).  The rows of a table have keys and values; each is there once, in any order:
  *
  *     element    number in the model, rank          the subdomain that was
@@ -32,7 +32,7 @@ static PetscErrorCode PutRows(Checkpoint to, const Table *t, int n, const long l
 
 typedef void (*RowTaker)(void *context, const long long key[], const double value[]);
 
-/* Every rank sees all rows, a piece at a time, and takes what it needs. */
+/* Every rank reads all rows, a block at a time, and takes what it needs. */
 static PetscErrorCode GetRows(Checkpoint from, const Table *t, RowTaker take, void *context)
 {
   long long total, *key;

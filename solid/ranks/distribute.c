@@ -5,7 +5,7 @@
 /* --- counting and numbering --------------------------------------------------------------------------- */
 
 /* local[a->nnodes]: this rank's number of a node, in order of appearance, or -1.  It also has the nodes of
- * other ranks' elements that it looks at. */
+ * its ghost elements. */
 static void NumberLocally(Solid s, const Model *a, int nghosts, const GhostElement ghost[], const int part[],
                           int local[])
 {
@@ -119,7 +119,7 @@ static int CompareCopies(const void *a, const void *b)
                             : (p->global > q->global) - (p->global < q->global);
 }
 
-/* Adds the other ranks that have a corner of element e, which rank has or looks at. */
+/* Adds the other ranks that have a corner of element e, which rank has, also as a ghost. */
 static int AddCopies(const Solid s, const Model *a, int e, int rank, const int local[], Copy copy[], int n)
 {
   for (int i = 0; i < 3 && rank != s->rank; i++) {

@@ -1,4 +1,4 @@
-/* Elements change ranks.  The new subdomain is taken from the model as the first one was, so that it is whole
+/* Elements change ranks.  The new subdomain is taken from the model as the first one was, so that it is intact
  * and at rest; then what has happened since is asked of the ranks that had it (state.h):
  *
  *     damage of joints    of the rank of the joint's first element; cracks are cut again

@@ -1,5 +1,6 @@
-/* Nodes by their gid for whoever does not know on which rank they are now: elements that have changed ranks,
- * and a partner that was told of an earlier subdomain (exchange.c). */
+/* Nodes by their gid, for callers that do not know on which rank they are now: elements that have changed ranks
+ * (migrate.c), and the mesh that is registered with the coupler (exchange.h).  The rank of a node follows from its gid
+ * and the partition, which every rank knows; so a request goes straight to that rank. */
 #ifndef SOLID_NODE_DIRECTORY_H
 #define SOLID_NODE_DIRECTORY_H
 #include "solid/solid.h"

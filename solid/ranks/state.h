@@ -1,6 +1,6 @@
 /* What has happened to the solid since the start: of its nodes, its joints and its springs of friction, by
  * numbers that are the same on any ranks.  A subdomain that is taken from the model is intact and at rest; it
- * becomes the solid's by being told its state, by the ranks that had the elements before (migrate.c) or by a
+ * becomes the solid's when it receives the state, from the ranks that had the elements before (migrate.c) or from a
  * file (checkpoint.c). */
 #ifndef SOLID_STATE_H
 #define SOLID_STATE_H
@@ -20,7 +20,7 @@ PetscErrorCode StateOfSlips(Solid s, int *n, Slip **slip);
 /* Not collective: this rank's element of that number in the model, or -1. */
 int StateElement(const Solid s, long long number);
 
-/* Who tells; all are collective. */
+/* Where the state comes from; all are collective. */
 typedef struct {
   void *context;
   PetscErrorCode (*joints)(void *context, Joints j); /* memory of those that are not intact */

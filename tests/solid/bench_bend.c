@@ -95,7 +95,7 @@ static PetscErrorCode BendIt(int cells, Bend *b)
     speed = SPEED * fmin(1.0, (k + 0.5) * STEP / START);
     Lower(s, &a, speed);
     PetscCall(Run(s, STEP, STEP));
-    PetscCall(Held(s, 1, -speed, &force));
+    PetscCall(SupportReaction(s, 1, -speed, &force));
     PetscCall(SolidFracture(s, &b->f));
     PetscCall(SolidBodies(s, 1, &state));
     b->peak = fmax(b->peak, -force);

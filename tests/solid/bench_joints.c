@@ -28,7 +28,7 @@ static PetscErrorCode Measure(double size, double stretch)
   const double joints = 0.5 * (3.0 * a.nelements - a.nfacets), total = (double)(stats->total - before.total);
   PetscCall(SolidFracture(s, &f));
   printf(
-      "%8d elements, %8.0f joints, %8d alive, %3d searches: %.3g joint-substeps/s in the joints alone, %.3g "
+      "%8d elements, %8.0f joints, %8d active, %3d searches: %.3g joint-substeps/s in the joints alone, %.3g "
       "element-substeps/s in all\n",
       a.nelements, joints, f.active, stats->searches - before.searches,
       joints * total / (stats->seconds[4] - before.seconds[4]), a.nelements * total / seconds);
@@ -41,6 +41,6 @@ int main(int argc, char **argv)
   const double sizes[] = {0.05, 0.02, 0.01};
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   for (int k = 0; k < 3; k++)
-    for (int alive = 0; alive < 2; alive++) PetscCall(Measure(sizes[k], 1.0 + 4e-4 * alive));
+    for (int active = 0; active < 2; active++) PetscCall(Measure(sizes[k], 1.0 + 4e-4 * active));
   return PetscFinalize();
 }

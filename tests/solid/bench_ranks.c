@@ -6,7 +6,7 @@
  *     mpirun -n 2 bench_ranks [elastic | heap | joints | active ...]
  *
  * elastic: one block; heap: blocks of 8 elements that touch, with friction; joints: a block with all edges
- * joints, whole, and one with active ones. */
+ * joints, intact, and one with active ones. */
 #include "tests/solid/crack.h"
 #include <time.h>
 
@@ -80,12 +80,12 @@ static void Joined(Model *a, double stretch)
   AddRectangle(a, 0.0, 0.0, 1.0, 1.0, 0.3, 0.006, 0, &setup);
 }
 
-static void GlobalSizes(Model *a)
+static void Intact(Model *a)
 {
   Joined(a, 1.0);
 }
 
-static void Living(Model *a)
+static void Active(Model *a)
 {
   Joined(a, 1.0 + 4e-4);
 }
@@ -167,7 +167,7 @@ int main(int argc, char **argv)
   static const struct {
     const char *name;
     void (*bodies)(Model *);
-  } CASES[] = {{"elastic", Elastic}, {"heap", Heap}, {"joints", GlobalSizes}, {"living", Living}};
+  } CASES[] = {{"elastic", Elastic}, {"heap", Heap}, {"joints", Intact}, {"active", Active}};
   PetscMPIInt rank, size;
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);

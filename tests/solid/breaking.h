@@ -1,4 +1,4 @@
-/* Bodies that slide, are driven and break, for the tests of what changes ranks and of what is saved. */
+/* Bodies that slide, have a prescribed motion and break, for the tests of what changes ranks and of what is saved. */
 #ifndef TESTS_SOLID_BREAKING_H
 #define TESTS_SOLID_BREAKING_H
 #include "tests/solid/crack.h"
@@ -60,7 +60,7 @@ static inline PetscErrorCode Scatter(Solid s, int nelements, int step)
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
   for (int e = 0; e < nelements; e++) part[e] = step == 0 ? size - 1 : (e / (1 + step % 5) + step) % size;
   PetscCall(SolidRedistribute(s, part));
-  CHECK(size == 1 || ViewOf(s, NULL, NULL).partition != subdomain, "the share is still %d", subdomain);
+  CHECK(size == 1 || ViewOf(s, NULL, NULL).partition != subdomain, "the partition is still %d", subdomain);
   free(part);
   return 0;
 }

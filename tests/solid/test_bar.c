@@ -53,7 +53,7 @@ static PetscErrorCode WaveSpeed(int plane_stress, double *speed)
   return SolidDestroy(&s);
 }
 
-/* A disc that is driven up to a speed and let go then flies on; what drove it has given momentum and energy.
+/* A disc with a prescribed motion up to a speed and free from then on flies on; the prescribed motion has given momentum and energy.
  */
 static PetscErrorCode Thrown(void)
 {

@@ -1,4 +1,4 @@
-/* The solid's keys of a case file: what is read, and what a bad one is told. */
+/* The solid's keys of a case file: what is read, and the message of a bad one. */
 #include "tests/link/catch.h"
 #undef CHECK
 #include "solid/solid_case.h"

@@ -1,5 +1,5 @@
 // ranks: 1 2 3
-/* A solid that is saved while it slides, is driven and breaks, and loaded into a new one: it continues with the
+/* A solid that is saved while it slides, has a prescribed motion and breaks, and loaded into a new one: it continues with the
  * same bits on as many ranks, whoever had which elements, a step that is redone too; on other ranks to
  * round-off.  A checkpoint of other bodies is refused. */
 #include "solid/contact/contact_impl.h"
@@ -10,7 +10,7 @@
 
 enum { BEFORE = 3, AFTER = 2, NBODIES = 4 };
 /* What elements do after each step; or there are no joints. */
-enum { STAY, SCATTER, REBALANCE, WHOLE, NHOWS };
+enum { STAY, SCATTER, REBALANCE, INTACT, NHOWS };
 #define DIFFERENT 1e-10 /* relative, on other ranks */
 
 static char folder[64];
@@ -29,11 +29,11 @@ static PetscErrorCode Create(MPI_Comm comm, int how, Model *a, Solid *s)
                               .upper = {1.0, 1.0}};
   *a = (Model){0};
   Bodies(a);
-  for (int e = 0; e < a->nelements && how == WHOLE; e++) a->jointed[e] = 0;
+  for (int e = 0; e < a->nelements && how == INTACT; e++) a->jointed[e] = 0;
   return SolidCreate(comm, a, &options, s);
 }
 
-/* first .. first + n - 1, as the participant makes them: what is seen and told follows each step */
+/* first .. first + n - 1, as the participant makes them: the interface motion follows each step */
 static PetscErrorCode Steps(Solid s, const Model *a, int how, int first, int n)
 {
   BodyState body[NBODIES];
@@ -89,7 +89,7 @@ static void SameNodes(Solid one, Solid two)
   SameNumbers("velocity", 2 * a.nnodes, a.v, b.v);
   SameNumbers("start", 2 * a.nnodes, a.start, b.start);
   SameNumbers("load", 2 * a.nnodes, a.load, b.load);
-  SameNumbers("seen velocity", 2 * a.nnodes, interface[0].u, interface[1].u);
+  SameNumbers("interface velocity", 2 * a.nnodes, interface[0].u, interface[1].u);
   SameNumbers("mobility", a.nnodes, interface[0].mobility, interface[1].mobility);
   SameNumbers("acceleration", 2 * a.nnodes, interface[0].acceleration, interface[1].acceleration);
 }
@@ -156,7 +156,7 @@ static PetscErrorCode CheckWorthSaving(Solid s, int how)
   if (getenv("VERBOSE"))
     printf("saved with %d live and %d broken joints, revision %d, %d and %d slips, rebalanced %d times\n",
            f.active, f.broken, s->revision, slips[0], slips[1], s->stats.rebalanced);
-  CHECK(how == WHOLE || (f.active > 5 && f.broken > 5 && s->revision > 5 && slips[0] > 5),
+  CHECK(how == INTACT || (f.active > 5 && f.broken > 5 && s->revision > 5 && slips[0] > 5),
         "%d live and %d broken joints, revision %d, %d slips", f.active, f.broken, s->revision, slips[0]);
   CHECK(slips[1] > 0, "%d slips on walls", slips[1]);
   return 0;
@@ -275,12 +275,12 @@ static PetscErrorCode Other(MPI_Comm before, MPI_Comm after, const char *name)
 
 /* --- other bodies ------------------------------------------------------------------------------------- */
 
-static char told[512];
+static char reported[512];
 
 static PetscErrorCode Remember(MPI_Comm comm, int line, const char *function, const char *file,
                                PetscErrorCode code, PetscErrorType type, const char *message, void *context)
 {
-  if (message && !told[0]) snprintf(told, sizeof told, "%s", message);
+  if (message && !reported[0]) snprintf(reported, sizeof reported, "%s", message);
   return code;
 }
 
@@ -301,7 +301,7 @@ static PetscErrorCode Refused(void)
   CHECK(SolidLoad(s, from), "other bodies are taken");
   PetscCall(PetscPopErrorHandler());
   PetscCall(CheckpointClose(&from));
-  CHECK(strstr(told, expected), "'%s' instead of '%s'", told, expected);
+  CHECK(strstr(reported, expected), "'%s' instead of '%s'", reported, expected);
   PetscCall(SolidDestroy(&s));
   PetscCall(ModelDestroy(&saved));
   return ModelDestroy(&a);
@@ -340,7 +340,7 @@ int main(int argc, char **argv)
   PetscCall(Same(STAY, 0));
   PetscCall(Same(SCATTER, 1));
   PetscCall(Same(REBALANCE, 0));
-  PetscCall(Same(WHOLE, 1));
+  PetscCall(Same(INTACT, 1));
   PetscCall(Other(PETSC_COMM_WORLD, PETSC_COMM_SELF, "parted"));
   PetscCall(Other(PETSC_COMM_SELF, PETSC_COMM_WORLD, "joined"));
   PetscCall(Refused());

@@ -62,8 +62,8 @@ static void Affine(ElementLaw law)
 }
 
 /* Plane stress: a pull along x with the strain across for which nothing acts across has sigma = E eps, and at
- * any stretch the whole law's stress across the sheet vanishes. */
-static void Sheet(double young, double poisson)
+ * any stretch the full law's stress across the plane vanishes. */
+static void PlaneStress(double young, double poisson)
 {
   ElementLaw law = ElementLawOf(young, poisson, 0.0);
   law.plane_stress = 1;
@@ -130,7 +130,7 @@ static void CorotatedSheet(ElementLaw law, Tensor f)
   const Tensor r = RotationOf(f);
   const double trace = r.xx * f.xx + r.xy * f.xy + r.yx * f.yx + r.yy * f.yy;
   const double free_stress = 2.0 * law.mu * (across - 1.0) + law.lambda * (trace + across - 3.0);
-  CHECK(fabs(free_stress) < 1e-14 * law.mu, "stress across the sheet %g", free_stress);
+  CHECK(fabs(free_stress) < 1e-14 * law.mu, "stress across the plane %g", free_stress);
 }
 
 /* The stretch across a wall with free faces: nothing acts across, whatever acts along. */
@@ -260,7 +260,7 @@ int main(void)
   Dissipation();
   Rotation(plane_stress);
   EnergyGradient(plane_stress);
-  Sheet(1.0e6, 0.3);
+  PlaneStress(1.0e6, 0.3);
   SmallEnergy(law);
   SmallEnergy(plane_stress);
   FreeWall(law);

@@ -5,7 +5,7 @@
 
 static const char *const SIDES[] = {"left", "right"};
 
-/* A bar from -length/2 to length/2 whose ends are held, with joints about the line x = 0. */
+/* A bar from -length/2 to length/2 whose ends are fixed, with joints about the line x = 0. */
 static BodySetup Bar(Material m, const double (*box)[4])
 {
   BodySetup setup = BodyAtRest(m);
@@ -15,7 +15,7 @@ static BodySetup Bar(Material m, const double (*box)[4])
   return setup;
 }
 
-/* The force on the nodes that are held at x > 0. */
+/* The force on the nodes that are fixed at x > 0. */
 static PetscErrorCode Reaction(Solid s, const Model *a, int axis, double *sum)
 {
   const SolidView v = ViewOf(s, NULL, NULL);
@@ -121,7 +121,7 @@ static PetscErrorCode Balance(void)
   PetscCall(TotalEnergy(s, 1, &last));
   PetscCall(SolidFracture(s, &f));
   if (getenv("VERBOSE"))
-    printf("energy %g, then %g and %g in %d broken and %d living joints: off by %.2e\n", first, last,
+    printf("energy %g, then %g and %g in %d broken and %d active joints: off by %.2e\n", first, last,
            f.energy, f.broken, f.active, (last + f.energy) / first - 1.0);
   CHECK(f.broken > 20 && f.energy > 0.05 * first, "%d broken, %g J/m of %g", f.broken, f.energy, first);
   CHECK(fabs((last + f.energy) / first - 1.0) < 2e-3, "energy off by %g", (last + f.energy) / first - 1.0);
@@ -129,8 +129,8 @@ static PetscErrorCode Balance(void)
   return SolidDestroy(&s);
 }
 
-/* A sheet of 0.4 m, plane stress, one side driven along the bar only: it breaks there too, and all parts of
- * the prescribed nodes are driven; a bar's energy is G_f times width and thickness. */
+/* Plane stress, 0.4 m thick, one side prescribed along the bar only: it breaks there too, and all parts of
+ * the prescribed nodes follow; a bar's energy is G_f times width and thickness. */
 static PetscErrorCode DrivenSheet(void)
 {
   static const double row[3] = {0.0, -3.0, 0.0};
@@ -161,8 +161,8 @@ static PetscErrorCode DrivenSheet(void)
   }
   PetscCall(SolidFracture(s, &f));
   if (getenv("VERBOSE"))
-    printf("sheet: %d new driven nodes, %d broken, %g J of %g in %g m\n", parts, f.broken, f.energy,
-           10.0 * 0.4 * f.length, f.length);
+    printf("plane stress: %d new prescribed nodes, %d broken, %g J of %g in %g m\n", parts, f.broken,
+           f.energy, 10.0 * 0.4 * f.length, f.length);
   CHECK(parts > 0 && f.broken > 10, "%d parts, %d broken", parts, f.broken);
   CHECK(f.energy > 10.0 * 0.4 * f.length * 0.98 && f.energy < 10.0 * 0.4 * 2.0 * f.length,
         "%g J in %g m of crack", f.energy, f.length);

@@ -47,7 +47,7 @@ static PetscErrorCode Difference(double youngs_modulus, double swelling, double 
 }
 
 /* A bar whose halves fly apart, each with a spin of its own. */
-static PetscErrorCode Torn(Solid *s)
+static PetscErrorCode Fragmented(Solid *s)
 {
   const SolidSetup options = {.courant = 0.8};
   const double box[1][4] = {{-0.02, -1.0, 0.02, 1.0}};
@@ -115,7 +115,7 @@ static PetscErrorCode CheckPieces(void)
   double sum[MOST][2][4] = {{{0}}}, strain = 0.0; /* [piece][velocity, seen] */
   int pieces;
   PetscFunctionBeginUser;
-  PetscCall(Torn(&s));
+  PetscCall(Fragmented(&s));
   PetscCall(Run(s, 1e-3, 1e-4));
   PetscCall(SolidUpdateInterfaceMotion(s, &interface));
   const SolidView view = ViewOf(s, NULL, NULL);

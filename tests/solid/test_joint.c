@@ -211,7 +211,7 @@ static void Hinge(void)
 
 /* Mohr and Coulomb: a pressed edge bears F_s + f p, activates without a jump, slides against f times the
  * pressure to and fro when it is broken, and its energy of fracture does not count that. */
-static void Rubbing(void)
+static void FrictionCase(void)
 {
   JointLaw law = Law(120.0, 300.0);
   law.friction = 0.7;
@@ -247,6 +247,6 @@ int main(void)
   Pressed();
   Continuity();
   Forces();
-  Rubbing();
+  FrictionCase();
   return 0;
 }

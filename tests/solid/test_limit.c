@@ -101,7 +101,7 @@ static PetscErrorCode Swings(int plane_stress)
     CHECK(fabs(now_limit / limit - 1.0) < 1e-12, "the limit went from %g to %g", limit, now_limit);
   }
   if (getenv("VERBOSE"))
-    printf("corotated, sheet %d: energy within %.2e over %lld substeps\n", plane_stress, worst,
+    printf("corotated, plane stress %d: energy within %.2e over %lld substeps\n", plane_stress, worst,
            SolidGetStats(s)->total);
   CHECK(worst < 0.02, "energy off by %g", worst);
   PetscCall(ModelDestroy(&a));

@@ -1,5 +1,5 @@
 // ranks: 1 2 3
-/* Elements change ranks while bodies slide, are driven and break: the answer is that of one rank to
+/* Elements change ranks while bodies slide, have a prescribed motion and break: the answer is that of one rank to
  * round-off, a step that is redone after another try and another redistribution has the same bits, and what
  * has moved away from its rank's other bodies is dealt out anew by itself. */
 #include "solid/contact/contact_impl.h"
@@ -14,7 +14,7 @@ typedef struct {
   int pieces;
 } Answer;
 
-static PetscErrorCode Tell(Solid s, int nids, Answer *out)
+static PetscErrorCode CollectAnswer(Solid s, int nids, Answer *out)
 {
   const SolidView v = ViewOf(s, NULL, NULL);
   int *fragment = malloc(((size_t)v.nelements + 1) * sizeof *fragment);
@@ -50,7 +50,7 @@ static PetscErrorCode Simulate(MPI_Comm comm, int how, int nids, Answer *out)
     PetscCall(Step(s, 1e6));
     if (how != CALM) PetscCall(Scatter(s, a.nelements, k));
   }
-  PetscCall(Tell(s, nids, out));
+  PetscCall(CollectAnswer(s, nids, out));
   PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }

@@ -1,6 +1,6 @@
 // ranks: 1 2
-/* A thin ring pinched between two driven discs folds until its own walls meet: they stop each other, with and
- * without friction; and a ring whose rest shape is a circle pulls back from the ellipse it is given as. */
+/* A thin ring pinched between two discs of prescribed motion folds until its own walls meet: they stop each other, with and
+ * without friction; and a ring whose rest shape is a circle springs back from the ellipse it is given as. */
 #include "tests/solid/build.h"
 
 static const double RADIUS = 0.1, WALL = 0.01;
