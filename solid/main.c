@@ -35,10 +35,9 @@ static PetscErrorCode Report(CoracleClient client, Solid solid)
   PetscFunctionReturn(0);
 }
 
-/* --- checkpoints
- * -------------------------------------------------------------------------------------------- */
+/* --- checkpoints -------------------------------------------------------------------------------------- */
 
-/* *from: the checkpoint that the run goes on from, NULL: from the start. */
+/* *from: the checkpoint that the run resumes from, NULL: from the start. */
 static PetscErrorCode Resume(CoracleClient client, Solid solid, Checkpoint *from)
 {
   const char *folder = CoracleResumePath(client);
@@ -64,8 +63,7 @@ static PetscErrorCode Save(CoracleClient client, Solid solid, Writer record, dou
   PetscFunctionReturn(0);
 }
 
-/* --- the run
- * ------------------------------------------------------------------------------------------------ */
+/* --- the run ------------------------------------------------------------------------------------------ */
 
 static PetscErrorCode Run(CoracleClient client, Solid solid, Writer record)
 {

@@ -17,7 +17,7 @@ static void ReadRules(Case c, SolidSetup *setup)
 {
   char key[CASE_BODY_KEY];
   setup->nrules = CaseCount(c, "solid.contact");
-  if (setup->nrules > MOST_RULES) CaseRefuse(c, "solid.contact", "more than %d pairs", MOST_RULES);
+  if (setup->nrules > MAX_RULES) CaseRefuse(c, "solid.contact", "more than %d pairs", MAX_RULES);
   for (int k = 0; k < setup->nrules; k++) {
     ContactRule *r = &setup->rule[k];
     (void)snprintf(key, sizeof key, "solid.contact[%d].between", k);
@@ -76,12 +76,12 @@ PetscErrorCode SolidFromCase(Case c, MPI_Comm comm, void (*fail)(void *context, 
 {
   static const char *const SECTIONS[] = {"solid", NULL};
   SolidSetup setup = {.fail = fail, .context = context};
-  Model assembly = {0};
+  Model model = {0};
   PetscFunctionBeginUser;
   PetscCall(PetscOptionsInsertString(NULL, CaseStringOr(c, "solid.petsc", "")));
-  PetscCall(SolidCaseRead(c, &assembly, &setup));
+  PetscCall(SolidCaseRead(c, &model, &setup));
   PetscCall(CaseFinish(c, SECTIONS));
-  PetscCall(SolidCreate(comm, &assembly, &setup, solid));
-  PetscCall(ModelDestroy(&assembly));
+  PetscCall(SolidCreate(comm, &model, &setup, solid));
+  PetscCall(ModelDestroy(&model));
   PetscFunctionReturn(0);
 }

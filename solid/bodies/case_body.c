@@ -12,8 +12,7 @@ const char *BodyKey(char key[CASE_BODY_KEY], int body, const char *name)
   return key;
 }
 
-/* --- materials
- * ---------------------------------------------------------------------------------------------- */
+/* --- materials ---------------------------------------------------------------------------------------- */
 
 static double Property(Case c, const char *material, const char *name, double lower, double upper)
 {
@@ -88,8 +87,7 @@ static Material MaterialAt(Case c, const char *key)
   return ReadMaterial(c, name);
 }
 
-/* --- bodies
- * ------------------------------------------------------------------------------------------------- */
+/* --- bodies ------------------------------------------------------------------------------------------- */
 
 static PetscErrorCode ReadMeshFile(Case c, int body, MeshSerial *mesh)
 {
@@ -199,8 +197,8 @@ static PetscErrorCode ReadFixed(Case c, int body, BodySetup *setup, const char *
   PetscFunctionReturn(0);
 }
 
-/* One item of `driven`: rows are allocated. */
-static PetscErrorCode ReadDrive(Case c, const char *item, BoundaryMotion *d)
+/* One item of `prescribed`: rows are allocated. */
+static PetscErrorCode ReadMotion(Case c, const char *item, BoundaryMotion *d)
 {
   static const char *const COMPONENTS[] = {"both", "x", "y", NULL};
   char key[KEY + 64];
@@ -210,13 +208,13 @@ static PetscErrorCode ReadDrive(Case c, const char *item, BoundaryMotion *d)
   d->boundary = CaseString(c, key);
   (void)snprintf(key, sizeof key, "%s.component", item);
   const int component = CaseWord(c, key, 0, COMPONENTS);
-  d->drive.driven[0] = component != 2;
-  d->drive.driven[1] = component != 1;
+  d->motion.prescribed[0] = component != 2;
+  d->motion.prescribed[1] = component != 1;
   (void)snprintf(key, sizeof key, "%s.table", item);
   const int nrows = CaseHas(c, key) ? CaseCount(c, key) : 0;
-  d->drive.nrows = PetscMax(nrows, 1);
-  PetscCall(PetscCalloc1(3 * (size_t)d->drive.nrows, &row));
-  d->drive.row = row;
+  d->motion.nrows = PetscMax(nrows, 1);
+  PetscCall(PetscCalloc1(3 * (size_t)d->motion.nrows, &row));
+  d->motion.row = row;
   for (int k = 0; k < nrows; k++) {
     (void)snprintf(key, sizeof key, "%s.table[%d]", item, k);
     CaseVector(c, key, 3, row + 3 * k);
@@ -227,30 +225,31 @@ static PetscErrorCode ReadDrive(Case c, const char *item, BoundaryMotion *d)
     CaseVector(c, key, 2, row + 1);
   }
   (void)snprintf(key, sizeof key, "%s.release", item);
-  if (CaseHas(c, key)) d->drive.release = CasePositive(c, key);
+  if (CaseHas(c, key)) d->motion.release = CasePositive(c, key);
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ReadDriven(Case c, int body, BodySetup *setup, BoundaryMotion **driven)
+static PetscErrorCode ReadPrescribed(Case c, int body, BodySetup *setup, BoundaryMotion **prescribed)
 {
   char key[KEY], item[KEY + 16];
   PetscFunctionBeginUser;
-  setup->ndriven = CaseCount(c, BodyKey(key, body, "driven"));
-  PetscCall(PetscCalloc1((size_t)setup->ndriven, driven));
-  for (int k = 0; k < setup->ndriven; k++) {
+  if (CaseHas(c, BodyKey(key, body, "driven"))) CaseRefuse(c, key, "is called prescribed now");
+  setup->nprescribed = CaseCount(c, BodyKey(key, body, "prescribed"));
+  PetscCall(PetscCalloc1((size_t)setup->nprescribed, prescribed));
+  for (int k = 0; k < setup->nprescribed; k++) {
     (void)snprintf(item, sizeof item, "%s[%d]", key, k);
-    PetscCall(ReadDrive(c, item, &(*driven)[k]));
+    PetscCall(ReadMotion(c, item, &(*prescribed)[k]));
   }
-  setup->driven = *driven;
+  setup->prescribed = *prescribed;
   PetscFunctionReturn(0);
 }
 
 /* The map `regions`: physical surface -> material. */
-enum { MOST_REGIONS = 64 };
+enum { MAX_REGIONS = 64 };
 typedef struct {
   Case c;
   int body, n;
-  RegionMaterial region[MOST_REGIONS];
+  RegionMaterial region[MAX_REGIONS];
 } Regions;
 
 static void ReadRegion(void *context, const char *name)
@@ -258,7 +257,7 @@ static void ReadRegion(void *context, const char *name)
   Regions *r = context;
   char key[KEY], item[KEY + 80];
   (void)snprintf(item, sizeof item, "%s.%.64s", BodyKey(key, r->body, "regions"), name);
-  if (r->n == MOST_REGIONS) CaseRefuse(r->c, key, "more than %d regions", MOST_REGIONS);
+  if (r->n == MAX_REGIONS) CaseRefuse(r->c, key, "more than %d regions", MAX_REGIONS);
   r->region[r->n++] = (RegionMaterial){name, MaterialAt(r->c, item)};
 }
 
@@ -348,7 +347,7 @@ PetscErrorCode CaseReadBody(Case c, int body, Model *a)
   BodySetup setup = {.entry = body, .stretch = {1.0, 1.0}};
   Regions regions = {.c = c, .body = body};
   MeshSerial mesh = {0};
-  BoundaryMotion *driven;
+  BoundaryMotion *prescribed;
   const char **name, **joint_region;
   double(*joint_box)[4], *position;
   char key[KEY];
@@ -359,7 +358,7 @@ PetscErrorCode CaseReadBody(Case c, int body, Model *a)
   setup.region = regions.region;
   PetscCall(ReadShape(c, body, &mesh));
   PetscCall(ReadFixed(c, body, &setup, &name));
-  PetscCall(ReadDriven(c, body, &setup, &driven));
+  PetscCall(ReadPrescribed(c, body, &setup, &prescribed));
   PetscCall(ReadJoints(c, body, &setup.joints, &joint_box, &joint_region));
   PetscCall(ReadStretch(c, body, &mesh, &setup, &position));
   (void)CaseVectorOptional(c, BodyKey(key, body, "velocity"), 2, setup.velocity);
@@ -368,8 +367,8 @@ PetscErrorCode CaseReadBody(Case c, int body, Model *a)
   setup.angular_velocity = CaseNumberOr(c, BodyKey(key, body, "angular_velocity"), 0.0, -HUGE_VAL, HUGE_VAL);
   if (setup.fixed && setup.angular_velocity != 0.0) CaseRefuse(c, key, "a fixed body does not turn");
   PetscCall(AddRepeated(c, a, &mesh, &setup, joint_box));
-  for (int k = 0; k < setup.ndriven; k++) PetscCall(PetscFree(driven[k].drive.row));
-  PetscCall(PetscFree(driven));
+  for (int k = 0; k < setup.nprescribed; k++) PetscCall(PetscFree(prescribed[k].motion.row));
+  PetscCall(PetscFree(prescribed));
   PetscCall(PetscFree(name));
   PetscCall(PetscFree(position));
   PetscCall(PetscFree2(joint_box, joint_region));
