@@ -13,8 +13,8 @@
  * numbers in the same order and get the same bits. */
 #ifndef CORACLE_PHASES_STARS_H
 #define CORACLE_PHASES_STARS_H
+#include "common/exchange/scatter.h"
 #include "common/mesh/mesh.h"
-#include "common/transfer/route.h"
 
 typedef struct {
   PetscInt egid, vertex[3]; /* global numbers */
@@ -35,7 +35,7 @@ typedef struct {
   PetscInt *gid;        /* [nv] global number: that of the vertex as a P2 node */
   double (*point)[2];   /* [nv] m */
   int *start, *around;  /* star of v: around[start[v]] .. around[start[v + 1] - 1] = 3 element + corner */
-  Route route;          /* owned elements -> the same elsewhere */
+  Scatter route;        /* owned elements -> the same elsewhere */
 } Stars;
 
 /* Collective.  The mesh is borrowed until StarsDestroy. */

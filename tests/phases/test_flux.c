@@ -46,7 +46,7 @@ static void CheckField(const Stars *s, const double flux[], const double beta[],
     double grad[3][2];
     if (i == 0) {
       double div = 0.0;
-      GeometryGradient((const double(*)[2])s->element[e].x, grad);
+      P1Gradients((const double(*)[2])s->element[e].x, grad);
       for (int j = 0; j < 3; j++) div += grad[j][0] * all[e][j] + grad[j][1] * all[e][3 + j];
       divergence = fmax(divergence, fabs(div) * 0.5 * StarsTwiceArea(s, e));
     }
