@@ -10,9 +10,9 @@
  *             v                                   v                               v
  *          to fluid                           to solid                        to fluid
  *
- * With strong coupling CouplerSetInterfaceVelocity and CouplerComputeForce are repeated within the step, on the
- * geometry of CouplerBuild.  mode.h lists the modes: what a, F and r are in each.
- * All functions are collective over the coupler's communicator. */
+ * With strong coupling CouplerSetInterfaceVelocity and CouplerComputeForce are repeated within the step, on
+ * the geometry of CouplerBuild.  mode.h lists the modes: what a, F and r are in each.  All functions are
+ * collective over the coupler's communicator. */
 #ifndef CORACLE_COUPLER_H
 #define CORACLE_COUPLER_H
 #include "coupler/force.h"
@@ -25,9 +25,10 @@ PetscErrorCode CouplerDestroy(Coupler *coupler);
  * place. */
 PetscErrorCode CouplerSetElements(Coupler coupler, const FluidElements *elements);
 
-/* The coupling over the coming step of dt seconds, with the solid as it is: coupling[n], one per fluid element
- * that overlaps the solid or its shell, in ascending order.  solid->u is used until CouplerComputeForce has
- * returned or CouplerSetInterfaceVelocity replaces it; coupling is borrowed until the next CouplerBuild. */
+/* The coupling over the coming step of dt seconds, with the solid as it is: coupling[n], one per fluid
+ * element that overlaps the solid or its shell, in ascending order.  solid->u is used until
+ * CouplerComputeForce has returned or CouplerSetInterfaceVelocity replaces it; coupling is borrowed until the
+ * next CouplerBuild. */
 PetscErrorCode CouplerBuild(Coupler coupler, const SolidState *solid, double dt, int *n,
                             const CoracleCoupling **coupling);
 /* The same coupling with u[nnodes][2], m/s, as the solid's velocity where mobility[nnodes] is 0; nodes with a
@@ -38,9 +39,9 @@ PetscErrorCode CouplerSetInterfaceVelocity(Coupler coupler, const double mobilit
  * until CouplerCorrect has returned. */
 PetscErrorCode CouplerComputeForce(Coupler coupler, const FluidFlow *flow, const double **force,
                                    ForceTotals *totals);
-/* correction[n], one per element of CouplerBuild and in its order.  When the solid has changed its mesh in the
- * step (moved->changed) the source triangles have no new velocity and the corrections are 0.  Borrowed until
- * the next CouplerCorrect. */
+/* correction[n], one per element of CouplerBuild and in its order.  When the solid has changed its mesh in
+ * the step (moved->changed) the source triangles have no new velocity and the corrections are 0.  Borrowed
+ * until the next CouplerCorrect. */
 PetscErrorCode CouplerCorrect(Coupler coupler, const SolidState *moved, int *n,
                               const CoracleCorrection **correction);
 

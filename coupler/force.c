@@ -1,6 +1,7 @@
 #include "coupler/force.h"
 
-/* q[i] = int over the pair of N_T,i (u - u_s): u [2][3] on the fluid element, u_s [3][2] on the piece. */
+/* q[i] = int over the pair of N_T,i (u - u_s): u [2][3] on the fluid element, u_s [3][2] on the source
+ * triangle. */
 static void Slip(const SupermeshPair *pair, const double u[6], const double us[3][2], double q[3][2])
 {
   for (int i = 0; i < 3; i++) {
@@ -12,7 +13,7 @@ static void Slip(const SupermeshPair *pair, const double u[6], const double us[3
   }
 }
 
-/* The velocity that the reaction is to, on the pair's element. */
+/* u = b u* + (1 - b) u+, the fluid velocity in the reaction, on the pair's element. */
 static void ReactionVelocity(double implicit_factor, const double u_star[6], const double u_plus[6],
                              double u[6])
 {
@@ -62,7 +63,7 @@ PetscErrorCode ForceAssembleToOwners(Overlap o, const ForceVertex vertex[], int 
   PetscFunctionReturn(0);
 }
 
-/* One element's gain: sum over its functions of s - a u* - give (u+ - u*). */
+/* One element's gain, the sum over its functions of s - a u* - (1 - b) a (u+ - u*). */
 static void ElementGain(const CoracleCoupling *k, const double u_star[6], const double u_plus[6],
                         double gain[2])
 {
@@ -123,7 +124,7 @@ PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const
   PetscFunctionReturn(0);
 }
 
-/* r -= int over the pair of N_K u+ */
+/* r -= B u+ of one pair. */
 static void SubtractFluid(const SupermeshPair *pair, const double u_plus[6], double r[2][3])
 {
   for (int c = 0; c < 2; c++) {

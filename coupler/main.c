@@ -1,11 +1,11 @@
 /* coracle-coupler: the middle of the route.  coracle-coupler case.yaml [--set key=value]...
  *
- *     open, read the case
- *     run the scheme (scheme.c): each step
- *         fluid   u*, u+, p, mu                    -->  force on the solid
- *         solid   new position and velocity        -->  correction of the fluid; shell and overlap at the new position
- *         fluid   <--  correction, coupling of the next step; or the same step again, with another velocity
- *     write the summary */
+ *     join the job, read the case
+ *     time loop (time_loop.c): each step
+ *         fluid   -- u*, u+, p, mu ----------------->  coupler  -- force on the nodes -->  solid
+ *         solid   -- new position and velocity ----->  coupler  -- correction, and the coupling of the next
+ *                                                                  step at the new position -->  fluid
+ *     write summary.json */
 #include "coupler/summary.h"
 #include "coupler/time_loop.h"
 

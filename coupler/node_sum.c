@@ -2,7 +2,7 @@
 #include "common/transfer/route.h"
 #include <stdlib.h>
 
-/* Copies meet on rank gid % size, where those of one node are put in one group. */
+/* All copies of a node are sent to rank gid % size, where they form a group. */
 struct NodeSum_s {
   int n, narriving, ngroups;
   Route route;

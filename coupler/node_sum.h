@@ -1,5 +1,5 @@
-/* Sums over the copies of a node.  A node is identified by its global id; several ranks, or several clients of
- * one rank, may each hold a copy.  Collective. */
+/* Sums over the copies of a node.  A node is identified by its global id; several ranks, or several clients
+ * of one rank, may each hold a copy.  Collective. */
 #ifndef CORACLE_NODE_SUM_H
 #define CORACLE_NODE_SUM_H
 #include <petscsys.h>

@@ -37,7 +37,7 @@ PetscErrorCode OverlapSetElements(Overlap o, const FluidElements *elements)
   PetscFunctionReturn(0);
 }
 
-/* The solid's triangles at home: volume elements, then the shell. */
+/* The triangles that this rank owns: volume elements, then the shell's. */
 static PetscErrorCode OwnedTriangles(Overlap o, const SolidState *solid, const Shell shell,
                                      SourceTriangle owned[])
 {

@@ -1,8 +1,9 @@
 /* The overlap of the solid and its shell with the fluid's elements, over all coupler ranks.
  *
- * A rank has the fluid elements K of its own clients.  The solid's triangles T (volume elements, then the shell's)
- * are owned by the rank whose client sent them.  A copy of each goes to every rank whose fluid elements'
- * bounding box T touches: the source triangles there.  The supermesh of source triangles and elements is local:
+ * A rank has the fluid elements K of its own clients.  The solid's triangles T (volume elements, then the
+ * shell's) are owned by the rank whose client sent them.  A copy of each goes to every rank whose fluid
+ * elements' bounding box T touches: the source triangles there.  The supermesh of source triangles and
+ * elements is local:
  *
  *        owner rank                              rank of fluid element K
  *      owned triangle T  ---(x, u_s, normal)--->  source triangle T
@@ -10,8 +11,9 @@
  *                                                       |   exact integrals over T and K
  *      owned triangle T  <---(sums at vertices)---  source triangle T
  *
- * Every part of T that the fluid covers is in exactly one pair on one rank, since each fluid element is on one
- * rank; parts outside of the fluid are in none.  A coupled element is a fluid element with at least one pair.
+ * Every part of T that the fluid covers is in exactly one pair on one rank, since each fluid element is on
+ * one rank; parts outside of the fluid are in none.  A coupled element is a fluid element with at least one
+ * pair.
  *
  *      pairs.pair[p].a = T   in 0 .. nsources - 1        coupled_index[p]    = e   in 0 .. ncoupled - 1
  *      pairs.pair[p].b = K   in 0 .. nelements - 1       coupled_element[e]  = K   ascending

@@ -20,26 +20,26 @@ static PetscErrorCode FreeArrays(Shell s)
   PetscFunctionReturn(0);
 }
 
-/* The nodes of the facets, each once, and where their copies are. */
+/* surface[]: the facets' nodes, each once; sum: over their copies on all ranks. */
 static PetscErrorCode FindSurfaceNodes(Shell s, const SolidState *solid)
 {
-  PetscBool *seen;
+  PetscBool *found;
   long long *gid;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscCalloc1(solid->nnodes, &seen));
+  PetscCall(PetscCalloc1(solid->nnodes, &found));
   PetscCall(PetscMalloc1(solid->nnodes, &gid));
   s->nsurface = 0;
   for (int i = 0; i < 2 * solid->nfacets; i++) {
     const int node = solid->facet[i];
-    if (seen[node]) continue;
-    seen[node] = PETSC_TRUE;
+    if (found[node]) continue;
+    found[node] = PETSC_TRUE;
     gid[s->nsurface] = solid->gid[node];
     s->surface[s->nsurface++] = node;
   }
   PetscCall(NodeSumCreate(s->comm, s->nsurface, gid, &s->sum));
   PetscCall(PetscFree(gid));
-  PetscCall(PetscFree(seen));
+  PetscCall(PetscFree(found));
   PetscFunctionReturn(0);
 }
 
@@ -64,7 +64,7 @@ static PetscErrorCode Allocate(Shell s, const SolidState *solid)
   PetscFunctionReturn(0);
 }
 
-/* Edge normals; the sum of the normals that meet in a node, and their number, are left in offset. */
+/* The facets' normals; offset[node] = (sum of the adjacent facets' normals, their number). */
 static void Normals(Shell s, const SolidState *solid)
 {
   for (int e = 0; e < s->nfacets; e++) {

@@ -1,5 +1,4 @@
-/* The shell: the solid's surface extruded outwards by the thickness dr, two triangles per edge (method.md
- * section 5).
+/* The shell: the solid's surface extruded outwards by the thickness dr, two triangles per edge.
  *
  *      solid (on the left of a -> b)        triangle 2e:      a  a' b'    nodes on the surface: a a b
  *      a ----------------> b                triangle 2e + 1:  a  b' b                           a b b

@@ -1,4 +1,4 @@
-/* One step from t to t + dt (method.md sections 6 and 9); a staggered step is one coupling iteration.
+/* One step from t to t + dt; a staggered step is one coupling iteration.
  *
  *     repeat     fluid   -- u*, u+, p, mu -->   force     -- force -->  solid
  *                solid   -- x, u_s ---------->  converged?

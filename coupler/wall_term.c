@@ -1,7 +1,7 @@
 #include "coupler/wall_term.h"
 
-/* c[j] += int over the pair of N_K,j u_s, from the velocities at the piece's vertices: by component, then
- * vertex of K. */
+/* c[j] += int over the pair of N_K,j u_s, from the velocities at the source triangle's vertices: by
+ * component, then vertex of K. */
 static void CrossVelocity(const SupermeshPair *pair, const double u[3][2], double c[2][3])
 {
   for (int d = 0; d < 2; d++) {

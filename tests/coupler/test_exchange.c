@@ -1,5 +1,5 @@
 // ranks: 3 4 6
-/* The scheme against a fake fluid and a fake solid, through the real messages.
+/* The time loop against a fake fluid and a fake solid, through the real messages.
  *
  * The fluid has no pressure and no viscosity, but the implicit coupling and the correction, element by
  * element; the solid is a rigid disc that translates.  With P the fluid's momentum, m the solid's mass, M_f
@@ -19,8 +19,7 @@ static void Part(MPI_Comm comm, int *rank, int *size)
   MPI_Comm_size(comm, size);
 }
 
-/* --- fluid
- * ---------------------------------------------------------------------------------------------------- */
+/* --- fluid ---------------------------------------------------------------------------------------------- */
 
 static int ElementsIn(void *context, int nbox, const double box[], int *n, const double **x,
                       const double **rho)
@@ -143,9 +142,7 @@ static void RunFluid(int argc, char **argv, double momentum[2])
   CHECK(!CoracleClose(&client), "close");
 }
 
-/* --- solid
- * ----------------------------------------------------------------------------------------------------------
- */
+/* --- solid ---------------------------------------------------------------------------------------------- */
 
 static void RunSolid(int argc, char **argv, double end, double momentum[2])
 {
@@ -182,8 +179,7 @@ static void RunSolid(int argc, char **argv, double end, double momentum[2])
   CHECK(!CoracleClose(&client), "close");
 }
 
-/* --- coupler
- * -------------------------------------------------------------------------------------------------------- */
+/* --- coupler -------------------------------------------------------------------------------------------- */
 
 static void RunCoupler(int argc, char **argv, const char *folder, double end)
 {

@@ -1,6 +1,6 @@
 // ranks: 1 2 3
 /* Forces on a closed polygon against what mechanics says: buoyancy, rigid motion, accelerated fluid, the wall
- * term's weights. */
+ * term's coefficients. */
 #include "coupler/coupler_impl.h"
 #include "tests/coupler/synthetic.h"
 
@@ -144,15 +144,15 @@ static void CheckCoupledElements(Coupler c)
       for (int i = 0; i < 6; i++) {
         for (int j = 0; j < 6; j++) form += a[6 * i + j] * v[i] * v[j];
       }
-      CHECK(form >= -1e-14 * trace, "entry %d: v a v = %g, trace %g", e, form, trace);
+      CHECK(form >= -1e-14 * trace, "element %d: v a v = %g, trace %g", e, form, trace);
     }
     for (int i = 0; i < 6; i++) {
       double au = 0.0;
       for (int j = 0; j < 6; j++) {
-        CHECK(fabs(a[6 * i + j] - a[6 * j + i]) <= 1e-14 * trace, "entry %d is not symmetric", e);
+        CHECK(fabs(a[6 * i + j] - a[6 * j + i]) <= 1e-14 * trace, "element %d is not symmetric", e);
         au += a[6 * i + j] * (j < 3 ? 0.4 : -1.1);
       }
-      CHECK(fabs(au - (&k->s[0][0])[i]) <= 1e-12 * trace, "entry %d: s %g, a u_s %g", e, (&k->s[0][0])[i],
+      CHECK(fabs(au - (&k->s[0][0])[i]) <= 1e-12 * trace, "element %d: s %g, a u_s %g", e, (&k->s[0][0])[i],
             au);
     }
   }
@@ -165,7 +165,7 @@ static void Constant(const double x[2], double u[2], double *p)
   *p = 0.0;
 }
 
-/* Sum over all elements of the trace of int a: what the wall term weighs in the shell. */
+/* Sum over all elements of the trace of int a: the integral of the wall term over the shell. */
 static double WallTotal(Coupler c)
 {
   double total = 0.0;
@@ -177,7 +177,7 @@ static double WallTotal(Coupler c)
   return total;
 }
 
-/* int_shell a does not depend on dr; the literal mode weighs nearly the same; the volume has its sigma. */
+/* int_shell a does not depend on dr; the literal mode has nearly the same; the volume has its sigma. */
 static void CheckWeights(void)
 {
   double total[2][2];
