@@ -1,5 +1,5 @@
 #include "coupler/inertia.h"
-#include "coupler/node_sum.h"
+#include "common/exchange/copies.h"
 
 /* Smallest |m - m_f| / m: the effective velocity divides by it.  m - m_f itself may be negative (a solid
  * lighter than the fluid); with the fluid's own mass the element's matrix is still positive definite. */
@@ -11,13 +11,27 @@
 
 enum { IMPEDANCE, DISPLACED, NSUMS };
 
+static PetscErrorCode SumOverCopies(MPI_Comm comm, const SolidState *solid, double z[][NSUMS])
+{
+  CopiesKey *key;
+  Copies copies;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(solid->nnodes, &key));
+  for (int i = 0; i < solid->nnodes; i++) key[i] = (CopiesKey){solid->gid[i], solid->gid[i]};
+  PetscCall(CopiesCreate(comm, solid->nnodes, key, &copies));
+  PetscCall(CopiesSum(copies, NSUMS, &z[0][0]));
+  PetscCall(CopiesDestroy(&copies));
+  PetscCall(PetscFree(key));
+  PetscFunctionReturn(0);
+}
+
 /* z[nnodes], summed over the pairs of all ranks:  Z_i = int a N_i with the mean of a's two eigenvalues, kg/s,
  * and the displaced mass m_f = int rho N_i over the volume, kg. */
 static PetscErrorCode Impedance(const Overlap o, const SolidState *solid, const WallCoefficient coefficient[],
                                 double z[][NSUMS])
 {
   double(*vertex)[3][NSUMS];
-  NodeSum sum;
 
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(o->nsources, &vertex));
@@ -32,9 +46,7 @@ static PetscErrorCode Impedance(const Overlap o, const SolidState *solid, const 
     }
   }
   PetscCall(OverlapSourcesToNodes(o, NSUMS, (const double *)vertex, solid->nnodes, &z[0][0]));
-  PetscCall(NodeSumCreate(o->comm, solid->nnodes, solid->gid, &sum));
-  PetscCall(NodeSumApply(sum, NSUMS, &z[0][0]));
-  PetscCall(NodeSumDestroy(&sum));
+  PetscCall(SumOverCopies(o->comm, solid, z));
   PetscCall(PetscFree(vertex));
   PetscFunctionReturn(0);
 }

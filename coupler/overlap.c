@@ -60,7 +60,7 @@ static PetscErrorCode OwnedTriangles(Overlap o, const SolidState *solid, const S
 }
 
 /* Which triangles go where: to every rank whose elements' bounding box they touch. */
-static PetscErrorCode MakeRoute(Overlap o, const SourceTriangle owned[])
+static PetscErrorCode MakeScatter(Overlap o, const SourceTriangle owned[])
 {
   int size, n = 0, *rank, *source;
 
@@ -75,8 +75,8 @@ static PetscErrorCode MakeRoute(Overlap o, const SourceTriangle owned[])
       source[n++] = t;
     }
   }
-  PetscCall(RouteDestroy(&o->route));
-  PetscCall(RouteCreate(o->comm, n, rank, source, &o->route));
+  PetscCall(ScatterDestroy(&o->scatter));
+  PetscCall(ScatterCreate(o->comm, n, rank, source, &o->scatter));
   PetscCall(PetscFree2(rank, source));
   PetscFunctionReturn(0);
 }
@@ -127,10 +127,10 @@ PetscErrorCode OverlapBuild(Overlap o, const SolidState *solid, const Shell shel
   PetscCall(PetscMalloc1(o->nowned, &o->node));
   PetscCall(PetscMalloc1(o->nowned, &owned));
   PetscCall(OwnedTriangles(o, solid, shell, owned));
-  PetscCall(MakeRoute(o, owned));
-  o->nsources = RouteArriving(o->route);
+  PetscCall(MakeScatter(o, owned));
+  o->nsources = ScatterArriving(o->scatter);
   PetscCall(PetscMalloc1(o->nsources, &o->source));
-  PetscCall(RouteForward(o->route, sizeof *owned, owned, o->source));
+  PetscCall(ScatterForward(o->scatter, sizeof *owned, owned, o->source));
   PetscCall(PetscFree(owned));
   PetscCall(FindPairs(o));
   PetscCall(FindCoupledElements(o));
@@ -140,14 +140,14 @@ PetscErrorCode OverlapBuild(Overlap o, const SolidState *solid, const Shell shel
 PetscErrorCode OverlapForward(Overlap o, int ncomp, const double owned[], double source[])
 {
   PetscFunctionBeginUser;
-  PetscCall(RouteForward(o->route, (size_t)ncomp * sizeof *owned, owned, source));
+  PetscCall(ScatterForward(o->scatter, (size_t)ncomp * sizeof *owned, owned, source));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode OverlapReverseAdd(Overlap o, int ncomp, const double source[], double owned[])
 {
   PetscFunctionBeginUser;
-  PetscCall(RouteReverseAdd(o->route, ncomp, source, owned));
+  PetscCall(ScatterReverseAdd(o->scatter, ncomp, source, owned));
   PetscFunctionReturn(0);
 }
 
@@ -197,7 +197,7 @@ PetscErrorCode OverlapDestroy(Overlap *overlap)
   PetscCall(PetscFree(o->node));
   PetscCall(PetscFree(o->source));
   PetscCall(PetscFree2(o->coupled_element, o->coupled_index));
-  PetscCall(RouteDestroy(&o->route));
+  PetscCall(ScatterDestroy(&o->scatter));
   PetscCall(PetscFree(*overlap));
   PetscFunctionReturn(0);
 }

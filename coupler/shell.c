@@ -16,29 +16,29 @@ static PetscErrorCode FreeArrays(Shell s)
   PetscCall(PetscFree2(s->normal, s->length));
   PetscCall(PetscFree2(s->x, s->node));
   PetscCall(PetscFree2(s->surface, s->offset));
-  PetscCall(NodeSumDestroy(&s->sum));
+  PetscCall(CopiesDestroy(&s->copies));
   PetscFunctionReturn(0);
 }
 
-/* surface[]: the facets' nodes, each once; sum: over their copies on all ranks. */
+/* surface[]: the facets' nodes, each once, and their copies on all ranks. */
 static PetscErrorCode FindSurfaceNodes(Shell s, const SolidState *solid)
 {
   PetscBool *found;
-  long long *gid;
+  CopiesKey *key;
 
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(solid->nnodes, &found));
-  PetscCall(PetscMalloc1(solid->nnodes, &gid));
+  PetscCall(PetscMalloc1(solid->nnodes, &key));
   s->nsurface = 0;
   for (int i = 0; i < 2 * solid->nfacets; i++) {
     const int node = solid->facet[i];
     if (found[node]) continue;
     found[node] = PETSC_TRUE;
-    gid[s->nsurface] = solid->gid[node];
+    key[s->nsurface] = (CopiesKey){solid->gid[node], solid->gid[node]};
     s->surface[s->nsurface++] = node;
   }
-  PetscCall(NodeSumCreate(s->comm, s->nsurface, gid, &s->sum));
-  PetscCall(PetscFree(gid));
+  PetscCall(CopiesCreate(s->comm, s->nsurface, key, &s->copies));
+  PetscCall(PetscFree(key));
   PetscCall(PetscFree(found));
   PetscFunctionReturn(0);
 }
@@ -98,7 +98,7 @@ static PetscErrorCode Offsets(Shell s)
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(s->nsurface, &shared));
   for (int i = 0; i < s->nsurface; i++) PetscCall(PetscArraycpy(shared[i], s->offset[s->surface[i]], 3));
-  PetscCall(NodeSumApply(s->sum, 3, (double *)shared));
+  PetscCall(CopiesSum(s->copies, 3, (double *)shared));
   for (int i = 0; i < s->nsurface; i++) {
     ScaleOffset(s->thickness, shared[i]);
     PetscCall(PetscArraycpy(s->offset[s->surface[i]], shared[i], 3));
