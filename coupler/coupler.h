@@ -3,7 +3,7 @@
  * One step:
  *
  *     CouplerBuild     solid at t^n, dt           ->  coupling of every fluid element that the solid or its shell touches
- *     CouplerReact     the fluid's u*, u+, p, mu  ->  force on the solid's nodes
+ *     CouplerReact     the fluid's u*, u+, rho, mu ->  force on the solid's nodes
  *     CouplerCorrect   the solid's new velocity   ->  correction of the fluid, on the overlap of CouplerBuild
  *
  * Modes (method.md sections 3, 4, 8, 9):
@@ -29,12 +29,12 @@ typedef struct {
   double thickness;  /* of the shell, dr, m */
   double relaxation; /* sigma dt / rho_f, used by the mode reaction */
   double gravity[2]; /* m/s2 */
-  double viscosity;  /* Pa s, on elements whose viscosity no flow has told yet: those of the first step */
 } CouplerOptions;
 
 PetscErrorCode CouplerCreate(MPI_Comm comm, const CouplerOptions *options, Coupler *coupler);
-/* The fluid's elements near the solid (copied).  Viscosities known on the elements before are carried over by
- * place. */
+/* Whether the mode uses the fluid's pressure: then CouplerReact's flow must have it. */
+PetscBool CouplerNeedsPressure(Coupler coupler);
+/* The fluid's elements near the solid, with the density and viscosity of the coming step (copied). */
 PetscErrorCode CouplerSetElements(Coupler coupler, const ServerElements *elements);
 /* The coupling over the coming step of dt seconds with the solid as it is: one entry per touched element.
  * The solid's velocity is used until CouplerReact has returned or CouplerSetInterfaceVelocity gives another; coupling is
@@ -47,7 +47,7 @@ PetscErrorCode CouplerSetInterfaceVelocity(Coupler coupler, const double mobilit
                                            const CoracleCoupling **coupling);
 /* The force on the solid's nodes [nnodes][2], N, borrowed until the next call of this; the flow's arrays are
  * used until CouplerCorrect has returned. */
-PetscErrorCode CouplerReact(Coupler coupler, const ServerFlow *flow, const double **force,
+PetscErrorCode CouplerReact(Coupler coupler, const CoracleFlow *flow, const double **force,
                             ForceTotals *totals);
 /* One entry per entry of CouplerBuild.  After fracture (moved->changed) the old overlap has no new velocity
  * and the fluid is left as it is for this step.  Borrowed until the next CouplerCorrect. */

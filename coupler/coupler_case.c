@@ -10,9 +10,6 @@ static void ReadOptions(Case file, CouplerOptions *o)
   if (o->relaxation <= 0.0)
     CaseRefuse(file, "coupler.relaxation", "expected a number > 0, found %g", o->relaxation);
   CaseVector(file, "gravity", 2, o->gravity);
-  /* The fluid tells its viscosity with its first flow; until then a single-phase fluid's is the case file's.
-   */
-  o->viscosity = CaseHas(file, "fluid.viscosity") ? CasePositive(file, "fluid.viscosity") : 0.0;
 }
 
 PetscErrorCode CouplerCaseRead(Case file, CouplerCase *c)

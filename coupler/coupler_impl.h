@@ -5,6 +5,7 @@
 
 /* What a mode decides; each function is collective. */
 typedef struct {
+  PetscBool needs_pressure;                                     /* react uses flow.p */
   PetscErrorCode (*weigh)(Coupler, const ServerSolid *);        /* fills weight */
   PetscErrorCode (*react)(Coupler);                             /* fills node from flow */
   PetscErrorCode (*correct)(Coupler, const ServerSolid *moved); /* fills correction */
@@ -16,13 +17,12 @@ struct Coupler_s {
   const CouplerActions *actions;
   Shell shell;
   Overlap overlap;
-  double *mu;                    /* [overlap->nelements] Pa s */
   double dt;                     /* of the step that was built, s */
   int built, nnodes;             /* nodes at home */
   const double *us;              /* [nnodes][2] the solid's velocity; borrowed */
   double (*now)[3][2];           /* [overlap->npieces] the solid's when the step began */
   double *firmness;              /* [overlap->npieces] */
-  ServerFlow flow;               /* borrowed */
+  CoracleFlow flow;              /* borrowed */
   WallWeight *weight;            /* [overlap->pairs.n] */
   CoracleCoupling *coupling;     /* [overlap->nentries] */
   CoracleCorrection *correction; /* [overlap->nentries] */

@@ -35,18 +35,18 @@ typedef struct {
 /* Local: vertex[npieces][3].reaction += of all pairs, to u* where the solid is firm (firmness[npieces] 1), to
  * u+ as far as it gives way. */
 void ForceReaction(const Overlap overlap, const WallWeight weight[], const double firmness[],
-                   const ServerFlow *flow, ForceVertex vertex[]);
+                   const CoracleFlow *flow, ForceVertex vertex[]);
 /* Local: vertex[npieces][3].rest += added inertia and buoyancy of the volume pairs; now[npieces][3][2]: the
  * solid's velocity when the step began. */
-void ForceInertia(const Overlap overlap, double dt, const double gravity[2], const double u_plus[],
+void ForceInertia(const Overlap overlap, double dt, const double gravity[2], const double u_projected[],
                   const double now[][3][2], ForceVertex vertex[]);
 /* Collective: brings the contributions home: node[nnodes]. */
 PetscErrorCode ForceAssembleToOwners(Overlap overlap, const ForceVertex vertex[], int nnodes,
                                      ForceVertex node[]);
 /* Collective: the totals; coupling is what the fluid was sent, flow what came back. */
-PetscErrorCode ForceSum(const Overlap overlap, const CoracleCoupling coupling[], const ServerFlow *flow,
+PetscErrorCode ForceSum(const Overlap overlap, const CoracleCoupling coupling[], const CoracleFlow *flow,
                         int nnodes, const ForceVertex node[], ForceTotals *totals);
 /* Local: adds to r (coracle.h); u[npieces][3][2]: the solid's new velocity on the old overlap. */
-void ForceCorrection(const Overlap overlap, const double u[][3][2], const double u_plus[],
+void ForceCorrection(const Overlap overlap, const double u[][3][2], const double u_projected[],
                      CoracleCorrection correction[]);
 #endif

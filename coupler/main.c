@@ -2,7 +2,7 @@
  *
  *     open, read the case
  *     run the scheme (scheme.c): each step
- *         fluid   u*, u+, p, mu                    -->  force on the solid
+ *         fluid   u*, u+, rho, mu (, p)            -->  force on the solid
  *         solid   new position and velocity        -->  correction of the fluid; shell and overlap at the new position
  *         fluid   <--  correction, coupling of the next step; or the same step again, with another velocity
  *     write the summary */

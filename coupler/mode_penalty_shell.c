@@ -16,4 +16,5 @@ static PetscErrorCode Weigh(Coupler c, const ServerSolid *solid)
   PetscFunctionReturn(0);
 }
 
-const CouplerActions COUPLER_ACTIONS_PENALTY_SHELL = {Weigh, CouplerReactConserving, CouplerFillSolid};
+const CouplerActions COUPLER_ACTIONS_PENALTY_SHELL = {PETSC_FALSE, Weigh, CouplerReactConserving,
+                                                      CouplerFillSolid};

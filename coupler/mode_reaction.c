@@ -13,7 +13,7 @@ static PetscErrorCode Weigh(Coupler c, const ServerSolid *solid)
     const OverlapPiece *piece = &o->piece[o->pairs.pair[p].a];
     if (piece->is_shell) {
       const double dxw = WallExtent((const double(*)[2])o->x[k], piece->normal);
-      c->weight[p] = WallWeightOf(c->mu[k] / (c->options.thickness * dxw), piece->normal);
+      c->weight[p] = WallWeightOf(o->mu[k] / (c->options.thickness * dxw), piece->normal);
     } else {
       c->weight[p] = WallWeightIsotropic(c->options.relaxation * o->rho[k] / c->dt);
     }
@@ -22,4 +22,5 @@ static PetscErrorCode Weigh(Coupler c, const ServerSolid *solid)
   PetscFunctionReturn(0);
 }
 
-const CouplerActions COUPLER_ACTIONS_REACTION = {Weigh, CouplerReactConserving, CouplerFillSolid};
+const CouplerActions COUPLER_ACTIONS_REACTION = {PETSC_FALSE, Weigh, CouplerReactConserving,
+                                                 CouplerFillSolid};

@@ -34,8 +34,7 @@ static void Constant(double value, double f[3])
 /* mu and dxw alone: all that the weights need, before any flow is known. */
 static void WallSource(void *context, const Overlap o, const SupermeshPair *pair, double f[][3])
 {
-  const Coupler c = context;
-  Constant(c->mu[pair->b], f[0]);
+  Constant(o->mu[pair->b], f[0]);
   Constant(WallExtent((const double(*)[2])o->x[pair->b], o->piece[pair->a].normal), f[1]);
 }
 
@@ -68,7 +67,7 @@ static void FlowSource(void *context, const Overlap o, const SupermeshPair *pair
   double tau[3];
   PressureSource(context, o, pair, &f[PRESSURE]);
   for (int i = 0; i < 6; i++) f[VELOCITY + i / 3][i % 3] = u[i];
-  Stress((const double(*)[2])o->x[pair->b], u, c->mu[pair->b], tau);
+  Stress((const double(*)[2])o->x[pair->b], u, o->mu[pair->b], tau);
   for (int i = 0; i < 3; i++) Constant(tau[i], f[STRESS + i]);
   WallSource(context, o, pair, &f[VISCOSITY]);
 }
@@ -165,4 +164,4 @@ static PetscErrorCode React(Coupler c)
   PetscFunctionReturn(0);
 }
 
-const CouplerActions COUPLER_ACTIONS_STRESS_SHELL = {Weigh, React, CouplerNoCorrection};
+const CouplerActions COUPLER_ACTIONS_STRESS_SHELL = {PETSC_TRUE, Weigh, React, CouplerNoCorrection};

@@ -31,9 +31,10 @@ typedef struct {
   MPI_Comm comm;
   /* the fluid's elements of this rank's clients */
   int nelements;
-  double (*x)[3][2], *area, *rho; /* [nelements] m, m2, kg/m3; x and rho are copies */
-  double lower[2], upper[2];      /* the fluid's whole domain */
-  GeometryBox *near;              /* [size] bounding box of each rank's elements */
+  double (*x)[3][2], *area;  /* [nelements] m (copied), m2 */
+  double *rho, *mu;          /* [nelements] kg/m3, Pa s, at the end of the last flow (copied) */
+  double lower[2], upper[2]; /* the fluid's whole domain */
+  GeometryBox *near;         /* [size] bounding box of each rank's elements */
   Search search;
   /* the solid's triangles at home, and the route from there to the pieces */
   int nhome, nvolume; /* nvolume volume elements, then the shell's triangles */
@@ -51,6 +52,8 @@ typedef struct {
 PetscErrorCode OverlapCreate(MPI_Comm comm, Overlap *overlap);
 /* The fluid's elements near the solid, copied.  Pairs made before are void. */
 PetscErrorCode OverlapSetElements(Overlap overlap, const ServerElements *elements);
+/* Local: density and viscosity as the fluid's last flow has them, rho[nelements], mu[nelements]. */
+PetscErrorCode OverlapSetProperties(Overlap overlap, const double rho[], const double mu[]);
 /* Distributes the solid and its shell as they are now and finds all pairs. */
 PetscErrorCode OverlapBuild(Overlap overlap, const ServerSolid *solid, const Shell shell);
 /* home[nhome][ncomp] -> piece[npieces][ncomp] */

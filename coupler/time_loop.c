@@ -195,6 +195,7 @@ static PetscErrorCode Start(RunState *m)
   PetscCall(CheckpointsCreate(PETSC_COMM_WORLD, m->scheme->server, m->scheme->c, &m->checkpoints));
   if (m->scheme->from) PetscCall(Load(m, m->scheme->from));
   PetscCall(ReceiveSolid(m));
+  if (CouplerNeedsPressure(m->scheme->coupler)) PetscCall(ServerNeedPressure(m->scheme->server));
   PetscCall(AskElements(m));
   if (!m->scheme->from) PetscCall(CheckInside(m));
   PetscCall(NextStep(m, m->dt > 0.0 ? m->dt : ServerProposedStep(m->scheme->server)));
@@ -207,7 +208,7 @@ static PetscErrorCode Try(RunState *m, CoracleAction action, StepRecord *step)
 {
   const TimeLoop *s = m->scheme;
   const double *force;
-  ServerFlow flow;
+  CoracleFlow flow;
 
   PetscFunctionBeginUser;
   PetscCall(ServerReceiveFlow(s->server, &flow));

@@ -39,25 +39,38 @@ static void AddSolidMass(double firmness, const double bb[3][3], const double cu
   }
 }
 
+/* One pair's part of its element's entry; the entry's velocity is the integral of u_s over |K| so far. */
+static void AddPair(const Overlap o, const SupermeshPair *pair, const WallWeight *weight, double firmness,
+                    CoracleCoupling *k)
+{
+  const OverlapPiece *piece = &o->piece[pair->a];
+  const double share = pair->area / o->area[pair->b];
+  double cu[2][3];
+  CrossVelocity(pair, piece->u, cu);
+  AddTensor(1.0, weight, pair->bb, k->a);
+  if (firmness != 1.0) {
+    AddTensor(1.0 - firmness, weight, pair->bb, k->implicit_inertia);
+    k->flags |= CORACLE_HAS_INERTIA;
+  }
+  AddSource(weight, (const double(*)[3])cu, k->s);
+  for (int d = 0; d < 2; d++) k->velocity[d] += (cu[d][0] + cu[d][1] + cu[d][2]) / o->area[pair->b];
+  if (piece->is_shell) {
+    k->flags |= CORACLE_HAS_SHELL;
+    k->shell += share;
+  } else {
+    k->alpha += share;
+    AddSolidMass(firmness, pair->bb, (const double(*)[3])cu, k);
+  }
+}
+
 void WallTermAssemble(const Overlap o, const WallWeight weight[], const double firmness[],
                       CoracleCoupling coupling[])
 {
   for (int e = 0; e < o->nentries; e++) coupling[e] = (CoracleCoupling){.element = o->element[e]};
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    const OverlapPiece *piece = &o->piece[pair->a];
-    CoracleCoupling *k = &coupling[o->entry[p]];
-    const double b = firmness[pair->a];
-    double cu[2][3];
-    CrossVelocity(pair, piece->u, cu);
-    AddTensor(1.0, &weight[p], pair->bb, k->a);
-    if (b != 1.0) AddTensor(1.0 - b, &weight[p], pair->bb, k->give);
-    AddSource(&weight[p], (const double(*)[3])cu, k->s);
-    if (piece->is_shell) {
-      k->shell += pair->area / o->area[pair->b];
-    } else {
-      k->alpha += pair->area / o->area[pair->b];
-      AddSolidMass(b, pair->bb, (const double(*)[3])cu, k);
-    }
+    AddPair(o, pair, &weight[p], firmness[pair->a], &coupling[o->entry[p]]);
   }
+  for (int e = 0; e < o->nentries; e++)
+    for (int d = 0; d < 2; d++) coupling[e].velocity[d] /= coupling[e].alpha + coupling[e].shell;
 }

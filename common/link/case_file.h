@@ -13,6 +13,13 @@
 #define CORACLE_CASE_FILE_H
 #include <stdbool.h>
 
+#ifdef __cplusplus
+extern "C" {
+#define CASE_NORETURN [[noreturn]]
+#else
+#define CASE_NORETURN _Noreturn
+#endif
+
 typedef struct Case_s *Case;
 
 /* fail: called with the message when something is wrong; must not return. */
@@ -44,9 +51,13 @@ int CaseWord(Case c, const char *key, int fallback, const char *const words[]);
 /* Calls f(context, name) for each key of the map at key, in file order (names borrowed). */
 int CaseKeys(Case c, const char *key, void (*f)(void *context, const char *name), void *context);
 /* The error of a value that was read well but cannot be: names file, line and key. */
-_Noreturn void CaseRefuse(Case c, const char *key, const char *format, ...)
+CASE_NORETURN void CaseRefuse(Case c, const char *key, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* Checks that every key under the sections (null-terminated list) has been read, and that no unknown
  * top-level section exists. */
 int CaseFinish(Case c, const char *const sections[]);
+
+#ifdef __cplusplus
+}
+#endif
 #endif

@@ -219,6 +219,7 @@ static void Resume(Participant *p, int argc, char **argv)
 int ParticipantOpen(const char *role, bool client, int argc, char **argv, Participant **participant)
 {
   Participant *p = calloc(1, sizeof *p);
+  p->dim = CORACLE_DIM;
   HandshakeEntry mine;
   Affinity share;
   p->started_mpi = StartMpi();

@@ -66,7 +66,7 @@ static double Turn(const double a[2], const double b[2], const double x[2])
 static PetscErrorCode SetSolid(RunState *m)
 {
   const double x[2] = {0.6123, 0.4371}, velocity[2] = {30.0 * FluidGetStats(m->fluid)->t, 0.0};
-  CoracleCoupling k = {.shell = 0.1};
+  CoracleCoupling k = {.flags = CORACLE_HAS_SHELL, .shell = 0.1};
   int n = 0;
   PetscFunctionBeginUser;
   for (int e = 0; e < m->mesh->ne; e++) {
