@@ -2,34 +2,34 @@
 #include <math.h>
 #include <stdio.h>
 
-static void ReadOptions(Case file, CouplerOptions *o)
+static void ReadOptions(CoracleCase file, CouplerOptions *o)
 {
-  o->mode = (CouplerMode)CaseWord(file, "coupler.mode", COUPLER_REACTION, COUPLER_MODES);
-  o->thickness = CasePositive(file, "coupler.shell_thickness");
-  o->relaxation = CaseNumberOr(file, "coupler.relaxation", 10.0, 0.0, HUGE_VAL);
+  o->mode = (CouplerMode)CoracleCaseWord(file, "coupler.mode", COUPLER_REACTION, COUPLER_MODES);
+  o->thickness = CoracleCasePositive(file, "coupler.shell_thickness");
+  o->relaxation = CoracleCaseNumberOr(file, "coupler.relaxation", 10.0, 0.0, HUGE_VAL);
   if (o->relaxation <= 0.0)
-    CaseRefuse(file, "coupler.relaxation", "expected a number > 0, found %g", o->relaxation);
-  CaseVector(file, "gravity", 2, o->gravity);
+    CoracleCaseRefuse(file, "coupler.relaxation", "expected a number > 0, found %g", o->relaxation);
+  CoracleCaseVector(file, "gravity", 2, o->gravity);
 }
 
-PetscErrorCode CouplerCaseRead(Case file, CouplerCase *c)
+PetscErrorCode CouplerCaseRead(CoracleCase file, CouplerCase *c)
 {
   static const char *const SECTIONS[] = {"case", "note", "gravity", "time", "coupler", "output", NULL};
 
   PetscFunctionBeginUser;
-  snprintf(c->name, sizeof c->name, "%s", CaseString(file, "case"));
-  snprintf(c->note, sizeof c->note, "%s", CaseStringOr(file, "note", ""));
-  snprintf(c->folder, sizeof c->folder, "%s", CaseString(file, "output.folder"));
-  c->every = CasePositive(file, "output.every");
-  c->checkpoint = CaseNumberOr(file, "output.checkpoint", 600.0, 0.0, HUGE_VAL);
-  c->end = CasePositive(file, "time.end");
-  c->dt_max = CasePositive(file, "time.dt_max");
+  snprintf(c->name, sizeof c->name, "%s", CoracleCaseString(file, "case"));
+  snprintf(c->note, sizeof c->note, "%s", CoracleCaseStringOr(file, "note", ""));
+  snprintf(c->folder, sizeof c->folder, "%s", CoracleCaseString(file, "output.folder"));
+  c->every = CoracleCasePositive(file, "output.every");
+  c->checkpoint = CoracleCaseNumberOr(file, "output.checkpoint", 600.0, 0.0, HUGE_VAL);
+  c->end = CoracleCasePositive(file, "time.end");
+  c->dt_max = CoracleCasePositive(file, "time.dt_max");
   /* the fluid's, read here so that the whole section can be checked */
-  (void)CaseNumberOr(file, "time.cfl", 0.5, 0.0, HUGE_VAL);
+  (void)CoracleCaseNumberOr(file, "time.cfl", 0.5, 0.0, HUGE_VAL);
   ReadOptions(file, &c->options);
-  c->tries = CaseIntegerOr(file, "coupler.tries", 1, 1, 1000);
-  c->tolerance = CaseNumberOr(file, "coupler.tolerance", 1e-4, 1e-12, 1.0);
-  PetscCall(PetscOptionsInsertString(NULL, CaseStringOr(file, "coupler.petsc", "")));
-  PetscCall(CaseFinish(file, SECTIONS));
+  c->tries = CoracleCaseIntegerOr(file, "coupler.tries", 1, 1, 1000);
+  c->tolerance = CoracleCaseNumberOr(file, "coupler.tolerance", 1e-4, 1e-12, 1.0);
+  PetscCall(PetscOptionsInsertString(NULL, CoracleCaseStringOr(file, "coupler.petsc", "")));
+  PetscCall(CoracleCaseFinish(file, SECTIONS));
   PetscFunctionReturn(0);
 }

@@ -22,7 +22,7 @@ static const char *const SECTIONS[] = {"fluid", NULL};
 /* What the time loop holds; mesh, fluid and all that is as large as they change with the mesh. */
 typedef struct {
   CoracleClient client;
-  Case c;
+  CoracleCase c;
   Mesh *mesh;
   Fluid fluid;
   Exchange exchange;
@@ -84,12 +84,12 @@ static PetscErrorCode Create(RunState *m, MPI_Comm comm, const char *resume, Che
   AdaptationSetup adaptation;
   PetscBool adapts;
   PetscFunctionBeginUser;
-  PetscCall(PetscOptionsInsertString(NULL, CaseStringOr(m->c, "fluid.petsc", "")));
+  PetscCall(PetscOptionsInsertString(NULL, CoracleCaseStringOr(m->c, "fluid.petsc", "")));
   PetscCall(FluidCaseMesh(m->c, comm, from, &m->mesh, row));
   if (from) FluidCaseCheckResumed(m->c, m->mesh, resume);
   PetscCall(FluidCaseSetup(m->c, m->mesh, &setup));
   PetscCall(FluidCaseAdaptation(m->c, &adapts, &adaptation));
-  PetscCall(CaseFinish(m->c, SECTIONS));
+  PetscCall(CoracleCaseFinish(m->c, SECTIONS));
   if (adapts) PetscCall(AdaptationCreate(&adaptation, &m->adaptation));
   if (adapts && !from) PetscCall(FirstMesh(m));
   PetscCall(FluidCreate(m->mesh, &setup, &m->fluid));
@@ -189,7 +189,7 @@ static PetscErrorCode Step(RunState *m, double dt)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Run(CoracleClient client, Case c, MPI_Comm comm)
+static PetscErrorCode Run(CoracleClient client, CoracleCase c, MPI_Comm comm)
 {
   RunState m = {.client = client, .c = c};
   CoracleAction action;
@@ -217,14 +217,14 @@ int main(int argc, char **argv)
 {
   CoracleClient client;
   MPI_Comm comm;
-  Case c;
+  CoracleCase c;
   if (CoracleOpen("fluid", argc, argv, &comm, &client)) return 1;
   PETSC_COMM_WORLD = comm;
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
   PetscCall(PetscPushErrorHandler(Abort, client));
-  PetscCall(CaseOpen(argc, argv, Fail, client, &c));
+  PetscCall(CoracleCaseOpen(argc, argv, Fail, client, &c));
   PetscCall(Run(client, c, comm));
-  PetscCall(CaseClose(&c));
+  PetscCall(CoracleCaseClose(&c));
   PetscCall(PetscFinalize());
   return CoracleClose(&client);
 }

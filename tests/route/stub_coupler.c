@@ -220,15 +220,15 @@ static void Fail(void *server, const char *message)
 int main(int argc, char **argv)
 {
   static Stub s;
-  Case c;
+  CoracleCase c;
   ServerOpen(argc, argv, &s.comm, &s.server);
-  CaseOpen(argc, argv, Fail, s.server, &c);
+  CoracleCaseOpen(argc, argv, Fail, s.server, &c);
   MPI_Comm_rank(s.comm, &s.rank);
   MPI_Comm_size(s.comm, &s.size);
-  s.fault = (Fault)CaseWord(c, "coupler.fault", FAULT_NONE, FAULT_WORDS);
-  s.needs_pressure = CaseBoolOr(c, "coupler.pressure", true);
-  CaseFinish(c, SECTIONS);
-  CaseClose(&c);
+  s.fault = (Fault)CoracleCaseWord(c, "coupler.fault", FAULT_NONE, FAULT_WORDS);
+  s.needs_pressure = CoracleCaseBoolOr(c, "coupler.pressure", true);
+  CoracleCaseFinish(c, SECTIONS);
+  CoracleCaseClose(&c);
   ReceiveSolid(&s, 0);
   if (s.needs_pressure) ServerNeedPressure(s.server);
   AskElements(&s);
