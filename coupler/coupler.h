@@ -2,7 +2,7 @@
  * solid's force, on the supermesh of both (overlap.h).  It knows no messages; exchange.h does.  One step from
  * t^n to t^n + dt:
  *
- *        solid x^n, u_s                    fluid u*, u+, p, mu               solid u_s^{n+1}
+ *        solid x^n, u_s                    fluid u*, u+, rho, mu              solid u_s^{n+1}
  *             |                                   |                               |
  *        CouplerBuild                   CouplerComputeForce                CouplerCorrect
  *        a, s = a u_s per element       F on the solid's nodes             r = (u_s^{n+1} - u+) inside S
@@ -21,8 +21,7 @@
 PetscErrorCode CouplerCreate(MPI_Comm comm, const CouplerOptions *options, Coupler *coupler);
 PetscErrorCode CouplerDestroy(Coupler *coupler);
 
-/* The fluid's elements near the solid (copied).  Viscosities known on the elements before are carried over by
- * place. */
+/* The fluid's elements near the solid, with density and viscosity at the start of the coming step (copied). */
 PetscErrorCode CouplerSetElements(Coupler coupler, const FluidElements *elements);
 
 /* The coupling over the coming step of dt seconds, with the solid as it is: coupling[n], one per fluid
@@ -37,7 +36,7 @@ PetscErrorCode CouplerSetInterfaceVelocity(Coupler coupler, const double mobilit
                                            const CoracleCoupling **coupling);
 /* force[nnodes][2], N, on the solid's nodes, borrowed until the next call of this; the flow's arrays are used
  * until CouplerCorrect has returned. */
-PetscErrorCode CouplerComputeForce(Coupler coupler, const FluidFlow *flow, const double **force,
+PetscErrorCode CouplerComputeForce(Coupler coupler, const CoracleFlow *flow, const double **force,
                                    ForceTotals *totals);
 /* correction[n], one per element of CouplerBuild and in its order.  When the solid has changed its mesh in
  * the step (moved->changed) the source triangles have no new velocity and the corrections are 0.  Borrowed

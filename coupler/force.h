@@ -38,18 +38,18 @@ typedef struct {
 
 /* Local: vertex[nsources][3].reaction += R of all pairs.  implicit_factor[nsources]: b, 1 where explicit. */
 void ForceReaction(const Overlap overlap, const WallCoefficient coefficient[], const double implicit_factor[],
-                   const FluidFlow *flow, ForceVertex vertex[]);
+                   const CoracleFlow *flow, ForceVertex vertex[]);
 /* Local: vertex[nsources][3].other += F_i + F_b of the volume pairs; start_velocity[nsources][3][2]: v,
  * m/s. */
-void ForceInertia(const Overlap overlap, double dt, const double gravity[2], const double u_plus[],
+void ForceInertia(const Overlap overlap, double dt, const double gravity[2], const double u_projected[],
                   const double start_velocity[][3][2], ForceVertex vertex[]);
 /* Collective: sums the vertices' forces on the nodes of their owner ranks, node[nnodes] (overwritten). */
 PetscErrorCode ForceAssembleToOwners(Overlap overlap, const ForceVertex vertex[], int nnodes,
                                      ForceVertex node[]);
 /* Collective: the totals; coupling[ncoupled] is what the fluid was sent, flow what came back. */
-PetscErrorCode ForceSum(const Overlap overlap, const CoracleCoupling coupling[], const FluidFlow *flow,
+PetscErrorCode ForceSum(const Overlap overlap, const CoracleCoupling coupling[], const CoracleFlow *flow,
                         int nnodes, const ForceVertex node[], ForceTotals *totals);
 /* Local: correction[ncoupled].r += r; u[nsources][3][2]: u_s^{n+1} at the source triangles' vertices, m/s. */
-void ForceCorrection(const Overlap overlap, const double u[][3][2], const double u_plus[],
+void ForceCorrection(const Overlap overlap, const double u[][3][2], const double u_projected[],
                      CoracleCorrection correction[]);
 #endif

@@ -45,15 +45,15 @@ int main(int argc, char **argv)
 {
   Server server;
   MPI_Comm comm;
-  Case file;
+  CoracleCase file;
   CouplerCase c;
   if (ServerOpen(argc, argv, &comm, &server)) return 1;
   PETSC_COMM_WORLD = comm;
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
   PetscCall(PetscPushErrorHandler(Abort, server));
-  PetscCall(CaseOpen(argc, argv, Refuse, server, &file));
+  PetscCall(CoracleCaseOpen(argc, argv, Refuse, server, &file));
   PetscCall(CouplerCaseRead(file, &c));
-  PetscCall(CaseClose(&file));
+  PetscCall(CoracleCaseClose(&file));
   PetscCall(Run(server, &c));
   PetscCall(PetscPopErrorHandler());
   PetscCall(PetscFinalize());

@@ -28,7 +28,6 @@ typedef struct {
   double thickness;  /* of the shell, dr, m */
   double relaxation; /* sigma dt / rho_f, used by the mode reaction */
   double gravity[2]; /* m/s2 */
-  double viscosity;  /* Pa s, on elements whose viscosity no flow has told yet: those of the first step */
 } CouplerOptions;
 
 /* Which of the solid's velocities over the last step u_s is: the one at its end, without vibrations, or the
@@ -39,10 +38,10 @@ typedef enum { COUPLER_VELOCITY_END, COUPLER_VELOCITY_MEAN } CouplerVelocity;
 /* What a mode decides.  The last three functions are collective. */
 typedef struct {
   CouplerVelocity velocity;
-  PetscBool needs_pressure; /* FluidFlow's p is there */
+  PetscBool needs_pressure; /* the fluid sends p with its flow */
   /* Reads the mode's own keys from the case; NULL: it has none.  Called for all modes whichever is chosen, so
    * that one case file serves every mode. */
-  void (*read_options)(Case file, CouplerOptions *options);
+  void (*read_options)(CoracleCase file, CouplerOptions *options);
   PetscErrorCode (*coefficients)(Coupler coupler, const SolidState *solid); /* sets every pair's a */
   PetscErrorCode (*force)(Coupler coupler);                                 /* sets node from the flow */
   PetscErrorCode (*correct)(Coupler coupler, const SolidState *moved);      /* adds to the corrections */
@@ -51,5 +50,5 @@ typedef struct {
 extern const CouplerModeTable COUPLER_MODE_REACTION, COUPLER_MODE_STRESS_SHELL, COUPLER_MODE_PENALTY_SHELL;
 
 const CouplerModeTable *CouplerModeGet(CouplerMode mode);
-void CouplerModesReadOptions(Case file, CouplerOptions *options);
+void CouplerModesReadOptions(CoracleCase file, CouplerOptions *options);
 #endif

@@ -23,8 +23,7 @@ static void Constant(double value, double f[3])
 /* mu and dxw alone: all that the coefficients need, before any flow is known. */
 static void WallFields(void *context, const Overlap o, const SupermeshPair *pair, double f[][3])
 {
-  const Coupler c = context;
-  Constant(c->mu[pair->b], f[0]);
+  Constant(o->mu[pair->b], f[0]);
   Constant(WallExtent((const double(*)[2])o->x[pair->b], o->source[pair->a].normal), f[1]);
 }
 
@@ -53,7 +52,7 @@ static void FlowFields(void *context, const Overlap o, const SupermeshPair *pair
   double tau[3];
   PressureField(context, o, pair, &f[PRESSURE]);
   for (int i = 0; i < 6; i++) f[VELOCITY + i / 3][i % 3] = u[i];
-  Stress((const double(*)[2])o->x[pair->b], u, c->mu[pair->b], tau);
+  Stress((const double(*)[2])o->x[pair->b], u, o->mu[pair->b], tau);
   for (int i = 0; i < 3; i++) Constant(tau[i], f[STRESS + i]);
   WallFields(context, o, pair, &f[VISCOSITY]);
 }

@@ -19,10 +19,11 @@ PetscErrorCode OverlapSetElements(Overlap o, const FluidElements *elements)
 
   PetscFunctionBeginUser;
   SearchDestroy(&o->search);
-  PetscCall(PetscFree3(o->x, o->area, o->rho));
-  PetscCall(PetscMalloc3(n, &o->x, n, &o->area, n, &o->rho));
+  PetscCall(PetscFree4(o->x, o->area, o->rho, o->mu));
+  PetscCall(PetscMalloc4(n, &o->x, n, &o->area, n, &o->rho, n, &o->mu));
   PetscCall(PetscMemcpy(o->x, elements->x, n * sizeof *o->x));
   PetscCall(PetscArraycpy(o->rho, elements->rho, n));
+  PetscCall(PetscArraycpy(o->mu, elements->mu, n));
   PetscCall(PetscArraycpy(o->lower, elements->lower, 2));
   PetscCall(PetscArraycpy(o->upper, elements->upper, 2));
   o->nelements = elements->n;
@@ -34,6 +35,14 @@ PetscErrorCode OverlapSetElements(Overlap o, const FluidElements *elements)
   PetscCheck(!SearchCreateTriangles(o->nelements, (const double(*)[3][2])o->x, &o->search), PETSC_COMM_SELF,
              PETSC_ERR_MEM, "no memory for the search tree of %d elements", o->nelements);
   PetscCallMPI(MPI_Allgather(&box, 4, MPI_DOUBLE, o->bounds, 4, MPI_DOUBLE, o->comm));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode OverlapSetProperties(Overlap o, const double rho[], const double mu[])
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscArraycpy(o->rho, rho, o->nelements));
+  PetscCall(PetscArraycpy(o->mu, mu, o->nelements));
   PetscFunctionReturn(0);
 }
 
@@ -193,7 +202,7 @@ PetscErrorCode OverlapDestroy(Overlap *overlap)
   SearchDestroy(&o->search);
   SupermeshPairsDestroy(&o->pairs);
   PetscCall(PetscFree(o->bounds));
-  PetscCall(PetscFree3(o->x, o->area, o->rho));
+  PetscCall(PetscFree4(o->x, o->area, o->rho, o->mu));
   PetscCall(PetscFree(o->node));
   PetscCall(PetscFree(o->source));
   PetscCall(PetscFree2(o->coupled_element, o->coupled_index));

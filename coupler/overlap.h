@@ -36,9 +36,10 @@ typedef struct {
   MPI_Comm comm;
   /* the fluid elements of this rank's clients */
   int nelements;
-  double (*x)[3][2], *area, *rho; /* [nelements] m, m2, kg/m3; x and rho are copies */
-  double lower[2], upper[2];      /* bounds of the fluid's whole domain, m */
-  GeometryBox *bounds;            /* [size] bounding box of each rank's elements */
+  double (*x)[3][2], *area;  /* [nelements] m (copied), m2 */
+  double *rho, *mu;          /* [nelements] kg/m3, Pa s, of the last flow or exchange of elements (copied) */
+  double lower[2], upper[2]; /* bounds of the fluid's whole domain, m */
+  GeometryBox *bounds;       /* [size] bounding box of each rank's elements */
   Search search;
   /* the solid's triangles that this rank owns, and the scatter from there to the source triangles */
   int nowned, nvolume; /* nvolume volume elements, then the shell's triangles */
@@ -57,6 +58,8 @@ PetscErrorCode OverlapCreate(MPI_Comm comm, Overlap *overlap);
 PetscErrorCode OverlapDestroy(Overlap *overlap);
 /* The fluid's elements near the solid, copied.  Pairs made before are void. */
 PetscErrorCode OverlapSetElements(Overlap overlap, const FluidElements *elements);
+/* Local: density rho[nelements], kg/m3, and viscosity mu[nelements], Pa s, of the fluid's last flow (copied). */
+PetscErrorCode OverlapSetProperties(Overlap overlap, const double rho[], const double mu[]);
 /* Distributes the solid and its shell as they are now and finds all pairs. */
 PetscErrorCode OverlapBuild(Overlap overlap, const SolidState *solid, const Shell shell);
 

@@ -117,9 +117,9 @@ static void Change(const ElementGeometry *g, double rho, double dt, const double
     }
 }
 
-static PetscBool Gives(const CoracleCoupling *k)
+static PetscBool HasInertia(const CoracleCoupling *k)
 {
-  return (PetscBool)(k->give[0][0][0][0] != 0.0);
+  return k->flags & CORACLE_HAS_INERTIA ? PETSC_TRUE : PETSC_FALSE;
 }
 
 static PetscErrorCode AddElement(Fluid f, double dt, int k)
@@ -129,7 +129,7 @@ static PetscErrorCode AddElement(Fluid f, double dt, int k)
   double change[6][6];
   PetscInt gid[6];
   PetscFunctionBeginUser;
-  PetscCall(Response(f->geometry[e].area, f->rho[e] / dt, f->coupling[k].give, f->response[k]));
+  PetscCall(Response(f->geometry[e].area, f->rho[e] / dt, f->coupling[k].implicit_inertia, f->response[k]));
   Change(f->geometry + e, f->rho[e], dt, (const double(*)[NU])f->response[k], change);
   for (int i = 0; i < 6; i++) {
     const int p = m->p2[6 * e + i];
@@ -143,7 +143,7 @@ PetscErrorCode WeightedProjectionPrepare(Fluid f, double dt)
 {
   int gives = 0;
   PetscFunctionBeginUser;
-  for (int k = 0; k < f->ncoupling; k++) gives |= Gives(f->coupling + k);
+  for (int k = 0; k < f->ncoupling; k++) gives |= HasInertia(f->coupling + k);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &gives, 1, MPI_INT, MPI_LOR, f->mesh->comm));
   f->gives = (PetscBool)gives;
   if (!gives) PetscFunctionReturn(0);
@@ -152,7 +152,7 @@ PetscErrorCode WeightedProjectionPrepare(Fluid f, double dt)
   PetscCall(PetscMalloc1(f->ncoupling, &f->response));
   PetscCall(MatCopy(f->laplacian, f->giving, SAME_NONZERO_PATTERN));
   for (int k = 0; k < f->ncoupling; k++)
-    if (Gives(f->coupling + k)) PetscCall(AddElement(f, dt, k));
+    if (HasInertia(f->coupling + k)) PetscCall(AddElement(f, dt, k));
   PetscCall(MatAssemblyBegin(f->giving, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(f->giving, MAT_FINAL_ASSEMBLY));
   PetscCall(Refactor(f));
@@ -162,7 +162,7 @@ PetscErrorCode WeightedProjectionPrepare(Fluid f, double dt)
 PetscBool WeightedProjectionVelocity(Fluid f, int e, const double grad[3][2], double u[6])
 {
   const int k = f->coupling_of[e];
-  if (!f->gives || k < 0 || !Gives(f->coupling + k)) return PETSC_FALSE;
+  if (!f->gives || k < 0 || !HasInertia(f->coupling + k)) return PETSC_FALSE;
   for (int i = 0; i < NU; i++)
     for (int j = 0; j < NU; j++) u[i] -= f->response[k][i][j] * grad[j % 3][j / 3];
   return PETSC_TRUE;

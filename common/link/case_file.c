@@ -65,7 +65,7 @@ static bool FindPath(int argc, char **argv, const char **path, char problem[])
   return *path != NULL;
 }
 
-static bool ApplySets(Case c, int argc, char **argv, char problem[])
+static bool ApplySets(CoracleCase c, int argc, char **argv, char problem[])
 {
   c->set_hash = FNV_START;
   for (int i = 1; i < argc; i++) {
@@ -77,7 +77,7 @@ static bool ApplySets(Case c, int argc, char **argv, char problem[])
   return true;
 }
 
-static bool ReadTree(Case c, int argc, char **argv, char problem[])
+static bool ReadTree(CoracleCase c, int argc, char **argv, char problem[])
 {
   const char *path;
   size_t size;
@@ -98,15 +98,16 @@ static bool ReadTree(Case c, int argc, char **argv, char problem[])
   return ApplySets(c, argc, argv, problem);
 }
 
-int CaseLoad(int argc, char **argv, char problem[], Case *c)
+int CaseLoad(int argc, char **argv, char problem[], CoracleCase *c)
 {
   *c = calloc(1, sizeof **c);
   if (ReadTree(*c, argc, argv, problem)) return 0;
-  CaseClose(c);
+  CoracleCaseClose(c);
   return 1;
 }
 
-int CaseOpen(int argc, char **argv, void (*fail)(void *context, const char *message), void *context, Case *c)
+int CoracleCaseOpen(int argc, char **argv, void (*fail)(void *context, const char *message), void *context,
+                    CoracleCase *c)
 {
   char problem[CASE_MESSAGE];
   if (CaseLoad(argc, argv, problem, c)) {
@@ -118,7 +119,7 @@ int CaseOpen(int argc, char **argv, void (*fail)(void *context, const char *mess
   return 0;
 }
 
-int CaseClose(Case *c)
+int CoracleCaseClose(CoracleCase *c)
 {
   if (!*c) return 0;
   CaseTreeDestroy(&(*c)->root);
@@ -134,11 +135,11 @@ int CaseClose(Case *c)
   return 0;
 }
 
-const char *CasePath(Case c)
+const char *CoracleCasePath(CoracleCase c)
 {
   return c->path;
 }
-unsigned long long CaseHash(Case c)
+unsigned long long CoracleCaseHash(CoracleCase c)
 {
   return Fnv1a(c->file_hash, (const char *)&c->set_hash, sizeof c->set_hash);
 }
@@ -146,7 +147,7 @@ unsigned long long CaseHash(Case c)
 /* --- failing -------------------------------------------------------------------------------------------- */
 
 /* "file.yaml:12" or "--set key=value": where a node comes from. */
-static void Place(Case c, const CaseNode *node, char place[CASE_KEY])
+static void Place(CoracleCase c, const CaseNode *node, char place[CASE_KEY])
 {
   if (node && node->set)
     snprintf(place, CASE_KEY, "--set %s", node->set);
@@ -156,9 +157,9 @@ static void Place(Case c, const CaseNode *node, char place[CASE_KEY])
     snprintf(place, CASE_KEY, "%s", c->path);
 }
 
-static _Noreturn void Die(Case c, const CaseNode *node, const char *format, ...)
+static _Noreturn void Die(CoracleCase c, const CaseNode *node, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-static _Noreturn void Die(Case c, const CaseNode *node, const char *format, ...)
+static _Noreturn void Die(CoracleCase c, const CaseNode *node, const char *format, ...)
 {
   char place[CASE_KEY], text[CASE_MESSAGE], message[CASE_KEY + CASE_MESSAGE + 2];
   va_list list;
@@ -171,7 +172,7 @@ static _Noreturn void Die(Case c, const CaseNode *node, const char *format, ...)
   abort(); /* fail must not return */
 }
 
-void CaseRefuse(Case c, const char *key, const char *format, ...)
+void CoracleCaseRefuse(CoracleCase c, const char *key, const char *format, ...)
 {
   char text[CASE_MESSAGE - CASE_KEY];
   va_list list;
@@ -195,7 +196,7 @@ static const char *Found(const CaseNode *node, char found[CASE_NAME])
   return found;
 }
 
-static _Noreturn void Unexpected(Case c, const char *key, const CaseNode *node, const char *expected)
+static _Noreturn void Unexpected(CoracleCase c, const char *key, const CaseNode *node, const char *expected)
 {
   char found[CASE_NAME];
   Die(c, node, "key '%s': expected %s, found %s", key, expected, Found(node, found));
@@ -213,19 +214,19 @@ static void Push(char ***list, int *n, int *capacity, char *string)
 }
 
 /* Where the key is, or would be, among those asked for. */
-static int *SlotOf(Case c, const char *key)
+static int *SlotOf(CoracleCase c, const char *key)
 {
   unsigned long long k = Fnv1a(FNV_START, key, strlen(key)) % (unsigned long long)c->nslots;
   while (c->slot[k] >= 0 && strcmp(c->asked[c->slot[k]], key)) k = (k + 1) % (unsigned long long)c->nslots;
   return &c->slot[k];
 }
 
-static bool Asked(Case c, const char *key)
+static bool Asked(CoracleCase c, const char *key)
 {
   return c->nslots && *SlotOf(c, key) >= 0;
 }
 
-static void Remember(Case c, const char *key)
+static void Remember(CoracleCase c, const char *key)
 {
   if (2 * (c->nasked + 1) > c->nslots) {
     c->nslots = c->nslots ? 2 * c->nslots : 256;
@@ -237,7 +238,7 @@ static void Remember(Case c, const char *key)
   Push(&c->asked, &c->nasked, &c->asked_capacity, strdup(key));
 }
 
-static CaseNode *Ask(Case c, const char *key)
+static CaseNode *Ask(CoracleCase c, const char *key)
 {
   if (!Asked(c, key)) {
     Remember(c, key);
@@ -247,7 +248,7 @@ static CaseNode *Ask(Case c, const char *key)
 }
 
 /* The value at a key that must be there. */
-static CaseNode *Require(Case c, const char *key)
+static CaseNode *Require(CoracleCase c, const char *key)
 {
   CaseNode *node = Ask(c, key);
   if (node) return node;
@@ -261,7 +262,7 @@ static CaseNode *Require(Case c, const char *key)
   Die(c, parent == c->root ? NULL : parent, "key '%s' is missing", key);
 }
 
-static CaseNode *RequireScalar(Case c, const char *key, const char *expected)
+static CaseNode *RequireScalar(CoracleCase c, const char *key, const char *expected)
 {
   CaseNode *node = Require(c, key);
   if (node->kind != NODE_SCALAR || (!node->text[0] && !node->quoted)) Unexpected(c, key, node, expected);
@@ -269,12 +270,12 @@ static CaseNode *RequireScalar(Case c, const char *key, const char *expected)
   return node;
 }
 
-bool CaseHas(Case c, const char *key)
+bool CoracleCaseHas(CoracleCase c, const char *key)
 {
   return Ask(c, key) != NULL;
 }
 
-int CaseCount(Case c, const char *key)
+int CoracleCaseCount(CoracleCase c, const char *key)
 {
   CaseNode *node = Ask(c, key);
   if (!node) return 0;
@@ -282,7 +283,7 @@ int CaseCount(Case c, const char *key)
   return node->n;
 }
 
-int CaseKeys(Case c, const char *key, void (*f)(void *context, const char *name), void *context)
+int CoracleCaseKeys(CoracleCase c, const char *key, void (*f)(void *context, const char *name), void *context)
 {
   CaseNode *node = Ask(c, key);
   if (!node) return 0;
@@ -315,7 +316,7 @@ static const char *Range(const char *what, double lower, double upper, bool open
   return text;
 }
 
-static double NumberAt(Case c, const char *key, double lower, double upper, bool open)
+static double NumberAt(CoracleCase c, const char *key, double lower, double upper, bool open)
 {
   char expected[CASE_NAME];
   double value = 0.0;
@@ -325,24 +326,24 @@ static double NumberAt(Case c, const char *key, double lower, double upper, bool
   return value;
 }
 
-double CaseNumber(Case c, const char *key, double lower, double upper)
+double CoracleCaseNumber(CoracleCase c, const char *key, double lower, double upper)
 {
   return NumberAt(c, key, lower, upper, false);
 }
-double CasePositive(Case c, const char *key)
+double CoracleCasePositive(CoracleCase c, const char *key)
 {
   return NumberAt(c, key, 0.0, HUGE_VAL, true);
 }
 
-double CaseNumberOr(Case c, const char *key, double fallback, double lower, double upper)
+double CoracleCaseNumberOr(CoracleCase c, const char *key, double fallback, double lower, double upper)
 {
-  return CaseHas(c, key) ? NumberAt(c, key, lower, upper, false) : fallback;
+  return CoracleCaseHas(c, key) ? NumberAt(c, key, lower, upper, false) : fallback;
 }
 
-int CaseIntegerOr(Case c, const char *key, int fallback, int lower, int upper)
+int CoracleCaseIntegerOr(CoracleCase c, const char *key, int fallback, int lower, int upper)
 {
   char expected[CASE_NAME], *end;
-  if (!CaseHas(c, key)) return fallback;
+  if (!CoracleCaseHas(c, key)) return fallback;
   Range("an integer", lower, upper, false, expected);
   CaseNode *node = RequireScalar(c, key, expected);
   errno = 0;
@@ -351,7 +352,7 @@ int CaseIntegerOr(Case c, const char *key, int fallback, int lower, int upper)
   return (int)value;
 }
 
-void CaseVector(Case c, const char *key, int n, double v[])
+void CoracleCaseVector(CoracleCase c, const char *key, int n, double v[])
 {
   char expected[CASE_NAME];
   CaseNode *node = Require(c, key);
@@ -364,37 +365,37 @@ void CaseVector(Case c, const char *key, int n, double v[])
   node->read = true;
 }
 
-bool CaseVectorOptional(Case c, const char *key, int n, double v[])
+bool CoracleCaseVectorOptional(CoracleCase c, const char *key, int n, double v[])
 {
-  if (!CaseHas(c, key)) return false;
-  CaseVector(c, key, n, v);
+  if (!CoracleCaseHas(c, key)) return false;
+  CoracleCaseVector(c, key, n, v);
   return true;
 }
 
 /* --- words ---------------------------------------------------------------------------------------------- */
 
-bool CaseBoolOr(Case c, const char *key, bool fallback)
+bool CoracleCaseBoolOr(CoracleCase c, const char *key, bool fallback)
 {
-  if (!CaseHas(c, key)) return fallback;
+  if (!CoracleCaseHas(c, key)) return fallback;
   CaseNode *node = RequireScalar(c, key, "true or false");
   const bool yes = !strcmp(node->text, "true");
   if (node->quoted || (!yes && strcmp(node->text, "false"))) Unexpected(c, key, node, "true or false");
   return yes;
 }
 
-const char *CaseString(Case c, const char *key)
+const char *CoracleCaseString(CoracleCase c, const char *key)
 {
   return RequireScalar(c, key, "a string")->text;
 }
 
-const char *CaseStringOr(Case c, const char *key, const char *fallback)
+const char *CoracleCaseStringOr(CoracleCase c, const char *key, const char *fallback)
 {
-  return CaseHas(c, key) ? CaseString(c, key) : fallback;
+  return CoracleCaseHas(c, key) ? CoracleCaseString(c, key) : fallback;
 }
 
-const char *CaseFile(Case c, const char *key)
+const char *CoracleCaseFile(CoracleCase c, const char *key)
 {
-  const char *name = CaseString(c, key), *folder = name[0] == '/' ? "" : c->folder;
+  const char *name = CoracleCaseString(c, key), *folder = name[0] == '/' ? "" : c->folder;
   char *path = malloc(strlen(folder) + strlen(name) + 1);
   strcpy(path, folder);
   strcat(path, name);
@@ -402,10 +403,10 @@ const char *CaseFile(Case c, const char *key)
   return path;
 }
 
-int CaseWord(Case c, const char *key, int fallback, const char *const words[])
+int CoracleCaseWord(CoracleCase c, const char *key, int fallback, const char *const words[])
 {
   char expected[CASE_KEY] = "one of";
-  if (fallback >= 0 && !CaseHas(c, key)) return fallback;
+  if (fallback >= 0 && !CoracleCaseHas(c, key)) return fallback;
   for (int i = 0; words[i]; i++) {
     const size_t used = strlen(expected);
     snprintf(expected + used, sizeof expected - used, "%s %s", i ? "," : "", words[i]);
@@ -419,7 +420,7 @@ int CaseWord(Case c, const char *key, int fallback, const char *const words[])
 /* --- what nobody has read ------------------------------------------------------------------------------- */
 
 /* A key that was asked for, did not exist, and lies beside this one under a similar name. */
-static const char *Suggestion(Case c, const char *key)
+static const char *Suggestion(CoracleCase c, const char *key)
 {
   const char *dot = strrchr(key, '.');
   const size_t stem = dot ? (size_t)(dot - key) + 1 : 0;
@@ -432,7 +433,7 @@ static const char *Suggestion(Case c, const char *key)
 }
 
 /* Nothing under an unknown map was ever asked for: the map itself is the unknown key, not its first value. */
-static void CheckRead(Case c, const CaseNode *node, const char *key)
+static void CheckRead(CoracleCase c, const CaseNode *node, const char *key)
 {
   const bool leaf = node->kind == NODE_SCALAR || (node->n == 0 && !node->read);
   const bool asked = Asked(c, key);
@@ -452,7 +453,7 @@ static void CheckRead(Case c, const CaseNode *node, const char *key)
   }
 }
 
-static void CheckSection(Case c, const CaseNode *section)
+static void CheckSection(CoracleCase c, const CaseNode *section)
 {
   for (int i = 0; SECTIONS[i]; i++)
     if (!strcmp(SECTIONS[i], section->key)) return;
@@ -462,7 +463,7 @@ static void CheckSection(Case c, const CaseNode *section)
   Die(c, section, "unknown section '%s'", section->key);
 }
 
-int CaseFinish(Case c, const char *const sections[])
+int CoracleCaseFinish(CoracleCase c, const char *const sections[])
 {
   for (int i = 0; i < c->root->n; i++) CheckSection(c, c->root->child[i]);
   for (int i = 0; sections[i]; i++) {

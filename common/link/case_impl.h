@@ -22,7 +22,7 @@ typedef struct CaseNode_s {
   struct CaseNode_s **child; /* [n] in file order */
 } CaseNode;
 
-struct Case_s {
+struct CoracleCase_s {
   char *path, *folder;
   CaseNode *root;
   unsigned long long file_hash, set_hash;
@@ -31,7 +31,7 @@ struct Case_s {
   int nslots;
   int *slot; /* [nslots] hashed places in asked, -1: empty */
   int nkept, kept_capacity;
-  char **kept; /* [nkept] strings handed out by CaseFile */
+  char **kept; /* [nkept] strings handed out by CoracleCaseFile */
   void (*fail)(void *context, const char *message);
   void *context;
 };
@@ -56,7 +56,7 @@ int CaseEditDistance(const char *a, const char *b, int limit);
 /* Whether b is a plausible misspelling of a. */
 bool CaseSimilar(const char *a, const char *b);
 
-/* As CaseOpen, but returns 1 with a message instead of failing (the start of a job reports once for all
+/* As CoracleCaseOpen, but returns 1 with a message instead of failing (the start of a job reports once for all
  * ranks). */
-int CaseLoad(int argc, char **argv, char problem[], Case *c);
+int CaseLoad(int argc, char **argv, char problem[], CoracleCase *c);
 #endif

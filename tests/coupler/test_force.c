@@ -53,13 +53,16 @@ static void SetSolid(FlowFunction f)
 /* One step on all ranks. */
 static void Step(CouplerMode mode, double thickness, double dt, Coupler *c, ForceTotals *totals)
 {
-  const CouplerOptions options = {mode, thickness, 10.0, {GRAVITY[0], GRAVITY[1]}, viscosity};
+  const CouplerOptions options = {mode, thickness, 10.0, {GRAVITY[0], GRAVITY[1]}};
   const CoracleCoupling *coupling;
   const double *force;
   int rank, size, n;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
-  for (int k = 0; k < all_fluid.n; k++) all_fluid.rho[k] = RHO;
+  for (int k = 0; k < all_fluid.n; k++) {
+    all_fluid.rho[k] = RHO;
+    all_fluid.mu[k] = viscosity;
+  }
   SyntheticSolidPart(&all_solid, rank, size, &solid);
   SyntheticFluidPart(&all_fluid, rank, size, &fluid);
   CHECK(!CouplerCreate(PETSC_COMM_WORLD, &options, c), "create");
@@ -85,7 +88,7 @@ static void CheckBuoyancy(double radius, double share)
   ForceTotals totals;
   SetSolid(Hydrostatic);
   SetFlow(Hydrostatic, all_fluid.u_star);
-  SetFlow(Hydrostatic, all_fluid.u_plus);
+  SetFlow(Hydrostatic, all_fluid.u_projected);
   for (int mode = COUPLER_REACTION; mode <= COUPLER_PENALTY_SHELL; mode += COUPLER_PENALTY_SHELL) {
     Step((CouplerMode)mode, dr, 0.01, &c, &totals);
     CheckTotal(COUPLER_MODES[mode], totals.force, -RHO * GRAVITY[0] * area, -RHO * GRAVITY[1] * area, 1e-12);
@@ -110,11 +113,11 @@ static void CheckMotion(void)
   viscosity = 0.0;
   SetSolid(Rigid);
   SetFlow(Rigid, all_fluid.u_star);
-  SetFlow(Rigid, all_fluid.u_plus);
+  SetFlow(Rigid, all_fluid.u_projected);
   Step(COUPLER_REACTION, 0.002, dt, &c, &totals);
   CheckTotal("rigid", totals.force, -RHO * GRAVITY[0] * area, -RHO * GRAVITY[1] * area, 1e-10);
   CHECK(!CouplerDestroy(&c), "destroy");
-  SetFlow(Accelerated, all_fluid.u_plus);
+  SetFlow(Accelerated, all_fluid.u_projected);
   Step(COUPLER_REACTION, 0.002, dt, &c, &totals);
   CheckTotal("accelerated", totals.force, RHO * area * (0.02 / dt - GRAVITY[0]),
              RHO * area * (0.05 / dt - GRAVITY[1]), 1e-10);

@@ -54,7 +54,7 @@ static void SolveElement(const CoracleCoupling *k, double area, double u[2][3])
  * how far that is from free fall, of what free fall has added. */
 static double Step(double kick, ForceTotals *totals, double v[2])
 {
-  const CouplerOptions options = {COUPLER_REACTION, 0.002, 10.0, {0.0, 0.0}, 0.0};
+  const CouplerOptions options = {COUPLER_REACTION, 0.002, 10.0, {0.0, 0.0}};
   const CoracleCoupling *coupling;
   const double *force;
   double total[3] = {0.0};
@@ -77,7 +77,7 @@ static double Step(double kick, ForceTotals *totals, double v[2])
   }
   for (int k = 0; k < fluid.n; k++)
     for (int i = 0; i < 6; i++)
-      fluid.u_plus[k][i / 3][i % 3] = fluid.u_star[k][i / 3][i % 3] + kick * (i + 1);
+      fluid.u_projected[k][i / 3][i % 3] = fluid.u_star[k][i / 3][i % 3] + kick * (i + 1);
   CHECK(!CouplerComputeForce(c, &fluid.flow, &force, totals), "react");
   for (int i = 0; i < solid.nnodes; i++) {
     const double x = solid.x[i][0] - 0.5, y = solid.x[i][1] - 0.5;

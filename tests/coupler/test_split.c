@@ -32,7 +32,7 @@ static void MakeCase(void)
     all_fluid.mu[k] = Random(0.5, 2.0);
     for (int i = 0; i < 6; i++) {
       all_fluid.u_star[k][i / 3][i % 3] = Random(-1.0, 1.0);
-      all_fluid.u_plus[k][i / 3][i % 3] = Random(-1.0, 1.0);
+      all_fluid.u_projected[k][i / 3][i % 3] = Random(-1.0, 1.0);
       all_fluid.p[k][i] = Random(-1.0, 1.0);
     }
   }
@@ -61,7 +61,7 @@ static int GlobalNode(long long gid)
 /* One step; two, so that the viscosities of the flow count in the wall term. */
 static void Run(MPI_Comm comm, CouplerMode mode, Result *r)
 {
-  const CouplerOptions options = {mode, 0.004, 10.0, {0.3, -9.81}, 0.7};
+  const CouplerOptions options = {mode, 0.004, 10.0, {0.3, -9.81}};
   const CoracleCoupling *coupling;
   const CoracleCorrection *correction;
   const double *force;
@@ -116,7 +116,7 @@ static void CheckConservation(const Result *r)
     }
     for (int i = 0; i < 9; i++) {
       mass += element.ms[i / 3][i % 3];
-      for (int c = 0; c < 2; c++) after[c] += element.ms[i / 3][i % 3] * all_fluid.u_plus[k][c][i % 3];
+      for (int c = 0; c < 2; c++) after[c] += element.ms[i / 3][i % 3] * all_fluid.u_projected[k][c][i % 3];
     }
   }
   for (int t = 0; t < all_solid.nelements; t++) {

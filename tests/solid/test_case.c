@@ -13,12 +13,12 @@ static const char *const SECTIONS[] = {"solid", NULL};
 static Model assembly;
 static SolidSetup setup;
 
-static void Read(Case c)
+static void Read(CoracleCase c)
 {
   (void)ModelDestroy(&assembly);
   memset(&setup, 0, sizeof setup);
   (void)SolidCaseRead(c, &assembly, &setup);
-  CaseFinish(c, SECTIONS);
+  CoracleCaseFinish(c, SECTIONS);
 }
 
 static void Everything(void)
