@@ -2,7 +2,7 @@
  * solid's force, on the supermesh of both (overlap.h).  It knows no messages; exchange.h does.  One step from
  * t^n to t^n + dt:
  *
- *        solid x^n, u_s                    fluid u*, u+, rho, mu              solid u_s^{n+1}
+ *        solid x^n, u_s                    fluid u*, u+, rho, mu            solid u_s^{n+1}
  *             |                                   |                               |
  *        CouplerBuild                   CouplerComputeForce                CouplerCorrect
  *        a, s = a u_s per element       F on the solid's nodes             r = (u_s^{n+1} - u+) inside S

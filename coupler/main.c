@@ -2,7 +2,7 @@
  *
  *     join the job, read the case
  *     time loop (time_loop.c): each step
- *         fluid   -- u*, u+, p, mu ----------------->  coupler  -- force on the nodes -->  solid
+ *         fluid   -- u*, u+, rho, mu --------------->  coupler  -- force on the nodes -->  solid
  *         solid   -- new position and velocity ----->  coupler  -- correction, and the coupling of the next
  *                                                                  step at the new position -->  fluid
  *     write summary.json */

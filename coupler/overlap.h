@@ -58,7 +58,8 @@ PetscErrorCode OverlapCreate(MPI_Comm comm, Overlap *overlap);
 PetscErrorCode OverlapDestroy(Overlap *overlap);
 /* The fluid's elements near the solid, copied.  Pairs made before are void. */
 PetscErrorCode OverlapSetElements(Overlap overlap, const FluidElements *elements);
-/* Local: density rho[nelements], kg/m3, and viscosity mu[nelements], Pa s, of the fluid's last flow (copied). */
+/* Local: density rho[nelements], kg/m3, and viscosity mu[nelements], Pa s, of the fluid's last flow
+ * (copied). */
 PetscErrorCode OverlapSetProperties(Overlap overlap, const double rho[], const double mu[]);
 /* Distributes the solid and its shell as they are now and finds all pairs. */
 PetscErrorCode OverlapBuild(Overlap overlap, const SolidState *solid, const Shell shell);

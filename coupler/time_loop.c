@@ -1,6 +1,6 @@
 /* One step from t to t + dt; a staggered step is one coupling iteration.
  *
- *     repeat     fluid   -- u*, u+, rho, mu -->   force     -- force -->  solid
+ *     repeat     fluid   -- u*, u+, rho, mu -->  force     -- force -->  solid
  *                solid   -- x, u_s ---------->  converged?
  *                           if not:             next u_s  -- coupling, REDO -->  fluid
  *     until converged
