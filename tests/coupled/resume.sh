@@ -17,7 +17,7 @@ kill_and_resume() {
   wait $! && { echo "$label has survived"; exit 1; }
   cp "$scratch/$label.log" "$scratch/$label.killed.log"
   must "$label" "$after" "$@" --set output.checkpoint=1e-9 --set resume=last
-  grep -q "goes on from t" "$scratch/$label.log" || { echo "$label has begun anew:"; cat "$scratch/$label.log"; exit 1; }
+  grep -q "resumes from t" "$scratch/$label.log" || { echo "$label has begun anew:"; cat "$scratch/$label.log"; exit 1; }
 }
 
 adapt=(--set time.end=0.2 --set time.dt_max=0.004 --set fluid.adapt.size_min=0.02 --set fluid.adapt.size_max=0.25 --set fluid.adapt.velocity_error=0.005
