@@ -23,7 +23,7 @@ static const char *const SECTIONS[] = {"fluid", NULL};
 /* What the time loop holds; mesh, fluid and all that is as large as they change with the mesh. */
 typedef struct {
   CoracleClient client;
-  Case c;
+  CoracleCase c;
   Mesh *mesh;
   Fluid fluid;
   Exchange exchange;
@@ -31,22 +31,6 @@ typedef struct {
   Adaptation adaptation; /* NULL: the mesh stays */
   PetscBool new_mesh;    /* since the last step */
 } RunState;
-
-/* ExchangeFirst: the solid has shown where it is, and the fluid starts on a mesh that is fine there. */
-static PetscErrorCode FirstMesh(void *context, int nbox, const double box[], Fluid *fluid)
-{
-  RunState *m = context;
-  Mesh *mesh;
-  PetscFunctionBeginUser;
-  PetscCall(AdaptationFirstMesh(m->adaptation, m->mesh, nbox, box, &mesh));
-  PetscCall(FluidCreateLike(m->fluid, mesh, fluid));
-  PetscCall(FluidSetInitial(*fluid, 0.0, NULL, NULL, NULL));
-  PetscCall(FluidDestroy(&m->fluid));
-  PetscCall(MeshDestroy(&m->mesh));
-  m->mesh = mesh;
-  m->fluid = *fluid;
-  PetscFunctionReturn(0);
-}
 
 /* --- checkpoints ---------------------------------------------------------------------------------------- */
 
@@ -80,20 +64,35 @@ static PetscErrorCode Load(RunState *m, Checkpoint from, const PetscInt row[])
 
 /* --- the run -------------------------------------------------------------------------------------------- */
 
-/* What the case says, with the mesh of a checkpoint if there is one. */
+/* In place of the mesh that the case gives: one that is fine where the solid is. */
+static PetscErrorCode FirstMesh(RunState *m)
+{
+  const double *box;
+  int nbox;
+  Mesh *mesh;
+  PetscFunctionBeginUser;
+  PetscCall(CoracleGetRegion(m->client, &nbox, &box));
+  PetscCall(AdaptationFirstMesh(m->adaptation, m->mesh, nbox, box, &mesh));
+  PetscCall(MeshDestroy(&m->mesh));
+  m->mesh = mesh;
+  PetscFunctionReturn(0);
+}
+
+/* Mesh, fluid and adaptation as the case says; row: of a checkpoint's mesh (FluidLoad). */
 static PetscErrorCode Create(RunState *m, MPI_Comm comm, const char *resume, Checkpoint from, PetscInt **row)
 {
   FluidSetup setup;
   AdaptationSetup adaptation;
   PetscBool adapts;
   PetscFunctionBeginUser;
-  PetscCall(PetscOptionsInsertString(NULL, CaseStringOr(m->c, "fluid.petsc", "")));
+  PetscCall(PetscOptionsInsertString(NULL, CoracleCaseStringOr(m->c, "fluid.petsc", "")));
   PetscCall(FluidCaseMesh(m->c, comm, from, &m->mesh, row));
   if (from) FluidCaseCheckResumed(m->c, m->mesh, resume);
   PetscCall(FluidCaseSetup(m->c, m->mesh, &setup));
   PetscCall(FluidCaseAdaptation(m->c, &adapts, &adaptation));
-  PetscCall(CaseFinish(m->c, SECTIONS));
+  PetscCall(CoracleCaseFinish(m->c, SECTIONS));
   if (adapts) PetscCall(AdaptationCreate(&adaptation, &m->adaptation));
+  if (adapts && !from) PetscCall(FirstMesh(m));
   PetscCall(FluidCreate(m->mesh, &setup, &m->fluid));
   PetscCall(PetscFree(setup.boundary));
   PetscFunctionReturn(0);
@@ -112,7 +111,7 @@ static PetscErrorCode Setup(RunState *m, MPI_Comm comm)
   else
     PetscCall(FluidSetInitial(m->fluid, 0.0, NULL, NULL, NULL));
   PetscCall(PetscFree(row));
-  PetscCall(ExchangeCreate(m->client, m->fluid, m->adaptation && !from ? FirstMesh : NULL, m, &m->exchange));
+  PetscCall(ExchangeCreate(m->client, m->fluid, &m->exchange));
   PetscCall(WriterCreate(m->c, m->fluid, from, &m->record));
   PetscCall(CheckpointClose(&from));
   PetscFunctionReturn(0);
@@ -129,7 +128,7 @@ static PetscErrorCode Report(CoracleClient client, Fluid fluid)
   PetscFunctionReturn(0);
 }
 
-/* When it is time: another mesh for the flow of the step in hand, and a fluid on it. */
+/* When it is due: another mesh for the flow of the current step, and a fluid on it; else NULL. */
 static PetscErrorCode Remesh(RunState *m, Mesh **mesh, Fluid *fluid)
 {
   PetscBool due = PETSC_FALSE;
@@ -143,7 +142,7 @@ static PetscErrorCode Remesh(RunState *m, Mesh **mesh, Fluid *fluid)
   PetscFunctionReturn(0);
 }
 
-/* The step has been completed on the old mesh: what follows is on the new one. */
+/* The step is complete on the old mesh: the next one is on the new mesh. */
 static PetscErrorCode AcceptMesh(RunState *m, Mesh *mesh, Fluid fluid)
 {
   PetscFunctionBeginUser;
@@ -157,7 +156,7 @@ static PetscErrorCode AcceptMesh(RunState *m, Mesh *mesh, Fluid fluid)
   PetscFunctionReturn(0);
 }
 
-/* The step will be redone. */
+/* The step will be redone on the old mesh. */
 static PetscErrorCode DiscardMesh(RunState *m, Mesh **mesh, Fluid *fluid)
 {
   PetscFunctionBeginUser;
@@ -191,7 +190,7 @@ static PetscErrorCode Step(RunState *m, double dt)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Run(CoracleClient client, Case c, MPI_Comm comm)
+static PetscErrorCode Run(CoracleClient client, CoracleCase c, MPI_Comm comm)
 {
   RunState m = {.client = client, .c = c};
   CoracleAction action;
@@ -220,15 +219,15 @@ int main(int argc, char **argv)
   const Command command = CommandTake(&argc, argv);
   CoracleClient client;
   MPI_Comm comm;
-  Case c;
+  CoracleCase c;
   if (command != COMMAND_RUN) return FluidAnswer(command, argc, argv);
   if (CoracleOpen("fluid", argc, argv, &comm, &client)) return 1;
   PETSC_COMM_WORLD = comm;
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
   PetscCall(PetscPushErrorHandler(Abort, client));
-  PetscCall(CaseOpen(argc, argv, Fail, client, &c));
+  PetscCall(CoracleCaseOpen(argc, argv, Fail, client, &c));
   PetscCall(Run(client, c, comm));
-  PetscCall(CaseClose(&c));
+  PetscCall(CoracleCaseClose(&c));
   PetscCall(PetscFinalize());
   return CoracleClose(&client);
 }

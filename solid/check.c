@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 /* What the calls that read them do not say of the solid's keys. */
-static const CaseKey KEYS[] = {
+static const CoracleCaseKey KEYS[] = {
     {"gravity", "m/s2", "acceleration of gravity, x and y"},
     {"output.folder", "", "where results go; made if missing"},
     {"output.every", "s", "time from one snapshot of the fields to the next"},
@@ -87,7 +87,7 @@ static void Fail(void *context, const char *message)
   exit(1);
 }
 
-static PetscErrorCode Expect(Case c, Solid s, Command command)
+static PetscErrorCode Expect(CoracleCase c, Solid s, Command command)
 {
   SolidView v;
   Writer writer;
@@ -109,23 +109,23 @@ static PetscErrorCode Expect(Case c, Solid s, Command command)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ReadCase(Case c, Command command)
+static PetscErrorCode ReadCase(CoracleCase c, Command command)
 {
   Solid solid;
   PetscFunctionBeginUser;
-  CaseDescribe(c, KEYS);
-  (void)CaseString(c, "output.folder");
-  (void)CasePositive(c, "output.every");
+  CoracleCaseDescribe(c, KEYS);
+  (void)CoracleCaseString(c, "output.folder");
+  (void)CoracleCasePositive(c, "output.every");
   PetscCall(SolidFromCase(c, PETSC_COMM_SELF, Fail, NULL, &solid));
-  if (command != COMMAND_KEYS && CaseFaultless(c)) PetscCall(Expect(c, solid, command));
+  if (command != COMMAND_KEYS && CoracleCaseFaultless(c)) PetscCall(Expect(c, solid, command));
   PetscCall(SolidDestroy(&solid));
   PetscFunctionReturn(0);
 }
 
-static void Read(Case c, void *command)
+static void Read(CoracleCase c, void *command)
 {
   const PetscErrorCode failed = ReadCase(c, *(const Command *)command);
-  if (failed) CaseRefuse(c, "solid", "the bodies cannot be made (error %d of PETSc)", failed);
+  if (failed) CoracleCaseRefuse(c, "solid", "the bodies cannot be made (error %d of PETSc)", failed);
 }
 
 int SolidAnswer(Command command, int argc, char **argv)

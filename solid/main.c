@@ -107,7 +107,7 @@ int main(int argc, char **argv)
   const Command command = CommandTake(&argc, argv);
   CoracleClient client;
   MPI_Comm comm;
-  Case c;
+  CoracleCase c;
   Solid solid;
   Writer record;
   Checkpoint from;
@@ -117,12 +117,12 @@ int main(int argc, char **argv)
   PETSC_COMM_WORLD = comm;
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
   PetscCall(PetscPushErrorHandler(Abort, client));
-  PetscCall(CaseOpen(argc, argv, Fail, client, &c));
+  PetscCall(CoracleCaseOpen(argc, argv, Fail, client, &c));
   PetscCall(SolidFromCase(c, comm, Fail, client, &solid));
   PetscCall(Resume(client, solid, &from));
   PetscCall(WriterCreate(c, comm, solid, from, &record));
   PetscCall(CheckpointClose(&from));
-  PetscCall(CaseClose(&c));
+  PetscCall(CoracleCaseClose(&c));
   PetscCall(Run(client, solid, record));
   PetscCall(Report(client, solid));
   PetscCall(WriterDestroy(&record));

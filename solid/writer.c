@@ -142,9 +142,9 @@ static PetscErrorCode Load(Writer r, Checkpoint from)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode WriterCreate(Case c, MPI_Comm comm, Solid solid, Checkpoint from, Writer *record)
+PetscErrorCode WriterCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoint from, Writer *record)
 {
-  const char *folder = CaseString(c, "output.folder");
+  const char *folder = CoracleCaseString(c, "output.folder");
   SolidView v;
   Writer r;
   PetscFunctionBeginUser;
@@ -153,7 +153,7 @@ PetscErrorCode WriterCreate(Case c, MPI_Comm comm, Solid solid, Checkpoint from,
   r->comm = comm;
   r->nbodies = PetscMin(v.nbodies, MAX_BODIES);
   r->start = MPI_Wtime();
-  PetscCall(OutputCreate(comm, folder, "solid", CasePositive(c, "output.every"), from, &r->output));
+  PetscCall(OutputCreate(comm, folder, "solid", CoracleCasePositive(c, "output.every"), from, &r->output));
   PetscCall(CreateSeries(r, folder, from));
   PetscCall(from ? Load(r, from) : Snapshot(r, solid));
   *record = r;

@@ -1,10 +1,10 @@
 /* Private to the client's end of the link. */
 #ifndef CORACLE_CLIENT_IMPL_H
 #define CORACLE_CLIENT_IMPL_H
-#include "common/link/message.h"
+#include "common/link/fields.h"
 #include "common/link/report.h"
 
-enum { DIM = 2 };
+enum { DIM = CORACLE_DIM };
 
 /* Where a client is in the run; every function says when it may be called. */
 typedef enum {
@@ -32,15 +32,18 @@ typedef struct {
   bool has_given;
   Buffer inertia; /* double [3][n], of CoracleSetInertia: mobility, 1/kg; acceleration [n][2], m/s2 */
   bool has_inertia;
-  const double *force; /* [n][2] in the message, N */
+  FieldLists force;
 } ClientSolid;
 
 typedef struct {
-  double lower[DIM], upper[DIM], proposed;
+  FieldsDomain domain;
+  double proposed; /* s */
   CoracleRegionFunction region;
   void *context;
+  int nbox; /* boxes of CoracleGetRegion that have not been answered; they are in the message received last */
+  const double *box;
   int n; /* elements last given by region */
-  bool changed, flow_set;
+  bool asked, needs_pressure, changed, flow_set;
   int ncoupling, ncorrection;
   Buffer coupling, correction;
 } ClientFluid;
@@ -54,7 +57,7 @@ typedef struct {
 
 struct CoracleClient_s {
   Participant *p;
-  Message in, out; /* from and to this rank's home */
+  Message in, out; /* from and to the coupler rank that owns this one */
   Stage stage;
   Buffer save; /* path of the checkpoint due in this step, or empty */
   bool asked_save, asked_resume;

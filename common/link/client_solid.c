@@ -141,15 +141,15 @@ static void CheckConnectivity(CoracleClient c, const char *what, int ne, int per
 /* --- the exchanges -------------------------------------------------------------------------------------- */
 
 /* Mobilities and accelerations of CoracleSetInertia, none by default. */
-static void AddInertia(CoracleClient c)
+static const double *Inertia(CoracleClient c)
 {
   ClientSolid *s = &c->solid;
   const size_t bytes = (1 + DIM) * (size_t)s->mesh.n * sizeof(double);
   if (s->has_inertia && s->inertia.size != bytes)
     ClientMisuse(c, "CoracleSetInertia", "it comes after CoracleSetNodes");
   if (!s->has_inertia && bytes) memset(BufferResize(&s->inertia, bytes), 0, bytes);
-  MessageAdd(&c->out, s->inertia.data, bytes);
   s->has_inertia = false;
+  return Doubles(&s->inertia);
 }
 
 /* SURFACE or MOTION, with positions x and velocities, fitted and mean. */
@@ -157,21 +157,27 @@ static void SendMotion(CoracleClient c, const double x[], const double fitted[],
 {
   ClientSolid *s = &c->solid;
   const SolidMesh *m = &s->mesh;
+  const double *inertia = Inertia(c);
+  const ServerSolid fields = {.gid = Ids(&m->gid),
+                              .x = x,
+                              .u = fitted,
+                              .mean = mean,
+                              .mobility = inertia,
+                              .acceleration = inertia ? inertia + m->n : NULL,
+                              .facet = Ints(&m->facet),
+                              .element = Ints(&m->element)};
   MessageHeader *h = MessageStart(&c->out, s->changed ? KIND_SURFACE : KIND_MOTION, c->p->step);
   h->count[0] = m->n;
   h->count[1] = m->nfacets;
   h->count[2] = m->nelements;
   h->flag = ClientFlags(c);
-  if (s->changed) MessageAdd(&c->out, m->gid.data, m->gid.size);
-  MessageAdd(&c->out, x, m->x.size);
-  MessageAdd(&c->out, fitted, m->x.size);
-  MessageAdd(&c->out, mean, m->x.size);
-  AddInertia(c);
+  if (s->changed) FieldsPack(c->p, &c->out, &FIELDS_NODES, (size_t)m->n, &fields);
+  FieldsPack(c->p, &c->out, &FIELDS_MOTION, (size_t)m->n, &fields);
   if (s->changed) {
     CheckConnectivity(c, "facet", m->nfacets, DIM, Ints(&m->facet));
     CheckConnectivity(c, "element", m->nelements, DIM + 1, Ints(&m->element));
-    MessageAdd(&c->out, m->facet.data, m->facet.size);
-    MessageAdd(&c->out, m->element.data, m->element.size);
+    FieldsPack(c->p, &c->out, &FIELDS_FACETS, (size_t)m->nfacets, &fields);
+    FieldsPack(c->p, &c->out, &FIELDS_SIMPLICES, (size_t)m->nelements, &fields);
   }
   ClientSend(c);
   s->changed = false;
@@ -205,7 +211,8 @@ void SolidBegin(CoracleClient c)
   const int step = c->p->step;
   const MessageHeader *h = MessageReceive(c->p, &c->in, KIND_FORCE, KIND_FORCE, step);
   ClientTakeStep(c, h);
-  c->solid.force = MessageTake(c->p, &c->in, DIM * (size_t)h->count[0] * sizeof(double));
+  FieldListsClear(&c->solid.force);
+  FieldsAppend(c->p, &c->in, &FIELDS_FORCE, (size_t)h->count[0], &c->solid.force);
   ClientTakePath(c, h);
   if (c->action == CORACLE_STOP) return;
   BeginMesh(&c->solid, c->action);
@@ -217,7 +224,7 @@ void SolidBegin(CoracleClient c)
 int CoracleGetForce(CoracleClient c, const double **force)
 {
   ClientExpect(c, "CoracleGetForce", ROLE_SOLID, STAGE_STEP, STAGE_STEP);
-  *force = c->solid.force;
+  *force = Doubles(&c->solid.force.list[0]);
   return 0;
 }
 
@@ -255,10 +262,6 @@ int CoracleSetInertia(CoracleClient c, const double mobility[], const double acc
   ClientSolid *s = &c->solid;
   const size_t n = (size_t)s->mesh.n;
   ClientExpect(c, "CoracleSetInertia", ROLE_SOLID, STAGE_SETUP, STAGE_STEP);
-  MessageCheckFinite(c->p, "mobility", "node", n, 1, mobility);
-  MessageCheckFinite(c->p, "acceleration", "node", n, DIM, acceleration);
-  for (size_t i = 0; i < n; i++)
-    if (mobility[i] < 0.0) ParticipantFail(c->p, "the mobility of node %zu is %g 1/kg", i, mobility[i]);
   double *to = (double *)BufferResize(&s->inertia, (1 + DIM) * n * sizeof *to);
   if (n) memcpy(to, mobility, n * sizeof *to);
   if (n) memcpy(to + n, acceleration, DIM * n * sizeof *to);
@@ -291,7 +294,6 @@ void SolidEnd(CoracleClient c, const double x[])
     ParticipantFail(c->p, "the substeps of step %d sum up to %.12g s, the step is %.12g s", c->p->step,
                     s->elapsed, c->dt);
   if (!x && m->n) ClientMisuse(c, "CoracleEnd", "a solid gives its positions");
-  MessageCheckFinite(c->p, "position", "node", (size_t)m->n, DIM, x);
   Velocities(s);
   if (s->has_given && m->n) memcpy(s->velocity.data, s->given.data, m->x.size);
   SendMotion(c, x, Doubles(&s->velocity), Doubles(&s->velocity) + DIM * m->n);
@@ -304,4 +306,5 @@ void SolidFree(CoracleClient c)
   BufferFree(&c->solid.velocity);
   BufferFree(&c->solid.given);
   BufferFree(&c->solid.inertia);
+  FieldListsFree(&c->solid.force);
 }

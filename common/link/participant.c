@@ -77,7 +77,7 @@ static unsigned long long HashArguments(int argc, char **argv)
 static void Describe(const char *role, bool client, int argc, char **argv, HandshakeEntry *e)
 {
   int *context, known;
-  Case c;
+  CoracleCase c;
   memset(e, 0, sizeof *e);
   snprintf(e->role, sizeof e->role, "%s", role);
   snprintf(e->version, sizeof e->version, "%s", CORACLE_VERSION);
@@ -90,10 +90,10 @@ static void Describe(const char *role, bool client, int argc, char **argv, Hands
   if (client && !strcmp(role, "coupler"))
     snprintf(e->problem, sizeof e->problem, "CoracleOpen joins a fluid or a solid, not a coupler");
   else if (CaseLoad(argc, argv, e->problem, &c) == 0) {
-    snprintf(e->case_path, sizeof e->case_path, "%s", CasePath(c));
+    snprintf(e->case_path, sizeof e->case_path, "%s", CoracleCasePath(c));
     e->file_hash = c->file_hash;
     e->set_hash = c->set_hash;
-    CaseClose(&c);
+    CoracleCaseClose(&c);
   }
 }
 
@@ -148,21 +148,21 @@ static void Refuse(void *p, const char *message)
 static void FindResume(Participant *p, int argc, char **argv, size_t size, char folder[])
 {
   struct stat link;
-  Case c;
+  CoracleCase c;
   folder[0] = 0;
-  CaseOpen(argc, argv, Refuse, p, &c);
-  const char *resume = CaseStringOr(c, "resume", "");
+  CoracleCaseOpen(argc, argv, Refuse, p, &c);
+  const char *resume = CoracleCaseStringOr(c, "resume", "");
   const bool last = !strcmp(resume, "last");
   if (last)
-    snprintf(folder, size, "%s/" CORACLE_CHECKPOINT, CaseString(c, "output.folder"));
+    snprintf(folder, size, "%s/" CORACLE_CHECKPOINT, CoracleCaseString(c, "output.folder"));
   else
     snprintf(folder, size, "%s", resume);
   if (folder[0] && access(folder, F_OK)) {
-    if (!last || !lstat(folder, &link)) CaseRefuse(c, "resume", "there is no checkpoint '%s'", folder);
+    if (!last || !lstat(folder, &link)) CoracleCaseRefuse(c, "resume", "there is no checkpoint '%s'", folder);
     if (p->role == ROLE_COUPLER) printf("coracle: there is no %s: begins at the start\n", folder);
     folder[0] = 0;
   }
-  CaseClose(&c);
+  CoracleCaseClose(&c);
 }
 
 static void UsedPath(const Participant *p, const char *folder, size_t size, char path[])
@@ -219,6 +219,7 @@ static void Resume(Participant *p, int argc, char **argv)
 int ParticipantOpen(const char *role, bool client, int argc, char **argv, Participant **participant)
 {
   Participant *p = calloc(1, sizeof *p);
+  p->dim = CORACLE_DIM;
   HandshakeEntry mine;
   Affinity share;
   p->started_mpi = StartMpi();

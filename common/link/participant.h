@@ -26,6 +26,7 @@ typedef struct {
   int *world[NROLES]; /* [count] their world ranks */
   char (*host)[64];   /* [world size] */
   int step;           /* for messages */
+  int dim;            /* dimension of the run's meshes */
   double start;       /* WaitClock when joining, s */
   char *resume;       /* folder of the checkpoint that the run goes on from; NULL: none */
   double used[NUSED]; /* rank 0: by the participant in the runs before that, s */

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void SideInit(ClientList *side, const Participant *p, Role role)
+static void ClientListInit(ClientList *side, const Participant *p, Role role)
 {
   side->peer = calloc((size_t)p->count[role] + 1, sizeof *side->peer);
   for (int rank = p->rank; rank < p->count[role]; rank += p->size) {
@@ -13,14 +13,14 @@ static void SideInit(ClientList *side, const Participant *p, Role role)
   }
 }
 
-static void SideFree(ClientList *side)
+static void ClientListFree(ClientList *side)
 {
   for (int i = 0; i < side->n; i++) {
     MessageFree(&side->peer[i].in);
     MessageFree(&side->peer[i].out);
-    BufferFree(&side->peer[i].gid);
-    BufferFree(&side->peer[i].facet);
-    BufferFree(&side->peer[i].element);
+    FieldListsFree(&side->peer[i].nodes);
+    FieldListsFree(&side->peer[i].facets);
+    FieldListsFree(&side->peer[i].elements);
     BufferFree(&side->peer[i].coupled);
   }
   free(side->peer);
@@ -74,7 +74,7 @@ int ServerSave(Server s, const char *folder)
 void ClientListAskSave(Server s, ClientRank *peer, CoracleAction action)
 {
   const size_t bytes = action == CORACLE_REDO ? 0 : s->save.size;
-  ((MessageHeader *)(void *)peer->out.buffer.data)->count[2] = (int64_t)bytes;
+  MessageHeaderOf(&peer->out)->count[2] = (int64_t)bytes;
   MessageAdd(&peer->out, s->save.data, bytes);
 }
 
@@ -108,8 +108,8 @@ int ServerOpen(int argc, char **argv, MPI_Comm *app_comm, Server *server)
 {
   Server s = calloc(1, sizeof *s);
   ParticipantOpen("coupler", false, argc, argv, &s->p);
-  SideInit(&s->fluid, s->p, ROLE_FLUID);
-  SideInit(&s->solid, s->p, ROLE_SOLID);
+  ClientListInit(&s->fluid, s->p, ROLE_FLUID);
+  ClientListInit(&s->solid, s->p, ROLE_SOLID);
   s->proposed = HUGE_VAL;
   *app_comm = s->p->app;
   *server = s;
@@ -194,28 +194,14 @@ int ServerClose(Server *server)
   if (!s) return 0;
   if (!s->fluid.stopped || !s->solid.stopped)
     ServerFail(s, "closed in step %d, before CORACLE_STOP to both clients", s->p->step);
-  Buffer *all[] = {&s->start_gid,
-                   &s->start_element,
-                   &s->gid,
-                   &s->mean,
-                   &s->x,
-                   &s->u,
-                   &s->facet,
-                   &s->element,
-                   &s->vertices,
-                   &s->mobility,
-                   &s->acceleration,
-                   &s->rho,
-                   &s->u_star,
-                   &s->u_plus,
-                   &s->pressure,
-                   &s->mu,
-                   &s->owner};
+  Buffer *all[] = {&s->save, &s->gid, &s->facet, &s->element, &s->start_gid, &s->start_element, &s->owner};
   for (size_t k = 0; k < sizeof all / sizeof *all; k++) BufferFree(all[k]);
-  BufferFree(&s->save);
+  FieldListsFree(&s->motion);
+  FieldListsFree(&s->elements);
+  FieldListsFree(&s->flow);
   for (int role = 0; role < NROLES; role++) BufferFree(&s->reports[role]);
-  SideFree(&s->fluid);
-  SideFree(&s->solid);
+  ClientListFree(&s->fluid);
+  ClientListFree(&s->solid);
   ParticipantClose(&s->p);
   free(s);
   *server = NULL;

@@ -1,17 +1,17 @@
 /* Private to the coupler's end of the link. */
 #ifndef CORACLE_SERVER_IMPL_H
 #define CORACLE_SERVER_IMPL_H
-#include "common/link/message.h"
+#include "common/link/fields.h"
 #include "common/link/report.h"
 #include "common/link/server.h"
 
-/* One client rank whose home is this coupler rank. */
+/* One client rank that this coupler rank owns. */
 typedef struct {
   Message in, out;
-  int first, n;               /* its nodes (solid) or elements (fluid) in the concatenated lists */
-  int first_start, n_start;   /* solid: the same when the step began, which is where a redone step begins */
-  Buffer gid, facet, element; /* solid: its mesh as it numbers it */
-  bool saved;                 /* the checkpoint that was asked for last */
+  int first, n;             /* its nodes (solid) or elements (fluid) in the concatenated lists */
+  int first_start, n_start; /* solid: the same when the step began, which is where a redone step begins */
+  FieldLists nodes, facets, elements; /* solid: its mesh as it numbers it */
+  bool saved;                         /* the checkpoint that was asked for last */
   Buffer coupled; /* fluid: int [], its own index of the element of each coupling entry last sent */
 } ClientRank;
 
@@ -25,17 +25,18 @@ typedef struct {
 struct Server_s {
   Participant *p;
   ClientList fluid, solid;
-  bool received_solid, asked, elements_changed, owes_correction;
+  bool received_solid, asked, elements_changed, owes_correction, needs_pressure;
   double proposed;
   Buffer save; /* path of the checkpoint that is due, or empty */
   /* solid's lists */
-  Buffer gid, x, u, mean, mobility, acceleration, facet, element;
+  FieldLists motion;
+  Buffer gid, facet, element;
   bool kept_start;                 /* the solid's mesh has changed on this rank in the step */
   Buffer start_gid, start_element; /* what it was when the step began */
   /* fluid's lists */
-  Buffer vertices, rho, u_star, u_plus, pressure, mu;
+  FieldLists elements, flow;
   int nelements;
-  double lower[2], upper[2];
+  FieldsDomain domain;
   Buffer owner; /* int []: the fluid peer of each coupling entry last sent, in the coupler's order */
   Buffer reports[NROLES];
 };

@@ -17,8 +17,8 @@ PetscErrorCode TransferGetParts(Transfer t, TransferParts *parts)
 PetscErrorCode TransferSendParts(Transfer t, size_t bytes, const void *source, void *copies, void *parts)
 {
   PetscFunctionBeginUser;
-  PetscCall(RouteForward(t->copy_route, bytes, source, copies));
-  PetscCall(RouteForward(t->piece_route, bytes, source, parts));
+  PetscCall(ScatterForward(t->copy_route, bytes, source, copies));
+  PetscCall(ScatterForward(t->piece_route, bytes, source, parts));
   PetscFunctionReturn(0);
 }
 

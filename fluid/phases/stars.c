@@ -320,7 +320,7 @@ static PetscErrorCode MakeRoute(Stars *s)
   for (int r = 0; r < ask.size; r++) {
     for (int k = ask.in_start[r]; k < ask.in_start[r + 1]; k++) rank[k] = r;
   }
-  PetscCall(RouteCreate(comm, arrived, rank, asked, &s->route));
+  PetscCall(ScatterCreate(comm, arrived, rank, asked, &s->route));
   PetscCall(MeshRouteDestroy(&ask));
   PetscCall(PetscFree2(asked, rank));
   PetscCall(PetscFree2(to, wanted));
@@ -367,7 +367,7 @@ PetscErrorCode StarsDestroy(Stars **stars)
   PetscCall(PetscFree(s->point));
   PetscCall(PetscFree(s->start));
   PetscCall(PetscFree(s->around));
-  PetscCall(RouteDestroy(&s->route));
+  PetscCall(ScatterDestroy(&s->route));
   PetscCall(PetscFree(*stars));
   PetscFunctionReturn(0);
 }
@@ -375,6 +375,6 @@ PetscErrorCode StarsDestroy(Stars **stars)
 PetscErrorCode StarsExchange(const Stars *s, size_t bytes, void *data)
 {
   PetscFunctionBeginUser;
-  PetscCall(RouteForward(s->route, bytes, data, (char *)data + bytes * (size_t)s->ne));
+  PetscCall(ScatterForward(s->route, bytes, data, (char *)data + bytes * (size_t)s->ne));
   PetscFunctionReturn(0);
 }

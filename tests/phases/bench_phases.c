@@ -21,11 +21,12 @@ typedef struct {
   int (*regions)(Region region[BODY_REGIONS]);
   int n[4];            /* with a published value, or to run without one (0) */
   double published[4]; /* m2; Zalesak's: of the disc's area */
-} Case;
+} CoracleCase;
 
 static int failed;
 
-static void Judge(const Case *c, int n, double error, double relative, const PhasesStats *worst, double kept)
+static void Judge(const CoracleCase *c, int n, double error, double relative, const PhasesStats *worst,
+                  double kept)
 {
   const int zalesak = c->name[0] == 'z';
   double published = 0.0;
@@ -37,7 +38,7 @@ static void Judge(const Case *c, int n, double error, double relative, const Pha
   failed |= !(kept < 1e-12) || worst->lowest < -1e-10 || worst->highest > 1.0 + 1e-10;
 }
 
-static PetscErrorCode Row(const Case *c, int n, double *before)
+static PetscErrorCode Row(const CoracleCase *c, int n, double *before)
 {
   const Flow *flow = &c->flow;
   const int steps = (int)ceil(flow->end * flow->speed * n / 0.5);
@@ -76,13 +77,13 @@ static PetscErrorCode Row(const Case *c, int n, double *before)
 
 int main(int argc, char **argv)
 {
-  const Case all[4] = {
+  const CoracleCase all[4] = {
       {"vortex", VortexFlow(8.0), DiscRegions, {32, 64, 128}, {4.78e-2, 6.96e-3, 1.44e-3}},
       {"short", VortexFlow(2.0), DiscRegions, {32, 64, 128}, {2.36e-3, 5.85e-4, 1.31e-4}},
       {"zalesak", RotationFlow(), ZalesakRegions, {32, 64, 128, 167}, {0.0, 0.0, 0.0, 1.09e-2}},
       {"sliding", SlidingFlow(), SlidingRegions, {32, 64, 128}, {5.51e-2, 1.09e-2, 1.60e-3}},
   };
-  const Case *c = &all[0];
+  const CoracleCase *c = &all[0];
   double before = 0.0;
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   for (int k = 0; k < 4; k++) {

@@ -1,7 +1,7 @@
 /* Meshes, prescribed solenoidal flows and one driver for advecting phases on them. */
 #ifndef TESTS_PHASES_FLOWS_H
 #define TESTS_PHASES_FLOWS_H
-#include "common/mesh/piece.h"
+#include "common/mesh/part.h"
 #include "fluid/adapt/adapt_parallel.h"
 #include "fluid/adapt/metric.h"
 #include "fluid/phases/phases.h"

@@ -79,6 +79,10 @@ static inline int CellOfDensity(double rho)
 {
   return (int)lrint(rho - 1000.0);
 }
+static inline double CellViscosity(int id, int step)
+{
+  return 0.5 * id + 0.001 * step;
+}
 static inline double CellVertex(int id, int i, int c)
 {
   return id + 0.1 * i + 0.01 * c;
@@ -90,6 +94,11 @@ static inline double CellFlow(int id, int field, int k, int step)
 static inline double CellProposal(int rank, int step)
 {
   return 0.01 * (rank + 1) + 0.001 * step;
+}
+/* Coupled cells with an implicit inertia, in some steps none. */
+static inline int CellHasInertia(int id, int step)
+{
+  return step % 2 == 0 && id % 3 == 0;
 }
 /* Not all cells are coupled. */
 static inline int CellCoupled(int id)
@@ -103,6 +112,12 @@ static inline CoracleCoupling CellCoupling(int id, int step)
   double *value = &k.a[0][0][0][0];
   memset(&k, 0, sizeof k);
   for (int i = 0; i < 36; i++) value[i] = id + 0.01 * i + 1e-3 * step;
+  if (CellHasInertia(id, step)) {
+    k.flags = CORACLE_HAS_INERTIA;
+    for (int i = 0; i < 36; i++) (&k.implicit_inertia[0][0][0][0])[i] = 7.0 * id - i + step;
+  }
+  if (id % 5 == 0) k.flags |= CORACLE_HAS_SHELL;
+  for (int i = 0; i < 2; i++) k.velocity[i] = 6.0 * id + i - step;
   for (int i = 0; i < 6; i++) {
     (&k.s[0][0])[i] = 2.0 * id + i + step;
     (&k.us[0][0])[i] = 4.0 * id + i + step;

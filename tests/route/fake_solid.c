@@ -115,19 +115,19 @@ int main(int argc, char **argv)
 {
   static Solid s;
   MPI_Comm comm;
-  Case c;
+  CoracleCase c;
   int size;
   double t, dt;
   CoracleAction action;
   const char *role = getenv("TEST_SOLID_ROLE");
   CoracleOpen(role ? role : "solid", argc, argv, &comm, &s.client);
-  CaseOpen(argc, argv, Fail, s.client, &c);
+  CoracleCaseOpen(argc, argv, Fail, s.client, &c);
   MPI_Comm_rank(comm, &s.rank);
   MPI_Comm_size(comm, &size);
-  s.fault = (Fault)CaseWord(c, "solid.fault", FAULT_NONE, FAULT_WORDS);
+  s.fault = (Fault)CoracleCaseWord(c, "solid.fault", FAULT_NONE, FAULT_WORDS);
   s.fault_step = s.rank == size - 1 ? 4 : -1;
-  CaseFinish(c, SECTIONS);
-  CaseClose(&c);
+  CoracleCaseFinish(c, SECTIONS);
+  CoracleCaseClose(&c);
   SetMesh(&s, 0, 0.0);
   CoracleBindState(s.client, s.memory, sizeof s.memory);
   CoracleBindStateFunction(s.client, SaveFunctionState, &s);

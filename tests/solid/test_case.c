@@ -13,12 +13,12 @@ static const char *const SECTIONS[] = {"solid", NULL};
 static Model model;
 static SolidSetup setup;
 
-static void Read(Case c)
+static void Read(CoracleCase c)
 {
   (void)ModelDestroy(&model);
   memset(&setup, 0, sizeof setup);
   (void)SolidCaseRead(c, &model, &setup);
-  CaseFinish(c, SECTIONS);
+  CoracleCaseFinish(c, SECTIONS);
 }
 
 static void Everything(void)
