@@ -30,6 +30,4 @@ PetscErrorCode CouplerConservativeForce(Coupler coupler);
 PetscErrorCode CouplerSolidCorrection(Coupler coupler, const SolidState *moved);
 /* The correction of modes that have none: the fluid keeps its velocity. */
 PetscErrorCode CouplerNoCorrection(Coupler coupler, const SolidState *moved);
-/* P1 values p1[3] of a P2 pressure p[6] on one element: its L2 projection. */
-void CouplerPressureP1(const double p[6], double p1[3]);
 #endif

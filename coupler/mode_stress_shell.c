@@ -7,24 +7,13 @@
  * is the velocity in [44]: viscous forces from the projected velocity are unstable in an explicit exchange
  * (method.md section 9). Not conservative: [44]'s wall term is evaluated from projected fields.  The fluid is
  * not corrected. */
+#include "common/space/p1.h"
+#include "common/space/p2.h"
 #include "coupler/coupler_impl.h"
 #include "coupler/surface.h"
 
 /* Fields fluid -> surface. */
 enum { PRESSURE, VELOCITY, STRESS = VELOCITY + 2, VISCOSITY = STRESS + 3, EXTENT, FIELDS };
-
-void CouplerPressureP1(const double p[6], double p1[3])
-{
-  /* int N_i phi_j / |K| for the P2 functions: 1/30 and -1/60 at vertices, 2/15 on adjacent edges, 1/15 on the
-   * opposite */
-  double r[3], sum = 0.0;
-  for (int i = 0; i < 3; i++) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    r[i] = p[i] / 30.0 - (p[j] + p[k]) / 60.0 + 2.0 / 15.0 * (p[3 + j] + p[3 + k]) + p[3 + i] / 15.0;
-    sum += r[i];
-  }
-  for (int i = 0; i < 3; i++) p1[i] = 12.0 * (r[i] - 0.25 * sum);
-}
 
 static void Constant(double value, double f[3])
 {
@@ -42,19 +31,15 @@ static void WallSource(void *context, const Overlap o, const SupermeshPair *pair
 static void PressureSource(void *context, const Overlap o, const SupermeshPair *pair, double f[][3])
 {
   const Coupler c = context;
-  CouplerPressureP1(&c->flow.p[6 * pair->b], f[0]);
+  P2ProjectP1(&c->flow.p[6 * pair->b], f[0]);
 }
 
 /* tau = mu (grad u + grad u^T - 2/3 div u I), constant on an element: xx, xy, yy. */
 static void Stress(const double x[3][2], const double u[6], double mu, double tau[3])
 {
-  double g[3][2], d[2][2] = {{0.0}};
-  GeometryGradient(x, g);
-  for (int i = 0; i < 3; i++) {
-    for (int c = 0; c < 2; c++) {
-      for (int e = 0; e < 2; e++) d[c][e] += u[3 * c + i] * g[i][e];
-    }
-  }
+  double g[3][2], d[2][2];
+  P1Gradients(x, g);
+  P1VelocityGradient((const double(*)[2])g, (const double(*)[3])u, d);
   const double divergence = d[0][0] + d[1][1];
   tau[0] = mu * (2.0 * d[0][0] - 2.0 / 3.0 * divergence);
   tau[1] = mu * (d[0][1] + d[1][0]);

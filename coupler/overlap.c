@@ -75,8 +75,8 @@ static PetscErrorCode MakeRoute(Overlap o, const SourceTriangle owned[])
       source[n++] = t;
     }
   }
-  PetscCall(RouteDestroy(&o->route));
-  PetscCall(RouteCreate(o->comm, n, rank, source, &o->route));
+  PetscCall(ScatterDestroy(&o->route));
+  PetscCall(ScatterCreate(o->comm, n, rank, source, &o->route));
   PetscCall(PetscFree2(rank, source));
   PetscFunctionReturn(0);
 }
@@ -128,9 +128,9 @@ PetscErrorCode OverlapBuild(Overlap o, const SolidState *solid, const Shell shel
   PetscCall(PetscMalloc1(o->nowned, &owned));
   PetscCall(OwnedTriangles(o, solid, shell, owned));
   PetscCall(MakeRoute(o, owned));
-  o->nsources = RouteArriving(o->route);
+  o->nsources = ScatterArriving(o->route);
   PetscCall(PetscMalloc1(o->nsources, &o->source));
-  PetscCall(RouteForward(o->route, sizeof *owned, owned, o->source));
+  PetscCall(ScatterForward(o->route, sizeof *owned, owned, o->source));
   PetscCall(PetscFree(owned));
   PetscCall(FindPairs(o));
   PetscCall(FindCoupledElements(o));
@@ -140,14 +140,14 @@ PetscErrorCode OverlapBuild(Overlap o, const SolidState *solid, const Shell shel
 PetscErrorCode OverlapForward(Overlap o, int ncomp, const double owned[], double source[])
 {
   PetscFunctionBeginUser;
-  PetscCall(RouteForward(o->route, (size_t)ncomp * sizeof *owned, owned, source));
+  PetscCall(ScatterForward(o->route, (size_t)ncomp * sizeof *owned, owned, source));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode OverlapReverseAdd(Overlap o, int ncomp, const double source[], double owned[])
 {
   PetscFunctionBeginUser;
-  PetscCall(RouteReverseAdd(o->route, ncomp, source, owned));
+  PetscCall(ScatterReverseAdd(o->route, ncomp, source, owned));
   PetscFunctionReturn(0);
 }
 
@@ -197,7 +197,7 @@ PetscErrorCode OverlapDestroy(Overlap *overlap)
   PetscCall(PetscFree(o->node));
   PetscCall(PetscFree(o->source));
   PetscCall(PetscFree2(o->coupled_element, o->coupled_index));
-  PetscCall(RouteDestroy(&o->route));
+  PetscCall(ScatterDestroy(&o->route));
   PetscCall(PetscFree(*overlap));
   PetscFunctionReturn(0);
 }

@@ -19,8 +19,8 @@
  * Fields are for reading.  Functions are collective. */
 #ifndef CORACLE_OVERLAP_H
 #define CORACLE_OVERLAP_H
+#include "common/exchange/scatter.h"
 #include "common/supermesh/supermesh.h"
-#include "common/transfer/route.h"
 #include "coupler/fluid_state.h"
 #include "coupler/shell.h"
 
@@ -41,7 +41,7 @@ typedef struct {
   /* the solid's triangles that this rank owns, and the route from there to the source triangles */
   int nowned, nvolume; /* nvolume volume elements, then the shell's triangles */
   int (*node)[3];      /* [nowned] their nodes in SolidState */
-  Route route;
+  Scatter route;
   /* the source triangles on this rank, the pairs and the coupled elements */
   int nsources;
   SourceTriangle *source; /* [nsources] */
