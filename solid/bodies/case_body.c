@@ -231,10 +231,11 @@ static PetscErrorCode ReadMotion(Case c, const char *item, BoundaryMotion *d)
 
 static PetscErrorCode ReadPrescribed(Case c, int body, BodySetup *setup, BoundaryMotion **prescribed)
 {
-  char key[KEY], item[KEY + 16];
+  char key[KEY], old[KEY], item[KEY + 16];
   PetscFunctionBeginUser;
-  if (CaseHas(c, BodyKey(key, body, "driven"))) CaseRefuse(c, key, "is called prescribed now");
-  setup->nprescribed = CaseCount(c, BodyKey(key, body, "prescribed"));
+  (void)snprintf(old, sizeof old, "solid.bodies[%d].driven", body);
+  CaseRenamed(c, old, BodyKey(key, body, "prescribed"));
+  setup->nprescribed = CaseCount(c, key);
   PetscCall(PetscCalloc1((size_t)setup->nprescribed, prescribed));
   for (int k = 0; k < setup->nprescribed; k++) {
     (void)snprintf(item, sizeof item, "%s[%d]", key, k);
