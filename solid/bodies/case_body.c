@@ -235,10 +235,11 @@ static PetscErrorCode ReadMotion(CoracleCase c, const char *item, BoundaryMotion
 
 static PetscErrorCode ReadPrescribed(CoracleCase c, int body, BodySetup *setup, BoundaryMotion **prescribed)
 {
-  char key[KEY], item[KEY + 16];
+  char key[KEY], old[KEY], item[KEY + 16];
   PetscFunctionBeginUser;
-  if (CoracleCaseHas(c, BodyKey(key, body, "driven"))) CoracleCaseRefuse(c, key, "is called prescribed now");
-  setup->nprescribed = CoracleCaseCount(c, BodyKey(key, body, "prescribed"));
+  (void)snprintf(old, sizeof old, "solid.bodies[%d].driven", body);
+  CoracleCaseRenamed(c, old, BodyKey(key, body, "prescribed"));
+  setup->nprescribed = CoracleCaseCount(c, key);
   PetscCall(PetscCalloc1((size_t)setup->nprescribed, prescribed));
   for (int k = 0; k < setup->nprescribed; k++) {
     (void)snprintf(item, sizeof item, "%s[%d]", key, k);

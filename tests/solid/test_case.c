@@ -223,7 +223,7 @@ static void Refusals(void)
   CheckCase(HEAD
             "  bodies:\n    - {shape: disc, centre: [0, 0], radius: 0.1, size: 0.05, material: m, driven: "
             "[{boundary: boundary, velocity: [1, 0]}]}\n",
-            NULL, Read, ":6: key 'solid.bodies[0].driven': is called prescribed now");
+            NULL, Read, ":6: key 'solid.bodies[0].driven' is now called 'solid.bodies[0].prescribed'");
   CheckCase("gravity: [0, 0]\nsolid:\n  materials:\n    m: {density: 1, youngs_modulus: 1, poisson_ratio: 0, "
             "law: hooke}\n",
             NULL, Read,
