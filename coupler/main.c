@@ -1,24 +1,14 @@
 /* coracle-coupler: the middle of the route.  coracle-coupler case.yaml [--set key=value]...
  *
  *     open, read the case
- *     run the scheme (scheme.c): each step
+ *     run the scheme (time_loop.c): each step
  *         fluid   u*, u+, rho, mu (, p)            -->  force on the solid
  *         solid   new position and velocity        -->  correction of the fluid; shell and overlap at the new position
  *         fluid   <--  correction, coupling of the next step; or the same step again, with another velocity
  *     write the summary */
+#include "common/program/program.h"
 #include "coupler/summary.h"
 #include "coupler/time_loop.h"
-
-static void Refuse(void *server, const char *message)
-{
-  ServerFail(server, "%s", message);
-}
-
-static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const char *file,
-                            PetscErrorCode code, PetscErrorType type, const char *message, void *server)
-{
-  ServerFail(server, "%s (in %s, %s:%d)", message ? message : "an error of PETSc", function, file, line);
-}
 
 static PetscErrorCode Run(Server server, const CouplerCase *c)
 {
@@ -43,19 +33,10 @@ static PetscErrorCode Run(Server server, const CouplerCase *c)
 
 int main(int argc, char **argv)
 {
-  Server server;
-  MPI_Comm comm;
-  CoracleCase file;
+  Program program;
   CouplerCase c;
-  if (ServerOpen(argc, argv, &comm, &server)) return 1;
-  PETSC_COMM_WORLD = comm;
-  PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
-  PetscCall(PetscPushErrorHandler(Abort, server));
-  PetscCall(CoracleCaseOpen(argc, argv, Refuse, server, &file));
-  PetscCall(CouplerCaseRead(file, &c));
-  PetscCall(CoracleCaseClose(&file));
-  PetscCall(Run(server, &c));
-  PetscCall(PetscPopErrorHandler());
-  PetscCall(PetscFinalize());
-  return ServerClose(&server);
+  PetscCall(ProgramStart("coupler", argc, argv, &program));
+  PetscCall(CouplerCaseRead(program.c, &c));
+  PetscCall(Run(program.server, &c));
+  return ProgramEnd(&program);
 }
