@@ -2,13 +2,17 @@
 #include <math.h>
 #include <stdio.h>
 
+/* Refuses a key of earlier versions and names the new one. */
+static void Renamed(CoracleCase file, const char *old, const char *new)
+{
+  if (CoracleCaseHas(file, old)) CoracleCaseRefuse(file, old, "is called %s now", new);
+}
+
 static void ReadOptions(CoracleCase file, CouplerOptions *o)
 {
   o->mode = (CouplerMode)CoracleCaseWord(file, "coupler.mode", COUPLER_REACTION, COUPLER_MODES);
   o->thickness = CoracleCasePositive(file, "coupler.shell_thickness");
-  o->relaxation = CoracleCaseNumberOr(file, "coupler.relaxation", 10.0, 0.0, HUGE_VAL);
-  if (o->relaxation <= 0.0)
-    CoracleCaseRefuse(file, "coupler.relaxation", "expected a number > 0, found %g", o->relaxation);
+  CouplerModesReadOptions(file, o);
   CoracleCaseVector(file, "gravity", 2, o->gravity);
 }
 
@@ -27,7 +31,8 @@ PetscErrorCode CouplerCaseRead(CoracleCase file, CouplerCase *c)
   /* the fluid's, read here so that the whole section can be checked */
   (void)CoracleCaseNumberOr(file, "time.cfl", 0.5, 0.0, HUGE_VAL);
   ReadOptions(file, &c->options);
-  c->tries = CoracleCaseIntegerOr(file, "coupler.tries", 1, 1, 1000);
+  Renamed(file, "coupler.tries", "coupler.max_iterations");
+  c->max_iterations = CoracleCaseIntegerOr(file, "coupler.max_iterations", 1, 1, 1000);
   c->tolerance = CoracleCaseNumberOr(file, "coupler.tolerance", 1e-4, 1e-12, 1.0);
   PetscCall(PetscOptionsInsertString(NULL, CoracleCaseStringOr(file, "coupler.petsc", "")));
   PetscCall(CoracleCaseFinish(file, SECTIONS));

@@ -1,6 +1,7 @@
 #include "coupler/force.h"
 
-/* q[i] = int over the pair of N_T,i (u - u_s): u [2][3] on the fluid element, u_s [3][2] on the piece. */
+/* q[i] = int over the pair of N_T,i (u - u_s): u [2][3] on the fluid element, u_s [3][2] on the source
+ * triangle. */
 static void Slip(const SupermeshPair *pair, const double u[6], const double us[3][2], double q[3][2])
 {
   for (int i = 0; i < 3; i++) {
@@ -12,24 +13,27 @@ static void Slip(const SupermeshPair *pair, const double u[6], const double us[3
   }
 }
 
-/* The velocity that the reaction is to, on the pair's element. */
-static void Met(double firmness, const double u_star[6], const double u_projected[6], double u[6])
+/* u = b u* + (1 - b) u+, the fluid velocity in the reaction, on the pair's element. */
+static void ReactionVelocity(double implicit_factor, const double u_star[6], const double u_projected[6],
+                             double u[6])
 {
   for (int i = 0; i < 6; i++)
-    u[i] = firmness == 1.0 ? u_star[i] : firmness * u_star[i] + (1.0 - firmness) * u_projected[i];
+    u[i] = implicit_factor == 1.0 ? u_star[i]
+                                  : implicit_factor * u_star[i] + (1.0 - implicit_factor) * u_projected[i];
 }
 
-void ForceReaction(const Overlap o, const WallWeight weight[], const double firmness[],
+void ForceReaction(const Overlap o, const WallCoefficient coefficient[], const double implicit_factor[],
                    const CoracleFlow *flow, ForceVertex vertex[])
 {
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
     ForceVertex *v = &vertex[3 * pair->a];
     double u[6], q[3][2], r[2];
-    Met(firmness[pair->a], &flow->u_star[6 * pair->b], &flow->u_projected[6 * pair->b], u);
-    Slip(pair, u, o->piece[pair->a].u, q);
+    ReactionVelocity(implicit_factor[pair->a], &flow->u_star[6 * pair->b], &flow->u_projected[6 * pair->b],
+                     u);
+    Slip(pair, u, o->source[pair->a].u, q);
     for (int i = 0; i < 3; i++) {
-      WallApply(&weight[p], q[i], r);
+      WallApply(&coefficient[p], q[i], r);
       v[i].reaction[0] += r[0];
       v[i].reaction[1] += r[1];
     }
@@ -37,18 +41,18 @@ void ForceReaction(const Overlap o, const WallWeight weight[], const double firm
 }
 
 void ForceInertia(const Overlap o, double dt, const double gravity[2], const double u_projected[],
-                  const double now[][3][2], ForceVertex vertex[])
+                  const double start_velocity[][3][2], ForceVertex vertex[])
 {
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    if (o->piece[pair->a].is_shell) continue;
+    if (o->source[pair->a].is_shell) continue;
     const double rho = o->rho[pair->b];
     ForceVertex *v = &vertex[3 * pair->a];
     double q[3][2];
-    Slip(pair, &u_projected[6 * pair->b], now[pair->a], q);
+    Slip(pair, &u_projected[6 * pair->b], start_velocity[pair->a], q);
     for (int i = 0; i < 3; i++) {
       const double mass = rho * (pair->aa[i][0] + pair->aa[i][1] + pair->aa[i][2]);
-      for (int c = 0; c < 2; c++) v[i].rest[c] += rho / dt * q[i][c] - mass * gravity[c];
+      for (int c = 0; c < 2; c++) v[i].other[c] += rho / dt * q[i][c] - mass * gravity[c];
     }
   }
 }
@@ -56,11 +60,11 @@ void ForceInertia(const Overlap o, double dt, const double gravity[2], const dou
 PetscErrorCode ForceAssembleToOwners(Overlap o, const ForceVertex vertex[], int nnodes, ForceVertex node[])
 {
   PetscFunctionBeginUser;
-  PetscCall(OverlapPiecesToNodes(o, 4, (const double *)vertex, nnodes, (double *)node));
+  PetscCall(OverlapSourcesToNodes(o, 4, (const double *)vertex, nnodes, (double *)node));
   PetscFunctionReturn(0);
 }
 
-/* One element's gain: sum over its functions of s - a u* - give (u+ - u*). */
+/* One element's gain, the sum over its functions of s - a u* - (1 - b) a (u+ - u*). */
 static void ElementGain(const CoracleCoupling *k, const double u_star[6], const double u_projected[6],
                         double gain[2])
 {
@@ -81,7 +85,7 @@ static double DisplacedMass(const Overlap o)
   double mass = 0.0;
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    if (!o->piece[pair->a].is_shell) mass += o->rho[pair->b] * pair->area;
+    if (!o->source[pair->a].is_shell) mass += o->rho[pair->b] * pair->area;
   }
   return mass;
 }
@@ -93,7 +97,7 @@ PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const
   double sum[COUNT] = {0};
 
   PetscFunctionBeginUser;
-  for (int e = 0; e < o->nentries; e++) {
+  for (int e = 0; e < o->ncoupled; e++) {
     const int k = 6 * coupling[e].element;
     double gain[2];
     ElementGain(&coupling[e], &flow->u_star[k], &flow->u_projected[k], gain);
@@ -103,7 +107,7 @@ PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const
   for (int i = 0; i < nnodes; i++) {
     for (int c = 0; c < 2; c++) {
       sum[REACTION + c] += node[i].reaction[c];
-      sum[FORCE + c] += node[i].reaction[c] + node[i].rest[c];
+      sum[FORCE + c] += node[i].reaction[c] + node[i].other[c];
     }
   }
   sum[MASS] = DisplacedMass(o);
@@ -121,8 +125,8 @@ PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const
   PetscFunctionReturn(0);
 }
 
-/* r -= int over the pair of N_K u+ */
-static void TakeFluid(const SupermeshPair *pair, const double u_projected[6], double r[2][3])
+/* r -= B u+ of one pair. */
+static void SubtractFluid(const SupermeshPair *pair, const double u_projected[6], double r[2][3])
 {
   for (int c = 0; c < 2; c++) {
     for (int i = 0; i < 3; i++) {
@@ -136,9 +140,9 @@ void ForceCorrection(const Overlap o, const double u[][3][2], const double u_pro
 {
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    if (o->piece[pair->a].is_shell) continue;
-    CoracleCorrection *k = &correction[o->entry[p]];
-    TakeFluid(pair, &u_projected[6 * pair->b], k->r);
+    if (o->source[pair->a].is_shell) continue;
+    CoracleCorrection *k = &correction[o->coupled_index[p]];
+    SubtractFluid(pair, &u_projected[6 * pair->b], k->r);
     for (int c = 0; c < 2; c++) {
       for (int j = 0; j < 3; j++) {
         for (int i = 0; i < 3; i++) k->r[c][j] += pair->ab[i][j] * u[pair->a][i][c];

@@ -1,33 +1,33 @@
 /* coracle-coupler: the middle of the route.  coracle-coupler case.yaml [--set key=value]...
  *
- *     open, read the case
- *     run the scheme (time_loop.c): each step
- *         fluid   u*, u+, rho, mu (, p)            -->  force on the solid
- *         solid   new position and velocity        -->  correction of the fluid; shell and overlap at the new position
- *         fluid   <--  correction, coupling of the next step; or the same step again, with another velocity
- *     write the summary */
+ *     join the job, read the case
+ *     time loop (time_loop.c): each step
+ *         fluid   -- u*, u+, rho, mu --------------->  coupler  -- force on the nodes -->  solid
+ *         solid   -- new position and velocity ----->  coupler  -- correction, and the coupling of the next
+ *                                                                  step at the new position -->  fluid
+ *     write summary.json */
 #include "common/program/program.h"
 #include "coupler/summary.h"
 #include "coupler/time_loop.h"
 
 static PetscErrorCode Run(Server server, const CouplerCase *c)
 {
-  TimeLoop scheme = {.server = server, .c = c};
+  TimeLoop loop = {.server = server, .c = c};
   const char *folder = ServerResumePath(server);
   WriterTotals totals;
 
   PetscFunctionBeginUser;
-  if (folder) PetscCall(CheckpointOpen(PETSC_COMM_WORLD, folder, "coupler", &scheme.from));
-  PetscCall(CouplerCreate(PETSC_COMM_WORLD, &c->options, &scheme.coupler));
-  PetscCall(RegionCreate(PETSC_COMM_WORLD, c->options.thickness, &scheme.region));
-  PetscCall(WriterCreate(PETSC_COMM_WORLD, c, scheme.from, &scheme.record));
-  PetscCall(TimeLoopRun(&scheme));
-  PetscCall(WriterTotalsOf(scheme.record, CouplerOverlap(scheme.coupler)->nelements, &totals));
+  if (folder) PetscCall(CheckpointOpen(PETSC_COMM_WORLD, folder, "coupler", &loop.from));
+  PetscCall(CouplerCreate(PETSC_COMM_WORLD, &c->options, &loop.coupler));
+  PetscCall(RegionCreate(PETSC_COMM_WORLD, c->options.thickness, &loop.region));
+  PetscCall(WriterCreate(PETSC_COMM_WORLD, c, loop.from, &loop.writer));
+  PetscCall(TimeLoopRun(&loop));
+  PetscCall(WriterTotalsOf(loop.writer, CouplerOverlap(loop.coupler)->nelements, &totals));
   PetscCall(SummaryWrite(server, c, &totals));
-  PetscCall(WriterDestroy(&scheme.record));
-  PetscCall(RegionDestroy(&scheme.region));
-  PetscCall(CouplerDestroy(&scheme.coupler));
-  PetscCall(CheckpointClose(&scheme.from));
+  PetscCall(WriterDestroy(&loop.writer));
+  PetscCall(RegionDestroy(&loop.region));
+  PetscCall(CouplerDestroy(&loop.coupler));
+  PetscCall(CheckpointClose(&loop.from));
   PetscFunctionReturn(0);
 }
 

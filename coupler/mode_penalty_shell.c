@@ -1,20 +1,22 @@
-/* Mode penalty_shell (Vire, Xiang, Pain 2015; the paper's Af20 rows): a = rho_f/dt I in the shell, nothing in the volume.
- * The force is the reaction to it, so that momentum is kept, and the fluid inside takes the solid's velocity at the step's
- * end [5].  With the pressure integrated over the surface instead, and the inside left alone, a disc falls half as
- * fast as it should and the flow inside of it runs away. */
+/* Mode penalty_shell (Vire, Xiang, Pain 2015; the paper's Af20 rows): a = rho_f/dt I in the shell, nothing in
+ * the volume.  The force is the reaction to it, so that momentum is kept, and the fluid inside takes the
+ * solid's velocity at the step's end [5].  With the pressure integrated over the surface instead, and the
+ * inside left alone, a disc falls half as fast as it should and the flow inside of it runs away. */
 #include "coupler/coupler_impl.h"
 
-static PetscErrorCode Weigh(Coupler c, const ServerSolid *solid)
+static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
 {
   const Overlap o = c->overlap;
 
   PetscFunctionBeginUser;
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    c->weight[p] = WallWeightIsotropic(o->piece[pair->a].is_shell ? o->rho[pair->b] / c->dt : 0.0);
+    c->coefficient[p] = WallCoefficientIsotropic(o->source[pair->a].is_shell ? o->rho[pair->b] / c->dt : 0.0);
   }
   PetscFunctionReturn(0);
 }
 
-const CouplerActions COUPLER_ACTIONS_PENALTY_SHELL = {PETSC_FALSE, Weigh, CouplerReactConserving,
-                                                      CouplerFillSolid};
+const CouplerModeTable COUPLER_MODE_PENALTY_SHELL = {.velocity = COUPLER_VELOCITY_END,
+                                                     .coefficients = Coefficients,
+                                                     .force = CouplerConservativeForce,
+                                                     .correct = CouplerSolidCorrection};

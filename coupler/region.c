@@ -26,8 +26,7 @@ static PetscErrorCode JoinBoxes(MPI_Comm comm, int n, GeometryBox box[])
   PetscFunctionReturn(0);
 }
 
-/* Grows the box of the cluster (a cell of a square grid on the whole solid) that holds the simplex's centre.
- */
+/* Grows the box of the cluster whose grid cell contains the simplex's centre. */
 static void AddSimplex(const GeometryBox *whole, int n, const int node[], const double x[],
                        GeometryBox cluster[])
 {
@@ -42,7 +41,7 @@ static void AddSimplex(const GeometryBox *whole, int n, const int node[], const 
   for (int i = 0; i < n; i++) GeometryBoxGrow(&cluster[cell[0] + REGION_SIDE * cell[1]], &x[2 * node[i]]);
 }
 
-static PetscErrorCode Clusters(Region r, const ServerSolid *solid, GeometryBox cluster[REGION_BOXES])
+static PetscErrorCode Clusters(Region r, const SolidState *solid, GeometryBox cluster[REGION_BOXES])
 {
   GeometryBox whole = GeometryBoxEmpty();
 
@@ -56,8 +55,8 @@ static PetscErrorCode Clusters(Region r, const ServerSolid *solid, GeometryBox c
   PetscFunctionReturn(0);
 }
 
-/* How far the fastest node gets in the steps for which a region should do. */
-static PetscErrorCode Reach(Region r, const ServerSolid *solid, double dt, double *reach)
+/* The way of the fastest node in REGION_STEPS steps. */
+static PetscErrorCode Reach(Region r, const SolidState *solid, double dt, double *reach)
 {
   double speed = 0.0;
 
@@ -68,7 +67,7 @@ static PetscErrorCode Reach(Region r, const ServerSolid *solid, double dt, doubl
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode RegionUpdate(Region r, const ServerSolid *solid, double dt)
+PetscErrorCode RegionUpdate(Region r, const SolidState *solid, double dt)
 {
   GeometryBox cluster[REGION_BOXES];
   double area = 0.0, reach;
@@ -97,13 +96,13 @@ PetscErrorCode RegionUpdate(Region r, const ServerSolid *solid, double dt)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode RegionStale(Region r, const ServerSolid *solid, PetscBool *stale)
+PetscErrorCode RegionStale(Region r, const SolidState *solid, PetscBool *stale)
 {
   int local = solid->changed || solid->nnodes != r->n, any;
 
   PetscFunctionBeginUser;
   for (int i = 0; i < solid->nnodes && !local; i++) {
-    /* not <=: a node at NaN is stale too */
+    /* NaN is stale, too */
     local = !(hypot(solid->x[2 * i] - r->x[2 * i], solid->x[2 * i + 1] - r->x[2 * i + 1]) <= r->margin);
   }
   PetscCallMPI(MPI_Allreduce(&local, &any, 1, MPI_INT, MPI_MAX, r->comm));
@@ -111,8 +110,8 @@ PetscErrorCode RegionStale(Region r, const ServerSolid *solid, PetscBool *stale)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode RegionOutside(Region r, const ServerSolid *solid, const ServerElements *elements,
-                             long long *gid, int *local)
+PetscErrorCode RegionOutside(Region r, const SolidState *solid, const FluidElements *elements, long long *gid,
+                             int *local)
 {
   struct {
     long value;

@@ -1,7 +1,7 @@
 #include "coupler/wall_term.h"
 
-/* c[j] += int over the pair of N_K,j u_s, from the velocities at the piece's vertices: by component, then
- * vertex of K. */
+/* c[j] += int over the pair of N_K,j u_s, from the velocities at the source triangle's vertices: by
+ * component, then vertex of K. */
 static void CrossVelocity(const SupermeshPair *pair, const double u[3][2], double c[2][3])
 {
   for (int d = 0; d < 2; d++) {
@@ -11,7 +11,7 @@ static void CrossVelocity(const SupermeshPair *pair, const double u[3][2], doubl
 }
 
 /* to += f a N_i N_j */
-static void AddTensor(double f, const WallWeight *a, const double bb[3][3], double to[2][3][2][3])
+static void AddTensor(double f, const WallCoefficient *a, const double bb[3][3], double to[2][3][2][3])
 {
   for (int i = 0; i < 3; i++) {
     for (int j = 0; j < 3; j++) {
@@ -23,7 +23,7 @@ static void AddTensor(double f, const WallWeight *a, const double bb[3][3], doub
   }
 }
 
-static void AddSource(const WallWeight *a, const double cu[2][3], double s[2][3])
+static void AddSource(const WallCoefficient *a, const double cu[2][3], double s[2][3])
 {
   for (int i = 0; i < 3; i++) {
     s[0][i] += a->xx * cu[0][i] + a->xy * cu[1][i];
@@ -31,46 +31,47 @@ static void AddSource(const WallWeight *a, const double cu[2][3], double s[2][3]
   }
 }
 
-static void AddSolidMass(double firmness, const double bb[3][3], const double cu[2][3], CoracleCoupling *k)
+static void AddSolidMass(double implicit_factor, const double bb[3][3], const double cu[2][3],
+                         CoracleCoupling *k)
 {
   for (int i = 0; i < 3; i++) {
-    for (int d = 0; d < 2; d++) k->us[d][i] += firmness * cu[d][i];
-    for (int j = 0; j < 3; j++) k->ms[i][j] += firmness * bb[i][j];
+    for (int d = 0; d < 2; d++) k->us[d][i] += implicit_factor * cu[d][i];
+    for (int j = 0; j < 3; j++) k->ms[i][j] += implicit_factor * bb[i][j];
   }
 }
 
-/* One pair's part of its element's entry; the entry's velocity is the integral of u_s over |K| so far. */
-static void AddPair(const Overlap o, const SupermeshPair *pair, const WallWeight *weight, double firmness,
+/* One pair's part of its element; velocity is the integral of u_s over the pairs, divided by |K|, so far. */
+static void AddPair(const Overlap o, const SupermeshPair *pair, const WallCoefficient *coefficient, double b,
                     CoracleCoupling *k)
 {
-  const OverlapPiece *piece = &o->piece[pair->a];
-  const double share = pair->area / o->area[pair->b];
+  const SourceTriangle *source = &o->source[pair->a];
+  const double fraction = pair->area / o->area[pair->b];
   double cu[2][3];
-  CrossVelocity(pair, piece->u, cu);
-  AddTensor(1.0, weight, pair->bb, k->a);
-  if (firmness != 1.0) {
-    AddTensor(1.0 - firmness, weight, pair->bb, k->implicit_inertia);
+  CrossVelocity(pair, source->u, cu);
+  AddTensor(1.0, coefficient, pair->bb, k->a);
+  if (b != 1.0) {
+    AddTensor(1.0 - b, coefficient, pair->bb, k->implicit_inertia);
     k->flags |= CORACLE_HAS_INERTIA;
   }
-  AddSource(weight, (const double(*)[3])cu, k->s);
+  AddSource(coefficient, (const double(*)[3])cu, k->s);
   for (int d = 0; d < 2; d++) k->velocity[d] += (cu[d][0] + cu[d][1] + cu[d][2]) / o->area[pair->b];
-  if (piece->is_shell) {
+  if (source->is_shell) {
     k->flags |= CORACLE_HAS_SHELL;
-    k->shell += share;
+    k->shell += fraction;
   } else {
-    k->alpha += share;
-    AddSolidMass(firmness, pair->bb, (const double(*)[3])cu, k);
+    k->alpha += fraction;
+    AddSolidMass(b, pair->bb, (const double(*)[3])cu, k);
   }
 }
 
-void WallTermAssemble(const Overlap o, const WallWeight weight[], const double firmness[],
+void WallTermAssemble(const Overlap o, const WallCoefficient coefficient[], const double implicit_factor[],
                       CoracleCoupling coupling[])
 {
-  for (int e = 0; e < o->nentries; e++) coupling[e] = (CoracleCoupling){.element = o->element[e]};
+  for (int e = 0; e < o->ncoupled; e++) coupling[e] = (CoracleCoupling){.element = o->coupled_element[e]};
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    AddPair(o, pair, &weight[p], firmness[pair->a], &coupling[o->entry[p]]);
+    AddPair(o, pair, &coefficient[p], implicit_factor[pair->a], &coupling[o->coupled_index[p]]);
   }
-  for (int e = 0; e < o->nentries; e++)
+  for (int e = 0; e < o->ncoupled; e++)
     for (int d = 0; d < 2; d++) coupling[e].velocity[d] /= coupling[e].alpha + coupling[e].shell;
 }

@@ -30,7 +30,7 @@ static void CorrectElement(double area, const CoracleCorrection *correction, dou
 {
   for (int c = 0; c < 2; c++) {
     double du[3];
-    MassSolve(area, correction->r[c], du);
+    P1MassSolve(area, correction->r[c], du);
     for (int i = 0; i < 3; i++) u[3 * c + i] += du[i];
   }
 }

@@ -190,7 +190,7 @@ static void ElementLoad(Fluid f, int e, double dt, const double p[], double load
   }
   for (int c = 0; c < 2; c++) {
     double mq[3];
-    MassApply(g->area, q[c], mq);
+    P1MassApply(g->area, q[c], mq);
     for (int i = 0; i < 3; i++) load[3 * c + i] += mq[i];
   }
 }
@@ -203,7 +203,7 @@ static void ElementInertia(Fluid f, int e, double dt, const double u[6], double 
   const double *q[2] = {u, u + 3};
   for (int c = 0; c < 2; c++) {
     double mu[3];
-    MassApply(f->geometry[e].area, q[c], mu);
+    P1MassApply(f->geometry[e].area, q[c], mu);
     for (int i = 0; i < 3; i++) load[3 * c + i] += (1.0 + w) * f->rho[e] / dt * mu[i];
   }
   if (f->coupling_of[e] < 0) return;

@@ -60,7 +60,7 @@ static PetscErrorCode AssembleLaplacian(Fluid f)
   for (int e = 0; e < m->ne; e++) {
     double s[6][6];
     PetscInt gid[6];
-    P2Stiffness(f->geometry + e, 1.0 / f->rho[e], s);
+    P2Stiffness(f->geometry[e].area, (const double(*)[2])f->geometry[e].g, 1.0 / f->rho[e], s);
     for (int k = 0; k < 6; k++) gid[k] = m->p2gid[m->p2[6 * e + k]];
     PetscCall(MatSetValues(f->laplacian, 6, gid, 6, gid, &s[0][0], ADD_VALUES));
   }
@@ -171,7 +171,7 @@ static void BoundaryFlux(Fluid f, int e, double t, double r[6])
 /* mv = M u + (us - ms u) */
 static void BulkMomentum(Fluid f, int e, const double u[6], double mv[2][3])
 {
-  for (int c = 0; c < 2; c++) MassApply(f->geometry[e].area, u + 3 * c, mv[c]);
+  for (int c = 0; c < 2; c++) P1MassApply(f->geometry[e].area, u + 3 * c, mv[c]);
   if (f->coupling_of[e] < 0) return;
   const CoracleCoupling *k = f->coupling + f->coupling_of[e];
   for (int c = 0; c < 2; c++)

@@ -1,6 +1,7 @@
 // ranks: 1 2 3
 /* Forces on a closed polygon against what mechanics says: buoyancy, rigid motion, accelerated fluid, the wall
- * term's weights. */
+ * term's coefficients. */
+#include "common/space/p2.h"
 #include "coupler/coupler_impl.h"
 #include "tests/coupler/synthetic.h"
 
@@ -67,7 +68,7 @@ static void Step(CouplerMode mode, double thickness, double dt, Coupler *c, Forc
   CHECK(!CouplerCreate(PETSC_COMM_WORLD, &options, c), "create");
   CHECK(!CouplerSetElements(*c, &fluid.view), "elements");
   CHECK(!CouplerBuild(*c, &solid.view, dt, &n, &coupling), "build");
-  CHECK(!CouplerReact(*c, &fluid.flow, &force, totals), "react");
+  CHECK(!CouplerComputeForce(*c, &fluid.flow, &force, totals), "react");
 }
 
 static void CheckTotal(const char *what, const double force[2], double fx, double fy, double tolerance)
@@ -134,9 +135,9 @@ static void CheckMotion(void)
 }
 
 /* a symmetric, positive semidefinite, s = a u_s where u_s is constant over the element. */
-static void CheckEntries(Coupler c)
+static void CheckCoupledElements(Coupler c)
 {
-  for (int e = 0; e < c->overlap->nentries; e++) {
+  for (int e = 0; e < c->overlap->ncoupled; e++) {
     const CoracleCoupling *k = &c->coupling[e];
     const double *a = &k->a[0][0][0][0];
     double trace = 0.0, v[6], form = 0.0;
@@ -147,15 +148,15 @@ static void CheckEntries(Coupler c)
       for (int i = 0; i < 6; i++) {
         for (int j = 0; j < 6; j++) form += a[6 * i + j] * v[i] * v[j];
       }
-      CHECK(form >= -1e-14 * trace, "entry %d: v a v = %g, trace %g", e, form, trace);
+      CHECK(form >= -1e-14 * trace, "element %d: v a v = %g, trace %g", e, form, trace);
     }
     for (int i = 0; i < 6; i++) {
       double au = 0.0;
       for (int j = 0; j < 6; j++) {
-        CHECK(fabs(a[6 * i + j] - a[6 * j + i]) <= 1e-14 * trace, "entry %d is not symmetric", e);
+        CHECK(fabs(a[6 * i + j] - a[6 * j + i]) <= 1e-14 * trace, "element %d is not symmetric", e);
         au += a[6 * i + j] * (j < 3 ? 0.4 : -1.1);
       }
-      CHECK(fabs(au - (&k->s[0][0])[i]) <= 1e-12 * trace, "entry %d: s %g, a u_s %g", e, (&k->s[0][0])[i],
+      CHECK(fabs(au - (&k->s[0][0])[i]) <= 1e-12 * trace, "element %d: s %g, a u_s %g", e, (&k->s[0][0])[i],
             au);
     }
   }
@@ -168,11 +169,11 @@ static void Constant(const double x[2], double u[2], double *p)
   *p = 0.0;
 }
 
-/* Sum over all elements of the trace of int a: what the wall term weighs in the shell. */
+/* Sum over all elements of the trace of int a: the integral of the wall term over the shell. */
 static double WallTotal(Coupler c)
 {
   double total = 0.0;
-  for (int e = 0; e < c->overlap->nentries; e++) {
+  for (int e = 0; e < c->overlap->ncoupled; e++) {
     for (int i = 0; i < 9; i++)
       total += c->coupling[e].a[0][i / 3][0][i % 3] + c->coupling[e].a[1][i / 3][1][i % 3];
   }
@@ -180,7 +181,7 @@ static double WallTotal(Coupler c)
   return total;
 }
 
-/* int_shell a does not depend on dr; the literal mode weighs nearly the same; the volume has its sigma. */
+/* int_shell a does not depend on dr; the literal mode has nearly the same; the volume has its sigma. */
 static void CheckWeights(void)
 {
   double total[2][2];
@@ -191,7 +192,7 @@ static void CheckWeights(void)
     const CouplerMode mode = m ? COUPLER_STRESS_SHELL : COUPLER_REACTION;
     for (int t = 0; t < 2; t++) {
       Step(mode, t ? 1e-4 : 2e-4, 1.0, &c, &totals);
-      CheckEntries(c);
+      CheckCoupledElements(c);
       total[m][t] = WallTotal(c) - (m ? 0.0 : 2.0 * 10.0 * RHO * SyntheticArea(&all_solid));
       CHECK(!CouplerDestroy(&c), "destroy");
     }
@@ -205,12 +206,12 @@ static void CheckKernels(void)
 {
   const double x[3][2] = {{0, 0}, {1, 0}, {0, 1}}, n[2] = {0.6, 0.8}, p[6] = {1, 2, 4, 0, 5, 3};
   double p1[3];
-  const WallWeight a = WallWeightOf(2.0, n);
+  const WallCoefficient a = WallCoefficientOf(2.0, n);
   CHECK(fabs(WallExtent(x, n) - 0.8) < 1e-16, "extent %g", WallExtent(x, n));
   CHECK(fabs(a.xx - 2.0 * (4.0 / 3.0 * 0.36 + 0.64)) < 1e-15 && fabs(a.xy - 2.0 * 0.48 / 3.0) < 1e-15 &&
             fabs(a.yy - 2.0 * (0.36 + 4.0 / 3.0 * 0.64)) < 1e-15,
         "[37]");
-  CouplerPressureP1(p, p1);
+  P2ProjectP1(p, p1);
   CHECK(fabs(p1[0] + p1[1] + p1[2] - 8.0) < 1e-14, "the mean of a P2 field is the mean of its midpoints");
 }
 

@@ -38,7 +38,7 @@ static void MakeCase(void)
   }
 }
 
-static void SparseExchange(MPI_Comm comm)
+static void Distribute(MPI_Comm comm)
 {
   int rank, size;
   MPI_Comm_rank(comm, &rank);
@@ -68,12 +68,12 @@ static void Run(MPI_Comm comm, CouplerMode mode, Result *r)
   Coupler c;
   int n, nc;
   memset(r, 0, sizeof *r);
-  SparseExchange(comm);
+  Distribute(comm);
   CHECK(!CouplerCreate(comm, &options, &c), "create");
   CHECK(!CouplerSetElements(c, &fluid.view), "elements");
   for (int step = 0; step < 2; step++) {
     CHECK(!CouplerBuild(c, &solid.view, 0.01, &n, &coupling), "build");
-    CHECK(!CouplerReact(c, &fluid.flow, &force, &r->totals), "react");
+    CHECK(!CouplerComputeForce(c, &fluid.flow, &force, &r->totals), "react");
   }
   CHECK(!CouplerCorrect(c, &moved.view, &nc, &correction), "correct");
   CHECK(n == nc, "%d couplings, %d corrections", n, nc);
@@ -107,16 +107,16 @@ static void CheckConservation(const Result *r)
 {
   double area = 0.0, mass = 0.0, us[2] = {0.0}, momentum[2] = {0.0}, after[2] = {0.0}, expected[2] = {0.0};
   for (int k = 0; k < all_fluid.n; k++) {
-    CoracleCoupling entry;
-    memcpy(entry.a, r->coupling[k], sizeof r->coupling[k]);
-    area += entry.alpha * GeometryArea((const double(*)[2])all_fluid.x[k]);
+    CoracleCoupling element;
+    memcpy(element.a, r->coupling[k], sizeof r->coupling[k]);
+    area += element.alpha * GeometryArea((const double(*)[2])all_fluid.x[k]);
     for (int i = 0; i < 6; i++) {
-      us[i / 3] += entry.us[i / 3][i % 3];
+      us[i / 3] += element.us[i / 3][i % 3];
       after[i / 3] += r->correction[k][i];
     }
     for (int i = 0; i < 9; i++) {
-      mass += entry.ms[i / 3][i % 3];
-      for (int c = 0; c < 2; c++) after[c] += entry.ms[i / 3][i % 3] * all_fluid.u_projected[k][c][i % 3];
+      mass += element.ms[i / 3][i % 3];
+      for (int c = 0; c < 2; c++) after[c] += element.ms[i / 3][i % 3] * all_fluid.u_projected[k][c][i % 3];
     }
   }
   for (int t = 0; t < all_solid.nelements; t++) {
@@ -168,6 +168,6 @@ int main(int argc, char **argv)
     for (int c = 0; c < 2; c++) all_solid.acceleration[i][c] = Random(-1.0, 1.0);
   }
   CompareSplits(COUPLER_REACTION);
-  CHECK(shared.totals.imbalance < 1e-12, "nodes that give way: %g", shared.totals.imbalance);
+  CHECK(shared.totals.imbalance < 1e-12, "nodes with a mobility: %g", shared.totals.imbalance);
   return PetscFinalize();
 }
