@@ -7,6 +7,7 @@
  *                                                                  step at the new position -->  fluid
  *     write summary.json */
 #include "common/program/program.h"
+#include "coupler/check.h"
 #include "coupler/summary.h"
 #include "coupler/time_loop.h"
 
@@ -33,8 +34,10 @@ static PetscErrorCode Run(Server server, const CouplerCase *c)
 
 int main(int argc, char **argv)
 {
+  const Command command = CommandTake(&argc, argv);
   Program program;
   CouplerCase c;
+  if (command != COMMAND_RUN) return CouplerAnswer(command, argc, argv);
   PetscCall(ProgramStart("coupler", argc, argv, &program));
   PetscCall(CouplerCaseRead(program.c, &c));
   PetscCall(Run(program.server, &c));

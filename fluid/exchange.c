@@ -80,7 +80,7 @@ static int ElementsInRegion(void *context, int nbox, const double box[], Coracle
 static int SaveOrRestore(void *context, int save)
 {
   Exchange s = context;
-  return FluidState(s->fluid, save);
+  return save ? FluidSaveState(s->fluid) : FluidRestoreState(s->fluid);
 }
 
 PetscErrorCode ExchangeCreate(CoracleClient client, Fluid fluid, Exchange *exchange)
@@ -122,7 +122,7 @@ PetscErrorCode ExchangeReceiveCoupling(Exchange x)
 static PetscErrorCode SetFlow(Exchange x)
 {
   const Mesh *m = FluidMesh(x->fluid);
-  const double *u_star = FluidVelocityStar(x->fluid), *u_projected = FluidVelocityPlus(x->fluid);
+  const double *u_star = FluidVelocityStar(x->fluid), *u_projected = FluidVelocityProjected(x->fluid);
   const PetscBool needs_pressure = CoracleNeedsPressure(x->client) ? PETSC_TRUE : PETSC_FALSE;
   const CoracleFlow flow = {x->u_star, x->u_projected, needs_pressure ? x->p : NULL, x->rho, x->mu};
   PetscFunctionBeginUser;

@@ -2,8 +2,7 @@
 #include "common/mesh/mesh_checkpoint.h"
 #include "common/supermesh/geometry.h"
 
-/* --- mesh: a graded box, or a Gmsh file
- * ------------------------------------------------------------------------ */
+/* --- mesh: a graded box, or a Gmsh file ------------------------------------------------------------------ */
 
 typedef struct {
   GeometryBox at;
@@ -77,8 +76,7 @@ PetscErrorCode FluidCaseMesh(CoracleCase c, MPI_Comm comm, Checkpoint from, Mesh
   PetscFunctionReturn(0);
 }
 
-/* --- boundaries
- * -------------------------------------------------------------------------------------------------- */
+/* --- boundaries ----------------------------------------------------------------------------------------- */
 
 static void ReadBoundary(CoracleCase c, const char *name, Boundary *b)
 {
@@ -183,7 +181,10 @@ PetscErrorCode FluidCaseAdaptation(CoracleCase c, PetscBool *adapts, AdaptationS
   *adapts = (PetscBool)CoracleCaseHas(c, "fluid.adapt");
   if (!*adapts) PetscFunctionReturn(0);
   s->size_min = CoracleCasePositive(c, "fluid.adapt.size_min");
-  s->size_max = CoracleCaseNumber(c, "fluid.adapt.size_max", s->size_min, HUGE_VAL);
+  s->size_max = CoracleCasePositive(c, "fluid.adapt.size_max");
+  if (s->size_max < s->size_min)
+    CoracleCaseRefuse(c, "fluid.adapt.size_max", "expected at least fluid.adapt.size_min, %g, found %g",
+                      s->size_min, s->size_max);
   s->velocity_error = CoracleCasePositive(c, "fluid.adapt.velocity_error");
   s->growth = CoracleCaseNumberOr(c, "fluid.adapt.growth", 1.5, 1.01, 10.0);
   s->anisotropy = CoracleCaseNumberOr(c, "fluid.adapt.anisotropy", 5.0, 1.0, 1000.0);
@@ -194,14 +195,14 @@ PetscErrorCode FluidCaseAdaptation(CoracleCase c, PetscBool *adapts, AdaptationS
 
 PetscErrorCode FluidCaseCheckOptions(CoracleCase c)
 {
-  const char *given = CoracleCaseStringOr(c, "fluid.petsc", "");
+  const char *options = CoracleCaseStringOr(c, "fluid.petsc", "");
   PetscInt n;
   char **names, **values, option[256];
   PetscFunctionBeginUser;
   PetscCall(PetscOptionsLeftGet(NULL, &n, &names, &values));
   for (PetscInt k = 0; k < n; k++) {
     (void)snprintf(option, sizeof option, "-%s", names[k]);
-    if (strstr(given, option))
+    if (strstr(options, option))
       CoracleCaseRefuse(c, "fluid.petsc", "no solver of the fluid has the option %s", option);
   }
   PetscCall(PetscOptionsLeftRestore(NULL, &n, &names, &values));

@@ -5,6 +5,7 @@
  *         coupling of the solid        -->  u*, u projected, p; another mesh when it is due
  *         flow near the solid          -->  coupler, solid  -->  correction inside the solid, or: to be redone
  *     report, end */
+#include "fluid/check.h"
 #include "fluid/fluid_case.h"
 #include "fluid/run.h"
 
@@ -53,7 +54,9 @@ static PetscErrorCode Run(const Program *program)
 
 int main(int argc, char **argv)
 {
+  const Command command = CommandTake(&argc, argv);
   Program program;
+  if (command != COMMAND_RUN) return FluidAnswer(command, argc, argv);
   PetscCall(ProgramStart("fluid", argc, argv, &program));
   PetscCall(Run(&program));
   return ProgramEnd(&program);

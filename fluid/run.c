@@ -121,7 +121,7 @@ PetscErrorCode FluidRunAcceptMesh(FluidRun *m, Mesh *mesh, Fluid fluid)
 PetscErrorCode FluidRunDiscardMesh(FluidRun *m, Mesh **mesh, Fluid *fluid)
 {
   PetscFunctionBeginUser;
-  if (m->adaptation) AdaptationForget(m->adaptation);
+  if (m->adaptation) AdaptationDiscard(m->adaptation);
   PetscCall(FluidDestroy(fluid));
   PetscCall(MeshDestroy(mesh));
   PetscFunctionReturn(0);

@@ -3,6 +3,7 @@
  * coracle-solid --alone case.yaml [--set key=value]...: the solid without coupler and fluid (alone.h). */
 #include "common/program/program.h"
 #include "solid/alone.h"
+#include "solid/check.h"
 #include "solid/exchange.h"
 #include "solid/solid_case.h"
 #include "solid/writer.h"
@@ -96,10 +97,12 @@ static int TakeAlone(int *argc, char **argv)
 
 int main(int argc, char **argv)
 {
+  const Command command = CommandTake(&argc, argv);
   Program program;
   Solid solid;
   Writer record;
   Checkpoint from;
+  if (command != COMMAND_RUN) return SolidAnswer(command, argc, argv);
   if (TakeAlone(&argc, argv)) return Alone(argc, argv);
   PetscCall(ProgramStart("solid", argc, argv, &program));
   PetscCall(SolidFromCase(program.c, program.comm, ProgramFail, &program, &solid));
