@@ -6,20 +6,10 @@
  *         solid   -- new position and velocity ----->  coupler  -- correction, and the coupling of the next
  *                                                                  step at the new position -->  fluid
  *     write summary.json */
+#include "common/program/program.h"
 #include "coupler/check.h"
 #include "coupler/summary.h"
 #include "coupler/time_loop.h"
-
-static void Refuse(void *server, const char *message)
-{
-  ServerFail(server, "%s", message);
-}
-
-static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const char *file,
-                            PetscErrorCode code, PetscErrorType type, const char *message, void *server)
-{
-  ServerFail(server, "%s (in %s, %s:%d)", message ? message : "an error of PETSc", function, file, line);
-}
 
 static PetscErrorCode Run(Server server, const CouplerCase *c)
 {
@@ -45,20 +35,11 @@ static PetscErrorCode Run(Server server, const CouplerCase *c)
 int main(int argc, char **argv)
 {
   const Command command = CommandTake(&argc, argv);
-  Server server;
-  MPI_Comm comm;
-  CoracleCase file;
+  Program program;
   CouplerCase c;
   if (command != COMMAND_RUN) return CouplerAnswer(command, argc, argv);
-  if (ServerOpen(argc, argv, &comm, &server)) return 1;
-  PETSC_COMM_WORLD = comm;
-  PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
-  PetscCall(PetscPushErrorHandler(Abort, server));
-  PetscCall(CoracleCaseOpen(argc, argv, Refuse, server, &file));
-  PetscCall(CouplerCaseRead(file, &c));
-  PetscCall(CoracleCaseClose(&file));
-  PetscCall(Run(server, &c));
-  PetscCall(PetscPopErrorHandler());
-  PetscCall(PetscFinalize());
-  return ServerClose(&server);
+  PetscCall(ProgramStart("coupler", argc, argv, &program));
+  PetscCall(CouplerCaseRead(program.c, &c));
+  PetscCall(Run(program.server, &c));
+  return ProgramEnd(&program);
 }

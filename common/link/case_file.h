@@ -12,7 +12,6 @@
 #ifndef CORACLE_CASE_FILE_H
 #define CORACLE_CASE_FILE_H
 #include <stdbool.h>
-#include <stdio.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -20,6 +19,7 @@ extern "C" {
 #else
 #define CASE_NORETURN _Noreturn
 #endif
+#include <stdio.h>
 
 typedef struct CoracleCase_s *CoracleCase;
 
@@ -87,4 +87,8 @@ bool CoracleCaseFaultless(CoracleCase c);
  * default, unit, meaning. */
 int CoracleCaseKeysOf(int argc, char **argv, CoracleCaseReader read, void *context,
                       void (*fail)(void *context, const char *message), FILE *out);
+
+#ifdef __cplusplus
+}
+#endif
 #endif

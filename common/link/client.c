@@ -5,8 +5,20 @@
 
 int CoracleOpen(const char *role, int argc, char **argv, MPI_Comm *app_comm, CoracleClient *client)
 {
+  return CoracleOpenComm(MPI_COMM_NULL, role, argc, argv, app_comm, client);
+}
+
+int CoracleSetErrorHandler(void (*f)(void *context, const char *message), void *context)
+{
+  ParticipantSetErrorHandler(f, context);
+  return 0;
+}
+
+int CoracleOpenComm(MPI_Comm job, const char *role, int argc, char **argv, MPI_Comm *app_comm,
+                    CoracleClient *client)
+{
   CoracleClient c = calloc(1, sizeof *c);
-  ParticipantOpen(role, true, argc, argv, &c->p);
+  ParticipantOpen(job, role, true, argc, argv, &c->p);
   const int owner = c->p->rank % c->p->count[ROLE_COUPLER];
   MessageInit(&c->in, ROLE_COUPLER, owner);
   MessageInit(&c->out, ROLE_COUPLER, owner);

@@ -17,6 +17,7 @@ typedef enum {
 typedef struct {
   int n, nfacets, nelements;
   Buffer gid, x, u;      /* long long [n], double [n][2], double [n][2]: velocity given with the nodes, m/s */
+  Buffer start;          /* double [n][2]: positions when the step began, m */
   Buffer sums;           /* double [n][2][2] over the substeps so far: of h u, m, and of h tau u, m s */
   Buffer facet, element; /* int [nfacets][2], int [nelements][3] */
 } SolidMesh;
@@ -88,6 +89,11 @@ void StateSave(CoracleClient c); /* and into the checkpoint that is due */
 bool StateIsBuffers(CoracleClient c);
 void StateRestore(CoracleClient c);
 void StateFree(CoracleClient c);
+
+/* client_check.c.  Local: node indices, unique ids, positive areas; x[n][2]: present positions. */
+void CheckMesh(CoracleClient c, const double x[]);
+/* Collective over the solid: no element or facet twice, and the surface is the volume's boundary. */
+void CheckSurface(CoracleClient c);
 
 void SolidReady(CoracleClient c);
 void SolidBegin(CoracleClient c); /* waits for the force */

@@ -82,6 +82,18 @@ typedef enum {
  * files or settings. */
 int CoracleOpen(const char *role, int argc, char **argv, MPI_Comm *app_comm, CoracleClient *c);
 
+/* The same in a job whose participants' ranks are those of `job`, which MPI must have been started for; kept by
+ * the caller until CoracleClose.  All participants must name the same ranks: coracle-fluid, coracle-coupler and
+ * coracle-solid use MPI_COMM_WORLD, so that this serves jobs made of other programs. */
+int CoracleOpenComm(MPI_Comm job, const char *role, int argc, char **argv, MPI_Comm *app_comm,
+                    CoracleClient *c);
+
+/* Local, at any time, also before CoracleOpen: f(context, message) is called on a rank that ends the job, after
+ * the message has been written to stderr (by one rank) and before MPI_Abort.  f may save what it wants, or not
+ * return: then it must end the job itself.  NULL: nothing is called.  Ranks that are ended by another rank's
+ * MPI_Abort do not call it. */
+int CoracleSetErrorHandler(void (*f)(void *context, const char *message), void *context);
+
 /* Ends the whole job (not collective) with "coracle <role>[rank]: error: ..." on stderr. */
 CORACLE_NORETURN void CoracleFail(CoracleClient c, const char *format, ...)
     __attribute__((format(printf, 2, 3)));

@@ -38,6 +38,8 @@ typedef struct {
 
 /* Joins as "coupler"; as CoracleOpen. */
 int ServerOpen(int argc, char **argv, MPI_Comm *app_comm, Server *s);
+/* As CoracleOpenComm. */
+int ServerOpenComm(MPI_Comm job, int argc, char **argv, MPI_Comm *app_comm, Server *s);
 CORACLE_NORETURN void ServerFail(Server s, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* The solid's mesh (first call, matches CoracleReady) or its motion (matches CoracleEnd). */

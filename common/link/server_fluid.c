@@ -24,7 +24,7 @@ static void SendAsk(Server s, int nbox, const double box[])
 {
   const FieldsBoxes boxes = {box};
   for (int i = 0; i < s->fluid.n; i++) {
-    Message *m = &s->fluid.peer[i].out;
+    Message *m = &s->fluid.client[i].out;
     MessageHeader *h = MessageStart(m, KIND_ASK, s->fluid.step);
     h->count[0] = nbox;
     h->flag = s->needs_pressure ? FLAG_PRESSURE : 0;
@@ -34,22 +34,22 @@ static void SendAsk(Server s, int nbox, const double box[])
 }
 
 /* One client's elements, at the end of the lists; returns the step that it proposes. */
-static double ReceiveElements(Server s, ClientRank *peer, FieldsDomain *domain)
+static double ReceiveElements(Server s, ClientRank *client, FieldsDomain *domain)
 {
-  const MessageHeader *h = MessageReceive(s->p, &peer->in, KIND_ELEMENTS, KIND_ELEMENTS, s->fluid.step);
+  const MessageHeader *h = MessageReceive(s->p, &client->in, KIND_ELEMENTS, KIND_ELEMENTS, s->fluid.step);
   Buffer own = {0};
-  ClientListFlags(s, ROLE_FLUID, peer, h);
-  FieldsTake(s->p, &peer->in, &FIELDS_DOMAIN, 1, &own);
+  ClientListFlags(s, ROLE_FLUID, client, h);
+  FieldsTake(s->p, &client->in, &FIELDS_DOMAIN, 1, &own);
   const FieldsDomain *its = (const FieldsDomain *)(const void *)own.data;
   for (int d = 0; d < DIM; d++) {
     domain->lower[d] = fmin(domain->lower[d], its->lower[d]);
     domain->upper[d] = fmax(domain->upper[d], its->upper[d]);
   }
   BufferFree(&own);
-  peer->first = s->nelements;
-  peer->n = (int)h->count[0];
-  s->nelements += peer->n;
-  FieldsAppend(s->p, &peer->in, &FIELDS_ELEMENTS, (size_t)peer->n, &s->elements);
+  client->first = s->nelements;
+  client->n = (int)h->count[0];
+  s->nelements += client->n;
+  FieldsAppend(s->p, &client->in, &FIELDS_ELEMENTS, (size_t)client->n, &s->elements);
   return h->dt;
 }
 
@@ -71,7 +71,7 @@ int ServerAskElements(Server s, int nbox, const double box[], ServerElements *el
   FieldListsClear(&s->elements);
   for (int d = 0; d < DIM; d++) domain.lower[d] = -(domain.upper[d] = -HUGE_VAL);
   for (int i = 0; i < s->fluid.n; i++)
-    proposed = fmin(proposed, ReceiveElements(s, &s->fluid.peer[i], &domain));
+    proposed = fmin(proposed, ReceiveElements(s, &s->fluid.client[i], &domain));
   ReduceProposed(s, proposed);
   ReduceDomain(s, &domain);
   s->asked = true;
@@ -94,14 +94,14 @@ double ServerProposedStep(Server s)
 
 /* --- flow ----------------------------------------------------------------------------------------------- */
 
-static double ReceiveFlow(Server s, ClientRank *peer, int *changed)
+static double ReceiveFlow(Server s, ClientRank *client, int *changed)
 {
-  const MessageHeader *h = MessageReceive(s->p, &peer->in, KIND_FLOW, KIND_FLOW, s->fluid.step);
-  if (h->count[0] != peer->n)
-    ServerFail(s, "fluid rank %d has sent the flow on %lld elements instead of %d", peer->in.rank,
-               (long long)h->count[0], peer->n);
-  FieldsAppend(s->p, &peer->in, &FIELDS_FLOW, (size_t)peer->n, &s->flow);
-  ClientListFlags(s, ROLE_FLUID, peer, h);
+  const MessageHeader *h = MessageReceive(s->p, &client->in, KIND_FLOW, KIND_FLOW, s->fluid.step);
+  if (h->count[0] != client->n)
+    ServerFail(s, "fluid rank %d has sent the flow on %lld elements instead of %d", client->in.rank,
+               (long long)h->count[0], client->n);
+  FieldsAppend(s->p, &client->in, &FIELDS_FLOW, (size_t)client->n, &s->flow);
+  ClientListFlags(s, ROLE_FLUID, client, h);
   *changed |= h->flag & FLAG_CHANGED;
   return h->dt;
 }
@@ -112,7 +112,8 @@ int ServerReceiveFlow(Server s, CoracleFlow *flow)
   int changed = 0;
   if (s->owes_correction) ServerFail(s, "ServerReceiveFlow: the fluid waits for ServerSendCoupling");
   FieldListsClear(&s->flow);
-  for (int i = 0; i < s->fluid.n; i++) proposed = fmin(proposed, ReceiveFlow(s, &s->fluid.peer[i], &changed));
+  for (int i = 0; i < s->fluid.n; i++)
+    proposed = fmin(proposed, ReceiveFlow(s, &s->fluid.client[i], &changed));
   ReduceProposed(s, proposed);
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, s->p->app);
   s->elements_changed = changed;
@@ -131,35 +132,35 @@ static int *Ints(const Buffer *b)
 /* The corrections of one client, in the order of its coupling entries, with its own indices of that time. */
 static void AddCorrections(Server s, int k, int n, const CoracleCorrection correction[], Buffer *scratch)
 {
-  ClientRank *peer = &s->fluid.peer[k];
+  ClientRank *client = &s->fluid.client[k];
   size_t mine = 0;
   BufferResize(scratch, 0);
   for (int i = 0; i < n; i++) {
     if (Ints(&s->owner)[i] != k) continue;
     CoracleCorrection *c = BufferExtend(scratch, sizeof *c);
     *c = correction[i];
-    c->element = Ints(&peer->coupled)[mine++];
+    c->element = Ints(&client->coupled)[mine++];
   }
-  FieldsPack(s->p, &peer->out, &FIELDS_CORRECTION, mine, scratch->data);
+  FieldsPack(s->p, &client->out, &FIELDS_CORRECTION, mine, scratch->data);
 }
 
 static void AddCouplings(Server s, int k, int n, const CoracleCoupling coupling[], const int owner[],
                          Buffer *scratch)
 {
-  ClientRank *peer = &s->fluid.peer[k];
+  ClientRank *client = &s->fluid.client[k];
   size_t mine = 0;
   BufferResize(scratch, 0);
-  BufferResize(&peer->coupled, 0);
+  BufferResize(&client->coupled, 0);
   for (int i = 0; i < n; i++) {
     if (owner[i] != k) continue;
     CoracleCoupling *c = BufferExtend(scratch, sizeof *c);
     *c = coupling[i];
-    c->element -= peer->first;
-    *(int *)BufferExtend(&peer->coupled, sizeof(int)) = c->element;
+    c->element -= client->first;
+    *(int *)BufferExtend(&client->coupled, sizeof(int)) = c->element;
     mine++;
-    if (c->flags & CORACLE_HAS_INERTIA) MessageHeaderOf(&peer->out)->flag |= FLAG_INERTIA;
+    if (c->flags & CORACLE_HAS_INERTIA) MessageHeaderOf(&client->out)->flag |= FLAG_INERTIA;
   }
-  FieldsPack(s->p, &peer->out, &FIELDS_COUPLING, mine, scratch->data);
+  FieldsPack(s->p, &client->out, &FIELDS_COUPLING, mine, scratch->data);
 }
 
 static void CheckCouplings(Server s, int n, const CoracleCoupling coupling[])
@@ -198,7 +199,7 @@ int ServerSendCoupling(Server s, double t, double dt, CoracleAction action, int 
   for (int i = 0; i < ncoupling; i++) own[i] = ClientListFind(&s->fluid, coupling[i].element);
   ClientListStep(s, &s->fluid, action);
   for (int k = 0; k < s->fluid.n; k++) {
-    MessageHeader *h = MessageStart(&s->fluid.peer[k].out, KIND_COUPLING, step);
+    MessageHeader *h = MessageStart(&s->fluid.client[k].out, KIND_COUPLING, step);
     h->action = action;
     h->t = t;
     h->dt = dt;
@@ -206,7 +207,7 @@ int ServerSendCoupling(Server s, double t, double dt, CoracleAction action, int 
     h->count[1] = CountOwned(own, ncoupling, k);
     AddCorrections(s, k, ncorrection, correction, &scratch);
     AddCouplings(s, k, ncoupling, coupling, own, &scratch);
-    ClientListAskSave(s, &s->fluid.peer[k], action);
+    ClientListAskSave(s, &s->fluid.client[k], action);
   }
   ClientListSend(s, &s->fluid);
   BufferFree(&s->owner);

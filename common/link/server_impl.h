@@ -17,8 +17,8 @@ typedef struct {
 
 typedef struct {
   int n;
-  ClientRank *peer; /* [n] in order of client rank */
-  int step;         /* the step these clients are in */
+  ClientRank *client; /* [n] in order of client rank */
+  int step;           /* the step these clients are in */
   bool stopped;
 } ClientList;
 
@@ -37,18 +37,18 @@ struct Server_s {
   FieldLists elements, flow;
   int nelements;
   FieldsDomain domain;
-  Buffer owner; /* int []: the fluid peer of each coupling entry last sent, in the coupler's order */
+  Buffer owner; /* int []: the fluid client of each coupling entry last sent, in the coupler's order */
   Buffer reports[NROLES];
 };
 
-/* The peer whose list holds index i. */
-int ClientListFind(const ClientList *side, int i);
-/* Sends every peer's message and waits until all have gone. */
-void ClientListSend(Server s, ClientList *side);
-/* Asks a peer for a checkpoint with a message that begins a step: to be called last. */
-void ClientListAskSave(Server s, ClientRank *peer, CoracleAction action);
-/* Takes note of what the flags of a peer's message say. */
-void ClientListFlags(Server s, Role role, ClientRank *peer, const MessageHeader *h);
+/* The client whose list holds index i. */
+int ClientListFind(const ClientList *clients, int i);
+/* Sends every client's message and waits until all have gone. */
+void ClientListSend(Server s, ClientList *clients);
+/* Asks a client for a checkpoint with a message that begins a step: to be called last. */
+void ClientListAskSave(Server s, ClientRank *client, CoracleAction action);
+/* Takes note of what the flags of a client's message say. */
+void ClientListFlags(Server s, Role role, ClientRank *client, const MessageHeader *h);
 /* Counts a new step when it is one; fails when a client is asked to go on after STOP. */
-void ClientListStep(Server s, ClientList *side, CoracleAction action);
+void ClientListStep(Server s, ClientList *clients, CoracleAction action);
 #endif

@@ -7,29 +7,29 @@ enum { DIM = CORACLE_DIM };
 
 /* Receives one client's SURFACE or MOTION and appends its motion to the lists; returns whether its mesh is
  * new. */
-static int ReceiveMotion(Server s, ClientRank *peer, int *nnodes)
+static int ReceiveMotion(Server s, ClientRank *client, int *nnodes)
 {
-  Message *m = &peer->in;
+  Message *m = &client->in;
   const MessageKind kind = s->received_solid ? KIND_MOTION : KIND_SURFACE;
   const MessageHeader *h = MessageReceive(s->p, m, kind, KIND_SURFACE, s->solid.step);
   const bool whole = h->kind == KIND_SURFACE;
-  ClientListFlags(s, ROLE_SOLID, peer, h);
-  if (!whole && (int)h->count[0] != peer->n)
-    ServerFail(s, "solid rank %d moves %d nodes but has %d", m->rank, (int)h->count[0], peer->n);
-  peer->first = *nnodes;
-  peer->n = (int)h->count[0];
+  ClientListFlags(s, ROLE_SOLID, client, h);
+  if (!whole && (int)h->count[0] != client->n)
+    ServerFail(s, "solid rank %d moves %d nodes but has %d", m->rank, (int)h->count[0], client->n);
+  client->first = *nnodes;
+  client->n = (int)h->count[0];
   if (whole) {
-    FieldListsClear(&peer->nodes);
-    FieldListsClear(&peer->facets);
-    FieldListsClear(&peer->elements);
-    FieldsAppend(s->p, m, &FIELDS_NODES, (size_t)peer->n, &peer->nodes);
+    FieldListsClear(&client->nodes);
+    FieldListsClear(&client->facets);
+    FieldListsClear(&client->elements);
+    FieldsAppend(s->p, m, &FIELDS_NODES, (size_t)client->n, &client->nodes);
   }
-  FieldsAppend(s->p, m, &FIELDS_MOTION, (size_t)peer->n, &s->motion);
+  FieldsAppend(s->p, m, &FIELDS_MOTION, (size_t)client->n, &s->motion);
   if (whole) {
-    FieldsAppend(s->p, m, &FIELDS_FACETS, (size_t)h->count[1], &peer->facets);
-    FieldsAppend(s->p, m, &FIELDS_SIMPLICES, (size_t)h->count[2], &peer->elements);
+    FieldsAppend(s->p, m, &FIELDS_FACETS, (size_t)h->count[1], &client->facets);
+    FieldsAppend(s->p, m, &FIELDS_SIMPLICES, (size_t)h->count[2], &client->elements);
   }
-  *nnodes += peer->n;
+  *nnodes += client->n;
   return whole;
 }
 
@@ -48,7 +48,7 @@ static void Swap(Buffer *a, Buffer *b)
   *b = c;
 }
 
-/* The peers' meshes, one after the other; that of the step's start is kept. */
+/* The clients' meshes, one after the other; that of the step's start is kept. */
 static void AssembleMesh(Server s)
 {
   if (!s->kept_start) {
@@ -60,11 +60,11 @@ static void AssembleMesh(Server s)
   BufferResize(&s->facet, 0);
   BufferResize(&s->element, 0);
   for (int i = 0; i < s->solid.n; i++) {
-    const ClientRank *peer = &s->solid.peer[i];
-    const Buffer *gid = &peer->nodes.list[0];
+    const ClientRank *client = &s->solid.client[i];
+    const Buffer *gid = &client->nodes.list[0];
     if (gid->size) memcpy(BufferExtend(&s->gid, gid->size), gid->data, gid->size);
-    AppendShifted(&s->facet, &peer->facets.list[0], peer->first);
-    AppendShifted(&s->element, &peer->elements.list[0], peer->first);
+    AppendShifted(&s->facet, &client->facets.list[0], client->first);
+    AppendShifted(&s->element, &client->elements.list[0], client->first);
   }
 }
 
@@ -112,7 +112,7 @@ int ServerReceiveSolid(Server s, ServerSolid *solid)
   const bool first = !s->received_solid;
   int nnodes = 0, changed = 0;
   FieldListsClear(&s->motion);
-  for (int i = 0; i < s->solid.n; i++) changed |= ReceiveMotion(s, &s->solid.peer[i], &nnodes);
+  for (int i = 0; i < s->solid.n; i++) changed |= ReceiveMotion(s, &s->solid.client[i], &nnodes);
   if (changed || first) AssembleMesh(s);
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, s->p->app);
   s->received_solid = true;
@@ -133,20 +133,20 @@ int ServerSendForce(Server s, double t, double dt, CoracleAction action, const d
   ClientListStep(s, &s->solid, action);
   if (action == CORACLE_RUN) s->kept_start = false;
   for (int i = 0; i < s->solid.n; i++) {
-    ClientRank *peer = &s->solid.peer[i];
+    ClientRank *client = &s->solid.client[i];
     if (action == CORACLE_RUN) {
-      peer->first_start = peer->first;
-      peer->n_start = peer->n;
+      client->first_start = client->first;
+      client->n_start = client->n;
     }
-    const size_t n = action == CORACLE_STOP ? 0 : (size_t)peer->n_start;
-    const FieldsForce its = {n ? force + DIM * peer->first_start : NULL};
-    MessageHeader *h = MessageStart(&peer->out, KIND_FORCE, step);
+    const size_t n = action == CORACLE_STOP ? 0 : (size_t)client->n_start;
+    const FieldsForce its = {n ? force + DIM * client->first_start : NULL};
+    MessageHeader *h = MessageStart(&client->out, KIND_FORCE, step);
     h->action = action;
     h->t = t;
     h->dt = dt;
     h->count[0] = (int64_t)n;
-    FieldsPack(s->p, &peer->out, &FIELDS_FORCE, n, &its);
-    ClientListAskSave(s, peer, action);
+    FieldsPack(s->p, &client->out, &FIELDS_FORCE, n, &its);
+    ClientListAskSave(s, client, action);
   }
   ClientListSend(s, &s->solid);
   return 0;

@@ -85,7 +85,9 @@ static void SetFlow(Fluid *f)
   }
   if (f->fault == FAULT_NAN && f->step == f->fault_step && f->n) p[f->n - 1][4] = INFINITY;
   if (f->needs_pressure != CoracleNeedsPressure(f->client)) CoracleFail(f->client, "needs pressure");
-  const CoracleFlow flow = {&u_star[0][0], &u_projected[0][0], f->needs_pressure ? &p[0][0] : NULL, rho, mu};
+  const bool missing = f->fault == FAULT_MISSING && f->step == f->fault_step;
+  const CoracleFlow flow = {&u_star[0][0], &u_projected[0][0],
+                            f->needs_pressure && !missing ? &p[0][0] : NULL, rho, mu};
   CoracleSetFlow(f->client, &flow);
 }
 
@@ -100,7 +102,7 @@ static void Step(Fluid *f, CoracleAction action)
   f->memory[0] += 1.0;
   f->n_old = f->n;
   memcpy(f->id_old, f->id, sizeof f->id);
-  SetFlow(f);
+  if (f->fault != FAULT_ORDER || f->step != f->fault_step) SetFlow(f);
   if (f->step == ADAPT_STEP) {
     f->adapted = 1;
     CoracleElementsChanged(f->client);
@@ -137,7 +139,8 @@ int main(int argc, char **argv)
   int size;
   double t, dt;
   CoracleAction action;
-  CoracleOpen("fluid", argc, argv, &comm, &f.client);
+  MPI_Comm job = TestJob(argc, argv);
+  CoracleOpenComm(job, "fluid", argc, argv, &comm, &f.client);
   CoracleCaseOpen(argc, argv, Fail, f.client, &c);
   MPI_Comm_rank(comm, &f.rank);
   MPI_Comm_size(comm, &size);
@@ -161,5 +164,6 @@ int main(int argc, char **argv)
   if (f.step != STEPS || f.asked != 2) CoracleFail(f.client, "%d steps, asked %d times", f.step, f.asked);
   CoracleReport(f.client, "cells", f.n, 1);
   CoracleReport(f.client, "largest", f.rank + 0.5, 0);
-  return CoracleClose(&f.client);
+  CoracleClose(&f.client);
+  return TestEnd(&job);
 }

@@ -27,11 +27,11 @@ static void CheckMesh(const Stub *s, const ServerSolid *solid, int remeshed)
   for (int r = s->rank; r < ServerRanks(s->server, "solid"); r += s->size) {
     for (int e = 0; e < FacetCount(r, remeshed); e++, nf++)
       for (int i = 0; i < 2; i++)
-        if (nf >= solid->nfacets || solid->facet[2 * nf + i] != n + FacetNode(r, e, i))
+        if (nf >= solid->nfacets || solid->facet[2 * nf + i] != n + FacetNode(NodeCount(r, remeshed), e, i))
           ServerFail(s->server, "facet %d of solid rank %d", e, r);
     for (int e = 0; e < ElementCount(r, remeshed); e++, ne++)
       for (int i = 0; i < 3; i++)
-        if (ne >= solid->nelements || solid->element[3 * ne + i] != n + ElementNode(r, e, i))
+        if (ne >= solid->nelements || solid->element[3 * ne + i] != n + ElementNode(e, i))
           ServerFail(s->server, "element %d of solid rank %d", e, r);
     for (int i = 0; i < NodeCount(r, remeshed); i++, n++)
       if (n >= solid->nnodes || solid->gid[n] != NodeId(r, i))
@@ -47,7 +47,7 @@ static void CheckMotion(const Stub *s, const ServerSolid *solid, double mean_tim
   for (int i = 0; i < solid->nnodes; i++)
     for (int c = 0; c < 2; c++) {
       const double u = NodeVelocity(solid->gid[i], c, mean_time);
-      if (solid->x[2 * i + c] != NodePosition(solid->gid[i], c, s->step))
+      if (solid->x[2 * i + c] != NodePosition(solid->gid[i], c, StepEnd(s->step)))
         ServerFail(s->server, "position of node %d in step %d", i, s->step);
       if (fabs(solid->mean[2 * i + c] - u) > 1e-13 * (1 + fabs(u)))
         ServerFail(s->server, "mean velocity of node %d in step %d is %.17g instead of %.17g", i, s->step,
@@ -221,7 +221,8 @@ int main(int argc, char **argv)
 {
   static Stub s;
   CoracleCase c;
-  ServerOpen(argc, argv, &s.comm, &s.server);
+  MPI_Comm job = TestJob(argc, argv);
+  ServerOpenComm(job, argc, argv, &s.comm, &s.server);
   CoracleCaseOpen(argc, argv, Fail, s.server, &c);
   MPI_Comm_rank(s.comm, &s.rank);
   MPI_Comm_size(s.comm, &s.size);
@@ -241,5 +242,6 @@ int main(int argc, char **argv)
   s.n = 0;
   ServerReports(s.server, CheckReport, &s);
   if (s.rank == 0 && s.n != 3 * 5 + 3) ServerFail(s.server, "%d reports", s.n);
-  return ServerClose(&s.server);
+  ServerClose(&s.server);
+  return TestEnd(&job);
 }
