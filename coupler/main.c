@@ -22,22 +22,22 @@ static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const
 
 static PetscErrorCode Run(Server server, const CouplerCase *c)
 {
-  TimeLoop scheme = {.server = server, .c = c};
+  TimeLoop loop = {.server = server, .c = c};
   const char *folder = ServerResumePath(server);
   WriterTotals totals;
 
   PetscFunctionBeginUser;
-  if (folder) PetscCall(CheckpointOpen(PETSC_COMM_WORLD, folder, "coupler", &scheme.from));
-  PetscCall(CouplerCreate(PETSC_COMM_WORLD, &c->options, &scheme.coupler));
-  PetscCall(RegionCreate(PETSC_COMM_WORLD, c->options.thickness, &scheme.region));
-  PetscCall(WriterCreate(PETSC_COMM_WORLD, c, scheme.from, &scheme.record));
-  PetscCall(TimeLoopRun(&scheme));
-  PetscCall(WriterTotalsOf(scheme.record, CouplerOverlap(scheme.coupler)->nelements, &totals));
+  if (folder) PetscCall(CheckpointOpen(PETSC_COMM_WORLD, folder, "coupler", &loop.from));
+  PetscCall(CouplerCreate(PETSC_COMM_WORLD, &c->options, &loop.coupler));
+  PetscCall(RegionCreate(PETSC_COMM_WORLD, c->options.thickness, &loop.region));
+  PetscCall(WriterCreate(PETSC_COMM_WORLD, c, loop.from, &loop.writer));
+  PetscCall(TimeLoopRun(&loop));
+  PetscCall(WriterTotalsOf(loop.writer, CouplerOverlap(loop.coupler)->nelements, &totals));
   PetscCall(SummaryWrite(server, c, &totals));
-  PetscCall(WriterDestroy(&scheme.record));
-  PetscCall(RegionDestroy(&scheme.region));
-  PetscCall(CouplerDestroy(&scheme.coupler));
-  PetscCall(CheckpointClose(&scheme.from));
+  PetscCall(WriterDestroy(&loop.writer));
+  PetscCall(RegionDestroy(&loop.region));
+  PetscCall(CouplerDestroy(&loop.coupler));
+  PetscCall(CheckpointClose(&loop.from));
   PetscFunctionReturn(0);
 }
 

@@ -25,7 +25,7 @@ static void WallSource(void *context, const Overlap o, const SupermeshPair *pair
 {
   const Coupler c = context;
   Constant(c->mu[pair->b], f[0]);
-  Constant(WallExtent((const double(*)[2])o->x[pair->b], o->piece[pair->a].normal), f[1]);
+  Constant(WallExtent((const double(*)[2])o->x[pair->b], o->source[pair->a].normal), f[1]);
 }
 
 static void PressureSource(void *context, const Overlap o, const SupermeshPair *pair, double f[][3])
@@ -59,50 +59,50 @@ static void FlowSource(void *context, const Overlap o, const SupermeshPair *pair
 }
 
 /* mu / dxw at the two nodes of a facet; dxw is averaged over the facet, where it cannot undershoot. */
-static void WallCoefficient(const double mu[2], const double dxw[2], double k[2])
+static void WallFactor(const double mu[2], const double dxw[2], double k[2])
 {
   const double mean = 0.5 * (dxw[0] + dxw[1]);
   for (int i = 0; i < 2; i++) k[i] = mean > 0.0 ? fmax(mu[i], 0.0) / mean : 0.0;
 }
 
 /* Surface -> shell: the outer nodes carry the surface's values; -> pieces. */
-static PetscErrorCode CoefficientOnPieces(Coupler c, double (*piece)[3])
+static PetscErrorCode WallFactorOnSources(Coupler c, double (*source)[3])
 {
   const Overlap o = c->overlap;
-  double(*surface)[2][2], (*home)[3];
+  double(*surface)[2][2], (*owned)[3];
 
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(c->shell->nfacets, &surface));
-  PetscCall(PetscCalloc1(o->nhome, &home));
+  PetscCall(PetscCalloc1(o->nowned, &owned));
   PetscCall(SurfaceFromFluid(o, 2, c->shell, WallSource, c, (double *)surface));
   for (int e = 0; e < c->shell->nfacets; e++) {
     double k[2];
-    WallCoefficient(surface[e][0], surface[e][1], k);
+    WallFactor(surface[e][0], surface[e][1], k);
     const double vertices[2][3] = {{k[0], k[0], k[1]}, {k[0], k[1], k[1]}};
-    for (int t = 0; t < 2; t++) PetscCall(PetscArraycpy(home[o->nvolume + 2 * e + t], vertices[t], 3));
+    for (int t = 0; t < 2; t++) PetscCall(PetscArraycpy(owned[o->nvolume + 2 * e + t], vertices[t], 3));
   }
-  PetscCall(OverlapForward(o, 3, (const double *)home, (double *)piece));
-  PetscCall(PetscFree(home));
+  PetscCall(OverlapForward(o, 3, (const double *)owned, (double *)source));
+  PetscCall(PetscFree(owned));
   PetscCall(PetscFree(surface));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Weigh(Coupler c, const ServerSolid *solid)
+static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
 {
   const Overlap o = c->overlap;
   double(*k)[3];
 
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(o->npieces, &k));
-  PetscCall(CoefficientOnPieces(c, k));
+  PetscCall(PetscMalloc1(o->nsources, &k));
+  PetscCall(WallFactorOnSources(c, k));
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
     double mean = 0.0;
     for (int i = 0; i < 3; i++)
       mean += k[pair->a][i] * (pair->aa[i][0] + pair->aa[i][1] + pair->aa[i][2]) / pair->area;
-    c->weight[p] = o->piece[pair->a].is_shell
-                       ? WallWeightOf(mean / c->options.thickness, o->piece[pair->a].normal)
-                       : WallWeightIsotropic(0.0);
+    c->coefficient[p] = o->source[pair->a].is_shell
+                            ? WallCoefficientOf(mean / c->options.thickness, o->source[pair->a].normal)
+                            : WallCoefficientIsotropic(0.0);
   }
   PetscCall(PetscFree(k));
   PetscFunctionReturn(0);
@@ -113,7 +113,7 @@ static void AddTraction(Coupler c, int e, int where, const double t[2][2])
 {
   const int end[2] = {c->shell->node[2 * e][0], c->shell->node[2 * e][2]};
   for (int i = 0; i < 2; i++) {
-    double *to = where ? c->node[end[i]].rest : c->node[end[i]].reaction;
+    double *to = where ? c->node[end[i]].other : c->node[end[i]].reaction;
     for (int d = 0; d < 2; d++) to[d] += c->shell->length[e] / 6.0 * (2.0 * t[i][d] + t[1 - i][d]);
   }
 }
@@ -124,11 +124,11 @@ static void AddFacetForce(Coupler c, int e, const double f[FIELDS][2])
 {
   const double *n = c->shell->normal[e];
   double wall[2][2], rest[2][2], k[2];
-  WallCoefficient(f[VISCOSITY], f[EXTENT], k);
+  WallFactor(f[VISCOSITY], f[EXTENT], k);
   for (int i = 0; i < 2; i++) {
     const double *us = &c->us[2 * c->shell->node[2 * e][2 * i]];
     const double slip[2] = {f[VELOCITY][i] - us[0], f[VELOCITY + 1][i] - us[1]};
-    const WallWeight a = WallWeightOf(k[i], n);
+    const WallCoefficient a = WallCoefficientOf(k[i], n);
     WallApply(&a, slip, wall[i]);
     rest[i][0] = f[STRESS][i] * n[0] + f[STRESS + 1][i] * n[1] - f[PRESSURE][i] * n[0];
     rest[i][1] = f[STRESS + 1][i] * n[0] + f[STRESS + 2][i] * n[1] - f[PRESSURE][i] * n[1];
@@ -137,7 +137,7 @@ static void AddFacetForce(Coupler c, int e, const double f[FIELDS][2])
   AddTraction(c, e, 1, (const double(*)[2])rest);
 }
 
-static PetscErrorCode React(Coupler c)
+static PetscErrorCode ComputeForce(Coupler c)
 {
   double(*surface)[FIELDS][2];
 
@@ -150,4 +150,8 @@ static PetscErrorCode React(Coupler c)
   PetscFunctionReturn(0);
 }
 
-const CouplerActions COUPLER_ACTIONS_STRESS_SHELL = {Weigh, React, CouplerNoCorrection};
+const CouplerModeTable COUPLER_MODE_STRESS_SHELL = {.velocity = COUPLER_VELOCITY_MEAN,
+                                                    .needs_pressure = PETSC_TRUE,
+                                                    .coefficients = Coefficients,
+                                                    .force = ComputeForce,
+                                                    .correct = CouplerNoCorrection};

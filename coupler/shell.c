@@ -16,12 +16,12 @@ static PetscErrorCode FreeArrays(Shell s)
   PetscCall(PetscFree2(s->normal, s->length));
   PetscCall(PetscFree2(s->x, s->node));
   PetscCall(PetscFree2(s->surface, s->offset));
-  PetscCall(NodeSumDestroy(&s->sum));
+  PetscCall(CopiesDestroy(&s->sum));
   PetscFunctionReturn(0);
 }
 
 /* The nodes of the facets, each once, and where their copies are. */
-static PetscErrorCode FindSurfaceNodes(Shell s, const ServerSolid *solid)
+static PetscErrorCode FindSurfaceNodes(Shell s, const SolidState *solid)
 {
   PetscBool *seen;
   long long *gid;
@@ -37,13 +37,13 @@ static PetscErrorCode FindSurfaceNodes(Shell s, const ServerSolid *solid)
     gid[s->nsurface] = solid->gid[node];
     s->surface[s->nsurface++] = node;
   }
-  PetscCall(NodeSumCreate(s->comm, s->nsurface, gid, &s->sum));
+  PetscCall(CopiesCreateByNumber(s->comm, s->nsurface, gid, &s->sum));
   PetscCall(PetscFree(gid));
   PetscCall(PetscFree(seen));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Allocate(Shell s, const ServerSolid *solid)
+static PetscErrorCode Allocate(Shell s, const SolidState *solid)
 {
   const size_t nf = (size_t)solid->nfacets, nn = (size_t)solid->nnodes;
 
@@ -65,7 +65,7 @@ static PetscErrorCode Allocate(Shell s, const ServerSolid *solid)
 }
 
 /* Edge normals; the sum of the normals that meet in a node, and their number, are left in offset. */
-static void Normals(Shell s, const ServerSolid *solid)
+static void Normals(Shell s, const SolidState *solid)
 {
   for (int e = 0; e < s->nfacets; e++) {
     const double *a = &solid->x[2 * solid->facet[2 * e]], *b = &solid->x[2 * solid->facet[2 * e + 1]];
@@ -98,7 +98,7 @@ static PetscErrorCode Offsets(Shell s)
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(s->nsurface, &shared));
   for (int i = 0; i < s->nsurface; i++) PetscCall(PetscArraycpy(shared[i], s->offset[s->surface[i]], 3));
-  PetscCall(NodeSumApply(s->sum, 3, (double *)shared));
+  PetscCall(CopiesSum(s->sum, 3, (double *)shared));
   for (int i = 0; i < s->nsurface; i++) {
     ScaleOffset(s->thickness, shared[i]);
     PetscCall(PetscArraycpy(s->offset[s->surface[i]], shared[i], 3));
@@ -107,10 +107,10 @@ static PetscErrorCode Offsets(Shell s)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ShellExtrude(Shell s, const ServerSolid *solid, PetscBool fresh)
+PetscErrorCode ShellExtrude(Shell s, const SolidState *solid, PetscBool new_surface)
 {
   PetscFunctionBeginUser;
-  if (fresh) PetscCall(Allocate(s, solid));
+  if (new_surface) PetscCall(Allocate(s, solid));
   PetscCall(PetscArrayzero(s->offset, s->nnodes));
   Normals(s, solid);
   PetscCall(Offsets(s));

@@ -93,13 +93,13 @@ static PetscErrorCode LearnNumbers(Build *b)
   const int known = f->nopen + f->nrim, n = known + f->nclosed;
   int *node;
   long long *value;
-  MeshMet *met;
+  RendezvousReply *met;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc3(n, &node, n, &value, n, &met));
   for (int k = 0; k < f->nopen; k++) node[k] = b->piece->nv + f->local.edge[f->open[k]];
   for (int k = 0; k < f->nrim; k++) node[f->nopen + k] = f->rim[k];
   for (int k = 0; k < n; k++) value[k] = k < known ? b->p2gid[node[k]] : -1;
-  PetscCall(MeshRendezvousMeet(&f->meet, value, met));
+  PetscCall(MeshRendezvous(f->copies, n, value, met));
   for (int k = 0; k < known; k++) b->p2gid[node[k]] = (PetscInt)met[k].highest;
   PetscCall(PetscFree3(node, value, met));
   PetscFunctionReturn(0);

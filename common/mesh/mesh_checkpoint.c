@@ -149,35 +149,42 @@ PetscErrorCode MeshLoad(MPI_Comm comm, Checkpoint from, Mesh **mesh, PetscInt **
   PetscFunctionReturn(0);
 }
 
+/* What a rank has read for the others to ask for. */
+typedef struct {
+  long long start;
+  size_t bytes; /* a row */
+  const double *row;
+} RowSlab;
+
+static PetscErrorCode GetRow(void *context, long long row, void *value)
+{
+  const RowSlab *s = context;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMemcpy(value, (const char *)s->row + s->bytes * (size_t)(row - s->start), s->bytes));
+  PetscFunctionReturn(0);
+}
+
 /* Ranks read slabs and ask each other for rows. */
 PetscErrorCode MeshLoadDoubles(const Mesh *m, const PetscInt row[], Checkpoint from, const char *name,
                                int ncol, double value[])
 {
-  const size_t bytes = (size_t)ncol * sizeof *value;
-  long long block, start;
-  int n, *to, *slot;
-  PetscInt *wanted, *asked;
-  double *slab, *answer, *back;
-  MeshRoute route;
+  RowSlab slab = {.bytes = (size_t)ncol * sizeof *value};
+  long long block, *wanted;
+  int n, *of;
+  double *rows;
   PetscMPIInt rank, size;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(m->comm, &rank));
   PetscCallMPI(MPI_Comm_size(m->comm, &size));
-  Slab(m->nglobal, size, rank, &block, &start, &n);
-  PetscCall(PetscMalloc5(m->ne, &to, m->ne, &slot, m->ne, &wanted, ncol * n, &slab, ncol * m->ne, &back));
-  PetscCall(CheckpointGetDoubles(from, name, start, n, ncol, slab));
-  for (int e = 0; e < m->ne; e++) to[e] = (int)(row[e] / block);
-  PetscCall(MeshRouteCreate(m->comm, m->ne, to, slot, &route));
-  for (int e = 0; e < m->ne; e++) wanted[slot[e]] = row[e];
-  const int nasked = route.in_start[size];
-  PetscCall(PetscMalloc2(nasked, &asked, ncol * nasked, &answer));
-  PetscCall(MeshRouteSend(&route, sizeof *asked, wanted, asked));
-  for (int k = 0; k < nasked; k++)
-    PetscCall(PetscArraycpy(answer + ncol * k, slab + ncol * (asked[k] - start), ncol));
-  PetscCall(MeshRouteReply(&route, bytes, answer, back));
-  for (int e = 0; e < m->ne; e++) PetscCall(PetscArraycpy(value + ncol * e, back + ncol * slot[e], ncol));
-  PetscCall(PetscFree2(asked, answer));
-  PetscCall(PetscFree5(to, slot, wanted, slab, back));
-  PetscCall(MeshRouteDestroy(&route));
+  Slab(m->nglobal, size, rank, &block, &slab.start, &n);
+  PetscCall(PetscMalloc3(m->ne, &of, m->ne, &wanted, ncol * n, &rows));
+  PetscCall(CheckpointGetDoubles(from, name, slab.start, n, ncol, rows));
+  slab.row = rows;
+  for (int e = 0; e < m->ne; e++) {
+    of[e] = (int)(row[e] / block);
+    wanted[e] = row[e];
+  }
+  PetscCall(ScatterRequest(m->comm, m->ne, of, wanted, slab.bytes, GetRow, &slab, value));
+  PetscCall(PetscFree3(of, wanted, rows));
   PetscFunctionReturn(0);
 }

@@ -35,23 +35,22 @@ static void Number(Ghosts *g, Mesh *m)
 PetscErrorCode GhostsCreate(const Build *b, Mesh *m, Ghosts *g)
 {
   const PartFaces *f = &b->faces;
-  int *to, *slot, n = 0;
-  MeshRoute route;
-  Ghost *told, *out;
+  int *to, n = 0;
+  Scatter scatter;
+  Ghost *told;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc4(f->nopen, &to, f->nopen, &slot, f->nopen, &told, f->nopen, &out));
+  PetscCall(PetscMalloc2(f->nopen, &to, f->nopen, &told));
   for (int k = 0; k < f->nopen; k++) {
     if (f->across[k] < 0) continue;
     to[n] = f->across_rank[k];
     told[n++] = Tell(b, m, k);
   }
-  PetscCall(MeshRouteCreate(m->comm, n, to, slot, &route));
-  for (int k = 0; k < n; k++) out[slot[k]] = told[k];
-  g->n = route.in_start[route.size];
+  PetscCall(ScatterCreate(m->comm, n, to, NULL, &scatter));
+  g->n = ScatterArriving(scatter);
   PetscCall(PetscMalloc1(g->n, &g->ghost));
-  PetscCall(MeshRouteSend(&route, sizeof *out, out, g->ghost));
-  PetscCall(MeshRouteDestroy(&route));
-  PetscCall(PetscFree4(to, slot, told, out));
+  PetscCall(ScatterForward(scatter, sizeof *told, told, g->ghost));
+  PetscCall(ScatterDestroy(&scatter));
+  PetscCall(PetscFree2(to, told));
   if (g->n) qsort(g->ghost, (size_t)g->n, sizeof *g->ghost, ByNumber);
   Number(g, m);
   PetscFunctionReturn(0);

@@ -2,7 +2,7 @@
  * elements. */
 #ifndef CORACLE_MESH_IMPL_H
 #define CORACLE_MESH_IMPL_H
-#include "common/mesh/mesh_route.h"
+#include "common/exchange/copies.h"
 #include "common/mesh/part.h"
 
 /* Parts of a piece that a list of triangles makes.  Not collective. */
@@ -40,6 +40,14 @@ static inline void MeshFaceEnds(const MeshSerial *s, int ef, int *a, int *b)
   *b = v[(ef + 2) % 3];
 }
 
+/* What those that hold a thing have said of it. */
+typedef struct {
+  long long lowest, highest, count;
+} RendezvousReply;
+
+/* Collective: all copies of a thing say a value. */
+PetscErrorCode MeshRendezvous(Copies copies, int n, const long long value[], RendezvousReply reply[]);
+
 /* Faces of all pieces.  An open face has no neighbour on this rank; the rim is the vertices of open faces.  A
  * closed face between two vertices of the rim must not be another rank's open one. */
 typedef struct {
@@ -47,13 +55,13 @@ typedef struct {
   int size, rank;
   long long *start; /* [size + 1] element e of rank r has the number start[r] + e */
   int nopen, nrim, nclosed;
-  int *open;           /* [nopen] ascending, 3 element + face */
-  long long *across;   /* [nopen] 3 element + face of the one that another rank has, -1 on the boundary */
-  int *across_rank;    /* [nopen] and that rank, -1 */
-  int *closed;         /* [nclosed] */
-  int *rim;            /* [nrim] ascending */
-  MeshMet *owners;     /* [nrim] the ranks that have the vertex */
-  MeshRendezvous meet; /* of the open faces, then the rim, then the closed faces */
+  int *open;               /* [nopen] ascending, 3 element + face */
+  long long *across;       /* [nopen] 3 element + face of the one that another rank has, -1 on the boundary */
+  int *across_rank;        /* [nopen] and that rank, -1 */
+  int *closed;             /* [nclosed] */
+  int *rim;                /* [nrim] ascending */
+  RendezvousReply *owners; /* [nrim] the ranks that have the vertex */
+  Copies copies;           /* of the open faces, then the rim, then the closed faces */
 } PartFaces;
 
 /* Collective.  Errors: those of MeshBuild. */

@@ -55,7 +55,8 @@ static int RankOf(const PartFaces *f, long long element)
 
 /* Open face k is met by `met`, of values 2 face + turn, or -1 from a closed one: two turn opposite ways, one
  * has a name. */
-static PetscErrorCode Match(const MeshSerial *s, int k, long long value, const MeshMet *met, PartFaces *f)
+static PetscErrorCode Match(const MeshSerial *s, int k, long long value, const RendezvousReply *met,
+                            PartFaces *f)
 {
   int a, b;
   PetscFunctionBeginUser;
@@ -79,7 +80,7 @@ static PetscErrorCode Match(const MeshSerial *s, int k, long long value, const M
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode MatchAll(const MeshSerial *s, const long long value[], const MeshMet met[],
+static PetscErrorCode MatchAll(const MeshSerial *s, const long long value[], const RendezvousReply met[],
                                PartFaces *f)
 {
   PetscFunctionBeginUser;
@@ -88,13 +89,30 @@ static PetscErrorCode MatchAll(const MeshSerial *s, const long long value[], con
   PetscFunctionReturn(0);
 }
 
-static MeshKey FaceKey(const MeshPart *piece, int ef, int *turn)
+static CopiesKey FaceKey(const MeshPart *piece, int ef, int *turn)
 {
   int a, b;
   MeshFaceEnds(&piece->serial, ef, &a, &b);
   const long long p = piece->gid[a], q = piece->gid[b];
   *turn = p < q;
-  return (MeshKey){PetscMin(p, q), PetscMax(p, q)};
+  return (CopiesKey){PetscMin(p, q), PetscMax(p, q)};
+}
+
+static void FoldReply(void *into, const void *next)
+{
+  RendezvousReply *all = into;
+  const RendezvousReply *one = next;
+  all->lowest = PetscMin(all->lowest, one->lowest);
+  all->highest = PetscMax(all->highest, one->highest);
+  all->count += one->count;
+}
+
+PetscErrorCode MeshRendezvous(Copies copies, int n, const long long value[], RendezvousReply reply[])
+{
+  PetscFunctionBeginUser;
+  for (int i = 0; i < n; i++) reply[i] = (RendezvousReply){value[i], value[i], 1};
+  PetscCall(CopiesReduce(copies, sizeof *reply, FoldReply, reply));
+  PetscFunctionReturn(0);
 }
 
 /* Open faces and the rim meet those of the other ranks. */
@@ -102,8 +120,8 @@ static PetscErrorCode Meet(MPI_Comm comm, const MeshPart *piece, PartFaces *f)
 {
   const MeshSerial *s = &piece->serial;
   const int n = f->nopen + f->nrim + f->nclosed;
-  MeshKey *key;
-  MeshMet *met;
+  CopiesKey *key;
+  RendezvousReply *met;
   long long *value;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc3(n, &key, n, &met, n, &value));
@@ -113,15 +131,15 @@ static PetscErrorCode Meet(MPI_Comm comm, const MeshPart *piece, PartFaces *f)
     value[k] = 2 * (3 * f->start[f->rank] + f->open[k]) + turn;
   }
   for (int k = 0; k < f->nrim; k++) {
-    key[f->nopen + k] = (MeshKey){piece->gid[f->rim[k]], piece->gid[f->rim[k]]};
+    key[f->nopen + k] = (CopiesKey){piece->gid[f->rim[k]], piece->gid[f->rim[k]]};
     value[f->nopen + k] = f->rank;
   }
   for (int k = 0, turn; k < f->nclosed; k++) {
     key[f->nopen + f->nrim + k] = FaceKey(piece, f->closed[k], &turn);
     value[f->nopen + f->nrim + k] = -1;
   }
-  PetscCall(MeshRendezvousCreate(comm, n, key, &f->meet));
-  PetscCall(MeshRendezvousMeet(&f->meet, value, met));
+  PetscCall(CopiesCreate(comm, n, key, &f->copies));
+  PetscCall(MeshRendezvous(f->copies, n, value, met));
   const PetscErrorCode failed = MatchAll(s, value, met, f);
   PetscCall(PetscFree3(key, met, value));
   PetscFunctionReturn(failed);
@@ -161,7 +179,7 @@ PetscErrorCode PartFacesDestroy(PartFaces *f)
   PetscCall(PetscFree3(f->open, f->across, f->across_rank));
   PetscCall(PetscFree2(f->rim, f->owners));
   PetscCall(PetscFree(f->closed));
-  PetscCall(MeshRendezvousDestroy(&f->meet));
+  PetscCall(CopiesDestroy(&f->copies));
   PetscFunctionReturn(0);
 }
 
