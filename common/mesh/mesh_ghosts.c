@@ -9,16 +9,16 @@ static int ByNumber(const void *p, const void *q)
   return (a->face > b->face) - (a->face < b->face);
 }
 
-/* What this rank tells about its element at open face k; the target is numbered as the receiver's piece. */
+/* What this rank tells about its element at open face k; the target is numbered as the receiver's part. */
 static Ghost Tell(const Build *b, const Mesh *m, int k)
 {
   const PartFaces *f = &b->faces;
-  const int ef = f->open[k], v = b->piece->vertex[ef];
+  const int ef = f->open[k], v = b->part->vertex[ef];
   Ghost g = {.target = f->across[k] - 3 * f->start[f->across_rank[k]],
              .egid = m->estart + b->number[ef / 3],
              .gid = b->gid[v],
              .face = ef % 3};
-  memcpy(g.x, &b->piece->x[2 * v], sizeof g.x);
+  memcpy(g.x, &b->part->x[2 * v], sizeof g.x);
   return g;
 }
 
@@ -89,10 +89,11 @@ static void Attach(const Build *b, const Ghost *g, MeshTable *vertices, Mesh *m)
 PetscErrorCode GhostsFill(const Build *b, const Ghosts *g, Mesh *m)
 {
   const PartFaces *f = &b->faces;
-  MeshTable vertices; /* an owned vertex of a ghost lies on the rim */
+  MeshTable vertices; /* an owned vertex of a ghost is open */
   PetscFunctionBeginUser;
-  PetscCall(MeshTableCreate(&vertices, (size_t)(f->nrim + g->n)));
-  for (int k = 0; k < f->nrim; k++) *Find(&vertices, b->gid[f->rim[k]]) = b->vertex[f->rim[k]];
+  PetscCall(MeshTableCreate(&vertices, (size_t)(f->nopen_vertices + g->n)));
+  for (int k = 0; k < f->nopen_vertices; k++)
+    *Find(&vertices, b->gid[f->open_vertex[k]]) = b->vertex[f->open_vertex[k]];
   for (int k = 0; k < g->n; k++) Attach(b, &g->ghost[k], &vertices, m);
   PetscCall(MeshTableDestroy(&vertices));
   PetscFunctionReturn(0);

@@ -1,7 +1,8 @@
 #include "common/mesh/mesh_impl.h"
 #include <string.h>
 
-/* A triangle in a message: corners by their place among the vertices that the same rank sends to the same one. */
+/* A triangle in a message: corners by their place among the vertices that the same rank sends to the same
+ * one. */
 typedef struct {
   int vertex[3], tag[3], region;
 } Buffer;
@@ -149,7 +150,7 @@ static PetscErrorCode ShareNames(MPI_Comm comm, const MeshSerial *from, MeshSeri
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode MeshPartMigrate(MPI_Comm comm, const MeshPart *piece, const int part[], int ncomp,
+PetscErrorCode MeshPartMigrate(MPI_Comm comm, const MeshPart *part, const int target[], int ncomp,
                                const double data[], MeshPart *moved, double **moved_data)
 {
   MeshFaces faces;
@@ -157,12 +158,12 @@ PetscErrorCode MeshPartMigrate(MPI_Comm comm, const MeshPart *piece, const int p
   int *local;
   PetscFunctionBeginUser;
   memset(moved, 0, sizeof *moved);
-  PetscErrorCode failed = CollectiveError(comm, MeshFacesCreate(&piece->serial, &faces));
+  PetscErrorCode failed = CollectiveError(comm, MeshFacesCreate(&part->serial, &faces));
   if (!failed) {
-    PetscCall(ShareNames(comm, &piece->serial, &moved->serial));
-    PetscCall(MigrationCreate(comm, piece, &faces, part, &migration));
+    PetscCall(ShareNames(comm, &part->serial, &moved->serial));
+    PetscCall(MigrationCreate(comm, part, &faces, target, &migration));
     PetscCall(PetscMalloc1(ScatterArriving(migration.vertices), &local));
-    PetscCall(ReceiveVertices(piece, &migration, ncomp, data, local, moved, moved_data));
+    PetscCall(ReceiveVertices(part, &migration, ncomp, data, local, moved, moved_data));
     PetscCall(ReceiveElements(&migration, local, &moved->serial));
     PetscCall(PetscFree(local));
     PetscCall(MigrationDestroy(&migration));

@@ -1,7 +1,7 @@
-/* Round-off does not decide: a mesh and a metric that differ by 1e-14 are adapted to the same connectivity.  Two
- * families: box meshes whose edges and diagonals have the very lengths that thresholds ask about, with sizes
- * that are powers of two of the cells', and random metrics stretched up to 100 times.
- * near_ties [number, default 20] [print]. */
+/* Round-off does not decide: a mesh and a metric that differ by 1e-14 are adapted to the same connectivity.
+ * Two families: box meshes whose edges and diagonals have the very lengths that thresholds ask about, with
+ * sizes that are powers of two of the cells', and random metrics stretched up to 100 times. near_ties
+ * [number, default 20] [print]. */
 #include "tests/adapt/kept.h"
 
 typedef unsigned long long Seed;
