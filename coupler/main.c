@@ -6,6 +6,7 @@
  *         solid   new position and velocity        -->  correction of the fluid; shell and overlap at the new position
  *         fluid   <--  correction, coupling of the next step; or the same step again, with another velocity
  *     write the summary */
+#include "coupler/check.h"
 #include "coupler/summary.h"
 #include "coupler/time_loop.h"
 
@@ -43,10 +44,12 @@ static PetscErrorCode Run(Server server, const CouplerCase *c)
 
 int main(int argc, char **argv)
 {
+  const Command command = CommandTake(&argc, argv);
   Server server;
   MPI_Comm comm;
   Case file;
   CouplerCase c;
+  if (command != COMMAND_RUN) return CouplerAnswer(command, argc, argv);
   if (ServerOpen(argc, argv, &comm, &server)) return 1;
   PETSC_COMM_WORLD = comm;
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));

@@ -16,11 +16,11 @@ typedef struct {
   PetscBool first; /* none has been made yet */
   double moved;    /* at most, since then, m */
   double reach;    /* how far the solid may move before the next, m */
-} Past;
+} AdaptationHistory;
 
 struct Adaptation_s {
   AdaptationSetup setup;
-  Past past, before; /* before: when AdaptationDue was asked last */
+  AdaptationHistory history, history_before; /* before: when AdaptationDue was asked last */
 };
 
 PetscErrorCode AdaptationCreate(const AdaptationSetup *setup, Adaptation *adaptation)
@@ -28,7 +28,7 @@ PetscErrorCode AdaptationCreate(const AdaptationSetup *setup, Adaptation *adapta
   PetscFunctionBeginUser;
   PetscCall(PetscNew(adaptation));
   (*adaptation)->setup = *setup;
-  (*adaptation)->past.first = PETSC_TRUE;
+  (*adaptation)->history.first = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
 
@@ -41,10 +41,10 @@ PetscErrorCode AdaptationSave(Adaptation a, Checkpoint to)
 {
   PetscFunctionBeginUser;
   if (!a) PetscFunctionReturn(0);
-  PetscCall(CheckpointPutNumber(to, "adaptation steps", a->past.steps));
-  PetscCall(CheckpointPutNumber(to, "adaptation first", a->past.first));
-  PetscCall(CheckpointPutNumber(to, "adaptation moved", a->past.moved));
-  PetscCall(CheckpointPutNumber(to, "adaptation reach", a->past.reach));
+  PetscCall(CheckpointPutNumber(to, "adaptation steps", a->history.steps));
+  PetscCall(CheckpointPutNumber(to, "adaptation first", a->history.first));
+  PetscCall(CheckpointPutNumber(to, "adaptation moved", a->history.moved));
+  PetscCall(CheckpointPutNumber(to, "adaptation reach", a->history.reach));
   PetscFunctionReturn(0);
 }
 
@@ -55,10 +55,10 @@ PetscErrorCode AdaptationLoad(Adaptation a, Checkpoint from)
   if (!a || !CheckpointHasNumber(from, "adaptation steps")) PetscFunctionReturn(0);
   PetscCall(CheckpointGetNumber(from, "adaptation steps", &steps));
   PetscCall(CheckpointGetNumber(from, "adaptation first", &first));
-  PetscCall(CheckpointGetNumber(from, "adaptation moved", &a->past.moved));
-  PetscCall(CheckpointGetNumber(from, "adaptation reach", &a->past.reach));
-  a->past.steps = (int)steps;
-  a->past.first = first ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(CheckpointGetNumber(from, "adaptation moved", &a->history.moved));
+  PetscCall(CheckpointGetNumber(from, "adaptation reach", &a->history.reach));
+  a->history.steps = (int)steps;
+  a->history.first = first ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -67,53 +67,52 @@ PetscErrorCode AdaptationDue(Adaptation a, Fluid f, PetscBool *due)
   double speed;
   PetscFunctionBeginUser;
   PetscCall(SolidBandSpeed(f, &speed));
-  a->before = a->past;
-  a->past.steps++;
-  a->past.moved += speed * f->stats.dt;
-  *due =
-      a->past.first || a->past.steps >= a->setup.every || a->past.moved + speed * f->stats.dt > a->past.reach;
+  a->history_before = a->history;
+  a->history.steps++;
+  a->history.moved += speed * f->stats.dt;
+  *due = a->history.first || a->history.steps >= a->setup.every ||
+         a->history.moved + speed * f->stats.dt > a->history.reach;
   if (!*due) PetscFunctionReturn(0);
-  a->past.first = PETSC_FALSE;
-  a->past.steps = 0;
-  a->past.moved = 0.0;
+  a->history.first = PETSC_FALSE;
+  a->history.steps = 0;
+  a->history.moved = 0.0;
   /* at rest the solid may start with an acceleration that nobody knows here: hence the least */
-  a->past.reach = fmax(speed * a->setup.every * f->stats.dt, SOLID_BAND * a->setup.size_min);
+  a->history.reach = fmax(speed * a->setup.every * f->stats.dt, SOLID_BAND * a->setup.size_min);
   PetscFunctionReturn(0);
 }
 
-void AdaptationForget(Adaptation a)
+void AdaptationDiscard(Adaptation a)
 {
-  a->past = a->before;
+  a->history = a->history_before;
 }
 
-/* Means around the vertices, weighted by area, of the velocity u+ of the step in hand: mean[2][nv]. */
+/* Means around the vertices, weighted by area, of the projected velocity of the current step: mean[2][nv]. */
 static PetscErrorCode VertexVelocity(Fluid f, double *mean[2], double weight[])
 {
-  const Mesh *m = f->mesh;
+  const Mesh *m = f->domain.mesh;
   const PetscScalar *u;
   Vec local;
   PetscFunctionBeginUser;
   PetscCall(PetscArrayzero(weight, m->nv));
   for (int c = 0; c < 2; c++) PetscCall(PetscArrayzero(mean[c], m->nv));
-  PetscCall(VecGhostUpdateBegin(f->u_next, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostUpdateEnd(f->u_next, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostGetLocalForm(f->u_next, &local));
+  PetscCall(VecGhostUpdateBegin(f->u_projected, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostUpdateEnd(f->u_projected, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostGetLocalForm(f->u_projected, &local));
   PetscCall(VecGetArrayRead(local, &u));
   for (int e = 0; e < m->ne + m->ng; e++)
     for (int i = 0; i < 3; i++) {
       const int v = m->vertex[3 * e + i];
-      weight[v] += f->geometry[e].area;
-      for (int c = 0; c < 2; c++) mean[c][v] += f->geometry[e].area * u[6 * e + 3 * c + i];
+      weight[v] += f->domain.geometry[e].area;
+      for (int c = 0; c < 2; c++) mean[c][v] += f->domain.geometry[e].area * u[6 * e + 3 * c + i];
     }
   PetscCall(VecRestoreArrayRead(local, &u));
-  PetscCall(VecGhostRestoreLocalForm(f->u_next, &local));
+  PetscCall(VecGhostRestoreLocalForm(f->u_projected, &local));
   for (int v = 0; v < m->nv; v++)
     for (int c = 0; c < 2; c++) mean[c][v] /= weight[v];
   PetscFunctionReturn(0);
 }
 
-/* --- the metric -------------------------------------------------------------------------------------------
- */
+/* --- the metric ----------------------------------------------------------------------------------------- */
 
 /* What goes into a metric, on the vertices of this rank's elements. */
 typedef struct {
@@ -121,31 +120,31 @@ typedef struct {
   SharedVertices shared;
   double *hessian[2];   /* [nv][3] of each component of the velocity */
   double *near, *other; /* [nv][3] for the sizes near the solid; scratch */
-} Needs;
+} Sizing;
 
 /* The metric for an error of the velocity, within the bounds, le in the solid's band, graded. */
-static PetscErrorCode Compose(const AdaptationSetup *s, MPI_Comm comm, const Needs *needs, double error,
+static PetscErrorCode Compose(const AdaptationSetup *s, MPI_Comm comm, const Sizing *sizing, double error,
                               double metric[])
 {
-  const int nv = needs->part.nv;
+  const int nv = sizing->part.nv;
   PetscFunctionBeginUser;
-  PetscCall(MetricFromHessian(nv, needs->hessian[0], error, s->size_max, metric));
-  PetscCall(MetricFromHessian(nv, needs->hessian[1], error, s->size_max, needs->other));
+  PetscCall(MetricFromHessian(nv, sizing->hessian[0], error, s->size_max, metric));
+  PetscCall(MetricFromHessian(nv, sizing->hessian[1], error, s->size_max, sizing->other));
   PetscCall(MetricBound(nv, s->size_min, s->size_max, s->anisotropy, metric));
-  PetscCall(MetricBound(nv, s->size_min, s->size_max, s->anisotropy, needs->other));
-  PetscCall(MetricIntersect(nv, needs->other, metric));
-  PetscCall(MetricIntersect(nv, needs->near, metric));
-  PetscCall(MetricGradeParallel(comm, &needs->part, &needs->shared, s->growth, metric));
+  PetscCall(MetricBound(nv, s->size_min, s->size_max, s->anisotropy, sizing->other));
+  PetscCall(MetricIntersect(nv, sizing->other, metric));
+  PetscCall(MetricIntersect(nv, sizing->near, metric));
+  PetscCall(MetricGradeParallel(comm, &sizing->part, &sizing->shared, s->growth, metric));
   PetscCall(MetricBound(nv, s->size_min, s->size_max, s->anisotropy, metric));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode NeedsCreate(Adaptation a, Fluid f, Needs *n)
+static PetscErrorCode SizingCreate(Adaptation a, Fluid f, Sizing *n)
 {
   const AdaptationSetup *s = &a->setup;
-  const Mesh *m = f->mesh;
+  const Mesh *m = f->domain.mesh;
   const SolidBand band = {s->size_min, s->size_max, log(s->growth), (s->every + 1) * f->stats.dt,
-                          a->past.reach};
+                          a->history.reach};
   /* with the ghosts, which lend their values to the second derivatives */
   const MeshSerial view = {.nv = m->nv, .ne = m->ne + m->ng, .x = m->x, .vertex = m->vertex};
   double *mean[2], *scratch;
@@ -166,7 +165,7 @@ static PetscErrorCode NeedsCreate(Adaptation a, Fluid f, Needs *n)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode NeedsDestroy(Needs *n)
+static PetscErrorCode SizingDestroy(Sizing *n)
 {
   PetscFunctionBeginUser;
   PetscCall(SharedVerticesDestroy(&n->shared));
@@ -175,13 +174,13 @@ static PetscErrorCode NeedsDestroy(Needs *n)
 }
 
 /* Within the budget: the error is raised, the band near the solid stays. */
-static PetscErrorCode Metric(const AdaptationSetup *s, MPI_Comm comm, const Needs *needs, double metric[])
+static PetscErrorCode Metric(const AdaptationSetup *s, MPI_Comm comm, const Sizing *sizing, double metric[])
 {
   double error = s->velocity_error, count;
   PetscFunctionBeginUser;
   for (int k = 0; k < BUDGET_ROUNDS; k++) {
-    PetscCall(Compose(s, comm, needs, error, metric));
-    PetscCall(MetricCount(&needs->part, metric, &count));
+    PetscCall(Compose(s, comm, sizing, error, metric));
+    PetscCall(MetricCount(&sizing->part, metric, &count));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_DOUBLE, MPI_SUM, comm));
     if (count <= s->elements_max) break;
     error *= 1.1 * count / s->elements_max; /* their number goes with 1/error */
@@ -196,21 +195,20 @@ static PetscErrorCode Metric(const AdaptationSetup *s, MPI_Comm comm, const Need
 PetscErrorCode AdaptationMesh(Adaptation a, Fluid f, Mesh **mesh)
 {
   const double start = MPI_Wtime();
-  Needs needs;
+  Sizing sizing;
   double *metric;
   PetscFunctionBeginUser;
-  PetscCall(NeedsCreate(a, f, &needs));
-  PetscCall(PetscMalloc1(3 * f->mesh->nv, &metric));
-  PetscCall(Metric(&a->setup, f->mesh->comm, &needs, metric));
-  PetscCall(MeshAdaptParallel(f->mesh, metric, NULL, mesh, NULL));
+  PetscCall(SizingCreate(a, f, &sizing));
+  PetscCall(PetscMalloc1(3 * f->domain.mesh->nv, &metric));
+  PetscCall(Metric(&a->setup, f->domain.mesh->comm, &sizing, metric));
+  PetscCall(MeshAdaptParallel(f->domain.mesh, metric, NULL, mesh, NULL));
   PetscCall(PetscFree(metric));
-  PetscCall(NeedsDestroy(&needs));
+  PetscCall(SizingDestroy(&sizing));
   f->stats.seconds[ADAPTATION] += MPI_Wtime() - start;
   PetscFunctionReturn(0);
 }
 
-/* --- the first mesh
- * ------------------------------------------------------------------------------------------- */
+/* --- the first mesh ------------------------------------------------------------------------------------- */
 
 /* One pass: le in the boxes, and elsewhere what the mesh has. */
 static PetscErrorCode RefineBoxes(const AdaptationSetup *s, const Mesh *m, int nbox, const double box[],
@@ -238,11 +236,12 @@ static PetscErrorCode RefineBoxes(const AdaptationSetup *s, const Mesh *m, int n
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode AdaptationFirstMesh(Adaptation a, const Mesh *given, int nbox, const double box[], Mesh **mesh)
+PetscErrorCode AdaptationFirstMesh(Adaptation a, const Mesh *initial, int nbox, const double box[],
+                                   Mesh **mesh)
 {
   Mesh *finer;
   PetscFunctionBeginUser;
-  PetscCall(RefineBoxes(&a->setup, given, nbox, box, mesh));
+  PetscCall(RefineBoxes(&a->setup, initial, nbox, box, mesh));
   /* a coarse mesh sees little of a small box: again, until there is nothing new to see */
   for (int pass = 0; pass < FIRST_PASSES; pass++) {
     PetscCall(RefineBoxes(&a->setup, *mesh, nbox, box, &finer));

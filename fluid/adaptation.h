@@ -16,16 +16,16 @@ typedef struct {
 typedef struct Adaptation_s *Adaptation;
 
 PetscErrorCode AdaptationCreate(const AdaptationSetup *setup, Adaptation *adaptation);
-/* Collective, once a step when its flow is known (u+): is it time for another mesh?  True `every` steps after
+/* Collective, once a step when its flow is known (its projected velocity): is it time for another mesh?  True `every` steps after
  * the last one, or when the solid may leave its band in the next step. */
 PetscErrorCode AdaptationDue(Adaptation adaptation, Fluid fluid, PetscBool *due);
 /* Not collective: the step that AdaptationDue was asked about last will be redone. */
-void AdaptationForget(Adaptation adaptation);
-/* Collective: the mesh adapted to the flow of the step in hand and to the solid. */
+void AdaptationDiscard(Adaptation adaptation);
+/* Collective: the mesh adapted to the flow of the current step and to the solid. */
 PetscErrorCode AdaptationMesh(Adaptation adaptation, Fluid fluid, Mesh **mesh);
 /* Collective, before the first step, when all that is known are boxes around the solid, box[nbox][2][2] lower
  * and upper corners, m: the mesh with le in them, where it is coarser. */
-PetscErrorCode AdaptationFirstMesh(Adaptation adaptation, const Mesh *given, int nbox, const double box[],
+PetscErrorCode AdaptationFirstMesh(Adaptation adaptation, const Mesh *initial, int nbox, const double box[],
                                    Mesh **mesh);
 /* Collective, between two steps: what says when the next one is due; NULL: nothing.  A checkpoint of a run
  * that did not adapt leaves it as at the start. */

@@ -1,23 +1,20 @@
-/* Boundaries: what is prescribed where. */
-#include "fluid/fluid_impl.h"
+#include "fluid/boundary.h"
 
-PetscErrorCode BoundaryPrepare(Fluid f)
+PetscErrorCode BoundaryBoxes(const Mesh *m, Boundary boundary[])
 {
-  const Mesh *m = f->mesh;
   PetscFunctionBeginUser;
   for (int b = 0; b < m->ntags; b++) {
-    Boundary *boundary = f->setup.boundary + b;
     double lower[2] = {PETSC_MAX_REAL, PETSC_MAX_REAL}, upper[2] = {PETSC_MIN_REAL, PETSC_MIN_REAL};
     for (int e = 0; e < m->ne; e++)
       for (int i = 0; i < 3; i++)
         for (int k = 1; k < 3 && m->tag[3 * e + i] == b; k++)
           for (int c = 0; c < 2; c++) {
-            const double x = ElementVertex(m, e, (i + k) % 3)[c];
+            const double x = m->x[2 * m->vertex[3 * e + (i + k) % 3] + c];
             lower[c] = PetscMin(lower[c], x);
             upper[c] = PetscMax(upper[c], x);
           }
-    PetscCallMPI(MPI_Allreduce(lower, boundary->lower, 2, MPI_DOUBLE, MPI_MIN, m->comm));
-    PetscCallMPI(MPI_Allreduce(upper, boundary->upper, 2, MPI_DOUBLE, MPI_MAX, m->comm));
+    PetscCallMPI(MPI_Allreduce(lower, boundary[b].lower, 2, MPI_DOUBLE, MPI_MIN, m->comm));
+    PetscCallMPI(MPI_Allreduce(upper, boundary[b].upper, 2, MPI_DOUBLE, MPI_MAX, m->comm));
   }
   PetscFunctionReturn(0);
 }
@@ -36,20 +33,6 @@ void BoundaryVelocity(const Boundary *b, double t, const double x[2], double v[2
   }
   if (t < b->rise) scale *= 0.5 * (1.0 - cos(M_PI * fmax(t, 0.0) / b->rise));
   for (int c = 0; c < 2; c++) v[c] = scale * b->velocity[c];
-}
-
-double HydrostaticPressure(Fluid f, const double x[2])
-{
-  const double *g = f->setup.gravity;
-  double p = 0.0;
-  for (int c = 0; c < 2; c++)
-    p += f->setup.rho * g[c] * (x[c] - (g[c] > 0.0 ? f->mesh->lower[c] : f->mesh->upper[c]));
-  return p;
-}
-
-const Boundary *BoundaryOfFace(Fluid f, int e, int i)
-{
-  return f->mesh->neighbor[3 * e + i] >= 0 ? NULL : f->setup.boundary + f->mesh->tag[3 * e + i];
 }
 
 void BoundaryProjection(const Boundary *b, const double n[2], double project[2][2])

@@ -7,17 +7,17 @@ PetscErrorCode FluidMomentumTotal(Fluid f, double momentum[2], double *energy)
   double sum[3] = {0};
   PetscFunctionBeginUser;
   PetscCall(VecGetArrayRead(f->u, &u));
-  for (int e = 0; e < f->mesh->ne; e++)
+  for (int e = 0; e < f->domain.mesh->ne; e++)
     for (int c = 0; c < 2; c++) {
       double mu[3];
-      P1MassApply(f->geometry[e].area, u + 6 * e + 3 * c, mu);
+      P1MassApply(f->domain.geometry[e].area, u + 6 * e + 3 * c, mu);
       for (int i = 0; i < 3; i++) {
-        sum[c] += f->rho[e] * mu[i];
-        sum[2] += 0.5 * f->rho[e] * mu[i] * u[6 * e + 3 * c + i];
+        sum[c] += FluidDensity(f)[e] * mu[i];
+        sum[2] += 0.5 * FluidDensity(f)[e] * mu[i] * u[6 * e + 3 * c + i];
       }
     }
   PetscCall(VecRestoreArrayRead(f->u, &u));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_DOUBLE, MPI_SUM, f->mesh->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_DOUBLE, MPI_SUM, f->domain.mesh->comm));
   momentum[0] = sum[0], momentum[1] = sum[1];
   if (energy) *energy = sum[2];
   PetscFunctionReturn(0);
@@ -28,9 +28,9 @@ PetscErrorCode FluidMomentumTotal(Fluid f, double momentum[2], double *energy)
 static void FaceForce(Fluid f, int e, int i, const Boundary *b, const double u[6], const double p[],
                       double force[2])
 {
-  const Mesh *m = f->mesh;
-  const FaceGeometry face = f->geometry[e].face[i];
-  const FaceSide k = FaceSideOf(f, e, i, 1.0, PENALTY_BOUNDARY);
+  const Mesh *m = f->domain.mesh;
+  const FaceGeometry face = f->domain.geometry[e].face[i];
+  const FaceSide k = FaceSideOf(&f->domain, FluidViscosity(f), e, i, 1.0, PENALTY_BOUNDARY);
   const int node[2] = {k.a, k.b};
   const double pressure =
       (p[m->p2[6 * e + k.a]] + 4.0 * p[m->p2[6 * e + 3 + i]] + p[m->p2[6 * e + k.b]]) / 6.0;
@@ -52,7 +52,7 @@ static void FaceForce(Fluid f, int e, int i, const Boundary *b, const double u[6
 
 PetscErrorCode FluidBoundaryForce(Fluid f, const char *boundary, double force[2])
 {
-  const Mesh *m = f->mesh;
+  const Mesh *m = f->domain.mesh;
   const PetscScalar *u, *p;
   Vec local;
   PetscFunctionBeginUser;
@@ -87,9 +87,9 @@ static const double QUADRATURE[7][4] = {
 static void ElementErrors(Fluid f, int e, double t, FieldFunction velocity, FieldFunction pressure,
                           void *context, const double u[6], const double p[6], double sum[4])
 {
-  const Mesh *m = f->mesh;
+  const Mesh *m = f->domain.mesh;
   for (int q = 0; q < 7; q++) {
-    const double *l = QUADRATURE[q], w = l[3] * f->geometry[e].area;
+    const double *l = QUADRATURE[q], w = l[3] * f->domain.geometry[e].area;
     double x[2] = {0}, v[2], exact = 0.0;
     for (int i = 0; i < 3; i++)
       for (int c = 0; c < 2; c++) x[c] += l[i] * ElementVertex(m, e, i)[c];
@@ -111,7 +111,7 @@ static void ElementErrors(Fluid f, int e, double t, FieldFunction velocity, Fiel
 PetscErrorCode FluidErrors(Fluid f, double t, FieldFunction velocity, FieldFunction pressure, void *context,
                            double *velocity_error, double *pressure_error)
 {
-  const Mesh *m = f->mesh;
+  const Mesh *m = f->domain.mesh;
   const PetscScalar *u, *p;
   Vec local;
   double sum[4] = {0};

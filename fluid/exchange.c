@@ -3,7 +3,7 @@
 struct Exchange_s {
   CoracleClient client; /* borrowed */
   Fluid fluid;          /* borrowed: that of the step in hand, and the one whose elements are given */
-  Fluid given;
+  Fluid exchanged;
   ExchangeFirst first; /* until it has been called */
   void *context;
   int n, capacity;
@@ -51,8 +51,8 @@ static int ElementsInRegion(void *context, int nbox, const double box[], int *n,
   const ExchangeFirst first = s->first;
   int count = 0;
   s->first = NULL;
-  if (first && first(s->context, nbox, box, &s->given)) return 1;
-  const Mesh *m = FluidMesh(s->given);
+  if (first && first(s->context, nbox, box, &s->exchanged)) return 1;
+  const Mesh *m = FluidMesh(s->exchanged);
   for (int e = 0; e < m->ne; e++) count += InAnyBox(m, e, nbox, box);
   if (Reserve(s, count)) return 1;
   s->n = 0;
@@ -60,7 +60,7 @@ static int ElementsInRegion(void *context, int nbox, const double box[], int *n,
     if (!InAnyBox(m, e, nbox, box)) continue;
     for (int i = 0; i < 3; i++)
       for (int c = 0; c < 2; c++) s->x[6 * s->n + 2 * i + c] = m->x[2 * m->vertex[3 * e + i] + c];
-    s->rho[s->n] = FluidDensity(s->given)[e];
+    s->rho[s->n] = FluidDensity(s->exchanged)[e];
     s->element[s->n++] = e;
   }
   *n = s->n;
@@ -72,7 +72,7 @@ static int ElementsInRegion(void *context, int nbox, const double box[], int *n,
 static int SaveOrRestore(void *context, int save)
 {
   Exchange s = context;
-  return FluidState(s->fluid, save);
+  return save ? FluidSaveState(s->fluid) : FluidRestoreState(s->fluid);
 }
 
 PetscErrorCode ExchangeCreate(CoracleClient client, Fluid fluid, ExchangeFirst first, void *context,
@@ -83,14 +83,14 @@ PetscErrorCode ExchangeCreate(CoracleClient client, Fluid fluid, ExchangeFirst f
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&x));
   x->client = client;
-  x->fluid = x->given = fluid;
+  x->fluid = x->exchanged = fluid;
   x->first = first;
   x->context = context;
   PetscCall(CoracleSetRegion(client, m->dim, m->lower, m->upper, ElementsInRegion, x));
   PetscCall(CoracleBindStateFunction(client, SaveOrRestore, x));
   PetscCall(CoracleProposeStep(client, FluidTimeStep(fluid)));
   PetscCall(CoracleReady(client));
-  x->fluid = x->given;
+  x->fluid = x->exchanged;
   *exchange = x;
   PetscFunctionReturn(0);
 }
@@ -114,10 +114,10 @@ PetscErrorCode ExchangeReceiveCoupling(Exchange x)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ExchangeFlow(Exchange x, Fluid next, PetscBool *stands, const CoracleCorrection **correction)
+PetscErrorCode ExchangeFlow(Exchange x, Fluid next, PetscBool *accepted, const CoracleCorrection **correction)
 {
   const Mesh *m = FluidMesh(x->fluid);
-  const double *u_star = FluidVelocityStar(x->fluid), *u_plus = FluidVelocityPlus(x->fluid);
+  const double *u_star = FluidVelocityStar(x->fluid), *u_plus = FluidVelocityProjected(x->fluid);
   const double *p = FluidPressure(x->fluid), *mu = FluidViscosity(x->fluid);
   int n;
   PetscFunctionBeginUser;
@@ -131,13 +131,13 @@ PetscErrorCode ExchangeFlow(Exchange x, Fluid next, PetscBool *stands, const Cor
   PetscCall(CoracleSetFlow(x->client, x->u_star, x->u_plus, x->p, x->mu));
   PetscCall(CoracleProposeStep(x->client, FluidTimeStep(x->fluid)));
   if (next) PetscCall(CoracleElementsChanged(x->client));
-  if (next) x->given = next;
+  if (next) x->exchanged = next;
   PetscCall(CoracleEnd(x->client, NULL));
-  *stands = CoracleStepAccepted(x->client) ? PETSC_TRUE : PETSC_FALSE;
-  if (*stands)
-    x->fluid = x->given;
+  *accepted = CoracleStepAccepted(x->client) ? PETSC_TRUE : PETSC_FALSE;
+  if (*accepted)
+    x->fluid = x->exchanged;
   else
-    x->given = x->fluid;
+    x->exchanged = x->fluid;
   PetscCall(CoracleGetCorrection(x->client, &n, correction));
   PetscFunctionReturn(0);
 }

@@ -18,6 +18,7 @@ PetscErrorCode ExchangeReceiveCoupling(Exchange x);
 /* Sends u*, u+, p, mu near the solid, waits for the solid, and returns what corrects the inside
  * (borrowed), or that the step does not stand: it will be redone. next: the fluid on another mesh that
  * goes on if it stands (borrowed), or NULL when the mesh stays. */
-PetscErrorCode ExchangeFlow(Exchange x, Fluid next, PetscBool *stands, const CoracleCorrection **correction);
+PetscErrorCode ExchangeFlow(Exchange x, Fluid next, PetscBool *accepted,
+                            const CoracleCorrection **correction);
 PetscErrorCode ExchangeDestroy(Exchange *x);
 #endif

@@ -1,45 +1,51 @@
-/* The fluid's life: create, initial state, step control, views. */
+/* The fluid's life, and its step. */
 #include "fluid/fluid_impl.h"
 
-static PetscErrorCode CreateElements(Fluid f)
+/* --- life -------------------------------------------------------------------------------------------- */
+
+static PetscErrorCode CreateVectors(Fluid f)
 {
-  const Mesh *m = f->mesh;
+  const Mesh *m = f->domain.mesh;
+  Vec *velocity[] = {&f->u_previous, &f->u_star,  &f->u_projected,
+                     &f->mass_flux,  &f->saved.u, &f->saved.u_previous};
+  PetscInt *ghosts;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc3(m->ne + m->ng, &f->geometry, m->ne + m->ng, &f->rho, m->ne + m->ng, &f->mu));
-  PetscCall(PetscMalloc1(m->ne, &f->coupling_of));
-  PetscCall(PetscCalloc1(m->ne, &f->alpha));
-  for (int e = 0; e < m->ne + m->ng; e++) {
-    ElementGeometryCompute(ElementVertex(m, e, 0), ElementVertex(m, e, 1), ElementVertex(m, e, 2),
-                           f->geometry + e);
-    f->rho[e] = f->setup.rho;
-    f->mu[e] = f->setup.mu;
-  }
-  for (int e = 0; e < m->ne; e++) f->coupling_of[e] = -1;
+  PetscCall(PetscMalloc1(m->ng, &ghosts));
+  for (int e = 0; e < m->ng; e++) ghosts[e] = m->egid[m->ne + e];
+  PetscCall(VecCreateGhostBlock(m->comm, 6, 6 * m->ne, PETSC_DETERMINE, m->ng, ghosts, &f->u));
+  PetscCall(PetscFree(ghosts));
+  for (size_t k = 0; k < sizeof velocity / sizeof *velocity; k++) PetscCall(VecDuplicate(f->u, velocity[k]));
+  PetscCall(VecCreateGhost(m->comm, m->np2_owned, PETSC_DETERMINE, m->np2 - m->np2_owned,
+                           m->p2gid + m->np2_owned, &f->p));
+  PetscCall(VecDuplicate(f->p, &f->saved.p));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode FluidDefaultOption(const char *name, const char *value)
+static PetscErrorCode DestroyVectors(Fluid f)
 {
-  PetscBool given;
+  Vec *all[] = {&f->u,       &f->u_previous,       &f->u_star, &f->u_projected, &f->mass_flux,
+                &f->saved.u, &f->saved.u_previous, &f->p,      &f->saved.p};
   PetscFunctionBeginUser;
-  PetscCall(PetscOptionsHasName(NULL, NULL, name, &given));
-  if (!given) PetscCall(PetscOptionsSetValue(NULL, name, value));
+  for (size_t k = 0; k < sizeof all / sizeof *all; k++) PetscCall(VecDestroy(all[k]));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *fluid)
 {
+  const MomentumSetup momentum = {
+      setup->theta, {setup->gravity[0], setup->gravity[1]}, setup->source, setup->source_context};
   Fluid f;
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&f));
-  f->mesh = mesh;
   f->setup = *setup;
-  PetscCall(PetscMalloc1(mesh->ntags, &f->setup.boundary));
-  PetscCall(PetscArraycpy(f->setup.boundary, setup->boundary, mesh->ntags));
-  PetscCall(BoundaryPrepare(f));
-  PetscCall(CreateElements(f));
-  PetscCall(MomentumCreate(f));
-  PetscCall(PressureCreate(f));
+  PetscCall(DomainCreate(mesh, setup->boundary, &f->domain));
+  f->setup.boundary = f->domain.boundary;
+  PetscCall(MaterialCreate(mesh, setup->theta, setup->rho, setup->mu, &f->material));
+  PetscCall(SolidCouplingCreate(mesh->ne, &f->solid));
+  PetscCall(CreateVectors(f));
+  PetscCall(MomentumSolverCreate(&f->domain, &momentum, f->u, &f->momentum));
+  PetscCall(
+      ProjectionSolverCreate(&f->domain, f->p, MaterialDensity(f->material, MATERIAL_STEP), &f->projection));
   *fluid = f;
   PetscFunctionReturn(0);
 }
@@ -58,136 +64,193 @@ PetscErrorCode FluidDestroy(Fluid *fluid)
   Fluid f = *fluid;
   PetscFunctionBeginUser;
   if (!f) PetscFunctionReturn(0);
-  PetscCall(MomentumDestroy(f));
-  PetscCall(PressureDestroy(f));
-  PetscCall(PetscFree3(f->geometry, f->rho, f->mu));
-  PetscCall(PetscFree(f->coupling_of));
-  PetscCall(PetscFree(f->coupling));
-  PetscCall(PetscFree(f->alpha));
-  PetscCall(PetscFree(f->setup.boundary));
+  PetscCall(MomentumSolverDestroy(&f->momentum));
+  PetscCall(ProjectionSolverDestroy(&f->projection));
+  PetscCall(DestroyVectors(f));
+  PetscCall(SolidCouplingDestroy(&f->solid));
+  PetscCall(MaterialDestroy(&f->material));
+  PetscCall(DomainDestroy(&f->domain));
   PetscCall(PetscFree(*fluid));
   PetscFunctionReturn(0);
 }
 
-/* x of P2 node k of element e */
-static void P2NodePosition(const Mesh *m, int e, int k, double x[2])
+/* --- the step ----------------------------------------------------------------------------------------- */
+
+PetscErrorCode FluidSetMaterial(Fluid f, MaterialLevel level, const double rho[], const double mu[])
 {
-  const double *a = ElementVertex(m, e, k < 3 ? k : (k + 1) % 3),
-               *b = ElementVertex(m, e, k < 3 ? k : (k + 2) % 3);
-  for (int c = 0; c < 2; c++) x[c] = 0.5 * (a[c] + b[c]);
+  return MaterialSet(f->material, level, rho, mu);
 }
 
-/* p += what open boundaries hold above hydrostatic.  A node's owner need not have the boundary face: hence
- * sum and count. */
-static PetscErrorCode AddOpenPressure(Fluid f)
+PetscErrorCode FluidSetCoupling(Fluid f, int n, const CoracleCoupling coupling[])
 {
-  const Mesh *m = f->mesh;
-  Vec sum = f->divergence, count = f->phi, both[2] = {sum, count}, local[2];
-  PetscScalar *v[2], *p;
+  return SolidCouplingSet(f->solid, n, coupling);
+}
+
+/* u* = u at t + dt, the solver's first guess, and the mass flux rho u at t + theta dt, both extrapolated. */
+static PetscErrorCode Extrapolate(Fluid f, double dt)
+{
+  const double r = f->dt_previous > 0.0 ? dt / f->dt_previous : 0.0, s = f->setup.theta * r;
+  const double *rho = MaterialDensity(f->material, MATERIAL_STEP);
+  PetscScalar *flux;
   PetscFunctionBeginUser;
-  for (int k = 0; k < 2; k++) {
-    PetscCall(VecGhostGetLocalForm(both[k], &local[k]));
-    PetscCall(VecSet(local[k], 0.0));
-    PetscCall(VecGetArray(local[k], &v[k]));
-  }
-  for (int e = 0; e < m->ne; e++)
-    for (int i = 0; i < 3; i++) {
-      const Boundary *b = BoundaryOfFace(f, e, i);
-      const int node[3] = {(i + 1) % 3, (i + 2) % 3, 3 + i};
-      for (int k = 0; k < 3 && b && b->kind == BOUNDARY_OPEN; k++) {
-        v[0][m->p2[6 * e + node[k]]] += b->pressure;
-        v[1][m->p2[6 * e + node[k]]] += 1.0;
-      }
-    }
-  for (int k = 0; k < 2; k++) {
-    PetscCall(VecRestoreArray(local[k], &v[k]));
-    PetscCall(VecGhostRestoreLocalForm(both[k], &local[k]));
-    PetscCall(VecGhostUpdateBegin(both[k], ADD_VALUES, SCATTER_REVERSE));
-    PetscCall(VecGhostUpdateEnd(both[k], ADD_VALUES, SCATTER_REVERSE));
-    PetscCall(VecGetArray(both[k], &v[k]));
-  }
-  PetscCall(VecGetArray(f->p, &p));
-  for (int k = 0; k < m->np2_owned; k++) p[k] += v[1][k] > 0.0 ? v[0][k] / v[1][k] : 0.0;
-  PetscCall(VecRestoreArray(f->p, &p));
-  for (int k = 0; k < 2; k++) PetscCall(VecRestoreArray(both[k], &v[k]));
-  PetscCall(VecSet(f->phi, 0.0));
-  PetscCall(VecGhostUpdateBegin(f->p, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostUpdateEnd(f->p, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecWAXPY(f->mass_flux, -1.0, f->u_previous, f->u));
+  PetscCall(VecWAXPY(f->u_star, r, f->mass_flux, f->u));
+  PetscCall(VecAYPX(f->mass_flux, s, f->u));
+  PetscCall(VecGetArray(f->mass_flux, &flux));
+  for (int e = 0; e < f->domain.mesh->ne; e++)
+    for (int k = 0; k < 6; k++) flux[6 * e + k] *= rho[e];
+  PetscCall(VecRestoreArray(f->mass_flux, &flux));
+  PetscCall(VecGhostUpdateBegin(f->mass_flux, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostUpdateEnd(f->mass_flux, INSERT_VALUES, SCATTER_FORWARD));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldFunction pressure,
-                               void *context)
+PetscErrorCode FluidMomentum(Fluid f, double dt)
 {
-  const Mesh *m = f->mesh;
-  PetscScalar *u, *p;
-  Vec local;
+  const double start = MPI_Wtime();
+  MomentumReport report;
   PetscFunctionBeginUser;
-  f->t = t;
-  f->dt_previous = 0.0;
-  PetscCall(VecGetArray(f->u, &u));
-  for (int e = 0; e < m->ne; e++)
-    for (int i = 0; i < 3; i++) {
-      double v[2] = {0};
-      if (velocity) velocity(context, t, ElementVertex(m, e, i), v);
-      for (int c = 0; c < 2; c++) u[6 * e + 3 * c + i] = v[c];
-    }
-  PetscCall(VecRestoreArray(f->u, &u));
-  PetscCall(VecCopy(f->u, f->u_previous));
-  PetscCall(VecCopy(f->u, f->u_star));
-  PetscCall(VecCopy(f->u, f->u_next));
-  PetscCall(VecGhostGetLocalForm(f->p, &local));
-  PetscCall(VecGetArray(local, &p));
-  for (int e = 0; e < m->ne; e++)
-    for (int k = 0; k < 6; k++) {
-      double x[2];
-      P2NodePosition(m, e, k, x);
-      p[m->p2[6 * e + k]] = HydrostaticPressure(f, x);
-      if (pressure) pressure(context, t, x, p + m->p2[6 * e + k]);
-    }
-  PetscCall(VecRestoreArray(local, &p));
-  PetscCall(VecGhostRestoreLocalForm(f->p, &local));
-  if (!pressure) PetscCall(AddOpenPressure(f));
+  f->stats.dt = dt;
+  PetscCall(Extrapolate(f, dt));
+  const MomentumStep step = {f->t,
+                             dt,
+                             MaterialDensity(f->material, MATERIAL_STEP),
+                             MaterialViscosity(f->material, MATERIAL_STEP),
+                             f->mass_flux,
+                             f->u,
+                             f->p,
+                             f->solid};
+  PetscCall(MomentumSolverSolve(f->momentum, &step, f->u_star, &report));
+  f->stats.momentum_iterations = report.iterations;
+  f->stats.seconds[MOMENTUM] += report.seconds_solve;
+  f->stats.seconds[ASSEMBLY] += MPI_Wtime() - start - report.seconds_solve;
+  PetscFunctionReturn(0);
+}
+
+static ProjectionStep StepOfProjection(Fluid f, double t, double dt, PetscBool inertia)
+{
+  return (ProjectionStep){
+      t, dt, MaterialDensity(f->material, MATERIAL_STEP), MaterialRevision(f->material), f->solid, inertia};
+}
+
+PetscErrorCode FluidProject(Fluid f, double dt)
+{
+  const double start = MPI_Wtime();
+  const ProjectionStep step = StepOfProjection(f, f->t + dt, dt, PETSC_TRUE);
+  Vec phi;
+  PetscFunctionBeginUser;
+  PetscCall(ProjectionSolverSolve(f->projection, &step, f->u_star, &phi, &f->stats.pressure_iterations));
+  PetscCall(VecCopy(f->u_star, f->u_projected));
+  PetscCall(ProjectionSolverSubtract(f->projection, &step, f->u_projected));
+  PetscCall(VecAXPY(f->p, 1.0, phi));
+  PetscCall(VecGhostUpdateBegin(f->p, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostUpdateEnd(f->p, INSERT_VALUES, SCATTER_FORWARD));
+  f->stats.seconds[PRESSURE] += MPI_Wtime() - start;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidCorrect(Fluid f, double dt, const CoracleCorrection correction[])
+{
+  const double start = MPI_Wtime();
+  const Vec oldest = f->u_previous;
+  PetscFunctionBeginUser;
+  if (correction) {
+    PetscScalar *u;
+    PetscCall(VecGetArray(f->u_projected, &u));
+    SolidCouplingCorrect(f->solid, f->domain.geometry, correction, u);
+    PetscCall(VecRestoreArray(f->u_projected, &u));
+  }
+  f->u_previous = f->u;
+  f->u = f->u_projected;
+  f->u_projected = oldest;
+  PetscCall(MaterialAdvance(f->material));
+  f->dt_previous = dt;
+  f->t += dt;
+  f->stats.t = f->t;
+  f->stats.seconds[COUPLING] += MPI_Wtime() - start;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidStep(Fluid f, double dt)
+{
+  PetscFunctionBeginUser;
+  PetscCall(FluidMomentum(f, dt));
+  PetscCall(FluidProject(f, dt));
+  PetscCall(FluidCorrect(f, dt, NULL));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidMakeSolenoidal(Fluid f)
+{
+  const double start = MPI_Wtime(), dt = 1.0; /* any: it cancels */
+  const ProjectionStep step = StepOfProjection(f, f->t, dt, PETSC_FALSE);
+  Vec phi;
+  PetscFunctionBeginUser;
+  PetscCall(ProjectionSolverSolve(f->projection, &step, f->u, &phi, &f->stats.pressure_iterations));
+  PetscCall(ProjectionSolverSubtract(f->projection, &step, f->u));
+  PetscCall(
+      ProjectionSolverSubtract(f->projection, &step, f->u_previous)); /* their difference extrapolates */
+  f->stats.seconds[PRESSURE] += MPI_Wtime() - start;
   PetscFunctionReturn(0);
 }
 
 double FluidTimeStep(Fluid f)
 {
-  const Mesh *m = f->mesh;
+  const Mesh *m = f->domain.mesh;
   const PetscScalar *u;
   double rate = 0.0, speed = 0.0;
-  if (VecGetArrayRead(f->u_next, &u)) return 0.0;
+  if (VecGetArrayRead(f->u_projected, &u)) return 0.0;
   for (int e = 0; e < m->ne; e++)
     for (int i = 0; i < 3; i++) {
       const double *v = u + 6 * e + i;
       double sum = 0.0; /* of |u.grad lambda|: twice the inverse of the time to cross the element */
-      for (int k = 0; k < 3; k++) sum += fabs(v[0] * f->geometry[e].g[k][0] + v[3] * f->geometry[e].g[k][1]);
+      for (int k = 0; k < 3; k++)
+        sum += fabs(v[0] * f->domain.geometry[e].g[k][0] + v[3] * f->domain.geometry[e].g[k][1]);
       rate = fmax(rate, 0.5 * sum);
       speed = fmax(speed, v[0] * v[0] + v[3] * v[3]);
     }
-  (void)VecRestoreArrayRead(f->u_next, &u);
+  (void)VecRestoreArrayRead(f->u_projected, &u);
   f->stats.max_speed = sqrt(speed);
   return rate * f->setup.dt_max > f->setup.cfl ? f->setup.cfl / rate : f->setup.dt_max;
 }
 
-PetscErrorCode FluidState(Fluid f, int save)
+/* --- a step that is redone ---------------------------------------------------------------------------- */
+
+static PetscErrorCode CopyWithGhosts(Vec from, Vec to)
 {
-  const Vec live[] = {f->u, f->u_previous, f->p}, kept[] = {f->saved_u, f->saved_previous, f->saved_p};
+  Vec a, b;
   PetscFunctionBeginUser;
-  for (int k = 0; k < 3; k++) {
-    Vec from, to;
-    PetscCall(VecGhostGetLocalForm(save ? live[k] : kept[k], &from));
-    PetscCall(VecGhostGetLocalForm(save ? kept[k] : live[k], &to));
-    PetscCall(VecCopy(from, to));
-    PetscCall(VecGhostRestoreLocalForm(save ? live[k] : kept[k], &from));
-    PetscCall(VecGhostRestoreLocalForm(save ? kept[k] : live[k], &to));
-  }
-  if (save)
-    f->saved_t = f->t, f->saved_dt = f->dt_previous;
-  else
-    f->t = f->saved_t, f->dt_previous = f->saved_dt;
+  PetscCall(VecGhostGetLocalForm(from, &a));
+  PetscCall(VecGhostGetLocalForm(to, &b));
+  PetscCall(VecCopy(a, b));
+  PetscCall(VecGhostRestoreLocalForm(from, &a));
+  PetscCall(VecGhostRestoreLocalForm(to, &b));
   PetscFunctionReturn(0);
 }
+
+PetscErrorCode FluidSaveState(Fluid f)
+{
+  PetscFunctionBeginUser;
+  PetscCall(CopyWithGhosts(f->u, f->saved.u));
+  PetscCall(CopyWithGhosts(f->u_previous, f->saved.u_previous));
+  PetscCall(CopyWithGhosts(f->p, f->saved.p));
+  PetscCall(MaterialSave(f->material));
+  f->saved.t = f->t, f->saved.dt_previous = f->dt_previous;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidRestoreState(Fluid f)
+{
+  PetscFunctionBeginUser;
+  PetscCall(CopyWithGhosts(f->saved.u, f->u));
+  PetscCall(CopyWithGhosts(f->saved.u_previous, f->u_previous));
+  PetscCall(CopyWithGhosts(f->saved.p, f->p));
+  PetscCall(MaterialRestore(f->material));
+  f->t = f->saved.t, f->dt_previous = f->saved.dt_previous;
+  PetscFunctionReturn(0);
+}
+
+/* --- views --------------------------------------------------------------------------------------------- */
 
 /* The array of a Vec that stays where it is as long as the Vec lives. */
 static const double *View(Vec v)
@@ -207,9 +270,9 @@ const double *FluidVelocityStar(Fluid f)
 {
   return View(f->u_star);
 }
-const double *FluidVelocityPlus(Fluid f)
+const double *FluidVelocityProjected(Fluid f)
 {
-  return View(f->u_next);
+  return View(f->u_projected);
 }
 const double *FluidPressure(Fluid f)
 {
@@ -217,15 +280,15 @@ const double *FluidPressure(Fluid f)
 }
 const double *FluidDensity(Fluid f)
 {
-  return f->rho;
+  return MaterialDensity(f->material, MATERIAL_NEW);
 }
 const double *FluidViscosity(Fluid f)
 {
-  return f->mu;
+  return MaterialViscosity(f->material, MATERIAL_NEW);
 }
 const double *FluidSolidFraction(Fluid f)
 {
-  return f->alpha;
+  return SolidCouplingFraction(f->solid);
 }
 const FluidStats *FluidGetStats(Fluid f)
 {
@@ -233,5 +296,5 @@ const FluidStats *FluidGetStats(Fluid f)
 }
 const Mesh *FluidMesh(Fluid f)
 {
-  return f->mesh;
+  return f->domain.mesh;
 }

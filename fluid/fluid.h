@@ -1,39 +1,21 @@
 /* The fluid: incompressible Navier-Stokes with P1DG velocity and P2 pressure on a mesh of triangles, the
- * solid present through the coupling of coracle.h.  One step is
+ * solid present through the coupling of coracle.h.  One step from t^n to t^{n+1} is
  *
- *   FluidMomentum   u*  from  (rho/dt M + theta L + a) u* = ...           momentum.c
- *   FluidProject    u+  = u* - dt/rho grad phi,  p += phi                 pressure.c
- *   FluidCorrect    u   = u+ + M^-1 r                                     coupling.c
+ *   FluidMomentum   u*           from  (rho/dt M + theta L + a) u* = ...                 momentum.h
+ *   FluidProject    u_projected  =  u* - dt/rho grad phi,  p += phi                      projection.h
+ *   FluidCorrect    u^{n+1}      =  u_projected + M^-1 r  inside the solid               solid_coupling.h
  *
- * Velocity is a block Vec: element e, component c, vertex i at 6 e + 3 c + i.  rho and mu are per element.
- * All functions are collective over mesh->comm unless said otherwise. */
+ * Velocity is a block Vec: element e, component c, vertex i at 6 e + 3 c + i.  rho and mu are per element
+ * (material.h).  All functions are collective over mesh->comm unless said otherwise. */
 #ifndef FLUID_H
 #define FLUID_H
 #include "common/link/coracle.h"
 #include "common/mesh/mesh.h"
 #include "common/output/checkpoint.h"
+#include "fluid/boundary.h"
 #include "fluid/kernels.h"
+#include "fluid/material.h"
 #include <petscksp.h>
-
-/* v: value(s) at x and t */
-typedef void (*FieldFunction)(void *context, double t, const double x[2], double v[]);
-
-typedef enum {
-  BOUNDARY_VELOCITY,  /* u = velocity (no slip where it is 0) */
-  BOUNDARY_FREE_SLIP, /* u.n = 0, no tangential traction */
-  BOUNDARY_OPEN       /* no viscous traction, hydrostatic pressure plus `pressure` */
-} BoundaryKind;
-
-typedef struct {
-  BoundaryKind kind;
-  double velocity[2];        /* m/s */
-  PetscBool parabolic;       /* velocity times 4 s (1 - s), s along the boundary's bounding box */
-  double lower[2], upper[2]; /* that box; set by FluidCreate */
-  double rise;               /* s: until then velocity times (1 - cos(pi t/rise))/2; 0: at once */
-  double pressure;           /* where open: above hydrostatic, Pa */
-  FieldFunction function;    /* instead of velocity; NULL: none */
-  void *context;
-} Boundary;
 
 typedef struct {
   double theta;         /* 0.5 Crank-Nicolson .. 1 backward Euler */
@@ -64,22 +46,25 @@ PetscErrorCode FluidSetInitial(Fluid fluid, double t, FieldFunction velocity, Fi
 
 /* Takes the state between two steps over from a fluid on another mesh of the same domain: velocity by
  * Galerkin projection, which conserves momentum to round-off; pressure by interpolation; time and counters.
- */
+ * A material that varies is to be set on the new mesh (FluidSetMaterial, MATERIAL_OLD). */
 PetscErrorCode FluidTransfer(Fluid from, Fluid to);
-/* After that, with the coupling of the coming step set: takes the part of the bulk velocity off that is not
- * free of divergence, which else would come out as a jump of the pressure. */
+/* After that, with the coupling of the coming step set: subtracts the part of the bulk velocity that is not
+ * free of divergence, which else would appear as a jump of the pressure. */
 PetscErrorCode FluidMakeSolenoidal(Fluid fluid);
 
-/* The state between two steps in a checkpoint, and out of it on a mesh that MeshLoad has given, with its
- * rows. On as many ranks as saved it the fluid goes on to the last bit as it would have, as far as a run
- * repeats itself; to the solvers' tolerance on others, and where a solid gives way (the factor of giving.c is
- * new). */
+/* The state between two steps in a checkpoint, and out of it on a mesh of MeshLoad, with its rows (a material
+ * that varies is saved by who sets it).  On as many ranks as saved it the run resumes to the last bit, as far
+ * as a run repeats itself; to the solvers' tolerance on others, and where the solid has implicit inertia (the
+ * factor of weighted_projection.c is new). */
 PetscErrorCode FluidSave(Fluid fluid, Checkpoint to);
 PetscErrorCode FluidLoad(Fluid fluid, const PetscInt row[], Checkpoint from);
 
+/* Density, kg/m3, and viscosity, Pa s, of the owned elements, [ne], at the beginning (MATERIAL_OLD) or the end
+ * (MATERIAL_NEW) of the coming step; by default those of the setup.  What is new becomes old as the step ends. */
+PetscErrorCode FluidSetMaterial(Fluid fluid, MaterialLevel level, const double rho[], const double mu[]);
 /* The solid's coupling of the coming step, element indices being local elements (copied); n = 0: no solid. */
 PetscErrorCode FluidSetCoupling(Fluid fluid, int n, const CoracleCoupling coupling[]);
-/* u* and u+ and p from t to t + dt */
+/* u*, then u_projected and p, from t to t + dt, s. */
 PetscErrorCode FluidMomentum(Fluid fluid, double dt);
 PetscErrorCode FluidProject(Fluid fluid, double dt);
 /* Gives the inside of the solid its new velocity; correction: one entry a coupling entry, or NULL without a
@@ -91,18 +76,19 @@ PetscErrorCode FluidStep(Fluid fluid, double dt);
 double FluidTimeStep(Fluid fluid);
 
 /* Views, borrowed, not collective: velocities [ne][2][3] of the owned elements, as of the last completed
- * step, before the projection of the step in hand and after it; pressure [np2]. */
+ * step, before the projection of the current step and after it; pressure [np2]; material at its end. */
 const double *FluidVelocity(Fluid fluid);
 const double *FluidVelocityStar(Fluid fluid);
-const double *FluidVelocityPlus(Fluid fluid);
+const double *FluidVelocityProjected(Fluid fluid);
 const double *FluidPressure(Fluid fluid);
 const double *FluidDensity(Fluid fluid);       /* [ne] */
 const double *FluidViscosity(Fluid fluid);     /* [ne] */
 const double *FluidSolidFraction(Fluid fluid); /* [ne] alpha_s */
 const FluidStats *FluidGetStats(Fluid fluid);
 const Mesh *FluidMesh(Fluid fluid);
-/* Saves (1) or puts back (0) velocity, pressure and time: for a step that is redone. */
-PetscErrorCode FluidState(Fluid fluid, int save);
+/* Saves velocity, pressure, material and time, and restores them for a step that is redone. */
+PetscErrorCode FluidSaveState(Fluid fluid);
+PetscErrorCode FluidRestoreState(Fluid fluid);
 
 /* Total momentum, kg m/s a metre, and kinetic energy, J/m. */
 PetscErrorCode FluidMomentumTotal(Fluid fluid, double momentum[2], double *energy);

@@ -2,8 +2,7 @@
 #include "common/mesh/mesh_checkpoint.h"
 #include "common/supermesh/geometry.h"
 
-/* --- mesh: a graded box, or a Gmsh file
- * ------------------------------------------------------------------------ */
+/* --- mesh: a graded box, or a Gmsh file ------------------------------------------------------------------ */
 
 typedef struct {
   GeometryBox at;
@@ -76,8 +75,7 @@ PetscErrorCode FluidCaseMesh(Case c, MPI_Comm comm, Checkpoint from, Mesh **mesh
   PetscFunctionReturn(0);
 }
 
-/* --- boundaries
- * -------------------------------------------------------------------------------------------------- */
+/* --- boundaries ----------------------------------------------------------------------------------------- */
 
 static void ReadBoundary(Case c, const char *name, Boundary *b)
 {
@@ -181,7 +179,10 @@ PetscErrorCode FluidCaseAdaptation(Case c, PetscBool *adapts, AdaptationSetup *s
   *adapts = (PetscBool)CaseHas(c, "fluid.adapt");
   if (!*adapts) PetscFunctionReturn(0);
   s->size_min = CasePositive(c, "fluid.adapt.size_min");
-  s->size_max = CaseNumber(c, "fluid.adapt.size_max", s->size_min, HUGE_VAL);
+  s->size_max = CasePositive(c, "fluid.adapt.size_max");
+  if (s->size_max < s->size_min)
+    CaseRefuse(c, "fluid.adapt.size_max", "expected at least fluid.adapt.size_min, %g, found %g", s->size_min,
+               s->size_max);
   s->velocity_error = CasePositive(c, "fluid.adapt.velocity_error");
   s->growth = CaseNumberOr(c, "fluid.adapt.growth", 1.5, 1.01, 10.0);
   s->anisotropy = CaseNumberOr(c, "fluid.adapt.anisotropy", 5.0, 1.0, 1000.0);
@@ -192,14 +193,14 @@ PetscErrorCode FluidCaseAdaptation(Case c, PetscBool *adapts, AdaptationSetup *s
 
 PetscErrorCode FluidCaseCheckOptions(Case c)
 {
-  const char *given = CaseStringOr(c, "fluid.petsc", "");
+  const char *options = CaseStringOr(c, "fluid.petsc", "");
   PetscInt n;
   char **names, **values, option[256];
   PetscFunctionBeginUser;
   PetscCall(PetscOptionsLeftGet(NULL, &n, &names, &values));
   for (PetscInt k = 0; k < n; k++) {
     (void)snprintf(option, sizeof option, "-%s", names[k]);
-    if (strstr(given, option))
+    if (strstr(options, option))
       CaseRefuse(c, "fluid.petsc", "no solver of the fluid has the option %s", option);
   }
   PetscCall(PetscOptionsLeftRestore(NULL, &n, &names, &values));

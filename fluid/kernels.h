@@ -2,17 +2,29 @@
  * objects.
  *
  * Weak form of the momentum equation on element K, test function w in P1(K)^2, L the advective and viscous
- * operator:
+ * operator, m the mass flux rho beta:
  *
- *   (rho (u* - u^n)/dt, w) + theta L(u*, w) + (1 - theta) L(u^n, w) + (a u*, w) = (rho g - grad p, w) + (s,
- * w)
+ *   (rho (u* - u^n)/dt, w) + theta L(u*, w) + (1 - theta) L(u^n, w) + (a u*, w)
+ *                                                                = (rho g - grad p, w) + (s, w)
  *
- *   L(u, w) = (rho beta.grad u, w) - <rho min(beta.n, 0) (u_K - u_N), w>                     upwind, not
- * integrated by parts
- *           + (tau(u), grad w) - <{tau(u) n}, [w]> - <{tau(w) n}, [u]> + <eta [u], [w]>     symmetric
- * interior penalty tau(u)  = mu (grad u + grad u^T - 2/3 div u I)
+ *   L(u, w) = (m.grad u, w) - <min(m.n, 0) (u_K - u_N), w>          upwind, not integrated by parts
+ *           + (tau(u), grad w)                                      viscous stress, symmetric interior penalty:
+ *           - <{tau(u) n}, [w]> - <{tau(w) n}, [u]> + <eta [u], [w]>
  *
- * A block is 6 x 6 in column-major order; row and column 3 c + i is component c at vertex i. */
+ *   tau(u)  = mu (grad u + grad u^T - 2/3 div u I)
+ *
+ *           2                 vertices 0, 1, 2 counter-clockwise;  face i lies opposite to vertex i, its vertices
+ *          / \                are (i + 1) % 3 and (i + 2) % 3, its normal points out;
+ *     (4) /   \ (3)           P2 node 3 + i is the midpoint of face i
+ *        /     \
+ *       0-------1
+ *          (5)
+ *
+ * A block is 6 x 6 in column-major order; row and column 3 c + i is component c at vertex i:
+ *
+ *           d=0        d=1
+ *   c=0  [ 3 x 3 ]  [ 3 x 3 ]      block[6 * (3 d + j) + 3 c + i]
+ *   c=1  [ 3 x 3 ]  [ 3 x 3 ]                                                                              */
 #ifndef FLUID_KERNELS_H
 #define FLUID_KERNELS_H
 #include "common/space/element.h"
@@ -24,19 +36,18 @@
 /* Interior-penalty safety factor: 1 is the limit of coercivity for the full stress on P1 triangles. */
 #define PENALTY_FACTOR 1.25
 
-/* Volume terms: block = rho/dt M + theta (rho (beta.grad u, w) + (tau(u), grad w)); beta[c][i] at the
- * vertices. */
-static inline void MomentumVolume(const ElementGeometry *e, double rho_dt, double theta_rho, double theta_mu,
-                                  const double beta[6], double block[36])
+/* Volume terms: block = rho/dt M + theta ((m.grad u, w) + (tau(u), grad w)); flux: m[c][i] at the vertices. */
+static inline void MomentumVolume(const ElementGeometry *e, double rho_dt, double theta, double theta_mu,
+                                  const double flux[6], double block[36])
 {
   const double m = rho_dt * e->area / 12.0, v = theta_mu * e->area;
   double b[2][3];
-  P1MassApply(e->area, beta, b[0]);
-  P1MassApply(e->area, beta + 3, b[1]);
+  P1MassApply(e->area, flux, b[0]);
+  P1MassApply(e->area, flux + 3, b[1]);
   for (int j = 0; j < 3; j++)
     for (int i = 0; i < 3; i++) {
       const double *gi = e->g[i], *gj = e->g[j];
-      const double scalar = m * (i == j ? 2.0 : 1.0) + theta_rho * (b[0][i] * gj[0] + b[1][i] * gj[1]) +
+      const double scalar = m * (i == j ? 2.0 : 1.0) + theta * (b[0][i] * gj[0] + b[1][i] * gj[1]) +
                             v * (gi[0] * gj[0] + gi[1] * gj[1]);
       for (int d = 0; d < 2; d++)
         for (int c = 0; c < 2; c++)
@@ -56,15 +67,15 @@ static inline void Traction(const double g[3][2], double mu, const double n[2], 
   }
 }
 
-/* Inflow at the two Gauss points of a face gives w[i][j] = -int_F rho min(beta.n, 0) N_i N_j over its two
+/* w[i][j] = -theta int_F min(m.n, 0) N_i N_j over the two nodes of a face, by its two Gauss points; mn: m.n at the
  * nodes. */
-static inline void FaceInflow(double rho, double length, const double bn[2], double w[2][2])
+static inline void FaceInflow(double theta, double length, const double mn[2], double w[2][2])
 {
   const double GAUSS = 0.21132486540518712; /* (1 - 1/sqrt 3)/2 */
   memset(w, 0, 4 * sizeof(double));
   for (int q = 0; q < 2; q++) {
     const double s = q ? 1.0 - GAUSS : GAUSS, n0 = 1.0 - s, n1 = s;
-    const double in = -rho * 0.5 * length * fmin(n0 * bn[0] + n1 * bn[1], 0.0);
+    const double in = -theta * 0.5 * length * fmin(n0 * mn[0] + n1 * mn[1], 0.0);
     w[0][0] += in * n0 * n0;
     w[0][1] += in * n0 * n1;
     w[1][1] += in * n1 * n1;
@@ -107,9 +118,9 @@ static inline void MomentumFace(const FaceGeometry *face, const FaceSide *k, con
     }
 }
 
-/* Boundary face with the velocity prescribed in the directions that project[c][d] keeps (I: all, n n: free
- * slip): own block added to; load[2][2][...]: lift[6][4], column 2 d + r: rows' load per unit boundary
- * velocity d at face node r. */
+/* Boundary face with the velocity prescribed in the directions that project[c][d] keeps (I: all; n n: free
+ * slip).  own: block (K, K), added to.  lift[4][6], written: lift[2 d + r] is the load of the element's six rows
+ * per unit of prescribed velocity, component d at face node r. */
 static inline void MomentumBoundaryFace(const FaceGeometry *face, const FaceSide *k,
                                         const double project[2][2], double inflow[2][2], double own[36],
                                         double lift[4][6])

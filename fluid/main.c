@@ -1,6 +1,7 @@
 /* coracle-fluid: the fluid participant.  coracle-fluid case.yaml [--set key=value]... */
 #include "common/mesh/mesh_checkpoint.h"
 #include "fluid/adaptation.h"
+#include "fluid/check.h"
 #include "fluid/exchange.h"
 #include "fluid/fluid_case.h"
 #include "fluid/writer.h"
@@ -143,7 +144,7 @@ static PetscErrorCode Remesh(RunState *m, Mesh **mesh, Fluid *fluid)
 }
 
 /* The step has been completed on the old mesh: what follows is on the new one. */
-static PetscErrorCode Change(RunState *m, Mesh *mesh, Fluid fluid)
+static PetscErrorCode AcceptMesh(RunState *m, Mesh *mesh, Fluid fluid)
 {
   PetscFunctionBeginUser;
   PetscCall(FluidTransfer(m->fluid, fluid));
@@ -157,10 +158,10 @@ static PetscErrorCode Change(RunState *m, Mesh *mesh, Fluid fluid)
 }
 
 /* The step will be redone. */
-static PetscErrorCode Forget(RunState *m, Mesh **mesh, Fluid *fluid)
+static PetscErrorCode DiscardMesh(RunState *m, Mesh **mesh, Fluid *fluid)
 {
   PetscFunctionBeginUser;
-  if (m->adaptation) AdaptationForget(m->adaptation);
+  if (m->adaptation) AdaptationDiscard(m->adaptation);
   PetscCall(FluidDestroy(fluid));
   PetscCall(MeshDestroy(mesh));
   PetscFunctionReturn(0);
@@ -171,22 +172,22 @@ static PetscErrorCode Step(RunState *m, double dt)
   const CoracleCorrection *correction;
   Mesh *mesh;
   Fluid next;
-  PetscBool stands;
+  PetscBool accepted;
   PetscFunctionBeginUser;
   PetscCall(ExchangeReceiveCoupling(m->exchange));
   if (m->new_mesh) PetscCall(FluidMakeSolenoidal(m->fluid));
   PetscCall(FluidMomentum(m->fluid, dt));
   PetscCall(FluidProject(m->fluid, dt));
   PetscCall(Remesh(m, &mesh, &next));
-  PetscCall(ExchangeFlow(m->exchange, next, &stands, &correction));
-  if (!stands) {
-    PetscCall(Forget(m, &mesh, &next));
+  PetscCall(ExchangeFlow(m->exchange, next, &accepted, &correction));
+  if (!accepted) {
+    PetscCall(DiscardMesh(m, &mesh, &next));
     PetscFunctionReturn(0);
   }
   m->new_mesh = PETSC_FALSE;
   PetscCall(FluidCorrect(m->fluid, dt, correction));
   PetscCall(WriterStep(m->record, m->fluid));
-  if (next) PetscCall(Change(m, mesh, next));
+  if (next) PetscCall(AcceptMesh(m, mesh, next));
   PetscFunctionReturn(0);
 }
 
@@ -216,9 +217,11 @@ static PetscErrorCode Run(CoracleClient client, Case c, MPI_Comm comm)
 
 int main(int argc, char **argv)
 {
+  const Command command = CommandTake(&argc, argv);
   CoracleClient client;
   MPI_Comm comm;
   Case c;
+  if (command != COMMAND_RUN) return FluidAnswer(command, argc, argv);
   if (CoracleOpen("fluid", argc, argv, &comm, &client)) return 1;
   PETSC_COMM_WORLD = comm;
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));

@@ -1,16 +1,9 @@
-/* The momentum equation's preconditioner: both components of the velocity are nearly decoupled, by the same
- * scalar operator P, whose block for elements K and N is the mean of the xx and the yy part of the full one:
- *
- *     A_KN ~ [P_KN  0 ; 0  P_KN],   6 x 6 from 3 x 3
- *
- * An incomplete factorisation of P is eight times cheaper than one of A, and moves a quarter of the memory,
- * which is what the iterations wait for.  It is made anew in every step: the solid's stiff terms move with
- * it. */
-#include "fluid/fluid_impl.h"
+#include "fluid/preconditioner.h"
+#include "fluid/element_matrix.h"
+#include "fluid/solver_options.h"
 
 struct Preconditioner_s {
-  Mat p; /* BAIJ like the momentum matrix, 3 unknowns an element: block k of the one is block k of the other
-          */
+  Mat p; /* BAIJ like the momentum matrix, 3 unknowns an element: block k of the one is block k of the other */
   PC pc;
   Vec residual, correction; /* of one component */
 };
@@ -43,28 +36,28 @@ static PetscErrorCode Apply(PC shell, Vec r, Vec z)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PreconditionerCreate(Fluid f)
+PetscErrorCode PreconditionerCreate(const Mesh *m, KSP ksp, Preconditioner *preconditioner)
 {
   struct Preconditioner_s *p;
   PetscMPIInt size;
   PC shell;
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&p));
-  f->preconditioner = p;
-  PetscCall(MomentumPattern(f->mesh, 3, &p->p));
+  *preconditioner = p;
+  PetscCall(ElementMatrixCreate(m, 3, &p->p));
   PetscCall(MatCreateVecs(p->p, &p->residual, &p->correction));
-  PetscCall(PCCreate(f->mesh->comm, &p->pc));
+  PetscCall(PCCreate(m->comm, &p->pc));
   PetscCall(PCSetOptionsPrefix(p->pc, "momentum_component_"));
   PetscCall(PCSetOperators(p->pc, p->p, p->p));
-  PetscCallMPI(MPI_Comm_size(f->mesh->comm, &size));
+  PetscCallMPI(MPI_Comm_size(m->comm, &size));
   /* on several ranks with overlap 1, which keeps the iterations of one rank */
   PetscCall(PCSetType(p->pc, size == 1 ? PCILU : PCASM));
   if (size == 1)
     PetscCall(PCFactorSetLevels(p->pc, 1));
   else
-    PetscCall(FluidDefaultOption("-momentum_component_sub_pc_factor_levels", "1"));
+    PetscCall(SolverDefaultOption("momentum_component_", "sub_pc_factor_levels", "1"));
   PetscCall(PCSetFromOptions(p->pc));
-  PetscCall(KSPGetPC(f->momentum_ksp, &shell));
+  PetscCall(KSPGetPC(ksp, &shell));
   PetscCall(PCSetType(shell, PCSHELL));
   PetscCall(PCShellSetName(shell, "component by component"));
   PetscCall(PCShellSetContext(shell, p));
@@ -92,19 +85,17 @@ static PetscErrorCode CopyBlocks(Mat from, Mat to)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PreconditionerUpdate(Fluid f)
+PetscErrorCode PreconditionerUpdate(Preconditioner p, KSP ksp, Mat matrix)
 {
-  struct Preconditioner_s *p = f->preconditioner;
   Mat a[2], b[2];
-  const PetscInt *garray;
   PetscBool used;
   PC shell;
   PetscFunctionBeginUser;
-  PetscCall(KSPGetPC(f->momentum_ksp, &shell));
+  PetscCall(KSPGetPC(ksp, &shell));
   PetscCall(PetscObjectTypeCompare((PetscObject)shell, PCSHELL, &used));
   if (!used) PetscFunctionReturn(0); /* -momentum_pc_type has chosen another one */
-  PetscCall(MatrixParts(f->momentum, &a[0], &a[1], &garray));
-  PetscCall(MatrixParts(p->p, &b[0], &b[1], &garray));
+  PetscCall(ElementMatrixParts(matrix, &a[0], &a[1], NULL));
+  PetscCall(ElementMatrixParts(p->p, &b[0], &b[1], NULL));
   for (int k = 0; k < 2 && a[k]; k++) PetscCall(CopyBlocks(a[k], b[k]));
   PetscCall(MatAssemblyBegin(p->p, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(p->p, MAT_FINAL_ASSEMBLY));
@@ -112,14 +103,15 @@ PetscErrorCode PreconditionerUpdate(Fluid f)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PreconditionerDestroy(Fluid f)
+PetscErrorCode PreconditionerDestroy(Preconditioner *preconditioner)
 {
-  struct Preconditioner_s *p = f->preconditioner;
+  Preconditioner p = *preconditioner;
   PetscFunctionBeginUser;
+  if (!p) PetscFunctionReturn(0);
   PetscCall(VecDestroy(&p->residual));
   PetscCall(VecDestroy(&p->correction));
   PetscCall(PCDestroy(&p->pc));
   PetscCall(MatDestroy(&p->p));
-  PetscCall(PetscFree(f->preconditioner));
+  PetscCall(PetscFree(*preconditioner));
   PetscFunctionReturn(0);
 }

@@ -24,29 +24,32 @@ static void SolidVelocity(const CoracleCoupling *k, double u[2])
 
 PetscErrorCode SolidBandSpeed(Fluid f, double *speed)
 {
+  int n;
+  const CoracleCoupling *entry = SolidCouplingEntries(f->solid, &n);
   PetscFunctionBeginUser;
   *speed = 0.0;
-  for (int k = 0; k < f->ncoupling; k++) {
+  for (int k = 0; k < n; k++) {
     double u[2];
-    SolidVelocity(f->coupling + k, u);
+    SolidVelocity(entry + k, u);
     *speed = fmax(*speed, hypot(u[0], u[1]));
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, speed, 1, MPI_DOUBLE, MPI_MAX, f->mesh->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, speed, 1, MPI_DOUBLE, MPI_MAX, f->domain.mesh->comm));
   PetscFunctionReturn(0);
 }
 
 /* This rank's part of the surface, and how far it goes until the next adaptation. */
 static int LocalSweeps(Fluid f, double ahead, Sweep sweep[])
 {
-  int n = 0;
-  for (int k = 0; k < f->ncoupling; k++) {
-    const CoracleCoupling *coupling = f->coupling + k;
+  int n = 0, nentries;
+  const CoracleCoupling *entry = SolidCouplingEntries(f->solid, &nentries);
+  for (int k = 0; k < nentries; k++) {
+    const CoracleCoupling *coupling = entry + k;
     double u[2];
     if (!(coupling->shell > 0.0)) continue;
     SolidVelocity(coupling, u);
     for (int c = 0; c < 2; c++) {
       double x = 0.0;
-      for (int i = 0; i < 3; i++) x += ElementVertex(f->mesh, coupling->element, i)[c] / 3.0;
+      for (int i = 0; i < 3; i++) x += ElementVertex(f->domain.mesh, coupling->element, i)[c] / 3.0;
       sweep[n].from[c] = x;
       sweep[n].to[c] = x + ahead * u[c];
     }
@@ -58,12 +61,14 @@ static int LocalSweeps(Fluid f, double ahead, Sweep sweep[])
 /* The surface of all ranks; *all is allocated. */
 static PetscErrorCode Sweeps(Fluid f, double ahead, int *n, Sweep **all)
 {
-  MPI_Comm comm = f->mesh->comm;
+  MPI_Comm comm = f->domain.mesh->comm;
   PetscMPIInt size, mine, *count, *first;
   Sweep *local;
+  int nentries;
   PetscFunctionBeginUser;
+  (void)SolidCouplingEntries(f->solid, &nentries);
   PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCall(PetscMalloc3(f->ncoupling, &local, size, &count, size + 1, &first));
+  PetscCall(PetscMalloc3(nentries, &local, size, &count, size + 1, &first));
   mine = 4 * LocalSweeps(f, ahead, local);
   PetscCallMPI(MPI_Allgather(&mine, 1, MPI_INT, count, 1, MPI_INT, comm));
   first[0] = 0;
@@ -101,7 +106,7 @@ PetscErrorCode SolidBandSizes(Fluid f, const SolidBand *b, int nv, double size[]
     }
   PetscCheck(!SearchCreate(n, box, &search), PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory for the surface");
   for (int v = 0; v < nv; v++) {
-    const double *x = f->mesh->x + 2 * v;
+    const double *x = f->domain.mesh->x + 2 * v;
     const GeometryBox point = {{x[0], x[1]}, {x[0], x[1]}};
     const int *hit, nhit = SearchQuery(search, &point, &hit);
     size[v] = b->size_max;

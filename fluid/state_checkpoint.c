@@ -21,14 +21,14 @@ static PetscErrorCode LoadVelocity(Fluid f, const PetscInt row[], Checkpoint fro
   PetscScalar *u;
   PetscFunctionBeginUser;
   PetscCall(VecGetArrayWrite(velocity, &u));
-  PetscCall(MeshLoadDoubles(f->mesh, row, from, name, 6, u));
+  PetscCall(MeshLoadDoubles(f->domain.mesh, row, from, name, 6, u));
   PetscCall(VecRestoreArrayWrite(velocity, &u));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode SavePressure(Fluid f, Checkpoint to)
 {
-  const Mesh *m = f->mesh;
+  const Mesh *m = f->domain.mesh;
   const double *p = FluidPressure(f);
   double *nodes;
   PetscFunctionBeginUser;
@@ -42,7 +42,7 @@ static PetscErrorCode SavePressure(Fluid f, Checkpoint to)
 /* Elements of this rank have all of its nodes, also those of other ranks. */
 static PetscErrorCode LoadPressure(Fluid f, const PetscInt row[], Checkpoint from)
 {
-  const Mesh *m = f->mesh;
+  const Mesh *m = f->domain.mesh;
   double *nodes;
   PetscScalar *p;
   Vec local;
@@ -63,20 +63,20 @@ PetscErrorCode FluidSave(Fluid f, Checkpoint to)
   PetscFunctionBeginUser;
   PetscCall(CheckpointPutNumber(to, "time", f->t));
   PetscCall(CheckpointPutNumber(to, "previous step", f->dt_previous));
-  PetscCall(SaveVelocity(f->u, f->mesh->ne, "velocity", to));
-  PetscCall(SaveVelocity(f->u_previous, f->mesh->ne, "previous velocity", to));
+  PetscCall(SaveVelocity(f->u, f->domain.mesh->ne, "velocity", to));
+  PetscCall(SaveVelocity(f->u_previous, f->domain.mesh->ne, "previous velocity", to));
   PetscCall(SavePressure(f, to));
   PetscCall(CheckpointPutDoubles(to, "seconds", 1, PHASES, f->stats.seconds));
   PetscFunctionReturn(0);
 }
 
-/* Each rank goes on with its own, those that there were not with the last one's. */
+/* Each rank resumes its own; ranks that the saved run did not have take those of its last one. */
 static PetscErrorCode LoadSeconds(Fluid f, Checkpoint from)
 {
   long long ranks;
   PetscMPIInt rank;
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(f->mesh->comm, &rank));
+  PetscCallMPI(MPI_Comm_rank(f->domain.mesh->comm, &rank));
   PetscCall(CheckpointRows(from, "seconds", &ranks));
   PetscCall(CheckpointGetDoubles(from, "seconds", PetscMin(rank, ranks - 1), 1, PHASES, f->stats.seconds));
   PetscFunctionReturn(0);
@@ -91,7 +91,7 @@ PetscErrorCode FluidLoad(Fluid f, const PetscInt row[], Checkpoint from)
   PetscCall(LoadVelocity(f, row, from, "previous velocity", f->u_previous));
   PetscCall(LoadPressure(f, row, from));
   PetscCall(LoadSeconds(f, from));
-  PetscCall(VecCopy(f->u, f->u_next)); /* of which the next step is proposed */
+  PetscCall(VecCopy(f->u, f->u_projected)); /* of which the next step is proposed */
   f->stats.t = f->t;
   PetscFunctionReturn(0);
 }

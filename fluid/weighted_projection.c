@@ -1,43 +1,61 @@
-/* Solids that give way within the projection (coracle.h: give): on their elements the pressure moves fluid and
- * solid together, u+ = u* - dt W^-1 M grad phi with W = rho M/dt + give, and the pressure's matrix is
- * C^T M W^-1 M C/dt there.  It changes with every step, but little: CG with the factor of a few steps ago. */
-#include "fluid/fluid_impl.h"
+#include "fluid/weighted_projection.h"
+#include "fluid/solver_options.h"
 
 #define ITERATIONS_MAX 8 /* with an old factor, before it is made anew */
 enum { NU = 6 };         /* velocity unknowns of an element: component, then vertex */
 
-static PetscErrorCode Create(Fluid f)
+struct WeightedProjection_s {
+  const FluidDomain *domain; /* borrowed */
+  SolidCoupling solid;       /* borrowed: of the current step */
+  Mat matrix, factored;      /* now, and when it was factored last */
+  KSP ksp;
+  int iterations;             /* of the last solve */
+  double (*response)[NU][NU]; /* [entries of solid] W^-1 M */
+};
+
+PetscErrorCode WeightedProjectionCreate(const FluidDomain *domain, WeightedProjection *w)
 {
   PetscFunctionBeginUser;
-  PetscCall(PressureSolver(f, "pressure_giving_", KSPCG, &f->giving_ksp));
-  PetscCall(KSPSetTolerances(f->giving_ksp, 1e-7, 1e-50, 1e5, 500));
-  PetscCall(KSPSetFromOptions(f->giving_ksp));
-  PetscCall(MatDuplicate(f->laplacian, MAT_COPY_VALUES, &f->giving));
-  PetscCall(MatSetOption(f->giving, MAT_SPD, PETSC_TRUE));
-  f->giving_iterations = ITERATIONS_MAX + 1;
+  PetscCall(PetscNew(w));
+  (*w)->domain = domain;
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode WeightedProjectionDestroy(Fluid f)
+/* When implicit inertia appears for the first time. */
+static PetscErrorCode CreateSolver(WeightedProjection w, Mat laplacian)
 {
   PetscFunctionBeginUser;
-  PetscCall(KSPDestroy(&f->giving_ksp));
-  PetscCall(MatDestroy(&f->giving));
-  PetscCall(MatDestroy(&f->giving_factored));
-  PetscCall(PetscFree(f->response));
+  PetscCall(SolverCreateDirect(w->domain->mesh->comm, "pressure_weighted_", KSPCG, &w->ksp));
+  PetscCall(KSPSetTolerances(w->ksp, 1e-7, 1e-50, 1e5, 500));
+  PetscCall(KSPSetFromOptions(w->ksp));
+  PetscCall(MatDuplicate(laplacian, MAT_COPY_VALUES, &w->matrix));
+  PetscCall(MatSetOption(w->matrix, MAT_SPD, PETSC_TRUE));
+  w->iterations = ITERATIONS_MAX + 1;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode WeightedProjectionDestroy(WeightedProjection *w)
+{
+  PetscFunctionBeginUser;
+  if (!*w) PetscFunctionReturn(0);
+  PetscCall(KSPDestroy(&(*w)->ksp));
+  PetscCall(MatDestroy(&(*w)->matrix));
+  PetscCall(MatDestroy(&(*w)->factored));
+  PetscCall(PetscFree((*w)->response));
+  PetscCall(PetscFree(*w));
   PetscFunctionReturn(0);
 }
 
 /* Factors the matrix as it is now, if the last factor has become a bad preconditioner. */
-static PetscErrorCode Refactor(Fluid f)
+static PetscErrorCode Refactor(WeightedProjection w)
 {
   PetscFunctionBeginUser;
-  if (f->giving_iterations > ITERATIONS_MAX) {
-    if (!f->giving_factored) PetscCall(MatDuplicate(f->giving, MAT_COPY_VALUES, &f->giving_factored));
-    PetscCall(MatCopy(f->giving, f->giving_factored, SAME_NONZERO_PATTERN));
-    PetscCall(MatSetOption(f->giving_factored, MAT_SPD, PETSC_TRUE));
+  if (w->iterations > ITERATIONS_MAX) {
+    if (!w->factored) PetscCall(MatDuplicate(w->matrix, MAT_COPY_VALUES, &w->factored));
+    PetscCall(MatCopy(w->matrix, w->factored, SAME_NONZERO_PATTERN));
+    PetscCall(MatSetOption(w->factored, MAT_SPD, PETSC_TRUE));
   }
-  PetscCall(KSPSetOperators(f->giving_ksp, f->giving, f->giving_factored));
+  PetscCall(KSPSetOperators(w->ksp, w->matrix, w->factored));
   PetscFunctionReturn(0);
 }
 
@@ -87,14 +105,15 @@ static PetscErrorCode Response(double area, double rho_dt, const double give[2][
   for (int i = 0; i < NU; i++)
     for (int j = 0; j < NU; j++) w[i][j] = rho_dt * response[i][j] + give[i / 3][i % 3][j / 3][j % 3];
   PetscCheck(Factor(w), PETSC_COMM_SELF, PETSC_ERR_NOT_CONVERGED,
-             "the inertia of a solid that gives way is not positive on a fluid element");
+             "the implicit inertia of the solid is not positive on a fluid element");
   SolveColumns((const double(*)[NU])w, response);
   PetscFunctionReturn(0);
 }
 
-/* change[q][r] = int of grad N_q . (M W^-1 M/dt - M/rho) grad N_r over the P2 basis */
-static void Change(const ElementGeometry *g, double rho, double dt, const double response[NU][NU],
-                   double change[6][6])
+/* What implicit inertia changes in the pressure's matrix:
+ * change[q][r] = int of grad N_q . (M W^-1 M/dt - M/rho) grad N_r over the P2 basis */
+static void MatrixChange(const ElementGeometry *g, double rho, double dt, const double response[NU][NU],
+                         double change[6][6])
 {
   double m[NU][NU], d[NU][NU], grad[6][NU];
   MassMatrix(g->area, m);
@@ -117,53 +136,66 @@ static void Change(const ElementGeometry *g, double rho, double dt, const double
     }
 }
 
-static PetscBool Gives(const CoracleCoupling *k)
+static PetscBool IsWeighted(const CoracleCoupling *k)
 {
   return (PetscBool)(k->give[0][0][0][0] != 0.0);
 }
 
-static PetscErrorCode AddElement(Fluid f, double dt, int k)
+static PetscErrorCode AddElement(WeightedProjection w, const WeightedProjectionStep *s, int k,
+                                 const CoracleCoupling *coupling)
 {
-  const Mesh *m = f->mesh;
-  const int e = f->coupling[k].element;
+  const Mesh *m = w->domain->mesh;
+  const int e = coupling->element;
+  const ElementGeometry *g = w->domain->geometry + e;
   double change[6][6];
   PetscInt gid[6];
   PetscFunctionBeginUser;
-  PetscCall(Response(f->geometry[e].area, f->rho[e] / dt, f->coupling[k].give, f->response[k]));
-  Change(f->geometry + e, f->rho[e], dt, (const double(*)[NU])f->response[k], change);
+  PetscCall(Response(g->area, s->rho[e] / s->dt, coupling->give, w->response[k]));
+  MatrixChange(g, s->rho[e], s->dt, (const double(*)[NU])w->response[k], change);
   for (int i = 0; i < 6; i++) {
     const int p = m->p2[6 * e + i];
-    gid[i] = f->is_fixed[p] ? -1 : m->p2gid[p];
+    gid[i] = s->is_fixed[p] ? -1 : m->p2gid[p];
   }
-  PetscCall(MatSetValues(f->giving, 6, gid, 6, gid, &change[0][0], ADD_VALUES));
+  PetscCall(MatSetValues(w->matrix, 6, gid, 6, gid, &change[0][0], ADD_VALUES));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode WeightedProjectionPrepare(Fluid f, double dt)
+PetscErrorCode WeightedProjectionPrepare(WeightedProjection w, const WeightedProjectionStep *s,
+                                         PetscBool *active)
 {
-  int gives = 0;
+  int n, any = 0;
+  const CoracleCoupling *entry = SolidCouplingEntries(s->solid, &n);
   PetscFunctionBeginUser;
-  for (int k = 0; k < f->ncoupling; k++) gives |= Gives(f->coupling + k);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &gives, 1, MPI_INT, MPI_LOR, f->mesh->comm));
-  f->gives = (PetscBool)gives;
-  if (!gives) PetscFunctionReturn(0);
-  if (!f->giving) PetscCall(Create(f));
-  PetscCall(PetscFree(f->response));
-  PetscCall(PetscMalloc1(f->ncoupling, &f->response));
-  PetscCall(MatCopy(f->laplacian, f->giving, SAME_NONZERO_PATTERN));
-  for (int k = 0; k < f->ncoupling; k++)
-    if (Gives(f->coupling + k)) PetscCall(AddElement(f, dt, k));
-  PetscCall(MatAssemblyBegin(f->giving, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(f->giving, MAT_FINAL_ASSEMBLY));
-  PetscCall(Refactor(f));
+  for (int k = 0; k < n; k++) any |= IsWeighted(entry + k);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_LOR, w->domain->mesh->comm));
+  *active = (PetscBool)any;
+  if (!any) PetscFunctionReturn(0);
+  w->solid = s->solid;
+  if (!w->matrix) PetscCall(CreateSolver(w, s->laplacian));
+  PetscCall(PetscFree(w->response));
+  PetscCall(PetscMalloc1(n, &w->response));
+  PetscCall(MatCopy(s->laplacian, w->matrix, SAME_NONZERO_PATTERN));
+  for (int k = 0; k < n; k++)
+    if (IsWeighted(entry + k)) PetscCall(AddElement(w, s, k, entry + k));
+  PetscCall(MatAssemblyBegin(w->matrix, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(w->matrix, MAT_FINAL_ASSEMBLY));
+  PetscCall(Refactor(w));
   PetscFunctionReturn(0);
 }
 
-PetscBool WeightedProjectionVelocity(Fluid f, int e, const double grad[3][2], double u[6])
+PetscErrorCode WeightedProjectionSolve(WeightedProjection w, double t, Vec rhs, Vec phi, int *iterations)
 {
-  const int k = f->coupling_of[e];
-  if (!f->gives || k < 0 || !Gives(f->coupling + k)) return PETSC_FALSE;
+  PetscFunctionBeginUser;
+  PetscCall(SolverSolve(w->ksp, "pressure", t, rhs, phi, &w->iterations));
+  *iterations = w->iterations;
+  PetscFunctionReturn(0);
+}
+
+PetscBool WeightedProjectionVelocity(WeightedProjection w, int e, const double grad[3][2], double u[6])
+{
+  const int k = SolidCouplingIndex(w->solid, e);
+  if (k < 0 || !IsWeighted(SolidCouplingAt(w->solid, e))) return PETSC_FALSE;
   for (int i = 0; i < NU; i++)
-    for (int j = 0; j < NU; j++) u[i] -= f->response[k][i][j] * grad[j % 3][j / 3];
+    for (int j = 0; j < NU; j++) u[i] -= w->response[k][i][j] * grad[j % 3][j / 3];
   return PETSC_TRUE;
 }

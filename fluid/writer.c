@@ -66,7 +66,7 @@ static PetscErrorCode Snapshot(Writer r, Fluid f)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode WriterCreate(Case c, Fluid f, Checkpoint from, Writer *record)
+PetscErrorCode WriterCreate(Case c, Fluid f, Checkpoint from, Writer *writer)
 {
   const Mesh *m = FluidMesh(f);
   const char *folder = CaseString(c, "output.folder");
@@ -76,7 +76,7 @@ PetscErrorCode WriterCreate(Case c, Fluid f, Checkpoint from, Writer *record)
   PetscCall(OutputCreate(m->comm, folder, "fluid", CasePositive(c, "output.every"), from, &r->output));
   PetscCall(SeriesCreate(m->comm, folder, "fluid", COLUMNS, from, &r->series));
   if (!from) PetscCall(Snapshot(r, f));
-  *record = r;
+  *writer = r;
   PetscFunctionReturn(0);
 }
 

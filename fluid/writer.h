@@ -1,13 +1,13 @@
-/* What the fluid leaves behind: fluid.h5/.xdmf snapshots and the series fluid.csv. */
-#ifndef FLUID_RECORD_H
-#define FLUID_RECORD_H
+/* The output of the fluid: fluid.h5/.xdmf snapshots and the series fluid.csv. */
+#ifndef FLUID_WRITER_H
+#define FLUID_WRITER_H
 #include "common/link/case_file.h"
 #include "fluid/fluid.h"
 
 typedef struct Writer_s *Writer;
 
 /* Collective.  Reads output.folder and output.every of the case and writes the snapshot of the initial state;
- * with a checkpoint (else NULL) goes on with the files as they were at WriterSave. */
+ * with a checkpoint (else NULL) resumes the files as they were at WriterSave. */
 PetscErrorCode WriterCreate(Case c, Fluid fluid, Checkpoint from, Writer *r);
 /* Collective, between two steps. */
 PetscErrorCode WriterSave(Writer r, Checkpoint to);

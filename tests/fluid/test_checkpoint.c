@@ -1,5 +1,5 @@
 // ranks: 1 2 3
-/* A flow under a lid on a mesh that adapts, also to a solid that is faster and faster, goes on from
+/* A flow under a lid on a mesh that adapts, also to a solid that is faster and faster, resumes from
  * checkpoints as if nothing had happened: to the last bit where a run repeats itself, which PETSc's sums over
  * three ranks or more do not (they are made as messages arrive); to the solvers' tolerance on any ranks. */
 #include "common/mesh/mesh_checkpoint.h"

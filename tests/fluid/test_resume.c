@@ -1,5 +1,5 @@
 // ranks: 1 2 3
-/* The fluid's part of a case that goes on from a checkpoint: its keys are read and checked as ever, its files
+/* The fluid's part of a case that resumes from a checkpoint: its keys are read and checked as ever, its files
  * go on where they were, and a checkpoint of other boundaries is refused. */
 #include "common/mesh/mesh_checkpoint.h"
 #include "fluid/fluid_case.h"
@@ -38,14 +38,14 @@ static PetscErrorCode Read(Case c, FluidSetup *setup)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Save(Fluid fluid, Writer record)
+static PetscErrorCode Save(Fluid fluid, Writer writer)
 {
   Checkpoint to;
   PetscFunctionBeginUser;
   PetscCall(CheckpointCreate(PETSC_COMM_WORLD, folder, "fluid", &to));
   PetscCall(MeshSave(mesh, to));
   PetscCall(FluidSave(fluid, to));
-  PetscCall(WriterSave(record, to));
+  PetscCall(WriterSave(writer, to));
   PetscCall(CheckpointClose(&to));
   PetscFunctionReturn(0);
 }
@@ -55,7 +55,7 @@ static PetscErrorCode RunState(Case c)
 {
   FluidSetup setup;
   Fluid fluid;
-  Writer record;
+  Writer writer;
   PetscFunctionBeginUser;
   PetscCall(Read(c, &setup));
   PetscCall(FluidCreate(mesh, &setup, &fluid));
@@ -64,13 +64,13 @@ static PetscErrorCode RunState(Case c)
     PetscCall(FluidLoad(fluid, row, from));
   else
     PetscCall(FluidSetInitial(fluid, 0.0, NULL, NULL, NULL));
-  PetscCall(WriterCreate(c, fluid, from, &record));
+  PetscCall(WriterCreate(c, fluid, from, &writer));
   for (int step = from ? 3 : 0; step < 5; step++) {
-    if (step == 3 && !from) PetscCall(Save(fluid, record));
+    if (step == 3 && !from) PetscCall(Save(fluid, writer));
     PetscCall(FluidStep(fluid, 0.01));
-    PetscCall(WriterStep(record, fluid));
+    PetscCall(WriterStep(writer, fluid));
   }
-  PetscCall(WriterDestroy(&record));
+  PetscCall(WriterDestroy(&writer));
   PetscCall(FluidDestroy(&fluid));
   PetscFunctionReturn(0);
 }

@@ -1,0 +1,41 @@
+/* What the fluid's boundaries prescribe.  A boundary is a named part of the mesh's rim (mesh->tag_name); its
+ * condition enters the weak forms through three things only: the velocity that it prescribes, the directions
+ * in which it does so, and the pressure where it is open.  Velocities are imposed by Nitsche's method
+ * (kernels.h), pressures strongly (projection.h).
+ *
+ *   kind        velocity prescribed         traction               pressure
+ *   VELOCITY    u = g(x, t)                 -                      -
+ *   FREE_SLIP   u.n = 0                     (tau n).t = 0          -
+ *   OPEN        -                           tau n = 0              hydrostatic + `pressure` */
+#ifndef FLUID_BOUNDARY_H
+#define FLUID_BOUNDARY_H
+#include "common/mesh/mesh.h"
+#include <petscsys.h>
+
+/* v: value(s) at x, m, and t, s */
+typedef void (*FieldFunction)(void *context, double t, const double x[2], double v[]);
+
+typedef enum {
+  BOUNDARY_VELOCITY,  /* u = velocity (no slip where it is 0) */
+  BOUNDARY_FREE_SLIP, /* u.n = 0, no tangential traction */
+  BOUNDARY_OPEN       /* no viscous traction, hydrostatic pressure plus `pressure` */
+} BoundaryKind;
+
+typedef struct {
+  BoundaryKind kind;
+  double velocity[2];        /* m/s */
+  PetscBool parabolic;       /* velocity times 4 s (1 - s), s along the boundary's bounding box */
+  double lower[2], upper[2]; /* that box, m; set by BoundaryBoxes */
+  double rise;               /* s: until then velocity times (1 - cos(pi t/rise))/2; 0: at once */
+  double pressure;           /* where open: above hydrostatic, Pa */
+  FieldFunction function;    /* instead of velocity; NULL: none */
+  void *context;
+} Boundary;
+
+/* Sets the bounding boxes of boundary[mesh->ntags].  Collective over mesh->comm. */
+PetscErrorCode BoundaryBoxes(const Mesh *mesh, Boundary boundary[]);
+/* The velocity v, m/s, that a BOUNDARY_VELOCITY prescribes at x and t.  Not collective, like what follows. */
+void BoundaryVelocity(const Boundary *b, double t, const double x[2], double v[2]);
+/* project[c][d]: the directions in which a boundary with outward unit normal n prescribes the velocity: I, n n or 0. */
+void BoundaryProjection(const Boundary *b, const double n[2], double project[2][2]);
+#endif

@@ -1,0 +1,23 @@
+#include "fluid/domain.h"
+
+PetscErrorCode DomainCreate(const Mesh *m, const Boundary boundary[], FluidDomain *d)
+{
+  PetscFunctionBeginUser;
+  d->mesh = m;
+  PetscCall(PetscMalloc1(m->ntags, &d->boundary));
+  PetscCall(PetscArraycpy(d->boundary, boundary, m->ntags));
+  PetscCall(BoundaryBoxes(m, d->boundary));
+  PetscCall(PetscMalloc1(m->ne + m->ng, &d->geometry));
+  for (int e = 0; e < m->ne + m->ng; e++)
+    ElementGeometryCompute(ElementVertex(m, e, 0), ElementVertex(m, e, 1), ElementVertex(m, e, 2),
+                           d->geometry + e);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode DomainDestroy(FluidDomain *d)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscFree(d->geometry));
+  PetscCall(PetscFree(d->boundary));
+  PetscFunctionReturn(0);
+}

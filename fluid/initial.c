@@ -1,0 +1,95 @@
+/* The initial state of the fluid. */
+#include "fluid/fluid_impl.h"
+
+/* x of P2 node k of element e */
+static void P2NodePosition(const Mesh *m, int e, int k, double x[2])
+{
+  const double *a = ElementVertex(m, e, k < 3 ? k : (k + 1) % 3),
+               *b = ElementVertex(m, e, k < 3 ? k : (k + 2) % 3);
+  for (int c = 0; c < 2; c++) x[c] = 0.5 * (a[c] + b[c]);
+}
+
+/* p += the pressure above hydrostatic of open boundaries.  A node's owner need not have the boundary face: hence
+ * sum and count. */
+static PetscErrorCode AddOpenPressure(Fluid f)
+{
+  const Mesh *m = f->domain.mesh;
+  Vec both[2], local[2]; /* sum and count */
+  PetscScalar *v[2], *p;
+  PetscFunctionBeginUser;
+  for (int k = 0; k < 2; k++) {
+    PetscCall(VecDuplicate(f->p, &both[k]));
+    PetscCall(VecGhostGetLocalForm(both[k], &local[k]));
+    PetscCall(VecSet(local[k], 0.0));
+    PetscCall(VecGetArray(local[k], &v[k]));
+  }
+  for (int e = 0; e < m->ne; e++)
+    for (int i = 0; i < 3; i++) {
+      const Boundary *b = BoundaryOfFace(&f->domain, e, i);
+      const int node[3] = {(i + 1) % 3, (i + 2) % 3, 3 + i};
+      for (int k = 0; k < 3 && b && b->kind == BOUNDARY_OPEN; k++) {
+        v[0][m->p2[6 * e + node[k]]] += b->pressure;
+        v[1][m->p2[6 * e + node[k]]] += 1.0;
+      }
+    }
+  for (int k = 0; k < 2; k++) {
+    PetscCall(VecRestoreArray(local[k], &v[k]));
+    PetscCall(VecGhostRestoreLocalForm(both[k], &local[k]));
+    PetscCall(VecGhostUpdateBegin(both[k], ADD_VALUES, SCATTER_REVERSE));
+    PetscCall(VecGhostUpdateEnd(both[k], ADD_VALUES, SCATTER_REVERSE));
+    PetscCall(VecGetArray(both[k], &v[k]));
+  }
+  PetscCall(VecGetArray(f->p, &p));
+  for (int k = 0; k < m->np2_owned; k++) p[k] += v[1][k] > 0.0 ? v[0][k] / v[1][k] : 0.0;
+  PetscCall(VecRestoreArray(f->p, &p));
+  for (int k = 0; k < 2; k++) {
+    PetscCall(VecRestoreArray(both[k], &v[k]));
+    PetscCall(VecDestroy(&both[k]));
+  }
+  PetscCall(VecGhostUpdateBegin(f->p, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostUpdateEnd(f->p, INSERT_VALUES, SCATTER_FORWARD));
+  PetscFunctionReturn(0);
+}
+
+/* rho g.(x - top), Pa */
+static double HydrostaticPressure(const Mesh *m, double rho, const double g[2], const double x[2])
+{
+  double p = 0.0;
+  for (int c = 0; c < 2; c++) p += rho * g[c] * (x[c] - (g[c] > 0.0 ? m->lower[c] : m->upper[c]));
+  return p;
+}
+
+PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldFunction pressure,
+                               void *context)
+{
+  const Mesh *m = f->domain.mesh;
+  PetscScalar *u, *p;
+  Vec local;
+  PetscFunctionBeginUser;
+  f->t = t;
+  f->dt_previous = 0.0;
+  PetscCall(VecGetArray(f->u, &u));
+  for (int e = 0; e < m->ne; e++)
+    for (int i = 0; i < 3; i++) {
+      double v[2] = {0};
+      if (velocity) velocity(context, t, ElementVertex(m, e, i), v);
+      for (int c = 0; c < 2; c++) u[6 * e + 3 * c + i] = v[c];
+    }
+  PetscCall(VecRestoreArray(f->u, &u));
+  PetscCall(VecCopy(f->u, f->u_previous));
+  PetscCall(VecCopy(f->u, f->u_star));
+  PetscCall(VecCopy(f->u, f->u_projected));
+  PetscCall(VecGhostGetLocalForm(f->p, &local));
+  PetscCall(VecGetArray(local, &p));
+  for (int e = 0; e < m->ne; e++)
+    for (int k = 0; k < 6; k++) {
+      double x[2];
+      P2NodePosition(m, e, k, x);
+      p[m->p2[6 * e + k]] = HydrostaticPressure(m, f->setup.rho, f->setup.gravity, x);
+      if (pressure) pressure(context, t, x, p + m->p2[6 * e + k]);
+    }
+  PetscCall(VecRestoreArray(local, &p));
+  PetscCall(VecGhostRestoreLocalForm(f->p, &local));
+  if (!pressure) PetscCall(AddOpenPressure(f));
+  PetscFunctionReturn(0);
+}

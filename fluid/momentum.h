@@ -1,0 +1,45 @@
+/* The momentum equation of one step, for u*:
+ *
+ *   [rho M/dt + theta L + a] u* = [rho M/dt - (1 - theta) L] u^n + M (rho g - grad p + source) + s
+ *
+ * L is upwind advection by a mass flux and the viscous stress (kernels.h); a and s are the solid's coupling.
+ * Assembled in one pass over the elements, solved by GMRES (prefix momentum_). */
+#ifndef FLUID_MOMENTUM_H
+#define FLUID_MOMENTUM_H
+#include "fluid/domain.h"
+#include "fluid/solid_coupling.h"
+#include <petscksp.h>
+
+typedef struct MomentumSolver_s *MomentumSolver;
+
+/* What stays from step to step. */
+typedef struct {
+  double theta;         /* 0.5 Crank-Nicolson .. 1 backward Euler */
+  double gravity[2];    /* m/s2 */
+  FieldFunction source; /* body force per volume, N/m3, or NULL */
+  void *source_context;
+} MomentumSetup;
+
+/* One step.  Vectors have a block [2][3] an element (component, vertex) and ghosts; those of mass_flux and p are up to date. */
+typedef struct {
+  double t, dt;      /* from t to t + dt, s */
+  const double *rho; /* [ne + ng] density of inertia and weight, kg/m3 */
+  const double *mu;  /* [ne + ng] Pa s */
+  Vec mass_flux;     /* m = rho beta at t + theta dt, kg/(m2 s); on a face the mean of its two sides counts */
+  Vec u, p;          /* u^n, m/s; pressure on P2 nodes, Pa */
+  SolidCoupling solid;
+} MomentumStep;
+
+typedef struct {
+  int iterations;
+  double seconds_assembly, seconds_solve;
+} MomentumReport;
+
+/* like: a vector of the velocity; domain is borrowed.  Collective, like all of this. */
+PetscErrorCode MomentumSolverCreate(const FluidDomain *domain, const MomentumSetup *setup, Vec like,
+                                    MomentumSolver *s);
+PetscErrorCode MomentumSolverDestroy(MomentumSolver *s);
+/* u_star: the first guess in, the solution out. */
+PetscErrorCode MomentumSolverSolve(MomentumSolver s, const MomentumStep *step, Vec u_star,
+                                   MomentumReport *report);
+#endif

@@ -1,0 +1,36 @@
+/* The projection of a velocity on those whose bulk velocity is free of divergence.  For all q in P2, phi in P2
+ * with phi = 0 on open boundaries (in one node, if there are none):
+ *
+ *   int dt/rho grad phi.grad q = int u_hat*.grad q - <q, g.n>,     u_projected = u* - dt/rho grad phi
+ *
+ * grad(P2) lies in P1DG, so the second is exact and the matrix of the first is C^T M^-1 C itself.
+ * u_hat* = u* + M^-1 (us - ms u*): inside the solid the flow that must be free of divergence is the solid's.
+ * Where the solid has implicit inertia weighted_projection.h replaces dt/rho.
+ *
+ * The matrix is factored once, and again when the density's revision changes (material.h). */
+#ifndef FLUID_PROJECTION_H
+#define FLUID_PROJECTION_H
+#include "fluid/domain.h"
+#include "fluid/solid_coupling.h"
+#include <petscksp.h>
+
+typedef struct ProjectionSolver_s *ProjectionSolver;
+
+typedef struct {
+  double t, dt;        /* of the boundaries' velocity, s; the step, s */
+  const double *rho;   /* [ne], kg/m3 */
+  int revision;        /* of rho */
+  SolidCoupling solid; /* borrowed until ProjectionSubtract */
+  PetscBool inertia;   /* whether the solid's implicit inertia takes part */
+} ProjectionStep;
+
+/* like: a ghosted vector of the P2 nodes; domain is borrowed.  Collective, like all of this. */
+PetscErrorCode ProjectionSolverCreate(const FluidDomain *domain, Vec like, const double rho[],
+                                      ProjectionSolver *s);
+PetscErrorCode ProjectionSolverDestroy(ProjectionSolver *s);
+/* phi (borrowed, Pa, ghosts up to date) for the velocity u* (blocks [2][3] an element). */
+PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *step, Vec velocity, Vec *phi,
+                                     int *iterations);
+/* velocity -= dt/rho grad phi (or the response of the solid's inertia), phi being that of the last solve. */
+PetscErrorCode ProjectionSolverSubtract(ProjectionSolver s, const ProjectionStep *step, Vec velocity);
+#endif

@@ -1,0 +1,86 @@
+#include "fluid/solid_coupling.h"
+
+struct SolidCoupling_s {
+  int n, capacity;
+  CoracleCoupling *entry; /* [n] */
+  int *index;             /* [ne] of the element's entry, or -1 */
+  double *alpha;          /* [ne] */
+};
+
+PetscErrorCode SolidCouplingCreate(int ne, SolidCoupling *coupling)
+{
+  SolidCoupling s;
+  PetscFunctionBeginUser;
+  PetscCall(PetscNew(&s));
+  PetscCall(PetscMalloc1(ne, &s->index));
+  PetscCall(PetscCalloc1(ne, &s->alpha));
+  for (int e = 0; e < ne; e++) s->index[e] = -1;
+  *coupling = s;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SolidCouplingDestroy(SolidCoupling *s)
+{
+  PetscFunctionBeginUser;
+  if (!*s) PetscFunctionReturn(0);
+  PetscCall(PetscFree((*s)->entry));
+  PetscCall(PetscFree((*s)->index));
+  PetscCall(PetscFree((*s)->alpha));
+  PetscCall(PetscFree(*s));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SolidCouplingSet(SolidCoupling s, int n, const CoracleCoupling entry[])
+{
+  PetscFunctionBeginUser;
+  for (int k = 0; k < s->n; k++) {
+    s->index[s->entry[k].element] = -1;
+    s->alpha[s->entry[k].element] = 0.0;
+  }
+  if (n > s->capacity) {
+    s->capacity = n + n / 4;
+    PetscCall(PetscFree(s->entry));
+    PetscCall(PetscMalloc1(s->capacity, &s->entry));
+  }
+  if (n > 0) PetscCall(PetscArraycpy(s->entry, entry, n));
+  s->n = n;
+  for (int k = 0; k < n; k++) {
+    s->index[entry[k].element] = k;
+    s->alpha[entry[k].element] = entry[k].alpha;
+  }
+  PetscFunctionReturn(0);
+}
+
+const CoracleCoupling *SolidCouplingEntries(SolidCoupling s, int *n)
+{
+  *n = s->n;
+  return s->entry;
+}
+
+int SolidCouplingIndex(SolidCoupling s, int e)
+{
+  return s->index[e];
+}
+
+const CoracleCoupling *SolidCouplingAt(SolidCoupling s, int e)
+{
+  return s->index[e] < 0 ? NULL : s->entry + s->index[e];
+}
+
+const double *SolidCouplingFraction(SolidCoupling s)
+{
+  return s->alpha;
+}
+
+void SolidCouplingCorrect(SolidCoupling s, const ElementGeometry geometry[],
+                          const CoracleCorrection correction[], double u[])
+{
+  for (int k = 0; k < s->n; k++) {
+    const int e = s->entry[k].element;
+    for (int c = 0; c < 2; c++) {
+      double du[3];
+      P1MassSolve(geometry[e].area, correction[k].r[c], du);
+      for (int i = 0; i < 3; i++) u[6 * e + 3 * c + i] += du[i];
+    }
+  }
+}

@@ -1,0 +1,34 @@
+/* The inertia-weighted projection: on elements with a solid's implicit inertia (coracle.h) the pressure moves
+ * fluid and solid together,
+ *
+ *     u_projected = u* - dt W^-1 M grad phi,   W = rho M/dt + implicit inertia   (6 x 6, element by element)
+ *
+ * and the pressure's matrix is C^T M W^-1 M C/dt there instead of C^T M C/rho.  It changes with every step, but little:
+ * CG, preconditioned by the factor of a few steps ago. */
+#ifndef FLUID_WEIGHTED_PROJECTION_H
+#define FLUID_WEIGHTED_PROJECTION_H
+#include "fluid/domain.h"
+#include "fluid/solid_coupling.h"
+#include <petscksp.h>
+
+typedef struct WeightedProjection_s *WeightedProjection;
+
+typedef struct {
+  double dt;            /* s */
+  const double *rho;    /* [ne], kg/m3 */
+  SolidCoupling solid;  /* borrowed until the next Prepare */
+  Mat laplacian;        /* of the fluid alone, with the rows of fixed nodes */
+  const char *is_fixed; /* [np2] */
+} WeightedProjectionStep;
+
+PetscErrorCode WeightedProjectionCreate(const FluidDomain *domain, WeightedProjection *w);
+PetscErrorCode WeightedProjectionDestroy(WeightedProjection *w);
+/* Matrix and responses of the current step; *active: some element of any rank has implicit inertia.
+ * Collective. */
+PetscErrorCode WeightedProjectionPrepare(WeightedProjection w, const WeightedProjectionStep *step,
+                                         PetscBool *active);
+/* phi for the divergence rhs, t for messages.  Collective. */
+PetscErrorCode WeightedProjectionSolve(WeightedProjection w, double t, Vec rhs, Vec phi, int *iterations);
+/* u[2][3] of element e -= its response to grad phi; false where it has no implicit inertia.  Not collective. */
+PetscBool WeightedProjectionVelocity(WeightedProjection w, int e, const double grad[3][2], double u[6]);
+#endif
