@@ -1,7 +1,6 @@
 /* The owner of a vertex (as a P2 node) keeps its whole star.  Ranks send it the elements that they own around
  * it; then each rank asks for the stars of its vertices, ring by ring. */
 #include "fluid/phases/stars.h"
-#include "common/mesh/mesh_route.h"
 #include "common/mesh/mesh_table.h"
 #include <string.h>
 
@@ -75,15 +74,19 @@ static StarElement OwnElement(const Gathering *s, int e)
 }
 
 /* Elements go to the owners of their vertices. */
+/* An element of the star of a node, on its way to the node's owner. */
+typedef struct {
+  PetscInt node;
+  StarElement element;
+} StarRecord;
+
 static PetscErrorCode FillPool(Gathering *s)
 {
   const int n = 3 * s->mesh->ne;
-  int *to, *slot, m = 0;
-  StarElement *found, *out, *in;
-  PetscInt *node_out, *node_in, *node;
-  MeshRoute route;
+  int *to, m = 0, narrived;
+  StarRecord *out, *in;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc6(n, &to, n, &slot, n, &found, n, &out, n, &node, n, &node_out));
+  PetscCall(PetscMalloc2(n, &to, n, &out));
   for (int e = 0; e < s->mesh->ne; e++) {
     const StarElement element = OwnElement(s, e);
     for (int i = 0; i < 3; i++) {
@@ -93,23 +96,13 @@ static PetscErrorCode FillPool(Gathering *s)
         continue;
       }
       to[m] = owner;
-      node[m] = element.vertex[i];
-      found[m++] = element;
+      out[m++] = (StarRecord){element.vertex[i], element};
     }
   }
-  PetscCall(MeshRouteCreate(s->mesh->comm, m, to, slot, &route));
-  for (int k = 0; k < m; k++) {
-    out[slot[k]] = found[k];
-    node_out[slot[k]] = node[k];
-  }
-  const int arrived = route.in_start[route.size];
-  PetscCall(PetscMalloc2(arrived, &in, arrived, &node_in));
-  PetscCall(MeshRouteSend(&route, sizeof *out, out, in));
-  PetscCall(MeshRouteSend(&route, sizeof *node_out, node_out, node_in));
-  for (int k = 0; k < arrived; k++) PetscCall(AddToPool(s, node_in[k], &in[k]));
-  PetscCall(MeshRouteDestroy(&route));
-  PetscCall(PetscFree2(in, node_in));
-  PetscCall(PetscFree6(to, slot, found, out, node, node_out));
+  PetscCall(ScatterRecords(s->mesh->comm, m, to, sizeof *out, out, &narrived, (void **)&in));
+  for (int k = 0; k < narrived; k++) PetscCall(AddToPool(s, in[k].node, &in[k].element));
+  PetscCall(PetscFree(in));
+  PetscCall(PetscFree2(to, out));
   PetscFunctionReturn(0);
 }
 
@@ -131,32 +124,27 @@ static PetscErrorCode AddLocal(Gathering *s, const StarElement *element)
 }
 
 /* The stars of nodes that were asked for go to those who asked. */
-static PetscErrorCode Answer(Gathering *s, const MeshRoute *asked, const PetscInt node[])
+static PetscErrorCode Answer(Gathering *s, const ScatterRanks *asking, const PetscInt node[])
 {
   const PetscInt before = s->p2start[s->rank];
-  int n = 0, *to;
+  int n = 0, narrived, *to;
   StarElement *out, *in;
-  MeshRoute route;
   PetscFunctionBeginUser;
-  for (int k = 0; k < asked->in_start[asked->size]; k++) {
+  for (int k = 0; k < asking->start[asking->n]; k++) {
     for (int p = s->first[node[k] - before]; p >= 0; p = s->pool.next[p]) n++;
   }
   PetscCall(PetscMalloc2(n, &to, n, &out));
   n = 0;
-  for (int r = 0; r < asked->size; r++) {
-    for (int k = asked->in_start[r]; k < asked->in_start[r + 1]; k++) {
+  for (int r = 0; r < asking->n; r++) {
+    for (int k = asking->start[r]; k < asking->start[r + 1]; k++) {
       for (int p = s->first[node[k] - before]; p >= 0; p = s->pool.next[p]) {
-        to[n] = r;
+        to[n] = asking->rank[r];
         out[n++] = s->pool.element[p];
       }
     }
   }
-  PetscCall(MeshRouteCreate(s->mesh->comm, n, to, NULL, &route));
-  const int arrived = route.in_start[route.size];
-  PetscCall(PetscMalloc1(arrived, &in));
-  PetscCall(MeshRouteSend(&route, sizeof *out, out, in));
-  for (int k = 0; k < arrived; k++) PetscCall(AddLocal(s, &in[k]));
-  PetscCall(MeshRouteDestroy(&route));
+  PetscCall(ScatterRecords(s->mesh->comm, n, to, sizeof *out, out, &narrived, (void **)&in));
+  for (int k = 0; k < narrived; k++) PetscCall(AddLocal(s, &in[k]));
   PetscCall(PetscFree(in));
   PetscCall(PetscFree2(to, out));
   PetscFunctionReturn(0);
@@ -165,31 +153,32 @@ static PetscErrorCode Answer(Gathering *s, const MeshRoute *asked, const PetscIn
 /* The stars of all vertices of elements begin .. nl - 1. */
 static PetscErrorCode AddRing(Gathering *s, int begin)
 {
-  const int end = s->nl, most = 3 * (end - begin);
-  int *to, *slot, n = 0;
-  PetscInt *node, *out, *in;
-  MeshTable seen;
-  MeshRoute route;
+  const int end = s->nl, max = 3 * (end - begin);
+  const ScatterRanks *asking;
+  int *to, n = 0;
+  PetscInt *node, *asked;
+  MeshTable known;
+  Scatter scatter;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc4(most, &to, most, &slot, most, &node, most, &out));
-  PetscCall(MeshTableCreate(&seen, (size_t)most));
+  PetscCall(PetscMalloc2(max, &to, max, &node));
+  PetscCall(MeshTableCreate(&known, (size_t)max));
   for (int k = 3 * begin; k < 3 * end; k++) {
     const PetscInt v = s->local[k / 3].vertex[k % 3];
-    int *at = MeshTableAt(&seen, 0, (int)v);
+    int *at = MeshTableAt(&known, 0, (int)v);
     if (*at >= 0) continue;
     *at = 0;
     to[n] = OwnerOf(s, v);
     node[n++] = v;
   }
-  PetscCall(MeshTableDestroy(&seen));
-  PetscCall(MeshRouteCreate(s->mesh->comm, n, to, slot, &route));
-  for (int k = 0; k < n; k++) out[slot[k]] = node[k];
-  PetscCall(PetscMalloc1(route.in_start[route.size], &in));
-  PetscCall(MeshRouteSend(&route, sizeof *out, out, in));
-  PetscCall(Answer(s, &route, in));
-  PetscCall(MeshRouteDestroy(&route));
-  PetscCall(PetscFree(in));
-  PetscCall(PetscFree4(to, slot, node, out));
+  PetscCall(MeshTableDestroy(&known));
+  PetscCall(ScatterCreate(s->mesh->comm, n, to, NULL, &scatter));
+  PetscCall(PetscMalloc1(ScatterArriving(scatter), &asked));
+  PetscCall(ScatterForward(scatter, sizeof *node, node, asked));
+  PetscCall(ScatterGetSources(scatter, &asking));
+  PetscCall(Answer(s, asking, asked));
+  PetscCall(ScatterDestroy(&scatter));
+  PetscCall(PetscFree(asked));
+  PetscCall(PetscFree2(to, node));
   PetscFunctionReturn(0);
 }
 
@@ -305,23 +294,25 @@ static PetscErrorCode MakeRoute(Stars *s)
 {
   const MPI_Comm comm = s->mesh->comm;
   const int n = s->nl - s->ne;
+  const ScatterRanks *asking;
   int *to, *wanted, *asked, *rank;
-  MeshRoute ask;
+  Scatter ask;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2(n, &to, n, &wanted));
   for (int k = 0; k < n; k++) {
     to[k] = s->element[s->ne + k].rank;
     wanted[k] = s->element[s->ne + k].local;
   }
-  PetscCall(MeshRouteCreate(comm, n, to, NULL, &ask));
-  const int arrived = ask.in_start[ask.size];
-  PetscCall(PetscMalloc2(arrived, &asked, arrived, &rank));
-  PetscCall(MeshRouteSend(&ask, sizeof *wanted, wanted, asked));
-  for (int r = 0; r < ask.size; r++) {
-    for (int k = ask.in_start[r]; k < ask.in_start[r + 1]; k++) rank[k] = r;
+  PetscCall(ScatterCreate(comm, n, to, NULL, &ask));
+  const int narrived = ScatterArriving(ask);
+  PetscCall(PetscMalloc2(narrived, &asked, narrived, &rank));
+  PetscCall(ScatterForward(ask, sizeof *wanted, wanted, asked));
+  PetscCall(ScatterGetSources(ask, &asking));
+  for (int r = 0; r < asking->n; r++) {
+    for (int k = asking->start[r]; k < asking->start[r + 1]; k++) rank[k] = asking->rank[r];
   }
-  PetscCall(ScatterCreate(comm, arrived, rank, asked, &s->route));
-  PetscCall(MeshRouteDestroy(&ask));
+  PetscCall(ScatterCreate(comm, narrived, rank, asked, &s->route));
+  PetscCall(ScatterDestroy(&ask));
   PetscCall(PetscFree2(asked, rank));
   PetscCall(PetscFree2(to, wanted));
   PetscFunctionReturn(0);
