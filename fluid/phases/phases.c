@@ -111,6 +111,25 @@ PetscErrorCode PhasesGetPolygon(Phases f, int e, int p, Polygon *polygon)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PhasesGetInertia(Phases f, int e, const double rho[], int ridges, Inertia *inertia)
+{
+  const double(*x)[2] = (const double(*)[2])f->stars->element[e].x;
+  Polygon part;
+  PetscFunctionBeginUser;
+  InertiaBegin(x, inertia);
+  for (int p = 0; p < f->np; p++) {
+    PhasesPart(f, e, p, x[0], &part);
+    InertiaAdd(&part, rho[p], inertia);
+  }
+  for (int p = 0; p + 1 < f->np && ridges && f->single[e] < 0; p++) {
+    const HalfPlane h = PhasesLine(f, e, p, x[0]);
+    if (!IsTrivial(&h)) InertiaRidge(&h, inertia);
+  }
+  PetscCheck(!InertiaCondense(inertia), PETSC_COMM_SELF, PETSC_ERR_NOT_CONVERGED,
+             "the element at (%g, %g) has no positive mass", x[0][0], x[0][1]);
+  PetscFunctionReturn(0);
+}
+
 void PhasesSplitBy(int np, int single, const HalfPlane line[], const double x0[2], const Polygon *polygon,
                    const double origin[2], double weight, double area[])
 {

@@ -14,6 +14,7 @@
 #ifndef CORACLE_PHASES_H
 #define CORACLE_PHASES_H
 #include "common/transfer/transfer.h"
+#include "fluid/phases/inertia.h"
 #include "fluid/phases/plic.h"
 #include "fluid/phases/stars.h"
 
@@ -36,6 +37,10 @@ PetscErrorCode PhasesReconstruct(Phases phases);
 PetscErrorCode PhasesGetPolygon(Phases phases, int e, int p, Polygon *polygon);
 /* Not collective.  The single phase of owned element e, -1 if it is cut. */
 int PhasesSingle(Phases phases, int e);
+
+/* Not collective.  The inertia of owned element e with phases of density rho[nphases], kg/m3, and its ridges, one for
+ * each line (`ridges` 0: none), condensed. */
+PetscErrorCode PhasesGetInertia(Phases phases, int e, const double rho[], int ridges, Inertia *inertia);
 
 /* What flows in where nothing is known: outside of open boundaries. */
 typedef struct {
