@@ -1,20 +1,22 @@
 /* Inertia and pressure of an element that an interface cuts.  Kernel: no mesh, no MPI.
  *
  * Sub-cell mass matrix W = int rho N_i N_j, rho as the phases' polygons have it, so that weight is W g.  A P2 pressure
- * cannot balance it: the hydrostatic pressure has a kink along the interface.  Each line adds one ridge function
+ * cannot balance it: the pressure has a kink along the interface.  Each line has one ridge function
  *
  *     psi = sum_i |d_i| lambda_i - |d|,       d(x) = n.x - d_0 the distance from the line, d_i at the vertices:
  *
  *       \        |        /      0 at the vertices and on edges that the line does not cut, one kink along the
  *     ---\------/ \------/---    line.  Hydrostatic pressure = its interpolant at the vertices + kappa psi, exactly.
  *
- * kappa is the element's own: velocity is discontinuous, so psi, with c = int N grad psi, is condensed:
+ * (Moes, Cloirec, Cartraud and Remacle 2003 for such functions.)  With c = int N grad psi there are two ways:
  *
- *     W u+ = W u* - dt (C phi + c kappa),  c.u+ = 0   =>   u+ = Q (u* - dt W^-1 C phi),
- *     Q = I - W^-1 c c^T/(c^T W^-1 c),     response R = Q W^-1, symmetric, in place of W^-1 in the pressure's matrix
+ *   kink     kappa = 1/2 [rho] g.n is known: W u+ = W u* + dt (W g - kappa c - C phi).  The pressure's matrix has W^-1;
+ *            hydrostatics is exact, nothing is asked of the velocity.  What accelerates the interface is not in kappa.
+ *   ridge    kappa is an unknown with c.u+ = 0 as its equation, condensed: R = Q W^-1 in place of W^-1,
+ *            Q = I - W^-1 c c^T/(c^T W^-1 c).  Also exact at rest, but psi is not 0 on the edges that the line cuts, so
+ *            c.u = 0 fails for a uniform u: Q slows a fluid that flows along its surface (tests/phases/bench_wave.c).
  *
- * (ridge functions: Moes, Cloirec, Cartraud and Remacle 2003).  Velocity unknown 3 c + i is component c at
- * vertex i. */
+ * Velocity unknown 3 c + i is component c at vertex i. */
 #ifndef CORACLE_PHASES_INERTIA_H
 #define CORACLE_PHASES_INERTIA_H
 #include "fluid/phases/polygon.h"
@@ -107,6 +109,15 @@ static inline void InertiaRidge(const HalfPlane *line, Inertia *m)
     for (int i = 0; i < 3; i++) c[3 * k + i] = slope[k] * m->area / 3.0 - line->n[k] * (high[i] - low[i]);
   }
   m->n++;
+}
+
+/* force[6] = -kappa c of the last ridge added, before InertiaCondense: kappa = (below - above)/2 g.n, for densities
+ * below n.x = d_0 and above it, kg/m3, and gravity, m/s2. */
+static inline void InertiaKink(const Inertia *m, const double n[2], double below, double above,
+                               const double g[2], double force[INERTIA_NU])
+{
+  const double kappa = 0.5 * (below - above) * (g[0] * n[0] + g[1] * n[1]);
+  for (int i = 0; i < INERTIA_NU; i++) force[i] -= kappa * m->ridge[m->n - 1][i];
 }
 
 static inline double InertiaDot(const double a[INERTIA_NU], const double b[INERTIA_NU])
