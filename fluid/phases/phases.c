@@ -111,6 +111,52 @@ PetscErrorCode PhasesGetPolygon(Phases f, int e, int p, Polygon *polygon)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PhasesGetInertia(Phases f, int e, const double rho[], PetscBool condense, Inertia *inertia)
+{
+  const double(*x)[2] = (const double(*)[2])f->stars->element[e].x;
+  Polygon part;
+  PetscFunctionBeginUser;
+  InertiaBegin(x, inertia);
+  for (int p = 0; p < f->np; p++) {
+    PhasesPart(f, e, p, x[0], &part);
+    InertiaAdd(&part, rho[p], inertia);
+  }
+  for (int p = 0; p + 1 < f->np && condense && f->single[e] < 0; p++) {
+    const HalfPlane h = PhasesLine(f, e, p, x[0]);
+    if (!IsTrivial(&h)) InertiaRidge(&h, inertia);
+  }
+  PetscCheck(!InertiaCondense(inertia), PETSC_COMM_SELF, PETSC_ERR_NOT_CONVERGED,
+             "the element at (%g, %g) has no positive mass", x[0][0], x[0][1]);
+  PetscFunctionReturn(0);
+}
+
+/* The next phase behind p that element e has. */
+static int Behind(Phases f, int e, int p)
+{
+  const double tiny = PHASES_TINY * 0.5 * StarsTwiceArea(f->stars, e);
+  for (p++; p + 1 < f->np; p++) {
+    if (f->volume[(size_t)e * (size_t)f->np + (size_t)p] >= tiny) break;
+  }
+  return p;
+}
+
+PetscErrorCode PhasesGetKink(Phases f, int e, const double rho[], const double gravity[2], double force[6])
+{
+  const double(*x)[2] = (const double(*)[2])f->stars->element[e].x;
+  Inertia m;
+  PetscFunctionBeginUser;
+  for (int k = 0; k < INERTIA_NU; k++) force[k] = 0.0;
+  if (f->single[e] >= 0) PetscFunctionReturn(0);
+  InertiaBegin(x, &m);
+  for (int p = 0; p + 1 < f->np; p++) {
+    const HalfPlane h = PhasesLine(f, e, p, x[0]);
+    if (IsTrivial(&h)) continue;
+    InertiaRidge(&h, &m);
+    InertiaKink(&m, h.n, rho[p], rho[Behind(f, e, p)], gravity, force);
+  }
+  PetscFunctionReturn(0);
+}
+
 void PhasesSplitBy(int np, int single, const HalfPlane line[], const double x0[2], const Polygon *polygon,
                    const double origin[2], double weight, double area[])
 {

@@ -14,6 +14,7 @@
 #ifndef CORACLE_PHASES_H
 #define CORACLE_PHASES_H
 #include "common/transfer/transfer.h"
+#include "fluid/phases/inertia.h"
 #include "fluid/phases/plic.h"
 #include "fluid/phases/stars.h"
 
@@ -36,6 +37,15 @@ PetscErrorCode PhasesReconstruct(Phases phases);
 PetscErrorCode PhasesGetPolygon(Phases phases, int e, int p, Polygon *polygon);
 /* Not collective.  The single phase of owned element e, -1 if it is cut. */
 int PhasesSingle(Phases phases, int e);
+
+/* Not collective.  The inertia of owned element e with phases of density rho[nphases], kg/m3.  condense: with a
+ * ridge for each line (inertia.h). */
+PetscErrorCode PhasesGetInertia(Phases phases, int e, const double rho[], PetscBool condense,
+                                Inertia *inertia);
+/* Not collective.  force[6], N/m: minus the gradient of the hydrostatic pressure's kinks in owned element e, tested with
+ * the velocity's functions; each line divides its phase from the next one that the element has. */
+PetscErrorCode PhasesGetKink(Phases phases, int e, const double rho[], const double gravity[2],
+                             double force[6]);
 
 /* What flows in where nothing is known: outside of open boundaries. */
 typedef struct {
