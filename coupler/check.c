@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 /* What the calls that read them do not say of the coupler's keys. */
-static const CaseKey KEYS[] = {
+static const CoracleCaseKey KEYS[] = {
     {"case", "", "name of the case"},
     {"note", "", "what a reader of the results must know"},
     {"resume", "",
@@ -30,23 +30,23 @@ static const CaseKey KEYS[] = {
     {NULL, NULL, NULL}};
 
 /* The folder, or what of it is there, must be one that can be written into; nothing is made. */
-static void CheckFolder(Case c, const char *folder)
+static void CheckFolder(CoracleCase c, const char *folder)
 {
   char path[PETSC_MAX_PATH_LEN];
   snprintf(path, sizeof path, "%s", folder);
   while (access(path, F_OK) && strrchr(path, '/') > path) *strrchr(path, '/') = 0;
   const char *there = access(path, F_OK) ? "." : path;
-  if (access(there, W_OK | X_OK)) CaseRefuse(c, "output.folder", "%s: %s", there, strerror(errno));
+  if (access(there, W_OK | X_OK)) CoracleCaseRefuse(c, "output.folder", "%s: %s", there, strerror(errno));
 }
 
-static void Read(Case c, void *command)
+static void Read(CoracleCase c, void *command)
 {
   static CouplerCase k;
-  CaseDescribe(c, KEYS);
-  (void)CaseStringOr(c, "resume", "");
+  CoracleCaseDescribe(c, KEYS);
+  (void)CoracleCaseStringOr(c, "resume", "");
   if (CouplerCaseRead(c, &k)) return;
   CheckFolder(c, k.folder);
-  if (*(const Command *)command == COMMAND_KEYS || !CaseFaultless(c)) return;
+  if (*(const Command *)command == COMMAND_KEYS || !CoracleCaseFaultless(c)) return;
   printf("coupler: to t = %g s in at least %.0f steps, %.0f snapshots into %s\n", k.end,
          ceil(k.end / k.dt_max), floor(k.end / k.every) + 1.0, k.folder);
 }

@@ -17,7 +17,7 @@ static PetscErrorCode IsRoot(const Checkpoints *k, PetscBool *root)
   PetscFunctionReturn(0);
 }
 
-/* The folder of a checkpoint with what is in it. */
+/* Removes the folder of a checkpoint and the files in it. */
 static void Remove(const char *folder)
 {
   char path[PETSC_MAX_PATH_LEN];
@@ -31,16 +31,15 @@ static void Remove(const char *folder)
   rmdir(folder);
 }
 
-/* All checkpoints but the one that the link means: the one before, and what runs that were killed have
- * left. */
-static void RemoveOthers(const Checkpoints *k, const char *kept)
+/* Removes all checkpoints but `current`: the previous one, and incomplete ones of runs that were killed. */
+static void RemoveOthers(const Checkpoints *k, const char *current)
 {
   char path[PETSC_MAX_PATH_LEN];
   DIR *list = opendir(k->folder);
   if (!list) return;
   for (const struct dirent *entry; (entry = readdir(list));) {
     const size_t n = strlen(CORACLE_CHECKPOINT ".");
-    if (strncmp(entry->d_name, CORACLE_CHECKPOINT ".", n) || !strcmp(entry->d_name, kept)) continue;
+    if (strncmp(entry->d_name, CORACLE_CHECKPOINT ".", n) || !strcmp(entry->d_name, current)) continue;
     if (strspn(entry->d_name + n, "0123456789") != strlen(entry->d_name + n)) continue;
     snprintf(path, sizeof path, "%s/%s", k->folder, entry->d_name);
     Remove(path);
@@ -65,7 +64,7 @@ PetscErrorCode CheckpointsCreate(MPI_Comm comm, Server server, const CouplerCase
   PetscFunctionReturn(0);
 }
 
-/* The link means the new checkpoint, from one moment to the next. */
+/* Replaces the symbolic link by one to the new checkpoint, atomically. */
 static PetscErrorCode Publish(const Checkpoints *k)
 {
   const char *name = strrchr(k->due, '/') + 1;
@@ -98,7 +97,7 @@ PetscErrorCode CheckpointsRequest(Checkpoints *k, long long steps, PetscBool end
     PetscCheck(!mkdir(k->due, 0777), PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", k->due,
                strerror(errno));
   }
-  PetscCallMPI(MPI_Barrier(k->comm)); /* nobody is asked to save where nothing is yet */
+  PetscCallMPI(MPI_Barrier(k->comm)); /* the folder exists before a client is told to save there */
   PetscCall(ServerSave(k->server, k->due));
   PetscFunctionReturn(0);
 }

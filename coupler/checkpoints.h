@@ -23,8 +23,8 @@ typedef struct {
 
 /* Removes the folder's checkpoints unless the run resumes from one of them. */
 PetscErrorCode CheckpointsCreate(MPI_Comm comm, Server server, const CouplerCase *c, Checkpoints *k);
-/* Before the step after `steps` steps, or the end, is sent: if a checkpoint is due, requests it from all clients
- * and sets `due`. */
+/* Before the step after `steps` steps, or the end, is sent: if a checkpoint is due, requests it from all
+ * clients and sets `due`. */
 PetscErrorCode CheckpointsRequest(Checkpoints *k, long long steps, PetscBool end);
 /* After that step, or when all clients have closed: publishes the checkpoint if all have saved. */
 PetscErrorCode CheckpointsFinish(Checkpoints *k);

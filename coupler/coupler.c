@@ -15,46 +15,9 @@ PetscErrorCode CouplerCreate(MPI_Comm comm, const CouplerOptions *options, Coupl
   PetscFunctionReturn(0);
 }
 
-/* The old element that holds point p, or -1. */
-static int Locate(const Overlap o, const double p[2])
-{
-  const GeometryBox box = {{p[0], p[1]}, {p[0], p[1]}};
-  const int *hit, n = o->search ? SearchQuery(o->search, &box, &hit) : 0;
-  for (int h = 0; h < n; h++) {
-    double lambda[3];
-    GeometryBarycentric((const double(*)[2])o->x[hit[h]], p, lambda);
-    if (fmin(lambda[0], fmin(lambda[1], lambda[2])) >= -1e-12) return hit[h];
-  }
-  return -1;
-}
-
-/* Mean of what all ranks know, for elements that are new to the region. */
-static PetscErrorCode MeanViscosity(Coupler c, double *mean)
-{
-  double sum[2] = {0.0, c->overlap->nelements};
-
-  PetscFunctionBeginUser;
-  for (int k = 0; k < c->overlap->nelements; k++) sum[0] += c->mu[k];
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, c->comm));
-  *mean = sum[1] > 0.0 ? sum[0] / sum[1] : c->options.viscosity;
-  PetscFunctionReturn(0);
-}
-
 PetscErrorCode CouplerSetElements(Coupler c, const FluidElements *elements)
 {
-  double mean, *mu;
-
   PetscFunctionBeginUser;
-  PetscCall(MeanViscosity(c, &mean));
-  PetscCall(PetscMalloc1(elements->n, &mu));
-  for (int k = 0; k < elements->n; k++) {
-    const double *x = &elements->x[6 * k];
-    const double centre[2] = {(x[0] + x[2] + x[4]) / 3.0, (x[1] + x[3] + x[5]) / 3.0};
-    const int old = Locate(c->overlap, centre);
-    mu[k] = old >= 0 ? c->mu[old] : mean;
-  }
-  PetscCall(PetscFree(c->mu));
-  c->mu = mu;
   PetscCall(OverlapSetElements(c->overlap, elements));
   PetscFunctionReturn(0);
 }
@@ -122,12 +85,12 @@ PetscErrorCode CouplerSetInterfaceVelocity(Coupler c, const double mobility[], c
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CouplerComputeForce(Coupler c, const FluidFlow *flow, const double **force,
+PetscErrorCode CouplerComputeForce(Coupler c, const CoracleFlow *flow, const double **force,
                                    ForceTotals *totals)
 {
   PetscFunctionBeginUser;
   c->flow = *flow;
-  PetscCall(PetscArraycpy(c->mu, flow->mu, c->overlap->nelements));
+  PetscCall(OverlapSetProperties(c->overlap, flow->rho, flow->mu));
   PetscCall(PetscArrayzero(c->vertex, 3 * (size_t)c->overlap->nsources));
   PetscCall(c->mode->force(c));
   for (int i = 0; i < c->nnodes; i++) {
@@ -148,7 +111,7 @@ PetscErrorCode CouplerConservativeForce(Coupler c)
 {
   PetscFunctionBeginUser;
   ForceReaction(c->overlap, c->coefficient, c->implicit_factor, &c->flow, c->vertex);
-  ForceInertia(c->overlap, c->dt, c->options.gravity, c->flow.u_plus,
+  ForceInertia(c->overlap, c->dt, c->options.gravity, c->flow.u_projected,
                (const double(*)[3][2])c->start_velocity, c->vertex);
   PetscCall(ForceAssembleToOwners(c->overlap, c->vertex, c->nnodes, c->node));
   PetscFunctionReturn(0);
@@ -161,7 +124,7 @@ PetscErrorCode CouplerSolidCorrection(Coupler c, const SolidState *moved)
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(c->overlap->nsources, &u));
   PetscCall(OverlapNodesToSources(c->overlap, 2, moved->u, &u[0][0][0]));
-  ForceCorrection(c->overlap, (const double(*)[3][2])u, c->flow.u_plus, c->correction);
+  ForceCorrection(c->overlap, (const double(*)[3][2])u, c->flow.u_projected, c->correction);
   PetscCall(PetscFree(u));
   PetscFunctionReturn(0);
 }
@@ -196,7 +159,6 @@ PetscErrorCode CouplerDestroy(Coupler *coupler)
   PetscCall(PetscFree((*coupler)->correction));
   PetscCall(ShellDestroy(&(*coupler)->shell));
   PetscCall(OverlapDestroy(&(*coupler)->overlap));
-  PetscCall(PetscFree((*coupler)->mu));
   PetscCall(PetscFree(*coupler));
   PetscFunctionReturn(0);
 }

@@ -2,7 +2,7 @@
  * solid's force, on the supermesh of both (overlap.h).  It knows no messages; exchange.h does.  One step from
  * t^n to t^n + dt:
  *
- *        solid x^n, u_s                    fluid u*, u+, p, mu               solid u_s^{n+1}
+ *        solid x^n, u_s                    fluid u*, u+, rho, mu            solid u_s^{n+1}
  *             |                                   |                               |
  *        CouplerBuild                   CouplerComputeForce                CouplerCorrect
  *        a, s = a u_s per element       F on the solid's nodes             r = (u_s^{n+1} - u+) inside S
@@ -10,9 +10,9 @@
  *             v                                   v                               v
  *          to fluid                           to solid                        to fluid
  *
- * With strong coupling CouplerSetInterfaceVelocity and CouplerComputeForce are repeated within the step, on the
- * geometry of CouplerBuild.  mode.h lists the modes: what a, F and r are in each.
- * All functions are collective over the coupler's communicator. */
+ * With strong coupling CouplerSetInterfaceVelocity and CouplerComputeForce are repeated within the step, on
+ * the geometry of CouplerBuild.  mode.h lists the modes: what a, F and r are in each.  All functions are
+ * collective over the coupler's communicator. */
 #ifndef CORACLE_COUPLER_H
 #define CORACLE_COUPLER_H
 #include "coupler/force.h"
@@ -21,13 +21,13 @@
 PetscErrorCode CouplerCreate(MPI_Comm comm, const CouplerOptions *options, Coupler *coupler);
 PetscErrorCode CouplerDestroy(Coupler *coupler);
 
-/* The fluid's elements near the solid (copied).  Viscosities known on the elements before are carried over by
- * place. */
+/* The fluid's elements near the solid, with density and viscosity at the start of the coming step (copied). */
 PetscErrorCode CouplerSetElements(Coupler coupler, const FluidElements *elements);
 
-/* The coupling over the coming step of dt seconds, with the solid as it is: coupling[n], one per fluid element
- * that overlaps the solid or its shell, in ascending order.  solid->u is used until CouplerComputeForce has
- * returned or CouplerSetInterfaceVelocity replaces it; coupling is borrowed until the next CouplerBuild. */
+/* The coupling over the coming step of dt seconds, with the solid as it is: coupling[n], one per fluid
+ * element that overlaps the solid or its shell, in ascending order.  solid->u is used until
+ * CouplerComputeForce has returned or CouplerSetInterfaceVelocity replaces it; coupling is borrowed until the
+ * next CouplerBuild. */
 PetscErrorCode CouplerBuild(Coupler coupler, const SolidState *solid, double dt, int *n,
                             const CoracleCoupling **coupling);
 /* The same coupling with u[nnodes][2], m/s, as the solid's velocity where mobility[nnodes] is 0; nodes with a
@@ -36,11 +36,11 @@ PetscErrorCode CouplerSetInterfaceVelocity(Coupler coupler, const double mobilit
                                            const CoracleCoupling **coupling);
 /* force[nnodes][2], N, on the solid's nodes, borrowed until the next call of this; the flow's arrays are used
  * until CouplerCorrect has returned. */
-PetscErrorCode CouplerComputeForce(Coupler coupler, const FluidFlow *flow, const double **force,
+PetscErrorCode CouplerComputeForce(Coupler coupler, const CoracleFlow *flow, const double **force,
                                    ForceTotals *totals);
-/* correction[n], one per element of CouplerBuild and in its order.  When the solid has changed its mesh in the
- * step (moved->changed) the source triangles have no new velocity and the corrections are 0.  Borrowed until
- * the next CouplerCorrect. */
+/* correction[n], one per element of CouplerBuild and in its order.  When the solid has changed its mesh in
+ * the step (moved->changed) the source triangles have no new velocity and the corrections are 0.  Borrowed
+ * until the next CouplerCorrect. */
 PetscErrorCode CouplerCorrect(Coupler coupler, const SolidState *moved, int *n,
                               const CoracleCorrection **correction);
 

@@ -2,42 +2,33 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Refuses a key of earlier versions and names the new one. */
-static void Renamed(Case file, const char *old, const char *new)
+static void ReadOptions(CoracleCase file, CouplerOptions *o)
 {
-  if (CaseHas(file, old)) CaseRefuse(file, old, "is called %s now", new);
-}
-
-static void ReadOptions(Case file, CouplerOptions *o)
-{
-  o->mode = (CouplerMode)CaseWord(file, "coupler.mode", COUPLER_REACTION, COUPLER_MODES);
-  o->thickness = CasePositive(file, "coupler.shell_thickness");
+  o->mode = (CouplerMode)CoracleCaseWord(file, "coupler.mode", COUPLER_REACTION, COUPLER_MODES);
+  o->thickness = CoracleCasePositive(file, "coupler.shell_thickness");
   CouplerModesReadOptions(file, o);
-  CaseVector(file, "gravity", 2, o->gravity);
-  /* The fluid tells its viscosity with its first flow; until then a single-phase fluid's is the case file's.
-   */
-  o->viscosity = CaseHas(file, "fluid.viscosity") ? CasePositive(file, "fluid.viscosity") : 0.0;
+  CoracleCaseVector(file, "gravity", 2, o->gravity);
 }
 
-PetscErrorCode CouplerCaseRead(Case file, CouplerCase *c)
+PetscErrorCode CouplerCaseRead(CoracleCase file, CouplerCase *c)
 {
   static const char *const SECTIONS[] = {"case", "note", "gravity", "time", "coupler", "output", NULL};
 
   PetscFunctionBeginUser;
-  snprintf(c->name, sizeof c->name, "%s", CaseString(file, "case"));
-  snprintf(c->note, sizeof c->note, "%s", CaseStringOr(file, "note", ""));
-  snprintf(c->folder, sizeof c->folder, "%s", CaseString(file, "output.folder"));
-  c->every = CasePositive(file, "output.every");
-  c->checkpoint = CaseNumberOr(file, "output.checkpoint", 600.0, 0.0, HUGE_VAL);
-  c->end = CasePositive(file, "time.end");
-  c->dt_max = CasePositive(file, "time.dt_max");
+  snprintf(c->name, sizeof c->name, "%s", CoracleCaseString(file, "case"));
+  snprintf(c->note, sizeof c->note, "%s", CoracleCaseStringOr(file, "note", ""));
+  snprintf(c->folder, sizeof c->folder, "%s", CoracleCaseString(file, "output.folder"));
+  c->every = CoracleCasePositive(file, "output.every");
+  c->checkpoint = CoracleCaseNumberOr(file, "output.checkpoint", 600.0, 0.0, HUGE_VAL);
+  c->end = CoracleCasePositive(file, "time.end");
+  c->dt_max = CoracleCasePositive(file, "time.dt_max");
   /* the fluid's, read here so that the whole section can be checked */
-  (void)CaseNumberOr(file, "time.cfl", 0.5, 0.0, HUGE_VAL);
+  (void)CoracleCaseNumberOr(file, "time.cfl", 0.5, 0.0, HUGE_VAL);
   ReadOptions(file, &c->options);
-  Renamed(file, "coupler.tries", "coupler.max_iterations");
-  c->max_iterations = CaseIntegerOr(file, "coupler.max_iterations", 1, 1, 1000);
-  c->tolerance = CaseNumberOr(file, "coupler.tolerance", 1e-4, 1e-12, 1.0);
-  PetscCall(PetscOptionsInsertString(NULL, CaseStringOr(file, "coupler.petsc", "")));
-  PetscCall(CaseFinish(file, SECTIONS));
+  CoracleCaseRenamed(file, "coupler.tries", "coupler.max_iterations");
+  c->max_iterations = CoracleCaseIntegerOr(file, "coupler.max_iterations", 1, 1, 1000);
+  c->tolerance = CoracleCaseNumberOr(file, "coupler.tolerance", 1e-4, 1e-12, 1.0);
+  PetscCall(PetscOptionsInsertString(NULL, CoracleCaseStringOr(file, "coupler.petsc", "")));
+  PetscCall(CoracleCaseFinish(file, SECTIONS));
   PetscFunctionReturn(0);
 }

@@ -14,5 +14,5 @@ typedef struct {
 } CouplerCase;
 
 /* Any rank; a wrong value ends the job. */
-PetscErrorCode CouplerCaseRead(Case file, CouplerCase *c);
+PetscErrorCode CouplerCaseRead(CoracleCase file, CouplerCase *c);
 #endif

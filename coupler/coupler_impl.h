@@ -9,13 +9,12 @@ struct Coupler_s {
   const CouplerModeTable *mode;
   Shell shell;
   Overlap overlap;
-  double *mu;                     /* [overlap->nelements] Pa s */
   double dt;                      /* of the step that was built, s */
   int built, nnodes;              /* nnodes: nodes that this rank owns */
   const double *us;               /* [nnodes][2] the velocity that the fluid couples to, m/s; borrowed */
   double (*start_velocity)[3][2]; /* [overlap->nsources] the solid's velocity at the step's start, m/s */
   double *implicit_factor;        /* [overlap->nsources] b (inertia.h) */
-  FluidFlow flow;                 /* borrowed */
+  CoracleFlow flow;               /* borrowed */
   WallCoefficient *coefficient;   /* [overlap->pairs.n] a */
   CoracleCoupling *coupling;      /* [overlap->ncoupled] */
   CoracleCorrection *correction;  /* [overlap->ncoupled] */

@@ -1,5 +1,5 @@
-/* Coupling iterations: strong coupling by repetition of the step.  The solid's velocity at the step's end is the
- * fixed point of
+/* Coupling iterations: strong coupling by repetition of the step.  The solid's velocity at the step's end is
+ * the fixed point of
  *
  *     H:  iterate v  -->  fluid solve with u_s = v  -->  force on the solid  -->  solid's velocity H(v)
  *
@@ -7,8 +7,8 @@
  *     until  rms(H(v_k) - v_k) <= max(tolerance rms(H(v_k)), 1e-4 dr/dt).
  *
  * A staggered step is one iteration with the velocity of the step before.  The geometry is that of the step's
- * start in either case.  Nodes with a mobility (inertia.h) are coupled implicitly and take no part.
- * All functions are collective. */
+ * start in either case.  Nodes with a mobility (inertia.h) are coupled implicitly and take no part.  All
+ * functions are collective. */
 #ifndef CORACLE_COUPLING_ITERATION_H
 #define CORACLE_COUPLING_ITERATION_H
 #include "coupler/quasi_newton.h"
@@ -37,9 +37,9 @@ PetscErrorCode CouplingIterationDestroy(CouplingIteration *t);
 /* Starts a step of dt seconds from the solid as it is; *u = v_0 [n][2], m/s, borrowed until the next step. */
 PetscErrorCode CouplingIterationBegin(CouplingIteration *t, const SolidState *solid, double dt,
                                       const double **u);
-/* Has the step converged with `solid` as the result of iteration number `iteration` (from 1)?  Always true when
- * there is no residual (staggered, or the nodes of the start are lost), and in the last iteration of a step in
- * which cracks have opened: whether they do may alternate from iteration to iteration. */
+/* Has the step converged with `solid` as the result of iteration number `iteration` (from 1)?  Always true
+ * when there is no residual (staggered, or the nodes of the start are lost), and in the last iteration of a
+ * step in which cracks have opened: whether they do may alternate from iteration to iteration. */
 PetscErrorCode CouplingIterationHasConverged(CouplingIteration *t, int iteration, const SolidState *solid,
                                              PetscBool *converged);
 /* *u = v_k+1 [n][2], m/s, borrowed until the next step. */

@@ -2,7 +2,8 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Density ratio of a free body that moved like this: m (dv/dt - g) = F, m over the displaced fluid's mass. */
+/* m / m_f of a free body with this motion: m (dv/dt - g) = F in the least-squares sense, m_f the displaced
+ * mass. */
 static double DensityRatio(const DivergenceMonitorStep *s, const double change[2])
 {
   double b[2], along = 0.0, square = 0.0;
@@ -20,8 +21,7 @@ static int IsFinite(const DivergenceMonitorStep *s)
          isfinite(s->force[1]);
 }
 
-/* Counts alternating, growing changes; a change that a step of free fall could make is too small to matter.
- */
+/* Counts alternating, growing changes; a change within that of free fall over one step is negligible. */
 static int Alternates(DivergenceMonitor *g, const DivergenceMonitorStep *s, const double change[2])
 {
   const double size = hypot(change[0], change[1]), before = hypot(g->change[0], g->change[1]);
@@ -57,7 +57,7 @@ int DivergenceMonitorCheck(DivergenceMonitor *g, const DivergenceMonitorStep *s,
     return 1;
   }
   for (int c = 0; c < 2; c++) change[c] = s->velocity[c] - g->velocity[c];
-  /* the first step's change is against an initial velocity that is not known here */
+  /* the initial velocity is unknown here, so the first step has no change */
   const int diverges = g->nsteps > 0 && Alternates(g, s, change);
   const int leaps = hypot(s->velocity[0], s->velocity[1]) * s->dt > s->extent;
   if (diverges)

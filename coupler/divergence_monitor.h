@@ -1,12 +1,12 @@
-/* Divergence monitor: ends a run whose coupling diverges while its numbers can still be read.  Below a certain
- * density of the solid the added mass makes an explicit exchange over-correct, and the solid's velocity changes
- * with alternating sign and growing size from step to step. */
+/* Divergence monitor: ends a run whose coupling diverges while its numbers can still be read.  Below a
+ * certain density of the solid the added mass makes an explicit exchange over-correct, and the solid's
+ * velocity changes with alternating sign and growing size from step to step. */
 #ifndef CORACLE_DIVERGENCE_MONITOR_H
 #define CORACLE_DIVERGENCE_MONITOR_H
 
-/* Heuristic: the coupling diverges after this many alternations in a row, each DIVERGENCE_GROWTH times the one
- * before; or after half as many that have grown by DIVERGENCE_TOTAL_GROWTH altogether (of a very light solid the
- * velocity overflows within a few steps, and the fluid's time step shrinks with it). */
+/* Heuristic: the coupling diverges after this many alternations in a row, each DIVERGENCE_GROWTH times the
+ * one before; or after half as many that have grown by DIVERGENCE_TOTAL_GROWTH altogether (of a very light
+ * solid the velocity overflows within a few steps, and the fluid's time step shrinks with it). */
 #define DIVERGENCE_ALTERNATIONS 6
 #define DIVERGENCE_GROWTH 1.1
 #define DIVERGENCE_TOTAL_GROWTH 10.0

@@ -28,17 +28,13 @@ PetscErrorCode ExchangeRequestElements(Server server, const Region region, Fluid
 
   PetscFunctionBeginUser;
   PetscCall(ServerAskElements(server, region->nbox, &region->box[0][0][0], &e));
-  *elements = (FluidElements){e.n, e.x, e.rho, {e.lower[0], e.lower[1]}, {e.upper[0], e.upper[1]}};
+  *elements = (FluidElements){e.n, e.x, e.rho, e.mu, {e.lower[0], e.lower[1]}, {e.upper[0], e.upper[1]}};
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ExchangeReceiveFlow(Server server, const CouplerModeTable *mode, FluidFlow *flow)
+PetscErrorCode ExchangeSelectFields(Server server, const CouplerModeTable *mode)
 {
-  ServerFlow f;
-
   PetscFunctionBeginUser;
-  PetscCall(ServerReceiveFlow(server, &f));
-  *flow =
-      (FluidFlow){.u_star = f.u_star, .u_plus = f.u_plus, .p = mode->needs_pressure ? f.p : NULL, .mu = f.mu};
+  if (mode->needs_pressure) PetscCall(ServerNeedPressure(server));
   PetscFunctionReturn(0);
 }

@@ -4,7 +4,6 @@
  *
  *     ServerSolid     -->  SolidState       u is the velocity that the mode couples to
  *     ServerElements  -->  FluidElements    those in the region near the solid
- *     ServerFlow      -->  FluidFlow        p only where the mode needs it
  *
  * All functions are collective; an error of a client ends the job. */
 #ifndef CORACLE_EXCHANGE_H
@@ -18,5 +17,6 @@
 PetscErrorCode ExchangeReceiveSolid(Server server, const CouplerModeTable *mode, SolidState *solid);
 /* Requests the fluid's elements in the region (set by RegionUpdate). */
 PetscErrorCode ExchangeRequestElements(Server server, const Region region, FluidElements *elements);
-PetscErrorCode ExchangeReceiveFlow(Server server, const CouplerModeTable *mode, FluidFlow *flow);
+/* Before the first request of elements: the fluid sends its pressure only if the mode needs it. */
+PetscErrorCode ExchangeSelectFields(Server server, const CouplerModeTable *mode);
 #endif

@@ -1,6 +1,7 @@
 #include "coupler/force.h"
 
-/* q[i] = int over the pair of N_T,i (u - u_s): u [2][3] on the fluid element, u_s [3][2] on the piece. */
+/* q[i] = int over the pair of N_T,i (u - u_s): u [2][3] on the fluid element, u_s [3][2] on the source
+ * triangle. */
 static void Slip(const SupermeshPair *pair, const double u[6], const double us[3][2], double q[3][2])
 {
   for (int i = 0; i < 3; i++) {
@@ -12,23 +13,24 @@ static void Slip(const SupermeshPair *pair, const double u[6], const double us[3
   }
 }
 
-/* The velocity that the reaction is to, on the pair's element. */
-static void ReactionVelocity(double implicit_factor, const double u_star[6], const double u_plus[6],
+/* u = b u* + (1 - b) u+, the fluid velocity in the reaction, on the pair's element. */
+static void ReactionVelocity(double implicit_factor, const double u_star[6], const double u_projected[6],
                              double u[6])
 {
   for (int i = 0; i < 6; i++)
     u[i] = implicit_factor == 1.0 ? u_star[i]
-                                  : implicit_factor * u_star[i] + (1.0 - implicit_factor) * u_plus[i];
+                                  : implicit_factor * u_star[i] + (1.0 - implicit_factor) * u_projected[i];
 }
 
 void ForceReaction(const Overlap o, const WallCoefficient coefficient[], const double implicit_factor[],
-                   const FluidFlow *flow, ForceVertex vertex[])
+                   const CoracleFlow *flow, ForceVertex vertex[])
 {
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
     ForceVertex *v = &vertex[3 * pair->a];
     double u[6], q[3][2], r[2];
-    ReactionVelocity(implicit_factor[pair->a], &flow->u_star[6 * pair->b], &flow->u_plus[6 * pair->b], u);
+    ReactionVelocity(implicit_factor[pair->a], &flow->u_star[6 * pair->b], &flow->u_projected[6 * pair->b],
+                     u);
     Slip(pair, u, o->source[pair->a].u, q);
     for (int i = 0; i < 3; i++) {
       WallApply(&coefficient[p], q[i], r);
@@ -38,7 +40,7 @@ void ForceReaction(const Overlap o, const WallCoefficient coefficient[], const d
   }
 }
 
-void ForceInertia(const Overlap o, double dt, const double gravity[2], const double u_plus[],
+void ForceInertia(const Overlap o, double dt, const double gravity[2], const double u_projected[],
                   const double start_velocity[][3][2], ForceVertex vertex[])
 {
   for (int p = 0; p < o->pairs.n; p++) {
@@ -47,7 +49,7 @@ void ForceInertia(const Overlap o, double dt, const double gravity[2], const dou
     const double rho = o->rho[pair->b];
     ForceVertex *v = &vertex[3 * pair->a];
     double q[3][2];
-    Slip(pair, &u_plus[6 * pair->b], start_velocity[pair->a], q);
+    Slip(pair, &u_projected[6 * pair->b], start_velocity[pair->a], q);
     for (int i = 0; i < 3; i++) {
       const double mass = rho * (pair->aa[i][0] + pair->aa[i][1] + pair->aa[i][2]);
       for (int c = 0; c < 2; c++) v[i].other[c] += rho / dt * q[i][c] - mass * gravity[c];
@@ -62,8 +64,8 @@ PetscErrorCode ForceAssembleToOwners(Overlap o, const ForceVertex vertex[], int 
   PetscFunctionReturn(0);
 }
 
-/* One element's gain: sum over its functions of s - a u* - give (u+ - u*). */
-static void ElementGain(const CoracleCoupling *k, const double u_star[6], const double u_plus[6],
+/* One element's gain, the sum over its functions of s - a u* - (1 - b) a (u+ - u*). */
+static void ElementGain(const CoracleCoupling *k, const double u_star[6], const double u_projected[6],
                         double gain[2])
 {
   for (int c = 0; c < 2; c++) {
@@ -72,7 +74,7 @@ static void ElementGain(const CoracleCoupling *k, const double u_star[6], const 
       gain[c] += k->s[c][i];
       for (int j = 0; j < 6; j++) {
         gain[c] -= k->a[c][i][j / 3][j % 3] * u_star[j];
-        gain[c] -= k->give[c][i][j / 3][j % 3] * (u_plus[j] - u_star[j]);
+        gain[c] -= k->implicit_inertia[c][i][j / 3][j % 3] * (u_projected[j] - u_star[j]);
       }
     }
   }
@@ -88,8 +90,8 @@ static double DisplacedMass(const Overlap o)
   return mass;
 }
 
-PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const FluidFlow *flow, int nnodes,
-                        const ForceVertex node[], ForceTotals *totals)
+PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const CoracleFlow *flow,
+                        int nnodes, const ForceVertex node[], ForceTotals *totals)
 {
   enum { GAIN, REACTION = 2, FORCE = 4, SCALE = 6, MASS, PAIRS, COUNT };
   double sum[COUNT] = {0};
@@ -98,7 +100,7 @@ PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const
   for (int e = 0; e < o->ncoupled; e++) {
     const int k = 6 * coupling[e].element;
     double gain[2];
-    ElementGain(&coupling[e], &flow->u_star[k], &flow->u_plus[k], gain);
+    ElementGain(&coupling[e], &flow->u_star[k], &flow->u_projected[k], gain);
     for (int c = 0; c < 2; c++) sum[GAIN + c] += gain[c];
     sum[SCALE] += hypot(gain[0], gain[1]);
   }
@@ -123,24 +125,24 @@ PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const
   PetscFunctionReturn(0);
 }
 
-/* r -= int over the pair of N_K u+ */
-static void SubtractFluid(const SupermeshPair *pair, const double u_plus[6], double r[2][3])
+/* r -= B u+ of one pair. */
+static void SubtractFluid(const SupermeshPair *pair, const double u_projected[6], double r[2][3])
 {
   for (int c = 0; c < 2; c++) {
     for (int i = 0; i < 3; i++) {
-      for (int j = 0; j < 3; j++) r[c][i] -= pair->bb[i][j] * u_plus[3 * c + j];
+      for (int j = 0; j < 3; j++) r[c][i] -= pair->bb[i][j] * u_projected[3 * c + j];
     }
   }
 }
 
-void ForceCorrection(const Overlap o, const double u[][3][2], const double u_plus[],
+void ForceCorrection(const Overlap o, const double u[][3][2], const double u_projected[],
                      CoracleCorrection correction[])
 {
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
     if (o->source[pair->a].is_shell) continue;
     CoracleCorrection *k = &correction[o->coupled_index[p]];
-    SubtractFluid(pair, &u_plus[6 * pair->b], k->r);
+    SubtractFluid(pair, &u_projected[6 * pair->b], k->r);
     for (int c = 0; c < 2; c++) {
       for (int j = 0; j < 3; j++) {
         for (int i = 0; i < 3; i++) k->r[c][j] += pair->ab[i][j] * u[pair->a][i][c];

@@ -1,9 +1,9 @@
-/* The fluid's force on the solid's nodes, and the correction of the fluid to the solid's new velocity (method.md
- * sections 8 and 9).  All integrals are the pairs' own (overlap.h), which also make the fluid's coupling
- * (wall_term.h): what the fluid gains the solid loses, to round-off.
+/* The fluid's force on the solid's nodes, and the correction of the fluid to the solid's new velocity.  All
+ * integrals are the pairs' own (overlap.h), which also make the fluid's coupling (wall_term.h): what the
+ * fluid gains the solid loses, to round-off.
  *
- * With C = int N_T N_K^T and M = int N_T N_T^T over one pair (T a source triangle of the solid S or of its shell,
- * K a fluid element), the pair's coefficient a, and v the solid's velocity at the step's start:
+ * With C = int N_T N_K^T and M = int N_T N_T^T over one pair (T a source triangle of the solid S or of its
+ * shell, K a fluid element), the pair's coefficient a, and v the solid's velocity at the step's start:
  *
  *    reaction         R   =  a (C u* - M u_s)           all pairs: minus what s_c gives the fluid
  *    added inertia    F_i =  rho_f (C u+ - M v)/dt      pairs in S: change of the inner fluid's momentum
@@ -27,7 +27,7 @@ typedef struct {
 /* Totals over all ranks of one step. */
 typedef struct {
   /* N, momentum per time given to the fluid, evaluated on the fluid's side: the sum over K of
-   * s - a u* - give (u+ - u*) */
+   * s - a u* - (1 - b) a (u+ - u*) */
   double gain[2];
   double reaction[2]; /* N, the reaction summed over the solid's nodes */
   double force[2];    /* N, the whole force on the solid */
@@ -38,17 +38,18 @@ typedef struct {
 
 /* Local: vertex[nsources][3].reaction += R of all pairs.  implicit_factor[nsources]: b, 1 where explicit. */
 void ForceReaction(const Overlap overlap, const WallCoefficient coefficient[], const double implicit_factor[],
-                   const FluidFlow *flow, ForceVertex vertex[]);
-/* Local: vertex[nsources][3].other += F_i + F_b of the volume pairs; start_velocity[nsources][3][2]: v, m/s. */
-void ForceInertia(const Overlap overlap, double dt, const double gravity[2], const double u_plus[],
+                   const CoracleFlow *flow, ForceVertex vertex[]);
+/* Local: vertex[nsources][3].other += F_i + F_b of the volume pairs; start_velocity[nsources][3][2]: v,
+ * m/s. */
+void ForceInertia(const Overlap overlap, double dt, const double gravity[2], const double u_projected[],
                   const double start_velocity[][3][2], ForceVertex vertex[]);
 /* Collective: sums the vertices' forces on the nodes of their owner ranks, node[nnodes] (overwritten). */
 PetscErrorCode ForceAssembleToOwners(Overlap overlap, const ForceVertex vertex[], int nnodes,
                                      ForceVertex node[]);
 /* Collective: the totals; coupling[ncoupled] is what the fluid was sent, flow what came back. */
-PetscErrorCode ForceSum(const Overlap overlap, const CoracleCoupling coupling[], const FluidFlow *flow,
+PetscErrorCode ForceSum(const Overlap overlap, const CoracleCoupling coupling[], const CoracleFlow *flow,
                         int nnodes, const ForceVertex node[], ForceTotals *totals);
 /* Local: correction[ncoupled].r += r; u[nsources][3][2]: u_s^{n+1} at the source triangles' vertices, m/s. */
-void ForceCorrection(const Overlap overlap, const double u[][3][2], const double u_plus[],
+void ForceCorrection(const Overlap overlap, const double u[][3][2], const double u_projected[],
                      CoracleCorrection correction[]);
 #endif

@@ -1,23 +1,37 @@
 #include "coupler/inertia.h"
-#include "coupler/node_sum.h"
+#include "common/exchange/copies.h"
 
-/* A node's mass beyond that of the fluid in its place counts (less than 0 for a light solid: with the fluid's own it is
- * still positive), and never less than this part of it, for m - m_f divides. */
+/* Smallest |m - m_f| / m: the effective velocity divides by it.  m - m_f itself may be negative (a solid
+ * lighter than the fluid); with the fluid's own mass the element's matrix is still positive definite. */
 #define MIN_MASS_FRACTION 1e-3
 
-/* Where a node gives way its volume is held that much more firmly: no stability is at stake, and what slips
- * through is dt f/m over the relaxation. */
+/* Factor on the volume's coefficient where nodes have a mobility.  Implicit coupling is stable for any, and
+ * the slip left between solid and fluid is dt f/m divided by the relaxation. */
 #define PENALTY_SCALE 1e4
 
 enum { IMPEDANCE, DISPLACED, NSUMS };
 
-/* z[nnodes]: over all ranks' pairs the sums of int a N_i, a the mean of the weight's two eigenvalues, kg/s,
- * and of int rho N_i over the volume, kg. */
+static PetscErrorCode SumOverCopies(MPI_Comm comm, const SolidState *solid, double z[][NSUMS])
+{
+  CopiesKey *key;
+  Copies copies;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(solid->nnodes, &key));
+  for (int i = 0; i < solid->nnodes; i++) key[i] = (CopiesKey){solid->gid[i], solid->gid[i]};
+  PetscCall(CopiesCreate(comm, solid->nnodes, key, &copies));
+  PetscCall(CopiesSum(copies, NSUMS, &z[0][0]));
+  PetscCall(CopiesDestroy(&copies));
+  PetscCall(PetscFree(key));
+  PetscFunctionReturn(0);
+}
+
+/* z[nnodes], summed over the pairs of all ranks:  Z_i = int a N_i with the mean of a's two eigenvalues, kg/s,
+ * and the displaced mass m_f = int rho N_i over the volume, kg. */
 static PetscErrorCode Impedance(const Overlap o, const SolidState *solid, const WallCoefficient coefficient[],
                                 double z[][NSUMS])
 {
   double(*vertex)[3][NSUMS];
-  NodeSum sum;
 
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(o->nsources, &vertex));
@@ -32,9 +46,7 @@ static PetscErrorCode Impedance(const Overlap o, const SolidState *solid, const 
     }
   }
   PetscCall(OverlapSourcesToNodes(o, NSUMS, (const double *)vertex, solid->nnodes, &z[0][0]));
-  PetscCall(NodeSumCreate(o->comm, solid->nnodes, solid->gid, &sum));
-  PetscCall(NodeSumApply(sum, NSUMS, &z[0][0]));
-  PetscCall(NodeSumDestroy(&sum));
+  PetscCall(SumOverCopies(o->comm, solid, z));
   PetscCall(PetscFree(vertex));
   PetscFunctionReturn(0);
 }
@@ -44,6 +56,7 @@ static double Largest(const double v[3])
   return fmax(v[0], fmax(v[1], v[2]));
 }
 
+/* coefficient *= PENALTY_SCALE on volume triangles with a free node. */
 static PetscErrorCode ScalePenalty(Overlap o, const double mobility[], WallCoefficient coefficient[])
 {
   double(*vertex)[3];
@@ -60,21 +73,20 @@ static PetscErrorCode ScalePenalty(Overlap o, const double mobility[], WallCoeff
   PetscFunctionReturn(0);
 }
 
-/* b and v' of one node */
+/* b and v' of one node (inertia.h). */
 static void EffectiveVelocity(const SolidState *solid, int i, double dt, const double gravity[2],
                               const double z[NSUMS], double *b, double v[2])
 {
   const double mobility = solid->mobility[i];
-  const double excess = 1.0 - z[DISPLACED] * mobility;
-  const double mass_fraction =
-      fabs(excess) < MIN_MASS_FRACTION ? MIN_MASS_FRACTION : excess; /* of the node's mass that counts */
+  const double excess = 1.0 - z[DISPLACED] * mobility; /* (m - m_f) / m */
+  const double mass_fraction = fabs(excess) < MIN_MASS_FRACTION ? MIN_MASS_FRACTION : excess;
   *b = mass_fraction / (mass_fraction + dt * z[IMPEDANCE] * mobility);
   for (int c = 0; c < 2; c++)
     v[c] = solid->u[2 * i + c] +
            dt / mass_fraction * (solid->acceleration[2 * i + c] - z[DISPLACED] * mobility * gravity[c]);
 }
 
-/* Firmness and v' of the pieces. */
+/* b and v' of the source triangles from those of the nodes. */
 static PetscErrorCode ApplyEffectiveVelocity(Overlap o, const double b[], const double v[][2],
                                              double implicit_factor[])
 {

@@ -5,11 +5,13 @@
  *
  *     m (v - v^n)/dt  =  f + Z (u - v) + m_f (u - v^n)/dt - m_f g
  *
- *     f    its forces other than the fluid's, N          Z    impedance: sum over its pairs of int a N_i, kg/s
- *     u    the fluid's velocity there                    the last two terms: added inertia and buoyancy (force.h)
+ *     f    its forces other than the fluid's, N
+ *     u    the fluid's velocity at the node, m/s
+ *     Z    impedance: the sum over its pairs of int a N_i, kg/s
+ *     g    gravity, m/s2; the last two terms are added inertia and buoyancy (force.h)
  *
- * Elimination of v gives the fluid the effective velocity v' and the effective coefficient b a in place of v^n
- * and a:
+ * Elimination of v gives the fluid the effective velocity v' and the effective coefficient b a in place of
+ * v^n and a:
  *
  *     v' = v^n + dt/(m - m_f) (f - m_f g),        b = 1/(1 + dt Z/(m - m_f)).
  *
@@ -22,9 +24,9 @@
 #include "coupler/overlap.h"
 #include "coupler/wall_term.h"
 
-/* Collective.  When some node has a mobility: implicit_factor[nsources] = b, the mean over the source triangle's
- * vertices; coefficient[pairs.n] *= b; the source triangles' velocity u becomes v'.  Else nothing changes.
- * gravity[2], m/s2; dt, s. */
+/* Collective.  When some node has a mobility: implicit_factor[nsources] = b, the mean over the source
+ * triangle's vertices; coefficient[pairs.n] *= b; the source triangles' velocity u becomes v'.  Else nothing
+ * changes.  gravity[2], m/s2; dt, s. */
 PetscErrorCode InertiaMakeImplicit(Overlap overlap, const SolidState *solid, double dt,
                                    const double gravity[2], WallCoefficient coefficient[],
                                    double implicit_factor[]);

@@ -1,25 +1,15 @@
 /* coracle-coupler: the middle of the route.  coracle-coupler case.yaml [--set key=value]...
  *
- *     open, read the case
- *     run the scheme (scheme.c): each step
- *         fluid   u*, u+, p, mu                    -->  force on the solid
- *         solid   new position and velocity        -->  correction of the fluid; shell and overlap at the new position
- *         fluid   <--  correction, coupling of the next step; or the same step again, with another velocity
- *     write the summary */
+ *     join the job, read the case
+ *     time loop (time_loop.c): each step
+ *         fluid   -- u*, u+, rho, mu --------------->  coupler  -- force on the nodes -->  solid
+ *         solid   -- new position and velocity ----->  coupler  -- correction, and the coupling of the next
+ *                                                                  step at the new position -->  fluid
+ *     write summary.json */
+#include "common/program/program.h"
 #include "coupler/check.h"
 #include "coupler/summary.h"
 #include "coupler/time_loop.h"
-
-static void Refuse(void *server, const char *message)
-{
-  ServerFail(server, "%s", message);
-}
-
-static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const char *file,
-                            PetscErrorCode code, PetscErrorType type, const char *message, void *server)
-{
-  ServerFail(server, "%s (in %s, %s:%d)", message ? message : "an error of PETSc", function, file, line);
-}
 
 static PetscErrorCode Run(Server server, const CouplerCase *c)
 {
@@ -45,20 +35,11 @@ static PetscErrorCode Run(Server server, const CouplerCase *c)
 int main(int argc, char **argv)
 {
   const Command command = CommandTake(&argc, argv);
-  Server server;
-  MPI_Comm comm;
-  Case file;
+  Program program;
   CouplerCase c;
   if (command != COMMAND_RUN) return CouplerAnswer(command, argc, argv);
-  if (ServerOpen(argc, argv, &comm, &server)) return 1;
-  PETSC_COMM_WORLD = comm;
-  PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
-  PetscCall(PetscPushErrorHandler(Abort, server));
-  PetscCall(CaseOpen(argc, argv, Refuse, server, &file));
-  PetscCall(CouplerCaseRead(file, &c));
-  PetscCall(CaseClose(&file));
-  PetscCall(Run(server, &c));
-  PetscCall(PetscPopErrorHandler());
-  PetscCall(PetscFinalize());
-  return ServerClose(&server);
+  PetscCall(ProgramStart("coupler", argc, argv, &program));
+  PetscCall(CouplerCaseRead(program.c, &c));
+  PetscCall(Run(program.server, &c));
+  return ProgramEnd(&program);
 }

@@ -10,7 +10,7 @@ const CouplerModeTable *CouplerModeGet(CouplerMode mode)
   return TABLES[mode];
 }
 
-void CouplerModesReadOptions(Case file, CouplerOptions *options)
+void CouplerModesReadOptions(CoracleCase file, CouplerOptions *options)
 {
   for (int mode = 0; COUPLER_MODES[mode]; mode++) {
     if (TABLES[mode]->read_options) TABLES[mode]->read_options(file, options);

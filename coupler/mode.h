@@ -1,14 +1,17 @@
 /* Coupling modes: everything that distinguishes one way to couple solid and fluid from another.
  *
- *     reaction         default.  The solid's inside is held by sigma = relaxation rho_f/dt, its surface by the
- *                      wall term.  The force is the reaction to both, plus the inertia of the fluid inside and
- *                      buoyancy.  Conservative.  Nodes with a mobility are coupled implicitly (inertia.h).
- *     stress_shell     Yang et al. 2016, literal: wall term in the shell only, from the viscosity projected to
- *                      the surface; force by the surface integral of [43], [44].
+ *     reaction         default.  The solid's inside is held by sigma = relaxation rho_f/dt, its surface by
+ *                      the wall term.  The force is the reaction to both, plus the inertia of the fluid
+ *                      inside and buoyancy.  Conservative.  Nodes with a mobility are coupled implicitly
+ *                      (inertia.h).
+ *     stress_shell     Yang et al. 2016, literal: wall term in the shell only, from the viscosity
+ *                      projected to the surface; force by the surface integral of [43], [44].
  *     penalty_shell    Vire, Xiang, Pain 2015: a = rho_f/dt I in the shell only; the force is the reaction to
  *                      it, plus the inertia of the fluid inside and buoyancy.  Conservative.
  *
- * A mode is one file, mode_<name>.c, which exports one constant table.  References: method.md sections 3, 4, 8, 9. */
+ * A mode is one file, mode_<name>.c, which exports one constant table.  Numbers in [ ], here and in the other
+ * headers, are equations of Yang, Xiang, Fang, Pavlidis, Latham, Pain, J.  Comput.  Phys. 2016, doi
+ * 10.1016/j.jcp.2016.05.035. */
 #ifndef CORACLE_COUPLER_MODE_H
 #define CORACLE_COUPLER_MODE_H
 #include "common/link/case_file.h"
@@ -25,8 +28,6 @@ typedef struct {
   double thickness;  /* of the shell, dr, m */
   double relaxation; /* sigma dt / rho_f, used by the mode reaction */
   double gravity[2]; /* m/s2 */
-  double
-      viscosity; /* Pa s, on elements whose viscosity is not known from a flow yet: those of the first step */
 } CouplerOptions;
 
 /* Which of the solid's velocities over the last step u_s is: the one at its end, without vibrations, or the
@@ -37,10 +38,10 @@ typedef enum { COUPLER_VELOCITY_END, COUPLER_VELOCITY_MEAN } CouplerVelocity;
 /* What a mode decides.  The last three functions are collective. */
 typedef struct {
   CouplerVelocity velocity;
-  PetscBool needs_pressure; /* FluidFlow's p is there */
+  PetscBool needs_pressure; /* the fluid sends p with its flow */
   /* Reads the mode's own keys from the case; NULL: it has none.  Called for all modes whichever is chosen, so
    * that one case file serves every mode. */
-  void (*read_options)(Case file, CouplerOptions *options);
+  void (*read_options)(CoracleCase file, CouplerOptions *options);
   PetscErrorCode (*coefficients)(Coupler coupler, const SolidState *solid); /* sets every pair's a */
   PetscErrorCode (*force)(Coupler coupler);                                 /* sets node from the flow */
   PetscErrorCode (*correct)(Coupler coupler, const SolidState *moved);      /* adds to the corrections */
@@ -49,5 +50,5 @@ typedef struct {
 extern const CouplerModeTable COUPLER_MODE_REACTION, COUPLER_MODE_STRESS_SHELL, COUPLER_MODE_PENALTY_SHELL;
 
 const CouplerModeTable *CouplerModeGet(CouplerMode mode);
-void CouplerModesReadOptions(Case file, CouplerOptions *options);
+void CouplerModesReadOptions(CoracleCase file, CouplerOptions *options);
 #endif

@@ -3,11 +3,11 @@
 #include "coupler/coupler_impl.h"
 #include "coupler/inertia.h"
 
-static void ReadOptions(Case file, CouplerOptions *o)
+static void ReadOptions(CoracleCase file, CouplerOptions *o)
 {
-  o->relaxation = CaseNumberOr(file, "coupler.relaxation", 10.0, 0.0, HUGE_VAL);
+  o->relaxation = CoracleCaseNumberOr(file, "coupler.relaxation", 10.0, 0.0, HUGE_VAL);
   if (o->relaxation <= 0.0)
-    CaseRefuse(file, "coupler.relaxation", "expected a number > 0, found %g", o->relaxation);
+    CoracleCaseRefuse(file, "coupler.relaxation", "expected a number > 0, found %g", o->relaxation);
 }
 
 static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
@@ -20,7 +20,7 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
     const SourceTriangle *source = &o->source[o->pairs.pair[p].a];
     if (source->is_shell) {
       const double dxw = WallExtent((const double(*)[2])o->x[k], source->normal);
-      c->coefficient[p] = WallCoefficientOf(c->mu[k] / (c->options.thickness * dxw), source->normal);
+      c->coefficient[p] = WallCoefficientOf(o->mu[k] / (c->options.thickness * dxw), source->normal);
     } else {
       c->coefficient[p] = WallCoefficientIsotropic(c->options.relaxation * o->rho[k] / c->dt);
     }

@@ -4,8 +4,8 @@
  *
  * On the way back surface -> shell -> fluid the coefficient is integrated over each pair (its mean there)
  * instead of projected to a P1DG field: the integral [41] of a is kept and a stays positive semidefinite.  u*
- * is the velocity in [44]: viscous forces from the projected velocity are unstable in an explicit exchange
- * (method.md section 9). Not conservative: [44]'s wall term is evaluated from projected fields.  The fluid is
+ * is the velocity in [44]: viscous forces from the projected velocity are unstable in an explicit exchange.
+ * Not conservative: [44]'s wall term is evaluated from projected fields.  The fluid is
  * not corrected. */
 #include "common/space/p1.h"
 #include "common/space/p2.h"
@@ -20,15 +20,14 @@ static void Constant(double value, double f[3])
   for (int i = 0; i < 3; i++) f[i] = value;
 }
 
-/* mu and dxw alone: all that the weights need, before any flow is known. */
-static void WallSource(void *context, const Overlap o, const SupermeshPair *pair, double f[][3])
+/* mu and dxw alone: all that the coefficients need, before any flow is known. */
+static void WallFields(void *context, const Overlap o, const SupermeshPair *pair, double f[][3])
 {
-  const Coupler c = context;
-  Constant(c->mu[pair->b], f[0]);
+  Constant(o->mu[pair->b], f[0]);
   Constant(WallExtent((const double(*)[2])o->x[pair->b], o->source[pair->a].normal), f[1]);
 }
 
-static void PressureSource(void *context, const Overlap o, const SupermeshPair *pair, double f[][3])
+static void PressureField(void *context, const Overlap o, const SupermeshPair *pair, double f[][3])
 {
   const Coupler c = context;
   P2ProjectP1(&c->flow.p[6 * pair->b], f[0]);
@@ -46,16 +45,16 @@ static void Stress(const double x[3][2], const double u[6], double mu, double ta
   tau[2] = mu * (2.0 * d[1][1] - 2.0 / 3.0 * divergence);
 }
 
-static void FlowSource(void *context, const Overlap o, const SupermeshPair *pair, double f[][3])
+static void FlowFields(void *context, const Overlap o, const SupermeshPair *pair, double f[][3])
 {
   const Coupler c = context;
   const double *u = &c->flow.u_star[6 * pair->b];
   double tau[3];
-  PressureSource(context, o, pair, &f[PRESSURE]);
+  PressureField(context, o, pair, &f[PRESSURE]);
   for (int i = 0; i < 6; i++) f[VELOCITY + i / 3][i % 3] = u[i];
-  Stress((const double(*)[2])o->x[pair->b], u, c->mu[pair->b], tau);
+  Stress((const double(*)[2])o->x[pair->b], u, o->mu[pair->b], tau);
   for (int i = 0; i < 3; i++) Constant(tau[i], f[STRESS + i]);
-  WallSource(context, o, pair, &f[VISCOSITY]);
+  WallFields(context, o, pair, &f[VISCOSITY]);
 }
 
 /* mu / dxw at the two nodes of a facet; dxw is averaged over the facet, where it cannot undershoot. */
@@ -65,7 +64,7 @@ static void WallFactor(const double mu[2], const double dxw[2], double k[2])
   for (int i = 0; i < 2; i++) k[i] = mean > 0.0 ? fmax(mu[i], 0.0) / mean : 0.0;
 }
 
-/* Surface -> shell: the outer nodes carry the surface's values; -> pieces. */
+/* Surface -> shell, whose outer nodes carry the surface's values -> source triangles. */
 static PetscErrorCode WallFactorOnSources(Coupler c, double (*source)[3])
 {
   const Overlap o = c->overlap;
@@ -74,7 +73,7 @@ static PetscErrorCode WallFactorOnSources(Coupler c, double (*source)[3])
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(c->shell->nfacets, &surface));
   PetscCall(PetscCalloc1(o->nowned, &owned));
-  PetscCall(SurfaceFromFluid(o, 2, c->shell, WallSource, c, (double *)surface));
+  PetscCall(SurfaceFromFluid(o, 2, c->shell, WallFields, c, (double *)surface));
   for (int e = 0; e < c->shell->nfacets; e++) {
     double k[2];
     WallFactor(surface[e][0], surface[e][1], k);
@@ -108,7 +107,7 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
   PetscFunctionReturn(0);
 }
 
-/* node += int_e N_i t over the edge e of a traction t[2 nodes][2], where = 0: reaction, 1: rest. */
+/* node += int_e N_i t over the edge e of a traction t[2 nodes][2]; where = 0: reaction, 1: other. */
 static void AddTraction(Coupler c, int e, int where, const double t[2][2])
 {
   const int end[2] = {c->shell->node[2 * e][0], c->shell->node[2 * e][2]};
@@ -118,23 +117,23 @@ static void AddTraction(Coupler c, int e, int where, const double t[2][2])
   }
 }
 
-/* [43], [44] on one facet: the wall term counts as reaction (what s_c gives the fluid), tau n - p n as the
- * rest. */
+/* [43], [44] on one facet: the wall term, which s_c gives the fluid, is the reaction; tau n - p n the
+ * other part. */
 static void AddFacetForce(Coupler c, int e, const double f[FIELDS][2])
 {
   const double *n = c->shell->normal[e];
-  double wall[2][2], rest[2][2], k[2];
+  double wall[2][2], other[2][2], k[2];
   WallFactor(f[VISCOSITY], f[EXTENT], k);
   for (int i = 0; i < 2; i++) {
     const double *us = &c->us[2 * c->shell->node[2 * e][2 * i]];
     const double slip[2] = {f[VELOCITY][i] - us[0], f[VELOCITY + 1][i] - us[1]};
     const WallCoefficient a = WallCoefficientOf(k[i], n);
     WallApply(&a, slip, wall[i]);
-    rest[i][0] = f[STRESS][i] * n[0] + f[STRESS + 1][i] * n[1] - f[PRESSURE][i] * n[0];
-    rest[i][1] = f[STRESS + 1][i] * n[0] + f[STRESS + 2][i] * n[1] - f[PRESSURE][i] * n[1];
+    other[i][0] = f[STRESS][i] * n[0] + f[STRESS + 1][i] * n[1] - f[PRESSURE][i] * n[0];
+    other[i][1] = f[STRESS + 1][i] * n[0] + f[STRESS + 2][i] * n[1] - f[PRESSURE][i] * n[1];
   }
   AddTraction(c, e, 0, (const double(*)[2])wall);
-  AddTraction(c, e, 1, (const double(*)[2])rest);
+  AddTraction(c, e, 1, (const double(*)[2])other);
 }
 
 static PetscErrorCode ComputeForce(Coupler c)
@@ -143,7 +142,7 @@ static PetscErrorCode ComputeForce(Coupler c)
 
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(c->shell->nfacets, &surface));
-  PetscCall(SurfaceFromFluid(c->overlap, FIELDS, c->shell, FlowSource, c, (double *)surface));
+  PetscCall(SurfaceFromFluid(c->overlap, FIELDS, c->shell, FlowFields, c, (double *)surface));
   PetscCall(PetscArrayzero(c->node, c->nnodes));
   for (int e = 0; e < c->shell->nfacets; e++) AddFacetForce(c, e, (const double(*)[2])surface[e]);
   PetscCall(PetscFree(surface));

@@ -19,10 +19,11 @@ PetscErrorCode OverlapSetElements(Overlap o, const FluidElements *elements)
 
   PetscFunctionBeginUser;
   SearchDestroy(&o->search);
-  PetscCall(PetscFree3(o->x, o->area, o->rho));
-  PetscCall(PetscMalloc3(n, &o->x, n, &o->area, n, &o->rho));
+  PetscCall(PetscFree4(o->x, o->area, o->rho, o->mu));
+  PetscCall(PetscMalloc4(n, &o->x, n, &o->area, n, &o->rho, n, &o->mu));
   PetscCall(PetscMemcpy(o->x, elements->x, n * sizeof *o->x));
   PetscCall(PetscArraycpy(o->rho, elements->rho, n));
+  PetscCall(PetscArraycpy(o->mu, elements->mu, n));
   PetscCall(PetscArraycpy(o->lower, elements->lower, 2));
   PetscCall(PetscArraycpy(o->upper, elements->upper, 2));
   o->nelements = elements->n;
@@ -37,7 +38,15 @@ PetscErrorCode OverlapSetElements(Overlap o, const FluidElements *elements)
   PetscFunctionReturn(0);
 }
 
-/* The solid's triangles at home: volume elements, then the shell. */
+PetscErrorCode OverlapSetProperties(Overlap o, const double rho[], const double mu[])
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscArraycpy(o->rho, rho, o->nelements));
+  PetscCall(PetscArraycpy(o->mu, mu, o->nelements));
+  PetscFunctionReturn(0);
+}
+
+/* The triangles that this rank owns: volume elements, then the shell's. */
 static PetscErrorCode OwnedTriangles(Overlap o, const SolidState *solid, const Shell shell,
                                      SourceTriangle owned[])
 {
@@ -60,7 +69,7 @@ static PetscErrorCode OwnedTriangles(Overlap o, const SolidState *solid, const S
 }
 
 /* Which triangles go where: to every rank whose elements' bounding box they touch. */
-static PetscErrorCode MakeRoute(Overlap o, const SourceTriangle owned[])
+static PetscErrorCode MakeScatter(Overlap o, const SourceTriangle owned[])
 {
   int size, n = 0, *rank, *source;
 
@@ -75,8 +84,8 @@ static PetscErrorCode MakeRoute(Overlap o, const SourceTriangle owned[])
       source[n++] = t;
     }
   }
-  PetscCall(ScatterDestroy(&o->route));
-  PetscCall(ScatterCreate(o->comm, n, rank, source, &o->route));
+  PetscCall(ScatterDestroy(&o->scatter));
+  PetscCall(ScatterCreate(o->comm, n, rank, source, &o->scatter));
   PetscCall(PetscFree2(rank, source));
   PetscFunctionReturn(0);
 }
@@ -127,10 +136,10 @@ PetscErrorCode OverlapBuild(Overlap o, const SolidState *solid, const Shell shel
   PetscCall(PetscMalloc1(o->nowned, &o->node));
   PetscCall(PetscMalloc1(o->nowned, &owned));
   PetscCall(OwnedTriangles(o, solid, shell, owned));
-  PetscCall(MakeRoute(o, owned));
-  o->nsources = ScatterArriving(o->route);
+  PetscCall(MakeScatter(o, owned));
+  o->nsources = ScatterArriving(o->scatter);
   PetscCall(PetscMalloc1(o->nsources, &o->source));
-  PetscCall(ScatterForward(o->route, sizeof *owned, owned, o->source));
+  PetscCall(ScatterForward(o->scatter, sizeof *owned, owned, o->source));
   PetscCall(PetscFree(owned));
   PetscCall(FindPairs(o));
   PetscCall(FindCoupledElements(o));
@@ -140,14 +149,14 @@ PetscErrorCode OverlapBuild(Overlap o, const SolidState *solid, const Shell shel
 PetscErrorCode OverlapForward(Overlap o, int ncomp, const double owned[], double source[])
 {
   PetscFunctionBeginUser;
-  PetscCall(ScatterForward(o->route, (size_t)ncomp * sizeof *owned, owned, source));
+  PetscCall(ScatterForward(o->scatter, (size_t)ncomp * sizeof *owned, owned, source));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode OverlapReverseAdd(Overlap o, int ncomp, const double source[], double owned[])
 {
   PetscFunctionBeginUser;
-  PetscCall(ScatterReverseAdd(o->route, ncomp, source, owned));
+  PetscCall(ScatterReverseAdd(o->scatter, ncomp, source, owned));
   PetscFunctionReturn(0);
 }
 
@@ -193,11 +202,11 @@ PetscErrorCode OverlapDestroy(Overlap *overlap)
   SearchDestroy(&o->search);
   SupermeshPairsDestroy(&o->pairs);
   PetscCall(PetscFree(o->bounds));
-  PetscCall(PetscFree3(o->x, o->area, o->rho));
+  PetscCall(PetscFree4(o->x, o->area, o->rho, o->mu));
   PetscCall(PetscFree(o->node));
   PetscCall(PetscFree(o->source));
   PetscCall(PetscFree2(o->coupled_element, o->coupled_index));
-  PetscCall(ScatterDestroy(&o->route));
+  PetscCall(ScatterDestroy(&o->scatter));
   PetscCall(PetscFree(*overlap));
   PetscFunctionReturn(0);
 }

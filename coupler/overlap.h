@@ -1,8 +1,9 @@
 /* The overlap of the solid and its shell with the fluid's elements, over all coupler ranks.
  *
- * A rank has the fluid elements K of its own clients.  The solid's triangles T (volume elements, then the shell's)
- * are owned by the rank whose client sent them.  A copy of each goes to every rank whose fluid elements'
- * bounding box T touches: the source triangles there.  The supermesh of source triangles and elements is local:
+ * A rank has the fluid elements K of its own clients.  The solid's triangles T (volume elements, then the
+ * shell's) are owned by the rank whose client sent them.  A copy of each goes to every rank whose fluid
+ * elements' bounding box T touches: the source triangles there.  The supermesh of source triangles and
+ * elements is local:
  *
  *        owner rank                              rank of fluid element K
  *      owned triangle T  ---(x, u_s, normal)--->  source triangle T
@@ -10,8 +11,9 @@
  *                                                       |   exact integrals over T and K
  *      owned triangle T  <---(sums at vertices)---  source triangle T
  *
- * Every part of T that the fluid covers is in exactly one pair on one rank, since each fluid element is on one
- * rank; parts outside of the fluid are in none.  A coupled element is a fluid element with at least one pair.
+ * Every part of T that the fluid covers is in exactly one pair on one rank, since each fluid element is on
+ * one rank; parts outside of the fluid are in none.  A coupled element is a fluid element with at least one
+ * pair.
  *
  *      pairs.pair[p].a = T   in 0 .. nsources - 1        coupled_index[p]    = e   in 0 .. ncoupled - 1
  *      pairs.pair[p].b = K   in 0 .. nelements - 1       coupled_element[e]  = K   ascending
@@ -34,14 +36,15 @@ typedef struct {
   MPI_Comm comm;
   /* the fluid elements of this rank's clients */
   int nelements;
-  double (*x)[3][2], *area, *rho; /* [nelements] m, m2, kg/m3; x and rho are copies */
-  double lower[2], upper[2];      /* bounds of the fluid's whole domain, m */
-  GeometryBox *bounds;            /* [size] bounding box of each rank's elements */
+  double (*x)[3][2], *area;  /* [nelements] m (copied), m2 */
+  double *rho, *mu;          /* [nelements] kg/m3, Pa s, of the last flow or exchange of elements (copied) */
+  double lower[2], upper[2]; /* bounds of the fluid's whole domain, m */
+  GeometryBox *bounds;       /* [size] bounding box of each rank's elements */
   Search search;
-  /* the solid's triangles that this rank owns, and the route from there to the source triangles */
+  /* the solid's triangles that this rank owns, and the scatter from there to the source triangles */
   int nowned, nvolume; /* nvolume volume elements, then the shell's triangles */
   int (*node)[3];      /* [nowned] their nodes in SolidState */
-  Scatter route;
+  Scatter scatter;
   /* the source triangles on this rank, the pairs and the coupled elements */
   int nsources;
   SourceTriangle *source; /* [nsources] */
@@ -55,6 +58,9 @@ PetscErrorCode OverlapCreate(MPI_Comm comm, Overlap *overlap);
 PetscErrorCode OverlapDestroy(Overlap *overlap);
 /* The fluid's elements near the solid, copied.  Pairs made before are void. */
 PetscErrorCode OverlapSetElements(Overlap overlap, const FluidElements *elements);
+/* Local: density rho[nelements], kg/m3, and viscosity mu[nelements], Pa s, of the fluid's last flow
+ * (copied). */
+PetscErrorCode OverlapSetProperties(Overlap overlap, const double rho[], const double mu[]);
 /* Distributes the solid and its shell as they are now and finds all pairs. */
 PetscErrorCode OverlapBuild(Overlap overlap, const SolidState *solid, const Shell shell);
 

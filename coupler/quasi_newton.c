@@ -2,10 +2,10 @@
 
 enum { MAX_COLUMNS = 30 };
 
-/* A column is dropped when newer ones leave less than this part of it. */
+/* A column is dropped when its part orthogonal to newer columns is smaller than this fraction of it. */
 #define FILTER 1e-3
 
-/* The first step of the first solve, when nothing is known. */
+/* Relaxation of an iteration without columns: the first of the first solve. */
 #define RELAXATION 0.5
 
 typedef struct {
@@ -17,8 +17,8 @@ struct QuasiNewton_s {
   int n, ncolumns;
   Column column[MAX_COLUMNS]; /* the newest first */
   double *q[MAX_COLUMNS];     /* [n] */
-  double *r, *hx;             /* [n] of the x before */
-  PetscBool has_previous;     /* there is one */
+  double *r, *hx;             /* [n] residual and H(x) of the previous iteration */
+  PetscBool has_previous;     /* in this solve */
 };
 
 static PetscErrorCode FreeColumn(Column *c)
@@ -71,7 +71,7 @@ PetscErrorCode QuasiNewtonBegin(QuasiNewton a, int n)
   PetscFunctionReturn(0);
 }
 
-/* What has changed since the x before, in front of all columns. */
+/* The differences to the previous iteration become column 0. */
 static PetscErrorCode AddColumn(QuasiNewton a, const double x[], const double hx[])
 {
   Column c;
@@ -97,7 +97,7 @@ static PetscErrorCode Dot(QuasiNewton a, const double x[], const double y[], dou
   PetscFunctionReturn(0);
 }
 
-/* Column k orthogonal to those before it, r[0 .. k][k] of V = Q R; *good: something is left of it. */
+/* Gram-Schmidt: q[k] from column k, and r[0 .. k][k] of V = Q R; *independent: it passes the filter. */
 static PetscErrorCode Orthogonal(QuasiNewton a, int k, double r[][MAX_COLUMNS], PetscBool *independent)
 {
   double norm2, remainder2;
@@ -117,7 +117,7 @@ static PetscErrorCode Orthogonal(QuasiNewton a, int k, double r[][MAX_COLUMNS], 
   PetscFunctionReturn(0);
 }
 
-/* V = Q R of the columns that are good; others are dropped. */
+/* V = Q R of the independent columns; the others are dropped. */
 static PetscErrorCode Factor(QuasiNewton a, double r[][MAX_COLUMNS])
 {
   PetscFunctionBeginUser;

@@ -26,8 +26,7 @@ static PetscErrorCode JoinBoxes(MPI_Comm comm, int n, GeometryBox box[])
   PetscFunctionReturn(0);
 }
 
-/* Grows the box of the cluster (a cell of a square grid on the whole solid) that holds the simplex's centre.
- */
+/* Grows the box of the cluster whose grid cell contains the simplex's centre. */
 static void AddSimplex(const GeometryBox *whole, int n, const int node[], const double x[],
                        GeometryBox cluster[])
 {
@@ -103,7 +102,7 @@ PetscErrorCode RegionStale(Region r, const SolidState *solid, PetscBool *stale)
 
   PetscFunctionBeginUser;
   for (int i = 0; i < solid->nnodes && !local; i++) {
-    /* not <=: a node at NaN is stale too */
+    /* NaN is stale, too */
     local = !(hypot(solid->x[2 * i] - r->x[2 * i], solid->x[2 * i + 1] - r->x[2 * i + 1]) <= r->margin);
   }
   PetscCallMPI(MPI_Allreduce(&local, &any, 1, MPI_INT, MPI_MAX, r->comm));

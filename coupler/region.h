@@ -1,11 +1,12 @@
-/* The region near the solid from which the fluid sends its elements: at most REGION_BOXES boxes around clusters of
- * the solid's triangles and facets, widened by a margin that the solid may move before they are renewed.
+/* The region near the solid from which the fluid sends its elements: at most REGION_BOXES boxes around
+ * clusters of the solid's triangles and facets, widened by a margin that the solid may move before they are
+ * renewed.
  *
- *      +-------------+         a cluster: the simplices whose centres are in one cell of a REGION_SIDE x REGION_SIDE
- *      |  .-------.  | margin  grid on the solid's bounding box; its box holds them, the margin and the shell
- *      |  |cluster|  |
+ *      +-------------+
+ *      |  .-------.  |         a cluster: the simplices whose centres are in one cell of a
+ *      |  |cluster|  | margin  REGION_SIDE x REGION_SIDE grid on the solid's bounding box
  *      |  '-------'  |
- *      +-------------+                                                                                        */
+ *      +-------------+ */
 #ifndef CORACLE_REGION_H
 #define CORACLE_REGION_H
 #include "coupler/fluid_state.h"
@@ -24,8 +25,9 @@ typedef struct {
 } * Region;
 
 PetscErrorCode RegionCreate(MPI_Comm comm, double thickness, Region *region);
-/* Collective: boxes around the solid as it is now.  The margin is the way of the fastest node in REGION_STEPS steps
- * of dt, but at most a fifth of the body's size (the root of the clusters' area) and at least 8 shell thicknesses. */
+/* Collective: boxes around the solid as it is now.  The margin is the way of the fastest node in REGION_STEPS
+ * steps of dt, but at most a fifth of the body's size (the root of the clusters' area) and at least 8 shell
+ * thicknesses. */
 PetscErrorCode RegionUpdate(Region region, const SolidState *solid, double dt);
 /* Collective: has a node moved farther than the margin since, or has the solid changed its mesh? */
 PetscErrorCode RegionStale(Region region, const SolidState *solid, PetscBool *stale);

@@ -1,6 +1,6 @@
-/* What lives from one step of the time loop to the next, and the parts of the loop that are not the algorithm:
- * the choice of the time step, the checks that end a run with a reason, and the checkpoint.
- * For time_loop.c; everything is collective. */
+/* What lives from one step of the time loop to the next, and the parts of the loop that are not the
+ * algorithm: the choice of the time step, the checks that end a run with a reason, and the checkpoint.  For
+ * time_loop.c; everything is collective. */
 #ifndef CORACLE_RUN_STATE_H
 #define CORACLE_RUN_STATE_H
 #include "coupler/checkpoints.h"
@@ -21,9 +21,9 @@ typedef struct {
   const CoracleCorrection *correction; /* [ncorrection] of the last accepted step, not sent yet; borrowed */
 } RunState;
 
-/* dt for the coming step: the fluid's proposal, at most time.dt_max.  The last step ends exactly at time.end, and
- * the one before it is shortened so that the last is not much smaller.  A proposal below 1e-6 of time.dt_max
- * ends the job: the flow diverges and would take ever shorter steps. */
+/* dt for the coming step: the fluid's proposal, at most time.dt_max.  The last step ends exactly at time.end,
+ * and the one before it is shortened so that the last is not much smaller.  A proposal below 1e-6 of
+ * time.dt_max ends the job: the flow diverges and would take ever shorter steps. */
 PetscErrorCode RunChooseStep(RunState *run, double proposed);
 /* Ends the job when a node of the solid is outside of the fluid's domain. */
 PetscErrorCode RunCheckInside(const RunState *run);

@@ -16,30 +16,30 @@ static PetscErrorCode FreeArrays(Shell s)
   PetscCall(PetscFree2(s->normal, s->length));
   PetscCall(PetscFree2(s->x, s->node));
   PetscCall(PetscFree2(s->surface, s->offset));
-  PetscCall(NodeSumDestroy(&s->sum));
+  PetscCall(CopiesDestroy(&s->copies));
   PetscFunctionReturn(0);
 }
 
-/* The nodes of the facets, each once, and where their copies are. */
+/* surface[]: the facets' nodes, each once, and their copies on all ranks. */
 static PetscErrorCode FindSurfaceNodes(Shell s, const SolidState *solid)
 {
-  PetscBool *seen;
-  long long *gid;
+  PetscBool *found;
+  CopiesKey *key;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscCalloc1(solid->nnodes, &seen));
-  PetscCall(PetscMalloc1(solid->nnodes, &gid));
+  PetscCall(PetscCalloc1(solid->nnodes, &found));
+  PetscCall(PetscMalloc1(solid->nnodes, &key));
   s->nsurface = 0;
   for (int i = 0; i < 2 * solid->nfacets; i++) {
     const int node = solid->facet[i];
-    if (seen[node]) continue;
-    seen[node] = PETSC_TRUE;
-    gid[s->nsurface] = solid->gid[node];
+    if (found[node]) continue;
+    found[node] = PETSC_TRUE;
+    key[s->nsurface] = (CopiesKey){solid->gid[node], solid->gid[node]};
     s->surface[s->nsurface++] = node;
   }
-  PetscCall(NodeSumCreate(s->comm, s->nsurface, gid, &s->sum));
-  PetscCall(PetscFree(gid));
-  PetscCall(PetscFree(seen));
+  PetscCall(CopiesCreate(s->comm, s->nsurface, key, &s->copies));
+  PetscCall(PetscFree(key));
+  PetscCall(PetscFree(found));
   PetscFunctionReturn(0);
 }
 
@@ -64,7 +64,7 @@ static PetscErrorCode Allocate(Shell s, const SolidState *solid)
   PetscFunctionReturn(0);
 }
 
-/* Edge normals; the sum of the normals that meet in a node, and their number, are left in offset. */
+/* The facets' normals; offset[node] = (sum of the adjacent facets' normals, their number). */
 static void Normals(Shell s, const SolidState *solid)
 {
   for (int e = 0; e < s->nfacets; e++) {
@@ -98,7 +98,7 @@ static PetscErrorCode Offsets(Shell s)
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(s->nsurface, &shared));
   for (int i = 0; i < s->nsurface; i++) PetscCall(PetscArraycpy(shared[i], s->offset[s->surface[i]], 3));
-  PetscCall(NodeSumApply(s->sum, 3, (double *)shared));
+  PetscCall(CopiesSum(s->copies, 3, (double *)shared));
   for (int i = 0; i < s->nsurface; i++) {
     ScaleOffset(s->thickness, shared[i]);
     PetscCall(PetscArraycpy(s->offset[s->surface[i]], shared[i], 3));

@@ -1,5 +1,4 @@
-/* The shell: the solid's surface extruded outwards by the thickness dr, two triangles per edge (method.md
- * section 5).
+/* The shell: the solid's surface extruded outwards by the thickness dr, two triangles per edge.
  *
  *      solid (on the left of a -> b)        triangle 2e:      a  a' b'    nodes on the surface: a a b
  *      a ----------------> b                triangle 2e + 1:  a  b' b                           a b b
@@ -11,7 +10,7 @@
  * An outer node carries the value of its surface node: the shell's functions collapse to the edge's two. */
 #ifndef CORACLE_SHELL_H
 #define CORACLE_SHELL_H
-#include "coupler/node_sum.h"
+#include "common/exchange/copies.h"
 #include "coupler/solid_state.h"
 
 /* At sharp corners the offset is cut to this many thicknesses (the surface turns by 120 degrees there). */
@@ -28,7 +27,7 @@ typedef struct {
   int *surface;        /* [nsurface] nodes of this rank that are on the surface */
   int nsurface, nnodes;
   double (*offset)[3]; /* [nnodes] the offset (2), 0 inside the solid; the third entry is scratch */
-  NodeSum sum;
+  Copies copies;       /* of the surface nodes, by gid */
 } * Shell;
 
 /* Collective. */

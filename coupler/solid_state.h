@@ -1,5 +1,6 @@
 /* The solid as the coupler's numerics see it: the nodes, surface facets and volume elements that this rank's
- * clients own, with their velocities.  Arrays are borrowed from whoever fills the struct (exchange.h in a run).
+ * clients own, with their velocities.  Arrays are borrowed from whoever fills the struct (exchange.h in a
+ * run).
  *
  *      solid on the left       facet f: facet[f] = (a, b)       element t: element[t] = (a, b, c),
  *      of a -> b               runs along the surface           counter-clockwise

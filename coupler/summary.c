@@ -28,7 +28,7 @@ static void Collect(void *context, const char *role, const char *key, double val
   report->value = value;
 }
 
-/* JSON knows no NaN. */
+/* null for NaN and infinity, which JSON does not have. */
 static void WriteNumber(FILE *f, double value)
 {
   if (isfinite(value)) {

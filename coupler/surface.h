@@ -1,12 +1,13 @@
 /* Fluid -> shell -> surface: the Galerkin projections [40]-[42] of fluid fields to the solid's surface (mode
  * stress_shell; the default mode projects nothing).
  *
- *    fluid -> shell     on each shell triangle T:   int_T N_i q_T   = sum over K of int_{K and T} N_i q_K     [41]
- *    shell -> surface   on each edge e:             int_e N_i^e q_e = int N_i^e q_T over its two triangles    [42]
+ *    fluid -> shell     shell triangle T:  int_T N_i q_T   = sum over K of int_{K and T} N_i q_K     [41]
+ *    shell -> surface   edge e:            int_e N_i^e q_e = int N_i^e q_T over its two triangles    [42]
  *
  * N^e: the edge's two functions, constant across the shell, so that dr int_e stands for the integral over a
- * straight shell.  Both sides of [41] run over the part of T that the fluid covers, so a shell that reaches out
- * of the fluid uses the covered part; where less than half of a triangle is covered its field is constant. */
+ * straight shell.  Both sides of [41] run over the part of T that the fluid covers, so a shell that reaches
+ * out of the fluid uses the covered part; where less than half of a triangle is covered its field is
+ * constant. */
 #ifndef CORACLE_SURFACE_H
 #define CORACLE_SURFACE_H
 #include "coupler/overlap.h"

@@ -1,6 +1,6 @@
-/* One step from t to t + dt (method.md sections 6 and 9); a staggered step is one coupling iteration.
+/* One step from t to t + dt; a staggered step is one coupling iteration.
  *
- *     repeat     fluid   -- u*, u+, p, mu -->   force     -- force -->  solid
+ *     repeat     fluid   -- u*, u+, rho, mu -->  force     -- force -->  solid
  *                solid   -- x, u_s ---------->  converged?
  *                           if not:             next u_s  -- coupling, REDO -->  fluid
  *     until converged
@@ -66,6 +66,7 @@ static PetscErrorCode Start(RunState *run)
   PetscCall(CheckpointsCreate(PETSC_COMM_WORLD, loop->server, c, &run->checkpoints));
   if (loop->from) PetscCall(RunLoad(run, loop->from));
   PetscCall(ExchangeReceiveSolid(loop->server, run->mode, &run->solid));
+  PetscCall(ExchangeSelectFields(loop->server, run->mode));
   PetscCall(RequestElements(run));
   if (!loop->from) PetscCall(RunCheckInside(run));
   PetscCall(RunChooseStep(run, run->dt > 0.0 ? run->dt : ServerProposedStep(loop->server)));
@@ -78,10 +79,10 @@ static PetscErrorCode Iterate(RunState *run, CoracleAction action, StepRecord *s
 {
   const TimeLoop *loop = run->loop;
   const double *force;
-  FluidFlow flow;
+  CoracleFlow flow;
 
   PetscFunctionBeginUser;
-  PetscCall(ExchangeReceiveFlow(loop->server, run->mode, &flow));
+  PetscCall(ServerReceiveFlow(loop->server, &flow));
   const double start = MPI_Wtime();
   PetscCall(CouplerComputeForce(loop->coupler, &flow, &force, &step->totals));
   step->force += MPI_Wtime() - start;

@@ -1,16 +1,18 @@
 /* The coupling term s_c = a (u_s - u) in the fluid [37]-[39], assembled pair by pair.
  *
- * Each pair of the overlap (T, K) has one symmetric 2 x 2 coefficient a, kg/(m3 s): sigma I where T belongs to the
- * solid's volume, the wall term where it belongs to the shell,
+ * Each pair of the overlap (T, K) has one symmetric 2 x 2 coefficient a, kg/(m3 s): sigma I where T belongs
+ * to the solid's volume, the wall term where it belongs to the shell,
  *
  *     a = mu / (dr dxw) (I + n n / 3)          [37], dr the shell's thickness, dxw the extent of K along n.
  *
  * Element K receives, summed over its pairs (B = int N_K N_K^T, C = int N_T N_K^T),
  *
- *     a:  a B      s:  a C^T u_s      give:  (1 - b) a B      in the volume:  ms:  b B     us:  b C^T u_s
+ *     a                 =  a B                s   =  a C^T u_s
+ *     implicit inertia  =  (1 - b) a B
+ *     ms                =  b B                us  =  b C^T u_s        T in the solid's volume
  *
- * with b = 1 where the coupling is explicit in the solid (inertia.h).  The reaction (force.h) is made of the same
- * coefficients and integrals, so what the fluid gains the solid loses.  No field is projected, so none
+ * with b = 1 where the coupling is explicit in the solid (inertia.h).  The reaction (force.h) is made of the
+ * same coefficients and integrals, so what the fluid gains the solid loses.  No field is projected, so none
  * undershoots: a sum of positive semidefinite coefficients times Gram matrices is positive semidefinite. */
 #ifndef CORACLE_WALL_TERM_H
 #define CORACLE_WALL_TERM_H
@@ -58,8 +60,9 @@ static inline void WallApply(const WallCoefficient *a, const double v[2], double
   av[1] = a->xy * v[0] + a->yy * v[1];
 }
 
-/* Local: coupling[overlap->ncoupled], one per coupled element (coracle.h has shapes and units), from the pairs'
- * coefficient[pairs.n] a, the source triangles' velocities and implicit_factor[overlap->nsources] b. */
+/* Local: coupling[overlap->ncoupled], one per coupled element (coracle.h has shapes and units), from the
+ * pairs' coefficient[pairs.n] a, the source triangles' velocities and implicit_factor[overlap->nsources]
+ * b. */
 void WallTermAssemble(const Overlap overlap, const WallCoefficient coefficient[],
                       const double implicit_factor[], CoracleCoupling coupling[]);
 #endif

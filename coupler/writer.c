@@ -7,21 +7,23 @@ static const char COLUMNS[] =
 struct Writer_s {
   MPI_Comm comm;
   int rank, revision;
-  double end, down[2], start, reported, fall_end, fall_sum,
-      fall_time; /* fall_end: the end of whose last 5 % it is */
+  double end, down[2];        /* s, time.end; unit, along gravity */
+  double start, reported;     /* wall clock: of the run, of the last line of progress, s */
+  double fall_sum, fall_time; /* over the last 5 % of fall_end: int u . down dt, m, and its length, s */
+  double fall_end;            /* s, the time.end that fall_sum belongs to */
   Series series;
   Output output;
   WriterTotals totals;
 };
 
-/* What a checkpoint has of a record, by name. */
+/* A number of the writer that checkpoints hold, by name. */
 typedef struct {
   const char *name;
   double *value;
 } SavedNumber;
 enum { NSAVED = 7 };
 
-/* count is a copy of the totals' steps and tries, which are no doubles. */
+/* count[2]: steps and iterations as doubles. */
 static void SavedNumbers(Writer r, double count[2], SavedNumber saved[NSAVED])
 {
   count[0] = (double)r->totals.steps;
@@ -33,7 +35,7 @@ static void SavedNumbers(Writer r, double count[2], SavedNumber saved[NSAVED])
   for (int k = 0; k < NSAVED; k++) saved[k] = all[k];
 }
 
-/* The most of all ranks, as the summary has them. */
+/* The largest of all ranks, as in the summary. */
 static PetscErrorCode PutSeconds(Writer r, Checkpoint to)
 {
   double largest[2] = {r->totals.overlap, r->totals.force};
@@ -74,7 +76,7 @@ static PetscErrorCode Load(Writer r, Checkpoint from)
   r->totals.steps = (long long)count[0];
   r->totals.iterations = (long long)count[1];
   r->totals.resumed = r->totals.end;
-  if (!r->rank) printf("coracle: goes on from t = %.5g s, step %lld\n", r->totals.resumed, r->totals.steps);
+  if (!r->rank) printf("coracle: resumes from t = %.5g s, step %lld\n", r->totals.resumed, r->totals.steps);
   PetscFunctionReturn(0);
 }
 

@@ -3,7 +3,7 @@
 #include "fluid/writer.h"
 
 /* What the calls that read them do not say of the fluid's keys. */
-static const CaseKey KEYS[] = {
+static const CoracleCaseKey KEYS[] = {
     {"gravity", "m/s2", "acceleration of gravity, x and y"},
     {"time.cfl", "",
      "largest time step over the time that the flow takes through an element, largest over the mesh"},
@@ -66,7 +66,7 @@ static void Expect(const Mesh *m, PetscBool adapts, const AdaptationSetup *s)
   printf("fluid: memory about %.0f MB%s\n", MB_PROGRAM + MB_TRIANGLE * most, adapts ? " at most" : "");
 }
 
-static PetscErrorCode Draw(Case c, Mesh *mesh, const FluidSetup *setup)
+static PetscErrorCode Draw(CoracleCase c, Mesh *mesh, const FluidSetup *setup)
 {
   Fluid fluid;
   Writer writer;
@@ -79,7 +79,7 @@ static PetscErrorCode Draw(Case c, Mesh *mesh, const FluidSetup *setup)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ReadCase(Case c, Command command)
+static PetscErrorCode ReadCase(CoracleCase c, Command command)
 {
   static const char *const SECTIONS[] = {"fluid", NULL};
   Mesh *mesh;
@@ -87,25 +87,25 @@ static PetscErrorCode ReadCase(Case c, Command command)
   AdaptationSetup adaptation;
   PetscBool adapts;
   PetscFunctionBeginUser;
-  CaseDescribe(c, KEYS);
-  (void)CaseStringOr(c, "fluid.petsc", "");
-  (void)CaseString(c, "output.folder");
-  (void)CasePositive(c, "output.every");
+  CoracleCaseDescribe(c, KEYS);
+  (void)CoracleCaseStringOr(c, "fluid.petsc", "");
+  (void)CoracleCaseString(c, "output.folder");
+  (void)CoracleCasePositive(c, "output.every");
   PetscCall(FluidCaseMesh(c, PETSC_COMM_SELF, NULL, &mesh, NULL));
   PetscCall(FluidCaseSetup(c, mesh, &setup));
   PetscCall(FluidCaseAdaptation(c, &adapts, &adaptation));
-  PetscCall(CaseFinish(c, SECTIONS));
-  if (command != COMMAND_KEYS && CaseFaultless(c)) Expect(mesh, adapts, &adaptation);
-  if (command == COMMAND_DRAW && CaseFaultless(c)) PetscCall(Draw(c, mesh, &setup));
+  PetscCall(CoracleCaseFinish(c, SECTIONS));
+  if (command != COMMAND_KEYS && CoracleCaseFaultless(c)) Expect(mesh, adapts, &adaptation);
+  if (command == COMMAND_DRAW && CoracleCaseFaultless(c)) PetscCall(Draw(c, mesh, &setup));
   PetscCall(PetscFree(setup.boundary));
   PetscCall(MeshDestroy(&mesh));
   PetscFunctionReturn(0);
 }
 
-static void Read(Case c, void *command)
+static void Read(CoracleCase c, void *command)
 {
   const PetscErrorCode failed = ReadCase(c, *(const Command *)command);
-  if (failed) CaseRefuse(c, "fluid", "the mesh cannot be made (error %d of PETSc)", failed);
+  if (failed) CoracleCaseRefuse(c, "fluid", "the mesh cannot be made (error %d of PETSc)", failed);
 }
 
 int FluidAnswer(Command command, int argc, char **argv)

@@ -2,28 +2,32 @@
 
 struct Exchange_s {
   CoracleClient client; /* borrowed */
-  Fluid fluid;          /* borrowed: that of the step in hand, and the one whose elements are given */
-  Fluid exchanged;
-  ExchangeFirst first; /* until it has been called */
-  void *context;
+  Fluid fluid;          /* borrowed: that of the current step */
+  Fluid exchanged;      /* borrowed: the one whose elements the coupler asks for */
   int n, capacity;
-  int *element;    /* [n] the fluid's local elements near the solid */
-  double *x, *rho; /* [n][3][2], [n] */
-  double *u_star, *u_plus, *p, *mu;
+  int *element;                                /* [n] the fluid's local elements near the solid */
+  double *x;                                   /* [n][3][2] m */
+  double *u_star, *u_projected, *p, *rho, *mu; /* as in CoracleFlow */
   CoracleCoupling *coupling;
   int coupling_capacity;
 };
+
+static PetscErrorCode FreeArrays(Exchange x)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscFree2(x->element, x->x));
+  PetscCall(PetscFree5(x->u_star, x->u_projected, x->p, x->rho, x->mu));
+  PetscFunctionReturn(0);
+}
 
 static PetscErrorCode Reserve(Exchange x, int n)
 {
   PetscFunctionBeginUser;
   if (n <= x->capacity) PetscFunctionReturn(0);
-  x->capacity = n + n / 4;
-  PetscCall(PetscFree(x->element));
-  PetscCall(PetscFree6(x->x, x->rho, x->u_star, x->u_plus, x->p, x->mu));
-  PetscCall(PetscMalloc1(x->capacity, &x->element));
-  PetscCall(PetscMalloc6(6 * x->capacity, &x->x, x->capacity, &x->rho, 6 * x->capacity, &x->u_star,
-                         6 * x->capacity, &x->u_plus, 6 * x->capacity, &x->p, x->capacity, &x->mu));
+  const int c = x->capacity = n + n / 4;
+  PetscCall(FreeArrays(x));
+  PetscCall(PetscMalloc2(c, &x->element, 6 * c, &x->x));
+  PetscCall(PetscMalloc5(6 * c, &x->u_star, 6 * c, &x->u_projected, 6 * c, &x->p, c, &x->rho, c, &x->mu));
   PetscFunctionReturn(0);
 }
 
@@ -43,16 +47,22 @@ static PetscBool InAnyBox(const Mesh *m, int e, int nbox, const double box[])
   return PETSC_FALSE;
 }
 
+/* Density and viscosity of the fluid on the elements near the solid. */
+static void CopyProperties(Exchange x, Fluid fluid)
+{
+  const double *rho = FluidDensity(fluid), *mu = FluidViscosity(fluid);
+  for (int k = 0; k < x->n; k++) {
+    x->rho[k] = rho[x->element[k]];
+    x->mu[k] = mu[x->element[k]];
+  }
+}
+
 /* CoracleRegionFunction */
-static int ElementsInRegion(void *context, int nbox, const double box[], int *n, const double **x,
-                            const double **rho)
+static int ElementsInRegion(void *context, int nbox, const double box[], CoracleElements *elements)
 {
   Exchange s = context;
-  const ExchangeFirst first = s->first;
-  int count = 0;
-  s->first = NULL;
-  if (first && first(s->context, nbox, box, &s->exchanged)) return 1;
   const Mesh *m = FluidMesh(s->exchanged);
+  int count = 0;
   for (int e = 0; e < m->ne; e++) count += InAnyBox(m, e, nbox, box);
   if (Reserve(s, count)) return 1;
   s->n = 0;
@@ -60,12 +70,10 @@ static int ElementsInRegion(void *context, int nbox, const double box[], int *n,
     if (!InAnyBox(m, e, nbox, box)) continue;
     for (int i = 0; i < 3; i++)
       for (int c = 0; c < 2; c++) s->x[6 * s->n + 2 * i + c] = m->x[2 * m->vertex[3 * e + i] + c];
-    s->rho[s->n] = FluidDensity(s->exchanged)[e];
     s->element[s->n++] = e;
   }
-  *n = s->n;
-  *x = s->x;
-  *rho = s->rho;
+  CopyProperties(s, s->exchanged);
+  *elements = (CoracleElements){.n = s->n, .x = s->x, .rho = s->rho, .mu = s->mu};
   return 0;
 }
 
@@ -75,8 +83,7 @@ static int SaveOrRestore(void *context, int save)
   return save ? FluidSaveState(s->fluid) : FluidRestoreState(s->fluid);
 }
 
-PetscErrorCode ExchangeCreate(CoracleClient client, Fluid fluid, ExchangeFirst first, void *context,
-                              Exchange *exchange)
+PetscErrorCode ExchangeCreate(CoracleClient client, Fluid fluid, Exchange *exchange)
 {
   const Mesh *m = FluidMesh(fluid);
   Exchange x;
@@ -84,13 +91,10 @@ PetscErrorCode ExchangeCreate(CoracleClient client, Fluid fluid, ExchangeFirst f
   PetscCall(PetscNew(&x));
   x->client = client;
   x->fluid = x->exchanged = fluid;
-  x->first = first;
-  x->context = context;
   PetscCall(CoracleSetRegion(client, m->dim, m->lower, m->upper, ElementsInRegion, x));
   PetscCall(CoracleBindStateFunction(client, SaveOrRestore, x));
   PetscCall(CoracleProposeStep(client, FluidTimeStep(fluid)));
   PetscCall(CoracleReady(client));
-  x->fluid = x->exchanged;
   *exchange = x;
   PetscFunctionReturn(0);
 }
@@ -114,21 +118,33 @@ PetscErrorCode ExchangeReceiveCoupling(Exchange x)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ExchangeFlow(Exchange x, Fluid next, PetscBool *accepted, const CoracleCorrection **correction)
+/* The flow of the current step on the elements near the solid. */
+static PetscErrorCode SetFlow(Exchange x)
 {
   const Mesh *m = FluidMesh(x->fluid);
-  const double *u_star = FluidVelocityStar(x->fluid), *u_plus = FluidVelocityProjected(x->fluid);
-  const double *p = FluidPressure(x->fluid), *mu = FluidViscosity(x->fluid);
-  int n;
+  const double *u_star = FluidVelocityStar(x->fluid), *u_projected = FluidVelocityProjected(x->fluid);
+  const PetscBool needs_pressure = CoracleNeedsPressure(x->client) ? PETSC_TRUE : PETSC_FALSE;
+  const CoracleFlow flow = {x->u_star, x->u_projected, needs_pressure ? x->p : NULL, x->rho, x->mu};
   PetscFunctionBeginUser;
   for (int k = 0; k < x->n; k++) {
-    const int e = x->element[k];
-    PetscCall(PetscArraycpy(x->u_star + 6 * k, u_star + 6 * e, 6));
-    PetscCall(PetscArraycpy(x->u_plus + 6 * k, u_plus + 6 * e, 6));
-    for (int i = 0; i < 6; i++) x->p[6 * k + i] = p[m->p2[6 * e + i]];
-    x->mu[k] = mu[e];
+    PetscCall(PetscArraycpy(x->u_star + 6 * k, u_star + 6 * x->element[k], 6));
+    PetscCall(PetscArraycpy(x->u_projected + 6 * k, u_projected + 6 * x->element[k], 6));
   }
-  PetscCall(CoracleSetFlow(x->client, x->u_star, x->u_plus, x->p, x->mu));
+  if (needs_pressure) {
+    const double *p = FluidPressure(x->fluid);
+    for (int k = 0; k < x->n; k++)
+      for (int i = 0; i < 6; i++) x->p[6 * k + i] = p[m->p2[6 * x->element[k] + i]];
+  }
+  CopyProperties(x, x->fluid);
+  PetscCall(CoracleSetFlow(x->client, &flow));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ExchangeFlow(Exchange x, Fluid next, PetscBool *accepted, const CoracleCorrection **correction)
+{
+  int n;
+  PetscFunctionBeginUser;
+  PetscCall(SetFlow(x));
   PetscCall(CoracleProposeStep(x->client, FluidTimeStep(x->fluid)));
   if (next) PetscCall(CoracleElementsChanged(x->client));
   if (next) x->exchanged = next;
@@ -146,8 +162,7 @@ PetscErrorCode ExchangeDestroy(Exchange *x)
 {
   PetscFunctionBeginUser;
   if (!*x) PetscFunctionReturn(0);
-  PetscCall(PetscFree((*x)->element));
-  PetscCall(PetscFree6((*x)->x, (*x)->rho, (*x)->u_star, (*x)->u_plus, (*x)->p, (*x)->mu));
+  PetscCall(FreeArrays(*x));
   PetscCall(PetscFree((*x)->coupling));
   PetscCall(PetscFree(*x));
   PetscFunctionReturn(0);

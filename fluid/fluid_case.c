@@ -25,28 +25,29 @@ static double SizeAt(void *context, const double x[2])
   return size;
 }
 
-static PetscErrorCode BoxMesh(Case c, PetscBool make, MeshSerial *serial)
+static PetscErrorCode BoxMesh(CoracleCase c, PetscBool make, MeshSerial *serial)
 {
   SizeField f = {0};
   double lower[2], upper[2];
   char key[64];
   PetscFunctionBeginUser;
-  CaseVector(c, "fluid.mesh.lower", 2, lower);
-  CaseVector(c, "fluid.mesh.upper", 2, upper);
+  CoracleCaseVector(c, "fluid.mesh.lower", 2, lower);
+  CoracleCaseVector(c, "fluid.mesh.upper", 2, upper);
   if (upper[0] <= lower[0] || upper[1] <= lower[1])
-    CaseRefuse(c, "fluid.mesh.upper", "expected a corner above and right of lower (%g, %g), found (%g, %g)",
-               lower[0], lower[1], upper[0], upper[1]);
-  f.size_max = CasePositive(c, "fluid.mesh.size_max");
-  f.growth = CaseNumberOr(c, "fluid.mesh.growth", 0.25, 0.0, HUGE_VAL);
-  f.n = CaseCount(c, "fluid.mesh.refine");
+    CoracleCaseRefuse(c, "fluid.mesh.upper",
+                      "expected a corner above and right of lower (%g, %g), found (%g, %g)", lower[0],
+                      lower[1], upper[0], upper[1]);
+  f.size_max = CoracleCasePositive(c, "fluid.mesh.size_max");
+  f.growth = CoracleCaseNumberOr(c, "fluid.mesh.growth", 0.25, 0.0, HUGE_VAL);
+  f.n = CoracleCaseCount(c, "fluid.mesh.refine");
   PetscCall(PetscMalloc1(f.n, &f.box));
   for (int k = 0; k < f.n; k++) {
     (void)snprintf(key, sizeof key, "fluid.mesh.refine[%d].lower", k);
-    CaseVector(c, key, 2, f.box[k].at.lower);
+    CoracleCaseVector(c, key, 2, f.box[k].at.lower);
     (void)snprintf(key, sizeof key, "fluid.mesh.refine[%d].upper", k);
-    CaseVector(c, key, 2, f.box[k].at.upper);
+    CoracleCaseVector(c, key, 2, f.box[k].at.upper);
     (void)snprintf(key, sizeof key, "fluid.mesh.refine[%d].size", k);
-    f.box[k].size = CasePositive(c, key);
+    f.box[k].size = CoracleCasePositive(c, key);
   }
   if (make) PetscCall(MeshBox(lower, upper, f.size_max, SizeAt, &f, serial));
   PetscCall(PetscFree(f.box));
@@ -54,16 +55,16 @@ static PetscErrorCode BoxMesh(Case c, PetscBool make, MeshSerial *serial)
 }
 
 /* The keys are read in any case. */
-PetscErrorCode FluidCaseMesh(Case c, MPI_Comm comm, Checkpoint from, Mesh **mesh, PetscInt **row)
+PetscErrorCode FluidCaseMesh(CoracleCase c, MPI_Comm comm, Checkpoint from, Mesh **mesh, PetscInt **row)
 {
   MeshSerial serial = {0};
   PetscMPIInt rank;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   const PetscBool make = (PetscBool)(rank == 0 && !from);
-  if (CaseHas(c, "fluid.mesh.file")) {
-    const char *path = CaseFile(c, "fluid.mesh.file"), *why = NULL;
-    if (make && MeshReadGmsh(path, &serial, &why)) CaseRefuse(c, "fluid.mesh.file", "%s", why);
+  if (CoracleCaseHas(c, "fluid.mesh.file")) {
+    const char *path = CoracleCaseFile(c, "fluid.mesh.file"), *why = NULL;
+    if (make && MeshReadGmsh(path, &serial, &why)) CoracleCaseRefuse(c, "fluid.mesh.file", "%s", why);
   } else {
     PetscCall(BoxMesh(c, make, &serial));
   }
@@ -77,7 +78,7 @@ PetscErrorCode FluidCaseMesh(Case c, MPI_Comm comm, Checkpoint from, Mesh **mesh
 
 /* --- boundaries ----------------------------------------------------------------------------------------- */
 
-static void ReadBoundary(Case c, const char *name, Boundary *b)
+static void ReadBoundary(CoracleCase c, const char *name, Boundary *b)
 {
   static const char *const WORDS[] = {"no_slip", "free_slip", "open", NULL}, *const PROFILES[] = {"uniform",
                                                                                                   "parabolic",
@@ -87,27 +88,27 @@ static void ReadBoundary(Case c, const char *name, Boundary *b)
   memset(b, 0, sizeof *b);
   (void)snprintf(key, sizeof key, "fluid.boundaries.%s", name);
   (void)snprintf(sub, sizeof sub, "%s.velocity", key);
-  if (CaseHas(c, sub)) {
+  if (CoracleCaseHas(c, sub)) {
     b->kind = BOUNDARY_VELOCITY;
-    CaseVector(c, sub, 2, b->velocity);
+    CoracleCaseVector(c, sub, 2, b->velocity);
     (void)snprintf(sub, sizeof sub, "%s.profile", key);
-    b->parabolic = (PetscBool)(CaseWord(c, sub, 0, PROFILES) == 1);
+    b->parabolic = (PetscBool)(CoracleCaseWord(c, sub, 0, PROFILES) == 1);
     (void)snprintf(sub, sizeof sub, "%s.rise", key);
-    b->rise = CaseNumberOr(c, sub, 0.0, 0.0, HUGE_VAL);
+    b->rise = CoracleCaseNumberOr(c, sub, 0.0, 0.0, HUGE_VAL);
     return;
   }
   (void)snprintf(sub, sizeof sub, "%s.pressure", key);
-  if (CaseHas(c, sub)) {
+  if (CoracleCaseHas(c, sub)) {
     b->kind = BOUNDARY_OPEN;
-    b->pressure = CaseNumber(c, sub, -HUGE_VAL, HUGE_VAL);
+    b->pressure = CoracleCaseNumber(c, sub, -HUGE_VAL, HUGE_VAL);
     return;
   }
-  b->kind = KINDS[CaseWord(c, key, -1, WORDS)];
+  b->kind = KINDS[CoracleCaseWord(c, key, -1, WORDS)];
 }
 
 /* The boundaries of the case file and those of the mesh. */
 typedef struct {
-  Case c;
+  CoracleCase c;
   const Mesh *mesh;
   int nlisted, nknown; /* in the case file, and of these in the mesh */
   char listed[512];
@@ -133,7 +134,7 @@ static void CheckBoundaryName(void *context, const char *name)
   if (MeshTagIndex(check->mesh, name) >= 0) return;
   MeshBoundaries(check->mesh, known);
   (void)snprintf(key, sizeof key, "fluid.boundaries.%s", name);
-  CaseRefuse(check->c, key, "the mesh has no boundary of this name; it has %s", known);
+  CoracleCaseRefuse(check->c, key, "the mesh has no boundary of this name; it has %s", known);
 }
 
 static void ListBoundaryName(void *context, const char *name)
@@ -144,56 +145,57 @@ static void ListBoundaryName(void *context, const char *name)
   AppendName(check->listed, name);
 }
 
-void FluidCaseCheckResumed(Case c, const Mesh *mesh, const char *folder)
+void FluidCaseCheckResumed(CoracleCase c, const Mesh *mesh, const char *folder)
 {
   BoundaryCheck check = {.c = c, .mesh = mesh};
   char found[512];
-  CaseKeys(c, "fluid.boundaries", ListBoundaryName, &check);
+  CoracleCaseKeys(c, "fluid.boundaries", ListBoundaryName, &check);
   if (check.nlisted == mesh->ntags && check.nknown == mesh->ntags) return;
   MeshBoundaries(mesh, found);
-  CaseRefuse(c, "resume",
-             "expected a mesh with the %d boundaries of fluid.boundaries (%s), found %d (%s) in %s/fluid.h5",
-             check.nlisted, check.listed, mesh->ntags, found, folder);
+  CoracleCaseRefuse(
+      c, "resume",
+      "expected a mesh with the %d boundaries of fluid.boundaries (%s), found %d (%s) in %s/fluid.h5",
+      check.nlisted, check.listed, mesh->ntags, found, folder);
 }
 
-PetscErrorCode FluidCaseSetup(Case c, const Mesh *mesh, FluidSetup *setup)
+PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup)
 {
   BoundaryCheck check = {.c = c, .mesh = mesh};
   PetscFunctionBeginUser;
   memset(setup, 0, sizeof *setup);
-  setup->rho = CasePositive(c, "fluid.density");
-  setup->mu = CasePositive(c, "fluid.viscosity");
-  setup->theta = CaseNumberOr(c, "fluid.theta", 0.5, 0.5, 1.0);
-  CaseVector(c, "gravity", 2, setup->gravity);
-  setup->cfl = CasePositive(c, "time.cfl");
-  setup->dt_max = CasePositive(c, "time.dt_max");
+  setup->rho = CoracleCasePositive(c, "fluid.density");
+  setup->mu = CoracleCasePositive(c, "fluid.viscosity");
+  setup->theta = CoracleCaseNumberOr(c, "fluid.theta", 0.5, 0.5, 1.0);
+  CoracleCaseVector(c, "gravity", 2, setup->gravity);
+  setup->cfl = CoracleCasePositive(c, "time.cfl");
+  setup->dt_max = CoracleCasePositive(c, "time.dt_max");
   PetscCall(PetscMalloc1(mesh->ntags, &setup->boundary));
   for (int b = 0; b < mesh->ntags; b++) ReadBoundary(c, mesh->tag_name[b], setup->boundary + b);
-  CaseKeys(c, "fluid.boundaries", CheckBoundaryName, &check);
+  CoracleCaseKeys(c, "fluid.boundaries", CheckBoundaryName, &check);
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode FluidCaseAdaptation(Case c, PetscBool *adapts, AdaptationSetup *s)
+PetscErrorCode FluidCaseAdaptation(CoracleCase c, PetscBool *adapts, AdaptationSetup *s)
 {
   PetscFunctionBeginUser;
-  *adapts = (PetscBool)CaseHas(c, "fluid.adapt");
+  *adapts = (PetscBool)CoracleCaseHas(c, "fluid.adapt");
   if (!*adapts) PetscFunctionReturn(0);
-  s->size_min = CasePositive(c, "fluid.adapt.size_min");
-  s->size_max = CasePositive(c, "fluid.adapt.size_max");
+  s->size_min = CoracleCasePositive(c, "fluid.adapt.size_min");
+  s->size_max = CoracleCasePositive(c, "fluid.adapt.size_max");
   if (s->size_max < s->size_min)
-    CaseRefuse(c, "fluid.adapt.size_max", "expected at least fluid.adapt.size_min, %g, found %g", s->size_min,
-               s->size_max);
-  s->velocity_error = CasePositive(c, "fluid.adapt.velocity_error");
-  s->growth = CaseNumberOr(c, "fluid.adapt.growth", 1.5, 1.01, 10.0);
-  s->anisotropy = CaseNumberOr(c, "fluid.adapt.anisotropy", 5.0, 1.0, 1000.0);
-  s->elements_max = CaseNumberOr(c, "fluid.adapt.elements_max", 200000.0, 100.0, 1e9);
-  s->every = CaseIntegerOr(c, "fluid.adapt.every", 20, 1, 1000000);
+    CoracleCaseRefuse(c, "fluid.adapt.size_max", "expected at least fluid.adapt.size_min, %g, found %g",
+                      s->size_min, s->size_max);
+  s->velocity_error = CoracleCasePositive(c, "fluid.adapt.velocity_error");
+  s->growth = CoracleCaseNumberOr(c, "fluid.adapt.growth", 1.5, 1.01, 10.0);
+  s->anisotropy = CoracleCaseNumberOr(c, "fluid.adapt.anisotropy", 5.0, 1.0, 1000.0);
+  s->elements_max = CoracleCaseNumberOr(c, "fluid.adapt.elements_max", 200000.0, 100.0, 1e9);
+  s->every = CoracleCaseIntegerOr(c, "fluid.adapt.every", 20, 1, 1000000);
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode FluidCaseCheckOptions(Case c)
+PetscErrorCode FluidCaseCheckOptions(CoracleCase c)
 {
-  const char *options = CaseStringOr(c, "fluid.petsc", "");
+  const char *options = CoracleCaseStringOr(c, "fluid.petsc", "");
   PetscInt n;
   char **names, **values, option[256];
   PetscFunctionBeginUser;
@@ -201,7 +203,7 @@ PetscErrorCode FluidCaseCheckOptions(Case c)
   for (PetscInt k = 0; k < n; k++) {
     (void)snprintf(option, sizeof option, "-%s", names[k]);
     if (strstr(options, option))
-      CaseRefuse(c, "fluid.petsc", "no solver of the fluid has the option %s", option);
+      CoracleCaseRefuse(c, "fluid.petsc", "no solver of the fluid has the option %s", option);
   }
   PetscCall(PetscOptionsLeftRestore(NULL, &n, &names, &values));
   PetscFunctionReturn(0);

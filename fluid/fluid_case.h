@@ -7,14 +7,14 @@
 
 /* Collective over comm.  Builds or reads the mesh and distributes it; with a checkpoint (else NULL) the mesh
  * is the one that was saved there, and *row as of MeshLoad. */
-PetscErrorCode FluidCaseMesh(Case c, MPI_Comm comm, Checkpoint from, Mesh **mesh, PetscInt **row);
+PetscErrorCode FluidCaseMesh(CoracleCase c, MPI_Comm comm, Checkpoint from, Mesh **mesh, PetscInt **row);
 /* Refuses the checkpoint in `folder`, whose mesh this is, unless its boundaries are those of the case. */
-void FluidCaseCheckResumed(Case c, const Mesh *mesh, const char *folder);
+void FluidCaseCheckResumed(CoracleCase c, const Mesh *mesh, const char *folder);
 /* Reads everything else.  setup->boundary is allocated: PetscFree it after FluidCreate has copied it. */
-PetscErrorCode FluidCaseSetup(Case c, const Mesh *mesh, FluidSetup *setup);
+PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup);
 /* Whether the mesh adapts, and how (fluid.adapt). */
-PetscErrorCode FluidCaseAdaptation(Case c, PetscBool *adapts, AdaptationSetup *setup);
+PetscErrorCode FluidCaseAdaptation(CoracleCase c, PetscBool *adapts, AdaptationSetup *setup);
 /* After the first step, when every solver has asked for its options: refuses those of fluid.petsc that none
  * has.  Collective. */
-PetscErrorCode FluidCaseCheckOptions(Case c);
+PetscErrorCode FluidCaseCheckOptions(CoracleCase c);
 #endif

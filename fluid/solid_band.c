@@ -7,21 +7,6 @@ typedef struct {
   double from[2], to[2];
 } Sweep;
 
-/* The solid's velocity in an element, from (int a) u_s = int a u_s, which holds for volumes and shells. */
-static void SolidVelocity(const CoracleCoupling *k, double u[2])
-{
-  double a[2][2] = {{0.0}}, s[2] = {0.0};
-  for (int c = 0; c < 2; c++)
-    for (int i = 0; i < 3; i++) {
-      s[c] += k->s[c][i];
-      for (int d = 0; d < 2; d++)
-        for (int j = 0; j < 3; j++) a[c][d] += k->a[c][i][d][j];
-    }
-  const double det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
-  u[0] = det > 0.0 ? (a[1][1] * s[0] - a[0][1] * s[1]) / det : 0.0;
-  u[1] = det > 0.0 ? (a[0][0] * s[1] - a[1][0] * s[0]) / det : 0.0;
-}
-
 PetscErrorCode SolidBandSpeed(Fluid f, double *speed)
 {
   int n;
@@ -29,8 +14,7 @@ PetscErrorCode SolidBandSpeed(Fluid f, double *speed)
   PetscFunctionBeginUser;
   *speed = 0.0;
   for (int k = 0; k < n; k++) {
-    double u[2];
-    SolidVelocity(entry + k, u);
+    const double *u = entry[k].velocity;
     *speed = fmax(*speed, hypot(u[0], u[1]));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, speed, 1, MPI_DOUBLE, MPI_MAX, f->domain.mesh->comm));
@@ -44,14 +28,12 @@ static int LocalSweeps(Fluid f, double ahead, Sweep sweep[])
   const CoracleCoupling *entry = SolidCouplingEntries(f->solid, &nentries);
   for (int k = 0; k < nentries; k++) {
     const CoracleCoupling *coupling = entry + k;
-    double u[2];
-    if (!(coupling->shell > 0.0)) continue;
-    SolidVelocity(coupling, u);
+    if (!(coupling->flags & CORACLE_HAS_SHELL)) continue;
     for (int c = 0; c < 2; c++) {
       double x = 0.0;
       for (int i = 0; i < 3; i++) x += ElementVertex(f->domain.mesh, coupling->element, i)[c] / 3.0;
       sweep[n].from[c] = x;
-      sweep[n].to[c] = x + ahead * u[c];
+      sweep[n].to[c] = x + ahead * coupling->velocity[c];
     }
     n++;
   }

@@ -138,7 +138,7 @@ static void MatrixChange(const ElementGeometry *g, double rho, double dt, const 
 
 static PetscBool IsWeighted(const CoracleCoupling *k)
 {
-  return (PetscBool)(k->give[0][0][0][0] != 0.0);
+  return k->flags & CORACLE_HAS_INERTIA ? PETSC_TRUE : PETSC_FALSE;
 }
 
 static PetscErrorCode AddElement(WeightedProjection w, const WeightedProjectionStep *s, int k,
@@ -150,7 +150,7 @@ static PetscErrorCode AddElement(WeightedProjection w, const WeightedProjectionS
   double change[6][6];
   PetscInt gid[6];
   PetscFunctionBeginUser;
-  PetscCall(Response(g->area, s->rho[e] / s->dt, coupling->give, w->response[k]));
+  PetscCall(Response(g->area, s->rho[e] / s->dt, coupling->implicit_inertia, w->response[k]));
   MatrixChange(g, s->rho[e], s->dt, (const double(*)[NU])w->response[k], change);
   for (int i = 0; i < 6; i++) {
     const int p = m->p2[6 * e + i];

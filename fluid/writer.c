@@ -66,14 +66,14 @@ static PetscErrorCode Snapshot(Writer r, Fluid f)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode WriterCreate(Case c, Fluid f, Checkpoint from, Writer *writer)
+PetscErrorCode WriterCreate(CoracleCase c, Fluid f, Checkpoint from, Writer *writer)
 {
   const Mesh *m = FluidMesh(f);
-  const char *folder = CaseString(c, "output.folder");
+  const char *folder = CoracleCaseString(c, "output.folder");
   Writer r;
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&r));
-  PetscCall(OutputCreate(m->comm, folder, "fluid", CasePositive(c, "output.every"), from, &r->output));
+  PetscCall(OutputCreate(m->comm, folder, "fluid", CoracleCasePositive(c, "output.every"), from, &r->output));
   PetscCall(SeriesCreate(m->comm, folder, "fluid", COLUMNS, from, &r->series));
   if (!from) PetscCall(Snapshot(r, f));
   *writer = r;

@@ -8,7 +8,7 @@ typedef struct Writer_s *Writer;
 
 /* Collective.  Reads output.folder and output.every of the case and writes the snapshot of the initial state;
  * with a checkpoint (else NULL) resumes the files as they were at WriterSave. */
-PetscErrorCode WriterCreate(Case c, Fluid fluid, Checkpoint from, Writer *r);
+PetscErrorCode WriterCreate(CoracleCase c, Fluid fluid, Checkpoint from, Writer *r);
 /* Collective, between two steps. */
 PetscErrorCode WriterSave(Writer r, Checkpoint to);
 /* Collective, after every step: one row of the series, and a snapshot when it is due. */

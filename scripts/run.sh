@@ -5,7 +5,7 @@
 #   --set  overrides a key of the case file, e.g. --set time.end=1.0
 #   --ranks  ranks of fluid, coupler and solid (default 1:1:1)
 #   --out  output folder (default out/<case>)
-#   --resume  goes on from the last checkpoint in the output folder, if there is one
+#   --resume  resumes from the last checkpoint in the output folder, if there is one
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 

@@ -55,16 +55,16 @@ static PetscErrorCode Run(Solid solid, Writer record, double end, double longest
 
 int Alone(int argc, char **argv)
 {
-  Case c;
+  CoracleCase c;
   Solid solid;
   Writer record;
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
-  PetscCall(CaseOpen(argc, argv, Refuse, NULL, &c));
-  if (CaseHas(c, "resume")) CaseRefuse(c, "resume", "the solid alone makes no checkpoints");
-  const double end = CasePositive(c, "time.end"), longest = CasePositive(c, "time.dt_max");
+  PetscCall(CoracleCaseOpen(argc, argv, Refuse, NULL, &c));
+  if (CoracleCaseHas(c, "resume")) CoracleCaseRefuse(c, "resume", "the solid alone makes no checkpoints");
+  const double end = CoracleCasePositive(c, "time.end"), longest = CoracleCasePositive(c, "time.dt_max");
   PetscCall(SolidFromCase(c, PETSC_COMM_WORLD, Fail, NULL, &solid));
   PetscCall(WriterCreate(c, PETSC_COMM_WORLD, solid, NULL, &record));
-  PetscCall(CaseClose(&c));
+  PetscCall(CoracleCaseClose(&c));
   PetscCall(Run(solid, record, end, longest));
   PetscCall(WriterDestroy(&record));
   PetscCall(SolidDestroy(&solid));

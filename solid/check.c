@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 /* What the calls that read them do not say of the solid's keys. */
-static const CaseKey KEYS[] = {
+static const CoracleCaseKey KEYS[] = {
     {"gravity", "m/s2", "acceleration of gravity, x and y"},
     {"output.folder", "", "where results go; made if missing"},
     {"output.every", "s", "time from one snapshot of the fields to the next"},
@@ -45,13 +45,13 @@ static const CaseKey KEYS[] = {
     {"solid.bodies[].stretch", "", "factors along x and y by which the body is stretched at the start"},
     {"solid.bodies[].fixed", "", "true, or a list of names of boundaries that do not move"},
     {"solid.bodies[].fixed[]", "", "name of a boundary that does not move"},
-    {"solid.bodies[].driven", "", "list of boundaries whose motion is prescribed"},
-    {"solid.bodies[].driven[].boundary", "", "name of the boundary"},
-    {"solid.bodies[].driven[].component", "", "which component is prescribed; the other stays free"},
-    {"solid.bodies[].driven[].table", "", "list of rows of time and velocity, linear between them"},
-    {"solid.bodies[].driven[].table[]", "s, m/s", "time, velocity along x and y"},
-    {"solid.bodies[].driven[].velocity", "m/s", "a constant velocity, instead of a table"},
-    {"solid.bodies[].driven[].release", "s", "when the boundary becomes free; absent: never"},
+    {"solid.bodies[].prescribed", "", "list of boundaries whose motion is prescribed"},
+    {"solid.bodies[].prescribed[].boundary", "", "name of the boundary"},
+    {"solid.bodies[].prescribed[].component", "", "which component is prescribed; the other stays free"},
+    {"solid.bodies[].prescribed[].table", "", "list of rows of time and velocity, linear between them"},
+    {"solid.bodies[].prescribed[].table[]", "s, m/s", "time, velocity along x and y"},
+    {"solid.bodies[].prescribed[].velocity", "m/s", "a constant velocity, instead of a table"},
+    {"solid.bodies[].prescribed[].release", "s", "when the boundary becomes free; absent: never"},
     {"solid.bodies[].joints", "", "which edges between two elements can crack: none, all, or a list"},
     {"solid.bodies[].joints[]", "", "name of a physical surface in which edges can crack"},
     {"solid.bodies[].joints[].lower", "m", "lower left corner of a box in which edges can crack"},
@@ -87,7 +87,7 @@ static void Fail(void *context, const char *message)
   exit(1);
 }
 
-static PetscErrorCode Expect(Case c, Solid s, Command command)
+static PetscErrorCode Expect(CoracleCase c, Solid s, Command command)
 {
   SolidView v;
   Writer writer;
@@ -109,23 +109,23 @@ static PetscErrorCode Expect(Case c, Solid s, Command command)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ReadCase(Case c, Command command)
+static PetscErrorCode ReadCase(CoracleCase c, Command command)
 {
   Solid solid;
   PetscFunctionBeginUser;
-  CaseDescribe(c, KEYS);
-  (void)CaseString(c, "output.folder");
-  (void)CasePositive(c, "output.every");
+  CoracleCaseDescribe(c, KEYS);
+  (void)CoracleCaseString(c, "output.folder");
+  (void)CoracleCasePositive(c, "output.every");
   PetscCall(SolidFromCase(c, PETSC_COMM_SELF, Fail, NULL, &solid));
-  if (command != COMMAND_KEYS && CaseFaultless(c)) PetscCall(Expect(c, solid, command));
+  if (command != COMMAND_KEYS && CoracleCaseFaultless(c)) PetscCall(Expect(c, solid, command));
   PetscCall(SolidDestroy(&solid));
   PetscFunctionReturn(0);
 }
 
-static void Read(Case c, void *command)
+static void Read(CoracleCase c, void *command)
 {
   const PetscErrorCode failed = ReadCase(c, *(const Command *)command);
-  if (failed) CaseRefuse(c, "solid", "the bodies cannot be made (error %d of PETSc)", failed);
+  if (failed) CoracleCaseRefuse(c, "solid", "the bodies cannot be made (error %d of PETSc)", failed);
 }
 
 int SolidAnswer(Command command, int argc, char **argv)

@@ -14,11 +14,11 @@
  * (a compressible neo-Hookean solid; B_33 = 1), so that f = -d(sum W A0)/dx and elastic motion conserves
  * energy.
  *
- * That is plane strain.  In plane stress the sheet gets thinner by l_3 so that T_33 = 0 for the same solid
- * law: mu (l_3^2 - 1) + lambda/2 (J^2 l_3^2 - 1) = 0,   l_3^2 = (mu + lambda/2)/(mu + lambda/2 J^2), J the
- * in-plane determinant as above, and the stress times l_3 (per unit of rest thickness) becomes l_3 T = mu/J
- * (B - l_3^2 I),   the derivative of   W = mu/2 (tr B + l_3^2 - 3 - 2 ln J l_3) + lambda/4 (J^2 l_3^2 - 1 - 2
- * ln J l_3).
+ * That is plane strain.  In plane stress the thickness stretch l_3 is such that T_33 = 0 for the same solid law:
+ *     mu (l_3^2 - 1) + lambda/2 (J^2 l_3^2 - 1) = 0,   l_3^2 = (mu + lambda/2)/(mu + lambda/2 J^2),
+ * J the in-plane determinant as above, and the stress times l_3 (per unit of rest thickness) becomes
+ *     l_3 T = mu/J (B - l_3^2 I),   the derivative of   W = mu/2 (tr B + l_3^2 - 3 - 2 ln J l_3)
+ *                                                         + lambda/4 (J^2 l_3^2 - 1 - 2 ln J l_3).
  *
  * A second law, corotated, is linear in the Biot strain U - I, F = R U with R a rotation:
  *     W = mu |F - R|^2 + lambda/2 (tr U - 2)^2,    dW/dF = 2 mu (F - R) + lambda (tr U - 2) R.
@@ -36,7 +36,7 @@
 typedef struct {
   double mu, lambda; /* Lame constants, Pa */
   double eta;        /* viscosity, Pa s */
-  int sheet;         /* plane stress */
+  int plane_stress;  /* else plane strain */
   int corotated;     /* else neo-Hookean */
 } ElementLaw;
 
@@ -74,7 +74,7 @@ static inline ElementCoefficients ElementNeoHookean(double j, double mu, double 
   return (ElementCoefficients){m, 0.5 * lambda * (j - r) - m};
 }
 
-/* l_3^2: the square of a neo-Hookean sheet's stretch across its plane. */
+/* l_3^2: the square of a neo-Hookean element's thickness stretch in plane stress. */
 static inline double ElementThinning(double j, double mu, double lambda)
 {
   return (mu + 0.5 * lambda) / (mu + 0.5 * lambda * j * j);
@@ -90,7 +90,7 @@ static inline double ElementTraceU(Tensor f)
 /* The corotated law's lambda. */
 static inline double ElementPlaneLambda(ElementLaw law)
 {
-  return law.sheet ? 2.0 * law.lambda * law.mu / (law.lambda + 2.0 * law.mu) : law.lambda;
+  return law.plane_stress ? 2.0 * law.lambda * law.mu / (law.lambda + 2.0 * law.mu) : law.lambda;
 }
 
 static inline ElementCoefficients ElementCorotated(Tensor f, double j, ElementLaw law)
@@ -99,19 +99,19 @@ static inline ElementCoefficients ElementCorotated(Tensor f, double j, ElementLa
   return (ElementCoefficients){(2.0 * law.mu + w) * (1.0 / j), w}; /* 1/j: the other law needs it too */
 }
 
-/* Not inside out; a corotated sheet's l_3, linear in U, may fall to 0 too. */
-static inline int ElementSound(Tensor f, double j, ElementLaw law)
+/* Not inside out; in plane stress a corotated element's l_3, linear in U, may fall to 0 too. */
+static inline int ElementAdmissible(Tensor f, double j, ElementLaw law)
 {
   const int thick = law.lambda * (ElementTraceU(f) - 2.0) < law.lambda + 2.0 * law.mu;
-  return (j > 0.0) & (thick | !law.sheet | !law.corotated);
+  return (j > 0.0) & (thick | !law.plane_stress | !law.corotated);
 }
 
 /* l_3: 1 in plane strain. */
-static inline double ElementAcross(Tensor f, double j, ElementLaw law)
+static inline double ElementThicknessStretch(Tensor f, double j, ElementLaw law)
 {
   const double linear = 1.0 - law.lambda * (ElementTraceU(f) - 2.0) / (law.lambda + 2.0 * law.mu);
-  const double across = law.corotated ? linear : sqrt(ElementThinning(j, law.mu, law.lambda));
-  return law.sheet ? across : 1.0;
+  const double thickness_stretch = law.corotated ? linear : sqrt(ElementThinning(j, law.mu, law.lambda));
+  return law.plane_stress ? thickness_stretch : 1.0;
 }
 
 /* l_3 T of the elastic law.  No branches: the element loop selects per lane, and drops what a constant law
@@ -120,20 +120,20 @@ static inline ElementStress ElementElasticStress(Tensor f, double j, ElementLaw 
 {
   const ElementCoefficients neo = ElementNeoHookean(j, law.mu, law.lambda),
                             linear = ElementCorotated(f, j, law);
-  const double sheet = -neo.b * ElementThinning(j, law.mu, law.lambda);
-  const double one = law.sheet ? sheet : neo.one;
+  const double plane = -neo.b * ElementThinning(j, law.mu, law.lambda);
+  const double one = law.plane_stress ? plane : neo.one;
   return ElementStressFrom(
       f, (ElementCoefficients){law.corotated ? linear.b : neo.b, law.corotated ? linear.one : one});
 }
 
-/* l_n: the stretch across a wall whose faces are free of stress (T_nn = 0; a sheet's T_33 too), stretched by
+/* l_n: the stretch across a wall whose faces are free of stress (T_nn = 0; plane stress's T_33 too), stretched by
  * `along`.  Not > 0 where the corotated law leaves no wall. */
 static inline double ElementFreeStretch(double along, ElementLaw law)
 {
   const double mu = law.mu, lambda = law.lambda, half = mu + 0.5 * lambda, square = along * along;
   if (law.corotated)
     return 1.0 - ElementPlaneLambda(law) * (along - 1.0) / (2.0 * mu + ElementPlaneLambda(law));
-  if (law.sheet) /* l_n = l_3: lambda/2 l_t^2 l_n^4 + mu l_n^2 = mu + lambda/2 */
+  if (law.plane_stress) /* l_n = l_3: lambda/2 l_t^2 l_n^4 + mu l_n^2 = mu + lambda/2 */
     return sqrt(2.0 * half / (mu + sqrt(mu * mu + 2.0 * lambda * half * square)));
   return sqrt(half / (mu + 0.5 * lambda * square));
 }
@@ -174,13 +174,13 @@ static inline double ElementEnergy(Tensor f, ElementLaw law)
   const double trace = e.xx + e.yy, growth = trace + TensorDeterminant(e); /* J - 1 */
   if (law.corotated) return ElementCorotatedEnergy(e, law);
   const double square = e.xx * e.xx + e.xy * e.xy + e.yx * e.yx + e.yy * e.yy;
-  double across = 0.0, squares = growth * (growth + 2.0), logarithm = log1p(growth); /* J^2 - 1, ln J */
-  if (law.sheet) { /* l_3^2 - 1; then those of J l_3 */
-    across = -0.5 * law.lambda * squares / (law.mu + 0.5 * law.lambda * (1.0 + squares));
-    squares += across + squares * across;
-    logarithm += 0.5 * log1p(across);
+  double thinning = 0.0, squares = growth * (growth + 2.0), logarithm = log1p(growth); /* J^2 - 1, ln J */
+  if (law.plane_stress) { /* l_3^2 - 1; then those of J l_3 */
+    thinning = -0.5 * law.lambda * squares / (law.mu + 0.5 * law.lambda * (1.0 + squares));
+    squares += thinning + squares * thinning;
+    logarithm += 0.5 * log1p(thinning);
   }
-  return 0.5 * law.mu * (2.0 * trace + square + across - 2.0 * logarithm) +
+  return 0.5 * law.mu * (2.0 * trace + square + thinning - 2.0 * logarithm) +
          0.25 * law.lambda * (squares - 2.0 * logarithm);
 }
 
@@ -188,8 +188,8 @@ static inline double ElementEnergy(Tensor f, ElementLaw law)
  * lumped mass).  By Irons' theorem the largest over the elements bounds the whole mesh.  With g_i = grad N_i
  * and L = grad v,  sum_i |v_i|^2 >= |L|^2 / s,  s the largest eigenvalue of sum_i g_i g_i^T, and
  *     A L:a:L <= A |L|^2 a,   a = 2 mu/J + lambda (1/J - J) + 2 lambda J + max(principal stress, 0),
- * a being the tangent modulus of the law above with its geometric part.  A sheet's energy is the least over
- * l_3, so its tangent lies below that of the law with l_3 held: J^2 becomes (J l_3)^2 in 1/J (2 mu + lambda
+ * a being the tangent modulus of the law above with its geometric part.  Plane stress's energy is the least over
+ * l_3, so its tangent lies below that of the law with l_3 fixed: J^2 becomes (J l_3)^2 in 1/J (2 mu + lambda
  * ...).
  *
  * The corotated law's W = mu/2 d^2 + (mu + lambda)/2 (q - 2)^2 (see its energy) is, d being linear in F and q
@@ -215,7 +215,7 @@ static inline double ElementModulus(Tensor f, double j, ElementLaw law)
 {
   const ElementStress t = ElementElasticStress(f, j, law);
   const double principal = 0.5 * (t.xx + t.yy + sqrt((t.xx - t.yy) * (t.xx - t.yy) + 4.0 * t.xy * t.xy));
-  const double volume = j * (law.sheet ? ElementThinning(j, law.mu, law.lambda) : 1.0); /* J l_3^2 */
+  const double volume = j * (law.plane_stress ? ElementThinning(j, law.mu, law.lambda) : 1.0); /* J l_3^2 */
   const double shear = 2.0 * law.mu / j + law.lambda * (1.0 / j - volume);
   return fmax(shear, 0.0) + 2.0 * law.lambda * volume + fmax(principal, 0.0);
 }

@@ -6,8 +6,7 @@ static int SaveOrRestore(void *solid, int save)
   return SolidState(solid, save);
 }
 
-/* --- the mesh
- * ----------------------------------------------------------------------------------------------- */
+/* --- the mesh ----------------------------------------------------------------------------------------- */
 
 static PetscErrorCode GiveMesh(Exchange *x, const SolidView *v, const double u[])
 {
@@ -15,15 +14,15 @@ static PetscErrorCode GiveMesh(Exchange *x, const SolidView *v, const double u[]
   PetscCall(CoracleSetNodes(x->client, 2, v->nnodes, v->gid, v->x, u));
   PetscCall(CoracleSetSurface(x->client, v->nfacets, v->facet));
   PetscCall(CoracleSetVolume(x->client, v->nelements, v->element));
-  x->before = x->told;
-  x->told = (Told){.n = v->nnodes, .share = v->share, .revision = v->revision};
-  PetscCall(PetscMalloc1((size_t)v->nnodes + 1, &x->told.gid));
-  PetscCall(PetscArraycpy(x->told.gid, v->gid, (size_t)v->nnodes));
+  x->before = x->registered;
+  x->registered = (RegisteredMesh){.n = v->nnodes, .partition = v->partition, .revision = v->revision};
+  PetscCall(PetscMalloc1((size_t)v->nnodes + 1, &x->registered.gid));
+  PetscCall(PetscArraycpy(x->registered.gid, v->gid, (size_t)v->nnodes));
   PetscFunctionReturn(0);
 }
 
-/* Cracks have changed the mesh in this step.  The substeps have told the velocities of the nodes that were
- * there when it began; others get the mean over the step from here. */
+/* Cracks have changed the mesh in this step.  The substeps have reported the velocities of the nodes that existed
+ * when it began; the others get the mean over the step. */
 static PetscErrorCode GiveCrackedMesh(Exchange *x, const SolidView *v)
 {
   double *mean;
@@ -31,7 +30,7 @@ static PetscErrorCode GiveCrackedMesh(Exchange *x, const SolidView *v)
   PetscCall(PetscMalloc1(2 * (size_t)v->nnodes, &mean));
   for (int k = 0; k < 2 * v->nnodes; k++) mean[k] = (v->x[k] - v->start[k]) / x->dt;
   PetscCall(GiveMesh(x, v, mean));
-  if (x->away) PetscCall(CoracleSubstep(x->client, x->dt, mean));
+  if (x->remote) PetscCall(CoracleSubstep(x->client, x->dt, mean));
   PetscCall(PetscFree(mean));
   PetscFunctionReturn(0);
 }
@@ -39,28 +38,27 @@ static PetscErrorCode GiveCrackedMesh(Exchange *x, const SolidView *v)
 PetscErrorCode ExchangeCreate(CoracleClient client, Solid solid, Exchange *x)
 {
   SolidView v;
-  InterfaceMotion seen;
+  InterfaceMotion interface;
   PetscFunctionBeginUser;
   *x = (Exchange){.client = client, .solid = solid};
   SolidGetView(solid, &v);
-  SolidGetInterfaceMotion(solid, &seen);
-  PetscCall(GiveMesh(x, &v, seen.u));
-  PetscCall(CoracleSetInertia(client, seen.mobility, seen.acceleration));
+  SolidGetInterfaceMotion(solid, &interface);
+  PetscCall(GiveMesh(x, &v, interface.u));
+  PetscCall(CoracleSetInertia(client, interface.mobility, interface.acceleration));
   PetscCall(CoracleBindStateFunction(client, SaveOrRestore, solid));
   PetscCall(CoracleReady(client));
   PetscFunctionReturn(0);
 }
 
-/* --- the step
- * ----------------------------------------------------------------------------------------------- */
+/* --- the step ----------------------------------------------------------------------------------------- */
 
 /* The mesh that both sides begin the step with: of a redone one that which the first try began with. */
-static PetscErrorCode BeginTold(Exchange *x, CoracleAction action)
+static PetscErrorCode BeginRegistered(Exchange *x, CoracleAction action)
 {
   PetscFunctionBeginUser;
   if (action == CORACLE_REDO && x->before.gid) {
-    const Told failed = x->told;
-    x->told = x->before;
+    const RegisteredMesh failed = x->registered;
+    x->registered = x->before;
     x->before = failed;
   }
   PetscCall(PetscFree(x->before.gid));
@@ -74,54 +72,54 @@ PetscErrorCode ExchangeBegin(Exchange *x, double *dt, CoracleAction *action, con
   double t;
   PetscFunctionBeginUser;
   PetscCall(CoracleBegin(x->client, &t, dt, action));
-  PetscCall(BeginTold(x, *action));
+  PetscCall(BeginRegistered(x, *action));
   SolidGetView(x->solid, &v);
   x->dt = *dt;
-  x->away = (PetscBool)(v.share != x->told.share);
+  x->remote = (PetscBool)(v.partition != x->registered.partition);
   if (*action != CORACLE_STOP) PetscCall(CoracleGetForce(x->client, load));
-  if (*action != CORACLE_STOP && x->away) {
+  if (*action != CORACLE_STOP && x->remote) {
     PetscCall(PetscRealloc(2 * (size_t)v.nnodes * sizeof *x->load + 1, &x->load));
-    PetscCall(NodeDirectoryLoad(x->solid, x->told.n, x->told.gid, *load, x->load));
+    PetscCall(NodeDirectoryLoad(x->solid, x->registered.n, x->registered.gid, *load, x->load));
     *load = x->load;
   }
   x->waited += MPI_Wtime() - start;
   PetscFunctionReturn(0);
 }
 
-/* A step away from the share that was told is one substep to the coupler: it makes nothing of them but the
- * mean when it is given what is to be seen. */
+/* On another partition than the registered one a step is one substep to the coupler, which only takes the mean of
+ * the substeps' velocities where the interface velocity is set. */
 PetscErrorCode ExchangeSubstep(Exchange *x, double h)
 {
   SolidView v;
   PetscFunctionBeginUser;
-  if (x->away) PetscFunctionReturn(0);
+  if (x->remote) PetscFunctionReturn(0);
   SolidGetView(x->solid, &v);
   PetscCall(CoracleSubstep(x->client, h, v.v));
   PetscFunctionReturn(0);
 }
 
 /* The end of a step where the coupler knows the nodes. */
-static PetscErrorCode SendAbroad(Exchange *x)
+static PetscErrorCode SendRemote(Exchange *x)
 {
-  const size_t n = (size_t)x->told.n;
+  const size_t n = (size_t)x->registered.n;
   NodeMotion *motion;
-  double *at, *mean, *seen, *mobility, *acceleration;
+  double *at, *mean, *interface, *mobility, *acceleration;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc6(n, &motion, 2 * n + 1, &at, 2 * n + 1, &mean, 2 * n + 1, &seen, n + 1, &mobility,
-                         2 * n + 1, &acceleration));
-  PetscCall(NodeDirectoryMotion(x->solid, x->told.n, x->told.gid, motion));
+  PetscCall(PetscMalloc6(n, &motion, 2 * n + 1, &at, 2 * n + 1, &mean, 2 * n + 1, &interface, n + 1,
+                         &mobility, 2 * n + 1, &acceleration));
+  PetscCall(NodeDirectoryMotion(x->solid, x->registered.n, x->registered.gid, motion));
   for (size_t k = 0; k < 2 * n; k++) {
     at[k] = motion[k / 2].x[k % 2];
-    seen[k] = motion[k / 2].seen[k % 2];
+    interface[k] = motion[k / 2].interface_velocity[k % 2];
     mean[k] = motion[k / 2].mean[k % 2];
     acceleration[k] = motion[k / 2].acceleration[k % 2];
     mobility[k / 2] = motion[k / 2].mobility;
   }
-  if (x->away) PetscCall(CoracleSubstep(x->client, x->dt, mean));
-  PetscCall(CoracleSetVelocity(x->client, seen));
+  if (x->remote) PetscCall(CoracleSubstep(x->client, x->dt, mean));
+  PetscCall(CoracleSetVelocity(x->client, interface));
   PetscCall(CoracleSetInertia(x->client, mobility, acceleration));
   PetscCall(CoracleEnd(x->client, at));
-  PetscCall(PetscFree6(motion, at, mean, seen, mobility, acceleration));
+  PetscCall(PetscFree6(motion, at, mean, interface, mobility, acceleration));
   PetscFunctionReturn(0);
 }
 
@@ -129,17 +127,17 @@ PetscErrorCode ExchangeMotion(Exchange *x)
 {
   const double start = MPI_Wtime();
   SolidView v;
-  InterfaceMotion seen;
+  InterfaceMotion interface;
   PetscFunctionBeginUser;
   SolidGetView(x->solid, &v);
-  PetscCall(SolidUpdateInterfaceMotion(x->solid, &seen));
-  if (v.revision != x->told.revision) PetscCall(GiveCrackedMesh(x, &v));
-  if (v.share == x->told.share) {
-    PetscCall(CoracleSetVelocity(x->client, seen.u));
-    PetscCall(CoracleSetInertia(x->client, seen.mobility, seen.acceleration));
+  PetscCall(SolidUpdateInterfaceMotion(x->solid, &interface));
+  if (v.revision != x->registered.revision) PetscCall(GiveCrackedMesh(x, &v));
+  if (v.partition == x->registered.partition) {
+    PetscCall(CoracleSetVelocity(x->client, interface.u));
+    PetscCall(CoracleSetInertia(x->client, interface.mobility, interface.acceleration));
     PetscCall(CoracleEnd(x->client, v.x));
   } else {
-    PetscCall(SendAbroad(x));
+    PetscCall(SendRemote(x));
   }
   x->waited += MPI_Wtime() - start;
   PetscFunctionReturn(0);
@@ -148,7 +146,7 @@ PetscErrorCode ExchangeMotion(Exchange *x)
 PetscErrorCode ExchangeDestroy(Exchange *x)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscFree(x->told.gid));
+  PetscCall(PetscFree(x->registered.gid));
   PetscCall(PetscFree(x->before.gid));
   PetscCall(PetscFree(x->load));
   PetscFunctionReturn(0);

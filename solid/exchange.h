@@ -1,7 +1,12 @@
-/* The solid's side of the link: what it gives, what it gets, and the time it waits.  The coupler knows the
- * nodes on the ranks where they were when it was told of the mesh; when elements change ranks it need not
- * know (a new mesh costs the fluid a step's correction): positions, velocities and forces then travel between
- * the present share and the one that was told, until cracks make a new mesh. */
+/* The solid's side of the link: what it sends, what it receives, and the time it waits.
+ *
+ * The solid registers its nodes with the coupler once, on the ranks where they are then (RegisteredMesh), and again only
+ * when cracks change the mesh: a new mesh costs the fluid a step's correction.  When elements change ranks in between,
+ * the nodes' present ranks differ from the registered ones (`remote`), and the node directory moves what is exchanged:
+ *
+ *                     registered ranks                             present ranks
+ *     coupler  -->  force[registered.n][2]   -- NodeDirectoryLoad -->     load[nnodes][2]  --> SolidStart
+ *     coupler  <--  x, velocity, mobility    <-- NodeDirectoryMotion --   SolidView, InterfaceMotion */
 #ifndef SOLID_EXCHANGE_H
 #define SOLID_EXCHANGE_H
 #include "common/link/coracle.h"
@@ -9,26 +14,26 @@
 
 /* This rank's mesh as the coupler knows it. */
 typedef struct {
-  int n, share, revision;
+  int n, partition, revision;
   long long *gid; /* [n] */
-} Told;
+} RegisteredMesh;
 
 typedef struct {
-  CoracleClient client; /* borrowed */
-  Solid solid;          /* borrowed */
-  double waited;        /* seconds within the link */
-  double dt;            /* of the step, s */
-  Told told, before;    /* before: gid is NULL unless this step has told of a new mesh */
-  PetscBool away;       /* the step has begun on another share than the one told */
-  double *load;         /* [nnodes][2] of the present share, when away */
+  CoracleClient client;              /* borrowed */
+  Solid solid;                       /* borrowed */
+  double waited;                     /* seconds within the link */
+  double dt;                         /* of the step, s */
+  RegisteredMesh registered, before; /* before: gid is NULL unless this step has registered a new mesh */
+  PetscBool remote;                  /* the step has begun on another partition than the registered one */
+  double *load;                      /* [nnodes][2] of the present subdomain, when remote */
 } Exchange;
 
-/* Gives nodes, surface and volume with what was seen last, binds the state and makes the first exchange.
+/* Gives nodes, surface and volume with their interface motion, binds the state and makes the first exchange.
  * Collective. */
 PetscErrorCode ExchangeCreate(CoracleClient client, Solid solid, Exchange *x);
 /* Waits for the next step; *load: the force on this rank's nodes, N, borrowed until ExchangeMotion. */
 PetscErrorCode ExchangeBegin(Exchange *x, double *dt, CoracleAction *action, const double **load);
-/* Tells of a substep of h seconds. */
+/* Reports a substep of h seconds. */
 PetscErrorCode ExchangeSubstep(Exchange *x, double h);
 /* Sends the new positions. */
 PetscErrorCode ExchangeMotion(Exchange *x);

@@ -28,7 +28,7 @@ CornerForces(const Elements *e, const double x[], const double v[], ElementLaws 
   const int n = e->n, *a = e->node[0], *b = e->node[1], *c = e->node[2];
   const double *ixx = e->inverse[0], *ixy = e->inverse[1], *iyx = e->inverse[2], *iyy = e->inverse[3];
   const double *mu = e->mu, *lambda = e->lambda, *eta = e->eta;
-  const double *sheet = e->sheet, *corotated = e->corotated;
+  const double *plane_stress = e->plane_stress, *corotated = e->corotated;
   double *fx = e->force[0], *fy = e->force[1];
   double *sxx = e->stress[0], *syy = e->stress[1], *sxy = e->stress[2];
   int bad = 0;
@@ -37,7 +37,7 @@ CornerForces(const Elements *e, const double x[], const double v[], ElementLaws 
     const Tensor edges = TensorOfEdges(PointAt(x, a[k]), PointAt(x, b[k]), PointAt(x, c[k]));
     const Tensor f = TensorProduct(edges, (Tensor){ixx[k], ixy[k], iyx[k], iyy[k]});
     const double j = TensorDeterminant(f);
-    const ElementLaw law = {mu[k], lambda[k], eta[k], laws != STRAIN_ONLY && sheet[k] > 0.0,
+    const ElementLaw law = {mu[k], lambda[k], eta[k], laws != STRAIN_ONLY && plane_stress[k] > 0.0,
                             laws == WITH_COROTATED && corotated[k] > 0.0};
     ElementStress t = ElementElasticStress(f, j, law);
     if (jointed) {
@@ -57,7 +57,7 @@ CornerForces(const Elements *e, const double x[], const double v[], ElementLaws 
     fy[n + k] = g.b.y;
     fx[2 * n + k] = g.c.x;
     fy[2 * n + k] = g.c.y;
-    bad += !ElementSound(f, j, law);
+    bad += !ElementAdmissible(f, j, law);
   }
   return bad;
 }
@@ -88,7 +88,7 @@ static PetscErrorCode FailOnElement(const Solid s)
     Tensor edges, f;
     SolidElementShape(e, k, s->x, &edges, &f);
     const double j = TensorDeterminant(f);
-    if (ElementSound(f, j, ElementsLaw(e, k))) continue;
+    if (ElementAdmissible(f, j, ElementsLaw(e, k))) continue;
     const Point p = PointAt(s->x, e->node[0][k]);
     (void)snprintf(
         message, sizeof message,
@@ -113,13 +113,13 @@ PetscErrorCode SolidInternalForces(Solid s)
   const Elements *e = &s->elements;
   const double *x = s->x, *v = s->v;
   const int jointed = e->stress[0] != NULL;
-  const int bad = e->laws == WITH_COROTATED ? (jointed ? CornerForces(e, x, v, WITH_COROTATED, 1, 1)
-                                                       : CornerForces(e, x, v, WITH_COROTATED, 1, 0))
-                  : e->laws == WITH_SHEETS  ? (jointed ? CornerForces(e, x, v, WITH_SHEETS, 1, 1)
-                                                       : CornerForces(e, x, v, WITH_SHEETS, 1, 0))
-                  : jointed                 ? CornerForces(e, x, v, STRAIN_ONLY, 1, 1)
-                  : e->damped               ? CornerForces(e, x, v, STRAIN_ONLY, 1, 0)
-                                            : CornerForces(e, x, v, STRAIN_ONLY, 0, 0);
+  const int bad = e->laws == WITH_COROTATED      ? (jointed ? CornerForces(e, x, v, WITH_COROTATED, 1, 1)
+                                                            : CornerForces(e, x, v, WITH_COROTATED, 1, 0))
+                  : e->laws == WITH_PLANE_STRESS ? (jointed ? CornerForces(e, x, v, WITH_PLANE_STRESS, 1, 1)
+                                                            : CornerForces(e, x, v, WITH_PLANE_STRESS, 1, 0))
+                  : jointed                      ? CornerForces(e, x, v, STRAIN_ONLY, 1, 1)
+                  : e->damped                    ? CornerForces(e, x, v, STRAIN_ONLY, 1, 0)
+                                                 : CornerForces(e, x, v, STRAIN_ONLY, 0, 0);
   if (bad) PetscCall(FailOnElement(s));
   SumCorners(s);
   PetscFunctionReturn(0);
@@ -147,7 +147,7 @@ double SolidElementLimit(Solid s, ElementRates contact)
 
 ElementLaw ElementsLaw(const Elements *e, int k)
 {
-  return (ElementLaw){e->mu[k], e->lambda[k], e->eta[k], e->sheet[k] > 0.0, e->corotated[k] > 0.0};
+  return (ElementLaw){e->mu[k], e->lambda[k], e->eta[k], e->plane_stress[k] > 0.0, e->corotated[k] > 0.0};
 }
 
 void SolidStress(Solid s, double stress[])
@@ -160,7 +160,7 @@ void SolidStress(Solid s, double stress[])
     const double j = TensorDeterminant(f);
     const ElementStress t = ElementElasticStress(f, j, law);
     const ElementStress d = ElementViscousStress(edges, EdgesOf(e, k, s->v), law.eta);
-    const double scale = 1.0 / (e->thickness[k] * ElementAcross(f, j, law));
+    const double scale = 1.0 / (e->thickness[k] * ElementThicknessStretch(f, j, law));
     stress[3 * k] = scale * (t.xx + d.xx);
     stress[3 * k + 1] = scale * (t.yy + d.yy);
     stress[3 * k + 2] = scale * (t.xy + d.xy);

@@ -1,7 +1,7 @@
 /* Time stepping: forces, substeps, and how long a substep may be. */
 #include "solid/solid_impl.h"
 
-enum { CHECK_EVERY = 20 }; /* substeps between two looks at the stability limit, at most */
+enum { CHECK_EVERY = 20 }; /* substeps between two checks of the stability limit, at most */
 #define KEEP 0.75          /* of the allowed length, down to which the last one is kept */
 
 static double Clock(void)
@@ -21,7 +21,7 @@ PetscErrorCode SolidForces(Solid s, const double **force)
   const double joints = Clock();
   PetscCall(ContactAddForces(s->contact, s));
   const double contact = Clock();
-  PetscCall(SubdomainSum(s->share, s->force));
+  PetscCall(SubdomainSum(s->subdomain, s->force));
   s->force_valid = PETSC_TRUE;
   s->stats.seconds[0] += elements - start;
   s->stats.seconds[1] += contact - joints;
@@ -30,8 +30,7 @@ PetscErrorCode SolidForces(Solid s, const double **force)
   PetscFunctionReturn(0);
 }
 
-/* --- the substep's length
- * ----------------------------------------------------------------------------------- */
+/* --- the substep's length ----------------------------------------------------------------------------- */
 
 PetscErrorCode SolidLimit(Solid s, double *limit)
 {
@@ -99,14 +98,14 @@ static PetscErrorCode CheckContact(Solid s, double *limit, int *substeps)
   PetscCall(SolidLimit(s, limit));
   PetscCall(MotionNow(s, &m));
   const double h = PetscMin(s->setup.courant * *limit, s->dt);
-  if (Travel(&m, CHECK_EVERY, h) > ContactReach(s->contact)) {
+  if (Travel(&m, CHECK_EVERY, h) > ContactSkin(s->contact)) {
     const BulkMotion from_here = {0.0, m.speed, m.acceleration};
     PetscCall(ContactSearch(s->contact, s, 2.0 * Travel(&from_here, 2, h)));
     PetscCall(SolidLimit(s, limit));
     s->force_valid = PETSC_FALSE;
     m.moved = 0.0;
   }
-  *substeps = SafeSubsteps(&m, ContactReach(s->contact), h);
+  *substeps = SafeSubsteps(&m, ContactSkin(s->contact), h);
   PetscFunctionReturn(0);
 }
 
@@ -132,17 +131,16 @@ static PetscErrorCode Plan(Solid s)
   PetscFunctionReturn(0);
 }
 
-/* --- the step
- * ----------------------------------------------------------------------------------------------- */
+/* --- the step ----------------------------------------------------------------------------------------- */
 
 PetscErrorCode SolidStart(Solid s, double dt, const double load[])
 {
   PetscFunctionBeginUser;
-  if (s->unsettled) PetscCall(JointsSettle(s->joints, s));
-  s->unsettled = PETSC_FALSE;
+  if (s->unsynchronised) PetscCall(JointsSynchronise(s->joints, s));
+  s->unsynchronised = PETSC_FALSE;
   if (load) {
     PetscCall(PetscArraycpy(s->load, load, 2 * (size_t)s->nnodes));
-    PetscCall(SubdomainSum(s->share, s->load));
+    PetscCall(SubdomainSum(s->subdomain, s->load));
   } else {
     PetscCall(PetscArrayzero(s->load, 2 * (size_t)s->nnodes));
   }
@@ -160,21 +158,21 @@ PetscBool SolidRemaining(Solid s)
   return (PetscBool)(s->remaining > 0);
 }
 
-/* Driven nodes go their own way: from where they were (before: 1, puts it down) by their velocity's mean. */
-static void MoveDriven(Solid s, int before)
+/* Prescribed nodes go their own way: from where they were (before: 1, puts it down) by their velocity's mean. */
+static void MovePrescribed(Solid s, int before)
 {
-  for (int k = 0; k < s->ndriven; k++) {
-    const int n = s->driven[k].node;
-    const PrescribedMotion *d = &s->drive[s->driven[k].drive];
+  for (int k = 0; k < s->nprescribed; k++) {
+    const int n = s->prescribed[k].node;
+    const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
     if (d->release > 0.0 && s->stats.t >= d->release * (1.0 - 1e-12)) continue;
     for (int c = 0; c < 2; c++) {
       if (before) {
-        s->held[2 * k + c] = s->x[2 * n + c];
-      } else if (d->driven[c]) {
+        s->position_before[2 * k + c] = s->x[2 * n + c];
+      } else if (d->prescribed[c]) {
         const double v = PrescribedVelocity(d, c, s->stats.t, s->h);
-        BudgetAddDriven(s, n, c, v);
+        BudgetAddPrescribed(s, n, c, v);
         s->v[2 * n + c] = v;
-        s->x[2 * n + c] = s->held[2 * k + c] + s->h * s->v[2 * n + c];
+        s->x[2 * n + c] = s->position_before[2 * k + c] + s->h * s->v[2 * n + c];
       }
     }
   }
@@ -220,9 +218,9 @@ PetscErrorCode SolidSubstep(Solid s, double *h)
   if (s->joints) PetscCall(Crack(s));
   ContactCommit(s->contact);
   BudgetAddSubstep(s);
-  MoveDriven(s, 1);
+  MovePrescribed(s, 1);
   Move(s);
-  MoveDriven(s, 0);
+  MovePrescribed(s, 0);
   s->force_valid = PETSC_FALSE;
   s->moved_for = s->h;
   *h = s->h;

@@ -8,8 +8,8 @@
 #include "solid/solid_impl.h"
 
 /* Deformation slower than the first is seen whole, faster than the second not at all: omega dt. */
-#define SEEN_WHOLE 0.1
-#define SEEN_NOT 0.25
+#define DEFORMATION_KEPT 0.1
+#define DEFORMATION_DROPPED 0.25
 /* Waves are resolved up to w dt, w the bound on the fastest vibration that substeps obey: 1.5 to 2.5 times
  * the real one. */
 #define RESOLVED 12.0
@@ -39,7 +39,7 @@ static double MeanVelocity(const Solid s, int i)
 static void AddMotion(const Solid s, const int piece[], double sum[][NSUMS])
 {
   for (int i = 0; i < s->nnodes; i++) {
-    if (!SubdomainOwns(s->share, i)) continue;
+    if (!SubdomainOwns(s->subdomain, i)) continue;
     double *k = sum[piece[i]];
     const double m = s->mass[i], *x = s->x + 2 * i, *v = s->v + 2 * i;
     const double mean[2] = {MeanVelocity(s, 2 * i), MeanVelocity(s, 2 * i + 1)};
@@ -83,7 +83,7 @@ static void Deformation(const Solid s, const int piece[], const RigidMotion moti
     const RigidMotion *r = motion + piece[i];
     double rigid[2];
     RigidVelocity(r->centre, r->mean, r->mean_spin, s->x + 2 * i, rigid);
-    for (int c = 0; c < 2; c++) s->seen[2 * i + c] = MeanVelocity(s, 2 * i + c) - rigid[c];
+    for (int c = 0; c < 2; c++) s->interface_velocity[2 * i + c] = MeanVelocity(s, 2 * i + c) - rigid[c];
   }
 }
 
@@ -101,30 +101,31 @@ static double StrainPower(const Elements *e, int k, const double x[], const doub
   const double shear = 0.5 * (g[0][1] + g[1][0]), trace = g[0][0] + g[1][1];
   const double square = g[0][0] * g[0][0] + g[1][1] * g[1][1] + 2.0 * shear * shear;
   const double mu = e->mu[k], lambda = e->lambda[k];
-  const double bulk = e->sheet[k] > 0.0 ? 2.0 * lambda * mu / (lambda + 2.0 * mu) : lambda;
+  const double bulk = e->plane_stress[k] > 0.0 ? 2.0 * lambda * mu / (lambda + 2.0 * mu) : lambda;
   return (2.0 * mu * square + bulk * trace * trace) / (4.0 * area);
 }
 
 /* share[b]: how much of piece b's deformation is seen, by its Rayleigh quotient omega^2 = strain power / (m
  * |d|^2): never below the square of the piece's slowest vibration, whatever the deformation.  Living joints
  * are springs of it. */
-static PetscErrorCode Shares(const Solid s, int n, const int piece[], double share[])
+static PetscErrorCode DeformationFactors(const Solid s, int n, const int piece[], double factor[])
 {
   double(*sum)[NENERGIES];
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1((size_t)n, &sum));
   for (int i = 0; i < s->nnodes; i++) {
-    const double *d = s->seen + 2 * i;
-    if (SubdomainOwns(s->share, i)) sum[piece[i]][KINETIC] += s->mass[i] * (d[0] * d[0] + d[1] * d[1]);
+    const double *d = s->interface_velocity + 2 * i;
+    if (SubdomainOwns(s->subdomain, i)) sum[piece[i]][KINETIC] += s->mass[i] * (d[0] * d[0] + d[1] * d[1]);
   }
   for (int k = 0; k < s->elements.n; k++)
-    sum[piece[s->element[3 * k]]][STRAIN] += StrainPower(&s->elements, k, s->x, s->seen);
-  JointsAddStrainPower(s->joints, s, s->seen, piece, NENERGIES, &sum[0][STRAIN]);
+    sum[piece[s->element[3 * k]]][STRAIN] += StrainPower(&s->elements, k, s->x, s->interface_velocity);
+  JointsAddStrainPower(s->joints, s, s->interface_velocity, piece, NENERGIES, &sum[0][STRAIN]);
   if (s->size > 1)
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, NENERGIES * n, MPI_DOUBLE, MPI_SUM, s->comm));
   for (int b = 0; b < n; b++) {
     const double omega = sum[b][KINETIC] > 0.0 ? sqrt(sum[b][STRAIN] / sum[b][KINETIC]) : 0.0;
-    share[b] = fmin(1.0, fmax(0.0, (SEEN_NOT - omega * s->dt) / (SEEN_NOT - SEEN_WHOLE)));
+    factor[b] = fmin(
+        1.0, fmax(0.0, (DEFORMATION_DROPPED - omega * s->dt) / (DEFORMATION_DROPPED - DEFORMATION_KEPT)));
   }
   PetscCall(PetscFree(sum));
   PetscFunctionReturn(0);
@@ -151,57 +152,57 @@ static PetscErrorCode FindResolved(const Solid s, int n, const int piece[], Pets
   PetscFunctionReturn(0);
 }
 
-static void SeeWholly(Solid s, int i, const double force[2])
+static void SetNodeMotion(Solid s, int i, const double force[2])
 {
   s->mobility[i] = s->inverse_mass[i];
   for (int c = 0; c < 2; c++) {
     const double gravity = s->inverse_mass[i] > 0.0 ? s->setup.gravity[c] : 0.0;
-    s->seen[2 * i + c] = s->v[2 * i + c];
+    s->interface_velocity[2 * i + c] = s->v[2 * i + c];
     s->acceleration[2 * i + c] = s->inverse_mass[i] * force[c] + gravity;
   }
 }
 
 /* seen: the mean deformation until now */
-static void SeeRigid(Solid s, int i, const RigidMotion *r, double share)
+static void SetRigidMotion(Solid s, int i, const RigidMotion *r, double factor)
 {
   double rigid[2];
   RigidVelocity(r->centre, r->end, r->end_spin, s->x + 2 * i, rigid);
   s->mobility[i] = 0.0;
   for (int c = 0; c < 2; c++) {
-    s->seen[2 * i + c] = rigid[c] + share * s->seen[2 * i + c];
+    s->interface_velocity[2 * i + c] = rigid[c] + factor * s->interface_velocity[2 * i + c];
     s->acceleration[2 * i + c] = 0.0;
   }
 }
 
-PetscErrorCode SolidUpdateInterfaceMotion(Solid s, InterfaceMotion *seen)
+PetscErrorCode SolidUpdateInterfaceMotion(Solid s, InterfaceMotion *interface)
 {
   const double *force = NULL;
   RigidMotion *motion;
   PetscBool *resolved, any;
-  double *share;
+  double *factor;
   const int *piece;
   int n;
   PetscFunctionBeginUser;
   PetscCall(SolidPieces(s, &n, &piece));
-  PetscCall(PetscMalloc3((size_t)n, &motion, (size_t)n, &share, (size_t)n, &resolved));
+  PetscCall(PetscMalloc3((size_t)n, &motion, (size_t)n, &factor, (size_t)n, &resolved));
   PetscCall(RigidMotions(s, n, piece, motion));
   Deformation(s, piece, motion);
-  PetscCall(Shares(s, n, piece, share));
+  PetscCall(DeformationFactors(s, n, piece, factor));
   PetscCall(FindResolved(s, n, piece, resolved, &any));
   if (any) PetscCall(SolidForces(s, &force));
   for (int i = 0; i < s->nnodes; i++) {
     const int b = piece[i];
     if (resolved[b])
-      SeeWholly(s, i, force + 2 * i);
+      SetNodeMotion(s, i, force + 2 * i);
     else
-      SeeRigid(s, i, motion + b, share[b]);
+      SetRigidMotion(s, i, motion + b, factor[b]);
   }
-  PetscCall(PetscFree3(motion, share, resolved));
-  SolidGetInterfaceMotion(s, seen);
+  PetscCall(PetscFree3(motion, factor, resolved));
+  SolidGetInterfaceMotion(s, interface);
   PetscFunctionReturn(0);
 }
 
-void SolidGetInterfaceMotion(Solid s, InterfaceMotion *seen)
+void SolidGetInterfaceMotion(Solid s, InterfaceMotion *interface)
 {
-  *seen = (InterfaceMotion){s->seen, s->mobility, s->acceleration};
+  *interface = (InterfaceMotion){s->interface_velocity, s->mobility, s->acceleration};
 }

@@ -1,27 +1,18 @@
 /* coracle-solid: the solid participant.  coracle-solid case.yaml [--set key=value]...
  *
  * coracle-solid --alone case.yaml [--set key=value]...: the solid without coupler and fluid (alone.h). */
+#include "common/program/program.h"
 #include "solid/alone.h"
 #include "solid/check.h"
 #include "solid/exchange.h"
 #include "solid/solid_case.h"
 #include "solid/writer.h"
 
-static void Fail(void *client, const char *message)
-{
-  CoracleFail(client, "%s", message);
-}
-
-static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const char *file,
-                            PetscErrorCode code, PetscErrorType type, const char *message, void *client)
-{
-  CoracleFail(client, "%s (in %s, %s:%d)", message ? message : "an error of PETSc", function, file, line);
-}
-
-static PetscErrorCode Report(CoracleClient client, Solid solid)
+static PetscErrorCode Report(const Program *program, Solid solid)
 {
   static const char *const PHASES[] = {"seconds_elements", "seconds_contact", "seconds_exchange",
                                        "seconds_limit", "seconds_joints"};
+  const CoracleClient client = program->client;
   const SolidStats *stats = SolidGetStats(solid);
   SolidView v;
   PetscFunctionBeginUser;
@@ -31,14 +22,13 @@ static PetscErrorCode Report(CoracleClient client, Solid solid)
   PetscCall(CoracleReport(client, "substeps", (double)stats->total, 0));
   PetscCall(CoracleReport(client, "contact_searches", stats->searches, 0));
   PetscCall(CoracleReport(client, "rebalanced", stats->rebalanced, 0));
-  for (int k = 0; k < 5; k++) PetscCall(CoracleReport(client, PHASES[k], stats->seconds[k], 0));
+  PetscCall(ProgramReportSeconds(program, 5, PHASES, stats->seconds));
   PetscFunctionReturn(0);
 }
 
-/* --- checkpoints
- * -------------------------------------------------------------------------------------------- */
+/* --- checkpoints -------------------------------------------------------------------------------------- */
 
-/* *from: the checkpoint that the run goes on from, NULL: from the start. */
+/* *from: the checkpoint that the run resumes from, NULL: from the start. */
 static PetscErrorCode Resume(CoracleClient client, Solid solid, Checkpoint *from)
 {
   const char *folder = CoracleResumePath(client);
@@ -64,8 +54,7 @@ static PetscErrorCode Save(CoracleClient client, Solid solid, Writer record, dou
   PetscFunctionReturn(0);
 }
 
-/* --- the run
- * ------------------------------------------------------------------------------------------------ */
+/* --- the run ------------------------------------------------------------------------------------------ */
 
 static PetscErrorCode Run(CoracleClient client, Solid solid, Writer record)
 {
@@ -107,29 +96,20 @@ static int TakeAlone(int *argc, char **argv)
 int main(int argc, char **argv)
 {
   const Command command = CommandTake(&argc, argv);
-  CoracleClient client;
-  MPI_Comm comm;
-  Case c;
+  Program program;
   Solid solid;
   Writer record;
   Checkpoint from;
   if (command != COMMAND_RUN) return SolidAnswer(command, argc, argv);
   if (TakeAlone(&argc, argv)) return Alone(argc, argv);
-  if (CoracleOpen("solid", argc, argv, &comm, &client)) return 1;
-  PETSC_COMM_WORLD = comm;
-  PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
-  PetscCall(PetscPushErrorHandler(Abort, client));
-  PetscCall(CaseOpen(argc, argv, Fail, client, &c));
-  PetscCall(SolidFromCase(c, comm, Fail, client, &solid));
-  PetscCall(Resume(client, solid, &from));
-  PetscCall(WriterCreate(c, comm, solid, from, &record));
+  PetscCall(ProgramStart("solid", argc, argv, &program));
+  PetscCall(SolidFromCase(program.c, program.comm, ProgramFail, &program, &solid));
+  PetscCall(Resume(program.client, solid, &from));
+  PetscCall(WriterCreate(program.c, program.comm, solid, from, &record));
   PetscCall(CheckpointClose(&from));
-  PetscCall(CaseClose(&c));
-  PetscCall(Run(client, solid, record));
-  PetscCall(Report(client, solid));
+  PetscCall(Run(program.client, solid, record));
+  PetscCall(Report(&program, solid));
   PetscCall(WriterDestroy(&record));
   PetscCall(SolidDestroy(&solid));
-  PetscCall(PetscPopErrorHandler());
-  PetscCall(PetscFinalize());
-  return CoracleClose(&client);
+  return ProgramEnd(&program);
 }

@@ -1,19 +1,19 @@
 /* Prescribed motion of nodes: a velocity, constant or a table in time, linear between its rows and constant
- * before the first and after the last.  A substep moves a driven node by the integral of its velocity, so
+ * before the first and after the last.  A substep moves a prescribed node by the integral of its velocity, so
  * that where it gets does not depend on the substeps. */
-#ifndef SOLID_DRIVE_H
-#define SOLID_DRIVE_H
+#ifndef SOLID_PRESCRIBED_MOTION_H
+#define SOLID_PRESCRIBED_MOTION_H
 
 typedef struct {
-  int driven[2];     /* which components; the others stay free */
+  int prescribed[2]; /* which components; the others stay free */
   int nrows;         /* at least 1 */
   const double *row; /* [nrows][3] t, u, v; s and m/s, t rising */
   double release;    /* s: from then on the nodes are free; 0: never */
 } PrescribedMotion;
 
 typedef struct {
-  int node, drive;
-} DrivenNode;
+  int node, motion;
+} PrescribedNode;
 
 /* The velocity's mean over from .. from + h. */
 double PrescribedVelocity(const PrescribedMotion *d, int component, double from, double h);

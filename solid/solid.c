@@ -1,7 +1,7 @@
 #include "solid/ranks/partition.h"
 #include "solid/solid_impl.h"
 
-/* The first share; elements that may change ranks later need the assembly. */
+/* The first subdomain; elements that may change ranks later need the model. */
 static PetscErrorCode Distribute(Solid s, const Model *a)
 {
   PartitionGraph graph;
@@ -13,18 +13,18 @@ static PetscErrorCode Distribute(Solid s, const Model *a)
     PetscCall(PartitionGraphNear(&graph, a));
     PetscCall(PartitionGraphCut(&graph, a->nelements, s->size, part));
   }
-  PetscCall(SolidTakeShare(s, a, part));
+  PetscCall(SolidTakeSubdomain(s, a, part));
   if (s->size > 1 && s->setup.rebalance > 0.0) {
     s->part = part;
-    PetscCall(PetscNew(&s->assembly));
-    PetscCall(ModelCopy(a, s->assembly));
+    PetscCall(PetscNew(&s->model));
+    PetscCall(ModelCopy(a, s->model));
   } else {
     PetscCall(PetscFree(part));
   }
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SolidCreate(MPI_Comm comm, const Model *assembly, const SolidSetup *setup, Solid *solid)
+PetscErrorCode SolidCreate(MPI_Comm comm, const Model *model, const SolidSetup *setup, Solid *solid)
 {
   Solid s;
   PetscFunctionBeginUser;
@@ -33,7 +33,7 @@ PetscErrorCode SolidCreate(MPI_Comm comm, const Model *assembly, const SolidSetu
   s->setup = *setup;
   PetscCallMPI(MPI_Comm_rank(comm, &s->rank));
   PetscCallMPI(MPI_Comm_size(comm, &s->size));
-  PetscCall(Distribute(s, assembly));
+  PetscCall(Distribute(s, model));
   PetscCall(ContactCreate(s, &s->contact));
   PetscCall(ContactSearch(s->contact, s, 0.0));
   *solid = s;
@@ -41,29 +41,30 @@ PetscErrorCode SolidCreate(MPI_Comm comm, const Model *assembly, const SolidSetu
 }
 
 /* All that depends on which elements this rank has. */
-PetscErrorCode SolidFreeShare(Solid s)
+PetscErrorCode SolidFreeSubdomain(Solid s)
 {
   Elements *e = &s->elements;
   PetscFunctionBeginUser;
   PetscCall(ContactDestroy(&s->contact));
   PetscCall(JointsDestroy(&s->joints));
   PetscCall(PetscFree2(s->copies.rank, s->copies.node));
-  PetscCall(SubdomainDestroy(&s->share));
+  PetscCall(SubdomainDestroy(&s->subdomain));
   PetscCall(
       PetscFree7(s->gid, s->node_body, s->surface, s->mass, s->inverse_mass, s->corner_start, s->corner));
   PetscCall(PetscFree7(s->rest, s->x, s->v, s->force, s->load, s->saved.x, s->saved.v));
-  PetscCall(PetscFree5(s->start, s->seen, s->mobility, s->acceleration, s->piece));
+  PetscCall(PetscFree5(s->start, s->interface_velocity, s->mobility, s->acceleration, s->piece));
   PetscCall(PetscFree6(s->element, s->facet, s->facet_element, s->facet_side, s->base, s->body));
-  PetscCall(PetscFree(s->prescribed));
+  PetscCall(PetscFree(s->is_prescribed));
   PetscCall(PetscFree(s->material));
-  PetscCall(PetscFree2(s->drive, s->drive_rows));
-  PetscCall(PetscFree(s->driven));
-  PetscCall(PetscFree(s->held));
+  PetscCall(PetscFree2(s->motion, s->motion_rows));
+  PetscCall(PetscFree(s->prescribed));
+  PetscCall(PetscFree(s->position_before));
   PetscCall(PetscFree3(e->node[0], e->node[1], e->node[2]));
   PetscCall(PetscFree4(e->inverse[0], e->inverse[1], e->inverse[2], e->inverse[3]));
   PetscCall(PetscFree3(e->stress[0], e->stress[1], e->stress[2]));
   PetscCall(PetscFree5(e->mu, e->lambda, e->eta, e->density, e->corotated));
-  PetscCall(PetscFree7(e->body, e->number, e->force[0], e->force[1], e->thickness, e->sheet, e->material));
+  PetscCall(
+      PetscFree7(e->body, e->number, e->force[0], e->force[1], e->thickness, e->plane_stress, e->material));
   PetscCall(PetscFree(s->part));
   PetscFunctionReturn(0);
 }
@@ -73,20 +74,32 @@ PetscErrorCode SolidDestroy(Solid *solid)
   Solid s = *solid;
   PetscFunctionBeginUser;
   if (!s) PetscFunctionReturn(0);
-  if (s->before) PetscCall(SolidFreeShare(s->before));
+  if (s->before) PetscCall(SolidFreeSubdomain(s->before));
   PetscCall(PetscFree(s->before));
-  PetscCall(SolidFreeShare(s));
-  if (s->assembly) PetscCall(ModelDestroy(s->assembly));
-  PetscCall(PetscFree(s->assembly));
+  PetscCall(SolidFreeSubdomain(s));
+  if (s->model) PetscCall(ModelDestroy(s->model));
+  PetscCall(PetscFree(s->model));
   PetscCall(PetscFree(*solid));
   PetscFunctionReturn(0);
 }
 
 void SolidGetView(Solid s, SolidView *view)
 {
-  *view = (SolidView){s->nnodes,         s->elements.n, s->nfacets, s->nbodies, s->revision,
-                      s->share_number,   s->gid,        s->rest,    s->x,       s->v,
-                      s->load,           s->start,      s->element, s->facet,   s->elements.body,
+  *view = (SolidView){s->nnodes,
+                      s->elements.n,
+                      s->nfacets,
+                      s->nbodies,
+                      s->revision,
+                      s->partition_number,
+                      s->gid,
+                      s->rest,
+                      s->x,
+                      s->v,
+                      s->load,
+                      s->start,
+                      s->element,
+                      s->facet,
+                      s->elements.body,
                       s->elements.number};
 }
 
@@ -99,7 +112,7 @@ PetscErrorCode SolidState(Solid s, int save)
 {
   SavedState *k = &s->saved;
   PetscFunctionBeginUser;
-  PetscCall(save ? SolidKeepShare(s) : SolidPutBackShare(s));
+  PetscCall(save ? SolidKeepSubdomain(s) : SolidRestoreSubdomain(s));
   if (s->joints) PetscCall(JointsState(s->joints, s, save));
   const size_t n = 2 * (size_t)s->nnodes;
   PetscCall(PetscArraycpy(save ? k->x : s->x, save ? s->x : k->x, n));
@@ -120,8 +133,7 @@ PetscErrorCode SolidState(Solid s, int save)
   PetscFunctionReturn(0);
 }
 
-/* --- sums over bodies
- * --------------------------------------------------------------------------------------- */
+/* --- sums over bodies --------------------------------------------------------------------------------- */
 
 /* First sums: mass, mass x, mass v, load, kinetic energy; then strain energy. */
 enum { M, MX, MY, MU, MV, FX, FY, KINETIC, STRAIN, NSUMS };
@@ -129,7 +141,7 @@ enum { M, MX, MY, MU, MV, FX, FY, KINETIC, STRAIN, NSUMS };
 static void AddNodes(const Solid s, int n, double sum[][NSUMS])
 {
   for (int i = 0; i < s->nnodes; i++) {
-    if (s->node_body[i] >= n || !SubdomainOwns(s->share, i)) continue;
+    if (s->node_body[i] >= n || !SubdomainOwns(s->subdomain, i)) continue;
     double *k = sum[s->node_body[i]];
     const double m = s->mass[i], *v = s->v + 2 * i;
     k[M] += m;
@@ -164,7 +176,7 @@ static PetscErrorCode AngularVelocities(const Solid s, int n, BodyState state[])
   PetscCall(PetscCalloc1((size_t)n, &sum));
   for (int i = 0; i < s->nnodes; i++) {
     const int b = s->node_body[i];
-    if (b >= n || !SubdomainOwns(s->share, i)) continue;
+    if (b >= n || !SubdomainOwns(s->subdomain, i)) continue;
     const Point r = {s->x[2 * i] - state[b].x[0], s->x[2 * i + 1] - state[b].x[1]};
     const Point v = {s->v[2 * i] - state[b].v[0], s->v[2 * i + 1] - state[b].v[1]};
     sum[b][0] += s->mass[i] * PointCross(r, v);

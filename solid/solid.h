@@ -27,7 +27,7 @@ typedef struct {
   double friction, damping; /* < 0: not overridden */
 } ContactRule;
 
-enum { MOST_RULES = 32 };
+enum { MAX_RULES = 32 };
 
 typedef struct {
   double gravity[2];         /* m/s2 */
@@ -38,14 +38,14 @@ typedef struct {
   PetscBool rough_walls;     /* the next two hold where >= 0; else walls are like what touches them */
   double wall_friction, wall_damping;
   int nrules;
-  ContactRule rule[MOST_RULES]; /* [nrules] the last that fits holds */
+  ContactRule rule[MAX_RULES]; /* [nrules] the last that fits holds */
   /* called on the rank that finds an element inside out; must not return.  NULL: message and MPI_Abort */
   void (*fail)(void *context, const char *message);
   void *context;
 } SolidSetup;
 
-/* assembly is borrowed during the call; the same on all ranks. */
-PetscErrorCode SolidCreate(MPI_Comm comm, const Model *assembly, const SolidSetup *setup, Solid *solid);
+/* model is borrowed during the call; the same on all ranks. */
+PetscErrorCode SolidCreate(MPI_Comm comm, const Model *model, const SolidSetup *setup, Solid *solid);
 PetscErrorCode SolidDestroy(Solid *solid);
 
 /* load[nnodes][2]: this rank's part of the force on its nodes, N; summed over the ranks that share a node,
@@ -56,25 +56,26 @@ PetscBool SolidRemaining(Solid s); /* not collective, the same on all ranks */
 PetscErrorCode SolidSubstep(Solid s, double *h);
 /* After the last substep: deals the elements out anew if the work has got out of balance, or bodies have come
  * to touch across ranks, so far that `rebalance` substeps of a perfectly shared solid have been lost since
- * the last look that was better.  Looks at counts, never at clocks: the same run does the same.  All local
- * numbers then are others, and the view's share; nodes keep their gid, and everything its value.  Putting
- * a state back puts back the share of that time too. */
+ * the last check that was better.  Counts decide, never clocks: the same run does the same.  All local
+ * numbers then are others, and the view's partition; nodes keep their gid, and everything its value.  Putting
+ * a state back puts back the subdomain of that time too. */
 PetscErrorCode SolidRebalance(Solid s);
-/* The same to part[elements of the assembly], the same on all ranks: the rank that is to have each element.
+/* The same to part[elements of the model], the same on all ranks: the rank that is to have each element.
  * Needs rebalance > 0. */
 PetscErrorCode SolidRedistribute(Solid s, const int part[]);
-/* What the fluid is to see (seen.c). */
+/* What the solid sends the coupler of its motion (interface_motion.c). */
 typedef struct {
   const double *u;        /* [nnodes][2] the bodies' rigid motion, plus their deformation as far as steps of
                              dt resolve it, m/s */
-  const double *mobility; /* [nnodes] 1/kg, as coracle.h has it: of the nodes whose deformation is seen */
+  const double *mobility; /* [nnodes] 1/kg, as coracle.h has it: 0 where a fragment moves as a rigid body */
   const double *acceleration; /* [nnodes][2] m/s2, theirs without the fluid's force */
 } InterfaceMotion;
 /* Collective, after the last substep, when all is as at the step's end; borrowed until the next SolidStart.
  */
-PetscErrorCode SolidUpdateInterfaceMotion(Solid s, InterfaceMotion *seen);
-/* Not collective: what SolidUpdateInterfaceMotion has last found, before the first step the velocities, with mobility 0. */
-void SolidGetInterfaceMotion(Solid s, InterfaceMotion *seen);
+PetscErrorCode SolidUpdateInterfaceMotion(Solid s, InterfaceMotion *interface);
+/* Not collective: the last result of SolidUpdateInterfaceMotion; before the first step the velocities, with
+ * mobility 0. */
+void SolidGetInterfaceMotion(Solid s, InterfaceMotion *interface);
 /* Largest stable substep now, s: 4/(d + sqrt(d^2 + 4 w^2)), w^2 and d bounds of the elements' and contact's
  * frequencies and viscous rates. */
 PetscErrorCode SolidLimit(Solid s, double *limit);
@@ -83,8 +84,8 @@ PetscErrorCode SolidState(Solid s, int save);
 
 /* Between two steps: all that the steps so far have made of the solid, into a checkpoint. */
 PetscErrorCode SolidSave(Solid s, Checkpoint to);
-/* Right after SolidCreate, from the same assembly on any number of ranks: the solid as it was at SolidSave,
- * with its time and its counters.  On as many ranks as then it goes on with the same bits; on others the
+/* Right after SolidCreate, from the same model on any number of ranks: the solid as it was at SolidSave,
+ * with its time and its counters.  On as many ranks as then it continues with the same bits; on others the
  * elements are dealt out as suits the present state if there is `rebalance`, else as at the start.  A
  * checkpoint of other bodies is an error that says what has been expected and found.  There is no budget
  * before the next step. */
@@ -95,13 +96,13 @@ typedef struct {
   int nnodes, nelements, nfacets, nbodies;
   int revision; /* changes when cracks have made new nodes, elements or facets; new nodes and facets come last
                  */
-  int share;    /* changes when elements have changed ranks: all local numbers are others */
-  const long long *gid;                      /* [nnodes] */
+  int partition;        /* changes when elements have changed ranks: all local numbers are others */
+  const long long *gid; /* [nnodes] */
   const double *rest, *x, *v, *load, *start; /* [nnodes][2]; start: x when the step began */
   const int *element,
       *facet;        /* [nelements][3], [nfacets][2] local nodes; facets have the solid on their left */
   const int *body;   /* [nelements] */
-  const int *number; /* [nelements] in the assembly */
+  const int *number; /* [nelements] in the model */
 } SolidView;
 void SolidGetView(Solid s, SolidView *view);
 
@@ -132,27 +133,27 @@ typedef struct {
 /* state[n]: of the first n bodies. */
 PetscErrorCode SolidBodies(Solid s, int n, BodyState state[]);
 
-/* What acted on all bodies over the last step.  Momentum: the change of sum m v is load dt + walls + held + m
+/* What acted on all bodies over the last step.  Momentum: the change of sum m v is load dt + walls + reaction + m
  * g dt, to round-off. */
 typedef struct {
-  double walls[2], held[2]; /* impulse of the tank's walls; of what holds fixed and driven nodes, N s/m */
-  double work, held_work;   /* of the fluid; of what drives nodes, J/m */
+  double walls[2],
+      reaction[2]; /* impulse of the tank's walls; of what holds fixed and prescribed nodes, N s/m */
+  double work, reaction_work; /* of the fluid; of what drives nodes, J/m */
 } SolidBudget;
 PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget);
 
 typedef struct {
-  int live, broken; /* joints that have come to life and are not broken yet; that are broken */
-  int pieces;       /* that whole and living joints hold together */
-  double length;    /* of the cracks, m: edges and half edges that hold no more; half of the new surface */
-  double energy;    /* what all joints have taken up and not given back, J/m; a broken one keeps it */
-  double torn;      /* the part of it of the edges and half edges that hold no more, J/m */
+  int active, broken; /* joints that have activate and are not broken yet; that are broken */
+  int pieces;         /* that intact and active joints hold together */
+  double length;      /* of the cracks, m: edges and half edges that hold no more; half of the new surface */
+  double energy;      /* what all joints have taken up and not given back, J/m; a broken one keeps it */
+  double debonded;    /* the part of it of the edges and half edges that hold no more, J/m */
 } FractureState;
 PetscErrorCode SolidFracture(Solid s, FractureState *state);
 /* damage[nelements]: largest D of the element's joints, 0 .. 1.  Not collective. */
 void SolidDamage(Solid s, double damage[]);
-/* fragment[nelements]: 0 .. *n - 1, in order of the lowest node: pieces that whole and living joints hold
- * together.
- */
+/* fragment[nelements]: 0 .. *n - 1, in order of the lowest node: pieces that intact and active joints hold
+ * together. */
 PetscErrorCode SolidFragments(Solid s, int fragment[], int *n);
 /* Internal, joint and contact forces at the present state, force[nnodes][2], N, summed over ranks; borrowed
  * until the next call of anything. */

@@ -3,85 +3,85 @@
 #include <stdio.h>
 
 /* Friction and damping of walls; absent: those of what touches them. */
-static void ReadWallContact(Case c, SolidSetup *setup)
+static void ReadWallContact(CoracleCase c, SolidSetup *setup)
 {
-  const bool friction = CaseHas(c, "solid.walls.friction"),
-             damping = CaseHas(c, "solid.walls.contact_damping");
+  const bool friction = CoracleCaseHas(c, "solid.walls.friction"),
+             damping = CoracleCaseHas(c, "solid.walls.contact_damping");
   setup->rough_walls = PETSC_TRUE;
-  setup->wall_friction = friction ? CaseNumber(c, "solid.walls.friction", 0.0, HUGE_VAL) : -1.0;
-  setup->wall_damping = damping ? CaseNumber(c, "solid.walls.contact_damping", 0.0, 10.0) : -1.0;
+  setup->wall_friction = friction ? CoracleCaseNumber(c, "solid.walls.friction", 0.0, HUGE_VAL) : -1.0;
+  setup->wall_damping = damping ? CoracleCaseNumber(c, "solid.walls.contact_damping", 0.0, 10.0) : -1.0;
 }
 
 /* The list `contact`: overrides for pairs. */
-static void ReadRules(Case c, SolidSetup *setup)
+static void ReadRules(CoracleCase c, SolidSetup *setup)
 {
   char key[CASE_BODY_KEY];
-  setup->nrules = CaseCount(c, "solid.contact");
-  if (setup->nrules > MOST_RULES) CaseRefuse(c, "solid.contact", "more than %d pairs", MOST_RULES);
+  setup->nrules = CoracleCaseCount(c, "solid.contact");
+  if (setup->nrules > MAX_RULES) CoracleCaseRefuse(c, "solid.contact", "more than %d pairs", MAX_RULES);
   for (int k = 0; k < setup->nrules; k++) {
     ContactRule *r = &setup->rule[k];
     (void)snprintf(key, sizeof key, "solid.contact[%d].between", k);
-    if (CaseCount(c, key) != 2) CaseRefuse(c, key, "expected two names");
+    if (CoracleCaseCount(c, key) != 2) CoracleCaseRefuse(c, key, "expected two names");
     for (int i = 0; i < 2; i++) {
       (void)snprintf(key, sizeof key, "solid.contact[%d].between[%d]", k, i);
-      const char *name = CaseString(c, key);
+      const char *name = CoracleCaseString(c, key);
       if (strcmp(name, CONTACT_WALLS)) CaseMaterialExists(c, key, name);
       (void)snprintf(r->between[i], sizeof r->between[i], "%s", name);
     }
     (void)snprintf(key, sizeof key, "solid.contact[%d].friction", k);
-    r->friction = CaseHas(c, key) ? CaseNumber(c, key, 0.0, HUGE_VAL) : -1.0;
+    r->friction = CoracleCaseHas(c, key) ? CoracleCaseNumber(c, key, 0.0, HUGE_VAL) : -1.0;
     (void)snprintf(key, sizeof key, "solid.contact[%d].damping", k);
-    r->damping = CaseHas(c, key) ? CaseNumber(c, key, 0.0, 10.0) : -1.0;
+    r->damping = CoracleCaseHas(c, key) ? CoracleCaseNumber(c, key, 0.0, 10.0) : -1.0;
   }
 }
 
-static void ReadWalls(Case c, const Model *a, SolidSetup *setup)
+static void ReadWalls(CoracleCase c, const Model *a, SolidSetup *setup)
 {
   char key[CASE_BODY_KEY];
-  setup->walls = (PetscBool)CaseHas(c, "solid.walls");
+  setup->walls = (PetscBool)CoracleCaseHas(c, "solid.walls");
   if (!setup->walls) return;
-  CaseVector(c, "solid.walls.lower", 2, setup->lower);
-  CaseVector(c, "solid.walls.upper", 2, setup->upper);
+  CoracleCaseVector(c, "solid.walls.lower", 2, setup->lower);
+  CoracleCaseVector(c, "solid.walls.upper", 2, setup->upper);
   ReadWallContact(c, setup);
   for (int n = 0; n < a->nnodes; n++)
     for (int k = 0; k < 2; k++)
       if (a->x[2 * n + k] < setup->lower[k] || a->x[2 * n + k] > setup->upper[k])
-        CaseRefuse(c, BodyKey(key, a->body[a->node_body[n]].entry, ""),
-                   "the body reaches through solid.walls at (%g, %g)", a->x[2 * n], a->x[2 * n + 1]);
+        CoracleCaseRefuse(c, BodyKey(key, a->body[a->node_body[n]].entry, ""),
+                          "the body reaches through solid.walls at (%g, %g)", a->x[2 * n], a->x[2 * n + 1]);
 }
 
-PetscErrorCode SolidCaseRead(Case c, Model *a, SolidSetup *setup)
+PetscErrorCode SolidCaseRead(CoracleCase c, Model *a, SolidSetup *setup)
 {
-  const int nbodies = CaseCount(c, "solid.bodies");
+  const int nbodies = CoracleCaseCount(c, "solid.bodies");
   int first, second;
   char key[CASE_BODY_KEY];
   PetscFunctionBeginUser;
-  CaseVector(c, "gravity", 2, setup->gravity);
-  setup->courant = CaseNumberOr(c, "solid.courant", 0.8, 0.01, 1.0);
-  setup->rebalance = CaseNumberOr(c, "solid.rebalance", 200.0, 0.0, HUGE_VAL);
-  CaseKeys(c, "solid.materials", CaseCheckMaterial, c);
-  if (nbodies == 0) CaseRefuse(c, "solid.bodies", "expected a list of at least one body");
+  CoracleCaseVector(c, "gravity", 2, setup->gravity);
+  setup->courant = CoracleCaseNumberOr(c, "solid.courant", 0.8, 0.01, 1.0);
+  setup->rebalance = CoracleCaseNumberOr(c, "solid.rebalance", 200.0, 0.0, HUGE_VAL);
+  CoracleCaseKeys(c, "solid.materials", CaseCheckMaterial, c);
+  if (nbodies == 0) CoracleCaseRefuse(c, "solid.bodies", "expected a list of at least one body");
   for (int b = 0; b < nbodies; b++) PetscCall(CaseReadBody(c, b, a));
   ReadWalls(c, a, setup);
   ReadRules(c, setup);
   PetscCall(ModelOverlap(a, &first, &second));
   if (first >= 0)
-    CaseRefuse(c, BodyKey(key, a->body[second].entry, ""), "the body overlaps solid.bodies[%d]",
-               a->body[first].entry);
+    CoracleCaseRefuse(c, BodyKey(key, a->body[second].entry, ""), "the body overlaps solid.bodies[%d]",
+                      a->body[first].entry);
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SolidFromCase(Case c, MPI_Comm comm, void (*fail)(void *context, const char *message),
+PetscErrorCode SolidFromCase(CoracleCase c, MPI_Comm comm, void (*fail)(void *context, const char *message),
                              void *context, Solid *solid)
 {
   static const char *const SECTIONS[] = {"solid", NULL};
   SolidSetup setup = {.fail = fail, .context = context};
-  Model assembly = {0};
+  Model model = {0};
   PetscFunctionBeginUser;
-  PetscCall(PetscOptionsInsertString(NULL, CaseStringOr(c, "solid.petsc", "")));
-  PetscCall(SolidCaseRead(c, &assembly, &setup));
-  PetscCall(CaseFinish(c, SECTIONS));
-  PetscCall(SolidCreate(comm, &assembly, &setup, solid));
-  PetscCall(ModelDestroy(&assembly));
+  PetscCall(PetscOptionsInsertString(NULL, CoracleCaseStringOr(c, "solid.petsc", "")));
+  PetscCall(SolidCaseRead(c, &model, &setup));
+  PetscCall(CoracleCaseFinish(c, SECTIONS));
+  PetscCall(SolidCreate(comm, &model, &setup, solid));
+  PetscCall(ModelDestroy(&model));
   PetscFunctionReturn(0);
 }

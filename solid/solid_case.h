@@ -7,10 +7,10 @@
 /* Not collective; every rank reads the same.  Refuses what cannot be (see case_file.h): unknown materials or
  * boundaries, degenerate elements, bodies that overlap or lie outside the walls.  setup->fail is left alone.
  */
-PetscErrorCode SolidCaseRead(Case c, Model *a, SolidSetup *setup);
+PetscErrorCode SolidCaseRead(CoracleCase c, Model *a, SolidSetup *setup);
 
 /* Collective: options for PETSc, bodies and set-up of the case, whose section solid must then have been read
  * in full; fail and context as in SolidSetup. */
-PetscErrorCode SolidFromCase(Case c, MPI_Comm comm, void (*fail)(void *context, const char *message),
+PetscErrorCode SolidFromCase(CoracleCase c, MPI_Comm comm, void (*fail)(void *context, const char *message),
                              void *context, Solid *solid);
 #endif

@@ -10,12 +10,12 @@ typedef struct Contact_s *Contact;
 typedef struct Joints_s *Joints;
 
 /* Each with those before it. */
-typedef enum { STRAIN_ONLY, WITH_SHEETS, WITH_COROTATED } ElementLaws; /* the first: neo-Hookean */
+typedef enum { STRAIN_ONLY, WITH_PLANE_STRESS, WITH_COROTATED } ElementLaws; /* the first: neo-Hookean */
 
-/* What all shares are of, the same on all ranks. */
+/* What all subdomains are of, the same on all ranks. */
 typedef struct {
   int elements, nodes, joints; /* nodes of the start */
-} Whole;
+} GlobalSizes;
 
 /* Structure of arrays, so that the element loop is vectorised. */
 typedef struct {
@@ -23,10 +23,10 @@ typedef struct {
   int *node[3];                        /* local nodes, counter-clockwise */
   double *inverse[4];                  /* D0^-1: xx, xy, yx, yy of the rest edges' inverse, 1/m */
   double *mu, *lambda, *eta, *density; /* times the thickness */
-  double *thickness, *sheet;           /* m; 1 in plane stress, 0 in plane strain */
+  double *thickness, *plane_stress;    /* m; 1 in plane stress, 0 in plane strain */
   double *corotated;                   /* 1, or 0: neo-Hookean */
   int *body, *material;
-  int *number;       /* in the assembly */
+  int *number;       /* in the model */
   double *force[2];  /* [3][n]: corner i of element e at i n + e */
   double *stress[3]; /* NULL without joints: elastic xx, yy, xy of the last forces, Pa times thickness */
   PetscBool damped;  /* any eta > 0 */
@@ -38,9 +38,9 @@ typedef struct {
   int n, *rank, *node;
 } Copies;
 
-/* How much the present share loses against the best that it has been (balance.c). */
+/* How much the present subdomain loses against the best that it has been (balance.c). */
 typedef struct {
-  double best, loss; /* best: 0 until the first look */
+  double best, loss; /* best: 0 until the first check */
 } Balance;
 
 /* What a step changes. */
@@ -54,7 +54,7 @@ struct Solid_s {
   MPI_Comm comm;
   PetscMPIInt rank, size;
   SolidSetup setup;
-  Whole whole;
+  GlobalSizes global;
   int nnodes, nfacets, nbodies;
   int node_capacity,
       facet_capacity; /* of all arrays [nnodes] and [nfacets]: for the case that all joints break */
@@ -65,7 +65,7 @@ struct Solid_s {
   /* nodes */
   long long *gid;
   int *node_body, *surface;    /* [nnodes]; surface: some rank has a facet there */
-  int *prescribed;             /* [nnodes] some drive moves it */
+  int *is_prescribed;          /* [nnodes] a prescribed motion moves it */
   int *base;                   /* [nnodes] the node of the start that it was then, on this rank */
   double *rest, *x, *v;        /* [nnodes][2] */
   double *force, *load;        /* [nnodes][2] internal and contact; the fluid's, summed over ranks */
@@ -76,32 +76,32 @@ struct Solid_s {
   int *facet, *facet_element; /* [nfacets][2], [nfacets] */
   int *facet_side;            /* [nfacets] from that corner of the element to the next */
   Copies copies;
-  Subdomain share;
+  Subdomain subdomain;
   Contact contact;
-  Joints joints;              /* NULL: none */
-  int ndriven, ndriven_first; /* now, and at the start: parts of split nodes come last */
-  DrivenNode *driven;         /* [ndriven] */
-  PrescribedMotion *drive;
-  double *drive_rows, *held; /* [ndriven][2] room for places before a substep */
-  int ndrives;
-  /* the step in hand */
+  Joints joints;                      /* NULL: none */
+  int nprescribed, nprescribed_first; /* now, and at the start: parts of split nodes come last */
+  PrescribedNode *prescribed;         /* [nprescribed] */
+  PrescribedMotion *motion;
+  double *motion_rows, *position_before; /* [nprescribed][2] room for places before a substep */
+  int nmotions;
+  /* the current step */
   double dt, done, h, moved_for; /* moved_for: length of the last substep made, s */
   double *start;                 /* [nnodes][2] positions when it began */
-  double *seen, *mobility,
+  double *interface_velocity, *mobility,
       *acceleration;          /* [nnodes][2], [nnodes], [nnodes][2] of SolidUpdateInterfaceMotion */
   int npieces, *piece;        /* [nnodes] SolidPieces has found; npieces 0: since the last crack not yet */
   int remaining, until_check; /* substeps */
   SolidBudget budget;         /* this rank's part */
   PetscBool force_valid;      /* force belongs to x and v */
-  PetscBool unsettled;        /* after SolidState(0): JointsSettle is due */
+  PetscBool unsynchronised;   /* after SolidState(0): JointsSynchronise is due */
   SolidStats stats;
   SavedState saved;
-  /* other ranks' shares: NULL unless elements may change ranks */
-  Model *assembly;
-  int share_number; /* which of the shares since the start this is */
-  int *part;        /* [assembly->nelements] the rank that has it */
-  Solid before;     /* the share of the saved state, if it was another; NULL */
-  PetscBool kept;   /* there is a saved state */
+  /* other ranks' subdomains: NULL unless elements may change ranks */
+  Model *model;
+  int partition_number; /* which of the partitions since the start this is */
+  int *part;            /* [model->nelements] the rank that has it */
+  Solid before;         /* the subdomain of the saved state, if it was another; NULL */
+  PetscBool kept;       /* there is a saved state */
   Balance balance;
 };
 
@@ -119,12 +119,12 @@ PetscErrorCode SolidPieces(Solid s, int *n, const int **piece);
 
 /* budget.c, not collective: what the walls and what holds fixed nodes do in the substep to come. */
 void BudgetAddSubstep(Solid s);
-/* Component c of node n, free so far, is going to be driven with v. */
-void BudgetAddDriven(Solid s, int n, int c, double v);
+/* Component c of node n, free so far, is going to move with the prescribed v. */
+void BudgetAddPrescribed(Solid s, int n, int c, double v);
 
-/* distribute.c: everything that comes from the assembly. */
-PetscErrorCode SolidTakeShare(Solid s, const Model *a, const int part[]);
-/* Of an element of the assembly, times its thickness. */
+/* distribute.c: everything that comes from the model. */
+PetscErrorCode SolidTakeSubdomain(Solid s, const Model *a, const int part[]);
+/* Of an element of the model, times its thickness. */
 ElementLaw SolidLawOf(const Model *a, int e);
 /* corner_start and corner, from element */
 void SolidListCorners(Solid s);
@@ -132,48 +132,48 @@ void SolidListCorners(Solid s);
 /* balance.c, collective: elements to ranks as suits the solid as it is now.  Needs rebalance > 0. */
 PetscErrorCode SolidDealOut(Solid s);
 
-/* migrate.c: all but the assembly. */
-PetscErrorCode SolidFreeShare(Solid s);
-/* Not collective: the share that the saved state belongs to is the present one again. */
-PetscErrorCode SolidPutBackShare(Solid s);
-/* Not collective: the present share is that of the state which is about to be saved. */
-PetscErrorCode SolidKeepShare(Solid s);
+/* migrate.c: all but the model. */
+PetscErrorCode SolidFreeSubdomain(Solid s);
+/* Not collective: the subdomain that the saved state belongs to is the present one again. */
+PetscErrorCode SolidRestoreSubdomain(Solid s);
+/* Not collective: the present subdomain is that of the state which is about to be saved. */
+PetscErrorCode SolidKeepSubdomain(Solid s);
 
 /* joints_create.c */
-PetscErrorCode JointsCreate(Solid s, const Model *a, const InteriorEdges *edges, int nlooks,
-                            const Look look[], const int part[], const int local[], Joints *joints);
+PetscErrorCode JointsCreate(Solid s, const Model *a, const InteriorEdges *edges, int nghosts,
+                            const GhostElement ghost[], const int part[], const int local[], Joints *joints);
 PetscErrorCode JointsDestroy(Joints *j);
 /* joints.c: adds to force and remembers damage. */
 void JointsAddForces(Joints j, Solid s);
-/* Collective: edges loaded to their strength come to life, broken ones become surface; *changed: nodes,
+/* Collective: edges loaded to their strength activate, broken ones become surface; *changed: nodes,
  * elements and facets are new, forces and limit too. */
 PetscErrorCode JointsAdvance(Joints j, Solid s, PetscBool *changed);
-/* Adds to power[stride piece] what the living joints would do more, N m/s2, if nodes moved with d[nnodes][2].
+/* Adds to power[stride piece] what the active joints would do more, N m/s2, if nodes moved with d[nnodes][2].
  */
 void JointsAddStrainPower(Joints j, Solid s, const double d[], const int piece[], int stride, double power[]);
 /* Bound of omega^2, 1/s2. */
 double JointsRate(Joints j);
 /* break.c: saves or puts back damage and topology; not collective. */
 PetscErrorCode JointsState(Joints j, Solid s, int save);
-/* Not collective: what the joints' memory says has happened happens again, revision by revision, in a share
- * that is whole.  So nodes and facets get the numbers that they have on a rank which had its elements all the
+/* Not collective: what the joints' memory says has happened happens again, revision by revision, in a subdomain
+ * that is intact.  So nodes and facets get the numbers that they have on a rank which had its elements all the
  * time, and sums their bits. */
 PetscErrorCode JointsReplay(Joints j, Solid s);
 /* Collective: after JointsState(0) and JointsReplay, what needs messages. */
-PetscErrorCode JointsSettle(Joints j, Solid s);
+PetscErrorCode JointsSynchronise(Joints j, Solid s);
 
 /* contact.c */
 PetscErrorCode ContactCreate(Solid s, Contact *contact);
 /* Collective: nodes, elements or facets have changed; a search must follow.  Slips stay with element and
  * side. */
 PetscErrorCode ContactRenew(Contact c, Solid s);
-/* Collective: new candidates, for motions of surface nodes up to ContactReach. */
-PetscErrorCode ContactSearch(Contact c, Solid s, double least_buffer);
+/* Collective: new candidates, for motions of surface nodes up to ContactSkin. */
+PetscErrorCode ContactSearch(Contact c, Solid s, double min_buffer);
 /* Adds to force; every rank's edges against its own targets and those of other ranks. */
 PetscErrorCode ContactAddForces(Contact c, Solid s);
 /* Not collective: how far a node may move before a new search, and how far the farthest has; bounds of
  * omega^2 and 2 xi omega. */
-double ContactReach(Contact c);
+double ContactSkin(Contact c);
 double ContactMoved(Contact c, Solid s);
 /* Not collective: the force of the walls on this rank's edges in the last ContactAddForces, N. */
 Point ContactWalls(Contact c);

@@ -9,7 +9,7 @@ struct Writer_s {
   Output output;
   Series series;
   int nbodies, revision;
-  double start;  /* s, by the clock, as if runs that this one goes on from had been just before it; */
+  double start;  /* s, by the clock, as if runs that this one resumes from had been just before it; */
   double waited; /* s, theirs */
 };
 
@@ -26,10 +26,11 @@ static PetscErrorCode CreateSeries(Writer r, const char *folder, Checkpoint from
         b, b, b, b, b, b, b, b, b, b);
   }
   const size_t used = strlen(columns);
-  (void)snprintf(columns + used, sizeof columns - used,
-                 ",fracture [J/m],torn [J/m],broken joints,cracks [m],pieces,walls_x [N s/m],walls_y [N "
-                 "s/m],held_x [N s/m],"
-                 "held_y [N s/m],work [J/m],held work [J/m],substeps,dt_s [s],computing [s],waiting [s]");
+  (void)snprintf(
+      columns + used, sizeof columns - used,
+      ",fracture [J/m],debonded [J/m],broken joints,cracks [m],pieces,walls_x [N s/m],walls_y [N "
+      "s/m],reaction_x [N s/m],"
+      "reaction_y [N s/m],work [J/m],reaction work [J/m],substeps,dt_s [s],computing [s],waiting [s]");
   PetscCall(SeriesCreate(r->comm, folder, "solid", columns, from, &r->series));
   PetscFunctionReturn(0);
 }
@@ -68,9 +69,9 @@ static PetscErrorCode CellFields(Writer r, Solid s, const SolidView *v, const do
 typedef struct {
   int n, *element;                     /* [nelements][3] */
   double *x, *velocity, *displacement; /* [n][2] */
-} Written;
+} SnapshotFields;
 
-static PetscErrorCode WrittenCreate(const SolidView *v, Written *w)
+static PetscErrorCode SnapshotFieldsCreate(const SolidView *v, SnapshotFields *w)
 {
   const size_t most = 2 * (size_t)v->nnodes;
   int *number;
@@ -99,11 +100,11 @@ static PetscErrorCode WrittenCreate(const SolidView *v, Written *w)
 static PetscErrorCode Snapshot(Writer r, Solid s)
 {
   SolidView v;
-  Written w;
+  SnapshotFields w;
   double *stress;
   PetscFunctionBeginUser;
   SolidGetView(s, &v);
-  PetscCall(WrittenCreate(&v, &w));
+  PetscCall(SnapshotFieldsCreate(&v, &w));
   PetscCall(PetscMalloc1(3 * (size_t)v.nelements, &stress));
   SolidStress(s, stress);
   PetscCall(OutputBegin(r->output, SolidGetStats(s)->t));
@@ -124,8 +125,8 @@ PetscErrorCode WriterSave(Writer r, double waited, Checkpoint to)
   double seconds[2] = {MPI_Wtime() - r->start, r->waited + waited};
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Bcast(seconds, 2, MPI_DOUBLE, 0, r->comm));
-  PetscCall(CheckpointPutNumber(to, "record seconds", seconds[0]));
-  PetscCall(CheckpointPutNumber(to, "record waited", seconds[1]));
+  PetscCall(CheckpointPutNumber(to, "writer seconds", seconds[0]));
+  PetscCall(CheckpointPutNumber(to, "writer waited", seconds[1]));
   PetscCall(OutputSave(r->output, to));
   PetscCall(SeriesSave(r->series, to));
   PetscFunctionReturn(0);
@@ -135,15 +136,15 @@ static PetscErrorCode Load(Writer r, Checkpoint from)
 {
   double seconds;
   PetscFunctionBeginUser;
-  PetscCall(CheckpointGetNumber(from, "record seconds", &seconds));
-  PetscCall(CheckpointGetNumber(from, "record waited", &r->waited));
+  PetscCall(CheckpointGetNumber(from, "writer seconds", &seconds));
+  PetscCall(CheckpointGetNumber(from, "writer waited", &r->waited));
   r->start -= seconds;
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode WriterCreate(Case c, MPI_Comm comm, Solid solid, Checkpoint from, Writer *record)
+PetscErrorCode WriterCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoint from, Writer *record)
 {
-  const char *folder = CaseString(c, "output.folder");
+  const char *folder = CoracleCaseString(c, "output.folder");
   SolidView v;
   Writer r;
   PetscFunctionBeginUser;
@@ -152,7 +153,7 @@ PetscErrorCode WriterCreate(Case c, MPI_Comm comm, Solid solid, Checkpoint from,
   r->comm = comm;
   r->nbodies = PetscMin(v.nbodies, MAX_BODIES);
   r->start = MPI_Wtime();
-  PetscCall(OutputCreate(comm, folder, "solid", CasePositive(c, "output.every"), from, &r->output));
+  PetscCall(OutputCreate(comm, folder, "solid", CoracleCasePositive(c, "output.every"), from, &r->output));
   PetscCall(CreateSeries(r, folder, from));
   PetscCall(from ? Load(r, from) : Snapshot(r, solid));
   *record = r;
@@ -178,18 +179,18 @@ PetscErrorCode WriterStep(Writer r, Solid s, double waited)
   }
   PetscCall(SolidFracture(s, &fracture));
   row[n++] = fracture.energy;
-  row[n++] = fracture.torn;
+  row[n++] = fracture.debonded;
   row[n++] = fracture.broken;
   row[n++] = fracture.length;
   row[n++] = fracture.pieces;
   PetscCall(SolidGetBudget(s, &budget));
   for (int c = 0; c < 2; c++) {
     row[n + c] = budget.walls[c];
-    row[n + 2 + c] = budget.held[c];
+    row[n + 2 + c] = budget.reaction[c];
   }
   n += 4;
   row[n++] = budget.work;
-  row[n++] = budget.held_work;
+  row[n++] = budget.reaction_work;
   row[n++] = stats->substeps;
   row[n++] = stats->h;
   waited += r->waited;

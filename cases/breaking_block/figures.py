@@ -99,9 +99,9 @@ def draw_budget(folder):
     b = Budget(folder)
     figure, (left, middle, right) = plt.subplots(1, 3, figsize=(14, 4.2), layout="constrained")
     left.plot(b.t, b.momentum[0] - b.momentum[0][0], "k", linewidth=2, label="change of the solids' momentum")
-    for given, label in ((b.fluid[0], "impulse of the fluid"), (b.held[0], "of foot and thrower"), (b.walls[0], "of the walls")):
+    for given, label in ((b.fluid[0], "impulse of the fluid"), (b.reaction[0], "of foot and thrower"), (b.walls[0], "of the walls")):
         left.plot(b.t, given, label=label)
-    left.plot(b.t, b.fluid[0] + b.held[0] + b.walls[0], "--", color="0.7", linewidth=1, label="sum of the impulses")
+    left.plot(b.t, b.fluid[0] + b.reaction[0] + b.walls[0], "--", color="0.7", linewidth=1, label="sum of the impulses")
     left.set(ylabel="along the channel [N s/m]")
     middle.plot(b.t, b.kinetic, label="kinetic")
     middle.plot(b.t, -b.work, label="given to the fluid")

@@ -87,7 +87,7 @@ class Result:
     @property
     def foot(self):
         """Largest force that holds the foot once the projectile is free, mean over a step, N/m."""
-        dt, held = np.diff(self.t), np.diff(self.budget.held[0])
+        dt, held = np.diff(self.t), np.diff(self.budget.reaction[0])
         return abs(held / dt)[self.t[1:] > RELEASE + 0.006].max()
 
     def until(self, other, bound):
@@ -134,7 +134,7 @@ def runs_table(there):
             continue
         yield "| " + " | ".join([
             name, "%.4f" % b.first_crack(), "%.1f" % r.stream, "%.1f" % r.lost, "%.0f" % r.foot, "%.2f" % b.cracks[n],
-            "%.2f" % (b.torn[n] / b.cracks[n]), "%.0f" % (b.pieces[n] - 1), ", ".join("%.0f %%" % (100 * p) for p in r.pieces[:3]),
+            "%.2f" % (b.debonded[n] / b.cracks[n]), "%.0f" % (b.pieces[n] - 1), ", ".join("%.0f %%" % (100 * p) for p in r.pieces[:3]),
             "%.0e" % max(b.momentum_error(0), b.momentum_error(1)), "%.2g" % max(b.excess.max(), 0.0), "%.0e" % r.imbalance,
             str(r.triangles), str(len(r.t)), "%.0f" % r.cpu]) + " |"
 
@@ -167,8 +167,8 @@ def claims(there):
         for c in range(2):
             yield name + ": momentum of the solids, " + "xy"[c], b.momentum_error(c), 1e-6
         yield name + ": imbalance of fluid and solids", r.imbalance, 1e-10
-        yield name + ": energy from nothing, of the thrower's", b.excess.max() / b.held_work[-1], 1e-3
-        yield name + ": cracks cost G_f", abs(b.torn[-1] / b.cracks[-1] / TOUGHNESS - 1.0), ramp()
+        yield name + ": energy from nothing, of the thrower's", b.excess.max() / b.reaction_work[-1], 1e-3
+        yield name + ": cracks cost G_f", abs(b.debonded[-1] / b.cracks[-1] / TOUGHNESS - 1.0), ramp()
     if "base" not in there:
         return
     base = there["base"]

@@ -88,7 +88,7 @@ class Row:
         if self.held:  # is led aside and back again, so that its wake swings
             kick, t = 0.3 * speed, 2.0 * RADIUS / speed
             table = [[0, 0, 0], [t, kick, 0], [3 * t, -kick, 0], [4 * t, 0, 0]]
-            keys += ["solid.bodies[0].driven=[{boundary: boundary, component: x, table: %s}]" % table]
+            keys += ["solid.bodies[0].prescribed=[{boundary: boundary, component: x, table: %s}]" % table]
         elif self.re > 20:
             keys += ["solid.bodies[0].velocity=[%.3g, 0]" % (KICK[(self.sides, self.re)] * speed)]
         if self.sides == "open":

@@ -207,6 +207,17 @@ PetscErrorCode CopiesCreate(MPI_Comm comm, int n, const CopiesKey key[], Copies 
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode CopiesCreateByNumber(MPI_Comm comm, int n, const long long number[], Copies *copies)
+{
+  CopiesKey *key;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(n, &key));
+  for (int i = 0; i < n; i++) key[i] = (CopiesKey){number[i], number[i]};
+  PetscCall(CopiesCreate(comm, n, key, copies));
+  PetscCall(PetscFree(key));
+  PetscFunctionReturn(0);
+}
+
 /* Each shared item once, with its lowest rank; group[nitems] of the items, -1 of those with one copy. */
 static void ListShared(Copies c, int me, int n, const int rank[], const int item[], int group[])
 {

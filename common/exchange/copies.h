@@ -23,6 +23,8 @@ typedef struct {
 /* Collective: item i of n on this rank is a copy of key[i].  Copies find each other where a hash of the key
  * says. */
 PetscErrorCode CopiesCreate(MPI_Comm comm, int n, const CopiesKey key[], Copies *copies);
+/* The same with the key (number[i], number[i]). */
+PetscErrorCode CopiesCreateByNumber(MPI_Comm comm, int n, const long long number[], Copies *copies);
 /* Not collective: who holds what is known.  Item item[k] of nitems has a copy on rank[k]; sorted by rank and,
  * for one rank, in an order that both sides have.  One copy of a thing a rank. */
 PetscErrorCode CopiesCreateMatched(MPI_Comm comm, int nitems, int n, const int rank[], const int item[],

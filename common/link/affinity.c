@@ -37,12 +37,12 @@ static bool Within(const cpu_set_t *inner, const cpu_set_t *outer)
   return CPU_EQUAL(&both, inner);
 }
 
-void AffinityGet(Affinity *share)
+void AffinityGet(MPI_Comm job, Affinity *share)
 {
   MPI_Comm node;
   cpu_set_t mine;
   int n, inside = 0;
-  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
+  MPI_Comm_split_type(job, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
   MPI_Comm_size(node, &n);
   CPU_ZERO(&mine);
   if (sched_getaffinity(0, sizeof mine, &mine)) memset(&mine, 0xff, sizeof mine);

@@ -1,6 +1,7 @@
 /* What the computer that a rank runs on has to offer, and settings that follow from it. */
 #ifndef CORACLE_MACHINE_H
 #define CORACLE_MACHINE_H
+#include <mpi.h>
 #include <stdbool.h>
 
 typedef struct {
@@ -14,7 +15,7 @@ typedef struct {
  * or OMP_NUM_THREADS says more. */
 void AffinityEnvironment(void);
 /* Collective over the job, after MPI_Init. */
-void AffinityGet(Affinity *share);
+void AffinityGet(MPI_Comm job, Affinity *share);
 /* Says once for each role that its ranks are bound on top of others. */
 void AffinityNotePinned(const char *role, int rank);
 #endif

@@ -14,7 +14,7 @@ void CaseFault(CaseFaults *faults, const char *key, const char *message)
   longjmp(faults->next, 1);
 }
 
-bool CaseExcused(Case c, const char *key)
+bool CaseExcused(CoracleCase c, const char *key)
 {
   for (int i = 0; c->faults && i < c->faults->n; i++)
     if (!strcmp(c->faults->key[i], key)) return true;
@@ -22,24 +22,24 @@ bool CaseExcused(Case c, const char *key)
 }
 
 /* A key of a map goes, so that its default holds; an item of a list stays, for its followers' numbers. */
-void CaseFaultsApply(Case c)
+void CaseFaultsApply(CoracleCase c)
 {
   for (int i = 0; i < c->faults->n; i++) CaseTreeRemove(c->root, c->faults->key[i]);
 }
 
-bool CaseFaultless(Case c)
+bool CoracleCaseFaultless(CoracleCase c)
 {
   return !c->faults || c->faults->n == 0;
 }
 
 /* One reading: true when it went through. */
-static bool ReadOnce(int argc, char **argv, CaseReader read, void *context, CaseFaults *faults)
+static bool ReadOnce(int argc, char **argv, CoracleCaseReader read, void *context, CaseFaults *faults)
 {
-  static Case c; /* static: they outlive the jump */
+  static CoracleCase c; /* static: they outlive the jump */
   static char problem[CASE_MESSAGE];
   c = NULL;
   if (setjmp(faults->next)) {
-    CaseClose(&c);
+    CoracleCaseClose(&c);
     return false;
   }
   if (CaseLoad(argc, argv, problem, &c)) CaseFault(faults, "", problem);
@@ -47,12 +47,12 @@ static bool ReadOnce(int argc, char **argv, CaseReader read, void *context, Case
   CaseFaultsApply(c);
   read(c, context);
   c->faults = NULL;
-  CaseClose(&c);
+  CoracleCaseClose(&c);
   return true;
 }
 
-int CaseCheck(int argc, char **argv, CaseReader read, void *context,
-              void (*tell)(void *context, const char *message))
+int CoracleCaseCheck(int argc, char **argv, CoracleCaseReader read, void *context,
+                     void (*tell)(void *context, const char *message))
 {
   static CaseFaults faults;
   faults.n = 0;
@@ -67,14 +67,14 @@ int CaseCheck(int argc, char **argv, CaseReader read, void *context,
   return faults.n;
 }
 
-int CaseKeysOf(int argc, char **argv, CaseReader read, void *context,
-               void (*fail)(void *context, const char *message), FILE *out)
+int CoracleCaseKeysOf(int argc, char **argv, CoracleCaseReader read, void *context,
+                      void (*fail)(void *context, const char *message), FILE *out)
 {
-  Case c;
-  CaseOpen(argc, argv, fail, context, &c);
+  CoracleCase c;
+  CoracleCaseOpen(argc, argv, fail, context, &c);
   c->listing = true;
   read(c, context);
   CaseListKeys(c, out);
-  CaseClose(&c);
+  CoracleCaseClose(&c);
   return 0;
 }

@@ -9,7 +9,7 @@
 /* --- failing -------------------------------------------------------------------------------------------- */
 
 /* "file.yaml:12" or "--set key=value": where a node comes from. */
-static void Place(Case c, const CaseNode *node, char place[CASE_KEY])
+static void Place(CoracleCase c, const CaseNode *node, char place[CASE_KEY])
 {
   if (node && node->set)
     snprintf(place, CASE_KEY, "--set %s", node->set);
@@ -19,7 +19,7 @@ static void Place(Case c, const CaseNode *node, char place[CASE_KEY])
     snprintf(place, CASE_KEY, "%s", c->path);
 }
 
-void CaseDie(Case c, const CaseNode *node, const char *key, const char *format, ...)
+void CaseDie(CoracleCase c, const CaseNode *node, const char *key, const char *format, ...)
 {
   char place[CASE_KEY], text[CASE_MESSAGE], message[CASE_KEY + CASE_MESSAGE + 2];
   va_list list;
@@ -33,7 +33,7 @@ void CaseDie(Case c, const CaseNode *node, const char *key, const char *format, 
   abort(); /* fail must not return */
 }
 
-void CaseRefuse(Case c, const char *key, const char *format, ...)
+void CoracleCaseRefuse(CoracleCase c, const char *key, const char *format, ...)
 {
   char text[CASE_MESSAGE - CASE_KEY];
   va_list list;
@@ -57,7 +57,7 @@ static const char *Found(const CaseNode *node, char found[CASE_NAME])
   return found;
 }
 
-static _Noreturn void Unexpected(Case c, const char *key, const CaseNode *node, const char *expected)
+static _Noreturn void Unexpected(CoracleCase c, const char *key, const CaseNode *node, const char *expected)
 {
   char found[CASE_NAME];
   CaseDie(c, node, key, "key '%s': expected %s, found %s", key, expected, Found(node, found));
@@ -75,19 +75,19 @@ void CasePush(char ***list, int *n, int *capacity, char *string)
 }
 
 /* Where the key is, or would be, among those asked for. */
-static int *SlotOf(Case c, const char *key)
+static int *SlotOf(CoracleCase c, const char *key)
 {
   unsigned long long k = CaseFnv1a(CASE_FNV_START, key, strlen(key)) % (unsigned long long)c->nslots;
   while (c->slot[k] >= 0 && strcmp(c->asked[c->slot[k]], key)) k = (k + 1) % (unsigned long long)c->nslots;
   return &c->slot[k];
 }
 
-bool CaseAsked(Case c, const char *key)
+bool CaseAsked(CoracleCase c, const char *key)
 {
   return c->nslots && *SlotOf(c, key) >= 0;
 }
 
-static void Remember(Case c, const char *key)
+static void Remember(CoracleCase c, const char *key)
 {
   if (2 * (c->nasked + 1) > c->nslots) {
     c->nslots = c->nslots ? 2 * c->nslots : 256;
@@ -99,7 +99,7 @@ static void Remember(Case c, const char *key)
   CasePush(&c->asked, &c->nasked, &c->asked_capacity, strdup(key));
 }
 
-static CaseNode *Ask(Case c, const char *key)
+static CaseNode *Ask(CoracleCase c, const char *key)
 {
   if (!CaseAsked(c, key)) {
     Remember(c, key);
@@ -109,13 +109,13 @@ static CaseNode *Ask(Case c, const char *key)
 }
 
 /* Whether a check has found this key's fault before: it has been asked for all the same. */
-static bool Excused(Case c, const char *key)
+static bool Excused(CoracleCase c, const char *key)
 {
   return c->faults && (Ask(c, key), CaseExcused(c, key));
 }
 
 /* The value at a key that must be there. */
-static CaseNode *Require(Case c, const char *key)
+static CaseNode *Require(CoracleCase c, const char *key)
 {
   CaseNode *node = Ask(c, key);
   if (node) return node;
@@ -137,7 +137,7 @@ static CaseNode *NeutralScalar(void)
   return &neutral;
 }
 
-static CaseNode *RequireScalar(Case c, const char *key, const char *expected)
+static CaseNode *RequireScalar(CoracleCase c, const char *key, const char *expected)
 {
   if (Excused(c, key)) return NeutralScalar();
   CaseNode *node = Require(c, key);
@@ -146,18 +146,18 @@ static CaseNode *RequireScalar(Case c, const char *key, const char *expected)
   return node;
 }
 
-void CaseRenamed(Case c, const char *old, const char *new_name)
+void CoracleCaseRenamed(CoracleCase c, const char *old, const char *new_name)
 {
   const CaseNode *node = CaseTreeFind(c->root, old);
   if (node && !CaseExcused(c, old)) CaseDie(c, node, old, "key '%s' is now called '%s'", old, new_name);
 }
 
-bool CaseHas(Case c, const char *key)
+bool CoracleCaseHas(CoracleCase c, const char *key)
 {
   return Ask(c, key) != NULL;
 }
 
-int CaseCount(Case c, const char *key)
+int CoracleCaseCount(CoracleCase c, const char *key)
 {
   CaseNode *node = Ask(c, key);
   CaseNote(c, key, false, "list", "", "");
@@ -166,7 +166,7 @@ int CaseCount(Case c, const char *key)
   return node->n;
 }
 
-int CaseKeys(Case c, const char *key, void (*f)(void *context, const char *name), void *context)
+int CoracleCaseKeys(CoracleCase c, const char *key, void (*f)(void *context, const char *name), void *context)
 {
   CaseNode *node = Ask(c, key);
   CaseNoteMap(c, key);
@@ -207,7 +207,7 @@ static double Neutral(double lower, double upper, bool open)
   return open ? fmin(lower + 1.0, upper) : lower;
 }
 
-static double NumberAt(Case c, const char *key, double lower, double upper, bool open)
+static double NumberAt(CoracleCase c, const char *key, double lower, double upper, bool open)
 {
   char expected[CASE_NAME];
   double value = 0.0;
@@ -220,30 +220,30 @@ static double NumberAt(Case c, const char *key, double lower, double upper, bool
   return value;
 }
 
-double CaseNumber(Case c, const char *key, double lower, double upper)
+double CoracleCaseNumber(CoracleCase c, const char *key, double lower, double upper)
 {
   return NumberAt(c, key, lower, upper, false);
 }
-double CasePositive(Case c, const char *key)
+double CoracleCasePositive(CoracleCase c, const char *key)
 {
   return NumberAt(c, key, 0.0, HUGE_VAL, true);
 }
 
-double CaseNumberOr(Case c, const char *key, double fallback, double lower, double upper)
+double CoracleCaseNumberOr(CoracleCase c, const char *key, double fallback, double lower, double upper)
 {
   char range[CASE_NAME], given[CASE_NAME];
   snprintf(given, sizeof given, "%.10g", fallback);
   CaseNote(c, key, false, "number", Range("", lower, upper, false, range), given);
-  return CaseHas(c, key) ? NumberAt(c, key, lower, upper, false) : fallback;
+  return CoracleCaseHas(c, key) ? NumberAt(c, key, lower, upper, false) : fallback;
 }
 
-int CaseIntegerOr(Case c, const char *key, int fallback, int lower, int upper)
+int CoracleCaseIntegerOr(CoracleCase c, const char *key, int fallback, int lower, int upper)
 {
   char expected[CASE_NAME], given[CASE_NAME], *end;
   Range("an integer", lower, upper, false, expected);
   snprintf(given, sizeof given, "%d", fallback);
   CaseNote(c, key, false, "integer", expected + strlen("an integer"), given);
-  if (!CaseHas(c, key) || Excused(c, key)) return fallback;
+  if (!CoracleCaseHas(c, key) || Excused(c, key)) return fallback;
   CaseNode *node = RequireScalar(c, key, expected);
   errno = 0;
   const long value = strtol(node->text, &end, 10);
@@ -251,7 +251,7 @@ int CaseIntegerOr(Case c, const char *key, int fallback, int lower, int upper)
   return (int)value;
 }
 
-void CaseVector(Case c, const char *key, int n, double v[])
+void CoracleCaseVector(CoracleCase c, const char *key, int n, double v[])
 {
   char expected[CASE_NAME];
   snprintf(expected, sizeof expected, "a list of %d numbers", n);
@@ -267,19 +267,19 @@ void CaseVector(Case c, const char *key, int n, double v[])
   node->read = true;
 }
 
-bool CaseVectorOptional(Case c, const char *key, int n, double v[])
+bool CoracleCaseVectorOptional(CoracleCase c, const char *key, int n, double v[])
 {
-  if (!CaseHas(c, key)) return false;
-  CaseVector(c, key, n, v);
+  if (!CoracleCaseHas(c, key)) return false;
+  CoracleCaseVector(c, key, n, v);
   return true;
 }
 
 /* --- words ---------------------------------------------------------------------------------------------- */
 
-bool CaseBoolOr(Case c, const char *key, bool fallback)
+bool CoracleCaseBoolOr(CoracleCase c, const char *key, bool fallback)
 {
   CaseNote(c, key, false, "true or false", "", fallback ? "true" : "false");
-  if (!CaseHas(c, key) || Excused(c, key)) return fallback;
+  if (!CoracleCaseHas(c, key) || Excused(c, key)) return fallback;
   CaseNode *node = RequireScalar(c, key, "true or false");
   const bool yes = !strcmp(node->text, "true");
   if (node->quoted || (!yes && strcmp(node->text, "false"))) Unexpected(c, key, node, "true or false");
@@ -296,7 +296,7 @@ static bool IsNull(const CaseNode *node)
   return false;
 }
 
-static const char *StringAt(Case c, const char *key, const char *type)
+static const char *StringAt(CoracleCase c, const char *key, const char *type)
 {
   char expected[CASE_NAME];
   CaseNote(c, key, !CaseAsked(c, key), type, "", "");
@@ -306,18 +306,18 @@ static const char *StringAt(Case c, const char *key, const char *type)
   return node->text;
 }
 
-const char *CaseString(Case c, const char *key)
+const char *CoracleCaseString(CoracleCase c, const char *key)
 {
   return StringAt(c, key, "string");
 }
 
-const char *CaseStringOr(Case c, const char *key, const char *fallback)
+const char *CoracleCaseStringOr(CoracleCase c, const char *key, const char *fallback)
 {
   CaseNote(c, key, false, "string", "", fallback);
-  return CaseHas(c, key) ? CaseString(c, key) : fallback;
+  return CoracleCaseHas(c, key) ? CoracleCaseString(c, key) : fallback;
 }
 
-const char *CaseFile(Case c, const char *key)
+const char *CoracleCaseFile(CoracleCase c, const char *key)
 {
   const char *name = StringAt(c, key, "file name"), *folder = name[0] == '/' ? "" : c->folder;
   char *path = malloc(strlen(folder) + strlen(name) + 1);
@@ -327,7 +327,7 @@ const char *CaseFile(Case c, const char *key)
   return path;
 }
 
-int CaseWord(Case c, const char *key, int fallback, const char *const words[])
+int CoracleCaseWord(CoracleCase c, const char *key, int fallback, const char *const words[])
 {
   char expected[CASE_KEY] = "one of";
   for (int i = 0; words[i]; i++) {
@@ -336,7 +336,7 @@ int CaseWord(Case c, const char *key, int fallback, const char *const words[])
   }
   const bool required = fallback < 0 && !CaseAsked(c, key);
   CaseNote(c, key, required, "word", expected + strlen("one of"), fallback < 0 ? "" : words[fallback]);
-  if (fallback >= 0 && !CaseHas(c, key)) return fallback;
+  if (fallback >= 0 && !CoracleCaseHas(c, key)) return fallback;
   if (Excused(c, key)) return fallback < 0 ? 0 : fallback;
   CaseNode *node = RequireScalar(c, key, expected);
   for (int i = 0; words[i]; i++)

@@ -31,7 +31,7 @@ typedef struct {
   bool required;
 } CaseReading;
 
-/* The faults of a case that is checked (CaseCheck): where each is, and the way back to the check's loop. */
+/* The faults of a case that is checked (CoracleCaseCheck): where each is, and the way back to the check's loop. */
 typedef struct {
   jmp_buf next;
   int n;
@@ -39,7 +39,7 @@ typedef struct {
   char *key[CASE_FAULTS], *message[CASE_FAULTS];
 } CaseFaults;
 
-struct Case_s {
+struct CoracleCase_s {
   char *path, *folder;
   CaseNode *root;
   unsigned long long file_hash, set_hash;
@@ -48,15 +48,15 @@ struct Case_s {
   int nslots;
   int *slot; /* [nslots] hashed places in asked, -1: empty */
   int nkept, kept_capacity;
-  char **kept;  /* [nkept] strings handed out by CaseFile */
+  char **kept;  /* [nkept] strings handed out by CoracleCaseFile */
   bool listing; /* readings are kept, for CaseListKeys */
   int nreadings, readings_capacity;
   CaseReading *reading; /* [nreadings] */
   int nopen, open_capacity;
   char **open; /* [nopen] maps whose names are the user's: materials, boundaries */
   int ntables;
-  const CaseKey *table[CASE_TABLES]; /* borrowed: of CaseDescribe */
-  CaseFaults *faults;                /* borrowed; NULL: the first fault ends the run */
+  const CoracleCaseKey *table[CASE_TABLES]; /* borrowed: of CoracleCaseDescribe */
+  CaseFaults *faults;                       /* borrowed; NULL: the first fault ends the run */
   void (*fail)(void *context, const char *message);
   void *context;
 };
@@ -78,23 +78,23 @@ const CaseNode *CaseTreeNearest(const CaseNode *root, const char *key);
 bool CaseTreeSet(CaseNode *root, const char *argument, char problem[]);
 
 /* The error of a node (NULL: of the file) at a key: "<place>: <message>".  Does not return. */
-_Noreturn void CaseDie(Case c, const CaseNode *node, const char *key, const char *format, ...)
+_Noreturn void CaseDie(CoracleCase c, const CaseNode *node, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 /* Whether a reader has asked for the key. */
-bool CaseAsked(Case c, const char *key);
+bool CaseAsked(CoracleCase c, const char *key);
 /* Whether the key is one of the faults that a check has found, so that its value does not matter. */
-bool CaseExcused(Case c, const char *key);
+bool CaseExcused(CoracleCase c, const char *key);
 /* The check's answer to a fault: remembers it and reads the case again.  Does not return. */
 _Noreturn void CaseFault(CaseFaults *faults, const char *key, const char *message);
 /* Sets aside the values at which a check has found faults. */
-void CaseFaultsApply(Case c);
+void CaseFaultsApply(CoracleCase c);
 /* While keys are listed: remembers how a value was read, once a key. */
-void CaseNote(Case c, const char *key, bool required, const char *type, const char *range,
+void CaseNote(CoracleCase c, const char *key, bool required, const char *type, const char *range,
               const char *fallback);
-void CaseNoteMap(Case c, const char *key);
-void CaseNotesFree(Case c);
-/* One line a reading, as CaseKeysOf. */
-void CaseListKeys(Case c, FILE *out);
+void CaseNoteMap(CoracleCase c, const char *key);
+void CaseNotesFree(CoracleCase c);
+/* One line a reading, as CoracleCaseKeysOf. */
+void CaseListKeys(CoracleCase c, FILE *out);
 
 /* Appends to a growing list of strings, which owns them. */
 void CasePush(char ***list, int *n, int *capacity, char *string);
@@ -108,7 +108,7 @@ int CaseEditDistance(const char *a, const char *b, int limit);
 /* Whether b is a plausible misspelling of a. */
 bool CaseSimilar(const char *a, const char *b);
 
-/* As CaseOpen, but returns 1 with a message instead of failing (the start of a job reports once for all
+/* As CoracleCaseOpen, but returns 1 with a message instead of failing (the start of a job reports once for all
  * ranks). */
-int CaseLoad(int argc, char **argv, char problem[], Case *c);
+int CaseLoad(int argc, char **argv, char problem[], CoracleCase *c);
 #endif

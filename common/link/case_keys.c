@@ -6,7 +6,7 @@
 
 /* --- keeping -------------------------------------------------------------------------------------------- */
 
-void CaseNote(Case c, const char *key, bool required, const char *type, const char *range,
+void CaseNote(CoracleCase c, const char *key, bool required, const char *type, const char *range,
               const char *fallback)
 {
   if (!c->listing) return;
@@ -23,12 +23,12 @@ void CaseNote(Case c, const char *key, bool required, const char *type, const ch
   snprintf(r->fallback, sizeof r->fallback, "%s", fallback);
 }
 
-void CaseNoteMap(Case c, const char *key)
+void CaseNoteMap(CoracleCase c, const char *key)
 {
   if (c->listing) CasePush(&c->open, &c->nopen, &c->open_capacity, strdup(key));
 }
 
-void CaseNotesFree(Case c)
+void CaseNotesFree(CoracleCase c)
 {
   for (int i = 0; i < c->nreadings; i++) free(c->reading[i].key);
   for (int i = 0; i < c->nopen; i++) free(c->open[i]);
@@ -36,7 +36,7 @@ void CaseNotesFree(Case c)
   free(c->open);
 }
 
-void CaseDescribe(Case c, const CaseKey table[])
+void CoracleCaseDescribe(CoracleCase c, const CoracleCaseKey table[])
 {
   if (c->ntables < CASE_TABLES) c->table[c->ntables++] = table;
 }
@@ -44,7 +44,7 @@ void CaseDescribe(Case c, const CaseKey table[])
 /* --- patterns ------------------------------------------------------------------------------------------- */
 
 /* solid.bodies[3].radius -> solid.bodies[].radius; names within maps of the user's names become '*'. */
-static void Pattern(Case c, const char *key, char pattern[CASE_KEY])
+static void Pattern(CoracleCase c, const char *key, char pattern[CASE_KEY])
 {
   size_t n = 0;
   for (const char *k = key; *k && n + 2 < CASE_KEY;) {
@@ -66,21 +66,21 @@ static void Pattern(Case c, const char *key, char pattern[CASE_KEY])
   pattern[n] = '\0';
 }
 
-static const CaseKey *Describe(Case c, const char *pattern)
+static const CoracleCaseKey *Describe(CoracleCase c, const char *pattern)
 {
   for (int t = 0; t < c->ntables; t++)
-    for (const CaseKey *k = c->table[t]; k->key; k++)
+    for (const CoracleCaseKey *k = c->table[t]; k->key; k++)
       if (!strcmp(k->key, pattern)) return k;
   return NULL;
 }
 
-void CaseListKeys(Case c, FILE *out)
+void CaseListKeys(CoracleCase c, FILE *out)
 {
   char pattern[CASE_KEY];
   for (int i = 0; i < c->nreadings; i++) {
     const CaseReading *r = &c->reading[i];
     Pattern(c, r->key, pattern);
-    const CaseKey *k = Describe(c, pattern);
+    const CoracleCaseKey *k = Describe(c, pattern);
     fprintf(out, "%s\t%s\t%s\t%s\t%s\t%s\t%s\n", pattern, r->required ? "required" : "optional", r->type,
             r->range, r->fallback, k ? k->unit : "", k ? k->meaning : "");
   }

@@ -57,7 +57,7 @@ static bool FindPath(int argc, char **argv, const char **path, char problem[])
   return *path != NULL;
 }
 
-static bool ApplySets(Case c, int argc, char **argv, char problem[])
+static bool ApplySets(CoracleCase c, int argc, char **argv, char problem[])
 {
   c->set_hash = CASE_FNV_START;
   for (int i = 1; i < argc; i++) {
@@ -69,7 +69,7 @@ static bool ApplySets(Case c, int argc, char **argv, char problem[])
   return true;
 }
 
-static bool ReadTree(Case c, int argc, char **argv, char problem[])
+static bool ReadTree(CoracleCase c, int argc, char **argv, char problem[])
 {
   const char *path;
   size_t size;
@@ -90,15 +90,16 @@ static bool ReadTree(Case c, int argc, char **argv, char problem[])
   return ApplySets(c, argc, argv, problem);
 }
 
-int CaseLoad(int argc, char **argv, char problem[], Case *c)
+int CaseLoad(int argc, char **argv, char problem[], CoracleCase *c)
 {
   *c = calloc(1, sizeof **c);
   if (ReadTree(*c, argc, argv, problem)) return 0;
-  CaseClose(c);
+  CoracleCaseClose(c);
   return 1;
 }
 
-int CaseOpen(int argc, char **argv, void (*fail)(void *context, const char *message), void *context, Case *c)
+int CoracleCaseOpen(int argc, char **argv, void (*fail)(void *context, const char *message), void *context,
+                    CoracleCase *c)
 {
   char problem[CASE_MESSAGE];
   if (CaseLoad(argc, argv, problem, c)) {
@@ -110,7 +111,7 @@ int CaseOpen(int argc, char **argv, void (*fail)(void *context, const char *mess
   return 0;
 }
 
-int CaseClose(Case *c)
+int CoracleCaseClose(CoracleCase *c)
 {
   if (!*c) return 0;
   CaseTreeDestroy(&(*c)->root);
@@ -127,11 +128,11 @@ int CaseClose(Case *c)
   return 0;
 }
 
-const char *CasePath(Case c)
+const char *CoracleCasePath(CoracleCase c)
 {
   return c->path;
 }
-unsigned long long CaseHash(Case c)
+unsigned long long CoracleCaseHash(CoracleCase c)
 {
   return CaseFnv1a(c->file_hash, (const char *)&c->set_hash, sizeof c->set_hash);
 }

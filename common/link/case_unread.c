@@ -7,7 +7,7 @@ static const char *const SECTIONS[] = {"case",  "note",    "gravity", "time",   
                                        "solid", "coupler", "output",  "resume", NULL};
 
 /* A key that was asked for, did not exist, and lies beside this one under a similar name. */
-static const char *Suggestion(Case c, const char *key)
+static const char *Suggestion(CoracleCase c, const char *key)
 {
   const char *dot = strrchr(key, '.');
   const size_t stem = dot ? (size_t)(dot - key) + 1 : 0;
@@ -20,7 +20,7 @@ static const char *Suggestion(Case c, const char *key)
 }
 
 /* Nothing under an unknown map was ever asked for: the map itself is the unknown key, not its first value. */
-static void CheckRead(Case c, const CaseNode *node, const char *key)
+static void CheckRead(CoracleCase c, const CaseNode *node, const char *key)
 {
   const bool leaf = node->kind == NODE_SCALAR || (node->n == 0 && !node->read);
   const bool asked = CaseAsked(c, key);
@@ -41,7 +41,7 @@ static void CheckRead(Case c, const CaseNode *node, const char *key)
   }
 }
 
-static void CheckSection(Case c, const CaseNode *section)
+static void CheckSection(CoracleCase c, const CaseNode *section)
 {
   if (CaseExcused(c, section->key)) return;
   for (int i = 0; SECTIONS[i]; i++)
@@ -53,7 +53,7 @@ static void CheckSection(Case c, const CaseNode *section)
   CaseDie(c, section, section->key, "unknown section '%s'", section->key);
 }
 
-int CaseFinish(Case c, const char *const sections[])
+int CoracleCaseFinish(CoracleCase c, const char *const sections[])
 {
   for (int i = 0; i < c->root->n; i++) CheckSection(c, c->root->child[i]);
   for (int i = 0; sections[i]; i++) {

@@ -5,11 +5,23 @@
 
 int CoracleOpen(const char *role, int argc, char **argv, MPI_Comm *app_comm, CoracleClient *client)
 {
+  return CoracleOpenComm(MPI_COMM_NULL, role, argc, argv, app_comm, client);
+}
+
+int CoracleSetErrorHandler(void (*f)(void *context, const char *message), void *context)
+{
+  ParticipantSetErrorHandler(f, context);
+  return 0;
+}
+
+int CoracleOpenComm(MPI_Comm job, const char *role, int argc, char **argv, MPI_Comm *app_comm,
+                    CoracleClient *client)
+{
   CoracleClient c = calloc(1, sizeof *c);
-  ParticipantOpen(role, true, argc, argv, &c->p);
-  const int home = c->p->rank % c->p->count[ROLE_COUPLER];
-  MessageInit(&c->in, ROLE_COUPLER, home);
-  MessageInit(&c->out, ROLE_COUPLER, home);
+  ParticipantOpen(job, role, true, argc, argv, &c->p);
+  const int owner = c->p->rank % c->p->count[ROLE_COUPLER];
+  MessageInit(&c->in, ROLE_COUPLER, owner);
+  MessageInit(&c->out, ROLE_COUPLER, owner);
   c->fluid.proposed = HUGE_VAL;
   *app_comm = c->p->app;
   *client = c;
@@ -67,7 +79,7 @@ void ClientTakePath(CoracleClient c, const MessageHeader *h)
 
 const char *CoracleCheckpointPath(CoracleClient c)
 {
-  ClientExpect(c, "CoracleSaveFolder", c->p->role, STAGE_STEP, STAGE_STOPPED);
+  ClientExpect(c, "CoracleCheckpointPath", c->p->role, STAGE_STEP, STAGE_STOPPED);
   if (c->action == CORACLE_REDO || !c->save.size) return NULL;
   c->asked_save = true;
   return c->save.data;
@@ -75,7 +87,7 @@ const char *CoracleCheckpointPath(CoracleClient c)
 
 const char *CoracleResumePath(CoracleClient c)
 {
-  ClientExpect(c, "CoracleResumeFolder", c->p->role, STAGE_SETUP, STAGE_SETUP);
+  ClientExpect(c, "CoracleResumePath", c->p->role, STAGE_SETUP, STAGE_SETUP);
   c->asked_resume = true;
   return c->p->resume;
 }

@@ -3,8 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-enum { NV = DIM + 1, NP2 = 6 };
-
 int CoracleSetRegion(CoracleClient c, int dim, const double lower[], const double upper[],
                      CoracleRegionFunction region, void *context)
 {
@@ -12,10 +10,8 @@ int CoracleSetRegion(CoracleClient c, int dim, const double lower[], const doubl
   ClientExpect(c, "CoracleSetRegion", ROLE_FLUID, STAGE_SETUP, STAGE_SETUP);
   if (dim != DIM) ParticipantFail(c->p, "CoracleSetRegion: dim is %d, only %d is there yet", dim, DIM);
   if (!region) ClientMisuse(c, "CoracleSetRegion", "there must be a region function");
-  MessageCheckFinite(c->p, "lower corner of the domain", "corner", 1, DIM, lower);
-  MessageCheckFinite(c->p, "upper corner of the domain", "corner", 1, DIM, upper);
-  memcpy(f->lower, lower, sizeof f->lower);
-  memcpy(f->upper, upper, sizeof f->upper);
+  memcpy(f->domain.lower, lower, sizeof f->domain.lower);
+  memcpy(f->domain.upper, upper, sizeof f->domain.upper);
   f->region = region;
   f->context = context;
   return 0;
@@ -38,33 +34,39 @@ int CoracleProposeStep(CoracleClient c, double dt)
 
 /* --- elements ------------------------------------------------------------------------------------------- */
 
-static void CheckDensity(CoracleClient c, int n, const double rho[])
+/* Takes the boxes of an ASK. */
+static void TakeBoxes(CoracleClient c, const MessageHeader *h)
 {
-  for (int e = 0; e < n; e++)
-    if (!(rho[e] > 0.0))
-      ParticipantFail(c->p, "density is %g at element %d in step %d", rho[e], e, c->p->step);
+  c->fluid.nbox = (int)h->count[0];
+  c->fluid.needs_pressure = h->flag & FLAG_PRESSURE;
+  c->fluid.asked = true;
+  c->fluid.box = MessageTake(c->p, &c->in, (size_t)c->fluid.nbox * 2 * DIM * sizeof(double));
 }
 
-static void AnswerElements(CoracleClient c, int nbox)
+int CoracleGetRegion(CoracleClient c, int *nbox, const double **box)
 {
   ClientFluid *f = &c->fluid;
-  const double *box = MessageTake(c->p, &c->in, (size_t)nbox * 2 * DIM * sizeof(double)), *x = NULL,
-               *rho = NULL;
-  if (f->region(f->context, nbox, box, &f->n, &x, &rho) || f->n < 0)
+  ClientExpect(c, "CoracleGetRegion", ROLE_FLUID, STAGE_SETUP, STAGE_SETUP);
+  if (!f->asked) TakeBoxes(c, MessageReceive(c->p, &c->in, KIND_ASK, KIND_ASK, c->p->step));
+  *nbox = f->nbox;
+  *box = f->box;
+  return 0;
+}
+
+static void AnswerElements(CoracleClient c)
+{
+  ClientFluid *f = &c->fluid;
+  CoracleElements elements = {0};
+  if (f->region(f->context, f->nbox, f->box, &elements) || elements.n < 0)
     ParticipantFail(c->p, "the region function failed in step %d", c->p->step);
-  MessageCheckFinite(c->p, "vertices", "element", (size_t)f->n, NV * DIM, x);
-  MessageCheckFinite(c->p, "density", "element", (size_t)f->n, 1, rho);
-  CheckDensity(c, f->n, rho);
   MessageHeader *h = MessageStart(&c->out, KIND_ELEMENTS, c->p->step);
-  h->count[0] = f->n;
+  h->count[0] = f->n = elements.n;
   h->dt = f->proposed;
   h->flag = ClientFlags(c);
-  MessageAdd(&c->out, f->lower, sizeof f->lower);
-  MessageAdd(&c->out, f->upper, sizeof f->upper);
-  MessageAdd(&c->out, x, (size_t)f->n * NV * DIM * sizeof *x);
-  MessageAdd(&c->out, rho, (size_t)f->n * sizeof *rho);
+  FieldsPack(c->p, &c->out, &FIELDS_DOMAIN, 1, &f->domain);
+  FieldsPack(c->p, &c->out, &FIELDS_ELEMENTS, (size_t)f->n, &elements);
   ClientSend(c);
-  f->changed = false;
+  f->changed = f->asked = false;
 }
 
 /* --- coupling ------------------------------------------------------------------------------------------- */
@@ -72,12 +74,10 @@ static void AnswerElements(CoracleClient c, int nbox)
 static void TakeCoupling(CoracleClient c, const MessageHeader *h)
 {
   ClientFluid *f = &c->fluid;
-  size_t bytes = (size_t)h->count[0] * sizeof(CoracleCorrection);
   f->ncorrection = (int)h->count[0];
-  memcpy(BufferResize(&f->correction, bytes), MessageTake(c->p, &c->in, bytes), bytes);
-  bytes = (size_t)h->count[1] * sizeof(CoracleCoupling);
   f->ncoupling = (int)h->count[1];
-  memcpy(BufferResize(&f->coupling, bytes), MessageTake(c->p, &c->in, bytes), bytes);
+  FieldsTake(c->p, &c->in, &FIELDS_CORRECTION, (size_t)f->ncorrection, &f->correction);
+  FieldsTake(c->p, &c->in, &FIELDS_COUPLING, (size_t)f->ncoupling, &f->coupling);
   ClientTakePath(c, h);
   ClientTakeStep(c, h);
 }
@@ -86,12 +86,13 @@ static void TakeCoupling(CoracleClient c, const MessageHeader *h)
 static void WaitForCoupling(CoracleClient c)
 {
   for (;;) {
+    if (c->fluid.asked) AnswerElements(c);
     const MessageHeader *h = MessageReceive(c->p, &c->in, KIND_COUPLING, KIND_ASK, c->p->step);
     if (h->kind == KIND_COUPLING) {
       TakeCoupling(c, h);
       return;
     }
-    AnswerElements(c, (int)h->count[0]);
+    TakeBoxes(c, h);
   }
 }
 
@@ -99,6 +100,13 @@ void FluidReady(CoracleClient c)
 {
   if (!c->fluid.region) ClientMisuse(c, "CoracleReady", "CoracleSetRegion comes first");
   WaitForCoupling(c);
+}
+
+int CoracleNeedsPressure(CoracleClient c)
+{
+  const Stage stage = c->stage == STAGE_SETUP ? STAGE_BETWEEN : c->stage;
+  ClientExpect(c, "CoracleNeedsPressure", ROLE_FLUID, stage, STAGE_STEP);
+  return c->fluid.needs_pressure;
 }
 
 int CoracleGetCoupling(CoracleClient c, int *n, const CoracleCoupling **coupling)
@@ -111,7 +119,7 @@ int CoracleGetCoupling(CoracleClient c, int *n, const CoracleCoupling **coupling
 
 int CoracleStepAccepted(CoracleClient c)
 {
-  ClientExpect(c, "CoracleStands", ROLE_FLUID, STAGE_BETWEEN, STAGE_BETWEEN);
+  ClientExpect(c, "CoracleStepAccepted", ROLE_FLUID, STAGE_BETWEEN, STAGE_BETWEEN);
   return c->action != CORACLE_REDO;
 }
 
@@ -125,30 +133,23 @@ int CoracleGetCorrection(CoracleClient c, int *n, const CoracleCorrection **corr
 
 /* --- flow ----------------------------------------------------------------------------------------------- */
 
-static void AddField(CoracleClient c, const char *field, int per, const double array[])
+int CoracleSetFlow(CoracleClient c, const CoracleFlow *flow)
 {
-  MessageCheckFinite(c->p, field, "element", (size_t)c->fluid.n, per, array);
-  MessageAdd(&c->out, array, (size_t)c->fluid.n * (size_t)per * sizeof *array);
-}
-
-int CoracleSetFlow(CoracleClient c, const double u_star[], const double u_plus[], const double p[],
-                   const double mu[])
-{
+  ClientFluid *f = &c->fluid;
   ClientExpect(c, "CoracleSetFlow", ROLE_FLUID, STAGE_STEP, STAGE_STEP);
-  MessageStart(&c->out, KIND_FLOW, c->p->step)->count[0] = c->fluid.n;
-  AddField(c, "velocity before the pressure correction", DIM * NV, u_star);
-  AddField(c, "velocity", DIM * NV, u_plus);
-  AddField(c, "pressure", NP2, p);
-  AddField(c, "viscosity", 1, mu);
-  c->fluid.flow_set = true;
+  MessageHeader *h = MessageStart(&c->out, KIND_FLOW, c->p->step);
+  h->count[0] = f->n;
+  h->flag = f->needs_pressure ? FLAG_PRESSURE : 0;
+  FieldsPack(c->p, &c->out, &FIELDS_FLOW, (size_t)f->n, flow);
+  f->flow_set = true;
   return 0;
 }
 
 void FluidEnd(CoracleClient c)
 {
-  MessageHeader *h = (MessageHeader *)(void *)c->out.buffer.data;
+  MessageHeader *h = MessageHeaderOf(&c->out);
   if (!c->fluid.flow_set) ClientMisuse(c, "CoracleEnd", "CoracleSetFlow comes first, in every step");
-  h->flag = ClientFlags(c) | (c->fluid.changed ? FLAG_CHANGED : 0);
+  h->flag |= ClientFlags(c) | (c->fluid.changed ? FLAG_CHANGED : 0);
   h->dt = c->fluid.proposed;
   c->fluid.flow_set = false;
   ClientSend(c);

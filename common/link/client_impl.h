@@ -1,10 +1,10 @@
 /* Private to the client's end of the link. */
 #ifndef CORACLE_CLIENT_IMPL_H
 #define CORACLE_CLIENT_IMPL_H
-#include "common/link/message.h"
+#include "common/link/fields.h"
 #include "common/link/report.h"
 
-enum { DIM = 2 };
+enum { DIM = CORACLE_DIM };
 
 /* Where a client is in the run; every function says when it may be called. */
 typedef enum {
@@ -17,6 +17,7 @@ typedef enum {
 typedef struct {
   int n, nfacets, nelements;
   Buffer gid, x, u;      /* long long [n], double [n][2], double [n][2]: velocity given with the nodes, m/s */
+  Buffer start;          /* double [n][2]: positions when the step began, m */
   Buffer sums;           /* double [n][2][2] over the substeps so far: of h u, m, and of h tau u, m s */
   Buffer facet, element; /* int [nfacets][2], int [nelements][3] */
 } SolidMesh;
@@ -32,15 +33,18 @@ typedef struct {
   bool has_given;
   Buffer inertia; /* double [3][n], of CoracleSetInertia: mobility, 1/kg; acceleration [n][2], m/s2 */
   bool has_inertia;
-  const double *force; /* [n][2] in the message, N */
+  FieldLists force;
 } ClientSolid;
 
 typedef struct {
-  double lower[DIM], upper[DIM], proposed;
+  FieldsDomain domain;
+  double proposed; /* s */
   CoracleRegionFunction region;
   void *context;
+  int nbox; /* boxes of CoracleGetRegion that have not been answered; they are in the message received last */
+  const double *box;
   int n; /* elements last given by region */
-  bool changed, flow_set;
+  bool asked, needs_pressure, changed, flow_set;
   int ncoupling, ncorrection;
   Buffer coupling, correction;
 } ClientFluid;
@@ -54,7 +58,7 @@ typedef struct {
 
 struct CoracleClient_s {
   Participant *p;
-  Message in, out; /* from and to this rank's home */
+  Message in, out; /* from and to the coupler rank that owns this one */
   Stage stage;
   Buffer save; /* path of the checkpoint due in this step, or empty */
   bool asked_save, asked_resume;
@@ -85,6 +89,11 @@ void StateSave(CoracleClient c); /* and into the checkpoint that is due */
 bool StateIsBuffers(CoracleClient c);
 void StateRestore(CoracleClient c);
 void StateFree(CoracleClient c);
+
+/* client_check.c.  Local: node indices, unique ids, positive areas; x[n][2]: present positions. */
+void CheckMesh(CoracleClient c, const double x[]);
+/* Collective over the solid: no element or facet twice, and the surface is the volume's boundary. */
+void CheckSurface(CoracleClient c);
 
 void SolidReady(CoracleClient c);
 void SolidBegin(CoracleClient c); /* waits for the force */

@@ -4,6 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Of the largest displacement of a step: what the sum of h u may miss. */
+#define DISPLACEMENT_ERROR 1e-6
+
 static double *Doubles(const Buffer *b)
 {
   return (double *)(void *)b->data;
@@ -33,6 +36,7 @@ static void MeshCopy(SolidMesh *to, const SolidMesh *from)
   Copy(&to->gid, from->gid.data, from->gid.size);
   Copy(&to->x, from->x.data, from->x.size);
   Copy(&to->u, from->u.data, from->u.size);
+  Copy(&to->start, from->start.data, from->start.size);
   Copy(&to->sums, from->sums.data, from->sums.size);
   Copy(&to->facet, from->facet.data, from->facet.size);
   Copy(&to->element, from->element.data, from->element.size);
@@ -40,8 +44,8 @@ static void MeshCopy(SolidMesh *to, const SolidMesh *from)
 
 static void MeshFree(SolidMesh *m)
 {
-  Buffer *all[] = {&m->gid, &m->x, &m->u, &m->sums, &m->facet, &m->element};
-  for (int k = 0; k < 6; k++) BufferFree(all[k]);
+  Buffer *all[] = {&m->gid, &m->x, &m->u, &m->start, &m->sums, &m->facet, &m->element};
+  for (int k = 0; k < 7; k++) BufferFree(all[k]);
 }
 
 /* Before the mesh changes: within a step the old one is kept, for the step may be redone. */
@@ -71,18 +75,22 @@ static const long long **SortIds(const long long gid[], int n)
   return sorted;
 }
 
-/* sums on new nodes: a node whose id was there before keeps its own, a new one has moved with u so far. */
-static void CarrySums(const ClientSolid *s, int n, const long long gid[], const double u[], double sums[])
+/* Sums and start positions on new nodes: a node whose id was there before keeps its own, a new one has moved
+ * with u to x so far. */
+static void CarrySums(const ClientSolid *s, int n, const long long gid[], const double x[], const double u[],
+                      double sums[], double start[])
 {
   const SolidMesh *m = &s->mesh;
   const long long **sorted = SortIds(Ids(&m->gid), m->n);
   for (int i = 0; i < n; i++) {
     const long long *id = &gid[i];
     const long long **found = bsearch(&id, sorted, (size_t)m->n, sizeof *sorted, CompareIds);
-    const double *old = found ? Doubles(&m->sums) + 2 * DIM * (*found - Ids(&m->gid)) : NULL;
+    const ptrdiff_t k = found ? *found - Ids(&m->gid) : -1;
     for (int d = 0; d < DIM; d++) {
-      sums[2 * DIM * i + d] = old ? old[d] : s->elapsed * u[DIM * i + d];
-      sums[2 * DIM * i + DIM + d] = old ? old[DIM + d] : s->first * u[DIM * i + d];
+      const int at = DIM * i + d;
+      sums[2 * DIM * i + d] = k < 0 ? s->elapsed * u[at] : Doubles(&m->sums)[2 * DIM * k + d];
+      sums[2 * DIM * i + DIM + d] = k < 0 ? s->first * u[at] : Doubles(&m->sums)[2 * DIM * k + DIM + d];
+      start[at] = k < 0 ? x[at] - s->elapsed * u[at] : Doubles(&m->start)[DIM * k + d];
     }
   }
   free(sorted);
@@ -93,16 +101,19 @@ int CoracleSetNodes(CoracleClient c, int dim, int n, const long long gid[], cons
 {
   SolidMesh *m = &c->solid.mesh;
   const size_t bytes = DIM * (size_t)n * sizeof(double);
-  Buffer sums = {0};
+  Buffer sums = {0}, start = {0};
   BeforeChange(c, "CoracleSetNodes");
   if (dim != DIM) ParticipantFail(c->p, "CoracleSetNodes: dim is %d, only %d is there yet", dim, DIM);
   if (n < 0) ClientMisuse(c, "CoracleSetNodes", "n is negative");
   MessageCheckFinite(c->p, "position", "node", (size_t)n, DIM, x);
   MessageCheckFinite(c->p, "velocity", "node", (size_t)n, DIM, u);
   BufferResize(&sums, 2 * bytes);
-  CarrySums(&c->solid, n, gid, u, Doubles(&sums));
+  BufferResize(&start, bytes);
+  CarrySums(&c->solid, n, gid, x, u, Doubles(&sums), Doubles(&start));
   BufferFree(&m->sums);
+  BufferFree(&m->start);
   m->sums = sums;
+  m->start = start;
   m->n = n;
   Copy(&m->gid, gid, (size_t)n * sizeof *gid);
   Copy(&m->x, x, bytes);
@@ -129,27 +140,18 @@ int CoracleSetVolume(CoracleClient c, int ne, const int conn[])
   return 0;
 }
 
-static void CheckConnectivity(CoracleClient c, const char *what, int ne, int per, const int conn[])
-{
-  for (int e = 0; e < ne; e++)
-    for (int i = 0; i < per; i++)
-      if (conn[per * e + i] < 0 || conn[per * e + i] >= c->solid.mesh.n)
-        ParticipantFail(c->p, "%s %d refers to node %d of this rank's %d in step %d", what, e,
-                        conn[per * e + i], c->solid.mesh.n, c->p->step);
-}
-
 /* --- the exchanges -------------------------------------------------------------------------------------- */
 
 /* Mobilities and accelerations of CoracleSetInertia, none by default. */
-static void AddInertia(CoracleClient c)
+static const double *Inertia(CoracleClient c)
 {
   ClientSolid *s = &c->solid;
   const size_t bytes = (1 + DIM) * (size_t)s->mesh.n * sizeof(double);
   if (s->has_inertia && s->inertia.size != bytes)
     ClientMisuse(c, "CoracleSetInertia", "it comes after CoracleSetNodes");
   if (!s->has_inertia && bytes) memset(BufferResize(&s->inertia, bytes), 0, bytes);
-  MessageAdd(&c->out, s->inertia.data, bytes);
   s->has_inertia = false;
+  return Doubles(&s->inertia);
 }
 
 /* SURFACE or MOTION, with positions x and velocities, fitted and mean. */
@@ -157,21 +159,26 @@ static void SendMotion(CoracleClient c, const double x[], const double fitted[],
 {
   ClientSolid *s = &c->solid;
   const SolidMesh *m = &s->mesh;
+  const double *inertia = Inertia(c);
+  if (s->changed) CheckMesh(c, x);
+  const ServerSolid fields = {.gid = Ids(&m->gid),
+                              .x = x,
+                              .u = fitted,
+                              .mean = mean,
+                              .mobility = inertia,
+                              .acceleration = inertia ? inertia + m->n : NULL,
+                              .facet = Ints(&m->facet),
+                              .element = Ints(&m->element)};
   MessageHeader *h = MessageStart(&c->out, s->changed ? KIND_SURFACE : KIND_MOTION, c->p->step);
   h->count[0] = m->n;
   h->count[1] = m->nfacets;
   h->count[2] = m->nelements;
   h->flag = ClientFlags(c);
-  if (s->changed) MessageAdd(&c->out, m->gid.data, m->gid.size);
-  MessageAdd(&c->out, x, m->x.size);
-  MessageAdd(&c->out, fitted, m->x.size);
-  MessageAdd(&c->out, mean, m->x.size);
-  AddInertia(c);
+  if (s->changed) FieldsPack(c->p, &c->out, &FIELDS_NODES, (size_t)m->n, &fields);
+  FieldsPack(c->p, &c->out, &FIELDS_MOTION, (size_t)m->n, &fields);
   if (s->changed) {
-    CheckConnectivity(c, "facet", m->nfacets, DIM, Ints(&m->facet));
-    CheckConnectivity(c, "element", m->nelements, DIM + 1, Ints(&m->element));
-    MessageAdd(&c->out, m->facet.data, m->facet.size);
-    MessageAdd(&c->out, m->element.data, m->element.size);
+    FieldsPack(c->p, &c->out, &FIELDS_FACETS, (size_t)m->nfacets, &fields);
+    FieldsPack(c->p, &c->out, &FIELDS_SIMPLICES, (size_t)m->nelements, &fields);
   }
   ClientSend(c);
   s->changed = false;
@@ -182,6 +189,8 @@ void SolidReady(CoracleClient c)
   if (!c->solid.has_nodes)
     ClientMisuse(c, "CoracleReady", "CoracleSetNodes comes first (with n = 0 on empty ranks)");
   const SolidMesh *m = &c->solid.mesh;
+  CheckMesh(c, Doubles(&m->x));
+  CheckSurface(c);
   SendMotion(c, Doubles(&m->x), Doubles(&m->u), Doubles(&m->u));
 }
 
@@ -197,6 +206,7 @@ static void BeginMesh(ClientSolid *s, CoracleAction action)
   s->has_before = false;
   s->elapsed = s->first = s->second = s->last = 0.0;
   s->has_given = false;
+  if (action == CORACLE_RUN) Copy(&s->mesh.start, s->mesh.x.data, s->mesh.x.size);
   if (s->mesh.n) memset(s->mesh.sums.data, 0, s->mesh.sums.size);
 }
 
@@ -205,7 +215,8 @@ void SolidBegin(CoracleClient c)
   const int step = c->p->step;
   const MessageHeader *h = MessageReceive(c->p, &c->in, KIND_FORCE, KIND_FORCE, step);
   ClientTakeStep(c, h);
-  c->solid.force = MessageTake(c->p, &c->in, DIM * (size_t)h->count[0] * sizeof(double));
+  FieldListsClear(&c->solid.force);
+  FieldsAppend(c->p, &c->in, &FIELDS_FORCE, (size_t)h->count[0], &c->solid.force);
   ClientTakePath(c, h);
   if (c->action == CORACLE_STOP) return;
   BeginMesh(&c->solid, c->action);
@@ -217,7 +228,7 @@ void SolidBegin(CoracleClient c)
 int CoracleGetForce(CoracleClient c, const double **force)
 {
   ClientExpect(c, "CoracleGetForce", ROLE_SOLID, STAGE_STEP, STAGE_STEP);
-  *force = c->solid.force;
+  *force = Doubles(&c->solid.force.list[0]);
   return 0;
 }
 
@@ -255,10 +266,6 @@ int CoracleSetInertia(CoracleClient c, const double mobility[], const double acc
   ClientSolid *s = &c->solid;
   const size_t n = (size_t)s->mesh.n;
   ClientExpect(c, "CoracleSetInertia", ROLE_SOLID, STAGE_SETUP, STAGE_STEP);
-  MessageCheckFinite(c->p, "mobility", "node", n, 1, mobility);
-  MessageCheckFinite(c->p, "acceleration", "node", n, DIM, acceleration);
-  for (size_t i = 0; i < n; i++)
-    if (mobility[i] < 0.0) ParticipantFail(c->p, "the mobility of node %zu is %g 1/kg", i, mobility[i]);
   double *to = (double *)BufferResize(&s->inertia, (1 + DIM) * n * sizeof *to);
   if (n) memcpy(to, mobility, n * sizeof *to);
   if (n) memcpy(to + n, acceleration, DIM * n * sizeof *to);
@@ -283,6 +290,27 @@ static void Velocities(ClientSolid *s)
     }
 }
 
+/* The substeps' displacements must be those of the nodes, to a part of the largest on this rank. */
+static void CheckDisplacement(CoracleClient c, const double x[])
+{
+  const SolidMesh *m = &c->solid.mesh;
+  const double *start = Doubles(&m->start), *sums = Doubles(&m->sums);
+  double largest = 0.0, size = 0.0;
+  for (int k = 0; k < DIM * m->n; k++) {
+    largest = fmax(largest, fmax(fabs(x[k] - start[k]), fabs(sums[2 * DIM * (k / DIM) + k % DIM])));
+    size = fmax(size, fabs(x[k]));
+  }
+  for (int k = 0; k < DIM * m->n; k++) {
+    const double moved = x[k] - start[k], summed = sums[2 * DIM * (k / DIM) + k % DIM];
+    if (fabs(moved - summed) > DISPLACEMENT_ERROR * largest + 1e-12 * size)
+      ParticipantFail(
+          c->p,
+          "node %lld has moved by %g m in component %d in step %d, its velocities over the substeps sum up "
+          "to %g m: CoracleSubstep's u must be what moves the nodes",
+          Ids(&m->gid)[k / DIM], moved, k % DIM, c->p->step, summed);
+  }
+}
+
 void SolidEnd(CoracleClient c, const double x[])
 {
   ClientSolid *s = &c->solid;
@@ -292,9 +320,11 @@ void SolidEnd(CoracleClient c, const double x[])
                     s->elapsed, c->dt);
   if (!x && m->n) ClientMisuse(c, "CoracleEnd", "a solid gives its positions");
   MessageCheckFinite(c->p, "position", "node", (size_t)m->n, DIM, x);
+  CheckDisplacement(c, x);
   Velocities(s);
   if (s->has_given && m->n) memcpy(s->velocity.data, s->given.data, m->x.size);
   SendMotion(c, x, Doubles(&s->velocity), Doubles(&s->velocity) + DIM * m->n);
+  if (m->n) memcpy(s->mesh.x.data, x, m->x.size);
 }
 
 void SolidFree(CoracleClient c)
@@ -304,4 +334,5 @@ void SolidFree(CoracleClient c)
   BufferFree(&c->solid.velocity);
   BufferFree(&c->solid.given);
   BufferFree(&c->solid.inertia);
+  FieldListsFree(&c->solid.force);
 }

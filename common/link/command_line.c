@@ -46,7 +46,7 @@ static void Help(const CommandAnswers *a)
       a->role, a->role, a->role, a->role, a->options);
 }
 
-/* The context of CaseCheck and CaseKeysOf. */
+/* The context of CoracleCaseCheck and CoracleCaseKeysOf. */
 typedef struct {
   const CommandAnswers *answers;
   Command command;
@@ -63,7 +63,7 @@ static void Fail(void *context, const char *message)
   exit(1);
 }
 
-static void Read(Case c, void *context)
+static void Read(CoracleCase c, void *context)
 {
   Asked *asked = context;
   asked->answers->read(c, &asked->command);
@@ -81,6 +81,6 @@ int CommandAnswer(Command command, const CommandAnswers *answers, int argc, char
     return 0;
   }
   if (answers->start && answers->start()) return 1;
-  if (command == COMMAND_KEYS) return CaseKeysOf(argc, argv, Read, &asked, Fail, stdout);
-  return CaseCheck(argc, argv, Read, &asked, Tell) > 0;
+  if (command == COMMAND_KEYS) return CoracleCaseKeysOf(argc, argv, Read, &asked, Fail, stdout);
+  return CoracleCaseCheck(argc, argv, Read, &asked, Tell) > 0;
 }

@@ -3,7 +3,7 @@
  *     coracle-fluid --check case.yaml [--set key=value]...     all faults of the case that concern the fluid, and what a
  *                                                              run would be made of; touches no output
  *     coracle-fluid --draw case.yaml [--set key=value]...      as --check, and writes the first snapshot into output.folder
- *     coracle-fluid --keys case.yaml                           the keys that the fluid reads of this case (CaseKeysOf)
+ *     coracle-fluid --keys case.yaml                           the keys that the fluid reads of this case (CoracleCaseKeysOf)
  *
  * One process each, no coupler, no messages. */
 #ifndef CORACLE_COMMAND_LINE_H
@@ -27,8 +27,9 @@ typedef struct {
   const char *role;    /* "fluid" */
   const char *options; /* lines for --help about options of its own, or "" */
   int (*start)(void);  /* before the case is read: PETSc; NULL: nothing */
-  CaseReader read;     /* context is a Command: of CHECK, DRAW, KEYS; prints what a run would be made of when
-                                  CaseFaultless, but for KEYS */
+  CoracleCaseReader
+      read; /* context is a Command: of CHECK, DRAW, KEYS; prints what a run would be made of when
+                                  CoracleCaseFaultless, but for KEYS */
 } CommandAnswers;
 
 /* Answers; returns the program's exit status: 0, or 1 when the case has faults. */

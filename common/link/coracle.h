@@ -1,183 +1,260 @@
-/* Coracle's client library: how a solid or a fluid joins a coupled run.  This is the only public header.
+/* Coracle's client library: how a solid or a fluid joins a coupled run.  Case files are read with case_file.h,
+ * the other public header.
  *
  * A run is one MPI job of several programs ("participants"), each started with any number of ranks:
  *
  *     mpirun -n 2 coracle-fluid case.yaml : -n 1 coracle-coupler case.yaml : -n 1 coracle-solid case.yaml
  *
- *        fluid  -- u, p, mu, rho near the solid -->  coupler  -- nodal forces -------------------->  solid
- *        fluid  <-- a, s_c, solid mass per element -- coupler <-- positions, time-averaged velocity -- solid
+ *     +-------+  u*, u projected, rho, mu, (p)      +---------+  nodal forces                     +-------+
+ *     |       | ----------------------------------> |         | --------------------------------> |       |
+ *     | fluid |                                     | coupler |                                   | solid |
+ *     |       | <---------------------------------- |         | <-------------------------------- |       |
+ *     +-------+  a, s_c, solid mass per element     +---------+  positions, velocities, inertia   +-------+
  *
- * One coupled step, seen by each side (collective over the participant's ranks unless said otherwise):
+ * The order of calls, by participant (collective over its ranks unless said otherwise):
  *
  *     solid                                             fluid
- *     CoracleBegin(c, &t, &dt, &action)                 CoracleBegin(c, &t, &dt, &action)
- *     CoracleGetForce(c, &force)                        CoracleGetCoupling(c, &k)
- *       m substeps: advance by h; CoracleSubstep        solve from t to t + dt
- *     CoracleEnd(c, x)                                  CoracleSetFlow(c, ...); CoracleEnd(c, NULL)
- *                                                       if CoracleStepAccepted(c): CoracleGetCorrection
+ *     -----                                             -----
+ *     CoracleOpen                                       CoracleOpen
+ *     CoracleBindState                                  CoracleGetRegion        where the solid is
+ *     CoracleSetNodes, SetSurface, SetVolume            CoracleBindState
+ *     CoracleSetInertia           (optional)            CoracleSetRegion, CoracleProposeStep
+ *     CoracleReady                                      CoracleReady
+ *     loop                                              loop
+ *       CoracleBegin(c, &t, &dt, &action)                 CoracleBegin(c, &t, &dt, &action)
+ *       stop if action is CORACLE_STOP                    stop if action is CORACLE_STOP
+ *       CoracleGetForce                                   CoracleGetCoupling
+ *       m substeps: advance by h; CoracleSubstep          solve from t to t + dt
+ *       CoracleSetVelocity, CoracleSetInertia             CoracleSetFlow, CoracleProposeStep
+ *       CoracleEnd(c, x)                                  CoracleEnd(c, NULL)
+ *                                                         if CoracleStepAccepted(c): CoracleGetCorrection
+ *     CoracleClose                                      CoracleClose
  *
  * The coupler decides t, dt and the action; the library restores bound state when a step is redone, so that
- * an adapter need not keep what a step changes.  Arrays are C order, dim is 2 (3 to come), units are SI.
- * All functions return 0, or end the whole job with one message: there is no partial failure to handle.
- * Ranks that own nothing are normal: pass n = 0. */
+ * an adapter need not keep what a step changes.  Arrays are in C order, units are SI.
+ * All functions return 0, or end the whole job with one message: there is no partial failure to handle.  A call
+ * out of order is such an error; its message says where the call belongs.  Ranks that own nothing are normal:
+ * pass n = 0. */
 #ifndef CORACLE_H
 #define CORACLE_H
+
+/* C++: MPI's C interface is all that is used. */
+#ifndef OMPI_SKIP_MPICXX
+#define OMPI_SKIP_MPICXX 1
+#endif
+#ifndef MPICH_SKIP_MPICXX
+#define MPICH_SKIP_MPICXX 1
+#endif
 #include <mpi.h>
+#include <stddef.h>
 
 #ifdef __cplusplus
+#define CORACLE_NORETURN [[noreturn]]
 extern "C" {
+#else
+#define CORACLE_NORETURN _Noreturn
 #endif
 
 #define CORACLE_VERSION "0.1.0"
+
+/* Elements are simplices with P1 velocity; the pressure is P2. */
+enum {
+  CORACLE_DIM = 2,                    /* components of a vector */
+  CORACLE_VERTICES = CORACLE_DIM + 1, /* of an element, and nodes of the velocity on it */
+  CORACLE_PRESSURE_NODES = 6          /* nodes of the pressure on an element */
+};
 
 typedef struct CoracleClient_s *CoracleClient;
 
 typedef enum {
   CORACLE_RUN,  /* advance from t to t + dt */
-  CORACLE_REDO, /* bound state has been put back to t: advance again with the new coupling data */
+  CORACLE_REDO, /* bound state has been restored to t: advance again with the new coupling data */
   CORACLE_STOP  /* the run is over: close */
 } CoracleAction;
 
-/* --- joining -------------------------------------------------------------------------------------------- */
+/* --- joining and leaving -------------------------------------------------------------------------------- */
 
 /* Joins the job as `role` ("fluid" or "solid").  Collective over the whole job; calls MPI_Init if nobody has.
  * argv carries the case file and `--set key=value` pairs (see case_file.h); all participants must carry the
  * same.
  * app_comm: [out] this participant's communicator, ready before PetscInitialize; owned by the library.
- * Refuses, naming the odd one out: two fluids, no coupler, different versions, different case files or
- * settings. */
+ * Refuses, naming the participant that differs: two fluids, no coupler, different versions, different case
+ * files or settings. */
 int CoracleOpen(const char *role, int argc, char **argv, MPI_Comm *app_comm, CoracleClient *c);
 
+/* The same in a job whose participants' ranks are those of `job`, which MPI must have been started for; kept by
+ * the caller until CoracleClose.  All participants must name the same ranks: coracle-fluid, coracle-coupler and
+ * coracle-solid use MPI_COMM_WORLD, so that this serves jobs made of other programs. */
+int CoracleOpenComm(MPI_Comm job, const char *role, int argc, char **argv, MPI_Comm *app_comm,
+                    CoracleClient *c);
+
+/* Local, at any time, also before CoracleOpen: f(context, message) is called on a rank that ends the job, after
+ * the message has been written to stderr (by one rank) and before MPI_Abort.  f may save what it wants, or not
+ * return: then it must end the job itself.  NULL: nothing is called.  Ranks that are ended by another rank's
+ * MPI_Abort do not call it. */
+int CoracleSetErrorHandler(void (*f)(void *context, const char *message), void *context);
+
 /* Ends the whole job (not collective) with "coracle <role>[rank]: error: ..." on stderr. */
-_Noreturn void CoracleFail(CoracleClient c, const char *format, ...) __attribute__((format(printf, 2, 3)));
+CORACLE_NORETURN void CoracleFail(CoracleClient c, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 
 /* A number for summary.json under participants.<role>.<key>; summed over the ranks when sum is not 0, else
  * their maximum.  Local; travels when the client closes. */
 int CoracleReport(CoracleClient c, const char *key, double value, int sum);
 
-/* Leaves the job and nulls the handle; an error before CORACLE_STOP was received. */
+/* Leaves the job and nulls the handle; an error before CORACLE_STOP was received.  Calls MPI_Finalize if
+ * CoracleOpen has called MPI_Init. */
 int CoracleClose(CoracleClient *c);
 
-/* --- what a solid gives: before CoracleReady, and after fracture between CoracleBegin and End ----------- */
+/* --- the solid's mesh: before CoracleReady, and after fracture between CoracleBegin and CoracleEnd ------- */
 
 /* n nodes of this rank; gid[n]: global ids (a node shared by ranks has one id, each rank lists it);
  * x[n][dim]: positions, m;  u[n][dim]: velocities, m/s.  All copied.
- * Within a step: nodes whose ids were there keep what their substeps have summed up, new ones are taken to
- * have moved with u so far.  A redone step starts on the mesh that it first started on. */
+ * Within a step: nodes whose ids were there before keep the sums of their substeps, new ones are taken to
+ * have moved with u so far.  A redone step starts on the mesh that its first attempt started on. */
 int CoracleSetNodes(CoracleClient c, int dim, int n, const long long gid[], const double x[],
                     const double u[]);
 /* conn[ne][dim]: this rank's surface facets; in 2D the solid lies on the left of the edge conn[e][0] ->
  * conn[e][1]. */
 int CoracleSetSurface(CoracleClient c, int ne, const int conn[]);
 /* conn[ne][dim + 1]: this rank's simplices of the volume, positively oriented; ne = 0 for a surface-only
- * solid. Every element and facet is given by one rank. */
+ * solid.  Every element and facet is given by one rank. */
 int CoracleSetVolume(CoracleClient c, int ne, const int conn[]);
 
-/* --- what a fluid gives --------------------------------------------------------------------------------- */
+/* --- the fluid's elements near the solid ---------------------------------------------------------------- */
 
-/* Called back (on every fluid rank, in CoracleReady and CoracleEnd) when the region near the solid has
- * changed. box[nbox][2][dim]: lower and upper corners of the region.  The fluid answers with those of its own
- * elements that overlap any box: x[n][dim + 1][dim] their vertices, rho[n] their density, kg/m3; both
- * borrowed until the next call. */
-typedef int (*CoracleRegionFunction)(void *context, int nbox, const double box[], int *n, const double **x,
-                                     const double **rho);
-/* lower[dim], upper[dim]: the bounds of the fluid's whole domain, the same on all ranks. */
+/* The fluid's elements that overlap the region, on this rank. */
+typedef struct {
+  int n;
+  const double *x;   /* [n][dim + 1][dim] vertices, m */
+  const double *rho; /* [n] density, kg/m3 */
+  const double *mu;  /* [n] dynamic viscosity, Pa s */
+} CoracleElements;
+
+/* The region near the solid, before the fluid has elements: waits until the coupler has the solid.
+ * box[nbox][2][dim]: lower and upper corners, m, the same on all ranks; borrowed until CoracleReady.
+ * Optional, once, before CoracleReady: for a fluid whose first mesh depends on where the solid is. */
+int CoracleGetRegion(CoracleClient c, int *nbox, const double **box);
+/* Called back (on every fluid rank, in CoracleReady and CoracleEnd) when the region has changed: the fluid
+ * answers with those of its own elements that overlap any box, with the density and the viscosity that the
+ * coming step begins with.  The arrays are borrowed until the next call. */
+typedef int (*CoracleRegionFunction)(void *context, int nbox, const double box[], CoracleElements *elements);
+/* lower[dim], upper[dim]: the bounds of the fluid's whole domain, m, the same on all ranks. */
 int CoracleSetRegion(CoracleClient c, int dim, const double lower[], const double upper[],
                      CoracleRegionFunction region, void *context);
-/* Tells that the fluid's elements have changed (mesh adaptation): region is called again in the next
- * CoracleEnd, if the step stands. */
+/* The fluid's elements will be others after this step (mesh adaptation): region is called in the next
+ * CoracleEnd, if the step is accepted. */
 int CoracleElementsChanged(CoracleClient c);
+/* Before CoracleReady and every CoracleEnd: the largest next time step that this rank wants, s. */
+int CoracleProposeStep(CoracleClient c, double dt);
 
 /* --- the run -------------------------------------------------------------------------------------------- */
 
-/* Registers `bytes` at `state` to be saved at CORACLE_RUN and put back at CORACLE_REDO; before the first
- * step.  It is also what the library saves in checkpoints and, in a run that goes on from one, puts back
- * at once (on as many ranks): bind before the mesh is given. */
+/* Registers `bytes` at `state` to be saved at CORACLE_RUN and restored at CORACLE_REDO; before the first
+ * step.  The library also saves it in checkpoints and restores it at once in a run that resumes from one (on
+ * as many ranks): bind before the mesh is given. */
 int CoracleBindState(CoracleClient c, void *state, size_t bytes);
-/* As above for state that is no flat buffer: called with save = 1 and save = 0.  In checkpoints it is the
- * participant's own affair (CoracleCheckpointPath). */
+/* As above for state that is no flat buffer: called with save = 1 and save = 0.  Such a participant saves
+ * itself in checkpoints (CoracleCheckpointPath). */
 int CoracleBindStateFunction(CoracleClient c, int (*f)(void *context, int save), void *context);
 
 /* The first exchange: surface, volume and elements travel, the first coupling data come back. */
 int CoracleReady(CoracleClient c);
 /* Waits for the next step: from *t over *dt, s. */
 int CoracleBegin(CoracleClient c, double *t, double *dt, CoracleAction *action);
+/* Ends the step.  Solid: x[n][dim] new positions, m; fluid: NULL, waits for the next coupling. */
+int CoracleEnd(CoracleClient c, const double x[]);
 
-/* Solid: force[n][dim], N, on this rank's nodes from this rank's elements and facets: a node shared by ranks
- * has its force spread over them and the solid sums it, as it sums its internal forces.  Borrowed until
- * CoracleEnd. */
-int CoracleGetForce(CoracleClient c, const double **force);
-/* Solid: one substep of h seconds has been made with nodal velocities u[n][dim].  u is what moves the nodes:
- * x += h u.  From the substeps the library makes what the fluid sees: the mean velocity over the step
- * (displacement / dt), and the line fitted to the velocities in the least-squares sense, taken at the last
- * substep, for couplings that need the end's. */
-int CoracleSubstep(CoracleClient c, double h, const double u[]);
-/* Solid, optional, between the last substep and CoracleEnd: u[n][dim], m/s, instead of that fitted line, from
- * a solid that knows better what of its velocity is motion and what vibration.  For this step only. */
-int CoracleSetVelocity(CoracleClient c, const double u[]);
-/* Solid, optional, before CoracleReady and where CoracleSetVelocity is: how nodes give way to the fluid by
- * themselves.
- *   mobility[n]           1/kg, velocity that a unit of impulse on the node gives it: one over its mass, all
- *                         ranks' elements together; 0 where it is held, or too stiff to move but as a body
- *   acceleration[n][dim]  m/s2, what all forces but the fluid's give it now, gravity too; 0 where mobility is
- * The coupler then takes the solid's inertia into the fluid's solve, so that soft and thin bodies can be held
- * as firmly as one likes; without it, or where mobility is 0, the fluid meets the velocity as it is.  For the
- * next step only. */
-int CoracleSetInertia(CoracleClient c, const double mobility[], const double acceleration[]);
-
-/* A checkpoint, from which another run can go on (keys output.checkpoint and resume of the case): the
- * folder into which to save what the participant is at t, when one is due in the step that CoracleBegin
- * has begun (or at CORACLE_STOP), else NULL.  Who asks has to have saved, on all ranks, by CoracleEnd, in
- * files called after its role; while one participant never asks there are no checkpoints.  The same on all
- * ranks; borrowed until CoracleEnd. */
+/* A checkpoint, from which another run can resume (keys output.checkpoint and resume of the case): the
+ * folder into which to save the participant's state at t, when one is due in the step that CoracleBegin
+ * has begun (or at CORACLE_STOP), else NULL.  A participant that calls this must have saved, on all ranks, by
+ * CoracleEnd, in files named after its role; while one participant never calls it there are no checkpoints.
+ * The same on all ranks; borrowed until CoracleEnd. */
 const char *CoracleCheckpointPath(CoracleClient c);
-/* After CoracleOpen: the folder that an earlier run has given so, from which this one goes on, or NULL:
- * from the start.  Who asks has to be, by CoracleReady, what it was then; the next CoracleBegin has that
- * t.  The run is refused if one does not ask. */
+/* After CoracleOpen: the checkpoint's folder from which this run resumes, or NULL: from the start.  A
+ * participant that calls this must have that state by CoracleReady; the next CoracleBegin has that t.  The
+ * run is refused if a participant does not call it. */
 const char *CoracleResumePath(CoracleClient c);
 
-/* Fluid: the flow on the elements last given by region, for the n of them:
- *   u_star[n][dim][dim + 1]  velocity with the coupling solved, before the pressure correction, m/s
- *   u_plus[n][dim][dim + 1]  velocity after it
- *   p[n][6]                  pressure on the P2 nodes: 3 vertices, then the midpoints opposite to them, Pa
- *   mu[n]                    dynamic viscosity, Pa s */
-int CoracleSetFlow(CoracleClient c, const double u_star[], const double u_plus[], const double p[],
-                   const double mu[]);
-/* Fluid, before CoracleReady and every CoracleEnd: the largest next time step that this rank wants, s. */
-int CoracleProposeStep(CoracleClient c, double dt);
+/* --- the solid in a step -------------------------------------------------------------------------------- */
 
-/* What the solid does to one fluid element K (S the solid; i, j vertices; c, d components; in 2D per metre):
- *   a[c][i][d][j]  = int_K a_cd N_i N_j          implicit coefficient, shell and volume together, kg/s
- *   s[c][i]        = int_K (a u_s)_c N_i         explicit part of s_c, N
- *   give           = of a, what gives way as the pressure moves the fluid: u+ = u* - dt W^-1 M grad phi,
- *                    W = rho M/dt + give
- *   ms[i][j]       = int_{K and S} b N_i N_j     sub-cell solid mass, m2; b = 1, less where nodes give way
- *   us[c][i]       = int_{K and S} b N_i (u_s)_c m3/s
- *   alpha          = |K and S| / |K|             solid volume fraction
- *   shell          = |K and shell| / |K|         volume fraction of the covered shell */
+/* force[n][dim], N, on this rank's nodes from this rank's elements and facets: a node shared by ranks has its
+ * force spread over them and the solid sums it, as it sums its internal forces.  Borrowed until CoracleEnd. */
+int CoracleGetForce(CoracleClient c, const double **force);
+/* One substep of h seconds has been made with nodal velocities u[n][dim], m/s: x += h u.  The library computes
+ * from the substeps the mean velocity over the step (displacement / dt), and the least-squares line through
+ * the velocities, evaluated at the last substep, for couplings that need the velocity at the step's end. */
+int CoracleSubstep(CoracleClient c, double h, const double u[]);
+/* Optional, between the last substep and CoracleEnd: u[n][dim], m/s, replaces the fitted line's value, from a
+ * solid that can separate its motion from its vibration.  For this step only. */
+int CoracleSetVelocity(CoracleClient c, const double u[]);
+/* Optional, before CoracleReady and where CoracleSetVelocity is: how nodes respond to the fluid's force.
+ *   mobility[n]           1/kg, velocity per unit of impulse on the node: one over its mass, all ranks'
+ *                         elements together; 0 where it is held, or too stiff to move but as a body
+ *   acceleration[n][dim]  m/s2, by all forces but the fluid's, gravity included; 0 where mobility is
+ * The coupler then takes the solid's inertia into the fluid's solve, so that soft and thin bodies can be
+ * coupled with any penalty; without it, or where mobility is 0, the solid's velocity is prescribed to the
+ * fluid.  For the next step only. */
+int CoracleSetInertia(CoracleClient c, const double mobility[], const double acceleration[]);
+
+/* --- the fluid in a step -------------------------------------------------------------------------------- */
+
+/* What the solid does to one fluid element K (S the solid; i, j vertices; c, d components; in 2D per metre): */
+enum {
+  CORACLE_HAS_SHELL = 1,  /* K overlaps the shell around the solid's surface */
+  CORACLE_HAS_INERTIA = 2 /* implicit_inertia is in use: K overlaps nodes with a mobility */
+};
 typedef struct {
   int element; /* index into the elements last given by region */
-  double a[2][3][2][3], give[2][3][2][3], s[2][3], ms[3][3], us[2][3], alpha, shell;
+  int flags;   /* CORACLE_HAS_... */
+  /* kg/s: int_K a_cd N_i N_j, the implicit coefficient, shell and volume together */
+  double a[CORACLE_DIM][CORACLE_VERTICES][CORACLE_DIM][CORACLE_VERTICES];
+  /* kg/s: the part of a that moves with the fluid under the pressure:
+   * u projected = u* - dt W^-1 M grad phi with W = rho M/dt + implicit_inertia */
+  double implicit_inertia[CORACLE_DIM][CORACLE_VERTICES][CORACLE_DIM][CORACLE_VERTICES];
+  /* N: int_K (a u_s)_c N_i, the explicit part of s_c */
+  double s[CORACLE_DIM][CORACLE_VERTICES];
+  /* m2: int_{K and S} b N_i N_j, sub-cell solid mass; b = 1, less where nodes have a mobility */
+  double ms[CORACLE_VERTICES][CORACLE_VERTICES];
+  /* m3/s: int_{K and S} b N_i (u_s)_c */
+  double us[CORACLE_DIM][CORACLE_VERTICES];
+  /* m/s: mean of u_s over what K overlaps, solid and shell */
+  double velocity[CORACLE_DIM];
+  double alpha; /* |K and S| / |K|, solid volume fraction */
+  double shell; /* |K and shell| / |K|, volume fraction of the covered shell */
 } CoracleCoupling;
+
 /* The correction of the step just made, on its overlap: u += M^-1 r with the element's mass matrix M and
- * r[c][i] = int_{K and S} N_i (u_s - u_plus)_c, u_s the solid's new velocity, m3/s. */
+ * r[c][i] = int_{K and S} N_i (u_s - u projected)_c, u_s the solid's new velocity. */
 typedef struct {
   int element;
-  double r[2][3];
+  double r[CORACLE_DIM][CORACLE_VERTICES]; /* m3/s */
 } CoracleCorrection;
-/* Fluid, after CoracleEnd: 1 when the step just made stands, 0 when it will be redone: there is no
- * correction then, and what it did beside its bound state (a mesh it has adapted, a row it would write) is
- * void.  A solid learns this by the next action. */
-int CoracleStepAccepted(CoracleClient c);
-/* Fluid, after CoracleReady and after CoracleEnd: the coupling of the coming step.  Borrowed until the next
+
+/* The flow of one step on the n elements last given by region. */
+typedef struct {
+  const double *u_star;      /* [n][dim][dim + 1] m/s, with the coupling solved, before the projection */
+  const double *u_projected; /* [n][dim][dim + 1] m/s, after it */
+  const double *p;   /* [n][6] Pa, on the P2 nodes: vertices, then the midpoints opposite to them; may be
+                              * NULL unless CoracleNeedsPressure */
+  const double *rho; /* [n] kg/m3 */
+  const double *mu;  /* [n] Pa s */
+} CoracleFlow;
+
+/* After CoracleReady and after CoracleEnd: the coupling of the coming step.  Borrowed until the next
  * CoracleEnd. */
 int CoracleGetCoupling(CoracleClient c, int *n, const CoracleCoupling **coupling);
-/* Fluid, after CoracleEnd: one entry for every coupling entry of the step just made (same order, and indices
- * into the elements of that step even when region has been called again since). */
+/* From CoracleReady on: 1 when the coupling mode uses the pressure, else 0. */
+int CoracleNeedsPressure(CoracleClient c);
+/* Between CoracleBegin and CoracleEnd, once a step: the flow (copied). */
+int CoracleSetFlow(CoracleClient c, const CoracleFlow *flow);
+/* After CoracleEnd: 1 when the step just made is accepted, 0 when it will be redone: there is no correction
+ * then, and what it did beside its bound state (an adapted mesh, a row it would write) is void.  A solid
+ * learns this by the next action. */
+int CoracleStepAccepted(CoracleClient c);
+/* After CoracleEnd: one entry for every coupling entry of the step just made (same order, and indices into
+ * the elements of that step even when region has been called again since). */
 int CoracleGetCorrection(CoracleClient c, int *n, const CoracleCorrection **correction);
-
-/* Ends the step.  Solid: x[n][dim] new positions; fluid: NULL; blocks until the next coupling is here. */
-int CoracleEnd(CoracleClient c, const double x[]);
 
 #ifdef __cplusplus
 }

@@ -75,7 +75,7 @@ static void SayWhoDied(const FailureBoard b)
     to = PutNumber(to, end, b->mine->step);
     to = PutText(to, end, "\n");
   }
-  if (write(STDERR_FILENO, text, (size_t)(to - text)) < 0) return; /* nobody listens any more */
+  if (write(STDERR_FILENO, text, (size_t)(to - text)) < 0) return; /* stderr is closed */
 }
 
 static void OnTerminate(int signal_number)
@@ -83,7 +83,7 @@ static void OnTerminate(int signal_number)
   const int saved = errno;
   const FailureBoard b = WATCHED;
   if (b) {
-    /* the others stay a moment, so that the one who speaks does not take them for the dead */
+    /* the others stay a moment, so that the rank that reports does not take them for dead ones */
     if (FailureBoardClaim(b))
       SayWhoDied(b);
     else
@@ -110,12 +110,12 @@ static void Unwatch(void)
   if (sigaction(SIGTERM, NULL, &old) == 0 && old.sa_handler == OnTerminate) signal(SIGTERM, SIG_DFL);
 }
 
-int FailureBoardOpen(const char *role, int rank, FailureBoard *board)
+int FailureBoardOpen(MPI_Comm job, const char *role, int rank, FailureBoard *board)
 {
   FailureBoard b = calloc(1, sizeof *b);
   int me, unit;
   MPI_Aint bytes;
-  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &b->node);
+  MPI_Comm_split_type(job, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &b->node);
   MPI_Comm_rank(b->node, &me);
   MPI_Comm_size(b->node, &b->n);
   bytes = me ? 0 : (MPI_Aint)(sizeof(BoardMemory) + (size_t)b->n * sizeof(BoardSlot));

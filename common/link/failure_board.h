@@ -1,6 +1,6 @@
 /* A notice board in memory that the ranks of one computer share.  It serves dying in good order, where
  * messages cannot:
- *   - when many ranks fail at once, the first to claim the board speaks, and a run ends with one message;
+ *   - when many ranks fail at once, the first to claim the board reports, and a run ends with one message;
  *   - when a rank is killed, the launcher ends the others by SIGTERM: one of them finds on the board whose
  * process is gone, and says so. Open and close are collective over the job; the rest is local and needs no
  * MPI. */
@@ -11,7 +11,7 @@
 
 typedef struct FailureBoard_s *FailureBoard;
 
-int FailureBoardOpen(const char *role, int rank, FailureBoard *board);
+int FailureBoardOpen(MPI_Comm job, const char *role, int rank, FailureBoard *board);
 int FailureBoardClose(FailureBoard *board);
 /* True for one caller on this computer, false for all others. */
 bool FailureBoardClaim(FailureBoard board);

@@ -69,9 +69,16 @@ static size_t Padded(size_t bytes)
 
 void MessageAdd(Message *m, const void *block, size_t bytes)
 {
+  const size_t copied = block ? bytes : 0;
+  m->last = m->buffer.size;
   char *to = BufferExtend(&m->buffer, Padded(bytes));
-  if (bytes) memcpy(to, block, bytes);
-  memset(to + bytes, 0, Padded(bytes) - bytes);
+  if (copied) memcpy(to, block, copied);
+  memset(to + copied, 0, Padded(bytes) - copied);
+}
+
+MessageHeader *MessageHeaderOf(Message *m)
+{
+  return (MessageHeader *)(void *)m->buffer.data;
 }
 
 static const MessageHeader *Header(const Message *m)

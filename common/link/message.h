@@ -1,19 +1,22 @@
-/* One message between a client rank and its home, the coupler rank (client rank % coupler ranks), which is
- * the only partner it has:
+/* One message between a client rank and the coupler rank that it belongs to, its owner (client rank % coupler
+ * ranks), which is the only partner it has:
  *
- *     header: kind, step, action, flag, counts, t, dt | block | block | ...      blocks are padded to 8 bytes
+ *     +--------+---------+---------+-----
+ *     | header | block 0 | block 1 | ...     each block is padded to 8 bytes
+ *     +--------+---------+---------+-----
  *
- *     SURFACE    solid -> coupler   count = nodes, facets, elements: gid, x, velocities, inertia, facets, elements
- *                                   (Ready; End after a change)
- *     MOTION     solid -> coupler   count = nodes: x, velocities (fitted or given, mean), mobility, acceleration  (End)
- *     FORCE      solid <- coupler   count = nodes, -, bytes of path: force, where to save; action, t, dt (Begin)
- *     ASK        fluid <- coupler   count = boxes: corners                                    (within Ready, End)
- *     ELEMENTS   fluid -> coupler   count = elements: vertices, density; bounds; dt = proposed      (answers ASK)
- *     COUPLING   fluid <- coupler   count = corrections, couplings, bytes of path: .., where to save; action,
- *                                   t, dt                                                    (ends Ready, End)
- *     FLOW       fluid -> coupler   count = elements: u*, u+, p, mu; flag; dt = proposed                  (End)
- *     CLOSE      both  -> coupler   count = reports                                                         (Close)
+ *     kind      direction          count[0], [1], [2]              blocks                             sent within
+ *     SURFACE   solid -> coupler   nodes, facets, elements         nodes, motion, facets, elements    Ready; End after a change
+ *     MOTION    solid -> coupler   nodes                           motion                             End
+ *     FORCE     solid <- coupler   nodes, -, bytes of path         force; path                        Begin
+ *     ASK       fluid <- coupler   boxes                           boxes                              GetRegion, Ready, End
+ *     ELEMENTS  fluid -> coupler   elements                        domain, elements                   answers ASK
+ *     COUPLING  fluid <- coupler   corrections, couplings, path    corrections, couplings; path       ends Ready, End
+ *     FLOW      fluid -> coupler   elements                        flow                               End
+ *     CLOSE     both  -> coupler   reports                         reports                            Close
  *
+ * The fields of the blocks are listed in fields.h.  FORCE and COUPLING carry the coming step (action, t, dt) and
+ * the path of the checkpoint that is due in it; ELEMENTS and FLOW carry in dt the step that the fluid proposes.
  * Kind and step travel with every message: one that does not fit ends the job with both sides' names. */
 #ifndef CORACLE_MESSAGE_H
 #define CORACLE_MESSAGE_H
@@ -33,12 +36,18 @@ typedef enum {
   KIND_END
 } MessageKind;
 
-/* flag: of FLOW; of FLOW, MOTION, SURFACE and CLOSE; of all that a client sends. */
-enum { FLAG_CHANGED = 1, FLAG_SAVED = 2, FLAG_RESUMES = 4 };
+/* MessageHeader.flag */
+enum {
+  FLAG_CHANGED = 1,  /* FLOW: the fluid's elements will be others */
+  FLAG_SAVED = 2,    /* of a client: it has saved itself into the checkpoint that was due */
+  FLAG_RESUMES = 4,  /* of a client: it resumes from a checkpoint */
+  FLAG_PRESSURE = 8, /* ASK: the coupling mode needs the pressure; FLOW: it is there */
+  FLAG_INERTIA = 16  /* COUPLING: some entry has an implicit inertia */
+};
 
 typedef struct {
   uint32_t magic;
-  int32_t kind, step, action, flag, unused;
+  int32_t kind, step, action, flag, dim;
   int64_t count[3];
   double t, dt; /* s */
 } MessageHeader;
@@ -51,7 +60,8 @@ typedef struct {
 
 typedef struct {
   Buffer buffer;
-  size_t at;           /* of reading */
+  size_t at;           /* of reading: the next block */
+  size_t last;         /* of writing: the block added last */
   MPI_Request request; /* of sending */
   Role role;           /* the partner */
   int rank;
@@ -68,6 +78,9 @@ void MessageInit(Message *m, Role role, int rank);
 void MessageFree(Message *m);
 /* Writing: a header, then blocks. */
 MessageHeader *MessageStart(Message *m, MessageKind kind, int step);
+/* The header of the message being written, or received last; moves when the message grows. */
+MessageHeader *MessageHeaderOf(Message *m);
+/* Copies a block; NULL: its bytes are 0 until they are written. */
 void MessageAdd(Message *m, const void *block, size_t bytes);
 /* Sending is done when MessageFinish returns; the message must stay as it is until then. */
 void MessageSend(Participant *p, Message *m);

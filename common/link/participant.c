@@ -12,26 +12,43 @@
 
 /* --- failing -------------------------------------------------------------------------------------------- */
 
-static _Noreturn void Abort(void)
+/* What a host has set to be called with the message of an error. */
+static struct {
+  void (*f)(void *context, const char *message);
+  void *context;
+} HANDLER;
+
+void ParticipantSetErrorHandler(void (*f)(void *context, const char *message), void *context)
+{
+  HANDLER.f = f;
+  HANDLER.context = context;
+}
+
+static void Report(const char *role, int rank, const char *message)
+{
+  fflush(stdout);
+  fprintf(stderr, "coracle %s[%d]: error: %s\n", role, rank, message);
+}
+
+static _Noreturn void Abort(const char *message)
 {
   fflush(NULL);
   ExitGuardExpected();
+  if (HANDLER.f) HANDLER.f(HANDLER.context, message);
   MPI_Abort(MPI_COMM_WORLD, 1);
   for (;;) pause(); /* until the launcher has ended this process */
 }
 
 void ParticipantFailList(Participant *p, const char *format, va_list list)
 {
+  char text[HANDSHAKE_MESSAGE];
+  vsnprintf(text, sizeof text, format, list);
   ExitGuardExpected();
-  if (FailureBoardClaim(p->board)) {
-    char text[HANDSHAKE_MESSAGE];
-    vsnprintf(text, sizeof text, format, list);
-    fflush(stdout);
-    fprintf(stderr, "coracle %s[%d]: error: %s\n", ROLE_NAMES[p->role], p->rank, text);
-  } else {
-    sleep(5); /* another rank speaks and ends the job */
-  }
-  Abort();
+  if (FailureBoardClaim(p->board))
+    Report(ROLE_NAMES[p->role], p->rank, text);
+  else
+    sleep(5); /* another rank reports and ends the job */
+  Abort(text);
 }
 
 void ParticipantFail(Participant *p, const char *format, ...)
@@ -41,14 +58,14 @@ void ParticipantFail(Participant *p, const char *format, ...)
   ParticipantFailList(p, format, list);
 }
 
-/* Before there is a board: world rank 0 speaks for all, the others wait for their end. */
+/* Before there is a board: rank 0 of the job reports for all, the others wait for the end. */
 static _Noreturn void RefuseToStart(int world_rank, const char *role, const char *message)
 {
   if (world_rank == 0)
-    fprintf(stderr, "coracle %s[0]: error: %s\n", role, message);
+    Report(role, 0, message);
   else
     sleep(5);
-  Abort();
+  Abort(message);
 }
 
 /* --- joining -------------------------------------------------------------------------------------------- */
@@ -77,7 +94,7 @@ static unsigned long long HashArguments(int argc, char **argv)
 static void Describe(const char *role, bool client, int argc, char **argv, HandshakeEntry *e)
 {
   int *context, known;
-  Case c;
+  CoracleCase c;
   memset(e, 0, sizeof *e);
   snprintf(e->role, sizeof e->role, "%s", role);
   snprintf(e->version, sizeof e->version, "%s", CORACLE_VERSION);
@@ -90,23 +107,23 @@ static void Describe(const char *role, bool client, int argc, char **argv, Hands
   if (client && !strcmp(role, "coupler"))
     snprintf(e->problem, sizeof e->problem, "CoracleOpen joins a fluid or a solid, not a coupler");
   else if (CaseLoad(argc, argv, e->problem, &c) == 0) {
-    snprintf(e->case_path, sizeof e->case_path, "%s", CasePath(c));
+    snprintf(e->case_path, sizeof e->case_path, "%s", CoracleCasePath(c));
     e->file_hash = c->file_hash;
     e->set_hash = c->set_hash;
-    CaseClose(&c);
+    CoracleCaseClose(&c);
   }
 }
 
-/* Every rank tells world rank 0 who it is; it looks at them all, and speaks if they cannot run together. */
-static void CallRoll(const HandshakeEntry *mine, Waiter *waiter)
+/* Every rank sends its entry to rank 0, which ends the job if they cannot run together. */
+static void Handshake(MPI_Comm job, const HandshakeEntry *mine, Waiter *waiter)
 {
   char message[HANDSHAKE_MESSAGE];
   int rank, size;
   MPI_Request request;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  MPI_Comm_rank(job, &rank);
+  MPI_Comm_size(job, &size);
   HandshakeEntry *entry = rank ? NULL : calloc((size_t)size, sizeof *entry);
-  MPI_Igather(mine, sizeof *mine, MPI_BYTE, entry, sizeof *entry, MPI_BYTE, 0, MPI_COMM_WORLD, &request);
+  MPI_Igather(mine, sizeof *mine, MPI_BYTE, entry, sizeof *entry, MPI_BYTE, 0, job, &request);
   if (!WaitRequest(waiter, &request)) {
     snprintf(message, sizeof message, "not all %d ranks of this job have called CoracleOpen within %g s",
              size, waiter->timeout);
@@ -115,28 +132,27 @@ static void CallRoll(const HandshakeEntry *mine, Waiter *waiter)
   if (rank == 0 && !HandshakeCheck(size, entry, message)) RefuseToStart(0, mine->role, message);
   if (rank == 0 && HandshakeNote(size, entry, message)) fprintf(stderr, "coracle: note: %s\n", message);
   free(entry);
-  MPI_Ibarrier(MPI_COMM_WORLD, &request); /* nobody goes on before rank 0 has agreed */
+  MPI_Ibarrier(job, &request); /* no rank continues before rank 0 has agreed */
   if (!WaitRequest(waiter, &request)) RefuseToStart(1, mine->role, "");
 }
 
 static void MapRoles(Participant *p, const HandshakeEntry *mine)
 {
   int rank, size, role = HandshakeRole(mine->role);
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  MPI_Comm_rank(p->job, &rank);
+  MPI_Comm_size(p->job, &size);
   int *roles = malloc((size_t)size * sizeof *roles);
   p->host = malloc((size_t)size * sizeof *p->host);
-  MPI_Allgather(&role, 1, MPI_INT, roles, 1, MPI_INT, MPI_COMM_WORLD);
-  MPI_Allgather(mine->host, sizeof mine->host, MPI_BYTE, p->host, sizeof mine->host, MPI_BYTE,
-                MPI_COMM_WORLD);
+  MPI_Allgather(&role, 1, MPI_INT, roles, 1, MPI_INT, p->job);
+  MPI_Allgather(mine->host, sizeof mine->host, MPI_BYTE, p->host, sizeof mine->host, MPI_BYTE, p->job);
   for (int k = 0; k < NROLES; k++) p->world[k] = malloc((size_t)size * sizeof(int));
   for (int i = 0; i < size; i++) p->world[roles[i]][p->count[roles[i]]++] = i;
   free(roles);
   p->role = (Role)role;
-  MPI_Comm_split(MPI_COMM_WORLD, role, rank, &p->app);
+  MPI_Comm_split(p->job, role, rank, &p->app);
   MPI_Comm_rank(p->app, &p->rank);
   MPI_Comm_size(p->app, &p->size);
-  MPI_Comm_dup(MPI_COMM_WORLD, &p->link);
+  MPI_Comm_dup(p->job, &p->link);
 }
 
 static void Refuse(void *p, const char *message)
@@ -148,21 +164,21 @@ static void Refuse(void *p, const char *message)
 static void FindResume(Participant *p, int argc, char **argv, size_t size, char folder[])
 {
   struct stat link;
-  Case c;
+  CoracleCase c;
   folder[0] = 0;
-  CaseOpen(argc, argv, Refuse, p, &c);
-  const char *resume = CaseStringOr(c, "resume", "");
+  CoracleCaseOpen(argc, argv, Refuse, p, &c);
+  const char *resume = CoracleCaseStringOr(c, "resume", "");
   const bool last = !strcmp(resume, "last");
   if (last)
-    snprintf(folder, size, "%s/" CORACLE_CHECKPOINT, CaseString(c, "output.folder"));
+    snprintf(folder, size, "%s/" CORACLE_CHECKPOINT, CoracleCaseString(c, "output.folder"));
   else
     snprintf(folder, size, "%s", resume);
   if (folder[0] && access(folder, F_OK)) {
-    if (!last || !lstat(folder, &link)) CaseRefuse(c, "resume", "there is no checkpoint '%s'", folder);
+    if (!last || !lstat(folder, &link)) CoracleCaseRefuse(c, "resume", "there is no checkpoint '%s'", folder);
     if (p->role == ROLE_COUPLER) printf("coracle: there is no %s: begins at the start\n", folder);
     folder[0] = 0;
   }
-  CaseClose(&c);
+  CoracleCaseClose(&c);
 }
 
 static void UsedPath(const Participant *p, const char *folder, size_t size, char path[])
@@ -216,23 +232,26 @@ static void Resume(Participant *p, int argc, char **argv)
   if (folder[0]) p->resume = strdup(folder);
 }
 
-int ParticipantOpen(const char *role, bool client, int argc, char **argv, Participant **participant)
+int ParticipantOpen(MPI_Comm job, const char *role, bool client, int argc, char **argv,
+                    Participant **participant)
 {
   Participant *p = calloc(1, sizeof *p);
+  p->dim = CORACLE_DIM;
   HandshakeEntry mine;
   Affinity share;
   p->started_mpi = StartMpi();
+  p->job = job == MPI_COMM_NULL ? MPI_COMM_WORLD : job;
   p->start = WaitClock();
-  AffinityGet(&share);
+  AffinityGet(p->job, &share);
   const char *wrong = WaiterInit(&p->waiter, share.shared);
   Describe(role, client, argc, argv, &mine);
   if (ExitGuardWatched()) wrong = "this process has joined already";
   if (wrong) snprintf(mine.problem, sizeof mine.problem, "%s", wrong);
-  CallRoll(&mine, &p->waiter);
+  Handshake(p->job, &mine, &p->waiter);
   MapRoles(p, &mine);
   /* when one hangs all wait: the coupler, whose partners they all are, gives up first and so names the one */
   if (client) p->waiter.timeout = 1.1 * p->waiter.timeout + 1.0;
-  FailureBoardOpen(role, p->rank, &p->board);
+  FailureBoardOpen(p->job, role, p->rank, &p->board);
   ExitGuardWatch(p);
   if (share.pinned) AffinityNotePinned(role, p->rank);
   Resume(p, argc, argv);

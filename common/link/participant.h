@@ -1,9 +1,9 @@
 /* One rank of one participant of the job, on either end of the link: joining, failing and leaving.
  *
- *     MPI_COMM_WORLD   0 1 | 2       | 3         roll call: every rank says role, version, case, host,
- * program role             fluid coupler   solid     split by the role's name, in order of world rank app 0 1
- * 0         0         the participant's own communicator link             a duplicate of the world: what
- * messages travel on */
+ *     job              0     1     2         3       handshake: every rank states role, version, case, program
+ *     role             fluid fluid coupler   solid   split by the role's name, in order of rank in the job
+ *     app              0     1     0         0       the participant's own communicator
+ *     link             0     1     2         3       a duplicate of the job, for the messages */
 #ifndef CORACLE_PARTICIPANT_H
 #define CORACLE_PARTICIPANT_H
 #include "common/link/coracle.h"
@@ -21,11 +21,13 @@ enum { USED_CPU, USED_WALL, USED_WAITING, NUSED };
 typedef struct {
   Role role;
   int rank, size; /* within the role */
+  MPI_Comm job;   /* borrowed: the ranks of all participants */
   MPI_Comm app, link;
   int count[NROLES];  /* ranks of each role */
-  int *world[NROLES]; /* [count] their world ranks */
-  char (*host)[64];   /* [world size] */
+  int *world[NROLES]; /* [count] their ranks in the job */
+  char (*host)[64];   /* [size of the job] */
   int step;           /* for messages */
+  int dim;            /* dimension of the run's meshes */
   double start;       /* WaitClock when joining, s */
   char *resume;       /* folder of the checkpoint that the run goes on from; NULL: none */
   double used[NUSED]; /* rank 0: by the participant in the runs before that, s */
@@ -34,8 +36,10 @@ typedef struct {
   FailureBoard board;
 } Participant;
 
-/* Joins as role; collective over the job.  `client`: role must not be coupler.  A process joins once. */
-int ParticipantOpen(const char *role, bool client, int argc, char **argv, Participant **p);
+/* Joins as role; collective over the job, all ranks of its participants (MPI_COMM_NULL: the world).  `client`: role must not be coupler.  A process joins once. */
+int ParticipantOpen(MPI_Comm job, const char *role, bool client, int argc, char **argv, Participant **p);
+/* Called with the message of an error before the job is ended; NULL: nothing.  Local. */
+void ParticipantSetErrorHandler(void (*f)(void *context, const char *message), void *context);
 /* Local: what this rank has used so far; with what runs before have, on rank 0. */
 void ParticipantUsed(const Participant *p, double used[NUSED]);
 /* Collective over the participant: into a checkpoint. */

@@ -4,34 +4,34 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void SideInit(ClientList *side, const Participant *p, Role role)
+static void ClientListInit(ClientList *clients, const Participant *p, Role role)
 {
-  side->peer = calloc((size_t)p->count[role] + 1, sizeof *side->peer);
+  clients->client = calloc((size_t)p->count[role] + 1, sizeof *clients->client);
   for (int rank = p->rank; rank < p->count[role]; rank += p->size) {
-    MessageInit(&side->peer[side->n].in, role, rank);
-    MessageInit(&side->peer[side->n++].out, role, rank);
+    MessageInit(&clients->client[clients->n].in, role, rank);
+    MessageInit(&clients->client[clients->n++].out, role, rank);
   }
 }
 
-static void SideFree(ClientList *side)
+static void ClientListFree(ClientList *clients)
 {
-  for (int i = 0; i < side->n; i++) {
-    MessageFree(&side->peer[i].in);
-    MessageFree(&side->peer[i].out);
-    BufferFree(&side->peer[i].gid);
-    BufferFree(&side->peer[i].facet);
-    BufferFree(&side->peer[i].element);
-    BufferFree(&side->peer[i].coupled);
+  for (int i = 0; i < clients->n; i++) {
+    MessageFree(&clients->client[i].in);
+    MessageFree(&clients->client[i].out);
+    FieldListsFree(&clients->client[i].nodes);
+    FieldListsFree(&clients->client[i].facets);
+    FieldListsFree(&clients->client[i].elements);
+    BufferFree(&clients->client[i].coupled);
   }
-  free(side->peer);
+  free(clients->client);
 }
 
-int ClientListFind(const ClientList *side, int i)
+int ClientListFind(const ClientList *clients, int i)
 {
-  int lower = 0, upper = side->n - 1; /* the last peer whose first <= i */
+  int lower = 0, upper = clients->n - 1; /* the last client whose first <= i */
   while (lower < upper) {
     const int middle = (lower + upper + 1) / 2;
-    if (side->peer[middle].first <= i)
+    if (clients->client[middle].first <= i)
       lower = middle;
     else
       upper = middle - 1;
@@ -39,19 +39,19 @@ int ClientListFind(const ClientList *side, int i)
   return lower;
 }
 
-void ClientListSend(Server s, ClientList *side)
+void ClientListSend(Server s, ClientList *clients)
 {
-  for (int i = 0; i < side->n; i++) MessageSend(s->p, &side->peer[i].out);
-  for (int i = 0; i < side->n; i++) MessageFinish(s->p, &side->peer[i].out);
+  for (int i = 0; i < clients->n; i++) MessageSend(s->p, &clients->client[i].out);
+  for (int i = 0; i < clients->n; i++) MessageFinish(s->p, &clients->client[i].out);
 }
 
-void ClientListStep(Server s, ClientList *side, CoracleAction action)
+void ClientListStep(Server s, ClientList *clients, CoracleAction action)
 {
-  if (side->stopped) ServerFail(s, "the run goes on after CORACLE_STOP");
-  if (action == CORACLE_RUN) side->step++;
-  if (action == CORACLE_REDO && side->step == 0) ServerFail(s, "CORACLE_REDO before the first step");
-  side->stopped = action == CORACLE_STOP;
-  ParticipantStep(s->p, side->step);
+  if (clients->stopped) ServerFail(s, "the run goes on after CORACLE_STOP");
+  if (action == CORACLE_RUN) clients->step++;
+  if (action == CORACLE_REDO && clients->step == 0) ServerFail(s, "CORACLE_REDO before the first step");
+  clients->stopped = action == CORACLE_STOP;
+  ParticipantStep(s->p, clients->step);
 }
 
 /* --- checkpoints ---------------------------------------------------------------------------------------- */
@@ -66,21 +66,21 @@ int ServerSave(Server s, const char *folder)
   const size_t bytes = strlen(folder) + 1;
   memcpy(BufferResize(&s->save, bytes), folder, bytes);
   ParticipantSaveUsed(s->p, folder);
-  for (int i = 0; i < s->fluid.n; i++) s->fluid.peer[i].saved = false;
-  for (int i = 0; i < s->solid.n; i++) s->solid.peer[i].saved = false;
+  for (int i = 0; i < s->fluid.n; i++) s->fluid.client[i].saved = false;
+  for (int i = 0; i < s->solid.n; i++) s->solid.client[i].saved = false;
   return 0;
 }
 
-void ClientListAskSave(Server s, ClientRank *peer, CoracleAction action)
+void ClientListAskSave(Server s, ClientRank *client, CoracleAction action)
 {
   const size_t bytes = action == CORACLE_REDO ? 0 : s->save.size;
-  ((MessageHeader *)(void *)peer->out.buffer.data)->count[2] = (int64_t)bytes;
-  MessageAdd(&peer->out, s->save.data, bytes);
+  MessageHeaderOf(&client->out)->count[2] = (int64_t)bytes;
+  MessageAdd(&client->out, s->save.data, bytes);
 }
 
-void ClientListFlags(Server s, Role role, ClientRank *peer, const MessageHeader *h)
+void ClientListFlags(Server s, Role role, ClientRank *client, const MessageHeader *h)
 {
-  if (h->flag & FLAG_SAVED) peer->saved = true;
+  if (h->flag & FLAG_SAVED) client->saved = true;
   const bool resumes = h->flag & FLAG_RESUMES;
   if (h->step > 0 || resumes == (s->p->resume != NULL)) return;
   if (resumes)
@@ -93,8 +93,8 @@ void ClientListFlags(Server s, Role role, ClientRank *peer, const MessageHeader 
 const char *ServerUnsaved(Server s)
 {
   int missing[NROLES] = {0};
-  for (int i = 0; i < s->fluid.n; i++) missing[ROLE_FLUID] |= !s->fluid.peer[i].saved;
-  for (int i = 0; i < s->solid.n; i++) missing[ROLE_SOLID] |= !s->solid.peer[i].saved;
+  for (int i = 0; i < s->fluid.n; i++) missing[ROLE_FLUID] |= !s->fluid.client[i].saved;
+  for (int i = 0; i < s->solid.n; i++) missing[ROLE_SOLID] |= !s->solid.client[i].saved;
   MPI_Allreduce(MPI_IN_PLACE, missing, NROLES, MPI_INT, MPI_LOR, s->p->app);
   BufferResize(&s->save, 0);
   for (int role = 0; role < NROLES; role++)
@@ -106,10 +106,15 @@ const char *ServerUnsaved(Server s)
 
 int ServerOpen(int argc, char **argv, MPI_Comm *app_comm, Server *server)
 {
+  return ServerOpenComm(MPI_COMM_NULL, argc, argv, app_comm, server);
+}
+
+int ServerOpenComm(MPI_Comm job, int argc, char **argv, MPI_Comm *app_comm, Server *server)
+{
   Server s = calloc(1, sizeof *s);
-  ParticipantOpen("coupler", false, argc, argv, &s->p);
-  SideInit(&s->fluid, s->p, ROLE_FLUID);
-  SideInit(&s->solid, s->p, ROLE_SOLID);
+  ParticipantOpen(job, "coupler", false, argc, argv, &s->p);
+  ClientListInit(&s->fluid, s->p, ROLE_FLUID);
+  ClientListInit(&s->solid, s->p, ROLE_SOLID);
   s->proposed = HUGE_VAL;
   *app_comm = s->p->app;
   *server = s;
@@ -136,12 +141,12 @@ double ServerWaited(Server s)
 
 /* --- the end -------------------------------------------------------------------------------------------- */
 
-static void ReceiveClose(Server s, ClientList *side, Role role)
+static void ReceiveClose(Server s, ClientList *clients, Role role)
 {
-  for (int i = 0; i < side->n; i++) {
-    Message *m = &side->peer[i].in;
-    const MessageHeader *h = MessageReceive(s->p, m, KIND_CLOSE, KIND_CLOSE, side->step);
-    ClientListFlags(s, role, &side->peer[i], h);
+  for (int i = 0; i < clients->n; i++) {
+    Message *m = &clients->client[i].in;
+    const MessageHeader *h = MessageReceive(s->p, m, KIND_CLOSE, KIND_CLOSE, clients->step);
+    ClientListFlags(s, role, &clients->client[i], h);
     const size_t n = (size_t)h->count[0];
     ReportMerge(&s->reports[role], n, MessageTake(s->p, m, n * sizeof(Report)));
   }
@@ -194,28 +199,14 @@ int ServerClose(Server *server)
   if (!s) return 0;
   if (!s->fluid.stopped || !s->solid.stopped)
     ServerFail(s, "closed in step %d, before CORACLE_STOP to both clients", s->p->step);
-  Buffer *all[] = {&s->start_gid,
-                   &s->start_element,
-                   &s->gid,
-                   &s->mean,
-                   &s->x,
-                   &s->u,
-                   &s->facet,
-                   &s->element,
-                   &s->vertices,
-                   &s->mobility,
-                   &s->acceleration,
-                   &s->rho,
-                   &s->u_star,
-                   &s->u_plus,
-                   &s->pressure,
-                   &s->mu,
-                   &s->owner};
+  Buffer *all[] = {&s->save, &s->gid, &s->facet, &s->element, &s->start_gid, &s->start_element, &s->owner};
   for (size_t k = 0; k < sizeof all / sizeof *all; k++) BufferFree(all[k]);
-  BufferFree(&s->save);
+  FieldListsFree(&s->motion);
+  FieldListsFree(&s->elements);
+  FieldListsFree(&s->flow);
   for (int role = 0; role < NROLES; role++) BufferFree(&s->reports[role]);
-  SideFree(&s->fluid);
-  SideFree(&s->solid);
+  ClientListFree(&s->fluid);
+  ClientListFree(&s->solid);
   ParticipantClose(&s->p);
   free(s);
   *server = NULL;

@@ -1,8 +1,13 @@
-/* The coupler's end of the link (coracle.h is the other end).  Client rank r of either role talks to coupler
- * rank r % size ("its home") and to nobody else; what a coupler rank receives from its clients is handed out
- * as one concatenated list in order of client rank, with indices already shifted.  Everything is collective
- * over the coupler.  Errors end the job.  All arrays handed out are borrowed until the next call of the same
- * function. */
+/* The coupler's end of the link (coracle.h is the other end).
+ *
+ *     fluid rank    0   1   2   3           0 1       solid rank
+ *                   |   |   |   |           | |
+ *     coupler rank  0   1   0   1           0 1       owner of client rank r: r % size
+ *
+ * A client rank exchanges messages with its owner and with nobody else.  What a coupler rank receives from its
+ * clients is handed out as one concatenated list in order of client rank, with indices already shifted.
+ * Everything is collective over the coupler.  Errors end the job.  All arrays handed out are borrowed until
+ * the next call of the same function. */
 #ifndef CORACLE_SERVER_H
 #define CORACLE_SERVER_H
 #include "common/link/coracle.h"
@@ -25,22 +30,23 @@ typedef struct {
 } ServerSolid;
 
 typedef struct {
-  int n;
-  const double *x, *rho;     /* [n][3][2], [n] */
-  double lower[2], upper[2]; /* the fluid's whole domain */
+  int n;                     /* the elements of this coupler rank's clients */
+  const double *x;           /* [n][3][2] vertices, m */
+  const double *rho, *mu;    /* [n] kg/m3, Pa s: at the start of the coming step */
+  double lower[2], upper[2]; /* the fluid's whole domain, m */
 } ServerElements;
-
-typedef struct {
-  const double *u_star, *u_plus; /* [n][2][3] */
-  const double *p, *mu;          /* [n][6], [n] */
-} ServerFlow;
 
 /* Joins as "coupler"; as CoracleOpen. */
 int ServerOpen(int argc, char **argv, MPI_Comm *app_comm, Server *s);
-_Noreturn void ServerFail(Server s, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* As CoracleOpenComm. */
+int ServerOpenComm(MPI_Comm job, int argc, char **argv, MPI_Comm *app_comm, Server *s);
+CORACLE_NORETURN void ServerFail(Server s, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* The solid's mesh (first call, matches CoracleReady) or its motion (matches CoracleEnd). */
 int ServerReceiveSolid(Server s, ServerSolid *solid);
+/* Before the first ServerAskElements: the coupling mode uses the fluid's pressure (the same on all coupler
+ * ranks); without this call it does not travel. */
+int ServerNeedPressure(Server s);
 /* Asks the fluid for its elements in the boxes: box[nbox][2][2], the same on all coupler ranks (matches the
  * region callback within CoracleReady or CoracleEnd; may be asked only there). */
 int ServerAskElements(Server s, int nbox, const double box[], ServerElements *elements);
@@ -55,7 +61,7 @@ double ServerProposedStep(Server s);
 int ServerSendCoupling(Server s, double t, double dt, CoracleAction action, int ncorrection,
                        const CoracleCorrection correction[], int ncoupling, const CoracleCoupling coupling[]);
 /* Matches the first half of the fluid's CoracleEnd. */
-int ServerReceiveFlow(Server s, ServerFlow *flow);
+int ServerReceiveFlow(Server s, CoracleFlow *flow);
 /* Ends the solid's CoracleBegin: force[nnodes][2], N, on the nodes last received; at CORACLE_REDO on those of
  * the step's start, which differ when the solid has changed its mesh in the step. */
 int ServerSendForce(Server s, double t, double dt, CoracleAction action, const double force[]);

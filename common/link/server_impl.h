@@ -1,53 +1,54 @@
 /* Private to the coupler's end of the link. */
 #ifndef CORACLE_SERVER_IMPL_H
 #define CORACLE_SERVER_IMPL_H
-#include "common/link/message.h"
+#include "common/link/fields.h"
 #include "common/link/report.h"
 #include "common/link/server.h"
 
-/* One client rank whose home is this coupler rank. */
+/* One client rank that this coupler rank owns. */
 typedef struct {
   Message in, out;
-  int first, n;               /* its nodes (solid) or elements (fluid) in the concatenated lists */
-  int first_start, n_start;   /* solid: the same when the step began, which is where a redone step begins */
-  Buffer gid, facet, element; /* solid: its mesh as it numbers it */
-  bool saved;                 /* the checkpoint that was asked for last */
+  int first, n;             /* its nodes (solid) or elements (fluid) in the concatenated lists */
+  int first_start, n_start; /* solid: the same when the step began, which is where a redone step begins */
+  FieldLists nodes, facets, elements; /* solid: its mesh as it numbers it */
+  bool saved;                         /* the checkpoint that was asked for last */
   Buffer coupled; /* fluid: int [], its own index of the element of each coupling entry last sent */
 } ClientRank;
 
 typedef struct {
   int n;
-  ClientRank *peer; /* [n] in order of client rank */
-  int step;         /* the step these clients are in */
+  ClientRank *client; /* [n] in order of client rank */
+  int step;           /* the step these clients are in */
   bool stopped;
 } ClientList;
 
 struct Server_s {
   Participant *p;
   ClientList fluid, solid;
-  bool received_solid, asked, elements_changed, owes_correction;
+  bool received_solid, asked, elements_changed, owes_correction, needs_pressure;
   double proposed;
   Buffer save; /* path of the checkpoint that is due, or empty */
   /* solid's lists */
-  Buffer gid, x, u, mean, mobility, acceleration, facet, element;
+  FieldLists motion;
+  Buffer gid, facet, element;
   bool kept_start;                 /* the solid's mesh has changed on this rank in the step */
   Buffer start_gid, start_element; /* what it was when the step began */
   /* fluid's lists */
-  Buffer vertices, rho, u_star, u_plus, pressure, mu;
+  FieldLists elements, flow;
   int nelements;
-  double lower[2], upper[2];
-  Buffer owner; /* int []: the fluid peer of each coupling entry last sent, in the coupler's order */
+  FieldsDomain domain;
+  Buffer owner; /* int []: the fluid client of each coupling entry last sent, in the coupler's order */
   Buffer reports[NROLES];
 };
 
-/* The peer whose list holds index i. */
-int ClientListFind(const ClientList *side, int i);
-/* Sends every peer's message and waits until all have gone. */
-void ClientListSend(Server s, ClientList *side);
-/* Asks a peer for a checkpoint with a message that begins a step: to be called last. */
-void ClientListAskSave(Server s, ClientRank *peer, CoracleAction action);
-/* Takes note of what the flags of a peer's message say. */
-void ClientListFlags(Server s, Role role, ClientRank *peer, const MessageHeader *h);
+/* The client whose list holds index i. */
+int ClientListFind(const ClientList *clients, int i);
+/* Sends every client's message and waits until all have gone. */
+void ClientListSend(Server s, ClientList *clients);
+/* Asks a client for a checkpoint with a message that begins a step: to be called last. */
+void ClientListAskSave(Server s, ClientRank *client, CoracleAction action);
+/* Takes note of what the flags of a client's message say. */
+void ClientListFlags(Server s, Role role, ClientRank *client, const MessageHeader *h);
 /* Counts a new step when it is one; fails when a client is asked to go on after STOP. */
-void ClientListStep(Server s, ClientList *side, CoracleAction action);
+void ClientListStep(Server s, ClientList *clients, CoracleAction action);
 #endif

@@ -3,39 +3,33 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DIM = 2 };
+enum { DIM = CORACLE_DIM };
 
-static void Store(Server s, Message *m, Buffer *to, size_t bytes)
+/* Receives one client's SURFACE or MOTION and appends its motion to the lists; returns whether its mesh is
+ * new. */
+static int ReceiveMotion(Server s, ClientRank *client, int *nnodes)
 {
-  const void *block = MessageTake(s->p, m, bytes);
-  memcpy(BufferResize(to, bytes), block, bytes);
-}
-
-/* Receives one peer's SURFACE or MOTION and puts its x and u at the end of the lists; returns whether its
- * mesh is new. */
-static int ReceiveMotion(Server s, ClientRank *peer, int *nnodes)
-{
-  Message *m = &peer->in;
+  Message *m = &client->in;
   const MessageKind kind = s->received_solid ? KIND_MOTION : KIND_SURFACE;
   const MessageHeader *h = MessageReceive(s->p, m, kind, KIND_SURFACE, s->solid.step);
-  const size_t n = (size_t)h->count[0], bytes = DIM * n * sizeof(double);
   const bool whole = h->kind == KIND_SURFACE;
-  ClientListFlags(s, ROLE_SOLID, peer, h);
-  if (!whole && (int)n != peer->n)
-    ServerFail(s, "solid rank %d moves %zu nodes but has %d", m->rank, n, peer->n);
-  peer->first = *nnodes;
-  peer->n = (int)n;
-  if (whole) Store(s, m, &peer->gid, n * sizeof(long long));
-  memcpy(BufferExtend(&s->x, bytes), MessageTake(s->p, m, bytes), bytes);
-  memcpy(BufferExtend(&s->u, bytes), MessageTake(s->p, m, bytes), bytes);
-  memcpy(BufferExtend(&s->mean, bytes), MessageTake(s->p, m, bytes), bytes);
-  memcpy(BufferExtend(&s->mobility, bytes / DIM), MessageTake(s->p, m, bytes / DIM), bytes / DIM);
-  memcpy(BufferExtend(&s->acceleration, bytes), MessageTake(s->p, m, bytes), bytes);
+  ClientListFlags(s, ROLE_SOLID, client, h);
+  if (!whole && (int)h->count[0] != client->n)
+    ServerFail(s, "solid rank %d moves %d nodes but has %d", m->rank, (int)h->count[0], client->n);
+  client->first = *nnodes;
+  client->n = (int)h->count[0];
   if (whole) {
-    Store(s, m, &peer->facet, DIM * (size_t)h->count[1] * sizeof(int));
-    Store(s, m, &peer->element, (DIM + 1) * (size_t)h->count[2] * sizeof(int));
+    FieldListsClear(&client->nodes);
+    FieldListsClear(&client->facets);
+    FieldListsClear(&client->elements);
+    FieldsAppend(s->p, m, &FIELDS_NODES, (size_t)client->n, &client->nodes);
   }
-  *nnodes += (int)n;
+  FieldsAppend(s->p, m, &FIELDS_MOTION, (size_t)client->n, &s->motion);
+  if (whole) {
+    FieldsAppend(s->p, m, &FIELDS_FACETS, (size_t)h->count[1], &client->facets);
+    FieldsAppend(s->p, m, &FIELDS_SIMPLICES, (size_t)h->count[2], &client->elements);
+  }
+  *nnodes += client->n;
   return whole;
 }
 
@@ -54,7 +48,7 @@ static void Swap(Buffer *a, Buffer *b)
   *b = c;
 }
 
-/* The peers' meshes, one after the other; that of the step's start is kept. */
+/* The clients' meshes, one after the other; that of the step's start is kept. */
 static void AssembleMesh(Server s)
 {
   if (!s->kept_start) {
@@ -66,10 +60,11 @@ static void AssembleMesh(Server s)
   BufferResize(&s->facet, 0);
   BufferResize(&s->element, 0);
   for (int i = 0; i < s->solid.n; i++) {
-    const ClientRank *peer = &s->solid.peer[i];
-    if (peer->gid.size) memcpy(BufferExtend(&s->gid, peer->gid.size), peer->gid.data, peer->gid.size);
-    AppendShifted(&s->facet, &peer->facet, peer->first);
-    AppendShifted(&s->element, &peer->element, peer->first);
+    const ClientRank *client = &s->solid.client[i];
+    const Buffer *gid = &client->nodes.list[0];
+    if (gid->size) memcpy(BufferExtend(&s->gid, gid->size), gid->data, gid->size);
+    AppendShifted(&s->facet, &client->facets.list[0], client->first);
+    AppendShifted(&s->element, &client->elements.list[0], client->first);
   }
 }
 
@@ -100,36 +95,34 @@ static bool SameElements(Server s)
   return same;
 }
 
+/* What the coupler reads: the arrays of all clients' lists. */
+static void View(const Server s, int nnodes, ServerSolid *solid)
+{
+  *solid = (ServerSolid){.nnodes = nnodes,
+                         .nfacets = (int)(s->facet.size / (DIM * sizeof(int))),
+                         .nelements = (int)(s->element.size / ((DIM + 1) * sizeof(int))),
+                         .gid = (const long long *)(const void *)s->gid.data,
+                         .facet = (const int *)(const void *)s->facet.data,
+                         .element = (const int *)(const void *)s->element.data};
+  FieldsView(&FIELDS_MOTION, &s->motion, 0, solid);
+}
+
 int ServerReceiveSolid(Server s, ServerSolid *solid)
 {
   const bool first = !s->received_solid;
   int nnodes = 0, changed = 0;
-  BufferResize(&s->x, 0);
-  BufferResize(&s->u, 0);
-  BufferResize(&s->mean, 0);
-  BufferResize(&s->mobility, 0);
-  BufferResize(&s->acceleration, 0);
-  for (int i = 0; i < s->solid.n; i++) changed |= ReceiveMotion(s, &s->solid.peer[i], &nnodes);
-  if (changed || !s->received_solid) AssembleMesh(s);
+  FieldListsClear(&s->motion);
+  for (int i = 0; i < s->solid.n; i++) changed |= ReceiveMotion(s, &s->solid.client[i], &nnodes);
+  if (changed || first) AssembleMesh(s);
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, s->p->app);
   s->received_solid = true;
   const bool mine = changed && !first && s->kept_start;
   int lost = mine && !SameElements(s);
   if (changed) MPI_Allreduce(MPI_IN_PLACE, &lost, 1, MPI_INT, MPI_LOR, s->p->app);
-  *solid = (ServerSolid){.changed = changed,
-                         .lost = lost,
-                         .before = mine && !lost ? (const int *)(const void *)s->start_element.data : NULL,
-                         .nnodes = nnodes,
-                         .nfacets = (int)(s->facet.size / (DIM * sizeof(int))),
-                         .nelements = (int)(s->element.size / ((DIM + 1) * sizeof(int))),
-                         .gid = (const long long *)(const void *)s->gid.data,
-                         .x = (const double *)(const void *)s->x.data,
-                         .u = (const double *)(const void *)s->u.data,
-                         .mean = (const double *)(const void *)s->mean.data,
-                         .mobility = (const double *)(const void *)s->mobility.data,
-                         .acceleration = (const double *)(const void *)s->acceleration.data,
-                         .facet = (const int *)(const void *)s->facet.data,
-                         .element = (const int *)(const void *)s->element.data};
+  View(s, nnodes, solid);
+  solid->changed = changed;
+  solid->lost = lost;
+  solid->before = mine && !lost ? (const int *)(const void *)s->start_element.data : NULL;
   return 0;
 }
 
@@ -140,21 +133,20 @@ int ServerSendForce(Server s, double t, double dt, CoracleAction action, const d
   ClientListStep(s, &s->solid, action);
   if (action == CORACLE_RUN) s->kept_start = false;
   for (int i = 0; i < s->solid.n; i++) {
-    ClientRank *peer = &s->solid.peer[i];
+    ClientRank *client = &s->solid.client[i];
     if (action == CORACLE_RUN) {
-      peer->first_start = peer->first;
-      peer->n_start = peer->n;
+      client->first_start = client->first;
+      client->n_start = client->n;
     }
-    const size_t n = action == CORACLE_STOP ? 0 : (size_t)peer->n_start;
-    const double *its = n ? force + DIM * peer->first_start : NULL;
-    MessageCheckFinite(s->p, "force", "node", n, DIM, its);
-    MessageHeader *h = MessageStart(&peer->out, KIND_FORCE, step);
+    const size_t n = action == CORACLE_STOP ? 0 : (size_t)client->n_start;
+    const FieldsForce its = {n ? force + DIM * client->first_start : NULL};
+    MessageHeader *h = MessageStart(&client->out, KIND_FORCE, step);
     h->action = action;
     h->t = t;
     h->dt = dt;
     h->count[0] = (int64_t)n;
-    MessageAdd(&peer->out, its, n * DIM * sizeof(double));
-    ClientListAskSave(s, peer, action);
+    FieldsPack(s->p, &client->out, &FIELDS_FORCE, n, &its);
+    ClientListAskSave(s, client, action);
   }
   ClientListSend(s, &s->solid);
   return 0;

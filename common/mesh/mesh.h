@@ -1,13 +1,16 @@
 /* A distributed mesh of triangles, what the fluid computes on.  Made on rank 0 (box mesher or Gmsh file),
- * partitioned with METIS, or built from pieces that are on all ranks already (piece.h); one layer of
+ * partitioned with METIS, or built from parts that are on all ranks already (part.h); one layer of
  * face-neighbour ghosts, elements renumbered for locality on each rank.
  *
- *            2                 local vertex i; face i lies opposite to vertex i, from vertex (i+1)%3 to
- * (i+2)%3, / \                so that the outward normal is the right-hand side of that direction (elements
- * are 4 /   \ 3             counter-clockwise).  P2 nodes: 0..2 vertices, 3 + i the midpoint of face i.
+ *            2
+ *           / \
+ *        4 /   \ 3
  *         /     \
  *        0---5---1
- */
+ *
+ * Local vertex i; face i lies opposite to vertex i, from vertex (i+1)%3 to (i+2)%3, so that the outward
+ * normal is the right-hand side of that direction (elements are counter-clockwise).  P2 nodes: 0..2 vertices,
+ * 3 + i the midpoint of face i. */
 #ifndef CORACLE_MESH_H
 #define CORACLE_MESH_H
 #include <petscsys.h>

@@ -1,4 +1,4 @@
-/* A Mesh from pieces: elements in reverse Cuthill-McKee order, vertices and P2 nodes as these meet them, then
+/* A Mesh from parts: elements in reverse Cuthill-McKee order, vertices and P2 nodes as these meet them, then
  * the ghosts (mesh_ghosts.c). */
 #include "common/mesh/mesh_build.h"
 #include <string.h>
@@ -6,7 +6,7 @@
 static PetscErrorCode Allocate(const Build *b, Mesh *m)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(2 * (b->piece->nv + m->ng), &m->x)); /* at most */
+  PetscCall(PetscMalloc1(2 * (b->part->nv + m->ng), &m->x)); /* at most */
   PetscCall(PetscMalloc1(3 * (m->ne + m->ng), &m->vertex));
   PetscCall(PetscMalloc1(m->ne + m->ng, &m->egid));
   PetscCall(PetscMalloc1(3 * m->ne, &m->neighbor));
@@ -21,12 +21,12 @@ static PetscErrorCode Allocate(const Build *b, Mesh *m)
 /* Local vertices as the elements meet them. */
 static void OwnVertices(Build *b, Mesh *m)
 {
-  for (int v = 0; v < b->piece->nv; v++) b->vertex[v] = -1;
+  for (int v = 0; v < b->part->nv; v++) b->vertex[v] = -1;
   for (int k = 0; k < 3 * m->ne; k++) {
-    const int v = b->piece->vertex[3 * b->order[k / 3] + k % 3];
+    const int v = b->part->vertex[3 * b->order[k / 3] + k % 3];
     if (b->vertex[v] < 0) {
       b->vertex[v] = m->nv;
-      memcpy(&m->x[2 * m->nv++], &b->piece->x[2 * v], 2 * sizeof *m->x);
+      memcpy(&m->x[2 * m->nv++], &b->part->x[2 * v], 2 * sizeof *m->x);
     }
     m->vertex[k] = b->vertex[v];
   }
@@ -44,12 +44,12 @@ static void OwnFaces(const Build *b, Mesh *m)
   }
 }
 
-/* Nodes of an element of the piece: vertices, then nv + edge. */
+/* Nodes of an element of the part: vertices, then nv + edge. */
 static void NodesOf(const Build *b, int e, int node[6])
 {
   for (int i = 0; i < 3; i++) {
-    node[i] = b->piece->vertex[3 * e + i];
-    node[3 + i] = b->piece->nv + b->faces.local.edge[3 * e + i];
+    node[i] = b->part->vertex[3 * e + i];
+    node[3 + i] = b->part->nv + b->faces.local.edge[3 * e + i];
   }
 }
 
@@ -58,9 +58,9 @@ static void MarkForeign(Build *b)
 {
   const PartFaces *f = &b->faces;
   for (int k = 0; k < b->nnodes; k++) b->foreign[k] = 0;
-  for (int k = 0; k < f->nrim; k++) b->foreign[f->rim[k]] = f->owners[k].lowest < f->rank;
+  for (int k = 0; k < f->nopen_vertices; k++) b->foreign[f->open_vertex[k]] = f->owners[k].lowest < f->rank;
   for (int k = 0; k < f->nopen; k++)
-    b->foreign[b->piece->nv + f->local.edge[f->open[k]]] = f->across[k] >= 0 && f->across_rank[k] < f->rank;
+    b->foreign[b->part->nv + f->local.edge[f->open[k]]] = f->across[k] >= 0 && f->across_rank[k] < f->rank;
 }
 
 /* Global numbers of own nodes, as the elements meet them. */
@@ -90,18 +90,18 @@ static PetscErrorCode NumberNodes(Build *b, Mesh *m)
 static PetscErrorCode LearnNumbers(Build *b)
 {
   const PartFaces *f = &b->faces;
-  const int known = f->nopen + f->nrim, n = known + f->nclosed;
+  const int known = f->nopen + f->nopen_vertices, n = known + f->nclosed;
   int *node;
   long long *value;
-  MeshMet *met;
+  RendezvousReply *reply;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc3(n, &node, n, &value, n, &met));
-  for (int k = 0; k < f->nopen; k++) node[k] = b->piece->nv + f->local.edge[f->open[k]];
-  for (int k = 0; k < f->nrim; k++) node[f->nopen + k] = f->rim[k];
+  PetscCall(PetscMalloc3(n, &node, n, &value, n, &reply));
+  for (int k = 0; k < f->nopen; k++) node[k] = b->part->nv + f->local.edge[f->open[k]];
+  for (int k = 0; k < f->nopen_vertices; k++) node[f->nopen + k] = f->open_vertex[k];
   for (int k = 0; k < n; k++) value[k] = k < known ? b->p2gid[node[k]] : -1;
-  PetscCall(MeshRendezvousMeet(&f->meet, value, met));
-  for (int k = 0; k < known; k++) b->p2gid[node[k]] = (PetscInt)met[k].highest;
-  PetscCall(PetscFree3(node, value, met));
+  PetscCall(MeshRendezvous(f->copies, n, value, reply));
+  for (int k = 0; k < known; k++) b->p2gid[node[k]] = (PetscInt)reply[k].highest;
+  PetscCall(PetscFree3(node, value, reply));
   PetscFunctionReturn(0);
 }
 
@@ -146,19 +146,19 @@ static PetscErrorCode SetBounds(Mesh *m)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode BuildCreate(MPI_Comm comm, const MeshPart *piece, PetscBool keep, Build *b)
+static PetscErrorCode BuildCreate(MPI_Comm comm, const MeshPart *part, PetscBool keep, Build *b)
 {
   PetscFunctionBeginUser;
-  b->piece = &piece->serial;
-  b->gid = piece->gid;
-  const PetscErrorCode failed = PartFacesCreate(comm, piece, &b->faces);
+  b->part = &part->serial;
+  b->gid = part->gid;
+  const PetscErrorCode failed = PartFacesCreate(comm, part, &b->faces);
   if (failed) PetscFunctionReturn(failed);
-  b->nnodes = piece->serial.nv + b->faces.local.nedge;
-  PetscCall(PetscMalloc2(piece->serial.ne, &b->order, piece->serial.ne, &b->number));
-  PetscCall(PetscMalloc3(piece->serial.nv, &b->vertex, b->nnodes, &b->foreign, b->nnodes, &b->p2gid));
-  for (int e = 0; e < piece->serial.ne; e++) b->order[e] = e;
-  if (!keep) PetscCall(MeshOrder(piece->serial.ne, b->faces.local.neighbor, b->order));
-  for (int e = 0; e < piece->serial.ne; e++) b->number[b->order[e]] = e;
+  b->nnodes = part->serial.nv + b->faces.local.nedge;
+  PetscCall(PetscMalloc2(part->serial.ne, &b->order, part->serial.ne, &b->number));
+  PetscCall(PetscMalloc3(part->serial.nv, &b->vertex, b->nnodes, &b->foreign, b->nnodes, &b->p2gid));
+  for (int e = 0; e < part->serial.ne; e++) b->order[e] = e;
+  if (!keep) PetscCall(MeshOrder(part->serial.ne, b->faces.local.neighbor, b->order));
+  for (int e = 0; e < part->serial.ne; e++) b->number[b->order[e]] = e;
   PetscFunctionReturn(0);
 }
 
@@ -190,30 +190,29 @@ static PetscErrorCode Fill(Build *b, Mesh *m)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode MeshBuildOrdered(MPI_Comm comm, const MeshPart *piece, PetscBool keep, int order[],
-                                Mesh **mesh)
+PetscErrorCode MeshBuildOrdered(MPI_Comm comm, const MeshPart *part, PetscBool keep, int order[], Mesh **mesh)
 {
   Build b;
   Mesh *m;
   PetscFunctionBeginUser;
-  const PetscErrorCode failed = BuildCreate(comm, piece, keep, &b);
+  const PetscErrorCode failed = BuildCreate(comm, part, keep, &b);
   if (failed) PetscFunctionReturn(failed);
   PetscCall(PetscNew(mesh));
   m = *mesh;
   m->comm = comm;
   m->dim = 2;
-  m->ne = piece->serial.ne;
+  m->ne = part->serial.ne;
   m->estart = (PetscInt)b.faces.start[b.faces.rank];
   m->nglobal = (PetscInt)b.faces.start[b.faces.size];
-  m->ntags = piece->serial.ntags;
+  m->ntags = part->serial.ntags;
   PetscCall(Fill(&b, m));
-  if (m->ntags) memcpy(m->tag_name, piece->serial.tag_name, (size_t)m->ntags * sizeof *m->tag_name);
+  if (m->ntags) memcpy(m->tag_name, part->serial.tag_name, (size_t)m->ntags * sizeof *m->tag_name);
   if (order) PetscCall(PetscArraycpy(order, b.order, m->ne));
   PetscCall(BuildDestroy(&b));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode MeshBuild(MPI_Comm comm, const MeshPart *piece, Mesh **mesh)
+PetscErrorCode MeshBuild(MPI_Comm comm, const MeshPart *part, Mesh **mesh)
 {
-  return MeshBuildOrdered(comm, piece, PETSC_FALSE, NULL, mesh);
+  return MeshBuildOrdered(comm, part, PETSC_FALSE, NULL, mesh);
 }

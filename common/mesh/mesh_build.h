@@ -4,10 +4,10 @@
 #include "common/mesh/mesh_impl.h"
 
 typedef struct {
-  const MeshSerial *piece; /* borrowed */
-  const long long *gid;    /* [piece->nv] borrowed */
+  const MeshSerial *part; /* borrowed */
+  const long long *gid;   /* [part->nv] borrowed */
   PartFaces faces;
-  int *order;      /* [ne] element of the piece that has this number in the Mesh */
+  int *order;      /* [ne] element of the part that has this number in the Mesh */
   int *number;     /* [ne] and the other way */
   int *vertex;     /* [nv] local vertex of the Mesh, -1 for one of no element */
   int nnodes;      /* P2 nodes: vertices, then edges */

@@ -18,7 +18,7 @@ static PetscErrorCode SaveNames(const Mesh *m, PetscMPIInt rank, Checkpoint to)
 
 PetscErrorCode MeshSave(const Mesh *m, Checkpoint to)
 {
-  const long long part = m->ne;
+  const long long count = m->ne;
   long long *vertex, *tag;
   double *corner;
   PetscMPIInt rank;
@@ -33,7 +33,7 @@ PetscErrorCode MeshSave(const Mesh *m, Checkpoint to)
   PetscCall(CheckpointPutDoubles(to, "mesh corners", m->ne, 6, corner));
   PetscCall(CheckpointPutIndices(to, "mesh vertices", m->ne, 3, vertex));
   PetscCall(CheckpointPutIndices(to, "mesh tags", m->ne, 3, tag));
-  PetscCall(CheckpointPutIndices(to, "mesh parts", 1, 1, &part));
+  PetscCall(CheckpointPutIndices(to, "mesh parts", 1, 1, &count));
   PetscCall(SaveNames(m, rank, to));
   PetscCall(PetscFree3(vertex, tag, corner));
   PetscFunctionReturn(0);
@@ -51,7 +51,7 @@ static void Slab(long long total, int size, int rank, long long *block, long lon
 /* This rank's rows: those that the same rank has saved, if there were as many, else a slab. */
 static PetscErrorCode OwnRows(MPI_Comm comm, Checkpoint from, PetscBool *same, long long *start, int *n)
 {
-  long long parts, total, block, *part;
+  long long parts, total, block, *count;
   PetscMPIInt rank, size;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
@@ -61,12 +61,12 @@ static PetscErrorCode OwnRows(MPI_Comm comm, Checkpoint from, PetscBool *same, l
   *same = (PetscBool)(parts == size);
   Slab(total, size, rank, &block, start, n);
   if (!*same) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc1(size, &part));
-  PetscCall(CheckpointGetIndices(from, "mesh parts", 0, size, 1, part));
+  PetscCall(PetscMalloc1(size, &count));
+  PetscCall(CheckpointGetIndices(from, "mesh parts", 0, size, 1, count));
   *start = 0;
-  for (int r = 0; r < rank; r++) *start += part[r];
-  *n = (int)part[rank];
-  PetscCall(PetscFree(part));
+  for (int r = 0; r < rank; r++) *start += count[r];
+  *n = (int)count[rank];
+  PetscCall(PetscFree(count));
   PetscFunctionReturn(0);
 }
 
@@ -85,14 +85,14 @@ static PetscErrorCode LoadNames(Checkpoint from, MeshSerial *s)
 }
 
 /* The triangles of n rows; the row is each one's region, which goes where it goes. */
-static PetscErrorCode LoadPiece(Checkpoint from, long long start, int n, MeshPart *piece)
+static PetscErrorCode LoadPart(Checkpoint from, long long start, int n, MeshPart *part)
 {
-  MeshSerial *s = &piece->serial;
+  MeshSerial *s = &part->serial;
   long long *vertex, *tag;
   double *corner;
   int *local_tag;
   PetscFunctionBeginUser;
-  memset(piece, 0, sizeof *piece);
+  memset(part, 0, sizeof *part);
   s->ne = n;
   s->nregions = 1;
   PetscCall(PetscMalloc4(3 * n, &vertex, 3 * n, &tag, 6 * n, &corner, 3 * n, &local_tag));
@@ -101,7 +101,7 @@ static PetscErrorCode LoadPiece(Checkpoint from, long long start, int n, MeshPar
   PetscCall(CheckpointGetIndices(from, "mesh tags", start, n, 3, tag));
   PetscCall(PetscMalloc1(n, &s->region));
   PetscCall(PetscMalloc1(3 * n, &s->vertex));
-  PetscCall(PartMerge(3 * n, vertex, s->vertex, piece));
+  PetscCall(PartMerge(3 * n, vertex, s->vertex, part));
   PetscCall(PetscMalloc1(2 * s->nv, &s->x));
   for (int e = 0; e < n; e++) s->region[e] = (int)start + e;
   for (int k = 0; k < 3 * n; k++) {
@@ -114,38 +114,53 @@ static PetscErrorCode LoadPiece(Checkpoint from, long long start, int n, MeshPar
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Repartition(MPI_Comm comm, MeshPart *piece)
+static PetscErrorCode Repartition(MPI_Comm comm, MeshPart *part)
 {
   MeshPart moved;
   PetscMPIInt size;
-  int *part;
+  int *target;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCall(PetscMalloc1(piece->serial.ne, &part));
-  PetscCall(MeshPartPartition(comm, piece, size, NULL, part));
-  PetscCall(MeshPartMigrate(comm, piece, part, 0, NULL, &moved, NULL));
-  PetscCall(PetscFree(part));
-  PetscCall(MeshPartDestroy(piece));
-  *piece = moved;
+  PetscCall(PetscMalloc1(part->serial.ne, &target));
+  PetscCall(MeshPartPartition(comm, part, size, NULL, target));
+  PetscCall(MeshPartMigrate(comm, part, target, 0, NULL, &moved, NULL));
+  PetscCall(PetscFree(target));
+  PetscCall(MeshPartDestroy(part));
+  *part = moved;
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode MeshLoad(MPI_Comm comm, Checkpoint from, Mesh **mesh, PetscInt **row)
 {
-  MeshPart piece;
+  MeshPart part;
   PetscBool same = PETSC_FALSE;
   long long start = 0;
   int n = 0, *order;
   PetscFunctionBeginUser;
   PetscCall(OwnRows(comm, from, &same, &start, &n));
-  PetscCall(LoadPiece(from, start, n, &piece));
-  if (!same) PetscCall(Repartition(comm, &piece));
-  PetscCall(PetscMalloc1(piece.serial.ne, &order));
-  PetscCall(PetscMalloc1(piece.serial.ne, row));
-  PetscCall(MeshBuildOrdered(comm, &piece, same, order, mesh));
-  for (int e = 0; e < piece.serial.ne; e++) (*row)[e] = piece.serial.region[order[e]];
+  PetscCall(LoadPart(from, start, n, &part));
+  if (!same) PetscCall(Repartition(comm, &part));
+  PetscCall(PetscMalloc1(part.serial.ne, &order));
+  PetscCall(PetscMalloc1(part.serial.ne, row));
+  PetscCall(MeshBuildOrdered(comm, &part, same, order, mesh));
+  for (int e = 0; e < part.serial.ne; e++) (*row)[e] = part.serial.region[order[e]];
   PetscCall(PetscFree(order));
-  PetscCall(MeshPartDestroy(&piece));
+  PetscCall(MeshPartDestroy(&part));
+  PetscFunctionReturn(0);
+}
+
+/* What a rank has read for the others to ask for. */
+typedef struct {
+  long long start;
+  size_t bytes; /* a row */
+  const double *row;
+} RowSlab;
+
+static PetscErrorCode GetRow(void *context, long long row, void *value)
+{
+  const RowSlab *s = context;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMemcpy(value, (const char *)s->row + s->bytes * (size_t)(row - s->start), s->bytes));
   PetscFunctionReturn(0);
 }
 
@@ -153,31 +168,23 @@ PetscErrorCode MeshLoad(MPI_Comm comm, Checkpoint from, Mesh **mesh, PetscInt **
 PetscErrorCode MeshLoadDoubles(const Mesh *m, const PetscInt row[], Checkpoint from, const char *name,
                                int ncol, double value[])
 {
-  const size_t bytes = (size_t)ncol * sizeof *value;
-  long long block, start;
-  int n, *to, *slot;
-  PetscInt *wanted, *asked;
-  double *slab, *answer, *back;
-  MeshRoute route;
+  RowSlab slab = {.bytes = (size_t)ncol * sizeof *value};
+  long long block, *wanted;
+  int n, *of;
+  double *rows;
   PetscMPIInt rank, size;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(m->comm, &rank));
   PetscCallMPI(MPI_Comm_size(m->comm, &size));
-  Slab(m->nglobal, size, rank, &block, &start, &n);
-  PetscCall(PetscMalloc5(m->ne, &to, m->ne, &slot, m->ne, &wanted, ncol * n, &slab, ncol * m->ne, &back));
-  PetscCall(CheckpointGetDoubles(from, name, start, n, ncol, slab));
-  for (int e = 0; e < m->ne; e++) to[e] = (int)(row[e] / block);
-  PetscCall(MeshRouteCreate(m->comm, m->ne, to, slot, &route));
-  for (int e = 0; e < m->ne; e++) wanted[slot[e]] = row[e];
-  const int nasked = route.in_start[size];
-  PetscCall(PetscMalloc2(nasked, &asked, ncol * nasked, &answer));
-  PetscCall(MeshRouteSend(&route, sizeof *asked, wanted, asked));
-  for (int k = 0; k < nasked; k++)
-    PetscCall(PetscArraycpy(answer + ncol * k, slab + ncol * (asked[k] - start), ncol));
-  PetscCall(MeshRouteReply(&route, bytes, answer, back));
-  for (int e = 0; e < m->ne; e++) PetscCall(PetscArraycpy(value + ncol * e, back + ncol * slot[e], ncol));
-  PetscCall(PetscFree2(asked, answer));
-  PetscCall(PetscFree5(to, slot, wanted, slab, back));
-  PetscCall(MeshRouteDestroy(&route));
+  Slab(m->nglobal, size, rank, &block, &slab.start, &n);
+  PetscCall(PetscMalloc3(m->ne, &of, m->ne, &wanted, ncol * n, &rows));
+  PetscCall(CheckpointGetDoubles(from, name, slab.start, n, ncol, rows));
+  slab.row = rows;
+  for (int e = 0; e < m->ne; e++) {
+    of[e] = (int)(row[e] / block);
+    wanted[e] = row[e];
+  }
+  PetscCall(ScatterRequest(m->comm, m->ne, of, wanted, slab.bytes, GetRow, &slab, value));
+  PetscCall(PetscFree3(of, wanted, rows));
   PetscFunctionReturn(0);
 }

@@ -1,12 +1,12 @@
 #include "common/mesh/part.h"
 
 /* Rank 0 has all triangles, the others none. */
-static PetscErrorCode Whole(const MeshSerial *serial, MeshPart *piece)
+static PetscErrorCode Whole(const MeshSerial *serial, MeshPart *part)
 {
   PetscFunctionBeginUser;
-  piece->serial = *serial; /* borrowed */
-  PetscCall(PetscMalloc1(serial->nv, &piece->gid));
-  for (int v = 0; v < serial->nv; v++) piece->gid[v] = v;
+  part->serial = *serial; /* borrowed */
+  PetscCall(PetscMalloc1(serial->nv, &part->gid));
+  for (int v = 0; v < serial->nv; v++) part->gid[v] = v;
   PetscFunctionReturn(0);
 }
 
@@ -14,16 +14,16 @@ static PetscErrorCode HandOut(MPI_Comm comm, int size, const MeshPart *whole, Me
 {
   MeshPart own;
   PetscErrorCode failed;
-  int *part;
+  int *target;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(whole->serial.ne, &part));
-  failed = MeshPartPartition(comm, whole, size, NULL, part);
+  PetscCall(PetscMalloc1(whole->serial.ne, &target));
+  failed = MeshPartPartition(comm, whole, size, NULL, target);
   if (!failed) {
-    PetscCall(MeshPartMigrate(comm, whole, part, 0, NULL, &own, NULL));
+    PetscCall(MeshPartMigrate(comm, whole, target, 0, NULL, &own, NULL));
     failed = MeshBuild(comm, &own, mesh);
     PetscCall(MeshPartDestroy(&own));
   }
-  PetscCall(PetscFree(part));
+  PetscCall(PetscFree(target));
   PetscFunctionReturn(failed);
 }
 

@@ -9,16 +9,16 @@ static int ByNumber(const void *p, const void *q)
   return (a->face > b->face) - (a->face < b->face);
 }
 
-/* What this rank tells about its element at open face k; the target is numbered as the receiver's piece. */
+/* What this rank tells about its element at open face k; the target is numbered as the receiver's part. */
 static Ghost Tell(const Build *b, const Mesh *m, int k)
 {
   const PartFaces *f = &b->faces;
-  const int ef = f->open[k], v = b->piece->vertex[ef];
+  const int ef = f->open[k], v = b->part->vertex[ef];
   Ghost g = {.target = f->across[k] - 3 * f->start[f->across_rank[k]],
              .egid = m->estart + b->number[ef / 3],
              .gid = b->gid[v],
              .face = ef % 3};
-  memcpy(g.x, &b->piece->x[2 * v], sizeof g.x);
+  memcpy(g.x, &b->part->x[2 * v], sizeof g.x);
   return g;
 }
 
@@ -35,23 +35,22 @@ static void Number(Ghosts *g, Mesh *m)
 PetscErrorCode GhostsCreate(const Build *b, Mesh *m, Ghosts *g)
 {
   const PartFaces *f = &b->faces;
-  int *to, *slot, n = 0;
-  MeshRoute route;
-  Ghost *told, *out;
+  int *to, n = 0;
+  Scatter scatter;
+  Ghost *told;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc4(f->nopen, &to, f->nopen, &slot, f->nopen, &told, f->nopen, &out));
+  PetscCall(PetscMalloc2(f->nopen, &to, f->nopen, &told));
   for (int k = 0; k < f->nopen; k++) {
     if (f->across[k] < 0) continue;
     to[n] = f->across_rank[k];
     told[n++] = Tell(b, m, k);
   }
-  PetscCall(MeshRouteCreate(m->comm, n, to, slot, &route));
-  for (int k = 0; k < n; k++) out[slot[k]] = told[k];
-  g->n = route.in_start[route.size];
+  PetscCall(ScatterCreate(m->comm, n, to, NULL, &scatter));
+  g->n = ScatterArriving(scatter);
   PetscCall(PetscMalloc1(g->n, &g->ghost));
-  PetscCall(MeshRouteSend(&route, sizeof *out, out, g->ghost));
-  PetscCall(MeshRouteDestroy(&route));
-  PetscCall(PetscFree4(to, slot, told, out));
+  PetscCall(ScatterForward(scatter, sizeof *told, told, g->ghost));
+  PetscCall(ScatterDestroy(&scatter));
+  PetscCall(PetscFree2(to, told));
   if (g->n) qsort(g->ghost, (size_t)g->n, sizeof *g->ghost, ByNumber);
   Number(g, m);
   PetscFunctionReturn(0);
@@ -90,10 +89,11 @@ static void Attach(const Build *b, const Ghost *g, MeshTable *vertices, Mesh *m)
 PetscErrorCode GhostsFill(const Build *b, const Ghosts *g, Mesh *m)
 {
   const PartFaces *f = &b->faces;
-  MeshTable vertices; /* an owned vertex of a ghost lies on the rim */
+  MeshTable vertices; /* an owned vertex of a ghost is open */
   PetscFunctionBeginUser;
-  PetscCall(MeshTableCreate(&vertices, (size_t)(f->nrim + g->n)));
-  for (int k = 0; k < f->nrim; k++) *Find(&vertices, b->gid[f->rim[k]]) = b->vertex[f->rim[k]];
+  PetscCall(MeshTableCreate(&vertices, (size_t)(f->nopen_vertices + g->n)));
+  for (int k = 0; k < f->nopen_vertices; k++)
+    *Find(&vertices, b->gid[f->open_vertex[k]]) = b->vertex[f->open_vertex[k]];
   for (int k = 0; k < g->n; k++) Attach(b, &g->ghost[k], &vertices, m);
   PetscCall(MeshTableDestroy(&vertices));
   PetscFunctionReturn(0);

@@ -1,21 +1,21 @@
-/* Private to the mesh room: what makes a piece; its faces, here and to other ranks; the order of its
+/* Private to the mesh room: what makes a part; its faces, here and to other ranks; the order of its
  * elements. */
 #ifndef CORACLE_MESH_IMPL_H
 #define CORACLE_MESH_IMPL_H
-#include "common/mesh/mesh_route.h"
+#include "common/exchange/copies.h"
 #include "common/mesh/part.h"
 
-/* Parts of a piece that a list of triangles makes.  Not collective. */
+/* Fields of a part that a list of triangles makes.  Not collective. */
 
 /* Joins vertices that were listed more than once: local[n] is what those of gid[n] became, as they are met.
  * Sets gid and serial.nv. */
-PetscErrorCode PartMerge(int n, const long long gid[], int local[], MeshPart *piece);
+PetscErrorCode PartMerge(int n, const long long gid[], int local[], MeshPart *part);
 /* The facets: faces with a name, tag[ne][3], else -1. */
 PetscErrorCode PartFacets(const int tag[], MeshSerial *serial);
 
-/* Collective.  MeshBuild; order[ne], or NULL, says which triangle of the piece each element was.  keep: the
- * one of the same number, so that the piece of a Mesh gives the same Mesh again, to the last bit. */
-PetscErrorCode MeshBuildOrdered(MPI_Comm comm, const MeshPart *piece, PetscBool keep, int order[],
+/* Collective.  MeshBuild; order[ne], or NULL, says which triangle of the part each element was.  keep: the
+ * one of the same number, so that the part of a Mesh gives the same Mesh again, to the last bit. */
+PetscErrorCode MeshBuildOrdered(MPI_Comm comm, const MeshPart *part, PetscBool keep, int order[],
                                 Mesh **mesh);
 
 /* Faces of a MeshSerial; arrays are [ne][3], face i opposite to vertex i. */
@@ -40,24 +40,32 @@ static inline void MeshFaceEnds(const MeshSerial *s, int ef, int *a, int *b)
   *b = v[(ef + 2) % 3];
 }
 
-/* Faces of all pieces.  An open face has no neighbour on this rank; the rim is the vertices of open faces.  A
- * closed face between two vertices of the rim must not be another rank's open one. */
+/* What those that hold a thing have said of it. */
+typedef struct {
+  long long lowest, highest, count;
+} RendezvousReply;
+
+/* Collective: all copies of a thing say a value. */
+PetscErrorCode MeshRendezvous(Copies copies, int n, const long long value[], RendezvousReply reply[]);
+
+/* Faces of all parts.  An open face has no neighbour on this rank; an open vertex is one of an open face.  A
+ * closed face between two open vertices must not be another rank's open one. */
 typedef struct {
   MeshFaces local;
   int size, rank;
   long long *start; /* [size + 1] element e of rank r has the number start[r] + e */
-  int nopen, nrim, nclosed;
-  int *open;           /* [nopen] ascending, 3 element + face */
-  long long *across;   /* [nopen] 3 element + face of the one that another rank has, -1 on the boundary */
-  int *across_rank;    /* [nopen] and that rank, -1 */
-  int *closed;         /* [nclosed] */
-  int *rim;            /* [nrim] ascending */
-  MeshMet *owners;     /* [nrim] the ranks that have the vertex */
-  MeshRendezvous meet; /* of the open faces, then the rim, then the closed faces */
+  int nopen, nopen_vertices, nclosed;
+  int *open;               /* [nopen] ascending, 3 element + face */
+  long long *across;       /* [nopen] 3 element + face of the one that another rank has, -1 on the boundary */
+  int *across_rank;        /* [nopen] and that rank, -1 */
+  int *closed;             /* [nclosed] */
+  int *open_vertex;        /* [nopen_vertices] ascending */
+  RendezvousReply *owners; /* [nopen_vertices] the ranks that have the vertex */
+  Copies copies;           /* of the open faces, then open vertices, then the closed faces */
 } PartFaces;
 
 /* Collective.  Errors: those of MeshBuild. */
-PetscErrorCode PartFacesCreate(MPI_Comm comm, const MeshPart *piece, PartFaces *faces);
+PetscErrorCode PartFacesCreate(MPI_Comm comm, const MeshPart *part, PartFaces *faces);
 PetscErrorCode PartFacesDestroy(PartFaces *faces);
 
 /* Reverse Cuthill-McKee order of elements (George and Liu, 1981): order[ne] lists them, neighbours close to

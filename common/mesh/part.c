@@ -2,25 +2,25 @@
 #include "common/mesh/mesh_table.h"
 #include <string.h>
 
-PetscErrorCode MeshPartDestroy(MeshPart *piece)
+PetscErrorCode MeshPartDestroy(MeshPart *part)
 {
   PetscFunctionBeginUser;
-  PetscCall(MeshSerialDestroy(&piece->serial));
-  PetscCall(PetscFree(piece->gid));
+  PetscCall(MeshSerialDestroy(&part->serial));
+  PetscCall(PetscFree(part->gid));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PartMerge(int n, const long long gid[], int local[], MeshPart *piece)
+PetscErrorCode PartMerge(int n, const long long gid[], int local[], MeshPart *part)
 {
   MeshTable table;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(n, &piece->gid));
+  PetscCall(PetscMalloc1(n, &part->gid));
   PetscCall(MeshTableCreate(&table, (size_t)n));
   for (int k = 0; k < n; k++) {
     int *v = MeshTableAt(&table, (int)(gid[k] >> 32), (int)gid[k]);
     if (*v < 0) {
-      piece->gid[piece->serial.nv] = gid[k];
-      *v = piece->serial.nv++;
+      part->gid[part->serial.nv] = gid[k];
+      *v = part->serial.nv++;
     }
     local[k] = *v;
   }
@@ -42,25 +42,25 @@ PetscErrorCode PartFacets(const int tag[], MeshSerial *s)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode CopyVertices(const Mesh *m, MeshPart *piece)
+static PetscErrorCode CopyVertices(const Mesh *m, MeshPart *part)
 {
-  MeshSerial *s = &piece->serial;
+  MeshSerial *s = &part->serial;
   PetscFunctionBeginUser;
   for (int k = 0; k < 3 * m->ne; k++) s->nv = PetscMax(s->nv, m->vertex[k] + 1);
   PetscCall(PetscMalloc1(2 * s->nv, &s->x));
-  PetscCall(PetscMalloc1(s->nv, &piece->gid));
+  PetscCall(PetscMalloc1(s->nv, &part->gid));
   PetscCall(PetscArraycpy(s->x, m->x, 2 * s->nv));
-  for (int k = 0; k < 3 * m->ne; k++) piece->gid[m->vertex[k]] = m->p2gid[m->p2[6 * (k / 3) + k % 3]];
+  for (int k = 0; k < 3 * m->ne; k++) part->gid[m->vertex[k]] = m->p2gid[m->p2[6 * (k / 3) + k % 3]];
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode MeshPartOf(const Mesh *m, MeshPart *piece)
+PetscErrorCode MeshPartOf(const Mesh *m, MeshPart *part)
 {
-  MeshSerial *s = &piece->serial;
+  MeshSerial *s = &part->serial;
   PetscFunctionBeginUser;
-  memset(piece, 0, sizeof *piece);
+  memset(part, 0, sizeof *part);
   s->ne = m->ne;
-  PetscCall(CopyVertices(m, piece));
+  PetscCall(CopyVertices(m, part));
   PetscCall(PetscMalloc1(3 * m->ne, &s->vertex));
   PetscCall(PetscArraycpy(s->vertex, m->vertex, 3 * m->ne));
   PetscCall(PartFacets(m->tag, s));

@@ -1,118 +1,120 @@
 #include "common/mesh/mesh_impl.h"
 #include <string.h>
 
-/* A triangle on its way: corners by their place among the vertices that the same rank sends to the same rank.
- */
+/* A triangle in a message: corners by their place among the vertices that the same rank sends to the same
+ * one. */
 typedef struct {
   int vertex[3], tag[3], region;
-} Parcel;
+} Buffer;
 
 /* What leaves here, in the order of the ranks that it goes to. */
 typedef struct {
-  MeshRoute elements, vertices;
-  Parcel *parcel; /* [elements.out_start[size]] */
-  int *vertex;    /* [vertices.out_start[size]] of the piece; one may go to several ranks */
-} Cargo;
+  Scatter elements, vertices;
+  Buffer *element; /* of those that leave */
+  int *vertex;     /* of the part; one may go to several ranks */
+  int nvertex;
+} Migration;
 
-/* Packs the parcels and lists the vertices that go with them; *nv of these, to ranks to[]. */
-static PetscErrorCode Pack(const MeshPart *piece, const MeshFaces *faces, const int leaving[], Cargo *c,
-                           int to[], int *nv)
+/* Packs the triangles and lists the vertices that go with them, to ranks to[]. */
+static PetscErrorCode Pack(const MeshPart *part, const MeshFaces *faces, Migration *c, int to[])
 {
-  const MeshSerial *s = &piece->serial;
+  const MeshSerial *s = &part->serial;
+  const ScatterRanks *targets;
+  const int *leaving;
   int *place, begin = 0;
   PetscFunctionBeginUser;
+  PetscCall(ScatterGetLeaving(c->elements, &targets, &leaving));
   PetscCall(PetscMalloc1(s->nv, &place)); /* in the list; before `begin`: not for this rank */
   for (int v = 0; v < s->nv; v++) place[v] = -1;
-  *nv = 0;
-  for (int r = 0; r < c->elements.size; r++) {
-    for (int k = c->elements.out_start[r]; k < c->elements.out_start[r + 1]; k++) {
+  c->nvertex = 0;
+  for (int j = 0; j < targets->n; j++) {
+    for (int k = targets->start[j]; k < targets->start[j + 1]; k++) {
       const int e = leaving[k];
       for (int i = 0; i < 3; i++) {
         const int v = s->vertex[3 * e + i];
         if (place[v] < begin) {
-          place[v] = *nv;
-          to[*nv] = r;
-          c->vertex[(*nv)++] = v;
+          place[v] = c->nvertex;
+          to[c->nvertex] = targets->rank[j];
+          c->vertex[c->nvertex++] = v;
         }
-        c->parcel[k].vertex[i] = place[v] - begin;
-        c->parcel[k].tag[i] = faces->tag[3 * e + i];
+        c->element[e].vertex[i] = place[v] - begin;
+        c->element[e].tag[i] = faces->tag[3 * e + i];
       }
-      c->parcel[k].region = s->region ? s->region[e] : 0;
+      c->element[e].region = s->region ? s->region[e] : 0;
     }
-    begin = *nv;
+    begin = c->nvertex;
   }
   PetscCall(PetscFree(place));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode CargoCreate(MPI_Comm comm, const MeshPart *piece, const MeshFaces *faces,
-                                  const int part[], Cargo *c)
+static PetscErrorCode MigrationCreate(MPI_Comm comm, const MeshPart *part, const MeshFaces *faces,
+                                      const int rank[], Migration *c)
 {
-  const int ne = piece->serial.ne;
-  int *slot, *leaving, *to, nv = 0;
+  const int ne = part->serial.ne;
+  int *to;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc3(ne, &slot, ne, &leaving, 3 * ne, &to));
-  PetscCall(PetscMalloc2(ne, &c->parcel, 3 * ne, &c->vertex));
-  PetscCall(MeshRouteCreate(comm, ne, part, slot, &c->elements));
-  for (int e = 0; e < ne; e++) leaving[slot[e]] = e;
-  PetscCall(Pack(piece, faces, leaving, c, to, &nv));
-  PetscCall(MeshRouteCreate(comm, nv, to, NULL, &c->vertices));
-  PetscCall(PetscFree3(slot, leaving, to));
+  PetscCall(PetscMalloc1(3 * ne, &to));
+  PetscCall(PetscMalloc2(ne, &c->element, 3 * ne, &c->vertex));
+  PetscCall(ScatterCreate(comm, ne, rank, NULL, &c->elements));
+  PetscCall(Pack(part, faces, c, to));
+  PetscCall(ScatterCreate(comm, c->nvertex, to, c->vertex, &c->vertices));
+  PetscCall(PetscFree(to));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode CargoDestroy(Cargo *c)
+static PetscErrorCode MigrationDestroy(Migration *c)
 {
   PetscFunctionBeginUser;
-  PetscCall(MeshRouteDestroy(&c->elements));
-  PetscCall(MeshRouteDestroy(&c->vertices));
-  PetscCall(PetscFree2(c->parcel, c->vertex));
+  PetscCall(ScatterDestroy(&c->elements));
+  PetscCall(ScatterDestroy(&c->vertices));
+  PetscCall(PetscFree2(c->element, c->vertex));
   PetscFunctionReturn(0);
 }
 
-/* Vertices travel as a gid and as `ncomp` numbers, of which the first two are the coordinates. */
-static PetscErrorCode ReceiveVertices(const MeshPart *from, const Cargo *c, int ncomp, const double data[],
-                                      int local[], MeshPart *to, double **to_data)
+/* Vertices migrate as a gid and as `ncomp` numbers, of which the first two are the coordinates. */
+static PetscErrorCode ReceiveVertices(const MeshPart *from, const Migration *c, int ncomp,
+                                      const double data[], int local[], MeshPart *to, double **to_data)
 {
-  const MeshRoute *route = &c->vertices;
-  const int n = route->out_start[route->size], m = route->in_start[route->size], w = 2 + ncomp;
-  long long *gid, *gid_in;
+  const int nv = from->serial.nv, m = ScatterArriving(c->vertices), w = 2 + ncomp;
+  long long *gid;
   double *value, *in;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc4(n, &gid, m, &gid_in, w * n, &value, w * m, &in));
-  for (int k = 0; k < n; k++) {
-    gid[k] = from->gid[c->vertex[k]];
-    for (int d = 0; d < 2; d++) value[w * k + d] = from->serial.x[2 * c->vertex[k] + d];
-    for (int d = 0; d < ncomp; d++) value[w * k + 2 + d] = data[ncomp * c->vertex[k] + d];
+  PetscCall(PetscMalloc3(m, &gid, w * nv, &value, w * m, &in));
+  for (int v = 0; v < nv; v++) {
+    for (int d = 0; d < 2; d++) value[w * v + d] = from->serial.x[2 * v + d];
+    for (int d = 0; d < ncomp; d++) value[w * v + 2 + d] = data[ncomp * v + d];
   }
-  PetscCall(MeshRouteSend(route, sizeof *gid, gid, gid_in));
-  PetscCall(MeshRouteSend(route, (size_t)w * sizeof *in, value, in));
-  PetscCall(PartMerge(m, gid_in, local, to));
+  PetscCall(ScatterForward(c->vertices, sizeof *gid, from->gid, gid));
+  PetscCall(ScatterForward(c->vertices, (size_t)w * sizeof *in, value, in));
+  PetscCall(PartMerge(m, gid, local, to));
   PetscCall(PetscMalloc1(2 * to->serial.nv, &to->serial.x));
   if (ncomp) PetscCall(PetscMalloc1(ncomp * to->serial.nv, to_data));
   for (int k = 0; k < m; k++) {
     for (int d = 0; d < 2; d++) to->serial.x[2 * local[k] + d] = in[w * k + d];
     for (int d = 0; d < ncomp; d++) (*to_data)[ncomp * local[k] + d] = in[w * k + 2 + d];
   }
-  PetscCall(PetscFree4(gid, gid_in, value, in));
+  PetscCall(PetscFree3(gid, value, in));
   PetscFunctionReturn(0);
 }
 
-/* local[k] is the vertex that the k-th arrival became. */
-static PetscErrorCode ReceiveElements(const Cargo *c, const int local[], MeshSerial *s)
+/* local[k] is the vertex that the k-th arrival became.  Who sends triangles sends vertices too. */
+static PetscErrorCode ReceiveElements(const Migration *c, const int local[], MeshSerial *s)
 {
-  const MeshRoute *route = &c->elements;
-  Parcel *in;
+  const ScatterRanks *elements, *vertices;
+  Buffer *in;
   int *tag;
   PetscFunctionBeginUser;
-  s->ne = route->in_start[route->size];
+  PetscCall(ScatterGetSources(c->elements, &elements));
+  PetscCall(ScatterGetSources(c->vertices, &vertices));
+  s->ne = ScatterArriving(c->elements);
   PetscCall(PetscMalloc2(s->ne, &in, 3 * s->ne, &tag));
-  PetscCall(MeshRouteSend(route, sizeof *in, c->parcel, in));
+  PetscCall(ScatterForward(c->elements, sizeof *in, c->element, in));
   PetscCall(PetscMalloc1(3 * s->ne, &s->vertex));
   if (s->nregions) PetscCall(PetscMalloc1(s->ne, &s->region));
-  for (int r = 0; r < route->size; r++) {
-    const int *vertex = &local[c->vertices.in_start[r]];
-    for (int e = route->in_start[r]; e < route->in_start[r + 1]; e++) {
+  for (int j = 0; j < elements->n; j++) {
+    const int *vertex = &local[vertices->start[j]];
+    for (int e = elements->start[j]; e < elements->start[j + 1]; e++) {
       for (int i = 0; i < 3; i++) {
         s->vertex[3 * e + i] = vertex[in[e].vertex[i]];
         tag[3 * e + i] = in[e].tag[i];
@@ -148,23 +150,23 @@ static PetscErrorCode ShareNames(MPI_Comm comm, const MeshSerial *from, MeshSeri
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode MeshPartMigrate(MPI_Comm comm, const MeshPart *piece, const int part[], int ncomp,
+PetscErrorCode MeshPartMigrate(MPI_Comm comm, const MeshPart *part, const int target[], int ncomp,
                                const double data[], MeshPart *moved, double **moved_data)
 {
   MeshFaces faces;
-  Cargo cargo;
+  Migration migration;
   int *local;
   PetscFunctionBeginUser;
   memset(moved, 0, sizeof *moved);
-  PetscErrorCode failed = CollectiveError(comm, MeshFacesCreate(&piece->serial, &faces));
+  PetscErrorCode failed = CollectiveError(comm, MeshFacesCreate(&part->serial, &faces));
   if (!failed) {
-    PetscCall(ShareNames(comm, &piece->serial, &moved->serial));
-    PetscCall(CargoCreate(comm, piece, &faces, part, &cargo));
-    PetscCall(PetscMalloc1(cargo.vertices.in_start[cargo.vertices.size], &local));
-    PetscCall(ReceiveVertices(piece, &cargo, ncomp, data, local, moved, moved_data));
-    PetscCall(ReceiveElements(&cargo, local, &moved->serial));
+    PetscCall(ShareNames(comm, &part->serial, &moved->serial));
+    PetscCall(MigrationCreate(comm, part, &faces, target, &migration));
+    PetscCall(PetscMalloc1(ScatterArriving(migration.vertices), &local));
+    PetscCall(ReceiveVertices(part, &migration, ncomp, data, local, moved, moved_data));
+    PetscCall(ReceiveElements(&migration, local, &moved->serial));
     PetscCall(PetscFree(local));
-    PetscCall(CargoDestroy(&cargo));
+    PetscCall(MigrationDestroy(&migration));
   }
   PetscCall(MeshFacesDestroy(&faces));
   PetscFunctionReturn(failed);

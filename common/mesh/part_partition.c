@@ -9,7 +9,7 @@ typedef struct {
   int *weight;        /* [n][3] or NULL */
 } Graph;
 
-/* The number of what lies beyond each face of this piece. */
+/* The number of what lies beyond each face of this part. */
 static void Across(const MeshSerial *s, const PartFaces *f, long long across[])
 {
   const long long base = 3 * f->start[f->rank];
@@ -20,20 +20,20 @@ static void Across(const MeshSerial *s, const PartFaces *f, long long across[])
   for (int k = 0; k < f->nopen; k++) across[f->open[k]] = f->across[k];
 }
 
-static PetscErrorCode GraphGather(MPI_Comm comm, const MeshPart *piece, const int weight[], Graph *g)
+static PetscErrorCode GraphGather(MPI_Comm comm, const MeshPart *part, const int weight[], Graph *g)
 {
-  const int n = 3 * piece->serial.ne;
+  const int n = 3 * part->serial.ne;
   long long *across;
   PartFaces f;
   PetscFunctionBeginUser;
-  const PetscErrorCode failed = PartFacesCreate(comm, piece, &f);
+  const PetscErrorCode failed = PartFacesCreate(comm, part, &f);
   if (failed) PetscFunctionReturn(failed);
   g->n = f.rank ? 0 : (int)f.start[f.size];
   PetscCall(PetscMalloc2(f.size, &g->count, f.size + 1, &g->start));
   for (int r = 0; r <= f.size; r++) g->start[r] = (int)(3 * f.start[r]);
   for (int r = 0; r < f.size; r++) g->count[r] = g->start[r + 1] - g->start[r];
   PetscCall(PetscMalloc1(n, &across));
-  Across(&piece->serial, &f, across);
+  Across(&part->serial, &f, across);
   PetscCall(PetscMalloc1(3 * g->n, &g->across));
   PetscCallMPI(MPI_Gatherv(across, n, MPI_LONG_LONG, g->across, g->count, g->start, MPI_LONG_LONG, 0, comm));
   PetscCall(PetscFree(across));
@@ -69,7 +69,7 @@ static void Compress(const Graph *g, idx_t first[], idx_t list[], idx_t weight[]
   }
 }
 
-static PetscErrorCode Metis(const Graph *g, idx_t nparts, int part[])
+static PetscErrorCode Metis(const Graph *g, idx_t nparts, int target[])
 {
   idx_t n = g->n, ncon = 1, cut, options[METIS_NOPTIONS], *first, *list, *weight, *metis_part;
   PetscFunctionBeginUser;
@@ -80,7 +80,7 @@ static PetscErrorCode Metis(const Graph *g, idx_t nparts, int part[])
   const int status = (nparts <= 8 ? METIS_PartGraphRecursive : METIS_PartGraphKway)(
       &n, &ncon, first, list, NULL, NULL, g->weight ? weight : NULL, &nparts, NULL, NULL, options, &cut,
       metis_part);
-  for (int e = 0; e < g->n && status == METIS_OK; e++) part[e] = (int)metis_part[e];
+  for (int e = 0; e < g->n && status == METIS_OK; e++) target[e] = (int)metis_part[e];
   PetscCall(PetscFree4(first, list, weight, metis_part));
   PetscCheck(status == METIS_OK, PETSC_COMM_SELF, PETSC_ERR_LIB,
              "METIS could not cut %d elements in %d parts: status %d", g->n, (int)nparts, status);
@@ -88,31 +88,31 @@ static PetscErrorCode Metis(const Graph *g, idx_t nparts, int part[])
 }
 
 /* Few elements are dealt out one by one, as METIS may fail on graphs smaller than the number of parts. */
-static PetscErrorCode Cut(const Graph *g, int nparts, int part[])
+static PetscErrorCode Cut(const Graph *g, int nparts, int target[])
 {
   PetscFunctionBeginUser;
   if (g->n > 2 * nparts && nparts > 1) {
-    PetscCall(Metis(g, nparts, part));
+    PetscCall(Metis(g, nparts, target));
   } else {
-    for (int e = 0; e < g->n; e++) part[e] = e % nparts;
+    for (int e = 0; e < g->n; e++) target[e] = e % nparts;
   }
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode MeshPartPartition(MPI_Comm comm, const MeshPart *piece, int nparts, const int weight[],
-                                 int part[])
+PetscErrorCode MeshPartPartition(MPI_Comm comm, const MeshPart *part, int nparts, const int weight[],
+                                 int target[])
 {
-  const int ne = piece->serial.ne;
+  const int ne = part->serial.ne;
   int size, *all;
   Graph g;
   PetscFunctionBeginUser;
-  PetscErrorCode failed = GraphGather(comm, piece, weight, &g);
+  PetscErrorCode failed = GraphGather(comm, part, weight, &g);
   if (failed) PetscFunctionReturn(failed);
   PetscCallMPI(MPI_Comm_size(comm, &size));
   PetscCall(PetscMalloc1(g.n, &all));
   failed = CollectiveError(comm, Cut(&g, nparts, all));
   for (int r = 0; r < size; r++) g.count[r] /= 3, g.start[r] /= 3;
-  if (!failed) PetscCallMPI(MPI_Scatterv(all, g.count, g.start, MPI_INT, part, ne, MPI_INT, 0, comm));
+  if (!failed) PetscCallMPI(MPI_Scatterv(all, g.count, g.start, MPI_INT, target, ne, MPI_INT, 0, comm));
   PetscCall(PetscFree(all));
   PetscCall(GraphDestroy(&g));
   PetscFunctionReturn(failed);

@@ -31,10 +31,10 @@ PetscErrorCode TransferCreate(const Mesh *from, const Mesh *to, Transfer *transf
   t->to = to;
   PetscCall(CheckDomain(t));
   PetscCall(TransferMatch(t, &old));
-  PetscCall(TransferTravel(t, &old));
+  PetscCall(TransferMigrate(t, &old));
   PetscCall(TransferElementsDestroy(&old));
   PetscCheck(!ProjectionCreate(t->changed.n, (const double(*)[3][2])t->changed.x, t->search,
-                               (const double(*)[3][2])t->piece, &t->projection),
+                               (const double(*)[3][2])t->moved, &t->projection),
              PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory for the supermesh of %d elements", t->changed.n);
   PetscCall(TransferNodesCreate(t));
   *transfer = t;
@@ -44,12 +44,12 @@ PetscErrorCode TransferCreate(const Mesh *from, const Mesh *to, Transfer *transf
 PetscErrorCode TransferP1DG(Transfer t, int ncomp, const double source[], double target[])
 {
   const size_t n = 3 * (size_t)ncomp;
-  double *copy, *piece;
+  double *copy, *moved;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(n * (size_t)t->ncopies, &copy));
-  PetscCall(PetscMalloc1(n * (size_t)t->npieces, &piece));
-  PetscCall(ScatterForward(t->copy_route, n * sizeof *source, source, copy));
-  PetscCall(ScatterForward(t->piece_route, n * sizeof *source, source, piece));
+  PetscCall(PetscMalloc1(n * (size_t)t->nmoved, &moved));
+  PetscCall(ScatterForward(t->copy_scatter, n * sizeof *source, source, copy));
+  PetscCall(ScatterForward(t->moved_scatter, n * sizeof *source, source, moved));
   for (int k = 0; k < t->ncopies; k++) {
     const double *from = copy + n * (size_t)k;
     double *to = target + n * (size_t)t->copy[k].target;
@@ -57,15 +57,15 @@ PetscErrorCode TransferP1DG(Transfer t, int ncomp, const double source[], double
       for (int i = 0; i < 3; i++) to[3 * c + i] = from[3 * c + (i + t->copy[k].turn) % 3];
     }
   }
-  ProjectionApply(t->projection, ncomp, piece, t->changed.element, target);
+  ProjectionApply(t->projection, ncomp, moved, t->changed.element, target);
   PetscCall(PetscFree(copy));
-  PetscCall(PetscFree(piece));
+  PetscCall(PetscFree(moved));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode TransferGetStats(Transfer t, TransferStats *stats)
 {
-  PetscInt sum[4] = {t->ncopies, t->changed.n, ProjectionPairs(t->projection), t->npieces};
+  PetscInt sum[4] = {t->ncopies, t->changed.n, ProjectionPairs(t->projection), t->nmoved};
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 4, MPIU_INT, MPI_SUM, t->comm));
   *stats = (TransferStats){sum[0], sum[1], sum[2], sum[3]};
@@ -77,11 +77,11 @@ PetscErrorCode TransferDestroy(Transfer *transfer)
   Transfer t = *transfer;
   PetscFunctionBeginUser;
   if (!t) PetscFunctionReturn(0);
-  PetscCall(ScatterDestroy(&t->copy_route));
-  PetscCall(ScatterDestroy(&t->piece_route));
-  PetscCall(ScatterDestroy(&t->ask_route));
+  PetscCall(ScatterDestroy(&t->copy_scatter));
+  PetscCall(ScatterDestroy(&t->moved_scatter));
+  PetscCall(ScatterDestroy(&t->ask_scatter));
   PetscCall(PetscFree(t->copy));
-  PetscCall(PetscFree(t->piece));
+  PetscCall(PetscFree(t->moved));
   PetscCall(PetscFree(t->node));
   PetscCall(PetscFree(t->asked));
   PetscCall(TransferElementsDestroy(&t->changed));

@@ -2,12 +2,12 @@
  * partitions, one communicator.
  *
  *     old elements                                             new elements
- *       unchanged  ----------- copy route ----------------------> copied bit for bit
- *       changed    ----------- piece route --> pieces --clip----> projected / interpolated
+ *       unchanged  ----------- copies ----------------------> copied bit for bit
+ *       changed    ----------- migrated --> elements --clip----> projected / interpolated
  *
  * Unchanged is an element that has the same three vertices, bit for bit, in both meshes, whatever the ranks.
- * Changed old elements travel to every rank with changed new ones that they may touch; as both sets cover the
- * same part of the domain, the supermesh of the rest needs no unchanged element.
+ * Changed old elements migrate to every rank with changed new ones that they may touch; as both sets cover
+ * the same part of the domain, the supermesh of the rest needs no unchanged element.
  *
  * All functions are collective over the meshes' communicator. */
 #ifndef CORACLE_TRANSFER_H
@@ -19,7 +19,7 @@ typedef struct Transfer_s *Transfer;
 typedef struct {
   PetscInt copied, projected; /* elements of the new mesh on all ranks */
   PetscInt pairs;             /* of changed elements that share an area, on all ranks */
-  PetscInt travelled;         /* old elements sent, one for each rank it went to */
+  PetscInt migrated;          /* old elements sent, one for each rank it went to */
 } TransferStats;
 
 /* Both meshes are borrowed until TransferDestroy.  PETSC_ERR_ARG_INCOMP when their areas differ by more than

@@ -11,9 +11,9 @@ typedef struct {
   int target, turn;
 } TransferCopy;
 
-/* A P2 node of the new mesh in a piece. */
+/* A P2 node of the new mesh in a migrated element. */
 typedef struct {
-  int node, piece;
+  int node, moved;
   double n[3]; /* barycentric */
 } TransferNode;
 
@@ -28,27 +28,27 @@ struct Transfer_s {
   MPI_Comm comm;
   const Mesh *from, *to;
   /* unchanged elements */
-  Scatter copy_route; /* elements of `from` -> copies */
+  Scatter copy_scatter; /* elements of `from` -> copies */
   int ncopies;
   TransferCopy *copy; /* [ncopies] in order of arrival */
   /* changed elements */
   TransferElements changed; /* of `to` */
-  Scatter piece_route;      /* elements of `from` -> pieces */
-  int npieces;
-  double (*piece)[3][2]; /* [npieces] */
-  Search search;         /* of the pieces */
-  Projection projection; /* pieces -> changed */
+  Scatter moved_scatter;    /* elements of `from` -> migrated elements */
+  int nmoved;
+  double (*moved)[3][2]; /* [nmoved] */
+  Search search;         /* of the migrated elements */
+  Projection projection; /* migrated elements -> changed */
   /* P2 nodes of changed elements that this rank owns, and those of its elements that it does not own */
   int nnodes;
   TransferNode *node;
-  Scatter ask_route; /* P2 nodes of `to` that others own -> their owners */
-  int *asked;        /* [arriving] owned nodes */
+  Scatter ask_scatter; /* P2 nodes of `to` that others own -> their owners */
+  int *asked;          /* [arriving] owned nodes */
 };
 
 /* Unchanged elements: copy_route and copy; the changed ones of both meshes are left. */
 PetscErrorCode TransferMatch(Transfer transfer, TransferElements *old);
-/* Sends changed old elements where changed new ones may touch them: piece_route, piece and search. */
-PetscErrorCode TransferTravel(Transfer transfer, const TransferElements *old);
+/* Sends changed old elements where changed new ones may touch them: moved_scatter, moved and search. */
+PetscErrorCode TransferMigrate(Transfer transfer, const TransferElements *old);
 /* Where the P2 nodes lie and who owns them. */
 PetscErrorCode TransferNodesCreate(Transfer transfer);
 

@@ -123,10 +123,10 @@ static PetscErrorCode MakeCopies(Transfer t, int n, const double answer[], char 
     rank[m] = (int)a[ANSWER_RANK];
     source[m++] = e;
   }
-  PetscCall(ScatterCreate(t->comm, m, rank, source, &t->copy_route));
-  t->ncopies = ScatterArriving(t->copy_route);
+  PetscCall(ScatterCreate(t->comm, m, rank, source, &t->copy_scatter));
+  t->ncopies = ScatterArriving(t->copy_scatter);
   PetscCall(PetscMalloc1(t->ncopies, &t->copy));
-  PetscCall(ScatterForward(t->copy_route, sizeof *sent, sent, t->copy));
+  PetscCall(ScatterForward(t->copy_scatter, sizeof *sent, sent, t->copy));
   PetscCall(PetscFree3(rank, source, sent));
   PetscFunctionReturn(0);
 }

@@ -13,7 +13,7 @@ static PetscErrorCode Fluid(int rank, int size, FluidElements *e, double **x, do
 
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2(12 * CELLS * CELLS, x, 2 * CELLS * CELLS, rho));
-  *e = (FluidElements){0, *x, *rho, {-0.2, -0.2}, {0.2, 0.2}};
+  *e = (FluidElements){0, *x, *rho, *rho, {-0.2, -0.2}, {0.2, 0.2}};
   for (int k = 0; k < CELLS * CELLS; k++) {
     if (k % CELLS * size / CELLS != rank) continue;
     const double a = -0.2 + h * (k % CELLS), b = -0.2 + h * (k / CELLS);
@@ -68,7 +68,7 @@ static PetscErrorCode Measure(Coupler c, const SolidState *solid, int nfluid, in
 
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(6 * (size_t)nfluid, &flow));
-  const FluidFlow still = {flow, flow, flow, flow};
+  const CoracleFlow still = {flow, flow, NULL, CouplerOverlap(c)->rho, CouplerOverlap(c)->mu};
   for (int step = 0; step < STEPS; step++) {
     const CoracleCoupling *coupling;
     const CoracleCorrection *correction;
@@ -95,7 +95,7 @@ static PetscErrorCode Measure(Coupler c, const SolidState *solid, int nfluid, in
 
 int main(int argc, char **argv)
 {
-  const CouplerOptions options = {COUPLER_REACTION, 0.0005, 10.0, {0.0, -9.81}, 1.0};
+  const CouplerOptions options = {COUPLER_REACTION, 0.0005, 10.0, {0.0, -9.81}};
   FluidElements elements;
   SolidState solid;
   Coupler c;

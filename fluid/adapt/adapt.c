@@ -1,7 +1,7 @@
 #include "fluid/adapt/adapt_impl.h"
 #include <string.h>
 
-enum { MOST_ROUNDS = 60, LAST_ROUNDS = 6 };
+enum { MAX_ROUNDS = 60, LAST_ROUNDS = 6 };
 
 /* What the mesh looks like to the next sweep of one kind: what has changed since its own last one. */
 typedef struct {
@@ -66,7 +66,7 @@ PetscErrorCode MeshAdapt(const MeshSerial *mesh, const double metric[], const Ad
     PetscCall(AdaptDestroy(&a));
     PetscFunctionReturn(refused);
   }
-  PetscCall(Rounds(&a, options->rounds > 0 ? options->rounds : MOST_ROUNDS));
+  PetscCall(Rounds(&a, options->rounds > 0 ? options->rounds : MAX_ROUNDS));
   PetscCall(AdaptExtract(&a, result));
   PetscCall(AdaptDestroy(&a));
   PetscFunctionReturn(0);

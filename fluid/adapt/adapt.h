@@ -22,8 +22,8 @@ typedef struct {
   double straight;        /* a line that turns by less, radians, is straight; 0: 1e-8 */
   const char *frozen;     /* [nv] or NULL, borrowed: nonzero vertices neither move nor go */
   const char *frozen_tag; /* [ntags] or NULL, borrowed: facets of these tags stay as they are, inside too */
-  const char *idle; /* [nv] or NULL, borrowed: nonzero vertices are well placed, no one looks at them unless
-                       something changes there; saves time */
+  const char *inactive; /* [nv] or NULL, borrowed: nonzero vertices are not looked at unless something changes
+                             there: they are well placed already; saves time */
 } AdaptOptions;
 
 typedef struct {

@@ -85,13 +85,14 @@ static PetscErrorCode Classify(Adapt *a, const MeshSerial *m, const AdaptOptions
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode CopyVertices(Adapt *a, const MeshSerial *m, const double metric[], const char idle[])
+static PetscErrorCode CopyVertices(Adapt *a, const MeshSerial *m, const double metric[],
+                                   const char inactive[])
 {
   PetscFunctionBeginUser;
   for (int v = 0; v < m->nv; v++) {
     MetricLog(&metric[3 * v], &a->background.log_metric[3 * v]);
     a->origin[v] = v;
-    a->stamp[v] = idle && idle[v] ? -1 : 0; /* sweeps begin at 0 */
+    a->stamp[v] = inactive && inactive[v] ? -1 : 0; /* sweeps begin at 0 */
     a->corner[v] = NONE;
     a->home[v] = NONE;
     for (int k = 0; k < 2; k++) a->scale = fmax(a->scale, fabs(m->x[2 * v + k]));
@@ -129,7 +130,7 @@ PetscErrorCode AdaptCreate(const MeshSerial *mesh, const double metric[], const 
   a->nv = mesh->nv;
   a->ne = mesh->ne;
   PetscCall(AdaptReserve(a));
-  PetscCall(CopyVertices(a, mesh, metric, options->idle));
+  PetscCall(CopyVertices(a, mesh, metric, options->inactive));
   PetscCall(CopyTriangles(a, mesh));
   MarkUnnamed(a, mesh->ntags);
   PetscCall(Classify(a, mesh, options));

@@ -20,7 +20,7 @@ static double WorstOf(const Adapt *a, const Star *star, int v)
   return worst;
 }
 
-/* Worst quality if v goes to u; negative if a triangle would turn over or an edge would be too long. */
+/* Worst quality if v goes to u; negative if it is not above the bound or an edge would be too long. */
 static double Try(const Adapt *a, const Star *star, int u, double bound)
 {
   double worst = INFINITY, square;
@@ -43,8 +43,9 @@ static void Consider(const Adapt *a, const Star *star, int v, int u, int mark, d
 {
   if (a->kind[v] == ON_LINE && mark == NONE) return;
   if (!AdaptIsShort(a, v, u)) return;
-  const double quality = Try(a, star, u, PetscMax(bound, best->quality));
-  if (quality > best->quality) *best = (Choice){u, quality};
+  /* as good as before is allowed; of equal ones the first is taken */
+  const double quality = Try(a, star, u, PetscMax((1.0 - TIE) * bound, (1.0 + TIE) * best->quality));
+  if (quality > 0.0) *best = (Choice){u, quality};
 }
 
 /* Takes out triangle e = (v at corner c, p, q) with u = p or q: its other two faces become one. */

@@ -7,14 +7,19 @@
 #define CORACLE_ADAPT_IMPL_H
 #include "fluid/adapt/adapt.h"
 #include "fluid/adapt/metric_tensor.h"
-#include <float.h>
 #include <stdbool.h>
 
 enum { NONE = -1, MAX_STAR = 64 };
 typedef enum { FREE, ON_LINE, FIXED } VertexKind;
 
-#define LONG_EDGE 1.4142135623730951
-#define SHORT_EDGE 0.7071067811865476
+/* Round-off must not decide.  Lengths and qualities that differ by less than this share are equal, and the
+ * first in the order of the numbers is taken; thresholds lie that far from the values that structured meshes
+ * have (the diagonal of a unit cell, half of it).  Far above what differences of 1e-14 in the input become
+ * with edges 1000 times as long as high. */
+#define TIE 1e-6
+/* Edges in this range are unit ones, sqrt 2 and 1/sqrt 2 too. */
+#define LONG_EDGE (1.4142135623730951 * (1.0 + TIE))
+#define SHORT_EDGE (0.7071067811865476 * (1.0 - TIE))
 
 /* The input, on which the metric is a function. */
 typedef struct {
@@ -61,8 +66,10 @@ static inline int Prev(int c)
   return c % 3 == 0 ? c + 2 : c - 1;
 }
 
-/* Smallest height over longest edge of a triangle. */
+/* Smallest height of a triangle over its longest edge, and over the largest coordinate: three points on a
+ * line are flat whatever round-off has made of them. */
 #define FLAT 1e-10
+#define FLAT_ROUND_OFF 1e-12
 
 /* Quality of a triangle with these vertices, at most 0 if it is flat or clockwise; *square as MetricQuality.
  */
@@ -75,8 +82,7 @@ static inline double AdaptQuality(const Adapt *a, int p, int q, int r, double *s
   const double vx = wx - ux, vy = wy - uy, u2 = ux * ux + uy * uy, w2 = wx * wx + wy * wy,
                v2 = vx * vx + vy * vy;
   const double longest = PetscMax(PetscMax(u2, w2), v2);
-  /* the second part bounds the effect of rounding the coordinates themselves */
-  if (!(ux * wy - uy * wx > FLAT * longest + 8.0 * DBL_EPSILON * a->scale * sqrt(longest))) return -1.0;
+  if (!(ux * wy - uy * wx > FLAT * longest + FLAT_ROUND_OFF * a->scale * sqrt(longest))) return -1.0;
   return MetricQuality(x, m, square);
 }
 

@@ -4,7 +4,7 @@
 
 /* A pass in which a part would have less than so many triangles makes do with fewer parts; twice as many in
  * the next one: a mesh of few triangles cannot be cut away from everywhere. */
-enum { MOST_PASSES = 8, SMALL_PART = 50 };
+enum { MAX_PASSES = 8, SMALL_PART = 50 };
 
 /* A part may be so much larger than the mean. */
 #define IMBALANCE 1.03
@@ -13,7 +13,7 @@ enum { MOST_PASSES = 8, SMALL_PART = 50 };
 typedef struct {
   MPI_Comm comm;
   int rank, size;
-  MeshPart piece;
+  MeshPart part;
   int *weight;        /* [ne][3] for the next partition: where it should not cut */
   double *data;       /* [nv][DATA]: metric and the distance from what was frozen in the last pass */
   long long next_gid; /* above all that are in use */
@@ -31,11 +31,11 @@ static PetscErrorCode Agree(MPI_Comm comm, PetscErrorCode here)
   PetscFunctionReturn(here ? here : (PetscErrorCode)all);
 }
 
-/* What a pass works on: the piece with facets of one more tag on faces to other ranks. */
+/* What a pass works on: the part with facets of one more tag on faces to other ranks. */
 typedef struct {
   MeshSerial mesh; /* facets and tags of its own, the rest borrowed */
   double *metric;
-  char *frozen, *frozen_tag, *idle;
+  char *frozen, *frozen_tag, *inactive;
 } Frozen;
 
 static PetscErrorCode FreezeFaces(const MeshSerial *from, const char face[], MeshSerial *to)
@@ -63,19 +63,19 @@ static PetscErrorCode FreezeFaces(const MeshSerial *from, const char face[], Mes
 
 static PetscErrorCode Freeze(const Parallel *p, Frozen *f)
 {
-  const MeshSerial *s = &p->piece.serial;
+  const MeshSerial *s = &p->part.serial;
   char *face;
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(3 * s->ne, &face));
-  PetscCall(PetscMalloc2(3 * s->nv, &f->metric, s->nv, &f->idle));
+  PetscCall(PetscMalloc2(3 * s->nv, &f->metric, s->nv, &f->inactive));
   PetscCall(PetscCalloc1(s->nv, &f->frozen));
   PetscCall(PetscCalloc1(s->ntags + 1, &f->frozen_tag));
   f->frozen_tag[s->ntags] = 1;
-  if (p->size > 1) PetscCall(MeshPartShared(p->comm, &p->piece, face, f->frozen));
+  if (p->size > 1) PetscCall(MeshPartShared(p->comm, &p->part, face, f->frozen));
   PetscCall(FreezeFaces(s, face, &f->mesh));
   for (int v = 0; v < s->nv; v++) {
     for (int k = 0; k < 3; k++) f->metric[3 * v + k] = p->data[DATA * v + k];
-    f->idle[v] = p->data[DATA * v + 3] >= NEAR_IDLE;
+    f->inactive[v] = p->data[DATA * v + 3] >= NEAR_INACTIVE;
   }
   PetscCall(PetscFree(face));
   PetscFunctionReturn(0);
@@ -87,7 +87,7 @@ static PetscErrorCode FrozenDestroy(Frozen *f)
   PetscCall(PetscFree(f->mesh.facet));
   PetscCall(PetscFree(f->mesh.facet_tag));
   PetscCall(PetscFree(f->mesh.tag_name));
-  PetscCall(PetscFree2(f->metric, f->idle));
+  PetscCall(PetscFree2(f->metric, f->inactive));
   PetscCall(PetscFree(f->frozen));
   PetscCall(PetscFree(f->frozen_tag));
   PetscFunctionReturn(0);
@@ -122,7 +122,7 @@ static PetscErrorCode NumberVertices(Parallel *p, const long long old[], const A
   PetscFunctionReturn(0);
 }
 
-/* The result, with the vertices' distances from what was frozen, becomes the piece. */
+/* The result, with the vertices' distances from what was frozen, becomes the part. */
 static PetscErrorCode Take(Parallel *p, const int distance[], AdaptResult *r)
 {
   const int nv = r->mesh.nv;
@@ -131,7 +131,7 @@ static PetscErrorCode Take(Parallel *p, const int distance[], AdaptResult *r)
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(nv, &new.gid));
   PetscCall(PetscMalloc1(DATA * nv, &data));
-  PetscCall(NumberVertices(p, p->piece.gid, r, new.gid));
+  PetscCall(NumberVertices(p, p->part.gid, r, new.gid));
   for (int v = 0; v < nv; v++) {
     for (int k = 0; k < 3; k++) data[DATA * v + k] = r->metric[3 * v + k];
     data[DATA * v + 3] = distance[v];
@@ -139,8 +139,8 @@ static PetscErrorCode Take(Parallel *p, const int distance[], AdaptResult *r)
   memset(&r->mesh, 0, sizeof r->mesh); /* taken over */
   Thaw(&new.serial);
   PetscCall(PetscFree(p->data));
-  PetscCall(MeshPartDestroy(&p->piece));
-  p->piece = new;
+  PetscCall(MeshPartDestroy(&p->part));
+  p->part = new;
   p->data = data;
   PetscFunctionReturn(0);
 }
@@ -153,7 +153,7 @@ static PetscErrorCode Judge(Parallel *p, const char frozen[], AdaptResult *r, bo
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(r->mesh.nv, &distance));
   NearDistances(r, frozen, distance);
-  NearMeasure(r, distance, p->piece.serial.ntags, &near);
+  NearMeasure(r, distance, p->part.serial.ntags, &near);
   PetscCall(NearReduce(p->comm, &near, &r->report, &p->report, fits));
   PetscCall(PetscMalloc1(3 * r->mesh.ne + 1, &p->weight)); /* NULL would mean: no weights */
   PetscCall(NearWeights(r, distance, p->weight));
@@ -173,7 +173,7 @@ static PetscErrorCode Pass(Parallel *p, const AdaptOptions *options, bool *fits)
                             .straight = options->straight,
                             .frozen = f.frozen,
                             .frozen_tag = f.frozen_tag,
-                            .idle = f.idle};
+                            .inactive = f.inactive};
   const PetscErrorCode failed = Agree(p->comm, MeshAdapt(&f.mesh, f.metric, &own, &r));
   if (!failed) PetscCall(Judge(p, f.frozen, &r, fits));
   PetscCall(AdaptResultDestroy(&r));
@@ -185,28 +185,28 @@ static PetscErrorCode Pass(Parallel *p, const AdaptOptions *options, bool *fits)
  * all ranks and just as METIS likes it. */
 static PetscErrorCode Repartition(Parallel *p, long long least)
 {
-  long long all = p->piece.serial.ne;
+  long long all = p->part.serial.ne;
   MeshPart moved;
   double *data;
-  int *part, nparts = p->size;
+  int *target, nparts = p->size;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_LONG_LONG, MPI_SUM, p->comm));
   if (least > 0) nparts = (int)PetscMin((long long)nparts, PetscMax(1, all / least));
-  PetscCall(PetscMalloc1(p->piece.serial.ne, &part));
-  PetscCall(MeshPartPartition(p->comm, &p->piece, nparts, least > 0 ? p->weight : NULL, part));
-  PetscCall(MeshPartMigrate(p->comm, &p->piece, part, DATA, p->data, &moved, &data));
-  PetscCall(PetscFree(part));
+  PetscCall(PetscMalloc1(p->part.serial.ne, &target));
+  PetscCall(MeshPartPartition(p->comm, &p->part, nparts, least > 0 ? p->weight : NULL, target));
+  PetscCall(MeshPartMigrate(p->comm, &p->part, target, DATA, p->data, &moved, &data));
+  PetscCall(PetscFree(target));
   PetscCall(PetscFree(p->weight));
   PetscCall(PetscFree(p->data));
-  PetscCall(MeshPartDestroy(&p->piece));
-  p->piece = moved;
+  PetscCall(MeshPartDestroy(&p->part));
+  p->part = moved;
   p->data = data;
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode IsBalanced(const Parallel *p, bool *balanced)
 {
-  long long most = p->piece.serial.ne, all = most;
+  long long most = p->part.serial.ne, all = most;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_LONG_LONG, MPI_MAX, p->comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_LONG_LONG, MPI_SUM, p->comm));
@@ -220,7 +220,7 @@ static PetscErrorCode Passes(Parallel *p, const AdaptOptions *options)
   bool fits = false, balanced = true;
   int pass = 0;
   PetscFunctionBeginUser;
-  for (; pass < MOST_PASSES && !fits; pass++) {
+  for (; pass < MAX_PASSES && !fits; pass++) {
     if (pass > 0) PetscCall(Repartition(p, (long long)SMALL_PART << pass));
     const PetscErrorCode failed = Pass(p, options, &fits);
     if (failed) PetscFunctionReturn(failed);
@@ -237,10 +237,10 @@ static PetscErrorCode ParallelCreate(const Mesh *mesh, const double metric[], Pa
   p->comm = mesh->comm;
   PetscCallMPI(MPI_Comm_rank(p->comm, &p->rank));
   PetscCallMPI(MPI_Comm_size(p->comm, &p->size));
-  PetscCall(MeshPartOf(mesh, &p->piece));
+  PetscCall(MeshPartOf(mesh, &p->part));
   p->next_gid = mesh->np2_global;
-  PetscCall(PetscMalloc1(DATA * p->piece.serial.nv, &p->data));
-  for (int v = 0; v < p->piece.serial.nv; v++) {
+  PetscCall(PetscMalloc1(DATA * p->part.serial.nv, &p->data));
+  for (int v = 0; v < p->part.serial.nv; v++) {
     for (int k = 0; k < 3; k++) p->data[DATA * v + k] = metric[3 * v + k];
     p->data[DATA * v + 3] = 0.0; /* all are looked at in the first pass */
   }
@@ -255,10 +255,10 @@ PetscErrorCode MeshAdaptParallel(const Mesh *mesh, const double metric[], const 
   PetscFunctionBeginUser;
   PetscCall(ParallelCreate(mesh, metric, &p));
   const PetscErrorCode failed = Passes(&p, options ? options : &usual);
-  if (!failed) PetscCall(MeshBuild(p.comm, &p.piece, adapted));
+  if (!failed) PetscCall(MeshBuild(p.comm, &p.part, adapted));
   if (!failed && report) *report = p.report;
   PetscCall(PetscFree(p.data));
   PetscCall(PetscFree(p.weight));
-  PetscCall(MeshPartDestroy(&p.piece));
+  PetscCall(MeshPartDestroy(&p.part));
   PetscFunctionReturn(failed);
 }

@@ -1,13 +1,13 @@
 #include "fluid/adapt/adapt_impl.h"
 
-/* The longest face of triangle e. */
+/* The longest face of triangle e, of equal ones the first. */
 static int Longest(const Adapt *a, int e, double *length)
 {
   int best = 3 * e;
-  *length = -1.0;
+  *length = 0.0;
   for (int c = 3 * e; c < 3 * e + 3; c++) {
     const double l = AdaptLength(a, a->vertex[Next(c)], a->vertex[Prev(c)]);
-    if (l > *length) *length = l, best = c;
+    if (l > (1.0 + TIE) * *length) *length = l, best = c;
   }
   return best;
 }
@@ -85,7 +85,7 @@ PetscErrorCode AdaptSplit(Adapt *a, int since, int *done)
     const int c = Longest(a, e, &length), o = a->across[c];
     if (length <= LONG_EDGE || (a->mark[c] != NONE && a->frozen_mark[a->mark[c]])) continue;
     /* a triangle is cut across its longest face only: no angle gets small (Rivara, 1984) */
-    if (o != NONE && Longest(a, o / 3, &beyond) != o && beyond > length * 1.0000001) continue;
+    if (o != NONE && Longest(a, o / 3, &beyond) != o && beyond > (1.0 + TIE) * length) continue;
     PetscCall(AdaptReserve(a));
     *done += SplitFace(a, c);
   }

@@ -76,7 +76,7 @@ PetscErrorCode MetricGrade(const MeshSerial *mesh, double growth, double metric[
   for (sweep = 1; active; sweep++) {
     active = 0;
     for (int k = 0; k < 3 * mesh->ne; k++) {
-      /* every other sweep runs backwards, so that fine sizes travel both ways */
+      /* every other sweep runs backwards, so that fine sizes spread both ways */
       const int c = sweep % 2 ? k : 3 * mesh->ne - 1 - k;
       const int p = mesh->vertex[c], q = mesh->vertex[c % 3 == 2 ? c - 2 : c + 1];
       if (changed[p] >= sweep - 1 && Grow(mesh->x, p, q, log(growth), metric)) changed[q] = sweep, active = 1;

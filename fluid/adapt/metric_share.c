@@ -40,15 +40,15 @@ PetscErrorCode SharedVerticesDestroy(SharedVertices *s)
 static PetscErrorCode Share(MPI_Comm comm, const SharedVertices *s, double metric[], PetscBool *changed)
 {
   SharedTensor *mine, *all;
-  char *met;
+  char *reply;
   PetscMPIInt size, bytes, *count, *first, any = 0;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCall(PetscMalloc4(s->count, &mine, s->count, &met, size, &count, size + 1, &first));
+  PetscCall(PetscMalloc4(s->count, &mine, s->count, &reply, size, &count, size + 1, &first));
   for (int k = 0; k < s->count; k++) {
     mine[k].id = s->id[k];
     PetscCall(PetscArraycpy(mine[k].metric, metric + 3 * s->vertex[k], 3));
-    met[k] = 0;
+    reply[k] = 0;
   }
   bytes = s->count * (int)sizeof *mine;
   PetscCallMPI(MPI_Allgather(&bytes, 1, MPI_INT, count, 1, MPI_INT, comm));
@@ -61,18 +61,18 @@ static PetscErrorCode Share(MPI_Comm comm, const SharedVertices *s, double metri
     PetscCall(PetscFindInt(all[k].id, s->count, s->id, &at));
     if (at < 0) continue;
     double *m = metric + 3 * s->vertex[at];
-    if (met[at])
+    if (reply[at])
       MetricIntersectTensor(all[k].metric, 0.0, m);
     else
       PetscCall(PetscArraycpy(m, all[k].metric, 3));
-    met[at] = 1;
+    reply[at] = 1;
   }
   for (int k = 0; k < s->count; k++)
     any |= MetricIntersectTensor(metric + 3 * s->vertex[k], 1e-3, mine[k].metric);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, comm));
   *changed = (PetscBool)any;
   PetscCall(PetscFree(all));
-  PetscCall(PetscFree4(mine, met, count, first));
+  PetscCall(PetscFree4(mine, reply, count, first));
   PetscFunctionReturn(0);
 }
 

@@ -53,8 +53,12 @@ static inline double MetricLength(const double p[2], const double q[2], const do
   const double a = MetricSquare(mp, ex, ey), b = MetricSquare(mq, ex, ey);
   const double lp = sqrt(a > 0.0 ? a : 0.0), lq = sqrt(b > 0.0 ? b : 0.0);
   const double d = (lp - lq) / (lp + lq + 1e-300);
-  /* ln(lp/lq) = 2 atanh d; its series is exact to 1e-10 up to a ratio of 1.2 */
-  if (d * d < 0.01) return 0.5 * (lp + lq) / (1.0 + d * d * (1.0 / 3.0 + d * d * (0.2 + d * d / 7.0)));
+  /* ln(lp/lq) = 2 atanh d; its series is exact to round-off up to a ratio of 1.2, so that there is no jump */
+  const double s = d * d;
+  if (s < 0.01)
+    return 0.5 * (lp + lq) /
+           (1.0 +
+            s * (1.0 / 3.0 + s * (0.2 + s * (1.0 / 7.0 + s * (1.0 / 9.0 + s * (1.0 / 11.0 + s / 13.0))))));
   return 0.5 * (lp + lq) * d / (lq > 0.0 && lp > 0.0 ? 0.5 * log(lp / lq) : copysign(1e3, d));
 }
 

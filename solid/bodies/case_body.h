@@ -8,10 +8,10 @@ enum { CASE_BODY_KEY = 192 };
 
 /* "solid.bodies[i].name" */
 const char *BodyKey(char key[CASE_BODY_KEY], int body, const char *name);
-/* Reads all keys of a material (c: the Case; for CaseKeys). */
+/* Reads all keys of a material (c: the Case; for CoracleCaseKeys). */
 void CaseCheckMaterial(void *c, const char *name);
 /* Refuses key when there is no material of that name. */
-void CaseMaterialExists(Case c, const char *key, const char *name);
+void CaseMaterialExists(CoracleCase c, const char *key, const char *name);
 /* Adds solid.bodies[body]. */
-PetscErrorCode CaseReadBody(Case c, int body, Model *a);
+PetscErrorCode CaseReadBody(CoracleCase c, int body, Model *a);
 #endif

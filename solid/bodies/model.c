@@ -21,8 +21,7 @@ static PetscErrorCode Refuse(const char *format, ...)
   return PETSC_ERR_USER_INPUT;
 }
 
-/* --- checks
- * ------------------------------------------------------------------------------------------------- */
+/* --- checks ------------------------------------------------------------------------------------------- */
 
 static Point Vertex(const MeshSerial *m, int e, int i)
 {
@@ -76,8 +75,8 @@ static PetscErrorCode CheckNames(const MeshSerial *m, const BodySetup *setup)
   PetscErrorCode code = 0;
   for (int k = 0; k < setup->nfixed && !code; k++)
     code = CheckName("boundary", setup->fixed_name[k], m->ntags, m->tag_name);
-  for (int k = 0; k < setup->ndriven && !code; k++)
-    code = CheckName("boundary", setup->driven[k].boundary, m->ntags, m->tag_name);
+  for (int k = 0; k < setup->nprescribed && !code; k++)
+    code = CheckName("boundary", setup->prescribed[k].boundary, m->ntags, m->tag_name);
   for (int k = 0; k < setup->nregions && !code; k++)
     code = CheckName("region", setup->region[k].region, m->nregions, m->region_name);
   for (int k = 0; k < setup->joints.nregions && !code; k++)
@@ -85,18 +84,17 @@ static PetscErrorCode CheckNames(const MeshSerial *m, const BodySetup *setup)
   return code;
 }
 
-/* --- materials
- * ---------------------------------------------------------------------------------------------- */
+/* --- materials ---------------------------------------------------------------------------------------- */
 
 ElementLaw MaterialLaw(const Material *m)
 {
   ElementLaw law = ElementLawOf(m->youngs_modulus, m->poisson_ratio, 0.0);
-  law.sheet = m->plane_stress;
+  law.plane_stress = m->plane_stress;
   law.corotated = m->corotated;
   return law;
 }
 
-/* The place of a material in the assembly, where it is put if it is not there. */
+/* The place of a material in the model, where it is put if it is not there. */
 static PetscErrorCode AddMaterial(Model *a, const Material *m, int *place)
 {
   PetscFunctionBeginUser;
@@ -124,8 +122,7 @@ static PetscErrorCode GiveMaterials(Model *a, const MeshSerial *m, const BodySet
   PetscFunctionReturn(0);
 }
 
-/* --- nodes
- * -------------------------------------------------------------------------------------------------- */
+/* --- nodes -------------------------------------------------------------------------------------------- */
 
 /* renumber[mesh->nv]: new numbers, from a->nnodes on, of the vertices that have a triangle; -1 for the
  * others. */
@@ -186,26 +183,28 @@ static void FixNodes(Model *a, const MeshSerial *m, const BodySetup *setup, cons
     if (renumber[v] >= 0 && a->fixed[renumber[v]]) a->u[2 * renumber[v]] = a->u[2 * renumber[v] + 1] = 0.0;
 }
 
-static PetscErrorCode DriveNodes(Model *a, const MeshSerial *m, const BodySetup *setup, const int renumber[])
+static PetscErrorCode PrescribeNodes(Model *a, const MeshSerial *m, const BodySetup *setup,
+                                     const int renumber[])
 {
   PetscFunctionBeginUser;
-  for (int k = 0; k < setup->ndriven; k++) {
-    PrescribedMotion drive = setup->driven[k].drive;
+  for (int k = 0; k < setup->nprescribed; k++) {
+    PrescribedMotion motion = setup->prescribed[k].motion;
     double *row;
-    PetscCall(PetscMalloc1(3 * (size_t)drive.nrows, &row));
-    PetscCall(PetscArraycpy(row, drive.row, 3 * (size_t)drive.nrows));
-    drive.row = row;
-    PetscCall(PetscRealloc((size_t)(a->ndrives + 1) * sizeof *a->drive, &a->drive));
-    a->drive[a->ndrives] = drive;
-    PetscCall(PetscRealloc(((size_t)a->ndriven + 2 * (size_t)m->nb) * sizeof *a->driven, &a->driven));
+    PetscCall(PetscMalloc1(3 * (size_t)motion.nrows, &row));
+    PetscCall(PetscArraycpy(row, motion.row, 3 * (size_t)motion.nrows));
+    motion.row = row;
+    PetscCall(PetscRealloc((size_t)(a->nmotions + 1) * sizeof *a->motion, &a->motion));
+    a->motion[a->nmotions] = motion;
+    PetscCall(
+        PetscRealloc(((size_t)a->nprescribed + 2 * (size_t)m->nb) * sizeof *a->prescribed, &a->prescribed));
     for (int i = 0; i < 2 * m->nb; i++) {
-      if (strcmp(m->tag_name[m->facet_tag[i / 2]], setup->driven[k].boundary)) continue;
+      if (strcmp(m->tag_name[m->facet_tag[i / 2]], setup->prescribed[k].boundary)) continue;
       const int n = renumber[m->facet[i]];
-      a->driven[a->ndriven++] = (DrivenNode){n, a->ndrives};
+      a->prescribed[a->nprescribed++] = (PrescribedNode){n, a->nmotions};
       for (int c = 0; c < 2; c++)
-        if (drive.driven[c]) a->u[2 * n + c] = PrescribedVelocity(&drive, c, 0.0, 1e-12);
+        if (motion.prescribed[c]) a->u[2 * n + c] = PrescribedVelocity(&motion, c, 0.0, 1e-12);
     }
-    a->ndrives++;
+    a->nmotions++;
   }
   PetscFunctionReturn(0);
 }
@@ -223,8 +222,7 @@ static void MassCentre(const MeshSerial *m, double centre[2])
   for (int c = 0; c < 2; c++) centre[c] = sum[c] / area;
 }
 
-/* --- elements and surface
- * ----------------------------------------------------------------------------------- */
+/* --- elements and surface ----------------------------------------------------------------------------- */
 
 static int CompareOwners(const void *a, const void *b)
 {
@@ -328,7 +326,7 @@ PetscErrorCode ModelAdd(Model *a, const MeshSerial *mesh, const BodySetup *setup
   PetscCall(GrowNodes(a, a->nnodes + CountNodes(mesh, renumber)));
   PlaceNodes(a, mesh, setup, body.centre, renumber);
   FixNodes(a, mesh, setup, renumber);
-  PetscCall(DriveNodes(a, mesh, setup, renumber));
+  PetscCall(PrescribeNodes(a, mesh, setup, renumber));
   PetscCall(AddElements(a, mesh, renumber));
   PetscCall(GiveMaterials(a, mesh, setup, body.first_element));
   code = GiveJoints(a, mesh, &setup->joints, body.first_element);
@@ -340,8 +338,7 @@ PetscErrorCode ModelAdd(Model *a, const MeshSerial *mesh, const BodySetup *setup
   PetscFunctionReturn(code);
 }
 
-/* --- overlap
- * ------------------------------------------------------------------------------------------------ */
+/* --- overlap ------------------------------------------------------------------------------------------ */
 
 typedef struct {
   const Model *a;
@@ -350,7 +347,7 @@ typedef struct {
 
 /* The facet's edge, or the centre of the triangle behind it (which tells a body laid exactly over another),
  * lies in element e. */
-static int ReachesInto(const Model *a, int facet, int e)
+static int Penetrates(const Model *a, int facet, int e)
 {
   const int *behind = a->element + 3 * a->facet_element[facet];
   ContactIntegrals f;
@@ -371,7 +368,7 @@ static PetscErrorCode OverlapFound(void *context, int facet, int e)
   OverlapSearch *s = context;
   const Model *a = s->a;
   const int one = a->element_body[a->facet_element[facet]], other = a->element_body[e];
-  if (one == other || s->first >= 0 || !ReachesInto(a, facet, e)) return 0;
+  if (one == other || s->first >= 0 || !Penetrates(a, facet, e)) return 0;
   s->first = PetscMin(one, other);
   s->second = PetscMax(one, other);
   return 0;
@@ -410,9 +407,9 @@ PetscErrorCode ModelDestroy(Model *a)
   PetscCall(PetscFree(a->element));
   PetscCall(PetscFree(a->element_body));
   PetscCall(PetscFree(a->jointed));
-  for (int k = 0; k < a->ndrives; k++) PetscCall(PetscFree(a->drive[k].row));
-  PetscCall(PetscFree(a->drive));
-  PetscCall(PetscFree(a->driven));
+  for (int k = 0; k < a->nmotions; k++) PetscCall(PetscFree(a->motion[k].row));
+  PetscCall(PetscFree(a->motion));
+  PetscCall(PetscFree(a->prescribed));
   PetscCall(PetscFree(a->material));
   PetscCall(PetscFree(a->element_material));
   PetscCall(PetscFree(a->facet));

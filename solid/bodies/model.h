@@ -1,8 +1,8 @@
-/* All bodies of the run before they are dealt out to ranks.  Every rank builds the same assembly from the
- * case file and takes its share in SolidCreate, so that setting up needs no messages.  Nothing here is
+/* All bodies of the run before they are dealt out to ranks.  Every rank builds the same model from the
+ * case file and takes its subdomain in SolidCreate, so that setting up needs no messages.  Nothing here is
  * collective. */
-#ifndef SOLID_ASSEMBLY_H
-#define SOLID_ASSEMBLY_H
+#ifndef SOLID_MODEL_H
+#define SOLID_MODEL_H
 #include "common/mesh/mesh.h"
 #include "solid/element.h"
 #include "solid/prescribed_motion.h"
@@ -40,7 +40,7 @@ typedef struct {
 
 typedef struct {
   const char *boundary;
-  PrescribedMotion drive;
+  PrescribedMotion motion;
 } BoundaryMotion;
 
 typedef struct {
@@ -61,13 +61,13 @@ typedef struct {
   JointSetup joints;
   int nregions;
   const RegionMaterial *region;
-  int ndriven;
-  const BoundaryMotion *driven; /* rows are copied */
+  int nprescribed;
+  const BoundaryMotion *prescribed; /* rows are copied */
 } BodySetup;
 
 typedef struct {
   Material material;
-  int first_element; /* in the assembly */
+  int first_element; /* in the model */
   int entry;         /* of its setup */
   double centre[2];  /* of mass, at the start */
 } Body;
@@ -84,15 +84,16 @@ typedef struct {
   int *facet;            /* [nfacets][2] surface edges, the solid on their left */
   int *facet_element;    /* [nfacets] the element behind */
   Body *body;            /* [nbodies] */
-  int nmaterials, ndrives, ndriven;
-  Material *material;      /* [nmaterials] */
-  PrescribedMotion *drive; /* [ndrives] */
-  DrivenNode *driven;      /* [ndriven] in order of the drives: the last one of a node and component holds */
+  int nmaterials, nmotions, nprescribed;
+  Material *material;       /* [nmaterials] */
+  PrescribedMotion *motion; /* [nmotions] */
+  PrescribedNode
+      *prescribed; /* [nprescribed] in order of the motions: the last one of a node and component counts */
 } Model;
 
 /* Adds a body; mesh holds its rest coordinates and is not kept.  On failure *error (a static buffer) says
  * why: a degenerate element, one that starts inside out, an edge with more than two triangles, a boundary or
- * region that does not exist; the assembly is then of no use any more. */
+ * region that does not exist; the model is then of no use any more. */
 PetscErrorCode ModelAdd(Model *a, const MeshSerial *mesh, const BodySetup *setup, const char **error);
 /* The first pair of bodies one of which reaches into the other; *first = -1 if there is none. */
 PetscErrorCode ModelOverlap(const Model *a, int *first, int *second);

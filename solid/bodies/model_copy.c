@@ -30,8 +30,8 @@ PetscErrorCode ModelCopy(const Model *from, Model *to)
   COPY(facet_element, from->nfacets);
   COPY(body, from->nbodies);
   COPY(material, from->nmaterials);
-  COPY(drive, from->ndrives);
-  COPY(driven, from->ndriven);
-  for (int k = 0; k < from->ndrives; k++) COPY(drive[k].row, 3 * from->drive[k].nrows);
+  COPY(motion, from->nmotions);
+  COPY(prescribed, from->nprescribed);
+  for (int k = 0; k < from->nmotions; k++) COPY(motion[k].row, 3 * from->motion[k].nrows);
   PetscFunctionReturn(0);
 }

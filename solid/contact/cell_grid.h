@@ -3,7 +3,7 @@
  * 1998, with hashed cells instead of lists of columns).  Cells are as large as the first set's boxes on
  * average.
  *
- *     +---+---+---+     a pair that shares several cells is told in one of them only: the one
+ *     +---+---+---+     a pair that shares several cells is reported in one of them only: the one
  *     |   |a a|a  |     with the lower left corner of the boxes' common part
  *     +---+---+---+
  *     |   |a*b|b  |     Serial, no MPI. */

@@ -2,11 +2,10 @@
  *
  *     pass 1   every candidate that touches: integrals, normal force, relative velocity  -> sums of its pair
  *     pass 2   every pair: damping and friction from its sums and its spring              (ContactRespond)
- *     pass 3   every touch: its share of the pair's force, on the edge's ends and the target's nodes */
+ *     pass 3   every active pair: its share of the pair's force, on the edge's ends and the target's nodes */
 #include "solid/contact/contact_impl.h"
 
-/* --- what never changes
- * ------------------------------------------------------------------------------------- */
+/* --- what never changes ------------------------------------------------------------------------------- */
 
 static PetscErrorCode FindTargets(Contact c, Solid s)
 {
@@ -50,13 +49,13 @@ static double TargetHeight(const Target *t)
 }
 
 /* The mass behind a metre of a body's surface, as if it were a square lying on a side. */
-static PetscErrorCode MeasureBacking(Contact c, Solid s)
+static PetscErrorCode MeasureArealMass(Contact c, Solid s)
 {
-  double *sum; /* [nbodies][3] mass, perimeter, held nodes */
+  double *sum; /* [nbodies][3] mass, perimeter, fixed nodes */
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(3 * (size_t)s->nbodies, &sum));
   for (int n = 0; n < s->nnodes; n++) {
-    if (!SubdomainOwns(s->share, n)) continue;
+    if (!SubdomainOwns(s->subdomain, n)) continue;
     sum[3 * s->node_body[n]] += s->mass[n];
     sum[3 * s->node_body[n] + 2] += s->inverse_mass[n] == 0.0;
   }
@@ -64,12 +63,12 @@ static PetscErrorCode MeasureBacking(Contact c, Solid s)
     sum[3 * s->elements.body[s->facet_element[k]] + 1] += FacetLength(s, k);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3 * s->nbodies, MPI_DOUBLE, MPI_SUM, s->comm));
   for (int b = 0; b < s->nbodies; b++)
-    c->backing[b] = sum[3 * b + 2] > 0.0 ? HUGE_VAL : 4.0 * sum[3 * b] / sum[3 * b + 1];
+    c->areal_mass[b] = sum[3 * b + 2] > 0.0 ? HUGE_VAL : 4.0 * sum[3 * b] / sum[3 * b + 1];
   PetscCall(PetscFree(sum));
   PetscFunctionReturn(0);
 }
 
-/* height, softness and the shortest buffer, over all ranks. */
+/* height, compliance and the shortest buffer, over all ranks. */
 static PetscErrorCode Measure(Contact c, Solid s)
 {
   double sum[2] = {0.0, s->nfacets}, *half;
@@ -77,7 +76,7 @@ static PetscErrorCode Measure(Contact c, Solid s)
   PetscCall(PetscCalloc1(2 * (size_t)s->nnodes, &half));
   for (int b = 0; b < s->nbodies; b++) {
     c->height[b] = HUGE_VAL;
-    c->softness[b] = 0.0;
+    c->compliance[b] = 0.0;
   }
   for (int k = 0; k < c->ntargets; k++) {
     const int b = c->target[k].body;
@@ -88,13 +87,13 @@ static PetscErrorCode Measure(Contact c, Solid s)
     sum[0] += length;
     for (int i = 0; i < 2; i++) half[2 * s->facet[2 * k + i]] += 0.5 * length;
   }
-  PetscCall(SubdomainSum(s->share, half));
+  PetscCall(SubdomainSum(s->subdomain, half));
   for (int n = 0; n < s->nnodes; n++) {
-    double *softness = &c->softness[s->node_body[n]];
-    *softness = fmax(*softness, half[2 * n] / s->mass[n]);
+    double *compliance = &c->compliance[s->node_body[n]];
+    *compliance = fmax(*compliance, half[2 * n] / s->mass[n]);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->height, s->nbodies, MPI_DOUBLE, MPI_MIN, s->comm));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->softness, s->nbodies, MPI_DOUBLE, MPI_MAX, s->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->compliance, s->nbodies, MPI_DOUBLE, MPI_MAX, s->comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->comm));
   c->shortest_buffer = 0.5 * sum[0] / sum[1];
   PetscCall(PetscFree(half));
@@ -117,8 +116,8 @@ PetscErrorCode ContactCreate(Solid s, Contact *contact)
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&c));
   if (s->size > 1) PetscCall(HaloCreate(s->comm, &c->halo));
-  PetscCall(PetscCalloc3((size_t)s->nbodies, &c->height, (size_t)s->nbodies, &c->softness, (size_t)s->nbodies,
-                         &c->backing));
+  PetscCall(PetscCalloc3((size_t)s->nbodies, &c->height, (size_t)s->nbodies, &c->compliance,
+                         (size_t)s->nbodies, &c->areal_mass));
   c->rough = AnyRough(s);
   PetscCall(ContactRenew(c, s));
   *contact = c;
@@ -133,11 +132,11 @@ PetscErrorCode ContactRenew(Contact c, Solid s)
   PetscCall(PetscRealloc((size_t)s->nfacets * sizeof *c->first_pair, &c->first_pair));
   PetscCall(FindTargets(c, s));
   PetscCall(Measure(c, s));
-  PetscCall(MeasureBacking(c, s));
+  PetscCall(MeasureArealMass(c, s));
   PetscFunctionReturn(0);
 }
 
-double ContactReach(Contact c)
+double ContactSkin(Contact c)
 {
   return 0.5 * c->buffer;
 }
@@ -163,8 +162,7 @@ Point ContactWalls(Contact c)
   return c->walls;
 }
 
-/* --- forces
- * ------------------------------------------------------------------------------------------------- */
+/* --- forces ------------------------------------------------------------------------------------------- */
 
 static Point VelocityOf(const Contact c, const Solid s, int node)
 {
@@ -173,10 +171,10 @@ static Point VelocityOf(const Contact c, const Solid s, int node)
 }
 
 /* Relative velocity at the force's place, into the pair's sums with the normal force as weight. */
-static void AddMotion(const Contact c, const Solid s, const Touch *touch, const int *edge, const Target *t,
-                      Point d, Pair *pair)
+static void AddMotion(const Contact c, const Solid s, const ActivePair *active, const int *edge,
+                      const Target *t, Point d, Pair *pair)
 {
-  const ContactIntegrals *k = &touch->integrals;
+  const ContactIntegrals *k = &active->integrals;
   const double sum = k->edge[0] + k->edge[1];
   Point v = {0.0, 0.0};
   if (!(sum > 0.0)) return;
@@ -190,7 +188,7 @@ static void AddMotion(const Contact c, const Solid s, const Touch *touch, const 
     v.x -= k->target[i] / sum * u.x;
     v.y -= k->target[i] / sum * u.y;
   }
-  const double scale = touch->scale * sum; /* normal force over the edge's length */
+  const double scale = active->scale * sum; /* normal force over the edge's length */
   pair->normal += scale * hypot(d.x, d.y);
   pair->inside += k->inside;
   pair->vn += scale * (v.x * d.y - v.y * d.x);
@@ -202,53 +200,53 @@ static Point EdgeVector(const Solid s, const int *edge)
   return PointMinus(PointAt(s->x, edge[1]), PointAt(s->x, edge[0]));
 }
 
-static int TouchTarget(const Contact c, Solid s, const Candidate *k, Touch *touch)
+static int ActivePairTarget(const Contact c, Solid s, const Candidate *k, ActivePair *active)
 {
   const Target *t = &c->target[k->target];
   const int *edge = s->facet + 2 * k->facet;
   Point corner[3];
   for (int i = 0; i < 3; i++) corner[i] = PointAt(ContactPosition(c, s, t->node[i]), 0);
-  if (!ContactEdgeTriangle(PointAt(s->x, edge[0]), PointAt(s->x, edge[1]), corner, &touch->integrals))
+  if (!ContactEdgeTriangle(PointAt(s->x, edge[0]), PointAt(s->x, edge[1]), corner, &active->integrals))
     return 0;
-  touch->scale = k->strength / touch->integrals.twice_area;
-  if (c->rough) AddMotion(c, s, touch, edge, t, EdgeVector(s, edge), &c->pair[k->pair]);
+  active->scale = k->strength / active->integrals.twice_area;
+  if (c->rough) AddMotion(c, s, active, edge, t, EdgeVector(s, edge), &c->pair[k->pair]);
   return 1;
 }
 
-static int TouchWall(const Contact c, Solid s, const WallCandidate *w, Touch *touch)
+static int ActivePairWall(const Contact c, Solid s, const WallCandidate *w, ActivePair *active)
 {
   const int *edge = s->facet + 2 * w->facet, element = s->facet_element[w->facet];
   const Material *m = &s->material[s->elements.material[element]];
   const double depth_p = w->outward * (s->x[2 * edge[0] + w->axis] - w->at);
   const double depth_q = w->outward * (s->x[2 * edge[1] + w->axis] - w->at);
   const double height = c->height[s->elements.body[element]];
-  if (!ContactEdgeWall(depth_p, depth_q, height, &touch->integrals)) return 0;
-  touch->scale = m->penalty * m->thickness;
-  if (c->rough) AddMotion(c, s, touch, edge, NULL, EdgeVector(s, edge), &c->pair[w->pair]);
+  if (!ContactEdgeWall(depth_p, depth_q, height, &active->integrals)) return 0;
+  active->scale = m->penalty * m->thickness;
+  if (c->rough) AddMotion(c, s, active, edge, NULL, EdgeVector(s, edge), &c->pair[w->pair]);
   return 1;
 }
 
 /* All that touches now; the pairs' sums. */
-static PetscErrorCode FindTouches(Contact c, Solid s, int *ntouches)
+static PetscErrorCode FindActivePairs(Contact c, Solid s, int *nactive)
 {
   const int most = c->ncandidates + c->nwalls;
   int n = 0;
   PetscFunctionBeginUser;
-  if (most > c->touch_capacity) {
-    c->touch_capacity = most + most / 2;
-    PetscCall(PetscRealloc((size_t)c->touch_capacity * sizeof *c->touch, &c->touch));
+  if (most > c->active_capacity) {
+    c->active_capacity = most + most / 2;
+    PetscCall(PetscRealloc((size_t)c->active_capacity * sizeof *c->active, &c->active));
   }
   for (int k = 0; k < c->npairs; k++)
     c->pair[k].normal = c->pair[k].inside = c->pair[k].vn = c->pair[k].vt = 0.0;
   for (int k = 0; k < c->ncandidates; k++) {
-    c->touch[n].candidate = k;
-    n += TouchTarget(c, s, &c->candidate[k], &c->touch[n]);
+    c->active[n].candidate = k;
+    n += ActivePairTarget(c, s, &c->candidate[k], &c->active[n]);
   }
   for (int k = 0; k < c->nwalls; k++) {
-    c->touch[n].candidate = -1 - k;
-    n += TouchWall(c, s, &c->wall[k], &c->touch[n]);
+    c->active[n].candidate = -1 - k;
+    n += ActivePairWall(c, s, &c->wall[k], &c->active[n]);
   }
-  *ntouches = n;
+  *nactive = n;
   PetscFunctionReturn(0);
 }
 
@@ -274,23 +272,23 @@ static void Add(double force[], int node, double scale, Point f)
   force[2 * node + 1] += scale * f.y;
 }
 
-static void AddTouch(Contact c, Solid s, const Touch *touch)
+static void AddActivePair(Contact c, Solid s, const ActivePair *active)
 {
-  const Candidate *k = touch->candidate < 0 ? NULL : &c->candidate[touch->candidate];
-  const WallCandidate *w = k ? NULL : &c->wall[-1 - touch->candidate];
+  const Candidate *k = active->candidate < 0 ? NULL : &c->candidate[active->candidate];
+  const WallCandidate *w = k ? NULL : &c->wall[-1 - active->candidate];
   const int *edge = s->facet + 2 * (k ? k->facet : w->facet);
   const ContactResponse *r = &c->pair[k ? k->pair : w->pair].response;
   const Point d = EdgeVector(s, edge);
   const double normal = 1.0 + r->normal, tangential = r->tangential;
   const Point f = {-d.y * normal + d.x * tangential, d.x * normal + d.y * tangential}; /* on the edge */
   for (int i = 0; i < 2; i++) {
-    const double scale = touch->scale * touch->integrals.edge[i];
+    const double scale = active->scale * active->integrals.edge[i];
     Add(s->force, edge[i], scale, f);
     if (w) c->walls = (Point){c->walls.x + scale * f.x, c->walls.y + scale * f.y};
   }
   for (int i = 0; k && i < 3; i++) {
     const int node = c->target[k->target].node[i];
-    const double scale = -touch->scale * touch->integrals.target[i];
+    const double scale = -active->scale * active->integrals.target[i];
     if (node < s->nnodes)
       Add(s->force, node, scale, f);
     else
@@ -303,10 +301,10 @@ PetscErrorCode ContactAddForces(Contact c, Solid s)
   int n;
   PetscFunctionBeginUser;
   if (c->halo) PetscCall(HaloForward(c->halo, s->x, c->rough ? s->v : NULL));
-  PetscCall(FindTouches(c, s, &n));
+  PetscCall(FindActivePairs(c, s, &n));
   Respond(c, s);
   c->walls = (Point){0.0, 0.0};
-  for (int k = 0; k < n; k++) AddTouch(c, s, &c->touch[k]);
+  for (int k = 0; k < n; k++) AddActivePair(c, s, &c->active[k]);
   if (c->halo) PetscCall(HaloReverse(c->halo, s->force));
   PetscFunctionReturn(0);
 }
@@ -316,14 +314,14 @@ PetscErrorCode ContactDestroy(Contact *c)
   PetscFunctionBeginUser;
   if (!*c) PetscFunctionReturn(0);
   PetscCall(HaloDestroy(&(*c)->halo));
-  PetscCall(PetscFree3((*c)->height, (*c)->softness, (*c)->backing));
+  PetscCall(PetscFree3((*c)->height, (*c)->compliance, (*c)->areal_mass));
   PetscCall(PetscFree((*c)->searched));
   PetscCall(PetscFree((*c)->first_pair));
   PetscCall(PetscFree((*c)->target));
   PetscCall(PetscFree((*c)->candidate));
   PetscCall(PetscFree((*c)->wall));
   PetscCall(PetscFree((*c)->pair));
-  PetscCall(PetscFree((*c)->touch));
+  PetscCall(PetscFree((*c)->active));
   PetscCall(PetscFree((*c)->history.slip));
   PetscCall(PetscFree((*c)->saved.slip));
   PetscCall(PetscFree(*c));

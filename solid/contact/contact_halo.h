@@ -9,7 +9,7 @@
 /* An element with a node on the surface. */
 typedef struct {
   int node[3];                /* local nodes; nnodes + 3 k + i for the i-th node of target k of the halo */
-  int body, material, number; /* the last: in the assembly */
+  int body, material, number; /* the last: in the model */
   long long gid[3];           /* of its nodes */
   double rest[6];             /* [3][2] rest coordinates, m */
   double twice_area;          /* at rest, m2 */

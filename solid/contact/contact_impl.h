@@ -49,24 +49,24 @@ typedef struct {
   int candidate; /* -1 - k: wall candidate k */
   double scale;  /* of the integrals to a force over the edge's length, N/m */
   ContactIntegrals integrals;
-} Touch;
+} ActivePair;
 
 struct Contact_s {
   int ntargets, nall; /* this rank's; with those of the halo */
   Target *target;     /* [nall] */
-  int ncandidates, candidate_capacity, nwalls, wall_capacity, npairs, pair_capacity, touch_capacity;
+  int ncandidates, candidate_capacity, nwalls, wall_capacity, npairs, pair_capacity, active_capacity;
   Candidate *candidate;
   WallCandidate *wall;
   Pair *pair;
-  Touch *touch;
+  ActivePair *active;
   int *first_pair; /* [nfacets] -1: none */
   Slips history, saved;
   PetscBool restored; /* history, not the pairs, holds the slips */
   PetscBool rough;    /* any friction or damping: velocities are needed */
   Halo halo;          /* NULL on one rank */
   double *height;     /* [nbodies] smallest height of the surface elements at rest, m */
-  double *softness;   /* [nbodies] largest (half the edges' lengths at a node)/(its mass), m/kg */
-  double *backing;    /* [nbodies] mass behind a metre of surface, 4 M/perimeter, kg/m2; HUGE_VAL: held */
+  double *compliance; /* [nbodies] largest (half the edges' lengths at a node)/(its mass), m/kg */
+  double *areal_mass; /* [nbodies] mass behind a metre of surface, 4 M/perimeter, kg/m2; HUGE_VAL: fixed */
   double *searched;   /* [nnodes][2] positions of the last search */
   double buffer, shortest_buffer;
   Point walls;    /* what they did to this rank's edges, N */

@@ -22,8 +22,7 @@ void ContactMaterials(const Solid s, int material, int other, double *friction, 
   }
 }
 
-/* --- history
- * ------------------------------------------------------------------------------------------------ */
+/* --- history ------------------------------------------------------------------------------------------ */
 
 static int CompareSlips(const void *a, const void *b)
 {

@@ -17,8 +17,7 @@ const double *ContactPosition(const Contact c, const Solid s, int node)
   return node < s->nnodes ? s->x + 2 * node : HaloPositions(c->halo) + 2 * (node - s->nnodes);
 }
 
-/* --- distances
- * ---------------------------------------------------------------------------------------------- */
+/* --- distances ---------------------------------------------------------------------------------------- */
 
 /* Squared distance from a to the segment p q. */
 static double PointSegment(Point a, Point p, Point q)
@@ -45,7 +44,7 @@ static double Distance(Point p, Point q, const Point t[3])
 /* Farther than the buffer they cannot touch before the next search.  Of one body: a pair that shares a node
  * never touches by itself, neighbours at rest only once they have come closer, and a buffer that is long
  * because the body as a whole is fast is not needed. */
-static PetscBool MayTouch(const Contact c, const Solid s, int facet, const Target *t)
+static PetscBool MayBeActive(const Contact c, const Solid s, int facet, const Target *t)
 {
   const int *edge = s->facet + 2 * facet, body = s->elements.body[s->facet_element[facet]];
   Point now[3], rest[3];
@@ -64,8 +63,7 @@ static PetscBool MayTouch(const Contact c, const Solid s, int facet, const Targe
                      (apart == 0.0 || apart > c->shortest_buffer || distance < APPROACH * apart));
 }
 
-/* --- candidates
- * --------------------------------------------------------------------------------------------- */
+/* --- candidates --------------------------------------------------------------------------------------- */
 
 /* Mass behind a metre of both surfaces. */
 static double Together(double one, double other)
@@ -77,12 +75,12 @@ static double Together(double one, double other)
 /* Tangential spring half as stiff as the normal contact of the whole edge, 3 p L/height; damping as a
  * fraction of the critical 2 sqrt(k m).  *rate: its viscous rate per metre and mass, c/L. */
 static ContactLaw LawOf(const Solid s, int facet, double friction, double damping, double penalty,
-                        double height, double backing, double *rate)
+                        double height, double areal_mass, double *rate)
 {
   const Point d =
       PointMinus(PointAt(s->rest, s->facet[2 * facet + 1]), PointAt(s->rest, s->facet[2 * facet]));
   const double length = hypot(d.x, d.y), stiffness = 3.0 * penalty / height;
-  *rate = damping > 0.0 && backing < HUGE_VAL ? 2.0 * damping * sqrt(stiffness * backing) : 0.0;
+  *rate = damping > 0.0 && areal_mass < HUGE_VAL ? 2.0 * damping * sqrt(stiffness * areal_mass) : 0.0;
   return (ContactLaw){friction, friction > 0.0 ? 0.5 * stiffness * length : 0.0, *rate * length};
 }
 
@@ -97,24 +95,24 @@ static PetscErrorCode AddCandidate(void *context, int facet, int target)
   double friction, damping, viscous;
   int pair;
   PetscFunctionBeginUser;
-  if (!MayTouch(c, s, facet, t)) PetscFunctionReturn(0);
+  if (!MayBeActive(c, s, facet, t)) PetscFunctionReturn(0);
   if (c->ncandidates == c->candidate_capacity) {
     c->candidate_capacity = 2 * c->candidate_capacity + 64;
     PetscCall(PetscRealloc((size_t)c->candidate_capacity * sizeof *c->candidate, &c->candidate));
   }
   const double penalty = fmin(own->penalty, other->penalty) * fmin(own->thickness, other->thickness);
-  const double softness = fmax(c->softness[body], c->softness[t->body]);
+  const double compliance = fmax(c->compliance[body], c->compliance[t->body]);
   ContactMaterials(s, s->elements.material[element], t->material, &friction, &damping);
   const ContactLaw law = LawOf(s, facet, friction, damping, penalty, c->height[t->body],
-                               Together(c->backing[body], c->backing[t->body]), &viscous);
+                               Together(c->areal_mass[body], c->areal_mass[t->body]), &viscous);
   PetscCall(ContactPairOf(c, s, facet, t->body, law, &pair));
   c->candidate[c->ncandidates++] = (Candidate){facet, target, pair, penalty * t->twice_area};
   if (target >= c->ntargets) x->keep[target - c->ntargets] = 1;
   /* d(p phi)/dx = 3 p/height; a node takes half of its edges, |u_c - u_t|^2 <= 2 |u_c|^2 + 2 |u_t|^2, and
    * both bodies are contactor and target */
   c->rate[0] =
-      fmax(c->rate[0], 6.0 * penalty * softness * (1.0 / c->height[body] + 1.0 / c->height[t->body]));
-  c->rate[2] = fmax(c->rate[2], 4.0 * viscous * softness);
+      fmax(c->rate[0], 6.0 * penalty * compliance * (1.0 / c->height[body] + 1.0 / c->height[t->body]));
+  c->rate[2] = fmax(c->rate[2], 4.0 * viscous * compliance);
   PetscFunctionReturn(0);
 }
 
@@ -133,9 +131,9 @@ static PetscErrorCode AddWall(Contact c, Solid s, int facet, int axis, double ou
   *w = (WallCandidate){facet, axis, -1, outward, at};
   ContactMaterials(s, s->elements.material[element], wall, &friction, &damping);
   const ContactLaw law = LawOf(s, facet, friction, damping, m->penalty * m->thickness, c->height[body],
-                               c->backing[body], &viscous);
+                               c->areal_mass[body], &viscous);
   PetscCall(ContactPairOf(c, s, facet, wall, law, &w->pair));
-  c->rate[3] = fmax(c->rate[3], 2.0 * viscous * c->softness[body]); /* in a corner two walls act */
+  c->rate[3] = fmax(c->rate[3], 2.0 * viscous * c->compliance[body]); /* in a corner two walls act */
   PetscFunctionReturn(0);
 }
 
@@ -151,8 +149,8 @@ static PetscErrorCode FindWalls(Contact c, Solid s, const GeometryBox edge[])
       if (edge[k].upper[axis] > upper[axis]) PetscCall(AddWall(c, s, k, axis, 1.0, upper[axis]));
     }
     /* in a corner two walls act */
-    c->rate[1] = fmax(c->rate[1], 3.0 * (c->nwalls - before) * m->penalty * m->thickness * c->softness[body] /
-                                      c->height[body]);
+    c->rate[1] = fmax(c->rate[1], 3.0 * (c->nwalls - before) * m->penalty * m->thickness *
+                                      c->compliance[body] / c->height[body]);
   }
   PetscFunctionReturn(0);
 }
@@ -218,14 +216,14 @@ static PetscErrorCode FindPairs(Contact c, Solid s, const GeometryBox edge[])
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ContactSearch(Contact c, Solid s, double least_buffer)
+PetscErrorCode ContactSearch(Contact c, Solid s, double min_buffer)
 {
   GeometryBox *edge;
   PetscFunctionBeginUser;
   PetscCall(ContactForgetPairs(c));
   c->restored = PETSC_FALSE;
   for (int k = 0; k < s->nfacets; k++) c->first_pair[k] = -1;
-  c->buffer = fmax(c->shortest_buffer, least_buffer);
+  c->buffer = fmax(c->shortest_buffer, min_buffer);
   for (int k = 0; k < 4; k++) c->rate[k] = 0.0;
   PetscCall(PetscMalloc1((size_t)s->nfacets, &edge));
   for (int k = 0; k < s->nfacets; k++) {

@@ -1,4 +1,4 @@
-/* How a body comes apart: nodes split where the ties of their star are cut, broken edges become surface. */
+/* How a body comes apart: nodes split where the bonds of their star are cut, broken edges become surface. */
 #include "solid/cracks/joints_impl.h"
 #include <stdlib.h>
 
@@ -15,21 +15,20 @@ int JointsFind(Joints j, int number)
   return low < j->n && j->joint[low].number == number ? low : -1;
 }
 
-/* --- nodes
- * -------------------------------------------------------------------------------------------------- */
+/* --- nodes -------------------------------------------------------------------------------------------- */
 
-/* root[c]: the lowest corner of the star that uncut ties connect with c. */
+/* root[c]: the lowest corner of the star that uncut bonds connect with c. */
 static void ConnectCorners(const Joints j, int star, int root[])
 {
-  const Tie *tie = j->tie + j->star_tie[star];
-  const int n = j->star_tie[star + 1] - j->star_tie[star];
+  const Bond *bond = j->bond + j->star_bond[star];
+  const int n = j->star_bond[star + 1] - j->star_bond[star];
   int merged = 1;
   for (int c = 0; c < j->star_corner[star + 1] - j->star_corner[star]; c++) root[c] = c;
   while (merged) {
     merged = 0;
     for (int k = 0; k < n; k++) {
-      if (tie[k].joint >= 0 && j->memory[tie[k].joint].stage != JOINT_WHOLE) continue;
-      int *one = &root[tie[k].corner[0]], *two = &root[tie[k].corner[1]];
+      if (bond[k].joint >= 0 && j->memory[bond[k].joint].stage != JOINT_INTACT) continue;
+      int *one = &root[bond[k].corner[0]], *two = &root[bond[k].corner[1]];
       merged |= *one != *two;
       *one = *two = PetscMin(*one, *two);
     }
@@ -48,7 +47,7 @@ static int CopyNode(Solid s, int from, long long gid)
   s->base[n] = s->base[from];
   s->mass[n] = 0.0;
   s->inverse_mass[n] = s->inverse_mass[from];
-  s->prescribed[n] = s->prescribed[from];
+  s->is_prescribed[n] = s->is_prescribed[from];
   return n;
 }
 
@@ -67,9 +66,9 @@ typedef struct {
   double mass, load[2];
 } Before;
 
-/* Each node's mass from its corners; the parts of a node share its load by their masses, so that none is
+/* Each node's mass from its corners; the load of a node is split between its parts by their masses, so that none is
  * accelerated otherwise than before. */
-static void ShareMass(Solid s, int n, const Corner corner[], const Before before[])
+static void SplitMass(Solid s, int n, const Corner corner[], const Before before[])
 {
   for (int c = 0; c < n; c++) s->mass[corner[c].node] = 0.0;
   for (int c = 0; c < n; c++) s->mass[corner[c].node] += corner[c].mass;
@@ -98,26 +97,27 @@ static void SplitStar(Joints j, Solid s, int star)
       }
   }
   for (int c = 0; c < n; c++) SetCornerNode(j, s, &corner[c], node[c]);
-  ShareMass(s, n, corner, before);
+  SplitMass(s, n, corner, before);
 }
 
-/* Parts of a driven node are driven as it is. */
-static PetscErrorCode DriveParts(Solid s)
+/* Parts of a prescribed node have its prescribed motion. */
+static PetscErrorCode PrescribeParts(Solid s)
 {
   PetscFunctionBeginUser;
-  s->ndriven = s->ndriven_first;
+  s->nprescribed = s->nprescribed_first;
   for (int n = 0; n < s->nnodes; n++) {
-    if (s->base[n] == n || !s->prescribed[n]) continue;
-    PetscCall(PetscRealloc((size_t)(s->ndriven + s->ndriven_first) * sizeof *s->driven, &s->driven));
-    for (int k = 0; k < s->ndriven_first; k++)
-      if (s->driven[k].node == s->base[n]) s->driven[s->ndriven++] = (DrivenNode){n, s->driven[k].drive};
+    if (s->base[n] == n || !s->is_prescribed[n]) continue;
+    PetscCall(PetscRealloc((size_t)(s->nprescribed + s->nprescribed_first) * sizeof *s->prescribed,
+                           &s->prescribed));
+    for (int k = 0; k < s->nprescribed_first; k++)
+      if (s->prescribed[k].node == s->base[n])
+        s->prescribed[s->nprescribed++] = (PrescribedNode){n, s->prescribed[k].motion};
   }
-  PetscCall(PetscRealloc(2 * (size_t)s->ndriven * sizeof *s->held, &s->held));
+  PetscCall(PetscRealloc(2 * (size_t)s->nprescribed * sizeof *s->position_before, &s->position_before));
   PetscFunctionReturn(0);
 }
 
-/* --- surface
- * ------------------------------------------------------------------------------------------------ */
+/* --- surface ------------------------------------------------------------------------------------------ */
 
 static void PlaceFacets(Solid s, int first)
 {
@@ -142,14 +142,13 @@ static PetscErrorCode MarkSurface(Solid s)
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(2 * (size_t)s->nnodes, &on));
   for (int k = 0; k < 2 * s->nfacets; k++) on[2 * s->facet[k]] = 1.0;
-  PetscCall(SubdomainSum(s->share, on));
+  PetscCall(SubdomainSum(s->subdomain, on));
   for (int n = 0; n < s->nnodes; n++) s->surface[n] = on[2 * n] > 0.0;
   PetscCall(PetscFree(on));
   PetscFunctionReturn(0);
 }
 
-/* --- ranks
- * -------------------------------------------------------------------------------------------------- */
+/* --- ranks -------------------------------------------------------------------------------------------- */
 
 typedef struct {
   int rank, node;
@@ -164,7 +163,7 @@ static int CompareCopies(const void *a, const void *b)
 }
 
 /* A part of a node is on all ranks that had the node. */
-static PetscErrorCode RenewShare(Solid s)
+static PetscErrorCode RenewSubdomain(Solid s)
 {
   const Copies *c = &s->copies;
   int n = 0, *first, *next, *rank, *node;
@@ -188,21 +187,20 @@ static PetscErrorCode RenewShare(Solid s)
     rank[k] = copy[k].rank;
     node[k] = copy[k].node;
   }
-  PetscCall(SubdomainDestroy(&s->share));
-  PetscCall(SubdomainCreate(s->comm, s->nnodes, n, rank, node, &s->share));
+  PetscCall(SubdomainDestroy(&s->subdomain));
+  PetscCall(SubdomainCreate(s->comm, s->nnodes, n, rank, node, &s->subdomain));
   PetscCall(PetscFree3(copy, rank, node));
   PetscCall(PetscFree2(first, next));
   PetscFunctionReturn(0);
 }
 
-/* --- the whole
- * ---------------------------------------------------------------------------------------------- */
+/* --- all joints --------------------------------------------------------------------------------------- */
 
-static void Touch(Joints j, int star)
+static void MarkStar(Joints j, int star)
 {
-  if (star < 0 || j->touched[star]) return;
-  j->touched[star] = 1;
-  j->cut[j->ntouched++] = star;
+  if (star < 0 || j->marked[star]) return;
+  j->marked[star] = 1;
+  j->cut[j->nmarked++] = star;
 }
 
 /* With which the solid has come to that revision. */
@@ -212,34 +210,34 @@ static void ApplyEvent(Joints j, Solid s, int revision, int event)
   if (k < 0) return;
   j->memory[k].since[event % 2] = revision;
   if (event % 2 == 0) {
-    j->memory[k].stage = JOINT_LIVE;
-    for (int end = 0; end < 2; end++) Touch(j, j->joint[k].star[end]);
+    j->memory[k].stage = JOINT_ACTIVE;
+    for (int end = 0; end < 2; end++) MarkStar(j, j->joint[k].star[end]);
   } else {
     j->memory[k].stage = JOINT_BROKEN;
     AddFacets(s, &j->joint[k]);
   }
 }
 
-static PetscErrorCode SplitTouched(Joints j, Solid s)
+static PetscErrorCode SplitMarked(Joints j, Solid s)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscSortInt(j->ntouched, j->cut));
-  for (int k = 0; k < j->ntouched; k++) SplitStar(j, s, j->cut[k]);
+  PetscCall(PetscSortInt(j->nmarked, j->cut));
+  for (int k = 0; k < j->nmarked; k++) SplitStar(j, s, j->cut[k]);
   PetscFunctionReturn(0);
 }
 
-static void ForgetTouched(Joints j)
+static void ClearMarks(Joints j)
 {
-  for (int k = 0; k < j->ntouched; k++) j->touched[j->cut[k]] = 0;
-  j->ntouched = 0;
+  for (int k = 0; k < j->nmarked; k++) j->marked[j->cut[k]] = 0;
+  j->nmarked = 0;
 }
 
-PetscErrorCode JointsSettle(Joints j, Solid s)
+PetscErrorCode JointsSynchronise(Joints j, Solid s)
 {
   PetscFunctionBeginUser;
   s->npieces = 0;
-  PetscCall(DriveParts(s));
-  PetscCall(RenewShare(s));
+  PetscCall(PrescribeParts(s));
+  PetscCall(RenewSubdomain(s));
   PetscCall(MarkSurface(s));
   PetscCall(JointsMeasureRate(j, s));
   PetscCall(ContactRenew(s->contact, s));
@@ -252,21 +250,20 @@ PetscErrorCode JointsApply(Joints j, Solid s, int n, const int event[])
   PetscFunctionBeginUser;
   s->revision++;
   for (int k = 0; k < n; k++) ApplyEvent(j, s, s->revision, event[k]);
-  PetscCall(SplitTouched(j, s));
+  PetscCall(SplitMarked(j, s));
   PlaceFacets(s, 0);
   SolidListCorners(s);
   JointsList(j, s);
   JointsBeginEnds(j, s);
-  JointsFindBrinks(j, s, PETSC_FALSE);
+  JointsFindCrackTips(j, s, PETSC_FALSE);
   JointsList(j, s);
-  ForgetTouched(j);
+  ClearMarks(j);
   s->force_valid = PETSC_FALSE;
-  PetscCall(JointsSettle(j, s));
+  PetscCall(JointsSynchronise(j, s));
   PetscFunctionReturn(0);
 }
 
-/* --- once more
- * ---------------------------------------------------------------------------------------------- */
+/* --- once more ---------------------------------------------------------------------------------------- */
 
 typedef struct {
   int revision, event;
@@ -279,7 +276,7 @@ static int ComparePast(const void *a, const void *b)
                                     : (p->event > q->event) - (p->event < q->event);
 }
 
-/* All that has happened to this rank's joints, as it followed, allocated; the joints become whole. */
+/* All that has happened to this rank's joints, as it followed, allocated; the joints become intact. */
 static PetscErrorCode TakePast(Joints j, int *n, Past **past)
 {
   PetscFunctionBeginUser;
@@ -288,7 +285,7 @@ static PetscErrorCode TakePast(Joints j, int *n, Past **past)
   for (int k = 0; k < j->n; k++) {
     for (int i = 0; i < 2; i++)
       if (j->memory[k].since[i]) (*past)[(*n)++] = (Past){j->memory[k].since[i], 2 * j->joint[k].number + i};
-    j->memory[k].stage = JOINT_WHOLE;
+    j->memory[k].stage = JOINT_INTACT;
   }
   if (*n > 1) qsort(*past, (size_t)*n, sizeof **past, ComparePast);
   PetscFunctionReturn(0);
@@ -303,19 +300,18 @@ PetscErrorCode JointsReplay(Joints j, Solid s)
   for (int k = 0; k < n;) {
     const int revision = past[k].revision;
     for (; k < n && past[k].revision == revision; k++) ApplyEvent(j, s, revision, past[k].event);
-    PetscCall(SplitTouched(j, s));
-    ForgetTouched(j);
+    PetscCall(SplitMarked(j, s));
+    ClearMarks(j);
   }
   PlaceFacets(s, 0);
   SolidListCorners(s);
-  JointsFindBrinks(j, s, PETSC_TRUE);
+  JointsFindCrackTips(j, s, PETSC_TRUE);
   JointsList(j, s);
   PetscCall(PetscFree(past));
   PetscFunctionReturn(0);
 }
 
-/* --- a step that is redone
- * ---------------------------------------------------------------------------------- */
+/* --- a step that is redone ---------------------------------------------------------------------------- */
 
 static PetscErrorCode Save(Joints j, Solid s)
 {
@@ -347,13 +343,13 @@ static PetscErrorCode Restore(Joints j, Solid s)
       before[c] = (Before){1.0, {0.0, 0.0}}; /* the coming step has loads of its own */
       SetCornerNode(j, s, &j->corner[first + c], j->saved_corner[first + c].node);
     }
-    ShareMass(s, n, j->corner + first, before);
+    SplitMass(s, n, j->corner + first, before);
   }
   PlaceFacets(s, 0);
   SolidListCorners(s);
-  JointsFindBrinks(j, s, PETSC_TRUE);
+  JointsFindCrackTips(j, s, PETSC_TRUE);
   JointsList(j, s);
-  s->unsettled = PETSC_TRUE;
+  s->unsynchronised = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
 

@@ -14,8 +14,8 @@ PetscErrorCode SolidFracture(Solid s, FractureState *state)
   PetscCall(SolidForces(s, &force));
   for (int k = 0; k < j->n; k++) {
     const JointMemory *m = &j->memory[k];
-    if (!j->joint[k].mine || m->stage == JOINT_WHOLE) continue;
-    sum[m->stage == JOINT_LIVE ? 0 : 1] += 1.0;
+    if (!j->joint[k].mine || m->stage == JOINT_INTACT) continue;
+    sum[m->stage == JOINT_ACTIVE ? 0 : 1] += 1.0;
     for (int end = 0; end < 2; end++) {
       const double half = 0.5 * j->joint[k].length, energy = half * m->end[end].absorbed;
       sum[3] += energy;
@@ -25,11 +25,11 @@ PetscErrorCode SolidFracture(Solid s, FractureState *state)
     }
   }
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 5, MPI_DOUBLE, MPI_SUM, s->comm));
-  state->live = (int)sum[0];
+  state->active = (int)sum[0];
   state->broken = (int)sum[1];
   state->length = sum[2];
   state->energy = sum[3];
-  state->torn = sum[4];
+  state->debonded = sum[4];
   PetscFunctionReturn(0);
 }
 
@@ -38,7 +38,7 @@ void SolidDamage(Solid s, double damage[])
   const Joints j = s->joints;
   for (int e = 0; e < s->elements.n; e++) damage[e] = 0.0;
   for (int k = 0; j && k < j->n; k++) {
-    if (!j->joint[k].held) continue;
+    if (!j->joint[k].followed) continue;
     const double most = fmax(j->memory[k].end[0].damage, j->memory[k].end[1].damage);
     for (int i = 0; i < 2; i++) {
       const int e = j->joint[k].place[i];
@@ -47,8 +47,7 @@ void SolidDamage(Solid s, double damage[])
   }
 }
 
-/* --- pieces
- * ------------------------------------------------------------------------------------------------- */
+/* --- pieces ------------------------------------------------------------------------------------------- */
 
 static void Lower(double label[], int n, const int node[], PetscBool *changed)
 {
@@ -67,9 +66,9 @@ static PetscBool Sweep(const Solid s, double label[])
   PetscBool changed = PETSC_FALSE;
   for (int e = 0; e < s->elements.n; e++) Lower(label, 3, s->element + 3 * e, &changed);
   for (int e = s->elements.n - 1; e >= 0; e--) Lower(label, 3, s->element + 3 * e, &changed);
-  for (int k = 0; j && k < j->nlive; k++)
+  for (int k = 0; j && k < j->nactive; k++)
     for (int end = 0; end < 2; end++) {
-      const int *corner = j->joint[j->live[k]].corner[end];
+      const int *corner = j->joint[j->active[k]].corner[end];
       const int node[2] = {j->corner[corner[0]].node, j->corner[corner[1]].node};
       Lower(label, 2, node, &changed);
     }
@@ -85,7 +84,7 @@ static PetscErrorCode LabelNodes(Solid s, double label[])
   while (any) {
     PetscBool changed = PETSC_FALSE;
     while (Sweep(s, label)) changed = PETSC_TRUE;
-    PetscCall(SubdomainLeast(s->share, label));
+    PetscCall(SubdomainMin(s->subdomain, label));
     any = changed;
     if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, s->comm));
   }

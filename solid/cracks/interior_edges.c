@@ -30,8 +30,7 @@ PetscErrorCode InteriorEdgesFind(const Model *a, InteriorEdges *edges)
   PetscFunctionReturn(0);
 }
 
-/* --- looks
- * -------------------------------------------------------------------------------------------------- */
+/* --- ghosts ------------------------------------------------------------------------------------------- */
 
 static int ComparePairs(const void *a, const void *b)
 {
@@ -74,13 +73,13 @@ static PetscErrorCode RanksAtNodes(const InteriorEdges *edges, const Model *a, c
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode InteriorEdgesLooks(const InteriorEdges *edges, const Model *a, const int part[], int *n,
-                                  Look **look)
+PetscErrorCode InteriorEdgesGhosts(const InteriorEdges *edges, const Model *a, const int part[], int *n,
+                                   GhostElement **ghost)
 {
   int(*at)[2], (*pair)[2], *first;
   PetscFunctionBeginUser;
   *n = 0;
-  *look = NULL;
+  *ghost = NULL;
   if (edges->njoints == 0) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1((size_t)a->nnodes + 1, &first));
   PetscCall(RanksAtNodes(edges, a, part, &at, first));
@@ -94,8 +93,8 @@ PetscErrorCode InteriorEdgesLooks(const InteriorEdges *edges, const Model *a, co
       pair[(*n)++][1] = k / 3;
     }
   *n = SortUnique(*n, pair);
-  PetscCall(PetscMalloc1((size_t)*n, look));
-  for (int k = 0; k < *n; k++) (*look)[k] = (Look){pair[k][0], pair[k][1]};
+  PetscCall(PetscMalloc1((size_t)*n, ghost));
+  for (int k = 0; k < *n; k++) (*ghost)[k] = (GhostElement){pair[k][0], pair[k][1]};
   PetscCall(PetscFree(first));
   PetscCall(PetscFree(at));
   PetscCall(PetscFree(pair));

@@ -1,4 +1,4 @@
-/* The edges between two elements of an assembly, and which of them are joints: those between two elements
+/* The edges between two elements of a model, and which of them are joints: those between two elements
  * that may part.  Not collective, the same on all ranks. */
 #ifndef SOLID_INTERIOR_EDGES_H
 #define SOLID_INTERIOR_EDGES_H
@@ -15,14 +15,14 @@ typedef struct {
   InteriorEdge *edge;
 } InteriorEdges;
 
-/* Rank `rank` looks at another rank's element: it has one that shares a node with joints with it. */
+/* Rank `rank` needs another rank's element as a ghost: it has one that shares a node with joints with it. */
 typedef struct {
   int rank, element;
-} Look;
+} GhostElement;
 
 PetscErrorCode InteriorEdgesFind(const Model *a, InteriorEdges *edges);
-/* *look is allocated, [*n], sorted by rank and element. */
-PetscErrorCode InteriorEdgesLooks(const InteriorEdges *edges, const Model *a, const int part[], int *n,
-                                  Look **look);
+/* *ghost is allocated, [*n], sorted by rank and element. */
+PetscErrorCode InteriorEdgesGhosts(const InteriorEdges *edges, const Model *a, const int part[], int *n,
+                                   GhostElement **ghost);
 PetscErrorCode InteriorEdgesDestroy(InteriorEdges *edges);
 #endif

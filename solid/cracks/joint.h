@@ -1,5 +1,6 @@
-/* The joint: what holds two triangles together along their common edge once that edge is loaded to its
- * strength, and how it comes apart.  Two ends, each with half of the edge's length L (at rest); per end
+/* The joint, a cohesive element: the traction between two triangles along their common edge once that edge is
+ * loaded to its strength, and how it softens until they are apart.  Two ends, each with half of the edge's
+ * length L (at rest); per end
  *
  *        a2----------b2    element 2         d = x2 - x1 at the end,  e along the midline a -> b,
  *        :   o ^     :                       n to its right, out of element 1
@@ -10,12 +11,12 @@
  *     softening   D = the least in 0 .. 1 with (O/a)^2 + (S/b)^2 <= 1, never less than before
  *                 sigma = z(D) F_t O/a,  tau = z(D) F_s S/b
  *     pressed     sigma = k (o + c (1 - D)) < 0       as contact presses, damaged or not
- *     rubbing     q += k ds, cut back to |q| <= f |sigma| where pressed; tau is what is told above plus q, so
- *                 that a sound edge bears F_s + f |sigma| (Mohr and Coulomb)
+ *     friction    q += k ds, cut back to |q| <= f |sigma| where pressed; tau is the value above plus q, so
+ *                 that an intact edge bears F_s + f |sigma| (Mohr and Coulomb)
  *
- * with z(D) of method.md 8 and A = int_0^1 z dD.  Strength and what is left of it are ellipses: (sigma/F_t)^2
+ * with z(D) of method.md 8 and A = int_0^1 z dD.  Strength and residual strength are ellipses: (sigma/F_t)^2
  * + (tau/F_s)^2 = z^2 while D grows; unloading goes straight to the origin.  (o0, s0) and c are chosen when
- * the joint comes to life: it then pulls as the elements did (JointBegin), and needs no softness before.
+ * the joint activates: its traction then is that of the elements (JointBegin), and it needs no compliance before.
  *
  * Energy.  With O = a cos q, S = b sin q the work while D grows is, per unit of edge,
  *     sigma do + tau ds = z/A (G_I cos^2 q + G_II sin^2 q) dD + z (F_s b - F_t a) sin q cos q dq
@@ -41,16 +42,16 @@ typedef struct {
 } JointLaw;
 
 typedef struct {
-  double damage, left;   /* D, z(D) */
-  double strong;         /* >= 1: strengths of this end over those of the law */
-  double offset[3];      /* o0, s0, c, m */
-  double opening, slip;  /* last seen, m */
-  double reach;          /* the other end's part in them: 0, or 1/4 once it has broken; */
-  double shift[2];       /* then they are less by this, m */
-  double tension, shear; /* what it then pulled with, Pa */
-  double rubbing;        /* q: friction's share of the shear, Pa */
-  double rubbed;         /* the end's own slip when last pressed, m */
-  double absorbed;       /* int tension do + shear ds, J/m2: the energy of fracture when broken */
+  double damage, residual; /* D, z(D) */
+  double strong;           /* >= 1: strengths of this end over those of the law */
+  double offset[3];        /* o0, s0, c, m */
+  double opening, slip;    /* of the last evaluation, m */
+  double other_weight;     /* the other end's part in opening and slip: 0, or 1/4 once it has broken; */
+  double shift[2];         /* then they are less by this, m */
+  double tension, shear;   /* the traction then, Pa */
+  double friction;         /* q: friction's share of the shear, Pa */
+  double friction_slip;    /* the end's own slip when last pressed, m */
+  double absorbed;         /* int tension do + shear ds, J/m2: the energy of fracture when broken */
 } JointEnd;
 
 typedef struct {
@@ -60,13 +61,14 @@ typedef struct {
 /* z(D): 1 at D = 0, 0 at D = 1 */
 static inline double JointSoftening(double damage)
 {
-  const double a = 0.63, b = 1.8, c = 6.0, ab = a + b, left = 1.0 - damage, square = left * left;
+  const double a = 0.63, b = 1.8, c = 6.0, ab = a + b, remaining = 1.0 - damage,
+               square = remaining * remaining;
   return (1.0 - (ab - 1.0) / ab * exp(damage * (a + c * b) / (ab * (1.0 - ab)))) *
-         (a * left + b * square * square * square);
+         (a * remaining + b * square * square * square);
 }
 
 /* What friction bears of a shear, at most f times the pressure. */
-static inline double JointRubbing(const JointLaw *law, double normal, double shear)
+static inline double JointFriction(const JointLaw *law, double normal, double shear)
 {
   const double most = -law->friction * fmin(normal, 0.0);
   return fmax(-most, fmin(most, shear));
@@ -77,20 +79,20 @@ static inline double JointRubbing(const JointLaw *law, double normal, double she
 static inline double JointLoad(const JointLaw *law, double normal, double shear)
 {
   const double x = fmax(normal, 0.0) / law->strength[0];
-  const double y = (shear - JointRubbing(law, normal, shear)) / law->strength[1];
+  const double y = (shear - JointFriction(law, normal, shear)) / law->strength[1];
   return x * x + y * y;
 }
 
-/* An end comes to life under the traction that the edge carries.  One that carries more than its strength is
- * that much stronger: its pull then is continuous, and its energy the same. */
+/* An end activates under the traction that the edge carries.  One that carries more than its strength is
+ * that much stronger: its traction then is continuous, and its energy the same. */
 static inline JointEnd JointBegin(const JointLaw *law, double normal, double shear)
 {
-  const double rubbing = JointRubbing(law, normal, shear);
-  JointEnd end = {.left = 1.0,
+  const double friction = JointFriction(law, normal, shear);
+  JointEnd end = {.residual = 1.0,
                   .strong = fmax(1.0, sqrt(JointLoad(law, normal, shear))),
                   .tension = fmax(normal, 0.0),
-                  .shear = shear - rubbing,
-                  .rubbing = rubbing};
+                  .shear = shear - friction,
+                  .friction = friction};
   end.offset[0] = end.tension / law->stiffness;
   end.offset[1] = end.shear / law->stiffness;
   end.offset[2] = normal / law->stiffness;
@@ -114,8 +116,8 @@ static inline double JointDamage(double damage, double opening, double slip, con
 /* The other end has broken; theirs are its opening and slip, own this end's. */
 static inline void JointLast(JointEnd *end, const double own[2], const double theirs[2])
 {
-  end->reach = 0.25;
-  for (int c = 0; c < 2; c++) end->shift[c] = end->reach * (theirs[c] - own[c]);
+  end->other_weight = 0.25;
+  for (int c = 0; c < 2; c++) end->shift[c] = end->other_weight * (theirs[c] - own[c]);
 }
 
 /* The traction without what presses, at an opening and a slip; remembers damage and energy. */
@@ -128,10 +130,10 @@ static inline JointTraction JointTension(const JointLaw *law, JointEnd *end, dou
   const double closing = end->offset[2] * (1.0 - end->damage);
   const double o = fmax(opening + fmin(closing, 0.0) + end->offset[0], 0.0), s = slip + end->offset[1];
   const double damage = JointDamage(end->damage, o, s, start, range);
-  if (damage > end->damage) end->left = damage < 1.0 ? JointSoftening(damage) : 0.0;
+  if (damage > end->damage) end->residual = damage < 1.0 ? JointSoftening(damage) : 0.0;
   end->damage = damage;
-  const double tension = end->left * f[0] * o / (start[0] + end->damage * range[0]);
-  const double shear = end->left * f[1] * s / (start[1] + end->damage * range[1]);
+  const double tension = end->residual * f[0] * o / (start[0] + end->damage * range[0]);
+  const double shear = end->residual * f[1] * s / (start[1] + end->damage * range[1]);
   end->absorbed += 0.5 * (end->tension + tension) * (opening - end->opening) +
                    0.5 * (end->shear + shear) * (slip - end->slip);
   end->opening = opening;
@@ -146,24 +148,23 @@ static inline double JointPressure(const JointLaw *law, const JointEnd *end, dou
   return law->stiffness * fmin(opening + end->offset[2] * (1.0 - end->damage), 0.0);
 }
 
-/* What presses an end, and rubs on it, at its own opening and slip; remembers the friction. */
+/* Pressure and friction of an end at its own opening and slip; remembers the friction. */
 static inline JointTraction JointPress(const JointLaw *law, JointEnd *end, double opening, double slip)
 {
   const double pressure = JointPressure(law, end, opening);
-  end->rubbing = JointRubbing(law, pressure, end->rubbing + law->stiffness * (slip - end->rubbed));
-  end->rubbed = slip;
-  return (JointTraction){pressure, end->rubbing};
+  end->friction = JointFriction(law, pressure, end->friction + law->stiffness * (slip - end->friction_slip));
+  end->friction_slip = slip;
+  return (JointTraction){pressure, end->friction};
 }
 
 /* The traction of an end by itself. */
-static inline JointTraction JointPull(const JointLaw *law, JointEnd *end, double opening, double slip)
+static inline JointTraction JointTractionAt(const JointLaw *law, JointEnd *end, double opening, double slip)
 {
   const JointTraction t = JointTension(law, end, opening, slip), p = JointPress(law, end, opening, slip);
   return (JointTraction){t.normal + p.normal, t.shear + p.shear};
 }
 
-/* --- the edge in the plane
- * ------------------------------------------------------------------------------------ */
+/* --- the edge in the plane ---------------------------------------------------------------------------- */
 
 typedef struct {
   Point along, normal; /* unit vectors e and n of the midline */
@@ -196,14 +197,14 @@ static inline void JointTractions(const JointLaw *law, JointEnd end[2], const Jo
   for (int i = 0; i < 2; i++) {
     JointEnd *k = &end[i];
     if (!(k->strong > 0.0)) continue;
-    const double own = 1.0 - k->reach, theirs = k->reach;
-    const JointTraction pull = JointTension(law, k, own * o[i] + theirs * o[1 - i] - k->shift[0],
-                                            own * s[i] + theirs * s[1 - i] - k->shift[1]);
+    const double own = 1.0 - k->other_weight, theirs = k->other_weight;
+    const JointTraction traction = JointTension(law, k, own * o[i] + theirs * o[1 - i] - k->shift[0],
+                                                own * s[i] + theirs * s[1 - i] - k->shift[1]);
     const JointTraction press = JointPress(law, k, o[i], s[i]);
-    t[i].normal += own * pull.normal + press.normal;
-    t[i].shear += own * pull.shear + press.shear;
-    t[1 - i].normal += theirs * pull.normal;
-    t[1 - i].shear += theirs * pull.shear;
+    t[i].normal += own * traction.normal + press.normal;
+    t[i].shear += own * traction.shear + press.shear;
+    t[1 - i].normal += theirs * traction.normal;
+    t[1 - i].shear += theirs * traction.shear;
   }
 }
 
@@ -213,15 +214,16 @@ static inline double JointStiffening(const JointLaw *law, const JointEnd end[2],
                                      int i, const double opening[2], const double slip[2])
 {
   const JointEnd *k = &end[i];
-  const double k0 = law->stiffness, own = 1.0 - k->reach, pressure = JointPressure(law, k, shape->opening[i]);
-  const double rate[2] = {own * opening[i] + k->reach * opening[1 - i],
-                          own * slip[i] + k->reach * slip[1 - i]};
+  const double k0 = law->stiffness, own = 1.0 - k->other_weight,
+               pressure = JointPressure(law, k, shape->opening[i]);
+  const double rate[2] = {own * opening[i] + k->other_weight * opening[1 - i],
+                          own * slip[i] + k->other_weight * slip[1 - i]};
   double power = pressure < 0.0 ? k0 * opening[i] * opening[i] : 0.0;
-  if (fabs(k->rubbing) < -law->friction * pressure) power += k0 * slip[i] * slip[i];
+  if (fabs(k->friction) < -law->friction * pressure) power += k0 * slip[i] * slip[i];
   for (int mode = 0; mode < 2; mode++) {
     const double f = k->strong * law->strength[mode];
     if (mode == 0 && pressure < 0.0) continue;
-    power += k->left * f / (f / k0 + k->damage * law->energy[mode] / (JOINT_SOFTENING_AREA * f)) *
+    power += k->residual * f / (f / k0 + k->damage * law->energy[mode] / (JOINT_SOFTENING_AREA * f)) *
              rate[mode] * rate[mode];
   }
   return power;
@@ -238,11 +240,11 @@ static inline void JointForces(const JointShape *shape, const JointTraction t[2]
   for (int i = 0; i < 2; i++)
     couple += half * (t[i].normal * shape->slip[i] - t[i].shear * shape->opening[i]);
   for (int i = 0; i < 2; i++) {
-    const Point pull = {half * (t[i].normal * n.x + t[i].shear * e.x),
-                        half * (t[i].normal * n.y + t[i].shear * e.y)};
+    const Point traction = {half * (t[i].normal * n.x + t[i].shear * e.x),
+                            half * (t[i].normal * n.y + t[i].shear * e.y)};
     const double turn = (i == 0 ? -0.5 : 0.5) * couple / shape->length;
-    one[i] = (Point){pull.x + turn * n.x, pull.y + turn * n.y};
-    two[i] = (Point){-pull.x + turn * n.x, -pull.y + turn * n.y};
+    one[i] = (Point){traction.x + turn * n.x, traction.y + turn * n.y};
+    two[i] = (Point){-traction.x + turn * n.x, -traction.y + turn * n.y};
   }
 }
 #endif

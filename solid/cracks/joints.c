@@ -1,10 +1,9 @@
-/* Joints at work: which edges have reached their strength, and what living joints pull with. */
+/* Joints at work: which edges have reached their strength, and the tractions of active joints. */
 #include "solid/cracks/joints_impl.h"
 
-/* --- lists
- * -------------------------------------------------------------------------------------------------- */
+/* --- lists -------------------------------------------------------------------------------------------- */
 
-static void WatchAdd(Watch *w, const Joints j, int k)
+static void InitiationAdd(InitiationList *w, const Joints j, int k)
 {
   const Joint *joint = &j->joint[k];
   w->joint[w->n] = k;
@@ -18,20 +17,19 @@ static void WatchAdd(Watch *w, const Joints j, int k)
 
 void JointsList(Joints j, Solid s)
 {
-  j->nlive = j->watch.n = 0;
+  j->nactive = j->initiation.n = 0;
   for (int k = 0; k < j->n; k++) {
-    if (j->joint[k].held && j->memory[k].stage == JOINT_LIVE) j->live[j->nlive++] = k;
-    if (j->joint[k].mine && j->memory[k].stage == JOINT_WHOLE && !j->edge[k][0] && !j->edge[k][1])
-      WatchAdd(&j->watch, j, k);
+    if (j->joint[k].followed && j->memory[k].stage == JOINT_ACTIVE) j->active[j->nactive++] = k;
+    if (j->joint[k].mine && j->memory[k].stage == JOINT_INTACT && !j->at_tip[k][0] && !j->at_tip[k][1])
+      InitiationAdd(&j->initiation, j, k);
   }
 }
 
-/* --- what the edges carry
- * ----------------------------------------------------------------------------------- */
+/* --- what the edges carry ----------------------------------------------------------------------------- */
 
 /* (sigma/F_t)^2 + (tau'/F_s)^2 >= 1, tau' = |tau| less the friction of a pressed edge, with the mean of both
  * elements' stresses; multiplied by the edge's length to the fourth, so that nothing is divided by. */
-static inline int Overloaded(const Watch *w, int k, double *const stress[3], const double x[])
+static inline int Overloaded(const InitiationList *w, int k, double *const stress[3], const double x[])
 {
   const int p = w->place[0][k], q = w->place[1][k];
   const Point d = PointMinus(PointAt(x, w->node[1][k]), PointAt(x, w->node[0][k]));
@@ -45,9 +43,9 @@ static inline int Overloaded(const Watch *w, int k, double *const stress[3], con
          square * square;
 }
 
-static int CountOverloaded(const Watch *watch, double *const stress[3], const double x[])
+static int CountOverloaded(const InitiationList *initiation, double *const stress[3], const double x[])
 {
-  const Watch w = *watch;
+  const InitiationList w = *initiation;
   int n = 0;
 #pragma GCC ivdep
   for (int k = 0; k < w.n; k++) n += Overloaded(&w, k, stress, x);
@@ -67,35 +65,34 @@ static PetscBool Parted(const Joints j, const Joint *joint, int end)
   return (PetscBool)(j->corner[joint->corner[end][0]].node != j->corner[joint->corner[end][1]].node);
 }
 
-/* Ends whose nodes have parted pull as their fans did, per metre of edge at rest. */
+/* Ends whose nodes have parted start with the traction between their corner sets, per metre of edge at rest. */
 void JointsBeginEnds(Joints j, Solid s)
 {
-  Brink *parted = j->brink; /* scratch: brinks are found anew afterwards */
+  CrackTip *parted = j->tip; /* scratch: crack tips are found anew afterwards */
   int n = 0;
-  for (int k = 0; k < j->nlive; k++)
+  for (int k = 0; k < j->nactive; k++)
     for (int end = 0; end < 2; end++)
-      if (j->memory[j->live[k]].end[end].strong == 0.0 && Parted(j, &j->joint[j->live[k]], end))
-        parted[n++] = JointsPartedBrink(j, j->live[k], end);
+      if (j->memory[j->active[k]].end[end].strong == 0.0 && Parted(j, &j->joint[j->active[k]], end))
+        parted[n++] = JointsPartedCrackTip(j, j->active[k], end);
   for (int k = 0; k < n; k++) {
     const Joint *joint = &j->joint[parted[k].joint];
     const JointShape shape = ShapeOf(j, s, joint);
-    const Point t = JointsBrinkTraction(j, s, &parted[k]), m = shape.normal, e = shape.along;
+    const Point t = JointsCrackTipTraction(j, s, &parted[k]), m = shape.normal, e = shape.along;
     j->memory[parted[k].joint].end[parted[k].end] =
         JointBegin(&joint->law, t.x * m.x + t.y * m.y, t.x * e.x + t.y * e.y);
   }
 }
 
-/* A node on the brink that bears the strength. */
-static PetscBool Breaks(const Joints j, Solid s, const Brink *b)
+/* A crack-tip node that bears the strength. */
+static PetscBool Breaks(const Joints j, Solid s, const CrackTip *b)
 {
   const Joint *joint = &j->joint[b->joint];
   const JointShape shape = ShapeOf(j, s, joint);
-  const Point t = JointsBrinkTraction(j, s, b), m = shape.normal, e = shape.along;
+  const Point t = JointsCrackTipTraction(j, s, b), m = shape.normal, e = shape.along;
   return (PetscBool)(JointLoad(&joint->law, t.x * m.x + t.y * m.y, t.x * e.x + t.y * e.y) >= 1.0);
 }
 
-/* --- forces
- * ------------------------------------------------------------------------------------------------- */
+/* --- forces ------------------------------------------------------------------------------------------- */
 
 static void Add(double force[], int node, Point f)
 {
@@ -105,9 +102,9 @@ static void Add(double force[], int node, Point f)
 
 void JointsAddForces(Joints j, Solid s)
 {
-  for (int k = 0; k < j->nlive; k++) {
-    const Joint *joint = &j->joint[j->live[k]];
-    JointEnd *end = j->memory[j->live[k]].end;
+  for (int k = 0; k < j->nactive; k++) {
+    const Joint *joint = &j->joint[j->active[k]];
+    JointEnd *end = j->memory[j->active[k]].end;
     const JointShape shape = ShapeOf(j, s, joint);
     JointTraction t[2];
     Point one[2], two[2];
@@ -123,9 +120,9 @@ void JointsAddForces(Joints j, Solid s)
 
 void JointsAddStrainPower(Joints j, Solid s, const double d[], const int piece[], int stride, double power[])
 {
-  for (int k = 0; j && k < j->nlive; k++) {
-    const Joint *joint = &j->joint[j->live[k]];
-    const JointEnd *end = j->memory[j->live[k]].end;
+  for (int k = 0; j && k < j->nactive; k++) {
+    const Joint *joint = &j->joint[j->active[k]];
+    const JointEnd *end = j->memory[j->active[k]].end;
     const JointShape shape = ShapeOf(j, s, joint);
     double opening[2], slip[2];
     if (!joint->mine) continue;
@@ -142,24 +139,23 @@ void JointsAddStrainPower(Joints j, Solid s, const double d[], const int piece[]
   }
 }
 
-/* --- events
- * ------------------------------------------------------------------------------------------------- */
+/* --- events ------------------------------------------------------------------------------------------- */
 
 /* How many ends of this rank's joints have just become the last.  Not of those that it only follows: their
  * last bits may differ from the owner's, and the substeps are not to depend on them. */
 static int FindLastEnds(const Joints j, Solid s)
 {
   int found = 0;
-  for (int k = 0; k < j->nlive; k++) {
-    JointEnd *end = j->memory[j->live[k]].end;
+  for (int k = 0; k < j->nactive; k++) {
+    JointEnd *end = j->memory[j->active[k]].end;
     for (int i = 0; i < 2; i++) {
       if (end[1 - i].damage < 1.0 || end[i].damage >= 1.0) continue;
-      if (end[i].strong == 0.0 || end[i].reach > 0.0) continue;
-      const JointShape shape = ShapeOf(j, s, &j->joint[j->live[k]]);
+      if (end[i].strong == 0.0 || end[i].other_weight > 0.0) continue;
+      const JointShape shape = ShapeOf(j, s, &j->joint[j->active[k]]);
       const double own[2] = {shape.opening[i], shape.slip[i]};
       const double theirs[2] = {shape.opening[1 - i], shape.slip[1 - i]};
       JointLast(&end[i], own, theirs);
-      found += j->joint[j->live[k]].mine;
+      found += j->joint[j->active[k]].mine;
     }
   }
   return found;
@@ -170,25 +166,26 @@ static PetscBool Broken(const JointMemory *m)
   return (PetscBool)(m->end[0].damage >= 1.0 && m->end[1].damage >= 1.0);
 }
 
-/* This rank's, allocated: 2 number for a joint that comes to life, 2 number + 1 for one that breaks. */
+/* This rank's, allocated: 2 number for a joint that activates, 2 number + 1 for one that breaks. */
 static PetscErrorCode FindEvents(const Joints j, Solid s, int *n, int **event)
 {
-  const Watch *w = &j->watch;
+  const InitiationList *w = &j->initiation;
   double *const *stress = s->elements.stress;
   const int overloaded = CountOverloaded(w, stress, s->x);
   int broken = 0;
   PetscFunctionBeginUser;
-  for (int k = 0; k < j->nlive; k++) broken += j->joint[j->live[k]].mine && Broken(&j->memory[j->live[k]]);
+  for (int k = 0; k < j->nactive; k++)
+    broken += j->joint[j->active[k]].mine && Broken(&j->memory[j->active[k]]);
   *n = 0;
-  PetscCall(PetscMalloc1((size_t)(overloaded + broken + j->nbrinks), event));
+  PetscCall(PetscMalloc1((size_t)(overloaded + broken + j->ntips), event));
   for (int k = 0; overloaded && k < w->n; k++)
     if (Overloaded(w, k, stress, s->x) && *n < overloaded)
       (*event)[(*n)++] = 2 * j->joint[w->joint[k]].number;
-  for (int k = 0; k < j->nbrinks; k++)
-    if (Breaks(j, s, &j->brink[k])) (*event)[(*n)++] = 2 * j->joint[j->brink[k].joint].number;
-  for (int k = 0; broken && k < j->nlive; k++)
-    if (j->joint[j->live[k]].mine && Broken(&j->memory[j->live[k]]))
-      (*event)[(*n)++] = 2 * j->joint[j->live[k]].number + 1;
+  for (int k = 0; k < j->ntips; k++)
+    if (Breaks(j, s, &j->tip[k])) (*event)[(*n)++] = 2 * j->joint[j->tip[k].joint].number;
+  for (int k = 0; broken && k < j->nactive; k++)
+    if (j->joint[j->active[k]].mine && Broken(&j->memory[j->active[k]]))
+      (*event)[(*n)++] = 2 * j->joint[j->active[k]].number + 1;
   PetscFunctionReturn(0);
 }
 
@@ -232,26 +229,25 @@ PetscErrorCode JointsAdvance(Joints j, Solid s, PetscBool *changed)
   PetscFunctionReturn(0);
 }
 
-/* --- the limit
- * ---------------------------------------------------------------------------------------------- */
+/* --- the limit ---------------------------------------------------------------------------------------- */
 
 /* An end of stiffness k L/2 between two nodes, |u2 - u1|^2 <= 2 |u1|^2 + 2 |u2|^2, gives each of them k L;
- * along the edge twice that with friction.  A last end pulls and presses at two places: twice that. */
+ * along the edge twice that with friction.  A last end has its tension and its pressure at two places: twice that. */
 PetscErrorCode JointsMeasureRate(Joints j, Solid s)
 {
   double *sum;
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(2 * (size_t)s->nnodes, &sum));
-  for (int k = 0; k < j->nlive; k++) {
-    const Joint *joint = &j->joint[j->live[k]];
-    const JointEnd *ends = j->memory[j->live[k]].end;
-    const double last = ends[0].reach > 0.0 || ends[1].reach > 0.0 ? 2.0 : 1.0;
+  for (int k = 0; k < j->nactive; k++) {
+    const Joint *joint = &j->joint[j->active[k]];
+    const JointEnd *ends = j->memory[j->active[k]].end;
+    const double last = ends[0].other_weight > 0.0 || ends[1].other_weight > 0.0 ? 2.0 : 1.0;
     for (int end = 0; end < 2; end++)
       for (int i = 0; i < 2 && joint->mine && ends[end].strong > 0.0; i++)
         sum[2 * j->corner[joint->corner[end][i]].node] +=
             last * (joint->law.friction > 0.0 ? 2.0 : 1.0) * joint->law.stiffness * joint->length;
   }
-  PetscCall(SubdomainSum(s->share, sum));
+  PetscCall(SubdomainSum(s->subdomain, sum));
   j->rate = 0.0;
   for (int n = 0; n < s->nnodes; n++) j->rate = fmax(j->rate, sum[2 * n] * s->inverse_mass[n]);
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &j->rate, 1, MPI_DOUBLE, MPI_MAX, s->comm));

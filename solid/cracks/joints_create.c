@@ -1,4 +1,4 @@
-/* The joints of this rank, from the assembly. */
+/* The joints of this rank, from the model. */
 #include "solid/cracks/joints_impl.h"
 #include <stdlib.h>
 
@@ -6,8 +6,8 @@ typedef struct {
   Solid s;
   const Model *a;
   const InteriorEdges *edges;
-  int nlooks;
-  const Look *look;
+  int nghosts;
+  const GhostElement *ghost;
   const int *part, *local;
   int *place; /* [a->nelements] as in Corner */
   int *star;  /* [a->nnodes] or -1 */
@@ -19,8 +19,7 @@ static Tensor RestEdges(const Model *a, int e)
   return TensorOfEdges(PointAt(a->rest, n[0]), PointAt(a->rest, n[1]), PointAt(a->rest, n[2]));
 }
 
-/* --- elements
- * ----------------------------------------------------------------------------------------------- */
+/* --- elements ----------------------------------------------------------------------------------------- */
 
 static void AddGhost(Joints j, const Making *m, int e)
 {
@@ -30,23 +29,22 @@ static void AddGhost(Joints j, const Making *m, int e)
   m->place[e] = m->s->elements.n + j->nghosts++;
 }
 
-/* Own elements, and those of others that this rank looks at. */
+/* Own elements, and the ghosts. */
 static PetscErrorCode PlaceElements(Joints j, const Making *m)
 {
   PetscFunctionBeginUser;
   for (int e = 0; e < m->a->nelements; e++) m->place[e] = -1;
   for (int k = 0; k < m->s->elements.n; k++) m->place[m->s->elements.number[k]] = k;
-  PetscCall(PetscMalloc1((size_t)m->nlooks, &j->ghost));
-  for (int k = 0; k < m->nlooks; k++)
-    if (m->look[k].rank == m->s->rank) AddGhost(j, m, m->look[k].element);
+  PetscCall(PetscMalloc1((size_t)m->nghosts, &j->ghost));
+  for (int k = 0; k < m->nghosts; k++)
+    if (m->ghost[k].rank == m->s->rank) AddGhost(j, m, m->ghost[k].element);
   const size_t n = (size_t)(m->s->elements.n + j->nghosts);
   double **stress = m->s->elements.stress;
   PetscCall(PetscCalloc3(n, &stress[0], n, &stress[1], n, &stress[2]));
   PetscFunctionReturn(0);
 }
 
-/* --- stars
- * -------------------------------------------------------------------------------------------------- */
+/* --- stars -------------------------------------------------------------------------------------------- */
 
 static void NumberStars(Joints j, const Making *m)
 {
@@ -92,9 +90,9 @@ static int FindCorner(const Joints j, int star, int element)
   return -1;
 }
 
-/* Parts of a star that no edge connects from the start (two bodies' corners that meet in a node) stay tied.
+/* Parts of a star that no edge connects from the start (two bodies' corners that meet in a node) stay bonded.
  */
-static int TieLoose(const Joints j, int star, int n, Tie tie[])
+static int BondLoose(const Joints j, int star, int n, Bond bond[])
 {
   const int corners = j->star_corner[star + 1] - j->star_corner[star];
   int root[STAR_CORNERS], merged = 1;
@@ -102,50 +100,49 @@ static int TieLoose(const Joints j, int star, int n, Tie tie[])
   while (merged) {
     merged = 0;
     for (int k = 0; k < n; k++) {
-      int *one = &root[tie[k].corner[0]], *two = &root[tie[k].corner[1]];
+      int *one = &root[bond[k].corner[0]], *two = &root[bond[k].corner[1]];
       merged |= *one != *two;
       *one = *two = PetscMin(*one, *two);
     }
   }
   for (int c = 1; c < corners; c++)
-    if (root[c] == c) tie[n++] = (Tie){{0, c}, -1};
+    if (root[c] == c) bond[n++] = (Bond){{0, c}, -1};
   return n;
 }
 
 /* index[njoints]: this rank's joints by number, or -1 */
-static PetscErrorCode GatherTies(Joints j, const Making *m, const int index[])
+static PetscErrorCode GatherBonds(Joints j, const Making *m, const int index[])
 {
   int *start, *count;
   PetscFunctionBeginUser;
-  PetscCall(PetscCalloc1((size_t)j->nstars + 1, &j->star_tie));
-  start = j->star_tie;
+  PetscCall(PetscCalloc1((size_t)j->nstars + 1, &j->star_bond));
+  start = j->star_bond;
   for (int s = 0; s < j->nstars; s++) /* an edge has two corners, and loose parts are fewer than corners */
     start[s + 1] = start[s] + 2 * (j->star_corner[s + 1] - j->star_corner[s]);
-  PetscCall(PetscMalloc1((size_t)start[j->nstars], &j->tie));
+  PetscCall(PetscMalloc1((size_t)start[j->nstars], &j->bond));
   PetscCall(PetscCalloc1((size_t)j->nstars, &count));
   for (int k = 0; k < m->edges->n; k++)
     for (int i = 0; i < 2; i++) {
       const InteriorEdge *edge = &m->edges->edge[k];
       const int s = m->star[edge->node[i]];
       if (s < 0) continue;
-      j->tie[start[s] + count[s]++] =
-          (Tie){{FindCorner(j, s, edge->element[0]), FindCorner(j, s, edge->element[1])},
-                edge->joint < 0 ? -1 : index[edge->joint]};
+      j->bond[start[s] + count[s]++] =
+          (Bond){{FindCorner(j, s, edge->element[0]), FindCorner(j, s, edge->element[1])},
+                 edge->joint < 0 ? -1 : index[edge->joint]};
     }
   for (int s = 0, kept = 0; s < j->nstars; s++) {
-    const int from = start[s], n = TieLoose(j, s, count[s], j->tie + from);
-    for (int k = 0; k < n; k++) j->tie[kept + k] = j->tie[from + k];
+    const int from = start[s], n = BondLoose(j, s, count[s], j->bond + from);
+    for (int k = 0; k < n; k++) j->bond[kept + k] = j->bond[from + k];
     start[s] = kept;
     kept += n;
-    j->nties = kept;
+    j->nbonds = kept;
   }
-  start[j->nstars] = j->nties;
+  start[j->nstars] = j->nbonds;
   PetscCall(PetscFree(count));
   PetscFunctionReturn(0);
 }
 
-/* --- joints
- * ------------------------------------------------------------------------------------------------- */
+/* --- joints ------------------------------------------------------------------------------------------- */
 
 /* Between two materials the weaker one counts.  All is times the thickness, as the elements' stresses are. It
  * is pressed as contact presses: an edge on both sides of which phi = 3 depth/height acts with the penalty.
@@ -180,14 +177,14 @@ static Joint JointOf(const Joints j, const Making *m, const InteriorEdge *edge)
     joint.side[i] = edge->side[i];
     joint.star[i] = m->star[edge->node[i]];
   }
-  joint.held =
+  joint.followed =
       (PetscBool)(m->part[edge->element[0]] == m->s->rank || m->part[edge->element[1]] == m->s->rank);
   joint.mine = (PetscBool)(m->part[edge->element[0]] == m->s->rank);
   for (int end = 0; end < 2; end++)
     for (int i = 0; i < 2; i++)
       joint.corner[end][i] =
-          joint.held ? j->star_corner[joint.star[end]] + FindCorner(j, joint.star[end], edge->element[i])
-                     : -1;
+          joint.followed ? j->star_corner[joint.star[end]] + FindCorner(j, joint.star[end], edge->element[i])
+                         : -1;
   return joint;
 }
 
@@ -208,18 +205,18 @@ static PetscErrorCode GatherJoints(Joints j, const Making *m, int index[])
     if (!pass) PetscCall(PetscMalloc1((size_t)j->n, &j->joint));
   }
   const size_t n = (size_t)j->n;
-  Watch *w = &j->watch;
-  PetscCall(PetscCalloc5(n, &j->memory, n, &j->saved, n, &j->live, n, &j->edge, 2 * n, &j->brink));
+  InitiationList *w = &j->initiation;
+  PetscCall(PetscCalloc5(n, &j->memory, n, &j->saved, n, &j->active, n, &j->at_tip, 2 * n, &j->tip));
   PetscCall(PetscMalloc7(n, &w->joint, n, &w->place[0], n, &w->place[1], n, &w->node[0], n, &w->node[1], n,
                          &w->inverse_square[0], n, &w->inverse_square[1]));
   PetscCall(PetscMalloc1(n, &w->friction));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode JointsCreate(Solid s, const Model *a, const InteriorEdges *edges, int nlooks,
-                            const Look look[], const int part[], const int local[], Joints *joints)
+PetscErrorCode JointsCreate(Solid s, const Model *a, const InteriorEdges *edges, int nghosts,
+                            const GhostElement ghost[], const int part[], const int local[], Joints *joints)
 {
-  Making m = {s, a, edges, nlooks, look, part, local, NULL, NULL};
+  Making m = {s, a, edges, nghosts, ghost, part, local, NULL, NULL};
   Joints j;
   int *index;
   PetscFunctionBeginUser;
@@ -230,10 +227,10 @@ PetscErrorCode JointsCreate(Solid s, const Model *a, const InteriorEdges *edges,
   NumberStars(j, &m);
   PetscCall(GatherCorners(j, &m));
   PetscCall(GatherJoints(j, &m, index));
-  PetscCall(GatherTies(j, &m, index));
-  PetscCall(PetscCalloc2((size_t)j->nstars, &j->touched, (size_t)j->nstars, &j->cut));
+  PetscCall(GatherBonds(j, &m, index));
+  PetscCall(PetscCalloc2((size_t)j->nstars, &j->marked, (size_t)j->nstars, &j->cut));
   j->first_gid = a->nnodes;
-  JointsFindBrinks(j, s, PETSC_TRUE);
+  JointsFindCrackTips(j, s, PETSC_TRUE);
   JointsList(j, s);
   PetscCall(PetscFree3(m.place, m.star, index));
   *joints = j;
@@ -245,17 +242,17 @@ PetscErrorCode JointsDestroy(Joints *j)
   PetscFunctionBeginUser;
   if (!*j) PetscFunctionReturn(0);
   PetscCall(PetscFree((*j)->star_corner));
-  PetscCall(PetscFree((*j)->star_tie));
+  PetscCall(PetscFree((*j)->star_bond));
   PetscCall(PetscFree2((*j)->corner, (*j)->saved_corner));
-  PetscCall(PetscFree((*j)->tie));
+  PetscCall(PetscFree((*j)->bond));
   PetscCall(PetscFree((*j)->joint));
   PetscCall(PetscFree((*j)->ghost));
-  Watch *w = &(*j)->watch;
-  PetscCall(PetscFree5((*j)->memory, (*j)->saved, (*j)->live, (*j)->edge, (*j)->brink));
+  InitiationList *w = &(*j)->initiation;
+  PetscCall(PetscFree5((*j)->memory, (*j)->saved, (*j)->active, (*j)->at_tip, (*j)->tip));
   PetscCall(PetscFree7(w->joint, w->place[0], w->place[1], w->node[0], w->node[1], w->inverse_square[0],
                        w->inverse_square[1]));
   PetscCall(PetscFree(w->friction));
-  PetscCall(PetscFree2((*j)->touched, (*j)->cut));
+  PetscCall(PetscFree2((*j)->marked, (*j)->cut));
   PetscCall(PetscFree(*j));
   PetscFunctionReturn(0);
 }

@@ -2,8 +2,8 @@
  *
  *     c = elements + candidates of contact + joints (its work)  +  what it exchanges with others
  *
- * in units of partition.h, and all wait for the largest one: against a perfect share of the work w the solid
- * loses  i = max c/(sum w/ranks) - 1  of every substep.  Some of it no share can avoid, so that what counts
+ * in units of partition.h, and all wait for the largest one: against a perfect partition of the work w the solid
+ * loses  i = max c/(sum w/ranks) - 1  of every substep.  Some of it no partition can avoid, so that what counts
  * is how much worse i is than at its best since the last redistribution; this is summed up over the substeps
  * until it exceeds what a redistribution costs, `rebalance` substeps. */
 #include "solid/contact/contact_impl.h"
@@ -11,9 +11,9 @@
 #include "solid/ranks/partition.h"
 #include "solid/ranks/sparse_exchange.h"
 
-/* Work of a joint, and of what travels in a substep: a target, a node that ranks share, a look at another
+/* Work of a joint, and of what travels in a substep: a target, a node on several ranks, a ghost element of another
  * rank's element; measured on two ranks. */
-enum { WORK_JOINT = 1, WORK_LIVING = 12, TRAVEL_TARGET = 8, TRAVEL_NODE = 2, WORK_LOOK = 3 };
+enum { WORK_JOINT = 1, WORK_ACTIVE = 12, TRAVEL_TARGET = 8, TRAVEL_NODE = 2, WORK_GHOST = 3 };
 
 typedef struct {
   double work, all;
@@ -24,10 +24,10 @@ static Load LoadOf(const Solid s)
   const Contact c = s->contact;
   Load l = {.work = WORK_ELEMENT * s->elements.n + WORK_CANDIDATE * (c->ncandidates + c->nwalls)};
   if (s->joints)
-    l.work += WORK_JOINT * (s->joints->watch.n + s->joints->nbrinks) + WORK_LIVING * s->joints->nlive;
+    l.work += WORK_JOINT * (s->joints->initiation.n + s->joints->ntips) + WORK_ACTIVE * s->joints->nactive;
   l.all = l.work + TRAVEL_NODE * s->copies.n;
   if (c->halo) l.all += TRAVEL_TARGET * HaloTraffic(c->halo);
-  if (s->joints) l.all += WORK_LOOK * s->joints->nghosts;
+  if (s->joints) l.all += WORK_GHOST * s->joints->nghosts;
   return l;
 }
 
@@ -49,8 +49,7 @@ static PetscErrorCode Inefficiency(Solid s, double *inefficiency)
   PetscFunctionReturn(0);
 }
 
-/* --- the new share
- * ------------------------------------------------------------------------------------------ */
+/* --- the new subdomain -------------------------------------------------------------------------------- */
 
 typedef struct {
   int number, work;
@@ -74,12 +73,13 @@ static PetscErrorCode FindPlaces(Solid s, Place place[])
   for (int k = 0; s->joints && k < s->joints->n; k++) {
     const Joint *joint = &s->joints->joint[k];
     const JointStage stage = s->joints->memory[k].stage;
-    if (joint->mine) place[joint->place[0]].work += stage == JOINT_LIVE ? WORK_LIVING : stage == JOINT_WHOLE;
+    if (joint->mine)
+      place[joint->place[0]].work += stage == JOINT_ACTIVE ? WORK_ACTIVE : stage == JOINT_INTACT;
   }
   PetscFunctionReturn(0);
 }
 
-/* Contact, and what has parted; elements by their numbers in the assembly. */
+/* Contact, and what has parted; elements by their numbers in the model. */
 static PetscErrorCode FindLinks(Solid s, PartitionGraph *g)
 {
   const Contact c = s->contact;
@@ -91,7 +91,7 @@ static PetscErrorCode FindLinks(Solid s, PartitionGraph *g)
   }
   for (int k = 0; j && k < j->n; k++)
     if (j->joint[k].mine && j->memory[k].stage == JOINT_BROKEN)
-      PetscCall(PartitionGraphLink(g, j->joint[k].first, j->joint[k].second, LINK_PARTED - LINK_WHOLE));
+      PetscCall(PartitionGraphLink(g, j->joint[k].first, j->joint[k].second, LINK_PARTED - LINK_INTACT));
   PetscFunctionReturn(0);
 }
 
@@ -127,10 +127,10 @@ static PetscErrorCode GatherGraph(Solid s, PartitionGraph *g)
 
 static PetscErrorCode NewPart(Solid s, int part[])
 {
-  const int n = s->assembly->nelements;
+  const int n = s->model->nelements;
   PartitionGraph graph = {0};
   PetscFunctionBeginUser;
-  if (s->rank == 0) PetscCall(PartitionGraphCreate(s->assembly, &graph));
+  if (s->rank == 0) PetscCall(PartitionGraphCreate(s->model, &graph));
   PetscCall(GatherGraph(s, &graph));
   if (s->rank == 0) {
     PetscCall(PartitionGraphCut(&graph, n, s->size, part));
@@ -144,7 +144,7 @@ PetscErrorCode SolidDealOut(Solid s)
 {
   int *part;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1((size_t)s->assembly->nelements, &part));
+  PetscCall(PetscMalloc1((size_t)s->model->nelements, &part));
   PetscCall(NewPart(s, part));
   PetscCall(SolidRedistribute(s, part));
   s->balance = (Balance){0};

@@ -1,16 +1,16 @@
-/* The solid in a checkpoint.  Its state is told by the file as other ranks tell it when elements change ranks
+/* The solid in a checkpoint.  Its state comes from the file as it comes from other ranks when elements change ranks
  * (state.h, migrate.c).  The rows of a table have keys and values; each is there once, in any order:
  *
- *     element    number in the assembly, rank          the share that was
+ *     element    number in the model, rank          the subdomain that was
  *     node       gid                                   NodeState
- *     joint      number, since (JointMemory)           both ends; of joints that are not whole
+ *     joint      number, since (JointMemory)           both ends; of joints that are not intact
  *     spring     3 element + side, other               slip
  *
  * and "solid seconds" has SolidStats's, the largest of all ranks. */
 #include "solid/ranks/node_directory.h"
 #include "solid/ranks/state.h"
 
-enum { PIECE = 1 << 15, MOST_KEYS = 3 }; /* rows that are read at a time */
+enum { PIECE = 1 << 15, MAX_KEYS = 3 }; /* rows that are read at a time */
 
 typedef struct {
   const char *keys, *values; /* names of the two datasets */
@@ -19,7 +19,7 @@ typedef struct {
 
 static const Table ELEMENTS = {"element", NULL, 2, 0};
 static const Table NODES = {"node", "node state", 1, sizeof(NodeState) / sizeof(double)};
-static const Table JOINTS = {"joint", "joint ends", MOST_KEYS, 2 * sizeof(JointEnd) / sizeof(double)};
+static const Table JOINTS = {"joint", "joint ends", MAX_KEYS, 2 * sizeof(JointEnd) / sizeof(double)};
 static const Table SPRINGS = {"spring", "spring slip", 2, 1};
 
 static PetscErrorCode PutRows(Checkpoint to, const Table *t, int n, const long long key[], const void *value)
@@ -32,7 +32,7 @@ static PetscErrorCode PutRows(Checkpoint to, const Table *t, int n, const long l
 
 typedef void (*RowTaker)(void *context, const long long key[], const double value[]);
 
-/* Every rank sees all rows, a piece at a time, and takes what it needs. */
+/* Every rank reads all rows, a block at a time, and takes what it needs. */
 static PetscErrorCode GetRows(Checkpoint from, const Table *t, RowTaker take, void *context)
 {
   long long total, *key;
@@ -50,8 +50,7 @@ static PetscErrorCode GetRows(Checkpoint from, const Table *t, RowTaker take, vo
   PetscFunctionReturn(0);
 }
 
-/* --- the share
- * ---------------------------------------------------------------------------------------------- */
+/* --- the subdomain ------------------------------------------------------------------------------------ */
 
 static PetscErrorCode PutElements(Solid s, Checkpoint to)
 {
@@ -77,7 +76,7 @@ static void TakeRank(void *part, const long long key[], const double value[])
 /* The elements go to the ranks that had them. */
 static PetscErrorCode TakeShare(Solid s, Checkpoint from)
 {
-  const size_t n = (size_t)s->whole.elements;
+  const size_t n = (size_t)s->global.elements;
   PetscBool same;
   int *part;
   PetscFunctionBeginUser;
@@ -89,8 +88,7 @@ static PetscErrorCode TakeShare(Solid s, Checkpoint from)
   PetscFunctionReturn(0);
 }
 
-/* --- nodes
- * -------------------------------------------------------------------------------------------------- */
+/* --- nodes -------------------------------------------------------------------------------------------- */
 
 static PetscErrorCode PutNodes(Solid s, Checkpoint to)
 {
@@ -100,7 +98,7 @@ static PetscErrorCode PutNodes(Solid s, Checkpoint to)
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2((size_t)s->nnodes, &gid, (size_t)s->nnodes, &state));
   for (int i = 0; i < s->nnodes; i++) {
-    if (!SubdomainOwns(s->share, i)) continue;
+    if (!SubdomainOwns(s->subdomain, i)) continue;
     gid[n] = s->gid[i];
     StateOfNode(s, i, &state[n++]);
   }
@@ -136,8 +134,7 @@ static PetscErrorCode GetNodes(void *checkpoint, Solid to, NodeState node[])
   PetscFunctionReturn(0);
 }
 
-/* --- joints
- * ------------------------------------------------------------------------------------------------- */
+/* --- joints ------------------------------------------------------------------------------------------- */
 
 static PetscErrorCode PutJoints(Solid s, Checkpoint to)
 {
@@ -146,13 +143,13 @@ static PetscErrorCode PutJoints(Solid s, Checkpoint to)
   JointEnd(*end)[2];
   int n = 0;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2(MOST_KEYS * (size_t)j->n, &key, (size_t)j->n, &end));
+  PetscCall(PetscMalloc2(MAX_KEYS * (size_t)j->n, &key, (size_t)j->n, &end));
   for (int k = 0; k < j->n; k++) {
     const JointMemory *m = &j->memory[k];
-    if (!j->joint[k].mine || m->stage == JOINT_WHOLE) continue;
-    key[MOST_KEYS * n] = j->joint[k].number;
+    if (!j->joint[k].mine || m->stage == JOINT_INTACT) continue;
+    key[MAX_KEYS * n] = j->joint[k].number;
     for (int i = 0; i < 2; i++) {
-      key[MOST_KEYS * n + 1 + i] = m->since[i];
+      key[MAX_KEYS * n + 1 + i] = m->since[i];
       end[n][i] = m->end[i];
     }
     n++;
@@ -176,8 +173,7 @@ static PetscErrorCode GetJoints(void *checkpoint, Joints j)
   return GetRows(checkpoint, &JOINTS, TakeJoint, j);
 }
 
-/* --- springs of friction
- * ------------------------------------------------------------------------------------ */
+/* --- springs of friction ------------------------------------------------------------------------------ */
 
 static PetscErrorCode PutSlips(Solid s, Checkpoint to)
 {
@@ -224,8 +220,7 @@ static PetscErrorCode GetSlips(void *checkpoint, Solid to, int *n, Slip **slip)
   PetscFunctionReturn(0);
 }
 
-/* --- numbers
- * ------------------------------------------------------------------------------------------------ */
+/* --- numbers ------------------------------------------------------------------------------------------ */
 
 enum { T, H, REVISION, SUBSTEPS, TOTAL, SEARCHES, REBALANCED, BEST, LOSS, NNUMBERS };
 static const char *const NUMBERS[NNUMBERS] = {"solid t",
@@ -278,15 +273,14 @@ static PetscErrorCode GetNumbers(Solid s, Checkpoint from)
   PetscFunctionReturn(0);
 }
 
-/* --- all
- * ---------------------------------------------------------------------------------------------------- */
+/* --- all ---------------------------------------------------------------------------------------------- */
 
 enum { NCOUNTS = 4 };
 static const char *const COUNTS[NCOUNTS] = {"bodies", "elements", "nodes", "joints"};
 
 static void CountsOf(const Solid s, int count[NCOUNTS])
 {
-  const int all[NCOUNTS] = {s->nbodies, s->whole.elements, s->whole.nodes, s->whole.joints};
+  const int all[NCOUNTS] = {s->nbodies, s->global.elements, s->global.nodes, s->global.joints};
   for (int k = 0; k < NCOUNTS; k++) count[k] = all[k];
 }
 

@@ -1,13 +1,12 @@
-/* This rank's share of the assembly, which every rank has: nothing is sent. */
+/* This rank's subdomain of the model, which every rank has: nothing is sent. */
 #include "solid/solid_impl.h"
 #include <stdlib.h>
 
-/* --- counting and numbering
- * --------------------------------------------------------------------------------- */
+/* --- counting and numbering --------------------------------------------------------------------------- */
 
 /* local[a->nnodes]: this rank's number of a node, in order of appearance, or -1.  It also has the nodes of
- * other ranks' elements that it looks at. */
-static void NumberLocally(Solid s, const Model *a, int nlooks, const Look look[], const int part[],
+ * its ghost elements. */
+static void NumberLocally(Solid s, const Model *a, int nghosts, const GhostElement ghost[], const int part[],
                           int local[])
 {
   for (int n = 0; n < a->nnodes; n++) local[n] = -1;
@@ -17,10 +16,10 @@ static void NumberLocally(Solid s, const Model *a, int nlooks, const Look look[]
     for (int i = 0; i < 3; i++)
       if (local[a->element[3 * e + i]] < 0) local[a->element[3 * e + i]] = s->nnodes++;
   }
-  for (int k = 0; k < nlooks; k++)
-    for (int i = 0; look[k].rank == s->rank && i < 3; i++)
-      if (local[a->element[3 * look[k].element + i]] < 0)
-        local[a->element[3 * look[k].element + i]] = s->nnodes++;
+  for (int k = 0; k < nghosts; k++)
+    for (int i = 0; ghost[k].rank == s->rank && i < 3; i++)
+      if (local[a->element[3 * ghost[k].element + i]] < 0)
+        local[a->element[3 * ghost[k].element + i]] = s->nnodes++;
   for (int k = 0; k < a->nfacets; k++) s->nfacets += part[a->facet_element[k]] == s->rank;
 }
 
@@ -58,18 +57,17 @@ static PetscErrorCode Allocate(Solid s)
                          2 * nn, &s->saved.x, 2 * nn, &s->saved.v));
   PetscCall(PetscMalloc6(3 * ne, &s->element, 2 * nf, &s->facet, nf, &s->facet_element, nf, &s->facet_side,
                          nn, &s->base, (size_t)s->nbodies, &s->body));
-  PetscCall(PetscCalloc1(nn, &s->prescribed));
+  PetscCall(PetscCalloc1(nn, &s->is_prescribed));
   PetscCall(PetscMalloc3(ne, &e->node[0], ne, &e->node[1], ne, &e->node[2]));
   PetscCall(PetscMalloc4(ne, &e->inverse[0], ne, &e->inverse[1], ne, &e->inverse[2], ne, &e->inverse[3]));
   PetscCall(PetscMalloc5(ne, &e->mu, ne, &e->lambda, ne, &e->eta, ne, &e->density, ne, &e->corotated));
   PetscCall(PetscMalloc7(ne, &e->body, ne, &e->number, 3 * ne, &e->force[0], 3 * ne, &e->force[1], ne,
-                         &e->thickness, ne, &e->sheet, ne, &e->material));
+                         &e->thickness, ne, &e->plane_stress, ne, &e->material));
   PetscCall(PetscMalloc1((size_t)s->nmaterials, &s->material));
   PetscFunctionReturn(0);
 }
 
-/* --- nodes
- * -------------------------------------------------------------------------------------------------- */
+/* --- nodes -------------------------------------------------------------------------------------------- */
 
 static Tensor RestEdges(const Model *a, int e)
 {
@@ -95,7 +93,7 @@ static void TakeNodes(Solid s, const Model *a, const int local[])
     if (local[a->facet[k]] >= 0) s->surface[local[a->facet[k]]] = 1;
 }
 
-/* Over all elements in the assembly's order, so that every copy of a node has the same bits. */
+/* Over all elements in the model's order, so that every copy of a node has the same bits. */
 static void LumpMass(Solid s, const Model *a, const int local[])
 {
   for (int e = 0; e < a->nelements; e++) {
@@ -121,7 +119,7 @@ static int CompareCopies(const void *a, const void *b)
                             : (p->global > q->global) - (p->global < q->global);
 }
 
-/* Adds the other ranks that have a corner of element e, which rank has or looks at. */
+/* Adds the other ranks that have a corner of element e, which rank has, also as a ghost. */
 static int AddCopies(const Solid s, const Model *a, int e, int rank, const int local[], Copy copy[], int n)
 {
   for (int i = 0; i < 3 && rank != s->rank; i++) {
@@ -132,16 +130,16 @@ static int AddCopies(const Solid s, const Model *a, int e, int rank, const int l
 }
 
 /* The other ranks' copies of this rank's nodes. */
-static PetscErrorCode FindCopies(Solid s, const Model *a, int nlooks, const Look look[], const int part[],
-                                 const int local[])
+static PetscErrorCode FindCopies(Solid s, const Model *a, int nghosts, const GhostElement ghost[],
+                                 const int part[], const int local[])
 {
   Copies *c = &s->copies;
   Copy *copy;
   int n = 0;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(3 * (size_t)a->nelements + 3 * (size_t)nlooks, &copy));
+  PetscCall(PetscMalloc1(3 * (size_t)a->nelements + 3 * (size_t)nghosts, &copy));
   for (int e = 0; e < a->nelements; e++) n = AddCopies(s, a, e, part[e], local, copy, n);
-  for (int k = 0; k < nlooks; k++) n = AddCopies(s, a, look[k].element, look[k].rank, local, copy, n);
+  for (int k = 0; k < nghosts; k++) n = AddCopies(s, a, ghost[k].element, ghost[k].rank, local, copy, n);
   if (n > 0) qsort(copy, (size_t)n, sizeof *copy, CompareCopies);
   PetscCall(PetscMalloc2((size_t)n, &c->rank, (size_t)n, &c->node));
   for (int k = 0; k < n; k++) {
@@ -149,13 +147,12 @@ static PetscErrorCode FindCopies(Solid s, const Model *a, int nlooks, const Look
     c->rank[c->n] = copy[k].rank;
     c->node[c->n++] = copy[k].local;
   }
-  PetscCall(SubdomainCreate(s->comm, s->nnodes, c->n, c->rank, c->node, &s->share));
+  PetscCall(SubdomainCreate(s->comm, s->nnodes, c->n, c->rank, c->node, &s->subdomain));
   PetscCall(PetscFree(copy));
   PetscFunctionReturn(0);
 }
 
-/* --- elements
- * ----------------------------------------------------------------------------------------------- */
+/* --- elements ----------------------------------------------------------------------------------------- */
 
 /* eta = 2 h beta sqrt(E rho), h the smallest height at rest. */
 static double Viscosity(const Model *a, int e)
@@ -197,13 +194,15 @@ static void TakeElement(Solid s, const Model *a, int from, int k, const int loca
   e->eta[k] = law.eta;
   e->density[k] = m->thickness * m->density;
   e->thickness[k] = m->thickness;
-  e->sheet[k] = law.sheet;
+  e->plane_stress[k] = law.plane_stress;
   e->corotated[k] = law.corotated;
   e->material[k] = a->element_material[from];
   e->body[k] = a->element_body[from];
   e->number[k] = from;
   if (law.eta > 0.0) e->damped = PETSC_TRUE;
-  e->laws = PetscMax(e->laws, law.corotated ? WITH_COROTATED : law.sheet ? WITH_SHEETS : STRAIN_ONLY);
+  e->laws = PetscMax(e->laws, law.corotated      ? WITH_COROTATED
+                              : law.plane_stress ? WITH_PLANE_STRESS
+                                                 : STRAIN_ONLY);
 }
 
 void SolidListCorners(Solid s)
@@ -237,41 +236,42 @@ static void TakeElements(Solid s, const Model *a, const int part[], const int lo
 }
 
 /* The drives, and which of this rank's nodes they move. */
-static PetscErrorCode TakeDrives(Solid s, const Model *a, const int local[])
+static PetscErrorCode TakeMotions(Solid s, const Model *a, const int local[])
 {
   int nrows = 0;
   PetscFunctionBeginUser;
-  s->ndrives = a->ndrives;
-  for (int k = 0; k < a->ndrives; k++) nrows += a->drive[k].nrows;
-  PetscCall(PetscMalloc2((size_t)a->ndrives, &s->drive, 3 * (size_t)nrows, &s->drive_rows));
-  PetscCall(PetscMalloc1((size_t)a->ndriven, &s->driven));
-  PetscCall(PetscMalloc1(2 * (size_t)a->ndriven, &s->held));
-  for (int k = 0, row = 0; k < a->ndrives; row += a->drive[k++].nrows) {
-    s->drive[k] = a->drive[k];
-    s->drive[k].row = s->drive_rows + 3 * row;
-    PetscCall(PetscArraycpy(s->drive_rows + 3 * row, a->drive[k].row, 3 * (size_t)a->drive[k].nrows));
+  s->nmotions = a->nmotions;
+  for (int k = 0; k < a->nmotions; k++) nrows += a->motion[k].nrows;
+  PetscCall(PetscMalloc2((size_t)a->nmotions, &s->motion, 3 * (size_t)nrows, &s->motion_rows));
+  PetscCall(PetscMalloc1((size_t)a->nprescribed, &s->prescribed));
+  PetscCall(PetscMalloc1(2 * (size_t)a->nprescribed, &s->position_before));
+  for (int k = 0, row = 0; k < a->nmotions; row += a->motion[k++].nrows) {
+    s->motion[k] = a->motion[k];
+    s->motion[k].row = s->motion_rows + 3 * row;
+    PetscCall(PetscArraycpy(s->motion_rows + 3 * row, a->motion[k].row, 3 * (size_t)a->motion[k].nrows));
   }
-  for (int k = 0; k < a->ndriven; k++)
-    if (local[a->driven[k].node] >= 0)
-      s->driven[s->ndriven++] = (DrivenNode){local[a->driven[k].node], a->driven[k].drive};
-  for (int k = 0; k < s->ndriven; k++) s->prescribed[s->driven[k].node] = 1;
-  s->ndriven_first = s->ndriven;
+  for (int k = 0; k < a->nprescribed; k++)
+    if (local[a->prescribed[k].node] >= 0)
+      s->prescribed[s->nprescribed++] =
+          (PrescribedNode){local[a->prescribed[k].node], a->prescribed[k].motion};
+  for (int k = 0; k < s->nprescribed; k++) s->is_prescribed[s->prescribed[k].node] = 1;
+  s->nprescribed_first = s->nprescribed;
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SolidTakeShare(Solid s, const Model *a, const int part[])
+PetscErrorCode SolidTakeSubdomain(Solid s, const Model *a, const int part[])
 {
   InteriorEdges edges;
-  Look *look;
-  int *local, *renumber, nlooks;
+  GhostElement *ghost;
+  int *local, *renumber, nghosts;
   PetscFunctionBeginUser;
   PetscCall(InteriorEdgesFind(a, &edges));
   PetscCall(PetscMalloc2((size_t)a->nnodes, &local, (size_t)a->nelements, &renumber));
-  s->whole = (Whole){a->nelements, a->nnodes, edges.njoints};
+  s->global = (GlobalSizes){a->nelements, a->nnodes, edges.njoints};
   s->nbodies = a->nbodies;
   s->nmaterials = a->nmaterials;
-  PetscCall(InteriorEdgesLooks(&edges, a, part, &nlooks, &look));
-  NumberLocally(s, a, nlooks, look, part, local);
+  PetscCall(InteriorEdgesGhosts(&edges, a, part, &nghosts, &ghost));
+  NumberLocally(s, a, nghosts, ghost, part, local);
   PetscCall(FindCapacities(s, a, &edges, part, local));
   PetscCall(Allocate(s));
   PetscCall(PetscArraycpy(s->body, a->body, (size_t)a->nbodies));
@@ -279,14 +279,15 @@ PetscErrorCode SolidTakeShare(Solid s, const Model *a, const int part[])
   TakeNodes(s, a, local);
   LumpMass(s, a, local);
   TakeElements(s, a, part, local, renumber);
-  PetscCall(FindCopies(s, a, nlooks, look, part, local));
-  PetscCall(TakeDrives(s, a, local));
-  PetscCall(PetscCalloc5(2 * s->node_capacity, &s->start, 2 * s->node_capacity, &s->seen, s->node_capacity,
-                         &s->mobility, 2 * s->node_capacity, &s->acceleration, s->node_capacity, &s->piece));
-  PetscCall(PetscArraycpy(s->seen, s->v, 2 * (size_t)s->nnodes));
-  if (edges.njoints) PetscCall(JointsCreate(s, a, &edges, nlooks, look, part, local, &s->joints));
+  PetscCall(FindCopies(s, a, nghosts, ghost, part, local));
+  PetscCall(TakeMotions(s, a, local));
+  PetscCall(PetscCalloc5(2 * s->node_capacity, &s->start, 2 * s->node_capacity, &s->interface_velocity,
+                         s->node_capacity, &s->mobility, 2 * s->node_capacity, &s->acceleration,
+                         s->node_capacity, &s->piece));
+  PetscCall(PetscArraycpy(s->interface_velocity, s->v, 2 * (size_t)s->nnodes));
+  if (edges.njoints) PetscCall(JointsCreate(s, a, &edges, nghosts, ghost, part, local, &s->joints));
   PetscCall(InteriorEdgesDestroy(&edges));
-  PetscCall(PetscFree(look));
+  PetscCall(PetscFree(ghost));
   PetscCall(PetscFree2(local, renumber));
   PetscFunctionReturn(0);
 }

@@ -1,23 +1,22 @@
-/* Elements change ranks.  The new share is taken from the assembly as the first one was, so that it is whole
+/* Elements change ranks.  The new subdomain is taken from the model as the first one was, so that it is intact
  * and at rest; then what has happened since is asked of the ranks that had it (state.h):
  *
  *     damage of joints    of the rank of the joint's first element; cracks are cut again
- *     nodes               of a rank that has them for certain (abroad.h)
+ *     nodes               of a rank that has them for certain (node_directory.h)
  *     slips               to the rank of the edge's element
  *
- * The share before stays as it is while a saved state is in it. */
+ * The subdomain before stays as it is while a saved state is in it. */
 #include "solid/ranks/node_directory.h"
 #include "solid/ranks/sparse_exchange.h"
 #include "solid/ranks/state.h"
 
-/* --- the state
- * ---------------------------------------------------------------------------------------------- */
+/* --- the state ---------------------------------------------------------------------------------------- */
 
-/* The share that has it, and the rank that is to have each element. */
+/* The subdomain that has it, and the rank that is to have each element. */
 typedef struct {
   Solid s;
   const int *part;
-} Former;
+} OldPartition;
 
 static PetscErrorCode AnswerJoint(void *joints, long long number, void *record)
 {
@@ -29,9 +28,9 @@ static PetscErrorCode AnswerJoint(void *joints, long long number, void *record)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AskJoints(void *former, Joints j)
+static PetscErrorCode RequestJoints(void *old, Joints j)
 {
-  const Solid s = ((Former *)former)->s;
+  const Solid s = ((OldPartition *)old)->s;
   long long *key;
   int *of;
   PetscFunctionBeginUser;
@@ -46,16 +45,16 @@ static PetscErrorCode AskJoints(void *former, Joints j)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AskNodes(void *former, Solid to, NodeState node[])
+static PetscErrorCode RequestNodes(void *old, Solid to, NodeState node[])
 {
   PetscFunctionBeginUser;
-  PetscCall(NodesAsk(((Former *)former)->s, to->nnodes, to->gid, sizeof *node, StateOfNode, node));
+  PetscCall(NodesRequest(((OldPartition *)old)->s, to->nnodes, to->gid, sizeof *node, StateOfNode, node));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SendSlips(void *former, Solid to, int *n, Slip **slip)
+static PetscErrorCode SendSlips(void *old, Solid to, int *n, Slip **slip)
 {
-  const Former *from = former;
+  const OldPartition *from = old;
   Slip *own;
   void *received;
   int nown, *rank;
@@ -70,8 +69,7 @@ static PetscErrorCode SendSlips(void *former, Solid to, int *n, Slip **slip)
   PetscFunctionReturn(0);
 }
 
-/* --- the share
- * ---------------------------------------------------------------------------------------------- */
+/* --- the subdomain ------------------------------------------------------------------------------------ */
 
 /* What is the same on all ranks. */
 static void TakeTime(const Solid s, Solid fresh)
@@ -83,18 +81,18 @@ static void TakeTime(const Solid s, Solid fresh)
   fresh->stats = s->stats;
   fresh->budget = s->budget;
   fresh->balance = s->balance;
-  fresh->assembly = s->assembly;
+  fresh->model = s->model;
   fresh->before = s->before;
   fresh->kept = s->kept;
   fresh->revision = s->revision;
-  fresh->share_number = s->share_number + 1;
+  fresh->partition_number = s->partition_number + 1;
 }
 
-/* The share with everything but `before` freed. */
-static PetscErrorCode Forget(Solid *s)
+/* The subdomain with everything but `before` freed. */
+static PetscErrorCode DestroyOld(Solid *s)
 {
   PetscFunctionBeginUser;
-  if (*s) PetscCall(SolidFreeShare(*s));
+  if (*s) PetscCall(SolidFreeSubdomain(*s));
   PetscCall(PetscFree(*s));
   PetscFunctionReturn(0);
 }
@@ -108,8 +106,8 @@ static void Swap(Solid a, Solid b)
 
 PetscErrorCode SolidRedistribute(Solid s, const int part[])
 {
-  Former former = {s, part};
-  const StateSource ranks = {&former, AskJoints, AskNodes, SendSlips};
+  OldPartition old = {s, part};
+  const StateSource ranks = {&old, RequestJoints, RequestNodes, SendSlips};
   Solid fresh;
   PetscFunctionBeginUser;
   PetscCheck(s->part || s->size == 1, s->comm, PETSC_ERR_ARG_WRONGSTATE, "the solid has no `rebalance`");
@@ -119,9 +117,9 @@ PetscErrorCode SolidRedistribute(Solid s, const int part[])
   fresh->rank = s->rank;
   fresh->size = s->size;
   fresh->setup = s->setup;
-  PetscCall(SolidTakeShare(fresh, s->assembly, part));
-  PetscCall(PetscMalloc1((size_t)s->assembly->nelements, &fresh->part));
-  PetscCall(PetscArraycpy(fresh->part, part, (size_t)s->assembly->nelements));
+  PetscCall(SolidTakeSubdomain(fresh, s->model, part));
+  PetscCall(PetscMalloc1((size_t)s->model->nelements, &fresh->part));
+  PetscCall(PetscArraycpy(fresh->part, part, (size_t)s->model->nelements));
   PetscCall(ContactCreate(fresh, &fresh->contact));
   TakeTime(s, fresh);
   PetscCall(SolidTakeState(fresh, &ranks));
@@ -130,25 +128,25 @@ PetscErrorCode SolidRedistribute(Solid s, const int part[])
   if (s->kept && !s->before)
     s->before = fresh;
   else
-    PetscCall(Forget(&fresh));
+    PetscCall(DestroyOld(&fresh));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SolidKeepShare(Solid s)
+PetscErrorCode SolidKeepSubdomain(Solid s)
 {
   PetscFunctionBeginUser;
-  PetscCall(Forget(&s->before));
+  PetscCall(DestroyOld(&s->before));
   s->kept = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SolidPutBackShare(Solid s)
+PetscErrorCode SolidRestoreSubdomain(Solid s)
 {
   Solid before = s->before;
   PetscFunctionBeginUser;
   if (!before) PetscFunctionReturn(0);
   before->stats = s->stats;
   Swap(s, before);
-  PetscCall(Forget(&before));
+  PetscCall(DestroyOld(&before));
   PetscFunctionReturn(0);
 }

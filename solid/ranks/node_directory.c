@@ -39,7 +39,7 @@ PetscErrorCode NodeNamesDestroy(NodeNames *names)
  * start. */
 static PetscErrorCode NodeOwners(Solid s, int n, const long long gid[], int of[])
 {
-  const Model *a = s->assembly;
+  const Model *a = s->model;
   int *lowest;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1((size_t)a->nnodes, &lowest));
@@ -65,7 +65,8 @@ static PetscErrorCode AnswerByName(void *context, long long gid, void *record)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode NodesAsk(Solid s, int n, const long long gid[], size_t bytes, NodeAnswer answer, void *record)
+PetscErrorCode NodesRequest(Solid s, int n, const long long gid[], size_t bytes, NodeAnswer answer,
+                            void *record)
 {
   Question q = {.answer = answer};
   int *of;
@@ -85,7 +86,7 @@ static void AnswerMotion(const Solid s, int n, void *record)
   m->mobility = s->mobility[n];
   for (int c = 0; c < 2; c++) {
     m->x[c] = s->x[2 * n + c];
-    m->seen[c] = s->seen[2 * n + c];
+    m->interface_velocity[c] = s->interface_velocity[2 * n + c];
     m->acceleration[c] = s->acceleration[2 * n + c];
     m->mean[c] = (s->x[2 * n + c] - s->start[2 * n + c]) / s->dt;
   }
@@ -94,33 +95,33 @@ static void AnswerMotion(const Solid s, int n, void *record)
 PetscErrorCode NodeDirectoryMotion(Solid s, int n, const long long gid[], NodeMotion motion[])
 {
   PetscFunctionBeginUser;
-  PetscCall(NodesAsk(s, n, gid, sizeof *motion, AnswerMotion, motion));
+  PetscCall(NodesRequest(s, n, gid, sizeof *motion, AnswerMotion, motion));
   PetscFunctionReturn(0);
 }
 
 typedef struct {
   long long gid;
   double load[2];
-} Parcel;
+} NodeLoad;
 
-PetscErrorCode NodeDirectoryLoad(Solid s, int n, const long long gid[], const double load[], double home[])
+PetscErrorCode NodeDirectoryLoad(Solid s, int n, const long long gid[], const double load[], double owned[])
 {
   NodeNames names;
-  Parcel *out, *in;
+  NodeLoad *out, *in;
   void *received;
   int *of, nin;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2((size_t)n, &of, (size_t)n, &out));
   PetscCall(NodeOwners(s, n, gid, of));
-  for (int k = 0; k < n; k++) out[k] = (Parcel){gid[k], {load[2 * k], load[2 * k + 1]}};
+  for (int k = 0; k < n; k++) out[k] = (NodeLoad){gid[k], {load[2 * k], load[2 * k + 1]}};
   PetscCall(SparseExchange(s->comm, n, of, sizeof *out, out, &nin, &received));
   in = received;
   PetscCall(NodeNamesCreate(s, &names));
-  PetscCall(PetscArrayzero(home, 2 * (size_t)s->nnodes));
+  PetscCall(PetscArrayzero(owned, 2 * (size_t)s->nnodes));
   for (int k = 0; k < nin; k++) {
     const int node = NodeNamesFind(&names, in[k].gid);
     PetscCheck(node >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "node %lld is not here", in[k].gid);
-    for (int c = 0; c < 2; c++) home[2 * node + c] += in[k].load[c];
+    for (int c = 0; c < 2; c++) owned[2 * node + c] += in[k].load[c];
   }
   PetscCall(NodeNamesDestroy(&names));
   PetscCall(PetscFree(in));

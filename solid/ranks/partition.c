@@ -5,8 +5,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-/* --- links
- * -------------------------------------------------------------------------------------------------- */
+/* --- links -------------------------------------------------------------------------------------------- */
 
 PetscErrorCode PartitionGraphLink(PartitionGraph *g, int a, int b, int weight)
 {
@@ -30,7 +29,7 @@ PetscErrorCode PartitionGraphCreate(const Model *a, PartitionGraph *g)
   PetscCall(ElementEdgesSorted(0, a->nelements, a->element, &edge));
   for (int k = 0; k + 1 < 3 * a->nelements; k++)
     if (edge[k].low == edge[k + 1].low && edge[k].high == edge[k + 1].high)
-      PetscCall(PartitionGraphLink(g, edge[k].element, edge[k + 1].element, LINK_WHOLE));
+      PetscCall(PartitionGraphLink(g, edge[k].element, edge[k + 1].element, LINK_INTACT));
   PetscCall(PetscFree(edge));
   PetscFunctionReturn(0);
 }
@@ -88,8 +87,7 @@ PetscErrorCode PartitionGraphNear(PartitionGraph *g, const Model *a)
   PetscFunctionReturn(0);
 }
 
-/* --- the curve
- * ---------------------------------------------------------------------------------------------- */
+/* --- the curve ---------------------------------------------------------------------------------------- */
 
 typedef struct {
   uint64_t key;
@@ -140,8 +138,7 @@ static PetscErrorCode LinkCurve(PartitionGraph *g, int n)
   PetscFunctionReturn(0);
 }
 
-/* --- METIS
- * -------------------------------------------------------------------------------------------------- */
+/* --- METIS -------------------------------------------------------------------------------------------- */
 
 /* Adds a link to vertex a's row, which is start[a] .. fill[a] - 1 so far. */
 static void AddToRow(int a, int b, int weight, const idx_t start[], idx_t fill[], idx_t to[], idx_t w[])
@@ -217,8 +214,7 @@ PetscErrorCode PartitionGraphCut(PartitionGraph *g, int nelements, int parts, in
   PetscFunctionReturn(0);
 }
 
-/* --- names of the parts
- * ------------------------------------------------------------------------------------- */
+/* --- names of the parts ------------------------------------------------------------------------------- */
 
 typedef struct {
   int common, before, now;

@@ -8,7 +8,7 @@
 #define SOLID_PARTITION_H
 #include "solid/bodies/model.h"
 
-enum { LINK_CURVE = 1, LINK_PARTED = 2, LINK_NEAR = 4, LINK_WHOLE = 8 };
+enum { LINK_CURVE = 1, LINK_PARTED = 2, LINK_NEAR = 4, LINK_INTACT = 8 };
 enum { WORK_ELEMENT = 2, WORK_CANDIDATE = 6 }; /* of an element's forces, and of a candidate of contact */
 
 typedef struct {
@@ -25,7 +25,7 @@ typedef struct {
 /* Every element with WORK_ELEMENT of work; at is not set; links of elements that share an edge. */
 PetscErrorCode PartitionGraphCreate(const Model *a, PartitionGraph *g);
 PetscErrorCode PartitionGraphLink(PartitionGraph *g, int a, int b, int weight);
-/* Contact as the assembly lies: links, work and centres. */
+/* Contact as the model lies: links, work and centres. */
 PetscErrorCode PartitionGraphNear(PartitionGraph *g, const Model *a);
 /* part[nelements] of `parts` parts, some empty if there are fewer elements.  Destroys the graph. */
 PetscErrorCode PartitionGraphCut(PartitionGraph *g, int nelements, int parts, int part[]);

@@ -80,23 +80,23 @@ PetscErrorCode SparseExchangeRequest(MPI_Comm comm, int n, const int of[], const
 {
   Route r;
   char *packed, *given;
-  long long *asked;
+  long long *requested;
   PetscFunctionBeginUser;
   PetscCall(RouteCreate(comm, n, of, &r));
   PetscCall(RoutePack(&r, n, sizeof *key, key, &packed));
-  const int nasked = r.in_start[r.size];
-  PetscCall(PetscMalloc1((size_t)nasked + 1, &asked));
-  PetscCall(RouteTravel(&r, sizeof *key, packed, asked, PETSC_FALSE));
+  const int nrequested = r.in_start[r.size];
+  PetscCall(PetscMalloc1((size_t)nrequested + 1, &requested));
+  PetscCall(RouteTravel(&r, sizeof *key, packed, requested, PETSC_FALSE));
   PetscCall(PetscFree(packed));
-  PetscCall(PetscCalloc1((size_t)nasked * bytes + 1, &given));
-  for (int k = 0; k < nasked; k++) PetscCall(answer(context, asked[k], given + bytes * (size_t)k));
+  PetscCall(PetscCalloc1((size_t)nrequested * bytes + 1, &given));
+  for (int k = 0; k < nrequested; k++) PetscCall(answer(context, requested[k], given + bytes * (size_t)k));
   PetscCall(PetscMalloc1((size_t)n * bytes + 1, &packed));
   PetscCall(RouteTravel(&r, bytes, given, packed, PETSC_TRUE));
   for (int k = 0; k < n; k++)
     PetscCall(PetscMemcpy((char *)record + bytes * (size_t)k, packed + bytes * (size_t)r.place[k], bytes));
   PetscCall(PetscFree(packed));
   PetscCall(PetscFree(given));
-  PetscCall(PetscFree(asked));
+  PetscCall(PetscFree(requested));
   PetscCall(RouteDestroy(&r));
   PetscFunctionReturn(0);
 }

@@ -1,6 +1,6 @@
 /* Records that go to the ranks which need them, and answers to questions. */
-#ifndef SOLID_DEAL_H
-#define SOLID_DEAL_H
+#ifndef SOLID_SPARSE_EXCHANGE_H
+#define SOLID_SPARSE_EXCHANGE_H
 #include <petscsys.h>
 
 /* Collective: record k of n, `bytes` long each, goes to rank to[k].  *in, allocated: the *nin that have come,

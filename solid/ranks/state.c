@@ -1,8 +1,7 @@
 #include "solid/ranks/state.h"
 #include <stdlib.h>
 
-/* --- nodes
- * -------------------------------------------------------------------------------------------------- */
+/* --- nodes -------------------------------------------------------------------------------------------- */
 
 void StateOfNode(const Solid s, int n, void *record)
 {
@@ -14,7 +13,7 @@ void StateOfNode(const Solid s, int n, void *record)
     to->v[c] = s->v[k];
     to->start[c] = s->start[k];
     to->load[c] = s->load[k];
-    to->seen[c] = s->seen[k];
+    to->interface_velocity[c] = s->interface_velocity[k];
     to->acceleration[c] = s->acceleration[k];
   }
 }
@@ -28,7 +27,7 @@ static void SetNode(Solid s, int n, const NodeState *from)
     s->v[k] = from->v[c];
     s->start[k] = from->start[c];
     s->load[k] = from->load[c];
-    s->seen[k] = from->seen[c];
+    s->interface_velocity[k] = from->interface_velocity[c];
     s->acceleration[k] = from->acceleration[c];
   }
 }
@@ -44,8 +43,7 @@ static PetscErrorCode TakeNodes(Solid s, const StateSource *from)
   PetscFunctionReturn(0);
 }
 
-/* --- springs of friction
- * ------------------------------------------------------------------------------------ */
+/* --- springs of friction ------------------------------------------------------------------------------ */
 
 PetscErrorCode StateOfSlips(Solid s, int *n, Slip **slip)
 {
@@ -88,8 +86,7 @@ static PetscErrorCode TakeSlips(Solid s, const StateSource *from)
   PetscFunctionReturn(0);
 }
 
-/* --- all
- * ---------------------------------------------------------------------------------------------------- */
+/* --- all ---------------------------------------------------------------------------------------------- */
 
 /* First the joints: by the numbers of their corners the parts of nodes get the gid that they had. */
 PetscErrorCode SolidTakeState(Solid s, const StateSource *from)
@@ -103,7 +100,7 @@ PetscErrorCode SolidTakeState(Solid s, const StateSource *from)
   PetscCall(TakeSlips(s, from));
   s->force_valid = PETSC_FALSE;
   if (s->joints)
-    PetscCall(JointsSettle(s->joints, s));
+    PetscCall(JointsSynchronise(s->joints, s));
   else
     PetscCall(ContactSearch(s->contact, s, 0.0));
   PetscFunctionReturn(0);

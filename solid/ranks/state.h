@@ -1,7 +1,7 @@
 /* What has happened to the solid since the start: of its nodes, its joints and its springs of friction, by
- * numbers that are the same on any ranks.  A share that is taken from the assembly is whole and at rest; it
- * becomes the solid's by being told its state, by the ranks that had the elements before (migrate.c) or by a
- * file (saved.c). */
+ * numbers that are the same on any ranks.  A subdomain that is taken from the model is intact and at rest; it
+ * becomes the solid's when it receives the state, from the ranks that had the elements before (migrate.c) or from a
+ * file (checkpoint.c). */
 #ifndef SOLID_STATE_H
 #define SOLID_STATE_H
 #include "solid/contact/contact_impl.h"
@@ -10,24 +10,24 @@
 /* Of one node; numbers alone, a row of a file. */
 typedef struct {
   double x[2], v[2], start[2], load[2];
-  double seen[2], mobility, acceleration[2]; /* what SolidUpdateInterfaceMotion has left */
+  double interface_velocity[2], mobility, acceleration[2]; /* what SolidUpdateInterfaceMotion has left */
 } NodeState;
 
-/* Not collective: fills a NodeState; a NodeAnswer of abroad.h. */
+/* Not collective: fills a NodeState; a NodeAnswer of node_directory.h. */
 void StateOfNode(const Solid s, int node, void *record);
-/* Not collective: this rank's slips, allocated, with edges numbered 3 (element in the assembly) + side. */
+/* Not collective: this rank's slips, allocated, with edges numbered 3 (element in the model) + side. */
 PetscErrorCode StateOfSlips(Solid s, int *n, Slip **slip);
-/* Not collective: this rank's element of that number in the assembly, or -1. */
+/* Not collective: this rank's element of that number in the model, or -1. */
 int StateElement(const Solid s, long long number);
 
-/* Who tells; all are collective. */
+/* Where the state comes from; all are collective. */
 typedef struct {
   void *context;
-  PetscErrorCode (*joints)(void *context, Joints j);                  /* memory of those that are not whole */
-  PetscErrorCode (*nodes)(void *context, Solid to, NodeState node[]); /* [to->nnodes] by gid */
+  PetscErrorCode (*joints)(void *context, Joints j); /* memory of those that are not intact */
+  PetscErrorCode (*nodes)(void *context, Solid to, NodeState node[]);    /* [to->nnodes] by gid */
   PetscErrorCode (*slips)(void *context, Solid to, int *n, Slip **slip); /* as above, of to's elements */
 } StateSource;
 
-/* Collective: s is a share as the assembly has it. */
+/* Collective: s is a subdomain as the model has it. */
 PetscErrorCode SolidTakeState(Solid s, const StateSource *from);
 #endif

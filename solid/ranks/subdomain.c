@@ -1,6 +1,6 @@
 #include "solid/ranks/subdomain.h"
 
-enum { SHARE_TAG = 71 };
+enum { SUBDOMAIN_TAG = 71 };
 
 struct Subdomain_s {
   MPI_Comm comm;
@@ -16,7 +16,7 @@ struct Subdomain_s {
 };
 
 PetscErrorCode SubdomainCreate(MPI_Comm comm, int nnodes, int n, const int rank[], const int node[],
-                               Subdomain *share)
+                               Subdomain *subdomain)
 {
   Subdomain s;
   PetscFunctionBeginUser;
@@ -41,7 +41,7 @@ PetscErrorCode SubdomainCreate(MPI_Comm comm, int nnodes, int n, const int rank[
   }
   for (int i = 0; i < nnodes; i++)
     if (s->lowest[i] < 0) s->lowest[i] = s->me;
-  *share = s;
+  *subdomain = s;
   PetscFunctionReturn(0);
 }
 
@@ -59,9 +59,9 @@ static PetscErrorCode Exchange(Subdomain s, const double value[])
     for (int c = 0; c < 2; c++) s->out[2 * k + c] = value[2 * s->node[k] + c];
   for (int j = 0; j < s->nneighbours; j++) {
     const int first = 2 * s->start[j], count = 2 * s->start[j + 1] - first;
-    PetscCallMPI(
-        MPI_Irecv(s->in + first, count, MPI_DOUBLE, s->neighbour[j], SHARE_TAG, s->comm, &s->request[2 * j]));
-    PetscCallMPI(MPI_Isend(s->out + first, count, MPI_DOUBLE, s->neighbour[j], SHARE_TAG, s->comm,
+    PetscCallMPI(MPI_Irecv(s->in + first, count, MPI_DOUBLE, s->neighbour[j], SUBDOMAIN_TAG, s->comm,
+                           &s->request[2 * j]));
+    PetscCallMPI(MPI_Isend(s->out + first, count, MPI_DOUBLE, s->neighbour[j], SUBDOMAIN_TAG, s->comm,
                            &s->request[2 * j + 1]));
   }
   PetscCallMPI(MPI_Waitall(2 * s->nneighbours, s->request, MPI_STATUSES_IGNORE));
@@ -86,7 +86,7 @@ PetscErrorCode SubdomainSum(Subdomain s, double value[])
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SubdomainLeast(Subdomain s, double value[])
+PetscErrorCode SubdomainMin(Subdomain s, double value[])
 {
   PetscFunctionBeginUser;
   if (s->nneighbours == 0) PetscFunctionReturn(0);

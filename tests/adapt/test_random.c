@@ -64,7 +64,7 @@ static void CheckFrozen(const MeshSerial *before, const char frozen[], const Ada
 }
 
 /* Two adaptations in a row: to a budget, then from there to another metric. */
-static void Case(Seed *seed)
+static void CoracleCase(Seed *seed)
 {
   MeshSerial start;
   AdaptResult first, second;
@@ -94,7 +94,7 @@ int main(int argc, char **argv)
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   for (int k = start; k < start + number; k++) {
     Seed seed = 0x9E3779B97F4A7C15ULL * (Seed)(k + 1);
-    Case(&seed);
+    CoracleCase(&seed);
   }
   return PetscFinalize();
 }

@@ -25,9 +25,9 @@ def check_balance(folder):
     must(imbalance < 1e-10, f"fluid and solid: momentum imbalance {imbalance:g}")
     for c in range(2):
         must(b.momentum_error(c) < 1e-6, f"momentum {c} of the solids: {b.momentum_error(c):g} not accounted for")
-    must(b.excess.max() < 1e-3 * b.held_work[-1], f"{b.excess.max():g} J/m from nothing, {b.held_work[-1]:g} put in")
+    must(b.excess.max() < 1e-3 * b.reaction_work[-1], f"{b.excess.max():g} J/m from nothing, {b.reaction_work[-1]:g} put in")
     must(b.broken[-1] >= 5 and b.pieces[-1] >= 4, f"{b.broken[-1]:g} joints broken, {b.pieces[-1]:g} pieces")
-    toughness = b.torn[-1] / b.cracks[-1]
+    toughness = b.debonded[-1] / b.cracks[-1]
     must(abs(toughness / TOUGHNESS - 1.0) < 0.04, f"cracks cost {toughness:g} J/m2 instead of {TOUGHNESS:g}")
     return b
 
@@ -116,4 +116,4 @@ for folder in sys.argv[2:4]:
 check_ranks(one, two, last_common_mesh(*sys.argv[2:4]))
 if os.environ.get("VERBOSE"):
     for b in (one, two):
-        print(b.broken[-1], b.pieces[-1], b.first_crack(), b.torn[-1] / b.cracks[-1], b.momentum_error(0), b.momentum_error(1), b.excess.max())
+        print(b.broken[-1], b.pieces[-1], b.first_crack(), b.debonded[-1] / b.cracks[-1], b.momentum_error(0), b.momentum_error(1), b.excess.max())

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Strong coupling: a disc of a twentieth of the fluid's density rises smoothly, on any number of ranks and while the mesh adapts, in few tries a
+# Strong coupling: a disc of a twentieth of the fluid's density rises smoothly, on any number of ranks and while the mesh adapts, in few iterations a
 # step; a heavy one moves off as it should; and a step that does not converge ends the run with a reason.  Usage: strong.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
@@ -17,7 +17,7 @@ done
 must staggered 1:1:1 --set time.end=0.2 --set time.dt_max=0.00125
 must long 1:1:1 --set time.end=0.2 --set coupler.max_iterations=30
 must long-staggered 1:1:1 --set time.end=0.2
-if run few 1:1:1 "${light[@]}" --set coupler.max_iterations=2; then echo "two tries were enough"; exit 1; fi
+if run few 1:1:1 "${light[@]}" --set coupler.max_iterations=2; then echo "two iterations were enough"; exit 1; fi
 grep -q 'error: the step from t = .* does not converge' "$scratch/few.log" || { cat "$scratch/few.log"; exit 1; }
 "$python" - "$scratch" <<'E2'
 import csv, json, sys
@@ -26,15 +26,15 @@ def rows(label, name="coupler"):
 def speeds(label):
     return [r["u_y [m/s]"] for r in rows(label)]
 for label in ("one", "three", "adaptive"):
-    u, tries = speeds(label)[5:], [r["iterations"] for r in rows(label)]
+    u, iterations = speeds(label)[5:], [r["iterations"] for r in rows(label)]
     assert u[-1] > 0.5 and all(b > a for a, b in zip(u, u[1:])), "%s: velocities %s" % (label, u)
-    assert 1.5 < sum(tries) / len(tries) < 4, "%s: %s tries" % (label, tries)
+    assert 1.5 < sum(iterations) / len(iterations) < 4, "%s: %s iterations" % (label, iterations)
     summary = json.load(open("%s/%s/summary.json" % (sys.argv[1], label)))
-    assert summary["largest_momentum_imbalance"] < 1e-10 and summary["iterations"] == sum(tries), "%s: %s" % (label, summary)
-    assert len(rows(label, "fluid")) == len(rows(label, "solid")) == len(tries), "%s: rows for tries that do not stand" % label
+    assert summary["largest_momentum_imbalance"] < 1e-10 and summary["iterations"] == sum(iterations), "%s: %s" % (label, summary)
+    assert len(rows(label, "fluid")) == len(rows(label, "solid")) == len(iterations), "%s: rows for iterations that do not stand" % label
 for label in ("cracks-1:1:1", "cracks-1:2:2"):
-    solid, tries = rows(label, "solid"), [r["iterations"] for r in rows(label)]
-    assert solid[-1]["broken joints"] >= 3 and max(tries) > 1, "%s: %g broken joints, tries %s" % (label, solid[-1]["broken joints"], tries)
+    solid, iterations = rows(label, "solid"), [r["iterations"] for r in rows(label)]
+    assert solid[-1]["broken joints"] >= 3 and max(iterations) > 1, "%s: %g broken joints, iterations %s" % (label, solid[-1]["broken joints"], iterations)
     assert json.load(open("%s/%s/summary.json" % (sys.argv[1], label)))["largest_momentum_imbalance"] < 1e-10
 broken = [rows(label, "solid")[-1]["broken joints"] for label in ("cracks-1:1:1", "cracks-1:2:2")]
 assert broken[0] == broken[1], "broken joints: %s" % broken

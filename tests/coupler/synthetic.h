@@ -20,10 +20,11 @@ typedef struct {
 
 typedef struct {
   FluidElements view;
-  FluidFlow flow;
+  CoracleFlow flow;
   int n, global[SYNTHETIC_MAX];
   double x[SYNTHETIC_MAX][3][2], rho[SYNTHETIC_MAX];
-  double u_star[SYNTHETIC_MAX][2][3], u_plus[SYNTHETIC_MAX][2][3], p[SYNTHETIC_MAX][6], mu[SYNTHETIC_MAX];
+  double u_star[SYNTHETIC_MAX][2][3], u_projected[SYNTHETIC_MAX][2][3], p[SYNTHETIC_MAX][6],
+      mu[SYNTHETIC_MAX];
 } SyntheticFluid;
 
 static inline void SyntheticSolidView(SyntheticSolid *s)
@@ -134,8 +135,8 @@ static inline void SyntheticSolidPart(const SyntheticSolid *all, int rank, int s
 
 static inline void SyntheticFluidView(SyntheticFluid *f)
 {
-  f->view = (FluidElements){f->n, &f->x[0][0][0], f->rho, {0.0, 0.0}, {1.0, 1.0}};
-  f->flow = (FluidFlow){&f->u_star[0][0][0], &f->u_plus[0][0][0], &f->p[0][0], f->mu};
+  f->view = (FluidElements){f->n, &f->x[0][0][0], f->rho, f->mu, {0.0, 0.0}, {1.0, 1.0}};
+  f->flow = (CoracleFlow){&f->u_star[0][0][0], &f->u_projected[0][0][0], &f->p[0][0], f->rho, f->mu};
 }
 
 /* n x n cells, density and viscosity 1, everything else 0. */
@@ -167,7 +168,7 @@ static inline void SyntheticFluidPart(const SyntheticFluid *all, int rank, int s
     part->mu[j] = all->mu[k];
     memcpy(part->x[j], all->x[k], sizeof part->x[j]);
     memcpy(part->u_star[j], all->u_star[k], sizeof part->u_star[j]);
-    memcpy(part->u_plus[j], all->u_plus[k], sizeof part->u_plus[j]);
+    memcpy(part->u_projected[j], all->u_projected[k], sizeof part->u_projected[j]);
     memcpy(part->p[j], all->p[k], sizeof part->p[j]);
   }
   SyntheticFluidView(part);

@@ -1,4 +1,4 @@
-/* The guard stops an added-mass instability within a few steps and leaves everything else alone: a fall, a
+/* The monitor detects an added-mass instability within a few steps and accepts everything else: a fall, a
  * damped ringing, a bouncing body, a steady oscillation.  The iteration is that of explicit staggering: m (v'
  * - v)/dt = (m - m_f) g - m_a (v - v_old)/dt. */
 #include "coupler/divergence_monitor.h"
@@ -8,7 +8,7 @@ enum { STEPS = 400 };
 
 static const double DT = 0.001;
 
-/* Steps until the guard speaks, or STEPS; velocity(n) of step n. */
+/* Steps until divergence is detected, or STEPS; velocity(n) of step n. */
 static int Watch(double (*velocity)(int n), char message[512])
 {
   DivergenceMonitor monitor = {0};

@@ -1,5 +1,5 @@
 // ranks: 3 4 6
-/* The scheme against a fake fluid and a fake solid, through the real messages.
+/* The time loop against a fake fluid and a fake solid, through the real messages.
  *
  * The fluid has no pressure and no viscosity, but the implicit coupling and the correction, element by
  * element; the solid is a rigid disc that translates.  With P the fluid's momentum, m the solid's mass, M_f
@@ -19,11 +19,9 @@ static void Part(MPI_Comm comm, int *rank, int *size)
   MPI_Comm_size(comm, size);
 }
 
-/* --- fluid
- * ---------------------------------------------------------------------------------------------------- */
+/* --- fluid ---------------------------------------------------------------------------------------------- */
 
-static int ElementsIn(void *context, int nbox, const double box[], int *n, const double **x,
-                      const double **rho)
+static int ElementsIn(void *context, int nbox, const double box[], CoracleElements *elements)
 {
   region.n = 0;
   for (int k = 0; k < fluid.n; k++) {
@@ -36,11 +34,10 @@ static int ElementsIn(void *context, int nbox, const double box[], int *n, const
     if (!inside) continue;
     memcpy(region.x[region.n], fluid.x[k], sizeof fluid.x[k]);
     region.rho[region.n] = RHO;
+    region.mu[region.n] = 0.1;
     region.global[region.n++] = k;
   }
-  *n = region.n;
-  *x = &region.x[0][0][0];
-  *rho = region.rho;
+  *elements = (CoracleElements){region.n, &region.x[0][0][0], region.rho, region.mu};
   return 0;
 }
 
@@ -90,7 +87,7 @@ static void Correct(const CoracleCorrection *k, const double x[3][2], double u[2
   }
 }
 
-/* One step of the fluid: the velocity lives in fluid.u_plus. */
+/* One step of the fluid: the velocity lives in fluid.u_projected. */
 static void FluidStep(CoracleClient client, double dt)
 {
   static CoracleCoupling kept[SYNTHETIC_MAX];
@@ -103,21 +100,21 @@ static void FluidStep(CoracleClient client, double dt)
   memcpy(global, region.global, sizeof global);
   for (int e = 0; e < n; e++) {
     const int k = global[kept[e].element];
-    Implicit(&kept[e], dt, (const double(*)[2])fluid.x[k], fluid.u_plus[k]);
+    Implicit(&kept[e], dt, (const double(*)[2])fluid.x[k], fluid.u_projected[k]);
   }
-  for (int i = 0; i < region.n; i++) {
-    memcpy(region.u_plus[i], fluid.u_plus[region.global[i]], sizeof region.u_plus[i]);
-    region.mu[i] = 0.1;
-  }
-  CHECK(!CoracleSetFlow(client, &region.u_plus[0][0][0], &region.u_plus[0][0][0], &region.p[0][0], region.mu),
-        "flow");
+  for (int i = 0; i < region.n; i++)
+    memcpy(region.u_projected[i], fluid.u_projected[region.global[i]], sizeof region.u_projected[i]);
+  const CoracleFlow flow = {&region.u_projected[0][0][0], &region.u_projected[0][0][0], NULL, region.rho,
+                            region.mu};
+  CHECK(!CoracleNeedsPressure(client), "the mode reaction asks for the pressure");
+  CHECK(!CoracleSetFlow(client, &flow), "flow");
   CHECK(!CoracleProposeStep(client, DT * (1.0 + 0.5 * sin(1e3 * dt))), "propose");
   CHECK(!CoracleEnd(client, NULL), "end");
   CHECK(!CoracleGetCorrection(client, &nc, &correction) && nc == n, "%d corrections of %d", nc, n);
   for (int e = 0; e < n; e++) {
     const int k = global[kept[e].element];
     CHECK(correction[e].element == kept[e].element, "order");
-    Correct(&correction[e], (const double(*)[2])fluid.x[k], fluid.u_plus[k]);
+    Correct(&correction[e], (const double(*)[2])fluid.x[k], fluid.u_projected[k]);
   }
 }
 
@@ -138,14 +135,12 @@ static void RunFluid(int argc, char **argv, double momentum[2])
   while (!CoracleBegin(client, &t, &dt, &action) && action == CORACLE_RUN) FluidStep(client, dt);
   for (int k = 0; k < fluid.n; k++) {
     const double third = RHO * GeometryArea((const double(*)[2])fluid.x[k]) / 3.0;
-    for (int i = 0; i < 6; i++) momentum[i / 3] += third * fluid.u_plus[k][i / 3][i % 3];
+    for (int i = 0; i < 6; i++) momentum[i / 3] += third * fluid.u_projected[k][i / 3][i % 3];
   }
   CHECK(!CoracleClose(&client), "close");
 }
 
-/* --- solid
- * ----------------------------------------------------------------------------------------------------------
- */
+/* --- solid ---------------------------------------------------------------------------------------------- */
 
 static void RunSolid(int argc, char **argv, double end, double momentum[2])
 {
@@ -182,8 +177,7 @@ static void RunSolid(int argc, char **argv, double end, double momentum[2])
   CHECK(!CoracleClose(&client), "close");
 }
 
-/* --- coupler
- * -------------------------------------------------------------------------------------------------------- */
+/* --- coupler -------------------------------------------------------------------------------------------- */
 
 static void RunCoupler(int argc, char **argv, const char *folder, double end)
 {
@@ -192,7 +186,7 @@ static void RunCoupler(int argc, char **argv, const char *folder, double end)
   WriterTotals totals;
   Server server;
   MPI_Comm comm;
-  c.options = (CouplerOptions){COUPLER_REACTION, 0.002, 10.0, {GRAVITY[0], GRAVITY[1]}, 0.1};
+  c.options = (CouplerOptions){COUPLER_REACTION, 0.002, 10.0, {GRAVITY[0], GRAVITY[1]}};
   snprintf(c.folder, sizeof c.folder, "%s", folder);
   CHECK(!ServerOpen(argc, argv, &comm, &server), "open");
   PETSC_COMM_WORLD = comm;

@@ -1,6 +1,6 @@
 // ranks: 1 2 3
 /* Forces on a closed polygon against what mechanics says: buoyancy, rigid motion, accelerated fluid, the wall
- * term's weights. */
+ * term's coefficients. */
 #include "common/space/p2.h"
 #include "coupler/coupler_impl.h"
 #include "tests/coupler/synthetic.h"
@@ -53,13 +53,16 @@ static void SetSolid(FlowFunction f)
 /* One step on all ranks. */
 static void Step(CouplerMode mode, double thickness, double dt, Coupler *c, ForceTotals *totals)
 {
-  const CouplerOptions options = {mode, thickness, 10.0, {GRAVITY[0], GRAVITY[1]}, viscosity};
+  const CouplerOptions options = {mode, thickness, 10.0, {GRAVITY[0], GRAVITY[1]}};
   const CoracleCoupling *coupling;
   const double *force;
   int rank, size, n;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
-  for (int k = 0; k < all_fluid.n; k++) all_fluid.rho[k] = RHO;
+  for (int k = 0; k < all_fluid.n; k++) {
+    all_fluid.rho[k] = RHO;
+    all_fluid.mu[k] = viscosity;
+  }
   SyntheticSolidPart(&all_solid, rank, size, &solid);
   SyntheticFluidPart(&all_fluid, rank, size, &fluid);
   CHECK(!CouplerCreate(PETSC_COMM_WORLD, &options, c), "create");
@@ -85,7 +88,7 @@ static void CheckBuoyancy(double radius, double share)
   ForceTotals totals;
   SetSolid(Hydrostatic);
   SetFlow(Hydrostatic, all_fluid.u_star);
-  SetFlow(Hydrostatic, all_fluid.u_plus);
+  SetFlow(Hydrostatic, all_fluid.u_projected);
   for (int mode = COUPLER_REACTION; mode <= COUPLER_PENALTY_SHELL; mode += COUPLER_PENALTY_SHELL) {
     Step((CouplerMode)mode, dr, 0.01, &c, &totals);
     CheckTotal(COUPLER_MODES[mode], totals.force, -RHO * GRAVITY[0] * area, -RHO * GRAVITY[1] * area, 1e-12);
@@ -110,11 +113,11 @@ static void CheckMotion(void)
   viscosity = 0.0;
   SetSolid(Rigid);
   SetFlow(Rigid, all_fluid.u_star);
-  SetFlow(Rigid, all_fluid.u_plus);
+  SetFlow(Rigid, all_fluid.u_projected);
   Step(COUPLER_REACTION, 0.002, dt, &c, &totals);
   CheckTotal("rigid", totals.force, -RHO * GRAVITY[0] * area, -RHO * GRAVITY[1] * area, 1e-10);
   CHECK(!CouplerDestroy(&c), "destroy");
-  SetFlow(Accelerated, all_fluid.u_plus);
+  SetFlow(Accelerated, all_fluid.u_projected);
   Step(COUPLER_REACTION, 0.002, dt, &c, &totals);
   CheckTotal("accelerated", totals.force, RHO * area * (0.02 / dt - GRAVITY[0]),
              RHO * area * (0.05 / dt - GRAVITY[1]), 1e-10);
@@ -145,15 +148,15 @@ static void CheckCoupledElements(Coupler c)
       for (int i = 0; i < 6; i++) {
         for (int j = 0; j < 6; j++) form += a[6 * i + j] * v[i] * v[j];
       }
-      CHECK(form >= -1e-14 * trace, "entry %d: v a v = %g, trace %g", e, form, trace);
+      CHECK(form >= -1e-14 * trace, "element %d: v a v = %g, trace %g", e, form, trace);
     }
     for (int i = 0; i < 6; i++) {
       double au = 0.0;
       for (int j = 0; j < 6; j++) {
-        CHECK(fabs(a[6 * i + j] - a[6 * j + i]) <= 1e-14 * trace, "entry %d is not symmetric", e);
+        CHECK(fabs(a[6 * i + j] - a[6 * j + i]) <= 1e-14 * trace, "element %d is not symmetric", e);
         au += a[6 * i + j] * (j < 3 ? 0.4 : -1.1);
       }
-      CHECK(fabs(au - (&k->s[0][0])[i]) <= 1e-12 * trace, "entry %d: s %g, a u_s %g", e, (&k->s[0][0])[i],
+      CHECK(fabs(au - (&k->s[0][0])[i]) <= 1e-12 * trace, "element %d: s %g, a u_s %g", e, (&k->s[0][0])[i],
             au);
     }
   }
@@ -166,7 +169,7 @@ static void Constant(const double x[2], double u[2], double *p)
   *p = 0.0;
 }
 
-/* Sum over all elements of the trace of int a: what the wall term weighs in the shell. */
+/* Sum over all elements of the trace of int a: the integral of the wall term over the shell. */
 static double WallTotal(Coupler c)
 {
   double total = 0.0;
@@ -178,7 +181,7 @@ static double WallTotal(Coupler c)
   return total;
 }
 
-/* int_shell a does not depend on dr; the literal mode weighs nearly the same; the volume has its sigma. */
+/* int_shell a does not depend on dr; the literal mode has nearly the same; the volume has its sigma. */
 static void CheckWeights(void)
 {
   double total[2][2];

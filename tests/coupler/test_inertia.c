@@ -1,5 +1,5 @@
 // ranks: 1 2 3
-/* Nodes that give way: fluid and solid exchange what is theirs to round-off, move together however light the
+/* Nodes with a mobility: momentum is conserved to round-off, fluid and solid move together however light the
  * solid is, and fall freely together. */
 #include "coupler/coupler_impl.h"
 #include "tests/coupler/synthetic.h"
@@ -8,8 +8,8 @@ static SyntheticSolid all_solid, solid;
 static SyntheticFluid all_fluid, fluid;
 static const double RHO = 2.0, DT = 0.01, OWN[2] = {3.0, -7.0}, START[2] = {0.2, -0.1};
 
-/* Lumped masses of the solid and its start; firm: mobility 0. */
-static void MakeSolid(double density, int firm)
+/* Lumped masses of the solid and its start; rigid: mobility 0. */
+static void MakeSolid(double density, int rigid)
 {
   const double centre[2] = {0.5, 0.5};
   SyntheticDisc(&all_solid, centre, 0.3, 5, 48);
@@ -20,9 +20,9 @@ static void MakeSolid(double density, int firm)
     for (int i = 0; i < 3; i++) all_solid.mobility[e[i]] += third;
   }
   for (int i = 0; i < all_solid.nnodes; i++) {
-    all_solid.mobility[i] = firm ? 0.0 : 1.0 / all_solid.mobility[i];
+    all_solid.mobility[i] = rigid ? 0.0 : 1.0 / all_solid.mobility[i];
     for (int c = 0; c < 2; c++) {
-      all_solid.acceleration[i][c] = firm ? 0.0 : OWN[c];
+      all_solid.acceleration[i][c] = rigid ? 0.0 : OWN[c];
       all_solid.u[i][c] = START[c];
     }
   }
@@ -50,11 +50,11 @@ static void SolveElement(const CoracleCoupling *k, double area, double u[2][3])
   }
 }
 
-/* One step without pressure but for kick, which u+ has beyond u*.  v: the centre's velocity after it; returns how far
- * that is from free fall, of what free fall has added. */
+/* One step without pressure but for kick, which u+ has beyond u*.  v: the centre's velocity after it; returns
+ * how far that is from free fall, of what free fall has added. */
 static double Step(double kick, ForceTotals *totals, double v[2])
 {
-  const CouplerOptions options = {COUPLER_REACTION, 0.002, 10.0, {0.0, 0.0}, 0.0};
+  const CouplerOptions options = {COUPLER_REACTION, 0.002, 10.0, {0.0, 0.0}};
   const CoracleCoupling *coupling;
   const double *force;
   double total[3] = {0.0};
@@ -77,7 +77,7 @@ static double Step(double kick, ForceTotals *totals, double v[2])
   }
   for (int k = 0; k < fluid.n; k++)
     for (int i = 0; i < 6; i++)
-      fluid.u_plus[k][i / 3][i % 3] = fluid.u_star[k][i / 3][i % 3] + kick * (i + 1);
+      fluid.u_projected[k][i / 3][i % 3] = fluid.u_star[k][i / 3][i % 3] + kick * (i + 1);
   CHECK(!CouplerComputeForce(c, &fluid.flow, &force, totals), "react");
   for (int i = 0; i < solid.nnodes; i++) {
     const double x = solid.x[i][0] - 0.5, y = solid.x[i][1] - 0.5;
@@ -111,6 +111,6 @@ int main(int argc, char **argv)
   MakeSolid(2.0, 1);
   (void)Step(0.3, &totals, v);
   CHECK(hypot(totals.reaction[0], totals.reaction[1]) < 1e-9,
-        "a firm solid with the fluid's velocity: reaction (%g, %g)", totals.reaction[0], totals.reaction[1]);
+        "a rigid solid with the fluid's velocity: reaction (%g, %g)", totals.reaction[0], totals.reaction[1]);
   return PetscFinalize();
 }

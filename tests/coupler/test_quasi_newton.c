@@ -1,5 +1,5 @@
 // ranks: 1 2 3
-/* Quasi-Newton on x = H(x) where plain repetition explodes: as many tries as the equation has gains (0,
+/* Quasi-Newton on x = H(x) where plain repetition explodes: as many iterations as the equation has gains (0,
  * where H does not change, is one) and two more, fewer once it is known, and a nonlinear one converges
  * faster than linearly. */
 #include "coupler/quasi_newton.h"
@@ -32,7 +32,7 @@ static void Evaluate(const Equation *e, const double x[], double hx[])
   }
 }
 
-/* Tries until |H(x) - x| < 1e-9, from 0. */
+/* Iterations until |H(x) - x| < 1e-9, from 0. */
 static int Solve(QuasiNewton a, const Equation *e)
 {
   double x[N] = {0.0}, hx[N], next[N];
@@ -60,11 +60,11 @@ int main(int argc, char **argv)
   e.n = N * (rank + 1) / size - e.first;
   CHECK(!QuasiNewtonCreate(PETSC_COMM_WORLD, &a), "create");
   const int first = Solve(a, &e), second = Solve(a, &e);
-  CHECK(first <= DIRECTIONS + 1 + 2, "%d tries for %d gains", first, DIRECTIONS + 1);
-  CHECK(second <= 3, "%d tries though all is known", second);
+  CHECK(first <= DIRECTIONS + 1 + 2, "%d iterations for %d gains", first, DIRECTIONS + 1);
+  CHECK(second <= 3, "%d iterations though all is known", second);
   e.curvature = 10.0;
   const int curved = Solve(a, &e);
-  CHECK(curved <= 15, "%d tries of a nonlinear equation", curved);
+  CHECK(curved <= 15, "%d iterations of a nonlinear equation", curved);
   CHECK(!QuasiNewtonDestroy(&a), "destroy");
   return PetscFinalize();
 }

@@ -32,7 +32,7 @@ static void MakeCase(void)
     all_fluid.mu[k] = Random(0.5, 2.0);
     for (int i = 0; i < 6; i++) {
       all_fluid.u_star[k][i / 3][i % 3] = Random(-1.0, 1.0);
-      all_fluid.u_plus[k][i / 3][i % 3] = Random(-1.0, 1.0);
+      all_fluid.u_projected[k][i / 3][i % 3] = Random(-1.0, 1.0);
       all_fluid.p[k][i] = Random(-1.0, 1.0);
     }
   }
@@ -61,7 +61,7 @@ static int GlobalNode(long long gid)
 /* One step; two, so that the viscosities of the flow count in the wall term. */
 static void Run(MPI_Comm comm, CouplerMode mode, Result *r)
 {
-  const CouplerOptions options = {mode, 0.004, 10.0, {0.3, -9.81}, 0.7};
+  const CouplerOptions options = {mode, 0.004, 10.0, {0.3, -9.81}};
   const CoracleCoupling *coupling;
   const CoracleCorrection *correction;
   const double *force;
@@ -107,16 +107,16 @@ static void CheckConservation(const Result *r)
 {
   double area = 0.0, mass = 0.0, us[2] = {0.0}, momentum[2] = {0.0}, after[2] = {0.0}, expected[2] = {0.0};
   for (int k = 0; k < all_fluid.n; k++) {
-    CoracleCoupling entry;
-    memcpy(entry.a, r->coupling[k], sizeof r->coupling[k]);
-    area += entry.alpha * GeometryArea((const double(*)[2])all_fluid.x[k]);
+    CoracleCoupling element;
+    memcpy(element.a, r->coupling[k], sizeof r->coupling[k]);
+    area += element.alpha * GeometryArea((const double(*)[2])all_fluid.x[k]);
     for (int i = 0; i < 6; i++) {
-      us[i / 3] += entry.us[i / 3][i % 3];
+      us[i / 3] += element.us[i / 3][i % 3];
       after[i / 3] += r->correction[k][i];
     }
     for (int i = 0; i < 9; i++) {
-      mass += entry.ms[i / 3][i % 3];
-      for (int c = 0; c < 2; c++) after[c] += entry.ms[i / 3][i % 3] * all_fluid.u_plus[k][c][i % 3];
+      mass += element.ms[i / 3][i % 3];
+      for (int c = 0; c < 2; c++) after[c] += element.ms[i / 3][i % 3] * all_fluid.u_projected[k][c][i % 3];
     }
   }
   for (int t = 0; t < all_solid.nelements; t++) {
@@ -168,6 +168,6 @@ int main(int argc, char **argv)
     for (int c = 0; c < 2; c++) all_solid.acceleration[i][c] = Random(-1.0, 1.0);
   }
   CompareSplits(COUPLER_REACTION);
-  CHECK(shared.totals.imbalance < 1e-12, "nodes that give way: %g", shared.totals.imbalance);
+  CHECK(shared.totals.imbalance < 1e-12, "nodes with a mobility: %g", shared.totals.imbalance);
   return PetscFinalize();
 }

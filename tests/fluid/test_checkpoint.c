@@ -62,11 +62,11 @@ static double Turn(const double a[2], const double b[2], const double x[2])
   return (b[0] - a[0]) * (x[1] - a[1]) - (x[0] - a[0]) * (b[1] - a[1]);
 }
 
-/* A piece of a solid that does nothing to the fluid but be seen; at rest at first. */
+/* A piece of shell that exerts no force; only the mesh adaptation uses it.  At rest at first. */
 static PetscErrorCode SetSolid(RunState *m)
 {
-  const double x[2] = {0.6123, 0.4371}, velocity[2] = {30.0 * FluidGetStats(m->fluid)->t, 0.0};
-  CoracleCoupling k = {.shell = 0.1};
+  const double x[2] = {0.6123, 0.4371}, speed = 30.0 * FluidGetStats(m->fluid)->t;
+  CoracleCoupling k = {.flags = CORACLE_HAS_SHELL, .shell = 0.1, .velocity = {speed, 0.0}};
   int n = 0;
   PetscFunctionBeginUser;
   for (int e = 0; e < m->mesh->ne; e++) {
@@ -76,12 +76,6 @@ static PetscErrorCode SetSolid(RunState *m)
     k.element = e;
     n = 1;
   }
-  for (int c = 0; c < 2; c++)
-    for (int i = 0; i < 3; i++)
-      for (int j = 0; j < 3; j++) {
-        k.a[c][i][c][j] = 1e-12;
-        k.s[c][i] += k.a[c][i][c][j] * velocity[c];
-      }
   PetscCall(FluidSetCoupling(m->fluid, n, &k));
   PetscFunctionReturn(0);
 }

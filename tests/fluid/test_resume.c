@@ -24,7 +24,7 @@ static Mesh *mesh; /* outlives what is refused */
 static PetscInt *row;
 
 /* As in main.c. */
-static PetscErrorCode Read(Case c, FluidSetup *setup)
+static PetscErrorCode Read(CoracleCase c, FluidSetup *setup)
 {
   static const char *const SECTIONS[] = {"fluid", NULL};
   AdaptationSetup adaptation;
@@ -34,7 +34,7 @@ static PetscErrorCode Read(Case c, FluidSetup *setup)
   if (from) FluidCaseCheckResumed(c, mesh, folder);
   PetscCall(FluidCaseSetup(c, mesh, setup));
   PetscCall(FluidCaseAdaptation(c, &adapts, &adaptation));
-  if (CaseFinish(c, SECTIONS)) PetscFunctionReturn(PETSC_ERR_PLIB);
+  if (CoracleCaseFinish(c, SECTIONS)) PetscFunctionReturn(PETSC_ERR_PLIB);
   PetscFunctionReturn(0);
 }
 
@@ -51,7 +51,7 @@ static PetscErrorCode Save(Fluid fluid, Writer writer)
 }
 
 /* Until t = 0.05 s; from the start there is a checkpoint at 0.03 s on the way. */
-static PetscErrorCode RunState(Case c)
+static PetscErrorCode RunState(CoracleCase c)
 {
   FluidSetup setup;
   Fluid fluid;
@@ -75,12 +75,12 @@ static PetscErrorCode RunState(Case c)
   PetscFunctionReturn(0);
 }
 
-static void Run(Case c)
+static void Run(CoracleCase c)
 {
   CHECK(!RunState(c));
 }
 
-static void OnlyRead(Case c)
+static void OnlyRead(CoracleCase c)
 {
   FluidSetup setup;
   CHECK(!Read(c, &setup) && !PetscFree(setup.boundary));
@@ -122,7 +122,7 @@ static void CheckFiles(void)
   CHECK(snapshots == 3);
 }
 
-static PetscErrorCode Resume(const char *const sets[], void (*f)(Case c), const char *expected)
+static PetscErrorCode Resume(const char *const sets[], void (*f)(CoracleCase c), const char *expected)
 {
   PetscFunctionBeginUser;
   PetscCall(CheckpointOpen(PETSC_COMM_WORLD, folder, "fluid", &from));

@@ -24,11 +24,13 @@ static PetscErrorCode Load(Fluid fluid, double heavy, double below)
     if (x[0][1] + x[1][1] + x[2][1] > 3.0 * below) continue;
     n++;
     k->element = e;
+    k->flags = CORACLE_HAS_INERTIA;
     for (int c = 0; c < 2; c++)
       for (int i = 0; i < 3; i++) {
         k->s[c][i] = (heavy - LIGHT) * GRAVITY[c] * area / 3.0;
         for (int j = 0; j < 3; j++)
-          k->a[c][i][c][j] = k->give[c][i][c][j] = (heavy - LIGHT) / DT * area / (i == j ? 6.0 : 12.0);
+          k->a[c][i][c][j] = k->implicit_inertia[c][i][c][j] =
+              (heavy - LIGHT) / DT * area / (i == j ? 6.0 : 12.0);
       }
   }
   PetscCall(FluidSetCoupling(fluid, n, coupling));

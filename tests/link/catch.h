@@ -22,11 +22,11 @@ static void CatchFail(void *context, const char *message)
 
 /* Writes `text` to a scratch file and opens it with up to four --set arguments; what f then does must fail
  * with exactly `expected` (without the file's path; NULL: must not fail). */
-static inline void CheckCase(const char *text, const char *const sets[], void (*f)(Case c),
+static inline void CheckCase(const char *text, const char *const sets[], void (*f)(CoracleCase c),
                              const char *expected)
 {
   static Catch catcher; /* static: it outlives the jump */
-  static Case c;
+  static CoracleCase c;
   static char path[] = "/tmp/coracle-case-XXXXXX", *argv[16];
   static int argc;
   strcpy(path, "/tmp/coracle-case-XXXXXX");
@@ -43,10 +43,10 @@ static inline void CheckCase(const char *text, const char *const sets[], void (*
   c = NULL;
   catcher.message[0] = '\0';
   if (!setjmp(catcher.jump)) {
-    CaseOpen(argc, argv, CatchFail, &catcher, &c);
+    CoracleCaseOpen(argc, argv, CatchFail, &catcher, &c);
     f(c);
   }
-  CaseClose(&c);
+  CoracleCaseClose(&c);
   unlink(path);
   const char *got = catcher.message, *stem = strstr(got, path);
   if (stem == got) got += strlen(path);

@@ -4,37 +4,37 @@
 
 static const char *const SECTIONS[] = {"fluid", "solid", NULL};
 static const char *const WORDS[] = {"no_slip", "free_slip", NULL};
-static const CaseKey KEYS[] = {{"fluid.density", "kg/m3", "density of the fluid"},
-                               {"solid.bodies[].radius", "m", "radius of a disc"},
-                               {"solid.materials.*.damping", "", "part of the critical damping"},
-                               {NULL, NULL, NULL}};
+static const CoracleCaseKey KEYS[] = {{"fluid.density", "kg/m3", "density of the fluid"},
+                                      {"solid.bodies[].radius", "m", "radius of a disc"},
+                                      {"solid.materials.*.damping", "", "part of the critical damping"},
+                                      {NULL, NULL, NULL}};
 
 static void Material(void *c, const char *name)
 {
   char key[256];
   snprintf(key, sizeof key, "solid.materials.%s.damping", name);
-  CaseNumberOr(c, key, 0.0, 0.0, 1.0);
+  CoracleCaseNumberOr(c, key, 0.0, 0.0, 1.0);
 }
 
-static void Read(Case c, void *context)
+static void Read(CoracleCase c, void *context)
 {
   double v[2];
   char key[64];
-  CaseDescribe(c, KEYS);
-  CaseRenamed(c, "fluid.rho", "fluid.density");
-  CasePositive(c, "fluid.density");
-  CaseNumberOr(c, "fluid.theta", 0.5, 0.5, 1.0);
-  CaseIntegerOr(c, "fluid.steps", 1, 1, 10);
-  CaseBoolOr(c, "fluid.adapt", false);
-  CaseWord(c, "fluid.left", -1, WORDS);
-  CaseVector(c, "fluid.upper", 2, v);
-  CaseString(c, "fluid.name");
-  for (int k = 0; k < CaseCount(c, "solid.bodies"); k++) {
+  CoracleCaseDescribe(c, KEYS);
+  CoracleCaseRenamed(c, "fluid.rho", "fluid.density");
+  CoracleCasePositive(c, "fluid.density");
+  CoracleCaseNumberOr(c, "fluid.theta", 0.5, 0.5, 1.0);
+  CoracleCaseIntegerOr(c, "fluid.steps", 1, 1, 10);
+  CoracleCaseBoolOr(c, "fluid.adapt", false);
+  CoracleCaseWord(c, "fluid.left", -1, WORDS);
+  CoracleCaseVector(c, "fluid.upper", 2, v);
+  CoracleCaseString(c, "fluid.name");
+  for (int k = 0; k < CoracleCaseCount(c, "solid.bodies"); k++) {
     snprintf(key, sizeof key, "solid.bodies[%d].radius", k);
-    if (CasePositive(c, key) > 10.0) CaseRefuse(c, key, "too large");
+    if (CoracleCasePositive(c, key) > 10.0) CoracleCaseRefuse(c, key, "too large");
   }
-  CaseKeys(c, "solid.materials", Material, c);
-  CaseFinish(c, SECTIONS);
+  CoracleCaseKeys(c, "solid.materials", Material, c);
+  CoracleCaseFinish(c, SECTIONS);
 }
 
 typedef struct {
@@ -69,7 +69,7 @@ static void Faults(int argc, char **argv)
       ":14: unknown key 'solid.bodies[2].size'"};
   enum { N = sizeof EXPECTED / sizeof *EXPECTED };
   static Told told;
-  const int n = CaseCheck(argc, argv, Read, &told, Tell);
+  const int n = CoracleCaseCheck(argc, argv, Read, &told, Tell);
   for (int k = 0; k < N || k < n; k++) {
     if (k < N && k < n && !strcmp(told.message[k], EXPECTED[k])) continue;
     fprintf(stderr, "expected '%s'\n     got '%s'\n", k < N ? EXPECTED[k] : "(no more)",
@@ -100,7 +100,7 @@ static void List(int argc, char **argv)
   char *text;
   size_t size;
   FILE *out = open_memstream(&text, &size);
-  CaseKeysOf(argc, argv, Read, NULL, Failed, out);
+  CoracleCaseKeysOf(argc, argv, Read, NULL, Failed, out);
   fclose(out);
   if (strcmp(text, EXPECTED)) {
     fprintf(stderr, "expected\n%s\ngot\n%s\n", EXPECTED, text);

@@ -26,60 +26,60 @@ static void Join(void *context, const char *name)
   strcat(context, " ");
 }
 
-static void ReadFluid(Case c)
+static void ReadFluid(CoracleCase c)
 {
   double v[2];
   char names[64] = "";
-  CHECK(!strcmp(CaseString(c, "case"), "disc"));
-  CaseVector(c, "gravity", 2, v);
+  CHECK(!strcmp(CoracleCaseString(c, "case"), "disc"));
+  CoracleCaseVector(c, "gravity", 2, v);
   CHECK(v[0] == 0.0 && v[1] == -9.81);
-  CHECK(CasePositive(c, "fluid.density") == 1000.0);
-  CHECK(CaseNumberOr(c, "fluid.theta", 0.5, 0.5, 1.0) == 0.5);
-  CHECK(CaseIntegerOr(c, "fluid.steps", 3, 0, 100) == 12);
-  CHECK(CaseIntegerOr(c, "fluid.other", 3, 0, 100) == 3);
-  CHECK(CaseBoolOr(c, "fluid.adapt", false));
-  CHECK(CaseBoolOr(c, "fluid.adapt2", true));
-  const char *path = CaseFile(c, "fluid.file");
+  CHECK(CoracleCasePositive(c, "fluid.density") == 1000.0);
+  CHECK(CoracleCaseNumberOr(c, "fluid.theta", 0.5, 0.5, 1.0) == 0.5);
+  CHECK(CoracleCaseIntegerOr(c, "fluid.steps", 3, 0, 100) == 12);
+  CHECK(CoracleCaseIntegerOr(c, "fluid.other", 3, 0, 100) == 3);
+  CHECK(CoracleCaseBoolOr(c, "fluid.adapt", false));
+  CHECK(CoracleCaseBoolOr(c, "fluid.adapt2", true));
+  const char *path = CoracleCaseFile(c, "fluid.file");
   CHECK(!strcmp(path, "/tmp/meshes/a b.msh"));
-  CaseKeys(c, "fluid.boundaries", Join, names);
+  CoracleCaseKeys(c, "fluid.boundaries", Join, names);
   CHECK(!strcmp(names, "left right "));
-  CHECK(CaseWord(c, "fluid.boundaries.left", -1, SLIP) == 1);
-  CHECK(CaseWord(c, "fluid.boundaries.top", 0, SLIP) == 0);
-  CaseVector(c, "fluid.boundaries.right.velocity", 2, v);
+  CHECK(CoracleCaseWord(c, "fluid.boundaries.left", -1, SLIP) == 1);
+  CHECK(CoracleCaseWord(c, "fluid.boundaries.top", 0, SLIP) == 0);
+  CoracleCaseVector(c, "fluid.boundaries.right.velocity", 2, v);
   CHECK(v[0] == 1.0 && v[1] == 0.0);
-  CHECK(!CaseVectorOptional(c, "fluid.lower", 2, v) && v[0] == 1.0);
+  CHECK(!CoracleCaseVectorOptional(c, "fluid.lower", 2, v) && v[0] == 1.0);
 }
 
-static void ReadSolid(Case c)
+static void ReadSolid(CoracleCase c)
 {
   double v[2];
-  CHECK(CaseCount(c, "solid.bodies") == 2 && CaseCount(c, "solid.none") == 0);
-  CHECK(CaseHas(c, "solid.bodies[1].radius") && !CaseHas(c, "solid.bodies[2].radius"));
-  CaseVector(c, "solid.bodies[0].centre", 2, v);
+  CHECK(CoracleCaseCount(c, "solid.bodies") == 2 && CoracleCaseCount(c, "solid.none") == 0);
+  CHECK(CoracleCaseHas(c, "solid.bodies[1].radius") && !CoracleCaseHas(c, "solid.bodies[2].radius"));
+  CoracleCaseVector(c, "solid.bodies[0].centre", 2, v);
   CHECK(v[0] == 1.25 && v[1] == 4.75);
-  CaseVector(c, "solid.bodies[1].centre", 2, v);
+  CoracleCaseVector(c, "solid.bodies[1].centre", 2, v);
   CHECK(v[0] == 2.25);
-  CHECK(CaseNumber(c, "solid.bodies[0].radius", 0.0, HUGE_VAL) == 0.125);
-  CHECK(CaseNumber(c, "solid.bodies[1].radius", 0.5, 0.5) == 0.5);
+  CHECK(CoracleCaseNumber(c, "solid.bodies[0].radius", 0.0, HUGE_VAL) == 0.125);
+  CHECK(CoracleCaseNumber(c, "solid.bodies[1].radius", 0.5, 0.5) == 0.5);
 }
 
-static void ReadAll(Case c)
+static void ReadAll(CoracleCase c)
 {
   ReadFluid(c);
   ReadSolid(c);
-  CaseFinish(c, ALL);
+  CoracleCaseFinish(c, ALL);
 }
 
-static void ReadSet(Case c)
+static void ReadSet(CoracleCase c)
 {
   double v[2];
-  CHECK(CasePositive(c, "fluid.density") == 2.5);
-  CHECK(!strcmp(CaseString(c, "fluid.petsc"), "-ksp_view -x"));
-  CaseVector(c, "solid.bodies[1].centre", 2, v);
+  CHECK(CoracleCasePositive(c, "fluid.density") == 2.5);
+  CHECK(!strcmp(CoracleCaseString(c, "fluid.petsc"), "-ksp_view -x"));
+  CoracleCaseVector(c, "solid.bodies[1].centre", 2, v);
   CHECK(v[0] == 7.0 && v[1] == 8.0);
-  CHECK(CaseCount(c, "solid.bodies") == 3);
-  CHECK(CasePositive(c, "solid.bodies[2].radius") == 4.0);
-  CHECK(CasePositive(c, "coupler.deep.er.key") == 1.0);
+  CHECK(CoracleCaseCount(c, "solid.bodies") == 3);
+  CHECK(CoracleCasePositive(c, "solid.bodies[2].radius") == 4.0);
+  CHECK(CoracleCasePositive(c, "coupler.deep.er.key") == 1.0);
 }
 
 static unsigned long long HashOf(const char *text, char *set)
@@ -87,11 +87,11 @@ static unsigned long long HashOf(const char *text, char *set)
   char path[] = "/tmp/coracle-case-XXXXXX", problem[CASE_MESSAGE];
   char *argv[] = {(char *)"test", path, (char *)"--set", set};
   const int file = mkstemp(path);
-  Case c;
+  CoracleCase c;
   CHECK(file >= 0 && write(file, text, strlen(text)) > 0 && !close(file));
   CHECK(!CaseLoad(set ? 4 : 2, argv, problem, &c));
-  const unsigned long long hash = CaseHash(c);
-  CaseClose(&c);
+  const unsigned long long hash = CoracleCaseHash(c);
+  CoracleCaseClose(&c);
   unlink(path);
   return hash;
 }

@@ -5,70 +5,70 @@
 static const char *const FLUID[] = {"fluid", NULL};
 static const char *const WORDS[] = {"no_slip", "free_slip", NULL};
 
-static void Nothing(Case c)
+static void Nothing(CoracleCase c)
 {
   (void)c;
 }
-static void Finish(Case c)
+static void Finish(CoracleCase c)
 {
-  CaseFinish(c, FLUID);
+  CoracleCaseFinish(c, FLUID);
 }
-static void Density(Case c)
+static void Density(CoracleCase c)
 {
-  CasePositive(c, "fluid.density");
+  CoracleCasePositive(c, "fluid.density");
 }
-static void DensityFinish(Case c)
+static void DensityFinish(CoracleCase c)
 {
-  CasePositive(c, "fluid.density");
-  CaseFinish(c, FLUID);
+  CoracleCasePositive(c, "fluid.density");
+  CoracleCaseFinish(c, FLUID);
 }
-static void OptionalFinish(Case c)
+static void OptionalFinish(CoracleCase c)
 {
-  CaseNumberOr(c, "fluid.viscosity", 1.0, 0.0, HUGE_VAL);
-  CaseCount(c, "fluid.refine");
+  CoracleCaseNumberOr(c, "fluid.viscosity", 1.0, 0.0, HUGE_VAL);
+  CoracleCaseCount(c, "fluid.refine");
   DensityFinish(c);
 }
-static void Theta(Case c)
+static void Theta(CoracleCase c)
 {
-  CaseNumberOr(c, "fluid.theta", 0.5, 0.5, 1.0);
+  CoracleCaseNumberOr(c, "fluid.theta", 0.5, 0.5, 1.0);
 }
-static void Steps(Case c)
+static void Steps(CoracleCase c)
 {
-  CaseIntegerOr(c, "fluid.steps", 1, 1, 10);
+  CoracleCaseIntegerOr(c, "fluid.steps", 1, 1, 10);
 }
-static void Adapt(Case c)
+static void Adapt(CoracleCase c)
 {
-  CaseBoolOr(c, "fluid.adapt", false);
+  CoracleCaseBoolOr(c, "fluid.adapt", false);
 }
-static void Left(Case c)
+static void Left(CoracleCase c)
 {
-  CaseWord(c, "fluid.left", -1, WORDS);
+  CoracleCaseWord(c, "fluid.left", -1, WORDS);
 }
-static void Refuse(Case c)
+static void Refuse(CoracleCase c)
 {
-  CaseRefuse(c, "fluid.left", "no such boundary as %s", "left");
+  CoracleCaseRefuse(c, "fluid.left", "no such boundary as %s", "left");
 }
-static void Vector(Case c)
+static void Vector(CoracleCase c)
 {
   double v[2];
-  CaseVector(c, "fluid.v", 2, v);
+  CoracleCaseVector(c, "fluid.v", 2, v);
 }
-static void Keys(Case c)
+static void Keys(CoracleCase c)
 {
-  CaseKeys(c, "fluid.v", NULL, NULL);
+  CoracleCaseKeys(c, "fluid.v", NULL, NULL);
 }
-static void Bodies(Case c)
+static void Bodies(CoracleCase c)
 {
-  CaseNumber(c, "fluid.bodies[1].radius", 0.0, HUGE_VAL);
+  CoracleCaseNumber(c, "fluid.bodies[1].radius", 0.0, HUGE_VAL);
 }
 
-static void Folder(Case c)
+static void Folder(CoracleCase c)
 {
-  CaseString(c, "output.folder");
+  CoracleCaseString(c, "output.folder");
 }
-static void Renamed(Case c)
+static void Renamed(CoracleCase c)
 {
-  CaseRenamed(c, "fluid.tries", "fluid.max_iterations");
+  CoracleCaseRenamed(c, "fluid.tries", "fluid.max_iterations");
 }
 
 /* Large files are read or refused in a time that grows with their size, not with its square. */
@@ -197,8 +197,8 @@ static void Sets(void)
 static void CheckArguments(int argc, char **argv, const char *expected)
 {
   static Catch catcher;
-  Case c;
-  if (!setjmp(catcher.jump)) CaseOpen(argc, argv, CatchFail, &catcher, &c);
+  CoracleCase c;
+  if (!setjmp(catcher.jump)) CoracleCaseOpen(argc, argv, CatchFail, &catcher, &c);
   if (!strcmp(catcher.message, expected)) return;
   fprintf(stderr, "expected '%s'\n     got '%s'\n", expected, catcher.message);
   exit(1);

@@ -1,5 +1,5 @@
 // ranks: 1 2 3 5
-/* Pieces: triangles and what their vertices carry survive any journey, ranks without triangles included; the
+/* Parts: triangles and what their vertices carry survive any journey, ranks without triangles included; the
  * Mesh built at the end is a good one; weights keep cuts away; what does not conform across ranks is refused.
  */
 #include "common/mesh/part.h"
@@ -9,14 +9,14 @@ static const BoxCase BOX = {{1.0, 2.0}, 0.2, {0.04, {0.3, 0.3}, {0.4, 1.0}, 0.3}
 static int rank, size;
 
 /* Rank 0 has the box, the others nothing; gids are scattered and larger than an int. */
-static int WholePiece(MeshPart *piece)
+static int WholePart(MeshPart *part)
 {
   Strip strip = BOX.strip;
-  memset(piece, 0, sizeof *piece);
-  if (rank == 0) CHECK(!MeshBox(LOWER, BOX.upper, BOX.size_max, StripSize, &strip, &piece->serial), "no box");
-  int nv = piece->serial.nv;
-  CHECK(!PetscMalloc1(nv, &piece->gid), "no memory");
-  for (int v = 0; v < nv; v++) piece->gid[v] = 7000000000LL + 3LL * (nv - v);
+  memset(part, 0, sizeof *part);
+  if (rank == 0) CHECK(!MeshBox(LOWER, BOX.upper, BOX.size_max, StripSize, &strip, &part->serial), "no box");
+  int nv = part->serial.nv;
+  CHECK(!PetscMalloc1(nv, &part->gid), "no memory");
+  for (int v = 0; v < nv; v++) part->gid[v] = 7000000000LL + 3LL * (nv - v);
   MPI_Bcast(&nv, 1, MPI_INT, 0, PETSC_COMM_WORLD);
   return nv;
 }
@@ -67,15 +67,15 @@ static int Destination(int way, int k, unsigned *seed)
   return way == 2 ? size - 1 : (int)(*seed >> 16) % PetscMax(1, size - 1);
 }
 
-static void Journey(int way, MeshPart *piece)
+static void Journey(int way, MeshPart *part)
 {
   MeshPart moved;
-  double *data = malloc((2 * (size_t)piece->serial.nv + 1) * sizeof *data), *arrived, expected[2];
-  int *part = malloc(((size_t)piece->serial.ne + 1) * sizeof *part);
+  double *data = malloc((2 * (size_t)part->serial.nv + 1) * sizeof *data), *arrived, expected[2];
+  int *target = malloc(((size_t)part->serial.ne + 1) * sizeof *target);
   unsigned seed = (unsigned)(1 + rank + 100 * way);
-  for (int v = 0; v < piece->serial.nv; v++) Carried(&piece->serial.x[2 * v], piece->gid[v], &data[2 * v]);
-  for (int e = 0; e < piece->serial.ne; e++) part[e] = Destination(way, e, &seed);
-  CHECK(!MeshPartMigrate(PETSC_COMM_WORLD, piece, part, 2, data, &moved, &arrived), "not moved");
+  for (int v = 0; v < part->serial.nv; v++) Carried(&part->serial.x[2 * v], part->gid[v], &data[2 * v]);
+  for (int e = 0; e < part->serial.ne; e++) target[e] = Destination(way, e, &seed);
+  CHECK(!MeshPartMigrate(PETSC_COMM_WORLD, part, target, 2, data, &moved, &arrived), "not moved");
   for (int v = 0; v < moved.serial.nv; v++) {
     Carried(&moved.serial.x[2 * v], moved.gid[v], expected);
     CHECK(!memcmp(expected, &arrived[2 * v], sizeof expected), "vertex %d carries what is not its own", v);
@@ -85,21 +85,21 @@ static void Journey(int way, MeshPart *piece)
   CHECK(way != 2 || (moved.serial.ne > 0) == (rank == size - 1), "%d triangles", moved.serial.ne);
   CHECK(way != 1 || rank % 2 == 0 || moved.serial.ne == 0, "%d triangles", moved.serial.ne);
   free(data);
-  free(part);
-  CHECK(!PetscFree(arrived) && !MeshPartDestroy(piece), "not freed");
-  *piece = moved;
+  free(target);
+  CHECK(!PetscFree(arrived) && !MeshPartDestroy(part), "not freed");
+  *part = moved;
 }
 
-/* The Mesh of a piece, and the piece of that Mesh, have the same triangles, and shared faces are those to
+/* The Mesh of a part, and the part of that Mesh, have the same triangles, and shared faces are those to
  * ghosts. */
-static void CheckBuilt(const MeshPart *piece, int vertices)
+static void CheckBuilt(const MeshPart *part, int vertices)
 {
   Mesh *mesh;
   MeshPart own;
-  CHECK(!MeshBuild(PETSC_COMM_WORLD, piece, &mesh), "not built");
-  CHECK(mesh->ne == piece->serial.ne, "%d triangles, not %d", mesh->ne, piece->serial.ne);
+  CHECK(!MeshBuild(PETSC_COMM_WORLD, part, &mesh), "not built");
+  CHECK(mesh->ne == part->serial.ne, "%d triangles, not %d", mesh->ne, part->serial.ne);
   CheckDistributed(mesh, &BOX, vertices);
-  CHECK(!MeshPartOf(mesh, &own), "no piece");
+  CHECK(!MeshPartOf(mesh, &own), "no part");
   char *face = calloc(3 * (size_t)own.serial.ne + 1, 1), *vertex = calloc((size_t)own.serial.nv + 1, 1);
   CHECK(!MeshPartShared(PETSC_COMM_WORLD, &own, face, vertex), "what is shared is not known");
   for (int k = 0; k < 3 * mesh->ne; k++) {
@@ -119,17 +119,17 @@ static void CheckBuilt(const MeshPart *piece, int vertices)
 
 static void CheckJourneys(void)
 {
-  MeshPart piece;
+  MeshPart part;
   unsigned long long before[3], after[3];
-  const int vertices = WholePiece(&piece);
-  Fingerprint(&piece, before);
+  const int vertices = WholePart(&part);
+  Fingerprint(&part, before);
   for (int way = 0; way < 5; way++) {
-    Journey(way % 4, &piece);
-    Fingerprint(&piece, after);
+    Journey(way % 4, &part);
+    Fingerprint(&part, after);
     CHECK(!memcmp(before, after, sizeof before), "triangles or facets changed on journey %d", way);
-    CheckBuilt(&piece, vertices);
+    CheckBuilt(&part, vertices);
   }
-  CHECK(!MeshPartDestroy(&piece), "not freed");
+  CHECK(!MeshPartDestroy(&part), "not freed");
 }
 
 static int InBand(const MeshSerial *s, int k)
@@ -143,14 +143,14 @@ static int InBand(const MeshSerial *s, int k)
  * the same. */
 static int CutInBand(int heavy)
 {
-  MeshPart piece, moved;
-  WholePiece(&piece);
-  const MeshSerial *s = &piece.serial, *m = &moved.serial;
+  MeshPart part, moved;
+  WholePart(&part);
+  const MeshSerial *s = &part.serial, *m = &moved.serial;
   int *weight = malloc((3 * (size_t)s->ne + 1) * sizeof *weight);
-  int *part = malloc(((size_t)s->ne + 1) * sizeof *part);
+  int *target = malloc(((size_t)s->ne + 1) * sizeof *target);
   for (int k = 0; k < 3 * s->ne; k++) weight[k] = InBand(s, k) ? heavy : 1;
-  CHECK(!MeshPartPartition(PETSC_COMM_WORLD, &piece, size, weight, part), "not cut");
-  CHECK(!MeshPartMigrate(PETSC_COMM_WORLD, &piece, part, 0, NULL, &moved, NULL), "not moved");
+  CHECK(!MeshPartPartition(PETSC_COMM_WORLD, &part, size, weight, target), "not cut");
+  CHECK(!MeshPartMigrate(PETSC_COMM_WORLD, &part, target, 0, NULL, &moved, NULL), "not moved");
   char *face = calloc(3 * (size_t)m->ne + 1, 1), *vertex = calloc((size_t)m->nv + 1, 1);
   CHECK(!MeshPartShared(PETSC_COMM_WORLD, &moved, face, vertex), "what is shared is not known");
   int all[2] = {m->ne, 0};
@@ -158,10 +158,10 @@ static int CutInBand(int heavy)
   MPI_Allreduce(MPI_IN_PLACE, all, 2, MPI_INT, MPI_SUM, PETSC_COMM_WORLD);
   CHECK((double)m->ne * size < 1.05 * all[0], "%d of %d triangles on one of %d ranks", m->ne, all[0], size);
   free(weight);
-  free(part);
+  free(target);
   free(face);
   free(vertex);
-  CHECK(!MeshPartDestroy(&piece) && !MeshPartDestroy(&moved), "not freed");
+  CHECK(!MeshPartDestroy(&part) && !MeshPartDestroy(&moved), "not freed");
   return all[1] / 2;
 }
 
@@ -195,17 +195,17 @@ static PetscErrorCode Build(int n, const Given given[], int named)
     }
     ne++;
   }
-  const MeshPart piece = {{.nv = 5,
-                           .ne = ne,
-                           .nb = named ? 3 * ne : 0,
-                           .x = x,
-                           .vertex = vertex,
-                           .facet = facet,
-                           .facet_tag = tag,
-                           .ntags = 1,
-                           .tag_name = name},
-                          gid};
-  const PetscErrorCode failed = MeshBuild(PETSC_COMM_WORLD, &piece, &mesh);
+  const MeshPart part = {{.nv = 5,
+                          .ne = ne,
+                          .nb = named ? 3 * ne : 0,
+                          .x = x,
+                          .vertex = vertex,
+                          .facet = facet,
+                          .facet_tag = tag,
+                          .ntags = 1,
+                          .tag_name = name},
+                         gid};
+  const PetscErrorCode failed = MeshBuild(PETSC_COMM_WORLD, &part, &mesh);
   if (!failed) CHECK(!MeshDestroy(&mesh), "not freed");
   return failed;
 }
@@ -243,17 +243,17 @@ static void CheckTouching(void)
     }
     ne++;
   }
-  const MeshPart piece = {{.nv = 7,
-                           .ne = ne,
-                           .nb = 3 * ne,
-                           .x = x,
-                           .vertex = vertex,
-                           .facet = facet,
-                           .facet_tag = tag,
-                           .ntags = 1,
-                           .tag_name = name},
-                          gid};
-  CHECK(!MeshBuild(PETSC_COMM_WORLD, &piece, &mesh), "not built");
+  const MeshPart part = {{.nv = 7,
+                          .ne = ne,
+                          .nb = 3 * ne,
+                          .x = x,
+                          .vertex = vertex,
+                          .facet = facet,
+                          .facet_tag = tag,
+                          .ntags = 1,
+                          .tag_name = name},
+                         gid};
+  CHECK(!MeshBuild(PETSC_COMM_WORLD, &part, &mesh), "not built");
   CHECK(mesh->np2_global == 7 + 10, "%d P2 nodes of 7 vertices and 10 edges", (int)mesh->np2_global);
   CHECK(!MeshDestroy(&mesh), "not freed");
 }

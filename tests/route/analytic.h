@@ -22,7 +22,20 @@ static inline double StepSize(int step)
   return 0.1 / step;
 } /* s */
 
-/* --- the solid: rank 1 is empty ------------------------------------------------------------------------- */
+/* The end of a step, s. */
+static inline double StepEnd(int step)
+{
+  double t = 0.0;
+  for (int k = 1; k <= step; k++) t += StepSize(k);
+  return t;
+}
+
+/* --- the solid: rank 1 is empty, the others have a strip of triangles each ------------------------------- */
+/*
+ *       1---3---5        nodes 0, 2, ... below, 1, 3, ... above; element e has the nodes e, e + 1, e + 2;
+ *      / \ / \ /         facets run around the strip: 0 -> 2 -> 4 -> 5 -> 3 -> 1 -> 0
+ *     0---2---4
+ */
 static inline int NodeCount(int rank, int remeshed)
 {
   return rank == 1 ? 0 : 4 + rank + 2 * remeshed;
@@ -33,29 +46,34 @@ static inline long long NodeId(int rank, int i)
 }
 static inline int FacetCount(int rank, int remeshed)
 {
-  return rank == 1 ? 0 : 3 + remeshed;
+  return NodeCount(rank, remeshed);
 }
 static inline int ElementCount(int rank, int remeshed)
 {
-  return rank == 1 ? 0 : 2 + rank + remeshed;
+  return rank == 1 ? 0 : NodeCount(rank, remeshed) - 2;
 }
-static inline int FacetNode(int rank, int e, int i)
+/* Node i of facet e of a strip of n nodes. */
+static inline int FacetNode(int n, int e, int i)
 {
-  return (e + 2 * i + rank) % 4;
+  const int k = (e + i) % n, below = (n + 1) / 2;
+  return k < below ? 2 * k : 2 * (n - k) - 1;
 }
-static inline int ElementNode(int rank, int e, int i)
+static inline int ElementNode(int e, int i)
 {
-  return (2 * e + i + rank) % 4;
+  static const int TURN[2][3] = {{0, 2, 1}, {0, 1, 2}}; /* counter-clockwise */
+  return e + TURN[e % 2][i];
 }
 
-static inline double NodePosition(long long id, int c, int step)
-{
-  return 0.25 * (double)id + 10.0 * c + 0.001 * step;
-}
-/* Linear in time, so that the sum of midpoint values over any substeps is its exact mean. */
+/* Velocity linear in time, so that the sum of midpoint values over any substeps is its exact integral. */
 static inline double NodeVelocity(long long id, int c, double t)
 {
   return sin((double)id) + c + (2.0 + c) * t;
+}
+static inline double NodePosition(long long id, int c, double t)
+{
+  const int i = (int)(id % 1000 - 3) / 7;
+  const double start = c ? 100.0 * (i % 2) : 100.0 * i + 10.0 * (double)(id / 1000);
+  return start + t * NodeVelocity(id, c, 0.5 * t);
 }
 static inline double NodeForce(long long id, int c, int step)
 {
@@ -79,6 +97,10 @@ static inline int CellOfDensity(double rho)
 {
   return (int)lrint(rho - 1000.0);
 }
+static inline double CellViscosity(int id, int step)
+{
+  return 0.5 * id + 0.001 * step;
+}
 static inline double CellVertex(int id, int i, int c)
 {
   return id + 0.1 * i + 0.01 * c;
@@ -90,6 +112,11 @@ static inline double CellFlow(int id, int field, int k, int step)
 static inline double CellProposal(int rank, int step)
 {
   return 0.01 * (rank + 1) + 0.001 * step;
+}
+/* Coupled cells with an implicit inertia, in some steps none. */
+static inline int CellHasInertia(int id, int step)
+{
+  return step % 2 == 0 && id % 3 == 0;
 }
 /* Not all cells are coupled. */
 static inline int CellCoupled(int id)
@@ -103,6 +130,12 @@ static inline CoracleCoupling CellCoupling(int id, int step)
   double *value = &k.a[0][0][0][0];
   memset(&k, 0, sizeof k);
   for (int i = 0; i < 36; i++) value[i] = id + 0.01 * i + 1e-3 * step;
+  if (CellHasInertia(id, step)) {
+    k.flags = CORACLE_HAS_INERTIA;
+    for (int i = 0; i < 36; i++) (&k.implicit_inertia[0][0][0][0])[i] = 7.0 * id - i + step;
+  }
+  if (id % 5 == 0) k.flags |= CORACLE_HAS_SHELL;
+  for (int i = 0; i < 2; i++) k.velocity[i] = 6.0 * id + i - step;
   for (int i = 0; i < 6; i++) {
     (&k.s[0][0])[i] = 2.0 * id + i + step;
     (&k.us[0][0])[i] = 4.0 * id + i + step;
@@ -118,8 +151,47 @@ static inline double CellCorrection(int id, int k, int step)
 }
 
 /* --- misbehaving on demand ------------------------------------------------------------------------------ */
-typedef enum { FAULT_NONE, FAULT_KILL, FAULT_EXIT, FAULT_FINALIZE, FAULT_HANG, FAULT_NAN, FAULT_CLOSE } Fault;
-static const char *const FAULT_WORDS[] = {"none", "kill", "exit", "finalize", "hang", "nan", "close", NULL};
+typedef enum {
+  FAULT_NONE,
+  FAULT_KILL,
+  FAULT_EXIT,
+  FAULT_FINALIZE,
+  FAULT_HANG,
+  FAULT_NAN,
+  FAULT_CLOSE,
+  FAULT_ORDER,     /* a call out of order */
+  FAULT_CLOCKWISE, /* of the solid: an element, ... */
+  FAULT_TWICE,
+  FAULT_OPEN, /* a facet less than the boundary has */
+  FAULT_TURNED,
+  FAULT_IDS,
+  FAULT_DRIFT,  /* positions that the velocities do not give */
+  FAULT_MISSING /* of the fluid: no pressure where it is needed */
+} Fault;
+static const char *const FAULT_WORDS[] = {"none",  "kill",  "exit",      "finalize", "hang", "nan",
+                                          "close", "order", "clockwise", "twice",    "open", "turned",
+                                          "ids",   "drift", "missing",   NULL};
+
+/* --- a job that is not the whole world ------------------------------------------------------------------- */
+/* With TEST_SPECTATOR set the participants split themselves from the world's other ranks first; the argument
+ * `spectator` makes a program one of these. */
+static inline MPI_Comm TestJob(int argc, char **argv)
+{
+  const int spectator = argc > 1 && !strcmp(argv[1], "spectator");
+  MPI_Comm job;
+  if (!getenv("TEST_SPECTATOR")) return MPI_COMM_NULL;
+  MPI_Init(NULL, NULL);
+  MPI_Comm_split(MPI_COMM_WORLD, spectator ? MPI_UNDEFINED : 0, 0, &job);
+  if (!spectator) return job;
+  MPI_Finalize();
+  exit(0);
+}
+static inline int TestEnd(MPI_Comm *job)
+{
+  if (*job == MPI_COMM_NULL) return 0;
+  MPI_Comm_free(job);
+  return MPI_Finalize();
+}
 
 /* Does what `fault` says; returns only for those that the caller must do himself. */
 static inline void Misbehave(Fault fault)

@@ -52,6 +52,23 @@ case $scenario in
   solid_nan) with solid.fault=nan; expect='solid.0.: error: velocity is -*nan at node [0-9]*, component 1, in step 4' ;;
   fluid_nan) with fluid.fault=nan; expect='fluid.1.: error: pressure is inf at element 6, component 4, in step 4' ;;
   coupler_nan) with coupler.fault=nan; expect='coupler.0.: error: force is -*nan at node 0, component 0, in step 4' ;;
+  solid_handler) with solid.fault=close; extra=(TEST_HANDLER=1)
+    expect="the host's handler has received: closed in step 4, before the end" ;;
+  solid_order) with solid.fault=order
+    expect='CoracleSubstep was called before CoracleReady: its place is between CoracleBegin and CoracleEnd' ;;
+  solid_clockwise) with solid.fault=clockwise
+    expect='element 1 (nodes 17, 10, 24) has the area -.* its nodes must be in counter-clockwise order' ;;
+  solid_twice) with solid.fault=twice
+    expect='element 0 of rank 0 and element 1 of rank 0 have the edge between nodes .* each must be given once' ;;
+  solid_open) with solid.fault=open
+    expect='the edge between nodes 3 and 10 of element 0 of rank 0 is on the volume.s boundary but no facet' ;;
+  solid_turned) with solid.fault=turned
+    expect='facet 1 of rank 0 .* is not on the volume.s boundary with the solid on its left' ;;
+  solid_ids) with solid.fault=ids; expect='two nodes of this rank have the id 3 in step 0: ids must be unique' ;;
+  solid_drift) with solid.fault=drift
+    expect='node 38 has moved by .* in component 1 in step 4, its velocities over the substeps sum up to' ;;
+  fluid_order) with fluid.fault=order; expect='CoracleEnd: CoracleSetFlow comes first, in every step' ;;
+  fluid_missing) with fluid.fault=missing; expect='the pressure of 7 elements is missing in step 4' ;;
   solid_hangs) with solid.fault=hang; extra=(CORACLE_TIMEOUT=2)
     expect='error: waited 2 s for MOTION of step 4 from solid rank 0' ;;
   fluid_hangs) with fluid.fault=hang; extra=(CORACLE_TIMEOUT=2)

@@ -9,27 +9,32 @@ typedef struct {
   int n, id[MAX];          /* elements last given */
   int n_old, id_old[MAX];  /* elements of the step just made */
   int coupled, entry[MAX]; /* elements' ids by entry of the step just made */
-  double x[MAX][3][2], rho[MAX];
+  double x[MAX][3][2], rho[MAX], mu[MAX];
   double memory[5];
+  int needs_pressure;
   Fault fault;
   int fault_step;
 } Fluid;
 
-static int Region(void *context, int nbox, const double box[], int *n, const double **x, const double **rho)
+static void CheckBoxes(const Fluid *f, int nbox, const double box[])
+{
+  if (nbox != 2 || box[0] != -1.0 || box[7] != 1e6) CoracleFail(f->client, "the boxes arrived wrongly");
+}
+
+static int Region(void *context, int nbox, const double box[], CoracleElements *elements)
 {
   Fluid *f = context;
-  if (nbox != 2 || box[0] != -1.0 || box[7] != 1e6) CoracleFail(f->client, "the boxes arrived wrongly");
+  CheckBoxes(f, nbox, box);
   f->asked++;
   f->n = CellCount(f->rank, f->adapted);
   for (int e = 0; e < f->n; e++) {
     f->id[e] = CellId(f->rank, e, f->adapted);
     f->rho[e] = CellDensity(f->id[e]);
+    f->mu[e] = CellViscosity(f->id[e], f->step);
     for (int i = 0; i < 3; i++)
       for (int c = 0; c < 2; c++) f->x[e][i][c] = CellVertex(f->id[e], i, c);
   }
-  *n = f->n;
-  *x = &f->x[0][0][0];
-  *rho = f->rho;
+  *elements = (CoracleElements){f->n, &f->x[0][0][0], f->rho, f->mu};
   return 0;
 }
 
@@ -68,17 +73,22 @@ static void CheckCorrection(const Fluid *f)
 
 static void SetFlow(Fluid *f)
 {
-  double u_star[MAX][6], u_plus[MAX][6], p[MAX][6], mu[MAX];
+  double u_star[MAX][6], u_projected[MAX][6], p[MAX][6], rho[MAX], mu[MAX];
   for (int e = 0; e < f->n; e++) {
     for (int k = 0; k < 6; k++) {
       u_star[e][k] = CellFlow(f->id[e], 1, k, f->step);
-      u_plus[e][k] = CellFlow(f->id[e], 2, k, f->step);
+      u_projected[e][k] = CellFlow(f->id[e], 2, k, f->step);
       p[e][k] = CellFlow(f->id[e], 3, k, f->step);
     }
-    mu[e] = CellFlow(f->id[e], 4, 0, f->step);
+    rho[e] = CellDensity(f->id[e]) + f->step;
+    mu[e] = CellViscosity(f->id[e], f->step);
   }
   if (f->fault == FAULT_NAN && f->step == f->fault_step && f->n) p[f->n - 1][4] = INFINITY;
-  CoracleSetFlow(f->client, &u_star[0][0], &u_plus[0][0], &p[0][0], mu);
+  if (f->needs_pressure != CoracleNeedsPressure(f->client)) CoracleFail(f->client, "needs pressure");
+  const bool missing = f->fault == FAULT_MISSING && f->step == f->fault_step;
+  const CoracleFlow flow = {&u_star[0][0], &u_projected[0][0],
+                            f->needs_pressure && !missing ? &p[0][0] : NULL, rho, mu};
+  CoracleSetFlow(f->client, &flow);
 }
 
 static void Step(Fluid *f, CoracleAction action)
@@ -92,7 +102,7 @@ static void Step(Fluid *f, CoracleAction action)
   f->memory[0] += 1.0;
   f->n_old = f->n;
   memcpy(f->id_old, f->id, sizeof f->id);
-  SetFlow(f);
+  if (f->fault != FAULT_ORDER || f->step != f->fault_step) SetFlow(f);
   if (f->step == ADAPT_STEP) {
     f->adapted = 1;
     CoracleElementsChanged(f->client);
@@ -100,6 +110,17 @@ static void Step(Fluid *f, CoracleAction action)
   CoracleProposeStep(f->client, CellProposal(f->rank, f->step));
   CoracleEnd(f->client, NULL);
   CheckCorrection(f);
+}
+
+/* Where the solid is, asked for twice before the fluid says what it has. */
+static void GetRegion(const Fluid *f)
+{
+  const double *box, *again;
+  int nbox;
+  CoracleGetRegion(f->client, &nbox, &box);
+  CheckBoxes(f, nbox, box);
+  CoracleGetRegion(f->client, &nbox, &again);
+  if (nbox != 2 || again != box) CoracleFail(f->client, "the region is another when asked again");
 }
 
 static const char *const SECTIONS[] = {"fluid", NULL};
@@ -114,18 +135,22 @@ int main(int argc, char **argv)
   static Fluid f;
   const double lower[] = {-2.0, -3.0}, upper[] = {4.0, 5.0};
   MPI_Comm comm;
-  Case c;
+  CoracleCase c;
   int size;
   double t, dt;
   CoracleAction action;
-  CoracleOpen("fluid", argc, argv, &comm, &f.client);
-  CaseOpen(argc, argv, Fail, f.client, &c);
+  MPI_Comm job = TestJob(argc, argv);
+  CoracleOpenComm(job, "fluid", argc, argv, &comm, &f.client);
+  CoracleCaseOpen(argc, argv, Fail, f.client, &c);
   MPI_Comm_rank(comm, &f.rank);
   MPI_Comm_size(comm, &size);
-  f.fault = (Fault)CaseWord(c, "fluid.fault", FAULT_NONE, FAULT_WORDS);
+  f.fault = (Fault)CoracleCaseWord(c, "fluid.fault", FAULT_NONE, FAULT_WORDS);
   f.fault_step = f.rank == size - 1 ? 4 : -1;
-  CaseFinish(c, SECTIONS);
-  CaseClose(&c);
+  f.needs_pressure = CoracleCaseBoolOr(c, "fluid.pressure", true);
+  const bool early = CoracleCaseBoolOr(c, "fluid.region_first", true);
+  CoracleCaseFinish(c, SECTIONS);
+  CoracleCaseClose(&c);
+  if (early) GetRegion(&f);
   CoracleSetRegion(f.client, 2, lower, upper, Region, &f);
   CoracleBindState(f.client, f.memory, sizeof f.memory);
   CoracleProposeStep(f.client, CellProposal(f.rank, 0));
@@ -139,5 +164,6 @@ int main(int argc, char **argv)
   if (f.step != STEPS || f.asked != 2) CoracleFail(f.client, "%d steps, asked %d times", f.step, f.asked);
   CoracleReport(f.client, "cells", f.n, 1);
   CoracleReport(f.client, "largest", f.rank + 0.5, 0);
-  return CoracleClose(&f.client);
+  CoracleClose(&f.client);
+  return TestEnd(&job);
 }

@@ -1,5 +1,6 @@
 /* A solid without mechanics: checks each force, and gives positions and velocities that the coupler knows. */
 #include "tests/route/analytic.h"
+#include <stdio.h>
 
 typedef struct {
   CoracleClient client;
@@ -12,7 +13,22 @@ typedef struct {
   int fault_step;
 } Solid;
 
-static void SetMesh(Solid *s, int step, double t)
+/* Spoils what is about to be given as the mesh. */
+static void SpoilMesh(const Solid *s, long long gid[], int facet[][2], int *nf, int element[][3])
+{
+  const int turned[2] = {facet[1][1], facet[1][0]};
+  if (s->fault == FAULT_CLOCKWISE) {
+    element[1][0] = ElementNode(1, 1);
+    element[1][1] = ElementNode(1, 0);
+  }
+  if (s->fault == FAULT_TWICE) memcpy(element[1], element[0], sizeof element[1]);
+  if (s->fault == FAULT_TURNED) memcpy(facet[1], turned, sizeof turned);
+  if (s->fault == FAULT_OPEN) --*nf;
+  if (s->fault == FAULT_IDS) gid[2] = gid[0];
+}
+
+/* Positions and velocities at two times. */
+static void SetMesh(Solid *s, double position_time, double velocity_time)
 {
   long long gid[64];
   int facet[64][2], element[64][3];
@@ -20,15 +36,17 @@ static void SetMesh(Solid *s, int step, double t)
   for (int i = 0; i < s->n; i++) {
     gid[i] = NodeId(s->rank, i);
     for (int c = 0; c < 2; c++) {
-      s->x[i][c] = NodePosition(gid[i], c, step);
-      s->u[i][c] = NodeVelocity(gid[i], c, t);
+      s->x[i][c] = NodePosition(gid[i], c, position_time);
+      s->u[i][c] = NodeVelocity(gid[i], c, velocity_time);
     }
   }
-  const int nf = FacetCount(s->rank, s->remeshed), ne = ElementCount(s->rank, s->remeshed);
+  const int ne = ElementCount(s->rank, s->remeshed);
+  int nf = FacetCount(s->rank, s->remeshed);
   for (int e = 0; e < nf; e++)
-    for (int i = 0; i < 2; i++) facet[e][i] = FacetNode(s->rank, e, i);
+    for (int i = 0; i < 2; i++) facet[e][i] = FacetNode(s->n, e, i);
   for (int e = 0; e < ne; e++)
-    for (int i = 0; i < 3; i++) element[e][i] = ElementNode(s->rank, e, i);
+    for (int i = 0; i < 3; i++) element[e][i] = ElementNode(e, i);
+  if (s->fault_step > 0 && s->n) SpoilMesh(s, gid, facet, &nf, element);
   CoracleSetNodes(s->client, 2, s->n, gid, &s->x[0][0], &s->u[0][0]);
   CoracleSetSurface(s->client, nf, &facet[0][0]);
   CoracleSetVolume(s->client, ne, &element[0][0]);
@@ -84,7 +102,7 @@ static void Substeps(Solid *s, double t, double dt)
     done += h;
     if (s->step == REMESH_STEP && k == 1) {
       s->remeshed = 1; /* a new node has moved with its velocity's mean so far */
-      SetMesh(s, s->step, t + 0.5 * done);
+      SetMesh(s, t + done, t + 0.5 * done);
     }
   }
 }
@@ -98,13 +116,19 @@ static void Step(Solid *s, double t, double dt)
   CheckForce(s);
   Substeps(s, t, dt);
   for (int i = 0; i < s->n; i++)
-    for (int c = 0; c < 2; c++) s->x[i][c] = NodePosition(NodeId(s->rank, i), c, s->step);
+    for (int c = 0; c < 2; c++) s->x[i][c] = NodePosition(NodeId(s->rank, i), c, StepEnd(s->step));
+  if (s->fault == FAULT_DRIFT && s->step == s->fault_step && s->n) s->x[s->n - 1][1] += 0.1;
   for (int k = 0; k < 16; k++) s->memory[k] = sin(1e3 * s->memory[k] + t + k);
   s->function_state++;
   CoracleEnd(s->client, &s->x[0][0]);
 }
 
 static const char *const SECTIONS[] = {"solid", NULL};
+
+static void Handler(void *context, const char *message)
+{
+  fprintf(stderr, "the host's %s has received: %s\n", (const char *)context, message);
+}
 
 static void Fail(void *client, const char *message)
 {
@@ -115,20 +139,23 @@ int main(int argc, char **argv)
 {
   static Solid s;
   MPI_Comm comm;
-  Case c;
+  CoracleCase c;
   int size;
   double t, dt;
   CoracleAction action;
   const char *role = getenv("TEST_SOLID_ROLE");
-  CoracleOpen(role ? role : "solid", argc, argv, &comm, &s.client);
-  CaseOpen(argc, argv, Fail, s.client, &c);
+  MPI_Comm job = TestJob(argc, argv);
+  if (getenv("TEST_HANDLER")) CoracleSetErrorHandler(Handler, "handler");
+  CoracleOpenComm(job, role ? role : "solid", argc, argv, &comm, &s.client);
+  CoracleCaseOpen(argc, argv, Fail, s.client, &c);
   MPI_Comm_rank(comm, &s.rank);
   MPI_Comm_size(comm, &size);
-  s.fault = (Fault)CaseWord(c, "solid.fault", FAULT_NONE, FAULT_WORDS);
+  s.fault = (Fault)CoracleCaseWord(c, "solid.fault", FAULT_NONE, FAULT_WORDS);
   s.fault_step = s.rank == size - 1 ? 4 : -1;
-  CaseFinish(c, SECTIONS);
-  CaseClose(&c);
-  SetMesh(&s, 0, 0.0);
+  CoracleCaseFinish(c, SECTIONS);
+  CoracleCaseClose(&c);
+  SetMesh(&s, 0.0, 0.0);
+  if (s.fault == FAULT_ORDER) CoracleSubstep(s.client, 0.1, &s.u[0][0]);
   CoracleBindState(s.client, s.memory, sizeof s.memory);
   CoracleBindStateFunction(s.client, SaveFunctionState, &s);
   CoracleReady(s.client);
@@ -140,5 +167,6 @@ int main(int argc, char **argv)
   }
   if (s.step != STEPS) CoracleFail(s.client, "stopped after %d steps", s.step);
   CoracleReport(s.client, "nodes", s.n, 1);
-  return CoracleClose(&s.client);
+  CoracleClose(&s.client);
+  return TestEnd(&job);
 }

@@ -45,20 +45,21 @@ static void Nodes(const Disc *d, const BulkMotion *m, double position[])
  * fluid. */
 static void ReadCase(Disc *d, int argc, char **argv, int rank)
 {
-  Case c;
+  CoracleCase c;
   char key[256];
-  CaseOpen(argc, argv, Fail, d->client, &c);
-  CaseVector(c, "gravity", 2, d->gravity);
-  CaseVector(c, "solid.bodies[0].centre", 2, d->now.x);
-  if (CaseHas(c, "solid.bodies[0].velocity")) CaseVector(c, "solid.bodies[0].velocity", 2, d->now.v);
-  d->radius = CasePositive(c, "solid.bodies[0].radius");
-  const int n = (int)ceil(2.0 * M_PI * d->radius / CasePositive(c, "solid.bodies[0].size"));
-  snprintf(key, sizeof key, "solid.materials.%s.density", CaseString(c, "solid.bodies[0].material"));
+  CoracleCaseOpen(argc, argv, Fail, d->client, &c);
+  CoracleCaseVector(c, "gravity", 2, d->gravity);
+  CoracleCaseVector(c, "solid.bodies[0].centre", 2, d->now.x);
+  if (CoracleCaseHas(c, "solid.bodies[0].velocity"))
+    CoracleCaseVector(c, "solid.bodies[0].velocity", 2, d->now.v);
+  d->radius = CoracleCasePositive(c, "solid.bodies[0].radius");
+  const int n = (int)ceil(2.0 * M_PI * d->radius / CoracleCasePositive(c, "solid.bodies[0].size"));
+  snprintf(key, sizeof key, "solid.materials.%s.density", CoracleCaseString(c, "solid.bodies[0].material"));
   const double area = 0.5 * n * d->radius * d->radius * sin(2.0 * M_PI / n);
-  d->mass = CasePositive(c, key) * area;
+  d->mass = CoracleCasePositive(c, key) * area;
   d->inertia = d->mass * d->radius * d->radius * (2.0 + cos(2.0 * M_PI / n)) / 6.0;
   d->n = rank == 0 ? n : 0;
-  CaseClose(&c);
+  CoracleCaseClose(&c);
 }
 
 static void GiveMesh(const Disc *d, double x[])

@@ -13,7 +13,8 @@ typedef struct {
   double t;
   int n, id[MAX];                         /* fluid elements */
   int ncoupled, entry[MAX];               /* ids by coupling entry */
-  double motion[4 * MAX], flow[19 * MAX]; /* of the first try of a step */
+  double motion[4 * MAX], flow[20 * MAX]; /* of the first try of a step */
+  bool needs_pressure;
   Fault fault;
 } Stub;
 
@@ -26,11 +27,11 @@ static void CheckMesh(const Stub *s, const ServerSolid *solid, int remeshed)
   for (int r = s->rank; r < ServerRanks(s->server, "solid"); r += s->size) {
     for (int e = 0; e < FacetCount(r, remeshed); e++, nf++)
       for (int i = 0; i < 2; i++)
-        if (nf >= solid->nfacets || solid->facet[2 * nf + i] != n + FacetNode(r, e, i))
+        if (nf >= solid->nfacets || solid->facet[2 * nf + i] != n + FacetNode(NodeCount(r, remeshed), e, i))
           ServerFail(s->server, "facet %d of solid rank %d", e, r);
     for (int e = 0; e < ElementCount(r, remeshed); e++, ne++)
       for (int i = 0; i < 3; i++)
-        if (ne >= solid->nelements || solid->element[3 * ne + i] != n + ElementNode(r, e, i))
+        if (ne >= solid->nelements || solid->element[3 * ne + i] != n + ElementNode(e, i))
           ServerFail(s->server, "element %d of solid rank %d", e, r);
     for (int i = 0; i < NodeCount(r, remeshed); i++, n++)
       if (n >= solid->nnodes || solid->gid[n] != NodeId(r, i))
@@ -46,7 +47,7 @@ static void CheckMotion(const Stub *s, const ServerSolid *solid, double mean_tim
   for (int i = 0; i < solid->nnodes; i++)
     for (int c = 0; c < 2; c++) {
       const double u = NodeVelocity(solid->gid[i], c, mean_time);
-      if (solid->x[2 * i + c] != NodePosition(solid->gid[i], c, s->step))
+      if (solid->x[2 * i + c] != NodePosition(solid->gid[i], c, StepEnd(s->step)))
         ServerFail(s->server, "position of node %d in step %d", i, s->step);
       if (fabs(solid->mean[2 * i + c] - u) > 1e-13 * (1 + fabs(u)))
         ServerFail(s->server, "mean velocity of node %d in step %d is %.17g instead of %.17g", i, s->step,
@@ -110,6 +111,8 @@ static void AskElements(Stub *s)
     for (int k = 0; k < CellCount(r, adapted); k++, s->n++) {
       s->id[s->n] = CellOfDensity(e.rho[s->n]);
       if (s->id[s->n] != CellId(r, k, adapted)) ServerFail(s->server, "element %d of fluid rank %d", k, r);
+      if (e.mu[s->n] != CellViscosity(s->id[s->n], s->step))
+        ServerFail(s->server, "viscosity of element %d of fluid rank %d", k, r);
       for (int i = 0; i < 6; i++)
         if (e.x[6 * s->n + i] != CellVertex(s->id[s->n], i / 2, i % 2))
           ServerFail(s->server, "vertices of element %d of fluid rank %d", k, r);
@@ -119,29 +122,32 @@ static void AskElements(Stub *s)
     ServerFail(s->server, "bounds of the domain");
 }
 
-static void CheckFlow(const Stub *s, const ServerFlow *f)
+static void CheckFlow(const Stub *s, const CoracleFlow *f)
 {
+  if ((f->p != NULL) != s->needs_pressure) ServerFail(s->server, "the pressure travels when it must not");
   for (int e = 0; e < s->n; e++) {
     for (int k = 0; k < 6; k++)
       if (f->u_star[6 * e + k] != CellFlow(s->id[e], 1, k, s->step) ||
-          f->u_plus[6 * e + k] != CellFlow(s->id[e], 2, k, s->step) ||
-          f->p[6 * e + k] != CellFlow(s->id[e], 3, k, s->step))
+          f->u_projected[6 * e + k] != CellFlow(s->id[e], 2, k, s->step) ||
+          (f->p && f->p[6 * e + k] != CellFlow(s->id[e], 3, k, s->step)))
         ServerFail(s->server, "flow of element %d in step %d", e, s->step);
-    if (f->mu[e] != CellFlow(s->id[e], 4, 0, s->step)) ServerFail(s->server, "viscosity of element %d", e);
+    if (f->rho[e] != CellDensity(s->id[e]) + s->step) ServerFail(s->server, "density of element %d", e);
+    if (f->mu[e] != CellViscosity(s->id[e], s->step)) ServerFail(s->server, "viscosity of element %d", e);
   }
 }
 
 static void ReceiveFlow(Stub *s, int redo)
 {
-  ServerFlow f;
+  CoracleFlow f;
   ServerReceiveFlow(s->server, &f);
   CheckFlow(s, &f);
-  const double *lists[] = {f.u_star, f.u_plus, f.p, f.mu};
-  for (int k = 0; k < 4; k++) {
+  const double *lists[] = {f.u_star, f.u_projected, f.p, f.rho, f.mu};
+  for (int k = 0; k < 5; k++) {
     const size_t bytes = (k < 3 ? 6 : 1) * (size_t)s->n * sizeof(double);
-    if (redo && memcmp(s->flow + 6 * k * MAX, lists[k], bytes))
-      ServerFail(s->server, "the redone flow is another");
-    memcpy(s->flow + 6 * k * MAX, lists[k], bytes);
+    double *first = s->flow + (k < 3 ? 6 * k : 15 + k) * MAX;
+    if (!lists[k]) continue;
+    if (redo && memcmp(first, lists[k], bytes)) ServerFail(s->server, "the redone flow is another");
+    memcpy(first, lists[k], bytes);
   }
   if (ServerProposedStep(s->server) != CellProposal(0, s->step)) ServerFail(s->server, "proposed step");
   if (ServerElementsChanged(s->server) != (s->step == ADAPT_STEP)) ServerFail(s->server, "elements changed");
@@ -214,15 +220,18 @@ static void Fail(void *server, const char *message)
 int main(int argc, char **argv)
 {
   static Stub s;
-  Case c;
-  ServerOpen(argc, argv, &s.comm, &s.server);
-  CaseOpen(argc, argv, Fail, s.server, &c);
+  CoracleCase c;
+  MPI_Comm job = TestJob(argc, argv);
+  ServerOpenComm(job, argc, argv, &s.comm, &s.server);
+  CoracleCaseOpen(argc, argv, Fail, s.server, &c);
   MPI_Comm_rank(s.comm, &s.rank);
   MPI_Comm_size(s.comm, &s.size);
-  s.fault = (Fault)CaseWord(c, "coupler.fault", FAULT_NONE, FAULT_WORDS);
-  CaseFinish(c, SECTIONS);
-  CaseClose(&c);
+  s.fault = (Fault)CoracleCaseWord(c, "coupler.fault", FAULT_NONE, FAULT_WORDS);
+  s.needs_pressure = CoracleCaseBoolOr(c, "coupler.pressure", true);
+  CoracleCaseFinish(c, SECTIONS);
+  CoracleCaseClose(&c);
   ReceiveSolid(&s, 0);
+  if (s.needs_pressure) ServerNeedPressure(s.server);
   AskElements(&s);
   if (ServerProposedStep(s.server) != CellProposal(0, 0)) ServerFail(s.server, "first proposed step");
   SendCoupling(&s, CORACLE_RUN, 1);
@@ -233,5 +242,6 @@ int main(int argc, char **argv)
   s.n = 0;
   ServerReports(s.server, CheckReport, &s);
   if (s.rank == 0 && s.n != 3 * 5 + 3) ServerFail(s.server, "%d reports", s.n);
-  return ServerClose(&s.server);
+  ServerClose(&s.server);
+  return TestEnd(&job);
 }

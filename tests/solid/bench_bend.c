@@ -95,7 +95,7 @@ static PetscErrorCode BendIt(int cells, Bend *b)
     speed = SPEED * fmin(1.0, (k + 0.5) * STEP / START);
     Lower(s, &a, speed);
     PetscCall(Run(s, STEP, STEP));
-    PetscCall(Held(s, 1, -speed, &force));
+    PetscCall(SupportReaction(s, 1, -speed, &force));
     PetscCall(SolidFracture(s, &b->f));
     PetscCall(SolidBodies(s, 1, &state));
     b->peak = fmax(b->peak, -force);
@@ -106,7 +106,7 @@ static PetscErrorCode BendIt(int cells, Bend *b)
     if (getenv("VERBOSE") && k % 25 == 0)
       printf("%g mm, %g N/m, work %g strain %g kinetic %g missing %g fracture %g, %d live, %d broken\n",
              1e3 * SPEED * (SolidGetStats(s)->t - 0.5 * START), -force, b->work, state.strain, state.kinetic,
-             b->missing, b->f.energy, b->f.live, b->f.broken);
+             b->missing, b->f.energy, b->f.active, b->f.broken);
   }
   PetscCall(ModelDestroy(&a));
   PetscCall(SolidDestroy(&s));
@@ -125,11 +125,11 @@ int main(int argc, char **argv)
     const int cells = argc > 1 ? atoi(argv[k + 1]) : standard[k];
     Bend b;
     PetscCall(BendIt(cells, &b));
-    cracks = b.f.torn / (ENERGY * b.f.length);
-    missing = b.missing / b.f.energy; /* with that of the joints that are being torn */
+    cracks = b.f.debonded / (ENERGY * b.f.length);
+    missing = b.missing / b.f.energy; /* with that of the joints that are being debonded */
     printf("%5d  %11.4g  %13.4f  %9.3f  %29.4f  %27.4f  %4d\n", cells, b.peak,
            1.5 * b.peak * SPAN / ((HEIGHT - NOTCH) * (HEIGHT - NOTCH) * TENSILE),
-           b.f.length / (HEIGHT - NOTCH), cracks, missing, b.f.live);
+           b.f.length / (HEIGHT - NOTCH), cracks, missing, b.f.active);
     CHECK(b.f.length > 0.9 * (HEIGHT - NOTCH), "only %g m have cracked", b.f.length);
   }
   CHECK(fabs(cracks - 1.0) < 0.05, "the cracks have taken %g of G_f l", cracks);

@@ -1,7 +1,7 @@
 /* Cost against the number of bodies: walls of touching blocks of 8 elements, 1e3 to 1e5 bodies.  In
- * microseconds of the clock per body: to read shapes into the assembly, to make the solid of it
- * (distribution, joints, contact), a search, a substep, all that is once a step (bodies' states, seen
- * velocities, the look at the balance), and a redistribution; memory in kB a body of the rank that has most.
+ * microseconds of the clock per body: to read shapes into the model, to make the solid of it
+ * (distribution, joints, contact), a search, a substep, all that is once a step (bodies' states, interface
+ * velocities, the check of the balance), and a redistribution; memory in kB a body of the rank that has most.
  *
  *     [mpirun -n 2] bench_bodies [blocks along a side ...] */
 #include "solid/solid_impl.h"
@@ -47,10 +47,10 @@ static PetscErrorCode Substeps(Solid s, int n, double *seconds)
 static PetscErrorCode OncePerStep(Solid s, double *seconds)
 {
   const double start = Processor();
-  InterfaceMotion seen;
+  InterfaceMotion interface;
   BodyState state[8];
   PetscCall(SolidBodies(s, 8, state));
-  PetscCall(SolidUpdateInterfaceMotion(s, &seen));
+  PetscCall(SolidUpdateInterfaceMotion(s, &interface));
   PetscCall(SolidRebalance(s));
   *seconds = Processor() - start;
   return 0;
@@ -104,7 +104,7 @@ int main(int argc, char **argv)
   const int standard[] = {32, 100, 316};
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD,
-                        " bodies  assembly   create   search  substep     step   redist       kB\n"));
+                        " bodies     model   create   search  substep     step   redist       kB\n"));
   for (int k = 0; k < (argc > 1 ? argc - 1 : 3); k++)
     PetscCall(Measure(argc > 1 ? atoi(argv[k + 1]) : standard[k]));
   return PetscFinalize();

@@ -48,15 +48,15 @@ static PetscErrorCode DiscWithJaws(int rings, MeshSerial *m)
 static PetscErrorCode MakeDisc(int rings, double friction, Model *a)
 {
   static const double ROW[2][6] = {{0.0, 0.0, 0.0, RAMP, SPEED, 0.0}, {0.0, 0.0, 0.0, RAMP, -SPEED, 0.0}};
-  const BoundaryMotion driven[] = {{"left", {.driven = {1, 0}, .nrows = 2, .row = ROW[0]}},
-                                   {"right", {.driven = {1, 0}, .nrows = 2, .row = ROW[1]}}};
+  const BoundaryMotion prescribed[] = {{"left", {.prescribed = {1, 0}, .nrows = 2, .row = ROW[0]}},
+                                       {"right", {.prescribed = {1, 0}, .nrows = 2, .row = ROW[1]}}};
   BodySetup setup = BodyAtRest(RockOf(TENSILE, SHEAR * TENSILE, 4.0, 0.3));
   MeshSerial mesh;
   PetscFunctionBeginUser;
   setup.material.internal_friction = friction;
   setup.joints.all = 1;
-  setup.ndriven = 2;
-  setup.driven = driven;
+  setup.nprescribed = 2;
+  setup.prescribed = prescribed;
   PetscCall(DiscWithJaws(rings, &mesh));
   AddMesh(a, &mesh, &setup);
   PetscFunctionReturn(0);
@@ -70,7 +70,7 @@ static PetscErrorCode Load(Solid s, double *load)
   PetscCall(SolidForces(s, &force));
   *load = 0.0;
   for (int n = 0; n < v.nnodes; n++)
-    if (s->prescribed[n] && v.rest[2 * n] > 0.0) *load += force[2 * n];
+    if (s->is_prescribed[n] && v.rest[2 * n] > 0.0) *load += force[2 * n];
   return 0;
 }
 
@@ -91,7 +91,7 @@ static PetscErrorCode Press(int rings, double friction, Curve *curve)
     curve->peak = fmax(curve->peak, curve->load[k]);
     if (getenv("VERBOSE")) {
       PetscCall(SolidFracture(s, &f));
-      printf("%g %g %d %d %g\n", SolidGetStats(s)->t, curve->load[k] / (M_PI * RADIUS * TENSILE), f.live,
+      printf("%g %g %d %d %g\n", SolidGetStats(s)->t, curve->load[k] / (M_PI * RADIUS * TENSILE), f.active,
              f.broken, f.energy);
     }
   }

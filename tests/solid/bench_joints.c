@@ -1,4 +1,4 @@
-/* Joint-substeps per second on one core, intact and alive: bench_joints [size].  The living ones are the
+/* Joint-substeps per second on one core, intact and active: bench_joints [size].  The active ones are the
  * joints of a body all of whose edges carry more than their strength. */
 #include "tests/solid/crack.h"
 
@@ -15,7 +15,7 @@ static PetscErrorCode Measure(double size, double stretch)
   AddRectangle(&a, 0.0, 0.0, 1.0, 1.0, 0.3, size, 0, &setup);
   PetscCall(SolidCreate(PETSC_COMM_SELF, &a, &options, &s));
   PetscCall(SolidLimit(s, &limit));
-  PetscCall(SolidStart(s, 0.1 * limit, NULL)); /* the joints come to life */
+  PetscCall(SolidStart(s, 0.1 * limit, NULL)); /* the joints activate */
   while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
   PetscCall(SolidLimit(s, &limit));
   const SolidStats before = *SolidGetStats(s);
@@ -28,9 +28,9 @@ static PetscErrorCode Measure(double size, double stretch)
   const double joints = 0.5 * (3.0 * a.nelements - a.nfacets), total = (double)(stats->total - before.total);
   PetscCall(SolidFracture(s, &f));
   printf(
-      "%8d elements, %8.0f joints, %8d alive, %3d searches: %.3g joint-substeps/s in the joints alone, %.3g "
+      "%8d elements, %8.0f joints, %8d active, %3d searches: %.3g joint-substeps/s in the joints alone, %.3g "
       "element-substeps/s in all\n",
-      a.nelements, joints, f.live, stats->searches - before.searches,
+      a.nelements, joints, f.active, stats->searches - before.searches,
       joints * total / (stats->seconds[4] - before.seconds[4]), a.nelements * total / seconds);
   PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
@@ -41,6 +41,6 @@ int main(int argc, char **argv)
   const double sizes[] = {0.05, 0.02, 0.01};
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   for (int k = 0; k < 3; k++)
-    for (int alive = 0; alive < 2; alive++) PetscCall(Measure(sizes[k], 1.0 + 4e-4 * alive));
+    for (int active = 0; active < 2; active++) PetscCall(Measure(sizes[k], 1.0 + 4e-4 * active));
   return PetscFinalize();
 }

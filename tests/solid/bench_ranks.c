@@ -3,17 +3,16 @@
  * next to the clock this tells the processor time outside MPI of the rank that works most, plus the shortest
  * time that a substep has spent within MPI: what the clock would show if both had a core to themselves.
  *
- *     mpirun -n 2 bench_ranks [elastic | heap | joints | living ...]
+ *     mpirun -n 2 bench_ranks [elastic | heap | joints | active ...]
  *
  * elastic: one block; heap: blocks of 8 elements that touch, with friction; joints: a block with all edges
- * joints, whole, and one with living ones. */
+ * joints, intact, and one with active ones. */
 #include "tests/solid/crack.h"
 #include <time.h>
 
 enum { TRIES = 10 };
 
-/* --- time within MPI: its calls that the solid makes in a substep, by MPI's own profiling names
- * ----------------------------- */
+/* --- time within MPI: its calls that the solid makes in a substep, by MPI's own profiling names ------- */
 
 static double in_mpi[2]; /* s: of the processor, of the clock */
 
@@ -52,8 +51,7 @@ int(MPI_Allreduce)(const void *from, void *to, int n, MPI_Datatype type, MPI_Op 
   TIMED(PMPI_Allreduce(from, to, n, type, op, comm));
 }
 
-/* --- the solids
- * --------------------------------------------------------------------------------------------- */
+/* --- the solids --------------------------------------------------------------------------------------- */
 
 static void Elastic(Model *a)
 {
@@ -82,12 +80,12 @@ static void Joined(Model *a, double stretch)
   AddRectangle(a, 0.0, 0.0, 1.0, 1.0, 0.3, 0.006, 0, &setup);
 }
 
-static void Whole(Model *a)
+static void Intact(Model *a)
 {
   Joined(a, 1.0);
 }
 
-static void Living(Model *a)
+static void Active(Model *a)
 {
   Joined(a, 1.0 + 4e-4);
 }
@@ -108,7 +106,7 @@ static PetscErrorCode RunnerCreate(MPI_Comm comm, void (*bodies)(Model *), Runne
       .elements = a.nelements, .substeps = 40, .clock = HUGE_VAL, .busy = HUGE_VAL, .talk = HUGE_VAL};
   PetscCall(SolidCreate(comm, &a, &options, &r->s));
   PetscCall(SolidLimit(r->s, &limit));
-  PetscCall(Run(r->s, 4.0 * limit, 4.0 * limit)); /* some overlap, and joints come to life */
+  PetscCall(Run(r->s, 4.0 * limit, 4.0 * limit)); /* some overlap, and joints activate */
   return ModelDestroy(&a);
 }
 
@@ -169,7 +167,7 @@ int main(int argc, char **argv)
   static const struct {
     const char *name;
     void (*bodies)(Model *);
-  } CASES[] = {{"elastic", Elastic}, {"heap", Heap}, {"joints", Whole}, {"living", Living}};
+  } CASES[] = {{"elastic", Elastic}, {"heap", Heap}, {"joints", Intact}, {"active", Active}};
   PetscMPIInt rank, size;
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);

@@ -1,14 +1,14 @@
 /* Element-substeps per second on one core, of each law: bench_solid [size]. */
 #include "tests/solid/build.h"
 
-static PetscErrorCode Measure(double size, double damping, int sheet, int corotated)
+static PetscErrorCode Measure(double size, double damping, int plane_stress, int corotated)
 {
   BodySetup setup = BodyAtRest(MaterialOf(1000.0, 1.0e6, 0.3, damping));
   const SolidSetup options = {.courant = 0.5};
   Model a = {0};
   Solid s;
   double limit, h;
-  setup.material.plane_stress = sheet;
+  setup.material.plane_stress = plane_stress;
   setup.material.corotated = corotated;
   AddRectangle(&a, 0.0, 0.0, 1.0, 1.0, 0.3, size, 1, &setup);
   PetscCall(SolidCreate(PETSC_COMM_SELF, &a, &options, &s));
@@ -19,7 +19,7 @@ static PetscErrorCode Measure(double size, double damping, int sheet, int corota
   while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
   const double seconds = MPI_Wtime() - start;
   printf("%8d elements, damping %.1f, plane %s, %s: %.3g element-substeps/s\n", a.nelements, damping,
-         sheet ? "stress" : "strain", corotated ? "corotated" : "neo-Hookean",
+         plane_stress ? "stress" : "strain", corotated ? "corotated" : "neo-Hookean",
          (double)a.nelements * (double)SolidGetStats(s)->total / seconds);
   PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);

@@ -1,4 +1,4 @@
-/* Bodies that slide, are driven and break, for the tests of what changes ranks and of what is saved. */
+/* Bodies that slide, have a prescribed motion and break, for the tests of what changes ranks and of what is saved. */
 #ifndef TESTS_SOLID_BREAKING_H
 #define TESTS_SOLID_BREAKING_H
 #include "tests/solid/crack.h"
@@ -17,23 +17,23 @@ static inline Material Rough(void)
 static inline void Bodies(Model *a)
 {
   static const double ROWS[6] = {0.0, 3.0, 0.0, 1e-4, 4.0, 0.5};
-  static const BoundaryMotion PUSHED = {"bottom", {.driven = {1, 1}, .nrows = 2, .row = ROWS}};
+  static const BoundaryMotion PUSHED = {"bottom", {.prescribed = {1, 1}, .nrows = 2, .row = ROWS}};
   const double box[1][4] = {{0.0, -1.0, 0.06, 1.0}};
-  BodySetup left = BodyAtRest(Rough()), right = left, sliding = left, held = left;
+  BodySetup left = BodyAtRest(Rough()), right = left, sliding = left, reaction = left;
   left.joints.all = 1;
   left.velocity[0] = 4.0;
   right.velocity[0] = -8.0;
   right.joints = (JointSetup){.nboxes = 1, .box = box};
-  right.ndriven = 1;
-  right.driven = &PUSHED;
+  right.nprescribed = 1;
+  right.prescribed = &PUSHED;
   sliding.velocity[0] = 5.0;
   sliding.velocity[1] = -1.0;
   sliding.joints.all = 1;
-  held.fixed = 1;
+  reaction.fixed = 1;
   AddDisc(a, -0.0505, 0.0, 0.05, 0.012, &left);
   AddRectangle(a, 0.0505, 0.01, 0.1, 0.08, 0.0, 0.012, 1, &right);
   AddRectangle(a, 0.3, 0.0301, 0.1, 0.02, 0.0, 0.01, 1, &sliding);
-  AddRectangle(a, 0.3, 0.01, 0.2, 0.02, 0.0, 0.01, 1, &held);
+  AddRectangle(a, 0.3, 0.01, 0.2, 0.02, 0.0, 0.01, 1, &reaction);
 }
 
 /* As a fluid that pushes to the right, stronger in a step that is tried. */
@@ -56,11 +56,11 @@ static inline PetscErrorCode Scatter(Solid s, int nelements, int step)
 {
   PetscMPIInt size;
   int *part = malloc((size_t)nelements * sizeof *part);
-  const int share = ViewOf(s, NULL, NULL).share;
+  const int subdomain = ViewOf(s, NULL, NULL).partition;
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
   for (int e = 0; e < nelements; e++) part[e] = step == 0 ? size - 1 : (e / (1 + step % 5) + step) % size;
   PetscCall(SolidRedistribute(s, part));
-  CHECK(size == 1 || ViewOf(s, NULL, NULL).share != share, "the share is still %d", share);
+  CHECK(size == 1 || ViewOf(s, NULL, NULL).partition != subdomain, "the partition is still %d", subdomain);
   free(part);
   return 0;
 }

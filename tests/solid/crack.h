@@ -26,7 +26,7 @@ static inline void Draw(Solid s, const Model *a, int axis, double middle, double
 
 /* The force that holds the nodes drawn with exactly this velocity along `axis`, whose parts are drawn as they
  * are. */
-static inline PetscErrorCode Held(Solid s, int axis, double speed, double *sum)
+static inline PetscErrorCode SupportReaction(Solid s, int axis, double speed, double *sum)
 {
   const SolidView view = ViewOf(s, NULL, NULL);
   const double *force;

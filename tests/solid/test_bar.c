@@ -1,4 +1,4 @@
-/* A step of velocity at the end of a slender bar (a driven boundary) travels with sqrt(E/rho) in plane stress
+/* A step of velocity at the end of a slender bar (a prescribed boundary) travels with sqrt(E/rho) in plane stress
  * and sqrt(E/(1 - nu^2)/rho) in plane strain, within 1 %; a boundary can be let go. */
 #include "tests/solid/build.h"
 
@@ -21,15 +21,15 @@ static PetscErrorCode WaveSpeed(int plane_stress, double *speed)
 {
   const SolidSetup options = {.courant = 0.8};
   const double row[3] = {0.0, SPEED, 0.0}, at[2] = {0.3, 0.7};
-  const BoundaryMotion drive = {"left", {{1, 0}, 1, row, 0.0}};
+  const BoundaryMotion motion = {"left", {{1, 0}, 1, row, 0.0}};
   BodySetup setup = BodyAtRest(MaterialOf(DENSITY, YOUNG, POISSON, 0.0));
   Model a = {0};
   double passed[2] = {0.0, 0.0}, before[2] = {0.0, 0.0}, h;
   Solid s;
   setup.material.plane_stress = plane_stress;
   setup.material.thickness = 0.02;
-  setup.ndriven = 1;
-  setup.driven = &drive;
+  setup.nprescribed = 1;
+  setup.prescribed = &motion;
   AddRectangle(&a, 0.5, 0.0, 1.0, 0.01, 0.0, 0.0025, 0, &setup);
   PetscCall(SolidCreate(PETSC_COMM_SELF, &a, &options, &s));
   SolidView v = ViewOf(s, NULL, NULL);
@@ -45,21 +45,21 @@ static PetscErrorCode WaveSpeed(int plane_stress, double *speed)
   }
   CHECK(passed[1] > 0.0, "the wave has not arrived");
   *speed = (at[1] - at[0]) / (passed[1] - passed[0]);
-  double driven = 0.0;
+  double prescribed = 0.0;
   for (int i = 0; i < v.nnodes; i++)
-    if (v.rest[2 * i] < 1e-9) driven = v.x[2 * i] - v.rest[2 * i];
-  CHECK(fabs(driven - SPEED * SolidGetStats(s)->t) < 1e-15, "the end has gone %g", driven);
+    if (v.rest[2 * i] < 1e-9) prescribed = v.x[2 * i] - v.rest[2 * i];
+  CHECK(fabs(prescribed - SPEED * SolidGetStats(s)->t) < 1e-15, "the end has gone %g", prescribed);
   PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
-/* A disc that is driven up to a speed and let go then flies on; what drove it has given momentum and energy.
+/* A disc with a prescribed motion up to a speed and free from then on flies on; the prescribed motion has given momentum and energy.
  */
 static PetscErrorCode Thrown(void)
 {
   const SolidSetup options = {.courant = 0.8, .gravity = {0.0, -10.0}};
   const double row[6] = {0.1, 0.0, 0.0, 0.2, 3.0, 0.0};
-  const BoundaryMotion drive = {"boundary", {{1, 1}, 2, row, 0.2}};
+  const BoundaryMotion motion = {"boundary", {{1, 1}, 2, row, 0.2}};
   BodySetup setup = BodyAtRest(MaterialOf(DENSITY, 1e8, POISSON, 0.3));
   Model a = {0};
   double impulse[2] = {0.0, 0.0}, work = 0.0, h;
@@ -67,16 +67,16 @@ static PetscErrorCode Thrown(void)
   SolidBudget budget;
   Solid s;
   PetscFunctionBeginUser;
-  setup.ndriven = 1;
-  setup.driven = &drive;
+  setup.nprescribed = 1;
+  setup.prescribed = &motion;
   AddDisc(&a, 0.0, 0.0, 0.05, 0.02, &setup);
   PetscCall(SolidCreate(PETSC_COMM_SELF, &a, &options, &s));
   for (int k = 0; k < 30; k++) {
     PetscCall(SolidStart(s, 0.01, NULL));
     while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
     PetscCall(SolidGetBudget(s, &budget));
-    for (int c = 0; c < 2; c++) impulse[c] += budget.held[c];
-    work += budget.held_work;
+    for (int c = 0; c < 2; c++) impulse[c] += budget.reaction[c];
+    work += budget.reaction_work;
   }
   PetscCall(SolidBodies(s, 1, &b));
   CHECK(fabs(b.v[0] - 3.0) < 0.01 && fabs(b.v[1] + 1.0) < 0.01, "flies at %g, %g m/s", b.v[0], b.v[1]);

@@ -1,4 +1,4 @@
-/* The solid's keys of a case file: what is read, and what a bad one is told. */
+/* The solid's keys of a case file: what is read, and the message of a bad one. */
 #include "tests/link/catch.h"
 #undef CHECK
 #include "solid/solid_case.h"
@@ -10,15 +10,15 @@
 #define DISC "    - {shape: disc, centre: [0, 0], radius: 0.1, size: 0.05, material: m}\n"
 
 static const char *const SECTIONS[] = {"solid", NULL};
-static Model assembly;
+static Model model;
 static SolidSetup setup;
 
-static void Read(Case c)
+static void Read(CoracleCase c)
 {
-  (void)ModelDestroy(&assembly);
+  (void)ModelDestroy(&model);
   memset(&setup, 0, sizeof setup);
-  (void)SolidCaseRead(c, &assembly, &setup);
-  CaseFinish(c, SECTIONS);
+  (void)SolidCaseRead(c, &model, &setup);
+  CoracleCaseFinish(c, SECTIONS);
 }
 
 static void Everything(void)
@@ -38,19 +38,18 @@ static void Everything(void)
             "    - {shape: disc, centre: [1, 1], radius: 0.1, size: 0.05, material: hard, fixed: true}\n",
             NULL, Read, NULL);
   CHECK(setup.courant == 0.4 && setup.gravity[1] == -9.81 && setup.walls && setup.upper[0] == 2.0, "setup");
-  CHECK(assembly.nbodies == 3, "%d bodies", assembly.nbodies);
-  const Material *soft = &assembly.body[0].material, *hard = &assembly.body[1].material;
+  CHECK(model.nbodies == 3, "%d bodies", model.nbodies);
+  const Material *soft = &model.body[0].material, *hard = &model.body[1].material;
   CHECK(soft->damping == 0.2 && soft->penalty == 3e5 && soft->poisson_ratio == 0.4, "soft");
   CHECK(hard->damping == 0.0 && hard->penalty == 1e8 && hard->density == 2000.0, "hard");
   int fixed[3] = {0, 0, 0};
-  for (int n = 0; n < assembly.nnodes; n++) {
-    const double *x = assembly.x + 2 * n, *u = assembly.u + 2 * n;
-    fixed[assembly.node_body[n]] += assembly.fixed[n];
-    if (assembly.node_body[n] > 0) continue;
+  for (int n = 0; n < model.nnodes; n++) {
+    const double *x = model.x + 2 * n, *u = model.u + 2 * n;
+    fixed[model.node_body[n]] += model.fixed[n];
+    if (model.node_body[n] > 0) continue;
     CHECK(fabs(u[0] - (1.0 - 3.0 * x[1])) + fabs(u[1] - (2.0 + 3.0 * x[0])) < 1e-14, "velocity of node %d",
           n);
-    CHECK(fabs(x[0] - 1.5 * assembly.rest[2 * n]) + fabs(x[1] - assembly.rest[2 * n + 1]) < 1e-14, "node %d",
-          n);
+    CHECK(fabs(x[0] - 1.5 * model.rest[2 * n]) + fabs(x[1] - model.rest[2 * n + 1]) < 1e-14, "node %d", n);
   }
   CHECK(fixed[0] == 0 && fixed[1] == 7 && fixed[2] > 7, "fixed %d %d %d", fixed[0], fixed[1], fixed[2]);
 }
@@ -66,12 +65,12 @@ static void Repeated(void)
             "    - {shape: rectangle, centre: [0, 0], width: 1, height: 1, size: 0.5, material: m,\n"
             "       joints: [{lower: [-0.5, -0.5], upper: [0, 0.5]}], repeat: {n: [3, 2], step: [1.5, 2]}}\n",
             NULL, Read, NULL);
-  CHECK(setup.rebalance == 7.0 && assembly.nbodies == 7, "%d bodies", assembly.nbodies);
-  CHECK(assembly.body[0].material.internal_friction == 0.7, "internal friction");
+  CHECK(setup.rebalance == 7.0 && model.nbodies == 7, "%d bodies", model.nbodies);
+  CHECK(model.body[0].material.internal_friction == 0.7, "internal friction");
   int jointed[7] = {0};
-  for (int e = 0; e < assembly.nelements; e++) jointed[assembly.element_body[e]] += assembly.jointed[e];
+  for (int e = 0; e < model.nelements; e++) jointed[model.element_body[e]] += model.jointed[e];
   for (int b = 1; b < 7; b++) {
-    const double *centre = assembly.body[b].centre;
+    const double *centre = model.body[b].centre;
     CHECK(fabs(centre[0] - 1.5 * ((b - 1) % 3)) + fabs(centre[1] - 2.0 * ((b - 1) / 3)) < 1e-13,
           "body %d at (%g, %g)", b, centre[0], centre[1]);
     CHECK(jointed[b] == jointed[1] && jointed[b] > 0, "body %d has %d jointed elements", b, jointed[b]);
@@ -91,13 +90,12 @@ static void MeshFile(void)
                  "/square.msh, scale: 0.5, translate: [3, 1], material: m, fixed: [clamp]}\n",
             NULL, Read, NULL);
   int fixed = 0;
-  CHECK(assembly.nelements == 4 && assembly.nfacets == 4, "%d elements, %d facets", assembly.nelements,
-        assembly.nfacets);
-  for (int n = 0; n < assembly.nnodes; n++) {
-    const double *x = assembly.x + 2 * n;
+  CHECK(model.nelements == 4 && model.nfacets == 4, "%d elements, %d facets", model.nelements, model.nfacets);
+  for (int n = 0; n < model.nnodes; n++) {
+    const double *x = model.x + 2 * n;
     CHECK(x[0] >= 3.0 && x[0] <= 3.5 && x[1] >= 1.0 && x[1] <= 1.5, "node %d at (%g, %g)", n, x[0], x[1]);
-    CHECK(assembly.fixed[n] == (x[0] == 3.0), "node %d", n);
-    fixed += assembly.fixed[n];
+    CHECK(model.fixed[n] == (x[0] == 3.0), "node %d", n);
+    fixed += model.fixed[n];
   }
   CHECK(fixed == 2, "%d fixed", fixed);
 }
@@ -106,7 +104,7 @@ static void MeshFile(void)
 static int Jointed(int body)
 {
   int n = 0;
-  for (int e = 0; e < assembly.nelements; e++) n += assembly.element_body[e] == body && assembly.jointed[e];
+  for (int e = 0; e < model.nelements; e++) n += model.element_body[e] == body && model.jointed[e];
   return n;
 }
 
@@ -133,7 +131,7 @@ static void Joints(void)
   CheckCase(text, NULL, Read, NULL);
   CHECK(Jointed(0) == 8 && Jointed(1) == 0 && Jointed(2) == 4 && Jointed(3) == 4 && Jointed(4) == 0,
         "jointed %d %d %d %d %d", Jointed(0), Jointed(1), Jointed(2), Jointed(3), Jointed(4));
-  const Material *m = &assembly.body[0].material;
+  const Material *m = &model.body[0].material;
   CHECK(m->strength[0] == 1e4 && m->strength[1] == 2e4 && m->fracture_energy[0] == 5.0 &&
             m->fracture_energy[1] == 7.0,
         "strengths");
@@ -166,41 +164,40 @@ static void Full(void)
       "      law: corotated}\n"
       "  bodies:\n"
       "    - {mesh: " SOURCE_FOLDER "/regions.msh, material: soft, regions: {hard: hard},\n"
-      "       driven: [{boundary: clamp, component: x, table: [[0, 1, 0], [2, 3, 0]]}]}\n"
+      "       prescribed: [{boundary: clamp, component: x, table: [[0, 1, 0], [2, 3, 0]]}]}\n"
       "    - {shape: ring, centre: [5, 0], radius: 1, thickness: 0.1, size: 0.2, layers: 2, material: soft,\n"
       "       stretch: [1.5, 1.0]}\n"
       "    - {shape: ring, centre: [-5, 0], inner_radius: 0.5, outer_radius: 1, size: 0.2, material: soft,\n"
-      "       driven: [{boundary: inner, velocity: [4, 5], release: 6}]}\n",
+      "       prescribed: [{boundary: inner, velocity: [4, 5], release: 6}]}\n",
       NULL, Read, NULL);
-  CHECK(assembly.nmaterials == 2, "%d materials", assembly.nmaterials);
-  const Material *soft = &assembly.material[0], *hard = &assembly.material[1];
+  CHECK(model.nmaterials == 2, "%d materials", model.nmaterials);
+  const Material *soft = &model.material[0], *hard = &model.material[1];
   CHECK(soft->friction == 0.5 && soft->contact_damping == 0.6 && !soft->plane_stress &&
             soft->thickness == 1.0,
         "soft");
   CHECK(hard->plane_stress && hard->thickness == 0.01 && hard->corotated && !soft->corotated, "hard");
-  for (int e = 0; e < assembly.nelements; e++)
-    CHECK(assembly.element_material[e] == (e == 2 || e == 3), "element %d", e);
+  for (int e = 0; e < model.nelements; e++)
+    CHECK(model.element_material[e] == (e == 2 || e == 3), "element %d", e);
   CHECK(setup.nrules == 2 && setup.rule[0].friction == 0.1 && setup.rule[0].damping < 0.0 &&
             setup.rule[1].damping == 0.3 && setup.rough_walls && setup.wall_friction == 0.7 &&
             setup.wall_damping < 0.0,
         "contact");
-  CHECK(assembly.ndrives == 2 && assembly.drive[0].nrows == 2 && !assembly.drive[0].driven[1] &&
-            assembly.drive[0].release == 0.0 && assembly.drive[1].release == 6.0,
+  CHECK(model.nmotions == 2 && model.motion[0].nrows == 2 && !model.motion[0].prescribed[1] &&
+            model.motion[0].release == 0.0 && model.motion[1].release == 6.0,
         "drives");
-  const double mean = PrescribedVelocity(&assembly.drive[0], 0, 1.0, 2.0); /* 2 to 3, then 3 */
+  const double mean = PrescribedVelocity(&model.motion[0], 0, 1.0, 2.0); /* 2 to 3, then 3 */
   CHECK(fabs(mean - 2.75) < 1e-14, "mean velocity %g", mean);
   double area[3] = {0.0, 0.0, 0.0}, span[2] = {0.0, 0.0};
-  for (int n = 0; n < assembly.nnodes; n++) /* the stretched ring's wall is 0.1 at its right, thinner above */
-    for (int c = 0; c < 2 && assembly.node_body[n] == 1; c++)
-      span[c] = fmax(span[c], assembly.x[2 * n + c] - (c ? 0.0 : 5.0));
+  for (int n = 0; n < model.nnodes; n++) /* the stretched ring's wall is 0.1 at its right, thinner above */
+    for (int c = 0; c < 2 && model.node_body[n] == 1; c++)
+      span[c] = fmax(span[c], model.x[2 * n + c] - (c ? 0.0 : 5.0));
   CHECK(fabs(span[0] / 1.55 - 1.0) < 0.01 && fabs(span[1] / 1.0355 - 1.0) < 0.01, "stretched ring %g %g",
         span[0], span[1]);
-  for (int e = 0; e < assembly.nelements; e++) {
-    const int *n = assembly.element + 3 * e;
-    const double *x = assembly.rest;
-    area[assembly.element_body[e]] +=
-        0.5 * ((x[2 * n[1]] - x[2 * n[0]]) * (x[2 * n[2] + 1] - x[2 * n[0] + 1]) -
-               (x[2 * n[1] + 1] - x[2 * n[0] + 1]) * (x[2 * n[2]] - x[2 * n[0]]));
+  for (int e = 0; e < model.nelements; e++) {
+    const int *n = model.element + 3 * e;
+    const double *x = model.rest;
+    area[model.element_body[e]] += 0.5 * ((x[2 * n[1]] - x[2 * n[0]]) * (x[2 * n[2] + 1] - x[2 * n[0] + 1]) -
+                                          (x[2 * n[1] + 1] - x[2 * n[0] + 1]) * (x[2 * n[2]] - x[2 * n[0]]));
   }
   CHECK(fabs(area[1] / (M_PI * 0.2) - 1.0) < 1e-12 && fabs(area[2] / (M_PI * 0.75) - 1.0) < 1e-12,
         "rings of %g and %g m2", area[1], area[2]);
@@ -219,10 +216,14 @@ static void Refusals(void)
             "  bodies:\n    - {shape: ring, centre: [0, 0], radius: 1, thickness: 1, size: 0.5, material: m, "
             "stretch: [1.0, 0.2]}\n",
             NULL, Read, ":6: key 'solid.bodies[0]': its stretch turns element 1 at (0.351152, 0) inside out");
+  CheckCase(
+      HEAD "  bodies:\n    - {shape: disc, centre: [0, 0], radius: 0.1, size: 0.05, material: m, prescribed: "
+           "[{boundary: boundary, table: [[1, 0, 0], [1, 0, 0]]}]}\n",
+      NULL, Read, ":6: key 'solid.bodies[0].prescribed[0].table[1]': the table's times must rise");
   CheckCase(HEAD
             "  bodies:\n    - {shape: disc, centre: [0, 0], radius: 0.1, size: 0.05, material: m, driven: "
-            "[{boundary: boundary, table: [[1, 0, 0], [1, 0, 0]]}]}\n",
-            NULL, Read, ":6: key 'solid.bodies[0].driven[0].table[1]': the table's times must rise");
+            "[{boundary: boundary, velocity: [1, 0]}]}\n",
+            NULL, Read, ":6: key 'solid.bodies[0].driven' is now called 'solid.bodies[0].prescribed'");
   CheckCase("gravity: [0, 0]\nsolid:\n  materials:\n    m: {density: 1, youngs_modulus: 1, poisson_ratio: 0, "
             "law: hooke}\n",
             NULL, Read,
@@ -265,6 +266,6 @@ int main(int argc, char **argv)
   Joints();
   Full();
   Refusals();
-  PetscCall(ModelDestroy(&assembly));
+  PetscCall(ModelDestroy(&model));
   return PetscFinalize();
 }

@@ -1,5 +1,5 @@
 // ranks: 1 2 3
-/* A solid that is saved while it slides, is driven and breaks, and loaded into a new one: it goes on with the
+/* A solid that is saved while it slides, has a prescribed motion and breaks, and loaded into a new one: it continues with the
  * same bits on as many ranks, whoever had which elements, a step that is redone too; on other ranks to
  * round-off.  A checkpoint of other bodies is refused. */
 #include "solid/contact/contact_impl.h"
@@ -10,13 +10,12 @@
 
 enum { BEFORE = 3, AFTER = 2, NBODIES = 4 };
 /* What elements do after each step; or there are no joints. */
-enum { STAY, SCATTER, REBALANCE, WHOLE, NHOWS };
+enum { STAY, SCATTER, REBALANCE, INTACT, NHOWS };
 #define DIFFERENT 1e-10 /* relative, on other ranks */
 
 static char folder[64];
 
-/* --- the runs
- * ----------------------------------------------------------------------------------------------- */
+/* --- the runs ----------------------------------------------------------------------------------------- */
 
 /* On a floor that the disc touches. */
 static PetscErrorCode Create(MPI_Comm comm, int how, Model *a, Solid *s)
@@ -30,20 +29,20 @@ static PetscErrorCode Create(MPI_Comm comm, int how, Model *a, Solid *s)
                               .upper = {1.0, 1.0}};
   *a = (Model){0};
   Bodies(a);
-  for (int e = 0; e < a->nelements && how == WHOLE; e++) a->jointed[e] = 0;
+  for (int e = 0; e < a->nelements && how == INTACT; e++) a->jointed[e] = 0;
   return SolidCreate(comm, a, &options, s);
 }
 
-/* first .. first + n - 1, as the participant makes them: what is seen and told follows each step */
+/* first .. first + n - 1, as the participant makes them: the interface motion follows each step */
 static PetscErrorCode Steps(Solid s, const Model *a, int how, int first, int n)
 {
   BodyState body[NBODIES];
-  InterfaceMotion seen;
+  InterfaceMotion interface;
   for (int k = first; k < first + n; k++) {
     PetscCall(Step(s, 1e6));
     PetscCall(SolidRebalance(s));
     if (how == SCATTER) PetscCall(Scatter(s, a->nelements, k));
-    PetscCall(SolidUpdateInterfaceMotion(s, &seen));
+    PetscCall(SolidUpdateInterfaceMotion(s, &interface));
     PetscCall(SolidBodies(s, NBODIES, body));
   }
   return 0;
@@ -65,8 +64,7 @@ static PetscErrorCode Load(Solid s, MPI_Comm comm, const char *name)
   return CheckpointClose(&from);
 }
 
-/* --- the same bits
- * ------------------------------------------------------------------------------------------ */
+/* --- the same bits ------------------------------------------------------------------------------------ */
 
 static void SameNumbers(const char *what, int n, const double one[], const double two[])
 {
@@ -77,7 +75,7 @@ static void SameNumbers(const char *what, int n, const double one[], const doubl
 static void SameNodes(Solid one, Solid two)
 {
   const SolidView a = ViewOf(one, NULL, NULL), b = ViewOf(two, NULL, NULL);
-  InterfaceMotion seen[2];
+  InterfaceMotion interface[2];
   CHECK(a.nnodes == b.nnodes && a.nelements == b.nelements && a.nfacets == b.nfacets &&
             a.revision == b.revision,
         "%d and %d nodes, %d and %d elements, %d and %d facets, revisions %d and %d", a.nnodes, b.nnodes,
@@ -85,15 +83,15 @@ static void SameNodes(Solid one, Solid two)
   for (int n = 0; n < a.nnodes; n++)
     CHECK(a.gid[n] == b.gid[n], "node %d is %lld and %lld", n, a.gid[n], b.gid[n]);
   for (int k = 0; k < 2 * a.nfacets; k++) CHECK(a.facet[k] == b.facet[k], "facet %d differs", k / 2);
-  SolidGetInterfaceMotion(one, &seen[0]);
-  SolidGetInterfaceMotion(two, &seen[1]);
+  SolidGetInterfaceMotion(one, &interface[0]);
+  SolidGetInterfaceMotion(two, &interface[1]);
   SameNumbers("position", 2 * a.nnodes, a.x, b.x);
   SameNumbers("velocity", 2 * a.nnodes, a.v, b.v);
   SameNumbers("start", 2 * a.nnodes, a.start, b.start);
   SameNumbers("load", 2 * a.nnodes, a.load, b.load);
-  SameNumbers("seen velocity", 2 * a.nnodes, seen[0].u, seen[1].u);
-  SameNumbers("mobility", a.nnodes, seen[0].mobility, seen[1].mobility);
-  SameNumbers("acceleration", 2 * a.nnodes, seen[0].acceleration, seen[1].acceleration);
+  SameNumbers("interface velocity", 2 * a.nnodes, interface[0].u, interface[1].u);
+  SameNumbers("mobility", a.nnodes, interface[0].mobility, interface[1].mobility);
+  SameNumbers("acceleration", 2 * a.nnodes, interface[0].acceleration, interface[1].acceleration);
 }
 
 /* Of joints that two ranks follow the owner's is the one that counts; the other's last bits may differ. */
@@ -122,8 +120,8 @@ static PetscErrorCode SameSums(Solid one, Solid two)
   FractureState f[2];
   PetscCall(SolidFracture(one, &f[0]));
   PetscCall(SolidFracture(two, &f[1]));
-  CHECK(f[0].live == f[1].live && f[0].broken == f[1].broken && f[0].pieces == f[1].pieces,
-        "%d and %d live joints, %d and %d broken, %d and %d pieces", f[0].live, f[1].live, f[0].broken,
+  CHECK(f[0].active == f[1].active && f[0].broken == f[1].broken && f[0].pieces == f[1].pieces,
+        "%d and %d live joints, %d and %d broken, %d and %d pieces", f[0].active, f[1].active, f[0].broken,
         f[1].broken, f[0].pieces, f[1].pieces);
   SameNumbers("energy of fracture", 1, &f[0].energy, &f[1].energy);
   PetscCall(SolidBodies(one, NBODIES, body[0]));
@@ -157,9 +155,9 @@ static PetscErrorCode CheckWorthSaving(Solid s, int how)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, slips, 2, MPI_INT, MPI_SUM, PETSC_COMM_WORLD));
   if (getenv("VERBOSE"))
     printf("saved with %d live and %d broken joints, revision %d, %d and %d slips, rebalanced %d times\n",
-           f.live, f.broken, s->revision, slips[0], slips[1], s->stats.rebalanced);
-  CHECK(how == WHOLE || (f.live > 5 && f.broken > 5 && s->revision > 5 && slips[0] > 5),
-        "%d live and %d broken joints, revision %d, %d slips", f.live, f.broken, s->revision, slips[0]);
+           f.active, f.broken, s->revision, slips[0], slips[1], s->stats.rebalanced);
+  CHECK(how == INTACT || (f.active > 5 && f.broken > 5 && s->revision > 5 && slips[0] > 5),
+        "%d live and %d broken joints, revision %d, %d slips", f.active, f.broken, s->revision, slips[0]);
   CHECK(slips[1] > 0, "%d slips on walls", slips[1]);
   return 0;
 }
@@ -198,8 +196,7 @@ static PetscErrorCode Same(int how, int redo)
   return SolidDestroy(&two);
 }
 
-/* --- other ranks
- * -------------------------------------------------------------------------------------------- */
+/* --- other ranks -------------------------------------------------------------------------------------- */
 
 /* all[nids][4]: x and v of all ranks' nodes, NAN where there is none */
 static PetscErrorCode Gather(Solid s, MPI_Comm comm, int nids, double all[])
@@ -239,8 +236,8 @@ static PetscErrorCode AlikeSums(Solid one, Solid two)
   CHECK(fabs(energy[0] - energy[1]) < DIFFERENT * energy[0], "energy %.15g and %.15g", energy[0], energy[1]);
   CHECK(fabs(f[0].energy - f[1].energy) < DIFFERENT * f[0].energy, "energy of fracture %.15g and %.15g",
         f[0].energy, f[1].energy);
-  CHECK(f[0].broken == f[1].broken && f[0].live == f[1].live, "%d and %d broken, %d and %d live", f[0].broken,
-        f[1].broken, f[0].live, f[1].live);
+  CHECK(f[0].broken == f[1].broken && f[0].active == f[1].active, "%d and %d broken, %d and %d live",
+        f[0].broken, f[1].broken, f[0].active, f[1].active);
   return 0;
 }
 
@@ -276,15 +273,14 @@ static PetscErrorCode Other(MPI_Comm before, MPI_Comm after, const char *name)
   return SolidDestroy(&two);
 }
 
-/* --- other bodies
- * ------------------------------------------------------------------------------------------- */
+/* --- other bodies ------------------------------------------------------------------------------------- */
 
-static char told[512];
+static char reported[512];
 
 static PetscErrorCode Remember(MPI_Comm comm, int line, const char *function, const char *file,
                                PetscErrorCode code, PetscErrorType type, const char *message, void *context)
 {
-  if (message && !told[0]) snprintf(told, sizeof told, "%s", message);
+  if (message && !reported[0]) snprintf(reported, sizeof reported, "%s", message);
   return code;
 }
 
@@ -305,14 +301,13 @@ static PetscErrorCode Refused(void)
   CHECK(SolidLoad(s, from), "other bodies are taken");
   PetscCall(PetscPopErrorHandler());
   PetscCall(CheckpointClose(&from));
-  CHECK(strstr(told, expected), "'%s' instead of '%s'", told, expected);
+  CHECK(strstr(reported, expected), "'%s' instead of '%s'", reported, expected);
   PetscCall(SolidDestroy(&s));
   PetscCall(ModelDestroy(&saved));
   return ModelDestroy(&a);
 }
 
-/* --- the folder
- * --------------------------------------------------------------------------------------------- */
+/* --- the folder --------------------------------------------------------------------------------------- */
 
 static void MakeFolder(void)
 {
@@ -345,7 +340,7 @@ int main(int argc, char **argv)
   PetscCall(Same(STAY, 0));
   PetscCall(Same(SCATTER, 1));
   PetscCall(Same(REBALANCE, 0));
-  PetscCall(Same(WHOLE, 1));
+  PetscCall(Same(INTACT, 1));
   PetscCall(Other(PETSC_COMM_WORLD, PETSC_COMM_SELF, "parted"));
   PetscCall(Other(PETSC_COMM_SELF, PETSC_COMM_WORLD, "joined"));
   PetscCall(Refused());

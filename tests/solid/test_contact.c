@@ -94,8 +94,7 @@ static PetscErrorCode EnergyGradient(void)
   return SolidDestroy(&s);
 }
 
-/* --- the cell grid
- * ------------------------------------------------------------------------------------------ */
+/* --- the cell grid ------------------------------------------------------------------------------------ */
 
 enum { NBOXES = 400 };
 static int hits[NBOXES][NBOXES];
@@ -113,7 +112,7 @@ static double Random(unsigned *state)
   return (double)(*state >> 8) / 16777216.0;
 }
 
-/* Boxes of very different sizes, negative coordinates too: every overlapping pair is told once, no other. */
+/* Boxes of very different sizes, negative coordinates too: every overlapping pair is reported once, no other. */
 static PetscErrorCode Grid(void)
 {
   static GeometryBox a[NBOXES], b[NBOXES];
@@ -131,15 +130,14 @@ static PetscErrorCode Grid(void)
   for (int i = 0; i < NBOXES; i++)
     for (int j = 0; j < NBOXES; j++) {
       const int expected = GeometryBoxOverlap(&a[i], &b[j]);
-      CHECK(hits[i][j] == expected, "pair %d %d told %d times, expected %d", i, j, hits[i][j], expected);
+      CHECK(hits[i][j] == expected, "pair %d %d reported %d times, expected %d", i, j, hits[i][j], expected);
       pairs += expected;
     }
   CHECK(pairs > 500, "only %d pairs", pairs);
   return 0;
 }
 
-/* --- overlap at the start
- * ----------------------------------------------------------------------------------- */
+/* --- overlap at the start ----------------------------------------------------------------------------- */
 
 static PetscErrorCode Overlap(double x, double radius, int expected)
 {

@@ -62,11 +62,11 @@ static void Affine(ElementLaw law)
 }
 
 /* Plane stress: a pull along x with the strain across for which nothing acts across has sigma = E eps, and at
- * any stretch the whole law's stress across the sheet vanishes. */
-static void Sheet(double young, double poisson)
+ * any stretch the full law's stress across the plane vanishes. */
+static void PlaneStress(double young, double poisson)
 {
   ElementLaw law = ElementLawOf(young, poisson, 0.0);
-  law.sheet = 1;
+  law.plane_stress = 1;
   const double eps = 1e-7;
   const Tensor pull = {1.0 + eps, 0.0, 0.0, 1.0 - poisson * eps};
   const ElementStress s = ElementElasticStress(pull, TensorDeterminant(pull), law);
@@ -91,7 +91,7 @@ static Tensor RotationOf(Tensor f)
 static void Biot(ElementLaw law, Tensor f)
 {
   const double j = TensorDeterminant(f), mu = law.mu;
-  const double lambda = law.sheet ? 2.0 * law.lambda * mu / (law.lambda + 2.0 * mu) : law.lambda;
+  const double lambda = law.plane_stress ? 2.0 * law.lambda * mu / (law.lambda + 2.0 * mu) : law.lambda;
   const Tensor r = RotationOf(f);
   const double volumetric = lambda * (r.xx * f.xx + r.xy * f.xy + r.yx * f.yx + r.yy * f.yy - 2.0);
   const Tensor p = {
@@ -110,7 +110,7 @@ static void Membrane(double young, double length)
   const double angle = 0.7, c = cos(angle), s = sin(angle);
   ElementLaw law = ElementLawOf(young, 0.0, 0.0);
   law.corotated = 1;
-  for (law.sheet = 0; law.sheet < 2; law.sheet++) {
+  for (law.plane_stress = 0; law.plane_stress < 2; law.plane_stress++) {
     const Tensor f = {c * length, -s, s * length, c};
     const ElementStress t = ElementElasticStress(f, TensorDeterminant(f), law);
     const double along = c * c * t.xx + 2.0 * c * s * t.xy + s * s * t.yy;
@@ -123,14 +123,14 @@ static void Membrane(double young, double length)
   }
 }
 
-/* A sheet's thickness: with it the law in space, T_33 = 2 mu (l_3 - 1) + lambda (tr U + l_3 - 3), is free. */
+/* Plane stress's thickness: with it the law in space, T_33 = 2 mu (l_3 - 1) + lambda (tr U + l_3 - 3), is free. */
 static void CorotatedSheet(ElementLaw law, Tensor f)
 {
-  const double across = ElementAcross(f, TensorDeterminant(f), law);
+  const double across = ElementThicknessStretch(f, TensorDeterminant(f), law);
   const Tensor r = RotationOf(f);
   const double trace = r.xx * f.xx + r.xy * f.xy + r.yx * f.yx + r.yy * f.yy;
   const double free_stress = 2.0 * law.mu * (across - 1.0) + law.lambda * (trace + across - 3.0);
-  CHECK(fabs(free_stress) < 1e-14 * law.mu, "stress across the sheet %g", free_stress);
+  CHECK(fabs(free_stress) < 1e-14 * law.mu, "stress across the plane %g", free_stress);
 }
 
 /* The stretch across a wall with free faces: nothing acts across, whatever acts along. */
@@ -166,8 +166,8 @@ static void EnergyGradient(ElementLaw law)
 /* Small strains keep their digits: Hooke's energy mu e:e + lambda/2 (tr e)^2. */
 static void SmallEnergy(ElementLaw law)
 {
-  const double e = 1e-9,
-               lambda = law.sheet ? 2.0 * law.lambda * law.mu / (law.lambda + 2.0 * law.mu) : law.lambda;
+  const double e = 1e-9, lambda = law.plane_stress ? 2.0 * law.lambda * law.mu / (law.lambda + 2.0 * law.mu)
+                                                   : law.lambda;
   const double hooke = law.mu * (1.0 + 4.0 + 2.0 * 2.25) * e * e + 0.5 * lambda * e * e;
   const double w = ElementEnergy((Tensor){1.0 + 2.0 * e, 1.5 * e, 1.5 * e, 1.0 - e}, law);
   CHECK(fabs(w / hooke - 1.0) < 1e-6, "energy %g, Hooke %g", w, hooke);
@@ -232,7 +232,7 @@ static void Corotated(ElementLaw law)
                                 {0.05, 0.0, 0.0, 0.1}, {-1.2, 0.3, 0.1, -0.8}, {0.1, -1.5, 0.4, 0.2},
                                 {0.01, 0.0, 0.0, 2.0}};
   law.corotated = 1;
-  for (law.sheet = 0; law.sheet < 2; law.sheet++) {
+  for (law.plane_stress = 0; law.plane_stress < 2; law.plane_stress++) {
     Rotation(law);
     EnergyGradient(law);
     SmallEnergy(law);
@@ -240,7 +240,7 @@ static void Corotated(ElementLaw law)
     for (size_t k = 0; k < sizeof MAPS / sizeof *MAPS; k++) {
       Biot(law, MAPS[k]);
       Bound(law, MAPS[k], 20.0, 0.5);
-      if (law.sheet) CorotatedSheet(law, MAPS[k]);
+      if (law.plane_stress) CorotatedSheet(law, MAPS[k]);
     }
   }
   for (double length = 0.1; length < 6.0; length *= 1.5) Membrane(1.0e6, length);
@@ -249,8 +249,8 @@ static void Corotated(ElementLaw law)
 int main(void)
 {
   const ElementLaw law = ElementLawOf(1.0e6, 0.3, 0.0);
-  ElementLaw sheet = law;
-  sheet.sheet = 1;
+  ElementLaw plane_stress = law;
+  plane_stress.plane_stress = 1;
   CHECK(fabs(law.mu / 384615.384615384615 - 1.0) < 1e-14 &&
             fabs(law.lambda / 576923.076923076923 - 1.0) < 1e-14,
         "Lame constants %g %g", law.mu, law.lambda);
@@ -258,17 +258,17 @@ int main(void)
   Affine(law);
   EnergyGradient(law);
   Dissipation();
-  Rotation(sheet);
-  EnergyGradient(sheet);
-  Sheet(1.0e6, 0.3);
+  Rotation(plane_stress);
+  EnergyGradient(plane_stress);
+  PlaneStress(1.0e6, 0.3);
   SmallEnergy(law);
-  SmallEnergy(sheet);
+  SmallEnergy(plane_stress);
   FreeWall(law);
-  FreeWall(sheet);
+  FreeWall(plane_stress);
   Corotated(law);
-  Bound(sheet, (Tensor){1.0, 0.0, 0.0, 1.0}, 0.0, 0.3);
-  Bound(sheet, (Tensor){1.4, 0.3, -0.2, 0.9}, 0.0, 0.2);
-  Bound(sheet, (Tensor){0.5, 0.1, 0.3, 0.7}, 0.0, 0.2);
+  Bound(plane_stress, (Tensor){1.0, 0.0, 0.0, 1.0}, 0.0, 0.3);
+  Bound(plane_stress, (Tensor){1.4, 0.3, -0.2, 0.9}, 0.0, 0.2);
+  Bound(plane_stress, (Tensor){0.5, 0.1, 0.3, 0.7}, 0.0, 0.2);
   Bound(law, (Tensor){1.0, 0.0, 0.0, 1.0}, 0.0, 0.5);
   Bound(law, (Tensor){1.4, 0.3, -0.2, 0.9}, 0.0, 0.3);
   Bound(law, (Tensor){0.5, 0.1, 0.3, 0.7}, 0.0, 0.3);

@@ -5,7 +5,7 @@
 
 static const char *const SIDES[] = {"left", "right"};
 
-/* A bar from -length/2 to length/2 whose ends are held, with joints about the line x = 0. */
+/* A bar from -length/2 to length/2 whose ends are fixed, with joints about the line x = 0. */
 static BodySetup Bar(Material m, const double (*box)[4])
 {
   BodySetup setup = BodyAtRest(m);
@@ -15,7 +15,7 @@ static BodySetup Bar(Material m, const double (*box)[4])
   return setup;
 }
 
-/* The force on the nodes that are held at x > 0. */
+/* The force on the nodes that are fixed at x > 0. */
 static PetscErrorCode Reaction(Solid s, const Model *a, int axis, double *sum)
 {
   const SolidView v = ViewOf(s, NULL, NULL);
@@ -52,7 +52,7 @@ static PetscErrorCode Energy(int axis, int corotated, double length, double widt
   for (int e = 0; e < a.nelements; e++) most = fmax(most, damage[e]);
   if (getenv("VERBOSE"))
     printf("axis %d, law %d: %g J/m of %g, %d broken, %d live, %lld substeps\n", axis, corotated, f.energy,
-           expected, f.broken, f.live, SolidGetStats(s)->total);
+           expected, f.broken, f.active, SolidGetStats(s)->total);
   CHECK(n == 2 && f.broken == lround(width / size) && fabs(f.length - width) < 1e-12,
         "%d pieces, %d broken, %g m", n, f.broken, f.length);
   CHECK(most == 1.0, "damage %g", most);
@@ -89,7 +89,7 @@ static PetscErrorCode NoHealing(void)
     }
     PetscCall(SolidFracture(s, &f));
     if (getenv("VERBOSE")) printf("leg %d: %g N, energy %g\n", leg, now, f.energy);
-    CHECK(f.broken == 0 && f.live == 4, "%d broken, %d live", f.broken, f.live);
+    CHECK(f.broken == 0 && f.active == 4, "%d broken, %d live", f.broken, f.active);
     CHECK(leg != 1 || (f.energy < before && f.energy > 0.0), "pushing back: energy from %g to %g", before,
           f.energy);
   }
@@ -121,20 +121,20 @@ static PetscErrorCode Balance(void)
   PetscCall(TotalEnergy(s, 1, &last));
   PetscCall(SolidFracture(s, &f));
   if (getenv("VERBOSE"))
-    printf("energy %g, then %g and %g in %d broken and %d living joints: off by %.2e\n", first, last,
-           f.energy, f.broken, f.live, (last + f.energy) / first - 1.0);
+    printf("energy %g, then %g and %g in %d broken and %d active joints: off by %.2e\n", first, last,
+           f.energy, f.broken, f.active, (last + f.energy) / first - 1.0);
   CHECK(f.broken > 20 && f.energy > 0.05 * first, "%d broken, %g J/m of %g", f.broken, f.energy, first);
   CHECK(fabs((last + f.energy) / first - 1.0) < 2e-3, "energy off by %g", (last + f.energy) / first - 1.0);
   PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
-/* A sheet of 0.4 m, plane stress, one side driven along the bar only: it breaks there too, and all parts of
- * the driven nodes are driven; a bar's energy is G_f times width and thickness. */
+/* Plane stress, 0.4 m thick, one side prescribed along the bar only: it breaks there too, and all parts of
+ * the prescribed nodes follow; a bar's energy is G_f times width and thickness. */
 static PetscErrorCode DrivenSheet(void)
 {
   static const double row[3] = {0.0, -3.0, 0.0};
-  const BoundaryMotion driven = {"left", {{1, 0}, 1, row, 0.0}};
+  const BoundaryMotion prescribed = {"left", {{1, 0}, 1, row, 0.0}};
   BodySetup setup = BodyAtRest(RockOf(3e6, 9e6, 10.0, 0.0));
   const SolidSetup options = {.courant = 0.8};
   Model a = {0};
@@ -145,8 +145,8 @@ static PetscErrorCode DrivenSheet(void)
   setup.material.plane_stress = 1;
   setup.material.thickness = 0.4;
   setup.joints.all = 1;
-  setup.ndriven = 1;
-  setup.driven = &driven;
+  setup.nprescribed = 1;
+  setup.prescribed = &prescribed;
   AddRectangle(&a, 0.0, 0.0, 0.1, 0.05, 0.0, 0.01, 1, &setup);
   PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, &s));
   SolidView view = ViewOf(s, NULL, &v);
@@ -161,8 +161,8 @@ static PetscErrorCode DrivenSheet(void)
   }
   PetscCall(SolidFracture(s, &f));
   if (getenv("VERBOSE"))
-    printf("sheet: %d new driven nodes, %d broken, %g J of %g in %g m\n", parts, f.broken, f.energy,
-           10.0 * 0.4 * f.length, f.length);
+    printf("plane stress: %d new prescribed nodes, %d broken, %g J of %g in %g m\n", parts, f.broken,
+           f.energy, 10.0 * 0.4 * f.length, f.length);
   CHECK(parts > 0 && f.broken > 10, "%d parts, %d broken", parts, f.broken);
   CHECK(f.energy > 10.0 * 0.4 * f.length * 0.98 && f.energy < 10.0 * 0.4 * 2.0 * f.length,
         "%g J in %g m of crack", f.energy, f.length);
@@ -213,7 +213,7 @@ static PetscErrorCode Collision(void)
           now.spin - before.spin);
   }
   PetscCall(SolidFracture(s, &f));
-  if (getenv("VERBOSE")) printf("collision: %d broken, %d live\n", f.broken, f.live);
+  if (getenv("VERBOSE")) printf("collision: %d broken, %d live\n", f.broken, f.active);
   CHECK(f.broken > 30, "%d broken", f.broken);
   PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);

@@ -96,9 +96,9 @@ int main(int argc, char **argv)
   }
   if (getenv("VERBOSE"))
     printf("largest difference %.2e; %d broken, %d live, %d pieces, %g J/m\n", largest, many.broken,
-           many.live, pieces[1], many.energy);
+           many.active, pieces[1], many.energy);
   CHECK(one.broken > 20 && pieces[0] > 4, "%d broken, %d pieces", one.broken, pieces[0]);
-  CHECK(one.broken == many.broken && one.live == many.live && pieces[0] == pieces[1], "%d broken and %d",
+  CHECK(one.broken == many.broken && one.active == many.active && pieces[0] == pieces[1], "%d broken and %d",
         one.broken, many.broken);
   CHECK(fabs(one.energy / many.energy - 1.0) < 1e-9 && many.energy == redone.energy,
         "energy %.12g, %.12g, %.12g", one.energy, many.energy, redone.energy);

@@ -1,6 +1,6 @@
 // ranks: 1 2
 /* Coulomb friction: a block on a slope sticks below the friction angle and slides above it with
- * g (sin a - mu cos a) within 1 %, on a wall and on another body; a rubbing pair of discs keeps momentum and
+ * g (sin a - mu cos a) within 1 %, on a wall and on another body; a friction pair of discs keeps momentum and
  * angular momentum to round-off while its energy only falls; what friction holds it holds over a redone step.
  */
 #include "tests/solid/build.h"
@@ -59,8 +59,7 @@ static PetscErrorCode Slopes(int wall)
   return 0;
 }
 
-/* --- discs that rub
- * ----------------------------------------------------------------------------------------- */
+/* --- discs that rub ----------------------------------------------------------------------------------- */
 
 /* Obliquely, one turning.  *turned: I times the change of the first one's spin over (R times its change of
  * momentum), that is mu when the discs slip all the time; *lost: share of the energy. */
@@ -121,8 +120,7 @@ static PetscErrorCode Rubs(void)
   return 0;
 }
 
-/* --- redone steps
- * ------------------------------------------------------------------------------------------- */
+/* --- redone steps ------------------------------------------------------------------------------------- */
 
 /* x of all nodes after 20 steps of a block that sticks and slips between two others; each step tried before
  * with another load when redo is set. */

@@ -15,7 +15,7 @@ static PetscErrorCode Difference(double youngs_modulus, double swelling, double 
   BodyState b;
   Solid s;
   SolidView view;
-  InterfaceMotion seen;
+  InterfaceMotion interface;
   double h;
   PetscFunctionBeginUser;
   setup.velocity[0] = 1.0;
@@ -31,14 +31,14 @@ static PetscErrorCode Difference(double youngs_modulus, double swelling, double 
   }
   PetscCall(SolidStart(s, STEP, NULL));
   while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
-  PetscCall(SolidUpdateInterfaceMotion(s, &seen));
+  PetscCall(SolidUpdateInterfaceMotion(s, &interface));
   PetscCall(SolidBodies(s, 1, &b));
   *largest = 0.0;
   for (int n = 0; n < view.nnodes; n++) {
     const double r[2] = {view.x[2 * n] - b.x[0], view.x[2 * n + 1] - b.x[1]};
     const double u[2] = {b.v[0] - b.angular_velocity * r[1] + swelling * r[0],
                          b.v[1] + b.angular_velocity * r[0] + swelling * r[1]};
-    for (int c = 0; c < 2; c++) *largest = fmax(*largest, fabs(seen.u[2 * n + c] - u[c]));
+    for (int c = 0; c < 2; c++) *largest = fmax(*largest, fabs(interface.u[2 * n + c] - u[c]));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD));
   PetscCall(SolidDestroy(&s));
@@ -47,7 +47,7 @@ static PetscErrorCode Difference(double youngs_modulus, double swelling, double 
 }
 
 /* A bar whose halves fly apart, each with a spin of its own. */
-static PetscErrorCode Torn(Solid *s)
+static PetscErrorCode Fragmented(Solid *s)
 {
   const SolidSetup options = {.courant = 0.8};
   const double box[1][4] = {{-0.02, -1.0, 0.02, 1.0}};
@@ -111,20 +111,20 @@ static void CheckMomentum(int pieces, double sum[][2][4])
 static PetscErrorCode CheckPieces(void)
 {
   Solid s;
-  InterfaceMotion seen;
+  InterfaceMotion interface;
   double sum[MOST][2][4] = {{{0}}}, strain = 0.0; /* [piece][velocity, seen] */
   int pieces;
   PetscFunctionBeginUser;
-  PetscCall(Torn(&s));
+  PetscCall(Fragmented(&s));
   PetscCall(Run(s, 1e-3, 1e-4));
-  PetscCall(SolidUpdateInterfaceMotion(s, &seen));
+  PetscCall(SolidUpdateInterfaceMotion(s, &interface));
   const SolidView view = ViewOf(s, NULL, NULL);
   int *fragment = malloc(((size_t)view.nelements + 1) * sizeof *fragment);
   PetscCall(SolidFragments(s, fragment, &pieces));
   CHECK(pieces >= 2 && pieces <= MOST, "%d pieces", pieces);
   for (int e = 0; e < view.nelements; e++) {
     (void)AddElement(&view, e, view.v, sum[fragment[e]][0]);
-    strain = fmax(strain, AddElement(&view, e, seen.u, sum[fragment[e]][1]));
+    strain = fmax(strain, AddElement(&view, e, interface.u, sum[fragment[e]][1]));
   }
   free(fragment);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 8 * MOST, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));

@@ -13,7 +13,7 @@ static JointLaw Law(double mode_one, double mode_two)
   return (JointLaw){{STRENGTH[0], STRENGTH[1]}, {mode_one, mode_two}, 6e13, 0.0};
 }
 
-/* The opening or slip at which one mode alone has damage D, from coming to life on. */
+/* The opening or slip at which one mode alone has damage D, from activation on. */
 static double Reach(const JointLaw *law, int mode, double damage)
 {
   return damage * law->energy[mode] / (JOINT_SOFTENING_AREA * STRENGTH[mode]);
@@ -31,7 +31,7 @@ static double Work(const JointLaw *law, double angle, int bent)
   for (int k = 1; k <= STEPS; k++) {
     const double part = (bent ? 3.0 : 1.1) * k / STEPS, slip_part = bent ? fmin(0.3, 2.0 * part) : part;
     const double next_o = x * Reach(law, 0, part), next_s = y * Reach(law, 1, slip_part), damage = end.damage;
-    const JointTraction now = JointPull(law, &end, next_o, next_s);
+    const JointTraction now = JointTractionAt(law, &end, next_o, next_s);
     work +=
         0.5 * (before.normal + now.normal) * (next_o - o) + 0.5 * (before.shear + now.shear) * (next_s - s);
     CHECK(bent || fabs(end.damage - fmin(part, 1.0)) < 1e-9, "D = %g instead of %g", end.damage, part);
@@ -69,18 +69,18 @@ static void NoHealing(void)
   const JointLaw law = Law(120.0, 120.0);
   const double range = law.energy[0] / (JOINT_SOFTENING_AREA * STRENGTH[0]);
   JointEnd end = JointBegin(&law, STRENGTH[0], 0.0);
-  const double peak = JointPull(&law, &end, 0.3 * range, 0.0).normal, damage = end.damage;
+  const double peak = JointTractionAt(&law, &end, 0.3 * range, 0.0).normal, damage = end.damage;
   CHECK(fabs(peak / (STRENGTH[0] * JointSoftening(0.3)) - 1.0) < 1e-12, "%g Pa", peak);
   const double zero = -end.offset[0];
   for (int back = 0; back < 2; back++)
     for (int k = 0; k <= 10; k++) {
       const double part = back ? 0.1 * k : 1.0 - 0.1 * k, o = zero + part * (0.3 * range - zero);
       const double pressure = fmin(0.0, law.stiffness * (o + end.offset[2] * (1.0 - damage)));
-      const double pull = JointPull(&law, &end, o, 0.0).normal - pressure;
-      CHECK(fabs(pull - part * peak) < 1e-9 * peak, "%g Pa instead of %g", pull, part * peak);
+      const double traction = JointTractionAt(&law, &end, o, 0.0).normal - pressure;
+      CHECK(fabs(traction - part * peak) < 1e-9 * peak, "%g Pa instead of %g", traction, part * peak);
       CHECK(end.damage == damage, "D = %g", end.damage);
     }
-  const double further = JointPull(&law, &end, 0.6 * range, 0.0).normal;
+  const double further = JointTractionAt(&law, &end, 0.6 * range, 0.0).normal;
   CHECK(fabs(further / (STRENGTH[0] * JointSoftening(0.6)) - 1.0) < 1e-12, "%g Pa", further);
 }
 
@@ -88,28 +88,28 @@ static void Pressed(void)
 {
   const JointLaw law = Law(120.0, 300.0);
   JointEnd end = JointBegin(&law, STRENGTH[0], 0.0);
-  (void)JointPull(&law, &end, 1.0, 0.0);
-  const JointTraction t = JointPull(&law, &end, -1e-7, 0.0);
+  (void)JointTractionAt(&law, &end, 1.0, 0.0);
+  const JointTraction t = JointTractionAt(&law, &end, -1e-7, 0.0);
   CHECK(fabs(t.normal / (-1e-7 * law.stiffness) - 1.0) < 1e-12 && t.shear == 0.0, "a broken end: %g Pa",
         t.normal);
   /* sheared under pressure: the pressure stays while the shear goes, its joint closing a little */
   end = JointBegin(&law, -2e6, STRENGTH[1]);
-  const JointTraction first = JointPull(&law, &end, 0.0, 0.0);
+  const JointTraction first = JointTractionAt(&law, &end, 0.0, 0.0);
   CHECK(fabs(first.normal / -2e6 - 1.0) < 1e-12 && fabs(first.shear / STRENGTH[1] - 1.0) < 1e-12, "%g %g",
         first.normal, first.shear);
-  (void)JointPull(&law, &end, 0.0, 1.0);
-  const JointTraction last = JointPull(&law, &end, -2e6 / law.stiffness, 1.0);
+  (void)JointTractionAt(&law, &end, 0.0, 1.0);
+  const JointTraction last = JointTractionAt(&law, &end, -2e6 / law.stiffness, 1.0);
   CHECK(end.damage == 1.0 && last.shear == 0.0 && fabs(last.normal / -2e6 - 1.0) < 1e-12, "%g", last.normal);
 }
 
-/* It comes to life with what the edge carried, below its strength, on it, and above. */
+/* It activates with what the edge carried, below its strength, on it, and above. */
 static void Continuity(void)
 {
   const JointLaw law = Law(120.0, 300.0);
   const double normal[4] = {1e6, 2e6, -4e6, 5e6}, shear[4] = {2e6, -7e6, 7.5e6, 1e6};
   for (int k = 0; k < 4; k++) {
     JointEnd end = JointBegin(&law, normal[k], shear[k]);
-    const JointTraction t = JointPull(&law, &end, 0.0, 0.0);
+    const JointTraction t = JointTractionAt(&law, &end, 0.0, 0.0);
     CHECK(fabs(t.normal - normal[k]) < 1e-3 && fabs(t.shear - shear[k]) < 1e-3, "%g %g", t.normal, t.shear);
     CHECK(end.damage < 1e-12, "D = %g", end.damage);
   }
@@ -163,8 +163,9 @@ static void Stiffness(void)
     JointShape shape = {.opening = {at[k][0] * Reach(&law, 0, 1.0), 0.0},
                         .slip = {at[k][1] * Reach(&law, 1, 1.0), 0.0}};
     const double way[2] = {-1e-4 * fabs(shape.opening[0]) - 1e-10, -1e-4 * shape.slip[0]};
-    const JointTraction far = JointPull(&law, &end[0], shape.opening[0], shape.slip[0]);
-    const JointTraction near = JointPull(&law, &end[0], shape.opening[0] + way[0], shape.slip[0] + way[1]);
+    const JointTraction far = JointTractionAt(&law, &end[0], shape.opening[0], shape.slip[0]);
+    const JointTraction near =
+        JointTractionAt(&law, &end[0], shape.opening[0] + way[0], shape.slip[0] + way[1]);
     const double expected = (near.normal - far.normal) * way[0] + (near.shear - far.shear) * way[1];
     const double power =
         JointStiffening(&law, end, &shape, 0, (double[2]){way[0], 0.0}, (double[2]){way[1], 0.0});
@@ -192,7 +193,7 @@ static void Hinge(void)
     const double moment = PointCross(two[1], f[3]);
     work += 0.5 * (before + moment) * 0.99 * M_PI / TURNS;
     before = moment;
-    if (end[1].damage < 1.0 || end[0].reach > 0.0) continue;
+    if (end[1].damage < 1.0 || end[0].other_weight > 0.0) continue;
     JointLast(&end[0], (double[2]){shape.opening[0], shape.slip[0]},
               (double[2]){shape.opening[1], shape.slip[1]});
     JointTractions(&law, end, &shape, last);
@@ -208,31 +209,31 @@ static void Hinge(void)
         end[0].absorbed, end[1].absorbed);
 }
 
-/* Mohr and Coulomb: a pressed edge bears F_s + f p, comes to life without a jump, slides against f times the
+/* Mohr and Coulomb: a pressed edge bears F_s + f p, activates without a jump, slides against f times the
  * pressure to and fro when it is broken, and its energy of fracture does not count that. */
-static void Rubbing(void)
+static void FrictionCase(void)
 {
   JointLaw law = Law(120.0, 300.0);
   law.friction = 0.7;
-  const double p = 5e6, bears = STRENGTH[1] + 0.7 * p, reach = Reach(&law, 1, 1.0);
+  const double p = 5e6, bears = STRENGTH[1] + 0.7 * p, other_weight = Reach(&law, 1, 1.0);
   for (int sign = -1; sign <= 1; sign += 2) {
     CHECK(JointLoad(&law, -p, 0.999 * sign * bears) < 1.0 && JointLoad(&law, -p, 1.001 * sign * bears) > 1.0,
           "bears %g Pa", bears);
     JointEnd end = JointBegin(&law, -p, sign * bears);
-    JointTraction t = JointPull(&law, &end, 0.0, 0.0);
+    JointTraction t = JointTractionAt(&law, &end, 0.0, 0.0);
     CHECK(fabs(t.normal + p) + fabs(t.shear - sign * bears) < 1e-6 * p && end.strong == 1.0,
           "begins with %g, %g", t.normal, t.shear);
     for (int k = 1; k <= STEPS; k++) { /* pressed as hard, whatever its damage */
       const double opening = -p / law.stiffness - end.offset[2] * (1.0 - end.damage);
-      t = JointPull(&law, &end, opening, sign * 1.1 * reach * k / STEPS);
-      const double cohesion = end.left * STRENGTH[1];
+      t = JointTractionAt(&law, &end, opening, sign * 1.1 * other_weight * k / STEPS);
+      const double cohesion = end.residual * STRENGTH[1];
       CHECK(fabs(t.shear - sign * (cohesion - 0.7 * t.normal)) < 1e-5 * bears, "%g Pa at D = %g", t.shear,
             end.damage);
     }
     CHECK(end.damage == 1.0 && fabs(end.absorbed / 300.0 - 1.0) < 1e-5, "absorbed %g J/m2", end.absorbed);
-    t = JointPull(&law, &end, -p / law.stiffness, 0.9 * sign * reach);
+    t = JointTractionAt(&law, &end, -p / law.stiffness, 0.9 * sign * other_weight);
     CHECK(fabs(t.shear + sign * 0.7 * p) < 1e-6 * p, "%g Pa on the way back", t.shear);
-    t = JointPull(&law, &end, 1e-9, 0.0);
+    t = JointTractionAt(&law, &end, 1e-9, 0.0);
     CHECK(t.normal == 0.0 && t.shear == 0.0, "%g, %g Pa when open", t.normal, t.shear);
   }
 }
@@ -246,6 +247,6 @@ int main(void)
   Pressed();
   Continuity();
   Forces();
-  Rubbing();
+  FrictionCase();
   return 0;
 }

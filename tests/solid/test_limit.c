@@ -78,7 +78,7 @@ static PetscErrorCode Decays(int corotated, double damping)
 
 /* The corotated law at finite strain: a disc given as 1.1 x 0.95 of its circle swings for 2e4 substeps at the
  * limit, which does not change. */
-static PetscErrorCode Swings(int sheet)
+static PetscErrorCode Swings(int plane_stress)
 {
   const SolidSetup options = {.courant = 1.0, .fail = Fail};
   BodySetup setup = BodyAtRest(MaterialOf(1000.0, 1.0e6, 0.3, 0.0));
@@ -86,7 +86,7 @@ static PetscErrorCode Swings(int sheet)
   Solid s;
   double limit, now_limit, before = 0.0, now = 0.0, worst = 0.0;
   setup.material.corotated = 1;
-  setup.material.plane_stress = sheet;
+  setup.material.plane_stress = plane_stress;
   setup.stretch[0] = 1.1;
   setup.stretch[1] = 0.95;
   AddDisc(&a, 0.0, 0.0, 0.1, 0.03, &setup);
@@ -101,7 +101,7 @@ static PetscErrorCode Swings(int sheet)
     CHECK(fabs(now_limit / limit - 1.0) < 1e-12, "the limit went from %g to %g", limit, now_limit);
   }
   if (getenv("VERBOSE"))
-    printf("corotated, sheet %d: energy within %.2e over %lld substeps\n", sheet, worst,
+    printf("corotated, plane stress %d: energy within %.2e over %lld substeps\n", plane_stress, worst,
            SolidGetStats(s)->total);
   CHECK(worst < 0.02, "energy off by %g", worst);
   PetscCall(ModelDestroy(&a));

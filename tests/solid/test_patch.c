@@ -52,14 +52,14 @@ static PetscErrorCode Rotation(Law law)
   return SolidDestroy(&s);
 }
 
-/* Cauchy's stress of the affine map f, neo-Hookean; of a sheet with its stretch across, found by bisection so
+/* Cauchy's stress of the affine map f, neo-Hookean; of plane stress with its stretch across, found by bisection so
  * that nothing acts across. */
-static void ExactStress(const double f[4], int sheet, double stress[3])
+static void ExactStress(const double f[4], int plane_stress, double stress[3])
 {
   const double mu = E / (2.0 * (1.0 + NU)), lambda = NU * E / ((1.0 + NU) * (1.0 - 2.0 * NU));
   const double plane = f[0] * f[3] - f[1] * f[2];
   double low = 0.1, high = 10.0, across = 1.0;
-  while (sheet && high - low > 1e-15) {
+  while (plane_stress && high - low > 1e-15) {
     across = 0.5 * (low + high);
     const double j = plane * across;
     *(mu / j * (across * across - 1.0) + 0.5 * lambda * (j - 1.0 / j) > 0.0 ? &high : &low) = across;
@@ -74,13 +74,13 @@ static void ExactStress(const double f[4], int sheet, double stress[3])
 /* Corotated: the space's law P = 2 mu (F - R) + lambda (tr U - 3) R with U's principal stretches a, b, both
  * from F's invariants, and c across; T = sum of (2 mu (a - 1) + lambda (a + b + c - 3))/(b c) n n^T, n the
  * principal axes of B. */
-static void BiotStress(const double f[4], int sheet, double stress[3])
+static void BiotStress(const double f[4], int plane_stress, double stress[3])
 {
   const double mu = E / (2.0 * (1.0 + NU)), lambda = NU * E / ((1.0 + NU) * (1.0 - 2.0 * NU));
   const double xx = f[0] * f[0] + f[1] * f[1], yy = f[2] * f[2] + f[3] * f[3];
   const double xy = f[0] * f[2] + f[1] * f[3], angle = 0.5 * atan2(2.0 * xy, xx - yy);
   const double a = sqrt(0.5 * (xx + yy) + hypot(0.5 * (xx - yy), xy)), b = (f[0] * f[3] - f[1] * f[2]) / a;
-  const double c = sheet ? 1.0 - lambda * (a + b - 2.0) / (lambda + 2.0 * mu) : 1.0;
+  const double c = plane_stress ? 1.0 - lambda * (a + b - 2.0) / (lambda + 2.0 * mu) : 1.0;
   const double volumetric = lambda * (a + b + c - 3.0);
   const double first = (2.0 * mu * (a - 1.0) + volumetric) / (b * c),
                second = (2.0 * mu * (b - 1.0) + volumetric) / (a * c);

@@ -1,5 +1,5 @@
 // ranks: 1 2 3
-/* Elements change ranks while bodies slide, are driven and break: the answer is that of one rank to
+/* Elements change ranks while bodies slide, have a prescribed motion and break: the answer is that of one rank to
  * round-off, a step that is redone after another try and another redistribution has the same bits, and what
  * has moved away from its rank's other bodies is dealt out anew by itself. */
 #include "solid/contact/contact_impl.h"
@@ -14,7 +14,7 @@ typedef struct {
   int pieces;
 } Answer;
 
-static PetscErrorCode Tell(Solid s, int nids, Answer *out)
+static PetscErrorCode CollectAnswer(Solid s, int nids, Answer *out)
 {
   const SolidView v = ViewOf(s, NULL, NULL);
   int *fragment = malloc(((size_t)v.nelements + 1) * sizeof *fragment);
@@ -50,7 +50,7 @@ static PetscErrorCode Simulate(MPI_Comm comm, int how, int nids, Answer *out)
     PetscCall(Step(s, 1e6));
     if (how != CALM) PetscCall(Scatter(s, a.nelements, k));
   }
-  PetscCall(Tell(s, nids, out));
+  PetscCall(CollectAnswer(s, nids, out));
   PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
@@ -66,11 +66,11 @@ static PetscErrorCode Compare(const Answer *one, const Answer *many, const Answe
     largest = fmax(largest, fabs(a - one->all[k]) / (k % 4 < 2 ? 0.1 : 10.0));
   }
   if (getenv("VERBOSE"))
-    printf("largest difference %.2e; %d broken, %d live, %d pieces\n", largest, many->f.broken, many->f.live,
-           many->pieces);
+    printf("largest difference %.2e; %d broken, %d live, %d pieces\n", largest, many->f.broken,
+           many->f.active, many->pieces);
   CHECK(largest < 1e-11, "differs from one rank by %g", largest);
   CHECK(one->f.broken > 20 && one->pieces > 4, "%d broken, %d pieces", one->f.broken, one->pieces);
-  CHECK(one->f.broken == many->f.broken && one->f.live == many->f.live && one->pieces == many->pieces,
+  CHECK(one->f.broken == many->f.broken && one->f.active == many->f.active && one->pieces == many->pieces,
         "%d broken and %d", one->f.broken, many->f.broken);
   CHECK(fabs(one->f.energy / many->f.energy - 1.0) < 1e-11 && many->f.energy == redone->f.energy,
         "energy %.12g, %.12g, %.12g", one->f.energy, many->f.energy, redone->f.energy);
@@ -98,8 +98,7 @@ static PetscErrorCode Forced(void)
   return ModelDestroy(&a);
 }
 
-/* --- by itself
- * ---------------------------------------------------------------------------------------------- */
+/* --- by itself ---------------------------------------------------------------------------------------- */
 
 /* Two rows of blocks, the upper sliding by half its length over the lower.  *travelling: targets that travel
  * in a substep at the end. */

@@ -1,6 +1,6 @@
 // ranks: 1 2
-/* A thin ring pinched between two driven discs folds until its own walls meet: they stop each other, with and
- * without friction; and a ring whose rest shape is a circle pulls back from the ellipse it is given as. */
+/* A thin ring pinched between two discs of prescribed motion folds until its own walls meet: they stop each other, with and
+ * without friction; and a ring whose rest shape is a circle springs back from the ellipse it is given as. */
 #include "tests/solid/build.h"
 
 static const double RADIUS = 0.1, WALL = 0.01;
@@ -41,12 +41,12 @@ static PetscErrorCode Pinch(double friction)
   ring.material.friction = friction;
   ring.material.contact_damping = 0.3;
   disc = ring;
-  disc.ndriven = 1;
+  disc.nprescribed = 1;
   AddRing(&a, 0.0, 0.0, &ring);
   for (int k = -1; k <= 1; k += 2) { /* both discs go `way` and stop */
     const double row[6] = {way / speed, 0.0, -k * speed, way / speed + 1e-6, 0.0, 0.0};
-    const BoundaryMotion drive = {"boundary", {{1, 1}, 2, row, 0.0}};
-    disc.driven = &drive;
+    const BoundaryMotion motion = {"boundary", {{1, 1}, 2, row, 0.0}};
+    disc.prescribed = &motion;
     AddDisc(&a, 0.0, k * (RADIUS + 0.5 * WALL + start + radius), radius, 0.008, &disc);
   }
   PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, &s));

@@ -1,4 +1,4 @@
-/* Built-in bodies: area, quality, orientation, surface and boundary names; what an assembly refuses. */
+/* Built-in bodies: area, quality, orientation, surface and boundary names; what a model refuses. */
 #include "solid/plane.h"
 #include "tests/solid/build.h"
 
@@ -66,7 +66,7 @@ static PetscErrorCode Rectangle(void)
   return MeshSerialDestroy(&m);
 }
 
-/* The surface found in the assembly is the one that the shape gave, and nodes of a boundary are fixed. */
+/* The surface found in the model is the one that the shape gave, and nodes of a boundary are fixed. */
 static PetscErrorCode Surface(void)
 {
   static const char *const NAMES[] = {"bottom", "right"};

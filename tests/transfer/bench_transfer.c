@@ -42,10 +42,10 @@ static PetscErrorCode Measure(int n, double radius, unsigned seed)
   }
   PetscCall(PetscPrintf(
       PETSC_COMM_WORLD,
-      "%7d triangles, %7d changed, %.2f pairs each, %7d travel: create %.3f us, P1DG of %d components %.3f "
+      "%7d triangles, %7d changed, %.2f pairs each, %7d migrate: create %.3f us, P1DG of %d components %.3f "
       "us, P2 %.3f us a triangle",
       (int)(stats.copied + stats.projected), (int)stats.projected,
-      (double)stats.pairs / PetscMax(stats.projected, 1), (int)stats.travelled, best[0], COMPS, best[1],
+      (double)stats.pairs / PetscMax(stats.projected, 1), (int)stats.migrated, best[0], COMPS, best[1],
       best[2]));
   if (stats.projected) {
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "; %.2f us a changed one",

@@ -232,7 +232,7 @@ static PetscErrorCode Check(Maker maker, const void *a, const void *b, int least
   CHECK(stats.copied == copied && stats.copied + stats.projected == mesh[1]->nglobal,
         "%d copied, %d projected; %d are in both meshes", (int)stats.copied, (int)stats.projected, copied);
   PetscCall(TransferGetStats(alone, &stats));
-  CHECK(stats.travelled == whole[0]->nglobal - copied, "%d old elements travel", (int)stats.travelled);
+  CHECK(stats.migrated == whole[0]->nglobal - copied, "%d old elements migrate", (int)stats.migrated);
   CHECK(least <= copied && copied <= most, "%d elements in both meshes", copied);
   PetscCall(Clean(mesh, u, &transfer));
   PetscCall(Clean(whole, v, &alone));

@@ -78,22 +78,22 @@ static PetscErrorCode FindRanks(Transfer t, const TransferElements *old, Items *
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode TransferTravel(Transfer t, const TransferElements *old)
+PetscErrorCode TransferMigrate(Transfer t, const TransferElements *old)
 {
   Items items = {0};
   Scatter once;
   PetscFunctionBeginUser;
   PetscCall(FindRanks(t, old, &items));
   PetscCall(ScatterCreate(t->comm, items.n, items.rank, items.source, &once));
-  t->npieces = ScatterArriving(once);
-  PetscCall(PetscMalloc1(t->npieces, &t->piece));
-  PetscCall(ScatterForward(once, sizeof *old->x, old->x, t->piece));
+  t->nmoved = ScatterArriving(once);
+  PetscCall(PetscMalloc1(t->nmoved, &t->moved));
+  PetscCall(ScatterForward(once, sizeof *old->x, old->x, t->moved));
   PetscCall(ScatterDestroy(&once));
   for (int k = 0; k < items.n; k++) items.source[k] = old->element[items.source[k]];
-  PetscCall(ScatterCreate(t->comm, items.n, items.rank, items.source, &t->piece_route));
+  PetscCall(ScatterCreate(t->comm, items.n, items.rank, items.source, &t->moved_scatter));
   PetscCall(PetscFree(items.rank));
   PetscCall(PetscFree(items.source));
-  PetscCheck(!SearchCreateTriangles(t->npieces, (const double(*)[3][2])t->piece, &t->search), PETSC_COMM_SELF,
-             PETSC_ERR_MEM, "no memory for the search tree of %d pieces", t->npieces);
+  PetscCheck(!SearchCreateTriangles(t->nmoved, (const double(*)[3][2])t->moved, &t->search), PETSC_COMM_SELF,
+             PETSC_ERR_MEM, "no memory for the search tree of %d elements", t->nmoved);
   PetscFunctionReturn(0);
 }

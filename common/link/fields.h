@@ -1,0 +1,96 @@
+/* The table of the fields that travel between the participants.  A field is added here and in the C structure
+ * that holds it; packing, unpacking and the checks of both ends follow.
+ *
+ *     message    group            direction            C structure
+ *     SURFACE    FIELDS_NODES     solid -> coupler     ServerSolid, arrays over the nodes
+ *                FIELDS_MOTION                         ServerSolid, arrays over the nodes
+ *                FIELDS_FACETS                         ServerSolid, arrays over the facets
+ *                FIELDS_SIMPLICES                      ServerSolid, arrays over the solid's elements
+ *     MOTION     FIELDS_MOTION    solid -> coupler
+ *     FORCE      FIELDS_FORCE     coupler -> solid     FieldsForce, an array over the nodes
+ *     ASK        FIELDS_BOXES     coupler -> fluid     FieldsBoxes, an array over the boxes
+ *     ELEMENTS   FIELDS_DOMAIN    fluid -> coupler     FieldsDomain, one
+ *                FIELDS_ELEMENTS                       CoracleElements, arrays over the fluid's elements
+ *     FLOW       FIELDS_FLOW      fluid -> coupler     CoracleFlow, arrays over the fluid's elements
+ *     COUPLING   FIELDS_CORRECTION  coupler -> fluid   CoracleCorrection, one an element
+ *                FIELDS_COUPLING                       CoracleCoupling, one an element
+ *
+ * A group travels field by field in the table's order, each as an array over its entities:
+ *
+ *     x: n * dim doubles | u: n * dim doubles | ...          C order, each array padded to 8 bytes
+ *
+ * Shapes are products of extents that depend on the dimension of the mesh (FieldsExtents), which the header of
+ * each message carries. */
+#ifndef CORACLE_FIELDS_H
+#define CORACLE_FIELDS_H
+#include "common/link/message.h"
+#include "common/link/server.h"
+
+typedef enum { FIELD_REAL, FIELD_INDEX, FIELD_FLAGS, FIELD_ID } FieldType; /* double, int, int, long long */
+
+/* What a real value must be beside finite. */
+typedef enum { FIELD_ANY, FIELD_NOT_NEGATIVE, FIELD_POSITIVE } FieldRange;
+
+typedef enum {
+  EXTENT_END,
+  EXTENT_DIM,      /* components of a vector */
+  EXTENT_VERTICES, /* of an element; also the nodes of the fluid's velocity on it */
+  EXTENT_FACET,    /* vertices of a facet */
+  EXTENT_PRESSURE, /* nodes of the fluid's pressure on an element */
+  EXTENT_CORNERS,  /* of a box: lower, upper */
+  NEXTENTS
+} FieldExtent;
+
+enum { FIELD_RANK = 4, FIELDS_MAX = 10 }; /* most extents of a field, most fields of a group */
+
+typedef struct {
+  const char *name, *unit;
+  FieldType type;
+  FieldExtent shape[FIELD_RANK + 1]; /* of one entity, ended by EXTENT_END; none: a scalar */
+  size_t offset; /* in the C structure: of the pointer to the array, or of the value itself */
+  int only;      /* travels only in messages whose header has this flag; 0: always */
+  FieldRange range;
+} Field;
+
+typedef struct {
+  const char *entity, *direction; /* "node", "solid -> coupler" */
+  size_t entry;                   /* bytes of the C structure of one entity; 0: a structure of arrays */
+  int nfields;
+  const Field *field; /* [nfields] */
+} FieldGroup;
+
+typedef struct {
+  const double *force; /* [n][dim] N */
+} FieldsForce;
+typedef struct {
+  const double *box; /* [n][2][dim] m */
+} FieldsBoxes;
+typedef struct {
+  double lower[CORACLE_DIM], upper[CORACLE_DIM]; /* m */
+} FieldsDomain;
+
+extern const FieldGroup FIELDS_NODES, FIELDS_MOTION, FIELDS_FACETS, FIELDS_SIMPLICES, FIELDS_FORCE,
+    FIELDS_BOXES, FIELDS_DOMAIN, FIELDS_ELEMENTS, FIELDS_FLOW, FIELDS_CORRECTION, FIELDS_COUPLING;
+
+/* extent[NEXTENTS] of simplices in dim dimensions with P1 velocity and P2 pressure. */
+void FieldsExtents(int dim, int extent[NEXTENTS]);
+/* Number of values of one entity. */
+int FieldSize(const Field *field, const int extent[NEXTENTS]);
+
+/* Checks the group's n entities and adds them to the message.  data: the structure of arrays, or the array of
+ * n structures.  Ends the job naming field, entity and component of a value that cannot be. */
+void FieldsPack(Participant *p, Message *m, const FieldGroup *group, size_t n, const void *data);
+
+/* Received arrays of a group, one list a field, in the table's order. */
+typedef struct {
+  Buffer list[FIELDS_MAX];
+} FieldLists;
+void FieldListsClear(FieldLists *lists);
+void FieldListsFree(FieldLists *lists);
+/* Structure of arrays: appends the next n entities of the message to the lists. */
+void FieldsAppend(Participant *p, Message *m, const FieldGroup *group, size_t n, FieldLists *lists);
+/* Sets the structure's pointers to the lists; NULL where a field did not travel in messages with `flags`. */
+void FieldsView(const FieldGroup *group, const FieldLists *lists, int flags, void *structure);
+/* Array of structures: the next n entities of the message (overwritten). */
+void FieldsTake(Participant *p, Message *m, const FieldGroup *group, size_t n, Buffer *entries);
+#endif

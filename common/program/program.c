@@ -1,0 +1,49 @@
+#include "common/program/program.h"
+
+void ProgramFail(void *context, const char *message)
+{
+  const Program *p = context;
+  if (p->server) ServerFail(p->server, "%s", message);
+  CoracleFail(p->client, "%s", message);
+}
+
+/* PETSc's error handler. */
+static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const char *file,
+                            PetscErrorCode code, PetscErrorType type, const char *message, void *program)
+{
+  char text[2048];
+  (void)snprintf(text, sizeof text, "%s (in %s, %s:%d)", message ? message : "an error of PETSc", function,
+                 file, line);
+  ProgramFail(program, text);
+  return code;
+}
+
+PetscErrorCode ProgramStart(const char *role, int argc, char **argv, Program *p)
+{
+  *p = (Program){.role = role};
+  if (!strcmp(role, "coupler"))
+    ServerOpen(argc, argv, &p->comm, &p->server);
+  else
+    CoracleOpen(role, argc, argv, &p->comm, &p->client);
+  PETSC_COMM_WORLD = p->comm;
+  PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
+  PetscFunctionBeginUser;
+  PetscCall(PetscPushErrorHandler(Abort, p));
+  CoracleCaseOpen(argc, argv, ProgramFail, p, &p->c);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ProgramEnd(Program *p)
+{
+  CoracleCaseClose(&p->c);
+  PetscCall(PetscPopErrorHandler());
+  PetscCall(PetscFinalize());
+  return p->server ? ServerClose(&p->server) : CoracleClose(&p->client);
+}
+
+PetscErrorCode ProgramReportSeconds(const Program *p, int n, const char *const keys[], const double seconds[])
+{
+  PetscFunctionBeginUser;
+  for (int k = 0; k < n; k++) PetscCall(CoracleReport(p->client, keys[k], seconds[k], 0));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,211 @@
+#include "fluid/phases/phases_impl.h"
+
+PetscErrorCode PhasesCreate(const Stars *stars, int np, Phases *phases)
+{
+  Phases f;
+  PetscFunctionBeginUser;
+  PetscCheck(np >= 2 && np <= PHASES_MAX, stars->mesh->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "%d phases: from 2 to %d are possible", np, PHASES_MAX);
+  PetscCall(PetscNew(&f));
+  f->stars = stars;
+  f->np = np;
+  PetscCall(PetscCalloc1((size_t)stars->nl * (size_t)np, &f->volume));
+  PetscCall(PetscCalloc1((size_t)stars->nl * (size_t)(np - 1), &f->line));
+  PetscCall(PetscCalloc1(stars->nl, &f->single));
+  *phases = f;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PhasesDestroy(Phases *phases)
+{
+  Phases f = *phases;
+  PetscFunctionBeginUser;
+  if (!f) PetscFunctionReturn(0);
+  PetscCall(PetscFree(f->volume));
+  PetscCall(PetscFree(f->line));
+  PetscCall(PetscFree(f->single));
+  PetscCall(PetscFree(*phases));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PhasesSetVolumes(Phases f, const double volume[])
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscArraycpy(f->volume, volume, (size_t)f->stars->ne * (size_t)f->np));
+  f->has_lines = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PhasesGetVolumes(Phases f, const double *volume[])
+{
+  PetscFunctionBeginUser;
+  *volume = f->volume;
+  PetscFunctionReturn(0);
+}
+
+int PhasesSingle(Phases f, int e)
+{
+  return f->single[e];
+}
+
+static int IsTrivial(const HalfPlane *h)
+{
+  return h->n[0] == 0.0 && h->n[1] == 0.0;
+}
+
+/* *out = in without what the line takes, or what the line takes of it. */
+static void Keep(const Polygon *in, const HalfPlane *line, int taken, Polygon *out)
+{
+  if (IsTrivial(line)) {
+    if ((line->d >= 0.0) == (taken != 0))
+      *out = *in;
+    else
+      out->n = 0;
+    return;
+  }
+  const HalfPlane h = taken ? *line : HalfPlaneOther(line);
+  PolygonClip(in, &h, out);
+}
+
+void PhasesRest(Phases f, int e, int p, const double origin[2], Polygon *rest)
+{
+  Polygon before;
+  PolygonTriangle((const double(*)[2])f->stars->element[e].x, origin, rest);
+  for (int k = 0; k < p; k++) {
+    const HalfPlane h = PhasesLine(f, e, k, origin);
+    before = *rest;
+    Keep(&before, &h, 0, rest);
+  }
+}
+
+void PhasesPart(Phases f, int e, int p, const double origin[2], Polygon *part)
+{
+  Polygon rest;
+  if (f->single[e] >= 0 && f->single[e] != p) {
+    part->n = 0;
+    return;
+  }
+  if (f->single[e] == p) {
+    PolygonTriangle((const double(*)[2])f->stars->element[e].x, origin, part);
+    return;
+  }
+  if (p == f->np - 1) {
+    PhasesRest(f, e, p, origin, part);
+    return;
+  }
+  PhasesRest(f, e, p, origin, &rest);
+  const HalfPlane h = PhasesLine(f, e, p, origin);
+  Keep(&rest, &h, 1, part);
+}
+
+PetscErrorCode PhasesGetPolygon(Phases f, int e, int p, Polygon *polygon)
+{
+  const double *x = f->stars->element[e].x[0];
+  PetscFunctionBeginUser;
+  PetscCheck(e >= 0 && e < f->stars->ne && p >= 0 && p < f->np, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
+             "phase %d of element %d: there are %d and %d", p, e, f->np, f->stars->ne);
+  PhasesPart(f, e, p, x, polygon);
+  for (int k = 0; k < polygon->n; k++) {
+    for (int c = 0; c < 2; c++) polygon->x[k][c] += x[c];
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PhasesGetInertia(Phases f, int e, const double rho[], PetscBool condense, Inertia *inertia)
+{
+  const double(*x)[2] = (const double(*)[2])f->stars->element[e].x;
+  Polygon part;
+  PetscFunctionBeginUser;
+  InertiaBegin(x, inertia);
+  for (int p = 0; p < f->np; p++) {
+    PhasesPart(f, e, p, x[0], &part);
+    InertiaAdd(&part, rho[p], inertia);
+  }
+  for (int p = 0; p + 1 < f->np && condense && f->single[e] < 0; p++) {
+    const HalfPlane h = PhasesLine(f, e, p, x[0]);
+    if (!IsTrivial(&h)) InertiaRidge(&h, inertia);
+  }
+  PetscCheck(!InertiaCondense(inertia), PETSC_COMM_SELF, PETSC_ERR_NOT_CONVERGED,
+             "the element at (%g, %g) has no positive mass", x[0][0], x[0][1]);
+  PetscFunctionReturn(0);
+}
+
+/* The next phase behind p that element e has. */
+static int Behind(Phases f, int e, int p)
+{
+  const double tiny = PHASES_TINY * 0.5 * StarsTwiceArea(f->stars, e);
+  for (p++; p + 1 < f->np; p++) {
+    if (f->volume[(size_t)e * (size_t)f->np + (size_t)p] >= tiny) break;
+  }
+  return p;
+}
+
+PetscErrorCode PhasesGetKink(Phases f, int e, const double rho[], const double gravity[2], double force[6])
+{
+  const double(*x)[2] = (const double(*)[2])f->stars->element[e].x;
+  Inertia m;
+  PetscFunctionBeginUser;
+  for (int k = 0; k < INERTIA_NU; k++) force[k] = 0.0;
+  if (f->single[e] >= 0) PetscFunctionReturn(0);
+  InertiaBegin(x, &m);
+  for (int p = 0; p + 1 < f->np; p++) {
+    const HalfPlane h = PhasesLine(f, e, p, x[0]);
+    if (IsTrivial(&h)) continue;
+    InertiaRidge(&h, &m);
+    InertiaKink(&m, h.n, rho[p], rho[Behind(f, e, p)], gravity, force);
+  }
+  PetscFunctionReturn(0);
+}
+
+void PhasesSplitBy(int np, int single, const HalfPlane line[], const double x0[2], const Polygon *polygon,
+                   const double origin[2], double weight, double area[])
+{
+  if (single >= 0) {
+    area[single] += weight * PolygonArea(polygon);
+    return;
+  }
+  Polygon rest = *polygon, part;
+  for (int p = 0; p + 1 < np && rest.n; p++) {
+    const HalfPlane h = PhasesMoveLine(line[p], x0, origin);
+    const Polygon before = rest;
+    Keep(&before, &h, 1, &part);
+    Keep(&before, &h, 0, &rest);
+    if (part.n) area[p] += weight * PolygonArea(&part);
+  }
+  if (rest.n) area[np - 1] += weight * PolygonArea(&rest);
+}
+
+void PhasesSplit(Phases f, int e, const Polygon *polygon, const double origin[2], double weight,
+                 double area[])
+{
+  PhasesSplitBy(f->np, f->single[e], &f->line[(size_t)e * (size_t)(f->np - 1)], f->stars->element[e].x[0],
+                polygon, origin, weight, area);
+}
+
+PetscErrorCode PhasesGetStats(Phases f, PhasesStats *stats)
+{
+  const Stars *s = f->stars;
+  double sum[PHASES_MAX + 1] = {0.0}, top[4] = {-HUGE_VAL, -HUGE_VAL, 0.0, f->courant};
+  PetscFunctionBeginUser;
+  for (int e = 0; e < s->ne; e++) {
+    const double area = 0.5 * StarsTwiceArea(s, e), *v = &f->volume[(size_t)e * (size_t)f->np];
+    double all = 0.0;
+    for (int p = 0; p < f->np; p++) {
+      sum[p] += v[p];
+      all += v[p];
+      top[0] = PetscMax(top[0], -v[p] / area);
+      top[1] = PetscMax(top[1], v[p] / area);
+    }
+    top[2] = PetscMax(top[2], fabs(all - area) / area);
+    sum[PHASES_MAX] += f->has_lines && f->single[e] < 0;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, PHASES_MAX + 1, MPI_DOUBLE, MPI_SUM, s->mesh->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, top, 4, MPI_DOUBLE, MPI_MAX, s->mesh->comm));
+  *stats = (PhasesStats){.lowest = -top[0],
+                         .highest = top[1],
+                         .gap = top[2],
+                         .cut = (PetscInt)sum[PHASES_MAX],
+                         .courant = top[3]};
+  for (int p = 0; p < f->np; p++) stats->volume[p] = sum[p];
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,96 @@
+/* Lines in cut elements, one phase after the other: line p is fitted to what lines 0 .. p - 1 leave in the
+ * element and around it, so that layers and T-junctions of straight interfaces are found as well. */
+#include "fluid/phases/phases_impl.h"
+
+static double *VolumeOf(Phases f, int e)
+{
+  return &f->volume[(size_t)e * (size_t)f->np];
+}
+
+static HalfPlane *LineOf(Phases f, int e, int p)
+{
+  return &f->line[(size_t)e * (size_t)(f->np - 1) + (size_t)p];
+}
+
+/* The phase that has an element to itself, -1 if several share it. */
+static int SingleOf(Phases f, int e)
+{
+  const double *v = VolumeOf(f, e), tiny = PHASES_TINY * 0.5 * StarsTwiceArea(f->stars, e);
+  int found = -1;
+  for (int p = 0; p < f->np; p++) {
+    if (v[p] < tiny) continue;
+    if (found >= 0) return -1;
+    found = p;
+  }
+  return found;
+}
+
+static void SetCell(Phases f, int e, int p, const double origin[2], PlicCell *cell)
+{
+  const double(*x)[2] = (const double(*)[2])f->stars->element[e].x;
+  cell->area = 0.5 * StarsTwiceArea(f->stars, e);
+  for (int c = 0; c < 2; c++) cell->center[c] = (x[0][c] + x[1][c] + x[2][c]) / 3.0 - origin[c];
+  if (f->single[e] >= 0) { /* phases before p leave nothing, or all */
+    const int gone = f->single[e] < p;
+    cell->part.n = 0;
+    if (!gone) PolygonTriangle(x, origin, &cell->part);
+    cell->rest = gone ? 0.0 : cell->area;
+    cell->volume = f->single[e] == p ? cell->area : 0.0;
+    return;
+  }
+  PhasesRest(f, e, p, origin, &cell->part);
+  cell->rest = PolygonArea(&cell->part);
+  cell->volume = VolumeOf(f, e)[p];
+}
+
+/* Owned element e and those around it that earlier phases leave something of. */
+static int Gather(Phases f, int e, int p, PlicCell cell[PLIC_CELLS])
+{
+  const Stars *s = f->stars;
+  const double *origin = s->element[e].x[0];
+  int n = 1, seen[PLIC_CELLS] = {e};
+  SetCell(f, e, p, origin, &cell[0]);
+  for (int i = 0; i < 3; i++) {
+    const int v = s->vertex[e][i];
+    for (int k = s->start[v]; k < s->start[v + 1] && n < PLIC_CELLS; k++) {
+      const int j = s->around[k] / 3;
+      int known = 0;
+      for (int m = 0; m < n; m++) known |= seen[m] == j;
+      if (known) continue;
+      SetCell(f, j, p, origin, &cell[n]);
+      if (!(cell[n].rest > PHASES_TINY * cell[n].area)) continue;
+      seen[n++] = j;
+    }
+  }
+  return n;
+}
+
+static HalfPlane FitLine(Phases f, int e, int p, PlicCell cell[])
+{
+  const double area = 0.5 * StarsTwiceArea(f->stars, e), *v = VolumeOf(f, e);
+  double behind = 0.0; /* what is left for the phases behind */
+  for (int k = p + 1; k < f->np; k++) behind += v[k];
+  if (v[p] < PHASES_TINY * area) return (HalfPlane){{0.0, 0.0}, -1.0};
+  if (behind < PHASES_TINY * area) return (HalfPlane){{0.0, 0.0}, 1.0};
+  const int n = Gather(f, e, p, cell);
+  return PlicFit(n, cell);
+}
+
+PetscErrorCode PhasesReconstruct(Phases f)
+{
+  const Stars *s = f->stars;
+  PlicCell *cell;
+  PetscFunctionBeginUser;
+  PetscCall(StarsExchange(s, (size_t)f->np * sizeof *f->volume, f->volume));
+  for (int e = 0; e < s->nl; e++) f->single[e] = SingleOf(f, e);
+  PetscCall(PetscMalloc1(PLIC_CELLS, &cell));
+  for (int p = 0; p + 1 < f->np; p++) {
+    for (int e = 0; e < s->ne; e++) {
+      if (f->single[e] < 0) *LineOf(f, e, p) = FitLine(f, e, p, cell);
+    }
+    PetscCall(StarsExchange(s, (size_t)(f->np - 1) * sizeof *f->line, f->line));
+  }
+  PetscCall(PetscFree(cell));
+  f->has_lines = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,79 @@
+/* The polygons of each phase, intersected with the elements of another mesh. */
+#include "common/transfer/transfer_parts.h"
+#include "fluid/phases/phases_impl.h"
+
+/* An old element's phases on their way. */
+typedef struct {
+  int single;
+  double area;
+  double volume[PHASES_MAX];
+  double defect[PHASES_MAX]; /* volume less that of the polygon, over the element's area */
+  HalfPlane line[PHASES_MAX - 1];
+} Load;
+
+static void SetLoad(Phases f, int e, Load *load)
+{
+  const double(*x)[2] = (const double(*)[2])f->stars->element[e].x;
+  Polygon whole;
+  double area[PHASES_MAX] = {0.0};
+  *load = (Load){.single = f->single[e], .area = 0.5 * StarsTwiceArea(f->stars, e)};
+  PolygonTriangle(x, x[0], &whole);
+  PhasesSplit(f, e, &whole, x[0], 1.0, area);
+  for (int p = 0; p < f->np; p++) {
+    load->volume[p] = f->volume[(size_t)e * (size_t)f->np + (size_t)p];
+    load->defect[p] = (load->volume[p] - area[p]) / load->area;
+  }
+  for (int p = 0; p + 1 < f->np; p++) load->line[p] = f->line[(size_t)e * (size_t)(f->np - 1) + (size_t)p];
+}
+
+/* volume[np] += what the element takes of an old one */
+static void Take(const double element[3][2], const double part[3][2], const Load *load, int np,
+                 double volume[])
+{
+  Polygon whole, old, common;
+  PolygonTriangle(element, element[0], &whole);
+  PolygonTriangle(part, element[0], &old);
+  PolygonClipTriangle(&whole, (const double(*)[2])old.x, &common);
+  if (!common.n) return;
+  const double area = PolygonArea(&common);
+  PhasesSplitBy(np, load->single, load->line, part[0], &common, element[0], 1.0, volume);
+  for (int p = 0; p < np; p++) volume[p] += load->defect[p] * area;
+}
+
+static PetscErrorCode TakeAll(const TransferParts *parts, const Load load[], Phases to)
+{
+  PetscFunctionBeginUser;
+  for (int k = 0; k < parts->nchanged; k++) {
+    double *volume = &to->volume[(size_t)parts->changed[k] * (size_t)to->np];
+    const GeometryBox box = GeometryBoxOf(parts->element[k]);
+    const int *hit, nhit = SearchQuery(parts->search, &box, &hit);
+    PetscCheck(nhit >= 0, PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory to search %d elements", parts->nparts);
+    for (int p = 0; p < to->np; p++) volume[p] = 0.0;
+    for (int h = 0; h < nhit; h++)
+      Take(parts->element[k], parts->part[hit[h]], &load[hit[h]], to->np, volume);
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PhasesRemap(Phases from, Transfer transfer, Phases to)
+{
+  TransferParts parts;
+  Load *source, *copy, *load;
+  PetscFunctionBeginUser;
+  PetscCheck(from->has_lines, from->stars->mesh->comm, PETSC_ERR_ORDER,
+             "PhasesRemap needs the lines of the old mesh: call PhasesReconstruct before it");
+  PetscCheck(from->np == to->np, from->stars->mesh->comm, PETSC_ERR_ARG_INCOMP, "%d phases and %d", from->np,
+             to->np);
+  PetscCall(TransferGetParts(transfer, &parts));
+  PetscCall(PetscMalloc3(from->stars->ne, &source, parts.ncopies, &copy, parts.nparts, &load));
+  for (int e = 0; e < from->stars->ne; e++) SetLoad(from, e, &source[e]);
+  PetscCall(TransferSendParts(transfer, sizeof *source, source, copy, load));
+  for (int k = 0; k < parts.ncopies; k++) {
+    double *volume = &to->volume[(size_t)TransferCopyTarget(transfer, k) * (size_t)to->np];
+    for (int p = 0; p < to->np; p++) volume[p] = copy[k].volume[p];
+  }
+  PetscCall(TakeAll(&parts, load, to));
+  PetscCall(PetscFree3(source, copy, load));
+  to->has_lines = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,152 @@
+#include "fluid/run.h"
+#include "common/mesh/mesh_checkpoint.h"
+#include "fluid/fluid_case.h"
+
+/* The sections of the case that concern the fluid, all of whose keys must have been read. */
+static const char *const SECTIONS[] = {"fluid", NULL};
+
+/* --- checkpoints ---------------------------------------------------------------------------------------- */
+
+PetscErrorCode FluidRunSave(const FluidRun *m)
+{
+  const char *folder = CoracleCheckpointPath(m->program->client);
+  Checkpoint to;
+  PetscFunctionBeginUser;
+  if (!folder) PetscFunctionReturn(0);
+  PetscCall(CheckpointCreate(m->mesh->comm, folder, "fluid", &to));
+  PetscCall(MeshSave(m->mesh, to));
+  PetscCall(FluidSave(m->fluid, to));
+  PetscCall(CheckpointPutNumber(to, "new mesh", m->new_mesh));
+  PetscCall(AdaptationSave(m->adaptation, to));
+  PetscCall(WriterSave(m->writer, to));
+  PetscCall(CheckpointClose(&to));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Load(FluidRun *m, Checkpoint from, const PetscInt row[])
+{
+  double new_mesh;
+  PetscFunctionBeginUser;
+  PetscCall(FluidLoad(m->fluid, row, from));
+  PetscCall(CheckpointGetNumber(from, "new mesh", &new_mesh));
+  m->new_mesh = new_mesh ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(AdaptationLoad(m->adaptation, from));
+  PetscFunctionReturn(0);
+}
+
+/* --- start ---------------------------------------------------------------------------------------------- */
+
+/* In place of the mesh that the case gives: one that is fine where the solid is. */
+static PetscErrorCode FirstMesh(FluidRun *m)
+{
+  const double *box;
+  int nbox;
+  Mesh *mesh;
+  PetscFunctionBeginUser;
+  PetscCall(CoracleGetRegion(m->program->client, &nbox, &box));
+  PetscCall(AdaptationFirstMesh(m->adaptation, m->mesh, nbox, box, &mesh));
+  PetscCall(MeshDestroy(&m->mesh));
+  m->mesh = mesh;
+  PetscFunctionReturn(0);
+}
+
+/* Mesh, fluid and adaptation as the case says; row: of a checkpoint's mesh (FluidLoad). */
+static PetscErrorCode Create(FluidRun *m, const char *resume, Checkpoint from, PetscInt **row)
+{
+  FluidSetup setup;
+  AdaptationSetup adaptation;
+  PetscBool adapts;
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsInsertString(NULL, CoracleCaseStringOr(m->program->c, "fluid.petsc", "")));
+  PetscCall(FluidCaseMesh(m->program->c, m->program->comm, from, &m->mesh, row));
+  if (from) FluidCaseCheckResumed(m->program->c, m->mesh, resume);
+  PetscCall(FluidCaseSetup(m->program->c, m->mesh, &setup));
+  PetscCall(FluidCaseAdaptation(m->program->c, &adapts, &adaptation));
+  PetscCall(CoracleCaseFinish(m->program->c, SECTIONS));
+  if (adapts) PetscCall(AdaptationCreate(&adaptation, &m->adaptation));
+  if (adapts && !from) PetscCall(FirstMesh(m));
+  PetscCall(FluidCreate(m->mesh, &setup, &m->fluid));
+  PetscCall(PetscFree(setup.boundary));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidRunCreate(const Program *program, FluidRun *m)
+{
+  const char *resume = CoracleResumePath(program->client);
+  Checkpoint from = NULL;
+  PetscInt *row = NULL;
+  PetscFunctionBeginUser;
+  *m = (FluidRun){.program = program};
+  if (resume) PetscCall(CheckpointOpen(program->comm, resume, "fluid", &from));
+  PetscCall(Create(m, resume, from, &row));
+  if (from)
+    PetscCall(Load(m, from, row));
+  else
+    PetscCall(FluidSetInitial(m->fluid, 0.0, NULL, NULL, NULL));
+  PetscCall(PetscFree(row));
+  PetscCall(ExchangeCreate(m->program->client, m->fluid, &m->exchange));
+  PetscCall(WriterCreate(m->program->c, m->fluid, from, &m->writer));
+  PetscCall(CheckpointClose(&from));
+  PetscFunctionReturn(0);
+}
+
+/* --- adaptation ----------------------------------------------------------------------------------------- */
+
+PetscErrorCode FluidRunRemesh(FluidRun *m, Mesh **mesh, Fluid *fluid)
+{
+  PetscBool due = PETSC_FALSE;
+  PetscFunctionBeginUser;
+  *mesh = NULL;
+  *fluid = NULL;
+  if (m->adaptation) PetscCall(AdaptationDue(m->adaptation, m->fluid, &due));
+  if (!due) PetscFunctionReturn(0);
+  PetscCall(AdaptationMesh(m->adaptation, m->fluid, mesh));
+  PetscCall(FluidCreateLike(m->fluid, *mesh, fluid));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidRunAcceptMesh(FluidRun *m, Mesh *mesh, Fluid fluid)
+{
+  PetscFunctionBeginUser;
+  PetscCall(FluidTransfer(m->fluid, fluid));
+  PetscCall(FluidDestroy(&m->fluid));
+  PetscCall(MeshDestroy(&m->mesh));
+  m->mesh = mesh;
+  m->fluid = fluid;
+  m->new_mesh = PETSC_TRUE;
+  WriterNewMesh(m->writer);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidRunDiscardMesh(FluidRun *m, Mesh **mesh, Fluid *fluid)
+{
+  PetscFunctionBeginUser;
+  if (m->adaptation) AdaptationDiscard(m->adaptation);
+  PetscCall(FluidDestroy(fluid));
+  PetscCall(MeshDestroy(mesh));
+  PetscFunctionReturn(0);
+}
+
+/* --- end ------------------------------------------------------------------------------------------------ */
+
+static PetscErrorCode Report(const Program *program, Fluid fluid)
+{
+  static const char *const PHASES[] = {"seconds_assembly",   "seconds_momentum",   "seconds_pressure",
+                                       "seconds_correction", "seconds_adaptation", "seconds_setup"};
+  PetscFunctionBeginUser;
+  PetscCall(CoracleReport(program->client, "elements", FluidMesh(fluid)->ne, 1));
+  PetscCall(ProgramReportSeconds(program, 6, PHASES, FluidGetStats(fluid)->seconds));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidRunDestroy(FluidRun *m)
+{
+  PetscFunctionBeginUser;
+  PetscCall(Report(m->program, m->fluid));
+  PetscCall(WriterDestroy(&m->writer));
+  PetscCall(ExchangeDestroy(&m->exchange));
+  PetscCall(AdaptationDestroy(&m->adaptation));
+  PetscCall(FluidDestroy(&m->fluid));
+  PetscCall(MeshDestroy(&m->mesh));
+  PetscFunctionReturn(0);
+}

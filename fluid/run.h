@@ -1,0 +1,32 @@
+/* What a run of the fluid has between its steps: mesh, fluid and all that is as large as they change when the
+ * mesh is adapted. */
+#ifndef FLUID_RUN_H
+#define FLUID_RUN_H
+#include "common/program/program.h"
+#include "fluid/adaptation.h"
+#include "fluid/exchange.h"
+#include "fluid/writer.h"
+
+typedef struct {
+  const Program *program;
+  Mesh *mesh;
+  Fluid fluid;
+  Exchange exchange;
+  Writer writer;
+  Adaptation adaptation; /* NULL: the mesh stays */
+  PetscBool new_mesh;    /* since the last step */
+} FluidRun;
+
+/* Mesh and fluid as the case says, or as the checkpoint that the run resumes from; the first exchange. */
+PetscErrorCode FluidRunCreate(const Program *program, FluidRun *run);
+/* Saves the state at the start of the step, or at the end, if a checkpoint is due. */
+PetscErrorCode FluidRunSave(const FluidRun *run);
+/* If it is due: another mesh for the flow of the current step, and a fluid on it without state; else NULL. */
+PetscErrorCode FluidRunRemesh(FluidRun *run, Mesh **mesh, Fluid *fluid);
+/* The step is complete on the old mesh: the next one is on the new mesh. */
+PetscErrorCode FluidRunAcceptMesh(FluidRun *run, Mesh *mesh, Fluid fluid);
+/* The step will be redone on the old mesh; mesh and fluid may be NULL. */
+PetscErrorCode FluidRunDiscardMesh(FluidRun *run, Mesh **mesh, Fluid *fluid);
+/* Reports what the run has cost, and frees. */
+PetscErrorCode FluidRunDestroy(FluidRun *run);
+#endif

@@ -1,0 +1,80 @@
+/* Kernels: a line divides a polygon without loss; offsets give the area asked for; the derivative of areas as the
+ * line turns is that of finite differences. */
+#include "fluid/phases/plic.h"
+#include "tests/check.h"
+#include "tests/transfer/shaken.h"
+
+static double Random(int k, int which)
+{
+  return 2.0 * Chance(99u, k, which) - 1.0;
+}
+
+/* A convex polygon: a triangle cut by a few lines. */
+static Polygon RandomPolygon(int k)
+{
+  Polygon p = {3, {{0}}}, q;
+  double x[3][2];
+  do {
+    for (int i = 0; i < 3; i++) {
+      x[i][0] = Random(7 * k + i, 0);
+      x[i][1] = Random(7 * k + i, 1);
+    }
+    k += 100000;
+  } while (GeometryArea((const double(*)[2])x) < 0.05);
+  const double zero[2] = {0.0, 0.0};
+  PolygonTriangle((const double(*)[2])x, zero, &p);
+  for (int c = 0; c < k % 3; c++) {
+    const double a = M_PI * Random(k + c, 2), d = 0.6;
+    const HalfPlane h = {{cos(a), sin(a)}, d};
+    PolygonClip(&p, &h, &q);
+    if (q.n && PolygonArea(&q) > 0.02) p = q;
+  }
+  return p;
+}
+
+static void CheckDivision(int k)
+{
+  const Polygon p = RandomPolygon(k);
+  const double all = PolygonArea(&p), a = M_PI * Random(k, 3), part = 0.5 + 0.5 * Random(k, 2);
+  const double share = k % 5 ? part : k % 2 ? 1e-9 : 1.0 - 1e-9;
+  HalfPlane h = {{cos(a), sin(a)}, 0.0};
+  Polygon low, high;
+  h.d = PolygonFindOffset(&p, h.n, share * all);
+  const HalfPlane other = HalfPlaneOther(&h);
+  PolygonClip(&p, &h, &low);
+  PolygonClip(&p, &other, &high);
+  const double below = low.n ? PolygonArea(&low) : 0.0, above = high.n ? PolygonArea(&high) : 0.0;
+  CHECK(fabs(below + above - all) < 1e-15 * 10, "polygon %d: %.17g + %.17g of %.17g", k, below, above, all);
+  CHECK(fabs(below - share * all) < 3e-15, "polygon %d: share %g: %.17g instead of %.17g", k, share, below,
+        share * all);
+}
+
+/* dA_J/dtheta = l_J (t_K - t_J) */
+static void CheckDerivative(int k)
+{
+  PlicCell cell[2] = {{.area = 1.0}, {.area = 1.0}};
+  PlicState s;
+  const double theta = M_PI * Random(k, 3), eps = 1e-6;
+  double area[2];
+  cell[0].part = RandomPolygon(k);
+  cell[1].part = RandomPolygon(k + 50000);
+  for (int i = 0; i < 2; i++) cell[i].rest = PolygonArea(&cell[i].part);
+  cell[0].volume = (0.5 + 0.4 * Random(k, 2)) * PolygonArea(&cell[0].part);
+  for (int i = 0; i < 2; i++) {
+    PlicEvaluate(2, cell, theta + (i ? eps : -eps), &s);
+    area[i] = PolygonCutBy(&cell[1].part, cell[1].rest, &s.line).area;
+  }
+  PlicEvaluate(2, cell, theta, &s);
+  const PolygonCut own = PolygonCutBy(&cell[0].part, cell[0].rest, &s.line),
+                   cut = PolygonCutBy(&cell[1].part, cell[1].rest, &s.line);
+  const double slope = cut.length * (own.middle - cut.middle), difference = (area[1] - area[0]) / (2.0 * eps);
+  CHECK(fabs(slope - difference) < 1e-4, "polygon %d: dA/dtheta = %g, by differences %g", k, slope,
+        difference);
+}
+
+int main(void)
+{
+  for (int k = 0; k < 20000; k++) CheckDivision(k);
+  for (int k = 0; k < 5000; k++) CheckDerivative(k);
+  return 0;
+}
