@@ -96,14 +96,14 @@ static void SolveColumns(const double l[NU][NU], double x[NU][NU])
 }
 
 /* response = W^-1 M */
-static PetscErrorCode Response(double area, double rho_dt, const double give[2][3][2][3],
+static PetscErrorCode Response(double area, double rho_dt, const double inertia[2][3][2][3],
                                double response[NU][NU])
 {
   double w[NU][NU];
   PetscFunctionBeginUser;
   MassMatrix(area, response);
   for (int i = 0; i < NU; i++)
-    for (int j = 0; j < NU; j++) w[i][j] = rho_dt * response[i][j] + give[i / 3][i % 3][j / 3][j % 3];
+    for (int j = 0; j < NU; j++) w[i][j] = rho_dt * response[i][j] + inertia[i / 3][i % 3][j / 3][j % 3];
   PetscCheck(Factor(w), PETSC_COMM_SELF, PETSC_ERR_NOT_CONVERGED,
              "the implicit inertia of the solid is not positive on a fluid element");
   SolveColumns((const double(*)[NU])w, response);

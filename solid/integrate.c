@@ -77,10 +77,10 @@ static double Travel(const BulkMotion *m, int k, double h)
   return m->moved + 2.0 * k * h * (m->speed + k * h * m->acceleration);
 }
 
-static int SafeSubsteps(const BulkMotion *m, double reach, double h)
+static int SafeSubsteps(const BulkMotion *m, double skin, double h)
 {
   int k = CHECK_EVERY;
-  while (k > 1 && Travel(m, k, h) > reach) k /= 2;
+  while (k > 1 && Travel(m, k, h) > skin) k /= 2;
   return k;
 }
 

@@ -1,7 +1,7 @@
 /* What the fluid sees, piece by piece (a body that has not come apart is one).
  *
  * Where the fluid's step resolves the waves in a piece it sees the velocities as they are, and every node
- * gives way by itself (coracle.h, CoracleSetInertia): the exchange is implicit.  Any other piece gives way as
+ * is compliant by itself (coracle.h, CoracleSetInertia): the exchange is implicit.  Any other piece is compliant as
  * a whole only: the fluid sees its rigid motion at the step's end, and of its deformation what the step can
  * resolve.  That exchange answers a vibration about one and a half steps late; late by more than half a
  * period the answer drives the vibration instead of damping it. */

@@ -3,8 +3,8 @@
 
     cases/falling_cylinder/validate.py [--jobs N] [--only PATTERN ...] [--table] [--readme] [--check]
 
-A run is skipped when its summary.json is there (out/validation/<name>; delete the folder to run it again), and goes on
-from its last checkpoint when it is not: stop and go on as you like.  --only takes names with wildcards.  --table only prints the tables of
+A run is skipped when its summary.json is there (out/validation/<name>; delete the folder to run it again), and resumes
+from its last checkpoint when it is not: it may be stopped at any time.  --only takes names with wildcards.  --table only prints the tables of
 what has been run, --readme also puts them into README.md, --check exits with 1 when a number is out of its bounds.
 """
 import csv

@@ -59,7 +59,7 @@ static void Write(CoracleClient c)
   if ((file && fclose(file)) || wrong) ParticipantFail(c->p, "%s: %s", path, strerror(errno));
 }
 
-/* Buffer number `which` out of the checkpoint that the run goes on from. */
+/* Buffer number `which` out of the checkpoint that the run resumes from. */
 static void Read(CoracleClient c, size_t which, void *state, size_t bytes)
 {
   char path[STATE_PATH];

@@ -12,18 +12,18 @@ typedef struct {
   _Atomic int pid, step; /* pid 0: closed in good order */
   int rank;
   char role[16];
-} BoardSlot;
+} FailureSlot;
 
 typedef struct {
   _Atomic int claimed;
-  BoardSlot slot[];
-} BoardMemory;
+  FailureSlot slot[];
+} FailureMemory;
 
 struct FailureBoard_s {
   MPI_Comm node; /* the ranks of this computer */
   MPI_Win window;
-  BoardMemory *memory;
-  BoardSlot *mine;
+  FailureMemory *memory;
+  FailureSlot *mine;
   int n;
   char prefix[64]; /* "coracle solid[0]: " */
 };
@@ -47,7 +47,7 @@ static char *PutNumber(char *to, char *end, int value)
   return PutText(to, end, d);
 }
 
-static const BoardSlot *FindDead(const FailureBoard b)
+static const FailureSlot *FindDead(const FailureBoard b)
 {
   for (int i = 0; i < b->n; i++) {
     const int pid = b->memory->slot[i].pid;
@@ -59,7 +59,7 @@ static const BoardSlot *FindDead(const FailureBoard b)
 static void SayWhoDied(const FailureBoard b)
 {
   char text[256], *end = text + sizeof text, *to = PutText(text, end, b->prefix);
-  const BoardSlot *dead = FindDead(b);
+  const FailureSlot *dead = FindDead(b);
   if (dead) {
     to = PutText(to, end, "error: ");
     to = PutText(to, end, dead->role);
@@ -110,7 +110,7 @@ static void Unwatch(void)
   if (sigaction(SIGTERM, NULL, &old) == 0 && old.sa_handler == OnTerminate) signal(SIGTERM, SIG_DFL);
 }
 
-int FailureBoardOpen(MPI_Comm job, const char *role, int rank, FailureBoard *board)
+int FailureBoardOpen(MPI_Comm job, const char *role, int rank, FailureBoard *failures)
 {
   FailureBoard b = calloc(1, sizeof *b);
   int me, unit;
@@ -118,7 +118,7 @@ int FailureBoardOpen(MPI_Comm job, const char *role, int rank, FailureBoard *boa
   MPI_Comm_split_type(job, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &b->node);
   MPI_Comm_rank(b->node, &me);
   MPI_Comm_size(b->node, &b->n);
-  bytes = me ? 0 : (MPI_Aint)(sizeof(BoardMemory) + (size_t)b->n * sizeof(BoardSlot));
+  bytes = me ? 0 : (MPI_Aint)(sizeof(FailureMemory) + (size_t)b->n * sizeof(FailureSlot));
   MPI_Win_allocate_shared(bytes, 1, MPI_INFO_NULL, b->node, &b->memory, &b->window);
   MPI_Win_shared_query(b->window, 0, &bytes, &unit, &b->memory);
   if (me == 0) memset(b->memory, 0, (size_t)bytes);
@@ -130,27 +130,27 @@ int FailureBoardOpen(MPI_Comm job, const char *role, int rank, FailureBoard *boa
   b->mine->pid = (int)getpid();
   MPI_Barrier(b->node);
   Watch(b);
-  *board = b;
+  *failures = b;
   return 0;
 }
 
-int FailureBoardClose(FailureBoard *board)
+int FailureBoardClose(FailureBoard *failures)
 {
-  if (!*board) return 0;
+  if (!*failures) return 0;
   Unwatch();
-  (*board)->mine->pid = 0;
-  MPI_Win_free(&(*board)->window);
-  MPI_Comm_free(&(*board)->node);
-  free(*board);
-  *board = NULL;
+  (*failures)->mine->pid = 0;
+  MPI_Win_free(&(*failures)->window);
+  MPI_Comm_free(&(*failures)->node);
+  free(*failures);
+  *failures = NULL;
   return 0;
 }
 
-bool FailureBoardClaim(FailureBoard board)
+bool FailureBoardClaim(FailureBoard failures)
 {
-  return atomic_exchange(&board->memory->claimed, 1) == 0;
+  return atomic_exchange(&failures->memory->claimed, 1) == 0;
 }
-void FailureBoardStep(FailureBoard board, int step)
+void FailureBoardStep(FailureBoard failures, int step)
 {
-  board->mine->step = step;
+  failures->mine->step = step;
 }

@@ -11,10 +11,10 @@
 
 typedef struct FailureBoard_s *FailureBoard;
 
-int FailureBoardOpen(MPI_Comm job, const char *role, int rank, FailureBoard *board);
-int FailureBoardClose(FailureBoard *board);
+int FailureBoardOpen(MPI_Comm job, const char *role, int rank, FailureBoard *failures);
+int FailureBoardClose(FailureBoard *failures);
 /* True for one caller on this computer, false for all others. */
-bool FailureBoardClaim(FailureBoard board);
+bool FailureBoardClaim(FailureBoard failures);
 /* The step this rank is in, for the message about its death. */
-void FailureBoardStep(FailureBoard board, int step);
+void FailureBoardStep(FailureBoard failures, int step);
 #endif

@@ -44,7 +44,7 @@ void ParticipantFailList(Participant *p, const char *format, va_list list)
   char text[HANDSHAKE_MESSAGE];
   vsnprintf(text, sizeof text, format, list);
   ExitGuardExpected();
-  if (FailureBoardClaim(p->board))
+  if (FailureBoardClaim(p->failures))
     Report(ROLE_NAMES[p->role], p->rank, text);
   else
     sleep(5); /* another rank reports and ends the job */
@@ -251,7 +251,7 @@ int ParticipantOpen(MPI_Comm job, const char *role, bool client, int argc, char 
   MapRoles(p, &mine);
   /* when one hangs all wait: the coupler, whose partners they all are, gives up first and so names the one */
   if (client) p->waiter.timeout = 1.1 * p->waiter.timeout + 1.0;
-  FailureBoardOpen(p->job, role, p->rank, &p->board);
+  FailureBoardOpen(p->job, role, p->rank, &p->failures);
   ExitGuardWatch(p);
   if (share.pinned) AffinityNotePinned(role, p->rank);
   Resume(p, argc, argv);
@@ -262,7 +262,7 @@ int ParticipantOpen(MPI_Comm job, const char *role, bool client, int argc, char 
 void ParticipantStep(Participant *p, int step)
 {
   p->step = step;
-  FailureBoardStep(p->board, step);
+  FailureBoardStep(p->failures, step);
 }
 
 int ParticipantClose(Participant **participant)
@@ -271,7 +271,7 @@ int ParticipantClose(Participant **participant)
   const bool finalize = p->started_mpi;
   ExitGuardExpected();
   ExitGuardUnwatch();
-  FailureBoardClose(&p->board);
+  FailureBoardClose(&p->failures);
   MPI_Comm_free(&p->link);
   MPI_Comm_free(&p->app);
   for (int k = 0; k < NROLES; k++) free(p->world[k]);

@@ -29,11 +29,11 @@ typedef struct {
   int step;           /* for messages */
   int dim;            /* dimension of the run's meshes */
   double start;       /* WaitClock when joining, s */
-  char *resume;       /* folder of the checkpoint that the run goes on from; NULL: none */
+  char *resume;       /* folder of the checkpoint that the run resumes from; NULL: none */
   double used[NUSED]; /* rank 0: by the participant in the runs before that, s */
   bool started_mpi;
   Waiter waiter;
-  FailureBoard board;
+  FailureBoard failures;
 } Participant;
 
 /* Joins as role; collective over the job, all ranks of its participants (MPI_COMM_NULL: the world).  `client`: role must not be coupler.  A process joins once. */

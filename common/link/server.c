@@ -84,9 +84,9 @@ void ClientListFlags(Server s, Role role, ClientRank *client, const MessageHeade
   const bool resumes = h->flag & FLAG_RESUMES;
   if (h->step > 0 || resumes == (s->p->resume != NULL)) return;
   if (resumes)
-    ServerFail(s, "the %s goes on from a checkpoint that is not to be found here", ROLE_NAMES[role]);
+    ServerFail(s, "the %s resumes from a checkpoint that is not to be found here", ROLE_NAMES[role]);
   ServerFail(
-      s, "the run goes on from %s, but the %s begins at the start: it does not find that, or cannot resume",
+      s, "the run resumes from %s, but the %s begins at the start: it does not find that, or cannot resume",
       s->p->resume, ROLE_NAMES[role]);
 }
 

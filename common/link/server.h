@@ -66,7 +66,7 @@ int ServerReceiveFlow(Server s, CoracleFlow *flow);
  * the step's start, which differ when the solid has changed its mesh in the step. */
 int ServerSendForce(Server s, double t, double dt, CoracleAction action, const double force[]);
 
-/* The folder of the checkpoint that the run goes on from, or NULL; a client that does not is refused. */
+/* The folder of the checkpoint that the run resumes from, or NULL; a client that does not is refused. */
 const char *ServerResumePath(Server s);
 /* Has all clients save into the folder (the same on all coupler ranks; copied) as the coming step begins,
  * before that is sent. */

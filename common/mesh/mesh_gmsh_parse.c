@@ -147,8 +147,7 @@ static PetscErrorCode NodesOfType(const GmshFile *f, long number, int type, int 
   return GmshRefuse(f, "element %ld is of Gmsh's type %d: only triangles are understood", number, type);
 }
 
-/* ---- format 2.2
- * ------------------------------------------------------------------------------------------------------- */
+/* --- format 2.2 ------------------------------------------------------------------------------------------ */
 
 static PetscErrorCode Nodes22(GmshFile *f)
 {
@@ -196,8 +195,7 @@ static PetscErrorCode Elements22(GmshFile *f)
   return 0;
 }
 
-/* ---- format 4.1
- * ------------------------------------------------------------------------------------------------------- */
+/* --- format 4.1 ------------------------------------------------------------------------------------------ */
 
 static PetscErrorCode Entity41(GmshFile *f, int dim)
 {

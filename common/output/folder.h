@@ -7,7 +7,7 @@
 PetscErrorCode FolderMake(MPI_Comm comm, const char *folder);
 /* Collective: whether a checkpoint, which is there, is one of the runs in folder. */
 PetscBool FolderHolds(MPI_Comm comm, const char *folder, const char *checkpoint);
-/* Collective: whether a file of folder goes on from a checkpoint (else NULL): that is of a run in folder, and the
+/* Collective: whether a file of folder resumes from a checkpoint (else NULL): that is of a run in folder, and the
  * file is there. */
 PetscBool FolderGoesOn(MPI_Comm comm, const char *folder, const char *file, Checkpoint from);
 /* Collective: the same error on all ranks when rank 0 had one; its own message comes from rank 0. */

@@ -12,8 +12,8 @@ struct Xdmf_s {
 };
 
 /* Appends to the text. */
-static PetscErrorCode Say(Xdmf x, const char *format, ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
-static PetscErrorCode Say(Xdmf x, const char *format, ...)
+static PetscErrorCode WriteLine(Xdmf x, const char *format, ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
+static PetscErrorCode WriteLine(Xdmf x, const char *format, ...)
 {
   va_list arguments;
   char line[2048];
@@ -91,15 +91,15 @@ size_t XdmfLength(Xdmf x)
 PetscErrorCode XdmfBegin(Xdmf x, double t)
 {
   PetscFunctionBeginUser;
-  PetscCall(Say(x, "<Grid Name=\"%s\" GridType=\"Collection\" CollectionType=\"Spatial\">\n", x->name));
-  PetscCall(Say(x, " <Time Value=\"%.17g\"/>\n", t));
+  PetscCall(WriteLine(x, "<Grid Name=\"%s\" GridType=\"Collection\" CollectionType=\"Spatial\">\n", x->name));
+  PetscCall(WriteLine(x, " <Time Value=\"%.17g\"/>\n", t));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode CloseGrid(Xdmf x)
 {
   PetscFunctionBeginUser;
-  if (x->in_grid) PetscCall(Say(x, " </Grid>\n"));
+  if (x->in_grid) PetscCall(WriteLine(x, " </Grid>\n"));
   x->in_grid = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
@@ -113,18 +113,18 @@ PetscErrorCode XdmfGrid(Xdmf x, const char *grid, const char *points, long long 
   PetscFunctionBeginUser;
   PetscCall(CloseGrid(x));
   x->in_grid = PETSC_TRUE;
-  PetscCall(Say(x, " <Grid Name=\"%s\" GridType=\"Uniform\">\n", grid));
-  PetscCall(Say(x, "  <Topology TopologyType=\"%s\" NumberOfElements=\"%lld\">\n", type, ne));
-  PetscCall(Say(x,
-                "   <DataItem Dimensions=\"%lld %d\" NumberType=\"Int\" Precision=\"%d\" "
-                "Format=\"HDF\">%s.h5:%s</DataItem>\n",
-                ne, nodes_per_cell, index_bytes, x->name, cells));
-  PetscCall(Say(x, "  </Topology>\n  <Geometry GeometryType=\"XY\">\n"));
-  PetscCall(Say(x,
-                "   <DataItem Dimensions=\"%lld 2\" NumberType=\"Float\" Precision=\"8\" "
-                "Format=\"HDF\">%s.h5:%s</DataItem>\n",
-                n, x->name, points));
-  PetscCall(Say(x, "  </Geometry>\n"));
+  PetscCall(WriteLine(x, " <Grid Name=\"%s\" GridType=\"Uniform\">\n", grid));
+  PetscCall(WriteLine(x, "  <Topology TopologyType=\"%s\" NumberOfElements=\"%lld\">\n", type, ne));
+  PetscCall(WriteLine(x,
+                      "   <DataItem Dimensions=\"%lld %d\" NumberType=\"Int\" Precision=\"%d\" "
+                      "Format=\"HDF\">%s.h5:%s</DataItem>\n",
+                      ne, nodes_per_cell, index_bytes, x->name, cells));
+  PetscCall(WriteLine(x, "  </Topology>\n  <Geometry GeometryType=\"XY\">\n"));
+  PetscCall(WriteLine(x,
+                      "   <DataItem Dimensions=\"%lld 2\" NumberType=\"Float\" Precision=\"8\" "
+                      "Format=\"HDF\">%s.h5:%s</DataItem>\n",
+                      n, x->name, points));
+  PetscCall(WriteLine(x, "  </Geometry>\n"));
   PetscFunctionReturn(0);
 }
 
@@ -135,12 +135,13 @@ PetscErrorCode XdmfAttribute(Xdmf x, const char *field, const char *centre, cons
   char columns[16] = "";
   PetscFunctionBeginUser;
   if (ncol > 1) snprintf(columns, sizeof columns, " %d", ncol);
-  PetscCall(Say(x, "  <Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"%s\">\n", field, type, centre));
-  PetscCall(Say(x,
-                "   <DataItem Dimensions=\"%lld%s\" NumberType=\"Float\" Precision=\"8\" "
-                "Format=\"HDF\">%s.h5:%s</DataItem>\n",
-                n, columns, x->name, path));
-  PetscCall(Say(x, "  </Attribute>\n"));
+  PetscCall(
+      WriteLine(x, "  <Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"%s\">\n", field, type, centre));
+  PetscCall(WriteLine(x,
+                      "   <DataItem Dimensions=\"%lld%s\" NumberType=\"Float\" Precision=\"8\" "
+                      "Format=\"HDF\">%s.h5:%s</DataItem>\n",
+                      n, columns, x->name, path));
+  PetscCall(WriteLine(x, "  </Attribute>\n"));
   PetscFunctionReturn(0);
 }
 
@@ -148,7 +149,7 @@ PetscErrorCode XdmfEnd(Xdmf x)
 {
   PetscFunctionBeginUser;
   PetscCall(CloseGrid(x));
-  PetscCall(Say(x, "</Grid>\n"));
+  PetscCall(WriteLine(x, "</Grid>\n"));
   PetscCall(Publish(x));
   PetscFunctionReturn(0);
 }

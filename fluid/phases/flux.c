@@ -87,7 +87,7 @@ static double Residual(const Balance *w, int e, int i)
   return ((a[1] - b[1]) * (u[0] + u[1] + u[2]) + (b[0] - a[0]) * (u[3] + u[4] + u[5])) / 6.0;
 }
 
-/* The chain that goes on from an element until a boundary or around. */
+/* The chain that resumes from an element until a boundary or around. */
 static void Follow(const Balance *w, int v, int first, Chain *c)
 {
   int at = first;

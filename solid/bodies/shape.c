@@ -161,8 +161,8 @@ void ShapeRingStretched(const double centre[2], const double stretch[2], Element
     const double rx = mesh->x[2 * v] - centre[0], ry = mesh->x[2 * v + 1] - centre[1], r = hypot(rx, ry);
     const double cosine = rx / r, sine = ry / r;
     const double along = hypot(stretch[0] * sine, stretch[1] * cosine); /* of the tangent */
-    const double across = ElementFreeStretch(along, law) * (r - middle) / along;
-    x[2 * v] = centre[0] + stretch[0] * middle * cosine + across * stretch[1] * cosine;
-    x[2 * v + 1] = centre[1] + stretch[1] * middle * sine + across * stretch[0] * sine;
+    const double thickness_stretch = ElementFreeStretch(along, law) * (r - middle) / along;
+    x[2 * v] = centre[0] + stretch[0] * middle * cosine + thickness_stretch * stretch[1] * cosine;
+    x[2 * v + 1] = centre[1] + stretch[1] * middle * sine + thickness_stretch * stretch[0] * sine;
   }
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A run that is killed goes on from its last checkpoint as if nothing had happened: the same steps, motion, cracks and files, also on other ranks and with
+# A run that is killed resumes from its last checkpoint as if nothing had happened: the same steps, motion, cracks and files, also on other ranks and with
 # another solid; and what cannot go on says so.  Usage: resume.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
@@ -52,7 +52,7 @@ fails() {
   grep -q "error:.*$message" "$scratch/$label.log" || { cat "$scratch/$label.log"; exit 1; }
 }
 fails nothing "resume.*there is no checkpoint" --set resume="$scratch/nothing"
-fails longer "checkpoint to go on from is at t = 0.1 s already, time.end is 0.09 s" --set time.end=0.09 --set resume=last
+fails longer "checkpoint to resume from is at t = 0.1 s already, time.end is 0.09 s" --set time.end=0.09 --set resume=last
 cp -r "$scratch/longer" "$scratch/broken"
 truncate -s 1000 "$scratch/broken/checkpoint/fluid.h5"
 fails broken "go on .*checkpoint/fluid.h5" --set time.end=0.2 --set resume=last

@@ -44,9 +44,9 @@ typedef struct {
 
 static void Tell(void *context, const char *message)
 {
-  Told *told = context;
+  Told *reported = context;
   const char *colon = strchr(message, ':'); /* without the file's name */
-  snprintf(told->message[told->n++], 512, "%s", colon ? colon : message);
+  snprintf(reported->message[reported->n++], 512, "%s", colon ? colon : message);
 }
 
 static void Faults(int argc, char **argv)
@@ -68,12 +68,12 @@ static void Faults(int argc, char **argv)
       ":10: unknown key 'fluid.colour'",
       ":14: unknown key 'solid.bodies[2].size'"};
   enum { N = sizeof EXPECTED / sizeof *EXPECTED };
-  static Told told;
-  const int n = CoracleCaseCheck(argc, argv, Read, &told, Tell);
+  static Told reported;
+  const int n = CoracleCaseCheck(argc, argv, Read, &reported, Tell);
   for (int k = 0; k < N || k < n; k++) {
-    if (k < N && k < n && !strcmp(told.message[k], EXPECTED[k])) continue;
+    if (k < N && k < n && !strcmp(reported.message[k], EXPECTED[k])) continue;
     fprintf(stderr, "expected '%s'\n     got '%s'\n", k < N ? EXPECTED[k] : "(no more)",
-            k < n ? told.message[k] : "(no more)");
+            k < n ? reported.message[k] : "(no more)");
     exit(1);
   }
 }

@@ -13,7 +13,7 @@
  *   zalesak  Rudman, Int. J. Numer. Meth. Fluids 24 (1997), Youngs, of the disc's area, radius 25 cells (n = 167 here):
  *            1.09e-2
  *   sliding  Basilisk, src/test/reversed.ref: 5.51e-2 1.09e-2 1.60e-3 */
-#include "flows.h"
+#include "tests/phases/flows.h"
 
 typedef struct {
   const char *name;

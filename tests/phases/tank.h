@@ -6,9 +6,9 @@
  * with the kinks' force k, or with condensed ridges (Q, R of inertia.h), or with neither. */
 #ifndef TESTS_PHASES_TANK_H
 #define TESTS_PHASES_TANK_H
-#include "flows.h"
 #include "fluid/kernels.h"
 #include "fluid/phases/flux.h"
+#include "tests/phases/flows.h"
 #include <petscksp.h>
 
 enum { MEAN, SUBCELL, RIDGE, KINK, FORMS };

@@ -4,7 +4,7 @@
  * bounds; the volumes that pass faces sum to the fluxes; a step that is too long is refused.
  *
  * advect print: also prints the table. */
-#include "flows.h"
+#include "tests/phases/flows.h"
 
 static int print;
 static char reason[1024];

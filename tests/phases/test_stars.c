@@ -1,7 +1,7 @@
 // ranks: 1 2 3 5
 /* Stars are whole on every rank: their angles close, their elements are the same everywhere and in the same
  * order; what owners have arrives. */
-#include "flows.h"
+#include "tests/phases/flows.h"
 
 /* Angle of element e at corner i. */
 static double Angle(const StarElement *e, int i)

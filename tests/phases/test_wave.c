@@ -4,7 +4,7 @@
  * step by which the scheme is ahead.  With condensed ridges instead of kinks the wave is late.
  *
  * wave [ridge | kink] [n] [periods] [steps a period] [amplitude]: marches and prints each half period. */
-#include "tank.h"
+#include "tests/phases/tank.h"
 
 enum { CREST = 400 };
 

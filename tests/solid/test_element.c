@@ -68,12 +68,12 @@ static void PlaneStress(double young, double poisson)
   ElementLaw law = ElementLawOf(young, poisson, 0.0);
   law.plane_stress = 1;
   const double eps = 1e-7;
-  const Tensor pull = {1.0 + eps, 0.0, 0.0, 1.0 - poisson * eps};
-  const ElementStress s = ElementElasticStress(pull, TensorDeterminant(pull), law);
+  const Tensor tension = {1.0 + eps, 0.0, 0.0, 1.0 - poisson * eps};
+  const ElementStress s = ElementElasticStress(tension, TensorDeterminant(tension), law);
   CHECK(fabs(s.xx / (young * eps) - 1.0) < 1e-5, "sigma_xx %g, E eps %g", s.xx, young * eps);
   CHECK(fabs(s.yy) < 1e-5 * young * eps, "sigma_yy %g", s.yy);
-  const double j = 1.7, across = ElementThinning(j, law.mu, law.lambda);
-  const double zz = law.mu * (across - 1.0) + 0.5 * law.lambda * (j * j * across - 1.0);
+  const double j = 1.7, thickness_stretch = ElementThinning(j, law.mu, law.lambda);
+  const double zz = law.mu * (thickness_stretch - 1.0) + 0.5 * law.lambda * (j * j * thickness_stretch - 1.0);
   CHECK(fabs(zz) < 1e-14 * young, "stress across %g", zz);
 }
 
@@ -114,11 +114,11 @@ static void Membrane(double young, double length)
     const Tensor f = {c * length, -s, s * length, c};
     const ElementStress t = ElementElasticStress(f, TensorDeterminant(f), law);
     const double along = c * c * t.xx + 2.0 * c * s * t.xy + s * s * t.yy;
-    const double across = s * s * t.xx - 2.0 * c * s * t.xy + c * c * t.yy;
+    const double thickness_stretch = s * s * t.xx - 2.0 * c * s * t.xy + c * c * t.yy;
     const double shear = c * s * (t.yy - t.xx) + (c * c - s * s) * t.xy;
-    CHECK(fabs(along - young * (length - 1.0)) + fabs(across) + fabs(shear) <
+    CHECK(fabs(along - young * (length - 1.0)) + fabs(thickness_stretch) + fabs(shear) <
               4e-15 * young * (1.0 + 1.0 / length),
-          "stretch %g: T = %.16g E, across %g, shear %g", length, along / young, across / young,
+          "stretch %g: T = %.16g E, across %g, shear %g", length, along / young, thickness_stretch / young,
           shear / young);
   }
 }
@@ -126,10 +126,11 @@ static void Membrane(double young, double length)
 /* Plane stress's thickness: with it the law in space, T_33 = 2 mu (l_3 - 1) + lambda (tr U + l_3 - 3), is free. */
 static void CorotatedSheet(ElementLaw law, Tensor f)
 {
-  const double across = ElementThicknessStretch(f, TensorDeterminant(f), law);
+  const double thickness_stretch = ElementThicknessStretch(f, TensorDeterminant(f), law);
   const Tensor r = RotationOf(f);
   const double trace = r.xx * f.xx + r.xy * f.xy + r.yx * f.yx + r.yy * f.yy;
-  const double free_stress = 2.0 * law.mu * (across - 1.0) + law.lambda * (trace + across - 3.0);
+  const double free_stress =
+      2.0 * law.mu * (thickness_stretch - 1.0) + law.lambda * (trace + thickness_stretch - 3.0);
   CHECK(fabs(free_stress) < 1e-14 * law.mu, "stress across the plane %g", free_stress);
 }
 

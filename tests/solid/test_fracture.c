@@ -131,7 +131,7 @@ static PetscErrorCode Balance(void)
 
 /* Plane stress, 0.4 m thick, one side prescribed along the bar only: it breaks there too, and all parts of
  * the prescribed nodes follow; a bar's energy is G_f times width and thickness. */
-static PetscErrorCode DrivenSheet(void)
+static PetscErrorCode PulledSheet(void)
 {
   static const double row[3] = {0.0, -3.0, 0.0};
   const BoundaryMotion prescribed = {"left", {{1, 0}, 1, row, 0.0}};
@@ -256,6 +256,6 @@ int main(int argc, char **argv)
   PetscCall(Balance());
   PetscCall(Collision());
   PetscCall(Intact());
-  PetscCall(DrivenSheet());
+  PetscCall(PulledSheet());
   return PetscFinalize();
 }

@@ -14,7 +14,7 @@ static JointLaw Law(double mode_one, double mode_two)
 }
 
 /* The opening or slip at which one mode alone has damage D, from activation on. */
-static double Reach(const JointLaw *law, int mode, double damage)
+static double OpeningRange(const JointLaw *law, int mode, double damage)
 {
   return damage * law->energy[mode] / (JOINT_SOFTENING_AREA * STRENGTH[mode]);
 }
@@ -30,7 +30,8 @@ static double Work(const JointLaw *law, double angle, int bent)
   CHECK(fabs(end.strong - 1.0) < 1e-12, "strength %g", end.strong);
   for (int k = 1; k <= STEPS; k++) {
     const double part = (bent ? 3.0 : 1.1) * k / STEPS, slip_part = bent ? fmin(0.3, 2.0 * part) : part;
-    const double next_o = x * Reach(law, 0, part), next_s = y * Reach(law, 1, slip_part), damage = end.damage;
+    const double next_o = x * OpeningRange(law, 0, part), next_s = y * OpeningRange(law, 1, slip_part),
+                 damage = end.damage;
     const JointTraction now = JointTractionAt(law, &end, next_o, next_s);
     work +=
         0.5 * (before.normal + now.normal) * (next_o - o) + 0.5 * (before.shear + now.shear) * (next_s - s);
@@ -160,8 +161,8 @@ static void Stiffness(void)
   const double at[3][2] = {{0.5, 0.4}, {0.1, 0.8}, {-0.1, 0.3}}; /* opening and slip in reaches */
   for (int k = 0; k < 3; k++) {
     JointEnd end[2] = {JointBegin(&law, STRENGTH[0], 0.0), {.strong = 0.0}};
-    JointShape shape = {.opening = {at[k][0] * Reach(&law, 0, 1.0), 0.0},
-                        .slip = {at[k][1] * Reach(&law, 1, 1.0), 0.0}};
+    JointShape shape = {.opening = {at[k][0] * OpeningRange(&law, 0, 1.0), 0.0},
+                        .slip = {at[k][1] * OpeningRange(&law, 1, 1.0), 0.0}};
     const double way[2] = {-1e-4 * fabs(shape.opening[0]) - 1e-10, -1e-4 * shape.slip[0]};
     const JointTraction far = JointTractionAt(&law, &end[0], shape.opening[0], shape.slip[0]);
     const JointTraction near =
@@ -215,7 +216,7 @@ static void FrictionCase(void)
 {
   JointLaw law = Law(120.0, 300.0);
   law.friction = 0.7;
-  const double p = 5e6, bears = STRENGTH[1] + 0.7 * p, other_weight = Reach(&law, 1, 1.0);
+  const double p = 5e6, bears = STRENGTH[1] + 0.7 * p, other_weight = OpeningRange(&law, 1, 1.0);
   for (int sign = -1; sign <= 1; sign += 2) {
     CHECK(JointLoad(&law, -p, 0.999 * sign * bears) < 1.0 && JointLoad(&law, -p, 1.001 * sign * bears) > 1.0,
           "bears %g Pa", bears);

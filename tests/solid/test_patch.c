@@ -58,14 +58,16 @@ static void ExactStress(const double f[4], int plane_stress, double stress[3])
 {
   const double mu = E / (2.0 * (1.0 + NU)), lambda = NU * E / ((1.0 + NU) * (1.0 - 2.0 * NU));
   const double plane = f[0] * f[3] - f[1] * f[2];
-  double low = 0.1, high = 10.0, across = 1.0;
+  double low = 0.1, high = 10.0, thickness_stretch = 1.0;
   while (plane_stress && high - low > 1e-15) {
-    across = 0.5 * (low + high);
-    const double j = plane * across;
-    *(mu / j * (across * across - 1.0) + 0.5 * lambda * (j - 1.0 / j) > 0.0 ? &high : &low) = across;
-    if (across <= low && across >= high) break;
+    thickness_stretch = 0.5 * (low + high);
+    const double j = plane * thickness_stretch;
+    *(mu / j * (thickness_stretch * thickness_stretch - 1.0) + 0.5 * lambda * (j - 1.0 / j) > 0.0 ? &high
+                                                                                                  : &low) =
+        thickness_stretch;
+    if (thickness_stretch <= low && thickness_stretch >= high) break;
   }
-  const double j = plane * across, volumetric = 0.5 * lambda * (j - 1.0 / j);
+  const double j = plane * thickness_stretch, volumetric = 0.5 * lambda * (j - 1.0 / j);
   stress[0] = mu / j * (f[0] * f[0] + f[1] * f[1] - 1.0) + volumetric;
   stress[1] = mu / j * (f[2] * f[2] + f[3] * f[3] - 1.0) + volumetric;
   stress[2] = mu / j * (f[0] * f[2] + f[1] * f[3]);
@@ -135,10 +137,10 @@ int main(int argc, char **argv)
 {
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   for (Law law = STRAIN; law < NLAWS; law++) {
-    const double pull[4] = {1.2, 0.0, 0.0, 0.93}, shear[4] = {1.0, 0.3, 0.0, 1.0},
+    const double tension[4] = {1.2, 0.0, 0.0, 0.93}, shear[4] = {1.0, 0.3, 0.0, 1.0},
                  all[4] = {1.3, 0.4, -0.2, 0.9};
     PetscCall(Rotation(law));
-    PetscCall(Affine(pull, law));
+    PetscCall(Affine(tension, law));
     PetscCall(Affine(shear, law));
     PetscCall(Affine(all, law));
   }

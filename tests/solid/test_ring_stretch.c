@@ -37,7 +37,7 @@ static Point RestCentred(const SolidView *v, int n)
 static double Across(Solid s)
 {
   const SolidView v = ViewOf(s, NULL, NULL);
-  double *stress = malloc(3 * (size_t)v.nelements * sizeof *stress), across = 0.0, along = 0.0;
+  double *stress = malloc(3 * (size_t)v.nelements * sizeof *stress), thickness_stretch = 0.0, along = 0.0;
   SolidStress(s, stress);
   for (int e = 0; e < v.nelements; e++) {
     Point r = {0.0, 0.0};
@@ -47,11 +47,11 @@ static double Across(Solid s)
     }
     const double nx = STRETCH[1] * r.x / hypot(STRETCH[1] * r.x, STRETCH[0] * r.y);
     const double ny = STRETCH[0] * r.y / hypot(STRETCH[1] * r.x, STRETCH[0] * r.y), *t = stress + 3 * e;
-    across = fmax(across, fabs(t[0] * nx * nx + 2.0 * t[2] * nx * ny + t[1] * ny * ny));
+    thickness_stretch = fmax(thickness_stretch, fabs(t[0] * nx * nx + 2.0 * t[2] * nx * ny + t[1] * ny * ny));
     along = fmax(along, fabs(t[0] * ny * ny - 2.0 * t[2] * nx * ny + t[1] * nx * nx));
   }
   free(stress);
-  return across / along;
+  return thickness_stretch / along;
 }
 
 /* Within the nodes that lie in the wall's middle at rest; the mesh has them row by row. */
@@ -136,7 +136,7 @@ static PetscErrorCode Ring(Law law, double poisson, double thickness, int affine
   double hoop[2], within[2];
   PetscCall(Build(law, poisson, wall, affine, &mesh, &a, &s));
   const int sides = mesh.nb / 2;
-  const double across = Across(s), area = AreaWithin(&mesh, &a) / (M_PI * RADIUS * RADIUS * 1.5);
+  const double thickness_stretch = Across(s), area = AreaWithin(&mesh, &a) / (M_PI * RADIUS * RADIUS * 1.5);
   const ElementLaw l = MaterialLaw(&a.material[0]);
   const double period = 2.0 * wall / sqrt((l.lambda + 2.0 * l.mu) / DENSITY);
   PetscCall(LetGo(s, sides, period, hoop, within));
@@ -145,16 +145,17 @@ static PetscErrorCode Ring(Law law, double poisson, double thickness, int affine
     printf("law %d, nu %.1f, h/R %.3f%s: across %.3f h/R; within the wall %.4f, later %.4f of the hoop's "
            "energy, which "
            "grows by %.2f and is %.4f of a membrane's\n",
-           law, poisson, thickness, affine ? ", affine" : "", across / thickness, within[0] / hoop[0],
-           within[1] / hoop[1], hoop[1] / hoop[0], hoop[0] / membrane);
+           law, poisson, thickness, affine ? ", affine" : "", thickness_stretch / thickness,
+           within[0] / hoop[0], within[1] / hoop[1], hoop[1] / hoop[0], hoop[0] / membrane);
   CHECK(fabs(area - 1.0) < 1e-13, "area off by %g", area - 1.0);
   if (affine) {
-    CHECK(across > 0.5 && within[1] > 5.0 * hoop[1], "an affine ring does not ring: %g %g", across,
-          within[1] / hoop[1]);
+    CHECK(thickness_stretch > 0.5 && within[1] > 5.0 * hoop[1], "an affine ring does not ring: %g %g",
+          thickness_stretch, within[1] / hoop[1]);
   } else {
     /* bending changes the stretch along by up to h/4R at the faces, (kappa - 1/R) h/2 at the ellipse's ends
      */
-    CHECK(across < 0.5 * thickness, "%g h/R of the stress along the wall acts across", across / thickness);
+    CHECK(thickness_stretch < 0.5 * thickness, "%g h/R of the stress along the wall acts across",
+          thickness_stretch / thickness);
     CHECK(within[0] < 0.06 * hoop[0] && within[1] < 0.02 * hoop[1],
           "within the wall %g and %g of the hoop's energy", within[0] / hoop[0], within[1] / hoop[1]);
     CHECK(fabs(hoop[1] / (4.0 * hoop[0]) - 1.0) < 0.06, "the hoop's energy grows by %g", hoop[1] / hoop[0]);
