@@ -1,7 +1,27 @@
 #include "fluid/momentum.h"
-#include "fluid/element_matrix.h"
 #include "fluid/momentum_impl.h"
 #include "fluid/solver_options.h"
+
+/* MATOP_MULT */
+static PetscErrorCode Apply(Mat matrix, Vec x, Vec y)
+{
+  MomentumOperator *op;
+  PetscFunctionBeginUser;
+  PetscCall(MatShellGetContext(matrix, &op));
+  PetscCall(MomentumOperatorApply(op, x, y));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CreateMatrix(MomentumSolver s, Vec like)
+{
+  const PetscInt n = 6 * s->domain->mesh->ne;
+  PetscFunctionBeginUser;
+  PetscCall(MomentumOperatorCreate(s->domain, like, &s->op));
+  PetscCall(
+      MatCreateShell(s->domain->mesh->comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, &s->op, &s->matrix));
+  PetscCall(MatShellSetOperation(s->matrix, MATOP_MULT, (void (*)(void))Apply));
+  PetscFunctionReturn(0);
+}
 
 static PetscErrorCode CreateSolver(MomentumSolver s)
 {
@@ -13,7 +33,7 @@ static PetscErrorCode CreateSolver(MomentumSolver s)
   PetscCall(KSPSetType(s->ksp, KSPGMRES));
   PetscCall(KSPSetTolerances(s->ksp, 1e-6, 1e-50, 1e5, 500));
   PetscCall(KSPSetInitialGuessNonzero(s->ksp, PETSC_TRUE));
-  PetscCall(PreconditionerCreate(m, s->ksp, &s->preconditioner));
+  PetscCall(PreconditionerCreate(&s->op, s->ksp, &s->preconditioner));
   PetscCall(KSPSetFromOptions(s->ksp));
   PetscFunctionReturn(0);
 }
@@ -28,8 +48,7 @@ PetscErrorCode MomentumSolverCreate(const FluidDomain *domain, const MomentumSet
   s->setup = *setup;
   PetscCall(VecDuplicate(like, &s->load));
   PetscCall(VecDuplicate(like, &s->product));
-  PetscCall(ElementMatrixCreate(domain->mesh, 6, &s->matrix));
-  PetscCall(ElementMatrixSlots(domain->mesh, s->matrix, &s->slot));
+  PetscCall(CreateMatrix(s, like));
   PetscCall(CreateSolver(s));
   *solver = s;
   PetscFunctionReturn(0);
@@ -44,7 +63,7 @@ PetscErrorCode MomentumSolverDestroy(MomentumSolver *solver)
   PetscCall(VecDestroy(&s->product));
   PetscCall(MatDestroy(&s->matrix));
   PetscCall(KSPDestroy(&s->ksp));
-  PetscCall(PetscFree(s->slot));
+  PetscCall(MomentumOperatorDestroy(&s->op));
   PetscCall(PreconditionerDestroy(&s->preconditioner));
   PetscCall(PetscFree(*solver));
   PetscFunctionReturn(0);
@@ -60,7 +79,7 @@ PetscErrorCode MomentumSolverSolve(MomentumSolver s, const MomentumStep *step, V
     PetscCall(MatMult(s->matrix, step->u, s->product));
     PetscCall(VecAXPY(s->load, -w, s->product));
   }
-  PetscCall(PreconditionerUpdate(s->preconditioner, s->ksp, s->matrix));
+  PetscCall(PreconditionerUpdate(s->preconditioner));
   const double assembled = MPI_Wtime();
   PetscCall(SolverSolve(s->ksp, "momentum", step->t, s->load, u_star, &report->iterations));
   report->seconds_assembly = assembled - start;
