@@ -10,12 +10,13 @@ struct MomentumSolver_s {
   MomentumSetup setup;
   MomentumOperator op;
   Mat matrix; /* MATSHELL of op */
-  Vec load, product;
+  Vec load, product, sum;
   KSP ksp;
+  PetscReal tolerance; /* relative, of the velocity */
   Preconditioner preconditioner;
 };
 
-/* Operator and load of a step, but for the part of A u^n: the load still lacks -(1 - theta)/theta A u^n.
+/* Operator and load of a step; the load still lacks -(1 - theta)/theta A u^n.
  * momentum_assembly.c */
 PetscErrorCode MomentumAssemble(MomentumSolver s, const MomentumStep *step);
 #endif

@@ -28,6 +28,7 @@ typedef struct {
   double diffusion;    /* largest theta mu dt/(rho |K|) of this rank's elements */
   double *theta_mu;    /* [ne + ng] theta times viscosity, Pa s */
   double (*stress)[4]; /* [ne + ng] scratch: C's stress, column-major */
+  PetscBool alone;     /* one rank: there are no ghosts */
   Vec ghosted;         /* scratch: an argument with its ghosts */
 } MomentumOperator;
 

@@ -29,6 +29,7 @@ static inline void Relax(const Preconditioner p, int e, int below, const double 
 static PetscErrorCode UpdateGhosts(Preconditioner p)
 {
   PetscFunctionBeginUser;
+  if (p->op->alone) PetscFunctionReturn(0);
   PetscCall(VecGhostUpdateBegin(p->work, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGhostUpdateEnd(p->work, INSERT_VALUES, SCATTER_FORWARD));
   PetscFunctionReturn(0);
@@ -50,23 +51,24 @@ static PetscErrorCode Precondition(Preconditioner p, const double r[], double z[
   PetscFunctionReturn(0);
 }
 
-/* PCSHELL */
+/* PCSHELL.  On one rank z itself takes the place of p->work. */
 static PetscErrorCode Apply(PC shell, Vec r, Vec z)
 {
   Preconditioner p;
   const PetscScalar *from;
   PetscScalar *to;
-  Vec local;
+  Vec local = z;
   PetscFunctionBeginUser;
   PetscCall(PCShellGetContext(shell, &p));
   PetscCall(VecGetArrayRead(r, &from));
-  PetscCall(VecGhostGetLocalForm(p->work, &local));
+  if (!p->op->alone) PetscCall(VecGhostGetLocalForm(p->work, &local));
   PetscCall(VecGetArray(local, &to));
   double *array = to; /* stays where it is while ghosts are updated */
   PetscCall(VecRestoreArray(local, &to));
   PetscCall(Precondition(p, from, array));
-  PetscCall(VecGhostRestoreLocalForm(p->work, &local));
   PetscCall(VecRestoreArrayRead(r, &from));
+  if (p->op->alone) PetscFunctionReturn(0);
+  PetscCall(VecGhostRestoreLocalForm(p->work, &local));
   PetscCall(VecCopy(p->work, z));
   PetscFunctionReturn(0);
 }
