@@ -2,7 +2,7 @@
 #include "common/supermesh/geometry.h"
 
 /* sum += size * (1, mean velocity of the n nodes) */
-static void AddSimplex(const ServerSolid *solid, int n, const int node[], double size, double sum[3])
+static void AddSimplex(const SolidState *solid, int n, const int node[], double size, double sum[3])
 {
   sum[0] += size;
   for (int i = 0; i < n; i++) {
@@ -10,7 +10,7 @@ static void AddSimplex(const ServerSolid *solid, int n, const int node[], double
   }
 }
 
-PetscErrorCode BulkMotionOf(MPI_Comm comm, const ServerSolid *solid, BulkMotion *motion)
+PetscErrorCode BulkMotionOf(MPI_Comm comm, const SolidState *solid, BulkMotion *motion)
 {
   double sum[8] = {0.0};
 
@@ -32,26 +32,5 @@ PetscErrorCode BulkMotionOf(MPI_Comm comm, const ServerSolid *solid, BulkMotion 
   for (int c = 0; c < 2; c++) motion->velocity[c] = mean[0] != 0.0 ? mean[1 + c] / mean[0] : 0.0;
   motion->nelements = (long long)sum[6];
   motion->nfacets = (long long)sum[7];
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode BulkMotionOnStart(const ServerSolid *solid, const double value[], int n, double start[])
-{
-  double(*sum)[3];
-
-  PetscFunctionBeginUser;
-  if (!solid->before) {
-    PetscCall(PetscArraycpy(start, value, 2 * (size_t)n));
-    PetscFunctionReturn(0);
-  }
-  PetscCall(PetscCalloc1((size_t)n, &sum));
-  for (int k = 0; k < 3 * solid->nelements; k++) {
-    double *s = sum[solid->before[k]];
-    for (int c = 0; c < 2; c++) s[c] += value[2 * solid->element[k] + c];
-    s[2] += 1.0;
-  }
-  for (int i = 0; i < n; i++)
-    for (int c = 0; c < 2; c++) start[2 * i + c] = sum[i][2] > 0.0 ? sum[i][c] / sum[i][2] : start[2 * i + c];
-  PetscCall(PetscFree(sum));
   PetscFunctionReturn(0);
 }

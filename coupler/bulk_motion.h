@@ -1,7 +1,7 @@
-/* How the solid as a whole moves. */
-#ifndef CORACLE_MOTION_H
-#define CORACLE_MOTION_H
-#include "common/link/server.h"
+/* The bulk motion of the solid: mean velocity and size over all ranks. */
+#ifndef CORACLE_BULK_MOTION_H
+#define CORACLE_BULK_MOTION_H
+#include "coupler/solid_state.h"
 #include <petscsys.h>
 
 typedef struct {
@@ -9,10 +9,6 @@ typedef struct {
   long long nelements, nfacets; /* on all ranks */
 } BulkMotion;
 
-/* Collective.  Every element is given by one rank, so nodes shared by ranks count once. */
-PetscErrorCode BulkMotionOf(MPI_Comm comm, const ServerSolid *solid, BulkMotion *motion);
-/* Not collective: what the solid's nodes have, value[nnodes][2], on the nodes that the step began with,
- * start[n][2]: where cracks have split one, the mean over the corners of its elements.  Nodes without
- * elements keep what is there in start. */
-PetscErrorCode BulkMotionOnStart(const ServerSolid *solid, const double value[], int n, double start[]);
+/* Collective.  Integrals over elements (or facets), each of which is on one rank: shared nodes count once. */
+PetscErrorCode BulkMotionOf(MPI_Comm comm, const SolidState *solid, BulkMotion *motion);
 #endif

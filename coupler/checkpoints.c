@@ -81,7 +81,7 @@ static PetscErrorCode Publish(const Checkpoints *k)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CheckpointsAsk(Checkpoints *k, long long steps, PetscBool end)
+PetscErrorCode CheckpointsRequest(Checkpoints *k, long long steps, PetscBool end)
 {
   PetscBool root;
   int due;

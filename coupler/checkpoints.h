@@ -1,11 +1,12 @@
-/* When checkpoints are made, and where they are:
+/* Checkpoints of the whole run: when they are made, and where they are.
  *
- *     <output.folder>/checkpoint -> checkpoint.1234   the last whole one, made after 1234 steps
- *                     checkpoint.1234/fluid.h5 coupler.h5 solid.h5    or what else clients save; .state (link)
- *                                     fluid.seconds ..                what they have used
+ *     <output.folder>/checkpoint -> checkpoint.1234      the last complete one, made after 1234 steps
+ *                     checkpoint.1234/fluid.h5, ..       what each participant saves; <role>.state (link)
+ *                     checkpoint.1234/fluid.seconds, ..  CPU seconds used by each participant so far
  *
- * A new one is made beside it in a step in which all participants save; the link is then moved, which
- * happens at once or not at all, and the old one removed.  A run that is killed leaves a whole checkpoint. */
+ * A new one is made beside it in a step in which all participants save; then the symbolic link is replaced,
+ * which is atomic, and the old one removed: a run that is killed leaves a complete checkpoint.
+ * All functions are collective. */
 #ifndef CORACLE_CHECKPOINTS_H
 #define CORACLE_CHECKPOINTS_H
 #include "common/link/server.h"
@@ -14,17 +15,17 @@
 typedef struct {
   MPI_Comm comm;
   Server server;        /* borrowed */
-  const char *folder;   /* the output's, borrowed */
-  double every, last;   /* seconds between two, 0: none; clock when the last was made */
-  char due[600];        /* the one in the step in hand, or "" */
+  const char *folder;   /* output.folder, borrowed */
+  double every, last;   /* wall-clock seconds: between two (0: none), and when the last was made */
+  char due[600];        /* folder of the one due in the current step, or "" */
   PetscBool impossible; /* a participant saves nothing */
 } Checkpoints;
 
-/* All collective.  A run that goes on from none of this folder's checkpoints removes them. */
+/* Removes the folder's checkpoints unless the run resumes from one of them. */
 PetscErrorCode CheckpointsCreate(MPI_Comm comm, Server server, const CouplerCase *c, Checkpoints *k);
-/* Before the step after `steps`, or the end, is sent: if it is time, has all clients save, and `due` is
- * where to save, too. */
-PetscErrorCode CheckpointsAsk(Checkpoints *k, long long steps, PetscBool end);
-/* After that step, or when all clients have closed. */
+/* Before the step after `steps` steps, or the end, is sent: if a checkpoint is due, requests it from all clients
+ * and sets `due`. */
+PetscErrorCode CheckpointsRequest(Checkpoints *k, long long steps, PetscBool end);
+/* After that step, or when all clients have closed: publishes the checkpoint if all have saved. */
 PetscErrorCode CheckpointsFinish(Checkpoints *k);
 #endif

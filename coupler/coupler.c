@@ -1,9 +1,5 @@
 #include "coupler/coupler_impl.h"
 
-const char *const COUPLER_MODES[] = {"reaction", "stress_shell", "penalty_shell", NULL};
-static const CouplerActions *const ACTIONS[] = {&COUPLER_ACTIONS_REACTION, &COUPLER_ACTIONS_STRESS_SHELL,
-                                                &COUPLER_ACTIONS_PENALTY_SHELL};
-
 PetscErrorCode CouplerCreate(MPI_Comm comm, const CouplerOptions *options, Coupler *coupler)
 {
   Coupler c;
@@ -12,7 +8,7 @@ PetscErrorCode CouplerCreate(MPI_Comm comm, const CouplerOptions *options, Coupl
   PetscCall(PetscNew(&c));
   c->comm = comm;
   c->options = *options;
-  c->actions = ACTIONS[options->mode];
+  c->mode = CouplerModeGet(options->mode);
   PetscCall(ShellCreate(comm, options->thickness, &c->shell));
   PetscCall(OverlapCreate(comm, &c->overlap));
   *coupler = c;
@@ -44,7 +40,7 @@ static PetscErrorCode MeanViscosity(Coupler c, double *mean)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CouplerSetElements(Coupler c, const ServerElements *elements)
+PetscErrorCode CouplerSetElements(Coupler c, const FluidElements *elements)
 {
   double mean, *mu;
 
@@ -66,27 +62,28 @@ PetscErrorCode CouplerSetElements(Coupler c, const ServerElements *elements)
 static PetscErrorCode FreeStep(Coupler c)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscFree2(c->weight, c->coupling));
-  PetscCall(PetscFree5(c->vertex, c->now, c->firmness, c->node, c->force));
+  PetscCall(PetscFree2(c->coefficient, c->coupling));
+  PetscCall(PetscFree5(c->vertex, c->start_velocity, c->implicit_factor, c->node, c->force));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode NewStep(Coupler c, const ServerSolid *solid)
+static PetscErrorCode NewStep(Coupler c, const SolidState *solid)
 {
   const Overlap o = c->overlap;
-  const size_t npieces = (size_t)o->npieces, nnodes = (size_t)solid->nnodes;
+  const size_t nsources = (size_t)o->nsources, nnodes = (size_t)solid->nnodes;
 
   PetscFunctionBeginUser;
   PetscCall(FreeStep(c));
-  PetscCall(PetscMalloc2(o->pairs.n, &c->weight, o->nentries, &c->coupling));
-  PetscCall(PetscMalloc5(3 * npieces, &c->vertex, npieces, &c->now, npieces, &c->firmness, nnodes, &c->node,
-                         2 * nnodes, &c->force));
-  for (size_t t = 0; t < npieces; t++) c->firmness[t] = 1.0;
-  for (size_t t = 0; t < npieces; t++) PetscCall(PetscArraycpy(&c->now[t][0][0], &o->piece[t].u[0][0], 6));
+  PetscCall(PetscMalloc2(o->pairs.n, &c->coefficient, o->ncoupled, &c->coupling));
+  PetscCall(PetscMalloc5(3 * nsources, &c->vertex, nsources, &c->start_velocity, nsources,
+                         &c->implicit_factor, nnodes, &c->node, 2 * nnodes, &c->force));
+  for (size_t t = 0; t < nsources; t++) c->implicit_factor[t] = 1.0;
+  for (size_t t = 0; t < nsources; t++)
+    PetscCall(PetscArraycpy(&c->start_velocity[t][0][0], &o->source[t].u[0][0], 6));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CouplerBuild(Coupler c, const ServerSolid *solid, double dt, int *n,
+PetscErrorCode CouplerBuild(Coupler c, const SolidState *solid, double dt, int *n,
                             const CoracleCoupling **coupling)
 {
   PetscFunctionBeginUser;
@@ -97,9 +94,9 @@ PetscErrorCode CouplerBuild(Coupler c, const ServerSolid *solid, double dt, int 
   c->built = 1;
   c->nnodes = solid->nnodes;
   c->us = solid->u;
-  PetscCall(c->actions->weigh(c, solid));
-  WallTermAssemble(c->overlap, c->weight, c->firmness, c->coupling);
-  *n = c->overlap->nentries;
+  PetscCall(c->mode->coefficients(c, solid));
+  WallTermAssemble(c->overlap, c->coefficient, c->implicit_factor, c->coupling);
+  *n = c->overlap->ncoupled;
   *coupling = c->coupling;
   PetscFunctionReturn(0);
 }
@@ -108,75 +105,76 @@ PetscErrorCode CouplerSetInterfaceVelocity(Coupler c, const double mobility[], c
                                            const CoracleCoupling **coupling)
 {
   const Overlap o = c->overlap;
-  double(*aim)[3][2], (*gives)[3];
+  double(*velocity)[3][2], (*node_mobility)[3];
 
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2(o->npieces, &aim, o->npieces, &gives));
-  PetscCall(OverlapNodesToPieces(o, 2, u, &aim[0][0][0]));
-  PetscCall(OverlapNodesToPieces(o, 1, mobility, &gives[0][0]));
-  for (int t = 0; t < o->npieces; t++)
+  PetscCall(PetscMalloc2(o->nsources, &velocity, o->nsources, &node_mobility));
+  PetscCall(OverlapNodesToSources(o, 2, u, &velocity[0][0][0]));
+  PetscCall(OverlapNodesToSources(o, 1, mobility, &node_mobility[0][0]));
+  for (int t = 0; t < o->nsources; t++)
     for (int i = 0; i < 3; i++)
-      if (gives[t][i] == 0.0) PetscCall(PetscArraycpy(o->piece[t].u[i], aim[t][i], 2));
-  PetscCall(PetscFree2(aim, gives));
+      if (node_mobility[t][i] == 0.0) PetscCall(PetscArraycpy(o->source[t].u[i], velocity[t][i], 2));
+  PetscCall(PetscFree2(velocity, node_mobility));
   c->us = u;
-  WallTermAssemble(o, c->weight, c->firmness, c->coupling);
-  *n = o->nentries;
+  WallTermAssemble(o, c->coefficient, c->implicit_factor, c->coupling);
+  *n = o->ncoupled;
   *coupling = c->coupling;
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CouplerReact(Coupler c, const ServerFlow *flow, const double **force, ForceTotals *totals)
+PetscErrorCode CouplerComputeForce(Coupler c, const FluidFlow *flow, const double **force,
+                                   ForceTotals *totals)
 {
   PetscFunctionBeginUser;
   c->flow = *flow;
   PetscCall(PetscArraycpy(c->mu, flow->mu, c->overlap->nelements));
-  PetscCall(PetscArrayzero(c->vertex, 3 * (size_t)c->overlap->npieces));
-  PetscCall(c->actions->react(c));
+  PetscCall(PetscArrayzero(c->vertex, 3 * (size_t)c->overlap->nsources));
+  PetscCall(c->mode->force(c));
   for (int i = 0; i < c->nnodes; i++) {
-    for (int d = 0; d < 2; d++) c->force[2 * i + d] = c->node[i].reaction[d] + c->node[i].rest[d];
+    for (int d = 0; d < 2; d++) c->force[2 * i + d] = c->node[i].reaction[d] + c->node[i].other[d];
   }
   PetscCall(ForceSum(c->overlap, c->coupling, flow, c->nnodes, c->node, totals));
   *force = c->force;
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CouplerNoCorrection(Coupler c, const ServerSolid *moved)
+PetscErrorCode CouplerNoCorrection(Coupler c, const SolidState *moved)
 {
   PetscFunctionBeginUser;
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CouplerReactConserving(Coupler c)
+PetscErrorCode CouplerConservativeForce(Coupler c)
 {
   PetscFunctionBeginUser;
-  ForceReaction(c->overlap, c->weight, c->firmness, &c->flow, c->vertex);
-  ForceInertia(c->overlap, c->dt, c->options.gravity, c->flow.u_plus, (const double(*)[3][2])c->now,
-               c->vertex);
+  ForceReaction(c->overlap, c->coefficient, c->implicit_factor, &c->flow, c->vertex);
+  ForceInertia(c->overlap, c->dt, c->options.gravity, c->flow.u_plus,
+               (const double(*)[3][2])c->start_velocity, c->vertex);
   PetscCall(ForceAssembleToOwners(c->overlap, c->vertex, c->nnodes, c->node));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CouplerFillSolid(Coupler c, const ServerSolid *moved)
+PetscErrorCode CouplerSolidCorrection(Coupler c, const SolidState *moved)
 {
   double(*u)[3][2];
 
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(c->overlap->npieces, &u));
-  PetscCall(OverlapNodesToPieces(c->overlap, 2, moved->u, &u[0][0][0]));
+  PetscCall(PetscMalloc1(c->overlap->nsources, &u));
+  PetscCall(OverlapNodesToSources(c->overlap, 2, moved->u, &u[0][0][0]));
   ForceCorrection(c->overlap, (const double(*)[3][2])u, c->flow.u_plus, c->correction);
   PetscCall(PetscFree(u));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CouplerCorrect(Coupler c, const ServerSolid *moved, int *n,
+PetscErrorCode CouplerCorrect(Coupler c, const SolidState *moved, int *n,
                               const CoracleCorrection **correction)
 {
   PetscFunctionBeginUser;
   PetscCall(PetscFree(c->correction));
-  PetscCall(PetscCalloc1(c->overlap->nentries, &c->correction));
-  for (int e = 0; e < c->overlap->nentries; e++) c->correction[e].element = c->overlap->element[e];
-  PetscCall(moved->changed ? CouplerNoCorrection(c, moved) : c->actions->correct(c, moved));
-  *n = c->overlap->nentries;
+  PetscCall(PetscCalloc1(c->overlap->ncoupled, &c->correction));
+  for (int e = 0; e < c->overlap->ncoupled; e++) c->correction[e].element = c->overlap->coupled_element[e];
+  PetscCall(moved->changed ? CouplerNoCorrection(c, moved) : c->mode->correct(c, moved));
+  *n = c->overlap->ncoupled;
   *correction = c->correction;
   PetscFunctionReturn(0);
 }

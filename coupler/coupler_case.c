@@ -2,13 +2,17 @@
 #include <math.h>
 #include <stdio.h>
 
+/* Refuses a key of earlier versions and names the new one. */
+static void Renamed(Case file, const char *old, const char *new)
+{
+  if (CaseHas(file, old)) CaseRefuse(file, old, "is called %s now", new);
+}
+
 static void ReadOptions(Case file, CouplerOptions *o)
 {
   o->mode = (CouplerMode)CaseWord(file, "coupler.mode", COUPLER_REACTION, COUPLER_MODES);
   o->thickness = CasePositive(file, "coupler.shell_thickness");
-  o->relaxation = CaseNumberOr(file, "coupler.relaxation", 10.0, 0.0, HUGE_VAL);
-  if (o->relaxation <= 0.0)
-    CaseRefuse(file, "coupler.relaxation", "expected a number > 0, found %g", o->relaxation);
+  CouplerModesReadOptions(file, o);
   CaseVector(file, "gravity", 2, o->gravity);
   /* The fluid tells its viscosity with its first flow; until then a single-phase fluid's is the case file's.
    */
@@ -30,7 +34,8 @@ PetscErrorCode CouplerCaseRead(Case file, CouplerCase *c)
   /* the fluid's, read here so that the whole section can be checked */
   (void)CaseNumberOr(file, "time.cfl", 0.5, 0.0, HUGE_VAL);
   ReadOptions(file, &c->options);
-  c->tries = CaseIntegerOr(file, "coupler.tries", 1, 1, 1000);
+  Renamed(file, "coupler.tries", "coupler.max_iterations");
+  c->max_iterations = CaseIntegerOr(file, "coupler.max_iterations", 1, 1, 1000);
   c->tolerance = CaseNumberOr(file, "coupler.tolerance", 1e-4, 1e-12, 1.0);
   PetscCall(PetscOptionsInsertString(NULL, CaseStringOr(file, "coupler.petsc", "")));
   PetscCall(CaseFinish(file, SECTIONS));

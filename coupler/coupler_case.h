@@ -7,9 +7,9 @@
 typedef struct {
   char name[128], note[512], folder[512];
   double end, dt_max, every; /* s */
-  double checkpoint;         /* seconds by the clock from one to the next, 0: none */
-  int tries;                 /* of a step, at most; 1: staggered */
-  double tolerance;          /* on the solid's velocity, when tries agree */
+  double checkpoint;         /* wall-clock seconds from one to the next, 0: none */
+  int max_iterations;        /* coupling iterations of a step; 1: staggered */
+  double tolerance;          /* of the coupling iterations, relative (coupling_iteration.h) */
   CouplerOptions options;
 } CouplerCase;
 

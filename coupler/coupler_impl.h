@@ -3,42 +3,31 @@
 #define CORACLE_COUPLER_IMPL_H
 #include "coupler/coupler.h"
 
-/* What a mode decides; each function is collective. */
-typedef struct {
-  PetscErrorCode (*weigh)(Coupler, const ServerSolid *);        /* fills weight */
-  PetscErrorCode (*react)(Coupler);                             /* fills node from flow */
-  PetscErrorCode (*correct)(Coupler, const ServerSolid *moved); /* fills correction */
-} CouplerActions;
-
 struct Coupler_s {
   MPI_Comm comm;
   CouplerOptions options;
-  const CouplerActions *actions;
+  const CouplerModeTable *mode;
   Shell shell;
   Overlap overlap;
-  double *mu;                    /* [overlap->nelements] Pa s */
-  double dt;                     /* of the step that was built, s */
-  int built, nnodes;             /* nodes at home */
-  const double *us;              /* [nnodes][2] the solid's velocity; borrowed */
-  double (*now)[3][2];           /* [overlap->npieces] the solid's when the step began */
-  double *firmness;              /* [overlap->npieces] */
-  ServerFlow flow;               /* borrowed */
-  WallWeight *weight;            /* [overlap->pairs.n] */
-  CoracleCoupling *coupling;     /* [overlap->nentries] */
-  CoracleCorrection *correction; /* [overlap->nentries] */
-  ForceVertex *vertex;           /* [overlap->npieces][3] */
-  ForceVertex *node;             /* [nnodes] */
-  double *force;                 /* [nnodes][2] */
+  double *mu;                     /* [overlap->nelements] Pa s */
+  double dt;                      /* of the step that was built, s */
+  int built, nnodes;              /* nnodes: nodes that this rank owns */
+  const double *us;               /* [nnodes][2] the velocity that the fluid couples to, m/s; borrowed */
+  double (*start_velocity)[3][2]; /* [overlap->nsources] the solid's velocity at the step's start, m/s */
+  double *implicit_factor;        /* [overlap->nsources] b (inertia.h) */
+  FluidFlow flow;                 /* borrowed */
+  WallCoefficient *coefficient;   /* [overlap->pairs.n] a */
+  CoracleCoupling *coupling;      /* [overlap->ncoupled] */
+  CoracleCorrection *correction;  /* [overlap->ncoupled] */
+  ForceVertex *vertex;            /* [overlap->nsources][3] */
+  ForceVertex *node;              /* [nnodes] */
+  double *force;                  /* [nnodes][2] N */
 };
 
-extern const CouplerActions COUPLER_ACTIONS_REACTION, COUPLER_ACTIONS_STRESS_SHELL,
-    COUPLER_ACTIONS_PENALTY_SHELL;
-
-/* The force of the modes that conserve momentum: the reaction to the weights, inertia and weight of the fluid inside. */
-PetscErrorCode CouplerReactConserving(Coupler coupler);
-/* The correction that gives the fluid inside the solid the solid's velocity; and that of modes that leave it alone. */
-PetscErrorCode CouplerFillSolid(Coupler coupler, const ServerSolid *moved);
-PetscErrorCode CouplerNoCorrection(Coupler coupler, const ServerSolid *moved);
-/* P1 values of the P2 pressure p[6] on one element: its L2 projection. */
-void CouplerPressureP1(const double p[6], double p1[3]);
+/* The force of the modes that conserve momentum (force.h): reaction, added inertia and buoyancy. */
+PetscErrorCode CouplerConservativeForce(Coupler coupler);
+/* The correction that sets the fluid inside the solid to the solid's new velocity. */
+PetscErrorCode CouplerSolidCorrection(Coupler coupler, const SolidState *moved);
+/* The correction of modes that have none: the fluid keeps its velocity. */
+PetscErrorCode CouplerNoCorrection(Coupler coupler, const SolidState *moved);
 #endif

@@ -1,23 +1,25 @@
 #include "coupler/coupling_iteration.h"
-#include "coupler/bulk_motion.h"
 
-/* Of the shell's thickness: places that differ by less at a step's end are the same. */
-#define NOTHING 1e-4
+/* Part of the shell's thickness: displacements over a step that differ by less are taken as equal. */
+#define NEGLIGIBLE_DISPLACEMENT 1e-4
 
-PetscErrorCode CouplingIterationCreate(MPI_Comm comm, int most, double tolerance, double thickness,
+PetscErrorCode CouplingIterationCreate(MPI_Comm comm, int max_iterations, double tolerance, double thickness,
                                        CouplingIteration *t)
 {
   PetscFunctionBeginUser;
-  *t = (CouplingIteration){
-      .comm = comm, .most = most, .tolerance = tolerance, .thickness = thickness, .n = -1};
-  PetscCall(QuasiNewtonCreate(comm, &t->acceleration));
+  *t = (CouplingIteration){.comm = comm,
+                           .max_iterations = max_iterations,
+                           .tolerance = tolerance,
+                           .thickness = thickness,
+                           .n = -1};
+  PetscCall(QuasiNewtonCreate(comm, &t->quasi_newton));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode FreeNodes(CouplingIteration *t)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscFree5(t->start, t->met, t->end, t->rate, t->mobility));
+  PetscCall(PetscFree5(t->start, t->iterate, t->result, t->acceleration, t->mobility));
   PetscFunctionReturn(0);
 }
 
@@ -25,34 +27,36 @@ PetscErrorCode CouplingIterationDestroy(CouplingIteration *t)
 {
   PetscFunctionBeginUser;
   PetscCall(FreeNodes(t));
-  PetscCall(QuasiNewtonDestroy(&t->acceleration));
+  PetscCall(QuasiNewtonDestroy(&t->quasi_newton));
   PetscFunctionReturn(0);
 }
 
-/* Room for the solid's nodes; those of another mesh have no past. */
-static PetscErrorCode Resize(CouplingIteration *t, const ServerSolid *solid)
+/* Storage for the solid's nodes; a changed mesh has neither an acceleration nor quasi-Newton columns. */
+static PetscErrorCode Resize(CouplingIteration *t, const SolidState *solid)
 {
   const size_t n = (size_t)solid->nnodes;
 
   PetscFunctionBeginUser;
   if (!solid->changed && t->n >= 0) PetscFunctionReturn(0);
   PetscCall(FreeNodes(t));
-  PetscCall(PetscMalloc5(2 * n, &t->start, 2 * n, &t->met, 2 * n, &t->end, 2 * n, &t->rate, n, &t->mobility));
+  PetscCall(PetscMalloc5(2 * n, &t->start, 2 * n, &t->iterate, 2 * n, &t->result, 2 * n, &t->acceleration, n,
+                         &t->mobility));
   t->n = solid->nnodes;
-  t->has_rate = PETSC_FALSE;
-  PetscCall(QuasiNewtonBegin(t->acceleration, -1));
+  t->has_acceleration = PETSC_FALSE;
+  PetscCall(QuasiNewtonBegin(t->quasi_newton, -1));
   PetscFunctionReturn(0);
 }
 
-/* Root mean square of end - start, over the nodes that take part; start NULL: 0. */
-static PetscErrorCode Rms(const CouplingIteration *t, const double start[], double *rms)
+/* Root mean square of result - reference over the nodes that take part; reference NULL: 0. */
+static PetscErrorCode Rms(const CouplingIteration *t, const double reference[], double *rms)
 {
   double sum[2] = {0.0, 0.0};
 
   PetscFunctionBeginUser;
   for (int i = 0; i < t->n; i++) {
     if (t->mobility[i] > 0.0) continue;
-    for (int k = 2 * i; k < 2 * i + 2; k++) sum[0] += PetscSqr(t->end[k] - (start ? start[k] : 0.0));
+    for (int k = 2 * i; k < 2 * i + 2; k++)
+      sum[0] += PetscSqr(t->result[k] - (reference ? reference[k] : 0.0));
     sum[1] += 1.0;
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, t->comm));
@@ -60,7 +64,7 @@ static PetscErrorCode Rms(const CouplingIteration *t, const double start[], doub
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CouplingIterationBegin(CouplingIteration *t, const ServerSolid *solid, double dt,
+PetscErrorCode CouplingIterationBegin(CouplingIteration *t, const SolidState *solid, double dt,
                                       const double **u)
 {
   const size_t n = (size_t)solid->nnodes;
@@ -69,30 +73,32 @@ PetscErrorCode CouplingIterationBegin(CouplingIteration *t, const ServerSolid *s
   PetscCall(Resize(t, solid));
   PetscCall(PetscArraycpy(t->start, solid->u, 2 * n));
   PetscCall(PetscArraycpy(t->mobility, solid->mobility, n));
-  for (size_t k = 0; k < 2 * n; k++) t->met[k] = t->start[k] + (t->has_rate ? dt * t->rate[k] : 0.0);
+  for (size_t k = 0; k < 2 * n; k++)
+    t->iterate[k] = t->start[k] + (t->has_acceleration ? dt * t->acceleration[k] : 0.0);
   t->dt = dt;
-  PetscCall(QuasiNewtonBegin(t->acceleration, 2 * solid->nnodes));
-  *u = t->met;
+  PetscCall(QuasiNewtonBegin(t->quasi_newton, 2 * solid->nnodes));
+  *u = t->iterate;
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CouplingIterationHasConverged(CouplingIteration *t, int tries, const ServerSolid *solid,
-                                             PetscBool *agree)
+PetscErrorCode CouplingIterationHasConverged(CouplingIteration *t, int iteration, const SolidState *solid,
+                                             PetscBool *converged)
 {
   double size;
 
   PetscFunctionBeginUser;
-  *agree = PETSC_TRUE;
-  if (t->most == 1 || solid->lost) PetscFunctionReturn(0);
-  PetscCall(PetscArraycpy(t->end, t->met, 2 * (size_t)t->n));
-  PetscCall(BulkMotionOnStart(solid, solid->u, t->n, t->end));
-  for (int k = 0; k < 2 * t->n; k++) t->end[k] = t->mobility[k / 2] > 0.0 ? t->met[k] : t->end[k];
-  PetscCall(Rms(t, t->met, &t->difference));
+  *converged = PETSC_TRUE;
+  if (t->max_iterations == 1 || solid->lost) PetscFunctionReturn(0);
+  PetscCall(PetscArraycpy(t->result, t->iterate, 2 * (size_t)t->n));
+  PetscCall(SolidStateOnStartNodes(solid, solid->u, t->n, t->result));
+  for (int k = 0; k < 2 * t->n; k++) t->result[k] = t->mobility[k / 2] > 0.0 ? t->iterate[k] : t->result[k];
+  PetscCall(Rms(t, t->iterate, &t->residual));
   PetscCall(Rms(t, NULL, &size));
-  /* not so for NaN */
-  *agree =
-      t->difference <= fmax(t->tolerance * size, NOTHING * t->thickness / t->dt) ? PETSC_TRUE : PETSC_FALSE;
-  if (solid->changed && tries == t->most) *agree = PETSC_TRUE;
+  /* false for NaN */
+  *converged = t->residual <= fmax(t->tolerance * size, NEGLIGIBLE_DISPLACEMENT * t->thickness / t->dt)
+                   ? PETSC_TRUE
+                   : PETSC_FALSE;
+  if (solid->changed && iteration == t->max_iterations) *converged = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
 
@@ -102,18 +108,18 @@ PetscErrorCode CouplingIterationNext(CouplingIteration *t, const double **u)
 
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(2 * (size_t)t->n, &next));
-  PetscCall(QuasiNewtonNext(t->acceleration, t->met, t->end, next));
-  PetscCall(PetscArraycpy(t->met, next, 2 * (size_t)t->n));
+  PetscCall(QuasiNewtonNext(t->quasi_newton, t->iterate, t->result, next));
+  PetscCall(PetscArraycpy(t->iterate, next, 2 * (size_t)t->n));
   PetscCall(PetscFree(next));
-  *u = t->met;
+  *u = t->iterate;
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode CouplingIterationEnd(CouplingIteration *t)
 {
   PetscFunctionBeginUser;
-  if (t->most == 1) PetscFunctionReturn(0);
-  t->has_rate = PETSC_TRUE;
-  for (int k = 0; k < 2 * t->n; k++) t->rate[k] = (t->end[k] - t->start[k]) / t->dt;
+  if (t->max_iterations == 1) PetscFunctionReturn(0);
+  t->has_acceleration = PETSC_TRUE;
+  for (int k = 0; k < 2 * t->n; k++) t->acceleration[k] = (t->result[k] - t->start[k]) / t->dt;
   PetscFunctionReturn(0);
 }

@@ -26,24 +26,26 @@ static int Alternates(DivergenceMonitor *g, const DivergenceMonitorStep *s, cons
 {
   const double size = hypot(change[0], change[1]), before = hypot(g->change[0], g->change[1]);
   const int opposite = change[0] * g->change[0] + change[1] * g->change[1] < -0.5 * size * before;
-  g->alternations = opposite && size > GUARD_GROWTH * before ? g->alternations + 1 : 0;
+  g->alternations = opposite && size > DIVERGENCE_GROWTH * before ? g->alternations + 1 : 0;
   if (g->alternations == 0) g->first = size;
-  const int fast = 2 * g->alternations >= GUARD_ALTERNATIONS && size > GUARD_TOTAL_GROWTH * g->first;
-  return (fast || g->alternations >= GUARD_ALTERNATIONS) &&
+  const int fast =
+      2 * g->alternations >= DIVERGENCE_ALTERNATIONS && size > DIVERGENCE_TOTAL_GROWTH * g->first;
+  return (fast || g->alternations >= DIVERGENCE_ALTERNATIONS) &&
          size > hypot(s->gravity[0], s->gravity[1]) * s->dt;
 }
 
-/* what, then why it may be so and what to do */
-static void Tell(const DivergenceMonitorStep *s, const double change[2], const char *what, int nmessage,
-                 char message[])
+/* what: how the velocity diverges; the message adds the likely cause and what to do. */
+static void WriteMessage(const DivergenceMonitorStep *s, const double change[2], const char *what,
+                         int nmessage, char message[])
 {
   snprintf(message, (size_t)nmessage,
            "at t = %g s the solid's velocity has become (%g, %g) m/s, %s: with a solid to fluid density "
-           "ratio of about %.2g "
-           "the added mass is too large for %s",
+           "ratio of about %.2g the added mass is too large for %s",
            s->t, s->velocity[0], s->velocity[1], what, DensityRatio(s, change),
-           s->tries > 1 ? "steps of this length; shorter ones (time.dt_max) or a heavier solid are needed"
-                        : "one try a step; a heavier solid is needed, or several tries (coupler.tries: 30)");
+           s->max_iterations > 1
+               ? "steps of this length; shorter ones (time.dt_max) or a heavier solid are needed"
+               : "a staggered exchange; a heavier solid is needed, or strong coupling "
+                 "(coupler.max_iterations: 30)");
 }
 
 int DivergenceMonitorCheck(DivergenceMonitor *g, const DivergenceMonitorStep *s, int nmessage, char message[])
@@ -59,9 +61,10 @@ int DivergenceMonitorCheck(DivergenceMonitor *g, const DivergenceMonitorStep *s,
   const int diverges = g->nsteps > 0 && Alternates(g, s, change);
   const int leaps = hypot(s->velocity[0], s->velocity[1]) * s->dt > s->extent;
   if (diverges)
-    Tell(s, change, "changing with alternating sign and growing size from step to step", nmessage, message);
+    WriteMessage(s, change, "changing with alternating sign and growing size from step to step", nmessage,
+                 message);
   else if (leaps)
-    Tell(s, change, "more than the fluid's whole domain in one step", nmessage, message);
+    WriteMessage(s, change, "more than the fluid's whole domain in one step", nmessage, message);
   for (int c = 0; c < 2; c++) {
     g->change[c] = g->nsteps > 0 ? change[c] : 0.0;
     g->velocity[c] = s->velocity[c];

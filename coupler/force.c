@@ -13,23 +13,25 @@ static void Slip(const SupermeshPair *pair, const double u[6], const double us[3
 }
 
 /* The velocity that the reaction is to, on the pair's element. */
-static void Met(double firmness, const double u_star[6], const double u_plus[6], double u[6])
+static void ReactionVelocity(double implicit_factor, const double u_star[6], const double u_plus[6],
+                             double u[6])
 {
   for (int i = 0; i < 6; i++)
-    u[i] = firmness == 1.0 ? u_star[i] : firmness * u_star[i] + (1.0 - firmness) * u_plus[i];
+    u[i] = implicit_factor == 1.0 ? u_star[i]
+                                  : implicit_factor * u_star[i] + (1.0 - implicit_factor) * u_plus[i];
 }
 
-void ForceReaction(const Overlap o, const WallWeight weight[], const double firmness[],
-                   const ServerFlow *flow, ForceVertex vertex[])
+void ForceReaction(const Overlap o, const WallCoefficient coefficient[], const double implicit_factor[],
+                   const FluidFlow *flow, ForceVertex vertex[])
 {
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
     ForceVertex *v = &vertex[3 * pair->a];
     double u[6], q[3][2], r[2];
-    Met(firmness[pair->a], &flow->u_star[6 * pair->b], &flow->u_plus[6 * pair->b], u);
-    Slip(pair, u, o->piece[pair->a].u, q);
+    ReactionVelocity(implicit_factor[pair->a], &flow->u_star[6 * pair->b], &flow->u_plus[6 * pair->b], u);
+    Slip(pair, u, o->source[pair->a].u, q);
     for (int i = 0; i < 3; i++) {
-      WallApply(&weight[p], q[i], r);
+      WallApply(&coefficient[p], q[i], r);
       v[i].reaction[0] += r[0];
       v[i].reaction[1] += r[1];
     }
@@ -37,18 +39,18 @@ void ForceReaction(const Overlap o, const WallWeight weight[], const double firm
 }
 
 void ForceInertia(const Overlap o, double dt, const double gravity[2], const double u_plus[],
-                  const double now[][3][2], ForceVertex vertex[])
+                  const double start_velocity[][3][2], ForceVertex vertex[])
 {
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    if (o->piece[pair->a].is_shell) continue;
+    if (o->source[pair->a].is_shell) continue;
     const double rho = o->rho[pair->b];
     ForceVertex *v = &vertex[3 * pair->a];
     double q[3][2];
-    Slip(pair, &u_plus[6 * pair->b], now[pair->a], q);
+    Slip(pair, &u_plus[6 * pair->b], start_velocity[pair->a], q);
     for (int i = 0; i < 3; i++) {
       const double mass = rho * (pair->aa[i][0] + pair->aa[i][1] + pair->aa[i][2]);
-      for (int c = 0; c < 2; c++) v[i].rest[c] += rho / dt * q[i][c] - mass * gravity[c];
+      for (int c = 0; c < 2; c++) v[i].other[c] += rho / dt * q[i][c] - mass * gravity[c];
     }
   }
 }
@@ -56,7 +58,7 @@ void ForceInertia(const Overlap o, double dt, const double gravity[2], const dou
 PetscErrorCode ForceAssembleToOwners(Overlap o, const ForceVertex vertex[], int nnodes, ForceVertex node[])
 {
   PetscFunctionBeginUser;
-  PetscCall(OverlapPiecesToNodes(o, 4, (const double *)vertex, nnodes, (double *)node));
+  PetscCall(OverlapSourcesToNodes(o, 4, (const double *)vertex, nnodes, (double *)node));
   PetscFunctionReturn(0);
 }
 
@@ -81,19 +83,19 @@ static double DisplacedMass(const Overlap o)
   double mass = 0.0;
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    if (!o->piece[pair->a].is_shell) mass += o->rho[pair->b] * pair->area;
+    if (!o->source[pair->a].is_shell) mass += o->rho[pair->b] * pair->area;
   }
   return mass;
 }
 
-PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const ServerFlow *flow, int nnodes,
+PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const FluidFlow *flow, int nnodes,
                         const ForceVertex node[], ForceTotals *totals)
 {
   enum { GAIN, REACTION = 2, FORCE = 4, SCALE = 6, MASS, PAIRS, COUNT };
   double sum[COUNT] = {0};
 
   PetscFunctionBeginUser;
-  for (int e = 0; e < o->nentries; e++) {
+  for (int e = 0; e < o->ncoupled; e++) {
     const int k = 6 * coupling[e].element;
     double gain[2];
     ElementGain(&coupling[e], &flow->u_star[k], &flow->u_plus[k], gain);
@@ -103,7 +105,7 @@ PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const
   for (int i = 0; i < nnodes; i++) {
     for (int c = 0; c < 2; c++) {
       sum[REACTION + c] += node[i].reaction[c];
-      sum[FORCE + c] += node[i].reaction[c] + node[i].rest[c];
+      sum[FORCE + c] += node[i].reaction[c] + node[i].other[c];
     }
   }
   sum[MASS] = DisplacedMass(o);
@@ -122,7 +124,7 @@ PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const
 }
 
 /* r -= int over the pair of N_K u+ */
-static void TakeFluid(const SupermeshPair *pair, const double u_plus[6], double r[2][3])
+static void SubtractFluid(const SupermeshPair *pair, const double u_plus[6], double r[2][3])
 {
   for (int c = 0; c < 2; c++) {
     for (int i = 0; i < 3; i++) {
@@ -136,9 +138,9 @@ void ForceCorrection(const Overlap o, const double u[][3][2], const double u_plu
 {
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    if (o->piece[pair->a].is_shell) continue;
-    CoracleCorrection *k = &correction[o->entry[p]];
-    TakeFluid(pair, &u_plus[6 * pair->b], k->r);
+    if (o->source[pair->a].is_shell) continue;
+    CoracleCorrection *k = &correction[o->coupled_index[p]];
+    SubtractFluid(pair, &u_plus[6 * pair->b], k->r);
     for (int c = 0; c < 2; c++) {
       for (int j = 0; j < 3; j++) {
         for (int i = 0; i < 3; i++) k->r[c][j] += pair->ab[i][j] * u[pair->a][i][c];

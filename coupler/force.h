@@ -1,52 +1,54 @@
-/* What the fluid does to the solid, on the solid's nodes, and the solid's new velocity for the fluid.  All
- * integrals are the pairs' own (overlap.h), so that momentum is neither made nor lost (method.md sections 8
- * and 9).
+/* The fluid's force on the solid's nodes, and the correction of the fluid to the solid's new velocity (method.md
+ * sections 8 and 9).  All integrals are the pairs' own (overlap.h), which also make the fluid's coupling
+ * (wall_term.h): what the fluid gains the solid loses, to round-off.
  *
- * With C = int N_T N_K^T and M = int N_T N_T^T over one pair (T a piece, K a fluid element, a the pair's
- * weight):
+ * With C = int N_T N_K^T and M = int N_T N_T^T over one pair (T a source triangle of the solid S or of its shell,
+ * K a fluid element), the pair's coefficient a, and v the solid's velocity at the step's start:
  *
- *    reaction         R = a (C u* - M u_s)                    what s_c gives to the fluid, with the opposite
- * sign added inertia    rho_f (C u+ - M u_s) / dt               volume pairs: the fluid that moves with the
- * solid buoyancy         -rho_f g M 1                            volume pairs: the fluid carries total
- * pressure, also inside
+ *    reaction         R   =  a (C u* - M u_s)           all pairs: minus what s_c gives the fluid
+ *    added inertia    F_i =  rho_f (C u+ - M v)/dt      pairs in S: change of the inner fluid's momentum
+ *    buoyancy         F_b = -rho_f g M 1                pairs in S: the pressure is total, also inside S
  *
- * F_hydro = R + d/dt (momentum of the fluid inside) - M_f g follows from the momentum balance of the fluid
- * inside the solid. */
+ *    F = sum over pairs of R + F_i + F_b
+ *
+ * which is the momentum balance of the fluid inside S.  Where nodes are coupled implicitly (inertia.h) the
+ * reaction is to b u* + (1 - b) u+.  The correction of element K is
+ *
+ *    r   =  sum over its pairs in S of  C^T u_s^{n+1} - B u+,     B = int N_K N_K^T. */
 #ifndef CORACLE_FORCE_H
 #define CORACLE_FORCE_H
 #include "coupler/wall_term.h"
 
-/* Contributions of pieces' vertices: the reaction, and everything else. */
+/* Force on a vertex of a source triangle, or on a node: the reaction, and all other parts. */
 typedef struct {
-  double reaction[2], rest[2]; /* N */
+  double reaction[2], other[2]; /* N */
 } ForceVertex;
 
 /* Totals over all ranks of one step. */
 typedef struct {
-  double gain[2]; /* N, momentum per time given to the fluid, from the fluid's side: sum over K of s - a u* -
-                     give (u+ - u*) */
+  /* N, momentum per time given to the fluid, evaluated on the fluid's side: the sum over K of
+   * s - a u* - give (u+ - u*) */
+  double gain[2];
   double reaction[2]; /* N, the reaction summed over the solid's nodes */
   double force[2];    /* N, the whole force on the solid */
-  double imbalance;   /* |gain + reaction| / sum over K of |s - a u*| */
+  double imbalance;   /* |gain + reaction| / sum over K of |K's gain| */
   double displaced;   /* kg, fluid mass inside the solid */
   long long npairs;
 } ForceTotals;
 
-/* Local: vertex[npieces][3].reaction += of all pairs, to u* where the solid is firm (firmness[npieces] 1), to
- * u+ as far as it gives way. */
-void ForceReaction(const Overlap overlap, const WallWeight weight[], const double firmness[],
-                   const ServerFlow *flow, ForceVertex vertex[]);
-/* Local: vertex[npieces][3].rest += added inertia and buoyancy of the volume pairs; now[npieces][3][2]: the
- * solid's velocity when the step began. */
+/* Local: vertex[nsources][3].reaction += R of all pairs.  implicit_factor[nsources]: b, 1 where explicit. */
+void ForceReaction(const Overlap overlap, const WallCoefficient coefficient[], const double implicit_factor[],
+                   const FluidFlow *flow, ForceVertex vertex[]);
+/* Local: vertex[nsources][3].other += F_i + F_b of the volume pairs; start_velocity[nsources][3][2]: v, m/s. */
 void ForceInertia(const Overlap overlap, double dt, const double gravity[2], const double u_plus[],
-                  const double now[][3][2], ForceVertex vertex[]);
-/* Collective: brings the contributions home: node[nnodes]. */
+                  const double start_velocity[][3][2], ForceVertex vertex[]);
+/* Collective: sums the vertices' forces on the nodes of their owner ranks, node[nnodes] (overwritten). */
 PetscErrorCode ForceAssembleToOwners(Overlap overlap, const ForceVertex vertex[], int nnodes,
                                      ForceVertex node[]);
-/* Collective: the totals; coupling is what the fluid was sent, flow what came back. */
-PetscErrorCode ForceSum(const Overlap overlap, const CoracleCoupling coupling[], const ServerFlow *flow,
+/* Collective: the totals; coupling[ncoupled] is what the fluid was sent, flow what came back. */
+PetscErrorCode ForceSum(const Overlap overlap, const CoracleCoupling coupling[], const FluidFlow *flow,
                         int nnodes, const ForceVertex node[], ForceTotals *totals);
-/* Local: adds to r (coracle.h); u[npieces][3][2]: the solid's new velocity on the old overlap. */
+/* Local: correction[ncoupled].r += r; u[nsources][3][2]: u_s^{n+1} at the source triangles' vertices, m/s. */
 void ForceCorrection(const Overlap overlap, const double u[][3][2], const double u_plus[],
                      CoracleCorrection correction[]);
 #endif

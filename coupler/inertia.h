@@ -1,26 +1,31 @@
-/* The solid's own inertia in the fluid's solve (mode reaction), for solids that tell it (CoracleSetInertia).
+/* Coupling that is implicit in the solid's inertia, node by node (mode reaction), for solids that send their
+ * nodes' mobility 1/m and acceleration f/m (CoracleSetInertia).
  *
- * A node of mass m that moves freely and takes the place of fluid of mass m_f ends the step at
+ * A node of mass m that is free to move and displaces fluid of mass m_f ends the step at v with
  *
- *     m (v - v^n)/dt = f + Z (u - v) + m_f (u - v^n)/dt
+ *     m (v - v^n)/dt  =  f + Z (u - v) + m_f (u - v^n)/dt - m_f g
  *
- * with its own forces f, held by the weight a, Z = sum over its pairs of int a N_i; the last term is the
- * inertia of the fluid that is not there (force.h).  If the fluid meets, instead of v^n with the weight a,
+ *     f    its forces other than the fluid's, N          Z    impedance: sum over its pairs of int a N_i, kg/s
+ *     u    the fluid's velocity there                    the last two terms: added inertia and buoyancy (force.h)
  *
- *     v' = v^n + dt f/(m - m_f)    with the weight  b a,    b = 1/(1 + dt Z/(m - m_f)),
+ * Elimination of v gives the fluid the effective velocity v' and the effective coefficient b a in place of v^n
+ * and a:
  *
- * then u -> v as a grows, and together they weigh m: the exchange is implicit in the solid's inertia, node by
- * node, and a may be as large as one likes.  Explicit, it is stable only for dt Z < m, which is relaxation
- * rho_f < rho_s or so.  The pressure moves solid and fluid together, too (coracle.h: give), and the bulk
- * velocity has the solid's only as far as it is firm, b.  What the fluid loses the solid gains, as ever.
- * Where nothing gives way b = 1 and v' = v^n. */
+ *     v' = v^n + dt/(m - m_f) (f - m_f g),        b = 1/(1 + dt Z/(m - m_f)).
+ *
+ * As a grows u tends to v' with a total mass of m, so a may be arbitrarily large; with v^n and a the exchange
+ * is explicit and stable for dt Z < m only, about relaxation rho_f < rho_s.  b is the implicit factor: it
+ * scales the solid's part of the bulk velocity (ms, us), and (1 - b) a is the implicit inertia block that the
+ * pressure correction moves with the fluid (coracle.h).  b = 1 and v' = v^n where the mobility is 0. */
 #ifndef CORACLE_INERTIA_H
 #define CORACLE_INERTIA_H
 #include "coupler/overlap.h"
 #include "coupler/wall_term.h"
 
-/* Collective, if any node has a mobility: firmness[npieces], the mean of b over the piece's vertices; weight
- * *= it; the pieces' velocity becomes v'. */
-PetscErrorCode InertiaYield(Overlap overlap, const ServerSolid *solid, double dt, const double gravity[2],
-                            WallWeight weight[], double firmness[]);
+/* Collective.  When some node has a mobility: implicit_factor[nsources] = b, the mean over the source triangle's
+ * vertices; coefficient[pairs.n] *= b; the source triangles' velocity u becomes v'.  Else nothing changes.
+ * gravity[2], m/s2; dt, s. */
+PetscErrorCode InertiaMakeImplicit(Overlap overlap, const SolidState *solid, double dt,
+                                   const double gravity[2], WallCoefficient coefficient[],
+                                   double implicit_factor[]);
 #endif

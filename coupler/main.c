@@ -6,6 +6,7 @@
  *         solid   new position and velocity        -->  correction of the fluid; shell and overlap at the new position
  *         fluid   <--  correction, coupling of the next step; or the same step again, with another velocity
  *     write the summary */
+#include "coupler/check.h"
 #include "coupler/summary.h"
 #include "coupler/time_loop.h"
 
@@ -22,31 +23,33 @@ static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const
 
 static PetscErrorCode Run(Server server, const CouplerCase *c)
 {
-  TimeLoop scheme = {.server = server, .c = c};
+  TimeLoop loop = {.server = server, .c = c};
   const char *folder = ServerResumePath(server);
   WriterTotals totals;
 
   PetscFunctionBeginUser;
-  if (folder) PetscCall(CheckpointOpen(PETSC_COMM_WORLD, folder, "coupler", &scheme.from));
-  PetscCall(CouplerCreate(PETSC_COMM_WORLD, &c->options, &scheme.coupler));
-  PetscCall(RegionCreate(PETSC_COMM_WORLD, c->options.thickness, &scheme.region));
-  PetscCall(WriterCreate(PETSC_COMM_WORLD, c, scheme.from, &scheme.record));
-  PetscCall(TimeLoopRun(&scheme));
-  PetscCall(WriterTotalsOf(scheme.record, CouplerOverlap(scheme.coupler)->nelements, &totals));
+  if (folder) PetscCall(CheckpointOpen(PETSC_COMM_WORLD, folder, "coupler", &loop.from));
+  PetscCall(CouplerCreate(PETSC_COMM_WORLD, &c->options, &loop.coupler));
+  PetscCall(RegionCreate(PETSC_COMM_WORLD, c->options.thickness, &loop.region));
+  PetscCall(WriterCreate(PETSC_COMM_WORLD, c, loop.from, &loop.writer));
+  PetscCall(TimeLoopRun(&loop));
+  PetscCall(WriterTotalsOf(loop.writer, CouplerOverlap(loop.coupler)->nelements, &totals));
   PetscCall(SummaryWrite(server, c, &totals));
-  PetscCall(WriterDestroy(&scheme.record));
-  PetscCall(RegionDestroy(&scheme.region));
-  PetscCall(CouplerDestroy(&scheme.coupler));
-  PetscCall(CheckpointClose(&scheme.from));
+  PetscCall(WriterDestroy(&loop.writer));
+  PetscCall(RegionDestroy(&loop.region));
+  PetscCall(CouplerDestroy(&loop.coupler));
+  PetscCall(CheckpointClose(&loop.from));
   PetscFunctionReturn(0);
 }
 
 int main(int argc, char **argv)
 {
+  const Command command = CommandTake(&argc, argv);
   Server server;
   MPI_Comm comm;
   Case file;
   CouplerCase c;
+  if (command != COMMAND_RUN) return CouplerAnswer(command, argc, argv);
   if (ServerOpen(argc, argv, &comm, &server)) return 1;
   PETSC_COMM_WORLD = comm;
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));

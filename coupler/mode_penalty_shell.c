@@ -4,16 +4,19 @@
  * fast as it should and the flow inside of it runs away. */
 #include "coupler/coupler_impl.h"
 
-static PetscErrorCode Weigh(Coupler c, const ServerSolid *solid)
+static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
 {
   const Overlap o = c->overlap;
 
   PetscFunctionBeginUser;
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    c->weight[p] = WallWeightIsotropic(o->piece[pair->a].is_shell ? o->rho[pair->b] / c->dt : 0.0);
+    c->coefficient[p] = WallCoefficientIsotropic(o->source[pair->a].is_shell ? o->rho[pair->b] / c->dt : 0.0);
   }
   PetscFunctionReturn(0);
 }
 
-const CouplerActions COUPLER_ACTIONS_PENALTY_SHELL = {Weigh, CouplerReactConserving, CouplerFillSolid};
+const CouplerModeTable COUPLER_MODE_PENALTY_SHELL = {.velocity = COUPLER_VELOCITY_END,
+                                                     .coefficients = Coefficients,
+                                                     .force = CouplerConservativeForce,
+                                                     .correct = CouplerSolidCorrection};

@@ -3,23 +3,34 @@
 #include "coupler/coupler_impl.h"
 #include "coupler/inertia.h"
 
-static PetscErrorCode Weigh(Coupler c, const ServerSolid *solid)
+static void ReadOptions(Case file, CouplerOptions *o)
+{
+  o->relaxation = CaseNumberOr(file, "coupler.relaxation", 10.0, 0.0, HUGE_VAL);
+  if (o->relaxation <= 0.0)
+    CaseRefuse(file, "coupler.relaxation", "expected a number > 0, found %g", o->relaxation);
+}
+
+static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
 {
   const Overlap o = c->overlap;
 
   PetscFunctionBeginUser;
   for (int p = 0; p < o->pairs.n; p++) {
     const int k = o->pairs.pair[p].b;
-    const OverlapPiece *piece = &o->piece[o->pairs.pair[p].a];
-    if (piece->is_shell) {
-      const double dxw = WallExtent((const double(*)[2])o->x[k], piece->normal);
-      c->weight[p] = WallWeightOf(c->mu[k] / (c->options.thickness * dxw), piece->normal);
+    const SourceTriangle *source = &o->source[o->pairs.pair[p].a];
+    if (source->is_shell) {
+      const double dxw = WallExtent((const double(*)[2])o->x[k], source->normal);
+      c->coefficient[p] = WallCoefficientOf(c->mu[k] / (c->options.thickness * dxw), source->normal);
     } else {
-      c->weight[p] = WallWeightIsotropic(c->options.relaxation * o->rho[k] / c->dt);
+      c->coefficient[p] = WallCoefficientIsotropic(c->options.relaxation * o->rho[k] / c->dt);
     }
   }
-  PetscCall(InertiaYield(o, solid, c->dt, c->options.gravity, c->weight, c->firmness));
+  PetscCall(InertiaMakeImplicit(o, solid, c->dt, c->options.gravity, c->coefficient, c->implicit_factor));
   PetscFunctionReturn(0);
 }
 
-const CouplerActions COUPLER_ACTIONS_REACTION = {Weigh, CouplerReactConserving, CouplerFillSolid};
+const CouplerModeTable COUPLER_MODE_REACTION = {.velocity = COUPLER_VELOCITY_END,
+                                                .read_options = ReadOptions,
+                                                .coefficients = Coefficients,
+                                                .force = CouplerConservativeForce,
+                                                .correct = CouplerSolidCorrection};

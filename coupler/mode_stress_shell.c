@@ -7,24 +7,13 @@
  * is the velocity in [44]: viscous forces from the projected velocity are unstable in an explicit exchange
  * (method.md section 9). Not conservative: [44]'s wall term is evaluated from projected fields.  The fluid is
  * not corrected. */
+#include "common/space/p1.h"
+#include "common/space/p2.h"
 #include "coupler/coupler_impl.h"
 #include "coupler/surface.h"
 
 /* Fields fluid -> surface. */
 enum { PRESSURE, VELOCITY, STRESS = VELOCITY + 2, VISCOSITY = STRESS + 3, EXTENT, FIELDS };
-
-void CouplerPressureP1(const double p[6], double p1[3])
-{
-  /* int N_i phi_j / |K| for the P2 functions: 1/30 and -1/60 at vertices, 2/15 on adjacent edges, 1/15 on the
-   * opposite */
-  double r[3], sum = 0.0;
-  for (int i = 0; i < 3; i++) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    r[i] = p[i] / 30.0 - (p[j] + p[k]) / 60.0 + 2.0 / 15.0 * (p[3 + j] + p[3 + k]) + p[3 + i] / 15.0;
-    sum += r[i];
-  }
-  for (int i = 0; i < 3; i++) p1[i] = 12.0 * (r[i] - 0.25 * sum);
-}
 
 static void Constant(double value, double f[3])
 {
@@ -36,25 +25,21 @@ static void WallSource(void *context, const Overlap o, const SupermeshPair *pair
 {
   const Coupler c = context;
   Constant(c->mu[pair->b], f[0]);
-  Constant(WallExtent((const double(*)[2])o->x[pair->b], o->piece[pair->a].normal), f[1]);
+  Constant(WallExtent((const double(*)[2])o->x[pair->b], o->source[pair->a].normal), f[1]);
 }
 
 static void PressureSource(void *context, const Overlap o, const SupermeshPair *pair, double f[][3])
 {
   const Coupler c = context;
-  CouplerPressureP1(&c->flow.p[6 * pair->b], f[0]);
+  P2ProjectP1(&c->flow.p[6 * pair->b], f[0]);
 }
 
 /* tau = mu (grad u + grad u^T - 2/3 div u I), constant on an element: xx, xy, yy. */
 static void Stress(const double x[3][2], const double u[6], double mu, double tau[3])
 {
-  double g[3][2], d[2][2] = {{0.0}};
-  GeometryGradient(x, g);
-  for (int i = 0; i < 3; i++) {
-    for (int c = 0; c < 2; c++) {
-      for (int e = 0; e < 2; e++) d[c][e] += u[3 * c + i] * g[i][e];
-    }
-  }
+  double g[3][2], d[2][2];
+  P1Gradients(x, g);
+  P1VelocityGradient((const double(*)[2])g, (const double(*)[3])u, d);
   const double divergence = d[0][0] + d[1][1];
   tau[0] = mu * (2.0 * d[0][0] - 2.0 / 3.0 * divergence);
   tau[1] = mu * (d[0][1] + d[1][0]);
@@ -74,50 +59,50 @@ static void FlowSource(void *context, const Overlap o, const SupermeshPair *pair
 }
 
 /* mu / dxw at the two nodes of a facet; dxw is averaged over the facet, where it cannot undershoot. */
-static void WallCoefficient(const double mu[2], const double dxw[2], double k[2])
+static void WallFactor(const double mu[2], const double dxw[2], double k[2])
 {
   const double mean = 0.5 * (dxw[0] + dxw[1]);
   for (int i = 0; i < 2; i++) k[i] = mean > 0.0 ? fmax(mu[i], 0.0) / mean : 0.0;
 }
 
 /* Surface -> shell: the outer nodes carry the surface's values; -> pieces. */
-static PetscErrorCode CoefficientOnPieces(Coupler c, double (*piece)[3])
+static PetscErrorCode WallFactorOnSources(Coupler c, double (*source)[3])
 {
   const Overlap o = c->overlap;
-  double(*surface)[2][2], (*home)[3];
+  double(*surface)[2][2], (*owned)[3];
 
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(c->shell->nfacets, &surface));
-  PetscCall(PetscCalloc1(o->nhome, &home));
+  PetscCall(PetscCalloc1(o->nowned, &owned));
   PetscCall(SurfaceFromFluid(o, 2, c->shell, WallSource, c, (double *)surface));
   for (int e = 0; e < c->shell->nfacets; e++) {
     double k[2];
-    WallCoefficient(surface[e][0], surface[e][1], k);
+    WallFactor(surface[e][0], surface[e][1], k);
     const double vertices[2][3] = {{k[0], k[0], k[1]}, {k[0], k[1], k[1]}};
-    for (int t = 0; t < 2; t++) PetscCall(PetscArraycpy(home[o->nvolume + 2 * e + t], vertices[t], 3));
+    for (int t = 0; t < 2; t++) PetscCall(PetscArraycpy(owned[o->nvolume + 2 * e + t], vertices[t], 3));
   }
-  PetscCall(OverlapForward(o, 3, (const double *)home, (double *)piece));
-  PetscCall(PetscFree(home));
+  PetscCall(OverlapForward(o, 3, (const double *)owned, (double *)source));
+  PetscCall(PetscFree(owned));
   PetscCall(PetscFree(surface));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Weigh(Coupler c, const ServerSolid *solid)
+static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
 {
   const Overlap o = c->overlap;
   double(*k)[3];
 
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(o->npieces, &k));
-  PetscCall(CoefficientOnPieces(c, k));
+  PetscCall(PetscMalloc1(o->nsources, &k));
+  PetscCall(WallFactorOnSources(c, k));
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
     double mean = 0.0;
     for (int i = 0; i < 3; i++)
       mean += k[pair->a][i] * (pair->aa[i][0] + pair->aa[i][1] + pair->aa[i][2]) / pair->area;
-    c->weight[p] = o->piece[pair->a].is_shell
-                       ? WallWeightOf(mean / c->options.thickness, o->piece[pair->a].normal)
-                       : WallWeightIsotropic(0.0);
+    c->coefficient[p] = o->source[pair->a].is_shell
+                            ? WallCoefficientOf(mean / c->options.thickness, o->source[pair->a].normal)
+                            : WallCoefficientIsotropic(0.0);
   }
   PetscCall(PetscFree(k));
   PetscFunctionReturn(0);
@@ -128,7 +113,7 @@ static void AddTraction(Coupler c, int e, int where, const double t[2][2])
 {
   const int end[2] = {c->shell->node[2 * e][0], c->shell->node[2 * e][2]};
   for (int i = 0; i < 2; i++) {
-    double *to = where ? c->node[end[i]].rest : c->node[end[i]].reaction;
+    double *to = where ? c->node[end[i]].other : c->node[end[i]].reaction;
     for (int d = 0; d < 2; d++) to[d] += c->shell->length[e] / 6.0 * (2.0 * t[i][d] + t[1 - i][d]);
   }
 }
@@ -139,11 +124,11 @@ static void AddFacetForce(Coupler c, int e, const double f[FIELDS][2])
 {
   const double *n = c->shell->normal[e];
   double wall[2][2], rest[2][2], k[2];
-  WallCoefficient(f[VISCOSITY], f[EXTENT], k);
+  WallFactor(f[VISCOSITY], f[EXTENT], k);
   for (int i = 0; i < 2; i++) {
     const double *us = &c->us[2 * c->shell->node[2 * e][2 * i]];
     const double slip[2] = {f[VELOCITY][i] - us[0], f[VELOCITY + 1][i] - us[1]};
-    const WallWeight a = WallWeightOf(k[i], n);
+    const WallCoefficient a = WallCoefficientOf(k[i], n);
     WallApply(&a, slip, wall[i]);
     rest[i][0] = f[STRESS][i] * n[0] + f[STRESS + 1][i] * n[1] - f[PRESSURE][i] * n[0];
     rest[i][1] = f[STRESS + 1][i] * n[0] + f[STRESS + 2][i] * n[1] - f[PRESSURE][i] * n[1];
@@ -152,7 +137,7 @@ static void AddFacetForce(Coupler c, int e, const double f[FIELDS][2])
   AddTraction(c, e, 1, (const double(*)[2])rest);
 }
 
-static PetscErrorCode React(Coupler c)
+static PetscErrorCode ComputeForce(Coupler c)
 {
   double(*surface)[FIELDS][2];
 
@@ -165,4 +150,8 @@ static PetscErrorCode React(Coupler c)
   PetscFunctionReturn(0);
 }
 
-const CouplerActions COUPLER_ACTIONS_STRESS_SHELL = {Weigh, React, CouplerNoCorrection};
+const CouplerModeTable COUPLER_MODE_STRESS_SHELL = {.velocity = COUPLER_VELOCITY_MEAN,
+                                                    .needs_pressure = PETSC_TRUE,
+                                                    .coefficients = Coefficients,
+                                                    .force = ComputeForce,
+                                                    .correct = CouplerNoCorrection};

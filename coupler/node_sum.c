@@ -1,11 +1,11 @@
 #include "coupler/node_sum.h"
-#include "common/transfer/route.h"
+#include "common/exchange/scatter.h"
 #include <stdlib.h>
 
 /* Copies meet on rank gid % size, where those of one node are put in one group. */
 struct NodeSum_s {
   int n, narriving, ngroups;
-  Route route;
+  Scatter route;
   int *group; /* [narriving] */
 };
 
@@ -52,11 +52,11 @@ PetscErrorCode NodeSumCreate(MPI_Comm comm, int n, const long long gid[], NodeSu
     rank[i] = (int)(gid[i] % size);
     source[i] = i;
   }
-  PetscCall(RouteCreate(comm, n, rank, source, &s->route));
-  s->narriving = RouteArriving(s->route);
+  PetscCall(ScatterCreate(comm, n, rank, source, &s->route));
+  s->narriving = ScatterArriving(s->route);
   PetscCall(PetscMalloc1(s->narriving, &s->group));
   PetscCall(PetscMalloc1(s->narriving, &arriving));
-  PetscCall(RouteForward(s->route, sizeof *gid, gid, arriving));
+  PetscCall(ScatterForward(s->route, sizeof *gid, gid, arriving));
   PetscCall(GroupCopies(s, arriving));
   PetscCall(PetscFree(arriving));
   PetscCall(PetscFree2(rank, source));
@@ -66,21 +66,21 @@ PetscErrorCode NodeSumCreate(MPI_Comm comm, int n, const long long gid[], NodeSu
 
 PetscErrorCode NodeSumApply(NodeSum s, int ncomp, double value[])
 {
-  double *there, *total;
+  double *remote, *total;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1((size_t)s->narriving * (size_t)ncomp, &there));
+  PetscCall(PetscMalloc1((size_t)s->narriving * (size_t)ncomp, &remote));
   PetscCall(PetscCalloc1((size_t)s->ngroups * (size_t)ncomp, &total));
-  PetscCall(RouteForward(s->route, (size_t)ncomp * sizeof *value, value, there));
+  PetscCall(ScatterForward(s->route, (size_t)ncomp * sizeof *value, value, remote));
   for (int i = 0; i < s->narriving; i++) {
-    for (int c = 0; c < ncomp; c++) total[s->group[i] * ncomp + c] += there[i * ncomp + c];
+    for (int c = 0; c < ncomp; c++) total[s->group[i] * ncomp + c] += remote[i * ncomp + c];
   }
   for (int i = 0; i < s->narriving; i++) {
-    for (int c = 0; c < ncomp; c++) there[i * ncomp + c] = total[s->group[i] * ncomp + c];
+    for (int c = 0; c < ncomp; c++) remote[i * ncomp + c] = total[s->group[i] * ncomp + c];
   }
   PetscCall(PetscArrayzero(value, (size_t)s->n * (size_t)ncomp));
-  PetscCall(RouteReverseAdd(s->route, ncomp, there, value));
-  PetscCall(PetscFree(there));
+  PetscCall(ScatterReverseAdd(s->route, ncomp, remote, value));
+  PetscCall(PetscFree(remote));
   PetscCall(PetscFree(total));
   PetscFunctionReturn(0);
 }
@@ -89,7 +89,7 @@ PetscErrorCode NodeSumDestroy(NodeSum *sum)
 {
   PetscFunctionBeginUser;
   if (!*sum) PetscFunctionReturn(0);
-  PetscCall(RouteDestroy(&(*sum)->route));
+  PetscCall(ScatterDestroy(&(*sum)->route));
   PetscCall(PetscFree((*sum)->group));
   PetscCall(PetscFree(*sum));
   PetscFunctionReturn(0);

@@ -1,66 +1,71 @@
-/* Where the solid and its shell meet the fluid, over all coupler ranks.
+/* The overlap of the solid and its shell with the fluid's elements, over all coupler ranks.
  *
- *   A rank keeps the fluid elements K of its own clients.  The solid's triangles T (volume elements first,
- * then the shell) live at home, the rank of the client that gave them, and travel to every rank whose fluid
- * elements' bounding box they touch; there they are called pieces.  The supermesh of pieces and elements is
- * local:
+ * A rank has the fluid elements K of its own clients.  The solid's triangles T (volume elements, then the shell's)
+ * are owned by the rank whose client sent them.  A copy of each goes to every rank whose fluid elements'
+ * bounding box T touches: the source triangles there.  The supermesh of source triangles and elements is local:
  *
- *      home triangle T --(x, u_s, normal)--> piece T  x  fluid element K  =  pair (T, K): exact integrals
- * over T and K home triangle T <--(vertex sums)----- piece T
+ *        owner rank                              rank of fluid element K
+ *      owned triangle T  ---(x, u_s, normal)--->  source triangle T
+ *                                                       |   x  fluid element K  =  pair (T, K):
+ *                                                       |   exact integrals over T and K
+ *      owned triangle T  <---(sums at vertices)---  source triangle T
  *
- *   Every part of T that the fluid covers is in one pair on one rank, since each fluid element has one rank;
- * parts outside of the fluid are in none.  Pairs of volume triangles carry the relaxation, pairs of shell
- * triangles the wall term. An entry is a fluid element with at least one pair, in ascending order of
- * elements.
+ * Every part of T that the fluid covers is in exactly one pair on one rank, since each fluid element is on one
+ * rank; parts outside of the fluid are in none.  A coupled element is a fluid element with at least one pair.
  *
- * Fields are there to be read; functions are collective unless said otherwise. */
+ *      pairs.pair[p].a = T   in 0 .. nsources - 1        coupled_index[p]    = e   in 0 .. ncoupled - 1
+ *      pairs.pair[p].b = K   in 0 .. nelements - 1       coupled_element[e]  = K   ascending
+ *
+ * Fields are for reading.  Functions are collective. */
 #ifndef CORACLE_OVERLAP_H
 #define CORACLE_OVERLAP_H
-#include "common/link/server.h"
+#include "common/exchange/scatter.h"
 #include "common/supermesh/supermesh.h"
-#include "common/transfer/route.h"
+#include "coupler/fluid_state.h"
 #include "coupler/shell.h"
 
 typedef struct {
-  double x[3][2], u[3][2]; /* m; m/s, the velocity that the fluid is given */
-  double normal[2];        /* shell: unit, out of the solid */
+  double x[3][2], u[3][2]; /* vertices, m; the velocity that the fluid couples to there, m/s */
+  double normal[2];        /* shell: unit, out of the solid; else 0 */
   int is_shell, pad;
-} OverlapPiece;
+} SourceTriangle;
 
 typedef struct {
   MPI_Comm comm;
-  /* the fluid's elements of this rank's clients */
+  /* the fluid elements of this rank's clients */
   int nelements;
   double (*x)[3][2], *area, *rho; /* [nelements] m, m2, kg/m3; x and rho are copies */
-  double lower[2], upper[2];      /* the fluid's whole domain */
-  GeometryBox *near;              /* [size] bounding box of each rank's elements */
+  double lower[2], upper[2];      /* bounds of the fluid's whole domain, m */
+  GeometryBox *bounds;            /* [size] bounding box of each rank's elements */
   Search search;
-  /* the solid's triangles at home, and the route from there to the pieces */
-  int nhome, nvolume; /* nvolume volume elements, then the shell's triangles */
-  int (*node)[3];     /* [nhome] */
-  Route route;
-  /* the pieces on this rank and the pairs */
-  int npieces;
-  OverlapPiece *piece;  /* [npieces] */
-  SupermeshPairs pairs; /* a: piece, b: element */
-  int nentries;
-  int *element; /* [nentries] */
-  int *entry;   /* [pairs.n] the entry of the pair's element */
+  /* the solid's triangles that this rank owns, and the route from there to the source triangles */
+  int nowned, nvolume; /* nvolume volume elements, then the shell's triangles */
+  int (*node)[3];      /* [nowned] their nodes in SolidState */
+  Scatter route;
+  /* the source triangles on this rank, the pairs and the coupled elements */
+  int nsources;
+  SourceTriangle *source; /* [nsources] */
+  SupermeshPairs pairs;
+  int ncoupled;
+  int *coupled_element; /* [ncoupled] */
+  int *coupled_index;   /* [pairs.n] */
 } * Overlap;
 
 PetscErrorCode OverlapCreate(MPI_Comm comm, Overlap *overlap);
-/* The fluid's elements near the solid, copied.  Pairs made before are void. */
-PetscErrorCode OverlapSetElements(Overlap overlap, const ServerElements *elements);
-/* Distributes the solid and its shell as they are now and finds all pairs. */
-PetscErrorCode OverlapBuild(Overlap overlap, const ServerSolid *solid, const Shell shell);
-/* home[nhome][ncomp] -> piece[npieces][ncomp] */
-PetscErrorCode OverlapForward(Overlap overlap, int ncomp, const double home[], double piece[]);
-/* home[nhome][ncomp] += piece[npieces][ncomp] */
-PetscErrorCode OverlapReverseAdd(Overlap overlap, int ncomp, const double piece[], double home[]);
-/* Nodal values [nnodes][ncomp] to the pieces' vertices [npieces][3][ncomp]. */
-PetscErrorCode OverlapNodesToPieces(Overlap overlap, int ncomp, const double node[], double piece[]);
-/* Contributions of vertices [npieces][3][ncomp] summed on the nodes [nnodes][ncomp] at home (overwritten). */
-PetscErrorCode OverlapPiecesToNodes(Overlap overlap, int ncomp, const double piece[], int nnodes,
-                                    double node[]);
 PetscErrorCode OverlapDestroy(Overlap *overlap);
+/* The fluid's elements near the solid, copied.  Pairs made before are void. */
+PetscErrorCode OverlapSetElements(Overlap overlap, const FluidElements *elements);
+/* Distributes the solid and its shell as they are now and finds all pairs. */
+PetscErrorCode OverlapBuild(Overlap overlap, const SolidState *solid, const Shell shell);
+
+/* owned[nowned][ncomp] -> source[nsources][ncomp] */
+PetscErrorCode OverlapForward(Overlap overlap, int ncomp, const double owned[], double source[]);
+/* owned[nowned][ncomp] += source[nsources][ncomp] */
+PetscErrorCode OverlapReverseAdd(Overlap overlap, int ncomp, const double source[], double owned[]);
+/* node[nnodes][ncomp] -> source[nsources][3][ncomp], the values at the source triangles' vertices. */
+PetscErrorCode OverlapNodesToSources(Overlap overlap, int ncomp, const double node[], double source[]);
+/* source[nsources][3][ncomp], contributions of vertices, summed to node[nnodes][ncomp] (overwritten) on the
+ * owner ranks; copies of a node on several ranks each get their own triangles' sum. */
+PetscErrorCode OverlapSourcesToNodes(Overlap overlap, int ncomp, const double source[], int nnodes,
+                                     double node[]);
 #endif

@@ -1,6 +1,6 @@
 #include "coupler/quasi_newton.h"
 
-enum { MOST_COLUMNS = 30 };
+enum { MAX_COLUMNS = 30 };
 
 /* A column is dropped when newer ones leave less than this part of it. */
 #define FILTER 1e-3
@@ -15,10 +15,10 @@ typedef struct {
 struct QuasiNewton_s {
   MPI_Comm comm;
   int n, ncolumns;
-  Column column[MOST_COLUMNS]; /* the newest first */
-  double *q[MOST_COLUMNS];     /* [n] */
-  double *r, *hx;              /* [n] of the x before */
-  PetscBool before;            /* there is one */
+  Column column[MAX_COLUMNS]; /* the newest first */
+  double *q[MAX_COLUMNS];     /* [n] */
+  double *r, *hx;             /* [n] of the x before */
+  PetscBool has_previous;     /* there is one */
 };
 
 static PetscErrorCode FreeColumn(Column *c)
@@ -32,13 +32,13 @@ static PetscErrorCode Reset(QuasiNewton a, int n)
 {
   PetscFunctionBeginUser;
   for (int k = 0; k < a->ncolumns; k++) PetscCall(FreeColumn(&a->column[k]));
-  for (int k = 0; k < MOST_COLUMNS; k++) PetscCall(PetscFree(a->q[k]));
+  for (int k = 0; k < MAX_COLUMNS; k++) PetscCall(PetscFree(a->q[k]));
   PetscCall(PetscFree2(a->r, a->hx));
   a->ncolumns = 0;
   a->n = n;
   if (n < 0) PetscFunctionReturn(0);
   PetscCall(PetscMalloc2((size_t)n, &a->r, (size_t)n, &a->hx));
-  for (int k = 0; k < MOST_COLUMNS; k++) PetscCall(PetscMalloc1((size_t)n, &a->q[k]));
+  for (int k = 0; k < MAX_COLUMNS; k++) PetscCall(PetscMalloc1((size_t)n, &a->q[k]));
   PetscFunctionReturn(0);
 }
 
@@ -67,7 +67,7 @@ PetscErrorCode QuasiNewtonBegin(QuasiNewton a, int n)
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &other, 1, MPI_INT, MPI_LOR, a->comm));
   if (other) PetscCall(Reset(a, n));
-  a->before = PETSC_FALSE;
+  a->has_previous = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -77,7 +77,7 @@ static PetscErrorCode AddColumn(QuasiNewton a, const double x[], const double hx
   Column c;
 
   PetscFunctionBeginUser;
-  if (a->ncolumns == MOST_COLUMNS) PetscCall(FreeColumn(&a->column[--a->ncolumns]));
+  if (a->ncolumns == MAX_COLUMNS) PetscCall(FreeColumn(&a->column[--a->ncolumns]));
   PetscCall(PetscMalloc2((size_t)a->n, &c.v, (size_t)a->n, &c.w));
   for (int i = 0; i < a->n; i++) {
     c.v[i] = hx[i] - x[i] - a->r[i];
@@ -98,33 +98,33 @@ static PetscErrorCode Dot(QuasiNewton a, const double x[], const double y[], dou
 }
 
 /* Column k orthogonal to those before it, r[0 .. k][k] of V = Q R; *good: something is left of it. */
-static PetscErrorCode Orthogonal(QuasiNewton a, int k, double r[][MOST_COLUMNS], PetscBool *good)
+static PetscErrorCode Orthogonal(QuasiNewton a, int k, double r[][MAX_COLUMNS], PetscBool *independent)
 {
-  double whole, left;
+  double norm2, remainder2;
 
   PetscFunctionBeginUser;
   PetscCall(PetscArraycpy(a->q[k], a->column[k].v, a->n));
-  PetscCall(Dot(a, a->q[k], a->q[k], &whole));
+  PetscCall(Dot(a, a->q[k], a->q[k], &norm2));
   for (int j = 0; j < k; j++) {
     PetscCall(Dot(a, a->q[j], a->q[k], &r[j][k]));
     for (int i = 0; i < a->n; i++) a->q[k][i] -= r[j][k] * a->q[j][i];
   }
-  PetscCall(Dot(a, a->q[k], a->q[k], &left));
-  *good = left > FILTER * FILTER * whole ? PETSC_TRUE : PETSC_FALSE;
-  if (!*good) PetscFunctionReturn(0);
-  r[k][k] = sqrt(left);
+  PetscCall(Dot(a, a->q[k], a->q[k], &remainder2));
+  *independent = remainder2 > FILTER * FILTER * norm2 ? PETSC_TRUE : PETSC_FALSE;
+  if (!*independent) PetscFunctionReturn(0);
+  r[k][k] = sqrt(remainder2);
   for (int i = 0; i < a->n; i++) a->q[k][i] /= r[k][k];
   PetscFunctionReturn(0);
 }
 
 /* V = Q R of the columns that are good; others are dropped. */
-static PetscErrorCode Factor(QuasiNewton a, double r[][MOST_COLUMNS])
+static PetscErrorCode Factor(QuasiNewton a, double r[][MAX_COLUMNS])
 {
   PetscFunctionBeginUser;
   for (int k = 0; k < a->ncolumns;) {
-    PetscBool good = PETSC_FALSE;
-    PetscCall(Orthogonal(a, k, r, &good));
-    if (good) {
+    PetscBool independent = PETSC_FALSE;
+    PetscCall(Orthogonal(a, k, r, &independent));
+    if (independent) {
       k++;
       continue;
     }
@@ -137,15 +137,15 @@ static PetscErrorCode Factor(QuasiNewton a, double r[][MOST_COLUMNS])
 
 PetscErrorCode QuasiNewtonNext(QuasiNewton a, const double x[], const double hx[], double next[])
 {
-  double r[MOST_COLUMNS][MOST_COLUMNS], c[MOST_COLUMNS];
+  double r[MAX_COLUMNS][MAX_COLUMNS], c[MAX_COLUMNS];
 
   PetscFunctionBeginUser;
-  if (a->before) PetscCall(AddColumn(a, x, hx));
+  if (a->has_previous) PetscCall(AddColumn(a, x, hx));
   for (int i = 0; i < a->n; i++) {
     a->r[i] = hx[i] - x[i];
     a->hx[i] = hx[i];
   }
-  a->before = PETSC_TRUE;
+  a->has_previous = PETSC_TRUE;
   PetscCall(Factor(a, r));
   for (int k = a->ncolumns - 1; k >= 0; k--) { /* R c = -Q^T r */
     PetscCall(Dot(a, a->q[k], a->r, &c[k]));

@@ -42,7 +42,7 @@ static void AddSimplex(const GeometryBox *whole, int n, const int node[], const 
   for (int i = 0; i < n; i++) GeometryBoxGrow(&cluster[cell[0] + REGION_SIDE * cell[1]], &x[2 * node[i]]);
 }
 
-static PetscErrorCode Clusters(Region r, const ServerSolid *solid, GeometryBox cluster[REGION_BOXES])
+static PetscErrorCode Clusters(Region r, const SolidState *solid, GeometryBox cluster[REGION_BOXES])
 {
   GeometryBox whole = GeometryBoxEmpty();
 
@@ -56,8 +56,8 @@ static PetscErrorCode Clusters(Region r, const ServerSolid *solid, GeometryBox c
   PetscFunctionReturn(0);
 }
 
-/* How far the fastest node gets in the steps for which a region should do. */
-static PetscErrorCode Reach(Region r, const ServerSolid *solid, double dt, double *reach)
+/* The way of the fastest node in REGION_STEPS steps. */
+static PetscErrorCode Reach(Region r, const SolidState *solid, double dt, double *reach)
 {
   double speed = 0.0;
 
@@ -68,7 +68,7 @@ static PetscErrorCode Reach(Region r, const ServerSolid *solid, double dt, doubl
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode RegionUpdate(Region r, const ServerSolid *solid, double dt)
+PetscErrorCode RegionUpdate(Region r, const SolidState *solid, double dt)
 {
   GeometryBox cluster[REGION_BOXES];
   double area = 0.0, reach;
@@ -97,7 +97,7 @@ PetscErrorCode RegionUpdate(Region r, const ServerSolid *solid, double dt)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode RegionStale(Region r, const ServerSolid *solid, PetscBool *stale)
+PetscErrorCode RegionStale(Region r, const SolidState *solid, PetscBool *stale)
 {
   int local = solid->changed || solid->nnodes != r->n, any;
 
@@ -111,8 +111,8 @@ PetscErrorCode RegionStale(Region r, const ServerSolid *solid, PetscBool *stale)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode RegionOutside(Region r, const ServerSolid *solid, const ServerElements *elements,
-                             long long *gid, int *local)
+PetscErrorCode RegionOutside(Region r, const SolidState *solid, const FluidElements *elements, long long *gid,
+                             int *local)
 {
   struct {
     long value;

@@ -1,10 +1,15 @@
-/* The region near the solid for which the fluid is asked: at most REGION_BOXES boxes around clusters of the
- * solid's triangles and facets, widened by a margin so that the solid can move that far before the fluid is
- * asked again. */
+/* The region near the solid from which the fluid sends its elements: at most REGION_BOXES boxes around clusters of
+ * the solid's triangles and facets, widened by a margin that the solid may move before they are renewed.
+ *
+ *      +-------------+         a cluster: the simplices whose centres are in one cell of a REGION_SIDE x REGION_SIDE
+ *      |  .-------.  | margin  grid on the solid's bounding box; its box holds them, the margin and the shell
+ *      |  |cluster|  |
+ *      |  '-------'  |
+ *      +-------------+                                                                                        */
 #ifndef CORACLE_REGION_H
 #define CORACLE_REGION_H
-#include "common/link/server.h"
-#include <petscsys.h>
+#include "coupler/fluid_state.h"
+#include "coupler/solid_state.h"
 
 enum { REGION_SIDE = 16, REGION_BOXES = REGION_SIDE * REGION_SIDE, REGION_STEPS = 20 };
 
@@ -15,18 +20,18 @@ typedef struct {
   int nbox;
   double box[REGION_BOXES][2][2]; /* lower and upper corners: the same on all ranks */
   int n;
-  double *x; /* [n][2] where this rank's nodes were */
+  double *x; /* [n][2] positions of this rank's nodes at the last update, m */
 } * Region;
 
 PetscErrorCode RegionCreate(MPI_Comm comm, double thickness, Region *region);
-/* Collective: boxes around the solid as it is now.  The margin is what the fastest node travels in REGION_STEPS steps of
- * dt, but at most a fifth of the body's size (the root of the clusters' area) and at least 8 shell thicknesses. */
-PetscErrorCode RegionUpdate(Region region, const ServerSolid *solid, double dt);
-/* Collective: has some node moved farther than the margin since, or is the solid another one? */
-PetscErrorCode RegionStale(Region region, const ServerSolid *solid, PetscBool *stale);
+/* Collective: boxes around the solid as it is now.  The margin is the way of the fastest node in REGION_STEPS steps
+ * of dt, but at most a fifth of the body's size (the root of the clusters' area) and at least 8 shell thicknesses. */
+PetscErrorCode RegionUpdate(Region region, const SolidState *solid, double dt);
+/* Collective: has a node moved farther than the margin since, or has the solid changed its mesh? */
+PetscErrorCode RegionStale(Region region, const SolidState *solid, PetscBool *stale);
 /* Collective: the smallest global id of the nodes outside of the domain and, on the one rank that gets *local
  * >= 0, its local index; *gid < 0: none. */
-PetscErrorCode RegionOutside(Region region, const ServerSolid *solid, const ServerElements *elements,
+PetscErrorCode RegionOutside(Region region, const SolidState *solid, const FluidElements *elements,
                              long long *gid, int *local);
 PetscErrorCode RegionDestroy(Region *region);
 #endif

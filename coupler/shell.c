@@ -21,7 +21,7 @@ static PetscErrorCode FreeArrays(Shell s)
 }
 
 /* The nodes of the facets, each once, and where their copies are. */
-static PetscErrorCode FindSurfaceNodes(Shell s, const ServerSolid *solid)
+static PetscErrorCode FindSurfaceNodes(Shell s, const SolidState *solid)
 {
   PetscBool *seen;
   long long *gid;
@@ -43,7 +43,7 @@ static PetscErrorCode FindSurfaceNodes(Shell s, const ServerSolid *solid)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Allocate(Shell s, const ServerSolid *solid)
+static PetscErrorCode Allocate(Shell s, const SolidState *solid)
 {
   const size_t nf = (size_t)solid->nfacets, nn = (size_t)solid->nnodes;
 
@@ -65,7 +65,7 @@ static PetscErrorCode Allocate(Shell s, const ServerSolid *solid)
 }
 
 /* Edge normals; the sum of the normals that meet in a node, and their number, are left in offset. */
-static void Normals(Shell s, const ServerSolid *solid)
+static void Normals(Shell s, const SolidState *solid)
 {
   for (int e = 0; e < s->nfacets; e++) {
     const double *a = &solid->x[2 * solid->facet[2 * e]], *b = &solid->x[2 * solid->facet[2 * e + 1]];
@@ -107,10 +107,10 @@ static PetscErrorCode Offsets(Shell s)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ShellExtrude(Shell s, const ServerSolid *solid, PetscBool fresh)
+PetscErrorCode ShellExtrude(Shell s, const SolidState *solid, PetscBool new_surface)
 {
   PetscFunctionBeginUser;
-  if (fresh) PetscCall(Allocate(s, solid));
+  if (new_surface) PetscCall(Allocate(s, solid));
   PetscCall(PetscArrayzero(s->offset, s->nnodes));
   Normals(s, solid);
   PetscCall(Offsets(s));

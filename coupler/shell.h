@@ -1,22 +1,20 @@
-/* The shell: the solid's surface extruded outwards by its thickness dr, two triangles an edge (method.md
+/* The shell: the solid's surface extruded outwards by the thickness dr, two triangles per edge (method.md
  * section 5).
  *
- *      solid (on the left of a -> b)        triangle 2e:     a  a' b'    its nodes on the surface: a a b
- *      a ----------------> b                triangle 2e + 1: a  b' b                               a b b
+ *      solid (on the left of a -> b)        triangle 2e:      a  a' b'    nodes on the surface: a a b
+ *      a ----------------> b                triangle 2e + 1:  a  b' b                           a b b
  *      |  `.      2e + 1   |
  *      |     `.            |   dr           a' = a + d_a, where the offset d_a has d_a . n_e = dr for the
  *      |  2e     `.        |                edges e that meet in a: the outer surface is parallel
  *      a'----------------- b'
  *
- * An outer node carries the value of its surface node, so the shell's functions collapse to the two of the
- * edge. */
+ * An outer node carries the value of its surface node: the shell's functions collapse to the edge's two. */
 #ifndef CORACLE_SHELL_H
 #define CORACLE_SHELL_H
-#include "common/link/server.h"
 #include "coupler/node_sum.h"
+#include "coupler/solid_state.h"
 
-/* At sharp corners the offset is cut to this many thicknesses (reached where the surface turns by 120
- * degrees). */
+/* At sharp corners the offset is cut to this many thicknesses (the surface turns by 120 degrees there). */
 #define SHELL_OFFSET_LIMIT 2.0
 
 typedef struct {
@@ -26,7 +24,7 @@ typedef struct {
   double (*normal)[2]; /* [nfacets] unit, out of the solid; 0 for a facet without length */
   double *length;      /* [nfacets] m */
   double (*x)[3][2];   /* [2 nfacets] the triangles, counter-clockwise */
-  int (*node)[3];      /* [2 nfacets] the surface node whose value each vertex carries */
+  int (*node)[3];      /* [2 nfacets] surface node of each vertex */
   int *surface;        /* [nsurface] nodes of this rank that are on the surface */
   int nsurface, nnodes;
   double (*offset)[3]; /* [nnodes] the offset (2), 0 inside the solid; the third entry is scratch */
@@ -36,7 +34,7 @@ typedef struct {
 /* Collective. */
 PetscErrorCode ShellCreate(MPI_Comm comm, double thickness, Shell *shell);
 /* Collective: the shell of the surface as it is now.  Nodal normals are completed over the copies of a node
- * by gid.  fresh: the surface is another than at the last call, not just moved. */
-PetscErrorCode ShellExtrude(Shell shell, const ServerSolid *solid, PetscBool fresh);
+ * by gid.  new_surface: nodes or facets are others than at the last call, not just moved. */
+PetscErrorCode ShellExtrude(Shell shell, const SolidState *solid, PetscBool new_surface);
 PetscErrorCode ShellDestroy(Shell *shell);
 #endif

@@ -85,7 +85,7 @@ static void WriteAll(FILE *f, const CouplerCase *c, const WriterTotals *t, const
   WriteField(f, "resumed_at", t->resumed);
   WriteField(f, "end_time", t->end);
   WriteField(f, "steps", (double)t->steps);
-  WriteField(f, "tries", (double)t->tries);
+  WriteField(f, "iterations", (double)t->iterations);
   WriteField(f, "terminal_velocity", t->terminal);
   WriteField(f, "largest_momentum_imbalance", t->imbalance);
   fprintf(f, "  \"elements\": {\"solid\": %lld, \"surface\": %lld, \"fluid_near_solid\": %lld},\n",

@@ -3,13 +3,13 @@
 /* What is summed for a shell triangle: right-hand sides, covered mass, covered area. */
 enum { MASS = 3 * SURFACE_FIELDS_MAX, AREA = MASS + 9, SUMS = AREA + 1 };
 
-static void SumPairs(const Overlap o, int ncomp, SurfaceSource source, void *context, double (*sum)[SUMS])
+static void SumPairs(const Overlap o, int ncomp, SurfaceFields fields, void *context, double (*sum)[SUMS])
 {
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
     double f[SURFACE_FIELDS_MAX][3], *s = sum[pair->a];
-    if (!o->piece[pair->a].is_shell) continue;
-    source(context, o, pair, f);
+    if (!o->source[pair->a].is_shell) continue;
+    fields(context, o, pair, f);
     for (int i = 0; i < 3; i++) {
       for (int c = 0; c < ncomp; c++) {
         for (int j = 0; j < 3; j++) s[3 * c + i] += pair->ab[i][j] * f[c][j];
@@ -67,21 +67,21 @@ static void FacetField(const double s[2][SUMS], const double area[2], int ncomp,
   }
 }
 
-PetscErrorCode SurfaceFromFluid(Overlap o, int ncomp, const Shell shell, SurfaceSource source, void *context,
+PetscErrorCode SurfaceFromFluid(Overlap o, int ncomp, const Shell shell, SurfaceFields fields, void *context,
                                 double surface[])
 {
-  double(*sum)[SUMS], (*home)[SUMS];
+  double(*sum)[SUMS], (*owned)[SUMS];
 
   PetscFunctionBeginUser;
   PetscAssert(ncomp <= SURFACE_FIELDS_MAX, PETSC_COMM_SELF, PETSC_ERR_PLIB, "too many fields: %d", ncomp);
-  PetscCall(PetscCalloc2(o->npieces, &sum, o->nhome, &home));
-  SumPairs(o, ncomp, source, context, sum);
-  PetscCall(OverlapReverseAdd(o, SUMS, (const double *)sum, (double *)home));
+  PetscCall(PetscCalloc2(o->nsources, &sum, o->nowned, &owned));
+  SumPairs(o, ncomp, fields, context, sum);
+  PetscCall(OverlapReverseAdd(o, SUMS, (const double *)sum, (double *)owned));
   for (int e = 0; e < shell->nfacets; e++) {
     double area[2];
     for (int t = 0; t < 2; t++) area[t] = GeometryArea((const double(*)[2])shell->x[2 * e + t]);
-    FacetField((const double(*)[SUMS]) & home[o->nvolume + 2 * e], area, ncomp, &surface[2 * ncomp * e]);
+    FacetField((const double(*)[SUMS]) & owned[o->nvolume + 2 * e], area, ncomp, &surface[2 * ncomp * e]);
   }
-  PetscCall(PetscFree2(sum, home));
+  PetscCall(PetscFree2(sum, owned));
   PetscFunctionReturn(0);
 }

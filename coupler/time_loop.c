@@ -1,314 +1,195 @@
+/* One step from t to t + dt (method.md sections 6 and 9); a staggered step is one coupling iteration.
+ *
+ *     repeat     fluid   -- u*, u+, p, mu -->   force     -- force -->  solid
+ *                solid   -- x, u_s ---------->  converged?
+ *                           if not:             next u_s  -- coupling, REDO -->  fluid
+ *     until converged
+ *     correction of the fluid to the solid's new velocity
+ *     choose dt;   shell, overlap and coupling at the solid's new position
+ *                                               correction, coupling, RUN -->  fluid
+ */
 #include "coupler/time_loop.h"
-#include "coupler/checkpoints.h"
-#include "coupler/coupling_iteration.h"
-#include "coupler/divergence_monitor.h"
+#include "coupler/exchange.h"
+#include "coupler/run_state.h"
 
-/* Of dt_max: a shorter step is an error. */
-#define LEAST_STEP 1e-6
-
-/* What lives from one step to the next. */
-typedef struct {
-  const TimeLoop *scheme;
-  ServerSolid solid;
-  ServerElements elements;
-  DivergenceMonitor guard;
-  Checkpoints checkpoints;
-  CouplingIteration tries;
-  double t, dt;
-} RunState;
-
-/* For what every rank has noticed: one message is enough, from rank 0; the others wait for the end of the
- * job. */
-static PetscErrorCode FailTogether(Server server, const char *message)
+/* Requests the fluid's elements near the solid. */
+static PetscErrorCode RequestElements(RunState *run)
 {
-  PetscMPIInt rank;
+  const TimeLoop *loop = run->loop;
 
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  if (rank == 0) ServerFail(server, "%s", message);
-  PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
+  PetscCall(RegionUpdate(loop->region, &run->solid, run->dt));
+  PetscCall(ExchangeRequestElements(loop->server, loop->region, &run->elements));
+  PetscCall(CouplerSetElements(loop->coupler, &run->elements));
   PetscFunctionReturn(0);
 }
 
-/* The solid's mesh or motion.  The paper's mode hands the fluid the solid's mean velocity over the step. A
- * reaction needs the velocity at its end, without vibrations: with the mean, half a step late, its inertia
- * term is unstable below rho_s/rho_f of about 1, and it drives the vibrations of a disc until that turns
- * inside out. */
-static PetscErrorCode ReceiveSolid(RunState *m)
-{
-  PetscFunctionBeginUser;
-  PetscCall(ServerReceiveSolid(m->scheme->server, &m->solid));
-  if (m->scheme->c->options.mode == COUPLER_STRESS_SHELL) m->solid.u = m->solid.mean;
-  PetscFunctionReturn(0);
-}
-
-/* Asks the fluid for its elements near the solid. */
-static PetscErrorCode AskElements(RunState *m)
-{
-  const TimeLoop *s = m->scheme;
-
-  PetscFunctionBeginUser;
-  PetscCall(RegionUpdate(s->region, &m->solid, m->dt));
-  PetscCall(ServerAskElements(s->server, s->region->nbox, &s->region->box[0][0][0], &m->elements));
-  PetscCall(CouplerSetElements(s->coupler, &m->elements));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode AskElementsIfNeeded(RunState *m)
+/* The same when the solid has left its region or the fluid has another mesh. */
+static PetscErrorCode UpdateElements(RunState *run)
 {
   PetscBool stale;
 
   PetscFunctionBeginUser;
-  PetscCall(RegionStale(m->scheme->region, &m->solid, &stale));
-  if (stale || ServerElementsChanged(m->scheme->server)) PetscCall(AskElements(m));
+  PetscCall(RegionStale(run->loop->region, &run->solid, &stale));
+  if (stale || ServerElementsChanged(run->loop->server)) PetscCall(RequestElements(run));
   PetscFunctionReturn(0);
 }
-
-/* At the start the whole solid must be in the fluid. */
-static PetscErrorCode CheckInside(RunState *m)
-{
-  const double *lower = m->elements.lower, *upper = m->elements.upper;
-  long long gid;
-  int local;
-
-  PetscFunctionBeginUser;
-  PetscCall(RegionOutside(m->scheme->region, &m->solid, &m->elements, &gid, &local));
-  if (local >= 0) {
-    ServerFail(m->scheme->server,
-               "the solid's node %lld at (%g, %g) lies outside of the fluid domain [%g, %g] x [%g, %g]", gid,
-               m->solid.x[2 * local], m->solid.x[2 * local + 1], lower[0], upper[0], lower[1], upper[1]);
-  }
-  /* the others wait here for the end of the job */
-  if (gid >= 0) PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
-  PetscFunctionReturn(0);
-}
-
-/* The fluid's proposal within the case's bounds.  The last step ends exactly at the end, and the one before
- * it is cut so that the last is no sliver. */
-static PetscErrorCode NextStep(RunState *m, double proposed)
-{
-  const double left = m->scheme->c->end - m->t;
-  const double wanted = fmin(proposed, m->scheme->c->dt_max);
-  char message[192];
-
-  PetscFunctionBeginUser;
-  /* a flow that runs away takes ever shorter steps and would never end */
-  if (!(wanted > LEAST_STEP * m->scheme->c->dt_max)) {
-    snprintf(message, sizeof message,
-             "at t = %g s the fluid proposes a time step of %g s, less than %g of time.dt_max: its velocity "
-             "runs away",
-             m->t, wanted, LEAST_STEP);
-    PetscCall(FailTogether(m->scheme->server, message));
-  }
-  m->dt = left < 2.0 * wanted ? 0.5 * left : wanted;
-  if (left <= wanted * (1.0 + 1e-9)) m->dt = left;
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode Watch(RunState *m, const StepRecord *step)
-{
-  DivergenceMonitorStep seen = {
-      .t = step->t, .dt = step->dt, .displaced = step->totals.displaced, .tries = m->tries.most};
-  char message[512];
-
-  PetscFunctionBeginUser;
-  for (int c = 0; c < 2; c++) {
-    seen.velocity[c] = step->motion.velocity[c];
-    seen.force[c] = step->totals.force[c];
-    seen.gravity[c] = m->scheme->c->options.gravity[c];
-    seen.extent = hypot(seen.extent, m->elements.upper[c] - m->elements.lower[c]);
-  }
-  if (DivergenceMonitorCheck(&m->guard, &seen, sizeof message, message))
-    PetscCall(FailTogether(m->scheme->server, message));
-  PetscFunctionReturn(0);
-}
-
-/* --- checkpoints ---------------------------------------------------------------------------------------- */
-
-/* What goes on: the step that comes (0 long at the end, where it is not known), the guard's memory. */
-static PetscErrorCode Load(RunState *m, Checkpoint from)
-{
-  DivergenceMonitor *g = &m->guard;
-  char message[128];
-  double row[7];
-
-  PetscFunctionBeginUser;
-  PetscCall(CheckpointGetNumber(from, "t", &m->t));
-  PetscCall(CheckpointGetNumber(from, "dt", &m->dt));
-  PetscCall(CheckpointGetDoubles(from, "guard", 0, 1, 7, row));
-  *g = (DivergenceMonitor){(int)row[0], (int)row[1], {row[2], row[3]}, {row[4], row[5]}, row[6]};
-  if (m->t >= m->scheme->c->end) {
-    snprintf(message, sizeof message, "the checkpoint to go on from is at t = %g s already, time.end is %g s",
-             m->t, m->scheme->c->end);
-    PetscCall(FailTogether(m->scheme->server, message));
-  }
-  PetscFunctionReturn(0);
-}
-
-/* As the step that has been sent begins, or at the end. */
-static PetscErrorCode Save(RunState *m)
-{
-  const DivergenceMonitor *g = &m->guard;
-  const double row[7] = {g->nsteps,    g->alternations, g->velocity[0], g->velocity[1],
-                         g->change[0], g->change[1],    g->first};
-  PetscMPIInt rank;
-  Checkpoint to;
-
-  PetscFunctionBeginUser;
-  if (!m->checkpoints.due[0]) PetscFunctionReturn(0);
-  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  PetscCall(CheckpointCreate(PETSC_COMM_WORLD, m->checkpoints.due, "coupler", &to));
-  PetscCall(CheckpointPutNumber(to, "t", m->t));
-  PetscCall(CheckpointPutNumber(to, "dt", m->dt));
-  PetscCall(CheckpointPutDoubles(to, "guard", rank ? 0 : 1, 7, row));
-  PetscCall(WriterSave(m->scheme->record, to));
-  PetscCall(CheckpointClose(&to));
-  PetscFunctionReturn(0);
-}
-
-/* --- the exchanges -------------------------------------------------------------------------------------- */
 
 /* The coupling of the coming step, and the correction of the one just made. */
-static PetscErrorCode SendCoupling(RunState *m, int ncorrection, const CoracleCorrection correction[])
+static PetscErrorCode SendCoupling(RunState *run)
 {
-  const TimeLoop *s = m->scheme;
+  const TimeLoop *loop = run->loop;
   const CoracleCoupling *coupling;
   const double *u;
   int n;
 
   PetscFunctionBeginUser;
-  PetscCall(CouplerBuild(s->coupler, &m->solid, m->dt, &n, &coupling));
-  if (m->tries.most > 1) {
-    PetscCall(CouplingIterationBegin(&m->tries, &m->solid, m->dt, &u));
-    PetscCall(CouplerSetInterfaceVelocity(s->coupler, m->tries.mobility, u, &n, &coupling));
+  PetscCall(CouplerBuild(loop->coupler, &run->solid, run->dt, &n, &coupling));
+  if (run->iteration.max_iterations > 1) {
+    PetscCall(CouplingIterationBegin(&run->iteration, &run->solid, run->dt, &u));
+    PetscCall(CouplerSetInterfaceVelocity(loop->coupler, run->iteration.mobility, u, &n, &coupling));
   }
-  PetscCall(WriterShell(s->record, m->t, s->coupler, &m->solid));
-  PetscCall(ServerSendCoupling(s->server, m->t, m->dt, CORACLE_RUN, ncorrection, correction, n, coupling));
+  PetscCall(WriterShell(loop->writer, run->t, loop->coupler, &run->solid));
+  PetscCall(ServerSendCoupling(loop->server, run->t, run->dt, CORACLE_RUN, run->ncorrection, run->correction,
+                               n, coupling));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Start(RunState *m)
+static PetscErrorCode Start(RunState *run)
 {
+  const TimeLoop *loop = run->loop;
+  const CouplerCase *c = loop->c;
+
   PetscFunctionBeginUser;
-  PetscCall(CouplingIterationCreate(PETSC_COMM_WORLD, m->scheme->c->tries, m->scheme->c->tolerance,
-                                    m->scheme->c->options.thickness, &m->tries));
-  PetscCall(CheckpointsCreate(PETSC_COMM_WORLD, m->scheme->server, m->scheme->c, &m->checkpoints));
-  if (m->scheme->from) PetscCall(Load(m, m->scheme->from));
-  PetscCall(ReceiveSolid(m));
-  PetscCall(AskElements(m));
-  if (!m->scheme->from) PetscCall(CheckInside(m));
-  PetscCall(NextStep(m, m->dt > 0.0 ? m->dt : ServerProposedStep(m->scheme->server)));
-  PetscCall(SendCoupling(m, 0, NULL));
+  PetscCall(CouplingIterationCreate(PETSC_COMM_WORLD, c->max_iterations, c->tolerance, c->options.thickness,
+                                    &run->iteration));
+  PetscCall(CheckpointsCreate(PETSC_COMM_WORLD, loop->server, c, &run->checkpoints));
+  if (loop->from) PetscCall(RunLoad(run, loop->from));
+  PetscCall(ExchangeReceiveSolid(loop->server, run->mode, &run->solid));
+  PetscCall(RequestElements(run));
+  if (!loop->from) PetscCall(RunCheckInside(run));
+  PetscCall(RunChooseStep(run, run->dt > 0.0 ? run->dt : ServerProposedStep(loop->server)));
+  PetscCall(SendCoupling(run));
   PetscFunctionReturn(0);
 }
 
-/* Fluid -> coupler -> solid -> coupler. */
-static PetscErrorCode Try(RunState *m, CoracleAction action, StepRecord *step)
+/* One coupling iteration: the fluid's flow becomes the solid's force, which makes the solid's motion. */
+static PetscErrorCode Iterate(RunState *run, CoracleAction action, StepRecord *step)
 {
-  const TimeLoop *s = m->scheme;
+  const TimeLoop *loop = run->loop;
   const double *force;
-  ServerFlow flow;
+  FluidFlow flow;
 
   PetscFunctionBeginUser;
-  PetscCall(ServerReceiveFlow(s->server, &flow));
+  PetscCall(ExchangeReceiveFlow(loop->server, run->mode, &flow));
   const double start = MPI_Wtime();
-  PetscCall(CouplerReact(s->coupler, &flow, &force, &step->totals));
+  PetscCall(CouplerComputeForce(loop->coupler, &flow, &force, &step->totals));
   step->force += MPI_Wtime() - start;
-  PetscCall(ServerSendForce(s->server, m->t, m->dt, action, force));
-  PetscCall(ReceiveSolid(m));
+  PetscCall(ServerSendForce(loop->server, run->t, run->dt, action, force));
+  PetscCall(ExchangeReceiveSolid(loop->server, run->mode, &run->solid));
   PetscFunctionReturn(0);
 }
 
-/* The fluid makes the step again, with another velocity of the solid. */
-static PetscErrorCode AimAgain(RunState *m, int tries)
+/* The fluid repeats the step with the next iterate as the solid's velocity. */
+static PetscErrorCode RepeatStep(RunState *run)
 {
-  const TimeLoop *s = m->scheme;
+  const TimeLoop *loop = run->loop;
   const CoracleCoupling *coupling;
   const double *u;
-  char message[256];
   int n;
 
   PetscFunctionBeginUser;
-  if (tries == m->tries.most) {
-    snprintf(message, sizeof message,
-             "the step from t = %g s does not converge: after %d tries the solid ends with a velocity %g m/s "
-             "away from what the fluid has met; shorter steps (time.dt_max) help, or coupler.tries",
-             m->t, tries, m->tries.difference);
-    PetscCall(FailTogether(s->server, message));
+  PetscCall(CouplingIterationNext(&run->iteration, &u));
+  PetscCall(CouplerSetInterfaceVelocity(loop->coupler, run->iteration.mobility, u, &n, &coupling));
+  PetscCall(ServerSendCoupling(loop->server, run->t, run->dt, CORACLE_REDO, 0, NULL, n, coupling));
+  PetscFunctionReturn(0);
+}
+
+/* Coupling iterations until the step has converged. */
+static PetscErrorCode SolveStep(RunState *run, StepRecord *step)
+{
+  PetscBool converged;
+
+  PetscFunctionBeginUser;
+  for (step->iterations = 1;; step->iterations++) {
+    PetscCall(Iterate(run, step->iterations == 1 ? CORACLE_RUN : CORACLE_REDO, step));
+    PetscCall(CouplingIterationHasConverged(&run->iteration, step->iterations, &run->solid, &converged));
+    if (converged) break;
+    if (step->iterations == run->iteration.max_iterations) PetscCall(RunFailIteration(run));
+    PetscCall(RepeatStep(run));
   }
-  PetscCall(CouplingIterationNext(&m->tries, &u));
-  PetscCall(CouplerSetInterfaceVelocity(s->coupler, m->tries.mobility, u, &n, &coupling));
-  PetscCall(ServerSendCoupling(s->server, m->t, m->dt, CORACLE_REDO, 0, NULL, n, coupling));
+  PetscCall(CouplingIterationEnd(&run->iteration));
   PetscFunctionReturn(0);
 }
 
-/* The step; what remains is to send the fluid its correction and the next coupling. */
-static PetscErrorCode Exchange(RunState *m, StepRecord *step, int *n, const CoracleCorrection **correction)
+/* t moves to the step's end. */
+static PetscErrorCode AcceptStep(RunState *run, StepRecord *step)
 {
-  const TimeLoop *s = m->scheme;
-  PetscBool agree;
+  const TimeLoop *loop = run->loop;
+  const double end = loop->c->end;
 
   PetscFunctionBeginUser;
-  for (step->tries = 1;; step->tries++) {
-    PetscCall(Try(m, step->tries == 1 ? CORACLE_RUN : CORACLE_REDO, step));
-    PetscCall(CouplingIterationHasConverged(&m->tries, step->tries, &m->solid, &agree));
-    if (agree) break;
-    PetscCall(AimAgain(m, step->tries));
-  }
-  PetscCall(CouplingIterationEnd(&m->tries));
-  PetscCall(CouplerCorrect(s->coupler, &m->solid, n, correction));
-  PetscCall(BulkMotionOf(PETSC_COMM_WORLD, &m->solid, &step->motion));
-  step->dt = m->dt;
-  m->t = m->t + m->dt >= s->c->end * (1.0 - 1e-14) ? s->c->end : m->t + m->dt;
-  step->t = m->t;
-  PetscCall(Watch(m, step));
+  PetscCall(CouplerCorrect(loop->coupler, &run->solid, &run->ncorrection, &run->correction));
+  PetscCall(BulkMotionOf(PETSC_COMM_WORLD, &run->solid, &step->motion));
+  run->t = run->t + run->dt >= end * (1.0 - 1e-14) ? end : run->t + run->dt;
+  step->t = run->t;
+  step->dt = run->dt;
+  PetscCall(RunCheckDivergence(run, step));
+  PetscCall(CheckpointsFinish(&run->checkpoints));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Stop(RunState *m, int ncorrection, const CoracleCorrection correction[])
+static PetscErrorCode BeginStep(RunState *run, StepRecord *step)
 {
-  double *none;
+  const TimeLoop *loop = run->loop;
+  const double start = MPI_Wtime() - ServerWaited(loop->server);
 
   PetscFunctionBeginUser;
-  PetscCall(PetscCalloc1(2 * (size_t)m->solid.nnodes, &none));
-  PetscCall(ServerSendCoupling(m->scheme->server, m->t, 0.0, CORACLE_STOP, ncorrection, correction, 0, NULL));
-  PetscCall(ServerSendForce(m->scheme->server, m->t, 0.0, CORACLE_STOP, none));
-  PetscCall(PetscFree(none));
+  PetscCall(UpdateElements(run));
+  PetscCall(RunChooseStep(run, ServerProposedStep(loop->server)));
+  PetscCall(CheckpointsRequest(&run->checkpoints, WriterSteps(loop->writer) + 1, PETSC_FALSE));
+  PetscCall(SendCoupling(run));
+  step->overlap = MPI_Wtime() - ServerWaited(loop->server) - start;
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode TimeLoopRun(const TimeLoop *s)
+/* The last correction and STOP to both clients; returns when they have closed. */
+static PetscErrorCode Stop(RunState *run)
 {
-  RunState m = {.scheme = s};
-  double waited, built;
-  const CoracleCorrection *correction;
-  int n;
+  const Server server = run->loop->server;
+  double *zero;
 
   PetscFunctionBeginUser;
-  PetscCall(Start(&m));
-  while (m.t < s->c->end) {
+  run->dt = 0.0;
+  PetscCall(CheckpointsRequest(&run->checkpoints, WriterSteps(run->loop->writer), PETSC_TRUE));
+  PetscCall(PetscCalloc1(2 * (size_t)run->solid.nnodes, &zero));
+  PetscCall(
+      ServerSendCoupling(server, run->t, 0.0, CORACLE_STOP, run->ncorrection, run->correction, 0, NULL));
+  PetscCall(ServerSendForce(server, run->t, 0.0, CORACLE_STOP, zero));
+  PetscCall(PetscFree(zero));
+  PetscCall(RunSave(run));
+  PetscCall(ServerFinish(server));
+  PetscCall(CheckpointsFinish(&run->checkpoints));
+  PetscCall(CouplingIterationDestroy(&run->iteration));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TimeLoopRun(const TimeLoop *loop)
+{
+  RunState run = {.loop = loop, .mode = CouplerModeGet(loop->c->options.mode)};
+
+  PetscFunctionBeginUser;
+  PetscCall(Start(&run));
+  while (run.t < loop->c->end) {
+    const double waited = ServerWaited(loop->server);
     StepRecord step = {0};
-    waited = ServerWaited(s->server);
-    PetscCall(Exchange(&m, &step, &n, &correction));
-    PetscCall(CheckpointsFinish(&m.checkpoints));
-    if (m.t < s->c->end) {
-      built = MPI_Wtime() - ServerWaited(s->server);
-      PetscCall(AskElementsIfNeeded(&m));
-      PetscCall(NextStep(&m, ServerProposedStep(s->server)));
-      PetscCall(CheckpointsAsk(&m.checkpoints, WriterSteps(s->record) + 1, PETSC_FALSE));
-      PetscCall(SendCoupling(&m, n, correction));
-      step.overlap = MPI_Wtime() - ServerWaited(s->server) - built;
-    }
-    step.waiting = ServerWaited(s->server) - waited;
-    PetscCall(WriterStep(s->record, &step));
-    PetscCall(Save(&m));
+    PetscCall(SolveStep(&run, &step));
+    PetscCall(AcceptStep(&run, &step));
+    if (run.t < loop->c->end) PetscCall(BeginStep(&run, &step));
+    step.waiting = ServerWaited(loop->server) - waited;
+    PetscCall(WriterStep(loop->writer, &step));
+    PetscCall(RunSave(&run));
   }
-  m.dt = 0.0;
-  PetscCall(CheckpointsAsk(&m.checkpoints, WriterSteps(s->record), PETSC_TRUE));
-  PetscCall(Stop(&m, n, correction));
-  PetscCall(Save(&m));
-  PetscCall(ServerFinish(s->server));
-  PetscCall(CheckpointsFinish(&m.checkpoints));
-  PetscCall(CouplingIterationDestroy(&m.tries));
+  PetscCall(Stop(&run));
   PetscFunctionReturn(0);
 }

@@ -1,6 +1,7 @@
-/* How the coupled steps follow each other. */
-#ifndef CORACLE_SCHEME_H
-#define CORACLE_SCHEME_H
+/* The time loop: the coupled steps from the start, or from a checkpoint, to time.end. */
+#ifndef CORACLE_TIME_LOOP_H
+#define CORACLE_TIME_LOOP_H
+#include "common/link/server.h"
 #include "coupler/region.h"
 #include "coupler/writer.h"
 
@@ -9,11 +10,10 @@ typedef struct {
   const CouplerCase *c;
   Coupler coupler;
   Region region;
-  Writer record;
-  Checkpoint from; /* that the run goes on from; NULL: from the start */
+  Writer writer;
+  Checkpoint from; /* that the run resumes from; NULL: from the start */
 } TimeLoop;
 
-/* Collective: runs to the end, until all clients have closed.  A try of a step: the fluid implicit, the
- * solid with the force of the same step (method.md sections 6 and 9); tries.h says how many. */
-PetscErrorCode TimeLoopRun(const TimeLoop *scheme);
+/* Collective.  Returns when the end is reached and all clients have closed. */
+PetscErrorCode TimeLoopRun(const TimeLoop *loop);
 #endif

@@ -11,7 +11,7 @@ static void CrossVelocity(const SupermeshPair *pair, const double u[3][2], doubl
 }
 
 /* to += f a N_i N_j */
-static void AddTensor(double f, const WallWeight *a, const double bb[3][3], double to[2][3][2][3])
+static void AddTensor(double f, const WallCoefficient *a, const double bb[3][3], double to[2][3][2][3])
 {
   for (int i = 0; i < 3; i++) {
     for (int j = 0; j < 3; j++) {
@@ -23,7 +23,7 @@ static void AddTensor(double f, const WallWeight *a, const double bb[3][3], doub
   }
 }
 
-static void AddSource(const WallWeight *a, const double cu[2][3], double s[2][3])
+static void AddSource(const WallCoefficient *a, const double cu[2][3], double s[2][3])
 {
   for (int i = 0; i < 3; i++) {
     s[0][i] += a->xx * cu[0][i] + a->xy * cu[1][i];
@@ -31,29 +31,30 @@ static void AddSource(const WallWeight *a, const double cu[2][3], double s[2][3]
   }
 }
 
-static void AddSolidMass(double firmness, const double bb[3][3], const double cu[2][3], CoracleCoupling *k)
+static void AddSolidMass(double implicit_factor, const double bb[3][3], const double cu[2][3],
+                         CoracleCoupling *k)
 {
   for (int i = 0; i < 3; i++) {
-    for (int d = 0; d < 2; d++) k->us[d][i] += firmness * cu[d][i];
-    for (int j = 0; j < 3; j++) k->ms[i][j] += firmness * bb[i][j];
+    for (int d = 0; d < 2; d++) k->us[d][i] += implicit_factor * cu[d][i];
+    for (int j = 0; j < 3; j++) k->ms[i][j] += implicit_factor * bb[i][j];
   }
 }
 
-void WallTermAssemble(const Overlap o, const WallWeight weight[], const double firmness[],
+void WallTermAssemble(const Overlap o, const WallCoefficient coefficient[], const double implicit_factor[],
                       CoracleCoupling coupling[])
 {
-  for (int e = 0; e < o->nentries; e++) coupling[e] = (CoracleCoupling){.element = o->element[e]};
+  for (int e = 0; e < o->ncoupled; e++) coupling[e] = (CoracleCoupling){.element = o->coupled_element[e]};
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    const OverlapPiece *piece = &o->piece[pair->a];
-    CoracleCoupling *k = &coupling[o->entry[p]];
-    const double b = firmness[pair->a];
+    const SourceTriangle *source = &o->source[pair->a];
+    CoracleCoupling *k = &coupling[o->coupled_index[p]];
+    const double b = implicit_factor[pair->a];
     double cu[2][3];
-    CrossVelocity(pair, piece->u, cu);
-    AddTensor(1.0, &weight[p], pair->bb, k->a);
-    if (b != 1.0) AddTensor(1.0 - b, &weight[p], pair->bb, k->give);
-    AddSource(&weight[p], (const double(*)[3])cu, k->s);
-    if (piece->is_shell) {
+    CrossVelocity(pair, source->u, cu);
+    AddTensor(1.0, &coefficient[p], pair->bb, k->a);
+    if (b != 1.0) AddTensor(1.0 - b, &coefficient[p], pair->bb, k->give);
+    AddSource(&coefficient[p], (const double(*)[3])cu, k->s);
+    if (source->is_shell) {
       k->shell += pair->area / o->area[pair->b];
     } else {
       k->alpha += pair->area / o->area[pair->b];

@@ -2,12 +2,12 @@
 
 static const char COLUMNS[] =
     "t [s],dt [s],u_x [m/s],u_y [m/s],F_x [N],F_y [N],R_x [N],R_y [N],imbalance,pairs,"
-    "overlap [s],force [s],waiting [s],tries";
+    "overlap [s],force [s],waiting [s],iterations";
 
 struct Writer_s {
   MPI_Comm comm;
   int rank, revision;
-  double end, down[2], start, said, fall_end, fall_sum,
+  double end, down[2], start, reported, fall_end, fall_sum,
       fall_time; /* fall_end: the end of whose last 5 % it is */
   Series series;
   Output output;
@@ -18,41 +18,41 @@ struct Writer_s {
 typedef struct {
   const char *name;
   double *value;
-} Kept;
-enum { NKEPT = 7 };
+} SavedNumber;
+enum { NSAVED = 7 };
 
 /* count is a copy of the totals' steps and tries, which are no doubles. */
-static void KeptOf(Writer r, double count[2], Kept kept[NKEPT])
+static void SavedNumbers(Writer r, double count[2], SavedNumber saved[NSAVED])
 {
   count[0] = (double)r->totals.steps;
-  count[1] = (double)r->totals.tries;
-  const Kept all[NKEPT] = {{"steps", &count[0]},         {"tries", &count[1]},
-                           {"fall end", &r->fall_end},   {"fall sum", &r->fall_sum},
-                           {"fall time", &r->fall_time}, {"imbalance", &r->totals.imbalance},
-                           {"end", &r->totals.end}};
-  for (int k = 0; k < NKEPT; k++) kept[k] = all[k];
+  count[1] = (double)r->totals.iterations;
+  const SavedNumber all[NSAVED] = {{"steps", &count[0]},         {"iterations", &count[1]},
+                                   {"fall end", &r->fall_end},   {"fall sum", &r->fall_sum},
+                                   {"fall time", &r->fall_time}, {"imbalance", &r->totals.imbalance},
+                                   {"end", &r->totals.end}};
+  for (int k = 0; k < NSAVED; k++) saved[k] = all[k];
 }
 
 /* The most of all ranks, as the summary has them. */
 static PetscErrorCode PutSeconds(Writer r, Checkpoint to)
 {
-  double most[2] = {r->totals.overlap, r->totals.force};
+  double largest[2] = {r->totals.overlap, r->totals.force};
 
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, r->comm));
-  PetscCall(CheckpointPutNumber(to, "seconds of overlap", most[0]));
-  PetscCall(CheckpointPutNumber(to, "seconds of force", most[1]));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, r->comm));
+  PetscCall(CheckpointPutNumber(to, "seconds of overlap", largest[0]));
+  PetscCall(CheckpointPutNumber(to, "seconds of force", largest[1]));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode WriterSave(Writer r, Checkpoint to)
 {
-  Kept kept[NKEPT];
+  SavedNumber saved[NSAVED];
   double count[2];
 
   PetscFunctionBeginUser;
-  KeptOf(r, count, kept);
-  for (int k = 0; k < NKEPT; k++) PetscCall(CheckpointPutNumber(to, kept[k].name, *kept[k].value));
+  SavedNumbers(r, count, saved);
+  for (int k = 0; k < NSAVED; k++) PetscCall(CheckpointPutNumber(to, saved[k].name, *saved[k].value));
   PetscCall(PutSeconds(r, to));
   PetscCall(OutputSave(r->output, to));
   PetscCall(SeriesSave(r->series, to));
@@ -61,18 +61,18 @@ PetscErrorCode WriterSave(Writer r, Checkpoint to)
 
 static PetscErrorCode Load(Writer r, Checkpoint from)
 {
-  Kept kept[NKEPT];
+  SavedNumber saved[NSAVED];
   double count[2];
 
   PetscFunctionBeginUser;
-  KeptOf(r, count, kept);
-  for (int k = 0; k < NKEPT; k++) PetscCall(CheckpointGetNumber(from, kept[k].name, kept[k].value));
+  SavedNumbers(r, count, saved);
+  for (int k = 0; k < NSAVED; k++) PetscCall(CheckpointGetNumber(from, saved[k].name, saved[k].value));
   PetscCall(CheckpointGetNumber(from, "seconds of overlap", &r->totals.overlap));
   PetscCall(CheckpointGetNumber(from, "seconds of force", &r->totals.force));
   if (r->fall_end != r->end) r->fall_sum = r->fall_time = 0.0;
   r->fall_end = r->end;
   r->totals.steps = (long long)count[0];
-  r->totals.tries = (long long)count[1];
+  r->totals.iterations = (long long)count[1];
   r->totals.resumed = r->totals.end;
   if (!r->rank) printf("coracle: goes on from t = %.5g s, step %lld\n", r->totals.resumed, r->totals.steps);
   PetscFunctionReturn(0);
@@ -83,7 +83,7 @@ long long WriterSteps(Writer r)
   return r->totals.steps;
 }
 
-PetscErrorCode WriterCreate(MPI_Comm comm, const CouplerCase *c, Checkpoint from, Writer *record)
+PetscErrorCode WriterCreate(MPI_Comm comm, const CouplerCase *c, Checkpoint from, Writer *writer)
 {
   const double *g = c->options.gravity, size = hypot(g[0], g[1]);
   Writer r;
@@ -100,12 +100,12 @@ PetscErrorCode WriterCreate(MPI_Comm comm, const CouplerCase *c, Checkpoint from
   PetscCall(OutputCreate(comm, c->folder, "coupler", c->every, from, &r->output));
   PetscCall(SeriesCreate(comm, c->folder, "coupler", COLUMNS, from, &r->series));
   if (from) PetscCall(Load(r, from));
-  *record = r;
+  *writer = r;
   PetscFunctionReturn(0);
 }
 
 /* Every facet's two triangles with four nodes of their own, so that no rank needs another's. */
-static PetscErrorCode WriteShell(Writer r, const Shell shell, const ServerSolid *solid)
+static PetscErrorCode WriteShell(Writer r, const Shell shell, const SolidState *solid)
 {
   const int nf = shell->nfacets;
   double(*x)[2], (*u)[2], (*normal)[2];
@@ -136,7 +136,7 @@ static PetscErrorCode WriteShell(Writer r, const Shell shell, const ServerSolid 
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode WriterShell(Writer r, double t, const Coupler coupler, const ServerSolid *solid)
+PetscErrorCode WriterShell(Writer r, double t, const Coupler coupler, const SolidState *solid)
 {
   PetscFunctionBeginUser;
   if (!OutputDue(r->output, t)) PetscFunctionReturn(0);
@@ -147,11 +147,11 @@ PetscErrorCode WriterShell(Writer r, double t, const Coupler coupler, const Serv
 }
 
 /* About once a second, and at the end. */
-static void Say(Writer r, const StepRecord *s)
+static void LogProgress(Writer r, const StepRecord *s)
 {
   const double now = MPI_Wtime(), spent = now - r->start;
-  if (r->rank || (now - r->said < 1.0 && s->t < r->end)) return;
-  r->said = now;
+  if (r->rank || (now - r->reported < 1.0 && s->t < r->end)) return;
+  r->reported = now;
   printf("coracle: t %.5g s of %g, step %lld, dt %.3g s, solid at (%.4g, %.4g) m/s, %.0f s done, about %.0f "
          "s to go\n",
          s->t, r->end, r->totals.steps, s->dt, s->motion.velocity[0], s->motion.velocity[1], spent,
@@ -175,7 +175,7 @@ PetscErrorCode WriterStep(Writer r, const StepRecord *s)
                         s->overlap,
                         s->force,
                         s->waiting,
-                        s->tries};
+                        s->iterations};
   /* how much of the step lies in the last 5 % of the time */
   const double late = PetscMax(0.0, s->t - PetscMax(s->t - s->dt, 0.95 * r->end));
 
@@ -183,7 +183,7 @@ PetscErrorCode WriterStep(Writer r, const StepRecord *s)
   r->fall_time += late;
   r->fall_sum += late * (u[0] * r->down[0] + u[1] * r->down[1]);
   r->totals.steps++;
-  r->totals.tries += s->tries;
+  r->totals.iterations += s->iterations;
   r->totals.end = s->t;
   r->totals.imbalance = PetscMax(r->totals.imbalance, s->totals.imbalance);
   r->totals.overlap += s->overlap;
@@ -191,32 +191,32 @@ PetscErrorCode WriterStep(Writer r, const StepRecord *s)
   r->totals.nelements = s->motion.nelements;
   r->totals.nfacets = s->motion.nfacets;
   PetscCall(SeriesRow(r->series, row));
-  Say(r, s);
+  LogProgress(r, s);
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode WriterTotalsOf(Writer r, int nfluid, WriterTotals *totals)
 {
-  double most[2] = {r->totals.overlap, r->totals.force};
+  double largest[2] = {r->totals.overlap, r->totals.force};
   long long sum = nfluid;
 
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_LONG_LONG, MPI_SUM, r->comm));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, r->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, r->comm));
   *totals = r->totals;
   totals->terminal = r->fall_time > 0.0 ? r->fall_sum / r->fall_time : NAN;
   totals->nfluid = sum;
-  totals->overlap = most[0];
-  totals->force = most[1];
+  totals->overlap = largest[0];
+  totals->force = largest[1];
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode WriterDestroy(Writer *record)
+PetscErrorCode WriterDestroy(Writer *writer)
 {
   PetscFunctionBeginUser;
-  if (!*record) PetscFunctionReturn(0);
-  PetscCall(OutputDestroy(&(*record)->output));
-  PetscCall(SeriesDestroy(&(*record)->series));
-  PetscCall(PetscFree(*record));
+  if (!*writer) PetscFunctionReturn(0);
+  PetscCall(OutputDestroy(&(*writer)->output));
+  PetscCall(SeriesDestroy(&(*writer)->series));
+  PetscCall(PetscFree(*writer));
   PetscFunctionReturn(0);
 }

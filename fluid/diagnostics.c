@@ -10,7 +10,7 @@ PetscErrorCode FluidMomentumTotal(Fluid f, double momentum[2], double *energy)
   for (int e = 0; e < f->domain.mesh->ne; e++)
     for (int c = 0; c < 2; c++) {
       double mu[3];
-      MassApply(f->domain.geometry[e].area, u + 6 * e + 3 * c, mu);
+      P1MassApply(f->domain.geometry[e].area, u + 6 * e + 3 * c, mu);
       for (int i = 0; i < 3; i++) {
         sum[c] += FluidDensity(f)[e] * mu[i];
         sum[2] += 0.5 * FluidDensity(f)[e] * mu[i] * u[6 * e + 3 * c + i];

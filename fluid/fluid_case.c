@@ -179,7 +179,10 @@ PetscErrorCode FluidCaseAdaptation(Case c, PetscBool *adapts, AdaptationSetup *s
   *adapts = (PetscBool)CaseHas(c, "fluid.adapt");
   if (!*adapts) PetscFunctionReturn(0);
   s->size_min = CasePositive(c, "fluid.adapt.size_min");
-  s->size_max = CaseNumber(c, "fluid.adapt.size_max", s->size_min, HUGE_VAL);
+  s->size_max = CasePositive(c, "fluid.adapt.size_max");
+  if (s->size_max < s->size_min)
+    CaseRefuse(c, "fluid.adapt.size_max", "expected at least fluid.adapt.size_min, %g, found %g", s->size_min,
+               s->size_max);
   s->velocity_error = CasePositive(c, "fluid.adapt.velocity_error");
   s->growth = CaseNumberOr(c, "fluid.adapt.growth", 1.5, 1.01, 10.0);
   s->anisotropy = CaseNumberOr(c, "fluid.adapt.anisotropy", 5.0, 1.0, 1000.0);

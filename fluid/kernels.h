@@ -27,98 +27,14 @@
  *   c=1  [ 3 x 3 ]  [ 3 x 3 ]                                                                              */
 #ifndef FLUID_KERNELS_H
 #define FLUID_KERNELS_H
+#include "common/space/element.h"
+#include "common/space/p1.h"
+#include "common/space/p2.h"
 #include <math.h>
 #include <string.h>
 
 /* Interior-penalty safety factor: 1 is the limit of coercivity for the full stress on P1 triangles. */
 #define PENALTY_FACTOR 1.25
-
-typedef struct {
-  double n[2];   /* outward unit normal */
-  double length; /* m */
-} FaceGeometry;
-
-typedef struct {
-  double area;          /* m2 */
-  double g[3][2];       /* gradients of the barycentric coordinates, 1/m */
-  double trace;         /* perimeter / area: the constant of the trace inequality of P1 gradients, 1/m */
-  FaceGeometry face[3]; /* face i lies opposite to vertex i */
-} ElementGeometry;
-
-static inline void ElementGeometryCompute(const double x0[2], const double x1[2], const double x2[2],
-                                          ElementGeometry *e)
-{
-  const double *x[3] = {x0, x1, x2};
-  const double twice = (x1[0] - x0[0]) * (x2[1] - x0[1]) - (x2[0] - x0[0]) * (x1[1] - x0[1]);
-  e->area = 0.5 * twice;
-  e->trace = 0.0;
-  for (int i = 0; i < 3; i++) {
-    const double *a = x[(i + 1) % 3], *b = x[(i + 2) % 3];
-    const double length = hypot(b[0] - a[0], b[1] - a[1]);
-    e->g[i][0] = (a[1] - b[1]) / twice;
-    e->g[i][1] = (b[0] - a[0]) / twice;
-    e->face[i] = (FaceGeometry){{(b[1] - a[1]) / length, (a[0] - b[0]) / length}, length};
-    e->trace += length / e->area;
-  }
-}
-
-/* m[i] = int_K N_i q for q in P1 with vertex values q */
-static inline void MassApply(double area, const double q[3], double m[3])
-{
-  const double sum = q[0] + q[1] + q[2];
-  for (int i = 0; i < 3; i++) m[i] = area / 12.0 * (sum + q[i]);
-}
-
-/* the inverse of MassApply */
-static inline void MassSolve(double area, const double m[3], double q[3])
-{
-  const double sum = m[0] + m[1] + m[2];
-  for (int i = 0; i < 3; i++) q[i] = 3.0 / area * (4.0 * m[i] - sum);
-}
-
-/* Gradient of a P2 function at the three vertices: it is in P1, so these values are all of it. */
-static inline void P2Gradient(const double g[3][2], const double p[6], double grad[3][2])
-{
-  for (int m = 0; m < 3; m++) {
-    double d[3];
-    for (int k = 0; k < 3; k++) d[k] = k == m ? 3.0 * p[m] : 4.0 * p[3 + (3 - k - m)] - p[k];
-    for (int c = 0; c < 2; c++) grad[m][c] = d[0] * g[0][c] + d[1] * g[1][c] + d[2] * g[2][c];
-  }
-}
-
-/* r[q] += int_K v.grad N_q over the P2 basis, with mv[c][i] = int_K N_i v_c (transpose of P2Gradient) */
-static inline void P2GradientTranspose(const double g[3][2], const double mv[2][3], double r[6])
-{
-  for (int m = 0; m < 3; m++)
-    for (int k = 0; k < 3; k++) {
-      const double d = g[k][0] * mv[0][m] + g[k][1] * mv[1][m];
-      if (k == m)
-        r[m] += 3.0 * d;
-      else {
-        r[3 + (3 - k - m)] += 4.0 * d;
-        r[k] -= d;
-      }
-    }
-}
-
-/* s[q][r] = coefficient int_K grad N_q.grad N_r over the P2 basis */
-static inline void P2Stiffness(const ElementGeometry *e, double coefficient, double s[6][6])
-{
-  double grad[6][3][2];
-  for (int q = 0; q < 6; q++) {
-    double unit[6] = {0};
-    unit[q] = 1.0;
-    P2Gradient(e->g, unit, grad[q]);
-  }
-  for (int q = 0; q < 6; q++)
-    for (int r = 0; r < 6; r++) {
-      double sum = 0.0;
-      for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-          sum += (i == j ? 2.0 : 1.0) * (grad[q][i][0] * grad[r][j][0] + grad[q][i][1] * grad[r][j][1]);
-      s[q][r] = coefficient * e->area / 12.0 * sum;
-    }
-}
 
 /* Volume terms that both components share: block (3 x 3, column-major) = rho/dt M + theta (m.grad u, w) +
  * theta mu (grad u, grad w); flux: m[c][i] at the vertices. */
@@ -127,8 +43,8 @@ static inline void ScalarVolume(const ElementGeometry *e, double rho_dt, double 
 {
   const double m = rho_dt * e->area / 12.0, v = theta_mu * e->area;
   double b[2][3];
-  MassApply(e->area, flux, b[0]);
-  MassApply(e->area, flux + 3, b[1]);
+  P1MassApply(e->area, flux, b[0]);
+  P1MassApply(e->area, flux + 3, b[1]);
   for (int j = 0; j < 3; j++)
     for (int i = 0; i < 3; i++) {
       const double *gi = e->g[i], *gj = e->g[j];

@@ -1,6 +1,7 @@
 /* coracle-fluid: the fluid participant.  coracle-fluid case.yaml [--set key=value]... */
 #include "common/mesh/mesh_checkpoint.h"
 #include "fluid/adaptation.h"
+#include "fluid/check.h"
 #include "fluid/exchange.h"
 #include "fluid/fluid_case.h"
 #include "fluid/writer.h"
@@ -216,9 +217,11 @@ static PetscErrorCode Run(CoracleClient client, Case c, MPI_Comm comm)
 
 int main(int argc, char **argv)
 {
+  const Command command = CommandTake(&argc, argv);
   CoracleClient client;
   MPI_Comm comm;
   Case c;
+  if (command != COMMAND_RUN) return FluidAnswer(command, argc, argv);
   if (CoracleOpen("fluid", argc, argv, &comm, &client)) return 1;
   PETSC_COMM_WORLD = comm;
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));

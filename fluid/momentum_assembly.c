@@ -79,7 +79,7 @@ static void ElementLoad(MomentumSolver s, const MomentumStep *step, int e, const
   }
   for (int c = 0; c < 2; c++) {
     double mq[3];
-    MassApply(g->area, q[c], mq);
+    P1MassApply(g->area, q[c], mq);
     for (int i = 0; i < 3; i++) load[3 * c + i] += mq[i];
   }
 }
@@ -91,7 +91,7 @@ static void ElementInertia(MomentumSolver s, const MomentumStep *step, int e, co
 {
   for (int c = 0; c < 2; c++) {
     double mu[3];
-    MassApply(s->domain->geometry[e].area, u + 3 * c, mu);
+    P1MassApply(s->domain->geometry[e].area, u + 3 * c, mu);
     for (int i = 0; i < 3; i++) load[3 * c + i] += step->rho[e] / (step->dt * s->setup.theta) * mu[i];
   }
 }

@@ -83,7 +83,7 @@ static PetscErrorCode AssembleLaplacian(ProjectionSolver s, const double rho[])
   for (int e = 0; e < m->ne; e++) {
     double k[6][6];
     PetscInt gid[6];
-    P2Stiffness(s->domain->geometry + e, 1.0 / rho[e], k);
+    P2Stiffness(s->domain->geometry[e].area, (const double(*)[2])s->domain->geometry[e].g, 1.0 / rho[e], k);
     for (int i = 0; i < 6; i++) gid[i] = m->p2gid[m->p2[6 * e + i]];
     PetscCall(MatSetValues(s->laplacian, 6, gid, 6, gid, &k[0][0], ADD_VALUES));
   }
@@ -177,7 +177,7 @@ static void BoundaryFlux(const FluidDomain *d, int e, double t, double r[6])
 /* mv = M u + (us - ms u) */
 static void BulkMomentum(double area, const CoracleCoupling *k, const double u[6], double mv[2][3])
 {
-  for (int c = 0; c < 2; c++) MassApply(area, u + 3 * c, mv[c]);
+  for (int c = 0; c < 2; c++) P1MassApply(area, u + 3 * c, mv[c]);
   for (int c = 0; c < 2 && k; c++)
     for (int i = 0; i < 3; i++) {
       mv[c][i] += k->us[c][i];

@@ -79,7 +79,7 @@ void SolidCouplingCorrect(SolidCoupling s, const ElementGeometry geometry[],
     const int e = s->entry[k].element;
     for (int c = 0; c < 2; c++) {
       double du[3];
-      MassSolve(geometry[e].area, correction[k].r[c], du);
+      P1MassSolve(geometry[e].area, correction[k].r[c], du);
       for (int i = 0; i < 3; i++) u[6 * e + 3 * c + i] += du[i];
     }
   }

@@ -2,6 +2,7 @@
  *
  * coracle-solid --alone case.yaml [--set key=value]...: the solid without coupler and fluid (alone.h). */
 #include "solid/alone.h"
+#include "solid/check.h"
 #include "solid/exchange.h"
 #include "solid/solid_case.h"
 #include "solid/writer.h"
@@ -105,12 +106,14 @@ static int TakeAlone(int *argc, char **argv)
 
 int main(int argc, char **argv)
 {
+  const Command command = CommandTake(&argc, argv);
   CoracleClient client;
   MPI_Comm comm;
   Case c;
   Solid solid;
   Writer record;
   Checkpoint from;
+  if (command != COMMAND_RUN) return SolidAnswer(command, argc, argv);
   if (TakeAlone(&argc, argv)) return Alone(argc, argv);
   if (CoracleOpen("solid", argc, argv, &comm, &client)) return 1;
   PETSC_COMM_WORLD = comm;

@@ -6,143 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const SECTIONS[] = {"case",  "note",    "gravity", "time",   "fluid",
-                                       "solid", "coupler", "output",  "resume", NULL};
-
-/* --- opening -------------------------------------------------------------------------------------------- */
-
-static unsigned long long Fnv1a(unsigned long long hash, const char *bytes, size_t n)
-{
-  for (size_t i = 0; i < n; i++) hash = (hash ^ (unsigned char)bytes[i]) * 1099511628211ULL;
-  return hash;
-}
-
-static const unsigned long long FNV_START = 14695981039346656037ULL;
-
-static char *ReadFile(const char *path, size_t *size, char problem[])
-{
-  FILE *file = fopen(path, "rb");
-  char *text = NULL;
-  size_t n = 0, capacity = 0, got = 1;
-  if (!file) {
-    snprintf(problem, CASE_MESSAGE, "case file '%s': %s", path, strerror(errno));
-    return NULL;
-  }
-  while (got > 0) {
-    if (capacity - n < 4096) text = realloc(text, capacity = 2 * capacity + 8192);
-    got = fread(text + n, 1, capacity - n, file);
-    n += got;
-  }
-  if (ferror(file)) {
-    snprintf(problem, CASE_MESSAGE, "case file '%s': %s", path, strerror(errno));
-    free(text);
-    text = NULL;
-  }
-  fclose(file);
-  *size = n;
-  return text;
-}
-
-/* The one argument that is no --set is the case file. */
-static bool FindPath(int argc, char **argv, const char **path, char problem[])
-{
-  *path = NULL;
-  for (int i = 1; i < argc; i++) {
-    if (!strcmp(argv[i], "--set")) {
-      if (++i == argc) {
-        snprintf(problem, CASE_MESSAGE, "--set needs key=value behind it");
-        return false;
-      }
-    } else if (argv[i][0] == '-' || *path) {
-      snprintf(problem, CASE_MESSAGE, "unknown argument '%s': expected case.yaml [--set key=value]...",
-               argv[i]);
-      return false;
-    } else {
-      *path = argv[i];
-    }
-  }
-  if (!*path) snprintf(problem, CASE_MESSAGE, "no case file: expected case.yaml [--set key=value]...");
-  return *path != NULL;
-}
-
-static bool ApplySets(Case c, int argc, char **argv, char problem[])
-{
-  c->set_hash = FNV_START;
-  for (int i = 1; i < argc; i++) {
-    if (strcmp(argv[i], "--set")) continue;
-    const char *set = argv[++i];
-    c->set_hash = Fnv1a(c->set_hash, set, strlen(set) + 1);
-    if (!CaseTreeSet(c->root, set, problem)) return false;
-  }
-  return true;
-}
-
-static bool ReadTree(Case c, int argc, char **argv, char problem[])
-{
-  const char *path;
-  size_t size;
-  if (!FindPath(argc, argv, &path, problem)) return false;
-  c->path = strdup(path);
-  const char *slash = strrchr(path, '/');
-  c->folder = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup("");
-  char *text = ReadFile(path, &size, problem);
-  if (!text) return false;
-  c->file_hash = Fnv1a(FNV_START, text, size);
-  c->root = CaseTreeParse(text, size, path, problem);
-  free(text);
-  if (!c->root) return false;
-  if (c->root->kind != NODE_MAP) {
-    snprintf(problem, CASE_MESSAGE, "%s:1: expected sections (key: ...) at the top level", path);
-    return false;
-  }
-  return ApplySets(c, argc, argv, problem);
-}
-
-int CaseLoad(int argc, char **argv, char problem[], Case *c)
-{
-  *c = calloc(1, sizeof **c);
-  if (ReadTree(*c, argc, argv, problem)) return 0;
-  CaseClose(c);
-  return 1;
-}
-
-int CaseOpen(int argc, char **argv, void (*fail)(void *context, const char *message), void *context, Case *c)
-{
-  char problem[CASE_MESSAGE];
-  if (CaseLoad(argc, argv, problem, c)) {
-    fail(context, problem);
-    return 1;
-  }
-  (*c)->fail = fail;
-  (*c)->context = context;
-  return 0;
-}
-
-int CaseClose(Case *c)
-{
-  if (!*c) return 0;
-  CaseTreeDestroy(&(*c)->root);
-  for (int i = 0; i < (*c)->nasked; i++) free((*c)->asked[i]);
-  for (int i = 0; i < (*c)->nkept; i++) free((*c)->kept[i]);
-  free((*c)->asked);
-  free((*c)->slot);
-  free((*c)->kept);
-  free((*c)->path);
-  free((*c)->folder);
-  free(*c);
-  *c = NULL;
-  return 0;
-}
-
-const char *CasePath(Case c)
-{
-  return c->path;
-}
-unsigned long long CaseHash(Case c)
-{
-  return Fnv1a(c->file_hash, (const char *)&c->set_hash, sizeof c->set_hash);
-}
-
 /* --- failing -------------------------------------------------------------------------------------------- */
 
 /* "file.yaml:12" or "--set key=value": where a node comes from. */
@@ -156,9 +19,7 @@ static void Place(Case c, const CaseNode *node, char place[CASE_KEY])
     snprintf(place, CASE_KEY, "%s", c->path);
 }
 
-static _Noreturn void Die(Case c, const CaseNode *node, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-static _Noreturn void Die(Case c, const CaseNode *node, const char *format, ...)
+void CaseDie(Case c, const CaseNode *node, const char *key, const char *format, ...)
 {
   char place[CASE_KEY], text[CASE_MESSAGE], message[CASE_KEY + CASE_MESSAGE + 2];
   va_list list;
@@ -167,6 +28,7 @@ static _Noreturn void Die(Case c, const CaseNode *node, const char *format, ...)
   va_end(list);
   Place(c, node, place);
   snprintf(message, sizeof message, "%s: %s", place, text);
+  if (c->faults) CaseFault(c->faults, key, message);
   c->fail(c->context, message);
   abort(); /* fail must not return */
 }
@@ -178,7 +40,7 @@ void CaseRefuse(Case c, const char *key, const char *format, ...)
   va_start(list, format);
   vsnprintf(text, sizeof text, format, list);
   va_end(list);
-  Die(c, CaseTreeNearest(c->root, key), "key '%s': %s", key, text);
+  CaseDie(c, CaseTreeNearest(c->root, key), key, "key '%s': %s", key, text);
 }
 
 /* What stands in the file, for "found ...". */
@@ -198,12 +60,12 @@ static const char *Found(const CaseNode *node, char found[CASE_NAME])
 static _Noreturn void Unexpected(Case c, const char *key, const CaseNode *node, const char *expected)
 {
   char found[CASE_NAME];
-  Die(c, node, "key '%s': expected %s, found %s", key, expected, Found(node, found));
+  CaseDie(c, node, key, "key '%s': expected %s, found %s", key, expected, Found(node, found));
 }
 
 /* --- finding -------------------------------------------------------------------------------------------- */
 
-static void Push(char ***list, int *n, int *capacity, char *string)
+void CasePush(char ***list, int *n, int *capacity, char *string)
 {
   if (*n == *capacity) {
     *capacity = *capacity ? 2 * *capacity : 64;
@@ -215,12 +77,12 @@ static void Push(char ***list, int *n, int *capacity, char *string)
 /* Where the key is, or would be, among those asked for. */
 static int *SlotOf(Case c, const char *key)
 {
-  unsigned long long k = Fnv1a(FNV_START, key, strlen(key)) % (unsigned long long)c->nslots;
+  unsigned long long k = CaseFnv1a(CASE_FNV_START, key, strlen(key)) % (unsigned long long)c->nslots;
   while (c->slot[k] >= 0 && strcmp(c->asked[c->slot[k]], key)) k = (k + 1) % (unsigned long long)c->nslots;
   return &c->slot[k];
 }
 
-static bool Asked(Case c, const char *key)
+bool CaseAsked(Case c, const char *key)
 {
   return c->nslots && *SlotOf(c, key) >= 0;
 }
@@ -234,16 +96,22 @@ static void Remember(Case c, const char *key)
     for (int i = 0; i < c->nasked; i++) *SlotOf(c, c->asked[i]) = i;
   }
   *SlotOf(c, key) = c->nasked;
-  Push(&c->asked, &c->nasked, &c->asked_capacity, strdup(key));
+  CasePush(&c->asked, &c->nasked, &c->asked_capacity, strdup(key));
 }
 
 static CaseNode *Ask(Case c, const char *key)
 {
-  if (!Asked(c, key)) {
+  if (!CaseAsked(c, key)) {
     Remember(c, key);
     CaseTreeMark(c->root, key);
   }
   return CaseTreeFind(c->root, key);
+}
+
+/* Whether a check has found this key's fault before: it has been asked for all the same. */
+static bool Excused(Case c, const char *key)
+{
+  return c->faults && (Ask(c, key), CaseExcused(c, key));
 }
 
 /* The value at a key that must be there. */
@@ -256,17 +124,32 @@ static CaseNode *Require(Case c, const char *key)
   for (int i = 0; i < parent->n; i++) {
     const CaseNode *child = parent->child[i];
     if (child->key && CaseSimilar(name, child->key))
-      Die(c, child, "key '%s' is missing (is it '%s' here?)", key, child->key);
+      CaseDie(c, child, key, "key '%s' is missing (is it '%s' here?)", key, child->key);
   }
-  Die(c, parent == c->root ? NULL : parent, "key '%s' is missing", key);
+  CaseDie(c, parent == c->root ? NULL : parent, key, "key '%s' is missing", key);
+}
+
+/* Of a fault that a check has found before: any scalar, which no reader takes for what it is not. */
+static CaseNode *NeutralScalar(void)
+{
+  static char text[] = "?";
+  static CaseNode neutral = {.kind = NODE_SCALAR, .text = text, .quoted = true};
+  return &neutral;
 }
 
 static CaseNode *RequireScalar(Case c, const char *key, const char *expected)
 {
+  if (Excused(c, key)) return NeutralScalar();
   CaseNode *node = Require(c, key);
   if (node->kind != NODE_SCALAR || (!node->text[0] && !node->quoted)) Unexpected(c, key, node, expected);
   node->read = true;
   return node;
+}
+
+void CaseRenamed(Case c, const char *old, const char *new_name)
+{
+  const CaseNode *node = CaseTreeFind(c->root, old);
+  if (node && !CaseExcused(c, old)) CaseDie(c, node, old, "key '%s' is now called '%s'", old, new_name);
 }
 
 bool CaseHas(Case c, const char *key)
@@ -277,7 +160,8 @@ bool CaseHas(Case c, const char *key)
 int CaseCount(Case c, const char *key)
 {
   CaseNode *node = Ask(c, key);
-  if (!node) return 0;
+  CaseNote(c, key, false, "list", "", "");
+  if (!node || Excused(c, key)) return 0;
   if (node->kind != NODE_LIST) Unexpected(c, key, node, "a list");
   return node->n;
 }
@@ -285,7 +169,8 @@ int CaseCount(Case c, const char *key)
 int CaseKeys(Case c, const char *key, void (*f)(void *context, const char *name), void *context)
 {
   CaseNode *node = Ask(c, key);
-  if (!node) return 0;
+  CaseNoteMap(c, key);
+  if (!node || Excused(c, key)) return 0;
   if (node->kind != NODE_MAP) Unexpected(c, key, node, "a map (key: ...)");
   for (int i = 0; i < node->n; i++) f(context, node->child[i]->key);
   return 0;
@@ -315,11 +200,21 @@ static const char *Range(const char *what, double lower, double upper, bool open
   return text;
 }
 
+/* What a number is when its fault has been told: within the range. */
+static double Neutral(double lower, double upper, bool open)
+{
+  if (lower == -HUGE_VAL) return fmin(0.0, upper);
+  return open ? fmin(lower + 1.0, upper) : lower;
+}
+
 static double NumberAt(Case c, const char *key, double lower, double upper, bool open)
 {
   char expected[CASE_NAME];
   double value = 0.0;
-  CaseNode *node = RequireScalar(c, key, Range("a number", lower, upper, open, expected));
+  Range("a number", lower, upper, open, expected);
+  CaseNote(c, key, !CaseAsked(c, key), "number", expected + strlen("a number"), "");
+  if (Excused(c, key)) return Neutral(lower, upper, open);
+  CaseNode *node = RequireScalar(c, key, expected);
   if (!ToNumber(node, &value) || value < lower || value > upper || (open && value == lower))
     Unexpected(c, key, node, expected);
   return value;
@@ -336,14 +231,19 @@ double CasePositive(Case c, const char *key)
 
 double CaseNumberOr(Case c, const char *key, double fallback, double lower, double upper)
 {
+  char range[CASE_NAME], given[CASE_NAME];
+  snprintf(given, sizeof given, "%.10g", fallback);
+  CaseNote(c, key, false, "number", Range("", lower, upper, false, range), given);
   return CaseHas(c, key) ? NumberAt(c, key, lower, upper, false) : fallback;
 }
 
 int CaseIntegerOr(Case c, const char *key, int fallback, int lower, int upper)
 {
-  char expected[CASE_NAME], *end;
-  if (!CaseHas(c, key)) return fallback;
+  char expected[CASE_NAME], given[CASE_NAME], *end;
   Range("an integer", lower, upper, false, expected);
+  snprintf(given, sizeof given, "%d", fallback);
+  CaseNote(c, key, false, "integer", expected + strlen("an integer"), given);
+  if (!CaseHas(c, key) || Excused(c, key)) return fallback;
   CaseNode *node = RequireScalar(c, key, expected);
   errno = 0;
   const long value = strtol(node->text, &end, 10);
@@ -354,8 +254,11 @@ int CaseIntegerOr(Case c, const char *key, int fallback, int lower, int upper)
 void CaseVector(Case c, const char *key, int n, double v[])
 {
   char expected[CASE_NAME];
-  CaseNode *node = Require(c, key);
   snprintf(expected, sizeof expected, "a list of %d numbers", n);
+  CaseNote(c, key, !CaseAsked(c, key), expected + strlen("a "), "", "");
+  for (int i = 0; i < n; i++) v[i] = 0.0;
+  if (Excused(c, key)) return;
+  CaseNode *node = Require(c, key);
   if (node->kind != NODE_LIST || node->n != n) Unexpected(c, key, node, expected);
   for (int i = 0; i < n; i++) {
     if (!ToNumber(node->child[i], &v[i])) Unexpected(c, key, node->child[i], expected);
@@ -375,100 +278,68 @@ bool CaseVectorOptional(Case c, const char *key, int n, double v[])
 
 bool CaseBoolOr(Case c, const char *key, bool fallback)
 {
-  if (!CaseHas(c, key)) return fallback;
+  CaseNote(c, key, false, "true or false", "", fallback ? "true" : "false");
+  if (!CaseHas(c, key) || Excused(c, key)) return fallback;
   CaseNode *node = RequireScalar(c, key, "true or false");
   const bool yes = !strcmp(node->text, "true");
   if (node->quoted || (!yes && strcmp(node->text, "false"))) Unexpected(c, key, node, "true or false");
   return yes;
 }
 
+/* YAML's null is no word: a folder of that name has to be quoted. */
+static bool IsNull(const CaseNode *node)
+{
+  static const char *const NULLS[] = {"null", "Null", "NULL", "~", NULL};
+  if (node->quoted) return false;
+  for (int k = 0; NULLS[k]; k++)
+    if (!strcmp(node->text, NULLS[k])) return true;
+  return false;
+}
+
+static const char *StringAt(Case c, const char *key, const char *type)
+{
+  char expected[CASE_NAME];
+  CaseNote(c, key, !CaseAsked(c, key), type, "", "");
+  snprintf(expected, sizeof expected, "a %s", type);
+  CaseNode *node = RequireScalar(c, key, expected);
+  if (IsNull(node)) Unexpected(c, key, node, expected);
+  return node->text;
+}
+
 const char *CaseString(Case c, const char *key)
 {
-  return RequireScalar(c, key, "a string")->text;
+  return StringAt(c, key, "string");
 }
 
 const char *CaseStringOr(Case c, const char *key, const char *fallback)
 {
+  CaseNote(c, key, false, "string", "", fallback);
   return CaseHas(c, key) ? CaseString(c, key) : fallback;
 }
 
 const char *CaseFile(Case c, const char *key)
 {
-  const char *name = CaseString(c, key), *folder = name[0] == '/' ? "" : c->folder;
+  const char *name = StringAt(c, key, "file name"), *folder = name[0] == '/' ? "" : c->folder;
   char *path = malloc(strlen(folder) + strlen(name) + 1);
   strcpy(path, folder);
   strcat(path, name);
-  Push(&c->kept, &c->nkept, &c->kept_capacity, path);
+  CasePush(&c->kept, &c->nkept, &c->kept_capacity, path);
   return path;
 }
 
 int CaseWord(Case c, const char *key, int fallback, const char *const words[])
 {
   char expected[CASE_KEY] = "one of";
-  if (fallback >= 0 && !CaseHas(c, key)) return fallback;
   for (int i = 0; words[i]; i++) {
     const size_t used = strlen(expected);
     snprintf(expected + used, sizeof expected - used, "%s %s", i ? "," : "", words[i]);
   }
+  const bool required = fallback < 0 && !CaseAsked(c, key);
+  CaseNote(c, key, required, "word", expected + strlen("one of"), fallback < 0 ? "" : words[fallback]);
+  if (fallback >= 0 && !CaseHas(c, key)) return fallback;
+  if (Excused(c, key)) return fallback < 0 ? 0 : fallback;
   CaseNode *node = RequireScalar(c, key, expected);
   for (int i = 0; words[i]; i++)
     if (!strcmp(node->text, words[i])) return i;
   Unexpected(c, key, node, expected);
-}
-
-/* --- what nobody has read ------------------------------------------------------------------------------- */
-
-/* A key that was asked for, did not exist, and lies beside this one under a similar name. */
-static const char *Suggestion(Case c, const char *key)
-{
-  const char *dot = strrchr(key, '.');
-  const size_t stem = dot ? (size_t)(dot - key) + 1 : 0;
-  for (int i = 0; i < c->nasked; i++) {
-    const char *asked = c->asked[i];
-    if (strncmp(asked, key, stem) || strpbrk(asked + stem, ".[") || CaseTreeFind(c->root, asked)) continue;
-    if (CaseSimilar(asked + stem, key + stem)) return asked + stem;
-  }
-  return NULL;
-}
-
-/* Nothing under an unknown map was ever asked for: the map itself is the unknown key, not its first value. */
-static void CheckRead(Case c, const CaseNode *node, const char *key)
-{
-  const bool leaf = node->kind == NODE_SCALAR || (node->n == 0 && !node->read);
-  const bool asked = Asked(c, key);
-  if (node->read || (leaf && node->kind != NODE_SCALAR && asked)) return;
-  if (leaf || (!asked && !node->below)) {
-    const char *better = Suggestion(c, key);
-    if (better) Die(c, node, "unknown key '%s' (did you mean '%s'?)", key, better);
-    Die(c, node, "unknown key '%s'", key);
-  }
-  for (int i = 0; i < node->n; i++) {
-    char below[CASE_KEY + 16];
-    if (node->kind == NODE_MAP)
-      snprintf(below, sizeof below, "%s.%s", key, node->child[i]->key);
-    else
-      snprintf(below, sizeof below, "%s[%d]", key, i);
-    CheckRead(c, node->child[i], below);
-  }
-}
-
-static void CheckSection(Case c, const CaseNode *section)
-{
-  for (int i = 0; SECTIONS[i]; i++)
-    if (!strcmp(SECTIONS[i], section->key)) return;
-  for (int i = 0; SECTIONS[i]; i++)
-    if (CaseSimilar(SECTIONS[i], section->key))
-      Die(c, section, "unknown section '%s' (did you mean '%s'?)", section->key, SECTIONS[i]);
-  Die(c, section, "unknown section '%s'", section->key);
-}
-
-int CaseFinish(Case c, const char *const sections[])
-{
-  for (int i = 0; i < c->root->n; i++) CheckSection(c, c->root->child[i]);
-  for (int i = 0; sections[i]; i++) {
-    const CaseNode *node = CaseTreeChild(c->root, sections[i]);
-    const bool empty = node && node->n == 0 && (node->kind != NODE_SCALAR || !node->text[0]);
-    if (node && !empty) CheckRead(c, node, sections[i]);
-  }
-  return 0;
 }

@@ -12,6 +12,7 @@
 #ifndef CORACLE_CASE_FILE_H
 #define CORACLE_CASE_FILE_H
 #include <stdbool.h>
+#include <stdio.h>
 
 typedef struct Case_s *Case;
 
@@ -46,7 +47,34 @@ int CaseKeys(Case c, const char *key, void (*f)(void *context, const char *name)
 /* The error of a value that was read well but cannot be: names file, line and key. */
 _Noreturn void CaseRefuse(Case c, const char *key, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+/* A key that was called `old` in earlier versions: refused where it is found, with its name of today. */
+void CaseRenamed(Case c, const char *old, const char *new_name);
 /* Checks that every key under the sections (null-terminated list) has been read, and that no unknown
  * top-level section exists. */
 int CaseFinish(Case c, const char *const sections[]);
+
+/* --- all of a case at once: its faults, its keys -------------------------------------------------------- */
+
+/* What no call that reads a key can say of it: its unit ("" for none) and its meaning.  Items of lists are written
+ * "solid.bodies[].radius", names that are the user's "solid.materials.*.density".  Type, range and default are said by
+ * the calls that read the key. */
+typedef struct {
+  const char *key, *unit, *meaning;
+} CaseKey;
+/* table ends with a NULL key; borrowed until CaseClose. */
+void CaseDescribe(Case c, const CaseKey table[]);
+
+/* Reads a case from its first key to CaseFinish. */
+typedef void (*CaseReader)(Case c, void *context);
+/* Finds all faults of a case and calls tell for each; returns their number.  read is called once more than there are
+ * faults, each time without those found before (a key's default holds, or something within its range), and is left by
+ * longjmp at the next: it must make nothing that may not be left behind.  For one process. */
+int CaseCheck(int argc, char **argv, CaseReader read, void *context,
+              void (*tell)(void *context, const char *message));
+/* Within read: whether no fault has been found (so far). */
+bool CaseFaultless(Case c);
+/* Prints a line for each key that read asks for, fields separated by tabs: key, required or optional, type, range,
+ * default, unit, meaning. */
+int CaseKeysOf(int argc, char **argv, CaseReader read, void *context,
+               void (*fail)(void *context, const char *message), FILE *out);
 #endif

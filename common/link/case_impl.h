@@ -3,9 +3,10 @@
 #ifndef CORACLE_CASE_IMPL_H
 #define CORACLE_CASE_IMPL_H
 #include "common/link/case_file.h"
+#include <setjmp.h>
 #include <stddef.h>
 
-enum { CASE_NAME = 128, CASE_KEY = 512, CASE_MESSAGE = 1024 };
+enum { CASE_NAME = 128, CASE_KEY = 512, CASE_MESSAGE = 1024, CASE_FAULTS = 64, CASE_TABLES = 8 };
 
 typedef enum { NODE_SCALAR, NODE_LIST, NODE_MAP } CaseKind;
 
@@ -20,7 +21,23 @@ typedef struct CaseNode_s {
   const char *set; /* borrowed: the --set argument that the value comes from, or NULL */
   int n, capacity;
   struct CaseNode_s **child; /* [n] in file order */
+  int nslots, *slot;         /* of a large map: hashed places of names in child, -1: empty */
 } CaseNode;
+
+/* One value as its reader described it, for the reference of keys. */
+typedef struct {
+  char *key;                                                  /* as asked for: solid.bodies[0].radius */
+  char type[CASE_NAME], range[CASE_KEY], fallback[CASE_NAME]; /* fallback "": there is none */
+  bool required;
+} CaseReading;
+
+/* The faults of a case that is checked (CaseCheck): where each is, and the way back to the check's loop. */
+typedef struct {
+  jmp_buf next;
+  int n;
+  bool stuck; /* a key was refused again although its value had been set aside */
+  char *key[CASE_FAULTS], *message[CASE_FAULTS];
+} CaseFaults;
 
 struct Case_s {
   char *path, *folder;
@@ -31,7 +48,15 @@ struct Case_s {
   int nslots;
   int *slot; /* [nslots] hashed places in asked, -1: empty */
   int nkept, kept_capacity;
-  char **kept; /* [nkept] strings handed out by CaseFile */
+  char **kept;  /* [nkept] strings handed out by CaseFile */
+  bool listing; /* readings are kept, for CaseListKeys */
+  int nreadings, readings_capacity;
+  CaseReading *reading; /* [nreadings] */
+  int nopen, open_capacity;
+  char **open; /* [nopen] maps whose names are the user's: materials, boundaries */
+  int ntables;
+  const CaseKey *table[CASE_TABLES]; /* borrowed: of CaseDescribe */
+  CaseFaults *faults;                /* borrowed; NULL: the first fault ends the run */
   void (*fail)(void *context, const char *message);
   void *context;
 };
@@ -39,6 +64,8 @@ struct Case_s {
 /* The tree of a YAML text; NULL when it is not valid, with problem[CASE_MESSAGE] = "label:line: why". */
 CaseNode *CaseTreeParse(const char *text, size_t size, const char *label, char problem[]);
 void CaseTreeDestroy(CaseNode **node);
+/* Takes the node at a dotted path out of its map, if it is there. */
+void CaseTreeRemove(CaseNode *root, const char *key);
 /* The child of a map, or NULL. */
 CaseNode *CaseTreeChild(const CaseNode *map, const char *name);
 /* The node at a dotted path, or NULL. */
@@ -49,6 +76,31 @@ void CaseTreeMark(CaseNode *root, const char *key);
 const CaseNode *CaseTreeNearest(const CaseNode *root, const char *key);
 /* Applies one `key=value`; false with a problem when it cannot be. */
 bool CaseTreeSet(CaseNode *root, const char *argument, char problem[]);
+
+/* The error of a node (NULL: of the file) at a key: "<place>: <message>".  Does not return. */
+_Noreturn void CaseDie(Case c, const CaseNode *node, const char *key, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+/* Whether a reader has asked for the key. */
+bool CaseAsked(Case c, const char *key);
+/* Whether the key is one of the faults that a check has found, so that its value does not matter. */
+bool CaseExcused(Case c, const char *key);
+/* The check's answer to a fault: remembers it and reads the case again.  Does not return. */
+_Noreturn void CaseFault(CaseFaults *faults, const char *key, const char *message);
+/* Sets aside the values at which a check has found faults. */
+void CaseFaultsApply(Case c);
+/* While keys are listed: remembers how a value was read, once a key. */
+void CaseNote(Case c, const char *key, bool required, const char *type, const char *range,
+              const char *fallback);
+void CaseNoteMap(Case c, const char *key);
+void CaseNotesFree(Case c);
+/* One line a reading, as CaseKeysOf. */
+void CaseListKeys(Case c, FILE *out);
+
+/* Appends to a growing list of strings, which owns them. */
+void CasePush(char ***list, int *n, int *capacity, char *string);
+
+unsigned long long CaseFnv1a(unsigned long long hash, const char *bytes, size_t n);
+#define CASE_FNV_START 14695981039346656037ULL
 
 /* Number of single-letter edits (insert, delete, replace, swap of neighbours) between two words, at most
  * `limit` + 1. */

@@ -13,10 +13,32 @@ void CaseTreeDestroy(CaseNode **node)
   if (!*node) return;
   for (int i = 0; i < (*node)->n; i++) CaseTreeDestroy(&(*node)->child[i]);
   free((*node)->child);
+  free((*node)->slot);
   free((*node)->key);
   free((*node)->text);
   free(*node);
   *node = NULL;
+}
+
+/* --- names within a map: large maps are hashed ----------------------------------------------------------- */
+
+enum { FEW = 8 };
+
+/* Where a name is, or would be, among the children of a map with slots. */
+static int *SlotOf(const CaseNode *map, const char *name)
+{
+  const unsigned long long n = (unsigned long long)map->nslots;
+  unsigned long long k = CaseFnv1a(CASE_FNV_START, name, strlen(name)) % n;
+  while (map->slot[k] >= 0 && strcmp(map->child[map->slot[k]]->key, name)) k = (k + 1) % n;
+  return &map->slot[k];
+}
+
+static void HashNames(CaseNode *map)
+{
+  map->nslots = 4 * map->n;
+  map->slot = realloc(map->slot, (size_t)map->nslots * sizeof *map->slot);
+  for (int k = 0; k < map->nslots; k++) map->slot[k] = -1;
+  for (int i = 0; i < map->n; i++) *SlotOf(map, map->child[i]->key) = i;
 }
 
 static void Append(CaseNode *parent, CaseNode *child)
@@ -26,11 +48,20 @@ static void Append(CaseNode *parent, CaseNode *child)
     parent->child = realloc(parent->child, (size_t)parent->capacity * sizeof *parent->child);
   }
   parent->child[parent->n++] = child;
+  if (parent->kind != NODE_MAP || parent->n <= FEW) return;
+  if (2 * parent->n > parent->nslots)
+    HashNames(parent);
+  else
+    *SlotOf(parent, child->key) = parent->n - 1;
 }
 
 CaseNode *CaseTreeChild(const CaseNode *map, const char *name)
 {
   if (map->kind != NODE_MAP) return NULL;
+  if (map->nslots) {
+    const int found = *SlotOf(map, name);
+    return found < 0 ? NULL : map->child[found];
+  }
   for (int i = 0; i < map->n; i++)
     if (!strcmp(map->child[i]->key, name)) return map->child[i];
   return NULL;
@@ -57,6 +88,13 @@ static bool BuildMap(Builder *b, const yaml_node_t *y, int depth, CaseNode *node
       return false;
     }
     const char *name = (const char *)key->data.scalar.value;
+    if (!*name || strlen(name) >= CASE_NAME || strpbrk(name, ".[]")) {
+      snprintf(b->problem, CASE_MESSAGE,
+               "%s:%d: key '%.40s%s' cannot be told in a path: expected 1 to %d characters without '.', '[' "
+               "and ']'",
+               b->label, line, name, strlen(name) > 40 ? "..." : "", CASE_NAME - 1);
+      return false;
+    }
     const CaseNode *twin = CaseTreeChild(node, name);
     if (twin) {
       snprintf(b->problem, CASE_MESSAGE, "%s:%d: key '%s' is given twice (first in line %d)", b->label, line,
@@ -133,6 +171,31 @@ static CaseNode *BuildDocument(yaml_parser_t *parser, Builder *b)
   return root;
 }
 
+/* Before libyaml makes a document, whose time grows with the square of the depth: the text's events alone. */
+static bool CheckSize(const char *text, size_t size, const char *label, char problem[])
+{
+  yaml_parser_t parser;
+  yaml_event_t event;
+  int depth = 0, nodes = 0;
+  if (!yaml_parser_initialize(&parser)) return true;
+  yaml_parser_set_input_string(&parser, (const unsigned char *)text, size);
+  for (bool more = true; more && depth <= MAX_DEPTH && nodes <= MAX_NODES;) {
+    if (!yaml_parser_parse(&parser, &event)) break; /* the document will say why */
+    const yaml_event_type_t type = event.type;
+    depth += (type == YAML_SEQUENCE_START_EVENT || type == YAML_MAPPING_START_EVENT) -
+             (type == YAML_SEQUENCE_END_EVENT || type == YAML_MAPPING_END_EVENT);
+    nodes++;
+    more = type != YAML_STREAM_END_EVENT;
+    if (depth > MAX_DEPTH)
+      snprintf(problem, CASE_MESSAGE, "%s:%d: nested more than %d deep", label,
+               (int)event.start_mark.line + 1, MAX_DEPTH);
+    yaml_event_delete(&event);
+  }
+  if (nodes > MAX_NODES) snprintf(problem, CASE_MESSAGE, "%s: has more than %d values", label, MAX_NODES);
+  yaml_parser_delete(&parser);
+  return depth <= MAX_DEPTH && nodes <= MAX_NODES;
+}
+
 CaseNode *CaseTreeParse(const char *text, size_t size, const char *label, char problem[])
 {
   yaml_parser_t parser;
@@ -142,6 +205,10 @@ CaseNode *CaseTreeParse(const char *text, size_t size, const char *label, char p
     return NULL;
   }
   problem[0] = '\0';
+  if (!CheckSize(text, size, label, problem)) {
+    yaml_parser_delete(&parser);
+    return NULL;
+  }
   yaml_parser_set_input_string(&parser, (const unsigned char *)text, size);
   CaseNode *root = BuildDocument(&parser, &builder);
   if (!root && !problem[0])
@@ -226,6 +293,25 @@ const CaseNode *CaseTreeNearest(const CaseNode *root, const char *key)
   const CaseNode *nearest;
   Walk(root, key, &nearest);
   return nearest;
+}
+
+void CaseTreeRemove(CaseNode *root, const char *key)
+{
+  char above[CASE_KEY];
+  CaseNode *node = CaseTreeFind(root, key), *parent = root;
+  if (!node || node == root || !node->key) return;
+  const char *dot = strrchr(key, '.');
+  snprintf(above, sizeof above, "%.*s", dot ? (int)(dot - key) : 0, key);
+  if (dot) parent = CaseTreeFind(root, above);
+  for (int i = 0; parent && i < parent->n; i++) {
+    if (parent->child[i] != node) continue;
+    memmove(&parent->child[i], &parent->child[i + 1], (size_t)(parent->n - 1 - i) * sizeof *parent->child);
+    parent->n--;
+    CaseTreeDestroy(&node);
+    if (!parent->n) parent->read = true; /* not an unknown key for being empty */
+    if (parent->nslots) HashNames(parent);
+    return;
+  }
 }
 
 /* --- one --set argument --------------------------------------------------------------------------------- */

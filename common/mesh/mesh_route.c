@@ -148,11 +148,3 @@ PetscErrorCode MeshRendezvousMeet(const MeshRendezvous *r, const long long value
   PetscCall(PetscFree5(out, in, all, answer, back));
   PetscFunctionReturn(0);
 }
-
-PetscErrorCode MeshAgree(MPI_Comm comm, PetscErrorCode here)
-{
-  int all = (int)here;
-  PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_MAX, comm));
-  PetscFunctionReturn(here ? here : (PetscErrorCode)all);
-}

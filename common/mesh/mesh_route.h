@@ -2,6 +2,7 @@
  * meeting of ranks that hold the same thing without knowing of each other.  All collective. */
 #ifndef CORACLE_MESH_ROUTE_H
 #define CORACLE_MESH_ROUTE_H
+#include "common/exchange/scatter.h"
 #include <petscsys.h>
 
 /* How many items go to and come from each rank; items lie in the order of the ranks. */
@@ -40,7 +41,4 @@ typedef struct {
 PetscErrorCode MeshRendezvousCreate(MPI_Comm comm, int n, const MeshKey key[], MeshRendezvous *r);
 PetscErrorCode MeshRendezvousDestroy(MeshRendezvous *r);
 PetscErrorCode MeshRendezvousMeet(const MeshRendezvous *r, const long long value[], MeshMet met[]);
-
-/* The same error everywhere: what failed here or, if nothing did, elsewhere. */
-PetscErrorCode MeshAgree(MPI_Comm comm, PetscErrorCode here);
 #endif

@@ -146,9 +146,9 @@ PetscErrorCode PartFacesCreate(MPI_Comm comm, const MeshPart *piece, PartFaces *
   PetscFunctionBeginUser;
   memset(faces, 0, sizeof *faces);
   failed = Number(comm, piece->serial.ne, faces);
-  if (!failed) failed = MeshAgree(comm, MeshFacesCreate(&piece->serial, &faces->local));
+  if (!failed) failed = CollectiveError(comm, MeshFacesCreate(&piece->serial, &faces->local));
   if (!failed) PetscCall(FindOpen(&piece->serial, faces));
-  if (!failed) failed = MeshAgree(comm, Meet(comm, piece, faces));
+  if (!failed) failed = CollectiveError(comm, Meet(comm, piece, faces));
   if (failed) PetscCall(PartFacesDestroy(faces));
   PetscFunctionReturn(failed);
 }

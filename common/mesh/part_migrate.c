@@ -156,7 +156,7 @@ PetscErrorCode MeshPartMigrate(MPI_Comm comm, const MeshPart *piece, const int p
   int *local;
   PetscFunctionBeginUser;
   memset(moved, 0, sizeof *moved);
-  PetscErrorCode failed = MeshAgree(comm, MeshFacesCreate(&piece->serial, &faces));
+  PetscErrorCode failed = CollectiveError(comm, MeshFacesCreate(&piece->serial, &faces));
   if (!failed) {
     PetscCall(ShareNames(comm, &piece->serial, &moved->serial));
     PetscCall(CargoCreate(comm, piece, &faces, part, &cargo));

@@ -110,7 +110,7 @@ PetscErrorCode MeshPartPartition(MPI_Comm comm, const MeshPart *piece, int npart
   if (failed) PetscFunctionReturn(failed);
   PetscCallMPI(MPI_Comm_size(comm, &size));
   PetscCall(PetscMalloc1(g.n, &all));
-  failed = MeshAgree(comm, Cut(&g, nparts, all));
+  failed = CollectiveError(comm, Cut(&g, nparts, all));
   for (int r = 0; r < size; r++) g.count[r] /= 3, g.start[r] /= 3;
   if (!failed) PetscCallMPI(MPI_Scatterv(all, g.count, g.start, MPI_INT, part, ne, MPI_INT, 0, comm));
   PetscCall(PetscFree(all));

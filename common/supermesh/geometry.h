@@ -1,4 +1,4 @@
-/* Kernels on plane triangles: area, barycentric coordinates, clipping, quadrature.  No memory, no MPI; a
+/* Kernels on plane triangles: area, barycentric coordinates, clipping.  No memory, no MPI; a
  * triangle is x[3][2], counter-clockwise, in metres.  Everything is exact up to round-off of the coordinates'
  * differences. */
 #ifndef CORACLE_GEOMETRY_H
@@ -74,17 +74,6 @@ static inline void GeometryBarycentric(const double x[3][2], const double p[2], 
   n[0] = 1.0 - n[1] - n[2];
 }
 
-/* Constant gradients of the three P1 functions, 1/m. */
-static inline void GeometryGradient(const double x[3][2], double grad[3][2])
-{
-  const double inverse = 1.0 / GeometryTurn(x[0], x[1], x[2]);
-  for (int i = 0; i < 3; i++) {
-    const double *p = x[(i + 1) % 3], *q = x[(i + 2) % 3];
-    grad[i][0] = (p[1] - q[1]) * inverse;
-    grad[i][1] = (q[0] - p[0]) * inverse;
-  }
-}
-
 /* Keeps what lies on the left of the line p -> q (Sutherland and Hodgman 1974).  A vertex on the line stays
  * and cuts no edge; a crossing is a convex combination of the edge's ends, so it never leaves the edge. */
 static inline int GeometryClipHalfPlane(int n, const double in[][2], const double p[2], const double q[2],
@@ -142,33 +131,5 @@ static inline double GeometryPolygonArea(int n, const double polygon[][2])
   double area = 0.0;
   for (int k = 0; k + 2 < n; k++) area += 0.5 * GeometryTurn(polygon[0], polygon[k + 1], polygon[k + 2]);
   return area;
-}
-
-typedef struct {
-  int n;
-  double point[6][3]; /* barycentric */
-  double weight[6];   /* sum 1: multiply by the area */
-} GeometryQuadrature;
-
-/* Exact for polynomials of the degree: 2 (3 points), 3 (4 points), 4 (6 points); Strang and Fix 1973,
- * Dunavant 1985. */
-static inline const GeometryQuadrature *GeometryQuadratureOf(int degree)
-{
-#define GEOMETRY_ORBIT(a)                                                                                    \
-  {1.0 - 2.0 * (a), a, a}, {a, 1.0 - 2.0 * (a), a},                                                          \
-  {                                                                                                          \
-    a, a, 1.0 - 2.0 * (a)                                                                                    \
-  }
-  static const GeometryQuadrature TWO = {3, {GEOMETRY_ORBIT(1.0 / 6.0)}, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}};
-  static const GeometryQuadrature THREE = {4,
-                                           {{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, GEOMETRY_ORBIT(0.2)},
-                                           {-27.0 / 48.0, 25.0 / 48.0, 25.0 / 48.0, 25.0 / 48.0}};
-  static const GeometryQuadrature FOUR = {
-      6,
-      {GEOMETRY_ORBIT(0.445948490915965), GEOMETRY_ORBIT(0.09157621350977073)},
-      {0.2233815896780115, 0.2233815896780115, 0.2233815896780115, 0.1099517436553219, 0.1099517436553219,
-       0.1099517436553219}};
-#undef GEOMETRY_ORBIT
-  return degree <= 2 ? &TWO : degree == 3 ? &THREE : &FOUR;
 }
 #endif

@@ -48,8 +48,8 @@ PetscErrorCode TransferP1DG(Transfer t, int ncomp, const double source[], double
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(n * (size_t)t->ncopies, &copy));
   PetscCall(PetscMalloc1(n * (size_t)t->npieces, &piece));
-  PetscCall(RouteForward(t->copy_route, n * sizeof *source, source, copy));
-  PetscCall(RouteForward(t->piece_route, n * sizeof *source, source, piece));
+  PetscCall(ScatterForward(t->copy_route, n * sizeof *source, source, copy));
+  PetscCall(ScatterForward(t->piece_route, n * sizeof *source, source, piece));
   for (int k = 0; k < t->ncopies; k++) {
     const double *from = copy + n * (size_t)k;
     double *to = target + n * (size_t)t->copy[k].target;
@@ -77,9 +77,9 @@ PetscErrorCode TransferDestroy(Transfer *transfer)
   Transfer t = *transfer;
   PetscFunctionBeginUser;
   if (!t) PetscFunctionReturn(0);
-  PetscCall(RouteDestroy(&t->copy_route));
-  PetscCall(RouteDestroy(&t->piece_route));
-  PetscCall(RouteDestroy(&t->ask_route));
+  PetscCall(ScatterDestroy(&t->copy_route));
+  PetscCall(ScatterDestroy(&t->piece_route));
+  PetscCall(ScatterDestroy(&t->ask_route));
   PetscCall(PetscFree(t->copy));
   PetscCall(PetscFree(t->piece));
   PetscCall(PetscFree(t->node));

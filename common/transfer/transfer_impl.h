@@ -1,8 +1,8 @@
 /* Private to the transfer room. */
 #ifndef CORACLE_TRANSFER_IMPL_H
 #define CORACLE_TRANSFER_IMPL_H
+#include "common/exchange/scatter.h"
 #include "common/supermesh/projection.h"
-#include "common/transfer/route.h"
 #include "common/transfer/transfer.h"
 
 /* An unchanged element, where it has arrived: vertex i of new element `target` is vertex (i + turn) % 3 of
@@ -28,12 +28,12 @@ struct Transfer_s {
   MPI_Comm comm;
   const Mesh *from, *to;
   /* unchanged elements */
-  Route copy_route; /* elements of `from` -> copies */
+  Scatter copy_route; /* elements of `from` -> copies */
   int ncopies;
   TransferCopy *copy; /* [ncopies] in order of arrival */
   /* changed elements */
   TransferElements changed; /* of `to` */
-  Route piece_route;        /* elements of `from` -> pieces */
+  Scatter piece_route;      /* elements of `from` -> pieces */
   int npieces;
   double (*piece)[3][2]; /* [npieces] */
   Search search;         /* of the pieces */
@@ -41,8 +41,8 @@ struct Transfer_s {
   /* P2 nodes of changed elements that this rank owns, and those of its elements that it does not own */
   int nnodes;
   TransferNode *node;
-  Route ask_route; /* P2 nodes of `to` that others own -> their owners */
-  int *asked;      /* [arriving] owned nodes */
+  Scatter ask_route; /* P2 nodes of `to` that others own -> their owners */
+  int *asked;        /* [arriving] owned nodes */
 };
 
 /* Unchanged elements: copy_route and copy; the changed ones of both meshes are left. */

@@ -47,7 +47,7 @@ static void KeepChanged(TransferElements *elements, const char unchanged[])
 }
 
 /* What of a mesh meets on this rank's part of the directory. */
-static PetscErrorCode Show(MPI_Comm comm, const TransferElements *elements, Route *route, Entry **entry,
+static PetscErrorCode Show(MPI_Comm comm, const TransferElements *elements, Scatter *route, Entry **entry,
                            double (**x)[3][2])
 {
   const int n = elements->n;
@@ -64,10 +64,10 @@ static PetscErrorCode Show(MPI_Comm comm, const TransferElements *elements, Rout
     shown[e] = (Entry){.rank = me, .element = e};
     for (int i = 0; i < 6; i++) shown[e].x[i / 2][i % 2] = corner[i / 2][i % 2];
   }
-  PetscCall(RouteCreate(comm, n, rank, source, route));
-  PetscCall(PetscMalloc2(RouteArriving(*route), entry, RouteArriving(*route), x));
-  PetscCall(RouteForward(*route, sizeof *shown, shown, *entry));
-  for (int k = 0; k < RouteArriving(*route); k++) {
+  PetscCall(ScatterCreate(comm, n, rank, source, route));
+  PetscCall(PetscMalloc2(ScatterArriving(*route), entry, ScatterArriving(*route), x));
+  PetscCall(ScatterForward(*route, sizeof *shown, shown, *entry));
+  for (int k = 0; k < ScatterArriving(*route); k++) {
     for (int i = 0; i < 6; i++) (*x)[k][i / 2][i % 2] = (*entry)[k].x[i / 2][i % 2];
   }
   PetscCall(PetscFree3(rank, source, shown));
@@ -78,18 +78,18 @@ static PetscErrorCode Show(MPI_Comm comm, const TransferElements *elements, Rout
 static PetscErrorCode Ask(MPI_Comm comm, const TransferElements *old, const TransferElements *new,
                           double answer[])
 {
-  Route from, to;
+  Scatter from, to;
   Entry *entry_from, *entry_to;
   double(*x_from)[3][2], (*x_to)[3][2], *reply;
   int *match;
   PetscFunctionBeginUser;
   PetscCall(Show(comm, old, &from, &entry_from, &x_from));
   PetscCall(Show(comm, new, &to, &entry_to, &x_to));
-  PetscCall(PetscMalloc1(RouteArriving(to), &match));
-  PetscCall(PetscCalloc1(ANSWERS * (size_t)RouteArriving(from), &reply));
-  PetscCall(MatchTriangles(RouteArriving(from), (const double(*)[3][2])x_from, RouteArriving(to),
+  PetscCall(PetscMalloc1(ScatterArriving(to), &match));
+  PetscCall(PetscCalloc1(ANSWERS * (size_t)ScatterArriving(from), &reply));
+  PetscCall(MatchTriangles(ScatterArriving(from), (const double(*)[3][2])x_from, ScatterArriving(to),
                            (const double(*)[3][2])x_to, match));
-  for (int k = 0; k < RouteArriving(to); k++) {
+  for (int k = 0; k < ScatterArriving(to); k++) {
     if (match[k] < 0) continue;
     double *r = &reply[ANSWERS * (size_t)(match[k] / 3)];
     r[ANSWER_FOUND] = 1.0;
@@ -98,13 +98,13 @@ static PetscErrorCode Ask(MPI_Comm comm, const TransferElements *old, const Tran
     r[ANSWER_TURN] = match[k] % 3;
   }
   PetscCall(PetscArrayzero(answer, ANSWERS * (size_t)old->n));
-  PetscCall(RouteReverseAdd(from, ANSWERS, reply, answer));
+  PetscCall(ScatterReverseAdd(from, ANSWERS, reply, answer));
   PetscCall(PetscFree(match));
   PetscCall(PetscFree(reply));
   PetscCall(PetscFree2(entry_from, x_from));
   PetscCall(PetscFree2(entry_to, x_to));
-  PetscCall(RouteDestroy(&from));
-  PetscCall(RouteDestroy(&to));
+  PetscCall(ScatterDestroy(&from));
+  PetscCall(ScatterDestroy(&to));
   PetscFunctionReturn(0);
 }
 
@@ -123,10 +123,10 @@ static PetscErrorCode MakeCopies(Transfer t, int n, const double answer[], char 
     rank[m] = (int)a[ANSWER_RANK];
     source[m++] = e;
   }
-  PetscCall(RouteCreate(t->comm, m, rank, source, &t->copy_route));
-  t->ncopies = RouteArriving(t->copy_route);
+  PetscCall(ScatterCreate(t->comm, m, rank, source, &t->copy_route));
+  t->ncopies = ScatterArriving(t->copy_route);
   PetscCall(PetscMalloc1(t->ncopies, &t->copy));
-  PetscCall(RouteForward(t->copy_route, sizeof *sent, sent, t->copy));
+  PetscCall(ScatterForward(t->copy_route, sizeof *sent, sent, t->copy));
   PetscCall(PetscFree3(rank, source, sent));
   PetscFunctionReturn(0);
 }

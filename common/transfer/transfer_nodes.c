@@ -1,5 +1,6 @@
 /* P2 fields: nodes of unchanged elements keep their values; others are located among the pieces by the rank
  * that owns them; ranks that share a node take its owner's value. */
+#include "common/space/p2.h"
 #include "common/transfer/transfer_impl.h"
 
 /* Outside of all old elements by more than round-off, in barycentric coordinates. */
@@ -72,11 +73,11 @@ static PetscErrorCode MakeAsking(Transfer t)
     rank[k] = low;
     source[k] = to->np2_owned + k;
   }
-  PetscCall(RouteCreate(t->comm, n, rank, source, &t->ask_route));
-  PetscCall(PetscMalloc1(RouteArriving(t->ask_route), &t->asked));
-  PetscCall(PetscMalloc1(RouteArriving(t->ask_route), &gid));
-  PetscCall(RouteForward(t->ask_route, sizeof *gid, to->p2gid, gid));
-  for (int k = 0; k < RouteArriving(t->ask_route); k++) t->asked[k] = (int)(gid[k] - to->p2start);
+  PetscCall(ScatterCreate(t->comm, n, rank, source, &t->ask_route));
+  PetscCall(PetscMalloc1(ScatterArriving(t->ask_route), &t->asked));
+  PetscCall(PetscMalloc1(ScatterArriving(t->ask_route), &gid));
+  PetscCall(ScatterForward(t->ask_route, sizeof *gid, to->p2gid, gid));
+  for (int k = 0; k < ScatterArriving(t->ask_route); k++) t->asked[k] = (int)(gid[k] - to->p2start);
   PetscCall(PetscFree(gid));
   PetscCall(PetscFree3(rank, source, start));
   PetscFunctionReturn(0);
@@ -98,32 +99,23 @@ PetscErrorCode TransferNodesCreate(Transfer t)
 }
 
 /* The nodes of all old elements, [from->ne][6], brought to the ends of a route. */
-static PetscErrorCode Bring(Route route, const double (*element)[6], double (**there)[6])
+static PetscErrorCode Bring(Scatter route, const double (*element)[6], double (**there)[6])
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(RouteArriving(route), there));
-  PetscCall(RouteForward(route, sizeof *element, element, *there));
+  PetscCall(PetscMalloc1(ScatterArriving(route), there));
+  PetscCall(ScatterForward(route, sizeof *element, element, *there));
   PetscFunctionReturn(0);
-}
-
-static double Evaluate(const double p[6], const double n[3])
-{
-  double sum = 0.0;
-  for (int i = 0; i < 3; i++) {
-    sum += n[i] * (2.0 * n[i] - 1.0) * p[i] + 4.0 * n[(i + 1) % 3] * n[(i + 2) % 3] * p[3 + i];
-  }
-  return sum;
 }
 
 static PetscErrorCode FromOwners(Transfer t, double target[])
 {
-  const int n = RouteArriving(t->ask_route);
+  const int n = ScatterArriving(t->ask_route);
   double *value;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(n, &value));
   for (int k = 0; k < n; k++) value[k] = target[t->asked[k]];
   PetscCall(PetscArrayzero(target + t->to->np2_owned, t->to->np2 - t->to->np2_owned));
-  PetscCall(RouteReverseAdd(t->ask_route, 1, value, target));
+  PetscCall(ScatterReverseAdd(t->ask_route, 1, value, target));
   PetscCall(PetscFree(value));
   PetscFunctionReturn(0);
 }
@@ -145,7 +137,7 @@ PetscErrorCode TransferP2(Transfer t, const double source[], double target[])
   }
   for (int k = 0; k < t->nnodes; k++) {
     const TransferNode *node = &t->node[k];
-    target[node->node] = Evaluate(piece[node->piece], node->n);
+    target[node->node] = P2Evaluate(piece[node->piece], node->n);
   }
   PetscCall(FromOwners(t, target));
   PetscCall(PetscFree(element));

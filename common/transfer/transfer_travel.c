@@ -81,16 +81,16 @@ static PetscErrorCode FindRanks(Transfer t, const TransferElements *old, Items *
 PetscErrorCode TransferTravel(Transfer t, const TransferElements *old)
 {
   Items items = {0};
-  Route once;
+  Scatter once;
   PetscFunctionBeginUser;
   PetscCall(FindRanks(t, old, &items));
-  PetscCall(RouteCreate(t->comm, items.n, items.rank, items.source, &once));
-  t->npieces = RouteArriving(once);
+  PetscCall(ScatterCreate(t->comm, items.n, items.rank, items.source, &once));
+  t->npieces = ScatterArriving(once);
   PetscCall(PetscMalloc1(t->npieces, &t->piece));
-  PetscCall(RouteForward(once, sizeof *old->x, old->x, t->piece));
-  PetscCall(RouteDestroy(&once));
+  PetscCall(ScatterForward(once, sizeof *old->x, old->x, t->piece));
+  PetscCall(ScatterDestroy(&once));
   for (int k = 0; k < items.n; k++) items.source[k] = old->element[items.source[k]];
-  PetscCall(RouteCreate(t->comm, items.n, items.rank, items.source, &t->piece_route));
+  PetscCall(ScatterCreate(t->comm, items.n, items.rank, items.source, &t->piece_route));
   PetscCall(PetscFree(items.rank));
   PetscCall(PetscFree(items.source));
   PetscCheck(!SearchCreateTriangles(t->npieces, (const double(*)[3][2])t->piece, &t->search), PETSC_COMM_SELF,

@@ -7,13 +7,13 @@
 enum { CELLS = 48, RINGS = 16, SECTORS = 100, STEPS = 100 };
 
 /* The rank's strips of a uniform mesh of [-0.2, 0.2]^2. */
-static PetscErrorCode Fluid(int rank, int size, ServerElements *e, double **x, double **rho)
+static PetscErrorCode Fluid(int rank, int size, FluidElements *e, double **x, double **rho)
 {
   const double h = 0.4 / CELLS;
 
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2(12 * CELLS * CELLS, x, 2 * CELLS * CELLS, rho));
-  *e = (ServerElements){0, *x, *rho, {-0.2, -0.2}, {0.2, 0.2}};
+  *e = (FluidElements){0, *x, *rho, {-0.2, -0.2}, {0.2, 0.2}};
   for (int k = 0; k < CELLS * CELLS; k++) {
     if (k % CELLS * size / CELLS != rank) continue;
     const double a = -0.2 + h * (k % CELLS), b = -0.2 + h * (k / CELLS);
@@ -26,9 +26,10 @@ static PetscErrorCode Fluid(int rank, int size, ServerElements *e, double **x, d
 }
 
 /* The whole disc on rank 0. */
-static void Disc(int rank, ServerSolid *s)
+static void Disc(int rank, SolidState *s)
 {
-  static double x[2 * (RINGS * SECTORS + 1)], u[2 * (RINGS * SECTORS + 1)];
+  enum { N = 2 * (RINGS * SECTORS + 1) };
+  static double x[N], u[N], zero[N];
   static long long gid[RINGS * SECTORS + 1];
   static int element[3 * SECTORS * (2 * RINGS - 1)], facet[2 * SECTORS];
   int n = 0;
@@ -52,18 +53,22 @@ static void Disc(int rank, ServerSolid *s)
     facet[2 * i] = 1 + (RINGS - 1) * SECTORS + i;
     facet[2 * i + 1] = 1 + (RINGS - 1) * SECTORS + j;
   }
-  *s = rank ? (ServerSolid){0, 0, 0, 0, gid, x, u, u, facet, element}
-            : (ServerSolid){0, RINGS * SECTORS + 1, SECTORS, n / 3, gid, x, u, u, facet, element};
+  *s = (SolidState){
+      .gid = gid, .x = x, .u = u, .mobility = zero, .acceleration = zero, .facet = facet, .element = element};
+  if (rank) return;
+  s->nnodes = RINGS * SECTORS + 1;
+  s->nfacets = SECTORS;
+  s->nelements = n / 3;
 }
 
-static PetscErrorCode Measure(Coupler c, const ServerSolid *solid, int nfluid, int rank)
+static PetscErrorCode Measure(Coupler c, const SolidState *solid, int nfluid, int rank)
 {
   double *flow, seconds[3] = {0.0};
   ForceTotals totals;
 
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(6 * (size_t)nfluid, &flow));
-  const ServerFlow still = {flow, flow, flow, flow};
+  const FluidFlow still = {flow, flow, flow, flow};
   for (int step = 0; step < STEPS; step++) {
     const CoracleCoupling *coupling;
     const CoracleCorrection *correction;
@@ -73,7 +78,7 @@ static PetscErrorCode Measure(Coupler c, const ServerSolid *solid, int nfluid, i
     t[0] = MPI_Wtime();
     PetscCall(CouplerBuild(c, solid, 0.001, &n, &coupling));
     t[1] = MPI_Wtime();
-    PetscCall(CouplerReact(c, &still, &force, &totals));
+    PetscCall(CouplerComputeForce(c, &still, &force, &totals));
     t[2] = MPI_Wtime();
     PetscCall(CouplerCorrect(c, solid, &n, &correction));
     t[3] = MPI_Wtime();
@@ -91,8 +96,8 @@ static PetscErrorCode Measure(Coupler c, const ServerSolid *solid, int nfluid, i
 int main(int argc, char **argv)
 {
   const CouplerOptions options = {COUPLER_REACTION, 0.0005, 10.0, {0.0, -9.81}, 1.0};
-  ServerElements elements;
-  ServerSolid solid;
+  FluidElements elements;
+  SolidState solid;
   Coupler c;
   double *x, *rho;
   int rank, size;

@@ -63,14 +63,48 @@ def check_solid(folder):
         must(abs(apart[1] - apart[0]) > 0.005, f"the two largest fragments were {apart[0]:g} m apart, and are {apart[1]:g} m")
 
 
-def check_ranks(one, two):
-    """Until just before the first crack to round-off, which contact and fluid let grow."""
+# Until the first crack two runs that differ in the order of sums alone differ by no more than
+SOLVERS = 1e-6  # while the fluid's meshes are the same: the tolerance of its momentum solver;
+# once a remesh has decided a near-tie otherwise both meshes still meet velocity_error, and the runs differ less than by halving that:
+MESHES = 1e-3  # of the force, which halving changes by 4.5e-4
+TIMES = 1e-5  # of steps and first crack, which it changes by 2e-6 and 3.3e-6
+# Later they part: a crack takes this edge or the next one. What holds then on any ranks is in check_balance and check_solid.
+
+
+def centres(snapshot):
+    """Of the fluid's triangles, m, in an order that does not depend on their numbers."""
+    middle = snapshot["velocity/points"][()][:, :2][snapshot["velocity/cells"][()]].mean(axis=1)
+    return middle[np.lexsort(middle.round(6).T)]
+
+
+def last_common_mesh(one, two):
+    """Time of the last snapshot until which both runs have the same fluid mesh, s."""
+    last = -1.0
+    with h5py.File(one + "/fluid.h5") as a, h5py.File(two + "/fluid.h5") as b:
+        for name in sorted(set(a["snapshot"]) & set(b["snapshot"])):
+            middle, other = centres(a["snapshot"][name]), centres(b["snapshot"][name])
+            if middle.shape != other.shape or abs(middle - other).max() > SOLVERS:
+                break
+            last = a["snapshot"][name].attrs["time"]
+    return last
+
+
+def check_ranks(one, two, common):
     n = int(np.argmax(one.broken > 0)) - 1
-    must(n > 10 and abs(one.t[n] / two.t[n] - 1.0) < 1e-9, f"steps differ at {one.t[n]:g} s: {two.t[n]:g} s")
+    must(n > 10 and len(two.t) > n, f"the first crack comes in step {n + 1}")
+    must(common >= 0.0, "the fluid's first meshes differ")
     scale = abs(one.force[0][:n]).max()
-    difference = abs(one.force[0][:n] - two.force[0][:n]).max() / scale
-    must(difference < 1e-6, f"the fluid's force differs by {difference:g} between one rank and two")
-    must(abs(one.first_crack() / two.first_crack() - 1.0) < 1e-6, f"first crack at {one.first_crack():g} and {two.first_crack():g} s")
+    for k in range(n + 1):
+        same = one.t[k] <= common
+        step = abs(one.t[k] / two.t[k] - 1.0)
+        must(step < (SOLVERS if same else TIMES), f"steps differ at {one.t[k]:g} s: {step:g}")
+        if k == n:
+            break
+        for c in range(2):
+            difference = abs(one.force[c][k] - two.force[c][k]) / scale
+            must(difference < (SOLVERS if same else MESHES), f"the fluid's force differs by {difference:g} at {one.t[k]:g} s between one rank and two")
+    crack = abs(one.first_crack() / two.first_crack() - 1.0)
+    must(crack < TIMES, f"first crack at {one.first_crack():g} and {two.first_crack():g} s")
 
 
 one, two = (check_balance(folder) for folder in sys.argv[2:4])
@@ -79,7 +113,7 @@ for folder in sys.argv[2:4]:
         sizes = check_file(folder, name)
         must(sizes >= least, f"{name}.h5 has arrays of {sizes} sizes only")
     check_solid(folder)
-check_ranks(one, two)
+check_ranks(one, two, last_common_mesh(*sys.argv[2:4]))
 if os.environ.get("VERBOSE"):
     for b in (one, two):
         print(b.broken[-1], b.pieces[-1], b.first_crack(), b.torn[-1] / b.cracks[-1], b.momentum_error(0), b.momentum_error(1), b.excess.max())

@@ -27,7 +27,7 @@ bar='{shape: rectangle, centre: [1.0, 1.1], width: 0.3, height: 0.1, size: 0.025
 cracks=(--set "solid.materials.disc=$brittle" --set "solid.bodies[0]=$bar" --set time.end=0.4 --set coupler.relaxation=1)
 other=(--set time.end=0.3 --solid "$build/tests/route/rigid_disc")
 
-strong=(--set time.end=0.3 --set solid.materials.disc.density=300 --set coupler.tries=30)
+strong=(--set time.end=0.3 --set solid.materials.disc.density=300 --set coupler.max_iterations=30)
 
 must disc 1:1:1 "${adapt[@]}"
 must cracks 1:1:1 "${cracks[@]}"

@@ -3,7 +3,7 @@
 # step; a heavy one moves off as it should; and a step that does not converge ends the run with a reason.  Usage: strong.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
-light=(--set solid.materials.disc.density=50 --set time.end=0.3 --set coupler.tries=30)
+light=(--set solid.materials.disc.density=50 --set time.end=0.3 --set coupler.max_iterations=30)
 adapt=(--set fluid.adapt.size_min=0.02 --set fluid.adapt.size_max=0.25 --set fluid.adapt.velocity_error=0.005 --set fluid.adapt.every=7
   --set "fluid.mesh.refine[0].size=0.2" --set "solid.bodies[0].size=0.03")
 must one 1:1:1 "${light[@]}"
@@ -12,12 +12,12 @@ must adaptive 1:1:1 "${light[@]}" "${adapt[@]}"
 brittle='{density: 2000.0, youngs_modulus: 1.0e6, poisson_ratio: 0.3, damping: 0.2, tensile_strength: 6.0e3, shear_strength: 1.2e4, fracture_energy: 1.0}'
 bar='{shape: rectangle, centre: [1.0, 1.1], width: 0.3, height: 0.1, size: 0.025, material: disc, joints: all, fixed: [left]}'
 for ranks in 1:1:1 1:2:2; do
-  must "cracks-$ranks" "$ranks" --set "solid.materials.disc=$brittle" --set "solid.bodies[0]=$bar" --set time.end=0.4 --set coupler.relaxation=1 --set coupler.tries=30
+  must "cracks-$ranks" "$ranks" --set "solid.materials.disc=$brittle" --set "solid.bodies[0]=$bar" --set time.end=0.4 --set coupler.relaxation=1 --set coupler.max_iterations=30
 done
 must staggered 1:1:1 --set time.end=0.2 --set time.dt_max=0.00125
-must long 1:1:1 --set time.end=0.2 --set coupler.tries=30
+must long 1:1:1 --set time.end=0.2 --set coupler.max_iterations=30
 must long-staggered 1:1:1 --set time.end=0.2
-if run few 1:1:1 "${light[@]}" --set coupler.tries=2; then echo "two tries were enough"; exit 1; fi
+if run few 1:1:1 "${light[@]}" --set coupler.max_iterations=2; then echo "two tries were enough"; exit 1; fi
 grep -q 'error: the step from t = .* does not converge' "$scratch/few.log" || { cat "$scratch/few.log"; exit 1; }
 "$python" - "$scratch" <<'E2'
 import csv, json, sys
@@ -26,14 +26,14 @@ def rows(label, name="coupler"):
 def speeds(label):
     return [r["u_y [m/s]"] for r in rows(label)]
 for label in ("one", "three", "adaptive"):
-    u, tries = speeds(label)[5:], [r["tries"] for r in rows(label)]
+    u, tries = speeds(label)[5:], [r["iterations"] for r in rows(label)]
     assert u[-1] > 0.5 and all(b > a for a, b in zip(u, u[1:])), "%s: velocities %s" % (label, u)
     assert 1.5 < sum(tries) / len(tries) < 4, "%s: %s tries" % (label, tries)
     summary = json.load(open("%s/%s/summary.json" % (sys.argv[1], label)))
-    assert summary["largest_momentum_imbalance"] < 1e-10 and summary["tries"] == sum(tries), "%s: %s" % (label, summary)
+    assert summary["largest_momentum_imbalance"] < 1e-10 and summary["iterations"] == sum(tries), "%s: %s" % (label, summary)
     assert len(rows(label, "fluid")) == len(rows(label, "solid")) == len(tries), "%s: rows for tries that do not stand" % label
 for label in ("cracks-1:1:1", "cracks-1:2:2"):
-    solid, tries = rows(label, "solid"), [r["tries"] for r in rows(label)]
+    solid, tries = rows(label, "solid"), [r["iterations"] for r in rows(label)]
     assert solid[-1]["broken joints"] >= 3 and max(tries) > 1, "%s: %g broken joints, tries %s" % (label, solid[-1]["broken joints"], tries)
     assert json.load(open("%s/%s/summary.json" % (sys.argv[1], label)))["largest_momentum_imbalance"] < 1e-10
 broken = [rows(label, "solid")[-1]["broken joints"] for label in ("cracks-1:1:1", "cracks-1:2:2")]

@@ -11,7 +11,7 @@
 enum { SYNTHETIC_MAX = 4000 };
 
 typedef struct {
-  ServerSolid view;
+  SolidState view;
   int nnodes, nfacets, nelements;
   long long gid[SYNTHETIC_MAX];
   double x[SYNTHETIC_MAX][2], u[SYNTHETIC_MAX][2], mobility[SYNTHETIC_MAX], acceleration[SYNTHETIC_MAX][2];
@@ -19,8 +19,8 @@ typedef struct {
 } SyntheticSolid;
 
 typedef struct {
-  ServerElements view;
-  ServerFlow flow;
+  FluidElements view;
+  FluidFlow flow;
   int n, global[SYNTHETIC_MAX];
   double x[SYNTHETIC_MAX][3][2], rho[SYNTHETIC_MAX];
   double u_star[SYNTHETIC_MAX][2][3], u_plus[SYNTHETIC_MAX][2][3], p[SYNTHETIC_MAX][6], mu[SYNTHETIC_MAX];
@@ -28,18 +28,17 @@ typedef struct {
 
 static inline void SyntheticSolidView(SyntheticSolid *s)
 {
-  s->view = (ServerSolid){.changed = 1,
-                          .nnodes = s->nnodes,
-                          .nfacets = s->nfacets,
-                          .nelements = s->nelements,
-                          .gid = s->gid,
-                          .x = &s->x[0][0],
-                          .u = &s->u[0][0],
-                          .mean = &s->u[0][0],
-                          .mobility = s->mobility,
-                          .acceleration = &s->acceleration[0][0],
-                          .facet = &s->facet[0][0],
-                          .element = &s->element[0][0]};
+  s->view = (SolidState){.changed = 1,
+                         .nnodes = s->nnodes,
+                         .nfacets = s->nfacets,
+                         .nelements = s->nelements,
+                         .gid = s->gid,
+                         .x = &s->x[0][0],
+                         .u = &s->u[0][0],
+                         .mobility = s->mobility,
+                         .acceleration = &s->acceleration[0][0],
+                         .facet = &s->facet[0][0],
+                         .element = &s->element[0][0]};
 }
 
 static inline void SyntheticElement(SyntheticSolid *s, int a, int b, int c)
@@ -135,8 +134,8 @@ static inline void SyntheticSolidPart(const SyntheticSolid *all, int rank, int s
 
 static inline void SyntheticFluidView(SyntheticFluid *f)
 {
-  f->view = (ServerElements){f->n, &f->x[0][0][0], f->rho, {0.0, 0.0}, {1.0, 1.0}};
-  f->flow = (ServerFlow){&f->u_star[0][0][0], &f->u_plus[0][0][0], &f->p[0][0], f->mu};
+  f->view = (FluidElements){f->n, &f->x[0][0][0], f->rho, {0.0, 0.0}, {1.0, 1.0}};
+  f->flow = (FluidFlow){&f->u_star[0][0][0], &f->u_plus[0][0][0], &f->p[0][0], f->mu};
 }
 
 /* n x n cells, density and viscosity 1, everything else 0. */

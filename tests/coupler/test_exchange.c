@@ -187,8 +187,8 @@ static void RunSolid(int argc, char **argv, double end, double momentum[2])
 
 static void RunCoupler(int argc, char **argv, const char *folder, double end)
 {
-  CouplerCase c = {.name = "exchange", .end = end, .dt_max = 2.0 * DT, .every = 0.2, .tries = 1};
-  TimeLoop scheme = {.c = &c};
+  CouplerCase c = {.name = "exchange", .end = end, .dt_max = 2.0 * DT, .every = 0.2, .max_iterations = 1};
+  TimeLoop loop = {.c = &c};
   WriterTotals totals;
   Server server;
   MPI_Comm comm;
@@ -197,17 +197,17 @@ static void RunCoupler(int argc, char **argv, const char *folder, double end)
   CHECK(!ServerOpen(argc, argv, &comm, &server), "open");
   PETSC_COMM_WORLD = comm;
   CHECK(!PetscInitialize(NULL, NULL, NULL, NULL), "PETSc");
-  scheme.server = server;
-  CHECK(!CouplerCreate(comm, &c.options, &scheme.coupler) &&
-            !RegionCreate(comm, c.options.thickness, &scheme.region) &&
-            !WriterCreate(comm, &c, NULL, &scheme.record),
+  loop.server = server;
+  CHECK(!CouplerCreate(comm, &c.options, &loop.coupler) &&
+            !RegionCreate(comm, c.options.thickness, &loop.region) &&
+            !WriterCreate(comm, &c, NULL, &loop.writer),
         "create");
-  CHECK(!TimeLoopRun(&scheme), "run");
-  CHECK(!WriterTotalsOf(scheme.record, 0, &totals), "totals");
+  CHECK(!TimeLoopRun(&loop), "run");
+  CHECK(!WriterTotalsOf(loop.writer, 0, &totals), "totals");
   CHECK(totals.imbalance < 1e-11, "imbalance %g", totals.imbalance);
   CHECK(totals.steps > 30 && totals.terminal > 0.05, "%lld steps, terminal velocity %g", totals.steps,
         totals.terminal);
-  CHECK(!WriterDestroy(&scheme.record) && !RegionDestroy(&scheme.region) && !CouplerDestroy(&scheme.coupler),
+  CHECK(!WriterDestroy(&loop.writer) && !RegionDestroy(&loop.region) && !CouplerDestroy(&loop.coupler),
         "destroy");
   CHECK(!PetscFinalize() && !ServerClose(&server), "close");
 }

@@ -1,6 +1,7 @@
 // ranks: 1 2 3
 /* Forces on a closed polygon against what mechanics says: buoyancy, rigid motion, accelerated fluid, the wall
  * term's weights. */
+#include "common/space/p2.h"
 #include "coupler/coupler_impl.h"
 #include "tests/coupler/synthetic.h"
 
@@ -64,7 +65,7 @@ static void Step(CouplerMode mode, double thickness, double dt, Coupler *c, Forc
   CHECK(!CouplerCreate(PETSC_COMM_WORLD, &options, c), "create");
   CHECK(!CouplerSetElements(*c, &fluid.view), "elements");
   CHECK(!CouplerBuild(*c, &solid.view, dt, &n, &coupling), "build");
-  CHECK(!CouplerReact(*c, &fluid.flow, &force, totals), "react");
+  CHECK(!CouplerComputeForce(*c, &fluid.flow, &force, totals), "react");
 }
 
 static void CheckTotal(const char *what, const double force[2], double fx, double fy, double tolerance)
@@ -131,9 +132,9 @@ static void CheckMotion(void)
 }
 
 /* a symmetric, positive semidefinite, s = a u_s where u_s is constant over the element. */
-static void CheckEntries(Coupler c)
+static void CheckCoupledElements(Coupler c)
 {
-  for (int e = 0; e < c->overlap->nentries; e++) {
+  for (int e = 0; e < c->overlap->ncoupled; e++) {
     const CoracleCoupling *k = &c->coupling[e];
     const double *a = &k->a[0][0][0][0];
     double trace = 0.0, v[6], form = 0.0;
@@ -169,7 +170,7 @@ static void Constant(const double x[2], double u[2], double *p)
 static double WallTotal(Coupler c)
 {
   double total = 0.0;
-  for (int e = 0; e < c->overlap->nentries; e++) {
+  for (int e = 0; e < c->overlap->ncoupled; e++) {
     for (int i = 0; i < 9; i++)
       total += c->coupling[e].a[0][i / 3][0][i % 3] + c->coupling[e].a[1][i / 3][1][i % 3];
   }
@@ -188,7 +189,7 @@ static void CheckWeights(void)
     const CouplerMode mode = m ? COUPLER_STRESS_SHELL : COUPLER_REACTION;
     for (int t = 0; t < 2; t++) {
       Step(mode, t ? 1e-4 : 2e-4, 1.0, &c, &totals);
-      CheckEntries(c);
+      CheckCoupledElements(c);
       total[m][t] = WallTotal(c) - (m ? 0.0 : 2.0 * 10.0 * RHO * SyntheticArea(&all_solid));
       CHECK(!CouplerDestroy(&c), "destroy");
     }
@@ -202,12 +203,12 @@ static void CheckKernels(void)
 {
   const double x[3][2] = {{0, 0}, {1, 0}, {0, 1}}, n[2] = {0.6, 0.8}, p[6] = {1, 2, 4, 0, 5, 3};
   double p1[3];
-  const WallWeight a = WallWeightOf(2.0, n);
+  const WallCoefficient a = WallCoefficientOf(2.0, n);
   CHECK(fabs(WallExtent(x, n) - 0.8) < 1e-16, "extent %g", WallExtent(x, n));
   CHECK(fabs(a.xx - 2.0 * (4.0 / 3.0 * 0.36 + 0.64)) < 1e-15 && fabs(a.xy - 2.0 * 0.48 / 3.0) < 1e-15 &&
             fabs(a.yy - 2.0 * (0.36 + 4.0 / 3.0 * 0.64)) < 1e-15,
         "[37]");
-  CouplerPressureP1(p, p1);
+  P2ProjectP1(p, p1);
   CHECK(fabs(p1[0] + p1[1] + p1[2] - 8.0) < 1e-14, "the mean of a P2 field is the mean of its midpoints");
 }
 

@@ -78,7 +78,7 @@ static double Step(double kick, ForceTotals *totals, double v[2])
   for (int k = 0; k < fluid.n; k++)
     for (int i = 0; i < 6; i++)
       fluid.u_plus[k][i / 3][i % 3] = fluid.u_star[k][i / 3][i % 3] + kick * (i + 1);
-  CHECK(!CouplerReact(c, &fluid.flow, &force, totals), "react");
+  CHECK(!CouplerComputeForce(c, &fluid.flow, &force, totals), "react");
   for (int i = 0; i < solid.nnodes; i++) {
     const double x = solid.x[i][0] - 0.5, y = solid.x[i][1] - 0.5;
     if (solid.mobility[i] == 0.0 || hypot(x, y) > 1e-9) continue; /* every copy's share of the force */

@@ -37,12 +37,12 @@ static int Solve(QuasiNewton a, const Equation *e)
 {
   double x[N] = {0.0}, hx[N], next[N];
   CHECK(!QuasiNewtonBegin(a, e->n), "begin");
-  for (int tries = 1; tries < 100; tries++) {
+  for (int iterations = 1; iterations < 100; iterations++) {
     double r = 0.0;
     Evaluate(e, x, hx);
     for (int i = 0; i < e->n; i++) r += (hx[i] - x[i]) * (hx[i] - x[i]);
     CHECK(!MPI_Allreduce(MPI_IN_PLACE, &r, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD), "sum");
-    if (sqrt(r) < 1e-9) return tries;
+    if (sqrt(r) < 1e-9) return iterations;
     CHECK(!QuasiNewtonNext(a, x, hx, next), "next");
     for (int i = 0; i < e->n; i++) x[i] = next[i];
   }

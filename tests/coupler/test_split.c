@@ -38,7 +38,7 @@ static void MakeCase(void)
   }
 }
 
-static void SparseExchange(MPI_Comm comm)
+static void Distribute(MPI_Comm comm)
 {
   int rank, size;
   MPI_Comm_rank(comm, &rank);
@@ -68,12 +68,12 @@ static void Run(MPI_Comm comm, CouplerMode mode, Result *r)
   Coupler c;
   int n, nc;
   memset(r, 0, sizeof *r);
-  SparseExchange(comm);
+  Distribute(comm);
   CHECK(!CouplerCreate(comm, &options, &c), "create");
   CHECK(!CouplerSetElements(c, &fluid.view), "elements");
   for (int step = 0; step < 2; step++) {
     CHECK(!CouplerBuild(c, &solid.view, 0.01, &n, &coupling), "build");
-    CHECK(!CouplerReact(c, &fluid.flow, &force, &r->totals), "react");
+    CHECK(!CouplerComputeForce(c, &fluid.flow, &force, &r->totals), "react");
   }
   CHECK(!CouplerCorrect(c, &moved.view, &nc, &correction), "correct");
   CHECK(n == nc, "%d couplings, %d corrections", n, nc);

@@ -62,8 +62,49 @@ static void Bodies(Case c)
   CaseNumber(c, "fluid.bodies[1].radius", 0.0, HUGE_VAL);
 }
 
+static void Folder(Case c)
+{
+  CaseString(c, "output.folder");
+}
+static void Renamed(Case c)
+{
+  CaseRenamed(c, "fluid.tries", "fluid.max_iterations");
+}
+
+/* Large files are read or refused in a time that grows with their size, not with its square. */
+static void Large(void)
+{
+  enum { N = 200000 };
+  static char text[32 * N];
+  size_t n = (size_t)sprintf(text, "fluid:\n");
+  for (int k = 0; k < N; k++) n += (size_t)sprintf(text + n, "  key_%d: %d\n", k, k);
+  alarm(60);
+  CheckCase(text, NULL, Nothing, NULL);
+  CheckCase(text, NULL, DensityFinish, ":1: key 'fluid.density' is missing");
+  n = (size_t)sprintf(text, "fluid: ");
+  memset(text + n, '[', N);
+  memset(text + n + N, ']', N);
+  strcpy(text + n + 2 * (size_t)N, "\n");
+  CheckCase(text, NULL, Nothing, ":1: nested more than 32 deep");
+  memset(text + n, '{', N);
+  strcpy(text + n + (size_t)N, "\n");
+  CheckCase(text, NULL, Nothing, ":1: nested more than 32 deep");
+  alarm(0);
+}
+
 static void Syntax(void)
 {
+  CheckCase("solid:\n  a.b: 1\n", NULL, Nothing,
+            ":2: key 'a.b' cannot be told in a path: expected 1 to 127 characters without '.', '[' and ']'");
+  CheckCase("solid:\n  'a[0]': 1\n", NULL, Nothing,
+            ":2: key 'a[0]' cannot be told in a path: expected 1 to 127 characters without '.', '[' and ']'");
+  CheckCase("output:\n  folder: null\n", NULL, Folder,
+            ":2: key 'output.folder': expected a string, found 'null'");
+  CheckCase("output: {folder: ~}\n", NULL, Folder, ":1: key 'output.folder': expected a string, found '~'");
+  CheckCase("output: {folder: 'null'}\n", NULL, Folder, NULL);
+  CheckCase("fluid:\n  tries: 3\n", NULL, Renamed,
+            ":2: key 'fluid.tries' is now called 'fluid.max_iterations'");
+  CheckCase("fluid:\n  max_iterations: 3\n", NULL, Renamed, NULL);
   CheckCase("", NULL, Nothing, ": is empty");
   CheckCase("- a\n- b\n", NULL, Nothing, ":1: expected sections (key: ...) at the top level");
   CheckCase("fluid:\n  a: 1\n  a: 2\n", NULL, Nothing, ":3: key 'a' is given twice (first in line 2)");
@@ -171,6 +212,7 @@ int main(void)
   Values();
   UnknownKeys();
   Sets();
+  Large();
   CheckArguments(1, argv, "no case file: expected case.yaml [--set key=value]...");
   CheckArguments(2, argv, "case file '/nonexistent.yaml': No such file or directory");
   CheckArguments(3, argv, "--set needs key=value behind it");

@@ -1,4 +1,5 @@
 /* Pair integrals against quadrature, partition of unity, and Galerkin projection between random meshes. */
+#include "common/space/quadrature.h"
 #include "common/supermesh/projection.h"
 #include "common/supermesh/supermesh.h"
 #include "tests/supermesh/random_mesh.h"
@@ -12,7 +13,7 @@ static SupermeshPairs pairs;
 /* The same integral by a degree-2 rule on the fan. */
 static double QuadratureAB(const SupermeshPair *pair, int i, int j)
 {
-  const GeometryQuadrature *rule = GeometryQuadratureOf(2);
+  const Quadrature *rule = QuadratureOf(2);
   const double(*ta)[2] = (const double(*)[2])a[pair->a], (*tb)[2] = (const double(*)[2])b[pair->b];
   double polygon[GEOMETRY_CLIP_MAX][2], sum = 0.0;
   const int n = GeometryClip(ta, tb, polygon);

@@ -9,6 +9,7 @@
  * a transfer is O(h^4). */
 #ifndef TESTS_TRANSFER_VORTEX_H
 #define TESTS_TRANSFER_VORTEX_H
+#include "common/space/quadrature.h"
 #include "common/transfer/transfer.h"
 #include "tests/transfer/shaken.h"
 
@@ -24,7 +25,7 @@ typedef struct {
 /* energy, momentum, modulus, error: of w against the exact field */
 static inline VortexState VortexMeasure(const Mesh *m, const VortexValues w[])
 {
-  const GeometryQuadrature *rule = GeometryQuadratureOf(4);
+  const Quadrature *rule = QuadratureOf(4);
   double sum[5] = {0.0};
   for (int e = 0; e < m->ne; e++) {
     for (int q = 0; q < rule->n; q++) {
@@ -53,7 +54,7 @@ static inline VortexState VortexMeasure(const Mesh *m, const VortexValues w[])
 /* w = P u */
 static inline void VortexProject(const Mesh *m, VortexValues w[])
 {
-  const GeometryQuadrature *rule = GeometryQuadratureOf(4);
+  const Quadrature *rule = QuadratureOf(4);
   memset(w, 0, (size_t)m->ne * sizeof *w);
   for (int e = 0; e < m->ne; e++) {
     for (int q = 0; q < rule->n; q++) {

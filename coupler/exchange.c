@@ -1,0 +1,44 @@
+#include "coupler/exchange.h"
+
+PetscErrorCode ExchangeReceiveSolid(Server server, const CouplerModeTable *mode, SolidState *solid)
+{
+  ServerSolid s;
+
+  PetscFunctionBeginUser;
+  PetscCall(ServerReceiveSolid(server, &s));
+  *solid = (SolidState){.changed = s.changed,
+                        .lost = s.lost,
+                        .start_element = s.before,
+                        .nnodes = s.nnodes,
+                        .nfacets = s.nfacets,
+                        .nelements = s.nelements,
+                        .gid = s.gid,
+                        .x = s.x,
+                        .u = mode->velocity == COUPLER_VELOCITY_MEAN ? s.mean : s.u,
+                        .mobility = s.mobility,
+                        .acceleration = s.acceleration,
+                        .facet = s.facet,
+                        .element = s.element};
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ExchangeRequestElements(Server server, const Region region, FluidElements *elements)
+{
+  ServerElements e;
+
+  PetscFunctionBeginUser;
+  PetscCall(ServerAskElements(server, region->nbox, &region->box[0][0][0], &e));
+  *elements = (FluidElements){e.n, e.x, e.rho, {e.lower[0], e.lower[1]}, {e.upper[0], e.upper[1]}};
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ExchangeReceiveFlow(Server server, const CouplerModeTable *mode, FluidFlow *flow)
+{
+  ServerFlow f;
+
+  PetscFunctionBeginUser;
+  PetscCall(ServerReceiveFlow(server, &f));
+  *flow =
+      (FluidFlow){.u_star = f.u_star, .u_plus = f.u_plus, .p = mode->needs_pressure ? f.p : NULL, .mu = f.mu};
+  PetscFunctionReturn(0);
+}

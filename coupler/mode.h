@@ -1,0 +1,53 @@
+/* Coupling modes: everything that distinguishes one way to couple solid and fluid from another.
+ *
+ *     reaction         default.  The solid's inside is held by sigma = relaxation rho_f/dt, its surface by the
+ *                      wall term.  The force is the reaction to both, plus the inertia of the fluid inside and
+ *                      buoyancy.  Conservative.  Nodes with a mobility are coupled implicitly (inertia.h).
+ *     stress_shell     Yang et al. 2016, literal: wall term in the shell only, from the viscosity projected to
+ *                      the surface; force by the surface integral of [43], [44].
+ *     penalty_shell    Vire, Xiang, Pain 2015: a = rho_f/dt I in the shell only; the force is the reaction to
+ *                      it, plus the inertia of the fluid inside and buoyancy.  Conservative.
+ *
+ * A mode is one file, mode_<name>.c, which exports one constant table.  References: method.md sections 3, 4, 8, 9. */
+#ifndef CORACLE_COUPLER_MODE_H
+#define CORACLE_COUPLER_MODE_H
+#include "common/link/case_file.h"
+#include "coupler/solid_state.h"
+
+typedef struct Coupler_s *Coupler;
+
+typedef enum { COUPLER_REACTION, COUPLER_STRESS_SHELL, COUPLER_PENALTY_SHELL } CouplerMode;
+/* The modes' names in a case file, in the order of the enumeration, ended by NULL. */
+extern const char *const COUPLER_MODES[];
+
+typedef struct {
+  CouplerMode mode;
+  double thickness;  /* of the shell, dr, m */
+  double relaxation; /* sigma dt / rho_f, used by the mode reaction */
+  double gravity[2]; /* m/s2 */
+  double
+      viscosity; /* Pa s, on elements whose viscosity is not known from a flow yet: those of the first step */
+} CouplerOptions;
+
+/* Which of the solid's velocities over the last step u_s is: the one at its end, without vibrations, or the
+ * mean, displacement / dt.  A reaction needs the end's: with the mean, half a step late, its inertia term is
+ * unstable below rho_s/rho_f of about 1, and it excites the vibrations of a disc until elements invert. */
+typedef enum { COUPLER_VELOCITY_END, COUPLER_VELOCITY_MEAN } CouplerVelocity;
+
+/* What a mode decides.  The last three functions are collective. */
+typedef struct {
+  CouplerVelocity velocity;
+  PetscBool needs_pressure; /* FluidFlow's p is there */
+  /* Reads the mode's own keys from the case; NULL: it has none.  Called for all modes whichever is chosen, so
+   * that one case file serves every mode. */
+  void (*read_options)(Case file, CouplerOptions *options);
+  PetscErrorCode (*coefficients)(Coupler coupler, const SolidState *solid); /* sets every pair's a */
+  PetscErrorCode (*force)(Coupler coupler);                                 /* sets node from the flow */
+  PetscErrorCode (*correct)(Coupler coupler, const SolidState *moved);      /* adds to the corrections */
+} CouplerModeTable;
+
+extern const CouplerModeTable COUPLER_MODE_REACTION, COUPLER_MODE_STRESS_SHELL, COUPLER_MODE_PENALTY_SHELL;
+
+const CouplerModeTable *CouplerModeGet(CouplerMode mode);
+void CouplerModesReadOptions(Case file, CouplerOptions *options);
+#endif

@@ -1,0 +1,38 @@
+#include "coupler/run_state.h"
+
+enum { MONITOR_NUMBERS = 7 };
+
+PetscErrorCode RunLoad(RunState *run, Checkpoint from)
+{
+  double row[MONITOR_NUMBERS];
+
+  PetscFunctionBeginUser;
+  PetscCall(CheckpointGetNumber(from, "t", &run->t));
+  PetscCall(CheckpointGetNumber(from, "dt", &run->dt)); /* 0 from the end of a run: not chosen yet */
+  PetscCall(CheckpointGetDoubles(from, "divergence monitor", 0, 1, MONITOR_NUMBERS, row));
+  run->monitor = (DivergenceMonitor){(int)row[0], (int)row[1], {row[2], row[3]}, {row[4], row[5]}, row[6]};
+  if (run->t >= run->loop->c->end)
+    PetscCall(RunFail(run, "the checkpoint to go on from is at t = %g s already, time.end is %g s", run->t,
+                      run->loop->c->end));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RunSave(const RunState *run)
+{
+  const DivergenceMonitor *m = &run->monitor;
+  const double row[MONITOR_NUMBERS] = {m->nsteps,    m->alternations, m->velocity[0], m->velocity[1],
+                                       m->change[0], m->change[1],    m->first};
+  PetscMPIInt rank;
+  Checkpoint to;
+
+  PetscFunctionBeginUser;
+  if (!run->checkpoints.due[0]) PetscFunctionReturn(0);
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  PetscCall(CheckpointCreate(PETSC_COMM_WORLD, run->checkpoints.due, "coupler", &to));
+  PetscCall(CheckpointPutNumber(to, "t", run->t));
+  PetscCall(CheckpointPutNumber(to, "dt", run->dt));
+  PetscCall(CheckpointPutDoubles(to, "divergence monitor", rank ? 0 : 1, MONITOR_NUMBERS, row));
+  PetscCall(WriterSave(run->loop->writer, to));
+  PetscCall(CheckpointClose(&to));
+  PetscFunctionReturn(0);
+}

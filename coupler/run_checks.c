@@ -1,0 +1,89 @@
+#include "coupler/run_state.h"
+#include <stdarg.h>
+
+/* Part of time.dt_max: a shorter step is an error. */
+#define MIN_STEP 1e-6
+
+PetscErrorCode RunFail(const RunState *run, const char *format, ...)
+{
+  char message[640];
+  PetscMPIInt rank;
+  va_list arguments;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  va_start(arguments, format);
+  vsnprintf(message, sizeof message, format, arguments);
+  va_end(arguments);
+  if (rank == 0) ServerFail(run->loop->server, "%s", message);
+  /* the other ranks wait here for the end of the job */
+  PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RunChooseStep(RunState *run, double proposed)
+{
+  const CouplerCase *c = run->loop->c;
+  const double remaining = c->end - run->t, wanted = fmin(proposed, c->dt_max);
+
+  PetscFunctionBeginUser;
+  if (!(wanted > MIN_STEP * c->dt_max)) { /* NaN, too */
+    PetscCall(RunFail(run,
+                      "at t = %g s the fluid proposes a time step of %g s, less than %g of time.dt_max: its "
+                      "velocity runs away",
+                      run->t, wanted, MIN_STEP));
+  }
+  run->dt = remaining < 2.0 * wanted ? 0.5 * remaining : wanted;
+  if (remaining <= wanted * (1.0 + 1e-9)) run->dt = remaining;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RunCheckInside(const RunState *run)
+{
+  const double *lower = run->elements.lower, *upper = run->elements.upper;
+  long long gid;
+  int local;
+
+  PetscFunctionBeginUser;
+  PetscCall(RegionOutside(run->loop->region, &run->solid, &run->elements, &gid, &local));
+  if (local >= 0) {
+    const double *x = &run->solid.x[2 * local];
+    ServerFail(run->loop->server,
+               "the solid's node %lld at (%g, %g) lies outside of the fluid domain [%g, %g] x [%g, %g]", gid,
+               x[0], x[1], lower[0], upper[0], lower[1], upper[1]);
+  }
+  /* the other ranks wait here for the end of the job */
+  if (gid >= 0) PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RunCheckDivergence(RunState *run, const StepRecord *step)
+{
+  DivergenceMonitorStep s = {.t = step->t,
+                             .dt = step->dt,
+                             .displaced = step->totals.displaced,
+                             .max_iterations = run->iteration.max_iterations};
+  char message[512];
+
+  PetscFunctionBeginUser;
+  for (int c = 0; c < 2; c++) {
+    s.velocity[c] = step->motion.velocity[c];
+    s.force[c] = step->totals.force[c];
+    s.gravity[c] = run->loop->c->options.gravity[c];
+    s.extent = hypot(s.extent, run->elements.upper[c] - run->elements.lower[c]);
+  }
+  if (DivergenceMonitorCheck(&run->monitor, &s, sizeof message, message))
+    PetscCall(RunFail(run, "%s", message));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RunFailIteration(const RunState *run)
+{
+  PetscFunctionBeginUser;
+  PetscCall(RunFail(run,
+                    "the step from t = %g s does not converge: after %d coupling iterations the solid's "
+                    "velocity at its end differs by %g m/s from the one that the fluid was solved with; "
+                    "shorter steps (time.dt_max) or a larger coupler.max_iterations may help",
+                    run->t, run->iteration.max_iterations, run->iteration.residual));
+  PetscFunctionReturn(0);
+}

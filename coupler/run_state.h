@@ -1,0 +1,41 @@
+/* What lives from one step of the time loop to the next, and the parts of the loop that are not the algorithm:
+ * the choice of the time step, the checks that end a run with a reason, and the checkpoint.
+ * For time_loop.c; everything is collective. */
+#ifndef CORACLE_RUN_STATE_H
+#define CORACLE_RUN_STATE_H
+#include "coupler/checkpoints.h"
+#include "coupler/coupling_iteration.h"
+#include "coupler/divergence_monitor.h"
+#include "coupler/time_loop.h"
+
+typedef struct {
+  const TimeLoop *loop;
+  const CouplerModeTable *mode;
+  SolidState solid;
+  FluidElements elements;
+  CouplingIteration iteration;
+  DivergenceMonitor monitor;
+  Checkpoints checkpoints;
+  double t, dt; /* start and length of the current step, s */
+  int ncorrection;
+  const CoracleCorrection *correction; /* [ncorrection] of the last accepted step, not sent yet; borrowed */
+} RunState;
+
+/* dt for the coming step: the fluid's proposal, at most time.dt_max.  The last step ends exactly at time.end, and
+ * the one before it is shortened so that the last is not much smaller.  A proposal below 1e-6 of time.dt_max
+ * ends the job: the flow diverges and would take ever shorter steps. */
+PetscErrorCode RunChooseStep(RunState *run, double proposed);
+/* Ends the job when a node of the solid is outside of the fluid's domain. */
+PetscErrorCode RunCheckInside(const RunState *run);
+/* Ends the job when the accepted step shows that the coupling diverges. */
+PetscErrorCode RunCheckDivergence(RunState *run, const StepRecord *step);
+/* Ends the job: the step has not converged within coupler.max_iterations. */
+PetscErrorCode RunFailIteration(const RunState *run);
+/* Ends the job with one message of rank 0 about what all ranks have found. */
+PetscErrorCode RunFail(const RunState *run, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* t, dt and the divergence monitor; the writer loads its own part (writer.h). */
+PetscErrorCode RunLoad(RunState *run, Checkpoint from);
+/* Saves the coupler if a checkpoint is due: as the step that has been sent begins, or at the end. */
+PetscErrorCode RunSave(const RunState *run);
+#endif

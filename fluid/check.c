@@ -1,0 +1,118 @@
+#include "fluid/check.h"
+#include "fluid/fluid_case.h"
+#include "fluid/writer.h"
+
+/* What the calls that read them do not say of the fluid's keys. */
+static const CaseKey KEYS[] = {
+    {"gravity", "m/s2", "acceleration of gravity, x and y"},
+    {"time.cfl", "",
+     "largest time step over the time that the flow takes through an element, largest over the mesh"},
+    {"time.dt_max", "s", "largest time step"},
+    {"output.folder", "", "where results go; made if missing"},
+    {"output.every", "s", "time from one snapshot of the fields to the next"},
+    {"fluid.density", "kg/m3", "density"},
+    {"fluid.viscosity", "Pa s", "dynamic viscosity"},
+    {"fluid.theta", "", "0.5 Crank-Nicolson ... 1 backward Euler"},
+    {"fluid.petsc", "", "options for PETSc's solvers: -momentum_ksp_monitor"},
+    {"fluid.mesh.file", "", "a Gmsh mesh, instead of a box; a relative path starts at the case file"},
+    {"fluid.mesh.lower", "m", "lower left corner of a box"},
+    {"fluid.mesh.upper", "m", "upper right corner of the box"},
+    {"fluid.mesh.size_max", "m", "largest edge of its cells"},
+    {"fluid.mesh.growth", "", "how fast cells grow with the distance from a refined box, m a metre"},
+    {"fluid.mesh.refine", "", "boxes with smaller cells"},
+    {"fluid.mesh.refine[].lower", "m", "lower left corner of a refined box"},
+    {"fluid.mesh.refine[].upper", "m", "upper right corner of a refined box"},
+    {"fluid.mesh.refine[].size", "m", "edge of the cells in it"},
+    {"fluid.boundaries.*", "",
+     "what holds on the mesh's boundary of this name; a box has left, right, bottom, top"},
+    {"fluid.boundaries.*.velocity", "m/s", "prescribed velocity; in the middle, of a parabolic profile"},
+    {"fluid.boundaries.*.profile", "", "of the velocity along the boundary"},
+    {"fluid.boundaries.*.rise", "s", "time in which the velocity rises from zero"},
+    {"fluid.boundaries.*.pressure", "Pa", "an open boundary with this pressure"},
+    {"fluid.adapt.size_min", "m", "le: shortest edge wanted; that around the solid"},
+    {"fluid.adapt.size_max", "m", "Le: longest edge wanted"},
+    {"fluid.adapt.velocity_error", "m/s", "wanted error of linear interpolation, each component"},
+    {"fluid.adapt.growth", "", "largest ratio of an edge to the next"},
+    {"fluid.adapt.anisotropy", "", "largest ratio of edges wanted in a place"},
+    {"fluid.adapt.elements_max", "", "most triangles of a mesh"},
+    {"fluid.adapt.every", "steps",
+     "from one mesh to the next, or sooner when the solid is about to leave its fine mesh"},
+    {NULL, NULL, NULL}};
+
+/* Measured from 1 352 to 80 000 triangles on one rank (tests/coupled/disc.yaml, `peak_memory_mb`). */
+#define MB_PROGRAM 50.0
+#define MB_TRIANGLE 0.0057
+
+static int Start(void)
+{
+  return PetscInitialize(NULL, NULL, NULL, NULL);
+}
+
+static void Expect(const Mesh *m, PetscBool adapts, const AdaptationSetup *s)
+{
+  double shortest = HUGE_VAL, longest = 0.0;
+  for (int e = 0; e < m->ne; e++)
+    for (int i = 0; i < 3; i++) {
+      const double *a = m->x + 2 * m->vertex[3 * e + i], *b = m->x + 2 * m->vertex[3 * e + (i + 1) % 3];
+      shortest = fmin(shortest, hypot(a[0] - b[0], a[1] - b[1]));
+      longest = fmax(longest, hypot(a[0] - b[0], a[1] - b[1]));
+    }
+  printf("fluid: mesh of %lld triangles in [%g, %g] x [%g, %g] m, edges from %.3g to %.3g m\n",
+         (long long)m->nglobal, m->lower[0], m->upper[0], m->lower[1], m->upper[1], shortest, longest);
+  if (adapts)
+    printf("fluid: adapted every %d steps, edges from %g to %g m, at most %.0f triangles\n", s->every,
+           s->size_min, s->size_max, s->elements_max);
+  const double most = adapts ? fmax(s->elements_max, (double)m->nglobal) : (double)m->nglobal;
+  printf("fluid: memory about %.0f MB%s\n", MB_PROGRAM + MB_TRIANGLE * most, adapts ? " at most" : "");
+}
+
+static PetscErrorCode Draw(Case c, Mesh *mesh, const FluidSetup *setup)
+{
+  Fluid fluid;
+  Writer writer;
+  PetscFunctionBeginUser;
+  PetscCall(FluidCreate(mesh, setup, &fluid));
+  PetscCall(FluidSetInitial(fluid, 0.0, NULL, NULL, NULL));
+  PetscCall(WriterCreate(c, fluid, NULL, &writer));
+  PetscCall(WriterDestroy(&writer));
+  PetscCall(FluidDestroy(&fluid));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ReadCase(Case c, Command command)
+{
+  static const char *const SECTIONS[] = {"fluid", NULL};
+  Mesh *mesh;
+  FluidSetup setup;
+  AdaptationSetup adaptation;
+  PetscBool adapts;
+  PetscFunctionBeginUser;
+  CaseDescribe(c, KEYS);
+  (void)CaseStringOr(c, "fluid.petsc", "");
+  (void)CaseString(c, "output.folder");
+  (void)CasePositive(c, "output.every");
+  PetscCall(FluidCaseMesh(c, PETSC_COMM_SELF, NULL, &mesh, NULL));
+  PetscCall(FluidCaseSetup(c, mesh, &setup));
+  PetscCall(FluidCaseAdaptation(c, &adapts, &adaptation));
+  PetscCall(CaseFinish(c, SECTIONS));
+  if (command != COMMAND_KEYS && CaseFaultless(c)) Expect(mesh, adapts, &adaptation);
+  if (command == COMMAND_DRAW && CaseFaultless(c)) PetscCall(Draw(c, mesh, &setup));
+  PetscCall(PetscFree(setup.boundary));
+  PetscCall(MeshDestroy(&mesh));
+  PetscFunctionReturn(0);
+}
+
+static void Read(Case c, void *command)
+{
+  const PetscErrorCode failed = ReadCase(c, *(const Command *)command);
+  if (failed) CaseRefuse(c, "fluid", "the mesh cannot be made (error %d of PETSc)", failed);
+}
+
+int FluidAnswer(Command command, int argc, char **argv)
+{
+  static const CommandAnswers ANSWERS = {"fluid", "", Start, Read};
+  const int status = CommandAnswer(command, &ANSWERS, argc, argv);
+  PetscBool started;
+  if (!PetscInitialized(&started) && started) (void)PetscFinalize();
+  return status;
+}

@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# All faults of a case at once, without a run: what is wrong, or what a run would be made of and a picture of it.
+# Usage: scripts/check.sh [options] CASE [--set key=value]...
+#   --bin DIR     where the programs are (default: build beside this script)
+#   --png FILE    where the picture goes (default: none)
+# Touches no output folder.  Exit status: 0, or 1 when the case has faults.
+set -euo pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
+die() { echo "check.sh: $*" >&2; exit 2; }
+
+bin=$root/build png="" case="" sets=()
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --bin) bin=${2:?--bin needs a folder}; shift 2 ;;
+    --png) png=${2:?--png needs a file}; shift 2 ;;
+    --set) sets+=(--set "${2:?--set needs key=value}"); shift 2 ;;
+    -h | --help) sed -n '2,7p' "$0" | cut -c3-; exit 0 ;;
+    -*) die "unknown option '$1' (see --help)" ;;
+    *) [ -z "$case" ] || die "two case files: '$case' and '$1'"; case=$1; shift ;;
+  esac
+done
+[ -n "$case" ] || die "no case file (see --help)"
+
+program() { # of a part
+  local candidate
+  for candidate in "$bin/coracle-$1" "$bin/$1/coracle-$1" "$bin/bin/coracle-$1"; do
+    [ -x "$candidate" ] && echo "$candidate" && return
+  done
+  die "no coracle-$1 under '$bin': build it, or say --bin"
+}
+
+export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+faults=0
+for part in coupler fluid solid; do
+  "$(program $part)" --check "$case" "${sets[@]}" >"$scratch/$part" 2>&1 || faults=1
+done
+# what all three say of the file itself is told once
+if [ "$faults" -ne 0 ]; then
+  cat "$scratch"/{coupler,fluid,solid} | grep '^coracle ' | sed 's/^coracle [a-z]*: //' | awk '!seen[$0]++' || cat "$scratch"/*
+  exit 1
+fi
+cat "$scratch"/{coupler,fluid,solid}
+if [ -n "$png" ]; then
+  for part in fluid solid; do
+    "$(program $part)" --draw "$case" "${sets[@]}" --set "output.folder=$scratch/run" >"$scratch/$part" 2>&1 ||
+      { cat "$scratch/$part"; exit 1; }
+  done
+  "$(command -v /usr/bin/python3 || command -v python3)" "$root/scripts/plot_case.py" "$scratch/run" "$png"
+fi

@@ -1,0 +1,139 @@
+#include "solid/check.h"
+#include "solid/solid_case.h"
+#include "solid/writer.h"
+#include <stdio.h>
+#include <stdlib.h>
+
+/* What the calls that read them do not say of the solid's keys. */
+static const CaseKey KEYS[] = {
+    {"gravity", "m/s2", "acceleration of gravity, x and y"},
+    {"output.folder", "", "where results go; made if missing"},
+    {"output.every", "s", "time from one snapshot of the fields to the next"},
+    {"solid.materials.*.density", "kg/m3", "density"},
+    {"solid.materials.*.youngs_modulus", "Pa", "Young's modulus"},
+    {"solid.materials.*.poisson_ratio", "", "Poisson's ratio"},
+    {"solid.materials.*.damping", "", "part of the critical damping of the stiffest mode of an element"},
+    {"solid.materials.*.penalty", "Pa", "of contact; absent: Young's modulus"},
+    {"solid.materials.*.friction", "", "coefficient of friction in contact"},
+    {"solid.materials.*.contact_damping", "", "part of the critical damping in contact"},
+    {"solid.materials.*.plane", "", "plane strain or plane stress"},
+    {"solid.materials.*.law", "", "stress from strain"},
+    {"solid.materials.*.thickness", "m", "across the plane; absent: 1; the fluid sees one metre"},
+    {"solid.materials.*.tensile_strength", "Pa", "with it the material can crack where there are joints"},
+    {"solid.materials.*.shear_strength", "Pa", "without pressure; required with tensile_strength"},
+    {"solid.materials.*.internal_friction", "",
+     "what pressure adds to the shear strength, over the pressure"},
+    {"solid.materials.*.fracture_energy", "J/m2", "of opening; required with tensile_strength"},
+    {"solid.materials.*.shear_fracture_energy", "J/m2", "of sliding; absent: fracture_energy"},
+    {"solid.bodies", "", "list of bodies"},
+    {"solid.bodies[].material", "", "name of a material"},
+    {"solid.bodies[].regions.*", "", "material of the mesh's physical surface of this name"},
+    {"solid.bodies[].mesh", "", "a Gmsh mesh, instead of a shape; a relative path starts at the case file"},
+    {"solid.bodies[].translate", "m", "shift of the mesh, after scale"},
+    {"solid.bodies[].scale", "", "factor on the mesh's coordinates; absent: 1"},
+    {"solid.bodies[].shape", "", "required unless there is a mesh"},
+    {"solid.bodies[].centre", "m", "centre of a shape"},
+    {"solid.bodies[].size", "m", "edge of its elements"},
+    {"solid.bodies[].radius", "m", "of a disc; of the middle of a ring's wall"},
+    {"solid.bodies[].thickness", "m", "of a ring's wall, with radius"},
+    {"solid.bodies[].outer_radius", "m", "of a ring, instead of radius and thickness"},
+    {"solid.bodies[].inner_radius", "m", "of a ring, instead of radius and thickness"},
+    {"solid.bodies[].layers", "", "elements through a ring's wall; absent: as many as its size wants"},
+    {"solid.bodies[].width", "m", "of a rectangle"},
+    {"solid.bodies[].height", "m", "of a rectangle"},
+    {"solid.bodies[].angle", "rad", "by which a rectangle is turned"},
+    {"solid.bodies[].stretch", "", "factors along x and y by which the body is stretched at the start"},
+    {"solid.bodies[].fixed", "", "true, or a list of names of boundaries that do not move"},
+    {"solid.bodies[].fixed[]", "", "name of a boundary that does not move"},
+    {"solid.bodies[].driven", "", "list of boundaries whose motion is prescribed"},
+    {"solid.bodies[].driven[].boundary", "", "name of the boundary"},
+    {"solid.bodies[].driven[].component", "", "which component is prescribed; the other stays free"},
+    {"solid.bodies[].driven[].table", "", "list of rows of time and velocity, linear between them"},
+    {"solid.bodies[].driven[].table[]", "s, m/s", "time, velocity along x and y"},
+    {"solid.bodies[].driven[].velocity", "m/s", "a constant velocity, instead of a table"},
+    {"solid.bodies[].driven[].release", "s", "when the boundary becomes free; absent: never"},
+    {"solid.bodies[].joints", "", "which edges between two elements can crack: none, all, or a list"},
+    {"solid.bodies[].joints[]", "", "name of a physical surface in which edges can crack"},
+    {"solid.bodies[].joints[].lower", "m", "lower left corner of a box in which edges can crack"},
+    {"solid.bodies[].joints[].upper", "m", "upper right corner of the box"},
+    {"solid.bodies[].velocity", "m/s", "at the start"},
+    {"solid.bodies[].angular_velocity", "rad/s", "at the start, about the centre of mass"},
+    {"solid.bodies[].repeat.n", "", "how often the body is there along x and y"},
+    {"solid.bodies[].repeat.step", "m", "distance from one to the next along x and y"},
+    {"solid.walls.lower", "m", "lower left corner of four rigid walls around all bodies"},
+    {"solid.walls.upper", "m", "upper right corner of the walls"},
+    {"solid.walls.friction", "", "coefficient of friction; absent: that of what touches"},
+    {"solid.walls.contact_damping", "", "part of the critical damping; absent: that of what touches"},
+    {"solid.contact", "", "list of pairs of materials with a friction or damping of their own"},
+    {"solid.contact[].between", "", "two names of materials, or walls"},
+    {"solid.contact[].between[]", "", "name of a material, or walls"},
+    {"solid.contact[].friction", "", "coefficient of friction of the pair"},
+    {"solid.contact[].damping", "", "part of the critical damping of the pair"},
+    {"solid.courant", "", "substep over the limit of stability"},
+    {"solid.rebalance", "substeps",
+     "lost to a bad share of the work after which elements change ranks; 0: never"},
+    {"solid.petsc", "", "options for PETSc"},
+    {NULL, NULL, NULL}};
+
+static int Start(void)
+{
+  return PetscInitialize(NULL, NULL, NULL, NULL);
+}
+
+static void Fail(void *context, const char *message)
+{
+  (void)context;
+  fprintf(stderr, "coracle solid: error: %s\n", message);
+  exit(1);
+}
+
+static PetscErrorCode Expect(Case c, Solid s, Command command)
+{
+  SolidView v;
+  Writer writer;
+  double limit, lower[2] = {HUGE_VAL, HUGE_VAL}, upper[2] = {-HUGE_VAL, -HUGE_VAL};
+  PetscFunctionBeginUser;
+  SolidGetView(s, &v);
+  for (int n = 0; n < 2 * v.nnodes; n++) {
+    lower[n % 2] = fmin(lower[n % 2], v.x[n]);
+    upper[n % 2] = fmax(upper[n % 2], v.x[n]);
+  }
+  PetscCall(SolidLimit(s, &limit));
+  printf("solid: %d bodies of %d triangles, %d nodes and %d surface edges in [%.4g, %.4g] x [%.4g, %.4g] m\n",
+         v.nbodies, v.nelements, v.nnodes, v.nfacets, lower[0], upper[0], lower[1], upper[1]);
+  printf("solid: substeps of at most %.3g s\n", limit);
+  if (command == COMMAND_DRAW) {
+    PetscCall(WriterCreate(c, PETSC_COMM_SELF, s, NULL, &writer));
+    PetscCall(WriterDestroy(&writer));
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ReadCase(Case c, Command command)
+{
+  Solid solid;
+  PetscFunctionBeginUser;
+  CaseDescribe(c, KEYS);
+  (void)CaseString(c, "output.folder");
+  (void)CasePositive(c, "output.every");
+  PetscCall(SolidFromCase(c, PETSC_COMM_SELF, Fail, NULL, &solid));
+  if (command != COMMAND_KEYS && CaseFaultless(c)) PetscCall(Expect(c, solid, command));
+  PetscCall(SolidDestroy(&solid));
+  PetscFunctionReturn(0);
+}
+
+static void Read(Case c, void *command)
+{
+  const PetscErrorCode failed = ReadCase(c, *(const Command *)command);
+  if (failed) CaseRefuse(c, "solid", "the bodies cannot be made (error %d of PETSc)", failed);
+}
+
+int SolidAnswer(Command command, int argc, char **argv)
+{
+  static const CommandAnswers ANSWERS = {
+      "solid", "  --alone          runs the solid without fluid and coupler\n", Start, Read};
+  const int status = CommandAnswer(command, &ANSWERS, argc, argv);
+  PetscBool started;
+  if (!PetscInitialized(&started) && started) (void)PetscFinalize();
+  return status;
+}

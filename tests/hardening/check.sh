@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# scripts/check.sh tells ten faults of a case at once, touches no output, and draws a good case.  Usage: check.sh ROOT BUILD
+set -euo pipefail
+source "$(dirname "$0")/../coupled/run.sh"
+case=$root/tests/coupled/disc.yaml
+fail() { echo "check: $1"; cat "$scratch/log"; exit 1; }
+
+check() { (cd "$scratch" && "$root/scripts/check.sh" --bin "$build" "$@") >"$scratch/log" 2>&1; }
+
+! check "$case" --set output.every=-1 --set time.end=soon --set coupler.mode=magic --set fluid.densty=1 --set fluid.viscosity=0 \
+  --set fluid.theta=0.3 --set fluid.boundaries.top=slippery --set solid.materials.disc.poisson_ratio=0.5 --set 'solid.bodies[0].radius=0' \
+  --set solid.colour=red || fail "a case of ten faults is accepted"
+for key in output.every time.end coupler.mode fluid.densty fluid.viscosity fluid.theta fluid.boundaries.top \
+  solid.materials.disc.poisson_ratio 'solid.bodies\[0\].radius' solid.colour; do
+  [ "$(grep -c "key '$key'" "$scratch/log")" -eq 1 ] || fail "the fault of $key is not told once"
+done
+[ "$(wc -l <"$scratch/log")" -eq 10 ] || fail "not ten lines"
+
+! check "$scratch/nowhere.yaml" || fail "a case that is not there is accepted"
+[ "$(wc -l <"$scratch/log")" -eq 1 ] && grep -q "nowhere.yaml.: No such file" "$scratch/log" || fail "not one line"
+
+check "$case" --png "$scratch/case.png" || fail "a good case has faults"
+for line in "coupler: to t = 0.1 s in at least 10 steps" "fluid: mesh of [0-9]* triangles" "fluid: memory about" "solid: 1 bodies of 54 triangles" \
+  "solid: substeps of at most"; do
+  grep -q "$line" "$scratch/log" || fail "it does not say '$line'"
+done
+[ "$(head -c 4 "$scratch/case.png" | tail -c 3)" = PNG ] || fail "there is no picture"
+[ ! -e "$scratch/out" ] || fail "output was made"
+
+for part in fluid coupler solid; do
+  "$build/$part/coracle-$part" --version | grep -q "^coracle-$part [0-9.]*$" || fail "--version of $part"
+  "$build/$part/coracle-$part" --help | grep -q -- "--set key=value" || fail "--help of $part"
+done
