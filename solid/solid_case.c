@@ -1,5 +1,6 @@
 #include "solid/solid_case.h"
 #include "solid/bodies/case_body.h"
+#include "solid/probes.h"
 #include <stdio.h>
 
 /* Friction and damping of walls; absent: those of what touches them. */
@@ -64,6 +65,7 @@ PetscErrorCode SolidCaseRead(CoracleCase c, Model *a, SolidSetup *setup)
   for (int b = 0; b < nbodies; b++) PetscCall(CaseReadBody(c, b, a));
   ReadWalls(c, a, setup);
   ReadRules(c, setup);
+  ProbesCheckCase(c);
   PetscCall(ModelOverlap(a, &first, &second));
   if (first >= 0)
     CoracleCaseRefuse(c, BodyKey(key, a->body[second].entry, ""), "the body overlaps solid.bodies[%d]",

@@ -1,5 +1,6 @@
 #include "solid/writer.h"
 #include "common/output/output.h"
+#include "solid/probes.h"
 #include <stdio.h>
 
 enum { MAX_BODIES = 8, PER_BODY = 10, COMMON = 16 };
@@ -8,6 +9,7 @@ struct Writer_s {
   MPI_Comm comm;
   Output output;
   Series series;
+  Probes probes; /* NULL: the case has none */
   int nbodies, revision;
   double start;  /* s, by the clock, as if runs that this one resumes from had been just before it; */
   double waited; /* s, theirs */
@@ -129,6 +131,7 @@ PetscErrorCode WriterSave(Writer r, double waited, Checkpoint to)
   PetscCall(CheckpointPutNumber(to, "writer waited", seconds[1]));
   PetscCall(OutputSave(r->output, to));
   PetscCall(SeriesSave(r->series, to));
+  PetscCall(ProbesSave(r->probes, to));
   PetscFunctionReturn(0);
 }
 
@@ -155,6 +158,7 @@ PetscErrorCode WriterCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoin
   r->start = MPI_Wtime();
   PetscCall(OutputCreate(comm, folder, "solid", CoracleCasePositive(c, "output.every"), from, &r->output));
   PetscCall(CreateSeries(r, folder, from));
+  PetscCall(ProbesCreate(c, comm, solid, from, &r->probes));
   PetscCall(from ? Load(r, from) : Snapshot(r, solid));
   *record = r;
   PetscFunctionReturn(0);
@@ -197,6 +201,7 @@ PetscErrorCode WriterStep(Writer r, Solid s, double waited)
   row[n++] = MPI_Wtime() - r->start - waited;
   row[n++] = waited;
   PetscCall(SeriesRow(r->series, row));
+  PetscCall(ProbesStep(r->probes, s));
   if (OutputDue(r->output, stats->t)) PetscCall(Snapshot(r, s));
   PetscFunctionReturn(0);
 }
@@ -207,6 +212,7 @@ PetscErrorCode WriterDestroy(Writer *r)
   if (!*r) PetscFunctionReturn(0);
   PetscCall(OutputDestroy(&(*r)->output));
   PetscCall(SeriesDestroy(&(*r)->series));
+  PetscCall(ProbesDestroy(&(*r)->probes));
   PetscCall(PetscFree(*r));
   PetscFunctionReturn(0);
 }

@@ -179,7 +179,7 @@ static PetscErrorCode ReadStretch(CoracleCase c, int body, const MeshSerial *mes
   PetscFunctionReturn(0);
 }
 
-/* true, or a list of boundary names (*name is allocated). */
+/* true, or a list of names of boundaries and regions (*name is allocated). */
 static PetscErrorCode ReadFixed(CoracleCase c, int body, BodySetup *setup, const char ***name)
 {
   char key[KEY], item[KEY + 16];

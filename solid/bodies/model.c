@@ -70,11 +70,19 @@ static PetscErrorCode CheckName(const char *what, const char *name, int n, char 
   return Refuse("the body has no %s '%s'; it has %s", what, name, n ? all : "none");
 }
 
+static PetscBool IsRegion(const MeshSerial *m, const char *name)
+{
+  for (int r = 0; r < m->nregions; r++)
+    if (!strcmp(m->region_name[r], name)) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
 static PetscErrorCode CheckNames(const MeshSerial *m, const BodySetup *setup)
 {
   PetscErrorCode code = 0;
   for (int k = 0; k < setup->nfixed && !code; k++)
-    code = CheckName("boundary", setup->fixed_name[k], m->ntags, m->tag_name);
+    if (!IsRegion(m, setup->fixed_name[k]))
+      code = CheckName("boundary", setup->fixed_name[k], m->ntags, m->tag_name);
   for (int k = 0; k < setup->nprescribed && !code; k++)
     code = CheckName("boundary", setup->prescribed[k].boundary, m->ntags, m->tag_name);
   for (int k = 0; k < setup->nregions && !code; k++)
@@ -178,6 +186,11 @@ static void FixNodes(Model *a, const MeshSerial *m, const BodySetup *setup, cons
     for (int k = 0; k < setup->nfixed; k++) {
       if (strcmp(m->tag_name[m->facet_tag[b]], setup->fixed_name[k])) continue;
       for (int i = 0; i < 2; i++) a->fixed[renumber[m->facet[2 * b + i]]] = 1;
+    }
+  for (int e = 0; m->nregions > 0 && e < m->ne; e++)
+    for (int k = 0; k < setup->nfixed; k++) {
+      if (m->region[e] < 0 || strcmp(m->region_name[m->region[e]], setup->fixed_name[k])) continue;
+      for (int i = 0; i < 3; i++) a->fixed[renumber[m->vertex[3 * e + i]]] = 1;
     }
   for (int v = 0; v < m->nv; v++)
     if (renumber[v] >= 0 && a->fixed[renumber[v]]) a->u[2 * renumber[v]] = a->u[2 * renumber[v] + 1] = 0.0;

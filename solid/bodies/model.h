@@ -56,7 +56,7 @@ typedef struct {
   double velocity[2];      /* m/s */
   double angular_velocity; /* rad/s about the mass centre, counter-clockwise */
   int fixed;               /* whole body */
-  int nfixed;              /* or these boundaries */
+  int nfixed;              /* or these boundaries and regions of the mesh */
   const char *const *fixed_name;
   JointSetup joints;
   int nregions;

@@ -1,0 +1,134 @@
+#include "solid/probes.h"
+#include "common/output/output.h"
+#include "common/supermesh/geometry.h"
+#include <stdio.h>
+
+enum { MAX_PROBES = 64, VALUES = 4, SUMS = VALUES + 1, COLUMNS = MAX_PROBES * 220 };
+#define ON_EDGE 1e-9 /* barycentric coordinate of a point that counts as inside */
+
+struct Probes_s {
+  MPI_Comm comm;
+  Series series;
+  int n;
+  double point[MAX_PROBES][2]; /* m, at rest */
+};
+
+/* sum += displacement, velocity and 1 for each element of this rank that has the point at rest. */
+static void AddElements(const SolidView *v, const double point[2], double sum[SUMS])
+{
+  for (int e = 0; e < v->nelements; e++) {
+    double rest[3][2], weight[3];
+    for (int i = 0; i < 3; i++)
+      for (int c = 0; c < 2; c++) rest[i][c] = v->rest[2 * v->element[3 * e + i] + c];
+    GeometryBarycentric((const double(*)[2])rest, point, weight);
+    if (fmin(weight[0], fmin(weight[1], weight[2])) < -ON_EDGE) continue;
+    for (int i = 0; i < 3; i++)
+      for (int c = 0; c < 2; c++) {
+        const int k = 2 * v->element[3 * e + i] + c;
+        sum[c] += weight[i] * (v->x[k] - v->rest[k]);
+        sum[2 + c] += weight[i] * v->v[k];
+      }
+    sum[VALUES] += 1.0;
+  }
+}
+
+/* value[n][VALUES]; *missing: the first probe that no element has, or -1 */
+static PetscErrorCode Values(Probes p, Solid s, double value[][VALUES], int *missing)
+{
+  double sum[MAX_PROBES][SUMS] = {{0.0}};
+  SolidView v;
+  PetscFunctionBeginUser;
+  SolidGetView(s, &v);
+  for (int k = 0; k < p->n; k++) AddElements(&v, p->point[k], sum[k]);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, SUMS * p->n, MPI_DOUBLE, MPI_SUM, p->comm));
+  *missing = -1;
+  for (int k = p->n - 1; k >= 0; k--) {
+    if (sum[k][VALUES] == 0.0) *missing = k;
+    for (int i = 0; i < VALUES; i++) value[k][i] = sum[k][i] / sum[k][VALUES];
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Reads probe k and adds its columns behind those before it. */
+static void ReadProbe(CoracleCase c, int k, double point[2], size_t size, char columns[])
+{
+  char key[64];
+  (void)snprintf(key, sizeof key, "solid.probes[%d].point", k);
+  CoracleCaseVector(c, key, 2, point);
+  (void)snprintf(key, sizeof key, "solid.probes[%d].name", k);
+  const char *name = CoracleCaseString(c, key);
+  const size_t used = strlen(columns);
+  if (!name[0] || strlen(name) > 40 || strpbrk(name, ",\"\n"))
+    CoracleCaseRefuse(c, key, "expected a name of up to 40 characters without commas and quotes");
+  (void)snprintf(columns + used, size - used, ",%s_x [m],%s_y [m],%s_u [m/s],%s_v [m/s]", name, name, name,
+                 name);
+}
+
+static int ReadProbes(CoracleCase c, double point[][2], size_t size, char columns[])
+{
+  const int n = CoracleCaseCount(c, "solid.probes");
+  if (n > MAX_PROBES) CoracleCaseRefuse(c, "solid.probes", "more than %d probes", MAX_PROBES);
+  (void)snprintf(columns, size, "t [s]");
+  for (int k = 0; k < n; k++) ReadProbe(c, k, point[k], size, columns);
+  return n;
+}
+
+void ProbesCheckCase(CoracleCase c)
+{
+  double point[MAX_PROBES][2];
+  char columns[COLUMNS];
+  (void)ReadProbes(c, point, sizeof columns, columns);
+}
+
+PetscErrorCode ProbesCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoint from, Probes *probes)
+{
+  char columns[COLUMNS], key[64];
+  double value[MAX_PROBES][VALUES];
+  int missing;
+  Probes p;
+  PetscFunctionBeginUser;
+  *probes = NULL;
+  if (CoracleCaseCount(c, "solid.probes") == 0) PetscFunctionReturn(0);
+  PetscCall(PetscNew(&p));
+  p->comm = comm;
+  p->n = ReadProbes(c, p->point, sizeof columns, columns);
+  PetscCall(Values(p, solid, value, &missing));
+  if (missing >= 0) {
+    (void)snprintf(key, sizeof key, "solid.probes[%d].point", missing);
+    CoracleCaseRefuse(c, key, "no body is at (%g, %g) at rest", p->point[missing][0], p->point[missing][1]);
+  }
+  PetscCall(
+      SeriesCreate(comm, CoracleCaseString(c, "output.folder"), "solid_probes", columns, from, &p->series));
+  *probes = p;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ProbesDestroy(Probes *probes)
+{
+  PetscFunctionBeginUser;
+  if (!*probes) PetscFunctionReturn(0);
+  PetscCall(SeriesDestroy(&(*probes)->series));
+  PetscCall(PetscFree(*probes));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ProbesSave(Probes p, Checkpoint to)
+{
+  PetscFunctionBeginUser;
+  if (p) PetscCall(SeriesSave(p->series, to));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ProbesStep(Probes p, Solid solid)
+{
+  double row[1 + MAX_PROBES * VALUES], value[MAX_PROBES][VALUES];
+  int missing;
+  PetscFunctionBeginUser;
+  if (!p) PetscFunctionReturn(0);
+  PetscCall(Values(p, solid, value, &missing));
+  row[0] = SolidGetStats(solid)->t;
+  for (int k = 0; k < p->n; k++)
+    for (int i = 0; i < VALUES; i++) row[1 + VALUES * k + i] = value[k][i];
+  PetscCall(SeriesRow(p->series, row));
+  PetscFunctionReturn(0);
+}

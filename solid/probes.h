@@ -1,0 +1,21 @@
+/* Points of the solid that are followed: the list solid.probes of the case.  solid_probes.csv has a row a step: the
+ * time, then for each probe its displacement from rest, m, and its velocity, m/s, interpolated in the element that has
+ * the point at rest; on an edge or a node, the mean over the elements there. */
+#ifndef SOLID_PROBES_H
+#define SOLID_PROBES_H
+#include "common/link/case_file.h"
+#include "common/output/checkpoint.h"
+#include "solid/solid.h"
+
+typedef struct Probes_s *Probes; /* NULL: a case without probes; every function takes it */
+
+/* Not collective.  Reads the list, so that the case can be checked before anything is made of it. */
+void ProbesCheckCase(CoracleCase c);
+/* Collective.  Reads the list and output.folder; refuses a point that is in no body at rest. */
+PetscErrorCode ProbesCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoint from, Probes *probes);
+PetscErrorCode ProbesDestroy(Probes *probes);
+/* Collective, between two steps. */
+PetscErrorCode ProbesSave(Probes probes, Checkpoint to);
+/* Collective, after every step that is final: one row. */
+PetscErrorCode ProbesStep(Probes probes, Solid solid);
+#endif
