@@ -1,4 +1,5 @@
 #include "coupler/coupler_case.h"
+#include "common/output/options.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -18,6 +19,7 @@ static void ReadOptions(Case file, CouplerOptions *o)
 PetscErrorCode CouplerCaseRead(Case file, CouplerCase *c)
 {
   static const char *const SECTIONS[] = {"case", "note", "gravity", "time", "coupler", "output", NULL};
+  char option[256];
 
   PetscFunctionBeginUser;
   snprintf(c->name, sizeof c->name, "%s", CaseString(file, "case"));
@@ -34,5 +36,7 @@ PetscErrorCode CouplerCaseRead(Case file, CouplerCase *c)
   c->tolerance = CaseNumberOr(file, "coupler.tolerance", 1e-4, 1e-12, 1.0);
   PetscCall(PetscOptionsInsertString(NULL, CaseStringOr(file, "coupler.petsc", "")));
   PetscCall(CaseFinish(file, SECTIONS));
+  PetscCall(OptionsUnused(CaseStringOr(file, "coupler.petsc", ""), sizeof option, option));
+  if (option[0]) CaseRefuse(file, "coupler.petsc", "nothing in the coupler has the option %s", option);
   PetscFunctionReturn(0);
 }

@@ -45,6 +45,11 @@ typedef struct {
   void *source_context;
 } FluidSetup;
 
+/* Collective: what the prescribed velocities take out of the domain at time t, m2/s: net, and the sum over all edges
+ * of its size.  Sets the bounding boxes of boundary[mesh->ntags]. */
+PetscErrorCode FluidPrescribedFlux(const Mesh *mesh, Boundary boundary[], double t, double *net,
+                                   double *gross);
+
 typedef struct Fluid_s *Fluid;
 
 typedef struct {

@@ -1,4 +1,5 @@
 #include "solid/solid_case.h"
+#include "common/output/options.h"
 #include "solid/bodies/case_body.h"
 #include <stdio.h>
 
@@ -77,11 +78,14 @@ PetscErrorCode SolidFromCase(Case c, MPI_Comm comm, void (*fail)(void *context, 
   static const char *const SECTIONS[] = {"solid", NULL};
   SolidSetup setup = {.fail = fail, .context = context};
   Model assembly = {0};
+  char option[256];
   PetscFunctionBeginUser;
   PetscCall(PetscOptionsInsertString(NULL, CaseStringOr(c, "solid.petsc", "")));
   PetscCall(SolidCaseRead(c, &assembly, &setup));
   PetscCall(CaseFinish(c, SECTIONS));
   PetscCall(SolidCreate(comm, &assembly, &setup, solid));
+  PetscCall(OptionsUnused(CaseStringOr(c, "solid.petsc", ""), sizeof option, option));
+  if (option[0]) CaseRefuse(c, "solid.petsc", "nothing in the solid has the option %s", option);
   PetscCall(ModelDestroy(&assembly));
   PetscFunctionReturn(0);
 }

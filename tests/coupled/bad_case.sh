@@ -57,6 +57,8 @@ case $scenario in
   adapt_nothing) with 'fluid.adapt={size_min: 0.1, size_max: 0.2}'; expect="'fluid.adapt.velocity_error'" ;;
   adapt_budget) with 'fluid.adapt={size_min: 0.01, size_max: 0.2, velocity_error: 0.1, elements_max: 500}'
     expect="fluid.adapt.elements_max.*500.*the solid's band" ;;
+  first_budget) with 'fluid.adapt={size_min: 1.0e-5, size_max: 0.2, velocity_error: 0.1}'
+    expect="fluid.adapt.elements_max.*200000.*fluid.adapt.size_min" ;;
   bad_folder) with output.folder=/proc/nowhere; sets+=(--set output.folder=/proc/nowhere); expect="/proc/nowhere" ;;
   *) echo "no scenario '$scenario'" >&2; exit 2 ;;
 esac
