@@ -15,16 +15,17 @@ typedef struct {
   MPI_Comm comm;
   Server server;        /* borrowed */
   const char *folder;   /* the output's, borrowed */
+  char run[40];         /* names the run: when and by which process it was started */
   double every, last;   /* seconds between two, 0: none; clock when the last was made */
   char due[600];        /* the one in the step in hand, or "" */
   PetscBool impossible; /* a participant saves nothing */
 } Checkpoints;
 
-/* All collective.  A run that goes on from none of this folder's checkpoints removes them. */
+/* All collective.  The folder has been claimed (common/output/claim.h). */
 PetscErrorCode CheckpointsCreate(MPI_Comm comm, Server server, const CouplerCase *c, Checkpoints *k);
 /* Before the step after `steps`, or the end, is sent: if it is time, has all clients save, and `due` is
  * where to save, too. */
-PetscErrorCode CheckpointsAsk(Checkpoints *k, long long steps, PetscBool end);
+PetscErrorCode CheckpointsAsk(Checkpoints *k, long long steps, double t, PetscBool end);
 /* After that step, or when all clients have closed. */
 PetscErrorCode CheckpointsFinish(Checkpoints *k);
 #endif

@@ -2,6 +2,7 @@
 #include "common/output/options.h"
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static void ReadOptions(Case file, CouplerOptions *o)
 {
@@ -16,6 +17,20 @@ static void ReadOptions(Case file, CouplerOptions *o)
   o->viscosity = CaseHas(file, "fluid.viscosity") ? CasePositive(file, "fluid.viscosity") : 0.0;
 }
 
+/* Open MPI's shared file pointers (4.1) write names of files into buffers of 256 characters. */
+enum { FOLDER_LENGTH = 200 };
+
+static void ReadFolder(Case file, CouplerCase *c)
+{
+  const char *folder = CaseString(file, "output.folder");
+  const size_t n = strlen(folder);
+  if (n > FOLDER_LENGTH)
+    CaseRefuse(file, "output.folder",
+               "its name has %zu characters, more than %d: use a relative path or a link", n,
+               (int)FOLDER_LENGTH);
+  snprintf(c->folder, sizeof c->folder, "%s", folder);
+}
+
 PetscErrorCode CouplerCaseRead(Case file, CouplerCase *c)
 {
   static const char *const SECTIONS[] = {"case", "note", "gravity", "time", "coupler", "output", NULL};
@@ -24,7 +39,7 @@ PetscErrorCode CouplerCaseRead(Case file, CouplerCase *c)
   PetscFunctionBeginUser;
   snprintf(c->name, sizeof c->name, "%s", CaseString(file, "case"));
   snprintf(c->note, sizeof c->note, "%s", CaseStringOr(file, "note", ""));
-  snprintf(c->folder, sizeof c->folder, "%s", CaseString(file, "output.folder"));
+  ReadFolder(file, c);
   c->every = CasePositive(file, "output.every");
   c->checkpoint = CaseNumberOr(file, "output.checkpoint", 600.0, 0.0, HUGE_VAL);
   c->end = CasePositive(file, "time.end");

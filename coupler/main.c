@@ -31,11 +31,11 @@ static PetscErrorCode Run(Server server, const CouplerCase *c)
   if (folder) PetscCall(CheckpointOpen(PETSC_COMM_WORLD, folder, "coupler", &scheme.from));
   PetscCall(CouplerCreate(PETSC_COMM_WORLD, &c->options, &scheme.coupler));
   PetscCall(RegionCreate(PETSC_COMM_WORLD, c->options.thickness, &scheme.region));
-  PetscCall(WriterCreate(PETSC_COMM_WORLD, c, scheme.from, &scheme.record));
   PetscCall(TimeLoopRun(&scheme));
   PetscCall(WriterTotalsOf(scheme.record, CouplerOverlap(scheme.coupler)->nelements, &totals));
   PetscCall(SummaryWrite(server, c, &totals));
   PetscCall(WriterDestroy(&scheme.record));
+  PetscCall(ClaimRelease(&scheme.claim));
   PetscCall(RegionDestroy(&scheme.region));
   PetscCall(CouplerDestroy(&scheme.coupler));
   PetscCall(CheckpointClose(&scheme.from));

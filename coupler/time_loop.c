@@ -1,4 +1,5 @@
 #include "coupler/time_loop.h"
+#include "common/output/folder.h"
 #include "coupler/checkpoints.h"
 #include "coupler/coupling_iteration.h"
 #include "coupler/divergence_monitor.h"
@@ -8,7 +9,7 @@
 
 /* What lives from one step to the next. */
 typedef struct {
-  const TimeLoop *scheme;
+  TimeLoop *scheme;
   ServerSolid solid;
   ServerElements elements;
   DivergenceMonitor guard;
@@ -187,17 +188,31 @@ static PetscErrorCode SendCoupling(RunState *m, int ncorrection, const CoracleCo
   PetscFunctionReturn(0);
 }
 
+/* The solid is there, the fluid has answered, and the case suits both: from now on there is output. */
+static PetscErrorCode OpenOutput(RunState *m)
+{
+  TimeLoop *s = m->scheme;
+  const char *resume = ServerResumePath(s->server), *folder = s->c->folder;
+  const PetscBool resumes = resume ? FolderHolds(PETSC_COMM_WORLD, folder, resume) : PETSC_FALSE;
+
+  PetscFunctionBeginUser;
+  PetscCall(ClaimFolder(PETSC_COMM_WORLD, folder, resumes, &s->claim));
+  PetscCall(CheckpointsCreate(PETSC_COMM_WORLD, s->server, s->c, &m->checkpoints));
+  PetscCall(WriterCreate(PETSC_COMM_WORLD, s->c, s->from, &s->record));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode Start(RunState *m)
 {
   PetscFunctionBeginUser;
   PetscCall(CouplingIterationCreate(PETSC_COMM_WORLD, m->scheme->c->tries, m->scheme->c->tolerance,
                                     m->scheme->c->options.thickness, &m->tries));
-  PetscCall(CheckpointsCreate(PETSC_COMM_WORLD, m->scheme->server, m->scheme->c, &m->checkpoints));
   if (m->scheme->from) PetscCall(Load(m, m->scheme->from));
   PetscCall(ReceiveSolid(m));
   PetscCall(AskElements(m));
   if (!m->scheme->from) PetscCall(CheckInside(m));
   PetscCall(NextStep(m, m->dt > 0.0 ? m->dt : ServerProposedStep(m->scheme->server)));
+  PetscCall(OpenOutput(m));
   PetscCall(SendCoupling(m, 0, NULL));
   PetscFunctionReturn(0);
 }
@@ -277,7 +292,7 @@ static PetscErrorCode Stop(RunState *m, int ncorrection, const CoracleCorrection
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode TimeLoopRun(const TimeLoop *s)
+PetscErrorCode TimeLoopRun(TimeLoop *s)
 {
   RunState m = {.scheme = s};
   double waited, built;
@@ -295,7 +310,7 @@ PetscErrorCode TimeLoopRun(const TimeLoop *s)
       built = MPI_Wtime() - ServerWaited(s->server);
       PetscCall(AskElementsIfNeeded(&m));
       PetscCall(NextStep(&m, ServerProposedStep(s->server)));
-      PetscCall(CheckpointsAsk(&m.checkpoints, WriterSteps(s->record) + 1, PETSC_FALSE));
+      PetscCall(CheckpointsAsk(&m.checkpoints, WriterSteps(s->record) + 1, m.t, PETSC_FALSE));
       PetscCall(SendCoupling(&m, n, correction));
       step.overlap = MPI_Wtime() - ServerWaited(s->server) - built;
     }
@@ -304,7 +319,7 @@ PetscErrorCode TimeLoopRun(const TimeLoop *s)
     PetscCall(Save(&m));
   }
   m.dt = 0.0;
-  PetscCall(CheckpointsAsk(&m.checkpoints, WriterSteps(s->record), PETSC_TRUE));
+  PetscCall(CheckpointsAsk(&m.checkpoints, WriterSteps(s->record), m.t, PETSC_TRUE));
   PetscCall(Stop(&m, n, correction));
   PetscCall(Save(&m));
   PetscCall(ServerFinish(s->server));

@@ -1,4 +1,5 @@
 #include "fluid/writer.h"
+#include "common/link/coracle.h"
 #include "common/output/output.h"
 
 #define COLUMNS                                                                                              \
@@ -74,6 +75,8 @@ PetscErrorCode WriterCreate(Case c, Fluid f, Checkpoint from, Writer *record)
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&r));
   PetscCall(OutputCreate(m->comm, folder, "fluid", CasePositive(c, "output.every"), from, &r->output));
+  PetscCall(OutputText(r->output, "case", CaseStringOr(c, "case", "")));
+  PetscCall(OutputText(r->output, "version", CORACLE_VERSION));
   PetscCall(SeriesCreate(m->comm, folder, "fluid", COLUMNS, from, &r->series));
   if (!from) PetscCall(Snapshot(r, f));
   *record = r;

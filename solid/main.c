@@ -67,9 +67,10 @@ static PetscErrorCode Save(CoracleClient client, Solid solid, Writer record, dou
 /* --- the run
  * ------------------------------------------------------------------------------------------------ */
 
-static PetscErrorCode Run(CoracleClient client, Solid solid, Writer record)
+static PetscErrorCode Run(CoracleClient client, Case c, Solid solid, Checkpoint *from)
 {
   Exchange exchange;
+  Writer record;
   CoracleAction action;
   const double *load;
   double dt, h;
@@ -77,6 +78,10 @@ static PetscErrorCode Run(CoracleClient client, Solid solid, Writer record)
   PetscCall(ExchangeCreate(client, solid, &exchange));
   for (int steps = 0;; steps++) {
     PetscCall(ExchangeBegin(&exchange, &dt, &action, &load));
+    if (steps == 0) { /* all have accepted the case: now there is output */
+      PetscCall(WriterCreate(c, PETSC_COMM_WORLD, solid, *from, &record));
+      PetscCall(CheckpointClose(from));
+    }
     if (steps > 0 && action != CORACLE_REDO) PetscCall(WriterStep(record, solid, exchange.waited));
     PetscCall(Save(client, solid, record, exchange.waited));
     if (action == CORACLE_STOP) break;
@@ -88,6 +93,7 @@ static PetscErrorCode Run(CoracleClient client, Solid solid, Writer record)
     PetscCall(SolidRebalance(solid));
     PetscCall(ExchangeMotion(&exchange));
   }
+  PetscCall(WriterDestroy(&record));
   PetscCall(ExchangeDestroy(&exchange));
   PetscFunctionReturn(0);
 }
@@ -111,7 +117,6 @@ int main(int argc, char **argv)
   MPI_Comm comm;
   Case c;
   Solid solid;
-  Writer record;
   Checkpoint from;
   if (command != COMMAND_RUN) return SolidAnswer(command, argc, argv);
   if (TakeAlone(&argc, argv)) return Alone(argc, argv);
@@ -122,12 +127,9 @@ int main(int argc, char **argv)
   PetscCall(CaseOpen(argc, argv, Fail, client, &c));
   PetscCall(SolidFromCase(c, comm, Fail, client, &solid));
   PetscCall(Resume(client, solid, &from));
-  PetscCall(WriterCreate(c, comm, solid, from, &record));
-  PetscCall(CheckpointClose(&from));
-  PetscCall(CaseClose(&c));
-  PetscCall(Run(client, solid, record));
+  PetscCall(Run(client, c, solid, &from));
   PetscCall(Report(client, solid));
-  PetscCall(WriterDestroy(&record));
+  PetscCall(CaseClose(&c));
   PetscCall(SolidDestroy(&solid));
   PetscCall(PetscPopErrorHandler());
   PetscCall(PetscFinalize());

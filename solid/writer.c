@@ -1,4 +1,5 @@
 #include "solid/writer.h"
+#include "common/link/coracle.h"
 #include "common/output/output.h"
 #include <stdio.h>
 
@@ -153,6 +154,8 @@ PetscErrorCode WriterCreate(Case c, MPI_Comm comm, Solid solid, Checkpoint from,
   r->nbodies = PetscMin(v.nbodies, MAX_BODIES);
   r->start = MPI_Wtime();
   PetscCall(OutputCreate(comm, folder, "solid", CasePositive(c, "output.every"), from, &r->output));
+  PetscCall(OutputText(r->output, "case", CaseStringOr(c, "case", "")));
+  PetscCall(OutputText(r->output, "version", CORACLE_VERSION));
   PetscCall(CreateSeries(r, folder, from));
   PetscCall(from ? Load(r, from) : Snapshot(r, solid));
   *record = r;
