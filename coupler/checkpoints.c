@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 static PetscErrorCode IsRoot(const Checkpoints *k, PetscBool *root)
@@ -49,18 +50,10 @@ static void RemoveOthers(const Checkpoints *k, const char *current)
 
 PetscErrorCode CheckpointsCreate(MPI_Comm comm, Server server, const CouplerCase *c, Checkpoints *k)
 {
-  const char *resume = ServerResumePath(server);
-  char link[sizeof k->due];
-  PetscBool root;
-
   PetscFunctionBeginUser;
   *k = (Checkpoints){
       .comm = comm, .server = server, .folder = c->folder, .every = c->checkpoint, .last = MPI_Wtime()};
-  PetscCall(IsRoot(k, &root));
-  if ((resume && FolderHolds(comm, k->folder, resume)) || !root) PetscFunctionReturn(0);
-  snprintf(link, sizeof link, "%s/" CORACLE_CHECKPOINT, k->folder);
-  unlink(link);
-  RemoveOthers(k, "");
+  snprintf(k->run, sizeof k->run, "%llx-%d", (unsigned long long)time(NULL), (int)getpid());
   PetscFunctionReturn(0);
 }
 
@@ -73,14 +66,29 @@ static PetscErrorCode Publish(const Checkpoints *k)
   PetscFunctionBeginUser;
   snprintf(link, sizeof link, "%s/" CORACLE_CHECKPOINT, k->folder);
   snprintf(new, sizeof new, "%s/" CORACLE_CHECKPOINT ".new", k->folder);
+  PetscCall(FolderSyncAll(k->due));
   unlink(new);
   PetscCheck(!symlink(name, new) && !rename(new, link), PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", link,
              strerror(errno));
+  PetscCall(FolderSync(k->folder));
   RemoveOthers(k, name);
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CheckpointsRequest(Checkpoints *k, long long steps, PetscBool end)
+/* Makes the folder `due` with the identity of the checkpoint. */
+static PetscErrorCode Make(const Checkpoints *k, long long steps, double t)
+{
+  char identity[128];
+
+  PetscFunctionBeginUser;
+  Remove(k->due);
+  PetscCheck(!mkdir(k->due, 0777), PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", k->due, strerror(errno));
+  snprintf(identity, sizeof identity, "run %s, step %lld, t = %.17g s", k->run, steps, t);
+  PetscCall(CheckpointIdentify(k->due, identity));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CheckpointsRequest(Checkpoints *k, long long steps, double t, PetscBool end)
 {
   PetscBool root;
   int due;
@@ -92,11 +100,7 @@ PetscErrorCode CheckpointsRequest(Checkpoints *k, long long steps, PetscBool end
   PetscCallMPI(MPI_Bcast(&due, 1, MPI_INT, 0, k->comm));
   if (!due) PetscFunctionReturn(0);
   snprintf(k->due, sizeof k->due, "%s/" CORACLE_CHECKPOINT ".%lld", k->folder, steps);
-  if (root) {
-    Remove(k->due);
-    PetscCheck(!mkdir(k->due, 0777), PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", k->due,
-               strerror(errno));
-  }
+  if (root) PetscCall(Make(k, steps, t));
   PetscCallMPI(MPI_Barrier(k->comm)); /* the folder exists before a client is told to save there */
   PetscCall(ServerSave(k->server, k->due));
   PetscFunctionReturn(0);

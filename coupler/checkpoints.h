@@ -16,16 +16,17 @@ typedef struct {
   MPI_Comm comm;
   Server server;        /* borrowed */
   const char *folder;   /* output.folder, borrowed */
+  char run[40];         /* identifies the run: start time and process id of the coupler's rank 0 */
   double every, last;   /* wall-clock seconds: between two (0: none), and when the last was made */
   char due[600];        /* folder of the one due in the current step, or "" */
   PetscBool impossible; /* a participant saves nothing */
 } Checkpoints;
 
-/* Removes the folder's checkpoints unless the run resumes from one of them. */
+/* The output folder has been claimed (common/output/claim.h). */
 PetscErrorCode CheckpointsCreate(MPI_Comm comm, Server server, const CouplerCase *c, Checkpoints *k);
-/* Before the step after `steps` steps, or the end, is sent: if a checkpoint is due, requests it from all
+/* Before the step after `steps` steps, at t, or the end, is sent: if a checkpoint is due, requests it from all
  * clients and sets `due`. */
-PetscErrorCode CheckpointsRequest(Checkpoints *k, long long steps, PetscBool end);
+PetscErrorCode CheckpointsRequest(Checkpoints *k, long long steps, double t, PetscBool end);
 /* After that step, or when all clients have closed: publishes the checkpoint if all have saved. */
 PetscErrorCode CheckpointsFinish(Checkpoints *k);
 #endif

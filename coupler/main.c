@@ -21,11 +21,11 @@ static PetscErrorCode Run(Server server, const CouplerCase *c)
   if (folder) PetscCall(CheckpointOpen(PETSC_COMM_WORLD, folder, "coupler", &loop.from));
   PetscCall(CouplerCreate(PETSC_COMM_WORLD, &c->options, &loop.coupler));
   PetscCall(RegionCreate(PETSC_COMM_WORLD, c->options.thickness, &loop.region));
-  PetscCall(WriterCreate(PETSC_COMM_WORLD, c, loop.from, &loop.writer));
   PetscCall(TimeLoopRun(&loop));
   PetscCall(WriterTotalsOf(loop.writer, CouplerOverlap(loop.coupler)->nelements, &totals));
   PetscCall(SummaryWrite(server, c, &totals));
   PetscCall(WriterDestroy(&loop.writer));
+  PetscCall(ClaimRelease(&loop.claim));
   PetscCall(RegionDestroy(&loop.region));
   PetscCall(CouplerDestroy(&loop.coupler));
   PetscCall(CheckpointClose(&loop.from));

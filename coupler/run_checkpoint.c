@@ -1,6 +1,20 @@
+#include "common/output/folder.h"
 #include "coupler/run_state.h"
 
 enum { MONITOR_NUMBERS = 7 };
+
+PetscErrorCode RunOpenOutput(RunState *run)
+{
+  TimeLoop *loop = run->loop;
+  const char *resume = ServerResumePath(loop->server), *folder = loop->c->folder;
+  const PetscBool resumes = resume ? FolderHolds(PETSC_COMM_WORLD, folder, resume) : PETSC_FALSE;
+
+  PetscFunctionBeginUser;
+  PetscCall(ClaimFolder(PETSC_COMM_WORLD, folder, resumes, &loop->claim));
+  PetscCall(CheckpointsCreate(PETSC_COMM_WORLD, loop->server, loop->c, &run->checkpoints));
+  PetscCall(WriterCreate(PETSC_COMM_WORLD, loop->c, loop->from, &loop->writer));
+  PetscFunctionReturn(0);
+}
 
 PetscErrorCode RunLoad(RunState *run, Checkpoint from)
 {

@@ -9,7 +9,7 @@
 #include "coupler/time_loop.h"
 
 typedef struct {
-  const TimeLoop *loop;
+  TimeLoop *loop;
   const CouplerModeTable *mode;
   SolidState solid;
   FluidElements elements;
@@ -34,6 +34,9 @@ PetscErrorCode RunFailIteration(const RunState *run);
 /* Ends the job with one message of rank 0 about what all ranks have found. */
 PetscErrorCode RunFail(const RunState *run, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* Claims the output folder and creates the writer and the checkpoints: the solid is known, the fluid has
+ * answered, and the case suits both.  Until then the folder is untouched. */
+PetscErrorCode RunOpenOutput(RunState *run);
 /* t, dt and the divergence monitor; the writer loads its own part (writer.h). */
 PetscErrorCode RunLoad(RunState *run, Checkpoint from);
 /* Saves the coupler if a checkpoint is due: as the step that has been sent begins, or at the end. */

@@ -63,13 +63,13 @@ static PetscErrorCode Start(RunState *run)
   PetscFunctionBeginUser;
   PetscCall(CouplingIterationCreate(PETSC_COMM_WORLD, c->max_iterations, c->tolerance, c->options.thickness,
                                     &run->iteration));
-  PetscCall(CheckpointsCreate(PETSC_COMM_WORLD, loop->server, c, &run->checkpoints));
   if (loop->from) PetscCall(RunLoad(run, loop->from));
   PetscCall(ExchangeReceiveSolid(loop->server, run->mode, &run->solid));
   PetscCall(ExchangeSelectFields(loop->server, run->mode));
   PetscCall(RequestElements(run));
   if (!loop->from) PetscCall(RunCheckInside(run));
   PetscCall(RunChooseStep(run, run->dt > 0.0 ? run->dt : ServerProposedStep(loop->server)));
+  PetscCall(RunOpenOutput(run));
   PetscCall(SendCoupling(run));
   PetscFunctionReturn(0);
 }
@@ -148,7 +148,7 @@ static PetscErrorCode BeginStep(RunState *run, StepRecord *step)
   PetscFunctionBeginUser;
   PetscCall(UpdateElements(run));
   PetscCall(RunChooseStep(run, ServerProposedStep(loop->server)));
-  PetscCall(CheckpointsRequest(&run->checkpoints, WriterSteps(loop->writer) + 1, PETSC_FALSE));
+  PetscCall(CheckpointsRequest(&run->checkpoints, WriterSteps(loop->writer) + 1, run->t, PETSC_FALSE));
   PetscCall(SendCoupling(run));
   step->overlap = MPI_Wtime() - ServerWaited(loop->server) - start;
   PetscFunctionReturn(0);
@@ -162,7 +162,7 @@ static PetscErrorCode Stop(RunState *run)
 
   PetscFunctionBeginUser;
   run->dt = 0.0;
-  PetscCall(CheckpointsRequest(&run->checkpoints, WriterSteps(run->loop->writer), PETSC_TRUE));
+  PetscCall(CheckpointsRequest(&run->checkpoints, WriterSteps(run->loop->writer), run->t, PETSC_TRUE));
   PetscCall(PetscCalloc1(2 * (size_t)run->solid.nnodes, &zero));
   PetscCall(
       ServerSendCoupling(server, run->t, 0.0, CORACLE_STOP, run->ncorrection, run->correction, 0, NULL));
@@ -175,7 +175,7 @@ static PetscErrorCode Stop(RunState *run)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode TimeLoopRun(const TimeLoop *loop)
+PetscErrorCode TimeLoopRun(TimeLoop *loop)
 {
   RunState run = {.loop = loop, .mode = CouplerModeGet(loop->c->options.mode)};
 

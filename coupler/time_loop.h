@@ -2,6 +2,7 @@
 #ifndef CORACLE_TIME_LOOP_H
 #define CORACLE_TIME_LOOP_H
 #include "common/link/server.h"
+#include "common/output/claim.h"
 #include "coupler/region.h"
 #include "coupler/writer.h"
 
@@ -10,10 +11,11 @@ typedef struct {
   const CouplerCase *c;
   Coupler coupler;
   Region region;
-  Writer writer;
+  Writer writer;   /* created when all participants have accepted the case */
+  Claim claim;     /* on output.folder, from then on */
   Checkpoint from; /* that the run resumes from; NULL: from the start */
 } TimeLoop;
 
-/* Collective.  Returns when the end is reached and all clients have closed. */
-PetscErrorCode TimeLoopRun(const TimeLoop *loop);
+/* Collective.  Creates writer and claim; returns when the end is reached and all clients have closed. */
+PetscErrorCode TimeLoopRun(TimeLoop *loop);
 #endif

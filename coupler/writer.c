@@ -1,4 +1,5 @@
 #include "coupler/writer.h"
+#include "common/link/coracle.h"
 
 static const char COLUMNS[] =
     "t [s],dt [s],u_x [m/s],u_y [m/s],F_x [N],F_y [N],R_x [N],R_y [N],imbalance,pairs,"
@@ -100,6 +101,8 @@ PetscErrorCode WriterCreate(MPI_Comm comm, const CouplerCase *c, Checkpoint from
   PetscCallMPI(MPI_Comm_rank(comm, &r->rank));
   if (!r->rank && c->note[0]) printf("coracle: %s: %s\n", c->name, c->note);
   PetscCall(OutputCreate(comm, c->folder, "coupler", c->every, from, &r->output));
+  PetscCall(OutputText(r->output, "case", c->name));
+  PetscCall(OutputText(r->output, "version", CORACLE_VERSION));
   PetscCall(SeriesCreate(comm, c->folder, "coupler", COLUMNS, from, &r->series));
   if (from) PetscCall(Load(r, from));
   *writer = r;

@@ -173,6 +173,17 @@ static PetscErrorCode SizingDestroy(Sizing *n)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode CheckBudget(const AdaptationSetup *s, MPI_Comm comm, double count)
+{
+  PetscFunctionBeginUser;
+  PetscCheck(count <= s->elements_max, comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "fluid.adapt.elements_max is %g: sizes up to %g m and the solid's band alone take %.0f "
+             "triangles; raise it, "
+             "or fluid.adapt.size_min",
+             s->elements_max, s->size_max, count);
+  PetscFunctionReturn(0);
+}
+
 /* Within the budget: the error is raised, the band near the solid stays. */
 static PetscErrorCode Metric(const AdaptationSetup *s, MPI_Comm comm, const Sizing *sizing, double metric[])
 {
@@ -185,10 +196,7 @@ static PetscErrorCode Metric(const AdaptationSetup *s, MPI_Comm comm, const Sizi
     if (count <= s->elements_max) break;
     error *= 1.1 * count / s->elements_max; /* their number goes with 1/error */
   }
-  PetscCheck(
-      count <= s->elements_max, comm, PETSC_ERR_ARG_OUTOFRANGE,
-      "fluid.adapt.elements_max is %g: sizes up to %g m and the solid's band alone take %.0f triangles",
-      s->elements_max, s->size_max, count);
+  PetscCall(CheckBudget(s, comm, count));
   PetscFunctionReturn(0);
 }
 
@@ -216,7 +224,7 @@ static PetscErrorCode RefineBoxes(const AdaptationSetup *s, const Mesh *m, int n
 {
   const MeshSerial part = {.nv = m->nv, .ne = m->ne, .x = m->x, .vertex = m->vertex};
   SharedVertices shared;
-  double *size, *metric;
+  double *size, *metric, count;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2(m->nv, &size, 3 * m->nv, &metric));
   for (int v = 0; v < m->nv; v++) {
@@ -230,6 +238,9 @@ static PetscErrorCode RefineBoxes(const AdaptationSetup *s, const Mesh *m, int n
   PetscCall(MetricFromSizes(m->nv, size, metric));
   PetscCall(SharedVerticesCreate(m, &shared));
   PetscCall(MetricGradeParallel(m->comm, &part, &shared, s->growth, metric));
+  PetscCall(MetricCount(&part, metric, &count));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_DOUBLE, MPI_SUM, m->comm));
+  PetscCall(CheckBudget(s, m->comm, count));
   PetscCall(MeshAdaptParallel(m, metric, NULL, mesh, NULL));
   PetscCall(SharedVerticesDestroy(&shared));
   PetscCall(PetscFree2(size, metric));

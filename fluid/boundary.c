@@ -43,3 +43,37 @@ void BoundaryProjection(const Boundary *b, const double n[2], double project[2][
                       : b->kind == BOUNDARY_VELOCITY ? (double)(c == d)
                                                      : 0.0;
 }
+
+/* The volume that b takes through edge i of element e, m2/s, by Simpson's rule, which is exact for a parabolic profile. */
+static double EdgeFlux(const Mesh *m, const Boundary *b, int e, int i, double t)
+{
+  static const double WEIGHT[3] = {1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
+  const double *from = m->x + 2 * m->vertex[3 * e + (i + 1) % 3],
+               *to = m->x + 2 * m->vertex[3 * e + (i + 2) % 3];
+  double flux = 0.0, v[2];
+  for (int k = 0; k < 3; k++) {
+    const double x[2] = {from[0] + 0.5 * k * (to[0] - from[0]), from[1] + 0.5 * k * (to[1] - from[1])};
+    BoundaryVelocity(b, t, x, v);
+    flux += WEIGHT[k] * (v[0] * (to[1] - from[1]) - v[1] * (to[0] - from[0]));
+  }
+  return flux;
+}
+
+PetscErrorCode BoundaryPrescribedFlux(const Mesh *m, Boundary boundary[], double t, double *net,
+                                      double *gross)
+{
+  double sum[2] = {0.0, 0.0};
+  PetscFunctionBeginUser;
+  PetscCall(BoundaryBoxes(m, boundary));
+  for (int e = 0; e < m->ne; e++)
+    for (int i = 0; i < 3; i++) {
+      if (m->neighbor[3 * e + i] >= 0 || boundary[m->tag[3 * e + i]].kind != BOUNDARY_VELOCITY) continue;
+      const double flux = EdgeFlux(m, &boundary[m->tag[3 * e + i]], e, i, t);
+      sum[0] += flux;
+      sum[1] += fabs(flux);
+    }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, m->comm));
+  *net = sum[0];
+  *gross = sum[1];
+  PetscFunctionReturn(0);
+}

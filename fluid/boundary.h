@@ -38,4 +38,8 @@ PetscErrorCode BoundaryBoxes(const Mesh *mesh, Boundary boundary[]);
 void BoundaryVelocity(const Boundary *b, double t, const double x[2], double v[2]);
 /* project[c][d]: the directions in which a boundary with outward unit normal n prescribes the velocity: I, n n or 0. */
 void BoundaryProjection(const Boundary *b, const double n[2], double project[2][2]);
+/* Volume that the prescribed velocities of all BOUNDARY_VELOCITY take out of the domain at time t, m2/s: net, and the
+ * sum of its absolute value over all edges (gross).  Sets the bounding boxes.  Collective over mesh->comm. */
+PetscErrorCode BoundaryPrescribedFlux(const Mesh *mesh, Boundary boundary[], double t, double *net,
+                                      double *gross);
 #endif

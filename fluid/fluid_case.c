@@ -1,5 +1,6 @@
 #include "fluid/fluid_case.h"
 #include "common/mesh/mesh_checkpoint.h"
+#include "common/output/options.h"
 #include "common/supermesh/geometry.h"
 
 /* --- mesh: a graded box, or a Gmsh file ------------------------------------------------------------------ */
@@ -25,6 +26,32 @@ static double SizeAt(void *context, const double x[2])
   return size;
 }
 
+/* More triangles than any computer that this is meant for holds (100 GB): a slip in a size. */
+#define TRIANGLES_MAX 2e7
+
+static void CheckCount(CoracleCase c, const char *key, const double lower[2], const double upper[2],
+                       double size)
+{
+  const double count = 2.0 * (upper[0] - lower[0]) * (upper[1] - lower[1]) / (size * size);
+  if (count > TRIANGLES_MAX)
+    CoracleCaseRefuse(c, key, "cells of %g m make a mesh of about %.2g triangles, more than %g", size, count,
+                      TRIANGLES_MAX);
+}
+
+static void CheckRefined(CoracleCase c, int k, const RefinedBox *box, double size)
+{
+  char key[64];
+  for (int i = 0; i < 2; i++) {
+    if (box->at.lower[i] <= box->at.upper[i]) continue;
+    (void)snprintf(key, sizeof key, "fluid.mesh.refine[%d].upper", k);
+    CoracleCaseRefuse(c, key,
+                      "the box is empty: expected a corner above and right of lower (%g, %g), found (%g, %g)",
+                      box->at.lower[0], box->at.lower[1], box->at.upper[0], box->at.upper[1]);
+  }
+  (void)snprintf(key, sizeof key, "fluid.mesh.refine[%d].size", k);
+  CheckCount(c, key, box->at.lower, box->at.upper, size);
+}
+
 static PetscErrorCode BoxMesh(CoracleCase c, PetscBool make, MeshSerial *serial)
 {
   SizeField f = {0};
@@ -38,6 +65,7 @@ static PetscErrorCode BoxMesh(CoracleCase c, PetscBool make, MeshSerial *serial)
                       "expected a corner above and right of lower (%g, %g), found (%g, %g)", lower[0],
                       lower[1], upper[0], upper[1]);
   f.size_max = CoracleCasePositive(c, "fluid.mesh.size_max");
+  CheckCount(c, "fluid.mesh.size_max", lower, upper, f.size_max);
   f.growth = CoracleCaseNumberOr(c, "fluid.mesh.growth", 0.25, 0.0, HUGE_VAL);
   f.n = CoracleCaseCount(c, "fluid.mesh.refine");
   PetscCall(PetscMalloc1(f.n, &f.box));
@@ -48,6 +76,7 @@ static PetscErrorCode BoxMesh(CoracleCase c, PetscBool make, MeshSerial *serial)
     CoracleCaseVector(c, key, 2, f.box[k].at.upper);
     (void)snprintf(key, sizeof key, "fluid.mesh.refine[%d].size", k);
     f.box[k].size = CoracleCasePositive(c, key);
+    CheckRefined(c, k, &f.box[k], fmin(f.box[k].size, f.size_max));
   }
   if (make) PetscCall(MeshBox(lower, upper, f.size_max, SizeAt, &f, serial));
   PetscCall(PetscFree(f.box));
@@ -158,6 +187,27 @@ void FluidCaseCheckResumed(CoracleCase c, const Mesh *mesh, const char *folder)
       check.nlisted, check.listed, mesh->ntags, found, folder);
 }
 
+/* Without an open boundary what is prescribed must neither fill nor empty the domain: in the end, and as it rises. */
+static PetscErrorCode CheckFlux(CoracleCase c, const Mesh *mesh, Boundary boundary[])
+{
+  double net, gross, full;
+  PetscFunctionBeginUser;
+  for (int b = 0; b < mesh->ntags; b++)
+    if (boundary[b].kind == BOUNDARY_OPEN) PetscFunctionReturn(0);
+  PetscCall(BoundaryPrescribedFlux(mesh, boundary, HUGE_VAL, &net, &full));
+  gross = full;
+  for (int b = -1; b < mesh->ntags; b++) {
+    if (b >= 0) PetscCall(BoundaryPrescribedFlux(mesh, boundary, 0.5 * boundary[b].rise, &net, &gross));
+    if (fabs(net) > 1e-6 * full)
+      CoracleCaseRefuse(
+          c, "fluid.boundaries",
+          "no boundary is open, and the prescribed velocities bring %g m2/s %s than they take out%s",
+          fabs(net), net < 0.0 ? "more into the domain" : "less into the domain",
+          b < 0 ? "" : " as they rise");
+  }
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup)
 {
   BoundaryCheck check = {.c = c, .mesh = mesh};
@@ -172,6 +222,7 @@ PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup
   PetscCall(PetscMalloc1(mesh->ntags, &setup->boundary));
   for (int b = 0; b < mesh->ntags; b++) ReadBoundary(c, mesh->tag_name[b], setup->boundary + b);
   CoracleCaseKeys(c, "fluid.boundaries", CheckBoundaryName, &check);
+  PetscCall(CheckFlux(c, mesh, setup->boundary));
   PetscFunctionReturn(0);
 }
 
@@ -195,16 +246,9 @@ PetscErrorCode FluidCaseAdaptation(CoracleCase c, PetscBool *adapts, AdaptationS
 
 PetscErrorCode FluidCaseCheckOptions(CoracleCase c)
 {
-  const char *options = CoracleCaseStringOr(c, "fluid.petsc", "");
-  PetscInt n;
-  char **names, **values, option[256];
+  char option[256];
   PetscFunctionBeginUser;
-  PetscCall(PetscOptionsLeftGet(NULL, &n, &names, &values));
-  for (PetscInt k = 0; k < n; k++) {
-    (void)snprintf(option, sizeof option, "-%s", names[k]);
-    if (strstr(options, option))
-      CoracleCaseRefuse(c, "fluid.petsc", "no solver of the fluid has the option %s", option);
-  }
-  PetscCall(PetscOptionsLeftRestore(NULL, &n, &names, &values));
+  PetscCall(OptionsUnused(CoracleCaseStringOr(c, "fluid.petsc", ""), sizeof option, option));
+  if (option[0]) CoracleCaseRefuse(c, "fluid.petsc", "no solver of the fluid has the option %s", option);
   PetscFunctionReturn(0);
 }

@@ -41,6 +41,7 @@ static PetscErrorCode Run(const Program *program)
   PetscFunctionBeginUser;
   PetscCall(FluidRunCreate(program, &run));
   PetscCall(CoracleBegin(program->client, &t, &dt, &action));
+  PetscCall(FluidRunOpenOutput(&run));
   for (int steps = 0; action != CORACLE_STOP; steps++) {
     PetscCall(FluidRunSave(&run));
     PetscCall(Step(&run, dt));

@@ -73,20 +73,25 @@ static PetscErrorCode Create(FluidRun *m, const char *resume, Checkpoint from, P
 PetscErrorCode FluidRunCreate(const Program *program, FluidRun *m)
 {
   const char *resume = CoracleResumePath(program->client);
-  Checkpoint from = NULL;
   PetscInt *row = NULL;
   PetscFunctionBeginUser;
   *m = (FluidRun){.program = program};
-  if (resume) PetscCall(CheckpointOpen(program->comm, resume, "fluid", &from));
-  PetscCall(Create(m, resume, from, &row));
-  if (from)
-    PetscCall(Load(m, from, row));
+  if (resume) PetscCall(CheckpointOpen(program->comm, resume, "fluid", &m->from));
+  PetscCall(Create(m, resume, m->from, &row));
+  if (m->from)
+    PetscCall(Load(m, m->from, row));
   else
     PetscCall(FluidSetInitial(m->fluid, 0.0, NULL, NULL, NULL));
   PetscCall(PetscFree(row));
   PetscCall(ExchangeCreate(m->program->client, m->fluid, &m->exchange));
-  PetscCall(WriterCreate(m->program->c, m->fluid, from, &m->writer));
-  PetscCall(CheckpointClose(&from));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidRunOpenOutput(FluidRun *m)
+{
+  PetscFunctionBeginUser;
+  PetscCall(WriterCreate(m->program->c, m->fluid, m->from, &m->writer));
+  PetscCall(CheckpointClose(&m->from));
   PetscFunctionReturn(0);
 }
 

@@ -15,10 +15,13 @@ typedef struct {
   Writer writer;
   Adaptation adaptation; /* NULL: the mesh stays */
   PetscBool new_mesh;    /* since the last step */
+  Checkpoint from;       /* that the run resumes from, until the output is open; else NULL */
 } FluidRun;
 
 /* Mesh and fluid as the case says, or as the checkpoint that the run resumes from; the first exchange. */
 PetscErrorCode FluidRunCreate(const Program *program, FluidRun *run);
+/* After the first CoracleBegin, when all participants have accepted the case: creates the writer. */
+PetscErrorCode FluidRunOpenOutput(FluidRun *run);
 /* Saves the state at the start of the step, or at the end, if a checkpoint is due. */
 PetscErrorCode FluidRunSave(const FluidRun *run);
 /* If it is due: another mesh for the flow of the current step, and a fluid on it without state; else NULL. */

@@ -1,4 +1,5 @@
 #include "fluid/writer.h"
+#include "common/link/coracle.h"
 #include "common/output/output.h"
 
 #define COLUMNS                                                                                              \
@@ -74,6 +75,8 @@ PetscErrorCode WriterCreate(CoracleCase c, Fluid f, Checkpoint from, Writer *wri
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&r));
   PetscCall(OutputCreate(m->comm, folder, "fluid", CoracleCasePositive(c, "output.every"), from, &r->output));
+  PetscCall(OutputText(r->output, "case", CoracleCaseStringOr(c, "case", "")));
+  PetscCall(OutputText(r->output, "version", CORACLE_VERSION));
   PetscCall(SeriesCreate(m->comm, folder, "fluid", COLUMNS, from, &r->series));
   if (!from) PetscCall(Snapshot(r, f));
   *writer = r;

@@ -1,4 +1,5 @@
 #include "solid/alone.h"
+#include "common/output/claim.h"
 #include "solid/solid_case.h"
 #include "solid/writer.h"
 #include <stdio.h>
@@ -58,15 +59,18 @@ int Alone(int argc, char **argv)
   CoracleCase c;
   Solid solid;
   Writer record;
+  Claim claim;
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
   PetscCall(CoracleCaseOpen(argc, argv, Refuse, NULL, &c));
   if (CoracleCaseHas(c, "resume")) CoracleCaseRefuse(c, "resume", "the solid alone makes no checkpoints");
   const double end = CoracleCasePositive(c, "time.end"), longest = CoracleCasePositive(c, "time.dt_max");
   PetscCall(SolidFromCase(c, PETSC_COMM_WORLD, Fail, NULL, &solid));
+  PetscCall(ClaimFolder(PETSC_COMM_WORLD, CoracleCaseString(c, "output.folder"), PETSC_FALSE, &claim));
   PetscCall(WriterCreate(c, PETSC_COMM_WORLD, solid, NULL, &record));
   PetscCall(CoracleCaseClose(&c));
   PetscCall(Run(solid, record, end, longest));
   PetscCall(WriterDestroy(&record));
+  PetscCall(ClaimRelease(&claim));
   PetscCall(SolidDestroy(&solid));
   return PetscFinalize();
 }

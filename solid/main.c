@@ -56,18 +56,23 @@ static PetscErrorCode Save(CoracleClient client, Solid solid, Writer record, dou
 
 /* --- the run ------------------------------------------------------------------------------------------ */
 
-static PetscErrorCode Run(CoracleClient client, Solid solid, Writer record)
+static PetscErrorCode Run(const Program *program, Solid solid, Checkpoint *from)
 {
   Exchange exchange;
+  Writer writer;
   CoracleAction action;
   const double *load;
   double dt, h;
   PetscFunctionBeginUser;
-  PetscCall(ExchangeCreate(client, solid, &exchange));
+  PetscCall(ExchangeCreate(program->client, solid, &exchange));
   for (int steps = 0;; steps++) {
     PetscCall(ExchangeBegin(&exchange, &dt, &action, &load));
-    if (steps > 0 && action != CORACLE_REDO) PetscCall(WriterStep(record, solid, exchange.waited));
-    PetscCall(Save(client, solid, record, exchange.waited));
+    if (steps == 0) { /* all participants have accepted the case */
+      PetscCall(WriterCreate(program->c, program->comm, solid, *from, &writer));
+      PetscCall(CheckpointClose(from));
+    }
+    if (steps > 0 && action != CORACLE_REDO) PetscCall(WriterStep(writer, solid, exchange.waited));
+    PetscCall(Save(program->client, solid, writer, exchange.waited));
     if (action == CORACLE_STOP) break;
     PetscCall(SolidStart(solid, dt, load));
     while (SolidRemaining(solid)) {
@@ -77,6 +82,7 @@ static PetscErrorCode Run(CoracleClient client, Solid solid, Writer record)
     PetscCall(SolidRebalance(solid));
     PetscCall(ExchangeMotion(&exchange));
   }
+  PetscCall(WriterDestroy(&writer));
   PetscCall(ExchangeDestroy(&exchange));
   PetscFunctionReturn(0);
 }
@@ -98,18 +104,14 @@ int main(int argc, char **argv)
   const Command command = CommandTake(&argc, argv);
   Program program;
   Solid solid;
-  Writer record;
   Checkpoint from;
   if (command != COMMAND_RUN) return SolidAnswer(command, argc, argv);
   if (TakeAlone(&argc, argv)) return Alone(argc, argv);
   PetscCall(ProgramStart("solid", argc, argv, &program));
   PetscCall(SolidFromCase(program.c, program.comm, ProgramFail, &program, &solid));
   PetscCall(Resume(program.client, solid, &from));
-  PetscCall(WriterCreate(program.c, program.comm, solid, from, &record));
-  PetscCall(CheckpointClose(&from));
-  PetscCall(Run(program.client, solid, record));
+  PetscCall(Run(&program, solid, &from));
   PetscCall(Report(&program, solid));
-  PetscCall(WriterDestroy(&record));
   PetscCall(SolidDestroy(&solid));
   return ProgramEnd(&program);
 }

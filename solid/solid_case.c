@@ -1,4 +1,5 @@
 #include "solid/solid_case.h"
+#include "common/output/options.h"
 #include "solid/bodies/case_body.h"
 #include "solid/probes.h"
 #include <stdio.h>
@@ -79,11 +80,14 @@ PetscErrorCode SolidFromCase(CoracleCase c, MPI_Comm comm, void (*fail)(void *co
   static const char *const SECTIONS[] = {"solid", NULL};
   SolidSetup setup = {.fail = fail, .context = context};
   Model model = {0};
+  char option[256];
   PetscFunctionBeginUser;
   PetscCall(PetscOptionsInsertString(NULL, CoracleCaseStringOr(c, "solid.petsc", "")));
   PetscCall(SolidCaseRead(c, &model, &setup));
   PetscCall(CoracleCaseFinish(c, SECTIONS));
   PetscCall(SolidCreate(comm, &model, &setup, solid));
+  PetscCall(OptionsUnused(CoracleCaseStringOr(c, "solid.petsc", ""), sizeof option, option));
+  if (option[0]) CoracleCaseRefuse(c, "solid.petsc", "nothing in the solid has the option %s", option);
   PetscCall(ModelDestroy(&model));
   PetscFunctionReturn(0);
 }

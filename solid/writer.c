@@ -1,4 +1,5 @@
 #include "solid/writer.h"
+#include "common/link/coracle.h"
 #include "common/output/output.h"
 #include "solid/probes.h"
 #include <stdio.h>
@@ -157,6 +158,8 @@ PetscErrorCode WriterCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoin
   r->nbodies = PetscMin(v.nbodies, MAX_BODIES);
   r->start = MPI_Wtime();
   PetscCall(OutputCreate(comm, folder, "solid", CoracleCasePositive(c, "output.every"), from, &r->output));
+  PetscCall(OutputText(r->output, "case", CoracleCaseStringOr(c, "case", "")));
+  PetscCall(OutputText(r->output, "version", CORACLE_VERSION));
   PetscCall(CreateSeries(r, folder, from));
   PetscCall(ProbesCreate(c, comm, solid, from, &r->probes));
   PetscCall(from ? Load(r, from) : Snapshot(r, solid));

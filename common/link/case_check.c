@@ -21,7 +21,7 @@ bool CaseExcused(CoracleCase c, const char *key)
   return false;
 }
 
-/* A key of a map goes, so that its default holds; an item of a list stays, for its followers' numbers. */
+/* A scalar of a map goes, so that its default holds; lists and maps stay, for what is below them. */
 void CaseFaultsApply(CoracleCase c)
 {
   for (int i = 0; i < c->faults->n; i++) CaseTreeRemove(c->root, c->faults->key[i]);
@@ -61,9 +61,10 @@ int CoracleCaseCheck(int argc, char **argv, CoracleCaseReader read, void *contex
   }
   for (int i = 0; i < faults.n; i++) {
     tell(context, faults.message[i]);
-    free(faults.key[i]);
     free(faults.message[i]);
   }
+  if (faults.stuck && faults.key[0][0]) tell(context, "(the rest can be checked when these are right)");
+  for (int i = 0; i < faults.n; i++) free(faults.key[i]);
   return faults.n;
 }
 

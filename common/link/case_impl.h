@@ -64,7 +64,7 @@ struct CoracleCase_s {
 /* The tree of a YAML text; NULL when it is not valid, with problem[CASE_MESSAGE] = "label:line: why". */
 CaseNode *CaseTreeParse(const char *text, size_t size, const char *label, char problem[]);
 void CaseTreeDestroy(CaseNode **node);
-/* Takes the node at a dotted path out of its map, if it is there. */
+/* Takes the scalar at a dotted path out of its map, if it is there. */
 void CaseTreeRemove(CaseNode *root, const char *key);
 /* The child of a map, or NULL. */
 CaseNode *CaseTreeChild(const CaseNode *map, const char *name);

@@ -299,7 +299,7 @@ void CaseTreeRemove(CaseNode *root, const char *key)
 {
   char above[CASE_KEY];
   CaseNode *node = CaseTreeFind(root, key), *parent = root;
-  if (!node || node == root || !node->key) return;
+  if (!node || node->kind != NODE_SCALAR || !node->key) return;
   const char *dot = strrchr(key, '.');
   snprintf(above, sizeof above, "%.*s", dot ? (int)(dot - key) : 0, key);
   if (dot) parent = CaseTreeFind(root, above);

@@ -1,12 +1,18 @@
 /* A participant's part of a checkpoint, <folder>/<name>.h5: numbers, and tables whose rows are spread over
  * the ranks.  Any number of ranks may read what any other has written.  Everything is collective; what is
- * missing or of another shape is an error that names file and entry. */
+ * missing or of another shape is an error that names file and entry.
+ *
+ * All files of a checkpoint carry its identity (run, step, time), which <folder>/identity says: a file of another
+ * checkpoint is refused.  Tables and the file's own structure have checksums: damage is an error.  A file is on the
+ * disk when it has been closed. */
 #ifndef CORACLE_CHECKPOINT_H
 #define CORACLE_CHECKPOINT_H
 #include <petscsys.h>
 
 typedef struct Checkpoint_s *Checkpoint;
 
+/* Not collective: says in the folder which checkpoint it is, before files are created there; below 128 characters. */
+PetscErrorCode CheckpointIdentify(const char *folder, const char *identity);
 PetscErrorCode CheckpointCreate(MPI_Comm comm, const char *folder, const char *name, Checkpoint *c);
 PetscErrorCode CheckpointOpen(MPI_Comm comm, const char *folder, const char *name, Checkpoint *c);
 PetscErrorCode CheckpointClose(Checkpoint *c);

@@ -1,5 +1,7 @@
 #include "common/output/folder.h"
+#include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -67,4 +69,30 @@ PetscBool FolderGoesOn(MPI_Comm comm, const char *folder, const char *file, Chec
   there = rank == 0 && !access(file, F_OK);
   MPI_Bcast(&there, 1, MPI_INT, 0, comm);
   return there ? PETSC_TRUE : PETSC_FALSE;
+}
+
+PetscErrorCode FolderSync(const char *path)
+{
+  PetscFunctionBeginUser;
+  const int file = open(path, O_RDONLY | O_CLOEXEC);
+  const int wrong =
+      file < 0 || (fsync(file) && errno != EINVAL && errno != EROFS); /* some file systems cannot */
+  PetscCheck(!wrong, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", path, strerror(errno));
+  close(file);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FolderSyncAll(const char *folder)
+{
+  char path[PETSC_MAX_PATH_LEN + 256];
+  PetscFunctionBeginUser;
+  DIR *list = opendir(folder);
+  PetscCheck(list, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "%s: %s", folder, strerror(errno));
+  for (const struct dirent *entry; (entry = readdir(list));) {
+    snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
+    if (strcmp(entry->d_name, ".") && strcmp(entry->d_name, "..")) PetscCall(FolderSync(path));
+  }
+  closedir(list);
+  PetscCall(FolderSync(folder));
+  PetscFunctionReturn(0);
 }

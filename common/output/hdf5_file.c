@@ -1,6 +1,8 @@
 #include "common/output/hdf5_file.h"
 #include <string.h>
 
+enum { CHUNK_ROWS = 16384, COMPRESSED_FROM = 8192, DEFLATE = 4 }; /* rows; bytes; level */
+
 /* The innermost message of HDF5's error stack. */
 static herr_t Innermost(unsigned depth, const H5E_error2_t *error, void *text)
 {
@@ -46,11 +48,22 @@ static PetscErrorCode Access(MPI_Comm comm, const char *path, hid_t *access)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Hdf5Create(MPI_Comm comm, const char *path, hid_t *file)
+/* Of the formats that keep checksums of metadata: for checkpoints, which are never left open, the newest one; for
+ * snapshots one that does not mark a file whose writer was killed as still open. */
+static PetscErrorCode ChooseFormat(hid_t access, const char *path, Hdf5Kind kind)
+{
+  PetscFunctionBeginUser;
+  H5(H5Pset_libver_bounds(access, H5F_LIBVER_V18, kind == HDF5_CHECKPOINT ? H5F_LIBVER_V110 : H5F_LIBVER_V18),
+     "set up", path);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Hdf5Create(MPI_Comm comm, const char *path, Hdf5Kind kind, hid_t *file)
 {
   hid_t access;
   PetscFunctionBeginUser;
   PetscCall(Access(comm, path, &access));
+  PetscCall(ChooseFormat(access, path, kind));
   H5(*file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access), "create", path);
   H5(H5Pclose(access), "set up", path);
   PetscFunctionReturn(0);
@@ -61,6 +74,7 @@ PetscErrorCode Hdf5Open(MPI_Comm comm, const char *path, PetscBool change, hid_t
   hid_t access;
   PetscFunctionBeginUser;
   PetscCall(Access(comm, path, &access));
+  PetscCall(ChooseFormat(access, path, HDF5_SNAPSHOTS));
   H5(*file = H5Fopen(path, change ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access),
      change ? "open" : "go on (resume) from", path);
   H5(H5Pclose(access), "set up", path);
@@ -124,14 +138,38 @@ static PetscErrorCode Move(hid_t set, hid_t space, const char *path, const Hdf5R
   PetscFunctionReturn(0);
 }
 
+/* The layout of a dataset: in chunks where it is checked or compressed, each of one column so that a column of zeros
+ * takes no room; small ones as they are. */
+static PetscErrorCode Layout(const char *path, const Hdf5Rows *rows, hid_t *layout)
+{
+  const long long bytes = rows->total * rows->ncol * (long long)sizeof(double);
+  const hsize_t chunk[2] = {(hsize_t)PetscMin(rows->total, CHUNK_ROWS),
+                            rows->store == HDF5_CHECKED ? (hsize_t)rows->ncol : 1};
+  PetscFunctionBeginUser;
+  H5(*layout = H5Pcreate(H5P_DATASET_CREATE), "set up", path);
+  if (rows->store == HDF5_PLAIN || !rows->total ||
+      (rows->store == HDF5_COMPRESSED && bytes < COMPRESSED_FROM))
+    PetscFunctionReturn(0);
+  H5(H5Pset_chunk(*layout, rows->ncol == 1 ? 1 : 2, chunk), "set up", path);
+  if (rows->store == HDF5_CHECKED) {
+    H5(H5Pset_fletcher32(*layout), "check", path);
+  } else {
+    H5(H5Pset_shuffle(*layout), "compress", path);
+    H5(H5Pset_deflate(*layout, DEFLATE), "compress", path);
+  }
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode Write(hid_t file, const char *path, const Hdf5Rows *rows, hid_t in_memory,
                             hid_t in_file, const void *value)
 {
   const hsize_t total[2] = {(hsize_t)rows->total, (hsize_t)rows->ncol};
-  hid_t space, set;
+  hid_t space, set, layout;
   PetscFunctionBeginUser;
+  PetscCall(Layout(path, rows, &layout));
   H5(space = H5Screate_simple(rows->ncol == 1 ? 1 : 2, total, NULL), "describe", path);
-  H5(set = H5Dcreate2(file, path, in_file, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "create", path);
+  H5(set = H5Dcreate2(file, path, in_file, space, H5P_DEFAULT, layout, H5P_DEFAULT), "create", path);
+  H5(H5Pclose(layout), "close", path);
   PetscCall(Move(set, space, path, rows, in_memory, value, NULL));
   PetscFunctionReturn(0);
 }
@@ -146,11 +184,28 @@ int Hdf5IndexBytes(long long limit)
   return limit <= INT32_MAX ? 4 : 8;
 }
 
+/* Converted here: HDF5 itself cannot while it writes compressed data collectively. */
+static PetscErrorCode WriteShort(hid_t file, const char *path, const Hdf5Rows *rows, const long long value[])
+{
+  const size_t n = (size_t)rows->n * (size_t)rows->ncol;
+  int32_t *copy;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(n, &copy));
+  for (size_t k = 0; k < n; k++) copy[k] = (int32_t)value[k];
+  PetscCall(Write(file, path, rows, H5T_NATIVE_INT32, H5T_STD_I32LE, copy));
+  PetscCall(PetscFree(copy));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode Hdf5WriteIndices(hid_t file, const char *path, const Hdf5Rows *rows, long long limit,
                                 const long long value[])
 {
-  return Write(file, path, rows, H5T_NATIVE_LLONG, Hdf5IndexBytes(limit) == 4 ? H5T_STD_I32LE : H5T_STD_I64LE,
-               value);
+  PetscFunctionBeginUser;
+  if (Hdf5IndexBytes(limit) == 4)
+    PetscCall(WriteShort(file, path, rows, value));
+  else
+    PetscCall(Write(file, path, rows, H5T_NATIVE_LLONG, H5T_STD_I64LE, value));
+  PetscFunctionReturn(0);
 }
 
 static PetscErrorCode Read(hid_t file, const char *path, const Hdf5Rows *rows, hid_t in_memory, void *value)
@@ -237,6 +292,38 @@ PetscErrorCode Hdf5ReadAttribute(hid_t file, const char *path, const char *name,
 PetscBool Hdf5HasAttribute(hid_t file, const char *path, const char *name)
 {
   return H5Aexists_by_name(file, path, name, H5P_DEFAULT) > 0 ? PETSC_TRUE : PETSC_FALSE;
+}
+
+PetscErrorCode Hdf5Text(hid_t file, const char *path, const char *name, const char *text)
+{
+  hid_t space, type, attribute;
+  PetscFunctionBeginUser;
+  H5(space = H5Screate(H5S_SCALAR), "describe", name);
+  H5(type = H5Tcopy(H5T_C_S1), "describe", name);
+  H5(H5Tset_size(type, PetscMax(strlen(text), 1)), "describe", name);
+  H5(H5Tset_strpad(type, H5T_STR_NULLPAD), "describe", name);
+  H5(attribute = H5Acreate_by_name(file, path, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+     "create attribute", name);
+  H5(H5Awrite(attribute, type, text), "write attribute", name);
+  H5(H5Aclose(attribute), "close attribute", name);
+  H5(H5Tclose(type), "close", name);
+  H5(H5Sclose(space), "close", name);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Hdf5ReadText(hid_t file, const char *path, const char *name, size_t size, char text[])
+{
+  hid_t type, attribute;
+  PetscFunctionBeginUser;
+  memset(text, 0, size);
+  H5(attribute = H5Aopen_by_name(file, path, name, H5P_DEFAULT, H5P_DEFAULT), "open attribute", name);
+  H5(type = H5Aget_type(attribute), "describe", name);
+  PetscCheck(H5Tget_class(type) == H5T_STRING && H5Tget_size(type) < size, PETSC_COMM_SELF,
+             PETSC_ERR_FILE_UNEXPECTED, "attribute %s is no text of less than %zu characters", name, size);
+  H5(H5Aread(attribute, type, text), "read attribute", name);
+  H5(H5Tclose(type), "close", name);
+  H5(H5Aclose(attribute), "close attribute", name);
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode Hdf5Flush(hid_t file)

@@ -9,13 +9,18 @@
 #include <hdf5.h>
 #include <petscsys.h>
 
+/* What a file is for, and how a dataset lies in it: as it is, in chunks with Fletcher-32 checksums, or compressed. */
+typedef enum { HDF5_SNAPSHOTS, HDF5_CHECKPOINT } Hdf5Kind;
+typedef enum { HDF5_PLAIN, HDF5_CHECKED, HDF5_COMPRESSED } Hdf5Store;
+
 /* A distributed array: this rank's rows of a [total][ncol] dataset. */
 typedef struct {
   long long start, n, total; /* rows */
   int ncol;                  /* 1: the dataset has one dimension */
+  Hdf5Store store;           /* of writing */
 } Hdf5Rows;
 
-PetscErrorCode Hdf5Create(MPI_Comm comm, const char *path, hid_t *file);
+PetscErrorCode Hdf5Create(MPI_Comm comm, const char *path, Hdf5Kind kind, hid_t *file);
 /* An existing file; `change`: also to write into. */
 PetscErrorCode Hdf5Open(MPI_Comm comm, const char *path, PetscBool change, hid_t *file);
 PetscErrorCode Hdf5Group(hid_t file, const char *path);
@@ -40,6 +45,9 @@ PetscErrorCode Hdf5Link(hid_t file, const char *existing, const char *path);
 PetscErrorCode Hdf5Attribute(hid_t file, const char *path, const char *name, double value);
 PetscErrorCode Hdf5ReadAttribute(hid_t file, const char *path, const char *name, double *value);
 PetscBool Hdf5HasAttribute(hid_t file, const char *path, const char *name);
+/* A text on a group or dataset. */
+PetscErrorCode Hdf5Text(hid_t file, const char *path, const char *name, const char *text);
+PetscErrorCode Hdf5ReadText(hid_t file, const char *path, const char *name, size_t size, char text[]);
 PetscErrorCode Hdf5Flush(hid_t file);
 PetscErrorCode Hdf5Close(hid_t *file);
 /* Bytes that an index takes in the file. */

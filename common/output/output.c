@@ -3,7 +3,7 @@
  *   /snapshot/000000                 attribute time, s
  *             /<grid>/points         [n][2] m
  *                    /cells          [ne][nodes_per_cell] indices of points
- *                    /node/<field>   [n], [n][3] or [n][6]
+ *                    /node/<field>   [n], [n][3] or [n][6], attribute unit; rounded to 31 significant bits
  *                    /cell/<field>   [ne], ...
  *
  * Every snapshot is complete in itself: points and cells that have not changed are links to the earlier ones.
@@ -13,10 +13,14 @@
 #include "common/output/hdf5_file.h"
 #include "common/output/xdmf.h"
 #include <ctype.h>
+#include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 #define PATH 512
 #define GRIDS_MAX 32
+#define REOPEN                                                                                               \
+  32 /* snapshots after which what HDF5 keeps of them in memory is let go: time and memory stay flat */
 
 /* What was last written of a grid. */
 typedef struct {
@@ -30,6 +34,7 @@ struct Output_s {
   MPI_Comm comm; /* duplicated: HDF5's messages do not meet others */
   PetscMPIInt rank;
   hid_t file;
+  char path[PETSC_MAX_PATH_LEN];
   Xdmf xdmf; /* rank 0 only */
   long long nsnapshot;
   double every, next; /* s: when the next snapshot is due */
@@ -42,7 +47,7 @@ struct Output_s {
 static PetscErrorCode BeginFile(Output o, const char *path)
 {
   PetscFunctionBeginUser;
-  PetscCall(Hdf5Create(o->comm, path, &o->file));
+  PetscCall(Hdf5Create(o->comm, path, HDF5_SNAPSHOTS, &o->file));
   PetscCall(Hdf5Group(o->file, "/snapshot"));
   PetscCall(Hdf5Flush(o->file));
   PetscFunctionReturn(0);
@@ -67,7 +72,7 @@ PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name,
 {
   Output o;
   char path[PETSC_MAX_PATH_LEN];
-  double snapshots = 0.0, length = 0.0;
+  double snapshots = 0.0;
   PetscFunctionBeginUser;
   PetscCall(FolderMake(comm, folder));
   PetscCall(PetscNew(&o));
@@ -76,29 +81,33 @@ PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name,
   o->every = every;
   if (from) PetscCall(CheckpointGetNumber(from, "output next", &o->next));
   snprintf(path, sizeof path, "%s/%s.h5", folder, name);
+  PetscCall(PetscStrncpy(o->path, path, sizeof o->path));
   if (FolderGoesOn(comm, folder, path, from)) {
     PetscCall(CheckpointGetNumber(from, "output snapshots", &snapshots));
-    PetscCall(CheckpointGetNumber(from, "output index length", &length));
     o->nsnapshot = (long long)snapshots;
     PetscCall(Hdf5Open(o->comm, path, PETSC_TRUE, &o->file));
     o->later = PETSC_TRUE;
   } else {
     PetscCall(BeginFile(o, path));
   }
-  PetscCall(AgreeWithRoot(comm, o->rank == 0 ? XdmfCreate(folder, name, (size_t)length, &o->xdmf) : 0));
+  PetscCall(AgreeWithRoot(comm, o->rank == 0 ? XdmfCreate(folder, name, o->nsnapshot, &o->xdmf) : 0));
   *out = o;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode OutputText(Output o, const char *name, const char *text)
+{
+  PetscFunctionBeginUser;
+  if (!Hdf5HasAttribute(o->file, "/", name)) PetscCall(Hdf5Text(o->file, "/", name, text));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode OutputSave(Output o, Checkpoint to)
 {
-  double length = o->rank == 0 ? (double)XdmfLength(o->xdmf) : 0.0;
   PetscFunctionBeginUser;
   PetscCheck(!o->open, o->comm, PETSC_ERR_ORDER, "OutputSave: the last snapshot has no OutputEnd");
-  PetscCallMPI(MPI_Bcast(&length, 1, MPI_DOUBLE, 0, o->comm));
   PetscCall(CheckpointPutNumber(to, "output next", o->next));
   PetscCall(CheckpointPutNumber(to, "output snapshots", (double)o->nsnapshot));
-  PetscCall(CheckpointPutNumber(to, "output index length", length));
   PetscFunctionReturn(0);
 }
 
@@ -229,6 +238,7 @@ PetscErrorCode OutputGrid(Output o, const char *name, int revision, int n, const
   PetscCall(FindGrid(o, name, &g));
   PetscCall(Hdf5Place(o->comm, n, 1, &node));
   PetscCall(Hdf5Place(o->comm, ne, 1, &cell));
+  node.store = cell.store = HDF5_COMPRESSED;
   const PetscBool known = g->snapshot >= 0 && g->revision == revision ? PETSC_TRUE : PETSC_FALSE;
   PetscCheck(!known || (node.total == g->node.total && cell.total == g->cell.total &&
                         nodes_per_cell == g->nodes_per_cell),
@@ -250,12 +260,38 @@ static void Widen(long long n, int ncomp, const double value[], double wide[])
 {
   for (long long k = 0; k < n; k++) {
     const double *v = &value[k * ncomp];
-    if (ncomp == 2) {
+    if (ncomp == 1) {
+      wide[k] = v[0];
+    } else if (ncomp == 2) {
       memcpy(&wide[3 * k], (double[3]){v[0], v[1], 0.0}, 3 * sizeof(double));
     } else {
       memcpy(&wide[6 * k], (double[6]){v[0], v[2], 0.0, v[1], 0.0, 0.0}, 6 * sizeof(double));
     }
   }
+}
+
+/* To 31 significant bits, 2.3e-10: the rest is round-off of the solvers, and does not compress. */
+static double Rounded(double value)
+{
+  const uint64_t half = 1ULL << 21, mask = ~(2 * half - 1);
+  uint64_t bits;
+  if (!isfinite(value)) return value;
+  memcpy(&bits, &value, sizeof bits);
+  bits = (bits + half) & mask;
+  memcpy(&value, &bits, sizeof bits);
+  return value;
+}
+
+/* A field of one name has one unit in all files. */
+static PetscErrorCode WriteUnit(Output o, const char *path, const char *field)
+{
+  static const char *const UNITS[][2] = {
+      {"velocity", "m/s"},          {"pressure", "Pa"},           {"displacement", "m"},    {"stress", "Pa"},
+      {"principal_stress_1", "Pa"}, {"principal_stress_2", "Pa"}, {"strain_energy", "J/m3"}};
+  PetscFunctionBeginUser;
+  for (size_t k = 0; k < sizeof UNITS / sizeof *UNITS; k++)
+    if (!strcmp(field, UNITS[k][0])) PetscCall(Hdf5Text(o->file, path, "unit", UNITS[k][1]));
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode OutputField(Output o, const char *field, OutputCentre centre, int ncomp, const double value[])
@@ -274,11 +310,11 @@ PetscErrorCode OutputField(Output o, const char *field, OutputCentre centre, int
   rows.ncol = COLUMNS[ncomp];
   snprintf(path, sizeof path, "/snapshot/%06lld/%s/%s/%s", o->nsnapshot, g->name,
            centre == OUTPUT_NODE ? "node" : "cell", field);
-  if (ncomp > 1) {
-    PetscCall(PetscMalloc1((size_t)rows.n * (size_t)rows.ncol, &wide));
-    Widen(rows.n, ncomp, value, wide);
-  }
-  PetscCall(Hdf5WriteDoubles(o->file, path, &rows, wide ? wide : value));
+  PetscCall(PetscMalloc1((size_t)rows.n * (size_t)rows.ncol, &wide));
+  Widen(rows.n, ncomp, value, wide);
+  for (long long k = 0; k < rows.n * rows.ncol; k++) wide[k] = Rounded(wide[k]);
+  PetscCall(Hdf5WriteDoubles(o->file, path, &rows, wide));
+  PetscCall(WriteUnit(o, path, field));
   PetscCall(PetscFree(wide));
   if (o->rank == 0 && g->cell.total) {
     PetscCall(
@@ -295,6 +331,10 @@ PetscErrorCode OutputEnd(Output o)
   PetscCall(AgreeWithRoot(o->comm, o->rank == 0 ? XdmfEnd(o->xdmf) : 0));
   o->nsnapshot++;
   o->open = PETSC_FALSE;
+  if (o->nsnapshot % REOPEN == 0) {
+    PetscCall(Hdf5Close(&o->file));
+    PetscCall(Hdf5Open(o->comm, o->path, PETSC_TRUE, &o->file));
+  }
   PetscFunctionReturn(0);
 }
 

@@ -14,6 +14,8 @@ typedef enum { OUTPUT_NODE, OUTPUT_CELL } OutputCentre;
  * another's it begins new ones. */
 PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name, double every,
                             Checkpoint from, Output *out);
+/* Collective: a text about the whole file (case, version), as an attribute; ignored where there is one of that name. */
+PetscErrorCode OutputText(Output out, const char *name, const char *text);
 /* Collective: between snapshots. */
 PetscErrorCode OutputSave(Output out, Checkpoint to);
 /* Not collective: at the start, and then whenever a multiple of `every` has come since the last snapshot. */

@@ -2,18 +2,44 @@
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+#define MAX_COLLECTIONS 32
+
+/* The snapshots of one grid so far. */
+typedef struct {
+  char grid[64], *text;
+  size_t length, capacity;
+} Collection;
 
 struct Xdmf_s {
   char name[256], path[PETSC_MAX_PATH_LEN], temporary[PETSC_MAX_PATH_LEN + 8];
-  char *text; /* snapshots so far */
-  size_t length, capacity;
-  PetscBool in_grid;
+  double t; /* s, of the snapshot that is being made */
+  int ncollections;
+  Collection collection[MAX_COLLECTIONS], *open; /* open: that of the grid that is being made, or NULL */
 };
 
-/* Appends to the text. */
-static PetscErrorCode WriteLine(Xdmf x, const char *format, ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
-static PetscErrorCode WriteLine(Xdmf x, const char *format, ...)
+#define HEAD "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n"
+#define FOOT "</Domain>\n</Xdmf>\n"
+#define COLLECTION "<Grid Name=\"%s\" GridType=\"Collection\" CollectionType=\"Temporal\">\n"
+
+static PetscErrorCode Append(Collection *c, const char *text, size_t n)
+{
+  PetscFunctionBeginUser;
+  if (c->length + n + 1 > c->capacity) {
+    c->capacity = 2 * (c->length + n + 1);
+    PetscCall(PetscRealloc(c->capacity, &c->text));
+  }
+  memcpy(c->text + c->length, text, n);
+  c->length += n;
+  c->text[c->length] = 0;
+  PetscFunctionReturn(0);
+}
+
+/* Appends a line to the grid that is being made. */
+static PetscErrorCode Line(Xdmf x, const char *format, ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
+static PetscErrorCode Line(Xdmf x, const char *format, ...)
 {
   va_list arguments;
   char line[2048];
@@ -22,18 +48,24 @@ static PetscErrorCode WriteLine(Xdmf x, const char *format, ...)
   const int n = vsnprintf(line, sizeof line, format, arguments);
   va_end(arguments);
   PetscCheck(n < (int)sizeof line, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ, "a name in '%s' is too long", x->path);
-  if (x->length + (size_t)n + 1 > x->capacity) {
-    x->capacity = 2 * (x->length + (size_t)n + 1);
-    PetscCall(PetscRealloc(x->capacity, &x->text));
-  }
-  memcpy(x->text + x->length, line, (size_t)n + 1);
-  x->length += (size_t)n;
+  PetscCall(Append(x->open, line, (size_t)n));
   PetscFunctionReturn(0);
 }
 
-#define HEAD                                                                                                 \
-  "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n<Grid Name=\"%s\" GridType=\"Collection\" "    \
-  "CollectionType=\"Temporal\">\n"
+static PetscErrorCode FindCollection(Xdmf x, const char *grid, Collection **found)
+{
+  int k = 0;
+  PetscFunctionBeginUser;
+  while (k < x->ncollections && strcmp(x->collection[k].grid, grid)) k++;
+  PetscCheck(k < MAX_COLLECTIONS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "more than %d grids in a file",
+             MAX_COLLECTIONS);
+  *found = &x->collection[k];
+  if (k == x->ncollections) {
+    snprintf((*found)->grid, sizeof(*found)->grid, "%s", grid);
+    x->ncollections++;
+  }
+  PetscFunctionReturn(0);
+}
 
 /* The whole file: to a temporary name, then renamed. */
 static PetscErrorCode Publish(Xdmf x)
@@ -41,9 +73,14 @@ static PetscErrorCode Publish(Xdmf x)
   PetscFunctionBeginUser;
   FILE *f = fopen(x->temporary, "w");
   PetscCheck(f, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "%s: %s", x->temporary, strerror(errno));
-  fprintf(f, HEAD, x->name);
-  if (x->length) fwrite(x->text, 1, x->length, f);
-  fprintf(f, "</Grid>\n</Domain>\n</Xdmf>\n");
+  fputs(HEAD, f);
+  for (int k = 0; k < x->ncollections; k++) {
+    const Collection *c = &x->collection[k];
+    fprintf(f, COLLECTION, c->grid);
+    if (c->length) fwrite(c->text, 1, c->length, f);
+    fputs("</Grid>\n", f);
+  }
+  fputs(FOOT, f);
   const int wrong = ferror(f);
   PetscCheck(!fclose(f) && !wrong, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", x->temporary,
              strerror(errno));
@@ -52,25 +89,68 @@ static PetscErrorCode Publish(Xdmf x)
   PetscFunctionReturn(0);
 }
 
-/* The snapshots of an index that is there already. */
-static PetscErrorCode Continue(Xdmf x, size_t length)
+/* --- an index that is there already --------------------------------------------------------------------- */
+
+/* One snapshot of a grid, from " <Grid" to " </Grid>": kept if it is of the first nsnapshot. */
+static PetscErrorCode KeepSnapshot(Collection *c, const char *entry, size_t n, long long nsnapshot,
+                                   long long *last)
 {
-  char head[512];
-  const int skip = snprintf(head, sizeof head, HEAD, x->name);
+  const char *path = strstr(entry, ".h5:/snapshot/");
   PetscFunctionBeginUser;
-  x->length = length;
-  x->capacity = length + 1;
-  PetscCall(PetscCalloc1(x->capacity, &x->text));
-  FILE *f = fopen(x->path, "r");
-  PetscCheck(f, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "%s: %s", x->path, strerror(errno));
-  const int whole = !fseek(f, skip, SEEK_SET) && fread(x->text, 1, length, f) == length;
-  fclose(f);
-  PetscCheck(whole, PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED, "%s is shorter than when it was checkpointed",
-             x->path);
+  if (!path || path > entry + n) PetscFunctionReturn(0);
+  const long long k = strtoll(path + strlen(".h5:/snapshot/"), NULL, 10);
+  if (k >= nsnapshot) PetscFunctionReturn(0);
+  *last = PetscMax(*last, k);
+  PetscCall(Append(c, entry, n));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode XdmfCreate(const char *folder, const char *name, size_t length, Xdmf *xdmf)
+static PetscErrorCode KeepSnapshots(Xdmf x, const char *text, long long nsnapshot)
+{
+  static const char GRID[] = "\n <Grid ", END[] = "\n </Grid>\n", NEXT[] = "\n<Grid Name=\"";
+  long long last = -1;
+  Collection *c = NULL;
+  PetscFunctionBeginUser;
+  for (const char *at = strstr(text, NEXT); at;) {
+    char grid[64] = "";
+    const char *next = strstr(at + 1, NEXT);
+    sscanf(at + sizeof NEXT - 1, "%63[^\"]", grid);
+    PetscCall(FindCollection(x, grid, &c));
+    for (const char *entry = strstr(at, GRID); entry && (!next || entry < next);
+         entry = strstr(entry, GRID)) {
+      const char *end = strstr(entry, END);
+      if (!end) break;
+      end += sizeof END - 1;
+      PetscCall(KeepSnapshot(c, entry + 1, (size_t)(end - entry) - 1, nsnapshot, &last));
+      entry = end - 1;
+    }
+    at = next;
+  }
+  PetscCheck(last == nsnapshot - 1, PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED,
+             "%s has not the %lld snapshots that it had when it was checkpointed", x->path, nsnapshot);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Continue(Xdmf x, long long nsnapshot)
+{
+  char *text;
+  PetscFunctionBeginUser;
+  FILE *f = fopen(x->path, "r");
+  PetscCheck(f, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "%s: %s", x->path, strerror(errno));
+  PetscCheck(!fseek(f, 0, SEEK_END), PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "%s: %s", x->path,
+             strerror(errno));
+  const size_t length = (size_t)ftell(f);
+  PetscCall(PetscCalloc1(length + 1, &text));
+  rewind(f);
+  const size_t got = fread(text, 1, length, f);
+  fclose(f);
+  PetscCheck(got == length, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "%s: %s", x->path, strerror(errno));
+  PetscCall(KeepSnapshots(x, text, nsnapshot));
+  PetscCall(PetscFree(text));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode XdmfCreate(const char *folder, const char *name, long long nsnapshot, Xdmf *xdmf)
 {
   Xdmf x;
   PetscFunctionBeginUser;
@@ -78,29 +158,25 @@ PetscErrorCode XdmfCreate(const char *folder, const char *name, size_t length, X
   snprintf(x->name, sizeof x->name, "%s", name);
   snprintf(x->path, sizeof x->path, "%s/%s.xdmf", folder, name);
   snprintf(x->temporary, sizeof x->temporary, "%s.part", x->path);
-  PetscCall(length ? Continue(x, length) : Publish(x));
+  PetscCall(nsnapshot ? Continue(x, nsnapshot) : Publish(x));
   *xdmf = x;
   PetscFunctionReturn(0);
 }
 
-size_t XdmfLength(Xdmf x)
-{
-  return x->length;
-}
+/* --- a snapshot ----------------------------------------------------------------------------------------- */
 
 PetscErrorCode XdmfBegin(Xdmf x, double t)
 {
   PetscFunctionBeginUser;
-  PetscCall(WriteLine(x, "<Grid Name=\"%s\" GridType=\"Collection\" CollectionType=\"Spatial\">\n", x->name));
-  PetscCall(WriteLine(x, " <Time Value=\"%.17g\"/>\n", t));
+  x->t = t;
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode CloseGrid(Xdmf x)
 {
   PetscFunctionBeginUser;
-  if (x->in_grid) PetscCall(WriteLine(x, " </Grid>\n"));
-  x->in_grid = PETSC_FALSE;
+  if (x->open) PetscCall(Line(x, " </Grid>\n"));
+  x->open = NULL;
   PetscFunctionReturn(0);
 }
 
@@ -112,19 +188,21 @@ PetscErrorCode XdmfGrid(Xdmf x, const char *grid, const char *points, long long 
                                            : "Triangle_6";
   PetscFunctionBeginUser;
   PetscCall(CloseGrid(x));
-  x->in_grid = PETSC_TRUE;
-  PetscCall(WriteLine(x, " <Grid Name=\"%s\" GridType=\"Uniform\">\n", grid));
-  PetscCall(WriteLine(x, "  <Topology TopologyType=\"%s\" NumberOfElements=\"%lld\">\n", type, ne));
-  PetscCall(WriteLine(x,
-                      "   <DataItem Dimensions=\"%lld %d\" NumberType=\"Int\" Precision=\"%d\" "
-                      "Format=\"HDF\">%s.h5:%s</DataItem>\n",
-                      ne, nodes_per_cell, index_bytes, x->name, cells));
-  PetscCall(WriteLine(x, "  </Topology>\n  <Geometry GeometryType=\"XY\">\n"));
-  PetscCall(WriteLine(x,
-                      "   <DataItem Dimensions=\"%lld 2\" NumberType=\"Float\" Precision=\"8\" "
-                      "Format=\"HDF\">%s.h5:%s</DataItem>\n",
-                      n, x->name, points));
-  PetscCall(WriteLine(x, "  </Geometry>\n"));
+  PetscCall(FindCollection(x, grid, &x->open));
+  PetscCall(Line(x, " <Grid Name=\"%s\" GridType=\"Uniform\">\n", grid));
+  PetscCall(Line(x, "  <Time Value=\"%.10g\"/>\n",
+                 x->t)); /* not the round-off of sums of steps: one time in all files */
+  PetscCall(Line(x, "  <Topology TopologyType=\"%s\" NumberOfElements=\"%lld\">\n", type, ne));
+  PetscCall(Line(x,
+                 "   <DataItem Dimensions=\"%lld %d\" NumberType=\"Int\" Precision=\"%d\" "
+                 "Format=\"HDF\">%s.h5:%s</DataItem>\n",
+                 ne, nodes_per_cell, index_bytes, x->name, cells));
+  PetscCall(Line(x, "  </Topology>\n  <Geometry GeometryType=\"XY\">\n"));
+  PetscCall(Line(x,
+                 "   <DataItem Dimensions=\"%lld 2\" NumberType=\"Float\" Precision=\"8\" "
+                 "Format=\"HDF\">%s.h5:%s</DataItem>\n",
+                 n, x->name, points));
+  PetscCall(Line(x, "  </Geometry>\n"));
   PetscFunctionReturn(0);
 }
 
@@ -135,13 +213,12 @@ PetscErrorCode XdmfAttribute(Xdmf x, const char *field, const char *centre, cons
   char columns[16] = "";
   PetscFunctionBeginUser;
   if (ncol > 1) snprintf(columns, sizeof columns, " %d", ncol);
-  PetscCall(
-      WriteLine(x, "  <Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"%s\">\n", field, type, centre));
-  PetscCall(WriteLine(x,
-                      "   <DataItem Dimensions=\"%lld%s\" NumberType=\"Float\" Precision=\"8\" "
-                      "Format=\"HDF\">%s.h5:%s</DataItem>\n",
-                      n, columns, x->name, path));
-  PetscCall(WriteLine(x, "  </Attribute>\n"));
+  PetscCall(Line(x, "  <Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"%s\">\n", field, type, centre));
+  PetscCall(Line(x,
+                 "   <DataItem Dimensions=\"%lld%s\" NumberType=\"Float\" Precision=\"8\" "
+                 "Format=\"HDF\">%s.h5:%s</DataItem>\n",
+                 n, columns, x->name, path));
+  PetscCall(Line(x, "  </Attribute>\n"));
   PetscFunctionReturn(0);
 }
 
@@ -149,7 +226,6 @@ PetscErrorCode XdmfEnd(Xdmf x)
 {
   PetscFunctionBeginUser;
   PetscCall(CloseGrid(x));
-  PetscCall(WriteLine(x, "</Grid>\n"));
   PetscCall(Publish(x));
   PetscFunctionReturn(0);
 }
@@ -158,7 +234,7 @@ PetscErrorCode XdmfDestroy(Xdmf *x)
 {
   PetscFunctionBeginUser;
   if (!*x) PetscFunctionReturn(0);
-  PetscCall(PetscFree((*x)->text));
+  for (int k = 0; k < (*x)->ncollections; k++) PetscCall(PetscFree((*x)->collection[k].text));
   PetscCall(PetscFree(*x));
   PetscFunctionReturn(0);
 }

@@ -1,9 +1,9 @@
 /* Private to the output room: the XDMF 3 index of an HDF5 file, rank 0 only.
  *
- *   temporal collection <name>
- *     spatial collection, one a snapshot, with its time
- *       uniform grids, one each OutputGrid, with their attributes
+ *   temporal collection <grid>, one each grid
+ *     uniform grids, one a snapshot, each with its time and attributes
  *
+ * A block of a reader is one grid, of one kind of cells, at all times: filters of ParaView want that.
  * Text of whole snapshots is kept; the file is written anew under a temporary name and renamed, so that a
  * reader never sees half of it.  See www.xdmf.org/index.php/XDMF_Model_and_Format. */
 #ifndef CORACLE_XDMF_H
@@ -12,9 +12,8 @@
 
 typedef struct Xdmf_s *Xdmf;
 
-/* length: goes on with the first so many bytes of an index that is there (XdmfLength then), 0: a new one. */
-PetscErrorCode XdmfCreate(const char *folder, const char *name, size_t length, Xdmf *xdmf);
-size_t XdmfLength(Xdmf x);
+/* nsnapshot: continues an index that is there, with its first so many snapshots; 0: a new one. */
+PetscErrorCode XdmfCreate(const char *folder, const char *name, long long nsnapshot, Xdmf *xdmf);
 PetscErrorCode XdmfBegin(Xdmf x, double t);
 /* n points, ne cells; paths are of datasets in <name>.h5. */
 PetscErrorCode XdmfGrid(Xdmf x, const char *grid, const char *points, long long n, const char *cells,

@@ -34,7 +34,7 @@ case $scenario in
   zero_viscosity) with fluid.viscosity=0; expect="key 'fluid.viscosity': expected a number > 0" ;;
   negative_density) with 'solid.materials.disc.density=-1'; expect="solid.*density': expected a number > 0" ;;
   bad_mode) with coupler.mode=magic; expect="coupler.*'coupler.mode'.*reaction" ;;
-  old_key) with coupler.tries=30; expect="'coupler.tries'.*is now called 'coupler.max_iterations'" ;;
+  old_key) with coupler.tries=30; expect="'coupler.tries' is now called 'coupler.max_iterations'" ;;
   no_shell) with coupler.shell_thickness=0; expect="'coupler.shell_thickness'" ;;
   bad_theta) with fluid.theta=0.3; expect="'fluid.theta'" ;;
   bad_end) with time.end=-1; expect="'time.end'" ;;
@@ -58,6 +58,8 @@ case $scenario in
   adapt_nothing) with 'fluid.adapt={size_min: 0.1, size_max: 0.2}'; expect="'fluid.adapt.velocity_error'" ;;
   adapt_budget) with 'fluid.adapt={size_min: 0.01, size_max: 0.2, velocity_error: 0.1, elements_max: 500}'
     expect="fluid.adapt.elements_max.*500.*the solid's band" ;;
+  first_budget) with 'fluid.adapt={size_min: 1.0e-5, size_max: 0.2, velocity_error: 0.1}'
+    expect="fluid.adapt.elements_max.*200000.*fluid.adapt.size_min" ;;
   bad_folder) with output.folder=/proc/nowhere; sets+=(--set output.folder=/proc/nowhere); expect="/proc/nowhere" ;;
   *) echo "no scenario '$scenario'" >&2; exit 2 ;;
 esac

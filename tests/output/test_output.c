@@ -142,7 +142,7 @@ static void CheckIndex(const char *folder)
   const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
   snprintf(path, sizeof path, "%s/test.xdmf", folder);
   char *text = ReadText(path);
-  CHECK(Occurrences(text, "<Time ") == 3 && Occurrences(text, "Name=\"body\"") == 3, "%s", text);
+  CHECK(Occurrences(text, "<Time ") == 6 && Occurrences(text, "Name=\"body\"") == 4, "%s", text);
   CHECK(Occurrences(text, "<Grid ") == Occurrences(text, "</Grid>") && strstr(text, "</Xdmf>"), "%s", text);
   CHECK(!strstr(text, "nothing"), "a grid without cells is in the index");
   int items = 0;

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# What would be silent, absurd or endless is refused by one line, before any work.  Usage: refused.sh ROOT BUILD
+set -euo pipefail
+source "$(dirname "$0")/../coupled/run.sh"
+case=$here/../coupled/disc.yaml
+
+# refused PART EXPECTED --set key=value ...
+refused() {
+  local part=$1 expect=$2
+  shift 2
+  ! timeout -k 5 60 "$build/$part/coracle-$part" --check "$case" "$@" >"$scratch/log" 2>&1 || { echo "accepted: $*"; exit 1; }
+  grep -q "$expect" "$scratch/log" || { echo "$*: expected '$expect', got:"; cat "$scratch/log"; exit 1; }
+}
+accepted() {
+  local part=$1
+  shift
+  timeout -k 5 60 "$build/$part/coracle-$part" --check "$case" "$@" >"$scratch/log" 2>&1 || { echo "refused: $*"; cat "$scratch/log"; exit 1; }
+}
+
+# counts are made before the work, and in doubles
+for size in 3.5e-6 1e-11 1e-300; do refused solid "'solid.bodies\[0\].size': .* elements" --set "solid.bodies[0].size=$size"; done
+rectangle='{shape: rectangle, centre: [1, 1], width: 0.2, height: 0.1, material: disc, size: '
+refused solid "'solid.bodies\[0\].size': .* elements" --set "solid.bodies[0]=${rectangle} 1e-7}"
+ring='{shape: ring, centre: [1, 1], radius: 0.2, thickness: 0.1, material: disc, size: '
+refused solid "'solid.bodies\[0\].size': .* elements" --set "solid.bodies[0]=${ring} 1e-7}"
+refused solid "'solid.bodies\[0\].repeat.n': 9e+06 bodies" --set 'solid.bodies[0].repeat={n: [3000, 3000], step: [1, 1]}'
+refused fluid "'fluid.mesh.refine\[0\].size': .* triangles" --set 'fluid.mesh.refine[0].size=1e-5'
+refused fluid "'fluid.mesh.size_max': .* triangles" --set fluid.mesh.size_max=1e-6
+refused fluid "'fluid.mesh.refine\[0\].upper': the box is empty" --set 'fluid.mesh.refine[0].upper=[0, 0]'
+
+# what is prescribed all around must balance
+left='fluid.boundaries.left={velocity: [1, 0]}'
+refused fluid "'fluid.boundaries': .* 2 m2/s more into the domain" --set "$left"
+refused fluid "'fluid.boundaries': .* 1 m2/s more into the domain" --set "$left" --set 'fluid.boundaries.right={velocity: [0.5, 0]}'
+refused fluid "'fluid.boundaries': .* as they rise" --set "$left" --set 'fluid.boundaries.right={velocity: [1, 0], rise: 1}'
+accepted fluid --set "$left" --set 'fluid.boundaries.right={velocity: [1.5, 0], profile: parabolic}'
+accepted fluid --set "$left" --set fluid.boundaries.right=open
+accepted fluid --set 'fluid.boundaries.top={velocity: [1, 0]}'
+
+# options that nobody reads, folders that are none
+for part in solid coupler; do refused $part "'$part.petsc': nothing in the $part has the option -nonsense" --set "$part.petsc=-nonsense 1"; done
+for part in fluid solid coupler; do refused $part "'output.folder': expected a string, found 'null'" --set output.folder=null; done
