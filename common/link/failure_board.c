@@ -1,4 +1,5 @@
 #include "common/link/failure_board.h"
+#include <dlfcn.h>
 #include <errno.h>
 #include <signal.h>
 #include <stdatomic.h>
@@ -78,36 +79,103 @@ static void SayWhoDied(const FailureBoard b)
   if (write(STDERR_FILENO, text, (size_t)(to - text)) < 0) return; /* stderr is closed */
 }
 
-static void OnTerminate(int signal_number)
+/* "<prefix>error: received <name> in step <n>: the job ends" */
+static void ReportSignal(const FailureBoard b, const char *name)
+{
+  char text[256], *end = text + sizeof text, *to = PutText(text, end, b->prefix);
+  to = PutText(to, end, "error: received ");
+  to = PutText(to, end, name);
+  to = PutText(to, end, " in step ");
+  to = PutNumber(to, end, b->mine->step);
+  to = PutText(to, end, ": the job ends\n");
+  if (write(STDERR_FILENO, text, (size_t)(to - text)) < 0) return; /* stderr is closed */
+}
+
+/* As if there were no handler: the launcher then ends the other ranks. */
+static void Die(int signal_number)
+{
+  signal(signal_number, SIG_DFL);
+  raise(signal_number);
+}
+
+/* From the launcher, this process's parent, which ends all ranks; or from anybody to this rank alone. */
+static void OnTerminate(int signal_number, siginfo_t *from, void *context)
 {
   const int saved = errno;
   const FailureBoard b = WATCHED;
   if (b) {
     /* the others stay a moment, so that the rank that reports does not take them for dead ones */
-    if (FailureBoardClaim(b))
+    if (!FailureBoardClaim(b))
+      nanosleep(&(struct timespec){.tv_nsec = 300000000}, NULL);
+    else if (from->si_pid == getppid())
       SayWhoDied(b);
     else
-      nanosleep(&(struct timespec){.tv_nsec = 300000000}, NULL);
+      ReportSignal(b, "SIGTERM");
   }
   errno = saved;
-  signal(signal_number, SIG_DFL);
-  raise(signal_number);
+  Die(signal_number);
+}
+
+static const struct {
+  int number;
+  const char *name;
+} CRASHES[] = {{SIGSEGV, "SIGSEGV (invalid memory access)"},
+               {SIGBUS, "SIGBUS (memory that cannot be accessed)"},
+               {SIGFPE, "SIGFPE (invalid arithmetic)"},
+               {SIGILL, "SIGILL (invalid instruction: built for another processor?)"}};
+enum { NCRASHES = sizeof CRASHES / sizeof *CRASHES };
+
+static void OnCrash(int signal_number, siginfo_t *from, void *context)
+{
+  const FailureBoard b = WATCHED;
+  for (int k = 0; b && k < NCRASHES; k++)
+    if (CRASHES[k].number == signal_number && FailureBoardClaim(b)) ReportSignal(b, CRASHES[k].name);
+  Die(signal_number);
 }
 
 /* --- in ordinary code ----------------------------------------------------------------------------------- */
 
+typedef void (*SignalHandler)(int signal_number, siginfo_t *from, void *context);
+
+/* Whether nobody handles the signal but Open MPI, which prints the stack: a host program's handler stays. */
+static bool IsFree(const struct sigaction *now)
+{
+  Dl_info info;
+  if (!(now->sa_flags & SA_SIGINFO)) return now->sa_handler == SIG_DFL;
+  return dladdr((void *)(size_t)now->sa_sigaction, &info) && info.dli_fname &&
+         strstr(info.dli_fname, "libopen-pal");
+}
+
+static void Handle(int signal_number, SignalHandler handler)
+{
+  struct sigaction now, action = {.sa_sigaction = handler, .sa_flags = SA_SIGINFO | SA_ONSTACK};
+  if (sigaction(signal_number, NULL, &now) == 0 && IsFree(&now)) sigaction(signal_number, &action, NULL);
+}
+
+static void Release(int signal_number, SignalHandler handler)
+{
+  struct sigaction now;
+  if (sigaction(signal_number, NULL, &now) || !(now.sa_flags & SA_SIGINFO) || now.sa_sigaction != handler)
+    return;
+  signal(signal_number, SIG_DFL);
+}
+
 static void Watch(FailureBoard b)
 {
-  struct sigaction old, action = {.sa_handler = OnTerminate};
+  static char memory[65536]; /* a stack for the handler of a stack that has overflowed */
+  const stack_t stack = {.ss_sp = memory, .ss_size = sizeof memory};
+  stack_t old;
   WATCHED = b;
-  if (sigaction(SIGTERM, NULL, &old) == 0 && old.sa_handler == SIG_DFL) sigaction(SIGTERM, &action, NULL);
+  if (sigaltstack(NULL, &old) == 0 && old.ss_flags & SS_DISABLE) sigaltstack(&stack, NULL);
+  Handle(SIGTERM, OnTerminate);
+  for (int k = 0; k < NCRASHES; k++) Handle(CRASHES[k].number, OnCrash);
 }
 
 static void Unwatch(void)
 {
-  struct sigaction old;
   WATCHED = NULL;
-  if (sigaction(SIGTERM, NULL, &old) == 0 && old.sa_handler == OnTerminate) signal(SIGTERM, SIG_DFL);
+  Release(SIGTERM, OnTerminate);
+  for (int k = 0; k < NCRASHES; k++) Release(CRASHES[k].number, OnCrash);
 }
 
 int FailureBoardOpen(MPI_Comm job, const char *role, int rank, FailureBoard *failures)

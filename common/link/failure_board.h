@@ -2,8 +2,10 @@
  * messages cannot:
  *   - when many ranks fail at once, the first to claim the board reports, and a run ends with one message;
  *   - when a rank is killed, the launcher ends the others by SIGTERM: one of them finds on the board whose
- * process is gone, and says so. Open and close are collective over the job; the rest is local and needs no
- * MPI. */
+ *     process is gone, and says so;
+ *   - when a rank receives SIGSEGV, SIGBUS, SIGFPE, SIGILL, or a SIGTERM that is not the launcher's, it claims the
+ *     board, says so in one line, and dies of the signal.  Handlers that a host program has installed stay.
+ * Open and close are collective over the job; the rest is local and needs no MPI. */
 #ifndef CORACLE_BOARD_H
 #define CORACLE_BOARD_H
 #include <mpi.h>

@@ -1,7 +1,11 @@
 #include "common/output/hdf5_file.h"
 #include <string.h>
 
-enum { CHUNK_ROWS = 16384, COMPRESSED_FROM = 8192, DEFLATE = 4 }; /* rows; bytes; level */
+enum { CHUNK_ROWS = 16384, DEFLATE = 4 }; /* rows; level */
+
+/* Bytes of a dataset from which it is compressed, by one rank and by several: a collective write of compressed chunks
+ * exchanges some twenty messages more than a plain one. */
+enum { COMPRESSED_FROM = 8192, COMPRESSED_FROM_SHARED = 1 << 20 };
 
 /* The innermost message of HDF5's error stack. */
 static herr_t Innermost(unsigned depth, const H5E_error2_t *error, void *text)
@@ -96,6 +100,7 @@ PetscErrorCode Hdf5Place(MPI_Comm comm, int n, int ncol, Hdf5Rows *rows)
   PetscFunctionBeginUser;
   *rows = (Hdf5Rows){.n = n, .total = n, .ncol = ncol};
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCallMPI(MPI_Comm_size(comm, &rows->nranks));
   PetscCallMPI(MPI_Exscan(&rows->n, &rows->start, 1, MPI_LONG_LONG, MPI_SUM, comm));
   if (rank == 0) rows->start = 0;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &rows->total, 1, MPI_LONG_LONG, MPI_SUM, comm));
@@ -107,7 +112,8 @@ static PetscErrorCode Select(const char *path, const Hdf5Rows *rows, hid_t space
 {
   const hsize_t from[2] = {(hsize_t)rows->start, 0}, count[2] = {(hsize_t)rows->n, (hsize_t)rows->ncol};
   PetscFunctionBeginUser;
-  H5(*memory = H5Screate_simple(2, count, NULL), "describe", path);
+  /* of the dataset's rank: HDF5 else maps chunks to memory number by number */
+  H5(*memory = H5Screate_simple(rows->ncol == 1 ? 1 : 2, count, NULL), "describe", path);
   if (rows->n) {
     H5(H5Sselect_hyperslab(space, H5S_SELECT_SET, from, NULL, count, NULL), "select", path);
   } else {
@@ -143,14 +149,16 @@ static PetscErrorCode Move(hid_t set, hid_t space, const char *path, const Hdf5R
 static PetscErrorCode Layout(const char *path, const Hdf5Rows *rows, hid_t *layout)
 {
   const long long bytes = rows->total * rows->ncol * (long long)sizeof(double);
+  const long long from = rows->nranks > 1 ? COMPRESSED_FROM_SHARED : COMPRESSED_FROM;
   const hsize_t chunk[2] = {(hsize_t)PetscMin(rows->total, CHUNK_ROWS),
                             rows->store == HDF5_CHECKED ? (hsize_t)rows->ncol : 1};
   PetscFunctionBeginUser;
   H5(*layout = H5Pcreate(H5P_DATASET_CREATE), "set up", path);
-  if (rows->store == HDF5_PLAIN || !rows->total ||
-      (rows->store == HDF5_COMPRESSED && bytes < COMPRESSED_FROM))
+  if (rows->store == HDF5_PLAIN || !rows->total || (rows->store == HDF5_COMPRESSED && bytes < from))
     PetscFunctionReturn(0);
   H5(H5Pset_chunk(*layout, rows->ncol == 1 ? 1 : 2, chunk), "set up", path);
+  /* all of it will be written: HDF5 else compresses and writes chunks of zeros first */
+  H5(H5Pset_fill_time(*layout, H5D_FILL_TIME_NEVER), "set up", path);
   if (rows->store == HDF5_CHECKED) {
     H5(H5Pset_fletcher32(*layout), "check", path);
   } else {

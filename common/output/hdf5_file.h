@@ -17,6 +17,7 @@ typedef enum { HDF5_PLAIN, HDF5_CHECKED, HDF5_COMPRESSED } Hdf5Store;
 typedef struct {
   long long start, n, total; /* rows */
   int ncol;                  /* 1: the dataset has one dimension */
+  PetscMPIInt nranks;        /* that write it */
   Hdf5Store store;           /* of writing */
 } Hdf5Rows;
 

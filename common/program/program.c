@@ -26,6 +26,8 @@ PetscErrorCode ProgramStart(const char *role, int argc, char **argv, Program *p)
   else
     CoracleOpen(role, argc, argv, &p->comm, &p->client);
   PETSC_COMM_WORLD = p->comm;
+  /* the link reports signals in one line (failure_board.h), instead of PETSc's seven */
+  PetscCall(PetscOptionsSetValue(NULL, "-no_signal_handler", NULL));
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
   PetscFunctionBeginUser;
   PetscCall(PetscPushErrorHandler(Abort, p));

@@ -4,6 +4,7 @@
 #define TEST_ANALYTIC_H
 #include "common/link/case_file.h"
 #include "common/link/coracle.h"
+#include <limits.h>
 #include <math.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -165,12 +166,17 @@ typedef enum {
   FAULT_OPEN, /* a facet less than the boundary has */
   FAULT_TURNED,
   FAULT_IDS,
-  FAULT_DRIFT,  /* positions that the velocities do not give */
-  FAULT_MISSING /* of the fluid: no pressure where it is needed */
+  FAULT_DRIFT,   /* positions that the velocities do not give */
+  FAULT_MISSING, /* of the fluid: no pressure where it is needed */
+  FAULT_SEGV,    /* signals */
+  FAULT_BUS,
+  FAULT_FPE,
+  FAULT_TERM,
+  FAULT_OVERFLOW /* of the stack */
 } Fault;
-static const char *const FAULT_WORDS[] = {"none",  "kill",  "exit",      "finalize", "hang", "nan",
-                                          "close", "order", "clockwise", "twice",    "open", "turned",
-                                          "ids",   "drift", "missing",   NULL};
+static const char *const FAULT_WORDS[] = {
+    "none",   "kill", "exit",  "finalize", "hang", "nan", "close", "order", "clockwise", "twice", "open",
+    "turned", "ids",  "drift", "missing",  "segv", "bus", "fpe",   "term",  "overflow",  NULL};
 
 /* --- a job that is not the whole world ------------------------------------------------------------------- */
 /* With TEST_SPECTATOR set the participants split themselves from the world's other ranks first; the argument
@@ -193,10 +199,23 @@ static inline int TestEnd(MPI_Comm *job)
   return MPI_Finalize();
 }
 
+/* More of the stack than there is, 4 kB a level. */
+static inline int Overflow(int levels)
+{
+  volatile char page[4096];
+  page[levels % 4096] = 1;
+  return levels ? Overflow(levels - 1) + page[levels % 4096] : 0;
+}
+
 /* Does what `fault` says; returns only for those that the caller must do himself. */
 static inline void Misbehave(Fault fault)
 {
   if (fault == FAULT_KILL) raise(SIGKILL);
+  if (fault == FAULT_SEGV) raise(SIGSEGV);
+  if (fault == FAULT_BUS) raise(SIGBUS);
+  if (fault == FAULT_FPE) raise(SIGFPE);
+  if (fault == FAULT_TERM) raise(SIGTERM);
+  if (fault == FAULT_OVERFLOW) exit(Overflow(INT_MAX));
   if (fault == FAULT_EXIT) exit(0);
   if (fault == FAULT_FINALIZE) {
     MPI_Finalize();

@@ -42,6 +42,11 @@ case $scenario in
   solid_killed) with solid.fault=kill; expect='solid rank 0 .process [0-9]*. died in step 4' ;;
   fluid_killed) with fluid.fault=kill; expect='fluid rank 1 .process [0-9]*. died in step 4' ;;
   coupler_killed) with coupler.fault=kill; expect='coupler rank 0 .process [0-9]*. died in step' ;;
+  solid_segv) with solid.fault=segv; expect='solid.0.: error: received SIGSEGV (invalid memory access) in step 4: the job ends' ;;
+  fluid_bus) with fluid.fault=bus; expect='fluid.1.: error: received SIGBUS .* in step 4: the job ends' ;;
+  coupler_fpe) with coupler.fault=fpe; expect='coupler.0.: error: received SIGFPE .* in step 4: the job ends' ;;
+  fluid_term) with fluid.fault=term; expect='fluid.1.: error: received SIGTERM in step 4: the job ends' ;;
+  solid_overflow) with solid.fault=overflow; expect='solid.0.: error: received SIGSEGV .* in step 4: the job ends' ;;
   solid_finalizes) with solid.fault=finalize; expect='solid.0.: error: left the job in step 4' ;;
   fluid_finalizes) with fluid.fault=finalize; expect='fluid.1.: error: left the job in step 4' ;;
   coupler_finalizes) with coupler.fault=finalize; expect='coupler.0.: error: left the job in step 4' ;;
