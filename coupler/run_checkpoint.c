@@ -26,7 +26,7 @@ PetscErrorCode RunLoad(RunState *run, Checkpoint from)
   PetscCall(CheckpointGetDoubles(from, "divergence monitor", 0, 1, MONITOR_NUMBERS, row));
   run->monitor = (DivergenceMonitor){(int)row[0], (int)row[1], {row[2], row[3]}, {row[4], row[5]}, row[6]};
   if (run->t >= run->loop->c->end)
-    PetscCall(RunFail(run, "the checkpoint to go on from is at t = %g s already, time.end is %g s", run->t,
+    PetscCall(RunFail(run, "the checkpoint to resume from is at t = %g s already, time.end is %g s", run->t,
                       run->loop->c->end));
   PetscFunctionReturn(0);
 }

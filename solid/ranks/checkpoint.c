@@ -293,7 +293,7 @@ static PetscErrorCode CheckFits(Solid s, Checkpoint from)
   for (int k = 0; k < NCOUNTS; k++) {
     PetscCall(CheckpointGetNumber(from, COUNTS[k], &found));
     PetscCheck(found == expected[k], s->comm, PETSC_ERR_FILE_UNEXPECTED,
-               "cannot go on from %s/solid.h5: it is of other bodies: it has %.0f %s, the case has %d",
+               "cannot resume from %s/solid.h5: it is of other bodies: it has %.0f %s, the case has %d",
                CheckpointFolder(from), found, COUNTS[k], expected[k]);
   }
   PetscFunctionReturn(0);

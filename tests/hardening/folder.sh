@@ -85,6 +85,7 @@ if command -v strace >/dev/null; then
       grep -q "fsync(.*checkpoint.2/$name>" "$scratch/before" || fail "$name is not synced"
     done
     grep -q "fsync(.*checkpoint.2>)" "$scratch/before" || fail "the checkpoint's folder is not synced"
-    sed '1,/rename.*checkpoint.new/d' "$scratch/trace" | grep -q "fsync(.*$scratch/s>)" || fail "the link is not synced"
+    sed '1,/rename.*checkpoint.new/d' "$scratch/trace" >"$scratch/after"
+    grep -q "fsync(.*$scratch/s>)" "$scratch/after" || fail "the link is not synced"
   fi
 fi
