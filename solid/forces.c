@@ -1,5 +1,6 @@
 /* The loops over this rank's elements. */
 #include "solid/solid_impl.h"
+#include "solid/vectorize.h"
 #include <stdio.h>
 
 static inline Tensor RestInverse(const Elements *e, int k)
@@ -32,7 +33,7 @@ CornerForces(const Elements *e, const double x[], const double v[], ElementLaws 
   double *fx = e->force[0], *fy = e->force[1];
   double *sxx = e->stress[0], *syy = e->stress[1], *sxy = e->stress[2];
   int bad = 0;
-#pragma GCC ivdep
+  VECTORIZE
   for (int k = 0; k < n; k++) {
     const Tensor edges = TensorOfEdges(PointAt(x, a[k]), PointAt(x, b[k]), PointAt(x, c[k]));
     const Tensor f = TensorProduct(edges, (Tensor){ixx[k], ixy[k], iyx[k], iyy[k]});

@@ -1,5 +1,6 @@
 /* Joints at work: which edges have reached their strength, and the tractions of active joints. */
 #include "solid/cracks/joints_impl.h"
+#include "solid/vectorize.h"
 
 /* --- lists -------------------------------------------------------------------------------------------- */
 
@@ -47,7 +48,7 @@ static int CountOverloaded(const InitiationList *initiation, double *const stres
 {
   const InitiationList w = *initiation;
   int n = 0;
-#pragma GCC ivdep
+  VECTORIZE
   for (int k = 0; k < w.n; k++) n += Overloaded(&w, k, stress, x);
   return n;
 }
