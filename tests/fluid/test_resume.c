@@ -115,7 +115,7 @@ static void CheckFiles(void)
     CHECK(sscanf(line + 1, "%lf", &t) == 1 && fabs(t - 0.01 * ++rows) < 1e-12);
   }
   CHECK(rows == 5);
-  ReadFile("fluid.xdmf", text);
+  ReadFile("fluid.velocity.xdmf", text);
   for (const char *time = text; (time = strstr(time, "<Time Value=\"")); time++) {
     CHECK(sscanf(time, "<Time Value=\"%lf", &t) == 1 && fabs(t - 0.02 * snapshots++) < 1e-12);
   }
@@ -150,10 +150,12 @@ static PetscErrorCode CheckRefused(const char *set_folder)
 
 static PetscErrorCode Remove(void)
 {
-  static const char *const FILES[] = {"fluid.csv",    "fluid.h5", "fluid.xdmf", "checkpoint.3/fluid.h5",
-                                      "checkpoint.3", ""};
+  static const char *const FILES[] = {"fluid.csv",           "fluid.h5",
+                                      "fluid.xdmf",          "fluid.velocity.xdmf",
+                                      "fluid.pressure.xdmf", "checkpoint.3/fluid.h5",
+                                      "checkpoint.3",        ""};
   PetscFunctionBeginUser;
-  for (int k = 0; k < 6; k++) {
+  for (int k = 0; k < (int)(sizeof FILES / sizeof *FILES); k++) {
     char path[512];
     snprintf(path, sizeof path, "%s/%s", output, FILES[k]);
     CHECK(!remove(path));
