@@ -63,22 +63,27 @@ static PetscErrorCode Sign(const char *path, int lock)
 
 /* --- earlier results ------------------------------------------------------------------------------------ */
 
-/* What runs leave: <participant>.<kind>, summary.json, case.yaml, checkpoints. */
+/* <participant>.<kind>, and <participant>.<grid>.xdmf. */
+static PetscBool IsOf(const char *name, const char *participant)
+{
+  static const char *const KINDS[] = {".h5", ".xdmf", ".xdmf.part", ".csv"};
+  const size_t n = strlen(name), led = strlen(participant), index = strlen(KINDS[1]);
+  if (strncmp(name, participant, led)) return PETSC_FALSE;
+  for (int k = 0; k < 4; k++)
+    if (!strcmp(name + led, KINDS[k])) return PETSC_TRUE;
+  return name[led] == '.' && n > led + index && !strcmp(name + n - index, KINDS[1]) ? PETSC_TRUE
+                                                                                    : PETSC_FALSE;
+}
+
+/* What runs leave: files of each participant, summary.json, case.yaml, checkpoints. */
 static PetscBool IsResult(const char *name)
 {
-  static const char *const WHO[] = {"fluid", "coupler", "solid"}, *const KINDS[] = {"h5", "xdmf", "xdmf.part",
-                                                                                    "csv"};
   static const char CHECKPOINT[] = "checkpoint";
-  char made[64];
   if (!strcmp(name, "summary.json") || !strcmp(name, "case.yaml")) return PETSC_TRUE;
   if (!strncmp(name, CHECKPOINT, sizeof CHECKPOINT - 1) &&
       (!name[sizeof CHECKPOINT - 1] || name[sizeof CHECKPOINT - 1] == '.'))
     return PETSC_TRUE;
-  for (int k = 0; k < 12; k++) {
-    snprintf(made, sizeof made, "%s.%s", WHO[k / 4], KINDS[k % 4]);
-    if (!strcmp(name, made)) return PETSC_TRUE;
-  }
-  return PETSC_FALSE;
+  return IsOf(name, "fluid") || IsOf(name, "coupler") || IsOf(name, "solid") ? PETSC_TRUE : PETSC_FALSE;
 }
 
 /* The first <folder>/earlier.N that does not exist. */

@@ -1,7 +1,7 @@
 #include "common/output/hdf5_file.h"
 #include <string.h>
 
-enum { CHUNK_ROWS = 16384, DEFLATE = 4 }; /* rows; level */
+enum { CHUNK_ROWS = 16384, DEFLATE = 1 }; /* rows; level */
 
 /* Bytes of a dataset from which it is compressed, by one rank and by several: a collective write of compressed chunks
  * exchanges some twenty messages more than a plain one. */

@@ -67,25 +67,38 @@ static PetscErrorCode FindCollection(Xdmf x, const char *grid, Collection **foun
   PetscFunctionReturn(0);
 }
 
-/* The whole file: to a temporary name, then renamed. */
-static PetscErrorCode Publish(Xdmf x)
+/* The file of n collections at path: to the temporary name, then renamed. */
+static PetscErrorCode PublishFile(const char *path, const char *temporary, int n, const Collection c[])
 {
   PetscFunctionBeginUser;
-  FILE *f = fopen(x->temporary, "w");
-  PetscCheck(f, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "%s: %s", x->temporary, strerror(errno));
+  FILE *f = fopen(temporary, "w");
+  PetscCheck(f, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "%s: %s", temporary, strerror(errno));
   fputs(HEAD, f);
-  for (int k = 0; k < x->ncollections; k++) {
-    const Collection *c = &x->collection[k];
-    fprintf(f, COLLECTION, c->grid);
-    if (c->length) fwrite(c->text, 1, c->length, f);
+  for (int k = 0; k < n; k++) {
+    fprintf(f, COLLECTION, c[k].grid);
+    if (c[k].length) fwrite(c[k].text, 1, c[k].length, f);
     fputs("</Grid>\n", f);
   }
   fputs(FOOT, f);
   const int wrong = ferror(f);
-  PetscCheck(!fclose(f) && !wrong, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", x->temporary,
+  PetscCheck(!fclose(f) && !wrong, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", temporary,
              strerror(errno));
-  PetscCheck(!rename(x->temporary, x->path), PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", x->path,
+  PetscCheck(!rename(temporary, path), PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", path,
              strerror(errno));
+  PetscFunctionReturn(0);
+}
+
+/* The index of all grids and, where there are several, one of each. */
+static PetscErrorCode Publish(Xdmf x)
+{
+  char path[PETSC_MAX_PATH_LEN + 80];
+  const int stem = (int)(strlen(x->path) - strlen(".xdmf"));
+  PetscFunctionBeginUser;
+  for (int k = 0; k < x->ncollections && x->ncollections > 1; k++) {
+    snprintf(path, sizeof path, "%.*s.%s.xdmf", stem, x->path, x->collection[k].grid);
+    PetscCall(PublishFile(path, x->temporary, 1, &x->collection[k]));
+  }
+  PetscCall(PublishFile(x->path, x->temporary, x->ncollections, x->collection));
   PetscFunctionReturn(0);
 }
 

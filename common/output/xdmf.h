@@ -3,7 +3,8 @@
  *   temporal collection <grid>, one each grid
  *     uniform grids, one a snapshot, each with its time and attributes
  *
- * A block of a reader is one grid, of one kind of cells, at all times: filters of ParaView want that.
+ * Where there are several grids, <name>.<grid>.xdmf has one of them alone: filters of ParaView (StreamTracer,
+ * PlotOverLine) want one grid, of one kind of cells, with the same fields everywhere.
  * Text of whole snapshots is kept; the file is written anew under a temporary name and renamed, so that a
  * reader never sees half of it.  See www.xdmf.org/index.php/XDMF_Model_and_Format. */
 #ifndef CORACLE_XDMF_H

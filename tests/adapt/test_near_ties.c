@@ -91,7 +91,7 @@ static int Adapt(Seed *seed, MeshSerial *mesh, double metric[], double *far, Ada
 typedef void (*MakeMetric)(Seed *seed, const MeshSerial *m, double metric[]);
 
 /* Twice in a row, to two metrics; the number of adaptations that part. */
-static int CoracleCase(Seed *seed, MakeMetric make, double *far)
+static int AdaptTwice(Seed *seed, MakeMetric make, double *far)
 {
   MeshSerial start;
   AdaptResult first, second;
@@ -116,7 +116,7 @@ static int Family(const char *name, int number, MakeMetric make, int print)
   int parted = 0;
   for (int k = 0; k < number; k++) {
     Seed seed = 0x9E3779B97F4A7C15ULL * (Seed)(k + 1);
-    parted += CoracleCase(&seed, make, &far);
+    parted += AdaptTwice(&seed, make, &far);
   }
   if (print)
     printf("%s: %d of %d adaptations part, vertices of the others within %.1e\n", name, parted, 2 * number,
