@@ -12,7 +12,7 @@ PetscErrorCode RunLoad(RunState *run, Checkpoint from)
   PetscCall(CheckpointGetDoubles(from, "divergence monitor", 0, 1, MONITOR_NUMBERS, row));
   run->monitor = (DivergenceMonitor){(int)row[0], (int)row[1], {row[2], row[3]}, {row[4], row[5]}, row[6]};
   if (run->t >= run->loop->c->end)
-    PetscCall(RunFail(run, "the checkpoint to go on from is at t = %g s already, time.end is %g s", run->t,
+    PetscCall(RunFail(run, "the checkpoint to resume from is at t = %g s already, time.end is %g s", run->t,
                       run->loop->c->end));
   PetscFunctionReturn(0);
 }
@@ -33,6 +33,7 @@ PetscErrorCode RunSave(const RunState *run)
   PetscCall(CheckpointPutNumber(to, "dt", run->dt));
   PetscCall(CheckpointPutDoubles(to, "divergence monitor", rank ? 0 : 1, MONITOR_NUMBERS, row));
   PetscCall(WriterSave(run->loop->writer, to));
+  PetscCall(CouplerSave(run->loop->coupler, to));
   PetscCall(CheckpointClose(&to));
   PetscFunctionReturn(0);
 }

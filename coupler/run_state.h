@@ -34,7 +34,8 @@ PetscErrorCode RunFailIteration(const RunState *run);
 /* Ends the job with one message of rank 0 about what all ranks have found. */
 PetscErrorCode RunFail(const RunState *run, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* t, dt and the divergence monitor; the writer loads its own part (writer.h). */
+/* t, dt and the divergence monitor; the writer and the coupler load their own parts (writer.h,
+ * coupler.h). */
 PetscErrorCode RunLoad(RunState *run, Checkpoint from);
 /* Saves the coupler if a checkpoint is due: as the step that has been sent begins, or at the end. */
 PetscErrorCode RunSave(const RunState *run);

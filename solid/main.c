@@ -60,6 +60,7 @@ static PetscErrorCode Run(CoracleClient client, Solid solid, Writer record)
 {
   Exchange exchange;
   CoracleAction action;
+  InterfaceMotion interface;
   const double *load;
   double dt, h;
   PetscFunctionBeginUser;
@@ -74,6 +75,8 @@ static PetscErrorCode Run(CoracleClient client, Solid solid, Writer record)
       PetscCall(SolidSubstep(solid, &h));
       PetscCall(ExchangeSubstep(&exchange, h));
     }
+    PetscCall(SolidUpdateInterfaceMotion(
+        solid, &interface)); /* before elements change ranks, while contact is known */
     PetscCall(SolidRebalance(solid));
     PetscCall(ExchangeMotion(&exchange));
   }

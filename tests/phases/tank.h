@@ -123,7 +123,7 @@ static inline void Gradients(const Tank *t, int e, double force[6][6])
     P2Gradient((const double(*)[2])g.g, unit, grad);
     for (int c = 0; c < 2; c++) {
       const double part[3] = {grad[0][c], grad[1][c], grad[2][c]};
-      MassApply(g.area, part, &force[q][3 * c]);
+      P1MassApply(g.area, part, &force[q][3 * c]);
     }
   }
 }
