@@ -36,9 +36,10 @@
 /* Interior-penalty safety factor: 1 is the limit of coercivity for the full stress on P1 triangles. */
 #define PENALTY_FACTOR 1.25
 
-/* Volume terms: block = rho/dt M + theta ((m.grad u, w) + (tau(u), grad w)); flux: m[c][i] at the vertices. */
-static inline void MomentumVolume(const ElementGeometry *e, double rho_dt, double theta, double theta_mu,
-                                  const double flux[6], double block[36])
+/* Volume terms that both components share: block (3 x 3, column-major) = rho/dt M + theta (m.grad u, w) +
+ * theta mu (grad u, grad w); flux: m[c][i] at the vertices. */
+static inline void ScalarVolume(const ElementGeometry *e, double rho_dt, double theta, double theta_mu,
+                                const double flux[6], double block[9])
 {
   const double m = rho_dt * e->area / 12.0, v = theta_mu * e->area;
   double b[2][3];
@@ -47,12 +48,8 @@ static inline void MomentumVolume(const ElementGeometry *e, double rho_dt, doubl
   for (int j = 0; j < 3; j++)
     for (int i = 0; i < 3; i++) {
       const double *gi = e->g[i], *gj = e->g[j];
-      const double scalar = m * (i == j ? 2.0 : 1.0) + theta * (b[0][i] * gj[0] + b[1][i] * gj[1]) +
-                            v * (gi[0] * gj[0] + gi[1] * gj[1]);
-      for (int d = 0; d < 2; d++)
-        for (int c = 0; c < 2; c++)
-          block[6 * (3 * d + j) + 3 * c + i] =
-              (c == d ? scalar : 0.0) + v * (gi[d] * gj[c] - 2.0 / 3.0 * gi[c] * gj[d]);
+      block[3 * j + i] = m * (i == j ? 2.0 : 1.0) + theta * (b[0][i] * gj[0] + b[1][i] * gj[1]) +
+                         v * (gi[0] * gj[0] + gi[1] * gj[1]);
     }
 }
 
@@ -90,35 +87,151 @@ typedef struct {
   int a, b;       /* the face's two vertices, in the order of the element whose rows are assembled */
 } FaceSide;
 
-/* Interior face: rows of K.  own: block (K, K), added to; other: block (K, N), written.  inflow as
- * FaceInflow, theta included. */
-static inline void MomentumFace(const FaceGeometry *face, const FaceSide *k, const FaceSide *nb,
-                                double inflow[2][2], double own[36], double other[36])
+/* Interior face, what both components share: rows of K.  own: block (K, K), added to; other: block (K, N),
+ * written.  inflow as FaceInflow. */
+static inline void ScalarFace(const FaceGeometry *face, const FaceSide *k, const FaceSide *nb,
+                              double inflow[2][2], double own[9], double other[9])
 {
   const double quarter = 0.25 * face->length, eta = k->eta + nb->eta;
   const int rows[2] = {k->a, k->b}, cols[2] = {nb->a, nb->b};
-  double tk[2][6], tn[2][6];
-  Traction(k->e->g, k->mu, face->n, tk);
-  Traction(nb->e->g, nb->mu, face->n, tn);
-  memset(other, 0, 36 * sizeof(double));
-  for (int c = 0; c < 2; c++)
-    for (int r = 0; r < 2; r++) {
-      const int row = 3 * c + rows[r], col_own = row, col_other = 3 * c + cols[r];
-      for (int s = 0; s < 6; s++) {
-        own[6 * s + row] -= quarter * tk[c][s];
-        other[6 * s + row] -= quarter * tn[c][s];
-        own[6 * col_own + s] -= quarter * tk[c][s];
-        other[6 * col_other + s] += quarter * tk[c][s];
-      }
-      for (int q = 0; q < 2; q++) {
-        const double v = eta * face->length / 6.0 * (r == q ? 2.0 : 1.0) + inflow[r][q];
-        own[6 * (3 * c + rows[q]) + row] += v;
-        other[6 * (3 * c + cols[q]) + row] -= v;
-      }
+  double gk[3], gn[3];
+  for (int s = 0; s < 3; s++) {
+    gk[s] = quarter * k->mu * (k->e->g[s][0] * face->n[0] + k->e->g[s][1] * face->n[1]);
+    gn[s] = quarter * nb->mu * (nb->e->g[s][0] * face->n[0] + nb->e->g[s][1] * face->n[1]);
+  }
+  memset(other, 0, 9 * sizeof(double));
+  for (int r = 0; r < 2; r++) {
+    for (int s = 0; s < 3; s++) {
+      own[3 * s + rows[r]] -= gk[s];
+      own[3 * rows[r] + s] -= gk[s];
+      other[3 * s + rows[r]] -= gn[s];
+      other[3 * cols[r] + s] += gk[s];
     }
+    for (int q = 0; q < 2; q++) {
+      const double v = eta * face->length / 6.0 * (r == q ? 2.0 : 1.0) + inflow[r][q];
+      own[3 * rows[q] + rows[r]] += v;
+      other[3 * cols[q] + rows[r]] -= v;
+    }
+  }
 }
 
-/* Boundary face with the velocity prescribed in the directions that project[c][d] keeps (I: all; n n: free
+/* A vector [2][3] of an element in registers: a component's three values and an unused one. */
+typedef double Lanes __attribute__((vector_size(32)));
+typedef struct {
+  Lanes c[2];
+} ElementVector;
+
+static inline void ElementVectorLoad(const double u[6], ElementVector *v)
+{
+  v->c[0] = (Lanes){u[0], u[1], u[2], 0.0};
+  v->c[1] = (Lanes){u[3], u[4], u[5], 0.0};
+}
+
+static inline void ElementVectorStore(const ElementVector *v, double u[6])
+{
+  memcpy(u, &v->c[0], 3 * sizeof *u);
+  memcpy(u + 3, &v->c[1], 3 * sizeof *u);
+}
+
+/* r[c][i] += sum_j block[i][j] u[c][j] for both components.  Reads one number behind the block. */
+static inline void ScalarBlockAdd(const double block[9], const double u[6], ElementVector *r)
+{
+  for (int j = 0; j < 3; j++) {
+    Lanes column;
+    memcpy(&column, block + 3 * j, sizeof column);
+    r->c[0] += column * u[j];
+    r->c[1] += column * u[3 + j];
+  }
+}
+
+/* The same in single precision, for preconditioners: half of the memory. */
+typedef float SingleLanes __attribute__((vector_size(16)));
+
+static inline void ScalarBlockAddSingle(const float block[9], const double u[6], ElementVector *r)
+{
+  for (int j = 0; j < 3; j++) {
+    SingleLanes column;
+    memcpy(&column, block + 3 * j, sizeof column);
+    const Lanes wide = __builtin_convertvector(column, Lanes);
+    r->c[0] += wide * u[j];
+    r->c[1] += wide * u[3 + j];
+  }
+}
+
+static inline void ScalarBlockSubtractSingle(const float block[9], const double u[6], ElementVector *r)
+{
+  for (int j = 0; j < 3; j++) {
+    SingleLanes column;
+    memcpy(&column, block + 3 * j, sizeof column);
+    const Lanes wide = __builtin_convertvector(column, Lanes);
+    r->c[0] -= wide * u[j];
+    r->c[1] -= wide * u[3 + j];
+  }
+}
+
+/* inverse = block^-1, both 3 x 3 in column-major order */
+static inline void ScalarBlockInvert(const double b[9], double inverse[9])
+{
+  for (int j = 0; j < 3; j++)
+    for (int i = 0; i < 3; i++) { /* the cofactor of entry (j, i) */
+      const int r = (j + 1) % 3, s = (j + 2) % 3, p = (i + 1) % 3, q = (i + 2) % 3;
+      inverse[3 * j + i] = b[3 * p + r] * b[3 * q + s] - b[3 * q + r] * b[3 * p + s];
+    }
+  const double scale = 1.0 / (b[0] * inverse[0] + b[3] * inverse[1] + b[6] * inverse[2]);
+  for (int k = 0; k < 9; k++) inverse[k] *= scale;
+}
+
+/* The part of the viscous stress that couples the components, as it acts on element K (the scalar blocks have mu grad u):
+ *
+ *   (C u, w)_K = (sigma(u), grad w) - <{sigma(u) n}, w> - 1/2 <sigma_K(w) n, u_K - u_N>,
+ *   sigma(u)   = theta mu (grad u^T - 2/3 div u I), constant on an element, stress[2 d + c] = sigma_cd */
+static inline void CoupledStress(const double g[3][2], double theta_mu, const double u[6], double stress[4])
+{
+  double grad[2][2]; /* [c][d] = d u_c / d x_d */
+  for (int c = 0; c < 2; c++)
+    for (int d = 0; d < 2; d++)
+      grad[c][d] = u[3 * c] * g[0][d] + u[3 * c + 1] * g[1][d] + u[3 * c + 2] * g[2][d];
+  const double third = 2.0 / 3.0 * (grad[0][0] + grad[1][1]);
+  stress[0] = theta_mu * (grad[0][0] - third);
+  stress[1] = theta_mu * grad[0][1]; /* sigma_yx */
+  stress[2] = theta_mu * grad[1][0];
+  stress[3] = theta_mu * (grad[1][1] - third);
+}
+
+/* What grad w is multiplied with: volume and faces are collected in it. */
+typedef struct {
+  double s[4]; /* column-major, N */
+} CoupledForce;
+
+static inline void CoupledForceBegin(double area, const double stress[4], CoupledForce *f)
+{
+  for (int k = 0; k < 4; k++) f->s[k] = area * stress[k];
+}
+
+/* Interior face i of K, face j of N. */
+static inline void CoupledForceFace(const FaceGeometry *face, int i, int j, double theta_mu,
+                                    const double sk[4], const double sn[4], const double uk[6],
+                                    const double un[6], CoupledForce *f, double r[6])
+{
+  const int a = (i + 1) % 3, b = (i + 2) % 3, oa = (j + 2) % 3, ob = (j + 1) % 3;
+  const double *n = face->n, quarter = 0.25 * face->length;
+  const double jump[2] = {uk[a] + uk[b] - un[oa] - un[ob], uk[3 + a] + uk[3 + b] - un[3 + oa] - un[3 + ob]};
+  const double w = quarter * theta_mu, third = 2.0 / 3.0 * (n[0] * jump[0] + n[1] * jump[1]);
+  for (int c = 0; c < 2; c++) {
+    const double t = quarter * ((sk[c] + sn[c]) * n[0] + (sk[2 + c] + sn[2 + c]) * n[1]);
+    r[3 * c + a] -= t;
+    r[3 * c + b] -= t;
+    for (int d = 0; d < 2; d++) f->s[2 * d + c] -= w * (n[c] * jump[d] - (c == d ? third : 0.0));
+  }
+}
+
+static inline void CoupledForceEnd(const double g[3][2], const CoupledForce *f, double r[6])
+{
+  for (int c = 0; c < 2; c++)
+    for (int i = 0; i < 3; i++) r[3 * c + i] += f->s[c] * g[i][0] + f->s[2 + c] * g[i][1];
+}
+
+/* Boundary face, both components, with the velocity prescribed in the directions that project[c][d] keeps (I: all; n n: free
  * slip).  own: block (K, K), added to.  lift[4][6], written: lift[2 d + r] is the load of the element's six rows
  * per unit of prescribed velocity, component d at face node r. */
 static inline void MomentumBoundaryFace(const FaceGeometry *face, const FaceSide *k,

@@ -1,5 +1,4 @@
-/* The momentum equation: matrix and load, one pass over the elements, the matrix written in place. */
-#include "fluid/element_matrix.h"
+/* The momentum equation: operator and load, one pass over the elements. */
 #include "fluid/momentum_impl.h"
 
 /* load += lift (g^{n+1} + (1 - theta)/theta g^n) */
@@ -19,41 +18,45 @@ static void BoundaryLoad(MomentumSolver s, const MomentumStep *step, const Bound
   }
 }
 
-/* One face of element e: the blocks, and the load of a boundary. */
-static void AssembleFace(MomentumSolver s, const MomentumStep *step, int e, int i, const double flux[],
-                         double own[36], double other[36], double load[6])
+/* Interior face i of element e: its scalar blocks. */
+static void AssembleInterior(MomentumSolver s, const MomentumStep *step, int e, int i, const double flux[],
+                             double own[9], double other[9])
 {
-  const Mesh *m = s->domain->mesh;
+  const FluidDomain *d = s->domain;
   const double theta = s->setup.theta;
-  const FaceGeometry face = s->domain->geometry[e].face[i];
-  const int nb = m->neighbor[3 * e + i];
-  const double *mk = flux + 6 * e;
+  const int nb = d->mesh->neighbor[3 * e + i], j = d->mesh->neighbor_face[3 * e + i];
+  const FaceGeometry *face = d->geometry[e].face + i;
+  const FaceSide k = FaceSideOf(d, step->mu, e, i, theta, PENALTY_INTERIOR);
+  FaceSide o = FaceSideOf(d, step->mu, nb, j, theta, PENALTY_INTERIOR);
+  const double *mk = flux + 6 * e, *mo = flux + 6 * nb;
   double mn[2], inflow[2][2] = {{0}};
-  if (nb >= 0) {
-    const int j = m->neighbor_face[3 * e + i];
-    const FaceSide k = FaceSideOf(s->domain, step->mu, e, i, theta, PENALTY_INTERIOR);
-    FaceSide o = FaceSideOf(s->domain, step->mu, nb, j, theta, PENALTY_INTERIOR);
-    const double *mo = flux + 6 * nb;
-    const int swap = o.a;
-    o.a = o.b, o.b = swap; /* seen from the other side the face runs backwards */
-    mn[0] = 0.5 * (face.n[0] * (mk[k.a] + mo[o.a]) + face.n[1] * (mk[3 + k.a] + mo[3 + o.a]));
-    mn[1] = 0.5 * (face.n[0] * (mk[k.b] + mo[o.b]) + face.n[1] * (mk[3 + k.b] + mo[3 + o.b]));
-    if (mn[0] < 0.0 || mn[1] < 0.0) FaceInflow(theta, face.length, mn, inflow);
-    MomentumFace(&face, &k, &o, inflow, own, other);
-    return;
-  }
-  const Boundary *b = BoundaryOfFace(s->domain, e, i);
-  if (b->kind == BOUNDARY_OPEN) return;
-  const FaceSide k = FaceSideOf(s->domain, step->mu, e, i, theta, PENALTY_BOUNDARY);
-  double project[2][2], lift[4][6];
-  BoundaryProjection(b, face.n, project);
+  const int swap = o.a;
+  o.a = o.b, o.b = swap; /* seen from the other side the face runs backwards */
+  mn[0] = 0.5 * (face->n[0] * (mk[k.a] + mo[o.a]) + face->n[1] * (mk[3 + k.a] + mo[3 + o.a]));
+  mn[1] = 0.5 * (face->n[0] * (mk[k.b] + mo[o.b]) + face->n[1] * (mk[3 + k.b] + mo[3 + o.b]));
+  if (mn[0] < 0.0 || mn[1] < 0.0) FaceInflow(theta, face->length, mn, inflow);
+  ScalarFace(face, &k, &o, inflow, own, other);
+}
+
+/* Boundary face i of element e: the dense block and the load; false where it is open. */
+static PetscBool AssembleBoundary(MomentumSolver s, const MomentumStep *step, int e, int i, const double m[6],
+                                  double dense[36], double load[6])
+{
+  const FluidDomain *d = s->domain;
+  const FaceGeometry *face = d->geometry[e].face + i;
+  const Boundary *b = BoundaryOfFace(d, e, i);
+  const FaceSide k = FaceSideOf(d, step->mu, e, i, s->setup.theta, PENALTY_BOUNDARY);
+  double project[2][2], lift[4][6], mn[2], inflow[2][2] = {{0}};
+  if (b->kind == BOUNDARY_OPEN) return PETSC_FALSE;
+  BoundaryProjection(b, face->n, project);
   if (b->kind == BOUNDARY_VELOCITY) {
-    mn[0] = face.n[0] * mk[k.a] + face.n[1] * mk[3 + k.a];
-    mn[1] = face.n[0] * mk[k.b] + face.n[1] * mk[3 + k.b];
-    FaceInflow(theta, face.length, mn, inflow);
+    mn[0] = face->n[0] * m[k.a] + face->n[1] * m[3 + k.a];
+    mn[1] = face->n[0] * m[k.b] + face->n[1] * m[3 + k.b];
+    FaceInflow(s->setup.theta, face->length, mn, inflow);
   }
-  MomentumBoundaryFace(&face, &k, (const double(*)[2])project, inflow, own, lift);
+  MomentumBoundaryFace(face, &k, (const double(*)[2])project, inflow, dense, lift);
   BoundaryLoad(s, step, b, (const double(*)[2])project, e, &k, (const double(*)[6])lift, load);
+  return PETSC_TRUE;
 }
 
 /* Body force and pressure: M (rho g - grad p + source). */
@@ -81,76 +84,85 @@ static void ElementLoad(MomentumSolver s, const MomentumStep *step, int e, const
   }
 }
 
-/* rho M/dt u^n (1 + w) + w a u^n + s, w = (1 - theta)/theta: what is left of -(1 - theta) L u^n = -w (A - rho
- * M/dt - a) u^n once A u^n has been taken off; and the coupling's part of the block. */
+/* rho M/dt u^n (1 + w), w = (1 - theta)/theta: what is left of -(1 - theta) L u^n = -w (A - rho M/dt - a) u^n
+ * once A u^n has been subtracted; the coupling's part is in AssembleSolid. */
 static void ElementInertia(MomentumSolver s, const MomentumStep *step, int e, const double u[6],
-                           double own[36], double load[6])
+                           double load[6])
 {
-  const double w = (1.0 - s->setup.theta) / s->setup.theta;
-  const double *q[2] = {u, u + 3};
   for (int c = 0; c < 2; c++) {
     double mu[3];
-    P1MassApply(s->domain->geometry[e].area, q[c], mu);
-    for (int i = 0; i < 3; i++) load[3 * c + i] += (1.0 + w) * step->rho[e] / step->dt * mu[i];
+    P1MassApply(s->domain->geometry[e].area, u + 3 * c, mu);
+    for (int i = 0; i < 3; i++) load[3 * c + i] += step->rho[e] / (step->dt * s->setup.theta) * mu[i];
   }
+}
+
+/* a to the dense block, s + w a u^n to the load; false where there is no solid. */
+static PetscBool AssembleSolid(MomentumSolver s, const MomentumStep *step, int e, const double u[6],
+                               double dense[36], double load[6])
+{
+  const double w = (1.0 - s->setup.theta) / s->setup.theta;
   const CoracleCoupling *k = SolidCouplingAt(step->solid, e);
-  if (!k) return;
+  if (!k) return PETSC_FALSE;
   const double *a = &k->a[0][0][0][0], *explicit_part = &k->s[0][0];
   for (int row = 0; row < 6; row++) {
     load[row] += explicit_part[row];
     for (int col = 0; col < 6; col++) {
-      own[6 * col + row] += a[6 * row + col];
+      dense[6 * col + row] += a[6 * row + col];
       load[row] += w * a[6 * row + col] * u[col];
     }
   }
+  return PETSC_TRUE;
 }
 
-/* Row block and load of element e; ad, ao: the blocks of the matrix's two parts. */
-static void AssembleElement(MomentumSolver s, const MomentumStep *step, int e, const double flux[],
-                            const double u[6], const double p[], double ad[], double ao[], double load[6])
+/* Blocks and load of element e. */
+static PetscErrorCode AssembleElement(MomentumSolver s, const MomentumStep *step, int e, const double flux[],
+                                      const double u[6], const double p[], double load[6])
 {
   const FluidDomain *d = s->domain;
-  const PetscInt *slot = s->slot + 4 * e;
-  double *own = ad + 36 * slot[0], unused[36];
-  MomentumVolume(d->geometry + e, step->rho[e] / step->dt, s->setup.theta, s->setup.theta * step->mu[e],
-                 flux + 6 * e, own);
+  double(*block)[9] = s->op.block[e], dense[36] = {0};
+  PetscBool has_dense = PETSC_FALSE;
+  PetscFunctionBeginUser;
   memset(load, 0, 6 * sizeof *load);
+  s->op.diffusion =
+      fmax(s->op.diffusion, s->op.theta_mu[e] * step->dt / (step->rho[e] * d->geometry[e].area));
+  ScalarVolume(d->geometry + e, step->rho[e] / step->dt, s->setup.theta, s->op.theta_mu[e], flux + 6 * e,
+               block[0]);
+  PetscCall(PetscArraycpy(s->op.volume[e], block[0], 9));
   for (int i = 0; i < 3; i++) {
-    const PetscInt k = slot[1 + i];
-    double *other = d->mesh->neighbor[3 * e + i] < 0 ? unused : k >= 0 ? ad + 36 * k : ao + 36 * (-1 - k);
-    AssembleFace(s, step, e, i, flux, own, other, load);
+    if (d->mesh->neighbor[3 * e + i] >= 0)
+      AssembleInterior(s, step, e, i, flux, block[0], block[1 + i]);
+    else if (AssembleBoundary(s, step, e, i, flux + 6 * e, dense, load))
+      has_dense = PETSC_TRUE;
   }
   ElementLoad(s, step, e, p, load);
-  ElementInertia(s, step, e, u, own, load);
+  ElementInertia(s, step, e, u, load);
+  if (AssembleSolid(s, step, e, u, dense, load)) has_dense = PETSC_TRUE;
+  if (has_dense) PetscCall(MomentumOperatorAddDense(&s->op, e, dense));
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode MomentumAssemble(MomentumSolver s, const MomentumStep *step)
 {
-  Mat diagonal, off_diagonal;
-  PetscScalar *ad, *ao = NULL, *load;
+  const Mesh *m = s->domain->mesh;
   const PetscScalar *flux, *u, *p;
+  PetscScalar *load;
   Vec flux_local, p_local;
   PetscFunctionBeginUser;
-  PetscCall(ElementMatrixParts(s->matrix, &diagonal, &off_diagonal, NULL));
+  s->op.ndense = 0;
+  s->op.diffusion = 0.0;
+  for (int e = 0; e < m->ne + m->ng; e++) s->op.theta_mu[e] = s->setup.theta * step->mu[e];
   PetscCall(VecGhostGetLocalForm(step->mass_flux, &flux_local));
   PetscCall(VecGhostGetLocalForm(step->p, &p_local));
-  PetscCall(MatSeqBAIJGetArray(diagonal, &ad));
-  if (off_diagonal) PetscCall(MatSeqBAIJGetArray(off_diagonal, &ao));
   PetscCall(VecGetArrayRead(flux_local, &flux));
   PetscCall(VecGetArrayRead(p_local, &p));
   PetscCall(VecGetArrayRead(step->u, &u));
   PetscCall(VecGetArray(s->load, &load));
-  for (int e = 0; e < s->domain->mesh->ne; e++)
-    AssembleElement(s, step, e, flux, u + 6 * e, p, ad, ao, load + 6 * e);
+  for (int e = 0; e < m->ne; e++) PetscCall(AssembleElement(s, step, e, flux, u + 6 * e, p, load + 6 * e));
   PetscCall(VecRestoreArray(s->load, &load));
   PetscCall(VecRestoreArrayRead(step->u, &u));
   PetscCall(VecRestoreArrayRead(p_local, &p));
   PetscCall(VecRestoreArrayRead(flux_local, &flux));
-  if (off_diagonal) PetscCall(MatSeqBAIJRestoreArray(off_diagonal, &ao));
-  PetscCall(MatSeqBAIJRestoreArray(diagonal, &ad));
   PetscCall(VecGhostRestoreLocalForm(step->p, &p_local));
   PetscCall(VecGhostRestoreLocalForm(step->mass_flux, &flux_local));
-  PetscCall(MatAssemblyBegin(s->matrix, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(s->matrix, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(0);
 }

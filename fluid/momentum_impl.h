@@ -2,19 +2,21 @@
 #ifndef FLUID_MOMENTUM_IMPL_H
 #define FLUID_MOMENTUM_IMPL_H
 #include "fluid/momentum.h"
+#include "fluid/momentum_operator.h"
 #include "fluid/preconditioner.h"
 
 struct MomentumSolver_s {
   const FluidDomain *domain; /* borrowed */
   MomentumSetup setup;
-  Mat matrix;     /* element_matrix.h, 6 unknowns an element */
-  PetscInt *slot; /* [ne][4] */
-  Vec load, product;
+  MomentumOperator op;
+  Mat matrix; /* MATSHELL of op */
+  Vec load, product, sum;
   KSP ksp;
+  PetscReal tolerance; /* relative, of the velocity */
   Preconditioner preconditioner;
 };
 
-/* Matrix and load of a step, but for the part of A u^n: the load still lacks -(1 - theta)/theta A u^n.
+/* Operator and load of a step; the load still lacks -(1 - theta)/theta A u^n.
  * momentum_assembly.c */
 PetscErrorCode MomentumAssemble(MomentumSolver s, const MomentumStep *step);
 #endif

@@ -1,105 +1,123 @@
 #include "fluid/preconditioner.h"
-#include "fluid/element_matrix.h"
-#include "fluid/solver_options.h"
+#include "fluid/continuous_space.h"
+
+typedef float SingleBlocks[4][9];
 
 struct Preconditioner_s {
-  Mat p; /* BAIJ like the momentum matrix, 3 unknowns an element: block k of the one is block k of the other */
-  PC pc;
-  Vec residual, correction; /* of one component */
+  MomentumOperator *op; /* borrowed */
+  SingleBlocks *block;  /* [ne + 1] S in single precision, block[e][0] inverted; the last is only read over */
+  ContinuousSpace coarse;
+  PetscBool corrects; /* in the current step */
+  Vec work;           /* z with its ghosts */
 };
 
-/* PCSHELL: one component after the other */
-static PetscErrorCode Apply(PC shell, Vec r, Vec z)
+/* z_e = S_ee^-1 (r_e - sum of S_en z_n over neighbours n below `below`) */
+static inline void Relax(const Preconditioner p, int e, int below, const double r[], double z[])
 {
-  struct Preconditioner_s *p;
-  const PetscScalar *from, *solved;
-  PetscScalar *to, *one;
-  PetscInt n;
+  const int *neighbor = p->op->domain->mesh->neighbor + 3 * e;
+  ElementVector rest, solved = {{{0}, {0}}};
+  double value[6];
+  ElementVectorLoad(r + 6 * e, &rest);
+  for (int i = 0; i < 3; i++)
+    if (neighbor[i] >= 0 && neighbor[i] < below)
+      ScalarBlockSubtractSingle(p->block[e][1 + i], z + 6 * neighbor[i], &rest);
+  ElementVectorStore(&rest, value);
+  ScalarBlockAddSingle(p->block[e][0], value, &solved);
+  ElementVectorStore(&solved, z + 6 * e);
+}
+
+static PetscErrorCode UpdateGhosts(Preconditioner p)
+{
   PetscFunctionBeginUser;
-  PetscCall(PCShellGetContext(shell, &p));
-  PetscCall(VecGetLocalSize(p->residual, &n));
-  PetscCall(VecGetArrayRead(r, &from));
-  PetscCall(VecGetArrayWrite(z, &to));
-  for (int c = 0; c < 2; c++) {
-    PetscCall(VecGetArrayWrite(p->residual, &one));
-    for (PetscInt e = 0; e < n / 3; e++)
-      for (int i = 0; i < 3; i++) one[3 * e + i] = from[6 * e + 3 * c + i];
-    PetscCall(VecRestoreArrayWrite(p->residual, &one));
-    PetscCall(PCApply(p->pc, p->residual, p->correction));
-    PetscCall(VecGetArrayRead(p->correction, &solved));
-    for (PetscInt e = 0; e < n / 3; e++)
-      for (int i = 0; i < 3; i++) to[6 * e + 3 * c + i] = solved[3 * e + i];
-    PetscCall(VecRestoreArrayRead(p->correction, &solved));
-  }
-  PetscCall(VecRestoreArrayWrite(z, &to));
-  PetscCall(VecRestoreArrayRead(r, &from));
+  if (p->op->alone) PetscFunctionReturn(0);
+  PetscCall(VecGhostUpdateBegin(p->work, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostUpdateEnd(p->work, INSERT_VALUES, SCATTER_FORWARD));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PreconditionerCreate(const Mesh *m, KSP ksp, Preconditioner *preconditioner)
+/* r[ne][2][3], z[ne + ng][2][3]: the array of p->work. */
+static PetscErrorCode Precondition(Preconditioner p, const double r[], double z[])
 {
-  struct Preconditioner_s *p;
-  PetscMPIInt size;
+  const Mesh *m = p->op->domain->mesh;
+  PetscFunctionBeginUser;
+  if (p->corrects) {
+    PetscCall(PetscArrayzero(z, 6 * m->ne));
+    PetscCall(ContinuousSpaceCorrect(p->coarse, r, z));
+    PetscCall(UpdateGhosts(p));
+  }
+  for (int e = 0; e < m->ne; e++) Relax(p, e, p->corrects ? m->ne + m->ng : e, r, z);
+  PetscCall(UpdateGhosts(p));
+  for (int e = m->ne - 1; e >= 0; e--) Relax(p, e, m->ne + m->ng, r, z);
+  PetscFunctionReturn(0);
+}
+
+/* PCSHELL.  On one rank z itself takes the place of p->work. */
+static PetscErrorCode Apply(PC shell, Vec r, Vec z)
+{
+  Preconditioner p;
+  const PetscScalar *from;
+  PetscScalar *to;
+  Vec local = z;
+  PetscFunctionBeginUser;
+  PetscCall(PCShellGetContext(shell, &p));
+  PetscCall(VecGetArrayRead(r, &from));
+  if (!p->op->alone) PetscCall(VecGhostGetLocalForm(p->work, &local));
+  PetscCall(VecGetArray(local, &to));
+  double *array = to; /* stays where it is while ghosts are updated */
+  PetscCall(VecRestoreArray(local, &to));
+  PetscCall(Precondition(p, from, array));
+  PetscCall(VecRestoreArrayRead(r, &from));
+  if (p->op->alone) PetscFunctionReturn(0);
+  PetscCall(VecGhostRestoreLocalForm(p->work, &local));
+  PetscCall(VecCopy(p->work, z));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PreconditionerCreate(MomentumOperator *op, KSP ksp, Preconditioner *preconditioner)
+{
+  const Mesh *m = op->domain->mesh;
+  Preconditioner p;
   PC shell;
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&p));
-  *preconditioner = p;
-  PetscCall(ElementMatrixCreate(m, 3, &p->p));
-  PetscCall(MatCreateVecs(p->p, &p->residual, &p->correction));
-  PetscCall(PCCreate(m->comm, &p->pc));
-  PetscCall(PCSetOptionsPrefix(p->pc, "momentum_component_"));
-  PetscCall(PCSetOperators(p->pc, p->p, p->p));
-  PetscCallMPI(MPI_Comm_size(m->comm, &size));
-  /* on several ranks with overlap 1, which keeps the iterations of one rank */
-  PetscCall(PCSetType(p->pc, size == 1 ? PCILU : PCASM));
-  if (size == 1)
-    PetscCall(PCFactorSetLevels(p->pc, 1));
-  else
-    PetscCall(SolverDefaultOption("momentum_component_", "sub_pc_factor_levels", "1"));
-  PetscCall(PCSetFromOptions(p->pc));
+  p->op = op;
+  PetscCall(PetscMalloc1(m->ne + 1, &p->block));
+  PetscCall(VecDuplicate(op->ghosted, &p->work));
   PetscCall(KSPGetPC(ksp, &shell));
   PetscCall(PCSetType(shell, PCSHELL));
-  PetscCall(PCShellSetName(shell, "component by component"));
+  PetscCall(PCShellSetName(shell, "relaxation and continuous functions"));
   PetscCall(PCShellSetContext(shell, p));
   PetscCall(PCShellSetApply(shell, Apply));
+  *preconditioner = p;
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode CopyBlocks(Mat from, Mat to)
+/* The scalar operator in single precision, its diagonal blocks inverted. */
+static void CopyBlocks(Preconditioner p)
 {
-  const PetscInt *ia, *ja;
-  PetscInt n;
-  PetscBool done;
-  PetscScalar *a, *p;
-  PetscFunctionBeginUser;
-  PetscCall(MatGetRowIJ(from, 0, PETSC_FALSE, PETSC_TRUE, &n, &ia, &ja, &done));
-  PetscCall(MatSeqBAIJGetArray(from, &a));
-  PetscCall(MatSeqBAIJGetArray(to, &p));
-  for (PetscInt k = 0; k < ia[n]; k++)
-    for (int j = 0; j < 3; j++)
-      for (int i = 0; i < 3; i++)
-        p[9 * k + 3 * j + i] = 0.5 * (a[36 * k + 6 * j + i] + a[36 * k + 21 + 6 * j + i]);
-  PetscCall(MatSeqBAIJRestoreArray(to, &p));
-  PetscCall(MatSeqBAIJRestoreArray(from, &a));
-  PetscCall(MatRestoreRowIJ(from, 0, PETSC_FALSE, PETSC_TRUE, &n, &ia, &ja, &done));
-  PetscFunctionReturn(0);
+  const Mesh *m = p->op->domain->mesh;
+  for (int e = 0; e < m->ne; e++) {
+    const double(*from)[9] = (const double(*)[9])p->op->block[e];
+    double inverse[9];
+    ScalarBlockInvert(from[0], inverse);
+    for (int k = 0; k < 9; k++) p->block[e][0][k] = (float)inverse[k];
+    for (int i = 1; i < 4; i++)
+      for (int k = 0; k < 9 && m->neighbor[3 * e + i - 1] >= 0; k++) p->block[e][i][k] = (float)from[i][k];
+  }
 }
 
-PetscErrorCode PreconditionerUpdate(Preconditioner p, KSP ksp, Mat matrix)
+PetscErrorCode PreconditionerUpdate(Preconditioner p)
 {
-  Mat a[2], b[2];
-  PetscBool used;
-  PC shell;
+  const Mesh *m = p->op->domain->mesh;
+  double diffusion = p->op->diffusion;
   PetscFunctionBeginUser;
-  PetscCall(KSPGetPC(ksp, &shell));
-  PetscCall(PetscObjectTypeCompare((PetscObject)shell, PCSHELL, &used));
-  if (!used) PetscFunctionReturn(0); /* -momentum_pc_type has chosen another one */
-  PetscCall(ElementMatrixParts(matrix, &a[0], &a[1], NULL));
-  PetscCall(ElementMatrixParts(p->p, &b[0], &b[1], NULL));
-  for (int k = 0; k < 2 && a[k]; k++) PetscCall(CopyBlocks(a[k], b[k]));
-  PetscCall(MatAssemblyBegin(p->p, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(p->p, MAT_FINAL_ASSEMBLY));
-  PetscCall(PCSetUp(p->pc));
+  CopyBlocks(p);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &diffusion, 1, MPI_DOUBLE, MPI_MAX, m->comm));
+  p->corrects = (PetscBool)(diffusion >= DIFFUSION_COARSE);
+  if (!p->corrects) PetscFunctionReturn(0);
+  if (!p->coarse) PetscCall(ContinuousSpaceCreate(m, &p->coarse));
+  PetscCall(ContinuousSpaceUpdate(p->coarse, (PetscBool)(diffusion >= DIFFUSION_MULTIGRID),
+                                  (const double(*)[9])p->op->volume));
   PetscFunctionReturn(0);
 }
 
@@ -108,10 +126,9 @@ PetscErrorCode PreconditionerDestroy(Preconditioner *preconditioner)
   Preconditioner p = *preconditioner;
   PetscFunctionBeginUser;
   if (!p) PetscFunctionReturn(0);
-  PetscCall(VecDestroy(&p->residual));
-  PetscCall(VecDestroy(&p->correction));
-  PetscCall(PCDestroy(&p->pc));
-  PetscCall(MatDestroy(&p->p));
+  PetscCall(ContinuousSpaceDestroy(&p->coarse));
+  PetscCall(VecDestroy(&p->work));
+  PetscCall(PetscFree(p->block));
   PetscCall(PetscFree(*preconditioner));
   PetscFunctionReturn(0);
 }

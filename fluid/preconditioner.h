@@ -1,22 +1,34 @@
-/* The momentum equation's preconditioner: both components of the velocity are nearly decoupled, by the same
- * scalar operator P, whose block for elements K and N is the mean of the xx and the yy part of the full one:
+/* The momentum equation's preconditioner.  Both components of the velocity are nearly decoupled, by the same
+ * scalar operator S (momentum_operator.h), on which it works with two right-hand sides at once, in single
+ * precision.  One application, z ~ S^-1 r:
  *
- *     A_KN ~ [ P_KN   0   ]      6 x 6 from 3 x 3
- *            [  0    P_KN ]
+ *   coarse      z   = correction in continuous functions (continuous_space.h)
+ *   forward     z_e = S_ee^-1 (r_e - sum over neighbours n of S_en z_n)          e = 0, 1, ...
+ *   backward    the same                                                         e = ..., 1, 0
  *
- * An incomplete factorisation of P is eight times cheaper than one of A, and moves a quarter of the memory,
- * which is what the iterations wait for.  It is made anew in every step: the solid's stiff terms move with
- * it. */
+ * The coarse correction removes what viscosity spreads over many elements, relaxation the jumps and advected
+ * errors.  Whether the former is needed, and its solver, follow from the largest number
+ * D = theta mu dt/(rho |K|) of any element:
+ *
+ *   D < DIFFUSION_COARSE         no correction: an element hardly sees its neighbours
+ *   D < DIFFUSION_MULTIGRID      incomplete factor
+ *   else                         algebraic multigrid
+ *
+ * Neighbours on other ranks count with their values of the last exchange (before each sweep).  It is made anew
+ * in every step: advection and the solid's stiff terms move. */
 #ifndef FLUID_PRECONDITIONER_H
 #define FLUID_PRECONDITIONER_H
-#include "common/mesh/mesh.h"
+#include "fluid/momentum_operator.h"
 #include <petscksp.h>
+
+#define DIFFUSION_COARSE 0.1
+#define DIFFUSION_MULTIGRID 8.0
 
 typedef struct Preconditioner_s *Preconditioner;
 
 /* Becomes the preconditioner of ksp, unless its options choose another one.  Collective, like all of this. */
-PetscErrorCode PreconditionerCreate(const Mesh *mesh, KSP ksp, Preconditioner *p);
-/* For the assembled matrix of the momentum equation. */
-PetscErrorCode PreconditionerUpdate(Preconditioner p, KSP ksp, Mat matrix);
+PetscErrorCode PreconditionerCreate(MomentumOperator *op, KSP ksp, Preconditioner *p);
+/* For the operator as it has been assembled. */
+PetscErrorCode PreconditionerUpdate(Preconditioner p);
 PetscErrorCode PreconditionerDestroy(Preconditioner *p);
 #endif

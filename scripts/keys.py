@@ -128,6 +128,7 @@ def named_in_sources():
                 continue
             with open(os.path.join(folder, name)) as source:
                 text = re.sub(r"/\*.*?\*/", "", source.read(), flags=re.S)
+            text = re.sub(r'CoracleCaseRenamed\([^;]*;', '', text)  # names of earlier versions
             for key in re.findall(r'Case\w*\([^;]*?"((?:fluid|solid|coupler|time|output)\.[\w.\[\]%]+)"', text):
                 found.add(re.sub(r"%[.\d]*s", "*", key.replace("[%d]", "[]")))
             found.update("solid.bodies[]." + key for key in re.findall(r'BodyKey\(\w+, [^,]+, "([\w.]+)"\)', text))

@@ -1,8 +1,8 @@
-/* What a transfer knows, for those who intersect old and new elements themselves, because their data are not P1 or
- * P2 functions:
+/* What a transfer knows, for those who intersect old and new elements themselves, because their data are not
+ * P1 or P2 functions:
  *
  *     an unchanged new element      the data of the same old element: `copies`
- *     a changed one                 old elements that may touch it: `parts`, with their data, to be clipped */
+ *     a changed one                 old elements that may touch it: `parts`, with their data, to clip */
 #ifndef CORACLE_TRANSFER_PARTS_H
 #define CORACLE_TRANSFER_PARTS_H
 #include "common/supermesh/search.h"

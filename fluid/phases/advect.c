@@ -1,9 +1,9 @@
 /* Unsplit, flux-matched advection of the volumes.
  *
- *      a----------b     Face ab, outward to its right.  a' and b' are where its vertices were dt ago; m moves out
- *       \        /      of the middle of a'b' until the area a b b' m a' is flux dt.  The phases that lie in this
- *        \      /       polygon leave through the face.  It is taken as three signed triangles at a, so that it
- *        a'--.b'        may cross itself.
+ *      a----------b     Face ab, outward to its right.  a' and b' are where its vertices were dt ago; m'
+ *       \        /      moves out of the middle of a'b' until the area a b b' m' a' is flux dt.  The phases
+ *        \      /       that lie in this polygon leave through the face.  It is taken as three signed
+ *        a'--.b'        triangles at a, so that it may cross itself.
  *          m'
  *
  * Faces among elements of one phase, two rings deep, carry this phase and need no polygon. */
@@ -153,8 +153,8 @@ static int Apart(const Swept *r, const double x[3][2])
   return 0;
 }
 
-/* area[np] of the listed elements' phases in the region; returns what they do not cover of it, over the square of
- * the edge. */
+/* area[np] of the listed elements' phases in the region; returns what they do not cover of it, over the
+ * square of the edge. */
 static double Collect(const Step *t, const Swept *r, double area[])
 {
   Polygon triangle[3], moved, part;
@@ -193,7 +193,8 @@ static double Collect(const Step *t, const Swept *r, double area[])
   return (all - covered) / (edge[0] * edge[0] + edge[1] * edge[1]);
 }
 
-/* What the elements leave of the swept area, `rest`, comes from outside of open boundaries, or is round-off. */
+/* What the elements leave of the swept area, `rest`, comes from outside of open boundaries, or is round-off.
+ * */
 static void Balance(Step *t, int a, int b, int tag, double uncovered, double swept, double area[])
 {
   double rest = swept;

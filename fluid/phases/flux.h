@@ -1,7 +1,7 @@
 /* Conservative fluxes from a velocity whose divergence vanishes against the P2 functions only.
  *
- * r_{K,a} = int_K u . grad(lambda_a), lambda_a the hat function of vertex a of element K.  A hat function is in P2,
- * so around an inner vertex the r_{K,a} of its star sum to zero, and one number per edge of the star,
+ * r_{K,a} = int_K u . grad(lambda_a), lambda_a the hat function of vertex a of element K.  A hat function is
+ * in P2, so around an inner vertex the r_{K,a} of its star sum to zero, and one number per edge of the star,
  *
  *        \  |  /           phi_{k+1} = phi_k + r_{K_k,a}        counter-clockwise around a,
  *       K1\ | /K0
@@ -9,9 +9,9 @@
  *       K2/ | \            (least squares, weight 1 / length).  At the boundary the chain begins and ends at
  *        /  |  \           boundary faces: prescribed there, or free where the boundary is open.
  *
- * The flux through a face is the sum over its two vertices, and over an element sum_f F_f = int_K u . grad(1) = 0.
- * With the linear part of {u}.n the fluxes make a field beta in BDM1 (Brezzi, Douglas and Marini 1985): its
- * normal part is continuous and its divergence is zero in every point.
+ * The flux through a face is the sum over its two vertices, and over an element sum_f F_f = int_K u . grad(1)
+ * = 0. With the linear part of {u}.n the fluxes make a field beta in BDM1 (Brezzi, Douglas and Marini 1985):
+ * its normal part is continuous and its divergence is zero in every point.
  *
  * What a solver's tolerance leaves of sum r - (prescribed flux) around a vertex is spread evenly over its
  * elements and reported: an element's fluxes then sum to the shares of its vertices. */
@@ -21,9 +21,9 @@
 
 typedef struct {
   const char *open; /* [ntags] nonzero: free; else prescribed.  NULL: no boundary is open */
-  const double
-      *moment; /* [ne][3][2] int_f lambda g.n, m2/s, of the face's first and second vertex (i + 1) % 3 and
-                           (i + 2) % 3, prescribed; read on boundary faces only.  NULL: 0 everywhere */
+  /* [ne][3][2] int_f lambda g.n, m2/s, of a face's first and second vertex (i + 1) % 3 and (i + 2) % 3, read
+   * on prescribed boundary faces only.  NULL: 0 everywhere */
+  const double *moment;
 } FluxBoundary;
 
 typedef struct {
@@ -33,12 +33,13 @@ typedef struct {
   double change;    /* root mean square of F - int_f {u}.n over that of int_f {u}.n, inner faces */
 } FluxReport;
 
-/* Collective.  u[ne][6]: P1DG velocity, component c at vertex i is 3 c + i, m/s.  flux[ne][3]: outward, m2/s; the two
- * sides of a face have opposite numbers to the last bit, on any ranks.  beta[ne][6], or NULL, like u. */
+/* Collective.  u[ne][6]: P1DG velocity, component c at vertex i is 3 c + i, m/s.  flux[ne][3]: outward, m2/s;
+ * the two sides of a face have opposite numbers to the last bit, on any ranks.  beta[ne][6], or NULL, like u.
+ * */
 PetscErrorCode FluxEquilibrate(const Stars *stars, const double u[], const FluxBoundary *boundary,
                                double flux[], double beta[], FluxReport *report);
 
-/* Collective.  One continuous velocity[ne][3][2] at the vertices: the mean of beta over each star, weighted with
- * the elements' areas; the same bits wherever a vertex appears. */
+/* Collective.  One continuous velocity[ne][3][2] at the vertices: the mean of beta over each star, weighted
+ * with the elements' areas; the same bits wherever a vertex appears. */
 PetscErrorCode FluxVertexVelocity(const Stars *stars, const double beta[], double velocity[]);
 #endif

@@ -1,20 +1,23 @@
 /* Inertia and pressure of an element that an interface cuts.  Kernel: no mesh, no MPI.
  *
- * Sub-cell mass matrix W = int rho N_i N_j, rho as the phases' polygons have it, so that weight is W g.  A P2 pressure
- * cannot balance it: the pressure has a kink along the interface.  Each line has one ridge function
+ * Sub-cell mass matrix W = int rho N_i N_j, rho as the phases' polygons have it, so that weight is W g.  A P2
+ * pressure cannot balance it: the pressure has a kink along the interface.  Each line has one ridge function
  *
- *     psi = sum_i |d_i| lambda_i - |d|,       d(x) = n.x - d_0 the distance from the line, d_i at the vertices:
+ *     psi = sum_i |d_i| lambda_i - |d|,    d(x) = n.x - d_0 the distance from the line, d_i at the vertices:
  *
- *       \        |        /      0 at the vertices and on edges that the line does not cut, one kink along the
- *     ---\------/ \------/---    line.  Hydrostatic pressure = its interpolant at the vertices + kappa psi, exactly.
+ *       \        |        /      0 at the vertices and on edges that the line does not cut, one kink along
+ *     ---\------/ \------/---    the line.  Hydrostatic pressure = its interpolant at the vertices
+ *                                + kappa psi, exactly.
  *
  * (Moes, Cloirec, Cartraud and Remacle 2003 for such functions.)  With c = int N grad psi there are two ways:
  *
- *   kink     kappa = 1/2 [rho] g.n is known: W u+ = W u* + dt (W g - kappa c - C phi).  The pressure's matrix has W^-1;
- *            hydrostatics is exact, nothing is asked of the velocity.  What accelerates the interface is not in kappa.
+ *   kink     kappa = 1/2 [rho] g.n is known: W u+ = W u* + dt (W g - kappa c - C phi), and the pressure's
+ *            matrix has W^-1; hydrostatics is exact, nothing is asked of the velocity.  What accelerates the
+ *            interface is not in kappa.
  *   ridge    kappa is an unknown with c.u+ = 0 as its equation, condensed: R = Q W^-1 in place of W^-1,
- *            Q = I - W^-1 c c^T/(c^T W^-1 c).  Also exact at rest, but psi is not 0 on the edges that the line cuts, so
- *            c.u = 0 fails for a uniform u: Q slows a fluid that flows along its surface (tests/phases/bench_wave.c).
+ *            Q = I - W^-1 c c^T/(c^T W^-1 c).  Also exact at rest, but psi is not 0 on the edges that the
+ *            line cuts, so c.u = 0 fails for a uniform u: Q slows a fluid that flows along its surface
+ *            (tests/phases/test_wave.c).
  *
  * Velocity unknown 3 c + i is component c at vertex i. */
 #ifndef CORACLE_PHASES_INERTIA_H
@@ -23,8 +26,8 @@
 
 enum { INERTIA_NU = 6, INERTIA_RIDGES = 7 };
 
-/* A ridge whose c^T W^-1 c is below this share of the largest one possible is dropped: the sliver that it belongs to
- * has no weight. */
+/* A ridge whose c^T W^-1 c is below this share of the largest one possible is dropped: the sliver that it
+ * belongs to has no weight. */
 #define INERTIA_SLIVER 1e-20
 
 typedef struct {
@@ -111,8 +114,8 @@ static inline void InertiaRidge(const HalfPlane *line, Inertia *m)
   m->n++;
 }
 
-/* force[6] = -kappa c of the last ridge added, before InertiaCondense: kappa = (below - above)/2 g.n, for densities
- * below n.x = d_0 and above it, kg/m3, and gravity, m/s2. */
+/* force[6] = -kappa c of the last ridge added, before InertiaCondense: kappa = (below - above)/2 g.n, for
+ * densities below n.x = d_0 and above it, kg/m3, and gravity, m/s2. */
 static inline void InertiaKink(const Inertia *m, const double n[2], double below, double above,
                                const double g[2], double force[INERTIA_NU])
 {
@@ -136,8 +139,8 @@ static inline void InertiaSolve(const Inertia *m, const double in[INERTIA_NU], d
   }
 }
 
-/* Inverts the mass matrix and makes the ridges orthonormal in W^-1 (Gram and Schmidt).  Returns 0, or 1 if the mass
- * matrix is not positive. */
+/* Inverts the mass matrix and makes the ridges orthonormal in W^-1 (Gram and Schmidt).  Returns 0, or 1 if
+ * the mass matrix is not positive. */
 static inline int InertiaCondense(Inertia *m)
 {
   const double(*a)[3] = m->mass;

@@ -9,8 +9,8 @@
  *     / .  2  `. \
  *    /__________`_\
  *
- * Order of use: PhasesCreate, PhasesFill (region.h) or PhasesSetVolumes, then for each step PhasesReconstruct and
- * PhasesAdvect.  All functions are collective unless they say otherwise. */
+ * Order of use: PhasesCreate, PhasesFill (region.h) or PhasesSetVolumes, then for each step PhasesReconstruct
+ * and PhasesAdvect.  All functions are collective unless they say otherwise. */
 #ifndef CORACLE_PHASES_H
 #define CORACLE_PHASES_H
 #include "common/transfer/transfer.h"
@@ -33,17 +33,19 @@ PetscErrorCode PhasesGetVolumes(Phases phases, const double *volume[]);
 /* The lines in cut elements, from the volumes.  Straight interfaces are found to round-off; the error of a
  * curved one is of order h^2. */
 PetscErrorCode PhasesReconstruct(Phases phases);
-/* Not collective.  The part of phase p in owned element e as a polygon in the mesh's coordinates; n = 0: none. */
+/* Not collective.  The part of phase p in owned element e as a polygon in the mesh's coordinates; n = 0:
+ * none. */
 PetscErrorCode PhasesGetPolygon(Phases phases, int e, int p, Polygon *polygon);
 /* Not collective.  The single phase of owned element e, -1 if it is cut. */
 int PhasesSingle(Phases phases, int e);
 
-/* Not collective.  The inertia of owned element e with phases of density rho[nphases], kg/m3.  condense: with a
- * ridge for each line (inertia.h). */
+/* Not collective.  The inertia of owned element e with phases of density rho[nphases], kg/m3.  condense: with
+ * a ridge for each line (inertia.h). */
 PetscErrorCode PhasesGetInertia(Phases phases, int e, const double rho[], PetscBool condense,
                                 Inertia *inertia);
-/* Not collective.  force[6], N/m: minus the gradient of the hydrostatic pressure's kinks in owned element e, tested with
- * the velocity's functions; each line divides its phase from the next one that the element has. */
+/* Not collective.  force[6], N/m: minus the gradient of the hydrostatic pressure's kinks in owned element e,
+ * tested with the velocity's functions; each line divides its phase from the next one that the element has.
+ * */
 PetscErrorCode PhasesGetKink(Phases phases, int e, const double rho[], const double gravity[2],
                              double force[6]);
 
@@ -52,18 +54,19 @@ typedef struct {
   const double (*fraction)[PHASES_MAX]; /* [ntags][nphases], sum 1; NULL: boundaries are closed */
 } PhasesInflow;
 
-/* One step of dt, s, along fluxes flux[ne][3] (outward through face i, m2/s; what leaves an element enters its
- * neighbour, to the last bit; their sum over an element is 0) and the continuous velocity[ne][3][2] at the
- * vertices, m/s, the same bits wherever a vertex appears; both are those of the middle of the step.  Needs the lines;
- * afterwards these belong to the old volumes.  swept[ne][3][nphases], or NULL: volume of each phase that left
- * through face i, m2.  A boundary face of flux 0 is a wall: its vertices slide along it, or stay at corners.
- * Error PETSC_ERR_ARG_OUTOFRANGE, on all ranks, for a step that traces a vertex out of its two rings. */
+/* One step of dt, s, along fluxes flux[ne][3] (outward through face i, m2/s; what leaves an element enters
+ * its neighbour, to the last bit; their sum over an element is 0) and the continuous velocity[ne][3][2] at
+ * the vertices, m/s, the same bits wherever a vertex appears; both are those of the middle of the step.
+ * Needs the lines; afterwards these belong to the old volumes.  swept[ne][3][nphases], or NULL: volume of
+ * each phase that left through face i, m2.  A boundary face of flux 0 is a wall: its vertices slide along it,
+ * or stay at corners. Error PETSC_ERR_ARG_OUTOFRANGE, on all ranks, for a step that traces a vertex out of
+ * its two rings. */
 PetscErrorCode PhasesAdvect(Phases phases, double dt, const double flux[], const double velocity[],
                             const PhasesInflow *inflow, double swept[]);
 
-/* Volumes of `to` from lines and volumes of `from`, both on the meshes that the transfer was made of: copies where
- * elements are the same, else exact intersections of each phase's polygons with the new elements.  Conserves each
- * phase to round-off and stays within [0, area].  Needs the lines of `from`. */
+/* Volumes of `to` from lines and volumes of `from`, both on the meshes that the transfer was made of: copies
+ * where elements are the same, else exact intersections of each phase's polygons with the new elements.
+ * Conserves each phase to round-off and stays within [0, area].  Needs the lines of `from`. */
 PetscErrorCode PhasesRemap(Phases from, Transfer transfer, Phases to);
 
 typedef struct {

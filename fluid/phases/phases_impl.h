@@ -37,7 +37,8 @@ static inline HalfPlane PhasesLine(Phases f, int e, int p, const double origin[2
  * origin. */
 void PhasesSplit(Phases phases, int e, const Polygon *polygon, const double origin[2], double weight,
                  double area[]);
-/* The same in an element whose first vertex is x0 and that has these lines[np - 1], or is of a single phase. */
+/* The same in an element whose first vertex is x0 and that has these lines[np - 1], or is of a single phase.
+ * */
 void PhasesSplitBy(int np, int single, const HalfPlane line[], const double x0[2], const Polygon *polygon,
                    const double origin[2], double weight, double area[]);
 #endif

@@ -5,12 +5,13 @@
  * `volume` what of it belongs to this phase.  The line n.x = d keeps |part_K and n.x <= d| = volume_K and
  * minimises
  *
- *     E(theta) = sum_J ((A_J - volume_J) / area_J)^2,   A_J = |part_J and n.x <= d|,  n = (cos theta, sin theta)
+ *     E(theta) = sum_J ((A_J - volume_J) / area_J)^2,   A_J = |part_J and n.x <= d|,
+ *     n = (cos theta, sin theta)
  *
- * (Puckett 1991; Pilliod and Puckett 2004 on squares).  When the line turns, it turns about the middle t_K of its
- * segment in K, because there the area must not change, so dA_J/dtheta = l_J (t_K - t_J), with l_J and t_J the
- * length and middle of its segment in part_J: Gauss-Newton with an exact derivative.  A straight interface has
- * E = 0 and is found to round-off on any mesh; then the convergence is quadratic. */
+ * (Puckett 1991; Pilliod and Puckett 2004 on squares).  When the line turns, it turns about the middle t_K of
+ * its segment in K, because there the area must not change, so dA_J/dtheta = l_J (t_K - t_J), with l_J and
+ * t_J the length and middle of its segment in part_J: Gauss-Newton with an exact derivative.  A straight
+ * interface has E = 0 and is found to round-off on any mesh; then the convergence is quadratic. */
 #ifndef CORACLE_PHASES_PLIC_H
 #define CORACLE_PHASES_PLIC_H
 #include "fluid/phases/polygon.h"
@@ -51,7 +52,8 @@ static inline void PlicEvaluate(int n, const PlicCell cell[], double theta, Plic
   s->step = gg > 0.0 ? -eg / gg : 0.0;
 }
 
-/* Above this E the interface is not straight: what the last digits of theta change is below the error of any line. */
+/* Above this E the interface is not straight: what the last digits of theta change is below the error of any
+ * line. */
 #define PLIC_CURVED 1e-8
 
 /* Gauss-Newton from theta; steps are halved until E decreases. */
@@ -92,8 +94,8 @@ static inline void PlicGuess(int n, const PlicCell cell[], double normal[2])
   normal[1] = det > 0.0 ? -(a * r[1] - b * r[0]) / det : 0.0;
 }
 
-/* The line of cell[0].  Where the neighbours do not lie along one line (E above PLIC_POOR, a thin filament or a
- * corner) other starting angles are tried. */
+/* The line of cell[0].  Where the neighbours do not lie along one line (E above PLIC_POOR, a thin filament or
+ * a corner) other starting angles are tried. */
 #define PLIC_POOR 1e-3
 static inline HalfPlane PlicFit(int n, const PlicCell cell[])
 {

@@ -19,8 +19,8 @@ typedef struct {
   double n[2], d;
 } HalfPlane;
 
-/* What a line leaves of a polygon, and the segment of the line inside: its length and the mean of t = tau.x on
- * it, tau = (-n[1], n[0]). */
+/* What a line leaves of a polygon, and the segment of the line inside: its length and the mean of t = tau.x
+ * on it, tau = (-n[1], n[0]). */
 typedef struct {
   double area, length, middle;
 } PolygonCut;
@@ -58,8 +58,8 @@ static inline HalfPlane HalfPlaneOther(const HalfPlane *h)
   return (HalfPlane){{-h->n[0], -h->n[1]}, -h->d};
 }
 
-/* Sutherland and Hodgman (1974): *out is the part of *in within the half plane.  A vertex on the line stays and
- * cuts no edge; a crossing is a convex combination of the edge's ends.  in and out differ. */
+/* Sutherland and Hodgman (1974): *out is the part of *in within the half plane.  A vertex on the line stays
+ * and cuts no edge; a crossing is a convex combination of the edge's ends.  in and out differ. */
 static inline void PolygonClip(const Polygon *in, const HalfPlane *h, Polygon *out)
 {
   double s[POLYGON_MAX];
@@ -102,7 +102,8 @@ static inline void PolygonClipTriangle(const Polygon *in, const double x[3][2], 
   PolygonClip(&b, &h2, out);
 }
 
-/* Area of the part within the half plane (unit normal) of a polygon of area `all`, and the line's segment in it. */
+/* Area of the part within the half plane (unit normal) of a polygon of area `all`, and the line's segment in
+ * it. */
 static inline PolygonCut PolygonCutBy(const Polygon *p, double all, const HalfPlane *h)
 {
   PolygonCut cut = {0.0, 0.0, 0.0};
@@ -167,8 +168,9 @@ static inline double PolygonTriangleOffset(const Polygon *p, const double n[2], 
   return s[2] - sqrt((all - area) / all * (s[2] - s[1]) * (s[2] - s[0]));
 }
 
-/* d such that the part n.x <= d of a convex polygon has the given area, to round-off: the vertices sorted along
- * n bound strips in which the area is quadratic in d.  n of unit length; the area is cut to [0, all]. */
+/* d such that the part n.x <= d of a convex polygon has the given area, to round-off: the vertices sorted
+ * along n bound strips in which the area is quadratic in d.  n of unit length; the area is cut to [0, all].
+ * */
 static inline double PolygonFindOffset(const Polygon *p, const double n[2], double area)
 {
   double s[POLYGON_MAX] = {0.0}, below = 0.0, width = 0.0;

@@ -54,8 +54,8 @@ static PetscErrorCode HalfPlaneTriangles(const Mesh *m, const Region *r, Triangl
   PetscFunctionReturn(0);
 }
 
-/* The regular polygon between corners i and j: halved again and again, so that triangles are as large as they can
- * be away from its outline. */
+/* The regular polygon between corners i and j: halved again and again, so that triangles are as large as they
+ * can be away from its outline. */
 static void Halve(const double corner[][2], int i, int j, Triangles *t)
 {
   const int middle = (i + j) / 2;

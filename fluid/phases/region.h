@@ -1,7 +1,7 @@
 /* Regions of the plane that belong to phases, as a case file lists them: boxes, half planes, discs, polygons.
  * Later ones are painted over earlier ones.  A region becomes triangles, a disc those of a
- * regular polygon of 2048 sides and the disc's area, and these are intersected with the elements: fractions are exact to round-off for straight sides,
- * and to 1e-6 of the radius in place for discs. */
+ * regular polygon of 2048 sides and the disc's area, and these are intersected with the elements: fractions
+ * are exact to round-off for straight sides, and to 1e-6 of the radius in place for discs. */
 #ifndef CORACLE_PHASES_REGION_H
 #define CORACLE_PHASES_REGION_H
 #include "fluid/phases/phases.h"
@@ -18,8 +18,8 @@ typedef struct {
   const double (*x)[2]; /* polygon: [n] in either sense, simple; borrowed */
 } Region;
 
-/* Collective.  Sets the volumes.  Errors, on all ranks: PETSC_ERR_ARG_OUTOFRANGE for a phase that does not exist, a
- * shape without area or a polygon that crosses itself; PETSC_ERR_ARG_INCOMP if some of the domain is in no
- * region. */
+/* Collective.  Sets the volumes.  Errors, on all ranks: PETSC_ERR_ARG_OUTOFRANGE for a phase that does not
+ * exist, a shape without area or a polygon that crosses itself; PETSC_ERR_ARG_INCOMP if some of the domain is
+ * in no region. */
 PetscErrorCode PhasesFill(Phases phases, int nregions, const Region region[]);
 #endif

@@ -11,7 +11,8 @@ typedef struct {
   const double (*velocity)[3][2]; /* [nl] at the vertices, continuous, m/s */
 } TraceFlow;
 
-/* shift = (place where vertex v was dt ago) - (its place), m, by the midpoint rule along the velocity, linear in
- * each element around v.  v < nowned.  Vertices of straight walls slide, those at corners of walls stay. */
+/* shift = (place where vertex v was dt ago) - (its place), m, by the midpoint rule along the velocity, linear
+ * in each element around v.  v < nowned.  Vertices of straight walls slide, those at corners of walls stay.
+ * */
 void TraceVertex(const TraceFlow *flow, int v, double shift[2]);
 #endif

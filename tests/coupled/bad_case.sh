@@ -34,7 +34,7 @@ case $scenario in
   zero_viscosity) with fluid.viscosity=0; expect="key 'fluid.viscosity': expected a number > 0" ;;
   negative_density) with 'solid.materials.disc.density=-1'; expect="solid.*density': expected a number > 0" ;;
   bad_mode) with coupler.mode=magic; expect="coupler.*'coupler.mode'.*reaction" ;;
-  old_key) with coupler.tries=30; expect="'coupler.tries'.*is called coupler.max_iterations now" ;;
+  old_key) with coupler.tries=30; expect="'coupler.tries'.*is now called 'coupler.max_iterations'" ;;
   no_shell) with coupler.shell_thickness=0; expect="'coupler.shell_thickness'" ;;
   bad_theta) with fluid.theta=0.3; expect="'fluid.theta'" ;;
   bad_end) with time.end=-1; expect="'time.end'" ;;

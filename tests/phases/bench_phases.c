@@ -1,17 +1,18 @@
-/* Errors, bounds and speed of advection on unstructured triangles with edges of about 1/n, beside published values:
+/* Errors, bounds and speed of advection on unstructured triangles with edges of about 1/n, beside published
+ * values:
  *
  *   bench_phases vortex [n ...]    Rider and Kothe's single vortex, reversed, period 8; default 32 64 128
  *   bench_phases short [n ...]     the same, period 2
  *   bench_phases zalesak [n ...]   the slotted disc after one revolution; default 32 64 128 167
  *   bench_phases sliding [n ...]   the vortex of Basilisk's reversed.c, period 15
  *
- * Prints a table; exit code 1 if an error is above the published one, or area or bounds are not kept.  Published, m2,
- * on n x n squares (half as many cells), for n = 32, 64, 128:
+ * Prints a table; exit code 1 if an error is above the published one, or area or bounds are not kept.
+ * Published, m2, on n x n squares (half as many cells), for n = 32, 64, 128:
  *   vortex   Rider and Kothe, J. Comput. Phys. 141 (1998): 4.78e-2 6.96e-3 1.44e-3 (the bound here);
  *            Lopez, Hernandez, Gomez and Faura, J. Comput. Phys. 195 (2004): 3.77e-2 6.58e-3 1.07e-3
  *   short    Rider and Kothe: 2.36e-3 5.85e-4 1.31e-4
- *   zalesak  Rudman, Int. J. Numer. Meth. Fluids 24 (1997), Youngs, of the disc's area, radius 25 cells (n = 167 here):
- *            1.09e-2
+ *   zalesak  Rudman, Int. J. Numer. Meth. Fluids 24 (1997), Youngs, of the disc's area, radius 25 cells
+ *            (n = 167 here): 1.09e-2
  *   sliding  Basilisk, src/test/reversed.ref: 5.51e-2 1.09e-2 1.60e-3 */
 #include "tests/phases/flows.h"
 

@@ -145,8 +145,8 @@ static inline double CpuSeconds(void)
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Steps from t to t + steps * dt; lowest and highest fraction met, and the largest gap, in *worst.  *seconds, or NULL:
- * of this rank's processor in lines and advection. */
+/* Steps from t to t + steps * dt; lowest and highest fraction met, and the largest gap, in *worst.  *seconds,
+ * or NULL: of this rank's processor in lines and advection. */
 static inline PetscErrorCode March(Phases phases, const Mesh *m, const Flow *flow, double t, double dt,
                                    int steps, PhasesStats *worst, double *seconds)
 {

@@ -1,5 +1,5 @@
-/* Water below air in the closed unit square, inviscid: gravity, the inertia of cut elements, the pressure, and momentum
- * that moves with the mass (one velocity an element moves; slopes stay).  One step is
+/* Water below air in the closed unit square, inviscid: gravity, the inertia of cut elements, the pressure,
+ * and momentum that moves with the mass (one velocity an element moves; slopes stay).  One step is
  *
  *     C^T R C p = C^T Q (u/dt + g + W^-1 k),    u <- Q (u + dt (g + W^-1 k)) - dt R C p
  *
@@ -71,7 +71,8 @@ static inline PetscErrorCode TankInertia(int form, Tank *t)
   PetscFunctionReturn(0);
 }
 
-/* At rest, on a random mesh of n x n cells; gravity is normal to the line from below to above of slope `slope`. */
+/* At rest, on a random mesh of n x n cells; gravity is normal to the line from below to above of slope
+ * `slope`. */
 static inline PetscErrorCode TankMake(int n, unsigned seed, double slope, int nregions, const Region region[],
                                       Tank *t)
 {
@@ -222,7 +223,8 @@ static inline double TankMomentum(const Inertia *m, const double u[6], double q[
   return mass;
 }
 
-/* Moves the interface and, with the mass that passes the faces, the mean momentum of the elements that it leaves. */
+/* Moves the interface and, with the mass that passes the faces, the mean momentum of the elements that it
+ * leaves. */
 static inline PetscErrorCode TankMove(int form, Tank *t, double dt, double *defect)
 {
   const Stars *s = t->stars;

@@ -1,7 +1,8 @@
 // ranks: 1 2 3
-/* Advection with prescribed flows: a straight interface moves exactly, across open boundaries too, with two and three
- * phases; the vortex and Zalesak's disc come back within the errors stated, converge, keep their area and stay within
- * bounds; the volumes that pass faces sum to the fluxes; a step that is too long is refused.
+/* Advection with prescribed flows: a straight interface moves exactly, across open boundaries too, with two
+ * and three phases; the vortex and Zalesak's disc come back within the errors stated, converge, keep their
+ * area and stay within bounds; the volumes that pass faces sum to the fluxes; a step that is too long is
+ * refused.
  *
  * advect print: also prints the table. */
 #include "tests/phases/flows.h"
@@ -62,8 +63,8 @@ static int Layers(int np, double t, Region region[3])
   return np;
 }
 
-/* Where nothing but phase 0 flows in from below, the last from the left: the interface leaves no boundary point where
- * it would enter, apart from the corner region that is left out of the comparison. */
+/* Where nothing but phase 0 flows in from below, the last from the left: the interface leaves no boundary
+ * point where it would enter, apart from the corner region that is left out of the comparison. */
 static PetscErrorCode Straight(int np)
 {
   static const double LAST[PHASES_MAX] = {0.0};

@@ -1,7 +1,8 @@
 // ranks: 1 2 3
-/* Fluxes of the fluid's own projected velocity, noisy on purpose: they close on every element, are opposite on both
- * sides of a face, stay near {u}.n; beta is continuous in its normal part and free of divergence.  A linear
- * solenoidal velocity gives its own fluxes to round-off, also through open boundaries.  flux print: says how well. */
+/* Fluxes of the fluid's own projected velocity, noisy on purpose: they close on every element, are opposite
+ * on both sides of a face, stay near {u}.n; beta is continuous in its normal part and free of divergence.  A
+ * linear solenoidal velocity gives its own fluxes to round-off, also through open boundaries.  flux print:
+ * says how well. */
 #include "fluid/fluid.h"
 #include "fluid/phases/flux.h"
 #include "tests/phases/flows.h"

@@ -1,10 +1,10 @@
 // ranks: 1 2 3
-/* Lines in cut elements: straight interfaces, layers and a T-junction of three phases are found to round-off on
- * random and on stretched meshes; a circle with order 2. */
+/* Lines in cut elements: straight interfaces, layers and a T-junction of three phases are found to round-off
+ * on random and on stretched meshes; a circle with order 2. */
 #include "tests/phases/flows.h"
 
-/* |current polygons - those of the lines|: largest distance of a vertex of phase p's polygon in a cut element from the
- * lines listed: each vertex must lie on one of them or on the element's outline. */
+/* |current polygons - those of the lines|: largest distance of a vertex of phase p's polygon in a cut element
+ * from the lines listed: each vertex must lie on one of them or on the element's outline. */
 typedef struct {
   int n;
   HalfPlane line[3];

@@ -1,5 +1,5 @@
-/* Kernels: a line divides a polygon without loss; offsets give the area asked for; the derivative of areas as the
- * line turns is that of finite differences. */
+/* Kernels: a line divides a polygon without loss; offsets give the area asked for; the derivative of areas as
+ * the line turns is that of finite differences. */
 #include "fluid/phases/plic.h"
 #include "tests/check.h"
 #include "tests/transfer/shaken.h"

@@ -1,6 +1,6 @@
 // ranks: 1 3
-/* Areas of regions on a random mesh: exact for straight sides, 1e-13 for a disc; what is painted later lies on top;
- * bad regions are refused with the reason. */
+/* Areas of regions on a random mesh: exact for straight sides, 1e-13 for a disc; what is painted later lies
+ * on top; bad regions are refused with the reason. */
 #include "tests/phases/flows.h"
 
 static char reason[1024];

@@ -1,7 +1,7 @@
 // ranks: 1 2 3
-/* Phases through adaptations of the mesh: a straight interface and a layer stay where they are to round-off; a disc
- * through 100 adaptations keeps its area to 1e-12 and its outline to a tenth of the edge length le, fractions stay
- * within bounds; what did not change is copied.  remap print: also says how well. */
+/* Phases through adaptations of the mesh: a straight interface and a layer stay where they are to round-off;
+ * a disc through 100 adaptations keeps its area to 1e-12 and its outline to a tenth of the edge length le,
+ * fractions stay within bounds; what did not change is copied.  remap print: also says how well. */
 #include "tests/phases/flows.h"
 
 #define LE 0.02

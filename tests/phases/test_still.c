@@ -1,7 +1,8 @@
 // ranks: 1 2 3
-/* A still tank of water below air, 1060 : 1.2 kg/m3, on a mesh that knows nothing of the surface: the first step's
- * velocity over g dt.  With the sub-cell mass matrix and its kinks or ridges it is at rest; with neither it is not.  It stays at
- * rest while the interface moves with what is left.  still print: says how much. */
+/* A still tank of water below air, 1060 : 1.2 kg/m3, on a mesh that knows nothing of the surface: the first
+ * step's velocity over g dt.  With the sub-cell mass matrix and its kinks or ridges it is at rest; with
+ * neither it is not.  It stays at rest while the interface moves with what is left.  still print: says how
+ * much. */
 #include "tests/phases/tank.h"
 
 static int print;

@@ -1,7 +1,8 @@
 // ranks: 1 2
-/* A standing wave of small amplitude between water and air (tank.h) in the unit square.  The surface is flat a quarter of
- * a period after it was let go; theory: w^2 = g k (rho_0 - rho_1)/(rho_0 coth k h_0 + rho_1 coth k h_1), less half a
- * step by which the scheme is ahead.  With condensed ridges instead of kinks the wave is late.
+/* A standing wave of small amplitude between water and air (tank.h) in the unit square.  The surface is flat
+ * a quarter of a period after it was let go; theory: w^2 = g k (rho_0 - rho_1)/(rho_0 coth k h_0 + rho_1 coth
+ * k h_1), less half a step by which the scheme is ahead.  With condensed ridges instead of kinks the wave is
+ * late.
  *
  * wave [ridge | kink] [n] [periods] [steps a period] [amplitude]: marches and prints each half period. */
 #include "tests/phases/tank.h"
