@@ -1,4 +1,6 @@
+#include "common/exchange/copies.h"
 #include "coupler/coupler_impl.h"
+#include "coupler/inertia.h"
 
 PetscErrorCode CouplerCreate(MPI_Comm comm, const CouplerOptions *options, Coupler *coupler)
 {
@@ -6,7 +8,7 @@ PetscErrorCode CouplerCreate(MPI_Comm comm, const CouplerOptions *options, Coupl
 
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&c));
-  c->comm = comm;
+  c->comm = c->history.comm = comm;
   c->options = *options;
   c->mode = CouplerModeGet(options->mode);
   PetscCall(ShellCreate(comm, options->thickness, &c->shell));
@@ -25,25 +27,48 @@ PetscErrorCode CouplerSetElements(Coupler c, const FluidElements *elements)
 static PetscErrorCode FreeStep(Coupler c)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscFree2(c->coefficient, c->coupling));
-  PetscCall(PetscFree5(c->vertex, c->start_velocity, c->implicit_factor, c->node, c->force));
+  PetscCall(PetscFree3(c->coefficient, c->body_force, c->coupling));
+  PetscCall(PetscFree5(c->vertex, c->start_velocity, c->implicit_factor, c->density, c->force));
+  PetscCall(PetscFree5(c->node, c->start, c->predicted, c->acceleration, c->explicit_fraction));
+  PetscCall(PetscFree2(c->gid, c->mobility));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode NewStep(Coupler c, const SolidState *solid)
 {
   const Overlap o = c->overlap;
-  const size_t nsources = (size_t)o->nsources, nnodes = (size_t)solid->nnodes;
+  const size_t nsources = (size_t)o->nsources, n = (size_t)solid->nnodes;
 
   PetscFunctionBeginUser;
   PetscCall(FreeStep(c));
-  PetscCall(PetscMalloc2(o->pairs.n, &c->coefficient, o->ncoupled, &c->coupling));
+  PetscCall(PetscMalloc3(o->pairs.n, &c->coefficient, o->pairs.n, &c->body_force, o->ncoupled, &c->coupling));
   PetscCall(PetscMalloc5(3 * nsources, &c->vertex, nsources, &c->start_velocity, nsources,
-                         &c->implicit_factor, nnodes, &c->node, 2 * nnodes, &c->force));
+                         &c->implicit_factor, nsources, &c->density, 2 * n, &c->force));
+  PetscCall(PetscMalloc5(n, &c->node, 2 * n, &c->start, 2 * n, &c->predicted, 2 * n, &c->acceleration, n,
+                         &c->explicit_fraction));
+  PetscCall(PetscMalloc2(n, &c->gid, n, &c->mobility));
+  PetscCall(PetscArrayzero(c->body_force, o->pairs.n));
+  PetscCall(PetscArrayzero(c->density, nsources));
   for (size_t t = 0; t < nsources; t++) c->implicit_factor[t] = 1.0;
   for (size_t t = 0; t < nsources; t++)
     PetscCall(PetscArraycpy(&c->start_velocity[t][0][0], &o->source[t].u[0][0], 6));
+  PetscCall(PetscArraycpy(c->start, solid->u, 2 * n));
+  PetscCall(PetscArraycpy(c->gid, solid->gid, n));
+  PetscCall(PetscArraycpy(c->mobility, solid->mobility, n));
+  c->nnodes = solid->nnodes;
   PetscFunctionReturn(0);
+}
+
+/* From the step before: the velocity at the end of this one, and the acceleration by all but the fluid inside
+ * the solid, which the shell's reaction is part of. */
+static void Predict(Coupler c, const SolidState *solid)
+{
+  const History *h = &c->history;
+  const PetscBool known = h->known && c->options.mode == COUPLER_REACTION ? PETSC_TRUE : PETSC_FALSE;
+  for (int k = 0; k < 2 * c->nnodes; k++) {
+    c->predicted[k] = c->start[k] + (known ? c->dt * h->acceleration[k / 2][k % 2] : 0.0);
+    c->acceleration[k] = solid->acceleration[k] + (known ? h->shell[k / 2][k % 2] : 0.0);
+  }
 }
 
 PetscErrorCode CouplerBuild(Coupler c, const SolidState *solid, double dt, int *n,
@@ -55,31 +80,30 @@ PetscErrorCode CouplerBuild(Coupler c, const SolidState *solid, double dt, int *
   PetscCall(OverlapBuild(c->overlap, solid, c->shell));
   PetscCall(NewStep(c, solid));
   c->built = 1;
-  c->nnodes = solid->nnodes;
-  c->us = solid->u;
   PetscCall(c->mode->coefficients(c, solid));
-  WallTermAssemble(c->overlap, c->coefficient, c->implicit_factor, c->coupling);
-  *n = c->overlap->ncoupled;
-  *coupling = c->coupling;
+  PetscCall(InertiaExplicitFraction(c->overlap, solid, c->density, c->explicit_fraction));
+  Predict(c, solid);
+  PetscCall(CouplerSetInterfaceVelocity(c, c->predicted, n, coupling));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CouplerSetInterfaceVelocity(Coupler c, const double mobility[], const double u[], int *n,
+PetscErrorCode CouplerSetInterfaceVelocity(Coupler c, const double u[], int *n,
                                            const CoracleCoupling **coupling)
 {
   const Overlap o = c->overlap;
-  double(*velocity)[3][2], (*node_mobility)[3];
+  double(*velocity)[3][2], *acceleration;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2(o->nsources, &velocity, o->nsources, &node_mobility));
+  PetscCall(PetscMalloc2(o->nsources, &velocity, 2 * (size_t)c->nnodes, &acceleration));
   PetscCall(OverlapNodesToSources(o, 2, u, &velocity[0][0][0]));
-  PetscCall(OverlapNodesToSources(o, 1, mobility, &node_mobility[0][0]));
   for (int t = 0; t < o->nsources; t++)
-    for (int i = 0; i < 3; i++)
-      if (node_mobility[t][i] == 0.0) PetscCall(PetscArraycpy(o->source[t].u[i], velocity[t][i], 2));
-  PetscCall(PetscFree2(velocity, node_mobility));
+    if (c->density[t] == 0.0) PetscCall(PetscMemcpy(o->source[t].u, velocity[t], sizeof velocity[t]));
+  for (int k = 0; k < 2 * c->nnodes; k++) acceleration[k] = (u[k] - c->start[k]) / c->dt;
+  PetscCall(
+      InertiaBodyForce(o, c->density, c->acceleration, acceleration, c->options.gravity, c->body_force));
+  PetscCall(PetscFree2(velocity, acceleration));
   c->us = u;
-  WallTermAssemble(o, c->coefficient, c->implicit_factor, c->coupling);
+  WallTermAssemble(o, c->coefficient, c->implicit_factor, (const double(*)[3][2])c->body_force, c->coupling);
   *n = o->ncoupled;
   *coupling = c->coupling;
   PetscFunctionReturn(0);
@@ -110,10 +134,44 @@ PetscErrorCode CouplerNoCorrection(Coupler c, const SolidState *moved)
 PetscErrorCode CouplerConservativeForce(Coupler c)
 {
   PetscFunctionBeginUser;
-  ForceReaction(c->overlap, c->coefficient, c->implicit_factor, &c->flow, c->vertex);
+  ForceReaction(c->overlap, c->coefficient, c->implicit_factor, (const double(*)[3][2])c->body_force,
+                &c->flow, c->vertex);
   ForceInertia(c->overlap, c->dt, c->options.gravity, c->flow.u_projected,
                (const double(*)[3][2])c->start_velocity, c->vertex);
   PetscCall(ForceAssembleToOwners(c->overlap, c->vertex, c->nnodes, c->node));
+  PetscFunctionReturn(0);
+}
+
+/* acceleration[nnodes][2] of the nodes by the shell's reaction in the last CouplerComputeForce, m/s2. */
+static PetscErrorCode ShellAcceleration(Coupler c, double acceleration[])
+{
+  const Overlap o = c->overlap;
+  double(*vertex)[3][2];
+  Copies sum;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(o->nsources, &vertex));
+  for (int t = 0; t < o->nsources; t++)
+    for (int i = 0; i < 3 && o->source[t].is_shell; i++)
+      PetscCall(PetscArraycpy(vertex[t][i], c->vertex[3 * t + i].reaction, 2));
+  PetscCall(OverlapSourcesToNodes(o, 2, &vertex[0][0][0], c->nnodes, acceleration));
+  PetscCall(CopiesCreateByNumber(c->comm, c->nnodes, c->gid, &sum));
+  PetscCall(CopiesSum(sum, 2, acceleration));
+  PetscCall(CopiesDestroy(&sum));
+  for (int k = 0; k < 2 * c->nnodes; k++) acceleration[k] *= c->mobility[k / 2];
+  PetscCall(PetscFree(vertex));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode StoreHistory(Coupler c, const SolidState *moved)
+{
+  double *shell;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(2 * (size_t)c->nnodes, &shell));
+  PetscCall(ShellAcceleration(c, shell));
+  PetscCall(HistoryStep(&c->history, moved, c->dt, c->start, shell));
+  PetscCall(PetscFree(shell));
   PetscFunctionReturn(0);
 }
 
@@ -137,11 +195,32 @@ PetscErrorCode CouplerCorrect(Coupler c, const SolidState *moved, int *n,
   PetscCall(PetscCalloc1(c->overlap->ncoupled, &c->correction));
   for (int e = 0; e < c->overlap->ncoupled; e++) c->correction[e].element = c->overlap->coupled_element[e];
   PetscCall(moved->changed ? CouplerNoCorrection(c, moved) : c->mode->correct(c, moved));
+  PetscCall(StoreHistory(c, moved));
   *n = c->overlap->ncoupled;
   *correction = c->correction;
   PetscFunctionReturn(0);
 }
 
+const double *CouplerPredictedVelocity(Coupler c)
+{
+  return c->predicted;
+}
+const double *CouplerExplicitFraction(Coupler c)
+{
+  return c->explicit_fraction;
+}
+PetscErrorCode CouplerSave(Coupler c, Checkpoint to)
+{
+  PetscFunctionBeginUser;
+  PetscCall(HistorySave(&c->history, to));
+  PetscFunctionReturn(0);
+}
+PetscErrorCode CouplerLoad(Coupler c, const SolidState *solid, Checkpoint from)
+{
+  PetscFunctionBeginUser;
+  PetscCall(HistoryLoad(&c->history, solid, from));
+  PetscFunctionReturn(0);
+}
 Shell CouplerShell(Coupler c)
 {
   return c->shell;
@@ -156,6 +235,7 @@ PetscErrorCode CouplerDestroy(Coupler *coupler)
   PetscFunctionBeginUser;
   if (!*coupler) PetscFunctionReturn(0);
   PetscCall(FreeStep(*coupler));
+  PetscCall(HistoryDestroy(&(*coupler)->history));
   PetscCall(PetscFree((*coupler)->correction));
   PetscCall(ShellDestroy(&(*coupler)->shell));
   PetscCall(OverlapDestroy(&(*coupler)->overlap));

@@ -10,11 +10,12 @@
  *             v                                   v                               v
  *          to fluid                           to solid                        to fluid
  *
- * With strong coupling CouplerSetInterfaceVelocity and CouplerComputeForce are repeated within the step, on
- * the geometry of CouplerBuild.  mode.h lists the modes: what a, F and r are in each.  All functions are
+ * In further coupling iterations CouplerSetInterfaceVelocity and CouplerComputeForce are repeated within the
+ * step, on the geometry of CouplerBuild.  mode.h lists the modes: what a, F and r are in each.  All functions are
  * collective over the coupler's communicator. */
 #ifndef CORACLE_COUPLER_H
 #define CORACLE_COUPLER_H
+#include "common/output/checkpoint.h"
 #include "coupler/force.h"
 #include "coupler/mode.h"
 
@@ -24,16 +25,19 @@ PetscErrorCode CouplerDestroy(Coupler *coupler);
 /* The fluid's elements near the solid, with density and viscosity at the start of the coming step (copied). */
 PetscErrorCode CouplerSetElements(Coupler coupler, const FluidElements *elements);
 
-/* The coupling over the coming step of dt seconds, with the solid as it is: coupling[n], one per fluid
- * element that overlaps the solid or its shell, in ascending order.  solid->u is used until
- * CouplerComputeForce has returned or CouplerSetInterfaceVelocity replaces it; coupling is borrowed until the
- * next CouplerBuild. */
+/* The coupling over the coming step of dt seconds, with the solid where it is now and the velocity at its end
+ * that CouplerPredictedVelocity has: coupling[n], one per fluid element that overlaps the solid or its shell,
+ * in ascending order, borrowed until the next CouplerBuild. */
 PetscErrorCode CouplerBuild(Coupler coupler, const SolidState *solid, double dt, int *n,
                             const CoracleCoupling **coupling);
-/* The same coupling with u[nnodes][2], m/s, as the solid's velocity where mobility[nnodes] is 0; nodes with a
- * mobility keep theirs (inertia.h).  u is borrowed as solid->u is. */
-PetscErrorCode CouplerSetInterfaceVelocity(Coupler coupler, const double mobility[], const double u[], int *n,
+/* The same coupling with u[nnodes][2], m/s, as the solid's velocity at the step's end.  u is used until
+ * CouplerComputeForce has returned. */
+PetscErrorCode CouplerSetInterfaceVelocity(Coupler coupler, const double u[], int *n,
                                            const CoracleCoupling **coupling);
+/* Not collective; of the step that was built, borrowed: the velocity predicted for its end [nnodes][2], m/s;
+ * and how much of each node's motion depends on that prediction [nnodes], 0 .. 1 (inertia.h). */
+const double *CouplerPredictedVelocity(Coupler coupler);
+const double *CouplerExplicitFraction(Coupler coupler);
 /* force[nnodes][2], N, on the solid's nodes, borrowed until the next call of this; the flow's arrays are used
  * until CouplerCorrect has returned. */
 PetscErrorCode CouplerComputeForce(Coupler coupler, const CoracleFlow *flow, const double **force,
@@ -43,6 +47,10 @@ PetscErrorCode CouplerComputeForce(Coupler coupler, const CoracleFlow *flow, con
  * until the next CouplerCorrect. */
 PetscErrorCode CouplerCorrect(Coupler coupler, const SolidState *moved, int *n,
                               const CoracleCorrection **correction);
+
+/* The history (history.h): between two steps; Load before the first CouplerBuild. */
+PetscErrorCode CouplerSave(Coupler coupler, Checkpoint to);
+PetscErrorCode CouplerLoad(Coupler coupler, const SolidState *solid, Checkpoint from);
 
 /* Not collective; for output and tests, borrowed until the next CouplerBuild. */
 Shell CouplerShell(Coupler coupler);

@@ -43,7 +43,7 @@ PetscErrorCode CouplerCaseRead(CoracleCase file, CouplerCase *c)
   (void)CoracleCaseNumberOr(file, "time.cfl", 0.5, 0.0, HUGE_VAL);
   ReadOptions(file, &c->options);
   CoracleCaseRenamed(file, "coupler.tries", "coupler.max_iterations");
-  c->max_iterations = CoracleCaseIntegerOr(file, "coupler.max_iterations", 1, 1, 1000);
+  c->max_iterations = CoracleCaseIntegerOr(file, "coupler.max_iterations", 30, 1, 1000);
   c->tolerance = CoracleCaseNumberOr(file, "coupler.tolerance", 1e-4, 1e-12, 1.0);
   PetscCall(PetscOptionsInsertString(NULL, CoracleCaseStringOr(file, "coupler.petsc", "")));
   PetscCall(CoracleCaseFinish(file, SECTIONS));

@@ -8,7 +8,7 @@ typedef struct {
   char name[128], note[512], folder[512];
   double end, dt_max, every; /* s */
   double checkpoint;         /* wall-clock seconds from one to the next, 0: none */
-  int max_iterations;        /* coupling iterations of a step; 1: staggered */
+  int max_iterations;        /* coupling iterations of a step; 1: the first is accepted */
   double tolerance;          /* of the coupling iterations, relative (coupling_iteration.h) */
   CouplerOptions options;
 } CouplerCase;

@@ -2,6 +2,7 @@
 #ifndef CORACLE_COUPLER_IMPL_H
 #define CORACLE_COUPLER_IMPL_H
 #include "coupler/coupler.h"
+#include "coupler/history.h"
 
 struct Coupler_s {
   MPI_Comm comm;
@@ -14,13 +15,23 @@ struct Coupler_s {
   const double *us;               /* [nnodes][2] the velocity that the fluid couples to, m/s; borrowed */
   double (*start_velocity)[3][2]; /* [overlap->nsources] the solid's velocity at the step's start, m/s */
   double *implicit_factor;        /* [overlap->nsources] b (inertia.h) */
-  CoracleFlow flow;               /* borrowed */
-  WallCoefficient *coefficient;   /* [overlap->pairs.n] a */
-  CoracleCoupling *coupling;      /* [overlap->ncoupled] */
-  CoracleCorrection *correction;  /* [overlap->ncoupled] */
-  ForceVertex *vertex;            /* [overlap->nsources][3] */
-  ForceVertex *node;              /* [nnodes] */
-  double *force;                  /* [nnodes][2] N */
+  double *density;                /* [overlap->nsources] kg/m3 (inertia.h) */
+  /* the solid as the step began, and what is predicted for the step */
+  long long *gid;                /* [nnodes] */
+  double *mobility;              /* [nnodes] 1/kg */
+  double *start;                 /* [nnodes][2] velocity, m/s */
+  double *predicted;             /* [nnodes][2] velocity at the step's end, m/s */
+  double *acceleration;          /* [nnodes][2] a: by all but the fluid inside the solid, m/s2 (inertia.h) */
+  double *explicit_fraction;     /* [nnodes] (inertia.h) */
+  History history;               /* of the steps before */
+  CoracleFlow flow;              /* borrowed */
+  WallCoefficient *coefficient;  /* [overlap->pairs.n] a */
+  double (*body_force)[3][2];    /* [overlap->pairs.n] q at the source triangle's vertices, N/m3 */
+  CoracleCoupling *coupling;     /* [overlap->ncoupled] */
+  CoracleCorrection *correction; /* [overlap->ncoupled] */
+  ForceVertex *vertex;           /* [overlap->nsources][3] */
+  ForceVertex *node;             /* [nnodes] */
+  double *force;                 /* [nnodes][2] N */
 };
 
 /* The force of the modes that conserve momentum (force.h): reaction, added inertia and buoyancy. */

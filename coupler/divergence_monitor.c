@@ -21,7 +21,8 @@ static int IsFinite(const DivergenceMonitorStep *s)
          isfinite(s->force[1]);
 }
 
-/* Counts alternating, growing changes; a change within that of free fall over one step is negligible. */
+/* Counts alternating, growing changes; a change within that of free fall over one step is negligible, and so
+ * is one with hardly any energy compared with the flow's. */
 static int Alternates(DivergenceMonitor *g, const DivergenceMonitorStep *s, const double change[2])
 {
   const double size = hypot(change[0], change[1]), before = hypot(g->change[0], g->change[1]);
@@ -31,7 +32,8 @@ static int Alternates(DivergenceMonitor *g, const DivergenceMonitorStep *s, cons
   const int fast =
       2 * g->alternations >= DIVERGENCE_ALTERNATIONS && size > DIVERGENCE_TOTAL_GROWTH * g->first;
   return (fast || g->alternations >= DIVERGENCE_ALTERNATIONS) &&
-         size > hypot(s->gravity[0], s->gravity[1]) * s->dt;
+         size > hypot(s->gravity[0], s->gravity[1]) * s->dt &&
+         size * size > DIVERGENCE_ENERGY * s->speed * s->speed;
 }
 
 /* what: how the velocity diverges; the message adds the likely cause and what to do. */

@@ -10,6 +10,9 @@
 #define DIVERGENCE_ALTERNATIONS 6
 #define DIVERGENCE_GROWTH 1.1
 #define DIVERGENCE_TOTAL_GROWTH 10.0
+/* Part of the flow's kinetic energy per mass near the solid: changes of velocity with less are vibrations,
+ * whether or not they grow. */
+#define DIVERGENCE_ENERGY 0.01
 
 typedef struct {
   int nsteps, alternations;
@@ -24,7 +27,8 @@ typedef struct {
   double gravity[2];  /* m/s2 */
   double displaced;   /* fluid mass inside the solid, kg */
   double extent;      /* of the fluid's domain, m */
-  int max_iterations; /* coupling iterations that a step may take; 1: staggered */
+  double speed;       /* of the flow near the solid, root mean square, m/s */
+  int max_iterations; /* coupling iterations that a step may take; 1: the first is accepted */
 } DivergenceMonitorStep;
 
 /* Local, the same on all ranks given the same numbers: 0, or 1 when the coupling diverges; then message

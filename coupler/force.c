@@ -23,7 +23,7 @@ static void ReactionVelocity(double implicit_factor, const double u_star[6], con
 }
 
 void ForceReaction(const Overlap o, const WallCoefficient coefficient[], const double implicit_factor[],
-                   const CoracleFlow *flow, ForceVertex vertex[])
+                   const double body_force[][3][2], const CoracleFlow *flow, ForceVertex vertex[])
 {
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
@@ -34,8 +34,10 @@ void ForceReaction(const Overlap o, const WallCoefficient coefficient[], const d
     Slip(pair, u, o->source[pair->a].u, q);
     for (int i = 0; i < 3; i++) {
       WallApply(&coefficient[p], q[i], r);
-      v[i].reaction[0] += r[0];
-      v[i].reaction[1] += r[1];
+      for (int c = 0; c < 2; c++) {
+        v[i].reaction[c] += r[c];
+        for (int j = 0; j < 3; j++) v[i].reaction[c] -= pair->aa[i][j] * body_force[p][j][c];
+      }
     }
   }
 }
@@ -90,10 +92,19 @@ static double DisplacedMass(const Overlap o)
   return mass;
 }
 
+/* area += that of the fluid near the solid, square += int |u|^2 over it with the vertices as points. */
+static void AddSquare(const Overlap o, const double u[], double *area, double *square)
+{
+  for (int k = 0; k < o->nelements; k++) {
+    *area += o->area[k];
+    for (int i = 6 * k; i < 6 * k + 6; i++) *square += o->area[k] / 3.0 * u[i] * u[i];
+  }
+}
+
 PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const CoracleFlow *flow,
                         int nnodes, const ForceVertex node[], ForceTotals *totals)
 {
-  enum { GAIN, REACTION = 2, FORCE = 4, SCALE = 6, MASS, PAIRS, COUNT };
+  enum { GAIN, REACTION = 2, FORCE = 4, SCALE = 6, MASS, PAIRS, AREA, SQUARE, COUNT };
   double sum[COUNT] = {0};
 
   PetscFunctionBeginUser;
@@ -110,6 +121,7 @@ PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const
       sum[FORCE + c] += node[i].reaction[c] + node[i].other[c];
     }
   }
+  AddSquare(o, flow->u_star, &sum[AREA], &sum[SQUARE]);
   sum[MASS] = DisplacedMass(o);
   sum[PAIRS] = o->pairs.n;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, COUNT, MPI_DOUBLE, MPI_SUM, o->comm));
@@ -121,6 +133,7 @@ PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const
   const double lost = hypot(sum[GAIN] + sum[REACTION], sum[GAIN + 1] + sum[REACTION + 1]);
   totals->imbalance = sum[SCALE] > 0.0 ? lost / sum[SCALE] : lost;
   totals->displaced = sum[MASS];
+  totals->speed = sum[AREA] > 0.0 ? sqrt(sum[SQUARE] / sum[AREA]) : 0.0;
   totals->npairs = (long long)sum[PAIRS];
   PetscFunctionReturn(0);
 }

@@ -1,126 +1,113 @@
 #include "coupler/inertia.h"
 #include "common/exchange/copies.h"
 
-/* Smallest |m - m_f| / m: the effective velocity divides by it.  m - m_f itself may be negative (a solid
- * lighter than the fluid); with the fluid's own mass the element's matrix is still positive definite. */
-#define MIN_MASS_FRACTION 1e-3
-
-/* Factor on the volume's coefficient where nodes have a mobility.  Implicit coupling is stable for any, and
- * the slip left between solid and fluid is dt f/m divided by the relaxation. */
-#define PENALTY_SCALE 1e4
-
-enum { IMPEDANCE, DISPLACED, NSUMS };
-
-static PetscErrorCode SumOverCopies(MPI_Comm comm, const SolidState *solid, double z[][NSUMS])
+/* rho[nnodes]: the solid's density at its nodes now: mass over a third of the triangles around, of all ranks;
+ * 0 where the node is held. */
+static PetscErrorCode NodeDensities(const Overlap o, const SolidState *solid, double rho[])
 {
-  CopiesKey *key;
-  Copies copies;
+  Copies sum;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(solid->nnodes, &key));
-  for (int i = 0; i < solid->nnodes; i++) key[i] = (CopiesKey){solid->gid[i], solid->gid[i]};
-  PetscCall(CopiesCreate(comm, solid->nnodes, key, &copies));
-  PetscCall(CopiesSum(copies, NSUMS, &z[0][0]));
-  PetscCall(CopiesDestroy(&copies));
-  PetscCall(PetscFree(key));
+  PetscCall(PetscArrayzero(rho, solid->nnodes));
+  for (int t = 0; t < solid->nelements; t++) {
+    const int *node = solid->element + 3 * t;
+    double x[3][2];
+    for (int i = 0; i < 3; i++)
+      for (int c = 0; c < 2; c++) x[i][c] = solid->x[2 * node[i] + c];
+    const double third = GeometryArea((const double(*)[2])x) / 3.0;
+    for (int i = 0; i < 3; i++) rho[node[i]] += third;
+  }
+  PetscCall(CopiesCreateByNumber(o->comm, solid->nnodes, solid->gid, &sum));
+  PetscCall(CopiesSum(sum, 1, rho));
+  PetscCall(CopiesDestroy(&sum));
+  for (int i = 0; i < solid->nnodes; i++)
+    rho[i] = solid->mobility[i] > 0.0 && rho[i] > 0.0 ? 1.0 / (solid->mobility[i] * rho[i]) : 0.0;
   PetscFunctionReturn(0);
 }
 
-/* z[nnodes], summed over the pairs of all ranks:  Z_i = int a N_i with the mean of a's two eigenvalues, kg/s,
- * and the displaced mass m_f = int rho N_i over the volume, kg. */
-static PetscErrorCode Impedance(const Overlap o, const SolidState *solid, const WallCoefficient coefficient[],
-                                double z[][NSUMS])
+/* Mean over the vertices that are free, 0 if none is. */
+static double TriangleDensity(const double rho[3])
 {
-  double(*vertex)[3][NSUMS];
+  double sum = 0.0;
+  int n = 0;
+  for (int i = 0; i < 3; i++) {
+    sum += rho[i];
+    n += rho[i] > 0.0;
+  }
+  return n ? sum / n : 0.0;
+}
+
+PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt,
+                                   WallCoefficient coefficient[], double density[], double implicit_factor[])
+{
+  double *rho, (*vertex)[3];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(solid->nnodes, &rho, o->nsources, &vertex));
+  PetscCall(NodeDensities(o, solid, rho));
+  PetscCall(OverlapNodesToSources(o, 1, rho, &vertex[0][0]));
+  for (int t = 0; t < o->nsources; t++) {
+    density[t] = o->source[t].is_shell ? 0.0 : TriangleDensity(vertex[t]);
+    if (density[t] > 0.0) implicit_factor[t] = 0.0;
+  }
+  for (int p = 0; p < o->pairs.n; p++) {
+    const double rho_f = o->rho[o->pairs.pair[p].b], rho_s = density[o->pairs.pair[p].a];
+    if (rho_s > 0.0) coefficient[p] = WallCoefficientIsotropic((fmax(rho_s, rho_f) - rho_f) / dt);
+  }
+  PetscCall(PetscFree2(rho, vertex));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode InertiaBodyForce(Overlap o, const double density[], const double acceleration[],
+                                const double interface_acceleration[], const double gravity[2],
+                                double body_force[][3][2])
+{
+  double(*a)[3][2], (*b)[3][2];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(o->nsources, &a, o->nsources, &b));
+  PetscCall(OverlapNodesToSources(o, 2, acceleration, &a[0][0][0]));
+  PetscCall(OverlapNodesToSources(o, 2, interface_acceleration, &b[0][0][0]));
+  for (int p = 0; p < o->pairs.n; p++) {
+    const int t = o->pairs.pair[p].a;
+    const double rho_f = o->rho[o->pairs.pair[p].b], rho_s = density[t], excess = fmax(rho_f - rho_s, 0.0);
+    if (rho_s == 0.0) continue;
+    for (int i = 0; i < 3; i++)
+      for (int c = 0; c < 2; c++)
+        body_force[p][i][c] = rho_s * a[t][i][c] + excess * b[t][i][c] - rho_f * gravity[c];
+  }
+  PetscCall(PetscFree2(a, b));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode InertiaExplicitFraction(Overlap o, const SolidState *solid, const double density[],
+                                       double explicit_fraction[])
+{
+  enum { AREA, EXPLICIT, NSUMS };
+  double(*vertex)[3][NSUMS], (*node)[NSUMS];
+  Copies sum;
 
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(o->nsources, &vertex));
+  PetscCall(PetscMalloc1(solid->nnodes, &node));
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    const double a = 0.5 * (coefficient[p].xx + coefficient[p].yy);
-    const double rho = o->source[pair->a].is_shell ? 0.0 : o->rho[pair->b];
+    if (o->source[pair->a].is_shell) continue;
+    const double fraction = fmax(0.0, 1.0 - density[pair->a] / o->rho[pair->b]);
     for (int i = 0; i < 3; i++) {
-      const double area = pair->aa[i][0] + pair->aa[i][1] + pair->aa[i][2];
-      vertex[pair->a][i][IMPEDANCE] += a * area;
-      vertex[pair->a][i][DISPLACED] += rho * area;
+      vertex[pair->a][i][AREA] += pair->area;
+      vertex[pair->a][i][EXPLICIT] += fraction * pair->area;
     }
   }
-  PetscCall(OverlapSourcesToNodes(o, NSUMS, (const double *)vertex, solid->nnodes, &z[0][0]));
-  PetscCall(SumOverCopies(o->comm, solid, z));
+  PetscCall(OverlapSourcesToNodes(o, NSUMS, (const double *)vertex, solid->nnodes, &node[0][0]));
+  PetscCall(CopiesCreateByNumber(o->comm, solid->nnodes, solid->gid, &sum));
+  PetscCall(CopiesSum(sum, NSUMS, &node[0][0]));
+  PetscCall(CopiesDestroy(&sum));
+  for (int i = 0; i < solid->nnodes; i++)
+    explicit_fraction[i] = node[i][AREA] > 0.0        ? node[i][EXPLICIT] / node[i][AREA]
+                           : solid->mobility[i] > 0.0 ? 0.0
+                                                      : 1.0;
+  PetscCall(PetscFree(node));
   PetscCall(PetscFree(vertex));
-  PetscFunctionReturn(0);
-}
-
-static double Largest(const double v[3])
-{
-  return fmax(v[0], fmax(v[1], v[2]));
-}
-
-/* coefficient *= PENALTY_SCALE on volume triangles with a free node. */
-static PetscErrorCode ScalePenalty(Overlap o, const double mobility[], WallCoefficient coefficient[])
-{
-  double(*vertex)[3];
-
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(o->nsources, &vertex));
-  PetscCall(OverlapNodesToSources(o, 1, mobility, &vertex[0][0]));
-  for (int p = 0; p < o->pairs.n; p++) {
-    const int t = o->pairs.pair[p].a;
-    if (!o->source[t].is_shell && Largest(vertex[t]) > 0.0)
-      coefficient[p] = WallCoefficientScaled(&coefficient[p], PENALTY_SCALE);
-  }
-  PetscCall(PetscFree(vertex));
-  PetscFunctionReturn(0);
-}
-
-/* b and v' of one node (inertia.h). */
-static void EffectiveVelocity(const SolidState *solid, int i, double dt, const double gravity[2],
-                              const double z[NSUMS], double *b, double v[2])
-{
-  const double mobility = solid->mobility[i];
-  const double excess = 1.0 - z[DISPLACED] * mobility; /* (m - m_f) / m */
-  const double mass_fraction = fabs(excess) < MIN_MASS_FRACTION ? MIN_MASS_FRACTION : excess;
-  *b = mass_fraction / (mass_fraction + dt * z[IMPEDANCE] * mobility);
-  for (int c = 0; c < 2; c++)
-    v[c] = solid->u[2 * i + c] +
-           dt / mass_fraction * (solid->acceleration[2 * i + c] - z[DISPLACED] * mobility * gravity[c]);
-}
-
-/* b and v' of the source triangles from those of the nodes. */
-static PetscErrorCode ApplyEffectiveVelocity(Overlap o, const double b[], const double v[][2],
-                                             double implicit_factor[])
-{
-  double(*vertex)[3], (*velocity)[3][2];
-
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2(o->nsources, &vertex, o->nsources, &velocity));
-  PetscCall(OverlapNodesToSources(o, 1, b, &vertex[0][0]));
-  PetscCall(OverlapNodesToSources(o, 2, &v[0][0], &velocity[0][0][0]));
-  for (int t = 0; t < o->nsources; t++) {
-    implicit_factor[t] = (vertex[t][0] + vertex[t][1] + vertex[t][2]) / 3.0;
-    PetscCall(PetscMemcpy(o->source[t].u, velocity[t], sizeof velocity[t]));
-  }
-  PetscCall(PetscFree2(vertex, velocity));
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode InertiaMakeImplicit(Overlap o, const SolidState *solid, double dt, const double gravity[2],
-                                   WallCoefficient coefficient[], double implicit_factor[])
-{
-  int any_free = 0;
-  double(*z)[NSUMS], *b, (*v)[2];
-
-  PetscFunctionBeginUser;
-  for (int i = 0; i < solid->nnodes; i++) any_free |= solid->mobility[i] > 0.0;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any_free, 1, MPI_INT, MPI_LOR, o->comm));
-  if (!any_free) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc3(solid->nnodes, &z, solid->nnodes, &b, solid->nnodes, &v));
-  PetscCall(ScalePenalty(o, solid->mobility, coefficient));
-  PetscCall(Impedance(o, solid, coefficient, z));
-  for (int i = 0; i < solid->nnodes; i++) EffectiveVelocity(solid, i, dt, gravity, z[i], &b[i], v[i]);
-  PetscCall(ApplyEffectiveVelocity(o, b, (const double(*)[2])v, implicit_factor));
-  for (int p = 0; p < o->pairs.n; p++)
-    coefficient[p] = WallCoefficientScaled(&coefficient[p], implicit_factor[o->pairs.pair[p].a]);
-  PetscCall(PetscFree3(z, b, v));
   PetscFunctionReturn(0);
 }

@@ -1,33 +1,46 @@
-/* Coupling that is implicit in the solid's inertia, node by node (mode reaction), for solids that send their
- * nodes' mobility 1/m and acceleration f/m (CoracleSetInertia).
+/* The solid's own inertia in the fluid's solve (mode reaction), for solids that send their nodes' mobility and
+ * acceleration (CoracleSetInertia).
  *
- * A node of mass m that is free to move and displaces fluid of mass m_f ends the step at v with
+ * Fluid is everywhere, inside the solid too.  There it is given the solid's density rho_s (its mass per area
+ * now) and the forces that act on the solid: with v^n the solid's velocity at the step's start and a its
+ * acceleration by all forces but the fluid's,
  *
- *     m (v - v^n)/dt  =  f + Z (u - v) + m_f (u - v^n)/dt - m_f g
+ *     rho_s (u - v^n)/dt  =  rho_s a - grad p + div tau            inside the solid,
  *
- *     f    its forces other than the fluid's, N
- *     u    the fluid's velocity at the node, m/s
- *     Z    impedance: the sum over its pairs of int a N_i, kg/s
- *     g    gravity, m/s2; the last two terms are added inertia and buoyancy (force.h)
+ * so that the fluid's solve moves fluid and solid together, by pressure too (implicit inertia in coracle.h),
+ * and one coupling iteration is right at any density ratio >= 1.  As coefficient and body force of the pairs
+ * (wall_term.h), beside the fluid's own rho_f (u - u^n)/dt - rho_f g:
  *
- * Elimination of v gives the fluid the effective velocity v' and the effective coefficient b a in place of
- * v^n and a:
+ *     coefficient  (rho_s - rho_f)/dt  towards v^n,     body force  q = rho_s a - rho_f g,
  *
- *     v' = v^n + dt/(m - m_f) (f - m_f g),        b = 1/(1 + dt Z/(m - m_f)).
+ * and the force on the solid is the reaction to both plus the added inertia and buoyancy of force.h, together
+ * F = int rho_s N ((u+ - v^n)/dt - a).
  *
- * As a grows u tends to v' with a total mass of m, so a may be arbitrarily large; with v^n and a the exchange
- * is explicit and stable for dt Z < m only, about relaxation rho_f < rho_s.  b is the implicit factor: it
- * scales the solid's part of the bulk velocity (ms, us), and (1 - b) a is the implicit inertia block that the
- * pressure correction moves with the fluid (coracle.h).  b = 1 and v' = v^n where the mobility is 0. */
+ * A solid lighter than the fluid is filled with rho_f, which keeps the coefficient positive; the inertia in
+ * excess, rho_f - rho_s, acts with the acceleration a' = (v - v^n)/dt of the interface velocity v,
+ *
+ *     q = rho_s a + (rho_f - rho_s) a' - rho_f g,
+ *
+ * and coupling iterations find v (coupling_iteration.h).
+ *
+ * Where nodes have no mobility the solid is held: sigma towards v, implicit factor 1. */
 #ifndef CORACLE_INERTIA_H
 #define CORACLE_INERTIA_H
 #include "coupler/overlap.h"
 #include "coupler/wall_term.h"
 
-/* Collective.  When some node has a mobility: implicit_factor[nsources] = b, the mean over the source
- * triangle's vertices; coefficient[pairs.n] *= b; the source triangles' velocity u becomes v'.  Else nothing
- * changes.  gravity[2], m/s2; dt, s. */
-PetscErrorCode InertiaMakeImplicit(Overlap overlap, const SolidState *solid, double dt,
-                                   const double gravity[2], WallCoefficient coefficient[],
-                                   double implicit_factor[]);
+/* Collective.  density[nsources]: rho_s of volume triangles, kg/m3; 0 for the shell's, and where all nodes are
+ * held.  Where it is not 0, coefficient[pairs.n] becomes the one above and implicit_factor[nsources] 0. */
+PetscErrorCode InertiaCoefficients(Overlap overlap, const SolidState *solid, double dt,
+                                   WallCoefficient coefficient[], double density[], double implicit_factor[]);
+/* Collective.  body_force[pairs.n][3][2]: q at the vertices of the pairs' source triangles, N/m3, where density
+ * is not 0; acceleration and interface_acceleration [nnodes][2]: a and a', m/s2. */
+PetscErrorCode InertiaBodyForce(Overlap overlap, const double density[], const double acceleration[],
+                                const double interface_acceleration[], const double gravity[2],
+                                double body_force[][3][2]);
+/* Collective.  explicit_fraction[nnodes], 0 .. 1: how much of a node's motion the fluid's solve takes from the
+ * interface velocity: 1 where the node is held, 1 - rho_s/rho_f where the solid is lighter than the fluid,
+ * else 0. */
+PetscErrorCode InertiaExplicitFraction(Overlap overlap, const SolidState *solid, const double density[],
+                                       double explicit_fraction[]);
 #endif

@@ -1,9 +1,9 @@
 /* Coupling modes: everything that distinguishes one way to couple solid and fluid from another.
  *
- *     reaction         default.  The solid's inside is held by sigma = relaxation rho_f/dt, its surface by
+ *     reaction         default.  The fluid inside the solid has the solid's inertia (inertia.h), or is held
+ *                      by sigma = relaxation rho_f/dt where nodes have no mobility; the surface is held by
  *                      the wall term.  The force is the reaction to both, plus the inertia of the fluid
- *                      inside and buoyancy.  Conservative.  Nodes with a mobility are coupled implicitly
- *                      (inertia.h).
+ *                      inside and buoyancy.  Conservative.
  *     stress_shell     Yang et al. 2016, literal: wall term in the shell only, from the viscosity
  *                      projected to the surface; force by the surface integral of [43], [44].
  *     penalty_shell    Vire, Xiang, Pain 2015: a = rho_f/dt I in the shell only; the force is the reaction to

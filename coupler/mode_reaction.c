@@ -25,7 +25,7 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
       c->coefficient[p] = WallCoefficientIsotropic(c->options.relaxation * o->rho[k] / c->dt);
     }
   }
-  PetscCall(InertiaMakeImplicit(o, solid, c->dt, c->options.gravity, c->coefficient, c->implicit_factor));
+  PetscCall(InertiaCoefficients(o, solid, c->dt, c->coefficient, c->density, c->implicit_factor));
   PetscFunctionReturn(0);
 }
 

@@ -47,6 +47,7 @@ PetscErrorCode RunSave(const RunState *run)
   PetscCall(CheckpointPutNumber(to, "dt", run->dt));
   PetscCall(CheckpointPutDoubles(to, "divergence monitor", rank ? 0 : 1, MONITOR_NUMBERS, row));
   PetscCall(WriterSave(run->loop->writer, to));
+  PetscCall(CouplerSave(run->loop->coupler, to));
   PetscCall(CheckpointClose(&to));
   PetscFunctionReturn(0);
 }

@@ -62,6 +62,7 @@ PetscErrorCode RunCheckDivergence(RunState *run, const StepRecord *step)
   DivergenceMonitorStep s = {.t = step->t,
                              .dt = step->dt,
                              .displaced = step->totals.displaced,
+                             .speed = step->totals.speed,
                              .max_iterations = run->iteration.max_iterations};
   char message[512];
 

@@ -37,7 +37,8 @@ PetscErrorCode RunFail(const RunState *run, const char *format, ...) __attribute
 /* Claims the output folder and creates the writer and the checkpoints: the solid is known, the fluid has
  * answered, and the case suits both.  Until then the folder is untouched. */
 PetscErrorCode RunOpenOutput(RunState *run);
-/* t, dt and the divergence monitor; the writer loads its own part (writer.h). */
+/* t, dt and the divergence monitor; the writer and the coupler load their own parts (writer.h,
+ * coupler.h). */
 PetscErrorCode RunLoad(RunState *run, Checkpoint from);
 /* Saves the coupler if a checkpoint is due: as the step that has been sent begins, or at the end. */
 PetscErrorCode RunSave(const RunState *run);

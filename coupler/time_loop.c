@@ -1,4 +1,4 @@
-/* One step from t to t + dt; a staggered step is one coupling iteration.
+/* One step from t to t + dt, in as many coupling iterations as it takes.
  *
  *     repeat     fluid   -- u*, u+, rho, mu -->  force     -- force -->  solid
  *                solid   -- x, u_s ---------->  converged?
@@ -40,15 +40,13 @@ static PetscErrorCode SendCoupling(RunState *run)
 {
   const TimeLoop *loop = run->loop;
   const CoracleCoupling *coupling;
-  const double *u;
   int n;
 
   PetscFunctionBeginUser;
   PetscCall(CouplerBuild(loop->coupler, &run->solid, run->dt, &n, &coupling));
-  if (run->iteration.max_iterations > 1) {
-    PetscCall(CouplingIterationBegin(&run->iteration, &run->solid, run->dt, &u));
-    PetscCall(CouplerSetInterfaceVelocity(loop->coupler, run->iteration.mobility, u, &n, &coupling));
-  }
+  PetscCall(CouplingIterationBegin(&run->iteration, &run->solid, run->dt,
+                                   CouplerPredictedVelocity(loop->coupler),
+                                   CouplerExplicitFraction(loop->coupler)));
   PetscCall(WriterShell(loop->writer, run->t, loop->coupler, &run->solid));
   PetscCall(ServerSendCoupling(loop->server, run->t, run->dt, CORACLE_RUN, run->ncorrection, run->correction,
                                n, coupling));
@@ -65,6 +63,7 @@ static PetscErrorCode Start(RunState *run)
                                     &run->iteration));
   if (loop->from) PetscCall(RunLoad(run, loop->from));
   PetscCall(ExchangeReceiveSolid(loop->server, run->mode, &run->solid));
+  if (loop->from) PetscCall(CouplerLoad(loop->coupler, &run->solid, loop->from));
   PetscCall(ExchangeSelectFields(loop->server, run->mode));
   PetscCall(RequestElements(run));
   if (!loop->from) PetscCall(RunCheckInside(run));
@@ -101,7 +100,7 @@ static PetscErrorCode RepeatStep(RunState *run)
 
   PetscFunctionBeginUser;
   PetscCall(CouplingIterationNext(&run->iteration, &u));
-  PetscCall(CouplerSetInterfaceVelocity(loop->coupler, run->iteration.mobility, u, &n, &coupling));
+  PetscCall(CouplerSetInterfaceVelocity(loop->coupler, u, &n, &coupling));
   PetscCall(ServerSendCoupling(loop->server, run->t, run->dt, CORACLE_REDO, 0, NULL, n, coupling));
   PetscFunctionReturn(0);
 }
@@ -119,7 +118,6 @@ static PetscErrorCode SolveStep(RunState *run, StepRecord *step)
     if (step->iterations == run->iteration.max_iterations) PetscCall(RunFailIteration(run));
     PetscCall(RepeatStep(run));
   }
-  PetscCall(CouplingIterationEnd(&run->iteration));
   PetscFunctionReturn(0);
 }
 

@@ -1,7 +1,7 @@
 #include "coupler/wall_term.h"
 
-/* c[j] += int over the pair of N_K,j u_s, from the velocities at the source triangle's vertices: by
- * component, then vertex of K. */
+/* c[j] = int over the pair of N_K,j u, from u at the source triangle's vertices: by component, then vertex of
+ * K. */
 static void CrossVelocity(const SupermeshPair *pair, const double u[3][2], double c[2][3])
 {
   for (int d = 0; d < 2; d++) {
@@ -42,18 +42,20 @@ static void AddSolidMass(double implicit_factor, const double bb[3][3], const do
 
 /* One pair's part of its element; velocity is the integral of u_s over the pairs, divided by |K|, so far. */
 static void AddPair(const Overlap o, const SupermeshPair *pair, const WallCoefficient *coefficient, double b,
-                    CoracleCoupling *k)
+                    const double body_force[3][2], CoracleCoupling *k)
 {
   const SourceTriangle *source = &o->source[pair->a];
   const double fraction = pair->area / o->area[pair->b];
-  double cu[2][3];
+  double cu[2][3], cq[2][3];
   CrossVelocity(pair, source->u, cu);
+  CrossVelocity(pair, body_force, cq);
   AddTensor(1.0, coefficient, pair->bb, k->a);
   if (b != 1.0) {
     AddTensor(1.0 - b, coefficient, pair->bb, k->implicit_inertia);
     k->flags |= CORACLE_HAS_INERTIA;
   }
   AddSource(coefficient, (const double(*)[3])cu, k->s);
+  for (int i = 0; i < 6; i++) k->s[i / 3][i % 3] += cq[i / 3][i % 3];
   for (int d = 0; d < 2; d++) k->velocity[d] += (cu[d][0] + cu[d][1] + cu[d][2]) / o->area[pair->b];
   if (source->is_shell) {
     k->flags |= CORACLE_HAS_SHELL;
@@ -65,12 +67,13 @@ static void AddPair(const Overlap o, const SupermeshPair *pair, const WallCoeffi
 }
 
 void WallTermAssemble(const Overlap o, const WallCoefficient coefficient[], const double implicit_factor[],
-                      CoracleCoupling coupling[])
+                      const double body_force[][3][2], CoracleCoupling coupling[])
 {
   for (int e = 0; e < o->ncoupled; e++) coupling[e] = (CoracleCoupling){.element = o->coupled_element[e]};
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    AddPair(o, pair, &coefficient[p], implicit_factor[pair->a], &coupling[o->coupled_index[p]]);
+    AddPair(o, pair, &coefficient[p], implicit_factor[pair->a], body_force[p],
+            &coupling[o->coupled_index[p]]);
   }
   for (int e = 0; e < o->ncoupled; e++)
     for (int d = 0; d < 2; d++) coupling[e].velocity[d] /= coupling[e].alpha + coupling[e].shell;

@@ -7,11 +7,12 @@
  *
  * Element K receives, summed over its pairs (B = int N_K N_K^T, C = int N_T N_K^T),
  *
- *     a                 =  a B                s   =  a C^T u_s
+ *     a                 =  a B                s   =  a C^T u_s + C^T q
  *     implicit inertia  =  (1 - b) a B
  *     ms                =  b B                us  =  b C^T u_s        T in the solid's volume
  *
- * with b = 1 where the coupling is explicit in the solid (inertia.h).  The reaction (force.h) is made of the
+ * with q a body force at the vertices of T and b = 0 where the fluid's solve has the solid's inertia, else 1
+ * (inertia.h).  The reaction (force.h) is made of the
  * same coefficients and integrals, so what the fluid gains the solid loses.  No field is projected, so none
  * undershoots: a sum of positive semidefinite coefficients times Gram matrices is positive semidefinite. */
 #ifndef CORACLE_WALL_TERM_H
@@ -61,8 +62,9 @@ static inline void WallApply(const WallCoefficient *a, const double v[2], double
 }
 
 /* Local: coupling[overlap->ncoupled], one per coupled element (coracle.h has shapes and units), from the
- * pairs' coefficient[pairs.n] a, the source triangles' velocities and implicit_factor[overlap->nsources]
- * b. */
+ * pairs' coefficient[pairs.n] a, the source triangles' velocities, implicit_factor[overlap->nsources]
+ * b and body_force[pairs.n][3][2] q, N/m3. */
 void WallTermAssemble(const Overlap overlap, const WallCoefficient coefficient[],
-                      const double implicit_factor[], CoracleCoupling coupling[]);
+                      const double implicit_factor[], const double body_force[][3][2],
+                      CoracleCoupling coupling[]);
 #endif

@@ -8,10 +8,10 @@ static int SaveOrRestore(void *solid, int save)
 
 /* --- the mesh ----------------------------------------------------------------------------------------- */
 
-static PetscErrorCode GiveMesh(Exchange *x, const SolidView *v, const double u[])
+static PetscErrorCode GiveMesh(Exchange *x, const SolidView *v, const double at[], const double u[])
 {
   PetscFunctionBeginUser;
-  PetscCall(CoracleSetNodes(x->client, 2, v->nnodes, v->gid, v->x, u));
+  PetscCall(CoracleSetNodes(x->client, 2, v->nnodes, v->gid, at, u));
   PetscCall(CoracleSetSurface(x->client, v->nfacets, v->facet));
   PetscCall(CoracleSetVolume(x->client, v->nelements, v->element));
   x->before = x->registered;
@@ -22,14 +22,15 @@ static PetscErrorCode GiveMesh(Exchange *x, const SolidView *v, const double u[]
 }
 
 /* Cracks have changed the mesh in this step.  The substeps have reported the velocities of the nodes that existed
- * when it began; the others get the mean over the step. */
+ * when it began; the others get the mean over the step.  On another partition none has been reported: the step
+ * is one substep, from the positions at its start. */
 static PetscErrorCode GiveCrackedMesh(Exchange *x, const SolidView *v)
 {
   double *mean;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(2 * (size_t)v->nnodes, &mean));
   for (int k = 0; k < 2 * v->nnodes; k++) mean[k] = (v->x[k] - v->start[k]) / x->dt;
-  PetscCall(GiveMesh(x, v, mean));
+  PetscCall(GiveMesh(x, v, x->remote ? v->start : v->x, mean));
   if (x->remote) PetscCall(CoracleSubstep(x->client, x->dt, mean));
   PetscCall(PetscFree(mean));
   PetscFunctionReturn(0);
@@ -42,8 +43,11 @@ PetscErrorCode ExchangeCreate(CoracleClient client, Solid solid, Exchange *x)
   PetscFunctionBeginUser;
   *x = (Exchange){.client = client, .solid = solid};
   SolidGetView(solid, &v);
-  SolidGetInterfaceMotion(solid, &interface);
-  PetscCall(GiveMesh(x, &v, interface.u));
+  if (SolidGetStats(solid)->total == 0)
+    PetscCall(SolidUpdateInterfaceMotion(solid, &interface));
+  else
+    SolidGetInterfaceMotion(solid, &interface);
+  PetscCall(GiveMesh(x, &v, v.x, interface.u));
   PetscCall(CoracleSetInertia(client, interface.mobility, interface.acceleration));
   PetscCall(CoracleBindStateFunction(client, SaveOrRestore, solid));
   PetscCall(CoracleReady(client));
@@ -130,7 +134,7 @@ PetscErrorCode ExchangeMotion(Exchange *x)
   InterfaceMotion interface;
   PetscFunctionBeginUser;
   SolidGetView(x->solid, &v);
-  PetscCall(SolidUpdateInterfaceMotion(x->solid, &interface));
+  SolidGetInterfaceMotion(x->solid, &interface);
   if (v.revision != x->registered.revision) PetscCall(GiveCrackedMesh(x, &v));
   if (v.partition == x->registered.partition) {
     PetscCall(CoracleSetVelocity(x->client, interface.u));

@@ -1,203 +1,112 @@
-/* What the fluid sees, piece by piece (a body that has not come apart is one).
+/* The solid's motion as the coupler receives it, and how nodes respond to the fluid's force.
  *
- * Where the fluid's step resolves the waves in a piece it sees the velocities as they are, and every node
- * is compliant by itself (coracle.h, CoracleSetInertia): the exchange is implicit.  Any other piece is compliant as
- * a whole only: the fluid sees its rigid motion at the step's end, and of its deformation what the step can
- * resolve.  That exchange answers a vibration about one and a half steps late; late by more than half a
- * period the answer drives the vibration instead of damping it. */
+ * The explicit substeps follow every vibration; a step of the fluid resolves those with omega dt << 1 only.  What
+ * is sent is therefore the response of one implicit step to the same forces,
+ *
+ *     S = (M + dt^2/4 K)^-1 M,    K the tangent stiffness of elements and joints where they are now,
+ *
+ * which keeps rigid motions, and slow deformation (omega dt << 1) too, and divides fast vibrations by
+ * 1 + (omega dt/2)^2; it has no parameter and no switch.  With v the velocity, f the solid's own forces
+ * (internal, joints, contact) and F the fluid's of the step just made,
+ *
+ *     velocity      w = S v
+ *     acceleration  a = S ((f + F)/m + g) - F/m          by all forces but the fluid's
+ *
+ * so that a mode which the step does not resolve holds against F: a -> -F/m. */
 #include "solid/solid_impl.h"
 
-/* Deformation slower than the first is seen whole, faster than the second not at all: omega dt. */
-#define DEFORMATION_KEPT 0.1
-#define DEFORMATION_DROPPED 0.25
-/* Waves are resolved up to w dt, w the bound on the fastest vibration that substeps obey: 1.5 to 2.5 times
- * the real one. */
-#define RESOLVED 12.0
+/* Of the conjugate gradients: the residual's norm, relative to that of the argument; and their number, after
+ * which the result, then smoothed less, is taken as it is. */
+#define TOLERANCE 1e-8
+enum { MAX_ITERATIONS = 1000 };
 
-/* Sums over a piece: mass, m x; m v, m x cross v, m |x|^2, v the velocity now; and the same two of the mean
- * velocity.  Then of the mean's deformation d: m |d|^2, and int 2 mu e:e + lambda (tr e)^2 of its strain rate
- * e. */
-enum { M, MX, MY, MU, MV, SPIN, INERTIA, MEAN_U, MEAN_V, MEAN_SPIN, NSUMS };
-enum { KINETIC, STRAIN, NENERGIES };
-
-typedef struct {
-  double centre[2], end[2], end_spin, mean[2], mean_spin;
-} RigidMotion;
-
-static void RigidVelocity(const double centre[2], const double v[2], double omega, const double x[2],
-                          double u[2])
+/* f -= int sigma(d) grad N_i over element k as it is now, sigma = 2 mu e + lambda tr(e) I. */
+static void AddElementStiffness(const Elements *e, int k, const double x[], const double d[], double f[])
 {
-  u[0] = v[0] - omega * (x[1] - centre[1]);
-  u[1] = v[1] + omega * (x[0] - centre[0]);
-}
-
-static double MeanVelocity(const Solid s, int i)
-{
-  return (s->x[i] - s->start[i]) / s->dt;
-}
-
-static void AddMotion(const Solid s, const int piece[], double sum[][NSUMS])
-{
-  for (int i = 0; i < s->nnodes; i++) {
-    if (!SubdomainOwns(s->subdomain, i)) continue;
-    double *k = sum[piece[i]];
-    const double m = s->mass[i], *x = s->x + 2 * i, *v = s->v + 2 * i;
-    const double mean[2] = {MeanVelocity(s, 2 * i), MeanVelocity(s, 2 * i + 1)};
-    k[M] += m;
-    for (int c = 0; c < 2; c++) {
-      k[MX + c] += m * x[c];
-      k[MU + c] += m * v[c];
-      k[MEAN_U + c] += m * mean[c];
-    }
-    k[SPIN] += m * (x[0] * v[1] - x[1] * v[0]);
-    k[MEAN_SPIN] += m * (x[0] * mean[1] - x[1] * mean[0]);
-    k[INERTIA] += m * (x[0] * x[0] + x[1] * x[1]);
-  }
-}
-
-/* The rigid motions with the pieces' momentum and angular momentum, of the velocity now and of the mean. */
-static PetscErrorCode RigidMotions(const Solid s, int n, const int piece[], RigidMotion motion[])
-{
-  double(*sum)[NSUMS];
-  PetscFunctionBeginUser;
-  PetscCall(PetscCalloc1((size_t)n, &sum));
-  AddMotion(s, piece, sum);
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, NSUMS * n, MPI_DOUBLE, MPI_SUM, s->comm));
-  for (int b = 0; b < n; b++) {
-    const double *k = sum[b], x = k[MX] / k[M], y = k[MY] / k[M];
-    const double inertia = k[INERTIA] - (x * k[MX] + y * k[MY]);
-    motion[b] = (RigidMotion){.centre = {x, y},
-                              .end = {k[MU] / k[M], k[MV] / k[M]},
-                              .end_spin = (k[SPIN] - (x * k[MV] - y * k[MU])) / inertia,
-                              .mean = {k[MEAN_U] / k[M], k[MEAN_V] / k[M]},
-                              .mean_spin = (k[MEAN_SPIN] - (x * k[MEAN_V] - y * k[MEAN_U])) / inertia};
-  }
-  PetscCall(PetscFree(sum));
-  PetscFunctionReturn(0);
-}
-
-/* seen = the deformation's share of the mean velocity */
-static void Deformation(const Solid s, const int piece[], const RigidMotion motion[])
-{
-  for (int i = 0; i < s->nnodes; i++) {
-    const RigidMotion *r = motion + piece[i];
-    double rigid[2];
-    RigidVelocity(r->centre, r->mean, r->mean_spin, s->x + 2 * i, rigid);
-    for (int c = 0; c < 2; c++) s->interface_velocity[2 * i + c] = MeanVelocity(s, 2 * i + c) - rigid[c];
-  }
-}
-
-/* 2 mu e:e + lambda (tr e)^2 times the area, e the symmetric gradient of d on element k as it is now */
-static double StrainPower(const Elements *e, int k, const double x[], const double d[])
-{
-  double g[2][2] = {{0}}, area = 0.0;
+  double g[2][2] = {{0}}, normal[3][2], twice = 0.0;
   for (int i = 0; i < 3; i++) {
     const double *p = x + 2 * e->node[(i + 1) % 3][k], *q = x + 2 * e->node[(i + 2) % 3][k];
-    const double *di = d + 2 * e->node[i][k], normal[2] = {p[1] - q[1], q[0] - p[0]};
-    area += 0.5 * (p[0] * q[1] - q[0] * p[1]);
+    const double *di = d + 2 * e->node[i][k];
+    normal[i][0] = p[1] - q[1];
+    normal[i][1] = q[0] - p[0];
+    twice += p[0] * q[1] - q[0] * p[1];
     for (int c = 0; c < 2; c++)
-      for (int b = 0; b < 2; b++) g[c][b] += di[c] * normal[b];
+      for (int b = 0; b < 2; b++) g[c][b] += di[c] * normal[i][b];
   }
-  const double shear = 0.5 * (g[0][1] + g[1][0]), trace = g[0][0] + g[1][1];
-  const double square = g[0][0] * g[0][0] + g[1][1] * g[1][1] + 2.0 * shear * shear;
   const double mu = e->mu[k], lambda = e->lambda[k];
   const double bulk = e->plane_stress[k] > 0.0 ? 2.0 * lambda * mu / (lambda + 2.0 * mu) : lambda;
-  return (2.0 * mu * square + bulk * trace * trace) / (4.0 * area);
+  const double shear = mu * (g[0][1] + g[1][0]), trace = bulk * (g[0][0] + g[1][1]);
+  const double t[2][2] = {{2.0 * mu * g[0][0] + trace, shear}, {shear, 2.0 * mu * g[1][1] + trace}};
+  for (int i = 0; i < 3; i++)
+    for (int c = 0; c < 2; c++)
+      f[2 * e->node[i][k] + c] -= (t[c][0] * normal[i][0] + t[c][1] * normal[i][1]) / (2.0 * twice);
 }
 
-/* share[b]: how much of piece b's deformation is seen, by its Rayleigh quotient omega^2 = strain power / (m
- * |d|^2): never below the square of the piece's slowest vibration, whatever the deformation.  Living joints
- * are springs of it. */
-static PetscErrorCode DeformationFactors(const Solid s, int n, const int piece[], double factor[])
+/* ad = d + factor M^-1 K d; fixed nodes: d */
+static PetscErrorCode Apply(Solid s, double factor, const double d[], double ad[])
 {
-  double(*sum)[NENERGIES];
   PetscFunctionBeginUser;
-  PetscCall(PetscCalloc1((size_t)n, &sum));
-  for (int i = 0; i < s->nnodes; i++) {
-    const double *d = s->interface_velocity + 2 * i;
-    if (SubdomainOwns(s->subdomain, i)) sum[piece[i]][KINETIC] += s->mass[i] * (d[0] * d[0] + d[1] * d[1]);
-  }
-  for (int k = 0; k < s->elements.n; k++)
-    sum[piece[s->element[3 * k]]][STRAIN] += StrainPower(&s->elements, k, s->x, s->interface_velocity);
-  JointsAddStrainPower(s->joints, s, s->interface_velocity, piece, NENERGIES, &sum[0][STRAIN]);
-  if (s->size > 1)
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, NENERGIES * n, MPI_DOUBLE, MPI_SUM, s->comm));
-  for (int b = 0; b < n; b++) {
-    const double omega = sum[b][KINETIC] > 0.0 ? sqrt(sum[b][STRAIN] / sum[b][KINETIC]) : 0.0;
-    factor[b] = fmin(
-        1.0, fmax(0.0, (DEFORMATION_DROPPED - omega * s->dt) / (DEFORMATION_DROPPED - DEFORMATION_KEPT)));
-  }
-  PetscCall(PetscFree(sum));
+  PetscCall(PetscArrayzero(ad, 2 * (size_t)s->nnodes));
+  for (int k = 0; k < s->elements.n; k++) AddElementStiffness(&s->elements, k, s->x, d, ad);
+  JointsAddStiffness(s->joints, s, d, ad);
+  PetscCall(SubdomainSum(s->subdomain, ad));
+  for (int k = 0; k < 2 * s->nnodes; k++) ad[k] = d[k] - factor * s->inverse_mass[k / 2] * ad[k];
   PetscFunctionReturn(0);
 }
 
-/* resolved[b]: a step of dt resolves the waves in piece b; *any of them, on all ranks. */
-static PetscErrorCode FindResolved(const Solid s, int n, const int piece[], PetscBool resolved[],
-                                   PetscBool *any)
+/* sum m a.b over the nodes */
+static PetscErrorCode Dot(Solid s, const double a[], const double b[], double *dot)
 {
-  double *fastest; /* w^2 */
   PetscFunctionBeginUser;
-  PetscCall(PetscCalloc1((size_t)n, &fastest));
-  for (int k = 0; k < s->elements.n; k++) {
-    const int b = piece[s->element[3 * k]];
-    fastest[b] = fmax(fastest[b], SolidElementRates(s, k).stiffness);
-  }
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, fastest, n, MPI_DOUBLE, MPI_MAX, s->comm));
-  *any = PETSC_FALSE;
-  for (int b = 0; b < n; b++) {
-    resolved[b] = (PetscBool)(sqrt(fastest[b]) * s->dt < RESOLVED);
-    if (resolved[b]) *any = PETSC_TRUE;
-  }
-  PetscCall(PetscFree(fastest));
+  *dot = 0.0;
+  for (int i = 0; i < s->nnodes; i++)
+    if (SubdomainOwns(s->subdomain, i))
+      *dot += s->mass[i] * (a[2 * i] * b[2 * i] + a[2 * i + 1] * b[2 * i + 1]);
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, dot, 1, MPI_DOUBLE, MPI_SUM, s->comm));
   PetscFunctionReturn(0);
 }
 
-static void SetNodeMotion(Solid s, int i, const double force[2])
+/* d -> S d, by conjugate gradients from d itself: exact at once where d is a rigid motion. */
+static PetscErrorCode Respond(Solid s, double d[])
 {
-  s->mobility[i] = s->inverse_mass[i];
-  for (int c = 0; c < 2; c++) {
-    const double gravity = s->inverse_mass[i] > 0.0 ? s->setup.gravity[c] : 0.0;
-    s->interface_velocity[2 * i + c] = s->v[2 * i + c];
-    s->acceleration[2 * i + c] = s->inverse_mass[i] * force[c] + gravity;
+  const double factor = 0.25 * s->dt * s->dt;
+  const size_t n = 2 * (size_t)s->nnodes;
+  double *r, *p, *ap, rr, pap, size, next;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc3(n, &r, n, &p, n, &ap));
+  PetscCall(Apply(s, factor, d, ap));
+  for (size_t k = 0; k < n; k++) p[k] = r[k] = d[k] - ap[k];
+  PetscCall(Dot(s, r, r, &rr));
+  PetscCall(Dot(s, d, d, &size));
+  for (int i = 0; i < MAX_ITERATIONS && rr > TOLERANCE * TOLERANCE * size; i++) {
+    PetscCall(Apply(s, factor, p, ap));
+    PetscCall(Dot(s, p, ap, &pap));
+    for (size_t k = 0; k < n; k++) {
+      d[k] += rr / pap * p[k];
+      r[k] -= rr / pap * ap[k];
+    }
+    PetscCall(Dot(s, r, r, &next));
+    for (size_t k = 0; k < n; k++) p[k] = r[k] + next / rr * p[k];
+    rr = next;
   }
-}
-
-/* seen: the mean deformation until now */
-static void SetRigidMotion(Solid s, int i, const RigidMotion *r, double factor)
-{
-  double rigid[2];
-  RigidVelocity(r->centre, r->end, r->end_spin, s->x + 2 * i, rigid);
-  s->mobility[i] = 0.0;
-  for (int c = 0; c < 2; c++) {
-    s->interface_velocity[2 * i + c] = rigid[c] + factor * s->interface_velocity[2 * i + c];
-    s->acceleration[2 * i + c] = 0.0;
-  }
+  PetscCall(PetscFree3(r, p, ap));
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode SolidUpdateInterfaceMotion(Solid s, InterfaceMotion *interface)
 {
-  const double *force = NULL;
-  RigidMotion *motion;
-  PetscBool *resolved, any;
-  double *factor;
-  const int *piece;
-  int n;
+  const double *force;
   PetscFunctionBeginUser;
-  PetscCall(SolidPieces(s, &n, &piece));
-  PetscCall(PetscMalloc3((size_t)n, &motion, (size_t)n, &factor, (size_t)n, &resolved));
-  PetscCall(RigidMotions(s, n, piece, motion));
-  Deformation(s, piece, motion);
-  PetscCall(DeformationFactors(s, n, piece, factor));
-  PetscCall(FindResolved(s, n, piece, resolved, &any));
-  if (any) PetscCall(SolidForces(s, &force));
-  for (int i = 0; i < s->nnodes; i++) {
-    const int b = piece[i];
-    if (resolved[b])
-      SetNodeMotion(s, i, force + 2 * i);
-    else
-      SetRigidMotion(s, i, motion + b, factor[b]);
+  PetscCall(SolidForces(s, &force));
+  PetscCall(PetscArraycpy(s->interface_velocity, s->v, 2 * (size_t)s->nnodes));
+  for (int k = 0; k < 2 * s->nnodes; k++) {
+    const double by_mass = s->inverse_mass[k / 2];
+    s->mobility[k / 2] = by_mass;
+    s->acceleration[k] = by_mass > 0.0 ? by_mass * (force[k] + s->load[k]) + s->setup.gravity[k % 2] : 0.0;
   }
-  PetscCall(PetscFree3(motion, factor, resolved));
+  PetscCall(Respond(s, s->interface_velocity));
+  PetscCall(Respond(s, s->acceleration));
+  for (int k = 0; k < 2 * s->nnodes; k++) s->acceleration[k] -= s->inverse_mass[k / 2] * s->load[k];
   SolidGetInterfaceMotion(s, interface);
   PetscFunctionReturn(0);
 }

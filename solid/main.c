@@ -61,6 +61,7 @@ static PetscErrorCode Run(const Program *program, Solid solid, Checkpoint *from)
   Exchange exchange;
   Writer writer;
   CoracleAction action;
+  InterfaceMotion interface;
   const double *load;
   double dt, h;
   PetscFunctionBeginUser;
@@ -79,6 +80,8 @@ static PetscErrorCode Run(const Program *program, Solid solid, Checkpoint *from)
       PetscCall(SolidSubstep(solid, &h));
       PetscCall(ExchangeSubstep(&exchange, h));
     }
+    PetscCall(SolidUpdateInterfaceMotion(
+        solid, &interface)); /* before elements change ranks, while contact is known */
     PetscCall(SolidRebalance(solid));
     PetscCall(ExchangeMotion(&exchange));
   }

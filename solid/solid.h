@@ -65,10 +65,10 @@ PetscErrorCode SolidRebalance(Solid s);
 PetscErrorCode SolidRedistribute(Solid s, const int part[]);
 /* What the solid sends the coupler of its motion (interface_motion.c). */
 typedef struct {
-  const double *u;        /* [nnodes][2] the bodies' rigid motion, plus their deformation as far as steps of
-                             dt resolve it, m/s */
-  const double *mobility; /* [nnodes] 1/kg, as coracle.h has it: 0 where a fragment moves as a rigid body */
-  const double *acceleration; /* [nnodes][2] m/s2, theirs without the fluid's force */
+  const double *u;            /* [nnodes][2] velocity, without the vibrations that steps of dt do not
+                                 resolve, m/s */
+  const double *mobility;     /* [nnodes] 1/kg, one over the node's mass; 0 where it is fixed */
+  const double *acceleration; /* [nnodes][2] by all forces but the fluid's, m/s2 */
 } InterfaceMotion;
 /* Collective, after the last substep, when all is as at the step's end; borrowed until the next SolidStart.
  */

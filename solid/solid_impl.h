@@ -148,9 +148,8 @@ void JointsAddForces(Joints j, Solid s);
 /* Collective: edges loaded to their strength activate, broken ones become surface; *changed: nodes,
  * elements and facets are new, forces and limit too. */
 PetscErrorCode JointsAdvance(Joints j, Solid s, PetscBool *changed);
-/* Adds to power[stride piece] what the active joints would do more, N m/s2, if nodes moved with d[nnodes][2].
- */
-void JointsAddStrainPower(Joints j, Solid s, const double d[], const int piece[], int stride, double power[]);
+/* force[nnodes][2] -= K d, K the stiffness of the active joints as they are; not summed over ranks. */
+void JointsAddStiffness(Joints j, Solid s, const double d[], double force[]);
 /* Bound of omega^2, 1/s2. */
 double JointsRate(Joints j);
 /* break.c: saves or puts back damage and topology; not collective. */

@@ -92,7 +92,8 @@ void StateFree(CoracleClient c);
 
 /* client_check.c.  Local: node indices, unique ids, positive areas; x[n][2]: present positions. */
 void CheckMesh(CoracleClient c, const double x[]);
-/* Collective over the solid: no element or facet twice, and the surface is the volume's boundary. */
+/* Collective over the solid: no element or facet twice, and the surface is the volume's boundary, as it
+ * is before there are cracks. */
 void CheckSurface(CoracleClient c);
 
 void SolidReady(CoracleClient c);

@@ -190,11 +190,13 @@ int CoracleSubstep(CoracleClient c, double h, const double u[]);
 int CoracleSetVelocity(CoracleClient c, const double u[]);
 /* Optional, before CoracleReady and where CoracleSetVelocity is: how nodes respond to the fluid's force.
  *   mobility[n]           1/kg, velocity per unit of impulse on the node: one over its mass, all ranks'
- *                         elements together; 0 where it is held, or too stiff to move but as a body
- *   acceleration[n][dim]  m/s2, by all forces but the fluid's, gravity included; 0 where mobility is
- * The coupler then takes the solid's inertia into the fluid's solve, so that soft and thin bodies can be
- * coupled with any penalty; without it, or where mobility is 0, the solid's velocity is prescribed to the
- * fluid.  For the next step only. */
+ *                         elements together; 0 where it is held and does not respond
+ *   acceleration[n][dim]  m/s2, by all forces but the fluid's, gravity included; of a node that the rest of
+ *                         its body holds against the fluid this is about minus the fluid's force of the last
+ *                         step over the node's mass; 0 where mobility is
+ * The coupler then takes the solid's inertia into the fluid's solve: one coupling iteration suffices for
+ * solids as dense as the fluid or denser, and lighter ones need few.  Without it, or where mobility is 0, the
+ * velocity predicted for the step's end is prescribed to the fluid.  For the next step only. */
 int CoracleSetInertia(CoracleClient c, const double mobility[], const double acceleration[]);
 
 /* --- the fluid in a step -------------------------------------------------------------------------------- */

@@ -208,25 +208,29 @@ static inline void JointTractions(const JointLaw *law, JointEnd end[2], const Jo
   }
 }
 
-/* sigma do + tau ds an end would do more, per (unit of time)^2, if it opened and slipped with these
- * velocities: as stiff as it is on the way back to the origin, or where it is pressed.  Pa m/s2 */
-static inline double JointStiffening(const JointLaw *law, const JointEnd end[2], const JointShape *shape,
-                                     int i, const double opening[2], const double slip[2])
+/* Adds end i's part to the rates normal[2] and shear[2], Pa/s, of the tractions on both ends when the ends open
+ * and slip with these velocities, m/s: with the stiffness of unloading to the origin, or of pressed faces.
+ * Linear and symmetric in (opening, slip). */
+static inline void JointAddStiffness(const JointLaw *law, const JointEnd end[2], const JointShape *shape,
+                                     int i, const double opening[2], const double slip[2], double normal[2],
+                                     double shear[2])
 {
   const JointEnd *k = &end[i];
   const double k0 = law->stiffness, own = 1.0 - k->other_weight,
                pressure = JointPressure(law, k, shape->opening[i]);
   const double rate[2] = {own * opening[i] + k->other_weight * opening[1 - i],
                           own * slip[i] + k->other_weight * slip[1 - i]};
-  double power = pressure < 0.0 ? k0 * opening[i] * opening[i] : 0.0;
-  if (fabs(k->friction) < -law->friction * pressure) power += k0 * slip[i] * slip[i];
+  double *growth[2] = {normal, shear};
+  if (pressure < 0.0) normal[i] += k0 * opening[i];
+  if (fabs(k->friction) < -law->friction * pressure) shear[i] += k0 * slip[i];
   for (int mode = 0; mode < 2; mode++) {
     const double f = k->strong * law->strength[mode];
     if (mode == 0 && pressure < 0.0) continue;
-    power += k->residual * f / (f / k0 + k->damage * law->energy[mode] / (JOINT_SOFTENING_AREA * f)) *
-             rate[mode] * rate[mode];
+    const double traction =
+        k->residual * f / (f / k0 + k->damage * law->energy[mode] / (JOINT_SOFTENING_AREA * f)) * rate[mode];
+    growth[mode][i] += own * traction;
+    growth[mode][1 - i] += k->other_weight * traction;
   }
-  return power;
 }
 
 /* Forces of the tractions t on element 1's nodes (one) and element 2's (two); half: L/2.  They are those of

@@ -119,24 +119,30 @@ void JointsAddForces(Joints j, Solid s)
   }
 }
 
-void JointsAddStrainPower(Joints j, Solid s, const double d[], const int piece[], int stride, double power[])
+void JointsAddStiffness(Joints j, Solid s, const double d[], double force[])
 {
   for (int k = 0; j && k < j->nactive; k++) {
     const Joint *joint = &j->joint[j->active[k]];
     const JointEnd *end = j->memory[j->active[k]].end;
     const JointShape shape = ShapeOf(j, s, joint);
-    double opening[2], slip[2];
+    const Point n = shape.normal, e = shape.along;
+    double opening[2], slip[2], normal[2] = {0.0, 0.0}, shear[2] = {0.0, 0.0};
     if (!joint->mine) continue;
     for (int i = 0; i < 2; i++) {
       const Point u = PointMinus(PointAt(d, j->corner[joint->corner[i][1]].node),
                                  PointAt(d, j->corner[joint->corner[i][0]].node));
-      opening[i] = u.x * shape.normal.x + u.y * shape.normal.y;
-      slip[i] = u.x * shape.along.x + u.y * shape.along.y;
+      opening[i] = u.x * n.x + u.y * n.y;
+      slip[i] = u.x * e.x + u.y * e.y;
     }
     for (int i = 0; i < 2; i++)
-      if (end[i].strong > 0.0)
-        power[stride * piece[j->corner[joint->corner[i][0]].node]] +=
-            0.5 * joint->length * JointStiffening(&joint->law, end, &shape, i, opening, slip);
+      if (end[i].strong > 0.0) JointAddStiffness(&joint->law, end, &shape, i, opening, slip, normal, shear);
+    for (int i = 0; i < 2; i++) {
+      const double half = 0.5 * joint->length;
+      const Point force_on_first = {half * (normal[i] * n.x + shear[i] * e.x),
+                                    half * (normal[i] * n.y + shear[i] * e.y)};
+      Add(force, j->corner[joint->corner[i][0]].node, force_on_first);
+      Add(force, j->corner[joint->corner[i][1]].node, (Point){-force_on_first.x, -force_on_first.y});
+    }
   }
 }
 

@@ -41,6 +41,21 @@ static void Nodes(const Disc *d, const BulkMotion *m, double position[])
   }
 }
 
+/* The velocity of the nodes, [n + 1][2] */
+static void Velocities(const Disc *d, const double x[], double u[])
+{
+  for (int i = 0; d->n && i <= d->n; i++) {
+    u[2 * i] = d->now.v[0] - d->now.spin * (x[2 * i + 1] - d->now.x[1]);
+    u[2 * i + 1] = d->now.v[1] + d->now.spin * (x[2 * i] - d->now.x[0]);
+  }
+}
+
+/* One over the mass of node i: a third of its slices, two of the n on the circle, all in the centre. */
+static double Mobility(const Disc *d, int i)
+{
+  return (i < d->n ? 1.5 * d->n : 3.0) / d->mass;
+}
+
 /* The first body of the case, per metre of depth; mass and inertia are the polygon's, which is what displaces
  * fluid. */
 static void ReadCase(Disc *d, int argc, char **argv, int rank)
@@ -89,6 +104,23 @@ static void GiveMesh(const Disc *d, double x[])
   free(slice);
 }
 
+/* How the nodes answer the fluid (CoracleSetInertia): each with its part of the mass, as a rigid body.  What
+ * moves it beside the fluid is the rest of the body: its acceleration from velocities u to w, less the fluid's
+ * force over its mass. */
+static void FindOwn(const Disc *d, double dt, const double u[], const double w[], const double force[],
+                    double own[])
+{
+  for (int k = 0; d->n && k < 2 * d->n + 2; k++) own[k] = (w[k] - u[k]) / dt - Mobility(d, k / 2) * force[k];
+}
+
+static void TellInertia(const Disc *d, const double own[])
+{
+  double *mobility = malloc(((size_t)d->n + 1) * sizeof *mobility);
+  for (int i = 0; i <= d->n; i++) mobility[i] = d->n ? Mobility(d, i) : 0.0;
+  CoracleSetInertia(d->client, mobility, own);
+  free(mobility);
+}
+
 /* Newton and Euler: m dv/dt = F + m g, I dw/dt = M, over one step. */
 static void Advance(Disc *d, double dt, const double x[], const double force[])
 {
@@ -117,9 +149,13 @@ int main(int argc, char **argv)
   MPI_Comm_rank(comm, &rank);
   ReadCase(&d, argc, argv, rank);
   const size_t bytes = 2 * ((size_t)d.n + 1) * sizeof(double);
-  double *before = malloc(bytes), *after = malloc(bytes), *u = malloc(bytes);
+  double *before = malloc(bytes), *after = malloc(bytes), *u = malloc(bytes), *w = malloc(bytes);
+  double *own = malloc(bytes);
+  for (int k = 0; k < 2 * d.n + 2; k++) own[k] = d.gravity[k % 2];
   CoracleBindState(d.client, &d.now, sizeof d.now); /* first: a resumed run now is where it was */
+  CoracleBindState(d.client, own, bytes);
   GiveMesh(&d, before);
+  TellInertia(&d, own);
   CoracleReady(d.client);
   for (;;) {
     const double *force;
@@ -127,10 +163,15 @@ int main(int argc, char **argv)
     if (action == CORACLE_STOP) break;
     CoracleGetForce(d.client, &force);
     Nodes(&d, &d.now, before);
+    Velocities(&d, before, u);
     Advance(&d, dt, before, force);
     Nodes(&d, &d.now, after);
+    Velocities(&d, after, w);
+    FindOwn(&d, dt, u, w, force, own);
     for (int i = 0; d.n && i < 2 * d.n + 2; i++) u[i] = (after[i] - before[i]) / dt;
     CoracleSubstep(d.client, dt, u); /* one substep: the library divides the displacement by dt again */
+    CoracleSetVelocity(d.client, w);
+    TellInertia(&d, own);
     CoracleEnd(d.client, after);
   }
   if (rank == 0) CoracleReport(d.client, "centre_y", d.now.x[1], 0);
@@ -138,5 +179,7 @@ int main(int argc, char **argv)
   free(before);
   free(after);
   free(u);
+  free(w);
+  free(own);
   return CoracleClose(&d.client);
 }

@@ -154,7 +154,7 @@ static void Forces(void)
   CHECK(fabs(sum.x) + fabs(sum.y) + fabs(moment) < 1e-14, "sum %g %g, moment %g", sum.x, sum.y, moment);
 }
 
-/* Let go a little: the traction falls as JointStiffening says, pulled and pressed. */
+/* Let go a little: the traction falls as JointAddStiffness says, pulled and pressed. */
 static void Stiffness(void)
 {
   const JointLaw law = Law(120.0, 300.0);
@@ -168,8 +168,10 @@ static void Stiffness(void)
     const JointTraction near =
         JointTractionAt(&law, &end[0], shape.opening[0] + way[0], shape.slip[0] + way[1]);
     const double expected = (near.normal - far.normal) * way[0] + (near.shear - far.shear) * way[1];
-    const double power =
-        JointStiffening(&law, end, &shape, 0, (double[2]){way[0], 0.0}, (double[2]){way[1], 0.0});
+    double normal[2] = {0.0, 0.0}, shear[2] = {0.0, 0.0};
+    JointAddStiffness(&law, end, &shape, 0, (double[2]){way[0], 0.0}, (double[2]){way[1], 0.0}, normal,
+                      shear);
+    const double power = normal[0] * way[0] + shear[0] * way[1];
     CHECK(fabs(power / expected - 1.0) < 1e-6, "%d: %.12g instead of %.12g", k, power, expected);
   }
 }

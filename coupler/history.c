@@ -1,0 +1,117 @@
+#include "coupler/history.h"
+#include <stdlib.h>
+
+static PetscErrorCode Resize(History *h, const SolidState *solid)
+{
+  const size_t n = (size_t)solid->nnodes;
+
+  PetscFunctionBeginUser;
+  PetscCall(HistoryDestroy(h));
+  PetscCall(PetscMalloc3(n, &h->gid, n, &h->acceleration, n, &h->shell));
+  PetscCall(PetscArraycpy(h->gid, solid->gid, n));
+  PetscCall(PetscArrayzero(h->acceleration, n));
+  PetscCall(PetscArrayzero(h->shell, n));
+  h->n = solid->nnodes;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode HistoryStep(History *h, const SolidState *moved, double dt, const double start[],
+                           const double shell[])
+{
+  int changed = moved->changed;
+
+  PetscFunctionBeginUser;
+  PetscCall(Resize(h, moved));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, h->comm));
+  h->known = changed ? PETSC_FALSE : PETSC_TRUE;
+  for (int i = 0; i < h->n && h->known; i++)
+    for (int c = 0; c < 2; c++) {
+      h->acceleration[i][c] = (moved->u[2 * i + c] - start[2 * i + c]) / dt;
+      h->shell[i][c] = shell[2 * i + c];
+    }
+  PetscFunctionReturn(0);
+}
+
+enum { ACCELERATION, SHELL = ACCELERATION + 2, NCOLUMNS = SHELL + 2 };
+
+typedef struct {
+  long long gid;
+  double value[NCOLUMNS];
+} Row;
+
+static int CompareRows(const void *a, const void *b)
+{
+  const Row *p = a, *q = b;
+  return (p->gid > q->gid) - (p->gid < q->gid);
+}
+
+PetscErrorCode HistorySave(const History *h, Checkpoint to)
+{
+  double(*value)[NCOLUMNS];
+
+  PetscFunctionBeginUser;
+  PetscCall(CheckpointPutNumber(to, "history known", h->known));
+  PetscCall(PetscMalloc1(h->n, &value));
+  for (int i = 0; i < h->n; i++)
+    for (int c = 0; c < 2; c++) {
+      value[i][ACCELERATION + c] = h->acceleration[i][c];
+      value[i][SHELL + c] = h->shell[i][c];
+    }
+  PetscCall(CheckpointPutIndices(to, "history nodes", h->n, 1, h->gid));
+  PetscCall(CheckpointPutDoubles(to, "history", h->n, NCOLUMNS, (const double *)value));
+  PetscCall(PetscFree(value));
+  PetscFunctionReturn(0);
+}
+
+/* All rows, in order of the nodes. */
+static PetscErrorCode LoadRows(Checkpoint from, int n, Row row[])
+{
+  long long *gid;
+  double(*value)[NCOLUMNS];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(n, &gid, n, &value));
+  PetscCall(CheckpointGetIndices(from, "history nodes", 0, n, 1, gid));
+  PetscCall(CheckpointGetDoubles(from, "history", 0, n, NCOLUMNS, (double *)value));
+  for (int i = 0; i < n; i++) {
+    row[i].gid = gid[i];
+    PetscCall(PetscArraycpy(row[i].value, value[i], NCOLUMNS));
+  }
+  if (n) qsort(row, (size_t)n, sizeof *row, CompareRows);
+  PetscCall(PetscFree2(gid, value));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode HistoryLoad(History *h, const SolidState *solid, Checkpoint from)
+{
+  double known;
+  long long total;
+  Row *row;
+
+  PetscFunctionBeginUser;
+  PetscCall(Resize(h, solid));
+  PetscCall(CheckpointGetNumber(from, "history known", &known));
+  h->known = known ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(CheckpointRows(from, "history", &total));
+  PetscCall(PetscMalloc1((size_t)total, &row));
+  PetscCall(LoadRows(from, (int)total, row));
+  for (int i = 0; i < h->n; i++) {
+    const Row key = {.gid = h->gid[i]},
+              *found = total ? bsearch(&key, row, (size_t)total, sizeof *row, CompareRows) : NULL;
+    for (int c = 0; found && c < 2; c++) {
+      h->acceleration[i][c] = found->value[ACCELERATION + c];
+      h->shell[i][c] = found->value[SHELL + c];
+    }
+  }
+  PetscCall(PetscFree(row));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode HistoryDestroy(History *h)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscFree3(h->gid, h->acceleration, h->shell));
+  h->n = 0;
+  h->known = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,28 @@
+/* What the coupler keeps of the last step at the solid's nodes: their acceleration over the step, which
+ * predicts the velocity at the end of the coming one; and their acceleration by the shell's reaction, which is
+ * outside of the solid but moves its inside too (inertia.h).  In checkpoints. */
+#ifndef CORACLE_HISTORY_H
+#define CORACLE_HISTORY_H
+#include "common/output/checkpoint.h"
+#include "coupler/solid_state.h"
+
+typedef struct {
+  MPI_Comm comm;
+  int n;                     /* nodes on this rank */
+  PetscBool known;           /* the same on all ranks */
+  long long *gid;            /* [n] */
+  double (*acceleration)[2]; /* [n] m/s2 */
+  double (*shell)[2];        /* [n] m/s2 */
+} History;                   /* zero-initialise but for comm: nothing is known */
+
+/* Collective: a step of dt seconds has ended with `moved`; start[n][2]: the velocity at its start, m/s;
+ * shell[n][2]: the acceleration by the shell's reaction, m/s2.  After cracks, which make other nodes, nothing
+ * is known. */
+PetscErrorCode HistoryStep(History *h, const SolidState *moved, double dt, const double start[],
+                           const double shell[]);
+/* Collective.  Load gives this rank's nodes, those of `solid`, what any rank has saved of them; 0 for nodes
+ * that nobody has. */
+PetscErrorCode HistorySave(const History *h, Checkpoint to);
+PetscErrorCode HistoryLoad(History *h, const SolidState *solid, Checkpoint from);
+PetscErrorCode HistoryDestroy(History *h);
+#endif
