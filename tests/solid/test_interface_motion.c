@@ -166,6 +166,7 @@ static void CheckMomentum(int pieces, double sum[][2][4])
     const double *now = sum[k][0], *shown = sum[k][1];
     slowest = fmin(slowest, shown[1] / shown[0]);
     fastest = fmax(fastest, shown[1] / shown[0]);
+    /* rigid motions pass unchanged but for round-off, which the stiffness amplifies by (omega STEP / 2)^2 */
     for (int c = 1; c < 4; c++)
       CHECK(fabs(shown[c] - now[c]) < 1e-9 * now[0], "piece %d: momentum %d %.15g, seen %.15g", k, c, now[c],
             shown[c]);
@@ -196,7 +197,8 @@ static PetscErrorCode CheckPieces(void)
   CheckMomentum(pieces, sum);
   MPI_Allreduce(MPI_IN_PLACE, &actual, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
   MPI_Allreduce(MPI_IN_PLACE, &strain, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
-  CHECK(strain < 0.1 * actual, "stiff pieces are seen to deform at %g 1/s of %g", strain, actual);
+  /* a piece's slowest vibration is about 50 times STEP's inverse: at most 1/600 of it is left, and joints are softer */
+  CHECK(strain < 0.01 * actual, "stiff pieces are seen to deform at %g 1/s of %g", strain, actual);
   PetscCall(SolidDestroy(&s));
   PetscFunctionReturn(0);
 }
@@ -205,7 +207,8 @@ int main(int argc, char **argv)
 {
   double difference;
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
-  /* slowest vibrations: about 2 sqrt(E / rho) / r = 200 and 0.2 times STEP's inverse */
+  /* slowest vibrations: about omega = 2 sqrt(E / rho) / r, 200 and 0.002 times STEP's inverse.  The response leaves
+   * 1 / (1 + (omega STEP / 2)^2) = 1e-4 of the stiff disc's swelling, SWELLING r at its rim. */
   PetscCall(Difference(1e11, 0.0, &difference));
   CHECK(difference < 1e-4 * SWELLING * 0.1, "a stiff disc is seen to deform at %g m/s", difference);
   PetscCall(Difference(1e1, SWELLING, &difference));
