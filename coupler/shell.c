@@ -24,21 +24,21 @@ static PetscErrorCode FreeArrays(Shell s)
 static PetscErrorCode FindSurfaceNodes(Shell s, const SolidState *solid)
 {
   PetscBool *found;
-  CopiesKey *key;
+  long long *gid;
 
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(solid->nnodes, &found));
-  PetscCall(PetscMalloc1(solid->nnodes, &key));
+  PetscCall(PetscMalloc1(solid->nnodes, &gid));
   s->nsurface = 0;
   for (int i = 0; i < 2 * solid->nfacets; i++) {
     const int node = solid->facet[i];
     if (found[node]) continue;
     found[node] = PETSC_TRUE;
-    key[s->nsurface] = (CopiesKey){solid->gid[node], solid->gid[node]};
+    gid[s->nsurface] = solid->gid[node];
     s->surface[s->nsurface++] = node;
   }
-  PetscCall(CopiesCreate(s->comm, s->nsurface, key, &s->copies));
-  PetscCall(PetscFree(key));
+  PetscCall(CopiesCreateByNumber(s->comm, s->nsurface, gid, &s->copies));
+  PetscCall(PetscFree(gid));
   PetscCall(PetscFree(found));
   PetscFunctionReturn(0);
 }

@@ -6,6 +6,7 @@
  *
  * advect print: also prints the table. */
 #include "tests/phases/flows.h"
+#include "tests/phases/set.h"
 
 static int print;
 static char reason[1024];
@@ -15,30 +16,6 @@ static PetscErrorCode Catch(MPI_Comm comm, int line, const char *function, const
 {
   if (message && type == PETSC_ERROR_INITIAL) snprintf(reason, sizeof reason, "%s", message);
   return code;
-}
-
-typedef struct {
-  Mesh *mesh;
-  Stars *stars;
-  Phases phases;
-} Set;
-
-static PetscErrorCode SetMake(Mesh *mesh, int np, Set *s)
-{
-  PetscFunctionBeginUser;
-  s->mesh = mesh;
-  PetscCall(StarsCreate(mesh, &s->stars));
-  PetscCall(PhasesCreate(s->stars, np, &s->phases));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode SetDestroy(Set *s)
-{
-  PetscFunctionBeginUser;
-  PetscCall(PhasesDestroy(&s->phases));
-  PetscCall(StarsDestroy(&s->stars));
-  PetscCall(MeshDestroy(&s->mesh));
-  PetscFunctionReturn(0);
 }
 
 static double Uniform(const double x[2])

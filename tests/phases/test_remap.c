@@ -3,34 +3,11 @@
  * a disc through 100 adaptations keeps its area to 1e-12 and its outline to a tenth of the edge length le,
  * fractions stay within bounds; what did not change is copied.  remap print: also says how well. */
 #include "tests/phases/flows.h"
+#include "tests/phases/set.h"
 
 #define LE 0.02
 
 static int print;
-
-typedef struct {
-  Mesh *mesh;
-  Stars *stars;
-  Phases phases;
-} Set;
-
-static PetscErrorCode SetMake(Mesh *mesh, int np, Set *s)
-{
-  PetscFunctionBeginUser;
-  s->mesh = mesh;
-  PetscCall(StarsCreate(mesh, &s->stars));
-  PetscCall(PhasesCreate(s->stars, np, &s->phases));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode SetDestroy(Set *s)
-{
-  PetscFunctionBeginUser;
-  PetscCall(PhasesDestroy(&s->phases));
-  PetscCall(StarsDestroy(&s->stars));
-  PetscCall(MeshDestroy(&s->mesh));
-  PetscFunctionReturn(0);
-}
 
 /* The phases go to a mesh that is fine around the circle, not always in the same way. */
 static PetscErrorCode Adapt(int k, int np, Set *s, TransferStats *stats)
