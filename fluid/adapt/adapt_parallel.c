@@ -1,4 +1,5 @@
 #include "fluid/adapt/adapt_parallel.h"
+#include "common/exchange/scatter.h"
 #include "fluid/adapt/adapt_near.h"
 #include <string.h>
 
@@ -21,15 +22,6 @@ typedef struct {
 } Parallel;
 
 enum { DATA = 4 };
-
-/* The same error everywhere. */
-static PetscErrorCode Agree(MPI_Comm comm, PetscErrorCode here)
-{
-  int all = (int)here;
-  PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_MAX, comm));
-  PetscFunctionReturn(here ? here : (PetscErrorCode)all);
-}
 
 /* What a pass works on: the part with facets of one more tag on faces to other ranks. */
 typedef struct {
@@ -174,7 +166,7 @@ static PetscErrorCode Pass(Parallel *p, const AdaptOptions *options, bool *fits)
                             .frozen = f.frozen,
                             .frozen_tag = f.frozen_tag,
                             .inactive = f.inactive};
-  const PetscErrorCode failed = Agree(p->comm, MeshAdapt(&f.mesh, f.metric, &own, &r));
+  const PetscErrorCode failed = CollectiveError(p->comm, MeshAdapt(&f.mesh, f.metric, &own, &r));
   if (!failed) PetscCall(Judge(p, f.frozen, &r, fits));
   PetscCall(AdaptResultDestroy(&r));
   PetscCall(FrozenDestroy(&f));
