@@ -55,7 +55,8 @@ static PetscErrorCode PressureAt(Fluid fluid, double x, double y, double *p)
   for (int e = 0; e < m->ne; e++)
     for (int i = 0; i < 3; i++) {
       const double *v = m->x + 2 * m->vertex[3 * e + i];
-      if (hypot(v[0] - x, v[1] - y) < 1e-9) found = FluidPressure(fluid)[m->p2[6 * e + i]];
+      if (hypot(v[0] - x, v[1] - y) < 1e-9)
+        found = FluidPressure(fluid)[FluidPressureSpace(fluid)->node[6 * e + i]];
     }
   PetscCallMPI(MPI_Allreduce(&found, p, 1, MPI_DOUBLE, MPI_MAX, m->comm));
   PetscFunctionReturn(0);
