@@ -22,14 +22,15 @@ class Step:
 
 class Client:
     """Joins the job as `role`, "fluid" or "solid"; argv: program, case file, --set key=value ...; job: an mpi4py communicator of the
-    participants' ranks (default: MPI.COMM_WORLD).  comm: this participant's communicator, owned by the library."""
+    participants' ranks (default: MPI.COMM_WORLD).  comm: this participant's communicator, a copy that outlives close: Python destroys
+    what was made on it (PETSc's objects) in an order of its own."""
 
     def __init__(self, role, argv=None, job=None):
         self._argv = list(sys.argv if argv is None else argv)
         self._words, self._handle, handle = words(self._argv), c_void_p(), c_int()
         world = None if job is None else byref(c_int(job.py2f()))
         call("OpenFortran", world, role.encode(), len(self._argv), self._words, byref(handle), byref(self._handle))
-        self.comm = MPI.Comm.f2py(handle.value)
+        self.comm = MPI.Comm.f2py(handle.value).Dup()
         self.n = self._n_start = 0  # the solid's nodes on this rank
         self._elements = 0  # the fluid's elements last given by region
         self._kept = []  # what the library points to
