@@ -6,6 +6,7 @@
 static PetscErrorCode CreateVectors(Fluid f)
 {
   const Mesh *m = f->domain.mesh;
+  const P2Space *p2 = f->domain.p2;
   Vec *velocity[] = {&f->u_previous, &f->u_star,  &f->u_projected,
                      &f->mass_flux,  &f->saved.u, &f->saved.u_previous};
   PetscInt *ghosts;
@@ -15,8 +16,8 @@ static PetscErrorCode CreateVectors(Fluid f)
   PetscCall(VecCreateGhostBlock(m->comm, 6, 6 * m->ne, PETSC_DETERMINE, m->ng, ghosts, &f->u));
   PetscCall(PetscFree(ghosts));
   for (size_t k = 0; k < sizeof velocity / sizeof *velocity; k++) PetscCall(VecDuplicate(f->u, velocity[k]));
-  PetscCall(VecCreateGhost(m->comm, m->np2_owned, PETSC_DETERMINE, m->np2 - m->np2_owned,
-                           m->p2gid + m->np2_owned, &f->p));
+  PetscCall(
+      VecCreateGhost(m->comm, p2->nowned, PETSC_DETERMINE, p2->n - p2->nowned, p2->gid + p2->nowned, &f->p));
   PetscCall(VecDuplicate(f->p, &f->saved.p));
   PetscFunctionReturn(0);
 }
@@ -297,4 +298,8 @@ const FluidStats *FluidGetStats(Fluid f)
 const Mesh *FluidMesh(Fluid f)
 {
   return f->domain.mesh;
+}
+const P2Space *FluidPressureSpace(Fluid f)
+{
+  return f->domain.p2;
 }

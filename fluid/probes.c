@@ -22,12 +22,13 @@ static PetscErrorCode Values(const Places *places, Fluid fluid, double value[][V
 {
   const Mesh *m = FluidMesh(fluid);
   const double *u = FluidVelocity(fluid), *p = FluidPressure(fluid);
+  const int *node = FluidPressureSpace(fluid)->node;
   PetscFunctionBeginUser;
   PetscCall(PetscArrayzero(&value[0][0], VALUES * (size_t)places->npoints));
   for (int k = 0; k < places->n; k++) {
     const Place *at = &places->place[k];
     double nodal[6], *sum = value[at->point];
-    for (int i = 0; i < 6; i++) nodal[i] = p[m->p2[6 * at->element + i]];
+    for (int i = 0; i < 6; i++) nodal[i] = p[node[6 * at->element + i]];
     for (int c = 0; c < 2; c++)
       for (int i = 0; i < 3; i++) sum[c] += at->share * at->n[i] * u[6 * at->element + 3 * c + i];
     sum[2] += at->share * P2Evaluate(nodal, at->n);

@@ -10,12 +10,12 @@ struct ProjectionSolver_s {
   int revision; /* of the density in the laplacian */
   int nfixed;
   int *fixed;     /* local P2 nodes (owned) where phi = 0 */
-  char *is_fixed; /* [np2] with ghosts */
+  char *is_fixed; /* [n] of the P2 space */
   WeightedProjection weighted;
   PetscBool inertia; /* the last solve was a weighted one */
 };
 
-/* mark[np2] on this rank's nodes of open boundaries; *any: on any rank */
+/* mark[n] of the P2 space on this rank's nodes of open boundaries; *any: on any rank */
 static PetscErrorCode MarkOpen(const FluidDomain *d, PetscScalar mark[], int *any)
 {
   const Mesh *m = d->mesh;
@@ -24,8 +24,9 @@ static PetscErrorCode MarkOpen(const FluidDomain *d, PetscScalar mark[], int *an
   for (int e = 0; e < m->ne; e++)
     for (int i = 0; i < 3; i++) {
       const Boundary *b = BoundaryOfFace(d, e, i);
+      const int *node = d->p2->node + 6 * e;
       if (!b || b->kind != BOUNDARY_OPEN) continue;
-      mark[m->p2[6 * e + (i + 1) % 3]] = mark[m->p2[6 * e + (i + 2) % 3]] = mark[m->p2[6 * e + 3 + i]] = 1.0;
+      mark[node[(i + 1) % 3]] = mark[node[(i + 2) % 3]] = mark[node[3 + i]] = 1.0;
       *any = 1;
     }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, any, 1, MPI_INT, MPI_MAX, m->comm));
@@ -36,7 +37,7 @@ static PetscErrorCode MarkOpen(const FluidDomain *d, PetscScalar mark[], int *an
  * an element with the face: hence the sum over ranks. */
 static PetscErrorCode FindFixed(ProjectionSolver s)
 {
-  const Mesh *m = s->domain->mesh;
+  const P2Space *p2 = s->domain->p2;
   PetscScalar *v;
   Vec mark, local;
   int has_open;
@@ -46,18 +47,18 @@ static PetscErrorCode FindFixed(ProjectionSolver s)
   PetscCall(VecSet(local, 0.0));
   PetscCall(VecGetArray(local, &v));
   PetscCall(MarkOpen(s->domain, v, &has_open));
-  if (!has_open && m->np2_owned > 0 && m->p2start == 0) v[0] = 1.0;
+  if (!has_open && p2->nowned > 0 && p2->start == 0) v[0] = 1.0;
   PetscCall(VecRestoreArray(local, &v));
   PetscCall(VecGhostUpdateBegin(mark, ADD_VALUES, SCATTER_REVERSE));
   PetscCall(VecGhostUpdateEnd(mark, ADD_VALUES, SCATTER_REVERSE));
   PetscCall(VecGhostUpdateBegin(mark, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGhostUpdateEnd(mark, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGetArray(local, &v));
-  PetscCall(PetscMalloc1(m->np2, &s->is_fixed));
-  PetscCall(PetscMalloc1(m->np2_owned, &s->fixed));
-  for (int k = 0; k < m->np2; k++) {
+  PetscCall(PetscMalloc1(p2->n, &s->is_fixed));
+  PetscCall(PetscMalloc1(p2->nowned, &s->fixed));
+  for (int k = 0; k < p2->n; k++) {
     s->is_fixed[k] = v[k] > 0.5;
-    if (s->is_fixed[k] && k < m->np2_owned) s->fixed[s->nfixed++] = k;
+    if (s->is_fixed[k] && k < p2->nowned) s->fixed[s->nfixed++] = k;
   }
   PetscCall(VecRestoreArray(local, &v));
   PetscCall(VecGhostRestoreLocalForm(mark, &local));
@@ -67,30 +68,30 @@ static PetscErrorCode FindFixed(ProjectionSolver s)
 
 static PetscErrorCode CreateLaplacian(ProjectionSolver s)
 {
-  const Mesh *m = s->domain->mesh;
+  const int n = s->domain->p2->nowned;
   PetscFunctionBeginUser;
-  PetscCall(MatCreateAIJ(m->comm, m->np2_owned, m->np2_owned, PETSC_DETERMINE, PETSC_DETERMINE, 28, NULL, 14,
-                         NULL, &s->laplacian));
+  PetscCall(MatCreateAIJ(s->domain->mesh->comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 28, NULL, 14, NULL,
+                         &s->laplacian));
   PetscCall(MatSetOption(s->laplacian, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode AssembleLaplacian(ProjectionSolver s, const double rho[])
 {
-  const Mesh *m = s->domain->mesh;
+  const P2Space *p2 = s->domain->p2;
   PetscInt *rows;
   PetscFunctionBeginUser;
-  for (int e = 0; e < m->ne; e++) {
+  for (int e = 0; e < s->domain->mesh->ne; e++) {
     double k[6][6];
     PetscInt gid[6];
     P2Stiffness(s->domain->geometry[e].area, (const double(*)[2])s->domain->geometry[e].g, 1.0 / rho[e], k);
-    for (int i = 0; i < 6; i++) gid[i] = m->p2gid[m->p2[6 * e + i]];
+    for (int i = 0; i < 6; i++) gid[i] = p2->gid[p2->node[6 * e + i]];
     PetscCall(MatSetValues(s->laplacian, 6, gid, 6, gid, &k[0][0], ADD_VALUES));
   }
   PetscCall(MatAssemblyBegin(s->laplacian, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(s->laplacian, MAT_FINAL_ASSEMBLY));
   PetscCall(PetscMalloc1(s->nfixed, &rows));
-  for (int k = 0; k < s->nfixed; k++) rows[k] = m->p2start + s->fixed[k];
+  for (int k = 0; k < s->nfixed; k++) rows[k] = p2->start + s->fixed[k];
   PetscCall(MatZeroRowsColumns(s->laplacian, s->nfixed, rows, 1.0, NULL, NULL));
   PetscCall(PetscFree(rows));
   PetscCall(MatSetOption(s->laplacian, MAT_SPD, PETSC_TRUE));
@@ -203,7 +204,7 @@ static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step,
     BulkMomentum(domain->geometry[e].area, SolidCouplingAt(step->solid, e), u + 6 * e, mv);
     P2GradientTranspose(domain->geometry[e].g, (const double(*)[3])mv, r);
     BoundaryFlux(domain, e, step->t, r);
-    for (int k = 0; k < 6; k++) d[m->p2[6 * e + k]] += r[k];
+    for (int k = 0; k < 6; k++) d[domain->p2->node[6 * e + k]] += r[k];
   }
   PetscCall(VecRestoreArrayRead(velocity, &u));
   PetscCall(VecRestoreArray(local, &d));
@@ -249,7 +250,7 @@ PetscErrorCode ProjectionSolverSubtract(ProjectionSolver s, const ProjectionStep
   PetscCall(VecGetArray(velocity, &u));
   for (int e = 0; e < m->ne; e++) {
     double pe[6], grad[3][2];
-    for (int k = 0; k < 6; k++) pe[k] = phi[m->p2[6 * e + k]];
+    for (int k = 0; k < 6; k++) pe[k] = phi[d->p2->node[6 * e + k]];
     P2Gradient(d->geometry[e].g, pe, grad);
     if (s->inertia && WeightedProjectionVelocity(s->weighted, e, (const double(*)[2])grad, u + 6 * e))
       continue;

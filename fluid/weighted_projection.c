@@ -144,7 +144,7 @@ static PetscBool IsWeighted(const CoracleCoupling *k)
 static PetscErrorCode AddElement(WeightedProjection w, const WeightedProjectionStep *s, int k,
                                  const CoracleCoupling *coupling)
 {
-  const Mesh *m = w->domain->mesh;
+  const P2Space *p2 = w->domain->p2;
   const int e = coupling->element;
   const ElementGeometry *g = w->domain->geometry + e;
   double change[6][6];
@@ -153,8 +153,8 @@ static PetscErrorCode AddElement(WeightedProjection w, const WeightedProjectionS
   PetscCall(Response(g->area, s->rho[e] / s->dt, coupling->implicit_inertia, w->response[k]));
   MatrixChange(g, s->rho[e], s->dt, (const double(*)[NU])w->response[k], change);
   for (int i = 0; i < 6; i++) {
-    const int p = m->p2[6 * e + i];
-    gid[i] = s->is_fixed[p] ? -1 : m->p2gid[p];
+    const int p = p2->node[6 * e + i];
+    gid[i] = s->is_fixed[p] ? -1 : p2->gid[p];
   }
   PetscCall(MatSetValues(w->matrix, 6, gid, 6, gid, &change[0][0], ADD_VALUES));
   PetscFunctionReturn(0);

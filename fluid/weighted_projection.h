@@ -18,7 +18,7 @@ typedef struct {
   const double *rho;    /* [ne], kg/m3 */
   SolidCoupling solid;  /* borrowed until the next Prepare */
   Mat laplacian;        /* of the fluid alone, with the rows of fixed nodes */
-  const char *is_fixed; /* [np2] */
+  const char *is_fixed; /* [n] of the P2 space */
 } WeightedProjectionStep;
 
 PetscErrorCode WeightedProjectionCreate(const FluidDomain *domain, WeightedProjection *w);

@@ -11,7 +11,7 @@ struct Series_s {
   long length;   /* of what is kept of a file that goes on, until the first row: then 0 */
   int ncolumn;
   char path[PETSC_MAX_PATH_LEN];
-  char key[SERIES_NAME_MAX + 16]; /* of its length in a checkpoint */
+  char key[128]; /* of its length in a checkpoint */
 };
 
 PetscBool SeriesCanName(const char *name)
@@ -67,7 +67,7 @@ PetscErrorCode SeriesCreate(MPI_Comm comm, const char *folder, const char *name,
   PetscCall(PetscNew(&s));
   s->comm = comm;
   snprintf(s->path, sizeof s->path, "%s/%s.csv", folder, name);
-  snprintf(s->key, sizeof s->key, "length of %s", name);
+  snprintf(s->key, sizeof s->key, "length of %s.csv", name);
   s->ncolumn = 1;
   for (const char *c = columns; *c; c++) s->ncolumn += *c == ',';
   *series = s;

@@ -60,7 +60,8 @@ static PetscErrorCode PressureAt(Fluid fluid, double x, double y, double *p)
   *p = 0.0;
   for (int k = 0; k < places.n; k++) {
     double nodal[6];
-    for (int i = 0; i < 6; i++) nodal[i] = FluidPressure(fluid)[m->p2[6 * places.place[k].element + i]];
+    for (int i = 0; i < 6; i++)
+      nodal[i] = FluidPressure(fluid)[FluidPressureSpace(fluid)->node[6 * places.place[k].element + i]];
     *p += places.place[k].share * P2Evaluate(nodal, places.place[k].n);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, p, 1, MPI_DOUBLE, MPI_SUM, m->comm));
