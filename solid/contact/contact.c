@@ -55,7 +55,7 @@ static PetscErrorCode MeasureArealMass(Contact c, Solid s)
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(3 * (size_t)s->nbodies, &sum));
   for (int n = 0; n < s->nnodes; n++) {
-    if (!SubdomainOwns(s->subdomain, n)) continue;
+    if (!SolidOwns(s, n)) continue;
     sum[3 * s->node_body[n]] += s->mass[n];
     sum[3 * s->node_body[n] + 2] += s->inverse_mass[n] == 0.0;
   }
@@ -87,7 +87,7 @@ static PetscErrorCode Measure(Contact c, Solid s)
     sum[0] += length;
     for (int i = 0; i < 2; i++) half[2 * s->facet[2 * k + i]] += 0.5 * length;
   }
-  PetscCall(SubdomainSum(s->subdomain, half));
+  PetscCall(CopiesSum(s->copies, 2, half));
   for (int n = 0; n < s->nnodes; n++) {
     double *compliance = &c->compliance[s->node_body[n]];
     *compliance = fmax(*compliance, half[2 * n] / s->mass[n]);

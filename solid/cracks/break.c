@@ -140,10 +140,10 @@ static PetscErrorCode MarkSurface(Solid s)
 {
   double *on;
   PetscFunctionBeginUser;
-  PetscCall(PetscCalloc1(2 * (size_t)s->nnodes, &on));
-  for (int k = 0; k < 2 * s->nfacets; k++) on[2 * s->facet[k]] = 1.0;
-  PetscCall(SubdomainSum(s->subdomain, on));
-  for (int n = 0; n < s->nnodes; n++) s->surface[n] = on[2 * n] > 0.0;
+  PetscCall(PetscCalloc1((size_t)s->nnodes, &on));
+  for (int k = 0; k < 2 * s->nfacets; k++) on[s->facet[k]] = 1.0;
+  PetscCall(CopiesSum(s->copies, 1, on));
+  for (int n = 0; n < s->nnodes; n++) s->surface[n] = on[n] > 0.0;
   PetscCall(PetscFree(on));
   PetscFunctionReturn(0);
 }
@@ -165,7 +165,7 @@ static int CompareCopies(const void *a, const void *b)
 /* A part of a node is on all ranks that had the node. */
 static PetscErrorCode RenewSubdomain(Solid s)
 {
-  const Copies *c = &s->copies;
+  const SharedNodes *c = &s->shared;
   int n = 0, *first, *next, *rank, *node;
   Copy *copy;
   PetscFunctionBeginUser;
@@ -187,8 +187,8 @@ static PetscErrorCode RenewSubdomain(Solid s)
     rank[k] = copy[k].rank;
     node[k] = copy[k].node;
   }
-  PetscCall(SubdomainDestroy(&s->subdomain));
-  PetscCall(SubdomainCreate(s->comm, s->nnodes, n, rank, node, &s->subdomain));
+  PetscCall(CopiesDestroy(&s->copies));
+  PetscCall(CopiesCreateMatched(s->comm, s->nnodes, n, rank, node, &s->copies));
   PetscCall(PetscFree3(copy, rank, node));
   PetscCall(PetscFree2(first, next));
   PetscFunctionReturn(0);

@@ -98,7 +98,7 @@ static PetscErrorCode PutNodes(Solid s, Checkpoint to)
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2((size_t)s->nnodes, &gid, (size_t)s->nnodes, &state));
   for (int i = 0; i < s->nnodes; i++) {
-    if (!SubdomainOwns(s->subdomain, i)) continue;
+    if (!SolidOwns(s, i)) continue;
     gid[n] = s->gid[i];
     StateOfNode(s, i, &state[n++]);
   }

@@ -133,7 +133,7 @@ static int AddCopies(const Solid s, const Model *a, int e, int rank, const int l
 static PetscErrorCode FindCopies(Solid s, const Model *a, int nghosts, const GhostElement ghost[],
                                  const int part[], const int local[])
 {
-  Copies *c = &s->copies;
+  SharedNodes *c = &s->shared;
   Copy *copy;
   int n = 0;
   PetscFunctionBeginUser;
@@ -147,7 +147,7 @@ static PetscErrorCode FindCopies(Solid s, const Model *a, int nghosts, const Gho
     c->rank[c->n] = copy[k].rank;
     c->node[c->n++] = copy[k].local;
   }
-  PetscCall(SubdomainCreate(s->comm, s->nnodes, c->n, c->rank, c->node, &s->subdomain));
+  PetscCall(CopiesCreateMatched(s->comm, s->nnodes, c->n, c->rank, c->node, &s->copies));
   PetscCall(PetscFree(copy));
   PetscFunctionReturn(0);
 }

@@ -6,8 +6,8 @@
  *     slips               to the rank of the edge's element
  *
  * The subdomain before stays as it is while a saved state is in it. */
+#include "common/exchange/scatter.h"
 #include "solid/ranks/node_directory.h"
-#include "solid/ranks/sparse_exchange.h"
 #include "solid/ranks/state.h"
 
 /* --- the state ---------------------------------------------------------------------------------------- */
@@ -39,8 +39,7 @@ static PetscErrorCode RequestJoints(void *old, Joints j)
     key[k] = j->joint[k].number;
     of[k] = s->part[j->joint[k].first];
   }
-  PetscCall(
-      SparseExchangeRequest(s->comm, j->n, of, key, sizeof *j->memory, AnswerJoint, s->joints, j->memory));
+  PetscCall(ScatterRequest(s->comm, j->n, of, key, sizeof *j->memory, AnswerJoint, s->joints, j->memory));
   PetscCall(PetscFree2(key, of));
   PetscFunctionReturn(0);
 }
@@ -62,7 +61,7 @@ static PetscErrorCode SendSlips(void *old, Solid to, int *n, Slip **slip)
   PetscCall(StateOfSlips(from->s, &nown, &own));
   PetscCall(PetscMalloc1((size_t)nown, &rank));
   for (int k = 0; k < nown; k++) rank[k] = from->part[own[k].edge / 3];
-  PetscCall(SparseExchange(to->comm, nown, rank, sizeof *own, own, n, &received));
+  PetscCall(ScatterRecords(to->comm, nown, rank, sizeof *own, own, n, &received));
   *slip = received;
   PetscCall(PetscFree(rank));
   PetscCall(PetscFree(own));

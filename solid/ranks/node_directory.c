@@ -1,6 +1,6 @@
 /* Nodes by their gid for whoever does not know on which rank they are now. */
 #include "solid/ranks/node_directory.h"
-#include "solid/ranks/sparse_exchange.h"
+#include "common/exchange/scatter.h"
 #include "solid/solid_impl.h"
 #include <stdlib.h>
 
@@ -74,7 +74,7 @@ PetscErrorCode NodesRequest(Solid s, int n, const long long gid[], size_t bytes,
   PetscCall(PetscMalloc1((size_t)n, &of));
   PetscCall(NodeOwners(s, n, gid, of));
   PetscCall(NodeNamesCreate(s, &q.names));
-  PetscCall(SparseExchangeRequest(s->comm, n, of, gid, bytes, AnswerByName, &q, record));
+  PetscCall(ScatterRequest(s->comm, n, of, gid, bytes, AnswerByName, &q, record));
   PetscCall(NodeNamesDestroy(&q.names));
   PetscCall(PetscFree(of));
   PetscFunctionReturn(0);
@@ -114,7 +114,7 @@ PetscErrorCode NodeDirectoryLoad(Solid s, int n, const long long gid[], const do
   PetscCall(PetscMalloc2((size_t)n, &of, (size_t)n, &out));
   PetscCall(NodeOwners(s, n, gid, of));
   for (int k = 0; k < n; k++) out[k] = (NodeLoad){gid[k], {load[2 * k], load[2 * k + 1]}};
-  PetscCall(SparseExchange(s->comm, n, of, sizeof *out, out, &nin, &received));
+  PetscCall(ScatterRecords(s->comm, n, of, sizeof *out, out, &nin, &received));
   in = received;
   PetscCall(NodeNamesCreate(s, &names));
   PetscCall(PetscArrayzero(owned, 2 * (size_t)s->nnodes));
