@@ -113,6 +113,8 @@ static inline PetscBool SolidOwns(const Solid s, int node)
 
 /* forces.c: internal forces of this rank's elements into force; fails on an element with J <= 0. */
 PetscErrorCode SolidInternalForces(Solid s);
+/* corner_start and corner, from element */
+void SolidListCorners(Solid s);
 ElementRates SolidElementRates(Solid s, int k);
 /* The smallest stable step over this rank's elements, each with contact's rates added. */
 double SolidElementLimit(Solid s, ElementRates contact);
@@ -130,10 +132,6 @@ void BudgetAddPrescribed(Solid s, int n, int c, double v);
 
 /* distribute.c: everything that comes from the model. */
 PetscErrorCode SolidTakeSubdomain(Solid s, const Model *a, const int part[]);
-/* Of an element of the model, times its thickness. */
-ElementLaw SolidLawOf(const Model *a, int e);
-/* corner_start and corner, from element */
-void SolidListCorners(Solid s);
 
 /* balance.c, collective: elements to ranks as suits the solid as it is now.  Needs rebalance > 0. */
 PetscErrorCode SolidDealOut(Solid s);

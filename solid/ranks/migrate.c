@@ -2,12 +2,12 @@
  * and at rest; then what has happened since is asked of the ranks that had it (state.h):
  *
  *     damage of joints    of the rank of the joint's first element; cracks are cut again
- *     nodes               of a rank that has them for certain (node_directory.h)
+ *     nodes               of a rank that has them for certain (node_names.h)
  *     slips               to the rank of the edge's element
  *
  * The subdomain before stays as it is while a saved state is in it. */
 #include "common/exchange/scatter.h"
-#include "solid/ranks/node_directory.h"
+#include "solid/ranks/node_names.h"
 #include "solid/ranks/state.h"
 
 /* --- the state ---------------------------------------------------------------------------------------- */
