@@ -53,8 +53,7 @@ PetscErrorCode SeriesCreate(MPI_Comm comm, const char *folder, const char *name,
   s->ncolumn = 1;
   for (const char *c = columns; *c; c++) s->ncolumn += *c == ',';
   *series = s;
-  if (FolderGoesOn(comm, folder, s->path, from))
-    PetscCall(CheckpointGetNumber(from, s->key, &length));
+  if (FolderGoesOn(comm, folder, s->path, from)) PetscCall(CheckpointGetNumber(from, s->key, &length));
   PetscCall(AgreeWithRoot(comm, rank != 0      ? 0
                                 : length > 0.0 ? Continue(s, (long)length)
                                                : Begin(s, columns)));
