@@ -56,16 +56,21 @@ static PetscErrorCode Create(FluidRun *m, const char *resume, Checkpoint from, P
   FluidSetup setup;
   AdaptationSetup adaptation;
   PetscBool adapts;
+  Region *region;
+  int nregions;
   PetscFunctionBeginUser;
   PetscCall(PetscOptionsInsertString(NULL, CoracleCaseStringOr(m->program->c, "fluid.petsc", "")));
   PetscCall(FluidCaseMesh(m->program->c, m->program->comm, from, &m->mesh, row));
   if (from) FluidCaseCheckResumed(m->program->c, m->mesh, resume);
   PetscCall(FluidCaseSetup(m->program->c, m->mesh, &setup));
+  PetscCall(FluidCaseRegions(m->program->c, &nregions, &region));
   PetscCall(FluidCaseAdaptation(m->program->c, &adapts, &adaptation));
   PetscCall(CoracleCaseFinish(m->program->c, SECTIONS));
   if (adapts) PetscCall(AdaptationCreate(&adaptation, &m->adaptation));
   if (adapts && !from) PetscCall(FirstMesh(m));
   PetscCall(FluidCreate(m->mesh, &setup, &m->fluid));
+  if (setup.phases.n && !from) PetscCall(FluidSetPhases(m->fluid, nregions, region));
+  PetscCall(FluidCaseFreeRegions(nregions, &region));
   PetscCall(PetscFree(setup.boundary));
   PetscFunctionReturn(0);
 }
