@@ -76,7 +76,8 @@ static PetscErrorCode CreateLaplacian(ProjectionSolver s)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AssembleLaplacian(ProjectionSolver s, const double rho[])
+static PetscErrorCode AssembleLaplacian(ProjectionSolver s, const double rho[],
+                                        const InverseDensity *inverse_density)
 {
   const P2Space *p2 = s->domain->p2;
   PetscInt *rows;
@@ -84,7 +85,11 @@ static PetscErrorCode AssembleLaplacian(ProjectionSolver s, const double rho[])
   for (int e = 0; e < s->domain->mesh->ne; e++) {
     double k[6][6];
     PetscInt gid[6];
-    P2Stiffness(s->domain->geometry[e].area, (const double(*)[2])s->domain->geometry[e].g, 1.0 / rho[e], k);
+    const ElementGeometry *g = &s->domain->geometry[e];
+    if (inverse_density)
+      P2StiffnessTensor(g->area, (const double(*)[2])g->g, inverse_density[e].inverse, k);
+    else
+      P2Stiffness(g->area, (const double(*)[2])g->g, 1.0 / rho[e], k);
     for (int i = 0; i < 6; i++) gid[i] = p2->gid[p2->node[6 * e + i]];
     PetscCall(MatSetValues(s->laplacian, 6, gid, 6, gid, &k[0][0], ADD_VALUES));
   }
@@ -105,7 +110,7 @@ static PetscErrorCode Refactor(ProjectionSolver s, const ProjectionStep *step)
   if (s->revision == step->revision) PetscFunctionReturn(0);
   s->revision = step->revision;
   PetscCall(MatZeroEntries(s->laplacian));
-  PetscCall(AssembleLaplacian(s, step->rho));
+  PetscCall(AssembleLaplacian(s, step->rho, step->inverse_density));
   PetscCall(KSPSetOperators(s->ksp, s->laplacian, s->laplacian));
   PetscFunctionReturn(0);
 }
@@ -132,7 +137,7 @@ PetscErrorCode ProjectionSolverCreate(const FluidDomain *domain, Vec like, const
   PetscCall(VecDuplicate(like, &s->divergence));
   PetscCall(FindFixed(s));
   PetscCall(CreateLaplacian(s));
-  PetscCall(AssembleLaplacian(s, rho));
+  PetscCall(AssembleLaplacian(s, rho, NULL));
   PetscCall(CreateSolver(s));
   PetscCall(WeightedProjectionCreate(domain, &s->weighted));
   *solver = s;
@@ -237,6 +242,15 @@ PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *s
   PetscFunctionReturn(0);
 }
 
+/* u -= dt k grad phi, k symmetric */
+static void SubtractTensor(double dt, const double k[3], const double grad[3][2], double u[6])
+{
+  for (int i = 0; i < 3; i++) {
+    u[i] -= dt * (k[0] * grad[i][0] + k[1] * grad[i][1]);
+    u[3 + i] -= dt * (k[1] * grad[i][0] + k[2] * grad[i][1]);
+  }
+}
+
 PetscErrorCode ProjectionSolverSubtract(ProjectionSolver s, const ProjectionStep *step, Vec velocity)
 {
   const FluidDomain *d = s->domain;
@@ -254,8 +268,11 @@ PetscErrorCode ProjectionSolverSubtract(ProjectionSolver s, const ProjectionStep
     P2Gradient(d->geometry[e].g, pe, grad);
     if (s->inertia && WeightedProjectionVelocity(s->weighted, e, (const double(*)[2])grad, u + 6 * e))
       continue;
-    for (int c = 0; c < 2; c++)
-      for (int i = 0; i < 3; i++) u[6 * e + 3 * c + i] -= step->dt / step->rho[e] * grad[i][c];
+    if (step->inverse_density)
+      SubtractTensor(step->dt, step->inverse_density[e].inverse, (const double(*)[2])grad, u + 6 * e);
+    else
+      for (int c = 0; c < 2; c++)
+        for (int i = 0; i < 3; i++) u[6 * e + 3 * c + i] -= step->dt / step->rho[e] * grad[i][c];
   }
   PetscCall(VecRestoreArray(velocity, &u));
   PetscCall(VecRestoreArrayRead(local, &phi));

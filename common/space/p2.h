@@ -64,6 +64,28 @@ static inline void P2Stiffness(double area, const double g[3][2], double coeffic
     }
 }
 
+/* The same with a symmetric tensor k = (xx, xy, yy) as the coefficient. */
+static inline void P2StiffnessTensor(double area, const double g[3][2], const double k[3], double s[6][6])
+{
+  double grad[6][3][2];
+  for (int q = 0; q < 6; q++) {
+    double unit[6] = {0};
+    unit[q] = 1.0;
+    P2Gradient(g, unit, grad[q]);
+  }
+  for (int q = 0; q < 6; q++)
+    for (int r = 0; r < 6; r++) {
+      double sum = 0.0;
+      for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+          const double *a = grad[q][i], *b = grad[r][j];
+          sum += (i == j ? 2.0 : 1.0) *
+                 (k[0] * a[0] * b[0] + k[1] * (a[0] * b[1] + a[1] * b[0]) + k[2] * a[1] * b[1]);
+        }
+      s[q][r] = area / 12.0 * sum;
+    }
+}
+
 /* The Galerkin projection p1[3] of a P2 function on P1: int_K N_i p1 = int_K N_i p.  int N_i phi_j / area is
  * 1/30 and -1/60 at the vertex i and the others, 2/15 on the edges at i, 1/15 on the opposite one. */
 static inline void P2ProjectP1(const double p[6], double p1[3])
