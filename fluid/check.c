@@ -13,6 +13,22 @@ static const CoracleCaseKey KEYS[] = {
     {"output.every", "s", "time from one snapshot of the fields to the next"},
     {"fluid.density", "kg/m3", "density"},
     {"fluid.viscosity", "Pa s", "dynamic viscosity"},
+    {"fluid.phases", "", "two phases that do not mix, instead of density and viscosity"},
+    {"fluid.phases[].name", "", "what regions and boundaries call it"},
+    {"fluid.phases[].density", "kg/m3", "its density"},
+    {"fluid.phases[].viscosity", "Pa s", "its dynamic viscosity"},
+    {"fluid.regions", "",
+     "where the phases are at the start, the first one everywhere, later ones over earlier ones"},
+    {"fluid.regions[].phase", "", "which phase; without a shape: everywhere"},
+    {"fluid.regions[].lower", "m", "lower left corner of a box"},
+    {"fluid.regions[].upper", "m", "upper right corner of the box"},
+    {"fluid.regions[].centre", "m", "centre of a disc"},
+    {"fluid.regions[].radius", "m", "its radius"},
+    {"fluid.regions[].point", "m", "a point on the edge of a half plane"},
+    {"fluid.regions[].normal", "", "direction out of the half plane"},
+    {"fluid.regions[].polygon", "", "corners of a polygon that does not cross itself"},
+    {"fluid.regions[].polygon[]", "m", "a corner"},
+    {"fluid.boundaries.*.phase", "", "phase of what flows in; the lightest if none is given"},
     {"fluid.theta", "", "0.5 Crank-Nicolson ... 1 backward Euler"},
     {"fluid.petsc", "", "options for PETSc's solvers: -momentum_ksp_monitor"},
     {"fluid.mesh.file", "", "a Gmsh mesh, instead of a box; a relative path starts at the case file"},
@@ -77,12 +93,14 @@ static void Expect(const Mesh *m, PetscBool adapts, const AdaptationSetup *s)
   printf("fluid: memory about %.0f MB%s\n", MB_PROGRAM + MB_TRIANGLE * most, adapts ? " at most" : "");
 }
 
-static PetscErrorCode Draw(CoracleCase c, Mesh *mesh, const FluidSetup *setup)
+static PetscErrorCode Draw(CoracleCase c, Mesh *mesh, const FluidSetup *setup, int nregions,
+                           const Region region[])
 {
   Fluid fluid;
   Writer writer;
   PetscFunctionBeginUser;
   PetscCall(FluidCreate(mesh, setup, &fluid));
+  if (setup->phases.n) PetscCall(FluidSetPhases(fluid, nregions, region));
   PetscCall(FluidSetInitial(fluid, 0.0, NULL, NULL, NULL));
   PetscCall(WriterCreate(c, fluid, NULL, &writer));
   PetscCall(WriterDestroy(&writer));
@@ -98,6 +116,8 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
   AdaptationSetup adaptation;
   Probes probes;
   PetscBool adapts;
+  Region *region;
+  int nregions;
   PetscFunctionBeginUser;
   CoracleCaseDescribe(c, KEYS);
   (void)CoracleCaseStringOr(c, "fluid.petsc", "");
@@ -105,12 +125,14 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
   (void)CoracleCasePositive(c, "output.every");
   PetscCall(FluidCaseMesh(c, PETSC_COMM_SELF, NULL, &mesh, NULL));
   PetscCall(FluidCaseSetup(c, mesh, &setup));
+  PetscCall(FluidCaseRegions(c, &nregions, &region));
   PetscCall(FluidCaseAdaptation(c, &adapts, &adaptation));
   PetscCall(ProbesCreate(c, mesh, &probes));
   PetscCall(ProbesDestroy(&probes));
   PetscCall(CoracleCaseFinish(c, SECTIONS));
   if (command != COMMAND_KEYS && CoracleCaseFaultless(c)) Expect(mesh, adapts, &adaptation);
-  if (command == COMMAND_DRAW && CoracleCaseFaultless(c)) PetscCall(Draw(c, mesh, &setup));
+  if (command == COMMAND_DRAW && CoracleCaseFaultless(c)) PetscCall(Draw(c, mesh, &setup, nregions, region));
+  PetscCall(FluidCaseFreeRegions(nregions, &region));
   PetscCall(PetscFree(setup.boundary));
   PetscCall(MeshDestroy(&mesh));
   PetscFunctionReturn(0);

@@ -65,6 +65,16 @@ static PetscErrorCode FindFixed(ProjectionSolver s, PetscBool *closed)
   PetscFunctionReturn(0);
 }
 
+/* An element without the solid: int 1/rho grad.grad */
+static void FluidBlock(const ElementGeometry *g, const ProjectionStep *step, int e, double block[6][6])
+{
+  const double(*grad)[2] = (const double(*)[2])g->g;
+  if (step->inverse_density)
+    P2StiffnessTensor(g->area, grad, step->inverse_density[e].inverse, block);
+  else
+    P2Stiffness(g->area, grad, 1.0 / step->rho[e], block);
+}
+
 /* The pressure's matrix for the step, if it is not the solver's already. */
 static PetscErrorCode Assemble(ProjectionSolver s, const ProjectionStep *step)
 {
@@ -80,8 +90,7 @@ static PetscErrorCode Assemble(ProjectionSolver s, const ProjectionStep *step)
   PetscCall(PressureSolverGetBlocks(s->solver, &block));
   for (int e = 0; e < d->mesh->ne; e++)
     if (!s->inertia || !WeightedProjectionBlock(s->weighted, e, (double(*)[6])block[e]))
-      P2Stiffness(d->geometry[e].area, (const double(*)[2])d->geometry[e].g, 1.0 / step->rho[e],
-                  (double(*)[6])block[e]);
+      FluidBlock(&d->geometry[e], step, e, (double(*)[6])block[e]);
   PetscCall(PressureSolverSetMatrix(s->solver, (PetscBool)(inertia || step->revision > 0), &block));
   s->revision = step->revision;
   PetscFunctionReturn(0);
@@ -195,6 +204,15 @@ PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *s
   PetscFunctionReturn(0);
 }
 
+/* u -= dt k grad phi, k symmetric */
+static void SubtractTensor(double dt, const double k[3], const double grad[3][2], double u[6])
+{
+  for (int i = 0; i < 3; i++) {
+    u[i] -= dt * (k[0] * grad[i][0] + k[1] * grad[i][1]);
+    u[3 + i] -= dt * (k[1] * grad[i][0] + k[2] * grad[i][1]);
+  }
+}
+
 PetscErrorCode ProjectionSolverSubtract(ProjectionSolver s, const ProjectionStep *step, Vec velocity)
 {
   const FluidDomain *d = s->domain;
@@ -212,8 +230,11 @@ PetscErrorCode ProjectionSolverSubtract(ProjectionSolver s, const ProjectionStep
     P2Gradient(d->geometry[e].g, pe, grad);
     if (s->inertia && WeightedProjectionVelocity(s->weighted, e, (const double(*)[2])grad, u + 6 * e))
       continue;
-    for (int c = 0; c < 2; c++)
-      for (int i = 0; i < 3; i++) u[6 * e + 3 * c + i] -= step->dt / step->rho[e] * grad[i][c];
+    if (step->inverse_density)
+      SubtractTensor(step->dt, step->inverse_density[e].inverse, (const double(*)[2])grad, u + 6 * e);
+    else
+      for (int c = 0; c < 2; c++)
+        for (int i = 0; i < 3; i++) u[6 * e + 3 * c + i] -= step->dt / step->rho[e] * grad[i][c];
   }
   PetscCall(VecRestoreArray(velocity, &u));
   PetscCall(VecRestoreArrayRead(local, &phi));

@@ -57,11 +57,14 @@ static PetscErrorCode Create(FluidRun *m, const char *resume, Checkpoint from, P
   FluidSetup setup;
   AdaptationSetup adaptation;
   PetscBool adapts;
+  Region *region;
+  int nregions;
   PetscFunctionBeginUser;
   PetscCall(PetscOptionsInsertString(NULL, CoracleCaseStringOr(m->program->c, "fluid.petsc", "")));
   PetscCall(FluidCaseMesh(m->program->c, m->program->comm, from, &m->mesh, row));
   if (from) FluidCaseCheckResumed(m->program->c, m->mesh, resume);
   PetscCall(FluidCaseSetup(m->program->c, m->mesh, &setup));
+  PetscCall(FluidCaseRegions(m->program->c, &nregions, &region));
   PetscCall(FluidCaseAdaptation(m->program->c, &adapts, &adaptation));
   PetscCall(ProbesCreate(m->program->c, m->mesh, &m->probes));
   PetscCall(CoracleCaseFinish(m->program->c, SECTIONS));
@@ -69,6 +72,8 @@ static PetscErrorCode Create(FluidRun *m, const char *resume, Checkpoint from, P
   if (adapts && !from) PetscCall(FirstMesh(m));
   PetscCall(ProbesNewMesh(m->probes, m->mesh));
   PetscCall(FluidCreate(m->mesh, &setup, &m->fluid));
+  if (setup.phases.n && !from) PetscCall(FluidSetPhases(m->fluid, nregions, region));
+  PetscCall(FluidCaseFreeRegions(nregions, &region));
   PetscCall(PetscFree(setup.boundary));
   PetscFunctionReturn(0);
 }
