@@ -1,7 +1,8 @@
 /* Where a phase is along a segment, from its volumes and lines: a free-surface gauge.
  *
- *     from ====#######====--------###---- to        # and =: the phase
- *              first, where it first gives way ^   ^ last, its farthest point;  length: all of it
+ *     from ##########------####---- to      #: the phase
+ *                    ^         ^
+ *                    first     last           length: that of all #
  */
 #ifndef FLUID_SURFACE_GAUGE_H
 #define FLUID_SURFACE_GAUGE_H
