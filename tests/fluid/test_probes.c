@@ -74,7 +74,7 @@ static PetscErrorCode Open(CoracleCase c, Checkpoint from, Probes *probes)
   PetscCall(FluidCaseMesh(c, PETSC_COMM_WORLD, NULL, &mesh, NULL));
   PetscCall(FluidCaseSetup(c, mesh, &setup));
   PetscCall(PetscFree(setup.boundary));
-  PetscCall(FluidCaseAdaptation(c, &adapts, &adaptation));
+  PetscCall(FluidCaseAdaptation(c, &setup, &adapts, &adaptation));
   PetscCall(ProbesCreate(c, mesh, probes));
   CHECK(!CoracleCaseFinish(c, SECTIONS));
   PetscCall(ProbesOpen(*probes, c, from));
