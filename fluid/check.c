@@ -49,6 +49,8 @@ static const CoracleCaseKey KEYS[] = {
     {"fluid.adapt.size_min", "m", "le: shortest edge wanted; that around the solid"},
     {"fluid.adapt.size_max", "m", "Le: longest edge wanted"},
     {"fluid.adapt.velocity_error", "m/s", "wanted error of linear interpolation, each component"},
+    {"fluid.adapt.interface_size", "m", "edge wanted at the interface between phases; size_min if not given"},
+    {"fluid.adapt.light_velocity_error", "m/s", "wanted error in the lighter phase; 0: as coarse as may be"},
     {"fluid.adapt.growth", "", "largest ratio of an edge to the next"},
     {"fluid.adapt.anisotropy", "", "largest ratio of edges wanted in a place"},
     {"fluid.adapt.elements_max", "", "most triangles of a mesh"},
@@ -60,6 +62,9 @@ static const CoracleCaseKey KEYS[] = {
     {"fluid.probes[].line.from", "m", "first point of a line"},
     {"fluid.probes[].line.to", "m", "its last point"},
     {"fluid.probes[].line.points", "", "number of points on it, evenly spaced"},
+    {"fluid.probes[].surface.from", "m", "where the segment of a free-surface gauge begins"},
+    {"fluid.probes[].surface.to", "m", "where it ends"},
+    {"fluid.probes[].surface.phase", "", "the phase whose places along the segment are recorded"},
     {"fluid.probes[].solid_point", "m",
      "a point of the solid's surface at the start: a pressure gauge that moves with it"},
     {"fluid.probes[].distance", "m",
@@ -126,7 +131,7 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
   PetscCall(FluidCaseMesh(c, PETSC_COMM_SELF, NULL, &mesh, NULL));
   PetscCall(FluidCaseSetup(c, mesh, &setup));
   PetscCall(FluidCaseRegions(c, &nregions, &region));
-  PetscCall(FluidCaseAdaptation(c, &adapts, &adaptation));
+  PetscCall(FluidCaseAdaptation(c, &setup, &adapts, &adaptation));
   PetscCall(ProbesCreate(c, mesh, &probes));
   PetscCall(ProbesDestroy(&probes));
   PetscCall(CoracleCaseFinish(c, SECTIONS));

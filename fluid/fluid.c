@@ -195,16 +195,28 @@ PetscErrorCode FluidStep(Fluid f, double dt)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode FluidMakeSolenoidal(Fluid f)
+/* velocity less the part whose bulk velocity is not free of divergence */
+static PetscErrorCode SubtractDivergence(Fluid f, Vec velocity, Vec also)
 {
-  const double start = MPI_Wtime(), dt = 1.0; /* any: it cancels */
-  const ProjectionStep step = FluidProjectionStep(f, f->t, dt, PETSC_FALSE);
+  const ProjectionStep step = FluidProjectionStep(f, f->t, 1.0, PETSC_FALSE); /* any dt: it cancels */
   Vec phi;
   PetscFunctionBeginUser;
-  PetscCall(ProjectionSolverSolve(f->projection, &step, f->u, &phi, &f->stats.pressure_iterations));
-  PetscCall(ProjectionSolverSubtract(f->projection, &step, f->u));
-  PetscCall(
-      ProjectionSolverSubtract(f->projection, &step, f->u_previous)); /* their difference extrapolates */
+  PetscCall(ProjectionSolverSolve(f->projection, &step, velocity, &phi, &f->stats.pressure_iterations));
+  PetscCall(ProjectionSolverSubtract(f->projection, &step, velocity));
+  if (also) PetscCall(ProjectionSolverSubtract(f->projection, &step, also));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidMakeSolenoidal(Fluid f)
+{
+  const double start = MPI_Wtime();
+  PetscFunctionBeginUser;
+  if (f->phases) { /* which the extrapolated velocity moves: it must be free of divergence, too */
+    PetscCall(SubtractDivergence(f, f->u, NULL));
+    PetscCall(SubtractDivergence(f, f->u_previous, NULL));
+  } else {
+    PetscCall(SubtractDivergence(f, f->u, f->u_previous)); /* their difference extrapolates */
+  }
   f->stats.seconds[PRESSURE] += MPI_Wtime() - start;
   PetscFunctionReturn(0);
 }

@@ -244,7 +244,8 @@ PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode FluidCaseAdaptation(CoracleCase c, PetscBool *adapts, AdaptationSetup *s)
+PetscErrorCode FluidCaseAdaptation(CoracleCase c, const FluidSetup *setup, PetscBool *adapts,
+                                   AdaptationSetup *s)
 {
   PetscFunctionBeginUser;
   *adapts = (PetscBool)CoracleCaseHas(c, "fluid.adapt");
@@ -255,6 +256,13 @@ PetscErrorCode FluidCaseAdaptation(CoracleCase c, PetscBool *adapts, AdaptationS
     CoracleCaseRefuse(c, "fluid.adapt.size_max", "expected at least fluid.adapt.size_min, %g, found %g",
                       s->size_min, s->size_max);
   s->velocity_error = CoracleCasePositive(c, "fluid.adapt.velocity_error");
+  s->interface_size = s->size_min;
+  s->light_velocity_error = 0.0;
+  if (setup->phases.n) {
+    s->interface_size =
+        CoracleCaseNumberOr(c, "fluid.adapt.interface_size", s->size_min, s->size_min, s->size_max);
+    s->light_velocity_error = CoracleCaseNumberOr(c, "fluid.adapt.light_velocity_error", 0.0, 0.0, HUGE_VAL);
+  }
   s->growth = CoracleCaseNumberOr(c, "fluid.adapt.growth", 1.5, 1.01, 10.0);
   s->anisotropy = CoracleCaseNumberOr(c, "fluid.adapt.anisotropy", 5.0, 1.0, 1000.0);
   s->elements_max = CoracleCaseNumberOr(c, "fluid.adapt.elements_max", 200000.0, 100.0, 1e9);

@@ -12,6 +12,9 @@ void PhaseCaseRead(CoracleCase c, PhaseNames *names, PhaseProperties *p)
   for (int k = 0; k < p->n; k++) {
     (void)snprintf(key, sizeof key, "fluid.phases[%d].name", k);
     names->name[k] = CoracleCaseString(c, key);
+    if (strlen(names->name[k]) >= sizeof p->name[k])
+      CoracleCaseRefuse(c, key, "expected a name of at most %d letters", (int)sizeof p->name[k] - 1);
+    (void)snprintf(p->name[k], sizeof p->name[k], "%s", names->name[k]);
     for (int j = 0; j < k; j++)
       if (!strcmp(names->name[j], names->name[k]))
         CoracleCaseRefuse(c, key, "two phases are called '%s'", names->name[k]);

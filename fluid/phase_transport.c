@@ -166,6 +166,11 @@ void PhaseTransportMaterial(PhaseTransport t, double rho[], double mu[])
   }
 }
 
+const PhaseProperties *PhaseTransportProperties(PhaseTransport t)
+{
+  return &t->properties;
+}
+
 const InverseDensity *PhaseTransportInverseDensity(PhaseTransport t)
 {
   return t->inverse_density;

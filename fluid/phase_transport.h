@@ -18,8 +18,10 @@ typedef struct PhaseTransport_s *PhaseTransport;
 typedef struct {
   int n;
   double rho[PHASES_MAX], mu[PHASES_MAX]; /* kg/m3, Pa s */
+  char name[PHASES_MAX][32];
 } PhaseProperties;
 
+const PhaseProperties *PhaseTransportProperties(PhaseTransport t);
 /* The lightest phase.  Not collective. */
 int PhaseLightest(const PhaseProperties *properties);
 /* Without volumes; domain is borrowed.  Collective, like all that says nothing else. */

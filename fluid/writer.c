@@ -49,14 +49,13 @@ static PetscErrorCode PhaseFields(Writer r, Fluid f, double cell[])
   PetscFunctionBeginUser;
   PetscCall(OutputField(r->output, "density", OUTPUT_CELL, 1, FluidDensity(f)));
   for (int p = 0; p < n; p++) {
-    char name[32];
-    (void)snprintf(name, sizeof name, "phase %d", p);
     for (int e = 0; e < m->ne; e++) {
       double all = 0.0;
       for (int q = 0; q < n; q++) all += volume[n * e + q];
       cell[e] = volume[n * e + p] / all;
     }
-    PetscCall(OutputField(r->output, name, OUTPUT_CELL, 1, cell));
+    PetscCall(
+        OutputField(r->output, PhaseTransportProperties(FluidPhases(f))->name[p], OUTPUT_CELL, 1, cell));
   }
   PetscFunctionReturn(0);
 }
