@@ -45,8 +45,7 @@ PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *flu
   PetscCall(SolidCouplingCreate(mesh->ne, &f->solid));
   PetscCall(CreateVectors(f));
   PetscCall(MomentumSolverCreate(&f->domain, &momentum, f->u, &f->momentum));
-  PetscCall(
-      ProjectionSolverCreate(&f->domain, f->p, MaterialDensity(f->material, MATERIAL_STEP), &f->projection));
+  PetscCall(ProjectionSolverCreate(&f->domain, f->p, &f->projection));
   *fluid = f;
   PetscFunctionReturn(0);
 }

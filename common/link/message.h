@@ -5,13 +5,14 @@
  *     | header | block 0 | block 1 | ...     each block is padded to 8 bytes
  *     +--------+---------+---------+-----
  *
- *     kind      direction          count[0], [1], [2]              blocks                             sent within
+ *     kind      direction          count[0], [1], [2], [3]         blocks                             sent within
  *     SURFACE   solid -> coupler   nodes, facets, elements         nodes, motion, facets, elements    Ready; End after a change
  *     MOTION    solid -> coupler   nodes                           motion                             End
  *     FORCE     solid <- coupler   nodes, -, bytes of path         force; path                        Begin
  *     ASK       fluid <- coupler   boxes                           boxes                              GetRegion, Ready, End
  *     ELEMENTS  fluid -> coupler   elements                        domain, elements                   answers ASK
- *     COUPLING  fluid <- coupler   corrections, couplings, path    corrections, couplings; path       ends Ready, End
+ *     COUPLING  fluid <- coupler   corrections, couplings,         corrections, couplings, gauges;    ends Ready, End
+ *                                  bytes of path, gauges           path
  *     FLOW      fluid -> coupler   elements                        flow                               End
  *     CLOSE     both  -> coupler   reports                         reports                            Close
  *
@@ -39,10 +40,12 @@ typedef enum { KIND_NONE, MESSAGE_KINDS(MESSAGE_KIND) KIND_END } MessageKind;
  *     ASK        FIELDS_BOXES                      FieldsBoxes, an array over the boxes
  *     ELEMENTS   FIELDS_DOMAIN, FIELDS_ELEMENTS    FieldsDomain, one; CoracleElements, arrays over the fluid's elements
  *     FLOW       FIELDS_FLOW                       CoracleFlow, arrays over the fluid's elements
- *     COUPLING   FIELDS_CORRECTION, FIELDS_COUPLING   CoracleCorrection, CoracleCoupling, one an element */
+ *     COUPLING   FIELDS_CORRECTION, FIELDS_COUPLING   CoracleCorrection, CoracleCoupling, one an element
+ *                FIELDS_GAUGES                     CoracleGauge, one a gauge on the solid */
 typedef struct FieldGroup FieldGroup;
 extern const FieldGroup FIELDS_NODES, FIELDS_MOTION, FIELDS_FACETS, FIELDS_SIMPLICES, FIELDS_FORCE,
-    FIELDS_BOXES, FIELDS_DOMAIN, FIELDS_ELEMENTS, FIELDS_FLOW, FIELDS_CORRECTION, FIELDS_COUPLING;
+    FIELDS_BOXES, FIELDS_DOMAIN, FIELDS_ELEMENTS, FIELDS_FLOW, FIELDS_CORRECTION, FIELDS_COUPLING,
+    FIELDS_GAUGES;
 
 /* MessageHeader.flag */
 enum {
@@ -56,7 +59,7 @@ enum {
 typedef struct {
   uint32_t magic;
   int32_t kind, step, action, flag, dim;
-  int64_t count[3];
+  int64_t count[4];
   double t, dt; /* s */
 } MessageHeader;
 
