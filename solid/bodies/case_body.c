@@ -39,7 +39,7 @@ static void ReadStrength(CoracleCase c, const char *name, Material *m)
 static Material ReadMaterial(CoracleCase c, const char *name)
 {
   static const char *const PLANES[] = {"strain", "stress", NULL};
-  static const char *const LAWS[] = {"neo_hookean", "corotated", NULL};
+  static const char *const LAWS[] = {"neo_hookean", "corotated", NULL}; /* in the order of ElementLawKind */
   Material m = {0};
   char key[KEY];
   m.density = Property(c, name, "density", 0.0, 0.0);
@@ -56,7 +56,7 @@ static Material ReadMaterial(CoracleCase c, const char *name)
   (void)snprintf(key, sizeof key, "solid.materials.%s.plane", name);
   m.plane_stress = CoracleCaseWord(c, key, 0, PLANES);
   (void)snprintf(key, sizeof key, "solid.materials.%s.law", name);
-  m.corotated = CoracleCaseWord(c, key, 0, LAWS);
+  m.law = CoracleCaseWord(c, key, 0, LAWS);
   (void)snprintf(key, sizeof key, "solid.materials.%s.thickness", name);
   m.thickness = CoracleCaseHas(c, key) ? CoracleCasePositive(c, key) : 1.0;
   ReadStrength(c, name, &m);

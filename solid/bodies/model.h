@@ -20,7 +20,7 @@ typedef struct {
   double contact_damping;    /* of contact with the same material, fraction of the critical */
   double thickness;          /* m; 0 stands for 1: per metre of depth */
   int plane_stress;          /* else plane strain */
-  int corotated;             /* linear in the Biot strain (element.h), else neo-Hookean */
+  int law;                   /* ElementLawKind (element.h) */
   double strength[2];        /* of joints: in tension and in shear, Pa */
   double internal_friction;  /* of joints: what pressure adds to the shear strength, over the pressure */
   double fracture_energy[2]; /* per unit of new surface, mode I and mode II, J/m2 */

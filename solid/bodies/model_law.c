@@ -5,7 +5,7 @@ ElementLaw MaterialLaw(const Material *m)
 {
   ElementLaw law = ElementLawOf(m->youngs_modulus, m->poisson_ratio, 0.0);
   law.plane_stress = m->plane_stress;
-  law.corotated = m->corotated;
+  law.kind = m->law;
   return law;
 }
 
