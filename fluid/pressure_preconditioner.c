@@ -76,7 +76,7 @@ static PetscErrorCode CreateSolver(PressurePreconditioner p)
   PC pc;
   PetscFunctionBeginUser;
   PetscCall(MatGetSize(p->coarse, &size, NULL));
-  p->setup = (int)PetscMin(sqrt((double)size) / 30.0, 6.0);
+  p->setup = (int)PetscMin(sqrt((double)size) / 25.0, 6.0);
   PetscCall(SolverCreateDirect(p->mesh->comm, "pressure_coarse_", KSPPREONLY, &p->solver));
 #if defined(PETSC_HAVE_HYPRE)
   if (size > FACTOR_MAX) {
