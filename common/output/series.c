@@ -11,6 +11,7 @@ struct Series_s {
   long length;   /* of what is kept of a file that goes on, until the first row: then 0 */
   int ncolumn;
   char path[PETSC_MAX_PATH_LEN];
+  char key[80]; /* of the length in checkpoints */
 };
 
 static PetscErrorCode Begin(Series s, const char *columns)
@@ -48,11 +49,11 @@ PetscErrorCode SeriesCreate(MPI_Comm comm, const char *folder, const char *name,
   PetscCall(PetscNew(&s));
   s->comm = comm;
   snprintf(s->path, sizeof s->path, "%s/%s.csv", folder, name);
+  snprintf(s->key, sizeof s->key, "length of %s.csv", name);
   s->ncolumn = 1;
   for (const char *c = columns; *c; c++) s->ncolumn += *c == ',';
   *series = s;
-  if (FolderGoesOn(comm, folder, s->path, from))
-    PetscCall(CheckpointGetNumber(from, "series length", &length));
+  if (FolderGoesOn(comm, folder, s->path, from)) PetscCall(CheckpointGetNumber(from, s->key, &length));
   PetscCall(AgreeWithRoot(comm, rank != 0      ? 0
                                 : length > 0.0 ? Continue(s, (long)length)
                                                : Begin(s, columns)));
@@ -64,7 +65,7 @@ PetscErrorCode SeriesSave(Series s, Checkpoint to)
   double length = !s->file ? 0.0 : s->length ? (double)s->length : (double)ftell(s->file);
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Bcast(&length, 1, MPI_DOUBLE, 0, s->comm));
-  PetscCall(CheckpointPutNumber(to, "series length", length));
+  PetscCall(CheckpointPutNumber(to, s->key, length));
   PetscFunctionReturn(0);
 }
 
