@@ -71,17 +71,34 @@ static void Predict(Coupler c, const SolidState *solid)
   }
 }
 
+/* Shell, overlap and coefficients with the solid at x. */
+static PetscErrorCode BuildAt(Coupler c, const SolidState *solid, const double x[])
+{
+  SolidState at = *solid;
+
+  PetscFunctionBeginUser;
+  at.x = x;
+  PetscCall(ShellExtrude(c->shell, &at, solid->changed || !c->built ? PETSC_TRUE : PETSC_FALSE));
+  PetscCall(OverlapBuild(c->overlap, &at, c->shell));
+  PetscCall(NewStep(c, &at));
+  c->built = 1;
+  PetscCall(c->mode->coefficients(c, &at));
+  PetscCall(InertiaExplicitFraction(c->overlap, &at, c->density, c->explicit_fraction));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode CouplerBuild(Coupler c, const SolidState *solid, double dt, int *n,
                             const CoracleCoupling **coupling)
 {
+  const double ahead = c->options.mode == COUPLER_REACTION ? 0.5 * dt : 0.0;
+  double *x;
+
   PetscFunctionBeginUser;
   c->dt = dt;
-  PetscCall(ShellExtrude(c->shell, solid, solid->changed || !c->built ? PETSC_TRUE : PETSC_FALSE));
-  PetscCall(OverlapBuild(c->overlap, solid, c->shell));
-  PetscCall(NewStep(c, solid));
-  c->built = 1;
-  PetscCall(c->mode->coefficients(c, solid));
-  PetscCall(InertiaExplicitFraction(c->overlap, solid, c->density, c->explicit_fraction));
+  PetscCall(PetscMalloc1(2 * (size_t)solid->nnodes, &x));
+  for (int k = 0; k < 2 * solid->nnodes; k++) x[k] = solid->x[k] + ahead * solid->u[k];
+  PetscCall(BuildAt(c, solid, x));
+  PetscCall(PetscFree(x));
   Predict(c, solid);
   PetscCall(CouplerSetInterfaceVelocity(c, c->predicted, n, coupling));
   PetscFunctionReturn(0);
