@@ -21,6 +21,7 @@ typedef struct {
   double theta;         /* 0.5 Crank-Nicolson .. 1 backward Euler */
   double rho, mu;       /* kg/m3, Pa s */
   double gravity[2];    /* m/s2 */
+  double velocity[2];   /* everywhere at the start, unless FluidSetInitial has another, m/s */
   double cfl, dt_max;   /* step control */
   Boundary *boundary;   /* [mesh->ntags], copied */
   FieldFunction source; /* body force per volume, N/m3, or NULL */
@@ -40,7 +41,7 @@ PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *flu
 /* The same fluid on another mesh with the same boundary names, without state: FluidTransfer. */
 PetscErrorCode FluidCreateLike(Fluid like, const Mesh *mesh, Fluid *fluid);
 PetscErrorCode FluidDestroy(Fluid *fluid);
-/* Initial velocity by interpolation (NULL: rest) and hydrostatic pressure (or p by interpolation). */
+/* Initial velocity by interpolation (NULL: that of the setup) and hydrostatic pressure (or p by interpolation). */
 PetscErrorCode FluidSetInitial(Fluid fluid, double t, FieldFunction velocity, FieldFunction pressure,
                                void *context);
 
