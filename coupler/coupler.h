@@ -44,9 +44,8 @@ const double *CouplerExplicitFraction(Coupler coupler);
  * until CouplerCorrect has returned. */
 PetscErrorCode CouplerComputeForce(Coupler coupler, const CoracleFlow *flow, const double **force,
                                    ForceTotals *totals);
-/* correction[n], one per element of CouplerBuild and in its order.  When the solid has changed its mesh in
- * the step (moved->changed) the source triangles have no new velocity and the corrections are 0.  Borrowed
- * until the next CouplerCorrect. */
+/* correction[n], one per element of CouplerBuild and in its order; 0 when the elements of the step's start cannot
+ * be recovered from the solid's new mesh (moved->lost).  Borrowed until the next CouplerCorrect. */
 PetscErrorCode CouplerCorrect(Coupler coupler, const SolidState *moved, int *n,
                               const CoracleCorrection **correction);
 
