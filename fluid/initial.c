@@ -73,7 +73,7 @@ PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldF
   PetscCall(VecGetArray(f->u, &u));
   for (int e = 0; e < m->ne; e++)
     for (int i = 0; i < 3; i++) {
-      double v[2] = {0};
+      double v[2] = {f->setup.velocity[0], f->setup.velocity[1]};
       if (velocity) velocity(context, t, ElementVertex(m, e, i), v);
       for (int c = 0; c < 2; c++) u[6 * e + 3 * c + i] = v[c];
     }

@@ -16,7 +16,7 @@ PetscErrorCode FluidRunSave(const FluidRun *m)
   PetscCall(CheckpointCreate(m->mesh->comm, folder, "fluid", &to));
   PetscCall(MeshSave(m->mesh, to));
   PetscCall(FluidSave(m->fluid, to));
-  PetscCall(CheckpointPutNumber(to, "new mesh", m->new_mesh));
+  PetscCall(CheckpointPutNumber(to, "not solenoidal", m->not_solenoidal));
   PetscCall(AdaptationSave(m->adaptation, to));
   PetscCall(WriterSave(m->writer, to));
   PetscCall(ProbesSave(m->probes, to));
@@ -26,11 +26,11 @@ PetscErrorCode FluidRunSave(const FluidRun *m)
 
 static PetscErrorCode Load(FluidRun *m, Checkpoint from, const PetscInt row[])
 {
-  double new_mesh;
+  double not_solenoidal;
   PetscFunctionBeginUser;
   PetscCall(FluidLoad(m->fluid, row, from));
-  PetscCall(CheckpointGetNumber(from, "new mesh", &new_mesh));
-  m->new_mesh = new_mesh ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(CheckpointGetNumber(from, "not solenoidal", &not_solenoidal));
+  m->not_solenoidal = not_solenoidal ? PETSC_TRUE : PETSC_FALSE;
   PetscCall(AdaptationLoad(m->adaptation, from));
   PetscFunctionReturn(0);
 }
@@ -89,6 +89,7 @@ PetscErrorCode FluidRunCreate(const Program *program, FluidRun *m)
     PetscCall(Load(m, m->from, row));
   else
     PetscCall(FluidSetInitial(m->fluid, 0.0, NULL, NULL, NULL));
+  if (!m->from && CoracleCaseHas(program->c, "fluid.initial")) m->not_solenoidal = PETSC_TRUE;
   PetscCall(PetscFree(row));
   PetscCall(ExchangeCreate(m->program->client, m->fluid, &m->exchange));
   PetscFunctionReturn(0);
@@ -137,7 +138,7 @@ PetscErrorCode FluidRunAcceptMesh(FluidRun *m, Mesh *mesh, Fluid fluid)
   PetscCall(MeshDestroy(&m->mesh));
   m->mesh = mesh;
   m->fluid = fluid;
-  m->new_mesh = PETSC_TRUE;
+  m->not_solenoidal = PETSC_TRUE;
   WriterNewMesh(m->writer);
   PetscCall(ProbesNewMesh(m->probes, mesh));
   PetscFunctionReturn(0);
