@@ -44,6 +44,9 @@ PetscErrorCode FluidDestroy(Fluid *fluid);
 /* Initial velocity by interpolation (NULL: that of the setup) and hydrostatic pressure (or p by interpolation). */
 PetscErrorCode FluidSetInitial(Fluid fluid, double t, FieldFunction velocity, FieldFunction pressure,
                                void *context);
+/* Before the first step of a run, with its coupling set: the fluid inside the solid moves with it.  A body that
+ * begins with a velocity has its whole momentum then, and strikes the fluid around it in the first step. */
+PetscErrorCode FluidStartInside(Fluid fluid);
 
 /* Takes the state between two steps over from a fluid on another mesh of the same domain: velocity by
  * Galerkin projection, which conserves momentum to round-off; pressure by interpolation; time and counters.
