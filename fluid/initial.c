@@ -96,3 +96,23 @@ PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldF
   if (!pressure && f->phases) PetscCall(FluidBalancePressure(f));
   PetscFunctionReturn(0);
 }
+
+PetscErrorCode FluidStartInside(Fluid f)
+{
+  const CoracleCoupling *entry;
+  PetscScalar *u;
+  int n;
+  PetscFunctionBeginUser;
+  entry = SolidCouplingEntries(f->solid, &n);
+  PetscCall(VecGetArray(f->u, &u));
+  for (int k = 0; k < n; k++)
+    for (int i = 0; i < 6; i++) {
+      PetscScalar *v = u + 6 * entry[k].element + i;
+      *v += entry[k].alpha * (entry[k].velocity[i / 3] - *v);
+    }
+  PetscCall(VecRestoreArray(f->u, &u));
+  PetscCall(VecGhostUpdateBegin(f->u, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostUpdateEnd(f->u, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecCopy(f->u, f->u_previous));
+  PetscFunctionReturn(0);
+}

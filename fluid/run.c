@@ -17,6 +17,7 @@ PetscErrorCode FluidRunSave(const FluidRun *m)
   PetscCall(MeshSave(m->mesh, to));
   PetscCall(FluidSave(m->fluid, to));
   PetscCall(CheckpointPutNumber(to, "not solenoidal", m->not_solenoidal));
+  PetscCall(CheckpointPutNumber(to, "first step", m->first));
   PetscCall(AdaptationSave(m->adaptation, to));
   PetscCall(WriterSave(m->writer, to));
   PetscCall(ProbesSave(m->probes, to));
@@ -26,10 +27,12 @@ PetscErrorCode FluidRunSave(const FluidRun *m)
 
 static PetscErrorCode Load(FluidRun *m, Checkpoint from, const PetscInt row[])
 {
-  double not_solenoidal;
+  double not_solenoidal, first;
   PetscFunctionBeginUser;
   PetscCall(FluidLoad(m->fluid, row, from));
   PetscCall(CheckpointGetNumber(from, "not solenoidal", &not_solenoidal));
+  PetscCall(CheckpointGetNumber(from, "first step", &first));
+  m->first = first ? PETSC_TRUE : PETSC_FALSE;
   m->not_solenoidal = not_solenoidal ? PETSC_TRUE : PETSC_FALSE;
   PetscCall(AdaptationLoad(m->adaptation, from));
   PetscFunctionReturn(0);
@@ -82,7 +85,7 @@ PetscErrorCode FluidRunCreate(const Program *program, FluidRun *m)
   const char *resume = CoracleResumePath(program->client);
   PetscInt *row = NULL;
   PetscFunctionBeginUser;
-  *m = (FluidRun){.program = program};
+  *m = (FluidRun){.program = program, .first = PETSC_TRUE};
   if (resume) PetscCall(CheckpointOpen(program->comm, resume, "fluid", &m->from));
   PetscCall(Create(m, resume, m->from, &row));
   if (m->from)

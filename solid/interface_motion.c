@@ -109,7 +109,9 @@ PetscErrorCode SolidUpdateInterfaceMotion(Solid s, InterfaceMotion *interface)
   for (int k = 0; k < 2 * s->nnodes; k++) {
     const double by_mass = s->inverse_mass[k / 2];
     s->mobility[k / 2] = by_mass;
-    s->acceleration[k] = by_mass > 0.0 ? by_mass * (force[k] + s->load[k]) + s->setup.gravity[k % 2] : 0.0;
+    s->acceleration[k] = by_mass > 0.0 ? by_mass * (force[k] + s->load[k]) + s->setup.gravity[k % 2] -
+                                             s->setup.decay_rate * s->v[k]
+                                       : 0.0;
   }
   PetscCall(Respond(s, s->interface_velocity));
   PetscCall(Respond(s, s->acceleration));
