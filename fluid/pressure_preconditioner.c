@@ -1,6 +1,5 @@
 #include "fluid/pressure_preconditioner.h"
 #include "fluid/solver_options.h"
-#include "fluid/vertices.h"
 #include <limits.h>
 #include <math.h>
 
@@ -8,13 +7,13 @@
 #define CHANGE_MAX 4.0   /* of an element, as a factor: what an old coarse solver is good for */
 
 struct PressurePreconditioner_s {
-  const Mesh *mesh; /* borrowed */
-  Mat matrix;       /* borrowed: A */
-  Mat extension;    /* E */
-  Mat coarse;       /* A1 */
-  PetscInt nfixed;  /* owned vertices whose row of A1 is the identity's */
-  PetscBool pinned; /* this rank has the vertex that makes A1 definite in a closed domain */
-  KSP solver;       /* of A1 */
+  const FluidDomain *domain; /* borrowed */
+  Mat matrix;                /* borrowed: A */
+  Mat extension;             /* E */
+  Mat coarse;                /* A1 */
+  PetscInt nfixed;           /* owned vertices whose row of A1 is the identity's */
+  PetscBool pinned;          /* this rank has the vertex that makes A1 definite in a closed domain */
+  KSP solver;                /* of A1 */
   Vec residual, r1, z1;
   int setup;  /* iterations of CG that cost as much as the set-up of a coarse solver */
   int fresh;  /* iterations of the first solve with the coarse solver; -1: it has not been used yet */
@@ -22,48 +21,65 @@ struct PressurePreconditioner_s {
   double *coefficient; /* [ne] sum of the diagonal of an element's part of A1, when the solver was set up */
 };
 
-static PetscErrorCode CreateExtension(PressurePreconditioner p, const char is_fixed[], PetscInt owned,
-                                      const double number[])
+static PetscErrorCode CreateExtension(PressurePreconditioner p, const char is_fixed[])
 {
-  const Mesh *m = p->mesh;
+  const Mesh *m = p->domain->mesh;
+  const P2Space *p2 = p->domain->p2;
   const double one = 1.0, half[2] = {0.5, 0.5};
   PetscFunctionBeginUser;
-  PetscCall(MatCreateAIJ(m->comm, m->np2_owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, 2, NULL, 2, NULL,
+  PetscCall(MatCreateAIJ(m->comm, p2->nowned, m->nv_owned, PETSC_DETERMINE, PETSC_DETERMINE, 2, NULL, 2, NULL,
                          &p->extension));
-  for (int e = 0; e < m->ne; e++)
+  for (int e = 0; e < m->ne; e++) {
+    const int *node = p2->node + 6 * e;
+    PetscInt vertex[3];
+    for (int i = 0; i < 3; i++) vertex[i] = is_fixed[node[i]] ? -1 : m->vgid[m->vertex[3 * e + i]];
     for (int i = 0; i < 3; i++) {
-      const int *node = m->p2 + 6 * e, ends[2] = {node[(i + 1) % 3], node[(i + 2) % 3]};
-      const PetscInt vertex = is_fixed[node[i]] ? -1 : (PetscInt)number[node[i]];
-      const PetscInt end[2] = {is_fixed[ends[0]] ? -1 : (PetscInt)number[ends[0]],
-                               is_fixed[ends[1]] ? -1 : (PetscInt)number[ends[1]]};
-      PetscCall(MatSetValues(p->extension, 1, m->p2gid + node[i], 1, &vertex, &one, INSERT_VALUES));
-      PetscCall(MatSetValues(p->extension, 1, m->p2gid + node[3 + i], 2, end, half, INSERT_VALUES));
+      const PetscInt end[2] = {vertex[(i + 1) % 3], vertex[(i + 2) % 3]};
+      PetscCall(MatSetValues(p->extension, 1, p2->gid + node[i], 1, vertex + i, &one, INSERT_VALUES));
+      PetscCall(MatSetValues(p->extension, 1, p2->gid + node[3 + i], 2, end, half, INSERT_VALUES));
     }
+  }
   PetscCall(MatAssemblyBegin(p->extension, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(p->extension, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(0);
 }
 
-/* An entry for each entry of the elements' blocks, then the rows of fixed vertices and the pinned one. */
-static PetscErrorCode CreateCoarse(PressurePreconditioner p, const char is_fixed[], PetscInt owned,
-                                   const double number[])
+/* row = column: the owned vertices that are fixed; *n is raised by their number. */
+static PetscErrorCode ListFixed(PressurePreconditioner p, const char is_fixed[], PetscInt *n, PetscInt row[],
+                                PetscInt column[])
 {
-  const Mesh *m = p->mesh;
+  const Mesh *m = p->domain->mesh;
+  char *met;
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(m->nv_owned, &met));
+  for (int k = 0; k < 3 * m->ne; k++) {
+    const PetscInt gid = m->vgid[m->vertex[k]], own = gid - m->vstart;
+    if (own < 0 || own >= m->nv_owned || met[own]) continue;
+    met[own] = 1;
+    if (is_fixed[p->domain->p2->node[6 * (k / 3) + k % 3]]) row[*n] = column[*n] = gid, ++*n;
+  }
+  PetscCall(PetscFree(met));
+  PetscFunctionReturn(0);
+}
+
+/* An entry for each entry of the elements' blocks, then the rows of fixed vertices and the pinned one. */
+static PetscErrorCode CreateCoarse(PressurePreconditioner p, const char is_fixed[])
+{
+  const Mesh *m = p->domain->mesh;
   PetscInt *row, *column, n = 9 * m->ne;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2(n + owned + 1, &row, n + owned + 1, &column));
+  PetscCall(PetscMalloc2(n + m->nv_owned + 1, &row, n + m->nv_owned + 1, &column));
   for (int e = 0; e < m->ne; e++)
     for (int k = 0; k < 9; k++) {
-      const int i = m->p2[6 * e + k / 3], j = m->p2[6 * e + k % 3];
-      row[9 * e + k] = is_fixed[i] || is_fixed[j] ? -1 : (PetscInt)number[i];
-      column[9 * e + k] = (PetscInt)number[j];
+      const int *node = p->domain->p2->node + 6 * e, i = k / 3, j = k % 3;
+      row[9 * e + k] = is_fixed[node[i]] || is_fixed[node[j]] ? -1 : m->vgid[m->vertex[3 * e + i]];
+      column[9 * e + k] = m->vgid[m->vertex[3 * e + j]];
     }
-  for (int k = 0; k < m->np2_owned; k++)
-    if (is_fixed[k] && number[k] >= 0.0) row[n] = column[n] = (PetscInt)number[k], n++;
+  PetscCall(ListFixed(p, is_fixed, &n, row, column));
   p->nfixed = n - 9 * m->ne;
   if (p->pinned) row[n] = column[n] = 0, n++;
   PetscCall(MatCreate(m->comm, &p->coarse));
-  PetscCall(MatSetSizes(p->coarse, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE));
+  PetscCall(MatSetSizes(p->coarse, m->nv_owned, m->nv_owned, PETSC_DETERMINE, PETSC_DETERMINE));
   PetscCall(MatSetType(p->coarse, MATAIJ));
   PetscCall(MatSetPreallocationCOO(p->coarse, n, row, column));
   PetscCall(MatSetOption(p->coarse, MAT_SPD, PETSC_TRUE));
@@ -78,9 +94,9 @@ static PetscErrorCode CreateSolver(PressurePreconditioner p)
   PC pc;
   PetscFunctionBeginUser;
   PetscCall(MatGetSize(p->coarse, &size, NULL));
-  PetscCallMPI(MPI_Comm_size(p->mesh->comm, &ranks));
+  PetscCallMPI(MPI_Comm_size(p->domain->mesh->comm, &ranks));
   p->setup = (int)PetscMin(sqrt((double)size) / 25.0, 6.0);
-  PetscCall(SolverCreateDirect(p->mesh->comm, "pressure_coarse_", KSPPREONLY, &p->solver));
+  PetscCall(SolverCreateDirect(p->domain->mesh->comm, "pressure_coarse_", KSPPREONLY, &p->solver));
 #if defined(PETSC_HAVE_HYPRE)
   if (size * ranks > FACTOR_MAX) { /* multigrid is distributed, a factor is not */
     PetscCall(KSPGetPC(p->solver, &pc));
@@ -123,28 +139,23 @@ static PetscErrorCode UseShell(PressurePreconditioner p, KSP ksp)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PressurePreconditionerCreate(const Mesh *mesh, const char is_fixed[], PetscBool closed,
-                                            KSP ksp, PressurePreconditioner *preconditioner)
+PetscErrorCode PressurePreconditionerCreate(const FluidDomain *domain, const char is_fixed[],
+                                            PetscBool closed, KSP ksp, PressurePreconditioner *preconditioner)
 {
   PressurePreconditioner p;
-  PetscInt owned;
-  double *number;
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&p));
-  p->mesh = mesh;
+  p->domain = domain;
   p->fresh = -1;
   p->excess = INT_MAX;
-  PetscCall(PetscMalloc1(mesh->ne, &p->coefficient));
-  PetscCall(PetscMalloc1(mesh->np2, &number));
-  PetscCall(VerticesNumber(mesh, &owned, number));
-  for (int k = 0; k < mesh->np2_owned && closed; k++) p->pinned |= number[k] == 0.0;
+  PetscCall(PetscMalloc1(domain->mesh->ne, &p->coefficient));
+  p->pinned = (PetscBool)(closed && domain->mesh->nv_owned > 0 && domain->mesh->vstart == 0);
   PetscCall(UseShell(p, ksp));
-  PetscCall(CreateExtension(p, is_fixed, owned, number));
-  PetscCall(CreateCoarse(p, is_fixed, owned, number));
+  PetscCall(CreateExtension(p, is_fixed));
+  PetscCall(CreateCoarse(p, is_fixed));
   PetscCall(MatCreateVecs(p->extension, &p->r1, &p->residual));
   PetscCall(VecDuplicate(p->r1, &p->z1));
   PetscCall(CreateSolver(p));
-  PetscCall(PetscFree(number));
   *preconditioner = p;
   PetscFunctionReturn(0);
 }
@@ -182,18 +193,18 @@ static PetscErrorCode LargestChange(PressurePreconditioner p, const double coars
 {
   PetscFunctionBeginUser;
   *change = 1.0;
-  for (int e = 0; e < p->mesh->ne; e++) {
+  for (int e = 0; e < p->domain->mesh->ne; e++) {
     const double ratio = (coarse[e][0] + coarse[e][4] + coarse[e][8]) / p->coefficient[e];
     *change = PetscMax(*change, PetscMax(ratio, 1.0 / ratio));
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, change, 1, MPI_DOUBLE, MPI_MAX, p->mesh->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, change, 1, MPI_DOUBLE, MPI_MAX, p->domain->mesh->comm));
   PetscFunctionReturn(0);
 }
 
 /* A1 from its elements' parts, followed by the values of single rows. */
 static PetscErrorCode SetCoarse(PressurePreconditioner p, double coarse[][9])
 {
-  const int ne = p->mesh->ne;
+  const int ne = p->domain->mesh->ne;
   double *single = coarse[ne];
   PetscFunctionBeginUser;
   for (int k = 0; k < p->nfixed; k++) single[k] = 1.0;
@@ -207,7 +218,7 @@ static PetscErrorCode SetCoarse(PressurePreconditioner p, double coarse[][9])
 
 PetscErrorCode PressurePreconditionerUpdate(PressurePreconditioner p, const double block[][36])
 {
-  const int ne = p->mesh->ne;
+  const int ne = p->domain->mesh->ne;
   double(*coarse)[9], change = HUGE_VAL;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(ne + p->nfixed / 9 + 1, &coarse));

@@ -13,14 +13,14 @@
  * the old one has cost as many iterations more as the set-up takes time for. */
 #ifndef FLUID_PRESSURE_PRECONDITIONER_H
 #define FLUID_PRESSURE_PRECONDITIONER_H
-#include "common/mesh/mesh.h"
+#include "fluid/domain.h"
 #include <petscksp.h>
 
 typedef struct PressurePreconditioner_s *PressurePreconditioner;
 
-/* For ksp, whose matrix is A; is_fixed[np2] nodes where the pressure is known; mesh is borrowed.  Collective, like all of this. */
-PetscErrorCode PressurePreconditionerCreate(const Mesh *mesh, const char is_fixed[], PetscBool closed,
-                                            KSP ksp, PressurePreconditioner *p);
+/* For ksp, whose matrix is A; is_fixed[n of the P2 space] nodes where the pressure is known; domain is borrowed.  Collective, like all of this. */
+PetscErrorCode PressurePreconditionerCreate(const FluidDomain *domain, const char is_fixed[],
+                                            PetscBool closed, KSP ksp, PressurePreconditioner *p);
 PetscErrorCode PressurePreconditionerDestroy(PressurePreconditioner *p);
 /* A has changed; block[ne][6][6] are its elements' contributions. */
 PetscErrorCode PressurePreconditionerUpdate(PressurePreconditioner p, const double block[][36]);

@@ -3,12 +3,13 @@
 #include "fluid/solver_options.h"
 #include <math.h>
 
+#define DIRECT_MAX 400000       /* nodes times ranks, up to which a factor is made for a matrix that stays */
 #define VELOCITY_TOLERANCE 1e-8 /* -pressure_varying_ksp_rtol chooses another one */
 
 struct PressureSolver_s {
-  const Mesh *mesh;     /* borrowed */
-  const char *is_fixed; /* borrowed */
-  PetscBool closed, varying;
+  const FluidDomain *domain;  /* borrowed */
+  const char *is_fixed;       /* borrowed */
+  PetscBool closed, iterates; /* with the present matrix */
   Mat matrix;
   PetscInt nfixed;
   KSP direct, iterative; /* made when used first */
@@ -19,28 +20,29 @@ struct PressureSolver_s {
 
 static PetscBool HasFirstNode(PressureSolver s)
 {
-  return (PetscBool)(s->closed && s->mesh->np2_owned > 0 && s->mesh->p2start == 0);
+  return (PetscBool)(s->closed && s->domain->p2->nowned > 0 && s->domain->p2->start == 0);
 }
 
 /* An entry for each entry of the elements' blocks, then the rows of fixed nodes and the first node's. */
 static PetscErrorCode CreateMatrix(PressureSolver s)
 {
-  const Mesh *m = s->mesh;
-  PetscInt *row, *column, n = 36 * m->ne;
+  const P2Space *p2 = s->domain->p2;
+  const int ne = s->domain->mesh->ne;
+  PetscInt *row, *column, n = 36 * ne;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2(n + m->np2_owned + 1, &row, n + m->np2_owned + 1, &column));
-  for (int e = 0; e < m->ne; e++)
+  PetscCall(PetscMalloc2(n + p2->nowned + 1, &row, n + p2->nowned + 1, &column));
+  for (int e = 0; e < ne; e++)
     for (int k = 0; k < 36; k++) {
-      const int i = m->p2[6 * e + k / 6], j = m->p2[6 * e + k % 6];
-      row[36 * e + k] = s->is_fixed[i] || s->is_fixed[j] ? -1 : m->p2gid[i];
-      column[36 * e + k] = m->p2gid[j];
+      const int i = p2->node[6 * e + k / 6], j = p2->node[6 * e + k % 6];
+      row[36 * e + k] = s->is_fixed[i] || s->is_fixed[j] ? -1 : p2->gid[i];
+      column[36 * e + k] = p2->gid[j];
     }
-  for (int k = 0; k < m->np2_owned; k++)
-    if (s->is_fixed[k]) row[n] = column[n] = m->p2start + k, n++;
-  s->nfixed = n - 36 * m->ne;
+  for (int k = 0; k < p2->nowned; k++)
+    if (s->is_fixed[k]) row[n] = column[n] = p2->start + k, n++;
+  s->nfixed = n - 36 * ne;
   if (HasFirstNode(s)) row[n] = column[n] = 0, n++;
-  PetscCall(MatCreate(m->comm, &s->matrix));
-  PetscCall(MatSetSizes(s->matrix, m->np2_owned, m->np2_owned, PETSC_DETERMINE, PETSC_DETERMINE));
+  PetscCall(MatCreate(s->domain->mesh->comm, &s->matrix));
+  PetscCall(MatSetSizes(s->matrix, p2->nowned, p2->nowned, PETSC_DETERMINE, PETSC_DETERMINE));
   PetscCall(MatSetType(s->matrix, MATAIJ));
   PetscCall(MatSetPreallocationCOO(s->matrix, n, row, column));
   PetscCall(MatSetOption(s->matrix, MAT_SPD, PETSC_TRUE));
@@ -51,7 +53,7 @@ static PetscErrorCode CreateMatrix(PressureSolver s)
 static PetscErrorCode CreateDirect(PressureSolver s)
 {
   PetscFunctionBeginUser;
-  PetscCall(SolverCreateDirect(s->mesh->comm, "pressure_", KSPPREONLY, &s->direct));
+  PetscCall(SolverCreateDirect(s->domain->mesh->comm, "pressure_", KSPPREONLY, &s->direct));
   PetscCall(KSPSetOperators(s->direct, s->matrix, s->matrix));
   PetscCall(KSPSetTolerances(s->direct, 1e-9, 1e-50, 1e5, 500));
   PetscCall(KSPSetFromOptions(s->direct));
@@ -61,25 +63,26 @@ static PetscErrorCode CreateDirect(PressureSolver s)
 static PetscErrorCode CreateIterative(PressureSolver s)
 {
   PetscFunctionBeginUser;
-  PetscCall(KSPCreate(s->mesh->comm, &s->iterative));
+  PetscCall(KSPCreate(s->domain->mesh->comm, &s->iterative));
   PetscCall(KSPSetOptionsPrefix(s->iterative, "pressure_varying_"));
   PetscCall(KSPSetType(s->iterative, KSPCG));
   PetscCall(KSPSetNormType(s->iterative, KSP_NORM_NATURAL));
   PetscCall(KSPSetOperators(s->iterative, s->matrix, s->matrix));
-  PetscCall(PressurePreconditionerCreate(s->mesh, s->is_fixed, s->closed, s->iterative, &s->preconditioner));
+  PetscCall(
+      PressurePreconditionerCreate(s->domain, s->is_fixed, s->closed, s->iterative, &s->preconditioner));
   PetscCall(KSPSetTolerances(s->iterative, VELOCITY_TOLERANCE, 1e-50, 1e5, 500));
   PetscCall(KSPSetFromOptions(s->iterative));
   PetscCall(KSPGetTolerances(s->iterative, &s->tolerance, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PressureSolverCreate(const Mesh *mesh, const char is_fixed[], PetscBool closed,
+PetscErrorCode PressureSolverCreate(const FluidDomain *domain, const char is_fixed[], PetscBool closed,
                                     PressureSolver *solver)
 {
   PressureSolver s;
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&s));
-  s->mesh = mesh;
+  s->domain = domain;
   s->is_fixed = is_fixed;
   s->closed = closed;
   PetscCall(CreateMatrix(s));
@@ -103,7 +106,7 @@ PetscErrorCode PressureSolverDestroy(PressureSolver *solver)
 PetscErrorCode PressureSolverGetBlocks(PressureSolver s, double (**block)[36])
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(s->mesh->ne + s->nfixed / 36 + 1, block));
+  PetscCall(PetscMalloc1(s->domain->mesh->ne + s->nfixed / 36 + 1, block));
   PetscFunctionReturn(0);
 }
 
@@ -113,7 +116,8 @@ static PetscErrorCode SetNullSpace(PressureSolver s)
 {
   MatNullSpace constants = NULL;
   PetscFunctionBeginUser;
-  if (s->closed && s->varying) PetscCall(MatNullSpaceCreate(s->mesh->comm, PETSC_TRUE, 0, NULL, &constants));
+  if (s->closed && s->iterates)
+    PetscCall(MatNullSpaceCreate(s->domain->mesh->comm, PETSC_TRUE, 0, NULL, &constants));
   PetscCall(MatSetNullSpace(s->matrix, constants));
   PetscCall(MatNullSpaceDestroy(&constants));
   PetscFunctionReturn(0);
@@ -127,44 +131,62 @@ static PetscErrorCode SetContrast(PressureSolver s, const double block[][36])
       0.0,
       0.0}; /* of the vertices' diagonal, which has no size of the element: largest, inverse of the least */
   PetscFunctionBeginUser;
-  for (int e = 0; e < s->mesh->ne; e++) {
+  for (int e = 0; e < s->domain->mesh->ne; e++) {
     const double coefficient = block[e][0] + block[e][7] + block[e][14];
     range[0] = PetscMax(range[0], coefficient);
     range[1] = PetscMax(range[1], 1.0 / coefficient);
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, range, 2, MPI_DOUBLE, MPI_MAX, s->mesh->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, range, 2, MPI_DOUBLE, MPI_MAX, s->domain->mesh->comm));
   s->contrast = sqrt(range[0] * range[1]);
+  PetscFunctionReturn(0);
+}
+
+/* CG for the matrix as it is now. */
+static PetscErrorCode PrepareIterative(PressureSolver s, const double block[][36])
+{
+  PetscFunctionBeginUser;
+  if (!s->iterative) PetscCall(CreateIterative(s));
+  PetscCall(SetContrast(s, block));
+  PetscCall(PressurePreconditionerUpdate(s->preconditioner, block));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode PressureSolverSetMatrix(PressureSolver s, PetscBool varying, double (**block)[36])
 {
-  double *extra = (*block)[s->mesh->ne];
+  double *extra = (*block)[s->domain->mesh->ne];
+  PetscMPIInt ranks;
   PetscFunctionBeginUser;
-  s->varying = varying;
+  PetscCallMPI(MPI_Comm_size(s->domain->mesh->comm, &ranks));
+  s->iterates = (PetscBool)(varying || s->domain->p2->nglobal > DIRECT_MAX / ranks);
   for (int k = 0; k < s->nfixed; k++) extra[k] = 1.0;
-  if (HasFirstNode(s)) extra[s->nfixed] = varying ? 0.0 : (*block)[0][0];
+  if (HasFirstNode(s)) extra[s->nfixed] = s->iterates ? 0.0 : (*block)[0][0];
   PetscCall(MatSetValuesCOO(s->matrix, (*block)[0], INSERT_VALUES));
   PetscCall(SetNullSpace(s));
-  if (!varying && !s->direct) PetscCall(CreateDirect(s));
-  if (varying && !s->iterative) PetscCall(CreateIterative(s));
-  if (varying) {
-    PetscCall(SetContrast(s, (const double(*)[36]) * block));
-    PetscCall(PressurePreconditionerUpdate(s->preconditioner, (const double(*)[36]) * block));
-  }
+  if (s->iterates)
+    PetscCall(PrepareIterative(s, (const double(*)[36]) * block));
+  else if (!s->direct)
+    PetscCall(CreateDirect(s));
   PetscCall(PetscFree(*block));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Iterate(PressureSolver s, const PressureProblem *problem, Vec phi, int *iterations)
+{
+  const double tolerance = s->tolerance / s->contrast;
+  PetscFunctionBeginUser;
+  PetscCall(
+      KSPSetTolerances(s->iterative, tolerance, tolerance * problem->size, PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscCall(SolverSolve(s->iterative, "pressure", problem->t, problem->rhs, phi, iterations));
+  PetscCall(PressurePreconditionerCount(s->preconditioner, *iterations));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode PressureSolverSolve(PressureSolver s, const PressureProblem *problem, Vec phi, int *iterations)
 {
-  const double tolerance = s->tolerance / s->contrast;
   PetscFunctionBeginUser;
-  if (s->varying)
-    PetscCall(
-        KSPSetTolerances(s->iterative, tolerance, tolerance * problem->size, PETSC_DEFAULT, PETSC_DEFAULT));
-  PetscCall(SolverSolve(s->varying ? s->iterative : s->direct, "pressure", problem->t, problem->rhs, phi,
-                        iterations));
-  if (s->varying) PetscCall(PressurePreconditionerCount(s->preconditioner, *iterations));
+  if (s->iterates)
+    PetscCall(Iterate(s, problem, phi, iterations));
+  else
+    PetscCall(SolverSolve(s->direct, "pressure", problem->t, problem->rhs, phi, iterations));
   PetscFunctionReturn(0);
 }

@@ -10,11 +10,11 @@ struct ProjectionSolver_s {
   PetscBool inertia; /* it has the solid's */
   int nfixed;
   int *fixed;     /* local P2 nodes (owned) where phi = 0 */
-  char *is_fixed; /* [np2] with ghosts */
+  char *is_fixed; /* [n] of the P2 space */
   WeightedProjection weighted;
 };
 
-/* mark[np2] on this rank's nodes of open boundaries; *any: on any rank */
+/* mark[n] of the P2 space on this rank's nodes of open boundaries; *any: on any rank */
 static PetscErrorCode MarkOpen(const FluidDomain *d, PetscScalar mark[], int *any)
 {
   const Mesh *m = d->mesh;
@@ -23,8 +23,9 @@ static PetscErrorCode MarkOpen(const FluidDomain *d, PetscScalar mark[], int *an
   for (int e = 0; e < m->ne; e++)
     for (int i = 0; i < 3; i++) {
       const Boundary *b = BoundaryOfFace(d, e, i);
+      const int *node = d->p2->node + 6 * e;
       if (!b || b->kind != BOUNDARY_OPEN) continue;
-      mark[m->p2[6 * e + (i + 1) % 3]] = mark[m->p2[6 * e + (i + 2) % 3]] = mark[m->p2[6 * e + 3 + i]] = 1.0;
+      mark[node[(i + 1) % 3]] = mark[node[(i + 2) % 3]] = mark[node[3 + i]] = 1.0;
       *any = 1;
     }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, any, 1, MPI_INT, MPI_MAX, m->comm));
@@ -35,8 +36,8 @@ static PetscErrorCode MarkOpen(const FluidDomain *d, PetscScalar mark[], int *an
  * an element with the face: hence the sum over ranks. */
 static PetscErrorCode FindFixed(ProjectionSolver s, PetscBool *closed)
 {
-  const Mesh *m = s->domain->mesh;
   PetscScalar *v;
+  const P2Space *p2 = s->domain->p2;
   Vec mark, local;
   int has_open;
   PetscFunctionBeginUser;
@@ -52,16 +53,26 @@ static PetscErrorCode FindFixed(ProjectionSolver s, PetscBool *closed)
   PetscCall(VecGhostUpdateBegin(mark, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGhostUpdateEnd(mark, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGetArray(local, &v));
-  PetscCall(PetscMalloc1(m->np2, &s->is_fixed));
-  PetscCall(PetscMalloc1(m->np2_owned, &s->fixed));
-  for (int k = 0; k < m->np2; k++) {
+  PetscCall(PetscMalloc1(p2->n, &s->is_fixed));
+  PetscCall(PetscMalloc1(p2->nowned, &s->fixed));
+  for (int k = 0; k < p2->n; k++) {
     s->is_fixed[k] = v[k] > 0.5;
-    if (s->is_fixed[k] && k < m->np2_owned) s->fixed[s->nfixed++] = k;
+    if (s->is_fixed[k] && k < p2->nowned) s->fixed[s->nfixed++] = k;
   }
   PetscCall(VecRestoreArray(local, &v));
   PetscCall(VecGhostRestoreLocalForm(mark, &local));
   PetscCall(VecDestroy(&mark));
   PetscFunctionReturn(0);
+}
+
+/* An element without the solid: int 1/rho grad.grad */
+static void FluidBlock(const ElementGeometry *g, const ProjectionStep *step, int e, double block[6][6])
+{
+  const double(*grad)[2] = (const double(*)[2])g->g;
+  if (step->inverse_density)
+    P2StiffnessTensor(g->area, grad, step->inverse_density[e].inverse, block);
+  else
+    P2Stiffness(g->area, grad, 1.0 / step->rho[e], block);
 }
 
 /* The pressure's matrix for the step, if it is not the solver's already. */
@@ -79,8 +90,7 @@ static PetscErrorCode Assemble(ProjectionSolver s, const ProjectionStep *step)
   PetscCall(PressureSolverGetBlocks(s->solver, &block));
   for (int e = 0; e < d->mesh->ne; e++)
     if (!s->inertia || !WeightedProjectionBlock(s->weighted, e, (double(*)[6])block[e]))
-      P2Stiffness(d->geometry[e].area, (const double(*)[2])d->geometry[e].g, 1.0 / step->rho[e],
-                  (double(*)[6])block[e]);
+      FluidBlock(&d->geometry[e], step, e, (double(*)[6])block[e]);
   PetscCall(PressureSolverSetMatrix(s->solver, (PetscBool)(inertia || step->revision > 0), &block));
   s->revision = step->revision;
   PetscFunctionReturn(0);
@@ -97,7 +107,7 @@ PetscErrorCode ProjectionSolverCreate(const FluidDomain *domain, Vec like, Proje
   PetscCall(VecDuplicate(like, &s->phi));
   PetscCall(VecDuplicate(like, &s->divergence));
   PetscCall(FindFixed(s, &closed));
-  PetscCall(PressureSolverCreate(domain->mesh, s->is_fixed, closed, &s->solver));
+  PetscCall(PressureSolverCreate(domain, s->is_fixed, closed, &s->solver));
   PetscCall(WeightedProjectionCreate(domain, &s->weighted));
   *solver = s;
   PetscFunctionReturn(0);
@@ -181,7 +191,7 @@ static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step,
     BulkMomentum(domain->geometry[e].area, SolidCouplingAt(step->solid, e), u + 6 * e, mv);
     P2GradientTranspose(domain->geometry[e].g, (const double(*)[3])mv, r);
     BoundaryFlux(domain, e, step->t, r);
-    for (int k = 0; k < 6; k++) d[m->p2[6 * e + k]] += r[k];
+    for (int k = 0; k < 6; k++) d[domain->p2->node[6 * e + k]] += r[k];
   }
   PetscCall(VecRestoreArrayRead(velocity, &u));
   PetscCall(VecRestoreArray(local, &d));
@@ -204,11 +214,22 @@ PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *s
   PetscFunctionBeginUser;
   PetscCall(Assemble(s, step));
   PetscCall(Divergence(s, step, velocity, &problem.size));
+  if (step->revision > 0)
+    problem.size = 0.0; /* volumes of phases add up as far as the divergence is removed */
   PetscCall(PressureSolverSolve(s->solver, &problem, s->phi, iterations));
   PetscCall(VecGhostUpdateBegin(s->phi, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGhostUpdateEnd(s->phi, INSERT_VALUES, SCATTER_FORWARD));
   *phi = s->phi;
   PetscFunctionReturn(0);
+}
+
+/* u -= dt k grad phi, k symmetric */
+static void SubtractTensor(double dt, const double k[3], const double grad[3][2], double u[6])
+{
+  for (int i = 0; i < 3; i++) {
+    u[i] -= dt * (k[0] * grad[i][0] + k[1] * grad[i][1]);
+    u[3 + i] -= dt * (k[1] * grad[i][0] + k[2] * grad[i][1]);
+  }
 }
 
 PetscErrorCode ProjectionSolverSubtract(ProjectionSolver s, const ProjectionStep *step, Vec velocity)
@@ -224,12 +245,15 @@ PetscErrorCode ProjectionSolverSubtract(ProjectionSolver s, const ProjectionStep
   PetscCall(VecGetArray(velocity, &u));
   for (int e = 0; e < m->ne; e++) {
     double pe[6], grad[3][2];
-    for (int k = 0; k < 6; k++) pe[k] = phi[m->p2[6 * e + k]];
+    for (int k = 0; k < 6; k++) pe[k] = phi[d->p2->node[6 * e + k]];
     P2Gradient(d->geometry[e].g, pe, grad);
     if (s->inertia && WeightedProjectionVelocity(s->weighted, e, (const double(*)[2])grad, u + 6 * e))
       continue;
-    for (int c = 0; c < 2; c++)
-      for (int i = 0; i < 3; i++) u[6 * e + 3 * c + i] -= step->dt / step->rho[e] * grad[i][c];
+    if (step->inverse_density)
+      SubtractTensor(step->dt, step->inverse_density[e].inverse, (const double(*)[2])grad, u + 6 * e);
+    else
+      for (int c = 0; c < 2; c++)
+        for (int i = 0; i < 3; i++) u[6 * e + 3 * c + i] -= step->dt / step->rho[e] * grad[i][c];
   }
   PetscCall(VecRestoreArray(velocity, &u));
   PetscCall(VecRestoreArrayRead(local, &phi));

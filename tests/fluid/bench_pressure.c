@@ -35,7 +35,7 @@ static void Stop(double time[NTIMES])
 static PetscErrorCode Step(const FluidDomain *d, const Bench *b, int k, ProjectionSolver s,
                            SolidCoupling none, double rho[], Vec u, Cost *cost)
 {
-  const ProjectionStep step = {0.0, DT, rho, b->constant ? 0 : k + 1, none, PETSC_FALSE};
+  const ProjectionStep step = {0.0, DT, rho, b->constant ? 0 : k + 1, none, NULL, PETSC_FALSE};
   double time[NTIMES];
   Vec phi;
   int iterations;
@@ -67,7 +67,7 @@ static PetscErrorCode Run(const FluidDomain *d, const Bench *b)
   Cost cost = {.step = {HUGE_VAL, HUGE_VAL}};
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(d->mesh->ne, &rho));
-  PetscCall(LayerVectors(d->mesh, &u, &p));
+  PetscCall(LayerVectors(d, &u, &p));
   PetscCall(SolidCouplingCreate(d->mesh->ne, &none));
   Start(cost.first);
   PetscCall(ProjectionSolverCreate(d, p, &s));

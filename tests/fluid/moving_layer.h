@@ -51,12 +51,13 @@ static inline PetscErrorCode LayerDomain(double h, PetscBool open, Mesh **mesh, 
   PetscFunctionReturn(0);
 }
 
-static inline PetscErrorCode LayerVectors(const Mesh *m, Vec *velocity, Vec *pressure)
+static inline PetscErrorCode LayerVectors(const FluidDomain *d, Vec *velocity, Vec *pressure)
 {
+  const P2Space *p2 = d->p2;
   PetscFunctionBeginUser;
-  PetscCall(VecCreateMPI(m->comm, 6 * m->ne, PETSC_DETERMINE, velocity));
-  PetscCall(VecCreateGhost(m->comm, m->np2_owned, PETSC_DETERMINE, m->np2 - m->np2_owned,
-                           m->p2gid + m->np2_owned, pressure));
+  PetscCall(VecCreateMPI(d->mesh->comm, 6 * d->mesh->ne, PETSC_DETERMINE, velocity));
+  PetscCall(VecCreateGhost(d->mesh->comm, p2->nowned, PETSC_DETERMINE, p2->n - p2->nowned,
+                           p2->gid + p2->nowned, pressure));
   PetscFunctionReturn(0);
 }
 #endif

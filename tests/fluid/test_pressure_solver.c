@@ -17,7 +17,7 @@ static PetscErrorCode Project(const FluidDomain *d, const Layer *l, int k, int r
   PetscCall(PetscMalloc1(d->mesh->ne, &rho));
   for (int e = 0; e < d->mesh->ne; e++) rho[e] = LayerDensity(l, d, e, k);
   PetscCall(SolidCouplingCreate(d->mesh->ne, &none));
-  const ProjectionStep step = {0.0, DT, rho, revision, none, PETSC_FALSE};
+  const ProjectionStep step = {0.0, DT, rho, revision, none, NULL, PETSC_FALSE};
   PetscCall(LayerFall(d->mesh, u));
   PetscCall(ProjectionSolverSolve(s, &step, u, &phi, iterations));
   PetscCall(ProjectionSolverSubtract(s, &step, u));
@@ -34,7 +34,7 @@ static PetscErrorCode Compare(const FluidDomain *d, const Layer *l)
   PetscReal error, size;
   int iterations, one;
   PetscFunctionBeginUser;
-  PetscCall(LayerVectors(d->mesh, &u, &p));
+  PetscCall(LayerVectors(d, &u, &p));
   PetscCall(VecDuplicate(u, &exact));
   PetscCall(ProjectionSolverCreate(d, p, &s));
   for (int k = 0; k < 3; k++) {
