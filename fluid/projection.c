@@ -214,6 +214,8 @@ PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *s
   PetscFunctionBeginUser;
   PetscCall(Assemble(s, step));
   PetscCall(Divergence(s, step, velocity, &problem.size));
+  if (step->revision > 0)
+    problem.size = 0.0; /* volumes of phases add up as far as the divergence is removed */
   PetscCall(PressureSolverSolve(s->solver, &problem, s->phi, iterations));
   PetscCall(VecGhostUpdateBegin(s->phi, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGhostUpdateEnd(s->phi, INSERT_VALUES, SCATTER_FORWARD));
