@@ -11,6 +11,8 @@ typedef struct {
   int max_iterations;        /* coupling iterations of a step; 1: the first is accepted */
   double tolerance;          /* of the coupling iterations, relative (coupling_iteration.h) */
   CouplerOptions options;
+  int argc; /* the command line, borrowed: program, case file, settings */
+  char **argv;
 } CouplerCase;
 
 /* Any rank; a wrong value ends the job. */
