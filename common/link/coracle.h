@@ -243,6 +243,12 @@ typedef struct {
   double r[CORACLE_DIM][CORACLE_VERTICES]; /* m3/s */
 } CoracleCorrection;
 
+/* A point of the solid's surface that a pressure gauge of the case sits on (fluid.probes[].solid_point). */
+typedef struct {
+  double x[CORACLE_DIM];      /* m, where the point is now */
+  double normal[CORACLE_DIM]; /* unit, out of the solid */
+} CoracleGauge;
+
 /* The flow of one step on the n elements last given by region. */
 typedef struct {
   const double *u_star;      /* [n][dim][dim + 1] m/s, with the coupling solved, before the projection */
@@ -267,6 +273,10 @@ int CoracleStepAccepted(CoracleClient c);
 /* After CoracleEnd: one entry for every coupling entry of the step just made (same order, and indices into
  * the elements of that step even when region has been called again since). */
 int CoracleGetCorrection(CoracleClient c, int *n, const CoracleCorrection **correction);
+/* Optional, from CoracleReady on: the gauges at the end of the step just made (at its start after CoracleReady),
+ * one for each entry of fluid.probes with a solid_point, in the list's order, the same on all ranks; of a step
+ * that is redone without meaning.  Borrowed until the next CoracleEnd. */
+int CoracleGetGauges(CoracleClient c, int *n, const CoracleGauge **gauge);
 
 #ifdef __cplusplus
 }

@@ -32,6 +32,9 @@ module coracle
     integer(c_int) :: element
     real(c_double) :: r(3, 2)      ! m3/s
   end type
+  type, bind(c) :: CoracleGauge
+    real(c_double) :: x(2), normal(2)  ! m; 1
+  end type
   type, bind(c) :: CoracleFlow
     type(c_ptr) :: u_star, u_projected, p, rho, mu  ! (vertices, dim, n) m/s, twice; (6, n) Pa; (n); (n)
   end type
@@ -158,6 +161,9 @@ module coracle
     end function
     integer(c_int) function CoracleGetCorrection(client, n, correction) bind(c, name="CoracleGetCorrection")
       import; type(c_ptr), value :: client; integer(c_int), intent(out) :: n; type(c_ptr), intent(out) :: correction
+    end function
+    integer(c_int) function CoracleGetGauges(client, n, gauge) bind(c, name="CoracleGetGauges")
+      import; type(c_ptr), value :: client; integer(c_int), intent(out) :: n; type(c_ptr), intent(out) :: gauge
     end function
   end interface
 

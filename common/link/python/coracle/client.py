@@ -7,7 +7,7 @@ import numpy as np
 from mpi4py import MPI
 
 from coracle.case import Case
-from coracle.library import (CORRECTION, COUPLING, REGION_FUNCTION, STATE_FUNCTION, Flow, array, byref, c_double, c_int, c_void_p,
+from coracle.library import (CORRECTION, COUPLING, GAUGE, REGION_FUNCTION, STATE_FUNCTION, Flow, array, byref, c_double, c_int, c_void_p,
                              call, view, words)
 
 RUN, REDO, STOP = 0, 1, 2
@@ -192,3 +192,7 @@ class Client:
     def get_correction(self):
         """An array of CORRECTION, a view that holds until the next end."""
         return self._entries("GetCorrection", CORRECTION)
+
+    def get_gauges(self):
+        """An array of GAUGE, a view that holds until the next end."""
+        return self._entries("GetGauges", GAUGE)

@@ -14,6 +14,7 @@ COUPLING = np.dtype([("element", np.intc), ("flags", np.intc), ("a", *_BLOCK), (
                      ("ms", np.float64, (3, 3)), ("us", *_LOAD), ("velocity", np.float64, 2), ("alpha", np.float64),
                      ("shell", np.float64)], align=True)
 CORRECTION = np.dtype([("element", np.intc), ("r", *_LOAD)], align=True)
+GAUGE = np.dtype([("x", np.float64, (2,)), ("normal", np.float64, (2,))], align=True)
 
 
 class Elements(ctypes.Structure):
@@ -42,6 +43,7 @@ _SIGNATURES = {
     "ElementsChanged": (c_int, _C), "ProposeStep": (c_int, _C, c_double), "NeedsPressure": (c_int, _C),
     "GetCoupling": (c_int, _C, POINTER(c_int), POINTER(_A)), "SetFlow": (c_int, _C, POINTER(Flow)),
     "StepAccepted": (c_int, _C), "GetCorrection": (c_int, _C, POINTER(c_int), POINTER(_A)),
+    "GetGauges": (c_int, _C, POINTER(c_int), POINTER(_A)),
     "CaseOpen": (c_int, c_int, POINTER(c_char_p), _A, _A, POINTER(_C)), "CaseClose": (c_int, POINTER(_C)),
     "CaseHas": (c_bool, _C, c_char_p), "CaseCount": (c_int, _C, c_char_p),
     "CaseNumber": (c_double, _C, c_char_p, c_double, c_double), "CasePositive": (c_double, _C, c_char_p),
@@ -111,5 +113,5 @@ def view(pointer, shape, dtype=np.float64):
     return values
 
 
-__all__ = ["CORRECTION", "COUPLING", "Elements", "Flow", "HAS_INERTIA", "HAS_SHELL", "REGION_FUNCTION", "STATE_FUNCTION", "address",
+__all__ = ["CORRECTION", "COUPLING", "Elements", "Flow", "GAUGE", "HAS_INERTIA", "HAS_SHELL", "REGION_FUNCTION", "STATE_FUNCTION", "address",
            "array", "byref", "c_double", "c_int", "c_longlong", "c_void_p", "call", "version", "view", "words"]
