@@ -15,15 +15,18 @@
 #include "fluid/boundary.h"
 #include "fluid/kernels.h"
 #include "fluid/material.h"
+#include "fluid/phase_transport.h"
 #include <petscksp.h>
 
 typedef struct {
-  double theta;         /* 0.5 Crank-Nicolson .. 1 backward Euler */
-  double rho, mu;       /* kg/m3, Pa s */
-  double gravity[2];    /* m/s2 */
-  double cfl, dt_max;   /* step control */
-  Boundary *boundary;   /* [mesh->ntags], copied */
-  FieldFunction source; /* body force per volume, N/m3, or NULL */
+  double theta; /* 0.5 Crank-Nicolson .. 1 backward Euler */
+  double rho,
+      mu; /* kg/m3, Pa s; with phases: of the lightest, which hydrostatic pressures at open boundaries have */
+  PhaseProperties phases; /* n = 0: one fluid */
+  double gravity[2];      /* m/s2 */
+  double cfl, dt_max;     /* step control */
+  Boundary *boundary;     /* [mesh->ntags], copied */
+  FieldFunction source;   /* body force per volume, N/m3, or NULL */
   void *source_context;
 } FluidSetup;
 
@@ -40,7 +43,10 @@ PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *flu
 /* The same fluid on another mesh with the same boundary names, without state: FluidTransfer. */
 PetscErrorCode FluidCreateLike(Fluid like, const Mesh *mesh, Fluid *fluid);
 PetscErrorCode FluidDestroy(Fluid *fluid);
-/* Initial velocity by interpolation (NULL: rest) and hydrostatic pressure (or p by interpolation). */
+/* With phases, before FluidSetInitial: where they are; errors of PhasesFill. */
+PetscErrorCode FluidSetPhases(Fluid fluid, int nregions, const Region region[]);
+/* Initial velocity by interpolation (NULL: rest) and hydrostatic pressure (or p by interpolation); with
+ * phases the pressure of the first instant, in which gravity alone acts. */
 PetscErrorCode FluidSetInitial(Fluid fluid, double t, FieldFunction velocity, FieldFunction pressure,
                                void *context);
 
@@ -85,6 +91,7 @@ const double *FluidPressure(Fluid fluid);
 const double *FluidDensity(Fluid fluid);       /* [ne] */
 const double *FluidViscosity(Fluid fluid);     /* [ne] */
 const double *FluidSolidFraction(Fluid fluid); /* [ne] alpha_s */
+PhaseTransport FluidPhases(Fluid fluid);       /* NULL: one fluid */
 const FluidStats *FluidGetStats(Fluid fluid);
 const Mesh *FluidMesh(Fluid fluid);
 const P2Space *FluidPressureSpace(Fluid fluid);

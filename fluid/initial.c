@@ -93,5 +93,6 @@ PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldF
   PetscCall(VecRestoreArray(local, &p));
   PetscCall(VecGhostRestoreLocalForm(f->p, &local));
   if (!pressure) PetscCall(AddOpenPressure(f));
+  if (!pressure && f->phases) PetscCall(FluidBalancePressure(f));
   PetscFunctionReturn(0);
 }

@@ -13,6 +13,7 @@ struct PressureSolver_s {
   PetscInt nfixed;
   KSP direct, iterative; /* made when used first */
   PressurePreconditioner preconditioner;
+  double contrast;     /* square root of the largest ratio of the coefficient */
   PetscReal tolerance; /* of the velocity, relative */
 };
 
@@ -121,13 +122,13 @@ static PetscErrorCode SetNullSpace(PressureSolver s)
   PetscFunctionReturn(0);
 }
 
-/* CG stops by the energy norm, which sees a velocity u as rho u^2: for the same relative error of the velocity
- * where the fluid is light, it has to go on further. */
-static PetscErrorCode SetTolerance(PressureSolver s, const double block[][36])
+/* The square root of the coefficient's largest ratio: CG stops by the energy norm, which sees a velocity u as rho u^2, and has to go
+ * on further for the same relative error where the fluid is light. */
+static PetscErrorCode SetContrast(PressureSolver s, const double block[][36])
 {
   double range[2] = {
       0.0,
-      0.0}; /* of the coefficient, the inverse of the least one; the sum of the vertices' diagonal has no size of the element */
+      0.0}; /* of the vertices' diagonal, which has no size of the element: largest, inverse of the least */
   PetscFunctionBeginUser;
   for (int e = 0; e < s->domain->mesh->ne; e++) {
     const double coefficient = block[e][0] + block[e][7] + block[e][14];
@@ -135,8 +136,7 @@ static PetscErrorCode SetTolerance(PressureSolver s, const double block[][36])
     range[1] = PetscMax(range[1], 1.0 / coefficient);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, range, 2, MPI_DOUBLE, MPI_MAX, s->domain->mesh->comm));
-  PetscCall(KSPSetTolerances(s->iterative, s->tolerance / sqrt(range[0] * range[1]), PETSC_DEFAULT,
-                             PETSC_DEFAULT, PETSC_DEFAULT));
+  s->contrast = sqrt(range[0] * range[1]);
   PetscFunctionReturn(0);
 }
 
@@ -152,17 +152,22 @@ PetscErrorCode PressureSolverSetMatrix(PressureSolver s, PetscBool varying, doub
   if (!varying && !s->direct) PetscCall(CreateDirect(s));
   if (varying && !s->iterative) PetscCall(CreateIterative(s));
   if (varying) {
-    PetscCall(SetTolerance(s, (const double(*)[36]) * block));
+    PetscCall(SetContrast(s, (const double(*)[36]) * block));
     PetscCall(PressurePreconditionerUpdate(s->preconditioner, (const double(*)[36]) * block));
   }
   PetscCall(PetscFree(*block));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PressureSolverSolve(PressureSolver s, double t, Vec rhs, Vec phi, int *iterations)
+PetscErrorCode PressureSolverSolve(PressureSolver s, const PressureProblem *problem, Vec phi, int *iterations)
 {
+  const double tolerance = s->tolerance / s->contrast;
   PetscFunctionBeginUser;
-  PetscCall(SolverSolve(s->varying ? s->iterative : s->direct, "pressure", t, rhs, phi, iterations));
+  if (s->varying)
+    PetscCall(
+        KSPSetTolerances(s->iterative, tolerance, tolerance * problem->size, PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscCall(SolverSolve(s->varying ? s->iterative : s->direct, "pressure", problem->t, problem->rhs, phi,
+                        iterations));
   if (s->varying) PetscCall(PressurePreconditionerCount(s->preconditioner, *iterations));
   PetscFunctionReturn(0);
 }

@@ -13,6 +13,13 @@
 
 typedef struct PressureSolver_s *PressureSolver;
 
+typedef struct {
+  double t; /* s, for messages */
+  double
+      size; /* square root of int rho u*^2/dt^2: errors that change u* less than relatively do not matter */
+  Vec rhs;  /* 0 on fixed nodes */
+} PressureProblem;
+
 /* is_fixed[n of the P2 space]: nodes with phi = 0; closed: no rank has any.  domain and is_fixed are borrowed.  Collective, like all of this. */
 PetscErrorCode PressureSolverCreate(const FluidDomain *domain, const char is_fixed[], PetscBool closed,
                                     PressureSolver *s);
@@ -21,6 +28,6 @@ PetscErrorCode PressureSolverDestroy(PressureSolver *s);
 PetscErrorCode PressureSolverGetBlocks(PressureSolver s, double (**block)[36]);
 /* The matrix is the sum of the blocks, which are void then; varying: it will be another one soon. */
 PetscErrorCode PressureSolverSetMatrix(PressureSolver s, PetscBool varying, double (**block)[36]);
-/* rhs is 0 on fixed nodes; t, s, for messages. */
-PetscErrorCode PressureSolverSolve(PressureSolver s, double t, Vec rhs, Vec phi, int *iterations);
+PetscErrorCode PressureSolverSolve(PressureSolver s, const PressureProblem *problem, Vec phi,
+                                   int *iterations);
 #endif

@@ -65,6 +65,16 @@ static PetscErrorCode FindFixed(ProjectionSolver s, PetscBool *closed)
   PetscFunctionReturn(0);
 }
 
+/* An element without the solid: int 1/rho grad.grad */
+static void FluidBlock(const ElementGeometry *g, const ProjectionStep *step, int e, double block[6][6])
+{
+  const double(*grad)[2] = (const double(*)[2])g->g;
+  if (step->inverse_density)
+    P2StiffnessTensor(g->area, grad, step->inverse_density[e].inverse, block);
+  else
+    P2Stiffness(g->area, grad, 1.0 / step->rho[e], block);
+}
+
 /* The pressure's matrix for the step, if it is not the solver's already. */
 static PetscErrorCode Assemble(ProjectionSolver s, const ProjectionStep *step)
 {
@@ -80,8 +90,7 @@ static PetscErrorCode Assemble(ProjectionSolver s, const ProjectionStep *step)
   PetscCall(PressureSolverGetBlocks(s->solver, &block));
   for (int e = 0; e < d->mesh->ne; e++)
     if (!s->inertia || !WeightedProjectionBlock(s->weighted, e, (double(*)[6])block[e]))
-      P2Stiffness(d->geometry[e].area, (const double(*)[2])d->geometry[e].g, 1.0 / step->rho[e],
-                  (double(*)[6])block[e]);
+      FluidBlock(&d->geometry[e], step, e, (double(*)[6])block[e]);
   PetscCall(PressureSolverSetMatrix(s->solver, (PetscBool)(inertia || step->revision > 0), &block));
   s->revision = step->revision;
   PetscFunctionReturn(0);
@@ -139,6 +148,18 @@ static void BoundaryFlux(const FluidDomain *d, int e, double t, double r[6])
   }
 }
 
+/* int of u.u */
+static double Square(double area, const double u[6])
+{
+  double sum = 0.0;
+  for (int c = 0; c < 2; c++) {
+    double mu[3];
+    P1MassApply(area, u + 3 * c, mu);
+    for (int i = 0; i < 3; i++) sum += mu[i] * u[3 * c + i];
+  }
+  return sum;
+}
+
 /* mv = M u + (us - ms u) */
 static void BulkMomentum(double area, const CoracleCoupling *k, const double u[6], double mv[2][3])
 {
@@ -150,8 +171,8 @@ static void BulkMomentum(double area, const CoracleCoupling *k, const double u[6
     }
 }
 
-/* Of the bulk velocity made of u, over dt: the right-hand side, 0 on fixed nodes. */
-static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step, Vec velocity)
+/* Of the bulk velocity made of u, over dt: the right-hand side, 0 on fixed nodes; *size: of PressureProblem. */
+static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step, Vec velocity, double *size)
 {
   const FluidDomain *domain = s->domain;
   const Mesh *m = domain->mesh;
@@ -163,8 +184,10 @@ static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step,
   PetscCall(VecSet(local, 0.0));
   PetscCall(VecGetArray(local, &d));
   PetscCall(VecGetArrayRead(velocity, &u));
+  *size = 0.0;
   for (int e = 0; e < m->ne; e++) {
     double mv[2][3], r[6] = {0};
+    *size += step->rho[e] * Square(domain->geometry[e].area, u + 6 * e);
     BulkMomentum(domain->geometry[e].area, SolidCouplingAt(step->solid, e), u + 6 * e, mv);
     P2GradientTranspose(domain->geometry[e].g, (const double(*)[3])mv, r);
     BoundaryFlux(domain, e, step->t, r);
@@ -179,20 +202,32 @@ static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step,
   for (int k = 0; k < s->nfixed; k++) d[s->fixed[k]] = 0.0;
   PetscCall(VecRestoreArray(s->divergence, &d));
   PetscCall(VecScale(s->divergence, 1.0 / step->dt));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, size, 1, MPI_DOUBLE, MPI_SUM, m->comm));
+  *size = sqrt(*size) / step->dt;
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *step, Vec velocity, Vec *phi,
                                      int *iterations)
 {
+  PressureProblem problem = {step->t, 0.0, s->divergence};
   PetscFunctionBeginUser;
   PetscCall(Assemble(s, step));
-  PetscCall(Divergence(s, step, velocity));
-  PetscCall(PressureSolverSolve(s->solver, step->t, s->divergence, s->phi, iterations));
+  PetscCall(Divergence(s, step, velocity, &problem.size));
+  PetscCall(PressureSolverSolve(s->solver, &problem, s->phi, iterations));
   PetscCall(VecGhostUpdateBegin(s->phi, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGhostUpdateEnd(s->phi, INSERT_VALUES, SCATTER_FORWARD));
   *phi = s->phi;
   PetscFunctionReturn(0);
+}
+
+/* u -= dt k grad phi, k symmetric */
+static void SubtractTensor(double dt, const double k[3], const double grad[3][2], double u[6])
+{
+  for (int i = 0; i < 3; i++) {
+    u[i] -= dt * (k[0] * grad[i][0] + k[1] * grad[i][1]);
+    u[3 + i] -= dt * (k[1] * grad[i][0] + k[2] * grad[i][1]);
+  }
 }
 
 PetscErrorCode ProjectionSolverSubtract(ProjectionSolver s, const ProjectionStep *step, Vec velocity)
@@ -212,8 +247,11 @@ PetscErrorCode ProjectionSolverSubtract(ProjectionSolver s, const ProjectionStep
     P2Gradient(d->geometry[e].g, pe, grad);
     if (s->inertia && WeightedProjectionVelocity(s->weighted, e, (const double(*)[2])grad, u + 6 * e))
       continue;
-    for (int c = 0; c < 2; c++)
-      for (int i = 0; i < 3; i++) u[6 * e + 3 * c + i] -= step->dt / step->rho[e] * grad[i][c];
+    if (step->inverse_density)
+      SubtractTensor(step->dt, step->inverse_density[e].inverse, (const double(*)[2])grad, u + 6 * e);
+    else
+      for (int c = 0; c < 2; c++)
+        for (int i = 0; i < 3; i++) u[6 * e + 3 * c + i] -= step->dt / step->rho[e] * grad[i][c];
   }
   PetscCall(VecRestoreArray(velocity, &u));
   PetscCall(VecRestoreArrayRead(local, &phi));

@@ -12,6 +12,7 @@
 #ifndef FLUID_PROJECTION_H
 #define FLUID_PROJECTION_H
 #include "fluid/domain.h"
+#include "fluid/phases/effective_density.h"
 #include "fluid/solid_coupling.h"
 #include <petscksp.h>
 
@@ -22,7 +23,9 @@ typedef struct {
   const double *rho;   /* [ne], kg/m3 */
   int revision;        /* of rho */
   SolidCoupling solid; /* borrowed until ProjectionSubtract */
-  PetscBool inertia;   /* whether the solid's implicit inertia takes part */
+  const InverseDensity
+      *inverse_density; /* [ne] of phases, in place of 1/rho (effective_density.h); NULL: 1/rho */
+  PetscBool inertia;    /* whether the solid's implicit inertia takes part */
 } ProjectionStep;
 
 /* like: a ghosted vector of the P2 nodes; domain is borrowed.  Collective, like all of this. */

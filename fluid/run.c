@@ -37,15 +37,13 @@ static PetscErrorCode Load(FluidRun *m, Checkpoint from, const PetscInt row[])
 
 /* --- start ---------------------------------------------------------------------------------------------- */
 
-/* In place of the mesh that the case gives: one that is fine where the solid is. */
-static PetscErrorCode FirstMesh(FluidRun *m)
+/* In place of the mesh that the case gives: one that is fine where the solid and the interface are. */
+static PetscErrorCode FirstMesh(FluidRun *m, AdaptationStart *start)
 {
-  const double *box;
-  int nbox;
   Mesh *mesh;
   PetscFunctionBeginUser;
-  PetscCall(CoracleGetRegion(m->program->client, &nbox, &box));
-  PetscCall(AdaptationFirstMesh(m->adaptation, m->mesh, nbox, box, &mesh));
+  PetscCall(CoracleGetRegion(m->program->client, &start->nbox, &start->box));
+  PetscCall(AdaptationFirstMesh(m->adaptation, m->mesh, start, &mesh));
   PetscCall(MeshDestroy(&m->mesh));
   m->mesh = mesh;
   PetscFunctionReturn(0);
@@ -57,18 +55,24 @@ static PetscErrorCode Create(FluidRun *m, const char *resume, Checkpoint from, P
   FluidSetup setup;
   AdaptationSetup adaptation;
   PetscBool adapts;
+  Region *region;
+  int nregions;
   PetscFunctionBeginUser;
   PetscCall(PetscOptionsInsertString(NULL, CoracleCaseStringOr(m->program->c, "fluid.petsc", "")));
   PetscCall(FluidCaseMesh(m->program->c, m->program->comm, from, &m->mesh, row));
   if (from) FluidCaseCheckResumed(m->program->c, m->mesh, resume);
   PetscCall(FluidCaseSetup(m->program->c, m->mesh, &setup));
-  PetscCall(FluidCaseAdaptation(m->program->c, &adapts, &adaptation));
+  PetscCall(FluidCaseRegions(m->program->c, &nregions, &region));
+  PetscCall(FluidCaseAdaptation(m->program->c, &setup, &adapts, &adaptation));
   PetscCall(ProbesCreate(m->program->c, m->mesh, &m->probes));
   PetscCall(CoracleCaseFinish(m->program->c, SECTIONS));
   if (adapts) PetscCall(AdaptationCreate(&adaptation, &m->adaptation));
-  if (adapts && !from) PetscCall(FirstMesh(m));
+  AdaptationStart start = {.nphases = setup.phases.n, .nregions = nregions, .region = region};
+  if (adapts && !from) PetscCall(FirstMesh(m, &start));
   PetscCall(ProbesNewMesh(m->probes, m->mesh));
   PetscCall(FluidCreate(m->mesh, &setup, &m->fluid));
+  if (setup.phases.n && !from) PetscCall(FluidSetPhases(m->fluid, nregions, region));
+  PetscCall(FluidCaseFreeRegions(nregions, &region));
   PetscCall(PetscFree(setup.boundary));
   PetscFunctionReturn(0);
 }

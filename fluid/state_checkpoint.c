@@ -66,6 +66,7 @@ PetscErrorCode FluidSave(Fluid f, Checkpoint to)
   PetscCall(SaveVelocity(f->u, f->domain.mesh->ne, "velocity", to));
   PetscCall(SaveVelocity(f->u_previous, f->domain.mesh->ne, "previous velocity", to));
   PetscCall(SavePressure(f, to));
+  if (f->phases) PetscCall(PhaseTransportSave(f->phases, to));
   PetscCall(CheckpointPutDoubles(to, "seconds", 1, PHASES, f->stats.seconds));
   PetscFunctionReturn(0);
 }
@@ -90,6 +91,10 @@ PetscErrorCode FluidLoad(Fluid f, const PetscInt row[], Checkpoint from)
   PetscCall(LoadVelocity(f, row, from, "velocity", f->u));
   PetscCall(LoadVelocity(f, row, from, "previous velocity", f->u_previous));
   PetscCall(LoadPressure(f, row, from));
+  if (f->phases) {
+    PetscCall(PhaseTransportLoad(f->phases, row, from));
+    PetscCall(FluidPhasesChanged(f));
+  }
   PetscCall(LoadSeconds(f, from));
   PetscCall(VecCopy(f->u, f->u_projected)); /* of which the next step is proposed */
   f->stats.t = f->t;

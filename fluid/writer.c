@@ -40,6 +40,26 @@ static void BuildGrids(Grids *r, const Mesh *m, const P2Space *p2)
   }
 }
 
+/* Density, and the fraction of each phase; cell[ne]: scratch. */
+static PetscErrorCode PhaseFields(Writer r, Fluid f, double cell[])
+{
+  int n;
+  const double *volume = PhaseTransportVolumes(FluidPhases(f), &n);
+  const Mesh *m = FluidMesh(f);
+  PetscFunctionBeginUser;
+  PetscCall(OutputField(r->output, "density", OUTPUT_CELL, 1, FluidDensity(f)));
+  for (int p = 0; p < n; p++) {
+    for (int e = 0; e < m->ne; e++) {
+      double all = 0.0;
+      for (int q = 0; q < n; q++) all += volume[n * e + q];
+      cell[e] = volume[n * e + p] / all;
+    }
+    PetscCall(
+        OutputField(r->output, PhaseTransportProperties(FluidPhases(f))->name[p], OUTPUT_CELL, 1, cell));
+  }
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode Snapshot(Writer r, Fluid f)
 {
   const Mesh *m = FluidMesh(f);
@@ -59,6 +79,7 @@ static PetscErrorCode Snapshot(Writer r, Fluid f)
       for (int c = 0; c < 2; c++) g.nodal[2 * (3 * e + i) + c] = u[6 * e + 3 * c + i];
   PetscCall(OutputField(r->output, "velocity", OUTPUT_NODE, 2, g.nodal));
   PetscCall(OutputField(r->output, "alpha", OUTPUT_CELL, 1, FluidSolidFraction(f)));
+  if (FluidPhases(f)) PetscCall(PhaseFields(r, f, g.cell));
   for (int e = 0; e < m->ne; e++) g.cell[e] = rank;
   PetscCall(OutputField(r->output, "rank", OUTPUT_CELL, 1, g.cell));
   PetscCall(OutputGrid(r->output, "pressure", r->revision, p2->n, g.x_node, m->ne, 6, g.quadratic));

@@ -70,6 +70,17 @@ static inline void P2Stiffness(double area, const double g[3][2], double coeffic
   P2StiffnessOfP1((const double(*)[3])p1, s);
 }
 
+/* The same with a symmetric tensor k = (xx, xy, yy) as the coefficient. */
+static inline void P2StiffnessTensor(double area, const double g[3][2], const double k[3], double s[6][6])
+{
+  double p1[3][3];
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      p1[i][j] = area * (k[0] * g[i][0] * g[j][0] + k[1] * (g[i][0] * g[j][1] + g[i][1] * g[j][0]) +
+                         k[2] * g[i][1] * g[j][1]);
+  P2StiffnessOfP1((const double(*)[3])p1, s);
+}
+
 /* The Galerkin projection p1[3] of a P2 function on P1: int_K N_i p1 = int_K N_i p.  int N_i phi_j / area is
  * 1/30 and -1/60 at the vertex i and the others, 2/15 on the edges at i, 1/15 on the opposite one. */
 static inline void P2ProjectP1(const double p[6], double p1[3])

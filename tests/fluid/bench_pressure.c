@@ -20,7 +20,7 @@ typedef struct {
 static PetscErrorCode Step(const FluidDomain *d, const Bench *b, int k, ProjectionSolver s,
                            SolidCoupling none, double rho[], Vec u, Cost *cost)
 {
-  const ProjectionStep step = {0.0, DT, rho, b->constant ? 0 : k + 1, none, PETSC_FALSE};
+  const ProjectionStep step = {0.0, DT, rho, b->constant ? 0 : k + 1, none, NULL, PETSC_FALSE};
   Vec phi;
   int iterations;
   PetscFunctionBeginUser;

@@ -17,7 +17,7 @@ static PetscErrorCode Project(const FluidDomain *d, const Layer *l, int k, int r
   PetscCall(PetscMalloc1(d->mesh->ne, &rho));
   for (int e = 0; e < d->mesh->ne; e++) rho[e] = LayerDensity(l, d, e, k);
   PetscCall(SolidCouplingCreate(d->mesh->ne, &none));
-  const ProjectionStep step = {0.0, DT, rho, revision, none, PETSC_FALSE};
+  const ProjectionStep step = {0.0, DT, rho, revision, none, NULL, PETSC_FALSE};
   PetscCall(LayerFall(d->mesh, u));
   PetscCall(ProjectionSolverSolve(s, &step, u, &phi, iterations));
   PetscCall(ProjectionSolverSubtract(s, &step, u));

@@ -231,7 +231,8 @@ static void Refusals(void)
             NULL, Read,
             ":4: key 'solid.materials.m.law': expected one of neo_hookean, corotated, found 'hooke'");
   CheckCase(HEAD "  bodies:\n" DISC, NULL, Read, NULL);
-  CheckCase(HEAD, NULL, Read, ":2: key 'solid.bodies': expected a list of at least one body");
+  CheckCase(HEAD, NULL, Read,
+            ":2: key 'solid.bodies': expected a list of bodies; of a fluid alone an empty one, []");
   CheckCase(
       "gravity: [0, 0]\nsolid:\n  materials:\n    m: {density: -1, youngs_modulus: 1, poisson_ratio: 0}\n",
       NULL, Read, ":4: key 'solid.materials.m.density': expected a number > 0, found '-1'");
