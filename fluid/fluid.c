@@ -47,8 +47,7 @@ PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *flu
     PetscCall(PhaseTransportCreate(&f->domain, &setup->phases, setup->gravity, &f->phases));
   PetscCall(CreateVectors(f));
   PetscCall(MomentumSolverCreate(&f->domain, &momentum, f->u, &f->momentum));
-  PetscCall(
-      ProjectionSolverCreate(&f->domain, f->p, MaterialDensity(f->material, MATERIAL_STEP), &f->projection));
+  PetscCall(ProjectionSolverCreate(&f->domain, f->p, &f->projection));
   *fluid = f;
   PetscFunctionReturn(0);
 }

@@ -175,7 +175,9 @@ static void Full(void)
   CHECK(soft->friction == 0.5 && soft->contact_damping == 0.6 && !soft->plane_stress &&
             soft->thickness == 1.0,
         "soft");
-  CHECK(hard->plane_stress && hard->thickness == 0.01 && hard->corotated && !soft->corotated, "hard");
+  CHECK(hard->plane_stress && hard->thickness == 0.01 && hard->law == LAW_COROTATED &&
+            soft->law == LAW_NEO_HOOKEAN,
+        "hard");
   for (int e = 0; e < model.nelements; e++)
     CHECK(model.element_material[e] == (e == 2 || e == 3), "element %d", e);
   CHECK(setup.nrules == 2 && setup.rule[0].friction == 0.1 && setup.rule[0].damping < 0.0 &&

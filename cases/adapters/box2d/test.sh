@@ -3,6 +3,7 @@
 set -euo pipefail
 source "$1/tests/coupled/run.sh"
 program=$("$root/cases/adapters/build.sh" box2d "$build")
+"$root/scripts/conform.py" --bin "$build" --ranks 1,2 --solid "$program" "$root/tests/coupled/disc.yaml" --set "solid.walls={lower: [0, 0], upper: [2, 2]}"
 tank=(--set time.end=0.3 --set 'solid.walls={lower: [0, 0], upper: [2, 2]}')
 must femdem 1:1:1 "${tank[@]}"
 must disc 1:1:2 "${tank[@]}" --solid "$program"

@@ -3,6 +3,7 @@
 set -euo pipefail
 source "$1/tests/coupled/run.sh"
 program=$("$root/cases/adapters/build.sh" template_fortran "$build")
+"$root/scripts/conform.py" --bin "$build" --ranks 1,2 --solid "$program" "$root/tests/coupled/disc.yaml"
 for density in 2000 300; do
   must c$density 1:1:1 --set solid.materials.disc.density=$density --set time.end=0.05 --solid "$build/tests/route/rigid_disc"
   must other$density 1:1:2 --set solid.materials.disc.density=$density --set time.end=0.05 --solid "$program"
