@@ -52,6 +52,17 @@ def snapshot_times(folder):
         return [group.attrs["time"] for group in groups if len(group)]
 
 
+def volumes(folder, phase):
+    """Volume of the phase of this name in each snapshot, m2."""
+    found = []
+    for time in snapshot_times(folder):
+        grid = read_snapshot(os.path.join(folder, "fluid.h5"), time)[1]["velocity"]
+        a, b, c = grid.points[grid.cells][:, :, :2].transpose(1, 0, 2)
+        area = 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+        found.append(float((area * grid.cell[phase].ravel()).sum()))
+    return np.array(found)
+
+
 def paint_arrows(axes, grid, spacing):
     """Velocities on a raster: the mean of the nodes in each square of it."""
     place = np.floor(grid.points[:, :2] / spacing).astype(int)

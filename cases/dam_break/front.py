@@ -23,8 +23,8 @@ def front(folder):
 
 
 class Comparison:
-    """shift: what the experiment's clock is behind the run's, T, the median over its points; late: the largest difference in Z at the
-    experiment's times less the shift, of Z."""
+    """shift: the experiment's times less the run's at the same Z, T, the median over its points; difference: of Z at the experiment's
+    times less the shift, relative; speed: dZ/dT of the run from T = 4 on."""
 
     def __init__(self, folder):
         t, z = front(folder)
@@ -34,6 +34,7 @@ class Comparison:
         self.z = reference_z[reached]
         self.shift = float(np.median(self.lag))
         self.difference = np.interp(reference_t[reached] - self.shift, t, z) / reference_z[reached] - 1.0
-        self.largest = float(abs(self.difference).max())
+        self.mean = float(abs(self.difference).mean())
+        self.second, self.largest = (float(d) for d in np.sort(abs(self.difference))[-2:])
         late = (t > 4.0) & (z < 14.0)
         self.speed = float(np.polyfit(t[late], z[late], 1)[0])
