@@ -64,13 +64,14 @@ def volumes(folder, phase):
 
 
 def paint_arrows(axes, grid, spacing):
-    """Velocities on a raster: the mean of the nodes in each square of it."""
+    """Velocities on a raster: the mean of the nodes in each square of it; the longest arrow is two squares."""
     place = np.floor(grid.points[:, :2] / spacing).astype(int)
     which = np.unique(place, axis=0, return_inverse=True)[1]
     which = which.reshape(-1)
     count = np.bincount(which)
     mean = [np.bincount(which, values) / count for values in (*grid.points[:, :2].T, *grid.node["velocity"][:, :2].T)]
-    axes.quiver(*mean, color="0.25", width=0.0012, scale=60.0 * max(np.hypot(*mean[2:]).max(), 1e-12), scale_units="width")
+    longest = max(np.hypot(*mean[2:]).max(), 1e-12)
+    axes.quiver(*mean, color="0.25", width=0.0012, angles="xy", scale_units="xy", scale=longest / (2.0 * spacing))
 
 
 def paint_phases(axes, folder, time, phase, arrows=0.0, mesh=False):
