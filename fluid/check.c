@@ -1,5 +1,6 @@
 #include "fluid/check.h"
 #include "fluid/fluid_case.h"
+#include "fluid/probes.h"
 #include "fluid/writer.h"
 
 /* What the calls that read them do not say of the fluid's keys. */
@@ -55,6 +56,16 @@ static const CoracleCaseKey KEYS[] = {
     {"fluid.adapt.elements_max", "", "most triangles of a mesh"},
     {"fluid.adapt.every", "steps",
      "from one mesh to the next, or sooner when the solid is about to leave its fine mesh"},
+    {"fluid.probes", "", "list of points, lines and pressure gauges whose values are in fluid_probes.csv"},
+    {"fluid.probes[].name", "", "leads the names of its columns"},
+    {"fluid.probes[].point", "m", "a point of the fluid, also on its boundary"},
+    {"fluid.probes[].line.from", "m", "first point of a line"},
+    {"fluid.probes[].line.to", "m", "its last point"},
+    {"fluid.probes[].line.points", "", "number of points on it, evenly spaced"},
+    {"fluid.probes[].solid_point", "m",
+     "a point of the solid's surface at the start: a pressure gauge that moves with it"},
+    {"fluid.probes[].distance", "m",
+     "from the solid's face to where the gauge's pressure is taken; by default fluid.adapt.size_min"},
     {NULL, NULL, NULL}};
 
 /* Measured from 1 352 to 80 000 triangles on one rank (tests/coupled/disc.yaml, `peak_memory_mb`). */
@@ -105,6 +116,7 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
   Mesh *mesh;
   FluidSetup setup;
   AdaptationSetup adaptation;
+  Probes probes;
   PetscBool adapts;
   Region *region;
   int nregions;
@@ -117,6 +129,8 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
   PetscCall(FluidCaseSetup(c, mesh, &setup));
   PetscCall(FluidCaseRegions(c, &nregions, &region));
   PetscCall(FluidCaseAdaptation(c, &setup, &adapts, &adaptation));
+  PetscCall(ProbesCreate(c, mesh, &probes));
+  PetscCall(ProbesDestroy(&probes));
   PetscCall(CoracleCaseFinish(c, SECTIONS));
   if (command != COMMAND_KEYS && CoracleCaseFaultless(c)) Expect(mesh, adapts, &adaptation);
   if (command == COMMAND_DRAW && CoracleCaseFaultless(c)) PetscCall(Draw(c, mesh, &setup, nregions, region));

@@ -1,11 +1,13 @@
 /* The fluid's life, and its step. */
 #include "fluid/fluid_impl.h"
+#include "fluid/solver_options.h"
 
 /* --- life -------------------------------------------------------------------------------------------- */
 
 static PetscErrorCode CreateVectors(Fluid f)
 {
   const Mesh *m = f->domain.mesh;
+  const P2Space *p2 = f->domain.p2;
   Vec *velocity[] = {&f->u_previous, &f->u_star,  &f->u_projected,
                      &f->mass_flux,  &f->saved.u, &f->saved.u_previous};
   PetscInt *ghosts;
@@ -15,8 +17,8 @@ static PetscErrorCode CreateVectors(Fluid f)
   PetscCall(VecCreateGhostBlock(m->comm, 6, 6 * m->ne, PETSC_DETERMINE, m->ng, ghosts, &f->u));
   PetscCall(PetscFree(ghosts));
   for (size_t k = 0; k < sizeof velocity / sizeof *velocity; k++) PetscCall(VecDuplicate(f->u, velocity[k]));
-  PetscCall(VecCreateGhost(m->comm, m->np2_owned, PETSC_DETERMINE, m->np2 - m->np2_owned,
-                           m->p2gid + m->np2_owned, &f->p));
+  PetscCall(
+      VecCreateGhost(m->comm, p2->nowned, PETSC_DETERMINE, p2->n - p2->nowned, p2->gid + p2->nowned, &f->p));
   PetscCall(VecDuplicate(f->p, &f->saved.p));
   PetscFunctionReturn(0);
 }
@@ -42,12 +44,14 @@ PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *flu
   f->setup.boundary = f->domain.boundary;
   PetscCall(MaterialCreate(mesh, setup->theta, setup->rho, setup->mu, &f->material));
   PetscCall(SolidCouplingCreate(mesh->ne, &f->solid));
-  if (setup->phases.n)
+  if (setup->phases
+          .n) { /* what the solver leaves of the divergence becomes a gap between volumes and areas */
+    PetscCall(SolverDefaultOption("pressure_varying_", "ksp_rtol", "1e-10"));
     PetscCall(PhaseTransportCreate(&f->domain, &setup->phases, setup->gravity, &f->phases));
+  }
   PetscCall(CreateVectors(f));
   PetscCall(MomentumSolverCreate(&f->domain, &momentum, f->u, &f->momentum));
-  PetscCall(
-      ProjectionSolverCreate(&f->domain, f->p, MaterialDensity(f->material, MATERIAL_STEP), &f->projection));
+  PetscCall(ProjectionSolverCreate(&f->domain, f->p, &f->projection));
   *fluid = f;
   PetscFunctionReturn(0);
 }
@@ -294,4 +298,8 @@ const FluidStats *FluidGetStats(Fluid f)
 const Mesh *FluidMesh(Fluid f)
 {
   return f->domain.mesh;
+}
+const P2Space *FluidPressureSpace(Fluid f)
+{
+  return f->domain.p2;
 }

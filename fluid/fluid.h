@@ -10,8 +10,8 @@
 #ifndef FLUID_H
 #define FLUID_H
 #include "common/link/coracle.h"
-#include "common/mesh/mesh.h"
 #include "common/output/checkpoint.h"
+#include "common/space/p2_space.h"
 #include "fluid/boundary.h"
 #include "fluid/kernels.h"
 #include "fluid/material.h"
@@ -82,7 +82,8 @@ PetscErrorCode FluidStep(Fluid fluid, double dt);
 double FluidTimeStep(Fluid fluid);
 
 /* Views, borrowed, not collective: velocities [ne][2][3] of the owned elements, as of the last completed
- * step, before the projection of the current step and after it; pressure [np2]; material at its end. */
+ * step, before the projection of the current step and after it; pressure on the nodes of its
+ * space, [n]; material at its end. */
 const double *FluidVelocity(Fluid fluid);
 const double *FluidVelocityStar(Fluid fluid);
 const double *FluidVelocityProjected(Fluid fluid);
@@ -93,6 +94,7 @@ const double *FluidSolidFraction(Fluid fluid); /* [ne] alpha_s */
 PhaseTransport FluidPhases(Fluid fluid);       /* NULL: one fluid */
 const FluidStats *FluidGetStats(Fluid fluid);
 const Mesh *FluidMesh(Fluid fluid);
+const P2Space *FluidPressureSpace(Fluid fluid);
 /* Saves velocity, pressure, material and time, and restores them for a step that is redone. */
 PetscErrorCode FluidSaveState(Fluid fluid);
 PetscErrorCode FluidRestoreState(Fluid fluid);

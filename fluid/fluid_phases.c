@@ -68,7 +68,7 @@ static PetscErrorCode Accelerate(Fluid f, double dt, Vec velocity)
   for (int e = 0; e < m->ne; e++) {
     const double *k = r[e].inverse;
     double pe[6], grad[3][2];
-    for (int i = 0; i < 6; i++) pe[i] = p[m->p2[6 * e + i]];
+    for (int i = 0; i < 6; i++) pe[i] = p[f->domain.p2->node[6 * e + i]];
     P2Gradient((const double(*)[2])f->domain.geometry[e].g, pe, grad);
     for (int i = 0; i < 3; i++) {
       u[6 * e + i] = dt * (r[e].weight[0] - k[0] * grad[i][0] - k[1] * grad[i][1]);

@@ -28,7 +28,7 @@ static PetscErrorCode Step(FluidRun *m, double dt)
   }
   m->new_mesh = PETSC_FALSE;
   PetscCall(FluidCorrect(m->fluid, dt, correction));
-  PetscCall(WriterStep(m->writer, m->fluid));
+  PetscCall(FluidRunWrite(m));
   if (next) PetscCall(FluidRunAcceptMesh(m, mesh, next));
   PetscFunctionReturn(0);
 }

@@ -91,7 +91,7 @@ static void ElementLoad(MomentumSolver s, const MomentumStep *step, int e, const
   const Mesh *m = s->domain->mesh;
   const ElementGeometry *g = s->domain->geometry + e;
   double pe[6], grad[3][2], q[2][3];
-  for (int k = 0; k < 6; k++) pe[k] = p[m->p2[6 * e + k]];
+  for (int k = 0; k < 6; k++) pe[k] = p[s->domain->p2->node[6 * e + k]];
   P2Gradient(g->g, pe, grad);
   for (int i = 0; i < 3; i++) {
     double now[2] = {0}, next[2] = {0}, force[2];

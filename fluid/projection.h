@@ -7,7 +7,8 @@
  * u_hat* = u* + M^-1 (us - ms u*): inside the solid the flow that must be free of divergence is the solid's.
  * Where the solid has implicit inertia weighted_projection.h replaces dt/rho.
  *
- * The matrix is factored once, and again when the density's revision changes (material.h). */
+ * The matrix is made once, and again when the density's revision changes (material.h) or the solid has
+ * implicit inertia; how it is solved: pressure_solver.h. */
 #ifndef FLUID_PROJECTION_H
 #define FLUID_PROJECTION_H
 #include "fluid/domain.h"
@@ -28,8 +29,7 @@ typedef struct {
 } ProjectionStep;
 
 /* like: a ghosted vector of the P2 nodes; domain is borrowed.  Collective, like all of this. */
-PetscErrorCode ProjectionSolverCreate(const FluidDomain *domain, Vec like, const double rho[],
-                                      ProjectionSolver *s);
+PetscErrorCode ProjectionSolverCreate(const FluidDomain *domain, Vec like, ProjectionSolver *s);
 PetscErrorCode ProjectionSolverDestroy(ProjectionSolver *s);
 /* phi (borrowed, Pa, ghosts up to date) for the velocity u* (blocks [2][3] an element). */
 PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *step, Vec velocity, Vec *phi,

@@ -19,6 +19,7 @@ PetscErrorCode FluidRunSave(const FluidRun *m)
   PetscCall(CheckpointPutNumber(to, "new mesh", m->new_mesh));
   PetscCall(AdaptationSave(m->adaptation, to));
   PetscCall(WriterSave(m->writer, to));
+  PetscCall(ProbesSave(m->probes, to));
   PetscCall(CheckpointClose(&to));
   PetscFunctionReturn(0);
 }
@@ -63,10 +64,12 @@ static PetscErrorCode Create(FluidRun *m, const char *resume, Checkpoint from, P
   PetscCall(FluidCaseSetup(m->program->c, m->mesh, &setup));
   PetscCall(FluidCaseRegions(m->program->c, &nregions, &region));
   PetscCall(FluidCaseAdaptation(m->program->c, &setup, &adapts, &adaptation));
+  PetscCall(ProbesCreate(m->program->c, m->mesh, &m->probes));
   PetscCall(CoracleCaseFinish(m->program->c, SECTIONS));
   if (adapts) PetscCall(AdaptationCreate(&adaptation, &m->adaptation));
   AdaptationStart start = {.nphases = setup.phases.n, .nregions = nregions, .region = region};
   if (adapts && !from) PetscCall(FirstMesh(m, &start));
+  PetscCall(ProbesNewMesh(m->probes, m->mesh));
   PetscCall(FluidCreate(m->mesh, &setup, &m->fluid));
   if (setup.phases.n && !from) PetscCall(FluidSetPhases(m->fluid, nregions, region));
   PetscCall(FluidCaseFreeRegions(nregions, &region));
@@ -95,7 +98,19 @@ PetscErrorCode FluidRunOpenOutput(FluidRun *m)
 {
   PetscFunctionBeginUser;
   PetscCall(WriterCreate(m->program->c, m->fluid, m->from, &m->writer));
+  PetscCall(ProbesOpen(m->probes, m->program->c, m->from));
   PetscCall(CheckpointClose(&m->from));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidRunWrite(FluidRun *m)
+{
+  const CoracleGauge *gauge;
+  int n;
+  PetscFunctionBeginUser;
+  PetscCall(WriterStep(m->writer, m->fluid));
+  PetscCall(CoracleGetGauges(m->program->client, &n, &gauge));
+  PetscCall(ProbesStep(m->probes, m->fluid, n, gauge));
   PetscFunctionReturn(0);
 }
 
@@ -124,6 +139,7 @@ PetscErrorCode FluidRunAcceptMesh(FluidRun *m, Mesh *mesh, Fluid fluid)
   m->fluid = fluid;
   m->new_mesh = PETSC_TRUE;
   WriterNewMesh(m->writer);
+  PetscCall(ProbesNewMesh(m->probes, mesh));
   PetscFunctionReturn(0);
 }
 
@@ -153,6 +169,7 @@ PetscErrorCode FluidRunDestroy(FluidRun *m)
   PetscFunctionBeginUser;
   PetscCall(Report(m->program, m->fluid));
   PetscCall(WriterDestroy(&m->writer));
+  PetscCall(ProbesDestroy(&m->probes));
   PetscCall(ExchangeDestroy(&m->exchange));
   PetscCall(AdaptationDestroy(&m->adaptation));
   PetscCall(FluidDestroy(&m->fluid));

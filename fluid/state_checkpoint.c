@@ -33,7 +33,7 @@ static PetscErrorCode SavePressure(Fluid f, Checkpoint to)
   double *nodes;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(6 * m->ne, &nodes));
-  for (int k = 0; k < 6 * m->ne; k++) nodes[k] = p[m->p2[k]];
+  for (int k = 0; k < 6 * m->ne; k++) nodes[k] = p[f->domain.p2->node[k]];
   PetscCall(CheckpointPutDoubles(to, "pressure", m->ne, 6, nodes));
   PetscCall(PetscFree(nodes));
   PetscFunctionReturn(0);
@@ -51,7 +51,7 @@ static PetscErrorCode LoadPressure(Fluid f, const PetscInt row[], Checkpoint fro
   PetscCall(MeshLoadDoubles(m, row, from, "pressure", 6, nodes));
   PetscCall(VecGhostGetLocalForm(f->p, &local));
   PetscCall(VecGetArray(local, &p));
-  for (int k = 0; k < 6 * m->ne; k++) p[m->p2[k]] = nodes[k];
+  for (int k = 0; k < 6 * m->ne; k++) p[f->domain.p2->node[k]] = nodes[k];
   PetscCall(VecRestoreArray(local, &p));
   PetscCall(VecGhostRestoreLocalForm(f->p, &local));
   PetscCall(PetscFree(nodes));

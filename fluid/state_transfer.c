@@ -38,7 +38,7 @@ static PetscErrorCode Pressure(Fluid from, Fluid to, Transfer transfer)
   PetscCall(VecGhostGetLocalForm(to->p, &new));
   PetscCall(VecGetArrayRead(old, &p));
   PetscCall(VecGetArray(new, &q));
-  PetscCall(TransferP2(transfer, p, q));
+  PetscCall(TransferP2(transfer, from->domain.p2, to->domain.p2, p, q));
   PetscCall(VecRestoreArray(new, &q));
   PetscCall(VecRestoreArrayRead(old, &p));
   PetscCall(VecGhostRestoreLocalForm(to->p, &new));

@@ -17,18 +17,18 @@ struct Writer_s {
 /* Points, cells and scratch of the two grids of a snapshot. */
 typedef struct {
   int *corner, *quadratic;   /* [ne][3], [ne][6] */
-  double *x_corner, *x_node; /* [ne][3][2], [np2][2] */
+  double *x_corner, *x_node; /* [ne][3][2], [n][2] */
   double *nodal, *cell;      /* [3 ne][2], [ne] */
 } Grids;
 
 /* Points and cells of the two grids: discontinuous triangles for P1DG, six-node triangles for P2. */
-static void BuildGrids(Grids *r, const Mesh *m)
+static void BuildGrids(Grids *r, const Mesh *m, const P2Space *p2)
 {
   static const int VTK[6] = {0, 1, 2, 5, 3, 4}; /* midpoints of 01, 12, 20 lie opposite to vertices 2, 0, 1 */
   for (int e = 0; e < m->ne; e++) {
     for (int i = 0; i < 3; i++) r->corner[3 * e + i] = 3 * e + i;
     for (int i = 0; i < 6; i++) {
-      const int node = m->p2[6 * e + VTK[i]], q = VTK[i];
+      const int node = p2->node[6 * e + VTK[i]], q = VTK[i];
       const int a = m->vertex[3 * e + (q < 3 ? q : (q + 1) % 3)],
                 b = m->vertex[3 * e + (q < 3 ? q : (q + 2) % 3)];
       r->quadratic[6 * e + i] = node;
@@ -63,13 +63,14 @@ static PetscErrorCode PhaseFields(Writer r, Fluid f, double cell[])
 static PetscErrorCode Snapshot(Writer r, Fluid f)
 {
   const Mesh *m = FluidMesh(f);
+  const P2Space *p2 = FluidPressureSpace(f);
   const double *u = FluidVelocity(f);
   PetscMPIInt rank;
   Grids g;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc6(3 * m->ne, &g.corner, 6 * m->ne, &g.quadratic, 6 * m->ne, &g.x_corner, 2 * m->np2,
+  PetscCall(PetscMalloc6(3 * m->ne, &g.corner, 6 * m->ne, &g.quadratic, 6 * m->ne, &g.x_corner, 2 * p2->n,
                          &g.x_node, 6 * m->ne, &g.nodal, m->ne, &g.cell));
-  BuildGrids(&g, m);
+  BuildGrids(&g, m, p2);
   PetscCallMPI(MPI_Comm_rank(m->comm, &rank));
   PetscCall(OutputBegin(r->output, FluidGetStats(f)->t));
   PetscCall(OutputGrid(r->output, "velocity", r->revision, 3 * m->ne, g.x_corner, m->ne, 3, g.corner));
@@ -81,7 +82,7 @@ static PetscErrorCode Snapshot(Writer r, Fluid f)
   if (FluidPhases(f)) PetscCall(PhaseFields(r, f, g.cell));
   for (int e = 0; e < m->ne; e++) g.cell[e] = rank;
   PetscCall(OutputField(r->output, "rank", OUTPUT_CELL, 1, g.cell));
-  PetscCall(OutputGrid(r->output, "pressure", r->revision, m->np2, g.x_node, m->ne, 6, g.quadratic));
+  PetscCall(OutputGrid(r->output, "pressure", r->revision, p2->n, g.x_node, m->ne, 6, g.quadratic));
   PetscCall(OutputField(r->output, "pressure", OUTPUT_NODE, 1, FluidPressure(f)));
   PetscCall(OutputEnd(r->output));
   PetscCall(PetscFree6(g.corner, g.quadratic, g.x_corner, g.x_node, g.nodal, g.cell));

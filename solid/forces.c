@@ -14,6 +14,18 @@ static inline Tensor EdgesOf(const Elements *e, int k, const double value[])
                        PointAt(value, e->node[2][k]));
 }
 
+void SolidListCorners(Solid s)
+{
+  const int ne = s->elements.n;
+  for (int n = 0; n <= s->nnodes; n++) s->corner_start[n] = 0;
+  for (int k = 0; k < 3 * ne; k++) s->corner_start[s->element[k] + 1]++;
+  for (int n = 0; n < s->nnodes; n++) s->corner_start[n + 1] += s->corner_start[n];
+  for (int k = 3 * ne - 1; k >= 0; k--) /* fills from behind, then shifts back */
+    s->corner[--s->corner_start[s->element[k] + 1]] = (k % 3) * ne + k / 3;
+  for (int n = 0; n < s->nnodes; n++) s->corner_start[n] = s->corner_start[n + 1];
+  s->corner_start[s->nnodes] = 3 * ne;
+}
+
 void SolidElementShape(const Elements *e, int k, const double x[], Tensor *edges, Tensor *f)
 {
   *edges = EdgesOf(e, k, x);

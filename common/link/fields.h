@@ -14,6 +14,7 @@
  *     FLOW       FIELDS_FLOW      fluid -> coupler     CoracleFlow, arrays over the fluid's elements
  *     COUPLING   FIELDS_CORRECTION  coupler -> fluid   CoracleCorrection, one an element
  *                FIELDS_COUPLING                       CoracleCoupling, one an element
+ *                FIELDS_GAUGES                         CoracleGauge, one a gauge on the solid
  *
  * A group travels field by field in the table's order, each as an array over its entities:
  *
@@ -70,7 +71,8 @@ typedef struct {
 } FieldsDomain;
 
 extern const FieldGroup FIELDS_NODES, FIELDS_MOTION, FIELDS_FACETS, FIELDS_SIMPLICES, FIELDS_FORCE,
-    FIELDS_BOXES, FIELDS_DOMAIN, FIELDS_ELEMENTS, FIELDS_FLOW, FIELDS_CORRECTION, FIELDS_COUPLING;
+    FIELDS_BOXES, FIELDS_DOMAIN, FIELDS_ELEMENTS, FIELDS_FLOW, FIELDS_CORRECTION, FIELDS_COUPLING,
+    FIELDS_GAUGES;
 
 /* extent[NEXTENTS] of simplices in dim dimensions with P1 velocity and P2 pressure. */
 void FieldsExtents(int dim, int extent[NEXTENTS]);

@@ -5,13 +5,14 @@
  *     | header | block 0 | block 1 | ...     each block is padded to 8 bytes
  *     +--------+---------+---------+-----
  *
- *     kind      direction          count[0], [1], [2]              blocks                             sent within
+ *     kind      direction          count[0], [1], [2], [3]         blocks                             sent within
  *     SURFACE   solid -> coupler   nodes, facets, elements         nodes, motion, facets, elements    Ready; End after a change
  *     MOTION    solid -> coupler   nodes                           motion                             End
  *     FORCE     solid <- coupler   nodes, -, bytes of path         force; path                        Begin
  *     ASK       fluid <- coupler   boxes                           boxes                              GetRegion, Ready, End
  *     ELEMENTS  fluid -> coupler   elements                        domain, elements                   answers ASK
- *     COUPLING  fluid <- coupler   corrections, couplings, path    corrections, couplings; path       ends Ready, End
+ *     COUPLING  fluid <- coupler   corrections, couplings,         corrections, couplings, gauges;    ends Ready, End
+ *                                  bytes of path, gauges           path
  *     FLOW      fluid -> coupler   elements                        flow                               End
  *     CLOSE     both  -> coupler   reports                         reports                            Close
  *
@@ -48,7 +49,7 @@ enum {
 typedef struct {
   uint32_t magic;
   int32_t kind, step, action, flag, dim;
-  int64_t count[3];
+  int64_t count[4];
   double t, dt; /* s */
 } MessageHeader;
 

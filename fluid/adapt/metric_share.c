@@ -16,7 +16,7 @@ PetscErrorCode SharedVerticesCreate(const Mesh *m, SharedVertices *s)
     if (m->neighbor[k] < m->ne) continue;
     for (int i = 1; i < 3; i++) {
       const int e = k / 3, corner = (k + i) % 3;
-      s->id[n] = m->p2gid[m->p2[6 * e + corner]];
+      s->id[n] = m->vgid[m->vertex[3 * e + corner]];
       s->vertex[n++] = m->vertex[3 * e + corner];
     }
   }

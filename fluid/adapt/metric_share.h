@@ -6,7 +6,7 @@
 /* The vertices of faces to other ranks, each once. */
 typedef struct {
   int count;
-  PetscInt *id; /* [count] of the vertex's P2 node, ascending */
+  PetscInt *id; /* [count] global number of the vertex, ascending */
   int *vertex;  /* [count] local */
 } SharedVertices;
 

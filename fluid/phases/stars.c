@@ -1,7 +1,8 @@
-/* The owner of a vertex (as a P2 node) keeps its whole star.  Ranks send it the elements that they own around
+/* The owner of a vertex keeps its whole star.  Ranks send it the elements that they own around
  * it; then each rank asks for the stars of its vertices, ring by ring. */
 #include "fluid/phases/stars.h"
 #include "common/mesh/mesh_table.h"
+#include <petscis.h>
 #include <string.h>
 
 enum { RINGS = 2 };
@@ -15,11 +16,11 @@ typedef struct {
 
 typedef struct {
   const Mesh *mesh;
-  int rank, size;
-  PetscInt *p2start; /* [size + 1] P2 nodes p2start[r] .. p2start[r + 1] - 1 belong to rank r */
-  Pool pool;         /* around owned vertices */
-  int *first;        /* [np2_owned] in the pool, -1 */
-  MeshTable known;   /* global number -> local element */
+  int rank;
+  PetscLayout owners; /* of the vertices */
+  Pool pool;          /* around owned vertices */
+  int *first;         /* [nv_owned] in the pool, -1 */
+  MeshTable known;    /* global number -> local element */
   int nl, capacity;
   StarElement *local;
 } Gathering;
@@ -34,27 +35,14 @@ static PetscErrorCode Reserve(int n, int *capacity, StarElement **element)
   PetscFunctionReturn(0);
 }
 
-static int OwnerOf(const Gathering *s, PetscInt node)
-{
-  int low = 0, high = s->size;
-  while (high - low > 1) {
-    const int middle = (low + high) / 2;
-    if (s->p2start[middle] <= node)
-      low = middle;
-    else
-      high = middle;
-  }
-  return low;
-}
-
-static PetscErrorCode AddToPool(Gathering *s, PetscInt node, const StarElement *element)
+static PetscErrorCode AddToPool(Gathering *s, PetscInt vertex, const StarElement *element)
 {
   Pool *p = &s->pool;
   int capacity = p->capacity;
   PetscFunctionBeginUser;
   PetscCall(Reserve(p->n + 1, &p->capacity, &p->element));
   if (p->capacity > capacity) PetscCall(PetscRealloc((size_t)p->capacity * sizeof(int), &p->next));
-  int *first = &s->first[node - s->p2start[s->rank]];
+  int *first = &s->first[vertex - s->mesh->vstart];
   p->element[p->n] = *element;
   p->next[p->n] = *first;
   *first = p->n++;
@@ -66,20 +54,20 @@ static StarElement OwnElement(const Gathering *s, int e)
   const Mesh *m = s->mesh;
   StarElement r = {.egid = m->egid[e], .rank = s->rank, .local = e};
   for (int i = 0; i < 3; i++) {
-    r.vertex[i] = m->p2gid[m->p2[6 * e + i]];
+    r.vertex[i] = m->vgid[m->vertex[3 * e + i]];
     r.tag[i] = m->tag[3 * e + i];
     memcpy(r.x[i], &m->x[2 * m->vertex[3 * e + i]], sizeof r.x[i]);
   }
   return r;
 }
 
-/* Elements go to the owners of their vertices. */
-/* An element of the star of a node, on its way to the node's owner. */
+/* An element of the star of a vertex, on its way to the vertex' owner. */
 typedef struct {
-  PetscInt node;
+  PetscInt vertex;
   StarElement element;
 } StarRecord;
 
+/* Elements go to the owners of their vertices. */
 static PetscErrorCode FillPool(Gathering *s)
 {
   const int n = 3 * s->mesh->ne;
@@ -90,7 +78,8 @@ static PetscErrorCode FillPool(Gathering *s)
   for (int e = 0; e < s->mesh->ne; e++) {
     const StarElement element = OwnElement(s, e);
     for (int i = 0; i < 3; i++) {
-      const int owner = OwnerOf(s, element.vertex[i]);
+      PetscMPIInt owner;
+      PetscCall(PetscLayoutFindOwner(s->owners, element.vertex[i], &owner));
       if (owner == s->rank) {
         PetscCall(AddToPool(s, element.vertex[i], &element));
         continue;
@@ -100,7 +89,7 @@ static PetscErrorCode FillPool(Gathering *s)
     }
   }
   PetscCall(ScatterRecords(s->mesh->comm, m, to, sizeof *out, out, &narrived, (void **)&in));
-  for (int k = 0; k < narrived; k++) PetscCall(AddToPool(s, in[k].node, &in[k].element));
+  for (int k = 0; k < narrived; k++) PetscCall(AddToPool(s, in[k].vertex, &in[k].element));
   PetscCall(PetscFree(in));
   PetscCall(PetscFree2(to, out));
   PetscFunctionReturn(0);
@@ -123,21 +112,21 @@ static PetscErrorCode AddLocal(Gathering *s, const StarElement *element)
   PetscFunctionReturn(0);
 }
 
-/* The stars of nodes that were asked for go to those who asked. */
-static PetscErrorCode Answer(Gathering *s, const ScatterRanks *asking, const PetscInt node[])
+/* The stars of vertices that were asked for go to those who asked. */
+static PetscErrorCode Answer(Gathering *s, const ScatterRanks *asking, const PetscInt vertex[])
 {
-  const PetscInt before = s->p2start[s->rank];
+  const PetscInt before = s->mesh->vstart;
   int n = 0, narrived, *to;
   StarElement *out, *in;
   PetscFunctionBeginUser;
   for (int k = 0; k < asking->start[asking->n]; k++) {
-    for (int p = s->first[node[k] - before]; p >= 0; p = s->pool.next[p]) n++;
+    for (int p = s->first[vertex[k] - before]; p >= 0; p = s->pool.next[p]) n++;
   }
   PetscCall(PetscMalloc2(n, &to, n, &out));
   n = 0;
   for (int r = 0; r < asking->n; r++) {
     for (int k = asking->start[r]; k < asking->start[r + 1]; k++) {
-      for (int p = s->first[node[k] - before]; p >= 0; p = s->pool.next[p]) {
+      for (int p = s->first[vertex[k] - before]; p >= 0; p = s->pool.next[p]) {
         to[n] = asking->rank[r];
         out[n++] = s->pool.element[p];
       }
@@ -156,29 +145,29 @@ static PetscErrorCode AddRing(Gathering *s, int begin)
   const int end = s->nl, max = 3 * (end - begin);
   const ScatterRanks *asking;
   int *to, n = 0;
-  PetscInt *node, *asked;
+  PetscInt *vertex, *asked;
   MeshTable known;
   Scatter scatter;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2(max, &to, max, &node));
+  PetscCall(PetscMalloc2(max, &to, max, &vertex));
   PetscCall(MeshTableCreate(&known, (size_t)max));
   for (int k = 3 * begin; k < 3 * end; k++) {
     const PetscInt v = s->local[k / 3].vertex[k % 3];
     int *at = MeshTableAt(&known, 0, (int)v);
     if (*at >= 0) continue;
     *at = 0;
-    to[n] = OwnerOf(s, v);
-    node[n++] = v;
+    PetscCall(PetscLayoutFindOwner(s->owners, v, &to[n]));
+    vertex[n++] = v;
   }
   PetscCall(MeshTableDestroy(&known));
   PetscCall(ScatterCreate(s->mesh->comm, n, to, NULL, &scatter));
   PetscCall(PetscMalloc1(ScatterArriving(scatter), &asked));
-  PetscCall(ScatterForward(scatter, sizeof *node, node, asked));
+  PetscCall(ScatterForward(scatter, sizeof *vertex, vertex, asked));
   PetscCall(ScatterGetSources(scatter, &asking));
   PetscCall(Answer(s, asking, asked));
   PetscCall(ScatterDestroy(&scatter));
   PetscCall(PetscFree(asked));
-  PetscCall(PetscFree2(to, node));
+  PetscCall(PetscFree2(to, vertex));
   PetscFunctionReturn(0);
 }
 
@@ -187,12 +176,9 @@ static PetscErrorCode GatheringBegin(const Mesh *m, Gathering *s)
   PetscFunctionBeginUser;
   *s = (Gathering){.mesh = m};
   PetscCallMPI(MPI_Comm_rank(m->comm, &s->rank));
-  PetscCallMPI(MPI_Comm_size(m->comm, &s->size));
-  PetscCall(PetscMalloc1(s->size + 1, &s->p2start));
-  PetscCallMPI(MPI_Allgather(&m->p2start, 1, MPIU_INT, s->p2start, 1, MPIU_INT, m->comm));
-  s->p2start[s->size] = m->np2_global;
-  PetscCall(PetscMalloc1(m->np2_owned, &s->first));
-  for (int k = 0; k < m->np2_owned; k++) s->first[k] = -1;
+  PetscCall(PetscLayoutCreateFromSizes(m->comm, m->nv_owned, m->nv_global, 1, &s->owners));
+  PetscCall(PetscMalloc1(m->nv_owned, &s->first));
+  for (int v = 0; v < m->nv_owned; v++) s->first[v] = -1;
   PetscCall(MeshTableCreate(&s->known, (size_t)(2 * m->ne + 64)));
   PetscCall(FillPool(s));
   for (int e = 0; e < m->ne; e++) {
@@ -205,7 +191,7 @@ static PetscErrorCode GatheringBegin(const Mesh *m, Gathering *s)
 static PetscErrorCode GatheringEnd(Gathering *s)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscFree(s->p2start));
+  PetscCall(PetscLayoutDestroy(&s->owners));
   PetscCall(PetscFree(s->first));
   PetscCall(PetscFree(s->pool.element));
   PetscCall(PetscFree(s->pool.next));

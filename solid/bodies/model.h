@@ -97,6 +97,9 @@ typedef struct {
 PetscErrorCode ModelAdd(Model *a, const MeshSerial *mesh, const BodySetup *setup, const char **error);
 /* The first pair of bodies one of which reaches into the other; *first = -1 if there is none. */
 PetscErrorCode ModelOverlap(const Model *a, int *first, int *second);
+/* Edges of an element at rest, m; its law, times its thickness. */
+Tensor ModelRestEdges(const Model *a, int element);
+ElementLaw ModelElementLaw(const Model *a, int element);
 PetscErrorCode ModelCopy(const Model *from, Model *to);
 PetscErrorCode ModelDestroy(Model *a);
 #endif
