@@ -190,6 +190,20 @@ static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step,
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode ProjectionSolverKeepFixed(ProjectionSolver s, Vec p)
+{
+  PetscScalar *v;
+  Vec local;
+  PetscFunctionBeginUser;
+  PetscCall(VecGhostGetLocalForm(p, &local));
+  PetscCall(VecGetArray(local, &v));
+  for (int k = 0; k < s->domain->p2->n; k++)
+    if (!s->is_fixed[k]) v[k] = 0.0;
+  PetscCall(VecRestoreArray(local, &v));
+  PetscCall(VecGhostRestoreLocalForm(p, &local));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *step, Vec velocity, Vec *phi,
                                      int *iterations)
 {
