@@ -21,12 +21,18 @@ class Column:
         self.motion = p["right_x"]
         self.pressure = {name: p[name + "_p"] / (WEIGHT * DEPTH) for name in GAUGES}
         self.reaches_square = phases.crossing(self.t, self.front, LEFT)
-        # contact takes 1e-4 of the way at most
-        self.reaches_wall = phases.crossing(self.solid_t, self.motion, (WALL - RIGHT) * (1.0 - 1e-4))
+        self.reaches_wall = self._impact(p["right_u"])
+
+    def _impact(self, u):
+        """When the right face has lost half of its largest speed: air before the wall stops it less than an element away."""
+        fastest = int(np.argmax(u))
+        if self.motion[fastest] < 0.9 * (WALL - RIGHT):
+            return float("nan")
+        return phases.crossing(self.solid_t[fastest:], -u[fastest:], -0.5 * u[fastest])
 
     def peak(self, name):
-        """The largest p/(rho g H) of a gauge before the square is at the wall, and when."""
-        before = self.t < (self.reaches_wall if np.isfinite(self.reaches_wall) else np.inf)
+        """The largest p/(rho g H) of a gauge before the square comes near the wall, and when."""
+        before = self.t < (self.reaches_wall - 0.01 if np.isfinite(self.reaches_wall) else np.inf)
         k = int(np.nanargmax(np.where(before, self.pressure[name], np.nan)))
         return self.pressure[name][k], self.t[k]
 

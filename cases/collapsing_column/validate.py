@@ -30,7 +30,8 @@ RUNS = {
     "le-0.002": (size(0.002, 0.00025, 0.03), "2:1:1"),
     "ranks-2": (COARSE, "2:1:2"),
     "ranks-3": (COARSE, "3:2:3"),
-    "friction-0.2": (["solid.walls.friction=0.2"], "1:1:1"),
+    "friction-0.1": (COARSE + ["solid.walls.friction=0.1"], "1:1:1"),
+    "friction-0.2": (COARSE + ["solid.walls.friction=0.2"], "1:1:1"),
 }
 
 
