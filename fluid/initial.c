@@ -81,6 +81,10 @@ PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldF
   PetscCall(VecCopy(f->u, f->u_previous));
   PetscCall(VecCopy(f->u, f->u_star));
   PetscCall(VecCopy(f->u, f->u_projected));
+  if (f->phases) {
+    PetscCall(VecCopy(f->u, f->bulk));
+    PetscCall(VecCopy(f->u, f->bulk_previous));
+  }
   PetscCall(VecGhostGetLocalForm(f->p, &local));
   PetscCall(VecGetArray(local, &p));
   for (int e = 0; e < m->ne; e++)
