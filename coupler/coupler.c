@@ -1,4 +1,3 @@
-#include "common/exchange/copies.h"
 #include "coupler/coupler_impl.h"
 #include "coupler/inertia.h"
 
@@ -30,7 +29,7 @@ static PetscErrorCode FreeStep(Coupler c)
   PetscCall(PetscFree3(c->coefficient, c->body_force, c->coupling));
   PetscCall(PetscFree5(c->vertex, c->start_velocity, c->implicit_factor, c->density, c->force));
   PetscCall(PetscFree5(c->node, c->start, c->predicted, c->acceleration, c->explicit_fraction));
-  PetscCall(PetscFree2(c->gid, c->mobility));
+  PetscCall(PetscFree(c->mobility));
   PetscFunctionReturn(0);
 }
 
@@ -46,14 +45,13 @@ static PetscErrorCode NewStep(Coupler c, const SolidState *solid)
                          &c->implicit_factor, nsources, &c->density, 2 * n, &c->force));
   PetscCall(PetscMalloc5(n, &c->node, 2 * n, &c->start, 2 * n, &c->predicted, 2 * n, &c->acceleration, n,
                          &c->explicit_fraction));
-  PetscCall(PetscMalloc2(n, &c->gid, n, &c->mobility));
+  PetscCall(PetscMalloc1(n, &c->mobility));
   PetscCall(PetscArrayzero(c->body_force, o->pairs.n));
   PetscCall(PetscArrayzero(c->density, nsources));
   for (size_t t = 0; t < nsources; t++) c->implicit_factor[t] = 1.0;
   for (size_t t = 0; t < nsources; t++)
     PetscCall(PetscArraycpy(&c->start_velocity[t][0][0], &o->source[t].u[0][0], 6));
   PetscCall(PetscArraycpy(c->start, solid->u, 2 * n));
-  PetscCall(PetscArraycpy(c->gid, solid->gid, n));
   PetscCall(PetscArraycpy(c->mobility, solid->mobility, n));
   c->nnodes = solid->nnodes;
   PetscFunctionReturn(0);
@@ -74,12 +72,13 @@ static void Predict(Coupler c, const SolidState *solid)
 /* Shell, overlap and coefficients with the solid at x. */
 static PetscErrorCode BuildAt(Coupler c, const SolidState *solid, const double x[])
 {
+  const PetscBool new_mesh = solid->changed || !c->built ? PETSC_TRUE : PETSC_FALSE;
   SolidState at = *solid;
 
   PetscFunctionBeginUser;
   at.x = x;
-  PetscCall(ShellExtrude(c->shell, &at, solid->changed || !c->built ? PETSC_TRUE : PETSC_FALSE));
-  PetscCall(OverlapBuild(c->overlap, &at, c->shell));
+  PetscCall(ShellExtrude(c->shell, &at, new_mesh));
+  PetscCall(OverlapBuild(c->overlap, &at, c->shell, new_mesh));
   PetscCall(NewStep(c, &at));
   c->built = 1;
   PetscCall(c->mode->coefficients(c, &at));
@@ -164,7 +163,6 @@ static PetscErrorCode ShellAcceleration(Coupler c, double acceleration[])
 {
   const Overlap o = c->overlap;
   double(*vertex)[3][2];
-  Copies sum;
 
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(o->nsources, &vertex));
@@ -172,9 +170,7 @@ static PetscErrorCode ShellAcceleration(Coupler c, double acceleration[])
     for (int i = 0; i < 3 && o->source[t].is_shell; i++)
       PetscCall(PetscArraycpy(vertex[t][i], c->vertex[3 * t + i].reaction, 2));
   PetscCall(OverlapSourcesToNodes(o, 2, &vertex[0][0][0], c->nnodes, acceleration));
-  PetscCall(CopiesCreateByNumber(c->comm, c->nnodes, c->gid, &sum));
-  PetscCall(CopiesSum(sum, 2, acceleration));
-  PetscCall(CopiesDestroy(&sum));
+  PetscCall(CopiesSum(o->nodes, 2, acceleration));
   for (int k = 0; k < 2 * c->nnodes; k++) acceleration[k] *= c->mobility[k / 2];
   PetscCall(PetscFree(vertex));
   PetscFunctionReturn(0);

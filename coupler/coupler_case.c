@@ -42,6 +42,7 @@ PetscErrorCode CouplerCaseRead(CoracleCase file, CouplerCase *c)
   /* the fluid's, read here so that the whole section can be checked */
   (void)CoracleCaseNumberOr(file, "time.cfl", 0.5, 0.0, HUGE_VAL);
   ReadOptions(file, &c->options);
+  GaugesReadCase(file, &c->gauges);
   CoracleCaseRenamed(file, "coupler.tries", "coupler.max_iterations");
   c->max_iterations = CoracleCaseIntegerOr(file, "coupler.max_iterations", 30, 1, 1000);
   c->tolerance = CoracleCaseNumberOr(file, "coupler.tolerance", 1e-4, 1e-12, 1.0);

@@ -1,8 +1,10 @@
-/* What the coupler reads from the case file: sections case, note, gravity, time, coupler, output. */
+/* What the coupler reads from the case file: sections case, note, gravity, time, coupler, output; of the fluid's the gauges on
+ * solids. */
 #ifndef CORACLE_COUPLER_CASE_H
 #define CORACLE_COUPLER_CASE_H
 #include "common/link/case_file.h"
 #include "coupler/coupler.h"
+#include "coupler/gauges.h"
 
 typedef struct {
   char name[128], note[512], folder[512];
@@ -11,6 +13,7 @@ typedef struct {
   int max_iterations;        /* coupling iterations of a step; 1: the first is accepted */
   double tolerance;          /* of the coupling iterations, relative (coupling_iteration.h) */
   CouplerOptions options;
+  GaugesCase gauges;
 } CouplerCase;
 
 /* Any rank; a wrong value ends the job. */

@@ -17,7 +17,6 @@ struct Coupler_s {
   double *implicit_factor;        /* [overlap->nsources] b (inertia.h) */
   double *density;                /* [overlap->nsources] kg/m3 (inertia.h) */
   /* the solid as the step began, and what is predicted for the step */
-  long long *gid;                /* [nnodes] */
   double *mobility;              /* [nnodes] 1/kg */
   double *start;                 /* [nnodes][2] velocity, m/s */
   double *predicted;             /* [nnodes][2] velocity at the step's end, m/s */

@@ -1,12 +1,9 @@
 #include "coupler/inertia.h"
-#include "common/exchange/copies.h"
 
 /* rho[nnodes]: the solid's density at its nodes now: mass over a third of the triangles around, of all ranks;
  * 0 where the node is held. */
 static PetscErrorCode NodeDensities(const Overlap o, const SolidState *solid, double rho[])
 {
-  Copies sum;
-
   PetscFunctionBeginUser;
   PetscCall(PetscArrayzero(rho, solid->nnodes));
   for (int t = 0; t < solid->nelements; t++) {
@@ -17,9 +14,7 @@ static PetscErrorCode NodeDensities(const Overlap o, const SolidState *solid, do
     const double third = GeometryArea((const double(*)[2])x) / 3.0;
     for (int i = 0; i < 3; i++) rho[node[i]] += third;
   }
-  PetscCall(CopiesCreateByNumber(o->comm, solid->nnodes, solid->gid, &sum));
-  PetscCall(CopiesSum(sum, 1, rho));
-  PetscCall(CopiesDestroy(&sum));
+  PetscCall(CopiesSum(o->nodes, 1, rho));
   for (int i = 0; i < solid->nnodes; i++)
     rho[i] = solid->mobility[i] > 0.0 && rho[i] > 0.0 ? 1.0 / (solid->mobility[i] * rho[i]) : 0.0;
   PetscFunctionReturn(0);
@@ -85,7 +80,6 @@ PetscErrorCode InertiaExplicitFraction(Overlap o, const SolidState *solid, const
 {
   enum { AREA, EXPLICIT, NSUMS };
   double(*vertex)[3][NSUMS], (*node)[NSUMS];
-  Copies sum;
 
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(o->nsources, &vertex));
@@ -100,9 +94,7 @@ PetscErrorCode InertiaExplicitFraction(Overlap o, const SolidState *solid, const
     }
   }
   PetscCall(OverlapSourcesToNodes(o, NSUMS, (const double *)vertex, solid->nnodes, &node[0][0]));
-  PetscCall(CopiesCreateByNumber(o->comm, solid->nnodes, solid->gid, &sum));
-  PetscCall(CopiesSum(sum, NSUMS, &node[0][0]));
-  PetscCall(CopiesDestroy(&sum));
+  PetscCall(CopiesSum(o->nodes, NSUMS, &node[0][0]));
   for (int i = 0; i < solid->nnodes; i++)
     explicit_fraction[i] = node[i][AREA] > 0.0        ? node[i][EXPLICIT] / node[i][AREA]
                            : solid->mobility[i] > 0.0 ? 0.0

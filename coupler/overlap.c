@@ -124,11 +124,15 @@ static PetscErrorCode FindCoupledElements(Overlap o)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode OverlapBuild(Overlap o, const SolidState *solid, const Shell shell)
+PetscErrorCode OverlapBuild(Overlap o, const SolidState *solid, const Shell shell, PetscBool new_mesh)
 {
   SourceTriangle *owned;
 
   PetscFunctionBeginUser;
+  if (new_mesh) {
+    PetscCall(CopiesDestroy(&o->nodes));
+    PetscCall(CopiesCreateByNumber(o->comm, solid->nnodes, solid->gid, &o->nodes));
+  }
   o->nvolume = solid->nelements;
   o->nowned = solid->nelements + 2 * shell->nfacets;
   PetscCall(PetscFree(o->node));
@@ -207,6 +211,7 @@ PetscErrorCode OverlapDestroy(Overlap *overlap)
   PetscCall(PetscFree(o->source));
   PetscCall(PetscFree2(o->coupled_element, o->coupled_index));
   PetscCall(ScatterDestroy(&o->scatter));
+  PetscCall(CopiesDestroy(&o->nodes));
   PetscCall(PetscFree(*overlap));
   PetscFunctionReturn(0);
 }

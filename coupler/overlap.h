@@ -21,7 +21,7 @@
  * Fields are for reading.  Functions are collective. */
 #ifndef CORACLE_OVERLAP_H
 #define CORACLE_OVERLAP_H
-#include "common/exchange/scatter.h"
+#include "common/exchange/copies.h"
 #include "common/supermesh/supermesh.h"
 #include "coupler/fluid_state.h"
 #include "coupler/shell.h"
@@ -41,6 +41,7 @@ typedef struct {
   double lower[2], upper[2]; /* bounds of the fluid's whole domain, m */
   GeometryBox *bounds;       /* [size] bounding box of each rank's elements */
   Search search;
+  Copies nodes; /* of the solid's nodes on this rank, by gid: sums over the ranks that have a node */
   /* the solid's triangles that this rank owns, and the scatter from there to the source triangles */
   int nowned, nvolume; /* nvolume volume elements, then the shell's triangles */
   int (*node)[3];      /* [nowned] their nodes in SolidState */
@@ -61,8 +62,9 @@ PetscErrorCode OverlapSetElements(Overlap overlap, const FluidElements *elements
 /* Local: density rho[nelements], kg/m3, and viscosity mu[nelements], Pa s, of the fluid's last flow
  * (copied). */
 PetscErrorCode OverlapSetProperties(Overlap overlap, const double rho[], const double mu[]);
-/* Distributes the solid and its shell as they are now and finds all pairs. */
-PetscErrorCode OverlapBuild(Overlap overlap, const SolidState *solid, const Shell shell);
+/* Distributes the solid and its shell as they are now and finds all pairs.  new_mesh: nodes are others than at
+ * the last call, not just moved. */
+PetscErrorCode OverlapBuild(Overlap overlap, const SolidState *solid, const Shell shell, PetscBool new_mesh);
 
 /* owned[nowned][ncomp] -> source[nsources][ncomp] */
 PetscErrorCode OverlapForward(Overlap overlap, int ncomp, const double owned[], double source[]);

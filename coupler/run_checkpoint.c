@@ -48,6 +48,7 @@ PetscErrorCode RunSave(const RunState *run)
   PetscCall(CheckpointPutDoubles(to, "divergence monitor", rank ? 0 : 1, MONITOR_NUMBERS, row));
   PetscCall(WriterSave(run->loop->writer, to));
   PetscCall(CouplerSave(run->loop->coupler, to));
+  PetscCall(GaugesSave(run->gauges, to));
   PetscCall(CheckpointClose(&to));
   PetscFunctionReturn(0);
 }

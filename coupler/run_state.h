@@ -17,6 +17,7 @@ typedef struct {
   CouplingIteration iteration;
   DivergenceMonitor monitor;
   Checkpoints checkpoints;
+  Gauges gauges;
   double t, dt; /* start and length of the current step, s */
   int ncorrection;
   const CoracleCorrection *correction; /* [ncorrection] of the last accepted step, not sent yet; borrowed */
@@ -28,6 +29,8 @@ typedef struct {
 PetscErrorCode RunChooseStep(RunState *run, double proposed);
 /* Ends the job when a node of the solid is outside of the fluid's domain. */
 PetscErrorCode RunCheckInside(const RunState *run);
+/* Finds the gauges on the solid, or those of the checkpoint; ends the job when one is not on its surface. */
+PetscErrorCode RunCreateGauges(RunState *run);
 /* Ends the job when the accepted step shows that the coupling diverges. */
 PetscErrorCode RunCheckDivergence(RunState *run, const StepRecord *step);
 /* The current step has not converged within coupler.max_iterations: dt is halved, or the job ends if it has been

@@ -35,6 +35,19 @@ static PetscErrorCode UpdateElements(RunState *run)
   PetscFunctionReturn(0);
 }
 
+/* The gauges go where the solid is, and with the next coupling to the fluid. */
+static PetscErrorCode MoveGauges(RunState *run)
+{
+  const CoracleGauge *gauge;
+  int n;
+
+  PetscFunctionBeginUser;
+  PetscCall(GaugesMove(run->gauges, &run->solid));
+  gauge = GaugesGet(run->gauges, &n);
+  PetscCall(ServerSetGauges(run->loop->server, n, gauge));
+  PetscFunctionReturn(0);
+}
+
 /* The coupling of the step from t over dt: RUN, with the correction of the step before it, or REDO. */
 static PetscErrorCode SendCoupling(RunState *run, CoracleAction action)
 {
@@ -79,7 +92,9 @@ static PetscErrorCode Start(RunState *run)
   PetscCall(RequestElements(run));
   if (!loop->from) PetscCall(RunCheckInside(run));
   PetscCall(RunChooseStep(run, run->dt > 0.0 ? run->dt : ServerProposedStep(loop->server)));
+  PetscCall(RunCreateGauges(run));
   PetscCall(RunOpenOutput(run));
+  PetscCall(MoveGauges(run));
   PetscCall(SendStep(run));
   PetscFunctionReturn(0);
 }
@@ -152,6 +167,7 @@ static PetscErrorCode AcceptStep(RunState *run, StepRecord *step)
 
   PetscFunctionBeginUser;
   PetscCall(CouplerCorrect(loop->coupler, &run->solid, &run->ncorrection, &run->correction));
+  PetscCall(MoveGauges(run));
   PetscCall(BulkMotionOf(PETSC_COMM_WORLD, &run->solid, &step->motion));
   run->t = run->t + run->dt >= end * (1.0 - 1e-14) ? end : run->t + run->dt;
   step->t = run->t;
@@ -193,6 +209,7 @@ static PetscErrorCode Stop(RunState *run)
   PetscCall(ServerFinish(server));
   PetscCall(CheckpointsFinish(&run->checkpoints));
   PetscCall(CouplingIterationDestroy(&run->iteration));
+  PetscCall(GaugesDestroy(&run->gauges));
   PetscCall(SolidStateDestroy(&run->start));
   PetscFunctionReturn(0);
 }

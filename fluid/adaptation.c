@@ -3,13 +3,11 @@
 #include "fluid/adapt/adapt_parallel.h"
 #include "fluid/adapt/metric.h"
 #include "fluid/adapt/metric_share.h"
+#include "fluid/fine_band.h"
 #include "fluid/fluid_impl.h"
-#include "fluid/solid_band.h"
 
 /* Tries to meet the budget of elements. */
 #define BUDGET_ROUNDS 10
-/* Passes at most from the first mesh to one that is fine near the solid. */
-#define FIRST_PASSES 12
 
 typedef struct {
   int steps;       /* since the last adaptation */
@@ -22,6 +20,11 @@ struct Adaptation_s {
   AdaptationSetup setup;
   AdaptationHistory history, history_before; /* before: when AdaptationDue was asked last */
 };
+
+const AdaptationSetup *AdaptationGetSetup(Adaptation a)
+{
+  return &a->setup;
+}
 
 PetscErrorCode AdaptationCreate(const AdaptationSetup *setup, Adaptation *adaptation)
 {
@@ -66,7 +69,7 @@ PetscErrorCode AdaptationDue(Adaptation a, Fluid f, PetscBool *due)
 {
   double speed;
   PetscFunctionBeginUser;
-  PetscCall(SolidBandSpeed(f, &speed));
+  PetscCall(FineBandSpeed(f, &speed));
   a->history_before = a->history;
   a->history.steps++;
   a->history.moved += speed * f->stats.dt;
@@ -77,7 +80,7 @@ PetscErrorCode AdaptationDue(Adaptation a, Fluid f, PetscBool *due)
   a->history.steps = 0;
   a->history.moved = 0.0;
   /* at rest the solid may start with an acceleration that nobody knows here: hence the least */
-  a->history.reach = fmax(speed * a->setup.every * f->stats.dt, SOLID_BAND * a->setup.size_min);
+  a->history.reach = fmax(speed * a->setup.every * f->stats.dt, FINE_BAND * a->setup.size_min);
   PetscFunctionReturn(0);
 }
 
@@ -112,6 +115,23 @@ static PetscErrorCode VertexVelocity(Fluid f, double *mean[2], double weight[])
   PetscFunctionReturn(0);
 }
 
+/* With phases: the share of the velocity's error that counts at vertices in the lighter one. */
+static PetscErrorCode WeighLightPhase(const AdaptationSetup *s, Fluid f, double *hessian[2], double weight[])
+{
+  const Mesh *m = f->domain.mesh;
+  const double *rho = MaterialDensity(f->material, MATERIAL_NEW), *limit = f->setup.phases.rho;
+  const double share = s->light_velocity_error > 0.0 ? s->velocity_error / s->light_velocity_error : 0.0;
+  PetscFunctionBeginUser;
+  if (!f->phases) PetscFunctionReturn(0);
+  PetscCall(PetscArrayzero(weight, m->nv));
+  for (int e = 0; e < m->ne + m->ng; e++)
+    for (int i = 0; i < 3; i++) weight[m->vertex[3 * e + i]] = fmax(weight[m->vertex[3 * e + i]], rho[e]);
+  for (int v = 0; v < m->nv; v++)
+    for (int k = 0; k < 6 && weight[v] < 0.5 * (limit[0] + limit[1]); k++)
+      hessian[k / 3][3 * v + k % 3] *= share;
+  PetscFunctionReturn(0);
+}
+
 /* --- the metric ----------------------------------------------------------------------------------------- */
 
 /* What goes into a metric, on the vertices of this rank's elements. */
@@ -143,8 +163,9 @@ static PetscErrorCode SizingCreate(Adaptation a, Fluid f, Sizing *n)
 {
   const AdaptationSetup *s = &a->setup;
   const Mesh *m = f->domain.mesh;
-  const SolidBand band = {s->size_min, s->size_max, log(s->growth), (s->every + 1) * f->stats.dt,
-                          a->history.reach};
+  const FineBand band = {
+      s->size_min,     s->size_max, s->interface_size, log(s->growth), (s->every + 1) * f->stats.dt,
+      a->history.reach};
   /* with the ghosts, which lend their values to the second derivatives */
   const MeshSerial view = {.nv = m->nv, .ne = m->ne + m->ng, .x = m->x, .vertex = m->vertex};
   double *mean[2], *scratch;
@@ -157,10 +178,11 @@ static PetscErrorCode SizingCreate(Adaptation a, Fluid f, Sizing *n)
   PetscCall(PetscMalloc4(3 * m->nv, &n->hessian[0], 3 * m->nv, &n->hessian[1], 3 * m->nv, &n->near, 3 * m->nv,
                          &n->other));
   PetscCall(PetscMalloc3(m->nv, &mean[0], m->nv, &mean[1], m->nv, &scratch));
-  PetscCall(SolidBandSizes(f, &band, n->part.nv, scratch));
+  PetscCall(FineBandSizes(f, &band, n->part.nv, scratch));
   PetscCall(MetricFromSizes(n->part.nv, scratch, n->near));
   PetscCall(VertexVelocity(f, mean, scratch));
   PetscCall(HessianRecover(&view, 2, (const double *const *)mean, n->hessian));
+  PetscCall(WeighLightPhase(s, f, n->hessian, scratch));
   PetscCall(PetscFree3(mean[0], mean[1], scratch));
   PetscFunctionReturn(0);
 }
@@ -170,17 +192,6 @@ static PetscErrorCode SizingDestroy(Sizing *n)
   PetscFunctionBeginUser;
   PetscCall(SharedVerticesDestroy(&n->shared));
   PetscCall(PetscFree4(n->hessian[0], n->hessian[1], n->near, n->other));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode CheckBudget(const AdaptationSetup *s, MPI_Comm comm, double count)
-{
-  PetscFunctionBeginUser;
-  PetscCheck(count <= s->elements_max, comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "fluid.adapt.elements_max is %g: sizes up to %g m and the solid's band alone take %.0f "
-             "triangles; raise it, "
-             "or fluid.adapt.size_min",
-             s->elements_max, s->size_max, count);
   PetscFunctionReturn(0);
 }
 
@@ -196,7 +207,7 @@ static PetscErrorCode Metric(const AdaptationSetup *s, MPI_Comm comm, const Sizi
     if (count <= s->elements_max) break;
     error *= 1.1 * count / s->elements_max; /* their number goes with 1/error */
   }
-  PetscCall(CheckBudget(s, comm, count));
+  PetscCall(AdaptationCheckBudget(s, comm, count));
   PetscFunctionReturn(0);
 }
 
@@ -213,53 +224,5 @@ PetscErrorCode AdaptationMesh(Adaptation a, Fluid f, Mesh **mesh)
   PetscCall(PetscFree(metric));
   PetscCall(SizingDestroy(&sizing));
   f->stats.seconds[ADAPTATION] += MPI_Wtime() - start;
-  PetscFunctionReturn(0);
-}
-
-/* --- the first mesh ------------------------------------------------------------------------------------- */
-
-/* One pass: le in the boxes, and elsewhere what the mesh has. */
-static PetscErrorCode RefineBoxes(const AdaptationSetup *s, const Mesh *m, int nbox, const double box[],
-                                  Mesh **mesh)
-{
-  const MeshSerial part = {.nv = m->nv, .ne = m->ne, .x = m->x, .vertex = m->vertex};
-  SharedVertices shared;
-  double *size, *metric, count;
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2(m->nv, &size, 3 * m->nv, &metric));
-  for (int v = 0; v < m->nv; v++) {
-    size[v] = s->size_max;
-    for (int b = 0; b < nbox; b++) {
-      const double *k = box + 4 * b;
-      const GeometryBox at = {{k[0], k[1]}, {k[2], k[3]}};
-      size[v] = fmin(size[v], s->size_min + log(s->growth) * GeometryBoxDistance(&at, m->x + 2 * v));
-    }
-  }
-  PetscCall(MetricFromSizes(m->nv, size, metric));
-  PetscCall(SharedVerticesCreate(m, &shared));
-  PetscCall(MetricGradeParallel(m->comm, &part, &shared, s->growth, metric));
-  PetscCall(MetricCount(&part, metric, &count));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_DOUBLE, MPI_SUM, m->comm));
-  PetscCall(CheckBudget(s, m->comm, count));
-  PetscCall(MeshAdaptParallel(m, metric, NULL, mesh, NULL));
-  PetscCall(SharedVerticesDestroy(&shared));
-  PetscCall(PetscFree2(size, metric));
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode AdaptationFirstMesh(Adaptation a, const Mesh *initial, int nbox, const double box[],
-                                   Mesh **mesh)
-{
-  Mesh *finer;
-  PetscFunctionBeginUser;
-  PetscCall(RefineBoxes(&a->setup, initial, nbox, box, mesh));
-  /* a coarse mesh sees little of a small box: again, until there is nothing new to see */
-  for (int pass = 0; pass < FIRST_PASSES; pass++) {
-    PetscCall(RefineBoxes(&a->setup, *mesh, nbox, box, &finer));
-    const double gain = (double)finer->nglobal / (double)(*mesh)->nglobal;
-    PetscCall(MeshDestroy(mesh));
-    *mesh = finer;
-    if (gain < 1.02) break;
-  }
   PetscFunctionReturn(0);
 }

@@ -28,7 +28,9 @@ typedef struct {
   double lower[2], upper[2]; /* that box, m; set by BoundaryBoxes */
   double rise;               /* s: until then velocity times (1 - cos(pi t/rise))/2; 0: at once */
   double pressure;           /* where open: above hydrostatic, Pa */
-  FieldFunction function;    /* instead of velocity; NULL: none */
+  PetscBool has_phase;       /* which phase comes in is given; else it is the lightest */
+  int phase;
+  FieldFunction function; /* instead of velocity; NULL: none */
   void *context;
 } Boundary;
 

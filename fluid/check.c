@@ -1,5 +1,6 @@
 #include "fluid/check.h"
 #include "fluid/fluid_case.h"
+#include "fluid/probes.h"
 #include "fluid/writer.h"
 
 /* What the calls that read them do not say of the fluid's keys. */
@@ -12,6 +13,22 @@ static const CoracleCaseKey KEYS[] = {
     {"output.every", "s", "time from one snapshot of the fields to the next"},
     {"fluid.density", "kg/m3", "density"},
     {"fluid.viscosity", "Pa s", "dynamic viscosity"},
+    {"fluid.phases", "", "two phases that do not mix, instead of density and viscosity"},
+    {"fluid.phases[].name", "", "what regions and boundaries call it"},
+    {"fluid.phases[].density", "kg/m3", "its density"},
+    {"fluid.phases[].viscosity", "Pa s", "its dynamic viscosity"},
+    {"fluid.regions", "",
+     "where the phases are at the start, the first one everywhere, later ones over earlier ones"},
+    {"fluid.regions[].phase", "", "which phase; without a shape: everywhere"},
+    {"fluid.regions[].lower", "m", "lower left corner of a box"},
+    {"fluid.regions[].upper", "m", "upper right corner of the box"},
+    {"fluid.regions[].centre", "m", "centre of a disc"},
+    {"fluid.regions[].radius", "m", "its radius"},
+    {"fluid.regions[].point", "m", "a point on the edge of a half plane"},
+    {"fluid.regions[].normal", "", "direction out of the half plane"},
+    {"fluid.regions[].polygon", "", "corners of a polygon that does not cross itself"},
+    {"fluid.regions[].polygon[]", "m", "a corner"},
+    {"fluid.boundaries.*.phase", "", "phase of what flows in; the lightest if none is given"},
     {"fluid.theta", "", "0.5 Crank-Nicolson ... 1 backward Euler"},
     {"fluid.petsc", "", "options for PETSc's solvers: -momentum_ksp_monitor"},
     {"fluid.initial.velocity", "m/s", "everywhere at the start; without it the fluid is at rest"},
@@ -33,11 +50,26 @@ static const CoracleCaseKey KEYS[] = {
     {"fluid.adapt.size_min", "m", "le: shortest edge wanted; that around the solid"},
     {"fluid.adapt.size_max", "m", "Le: longest edge wanted"},
     {"fluid.adapt.velocity_error", "m/s", "wanted error of linear interpolation, each component"},
+    {"fluid.adapt.interface_size", "m", "edge wanted at the interface between phases; size_min if not given"},
+    {"fluid.adapt.light_velocity_error", "m/s", "wanted error in the lighter phase; 0: as coarse as may be"},
     {"fluid.adapt.growth", "", "largest ratio of an edge to the next"},
     {"fluid.adapt.anisotropy", "", "largest ratio of edges wanted in a place"},
     {"fluid.adapt.elements_max", "", "most triangles of a mesh"},
     {"fluid.adapt.every", "steps",
      "from one mesh to the next, or sooner when the solid is about to leave its fine mesh"},
+    {"fluid.probes", "", "list of points, lines and pressure gauges whose values are in fluid_probes.csv"},
+    {"fluid.probes[].name", "", "leads the names of its columns"},
+    {"fluid.probes[].point", "m", "a point of the fluid, also on its boundary"},
+    {"fluid.probes[].line.from", "m", "first point of a line"},
+    {"fluid.probes[].line.to", "m", "its last point"},
+    {"fluid.probes[].line.points", "", "number of points on it, evenly spaced"},
+    {"fluid.probes[].surface.from", "m", "where the segment of a free-surface gauge begins"},
+    {"fluid.probes[].surface.to", "m", "where it ends"},
+    {"fluid.probes[].surface.phase", "", "the phase whose places along the segment are recorded"},
+    {"fluid.probes[].solid_point", "m",
+     "a point of the solid's surface at the start: a pressure gauge that moves with it"},
+    {"fluid.probes[].distance", "m",
+     "from the solid's face to where the gauge's pressure is taken; by default fluid.adapt.size_min"},
     {NULL, NULL, NULL}};
 
 /* Measured from 1 352 to 80 000 triangles on one rank (tests/coupled/disc.yaml, `peak_memory_mb`). */
@@ -67,12 +99,14 @@ static void Expect(const Mesh *m, PetscBool adapts, const AdaptationSetup *s)
   printf("fluid: memory about %.0f MB%s\n", MB_PROGRAM + MB_TRIANGLE * most, adapts ? " at most" : "");
 }
 
-static PetscErrorCode Draw(CoracleCase c, Mesh *mesh, const FluidSetup *setup)
+static PetscErrorCode Draw(CoracleCase c, Mesh *mesh, const FluidSetup *setup, int nregions,
+                           const Region region[])
 {
   Fluid fluid;
   Writer writer;
   PetscFunctionBeginUser;
   PetscCall(FluidCreate(mesh, setup, &fluid));
+  if (setup->phases.n) PetscCall(FluidSetPhases(fluid, nregions, region));
   PetscCall(FluidSetInitial(fluid, 0.0, NULL, NULL, NULL));
   PetscCall(WriterCreate(c, fluid, NULL, &writer));
   PetscCall(WriterDestroy(&writer));
@@ -86,7 +120,10 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
   Mesh *mesh;
   FluidSetup setup;
   AdaptationSetup adaptation;
+  Probes probes;
   PetscBool adapts;
+  Region *region;
+  int nregions;
   PetscFunctionBeginUser;
   CoracleCaseDescribe(c, KEYS);
   (void)CoracleCaseStringOr(c, "fluid.petsc", "");
@@ -94,10 +131,14 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
   (void)CoracleCasePositive(c, "output.every");
   PetscCall(FluidCaseMesh(c, PETSC_COMM_SELF, NULL, &mesh, NULL));
   PetscCall(FluidCaseSetup(c, mesh, &setup));
-  PetscCall(FluidCaseAdaptation(c, &adapts, &adaptation));
+  PetscCall(FluidCaseRegions(c, &nregions, &region));
+  PetscCall(FluidCaseAdaptation(c, &setup, &adapts, &adaptation));
+  PetscCall(ProbesCreate(c, mesh, &probes));
+  PetscCall(ProbesDestroy(&probes));
   PetscCall(CoracleCaseFinish(c, SECTIONS));
   if (command != COMMAND_KEYS && CoracleCaseFaultless(c)) Expect(mesh, adapts, &adaptation);
-  if (command == COMMAND_DRAW && CoracleCaseFaultless(c)) PetscCall(Draw(c, mesh, &setup));
+  if (command == COMMAND_DRAW && CoracleCaseFaultless(c)) PetscCall(Draw(c, mesh, &setup, nregions, region));
+  PetscCall(FluidCaseFreeRegions(nregions, &region));
   PetscCall(PetscFree(setup.boundary));
   PetscCall(MeshDestroy(&mesh));
   PetscFunctionReturn(0);

@@ -5,70 +5,40 @@ enum { FACTOR, MULTIGRID, NSOLVERS };
 
 struct ContinuousSpace_s {
   const Mesh *mesh; /* borrowed */
-  int *node;        /* [ne][3] local P1 nodes: owned first, then those of other ranks */
+  int *node;        /* [ne][3] local P1 nodes: owned vertices first, then those of other ranks */
   Mat matrix;
   PC pc[NSOLVERS]; /* made when used first */
   PC used;
   Vec residual, correction; /* ghosted, of one component */
 };
 
-/* Numbers the P2 nodes that are vertices.  number[np2]: global, owned ones in the order of their P2 numbers; -1: no vertex. */
-static PetscErrorCode NumberVertices(const Mesh *m, PetscInt *owned, double number[])
-{
-  PetscInt start = 0;
-  PetscScalar *v;
-  Vec ghosted, local;
-  PetscFunctionBeginUser;
-  for (int k = 0; k < m->np2; k++) number[k] = -1.0;
-  for (int k = 0; k < 3 * m->ne; k++) number[m->p2[6 * (k / 3) + k % 3]] = 0.0;
-  *owned = 0;
-  /* a rank may own a vertex none of whose elements it has */
-  PetscCall(VecCreateGhost(m->comm, m->np2_owned, PETSC_DETERMINE, m->np2 - m->np2_owned,
-                           m->p2gid + m->np2_owned, &ghosted));
-  PetscCall(VecGhostGetLocalForm(ghosted, &local));
-  PetscCall(VecGetArray(local, &v));
-  PetscCall(PetscArraycpy(v, number, m->np2));
-  PetscCall(VecRestoreArray(local, &v));
-  PetscCall(VecGhostUpdateBegin(ghosted, MAX_VALUES, SCATTER_REVERSE));
-  PetscCall(VecGhostUpdateEnd(ghosted, MAX_VALUES, SCATTER_REVERSE));
-  PetscCall(VecGetArray(local, &v));
-  for (int k = 0; k < m->np2_owned; k++) *owned += v[k] >= 0.0;
-  PetscCallMPI(MPI_Exscan(owned, &start, 1, MPIU_INT, MPI_SUM, m->comm));
-  for (int k = 0; k < m->np2_owned; k++)
-    if (v[k] >= 0.0) v[k] = (double)start++;
-  PetscCall(VecRestoreArray(local, &v));
-  PetscCall(VecGhostUpdateBegin(ghosted, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostUpdateEnd(ghosted, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGetArray(local, &v));
-  PetscCall(PetscArraycpy(number, v, m->np2));
-  PetscCall(VecRestoreArray(local, &v));
-  PetscCall(VecGhostRestoreLocalForm(ghosted, &local));
-  PetscCall(VecDestroy(&ghosted));
-  PetscFunctionReturn(0);
-}
-
 /* Vectors, and local nodes of the elements. */
-static PetscErrorCode CreateNodes(ContinuousSpace s, PetscInt owned, const double number[])
+static PetscErrorCode CreateNodes(ContinuousSpace s)
 {
   const Mesh *m = s->mesh;
-  PetscInt nghosts = 0, *ghosts, n = 0;
+  PetscInt nghosts = 0, *ghosts;
   int *local;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2(m->np2, &local, m->np2 - m->np2_owned, &ghosts));
-  for (int k = 0; k < m->np2_owned; k++) local[k] = number[k] >= 0.0 ? (int)n++ : -1;
-  for (int k = m->np2_owned; k < m->np2; k++) {
-    local[k] = number[k] >= 0.0 ? (int)(owned + nghosts) : -1;
-    if (number[k] >= 0.0) ghosts[nghosts++] = (PetscInt)number[k];
+  PetscCall(PetscMalloc2(m->nv, &local, m->nv, &ghosts));
+  for (int v = 0; v < m->nv; v++) local[v] = -1;
+  for (int k = 0; k < 3 * m->ne; k++) {
+    int *node = &local[m->vertex[k]];
+    const PetscInt gid = m->vgid[m->vertex[k]], own = gid - m->vstart;
+    if (*node < 0 && own >= 0 && own < m->nv_owned) *node = (int)own;
+    if (*node < 0) {
+      *node = m->nv_owned + (int)nghosts;
+      ghosts[nghosts++] = gid;
+    }
+    s->node[k] = *node;
   }
-  for (int k = 0; k < 3 * m->ne; k++) s->node[k] = local[m->p2[6 * (k / 3) + k % 3]];
-  PetscCall(VecCreateGhost(m->comm, owned, PETSC_DETERMINE, nghosts, ghosts, &s->residual));
+  PetscCall(VecCreateGhost(m->comm, m->nv_owned, PETSC_DETERMINE, nghosts, ghosts, &s->residual));
   PetscCall(VecDuplicate(s->residual, &s->correction));
   PetscCall(PetscFree2(local, ghosts));
   PetscFunctionReturn(0);
 }
 
 /* An entry of the matrix for each entry of each block. */
-static PetscErrorCode CreateMatrix(ContinuousSpace s, PetscInt owned, const double number[])
+static PetscErrorCode CreateMatrix(ContinuousSpace s)
 {
   const Mesh *m = s->mesh;
   PetscInt *row, *column;
@@ -76,11 +46,11 @@ static PetscErrorCode CreateMatrix(ContinuousSpace s, PetscInt owned, const doub
   PetscCall(PetscMalloc2(9 * m->ne, &row, 9 * m->ne, &column));
   for (int e = 0; e < m->ne; e++)
     for (int k = 0; k < 9; k++) {
-      row[9 * e + k] = (PetscInt)number[m->p2[6 * e + k % 3]];
-      column[9 * e + k] = (PetscInt)number[m->p2[6 * e + k / 3]];
+      row[9 * e + k] = m->vgid[m->vertex[3 * e + k % 3]];
+      column[9 * e + k] = m->vgid[m->vertex[3 * e + k / 3]];
     }
   PetscCall(MatCreate(m->comm, &s->matrix));
-  PetscCall(MatSetSizes(s->matrix, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE));
+  PetscCall(MatSetSizes(s->matrix, m->nv_owned, m->nv_owned, PETSC_DETERMINE, PETSC_DETERMINE));
   PetscCall(MatSetType(s->matrix, MATAIJ));
   PetscCall(MatSetPreallocationCOO(s->matrix, 9 * m->ne, row, column));
   PetscCall(PetscFree2(row, column));
@@ -90,17 +60,12 @@ static PetscErrorCode CreateMatrix(ContinuousSpace s, PetscInt owned, const doub
 PetscErrorCode ContinuousSpaceCreate(const Mesh *mesh, ContinuousSpace *space)
 {
   ContinuousSpace s;
-  PetscInt owned;
-  double *number;
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&s));
   s->mesh = mesh;
   PetscCall(PetscMalloc1(3 * mesh->ne, &s->node));
-  PetscCall(PetscMalloc1(mesh->np2, &number));
-  PetscCall(NumberVertices(mesh, &owned, number));
-  PetscCall(CreateNodes(s, owned, number));
-  PetscCall(CreateMatrix(s, owned, number));
-  PetscCall(PetscFree(number));
+  PetscCall(CreateNodes(s));
+  PetscCall(CreateMatrix(s));
   *space = s;
   PetscFunctionReturn(0);
 }

@@ -31,9 +31,8 @@ static void FaceForce(Fluid f, int e, int i, const Boundary *b, const double u[6
   const Mesh *m = f->domain.mesh;
   const FaceGeometry face = f->domain.geometry[e].face[i];
   const FaceSide k = FaceSideOf(&f->domain, FluidViscosity(f), e, i, 1.0, PENALTY_BOUNDARY);
-  const int node[2] = {k.a, k.b};
-  const double pressure =
-      (p[m->p2[6 * e + k.a]] + 4.0 * p[m->p2[6 * e + 3 + i]] + p[m->p2[6 * e + k.b]]) / 6.0;
+  const int node[2] = {k.a, k.b}, *p2 = f->domain.p2->node + 6 * e;
+  const double pressure = (p[p2[k.a]] + 4.0 * p[p2[3 + i]] + p[p2[k.b]]) / 6.0;
   double t[2][6], project[2][2], slip[2] = {0};
   Traction(k.e->g, k.mu, face.n, t);
   BoundaryProjection(b, face.n, project);
@@ -121,7 +120,7 @@ PetscErrorCode FluidErrors(Fluid f, double t, FieldFunction velocity, FieldFunct
   PetscCall(VecGetArrayRead(local, &p));
   for (int e = 0; e < m->ne; e++) {
     double pe[6];
-    for (int k = 0; k < 6; k++) pe[k] = p[m->p2[6 * e + k]];
+    for (int k = 0; k < 6; k++) pe[k] = p[f->domain.p2->node[6 * e + k]];
     ElementErrors(f, e, t, velocity, pressure, context, u + 6 * e, pe, sum);
   }
   PetscCall(VecRestoreArrayRead(local, &p));

@@ -4,6 +4,7 @@ PetscErrorCode DomainCreate(const Mesh *m, const Boundary boundary[], FluidDomai
 {
   PetscFunctionBeginUser;
   d->mesh = m;
+  PetscCall(P2SpaceCreate(m, &d->p2));
   PetscCall(PetscMalloc1(m->ntags, &d->boundary));
   PetscCall(PetscArraycpy(d->boundary, boundary, m->ntags));
   PetscCall(BoundaryBoxes(m, d->boundary));
@@ -17,6 +18,7 @@ PetscErrorCode DomainCreate(const Mesh *m, const Boundary boundary[], FluidDomai
 PetscErrorCode DomainDestroy(FluidDomain *d)
 {
   PetscFunctionBeginUser;
+  PetscCall(P2SpaceDestroy(&d->p2));
   PetscCall(PetscFree(d->geometry));
   PetscCall(PetscFree(d->boundary));
   PetscFunctionReturn(0);

@@ -1,12 +1,14 @@
-/* Where the flow is: the mesh, the geometry of its elements and the conditions on its boundaries.  Momentum, projection and
+/* Where the flow is: the mesh, the pressure's nodes, the geometry of its elements and the conditions on its boundaries.  Momentum, projection and
  * measurements share one domain and only read it; it lasts as long as the mesh. */
 #ifndef FLUID_DOMAIN_H
 #define FLUID_DOMAIN_H
+#include "common/space/p2_space.h"
 #include "fluid/boundary.h"
 #include "fluid/kernels.h"
 
 typedef struct {
   const Mesh *mesh;          /* borrowed */
+  P2Space *p2;               /* of the pressure */
   ElementGeometry *geometry; /* [ne + ng] */
   Boundary *boundary;        /* [mesh->ntags], a copy */
 } FluidDomain;

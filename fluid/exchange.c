@@ -121,7 +121,7 @@ PetscErrorCode ExchangeReceiveCoupling(Exchange x)
 /* The flow of the current step on the elements near the solid. */
 static PetscErrorCode SetFlow(Exchange x)
 {
-  const Mesh *m = FluidMesh(x->fluid);
+  const int *node = FluidPressureSpace(x->fluid)->node;
   const double *u_star = FluidVelocityStar(x->fluid), *u_projected = FluidVelocityProjected(x->fluid);
   const PetscBool needs_pressure = CoracleNeedsPressure(x->client) ? PETSC_TRUE : PETSC_FALSE;
   const CoracleFlow flow = {x->u_star, x->u_projected, needs_pressure ? x->p : NULL, x->rho, x->mu};
@@ -133,7 +133,7 @@ static PetscErrorCode SetFlow(Exchange x)
   if (needs_pressure) {
     const double *p = FluidPressure(x->fluid);
     for (int k = 0; k < x->n; k++)
-      for (int i = 0; i < 6; i++) x->p[6 * k + i] = p[m->p2[6 * x->element[k] + i]];
+      for (int i = 0; i < 6; i++) x->p[6 * k + i] = p[node[6 * x->element[k] + i]];
   }
   CopyProperties(x, x->fluid);
   PetscCall(CoracleSetFlow(x->client, &flow));

@@ -6,6 +6,7 @@
 static PetscErrorCode CreateVectors(Fluid f)
 {
   const Mesh *m = f->domain.mesh;
+  const P2Space *p2 = f->domain.p2;
   Vec *velocity[] = {&f->u_previous, &f->u_star,  &f->u_projected,
                      &f->mass_flux,  &f->saved.u, &f->saved.u_previous};
   PetscInt *ghosts;
@@ -15,8 +16,8 @@ static PetscErrorCode CreateVectors(Fluid f)
   PetscCall(VecCreateGhostBlock(m->comm, 6, 6 * m->ne, PETSC_DETERMINE, m->ng, ghosts, &f->u));
   PetscCall(PetscFree(ghosts));
   for (size_t k = 0; k < sizeof velocity / sizeof *velocity; k++) PetscCall(VecDuplicate(f->u, velocity[k]));
-  PetscCall(VecCreateGhost(m->comm, m->np2_owned, PETSC_DETERMINE, m->np2 - m->np2_owned,
-                           m->p2gid + m->np2_owned, &f->p));
+  PetscCall(
+      VecCreateGhost(m->comm, p2->nowned, PETSC_DETERMINE, p2->n - p2->nowned, p2->gid + p2->nowned, &f->p));
   PetscCall(VecDuplicate(f->p, &f->saved.p));
   PetscFunctionReturn(0);
 }
@@ -42,10 +43,11 @@ PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *flu
   f->setup.boundary = f->domain.boundary;
   PetscCall(MaterialCreate(mesh, setup->theta, setup->rho, setup->mu, &f->material));
   PetscCall(SolidCouplingCreate(mesh->ne, &f->solid));
+  if (setup->phases.n)
+    PetscCall(PhaseTransportCreate(&f->domain, &setup->phases, setup->gravity, &f->phases));
   PetscCall(CreateVectors(f));
   PetscCall(MomentumSolverCreate(&f->domain, &momentum, f->u, &f->momentum));
-  PetscCall(
-      ProjectionSolverCreate(&f->domain, f->p, MaterialDensity(f->material, MATERIAL_STEP), &f->projection));
+  PetscCall(ProjectionSolverCreate(&f->domain, f->p, &f->projection));
   *fluid = f;
   PetscFunctionReturn(0);
 }
@@ -68,6 +70,7 @@ PetscErrorCode FluidDestroy(Fluid *fluid)
   PetscCall(ProjectionSolverDestroy(&f->projection));
   PetscCall(DestroyVectors(f));
   PetscCall(SolidCouplingDestroy(&f->solid));
+  PetscCall(PhaseTransportDestroy(&f->phases));
   PetscCall(MaterialDestroy(&f->material));
   PetscCall(DomainDestroy(&f->domain));
   PetscCall(PetscFree(*fluid));
@@ -89,17 +92,22 @@ PetscErrorCode FluidSetCoupling(Fluid f, int n, const CoracleCoupling coupling[]
  * the last step. */
 static PetscErrorCode Extrapolate(Fluid f, double dt)
 {
-  const double r = f->dt_previous > 0.0 ? fmin(dt / f->dt_previous, 2.0) : 0.0, s = f->setup.theta * r;
+  const double r = f->dt_previous > 0.0 ? fmin(dt / f->dt_previous, 2.0) : 0.0,
+               s = (f->phases ? 0.5 : f->setup.theta) * r;
   const double *rho = MaterialDensity(f->material, MATERIAL_STEP);
   PetscScalar *flux;
   PetscFunctionBeginUser;
   PetscCall(VecWAXPY(f->mass_flux, -1.0, f->u_previous, f->u));
   PetscCall(VecWAXPY(f->u_star, r, f->mass_flux, f->u));
   PetscCall(VecAYPX(f->mass_flux, s, f->u));
-  PetscCall(VecGetArray(f->mass_flux, &flux));
-  for (int e = 0; e < f->domain.mesh->ne; e++)
-    for (int k = 0; k < 6; k++) flux[6 * e + k] *= rho[e];
-  PetscCall(VecRestoreArray(f->mass_flux, &flux));
+  if (f->phases) {
+    PetscCall(FluidMovePhases(f, dt, s));
+  } else {
+    PetscCall(VecGetArray(f->mass_flux, &flux));
+    for (int e = 0; e < f->domain.mesh->ne; e++)
+      for (int k = 0; k < 6; k++) flux[6 * e + k] *= rho[e];
+    PetscCall(VecRestoreArray(f->mass_flux, &flux));
+  }
   PetscCall(VecGhostUpdateBegin(f->mass_flux, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGhostUpdateEnd(f->mass_flux, INSERT_VALUES, SCATTER_FORWARD));
   PetscFunctionReturn(0);
@@ -112,6 +120,7 @@ PetscErrorCode FluidMomentum(Fluid f, double dt)
   PetscFunctionBeginUser;
   f->stats.dt = dt;
   PetscCall(Extrapolate(f, dt));
+  if (f->phases) PetscCall(FluidBalancePressure(f));
   const MomentumStep step = {f->t,
                              dt,
                              MaterialDensity(f->material, MATERIAL_STEP),
@@ -119,7 +128,8 @@ PetscErrorCode FluidMomentum(Fluid f, double dt)
                              f->mass_flux,
                              f->u,
                              f->p,
-                             f->solid};
+                             f->solid,
+                             FluidInverseDensity(f)};
   PetscCall(MomentumSolverSolve(f->momentum, &step, f->u_star, &report));
   f->stats.momentum_iterations = report.iterations;
   f->stats.seconds[MOMENTUM] += report.seconds_solve;
@@ -127,16 +137,21 @@ PetscErrorCode FluidMomentum(Fluid f, double dt)
   PetscFunctionReturn(0);
 }
 
-static ProjectionStep StepOfProjection(Fluid f, double t, double dt, PetscBool inertia)
+ProjectionStep FluidProjectionStep(Fluid f, double t, double dt, PetscBool inertia)
 {
-  return (ProjectionStep){
-      t, dt, MaterialDensity(f->material, MATERIAL_STEP), MaterialRevision(f->material), f->solid, inertia};
+  return (ProjectionStep){t,
+                          dt,
+                          MaterialDensity(f->material, MATERIAL_STEP),
+                          MaterialRevision(f->material),
+                          f->solid,
+                          FluidInverseDensity(f),
+                          inertia};
 }
 
 PetscErrorCode FluidProject(Fluid f, double dt)
 {
   const double start = MPI_Wtime();
-  const ProjectionStep step = StepOfProjection(f, f->t + dt, dt, PETSC_TRUE);
+  const ProjectionStep step = FluidProjectionStep(f, f->t + dt, dt, PETSC_TRUE);
   Vec phi;
   PetscFunctionBeginUser;
   PetscCall(ProjectionSolverSolve(f->projection, &step, f->u_star, &phi, &f->stats.pressure_iterations));
@@ -180,16 +195,28 @@ PetscErrorCode FluidStep(Fluid f, double dt)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode FluidMakeSolenoidal(Fluid f)
+/* velocity less the part whose bulk velocity is not free of divergence */
+static PetscErrorCode SubtractDivergence(Fluid f, Vec velocity, Vec also)
 {
-  const double start = MPI_Wtime(), dt = 1.0; /* any: it cancels */
-  const ProjectionStep step = StepOfProjection(f, f->t, dt, PETSC_FALSE);
+  const ProjectionStep step = FluidProjectionStep(f, f->t, 1.0, PETSC_FALSE); /* any dt: it cancels */
   Vec phi;
   PetscFunctionBeginUser;
-  PetscCall(ProjectionSolverSolve(f->projection, &step, f->u, &phi, &f->stats.pressure_iterations));
-  PetscCall(ProjectionSolverSubtract(f->projection, &step, f->u));
-  PetscCall(
-      ProjectionSolverSubtract(f->projection, &step, f->u_previous)); /* their difference extrapolates */
+  PetscCall(ProjectionSolverSolve(f->projection, &step, velocity, &phi, &f->stats.pressure_iterations));
+  PetscCall(ProjectionSolverSubtract(f->projection, &step, velocity));
+  if (also) PetscCall(ProjectionSolverSubtract(f->projection, &step, also));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidMakeSolenoidal(Fluid f)
+{
+  const double start = MPI_Wtime();
+  PetscFunctionBeginUser;
+  if (f->phases) { /* which the extrapolated velocity moves: it must be free of divergence, too */
+    PetscCall(SubtractDivergence(f, f->u, NULL));
+    PetscCall(SubtractDivergence(f, f->u_previous, NULL));
+  } else {
+    PetscCall(SubtractDivergence(f, f->u, f->u_previous)); /* their difference extrapolates */
+  }
   f->stats.seconds[PRESSURE] += MPI_Wtime() - start;
   PetscFunctionReturn(0);
 }
@@ -215,40 +242,6 @@ double FluidTimeStep(Fluid f)
 }
 
 /* --- a step that is redone ---------------------------------------------------------------------------- */
-
-static PetscErrorCode CopyWithGhosts(Vec from, Vec to)
-{
-  Vec a, b;
-  PetscFunctionBeginUser;
-  PetscCall(VecGhostGetLocalForm(from, &a));
-  PetscCall(VecGhostGetLocalForm(to, &b));
-  PetscCall(VecCopy(a, b));
-  PetscCall(VecGhostRestoreLocalForm(from, &a));
-  PetscCall(VecGhostRestoreLocalForm(to, &b));
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode FluidSaveState(Fluid f)
-{
-  PetscFunctionBeginUser;
-  PetscCall(CopyWithGhosts(f->u, f->saved.u));
-  PetscCall(CopyWithGhosts(f->u_previous, f->saved.u_previous));
-  PetscCall(CopyWithGhosts(f->p, f->saved.p));
-  PetscCall(MaterialSave(f->material));
-  f->saved.t = f->t, f->saved.dt_previous = f->dt_previous;
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode FluidRestoreState(Fluid f)
-{
-  PetscFunctionBeginUser;
-  PetscCall(CopyWithGhosts(f->saved.u, f->u));
-  PetscCall(CopyWithGhosts(f->saved.u_previous, f->u_previous));
-  PetscCall(CopyWithGhosts(f->saved.p, f->p));
-  PetscCall(MaterialRestore(f->material));
-  f->t = f->saved.t, f->dt_previous = f->saved.dt_previous;
-  PetscFunctionReturn(0);
-}
 
 /* --- views --------------------------------------------------------------------------------------------- */
 
@@ -290,6 +283,10 @@ const double *FluidSolidFraction(Fluid f)
 {
   return SolidCouplingFraction(f->solid);
 }
+PhaseTransport FluidPhases(Fluid f)
+{
+  return f->phases;
+}
 const FluidStats *FluidGetStats(Fluid f)
 {
   return &f->stats;
@@ -297,4 +294,8 @@ const FluidStats *FluidGetStats(Fluid f)
 const Mesh *FluidMesh(Fluid f)
 {
   return f->domain.mesh;
+}
+const P2Space *FluidPressureSpace(Fluid f)
+{
+  return f->domain.p2;
 }

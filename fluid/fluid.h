@@ -10,21 +10,24 @@
 #ifndef FLUID_H
 #define FLUID_H
 #include "common/link/coracle.h"
-#include "common/mesh/mesh.h"
 #include "common/output/checkpoint.h"
+#include "common/space/p2_space.h"
 #include "fluid/boundary.h"
 #include "fluid/kernels.h"
 #include "fluid/material.h"
+#include "fluid/phase_transport.h"
 #include <petscksp.h>
 
 typedef struct {
-  double theta;         /* 0.5 Crank-Nicolson .. 1 backward Euler */
-  double rho, mu;       /* kg/m3, Pa s */
-  double gravity[2];    /* m/s2 */
-  double velocity[2];   /* everywhere at the start, unless FluidSetInitial has another, m/s */
-  double cfl, dt_max;   /* step control */
-  Boundary *boundary;   /* [mesh->ntags], copied */
-  FieldFunction source; /* body force per volume, N/m3, or NULL */
+  double theta; /* 0.5 Crank-Nicolson .. 1 backward Euler */
+  double rho,
+      mu; /* kg/m3, Pa s; with phases: of the lightest, which hydrostatic pressures at open boundaries have */
+  PhaseProperties phases; /* n = 0: one fluid */
+  double gravity[2];      /* m/s2 */
+  double velocity[2];     /* everywhere at the start, unless FluidSetInitial has another, m/s */
+  double cfl, dt_max;     /* step control */
+  Boundary *boundary;     /* [mesh->ntags], copied */
+  FieldFunction source;   /* body force per volume, N/m3, or NULL */
   void *source_context;
 } FluidSetup;
 
@@ -41,7 +44,10 @@ PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *flu
 /* The same fluid on another mesh with the same boundary names, without state: FluidTransfer. */
 PetscErrorCode FluidCreateLike(Fluid like, const Mesh *mesh, Fluid *fluid);
 PetscErrorCode FluidDestroy(Fluid *fluid);
-/* Initial velocity by interpolation (NULL: that of the setup) and hydrostatic pressure (or p by interpolation). */
+/* With phases, before FluidSetInitial: where they are; errors of PhasesFill. */
+PetscErrorCode FluidSetPhases(Fluid fluid, int nregions, const Region region[]);
+/* Initial velocity by interpolation (NULL: that of the setup) and hydrostatic pressure (or p by interpolation); with
+ * phases the pressure of the first instant, in which gravity alone acts. */
 PetscErrorCode FluidSetInitial(Fluid fluid, double t, FieldFunction velocity, FieldFunction pressure,
                                void *context);
 /* Before the first step of a run, with its coupling set: the fluid inside the solid moves with it.  A body that
@@ -80,7 +86,8 @@ PetscErrorCode FluidStep(Fluid fluid, double dt);
 double FluidTimeStep(Fluid fluid);
 
 /* Views, borrowed, not collective: velocities [ne][2][3] of the owned elements, as of the last completed
- * step, before the projection of the current step and after it; pressure [np2]; material at its end. */
+ * step, before the projection of the current step and after it; pressure on the nodes of its
+ * space, [n]; material at its end. */
 const double *FluidVelocity(Fluid fluid);
 const double *FluidVelocityStar(Fluid fluid);
 const double *FluidVelocityProjected(Fluid fluid);
@@ -88,8 +95,10 @@ const double *FluidPressure(Fluid fluid);
 const double *FluidDensity(Fluid fluid);       /* [ne] */
 const double *FluidViscosity(Fluid fluid);     /* [ne] */
 const double *FluidSolidFraction(Fluid fluid); /* [ne] alpha_s */
+PhaseTransport FluidPhases(Fluid fluid);       /* NULL: one fluid */
 const FluidStats *FluidGetStats(Fluid fluid);
 const Mesh *FluidMesh(Fluid fluid);
+const P2Space *FluidPressureSpace(Fluid fluid);
 /* Saves velocity, pressure, material and time, and restores them for a step that is redone. */
 PetscErrorCode FluidSaveState(Fluid fluid);
 PetscErrorCode FluidRestoreState(Fluid fluid);

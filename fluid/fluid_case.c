@@ -2,6 +2,7 @@
 #include "common/mesh/mesh_checkpoint.h"
 #include "common/output/options.h"
 #include "common/supermesh/geometry.h"
+#include "fluid/phase_case.h"
 
 /* --- mesh: a graded box, or a Gmsh file ------------------------------------------------------------------ */
 
@@ -107,7 +108,16 @@ PetscErrorCode FluidCaseMesh(CoracleCase c, MPI_Comm comm, Checkpoint from, Mesh
 
 /* --- boundaries ----------------------------------------------------------------------------------------- */
 
-static void ReadBoundary(CoracleCase c, const char *name, Boundary *b)
+/* Which phase comes in through a boundary, where there are phases. */
+static void ReadInflow(CoracleCase c, const char *key, const PhaseNames *names, Boundary *b)
+{
+  char sub[192];
+  (void)snprintf(sub, sizeof sub, "%s.phase", key);
+  b->has_phase = (PetscBool)(names->name[0] && CoracleCaseHas(c, sub));
+  if (b->has_phase) b->phase = PhaseCaseIndex(c, sub, names);
+}
+
+static void ReadBoundary(CoracleCase c, const char *name, const PhaseNames *names, Boundary *b)
 {
   static const char *const WORDS[] = {"no_slip", "free_slip", "open", NULL}, *const PROFILES[] = {"uniform",
                                                                                                   "parabolic",
@@ -116,6 +126,7 @@ static void ReadBoundary(CoracleCase c, const char *name, Boundary *b)
   char key[160], sub[192];
   memset(b, 0, sizeof *b);
   (void)snprintf(key, sizeof key, "fluid.boundaries.%s", name);
+  ReadInflow(c, key, names, b);
   (void)snprintf(sub, sizeof sub, "%s.velocity", key);
   if (CoracleCaseHas(c, sub)) {
     b->kind = BOUNDARY_VELOCITY;
@@ -211,23 +222,31 @@ static PetscErrorCode CheckFlux(CoracleCase c, const Mesh *mesh, Boundary bounda
 PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup)
 {
   BoundaryCheck check = {.c = c, .mesh = mesh};
+  PhaseNames names;
   PetscFunctionBeginUser;
   memset(setup, 0, sizeof *setup);
-  setup->rho = CoracleCasePositive(c, "fluid.density");
-  setup->mu = CoracleCasePositive(c, "fluid.viscosity");
+  PhaseCaseRead(c, &names, &setup->phases);
+  if (setup->phases.n) {
+    setup->rho = setup->phases.rho[PhaseLightest(&setup->phases)];
+    setup->mu = setup->phases.mu[PhaseLightest(&setup->phases)];
+  } else {
+    setup->rho = CoracleCasePositive(c, "fluid.density");
+    setup->mu = CoracleCasePositive(c, "fluid.viscosity");
+  }
   setup->theta = CoracleCaseNumberOr(c, "fluid.theta", 0.5, 0.5, 1.0);
   CoracleCaseVector(c, "gravity", 2, setup->gravity);
   if (CoracleCaseHas(c, "fluid.initial")) CoracleCaseVector(c, "fluid.initial.velocity", 2, setup->velocity);
   setup->cfl = CoracleCasePositive(c, "time.cfl");
   setup->dt_max = CoracleCasePositive(c, "time.dt_max");
   PetscCall(PetscMalloc1(mesh->ntags, &setup->boundary));
-  for (int b = 0; b < mesh->ntags; b++) ReadBoundary(c, mesh->tag_name[b], setup->boundary + b);
+  for (int b = 0; b < mesh->ntags; b++) ReadBoundary(c, mesh->tag_name[b], &names, setup->boundary + b);
   CoracleCaseKeys(c, "fluid.boundaries", CheckBoundaryName, &check);
   PetscCall(CheckFlux(c, mesh, setup->boundary));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode FluidCaseAdaptation(CoracleCase c, PetscBool *adapts, AdaptationSetup *s)
+PetscErrorCode FluidCaseAdaptation(CoracleCase c, const FluidSetup *setup, PetscBool *adapts,
+                                   AdaptationSetup *s)
 {
   PetscFunctionBeginUser;
   *adapts = (PetscBool)CoracleCaseHas(c, "fluid.adapt");
@@ -238,6 +257,13 @@ PetscErrorCode FluidCaseAdaptation(CoracleCase c, PetscBool *adapts, AdaptationS
     CoracleCaseRefuse(c, "fluid.adapt.size_max", "expected at least fluid.adapt.size_min, %g, found %g",
                       s->size_min, s->size_max);
   s->velocity_error = CoracleCasePositive(c, "fluid.adapt.velocity_error");
+  s->interface_size = s->size_min;
+  s->light_velocity_error = 0.0;
+  if (setup->phases.n) {
+    s->interface_size =
+        CoracleCaseNumberOr(c, "fluid.adapt.interface_size", s->size_min, s->size_min, s->size_max);
+    s->light_velocity_error = CoracleCaseNumberOr(c, "fluid.adapt.light_velocity_error", 0.0, 0.0, HUGE_VAL);
+  }
   s->growth = CoracleCaseNumberOr(c, "fluid.adapt.growth", 1.5, 1.01, 10.0);
   s->anisotropy = CoracleCaseNumberOr(c, "fluid.adapt.anisotropy", 5.0, 1.0, 1000.0);
   s->elements_max = CoracleCaseNumberOr(c, "fluid.adapt.elements_max", 200000.0, 100.0, 1e9);

@@ -12,8 +12,12 @@ PetscErrorCode FluidCaseMesh(CoracleCase c, MPI_Comm comm, Checkpoint from, Mesh
 void FluidCaseCheckResumed(CoracleCase c, const Mesh *mesh, const char *folder);
 /* Reads everything else.  setup->boundary is allocated: PetscFree it after FluidCreate has copied it. */
 PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup);
-/* Whether the mesh adapts, and how (fluid.adapt). */
-PetscErrorCode FluidCaseAdaptation(CoracleCase c, PetscBool *adapts, AdaptationSetup *setup);
+/* With fluid.phases: where they are at the start (FluidSetPhases); *region is allocated, its polygons too: FluidCaseFreeRegions. */
+PetscErrorCode FluidCaseRegions(CoracleCase c, int *nregions, Region **region);
+PetscErrorCode FluidCaseFreeRegions(int nregions, Region **region);
+/* Whether the mesh adapts, and how (fluid.adapt), after the rest. */
+PetscErrorCode FluidCaseAdaptation(CoracleCase c, const FluidSetup *fluid, PetscBool *adapts,
+                                   AdaptationSetup *setup);
 /* After the first step, when every solver has asked for its options: refuses those of fluid.petsc that none
  * has.  Collective. */
 PetscErrorCode FluidCaseCheckOptions(CoracleCase c);

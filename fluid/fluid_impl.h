@@ -15,6 +15,7 @@ struct Fluid_s {
   FluidDomain domain;
   Material material;
   SolidCoupling solid;
+  PhaseTransport phases; /* NULL: one fluid */
   MomentumSolver momentum;
   ProjectionSolver projection;
   /* the flow; ghosted, velocities in blocks [2][3] an element, pressure on P2 nodes */
@@ -27,4 +28,16 @@ struct Fluid_s {
   } saved;
   FluidStats stats;
 };
+
+/* fluid.c: what the projection of a velocity at t over dt sees.  Not collective. */
+ProjectionStep FluidProjectionStep(Fluid f, double t, double dt, PetscBool inertia);
+/* fluid_phases.c: [ne], borrowed; NULL for one fluid.  Not collective. */
+const InverseDensity *FluidInverseDensity(Fluid f);
+/* After the phases' volumes were set: density and viscosity at both levels.  Collective. */
+PetscErrorCode FluidPhasesChanged(Fluid f);
+/* Moves the phases over dt with the velocity in mass_flux, extrapolated by s steps, and makes it the mass flux.  Collective. */
+PetscErrorCode FluidMovePhases(Fluid f, double dt, double s);
+/* Adds to p, which keeps its values on open boundaries, what makes the acceleration weight - R^-1 grad p free of
+ * divergence: the pressure of the phases at rest in the first instant.  Collective. */
+PetscErrorCode FluidBalancePressure(Fluid f);
 #endif

@@ -14,6 +14,7 @@ static void P2NodePosition(const Mesh *m, int e, int k, double x[2])
 static PetscErrorCode AddOpenPressure(Fluid f)
 {
   const Mesh *m = f->domain.mesh;
+  const P2Space *p2 = f->domain.p2;
   Vec both[2], local[2]; /* sum and count */
   PetscScalar *v[2], *p;
   PetscFunctionBeginUser;
@@ -28,8 +29,8 @@ static PetscErrorCode AddOpenPressure(Fluid f)
       const Boundary *b = BoundaryOfFace(&f->domain, e, i);
       const int node[3] = {(i + 1) % 3, (i + 2) % 3, 3 + i};
       for (int k = 0; k < 3 && b && b->kind == BOUNDARY_OPEN; k++) {
-        v[0][m->p2[6 * e + node[k]]] += b->pressure;
-        v[1][m->p2[6 * e + node[k]]] += 1.0;
+        v[0][p2->node[6 * e + node[k]]] += b->pressure;
+        v[1][p2->node[6 * e + node[k]]] += 1.0;
       }
     }
   for (int k = 0; k < 2; k++) {
@@ -40,7 +41,7 @@ static PetscErrorCode AddOpenPressure(Fluid f)
     PetscCall(VecGetArray(both[k], &v[k]));
   }
   PetscCall(VecGetArray(f->p, &p));
-  for (int k = 0; k < m->np2_owned; k++) p[k] += v[1][k] > 0.0 ? v[0][k] / v[1][k] : 0.0;
+  for (int k = 0; k < p2->nowned; k++) p[k] += v[1][k] > 0.0 ? v[0][k] / v[1][k] : 0.0;
   PetscCall(VecRestoreArray(f->p, &p));
   for (int k = 0; k < 2; k++) {
     PetscCall(VecRestoreArray(both[k], &v[k]));
@@ -63,6 +64,7 @@ PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldF
                                void *context)
 {
   const Mesh *m = f->domain.mesh;
+  const int *node = f->domain.p2->node;
   PetscScalar *u, *p;
   Vec local;
   PetscFunctionBeginUser;
@@ -85,12 +87,13 @@ PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldF
     for (int k = 0; k < 6; k++) {
       double x[2];
       P2NodePosition(m, e, k, x);
-      p[m->p2[6 * e + k]] = HydrostaticPressure(m, f->setup.rho, f->setup.gravity, x);
-      if (pressure) pressure(context, t, x, p + m->p2[6 * e + k]);
+      p[node[6 * e + k]] = HydrostaticPressure(m, f->setup.rho, f->setup.gravity, x);
+      if (pressure) pressure(context, t, x, p + node[6 * e + k]);
     }
   PetscCall(VecRestoreArray(local, &p));
   PetscCall(VecGhostRestoreLocalForm(f->p, &local));
   if (!pressure) PetscCall(AddOpenPressure(f));
+  if (!pressure && f->phases) PetscCall(FluidBalancePressure(f));
   PetscFunctionReturn(0);
 }
 

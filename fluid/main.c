@@ -29,7 +29,7 @@ static PetscErrorCode Step(FluidRun *m, double dt)
   }
   m->not_solenoidal = m->first = PETSC_FALSE;
   PetscCall(FluidCorrect(m->fluid, dt, correction));
-  PetscCall(WriterStep(m->writer, m->fluid));
+  PetscCall(FluidRunWrite(m));
   if (next) PetscCall(FluidRunAcceptMesh(m, mesh, next));
   PetscFunctionReturn(0);
 }

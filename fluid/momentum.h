@@ -7,6 +7,7 @@
 #ifndef FLUID_MOMENTUM_H
 #define FLUID_MOMENTUM_H
 #include "fluid/domain.h"
+#include "fluid/phase_transport.h"
 #include "fluid/solid_coupling.h"
 #include <petscksp.h>
 
@@ -28,6 +29,9 @@ typedef struct {
   Vec mass_flux;     /* m = rho beta at t + theta dt, kg/(m2 s); on a face the mean of its two sides counts */
   Vec u, p;          /* u^n, m/s; pressure on P2 nodes, Pa */
   SolidCoupling solid;
+  /* [ne] with phases: the pressure acts as rho R^-1 grad p and gravity is the weight (effective_density.h), and what comes
+   * in through open boundaries is at rest; NULL: one fluid */
+  const InverseDensity *inverse_density;
 } MomentumStep;
 
 typedef struct {

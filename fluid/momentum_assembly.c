@@ -1,6 +1,9 @@
 /* The momentum equation: operator and load, one pass over the elements. */
 #include "fluid/momentum_impl.h"
 
+#define INTERFACE_PENALTY                                                                                    \
+  0.5 /* of jumps beside an interface, in densities times lengths over the time step */
+
 /* load += lift (g^{n+1} + (1 - theta)/theta g^n) */
 static void BoundaryLoad(MomentumSolver s, const MomentumStep *step, const Boundary *b,
                          const double project[2][2], int e, const FaceSide *side, const double lift[4][6],
@@ -18,6 +21,15 @@ static void BoundaryLoad(MomentumSolver s, const MomentumStep *step, const Bound
   }
 }
 
+/* Penalty of jumps, Pa s/m, beside an interface: what the lines' errors move there, mostly light elements, is given to their
+ * neighbours within a step, momentum conserved.  Of the lighter side's density, so that water does not feel air. */
+static double InterfacePenalty(const MomentumStep *step, int e, int nb, double area, double other)
+{
+  const double a = step->rho[e], b = step->rho[nb];
+  if (!step->inverse_density || fabs(a - b) < 1e-6 * (a + b)) return 0.0;
+  return INTERFACE_PENALTY * fmin(a, b) * sqrt(fmin(area, other)) / step->dt;
+}
+
 /* Interior face i of element e: its scalar blocks. */
 static void AssembleInterior(MomentumSolver s, const MomentumStep *step, int e, int i, const double flux[],
                              double own[9], double other[9])
@@ -30,6 +42,7 @@ static void AssembleInterior(MomentumSolver s, const MomentumStep *step, int e, 
   FaceSide o = FaceSideOf(d, step->mu, nb, j, theta, PENALTY_INTERIOR);
   const double *mk = flux + 6 * e, *mo = flux + 6 * nb;
   double mn[2], inflow[2][2] = {{0}};
+  o.eta += theta * InterfacePenalty(step, e, nb, d->geometry[e].area, d->geometry[nb].area);
   const int swap = o.a;
   o.a = o.b, o.b = swap; /* seen from the other side the face runs backwards */
   mn[0] = 0.5 * (face->n[0] * (mk[k.a] + mo[o.a]) + face->n[1] * (mk[3 + k.a] + mo[3 + o.a]));
@@ -47,9 +60,9 @@ static PetscBool AssembleBoundary(MomentumSolver s, const MomentumStep *step, in
   const Boundary *b = BoundaryOfFace(d, e, i);
   const FaceSide k = FaceSideOf(d, step->mu, e, i, s->setup.theta, PENALTY_BOUNDARY);
   double project[2][2], lift[4][6], mn[2], inflow[2][2] = {{0}};
-  if (b->kind == BOUNDARY_OPEN) return PETSC_FALSE;
+  if (b->kind == BOUNDARY_OPEN && !step->inverse_density) return PETSC_FALSE;
   BoundaryProjection(b, face->n, project);
-  if (b->kind == BOUNDARY_VELOCITY) {
+  if (b->kind != BOUNDARY_FREE_SLIP) {
     mn[0] = face->n[0] * m[k.a] + face->n[1] * m[3 + k.a];
     mn[1] = face->n[0] * m[k.b] + face->n[1] * m[3 + k.b];
     FaceInflow(s->setup.theta, face->length, mn, inflow);
@@ -59,23 +72,36 @@ static PetscBool AssembleBoundary(MomentumSolver s, const MomentumStep *step, in
   return PETSC_TRUE;
 }
 
+/* rho g - grad p, or with phases rho (weight - R^-1 grad p), N/m3 */
+static void WeightAndPressure(MomentumSolver s, const MomentumStep *step, int e, const double grad[2],
+                              double q[2])
+{
+  if (!step->inverse_density) {
+    for (int c = 0; c < 2; c++) q[c] = step->rho[e] * s->setup.gravity[c] - grad[c];
+    return;
+  }
+  const double *k = step->inverse_density[e].inverse, *w = step->inverse_density[e].weight;
+  q[0] = step->rho[e] * (w[0] - k[0] * grad[0] - k[1] * grad[1]);
+  q[1] = step->rho[e] * (w[1] - k[1] * grad[0] - k[2] * grad[1]);
+}
+
 /* Body force and pressure: M (rho g - grad p + source). */
 static void ElementLoad(MomentumSolver s, const MomentumStep *step, int e, const double p[], double load[6])
 {
   const Mesh *m = s->domain->mesh;
   const ElementGeometry *g = s->domain->geometry + e;
   double pe[6], grad[3][2], q[2][3];
-  for (int k = 0; k < 6; k++) pe[k] = p[m->p2[6 * e + k]];
+  for (int k = 0; k < 6; k++) pe[k] = p[s->domain->p2->node[6 * e + k]];
   P2Gradient(g->g, pe, grad);
   for (int i = 0; i < 3; i++) {
-    double now[2] = {0}, next[2] = {0};
+    double now[2] = {0}, next[2] = {0}, force[2];
+    WeightAndPressure(s, step, e, grad[i], force);
     if (s->setup.source) {
       s->setup.source(s->setup.source_context, step->t, ElementVertex(m, e, i), now);
       s->setup.source(s->setup.source_context, step->t + step->dt, ElementVertex(m, e, i), next);
     }
     for (int c = 0; c < 2; c++)
-      q[c][i] = step->rho[e] * s->setup.gravity[c] - grad[i][c] + s->setup.theta * next[c] +
-                (1.0 - s->setup.theta) * now[c];
+      q[c][i] = force[c] + s->setup.theta * next[c] + (1.0 - s->setup.theta) * now[c];
   }
   for (int c = 0; c < 2; c++) {
     double mq[3];

@@ -1,21 +1,20 @@
 #include "fluid/projection.h"
-#include "fluid/solver_options.h"
+#include "fluid/pressure_solver.h"
 #include "fluid/weighted_projection.h"
 
 struct ProjectionSolver_s {
   const FluidDomain *domain; /* borrowed */
   Vec phi, divergence;       /* ghosted P2 vectors */
-  Mat laplacian;             /* int 1/rho grad.grad */
-  KSP ksp;
-  int revision; /* of the density in the laplacian */
+  PressureSolver solver;
+  int revision;      /* of the density in the solver's matrix, -1: there is none */
+  PetscBool inertia; /* it has the solid's */
   int nfixed;
   int *fixed;     /* local P2 nodes (owned) where phi = 0 */
-  char *is_fixed; /* [np2] with ghosts */
+  char *is_fixed; /* [n] of the P2 space */
   WeightedProjection weighted;
-  PetscBool inertia; /* the last solve was a weighted one */
 };
 
-/* mark[np2] on this rank's nodes of open boundaries; *any: on any rank */
+/* mark[n] of the P2 space on this rank's nodes of open boundaries; *any: on any rank */
 static PetscErrorCode MarkOpen(const FluidDomain *d, PetscScalar mark[], int *any)
 {
   const Mesh *m = d->mesh;
@@ -24,20 +23,21 @@ static PetscErrorCode MarkOpen(const FluidDomain *d, PetscScalar mark[], int *an
   for (int e = 0; e < m->ne; e++)
     for (int i = 0; i < 3; i++) {
       const Boundary *b = BoundaryOfFace(d, e, i);
+      const int *node = d->p2->node + 6 * e;
       if (!b || b->kind != BOUNDARY_OPEN) continue;
-      mark[m->p2[6 * e + (i + 1) % 3]] = mark[m->p2[6 * e + (i + 2) % 3]] = mark[m->p2[6 * e + 3 + i]] = 1.0;
+      mark[node[(i + 1) % 3]] = mark[node[(i + 2) % 3]] = mark[node[3 + i]] = 1.0;
       *any = 1;
     }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, any, 1, MPI_INT, MPI_MAX, m->comm));
   PetscFunctionReturn(0);
 }
 
-/* P2 nodes where phi = 0: on open boundaries; without any, global node 0.  The owner of a node need not have
+/* P2 nodes where phi = 0: on open boundaries; *closed: there are none.  The owner of a node need not have
  * an element with the face: hence the sum over ranks. */
-static PetscErrorCode FindFixed(ProjectionSolver s)
+static PetscErrorCode FindFixed(ProjectionSolver s, PetscBool *closed)
 {
-  const Mesh *m = s->domain->mesh;
   PetscScalar *v;
+  const P2Space *p2 = s->domain->p2;
   Vec mark, local;
   int has_open;
   PetscFunctionBeginUser;
@@ -46,18 +46,18 @@ static PetscErrorCode FindFixed(ProjectionSolver s)
   PetscCall(VecSet(local, 0.0));
   PetscCall(VecGetArray(local, &v));
   PetscCall(MarkOpen(s->domain, v, &has_open));
-  if (!has_open && m->np2_owned > 0 && m->p2start == 0) v[0] = 1.0;
+  *closed = (PetscBool)!has_open;
   PetscCall(VecRestoreArray(local, &v));
   PetscCall(VecGhostUpdateBegin(mark, ADD_VALUES, SCATTER_REVERSE));
   PetscCall(VecGhostUpdateEnd(mark, ADD_VALUES, SCATTER_REVERSE));
   PetscCall(VecGhostUpdateBegin(mark, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGhostUpdateEnd(mark, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGetArray(local, &v));
-  PetscCall(PetscMalloc1(m->np2, &s->is_fixed));
-  PetscCall(PetscMalloc1(m->np2_owned, &s->fixed));
-  for (int k = 0; k < m->np2; k++) {
+  PetscCall(PetscMalloc1(p2->n, &s->is_fixed));
+  PetscCall(PetscMalloc1(p2->nowned, &s->fixed));
+  for (int k = 0; k < p2->n; k++) {
     s->is_fixed[k] = v[k] > 0.5;
-    if (s->is_fixed[k] && k < m->np2_owned) s->fixed[s->nfixed++] = k;
+    if (s->is_fixed[k] && k < p2->nowned) s->fixed[s->nfixed++] = k;
   }
   PetscCall(VecRestoreArray(local, &v));
   PetscCall(VecGhostRestoreLocalForm(mark, &local));
@@ -65,74 +65,49 @@ static PetscErrorCode FindFixed(ProjectionSolver s)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode CreateLaplacian(ProjectionSolver s)
+/* An element without the solid: int 1/rho grad.grad */
+static void FluidBlock(const ElementGeometry *g, const ProjectionStep *step, int e, double block[6][6])
 {
-  const Mesh *m = s->domain->mesh;
-  PetscFunctionBeginUser;
-  PetscCall(MatCreateAIJ(m->comm, m->np2_owned, m->np2_owned, PETSC_DETERMINE, PETSC_DETERMINE, 28, NULL, 14,
-                         NULL, &s->laplacian));
-  PetscCall(MatSetOption(s->laplacian, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
-  PetscFunctionReturn(0);
+  const double(*grad)[2] = (const double(*)[2])g->g;
+  if (step->inverse_density)
+    P2StiffnessTensor(g->area, grad, step->inverse_density[e].inverse, block);
+  else
+    P2Stiffness(g->area, grad, 1.0 / step->rho[e], block);
 }
 
-static PetscErrorCode AssembleLaplacian(ProjectionSolver s, const double rho[])
+/* The pressure's matrix for the step, if it is not the solver's already. */
+static PetscErrorCode Assemble(ProjectionSolver s, const ProjectionStep *step)
 {
-  const Mesh *m = s->domain->mesh;
-  PetscInt *rows;
+  const FluidDomain *d = s->domain;
+  const WeightedProjectionStep weighted = {step->dt, step->rho, step->solid};
+  PetscBool inertia;
+  double(*block)[36];
   PetscFunctionBeginUser;
-  for (int e = 0; e < m->ne; e++) {
-    double k[6][6];
-    PetscInt gid[6];
-    P2Stiffness(s->domain->geometry[e].area, (const double(*)[2])s->domain->geometry[e].g, 1.0 / rho[e], k);
-    for (int i = 0; i < 6; i++) gid[i] = m->p2gid[m->p2[6 * e + i]];
-    PetscCall(MatSetValues(s->laplacian, 6, gid, 6, gid, &k[0][0], ADD_VALUES));
-  }
-  PetscCall(MatAssemblyBegin(s->laplacian, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(s->laplacian, MAT_FINAL_ASSEMBLY));
-  PetscCall(PetscMalloc1(s->nfixed, &rows));
-  for (int k = 0; k < s->nfixed; k++) rows[k] = m->p2start + s->fixed[k];
-  PetscCall(MatZeroRowsColumns(s->laplacian, s->nfixed, rows, 1.0, NULL, NULL));
-  PetscCall(PetscFree(rows));
-  PetscCall(MatSetOption(s->laplacian, MAT_SPD, PETSC_TRUE));
-  PetscFunctionReturn(0);
-}
-
-/* Assembles and factors for another density. */
-static PetscErrorCode Refactor(ProjectionSolver s, const ProjectionStep *step)
-{
-  PetscFunctionBeginUser;
-  if (s->revision == step->revision) PetscFunctionReturn(0);
+  PetscCall(WeightedProjectionPrepare(s->weighted, &weighted, &inertia));
+  const PetscBool current = (PetscBool)(s->revision == step->revision && !s->inertia);
+  s->inertia = (PetscBool)(inertia && step->inertia);
+  if (current && !s->inertia) PetscFunctionReturn(0);
+  PetscCall(PressureSolverGetBlocks(s->solver, &block));
+  for (int e = 0; e < d->mesh->ne; e++)
+    if (!s->inertia || !WeightedProjectionBlock(s->weighted, e, (double(*)[6])block[e]))
+      FluidBlock(&d->geometry[e], step, e, (double(*)[6])block[e]);
+  PetscCall(PressureSolverSetMatrix(s->solver, (PetscBool)(inertia || step->revision > 0), &block));
   s->revision = step->revision;
-  PetscCall(MatZeroEntries(s->laplacian));
-  PetscCall(AssembleLaplacian(s, step->rho));
-  PetscCall(KSPSetOperators(s->ksp, s->laplacian, s->laplacian));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode CreateSolver(ProjectionSolver s)
-{
-  PetscFunctionBeginUser;
-  PetscCall(SolverCreateDirect(s->domain->mesh->comm, "pressure_", KSPPREONLY, &s->ksp));
-  PetscCall(KSPSetOperators(s->ksp, s->laplacian, s->laplacian));
-  PetscCall(KSPSetTolerances(s->ksp, 1e-9, 1e-50, 1e5, 500));
-  PetscCall(KSPSetFromOptions(s->ksp));
-  PetscCall(KSPSetUp(s->ksp));
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode ProjectionSolverCreate(const FluidDomain *domain, Vec like, const double rho[],
-                                      ProjectionSolver *solver)
+PetscErrorCode ProjectionSolverCreate(const FluidDomain *domain, Vec like, ProjectionSolver *solver)
 {
   ProjectionSolver s;
+  PetscBool closed = PETSC_FALSE;
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&s));
   s->domain = domain;
+  s->revision = -1;
   PetscCall(VecDuplicate(like, &s->phi));
   PetscCall(VecDuplicate(like, &s->divergence));
-  PetscCall(FindFixed(s));
-  PetscCall(CreateLaplacian(s));
-  PetscCall(AssembleLaplacian(s, rho));
-  PetscCall(CreateSolver(s));
+  PetscCall(FindFixed(s, &closed));
+  PetscCall(PressureSolverCreate(domain, s->is_fixed, closed, &s->solver));
   PetscCall(WeightedProjectionCreate(domain, &s->weighted));
   *solver = s;
   PetscFunctionReturn(0);
@@ -145,8 +120,7 @@ PetscErrorCode ProjectionSolverDestroy(ProjectionSolver *solver)
   if (!s) PetscFunctionReturn(0);
   PetscCall(VecDestroy(&s->phi));
   PetscCall(VecDestroy(&s->divergence));
-  PetscCall(MatDestroy(&s->laplacian));
-  PetscCall(KSPDestroy(&s->ksp));
+  PetscCall(PressureSolverDestroy(&s->solver));
   PetscCall(PetscFree(s->fixed));
   PetscCall(PetscFree(s->is_fixed));
   PetscCall(WeightedProjectionDestroy(&s->weighted));
@@ -174,6 +148,18 @@ static void BoundaryFlux(const FluidDomain *d, int e, double t, double r[6])
   }
 }
 
+/* int of u.u */
+static double Square(double area, const double u[6])
+{
+  double sum = 0.0;
+  for (int c = 0; c < 2; c++) {
+    double mu[3];
+    P1MassApply(area, u + 3 * c, mu);
+    for (int i = 0; i < 3; i++) sum += mu[i] * u[3 * c + i];
+  }
+  return sum;
+}
+
 /* mv = M u + (us - ms u) */
 static void BulkMomentum(double area, const CoracleCoupling *k, const double u[6], double mv[2][3])
 {
@@ -185,8 +171,8 @@ static void BulkMomentum(double area, const CoracleCoupling *k, const double u[6
     }
 }
 
-/* Of the bulk velocity made of u, over dt: the right-hand side, 0 on fixed nodes. */
-static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step, Vec velocity)
+/* Of the bulk velocity made of u, over dt: the right-hand side, 0 on fixed nodes; *size: of PressureProblem. */
+static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step, Vec velocity, double *size)
 {
   const FluidDomain *domain = s->domain;
   const Mesh *m = domain->mesh;
@@ -198,12 +184,14 @@ static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step,
   PetscCall(VecSet(local, 0.0));
   PetscCall(VecGetArray(local, &d));
   PetscCall(VecGetArrayRead(velocity, &u));
+  *size = 0.0;
   for (int e = 0; e < m->ne; e++) {
     double mv[2][3], r[6] = {0};
+    *size += step->rho[e] * Square(domain->geometry[e].area, u + 6 * e);
     BulkMomentum(domain->geometry[e].area, SolidCouplingAt(step->solid, e), u + 6 * e, mv);
     P2GradientTranspose(domain->geometry[e].g, (const double(*)[3])mv, r);
     BoundaryFlux(domain, e, step->t, r);
-    for (int k = 0; k < 6; k++) d[m->p2[6 * e + k]] += r[k];
+    for (int k = 0; k < 6; k++) d[domain->p2->node[6 * e + k]] += r[k];
   }
   PetscCall(VecRestoreArrayRead(velocity, &u));
   PetscCall(VecRestoreArray(local, &d));
@@ -214,26 +202,32 @@ static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step,
   for (int k = 0; k < s->nfixed; k++) d[s->fixed[k]] = 0.0;
   PetscCall(VecRestoreArray(s->divergence, &d));
   PetscCall(VecScale(s->divergence, 1.0 / step->dt));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, size, 1, MPI_DOUBLE, MPI_SUM, m->comm));
+  *size = sqrt(*size) / step->dt;
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *step, Vec velocity, Vec *phi,
                                      int *iterations)
 {
-  const WeightedProjectionStep weighted = {step->dt, step->rho, step->solid, s->laplacian, s->is_fixed};
+  PressureProblem problem = {step->t, 0.0, s->divergence};
   PetscFunctionBeginUser;
-  PetscCall(Refactor(s, step));
-  s->inertia = PETSC_FALSE;
-  if (step->inertia) PetscCall(WeightedProjectionPrepare(s->weighted, &weighted, &s->inertia));
-  PetscCall(Divergence(s, step, velocity));
-  if (s->inertia)
-    PetscCall(WeightedProjectionSolve(s->weighted, step->t, s->divergence, s->phi, iterations));
-  else
-    PetscCall(SolverSolve(s->ksp, "pressure", step->t, s->divergence, s->phi, iterations));
+  PetscCall(Assemble(s, step));
+  PetscCall(Divergence(s, step, velocity, &problem.size));
+  PetscCall(PressureSolverSolve(s->solver, &problem, s->phi, iterations));
   PetscCall(VecGhostUpdateBegin(s->phi, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGhostUpdateEnd(s->phi, INSERT_VALUES, SCATTER_FORWARD));
   *phi = s->phi;
   PetscFunctionReturn(0);
+}
+
+/* u -= dt k grad phi, k symmetric */
+static void SubtractTensor(double dt, const double k[3], const double grad[3][2], double u[6])
+{
+  for (int i = 0; i < 3; i++) {
+    u[i] -= dt * (k[0] * grad[i][0] + k[1] * grad[i][1]);
+    u[3 + i] -= dt * (k[1] * grad[i][0] + k[2] * grad[i][1]);
+  }
 }
 
 PetscErrorCode ProjectionSolverSubtract(ProjectionSolver s, const ProjectionStep *step, Vec velocity)
@@ -249,12 +243,15 @@ PetscErrorCode ProjectionSolverSubtract(ProjectionSolver s, const ProjectionStep
   PetscCall(VecGetArray(velocity, &u));
   for (int e = 0; e < m->ne; e++) {
     double pe[6], grad[3][2];
-    for (int k = 0; k < 6; k++) pe[k] = phi[m->p2[6 * e + k]];
+    for (int k = 0; k < 6; k++) pe[k] = phi[d->p2->node[6 * e + k]];
     P2Gradient(d->geometry[e].g, pe, grad);
     if (s->inertia && WeightedProjectionVelocity(s->weighted, e, (const double(*)[2])grad, u + 6 * e))
       continue;
-    for (int c = 0; c < 2; c++)
-      for (int i = 0; i < 3; i++) u[6 * e + 3 * c + i] -= step->dt / step->rho[e] * grad[i][c];
+    if (step->inverse_density)
+      SubtractTensor(step->dt, step->inverse_density[e].inverse, (const double(*)[2])grad, u + 6 * e);
+    else
+      for (int c = 0; c < 2; c++)
+        for (int i = 0; i < 3; i++) u[6 * e + 3 * c + i] -= step->dt / step->rho[e] * grad[i][c];
   }
   PetscCall(VecRestoreArray(velocity, &u));
   PetscCall(VecRestoreArrayRead(local, &phi));

@@ -7,10 +7,12 @@
  * u_hat* = u* + M^-1 (us - ms u*): inside the solid the flow that must be free of divergence is the solid's.
  * Where the solid has implicit inertia weighted_projection.h replaces dt/rho.
  *
- * The matrix is factored once, and again when the density's revision changes (material.h). */
+ * The matrix is made once, and again when the density's revision changes (material.h) or the solid has
+ * implicit inertia; how it is solved: pressure_solver.h. */
 #ifndef FLUID_PROJECTION_H
 #define FLUID_PROJECTION_H
 #include "fluid/domain.h"
+#include "fluid/phases/effective_density.h"
 #include "fluid/solid_coupling.h"
 #include <petscksp.h>
 
@@ -21,12 +23,13 @@ typedef struct {
   const double *rho;   /* [ne], kg/m3 */
   int revision;        /* of rho */
   SolidCoupling solid; /* borrowed until ProjectionSubtract */
-  PetscBool inertia;   /* whether the solid's implicit inertia takes part */
+  const InverseDensity
+      *inverse_density; /* [ne] of phases, in place of 1/rho (effective_density.h); NULL: 1/rho */
+  PetscBool inertia;    /* whether the solid's implicit inertia takes part */
 } ProjectionStep;
 
 /* like: a ghosted vector of the P2 nodes; domain is borrowed.  Collective, like all of this. */
-PetscErrorCode ProjectionSolverCreate(const FluidDomain *domain, Vec like, const double rho[],
-                                      ProjectionSolver *s);
+PetscErrorCode ProjectionSolverCreate(const FluidDomain *domain, Vec like, ProjectionSolver *s);
 PetscErrorCode ProjectionSolverDestroy(ProjectionSolver *s);
 /* phi (borrowed, Pa, ghosts up to date) for the velocity u* (blocks [2][3] an element). */
 PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *step, Vec velocity, Vec *phi,

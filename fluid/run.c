@@ -20,6 +20,7 @@ PetscErrorCode FluidRunSave(const FluidRun *m)
   PetscCall(CheckpointPutNumber(to, "first step", m->first));
   PetscCall(AdaptationSave(m->adaptation, to));
   PetscCall(WriterSave(m->writer, to));
+  PetscCall(ProbesSave(m->probes, to));
   PetscCall(CheckpointClose(&to));
   PetscFunctionReturn(0);
 }
@@ -39,15 +40,13 @@ static PetscErrorCode Load(FluidRun *m, Checkpoint from, const PetscInt row[])
 
 /* --- start ---------------------------------------------------------------------------------------------- */
 
-/* In place of the mesh that the case gives: one that is fine where the solid is. */
-static PetscErrorCode FirstMesh(FluidRun *m)
+/* In place of the mesh that the case gives: one that is fine where the solid and the interface are. */
+static PetscErrorCode FirstMesh(FluidRun *m, AdaptationStart *start)
 {
-  const double *box;
-  int nbox;
   Mesh *mesh;
   PetscFunctionBeginUser;
-  PetscCall(CoracleGetRegion(m->program->client, &nbox, &box));
-  PetscCall(AdaptationFirstMesh(m->adaptation, m->mesh, nbox, box, &mesh));
+  PetscCall(CoracleGetRegion(m->program->client, &start->nbox, &start->box));
+  PetscCall(AdaptationFirstMesh(m->adaptation, m->mesh, start, &mesh));
   PetscCall(MeshDestroy(&m->mesh));
   m->mesh = mesh;
   PetscFunctionReturn(0);
@@ -59,16 +58,24 @@ static PetscErrorCode Create(FluidRun *m, const char *resume, Checkpoint from, P
   FluidSetup setup;
   AdaptationSetup adaptation;
   PetscBool adapts;
+  Region *region;
+  int nregions;
   PetscFunctionBeginUser;
   PetscCall(PetscOptionsInsertString(NULL, CoracleCaseStringOr(m->program->c, "fluid.petsc", "")));
   PetscCall(FluidCaseMesh(m->program->c, m->program->comm, from, &m->mesh, row));
   if (from) FluidCaseCheckResumed(m->program->c, m->mesh, resume);
   PetscCall(FluidCaseSetup(m->program->c, m->mesh, &setup));
-  PetscCall(FluidCaseAdaptation(m->program->c, &adapts, &adaptation));
+  PetscCall(FluidCaseRegions(m->program->c, &nregions, &region));
+  PetscCall(FluidCaseAdaptation(m->program->c, &setup, &adapts, &adaptation));
+  PetscCall(ProbesCreate(m->program->c, m->mesh, &m->probes));
   PetscCall(CoracleCaseFinish(m->program->c, SECTIONS));
   if (adapts) PetscCall(AdaptationCreate(&adaptation, &m->adaptation));
-  if (adapts && !from) PetscCall(FirstMesh(m));
+  AdaptationStart start = {.nphases = setup.phases.n, .nregions = nregions, .region = region};
+  if (adapts && !from) PetscCall(FirstMesh(m, &start));
+  PetscCall(ProbesNewMesh(m->probes, m->mesh));
   PetscCall(FluidCreate(m->mesh, &setup, &m->fluid));
+  if (setup.phases.n && !from) PetscCall(FluidSetPhases(m->fluid, nregions, region));
+  PetscCall(FluidCaseFreeRegions(nregions, &region));
   PetscCall(PetscFree(setup.boundary));
   PetscFunctionReturn(0);
 }
@@ -95,7 +102,19 @@ PetscErrorCode FluidRunOpenOutput(FluidRun *m)
 {
   PetscFunctionBeginUser;
   PetscCall(WriterCreate(m->program->c, m->fluid, m->from, &m->writer));
+  PetscCall(ProbesOpen(m->probes, m->program->c, m->from));
   PetscCall(CheckpointClose(&m->from));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidRunWrite(FluidRun *m)
+{
+  const CoracleGauge *gauge;
+  int n;
+  PetscFunctionBeginUser;
+  PetscCall(WriterStep(m->writer, m->fluid));
+  PetscCall(CoracleGetGauges(m->program->client, &n, &gauge));
+  PetscCall(ProbesStep(m->probes, m->fluid, n, gauge));
   PetscFunctionReturn(0);
 }
 
@@ -124,6 +143,7 @@ PetscErrorCode FluidRunAcceptMesh(FluidRun *m, Mesh *mesh, Fluid fluid)
   m->fluid = fluid;
   m->not_solenoidal = PETSC_TRUE;
   WriterNewMesh(m->writer);
+  PetscCall(ProbesNewMesh(m->probes, mesh));
   PetscFunctionReturn(0);
 }
 
@@ -153,6 +173,7 @@ PetscErrorCode FluidRunDestroy(FluidRun *m)
   PetscFunctionBeginUser;
   PetscCall(Report(m->program, m->fluid));
   PetscCall(WriterDestroy(&m->writer));
+  PetscCall(ProbesDestroy(&m->probes));
   PetscCall(ExchangeDestroy(&m->exchange));
   PetscCall(AdaptationDestroy(&m->adaptation));
   PetscCall(FluidDestroy(&m->fluid));

@@ -5,6 +5,7 @@
 #include "common/program/program.h"
 #include "fluid/adaptation.h"
 #include "fluid/exchange.h"
+#include "fluid/probes.h"
 #include "fluid/writer.h"
 
 typedef struct {
@@ -13,6 +14,7 @@ typedef struct {
   Fluid fluid;
   Exchange exchange;
   Writer writer;
+  Probes probes;            /* NULL: the case has none */
   Adaptation adaptation;    /* NULL: the mesh stays */
   PetscBool first;          /* the run's first step is not accepted yet */
   PetscBool not_solenoidal; /* the velocity: it is given, or the mesh is new since the last step */
@@ -25,6 +27,8 @@ PetscErrorCode FluidRunCreate(const Program *program, FluidRun *run);
 PetscErrorCode FluidRunOpenOutput(FluidRun *run);
 /* Saves the state at the start of the step, or at the end, if a checkpoint is due. */
 PetscErrorCode FluidRunSave(const FluidRun *run);
+/* The current step is final: output. */
+PetscErrorCode FluidRunWrite(FluidRun *run);
 /* If it is due: another mesh for the flow of the current step, and a fluid on it without state; else NULL. */
 PetscErrorCode FluidRunRemesh(FluidRun *run, Mesh **mesh, Fluid *fluid);
 /* The step is complete on the old mesh: the next one is on the new mesh. */

@@ -33,7 +33,7 @@ static PetscErrorCode SavePressure(Fluid f, Checkpoint to)
   double *nodes;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(6 * m->ne, &nodes));
-  for (int k = 0; k < 6 * m->ne; k++) nodes[k] = p[m->p2[k]];
+  for (int k = 0; k < 6 * m->ne; k++) nodes[k] = p[f->domain.p2->node[k]];
   PetscCall(CheckpointPutDoubles(to, "pressure", m->ne, 6, nodes));
   PetscCall(PetscFree(nodes));
   PetscFunctionReturn(0);
@@ -51,7 +51,7 @@ static PetscErrorCode LoadPressure(Fluid f, const PetscInt row[], Checkpoint fro
   PetscCall(MeshLoadDoubles(m, row, from, "pressure", 6, nodes));
   PetscCall(VecGhostGetLocalForm(f->p, &local));
   PetscCall(VecGetArray(local, &p));
-  for (int k = 0; k < 6 * m->ne; k++) p[m->p2[k]] = nodes[k];
+  for (int k = 0; k < 6 * m->ne; k++) p[f->domain.p2->node[k]] = nodes[k];
   PetscCall(VecRestoreArray(local, &p));
   PetscCall(VecGhostRestoreLocalForm(f->p, &local));
   PetscCall(PetscFree(nodes));
@@ -66,6 +66,7 @@ PetscErrorCode FluidSave(Fluid f, Checkpoint to)
   PetscCall(SaveVelocity(f->u, f->domain.mesh->ne, "velocity", to));
   PetscCall(SaveVelocity(f->u_previous, f->domain.mesh->ne, "previous velocity", to));
   PetscCall(SavePressure(f, to));
+  if (f->phases) PetscCall(PhaseTransportSave(f->phases, to));
   PetscCall(CheckpointPutDoubles(to, "seconds", 1, PHASES, f->stats.seconds));
   PetscFunctionReturn(0);
 }
@@ -90,6 +91,10 @@ PetscErrorCode FluidLoad(Fluid f, const PetscInt row[], Checkpoint from)
   PetscCall(LoadVelocity(f, row, from, "velocity", f->u));
   PetscCall(LoadVelocity(f, row, from, "previous velocity", f->u_previous));
   PetscCall(LoadPressure(f, row, from));
+  if (f->phases) {
+    PetscCall(PhaseTransportLoad(f->phases, row, from));
+    PetscCall(FluidPhasesChanged(f));
+  }
   PetscCall(LoadSeconds(f, from));
   PetscCall(VecCopy(f->u, f->u_projected)); /* of which the next step is proposed */
   f->stats.t = f->t;

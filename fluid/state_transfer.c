@@ -38,11 +38,87 @@ static PetscErrorCode Pressure(Fluid from, Fluid to, Transfer transfer)
   PetscCall(VecGhostGetLocalForm(to->p, &new));
   PetscCall(VecGetArrayRead(old, &p));
   PetscCall(VecGetArray(new, &q));
-  PetscCall(TransferP2(transfer, p, q));
+  PetscCall(TransferP2(transfer, from->domain.p2, to->domain.p2, p, q));
   PetscCall(VecRestoreArray(new, &q));
   PetscCall(VecRestoreArrayRead(old, &p));
   PetscCall(VecGhostRestoreLocalForm(to->p, &new));
   PetscCall(VecGhostRestoreLocalForm(from->p, &old));
+  PetscFunctionReturn(0);
+}
+
+/* --- with phases ---------------------------------------------------------------------------------------- */
+
+/* velocity[ne][6] -> rho u of a P0 density, and back with the mean of another field's three values. */
+static PetscErrorCode PhaseVelocities(Fluid from, Fluid to, Transfer transfer)
+{
+  enum { FIELDS = 9 }; /* u, rho u, of the last two steps: 8; rho */
+  const Vec source[2] = {from->u, from->u_previous}, target[2] = {to->u, to->u_previous};
+  const double *rho = FluidDensity(from);
+  double *old, *new;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(3 * FIELDS * from->domain.mesh->ne, &old, 3 * FIELDS * to->domain.mesh->ne, &new));
+  for (int k = 0; k < 2; k++) {
+    const PetscScalar *u;
+    PetscCall(VecGetArrayRead(source[k], &u));
+    for (int e = 0; e < from->domain.mesh->ne; e++)
+      for (int i = 0; i < 6; i++) {
+        old[3 * FIELDS * e + 6 * k + i] = u[6 * e + i];
+        old[3 * FIELDS * e + 12 + 6 * k + i] = rho[e] * u[6 * e + i];
+      }
+    PetscCall(VecRestoreArrayRead(source[k], &u));
+  }
+  for (int e = 0; e < from->domain.mesh->ne; e++)
+    for (int i = 0; i < 3; i++) old[3 * FIELDS * e + 24 + i] = rho[e];
+  PetscCall(TransferP1DG(transfer, FIELDS, old, new));
+  for (int k = 0; k < 2; k++) {
+    PetscScalar *u;
+    PetscCall(VecGetArray(target[k], &u));
+    for (int e = 0; e < to->domain.mesh->ne; e++)
+      for (int c = 0; c < 2; c++) {
+        const double *v = new + 3 * FIELDS *e + 6 * k + 3 * c, *q = v + 12, *r = new + 3 * FIELDS *e + 24;
+        const double shift = (q[0] + q[1] + q[2]) / (r[0] + r[1] + r[2]) - (v[0] + v[1] + v[2]) / 3.0;
+        for (int i = 0; i < 3; i++) u[6 * e + 3 * c + i] = v[i] + shift;
+      }
+    PetscCall(VecRestoreArray(target[k], &u));
+  }
+  PetscCall(PetscFree2(old, new));
+  PetscFunctionReturn(0);
+}
+
+/* What gravity alone makes is computed on either mesh, because its kink lies on the interface; the rest is interpolated. */
+static PetscErrorCode PhasePressure(Fluid from, Fluid to, Transfer transfer)
+{
+  Vec at_rest, rest;
+  PetscFunctionBeginUser;
+  PetscCall(VecDuplicate(from->p, &at_rest));
+  PetscCall(VecCopy(from->p, at_rest));
+  PetscCall(FluidBalancePressure(from));
+  PetscCall(VecAYPX(at_rest, -1.0, from->p)); /* static less p */
+  PetscCall(VecDuplicate(to->p, &rest));
+  PetscCall(Pressure(from, to, transfer)); /* the static part: its values on open boundaries stay */
+  PetscCall(VecCopy(at_rest, from->p));
+  PetscCall(FluidBalancePressure(to));
+  PetscCall(VecCopy(to->p, rest));
+  PetscCall(VecGhostUpdateBegin(from->p, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostUpdateEnd(from->p, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(Pressure(from, to, transfer));
+  PetscCall(VecAYPX(to->p, -1.0, rest));
+  PetscCall(VecGhostUpdateBegin(to->p, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostUpdateEnd(to->p, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecDestroy(&at_rest));
+  PetscCall(VecDestroy(&rest));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TransferPhases(Fluid from, Fluid to, Transfer transfer)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PhaseTransportRemap(from->phases, transfer, to->phases));
+  PetscCall(FluidPhasesChanged(to));
+  PhaseTransportSettle(from->phases);
+  PetscCall(FluidPhasesChanged(from));
+  PetscCall(PhaseVelocities(from, to, transfer));
+  PetscCall(PhasePressure(from, to, transfer));
   PetscFunctionReturn(0);
 }
 
@@ -52,11 +128,15 @@ PetscErrorCode FluidTransfer(Fluid from, Fluid to)
   Transfer transfer;
   PetscFunctionBeginUser;
   PetscCall(TransferCreate(from->domain.mesh, to->domain.mesh, &transfer));
-  PetscCall(Velocities(from, to, transfer));
-  PetscCall(Pressure(from, to, transfer));
+  to->t = from->t;
+  if (from->phases) {
+    PetscCall(TransferPhases(from, to, transfer));
+  } else {
+    PetscCall(Velocities(from, to, transfer));
+    PetscCall(Pressure(from, to, transfer));
+  }
   PetscCall(TransferDestroy(&transfer));
   PetscCall(VecCopy(to->u, to->u_projected));
-  to->t = from->t;
   to->dt_previous = from->dt_previous;
   to->stats = from->stats;
   to->stats.seconds[ADAPTATION] += MPI_Wtime() - start;

@@ -1,15 +1,11 @@
 #include "fluid/weighted_projection.h"
-#include "fluid/solver_options.h"
 
-#define ITERATIONS_MAX 8 /* with an old factor, before it is made anew */
-enum { NU = 6 };         /* velocity unknowns of an element: component, then vertex */
+enum { NU = 6 }; /* velocity unknowns of an element: component, then vertex */
 
 struct WeightedProjection_s {
   const FluidDomain *domain; /* borrowed */
   SolidCoupling solid;       /* borrowed: of the current step */
-  Mat matrix, factored;      /* now, and when it was factored last */
-  KSP ksp;
-  int iterations;             /* of the last solve */
+  double dt;
   double (*response)[NU][NU]; /* [entries of solid] W^-1 M */
 };
 
@@ -21,41 +17,12 @@ PetscErrorCode WeightedProjectionCreate(const FluidDomain *domain, WeightedProje
   PetscFunctionReturn(0);
 }
 
-/* When implicit inertia appears for the first time. */
-static PetscErrorCode CreateSolver(WeightedProjection w, Mat laplacian)
-{
-  PetscFunctionBeginUser;
-  PetscCall(SolverCreateDirect(w->domain->mesh->comm, "pressure_weighted_", KSPCG, &w->ksp));
-  PetscCall(KSPSetTolerances(w->ksp, 1e-7, 1e-50, 1e5, 500));
-  PetscCall(KSPSetFromOptions(w->ksp));
-  PetscCall(MatDuplicate(laplacian, MAT_COPY_VALUES, &w->matrix));
-  PetscCall(MatSetOption(w->matrix, MAT_SPD, PETSC_TRUE));
-  w->iterations = ITERATIONS_MAX + 1;
-  PetscFunctionReturn(0);
-}
-
 PetscErrorCode WeightedProjectionDestroy(WeightedProjection *w)
 {
   PetscFunctionBeginUser;
   if (!*w) PetscFunctionReturn(0);
-  PetscCall(KSPDestroy(&(*w)->ksp));
-  PetscCall(MatDestroy(&(*w)->matrix));
-  PetscCall(MatDestroy(&(*w)->factored));
   PetscCall(PetscFree((*w)->response));
   PetscCall(PetscFree(*w));
-  PetscFunctionReturn(0);
-}
-
-/* Factors the matrix as it is now, if the last factor has become a bad preconditioner. */
-static PetscErrorCode Refactor(WeightedProjection w)
-{
-  PetscFunctionBeginUser;
-  if (w->iterations > ITERATIONS_MAX) {
-    if (!w->factored) PetscCall(MatDuplicate(w->matrix, MAT_COPY_VALUES, &w->factored));
-    PetscCall(MatCopy(w->matrix, w->factored, SAME_NONZERO_PATTERN));
-    PetscCall(MatSetOption(w->factored, MAT_SPD, PETSC_TRUE));
-  }
-  PetscCall(KSPSetOperators(w->ksp, w->matrix, w->factored));
   PetscFunctionReturn(0);
 }
 
@@ -83,15 +50,15 @@ static PetscBool Factor(double w[NU][NU])
 /* x -> (L L^T)^-1 x for the columns of x */
 static void SolveColumns(const double l[NU][NU], double x[NU][NU])
 {
-  for (int c = 0; c < NU; c++) {
-    for (int i = 0; i < NU; i++) {
-      for (int k = 0; k < i; k++) x[i][c] -= l[i][k] * x[k][c];
-      x[i][c] /= l[i][i];
-    }
-    for (int i = NU - 1; i >= 0; i--) {
-      for (int k = i + 1; k < NU; k++) x[i][c] -= l[k][i] * x[k][c];
-      x[i][c] /= l[i][i];
-    }
+  for (int i = 0; i < NU; i++) {
+    for (int k = 0; k < i; k++)
+      for (int c = 0; c < NU; c++) x[i][c] -= l[i][k] * x[k][c];
+    for (int c = 0; c < NU; c++) x[i][c] *= 1.0 / l[i][i];
+  }
+  for (int i = NU - 1; i >= 0; i--) {
+    for (int k = i + 1; k < NU; k++)
+      for (int c = 0; c < NU; c++) x[i][c] -= l[k][i] * x[k][c];
+    for (int c = 0; c < NU; c++) x[i][c] *= 1.0 / l[i][i];
   }
 }
 
@@ -110,54 +77,9 @@ static PetscErrorCode Response(double area, double rho_dt, const double inertia[
   PetscFunctionReturn(0);
 }
 
-/* What implicit inertia changes in the pressure's matrix:
- * change[q][r] = int of grad N_q . (M W^-1 M/dt - M/rho) grad N_r over the P2 basis */
-static void MatrixChange(const ElementGeometry *g, double rho, double dt, const double response[NU][NU],
-                         double change[6][6])
-{
-  double m[NU][NU], d[NU][NU], grad[6][NU];
-  MassMatrix(g->area, m);
-  for (int i = 0; i < NU; i++)
-    for (int j = 0; j < NU; j++) {
-      d[i][j] = -m[i][j] / rho;
-      for (int k = 0; k < NU; k++) d[i][j] += m[i][k] * response[k][j] / dt;
-    }
-  for (int q = 0; q < 6; q++) {
-    double unit[6] = {0}, at[3][2];
-    unit[q] = 1.0;
-    P2Gradient(g->g, unit, at);
-    for (int i = 0; i < NU; i++) grad[q][i] = at[i % 3][i / 3];
-  }
-  for (int q = 0; q < 6; q++)
-    for (int r = 0; r < 6; r++) {
-      change[q][r] = 0.0;
-      for (int i = 0; i < NU; i++)
-        for (int j = 0; j < NU; j++) change[q][r] += grad[q][i] * d[i][j] * grad[r][j];
-    }
-}
-
 static PetscBool IsWeighted(const CoracleCoupling *k)
 {
-  return k->flags & CORACLE_HAS_INERTIA ? PETSC_TRUE : PETSC_FALSE;
-}
-
-static PetscErrorCode AddElement(WeightedProjection w, const WeightedProjectionStep *s, int k,
-                                 const CoracleCoupling *coupling)
-{
-  const Mesh *m = w->domain->mesh;
-  const int e = coupling->element;
-  const ElementGeometry *g = w->domain->geometry + e;
-  double change[6][6];
-  PetscInt gid[6];
-  PetscFunctionBeginUser;
-  PetscCall(Response(g->area, s->rho[e] / s->dt, coupling->implicit_inertia, w->response[k]));
-  MatrixChange(g, s->rho[e], s->dt, (const double(*)[NU])w->response[k], change);
-  for (int i = 0; i < 6; i++) {
-    const int p = m->p2[6 * e + i];
-    gid[i] = s->is_fixed[p] ? -1 : m->p2gid[p];
-  }
-  PetscCall(MatSetValues(w->matrix, 6, gid, 6, gid, &change[0][0], ADD_VALUES));
-  PetscFunctionReturn(0);
+  return k && k->flags & CORACLE_HAS_INERTIA ? PETSC_TRUE : PETSC_FALSE;
 }
 
 PetscErrorCode WeightedProjectionPrepare(WeightedProjection w, const WeightedProjectionStep *s,
@@ -169,33 +91,54 @@ PetscErrorCode WeightedProjectionPrepare(WeightedProjection w, const WeightedPro
   for (int k = 0; k < n; k++) any |= IsWeighted(entry + k);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_LOR, w->domain->mesh->comm));
   *active = (PetscBool)any;
-  if (!any) PetscFunctionReturn(0);
   w->solid = s->solid;
-  if (!w->matrix) PetscCall(CreateSolver(w, s->laplacian));
+  w->dt = s->dt;
   PetscCall(PetscFree(w->response));
   PetscCall(PetscMalloc1(n, &w->response));
-  PetscCall(MatCopy(s->laplacian, w->matrix, SAME_NONZERO_PATTERN));
-  for (int k = 0; k < n; k++)
-    if (IsWeighted(entry + k)) PetscCall(AddElement(w, s, k, entry + k));
-  PetscCall(MatAssemblyBegin(w->matrix, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(w->matrix, MAT_FINAL_ASSEMBLY));
-  PetscCall(Refactor(w));
+  for (int k = 0; k < n; k++) {
+    const int e = entry[k].element;
+    if (IsWeighted(entry + k))
+      PetscCall(Response(w->domain->geometry[e].area, s->rho[e] / s->dt, entry[k].implicit_inertia,
+                         w->response[k]));
+  }
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode WeightedProjectionSolve(WeightedProjection w, double t, Vec rhs, Vec phi, int *iterations)
+/* The response where element e has implicit inertia, else NULL. */
+static const double (*ResponseAt(WeightedProjection w, int e))[NU]
 {
-  PetscFunctionBeginUser;
-  PetscCall(SolverSolve(w->ksp, "pressure", t, rhs, phi, &w->iterations));
-  *iterations = w->iterations;
-  PetscFunctionReturn(0);
+  return IsWeighted(SolidCouplingAt(w->solid, e))
+             ? (const double(*)[NU])w->response[SolidCouplingIndex(w->solid, e)]
+             : NULL;
+}
+
+PetscBool WeightedProjectionBlock(WeightedProjection w, int e, double block[6][6])
+{
+  const ElementGeometry *g = w->domain->geometry + e;
+  const double(*response)[NU] = ResponseAt(w, e);
+  double half[6][NU] = {{0}}; /* transposed: of the gradients of the basis, int of grad N_q . M W^-1 */
+  if (!response) return PETSC_FALSE;
+  for (int j = 0; j < NU; j++) {
+    double column[2][3], r[6] = {0};
+    for (int c = 0; c < 2; c++) {
+      const double u[3] = {response[3 * c][j], response[3 * c + 1][j], response[3 * c + 2][j]};
+      P1MassApply(g->area / w->dt, u, column[c]);
+    }
+    P2GradientTranspose(g->g, (const double(*)[3])column, r);
+    for (int q = 0; q < 6; q++) half[q][j] = r[q];
+  }
+  for (int q = 0; q < 6; q++) {
+    for (int r = 0; r < 6; r++) block[q][r] = 0.0;
+    P2GradientTranspose(g->g, (const double(*)[3])half[q], block[q]);
+  }
+  return PETSC_TRUE;
 }
 
 PetscBool WeightedProjectionVelocity(WeightedProjection w, int e, const double grad[3][2], double u[6])
 {
-  const int k = SolidCouplingIndex(w->solid, e);
-  if (k < 0 || !IsWeighted(SolidCouplingAt(w->solid, e))) return PETSC_FALSE;
+  const double(*response)[NU] = ResponseAt(w, e);
+  if (!response) return PETSC_FALSE;
   for (int i = 0; i < NU; i++)
-    for (int j = 0; j < NU; j++) u[i] -= w->response[k][i][j] * grad[j % 3][j / 3];
+    for (int j = 0; j < NU; j++) u[i] -= response[i][j] * grad[j % 3][j / 3];
   return PETSC_TRUE;
 }

@@ -3,32 +3,29 @@
  *
  *     u_projected = u* - dt W^-1 M grad phi,   W = rho M/dt + implicit inertia   (6 x 6, element by element)
  *
- * and the pressure's matrix is C^T M W^-1 M C/dt there instead of C^T M C/rho.  It changes with every step, but little:
- * CG, preconditioned by the factor of a few steps ago. */
+ * and the pressure's matrix is C^T M W^-1 M C/dt there instead of C^T M C/rho.  Not collective, but for Prepare. */
 #ifndef FLUID_WEIGHTED_PROJECTION_H
 #define FLUID_WEIGHTED_PROJECTION_H
 #include "fluid/domain.h"
 #include "fluid/solid_coupling.h"
-#include <petscksp.h>
+#include <petscsys.h>
 
 typedef struct WeightedProjection_s *WeightedProjection;
 
 typedef struct {
-  double dt;            /* s */
-  const double *rho;    /* [ne], kg/m3 */
-  SolidCoupling solid;  /* borrowed until the next Prepare */
-  Mat laplacian;        /* of the fluid alone, with the rows of fixed nodes */
-  const char *is_fixed; /* [np2] */
+  double dt;           /* s */
+  const double *rho;   /* [ne], kg/m3 */
+  SolidCoupling solid; /* borrowed until the next Prepare */
 } WeightedProjectionStep;
 
 PetscErrorCode WeightedProjectionCreate(const FluidDomain *domain, WeightedProjection *w);
 PetscErrorCode WeightedProjectionDestroy(WeightedProjection *w);
-/* Matrix and responses of the current step; *active: some element of any rank has implicit inertia.
- * Collective. */
+/* Responses of the current step; *active: some element of any rank has implicit inertia.  Collective. */
 PetscErrorCode WeightedProjectionPrepare(WeightedProjection w, const WeightedProjectionStep *step,
                                          PetscBool *active);
-/* phi for the divergence rhs, t for messages.  Collective. */
-PetscErrorCode WeightedProjectionSolve(WeightedProjection w, double t, Vec rhs, Vec phi, int *iterations);
-/* u[2][3] of element e -= its response to grad phi; false where it has no implicit inertia.  Not collective. */
+/* block[q][r] = int of grad N_q . M W^-1 M grad N_r/dt over the P2 basis of element e; false, and nothing written,
+ * where it has no implicit inertia. */
+PetscBool WeightedProjectionBlock(WeightedProjection w, int e, double block[6][6]);
+/* u[2][3] of element e -= its response to grad phi; false where it has no implicit inertia. */
 PetscBool WeightedProjectionVelocity(WeightedProjection w, int e, const double grad[3][2], double u[6]);
 #endif

@@ -17,18 +17,18 @@ struct Writer_s {
 /* Points, cells and scratch of the two grids of a snapshot. */
 typedef struct {
   int *corner, *quadratic;   /* [ne][3], [ne][6] */
-  double *x_corner, *x_node; /* [ne][3][2], [np2][2] */
+  double *x_corner, *x_node; /* [ne][3][2], [n][2] */
   double *nodal, *cell;      /* [3 ne][2], [ne] */
 } Grids;
 
 /* Points and cells of the two grids: discontinuous triangles for P1DG, six-node triangles for P2. */
-static void BuildGrids(Grids *r, const Mesh *m)
+static void BuildGrids(Grids *r, const Mesh *m, const P2Space *p2)
 {
   static const int VTK[6] = {0, 1, 2, 5, 3, 4}; /* midpoints of 01, 12, 20 lie opposite to vertices 2, 0, 1 */
   for (int e = 0; e < m->ne; e++) {
     for (int i = 0; i < 3; i++) r->corner[3 * e + i] = 3 * e + i;
     for (int i = 0; i < 6; i++) {
-      const int node = m->p2[6 * e + VTK[i]], q = VTK[i];
+      const int node = p2->node[6 * e + VTK[i]], q = VTK[i];
       const int a = m->vertex[3 * e + (q < 3 ? q : (q + 1) % 3)],
                 b = m->vertex[3 * e + (q < 3 ? q : (q + 2) % 3)];
       r->quadratic[6 * e + i] = node;
@@ -40,16 +40,37 @@ static void BuildGrids(Grids *r, const Mesh *m)
   }
 }
 
+/* Density, and the fraction of each phase; cell[ne]: scratch. */
+static PetscErrorCode PhaseFields(Writer r, Fluid f, double cell[])
+{
+  int n;
+  const double *volume = PhaseTransportVolumes(FluidPhases(f), &n);
+  const Mesh *m = FluidMesh(f);
+  PetscFunctionBeginUser;
+  PetscCall(OutputField(r->output, "density", OUTPUT_CELL, 1, FluidDensity(f)));
+  for (int p = 0; p < n; p++) {
+    for (int e = 0; e < m->ne; e++) {
+      double all = 0.0;
+      for (int q = 0; q < n; q++) all += volume[n * e + q];
+      cell[e] = volume[n * e + p] / all;
+    }
+    PetscCall(
+        OutputField(r->output, PhaseTransportProperties(FluidPhases(f))->name[p], OUTPUT_CELL, 1, cell));
+  }
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode Snapshot(Writer r, Fluid f)
 {
   const Mesh *m = FluidMesh(f);
+  const P2Space *p2 = FluidPressureSpace(f);
   const double *u = FluidVelocity(f);
   PetscMPIInt rank;
   Grids g;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc6(3 * m->ne, &g.corner, 6 * m->ne, &g.quadratic, 6 * m->ne, &g.x_corner, 2 * m->np2,
+  PetscCall(PetscMalloc6(3 * m->ne, &g.corner, 6 * m->ne, &g.quadratic, 6 * m->ne, &g.x_corner, 2 * p2->n,
                          &g.x_node, 6 * m->ne, &g.nodal, m->ne, &g.cell));
-  BuildGrids(&g, m);
+  BuildGrids(&g, m, p2);
   PetscCallMPI(MPI_Comm_rank(m->comm, &rank));
   PetscCall(OutputBegin(r->output, FluidGetStats(f)->t));
   PetscCall(OutputGrid(r->output, "velocity", r->revision, 3 * m->ne, g.x_corner, m->ne, 3, g.corner));
@@ -58,9 +79,10 @@ static PetscErrorCode Snapshot(Writer r, Fluid f)
       for (int c = 0; c < 2; c++) g.nodal[2 * (3 * e + i) + c] = u[6 * e + 3 * c + i];
   PetscCall(OutputField(r->output, "velocity", OUTPUT_NODE, 2, g.nodal));
   PetscCall(OutputField(r->output, "alpha", OUTPUT_CELL, 1, FluidSolidFraction(f)));
+  if (FluidPhases(f)) PetscCall(PhaseFields(r, f, g.cell));
   for (int e = 0; e < m->ne; e++) g.cell[e] = rank;
   PetscCall(OutputField(r->output, "rank", OUTPUT_CELL, 1, g.cell));
-  PetscCall(OutputGrid(r->output, "pressure", r->revision, m->np2, g.x_node, m->ne, 6, g.quadratic));
+  PetscCall(OutputGrid(r->output, "pressure", r->revision, p2->n, g.x_node, m->ne, 6, g.quadratic));
   PetscCall(OutputField(r->output, "pressure", OUTPUT_NODE, 1, FluidPressure(f)));
   PetscCall(OutputEnd(r->output));
   PetscCall(PetscFree6(g.corner, g.quadratic, g.x_corner, g.x_node, g.nodal, g.cell));

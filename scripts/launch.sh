@@ -3,7 +3,7 @@
 # Usage: scripts/launch.sh [options] CASE [--set key=value]...
 #   --ranks F:C:S   ranks of fluid, coupler and solid (default 1:1:1)
 #   --bin DIR       where the programs are: a build folder or an installation's bin (default: build beside this script)
-#   --fluid, --coupler, --solid PROGRAM   another program for that part, e.g. --solid build/tests/route/rigid_disc
+#   --fluid, --coupler, --solid PROGRAM   another program for that part, e.g. --solid my_solid
 #   --print WHAT    start nothing, print: colon (mpirun's command line), appfile (mpirun --app FILE),
 #                   hydra (mpiexec -configfile FILE), srun (srun -n N --multi-prog FILE)
 #   --write FILE    with --print: into FILE, and say how to use it
@@ -68,7 +68,7 @@ plain() {
 
 # Threads of a BLAS would fight with the ranks for cores.
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
-env_names=$(compgen -e | grep -E '^(CORACLE_|OPENBLAS_NUM_THREADS$|OMP_NUM_THREADS$)' || true)
+env_names=$(compgen -e | grep -E '^(CORACLE_|OPENBLAS_NUM_THREADS$|OMP_NUM_THREADS$|PYTHONPATH$|LD_LIBRARY_PATH$)' || true)
 
 openmpi() { mpirun --version 2>/dev/null | grep -qi 'open mpi'; }
 options=() each=() # for mpirun, and for every part of its command line

@@ -1,10 +1,14 @@
 #!/usr/bin/env bash
 # Installs what Coracle stands on where it is missing (Debian 12, as root or with sudo); elsewhere says what it needs.
-# Usage: scripts/setup.sh [--quiet]
+# Usage: scripts/setup.sh [--adapters]
+#   --adapters   what the outside solids and fluids of cases/adapters stand on, too
 set -euo pipefail
 
 packages=(build-essential cmake ninja-build pkg-config git libopenmpi-dev openmpi-bin libpetsc-real-dev libmetis-dev
   libhdf5-openmpi-dev libyaml-dev libopenblas0-pthread gmsh python3 python3-numpy python3-h5py python3-matplotlib python3-pil)
+if [ "${1:-}" = --adapters ]; then
+  mapfile -t -O "${#packages[@]}" packages < <(sort -u "$(dirname "$0")"/../cases/adapters/*/packages)
+fi
 
 if ! command -v dpkg-query >/dev/null; then
   cat >&2 <<'EOF'

@@ -13,5 +13,5 @@ cmake --build --preset "$preset"
 # Open MPI does not free what it takes at start; with detect_leaks=1 its reports are all there is to see
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=0}
 export OPENBLAS_NUM_THREADS=1
-[ $# -gt 0 ] || set -- -LE validation -j 2
+[ $# -gt 0 ] || set -- -LE 'validation|adapters' -j 2
 ctest --preset "$preset" --no-tests=error "$@"

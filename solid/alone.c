@@ -54,6 +54,17 @@ static PetscErrorCode Run(Solid solid, Writer record, double end, double longest
   PetscFunctionReturn(0);
 }
 
+int AloneTake(int *argc, char **argv)
+{
+  int kept = 0, found = 0;
+  for (int k = 0; k < *argc; k++) {
+    found |= !strcmp(argv[k], "--alone");
+    if (strcmp(argv[k], "--alone")) argv[kept++] = argv[k];
+  }
+  *argc = kept;
+  return found;
+}
+
 int Alone(int argc, char **argv)
 {
   CoracleCase c;

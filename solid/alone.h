@@ -4,6 +4,8 @@
 #ifndef SOLID_ALONE_H
 #define SOLID_ALONE_H
 
+/* Takes --alone out of argv; nonzero if it was there. */
+int AloneTake(int *argc, char **argv);
 /* The whole program, argv without --alone; returns its exit code. */
 int Alone(int argc, char **argv);
 #endif

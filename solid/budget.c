@@ -9,7 +9,7 @@ void BudgetAddSubstep(Solid s)
   s->budget.walls[0] += s->h * walls.x;
   s->budget.walls[1] += s->h * walls.y;
   for (int n = 0; n < s->nnodes; n++) {
-    if (s->inverse_mass[n] > 0.0 || !SubdomainOwns(s->subdomain, n)) continue;
+    if (s->inverse_mass[n] > 0.0 || !SolidOwns(s, n)) continue;
     for (int c = 0; c < 2; c++)
       s->budget.reaction[c] -=
           s->h * (s->force[2 * n + c] + s->load[2 * n + c] + s->mass[n] * s->setup.gravity[c]);
@@ -21,7 +21,7 @@ void BudgetAddDecay(Solid s)
 {
   const double rate = s->setup.decay_rate;
   for (int n = 0; n < s->nnodes && rate > 0.0; n++)
-    for (int c = 0; c < 2 && SubdomainOwns(s->subdomain, n); c++) {
+    for (int c = 0; c < 2 && SolidOwns(s, n); c++) {
       const double impulse = -s->h * rate * s->mass[n] * s->v[2 * n + c];
       s->budget.reaction[c] += impulse;
       s->budget.reaction_work += impulse * s->v[2 * n + c];
@@ -30,7 +30,7 @@ void BudgetAddDecay(Solid s)
 
 void BudgetAddPrescribed(Solid s, int n, int c, double v)
 {
-  if (!SubdomainOwns(s->subdomain, n)) return;
+  if (!SolidOwns(s, n)) return;
   const double impulse = s->mass[n] * (v - s->v[2 * n + c]);
   s->budget.reaction[c] += impulse;
   s->budget.reaction_work += impulse * v;
@@ -42,7 +42,7 @@ PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget)
   double sum[6] = {b->walls[0], b->walls[1], b->reaction[0], b->reaction[1], 0.0, b->reaction_work};
   PetscFunctionBeginUser;
   for (int n = 0; n < s->nnodes; n++)
-    for (int c = 0; c < 2 && SubdomainOwns(s->subdomain, n); c++)
+    for (int c = 0; c < 2 && SolidOwns(s, n); c++)
       sum[4] += s->load[2 * n + c] * (s->x[2 * n + c] - s->start[2 * n + c]);
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 6, MPI_DOUBLE, MPI_SUM, s->comm));
   *budget = (SolidBudget){{sum[0], sum[1]}, {sum[2], sum[3]}, sum[4], sum[5]};

@@ -28,7 +28,7 @@ static const CoracleCaseKey KEYS[] = {
      "what pressure adds to the shear strength, over the pressure"},
     {"solid.materials.*.fracture_energy", "J/m2", "of opening; required with tensile_strength"},
     {"solid.materials.*.shear_fracture_energy", "J/m2", "of sliding; absent: fracture_energy"},
-    {"solid.bodies", "", "list of bodies"},
+    {"solid.bodies", "", "list of bodies; [] leaves the fluid alone"},
     {"solid.bodies[].material", "", "name of a material"},
     {"solid.bodies[].regions.*", "", "material of the mesh's physical surface of this name"},
     {"solid.bodies[].mesh", "", "a Gmsh mesh, instead of a shape; a relative path starts at the case file"},

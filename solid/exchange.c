@@ -1,5 +1,4 @@
 #include "solid/exchange.h"
-#include "solid/ranks/node_directory.h"
 
 static int SaveOrRestore(void *solid, int save)
 {
@@ -15,9 +14,7 @@ static PetscErrorCode GiveMesh(Exchange *x, const SolidView *v, const double at[
   PetscCall(CoracleSetSurface(x->client, v->nfacets, v->facet));
   PetscCall(CoracleSetVolume(x->client, v->nelements, v->element));
   x->before = x->registered;
-  x->registered = (RegisteredMesh){.n = v->nnodes, .partition = v->partition, .revision = v->revision};
-  PetscCall(PetscMalloc1((size_t)v->nnodes + 1, &x->registered.gid));
-  PetscCall(PetscArraycpy(x->registered.gid, v->gid, (size_t)v->nnodes));
+  PetscCall(NodeDirectoryCreate(x->solid, &x->registered));
   PetscFunctionReturn(0);
 }
 
@@ -60,12 +57,12 @@ PetscErrorCode ExchangeCreate(CoracleClient client, Solid solid, Exchange *x)
 static PetscErrorCode BeginRegistered(Exchange *x, CoracleAction action)
 {
   PetscFunctionBeginUser;
-  if (action == CORACLE_REDO && x->before.gid) {
-    const RegisteredMesh failed = x->registered;
+  if (action == CORACLE_REDO && x->before) {
+    const NodeDirectory failed = x->registered;
     x->registered = x->before;
     x->before = failed;
   }
-  PetscCall(PetscFree(x->before.gid));
+  PetscCall(NodeDirectoryDestroy(&x->before));
   PetscFunctionReturn(0);
 }
 
@@ -79,11 +76,11 @@ PetscErrorCode ExchangeBegin(Exchange *x, double *dt, CoracleAction *action, con
   PetscCall(BeginRegistered(x, *action));
   SolidGetView(x->solid, &v);
   x->dt = *dt;
-  x->remote = (PetscBool)(v.partition != x->registered.partition);
+  x->remote = (PetscBool)!NodeDirectoryIsPresent(x->registered);
   if (*action != CORACLE_STOP) PetscCall(CoracleGetForce(x->client, load));
   if (*action != CORACLE_STOP && x->remote) {
     PetscCall(PetscRealloc(2 * (size_t)v.nnodes * sizeof *x->load + 1, &x->load));
-    PetscCall(NodeDirectoryLoad(x->solid, x->registered.n, x->registered.gid, *load, x->load));
+    PetscCall(NodeDirectoryLoad(x->registered, *load, x->load));
     *load = x->load;
   }
   x->waited += MPI_Wtime() - start;
@@ -105,13 +102,13 @@ PetscErrorCode ExchangeSubstep(Exchange *x, double h)
 /* The end of a step where the coupler knows the nodes. */
 static PetscErrorCode SendRemote(Exchange *x)
 {
-  const size_t n = (size_t)x->registered.n;
+  const size_t n = (size_t)NodeDirectorySize(x->registered);
   NodeMotion *motion;
   double *at, *mean, *interface, *mobility, *acceleration;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc6(n, &motion, 2 * n + 1, &at, 2 * n + 1, &mean, 2 * n + 1, &interface, n + 1,
                          &mobility, 2 * n + 1, &acceleration));
-  PetscCall(NodeDirectoryMotion(x->solid, x->registered.n, x->registered.gid, motion));
+  PetscCall(NodeDirectoryMotion(x->registered, motion));
   for (size_t k = 0; k < 2 * n; k++) {
     at[k] = motion[k / 2].x[k % 2];
     interface[k] = motion[k / 2].interface_velocity[k % 2];
@@ -135,8 +132,8 @@ PetscErrorCode ExchangeMotion(Exchange *x)
   PetscFunctionBeginUser;
   SolidGetView(x->solid, &v);
   SolidGetInterfaceMotion(x->solid, &interface);
-  if (v.revision != x->registered.revision) PetscCall(GiveCrackedMesh(x, &v));
-  if (v.partition == x->registered.partition) {
+  if (!NodeDirectoryIsComplete(x->registered)) PetscCall(GiveCrackedMesh(x, &v));
+  if (NodeDirectoryIsPresent(x->registered)) {
     PetscCall(CoracleSetVelocity(x->client, interface.u));
     PetscCall(CoracleSetInertia(x->client, interface.mobility, interface.acceleration));
     PetscCall(CoracleEnd(x->client, v.x));
@@ -150,8 +147,8 @@ PetscErrorCode ExchangeMotion(Exchange *x)
 PetscErrorCode ExchangeDestroy(Exchange *x)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscFree(x->registered.gid));
-  PetscCall(PetscFree(x->before.gid));
+  PetscCall(NodeDirectoryDestroy(&x->registered));
+  PetscCall(NodeDirectoryDestroy(&x->before));
   PetscCall(PetscFree(x->load));
   PetscFunctionReturn(0);
 }

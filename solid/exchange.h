@@ -1,31 +1,25 @@
 /* The solid's side of the link: what it sends, what it receives, and the time it waits.
  *
- * The solid registers its nodes with the coupler once, on the ranks where they are then (RegisteredMesh), and again only
- * when cracks change the mesh: a new mesh costs the fluid a step's correction.  When elements change ranks in between,
- * the nodes' present ranks differ from the registered ones (`remote`), and the node directory moves what is exchanged:
+ * The solid registers its nodes with the coupler once, on the ranks where they are then, and again only when cracks
+ * change the mesh: a new mesh costs the fluid a step's correction.  When elements change ranks in between, the node
+ * directory brings what is exchanged from the registered ranks to the present ones and back (`remote`):
  *
- *                     registered ranks                             present ranks
- *     coupler  -->  force[registered.n][2]   -- NodeDirectoryLoad -->     load[nnodes][2]  --> SolidStart
- *     coupler  <--  x, velocity, mobility    <-- NodeDirectoryMotion --   SolidView, InterfaceMotion */
+ *     coupler  -->  force on registered nodes       -- NodeDirectoryLoad -->     load[nnodes][2]  --> SolidStart
+ *     coupler  <--  x, velocity, mobility of these  <-- NodeDirectoryMotion --   SolidView, InterfaceMotion */
 #ifndef SOLID_EXCHANGE_H
 #define SOLID_EXCHANGE_H
 #include "common/link/coracle.h"
+#include "solid/ranks/node_directory.h"
 #include "solid/solid.h"
 
-/* This rank's mesh as the coupler knows it. */
 typedef struct {
-  int n, partition, revision;
-  long long *gid; /* [n] */
-} RegisteredMesh;
-
-typedef struct {
-  CoracleClient client;              /* borrowed */
-  Solid solid;                       /* borrowed */
-  double waited;                     /* seconds within the link */
-  double dt;                         /* of the step, s */
-  RegisteredMesh registered, before; /* before: gid is NULL unless this step has registered a new mesh */
-  PetscBool remote;                  /* the step has begun on another partition than the registered one */
-  double *load;                      /* [nnodes][2] of the present subdomain, when remote */
+  CoracleClient client;             /* borrowed */
+  Solid solid;                      /* borrowed */
+  double waited;                    /* seconds within the link */
+  double dt;                        /* of the step, s */
+  NodeDirectory registered, before; /* before: NULL unless this step has registered a new mesh */
+  PetscBool remote;                 /* the step has begun on another partition than the registered one */
+  double *load;                     /* [nnodes][2] of the present subdomain, when remote */
 } Exchange;
 
 /* Gives nodes, surface and volume with their interface motion, binds the state and makes the first exchange.

@@ -21,7 +21,7 @@ PetscErrorCode SolidForces(Solid s, const double **force)
   const double joints = Clock();
   PetscCall(ContactAddForces(s->contact, s));
   const double contact = Clock();
-  PetscCall(SubdomainSum(s->subdomain, s->force));
+  PetscCall(CopiesSum(s->copies, 2, s->force));
   s->force_valid = PETSC_TRUE;
   s->stats.seconds[0] += elements - start;
   s->stats.seconds[1] += contact - joints;
@@ -140,7 +140,7 @@ PetscErrorCode SolidStart(Solid s, double dt, const double load[])
   s->unsynchronised = PETSC_FALSE;
   if (load) {
     PetscCall(PetscArraycpy(s->load, load, 2 * (size_t)s->nnodes));
-    PetscCall(SubdomainSum(s->subdomain, s->load));
+    PetscCall(CopiesSum(s->copies, 2, s->load));
   } else {
     PetscCall(PetscArrayzero(s->load, 2 * (size_t)s->nnodes));
   }

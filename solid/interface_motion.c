@@ -57,7 +57,7 @@ static PetscErrorCode Apply(Solid s, double factor, const double d[], double ad[
   for (int k = 0; k < s->elements.n; k++)
     if (!IsHeld(s, k)) AddElementStiffness(&s->elements, k, s->x, d, ad);
   JointsAddStiffness(s->joints, s, d, ad);
-  PetscCall(SubdomainSum(s->subdomain, ad));
+  PetscCall(CopiesSum(s->copies, 2, ad));
   for (int k = 0; k < 2 * s->nnodes; k++) ad[k] = d[k] - factor * s->inverse_mass[k / 2] * ad[k];
   PetscFunctionReturn(0);
 }
@@ -68,8 +68,7 @@ static PetscErrorCode Dot(Solid s, const double a[], const double b[], double *d
   PetscFunctionBeginUser;
   *dot = 0.0;
   for (int i = 0; i < s->nnodes; i++)
-    if (SubdomainOwns(s->subdomain, i))
-      *dot += s->mass[i] * (a[2 * i] * b[2 * i] + a[2 * i + 1] * b[2 * i + 1]);
+    if (SolidOwns(s, i)) *dot += s->mass[i] * (a[2 * i] * b[2 * i] + a[2 * i + 1] * b[2 * i + 1]);
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, dot, 1, MPI_DOUBLE, MPI_SUM, s->comm));
   PetscFunctionReturn(0);
 }

@@ -1,120 +1,59 @@
 /* coracle-solid: the solid participant.  coracle-solid case.yaml [--set key=value]...
  *
+ *     start; solid, first exchange
+ *     each step over dt
+ *         force on the nodes  -->  substeps  -->  position, velocity, inertia
+ *     report, end
+ *
  * coracle-solid --alone case.yaml [--set key=value]...: the solid without coupler and fluid (alone.h). */
-#include "common/program/program.h"
 #include "solid/alone.h"
 #include "solid/check.h"
-#include "solid/exchange.h"
-#include "solid/solid_case.h"
-#include "solid/writer.h"
+#include "solid/run.h"
 
-static PetscErrorCode Report(const Program *program, Solid solid)
+static PetscErrorCode Step(SolidRun *m, double dt, const double load[])
 {
-  static const char *const PHASES[] = {"seconds_elements", "seconds_contact", "seconds_exchange",
-                                       "seconds_limit", "seconds_joints"};
-  const CoracleClient client = program->client;
-  const SolidStats *stats = SolidGetStats(solid);
-  SolidView v;
-  PetscFunctionBeginUser;
-  SolidGetView(solid, &v);
-  PetscCall(CoracleReport(client, "elements", v.nelements, 1));
-  PetscCall(CoracleReport(client, "bodies", v.nbodies, 0));
-  PetscCall(CoracleReport(client, "substeps", (double)stats->total, 0));
-  PetscCall(CoracleReport(client, "contact_searches", stats->searches, 0));
-  PetscCall(CoracleReport(client, "rebalanced", stats->rebalanced, 0));
-  PetscCall(ProgramReportSeconds(program, 5, PHASES, stats->seconds));
-  PetscFunctionReturn(0);
-}
-
-/* --- checkpoints -------------------------------------------------------------------------------------- */
-
-/* *from: the checkpoint that the run resumes from, NULL: from the start. */
-static PetscErrorCode Resume(CoracleClient client, Solid solid, Checkpoint *from)
-{
-  const char *folder = CoracleResumePath(client);
-  PetscFunctionBeginUser;
-  *from = NULL;
-  if (!folder) PetscFunctionReturn(0);
-  PetscCall(CheckpointOpen(PETSC_COMM_WORLD, folder, "solid", from));
-  PetscCall(SolidLoad(solid, *from));
-  PetscFunctionReturn(0);
-}
-
-/* If one is due. */
-static PetscErrorCode Save(CoracleClient client, Solid solid, Writer record, double waited)
-{
-  const char *folder = CoracleCheckpointPath(client);
-  Checkpoint to;
-  PetscFunctionBeginUser;
-  if (!folder) PetscFunctionReturn(0);
-  PetscCall(CheckpointCreate(PETSC_COMM_WORLD, folder, "solid", &to));
-  PetscCall(SolidSave(solid, to));
-  PetscCall(WriterSave(record, waited, to));
-  PetscCall(CheckpointClose(&to));
-  PetscFunctionReturn(0);
-}
-
-/* --- the run ------------------------------------------------------------------------------------------ */
-
-static PetscErrorCode Run(const Program *program, Solid solid, Checkpoint *from)
-{
-  Exchange exchange;
-  Writer writer;
-  CoracleAction action;
   InterfaceMotion interface;
-  const double *load;
-  double dt, h;
+  double h;
   PetscFunctionBeginUser;
-  PetscCall(ExchangeCreate(program->client, solid, &exchange));
-  for (int steps = 0;; steps++) {
-    PetscCall(ExchangeBegin(&exchange, &dt, &action, &load));
-    if (steps == 0) { /* all participants have accepted the case */
-      PetscCall(WriterCreate(program->c, program->comm, solid, *from, &writer));
-      PetscCall(CheckpointClose(from));
-    }
-    if (steps > 0 && action != CORACLE_REDO) PetscCall(WriterStep(writer, solid, exchange.waited));
-    PetscCall(Save(program->client, solid, writer, exchange.waited));
-    if (action == CORACLE_STOP) break;
-    PetscCall(SolidStart(solid, dt, load));
-    while (SolidRemaining(solid)) {
-      PetscCall(SolidSubstep(solid, &h));
-      PetscCall(ExchangeSubstep(&exchange, h));
-    }
-    PetscCall(SolidUpdateInterfaceMotion(
-        solid, &interface)); /* before elements change ranks, while contact is known */
-    PetscCall(SolidRebalance(solid));
-    PetscCall(ExchangeMotion(&exchange));
+  PetscCall(SolidStart(m->solid, dt, load));
+  while (SolidRemaining(m->solid)) {
+    PetscCall(SolidSubstep(m->solid, &h));
+    PetscCall(ExchangeSubstep(&m->exchange, h));
   }
-  PetscCall(WriterDestroy(&writer));
-  PetscCall(ExchangeDestroy(&exchange));
+  PetscCall(SolidUpdateInterfaceMotion(m->solid, &interface)); /* while contact is known */
+  PetscCall(SolidRebalance(m->solid));
+  PetscCall(ExchangeMotion(&m->exchange));
   PetscFunctionReturn(0);
 }
 
-/* Takes --alone out of argv. */
-static int TakeAlone(int *argc, char **argv)
+static PetscErrorCode Run(const Program *program)
 {
-  int kept = 0, found = 0;
-  for (int k = 0; k < *argc; k++) {
-    found |= !strcmp(argv[k], "--alone");
-    if (strcmp(argv[k], "--alone")) argv[kept++] = argv[k];
+  SolidRun run;
+  CoracleAction action;
+  const double *load;
+  double dt;
+  PetscFunctionBeginUser;
+  PetscCall(SolidRunCreate(program, &run));
+  PetscCall(ExchangeBegin(&run.exchange, &dt, &action, &load));
+  PetscCall(SolidRunOpenOutput(&run));
+  PetscCall(SolidRunSave(&run));
+  while (action != CORACLE_STOP) {
+    PetscCall(Step(&run, dt, load));
+    PetscCall(ExchangeBegin(&run.exchange, &dt, &action, &load));
+    if (action != CORACLE_REDO) PetscCall(WriterStep(run.writer, run.solid, run.exchange.waited));
+    PetscCall(SolidRunSave(&run));
   }
-  *argc = kept;
-  return found;
+  PetscCall(SolidRunDestroy(&run));
+  PetscFunctionReturn(0);
 }
 
 int main(int argc, char **argv)
 {
   const Command command = CommandTake(&argc, argv);
   Program program;
-  Solid solid;
-  Checkpoint from;
   if (command != COMMAND_RUN) return SolidAnswer(command, argc, argv);
-  if (TakeAlone(&argc, argv)) return Alone(argc, argv);
+  if (AloneTake(&argc, argv)) return Alone(argc, argv);
   PetscCall(ProgramStart("solid", argc, argv, &program));
-  PetscCall(SolidFromCase(program.c, program.comm, ProgramFail, &program, &solid));
-  PetscCall(Resume(program.client, solid, &from));
-  PetscCall(Run(&program, solid, &from));
-  PetscCall(Report(&program, solid));
-  PetscCall(SolidDestroy(&solid));
+  PetscCall(Run(&program));
   return ProgramEnd(&program);
 }

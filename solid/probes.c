@@ -58,8 +58,9 @@ static void ReadProbe(CoracleCase c, int k, double point[2], size_t size, char c
   (void)snprintf(key, sizeof key, "solid.probes[%d].name", k);
   const char *name = CoracleCaseString(c, key);
   const size_t used = strlen(columns);
-  if (!name[0] || strlen(name) > 40 || strpbrk(name, ",\"\n"))
-    CoracleCaseRefuse(c, key, "expected a name of up to 40 characters without commas and quotes");
+  if (!SeriesCanName(name))
+    CoracleCaseRefuse(c, key, "expected a name of up to %d characters without commas and quotes",
+                      SERIES_NAME_MAX);
   (void)snprintf(columns + used, size - used, ",%s_x [m],%s_y [m],%s_u [m/s],%s_v [m/s]", name, name, name,
                  name);
 }

@@ -47,8 +47,8 @@ PetscErrorCode SolidFreeSubdomain(Solid s)
   PetscFunctionBeginUser;
   PetscCall(ContactDestroy(&s->contact));
   PetscCall(JointsDestroy(&s->joints));
-  PetscCall(PetscFree2(s->copies.rank, s->copies.node));
-  PetscCall(SubdomainDestroy(&s->subdomain));
+  PetscCall(PetscFree2(s->shared.rank, s->shared.node));
+  PetscCall(CopiesDestroy(&s->copies));
   PetscCall(
       PetscFree7(s->gid, s->node_body, s->surface, s->mass, s->inverse_mass, s->corner_start, s->corner));
   PetscCall(PetscFree7(s->rest, s->x, s->v, s->force, s->load, s->saved.x, s->saved.v));
@@ -62,7 +62,7 @@ PetscErrorCode SolidFreeSubdomain(Solid s)
   PetscCall(PetscFree3(e->node[0], e->node[1], e->node[2]));
   PetscCall(PetscFree4(e->inverse[0], e->inverse[1], e->inverse[2], e->inverse[3]));
   PetscCall(PetscFree3(e->stress[0], e->stress[1], e->stress[2]));
-  PetscCall(PetscFree5(e->mu, e->lambda, e->eta, e->density, e->corotated));
+  PetscCall(PetscFree5(e->mu, e->lambda, e->eta, e->density, e->kind));
   PetscCall(
       PetscFree7(e->body, e->number, e->force[0], e->force[1], e->thickness, e->plane_stress, e->material));
   PetscCall(PetscFree(s->part));
@@ -141,7 +141,7 @@ enum { M, MX, MY, MU, MV, FX, FY, KINETIC, STRAIN, NSUMS };
 static void AddNodes(const Solid s, int n, double sum[][NSUMS])
 {
   for (int i = 0; i < s->nnodes; i++) {
-    if (s->node_body[i] >= n || !SubdomainOwns(s->subdomain, i)) continue;
+    if (s->node_body[i] >= n || !SolidOwns(s, i)) continue;
     double *k = sum[s->node_body[i]];
     const double m = s->mass[i], *v = s->v + 2 * i;
     k[M] += m;
@@ -176,7 +176,7 @@ static PetscErrorCode AngularVelocities(const Solid s, int n, BodyState state[])
   PetscCall(PetscCalloc1((size_t)n, &sum));
   for (int i = 0; i < s->nnodes; i++) {
     const int b = s->node_body[i];
-    if (b >= n || !SubdomainOwns(s->subdomain, i)) continue;
+    if (b >= n || !SolidOwns(s, i)) continue;
     const Point r = {s->x[2 * i] - state[b].x[0], s->x[2 * i + 1] - state[b].x[1]};
     const Point v = {s->v[2 * i] - state[b].v[0], s->v[2 * i + 1] - state[b].v[1]};
     sum[b][0] += s->mass[i] * PointCross(r, v);

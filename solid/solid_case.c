@@ -63,7 +63,8 @@ PetscErrorCode SolidCaseRead(CoracleCase c, Model *a, SolidSetup *setup)
   setup->decay_rate = CoracleCaseNumberOr(c, "solid.decay_rate", 0.0, 0.0, HUGE_VAL);
   setup->rebalance = CoracleCaseNumberOr(c, "solid.rebalance", 200.0, 0.0, HUGE_VAL);
   CoracleCaseKeys(c, "solid.materials", CaseCheckMaterial, c);
-  if (nbodies == 0) CoracleCaseRefuse(c, "solid.bodies", "expected a list of at least one body");
+  if (!CoracleCaseHas(c, "solid.bodies"))
+    CoracleCaseRefuse(c, "solid.bodies", "expected a list of bodies; of a fluid alone an empty one, []");
   for (int b = 0; b < nbodies; b++) PetscCall(CaseReadBody(c, b, a));
   ReadWalls(c, a, setup);
   ReadRules(c, setup);

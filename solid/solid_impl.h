@@ -1,16 +1,13 @@
 /* The solid's own data, for the files of this room. */
 #ifndef SOLID_IMPL_H
 #define SOLID_IMPL_H
+#include "common/exchange/copies.h"
 #include "solid/cracks/interior_edges.h"
 #include "solid/element.h"
-#include "solid/ranks/subdomain.h"
 #include "solid/solid.h"
 
 typedef struct Contact_s *Contact;
 typedef struct Joints_s *Joints;
-
-/* Each with those before it. */
-typedef enum { STRAIN_ONLY, WITH_PLANE_STRESS, WITH_COROTATED } ElementLaws; /* the first: neo-Hookean */
 
 /* What all subdomains are of, the same on all ranks. */
 typedef struct {
@@ -24,7 +21,7 @@ typedef struct {
   double *inverse[4];                  /* D0^-1: xx, xy, yx, yy of the rest edges' inverse, 1/m */
   double *mu, *lambda, *eta, *density; /* times the thickness */
   double *thickness, *plane_stress;    /* m; 1 in plane stress, 0 in plane strain */
-  double *corotated;                   /* 1, or 0: neo-Hookean */
+  double *kind;                        /* of law */
   int *body, *material;
   int *number;       /* in the model */
   double *force[2];  /* [3][n]: corner i of element e at i n + e */
@@ -36,7 +33,7 @@ typedef struct {
 /* node[k], a node of the start, is also on rank[k]. */
 typedef struct {
   int n, *rank, *node;
-} Copies;
+} SharedNodes;
 
 /* How much the present subdomain loses against the best that it has been (balance.c). */
 typedef struct {
@@ -75,8 +72,8 @@ struct Solid_s {
   int *element;               /* [ne][3] */
   int *facet, *facet_element; /* [nfacets][2], [nfacets] */
   int *facet_side;            /* [nfacets] from that corner of the element to the next */
-  Copies copies;
-  Subdomain subdomain;
+  SharedNodes shared;
+  Copies copies; /* of the nodes: what acts on one is the sum of what its ranks' elements do */
   Contact contact;
   Joints joints;                      /* NULL: none */
   int nprescribed, nprescribed_first; /* now, and at the start: parts of split nodes come last */
@@ -105,8 +102,16 @@ struct Solid_s {
   Balance balance;
 };
 
+/* Not collective: no lower rank has the node. */
+static inline PetscBool SolidOwns(const Solid s, int node)
+{
+  return (PetscBool)(CopiesOwner(s->copies, node) == s->rank);
+}
+
 /* forces.c: internal forces of this rank's elements into force; fails on an element with J <= 0. */
 PetscErrorCode SolidInternalForces(Solid s);
+/* corner_start and corner, from element */
+void SolidListCorners(Solid s);
 ElementRates SolidElementRates(Solid s, int k);
 /* The smallest stable step over this rank's elements, each with contact's rates added. */
 double SolidElementLimit(Solid s, ElementRates contact);
@@ -126,10 +131,6 @@ void BudgetAddDecay(Solid s);
 
 /* distribute.c: everything that comes from the model. */
 PetscErrorCode SolidTakeSubdomain(Solid s, const Model *a, const int part[]);
-/* Of an element of the model, times its thickness. */
-ElementLaw SolidLawOf(const Model *a, int e);
-/* corner_start and corner, from element */
-void SolidListCorners(Solid s);
 
 /* balance.c, collective: elements to ranks as suits the solid as it is now.  Needs rebalance > 0. */
 PetscErrorCode SolidDealOut(Solid s);

@@ -8,6 +8,20 @@ int CoracleOpen(const char *role, int argc, char **argv, MPI_Comm *app_comm, Cor
   return CoracleOpenComm(MPI_COMM_NULL, role, argc, argv, app_comm, client);
 }
 
+int CoracleOpenFortran(const MPI_Fint *job, const char *role, int argc, char **argv, MPI_Fint *app_comm,
+                       CoracleClient *client)
+{
+  MPI_Comm comm;
+  CoracleOpenComm(job ? MPI_Comm_f2c(*job) : MPI_COMM_NULL, role, argc, argv, &comm, client);
+  *app_comm = MPI_Comm_c2f(comm);
+  return 0;
+}
+
+const char *CoracleVersion(void)
+{
+  return CORACLE_VERSION;
+}
+
 int CoracleSetErrorHandler(void (*f)(void *context, const char *message), void *context)
 {
   ParticipantSetErrorHandler(f, context);
@@ -33,6 +47,11 @@ void CoracleFail(CoracleClient c, const char *format, ...)
   va_list list;
   va_start(list, format);
   ParticipantFailList(c->p, format, list);
+}
+
+void CoracleFailMessage(void *client, const char *message)
+{
+  CoracleFail(client, "%s", message);
 }
 
 void ClientMisuse(CoracleClient c, const char *function, const char *why)

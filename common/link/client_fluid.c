@@ -78,6 +78,8 @@ static void TakeCoupling(CoracleClient c, const MessageHeader *h)
   f->ncoupling = (int)h->count[1];
   FieldsTake(c->p, &c->in, &FIELDS_CORRECTION, (size_t)f->ncorrection, &f->correction);
   FieldsTake(c->p, &c->in, &FIELDS_COUPLING, (size_t)f->ncoupling, &f->coupling);
+  f->ngauges = (int)h->count[3];
+  FieldsTake(c->p, &c->in, &FIELDS_GAUGES, (size_t)f->ngauges, &f->gauge);
   ClientTakePath(c, h);
   ClientTakeStep(c, h);
 }
@@ -131,6 +133,14 @@ int CoracleGetCorrection(CoracleClient c, int *n, const CoracleCorrection **corr
   return 0;
 }
 
+int CoracleGetGauges(CoracleClient c, int *n, const CoracleGauge **gauge)
+{
+  ClientExpect(c, "CoracleGetGauges", ROLE_FLUID, STAGE_BETWEEN, STAGE_STEP);
+  *n = c->fluid.ngauges;
+  *gauge = (const CoracleGauge *)(const void *)c->fluid.gauge.data;
+  return 0;
+}
+
 /* --- flow ----------------------------------------------------------------------------------------------- */
 
 int CoracleSetFlow(CoracleClient c, const CoracleFlow *flow)
@@ -161,4 +171,5 @@ void FluidFree(CoracleClient c)
 {
   BufferFree(&c->fluid.coupling);
   BufferFree(&c->fluid.correction);
+  BufferFree(&c->fluid.gauge);
 }

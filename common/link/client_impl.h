@@ -46,7 +46,8 @@ typedef struct {
   int n; /* elements last given by region */
   bool asked, needs_pressure, changed, flow_set;
   int ncoupling, ncorrection;
-  Buffer coupling, correction;
+  int ngauges;
+  Buffer coupling, correction, gauge;
 } ClientFluid;
 
 typedef struct {

@@ -307,8 +307,10 @@ static void CheckDisplacement(CoracleClient c, const double x[])
       ParticipantFail(
           c->p,
           "node %lld has moved by %g m in component %d in step %d, its velocities over the substeps sum up "
-          "to %g m: CoracleSubstep's u must be what moves the nodes",
-          Ids(&m->gid)[k / DIM], moved, k % DIM, c->p->step, summed);
+          "to %g m: CoracleSubstep's u must be what moves the nodes%s",
+          Ids(&m->gid)[k / DIM], moved, k % DIM, c->p->step, summed,
+          c->action == CORACLE_REDO ? ", from where they were before the step was redone (CoracleBindState)"
+                                    : "");
   }
 }
 

@@ -56,6 +56,8 @@ extern "C" {
 #endif
 
 #define CORACLE_VERSION "0.1.0"
+/* The version of the library, as CORACLE_VERSION is that of the header.  Local, at any time. */
+const char *CoracleVersion(void);
 
 /* Elements are simplices with P1 velocity; the pressure is P2. */
 enum {
@@ -88,6 +90,11 @@ int CoracleOpen(const char *role, int argc, char **argv, MPI_Comm *app_comm, Cor
 int CoracleOpenComm(MPI_Comm job, const char *role, int argc, char **argv, MPI_Comm *app_comm,
                     CoracleClient *c);
 
+/* The same for languages that know a communicator by its Fortran handle (MPI_Comm_c2f).
+ * job: the participants' ranks, or NULL for MPI_COMM_WORLD;  app_comm: [out] as above. */
+int CoracleOpenFortran(const MPI_Fint *job, const char *role, int argc, char **argv, MPI_Fint *app_comm,
+                       CoracleClient *c);
+
 /* Local, at any time, also before CoracleOpen: f(context, message) is called on a rank that ends the job, after
  * the message has been written to stderr (by one rank) and before MPI_Abort.  f may save what it wants, or not
  * return: then it must end the job itself.  NULL: nothing is called.  Ranks that are ended by another rank's
@@ -97,6 +104,9 @@ int CoracleSetErrorHandler(void (*f)(void *context, const char *message), void *
 /* Ends the whole job (not collective) with "coracle <role>[rank]: error: ..." on stderr. */
 CORACLE_NORETURN void CoracleFail(CoracleClient c, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
+
+/* The same with a finished message; client: a CoracleClient, so that this can be the `fail` of CoracleCaseOpen. */
+CORACLE_NORETURN void CoracleFailMessage(void *client, const char *message);
 
 /* A number for summary.json under participants.<role>.<key>; summed over the ranks when sum is not 0, else
  * their maximum.  Local; travels when the client closes. */
@@ -233,6 +243,12 @@ typedef struct {
   double r[CORACLE_DIM][CORACLE_VERTICES]; /* m3/s */
 } CoracleCorrection;
 
+/* A point of the solid's surface that a pressure gauge of the case sits on (fluid.probes[].solid_point). */
+typedef struct {
+  double x[CORACLE_DIM];      /* m, where the point is now */
+  double normal[CORACLE_DIM]; /* unit, out of the solid */
+} CoracleGauge;
+
 /* The flow of one step on the n elements last given by region. */
 typedef struct {
   const double *u_star;      /* [n][dim][dim + 1] m/s, with the coupling solved, before the projection */
@@ -257,6 +273,10 @@ int CoracleStepAccepted(CoracleClient c);
 /* After CoracleEnd: one entry for every coupling entry of the step just made (same order, and indices into
  * the elements of that step even when region has been called again since). */
 int CoracleGetCorrection(CoracleClient c, int *n, const CoracleCorrection **correction);
+/* Optional, from CoracleReady on: the gauges at the end of the step just made (at its start after CoracleReady),
+ * one for each entry of fluid.probes with a solid_point, in the list's order, the same on all ranks; of a step
+ * that is redone without meaning.  Borrowed until the next CoracleEnd. */
+int CoracleGetGauges(CoracleClient c, int *n, const CoracleGauge **gauge);
 
 #ifdef __cplusplus
 }

@@ -87,6 +87,12 @@ static const Field COUPLING[] = {
   {"solid fraction",         "-",    FIELD_REAL, {0},         AT(alpha),            0, FIELD_NOT_NEGATIVE},
   {"shell fraction",         "-",    FIELD_REAL, {0},         AT(shell),            0, FIELD_NOT_NEGATIVE}};
 #undef AT
+
+#define AT(member) offsetof(CoracleGauge, member)
+static const Field GAUGES[] = {
+  {"position of the gauge", "m", FIELD_REAL, VECTOR, AT(x),      0, FIELD_ANY},
+  {"normal at the gauge",   "-", FIELD_REAL, VECTOR, AT(normal), 0, FIELD_ANY}};
+#undef AT
 /* clang-format on */
 
 const FieldGroup FIELDS_NODES = ARRAYS("node", "solid -> coupler", NODES);
@@ -100,6 +106,7 @@ const FieldGroup FIELDS_ELEMENTS = ARRAYS("element", "fluid -> coupler", ELEMENT
 const FieldGroup FIELDS_FLOW = ARRAYS("element", "fluid -> coupler", FLOW);
 const FieldGroup FIELDS_CORRECTION = ENTRIES("entry", "coupler -> fluid", CoracleCorrection, CORRECTION);
 const FieldGroup FIELDS_COUPLING = ENTRIES("entry", "coupler -> fluid", CoracleCoupling, COUPLING);
+const FieldGroup FIELDS_GAUGES = ENTRIES("gauge", "coupler -> fluid", CoracleGauge, GAUGES);
 
 void FieldsExtents(int dim, int extent[NEXTENTS])
 {

@@ -204,6 +204,7 @@ int ServerClose(Server *server)
   FieldListsFree(&s->motion);
   FieldListsFree(&s->elements);
   FieldListsFree(&s->flow);
+  BufferFree(&s->gauge);
   for (int role = 0; role < NROLES; role++) BufferFree(&s->reports[role]);
   ClientListFree(&s->fluid);
   ClientListFree(&s->solid);

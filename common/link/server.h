@@ -60,6 +60,9 @@ double ServerProposedStep(Server s);
  * like at CORACLE_REDO); `element` of coupling indexes ServerElements. */
 int ServerSendCoupling(Server s, double t, double dt, CoracleAction action, int ncorrection,
                        const CoracleCorrection correction[], int ncoupling, const CoracleCoupling coupling[]);
+/* The gauges on the solid that the next couplings carry, the same on all coupler ranks (copied); none before the
+ * first call. */
+int ServerSetGauges(Server s, int n, const CoracleGauge gauge[]);
 /* Matches the first half of the fluid's CoracleEnd. */
 int ServerReceiveFlow(Server s, CoracleFlow *flow);
 /* Ends the solid's CoracleBegin: force[nnodes][2], N, on the nodes last received; at CORACLE_REDO on those of

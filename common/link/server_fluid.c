@@ -163,6 +163,21 @@ static void AddCouplings(Server s, int k, int n, const CoracleCoupling coupling[
   FieldsPack(s->p, &client->out, &FIELDS_COUPLING, mine, scratch->data);
 }
 
+int ServerSetGauges(Server s, int n, const CoracleGauge gauge[])
+{
+  const size_t bytes = (size_t)n * sizeof *gauge;
+  BufferResize(&s->gauge, bytes);
+  if (bytes) memcpy(s->gauge.data, gauge, bytes);
+  return 0;
+}
+
+static void AddGauges(Server s, Message *m)
+{
+  const size_t n = s->gauge.size / sizeof(CoracleGauge);
+  MessageHeaderOf(m)->count[3] = (int64_t)n;
+  FieldsPack(s->p, m, &FIELDS_GAUGES, n, s->gauge.data);
+}
+
 static void CheckCouplings(Server s, int n, const CoracleCoupling coupling[])
 {
   for (int i = 0; i < n; i++)
@@ -207,6 +222,7 @@ int ServerSendCoupling(Server s, double t, double dt, CoracleAction action, int 
     h->count[1] = CountOwned(own, ncoupling, k);
     AddCorrections(s, k, ncorrection, correction, &scratch);
     AddCouplings(s, k, ncoupling, coupling, own, &scratch);
+    AddGauges(s, &s->fluid.client[k].out);
     ClientListAskSave(s, &s->fluid.client[k], action);
   }
   ClientListSend(s, &s->fluid);

@@ -38,6 +38,7 @@ struct Server_s {
   int nelements;
   FieldsDomain domain;
   Buffer owner; /* int []: the fluid client of each coupling entry last sent, in the coupler's order */
+  Buffer gauge; /* CoracleGauge [] */
   Buffer reports[NROLES];
 };
 

@@ -15,14 +15,14 @@ PetscErrorCode MeshDestroy(Mesh **mesh)
   PetscFunctionBeginUser;
   if (!m) PetscFunctionReturn(0);
   PetscCall(PetscFree(m->x));
+  PetscCall(PetscFree(m->vgid));
   PetscCall(PetscFree(m->vertex));
   PetscCall(PetscFree(m->egid));
   PetscCall(PetscFree(m->neighbor));
   PetscCall(PetscFree(m->neighbor_face));
   PetscCall(PetscFree(m->tag));
   PetscCall(PetscFree(m->tag_name));
-  PetscCall(PetscFree(m->p2gid));
-  PetscCall(PetscFree(m->p2));
+  PetscCall(PetscFree(m->edge));
   PetscCall(PetscFree(*mesh));
   PetscFunctionReturn(0);
 }

@@ -4,13 +4,13 @@
  *
  *            2
  *           / \
- *        4 /   \ 3
+ *        1 /   \ 0
  *         /     \
- *        0---5---1
+ *        0---2---1
  *
  * Local vertex i; face i lies opposite to vertex i, from vertex (i+1)%3 to (i+2)%3, so that the outward
- * normal is the right-hand side of that direction (elements are counter-clockwise).  P2 nodes: 0..2 vertices,
- * 3 + i the midpoint of face i. */
+ * normal is the right-hand side of that direction (elements are counter-clockwise); edge i lies there, too.
+ * Functions on a mesh are in common/space. */
 #ifndef CORACLE_MESH_H
 #define CORACLE_MESH_H
 #include <petscsys.h>
@@ -20,22 +20,23 @@ typedef struct {
   int dim;       /* 2 */
   int nv;        /* local vertices: of owned elements, then those of ghosts alone */
   double *x;     /* [nv][2], m */
+  int nv_owned;  /* vertices of owned elements belong to the lowest rank that has such an element */
+  PetscInt
+      vstart; /* owned vertices have global numbers vstart .. vstart + nv_owned - 1, as elements meet them */
+  PetscInt nv_global; /* vertices on all ranks */
+  PetscInt *vgid;     /* [nv] global vertex numbers */
   int ne, ng;  /* owned elements; ghosts follow: share a face with an owned element, owned by another rank */
   int *vertex; /* [ne + ng][3] local vertices, counter-clockwise */
-  PetscInt estart;      /* owned elements have global numbers estart .. estart + ne - 1 */
-  PetscInt nglobal;     /* elements on all ranks */
-  PetscInt *egid;       /* [ne + ng] global element numbers */
-  int *neighbor;        /* [ne][3] local element across face i, or -1 on the boundary */
-  int *neighbor_face;   /* [ne][3] which face of the neighbour it is, or -1 */
-  int *tag;             /* [ne][3] index of the boundary's name for boundary faces, else -1 */
-  int ntags;            /* boundary names, the same on all ranks */
-  char (*tag_name)[64]; /* [ntags] */
-  int np2, np2_owned;   /* P2 nodes of the owned elements on this rank: owned nodes first, then those of other
-                           ranks */
-  PetscInt p2start;     /* owned P2 nodes have global numbers p2start .. p2start + np2_owned - 1 */
-  PetscInt np2_global;
-  PetscInt *p2gid;           /* [np2] */
-  int *p2;                   /* [ne][6] local P2 nodes */
+  PetscInt estart;           /* owned elements have global numbers estart .. estart + ne - 1 */
+  PetscInt nglobal;          /* elements on all ranks */
+  PetscInt *egid;            /* [ne + ng] global element numbers */
+  int *neighbor;             /* [ne][3] local element across face i, or -1 on the boundary */
+  int *neighbor_face;        /* [ne][3] which face of the neighbour it is, or -1 */
+  int *tag;                  /* [ne][3] index of the boundary's name for boundary faces, else -1 */
+  int ntags;                 /* boundary names, the same on all ranks */
+  char (*tag_name)[64];      /* [ntags] */
+  int nedge;                 /* edges of owned elements */
+  int *edge;                 /* [ne][3] local edges */
   double lower[2], upper[2]; /* bounds of the whole domain */
 } Mesh;
 

@@ -1,5 +1,5 @@
-/* A Mesh from parts: elements in reverse Cuthill-McKee order, vertices and P2 nodes as these meet them, then
- * the ghosts (mesh_ghosts.c). */
+/* A Mesh from parts: elements in reverse Cuthill-McKee order, vertices and edges as these meet them, then the
+ * ghosts (mesh_ghosts.c). */
 #include "common/mesh/mesh_build.h"
 #include <string.h>
 
@@ -7,13 +7,13 @@ static PetscErrorCode Allocate(const Build *b, Mesh *m)
 {
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(2 * (b->part->nv + m->ng), &m->x)); /* at most */
+  PetscCall(PetscMalloc1(b->part->nv + m->ng, &m->vgid));    /* at most */
   PetscCall(PetscMalloc1(3 * (m->ne + m->ng), &m->vertex));
   PetscCall(PetscMalloc1(m->ne + m->ng, &m->egid));
   PetscCall(PetscMalloc1(3 * m->ne, &m->neighbor));
   PetscCall(PetscMalloc1(3 * m->ne, &m->neighbor_face));
   PetscCall(PetscMalloc1(3 * m->ne, &m->tag));
-  PetscCall(PetscMalloc1(b->nnodes, &m->p2gid)); /* at most */
-  PetscCall(PetscMalloc1(6 * m->ne, &m->p2));
+  PetscCall(PetscMalloc1(3 * m->ne, &m->edge));
   PetscCall(PetscMalloc1(m->ntags, &m->tag_name));
   PetscFunctionReturn(0);
 }
@@ -26,10 +26,27 @@ static void OwnVertices(Build *b, Mesh *m)
     const int v = b->part->vertex[3 * b->order[k / 3] + k % 3];
     if (b->vertex[v] < 0) {
       b->vertex[v] = m->nv;
+      m->vgid[m->nv] = b->vgid[v];
       memcpy(&m->x[2 * m->nv++], &b->part->x[2 * v], 2 * sizeof *m->x);
     }
     m->vertex[k] = b->vertex[v];
   }
+}
+
+/* Local edges as the elements meet them. */
+static PetscErrorCode OwnEdges(const Build *b, Mesh *m)
+{
+  int *number;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(b->faces.local.nedge, &number));
+  for (int k = 0; k < b->faces.local.nedge; k++) number[k] = -1;
+  for (int k = 0; k < 3 * m->ne; k++) {
+    int *edge = &number[b->faces.local.edge[3 * b->order[k / 3] + k % 3]];
+    if (*edge < 0) *edge = m->nedge++;
+    m->edge[k] = *edge;
+  }
+  PetscCall(PetscFree(number));
+  PetscFunctionReturn(0);
 }
 
 /* Neighbours on this rank; those of open faces come with the ghosts. */
@@ -44,87 +61,47 @@ static void OwnFaces(const Build *b, Mesh *m)
   }
 }
 
-/* Nodes of an element of the part: vertices, then nv + edge. */
-static void NodesOf(const Build *b, int e, int node[6])
-{
-  for (int i = 0; i < 3; i++) {
-    node[i] = b->part->vertex[3 * e + i];
-    node[3 + i] = b->part->nv + b->faces.local.edge[3 * e + i];
-  }
-}
-
-/* Nodes that lower ranks have too belong to the lowest of these. */
-static void MarkForeign(Build *b)
+/* Global numbers of own vertices, as the elements meet them; one that lower ranks have too belongs to the
+ * lowest of these. */
+static PetscErrorCode NumberVertices(Build *b, Mesh *m)
 {
   const PartFaces *f = &b->faces;
-  for (int k = 0; k < b->nnodes; k++) b->foreign[k] = 0;
-  for (int k = 0; k < f->nopen_vertices; k++) b->foreign[f->open_vertex[k]] = f->owners[k].lowest < f->rank;
-  for (int k = 0; k < f->nopen; k++)
-    b->foreign[b->part->nv + f->local.edge[f->open[k]]] = f->across[k] >= 0 && f->across_rank[k] < f->rank;
-}
-
-/* Global numbers of own nodes, as the elements meet them. */
-static PetscErrorCode NumberNodes(Build *b, Mesh *m)
-{
   PetscInt next = 0, start = 0;
-  int node[6];
   PetscFunctionBeginUser;
-  for (int k = 0; k < b->nnodes; k++) b->p2gid[k] = -1;
-  for (int e = 0; e < m->ne; e++) {
-    NodesOf(b, b->order[e], node);
-    for (int i = 0; i < 6; i++) {
-      if (!b->foreign[node[i]] && b->p2gid[node[i]] < 0) b->p2gid[node[i]] = next++;
-    }
+  for (int v = 0; v < b->part->nv; v++) {
+    b->foreign[v] = 0;
+    b->vgid[v] = -1;
   }
-  m->np2_owned = (int)next;
+  for (int k = 0; k < f->nopen_vertices; k++) b->foreign[f->open_vertex[k]] = f->owners[k].lowest < f->rank;
+  for (int k = 0; k < 3 * m->ne; k++) {
+    const int v = b->part->vertex[3 * b->order[k / 3] + k % 3];
+    if (!b->foreign[v] && b->vgid[v] < 0) b->vgid[v] = next++;
+  }
+  m->nv_owned = (int)next;
   PetscCallMPI(MPI_Exscan(&next, &start, 1, MPIU_INT, MPI_SUM, m->comm));
-  m->p2start = b->faces.rank ? start : 0;
-  PetscCallMPI(MPI_Allreduce(&next, &m->np2_global, 1, MPIU_INT, MPI_SUM, m->comm));
-  for (int k = 0; k < b->nnodes; k++) {
-    if (b->p2gid[k] >= 0) b->p2gid[k] += m->p2start;
+  m->vstart = f->rank ? start : 0;
+  PetscCallMPI(MPI_Allreduce(&next, &m->nv_global, 1, MPIU_INT, MPI_SUM, m->comm));
+  for (int v = 0; v < b->part->nv; v++) {
+    if (b->vgid[v] >= 0) b->vgid[v] += m->vstart;
   }
   PetscFunctionReturn(0);
 }
 
-/* Those that have a node meet: its owner knows the number, the others say -1. */
+/* Those that have a vertex meet: its owner knows the number, the others say -1. */
 static PetscErrorCode LearnNumbers(Build *b)
 {
   const PartFaces *f = &b->faces;
-  const int known = f->nopen + f->nopen_vertices, n = known + f->nclosed;
-  int *node;
+  const int n = f->nopen + f->nopen_vertices + f->nclosed;
   long long *value;
   RendezvousReply *reply;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc3(n, &node, n, &value, n, &reply));
-  for (int k = 0; k < f->nopen; k++) node[k] = b->part->nv + f->local.edge[f->open[k]];
-  for (int k = 0; k < f->nopen_vertices; k++) node[f->nopen + k] = f->open_vertex[k];
-  for (int k = 0; k < n; k++) value[k] = k < known ? b->p2gid[node[k]] : -1;
+  PetscCall(PetscMalloc2(n, &value, n, &reply));
+  for (int k = 0; k < n; k++) value[k] = -1;
+  for (int k = 0; k < f->nopen_vertices; k++) value[f->nopen + k] = b->vgid[f->open_vertex[k]];
   PetscCall(MeshRendezvous(f->copies, n, value, reply));
-  for (int k = 0; k < known; k++) b->p2gid[node[k]] = (PetscInt)reply[k].highest;
-  PetscCall(PetscFree3(node, value, reply));
-  PetscFunctionReturn(0);
-}
-
-/* Owned P2 nodes in the order of their numbers, the others as the elements meet them. */
-static PetscErrorCode Nodes(Build *b, Mesh *m)
-{
-  int node[6], *local;
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(b->nnodes, &local));
-  for (int k = 0; k < b->nnodes; k++) local[k] = -1;
-  m->np2 = m->np2_owned;
-  for (int e = 0; e < m->ne; e++) {
-    NodesOf(b, b->order[e], node);
-    for (int i = 0; i < 6; i++) {
-      int *l = &local[node[i]];
-      if (*l < 0) {
-        *l = b->foreign[node[i]] ? m->np2++ : (int)(b->p2gid[node[i]] - m->p2start);
-        m->p2gid[*l] = b->p2gid[node[i]];
-      }
-      m->p2[6 * e + i] = *l;
-    }
-  }
-  PetscCall(PetscFree(local));
+  for (int k = 0; k < f->nopen_vertices; k++)
+    b->vgid[f->open_vertex[k]] = (PetscInt)reply[f->nopen + k].highest;
+  PetscCall(PetscFree2(value, reply));
   PetscFunctionReturn(0);
 }
 
@@ -150,12 +127,11 @@ static PetscErrorCode BuildCreate(MPI_Comm comm, const MeshPart *part, PetscBool
 {
   PetscFunctionBeginUser;
   b->part = &part->serial;
-  b->gid = part->gid;
   const PetscErrorCode failed = PartFacesCreate(comm, part, &b->faces);
   if (failed) PetscFunctionReturn(failed);
-  b->nnodes = part->serial.nv + b->faces.local.nedge;
   PetscCall(PetscMalloc2(part->serial.ne, &b->order, part->serial.ne, &b->number));
-  PetscCall(PetscMalloc3(part->serial.nv, &b->vertex, b->nnodes, &b->foreign, b->nnodes, &b->p2gid));
+  PetscCall(
+      PetscMalloc3(part->serial.nv, &b->vertex, part->serial.nv, &b->foreign, part->serial.nv, &b->vgid));
   for (int e = 0; e < part->serial.ne; e++) b->order[e] = e;
   if (!keep) PetscCall(MeshOrder(part->serial.ne, b->faces.local.neighbor, b->order));
   for (int e = 0; e < part->serial.ne; e++) b->number[b->order[e]] = e;
@@ -167,7 +143,7 @@ static PetscErrorCode BuildDestroy(Build *b)
   PetscFunctionBeginUser;
   PetscCall(PartFacesDestroy(&b->faces));
   PetscCall(PetscFree2(b->order, b->number));
-  PetscCall(PetscFree3(b->vertex, b->foreign, b->p2gid));
+  PetscCall(PetscFree3(b->vertex, b->foreign, b->vgid));
   PetscFunctionReturn(0);
 }
 
@@ -175,17 +151,16 @@ static PetscErrorCode Fill(Build *b, Mesh *m)
 {
   Ghosts ghosts;
   PetscFunctionBeginUser;
+  PetscCall(NumberVertices(b, m));
+  PetscCall(LearnNumbers(b));
   PetscCall(GhostsCreate(b, m, &ghosts));
   PetscCall(Allocate(b, m));
   for (int e = 0; e < m->ne; e++) m->egid[e] = m->estart + e;
   OwnVertices(b, m);
   OwnFaces(b, m);
+  PetscCall(OwnEdges(b, m));
   PetscCall(GhostsFill(b, &ghosts, m));
   PetscCall(GhostsDestroy(&ghosts));
-  MarkForeign(b);
-  PetscCall(NumberNodes(b, m));
-  PetscCall(LearnNumbers(b));
-  PetscCall(Nodes(b, m));
   PetscCall(SetBounds(m));
   PetscFunctionReturn(0);
 }

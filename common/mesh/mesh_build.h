@@ -5,21 +5,19 @@
 
 typedef struct {
   const MeshSerial *part; /* borrowed */
-  const long long *gid;   /* [part->nv] borrowed */
   PartFaces faces;
-  int *order;      /* [ne] element of the part that has this number in the Mesh */
-  int *number;     /* [ne] and the other way */
-  int *vertex;     /* [nv] local vertex of the Mesh, -1 for one of no element */
-  int nnodes;      /* P2 nodes: vertices, then edges */
-  char *foreign;   /* [nnodes] nonzero if a lower rank owns it */
-  PetscInt *p2gid; /* [nnodes] */
+  int *order;     /* [ne] element of the part that has this number in the Mesh */
+  int *number;    /* [ne] and the other way */
+  int *vertex;    /* [nv] local vertex of the Mesh, -1 for one of no element */
+  char *foreign;  /* [nv] nonzero if a lower rank owns it */
+  PetscInt *vgid; /* [nv] global number in the Mesh */
 } Build;
 
 /* What the other side of a face tells of its element, for element `target` / 3 at face `target` % 3. */
 typedef struct {
-  long long target, egid, gid; /* gid of the vertex opposite to the face */
-  int face, element;           /* element: local number here, given on arrival */
-  double x[2];                 /* of that vertex */
+  long long target, egid, vgid; /* vgid: of the vertex opposite to the face */
+  int face, element;            /* element: local number here, given on arrival */
+  double x[2];                  /* of that vertex */
 } Ghost;
 
 typedef struct {
@@ -27,7 +25,7 @@ typedef struct {
   Ghost *ghost; /* [n] by ascending egid */
 } Ghosts;
 
-/* Collective: asks across all faces to other ranks; sets mesh->ng. */
+/* Collective: asks across all faces to other ranks, once the vertices have their numbers; sets mesh->ng. */
 PetscErrorCode GhostsCreate(const Build *b, Mesh *mesh, Ghosts *ghosts);
 PetscErrorCode GhostsDestroy(Ghosts *ghosts);
 /* Not collective: ghost elements, their vertices, and the neighbours of faces to other ranks. */

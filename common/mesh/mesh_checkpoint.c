@@ -26,7 +26,7 @@ PetscErrorCode MeshSave(const Mesh *m, Checkpoint to)
   PetscCallMPI(MPI_Comm_rank(m->comm, &rank));
   PetscCall(PetscMalloc3(3 * m->ne, &vertex, 3 * m->ne, &tag, 6 * m->ne, &corner));
   for (int k = 0; k < 3 * m->ne; k++) {
-    vertex[k] = m->p2gid[m->p2[6 * (k / 3) + k % 3]];
+    vertex[k] = m->vgid[m->vertex[k]];
     tag[k] = m->tag[k];
     for (int c = 0; c < 2; c++) corner[2 * k + c] = m->x[2 * m->vertex[k] + c];
   }

@@ -16,7 +16,7 @@ static Ghost Tell(const Build *b, const Mesh *m, int k)
   const int ef = f->open[k], v = b->part->vertex[ef];
   Ghost g = {.target = f->across[k] - 3 * f->start[f->across_rank[k]],
              .egid = m->estart + b->number[ef / 3],
-             .gid = b->gid[v],
+             .vgid = b->vgid[v],
              .face = ef % 3};
   memcpy(g.x, &b->part->x[2 * v], sizeof g.x);
   return g;
@@ -63,9 +63,9 @@ PetscErrorCode GhostsDestroy(Ghosts *g)
   PetscFunctionReturn(0);
 }
 
-static int *Find(MeshTable *vertices, long long gid)
+static int *Find(MeshTable *vertices, long long vgid)
 {
-  return MeshTableAt(vertices, (int)(gid >> 32), (int)gid);
+  return MeshTableAt(vertices, (int)(vgid >> 32), (int)vgid);
 }
 
 /* Faces lead to the ghosts; two corners of a ghost are those of the face, turned round, the third comes with
@@ -73,7 +73,7 @@ static int *Find(MeshTable *vertices, long long gid)
 static void Attach(const Build *b, const Ghost *g, MeshTable *vertices, Mesh *m)
 {
   const int e = b->number[g->target / 3], i = (int)(g->target % 3), face = g->face;
-  int *opposite = Find(vertices, g->gid), *corner = &m->vertex[3 * g->element];
+  int *opposite = Find(vertices, g->vgid), *corner = &m->vertex[3 * g->element];
   m->neighbor[3 * e + i] = g->element;
   m->neighbor_face[3 * e + i] = face;
   m->egid[g->element] = (PetscInt)g->egid;
@@ -81,6 +81,7 @@ static void Attach(const Build *b, const Ghost *g, MeshTable *vertices, Mesh *m)
   corner[(face + 2) % 3] = m->vertex[3 * e + (i + 1) % 3];
   if (*opposite < 0) {
     *opposite = m->nv;
+    m->vgid[m->nv] = (PetscInt)g->vgid;
     memcpy(&m->x[2 * m->nv++], g->x, sizeof g->x);
   }
   corner[face] = *opposite;
@@ -93,7 +94,7 @@ PetscErrorCode GhostsFill(const Build *b, const Ghosts *g, Mesh *m)
   PetscFunctionBeginUser;
   PetscCall(MeshTableCreate(&vertices, (size_t)(f->nopen_vertices + g->n)));
   for (int k = 0; k < f->nopen_vertices; k++)
-    *Find(&vertices, b->gid[f->open_vertex[k]]) = b->vertex[f->open_vertex[k]];
+    *Find(&vertices, b->vgid[f->open_vertex[k]]) = b->vertex[f->open_vertex[k]];
   for (int k = 0; k < g->n; k++) Attach(b, &g->ghost[k], &vertices, m);
   PetscCall(MeshTableDestroy(&vertices));
   PetscFunctionReturn(0);

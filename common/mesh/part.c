@@ -50,7 +50,7 @@ static PetscErrorCode CopyVertices(const Mesh *m, MeshPart *part)
   PetscCall(PetscMalloc1(2 * s->nv, &s->x));
   PetscCall(PetscMalloc1(s->nv, &part->gid));
   PetscCall(PetscArraycpy(s->x, m->x, 2 * s->nv));
-  for (int k = 0; k < 3 * m->ne; k++) part->gid[m->vertex[k]] = m->p2gid[m->p2[6 * (k / 3) + k % 3]];
+  for (int v = 0; v < s->nv; v++) part->gid[v] = m->vgid[v];
   PetscFunctionReturn(0);
 }
 

@@ -24,7 +24,7 @@ typedef struct {
 PetscErrorCode MeshPartDestroy(MeshPart *part);
 
 /* Not collective: the owned elements of a Mesh in their order, with the Mesh's first vertices in their order;
- * a vertex's gid is that of its P2 node. */
+ * a vertex's gid is its global number. */
 PetscErrorCode MeshPartOf(const Mesh *mesh, MeshPart *part);
 
 /* Nonzero for faces[ne][3] to triangles of other ranks and for vertices[nv] that other ranks have too. */

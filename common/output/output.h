@@ -38,6 +38,11 @@ PetscErrorCode OutputDestroy(Output *out);
 /* A time series, rank 0's numbers: <folder>/<name>.csv; the header is `columns` (comma-separated, with units:
  * "t [s],U [m/s]").  Collective; `from` and SeriesSave as above. */
 typedef struct Series_s *Series;
+enum { SERIES_NAME_MAX = 40 };
+/* Not collective: whether a name, of a probe say, can lead the names of columns: neither empty nor longer than that, without
+ * commas, quotes and line ends. */
+PetscBool SeriesCanName(const char *name);
+/* A file to go on with must have these columns. */
 PetscErrorCode SeriesCreate(MPI_Comm comm, const char *folder, const char *name, const char *columns,
                             Checkpoint from, Series *s);
 PetscErrorCode SeriesSave(Series s, Checkpoint to);

@@ -11,8 +11,13 @@ struct Series_s {
   long length;   /* of what is kept of a file that goes on, until the first row: then 0 */
   int ncolumn;
   char path[PETSC_MAX_PATH_LEN];
-  char key[80]; /* of the length in checkpoints */
+  char key[128]; /* of its length in a checkpoint */
 };
+
+PetscBool SeriesCanName(const char *name)
+{
+  return (PetscBool)(name[0] && strlen(name) <= SERIES_NAME_MAX && !strpbrk(name, ",\"\n"));
+}
 
 static PetscErrorCode Begin(Series s, const char *columns)
 {
@@ -24,8 +29,17 @@ static PetscErrorCode Begin(Series s, const char *columns)
   PetscFunctionReturn(0);
 }
 
+/* Whether the file begins with this header. */
+static PetscBool HasColumns(FILE *file, const char *columns)
+{
+  rewind(file);
+  for (const char *c = columns; *c; c++)
+    if (fgetc(file) != *c) return PETSC_FALSE;
+  return (PetscBool)(fgetc(file) == '\n');
+}
+
 /* The first row will follow the first `length` bytes of what is there. */
-static PetscErrorCode Continue(Series s, long length)
+static PetscErrorCode Continue(Series s, const char *columns, long length)
 {
   PetscFunctionBeginUser;
   s->file = fopen(s->path, "r+");
@@ -33,6 +47,10 @@ static PetscErrorCode Continue(Series s, long length)
              strerror(errno));
   PetscCheck(ftell(s->file) >= length, PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED,
              "%s is shorter than when it was checkpointed", s->path);
+  PetscCheck(
+      HasColumns(s->file, columns), PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED,
+      "%s has other columns than this case: resume with the same probes, or into another output.folder",
+      s->path);
   s->length = length;
   PetscFunctionReturn(0);
 }
@@ -55,7 +73,7 @@ PetscErrorCode SeriesCreate(MPI_Comm comm, const char *folder, const char *name,
   *series = s;
   if (FolderGoesOn(comm, folder, s->path, from)) PetscCall(CheckpointGetNumber(from, s->key, &length));
   PetscCall(AgreeWithRoot(comm, rank != 0      ? 0
-                                : length > 0.0 ? Continue(s, (long)length)
+                                : length > 0.0 ? Continue(s, columns, (long)length)
                                                : Begin(s, columns)));
   PetscFunctionReturn(0);
 }

@@ -45,23 +45,40 @@ static inline void P2GradientTranspose(const double g[3][2], const double mv[2][
     }
 }
 
+/* s[q][r] = int_K grad phi_q . K grad phi_r over the P2 basis, from p1[i][j] = the same over the P1 basis, K
+ * constant and symmetric on the triangle (the rows of p1 add to 0). */
+static inline void P2StiffnessOfP1(const double p1[3][3], double s[6][6])
+{
+  for (int i = 0; i < 3; i++) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    s[i][i] = p1[i][i];
+    s[i][j] = s[j][i] = -p1[i][j] / 3.0;
+    s[i][3 + i] = s[3 + i][i] = 0.0;
+    s[i][3 + k] = s[3 + k][i] = 4.0 / 3.0 * p1[i][j];
+    s[i][3 + j] = s[3 + j][i] = 4.0 / 3.0 * p1[i][k];
+    s[3 + i][3 + i] = 8.0 / 3.0 * (p1[j][j] + p1[k][k] + p1[j][k]);
+    s[3 + i][3 + j] = s[3 + j][3 + i] = 8.0 / 3.0 * p1[i][j];
+  }
+}
+
 /* s[q][r] = coefficient int_K grad phi_q.grad phi_r over the P2 basis */
 static inline void P2Stiffness(double area, const double g[3][2], double coefficient, double s[6][6])
 {
-  double grad[6][3][2];
-  for (int q = 0; q < 6; q++) {
-    double unit[6] = {0};
-    unit[q] = 1.0;
-    P2Gradient(g, unit, grad[q]);
-  }
-  for (int q = 0; q < 6; q++)
-    for (int r = 0; r < 6; r++) {
-      double sum = 0.0;
-      for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-          sum += (i == j ? 2.0 : 1.0) * (grad[q][i][0] * grad[r][j][0] + grad[q][i][1] * grad[r][j][1]);
-      s[q][r] = coefficient * area / 12.0 * sum;
-    }
+  double p1[3][3];
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) p1[i][j] = coefficient * area * (g[i][0] * g[j][0] + g[i][1] * g[j][1]);
+  P2StiffnessOfP1((const double(*)[3])p1, s);
+}
+
+/* The same with a symmetric tensor k = (xx, xy, yy) as the coefficient. */
+static inline void P2StiffnessTensor(double area, const double g[3][2], const double k[3], double s[6][6])
+{
+  double p1[3][3];
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      p1[i][j] = area * (k[0] * g[i][0] * g[j][0] + k[1] * (g[i][0] * g[j][1] + g[i][1] * g[j][0]) +
+                         k[2] * g[i][1] * g[j][1]);
+  P2StiffnessOfP1((const double(*)[3])p1, s);
 }
 
 /* The Galerkin projection p1[3] of a P2 function on P1: int_K N_i p1 = int_K N_i p.  int N_i phi_j / area is

@@ -36,7 +36,6 @@ PetscErrorCode TransferCreate(const Mesh *from, const Mesh *to, Transfer *transf
   PetscCheck(!ProjectionCreate(t->changed.n, (const double(*)[3][2])t->changed.x, t->search,
                                (const double(*)[3][2])t->moved, &t->projection),
              PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory for the supermesh of %d elements", t->changed.n);
-  PetscCall(TransferNodesCreate(t));
   *transfer = t;
   PetscFunctionReturn(0);
 }
@@ -79,11 +78,8 @@ PetscErrorCode TransferDestroy(Transfer *transfer)
   if (!t) PetscFunctionReturn(0);
   PetscCall(ScatterDestroy(&t->copy_scatter));
   PetscCall(ScatterDestroy(&t->moved_scatter));
-  PetscCall(ScatterDestroy(&t->ask_scatter));
   PetscCall(PetscFree(t->copy));
   PetscCall(PetscFree(t->moved));
-  PetscCall(PetscFree(t->node));
-  PetscCall(PetscFree(t->asked));
   PetscCall(TransferElementsDestroy(&t->changed));
   SearchDestroy(&t->search);
   ProjectionDestroy(&t->projection);

@@ -13,6 +13,7 @@
 #ifndef CORACLE_TRANSFER_H
 #define CORACLE_TRANSFER_H
 #include "common/mesh/mesh.h"
+#include "common/space/p2_space.h"
 
 typedef struct Transfer_s *Transfer;
 
@@ -29,10 +30,11 @@ PetscErrorCode TransferCreate(const Mesh *from, const Mesh *to, Transfer *transf
  * the first moments of every new element are kept to round-off, P1 fields are reproduced to round-off, int
  * q^2 never grows. */
 PetscErrorCode TransferP1DG(Transfer transfer, int ncomp, const double source[], double target[]);
-/* source[from->np2] -> target[to->np2]: the continuous P2 field at the new P2 nodes, from the old element
- * with the largest smallest barycentric coordinate there.  Reproduces P2 fields to round-off; all ranks get
+/* source[from->n] -> target[to->n] of the spaces on the two meshes: the continuous P2 field at the new P2 nodes,
+ * from the old element with the largest smallest barycentric coordinate there.  Reproduces P2 fields to round-off; all ranks get
  * the same bits for a node that they share.  Not conservative: p is defined by the equations anyway. */
-PetscErrorCode TransferP2(Transfer transfer, const double source[], double target[]);
+PetscErrorCode TransferP2(Transfer transfer, const P2Space *from, const P2Space *to, const double source[],
+                          double target[]);
 PetscErrorCode TransferGetStats(Transfer transfer, TransferStats *stats);
 PetscErrorCode TransferDestroy(Transfer *transfer);
 #endif

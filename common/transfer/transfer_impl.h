@@ -11,12 +11,6 @@ typedef struct {
   int target, turn;
 } TransferCopy;
 
-/* A P2 node of the new mesh in a migrated element. */
-typedef struct {
-  int node, moved;
-  double n[3]; /* barycentric */
-} TransferNode;
-
 /* The triangles of a mesh. */
 typedef struct {
   int n;
@@ -38,19 +32,12 @@ struct Transfer_s {
   double (*moved)[3][2]; /* [nmoved] */
   Search search;         /* of the migrated elements */
   Projection projection; /* migrated elements -> changed */
-  /* P2 nodes of changed elements that this rank owns, and those of its elements that it does not own */
-  int nnodes;
-  TransferNode *node;
-  Scatter ask_scatter; /* P2 nodes of `to` that others own -> their owners */
-  int *asked;          /* [arriving] owned nodes */
 };
 
 /* Unchanged elements: copy_route and copy; the changed ones of both meshes are left. */
 PetscErrorCode TransferMatch(Transfer transfer, TransferElements *old);
 /* Sends changed old elements where changed new ones may touch them: moved_scatter, moved and search. */
 PetscErrorCode TransferMigrate(Transfer transfer, const TransferElements *old);
-/* Where the P2 nodes lie and who owns them. */
-PetscErrorCode TransferNodesCreate(Transfer transfer);
 
 PetscErrorCode TransferElementsOf(const Mesh *mesh, TransferElements *elements);
 PetscErrorCode TransferElementsDestroy(TransferElements *elements);

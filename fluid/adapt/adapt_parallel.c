@@ -230,7 +230,7 @@ static PetscErrorCode ParallelCreate(const Mesh *mesh, const double metric[], Pa
   PetscCallMPI(MPI_Comm_rank(p->comm, &p->rank));
   PetscCallMPI(MPI_Comm_size(p->comm, &p->size));
   PetscCall(MeshPartOf(mesh, &p->part));
-  p->next_gid = mesh->np2_global;
+  p->next_gid = mesh->nv_global;
   PetscCall(PetscMalloc1(DATA * p->part.serial.nv, &p->data));
   for (int v = 0; v < p->part.serial.nv; v++) {
     for (int k = 0; k < 3; k++) p->data[DATA * v + k] = metric[3 * v + k];

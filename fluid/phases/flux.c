@@ -172,8 +172,7 @@ static void AroundVertex(Balance *w, int v, Chain *c)
   }
 }
 
-/* The linear field with given normal parts at the ends of the faces: normal[face][first or second vertex]. */
-static void Linear(const StarElement *element, const double normal[3][2], double beta[6])
+void FluxLinearField(const StarElement *element, const double normal[3][2], double beta[6])
 {
   double length, n[3][2];
   for (int i = 0; i < 3; i++) Ends(element, i, &length, n[i]);
@@ -182,6 +181,16 @@ static void Linear(const StarElement *element, const double normal[3][2], double
     const double a = normal[p][0], b = normal[q][1], det = n[p][0] * n[q][1] - n[p][1] * n[q][0];
     beta[i] = (a * n[q][1] - b * n[p][1]) / det;
     beta[3 + i] = (n[p][0] * b - n[q][0] * a) / det;
+  }
+}
+
+void FluxNormalParts(const StarElement *element, const double u[6], int i, double normal[2], double *length)
+{
+  double n[2];
+  Ends(element, i, length, n);
+  for (int k = 0; k < 2; k++) {
+    const int v = (i + 1 + k) % 3;
+    normal[k] = u[v] * n[0] + u[3 + v] * n[1];
   }
 }
 
@@ -198,7 +207,7 @@ static void Field(const Balance *w, int e, const double flux[3], double beta[6])
     normal[i][0] = flux[i] / length - half;
     normal[i][1] = flux[i] / length + half;
   }
-  Linear(element, (const double(*)[2])normal, beta);
+  FluxLinearField(element, (const double(*)[2])normal, beta);
 }
 
 static PetscErrorCode Report(const Balance *w, const double flux[], FluxReport *report)

@@ -39,6 +39,12 @@ typedef struct {
 PetscErrorCode FluxEquilibrate(const Stars *stars, const double u[], const FluxBoundary *boundary,
                                double flux[], double beta[], FluxReport *report);
 
+/* The linear field[6], like u, on an element with given normal parts (outward) at the ends of its faces:
+ * normal[face][first or second vertex].  Not collective. */
+void FluxLinearField(const StarElement *element, const double normal[3][2], double field[6]);
+/* u.n, outward, at both ends of face i of a field like u; *length of the face, m.  Not collective. */
+void FluxNormalParts(const StarElement *element, const double u[6], int i, double normal[2], double *length);
+
 /* Collective.  One continuous velocity[ne][3][2] at the vertices: the mean of beta over each star, weighted
  * with the elements' areas; the same bits wherever a vertex appears. */
 PetscErrorCode FluxVertexVelocity(const Stars *stars, const double beta[], double velocity[]);

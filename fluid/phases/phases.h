@@ -14,6 +14,7 @@
 #ifndef CORACLE_PHASES_H
 #define CORACLE_PHASES_H
 #include "common/transfer/transfer.h"
+#include "fluid/phases/effective_density.h"
 #include "fluid/phases/inertia.h"
 #include "fluid/phases/plic.h"
 #include "fluid/phases/stars.h"
@@ -36,7 +37,7 @@ PetscErrorCode PhasesReconstruct(Phases phases);
 /* Not collective.  The part of phase p in owned element e as a polygon in the mesh's coordinates; n = 0:
  * none. */
 PetscErrorCode PhasesGetPolygon(Phases phases, int e, int p, Polygon *polygon);
-/* Not collective.  The single phase of owned element e, -1 if it is cut. */
+/* Not collective.  The single phase of local element e, -1 if it is cut, as of the last PhasesReconstruct. */
 int PhasesSingle(Phases phases, int e);
 
 /* Not collective.  The inertia of owned element e with phases of density rho[nphases], kg/m3.  condense: with
@@ -48,6 +49,11 @@ PetscErrorCode PhasesGetInertia(Phases phases, int e, const double rho[], PetscB
  * */
 PetscErrorCode PhasesGetKink(Phases phases, int e, const double rho[], const double gravity[2],
                              double force[6]);
+
+/* Not collective.  How the owned elements respond to a pressure gradient: inverse[ne], of phases of density rho[nphases].
+ * Needs the lines. */
+PetscErrorCode PhasesGetInverseDensity(Phases phases, const double rho[], const double gravity[2],
+                                       InverseDensity inverse[]);
 
 /* What flows in where nothing is known: outside of open boundaries. */
 typedef struct {

@@ -32,7 +32,7 @@ typedef struct {
   int (*neighbor)[3];   /* [nl] local element across face i, -1 on the boundary or beyond the second ring */
   int nv, nwhole;       /* vertices; the first nwhole have whole stars, owned elements' vertices come first */
   int nowned;           /* vertices of owned elements */
-  PetscInt *gid;        /* [nv] global number: that of the vertex as a P2 node */
+  PetscInt *gid;        /* [nv] global number */
   double (*point)[2];   /* [nv] m */
   int *start, *around;  /* star of v: around[start[v]] .. around[start[v + 1] - 1] = 3 element + corner */
   Scatter route;        /* owned elements -> the same elsewhere */

@@ -1,6 +1,6 @@
 /* One body and its materials, from the case. */
 #include "solid/bodies/case_body.h"
-#include "solid/bodies/shape.h"
+#include "solid/bodies/case_shape.h"
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -39,7 +39,7 @@ static void ReadStrength(CoracleCase c, const char *name, Material *m)
 static Material ReadMaterial(CoracleCase c, const char *name)
 {
   static const char *const PLANES[] = {"strain", "stress", NULL};
-  static const char *const LAWS[] = {"neo_hookean", "corotated", NULL};
+  static const char *const LAWS[] = {"neo_hookean", "corotated", NULL}; /* in the order of ElementLawKind */
   Material m = {0};
   char key[KEY];
   m.density = Property(c, name, "density", 0.0, 0.0);
@@ -59,7 +59,7 @@ static Material ReadMaterial(CoracleCase c, const char *name)
   (void)snprintf(key, sizeof key, "solid.materials.%s.plane", name);
   m.plane_stress = CoracleCaseWord(c, key, 0, PLANES);
   (void)snprintf(key, sizeof key, "solid.materials.%s.law", name);
-  m.corotated = CoracleCaseWord(c, key, 0, LAWS);
+  m.law = CoracleCaseWord(c, key, 0, LAWS);
   (void)snprintf(key, sizeof key, "solid.materials.%s.thickness", name);
   m.thickness = CoracleCaseHas(c, key) ? CoracleCasePositive(c, key) : 1.0;
   ReadStrength(c, name, &m);
@@ -92,139 +92,6 @@ static Material MaterialAt(CoracleCase c, const char *key)
 }
 
 /* --- bodies ------------------------------------------------------------------------------------------- */
-
-/* How often the body is there along x and y, and how far apart. */
-typedef struct {
-  int n[2];
-  double step[2]; /* m */
-} Repeat;
-
-static Repeat ReadRepeat(CoracleCase c, int body)
-{
-  Repeat r = {.n = {1, 1}};
-  double n[2];
-  char key[KEY];
-  if (!CoracleCaseVectorOptional(c, BodyKey(key, body, "repeat.n"), 2, n)) return r;
-  for (int k = 0; k < 2; k++) {
-    if (!(n[k] >= 1.0 && n[k] <= 1e6 && n[k] == floor(n[k])))
-      CoracleCaseRefuse(c, key, "expected two integers >= 1");
-    r.n[k] = (int)n[k];
-  }
-  CoracleCaseVector(c, BodyKey(key, body, "repeat.step"), 2, r.step);
-  return r;
-}
-
-/* More than any computer that this is meant for holds: a slip in a size. */
-#define ELEMENTS_MAX 1e7
-
-/* Before the body is made: elements, counted as a double, times how often it is there. */
-static void CheckCount(CoracleCase c, int body, const char *name, double elements)
-{
-  const Repeat r = ReadRepeat(c, body);
-  const double bodies = (double)r.n[0] * r.n[1];
-  char key[KEY];
-  if (elements * bodies <= ELEMENTS_MAX) return;
-  CoracleCaseRefuse(c, BodyKey(key, body, elements > ELEMENTS_MAX ? name : "repeat.n"),
-                    "%.3g bodies of about %.3g elements each are more than %g elements", bodies, elements,
-                    ELEMENTS_MAX);
-}
-
-static PetscErrorCode ReadMeshFile(CoracleCase c, int body, MeshSerial *mesh)
-{
-  char key[KEY];
-  const char *path = CoracleCaseFile(c, BodyKey(key, body, "mesh")), *why = NULL;
-  double translate[2] = {0.0, 0.0};
-  PetscFunctionBeginUser;
-  if (MeshReadGmsh(path, mesh, &why)) CoracleCaseRefuse(c, key, "%s", why);
-  CheckCount(c, body, "mesh", mesh->ne);
-  (void)CoracleCaseVectorOptional(c, BodyKey(key, body, "translate"), 2, translate);
-  const double scale = CoracleCaseHas(c, BodyKey(key, body, "scale")) ? CoracleCasePositive(c, key) : 1.0;
-  for (int k = 0; k < 2 * mesh->nv; k++) mesh->x[k] = scale * mesh->x[k] + translate[k % 2];
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode ReadRing(CoracleCase c, int body, const double centre[2], double size, MeshSerial *mesh)
-{
-  double inner, outer;
-  char key[KEY];
-  PetscFunctionBeginUser;
-  if (CoracleCaseHas(c, BodyKey(key, body, "radius"))) { /* of the wall's middle */
-    const double radius = CoracleCasePositive(c, key),
-                 thickness = CoracleCasePositive(c, BodyKey(key, body, "thickness"));
-    inner = radius - 0.5 * thickness;
-    outer = radius + 0.5 * thickness;
-  } else {
-    outer = CoracleCasePositive(c, BodyKey(key, body, "outer_radius"));
-    inner = CoracleCasePositive(c, BodyKey(key, body, "inner_radius"));
-  }
-  if (!(inner > 0.0 && inner < outer)) CoracleCaseRefuse(c, key, "the ring has no hole or no wall");
-  CheckCount(c, body, "size", 4.0 * M_PI * outer / size);
-  const double through = PetscMin(1000.0, ceil((outer - inner) / size - 1e-9));
-  const int layers =
-      CoracleCaseIntegerOr(c, BodyKey(key, body, "layers"), PetscMax(1, (int)through), 1, 1000);
-  CheckCount(c, body, "size", 4.0 * M_PI * outer / size * layers);
-  PetscCall(ShapeRing(centre, inner, outer, layers, size, mesh));
-  PetscFunctionReturn(0);
-}
-
-typedef enum { SHAPE_DISC, SHAPE_RECTANGLE, SHAPE_RING, SHAPE_FILE } Shape;
-
-static Shape ReadShapeName(CoracleCase c, int body)
-{
-  static const char *const SHAPES[] = {"disc", "rectangle", "ring", NULL};
-  char key[KEY];
-  return CoracleCaseHas(c, BodyKey(key, body, "mesh"))
-             ? SHAPE_FILE
-             : (Shape)CoracleCaseWord(c, BodyKey(key, body, "shape"), -1, SHAPES);
-}
-
-static PetscErrorCode ReadShape(CoracleCase c, int body, MeshSerial *mesh)
-{
-  const Shape shape = ReadShapeName(c, body);
-  double centre[2];
-  char key[KEY];
-  PetscFunctionBeginUser;
-  if (shape == SHAPE_FILE) {
-    PetscCall(ReadMeshFile(c, body, mesh));
-    PetscFunctionReturn(0);
-  }
-  CoracleCaseVector(c, BodyKey(key, body, "centre"), 2, centre);
-  const double size = CoracleCasePositive(c, BodyKey(key, body, "size"));
-  if (shape == SHAPE_DISC) {
-    const double radius = CoracleCasePositive(c, BodyKey(key, body, "radius")),
-                 rings = M_PI * radius / (3.0 * size);
-    CheckCount(c, body, "size", 6.0 * rings * rings);
-    PetscCall(ShapeDisc(centre, radius, size, mesh));
-  } else if (shape == SHAPE_RECTANGLE) {
-    const double width = CoracleCasePositive(c, BodyKey(key, body, "width"));
-    const double height = CoracleCasePositive(c, BodyKey(key, body, "height"));
-    const double angle = CoracleCaseNumberOr(c, BodyKey(key, body, "angle"), 0.0, -HUGE_VAL, HUGE_VAL);
-    CheckCount(c, body, "size", 2.0 * (width / size + 1.0) * (height / size + 1.0));
-    PetscCall(ShapeRectangle(centre, width, height, angle, size, mesh));
-  } else {
-    PetscCall(ReadRing(c, body, centre, size, mesh));
-  }
-  PetscFunctionReturn(0);
-}
-
-/* A ring keeps its wall (*position is allocated), other shapes are stretched as they are. */
-static PetscErrorCode ReadStretch(CoracleCase c, int body, const MeshSerial *mesh, BodySetup *setup,
-                                  double **position)
-{
-  double centre[2];
-  char key[KEY];
-  PetscFunctionBeginUser;
-  *position = NULL;
-  (void)CoracleCaseVectorOptional(c, BodyKey(key, body, "stretch"), 2, setup->stretch);
-  if (!(setup->stretch[0] > 0.0 && setup->stretch[1] > 0.0))
-    CoracleCaseRefuse(c, key, "expected two numbers > 0");
-  if (!CoracleCaseHas(c, key) || ReadShapeName(c, body) != SHAPE_RING) PetscFunctionReturn(0);
-  CoracleCaseVector(c, BodyKey(key, body, "centre"), 2, centre);
-  PetscCall(PetscMalloc1(2 * (size_t)mesh->nv, position));
-  ShapeRingStretched(centre, setup->stretch, MaterialLaw(&setup->material), mesh, *position);
-  setup->position = *position;
-  PetscFunctionReturn(0);
-}
 
 /* true, or a list of names of boundaries and regions (*name is allocated). */
 static PetscErrorCode ReadFixed(CoracleCase c, int body, BodySetup *setup, const char ***name)
@@ -360,7 +227,7 @@ static void Shift(MeshSerial *mesh, JointSetup *joints, double (*box)[4], double
 static PetscErrorCode AddRepeated(CoracleCase c, Model *a, MeshSerial *mesh, BodySetup *setup,
                                   double (*box)[4])
 {
-  const Repeat r = ReadRepeat(c, setup->entry);
+  const BodyRepeat r = CaseReadRepeat(c, setup->entry);
   const char *why = NULL;
   char key[KEY];
   PetscFunctionBeginUser;
@@ -388,11 +255,11 @@ PetscErrorCode CaseReadBody(CoracleCase c, int body, Model *a)
   CoracleCaseKeys(c, BodyKey(key, body, "regions"), ReadRegion, &regions);
   setup.nregions = regions.n;
   setup.region = regions.region;
-  PetscCall(ReadShape(c, body, &mesh));
+  PetscCall(CaseReadShape(c, body, &mesh));
   PetscCall(ReadFixed(c, body, &setup, &name));
   PetscCall(ReadPrescribed(c, body, &setup, &prescribed));
   PetscCall(ReadJoints(c, body, &setup.joints, &joint_box, &joint_region));
-  PetscCall(ReadStretch(c, body, &mesh, &setup, &position));
+  PetscCall(CaseReadStretch(c, body, &mesh, &setup, &position));
   (void)CoracleCaseVectorOptional(c, BodyKey(key, body, "velocity"), 2, setup.velocity);
   if (setup.fixed && (setup.velocity[0] != 0.0 || setup.velocity[1] != 0.0))
     CoracleCaseRefuse(c, key, "a fixed body has no velocity");

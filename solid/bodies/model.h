@@ -21,7 +21,7 @@ typedef struct {
   double contact_damping;                  /* of contact with the same material, fraction of the critical */
   double thickness;                        /* m; 0 stands for 1: per metre of depth */
   int plane_stress;                        /* else plane strain */
-  int corotated;                           /* linear in the Biot strain (element.h), else neo-Hookean */
+  int law;                                 /* ElementLawKind (element.h) */
   double strength[2];                      /* of joints: in tension and in shear, Pa */
   double internal_friction;  /* of joints: what pressure adds to the shear strength, over the pressure */
   double fracture_energy[2]; /* per unit of new surface, mode I and mode II, J/m2 */
@@ -98,6 +98,9 @@ typedef struct {
 PetscErrorCode ModelAdd(Model *a, const MeshSerial *mesh, const BodySetup *setup, const char **error);
 /* The first pair of bodies one of which reaches into the other; *first = -1 if there is none. */
 PetscErrorCode ModelOverlap(const Model *a, int *first, int *second);
+/* Edges of an element at rest, m; its law, times its thickness. */
+Tensor ModelRestEdges(const Model *a, int element);
+ElementLaw ModelElementLaw(const Model *a, int element);
 PetscErrorCode ModelCopy(const Model *from, Model *to);
 PetscErrorCode ModelDestroy(Model *a);
 #endif

@@ -35,3 +35,26 @@ PetscErrorCode ModelCopy(const Model *from, Model *to)
   for (int k = 0; k < from->nmotions; k++) COPY(motion[k].row, 3 * from->motion[k].nrows);
   PetscFunctionReturn(0);
 }
+
+PetscErrorCode ModelDestroy(Model *a)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscFree(a->rest));
+  PetscCall(PetscFree(a->x));
+  PetscCall(PetscFree(a->u));
+  PetscCall(PetscFree(a->fixed));
+  PetscCall(PetscFree(a->node_body));
+  PetscCall(PetscFree(a->element));
+  PetscCall(PetscFree(a->element_body));
+  PetscCall(PetscFree(a->jointed));
+  for (int k = 0; k < a->nmotions; k++) PetscCall(PetscFree(a->motion[k].row));
+  PetscCall(PetscFree(a->motion));
+  PetscCall(PetscFree(a->prescribed));
+  PetscCall(PetscFree(a->material));
+  PetscCall(PetscFree(a->element_material));
+  PetscCall(PetscFree(a->facet));
+  PetscCall(PetscFree(a->facet_element));
+  PetscCall(PetscFree(a->body));
+  PetscCall(PetscMemzero(a, sizeof *a));
+  PetscFunctionReturn(0);
+}

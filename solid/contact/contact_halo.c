@@ -1,26 +1,19 @@
 #include "solid/contact/contact_halo.h"
-
-enum { TAG_TARGETS = 81, TAG_KEEP, TAG_POSITIONS, TAG_VELOCITIES, TAG_FORCES };
-
-/* One side's lists: targets of (or for) rank r at start[r] .. start[r + 1] - 1. */
-typedef struct {
-  int n, capacity;
-  int *start;     /* [size + 1] */
-  Target *target; /* [n] */
-  double *value;  /* [n][3][2] what travels per substep */
-} ClientList;
-
-typedef struct {
-  double lower[2], upper[2];
-} Offer;
+#include "common/exchange/scatter.h"
 
 struct Halo_s {
   MPI_Comm comm;
   PetscMPIInt rank, size;
   int nnodes;
-  ClientList out, in;       /* own targets that others need; theirs that this rank needs */
-  double *force, *velocity; /* [in.n][3][2] */
-  MPI_Request *request;
+  Scatter scatter; /* rows, of own targets that another rank needs -> those of others that this rank needs */
+  int row_capacity;
+  int (*node)[3];                      /* [rows] of the own target */
+  double (*row)[6];                    /* [rows] its vertices' values that leave or have come back */
+  int nleaving;                        /* rows that are still needed */
+  const int *leaving;                  /* [nleaving] in the order of the ranks, borrowed from the scatter */
+  int n, capacity;                     /* targets that this rank needs */
+  Target *target;                      /* [n] */
+  double *position, *velocity, *force; /* [n][3][2] */
 };
 
 PetscErrorCode HaloCreate(MPI_Comm comm, Halo *halo)
@@ -31,145 +24,152 @@ PetscErrorCode HaloCreate(MPI_Comm comm, Halo *halo)
   h->comm = comm;
   PetscCallMPI(MPI_Comm_rank(comm, &h->rank));
   PetscCallMPI(MPI_Comm_size(comm, &h->size));
-  PetscCall(PetscCalloc3((size_t)h->size + 1, &h->out.start, (size_t)h->size + 1, &h->in.start,
-                         2 * (size_t)h->size, &h->request));
   *halo = h;
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Reserve(ClientList *s, int n)
+static PetscBool Wanted(const GeometryBox *edges, const Target *t, const double x[])
 {
-  PetscFunctionBeginUser;
-  if (n <= s->capacity) PetscFunctionReturn(0);
-  s->capacity = n + n / 2 + 16;
-  PetscCall(PetscRealloc((size_t)s->capacity * sizeof *s->target, &s->target));
-  PetscCall(PetscRealloc(6 * (size_t)s->capacity * sizeof *s->value, &s->value));
-  PetscFunctionReturn(0);
-}
-
-/* Sends from's parts and receives to's, `bytes` a target. */
-static PetscErrorCode Travel(Halo h, const ClientList *from, const void *send, const ClientList *to,
-                             void *receive, size_t bytes, int tag)
-{
-  int n = 0;
-  PetscFunctionBeginUser;
-  for (int r = 0; r < h->size; r++) {
-    const int incoming = to->start[r + 1] - to->start[r], outgoing = from->start[r + 1] - from->start[r];
-    if (incoming)
-      PetscCallMPI(MPI_Irecv((char *)receive + bytes * (size_t)to->start[r], (int)(bytes * (size_t)incoming),
-                             MPI_BYTE, r, tag, h->comm, &h->request[n++]));
-    if (outgoing)
-      PetscCallMPI(MPI_Isend((const char *)send + bytes * (size_t)from->start[r],
-                             (int)(bytes * (size_t)outgoing), MPI_BYTE, r, tag, h->comm, &h->request[n++]));
-  }
-  PetscCallMPI(MPI_Waitall(n, h->request, MPI_STATUSES_IGNORE));
-  PetscFunctionReturn(0);
-}
-
-static PetscBool Wanted(const Offer *o, const Target *t, const double x[])
-{
-  const GeometryBox edges = {{o->lower[0], o->lower[1]}, {o->upper[0], o->upper[1]}};
   GeometryBox box = GeometryBoxEmpty();
   for (int i = 0; i < 3; i++) GeometryBoxGrow(&box, x + 2 * t->node[i]);
-  return (PetscBool)GeometryBoxOverlap(&edges, &box);
+  return (PetscBool)GeometryBoxOverlap(edges, &box);
 }
 
-/* The received targets' nodes lie behind this rank's own. */
-static void Renumber(Halo h)
+static PetscErrorCode ReserveRows(Halo h, int n)
 {
-  for (int k = 0; k < h->in.n; k++)
-    for (int i = 0; i < 3; i++) h->in.target[k].node[i] = h->nnodes + 3 * k + i;
+  PetscFunctionBeginUser;
+  if (n <= h->row_capacity) PetscFunctionReturn(0);
+  h->row_capacity = n + n / 2 + 16;
+  PetscCall(PetscRealloc((size_t)h->row_capacity * sizeof *h->node, &h->node));
+  PetscCall(PetscRealloc((size_t)h->row_capacity * sizeof *h->row, &h->row));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ReserveTargets(Halo h, int n)
+{
+  const size_t bytes = 6 * (size_t)(n + n / 2 + 16) * sizeof *h->force;
+  PetscFunctionBeginUser;
+  if (n <= h->capacity) PetscFunctionReturn(0);
+  h->capacity = n + n / 2 + 16;
+  PetscCall(PetscRealloc((size_t)h->capacity * sizeof *h->target, &h->target));
+  PetscCall(PetscRealloc(bytes, &h->position));
+  PetscCall(PetscRealloc(bytes, &h->velocity));
+  PetscCall(PetscRealloc(bytes, &h->force));
+  PetscFunctionReturn(0);
+}
+
+/* Targets near the edges of other ranks, edges[size]: target row[k] goes to rank to[k].  Returns their number;
+ * counts alone if to is NULL. */
+static int Offer(Halo h, const double x[], const GeometryBox edges[], int n, const Target target[], int to[],
+                 int row[])
+{
+  int rows = 0;
+  for (int r = 0; r < h->size; r++)
+    for (int k = 0; k < n && r != h->rank; k++) {
+      if (!Wanted(&edges[r], &target[k], x)) continue;
+      if (to) {
+        to[rows] = r;
+        row[rows] = k;
+      }
+      rows++;
+    }
+  return rows;
+}
+
+/* Who needs which target, and the targets that this rank needs. */
+static PetscErrorCode Exchange(Halo h, int nrows, const int to[], const int row[], const Target target[])
+{
+  Target *leaving;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1((size_t)nrows, &leaving));
+  PetscCall(ReserveRows(h, nrows));
+  for (int k = 0; k < nrows; k++) {
+    leaving[k] = target[row[k]];
+    PetscCall(PetscArraycpy(h->node[k], leaving[k].node, 3));
+  }
+  PetscCall(ScatterDestroy(&h->scatter));
+  PetscCall(ScatterCreate(h->comm, nrows, to, NULL, &h->scatter));
+  h->n = ScatterArriving(h->scatter);
+  PetscCall(ReserveTargets(h, h->n));
+  PetscCall(ScatterForward(h->scatter, sizeof *leaving, leaving, h->target));
+  PetscCall(PetscFree(leaving));
+  PetscFunctionReturn(0);
+}
+
+/* After the lists have changed. */
+static PetscErrorCode Renew(Halo h)
+{
+  const ScatterRanks *to;
+  PetscFunctionBeginUser;
+  PetscCall(ScatterGetLeaving(h->scatter, &to, &h->leaving));
+  h->nleaving = to->start[to->n];
+  for (int k = 0; k < h->n; k++) /* behind this rank's own nodes */
+    for (int i = 0; i < 3; i++) h->target[k].node[i] = h->nnodes + 3 * k + i;
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode HaloBuild(Halo h, int nnodes, const double x[], const GeometryBox *edges, int n,
                          const Target target[])
 {
-  Offer mine = {{edges->lower[0], edges->lower[1]}, {edges->upper[0], edges->upper[1]}}, *offer;
-  int *count;
+  GeometryBox *all;
+  int *to, *row;
   PetscFunctionBeginUser;
   h->nnodes = nnodes;
-  PetscCall(PetscMalloc2((size_t)h->size, &offer, (size_t)h->size, &count));
-  PetscCallMPI(MPI_Allgather(&mine, sizeof mine, MPI_BYTE, offer, sizeof mine, MPI_BYTE, h->comm));
-  h->out.n = 0;
-  for (int r = 0; r < h->size; r++) {
-    h->out.start[r] = h->out.n;
-    for (int k = 0; k < n && r != h->rank; k++) {
-      if (!Wanted(&offer[r], &target[k], x)) continue;
-      PetscCall(Reserve(&h->out, h->out.n + 1));
-      h->out.target[h->out.n++] = target[k];
-    }
-    count[r] = h->out.n - h->out.start[r];
-  }
-  h->out.start[h->size] = h->out.n;
-  PetscCallMPI(MPI_Alltoall(count, 1, MPI_INT, h->in.start + 1, 1, MPI_INT, h->comm));
-  h->in.start[0] = 0;
-  for (int r = 0; r < h->size; r++) h->in.start[r + 1] += h->in.start[r];
-  h->in.n = h->in.start[h->size];
-  PetscCall(Reserve(&h->in, h->in.n));
-  PetscCall(PetscRealloc(6 * (size_t)h->in.n * sizeof *h->force, &h->force));
-  PetscCall(PetscRealloc(6 * (size_t)h->in.n * sizeof *h->velocity, &h->velocity));
-  PetscCall(Travel(h, &h->out, h->out.target, &h->in, h->in.target, sizeof(Target), TAG_TARGETS));
-  Renumber(h);
-  PetscCall(PetscFree2(offer, count));
+  PetscCall(PetscMalloc1((size_t)h->size, &all));
+  PetscCallMPI(MPI_Allgather(edges, sizeof *edges, MPI_BYTE, all, sizeof *all, MPI_BYTE, h->comm));
+  const int nrows = Offer(h, x, all, n, target, NULL, NULL);
+  PetscCall(PetscMalloc2((size_t)nrows, &to, (size_t)nrows, &row));
+  Offer(h, x, all, n, target, to, row);
+  PetscCall(Exchange(h, nrows, to, row, target));
+  PetscCall(Renew(h));
+  PetscCall(PetscFree2(to, row));
+  PetscCall(PetscFree(all));
   PetscFunctionReturn(0);
-}
-
-static void Compress(ClientList *s, int size, const char keep[], int index[])
-{
-  int kept = 0;
-  for (int r = 0, k = 0; r < size; r++) {
-    const int end = s->start[r + 1];
-    s->start[r] = kept;
-    for (; k < end; k++) {
-      if (index) index[k] = keep[k] ? kept : -1;
-      if (keep[k]) s->target[kept++] = s->target[k];
-    }
-  }
-  s->start[size] = s->n = kept;
 }
 
 PetscErrorCode HaloKeep(Halo h, const char keep[], int index[])
 {
-  char *kept;
+  int kept = 0;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1((size_t)h->out.n, &kept));
-  PetscCall(Travel(h, &h->in, keep, &h->out, kept, 1, TAG_KEEP));
-  Compress(&h->in, h->size, keep, index);
-  Compress(&h->out, h->size, kept, NULL);
-  Renumber(h);
-  PetscCall(PetscFree(kept));
+  PetscCall(ScatterKeep(h->scatter, keep));
+  for (int k = 0; k < h->n; k++) {
+    index[k] = keep[k] ? kept : -1;
+    if (keep[k]) h->target[kept++] = h->target[k];
+  }
+  h->n = kept;
+  PetscCall(Renew(h));
   PetscFunctionReturn(0);
 }
 
 int HaloTargets(Halo h, const Target **target)
 {
-  *target = h->in.target;
-  return h->in.n;
+  *target = h->target;
+  return h->n;
 }
 
 int HaloTraffic(Halo h)
 {
-  return h->in.n + h->out.n;
+  return h->n + h->nleaving;
 }
 
-static void Pack(Halo h, const double value[])
+static PetscErrorCode Forward(Halo h, const double value[], double *received)
 {
-  for (int k = 0; k < h->out.n; k++)
-    for (int i = 0; i < 3; i++)
-      for (int c = 0; c < 2; c++) h->out.value[6 * k + 2 * i + c] = value[2 * h->out.target[k].node[i] + c];
+  PetscFunctionBeginUser;
+  for (int k = 0; k < h->nleaving; k++) {
+    const int row = h->leaving[k], *node = h->node[row];
+    for (int i = 0; i < 6; i++) h->row[row][i] = value[2 * node[i / 2] + i % 2];
+  }
+  PetscCall(ScatterForward(h->scatter, sizeof *h->row, h->row, received));
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode HaloForward(Halo h, const double x[], const double v[])
 {
   PetscFunctionBeginUser;
-  if (h->out.n == 0 && h->in.n == 0) PetscFunctionReturn(0);
-  Pack(h, x);
-  PetscCall(Travel(h, &h->out, h->out.value, &h->in, h->in.value, 6 * sizeof(double), TAG_POSITIONS));
-  if (v) {
-    Pack(h, v);
-    PetscCall(Travel(h, &h->out, h->out.value, &h->in, h->velocity, 6 * sizeof(double), TAG_VELOCITIES));
-  }
-  for (int k = 0; k < 6 * h->in.n; k++) h->force[k] = 0.0;
+  if (!h->scatter) PetscFunctionReturn(0);
+  PetscCall(Forward(h, x, h->position));
+  if (v) PetscCall(Forward(h, v, h->velocity));
+  PetscCall(PetscArrayzero(h->force, 6 * (size_t)h->n));
   PetscFunctionReturn(0);
 }
 
@@ -180,7 +180,7 @@ const double *HaloVelocities(Halo h)
 
 const double *HaloPositions(Halo h)
 {
-  return h->in.value;
+  return h->position;
 }
 
 double *HaloForces(Halo h)
@@ -191,25 +191,27 @@ double *HaloForces(Halo h)
 PetscErrorCode HaloReverse(Halo h, double force[])
 {
   PetscFunctionBeginUser;
-  if (h->out.n == 0 && h->in.n == 0) PetscFunctionReturn(0);
-  PetscCall(Travel(h, &h->in, h->force, &h->out, h->out.value, 6 * sizeof(double), TAG_FORCES));
-  for (int k = 0; k < h->out.n; k++)
-    for (int i = 0; i < 3; i++)
-      for (int c = 0; c < 2; c++) force[2 * h->out.target[k].node[i] + c] += h->out.value[6 * k + 2 * i + c];
+  if (!h->scatter) PetscFunctionReturn(0);
+  PetscCall(ScatterReverse(h->scatter, sizeof *h->row, h->force, h->row));
+  for (int k = 0; k < h->nleaving; k++) {
+    const int row = h->leaving[k], *node = h->node[row];
+    for (int i = 0; i < 6; i++) force[2 * node[i / 2] + i % 2] += h->row[row][i];
+  }
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode HaloDestroy(Halo *h)
+PetscErrorCode HaloDestroy(Halo *halo)
 {
+  Halo h = *halo;
   PetscFunctionBeginUser;
-  if (!*h) PetscFunctionReturn(0);
-  PetscCall(PetscFree3((*h)->out.start, (*h)->in.start, (*h)->request));
-  PetscCall(PetscFree((*h)->out.target));
-  PetscCall(PetscFree((*h)->out.value));
-  PetscCall(PetscFree((*h)->in.target));
-  PetscCall(PetscFree((*h)->in.value));
-  PetscCall(PetscFree((*h)->force));
-  PetscCall(PetscFree((*h)->velocity));
-  PetscCall(PetscFree(*h));
+  if (!h) PetscFunctionReturn(0);
+  PetscCall(ScatterDestroy(&h->scatter));
+  PetscCall(PetscFree(h->node));
+  PetscCall(PetscFree(h->row));
+  PetscCall(PetscFree(h->target));
+  PetscCall(PetscFree(h->position));
+  PetscCall(PetscFree(h->velocity));
+  PetscCall(PetscFree(h->force));
+  PetscCall(PetscFree(*halo));
   PetscFunctionReturn(0);
 }

@@ -1,4 +1,5 @@
-/* How a body comes apart: nodes split where the bonds of their star are cut, broken edges become surface. */
+/* How a body comes apart: broken edges become surface, nodes split (split.c), on all ranks that have them; and how
+ * that happens again, or is undone. */
 #include "solid/cracks/joints_impl.h"
 #include <stdlib.h>
 
@@ -13,108 +14,6 @@ int JointsFind(Joints j, int number)
       high = middle;
   }
   return low < j->n && j->joint[low].number == number ? low : -1;
-}
-
-/* --- nodes -------------------------------------------------------------------------------------------- */
-
-/* root[c]: the lowest corner of the star that uncut bonds connect with c. */
-static void ConnectCorners(const Joints j, int star, int root[])
-{
-  const Bond *bond = j->bond + j->star_bond[star];
-  const int n = j->star_bond[star + 1] - j->star_bond[star];
-  int merged = 1;
-  for (int c = 0; c < j->star_corner[star + 1] - j->star_corner[star]; c++) root[c] = c;
-  while (merged) {
-    merged = 0;
-    for (int k = 0; k < n; k++) {
-      if (bond[k].joint >= 0 && j->memory[bond[k].joint].stage != JOINT_INTACT) continue;
-      int *one = &root[bond[k].corner[0]], *two = &root[bond[k].corner[1]];
-      merged |= *one != *two;
-      *one = *two = PetscMin(*one, *two);
-    }
-  }
-}
-
-/* A node at the same place with the same velocity and history. */
-static int CopyNode(Solid s, int from, long long gid)
-{
-  double *const field[] = {s->rest, s->x, s->v, s->start, s->load};
-  const int n = s->nnodes++;
-  for (int k = 0; k < 5; k++)
-    for (int c = 0; c < 2; c++) field[k][2 * n + c] = field[k][2 * from + c];
-  s->gid[n] = gid;
-  s->node_body[n] = s->node_body[from];
-  s->base[n] = s->base[from];
-  s->mass[n] = 0.0;
-  s->inverse_mass[n] = s->inverse_mass[from];
-  s->is_prescribed[n] = s->is_prescribed[from];
-  return n;
-}
-
-static void SetCornerNode(Joints j, Solid s, Corner *corner, int node)
-{
-  const int ne = s->elements.n;
-  corner->node = node;
-  if (corner->place >= ne)
-    j->ghost[corner->place - ne].node[corner->corner] = node;
-  else if (corner->place >= 0)
-    s->element[3 * corner->place + corner->corner] = s->elements.node[corner->corner][corner->place] = node;
-}
-
-/* What a corner's node was before its star split. */
-typedef struct {
-  double mass, load[2];
-} Before;
-
-/* Each node's mass from its corners; the load of a node is split between its parts by their masses, so that none is
- * accelerated otherwise than before. */
-static void SplitMass(Solid s, int n, const Corner corner[], const Before before[])
-{
-  for (int c = 0; c < n; c++) s->mass[corner[c].node] = 0.0;
-  for (int c = 0; c < n; c++) s->mass[corner[c].node] += corner[c].mass;
-  for (int c = 0; c < n; c++) {
-    const int k = corner[c].node;
-    if (s->inverse_mass[k] > 0.0) s->inverse_mass[k] = 1.0 / s->mass[k];
-    for (int i = 0; i < 2; i++) s->load[2 * k + i] = before[c].load[i] * (s->mass[k] / before[c].mass);
-  }
-}
-
-static void SplitStar(Joints j, Solid s, int star)
-{
-  Corner *corner = j->corner + j->star_corner[star];
-  const int n = j->star_corner[star + 1] - j->star_corner[star];
-  int root[STAR_CORNERS], node[STAR_CORNERS];
-  Before before[STAR_CORNERS];
-  ConnectCorners(j, star, root);
-  for (int c = 0; c < n; c++) {
-    const int old = corner[c].node;
-    before[c] = (Before){s->mass[old], {s->load[2 * old], s->load[2 * old + 1]}};
-    node[c] = root[c] == c ? old : node[root[c]];
-    for (int b = 0; b < c && root[c] == c; b++) /* the old node stays with the first of its parts */
-      if (node[b] == old) {
-        node[c] = CopyNode(s, old, j->first_gid + 3 * (long long)corner[c].element + corner[c].corner);
-        break;
-      }
-  }
-  for (int c = 0; c < n; c++) SetCornerNode(j, s, &corner[c], node[c]);
-  SplitMass(s, n, corner, before);
-}
-
-/* Parts of a prescribed node have its prescribed motion. */
-static PetscErrorCode PrescribeParts(Solid s)
-{
-  PetscFunctionBeginUser;
-  s->nprescribed = s->nprescribed_first;
-  for (int n = 0; n < s->nnodes; n++) {
-    if (s->base[n] == n || !s->is_prescribed[n]) continue;
-    PetscCall(PetscRealloc((size_t)(s->nprescribed + s->nprescribed_first) * sizeof *s->prescribed,
-                           &s->prescribed));
-    for (int k = 0; k < s->nprescribed_first; k++)
-      if (s->prescribed[k].node == s->base[n])
-        s->prescribed[s->nprescribed++] = (PrescribedNode){n, s->prescribed[k].motion};
-  }
-  PetscCall(PetscRealloc(2 * (size_t)s->nprescribed * sizeof *s->position_before, &s->position_before));
-  PetscFunctionReturn(0);
 }
 
 /* --- surface ------------------------------------------------------------------------------------------ */
@@ -140,10 +39,10 @@ static PetscErrorCode MarkSurface(Solid s)
 {
   double *on;
   PetscFunctionBeginUser;
-  PetscCall(PetscCalloc1(2 * (size_t)s->nnodes, &on));
-  for (int k = 0; k < 2 * s->nfacets; k++) on[2 * s->facet[k]] = 1.0;
-  PetscCall(SubdomainSum(s->subdomain, on));
-  for (int n = 0; n < s->nnodes; n++) s->surface[n] = on[2 * n] > 0.0;
+  PetscCall(PetscCalloc1((size_t)s->nnodes, &on));
+  for (int k = 0; k < 2 * s->nfacets; k++) on[s->facet[k]] = 1.0;
+  PetscCall(CopiesSum(s->copies, 1, on));
+  for (int n = 0; n < s->nnodes; n++) s->surface[n] = on[n] > 0.0;
   PetscCall(PetscFree(on));
   PetscFunctionReturn(0);
 }
@@ -165,7 +64,7 @@ static int CompareCopies(const void *a, const void *b)
 /* A part of a node is on all ranks that had the node. */
 static PetscErrorCode RenewSubdomain(Solid s)
 {
-  const Copies *c = &s->copies;
+  const SharedNodes *c = &s->shared;
   int n = 0, *first, *next, *rank, *node;
   Copy *copy;
   PetscFunctionBeginUser;
@@ -187,8 +86,8 @@ static PetscErrorCode RenewSubdomain(Solid s)
     rank[k] = copy[k].rank;
     node[k] = copy[k].node;
   }
-  PetscCall(SubdomainDestroy(&s->subdomain));
-  PetscCall(SubdomainCreate(s->comm, s->nnodes, n, rank, node, &s->subdomain));
+  PetscCall(CopiesDestroy(&s->copies));
+  PetscCall(CopiesCreateMatched(s->comm, s->nnodes, n, rank, node, &s->copies));
   PetscCall(PetscFree3(copy, rank, node));
   PetscCall(PetscFree2(first, next));
   PetscFunctionReturn(0);
@@ -222,7 +121,7 @@ static PetscErrorCode SplitMarked(Joints j, Solid s)
 {
   PetscFunctionBeginUser;
   PetscCall(PetscSortInt(j->nmarked, j->cut));
-  for (int k = 0; k < j->nmarked; k++) SplitStar(j, s, j->cut[k]);
+  for (int k = 0; k < j->nmarked; k++) JointsSplitStar(j, s, j->cut[k]);
   PetscFunctionReturn(0);
 }
 
@@ -236,7 +135,7 @@ PetscErrorCode JointsSynchronise(Joints j, Solid s)
 {
   PetscFunctionBeginUser;
   s->npieces = 0;
-  PetscCall(PrescribeParts(s));
+  PetscCall(JointsPrescribeParts(s));
   PetscCall(RenewSubdomain(s));
   PetscCall(MarkSurface(s));
   PetscCall(JointsMeasureRate(j, s));
@@ -336,15 +235,7 @@ static PetscErrorCode Restore(Joints j, Solid s)
   s->nnodes = k->nnodes;
   s->nfacets = k->nfacets;
   s->revision = k->revision;
-  for (int star = 0; star < j->nstars; star++) {
-    const int first = j->star_corner[star], n = j->star_corner[star + 1] - first;
-    Before before[STAR_CORNERS];
-    for (int c = 0; c < n; c++) {
-      before[c] = (Before){1.0, {0.0, 0.0}}; /* the coming step has loads of its own */
-      SetCornerNode(j, s, &j->corner[first + c], j->saved_corner[first + c].node);
-    }
-    SplitMass(s, n, j->corner + first, before);
-  }
+  for (int star = 0; star < j->nstars; star++) JointsRestoreStar(j, s, star);
   PlaceFacets(s, 0);
   SolidListCorners(s);
   JointsFindCrackTips(j, s, PETSC_TRUE);

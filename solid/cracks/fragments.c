@@ -52,10 +52,10 @@ void SolidDamage(Solid s, double damage[])
 static void Lower(double label[], int n, const int node[], PetscBool *changed)
 {
   double least = HUGE_VAL;
-  for (int i = 0; i < n; i++) least = fmin(least, label[2 * node[i]]);
+  for (int i = 0; i < n; i++) least = fmin(least, label[node[i]]);
   for (int i = 0; i < n; i++) {
-    if (label[2 * node[i]] > least) *changed = PETSC_TRUE;
-    label[2 * node[i]] = least;
+    if (label[node[i]] > least) *changed = PETSC_TRUE;
+    label[node[i]] = least;
   }
 }
 
@@ -75,16 +75,16 @@ static PetscBool Sweep(const Solid s, double label[])
   return changed;
 }
 
-/* label[nnodes][2], the first: the lowest global number of the piece's nodes. */
+/* label[nnodes]: the lowest global number of the piece's nodes. */
 static PetscErrorCode LabelNodes(Solid s, double label[])
 {
   int any = 1;
   PetscFunctionBeginUser;
-  for (int n = 0; n < s->nnodes; n++) label[2 * n] = label[2 * n + 1] = (double)s->gid[n];
+  for (int n = 0; n < s->nnodes; n++) label[n] = (double)s->gid[n];
   while (any) {
     PetscBool changed = PETSC_FALSE;
     while (Sweep(s, label)) changed = PETSC_TRUE;
-    PetscCall(SubdomainMin(s->subdomain, label));
+    PetscCall(CopiesMin(s->copies, 1, label));
     any = changed;
     if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, s->comm));
   }
@@ -98,7 +98,7 @@ static PetscErrorCode NumberLabels(Solid s, const double label[], int number[], 
   PetscMPIInt count, *counts, *start;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1((size_t)mine, &own));
-  for (int i = 0; i < s->nnodes; i++) own[i] = (PetscInt)label[2 * i];
+  for (int i = 0; i < s->nnodes; i++) own[i] = (PetscInt)label[i];
   PetscCall(PetscSortRemoveDupsInt(&mine, own));
   PetscCall(PetscMPIIntCast(mine, &count));
   PetscCall(PetscMalloc2((size_t)s->size, &counts, (size_t)s->size + 1, &start));
@@ -111,7 +111,7 @@ static PetscErrorCode NumberLabels(Solid s, const double label[], int number[], 
   PetscCall(PetscSortRemoveDupsInt(&total, all));
   for (int i = 0; i < s->nnodes; i++) {
     PetscInt place;
-    PetscCall(PetscFindInt((PetscInt)label[2 * i], total, all, &place));
+    PetscCall(PetscFindInt((PetscInt)label[i], total, all, &place));
     number[i] = (int)place;
   }
   *n = (int)total;
@@ -126,7 +126,7 @@ PetscErrorCode SolidPieces(Solid s, int *n, const int **piece)
   double *label;
   PetscFunctionBeginUser;
   if (s->npieces == 0) {
-    PetscCall(PetscMalloc1(2 * (size_t)s->nnodes, &label));
+    PetscCall(PetscMalloc1((size_t)s->nnodes, &label));
     PetscCall(LabelNodes(s, label));
     PetscCall(NumberLabels(s, label, s->piece, &s->npieces));
     PetscCall(PetscFree(label));

@@ -254,7 +254,7 @@ PetscErrorCode JointsMeasureRate(Joints j, Solid s)
         sum[2 * j->corner[joint->corner[end][i]].node] +=
             last * (joint->law.friction > 0.0 ? 2.0 : 1.0) * joint->law.stiffness * joint->length;
   }
-  PetscCall(SubdomainSum(s->subdomain, sum));
+  PetscCall(CopiesSum(s->copies, 2, sum));
   j->rate = 0.0;
   for (int n = 0; n < s->nnodes; n++) j->rate = fmax(j->rate, sum[2 * n] * s->inverse_mass[n]);
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &j->rate, 1, MPI_DOUBLE, MPI_MAX, s->comm));

@@ -13,18 +13,12 @@ typedef struct {
   int *star;  /* [a->nnodes] or -1 */
 } Making;
 
-static Tensor RestEdges(const Model *a, int e)
-{
-  const int *n = a->element + 3 * e;
-  return TensorOfEdges(PointAt(a->rest, n[0]), PointAt(a->rest, n[1]), PointAt(a->rest, n[2]));
-}
-
 /* --- elements ----------------------------------------------------------------------------------------- */
 
 static void AddGhost(Joints j, const Making *m, int e)
 {
   Ghost *g = &j->ghost[j->nghosts];
-  *g = (Ghost){.inverse = TensorInverse(RestEdges(m->a, e)), .law = SolidLawOf(m->a, e)};
+  *g = (Ghost){.inverse = TensorInverse(ModelRestEdges(m->a, e)), .law = ModelElementLaw(m->a, e)};
   for (int i = 0; i < 3; i++) g->node[i] = m->local[m->a->element[3 * e + i]];
   m->place[e] = m->s->elements.n + j->nghosts++;
 }
@@ -77,7 +71,7 @@ static PetscErrorCode GatherCorners(Joints j, const Making *m)
     const int e = k / 3, star = m->star[a->element[k]];
     if (star < 0) continue;
     const Material *of = &a->material[a->element_material[e]];
-    const double mass = of->density * of->thickness * TensorDeterminant(RestEdges(a, e)) / 6.0;
+    const double mass = of->density * of->thickness * TensorDeterminant(ModelRestEdges(a, e)) / 6.0;
     j->corner[start[star]++] = (Corner){e, k % 3, m->place[e], m->local[a->element[k]], mass};
   }
   PetscFunctionReturn(0);
@@ -157,7 +151,7 @@ static JointLaw LawOf(const Model *a, const InteriorEdge *edge, double length)
     law.strength[i] = thickness * fmin(one->strength[i], two->strength[i]);
     law.energy[i] = thickness * fmin(one->fracture_energy[i], two->fracture_energy[i]);
     law.stiffness += 3.0 * thickness * fmin(one->penalty, two->penalty) * length /
-                     TensorDeterminant(RestEdges(a, edge->element[i]));
+                     TensorDeterminant(ModelRestEdges(a, edge->element[i]));
   }
   return law;
 }

@@ -115,6 +115,13 @@ void JointsList(Joints j, Solid s);
 void JointsBeginEnds(Joints j, Solid s);
 PetscErrorCode JointsMeasureRate(Joints j, Solid s);
 
+/* split.c: the corners of a star that bonds still connect are one node, the others get one of their own. */
+void JointsSplitStar(Joints j, Solid s, int star);
+/* The nodes of saved_corner again. */
+void JointsRestoreStar(Joints j, Solid s, int star);
+/* Parts of a prescribed node have its prescribed motion. */
+PetscErrorCode JointsPrescribeParts(Solid s);
+
 /* break.c: the joint of that number, or -1. */
 int JointsFind(Joints j, int number);
 /* break.c: collective: event[n] as in joints.c, the same on all ranks, ascending. */

@@ -6,10 +6,10 @@
  * loses  i = max c/(sum w/ranks) - 1  of every substep.  Some of it no partition can avoid, so that what counts
  * is how much worse i is than at its best since the last redistribution; this is summed up over the substeps
  * until it exceeds what a redistribution costs, `rebalance` substeps. */
+#include "common/exchange/scatter.h"
 #include "solid/contact/contact_impl.h"
 #include "solid/cracks/joints_impl.h"
 #include "solid/ranks/partition.h"
-#include "solid/ranks/sparse_exchange.h"
 
 /* Work of a joint, and of what travels in a substep: a target, a node on several ranks, a ghost element of another
  * rank's element; measured on two ranks. */
@@ -25,7 +25,7 @@ static Load LoadOf(const Solid s)
   Load l = {.work = WORK_ELEMENT * s->elements.n + WORK_CANDIDATE * (c->ncandidates + c->nwalls)};
   if (s->joints)
     l.work += WORK_JOINT * (s->joints->initiation.n + s->joints->ntips) + WORK_ACTIVE * s->joints->nactive;
-  l.all = l.work + TRAVEL_NODE * s->copies.n;
+  l.all = l.work + TRAVEL_NODE * s->shared.n;
   if (c->halo) l.all += TRAVEL_TARGET * HaloTraffic(c->halo);
   if (s->joints) l.all += WORK_GHOST * s->joints->nghosts;
   return l;
@@ -108,14 +108,14 @@ static PetscErrorCode GatherGraph(Solid s, PartitionGraph *g)
   PetscCall(FindPlaces(s, place));
   PetscCall(FindLinks(s, &mine));
   PetscCall(PetscCalloc1((size_t)PetscMax(s->elements.n, mine.nlinks), &zero));
-  PetscCall(SparseExchange(s->comm, s->elements.n, zero, sizeof *place, place, &n, &received));
+  PetscCall(ScatterRecords(s->comm, s->elements.n, zero, sizeof *place, place, &n, &received));
   all = received;
   for (int k = 0; k < n; k++) {
     g->work[all[k].number] = all[k].work;
     for (int d = 0; d < 2; d++) g->at[all[k].number][d] = all[k].at[d];
   }
   PetscCall(PetscFree(all));
-  PetscCall(SparseExchange(s->comm, mine.nlinks, zero, sizeof *link, mine.link, &n, &received));
+  PetscCall(ScatterRecords(s->comm, mine.nlinks, zero, sizeof *link, mine.link, &n, &received));
   link = received;
   for (int k = 0; k < n; k++) PetscCall(PartitionGraphLink(g, link[k].a, link[k].b, link[k].weight));
   PetscCall(PetscFree(link));

@@ -60,7 +60,7 @@ static PetscErrorCode Allocate(Solid s)
   PetscCall(PetscCalloc1(nn, &s->is_prescribed));
   PetscCall(PetscMalloc3(ne, &e->node[0], ne, &e->node[1], ne, &e->node[2]));
   PetscCall(PetscMalloc4(ne, &e->inverse[0], ne, &e->inverse[1], ne, &e->inverse[2], ne, &e->inverse[3]));
-  PetscCall(PetscMalloc5(ne, &e->mu, ne, &e->lambda, ne, &e->eta, ne, &e->density, ne, &e->corotated));
+  PetscCall(PetscMalloc5(ne, &e->mu, ne, &e->lambda, ne, &e->eta, ne, &e->density, ne, &e->kind));
   PetscCall(PetscMalloc7(ne, &e->body, ne, &e->number, 3 * ne, &e->force[0], 3 * ne, &e->force[1], ne,
                          &e->thickness, ne, &e->plane_stress, ne, &e->material));
   PetscCall(PetscMalloc1((size_t)s->nmaterials, &s->material));
@@ -68,12 +68,6 @@ static PetscErrorCode Allocate(Solid s)
 }
 
 /* --- nodes -------------------------------------------------------------------------------------------- */
-
-static Tensor RestEdges(const Model *a, int e)
-{
-  const int *n = a->element + 3 * e;
-  return TensorOfEdges(PointAt(a->rest, n[0]), PointAt(a->rest, n[1]), PointAt(a->rest, n[2]));
-}
 
 static void TakeNodes(Solid s, const Model *a, const int local[])
 {
@@ -98,7 +92,7 @@ static void LumpMass(Solid s, const Model *a, const int local[])
 {
   for (int e = 0; e < a->nelements; e++) {
     const Material *of = &a->material[a->element_material[e]];
-    const double m = of->density * of->thickness * TensorDeterminant(RestEdges(a, e)) / 6.0;
+    const double m = of->density * of->thickness * TensorDeterminant(ModelRestEdges(a, e)) / 6.0;
     for (int i = 0; i < 3; i++) {
       const int n = local[a->element[3 * e + i]];
       if (n >= 0) s->mass[n] += m;
@@ -133,7 +127,7 @@ static int AddCopies(const Solid s, const Model *a, int e, int rank, const int l
 static PetscErrorCode FindCopies(Solid s, const Model *a, int nghosts, const GhostElement ghost[],
                                  const int part[], const int local[])
 {
-  Copies *c = &s->copies;
+  SharedNodes *c = &s->shared;
   Copy *copy;
   int n = 0;
   PetscFunctionBeginUser;
@@ -147,53 +141,19 @@ static PetscErrorCode FindCopies(Solid s, const Model *a, int nghosts, const Gho
     c->rank[c->n] = copy[k].rank;
     c->node[c->n++] = copy[k].local;
   }
-  PetscCall(SubdomainCreate(s->comm, s->nnodes, c->n, c->rank, c->node, &s->subdomain));
+  PetscCall(CopiesCreateMatched(s->comm, s->nnodes, c->n, c->rank, c->node, &s->copies));
   PetscCall(PetscFree(copy));
   PetscFunctionReturn(0);
 }
 
 /* --- elements ----------------------------------------------------------------------------------------- */
 
-/* Of the damping ratio xi at frequency f in tension along one axis: 2 xi E'/(2 pi f) = eta (1 + q^2), E' the modulus and
- * q the contraction across the axis over the stretch along it. */
-static double MaterialViscosity(const Material *m)
-{
-  const double nu = m->poisson_ratio, q = m->plane_stress ? nu : nu / (1.0 - nu);
-  const double modulus = m->youngs_modulus / (m->plane_stress ? 1.0 : 1.0 - nu * nu);
-  return m->damping_ratio > 0.0 ? m->damping_ratio * modulus / (M_PI * m->damping_frequency * (1.0 + q * q))
-                                : 0.0;
-}
-
-/* eta = 2 h beta sqrt(E rho), h the smallest height at rest, and that of the material. */
-static double Viscosity(const Model *a, int e)
-{
-  const Material *m = &a->material[a->element_material[e]];
-  double longest = 0.0;
-  for (int i = 0; i < 3; i++) {
-    const Point d = PointMinus(PointAt(a->rest, a->element[3 * e + (i + 1) % 3]),
-                               PointAt(a->rest, a->element[3 * e + i]));
-    longest = fmax(longest, hypot(d.x, d.y));
-  }
-  const double height = TensorDeterminant(RestEdges(a, e)) / longest;
-  return 2.0 * height * m->damping * sqrt(m->youngs_modulus * m->density) + MaterialViscosity(m);
-}
-
-ElementLaw SolidLawOf(const Model *a, int e)
-{
-  const Material *m = &a->material[a->element_material[e]];
-  ElementLaw law = MaterialLaw(m);
-  law.mu *= m->thickness;
-  law.lambda *= m->thickness;
-  law.eta = m->thickness * Viscosity(a, e);
-  return law;
-}
-
 static void TakeElement(Solid s, const Model *a, int from, int k, const int local[])
 {
   Elements *e = &s->elements;
   const Material *m = &a->material[a->element_material[from]];
-  const ElementLaw law = SolidLawOf(a, from);
-  const Tensor inverse = TensorInverse(RestEdges(a, from));
+  const ElementLaw law = ModelElementLaw(a, from);
+  const Tensor inverse = TensorInverse(ModelRestEdges(a, from));
   for (int i = 0; i < 3; i++) s->element[3 * k + i] = e->node[i][k] = local[a->element[3 * from + i]];
   e->inverse[0][k] = inverse.xx;
   e->inverse[1][k] = inverse.xy;
@@ -205,26 +165,12 @@ static void TakeElement(Solid s, const Model *a, int from, int k, const int loca
   e->density[k] = m->thickness * m->density;
   e->thickness[k] = m->thickness;
   e->plane_stress[k] = law.plane_stress;
-  e->corotated[k] = law.corotated;
+  e->kind[k] = law.kind;
   e->material[k] = a->element_material[from];
   e->body[k] = a->element_body[from];
   e->number[k] = from;
   if (law.eta > 0.0) e->damped = PETSC_TRUE;
-  e->laws = PetscMax(e->laws, law.corotated      ? WITH_COROTATED
-                              : law.plane_stress ? WITH_PLANE_STRESS
-                                                 : STRAIN_ONLY);
-}
-
-void SolidListCorners(Solid s)
-{
-  const int ne = s->elements.n;
-  for (int n = 0; n <= s->nnodes; n++) s->corner_start[n] = 0;
-  for (int k = 0; k < 3 * ne; k++) s->corner_start[s->element[k] + 1]++;
-  for (int n = 0; n < s->nnodes; n++) s->corner_start[n + 1] += s->corner_start[n];
-  for (int k = 3 * ne - 1; k >= 0; k--) /* fills from behind, then shifts back */
-    s->corner[--s->corner_start[s->element[k] + 1]] = (k % 3) * ne + k / 3;
-  for (int n = 0; n < s->nnodes; n++) s->corner_start[n] = s->corner_start[n + 1];
-  s->corner_start[s->nnodes] = 3 * ne;
+  e->laws = PetscMax(e->laws, ElementLawsWith(law));
 }
 
 /* Elements, facets, and for each node the places of its corners' forces. */

@@ -2,12 +2,12 @@
  * and at rest; then what has happened since is asked of the ranks that had it (state.h):
  *
  *     damage of joints    of the rank of the joint's first element; cracks are cut again
- *     nodes               of a rank that has them for certain (node_directory.h)
+ *     nodes               of a rank that has them for certain (node_names.h)
  *     slips               to the rank of the edge's element
  *
  * The subdomain before stays as it is while a saved state is in it. */
-#include "solid/ranks/node_directory.h"
-#include "solid/ranks/sparse_exchange.h"
+#include "common/exchange/scatter.h"
+#include "solid/ranks/node_names.h"
 #include "solid/ranks/state.h"
 
 /* --- the state ---------------------------------------------------------------------------------------- */
@@ -39,8 +39,7 @@ static PetscErrorCode RequestJoints(void *old, Joints j)
     key[k] = j->joint[k].number;
     of[k] = s->part[j->joint[k].first];
   }
-  PetscCall(
-      SparseExchangeRequest(s->comm, j->n, of, key, sizeof *j->memory, AnswerJoint, s->joints, j->memory));
+  PetscCall(ScatterRequest(s->comm, j->n, of, key, sizeof *j->memory, AnswerJoint, s->joints, j->memory));
   PetscCall(PetscFree2(key, of));
   PetscFunctionReturn(0);
 }
@@ -62,7 +61,7 @@ static PetscErrorCode SendSlips(void *old, Solid to, int *n, Slip **slip)
   PetscCall(StateOfSlips(from->s, &nown, &own));
   PetscCall(PetscMalloc1((size_t)nown, &rank));
   for (int k = 0; k < nown; k++) rank[k] = from->part[own[k].edge / 3];
-  PetscCall(SparseExchange(to->comm, nown, rank, sizeof *own, own, n, &received));
+  PetscCall(ScatterRecords(to->comm, nown, rank, sizeof *own, own, n, &received));
   *slip = received;
   PetscCall(PetscFree(rank));
   PetscCall(PetscFree(own));

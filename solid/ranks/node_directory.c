@@ -1,83 +1,50 @@
-/* Nodes by their gid for whoever does not know on which rank they are now. */
 #include "solid/ranks/node_directory.h"
-#include "solid/ranks/sparse_exchange.h"
+#include "solid/ranks/node_names.h"
 #include "solid/solid_impl.h"
-#include <stdlib.h>
 
-static int CompareNames(const void *a, const void *b)
-{
-  const NodeName *p = a, *q = b;
-  return (p->gid > q->gid) - (p->gid < q->gid);
-}
+struct NodeDirectory_s {
+  Solid s; /* borrowed */
+  int n, partition, revision;
+  long long *gid; /* [n] */
+};
 
-PetscErrorCode NodeNamesCreate(Solid s, NodeNames *names)
+PetscErrorCode NodeDirectoryCreate(Solid s, NodeDirectory *directory)
 {
+  NodeDirectory d;
   PetscFunctionBeginUser;
-  names->s = s;
-  PetscCall(PetscMalloc1((size_t)s->nnodes, &names->name));
-  for (int n = 0; n < s->nnodes; n++) names->name[n] = (NodeName){s->gid[n], n};
-  if (s->nnodes) qsort(names->name, (size_t)s->nnodes, sizeof *names->name, CompareNames);
+  PetscCall(PetscNew(&d));
+  d->s = s;
+  d->n = s->nnodes;
+  d->partition = s->partition_number;
+  d->revision = s->revision;
+  PetscCall(PetscMalloc1((size_t)d->n, &d->gid));
+  PetscCall(PetscArraycpy(d->gid, s->gid, (size_t)d->n));
+  *directory = d;
   PetscFunctionReturn(0);
 }
 
-int NodeNamesFind(const NodeNames *names, long long gid)
-{
-  const NodeName wanted = {gid, -1};
-  const size_t n = (size_t)names->s->nnodes;
-  const NodeName *found = n ? bsearch(&wanted, names->name, n, sizeof *names->name, CompareNames) : NULL;
-  return found ? found->node : -1;
-}
-
-PetscErrorCode NodeNamesDestroy(NodeNames *names)
+PetscErrorCode NodeDirectoryDestroy(NodeDirectory *directory)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscFree(names->name));
+  if (!*directory) PetscFunctionReturn(0);
+  PetscCall(PetscFree((*directory)->gid));
+  PetscCall(PetscFree(*directory));
   PetscFunctionReturn(0);
 }
 
-/* The rank of the corner that has given the node its gid: an element's own, or the lowest at a node of the
- * start. */
-static PetscErrorCode NodeOwners(Solid s, int n, const long long gid[], int of[])
+int NodeDirectorySize(NodeDirectory d)
 {
-  const Model *a = s->model;
-  int *lowest;
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1((size_t)a->nnodes, &lowest));
-  for (int k = 3 * a->nelements - 1; k >= 0; k--) lowest[a->element[k]] = k / 3;
-  for (int k = 0; k < n; k++)
-    of[k] = s->part[gid[k] < a->nnodes ? lowest[gid[k]] : (int)((gid[k] - a->nnodes) / 3)];
-  PetscCall(PetscFree(lowest));
-  PetscFunctionReturn(0);
+  return d->n;
 }
 
-typedef struct {
-  NodeNames names;
-  NodeAnswer answer;
-} Question;
-
-static PetscErrorCode AnswerByName(void *context, long long gid, void *record)
+PetscBool NodeDirectoryIsPresent(NodeDirectory d)
 {
-  const Question *q = context;
-  const int n = NodeNamesFind(&q->names, gid);
-  PetscFunctionBeginUser;
-  PetscCheck(n >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "node %lld is not here", gid);
-  q->answer(q->names.s, n, record);
-  PetscFunctionReturn(0);
+  return (PetscBool)(d->partition == d->s->partition_number);
 }
 
-PetscErrorCode NodesRequest(Solid s, int n, const long long gid[], size_t bytes, NodeAnswer answer,
-                            void *record)
+PetscBool NodeDirectoryIsComplete(NodeDirectory d)
 {
-  Question q = {.answer = answer};
-  int *of;
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1((size_t)n, &of));
-  PetscCall(NodeOwners(s, n, gid, of));
-  PetscCall(NodeNamesCreate(s, &q.names));
-  PetscCall(SparseExchangeRequest(s->comm, n, of, gid, bytes, AnswerByName, &q, record));
-  PetscCall(NodeNamesDestroy(&q.names));
-  PetscCall(PetscFree(of));
-  PetscFunctionReturn(0);
+  return (PetscBool)(d->revision == d->s->revision);
 }
 
 static void AnswerMotion(const Solid s, int n, void *record)
@@ -92,10 +59,10 @@ static void AnswerMotion(const Solid s, int n, void *record)
   }
 }
 
-PetscErrorCode NodeDirectoryMotion(Solid s, int n, const long long gid[], NodeMotion motion[])
+PetscErrorCode NodeDirectoryMotion(NodeDirectory d, NodeMotion motion[])
 {
   PetscFunctionBeginUser;
-  PetscCall(NodesRequest(s, n, gid, sizeof *motion, AnswerMotion, motion));
+  PetscCall(NodesRequest(d->s, d->n, d->gid, sizeof *motion, AnswerMotion, motion));
   PetscFunctionReturn(0);
 }
 
@@ -104,24 +71,24 @@ typedef struct {
   double load[2];
 } NodeLoad;
 
-PetscErrorCode NodeDirectoryLoad(Solid s, int n, const long long gid[], const double load[], double owned[])
+PetscErrorCode NodeDirectoryLoad(NodeDirectory d, const double load[], double present[])
 {
   NodeNames names;
   NodeLoad *out, *in;
   void *received;
   int *of, nin;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2((size_t)n, &of, (size_t)n, &out));
-  PetscCall(NodeOwners(s, n, gid, of));
-  for (int k = 0; k < n; k++) out[k] = (NodeLoad){gid[k], {load[2 * k], load[2 * k + 1]}};
-  PetscCall(SparseExchange(s->comm, n, of, sizeof *out, out, &nin, &received));
+  PetscCall(PetscMalloc2((size_t)d->n, &of, (size_t)d->n, &out));
+  PetscCall(NodeRanks(d->s, d->n, d->gid, of));
+  for (int k = 0; k < d->n; k++) out[k] = (NodeLoad){d->gid[k], {load[2 * k], load[2 * k + 1]}};
+  PetscCall(ScatterRecords(d->s->comm, d->n, of, sizeof *out, out, &nin, &received));
   in = received;
-  PetscCall(NodeNamesCreate(s, &names));
-  PetscCall(PetscArrayzero(owned, 2 * (size_t)s->nnodes));
+  PetscCall(NodeNamesCreate(d->s, &names));
+  PetscCall(PetscArrayzero(present, 2 * (size_t)d->s->nnodes));
   for (int k = 0; k < nin; k++) {
     const int node = NodeNamesFind(&names, in[k].gid);
     PetscCheck(node >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "node %lld is not here", in[k].gid);
-    for (int c = 0; c < 2; c++) owned[2 * node + c] += in[k].load[c];
+    for (int c = 0; c < 2; c++) present[2 * node + c] += in[k].load[c];
   }
   PetscCall(NodeNamesDestroy(&names));
   PetscCall(PetscFree(in));

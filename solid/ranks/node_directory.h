@@ -1,38 +1,34 @@
-/* Nodes by their gid, for callers that do not know on which rank they are now: elements that have changed ranks
- * (migrate.c), and the mesh that is registered with the coupler (exchange.h).  The rank of a node follows from its gid
- * and the partition, which every rank knows; so a request goes straight to that rank. */
+/* One partition of the nodes that stays: that which the coupler knows (exchange.h).  When elements change ranks the
+ * solid's own partition becomes another one, and the directory brings what is exchanged from where a node is
+ * registered to where it is present, and back:
+ *
+ *     registered                                    present
+ *     rank 0: gid 3 5 8     --NodeDirectoryLoad-->      rank 0: 3 5 7 9
+ *     rank 1: gid 5 7 9     <--NodeDirectoryMotion--    rank 1: 5 8 9
+ *
+ * Gids stay; a crack makes new ones, and then a new directory is due. */
 #ifndef SOLID_NODE_DIRECTORY_H
 #define SOLID_NODE_DIRECTORY_H
 #include "solid/solid.h"
 
-/* This rank's nodes by gid.  Not collective. */
-typedef struct {
-  long long gid;
-  int node;
-} NodeName;
-
-typedef struct {
-  Solid s;        /* borrowed */
-  NodeName *name; /* [nnodes] */
-} NodeNames;
-
-PetscErrorCode NodeNamesCreate(Solid s, NodeNames *names);
-int NodeNamesFind(const NodeNames *names, long long gid); /* -1: not here */
-PetscErrorCode NodeNamesDestroy(NodeNames *names);
+typedef struct NodeDirectory_s *NodeDirectory;
 
 typedef struct {
   double x[2], mean[2];                                    /* m; over the step, m/s */
   double interface_velocity[2], mobility, acceleration[2]; /* what SolidUpdateInterfaceMotion has left */
 } NodeMotion;
 
-/* Collective: motion[n] of the nodes gid[n], which may be on any rank.  The solid has `rebalance`. */
-PetscErrorCode NodeDirectoryMotion(Solid s, int n, const long long gid[], NodeMotion motion[]);
-/* Collective: forces load[n][2] on nodes gid[n], this rank's part, to home[nnodes][2] for SolidStart. */
-PetscErrorCode NodeDirectoryLoad(Solid s, int n, const long long gid[], const double load[], double owned[]);
+/* Not collective: registers this rank's nodes as they are now, in their order.  The solid is borrowed. */
+PetscErrorCode NodeDirectoryCreate(Solid s, NodeDirectory *directory);
+PetscErrorCode NodeDirectoryDestroy(NodeDirectory *directory);
+/* Not collective: the number of nodes registered on this rank; whether nodes are present where they are registered, and
+ * whether all that are present are registered, on all ranks. */
+int NodeDirectorySize(NodeDirectory directory);
+PetscBool NodeDirectoryIsPresent(NodeDirectory directory);
+PetscBool NodeDirectoryIsComplete(NodeDirectory directory);
 
-/* Fills the record of this rank's node. */
-typedef void (*NodeAnswer)(const Solid s, int node, void *record);
-/* Collective: record[n], `bytes` long each, is what a rank that has node gid[k] for certain answers. */
-PetscErrorCode NodesRequest(Solid s, int n, const long long gid[], size_t bytes, NodeAnswer answer,
-                            void *record);
+/* Collective: motion[size] of the registered nodes, from where they are present. */
+PetscErrorCode NodeDirectoryMotion(NodeDirectory directory, NodeMotion motion[]);
+/* Collective: load[size][2] on the registered nodes, this rank's part, to present[nnodes][2] for SolidStart. */
+PetscErrorCode NodeDirectoryLoad(NodeDirectory directory, const double load[], double present[]);
 #endif

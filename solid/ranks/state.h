@@ -13,7 +13,7 @@ typedef struct {
   double interface_velocity[2], mobility, acceleration[2]; /* what SolidUpdateInterfaceMotion has left */
 } NodeState;
 
-/* Not collective: fills a NodeState; a NodeAnswer of node_directory.h. */
+/* Not collective: fills a NodeState; a NodeAnswer of node_names.h. */
 void StateOfNode(const Solid s, int node, void *record);
 /* Not collective: this rank's slips, allocated, with edges numbered 3 (element in the model) + side. */
 PetscErrorCode StateOfSlips(Solid s, int *n, Slip **slip);
@@ -30,4 +30,9 @@ typedef struct {
 
 /* Collective: s is a subdomain as the model has it. */
 PetscErrorCode SolidTakeState(Solid s, const StateSource *from);
+
+/* state_file.c, collective: the state into a checkpoint, and out of it; the elements to the ranks that had them. */
+PetscErrorCode StateToFile(Solid s, Checkpoint to);
+StateSource StateFromFile(Checkpoint from);
+PetscErrorCode StateTakePartition(Solid s, Checkpoint from);
 #endif

@@ -124,7 +124,7 @@ static void Adapt(Mesh **mesh, MetricAt at, const void *context, AdaptReport *re
   Mesh *adapted;
   CHECK(!MeshAdaptParallel(*mesh, metric, NULL, &adapted, report), "adaptation failed");
   CheckMesh(adapted);
-  CHECK(report->edges == (int)(adapted->np2_global + adapted->nglobal - 1) / 2, "%d edges in the report",
+  CHECK(report->edges == (int)(adapted->nv_global + adapted->nglobal - 1), "%d edges in the report",
         report->edges);
   free(metric);
   CHECK(!MeshDestroy(mesh), "not freed");
@@ -191,10 +191,9 @@ static void CheckTwice(void)
     Adapt(&mesh[k], RingAt, &ring, &report);
   }
   const Mesh *a = mesh[0], *b = mesh[1];
-  CHECK(a->ne == b->ne && a->nv == b->nv && a->np2 == b->np2 &&
-            !memcmp(a->x, b->x, 2 * (size_t)a->nv * sizeof *a->x) &&
+  CHECK(a->ne == b->ne && a->nv == b->nv && !memcmp(a->x, b->x, 2 * (size_t)a->nv * sizeof *a->x) &&
             !memcmp(a->vertex, b->vertex, 3 * (size_t)(a->ne + a->ng) * sizeof *a->vertex) &&
-            !memcmp(a->p2gid, b->p2gid, (size_t)a->np2 * sizeof *a->p2gid),
+            !memcmp(a->vgid, b->vgid, (size_t)a->nv * sizeof *a->vgid),
         "the same input twice, two meshes");
   for (int k = 0; k < 2; k++) CHECK(!MeshDestroy(&mesh[k]), "not freed");
 }

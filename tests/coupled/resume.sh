@@ -40,9 +40,11 @@ kill_and_resume other-again 1:1:1 1:1:1 "${other[@]}"
 kill_and_resume strong-again 1:1:1 1:2:1 "${strong[@]}"
 
 # a run that has ended goes on to a later end, for a run of any length leaves a checkpoint
-must longer 1:1:1 --set time.end=0.05
-must longer 1:1:1 --set time.end=0.1 --set resume=last
-must whole 1:1:1 --set time.end=0.1
+probes=(--set 'solid.probes=[{name: middle, point: [1.0, 1.1]}]') # a second series beside solid.csv
+must longer 1:1:1 --set time.end=0.05 "${probes[@]}"
+must longer 1:1:1 --set time.end=0.1 --set resume=last "${probes[@]}"
+cp -r "$scratch/longer" "$scratch/longer-kept"
+must whole 1:1:1 --set time.end=0.1 "${probes[@]}"
 
 # fails LABEL MESSAGE [launch.sh arguments]: LABEL ends with an error.
 fails() {
@@ -89,6 +91,7 @@ assert abs(u[0] / u[1] - 1) < 0.002, "resumed on other ranks it falls at %g m/s 
 compare("cracks", "cracks-again", {"coupler": ["t [s]"], "solid": ["t [s]", "v0 [m/s]", "broken joints", "fracture [J/m]"]}, 1e-5)
 compare("other", "other-again", {"coupler": ["t [s]", "u_y [m/s]"]}, 1e-9)
 compare("strong", "strong-again", {"coupler": ["t [s]", "u_y [m/s]"]}, 1e-3)  # quasi-Newton columns are not saved
+compare("whole", "longer-kept", {"solid_probes": ["t [s]", "middle_y [m]", "middle_v [m/s]"]}, 1e-9)
 times = [float(r["t [s]"]) for r in rows("other-folder", "coupler")]
 assert abs(times[0] - 0.11) < 1e-9 and abs(times[-1] - 0.15) < 1e-9, "in another folder: %s" % times
 assert abs(float(rows("whole", "coupler")[-1]["u_y [m/s]"]) + 0.2419) < 0.01

@@ -161,10 +161,11 @@ static PetscErrorCode Load(MPI_Comm comm, int step, RunState *m, PetscInt **row)
 static void CheckSame(const RunState *a, const RunState *b, int step)
 {
   const Mesh *m = a->mesh, *n = b->mesh;
-  CHECK(m->ne == n->ne && m->np2 == n->np2, "from step %d: %d triangles instead of %d", step, n->ne, m->ne);
+  CHECK(m->ne == n->ne && m->nv == n->nv, "from step %d: %d triangles instead of %d", step, n->ne, m->ne);
   CHECK(SAME(m->x, n->x, 2 * m->nv) && SAME(m->vertex, n->vertex, 3 * m->ne), "from step %d: the mesh", step);
   CHECK(SAME(FluidVelocity(a->fluid), FluidVelocity(b->fluid), 6 * m->ne), "from step %d: velocity", step);
-  CHECK(SAME(FluidPressure(a->fluid), FluidPressure(b->fluid), m->np2), "from step %d: pressure", step);
+  CHECK(SAME(FluidPressure(a->fluid), FluidPressure(b->fluid), FluidPressureSpace(a->fluid)->n),
+        "from step %d: pressure", step);
   CHECK(FluidGetStats(a->fluid)->t == FluidGetStats(b->fluid)->t, "from step %d: time", step);
 }
 
@@ -201,7 +202,7 @@ static PetscErrorCode CheckAgrees(MPI_Comm comm, int from, int to)
   PetscCall(MeshLoadDoubles(m.mesh, row, later, "velocity", 6, u));
   PetscCall(MeshLoadDoubles(m.mesh, row, later, "pressure", 6, p));
   PetscCall(CheckpointClose(&later));
-  for (int k = 0; k < n; k++) mine[k] = FluidPressure(m.fluid)[m.mesh->p2[k]];
+  for (int k = 0; k < n; k++) mine[k] = FluidPressure(m.fluid)[FluidPressureSpace(m.fluid)->node[k]];
   PetscCall(Difference(comm, n, u, FluidVelocity(m.fluid), PETSC_FALSE, &du));
   PetscCall(Difference(comm, n, p, mine, PETSC_TRUE, &dp));
   CHECK(du < 1e-9 && dp < 1e-9, "after step %d differs by %g in velocity, %g in pressure", to, du, dp);

@@ -33,7 +33,7 @@ static PetscErrorCode Read(CoracleCase c, FluidSetup *setup)
   PetscCall(FluidCaseMesh(c, PETSC_COMM_WORLD, from, &mesh, &row));
   if (from) FluidCaseCheckResumed(c, mesh, folder);
   PetscCall(FluidCaseSetup(c, mesh, setup));
-  PetscCall(FluidCaseAdaptation(c, &adapts, &adaptation));
+  PetscCall(FluidCaseAdaptation(c, setup, &adapts, &adaptation));
   if (CoracleCaseFinish(c, SECTIONS)) PetscFunctionReturn(PETSC_ERR_PLIB);
   PetscFunctionReturn(0);
 }

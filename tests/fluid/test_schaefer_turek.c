@@ -2,7 +2,9 @@
 /* Schaefer & Turek (1996), benchmark 2D-1: steady flow around a cylinder at Re 20.  Reference values of
  * validation.md: C_D 5.579535, C_L 0.0106189, pressure drop 0.117520 Pa.  The mesh is made by gmsh from
  * schaefer_turek.geo. */
+#include "common/space/p2.h"
 #include "fluid/fluid.h"
+#include "fluid/locate.h"
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -46,18 +48,24 @@ static PetscErrorCode ChannelFluid(const Mesh *mesh, Fluid *fluid)
   PetscFunctionReturn(0);
 }
 
-/* Pressure at a point that is a vertex of the mesh, on any rank. */
+/* Pressure at a point of the cylinder, which the mesh follows by chords. */
 static PetscErrorCode PressureAt(Fluid fluid, double x, double y, double *p)
 {
   const Mesh *m = FluidMesh(fluid);
-  double found = -PETSC_MAX_REAL;
+  const double point[1][2] = {{x, y}};
+  Places places = {0};
   PetscFunctionBeginUser;
-  for (int e = 0; e < m->ne; e++)
-    for (int i = 0; i < 3; i++) {
-      const double *v = m->x + 2 * m->vertex[3 * e + i];
-      if (hypot(v[0] - x, v[1] - y) < 1e-9) found = FluidPressure(fluid)[m->p2[6 * e + i]];
-    }
-  PetscCallMPI(MPI_Allreduce(&found, p, 1, MPI_DOUBLE, MPI_MAX, m->comm));
+  PetscCall(PlacesLocate(m, 1, point, &places));
+  PetscCheck(places.outside[0] == 0.0, m->comm, PETSC_ERR_PLIB, "(%g, %g) is not in the mesh", x, y);
+  *p = 0.0;
+  for (int k = 0; k < places.n; k++) {
+    double nodal[6];
+    for (int i = 0; i < 6; i++)
+      nodal[i] = FluidPressure(fluid)[FluidPressureSpace(fluid)->node[6 * places.place[k].element + i]];
+    *p += places.place[k].share * P2Evaluate(nodal, places.place[k].n);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, p, 1, MPI_DOUBLE, MPI_SUM, m->comm));
+  PetscCall(PlacesFree(&places));
   PetscFunctionReturn(0);
 }
 

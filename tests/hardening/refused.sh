@@ -40,3 +40,14 @@ accepted fluid --set 'fluid.boundaries.top={velocity: [1, 0]}'
 # options that nobody reads, folders that are none
 for part in solid coupler; do refused $part "'$part.petsc': nothing in the $part has the option -nonsense" --set "$part.petsc=-nonsense 1"; done
 for part in fluid solid coupler; do refused $part "'output.folder': expected a string, found 'null'" --set output.folder=null; done
+
+# phases and where they are
+water='fluid.phases=[{name: water, density: 1000, viscosity: 1.0e-3}, {name: air, density: 1.2, viscosity: 1.8e-5}]'
+phases() { local expect=$1; shift; refused fluid "$expect" --set "$water" "$@"; }
+sed '/^  \(density\|viscosity\):/d' "$case" >"$scratch/phases.yaml"
+case=$scratch/phases.yaml
+phases "'fluid.regions': expected a list of where" 
+phases "'fluid.regions': the first region is everywhere" --set 'fluid.regions=[{phase: water, lower: [0, 0], upper: [1, 1]}]'
+phases "'fluid.regions\[0\].phase': expected a phase (water, air), found 'oil'" --set 'fluid.regions=[{phase: oil}]'
+phases "'fluid.regions\[1\].upper': the box is empty" --set 'fluid.regions=[{phase: air}, {phase: water, lower: [0, 0], upper: [0, 1]}]'
+accepted fluid --set "$water" --set 'fluid.regions=[{phase: air}, {phase: water, lower: [0, 0], upper: [1, 1]}]' --set 'solid.bodies=[]'

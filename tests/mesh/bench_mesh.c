@@ -29,8 +29,8 @@ int main(int argc, char **argv)
   const double t1 = MPI_Wtime();
   PetscCall(MeshDistribute(PETSC_COMM_WORLD, &serial, &mesh));
   const double t2 = MPI_Wtime();
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%d triangles, %d P2 nodes: box %.3f s, distribution %.3f s\n",
-                        (int)mesh->nglobal, (int)mesh->np2_global, t1 - t0, t2 - t1));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%d triangles, %d vertices: box %.3f s, distribution %.3f s\n",
+                        (int)mesh->nglobal, (int)mesh->nv_global, t1 - t0, t2 - t1));
   PetscCall(MeshSerialDestroy(&serial));
   PetscCall(MeshDestroy(&mesh));
   return PetscFinalize();

@@ -1,8 +1,9 @@
 /* What a distributed mesh of a graded box must be: its triangles, neighbours that agree, ghosts as their
- * owners hold them, P2 numbers without gaps. */
+ * owners hold them, vertices numbered without gaps, edges. */
 #ifndef TESTS_MESH_DISTRIBUTED_H
 #define TESTS_MESH_DISTRIBUTED_H
 #include "tests/mesh/strip.h"
+#include <limits.h>
 
 typedef struct {
   double upper[2], size_max;
@@ -87,44 +88,49 @@ static inline void CheckGhosts(const Mesh *m)
   free(corner);
 }
 
-/* A field of the position, written by owners under the global number, is what every rank expects at its own
- * nodes; numbers have no gaps, there are as many as vertices + edges = V + (V + F - 1) by Euler's formula. */
-static inline void CheckNodes(const Mesh *m, int vertices)
+/* Positions, written by owners under the global number, are what every rank has at its own vertices and at those
+ * of ghosts; numbers have no gaps, the lowest rank around a vertex owns it. */
+static inline void CheckVertices(const Mesh *m, int vertices)
 {
-  double *field = calloc((size_t)m->np2_global, sizeof *field),
-         *mine = calloc((size_t)m->np2 + 1, sizeof *mine);
-  PetscInt owned = m->np2_owned;
-  for (int e = 0; e < m->ne; e++) {
-    for (int i = 0; i < 6; i++) {
-      const double *a = &m->x[2 * m->vertex[3 * e + (i < 3 ? i : (i + 1) % 3)]];
-      const double *b = &m->x[2 * m->vertex[3 * e + (i < 3 ? i : (i + 2) % 3)]];
-      const double value = 1.0 + 0.5 * (a[0] + b[0]) + 10.0 * (a[1] + b[1]);
-      double *node = &mine[m->p2[6 * e + i]];
-      CHECK(*node == 0.0 || fabs(*node - value) < 1e-12, "node %d of element %d stands for two points", i, e);
-      *node = value;
-    }
+  const size_t n = (size_t)m->nv_global;
+  double(*x)[2] = calloc(n, sizeof *x);
+  int *lowest = malloc(n * sizeof *lowest);
+  PetscMPIInt rank;
+  CHECK(m->nv_global == vertices, "%d vertices, not %d", (int)m->nv_global, vertices);
+  MPI_Comm_rank(m->comm, &rank);
+  for (size_t g = 0; g < n; g++) lowest[g] = INT_MAX;
+  for (int k = 0; k < 3 * m->ne; k++) lowest[m->vgid[m->vertex[k]]] = rank;
+  MPI_Allreduce(MPI_IN_PLACE, lowest, (int)n, MPI_INT, MPI_MIN, m->comm);
+  for (int v = 0; v < m->nv; v++) {
+    const PetscInt g = m->vgid[v];
+    CHECK(g >= 0 && g < m->nv_global, "vertex %d has number %d", v, (int)g);
+    const int own = g >= m->vstart && g < m->vstart + m->nv_owned;
+    CHECK(own == (lowest[g] == rank), "rank %d and vertex %d of rank %d", rank, (int)g, lowest[g]);
+    for (int d = 0; d < 2 && own; d++) x[g][d] = m->x[2 * v + d];
   }
-  for (int k = 0; k < m->np2; k++) {
-    const PetscInt g = m->p2gid[k];
-    CHECK(mine[k] > 0.0 && g >= 0 && g < m->np2_global, "node %d", k);
-    CHECK((k < m->np2_owned) == (g >= m->p2start && g < m->p2start + m->np2_owned), "ownership of node %d",
-          k);
-    if (k < m->np2_owned) {
-      CHECK(g == m->p2start + k, "owned node %d has number %d", k, (int)g);
-      field[g] = mine[k];
-    } else {
-      CHECK(g < m->p2start, "node %d should belong to the lowest rank around it", k);
-    }
+  MPI_Allreduce(MPI_IN_PLACE, x, (int)(2 * n), MPI_DOUBLE, MPI_SUM, m->comm);
+  for (int k = 0; k < 2 * m->nv; k++)
+    CHECK(x[m->vgid[k / 2]][k % 2] == m->x[k], "vertex %d is not its owner's", k / 2);
+  free(x);
+  free(lowest);
+}
+
+/* An edge is the same in both of its elements: half as many as faces, but for the open ones. */
+static inline void CheckEdges(const Mesh *m)
+{
+  int *ends = malloc((2 * (size_t)m->nedge + 1) * sizeof *ends), sides = 0;
+  for (int k = 0; k < 2 * m->nedge; k++) ends[k] = -1;
+  for (int k = 0; k < 3 * m->ne; k++) {
+    const int *v = &m->vertex[k - k % 3], a = v[(k + 1) % 3], b = v[(k + 2) % 3];
+    CHECK(m->edge[k] >= 0 && m->edge[k] < m->nedge, "edge %d", m->edge[k]);
+    int *e = &ends[2 * m->edge[k]];
+    CHECK(e[0] < 0 || (e[0] == b && e[1] == a), "edge %d stands for two", m->edge[k]);
+    e[0] = a;
+    e[1] = b;
+    sides += m->neighbor[k] >= 0 && m->neighbor[k] < m->ne ? 1 : 2;
   }
-  MPI_Allreduce(MPI_IN_PLACE, &owned, 1, MPIU_INT, MPI_SUM, m->comm);
-  CHECK(owned == m->np2_global && owned == 2 * vertices + m->nglobal - 1, "%d P2 nodes", (int)owned);
-  MPI_Allreduce(MPI_IN_PLACE, field, (int)m->np2_global, MPI_DOUBLE, MPI_SUM, m->comm);
-  for (int k = 0; k < m->np2; k++) {
-    CHECK(fabs(field[m->p2gid[k]] - mine[k]) < 1e-12, "node %d: %g here, %g at its owner", k, mine[k],
-          field[m->p2gid[k]]);
-  }
-  free(field);
-  free(mine);
+  CHECK(sides == 2 * m->nedge, "%d edges with %d sides", m->nedge, sides);
+  free(ends);
 }
 
 static inline void CheckDistributed(const Mesh *m, const BoxCase *box, int vertices)
@@ -132,6 +138,7 @@ static inline void CheckDistributed(const Mesh *m, const BoxCase *box, int verti
   CheckOwned(m, box);
   CheckFaces(m, box);
   CheckGhosts(m);
-  CheckNodes(m, vertices);
+  CheckVertices(m, vertices);
+  CheckEdges(m);
 }
 #endif

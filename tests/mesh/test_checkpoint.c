@@ -65,7 +65,7 @@ static void CheckRows(const Mesh *m, const PetscInt row[], Checkpoint from)
 static void CheckSame(const Mesh *a, const Mesh *b)
 {
   CHECK(a->nv == b->nv && a->ne == b->ne && a->ng == b->ng, "numbers of rank %d changed", rank);
-  CHECK(a->np2 == b->np2 && a->np2_owned == b->np2_owned && a->p2start == b->p2start, "nodes changed");
+  CHECK(a->nv_owned == b->nv_owned && a->vstart == b->vstart && a->nedge == b->nedge, "vertices changed");
   CHECK(a->estart == b->estart && a->ntags == b->ntags, "elements or names changed");
   CHECK_ARRAY(x, 2 * a->nv);
   CHECK_ARRAY(vertex, 3 * (a->ne + a->ng));
@@ -73,20 +73,20 @@ static void CheckSame(const Mesh *a, const Mesh *b)
   CHECK_ARRAY(neighbor, 3 * a->ne);
   CHECK_ARRAY(neighbor_face, 3 * a->ne);
   CHECK_ARRAY(tag, 3 * a->ne);
-  CHECK_ARRAY(p2gid, a->np2);
-  CHECK_ARRAY(p2, 6 * a->ne);
+  CHECK_ARRAY(vgid, a->nv);
+  CHECK_ARRAY(edge, 3 * a->ne);
   for (int k = 0; k < a->ntags; k++) CHECK(!strcmp(a->tag_name[k], b->tag_name[k]), "%s", b->tag_name[k]);
 }
 
 /* `saved` on the ranks of its communicator, and loaded on those of comm. */
-static void CheckLoaded(MPI_Comm comm, const BoxCase *box, const Mesh *saved, PetscInt nodes)
+static void CheckLoaded(MPI_Comm comm, const BoxCase *box, const Mesh *saved, int vertices)
 {
   Checkpoint from;
   PetscInt *row;
   Mesh *m;
   CHECK(!CheckpointOpen(comm, folder, "mesh", &from), "no checkpoint");
   CHECK(!MeshLoad(comm, from, &m, &row), "not loaded");
-  CheckDistributed(m, box, (int)(nodes - m->nglobal + 1) / 2);
+  CheckDistributed(m, box, vertices);
   CheckRows(m, row, from);
   if (saved) CheckSame(saved, m);
   CHECK(!PetscFree(row) && !MeshDestroy(&m) && !CheckpointClose(&from), "not freed");
@@ -96,14 +96,14 @@ static void CheckLoaded(MPI_Comm comm, const BoxCase *box, const Mesh *saved, Pe
 static void Check(MPI_Comm writers, MPI_Comm readers, const BoxCase *box)
 {
   Mesh *m = NULL;
-  int nodes = 0;
+  int vertices = 0;
   if (writers != MPI_COMM_NULL) {
     Distribute(writers, box, &m);
     Save(m);
-    nodes = (int)m->np2_global;
+    vertices = (int)m->nv_global;
   }
-  MPI_Bcast(&nodes, 1, MPI_INT, 0, PETSC_COMM_WORLD);
-  if (readers != MPI_COMM_NULL) CheckLoaded(readers, box, readers == writers ? m : NULL, nodes);
+  MPI_Bcast(&vertices, 1, MPI_INT, 0, PETSC_COMM_WORLD);
+  if (readers != MPI_COMM_NULL) CheckLoaded(readers, box, readers == writers ? m : NULL, vertices);
   CHECK(!MeshDestroy(&m), "not freed");
   MPI_Barrier(PETSC_COMM_WORLD);
 }

@@ -110,7 +110,7 @@ static void CheckBuilt(const MeshPart *part, int vertices)
     CHECK(!face[k] || (vertex[mesh->vertex[k - k % 3 + (k + 1) % 3]] &&
                        vertex[mesh->vertex[k - k % 3 + (k + 2) % 3]]),
           "ends of face %d", k);
-    CHECK(mesh->p2[6 * (k / 3) + k % 3] < mesh->np2_owned || vertex[v], "vertex %d is another rank's", v);
+    CHECK(mesh->vgid[v] >= mesh->vstart || vertex[v], "vertex %d is another rank's", v);
   }
   free(face);
   free(vertex);
@@ -254,7 +254,8 @@ static void CheckTouching(void)
                           .tag_name = name},
                          gid};
   CHECK(!MeshBuild(PETSC_COMM_WORLD, &part, &mesh), "not built");
-  CHECK(mesh->np2_global == 7 + 10, "%d P2 nodes of 7 vertices and 10 edges", (int)mesh->np2_global);
+  CheckVertices(mesh, 7);
+  CheckEdges(mesh);
   CHECK(!MeshDestroy(&mesh), "not freed");
 }
 

@@ -1,5 +1,5 @@
 // ranks: 1 2 3 5
-/* Distribution: the same triangles on any number of ranks, neighbours that agree, P2 numbers without gaps,
+/* Distribution: the same triangles on any number of ranks, neighbours that agree, vertices numbered without gaps,
  * ranks without elements. */
 #include "tests/mesh/distributed.h"
 

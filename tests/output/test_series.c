@@ -1,7 +1,65 @@
 // ranks: 1 2 3
-/* Series: the header, rows of rank 0 only, on disk as soon as they are given. */
+/* Series: the header, rows of rank 0 only, on disk as soon as they are given; two of them resume from one checkpoint, each
+ * where it was, and not with other columns. */
 #include "tests/output/read_back.h"
 #include <unistd.h>
+
+enum { SERIES = 2 };
+static const char *const NAME[SERIES] = {"long", "short"};
+
+/* A run that writes some rows, a checkpoint, and more rows; or one that resumes from that and writes the last of these. */
+static PetscErrorCode Write(const char *folder, const char *checkpoint, PetscBool resumes)
+{
+  Series series[SERIES];
+  Checkpoint file = NULL;
+  PetscFunctionBeginUser;
+  if (resumes) PetscCall(CheckpointOpen(PETSC_COMM_WORLD, checkpoint, "test", &file));
+  for (int k = 0; k < SERIES; k++)
+    PetscCall(SeriesCreate(PETSC_COMM_WORLD, folder, NAME[k], "t [s]", file, &series[k]));
+  if (!resumes) {
+    for (int row = 0; row < 5; row++) PetscCall(SeriesRow(series[0], (double[]){row}));
+    PetscCall(CheckpointCreate(PETSC_COMM_WORLD, checkpoint, "test", &file));
+    for (int k = 0; k < SERIES; k++) PetscCall(SeriesSave(series[k], file));
+  }
+  PetscCall(CheckpointClose(&file));
+  for (int k = 0; k < SERIES; k++) {
+    if (!resumes) PetscCall(SeriesRow(series[k], (double[]){7.0}));
+    PetscCall(SeriesRow(series[k], (double[]){8.0}));
+    PetscCall(SeriesDestroy(&series[k]));
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CheckResumed(const char *folder, PetscMPIInt rank)
+{
+  static const char *const EXPECTED[SERIES] = {"t [s]\n0\n1\n2\n3\n4\n8\n", "t [s]\n8\n"};
+  char checkpoint[300], path[512];
+  Checkpoint file;
+  Series s;
+  PetscFunctionBeginUser;
+  snprintf(checkpoint, sizeof checkpoint, "%s/checkpoint", folder);
+  if (rank == 0) PetscCall(PetscMkdir(checkpoint));
+  PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
+  PetscCall(Write(folder, checkpoint, PETSC_FALSE));
+  PetscCall(Write(folder, checkpoint, PETSC_TRUE));
+  PetscCall(CheckpointOpen(PETSC_COMM_WORLD, checkpoint, "test", &file));
+  PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
+  CHECK(SeriesCreate(PETSC_COMM_WORLD, folder, NAME[0], "t [s],u [m/s]", file, &s),
+        "goes on with other columns");
+  PetscCall(PetscPopErrorHandler());
+  PetscCall(SeriesDestroy(&s));
+  PetscCall(CheckpointClose(&file));
+  for (int k = 0; rank == 0 && k < SERIES; k++) {
+    snprintf(path, sizeof path, "%s/%s.csv", folder, NAME[k]);
+    char *text = ReadText(path);
+    CHECK(!strcmp(text, EXPECTED[k]), "%s", text);
+    free(text);
+    remove(path);
+  }
+  snprintf(path, sizeof path, "%s/test.h5", checkpoint);
+  if (rank == 0) CHECK(!remove(path) && !remove(checkpoint), "remove");
+  PetscFunctionReturn(0);
+}
 
 int main(int argc, char **argv)
 {
@@ -23,10 +81,9 @@ int main(int argc, char **argv)
   }
   PetscCall(SeriesDestroy(&s));
   CHECK(!s, "the handle is not nulled");
-  if (rank == 0) {
-    remove(path);
-    remove(folder);
-  }
+  if (rank == 0) remove(path);
+  PetscCall(CheckResumed(folder, rank));
+  if (rank == 0) remove(folder);
   PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
   CHECK(SeriesCreate(PETSC_COMM_WORLD, "/dev/null", "x", "t", NULL, &s), "a folder that is a file");
   PetscCall(PetscPopErrorHandler());

@@ -6,6 +6,7 @@
  * with the kinks' force k, or with condensed ridges (Q, R of inertia.h), or with neither. */
 #ifndef TESTS_PHASES_TANK_H
 #define TESTS_PHASES_TANK_H
+#include "common/space/p2_space.h"
 #include "fluid/kernels.h"
 #include "fluid/phases/flux.h"
 #include "tests/phases/flows.h"
@@ -15,6 +16,7 @@ enum { MEAN, SUBCELL, RIDGE, KINK, FORMS };
 
 typedef struct {
   Mesh *mesh;
+  P2Space *p2;
   Stars *stars;
   Phases phases;
   Inertia *inertia; /* [ne] */
@@ -44,8 +46,8 @@ static inline PetscErrorCode TankSolver(Tank *t)
   PetscCall(PCSetType(pc, PCJACOBI));
   PetscCall(KSPSetInitialGuessNonzero(t->ksp, PETSC_TRUE));
   PetscCall(KSPSetTolerances(t->ksp, 1e-13, 1e-50, 1e5, 20000));
-  PetscCall(VecCreateSeq(PETSC_COMM_SELF, t->mesh->np2, &t->local));
-  PetscCall(ISCreateGeneral(PETSC_COMM_SELF, t->mesh->np2, t->mesh->p2gid, PETSC_USE_POINTER, &is));
+  PetscCall(VecCreateSeq(PETSC_COMM_SELF, t->p2->n, &t->local));
+  PetscCall(ISCreateGeneral(PETSC_COMM_SELF, t->p2->n, t->p2->gid, PETSC_USE_POINTER, &is));
   PetscCall(VecScatterCreate(t->p, is, t->local, NULL, &t->scatter));
   PetscCall(ISDestroy(&is));
   PetscFunctionReturn(0);
@@ -81,14 +83,15 @@ static inline PetscErrorCode TankMake(int n, unsigned seed, double slope, int nr
   PetscFunctionBeginUser;
   *t = (Tank){.gravity = {9.81 * slope / l, -9.81 / l}};
   PetscCall(ShakenMesh(PETSC_COMM_WORLD, &shaken, &t->mesh));
+  PetscCall(P2SpaceCreate(t->mesh, &t->p2));
   PetscCall(StarsCreate(t->mesh, &t->stars));
   PetscCall(PhasesCreate(t->stars, 2, &t->phases));
   PetscCall(PhasesFill(t->phases, nregions, region));
   PetscCall(PetscMalloc1(t->mesh->ne, &t->inertia));
   PetscCall(PetscCalloc1(6 * t->mesh->ne, &t->u));
   PetscCall(PetscCalloc1(6 * t->mesh->ne, &t->kick));
-  PetscCall(MatCreateAIJ(t->mesh->comm, t->mesh->np2_owned, t->mesh->np2_owned, PETSC_DETERMINE,
-                         PETSC_DETERMINE, 40, NULL, 40, NULL, &t->a));
+  PetscCall(MatCreateAIJ(t->mesh->comm, t->p2->nowned, t->p2->nowned, PETSC_DETERMINE, PETSC_DETERMINE, 40,
+                         NULL, 40, NULL, &t->a));
   PetscCall(MatSetOption(t->a, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
   PetscCall(MatCreateVecs(t->a, &t->p, &t->b));
   PetscCall(TankSolver(t));
@@ -109,6 +112,7 @@ static inline PetscErrorCode TankDestroy(Tank *t)
   PetscCall(VecDestroy(&t->local));
   PetscCall(VecScatterDestroy(&t->scatter));
   PetscCall(KSPDestroy(&t->ksp));
+  PetscCall(P2SpaceDestroy(&t->p2));
   PetscCall(MeshDestroy(&t->mesh));
   PetscFunctionReturn(0);
 }
@@ -153,7 +157,7 @@ static inline PetscErrorCode TankAssemble(Tank *t, double dt)
     Gradients(t, e, force);
     for (int k = 0; k < 6; k++) {
       g[k] = t->kick[6 * e + k] + t->u[6 * e + k] / dt;
-      gid[k] = m->p2gid[m->p2[6 * e + k]];
+      gid[k] = t->p2->gid[t->p2->node[6 * e + k]];
     }
     InertiaProject(&t->inertia[e], g);
     for (int q = 0; q < 6; q++) {
@@ -184,7 +188,7 @@ static inline PetscErrorCode TankUpdate(Tank *t, double dt)
     double force[6][6], sum[6] = {0.0}, du[6], *u = &t->u[6 * e];
     Gradients(t, e, force);
     for (int q = 0; q < 6; q++) {
-      for (int k = 0; k < 6; k++) sum[k] += p[m->p2[6 * e + q]] * force[q][k];
+      for (int k = 0; k < 6; k++) sum[k] += p[t->p2->node[6 * e + q]] * force[q][k];
     }
     for (int k = 0; k < 6; k++) u[k] += dt * t->kick[6 * e + k];
     InertiaProject(&t->inertia[e], u);

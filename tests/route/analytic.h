@@ -151,6 +151,16 @@ static inline double CellCorrection(int id, int k, int step)
   return 5.0 * id + k + 0.5 * step;
 }
 
+/* --- the gauges: none until step 2, then as many as the step's number ------------------------------------- */
+static inline int GaugeCount(int step)
+{
+  return step < 2 ? 0 : step;
+}
+static inline CoracleGauge GaugeAt(int i, int step)
+{
+  return (CoracleGauge){{10.0 * i + step, 20.0 * i - step}, {0.6 + i, 0.8 * step}};
+}
+
 /* --- misbehaving on demand ------------------------------------------------------------------------------ */
 typedef enum {
   FAULT_NONE,

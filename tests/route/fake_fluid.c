@@ -71,6 +71,19 @@ static void CheckCorrection(const Fluid *f)
   }
 }
 
+static void CheckGauges(const Fluid *f)
+{
+  const CoracleGauge *gauge;
+  int n;
+  CoracleGetGauges(f->client, &n, &gauge);
+  if (n != GaugeCount(f->step)) CoracleFail(f->client, "%d gauges in step %d", n, f->step);
+  for (int i = 0; i < n; i++) {
+    const CoracleGauge right = GaugeAt(i, f->step);
+    if (memcmp(&right, &gauge[i], sizeof right))
+      CoracleFail(f->client, "gauge %d is elsewhere in step %d", i, f->step);
+  }
+}
+
 static void SetFlow(Fluid *f)
 {
   double u_star[MAX][6], u_projected[MAX][6], p[MAX][6], rho[MAX], mu[MAX];
@@ -110,6 +123,7 @@ static void Step(Fluid *f, CoracleAction action)
   CoracleProposeStep(f->client, CellProposal(f->rank, f->step));
   CoracleEnd(f->client, NULL);
   CheckCorrection(f);
+  CheckGauges(f);
 }
 
 /* Where the solid is, asked for twice before the fluid says what it has. */

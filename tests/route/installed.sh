@@ -3,7 +3,7 @@
 # the library exports Coracle* and nothing else; its headers are C11, and C++11 to C++20 with any compiler there is.
 # Usage: installed.sh BUILD_DIR CASE MPIRUN...
 set -euo pipefail
-build=$1 case=$2 here=$(cd "$(dirname "$0")" && pwd)
+build=$1 case=$2 template=$(cd "$(dirname "$0")/../../cases/adapters/template_c" && pwd)
 shift 2
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -32,7 +32,7 @@ for compiler in g++ clang++; do
 done
 
 mkdir "$scratch/solid"
-cp "$here/rigid_disc.c" "$scratch/solid"
+cp "$template/rigid_disc.c" "$scratch/solid"
 cat >"$scratch/solid/CMakeLists.txt" <<'LISTS'
 cmake_minimum_required(VERSION 3.20)
 project(outside LANGUAGES C)

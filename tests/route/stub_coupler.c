@@ -169,6 +169,9 @@ static void SendCoupling(Stub *s, CoracleAction action, int coming)
     coupling[s->ncoupled] = CellCoupling(s->id[e], coming);
     coupling[s->ncoupled++].element = e;
   }
+  CoracleGauge gauge[STEPS];
+  for (int i = 0; i < GaugeCount(s->step); i++) gauge[i] = GaugeAt(i, s->step);
+  ServerSetGauges(s->server, GaugeCount(s->step), gauge);
   ServerSendCoupling(s->server, s->t, StepSize(coming), action, ncorrection, correction, s->ncoupled,
                      coupling);
 }

@@ -52,7 +52,7 @@ static inline PetscErrorCode Step(Solid s, double strength)
 }
 
 /* Elements far and near, some ranks with none in the first step. */
-static inline PetscErrorCode Scatter(Solid s, int nelements, int step)
+static inline PetscErrorCode ScatterElements(Solid s, int nelements, int step)
 {
   PetscMPIInt size;
   int *part = malloc((size_t)nelements * sizeof *part);

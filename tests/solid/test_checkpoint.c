@@ -41,7 +41,7 @@ static PetscErrorCode Steps(Solid s, const Model *a, int how, int first, int n)
   for (int k = first; k < first + n; k++) {
     PetscCall(Step(s, 1e6));
     PetscCall(SolidRebalance(s));
-    if (how == SCATTER) PetscCall(Scatter(s, a->nelements, k));
+    if (how == SCATTER) PetscCall(ScatterElements(s, a->nelements, k));
     PetscCall(SolidUpdateInterfaceMotion(s, &interface));
     PetscCall(SolidBodies(s, NBODIES, body));
   }
@@ -181,7 +181,7 @@ static PetscErrorCode Same(int how, int redo)
   if (redo) {
     PetscCall(SolidState(two, 1));
     PetscCall(Step(two, 2e7));
-    if (how == SCATTER) PetscCall(Scatter(two, b.nelements, BEFORE + 1));
+    if (how == SCATTER) PetscCall(ScatterElements(two, b.nelements, BEFORE + 1));
     PetscCall(SolidState(two, 0));
   }
   PetscCall(Steps(one, &a, how, BEFORE, AFTER));

@@ -43,12 +43,12 @@ static PetscErrorCode Simulate(MPI_Comm comm, int how, int nids, Answer *out)
     if (how == REDONE) {
       PetscCall(SolidState(s, 1));
       PetscCall(Step(s, 2e7));
-      PetscCall(Scatter(s, a.nelements, k + 3));
-      if (k % 2) PetscCall(Scatter(s, a.nelements, k + 4));
+      PetscCall(ScatterElements(s, a.nelements, k + 3));
+      if (k % 2) PetscCall(ScatterElements(s, a.nelements, k + 4));
       PetscCall(SolidState(s, 0));
     }
     PetscCall(Step(s, 1e6));
-    if (how != CALM) PetscCall(Scatter(s, a.nelements, k));
+    if (how != CALM) PetscCall(ScatterElements(s, a.nelements, k));
   }
   PetscCall(CollectAnswer(s, nids, out));
   PetscCall(ModelDestroy(&a));

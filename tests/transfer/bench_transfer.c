@@ -19,12 +19,14 @@ static PetscErrorCode Measure(int n, double radius, unsigned seed)
   const Shaken what[2] = {{n, 1, radius, {0}}, {n, seed, radius, {0}}};
   double *u[2], *p[2], best[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
   Mesh *mesh[2];
+  P2Space *space[2];
   TransferStats stats;
   PetscFunctionBeginUser;
   for (int m = 0; m < 2; m++) {
     PetscCall(ShakenMesh(PETSC_COMM_WORLD, &what[m], &mesh[m]));
+    PetscCall(P2SpaceCreate(mesh[m], &space[m]));
     PetscCall(PetscCalloc1(3 * COMPS * mesh[m]->ne, &u[m]));
-    PetscCall(PetscCalloc1(mesh[m]->np2, &p[m]));
+    PetscCall(PetscCalloc1(space[m]->n, &p[m]));
   }
   for (int repeat = 0; repeat < REPEATS; repeat++) {
     Transfer transfer;
@@ -34,7 +36,7 @@ static PetscErrorCode Measure(int n, double radius, unsigned seed)
     t[1] = CpuSeconds();
     PetscCall(TransferP1DG(transfer, COMPS, u[0], u[1]));
     t[2] = CpuSeconds();
-    PetscCall(TransferP2(transfer, p[0], p[1]));
+    PetscCall(TransferP2(transfer, space[0], space[1], p[0], p[1]));
     t[3] = CpuSeconds();
     for (int k = 0; k < 3; k++) best[k] = PetscMin(best[k], 1e6 * (t[k + 1] - t[k]) / mesh[1]->ne);
     PetscCall(TransferGetStats(transfer, &stats));
@@ -56,6 +58,7 @@ static PetscErrorCode Measure(int n, double radius, unsigned seed)
   for (int m = 0; m < 2; m++) {
     PetscCall(PetscFree(u[m]));
     PetscCall(PetscFree(p[m]));
+    PetscCall(P2SpaceDestroy(&space[m]));
     PetscCall(MeshDestroy(&mesh[m]));
   }
   PetscFunctionReturn(0);

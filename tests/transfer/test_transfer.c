@@ -80,46 +80,49 @@ static void CheckP1DG(const Mesh *from, const Mesh *to, const Values source[], c
 }
 
 /* Nodes of several ranks have the same bits on all. */
-static void CheckShared(const Mesh *m, const double p[])
+static void CheckShared(MPI_Comm comm, const P2Space *s, const double p[])
 {
-  double *least = malloc((size_t)m->np2_global * sizeof *least), *most;
-  most = malloc((size_t)m->np2_global * sizeof *most);
-  for (PetscInt k = 0; k < m->np2_global; k++) {
+  double *least = malloc((size_t)s->nglobal * sizeof *least), *most;
+  most = malloc((size_t)s->nglobal * sizeof *most);
+  for (PetscInt k = 0; k < s->nglobal; k++) {
     least[k] = HUGE_VAL;
     most[k] = -HUGE_VAL;
   }
-  for (int k = 0; k < m->np2; k++) least[m->p2gid[k]] = most[m->p2gid[k]] = p[k];
-  MPI_Allreduce(MPI_IN_PLACE, least, (int)m->np2_global, MPI_DOUBLE, MPI_MIN, m->comm);
-  MPI_Allreduce(MPI_IN_PLACE, most, (int)m->np2_global, MPI_DOUBLE, MPI_MAX, m->comm);
-  for (PetscInt k = 0; k < m->np2_global; k++) CHECK(least[k] == most[k], "ranks differ on node %d", (int)k);
+  for (int k = 0; k < s->n; k++) least[s->gid[k]] = most[s->gid[k]] = p[k];
+  MPI_Allreduce(MPI_IN_PLACE, least, (int)s->nglobal, MPI_DOUBLE, MPI_MIN, comm);
+  MPI_Allreduce(MPI_IN_PLACE, most, (int)s->nglobal, MPI_DOUBLE, MPI_MAX, comm);
+  for (PetscInt k = 0; k < s->nglobal; k++) CHECK(least[k] == most[k], "ranks differ on node %d", (int)k);
   free(least);
   free(most);
 }
 
 static void CheckP2(Transfer transfer, const Mesh *from, const Mesh *to)
 {
-  double *source = malloc((size_t)(from->np2 + 1) * sizeof *source), *target, x[2];
-  target = malloc((size_t)(to->np2 + 1) * sizeof *target);
-  for (int k = 0; k < to->np2; k++) target[k] = NAN;
+  P2Space *old, *new;
+  CHECK(!P2SpaceCreate(from, &old) && !P2SpaceCreate(to, &new), "no space");
+  double *source = malloc((size_t)(old->n + 1) * sizeof *source), *target, x[2];
+  target = malloc((size_t)(new->n + 1) * sizeof *target);
+  for (int k = 0; k < new->n; k++) target[k] = NAN;
   for (int k = 0; k < 6 * from->ne; k++) {
     NodePosition(from, k / 6, k % 6, x);
-    source[from->p2[k]] = Quadratic(x);
+    source[old->node[k]] = Quadratic(x);
   }
-  CHECK(!TransferP2(transfer, source, target), "TransferP2");
+  CHECK(!TransferP2(transfer, old, new, source, target), "TransferP2");
   for (int k = 0; k < 6 * to->ne; k++) {
     NodePosition(to, k / 6, k % 6, x);
-    CHECK(fabs(target[to->p2[k]] - Quadratic(x)) < 1e-12, "P2 field is %g at (%g, %g), not %g",
-          target[to->p2[k]], x[0], x[1], Quadratic(x));
+    CHECK(fabs(target[new->node[k]] - Quadratic(x)) < 1e-12, "P2 field is %g at (%g, %g), not %g",
+          target[new->node[k]], x[0], x[1], Quadratic(x));
   }
   /* any field, not just quadratics */
   for (int k = 0; k < 6 * from->ne; k++) {
     NodePosition(from, k / 6, k % 6, x);
-    source[from->p2[k]] = sin(40.0 * x[0] + 30.0 * x[1]);
+    source[old->node[k]] = sin(40.0 * x[0] + 30.0 * x[1]);
   }
-  CHECK(!TransferP2(transfer, source, target), "TransferP2");
-  CheckShared(to, target);
+  CHECK(!TransferP2(transfer, old, new, source, target), "TransferP2");
+  CheckShared(to->comm, new, target);
   free(source);
   free(target);
+  CHECK(!P2SpaceDestroy(&old) && !P2SpaceDestroy(&new), "not freed");
 }
 
 /* Elements of both meshes, found by comparing all with all, have the same data bit for bit. */

@@ -26,11 +26,6 @@ typedef struct {
   BulkMotion now;
 } Disc;
 
-static void Fail(void *client, const char *message)
-{
-  CoracleFail(client, "%s", message);
-}
-
 /* position[n + 1][2] of the nodes */
 static void Nodes(const Disc *d, const BulkMotion *m, double position[])
 {
@@ -62,7 +57,7 @@ static void ReadCase(Disc *d, int argc, char **argv, int rank)
 {
   CoracleCase c;
   char key[256];
-  CoracleCaseOpen(argc, argv, Fail, d->client, &c);
+  CoracleCaseOpen(argc, argv, CoracleFailMessage, d->client, &c);
   CoracleCaseVector(c, "gravity", 2, d->gravity);
   CoracleCaseVector(c, "solid.bodies[0].centre", 2, d->now.x);
   if (CoracleCaseHas(c, "solid.bodies[0].velocity"))

@@ -1,0 +1,132 @@
+/* The mesh before the first step. */
+#include "common/supermesh/geometry.h"
+#include "common/supermesh/search.h"
+#include "fluid/adapt/adapt_parallel.h"
+#include "fluid/adapt/metric.h"
+#include "fluid/adapt/metric_share.h"
+#include "fluid/adaptation.h"
+
+/* Passes at most from the first mesh to one that is fine near the solid and the interface. */
+#define FIRST_PASSES 12
+
+PetscErrorCode AdaptationCheckBudget(const AdaptationSetup *s, MPI_Comm comm, double count)
+{
+  PetscFunctionBeginUser;
+  PetscCheck(
+      count <= s->elements_max, comm, PETSC_ERR_ARG_OUTOFRANGE,
+      "fluid.adapt.elements_max is %g: sizes up to %g m and the bands of solid and interface alone take %.0f "
+      "triangles; raise it, "
+      "or fluid.adapt.size_min",
+      s->elements_max, s->size_max, count);
+  PetscFunctionReturn(0);
+}
+
+/* The bounding boxes of elements that regions of different phases share, of all ranks; *box is allocated. */
+static PetscErrorCode CutBoxes(const Mesh *m, const AdaptationStart *start, int *n, GeometryBox **box)
+{
+  enum { BOX = sizeof(GeometryBox) / sizeof(double) };
+  PetscMPIInt size, mine = 0, *count, *first;
+  GeometryBox *local;
+  Stars *stars;
+  Phases phases;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_size(m->comm, &size));
+  PetscCall(PetscMalloc3(m->ne, &local, size, &count, size + 1, &first));
+  PetscCall(StarsCreate(m, &stars));
+  PetscCall(PhasesCreate(stars, start->nphases, &phases));
+  PetscCall(PhasesFill(phases, start->nregions, start->region));
+  PetscCall(PhasesReconstruct(phases));
+  for (int e = 0; e < m->ne; e++)
+    if (PhasesSingle(phases, e) < 0) {
+      local[mine / BOX] = GeometryBoxOf((const double(*)[2])stars->element[e].x);
+      mine += BOX;
+    }
+  PetscCall(PhasesDestroy(&phases));
+  PetscCall(StarsDestroy(&stars));
+  PetscCallMPI(MPI_Allgather(&mine, 1, MPI_INT, count, 1, MPI_INT, m->comm));
+  first[0] = 0;
+  for (int r = 0; r < size; r++) first[r + 1] = first[r] + count[r];
+  *n = first[size] / BOX;
+  PetscCall(PetscMalloc1(*n, box));
+  PetscCallMPI(MPI_Allgatherv(local, mine, MPI_DOUBLE, *box, count, first, MPI_DOUBLE, m->comm));
+  PetscCall(PetscFree3(local, count, first));
+  PetscFunctionReturn(0);
+}
+
+/* The interface's size around elements that it cuts, where size[nv] is larger. */
+static PetscErrorCode RefineInterface(const AdaptationSetup *s, const Mesh *m, const AdaptationStart *start,
+                                      double size[])
+{
+  const double slope = log(s->growth), reach = (s->size_max - s->interface_size) / slope;
+  GeometryBox *box, *wide;
+  Search search;
+  int n;
+  PetscFunctionBeginUser;
+  PetscCall(CutBoxes(m, start, &n, &box));
+  PetscCall(PetscMalloc1(n, &wide));
+  for (int k = 0; k < n; k++)
+    for (int c = 0; c < 2; c++) {
+      wide[k].lower[c] = box[k].lower[c] - fmax(reach, 0.0);
+      wide[k].upper[c] = box[k].upper[c] + fmax(reach, 0.0);
+    }
+  PetscCheck(!SearchCreate(n, wide, &search), PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory for the interface");
+  for (int v = 0; v < m->nv; v++) {
+    const double *x = m->x + 2 * v;
+    const GeometryBox point = {{x[0], x[1]}, {x[0], x[1]}};
+    const int *hit, nhit = SearchQuery(search, &point, &hit);
+    for (int h = 0; h < nhit; h++)
+      size[v] = fmin(size[v], s->interface_size + slope * GeometryBoxDistance(&box[hit[h]], x));
+  }
+  SearchDestroy(&search);
+  PetscCall(PetscFree(box));
+  PetscCall(PetscFree(wide));
+  PetscFunctionReturn(0);
+}
+
+/* One pass: le in the boxes, the interface's size around it, and elsewhere what the mesh has. */
+static PetscErrorCode Refine(const AdaptationSetup *s, const Mesh *m, const AdaptationStart *start,
+                             Mesh **mesh)
+{
+  const MeshSerial part = {.nv = m->nv, .ne = m->ne, .x = m->x, .vertex = m->vertex};
+  SharedVertices shared;
+  double *size, *metric, count;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(m->nv, &size, 3 * m->nv, &metric));
+  for (int v = 0; v < m->nv; v++) {
+    size[v] = s->size_max;
+    for (int b = 0; b < start->nbox; b++) {
+      const double *k = start->box + 4 * b;
+      const GeometryBox at = {{k[0], k[1]}, {k[2], k[3]}};
+      size[v] = fmin(size[v], s->size_min + log(s->growth) * GeometryBoxDistance(&at, m->x + 2 * v));
+    }
+  }
+  if (start->nphases) PetscCall(RefineInterface(s, m, start, size));
+  PetscCall(MetricFromSizes(m->nv, size, metric));
+  PetscCall(SharedVerticesCreate(m, &shared));
+  PetscCall(MetricGradeParallel(m->comm, &part, &shared, s->growth, metric));
+  PetscCall(MetricCount(&part, metric, &count));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_DOUBLE, MPI_SUM, m->comm));
+  PetscCall(AdaptationCheckBudget(s, m->comm, count));
+  PetscCall(MeshAdaptParallel(m, metric, NULL, mesh, NULL));
+  PetscCall(SharedVerticesDestroy(&shared));
+  PetscCall(PetscFree2(size, metric));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode AdaptationFirstMesh(Adaptation a, const Mesh *initial, const AdaptationStart *start,
+                                   Mesh **mesh)
+{
+  const AdaptationSetup *s = AdaptationGetSetup(a);
+  Mesh *finer;
+  PetscFunctionBeginUser;
+  PetscCall(Refine(s, initial, start, mesh));
+  /* a coarse mesh sees little of a small box: again, until there is nothing new to see */
+  for (int pass = 0; pass < FIRST_PASSES; pass++) {
+    PetscCall(Refine(s, *mesh, start, &finer));
+    const double gain = (double)finer->nglobal / (double)(*mesh)->nglobal;
+    PetscCall(MeshDestroy(mesh));
+    *mesh = finer;
+    if (gain < 1.02) break;
+  }
+  PetscFunctionReturn(0);
+}

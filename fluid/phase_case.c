@@ -1,0 +1,125 @@
+#include "fluid/phase_case.h"
+#include "fluid/fluid_case.h"
+
+void PhaseCaseRead(CoracleCase c, PhaseNames *names, PhaseProperties *p)
+{
+  char key[64];
+  *names = (PhaseNames){{NULL}};
+  *p = (PhaseProperties){0};
+  if (!CoracleCaseHas(c, "fluid.phases")) return;
+  p->n = CoracleCaseCount(c, "fluid.phases");
+  if (p->n != 2) CoracleCaseRefuse(c, "fluid.phases", "expected two phases, found %d", p->n);
+  for (int k = 0; k < p->n; k++) {
+    (void)snprintf(key, sizeof key, "fluid.phases[%d].name", k);
+    names->name[k] = CoracleCaseString(c, key);
+    if (strlen(names->name[k]) >= sizeof p->name[k])
+      CoracleCaseRefuse(c, key, "expected a name of at most %d letters", (int)sizeof p->name[k] - 1);
+    (void)snprintf(p->name[k], sizeof p->name[k], "%s", names->name[k]);
+    for (int j = 0; j < k; j++)
+      if (!strcmp(names->name[j], names->name[k]))
+        CoracleCaseRefuse(c, key, "two phases are called '%s'", names->name[k]);
+    (void)snprintf(key, sizeof key, "fluid.phases[%d].density", k);
+    p->rho[k] = CoracleCasePositive(c, key);
+    (void)snprintf(key, sizeof key, "fluid.phases[%d].viscosity", k);
+    p->mu[k] = CoracleCasePositive(c, key);
+  }
+}
+
+int PhaseCaseIndex(CoracleCase c, const char *key, const PhaseNames *names)
+{
+  const char *name = CoracleCaseString(c, key);
+  char known[256] = "";
+  for (int k = 0; names->name[k]; k++) {
+    const size_t used = strlen(known);
+    if (!strcmp(name, names->name[k])) return k;
+    (void)snprintf(known + used, sizeof known - used, "%s%s", k ? ", " : "", names->name[k]);
+  }
+  CoracleCaseRefuse(c, key, "expected a phase (%s), found '%s'", known, name);
+}
+
+/* fluid.regions[k].what */
+static const char *KeyOf(int k, const char *what, char key[64])
+{
+  (void)snprintf(key, 64, "fluid.regions[%d].%s", k, what);
+  return key;
+}
+
+static PetscErrorCode ReadPolygon(CoracleCase c, int k, Region *r)
+{
+  double(*x)[2];
+  char key[64];
+  PetscFunctionBeginUser;
+  r->n = CoracleCaseCount(c, KeyOf(k, "polygon", key));
+  if (r->n < 3) CoracleCaseRefuse(c, key, "expected at least three corners, found %d", r->n);
+  PetscCall(PetscMalloc1(r->n, &x));
+  for (int i = 0; i < r->n; i++) {
+    (void)snprintf(key, sizeof key, "fluid.regions[%d].polygon[%d]", k, i);
+    CoracleCaseVector(c, key, 2, x[i]);
+  }
+  r->x = (const double(*)[2])x;
+  PetscFunctionReturn(0);
+}
+
+static void ReadBox(CoracleCase c, int k, Region *r)
+{
+  char key[64];
+  CoracleCaseVector(c, KeyOf(k, "lower", key), 2, r->a);
+  CoracleCaseVector(c, KeyOf(k, "upper", key), 2, r->b);
+  if (!(r->b[0] > r->a[0] && r->b[1] > r->a[1]))
+    CoracleCaseRefuse(c, key,
+                      "the box is empty: expected a corner above and right of lower (%g, %g), found (%g, %g)",
+                      r->a[0], r->a[1], r->b[0], r->b[1]);
+}
+
+/* The shape follows from the keys that are there. */
+static PetscErrorCode ReadRegion(CoracleCase c, const PhaseNames *names, int k, Region *r)
+{
+  char key[64];
+  PetscFunctionBeginUser;
+  *r = (Region){.shape = REGION_HALF_PLANE, .b = {0.0, 0.0}};
+  r->phase = PhaseCaseIndex(c, KeyOf(k, "phase", key), names);
+  if (CoracleCaseHas(c, KeyOf(k, "lower", key)) || CoracleCaseHas(c, KeyOf(k, "upper", key))) {
+    r->shape = REGION_BOX;
+    ReadBox(c, k, r);
+  } else if (CoracleCaseHas(c, KeyOf(k, "centre", key))) {
+    r->shape = REGION_DISC;
+    CoracleCaseVector(c, key, 2, r->a);
+    r->radius = CoracleCasePositive(c, KeyOf(k, "radius", key));
+  } else if (CoracleCaseHas(c, KeyOf(k, "polygon", key))) {
+    r->shape = REGION_POLYGON;
+    PetscCall(ReadPolygon(c, k, r));
+  } else if (CoracleCaseHas(c, KeyOf(k, "point", key)) || CoracleCaseHas(c, KeyOf(k, "normal", key))) {
+    CoracleCaseVector(c, KeyOf(k, "point", key), 2, r->a);
+    CoracleCaseVector(c, KeyOf(k, "normal", key), 2, r->b);
+    if (r->b[0] == 0.0 && r->b[1] == 0.0) CoracleCaseRefuse(c, key, "expected a direction, found (0, 0)");
+  } else { /* everywhere */
+    *r = (Region){.shape = REGION_BOX, .phase = r->phase, .a = {-1e6, -1e6}, .b = {1e6, 1e6}};
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidCaseRegions(CoracleCase c, int *nregions, Region **region)
+{
+  PhaseNames names;
+  PhaseProperties properties;
+  PetscFunctionBeginUser;
+  *nregions = 0;
+  *region = NULL;
+  PhaseCaseRead(c, &names, &properties);
+  if (!properties.n) PetscFunctionReturn(0);
+  *nregions = CoracleCaseCount(c, "fluid.regions");
+  if (!*nregions) CoracleCaseRefuse(c, "fluid.regions", "expected a list of where the phases are");
+  PetscCall(PetscCalloc1(*nregions, region));
+  for (int k = 0; k < *nregions; k++) PetscCall(ReadRegion(c, &names, k, *region + k));
+  if ((*region)[0].shape != REGION_BOX || (*region)[0].a[0] != -1e6)
+    CoracleCaseRefuse(c, "fluid.regions", "the first region is everywhere: expected the key phase alone");
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidCaseFreeRegions(int nregions, Region **region)
+{
+  PetscFunctionBeginUser;
+  for (int k = 0; k < nregions; k++) PetscCall(PetscFree((*region)[k].x));
+  PetscCall(PetscFree(*region));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,58 @@
+/* The phases of the fluid in a step: they move with the velocity, and momentum with their mass (phases/README.md).
+ *
+ *     u at t + theta dt, free of divergence --> fluxes F, beta --> V^{n+1}, swept volumes
+ *       --> rho, mu of the elements at t^{n+1}          rho = sum of rho_p V_p/|K|
+ *           mass flux m, sum_f m_f = -(rho^{n+1} - rho^n) |K|/dt to round-off
+ *           R^-1 and the weight of cut elements          effective_density.h */
+#ifndef FLUID_PHASE_TRANSPORT_H
+#define FLUID_PHASE_TRANSPORT_H
+#include "common/output/checkpoint.h"
+#include "common/transfer/transfer.h"
+#include "fluid/domain.h"
+#include "fluid/phases/phases.h"
+#include "fluid/phases/region.h"
+
+typedef struct PhaseTransport_s *PhaseTransport;
+
+/* n = 0: one fluid, whose density and viscosity are elsewhere. */
+typedef struct {
+  int n;
+  double rho[PHASES_MAX], mu[PHASES_MAX]; /* kg/m3, Pa s */
+  char name[PHASES_MAX][32];
+} PhaseProperties;
+
+const PhaseProperties *PhaseTransportProperties(PhaseTransport t);
+/* The lightest phase.  Not collective. */
+int PhaseLightest(const PhaseProperties *properties);
+/* Without volumes; domain is borrowed.  Collective, like all that says nothing else. */
+PetscErrorCode PhaseTransportCreate(const FluidDomain *domain, const PhaseProperties *properties,
+                                    const double gravity[2], PhaseTransport *t);
+PetscErrorCode PhaseTransportDestroy(PhaseTransport *t);
+/* The initial state; errors of PhasesFill. */
+PetscErrorCode PhaseTransportFill(PhaseTransport t, int nregions, const Region region[]);
+/* The volumes from those on another mesh. */
+PetscErrorCode PhaseTransportRemap(PhaseTransport from, Transfer transfer, PhaseTransport to);
+/* From t^n over dt along u[ne][6], m/s, made of velocities of which `behind` says how far t^n lies behind them in
+ * units of the step before (prescribed velocities are those of the same instants).  mass_flux[ne][6]: m, kg/(m2 s). */
+typedef struct {
+  double time, dt;                /* t^n, s */
+  double extrapolated, dt_before; /* u = u^n + extrapolated (u^n - u^{n-1}) */
+  const double *u;
+  double *mass_flux;
+} PhaseStep;
+PetscErrorCode PhaseTransportStep(PhaseTransport t, const PhaseStep *step);
+/* rho[ne], kg/m3, and mu[ne], Pa s, of the owned elements.  Not collective. */
+void PhaseTransportMaterial(PhaseTransport t, double rho[], double mu[]);
+/* How elements respond to a pressure gradient, [ne], borrowed: in the middle of the last step.  Not collective. */
+const InverseDensity *PhaseTransportInverseDensity(PhaseTransport t);
+/* From now on, until the next step, it is that of its end; the density's revision is the caller's affair. */
+void PhaseTransportSettle(PhaseTransport t);
+/* Volumes, m2, [ne][n], borrowed; the number of phases.  Not collective. */
+const double *PhaseTransportVolumes(PhaseTransport t, int *n);
+Phases PhaseTransportPhases(PhaseTransport t);
+/* For a step that is redone. */
+PetscErrorCode PhaseTransportSaveState(PhaseTransport t);
+PetscErrorCode PhaseTransportRestoreState(PhaseTransport t);
+PetscErrorCode PhaseTransportSave(PhaseTransport t, Checkpoint to);
+PetscErrorCode PhaseTransportLoad(PhaseTransport t, const PetscInt row[], Checkpoint from);
+#endif

@@ -1,0 +1,95 @@
+/* The effective density of an element that an interface cuts: what a continuous pressure without a kink sees.  Kernel: no
+ * mesh, no MPI.
+ *
+ * Across the interface the pressure's gradient jumps by [rho] (g - a).n, a the acceleration: for water and air by a
+ * factor of a thousand.  With distances d_i of the vertices from the interface (negative in the first phase) and G =
+ * (g - a).n such a pressure is rho_i d_i G at the vertices, and between them its interpolant has one gradient,
+ *
+ *     grad p_I = q G,    q = sum rho_i d_i grad lambda_i / |m|,    m = sum d_i grad lambda_i,    n = m/|m|
+ *
+ *        0          heavy above the line through the edges of vertex 0 at the share f of their lengths: the share of the
+ *       /h\         area is f^2, but that of the pressure's difference from vertex 0 to the edge opposite is f.
+ *      /---\
+ *     /  l  \       An acceleration a = g - R^-1 grad p with R n = q, R symmetric, is g in free fall (p = 0) and 0 at
+ *    1-------2      rest, for any line and mesh, and no part of R is lighter than the lightest phase.
+ *
+ * The distances are those of the vertices, shared by all elements around them: then rho_i d_i G is one pressure for all
+ * elements, and errors of the distances do not set the light phase in motion (the densities of edges of Kang, Fedkiw
+ * and Liu 2000 on squares have the same property).  Along the line R has the mean density of the element. */
+#ifndef CORACLE_PHASES_EFFECTIVE_DENSITY_H
+#define CORACLE_PHASES_EFFECTIVE_DENSITY_H
+#include <math.h>
+
+/* How much lighter than its part along the line R may be across it; beyond, an obtuse element's pressure cannot be
+ * balanced by any such R. */
+#define EFFECTIVE_DENSITY_SPREAD 4.0
+
+typedef struct {
+  double inverse[3]; /* R^-1: xx, xy, yy, m3/kg */
+  double weight[2];  /* gravity, or what balances the pressure at rest where there is no R, m/s2 */
+} InverseDensity;
+
+static inline void InverseDensityUniform(double rho, const double gravity[2], InverseDensity *r)
+{
+  *r = (InverseDensity){{1.0 / rho, 0.0, 1.0 / rho}, {gravity[0], gravity[1]}};
+}
+
+/* The inverse of (xx, xy, yy). */
+static inline void SymmetricInvert(const double a[3], double inverse[3])
+{
+  const double det = a[0] * a[2] - a[1] * a[1];
+  inverse[0] = a[2] / det;
+  inverse[1] = -a[1] / det;
+  inverse[2] = a[0] / det;
+}
+
+/* Of the mean of two R and of their loads R weight: the middle of a step, between its ends. */
+static inline void InverseDensityMiddle(const InverseDensity *a, const InverseDensity *b,
+                                        InverseDensity *middle)
+{
+  double ra[3], rb[3], load[2];
+  SymmetricInvert(a->inverse, ra);
+  SymmetricInvert(b->inverse, rb);
+  for (int c = 0; c < 2; c++)
+    load[c] = 0.5 * (ra[c] * a->weight[0] + ra[c + 1] * a->weight[1] + rb[c] * b->weight[0] +
+                     rb[c + 1] * b->weight[1]);
+  for (int k = 0; k < 3; k++) ra[k] = 0.5 * (ra[k] + rb[k]);
+  SymmetricInvert(ra, middle->inverse);
+  for (int c = 0; c < 2; c++)
+    middle->weight[c] = middle->inverse[c] * load[0] + middle->inverse[c + 1] * load[1];
+}
+
+/* grad[i]: of the barycentric coordinates; d[i]: distances, m; rho: densities where d is negative and positive; mean: that
+ * of the element's content, kg/m3. */
+static inline void InverseDensityCut(const double grad[3][2], const double d[3], const double rho[2],
+                                     double mean, const double gravity[2], InverseDensity *r)
+{
+  double m[2] = {0.0, 0.0}, q[2] = {0.0, 0.0};
+  for (int i = 0; i < 3; i++)
+    for (int c = 0; c < 2; c++) {
+      m[c] += d[i] * grad[i][c];
+      q[c] += rho[d[i] > 0.0] * d[i] * grad[i][c];
+    }
+  const double size = hypot(m[0], m[1]), low = fmin(rho[0], rho[1]);
+  if (!(size > 0.0)) {
+    InverseDensityUniform(mean, gravity, r);
+    return;
+  }
+  const double n[2] = {m[0] / size, m[1] / size};
+  const double nn = (q[0] * n[0] + q[1] * n[1]) / size, nt = (q[1] * n[0] - q[0] * n[1]) / size;
+  const double need = nn > low ? low + nt * nt / (nn - low) : fabs(nt) > 1e-12 * low ? HUGE_VAL : low;
+  const double tt = fmax(mean, need), det = nn * tt - nt * nt;
+  InverseDensityUniform(fmax(mean, hypot(nn, nt)), gravity, r);
+  if (need > EFFECTIVE_DENSITY_SPREAD * fmax(mean, nn) || nn < low * (1.0 - 1e-9)) {
+    const double along = gravity[1] * n[0] - gravity[0] * n[1],
+                 across = gravity[0] * n[0] + gravity[1] * n[1];
+    for (int c = 0; c < 2; c++)
+      r->weight[c] = r->inverse[0] * across * q[c] / size + (c ? n[0] : -n[1]) * along;
+    return;
+  }
+  const double t[2] = {-n[1], n[0]};
+  r->inverse[0] = (tt * n[0] * n[0] - 2.0 * nt * n[0] * t[0] + nn * t[0] * t[0]) / det;
+  r->inverse[1] = (tt * n[0] * n[1] - nt * (n[0] * t[1] + t[0] * n[1]) + nn * t[0] * t[1]) / det;
+  r->inverse[2] = (tt * n[1] * n[1] - 2.0 * nt * n[1] * t[1] + nn * t[1] * t[1]) / det;
+}
+#endif

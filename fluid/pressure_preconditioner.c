@@ -1,0 +1,238 @@
+#include "fluid/pressure_preconditioner.h"
+#include "fluid/solver_options.h"
+#include <limits.h>
+#include <math.h>
+
+#define FACTOR_MAX 40000 /* vertices times ranks, from which on multigrid is cheaper than a factor */
+#define CHANGE_MAX 4.0   /* of an element, as a factor: what an old coarse solver is good for */
+
+struct PressurePreconditioner_s {
+  const FluidDomain *domain; /* borrowed */
+  Mat matrix;                /* borrowed: A */
+  Mat extension;             /* E */
+  Mat coarse;                /* A1 */
+  PetscInt nfixed;           /* owned vertices whose row of A1 is the identity's */
+  PetscBool pinned;          /* this rank has the vertex that makes A1 definite in a closed domain */
+  KSP solver;                /* of A1 */
+  Vec residual, r1, z1;
+  int setup;  /* iterations of CG that cost as much as the set-up of a coarse solver */
+  int fresh;  /* iterations of the first solve with the coarse solver; -1: it has not been used yet */
+  int excess; /* iterations above that since then */
+  double *coefficient; /* [ne] sum of the diagonal of an element's part of A1, when the solver was set up */
+};
+
+static PetscErrorCode CreateExtension(PressurePreconditioner p, const char is_fixed[])
+{
+  const Mesh *m = p->domain->mesh;
+  const P2Space *p2 = p->domain->p2;
+  const double one = 1.0, half[2] = {0.5, 0.5};
+  PetscFunctionBeginUser;
+  PetscCall(MatCreateAIJ(m->comm, p2->nowned, m->nv_owned, PETSC_DETERMINE, PETSC_DETERMINE, 2, NULL, 2, NULL,
+                         &p->extension));
+  for (int e = 0; e < m->ne; e++) {
+    const int *node = p2->node + 6 * e;
+    PetscInt vertex[3];
+    for (int i = 0; i < 3; i++) vertex[i] = is_fixed[node[i]] ? -1 : m->vgid[m->vertex[3 * e + i]];
+    for (int i = 0; i < 3; i++) {
+      const PetscInt end[2] = {vertex[(i + 1) % 3], vertex[(i + 2) % 3]};
+      PetscCall(MatSetValues(p->extension, 1, p2->gid + node[i], 1, vertex + i, &one, INSERT_VALUES));
+      PetscCall(MatSetValues(p->extension, 1, p2->gid + node[3 + i], 2, end, half, INSERT_VALUES));
+    }
+  }
+  PetscCall(MatAssemblyBegin(p->extension, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(p->extension, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}
+
+/* row = column: the owned vertices that are fixed; *n is raised by their number. */
+static PetscErrorCode ListFixed(PressurePreconditioner p, const char is_fixed[], PetscInt *n, PetscInt row[],
+                                PetscInt column[])
+{
+  const Mesh *m = p->domain->mesh;
+  char *met;
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(m->nv_owned, &met));
+  for (int k = 0; k < 3 * m->ne; k++) {
+    const PetscInt gid = m->vgid[m->vertex[k]], own = gid - m->vstart;
+    if (own < 0 || own >= m->nv_owned || met[own]) continue;
+    met[own] = 1;
+    if (is_fixed[p->domain->p2->node[6 * (k / 3) + k % 3]]) row[*n] = column[*n] = gid, ++*n;
+  }
+  PetscCall(PetscFree(met));
+  PetscFunctionReturn(0);
+}
+
+/* An entry for each entry of the elements' blocks, then the rows of fixed vertices and the pinned one. */
+static PetscErrorCode CreateCoarse(PressurePreconditioner p, const char is_fixed[])
+{
+  const Mesh *m = p->domain->mesh;
+  PetscInt *row, *column, n = 9 * m->ne;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(n + m->nv_owned + 1, &row, n + m->nv_owned + 1, &column));
+  for (int e = 0; e < m->ne; e++)
+    for (int k = 0; k < 9; k++) {
+      const int *node = p->domain->p2->node + 6 * e, i = k / 3, j = k % 3;
+      row[9 * e + k] = is_fixed[node[i]] || is_fixed[node[j]] ? -1 : m->vgid[m->vertex[3 * e + i]];
+      column[9 * e + k] = m->vgid[m->vertex[3 * e + j]];
+    }
+  PetscCall(ListFixed(p, is_fixed, &n, row, column));
+  p->nfixed = n - 9 * m->ne;
+  if (p->pinned) row[n] = column[n] = 0, n++;
+  PetscCall(MatCreate(m->comm, &p->coarse));
+  PetscCall(MatSetSizes(p->coarse, m->nv_owned, m->nv_owned, PETSC_DETERMINE, PETSC_DETERMINE));
+  PetscCall(MatSetType(p->coarse, MATAIJ));
+  PetscCall(MatSetPreallocationCOO(p->coarse, n, row, column));
+  PetscCall(MatSetOption(p->coarse, MAT_SPD, PETSC_TRUE));
+  PetscCall(PetscFree2(row, column));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CreateSolver(PressurePreconditioner p)
+{
+  PetscInt size;
+  PetscMPIInt ranks;
+  PC pc;
+  PetscFunctionBeginUser;
+  PetscCall(MatGetSize(p->coarse, &size, NULL));
+  PetscCallMPI(MPI_Comm_size(p->domain->mesh->comm, &ranks));
+  p->setup = (int)PetscMin(sqrt((double)size) / 25.0, 6.0);
+  PetscCall(SolverCreateDirect(p->domain->mesh->comm, "pressure_coarse_", KSPPREONLY, &p->solver));
+#if defined(PETSC_HAVE_HYPRE)
+  if (size * ranks > FACTOR_MAX) { /* multigrid is distributed, a factor is not */
+    PetscCall(KSPGetPC(p->solver, &pc));
+    PetscCall(PCSetType(pc, PCHYPRE));
+    PetscCall(PCHYPRESetType(pc, "boomeramg"));
+  }
+#endif
+  PetscCall(KSPSetOperators(p->solver, p->coarse, p->coarse));
+  PetscCall(KSPSetFromOptions(p->solver));
+  PetscFunctionReturn(0);
+}
+
+/* PCSHELL */
+static PetscErrorCode Apply(PC shell, Vec r, Vec z)
+{
+  PressurePreconditioner p;
+  PetscFunctionBeginUser;
+  PetscCall(PCShellGetContext(shell, &p));
+  PetscCall(MatSOR(p->matrix, r, 1.0, (MatSORType)(SOR_LOCAL_FORWARD_SWEEP | SOR_ZERO_INITIAL_GUESS), 0.0, 1,
+                   1, z));
+  PetscCall(MatMult(p->matrix, z, p->residual));
+  PetscCall(VecAYPX(p->residual, -1.0, r));
+  PetscCall(MatMultTranspose(p->extension, p->residual, p->r1));
+  PetscCall(KSPSolve(p->solver, p->r1, p->z1));
+  PetscCall(MatMultAdd(p->extension, p->z1, z, z));
+  PetscCall(MatSOR(p->matrix, r, 1.0, SOR_LOCAL_BACKWARD_SWEEP, 0.0, 1, 1, z));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode UseShell(PressurePreconditioner p, KSP ksp)
+{
+  PC shell;
+  PetscFunctionBeginUser;
+  PetscCall(KSPGetOperators(ksp, &p->matrix, NULL));
+  PetscCall(KSPGetPC(ksp, &shell));
+  PetscCall(PCSetType(shell, PCSHELL));
+  PetscCall(PCShellSetName(shell, "relaxation and linear functions"));
+  PetscCall(PCShellSetContext(shell, p));
+  PetscCall(PCShellSetApply(shell, Apply));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PressurePreconditionerCreate(const FluidDomain *domain, const char is_fixed[],
+                                            PetscBool closed, KSP ksp, PressurePreconditioner *preconditioner)
+{
+  PressurePreconditioner p;
+  PetscFunctionBeginUser;
+  PetscCall(PetscNew(&p));
+  p->domain = domain;
+  p->fresh = -1;
+  p->excess = INT_MAX;
+  PetscCall(PetscMalloc1(domain->mesh->ne, &p->coefficient));
+  p->pinned = (PetscBool)(closed && domain->mesh->nv_owned > 0 && domain->mesh->vstart == 0);
+  PetscCall(UseShell(p, ksp));
+  PetscCall(CreateExtension(p, is_fixed));
+  PetscCall(CreateCoarse(p, is_fixed));
+  PetscCall(MatCreateVecs(p->extension, &p->r1, &p->residual));
+  PetscCall(VecDuplicate(p->r1, &p->z1));
+  PetscCall(CreateSolver(p));
+  *preconditioner = p;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PressurePreconditionerDestroy(PressurePreconditioner *preconditioner)
+{
+  PressurePreconditioner p = *preconditioner;
+  PetscFunctionBeginUser;
+  if (!p) PetscFunctionReturn(0);
+  PetscCall(KSPDestroy(&p->solver));
+  PetscCall(MatDestroy(&p->extension));
+  PetscCall(MatDestroy(&p->coarse));
+  PetscCall(VecDestroy(&p->residual));
+  PetscCall(VecDestroy(&p->r1));
+  PetscCall(VecDestroy(&p->z1));
+  PetscCall(PetscFree(p->coefficient));
+  PetscCall(PetscFree(*preconditioner));
+  PetscFunctionReturn(0);
+}
+
+/* b1 = E^T b E on one element */
+static void Coarsen(const double b[36], double b1[9])
+{
+  double half[6][3];
+  for (int q = 0; q < 6; q++)
+    for (int j = 0; j < 3; j++)
+      half[q][j] = b[6 * q + j] + 0.5 * (b[6 * q + 3 + (j + 1) % 3] + b[6 * q + 3 + (j + 2) % 3]);
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      b1[3 * i + j] = half[i][j] + 0.5 * (half[3 + (i + 1) % 3][j] + half[3 + (i + 2) % 3][j]);
+}
+
+/* The largest factor by which an element's coefficient has changed since the coarse solver was set up. */
+static PetscErrorCode LargestChange(PressurePreconditioner p, const double coarse[][9], double *change)
+{
+  PetscFunctionBeginUser;
+  *change = 1.0;
+  for (int e = 0; e < p->domain->mesh->ne; e++) {
+    const double ratio = (coarse[e][0] + coarse[e][4] + coarse[e][8]) / p->coefficient[e];
+    *change = PetscMax(*change, PetscMax(ratio, 1.0 / ratio));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, change, 1, MPI_DOUBLE, MPI_MAX, p->domain->mesh->comm));
+  PetscFunctionReturn(0);
+}
+
+/* A1 from its elements' parts, followed by the values of single rows. */
+static PetscErrorCode SetCoarse(PressurePreconditioner p, double coarse[][9])
+{
+  const int ne = p->domain->mesh->ne;
+  double *single = coarse[ne];
+  PetscFunctionBeginUser;
+  for (int k = 0; k < p->nfixed; k++) single[k] = 1.0;
+  if (p->pinned) single[p->nfixed] = coarse[0][0];
+  for (int e = 0; e < ne; e++) p->coefficient[e] = coarse[e][0] + coarse[e][4] + coarse[e][8];
+  PetscCall(MatSetValuesCOO(p->coarse, coarse[0], INSERT_VALUES));
+  p->fresh = -1;
+  p->excess = 0;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PressurePreconditionerUpdate(PressurePreconditioner p, const double block[][36])
+{
+  const int ne = p->domain->mesh->ne;
+  double(*coarse)[9], change = HUGE_VAL;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(ne + p->nfixed / 9 + 1, &coarse));
+  for (int e = 0; e < ne; e++) Coarsen(block[e], coarse[e]);
+  if (p->excess <= p->setup) PetscCall(LargestChange(p, (const double(*)[9])coarse, &change));
+  if (change > CHANGE_MAX) PetscCall(SetCoarse(p, coarse));
+  PetscCall(PetscFree(coarse));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PressurePreconditionerCount(PressurePreconditioner p, int iterations)
+{
+  PetscFunctionBeginUser;
+  if (p->fresh < 0) p->fresh = iterations;
+  p->excess += iterations - p->fresh;
+  PetscFunctionReturn(0);
+}

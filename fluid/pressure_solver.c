@@ -1,0 +1,173 @@
+#include "fluid/pressure_solver.h"
+#include "fluid/pressure_preconditioner.h"
+#include "fluid/solver_options.h"
+#include <math.h>
+
+#define VELOCITY_TOLERANCE 1e-8 /* -pressure_varying_ksp_rtol chooses another one */
+
+struct PressureSolver_s {
+  const FluidDomain *domain; /* borrowed */
+  const char *is_fixed;      /* borrowed */
+  PetscBool closed, varying;
+  Mat matrix;
+  PetscInt nfixed;
+  KSP direct, iterative; /* made when used first */
+  PressurePreconditioner preconditioner;
+  double contrast;     /* square root of the largest ratio of the coefficient */
+  PetscReal tolerance; /* of the velocity, relative */
+};
+
+static PetscBool HasFirstNode(PressureSolver s)
+{
+  return (PetscBool)(s->closed && s->domain->p2->nowned > 0 && s->domain->p2->start == 0);
+}
+
+/* An entry for each entry of the elements' blocks, then the rows of fixed nodes and the first node's. */
+static PetscErrorCode CreateMatrix(PressureSolver s)
+{
+  const P2Space *p2 = s->domain->p2;
+  const int ne = s->domain->mesh->ne;
+  PetscInt *row, *column, n = 36 * ne;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(n + p2->nowned + 1, &row, n + p2->nowned + 1, &column));
+  for (int e = 0; e < ne; e++)
+    for (int k = 0; k < 36; k++) {
+      const int i = p2->node[6 * e + k / 6], j = p2->node[6 * e + k % 6];
+      row[36 * e + k] = s->is_fixed[i] || s->is_fixed[j] ? -1 : p2->gid[i];
+      column[36 * e + k] = p2->gid[j];
+    }
+  for (int k = 0; k < p2->nowned; k++)
+    if (s->is_fixed[k]) row[n] = column[n] = p2->start + k, n++;
+  s->nfixed = n - 36 * ne;
+  if (HasFirstNode(s)) row[n] = column[n] = 0, n++;
+  PetscCall(MatCreate(s->domain->mesh->comm, &s->matrix));
+  PetscCall(MatSetSizes(s->matrix, p2->nowned, p2->nowned, PETSC_DETERMINE, PETSC_DETERMINE));
+  PetscCall(MatSetType(s->matrix, MATAIJ));
+  PetscCall(MatSetPreallocationCOO(s->matrix, n, row, column));
+  PetscCall(MatSetOption(s->matrix, MAT_SPD, PETSC_TRUE));
+  PetscCall(PetscFree2(row, column));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CreateDirect(PressureSolver s)
+{
+  PetscFunctionBeginUser;
+  PetscCall(SolverCreateDirect(s->domain->mesh->comm, "pressure_", KSPPREONLY, &s->direct));
+  PetscCall(KSPSetOperators(s->direct, s->matrix, s->matrix));
+  PetscCall(KSPSetTolerances(s->direct, 1e-9, 1e-50, 1e5, 500));
+  PetscCall(KSPSetFromOptions(s->direct));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CreateIterative(PressureSolver s)
+{
+  PetscFunctionBeginUser;
+  PetscCall(KSPCreate(s->domain->mesh->comm, &s->iterative));
+  PetscCall(KSPSetOptionsPrefix(s->iterative, "pressure_varying_"));
+  PetscCall(KSPSetType(s->iterative, KSPCG));
+  PetscCall(KSPSetNormType(s->iterative, KSP_NORM_NATURAL));
+  PetscCall(KSPSetOperators(s->iterative, s->matrix, s->matrix));
+  PetscCall(
+      PressurePreconditionerCreate(s->domain, s->is_fixed, s->closed, s->iterative, &s->preconditioner));
+  PetscCall(KSPSetTolerances(s->iterative, VELOCITY_TOLERANCE, 1e-50, 1e5, 500));
+  PetscCall(KSPSetFromOptions(s->iterative));
+  PetscCall(KSPGetTolerances(s->iterative, &s->tolerance, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PressureSolverCreate(const FluidDomain *domain, const char is_fixed[], PetscBool closed,
+                                    PressureSolver *solver)
+{
+  PressureSolver s;
+  PetscFunctionBeginUser;
+  PetscCall(PetscNew(&s));
+  s->domain = domain;
+  s->is_fixed = is_fixed;
+  s->closed = closed;
+  PetscCall(CreateMatrix(s));
+  *solver = s;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PressureSolverDestroy(PressureSolver *solver)
+{
+  PressureSolver s = *solver;
+  PetscFunctionBeginUser;
+  if (!s) PetscFunctionReturn(0);
+  PetscCall(KSPDestroy(&s->direct));
+  PetscCall(KSPDestroy(&s->iterative));
+  PetscCall(PressurePreconditionerDestroy(&s->preconditioner));
+  PetscCall(MatDestroy(&s->matrix));
+  PetscCall(PetscFree(*solver));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PressureSolverGetBlocks(PressureSolver s, double (**block)[36])
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(s->domain->mesh->ne + s->nfixed / 36 + 1, block));
+  PetscFunctionReturn(0);
+}
+
+/* Constants: the null space for CG; where there is none, phi = 0 in the first node for consistent right-hand
+ * sides, by any positive number on the diagonal. */
+static PetscErrorCode SetNullSpace(PressureSolver s)
+{
+  MatNullSpace constants = NULL;
+  PetscFunctionBeginUser;
+  if (s->closed && s->varying)
+    PetscCall(MatNullSpaceCreate(s->domain->mesh->comm, PETSC_TRUE, 0, NULL, &constants));
+  PetscCall(MatSetNullSpace(s->matrix, constants));
+  PetscCall(MatNullSpaceDestroy(&constants));
+  PetscFunctionReturn(0);
+}
+
+/* The square root of the coefficient's largest ratio: CG stops by the energy norm, which sees a velocity u as rho u^2, and has to go
+ * on further for the same relative error where the fluid is light. */
+static PetscErrorCode SetContrast(PressureSolver s, const double block[][36])
+{
+  double range[2] = {
+      0.0,
+      0.0}; /* of the vertices' diagonal, which has no size of the element: largest, inverse of the least */
+  PetscFunctionBeginUser;
+  for (int e = 0; e < s->domain->mesh->ne; e++) {
+    const double coefficient = block[e][0] + block[e][7] + block[e][14];
+    range[0] = PetscMax(range[0], coefficient);
+    range[1] = PetscMax(range[1], 1.0 / coefficient);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, range, 2, MPI_DOUBLE, MPI_MAX, s->domain->mesh->comm));
+  s->contrast = sqrt(range[0] * range[1]);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PressureSolverSetMatrix(PressureSolver s, PetscBool varying, double (**block)[36])
+{
+  double *extra = (*block)[s->domain->mesh->ne];
+  PetscFunctionBeginUser;
+  s->varying = varying;
+  for (int k = 0; k < s->nfixed; k++) extra[k] = 1.0;
+  if (HasFirstNode(s)) extra[s->nfixed] = varying ? 0.0 : (*block)[0][0];
+  PetscCall(MatSetValuesCOO(s->matrix, (*block)[0], INSERT_VALUES));
+  PetscCall(SetNullSpace(s));
+  if (!varying && !s->direct) PetscCall(CreateDirect(s));
+  if (varying && !s->iterative) PetscCall(CreateIterative(s));
+  if (varying) {
+    PetscCall(SetContrast(s, (const double(*)[36]) * block));
+    PetscCall(PressurePreconditionerUpdate(s->preconditioner, (const double(*)[36]) * block));
+  }
+  PetscCall(PetscFree(*block));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PressureSolverSolve(PressureSolver s, const PressureProblem *problem, Vec phi, int *iterations)
+{
+  const double tolerance = s->tolerance / s->contrast;
+  PetscFunctionBeginUser;
+  if (s->varying)
+    PetscCall(
+        KSPSetTolerances(s->iterative, tolerance, tolerance * problem->size, PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscCall(SolverSolve(s->varying ? s->iterative : s->direct, "pressure", problem->t, problem->rhs, phi,
+                        iterations));
+  if (s->varying) PetscCall(PressurePreconditionerCount(s->preconditioner, *iterations));
+  PetscFunctionReturn(0);
+}

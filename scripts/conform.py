@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+"""Runs an outside solid without a fluid against the conformance kit's partners and says what its author must mend.
+
+Usage: scripts/conform.py --solid PROGRAM [--bin DIR] [--ranks 1,2,3] CASE [--set key=value]...
+  --bin    a build folder or an installation's bin (default: build beside this script)
+  --ranks  on which the solid is run; it may leave ranks empty
+What is checked, and what a failure means: cases/adapters/CONFORMANCE.md.  Exit status 1 when something fails.
+"""
+import argparse
+import csv
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+STEPS, SAVE = 12, 8
+SAME = 1e-6  # of the solid's extent or fastest velocity: what other ranks may change
+
+
+class Kit:
+    def __init__(self, arguments, scratch):
+        self.arguments, self.scratch, self.failed = arguments, scratch, 0
+
+    def program(self, name):
+        for folder in (self.arguments.bin, self.arguments.bin + "/common", self.arguments.bin + "/bin"):
+            if os.access(f"{folder}/{name}", os.X_OK):
+                return f"{folder}/{name}"
+        sys.exit(f"conform.py: no {name} under '{self.arguments.bin}'")
+
+    def run(self, label, ranks, save=0, steps=STEPS, coupler_ranks=1):
+        """(exit status, output, seconds) of one run; its motion goes into the folder `label`."""
+        folder = os.path.join(self.scratch, label)
+        os.makedirs(folder, exist_ok=True)
+        command = [ROOT + "/scripts/launch.sh", "--ranks", f"1:{coupler_ranks}:{ranks}", "--bin", self.arguments.bin, "--fluid",
+                   self.program("coracle-partner-fluid"), "--coupler", self.program("coracle-partner-coupler"), "--solid",
+                   self.arguments.solid, self.arguments.case]
+        for item in [*self.arguments.set, f"coupler.conformance={{folder: {folder}, steps: {steps}, save: {save}}}"]:
+            command += ["--set", item]
+        start = time.time()
+        try:
+            done = subprocess.run(command, capture_output=True, text=True, timeout=self.arguments.timeout, check=False)
+            return done.returncode, done.stdout + done.stderr, time.time() - start
+        except subprocess.TimeoutExpired:
+            return 1, f"error: it has not ended within {self.arguments.timeout} s", self.arguments.timeout
+
+    def say(self, name, good, text):
+        self.failed += not good
+        print(f"{name:11} {'ok    ' if good else 'FAILED'} {text}", flush=True)
+        return good
+
+    def rows(self, label):
+        with open(os.path.join(self.scratch, label, "motion.csv"), encoding="utf-8") as file:
+            return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
+
+
+def why(output):
+    lines = [line for line in output.splitlines() if ": error:" in line] or output.splitlines()[-1:]
+    return re.sub(r"^coracle (\w+\[\d+\]): error: (conformance: )?", r"\1: ", lines[0]) if lines else "no message"
+
+
+def largest_difference(one, two):
+    """Of positions over the solid's extent, and of velocities over the fastest."""
+    extent = max((r["x2 [m2]"] - r["x [m]"]**2 + r["y2 [m2]"] - r["y [m]"]**2)**0.5 for r in one) or 1.0
+    speeds = ("u_x [m/s]", "u_y [m/s]", "given_x [m/s]", "given_y [m/s]")
+    fastest = max(abs(r[k]) for r in one for k in speeds) or 1.0
+    return max(abs(a[k] - b[k]) / (extent if k[0] in "xy" else fastest) for a, b in zip(one, two) for k in ("x [m]", "y [m]", *speeds))
+
+
+def check_steps(kit):
+    """Steps of several lengths, redone steps, the direction of the force: all in one run, which the coupler checks."""
+    status, output, seconds = kit.run("one", 1)
+    changed = re.search(r"the mesh has changed \d+ times", output)
+    text = f"{STEPS} steps of 4 lengths, {seconds:.1f} s{', ' + changed.group(0) if changed else ''}"
+    if not kit.say("steps", status == 0, text if status == 0 else why(output)):
+        print(output, file=sys.stderr)
+        return False
+    rows = kit.rows("one")
+    kit.say("redo", True, "steps 2, 5, 8, 11 made three times: the same bits, and an additional force moves it along")
+    moved = max(abs(r[k]) for r in rows for k in ("u_x [m/s]", "u_y [m/s]"))
+    return kit.say("motion", moved > 0, f"fastest mean velocity {moved:.3g} m/s" if moved else "the solid does not move under any force")
+
+
+def check_ranks(kit):
+    for ranks in kit.arguments.ranks:
+        for coupler in (1, 2):
+            if (ranks, coupler) == (1, 1):
+                continue
+            label = f"{coupler}-{ranks}"
+            status, output, _ = kit.run(label, ranks, coupler_ranks=coupler)
+            difference = largest_difference(kit.rows("one"), kit.rows(label)) if status == 0 else 0
+            kit.say("ranks", status == 0 and difference < SAME,
+                    why(output) if status else f"solid on {ranks}, coupler on {coupler}: differs by {difference:.2g}")
+
+
+def check_stop(kit):
+    status, output, _ = kit.run("none", 1, steps=0)
+    kit.say("stop", status == 0, "a run without a step ends well" if status == 0 else why(output))
+
+
+def check_checkpoint(kit):
+    status, output, _ = kit.run("saved", 1, save=SAVE)
+    if status:
+        kit.say("checkpoint", False, why(output))
+    elif "has not saved" in output:
+        kit.say("checkpoint", True, "none: the solid saves no state (bind buffers only, or use CoracleCheckpointPath)")
+    else:
+        kit.arguments.set.append(f"resume={kit.scratch}/saved/checkpoint")
+        status, output, _ = kit.run("resumed", 1)
+        kit.arguments.set.pop()
+        if status:
+            kit.say("checkpoint", False, why(output))
+            return
+        kept, again = ([r for r in kit.rows(label) if r["step"] >= SAVE] for label in ("saved", "resumed"))
+        difference = largest_difference(kept, again)
+        kit.say("checkpoint", difference < 1e-9, f"resumed at step {SAVE}: differs by {difference:.2g}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0], usage=__doc__.split("Usage: ")[1].split("\n  ")[0])
+    parser.add_argument("--solid", required=True)
+    parser.add_argument("--bin", default=ROOT + "/build")
+    parser.add_argument("--ranks", type=lambda text: [int(n) for n in text.split(",")], default=[1, 2, 3])
+    parser.add_argument("--timeout", type=float, default=120)
+    parser.add_argument("--set", action="append", default=[])
+    parser.add_argument("case")
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as scratch:
+        kit = Kit(arguments, scratch)
+        if check_steps(kit):
+            check_ranks(kit)
+            check_stop(kit)
+            check_checkpoint(kit)
+    print("conforms" if not kit.failed else f"{kit.failed} checks failed")
+    sys.exit(1 if kit.failed else 0)
+
+
+main()

@@ -1,0 +1,130 @@
+#include "solid/bodies/case_shape.h"
+#include "solid/bodies/shape.h"
+
+enum { KEY = CASE_BODY_KEY };
+
+BodyRepeat CaseReadRepeat(CoracleCase c, int body)
+{
+  BodyRepeat r = {.n = {1, 1}};
+  double n[2];
+  char key[KEY];
+  if (!CoracleCaseVectorOptional(c, BodyKey(key, body, "repeat.n"), 2, n)) return r;
+  for (int k = 0; k < 2; k++) {
+    if (!(n[k] >= 1.0 && n[k] <= 1e6 && n[k] == floor(n[k])))
+      CoracleCaseRefuse(c, key, "expected two integers >= 1");
+    r.n[k] = (int)n[k];
+  }
+  CoracleCaseVector(c, BodyKey(key, body, "repeat.step"), 2, r.step);
+  return r;
+}
+
+/* More than any computer that this is meant for holds: a slip in a size. */
+#define ELEMENTS_MAX 1e7
+
+/* Before the body is made: elements, counted as a double, times how often it is there. */
+static void CheckCount(CoracleCase c, int body, const char *name, double elements)
+{
+  const BodyRepeat r = CaseReadRepeat(c, body);
+  const double bodies = (double)r.n[0] * r.n[1];
+  char key[KEY];
+  if (elements * bodies <= ELEMENTS_MAX) return;
+  CoracleCaseRefuse(c, BodyKey(key, body, elements > ELEMENTS_MAX ? name : "repeat.n"),
+                    "%.3g bodies of about %.3g elements each are more than %g elements", bodies, elements,
+                    ELEMENTS_MAX);
+}
+
+static PetscErrorCode ReadMeshFile(CoracleCase c, int body, MeshSerial *mesh)
+{
+  char key[KEY];
+  const char *path = CoracleCaseFile(c, BodyKey(key, body, "mesh")), *why = NULL;
+  double translate[2] = {0.0, 0.0};
+  PetscFunctionBeginUser;
+  if (MeshReadGmsh(path, mesh, &why)) CoracleCaseRefuse(c, key, "%s", why);
+  CheckCount(c, body, "mesh", mesh->ne);
+  (void)CoracleCaseVectorOptional(c, BodyKey(key, body, "translate"), 2, translate);
+  const double scale = CoracleCaseHas(c, BodyKey(key, body, "scale")) ? CoracleCasePositive(c, key) : 1.0;
+  for (int k = 0; k < 2 * mesh->nv; k++) mesh->x[k] = scale * mesh->x[k] + translate[k % 2];
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ReadRing(CoracleCase c, int body, const double centre[2], double size, MeshSerial *mesh)
+{
+  double inner, outer;
+  char key[KEY];
+  PetscFunctionBeginUser;
+  if (CoracleCaseHas(c, BodyKey(key, body, "radius"))) { /* of the wall's middle */
+    const double radius = CoracleCasePositive(c, key),
+                 thickness = CoracleCasePositive(c, BodyKey(key, body, "thickness"));
+    inner = radius - 0.5 * thickness;
+    outer = radius + 0.5 * thickness;
+  } else {
+    outer = CoracleCasePositive(c, BodyKey(key, body, "outer_radius"));
+    inner = CoracleCasePositive(c, BodyKey(key, body, "inner_radius"));
+  }
+  if (!(inner > 0.0 && inner < outer)) CoracleCaseRefuse(c, key, "the ring has no hole or no wall");
+  CheckCount(c, body, "size", 4.0 * M_PI * outer / size);
+  const double through = PetscMin(1000.0, ceil((outer - inner) / size - 1e-9));
+  const int layers =
+      CoracleCaseIntegerOr(c, BodyKey(key, body, "layers"), PetscMax(1, (int)through), 1, 1000);
+  CheckCount(c, body, "size", 4.0 * M_PI * outer / size * layers);
+  PetscCall(ShapeRing(centre, inner, outer, layers, size, mesh));
+  PetscFunctionReturn(0);
+}
+
+typedef enum { SHAPE_DISC, SHAPE_RECTANGLE, SHAPE_RING, SHAPE_FILE } Shape;
+
+static Shape ReadShapeName(CoracleCase c, int body)
+{
+  static const char *const SHAPES[] = {"disc", "rectangle", "ring", NULL};
+  char key[KEY];
+  return CoracleCaseHas(c, BodyKey(key, body, "mesh"))
+             ? SHAPE_FILE
+             : (Shape)CoracleCaseWord(c, BodyKey(key, body, "shape"), -1, SHAPES);
+}
+
+PetscErrorCode CaseReadShape(CoracleCase c, int body, MeshSerial *mesh)
+{
+  const Shape shape = ReadShapeName(c, body);
+  double centre[2];
+  char key[KEY];
+  PetscFunctionBeginUser;
+  if (shape == SHAPE_FILE) {
+    PetscCall(ReadMeshFile(c, body, mesh));
+    PetscFunctionReturn(0);
+  }
+  CoracleCaseVector(c, BodyKey(key, body, "centre"), 2, centre);
+  const double size = CoracleCasePositive(c, BodyKey(key, body, "size"));
+  if (shape == SHAPE_DISC) {
+    const double radius = CoracleCasePositive(c, BodyKey(key, body, "radius")),
+                 rings = M_PI * radius / (3.0 * size);
+    CheckCount(c, body, "size", 6.0 * rings * rings);
+    PetscCall(ShapeDisc(centre, radius, size, mesh));
+  } else if (shape == SHAPE_RECTANGLE) {
+    const double width = CoracleCasePositive(c, BodyKey(key, body, "width"));
+    const double height = CoracleCasePositive(c, BodyKey(key, body, "height"));
+    const double angle = CoracleCaseNumberOr(c, BodyKey(key, body, "angle"), 0.0, -HUGE_VAL, HUGE_VAL);
+    CheckCount(c, body, "size", 2.0 * (width / size + 1.0) * (height / size + 1.0));
+    PetscCall(ShapeRectangle(centre, width, height, angle, size, mesh));
+  } else {
+    PetscCall(ReadRing(c, body, centre, size, mesh));
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CaseReadStretch(CoracleCase c, int body, const MeshSerial *mesh, BodySetup *setup,
+                               double **position)
+{
+  double centre[2];
+  char key[KEY];
+  PetscFunctionBeginUser;
+  *position = NULL;
+  (void)CoracleCaseVectorOptional(c, BodyKey(key, body, "stretch"), 2, setup->stretch);
+  if (!(setup->stretch[0] > 0.0 && setup->stretch[1] > 0.0))
+    CoracleCaseRefuse(c, key, "expected two numbers > 0");
+  if (!CoracleCaseHas(c, key) || ReadShapeName(c, body) != SHAPE_RING) PetscFunctionReturn(0);
+  CoracleCaseVector(c, BodyKey(key, body, "centre"), 2, centre);
+  PetscCall(PetscMalloc1(2 * (size_t)mesh->nv, position));
+  ShapeRingStretched(centre, setup->stretch, MaterialLaw(&setup->material), mesh, *position);
+  setup->position = *position;
+  PetscFunctionReturn(0);
+}

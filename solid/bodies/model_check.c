@@ -1,0 +1,94 @@
+/* What a body cannot be made of. */
+#include "solid/bodies/model_impl.h"
+#include <stdarg.h>
+#include <stdio.h>
+
+#define FLAT 1e-6 /* area over squared longest edge below which an element is degenerate */
+
+static char why[256];
+
+PetscErrorCode ModelRefuse(const char *format, ...)
+{
+  va_list arguments;
+  va_start(arguments, format);
+  (void)vsnprintf(why, sizeof why, format, arguments);
+  va_end(arguments);
+  return PETSC_ERR_USER_INPUT;
+}
+
+const char *ModelReason(void)
+{
+  return why;
+}
+
+static PetscErrorCode CheckElements(const MeshSerial *m)
+{
+  if (m->ne == 0) return ModelRefuse("the mesh has no triangles");
+  for (int e = 0; e < m->ne; e++) {
+    double longest = 0.0;
+    const double area = 0.5 * TensorDeterminant(TensorOfEdges(ModelVertex(m, e, 0), ModelVertex(m, e, 1),
+                                                              ModelVertex(m, e, 2)));
+    for (int i = 0; i < 3; i++) {
+      const Point d = PointMinus(ModelVertex(m, e, (i + 1) % 3), ModelVertex(m, e, i));
+      longest = fmax(longest, d.x * d.x + d.y * d.y);
+    }
+    if (!(area > FLAT * longest))
+      return ModelRefuse("element %d at (%g, %g) is %s: its area is %g m2", e, ModelVertex(m, e, 0).x,
+                         ModelVertex(m, e, 0).y, area < -FLAT * longest ? "inverted" : "degenerate", area);
+  }
+  return 0;
+}
+
+/* Where the body starts, if that is given. */
+static PetscErrorCode CheckPositions(const MeshSerial *m, const double x[])
+{
+  for (int e = 0; x && e < m->ne; e++) {
+    const int *n = m->vertex + 3 * e;
+    const Point a = PointAt(x, n[0]);
+    if (!(TensorDeterminant(TensorOfEdges(a, PointAt(x, n[1]), PointAt(x, n[2]))) > 0.0))
+      return ModelRefuse("its stretch turns element %d at (%g, %g) inside out", e, a.x, a.y);
+  }
+  return 0;
+}
+
+/* what: "boundary" or "region" */
+static PetscErrorCode CheckName(const char *what, const char *name, int n, char (*known)[64])
+{
+  char all[160] = "";
+  for (int t = 0; t < n; t++) {
+    const size_t used = strlen(all);
+    if (!strcmp(known[t], name)) return 0;
+    (void)snprintf(all + used, sizeof all - used, "%s%s", t ? ", " : "", known[t]);
+  }
+  return ModelRefuse("the body has no %s '%s'; it has %s", what, name, n ? all : "none");
+}
+
+static PetscBool IsRegion(const MeshSerial *m, const char *name)
+{
+  for (int r = 0; r < m->nregions; r++)
+    if (!strcmp(m->region_name[r], name)) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+static PetscErrorCode CheckNames(const MeshSerial *m, const BodySetup *setup)
+{
+  PetscErrorCode code = 0;
+  for (int k = 0; k < setup->nfixed && !code; k++)
+    if (!IsRegion(m, setup->fixed_name[k]))
+      code = CheckName("boundary", setup->fixed_name[k], m->ntags, m->tag_name);
+  for (int k = 0; k < setup->nprescribed && !code; k++)
+    code = CheckName("boundary", setup->prescribed[k].boundary, m->ntags, m->tag_name);
+  for (int k = 0; k < setup->nregions && !code; k++)
+    code = CheckName("region", setup->region[k].region, m->nregions, m->region_name);
+  for (int k = 0; k < setup->joints.nregions && !code; k++)
+    code = CheckName("region", setup->joints.region[k], m->nregions, m->region_name);
+  return code;
+}
+
+PetscErrorCode ModelCheck(const MeshSerial *m, const BodySetup *setup)
+{
+  PetscErrorCode code = CheckElements(m);
+  if (!code) code = CheckPositions(m, setup->position);
+  if (!code) code = CheckNames(m, setup);
+  return code;
+}

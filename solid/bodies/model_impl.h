@@ -1,0 +1,17 @@
+/* Private to the model's files. */
+#ifndef SOLID_MODEL_IMPL_H
+#define SOLID_MODEL_IMPL_H
+#include "solid/bodies/model.h"
+
+/* Returns PETSC_ERR_USER_INPUT, with a reason that ModelReason then has. */
+PetscErrorCode ModelRefuse(const char *format, ...) __attribute__((format(printf, 1, 2)));
+const char *ModelReason(void); /* a static buffer */
+
+/* A mesh and a setup that a body can be made of; else ModelRefuse. */
+PetscErrorCode ModelCheck(const MeshSerial *m, const BodySetup *setup);
+
+static inline Point ModelVertex(const MeshSerial *m, int e, int i)
+{
+  return PointAt(m->x, m->vertex[3 * e + i]);
+}
+#endif

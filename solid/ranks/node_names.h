@@ -1,0 +1,31 @@
+/* Nodes by their gid, which is the same on all ranks and in all partitions.  The rank that has a node for certain follows
+ * from its gid and the partition, which every rank knows; so a request goes straight to that rank. */
+#ifndef SOLID_NODE_NAMES_H
+#define SOLID_NODE_NAMES_H
+#include "solid/solid.h"
+
+typedef struct {
+  long long gid;
+  int node;
+} NodeName;
+
+/* This rank's nodes by gid.  Not collective. */
+typedef struct {
+  Solid s;        /* borrowed */
+  NodeName *name; /* [nnodes] */
+} NodeNames;
+
+PetscErrorCode NodeNamesCreate(Solid s, NodeNames *names);
+int NodeNamesFind(const NodeNames *names, long long gid); /* -1: not here */
+PetscErrorCode NodeNamesDestroy(NodeNames *names);
+
+/* Not collective: of[n], the ranks that have the nodes gid[n] for certain.  The solid has `rebalance`. */
+PetscErrorCode NodeRanks(Solid s, int n, const long long gid[], int of[]);
+
+/* Fills the record of this rank's node. */
+typedef void (*NodeAnswer)(const Solid s, int node, void *record);
+/* Collective: record[n], `bytes` long each, is what a rank that has node gid[k] for certain answers.  The solid has
+ * `rebalance`. */
+PetscErrorCode NodesRequest(Solid s, int n, const long long gid[], size_t bytes, NodeAnswer answer,
+                            void *record);
+#endif

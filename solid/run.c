@@ -1,0 +1,65 @@
+#include "solid/run.h"
+#include "solid/solid_case.h"
+
+PetscErrorCode SolidRunCreate(const Program *program, SolidRun *m)
+{
+  const char *resume = CoracleResumePath(program->client);
+  PetscFunctionBeginUser;
+  *m = (SolidRun){.program = program};
+  PetscCall(SolidFromCase(program->c, program->comm, ProgramFail, (void *)program, &m->solid));
+  if (resume) {
+    PetscCall(CheckpointOpen(program->comm, resume, "solid", &m->from));
+    PetscCall(SolidLoad(m->solid, m->from));
+  }
+  PetscCall(ExchangeCreate(program->client, m->solid, &m->exchange));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SolidRunOpenOutput(SolidRun *m)
+{
+  PetscFunctionBeginUser;
+  PetscCall(WriterCreate(m->program->c, m->program->comm, m->solid, m->from, &m->writer));
+  PetscCall(CheckpointClose(&m->from));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SolidRunSave(const SolidRun *m)
+{
+  const char *folder = CoracleCheckpointPath(m->program->client);
+  Checkpoint to;
+  PetscFunctionBeginUser;
+  if (!folder) PetscFunctionReturn(0);
+  PetscCall(CheckpointCreate(m->program->comm, folder, "solid", &to));
+  PetscCall(SolidSave(m->solid, to));
+  PetscCall(WriterSave(m->writer, m->exchange.waited, to));
+  PetscCall(CheckpointClose(&to));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Report(const Program *program, Solid solid)
+{
+  static const char *const PHASES[] = {"seconds_elements", "seconds_contact", "seconds_exchange",
+                                       "seconds_limit", "seconds_joints"};
+  const CoracleClient client = program->client;
+  const SolidStats *stats = SolidGetStats(solid);
+  SolidView v;
+  PetscFunctionBeginUser;
+  SolidGetView(solid, &v);
+  PetscCall(CoracleReport(client, "elements", v.nelements, 1));
+  PetscCall(CoracleReport(client, "bodies", v.nbodies, 0));
+  PetscCall(CoracleReport(client, "substeps", (double)stats->total, 0));
+  PetscCall(CoracleReport(client, "contact_searches", stats->searches, 0));
+  PetscCall(CoracleReport(client, "rebalanced", stats->rebalanced, 0));
+  PetscCall(ProgramReportSeconds(program, 5, PHASES, stats->seconds));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SolidRunDestroy(SolidRun *m)
+{
+  PetscFunctionBeginUser;
+  PetscCall(Report(m->program, m->solid));
+  PetscCall(WriterDestroy(&m->writer));
+  PetscCall(ExchangeDestroy(&m->exchange));
+  PetscCall(SolidDestroy(&m->solid));
+  PetscFunctionReturn(0);
+}

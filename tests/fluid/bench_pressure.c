@@ -1,0 +1,98 @@
+/* Iterations and time of the pressure's solve while an interface moves through the mesh by half an element a step:
+ * a disc (-shape disc) or a flat layer (-shape flat) of -contrast times the density around it, -h the size; -still: without
+ * moving, the density being set in each step all the same; -constant: without moving, the density set once.
+ * bench_pressure -h 0.02 -contrast 1000 -steps 20 */
+#include "tests/fluid/moving_layer.h"
+#include <time.h>
+
+typedef struct {
+  Layer layer;
+  PetscBool still, constant;
+  int steps;
+} Bench;
+
+typedef struct {
+  double first, step,
+      cpu; /* s: set-up and first step; a later step; the least processor time of one on rank 0 */
+  int iterations, most; /* of the later steps */
+} Cost;
+
+static PetscErrorCode Step(const FluidDomain *d, const Bench *b, int k, ProjectionSolver s,
+                           SolidCoupling none, double rho[], Vec u, Cost *cost)
+{
+  const ProjectionStep step = {0.0, DT, rho, b->constant ? 0 : k + 1, none, NULL, PETSC_FALSE};
+  Vec phi;
+  int iterations;
+  PetscFunctionBeginUser;
+  for (int e = 0; e < d->mesh->ne; e++)
+    rho[e] = LayerDensity(&b->layer, d, e, b->constant || b->still ? 0 : k);
+  PetscCall(LayerFall(d->mesh, u));
+  const double start = MPI_Wtime();
+  const clock_t clock_start = clock();
+  PetscCall(ProjectionSolverSolve(s, &step, u, &phi, &iterations));
+  PetscCall(ProjectionSolverSubtract(s, &step, u));
+  if (k == 0) {
+    cost->first += MPI_Wtime() - start;
+    PetscFunctionReturn(0);
+  }
+  cost->step += (MPI_Wtime() - start) / b->steps;
+  cost->cpu = fmin(cost->cpu, (double)(clock() - clock_start) / CLOCKS_PER_SEC);
+  cost->iterations += iterations;
+  cost->most = PetscMax(cost->most, iterations);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Run(const FluidDomain *d, const Bench *b)
+{
+  ProjectionSolver s;
+  SolidCoupling none;
+  Vec u, p;
+  double *rho;
+  Cost cost = {.cpu = HUGE_VAL};
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(d->mesh->ne, &rho));
+  PetscCall(LayerVectors(d, &u, &p));
+  PetscCall(SolidCouplingCreate(d->mesh->ne, &none));
+  cost.first = -MPI_Wtime();
+  PetscCall(ProjectionSolverCreate(d, p, &s));
+  cost.first += MPI_Wtime();
+  for (int k = 0; k <= b->steps; k++) PetscCall(Step(d, b, k, s, none, rho, u, &cost));
+  PetscCall(PetscPrintf(d->mesh->comm,
+                        "triangles %6d  contrast %4g  iterations %5.1f (at most %d)  set-up and first step "
+                        "%7.1f ms  step %6.1f ms  "
+                        "least processor time %6.1f ms\n",
+                        (int)d->mesh->nglobal, b->layer.contrast, (double)cost.iterations / b->steps,
+                        cost.most, 1e3 * cost.first, 1e3 * cost.step, 1e3 * cost.cpu));
+  PetscCall(ProjectionSolverDestroy(&s));
+  PetscCall(SolidCouplingDestroy(&none));
+  PetscCall(VecDestroy(&u));
+  PetscCall(VecDestroy(&p));
+  PetscCall(PetscFree(rho));
+  PetscFunctionReturn(0);
+}
+
+int main(int argc, char **argv)
+{
+  Bench bench = {{.h = 0.02, .contrast = 1000.0}, .steps = 20};
+  PetscInt steps = 20;
+  char shape[8] = "disc";
+  PetscBool open = PETSC_FALSE;
+  FluidDomain domain;
+  Mesh *mesh;
+  PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
+  PetscCall(PetscOptionsGetReal(NULL, NULL, "-h", &bench.layer.h, NULL));
+  PetscCall(PetscOptionsGetReal(NULL, NULL, "-contrast", &bench.layer.contrast, NULL));
+  PetscCall(PetscOptionsGetInt(NULL, NULL, "-steps", &steps, NULL));
+  PetscCall(PetscOptionsGetString(NULL, NULL, "-shape", shape, sizeof shape, NULL));
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-open", &open, NULL));
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-still", &bench.still, NULL));
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-constant", &bench.constant, NULL));
+  bench.layer.flat = (PetscBool)!strcmp(shape, "flat");
+  bench.steps = (int)steps;
+  PetscCall(LayerDomain(bench.layer.h, open, &mesh, &domain));
+  PetscCall(Run(&domain, &bench));
+  PetscCall(DomainDestroy(&domain));
+  PetscCall(MeshDestroy(&mesh));
+  PetscCall(PetscFinalize());
+  return 0;
+}

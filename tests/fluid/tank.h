@@ -1,0 +1,58 @@
+/* Water below air in a closed box with free-slip walls, on a mesh that knows nothing of the surface. */
+#ifndef TEST_FLUID_TANK_H
+#define TEST_FLUID_TANK_H
+#include "fluid/fluid.h"
+#include "tests/check.h"
+#include "tests/transfer/shaken.h"
+#include <math.h>
+
+#define WATER 1060.0
+#define AIR 1.2
+
+typedef struct {
+  Mesh *mesh;
+  Fluid fluid;
+} Tank;
+
+/* The unit square of n x n shaken cells. */
+static inline PetscErrorCode TankCreate(int n, unsigned seed, double viscosity, int nregions,
+                                        const Region region[], Tank *t)
+{
+  const Shaken shaken = {.n = n, .seed = seed, .radius = 1.0};
+  Boundary boundary[8] = {0};
+  FluidSetup setup = {.theta = 0.5,
+                      .rho = AIR,
+                      .mu = 1.8e-5,
+                      .phases = {.n = 2, .rho = {WATER, AIR}, .mu = {viscosity, 0.018 * viscosity}},
+                      .gravity = {0.0, -9.81},
+                      .cfl = 0.5,
+                      .dt_max = 1.0,
+                      .boundary = boundary};
+  PetscFunctionBeginUser;
+  PetscCall(ShakenMesh(PETSC_COMM_WORLD, &shaken, &t->mesh));
+  for (int b = 0; b < t->mesh->ntags; b++) boundary[b].kind = BOUNDARY_FREE_SLIP;
+  PetscCall(FluidCreate(t->mesh, &setup, &t->fluid));
+  PetscCall(FluidSetPhases(t->fluid, nregions, region));
+  PetscCall(FluidSetInitial(t->fluid, 0.0, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+static inline PetscErrorCode TankDestroy(Tank *t)
+{
+  PetscFunctionBeginUser;
+  PetscCall(FluidDestroy(&t->fluid));
+  PetscCall(MeshDestroy(&t->mesh));
+  PetscFunctionReturn(0);
+}
+
+/* Largest velocity component, m/s, of all elements, or of those that are at least half water. */
+static inline double TankSpeed(const Tank *t, int water)
+{
+  const double *u = FluidVelocity(t->fluid), *rho = FluidDensity(t->fluid);
+  double speed = 0.0;
+  for (int k = 0; k < 6 * t->mesh->ne; k++)
+    if (!water || rho[k / 6] > 0.5 * WATER) speed = fmax(speed, fabs(u[k]));
+  MPI_Allreduce(MPI_IN_PLACE, &speed, 1, MPI_DOUBLE, MPI_MAX, t->mesh->comm);
+  return speed;
+}
+#endif
