@@ -15,9 +15,9 @@ struct PressurePreconditioner_s {
   PetscBool pinned;          /* this rank has the vertex that makes A1 definite in a closed domain */
   KSP solver;                /* of A1 */
   Vec residual, r1, z1;
-  int setup;  /* iterations of CG that cost as much as the set-up of a coarse solver */
-  int fresh;  /* iterations of the first solve with the coarse solver; -1: it has not been used yet */
-  int excess; /* iterations above that since then */
+  int setup;           /* iterations of CG that cost as much as the set-up of a coarse solver */
+  int fresh;           /* least iterations with the coarse solver; -1: it has not been used yet */
+  int excess;          /* iterations above that since then */
   double *coefficient; /* [ne] sum of the diagonal of an element's part of A1, when the solver was set up */
 };
 
@@ -232,7 +232,7 @@ PetscErrorCode PressurePreconditionerUpdate(PressurePreconditioner p, const doub
 PetscErrorCode PressurePreconditionerCount(PressurePreconditioner p, int iterations)
 {
   PetscFunctionBeginUser;
-  if (p->fresh < 0) p->fresh = iterations;
+  if (p->fresh < 0 || iterations < p->fresh) p->fresh = iterations;
   p->excess += iterations - p->fresh;
   PetscFunctionReturn(0);
 }
