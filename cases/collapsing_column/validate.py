@@ -22,7 +22,7 @@ def size(le, dt, error):
     return ["fluid.adapt.size_min=%g" % le, "time.dt_max=%g" % dt, "fluid.adapt.velocity_error=%g" % error]
 
 
-COARSE = size(0.008, 0.001, 0.1)
+COARSE = size(0.008, 0.001, 0.1) + ["time.end=0.65"]
 # name: (keys other than case.yaml's, ranks)
 RUNS = {
     "le-0.008": (COARSE, "1:1:1"),
