@@ -1,5 +1,5 @@
 // ranks: 1 2 3
-/* The first mesh is fine along an interface, also where the given mesh has its faces there and no element is cut. */
+/* The first mesh is fine along an interface, also where the mesh of the case has its faces there and no element is cut. */
 #include "fluid/adaptation.h"
 #include "tests/check.h"
 
@@ -43,22 +43,22 @@ static PetscErrorCode CheckLevel(double level)
   const AdaptationStart start = {.nphases = 2, .nregions = 2, .region = region};
   double size = 0.25, longest;
   MeshSerial serial = {0};
-  Mesh *given, *mesh;
+  Mesh *start_mesh, *mesh;
   Adaptation adaptation;
   PetscMPIInt rank;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
   if (rank == 0) PetscCall(MeshBox(LOWER, UPPER, size, Uniform, &size, &serial));
-  PetscCall(MeshDistribute(PETSC_COMM_WORLD, &serial, &given));
+  PetscCall(MeshDistribute(PETSC_COMM_WORLD, &serial, &start_mesh));
   PetscCall(MeshSerialDestroy(&serial));
   PetscCall(AdaptationCreate(&setup, &adaptation));
-  PetscCall(AdaptationFirstMesh(adaptation, given, &start, &mesh));
+  PetscCall(AdaptationFirstMesh(adaptation, start_mesh, &start, &mesh));
   longest = LongestEdge(mesh, level);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &longest, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD));
   CHECK(longest < 2.5 * SIZE, "an edge of %g m at the interface y = %g, %g was asked for", longest, level,
         SIZE);
   PetscCall(AdaptationDestroy(&adaptation));
-  PetscCall(MeshDestroy(&given));
+  PetscCall(MeshDestroy(&start_mesh));
   PetscCall(MeshDestroy(&mesh));
   PetscFunctionReturn(0);
 }
