@@ -41,8 +41,8 @@ RUNS = {
     "ranks-3": (COARSE, "3:2:3"),
     "gate-1.5": (COARSE + gate(1.5), "1:1:1"),
     "gate-0.75": (COARSE + gate(0.75), "1:1:1"),
-    "friction-0.1": (COARSE + ["solid.walls.friction=0.1"], "1:1:1"),
-    "friction-0.2": (COARSE + ["solid.walls.friction=0.2"], "1:1:1"),
+    "friction-0.1": (COARSE + ["solid.materials.square.friction=0.1"], "1:1:1"),
+    "friction-0.2": (COARSE + ["solid.materials.square.friction=0.2"], "1:1:1"),
 }
 
 
