@@ -22,7 +22,16 @@ def size(le, dt, error):
     return ["fluid.adapt.size_min=%g" % le, "time.dt_max=%g" % dt, "fluid.adapt.velocity_error=%g" % error]
 
 
-COARSE = size(0.008, 0.001, 0.1)
+COARSE = size(0.008, 0.001, 0.1) + ["time.end=0.65"]
+
+
+def gate(speed):
+    """A plate 12 mm thick beside the column, 1 mm above the floor, drawn up through the open top at this speed, m/s."""
+    sides = ", ".join("{boundary: %s, velocity: [0, %g]}" % (side, speed) for side in ("left", "right", "top", "bottom"))
+    return ["solid.bodies[1]={shape: rectangle, centre: [0.156, 0.2], width: 0.012, height: 0.398, size: 0.012, material: square, "
+            "prescribed: [%s]}" % sides]
+
+
 # name: (keys other than case.yaml's, ranks)
 RUNS = {
     "le-0.008": (COARSE, "1:1:1"),
@@ -30,8 +39,10 @@ RUNS = {
     "le-0.002": (size(0.002, 0.00025, 0.03), "2:1:1"),
     "ranks-2": (COARSE, "2:1:2"),
     "ranks-3": (COARSE, "3:2:3"),
-    "friction-0.1": (COARSE + ["solid.walls.friction=0.1"], "1:1:1"),
-    "friction-0.2": (COARSE + ["solid.walls.friction=0.2"], "1:1:1"),
+    "gate-1.5": (COARSE + gate(1.5), "1:1:1"),
+    "gate-0.75": (COARSE + gate(0.75), "1:1:1"),
+    "friction-0.1": (COARSE + ["solid.materials.square.friction=0.1"], "1:1:1"),
+    "friction-0.2": (COARSE + ["solid.materials.square.friction=0.2"], "1:1:1"),
 }
 
 

@@ -9,7 +9,7 @@ import sys
 
 import matplotlib.pyplot as plt
 
-from floating import PAPER, Floating  # puts scripts/ on the path
+from floating import AFLOAT, SINKING, Floating  # puts scripts/ on the path
 import phases
 
 TIMES = (0.0, 0.15, 0.255, 0.4, 0.705, 0.91, 1.2, 1.4)  # s
@@ -21,8 +21,8 @@ def draw_motion(run, path):
     left.plot(run.solid_t, run.y, label="y")
     left.plot(run.t, run.wall, color="0.6", linewidth=0.8, label="water at the right wall")
     right.plot(run.times, run.wet, "o-", markersize=3, label="part of the faces that is wet")
-    right.axhline(0.5, color="0.7")
-    right.axvline(PAPER["half sunk"], color="0.7", linestyle="--", label="half sunk, paper")
+    right.axhline(AFLOAT, color="0.7", label="afloat")
+    right.axvline(SINKING, color="0.7", linestyle="--", label="nearly half sunk, paper")
     left.set(xlabel="t [s]", ylabel="[m]")
     right.set(xlabel="t [s]", ylim=(0.0, 1.0))
     for axis in (left, right):

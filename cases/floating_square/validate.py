@@ -61,11 +61,11 @@ def results(names):
 
 
 def table(there):
-    yield "| run | " + " | ".join("%s, %.3f s" % (what, t) for what, t in PAPER.items()) + \
+    yield "| run | wet at 0.150 s | afloat [s] | " + " | ".join("%s, %.3f s" % (what, t) for what, t in PAPER.items()) + \
           " | square at 0.35 s [m] | water lost | imbalance | iterations | triangles | steps | CPU s | wall s |"
-    yield "|" + "---|" * (9 + len(PAPER))
+    yield "|" + "---|" * (11 + len(PAPER))
     for name, r in there.items():
-        yield "| " + " | ".join([name, *("%.3f" % r.measured[what] for what in PAPER), "(%.3f, %.3f)" % r.at(0.35), "%.0e" % r.lost,
+        yield "| " + " | ".join([name, "%.2f" % r.sinking, "%.3f" % r.afloat, *("%.3f" % r.measured[what] for what in PAPER), "(%.3f, %.3f)" % r.at(0.35), "%.0e" % r.lost,
                                  "%.0e" % r.summary["largest_momentum_imbalance"], "%.2f" % r.passes, str(r.triangles), str(r.steps),
                                  "%.0f" % r.cpu, "%.0f" % r.wall_clock]) + " |"
 
