@@ -14,6 +14,8 @@ typedef struct {
   double tolerance;          /* of the coupling iterations, relative (coupling_iteration.h) */
   CouplerOptions options;
   GaugesCase gauges;
+  int argc; /* the command line, borrowed: program, case file, settings */
+  char **argv;
 } CouplerCase;
 
 /* Any rank; a wrong value ends the job. */

@@ -40,6 +40,8 @@ int main(int argc, char **argv)
   if (command != COMMAND_RUN) return CouplerAnswer(command, argc, argv);
   PetscCall(ProgramStart("coupler", argc, argv, &program));
   PetscCall(CouplerCaseRead(program.c, &c));
+  c.argc = argc;
+  c.argv = argv;
   PetscCall(Run(program.server, &c));
   return ProgramEnd(&program);
 }

@@ -1,4 +1,5 @@
 #include "common/output/folder.h"
+#include "coupler/case_copy.h"
 #include "coupler/run_state.h"
 
 enum { MONITOR_NUMBERS = 7 };
@@ -8,9 +9,12 @@ PetscErrorCode RunOpenOutput(RunState *run)
   TimeLoop *loop = run->loop;
   const char *resume = ServerResumePath(loop->server), *folder = loop->c->folder;
   const PetscBool resumes = resume ? FolderHolds(PETSC_COMM_WORLD, folder, resume) : PETSC_FALSE;
+  CaseCopy copy;
 
   PetscFunctionBeginUser;
+  PetscCall(CaseCopyTake(loop->c, &copy));
   PetscCall(ClaimFolder(PETSC_COMM_WORLD, folder, resumes, &loop->claim));
+  PetscCall(CaseCopyWrite(loop->server, loop->c, &copy));
   PetscCall(CheckpointsCreate(PETSC_COMM_WORLD, loop->server, loop->c, &run->checkpoints));
   PetscCall(WriterCreate(PETSC_COMM_WORLD, loop->c, loop->from, &loop->writer));
   PetscFunctionReturn(0);

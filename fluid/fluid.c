@@ -94,11 +94,11 @@ PetscErrorCode FluidSetCoupling(Fluid f, int n, const CoracleCoupling coupling[]
 {
   return SolidCouplingSet(f->solid, n, coupling);
 }
-
-/* u* = u at t + dt, the solver's first guess, and the mass flux rho u at t + theta dt, both extrapolated. */
+/* u* = u at t + dt, the solver's first guess, and the mass flux rho u at t + theta dt, both extrapolated by at most two of
+ * the last step. */
 static PetscErrorCode Extrapolate(Fluid f, double dt)
 {
-  const double r = f->dt_previous > 0.0 ? dt / f->dt_previous : 0.0,
+  const double r = f->dt_previous > 0.0 ? fmin(dt / f->dt_previous, 2.0) : 0.0,
                s = (f->phases ? 0.5 : f->setup.theta) * r;
   const double *rho = MaterialDensity(f->material, MATERIAL_STEP);
   PetscScalar *flux;

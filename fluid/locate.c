@@ -65,7 +65,7 @@ static PetscErrorCode Collect(void *context, int point, int element, const doubl
   PetscFunctionReturn(0);
 }
 
-static PetscBool InBounds(const Mesh *m, const double x[2])
+PetscBool LocateInBounds(const Mesh *m, const double x[2])
 {
   for (int c = 0; c < 2; c++) {
     const double margin = EQUAL * (m->upper[c] - m->lower[c]);
@@ -89,7 +89,7 @@ PetscErrorCode PlacesLocate(const Mesh *m, int n, const double x[][2], Places *p
   PetscCall(ForEach(m, n, x, Collect, &(Collector){p, best, count}));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, count, n, MPI_DOUBLE, MPI_SUM, m->comm));
   for (int k = 0; k < p->n; k++) p->place[k].share = 1.0 / count[p->place[k].point];
-  for (int k = 0; k < n; k++) p->outside[k] = best[k] < -LOCATE_REACH || !InBounds(m, x[k]) ? 1.0 : 0.0;
+  for (int k = 0; k < n; k++) p->outside[k] = best[k] < -LOCATE_REACH || !LocateInBounds(m, x[k]) ? 1.0 : 0.0;
   PetscCall(PetscFree(best));
   PetscCall(PetscFree(count));
   PetscFunctionReturn(0);

@@ -21,6 +21,8 @@ typedef struct {
   double *outside; /* [npoints] 0, or 1: not in the mesh */
 } Places;
 
+/* Not collective: whether x is in the bounding box of the whole mesh. */
+PetscBool LocateInBounds(const Mesh *mesh, const double x[2]);
 /* Collective: makes the places of x[n][2] anew; all of *places 0 before the first call. */
 PetscErrorCode PlacesLocate(const Mesh *mesh, int n, const double x[][2], Places *places);
 PetscErrorCode PlacesFree(Places *places);

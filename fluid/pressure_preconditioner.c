@@ -3,7 +3,8 @@
 #include <limits.h>
 #include <math.h>
 
-#define FACTOR_MAX 40000 /* vertices, from which on multigrid is cheaper than a factor */
+#define FACTOR_MAX 40000 /* vertices times ranks, from which on multigrid is cheaper than a factor */
+#define CHANGE_MAX 4.0   /* of an element, as a factor: what an old coarse solver is good for */
 
 struct PressurePreconditioner_s {
   const FluidDomain *domain; /* borrowed */
@@ -14,10 +15,10 @@ struct PressurePreconditioner_s {
   PetscBool pinned;          /* this rank has the vertex that makes A1 definite in a closed domain */
   KSP solver;                /* of A1 */
   Vec residual, r1, z1;
-  int setup;         /* iterations of CG that cost as much as the set-up of a coarse solver */
-  int fresh;         /* iterations of the first solve with the coarse solver; -1: it has not been used yet */
-  int excess;        /* iterations above that since then */
-  PetscBool changes; /* so much from step to step that the coarse solver is made anew in each */
+  int setup;  /* iterations of CG that cost as much as the set-up of a coarse solver */
+  int fresh;  /* iterations of the first solve with the coarse solver; -1: it has not been used yet */
+  int excess; /* iterations above that since then */
+  double *coefficient; /* [ne] sum of the diagonal of an element's part of A1, when the solver was set up */
 };
 
 static PetscErrorCode CreateExtension(PressurePreconditioner p, const char is_fixed[])
@@ -89,13 +90,15 @@ static PetscErrorCode CreateCoarse(PressurePreconditioner p, const char is_fixed
 static PetscErrorCode CreateSolver(PressurePreconditioner p)
 {
   PetscInt size;
+  PetscMPIInt ranks;
   PC pc;
   PetscFunctionBeginUser;
   PetscCall(MatGetSize(p->coarse, &size, NULL));
-  p->setup = (int)PetscMin(sqrt((double)size) / 30.0, 6.0);
+  PetscCallMPI(MPI_Comm_size(p->domain->mesh->comm, &ranks));
+  p->setup = (int)PetscMin(sqrt((double)size) / 25.0, 6.0);
   PetscCall(SolverCreateDirect(p->domain->mesh->comm, "pressure_coarse_", KSPPREONLY, &p->solver));
 #if defined(PETSC_HAVE_HYPRE)
-  if (size > FACTOR_MAX) {
+  if (size * ranks > FACTOR_MAX) { /* multigrid is distributed, a factor is not */
     PetscCall(KSPGetPC(p->solver, &pc));
     PetscCall(PCSetType(pc, PCHYPRE));
     PetscCall(PCHYPRESetType(pc, "boomeramg"));
@@ -145,6 +148,7 @@ PetscErrorCode PressurePreconditionerCreate(const FluidDomain *domain, const cha
   p->domain = domain;
   p->fresh = -1;
   p->excess = INT_MAX;
+  PetscCall(PetscMalloc1(domain->mesh->ne, &p->coefficient));
   p->pinned = (PetscBool)(closed && domain->mesh->nv_owned > 0 && domain->mesh->vstart == 0);
   PetscCall(UseShell(p, ksp));
   PetscCall(CreateExtension(p, is_fixed));
@@ -167,6 +171,7 @@ PetscErrorCode PressurePreconditionerDestroy(PressurePreconditioner *preconditio
   PetscCall(VecDestroy(&p->residual));
   PetscCall(VecDestroy(&p->r1));
   PetscCall(VecDestroy(&p->z1));
+  PetscCall(PetscFree(p->coefficient));
   PetscCall(PetscFree(*preconditioner));
   PetscFunctionReturn(0);
 }
@@ -183,20 +188,44 @@ static void Coarsen(const double b[36], double b1[9])
       b1[3 * i + j] = half[i][j] + 0.5 * (half[3 + (i + 1) % 3][j] + half[3 + (i + 2) % 3][j]);
 }
 
+/* The largest factor by which an element's coefficient has changed since the coarse solver was set up. */
+static PetscErrorCode LargestChange(PressurePreconditioner p, const double coarse[][9], double *change)
+{
+  PetscFunctionBeginUser;
+  *change = 1.0;
+  for (int e = 0; e < p->domain->mesh->ne; e++) {
+    const double ratio = (coarse[e][0] + coarse[e][4] + coarse[e][8]) / p->coefficient[e];
+    *change = PetscMax(*change, PetscMax(ratio, 1.0 / ratio));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, change, 1, MPI_DOUBLE, MPI_MAX, p->domain->mesh->comm));
+  PetscFunctionReturn(0);
+}
+
+/* A1 from its elements' parts, followed by the values of single rows. */
+static PetscErrorCode SetCoarse(PressurePreconditioner p, double coarse[][9])
+{
+  const int ne = p->domain->mesh->ne;
+  double *single = coarse[ne];
+  PetscFunctionBeginUser;
+  for (int k = 0; k < p->nfixed; k++) single[k] = 1.0;
+  if (p->pinned) single[p->nfixed] = coarse[0][0];
+  for (int e = 0; e < ne; e++) p->coefficient[e] = coarse[e][0] + coarse[e][4] + coarse[e][8];
+  PetscCall(MatSetValuesCOO(p->coarse, coarse[0], INSERT_VALUES));
+  p->fresh = -1;
+  p->excess = 0;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PressurePreconditionerUpdate(PressurePreconditioner p, const double block[][36])
 {
   const int ne = p->domain->mesh->ne;
-  double *value;
+  double(*coarse)[9], change = HUGE_VAL;
   PetscFunctionBeginUser;
-  if (!p->changes && p->excess <= p->setup) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc1(9 * ne + p->nfixed + 1, &value));
-  for (int e = 0; e < ne; e++) Coarsen(block[e], value + 9 * e);
-  for (int k = 0; k < p->nfixed; k++) value[9 * ne + k] = 1.0;
-  if (p->pinned) value[9 * ne + p->nfixed] = value[0];
-  PetscCall(MatSetValuesCOO(p->coarse, value, INSERT_VALUES));
-  PetscCall(PetscFree(value));
-  p->fresh = -1;
-  p->excess = 0;
+  PetscCall(PetscMalloc1(ne + p->nfixed / 9 + 1, &coarse));
+  for (int e = 0; e < ne; e++) Coarsen(block[e], coarse[e]);
+  if (p->excess <= p->setup) PetscCall(LargestChange(p, (const double(*)[9])coarse, &change));
+  if (change > CHANGE_MAX) PetscCall(SetCoarse(p, coarse));
+  PetscCall(PetscFree(coarse));
   PetscFunctionReturn(0);
 }
 
@@ -205,6 +234,5 @@ PetscErrorCode PressurePreconditionerCount(PressurePreconditioner p, int iterati
   PetscFunctionBeginUser;
   if (p->fresh < 0) p->fresh = iterations;
   p->excess += iterations - p->fresh;
-  p->changes |= iterations - p->fresh > 2 * p->setup;
   PetscFunctionReturn(0);
 }

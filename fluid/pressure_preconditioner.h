@@ -8,9 +8,9 @@
  * E: a P1 function's values at the P2 nodes.  Both spaces see the same coefficients on the same elements, so
  * that the iterations know neither their contrast nor the size of the elements: 6 to 8 of CG for 1e-7.
  *
- * A1 has a quarter of the unknowns and is factored or, where it is large, solved by algebraic multigrid
- * (prefix pressure_coarse_).  That is done again when the matrix as it was then has cost as many iterations more as the
- * set-up takes time for. */
+ * A1 has a quarter of the unknowns and is factored on one rank or, where it is large, solved by algebraic multigrid on all
+ * (prefix pressure_coarse_).  That is done again when an element's coefficient has changed by a factor, or when
+ * the old one has cost as many iterations more as the set-up takes time for. */
 #ifndef FLUID_PRESSURE_PRECONDITIONER_H
 #define FLUID_PRESSURE_PRECONDITIONER_H
 #include "fluid/domain.h"

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const KINDS[] = {"point", "line", "solid_point", NULL};
+static const char *const KINDS[] = {"point", "line", "solid_point", "surface", NULL};
 
 static const char *Key(int k, const char *what)
 {
@@ -27,7 +27,8 @@ static ProbeKind ReadKind(CoracleCase c, int k)
     n++;
   }
   if (n != 1)
-    CoracleCaseRefuse(c, Key(k, ""), "expected one of point, line, solid_point, found %d of them", n);
+    CoracleCaseRefuse(c, Key(k, ""), "expected one of point, line, solid_point, surface, found %d of them",
+                      n);
   return (ProbeKind)kind;
 }
 
@@ -65,25 +66,49 @@ static double ReadDistance(CoracleCase c, int k)
                              HUGE_VAL);
 }
 
+static void ReadEnds(CoracleCase c, int k, Probe *p)
+{
+  const PetscBool line = (PetscBool)(p->kind == PROBE_LINE);
+  CoracleCaseVector(c, Key(k, line ? "line.from" : "surface.from"), 2, p->from);
+  CoracleCaseVector(c, Key(k, line ? "line.to" : "surface.to"), 2, p->to);
+}
+
+/* Where probe k of this kind is. */
+static void ReadPlace(CoracleCase c, const PhaseNames *names, ProbeCase *list, int k)
+{
+  Probe *p = &list->probe[k];
+  if (p->kind == PROBE_LINE || p->kind == PROBE_SURFACE)
+    ReadEnds(c, k, p);
+  else
+    CoracleCaseVector(c, Key(k, KINDS[p->kind]), 2, p->from);
+  switch (p->kind) {
+  case PROBE_LINE:
+    p->n = CoracleCaseIntegerOr(c, Key(k, "line.points"), 51, 2, PROBE_POINTS_MAX);
+    AddFixed(c, list, k);
+    break;
+  case PROBE_POINT:
+    AddFixed(c, list, k);
+    break;
+  case PROBE_GAUGE:
+    p->distance = ReadDistance(c, k);
+    p->first = list->ngauges++;
+    break;
+  case PROBE_SURFACE:
+    if (!list->nphases) CoracleCaseRefuse(c, Key(k, "surface"), "there are no phases: expected fluid.phases");
+    p->phase = PhaseCaseIndex(c, Key(k, "surface.phase"), names);
+    break;
+  }
+}
+
 void ProbeCaseRead(CoracleCase c, ProbeCase *list)
 {
-  *list = (ProbeCase){.n = CoracleCaseCount(c, "fluid.probes")};
+  PhaseNames names;
+  PhaseProperties properties;
+  PhaseCaseRead(c, &names, &properties);
+  *list = (ProbeCase){.n = CoracleCaseCount(c, "fluid.probes"), .nphases = properties.n};
   if (list->n > PROBES_MAX) CoracleCaseRefuse(c, "fluid.probes", "more than %d probes", PROBES_MAX);
   for (int k = 0; k < list->n; k++) {
-    Probe *p = &list->probe[k];
-    *p = (Probe){.kind = ReadKind(c, k), .name = ReadName(c, list, k), .n = 1};
-    if (p->kind == PROBE_LINE) {
-      CoracleCaseVector(c, Key(k, "line.from"), 2, p->from);
-      CoracleCaseVector(c, Key(k, "line.to"), 2, p->to);
-      p->n = CoracleCaseIntegerOr(c, Key(k, "line.points"), 51, 2, PROBE_POINTS_MAX);
-    } else {
-      CoracleCaseVector(c, Key(k, KINDS[p->kind]), 2, p->from);
-    }
-    if (p->kind == PROBE_GAUGE) {
-      p->distance = ReadDistance(c, k);
-      p->first = list->ngauges++;
-    } else {
-      AddFixed(c, list, k);
-    }
+    list->probe[k] = (Probe){.kind = ReadKind(c, k), .name = ReadName(c, list, k), .n = 1};
+    ReadPlace(c, &names, list, k);
   }
 }

@@ -2,25 +2,29 @@
  *
  *   {name, point: [x, y]}                   a point, also on a wall
  *   {name, line: {from, to, points}}        as many points, evenly spaced, numbered from 0
- *   {name, solid_point: [x, y], distance}   a pressure gauge on a solid, which follows it; where it is as the run starts */
+ *   {name, solid_point: [x, y], distance}   a pressure gauge on a solid, which follows it; where it is as the run starts
+ *   {name, surface: {from, to, phase}}      where along a segment the phase is */
 #ifndef FLUID_PROBE_CASE_H
 #define FLUID_PROBE_CASE_H
 #include "common/link/case_file.h"
+#include "fluid/phase_case.h"
 
 enum { PROBES_MAX = 64, PROBE_POINTS_MAX = 1000 };
 
-typedef enum { PROBE_POINT, PROBE_LINE, PROBE_GAUGE } ProbeKind;
+typedef enum { PROBE_POINT, PROBE_LINE, PROBE_GAUGE, PROBE_SURFACE } ProbeKind;
 
 typedef struct {
   ProbeKind kind;
   const char *name;      /* of the case */
   int first, n;          /* its points: of the fixed ones, or its number among the gauges */
   double from[2], to[2]; /* m */
+  int phase;             /* of a surface */
   double distance;       /* m, from the solid's face to where a gauge's pressure is taken */
 } Probe;
 
 typedef struct {
   int n, nfixed, ngauges;
+  int nphases; /* 0: one fluid */
   Probe probe[PROBES_MAX];
   double fixed[PROBE_POINTS_MAX][2]; /* m */
 } ProbeCase;

@@ -3,16 +3,16 @@
 #include "common/space/p2.h"
 #include "fluid/locate.h"
 #include "fluid/probe_case.h"
+#include "fluid/surface_gauge.h"
 #include <stdio.h>
 
-enum { VALUES = 3, COLUMN_LENGTH = SERIES_NAME_MAX + 20 }; /* u, v, p of a point */
+enum { VALUES = 4, FOLLOWING = 3, COLUMN_LENGTH = SERIES_NAME_MAX + 24 }; /* of a point: u, v, p, rho */
 
 struct Probes_s {
   MPI_Comm comm;
   ProbeCase list;
   Places fixed, moving;
   Series series;
-  int ncolumns;
 };
 
 /* --- values --------------------------------------------------------------------------------------------- */
@@ -21,7 +21,7 @@ struct Probes_s {
 static PetscErrorCode Values(const Places *places, Fluid fluid, double value[][VALUES])
 {
   const Mesh *m = FluidMesh(fluid);
-  const double *u = FluidVelocity(fluid), *p = FluidPressure(fluid);
+  const double *u = FluidVelocity(fluid), *p = FluidPressure(fluid), *rho = FluidDensity(fluid);
   const int *node = FluidPressureSpace(fluid)->node;
   PetscFunctionBeginUser;
   PetscCall(PetscArrayzero(&value[0][0], VALUES * (size_t)places->npoints));
@@ -32,6 +32,7 @@ static PetscErrorCode Values(const Places *places, Fluid fluid, double value[][V
     for (int c = 0; c < 2; c++)
       for (int i = 0; i < 3; i++) sum[c] += at->share * at->n[i] * u[6 * at->element + 3 * c + i];
     sum[2] += at->share * P2Evaluate(nodal, at->n);
+    sum[3] += at->share * rho[at->element];
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, value, VALUES * places->npoints, MPI_DOUBLE, MPI_SUM, m->comm));
   for (int k = 0; k < places->npoints; k++)
@@ -55,25 +56,44 @@ static PetscErrorCode GaugeValues(Probes p, Fluid fluid, const CoracleGauge gaug
   PetscFunctionReturn(0);
 }
 
+/* The numbers of a point in a row. */
+static int Width(const Probes p, const Probe *probe)
+{
+  return probe->kind == PROBE_POINT || probe->kind == PROBE_LINE ? 3 + (p->list.nphases > 0) : FOLLOWING;
+}
+
+static PetscErrorCode SurfaceValues(const Probe *probe, Fluid fluid, double value[FOLLOWING])
+{
+  SurfacePlace place;
+  PetscFunctionBeginUser;
+  PetscCall(SurfaceMeasure(PhaseTransportPhases(FluidPhases(fluid)), FluidMesh(fluid), probe->phase,
+                           probe->from, probe->to, &place));
+  value[0] = place.first;
+  value[1] = place.last;
+  value[2] = place.length;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode ProbesStep(Probes p, Fluid fluid, int n, const CoracleGauge gauge[])
 {
   double fixed[PROBE_POINTS_MAX][VALUES], moving[PROBES_MAX][VALUES],
       row[1 + VALUES * (PROBE_POINTS_MAX + PROBES_MAX)];
-  int column = 0;
+  double *next = row;
   PetscFunctionBeginUser;
   if (!p) PetscFunctionReturn(0);
   PetscCheck(n == p->list.ngauges, p->comm, PETSC_ERR_PLIB,
              "the coupler gives %d gauges on the solid, the case has %d", n, p->list.ngauges);
   PetscCall(Values(&p->fixed, fluid, fixed));
   if (n) PetscCall(GaugeValues(p, fluid, gauge, moving));
-  row[column++] = FluidGetStats(fluid)->t;
+  *next++ = FluidGetStats(fluid)->t;
   for (int k = 0; k < p->list.n; k++) {
     const Probe *probe = &p->list.probe[k];
     const PetscBool follows = (PetscBool)(probe->kind == PROBE_GAUGE);
     double(*value)[VALUES] = follows ? moving + probe->first : fixed + probe->first;
     if (follows) PetscCall(PetscArraycpy(value[0], gauge[probe->first].x, 2));
-    PetscCall(PetscArraycpy(row + column, value[0], VALUES * (size_t)probe->n));
-    column += VALUES * probe->n;
+    if (probe->kind == PROBE_SURFACE) PetscCall(SurfaceValues(probe, fluid, next));
+    for (int i = 0; i < probe->n; i++, next += Width(p, probe))
+      if (probe->kind != PROBE_SURFACE) PetscCall(PetscArraycpy(next, value[i], (size_t)Width(p, probe)));
   }
   PetscCall(SeriesRow(p->series, row));
   PetscFunctionReturn(0);
@@ -88,19 +108,22 @@ PetscErrorCode ProbesNewMesh(Probes p, const Mesh *mesh)
   PetscFunctionReturn(0);
 }
 
-/* A probe with a point outside of the mesh is an error of the case. */
+static void Refuse(Probes p, CoracleCase c, const Mesh *m, int k, const double x[2])
+{
+  CoracleCaseRefuse(c, ProbeCaseKey(&p->list, k),
+                    "expected what lies in the mesh, (%g, %g) does not; the mesh is in [%g, %g] x [%g, %g]",
+                    x[0], x[1], m->lower[0], m->upper[0], m->lower[1], m->upper[1]);
+}
+
+/* A probe with a point outside of the mesh is an error of the case; of a surface, with an end out of its bounds. */
 static void Check(Probes p, CoracleCase c, const Mesh *m)
 {
   for (int k = 0; k < p->list.n; k++) {
     const Probe *probe = &p->list.probe[k];
-    for (int i = 0; probe->kind != PROBE_GAUGE && i < probe->n; i++) {
-      const double *x = p->list.fixed[probe->first + i];
-      if (p->fixed.outside[probe->first + i] > 0.0)
-        CoracleCaseRefuse(
-            c, ProbeCaseKey(&p->list, k),
-            "expected what lies in the mesh, (%g, %g) does not; the mesh is in [%g, %g] x [%g, %g]", x[0],
-            x[1], m->lower[0], m->upper[0], m->lower[1], m->upper[1]);
-    }
+    if (probe->kind == PROBE_SURFACE && !LocateInBounds(m, probe->from)) Refuse(p, c, m, k, probe->from);
+    if (probe->kind == PROBE_SURFACE && !LocateInBounds(m, probe->to)) Refuse(p, c, m, k, probe->to);
+    for (int i = 0; (probe->kind == PROBE_POINT || probe->kind == PROBE_LINE) && i < probe->n; i++)
+      if (p->fixed.outside[probe->first + i] > 0.0) Refuse(p, c, m, k, p->list.fixed[probe->first + i]);
   }
 }
 
@@ -121,16 +144,17 @@ PetscErrorCode ProbesCreate(CoracleCase c, const Mesh *mesh, Probes *probes)
   PetscFunctionReturn(0);
 }
 
-/* The columns of point i of a probe: names[VALUES] are u, v, p or x, y, p with their units. */
-static void AddColumns(const Probe *probe, int i, char **end)
+/* The columns of point i of a probe. */
+static void AddColumns(const Probes p, const Probe *probe, int i, char **end)
 {
-  static const char *const FLOW[VALUES] = {"u [m/s]", "v [m/s]", "p [Pa]"}, *const GAUGE[VALUES] = {
-                                                                                "x [m]", "y [m]", "p [Pa]"};
+  static const char *const FLOW[] = {"u [m/s]", "v [m/s]", "p [Pa]", "rho [kg/m3]"},
+                           *const GAUGE[] = {"x [m]", "y [m]", "p [Pa]"},
+                           *const SURFACE[] = {"first [m]", "last [m]", "length [m]"};
+  static const char *const *const COLUMNS[] = {FLOW, FLOW, GAUGE, SURFACE};
   char number[16] = "";
   if (probe->kind == PROBE_LINE) (void)snprintf(number, sizeof number, "%d", i);
-  for (int k = 0; k < VALUES; k++)
-    *end += snprintf(*end, COLUMN_LENGTH, ",%s%s_%s", probe->name, number,
-                     (probe->kind == PROBE_GAUGE ? GAUGE : FLOW)[k]);
+  for (int k = 0; k < Width(p, probe); k++)
+    *end += snprintf(*end, COLUMN_LENGTH, ",%s%s_%s", probe->name, number, COLUMNS[probe->kind][k]);
 }
 
 PetscErrorCode ProbesOpen(Probes p, CoracleCase c, Checkpoint from)
@@ -138,11 +162,10 @@ PetscErrorCode ProbesOpen(Probes p, CoracleCase c, Checkpoint from)
   char *columns, *end;
   PetscFunctionBeginUser;
   if (!p) PetscFunctionReturn(0);
-  PetscCall(
-      PetscMalloc1(COLUMN_LENGTH * (1 + VALUES * (size_t)(p->list.nfixed + p->list.ngauges)), &columns));
+  PetscCall(PetscMalloc1(COLUMN_LENGTH * (1 + VALUES * (size_t)(p->list.nfixed + p->list.n)), &columns));
   end = columns + sprintf(columns, "t [s]");
   for (int k = 0; k < p->list.n; k++)
-    for (int i = 0; i < p->list.probe[k].n; i++) AddColumns(&p->list.probe[k], i, &end);
+    for (int i = 0; i < p->list.probe[k].n; i++) AddColumns(p, &p->list.probe[k], i, &end);
   PetscCall(SeriesCreate(p->comm, CoracleCaseString(c, "output.folder"), "fluid_probes", columns, from,
                          &p->series));
   PetscCall(PetscFree(columns));

@@ -147,6 +147,18 @@ static void BoundaryFlux(const FluidDomain *d, int e, double t, double r[6])
   }
 }
 
+/* int of u.u */
+static double Square(double area, const double u[6])
+{
+  double sum = 0.0;
+  for (int c = 0; c < 2; c++) {
+    double mu[3];
+    P1MassApply(area, u + 3 * c, mu);
+    for (int i = 0; i < 3; i++) sum += mu[i] * u[3 * c + i];
+  }
+  return sum;
+}
+
 /* mv = M u + (us - ms u) */
 static void BulkMomentum(double area, const CoracleCoupling *k, const double u[6], double mv[2][3])
 {
@@ -158,8 +170,8 @@ static void BulkMomentum(double area, const CoracleCoupling *k, const double u[6
     }
 }
 
-/* Of the bulk velocity made of u, over dt: the right-hand side, 0 on fixed nodes. */
-static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step, Vec velocity)
+/* Of the bulk velocity made of u, over dt: the right-hand side, 0 on fixed nodes; *size: of PressureProblem. */
+static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step, Vec velocity, double *size)
 {
   const FluidDomain *domain = s->domain;
   const Mesh *m = domain->mesh;
@@ -171,8 +183,10 @@ static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step,
   PetscCall(VecSet(local, 0.0));
   PetscCall(VecGetArray(local, &d));
   PetscCall(VecGetArrayRead(velocity, &u));
+  *size = 0.0;
   for (int e = 0; e < m->ne; e++) {
     double mv[2][3], r[6] = {0};
+    *size += step->rho[e] * Square(domain->geometry[e].area, u + 6 * e);
     BulkMomentum(domain->geometry[e].area, SolidCouplingAt(step->solid, e), u + 6 * e, mv);
     P2GradientTranspose(domain->geometry[e].g, (const double(*)[3])mv, r);
     BoundaryFlux(domain, e, step->t, r);
@@ -187,6 +201,8 @@ static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step,
   for (int k = 0; k < s->nfixed; k++) d[s->fixed[k]] = 0.0;
   PetscCall(VecRestoreArray(s->divergence, &d));
   PetscCall(VecScale(s->divergence, 1.0 / step->dt));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, size, 1, MPI_DOUBLE, MPI_SUM, m->comm));
+  *size = sqrt(*size) / step->dt;
   PetscFunctionReturn(0);
 }
 
@@ -207,10 +223,13 @@ PetscErrorCode ProjectionSolverKeepFixed(ProjectionSolver s, Vec p)
 PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *step, Vec velocity, Vec *phi,
                                      int *iterations)
 {
+  PressureProblem problem = {step->t, 0.0, s->divergence};
   PetscFunctionBeginUser;
   PetscCall(Assemble(s, step));
-  PetscCall(Divergence(s, step, velocity));
-  PetscCall(PressureSolverSolve(s->solver, step->t, s->divergence, s->phi, iterations));
+  PetscCall(Divergence(s, step, velocity, &problem.size));
+  if (step->revision > 0)
+    problem.size = 0.0; /* volumes of phases add up as far as the divergence is removed */
+  PetscCall(PressureSolverSolve(s->solver, &problem, s->phi, iterations));
   PetscCall(VecGhostUpdateBegin(s->phi, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGhostUpdateEnd(s->phi, INSERT_VALUES, SCATTER_FORWARD));
   *phi = s->phi;

@@ -1,22 +1,24 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, runs a coupled case with progress, and draws its figures.
-# Usage: scripts/run.sh CASE [--set key=value]... [--ranks F:C:S] [--out DIR] [--resume]
+# Usage: scripts/run.sh CASE [--set key=value]... [--ranks F:C:S] [--out DIR] [--resume] [--bin DIR]
 #   CASE   a folder of cases/, or a case file
 #   --set  overrides a key of the case file, e.g. --set time.end=1.0
 #   --ranks  ranks of fluid, coupler and solid (default 1:1:1)
 #   --out  output folder (default out/<case>)
 #   --resume  resumes from the last checkpoint in the output folder, if there is one
+#   --bin  programs that are there already: nothing is installed or built, and out/ is beside you
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 
-[ $# -ge 1 ] || { sed -n '2,8p' "$0" | cut -c3-; exit 2; }
+[ $# -ge 1 ] || { sed -n '2,9p' "$0" | cut -c3-; exit 2; }
 case=$1; shift
-ranks=1:1:1 out="" sets=()
+ranks=1:1:1 out="" bin="" sets=()
 while [ $# -gt 0 ]; do
   case "$1" in
     --set) sets+=(--set "${2:?--set needs key=value}"); shift 2 ;;
     --ranks) ranks=${2:?--ranks needs F:C:S}; shift 2 ;;
     --resume) sets+=(--set resume=last); shift ;;
+    --bin) bin=${2:?--bin needs a folder}; shift 2 ;;
     --out) out=${2:?--out needs a folder}; shift 2 ;;
     *) echo "run.sh: unknown argument '$1'" >&2; exit 2 ;;
   esac
@@ -27,15 +29,18 @@ else
   file=$root/cases/$case/case.yaml name=$case
 fi
 [ -f "$file" ] || { echo "run.sh: no case '$case': cases are $(cd "$root/cases" && echo *)" >&2; exit 2; }
-out=${out:-$root/out/$name}
+beside=${bin:+$PWD}
+out=${out:-${beside:-$root}/out/$name}
 file=$(realpath "$file") out=$(realpath -m "$out")
 
-"$root/scripts/setup.sh"
-cd "$root"
-cmake --preset release >/dev/null
-cmake --build --preset release --target coracle-fluid coracle-coupler coracle-solid -- --quiet
+if [ -z "$bin" ]; then
+  "$root/scripts/setup.sh"
+  cd "$root"
+  cmake --preset release >/dev/null
+  cmake --build --preset release --target coracle-fluid coracle-coupler coracle-solid -- --quiet
+fi
 mkdir -p "$out"
-"$root/scripts/launch.sh" --bin "$root/build" --ranks "$ranks" "$file" --set "output.folder=$out" "${sets[@]}"
+"$root/scripts/launch.sh" --bin "${bin:-$root/build}" --ranks "$ranks" "$file" --set "output.folder=$out" "${sets[@]}"
 
 figures=$root/cases/$name/figures.sh
 if [ -f "$figures" ]; then bash "$figures" "$out"; fi

@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs the tests.  Usage: scripts/test.sh [PRESET] [ctest arguments]
-#   PRESET: release (default), debug, sanitize.  Long validation runs: scripts/test.sh -L validation
+#   With CI set in the environment warnings are errors.
+#   PRESET: release (default), native, debug, sanitize.  Long validation runs: scripts/test.sh -L validation
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=release
-case "${1:-}" in release | debug | sanitize) preset=$1; shift ;; esac
+case "${1:-}" in release | native | debug | sanitize) preset=$1; shift ;; esac
 
 scripts/setup.sh
-cmake --preset "$preset" >build-log.txt 2>&1 || { cat build-log.txt; exit 1; }
+cmake --preset "$preset" ${CI:+-DCORACLE_WERROR=ON} >build-log.txt 2>&1 || { cat build-log.txt; exit 1; }
 rm -f build-log.txt
 cmake --build --preset "$preset"
 # Open MPI does not free what it takes at start; with detect_leaks=1 its reports are all there is to see

@@ -33,11 +33,13 @@
 #include "solid/plane.h"
 #include <math.h>
 
+typedef enum { LAW_NEO_HOOKEAN, LAW_COROTATED } ElementLawKind;
+
 typedef struct {
   double mu, lambda; /* Lame constants, Pa */
   double eta;        /* viscosity, Pa s */
   int plane_stress;  /* else plane strain */
-  int corotated;     /* else neo-Hookean */
+  int kind;          /* ElementLawKind */
 } ElementLaw;
 
 typedef struct {
@@ -53,7 +55,16 @@ static inline ElementLaw ElementLawOf(double youngs_modulus, double poisson_rati
 {
   return (ElementLaw){youngs_modulus / (2.0 * (1.0 + poisson_ratio)),
                       youngs_modulus * poisson_ratio / ((1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio)),
-                      eta, 0, 0};
+                      eta, 0, LAW_NEO_HOOKEAN};
+}
+
+/* Which laws a loop must know, each with those before it; the first: the neo-Hookean in plane strain. */
+typedef enum { STRAIN_ONLY, WITH_PLANE_STRESS, WITH_COROTATED } ElementLaws;
+
+static inline ElementLaws ElementLawsWith(ElementLaw law)
+{
+  if (law.kind == LAW_COROTATED) return WITH_COROTATED;
+  return law.plane_stress ? WITH_PLANE_STRESS : STRAIN_ONLY;
 }
 
 /* Of a stress T = b B + one I. */
@@ -103,14 +114,15 @@ static inline ElementCoefficients ElementCorotated(Tensor f, double j, ElementLa
 static inline int ElementAdmissible(Tensor f, double j, ElementLaw law)
 {
   const int thick = law.lambda * (ElementTraceU(f) - 2.0) < law.lambda + 2.0 * law.mu;
-  return (j > 0.0) & (thick | !law.plane_stress | !law.corotated);
+  return (j > 0.0) & (thick | !law.plane_stress | (law.kind != LAW_COROTATED));
 }
 
 /* l_3: 1 in plane strain. */
 static inline double ElementThicknessStretch(Tensor f, double j, ElementLaw law)
 {
   const double linear = 1.0 - law.lambda * (ElementTraceU(f) - 2.0) / (law.lambda + 2.0 * law.mu);
-  const double thickness_stretch = law.corotated ? linear : sqrt(ElementThinning(j, law.mu, law.lambda));
+  const double thickness_stretch =
+      law.kind == LAW_COROTATED ? linear : sqrt(ElementThinning(j, law.mu, law.lambda));
   return law.plane_stress ? thickness_stretch : 1.0;
 }
 
@@ -122,8 +134,8 @@ static inline ElementStress ElementElasticStress(Tensor f, double j, ElementLaw 
                             linear = ElementCorotated(f, j, law);
   const double plane = -neo.b * ElementThinning(j, law.mu, law.lambda);
   const double one = law.plane_stress ? plane : neo.one;
-  return ElementStressFrom(
-      f, (ElementCoefficients){law.corotated ? linear.b : neo.b, law.corotated ? linear.one : one});
+  return ElementStressFrom(f, (ElementCoefficients){law.kind == LAW_COROTATED ? linear.b : neo.b,
+                                                    law.kind == LAW_COROTATED ? linear.one : one});
 }
 
 /* l_n: the stretch across a wall whose faces are free of stress (T_nn = 0; plane stress's T_33 too), stretched by
@@ -131,7 +143,7 @@ static inline ElementStress ElementElasticStress(Tensor f, double j, ElementLaw 
 static inline double ElementFreeStretch(double along, ElementLaw law)
 {
   const double mu = law.mu, lambda = law.lambda, half = mu + 0.5 * lambda, square = along * along;
-  if (law.corotated)
+  if (law.kind == LAW_COROTATED)
     return 1.0 - ElementPlaneLambda(law) * (along - 1.0) / (2.0 * mu + ElementPlaneLambda(law));
   if (law.plane_stress) /* l_n = l_3: lambda/2 l_t^2 l_n^4 + mu l_n^2 = mu + lambda/2 */
     return sqrt(2.0 * half / (mu + sqrt(mu * mu + 2.0 * lambda * half * square)));
@@ -172,7 +184,7 @@ static inline double ElementEnergy(Tensor f, ElementLaw law)
 {
   const Tensor e = {f.xx - 1.0, f.xy, f.yx, f.yy - 1.0};
   const double trace = e.xx + e.yy, growth = trace + TensorDeterminant(e); /* J - 1 */
-  if (law.corotated) return ElementCorotatedEnergy(e, law);
+  if (law.kind == LAW_COROTATED) return ElementCorotatedEnergy(e, law);
   const double square = e.xx * e.xx + e.xy * e.xy + e.yx * e.yx + e.yy * e.yy;
   double thinning = 0.0, squares = growth * (growth + 2.0), logarithm = log1p(growth); /* J^2 - 1, ln J */
   if (law.plane_stress) { /* l_3^2 - 1; then those of J l_3 */
@@ -225,9 +237,9 @@ static inline ElementRates ElementRatesOf(Tensor edges, Tensor f, double density
   const double j = TensorDeterminant(f);
   const Tensor g = TensorInverse(edges);
   const double per_mass = 3.0 * j * ElementSpread(g) / density; /* lumped: rho0 A0 / 3 a node */
-  const double stiffness =
-      law.corotated ? 6.0 * (law.mu + ElementPlaneLambda(law)) * ElementSpread(TensorProduct(g, f)) / density
-                    : per_mass * ElementModulus(f, j, law);
+  const double stiffness = law.kind == LAW_COROTATED ? 6.0 * (law.mu + ElementPlaneLambda(law)) *
+                                                           ElementSpread(TensorProduct(g, f)) / density
+                                                     : per_mass * ElementModulus(f, j, law);
   return (ElementRates){stiffness, per_mass * law.eta};
 }
 

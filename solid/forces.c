@@ -41,7 +41,7 @@ CornerForces(const Elements *e, const double x[], const double v[], ElementLaws 
   const int n = e->n, *a = e->node[0], *b = e->node[1], *c = e->node[2];
   const double *ixx = e->inverse[0], *ixy = e->inverse[1], *iyx = e->inverse[2], *iyy = e->inverse[3];
   const double *mu = e->mu, *lambda = e->lambda, *eta = e->eta;
-  const double *plane_stress = e->plane_stress, *corotated = e->corotated;
+  const double *plane_stress = e->plane_stress, *kind = e->kind;
   double *fx = e->force[0], *fy = e->force[1];
   double *sxx = e->stress[0], *syy = e->stress[1], *sxy = e->stress[2];
   int bad = 0;
@@ -51,7 +51,7 @@ CornerForces(const Elements *e, const double x[], const double v[], ElementLaws 
     const Tensor f = TensorProduct(edges, (Tensor){ixx[k], ixy[k], iyx[k], iyy[k]});
     const double j = TensorDeterminant(f);
     const ElementLaw law = {mu[k], lambda[k], eta[k], laws != STRAIN_ONLY && plane_stress[k] > 0.0,
-                            laws == WITH_COROTATED && corotated[k] > 0.0};
+                            laws == WITH_COROTATED && kind[k] == LAW_COROTATED};
     ElementStress t = ElementElasticStress(f, j, law);
     if (jointed) {
       sxx[k] = t.xx;
@@ -160,7 +160,7 @@ double SolidElementLimit(Solid s, ElementRates contact)
 
 ElementLaw ElementsLaw(const Elements *e, int k)
 {
-  return (ElementLaw){e->mu[k], e->lambda[k], e->eta[k], e->plane_stress[k] > 0.0, e->corotated[k] > 0.0};
+  return (ElementLaw){e->mu[k], e->lambda[k], e->eta[k], e->plane_stress[k] > 0.0, (int)e->kind[k]};
 }
 
 void SolidStress(Solid s, double stress[])

@@ -62,7 +62,7 @@ PetscErrorCode SolidFreeSubdomain(Solid s)
   PetscCall(PetscFree3(e->node[0], e->node[1], e->node[2]));
   PetscCall(PetscFree4(e->inverse[0], e->inverse[1], e->inverse[2], e->inverse[3]));
   PetscCall(PetscFree3(e->stress[0], e->stress[1], e->stress[2]));
-  PetscCall(PetscFree5(e->mu, e->lambda, e->eta, e->density, e->corotated));
+  PetscCall(PetscFree5(e->mu, e->lambda, e->eta, e->density, e->kind));
   PetscCall(
       PetscFree7(e->body, e->number, e->force[0], e->force[1], e->thickness, e->plane_stress, e->material));
   PetscCall(PetscFree(s->part));

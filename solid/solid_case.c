@@ -60,9 +60,11 @@ PetscErrorCode SolidCaseRead(CoracleCase c, Model *a, SolidSetup *setup)
   PetscFunctionBeginUser;
   CoracleCaseVector(c, "gravity", 2, setup->gravity);
   setup->courant = CoracleCaseNumberOr(c, "solid.courant", 0.8, 0.01, 1.0);
+  setup->decay_rate = CoracleCaseNumberOr(c, "solid.decay_rate", 0.0, 0.0, HUGE_VAL);
   setup->rebalance = CoracleCaseNumberOr(c, "solid.rebalance", 200.0, 0.0, HUGE_VAL);
   CoracleCaseKeys(c, "solid.materials", CaseCheckMaterial, c);
-  if (!CoracleCaseHas(c, "solid.bodies")) CoracleCaseRefuse(c, "solid.bodies", "expected a list of bodies");
+  if (!CoracleCaseHas(c, "solid.bodies"))
+    CoracleCaseRefuse(c, "solid.bodies", "expected a list of bodies; of a fluid alone an empty one, []");
   for (int b = 0; b < nbodies; b++) PetscCall(CaseReadBody(c, b, a));
   ReadWalls(c, a, setup);
   ReadRules(c, setup);

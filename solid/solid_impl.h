@@ -9,9 +9,6 @@
 typedef struct Contact_s *Contact;
 typedef struct Joints_s *Joints;
 
-/* Each with those before it. */
-typedef enum { STRAIN_ONLY, WITH_PLANE_STRESS, WITH_COROTATED } ElementLaws; /* the first: neo-Hookean */
-
 /* What all subdomains are of, the same on all ranks. */
 typedef struct {
   int elements, nodes, joints; /* nodes of the start */
@@ -24,7 +21,7 @@ typedef struct {
   double *inverse[4];                  /* D0^-1: xx, xy, yx, yy of the rest edges' inverse, 1/m */
   double *mu, *lambda, *eta, *density; /* times the thickness */
   double *thickness, *plane_stress;    /* m; 1 in plane stress, 0 in plane strain */
-  double *corotated;                   /* 1, or 0: neo-Hookean */
+  double *kind;                        /* of law */
   int *body, *material;
   int *number;       /* in the model */
   double *force[2];  /* [3][n]: corner i of element e at i n + e */
@@ -129,6 +126,8 @@ PetscErrorCode SolidPieces(Solid s, int *n, const int **piece);
 void BudgetAddSubstep(Solid s);
 /* Component c of node n, free so far, is going to move with the prescribed v. */
 void BudgetAddPrescribed(Solid s, int n, int c, double v);
+/* What the decay rate has done in the substep, after its nodes have moved. */
+void BudgetAddDecay(Solid s);
 
 /* distribute.c: everything that comes from the model. */
 PetscErrorCode SolidTakeSubdomain(Solid s, const Model *a, const int part[]);

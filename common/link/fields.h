@@ -1,20 +1,5 @@
 /* The table of the fields that travel between the participants.  A field is added here and in the C structure
- * that holds it; packing, unpacking and the checks of both ends follow.
- *
- *     message    group            direction            C structure
- *     SURFACE    FIELDS_NODES     solid -> coupler     ServerSolid, arrays over the nodes
- *                FIELDS_MOTION                         ServerSolid, arrays over the nodes
- *                FIELDS_FACETS                         ServerSolid, arrays over the facets
- *                FIELDS_SIMPLICES                      ServerSolid, arrays over the solid's elements
- *     MOTION     FIELDS_MOTION    solid -> coupler
- *     FORCE      FIELDS_FORCE     coupler -> solid     FieldsForce, an array over the nodes
- *     ASK        FIELDS_BOXES     coupler -> fluid     FieldsBoxes, an array over the boxes
- *     ELEMENTS   FIELDS_DOMAIN    fluid -> coupler     FieldsDomain, one
- *                FIELDS_ELEMENTS                       CoracleElements, arrays over the fluid's elements
- *     FLOW       FIELDS_FLOW      fluid -> coupler     CoracleFlow, arrays over the fluid's elements
- *     COUPLING   FIELDS_CORRECTION  coupler -> fluid   CoracleCorrection, one an element
- *                FIELDS_COUPLING                       CoracleCoupling, one an element
- *                FIELDS_GAUGES                         CoracleGauge, one a gauge on the solid
+ * that holds it; packing, unpacking and the checks of both ends follow.  Which groups a message has: message.h.
  *
  * A group travels field by field in the table's order, each as an array over its entities:
  *
@@ -53,12 +38,12 @@ typedef struct {
   FieldRange range;
 } Field;
 
-typedef struct {
+struct FieldGroup {
   const char *entity, *direction; /* "node", "solid -> coupler" */
   size_t entry;                   /* bytes of the C structure of one entity; 0: a structure of arrays */
   int nfields;
   const Field *field; /* [nfields] */
-} FieldGroup;
+};
 
 typedef struct {
   const double *force; /* [n][dim] N */
@@ -69,10 +54,6 @@ typedef struct {
 typedef struct {
   double lower[CORACLE_DIM], upper[CORACLE_DIM]; /* m */
 } FieldsDomain;
-
-extern const FieldGroup FIELDS_NODES, FIELDS_MOTION, FIELDS_FACETS, FIELDS_SIMPLICES, FIELDS_FORCE,
-    FIELDS_BOXES, FIELDS_DOMAIN, FIELDS_ELEMENTS, FIELDS_FLOW, FIELDS_CORRECTION, FIELDS_COUPLING,
-    FIELDS_GAUGES;
 
 /* extent[NEXTENTS] of simplices in dim dimensions with P1 velocity and P2 pressure. */
 void FieldsExtents(int dim, int extent[NEXTENTS]);

@@ -6,8 +6,8 @@
 enum { TAG = 1, UNIT = 8 }; /* messages are counted in units of 8 bytes: 16 GiB is their limit */
 static const uint32_t MAGIC = 0xC07AC1E1;
 
-static const char *const KIND_NAMES[KIND_END] = {"?",        "SURFACE",  "MOTION", "FORCE", "ASK",
-                                                 "ELEMENTS", "COUPLING", "FLOW",   "CLOSE"};
+#define NAME(kind) #kind,
+static const char *const KIND_NAMES[KIND_END] = {"?", MESSAGE_KINDS(NAME)};
 
 /* --- buffers -------------------------------------------------------------------------------------------- */
 

@@ -16,7 +16,7 @@
  *     FLOW      fluid -> coupler   elements                        flow                               End
  *     CLOSE     both  -> coupler   reports                         reports                            Close
  *
- * The fields of the blocks are listed in fields.h.  FORCE and COUPLING carry the coming step (action, t, dt) and
+ * FORCE and COUPLING carry the coming step (action, t, dt) and
  * the path of the checkpoint that is due in it; ELEMENTS and FLOW carry in dt the step that the fluid proposes.
  * Kind and step travel with every message: one that does not fit ends the job with both sides' names. */
 #ifndef CORACLE_MESSAGE_H
@@ -25,17 +25,27 @@
 #include <stddef.h>
 #include <stdint.h>
 
-typedef enum {
-  KIND_SURFACE = 1,
-  KIND_MOTION,
-  KIND_FORCE,
-  KIND_ASK,
-  KIND_ELEMENTS,
-  KIND_COUPLING,
-  KIND_FLOW,
-  KIND_CLOSE,
-  KIND_END
-} MessageKind;
+#define MESSAGE_KINDS(KIND)                                                                                  \
+  KIND(SURFACE) KIND(MOTION) KIND(FORCE) KIND(ASK) KIND(ELEMENTS) KIND(COUPLING) KIND(FLOW) KIND(CLOSE)
+
+#define MESSAGE_KIND(name) KIND_##name,
+typedef enum { KIND_NONE, MESSAGE_KINDS(MESSAGE_KIND) KIND_END } MessageKind;
+
+/* The groups of fields that are the messages' blocks (fields.h, fields.c) and the C structures that hold them:
+ *
+ *     SURFACE    FIELDS_NODES, FIELDS_MOTION       ServerSolid, arrays over the nodes
+ *                FIELDS_FACETS, FIELDS_SIMPLICES   ServerSolid, arrays over the facets, over the solid's elements
+ *     MOTION     FIELDS_MOTION
+ *     FORCE      FIELDS_FORCE                      FieldsForce, an array over the nodes
+ *     ASK        FIELDS_BOXES                      FieldsBoxes, an array over the boxes
+ *     ELEMENTS   FIELDS_DOMAIN, FIELDS_ELEMENTS    FieldsDomain, one; CoracleElements, arrays over the fluid's elements
+ *     FLOW       FIELDS_FLOW                       CoracleFlow, arrays over the fluid's elements
+ *     COUPLING   FIELDS_CORRECTION, FIELDS_COUPLING   CoracleCorrection, CoracleCoupling, one an element
+ *                FIELDS_GAUGES                     CoracleGauge, one a gauge on the solid */
+typedef struct FieldGroup FieldGroup;
+extern const FieldGroup FIELDS_NODES, FIELDS_MOTION, FIELDS_FACETS, FIELDS_SIMPLICES, FIELDS_FORCE,
+    FIELDS_BOXES, FIELDS_DOMAIN, FIELDS_ELEMENTS, FIELDS_FLOW, FIELDS_CORRECTION, FIELDS_COUPLING,
+    FIELDS_GAUGES;
 
 /* MessageHeader.flag */
 enum {

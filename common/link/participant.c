@@ -41,10 +41,12 @@ static _Noreturn void Abort(const char *message)
 
 void ParticipantFailList(Participant *p, const char *format, va_list list)
 {
+  static bool reporting; /* a host whose handler goes on may cause more than one error */
   char text[HANDSHAKE_MESSAGE];
   vsnprintf(text, sizeof text, format, list);
   ExitGuardExpected();
-  if (FailureBoardClaim(p->failures))
+  reporting = reporting || FailureBoardClaim(p->failures);
+  if (reporting)
     Report(ROLE_NAMES[p->role], p->rank, text);
   else
     sleep(5); /* another rank reports and ends the job */

@@ -44,6 +44,17 @@ PetscErrorCode GmshRefuse(const GmshFile *file, const char *format, ...) PETSC_A
 /* Reads file->path into the lists above. */
 PetscErrorCode GmshParse(GmshFile *file);
 
+/* mesh_gmsh_scan.c: the number at file->at, and behind it. */
+PetscErrorCode GmshInteger(GmshFile *f, int *value);
+PetscErrorCode GmshDoubles(GmshFile *f, int n, double *value);
+/* Unsigned: size_t in binary files of 4.1. */
+PetscErrorCode GmshSize(GmshFile *f, size_t *value);
+PetscErrorCode GmshTag(GmshFile *f, int *tag);
+/* A count of things that take at least `bytes` each, which must fit into the rest of the file. */
+PetscErrorCode GmshCount(GmshFile *f, size_t bytes, size_t *count);
+/* A count at the head of a section, text in binary files of 2.2 too. */
+PetscErrorCode GmshTextCount(GmshFile *f, size_t *count);
+
 #define GMSH_TRY(call)                                                                                       \
   do {                                                                                                       \
     const PetscErrorCode code_ = (call);                                                                     \

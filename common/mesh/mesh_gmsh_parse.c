@@ -6,106 +6,13 @@
  *   4.1: $Entities (physical groups of points, curves, surfaces), then $Nodes and $Elements in blocks of one
  * entity
  *
- * Text and binary differ in how a number is read only, so one routine serves both. */
+ * Text and binary differ in how a number is read only (mesh_gmsh_scan.c), so one routine serves both. */
 #include "common/mesh/mesh_gmsh_impl.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { LINE = 1, TRIANGLE = 2, POINT = 15 }; /* Gmsh's element types */
-
-static PetscErrorCode Truncated(const GmshFile *f)
-{
-  const size_t at = f->binary ? f->at : f->at + strspn(f->data + f->at, " \t\r\n");
-  long line = 1;
-  if (at >= f->size) return GmshRefuse(f, "the file ends too early");
-  for (size_t i = 0; i < at; i++) line += f->data[i] == '\n';
-  if (f->binary) return GmshRefuse(f, "byte %zu: not what belongs there", f->at);
-  return GmshRefuse(f, "line %ld: a number is expected", line);
-}
-
-static PetscErrorCode Bytes(GmshFile *f, void *to, size_t n)
-{
-  if (n > f->size - f->at) {
-    f->at = f->size;
-    return Truncated(f);
-  }
-  memcpy(to, f->data + f->at, n);
-  f->at += n;
-  return 0;
-}
-
-static PetscErrorCode TextInteger(GmshFile *f, long long *value)
-{
-  char *end;
-  *value = strtoll(f->data + f->at, &end, 10);
-  if (end == f->data + f->at) return Truncated(f);
-  f->at = (size_t)(end - f->data);
-  return 0;
-}
-
-static PetscErrorCode Integer(GmshFile *f, int *value)
-{
-  long long wide;
-  if (f->binary) return Bytes(f, value, sizeof *value);
-  GMSH_TRY(TextInteger(f, &wide));
-  if (wide != (int)wide) return GmshRefuse(f, "the number %lld is too large", wide);
-  *value = (int)wide;
-  return 0;
-}
-
-/* An unsigned number: size_t in binary files of 4.1. */
-static PetscErrorCode Size(GmshFile *f, size_t *value)
-{
-  long long wide;
-  if (f->binary) return Bytes(f, value, sizeof *value);
-  GMSH_TRY(TextInteger(f, &wide));
-  if (wide < 0) return GmshRefuse(f, "the number %lld should not be negative", wide);
-  *value = (size_t)wide;
-  return 0;
-}
-
-/* A count of things that take at least `bytes` each, which must fit into the rest of the file. */
-static PetscErrorCode Count(GmshFile *f, size_t bytes, size_t *count)
-{
-  GMSH_TRY(Size(f, count));
-  if (*count > (f->size - f->at) / bytes)
-    return GmshRefuse(f, "%zu things are announced, but the file ends earlier", *count);
-  return 0;
-}
-
-static PetscErrorCode Tag(GmshFile *f, int *tag)
-{
-  size_t wide;
-  GMSH_TRY(Size(f, &wide));
-  if (wide > INT32_MAX) return GmshRefuse(f, "the number %zu is too large", wide);
-  *tag = (int)wide;
-  return 0;
-}
-
-static PetscErrorCode Doubles(GmshFile *f, int n, double *value)
-{
-  if (f->binary) return Bytes(f, value, (size_t)n * sizeof *value);
-  for (int k = 0; k < n; k++) {
-    char *end;
-    value[k] = strtod(f->data + f->at, &end);
-    if (end == f->data + f->at) return Truncated(f);
-    f->at = (size_t)(end - f->data);
-  }
-  return 0;
-}
-
-/* A count at the head of a section, text in binary files of 2.2 too. */
-static PetscErrorCode TextCount(GmshFile *f, size_t *count)
-{
-  const int binary = f->binary;
-  f->binary = 0;
-  GMSH_TRY(Count(f, 2, count));
-  f->binary = binary;
-  if (binary) f->at += f->data[f->at] == '\r';
-  if (binary) f->at += f->data[f->at] == '\n';
-  return 0;
-}
 
 static PetscErrorCode Append(size_t *n, size_t *capacity, size_t bytes, void *list)
 {
@@ -152,11 +59,11 @@ static PetscErrorCode NodesOfType(const GmshFile *f, long number, int type, int 
 static PetscErrorCode Nodes22(GmshFile *f)
 {
   size_t n = 0;
-  GMSH_TRY(TextCount(f, &n));
+  GMSH_TRY(GmshTextCount(f, &n));
   GMSH_TRY(PetscRealloc(n * sizeof *f->node, &f->node));
   for (f->nnode = 0; f->nnode < n; f->nnode++) {
-    GMSH_TRY(Integer(f, &f->node[f->nnode].tag));
-    GMSH_TRY(Doubles(f, 3, f->node[f->nnode].x));
+    GMSH_TRY(GmshInteger(f, &f->node[f->nnode].tag));
+    GMSH_TRY(GmshDoubles(f, 3, f->node[f->nnode].x));
   }
   return 0;
 }
@@ -168,27 +75,27 @@ static PetscErrorCode Element22(GmshFile *f, int number, int type, int ntags)
   int n;
   GMSH_TRY(NodesOfType(f, number, type, &n));
   for (int k = 0, tag; k < ntags; k++) {
-    GMSH_TRY(Integer(f, &tag));
+    GMSH_TRY(GmshInteger(f, &tag));
     if (k == 0) e.physical = Group(tag);
   }
-  for (int k = 0; k < n; k++) GMSH_TRY(Integer(f, &e.node[k]));
+  for (int k = 0; k < n; k++) GMSH_TRY(GmshInteger(f, &e.node[k]));
   return AddElement(f, type, &e);
 }
 
 static PetscErrorCode Elements22(GmshFile *f)
 {
   size_t n = 0;
-  GMSH_TRY(TextCount(f, &n));
+  GMSH_TRY(GmshTextCount(f, &n));
   for (size_t k = 0; k < n;) {
     int number = 0, type, run = 1, ntags;
-    if (!f->binary) GMSH_TRY(Integer(f, &number));
-    GMSH_TRY(Integer(f, &type));
-    if (f->binary) GMSH_TRY(Integer(f, &run));
-    GMSH_TRY(Integer(f, &ntags));
+    if (!f->binary) GMSH_TRY(GmshInteger(f, &number));
+    GMSH_TRY(GmshInteger(f, &type));
+    if (f->binary) GMSH_TRY(GmshInteger(f, &run));
+    GMSH_TRY(GmshInteger(f, &ntags));
     if (run < 1 || (size_t)run > n - k || ntags < 0)
       return GmshRefuse(f, "byte %zu: a damaged run of elements", f->at);
     for (int i = 0; i < run; i++, k++) {
-      if (f->binary) GMSH_TRY(Integer(f, &number));
+      if (f->binary) GMSH_TRY(GmshInteger(f, &number));
       GMSH_TRY(Element22(f, number, type, ntags));
     }
   }
@@ -203,16 +110,16 @@ static PetscErrorCode Entity41(GmshFile *f, int dim)
   double box[6];
   size_t n = 0;
   int tag;
-  GMSH_TRY(Integer(f, &e.tag));
-  GMSH_TRY(Doubles(f, dim == 0 ? 3 : 6, box));
-  GMSH_TRY(Count(f, 2, &n));
+  GMSH_TRY(GmshInteger(f, &e.tag));
+  GMSH_TRY(GmshDoubles(f, dim == 0 ? 3 : 6, box));
+  GMSH_TRY(GmshCount(f, 2, &n));
   for (size_t k = 0; k < n; k++) {
-    GMSH_TRY(Integer(f, &tag));
+    GMSH_TRY(GmshInteger(f, &tag));
     if (k == 0) e.physical = Group(tag);
   }
   if (dim > 0) { /* what bounds it */
-    GMSH_TRY(Count(f, 2, &n));
-    for (size_t k = 0; k < n; k++) GMSH_TRY(Integer(f, &tag));
+    GMSH_TRY(GmshCount(f, 2, &n));
+    for (size_t k = 0; k < n; k++) GMSH_TRY(GmshInteger(f, &tag));
   }
   if (!e.physical) return 0;
   GMSH_TRY(Append(&f->nentity, &f->entity_capacity, sizeof e, &f->entity));
@@ -223,7 +130,7 @@ static PetscErrorCode Entity41(GmshFile *f, int dim)
 static PetscErrorCode Entities41(GmshFile *f)
 {
   size_t n[4] = {0};
-  for (int dim = 0; dim < 4; dim++) GMSH_TRY(Count(f, 2, &n[dim]));
+  for (int dim = 0; dim < 4; dim++) GMSH_TRY(GmshCount(f, 2, &n[dim]));
   for (int dim = 0; dim < 4; dim++) {
     for (size_t k = 0; k < n[dim]; k++) GMSH_TRY(Entity41(f, dim));
   }
@@ -234,10 +141,10 @@ static PetscErrorCode Entities41(GmshFile *f)
 static PetscErrorCode Head41(GmshFile *f, size_t *blocks, size_t *n)
 {
   size_t unused;
-  GMSH_TRY(Count(f, 2, blocks));
-  GMSH_TRY(Count(f, 2, n));
-  GMSH_TRY(Size(f, &unused));
-  return Size(f, &unused);
+  GMSH_TRY(GmshCount(f, 2, blocks));
+  GMSH_TRY(GmshCount(f, 2, n));
+  GMSH_TRY(GmshSize(f, &unused));
+  return GmshSize(f, &unused);
 }
 
 static PetscErrorCode Nodes41(GmshFile *f)
@@ -249,17 +156,17 @@ static PetscErrorCode Nodes41(GmshFile *f)
   GMSH_TRY(PetscRealloc(n * sizeof *f->node, &f->node));
   f->nnode = 0;
   for (size_t b = 0; b < blocks; b++) {
-    GMSH_TRY(Integer(f, &dim));
-    GMSH_TRY(Integer(f, &tag));
-    GMSH_TRY(Integer(f, &parametric));
-    GMSH_TRY(Size(f, &count));
+    GMSH_TRY(GmshInteger(f, &dim));
+    GMSH_TRY(GmshInteger(f, &tag));
+    GMSH_TRY(GmshInteger(f, &parametric));
+    GMSH_TRY(GmshSize(f, &count));
     if (count > n - f->nnode || dim < 0 || dim > 3)
       return GmshRefuse(f, "block %zu of the nodes is damaged", b + 1);
     GmshNode *node = &f->node[f->nnode];
-    for (size_t k = 0; k < count; k++) GMSH_TRY(Tag(f, &node[k].tag));
+    for (size_t k = 0; k < count; k++) GMSH_TRY(GmshTag(f, &node[k].tag));
     for (size_t k = 0; k < count; k++) {
-      GMSH_TRY(Doubles(f, 3, node[k].x));
-      if (parametric) GMSH_TRY(Doubles(f, dim, unused));
+      GMSH_TRY(GmshDoubles(f, 3, node[k].x));
+      if (parametric) GMSH_TRY(GmshDoubles(f, dim, unused));
     }
     f->nnode += count;
   }
@@ -280,16 +187,16 @@ static PetscErrorCode Elements41(GmshFile *f)
   int dim, tag, type, nodes;
   GMSH_TRY(Head41(f, &blocks, &n));
   for (size_t b = 0; b < blocks; b++) {
-    GMSH_TRY(Integer(f, &dim));
-    GMSH_TRY(Integer(f, &tag));
-    GMSH_TRY(Integer(f, &type));
-    GMSH_TRY(Count(f, 4, &count));
+    GMSH_TRY(GmshInteger(f, &dim));
+    GMSH_TRY(GmshInteger(f, &tag));
+    GMSH_TRY(GmshInteger(f, &type));
+    GMSH_TRY(GmshCount(f, 4, &count));
     const int physical = PhysicalOf(f, dim, tag);
     for (size_t k = 0; k < count; k++) {
-      GMSH_TRY(Size(f, &number));
+      GMSH_TRY(GmshSize(f, &number));
       GmshElement e = {.number = (long)number, .physical = physical};
       GMSH_TRY(NodesOfType(f, e.number, type, &nodes));
-      for (int i = 0; i < nodes; i++) GMSH_TRY(Tag(f, &e.node[i]));
+      for (int i = 0; i < nodes; i++) GMSH_TRY(GmshTag(f, &e.node[i]));
       GMSH_TRY(AddElement(f, type, &e));
     }
   }
@@ -305,12 +212,12 @@ static PetscErrorCode PhysicalNames(GmshFile *f)
   const int binary = f->binary;
   size_t n = 0;
   f->binary = 0; /* names are text always */
-  GMSH_TRY(Count(f, 2, &n));
+  GMSH_TRY(GmshCount(f, 2, &n));
   GMSH_TRY(PetscRealloc(n * sizeof *f->name, &f->name));
   for (f->nname = 0; f->nname < n; f->nname++) {
     GmshName *name = &f->name[f->nname];
-    GMSH_TRY(Integer(f, &name->dim));
-    GMSH_TRY(Integer(f, &name->tag));
+    GMSH_TRY(GmshInteger(f, &name->dim));
+    GMSH_TRY(GmshInteger(f, &name->tag));
     const char *from = f->data + f->at + strspn(f->data + f->at, " \t");
     const char *to = *from == '"' ? strpbrk(from + 1, "\"\n") : NULL;
     if (!to || *to != '"')
@@ -332,9 +239,9 @@ static PetscErrorCode Format(GmshFile *f)
 {
   double version;
   int kind, bytes, one;
-  GMSH_TRY(Doubles(f, 1, &version));
-  GMSH_TRY(Integer(f, &kind));
-  GMSH_TRY(Integer(f, &bytes));
+  GMSH_TRY(GmshDoubles(f, 1, &version));
+  GMSH_TRY(GmshInteger(f, &kind));
+  GMSH_TRY(GmshInteger(f, &bytes));
   if (version != 2.2 && version != 4.1)
     return GmshRefuse(f, "format %g: 2.2 and 4.1 are understood (gmsh -format msh41)", version);
   if (bytes != 8) return GmshRefuse(f, "numbers of %d bytes: 8 are expected", bytes);
@@ -343,7 +250,7 @@ static PetscErrorCode Format(GmshFile *f)
   f->binary = 1;
   f->at += strcspn(f->data + f->at, "\n");
   if (f->at < f->size) f->at++;
-  GMSH_TRY(Integer(f, &one));
+  GMSH_TRY(GmshInteger(f, &one));
   if (one != 1) return GmshRefuse(f, "binary file of the other byte order");
   return 0;
 }

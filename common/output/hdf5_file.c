@@ -1,4 +1,4 @@
-#include "common/output/hdf5_file.h"
+#include "common/output/hdf5_impl.h"
 #include <string.h>
 
 enum { CHUNK_ROWS = 16384, DEFLATE = 1 }; /* rows; level */
@@ -14,17 +14,13 @@ static herr_t Innermost(unsigned depth, const H5E_error2_t *error, void *text)
   return 0;
 }
 
-static const char *Reason(void)
+const char *Hdf5Reason(void)
 {
   static char text[256];
   text[0] = 0;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, Innermost, text);
   return text;
 }
-
-/* HDF5 says failure by a negative value, of whatever type. */
-#define H5(call, what, path)                                                                                 \
-  PetscCheck((call) >= 0, PETSC_COMM_SELF, PETSC_ERR_LIB, "HDF5 cannot %s %s: %s", what, path, Reason())
 
 /* Metadata stays in the cache until it is flushed: no evictions, and no resizing, which would evict. */
 static PetscErrorCode HoldMetadata(hid_t access, const char *path)
@@ -270,67 +266,6 @@ PetscErrorCode Hdf5Link(hid_t file, const char *existing, const char *path)
 {
   PetscFunctionBeginUser;
   H5(H5Lcreate_hard(file, existing, file, path, H5P_DEFAULT, H5P_DEFAULT), "link", path);
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode Hdf5Attribute(hid_t file, const char *path, const char *name, double value)
-{
-  hid_t space, attribute;
-  PetscFunctionBeginUser;
-  H5(space = H5Screate(H5S_SCALAR), "describe", name);
-  H5(attribute =
-         H5Acreate_by_name(file, path, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-     "create attribute", name);
-  H5(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value), "write attribute", name);
-  H5(H5Aclose(attribute), "close attribute", name);
-  H5(H5Sclose(space), "close", name);
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode Hdf5ReadAttribute(hid_t file, const char *path, const char *name, double *value)
-{
-  hid_t attribute;
-  PetscFunctionBeginUser;
-  H5(attribute = H5Aopen_by_name(file, path, name, H5P_DEFAULT, H5P_DEFAULT), "open attribute", name);
-  H5(H5Aread(attribute, H5T_NATIVE_DOUBLE, value), "read attribute", name);
-  H5(H5Aclose(attribute), "close attribute", name);
-  PetscFunctionReturn(0);
-}
-
-PetscBool Hdf5HasAttribute(hid_t file, const char *path, const char *name)
-{
-  return H5Aexists_by_name(file, path, name, H5P_DEFAULT) > 0 ? PETSC_TRUE : PETSC_FALSE;
-}
-
-PetscErrorCode Hdf5Text(hid_t file, const char *path, const char *name, const char *text)
-{
-  hid_t space, type, attribute;
-  PetscFunctionBeginUser;
-  H5(space = H5Screate(H5S_SCALAR), "describe", name);
-  H5(type = H5Tcopy(H5T_C_S1), "describe", name);
-  H5(H5Tset_size(type, PetscMax(strlen(text), 1)), "describe", name);
-  H5(H5Tset_strpad(type, H5T_STR_NULLPAD), "describe", name);
-  H5(attribute = H5Acreate_by_name(file, path, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-     "create attribute", name);
-  H5(H5Awrite(attribute, type, text), "write attribute", name);
-  H5(H5Aclose(attribute), "close attribute", name);
-  H5(H5Tclose(type), "close", name);
-  H5(H5Sclose(space), "close", name);
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode Hdf5ReadText(hid_t file, const char *path, const char *name, size_t size, char text[])
-{
-  hid_t type, attribute;
-  PetscFunctionBeginUser;
-  memset(text, 0, size);
-  H5(attribute = H5Aopen_by_name(file, path, name, H5P_DEFAULT, H5P_DEFAULT), "open attribute", name);
-  H5(type = H5Aget_type(attribute), "describe", name);
-  PetscCheck(H5Tget_class(type) == H5T_STRING && H5Tget_size(type) < size, PETSC_COMM_SELF,
-             PETSC_ERR_FILE_UNEXPECTED, "attribute %s is no text of less than %zu characters", name, size);
-  H5(H5Aread(attribute, type, text), "read attribute", name);
-  H5(H5Tclose(type), "close", name);
-  H5(H5Aclose(attribute), "close attribute", name);
   PetscFunctionReturn(0);
 }
 

@@ -139,7 +139,9 @@ static PetscErrorCode KeepSnapshots(Xdmf x, const char *text, long long nsnapsho
     }
     at = next;
   }
-  PetscCheck(last == nsnapshot - 1, PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED,
+  /* a whole index without grids is of snapshots without cells */
+  const PetscBool empty = (PetscBool)(!x->ncollections && strstr(text, "</Xdmf>"));
+  PetscCheck(last == nsnapshot - 1 || empty, PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED,
              "%s has not the %lld snapshots that it had when it was checkpointed", x->path, nsnapshot);
   PetscFunctionReturn(0);
 }

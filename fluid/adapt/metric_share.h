@@ -1,16 +1,16 @@
 /* The metric of a distributed mesh: the same on all ranks that share a vertex. */
 #ifndef CORACLE_METRIC_SHARE_H
 #define CORACLE_METRIC_SHARE_H
+#include "common/exchange/copies.h"
 #include "fluid/adapt/metric.h"
 
 /* The vertices of faces to other ranks, each once. */
 typedef struct {
-  int count;
-  PetscInt *id; /* [count] global number of the vertex, ascending */
-  int *vertex;  /* [count] local */
+  int n, *vertex; /* [n] local */
+  Copies copies;  /* of them on all ranks */
 } SharedVertices;
 
-/* Not collective. */
+/* Collective. */
 PetscErrorCode SharedVerticesCreate(const Mesh *mesh, SharedVertices *shared);
 PetscErrorCode SharedVerticesDestroy(SharedVertices *shared);
 /* Collective: MetricGrade over the parts of all ranks; at shared vertices the ranks' metrics are intersected,

@@ -39,7 +39,7 @@ static void ReadStrength(CoracleCase c, const char *name, Material *m)
 static Material ReadMaterial(CoracleCase c, const char *name)
 {
   static const char *const PLANES[] = {"strain", "stress", NULL};
-  static const char *const LAWS[] = {"neo_hookean", "corotated", NULL};
+  static const char *const LAWS[] = {"neo_hookean", "corotated", NULL}; /* in the order of ElementLawKind */
   Material m = {0};
   char key[KEY];
   m.density = Property(c, name, "density", 0.0, 0.0);
@@ -47,6 +47,9 @@ static Material ReadMaterial(CoracleCase c, const char *name)
   m.poisson_ratio = Property(c, name, "poisson_ratio", 0.0, 0.499);
   (void)snprintf(key, sizeof key, "solid.materials.%s.damping", name);
   m.damping = CoracleCaseNumberOr(c, key, 0.0, 0.0, 0.999);
+  (void)snprintf(key, sizeof key, "solid.materials.%s.damping_ratio", name);
+  m.damping_ratio = CoracleCaseNumberOr(c, key, 0.0, 0.0, 1.0);
+  if (CoracleCaseHas(c, key)) m.damping_frequency = Property(c, name, "damping_frequency", 0.0, 0.0);
   (void)snprintf(key, sizeof key, "solid.materials.%s.penalty", name);
   m.penalty = CoracleCaseHas(c, key) ? CoracleCasePositive(c, key) : m.youngs_modulus;
   (void)snprintf(key, sizeof key, "solid.materials.%s.friction", name);
@@ -56,7 +59,7 @@ static Material ReadMaterial(CoracleCase c, const char *name)
   (void)snprintf(key, sizeof key, "solid.materials.%s.plane", name);
   m.plane_stress = CoracleCaseWord(c, key, 0, PLANES);
   (void)snprintf(key, sizeof key, "solid.materials.%s.law", name);
-  m.corotated = CoracleCaseWord(c, key, 0, LAWS);
+  m.law = CoracleCaseWord(c, key, 0, LAWS);
   (void)snprintf(key, sizeof key, "solid.materials.%s.thickness", name);
   m.thickness = CoracleCaseHas(c, key) ? CoracleCasePositive(c, key) : 1.0;
   ReadStrength(c, name, &m);

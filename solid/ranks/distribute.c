@@ -60,7 +60,7 @@ static PetscErrorCode Allocate(Solid s)
   PetscCall(PetscCalloc1(nn, &s->is_prescribed));
   PetscCall(PetscMalloc3(ne, &e->node[0], ne, &e->node[1], ne, &e->node[2]));
   PetscCall(PetscMalloc4(ne, &e->inverse[0], ne, &e->inverse[1], ne, &e->inverse[2], ne, &e->inverse[3]));
-  PetscCall(PetscMalloc5(ne, &e->mu, ne, &e->lambda, ne, &e->eta, ne, &e->density, ne, &e->corotated));
+  PetscCall(PetscMalloc5(ne, &e->mu, ne, &e->lambda, ne, &e->eta, ne, &e->density, ne, &e->kind));
   PetscCall(PetscMalloc7(ne, &e->body, ne, &e->number, 3 * ne, &e->force[0], 3 * ne, &e->force[1], ne,
                          &e->thickness, ne, &e->plane_stress, ne, &e->material));
   PetscCall(PetscMalloc1((size_t)s->nmaterials, &s->material));
@@ -165,14 +165,12 @@ static void TakeElement(Solid s, const Model *a, int from, int k, const int loca
   e->density[k] = m->thickness * m->density;
   e->thickness[k] = m->thickness;
   e->plane_stress[k] = law.plane_stress;
-  e->corotated[k] = law.corotated;
+  e->kind[k] = law.kind;
   e->material[k] = a->element_material[from];
   e->body[k] = a->element_body[from];
   e->number[k] = from;
   if (law.eta > 0.0) e->damped = PETSC_TRUE;
-  e->laws = PetscMax(e->laws, law.corotated      ? WITH_COROTATED
-                              : law.plane_stress ? WITH_PLANE_STRESS
-                                                 : STRAIN_ONLY);
+  e->laws = PetscMax(e->laws, ElementLawsWith(law));
 }
 
 /* Elements, facets, and for each node the places of its corners' forces. */

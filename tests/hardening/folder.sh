@@ -18,6 +18,10 @@ refused() {
 
 must x 1:1:1 --set time.end=0.05
 before=$(sums)
+# the copy of the case says what it was run with, and is the case
+head -1 "$scratch/x/case.yaml" | grep -q '^# coracle .* ranks of fluid, coupler, solid 1:1:1$' || fail "case.yaml does not say what ran"
+grep -q "^#   --set 'time.end=0.05'$" "$scratch/x/case.yaml" || fail "case.yaml has no settings"
+cmp <(grep -v '^#' "$scratch/x/case.yaml") <(grep -v '^#' "$case") || fail "case.yaml is not the case"
 refused "fluid.boundaries.top" --set fluid.boundaries.top=slippery
 refused "solid.bodies\[0\].colour" --set 'solid.bodies[0].colour=2'
 refused "outside of the fluid domain" --set 'solid.bodies[0].centre=[1.95, 1.1]'
@@ -32,6 +36,13 @@ grep -q "error: .*output.folder.*process 1 on elsewhere since then" "$scratch/x.
 exec 9>&-
 rm "$scratch/x/running"
 same "a second run"
+
+# a case that is in its output folder is kept, too
+mkdir "$scratch/y"
+cp "$case" "$scratch/y/case.yaml"
+case=$scratch/y/case.yaml must y 1:1:1 --set time.end=0.02
+cmp "$here/../coupled/disc.yaml" "$scratch/y/earlier.1/case.yaml" || fail "the user's case is lost"
+cmp <(grep -v '^#' "$scratch/y/case.yaml") <(grep -v '^#' "$scratch/y/earlier.1/case.yaml") || fail "the copy is another"
 
 # a new run keeps the old results
 must x 1:1:1 --set time.end=0.03

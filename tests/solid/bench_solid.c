@@ -9,7 +9,7 @@ static PetscErrorCode Measure(double size, double damping, int plane_stress, int
   Solid s;
   double limit, h;
   setup.material.plane_stress = plane_stress;
-  setup.material.corotated = corotated;
+  setup.material.law = corotated;
   AddRectangle(&a, 0.0, 0.0, 1.0, 1.0, 0.3, size, 1, &setup);
   PetscCall(SolidCreate(PETSC_COMM_SELF, &a, &options, &s));
   PetscCall(SolidLimit(s, &limit));

@@ -175,7 +175,9 @@ static void Full(void)
   CHECK(soft->friction == 0.5 && soft->contact_damping == 0.6 && !soft->plane_stress &&
             soft->thickness == 1.0,
         "soft");
-  CHECK(hard->plane_stress && hard->thickness == 0.01 && hard->corotated && !soft->corotated, "hard");
+  CHECK(hard->plane_stress && hard->thickness == 0.01 && hard->law == LAW_COROTATED &&
+            soft->law == LAW_NEO_HOOKEAN,
+        "hard");
   for (int e = 0; e < model.nelements; e++)
     CHECK(model.element_material[e] == (e == 2 || e == 3), "element %d", e);
   CHECK(setup.nrules == 2 && setup.rule[0].friction == 0.1 && setup.rule[0].damping < 0.0 &&
@@ -229,7 +231,8 @@ static void Refusals(void)
             NULL, Read,
             ":4: key 'solid.materials.m.law': expected one of neo_hookean, corotated, found 'hooke'");
   CheckCase(HEAD "  bodies:\n" DISC, NULL, Read, NULL);
-  CheckCase(HEAD, NULL, Read, ":2: key 'solid.bodies': expected a list of bodies");
+  CheckCase(HEAD, NULL, Read,
+            ":2: key 'solid.bodies': expected a list of bodies; of a fluid alone an empty one, []");
   CheckCase(
       "gravity: [0, 0]\nsolid:\n  materials:\n    m: {density: -1, youngs_modulus: 1, poisson_ratio: 0}\n",
       NULL, Read, ":4: key 'solid.materials.m.density': expected a number > 0, found '-1'");

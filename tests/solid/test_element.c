@@ -109,7 +109,7 @@ static void Membrane(double young, double length)
 {
   const double angle = 0.7, c = cos(angle), s = sin(angle);
   ElementLaw law = ElementLawOf(young, 0.0, 0.0);
-  law.corotated = 1;
+  law.kind = LAW_COROTATED;
   for (law.plane_stress = 0; law.plane_stress < 2; law.plane_stress++) {
     const Tensor f = {c * length, -s, s * length, c};
     const ElementStress t = ElementElasticStress(f, TensorDeterminant(f), law);
@@ -232,7 +232,7 @@ static void Corotated(ElementLaw law)
   static const Tensor MAPS[] = {{1.0, 0.0, 0.0, 1.0},  {1.4, 0.3, -0.2, 0.9},  {0.5, 0.1, 0.3, 0.7},
                                 {0.05, 0.0, 0.0, 0.1}, {-1.2, 0.3, 0.1, -0.8}, {0.1, -1.5, 0.4, 0.2},
                                 {0.01, 0.0, 0.0, 2.0}};
-  law.corotated = 1;
+  law.kind = LAW_COROTATED;
   for (law.plane_stress = 0; law.plane_stress < 2; law.plane_stress++) {
     Rotation(law);
     EnergyGradient(law);

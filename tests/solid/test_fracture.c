@@ -34,7 +34,7 @@ static PetscErrorCode Energy(int axis, int corotated, double length, double widt
   const SolidSetup options = {.courant = 0.8};
   Material m = axis ? RockOf(3e7, 3e6, 30.0, 0.2) : RockOf(3e6, 9e6, 30.0, 0.2);
   m.fracture_energy[1] = 60.0;
-  m.corotated = corotated;
+  m.law = corotated;
   const BodySetup setup = Bar(m, box);
   const double expected = m.fracture_energy[axis] * width;
   Model a = {0};

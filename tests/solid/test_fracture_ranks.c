@@ -12,7 +12,7 @@ static void Bodies(Model *a)
   BodySetup left = BodyAtRest(RockOf(3e6, 9e6, 20.0, 0.1)), right = left;
   left.joints.all = 1;
   left.velocity[0] = 4.0;
-  right.material.corotated = 1;
+  right.material.law = 1;
   right.velocity[0] = -8.0;
   right.joints = (JointSetup){.nboxes = 1, .box = box};
   AddDisc(a, -0.0505, 0.0, 0.05, 0.012, &left);

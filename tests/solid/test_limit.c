@@ -23,7 +23,7 @@ static PetscErrorCode Vibrating(int corotated, double factor, double damping, do
   const SolidSetup options = {.courant = factor, .fail = Fail};
   BodySetup setup = BodyAtRest(MaterialOf(1000.0, 1.0e6, 0.3, damping));
   double *x;
-  setup.material.corotated = corotated;
+  setup.material.law = corotated;
   memset(a, 0, sizeof *a);
   AddDisc(a, 0.0, 0.0, 0.1, 0.03, &setup);
   PetscCall(SolidCreate(PETSC_COMM_SELF, a, &options, s));
@@ -85,7 +85,7 @@ static PetscErrorCode Swings(int plane_stress)
   Model a = {0};
   Solid s;
   double limit, now_limit, before = 0.0, now = 0.0, worst = 0.0;
-  setup.material.corotated = 1;
+  setup.material.law = 1;
   setup.material.plane_stress = plane_stress;
   setup.stretch[0] = 1.1;
   setup.stretch[1] = 0.95;

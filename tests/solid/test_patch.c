@@ -30,7 +30,7 @@ static PetscErrorCode Mapped(const double f[4], Law law, Solid *s)
   Model a = {0};
   double *x;
   setup.material.plane_stress = law % 2;
-  setup.material.corotated = law >= BIOT_STRAIN;
+  setup.material.law = law >= BIOT_STRAIN;
   setup.material.thickness = THICKNESS;
   AddRectangle(&a, 0.0, 0.0, 1.0, 1.0, 0.0, 0.1, 1, &setup);
   PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, s));

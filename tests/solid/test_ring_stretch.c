@@ -16,7 +16,7 @@ static PetscErrorCode Build(Law law, double poisson, double wall, int affine, Me
   BodySetup setup = BodyAtRest(MaterialOf(DENSITY, E, poisson, 0.0));
   const char *why = NULL;
   setup.material.plane_stress = law % 2;
-  setup.material.corotated = law >= BIOT_STRAIN;
+  setup.material.law = law >= BIOT_STRAIN;
   for (int c = 0; c < 2; c++) setup.stretch[c] = STRETCH[c];
   PetscCall(ShapeRing(CENTRE, RADIUS - 0.5 * wall, RADIUS + 0.5 * wall, LAYERS, wall / LAYERS, mesh));
   double *x = malloc(2 * (size_t)mesh->nv * sizeof *x);

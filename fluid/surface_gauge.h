@@ -1,0 +1,21 @@
+/* Where a phase is along a segment, from its volumes and lines: a free-surface gauge.
+ *
+ *     from ##########------####---- to      #: the phase
+ *                    ^         ^
+ *                    first     last           length: that of all #
+ */
+#ifndef FLUID_SURFACE_GAUGE_H
+#define FLUID_SURFACE_GAUGE_H
+#include "fluid/phases/phases.h"
+
+/* A piece shorter than this part of what the segment has in the element, and a gap as short, do not count. */
+#define SURFACE_SLIVER 0.01
+
+typedef struct {
+  double first, last, length; /* m from the start of the segment; all 0 without the phase */
+} SurfacePlace;
+
+/* Collective over mesh->comm, whose owned elements the phases are on.  first is 0 where another phase is at `from`. */
+PetscErrorCode SurfaceMeasure(Phases phases, const Mesh *mesh, int phase, const double from[2],
+                              const double to[2], SurfacePlace *place);
+#endif

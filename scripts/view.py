@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+"""A picture of any field of a run: fluid or solid, at any time.
+
+Reads fluid.h5 and solid.h5 of the output folder RUN; without --field lists what there is and draws the speed of the fluid with the bodies'
+outline.  A vector is drawn as its length, or one component with --field velocity.x.  Needs numpy, h5py and matplotlib.
+"""
+import argparse
+import os
+import sys
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from snapshot import Window, centred, paint, read_snapshot
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(prog="view.sh", description=__doc__)
+    parser.add_argument("run", help="output folder")
+    parser.add_argument("--field", help="e.g. velocity, velocity.y, pressure, solid:stress.x")
+    parser.add_argument("--time", type=float, help="the snapshot nearest to this time, s (default the last)")
+    parser.add_argument("--window", type=float, nargs=4, metavar=("X0", "Y0", "X1", "Y1"), help="what to show, m")
+    parser.add_argument("--out", help="picture (default RUN/view.png)")
+    return parser.parse_args()
+
+
+def read_grids(run, time):
+    """Time and {"fluid velocity": Grid, ..., "solid": Grid} of what the run has."""
+    grids, found = {}, time
+    for part in ("fluid", "solid"):
+        path = os.path.join(run, part + ".h5")
+        if os.path.exists(path):
+            found, parts = read_snapshot(path, found)
+            grids.update({part if part == name else f"{part} {name}": grid for name, grid in parts.items()})
+    if not grids:
+        raise LookupError(f"{run} has no fluid.h5 and no solid.h5")
+    return found, grids
+
+
+def fields(grids):
+    """{(part, field name): (grid, values at its nodes or cells)}"""
+    found = {}
+    for name, grid in grids.items():
+        for place in (grid.node, grid.cell):
+            for field, values in place.items():
+                found.setdefault((name.split()[0], field), (grid, values))
+    return found
+
+
+def select(found, wanted):
+    """Grid, values [n] and a label of what --field means."""
+    part, _, name = wanted.rpartition(":")
+    name, _, component = name.partition(".")
+    keys = [key for key in found if key[1] == name and (not part or key[0] == part)]
+    if not keys:
+        there = ", ".join(f"{p}:{n}" for p, n in found)
+        raise LookupError(f"there is no field '{wanted}': {there}")
+    grid, values = found[keys[0]]
+    if values.ndim == 1:
+        return grid, values, f"{keys[0][0]}: {name}"
+    if component:
+        k = "xyz".find(component) if component in "xyz" else -1
+        if not 0 <= k < values.shape[1]:
+            raise LookupError(f"{name} has the components {', '.join('xyz'[:values.shape[1]])}")
+        return grid, values[:, k], f"{keys[0][0]}: {name}, {component}"
+    return grid, np.linalg.norm(values, axis=1), f"{keys[0][0]}: |{name}|"
+
+
+def at_nodes(grid, values):
+    """Values of cells as the mean over the cells around a node."""
+    if len(values) == len(grid.points):
+        return values
+    corners = grid.cells.shape[1]
+    total = np.bincount(grid.cells.ravel(), np.repeat(values, corners), len(grid.points))
+    return total / np.maximum(1, np.bincount(grid.cells.ravel(), minlength=len(grid.points)))
+
+
+def draw(arguments):
+    time, grids = read_grids(arguments.run, arguments.time)
+    found = fields(grids)
+    if not arguments.field:
+        print("fields:", ", ".join(f"{part}:{name}" for part, name in found))
+    grid, values, label = select(found, arguments.field or "velocity")
+    values = at_nodes(grid, values)
+    window = Window(arguments.window[:2], arguments.window[2:]) if arguments.window else Window.around(grid.points)
+    low, high = window.percentiles(grid, values, 0.5, 99.5)
+    high = high if high > low else low + 1.0
+    width = 8.0 * np.sqrt(window.size[0] / window.size[1])
+    figure, axes = plt.subplots(figsize=(width, 1.0 + width * window.size[1] / window.size[0]), layout="constrained")
+    colours = centred(low, high, even=False) if low < 0.0 < high else "viridis"
+    paint(axes, grid, values, window, (low, high), colours, label, grids.get("solid"))
+    axes.set(xlabel="x [m]", ylabel="y [m]", title=f"t = {time:.4g} s")
+    return figure
+
+
+def main():
+    arguments = parse_arguments()
+    try:
+        figure = draw(arguments)
+    except LookupError as error:
+        sys.exit(f"view.sh: {error}")
+    path = arguments.out or os.path.join(arguments.run, "view.png")
+    figure.savefig(path, dpi=150)
+    print(path)
+
+
+main()

@@ -1,0 +1,74 @@
+// ranks: 1 2 3
+/* A free-surface gauge finds a straight surface exactly on a mesh that knows nothing of it, a drop above it, and nothing where the phase is
+ * not. */
+#include "fluid/fluid.h"
+#include "fluid/surface_gauge.h"
+#include "tests/check.h"
+
+static double Uniform(void *size, const double x[2])
+{
+  return *(double *)size;
+}
+
+static PetscErrorCode Measure(Fluid fluid, int phase, double x0, double y0, double x1, double y1,
+                              SurfacePlace *place)
+{
+  const double from[2] = {x0, y0}, to[2] = {x1, y1};
+  return SurfaceMeasure(PhaseTransportPhases(FluidPhases(fluid)), FluidMesh(fluid), phase, from, to, place);
+}
+
+static void Expect(const SurfacePlace *p, double first, double last, double length, double error,
+                   const char *what)
+{
+  CHECK(fabs(p->first - first) < error && fabs(p->last - last) < error && fabs(p->length - length) < error,
+        "%s: first %.12g of %.12g, last %.12g of %.12g, length %.12g of %.12g", what, p->first, first,
+        p->last, last, p->length, length);
+}
+
+int main(int argc, char **argv)
+{
+  const double lower[2] = {0.0, 0.0}, upper[2] = {1.0, 1.0};
+  double size = 0.06;
+  /* 0: air everywhere, 1: water below y = 0.313 + x/10 and in a drop */
+  const Region region[] = {{.shape = REGION_BOX, .phase = 0, .a = {-10.0, -10.0}, .b = {10.0, 10.0}},
+                           {.shape = REGION_HALF_PLANE, .phase = 1, .a = {0.0, 0.313}, .b = {-0.1, 1.0}},
+                           {.shape = REGION_DISC, .phase = 1, .a = {0.47, 0.75}, .radius = 0.15}};
+  Boundary boundary[8] = {{.kind = BOUNDARY_FREE_SLIP},
+                          {.kind = BOUNDARY_FREE_SLIP},
+                          {.kind = BOUNDARY_FREE_SLIP},
+                          {.kind = BOUNDARY_FREE_SLIP}};
+  FluidSetup setup = {.theta = 0.5,
+                      .rho = 1.0,
+                      .mu = 1.0,
+                      .cfl = 0.5,
+                      .dt_max = 0.01,
+                      .boundary = boundary,
+                      .phases = {2, {1.0, 1000.0}, {1e-5, 1e-3}}};
+  MeshSerial serial = {0};
+  SurfacePlace p;
+  Mesh *mesh;
+  Fluid fluid;
+  PetscMPIInt rank;
+  PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  if (rank == 0) PetscCall(MeshBox(lower, upper, size, Uniform, &size, &serial));
+  PetscCall(MeshDistribute(PETSC_COMM_WORLD, &serial, &mesh));
+  PetscCall(MeshSerialDestroy(&serial));
+  PetscCall(FluidCreate(mesh, &setup, &fluid));
+  PetscCall(FluidSetPhases(fluid, 3, region));
+  PetscCall(Measure(fluid, 1, 0.9, 0.0, 0.9, 1.0, &p));
+  Expect(&p, 0.403, 0.403, 0.403, 1e-6, "a surface");
+  PetscCall(Measure(fluid, 1, 0.0, 0.1, 0.0, 0.9, &p));
+  Expect(&p, 0.213, 0.213, 0.213, 1e-6, "a surface along a wall");
+  PetscCall(Measure(fluid, 0, 0.9, 0.0, 0.9, 1.0, &p));
+  Expect(&p, 0.0, 1.0, 0.597, 1e-6, "what is above");
+  PetscCall(Measure(fluid, 1, 0.47, 0.0, 0.47, 1.0, &p));
+  Expect(&p, 0.36, 0.9, 0.66, 0.05 * size, "a drop above it");
+  PetscCall(Measure(fluid, 1, 0.9, 0.55, 0.9, 1.0, &p));
+  Expect(&p, 0.0, 0.0, 0.0, 1e-15, "none");
+  PetscCall(Measure(fluid, 1, 0.0, -1e-16, 1.0, -1e-16, &p));
+  Expect(&p, 1.0, 1.0, 1.0, 1e-12, "the floor");
+  PetscCall(FluidDestroy(&fluid));
+  PetscCall(MeshDestroy(&mesh));
+  return PetscFinalize();
+}

@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# What documents repeat is what it is: versions, lines of adapters, links between documents, the case of the guide.  Usage: documents.sh ROOT BUILD
+set -euo pipefail
+cd "$1"
+build=$2
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+status=0
+wrong() { echo "$1"; status=1; }
+
+version=$(sed -n 's/^project(coracle VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+grep -q "^#define CORACLE_VERSION \"$version\"" common/link/coracle.h || wrong "coracle.h is not of version $version"
+grep -q "^version: $version" CITATION.cff || wrong "CITATION.cff is not of version $version"
+
+while IFS='|' read -r _ folder _ _ lines _; do
+  folder=$(tr -d ' `' <<<"$folder") lines=$(tr -d ' ' <<<"$lines")
+  found=$(cat cases/adapters/"$folder"/*.{c,cc,f90,py} 2>/dev/null | wc -l || true)
+  [ "$found" = "$lines" ] || wrong "cases/adapters/README.md: $folder has $found lines, not $lines"
+  [ "$found" -lt 200 ] || wrong "cases/adapters/$folder has $found lines, 200 are too many"
+done < <(grep -E '^\| `[a-z0-9_]+` \|' cases/adapters/README.md)
+
+for document in *.md cases/*.md cases/*/*.md cases/adapters/*/*.md common/*.md common/*/*.md {fluid,coupler,solid}/*.md tests/*.md; do
+  while read -r link; do
+    [ -e "$(dirname "$document")/$link" ] || wrong "$document: there is no $link"
+  done < <(grep -oE '\]\([^)#:]+' "$document" | cut -c3- || true)
+done
+
+awk '/^```yaml/ {on = 1; next} /^```/ {on = 0} on' cases/GUIDE.md >"$scratch/my_discs.yaml"
+scripts/check.sh --bin "$build" "$scratch/my_discs.yaml" >"$scratch/log" || { wrong "the guide's case is refused"; cat "$scratch/log"; }
+exit $status

@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# The .deb, installed into a scratch root, runs a case, checks one, and lets an outside solid build against its library.
+# Usage: package.sh ROOT BUILD
+set -euo pipefail
+root=$1 build=$2
+command -v dpkg-deb >/dev/null && command -v dpkg-shlibdeps >/dev/null || { echo 'this system makes no .deb'; exit 77; }
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+there=$scratch/root
+say() { echo "$1"; cat "$scratch/log"; exit 1; }
+(cd "$scratch" && cpack -G DEB --config "$build/CPackConfig.cmake" -B "$scratch/pack") >"$scratch/log" 2>&1 || say 'cpack failed'
+deb=$(find "$scratch/pack" -maxdepth 1 -name 'coracle_*.deb')
+dpkg-deb -f "$deb" Depends | grep -q 'libpetsc-real.*\|petsc' || say 'the package does not depend on PETSc'
+mkdir -p "$there/var/lib/dpkg"/{info,updates,triggers}
+touch "$there/var/lib/dpkg/status"
+if [ "$(id -u)" -eq 0 ]; then
+  dpkg --root="$there" --force-depends --unpack "$deb" >"$scratch/log" 2>&1 || say 'dpkg failed'
+else
+  dpkg-deb -x "$deb" "$there"
+fi
+
+cd "$scratch"
+coracle=$there/usr/bin/coracle
+cp "$root/tests/coupled/disc.yaml" .
+"$coracle" check disc.yaml >log 2>&1 || say 'coracle check failed'
+timeout -k 5 120 "$coracle" run disc.yaml --set time.end=0.02 >log 2>&1 || say 'coracle run failed'
+[ -s out/disc/summary.json ] || say 'no results beside the user'
+[ -f "$("$coracle" cases)/falling_cylinder/case.yaml" ] || say 'no cases'
+
+export PKG_CONFIG_PATH=$there/usr/lib/pkgconfig
+# shellcheck disable=SC2046 # the flags are words
+mpicc "$("$coracle" cases)/adapters/template_c/rigid_disc.c" -o rigid_disc $(pkg-config --define-prefix --cflags --libs coracle-client) -lm >log 2>&1 ||
+  say 'an outside solid does not compile'
+LD_LIBRARY_PATH=$there/usr/lib "$coracle" conform --solid ./rigid_disc --ranks 1 disc.yaml >log 2>&1 || say 'coracle conform failed'
+if /usr/bin/python3 -c 'import numpy, mpi4py' 2>/dev/null; then
+  PYTHONPATH=$there/usr/lib/python3/dist-packages /usr/bin/python3 -c 'import coracle; print(coracle.version())' >log 2>&1 || say 'the Python package is not found'
+fi
