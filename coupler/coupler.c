@@ -69,18 +69,35 @@ static void Predict(Coupler c, const SolidState *solid)
   }
 }
 
+/* Shell, overlap and coefficients with the solid at x. */
+static PetscErrorCode BuildAt(Coupler c, const SolidState *solid, const double x[])
+{
+  const PetscBool new_mesh = solid->changed || !c->built ? PETSC_TRUE : PETSC_FALSE;
+  SolidState at = *solid;
+
+  PetscFunctionBeginUser;
+  at.x = x;
+  PetscCall(ShellExtrude(c->shell, &at, new_mesh));
+  PetscCall(OverlapBuild(c->overlap, &at, c->shell, new_mesh));
+  PetscCall(NewStep(c, &at));
+  c->built = 1;
+  PetscCall(c->mode->coefficients(c, &at));
+  PetscCall(InertiaExplicitFraction(c->overlap, &at, c->density, c->explicit_fraction));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode CouplerBuild(Coupler c, const SolidState *solid, double dt, int *n,
                             const CoracleCoupling **coupling)
 {
-  const PetscBool new_mesh = solid->changed || !c->built ? PETSC_TRUE : PETSC_FALSE;
+  const double ahead = c->options.mode == COUPLER_REACTION ? 0.5 * dt : 0.0;
+  double *x;
+
   PetscFunctionBeginUser;
   c->dt = dt;
-  PetscCall(ShellExtrude(c->shell, solid, new_mesh));
-  PetscCall(OverlapBuild(c->overlap, solid, c->shell, new_mesh));
-  PetscCall(NewStep(c, solid));
-  c->built = 1;
-  PetscCall(c->mode->coefficients(c, solid));
-  PetscCall(InertiaExplicitFraction(c->overlap, solid, c->density, c->explicit_fraction));
+  PetscCall(PetscMalloc1(2 * (size_t)solid->nnodes, &x));
+  for (int k = 0; k < 2 * solid->nnodes; k++) x[k] = solid->x[k] + ahead * solid->u[k];
+  PetscCall(BuildAt(c, solid, x));
+  PetscCall(PetscFree(x));
   Predict(c, solid);
   PetscCall(CouplerSetInterfaceVelocity(c, c->predicted, n, coupling));
   PetscFunctionReturn(0);
@@ -171,15 +188,23 @@ static PetscErrorCode StoreHistory(Coupler c, const SolidState *moved)
   PetscFunctionReturn(0);
 }
 
+/* Corner by corner, so that it serves steps in which cracks have split nodes, too. */
 PetscErrorCode CouplerSolidCorrection(Coupler c, const SolidState *moved)
 {
-  double(*u)[3][2];
+  const Overlap o = c->overlap;
+  double(*owned)[3][2], (*u)[3][2];
 
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(c->overlap->nsources, &u));
-  PetscCall(OverlapNodesToSources(c->overlap, 2, moved->u, &u[0][0][0]));
-  ForceCorrection(c->overlap, (const double(*)[3][2])u, c->flow.u_projected, c->correction);
+  PetscCheck(moved->nelements == o->nvolume, PETSC_COMM_SELF, PETSC_ERR_PLIB,
+             "%d elements of the solid have become %d within a step", o->nvolume, moved->nelements);
+  PetscCall(PetscCalloc1(o->nowned, &owned));
+  PetscCall(PetscMalloc1(o->nsources, &u));
+  for (int k = 0; k < 3 * o->nvolume; k++)
+    PetscCall(PetscArraycpy(owned[k / 3][k % 3], moved->u + 2 * moved->element[k], 2));
+  PetscCall(OverlapForward(o, 6, &owned[0][0][0], &u[0][0][0]));
+  ForceCorrection(o, (const double(*)[3][2])u, c->flow.u_projected, c->correction);
   PetscCall(PetscFree(u));
+  PetscCall(PetscFree(owned));
   PetscFunctionReturn(0);
 }
 
@@ -190,7 +215,7 @@ PetscErrorCode CouplerCorrect(Coupler c, const SolidState *moved, int *n,
   PetscCall(PetscFree(c->correction));
   PetscCall(PetscCalloc1(c->overlap->ncoupled, &c->correction));
   for (int e = 0; e < c->overlap->ncoupled; e++) c->correction[e].element = c->overlap->coupled_element[e];
-  PetscCall(moved->changed ? CouplerNoCorrection(c, moved) : c->mode->correct(c, moved));
+  if (!moved->lost) PetscCall(c->mode->correct(c, moved));
   PetscCall(StoreHistory(c, moved));
   *n = c->overlap->ncoupled;
   *correction = c->correction;

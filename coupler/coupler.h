@@ -25,8 +25,10 @@ PetscErrorCode CouplerDestroy(Coupler *coupler);
 /* The fluid's elements near the solid, with density and viscosity at the start of the coming step (copied). */
 PetscErrorCode CouplerSetElements(Coupler coupler, const FluidElements *elements);
 
-/* The coupling over the coming step of dt seconds, with the solid where it is now and the velocity at its end
- * that CouplerPredictedVelocity has: coupling[n], one per fluid element that overlaps the solid or its shell,
+/* The coupling over the coming step of dt seconds, with the solid where it is expected in the middle of the
+ * step, x + dt/2 u_s (modes other than reaction: where it is now), so that forces which depend on its position
+ * are neither early nor late; and with the velocity at the step's end that CouplerPredictedVelocity has:
+ * coupling[n], one per fluid element that overlaps the solid or its shell,
  * in ascending order, borrowed until the next CouplerBuild. */
 PetscErrorCode CouplerBuild(Coupler coupler, const SolidState *solid, double dt, int *n,
                             const CoracleCoupling **coupling);
@@ -42,9 +44,8 @@ const double *CouplerExplicitFraction(Coupler coupler);
  * until CouplerCorrect has returned. */
 PetscErrorCode CouplerComputeForce(Coupler coupler, const CoracleFlow *flow, const double **force,
                                    ForceTotals *totals);
-/* correction[n], one per element of CouplerBuild and in its order.  When the solid has changed its mesh in
- * the step (moved->changed) the source triangles have no new velocity and the corrections are 0.  Borrowed
- * until the next CouplerCorrect. */
+/* correction[n], one per element of CouplerBuild and in its order; 0 when the elements of the step's start cannot
+ * be recovered from the solid's new mesh (moved->lost).  Borrowed until the next CouplerCorrect. */
 PetscErrorCode CouplerCorrect(Coupler coupler, const SolidState *moved, int *n,
                               const CoracleCorrection **correction);
 

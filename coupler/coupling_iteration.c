@@ -69,6 +69,7 @@ PetscErrorCode CouplingIterationBegin(CouplingIteration *t, const SolidState *so
   PetscCall(PetscArraycpy(t->iterate, predicted, 2 * (size_t)t->n));
   PetscCall(PetscArraycpy(t->explicit_fraction, explicit_fraction, (size_t)t->n));
   t->dt = dt;
+  if (t->failures > 1) PetscCall(QuasiNewtonBegin(t->quasi_newton, -1));
   PetscCall(QuasiNewtonBegin(t->quasi_newton, 2 * t->n));
   PetscFunctionReturn(0);
 }
@@ -89,6 +90,7 @@ PetscErrorCode CouplingIterationHasConverged(CouplingIteration *t, int iteration
                    ? PETSC_TRUE
                    : PETSC_FALSE;
   if (solid->changed && iteration == t->max_iterations) *converged = PETSC_TRUE;
+  if (*converged || iteration == t->max_iterations) t->failures = *converged ? 0 : t->failures + 1;
   PetscFunctionReturn(0);
 }
 

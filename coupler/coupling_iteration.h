@@ -25,6 +25,7 @@ typedef struct {
   double *explicit_fraction; /* [n] e */
   double dt;                 /* of the step, s */
   double residual;           /* rms(e (H(v_k) - v_k)) of the last iteration, m/s */
+  int failures;              /* so often in a row a step has not converged */
   QuasiNewton quasi_newton;
 } CouplingIteration;
 
@@ -32,7 +33,8 @@ PetscErrorCode CouplingIterationCreate(MPI_Comm comm, int max_iterations, double
                                        CouplingIteration *t);
 PetscErrorCode CouplingIterationDestroy(CouplingIteration *t);
 /* Starts a step of dt seconds from the solid as it is; predicted[n][2] v_0, m/s, and explicit_fraction[n] are
- * copied. */
+ * copied.  When a step has not converged twice the quasi-Newton method begins
+ * anew. */
 PetscErrorCode CouplingIterationBegin(CouplingIteration *t, const SolidState *solid, double dt,
                                       const double predicted[], const double explicit_fraction[]);
 /* Has the step converged with `solid` as the result of iteration number `iteration` (from 1)?  Always true

@@ -70,7 +70,7 @@ static PetscErrorCode Reach(Region r, const SolidState *solid, double dt, double
 PetscErrorCode RegionUpdate(Region r, const SolidState *solid, double dt)
 {
   GeometryBox cluster[REGION_BOXES];
-  double area = 0.0, reach;
+  double area = 0.0, reach = 0.0;
 
   PetscFunctionBeginUser;
   PetscCall(Clusters(r, solid, cluster));
@@ -82,7 +82,7 @@ PetscErrorCode RegionUpdate(Region r, const SolidState *solid, double dt)
     PetscCall(PetscArraycpy(r->box[r->nbox][0], cluster[k].lower, 2));
     PetscCall(PetscArraycpy(r->box[r->nbox++][1], cluster[k].upper, 2));
   }
-  r->margin = PetscMax(PetscMin(reach, 0.2 * sqrt(area)), 8.0 * r->thickness);
+  r->margin = PetscMax(PetscMin(reach, 0.2 * sqrt(area)), PetscMax(reach / REGION_STEPS, 8.0 * r->thickness));
   for (int k = 0; k < r->nbox; k++) {
     for (int c = 0; c < 2; c++) {
       r->box[k][0][c] -= r->margin + SHELL_OFFSET_LIMIT * r->thickness;
@@ -96,14 +96,16 @@ PetscErrorCode RegionUpdate(Region r, const SolidState *solid, double dt)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode RegionStale(Region r, const SolidState *solid, PetscBool *stale)
+PetscErrorCode RegionStale(Region r, const SolidState *solid, double dt, PetscBool *stale)
 {
   int local = solid->changed || solid->nnodes != r->n, any;
 
   PetscFunctionBeginUser;
   for (int i = 0; i < solid->nnodes && !local; i++) {
-    /* NaN is stale, too */
-    local = !(hypot(solid->x[2 * i] - r->x[2 * i], solid->x[2 * i + 1] - r->x[2 * i + 1]) <= r->margin);
+    double way[2];
+    for (int c = 0; c < 2; c++)
+      way[c] = solid->x[2 * i + c] + 0.5 * dt * solid->u[2 * i + c] - r->x[2 * i + c];
+    local = !(hypot(way[0], way[1]) <= r->margin); /* NaN is stale, too */
   }
   PetscCallMPI(MPI_Allreduce(&local, &any, 1, MPI_INT, MPI_MAX, r->comm));
   *stale = any ? PETSC_TRUE : PETSC_FALSE;

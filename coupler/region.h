@@ -26,11 +26,12 @@ typedef struct {
 
 PetscErrorCode RegionCreate(MPI_Comm comm, double thickness, Region *region);
 /* Collective: boxes around the solid as it is now.  The margin is the way of the fastest node in REGION_STEPS
- * steps of dt, but at most a fifth of the body's size (the root of the clusters' area) and at least 8 shell
- * thicknesses. */
+ * steps of dt, but at most a fifth of the body's size (the root of the clusters' area) and at least that of one
+ * step, and 8 shell thicknesses. */
 PetscErrorCode RegionUpdate(Region region, const SolidState *solid, double dt);
-/* Collective: has a node moved farther than the margin since, or has the solid changed its mesh? */
-PetscErrorCode RegionStale(Region region, const SolidState *solid, PetscBool *stale);
+/* Collective: has a node moved farther than the margin since, or will it by the middle of a step of dt seconds, or
+ * has the solid changed its mesh? */
+PetscErrorCode RegionStale(Region region, const SolidState *solid, double dt, PetscBool *stale);
 /* Collective: the smallest global id of the nodes outside of the domain and, on the one rank that gets *local
  * >= 0, its local index; *gid < 0: none. */
 PetscErrorCode RegionOutside(Region region, const SolidState *solid, const FluidElements *elements,

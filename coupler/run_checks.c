@@ -4,6 +4,12 @@
 /* Part of time.dt_max: a shorter step is an error. */
 #define MIN_STEP 1e-6
 
+/* A step over the one before it, at most: what is extrapolated over it stays near. */
+#define MAX_GROWTH 1.3
+
+/* How often a step that does not converge is halved before the run is given up. */
+enum { MAX_HALVINGS = 6 };
+
 PetscErrorCode RunFail(const RunState *run, const char *format, ...)
 {
   char message[640];
@@ -24,7 +30,8 @@ PetscErrorCode RunFail(const RunState *run, const char *format, ...)
 PetscErrorCode RunChooseStep(RunState *run, double proposed)
 {
   const CouplerCase *c = run->loop->c;
-  const double remaining = c->end - run->t, wanted = fmin(proposed, c->dt_max);
+  const double remaining = c->end - run->t, longest = run->dt > 0.0 ? MAX_GROWTH * run->dt : HUGE_VAL;
+  const double wanted = fmin(fmin(proposed, c->dt_max), longest);
 
   PetscFunctionBeginUser;
   if (!(wanted > MIN_STEP * c->dt_max)) { /* NaN, too */
@@ -95,13 +102,16 @@ PetscErrorCode RunCheckDivergence(RunState *run, const StepRecord *step)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode RunFailIteration(const RunState *run)
+PetscErrorCode RunHalveStep(RunState *run, int halvings)
 {
   PetscFunctionBeginUser;
-  PetscCall(RunFail(run,
-                    "the step from t = %g s does not converge: after %d coupling iterations the solid's "
-                    "velocity at its end differs by %g m/s from the one that the fluid was solved with; "
-                    "shorter steps (time.dt_max) or a larger coupler.max_iterations may help",
-                    run->t, run->iteration.max_iterations, run->iteration.residual));
+  if (halvings == MAX_HALVINGS)
+    PetscCall(
+        RunFail(run,
+                "the step from t = %g s does not converge: even over %g s, after %d coupling iterations, "
+                "the solid's velocity at its end differs by %g m/s from the one that the fluid was solved "
+                "with; a larger coupler.max_iterations may help",
+                run->t, run->dt, run->iteration.max_iterations, run->iteration.residual));
+  run->dt *= 0.5;
   PetscFunctionReturn(0);
 }

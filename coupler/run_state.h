@@ -11,7 +11,8 @@
 typedef struct {
   TimeLoop *loop;
   const CouplerModeTable *mode;
-  SolidState solid;
+  SolidState solid; /* as received last; borrowed */
+  SolidState start; /* as the current step began; a copy */
   FluidElements elements;
   CouplingIteration iteration;
   DivergenceMonitor monitor;
@@ -22,7 +23,7 @@ typedef struct {
   const CoracleCorrection *correction; /* [ncorrection] of the last accepted step, not sent yet; borrowed */
 } RunState;
 
-/* dt for the coming step: the fluid's proposal, at most time.dt_max.  The last step ends exactly at time.end,
+/* dt for the coming step: the fluid's proposal, at most time.dt_max and 1.3 of the last step's.  The last step ends exactly at time.end,
  * and the one before it is shortened so that the last is not much smaller.  A proposal below 1e-6 of
  * time.dt_max ends the job: the flow diverges and would take ever shorter steps. */
 PetscErrorCode RunChooseStep(RunState *run, double proposed);
@@ -32,8 +33,9 @@ PetscErrorCode RunCheckInside(const RunState *run);
 PetscErrorCode RunCreateGauges(RunState *run);
 /* Ends the job when the accepted step shows that the coupling diverges. */
 PetscErrorCode RunCheckDivergence(RunState *run, const StepRecord *step);
-/* Ends the job: the step has not converged within coupler.max_iterations. */
-PetscErrorCode RunFailIteration(const RunState *run);
+/* The current step has not converged within coupler.max_iterations: dt is halved, or the job ends if it has been
+ * halved often enough.  halvings: how often. */
+PetscErrorCode RunHalveStep(RunState *run, int halvings);
 /* Ends the job with one message of rank 0 about what all ranks have found. */
 PetscErrorCode RunFail(const RunState *run, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

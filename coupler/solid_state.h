@@ -24,6 +24,11 @@ typedef struct {
   const int *facet, *element;            /* [nfacets][2], [nelements][3] nodes of this rank */
 } SolidState;
 
+/* Not collective.  A copy that owns its arrays, without start_element; it may have been a copy before,
+ * zero-initialise the first time. */
+PetscErrorCode SolidStateCopy(const SolidState *solid, SolidState *copy);
+PetscErrorCode SolidStateDestroy(SolidState *copy);
+
 /* Not collective.  Maps nodal values value[nnodes][2] to the n nodes that the step started with,
  * start[n][2]: where a crack has split a node, the mean over the corners of its elements.  Nodes without
  * elements keep their value in start. */

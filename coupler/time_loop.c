@@ -3,7 +3,7 @@
  *     repeat     fluid   -- u*, u+, rho, mu -->  force     -- force -->  solid
  *                solid   -- x, u_s ---------->  converged?
  *                           if not:             next u_s  -- coupling, REDO -->  fluid
- *     until converged
+ *     until converged; where that takes too many iterations, from the start over half of dt
  *     correction of the fluid to the solid's new velocity
  *     choose dt;   shell, overlap and coupling at the solid's new position
  *                                               correction, coupling, RUN -->  fluid
@@ -18,7 +18,7 @@ static PetscErrorCode RequestElements(RunState *run)
   const TimeLoop *loop = run->loop;
 
   PetscFunctionBeginUser;
-  PetscCall(RegionUpdate(loop->region, &run->solid, run->dt));
+  PetscCall(RegionUpdate(loop->region, &run->solid, run->dt > 0.0 ? run->dt : loop->c->dt_max));
   PetscCall(ExchangeRequestElements(loop->server, loop->region, &run->elements));
   PetscCall(CouplerSetElements(loop->coupler, &run->elements));
   PetscFunctionReturn(0);
@@ -30,7 +30,7 @@ static PetscErrorCode UpdateElements(RunState *run)
   PetscBool stale;
 
   PetscFunctionBeginUser;
-  PetscCall(RegionStale(run->loop->region, &run->solid, &stale));
+  PetscCall(RegionStale(run->loop->region, &run->solid, run->dt, &stale));
   if (stale || ServerElementsChanged(run->loop->server)) PetscCall(RequestElements(run));
   PetscFunctionReturn(0);
 }
@@ -48,21 +48,32 @@ static PetscErrorCode MoveGauges(RunState *run)
   PetscFunctionReturn(0);
 }
 
-/* The coupling of the coming step, and the correction of the one just made. */
-static PetscErrorCode SendCoupling(RunState *run)
+/* The coupling of the step from t over dt: RUN, with the correction of the step before it, or REDO. */
+static PetscErrorCode SendCoupling(RunState *run, CoracleAction action)
 {
   const TimeLoop *loop = run->loop;
   const CoracleCoupling *coupling;
   int n;
 
   PetscFunctionBeginUser;
-  PetscCall(CouplerBuild(loop->coupler, &run->solid, run->dt, &n, &coupling));
-  PetscCall(CouplingIterationBegin(&run->iteration, &run->solid, run->dt,
+  PetscCall(CouplerBuild(loop->coupler, &run->start, run->dt, &n, &coupling));
+  PetscCall(CouplingIterationBegin(&run->iteration, &run->start, run->dt,
                                    CouplerPredictedVelocity(loop->coupler),
                                    CouplerExplicitFraction(loop->coupler)));
-  PetscCall(WriterShell(loop->writer, run->t, loop->coupler, &run->solid));
-  PetscCall(ServerSendCoupling(loop->server, run->t, run->dt, CORACLE_RUN, run->ncorrection, run->correction,
-                               n, coupling));
+  PetscCall(ServerSendCoupling(loop->server, run->t, run->dt, action,
+                               action == CORACLE_RUN ? run->ncorrection : 0, run->correction, n, coupling));
+  PetscFunctionReturn(0);
+}
+
+/* Begins the coming step. */
+static PetscErrorCode SendStep(RunState *run)
+{
+  const TimeLoop *loop = run->loop;
+
+  PetscFunctionBeginUser;
+  PetscCall(SolidStateCopy(&run->solid, &run->start));
+  PetscCall(SendCoupling(run, CORACLE_RUN));
+  PetscCall(WriterShell(loop->writer, run->t, loop->coupler, &run->start));
   PetscFunctionReturn(0);
 }
 
@@ -84,7 +95,7 @@ static PetscErrorCode Start(RunState *run)
   PetscCall(RunCreateGauges(run));
   PetscCall(RunOpenOutput(run));
   PetscCall(MoveGauges(run));
-  PetscCall(SendCoupling(run));
+  PetscCall(SendStep(run));
   PetscFunctionReturn(0);
 }
 
@@ -120,18 +131,30 @@ static PetscErrorCode RepeatStep(RunState *run)
   PetscFunctionReturn(0);
 }
 
-/* Coupling iterations until the step has converged. */
+/* Coupling iterations over dt, at most as many as are allowed. */
+static PetscErrorCode SolveOverStep(RunState *run, StepRecord *step, PetscBool *converged)
+{
+  PetscFunctionBeginUser;
+  for (int i = 1;; i++) {
+    PetscCall(Iterate(run, step->iterations++ ? CORACLE_REDO : CORACLE_RUN, step));
+    PetscCall(CouplingIterationHasConverged(&run->iteration, i, &run->solid, converged));
+    if (*converged || i == run->iteration.max_iterations) break;
+    PetscCall(RepeatStep(run));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Until the step has converged, over half of dt where it has not. */
 static PetscErrorCode SolveStep(RunState *run, StepRecord *step)
 {
   PetscBool converged;
 
   PetscFunctionBeginUser;
-  for (step->iterations = 1;; step->iterations++) {
-    PetscCall(Iterate(run, step->iterations == 1 ? CORACLE_RUN : CORACLE_REDO, step));
-    PetscCall(CouplingIterationHasConverged(&run->iteration, step->iterations, &run->solid, &converged));
+  for (int halvings = 0;; halvings++) {
+    PetscCall(SolveOverStep(run, step, &converged));
     if (converged) break;
-    if (step->iterations == run->iteration.max_iterations) PetscCall(RunFailIteration(run));
-    PetscCall(RepeatStep(run));
+    PetscCall(RunHalveStep(run, halvings));
+    PetscCall(SendCoupling(run, CORACLE_REDO));
   }
   PetscFunctionReturn(0);
 }
@@ -160,10 +183,10 @@ static PetscErrorCode BeginStep(RunState *run, StepRecord *step)
   const double start = MPI_Wtime() - ServerWaited(loop->server);
 
   PetscFunctionBeginUser;
-  PetscCall(UpdateElements(run));
   PetscCall(RunChooseStep(run, ServerProposedStep(loop->server)));
+  PetscCall(UpdateElements(run));
   PetscCall(CheckpointsRequest(&run->checkpoints, WriterSteps(loop->writer) + 1, run->t, PETSC_FALSE));
-  PetscCall(SendCoupling(run));
+  PetscCall(SendStep(run));
   step->overlap = MPI_Wtime() - ServerWaited(loop->server) - start;
   PetscFunctionReturn(0);
 }
@@ -187,6 +210,7 @@ static PetscErrorCode Stop(RunState *run)
   PetscCall(CheckpointsFinish(&run->checkpoints));
   PetscCall(CouplingIterationDestroy(&run->iteration));
   PetscCall(GaugesDestroy(&run->gauges));
+  PetscCall(SolidStateDestroy(&run->start));
   PetscFunctionReturn(0);
 }
 

@@ -31,6 +31,7 @@ static const CoracleCaseKey KEYS[] = {
     {"fluid.boundaries.*.phase", "", "phase of what flows in; the lightest if none is given"},
     {"fluid.theta", "", "0.5 Crank-Nicolson ... 1 backward Euler"},
     {"fluid.petsc", "", "options for PETSc's solvers: -momentum_ksp_monitor"},
+    {"fluid.initial.velocity", "m/s", "everywhere at the start; without it the fluid is at rest"},
     {"fluid.mesh.file", "", "a Gmsh mesh, instead of a box; a relative path starts at the case file"},
     {"fluid.mesh.lower", "m", "lower left corner of a box"},
     {"fluid.mesh.upper", "m", "upper right corner of the box"},

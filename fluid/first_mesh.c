@@ -21,7 +21,19 @@ PetscErrorCode AdaptationCheckBudget(const AdaptationSetup *s, MPI_Comm comm, do
   PetscFunctionReturn(0);
 }
 
-/* The bounding boxes of elements that regions of different phases share, of all ranks; *box is allocated. */
+/* Whether an interface cuts owned element e, or runs along a face between it and another element of this rank. */
+static PetscBool IsAtInterface(const Mesh *m, Phases phases, int e)
+{
+  const int single = PhasesSingle(phases, e);
+  PetscBool at = (PetscBool)(single < 0);
+  for (int i = 0; i < 3; i++) {
+    const int k = m->neighbor[3 * e + i];
+    if (k >= 0 && k < m->ne && PhasesSingle(phases, k) != single) at = PETSC_TRUE;
+  }
+  return at;
+}
+
+/* The bounding boxes of elements at an interface between phases, of all ranks; *box is allocated. */
 static PetscErrorCode CutBoxes(const Mesh *m, const AdaptationStart *start, int *n, GeometryBox **box)
 {
   enum { BOX = sizeof(GeometryBox) / sizeof(double) };
@@ -37,7 +49,7 @@ static PetscErrorCode CutBoxes(const Mesh *m, const AdaptationStart *start, int 
   PetscCall(PhasesFill(phases, start->nregions, start->region));
   PetscCall(PhasesReconstruct(phases));
   for (int e = 0; e < m->ne; e++)
-    if (PhasesSingle(phases, e) < 0) {
+    if (IsAtInterface(m, phases, e)) {
       local[mine / BOX] = GeometryBoxOf((const double(*)[2])stars->element[e].x);
       mine += BOX;
     }

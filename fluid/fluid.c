@@ -1,5 +1,6 @@
 /* The fluid's life, and its step. */
 #include "fluid/fluid_impl.h"
+#include "fluid/solver_options.h"
 
 /* --- life -------------------------------------------------------------------------------------------- */
 
@@ -7,15 +8,16 @@ static PetscErrorCode CreateVectors(Fluid f)
 {
   const Mesh *m = f->domain.mesh;
   const P2Space *p2 = f->domain.p2;
-  Vec *velocity[] = {&f->u_previous, &f->u_star,  &f->u_projected,
-                     &f->mass_flux,  &f->saved.u, &f->saved.u_previous};
+  Vec *velocity[] = {&f->bulk,        &f->bulk_previous, &f->u_previous, &f->u_star,
+                     &f->u_projected, &f->mass_flux,     &f->saved.u,    &f->saved.u_previous};
   PetscInt *ghosts;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(m->ng, &ghosts));
   for (int e = 0; e < m->ng; e++) ghosts[e] = m->egid[m->ne + e];
   PetscCall(VecCreateGhostBlock(m->comm, 6, 6 * m->ne, PETSC_DETERMINE, m->ng, ghosts, &f->u));
   PetscCall(PetscFree(ghosts));
-  for (size_t k = 0; k < sizeof velocity / sizeof *velocity; k++) PetscCall(VecDuplicate(f->u, velocity[k]));
+  for (size_t k = f->phases ? 0 : 2; k < sizeof velocity / sizeof *velocity; k++)
+    PetscCall(VecDuplicate(f->u, velocity[k]));
   PetscCall(
       VecCreateGhost(m->comm, p2->nowned, PETSC_DETERMINE, p2->n - p2->nowned, p2->gid + p2->nowned, &f->p));
   PetscCall(VecDuplicate(f->p, &f->saved.p));
@@ -24,8 +26,9 @@ static PetscErrorCode CreateVectors(Fluid f)
 
 static PetscErrorCode DestroyVectors(Fluid f)
 {
-  Vec *all[] = {&f->u,       &f->u_previous,       &f->u_star, &f->u_projected, &f->mass_flux,
-                &f->saved.u, &f->saved.u_previous, &f->p,      &f->saved.p};
+  Vec *all[] = {&f->bulk,        &f->bulk_previous, &f->u,       &f->u_previous,       &f->u_star,
+                &f->u_projected, &f->mass_flux,     &f->saved.u, &f->saved.u_previous, &f->p,
+                &f->saved.p};
   PetscFunctionBeginUser;
   for (size_t k = 0; k < sizeof all / sizeof *all; k++) PetscCall(VecDestroy(all[k]));
   PetscFunctionReturn(0);
@@ -43,8 +46,11 @@ PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *flu
   f->setup.boundary = f->domain.boundary;
   PetscCall(MaterialCreate(mesh, setup->theta, setup->rho, setup->mu, &f->material));
   PetscCall(SolidCouplingCreate(mesh->ne, &f->solid));
-  if (setup->phases.n)
+  if (setup->phases
+          .n) { /* what the solver leaves of the divergence becomes a gap between volumes and areas */
+    PetscCall(SolverDefaultOption("pressure_varying_", "ksp_rtol", "1e-10"));
     PetscCall(PhaseTransportCreate(&f->domain, &setup->phases, setup->gravity, &f->phases));
+  }
   PetscCall(CreateVectors(f));
   PetscCall(MomentumSolverCreate(&f->domain, &momentum, f->u, &f->momentum));
   PetscCall(ProjectionSolverCreate(&f->domain, f->p, &f->projection));
@@ -88,11 +94,11 @@ PetscErrorCode FluidSetCoupling(Fluid f, int n, const CoracleCoupling coupling[]
 {
   return SolidCouplingSet(f->solid, n, coupling);
 }
-
-/* u* = u at t + dt, the solver's first guess, and the mass flux rho u at t + theta dt, both extrapolated. */
+/* u* = u at t + dt, the solver's first guess, and the mass flux rho u at t + theta dt, both extrapolated by at most two of
+ * the last step. */
 static PetscErrorCode Extrapolate(Fluid f, double dt)
 {
-  const double r = f->dt_previous > 0.0 ? dt / f->dt_previous : 0.0,
+  const double r = f->dt_previous > 0.0 ? fmin(dt / f->dt_previous, 2.0) : 0.0,
                s = (f->phases ? 0.5 : f->setup.theta) * r;
   const double *rho = MaterialDensity(f->material, MATERIAL_STEP);
   PetscScalar *flux;
@@ -101,6 +107,8 @@ static PetscErrorCode Extrapolate(Fluid f, double dt)
   PetscCall(VecWAXPY(f->u_star, r, f->mass_flux, f->u));
   PetscCall(VecAYPX(f->mass_flux, s, f->u));
   if (f->phases) {
+    PetscCall(VecWAXPY(f->mass_flux, -1.0, f->bulk_previous, f->bulk));
+    PetscCall(VecAYPX(f->mass_flux, s, f->bulk));
     PetscCall(FluidMovePhases(f, dt, s));
   } else {
     PetscCall(VecGetArray(f->mass_flux, &flux));
@@ -120,7 +128,7 @@ PetscErrorCode FluidMomentum(Fluid f, double dt)
   PetscFunctionBeginUser;
   f->stats.dt = dt;
   PetscCall(Extrapolate(f, dt));
-  if (f->phases) PetscCall(FluidBalancePressure(f));
+  if (f->phases) PetscCall(FluidPredictPressure(f, dt));
   const MomentumStep step = {f->t,
                              dt,
                              MaterialDensity(f->material, MATERIAL_STEP),
@@ -167,8 +175,13 @@ PetscErrorCode FluidProject(Fluid f, double dt)
 PetscErrorCode FluidCorrect(Fluid f, double dt, const CoracleCorrection correction[])
 {
   const double start = MPI_Wtime();
-  const Vec oldest = f->u_previous;
+  const Vec oldest = f->u_previous, oldest_bulk = f->bulk_previous;
   PetscFunctionBeginUser;
+  if (f->phases) {
+    PetscCall(FluidBulkVelocity(f, f->u_projected, oldest_bulk));
+    f->bulk_previous = f->bulk;
+    f->bulk = oldest_bulk;
+  }
   if (correction) {
     PetscScalar *u;
     PetscCall(VecGetArray(f->u_projected, &u));
@@ -214,6 +227,8 @@ PetscErrorCode FluidMakeSolenoidal(Fluid f)
   if (f->phases) { /* which the extrapolated velocity moves: it must be free of divergence, too */
     PetscCall(SubtractDivergence(f, f->u, NULL));
     PetscCall(SubtractDivergence(f, f->u_previous, NULL));
+    PetscCall(FluidBulkVelocity(f, f->u, f->bulk));
+    PetscCall(FluidBulkVelocity(f, f->u_previous, f->bulk_previous));
   } else {
     PetscCall(SubtractDivergence(f, f->u, f->u_previous)); /* their difference extrapolates */
   }

@@ -24,6 +24,7 @@ typedef struct {
       mu; /* kg/m3, Pa s; with phases: of the lightest, which hydrostatic pressures at open boundaries have */
   PhaseProperties phases; /* n = 0: one fluid */
   double gravity[2];      /* m/s2 */
+  double velocity[2];     /* everywhere at the start, unless FluidSetInitial has another, m/s */
   double cfl, dt_max;     /* step control */
   Boundary *boundary;     /* [mesh->ntags], copied */
   FieldFunction source;   /* body force per volume, N/m3, or NULL */
@@ -45,10 +46,13 @@ PetscErrorCode FluidCreateLike(Fluid like, const Mesh *mesh, Fluid *fluid);
 PetscErrorCode FluidDestroy(Fluid *fluid);
 /* With phases, before FluidSetInitial: where they are; errors of PhasesFill. */
 PetscErrorCode FluidSetPhases(Fluid fluid, int nregions, const Region region[]);
-/* Initial velocity by interpolation (NULL: rest) and hydrostatic pressure (or p by interpolation); with
+/* Initial velocity by interpolation (NULL: that of the setup) and hydrostatic pressure (or p by interpolation); with
  * phases the pressure of the first instant, in which gravity alone acts. */
 PetscErrorCode FluidSetInitial(Fluid fluid, double t, FieldFunction velocity, FieldFunction pressure,
                                void *context);
+/* Before the first step of a run, with its coupling set: the fluid inside the solid moves with it.  A body that
+ * begins with a velocity has its whole momentum then, and strikes the fluid around it in the first step. */
+PetscErrorCode FluidStartInside(Fluid fluid);
 
 /* Takes the state between two steps over from a fluid on another mesh of the same domain: velocity by
  * Galerkin projection, which conserves momentum to round-off; pressure by interpolation; time and counters.

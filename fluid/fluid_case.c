@@ -235,6 +235,7 @@ PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup
   }
   setup->theta = CoracleCaseNumberOr(c, "fluid.theta", 0.5, 0.5, 1.0);
   CoracleCaseVector(c, "gravity", 2, setup->gravity);
+  if (CoracleCaseHas(c, "fluid.initial")) CoracleCaseVector(c, "fluid.initial.velocity", 2, setup->velocity);
   setup->cfl = CoracleCasePositive(c, "time.cfl");
   setup->dt_max = CoracleCasePositive(c, "time.dt_max");
   PetscCall(PetscMalloc1(mesh->ntags, &setup->boundary));

@@ -16,6 +16,8 @@ struct Fluid_s {
   Material material;
   SolidCoupling solid;
   PhaseTransport phases; /* NULL: one fluid */
+  Vec bulk,
+      bulk_previous; /* with phases: the bulk velocities of the last two steps, which are free of divergence and move them */
   MomentumSolver momentum;
   ProjectionSolver projection;
   /* the flow; ghosted, velocities in blocks [2][3] an element, pressure on P2 nodes */
@@ -37,7 +39,11 @@ const InverseDensity *FluidInverseDensity(Fluid f);
 PetscErrorCode FluidPhasesChanged(Fluid f);
 /* Moves the phases over dt with the velocity in mass_flux, extrapolated by s steps, and makes it the mass flux.  Collective. */
 PetscErrorCode FluidMovePhases(Fluid f, double dt, double s);
-/* Adds to p, which keeps its values on open boundaries, what makes the acceleration weight - R^-1 grad p free of
- * divergence: the pressure of the phases at rest in the first instant.  Collective. */
+/* p becomes the pressure that, with its values on open boundaries as they are, makes the acceleration weight - R^-1 grad p
+ * free of divergence: that of the first instant of phases at rest.  Collective. */
 PetscErrorCode FluidBalancePressure(Fluid f);
+/* The same with the solid, whose inertia and motion of the coming step over dt take part. */
+PetscErrorCode FluidPredictPressure(Fluid f, double dt);
+/* bulk = velocity + M^-1 (us - ms velocity), with ghosts left alone.  Not collective. */
+PetscErrorCode FluidBulkVelocity(Fluid f, Vec velocity, Vec bulk);
 #endif

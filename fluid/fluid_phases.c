@@ -29,6 +29,17 @@ PetscErrorCode FluidSetPhases(Fluid f, int nregions, const Region region[])
   PetscFunctionReturn(0);
 }
 
+/* Where the solid has implicit inertia the weighted projection knows one density an element. */
+static void UniformInSolid(Fluid f)
+{
+  int n;
+  const CoracleCoupling *entry = SolidCouplingEntries(f->solid, &n);
+  for (int k = 0; k < n; k++)
+    if (entry[k].flags & CORACLE_HAS_INERTIA)
+      PhaseTransportSetUniform(f->phases, entry[k].element,
+                               MaterialDensity(f->material, MATERIAL_STEP)[entry[k].element]);
+}
+
 PetscErrorCode FluidMovePhases(Fluid f, double dt, double s)
 {
   PhaseStep step = {.time = f->t, .dt = dt, .extrapolated = s, .dt_before = f->dt_previous};
@@ -45,6 +56,7 @@ PetscErrorCode FluidMovePhases(Fluid f, double dt, double s)
   PetscCall(VecRestoreArray(f->mass_flux, &flux));
   PetscCall(PetscFree(u));
   PetscCall(SetPhaseMaterial(f, MATERIAL_NEW));
+  UniformInSolid(f);
   PetscFunctionReturn(0);
 }
 
@@ -81,18 +93,76 @@ static PetscErrorCode Accelerate(Fluid f, double dt, Vec velocity)
   PetscFunctionReturn(0);
 }
 
+/* phi of `velocity` added to p. */
+static PetscErrorCode SolvePressure(Fluid f, const ProjectionStep *step, Vec velocity)
+{
+  Vec phi;
+  PetscFunctionBeginUser;
+  PetscCall(ProjectionSolverSolve(f->projection, step, velocity, &phi, &f->stats.pressure_iterations));
+  PetscCall(VecAXPY(f->p, 1.0, phi));
+  PetscCall(VecGhostUpdateBegin(f->p, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostUpdateEnd(f->p, INSERT_VALUES, SCATTER_FORWARD));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode FluidBalancePressure(Fluid f)
 {
   const double dt = 1e8; /* large: what prescribed velocities contribute goes with 1/dt */
   const ProjectionStep step = FluidProjectionStep(f, f->t, dt, PETSC_FALSE);
-  Vec velocity, phi;
+  Vec velocity;
   PetscFunctionBeginUser;
   PetscCall(VecDuplicate(f->u, &velocity));
+  PetscCall(ProjectionSolverKeepFixed(f->projection, f->p));
   PetscCall(Accelerate(f, dt, velocity));
-  PetscCall(ProjectionSolverSolve(f->projection, &step, velocity, &phi, &f->stats.pressure_iterations));
+  PetscCall(SolvePressure(f, &step, velocity));
   PetscCall(VecDestroy(&velocity));
-  PetscCall(VecAXPY(f->p, 1.0, phi));
-  PetscCall(VecGhostUpdateBegin(f->p, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostUpdateEnd(f->p, INSERT_VALUES, SCATTER_FORWARD));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidPredictPressure(Fluid f, double dt)
+{
+  const ProjectionStep step = FluidProjectionStep(f, f->t, dt, PETSC_TRUE);
+  int n;
+  Vec velocity;
+  PetscFunctionBeginUser;
+  (void)SolidCouplingEntries(f->solid, &n);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT, MPI_MAX, f->domain.mesh->comm));
+  if (!n) {
+    PetscCall(FluidBalancePressure(f));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(VecDuplicate(f->u, &velocity));
+  PetscCall(ProjectionSolverKeepFixed(f->projection, f->p));
+  PetscCall(Accelerate(f, dt, velocity));
+  PetscCall(VecAXPY(velocity, 1.0, f->bulk));
+  PetscCall(SolvePressure(f, &step, velocity));
+  PetscCall(VecDestroy(&velocity));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidBulkVelocity(Fluid f, Vec velocity, Vec bulk)
+{
+  int n;
+  const CoracleCoupling *entry = SolidCouplingEntries(f->solid, &n);
+  const PetscScalar *v;
+  PetscScalar *b;
+  PetscFunctionBeginUser;
+  PetscCall(VecCopy(velocity, bulk));
+  PetscCall(VecGetArrayRead(velocity, &v));
+  PetscCall(VecGetArray(bulk, &b));
+  for (int k = 0; k < n; k++) {
+    const int e = entry[k].element;
+    for (int c = 0; c < 2; c++) {
+      double r[3], du[3];
+      for (int i = 0; i < 3; i++) {
+        r[i] = entry[k].us[c][i];
+        for (int j = 0; j < 3; j++) r[i] -= entry[k].ms[i][j] * v[6 * e + 3 * c + j];
+      }
+      P1MassSolve(f->domain.geometry[e].area, r, du);
+      for (int i = 0; i < 3; i++) b[6 * e + 3 * c + i] += du[i];
+    }
+  }
+  PetscCall(VecRestoreArray(bulk, &b));
+  PetscCall(VecRestoreArrayRead(velocity, &v));
   PetscFunctionReturn(0);
 }

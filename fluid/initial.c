@@ -73,7 +73,7 @@ PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldF
   PetscCall(VecGetArray(f->u, &u));
   for (int e = 0; e < m->ne; e++)
     for (int i = 0; i < 3; i++) {
-      double v[2] = {0};
+      double v[2] = {f->setup.velocity[0], f->setup.velocity[1]};
       if (velocity) velocity(context, t, ElementVertex(m, e, i), v);
       for (int c = 0; c < 2; c++) u[6 * e + 3 * c + i] = v[c];
     }
@@ -81,6 +81,10 @@ PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldF
   PetscCall(VecCopy(f->u, f->u_previous));
   PetscCall(VecCopy(f->u, f->u_star));
   PetscCall(VecCopy(f->u, f->u_projected));
+  if (f->phases) {
+    PetscCall(VecCopy(f->u, f->bulk));
+    PetscCall(VecCopy(f->u, f->bulk_previous));
+  }
   PetscCall(VecGhostGetLocalForm(f->p, &local));
   PetscCall(VecGetArray(local, &p));
   for (int e = 0; e < m->ne; e++)
@@ -94,5 +98,25 @@ PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldF
   PetscCall(VecGhostRestoreLocalForm(f->p, &local));
   if (!pressure) PetscCall(AddOpenPressure(f));
   if (!pressure && f->phases) PetscCall(FluidBalancePressure(f));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidStartInside(Fluid f)
+{
+  const CoracleCoupling *entry;
+  PetscScalar *u;
+  int n;
+  PetscFunctionBeginUser;
+  entry = SolidCouplingEntries(f->solid, &n);
+  PetscCall(VecGetArray(f->u, &u));
+  for (int k = 0; k < n; k++)
+    for (int i = 0; i < 6; i++) {
+      PetscScalar *v = u + 6 * entry[k].element + i;
+      *v += entry[k].alpha * (entry[k].velocity[i / 3] - *v);
+    }
+  PetscCall(VecRestoreArray(f->u, &u));
+  PetscCall(VecGhostUpdateBegin(f->u, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostUpdateEnd(f->u, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecCopy(f->u, f->u_previous));
   PetscFunctionReturn(0);
 }

@@ -17,7 +17,8 @@ static PetscErrorCode Step(FluidRun *m, double dt)
   PetscBool accepted;
   PetscFunctionBeginUser;
   PetscCall(ExchangeReceiveCoupling(m->exchange));
-  if (m->new_mesh) PetscCall(FluidMakeSolenoidal(m->fluid));
+  if (m->not_solenoidal) PetscCall(FluidMakeSolenoidal(m->fluid));
+  if (m->first) PetscCall(FluidStartInside(m->fluid));
   PetscCall(FluidMomentum(m->fluid, dt));
   PetscCall(FluidProject(m->fluid, dt));
   PetscCall(FluidRunRemesh(m, &mesh, &next));
@@ -26,7 +27,7 @@ static PetscErrorCode Step(FluidRun *m, double dt)
     PetscCall(FluidRunDiscardMesh(m, &mesh, &next));
     PetscFunctionReturn(0);
   }
-  m->new_mesh = PETSC_FALSE;
+  m->not_solenoidal = m->first = PETSC_FALSE;
   PetscCall(FluidCorrect(m->fluid, dt, correction));
   PetscCall(FluidRunWrite(m));
   if (next) PetscCall(FluidRunAcceptMesh(m, mesh, next));

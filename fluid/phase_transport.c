@@ -92,6 +92,11 @@ static PetscErrorCode Reconstruct(PhaseTransport t)
   PetscFunctionReturn(0);
 }
 
+void PhaseTransportSetUniform(PhaseTransport t, int e, double rho)
+{
+  InverseDensityUniform(rho, t->gravity, &t->inverse_density[e]);
+}
+
 void PhaseTransportSettle(PhaseTransport t)
 {
   for (int e = 0; e < t->stars->ne; e++) t->inverse_density[e] = t->end[e];

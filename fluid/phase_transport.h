@@ -45,6 +45,8 @@ PetscErrorCode PhaseTransportStep(PhaseTransport t, const PhaseStep *step);
 void PhaseTransportMaterial(PhaseTransport t, double rho[], double mu[]);
 /* How elements respond to a pressure gradient, [ne], borrowed: in the middle of the last step.  Not collective. */
 const InverseDensity *PhaseTransportInverseDensity(PhaseTransport t);
+/* Element e has one density, kg/m3, until the next step.  Not collective. */
+void PhaseTransportSetUniform(PhaseTransport t, int e, double rho);
 /* From now on, until the next step, it is that of its end; the density's revision is the caller's affair. */
 void PhaseTransportSettle(PhaseTransport t);
 /* Volumes, m2, [ne][n], borrowed; the number of phases.  Not collective. */

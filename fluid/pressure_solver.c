@@ -3,12 +3,13 @@
 #include "fluid/solver_options.h"
 #include <math.h>
 
+#define DIRECT_MAX 400000       /* nodes times ranks, up to which a factor is made for a matrix that stays */
 #define VELOCITY_TOLERANCE 1e-8 /* -pressure_varying_ksp_rtol chooses another one */
 
 struct PressureSolver_s {
-  const FluidDomain *domain; /* borrowed */
-  const char *is_fixed;      /* borrowed */
-  PetscBool closed, varying;
+  const FluidDomain *domain;  /* borrowed */
+  const char *is_fixed;       /* borrowed */
+  PetscBool closed, iterates; /* with the present matrix */
   Mat matrix;
   PetscInt nfixed;
   KSP direct, iterative; /* made when used first */
@@ -115,7 +116,7 @@ static PetscErrorCode SetNullSpace(PressureSolver s)
 {
   MatNullSpace constants = NULL;
   PetscFunctionBeginUser;
-  if (s->closed && s->varying)
+  if (s->closed && s->iterates)
     PetscCall(MatNullSpaceCreate(s->domain->mesh->comm, PETSC_TRUE, 0, NULL, &constants));
   PetscCall(MatSetNullSpace(s->matrix, constants));
   PetscCall(MatNullSpaceDestroy(&constants));
@@ -140,34 +141,52 @@ static PetscErrorCode SetContrast(PressureSolver s, const double block[][36])
   PetscFunctionReturn(0);
 }
 
+/* CG for the matrix as it is now. */
+static PetscErrorCode PrepareIterative(PressureSolver s, const double block[][36])
+{
+  PetscFunctionBeginUser;
+  if (!s->iterative) PetscCall(CreateIterative(s));
+  PetscCall(SetContrast(s, block));
+  PetscCall(PressurePreconditionerUpdate(s->preconditioner, block));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PressureSolverSetMatrix(PressureSolver s, PetscBool varying, double (**block)[36])
 {
   double *extra = (*block)[s->domain->mesh->ne];
+  PetscMPIInt ranks;
   PetscFunctionBeginUser;
-  s->varying = varying;
+  PetscCallMPI(MPI_Comm_size(s->domain->mesh->comm, &ranks));
+  s->iterates = (PetscBool)(varying || s->domain->p2->nglobal > DIRECT_MAX / ranks);
   for (int k = 0; k < s->nfixed; k++) extra[k] = 1.0;
-  if (HasFirstNode(s)) extra[s->nfixed] = varying ? 0.0 : (*block)[0][0];
+  if (HasFirstNode(s)) extra[s->nfixed] = s->iterates ? 0.0 : (*block)[0][0];
   PetscCall(MatSetValuesCOO(s->matrix, (*block)[0], INSERT_VALUES));
   PetscCall(SetNullSpace(s));
-  if (!varying && !s->direct) PetscCall(CreateDirect(s));
-  if (varying && !s->iterative) PetscCall(CreateIterative(s));
-  if (varying) {
-    PetscCall(SetContrast(s, (const double(*)[36]) * block));
-    PetscCall(PressurePreconditionerUpdate(s->preconditioner, (const double(*)[36]) * block));
-  }
+  if (s->iterates)
+    PetscCall(PrepareIterative(s, (const double(*)[36]) * block));
+  else if (!s->direct)
+    PetscCall(CreateDirect(s));
   PetscCall(PetscFree(*block));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Iterate(PressureSolver s, const PressureProblem *problem, Vec phi, int *iterations)
+{
+  const double tolerance = s->tolerance / s->contrast;
+  PetscFunctionBeginUser;
+  PetscCall(
+      KSPSetTolerances(s->iterative, tolerance, tolerance * problem->size, PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscCall(SolverSolve(s->iterative, "pressure", problem->t, problem->rhs, phi, iterations));
+  PetscCall(PressurePreconditionerCount(s->preconditioner, *iterations));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode PressureSolverSolve(PressureSolver s, const PressureProblem *problem, Vec phi, int *iterations)
 {
-  const double tolerance = s->tolerance / s->contrast;
   PetscFunctionBeginUser;
-  if (s->varying)
-    PetscCall(
-        KSPSetTolerances(s->iterative, tolerance, tolerance * problem->size, PETSC_DEFAULT, PETSC_DEFAULT));
-  PetscCall(SolverSolve(s->varying ? s->iterative : s->direct, "pressure", problem->t, problem->rhs, phi,
-                        iterations));
-  if (s->varying) PetscCall(PressurePreconditionerCount(s->preconditioner, *iterations));
+  if (s->iterates)
+    PetscCall(Iterate(s, problem, phi, iterations));
+  else
+    PetscCall(SolverSolve(s->direct, "pressure", problem->t, problem->rhs, phi, iterations));
   PetscFunctionReturn(0);
 }

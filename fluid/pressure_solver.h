@@ -1,11 +1,13 @@
 /* The pressure's equation in P2: its matrix, from the elements' 6 x 6 blocks, and two solvers.
  *
- *   constant    direct: a factor, made when the matrix is set (prefix pressure_)
- *   varying     CG, preconditioned by relaxation and linear functions (pressure_preconditioner.h; prefix
+ *   direct      a factor of one rank, for a matrix that stays, unless mesh or number of ranks are large (prefix
+ *               pressure_)
+ *   iterative   CG, preconditioned by relaxation and linear functions (pressure_preconditioner.h; prefix
  *               pressure_varying_)
  *
- * Where the domain is closed the pressure is known up to a constant: the direct solver fixes the first node,
- * CG works with the null space. */
+ * CG stops when what is left changes the velocity by less than 1e-8 (-pressure_varying_ksp_rtol) of what the
+ * pressure changes in it, or, if allowed, of the velocity.  Where the domain is closed the pressure is known up to a
+ * constant: the direct solver fixes the first node, CG works with the null space. */
 #ifndef FLUID_PRESSURE_SOLVER_H
 #define FLUID_PRESSURE_SOLVER_H
 #include "fluid/domain.h"
@@ -13,11 +15,11 @@
 
 typedef struct PressureSolver_s *PressureSolver;
 
+/* t, s, for messages.  size: square root of int rho u*^2/dt^2, if CG may stop when the error is small beside u*,
+ * else 0.  rhs: 0 on fixed nodes. */
 typedef struct {
-  double t; /* s, for messages */
-  double
-      size; /* square root of int rho u*^2/dt^2: errors that change u* less than relatively do not matter */
-  Vec rhs;  /* 0 on fixed nodes */
+  double t, size;
+  Vec rhs;
 } PressureProblem;
 
 /* is_fixed[n of the P2 space]: nodes with phi = 0; closed: no rank has any.  domain and is_fixed are borrowed.  Collective, like all of this. */

@@ -65,14 +65,13 @@ static PetscErrorCode FindFixed(ProjectionSolver s, PetscBool *closed)
   PetscFunctionReturn(0);
 }
 
-/* An element without the solid: int 1/rho grad.grad */
-static void FluidBlock(const ElementGeometry *g, const ProjectionStep *step, int e, double block[6][6])
+/* int grad phi_q . k grad phi_r, k = 1/rho or R^-1 */
+static void Stiffness(const ElementGeometry *g, const ProjectionStep *step, int e, double block[6][6])
 {
-  const double(*grad)[2] = (const double(*)[2])g->g;
   if (step->inverse_density)
-    P2StiffnessTensor(g->area, grad, step->inverse_density[e].inverse, block);
+    P2StiffnessTensor(g->area, (const double(*)[2])g->g, step->inverse_density[e].inverse, block);
   else
-    P2Stiffness(g->area, grad, 1.0 / step->rho[e], block);
+    P2Stiffness(g->area, (const double(*)[2])g->g, 1.0 / step->rho[e], block);
 }
 
 /* The pressure's matrix for the step, if it is not the solver's already. */
@@ -90,7 +89,7 @@ static PetscErrorCode Assemble(ProjectionSolver s, const ProjectionStep *step)
   PetscCall(PressureSolverGetBlocks(s->solver, &block));
   for (int e = 0; e < d->mesh->ne; e++)
     if (!s->inertia || !WeightedProjectionBlock(s->weighted, e, (double(*)[6])block[e]))
-      FluidBlock(&d->geometry[e], step, e, (double(*)[6])block[e]);
+      Stiffness(d->geometry + e, step, e, (double(*)[6])block[e]);
   PetscCall(PressureSolverSetMatrix(s->solver, (PetscBool)(inertia || step->revision > 0), &block));
   s->revision = step->revision;
   PetscFunctionReturn(0);
@@ -207,6 +206,20 @@ static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step,
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode ProjectionSolverKeepFixed(ProjectionSolver s, Vec p)
+{
+  PetscScalar *v;
+  Vec local;
+  PetscFunctionBeginUser;
+  PetscCall(VecGhostGetLocalForm(p, &local));
+  PetscCall(VecGetArray(local, &v));
+  for (int k = 0; k < s->domain->p2->n; k++)
+    if (!s->is_fixed[k]) v[k] = 0.0;
+  PetscCall(VecRestoreArray(local, &v));
+  PetscCall(VecGhostRestoreLocalForm(p, &local));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *step, Vec velocity, Vec *phi,
                                      int *iterations)
 {
@@ -214,6 +227,8 @@ PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *s
   PetscFunctionBeginUser;
   PetscCall(Assemble(s, step));
   PetscCall(Divergence(s, step, velocity, &problem.size));
+  if (step->revision > 0)
+    problem.size = 0.0; /* volumes of phases add up as far as the divergence is removed */
   PetscCall(PressureSolverSolve(s->solver, &problem, s->phi, iterations));
   PetscCall(VecGhostUpdateBegin(s->phi, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGhostUpdateEnd(s->phi, INSERT_VALUES, SCATTER_FORWARD));

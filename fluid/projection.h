@@ -31,6 +31,8 @@ typedef struct {
 /* like: a ghosted vector of the P2 nodes; domain is borrowed.  Collective, like all of this. */
 PetscErrorCode ProjectionSolverCreate(const FluidDomain *domain, Vec like, ProjectionSolver *s);
 PetscErrorCode ProjectionSolverDestroy(ProjectionSolver *s);
+/* p, ghosted on the P2 nodes, becomes 0 but on open boundaries. */
+PetscErrorCode ProjectionSolverKeepFixed(ProjectionSolver s, Vec p);
 /* phi (borrowed, Pa, ghosts up to date) for the velocity u* (blocks [2][3] an element). */
 PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *step, Vec velocity, Vec *phi,
                                      int *iterations);

@@ -16,7 +16,8 @@ PetscErrorCode FluidRunSave(const FluidRun *m)
   PetscCall(CheckpointCreate(m->mesh->comm, folder, "fluid", &to));
   PetscCall(MeshSave(m->mesh, to));
   PetscCall(FluidSave(m->fluid, to));
-  PetscCall(CheckpointPutNumber(to, "new mesh", m->new_mesh));
+  PetscCall(CheckpointPutNumber(to, "not solenoidal", m->not_solenoidal));
+  PetscCall(CheckpointPutNumber(to, "first step", m->first));
   PetscCall(AdaptationSave(m->adaptation, to));
   PetscCall(WriterSave(m->writer, to));
   PetscCall(ProbesSave(m->probes, to));
@@ -26,11 +27,13 @@ PetscErrorCode FluidRunSave(const FluidRun *m)
 
 static PetscErrorCode Load(FluidRun *m, Checkpoint from, const PetscInt row[])
 {
-  double new_mesh;
+  double not_solenoidal, first;
   PetscFunctionBeginUser;
   PetscCall(FluidLoad(m->fluid, row, from));
-  PetscCall(CheckpointGetNumber(from, "new mesh", &new_mesh));
-  m->new_mesh = new_mesh ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(CheckpointGetNumber(from, "not solenoidal", &not_solenoidal));
+  PetscCall(CheckpointGetNumber(from, "first step", &first));
+  m->first = first ? PETSC_TRUE : PETSC_FALSE;
+  m->not_solenoidal = not_solenoidal ? PETSC_TRUE : PETSC_FALSE;
   PetscCall(AdaptationLoad(m->adaptation, from));
   PetscFunctionReturn(0);
 }
@@ -82,13 +85,14 @@ PetscErrorCode FluidRunCreate(const Program *program, FluidRun *m)
   const char *resume = CoracleResumePath(program->client);
   PetscInt *row = NULL;
   PetscFunctionBeginUser;
-  *m = (FluidRun){.program = program};
+  *m = (FluidRun){.program = program, .first = PETSC_TRUE};
   if (resume) PetscCall(CheckpointOpen(program->comm, resume, "fluid", &m->from));
   PetscCall(Create(m, resume, m->from, &row));
   if (m->from)
     PetscCall(Load(m, m->from, row));
   else
     PetscCall(FluidSetInitial(m->fluid, 0.0, NULL, NULL, NULL));
+  if (!m->from && CoracleCaseHas(program->c, "fluid.initial")) m->not_solenoidal = PETSC_TRUE;
   PetscCall(PetscFree(row));
   PetscCall(ExchangeCreate(m->program->client, m->fluid, &m->exchange));
   PetscFunctionReturn(0);
@@ -137,7 +141,7 @@ PetscErrorCode FluidRunAcceptMesh(FluidRun *m, Mesh *mesh, Fluid fluid)
   PetscCall(MeshDestroy(&m->mesh));
   m->mesh = mesh;
   m->fluid = fluid;
-  m->new_mesh = PETSC_TRUE;
+  m->not_solenoidal = PETSC_TRUE;
   WriterNewMesh(m->writer);
   PetscCall(ProbesNewMesh(m->probes, mesh));
   PetscFunctionReturn(0);

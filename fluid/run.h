@@ -14,10 +14,11 @@ typedef struct {
   Fluid fluid;
   Exchange exchange;
   Writer writer;
-  Probes probes;         /* NULL: the case has none */
-  Adaptation adaptation; /* NULL: the mesh stays */
-  PetscBool new_mesh;    /* since the last step */
-  Checkpoint from;       /* that the run resumes from, until the output is open; else NULL */
+  Probes probes;            /* NULL: the case has none */
+  Adaptation adaptation;    /* NULL: the mesh stays */
+  PetscBool first;          /* the run's first step is not accepted yet */
+  PetscBool not_solenoidal; /* the velocity: it is given, or the mesh is new since the last step */
+  Checkpoint from;          /* that the run resumes from, until the output is open; else NULL */
 } FluidRun;
 
 /* Mesh and fluid as the case says, or as the checkpoint that the run resumes from; the first exchange. */

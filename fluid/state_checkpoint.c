@@ -66,7 +66,11 @@ PetscErrorCode FluidSave(Fluid f, Checkpoint to)
   PetscCall(SaveVelocity(f->u, f->domain.mesh->ne, "velocity", to));
   PetscCall(SaveVelocity(f->u_previous, f->domain.mesh->ne, "previous velocity", to));
   PetscCall(SavePressure(f, to));
-  if (f->phases) PetscCall(PhaseTransportSave(f->phases, to));
+  if (f->phases) {
+    PetscCall(PhaseTransportSave(f->phases, to));
+    PetscCall(SaveVelocity(f->bulk, f->domain.mesh->ne, "bulk velocity", to));
+    PetscCall(SaveVelocity(f->bulk_previous, f->domain.mesh->ne, "previous bulk velocity", to));
+  }
   PetscCall(CheckpointPutDoubles(to, "seconds", 1, PHASES, f->stats.seconds));
   PetscFunctionReturn(0);
 }
@@ -93,6 +97,8 @@ PetscErrorCode FluidLoad(Fluid f, const PetscInt row[], Checkpoint from)
   PetscCall(LoadPressure(f, row, from));
   if (f->phases) {
     PetscCall(PhaseTransportLoad(f->phases, row, from));
+    PetscCall(LoadVelocity(f, row, from, "bulk velocity", f->bulk));
+    PetscCall(LoadVelocity(f, row, from, "previous bulk velocity", f->bulk_previous));
     PetscCall(FluidPhasesChanged(f));
   }
   PetscCall(LoadSeconds(f, from));

@@ -7,13 +7,19 @@ typedef struct {
   double s0, s1, chord;
 } Piece;
 
+/* Of an edge's length: a segment along a wall is in its elements whatever round-off says. */
+#define ON_EDGE 1e-9
+
 /* The part of from + s (to - from), 0 <= s <= 1, within a convex polygon, counter-clockwise; whether there is any. */
 static PetscBool Clip(int n, const double x[][2], const double from[2], const double to[2], double s[2])
 {
   s[0] = 0.0, s[1] = 1.0;
   for (int k = 0; k < n; k++) {
     const double *p = x[k], *q = x[(k + 1) % n];
-    const double a = GeometryTurn(p, q, from), b = GeometryTurn(p, q, to); /* positive inside */
+    const double square = (q[0] - p[0]) * (q[0] - p[0]) + (q[1] - p[1]) * (q[1] - p[1]);
+    double a = GeometryTurn(p, q, from), b = GeometryTurn(p, q, to); /* positive inside */
+    if (fabs(a) < ON_EDGE * square) a = 0.0;
+    if (fabs(b) < ON_EDGE * square) b = 0.0;
     if (a < 0.0 && b < 0.0) return PETSC_FALSE;
     if (a < 0.0) s[0] = fmax(s[0], a / (a - b));
     if (b < 0.0) s[1] = fmin(s[1], a / (a - b));

@@ -16,6 +16,18 @@ void BudgetAddSubstep(Solid s)
   }
 }
 
+/* After the nodes have moved. */
+void BudgetAddDecay(Solid s)
+{
+  const double rate = s->setup.decay_rate;
+  for (int n = 0; n < s->nnodes && rate > 0.0; n++)
+    for (int c = 0; c < 2 && SolidOwns(s, n); c++) {
+      const double impulse = -s->h * rate * s->mass[n] * s->v[2 * n + c];
+      s->budget.reaction[c] += impulse;
+      s->budget.reaction_work += impulse * s->v[2 * n + c];
+    }
+}
+
 void BudgetAddPrescribed(Solid s, int n, int c, double v)
 {
   if (!SolidOwns(s, n)) return;

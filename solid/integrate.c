@@ -178,17 +178,19 @@ static void MovePrescribed(Solid s, int before)
   }
 }
 
-/* v += h (f/m + g), x += h v; fixed nodes stay. */
+/* v += h (f/m + g - d v), d the decay rate and v that at the end; x += h v; fixed nodes stay. */
 static void Move(Solid s)
 {
   const double h = s->h, *restrict force = s->force, *restrict load = s->load,
                *restrict inverse_mass = s->inverse_mass;
+  const double kept = 1.0 / (1.0 + h * s->setup.decay_rate);
   double *restrict x = s->x, *restrict v = s->v;
   for (int n = 0; n < s->nnodes; n++) {
     const double free_node = inverse_mass[n] > 0.0 ? h : 0.0;
     for (int c = 0; c < 2; c++) {
       v[2 * n + c] +=
           h * inverse_mass[n] * (force[2 * n + c] + load[2 * n + c]) + free_node * s->setup.gravity[c];
+      v[2 * n + c] *= kept;
       x[2 * n + c] += h * v[2 * n + c];
     }
   }
@@ -220,6 +222,7 @@ PetscErrorCode SolidSubstep(Solid s, double *h)
   BudgetAddSubstep(s);
   MovePrescribed(s, 1);
   Move(s);
+  BudgetAddDecay(s);
   MovePrescribed(s, 0);
   s->force_valid = PETSC_FALSE;
   s->moved_for = s->h;

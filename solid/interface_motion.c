@@ -17,7 +17,7 @@
 
 /* Of the conjugate gradients: the residual's norm, relative to that of the argument; and their number, after
  * which the result, then smoothed less, is taken as it is. */
-#define TOLERANCE 1e-8
+#define TOLERANCE 1e-5
 enum { MAX_ITERATIONS = 1000 };
 
 /* f -= int sigma(d) grad N_i over element k as it is now, sigma = 2 mu e + lambda tr(e) I. */
@@ -42,12 +42,20 @@ static void AddElementStiffness(const Elements *e, int k, const double x[], cons
       f[2 * e->node[i][k] + c] -= (t[c][0] * normal[i][0] + t[c][1] * normal[i][1]) / (2.0 * twice);
 }
 
+static PetscBool IsHeld(Solid s, int k)
+{
+  double mobility = 0.0;
+  for (int i = 0; i < 3; i++) mobility += s->inverse_mass[s->elements.node[i][k]];
+  return mobility == 0.0 ? PETSC_TRUE : PETSC_FALSE;
+}
+
 /* ad = d + factor M^-1 K d; fixed nodes: d */
 static PetscErrorCode Apply(Solid s, double factor, const double d[], double ad[])
 {
   PetscFunctionBeginUser;
   PetscCall(PetscArrayzero(ad, 2 * (size_t)s->nnodes));
-  for (int k = 0; k < s->elements.n; k++) AddElementStiffness(&s->elements, k, s->x, d, ad);
+  for (int k = 0; k < s->elements.n; k++)
+    if (!IsHeld(s, k)) AddElementStiffness(&s->elements, k, s->x, d, ad);
   JointsAddStiffness(s->joints, s, d, ad);
   PetscCall(CopiesSum(s->copies, 2, ad));
   for (int k = 0; k < 2 * s->nnodes; k++) ad[k] = d[k] - factor * s->inverse_mass[k / 2] * ad[k];
@@ -101,7 +109,9 @@ PetscErrorCode SolidUpdateInterfaceMotion(Solid s, InterfaceMotion *interface)
   for (int k = 0; k < 2 * s->nnodes; k++) {
     const double by_mass = s->inverse_mass[k / 2];
     s->mobility[k / 2] = by_mass;
-    s->acceleration[k] = by_mass > 0.0 ? by_mass * (force[k] + s->load[k]) + s->setup.gravity[k % 2] : 0.0;
+    s->acceleration[k] = by_mass > 0.0 ? by_mass * (force[k] + s->load[k]) + s->setup.gravity[k % 2] -
+                                             s->setup.decay_rate * s->v[k]
+                                       : 0.0;
   }
   PetscCall(Respond(s, s->interface_velocity));
   PetscCall(Respond(s, s->acceleration));

@@ -32,6 +32,7 @@ enum { MAX_RULES = 32 };
 typedef struct {
   double gravity[2];         /* m/s2 */
   double courant;            /* fraction of the stability limit, 0 .. 1 */
+  double decay_rate;         /* 1/s, of the velocity of a body on which no force acts; 0: it keeps it */
   double rebalance;          /* SolidRebalance acts once so many substeps are lost; 0: never */
   PetscBool walls;           /* rigid walls around the tank */
   double lower[2], upper[2]; /* its corners, m */
@@ -137,7 +138,8 @@ PetscErrorCode SolidBodies(Solid s, int n, BodyState state[]);
  * g dt, to round-off. */
 typedef struct {
   double walls[2],
-      reaction[2]; /* impulse of the tank's walls; of what holds fixed and prescribed nodes, N s/m */
+      reaction[2]; /* impulse of the tank's walls; of what holds fixed and prescribed nodes, and of the
+                      * decay rate, N s/m */
   double work, reaction_work; /* of the fluid; of what drives nodes, J/m */
 } SolidBudget;
 PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget);

@@ -126,6 +126,8 @@ PetscErrorCode SolidPieces(Solid s, int *n, const int **piece);
 void BudgetAddSubstep(Solid s);
 /* Component c of node n, free so far, is going to move with the prescribed v. */
 void BudgetAddPrescribed(Solid s, int n, int c, double v);
+/* What the decay rate has done in the substep, after its nodes have moved. */
+void BudgetAddDecay(Solid s);
 
 /* distribute.c: everything that comes from the model. */
 PetscErrorCode SolidTakeSubdomain(Solid s, const Model *a, const int part[]);

@@ -47,6 +47,9 @@ static Material ReadMaterial(CoracleCase c, const char *name)
   m.poisson_ratio = Property(c, name, "poisson_ratio", 0.0, 0.499);
   (void)snprintf(key, sizeof key, "solid.materials.%s.damping", name);
   m.damping = CoracleCaseNumberOr(c, key, 0.0, 0.0, 0.999);
+  (void)snprintf(key, sizeof key, "solid.materials.%s.damping_ratio", name);
+  m.damping_ratio = CoracleCaseNumberOr(c, key, 0.0, 0.0, 1.0);
+  if (CoracleCaseHas(c, key)) m.damping_frequency = Property(c, name, "damping_frequency", 0.0, 0.0);
   (void)snprintf(key, sizeof key, "solid.materials.%s.penalty", name);
   m.penalty = CoracleCaseHas(c, key) ? CoracleCasePositive(c, key) : m.youngs_modulus;
   (void)snprintf(key, sizeof key, "solid.materials.%s.friction", name);

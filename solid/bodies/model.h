@@ -14,14 +14,15 @@ typedef struct {
   double density;        /* kg/m3 */
   double youngs_modulus; /* Pa */
   double poisson_ratio;  /* 0 <= nu < 0.5 */
-  double damping;  /* 0 <= beta < 1:  eta = 2 h beta sqrt(E rho), h the element's smallest height at rest */
-  double penalty;  /* of contact, Pa */
-  double friction; /* Coulomb's coefficient on the same material */
-  double contact_damping;    /* of contact with the same material, fraction of the critical */
-  double thickness;          /* m; 0 stands for 1: per metre of depth */
-  int plane_stress;          /* else plane strain */
-  int law;                   /* ElementLawKind (element.h) */
-  double strength[2];        /* of joints: in tension and in shear, Pa */
+  double damping; /* 0 <= beta < 1:  eta = 2 h beta sqrt(E rho), h the element's smallest height at rest */
+  double damping_ratio, damping_frequency; /* in tension, of the critical at this frequency, Hz */
+  double penalty;                          /* of contact, Pa */
+  double friction;                         /* Coulomb's coefficient on the same material */
+  double contact_damping;                  /* of contact with the same material, fraction of the critical */
+  double thickness;                        /* m; 0 stands for 1: per metre of depth */
+  int plane_stress;                        /* else plane strain */
+  int law;                                 /* ElementLawKind (element.h) */
+  double strength[2];                      /* of joints: in tension and in shear, Pa */
   double internal_friction;  /* of joints: what pressure adds to the shear strength, over the pressure */
   double fracture_energy[2]; /* per unit of new surface, mode I and mode II, J/m2 */
   char name[MATERIAL_NAME];  /* bodies with equal names share the material; "" is always one of its own */

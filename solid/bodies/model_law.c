@@ -1,5 +1,6 @@
 /* The elements of the model: shape at rest, law. */
 #include "solid/bodies/model.h"
+#include <math.h>
 
 ElementLaw MaterialLaw(const Material *m)
 {
@@ -15,7 +16,17 @@ Tensor ModelRestEdges(const Model *a, int e)
   return TensorOfEdges(PointAt(a->rest, n[0]), PointAt(a->rest, n[1]), PointAt(a->rest, n[2]));
 }
 
-/* eta = 2 h beta sqrt(E rho), h the smallest height at rest. */
+/* Of the damping ratio xi at frequency f in tension along one axis: 2 xi E'/(2 pi f) = eta (1 + q^2), E' the modulus and
+ * q the contraction across the axis over the stretch along it. */
+static double MaterialViscosity(const Material *m)
+{
+  const double nu = m->poisson_ratio, q = m->plane_stress ? nu : nu / (1.0 - nu);
+  const double modulus = m->youngs_modulus / (m->plane_stress ? 1.0 : 1.0 - nu * nu);
+  return m->damping_ratio > 0.0 ? m->damping_ratio * modulus / (M_PI * m->damping_frequency * (1.0 + q * q))
+                                : 0.0;
+}
+
+/* eta = 2 h beta sqrt(E rho), h the smallest height at rest, and that of the material. */
 static double Viscosity(const Model *a, int e)
 {
   const Material *m = &a->material[a->element_material[e]];
@@ -26,7 +37,7 @@ static double Viscosity(const Model *a, int e)
     longest = fmax(longest, hypot(d.x, d.y));
   }
   const double height = TensorDeterminant(ModelRestEdges(a, e)) / longest;
-  return 2.0 * height * m->damping * sqrt(m->youngs_modulus * m->density);
+  return 2.0 * height * m->damping * sqrt(m->youngs_modulus * m->density) + MaterialViscosity(m);
 }
 
 ElementLaw ModelElementLaw(const Model *a, int e)

@@ -20,7 +20,7 @@ assert -0.45 < static < -0.35, "the disc falls at %g m/s" % -static
 assert max(triangles("1:1:1")) < 0.7 * max(triangles("static")), "%s triangles, %s without adapting" % (triangles("1:1:1"), triangles("static"))
 for label in ("1:1:1", "2:1:1", "3:2:1"):
     u = speed(label)
-    # two adapted meshes of the same sizes part by 0.1 % (standard deviation over sizes within 2 %), by 0.3 % at most
+    # nine sizes within 2 % of this one: the disc is 0.03 to 0.11 % slower than on the fine mesh (standard deviation 0.03 %)
     assert abs(u - static) < 0.005 * abs(static), "%s: %.9g m/s on adapted meshes, %.9g on a fine one" % (label, u, static)
     imbalance = json.load(open("%s/%s/summary.json" % (sys.argv[1], label)))["largest_momentum_imbalance"]
     assert imbalance < 1e-10, "%s: momentum imbalance %g" % (label, imbalance)

@@ -104,6 +104,13 @@ static inline void SyntheticSquare(SyntheticSolid *s, const double lower[2], dou
   SyntheticSolidView(s);
 }
 
+/* x += t u */
+static inline void SyntheticMove(SyntheticSolid *s, double t)
+{
+  for (int i = 0; i < s->nnodes; i++)
+    for (int c = 0; c < 2; c++) s->x[i][c] += t * s->u[i][c];
+}
+
 /* Rank `rank` of `size`'s part: simplices dealt like cards, nodes that they use; the last of three or more
  * ranks gets nothing. */
 static inline void SyntheticSolidPart(const SyntheticSolid *all, int rank, int size, SyntheticSolid *part)

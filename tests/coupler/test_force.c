@@ -50,9 +50,10 @@ static void SetSolid(FlowFunction f)
   for (int i = 0; i < all_solid.nnodes; i++) f(all_solid.x[i], all_solid.u[i], &p);
 }
 
-/* One step on all ranks. */
+/* One step on all ranks; in the mode reaction it begins where the solid is in all_solid in its middle. */
 static void Step(CouplerMode mode, double thickness, double dt, Coupler *c, ForceTotals *totals)
 {
+  const double half = mode == COUPLER_REACTION ? 0.5 * dt : 0.0;
   const CouplerOptions options = {mode, thickness, 10.0, {GRAVITY[0], GRAVITY[1]}};
   const CoracleCoupling *coupling;
   const double *force;
@@ -63,7 +64,9 @@ static void Step(CouplerMode mode, double thickness, double dt, Coupler *c, Forc
     all_fluid.rho[k] = RHO;
     all_fluid.mu[k] = viscosity;
   }
+  SyntheticMove(&all_solid, -half);
   SyntheticSolidPart(&all_solid, rank, size, &solid);
+  SyntheticMove(&all_solid, half);
   SyntheticFluidPart(&all_fluid, rank, size, &fluid);
   CHECK(!CouplerCreate(PETSC_COMM_WORLD, &options, c), "create");
   CHECK(!CouplerSetElements(*c, &fluid.view), "elements");

@@ -30,10 +30,11 @@ static void CheckBoxes(Region region)
   }
 }
 
-static PetscBool Stale(Region region)
+/* Before a step of dt. */
+static PetscBool Stale(Region region, double dt)
 {
   PetscBool stale;
-  CHECK(!RegionStale(region, &part.view, &stale), "stale");
+  CHECK(!RegionStale(region, &part.view, dt, &stale), "stale");
   return stale;
 }
 
@@ -57,14 +58,16 @@ int main(int argc, char **argv)
   for (int i = 0; i < part.nnodes; i++) part.u[i][0] = part.nnodes > 0 && rank == 0 ? 1.0 : 0.0;
   CHECK(!RegionUpdate(region, &part.view, 1e-3), "update");
   CHECK(fabs(region->margin - 1e-3 * REGION_STEPS) < 1e-15, "slow: margin %g", region->margin);
-  CHECK(!RegionUpdate(region, &part.view, 1.0), "update");
+  CHECK(!RegionUpdate(region, &part.view, 0.05), "update");
   CheckBoxes(region);
   CHECK(region->margin > 0.2 * 0.3 && region->margin < 0.2 * 0.6, "margin %g", region->margin);
-  CHECK(!Stale(region), "nothing has moved");
+  CHECK(!Stale(region, 0.0), "nothing has moved");
+  CHECK(!Stale(region, 1.9 * region->margin), "the middle of the step is within the margin");
+  CHECK(Stale(region, 2.1 * region->margin), "the middle of the step is beyond the margin");
   if (part.nnodes) part.x[part.nnodes - 1][1] -= 0.99 * region->margin;
-  CHECK(!Stale(region), "still within the margin");
+  CHECK(!Stale(region, 0.0), "still within the margin");
   if (part.nnodes && rank == 0) part.x[part.nnodes - 1][1] -= 0.02 * region->margin;
-  CHECK(Stale(region), "a node has left its margin");
+  CHECK(Stale(region, 0.0), "a node has left its margin");
   SyntheticSolidPart(&all, rank, size, &part);
   CHECK(!RegionOutside(region, &part.view, &tank, &gid, &local) && gid == -1 && local == -1, "inside");
   CHECK(!RegionOutside(region, &part.view, &low, &gid, &local), "outside");

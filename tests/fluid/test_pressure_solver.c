@@ -1,6 +1,6 @@
 // ranks: 1 2 3
 /* The pressure's two solvers project alike, and the iterations of the one for a density that changes know neither its contrast
- * nor the size of the elements, in closed and open domains. */
+ * nor the size of the elements, in closed and open domains, with either solver of the linear functions. */
 #include "tests/fluid/moving_layer.h"
 
 #define ITERATIONS_MAX 20 /* 8 for one density, 13 for a contrast of 1000, which is solved more accurately */
@@ -47,7 +47,7 @@ static PetscErrorCode Compare(const FluidDomain *d, const Layer *l)
     PetscCall(VecNorm(exact, NORM_INFINITY, &size));
     PetscCheck(error <= ACCURACY * size, PETSC_COMM_SELF, PETSC_ERR_PLIB,
                "contrast %g, h %g: velocities differ by %g of %g", l->contrast, l->h, error, size);
-    PetscCheck(one == 1 && (k == 1 || iterations <= ITERATIONS_MAX), PETSC_COMM_SELF, PETSC_ERR_PLIB,
+    PetscCheck(one == 1 && iterations <= ITERATIONS_MAX, PETSC_COMM_SELF, PETSC_ERR_PLIB,
                "contrast %g, h %g: %d iterations", l->contrast, l->h, iterations);
   }
   PetscCall(ProjectionSolverDestroy(&s));
@@ -57,22 +57,34 @@ static PetscErrorCode Compare(const FluidDomain *d, const Layer *l)
   PetscFunctionReturn(0);
 }
 
+/* All contrasts, or, with multigrid in place of the factor of the linear functions, the largest. */
+static PetscErrorCode Contrasts(double h, PetscBool open, PetscBool multigrid)
+{
+  const double contrasts[] = {1000.0, 1.0, 30.0, 1e-3};
+  FluidDomain domain;
+  Mesh *mesh;
+  PetscFunctionBeginUser;
+  if (multigrid) PetscCall(PetscOptionsSetValue(NULL, "-pressure_coarse_pc_type", "hypre"));
+  PetscCall(LayerDomain(h, open, &mesh, &domain));
+  for (int k = 0; k < (multigrid ? 1 : 4); k++) {
+    const Layer layer = {h, contrasts[k], (PetscBool)(k % 2)};
+    PetscCall(Compare(&domain, &layer));
+  }
+  PetscCall(DomainDestroy(&domain));
+  PetscCall(MeshDestroy(&mesh));
+  if (multigrid) PetscCall(PetscOptionsClearValue(NULL, "-pressure_coarse_pc_type"));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
-  const double contrasts[] = {1.0, 30.0, 1000.0, 1e-3};
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
-  for (int open = 0; open < 2; open++)
-    for (double h = 0.1; h > 0.02; h *= 0.4) {
-      FluidDomain domain;
-      Mesh *mesh;
-      PetscCall(LayerDomain(h, (PetscBool)open, &mesh, &domain));
-      for (int k = 0; k < 4; k++) {
-        const Layer layer = {h, contrasts[k], (PetscBool)(k % 2)};
-        PetscCall(Compare(&domain, &layer));
-      }
-      PetscCall(DomainDestroy(&domain));
-      PetscCall(MeshDestroy(&mesh));
-    }
+  for (int open = 0; open < 2; open++) {
+    for (double h = 0.1; h > 0.02; h *= 0.4) PetscCall(Contrasts(h, (PetscBool)open, PETSC_FALSE));
+#if defined(PETSC_HAVE_HYPRE)
+    PetscCall(Contrasts(0.04, (PetscBool)open, PETSC_TRUE));
+#endif
+  }
   PetscCall(PetscFinalize());
   return 0;
 }

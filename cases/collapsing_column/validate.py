@@ -1,0 +1,93 @@
+#!/usr/bin/python3
+"""Runs the collapsing column on several meshes, ranks and floors, and writes its table.
+
+    cases/collapsing_column/validate.py [--jobs N] [--only PATTERN ...] [--table] [--readme] [--check]
+
+A run is skipped when its summary.json is there (out/validation/collapsing_column/<name>; delete the folder to run it again).  --only
+takes names with wildcards.  --table only prints the table of what has been run, --readme also puts it into README.md, --check exits
+with 1 when a number is out of its bounds.  Needs numpy and h5py.
+"""
+import json
+import pathlib
+
+from column import GAUGES, Column  # puts scripts/ on the path
+import phases
+import validation
+
+HERE = pathlib.Path(__file__).resolve().parent
+OUT = validation.OUT / "collapsing_column"
+
+
+def size(le, dt, error):
+    return ["fluid.adapt.size_min=%g" % le, "time.dt_max=%g" % dt, "fluid.adapt.velocity_error=%g" % error]
+
+
+COARSE = size(0.008, 0.001, 0.1)
+# name: (keys other than case.yaml's, ranks)
+RUNS = {
+    "le-0.008": (COARSE, "1:1:1"),
+    "le-0.004": ([], "1:1:1"),
+    "le-0.002": (size(0.002, 0.00025, 0.03), "2:1:1"),
+    "ranks-2": (COARSE, "2:1:2"),
+    "ranks-3": (COARSE, "3:2:3"),
+    "friction-0.1": (COARSE + ["solid.walls.friction=0.1"], "1:1:1"),
+    "friction-0.2": (COARSE + ["solid.walls.friction=0.2"], "1:1:1"),
+}
+
+
+def run(name):
+    validation.run(HERE, OUT / name, *RUNS[name])
+
+
+class Result(Column):
+    """What a run has left behind."""
+
+    def __init__(self, name):
+        super().__init__(OUT / name)
+        self.water = phases.volumes(OUT / name, "water")
+        self.summary = json.load(open(OUT / name / "summary.json"))
+        fluid = phases.read_series(OUT / name / "fluid.csv")
+        self.triangles, self.steps = int(fluid["triangles"].max()), len(fluid["t"])
+        parts = self.summary["participants"].values()
+        self.cpu, self.wall = sum(p["seconds_cpu"] for p in parts), max(p["seconds_wall"] for p in parts)
+        self.passes = self.summary.get("iterations", self.steps) / self.summary["steps"]
+
+    @property
+    def lost(self):
+        """Of the water, between first and last snapshot."""
+        return abs(self.water[-1] / self.water[0] - 1.0)
+
+
+def results(names):
+    return {name: Result(name) for name in names if (OUT / name / "summary.json").exists()}
+
+
+def table(there):
+    yield "| run | front at the square [s] | square at the wall [s] | its speed [m/s] | " + " | ".join("%s, at" % g for g in GAUGES) + \
+          " | water lost | imbalance | iterations | triangles | steps | CPU s | wall s |"
+    yield "|" + "---|" * (11 + len(GAUGES))
+    for name, r in there.items():
+        yield "| " + " | ".join([name, "%.3f" % r.reaches_square, "%.3f" % r.reaches_wall, "%.3f" % r.speed,
+                                 *("%.1f, %.3f s" % r.peak(g) for g in GAUGES), "%.0e" % r.lost,
+                                 "%.0e" % r.summary["largest_momentum_imbalance"], "%.2f" % r.passes, str(r.triangles), str(r.steps),
+                                 "%.0f" % r.cpu, "%.0f" % r.wall]) + " |"
+
+
+def claims(there):
+    """What must hold of the runs that are there: (statement, measured, bound)."""
+    for name, r in there.items():
+        yield name + ": water lost, of it", r.lost, 1e-10
+        yield name + ": momentum imbalance", r.summary["largest_momentum_imbalance"], 1e-10
+        yield name + ": coupling iterations of a step less 1", r.passes - 1.0, 0.0
+    for name in ("le-0.004", "le-0.002"):
+        if name in there:
+            yield name + ": front at the square, s off 0.36 without gate", abs(there[name].reaches_square - 0.36), 0.01
+            yield name + ": square at the wall, s off 0.61 .. 0.64", abs(there[name].reaches_wall - 0.625), 0.015
+    coarse = there.get("le-0.008")
+    for name in ("ranks-2", "ranks-3"):
+        if name in there and coarse:
+            yield name + ": front at the square as on one rank, s", abs(there[name].reaches_square - coarse.reaches_square), 0.002
+
+
+if __name__ == "__main__":
+    validation.main(__doc__, HERE, RUNS, run, results, {"runs": table}, claims)

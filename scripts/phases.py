@@ -1,0 +1,117 @@
+"""Runs of several phases: their probes (fluid_probes.csv, solid_probes.csv), and pictures and animations of where they are.
+
+Needs numpy, h5py, matplotlib; Pillow for animations.
+"""
+import csv
+import os
+
+import h5py
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.animation import PillowWriter
+from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.tri import Triangulation
+
+from snapshot import Window, outline, read_bodies, read_snapshot
+
+AIR, WATER = (0.93, 0.96, 0.98), (0.10, 0.35, 0.65)
+COLOURS = LinearSegmentedColormap.from_list("air to water", [AIR, WATER])
+
+
+def read_series(path):
+    """Columns of a CSV by their names without units."""
+    with open(path) as file:
+        rows = list(csv.reader(file))
+    values = np.array(rows[1:], float)
+    return {name.split(" [")[0]: values[:, k] for k, name in enumerate(rows[0])}
+
+
+def read_probes(folder):
+    """The columns of fluid_probes.csv and, if there, of solid_probes.csv, under their own `t` and `solid t`."""
+    probes = read_series(os.path.join(folder, "fluid_probes.csv"))
+    path = os.path.join(folder, "solid_probes.csv")
+    if os.path.exists(path):
+        solid = read_series(path)
+        probes.update({"solid t" if name == "t" else name: values for name, values in solid.items()})
+    return probes
+
+
+def crossing(t, values, level):
+    """When the values first reach the level from below, linear between rows; nan if they do not."""
+    k = int(np.argmax(values >= level))
+    if values[k] < level:
+        return float("nan")
+    if k == 0:
+        return float(t[0])
+    return float(t[k - 1] + (level - values[k - 1]) / (values[k] - values[k - 1]) * (t[k] - t[k - 1]))
+
+
+def snapshot_times(folder):
+    with h5py.File(os.path.join(folder, "fluid.h5"), "r") as file:
+        groups = [file["snapshot"][name] for name in sorted(file["snapshot"])]
+        return [group.attrs["time"] for group in groups if len(group)]
+
+
+def volumes(folder, phase):
+    """Volume of the phase of this name in each snapshot, m2."""
+    found = []
+    for time in snapshot_times(folder):
+        grid = read_snapshot(os.path.join(folder, "fluid.h5"), time)[1]["velocity"]
+        a, b, c = grid.points[grid.cells][:, :, :2].transpose(1, 0, 2)
+        area = 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+        found.append(float((area * grid.cell[phase].ravel()).sum()))
+    return np.array(found)
+
+
+def paint_arrows(axes, grid, spacing):
+    """Velocities on a raster: the mean of the nodes in each square of it; the longest arrow is two squares."""
+    place = np.floor(grid.points[:, :2] / spacing).astype(int)
+    which = np.unique(place, axis=0, return_inverse=True)[1]
+    which = which.reshape(-1)
+    count = np.bincount(which)
+    mean = [np.bincount(which, values) / count for values in (*grid.points[:, :2].T, *grid.node["velocity"][:, :2].T)]
+    longest = max(np.hypot(*mean[2:]).max(), 1e-12)
+    axes.quiver(*mean, color="0.25", width=0.0012, angles="xy", scale_units="xy", scale=longest / (2.0 * spacing))
+
+
+def paint_phases(axes, folder, time, phase, arrows=0.0, mesh=False):
+    """The fraction of the phase of this name by elements, bodies white; arrows: spacing of velocities, m; returns the time found."""
+    found, fluid = read_snapshot(os.path.join(folder, "fluid.h5"), time)
+    grid, body = fluid["velocity"], read_bodies(folder, found)
+    triangulation = Triangulation(*grid.points[:, :2].T, grid.cells)
+    axes.tripcolor(triangulation, facecolors=grid.cell[phase].ravel(), cmap=COLOURS, vmin=0.0, vmax=1.0,
+                   edgecolors="0.6" if mesh else "none", linewidth=0.15 if mesh else 0.0)
+    if arrows:
+        paint_arrows(axes, grid, arrows)
+    if body is not None and len(body.cells):
+        axes.tripcolor(Triangulation(*body.points[:, :2].T, body.cells), np.zeros(len(body.points)), cmap="Greys", vmin=0.0, vmax=1.0)
+        body.points = body.points[:, :2]
+        axes.plot(*outline(body).T, "k", linewidth=0.8)
+    Window.around(grid.points[:, :2]).frame(axes)
+    axes.set_title("t = %.3f s" % found, fontsize=9)
+    return found
+
+
+def draw_times(folder, times, phase, path, columns=2, arrows=0.0, mesh=False, size=(6.0, 2.3)):
+    """A panel a time; times that the run has not reached are left out."""
+    last = snapshot_times(folder)[-1]
+    times = [t for t in times if t <= last * (1.0 + 1e-9)]
+    rows = -(-len(times) // columns)
+    figure, axes = plt.subplots(rows, columns, figsize=(columns * size[0], rows * size[1]), squeeze=False, layout="constrained")
+    for axis in axes.flat[len(times):]:
+        axis.axis("off")
+    for axis, time in zip(axes.flat, times):
+        paint_phases(axis, folder, time, phase, arrows, mesh)
+    figure.savefig(path, dpi=150)
+    plt.close(figure)
+
+
+def animate(folder, phase, path, size=(9.0, 3.4), every=1):
+    figure, axes = plt.subplots(figsize=size, layout="constrained")
+    writer = PillowWriter(fps=15)
+    with writer.saving(figure, path, dpi=90):
+        for time in snapshot_times(folder)[::every]:
+            axes.clear()
+            paint_phases(axes, folder, time, phase)
+            writer.grab_frame()
+    plt.close(figure)
