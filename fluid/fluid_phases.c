@@ -51,6 +51,7 @@ PetscErrorCode FluidMovePhases(Fluid f, double dt, double s)
   PetscCall(VecGetArray(f->mass_flux, &flux));
   PetscCall(PetscArraycpy(u, flux, n));
   step.u = u;
+  step.solid = SolidCouplingFraction(f->solid);
   step.mass_flux = flux;
   PetscCall(PhaseTransportStep(f->phases, &step));
   PetscCall(VecRestoreArray(f->mass_flux, &flux));

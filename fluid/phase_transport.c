@@ -250,7 +250,21 @@ static PetscErrorCode CountParts(PhaseTransport t, double dt, int *parts)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Advect(PhaseTransport t, double dt)
+/* The heavier phase leaves what the solid fills of elements, which the lighter one fills with it. */
+static PetscErrorCode LeaveSolid(PhaseTransport t, const double solid[])
+{
+  const int light = PhaseLightest(&t->properties);
+  double *capacity;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(t->stars->ne, &capacity));
+  for (int e = 0; e < t->stars->ne; e++)
+    capacity[e] = fmax(1.0 - solid[e], 0.0) * t->domain->geometry[e].area;
+  PetscCall(PhasesExpel(t->phases, 1 - light, light, capacity, t->swept));
+  PetscCall(PetscFree(capacity));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Advect(PhaseTransport t, double dt, const double solid[])
 {
   const int n = 3 * t->properties.n * t->stars->ne;
   const PhasesInflow inflow = {(const double(*)[PHASES_MAX])t->inflow};
@@ -263,6 +277,7 @@ static PetscErrorCode Advect(PhaseTransport t, double dt)
     PetscCall(PhasesAdvect(t->phases, dt / parts, t->flux, t->velocity, &inflow, t->part));
     for (int i = 0; i < n; i++) t->swept[i] += t->part[i];
   }
+  if (solid) PetscCall(LeaveSolid(t, solid));
   PetscCall(Reconstruct(t));
   PetscFunctionReturn(0);
 }
@@ -307,7 +322,7 @@ PetscErrorCode PhaseTransportStep(PhaseTransport t, const PhaseStep *s)
   PetscCall(FluxVertexVelocity(t->stars, t->beta, t->velocity));
   for (int e = 0; e < t->stars->nl; e++) t->single[e] = PhasesSingle(t->phases, e);
   for (int e = 0; e < t->stars->ne; e++) t->begin[e] = t->end[e];
-  PetscCall(Advect(t, s->dt));
+  PetscCall(Advect(t, s->dt, s->solid));
   for (int e = 0; e < t->stars->ne; e++)
     InverseDensityMiddle(&t->begin[e], &t->end[e], &t->inverse_density[e]);
   MassFlux(t, s->dt, s->mass_flux);

@@ -38,6 +38,7 @@ typedef struct {
   double time, dt;                /* t^n, s */
   double extrapolated, dt_before; /* u = u^n + extrapolated (u^n - u^{n-1}) */
   const double *u;
+  const double *solid; /* [ne] alpha_s: the heavier phase stays out of it; NULL: none */
   double *mass_flux;
 } PhaseStep;
 PetscErrorCode PhaseTransportStep(PhaseTransport t, const PhaseStep *step);

@@ -70,6 +70,11 @@ typedef struct {
 PetscErrorCode PhasesAdvect(Phases phases, double dt, const double flux[], const double velocity[],
                             const PhasesInflow *inflow, double swept[]);
 
+/* Collective.  Where an element holds more of `phase` than capacity[ne], m2, the excess is exchanged for the filler of
+ * neighbours with room, in a few rounds (an element none of whose neighbours has room keeps it): each phase's volume is conserved, that of elements, too.  Added to
+ * swept[ne][3][nphases] of PhasesAdvect. */
+PetscErrorCode PhasesExpel(Phases phases, int phase, int filler, const double capacity[], double swept[]);
+
 /* Volumes of `to` from lines and volumes of `from`, both on the meshes that the transfer was made of: copies
  * where elements are the same, else exact intersections of each phase's polygons with the new elements.
  * Conserves each phase to round-off and stays within [0, area].  Needs the lines of `from`. */
