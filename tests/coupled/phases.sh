@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A square among water and air: one iteration a step, momentum and water kept, the same on other ranks and after a resume.
+# A square among water and air: few coupling iterations, momentum and water kept, the same on other ranks and after a resume.
 # Usage: phases.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
@@ -27,7 +27,9 @@ place = {}
 for label in ("one", "two", "half"):
     assert abs(water(label) - 0.039).max() < 1e-8, "%s: water %s m2" % (label, water(label))
     coupler, last = rows(label, "coupler"), rows(label, "solid")[-1]
-    assert {int(float(r["iterations"])) for r in coupler} == {1}, label
+    # water in an element of the surface is heavier than this solid: where that happens the step is repeated
+    iterations = [int(float(r["iterations"])) for r in coupler]
+    assert sum(iterations) < 1.2 * len(iterations), "%s: %s iterations" % (label, iterations)
     assert max(float(r["imbalance"]) for r in coupler) < 1e-10, label
     place[label] = np.array([float(last["x0 [m]"]), float(last["y0 [m]"])])
     assert 0.15 < place[label][1] < 0.19, "%s: at %s" % (label, place[label])

@@ -1,0 +1,17 @@
+#!/bin/bash
+# A batch job for Slurm: copy it, change the lines below, and `sbatch slurm.sh my_case.yaml [--set key=value]...`
+#SBATCH --job-name=coracle
+#SBATCH --ntasks=21
+#SBATCH --cpus-per-task=1
+#SBATCH --time=02:00:00
+#SBATCH --output=%x-%j.log
+set -euo pipefail
+ranks=16:1:4                 # fluid : coupler : solid, together --ntasks
+coracle=$HOME/coracle        # the repository with its build folder; of an installed package: /usr/share/coracle
+bin=$coracle/build           # of an installed package: /usr/bin
+
+export OPENBLAS_NUM_THREADS=1
+programs=coracle-$SLURM_JOB_ID.conf
+"$coracle/scripts/launch.sh" --bin "$bin" --ranks "$ranks" --print srun --write "$programs" "$@"
+# the job is ended a little before its time: a checkpoint every ten minutes (output.checkpoint); --set resume=last resumes
+srun -n "$SLURM_NTASKS" --multi-prog "$programs"

@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# Scripts beside a run do what their usage says, on a small case: pictures of fields, scaling.  Usage: scripts.sh ROOT BUILD
+set -euo pipefail
+source "$(dirname "$0")/../coupled/run.sh"
+"$python" -c 'import numpy, h5py, matplotlib' 2>/dev/null || { echo 'needs numpy, h5py and matplotlib'; exit 77; }
+must x 1:1:1 --set time.end=0.02 --set output.every=0.01
+for field in velocity.y solid:stress; do
+  "$root/scripts/view.sh" "$scratch/x" --field $field --time 0.01 --out "$scratch/$field.png" >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
+  [ -s "$scratch/$field.png" ] || { echo "no picture of $field"; exit 1; }
+done
+if "$root/scripts/view.sh" "$scratch/x" --field colour 2>"$scratch/log"; then echo 'a field that is not there was drawn'; exit 1; fi
+grep -q "there is no field 'colour': .*solid:stress" "$scratch/log" || { cat "$scratch/log"; exit 1; }
+"$python" "$root/scripts/scaling.py" "$here/disc.yaml" --bin "$build" --splits 1:1:1,2:1:1 --out "$scratch/scaling" --set time.end=0.02 >"$scratch/log" 2>&1 ||
+  { cat "$scratch/log"; exit 1; }
+[ "$(wc -l <"$scratch/scaling/scaling.csv")" -eq 3 ] && [ -s "$scratch/scaling/scaling.png" ] || { cat "$scratch/log"; exit 1; }
