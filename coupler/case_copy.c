@@ -16,7 +16,7 @@ PetscErrorCode CaseCopyTake(const CouplerCase *c, CaseCopy *copy)
   copy->n = 0;
   copy->text = NULL;
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  if (rank) PetscFunctionReturn(0);
+  if (rank || c->argc < 2) PetscFunctionReturn(0);
   FILE *file = fopen(c->argv[1], "rb");
   PetscCheck(file && !fseek(file, 0, SEEK_END), PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "%s: %s", c->argv[1],
              strerror(errno));

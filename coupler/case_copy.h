@@ -1,6 +1,6 @@
 /* A copy of the case in the output folder, case.yaml, led by what it was run with: version, revision, ranks, settings.
  *
- *     CaseCopyTake     before earlier results are moved aside, for the case file may be among them
+ *     CaseCopyTake     before earlier results are moved aside, for the case file may be among them; nothing where there is none
  *     CaseCopyWrite    once the folder is this run's */
 #ifndef CORACLE_CASE_COPY_H
 #define CORACLE_CASE_COPY_H
