@@ -57,7 +57,7 @@ case $scenario in
   adapt_sizes) with 'fluid.adapt={size_min: 0.1, size_max: 0.05, velocity_error: 0.01}'; expect="'fluid.adapt.size_max'" ;;
   adapt_nothing) with 'fluid.adapt={size_min: 0.1, size_max: 0.2}'; expect="'fluid.adapt.velocity_error'" ;;
   adapt_budget) with 'fluid.adapt={size_min: 0.01, size_max: 0.2, velocity_error: 0.1, elements_max: 500}'
-    expect="fluid.adapt.elements_max.*500.*the solid's band" ;;
+    expect="fluid.adapt.elements_max.*500.*the bands of solid and interface" ;;
   first_budget) with 'fluid.adapt={size_min: 1.0e-5, size_max: 0.2, velocity_error: 0.1}'
     expect="fluid.adapt.elements_max.*200000.*fluid.adapt.size_min" ;;
   bad_folder) with output.folder=/proc/nowhere; sets+=(--set output.folder=/proc/nowhere); expect="/proc/nowhere" ;;
