@@ -1,4 +1,5 @@
 #include "fluid/pressure_preconditioner.h"
+#include "fluid/relaxation.h"
 #include "fluid/solver_options.h"
 #include <limits.h>
 #include <math.h>
@@ -8,14 +9,13 @@
 
 struct PressurePreconditioner_s {
   const FluidDomain *domain; /* borrowed */
-  Mat matrix;                /* borrowed: A */
-  Mat relaxed;               /* A with the diagonal of UpdateRelaxed; on one rank A itself */
-  Mat extension;             /* E */
-  Mat coarse;                /* A1 */
-  PetscInt nfixed;           /* owned vertices whose row of A1 is the identity's */
-  PetscBool pinned;          /* this rank has the vertex that makes A1 definite in a closed domain */
-  KSP solver;                /* of A1 */
-  Vec residual, update, r1, z1;
+  Relaxation relaxation;
+  Mat extension;    /* E */
+  Mat coarse;       /* A1 */
+  PetscInt nfixed;  /* owned vertices whose row of A1 is the identity's */
+  PetscBool pinned; /* this rank has the vertex that makes A1 definite in a closed domain */
+  KSP solver;       /* of A1 */
+  Vec r1, z1;
   int setup;           /* iterations of CG that cost as much as the set-up of a coarse solver */
   int fresh;           /* least iterations with the coarse solver; -1: it has not been used yet */
   int excess;          /* iterations above that since then */
@@ -110,92 +110,29 @@ static PetscErrorCode CreateSolver(PressurePreconditioner p)
   PetscFunctionReturn(0);
 }
 
-/* sum[i] = half of the absolute sum of row i over the nodes of other ranks */
-static PetscErrorCode HalfOffRankSums(Mat matrix, Vec sum)
-{
-  Mat off;
-  PetscInt rows;
-  PetscScalar *s;
-  PetscFunctionBeginUser;
-  PetscCall(MatMPIAIJGetSeqAIJ(matrix, NULL, &off, NULL));
-  PetscCall(MatGetSize(off, &rows, NULL));
-  PetscCall(VecGetArrayWrite(sum, &s));
-  for (PetscInt i = 0; i < rows; i++) {
-    const PetscScalar *value;
-    PetscInt n;
-    s[i] = 0.0;
-    PetscCall(MatGetRow(off, i, &n, NULL, &value));
-    for (PetscInt k = 0; k < n; k++) s[i] += 0.5 * PetscAbsScalar(value[k]);
-    PetscCall(MatRestoreRow(off, i, &n, NULL, &value));
-  }
-  PetscCall(VecRestoreArrayWrite(sum, &s));
-  PetscFunctionReturn(0);
-}
-
-/* Gauss-Seidel over the nodes of each rank leaves the entries between ranks out.  With l_i = half of their absolute sum
- * on the diagonal its matrix is M = L + D + l, and M + M^T - A = D + 2 l - A_off is positive definite by rows: so
- * is the preconditioner, whatever the coefficients. */
-static PetscErrorCode UpdateRelaxed(PressurePreconditioner p)
-{
-  PetscMPIInt ranks;
-  PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_size(p->domain->mesh->comm, &ranks));
-  if (ranks == 1) {
-    p->relaxed = p->matrix;
-    PetscFunctionReturn(0);
-  }
-  if (!p->relaxed) PetscCall(MatDuplicate(p->matrix, MAT_DO_NOT_COPY_VALUES, &p->relaxed));
-  PetscCall(MatCopy(p->matrix, p->relaxed, SAME_NONZERO_PATTERN));
-  PetscCall(HalfOffRankSums(p->matrix, p->residual));
-  PetscCall(MatDiagonalSet(p->relaxed, p->residual, ADD_VALUES));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode Residual(PressurePreconditioner p, Vec r, Vec z)
-{
-  PetscFunctionBeginUser;
-  PetscCall(MatMult(p->matrix, z, p->residual));
-  PetscCall(VecAYPX(p->residual, -1.0, r));
-  PetscFunctionReturn(0);
-}
-
-/* z += M^-T (r - A z): on one rank that is a sweep over z itself. */
-static PetscErrorCode SweepBackward(PressurePreconditioner p, Vec r, Vec z)
-{
-  const MatSORType backward = SOR_LOCAL_BACKWARD_SWEEP;
-  PetscFunctionBeginUser;
-  if (p->relaxed == p->matrix) {
-    PetscCall(MatSOR(p->matrix, r, 1.0, backward, 0.0, 1, 1, z));
-    PetscFunctionReturn(0);
-  }
-  PetscCall(Residual(p, r, z));
-  PetscCall(MatSOR(p->relaxed, p->residual, 1.0, (MatSORType)(backward | SOR_ZERO_INITIAL_GUESS), 0.0, 1, 1,
-                   p->update));
-  PetscCall(VecAXPY(z, 1.0, p->update));
-  PetscFunctionReturn(0);
-}
-
 /* PCSHELL */
 static PetscErrorCode Apply(PC shell, Vec r, Vec z)
 {
-  const MatSORType forward = (MatSORType)(SOR_LOCAL_FORWARD_SWEEP | SOR_ZERO_INITIAL_GUESS);
   PressurePreconditioner p;
+  Vec residual = NULL;
   PetscFunctionBeginUser;
   PetscCall(PCShellGetContext(shell, &p));
-  PetscCall(MatSOR(p->relaxed, r, 1.0, forward, 0.0, 1, 1, z));
-  PetscCall(Residual(p, r, z));
-  PetscCall(MatMultTranspose(p->extension, p->residual, p->r1));
+  PetscCall(RelaxationForward(p->relaxation, r, z));
+  PetscCall(RelaxationResidual(p->relaxation, r, z, &residual));
+  PetscCall(MatMultTranspose(p->extension, residual, p->r1));
   PetscCall(KSPSolve(p->solver, p->r1, p->z1));
   PetscCall(MatMultAdd(p->extension, p->z1, z, z));
-  PetscCall(SweepBackward(p, r, z));
+  PetscCall(RelaxationBackward(p->relaxation, r, z));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode UseShell(PressurePreconditioner p, KSP ksp)
 {
+  Mat matrix;
   PC shell;
   PetscFunctionBeginUser;
-  PetscCall(KSPGetOperators(ksp, &p->matrix, NULL));
+  PetscCall(KSPGetOperators(ksp, &matrix, NULL));
+  PetscCall(RelaxationCreate(matrix, &p->relaxation));
   PetscCall(KSPGetPC(ksp, &shell));
   PetscCall(PCSetType(shell, PCSHELL));
   PetscCall(PCShellSetName(shell, "relaxation and linear functions"));
@@ -218,8 +155,7 @@ PetscErrorCode PressurePreconditionerCreate(const FluidDomain *domain, const cha
   PetscCall(UseShell(p, ksp));
   PetscCall(CreateExtension(p, is_fixed));
   PetscCall(CreateCoarse(p, is_fixed));
-  PetscCall(MatCreateVecs(p->extension, &p->r1, &p->residual));
-  PetscCall(VecDuplicate(p->residual, &p->update));
+  PetscCall(MatCreateVecs(p->extension, &p->r1, NULL));
   PetscCall(VecDuplicate(p->r1, &p->z1));
   PetscCall(CreateSolver(p));
   *preconditioner = p;
@@ -234,9 +170,7 @@ PetscErrorCode PressurePreconditionerDestroy(PressurePreconditioner *preconditio
   PetscCall(KSPDestroy(&p->solver));
   PetscCall(MatDestroy(&p->extension));
   PetscCall(MatDestroy(&p->coarse));
-  if (p->relaxed != p->matrix) PetscCall(MatDestroy(&p->relaxed));
-  PetscCall(VecDestroy(&p->residual));
-  PetscCall(VecDestroy(&p->update));
+  PetscCall(RelaxationDestroy(&p->relaxation));
   PetscCall(VecDestroy(&p->r1));
   PetscCall(VecDestroy(&p->z1));
   PetscCall(PetscFree(p->coefficient));
@@ -294,7 +228,7 @@ PetscErrorCode PressurePreconditionerUpdate(PressurePreconditioner p, const doub
   if (p->excess <= p->setup) PetscCall(LargestChange(p, (const double(*)[9])coarse, &change));
   if (change > CHANGE_MAX) PetscCall(SetCoarse(p, coarse));
   PetscCall(PetscFree(coarse));
-  PetscCall(UpdateRelaxed(p));
+  PetscCall(RelaxationUpdate(p->relaxation));
   PetscFunctionReturn(0);
 }
 

@@ -1,7 +1,7 @@
 /* The preconditioner of the pressure's matrix in P2: relaxation of all nodes and a correction in P1, the linear
  * functions of the same mesh.
  *
- *   forward     Gauss-Seidel over the nodes of this rank from z = 0, the diagonal raised by what couples ranks
+ *   forward     Gauss-Seidel over the nodes of this rank from z = 0 (relaxation.h)
  *   coarse      z += E A1^-1 E^T (r - A z),   A1 = E^T A E: the matrix of the P1 functions
  *   backward    Gauss-Seidel in the other order
  *
