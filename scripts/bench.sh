@@ -2,26 +2,29 @@
 # What a step costs.  Usage: scripts/bench.sh [--quick]
 #   the fluid alone from 10 000 to 300 000 triangles, and two ranks against one at 50 000;
 #   the falling cylinder's steps split into momentum, pressure, assembly, coupling, exchange and waiting.
-# Times are of this machine, now: compare ratios within one run.
+# Built for this processor (preset native).  Times are of this machine, now: compare ratios within one run, or with the
+# triad's bandwidth, which is printed first.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
 scripts/setup.sh
-cmake --preset release >/dev/null
-cmake --build --preset release -- --quiet
+cmake --preset native >/dev/null
+cmake --build --preset native -- --quiet
 export OPENBLAS_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 
+echo "-- memory"
+echo "triad $(build-native/tests/bench_stream) GB/s"
 echo "-- the fluid alone, one rank"
 sizes="0.0141 0.01 0.0063 0.00258"
 [ "${1:-}" = --quick ] && sizes="0.0141 0.0063"
-for h in $sizes; do build/tests/bench_fluid -h "$h" -steps 10; done
+for h in $sizes; do build-native/tests/bench_fluid -h "$h" -steps 10; done
 echo "-- the same, two ranks"
-mpirun --oversubscribe --bind-to none -n 2 build/tests/bench_fluid -h 0.0063 -steps 10
+mpirun --oversubscribe --bind-to none -n 2 build-native/tests/bench_fluid -h 0.0063 -steps 10
 
 echo "-- the falling cylinder, 0.2 s, ranks 1:1:1"
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
-scripts/launch.sh --bin build --ranks 1:1:1 cases/falling_cylinder/case.yaml --set "output.folder=$out" --set time.end=0.2 >/dev/null
+scripts/launch.sh --bin build-native --ranks 1:1:1 cases/falling_cylinder/case.yaml --set "output.folder=$out" --set time.end=0.2 >/dev/null
 python=$(command -v /usr/bin/python3 || command -v python3)
 "$python" - "$out/summary.json" <<'EOF'
 import json, sys
