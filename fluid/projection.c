@@ -227,8 +227,8 @@ PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *s
   PetscFunctionBeginUser;
   PetscCall(Assemble(s, step));
   PetscCall(Divergence(s, step, velocity, &problem.size));
-  if (step->revision > 0)
-    problem.size = 0.0; /* volumes of phases add up as far as the divergence is removed */
+  /* volumes of phases add up as far as the divergence is removed */
+  if (step->revision > 0) problem.size = 0.0;
   PetscCall(PressureSolverSolve(s->solver, &problem, s->phi, iterations));
   PetscCall(VecGhostUpdateBegin(s->phi, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGhostUpdateEnd(s->phi, INSERT_VALUES, SCATTER_FORWARD));
@@ -257,9 +257,8 @@ PetscErrorCode ProjectionSolverSubtract(ProjectionSolver s, const ProjectionStep
   PetscCall(VecGetArrayRead(local, &phi));
   PetscCall(VecGetArray(velocity, &u));
   for (int e = 0; e < m->ne; e++) {
-    double pe[6], grad[3][2];
-    for (int k = 0; k < 6; k++) pe[k] = phi[d->p2->node[6 * e + k]];
-    P2Gradient(d->geometry[e].g, pe, grad);
+    double grad[3][2];
+    DomainGradient(d, e, phi, grad);
     if (s->inertia && WeightedProjectionVelocity(s->weighted, e, (const double(*)[2])grad, u + 6 * e))
       continue;
     if (step->inverse_density)
