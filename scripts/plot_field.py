@@ -6,7 +6,6 @@ as wide is shown around the body and its wake.  Needs numpy, h5py and matplotlib
 """
 import argparse
 import os
-import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -84,13 +83,7 @@ def draw(arguments):
 
 def main():
     arguments = parse_arguments()
-    try:
-        figure = draw(arguments)
-    except LookupError as error:
-        sys.exit(f"plot_field: {error}")
-    path = arguments.out or os.path.join(arguments.folder, "field.png")
-    figure.savefig(path, dpi=150)
-    print(path)
+    save(draw, arguments, os.path.join(arguments.folder, "field.png"), "plot_field")
 
 
 if __name__ == "__main__":
