@@ -38,7 +38,7 @@ int main(int argc, char **argv)
                       .cfl = 0.5,
                       .dt_max = 0.01,
                       .boundary = boundary,
-                      .phases = {2, {1.0, 1000.0}, {1e-5, 1e-3}}};
+                      .phases = {.n = 2, .rho = {1.0, 1000.0}, .mu = {1e-5, 1e-3}}};
   SurfacePlace p;
   Mesh *mesh;
   Fluid fluid;
