@@ -10,7 +10,7 @@ import os
 import matplotlib.pyplot as plt
 import numpy as np
 
-from snapshot import Window, centred, paint, paint_mesh, read_bodies, read_snapshot, without_hydrostatic
+from snapshot import Window, centred, paint, paint_mesh, read_bodies, read_snapshot, save, without_hydrostatic
 
 LENGTH, AHEAD = 1.8, 0.3  # of the window along a long domain: its length in widths, the part of it ahead of the body
 
