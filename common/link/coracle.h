@@ -112,6 +112,10 @@ CORACLE_NORETURN void CoracleFailMessage(void *client, const char *message);
  * their maximum.  Local; travels when the client closes. */
 int CoracleReport(CoracleClient c, const char *key, double value, int sum);
 
+/* Local, at any time: what this rank computes from now on, until the next phase, wait or step, is called `name` (its first
+ * 23 characters; NULL: nothing) in the trace of the run (key output.trace). */
+int CoraclePhase(CoracleClient c, const char *name);
+
 /* Leaves the job and nulls the handle; an error before CORACLE_STOP was received.  Calls MPI_Finalize if
  * CoracleOpen has called MPI_Init. */
 int CoracleClose(CoracleClient *c);

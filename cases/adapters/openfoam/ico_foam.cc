@@ -144,7 +144,9 @@ void Flow::step(double t, double dt)
 {
   restore();
   cells_.receive(client_);
+  CoraclePhase(client_, "momentum");
   predict(dt);
+  CoraclePhase(client_, "pressure");
   project(dt);
   cells_.give(client_, star_, U, grad_U_);
   propose();

@@ -53,6 +53,9 @@ module coracle
       import; type(c_ptr), value :: client; character(c_char), intent(in) :: key(*)
       real(c_double), value :: number; integer(c_int), value :: total
     end function
+    integer(c_int) function c_phase(client, name) bind(c, name="CoraclePhase")
+      import; type(c_ptr), value :: client; character(c_char), intent(in) :: name(*)
+    end function
     integer(c_int) function c_case_open(argc, argv, fail, client, case) bind(c, name="CoracleCaseOpen")
       import; integer(c_int), value :: argc; type(c_ptr), intent(in) :: argv(*); type(c_funptr), value :: fail
       type(c_ptr), value :: client; type(c_ptr), intent(out) :: case
@@ -96,7 +99,7 @@ module coracle
       import; type(c_ptr), value :: client; integer(c_int), intent(out) :: n; type(c_ptr), intent(out) :: gauge
     end function
   end interface
-  private :: c_open, c_fail, c_report, c_case_open, c_case_has, c_case_count, c_case_number, c_case_positive, c_case_integer, &
+  private :: c_open, c_fail, c_report, c_phase, c_case_open, c_case_has, c_case_count, c_case_number, c_case_positive, c_case_integer, &
     c_case_vector, c_case_string, c_strlen, c_get_force, c_get_coupling, c_get_correction, c_get_gauges
 
   ! C's functions as they are; each returns 0
@@ -221,6 +224,14 @@ contains
     logical, intent(in) :: total
     integer(c_int) :: ignored
     ignored = c_report(client, trim(key)//c_null_char, number, merge(1, 0, total))
+  end subroutine
+
+  !> What this rank computes from now on, in the run's trace; blank: nothing.
+  subroutine coracle_phase(client, name)
+    type(c_ptr), intent(in) :: client
+    character(*), intent(in) :: name
+    integer(c_int) :: ignored
+    ignored = c_phase(client, trim(name)//c_null_char)
   end subroutine
 
   !> force(dim, n), N, a pointer to the library's memory until CoracleEnd.
