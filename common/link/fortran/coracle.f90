@@ -99,8 +99,8 @@ module coracle
       import; type(c_ptr), value :: client; integer(c_int), intent(out) :: n; type(c_ptr), intent(out) :: gauge
     end function
   end interface
-  private :: c_open, c_fail, c_report, c_phase, c_case_open, c_case_has, c_case_count, c_case_number, c_case_positive, c_case_integer, &
-    c_case_vector, c_case_string, c_strlen, c_get_force, c_get_coupling, c_get_correction, c_get_gauges
+  private :: c_open, c_fail, c_report, c_phase, c_case_open, c_case_has, c_case_count, c_case_number, c_case_positive, &
+    c_case_integer, c_case_vector, c_case_string, c_strlen, c_get_force, c_get_coupling, c_get_correction, c_get_gauges
 
   ! C's functions as they are; each returns 0
   interface
