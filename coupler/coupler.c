@@ -111,7 +111,7 @@ PetscErrorCode CouplerSetInterfaceVelocity(Coupler c, const double u[], int *n,
 
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2(o->nsources, &velocity, 2 * (size_t)c->nnodes, &acceleration));
-  PetscCall(OverlapNodesToSources(o, 2, u, &velocity[0][0][0]));
+  PetscCall(OverlapNodesToSources(o, 2, u, (double *)velocity));
   for (int t = 0; t < o->nsources; t++)
     if (c->density[t] == 0.0) PetscCall(PetscMemcpy(o->source[t].u, velocity[t], sizeof velocity[t]));
   for (int k = 0; k < 2 * c->nnodes; k++) acceleration[k] = (u[k] - c->start[k]) / c->dt;
@@ -169,7 +169,7 @@ static PetscErrorCode ShellAcceleration(Coupler c, double acceleration[])
   for (int t = 0; t < o->nsources; t++)
     for (int i = 0; i < 3 && o->source[t].is_shell; i++)
       PetscCall(PetscArraycpy(vertex[t][i], c->vertex[3 * t + i].reaction, 2));
-  PetscCall(OverlapSourcesToNodes(o, 2, &vertex[0][0][0], c->nnodes, acceleration));
+  PetscCall(OverlapSourcesToNodes(o, 2, (const double *)vertex, c->nnodes, acceleration));
   PetscCall(CopiesSum(o->nodes, 2, acceleration));
   for (int k = 0; k < 2 * c->nnodes; k++) acceleration[k] *= c->mobility[k / 2];
   PetscCall(PetscFree(vertex));
@@ -201,7 +201,7 @@ PetscErrorCode CouplerSolidCorrection(Coupler c, const SolidState *moved)
   PetscCall(PetscMalloc1(o->nsources, &u));
   for (int k = 0; k < 3 * o->nvolume; k++)
     PetscCall(PetscArraycpy(owned[k / 3][k % 3], moved->u + 2 * moved->element[k], 2));
-  PetscCall(OverlapForward(o, 6, &owned[0][0][0], &u[0][0][0]));
+  PetscCall(OverlapForward(o, 6, (const double *)owned, (double *)u));
   ForceCorrection(o, (const double(*)[3][2])u, c->flow.u_projected, c->correction);
   PetscCall(PetscFree(u));
   PetscCall(PetscFree(owned));

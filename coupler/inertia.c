@@ -40,7 +40,7 @@ PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2(solid->nnodes, &rho, o->nsources, &vertex));
   PetscCall(NodeDensities(o, solid, rho));
-  PetscCall(OverlapNodesToSources(o, 1, rho, &vertex[0][0]));
+  PetscCall(OverlapNodesToSources(o, 1, rho, (double *)vertex));
   for (int t = 0; t < o->nsources; t++) {
     density[t] = o->source[t].is_shell ? 0.0 : TriangleDensity(vertex[t]);
     if (density[t] > 0.0) implicit_factor[t] = 0.0;
@@ -61,8 +61,8 @@ PetscErrorCode InertiaBodyForce(Overlap o, const double density[], const double 
 
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2(o->nsources, &a, o->nsources, &b));
-  PetscCall(OverlapNodesToSources(o, 2, acceleration, &a[0][0][0]));
-  PetscCall(OverlapNodesToSources(o, 2, interface_acceleration, &b[0][0][0]));
+  PetscCall(OverlapNodesToSources(o, 2, acceleration, (double *)a));
+  PetscCall(OverlapNodesToSources(o, 2, interface_acceleration, (double *)b));
   for (int p = 0; p < o->pairs.n; p++) {
     const int t = o->pairs.pair[p].a;
     const double rho_f = o->rho[o->pairs.pair[p].b], rho_s = density[t], excess = fmax(rho_f - rho_s, 0.0);
@@ -93,8 +93,8 @@ PetscErrorCode InertiaExplicitFraction(Overlap o, const SolidState *solid, const
       vertex[pair->a][i][EXPLICIT] += fraction * pair->area;
     }
   }
-  PetscCall(OverlapSourcesToNodes(o, NSUMS, (const double *)vertex, solid->nnodes, &node[0][0]));
-  PetscCall(CopiesSum(o->nodes, NSUMS, &node[0][0]));
+  PetscCall(OverlapSourcesToNodes(o, NSUMS, (const double *)vertex, solid->nnodes, (double *)node));
+  PetscCall(CopiesSum(o->nodes, NSUMS, (double *)node));
   for (int i = 0; i < solid->nnodes; i++)
     explicit_fraction[i] = node[i][AREA] > 0.0        ? node[i][EXPLICIT] / node[i][AREA]
                            : solid->mobility[i] > 0.0 ? 0.0

@@ -1,5 +1,5 @@
-/* Where the flow is: the mesh, the pressure's nodes, the geometry of its elements and the conditions on its boundaries.  Momentum, projection and
- * measurements share one domain and only read it; it lasts as long as the mesh. */
+/* Where the flow is: the mesh, the pressure's nodes, the geometry of its elements and the conditions on its boundaries.
+ * Momentum, projection and measurements share one domain and only read it; it lasts as long as the mesh. */
 #ifndef FLUID_DOMAIN_H
 #define FLUID_DOMAIN_H
 #include "common/space/p2_space.h"
@@ -27,6 +27,14 @@ static inline const double *ElementVertex(const Mesh *m, int e, int i)
 static inline const Boundary *BoundaryOfFace(const FluidDomain *d, int e, int i)
 {
   return d->mesh->neighbor[3 * e + i] >= 0 ? NULL : d->boundary + d->mesh->tag[3 * e + i];
+}
+
+/* grad[i]: the gradient at vertex i of element e of the P2 field p on this rank's nodes. */
+static inline void DomainGradient(const FluidDomain *d, int e, const double p[], double grad[3][2])
+{
+  double pe[6];
+  for (int k = 0; k < 6; k++) pe[k] = p[d->p2->node[6 * e + k]];
+  P2Gradient(d->geometry[e].g, pe, grad);
 }
 
 /* Each side's share of the interior penalty: eta = PENALTY_FACTOR (mu_K trace_K + mu_N trace_N)/2, twice its own on a boundary. */

@@ -1,4 +1,5 @@
 #include "fluid/fine_band.h"
+#include "common/exchange/scatter.h"
 #include "common/supermesh/search.h"
 #include "fluid/fluid_impl.h"
 
@@ -6,8 +7,6 @@
 typedef struct {
   double from[2], to[2], size;
 } Sweep;
-
-enum { SWEEP = sizeof(Sweep) / sizeof(double) };
 
 /* Mean velocity of element e in the flow of the current step, if the interface cuts it; light elements follow the others,
  * whose motion it is. */
@@ -67,20 +66,14 @@ static int LocalSweeps(Fluid f, const FineBand *b, Sweep sweep[])
 /* The surfaces of all ranks; *all is allocated. */
 static PetscErrorCode Sweeps(Fluid f, const FineBand *b, int *n, Sweep **all)
 {
-  MPI_Comm comm = f->domain.mesh->comm;
-  PetscMPIInt size, mine, *count, *first;
   Sweep *local;
+  void *gathered;
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCall(PetscMalloc3(2 * f->domain.mesh->ne, &local, size, &count, size + 1, &first));
-  mine = SWEEP * LocalSweeps(f, b, local);
-  PetscCallMPI(MPI_Allgather(&mine, 1, MPI_INT, count, 1, MPI_INT, comm));
-  first[0] = 0;
-  for (int r = 0; r < size; r++) first[r + 1] = first[r] + count[r];
-  *n = first[size] / SWEEP;
-  PetscCall(PetscMalloc1(*n, all));
-  PetscCallMPI(MPI_Allgatherv(local, mine, MPI_DOUBLE, *all, count, first, MPI_DOUBLE, comm));
-  PetscCall(PetscFree3(local, count, first));
+  PetscCall(PetscMalloc1(2 * f->domain.mesh->ne, &local));
+  const int mine = LocalSweeps(f, b, local);
+  PetscCall(GatherRecords(f->domain.mesh->comm, mine, sizeof *local, local, n, &gathered));
+  *all = gathered;
+  PetscCall(PetscFree(local));
   PetscFunctionReturn(0);
 }
 

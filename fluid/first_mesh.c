@@ -1,4 +1,5 @@
 /* The mesh before the first step. */
+#include "common/exchange/scatter.h"
 #include "common/supermesh/geometry.h"
 #include "common/supermesh/search.h"
 #include "fluid/adapt/adapt_parallel.h"
@@ -36,32 +37,24 @@ static PetscBool IsAtInterface(const Mesh *m, Phases phases, int e)
 /* The bounding boxes of elements at an interface between phases, of all ranks; *box is allocated. */
 static PetscErrorCode CutBoxes(const Mesh *m, const AdaptationStart *start, int *n, GeometryBox **box)
 {
-  enum { BOX = sizeof(GeometryBox) / sizeof(double) };
-  PetscMPIInt size, mine = 0, *count, *first;
+  int mine = 0;
   GeometryBox *local;
+  void *gathered;
   Stars *stars;
   Phases phases;
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_size(m->comm, &size));
-  PetscCall(PetscMalloc3(m->ne, &local, size, &count, size + 1, &first));
+  PetscCall(PetscMalloc1(m->ne, &local));
   PetscCall(StarsCreate(m, &stars));
   PetscCall(PhasesCreate(stars, start->nphases, &phases));
   PetscCall(PhasesFill(phases, start->nregions, start->region));
   PetscCall(PhasesReconstruct(phases));
   for (int e = 0; e < m->ne; e++)
-    if (IsAtInterface(m, phases, e)) {
-      local[mine / BOX] = GeometryBoxOf((const double(*)[2])stars->element[e].x);
-      mine += BOX;
-    }
+    if (IsAtInterface(m, phases, e)) local[mine++] = GeometryBoxOf((const double(*)[2])stars->element[e].x);
   PetscCall(PhasesDestroy(&phases));
   PetscCall(StarsDestroy(&stars));
-  PetscCallMPI(MPI_Allgather(&mine, 1, MPI_INT, count, 1, MPI_INT, m->comm));
-  first[0] = 0;
-  for (int r = 0; r < size; r++) first[r + 1] = first[r] + count[r];
-  *n = first[size] / BOX;
-  PetscCall(PetscMalloc1(*n, box));
-  PetscCallMPI(MPI_Allgatherv(local, mine, MPI_DOUBLE, *box, count, first, MPI_DOUBLE, m->comm));
-  PetscCall(PetscFree3(local, count, first));
+  PetscCall(GatherRecords(m->comm, mine, sizeof *local, local, n, &gathered));
+  *box = gathered;
+  PetscCall(PetscFree(local));
   PetscFunctionReturn(0);
 }
 

@@ -46,8 +46,8 @@ PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *flu
   f->setup.boundary = f->domain.boundary;
   PetscCall(MaterialCreate(mesh, setup->theta, setup->rho, setup->mu, &f->material));
   PetscCall(SolidCouplingCreate(mesh->ne, &f->solid));
-  if (setup->phases
-          .n) { /* what the solver leaves of the divergence becomes a gap between volumes and areas */
+  if (setup->phases.n) {
+    /* what the solver leaves of the divergence becomes a gap between volumes and areas */
     PetscCall(SolverDefaultOption("pressure_varying_", "ksp_rtol", "1e-10"));
     PetscCall(PhaseTransportCreate(&f->domain, &setup->phases, setup->gravity, &f->phases));
   }
@@ -94,6 +94,7 @@ PetscErrorCode FluidSetCoupling(Fluid f, int n, const CoracleCoupling coupling[]
 {
   return SolidCouplingSet(f->solid, n, coupling);
 }
+
 /* u* = u at t + dt, the solver's first guess, and the mass flux rho u at t + theta dt, both extrapolated by at most two of
  * the last step. */
 static PetscErrorCode Extrapolate(Fluid f, double dt)
@@ -254,63 +255,4 @@ double FluidTimeStep(Fluid f)
   (void)VecRestoreArrayRead(f->u_projected, &u);
   f->stats.max_speed = sqrt(speed);
   return rate * f->setup.dt_max > f->setup.cfl ? f->setup.cfl / rate : f->setup.dt_max;
-}
-
-/* --- a step that is redone ---------------------------------------------------------------------------- */
-
-/* --- views --------------------------------------------------------------------------------------------- */
-
-/* The array of a Vec that stays where it is as long as the Vec lives. */
-static const double *View(Vec v)
-{
-  const PetscScalar *array = NULL, *view;
-  (void)VecGetArrayRead(v, &array);
-  view = array;
-  (void)VecRestoreArrayRead(v, &array); /* nulls array */
-  return view;
-}
-
-const double *FluidVelocity(Fluid f)
-{
-  return View(f->u);
-}
-const double *FluidVelocityStar(Fluid f)
-{
-  return View(f->u_star);
-}
-const double *FluidVelocityProjected(Fluid f)
-{
-  return View(f->u_projected);
-}
-const double *FluidPressure(Fluid f)
-{
-  return View(f->p);
-}
-const double *FluidDensity(Fluid f)
-{
-  return MaterialDensity(f->material, MATERIAL_NEW);
-}
-const double *FluidViscosity(Fluid f)
-{
-  return MaterialViscosity(f->material, MATERIAL_NEW);
-}
-const double *FluidSolidFraction(Fluid f)
-{
-  return SolidCouplingFraction(f->solid);
-}
-PhaseTransport FluidPhases(Fluid f)
-{
-  return f->phases;
-}
-const FluidStats *FluidGetStats(Fluid f)
-{
-  return &f->stats;
-}
-const Mesh *FluidMesh(Fluid f)
-{
-  return f->domain.mesh;
-}
-const P2Space *FluidPressureSpace(Fluid f)
-{
-  return f->domain.p2;
 }

@@ -20,8 +20,8 @@
 
 typedef struct {
   double theta; /* 0.5 Crank-Nicolson .. 1 backward Euler */
-  double rho,
-      mu; /* kg/m3, Pa s; with phases: of the lightest, which hydrostatic pressures at open boundaries have */
+  /* kg/m3, Pa s; with phases: of the lightest, which hydrostatic pressures at open boundaries have */
+  double rho, mu;
   PhaseProperties phases; /* n = 0: one fluid */
   double gravity[2];      /* m/s2 */
   double velocity[2];     /* everywhere at the start, unless FluidSetInitial has another, m/s */

@@ -16,8 +16,8 @@ struct Fluid_s {
   Material material;
   SolidCoupling solid;
   PhaseTransport phases; /* NULL: one fluid */
-  Vec bulk,
-      bulk_previous; /* with phases: the bulk velocities of the last two steps, which are free of divergence and move them */
+  /* with phases: the bulk velocities of the last two steps, which are free of divergence and move them */
+  Vec bulk, bulk_previous;
   MomentumSolver momentum;
   ProjectionSolver projection;
   /* the flow; ghosted, velocities in blocks [2][3] an element, pressure on P2 nodes */

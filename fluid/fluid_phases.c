@@ -69,7 +69,6 @@ const InverseDensity *FluidInverseDensity(Fluid f)
 /* velocity = dt (weight - R^-1 grad p) */
 static PetscErrorCode Accelerate(Fluid f, double dt, Vec velocity)
 {
-  const Mesh *m = f->domain.mesh;
   const InverseDensity *r = FluidInverseDensity(f);
   const PetscScalar *p;
   PetscScalar *u;
@@ -78,14 +77,12 @@ static PetscErrorCode Accelerate(Fluid f, double dt, Vec velocity)
   PetscCall(VecGhostGetLocalForm(f->p, &local));
   PetscCall(VecGetArrayRead(local, &p));
   PetscCall(VecGetArrayWrite(velocity, &u));
-  for (int e = 0; e < m->ne; e++) {
-    const double *k = r[e].inverse;
-    double pe[6], grad[3][2];
-    for (int i = 0; i < 6; i++) pe[i] = p[f->domain.p2->node[6 * e + i]];
-    P2Gradient((const double(*)[2])f->domain.geometry[e].g, pe, grad);
+  for (int e = 0; e < f->domain.mesh->ne; e++) {
+    double grad[3][2], acceleration[2];
+    DomainGradient(&f->domain, e, p, grad);
     for (int i = 0; i < 3; i++) {
-      u[6 * e + i] = dt * (r[e].weight[0] - k[0] * grad[i][0] - k[1] * grad[i][1]);
-      u[6 * e + 3 + i] = dt * (r[e].weight[1] - k[1] * grad[i][0] - k[2] * grad[i][1]);
+      InverseDensityAcceleration(&r[e], grad[i], acceleration);
+      for (int c = 0; c < 2; c++) u[6 * e + 3 * c + i] = dt * acceleration[c];
     }
   }
   PetscCall(VecRestoreArrayWrite(velocity, &u));
@@ -94,15 +91,21 @@ static PetscErrorCode Accelerate(Fluid f, double dt, Vec velocity)
   PetscFunctionReturn(0);
 }
 
-/* phi of `velocity` added to p. */
-static PetscErrorCode SolvePressure(Fluid f, const ProjectionStep *step, Vec velocity)
+/* p, with its values on open boundaries as they are, makes the velocity that starts as `start` (NULL: 0) and is accelerated
+ * over the step by weight - R^-1 grad p free of divergence. */
+static PetscErrorCode SolvePressure(Fluid f, const ProjectionStep *step, Vec start)
 {
-  Vec phi;
+  Vec velocity, phi;
   PetscFunctionBeginUser;
+  PetscCall(VecDuplicate(f->u, &velocity));
+  PetscCall(ProjectionSolverKeepFixed(f->projection, f->p));
+  PetscCall(Accelerate(f, step->dt, velocity));
+  if (start) PetscCall(VecAXPY(velocity, 1.0, start));
   PetscCall(ProjectionSolverSolve(f->projection, step, velocity, &phi, &f->stats.pressure_iterations));
   PetscCall(VecAXPY(f->p, 1.0, phi));
   PetscCall(VecGhostUpdateBegin(f->p, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGhostUpdateEnd(f->p, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecDestroy(&velocity));
   PetscFunctionReturn(0);
 }
 
@@ -110,13 +113,8 @@ PetscErrorCode FluidBalancePressure(Fluid f)
 {
   const double dt = 1e8; /* large: what prescribed velocities contribute goes with 1/dt */
   const ProjectionStep step = FluidProjectionStep(f, f->t, dt, PETSC_FALSE);
-  Vec velocity;
   PetscFunctionBeginUser;
-  PetscCall(VecDuplicate(f->u, &velocity));
-  PetscCall(ProjectionSolverKeepFixed(f->projection, f->p));
-  PetscCall(Accelerate(f, dt, velocity));
-  PetscCall(SolvePressure(f, &step, velocity));
-  PetscCall(VecDestroy(&velocity));
+  PetscCall(SolvePressure(f, &step, NULL));
   PetscFunctionReturn(0);
 }
 
@@ -124,20 +122,10 @@ PetscErrorCode FluidPredictPressure(Fluid f, double dt)
 {
   const ProjectionStep step = FluidProjectionStep(f, f->t, dt, PETSC_TRUE);
   int n;
-  Vec velocity;
   PetscFunctionBeginUser;
   (void)SolidCouplingEntries(f->solid, &n);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT, MPI_MAX, f->domain.mesh->comm));
-  if (!n) {
-    PetscCall(FluidBalancePressure(f));
-    PetscFunctionReturn(0);
-  }
-  PetscCall(VecDuplicate(f->u, &velocity));
-  PetscCall(ProjectionSolverKeepFixed(f->projection, f->p));
-  PetscCall(Accelerate(f, dt, velocity));
-  PetscCall(VecAXPY(velocity, 1.0, f->bulk));
-  PetscCall(SolvePressure(f, &step, velocity));
-  PetscCall(VecDestroy(&velocity));
+  PetscCall(n ? SolvePressure(f, &step, f->bulk) : FluidBalancePressure(f));
   PetscFunctionReturn(0);
 }
 

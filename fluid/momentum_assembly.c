@@ -1,8 +1,8 @@
 /* The momentum equation: operator and load, one pass over the elements. */
 #include "fluid/momentum_impl.h"
 
-#define INTERFACE_PENALTY                                                                                    \
-  0.5 /* of jumps beside an interface, in densities times lengths over the time step */
+/* Of jumps beside an interface, in densities times lengths over the time step. */
+#define INTERFACE_PENALTY 0.5
 
 /* load += lift (g^{n+1} + (1 - theta)/theta g^n) */
 static void BoundaryLoad(MomentumSolver s, const MomentumStep *step, const Boundary *b,
@@ -80,9 +80,8 @@ static void WeightAndPressure(MomentumSolver s, const MomentumStep *step, int e,
     for (int c = 0; c < 2; c++) q[c] = step->rho[e] * s->setup.gravity[c] - grad[c];
     return;
   }
-  const double *k = step->inverse_density[e].inverse, *w = step->inverse_density[e].weight;
-  q[0] = step->rho[e] * (w[0] - k[0] * grad[0] - k[1] * grad[1]);
-  q[1] = step->rho[e] * (w[1] - k[1] * grad[0] - k[2] * grad[1]);
+  InverseDensityAcceleration(&step->inverse_density[e], grad, q);
+  for (int c = 0; c < 2; c++) q[c] *= step->rho[e];
 }
 
 /* Body force and pressure: M (rho g - grad p + source). */
@@ -90,9 +89,8 @@ static void ElementLoad(MomentumSolver s, const MomentumStep *step, int e, const
 {
   const Mesh *m = s->domain->mesh;
   const ElementGeometry *g = s->domain->geometry + e;
-  double pe[6], grad[3][2], q[2][3];
-  for (int k = 0; k < 6; k++) pe[k] = p[s->domain->p2->node[6 * e + k]];
-  P2Gradient(g->g, pe, grad);
+  double grad[3][2], q[2][3];
+  DomainGradient(s->domain, e, p, grad);
   for (int i = 0; i < 3; i++) {
     double now[2] = {0}, next[2] = {0}, force[2];
     WeightAndPressure(s, step, e, grad[i], force);

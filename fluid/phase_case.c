@@ -1,6 +1,8 @@
 #include "fluid/phase_case.h"
 #include "fluid/fluid_case.h"
 
+#define EVERYWHERE 1e6 /* m: half the side of a box that holds any domain */
+
 void PhaseCaseRead(CoracleCase c, PhaseNames *names, PhaseProperties *p)
 {
   char key[64];
@@ -71,14 +73,26 @@ static void ReadBox(CoracleCase c, int k, Region *r)
                       r->a[0], r->a[1], r->b[0], r->b[1]);
 }
 
+/* Whether region k has a shape; else it is everywhere. */
+static PetscBool HasShape(CoracleCase c, int k)
+{
+  static const char *const SHAPES[] = {"lower", "upper", "centre", "polygon", "point", "normal", NULL};
+  char key[64];
+  for (int i = 0; SHAPES[i]; i++)
+    if (CoracleCaseHas(c, KeyOf(k, SHAPES[i], key))) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
 /* The shape follows from the keys that are there. */
 static PetscErrorCode ReadRegion(CoracleCase c, const PhaseNames *names, int k, Region *r)
 {
   char key[64];
   PetscFunctionBeginUser;
-  *r = (Region){.shape = REGION_HALF_PLANE, .b = {0.0, 0.0}};
-  r->phase = PhaseCaseIndex(c, KeyOf(k, "phase", key), names);
-  if (CoracleCaseHas(c, KeyOf(k, "lower", key)) || CoracleCaseHas(c, KeyOf(k, "upper", key))) {
+  *r = (Region){.phase = PhaseCaseIndex(c, KeyOf(k, "phase", key), names)};
+  if (!HasShape(c, k)) {
+    r->shape = REGION_BOX;
+    for (int d = 0; d < 2; d++) r->a[d] = -EVERYWHERE, r->b[d] = EVERYWHERE;
+  } else if (CoracleCaseHas(c, KeyOf(k, "lower", key)) || CoracleCaseHas(c, KeyOf(k, "upper", key))) {
     r->shape = REGION_BOX;
     ReadBox(c, k, r);
   } else if (CoracleCaseHas(c, KeyOf(k, "centre", key))) {
@@ -88,12 +102,11 @@ static PetscErrorCode ReadRegion(CoracleCase c, const PhaseNames *names, int k, 
   } else if (CoracleCaseHas(c, KeyOf(k, "polygon", key))) {
     r->shape = REGION_POLYGON;
     PetscCall(ReadPolygon(c, k, r));
-  } else if (CoracleCaseHas(c, KeyOf(k, "point", key)) || CoracleCaseHas(c, KeyOf(k, "normal", key))) {
+  } else {
+    r->shape = REGION_HALF_PLANE;
     CoracleCaseVector(c, KeyOf(k, "point", key), 2, r->a);
     CoracleCaseVector(c, KeyOf(k, "normal", key), 2, r->b);
     if (r->b[0] == 0.0 && r->b[1] == 0.0) CoracleCaseRefuse(c, key, "expected a direction, found (0, 0)");
-  } else { /* everywhere */
-    *r = (Region){.shape = REGION_BOX, .phase = r->phase, .a = {-1e6, -1e6}, .b = {1e6, 1e6}};
   }
   PetscFunctionReturn(0);
 }
@@ -111,7 +124,7 @@ PetscErrorCode FluidCaseRegions(CoracleCase c, int *nregions, Region **region)
   if (!*nregions) CoracleCaseRefuse(c, "fluid.regions", "expected a list of where the phases are");
   PetscCall(PetscCalloc1(*nregions, region));
   for (int k = 0; k < *nregions; k++) PetscCall(ReadRegion(c, &names, k, *region + k));
-  if ((*region)[0].shape != REGION_BOX || (*region)[0].a[0] != -1e6)
+  if (HasShape(c, 0))
     CoracleCaseRefuse(c, "fluid.regions", "the first region is everywhere: expected the key phase alone");
   PetscFunctionReturn(0);
 }

@@ -123,13 +123,12 @@ static PetscErrorCode SetNullSpace(PressureSolver s)
   PetscFunctionReturn(0);
 }
 
-/* The square root of the coefficient's largest ratio: CG stops by the energy norm, which sees a velocity u as rho u^2, and has to go
- * on further for the same relative error where the fluid is light. */
+/* The square root of the coefficient's largest ratio: CG stops by the energy norm, which sees a velocity u as rho u^2,
+ * and has to go on further for the same relative error where the fluid is light. */
 static PetscErrorCode SetContrast(PressureSolver s, const double block[][36])
 {
-  double range[2] = {
-      0.0,
-      0.0}; /* of the vertices' diagonal, which has no size of the element: largest, inverse of the least */
+  /* of the vertices' diagonal, which has no size of the element: largest, inverse of the least */
+  double range[2] = {0.0, 0.0};
   PetscFunctionBeginUser;
   for (int e = 0; e < s->domain->mesh->ne; e++) {
     const double coefficient = block[e][0] + block[e][7] + block[e][14];

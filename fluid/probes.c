@@ -74,6 +74,27 @@ static PetscErrorCode SurfaceValues(const Probe *probe, Fluid fluid, double valu
   PetscFunctionReturn(0);
 }
 
+/* The numbers of a probe in a row: fixed and moving are the values at the fixed points and before the gauges. */
+static PetscErrorCode ProbeValues(Probes p, const Probe *probe, Fluid fluid, const CoracleGauge gauge[],
+                                  const double fixed[][VALUES], const double moving[][VALUES], double row[])
+{
+  PetscFunctionBeginUser;
+  switch (probe->kind) {
+  case PROBE_SURFACE:
+    PetscCall(SurfaceValues(probe, fluid, row));
+    break;
+  case PROBE_GAUGE:
+    PetscCall(PetscArraycpy(row, gauge[probe->first].x, 2));
+    row[2] = moving[probe->first][2];
+    break;
+  case PROBE_POINT:
+  case PROBE_LINE:
+    for (int i = 0; i < probe->n; i++)
+      PetscCall(PetscArraycpy(row + i * Width(p, probe), fixed[probe->first + i], (size_t)Width(p, probe)));
+  }
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode ProbesStep(Probes p, Fluid fluid, int n, const CoracleGauge gauge[])
 {
   double fixed[PROBE_POINTS_MAX][VALUES], moving[PROBES_MAX][VALUES],
@@ -88,12 +109,9 @@ PetscErrorCode ProbesStep(Probes p, Fluid fluid, int n, const CoracleGauge gauge
   *next++ = FluidGetStats(fluid)->t;
   for (int k = 0; k < p->list.n; k++) {
     const Probe *probe = &p->list.probe[k];
-    const PetscBool follows = (PetscBool)(probe->kind == PROBE_GAUGE);
-    double(*value)[VALUES] = follows ? moving + probe->first : fixed + probe->first;
-    if (follows) PetscCall(PetscArraycpy(value[0], gauge[probe->first].x, 2));
-    if (probe->kind == PROBE_SURFACE) PetscCall(SurfaceValues(probe, fluid, next));
-    for (int i = 0; i < probe->n; i++, next += Width(p, probe))
-      if (probe->kind != PROBE_SURFACE) PetscCall(PetscArraycpy(next, value[i], (size_t)Width(p, probe)));
+    PetscCall(ProbeValues(p, probe, fluid, gauge, (const double(*)[VALUES])fixed,
+                          (const double(*)[VALUES])moving, next));
+    next += probe->n * Width(p, probe);
   }
   PetscCall(SeriesRow(p->series, row));
   PetscFunctionReturn(0);

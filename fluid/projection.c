@@ -170,8 +170,23 @@ static void BulkMomentum(double area, const CoracleCoupling *k, const double u[6
     }
 }
 
-/* Of the bulk velocity made of u, over dt: the right-hand side, 0 on fixed nodes; *size: of PressureProblem. */
-static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step, Vec velocity, double *size)
+/* The square root of int rho u^2 over dt. */
+static PetscErrorCode Size(ProjectionSolver s, const ProjectionStep *step, Vec velocity, double *size)
+{
+  const Mesh *m = s->domain->mesh;
+  const PetscScalar *u;
+  PetscFunctionBeginUser;
+  PetscCall(VecGetArrayRead(velocity, &u));
+  *size = 0.0;
+  for (int e = 0; e < m->ne; e++) *size += step->rho[e] * Square(s->domain->geometry[e].area, u + 6 * e);
+  PetscCall(VecRestoreArrayRead(velocity, &u));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, size, 1, MPI_DOUBLE, MPI_SUM, m->comm));
+  *size = sqrt(*size) / step->dt;
+  PetscFunctionReturn(0);
+}
+
+/* Of the bulk velocity made of u, over dt: the right-hand side, 0 on fixed nodes. */
+static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step, Vec velocity)
 {
   const FluidDomain *domain = s->domain;
   const Mesh *m = domain->mesh;
@@ -183,10 +198,8 @@ static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step,
   PetscCall(VecSet(local, 0.0));
   PetscCall(VecGetArray(local, &d));
   PetscCall(VecGetArrayRead(velocity, &u));
-  *size = 0.0;
   for (int e = 0; e < m->ne; e++) {
     double mv[2][3], r[6] = {0};
-    *size += step->rho[e] * Square(domain->geometry[e].area, u + 6 * e);
     BulkMomentum(domain->geometry[e].area, SolidCouplingAt(step->solid, e), u + 6 * e, mv);
     P2GradientTranspose(domain->geometry[e].g, (const double(*)[3])mv, r);
     BoundaryFlux(domain, e, step->t, r);
@@ -201,8 +214,6 @@ static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step,
   for (int k = 0; k < s->nfixed; k++) d[s->fixed[k]] = 0.0;
   PetscCall(VecRestoreArray(s->divergence, &d));
   PetscCall(VecScale(s->divergence, 1.0 / step->dt));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, size, 1, MPI_DOUBLE, MPI_SUM, m->comm));
-  *size = sqrt(*size) / step->dt;
   PetscFunctionReturn(0);
 }
 
@@ -226,9 +237,9 @@ PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *s
   PressureProblem problem = {step->t, 0.0, s->divergence};
   PetscFunctionBeginUser;
   PetscCall(Assemble(s, step));
-  PetscCall(Divergence(s, step, velocity, &problem.size));
-  if (step->revision > 0)
-    problem.size = 0.0; /* volumes of phases add up as far as the divergence is removed */
+  PetscCall(Divergence(s, step, velocity));
+  /* volumes of phases add up as far as the divergence is removed: its solver may not stop sooner for them */
+  if (step->revision == 0) PetscCall(Size(s, step, velocity, &problem.size));
   PetscCall(PressureSolverSolve(s->solver, &problem, s->phi, iterations));
   PetscCall(VecGhostUpdateBegin(s->phi, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGhostUpdateEnd(s->phi, INSERT_VALUES, SCATTER_FORWARD));
@@ -257,9 +268,8 @@ PetscErrorCode ProjectionSolverSubtract(ProjectionSolver s, const ProjectionStep
   PetscCall(VecGetArrayRead(local, &phi));
   PetscCall(VecGetArray(velocity, &u));
   for (int e = 0; e < m->ne; e++) {
-    double pe[6], grad[3][2];
-    for (int k = 0; k < 6; k++) pe[k] = phi[d->p2->node[6 * e + k]];
-    P2Gradient(d->geometry[e].g, pe, grad);
+    double grad[3][2];
+    DomainGradient(d, e, phi, grad);
     if (s->inertia && WeightedProjectionVelocity(s->weighted, e, (const double(*)[2])grad, u + 6 * e))
       continue;
     if (step->inverse_density)

@@ -23,9 +23,9 @@ typedef struct {
   const double *rho;   /* [ne], kg/m3 */
   int revision;        /* of rho */
   SolidCoupling solid; /* borrowed until ProjectionSubtract */
-  const InverseDensity
-      *inverse_density; /* [ne] of phases, in place of 1/rho (effective_density.h); NULL: 1/rho */
-  PetscBool inertia;    /* whether the solid's implicit inertia takes part */
+  /* [ne] of phases, in place of 1/rho (effective_density.h); NULL: 1/rho */
+  const InverseDensity *inverse_density;
+  PetscBool inertia; /* whether the solid's implicit inertia takes part */
 } ProjectionStep;
 
 /* like: a ghosted vector of the P2 nodes; domain is borrowed.  Collective, like all of this. */

@@ -48,35 +48,47 @@ static PetscErrorCode Pressure(Fluid from, Fluid to, Transfer transfer)
 
 /* --- with phases ---------------------------------------------------------------------------------------- */
 
-/* velocity[ne][6] -> rho u of a P0 density, and back with the mean of another field's three values. */
+/* What is transferred for an element, at its vertices. */
+typedef struct {
+  double u[2][2][3],
+      momentum[2][2][3]; /* of the last two steps: components of u, m/s, and rho u, kg/(m2 s) */
+  double rho[3];
+} PhaseFields;
+
+static double Sum(const double v[3])
+{
+  return v[0] + v[1] + v[2];
+}
+
+/* u by Galerkin projection, shifted by elements so that the mean is that of rho u over that of rho. */
 static PetscErrorCode PhaseVelocities(Fluid from, Fluid to, Transfer transfer)
 {
-  enum { FIELDS = 9 }; /* u, rho u, of the last two steps: 8; rho */
+  enum { FIELDS = sizeof(PhaseFields) / (3 * sizeof(double)) };
   const Vec source[2] = {from->u, from->u_previous}, target[2] = {to->u, to->u_previous};
+  const int nfrom = from->domain.mesh->ne, nto = to->domain.mesh->ne;
   const double *rho = FluidDensity(from);
-  double *old, *new;
+  PhaseFields *old, *new;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2(3 * FIELDS * from->domain.mesh->ne, &old, 3 * FIELDS * to->domain.mesh->ne, &new));
+  PetscCall(PetscMalloc2(nfrom, &old, nto, &new));
   for (int k = 0; k < 2; k++) {
     const PetscScalar *u;
     PetscCall(VecGetArrayRead(source[k], &u));
-    for (int e = 0; e < from->domain.mesh->ne; e++)
+    for (int e = 0; e < nfrom; e++)
       for (int i = 0; i < 6; i++) {
-        old[3 * FIELDS * e + 6 * k + i] = u[6 * e + i];
-        old[3 * FIELDS * e + 12 + 6 * k + i] = rho[e] * u[6 * e + i];
+        old[e].u[k][i / 3][i % 3] = u[6 * e + i];
+        old[e].momentum[k][i / 3][i % 3] = rho[e] * u[6 * e + i];
+        old[e].rho[i % 3] = rho[e];
       }
     PetscCall(VecRestoreArrayRead(source[k], &u));
   }
-  for (int e = 0; e < from->domain.mesh->ne; e++)
-    for (int i = 0; i < 3; i++) old[3 * FIELDS * e + 24 + i] = rho[e];
-  PetscCall(TransferP1DG(transfer, FIELDS, old, new));
+  PetscCall(TransferP1DG(transfer, FIELDS, (const double *)old, (double *)new));
   for (int k = 0; k < 2; k++) {
     PetscScalar *u;
     PetscCall(VecGetArray(target[k], &u));
-    for (int e = 0; e < to->domain.mesh->ne; e++)
+    for (int e = 0; e < nto; e++)
       for (int c = 0; c < 2; c++) {
-        const double *v = new + 3 * FIELDS *e + 6 * k + 3 * c, *q = v + 12, *r = new + 3 * FIELDS *e + 24;
-        const double shift = (q[0] + q[1] + q[2]) / (r[0] + r[1] + r[2]) - (v[0] + v[1] + v[2]) / 3.0;
+        const double *v = new[e].u[k][c];
+        const double shift = Sum(new[e].momentum[k][c]) / Sum(new[e].rho) - Sum(v) / 3.0;
         for (int i = 0; i < 3; i++) u[6 * e + 3 * c + i] = v[i] + shift;
       }
     PetscCall(VecRestoreArray(target[k], &u));
@@ -85,28 +97,28 @@ static PetscErrorCode PhaseVelocities(Fluid from, Fluid to, Transfer transfer)
   PetscFunctionReturn(0);
 }
 
-/* What gravity alone makes is computed on either mesh, because its kink lies on the interface; the rest is interpolated. */
+/* What gravity alone makes is computed on either mesh, because its kink lies on the interface; the rest, here with the
+ * opposite sign, is interpolated.  Leaves that in from->p. */
 static PetscErrorCode PhasePressure(Fluid from, Fluid to, Transfer transfer)
 {
-  Vec at_rest, rest;
+  Vec p, still;
   PetscFunctionBeginUser;
-  PetscCall(VecDuplicate(from->p, &at_rest));
-  PetscCall(VecCopy(from->p, at_rest));
+  PetscCall(VecDuplicate(from->p, &p));
+  PetscCall(VecDuplicate(to->p, &still));
+  PetscCall(VecCopy(from->p, p));
   PetscCall(FluidBalancePressure(from));
-  PetscCall(VecAYPX(at_rest, -1.0, from->p)); /* static less p */
-  PetscCall(VecDuplicate(to->p, &rest));
-  PetscCall(Pressure(from, to, transfer)); /* the static part: its values on open boundaries stay */
-  PetscCall(VecCopy(at_rest, from->p));
+  PetscCall(Pressure(from, to, transfer)); /* for its values on open boundaries */
   PetscCall(FluidBalancePressure(to));
-  PetscCall(VecCopy(to->p, rest));
+  PetscCall(VecCopy(to->p, still));
+  PetscCall(VecAXPY(from->p, -1.0, p));
   PetscCall(VecGhostUpdateBegin(from->p, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGhostUpdateEnd(from->p, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(Pressure(from, to, transfer));
-  PetscCall(VecAYPX(to->p, -1.0, rest));
+  PetscCall(VecAYPX(to->p, -1.0, still));
   PetscCall(VecGhostUpdateBegin(to->p, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGhostUpdateEnd(to->p, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecDestroy(&at_rest));
-  PetscCall(VecDestroy(&rest));
+  PetscCall(VecDestroy(&p));
+  PetscCall(VecDestroy(&still));
   PetscFunctionReturn(0);
 }
 

@@ -1,4 +1,5 @@
 #include "fluid/surface_gauge.h"
+#include "common/exchange/scatter.h"
 #include "common/supermesh/geometry.h"
 #include <stdlib.h>
 
@@ -52,26 +53,6 @@ static int Compare(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-/* All ranks' pieces by their start, to be PetscFree'd. */
-static PetscErrorCode Gather(MPI_Comm comm, int n, const Piece mine[], int *total, Piece **all)
-{
-  const int bytes = n * (int)sizeof *mine;
-  int *count, *start;
-  PetscMPIInt size;
-  PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCall(PetscMalloc2(size, &count, size + 1, &start));
-  PetscCallMPI(MPI_Allgather(&bytes, 1, MPI_INT, count, 1, MPI_INT, comm));
-  start[0] = 0;
-  for (int r = 0; r < size; r++) start[r + 1] = start[r] + count[r];
-  *total = start[size] / (int)sizeof *mine;
-  PetscCall(PetscMalloc1((size_t)*total + 1, all));
-  PetscCallMPI(MPI_Allgatherv(mine, bytes, MPI_BYTE, *all, count, start, MPI_BYTE, comm));
-  qsort(*all, (size_t)*total, sizeof **all, Compare);
-  PetscCall(PetscFree2(count, start));
-  PetscFunctionReturn(0);
-}
-
 /* Pieces that overlap, touch or nearly touch are one. */
 static SurfacePlace Join(int n, const Piece piece[])
 {
@@ -89,7 +70,8 @@ static SurfacePlace Join(int n, const Piece piece[])
 PetscErrorCode SurfaceMeasure(Phases phases, const Mesh *m, int phase, const double from[2],
                               const double to[2], SurfacePlace *place)
 {
-  Piece *mine, *all;
+  Piece *mine;
+  void *all;
   int n = 0, total;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1((size_t)m->ne + 1, &mine));
@@ -98,7 +80,8 @@ PetscErrorCode SurfaceMeasure(Phases phases, const Mesh *m, int phase, const dou
     PetscCall(ElementPiece(phases, m, e, phase, from, to, &mine[n], &counts));
     n += counts;
   }
-  PetscCall(Gather(m->comm, n, mine, &total, &all));
+  PetscCall(GatherRecords(m->comm, n, sizeof *mine, mine, &total, &all));
+  qsort(all, (size_t)total, sizeof *mine, Compare);
   *place = Join(total, all);
   PetscCall(PetscFree(mine));
   PetscCall(PetscFree(all));

@@ -3,6 +3,7 @@
 Needs numpy, h5py, matplotlib; Pillow for animations.
 """
 import csv
+import json
 import os
 
 import h5py
@@ -61,6 +62,33 @@ def volumes(folder, phase):
         area = 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
         found.append(float((area * grid.cell[phase].ravel()).sum()))
     return np.array(found)
+
+
+COLUMNS = ("water lost", "imbalance", "iterations", "triangles", "steps", "cost")  # of Run.cells
+
+
+class Run:
+    """What any run of several phases has left behind: the water in each snapshot, elements, steps, and what they took."""
+
+    def __init__(self, folder):
+        with open(os.path.join(folder, "summary.json")) as file:
+            self.summary = json.load(file)
+        self.water = volumes(folder, "water")
+        triangles = read_series(os.path.join(folder, "fluid.csv"))["triangles"]
+        self.triangles, self.steps = int(triangles.max()), len(triangles)
+        parts = self.summary["participants"].values()
+        self.cpu = sum(p["seconds_cpu"] for p in parts)
+        self.cpu_triangle = self.cpu / float(triangles.sum())  # of a triangle in a step
+        self.passes = self.summary.get("iterations", self.steps) / self.summary["steps"]
+
+    def lost(self, last=-1):
+        """Of the water, between the first snapshot and this one."""
+        return abs(self.water[last] / self.water[0] - 1.0)
+
+    def cells(self, first, last=-1):
+        """Of a table's row: COLUMNS, water lost until this snapshot, cost: processor time over that of the run `first`."""
+        return ["%.0e" % self.lost(last), "%.0e" % self.summary["largest_momentum_imbalance"], "%.2f" % self.passes, str(self.triangles),
+                str(self.steps), "%.2g" % (self.cpu / first.cpu)]
 
 
 def paint_arrows(axes, grid, spacing):

@@ -6,12 +6,11 @@ as wide is shown around the body and its wake.  Needs numpy, h5py and matplotlib
 """
 import argparse
 import os
-import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from snapshot import Window, centred, paint, paint_mesh, read_bodies, read_snapshot, without_hydrostatic
+from snapshot import Window, centred, paint, paint_mesh, read_bodies, read_snapshot, save, without_hydrostatic
 
 LENGTH, AHEAD = 1.8, 0.3  # of the window along a long domain: its length in widths, the part of it ahead of the body
 
@@ -84,13 +83,7 @@ def draw(arguments):
 
 def main():
     arguments = parse_arguments()
-    try:
-        figure = draw(arguments)
-    except LookupError as error:
-        sys.exit(f"plot_field: {error}")
-    path = arguments.out or os.path.join(arguments.folder, "field.png")
-    figure.savefig(path, dpi=150)
-    print(path)
+    save(draw, arguments, os.path.join(arguments.folder, "field.png"), "plot_field")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """Snapshots of a run (fluid.h5, solid.h5) and how they are painted; needs numpy, h5py and matplotlib."""
 import os
+import sys
 
 os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")  # the run may still be writing: read beside it, never in its way
 
@@ -141,3 +142,14 @@ def paint_mesh(axes, grid, window, body=None, linewidth=0.4, inside=False):
             axes.triplot(Triangulation(*body.points.T, body.cells), color="C3", linewidth=linewidth, alpha=0.6)
         axes.plot(*outline(body).T, "C3", linewidth=1.2)
     window.frame(axes)
+
+
+def save(draw, arguments, path, name):
+    """The figure that draw(arguments) makes into arguments.out, or else `path`; what is not there ends the script called `name`."""
+    try:
+        figure = draw(arguments)
+    except LookupError as error:
+        sys.exit(f"{name}: {error}")
+    path = arguments.out or path
+    figure.savefig(path, dpi=150)
+    print(path)

@@ -6,12 +6,11 @@ outline.  A vector is drawn as its length, or one component with --field velocit
 """
 import argparse
 import os
-import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from snapshot import Window, centred, paint, read_snapshot
+from snapshot import Window, centred, paint, read_snapshot, save
 
 
 def parse_arguments():
@@ -95,13 +94,7 @@ def draw(arguments):
 
 def main():
     arguments = parse_arguments()
-    try:
-        figure = draw(arguments)
-    except LookupError as error:
-        sys.exit(f"view.sh: {error}")
-    path = arguments.out or os.path.join(arguments.run, "view.png")
-    figure.savefig(path, dpi=150)
-    print(path)
+    save(draw, arguments, os.path.join(arguments.run, "view.png"), "view.sh")
 
 
 main()

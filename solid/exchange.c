@@ -7,29 +7,16 @@ static int SaveOrRestore(void *solid, int save)
 
 /* --- the mesh ----------------------------------------------------------------------------------------- */
 
-static PetscErrorCode GiveMesh(Exchange *x, const SolidView *v, const double at[], const double u[])
+/* The directory's mesh with nodes at `at`, which have moved with u so far; it is registered then. */
+static PetscErrorCode GiveMesh(Exchange *x, NodeDirectory directory, const double at[], const double u[])
 {
+  const RegisteredMesh m = NodeDirectoryMesh(directory);
   PetscFunctionBeginUser;
-  PetscCall(CoracleSetNodes(x->client, 2, v->nnodes, v->gid, at, u));
-  PetscCall(CoracleSetSurface(x->client, v->nfacets, v->facet));
-  PetscCall(CoracleSetVolume(x->client, v->nelements, v->element));
+  PetscCall(CoracleSetNodes(x->client, 2, m.nnodes, m.gid, at, u));
+  PetscCall(CoracleSetSurface(x->client, m.nfacets, m.facet));
+  PetscCall(CoracleSetVolume(x->client, m.nelements, m.element));
   x->before = x->registered;
-  PetscCall(NodeDirectoryCreate(x->solid, &x->registered));
-  PetscFunctionReturn(0);
-}
-
-/* Cracks have changed the mesh in this step.  The substeps have reported the velocities of the nodes that existed
- * when it began; the others get the mean over the step.  On another partition none has been reported: the step
- * is one substep, from the positions at its start. */
-static PetscErrorCode GiveCrackedMesh(Exchange *x, const SolidView *v)
-{
-  double *mean;
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(2 * (size_t)v->nnodes, &mean));
-  for (int k = 0; k < 2 * v->nnodes; k++) mean[k] = (v->x[k] - v->start[k]) / x->dt;
-  PetscCall(GiveMesh(x, v, x->remote ? v->start : v->x, mean));
-  if (x->remote) PetscCall(CoracleSubstep(x->client, x->dt, mean));
-  PetscCall(PetscFree(mean));
+  x->registered = directory;
   PetscFunctionReturn(0);
 }
 
@@ -37,6 +24,7 @@ PetscErrorCode ExchangeCreate(CoracleClient client, Solid solid, Exchange *x)
 {
   SolidView v;
   InterfaceMotion interface;
+  NodeDirectory directory;
   PetscFunctionBeginUser;
   *x = (Exchange){.client = client, .solid = solid};
   SolidGetView(solid, &v);
@@ -44,7 +32,8 @@ PetscErrorCode ExchangeCreate(CoracleClient client, Solid solid, Exchange *x)
     PetscCall(SolidUpdateInterfaceMotion(solid, &interface));
   else
     SolidGetInterfaceMotion(solid, &interface);
-  PetscCall(GiveMesh(x, &v, v.x, interface.u));
+  PetscCall(NodeDirectoryCreate(solid, &directory));
+  PetscCall(GiveMesh(x, directory, v.x, interface.u));
   PetscCall(CoracleSetInertia(client, interface.mobility, interface.acceleration));
   PetscCall(CoracleBindStateFunction(client, SaveOrRestore, solid));
   PetscCall(CoracleReady(client));
@@ -99,28 +88,49 @@ PetscErrorCode ExchangeSubstep(Exchange *x, double h)
   PetscFunctionReturn(0);
 }
 
-/* The end of a step where the coupler knows the nodes. */
+/* Cracks have changed the mesh in this step.  The substeps have reported the velocities of the nodes that existed
+ * when it began; the others get the mean over the step. */
+static PetscErrorCode GiveCrackedMesh(Exchange *x, const SolidView *v)
+{
+  NodeDirectory directory;
+  double *mean;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(2 * (size_t)v->nnodes, &mean));
+  for (int k = 0; k < 2 * v->nnodes; k++) mean[k] = (v->x[k] - v->start[k]) / x->dt;
+  PetscCall(NodeDirectoryCreate(x->solid, &directory));
+  PetscCall(GiveMesh(x, directory, v->x, mean));
+  PetscCall(PetscFree(mean));
+  PetscFunctionReturn(0);
+}
+
+/* The end of a step where the coupler knows the nodes.  Where none of its substeps has been reported the step is one, and
+ * nodes that cracks have made begin it at its start. */
 static PetscErrorCode SendRemote(Exchange *x)
 {
-  const size_t n = (size_t)NodeDirectorySize(x->registered);
+  const PetscBool cracked = (PetscBool)!NodeDirectoryIsComplete(x->registered);
+  NodeDirectory directory = x->registered;
   NodeMotion *motion;
-  double *at, *mean, *interface, *mobility, *acceleration;
+  double *at, *start, *mean, *interface, *mobility, *acceleration;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc6(n, &motion, 2 * n + 1, &at, 2 * n + 1, &mean, 2 * n + 1, &interface, n + 1,
-                         &mobility, 2 * n + 1, &acceleration));
-  PetscCall(NodeDirectoryMotion(x->registered, motion));
+  if (cracked) PetscCall(NodeDirectoryRenew(x->registered, &directory));
+  const size_t n = (size_t)NodeDirectoryMesh(directory).nnodes;
+  PetscCall(PetscMalloc7(n, &motion, 2 * n + 1, &at, 2 * n + 1, &start, 2 * n + 1, &mean, 2 * n + 1,
+                         &interface, n + 1, &mobility, 2 * n + 1, &acceleration));
+  PetscCall(NodeDirectoryMotion(directory, motion));
   for (size_t k = 0; k < 2 * n; k++) {
     at[k] = motion[k / 2].x[k % 2];
     interface[k] = motion[k / 2].interface_velocity[k % 2];
     mean[k] = motion[k / 2].mean[k % 2];
     acceleration[k] = motion[k / 2].acceleration[k % 2];
     mobility[k / 2] = motion[k / 2].mobility;
+    start[k] = at[k] - x->dt * mean[k];
   }
+  if (cracked) PetscCall(GiveMesh(x, directory, x->remote ? start : at, mean));
   if (x->remote) PetscCall(CoracleSubstep(x->client, x->dt, mean));
   PetscCall(CoracleSetVelocity(x->client, interface));
   PetscCall(CoracleSetInertia(x->client, mobility, acceleration));
   PetscCall(CoracleEnd(x->client, at));
-  PetscCall(PetscFree6(motion, at, mean, interface, mobility, acceleration));
+  PetscCall(PetscFree7(motion, at, start, mean, interface, mobility, acceleration));
   PetscFunctionReturn(0);
 }
 
@@ -132,8 +142,8 @@ PetscErrorCode ExchangeMotion(Exchange *x)
   PetscFunctionBeginUser;
   SolidGetView(x->solid, &v);
   SolidGetInterfaceMotion(x->solid, &interface);
-  if (!NodeDirectoryIsComplete(x->registered)) PetscCall(GiveCrackedMesh(x, &v));
   if (NodeDirectoryIsPresent(x->registered)) {
+    if (!NodeDirectoryIsComplete(x->registered)) PetscCall(GiveCrackedMesh(x, &v));
     PetscCall(CoracleSetVelocity(x->client, interface.u));
     PetscCall(CoracleSetInertia(x->client, interface.mobility, interface.acceleration));
     PetscCall(CoracleEnd(x->client, v.x));

@@ -1,8 +1,8 @@
 /* The solid's side of the link: what it sends, what it receives, and the time it waits.
  *
- * The solid registers its nodes with the coupler once, on the ranks where they are then, and again only when cracks
- * change the mesh: a new mesh costs the fluid a step's correction.  When elements change ranks in between, the node
- * directory brings what is exchanged from the registered ranks to the present ones and back (`remote`):
+ * The solid registers its nodes and elements with the coupler once, on the ranks where they are then, and nodes again only
+ * when cracks make new ones: a mesh of other elements would cost the fluid a step's correction.  When elements change
+ * ranks, the node directory brings what is exchanged from the registered ranks to the present ones and back (`remote`):
  *
  *     coupler  -->  force on registered nodes       -- NodeDirectoryLoad -->     load[nnodes][2]  --> SolidStart
  *     coupler  <--  x, velocity, mobility of these  <-- NodeDirectoryMotion --   SolidView, InterfaceMotion */

@@ -7,7 +7,6 @@ A run is skipped when its summary.json is there (out/validation/collapsing_colum
 takes names with wildcards.  --table only prints the table of what has been run, --readme also puts it into README.md, --check exits
 with 1 when a number is out of its bounds.  Needs numpy and h5py.
 """
-import json
 import pathlib
 
 from column import GAUGES, PAPER, Column  # puts scripts/ on the path
@@ -56,18 +55,7 @@ class Result(Column):
 
     def __init__(self, name):
         super().__init__(OUT / name)
-        self.water = phases.volumes(OUT / name, "water")
-        self.summary = json.load(open(OUT / name / "summary.json"))
-        fluid = phases.read_series(OUT / name / "fluid.csv")
-        self.triangles, self.steps = int(fluid["triangles"].max()), len(fluid["t"])
-        parts = self.summary["participants"].values()
-        self.cpu, self.wall = sum(p["seconds_cpu"] for p in parts), max(p["seconds_wall"] for p in parts)
-        self.passes = self.summary.get("iterations", self.steps) / self.summary["steps"]
-
-    @property
-    def lost(self):
-        """Of the water, between first and last snapshot."""
-        return abs(self.water[-1] / self.water[0] - 1.0)
+        self.run = phases.Run(OUT / name)
 
 
 def results(names):
@@ -75,22 +63,20 @@ def results(names):
 
 
 def table(there):
-    yield "| run | front at the square [s] | square at the wall [s] | its speed [m/s] | " + " | ".join("%s, at" % g for g in GAUGES) + \
-          " | water lost | imbalance | iterations | triangles | steps | CPU s | wall s |"
-    yield "|" + "---|" * (11 + len(GAUGES))
+    columns = ("run", "front at the square [s]", "square at the wall [s]", "its speed [m/s]", *("%s, at" % g for g in GAUGES), *phases.COLUMNS)
+    yield "| " + " | ".join(columns) + " |"
+    yield "|" + "---|" * len(columns)
     for name, r in there.items():
         yield "| " + " | ".join([name, "%.3f" % r.reaches_square, "%.3f" % r.reaches_wall, "%.3f" % r.speed,
-                                 *("%.1f, %.3f s" % r.peak(g) for g in GAUGES), "%.0e" % r.lost,
-                                 "%.0e" % r.summary["largest_momentum_imbalance"], "%.2f" % r.passes, str(r.triangles), str(r.steps),
-                                 "%.0f" % r.cpu, "%.0f" % r.wall]) + " |"
+                                 *("%.1f, %.3f s" % r.peak(g) for g in GAUGES), *r.run.cells(next(iter(there.values())).run)]) + " |"
 
 
 def claims(there):
     """What must hold of the runs that are there: (statement, measured, bound)."""
     for name, r in there.items():
-        yield name + ": water lost, of it", r.lost, 1e-10
-        yield name + ": momentum imbalance", r.summary["largest_momentum_imbalance"], 1e-10
-        yield name + ": coupling iterations of a step less 1", r.passes - 1.0, 0.0
+        yield name + ": water lost, of it", r.run.lost(), 1e-10
+        yield name + ": momentum imbalance", r.run.summary["largest_momentum_imbalance"], 1e-10
+        yield name + ": coupling iterations of a step less 1", r.run.passes - 1.0, 0.0
     for name in ("le-0.004", "le-0.002"):
         if name in there:
             yield name + ": front at the square, s off 0.36 without gate", abs(there[name].reaches_square - 0.36), 0.01

@@ -7,7 +7,6 @@ A run is skipped when its summary.json is there (out/validation/floating_square/
 names with wildcards.  --table only prints the table of what has been run, --readme also puts it into README.md, --check exits with 1
 when a number is out of its bounds.  Needs numpy, h5py and matplotlib.
 """
-import json
 import pathlib
 
 from floating import PAPER, Floating  # puts scripts/ on the path
@@ -41,19 +40,8 @@ class Result(Floating):
 
     def __init__(self, name):
         super().__init__(OUT / name)
-        self.water = phases.volumes(OUT / name, "water")
-        self.summary = json.load(open(OUT / name / "summary.json"))
-        fluid = phases.read_series(OUT / name / "fluid.csv")
-        self.triangles, self.steps = int(fluid["triangles"].max()), len(fluid["t"])
-        parts = self.summary["participants"].values()
-        self.cpu, self.wall_clock = sum(p["seconds_cpu"] for p in parts), max(p["seconds_wall"] for p in parts)
-        self.passes = self.summary.get("iterations", self.steps) / self.summary["steps"]
-
-    @property
-    def lost(self):
-        """Of the water, between first snapshot and the last before 0.3 s: later some leaves through the top."""
-        k = len(self.times) - 1
-        return abs(self.water[k] / self.water[0] - 1.0)
+        self.run = phases.Run(OUT / name)
+        self.last = len(self.times) - 1  # snapshot before 0.3 s: later some water leaves through the top
 
 
 def results(names):
@@ -61,20 +49,19 @@ def results(names):
 
 
 def table(there):
-    yield "| run | wet at 0.150 s | afloat [s] | " + " | ".join("%s, %.3f s" % (what, t) for what, t in PAPER.items()) + \
-          " | square at 0.35 s [m] | water lost | imbalance | iterations | triangles | steps | CPU s | wall s |"
-    yield "|" + "---|" * (11 + len(PAPER))
+    columns = ("run", "wet at 0.150 s", "afloat [s]", *("%s, %.3f s" % (what, t) for what, t in PAPER.items()), "square at 0.35 s [m]", *phases.COLUMNS)
+    yield "| " + " | ".join(columns) + " |"
+    yield "|" + "---|" * len(columns)
     for name, r in there.items():
-        yield "| " + " | ".join([name, "%.2f" % r.sinking, "%.3f" % r.afloat, *("%.3f" % r.measured[what] for what in PAPER), "(%.3f, %.3f)" % r.at(0.35), "%.0e" % r.lost,
-                                 "%.0e" % r.summary["largest_momentum_imbalance"], "%.2f" % r.passes, str(r.triangles), str(r.steps),
-                                 "%.0f" % r.cpu, "%.0f" % r.wall_clock]) + " |"
+        yield "| " + " | ".join([name, "%.2f" % r.sinking, "%.3f" % r.afloat, *("%.3f" % r.measured[what] for what in PAPER),
+                                 "(%.3f, %.3f)" % r.at(0.35), *r.run.cells(next(iter(there.values())).run, r.last)]) + " |"
 
 
 def claims(there):
     """What must hold of the runs that are there: (statement, measured, bound)."""
     for name, r in there.items():
-        yield name + ": water lost, of it", r.lost, 1e-10
-        yield name + ": momentum imbalance", r.summary["largest_momentum_imbalance"], 1e-10
+        yield name + ": water lost, of it", r.run.lost(r.last), 1e-10
+        yield name + ": momentum imbalance", r.run.summary["largest_momentum_imbalance"], 1e-10
     for name in ("le-0.004", "le-0.002"):
         if name in there:
             for what, t in PAPER.items():

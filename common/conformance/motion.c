@@ -27,30 +27,35 @@ static void FindArea(Motion *m, const ServerSolid *s)
   }
 }
 
-void MotionTake(Motion *m, const ServerSolid *s)
+static void CopyNodes(Motion *to, const ServerSolid *from)
 {
-  const size_t n = (size_t)s->nnodes, one = n * sizeof(double), two = 2 * one;
-  m->n = s->nnodes;
-  m->gid = Copy(m->gid, s->gid, n * sizeof *s->gid);
-  m->x = Copy(m->x, s->x, two);
-  m->u = Copy(m->u, s->u, two);
-  m->mean = Copy(m->mean, s->mean, two);
-  m->mobility = Copy(m->mobility, s->mobility, one);
-  m->acceleration = Copy(m->acceleration, s->acceleration, two);
-  FindArea(m, s);
-}
-
-void MotionCopy(Motion *to, const Motion *from)
-{
-  const size_t n = (size_t)from->n, one = n * sizeof(double), two = 2 * one;
-  to->n = from->n;
+  const size_t n = (size_t)from->nnodes, one = n * sizeof(double), two = 2 * one;
+  to->n = from->nnodes;
   to->gid = Copy(to->gid, from->gid, n * sizeof *from->gid);
   to->x = Copy(to->x, from->x, two);
   to->u = Copy(to->u, from->u, two);
   to->mean = Copy(to->mean, from->mean, two);
   to->mobility = Copy(to->mobility, from->mobility, one);
   to->acceleration = Copy(to->acceleration, from->acceleration, two);
-  to->area = Copy(to->area, from->area, one);
+}
+
+void MotionTake(Motion *m, const ServerSolid *s)
+{
+  CopyNodes(m, s);
+  FindArea(m, s);
+}
+
+void MotionCopy(Motion *to, const Motion *from)
+{
+  const ServerSolid nodes = {.nnodes = from->n,
+                             .gid = from->gid,
+                             .x = from->x,
+                             .u = from->u,
+                             .mean = from->mean,
+                             .mobility = from->mobility,
+                             .acceleration = from->acceleration};
+  CopyNodes(to, &nodes);
+  to->area = Copy(to->area, from->area, (size_t)from->n * sizeof *from->area);
 }
 
 void MotionFree(Motion *m)

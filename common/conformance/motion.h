@@ -3,14 +3,13 @@
 #define CORACLE_CONFORMANCE_MOTION_H
 #include "common/link/server.h"
 
-enum {
-  MOTION_SUMS = 9
-}; /* area, and area-weighted: x, y, x^2, y^2, mean velocity, velocity at the step's end */
+/* area, and area-weighted: x, y, x^2, y^2, mean velocity, velocity at the step's end */
+enum { MOTION_SUMS = 9 };
 
 typedef struct {
   int n;
-  double *
-      area; /* [n] m2: a third of the triangles of this rank around a node; without triangles half its facets' lengths */
+  /* [n] m2: a third of the triangles of this rank around a node; without triangles half its facets' lengths */
+  double *area;
   long long *gid;
   double *x, *u, *mean, *mobility, *acceleration; /* as in ServerSolid */
 } Motion;

@@ -36,6 +36,28 @@ PetscErrorCode ScatterRequest(MPI_Comm comm, int n, const int of[], const long l
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode GatherRecords(MPI_Comm comm, int n, size_t bytes, const void *record, int *total, void **all)
+{
+  PetscMPIInt size, *count, *start;
+  MPI_Datatype type;
+  char *gathered;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCall(PetscMalloc2(size, &count, size + 1, &start));
+  PetscCallMPI(MPI_Allgather(&n, 1, MPI_INT, count, 1, MPI_INT, comm));
+  start[0] = 0;
+  for (int r = 0; r < size; r++) start[r + 1] = start[r] + count[r];
+  *total = start[size];
+  PetscCall(PetscMalloc1(bytes * (size_t)*total + 1, &gathered));
+  PetscCallMPI(MPI_Type_contiguous((int)bytes, MPI_BYTE, &type));
+  PetscCallMPI(MPI_Type_commit(&type));
+  PetscCallMPI(MPI_Allgatherv(record, n, type, gathered, count, start, type, comm));
+  PetscCallMPI(MPI_Type_free(&type));
+  PetscCall(PetscFree2(count, start));
+  *all = gathered;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode CollectiveError(MPI_Comm comm, PetscErrorCode here)
 {
   int all = (int)here;

@@ -56,6 +56,8 @@ PetscErrorCode ScatterKeep(Scatter scatter, const char keep[]);
 /* Collective: record k of n goes to rank to[k], once.  *arrived[*narrived], to be PetscFree'd, as above. */
 PetscErrorCode ScatterRecords(MPI_Comm comm, int n, const int to[], size_t bytes, const void *record,
                               int *narrived, void **arrived);
+/* Collective: the records of all ranks on every rank, in the order of the ranks.  *all[*total], to be PetscFree'd. */
+PetscErrorCode GatherRecords(MPI_Comm comm, int n, size_t bytes, const void *record, int *total, void **all);
 /* Fills the record of a key that this rank has. */
 typedef PetscErrorCode (*ScatterAnswer)(void *context, long long key, void *record);
 /* Collective: record[n] of so many bytes is what rank of[k] answers to key[k]. */

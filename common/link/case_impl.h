@@ -7,7 +7,14 @@
 #include <stdarg.h>
 #include <stddef.h>
 
-enum { CASE_NAME = 128, CASE_KEY = 512, CASE_MESSAGE = 1024, CASE_FAULTS = 64, CASE_TABLES = 8 };
+enum {
+  CASE_NAME = 128,
+  CASE_KEY = 512,
+  CASE_MESSAGE = 1024,
+  CASE_FAULTS = 64,
+  CASE_TABLES = 8,
+  CASE_NODES = 1000000
+};
 
 typedef enum { NODE_SCALAR, NODE_LIST, NODE_MAP } CaseKind;
 
@@ -65,10 +72,16 @@ struct CoracleCase_s {
 /* The tree of a YAML text; NULL when it is not valid, with problem[CASE_MESSAGE] = "label:line: why". */
 CaseNode *CaseTreeParse(const char *text, size_t size, const char *label, char problem[]);
 void CaseTreeDestroy(CaseNode **node);
-/* Takes the scalar at a dotted path out of its map, if it is there. */
-void CaseTreeRemove(CaseNode *root, const char *key);
+/* A child becomes the parent's last, and is taken out of it again and destroyed. */
+void CaseTreeAppend(CaseNode *parent, CaseNode *child);
+void CaseTreeDrop(CaseNode *parent, CaseNode *child);
 /* The child of a map, or NULL. */
 CaseNode *CaseTreeChild(const CaseNode *map, const char *name);
+
+/* case_path.c: takes the scalar at a dotted path out of its map, if it is there. */
+void CaseTreeRemove(CaseNode *root, const char *key);
+/* Whether it is one of names and indices: name.name[0].name. */
+bool CasePathIsValid(const char *path);
 /* The node at a dotted path, or NULL. */
 CaseNode *CaseTreeFind(CaseNode *root, const char *key);
 /* Says to all nodes above the key that something below them was asked for. */
@@ -85,8 +98,16 @@ void CaseUse(CoracleCase c, const char *function, const char *key);
 /* The error of a node (NULL: of the file) at a key: "<place>: <message>".  Does not return. */
 _Noreturn void CaseDie(CoracleCase c, const CaseNode *node, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
+/* The same with what is there in place of what was expected. */
+_Noreturn void CaseUnexpected(CoracleCase c, const char *key, const CaseNode *node, const char *expected);
 /* Whether a reader has asked for the key. */
 bool CaseAsked(CoracleCase c, const char *key);
+/* The value at a key that must be there; a scalar, which is read then, and of which any stands for one whose fault has
+ * been found. */
+CaseNode *CaseRequire(CoracleCase c, const char *key);
+CaseNode *CaseRequireScalar(CoracleCase c, const char *key, const char *expected);
+/* As CaseExcused, of a key that is asked for with this. */
+bool CaseIsExcused(CoracleCase c, const char *key);
 /* Whether the key is one of the faults that a check has found, so that its value does not matter. */
 bool CaseExcused(CoracleCase c, const char *key);
 /* The check's answer to a fault: remembers it and reads the case again.  Does not return. */

@@ -1,12 +1,11 @@
-/* The tree behind a case file: from libyaml's document, and by --set arguments. */
+/* The tree behind a case file: its nodes, and how they come from libyaml's document. */
 #include "common/link/case_impl.h"
-#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <yaml.h>
 
-enum { MAX_DEPTH = 32, MAX_NODES = 1000000 }; /* an alias that contains itself would never end */
+enum { MAX_DEPTH = 32 }; /* an alias that contains itself would never end */
 
 void CaseTreeDestroy(CaseNode **node)
 {
@@ -41,7 +40,7 @@ static void HashNames(CaseNode *map)
   for (int i = 0; i < map->n; i++) *SlotOf(map, map->child[i]->key) = i;
 }
 
-static void Append(CaseNode *parent, CaseNode *child)
+void CaseTreeAppend(CaseNode *parent, CaseNode *child)
 {
   if (parent->n == parent->capacity) {
     parent->capacity = parent->capacity ? 2 * parent->capacity : 4;
@@ -53,6 +52,18 @@ static void Append(CaseNode *parent, CaseNode *child)
     HashNames(parent);
   else
     *SlotOf(parent, child->key) = parent->n - 1;
+}
+
+void CaseTreeDrop(CaseNode *parent, CaseNode *child)
+{
+  for (int i = 0; i < parent->n; i++) {
+    if (parent->child[i] != child) continue;
+    memmove(&parent->child[i], &parent->child[i + 1], (size_t)(parent->n - 1 - i) * sizeof *parent->child);
+    parent->n--;
+    CaseTreeDestroy(&child);
+    if (parent->nslots) HashNames(parent);
+    return;
+  }
 }
 
 CaseNode *CaseTreeChild(const CaseNode *map, const char *name)
@@ -105,7 +116,7 @@ static bool BuildMap(Builder *b, const yaml_node_t *y, int depth, CaseNode *node
     if (!child) return false;
     child->key = strdup(name);
     child->line = line;
-    Append(node, child);
+    CaseTreeAppend(node, child);
   }
   return true;
 }
@@ -116,7 +127,7 @@ static bool BuildList(Builder *b, const yaml_node_t *y, int depth, CaseNode *nod
        item++) {
     CaseNode *child = BuildNode(b, *item, depth + 1);
     if (!child) return false;
-    Append(node, child);
+    CaseTreeAppend(node, child);
   }
   return true;
 }
@@ -125,7 +136,7 @@ static CaseNode *BuildNode(Builder *b, int index, int depth)
 {
   const yaml_node_t *y = yaml_document_get_node(b->document, index);
   const int line = (int)y->start_mark.line + 1;
-  if (depth > MAX_DEPTH || ++b->nodes > MAX_NODES) {
+  if (depth > MAX_DEPTH || ++b->nodes > CASE_NODES) {
     snprintf(b->problem, CASE_MESSAGE, "%s:%d: nested too deeply (an alias within itself?)", b->label, line);
     return NULL;
   }
@@ -179,7 +190,7 @@ static bool CheckSize(const char *text, size_t size, const char *label, char pro
   int depth = 0, nodes = 0;
   if (!yaml_parser_initialize(&parser)) return true;
   yaml_parser_set_input_string(&parser, (const unsigned char *)text, size);
-  for (bool more = true; more && depth <= MAX_DEPTH && nodes <= MAX_NODES;) {
+  for (bool more = true; more && depth <= MAX_DEPTH && nodes <= CASE_NODES;) {
     if (!yaml_parser_parse(&parser, &event)) break; /* the document will say why */
     const yaml_event_type_t type = event.type;
     depth += (type == YAML_SEQUENCE_START_EVENT || type == YAML_MAPPING_START_EVENT) -
@@ -191,9 +202,9 @@ static bool CheckSize(const char *text, size_t size, const char *label, char pro
                (int)event.start_mark.line + 1, MAX_DEPTH);
     yaml_event_delete(&event);
   }
-  if (nodes > MAX_NODES) snprintf(problem, CASE_MESSAGE, "%s: has more than %d values", label, MAX_NODES);
+  if (nodes > CASE_NODES) snprintf(problem, CASE_MESSAGE, "%s: has more than %d values", label, CASE_NODES);
   yaml_parser_delete(&parser);
-  return depth <= MAX_DEPTH && nodes <= MAX_NODES;
+  return depth <= MAX_DEPTH && nodes <= CASE_NODES;
 }
 
 CaseNode *CaseTreeParse(const char *text, size_t size, const char *label, char problem[])
@@ -217,174 +228,4 @@ CaseNode *CaseTreeParse(const char *text, size_t size, const char *label, char p
              parser.context ? parser.context : "");
   yaml_parser_delete(&parser);
   return root;
-}
-
-/* --- dotted paths --------------------------------------------------------------------------------------- */
-
-typedef enum { STEP_END, STEP_NAME, STEP_ITEM, STEP_BAD } PathStep;
-
-/* Takes one step off a path such as solid.bodies[0].centre. */
-static PathStep PathNext(const char **path, char name[CASE_NAME], int *item)
-{
-  const char *p = *path;
-  if (!*p) return STEP_END;
-  if (*p == '[') {
-    char *end;
-    if (!isdigit((unsigned char)p[1])) return STEP_BAD;
-    const long value = strtol(p + 1, &end, 10);
-    if (*end != ']' || value > MAX_NODES) return STEP_BAD;
-    *item = (int)value;
-    *path = end + 1;
-    if (**path == '.') ++*path;
-    return STEP_ITEM;
-  }
-  const size_t length = strcspn(p, ".[");
-  if (length == 0 || length >= CASE_NAME) return STEP_BAD;
-  memcpy(name, p, length);
-  name[length] = '\0';
-  *path = p + length;
-  if (**path == '.' && *++*path == '\0') return STEP_BAD;
-  return STEP_NAME;
-}
-
-/* One step down: STEP_END leaves the node. */
-static PathStep Descend(const CaseNode **node, const char **key)
-{
-  char name[CASE_NAME];
-  int item = 0;
-  const PathStep step = PathNext(key, name, &item);
-  if (step == STEP_NAME)
-    *node = CaseTreeChild(*node, name);
-  else if (step == STEP_ITEM && (*node)->kind == NODE_LIST && item < (*node)->n)
-    *node = (*node)->child[item];
-  else if (step != STEP_END)
-    *node = NULL;
-  return step;
-}
-
-static CaseNode *Walk(const CaseNode *root, const char *key, const CaseNode **nearest)
-{
-  const CaseNode *node = root;
-  for (*nearest = root; node;) {
-    *nearest = node;
-    if (Descend(&node, &key) == STEP_END) break;
-  }
-  return (CaseNode *)node;
-}
-
-void CaseTreeMark(CaseNode *root, const char *key)
-{
-  const CaseNode *node = root;
-  while (node) {
-    CaseNode *above = (CaseNode *)node;
-    if (Descend(&node, &key) == STEP_END) break;
-    above->below = true;
-  }
-}
-
-CaseNode *CaseTreeFind(CaseNode *root, const char *key)
-{
-  const CaseNode *nearest;
-  return Walk(root, key, &nearest);
-}
-
-const CaseNode *CaseTreeNearest(const CaseNode *root, const char *key)
-{
-  const CaseNode *nearest;
-  Walk(root, key, &nearest);
-  return nearest;
-}
-
-void CaseTreeRemove(CaseNode *root, const char *key)
-{
-  char above[CASE_KEY];
-  CaseNode *node = CaseTreeFind(root, key), *parent = root;
-  if (!node || node->kind != NODE_SCALAR || !node->key) return;
-  const char *dot = strrchr(key, '.');
-  snprintf(above, sizeof above, "%.*s", dot ? (int)(dot - key) : 0, key);
-  if (dot) parent = CaseTreeFind(root, above);
-  for (int i = 0; parent && i < parent->n; i++) {
-    if (parent->child[i] != node) continue;
-    memmove(&parent->child[i], &parent->child[i + 1], (size_t)(parent->n - 1 - i) * sizeof *parent->child);
-    parent->n--;
-    CaseTreeDestroy(&node);
-    if (!parent->n) parent->read = true; /* not an unknown key for being empty */
-    if (parent->nslots) HashNames(parent);
-    return;
-  }
-}
-
-/* --- one --set argument --------------------------------------------------------------------------------- */
-
-static void MarkSet(CaseNode *node, const char *argument)
-{
-  node->set = argument;
-  for (int i = 0; i < node->n; i++) MarkSet(node->child[i], argument);
-}
-
-/* The node that a step leads to, made when it is a new name or the item after the last. */
-static CaseNode *Enter(CaseNode *node, PathStep step, const char *name, int item, const char **why)
-{
-  CaseNode *child = NULL;
-  if (step == STEP_NAME && node->kind == NODE_MAP)
-    child = CaseTreeChild(node, name);
-  else if (step == STEP_ITEM && node->kind == NODE_LIST && item <= node->n)
-    child = item < node->n ? node->child[item] : NULL;
-  else {
-    *why = step == STEP_BAD          ? "the key is malformed (expected name.name[0].name)"
-           : step == STEP_NAME       ? "the key goes through a value that is not a map"
-           : node->kind != NODE_LIST ? "the key has an index on a value that is not a list"
-                                     : "the list is shorter than this index";
-    return NULL;
-  }
-  if (child) return child;
-  child = calloc(1, sizeof *child);
-  child->kind = NODE_MAP;
-  if (step == STEP_NAME) child->key = strdup(name);
-  Append(node, child);
-  return child;
-}
-
-static CaseNode *EnterPath(CaseNode *root, const char *key, const char **why)
-{
-  CaseNode *node = root;
-  for (;;) {
-    char name[CASE_NAME];
-    int item = 0;
-    const PathStep step = PathNext(&key, name, &item);
-    if (step == STEP_END) return node;
-    if (!(node = Enter(node, step, name, item, why))) return NULL;
-  }
-}
-
-bool CaseTreeSet(CaseNode *root, const char *argument, char problem[])
-{
-  const char *equals = strchr(argument, '='), *why = NULL;
-  char label[CASE_KEY], key[CASE_KEY];
-  snprintf(label, sizeof label, "--set %s", argument);
-  if (!equals || equals == argument || (size_t)(equals - argument) >= sizeof key) {
-    snprintf(problem, CASE_MESSAGE, "%s: expected --set key=value", label);
-    return false;
-  }
-  snprintf(key, sizeof key, "%.*s", (int)(equals - argument), argument);
-  CaseNode *value = CaseTreeParse(equals + 1, strlen(equals + 1), label, problem);
-  if (!value) {
-    snprintf(problem, CASE_MESSAGE, "%s: the value is not valid YAML", label);
-    return false;
-  }
-  MarkSet(value, argument);
-  CaseNode *node = EnterPath(root, key, &why);
-  if (!node) {
-    snprintf(problem, CASE_MESSAGE, "%s: %s", label, why);
-    CaseTreeDestroy(&value);
-    return false;
-  }
-  /* the new value moves into the old node, which keeps its name and its place */
-  CaseNode old = *node;
-  *node = *value;
-  node->key = old.key;
-  old.key = NULL;
-  *value = old;
-  CaseTreeDestroy(&value);
-  return true;
 }

@@ -16,13 +16,12 @@
 #include <petscsys.h>
 
 typedef struct {
-  MPI_Comm comm; /* borrowed */
-  int dim;       /* 2 */
-  int nv;        /* local vertices: of owned elements, then those of ghosts alone */
-  double *x;     /* [nv][2], m */
-  int nv_owned;  /* vertices of owned elements belong to the lowest rank that has such an element */
-  PetscInt
-      vstart; /* owned vertices have global numbers vstart .. vstart + nv_owned - 1, as elements meet them */
+  MPI_Comm comm;   /* borrowed */
+  int dim;         /* 2 */
+  int nv;          /* local vertices: of owned elements, then those of ghosts alone */
+  double *x;       /* [nv][2], m */
+  int nv_owned;    /* vertices of owned elements belong to the lowest rank that has such an element */
+  PetscInt vstart; /* owned vertices: global numbers vstart .. vstart + nv_owned - 1, as elements meet them */
   PetscInt nv_global; /* vertices on all ranks */
   PetscInt *vgid;     /* [nv] global vertex numbers */
   int ne, ng;  /* owned elements; ghosts follow: share a face with an owned element, owned by another rank */

@@ -44,6 +44,13 @@ PetscErrorCode GmshRefuse(const GmshFile *file, const char *format, ...) PETSC_A
 /* Reads file->path into the lists above. */
 PetscErrorCode GmshParse(GmshFile *file);
 
+/* mesh_gmsh_formats.c: the sections of these names, of the format of this number. */
+PetscErrorCode GmshNodes22(GmshFile *f);
+PetscErrorCode GmshElements22(GmshFile *f);
+PetscErrorCode GmshEntities41(GmshFile *f);
+PetscErrorCode GmshNodes41(GmshFile *f);
+PetscErrorCode GmshElements41(GmshFile *f);
+
 /* mesh_gmsh_scan.c: the number at file->at, and behind it. */
 PetscErrorCode GmshInteger(GmshFile *f, int *value);
 PetscErrorCode GmshDoubles(GmshFile *f, int n, double *value);

@@ -34,6 +34,14 @@ static inline void InverseDensityUniform(double rho, const double gravity[2], In
   *r = (InverseDensity){{1.0 / rho, 0.0, 1.0 / rho}, {gravity[0], gravity[1]}};
 }
 
+/* weight - R^-1 grad p, m/s2 */
+static inline void InverseDensityAcceleration(const InverseDensity *r, const double grad[2],
+                                              double acceleration[2])
+{
+  for (int c = 0; c < 2; c++)
+    acceleration[c] = r->weight[c] - r->inverse[c] * grad[0] - r->inverse[c + 1] * grad[1];
+}
+
 /* The inverse of (xx, xy, yy). */
 static inline void SymmetricInvert(const double a[3], double inverse[3])
 {

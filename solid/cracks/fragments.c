@@ -1,4 +1,5 @@
 /* What cracks have done: sums over the joints, damage of the elements, and the pieces that are left. */
+#include "common/exchange/scatter.h"
 #include "solid/cracks/joints_impl.h"
 
 PetscErrorCode SolidFracture(Solid s, FractureState *state)
@@ -94,20 +95,16 @@ static PetscErrorCode LabelNodes(Solid s, double label[])
 /* number[nnodes] = place of the node's label among all labels of all ranks */
 static PetscErrorCode NumberLabels(Solid s, const double label[], int number[], int *n)
 {
-  PetscInt mine = s->nnodes, *own, *all;
-  PetscMPIInt count, *counts, *start;
+  PetscInt mine = s->nnodes, total, *own, *all;
+  void *gathered;
+  int labels;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1((size_t)mine, &own));
   for (int i = 0; i < s->nnodes; i++) own[i] = (PetscInt)label[i];
   PetscCall(PetscSortRemoveDupsInt(&mine, own));
-  PetscCall(PetscMPIIntCast(mine, &count));
-  PetscCall(PetscMalloc2((size_t)s->size, &counts, (size_t)s->size + 1, &start));
-  PetscCallMPI(MPI_Allgather(&count, 1, MPI_INT, counts, 1, MPI_INT, s->comm));
-  start[0] = 0;
-  for (int r = 0; r < s->size; r++) start[r + 1] = start[r] + counts[r];
-  PetscInt total = start[s->size];
-  PetscCall(PetscMalloc1((size_t)total, &all));
-  PetscCallMPI(MPI_Allgatherv(own, count, MPIU_INT, all, counts, start, MPIU_INT, s->comm));
+  PetscCall(GatherRecords(s->comm, (int)mine, sizeof *own, own, &labels, &gathered));
+  all = gathered;
+  total = labels;
   PetscCall(PetscSortRemoveDupsInt(&total, all));
   for (int i = 0; i < s->nnodes; i++) {
     PetscInt place;
@@ -115,7 +112,6 @@ static PetscErrorCode NumberLabels(Solid s, const double label[], int number[], 
     number[i] = (int)place;
   }
   *n = (int)total;
-  PetscCall(PetscFree2(counts, start));
   PetscCall(PetscFree(own));
   PetscCall(PetscFree(all));
   PetscFunctionReturn(0);

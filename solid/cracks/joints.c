@@ -1,4 +1,5 @@
 /* Joints at work: which edges have reached their strength, and the tractions of active joints. */
+#include "common/exchange/scatter.h"
 #include "solid/cracks/joints_impl.h"
 #include "solid/vectorize.h"
 
@@ -196,28 +197,11 @@ static PetscErrorCode FindEvents(const Joints j, Solid s, int *n, int **event)
   PetscFunctionReturn(0);
 }
 
-/* Every rank's events, allocated. */
-static PetscErrorCode GatherEvents(Solid s, int n, const int mine[], int *total, int **all)
-{
-  PetscMPIInt *count, *start;
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2((size_t)s->size, &count, (size_t)s->size, &start));
-  PetscCallMPI(MPI_Allgather(&n, 1, MPI_INT, count, 1, MPI_INT, s->comm));
-  *total = 0;
-  for (int r = 0; r < s->size; r++) {
-    start[r] = *total;
-    *total += count[r];
-  }
-  PetscCall(PetscMalloc1((size_t)*total, all));
-  PetscCallMPI(MPI_Allgatherv(mine, n, MPI_INT, *all, count, start, MPI_INT, s->comm));
-  PetscCall(PetscFree2(count, start));
-  PetscFunctionReturn(0);
-}
-
 PetscErrorCode JointsAdvance(Joints j, Solid s, PetscBool *changed)
 {
   enum { EVENTS, LAST_ENDS, NKINDS };
-  int *event, *all, n, any[NKINDS];
+  int *event, n, total, any[NKINDS];
+  void *all;
   PetscFunctionBeginUser;
   JointsGhostForces(j, s);
   any[LAST_ENDS] = FindLastEnds(j, s);
@@ -227,9 +211,9 @@ PetscErrorCode JointsAdvance(Joints j, Solid s, PetscBool *changed)
   *changed = (PetscBool)(any[EVENTS] > 0 || any[LAST_ENDS] > 0);
   if (*changed && !any[EVENTS]) PetscCall(JointsMeasureRate(j, s));
   if (any[EVENTS]) {
-    PetscCall(GatherEvents(s, n, event, &n, &all));
-    PetscCall(PetscSortRemoveDupsInt(&n, all));
-    PetscCall(JointsApply(j, s, n, all));
+    PetscCall(GatherRecords(s->comm, n, sizeof *event, event, &total, &all));
+    PetscCall(PetscSortRemoveDupsInt(&total, all));
+    PetscCall(JointsApply(j, s, total, all));
     PetscCall(PetscFree(all));
   }
   PetscCall(PetscFree(event));

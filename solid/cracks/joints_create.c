@@ -84,21 +84,12 @@ static int FindCorner(const Joints j, int star, int element)
   return -1;
 }
 
-/* Parts of a star that no edge connects from the start (two bodies' corners that meet in a node) stay bonded.
- */
+/* Parts of a star that no edge connects from the start (two bodies' corners that meet in a node) stay bonded. */
 static int BondLoose(const Joints j, int star, int n, Bond bond[])
 {
   const int corners = j->star_corner[star + 1] - j->star_corner[star];
-  int root[STAR_CORNERS], merged = 1;
-  for (int c = 0; c < corners; c++) root[c] = c;
-  while (merged) {
-    merged = 0;
-    for (int k = 0; k < n; k++) {
-      int *one = &root[bond[k].corner[0]], *two = &root[bond[k].corner[1]];
-      merged |= *one != *two;
-      *one = *two = PetscMin(*one, *two);
-    }
-  }
+  int root[STAR_CORNERS];
+  JointsConnectCorners(j, corners, n, bond, root);
   for (int c = 1; c < corners; c++)
     if (root[c] == c) bond[n++] = (Bond){{0, c}, -1};
   return n;

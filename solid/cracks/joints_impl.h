@@ -115,7 +115,9 @@ void JointsList(Joints j, Solid s);
 void JointsBeginEnds(Joints j, Solid s);
 PetscErrorCode JointsMeasureRate(Joints j, Solid s);
 
-/* split.c: the corners of a star that bonds still connect are one node, the others get one of their own. */
+/* split.c: root[c]: the lowest of a star's corners that those of bond[n] which are not cut connect with c. */
+void JointsConnectCorners(const Joints j, int ncorners, int n, const Bond bond[], int root[]);
+/* The corners of a star that bonds still connect are one node, the others get one of their own. */
 void JointsSplitStar(Joints j, Solid s, int star);
 /* The nodes of saved_corner again. */
 void JointsRestoreStar(Joints j, Solid s, int star);

@@ -1,13 +1,10 @@
 /* Nodes split where the bonds of their star are cut. */
 #include "solid/cracks/joints_impl.h"
 
-/* root[c]: the lowest corner of the star that uncut bonds connect with c. */
-static void ConnectCorners(const Joints j, int star, int root[])
+void JointsConnectCorners(const Joints j, int ncorners, int n, const Bond bond[], int root[])
 {
-  const Bond *bond = j->bond + j->star_bond[star];
-  const int n = j->star_bond[star + 1] - j->star_bond[star];
   int merged = 1;
-  for (int c = 0; c < j->star_corner[star + 1] - j->star_corner[star]; c++) root[c] = c;
+  for (int c = 0; c < ncorners; c++) root[c] = c;
   while (merged) {
     merged = 0;
     for (int k = 0; k < n; k++) {
@@ -69,7 +66,7 @@ void JointsSplitStar(Joints j, Solid s, int star)
   const int n = j->star_corner[star + 1] - j->star_corner[star];
   int root[STAR_CORNERS], node[STAR_CORNERS];
   Before before[STAR_CORNERS];
-  ConnectCorners(j, star, root);
+  JointsConnectCorners(j, n, j->star_bond[star + 1] - j->star_bond[star], j->bond + j->star_bond[star], root);
   for (int c = 0; c < n; c++) {
     const int old = corner[c].node;
     before[c] = (Before){s->mass[old], {s->load[2 * old], s->load[2 * old + 1]}};

@@ -8,20 +8,20 @@ static int CompareNames(const void *a, const void *b)
   return (p->gid > q->gid) - (p->gid < q->gid);
 }
 
-PetscErrorCode NodeNamesCreate(Solid s, NodeNames *names)
+PetscErrorCode NodeNamesCreate(int n, const long long gid[], NodeNames *names)
 {
   PetscFunctionBeginUser;
-  names->s = s;
-  PetscCall(PetscMalloc1((size_t)s->nnodes, &names->name));
-  for (int n = 0; n < s->nnodes; n++) names->name[n] = (NodeName){s->gid[n], n};
-  if (s->nnodes) qsort(names->name, (size_t)s->nnodes, sizeof *names->name, CompareNames);
+  names->n = n;
+  PetscCall(PetscMalloc1((size_t)n, &names->name));
+  for (int k = 0; k < n; k++) names->name[k] = (NodeName){gid[k], k};
+  if (n) qsort(names->name, (size_t)n, sizeof *names->name, CompareNames);
   PetscFunctionReturn(0);
 }
 
 int NodeNamesFind(const NodeNames *names, long long gid)
 {
   const NodeName wanted = {gid, -1};
-  const size_t n = (size_t)names->s->nnodes;
+  const size_t n = (size_t)names->n;
   const NodeName *found = n ? bsearch(&wanted, names->name, n, sizeof *names->name, CompareNames) : NULL;
   return found ? found->node : -1;
 }
@@ -49,6 +49,7 @@ PetscErrorCode NodeRanks(Solid s, int n, const long long gid[], int of[])
 }
 
 typedef struct {
+  Solid s;
   NodeNames names;
   NodeAnswer answer;
 } Question;
@@ -59,19 +60,19 @@ static PetscErrorCode AnswerByName(void *context, long long gid, void *record)
   const int n = NodeNamesFind(&q->names, gid);
   PetscFunctionBeginUser;
   PetscCheck(n >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "node %lld is not here", gid);
-  q->answer(q->names.s, n, record);
+  q->answer(q->s, n, record);
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode NodesRequest(Solid s, int n, const long long gid[], size_t bytes, NodeAnswer answer,
                             void *record)
 {
-  Question q = {.answer = answer};
+  Question q = {.s = s, .answer = answer};
   int *of;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1((size_t)n, &of));
   PetscCall(NodeRanks(s, n, gid, of));
-  PetscCall(NodeNamesCreate(s, &q.names));
+  PetscCall(NodeNamesCreate(s->nnodes, s->gid, &q.names));
   PetscCall(ScatterRequest(s->comm, n, of, gid, bytes, AnswerByName, &q, record));
   PetscCall(NodeNamesDestroy(&q.names));
   PetscCall(PetscFree(of));

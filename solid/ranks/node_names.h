@@ -9,13 +9,13 @@ typedef struct {
   int node;
 } NodeName;
 
-/* This rank's nodes by gid.  Not collective. */
+/* Nodes gid[n] by gid, ascending.  Not collective. */
 typedef struct {
-  Solid s;        /* borrowed */
-  NodeName *name; /* [nnodes] */
+  int n;
+  NodeName *name; /* [n] */
 } NodeNames;
 
-PetscErrorCode NodeNamesCreate(Solid s, NodeNames *names);
+PetscErrorCode NodeNamesCreate(int n, const long long gid[], NodeNames *names);
 int NodeNamesFind(const NodeNames *names, long long gid); /* -1: not here */
 PetscErrorCode NodeNamesDestroy(NodeNames *names);
 

@@ -123,7 +123,7 @@ static PetscErrorCode GetNodes(void *checkpoint, Solid to, NodeState node[])
 {
   FoundNodes f = {.node = node};
   PetscFunctionBeginUser;
-  PetscCall(NodeNamesCreate(to, &f.names));
+  PetscCall(NodeNamesCreate(to->nnodes, to->gid, &f.names));
   PetscCall(GetRows(checkpoint, &NODES, TakeNode, &f));
   PetscCall(NodeNamesDestroy(&f.names));
   PetscCheck(f.found == to->nnodes, PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED,

@@ -142,6 +142,22 @@ static void CheckRequest(void)
   CHECK(!PetscFree(arrived), "not freed");
 }
 
+/* Rank r has r records; all ranks get all of them in the order of the ranks. */
+static void CheckGather(void)
+{
+  int mine[5][2], total, n = 0;
+  void *all;
+  for (int k = 0; k < rank; k++) mine[k][0] = rank, mine[k][1] = k;
+  CHECK(!GatherRecords(PETSC_COMM_WORLD, rank, sizeof *mine, mine, &total, &all), "not gathered");
+  CHECK(total == size * (size - 1) / 2, "%d records", total);
+  const int(*record)[2] = all;
+  for (int r = 0; r < size; r++)
+    for (int k = 0; k < r; k++, n++)
+      CHECK(record[n][0] == r && record[n][1] == k, "record %d: %d of rank %d", n, record[n][1],
+            record[n][0]);
+  CHECK(!PetscFree(all), "not freed");
+}
+
 /* Thing of copy k on a rank: a rank may have several copies of one, an even number is an edge. */
 static int Thing(int of, int k)
 {
@@ -219,6 +235,7 @@ int main(int argc, char **argv)
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
   CheckScatter();
   CheckRequest();
+  CheckGather();
   CheckCopies();
   CheckMatched();
   return PetscFinalize();

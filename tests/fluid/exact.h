@@ -2,6 +2,7 @@
 #ifndef TEST_FLUID_EXACT_H
 #define TEST_FLUID_EXACT_H
 #include "fluid/fluid.h"
+#include "tests/fluid/box_mesh.h"
 #include <math.h>
 
 #define RHO 2.0
@@ -42,24 +43,6 @@ static inline void ExactSource(void *context, double t, const double x[2], doubl
   s[1] += f * 2.0 * M_PI * cos(M_PI * x[0]) * cos(2.0 * M_PI * x[1]);
 }
 
-static inline double Uniform(void *context, const double x[2])
-{
-  return *(double *)context;
-}
-
-static inline PetscErrorCode SquareMesh(double h, Mesh **mesh)
-{
-  const double lower[2] = {0.0, 0.0}, upper[2] = {1.0, 1.0};
-  PetscMPIInt rank;
-  MeshSerial serial = {0};
-  PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  if (rank == 0) PetscCall(MeshBox(lower, upper, h, Uniform, &h, &serial));
-  PetscCall(MeshDistribute(PETSC_COMM_WORLD, &serial, mesh));
-  PetscCall(MeshSerialDestroy(&serial));
-  PetscFunctionReturn(0);
-}
-
 /* source and mu: ExactSource and MU, or NULL and any for a flow that is left to itself */
 static inline PetscErrorCode ExactFluid(const Mesh *mesh, Exact *exact, FieldFunction source, double mu,
                                         Fluid *fluid)
@@ -77,5 +60,15 @@ static inline PetscErrorCode ExactFluid(const Mesh *mesh, Exact *exact, FieldFun
   PetscCall(FluidCreate(mesh, &setup, fluid));
   PetscCall(FluidSetInitial(*fluid, 0.0, ExactVelocity, ExactPressure, exact));
   PetscFunctionReturn(0);
+}
+
+/* Largest velocity component, m/s, or difference to another fluid's on the same mesh; other may be NULL. */
+static inline double LargestVelocity(Fluid fluid, Fluid other)
+{
+  double largest = 0.0;
+  for (int k = 0; k < 6 * FluidMesh(fluid)->ne; k++)
+    largest = fmax(largest, fabs(FluidVelocity(fluid)[k] - (other ? FluidVelocity(other)[k] : 0.0)));
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
+  return largest;
 }
 #endif

@@ -3,6 +3,7 @@
  * checkpoints as if nothing had happened: to the last bit where a run repeats itself, which PETSc's sums over
  * three ranks or more do not (they are made as messages arrive); to the solvers' tolerance on any ranks. */
 #include "common/mesh/mesh_checkpoint.h"
+#include "common/supermesh/geometry.h"
 #include "fluid/adaptation.h"
 #include "tests/check.h"
 #include "tests/fluid/exact.h"
@@ -57,11 +58,6 @@ static PetscErrorCode Destroy(RunState *m)
   PetscFunctionReturn(0);
 }
 
-static double Turn(const double a[2], const double b[2], const double x[2])
-{
-  return (b[0] - a[0]) * (x[1] - a[1]) - (x[0] - a[0]) * (b[1] - a[1]);
-}
-
 /* A piece of shell that exerts no force; only the mesh adaptation uses it.  At rest at first. */
 static PetscErrorCode SetSolid(RunState *m)
 {
@@ -72,7 +68,9 @@ static PetscErrorCode SetSolid(RunState *m)
   for (int e = 0; e < m->mesh->ne; e++) {
     const double *v[3];
     for (int i = 0; i < 3; i++) v[i] = m->mesh->x + 2 * m->mesh->vertex[3 * e + i];
-    if (Turn(v[0], v[1], x) < 0.0 || Turn(v[1], v[2], x) < 0.0 || Turn(v[2], v[0], x) < 0.0) continue;
+    if (GeometryTurn(v[0], v[1], x) < 0.0 || GeometryTurn(v[1], v[2], x) < 0.0 ||
+        GeometryTurn(v[2], v[0], x) < 0.0)
+      continue;
     k.element = e;
     n = 1;
   }

@@ -2,14 +2,9 @@
 /* The first mesh is fine along an interface, also where the mesh of the case has its faces there and no element is cut. */
 #include "fluid/adaptation.h"
 #include "tests/check.h"
+#include "tests/fluid/box_mesh.h"
 
 #define SIZE 0.02
-static const double LOWER[2] = {0.0, 0.0}, UPPER[2] = {1.0, 1.0};
-
-static double Uniform(void *size, const double x[2])
-{
-  return *(double *)size;
-}
 
 /* The longest edge of the owned elements whose box has the interface y = level. */
 static double LongestEdge(const Mesh *m, double level)
@@ -41,16 +36,11 @@ static PetscErrorCode CheckLevel(double level)
                                  .elements_max = 1e5,
                                  .every = 10};
   const AdaptationStart start = {.nphases = 2, .nregions = 2, .region = region};
-  double size = 0.25, longest;
-  MeshSerial serial = {0};
+  double longest;
   Mesh *start_mesh, *mesh;
   Adaptation adaptation;
-  PetscMPIInt rank;
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  if (rank == 0) PetscCall(MeshBox(LOWER, UPPER, size, Uniform, &size, &serial));
-  PetscCall(MeshDistribute(PETSC_COMM_WORLD, &serial, &start_mesh));
-  PetscCall(MeshSerialDestroy(&serial));
+  PetscCall(SquareMesh(0.25, &start_mesh));
   PetscCall(AdaptationCreate(&setup, &adaptation));
   PetscCall(AdaptationFirstMesh(adaptation, start_mesh, &start, &mesh));
   longest = LongestEdge(mesh, level);

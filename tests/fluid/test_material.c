@@ -51,16 +51,6 @@ static PetscErrorCode Layers(Fluid fluid, MaterialLevel level, double y, double 
   PetscFunctionReturn(0);
 }
 
-/* Largest velocity, or difference to another fluid's. */
-static double Largest(Fluid fluid, Fluid other)
-{
-  double largest = 0.0;
-  for (int k = 0; k < 6 * FluidMesh(fluid)->ne; k++)
-    largest = fmax(largest, fabs(FluidVelocity(fluid)[k] - (other ? FluidVelocity(other)[k] : 0.0)));
-  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
-  return largest;
-}
-
 /* Two steps each; the first fluid's density goes from `before` to `after` in the first of them. */
 static PetscErrorCode SameAs(const Mesh *mesh, double before, double after, double constant, int steps)
 {
@@ -74,7 +64,7 @@ static PetscErrorCode SameAs(const Mesh *mesh, double before, double after, doub
     PetscCall(FluidStep(fluid, DT));
     PetscCall(FluidStep(other, DT));
   }
-  const double error = Largest(fluid, other) / Largest(other, NULL);
+  const double error = LargestVelocity(fluid, other) / LargestVelocity(other, NULL);
   PetscCheck(error < 1e-5, PETSC_COMM_SELF, PETSC_ERR_PLIB,
              "a fluid whose density goes from %g to %g moves %g otherwise than one of %g", before, after,
              error, constant);
@@ -93,7 +83,7 @@ static PetscErrorCode LayersAtRest(const Mesh *mesh, double ratio)
   PetscCall(Layers(fluid, MATERIAL_OLD, 0.5, ratio * LIGHT, LIGHT, 1e-12));
   PetscCall(Layers(fluid, MATERIAL_NEW, 0.5, ratio * LIGHT, LIGHT, 1e-12));
   PetscCall(FluidStep(fluid, DT));
-  const double speed = Largest(fluid, NULL);
+  const double speed = LargestVelocity(fluid, NULL);
   PetscCheck(speed < 1e-6 * 9.81 * DT, PETSC_COMM_SELF, PETSC_ERR_PLIB,
              "ratio %g: layers at rest move at %g m/s", ratio, speed);
   PetscCall(FluidDestroy(&fluid));
@@ -119,7 +109,7 @@ static PetscErrorCode Redo(const Mesh *mesh)
   PetscCall(FluidRestoreState(fluid));
   PetscCall(FluidStep(fluid, DT));
   PetscCall(FluidStep(other, DT));
-  const double error = Largest(fluid, other) / Largest(other, NULL);
+  const double error = LargestVelocity(fluid, other) / LargestVelocity(other, NULL);
   PetscCheck(error < 1e-12, PETSC_COMM_SELF, PETSC_ERR_PLIB, "a step that is redone differs by %g", error);
   PetscCall(FluidDestroy(&fluid));
   PetscCall(FluidDestroy(&other));

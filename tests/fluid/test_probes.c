@@ -3,6 +3,7 @@
  * before a gauge on a solid; also on another mesh and after a checkpoint.  What lies outside of the mesh is refused. */
 #include "fluid/fluid_case.h"
 #include "fluid/probes.h"
+#include "tests/fluid/box_mesh.h"
 #include "tests/link/catch.h"
 
 static const char *const CASE = "gravity: [0.0, 0.0]\n"
@@ -35,23 +36,14 @@ static void Pressure(void *context, double t, const double x[2], double p[])
   p[0] = 1.0 + x[0] - 2.0 * x[1] + 3.0 * x[0] * x[0] - x[0] * x[1] + 0.5 * x[1] * x[1];
 }
 
-static double Uniform(void *size, const double x[2])
-{
-  return *(double *)size;
-}
-
 /* A fluid on a mesh of this size with the fields above; a row of the probes. */
 static PetscErrorCode Row(CoracleCase c, Probes probes, double size)
 {
-  const double lower[2] = {0.0, 0.0}, upper[2] = {2.0, 1.0};
-  MeshSerial serial = {0};
   FluidSetup setup;
   Mesh *mesh;
   Fluid fluid;
   PetscFunctionBeginUser;
-  if (rank == 0) PetscCall(MeshBox(lower, upper, size, Uniform, &size, &serial));
-  PetscCall(MeshDistribute(PETSC_COMM_WORLD, &serial, &mesh));
-  PetscCall(MeshSerialDestroy(&serial));
+  PetscCall(BoxMesh(2.0, size, &mesh));
   PetscCall(FluidCaseSetup(c, mesh, &setup));
   PetscCall(FluidCreate(mesh, &setup, &fluid));
   PetscCall(FluidSetInitial(fluid, 0.0, Velocity, Pressure, NULL));

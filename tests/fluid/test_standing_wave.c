@@ -3,46 +3,16 @@
  * rho_1)/(rho_0 coth k h_0 + rho_1 coth k h_1), and viscosity damps the amplitude by exp(-2 nu k^2 t).
  * standing_wave n periods steps-a-period amplitude viscosity: prints each half period. */
 #include "tests/fluid/tank.h"
-
-enum { CREST = 400 };
-
-/* The coefficient of cos(pi x) in the surface: from the first moment of the water's volume. */
-static double Amplitude(const Tank *t)
-{
-  double sum = 0.0;
-  for (int e = 0; e < t->mesh->ne; e++) {
-    Polygon part;
-    (void)PhasesGetPolygon(PhaseTransportPhases(FluidPhases(t->fluid)), e, 0, &part);
-    for (int k = 1; k + 1 < part.n; k++) {
-      const double area = 0.5 * GeometryTurn(part.x[0], part.x[k], part.x[k + 1]);
-      sum +=
-          area / 3.0 * (cos(M_PI * part.x[0][0]) + cos(M_PI * part.x[k][0]) + cos(M_PI * part.x[k + 1][0]));
-    }
-  }
-  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, t->mesh->comm);
-  return 2.0 * sum;
-}
+#include "tests/phases/wave.h"
 
 static PetscErrorCode WaveCreate(int n, double depth, double a, double viscosity, Tank *t)
 {
-  double outline[CREST + 3][2] = {{0}};
-  Region region[2] = {{.shape = REGION_BOX, .phase = 1, .a = {-1, -1}, .b = {2, 2}}};
+  double outline[CREST + 3][2];
+  Region region[2];
   PetscFunctionBeginUser;
-  for (int i = 0; i <= CREST; i++) {
-    outline[i][0] = 1.0 - (double)i / CREST;
-    outline[i][1] = depth + a * cos(M_PI * outline[i][0]);
-  }
-  outline[CREST + 1][1] = outline[CREST + 2][1] = -1.0;
-  outline[CREST + 2][0] = 1.0;
-  region[1] = (Region){.shape = REGION_POLYGON, .phase = 0, .n = CREST + 3, .x = (const double(*)[2])outline};
+  WaveRegions(depth, a, outline, region);
   PetscCall(TankCreate(n, 5u, viscosity, 2, region, t));
   PetscFunctionReturn(0);
-}
-
-static double Period(double depth)
-{
-  const double k = M_PI, below = WATER / tanh(k * depth), above = AIR / tanh(k * (1.0 - depth));
-  return 2.0 * M_PI / sqrt(9.81 * k * (WATER - AIR) / (below + above));
 }
 
 /* What the wave did. */
@@ -55,7 +25,7 @@ typedef struct {
 /* Marches until the surface has been flat `times` times. */
 static PetscErrorCode Wave(int n, int times, int steps, double a, double viscosity, int print, WaveReport *r)
 {
-  const double depth = 0.487, period = Period(depth), dt = period / steps;
+  const double depth = 0.487, period = WavePeriod(depth, WATER, AIR), dt = period / steps;
   double before = 1.0, top = 1.0;
   int crossings = 0;
   PhasesStats stats;
@@ -65,7 +35,7 @@ static PetscErrorCode Wave(int n, int times, int steps, double a, double viscosi
   *r = (WaveReport){0.0, 1.0, 0.0};
   for (int s = 0; crossings < times && s < times * steps; s++) {
     PetscCall(FluidStep(t.fluid, dt));
-    const double now = Amplitude(&t) / a;
+    const double now = WaveAmplitude(PhaseTransportPhases(FluidPhases(t.fluid)), t.mesh) / a;
     r->fastest = fmax(r->fastest, TankSpeed(&t, 0));
     top = fmax(top, fabs(now));
     if ((before > 0.0) != (now > 0.0)) {

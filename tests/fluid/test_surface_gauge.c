@@ -4,11 +4,7 @@
 #include "fluid/fluid.h"
 #include "fluid/surface_gauge.h"
 #include "tests/check.h"
-
-static double Uniform(void *size, const double x[2])
-{
-  return *(double *)size;
-}
+#include "tests/fluid/box_mesh.h"
 
 static PetscErrorCode Measure(Fluid fluid, int phase, double x0, double y0, double x1, double y1,
                               SurfacePlace *place)
@@ -27,8 +23,7 @@ static void Expect(const SurfacePlace *p, double first, double last, double leng
 
 int main(int argc, char **argv)
 {
-  const double lower[2] = {0.0, 0.0}, upper[2] = {1.0, 1.0};
-  double size = 0.06;
+  const double size = 0.06;
   /* 0: air everywhere, 1: water below y = 0.313 + x/10 and in a drop */
   const Region region[] = {{.shape = REGION_BOX, .phase = 0, .a = {-10.0, -10.0}, .b = {10.0, 10.0}},
                            {.shape = REGION_HALF_PLANE, .phase = 1, .a = {0.0, 0.313}, .b = {-0.1, 1.0}},
@@ -43,17 +38,12 @@ int main(int argc, char **argv)
                       .cfl = 0.5,
                       .dt_max = 0.01,
                       .boundary = boundary,
-                      .phases = {2, {1.0, 1000.0}, {1e-5, 1e-3}}};
-  MeshSerial serial = {0};
+                      .phases = {.n = 2, .rho = {1.0, 1000.0}, .mu = {1e-5, 1e-3}}};
   SurfacePlace p;
   Mesh *mesh;
   Fluid fluid;
-  PetscMPIInt rank;
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
-  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  if (rank == 0) PetscCall(MeshBox(lower, upper, size, Uniform, &size, &serial));
-  PetscCall(MeshDistribute(PETSC_COMM_WORLD, &serial, &mesh));
-  PetscCall(MeshSerialDestroy(&serial));
+  PetscCall(SquareMesh(size, &mesh));
   PetscCall(FluidCreate(mesh, &setup, &fluid));
   PetscCall(FluidSetPhases(fluid, 3, region));
   PetscCall(Measure(fluid, 1, 0.9, 0.0, 0.9, 1.0, &p));

@@ -8,6 +8,7 @@ for field in velocity.y solid:stress; do
   "$root/scripts/view.sh" "$scratch/x" --field $field --time 0.01 --out "$scratch/$field.png" >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
   [ -s "$scratch/$field.png" ] || { echo "no picture of $field"; exit 1; }
 done
+"$python" "$root/scripts/plot_field.py" "$scratch/x" >"$scratch/log" 2>&1 && [ -s "$scratch/x/field.png" ] || { cat "$scratch/log"; exit 1; }
 if "$root/scripts/view.sh" "$scratch/x" --field colour 2>"$scratch/log"; then echo 'a field that is not there was drawn'; exit 1; fi
 grep -q "there is no field 'colour': .*solid:stress" "$scratch/log" || { cat "$scratch/log"; exit 1; }
 "$python" "$root/scripts/scaling.py" "$here/disc.yaml" --bin "$build" --splits 1:1:1,2:1:1 --out "$scratch/scaling" --set time.end=0.02 >"$scratch/log" 2>&1 ||

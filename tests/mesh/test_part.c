@@ -4,6 +4,7 @@
  */
 #include "common/mesh/part.h"
 #include "tests/mesh/distributed.h"
+#include "tests/mesh/touching.h"
 
 static const BoxCase BOX = {{1.0, 2.0}, 0.2, {0.04, {0.3, 0.3}, {0.4, 1.0}, 0.3}};
 static int rank, size;
@@ -223,37 +224,10 @@ static void CheckRefused(void)
   PetscPopErrorHandler();
 }
 
-/* Two squares that touch in a corner, which no face tells their ranks: the vertex is one all the same. */
+/* The vertex in which two squares touch is one all the same. */
 static void CheckTouching(void)
 {
-  static const double X[] = {0, 0, 1, 0, 1, 1, 0, 1, 2, 1, 2, 2, 1, 2};
-  static const int VERTEX[4][3] = {{0, 1, 2}, {0, 2, 3}, {2, 4, 5}, {2, 5, 6}};
-  char name[1][64] = {"side"};
-  int vertex[12], facet[24], tag[12] = {0}, ne = 0;
-  long long gid[7];
-  double x[14];
-  Mesh *mesh;
-  memcpy(x, X, sizeof x);
-  for (int v = 0; v < 7; v++) gid[v] = v;
-  for (int k = 0; k < 4; k++) {
-    if (k / 2 % size != rank) continue;
-    for (int i = 0; i < 3; i++) {
-      vertex[3 * ne + i] = facet[6 * ne + 2 * i] = VERTEX[k][i];
-      facet[6 * ne + 2 * i + 1] = VERTEX[k][(i + 1) % 3];
-    }
-    ne++;
-  }
-  const MeshPart part = {{.nv = 7,
-                          .ne = ne,
-                          .nb = 3 * ne,
-                          .x = x,
-                          .vertex = vertex,
-                          .facet = facet,
-                          .facet_tag = tag,
-                          .ntags = 1,
-                          .tag_name = name},
-                         gid};
-  CHECK(!MeshBuild(PETSC_COMM_WORLD, &part, &mesh), "not built");
+  Mesh *mesh = TouchingSquares(rank, size);
   CheckVertices(mesh, 7);
   CheckEdges(mesh);
   CHECK(!MeshDestroy(&mesh), "not freed");

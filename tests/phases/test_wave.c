@@ -6,52 +6,22 @@
  *
  * wave [ridge | kink] [n] [periods] [steps a period] [amplitude]: marches and prints each half period. */
 #include "tests/phases/tank.h"
-
-enum { CREST = 400 };
-
-/* The coefficient of cos(pi x) in the surface: from the first moment of the water's volume. */
-static double Amplitude(const Tank *t)
-{
-  double sum = 0.0;
-  for (int e = 0; e < t->mesh->ne; e++) {
-    Polygon part;
-    PhasesGetPolygon(t->phases, e, 0, &part);
-    for (int k = 1; k + 1 < part.n; k++) {
-      const double area = 0.5 * GeometryTurn(part.x[0], part.x[k], part.x[k + 1]);
-      sum +=
-          area / 3.0 * (cos(M_PI * part.x[0][0]) + cos(M_PI * part.x[k][0]) + cos(M_PI * part.x[k + 1][0]));
-    }
-  }
-  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, t->mesh->comm);
-  return 2.0 * sum;
-}
+#include "tests/phases/wave.h"
 
 static PetscErrorCode MakeWave(int n, double depth, double a, Tank *t)
 {
-  double outline[CREST + 3][2] = {{0}};
-  Region region[2] = {{.shape = REGION_BOX, .phase = 1, .a = {-1, -1}, .b = {2, 2}}};
+  double outline[CREST + 3][2];
+  Region region[2];
   PetscFunctionBeginUser;
-  for (int i = 0; i <= CREST; i++) {
-    outline[i][0] = 1.0 - (double)i / CREST;
-    outline[i][1] = depth + a * cos(M_PI * outline[i][0]);
-  }
-  outline[CREST + 1][1] = outline[CREST + 2][1] = -1.0;
-  outline[CREST + 2][0] = 1.0;
-  region[1] = (Region){.shape = REGION_POLYGON, .phase = 0, .n = CREST + 3, .x = (const double(*)[2])outline};
+  WaveRegions(depth, a, outline, region);
   PetscCall(TankMake(n, 5u, 0.0, 2, region, t));
   PetscFunctionReturn(0);
-}
-
-static double Period(double depth)
-{
-  const double k = M_PI, below = RHO[0] / tanh(k * depth), above = RHO[1] / tanh(k * (1.0 - depth));
-  return 2.0 * M_PI / sqrt(9.81 * k * (RHO[0] - RHO[1]) / (below + above));
 }
 
 /* Marches until the surface has been flat `times` times; *flat: the last such time over the period. */
 static PetscErrorCode Wave(int form, int n, int times, int steps, double a, int print, double *flat)
 {
-  const double depth = 0.487, period = Period(depth), dt = period / steps;
+  const double depth = 0.487, period = WavePeriod(depth, RHO[0], RHO[1]), dt = period / steps;
   double before, top = 1.0, defect = 0.0;
   int iterations, crossings = 0;
   PhasesStats stats;
@@ -59,11 +29,11 @@ static PetscErrorCode Wave(int form, int n, int times, int steps, double a, int 
   PetscFunctionBeginUser;
   PetscCall(MakeWave(n, depth, a, &t));
   PetscCall(TankInertia(form, &t));
-  before = Amplitude(&t) / a;
+  before = WaveAmplitude(t.phases, t.mesh) / a;
   for (int s = 0; crossings < times && s < 2 * times * steps; s++) {
     PetscCall(TankStep(&t, form, dt, &iterations));
     PetscCall(TankMove(form, &t, dt, &defect));
-    const double now = Amplitude(&t) / a;
+    const double now = WaveAmplitude(t.phases, t.mesh) / a;
     top = fmax(top, fabs(now));
     if ((before > 0.0) != (now > 0.0)) {
       *flat = (s + 1.0 - now / (now - before) + 0.5) / steps;

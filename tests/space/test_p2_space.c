@@ -3,7 +3,7 @@
  * ranks without elements, parts in many pieces, parts that touch in a vertex alone. */
 #include "common/mesh/part.h"
 #include "common/space/p2_space.h"
-#include "tests/check.h"
+#include "tests/mesh/touching.h"
 #include <math.h>
 #include <string.h>
 
@@ -81,35 +81,9 @@ static void CheckScattered(const Mesh *mesh, int none)
   free(target);
 }
 
-/* Two squares that touch in a corner, on one rank and the next. */
 static void CheckTouching(int rank, int size)
 {
-  double x[] = {0, 0, 1, 0, 1, 1, 0, 1, 2, 1, 2, 2, 1, 2};
-  static const int VERTEX[4][3] = {{0, 1, 2}, {0, 2, 3}, {2, 4, 5}, {2, 5, 6}};
-  char name[1][64] = {"side"};
-  int vertex[12], facet[24], tag[12] = {0}, ne = 0;
-  long long gid[7];
-  Mesh *mesh;
-  for (int v = 0; v < 7; v++) gid[v] = v;
-  for (int k = 0; k < 4; k++) {
-    if (k / 2 % size != rank) continue;
-    for (int i = 0; i < 3; i++) {
-      vertex[3 * ne + i] = facet[6 * ne + 2 * i] = VERTEX[k][i];
-      facet[6 * ne + 2 * i + 1] = VERTEX[k][(i + 1) % 3];
-    }
-    ne++;
-  }
-  const MeshPart part = {{.nv = 7,
-                          .ne = ne,
-                          .nb = 3 * ne,
-                          .x = x,
-                          .vertex = vertex,
-                          .facet = facet,
-                          .facet_tag = tag,
-                          .ntags = 1,
-                          .tag_name = name},
-                         gid};
-  CHECK(!MeshBuild(PETSC_COMM_WORLD, &part, &mesh), "not built");
+  Mesh *mesh = TouchingSquares(rank, size);
   Check(mesh, 7 + 10);
   CHECK(!MeshDestroy(&mesh), "not freed");
 }

@@ -292,39 +292,33 @@ contains
   end subroutine
 
   logical function coracle_case_has(case, key)
-    type(c_ptr), intent(in) :: case
-    character(*), intent(in) :: key
+    type(c_ptr), intent(in) :: case; character(*), intent(in) :: key
     coracle_case_has = c_case_has(case, key//c_null_char)
   end function
 
   integer function coracle_case_count(case, key)
-    type(c_ptr), intent(in) :: case
-    character(*), intent(in) :: key
+    type(c_ptr), intent(in) :: case; character(*), intent(in) :: key
     coracle_case_count = c_case_count(case, key//c_null_char)
   end function
 
   real(c_double) function coracle_case_number(case, key)
-    type(c_ptr), intent(in) :: case
-    character(*), intent(in) :: key
+    type(c_ptr), intent(in) :: case; character(*), intent(in) :: key
     coracle_case_number = c_case_number(case, key//c_null_char, -huge(1.0_c_double), huge(1.0_c_double))
   end function
 
   real(c_double) function coracle_case_positive(case, key)
-    type(c_ptr), intent(in) :: case
-    character(*), intent(in) :: key
+    type(c_ptr), intent(in) :: case; character(*), intent(in) :: key
     coracle_case_positive = c_case_positive(case, key//c_null_char)
   end function
 
   integer function coracle_case_integer(case, key, default)
-    type(c_ptr), intent(in) :: case
-    character(*), intent(in) :: key
+    type(c_ptr), intent(in) :: case; character(*), intent(in) :: key
     integer, intent(in) :: default
     coracle_case_integer = c_case_integer(case, key//c_null_char, default, -huge(1), huge(1))
   end function
 
   subroutine coracle_case_vector(case, key, v)
-    type(c_ptr), intent(in) :: case
-    character(*), intent(in) :: key
+    type(c_ptr), intent(in) :: case; character(*), intent(in) :: key
     real(c_double), intent(out) :: v(:)
     real(c_double) :: values(size(v))
     call c_case_vector(case, key//c_null_char, size(v), values)
@@ -332,8 +326,7 @@ contains
   end subroutine
 
   function coracle_case_string(case, key) result(text)
-    type(c_ptr), intent(in) :: case
-    character(*), intent(in) :: key
+    type(c_ptr), intent(in) :: case; character(*), intent(in) :: key
     character(:), allocatable :: text
     character(c_char), pointer :: memory(:)
     type(c_ptr) :: string
