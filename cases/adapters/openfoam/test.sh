@@ -6,8 +6,20 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 program=$("$root/cases/adapters/build.sh" openfoam "$build")
 "$here/prepare.sh" "$scratch/kit" 2
-"$root/scripts/conform.py" --bin "$build" --ranks 1,2 --fluid "$program" "$here/case.yaml" --set "fluid.openfoam=$scratch/kit/foam" \
-  --set 'coupler.conformance.box=[0.9, 2.5, 1.6, 3.5]'
+kit=("$root/scripts/conform.py" --bin "$build" "$here/case.yaml" --set "fluid.openfoam=$scratch/kit/foam"
+  --set 'coupler.conformance.box=[0.9, 2.5, 1.6, 3.5]' --fluid)
+"${kit[@]}" "$program" --ranks 1,2
+plant() { # NAME SED_EXPRESSION MESSAGE: faults of the pressure that the kit must find
+  cp -r "$here" "$scratch/$1"
+  sed -i "$2" "$scratch/$1/ico_foam.cc"
+  ! cmp -s "$here/ico_foam.cc" "$scratch/$1/ico_foam.cc" || { echo "$1: nothing has been planted"; exit 1; }
+  { cmake -S "$scratch/$1" -B "$scratch/$1/build" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_PREFIX_PATH="$build/adapters/openfoam/installed" &&
+    cmake --build "$scratch/$1/build"; } >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
+  if "${kit[@]}" "$scratch/$1/build/ico_foam" --ranks 1 >"$scratch/log" 2>&1; then echo "$1: conforms"; cat "$scratch/log"; exit 1; fi
+  grep -q "FAILED.*$3" "$scratch/log" || { echo "$1: expected '$3'"; cat "$scratch/log"; exit 1; }
+}
+plant bulk 's/+= cells_.us - cells_.ms.*/+= 0.0 * cells_.us;/' 'the pressure does not see the solid.s motion'
+plant inertia 's,1.0 / dt + cells_.inertia,1.0 / dt + 0.0 * cells_.inertia,' 'as if it were fluid'
 "$here/prepare.sh" "$scratch/fall"
 "$root/scripts/launch.sh" --bin "$build" --fluid "$program" "$here/case.yaml" --set "output.folder=$scratch/fall" >"$scratch/log" 2>&1 ||
   { cat "$scratch/log"; exit 1; }
