@@ -19,6 +19,7 @@ static const CoracleCaseKey KEYS[] = {
     {"output.folder", "", "where results go; made if missing"},
     {"output.every", "s", "time from one snapshot of the fields to the next"},
     {"output.checkpoint", "s", "by the clock, from one checkpoint to the next; 0: none"},
+    {"output.trace", "", "trace.json: what each rank did when, for ui.perfetto.dev"},
     {"fluid.viscosity", "Pa s", "dynamic viscosity"},
     {"fluid.probes", "", "list of points, lines and pressure gauges whose values are in fluid_probes.csv"},
     {"fluid.probes[].solid_point", "m",

@@ -37,6 +37,7 @@ PetscErrorCode CouplerCaseRead(CoracleCase file, CouplerCase *c)
   ReadFolder(file, c);
   c->every = CoracleCasePositive(file, "output.every");
   c->checkpoint = CoracleCaseNumberOr(file, "output.checkpoint", 600.0, 0.0, HUGE_VAL);
+  (void)CoracleCaseBoolOr(file, "output.trace", false); /* the library's */
   c->end = CoracleCasePositive(file, "time.end");
   c->dt_max = CoracleCasePositive(file, "time.dt_max");
   /* the fluid's, read here so that the whole section can be checked */

@@ -1,4 +1,5 @@
 #include "coupler/summary.h"
+#include "coupler/advice.h"
 #include <errno.h>
 #include <string.h>
 
@@ -98,6 +99,23 @@ static void WriteAll(FILE *f, const CouplerCase *c, const WriterTotals *t, const
   fprintf(f, "  }\n}\n");
 }
 
+/* Which participant the run has waited for, seconds of this run; said, and kept in the reports. */
+static void Advise(Server server, Reports *reports, double wall)
+{
+  AdviceInput in = {.shared = ServerSharesProcessors(server)};
+  char line[256];
+  static const char *const ROLES[] = {"fluid", "coupler", "solid"};
+  for (int k = 0; k < 3; k++) in.ranks[k] = ServerRanks(server, ROLES[k]);
+  in.seconds[0] = ServerWaitedFor(server, "fluid");
+  in.seconds[2] = ServerWaitedFor(server, "solid");
+  in.seconds[1] = fmax(wall - in.seconds[0] - in.seconds[2], 0.0);
+  Collect(reports, "coupler", "seconds_waiting_for_fluid", in.seconds[0]);
+  Collect(reports, "coupler", "seconds_waiting_for_solid", in.seconds[2]);
+  AdviceWrite(&in, sizeof line, line);
+  printf("coracle: %s\n", line);
+  fflush(stdout);
+}
+
 PetscErrorCode SummaryWrite(Server server, const CouplerCase *c, const WriterTotals *t)
 {
   static Reports reports;
@@ -111,6 +129,9 @@ PetscErrorCode SummaryWrite(Server server, const CouplerCase *c, const WriterTot
   Collect(&reports, "coupler", "seconds_force", t->force);
   PetscCall(ServerReports(server, Collect, &reports));
   if (rank) PetscFunctionReturn(0);
+  snprintf(path, sizeof path, "%s/trace.json", c->folder);
+  PetscCall(ServerWriteTrace(server, path));
+  Advise(server, &reports, ServerWall(server));
   snprintf(path, sizeof path, "%s/summary.json", c->folder);
   FILE *f = fopen(path, "w");
   if (!f) ServerFail(server, "%s: %s", path, strerror(errno));

@@ -72,6 +72,7 @@ static PetscErrorCode SendStep(RunState *run)
 
   PetscFunctionBeginUser;
   PetscCall(SolidStateCopy(&run->solid, &run->start));
+  PetscCall(ServerPhase(loop->server, "overlap"));
   PetscCall(SendCoupling(run, CORACLE_RUN));
   PetscCall(WriterShell(loop->writer, run->t, loop->coupler, &run->start));
   PetscFunctionReturn(0);
@@ -109,6 +110,7 @@ static PetscErrorCode Iterate(RunState *run, CoracleAction action, StepRecord *s
   PetscFunctionBeginUser;
   PetscCall(ServerReceiveFlow(loop->server, &flow));
   const double start = MPI_Wtime();
+  PetscCall(ServerPhase(loop->server, "force"));
   PetscCall(CouplerComputeForce(loop->coupler, &flow, &force, &step->totals));
   step->force += MPI_Wtime() - start;
   PetscCall(ServerSendForce(loop->server, run->t, run->dt, action, force));
@@ -227,6 +229,7 @@ PetscErrorCode TimeLoopRun(TimeLoop *loop)
     PetscCall(AcceptStep(&run, &step));
     if (run.t < loop->c->end) PetscCall(BeginStep(&run, &step));
     step.waiting = ServerWaited(loop->server) - waited;
+    PetscCall(ServerPhase(loop->server, "output"));
     PetscCall(WriterStep(loop->writer, &step));
     PetscCall(RunSave(&run));
   }

@@ -123,14 +123,13 @@ PetscErrorCode ExchangeReceiveCoupling(Exchange x)
 static PetscErrorCode SetFlow(Exchange x)
 {
   const int *node = FluidPressureSpace(x->fluid)->node;
-  const double *u_start = FluidVelocity(x->fluid), *u_star = FluidVelocityStar(x->fluid),
-               *u_projected = FluidVelocityProjected(x->fluid);
+  const double *u_star = FluidVelocityStar(x->fluid), *u_projected = FluidVelocityProjected(x->fluid);
   const PetscBool needs_pressure = CoracleNeedsPressure(x->client) ? PETSC_TRUE : PETSC_FALSE;
   const CoracleFlow flow = {x->u_start, x->u_star, x->u_projected, needs_pressure ? x->p : NULL,
                             x->rho,     x->mu};
   PetscFunctionBeginUser;
   for (int k = 0; k < x->n; k++) {
-    PetscCall(PetscArraycpy(x->u_start + 6 * k, u_start + 6 * x->element[k], 6));
+    FluidStartVelocity(x->fluid, x->element[k], x->u_start + 6 * k);
     PetscCall(PetscArraycpy(x->u_star + 6 * k, u_star + 6 * x->element[k], 6));
     PetscCall(PetscArraycpy(x->u_projected + 6 * k, u_projected + 6 * x->element[k], 6));
   }

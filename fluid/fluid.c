@@ -189,6 +189,7 @@ PetscErrorCode FluidCorrect(Fluid f, double dt, const CoracleCorrection correcti
     SolidCouplingCorrect(f->solid, f->domain.geometry, correction, u);
     PetscCall(VecRestoreArray(f->u_projected, &u));
   }
+  SolidCouplingSetStarting(f->solid, PETSC_FALSE);
   f->u_previous = f->u;
   f->u = f->u_projected;
   f->u_projected = oldest;

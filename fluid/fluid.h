@@ -92,8 +92,10 @@ const double *FluidVelocity(Fluid fluid);
 const double *FluidVelocityStar(Fluid fluid);
 const double *FluidVelocityProjected(Fluid fluid);
 const double *FluidPressure(Fluid fluid);
-const double *FluidDensity(Fluid fluid);       /* [ne] */
-const double *FluidViscosity(Fluid fluid);     /* [ne] */
+const double *FluidDensity(Fluid fluid);   /* [ne] */
+const double *FluidViscosity(Fluid fluid); /* [ne] */
+/* start[2][3]: where the implicit inertia of element e starts from in the current step (solid_coupling.h). */
+void FluidStartVelocity(Fluid fluid, int e, double start[]);
 const double *FluidSolidFraction(Fluid fluid); /* [ne] alpha_s */
 PhaseTransport FluidPhases(Fluid fluid);       /* NULL: one fluid */
 const FluidStats *FluidGetStats(Fluid fluid);

@@ -35,6 +35,10 @@ const double *FluidViscosity(Fluid f)
 {
   return MaterialViscosity(f->material, MATERIAL_NEW);
 }
+void FluidStartVelocity(Fluid f, int e, double start[])
+{
+  SolidCouplingStart(f->solid, e, FluidVelocity(f) + 6 * e, start);
+}
 const double *FluidSolidFraction(Fluid f)
 {
   return SolidCouplingFraction(f->solid);

@@ -118,5 +118,6 @@ PetscErrorCode FluidStartInside(Fluid f)
   PetscCall(VecGhostUpdateBegin(f->u, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGhostUpdateEnd(f->u, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecCopy(f->u, f->u_previous));
+  SolidCouplingSetStarting(f->solid, PETSC_TRUE);
   PetscFunctionReturn(0);
 }

@@ -19,9 +19,13 @@ static PetscErrorCode Step(FluidRun *m, double dt)
   PetscCall(ExchangeReceiveCoupling(m->exchange));
   if (m->not_solenoidal) PetscCall(FluidMakeSolenoidal(m->fluid));
   if (m->first) PetscCall(FluidStartInside(m->fluid));
+  PetscCall(CoraclePhase(m->program->client, "momentum"));
   PetscCall(FluidMomentum(m->fluid, dt));
+  PetscCall(CoraclePhase(m->program->client, "pressure"));
   PetscCall(FluidProject(m->fluid, dt));
+  PetscCall(CoraclePhase(m->program->client, "adaptation"));
   PetscCall(FluidRunRemesh(m, &mesh, &next));
+  PetscCall(CoraclePhase(m->program->client, NULL));
   PetscCall(ExchangeFlow(m->exchange, next, &accepted, &correction));
   if (!accepted) {
     PetscCall(FluidRunDiscardMesh(m, &mesh, &next));
@@ -29,7 +33,9 @@ static PetscErrorCode Step(FluidRun *m, double dt)
   }
   m->not_solenoidal = m->first = PETSC_FALSE;
   PetscCall(FluidCorrect(m->fluid, dt, correction));
+  PetscCall(CoraclePhase(m->program->client, "output"));
   PetscCall(FluidRunWrite(m));
+  PetscCall(CoraclePhase(m->program->client, NULL));
   if (next) PetscCall(FluidRunAcceptMesh(m, mesh, next));
   PetscFunctionReturn(0);
 }

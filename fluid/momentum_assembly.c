@@ -120,8 +120,8 @@ static void ElementInertia(MomentumSolver s, const MomentumStep *step, int e, co
   }
 }
 
-/* a and the implicit inertia I to the dense block, s + w a u^n + (1 + w) I u^n to the load; false where there is no
- * solid. */
+/* a and the implicit inertia I to the dense block, s + w a u^n + I (u start + w u^n) to the load
+ * (SolidCouplingStart); false where there is no solid. */
 static PetscBool AssembleSolid(MomentumSolver s, const MomentumStep *step, int e, const double u[6],
                                double dense[36], double load[6])
 {
@@ -130,11 +130,14 @@ static PetscBool AssembleSolid(MomentumSolver s, const MomentumStep *step, int e
   if (!k) return PETSC_FALSE;
   const double *a = &k->a[0][0][0][0], *inertia = &k->implicit_inertia[0][0][0][0],
                *explicit_part = &k->s[0][0];
+  double start[6];
+  SolidCouplingStart(step->solid, e, u, start);
   for (int row = 0; row < 6; row++) {
     load[row] += explicit_part[row];
     for (int col = 0; col < 6; col++) {
       dense[6 * col + row] += a[6 * row + col] + inertia[6 * row + col];
-      load[row] += (w * a[6 * row + col] + (1.0 + w) * inertia[6 * row + col]) * u[col];
+      load[row] +=
+          w * (a[6 * row + col] + inertia[6 * row + col]) * u[col] + inertia[6 * row + col] * start[col];
     }
   }
   return PETSC_TRUE;

@@ -5,6 +5,7 @@ struct SolidCoupling_s {
   CoracleCoupling *entry; /* [n] */
   int *index;             /* [ne] of the element's entry, or -1 */
   double *alpha;          /* [ne] */
+  PetscBool starting;
 };
 
 PetscErrorCode SolidCouplingCreate(int ne, SolidCoupling *coupling)
@@ -65,6 +66,17 @@ int SolidCouplingIndex(SolidCoupling s, int e)
 const CoracleCoupling *SolidCouplingAt(SolidCoupling s, int e)
 {
   return s->index[e] < 0 ? NULL : s->entry + s->index[e];
+}
+
+void SolidCouplingSetStarting(SolidCoupling s, PetscBool starting)
+{
+  s->starting = starting;
+}
+
+void SolidCouplingStart(SolidCoupling s, int e, const double u[], double start[])
+{
+  const PetscBool solid = (PetscBool)(s->starting && s->alpha[e] > 0.0);
+  for (int i = 0; i < 6; i++) start[i] = solid ? s->entry[s->index[e]].velocity[i / 3] : u[i];
 }
 
 const double *SolidCouplingFraction(SolidCoupling s)

@@ -22,6 +22,12 @@ const CoracleCoupling *SolidCouplingEntries(SolidCoupling s, int *n);
 /* The index of element e's entry, or -1; the entry, or NULL. */
 int SolidCouplingIndex(SolidCoupling s, int e);
 const CoracleCoupling *SolidCouplingAt(SolidCoupling s, int e);
+/* Whether the solid begins to move in the coming step (false at first): see SolidCouplingStart. */
+void SolidCouplingSetStarting(SolidCoupling s, PetscBool starting);
+/* start[2][3]: where the implicit inertia of element e starts from: the fluid's velocity u[2][3] at
+ * the start of the step; in the step in which the solid begins the solid's mean there, because the fluid beside it has
+ * not moved with it so far. */
+void SolidCouplingStart(SolidCoupling s, int e, const double u[], double start[]);
 /* alpha_s[ne], borrowed. */
 const double *SolidCouplingFraction(SolidCoupling s);
 /* u[ne][2][3] += M^-1 r, one correction an entry. */

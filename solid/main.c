@@ -10,16 +10,18 @@
 #include "solid/check.h"
 #include "solid/run.h"
 
-static PetscErrorCode Step(SolidRun *m, double dt, const double load[])
+static PetscErrorCode Step(SolidRun *m, CoracleClient client, double dt, const double load[])
 {
   InterfaceMotion interface;
   double h;
   PetscFunctionBeginUser;
+  PetscCall(CoraclePhase(client, "substeps"));
   PetscCall(SolidStart(m->solid, dt, load));
   while (SolidRemaining(m->solid)) {
     PetscCall(SolidSubstep(m->solid, &h));
     PetscCall(ExchangeSubstep(&m->exchange, h));
   }
+  PetscCall(CoraclePhase(client, "interface"));
   PetscCall(SolidUpdateInterfaceMotion(m->solid, &interface)); /* while contact is known */
   PetscCall(SolidRebalance(m->solid));
   PetscCall(ExchangeMotion(&m->exchange));
@@ -38,7 +40,7 @@ static PetscErrorCode Run(const Program *program)
   PetscCall(SolidRunOpenOutput(&run));
   PetscCall(SolidRunSave(&run));
   while (action != CORACLE_STOP) {
-    PetscCall(Step(&run, dt, load));
+    PetscCall(Step(&run, program->client, dt, load));
     PetscCall(ExchangeBegin(&run.exchange, &dt, &action, &load));
     if (action != CORACLE_REDO) PetscCall(WriterStep(run.writer, run.solid, run.exchange.waited));
     PetscCall(SolidRunSave(&run));

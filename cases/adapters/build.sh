@@ -12,6 +12,12 @@ if [ -f "$folder/packages" ] && command -v dpkg-query >/dev/null; then
       { echo "$name needs the package $package: scripts/setup.sh --adapters installs it" >&2; exit 77; }
   done <"$folder/packages"
 fi
+if [ -f "$folder/sources" ]; then # headers: FOAM_SRC, or what setup.sh has unpacked
+  while read -r source; do
+    [ -n "${FOAM_SRC:-}" ] || [ -d "/usr/src/$source/src" ] ||
+      { echo "$name needs the headers of $source: scripts/setup.sh --adapters unpacks them" >&2; exit 77; }
+  done <"$folder/sources"
+fi
 mkdir -p "$into"
 cmake --install "$build" --component client --prefix "$into/installed" >"$into/log" || { cat "$into/log" >&2; exit 1; }
 if [ -f "$folder/CMakeLists.txt" ]; then

@@ -36,6 +36,7 @@ void CoracleCaseRefuse(CoracleCase c, const char *key, const char *format, ...)
 {
   char text[CASE_MESSAGE - CASE_KEY];
   va_list list;
+  CaseUse(c, "CoracleCaseRefuse", key);
   va_start(list, format);
   vsnprintf(text, sizeof text, format, list);
   va_end(list);
@@ -145,17 +146,21 @@ CaseNode *CaseRequireScalar(CoracleCase c, const char *key, const char *expected
 
 void CoracleCaseRenamed(CoracleCase c, const char *old, const char *new_name)
 {
+  CaseUse(c, "CoracleCaseRenamed", old);
+  CaseUse(c, "CoracleCaseRenamed", new_name);
   const CaseNode *node = CaseTreeFind(c->root, old);
   if (node && !CaseExcused(c, old)) CaseDie(c, node, old, "key '%s' is now called '%s'", old, new_name);
 }
 
 bool CoracleCaseHas(CoracleCase c, const char *key)
 {
+  CaseUse(c, "CoracleCaseHas", key);
   return Ask(c, key) != NULL;
 }
 
 int CoracleCaseCount(CoracleCase c, const char *key)
 {
+  CaseUse(c, "CoracleCaseCount", key);
   CaseNode *node = Ask(c, key);
   CaseNote(c, key, false, "list", "", "");
   if (!node || CaseIsExcused(c, key)) return 0;
@@ -165,6 +170,8 @@ int CoracleCaseCount(CoracleCase c, const char *key)
 
 int CoracleCaseKeys(CoracleCase c, const char *key, void (*f)(void *context, const char *name), void *context)
 {
+  CaseUse(c, "CoracleCaseKeys", key);
+  if (!f) CaseMisuse(c, "CoracleCaseKeys: there must be a function for the keys of '%s'", key);
   CaseNode *node = Ask(c, key);
   CaseNoteMap(c, key);
   if (!node || CaseIsExcused(c, key)) return 0;

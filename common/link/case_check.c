@@ -29,6 +29,7 @@ void CaseFaultsApply(CoracleCase c)
 
 bool CoracleCaseFaultless(CoracleCase c)
 {
+  if (!c) CaseMisuse(NULL, "CoracleCaseFaultless: the case is not open");
   return !c->faults || c->faults->n == 0;
 }
 
@@ -55,6 +56,8 @@ int CoracleCaseCheck(int argc, char **argv, CoracleCaseReader read, void *contex
                      void (*tell)(void *context, const char *message))
 {
   static CaseFaults faults;
+  if (!read || !tell)
+    CaseMisuse(NULL, "CoracleCaseCheck: there must be a function that reads and one that is told");
   faults.n = 0;
   faults.stuck = false;
   while (!ReadOnce(argc, argv, read, context, &faults) && !faults.stuck) {
@@ -72,6 +75,8 @@ int CoracleCaseKeysOf(int argc, char **argv, CoracleCaseReader read, void *conte
                       void (*fail)(void *context, const char *message), FILE *out)
 {
   CoracleCase c;
+  if (!read || !out)
+    CaseMisuse(NULL, "CoracleCaseKeysOf: there must be a function that reads and a file to print to");
   CoracleCaseOpen(argc, argv, fail, context, &c);
   c->listing = true;
   read(c, context);

@@ -39,6 +39,8 @@ static double Neutral(double lower, double upper, bool open)
 
 static double NumberAt(CoracleCase c, const char *key, double lower, double upper, bool open)
 {
+  if (!(lower <= upper))
+    CaseMisuse(c, "CoracleCaseNumber: key '%s': no number is from %g to %g", key, lower, upper);
   char expected[CASE_NAME];
   double value = 0.0;
   Range("a number", lower, upper, open, expected);
@@ -52,15 +54,21 @@ static double NumberAt(CoracleCase c, const char *key, double lower, double uppe
 
 double CoracleCaseNumber(CoracleCase c, const char *key, double lower, double upper)
 {
+  CaseUse(c, "CoracleCaseNumber", key);
   return NumberAt(c, key, lower, upper, false);
 }
 double CoracleCasePositive(CoracleCase c, const char *key)
 {
+  CaseUse(c, "CoracleCasePositive", key);
   return NumberAt(c, key, 0.0, HUGE_VAL, true);
 }
 
 double CoracleCaseNumberOr(CoracleCase c, const char *key, double fallback, double lower, double upper)
 {
+  CaseUse(c, "CoracleCaseNumberOr", key);
+  if (!(lower <= fallback && fallback <= upper))
+    CaseMisuse(c, "CoracleCaseNumberOr: key '%s': the default %g is not from %g to %g", key, fallback, lower,
+               upper);
   char range[CASE_NAME], given[CASE_NAME];
   snprintf(given, sizeof given, "%.10g", fallback);
   CaseNote(c, key, false, "number", Range("", lower, upper, false, range), given);
@@ -70,6 +78,10 @@ double CoracleCaseNumberOr(CoracleCase c, const char *key, double fallback, doub
 int CoracleCaseIntegerOr(CoracleCase c, const char *key, int fallback, int lower, int upper)
 {
   char expected[CASE_NAME], given[CASE_NAME], *end;
+  CaseUse(c, "CoracleCaseIntegerOr", key);
+  if (fallback < lower || fallback > upper)
+    CaseMisuse(c, "CoracleCaseIntegerOr: key '%s': the default %d is not from %d to %d", key, fallback, lower,
+               upper);
   Range("an integer", lower, upper, false, expected);
   snprintf(given, sizeof given, "%d", fallback);
   CaseNote(c, key, false, "integer", expected + strlen("an integer"), given);
@@ -84,6 +96,8 @@ int CoracleCaseIntegerOr(CoracleCase c, const char *key, int fallback, int lower
 void CoracleCaseVector(CoracleCase c, const char *key, int n, double v[])
 {
   char expected[CASE_NAME];
+  CaseUse(c, "CoracleCaseVector", key);
+  if (n < 1 || !v) CaseMisuse(c, "CoracleCaseVector: key '%s': there must be room for 1 number or more", key);
   snprintf(expected, sizeof expected, "a list of %d numbers", n);
   CaseNote(c, key, !CaseAsked(c, key), expected + strlen("a "), "", "");
   for (int i = 0; i < n; i++) v[i] = 0.0;
@@ -108,6 +122,7 @@ bool CoracleCaseVectorOptional(CoracleCase c, const char *key, int n, double v[]
 
 bool CoracleCaseBoolOr(CoracleCase c, const char *key, bool fallback)
 {
+  CaseUse(c, "CoracleCaseBoolOr", key);
   CaseNote(c, key, false, "true or false", "", fallback ? "true" : "false");
   if (!CoracleCaseHas(c, key) || CaseIsExcused(c, key)) return fallback;
   CaseNode *node = CaseRequireScalar(c, key, "true or false");
@@ -138,17 +153,21 @@ static const char *StringAt(CoracleCase c, const char *key, const char *type)
 
 const char *CoracleCaseString(CoracleCase c, const char *key)
 {
+  CaseUse(c, "CoracleCaseString", key);
   return StringAt(c, key, "string");
 }
 
 const char *CoracleCaseStringOr(CoracleCase c, const char *key, const char *fallback)
 {
+  CaseUse(c, "CoracleCaseStringOr", key);
+  if (!fallback) CaseMisuse(c, "CoracleCaseStringOr: key '%s': the default is NULL", key);
   CaseNote(c, key, false, "string", "", fallback);
   return CoracleCaseHas(c, key) ? CoracleCaseString(c, key) : fallback;
 }
 
 const char *CoracleCaseFile(CoracleCase c, const char *key)
 {
+  CaseUse(c, "CoracleCaseFile", key);
   const char *name = StringAt(c, key, "file name"), *folder = name[0] == '/' ? "" : c->folder;
   char *path = malloc(strlen(folder) + strlen(name) + 1);
   strcpy(path, folder);
@@ -160,6 +179,12 @@ const char *CoracleCaseFile(CoracleCase c, const char *key)
 int CoracleCaseWord(CoracleCase c, const char *key, int fallback, const char *const words[])
 {
   char expected[CASE_KEY] = "one of";
+  int n = 0;
+  CaseUse(c, "CoracleCaseWord", key);
+  while (words && words[n]) n++;
+  if (n == 0) CaseMisuse(c, "CoracleCaseWord: key '%s': there must be words", key);
+  if (fallback >= n)
+    CaseMisuse(c, "CoracleCaseWord: key '%s': the default is word %d of %d", key, fallback, n);
   for (int i = 0; words[i]; i++) {
     const size_t used = strlen(expected);
     snprintf(expected + used, sizeof expected - used, "%s %s", i ? "," : "", words[i]);

@@ -5,6 +5,9 @@
  * parsed from argv: `program case.yaml [--set key=value]...`; a set replaces or adds the key (dotted path,
  * list items as name[0].key).
  *
+ * A wrong call (a case that is not open, a key that no path can be, a default outside its range, nobody to call back) is an error
+ * that names the function; where there is no case to tell it, it goes to stderr and the process aborts.
+ *
  * The top-level sections are: case (name), note (what a reader of the results must know), gravity, time,
  * fluid, solid, coupler, output; resume (a checkpoint's folder, or `last`: that of output.folder, if there
  * is one), which the library reads.  A participant opens the whole file but must read only its sections:

@@ -4,6 +4,7 @@
 #define CORACLE_CASE_IMPL_H
 #include "common/link/case_file.h"
 #include <setjmp.h>
+#include <stdarg.h>
 #include <stddef.h>
 
 enum {
@@ -79,6 +80,8 @@ CaseNode *CaseTreeChild(const CaseNode *map, const char *name);
 
 /* case_path.c: takes the scalar at a dotted path out of its map, if it is there. */
 void CaseTreeRemove(CaseNode *root, const char *key);
+/* Whether it is one of names and indices: name.name[0].name. */
+bool CasePathIsValid(const char *path);
 /* The node at a dotted path, or NULL. */
 CaseNode *CaseTreeFind(CaseNode *root, const char *key);
 /* Says to all nodes above the key that something below them was asked for. */
@@ -88,6 +91,10 @@ const CaseNode *CaseTreeNearest(const CaseNode *root, const char *key);
 /* Applies one `key=value`; false with a problem when it cannot be. */
 bool CaseTreeSet(CaseNode *root, const char *argument, char problem[]);
 
+/* Ends the program over a wrong call: by the case's function, or, where c is NULL or has none, by abort. */
+_Noreturn void CaseMisuse(CoracleCase c, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* To be called first by `function`: c must be open and the key one that a path can be. */
+void CaseUse(CoracleCase c, const char *function, const char *key);
 /* The error of a node (NULL: of the file) at a key: "<place>: <message>".  Does not return. */
 _Noreturn void CaseDie(CoracleCase c, const CaseNode *node, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));

@@ -38,7 +38,10 @@ void CaseNotesFree(CoracleCase c)
 
 void CoracleCaseDescribe(CoracleCase c, const CoracleCaseKey table[])
 {
-  if (c->ntables < CASE_TABLES) c->table[c->ntables++] = table;
+  if (!c || !table)
+    CaseMisuse(c, "CoracleCaseDescribe: %s", c ? "there must be a table" : "the case is not open");
+  if (c->ntables == CASE_TABLES) CaseMisuse(c, "CoracleCaseDescribe: more than %d tables", CASE_TABLES);
+  c->table[c->ntables++] = table;
 }
 
 /* --- patterns ------------------------------------------------------------------------------------------- */

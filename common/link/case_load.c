@@ -102,6 +102,9 @@ int CoracleCaseOpen(int argc, char **argv, void (*fail)(void *context, const cha
                     CoracleCase *c)
 {
   char problem[CASE_MESSAGE];
+  if (!fail || !c)
+    CaseMisuse(NULL,
+               "CoracleCaseOpen: there must be a function that ends the program, and room for the case");
   if (CaseLoad(argc, argv, problem, c)) {
     fail(context, problem);
     return 1;
@@ -130,9 +133,11 @@ int CoracleCaseClose(CoracleCase *c)
 
 const char *CoracleCasePath(CoracleCase c)
 {
+  if (!c) CaseMisuse(NULL, "CoracleCasePath: the case is not open");
   return c->path;
 }
 unsigned long long CoracleCaseHash(CoracleCase c)
 {
+  if (!c) CaseMisuse(NULL, "CoracleCaseHash: the case is not open");
   return CaseFnv1a(c->file_hash, (const char *)&c->set_hash, sizeof c->set_hash);
 }

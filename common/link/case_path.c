@@ -22,13 +22,22 @@ static PathStep PathNext(const char **path, char name[CASE_NAME], int *item)
     if (**path == '.') ++*path;
     return STEP_ITEM;
   }
-  const size_t length = strcspn(p, ".[");
+  const size_t length = strcspn(p, ".[]");
   if (length == 0 || length >= CASE_NAME) return STEP_BAD;
   memcpy(name, p, length);
   name[length] = '\0';
   *path = p + length;
   if (**path == '.' && *++*path == '\0') return STEP_BAD;
   return STEP_NAME;
+}
+
+bool CasePathIsValid(const char *path)
+{
+  char name[CASE_NAME];
+  int item;
+  PathStep step = *path ? STEP_NAME : STEP_BAD;
+  while (step == STEP_NAME || step == STEP_ITEM) step = PathNext(&path, name, &item);
+  return step == STEP_END;
 }
 
 /* One step down: STEP_END leaves the node. */

@@ -55,6 +55,8 @@ static void CheckSection(CoracleCase c, const CaseNode *section)
 
 int CoracleCaseFinish(CoracleCase c, const char *const sections[])
 {
+  if (!c || !sections)
+    CaseMisuse(c, "CoracleCaseFinish: %s", c ? "there must be a list of sections" : "the case is not open");
   for (int i = 0; i < c->root->n; i++) CheckSection(c, c->root->child[i]);
   for (int i = 0; sections[i]; i++) {
     const CaseNode *node = CaseTreeChild(c->root, sections[i]);

@@ -167,6 +167,12 @@ int CoracleReport(CoracleClient c, const char *key, double value, int sum)
   return 0;
 }
 
+int CoraclePhase(CoracleClient c, const char *name)
+{
+  TracePhase(&c->p->trace, name);
+  return 0;
+}
+
 int CoracleClose(CoracleClient *client)
 {
   CoracleClient c = *client;
@@ -178,6 +184,10 @@ int CoracleClose(CoracleClient *client)
   h->count[0] = (int64_t)ReportCount(&c->reports);
   h->flag = ClientFlags(c);
   MessageAdd(&c->out, c->reports.data, c->reports.size);
+  TraceEnd(&c->p->trace);
+  h = MessageHeaderOf(&c->out);
+  h->count[1] = (int64_t)(c->p->trace.spans.size / sizeof(TraceSpan));
+  MessageAdd(&c->out, c->p->trace.spans.data, c->p->trace.spans.size);
   ClientSend(c);
   ParticipantClose(&c->p);
   MessageFree(&c->in);

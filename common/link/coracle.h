@@ -112,6 +112,10 @@ CORACLE_NORETURN void CoracleFailMessage(void *client, const char *message);
  * their maximum.  Local; travels when the client closes. */
 int CoracleReport(CoracleClient c, const char *key, double value, int sum);
 
+/* Local, at any time: what this rank computes from now on, until the next phase, wait or step, is called `name` (its first
+ * 23 characters; NULL: nothing) in the trace of the run (key output.trace). */
+int CoraclePhase(CoracleClient c, const char *name);
+
 /* Leaves the job and nulls the handle; an error before CORACLE_STOP was received.  Calls MPI_Finalize if
  * CoracleOpen has called MPI_Init. */
 int CoracleClose(CoracleClient *c);
@@ -252,8 +256,9 @@ typedef struct {
 
 /* The flow of one step on the n elements last given by region. */
 typedef struct {
-  const double *u_start;     /* [n][dim][dim + 1] m/s, at the start of the step */
-  const double *u_star;      /* [n][dim][dim + 1] m/s, with the coupling solved, before the projection */
+  const double
+      *u_start;         /* [n][dim][dim + 1] m/s, at the start of the step; where a body begins, the body's */
+  const double *u_star; /* [n][dim][dim + 1] m/s, with the coupling solved, before the projection */
   const double *u_projected; /* [n][dim][dim + 1] m/s, after it */
   const double *p;   /* [n][6] Pa, on the P2 nodes: vertices, then the midpoints opposite to them; may be
                               * NULL unless CoracleNeedsPressure */

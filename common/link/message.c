@@ -9,37 +9,6 @@ static const uint32_t MAGIC = 0xC07AC1E1;
 #define NAME(kind) #kind,
 static const char *const KIND_NAMES[KIND_END] = {"?", MESSAGE_KINDS(NAME)};
 
-/* --- buffers -------------------------------------------------------------------------------------------- */
-
-static void Reserve(Buffer *b, size_t bytes)
-{
-  if (b->data && bytes <= b->capacity) return;
-  b->capacity = bytes + bytes / 2 + 64;
-  char *data = realloc(b->data, b->capacity);
-  if (!data) abort(); /* the other participants are told by the launcher */
-  b->data = data;
-}
-
-void *BufferResize(Buffer *b, size_t bytes)
-{
-  Reserve(b, bytes);
-  b->size = bytes;
-  return b->data;
-}
-
-void *BufferExtend(Buffer *b, size_t bytes)
-{
-  Reserve(b, b->size + bytes);
-  b->size += bytes;
-  return b->data + b->size - bytes;
-}
-
-void BufferFree(Buffer *b)
-{
-  free(b->data);
-  *b = (Buffer){0};
-}
-
 /* --- writing and sending -------------------------------------------------------------------------------- */
 
 void MessageInit(Message *m, Role role, int rank)
@@ -107,11 +76,13 @@ static const char *Host(const Participant *p, const Message *m)
 
 void MessageFinish(Participant *p, Message *m)
 {
+  const double start = WaitClock();
   if (!WaitRequest(&p->waiter, &m->request))
     ParticipantFail(
         p, "%s rank %d on %s has not taken %s of step %d within %g s: does it hang? (CORACLE_TIMEOUT)",
         ROLE_NAMES[m->role], m->rank, Host(p, m), KindName(Header(m)->kind), Header(m)->step,
         p->waiter.timeout);
+  ParticipantWaited(p, m->role, m->rank, "to take it", start);
 }
 
 /* --- receiving ------------------------------------------------------------------------------------------ */
@@ -131,6 +102,7 @@ static void WaitForIt(Participant *p, const Message *m, MessageKind kind, int st
                       p->waiter.timeout, KindName(kind), step, ROLE_NAMES[m->role], m->rank, Host(p, m));
   }
   WaitEnd(&wait);
+  ParticipantWaited(p, m->role, m->rank, KindName(kind), wait.start);
   MPI_Get_count(&status, MPI_UINT64_T, units);
 }
 

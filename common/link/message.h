@@ -21,6 +21,7 @@
  * Kind and step travel with every message: one that does not fit ends the job with both sides' names. */
 #ifndef CORACLE_MESSAGE_H
 #define CORACLE_MESSAGE_H
+#include "common/link/buffer.h"
 #include "common/link/participant.h"
 #include <stddef.h>
 #include <stdint.h>
@@ -63,12 +64,6 @@ typedef struct {
   double t, dt; /* s */
 } MessageHeader;
 
-/* Memory that grows and is kept: [0, size) is in use. */
-typedef struct {
-  char *data;
-  size_t size, capacity;
-} Buffer;
-
 typedef struct {
   Buffer buffer;
   size_t at;           /* of reading: the next block */
@@ -77,12 +72,6 @@ typedef struct {
   Role role;           /* the partner */
   int rank;
 } Message;
-
-/* Room for at least `bytes` (never NULL), and size = bytes; what was there stays. */
-void *BufferResize(Buffer *b, size_t bytes);
-/* Room for `bytes` more at the end: where to write them. */
-void *BufferExtend(Buffer *b, size_t bytes);
-void BufferFree(Buffer *b);
 
 /* The partner never changes. */
 void MessageInit(Message *m, Role role, int rank);

@@ -155,6 +155,7 @@ static void MapRoles(Participant *p, const HandshakeEntry *mine)
   MPI_Comm_rank(p->app, &p->rank);
   MPI_Comm_size(p->app, &p->size);
   MPI_Comm_dup(p->job, &p->link);
+  TraceOpen(&p->trace, p->job, p->role, p->rank, !strcmp(mine->host, p->host[0]));
 }
 
 static void Refuse(void *p, const char *message)
@@ -163,12 +164,10 @@ static void Refuse(void *p, const char *message)
 }
 
 /* The folder that the case's `resume` means, or "". */
-static void FindResume(Participant *p, int argc, char **argv, size_t size, char folder[])
+static void FindResume(Participant *p, CoracleCase c, size_t size, char folder[])
 {
   struct stat link;
-  CoracleCase c;
   folder[0] = 0;
-  CoracleCaseOpen(argc, argv, Refuse, p, &c);
   const char *resume = CoracleCaseStringOr(c, "resume", "");
   const bool last = !strcmp(resume, "last");
   if (last)
@@ -180,7 +179,6 @@ static void FindResume(Participant *p, int argc, char **argv, size_t size, char 
     if (p->role == ROLE_COUPLER) printf("coracle: there is no %s: begins at the start\n", folder);
     folder[0] = 0;
   }
-  CoracleCaseClose(&c);
 }
 
 static void UsedPath(const Participant *p, const char *folder, size_t size, char path[])
@@ -222,16 +220,24 @@ static void LoadUsed(Participant *p, const char *folder)
   fclose(file);
 }
 
-/* Rank 0 looks for all. */
-static void Resume(Participant *p, int argc, char **argv)
+/* What the library itself has from the case: rank 0 looks for all. */
+static void ReadCase(Participant *p, int argc, char **argv)
 {
-  char folder[4096];
+  struct {
+    char folder[4096];
+    bool trace;
+  } read;
+  CoracleCase c;
   if (p->rank == 0) {
-    FindResume(p, argc, argv, sizeof folder, folder);
-    if (folder[0]) LoadUsed(p, folder);
+    CoracleCaseOpen(argc, argv, Refuse, p, &c);
+    FindResume(p, c, sizeof read.folder, read.folder);
+    if (read.folder[0]) LoadUsed(p, read.folder);
+    read.trace = CoracleCaseBoolOr(c, "output.trace", false);
+    CoracleCaseClose(&c);
   }
-  MPI_Bcast(folder, sizeof folder, MPI_CHAR, 0, p->app);
-  if (folder[0]) p->resume = strdup(folder);
+  MPI_Bcast(&read, sizeof read, MPI_BYTE, 0, p->app);
+  if (read.folder[0]) p->resume = strdup(read.folder);
+  p->trace.on = read.trace;
 }
 
 int ParticipantOpen(MPI_Comm job, const char *role, bool client, int argc, char **argv,
@@ -245,6 +251,7 @@ int ParticipantOpen(MPI_Comm job, const char *role, bool client, int argc, char 
   p->job = job == MPI_COMM_NULL ? MPI_COMM_WORLD : job;
   p->start = WaitClock();
   AffinityGet(p->job, &share);
+  p->shared = share.shared;
   const char *wrong = WaiterInit(&p->waiter, share.shared);
   Describe(role, client, argc, argv, &mine);
   if (ExitGuardWatched()) wrong = "this process has joined already";
@@ -256,7 +263,7 @@ int ParticipantOpen(MPI_Comm job, const char *role, bool client, int argc, char 
   FailureBoardOpen(p->job, role, p->rank, &p->failures);
   ExitGuardWatch(p);
   if (share.pinned) AffinityNotePinned(role, p->rank);
-  Resume(p, argc, argv);
+  ReadCase(p, argc, argv);
   *participant = p;
   return 0;
 }
@@ -265,6 +272,17 @@ void ParticipantStep(Participant *p, int step)
 {
   p->step = step;
   FailureBoardStep(p->failures, step);
+  TraceStep(&p->trace, step);
+}
+
+void ParticipantWaited(Participant *p, Role role, int rank, const char *what, double start)
+{
+  const double now = WaitClock();
+  char text[64];
+  p->waited_for[role] += now - start;
+  if (!p->trace.on) return;
+  snprintf(text, sizeof text, "%s %d: %s", ROLE_NAMES[role], rank, what);
+  TraceWait(&p->trace, text, start, now);
 }
 
 int ParticipantClose(Participant **participant)
@@ -279,6 +297,7 @@ int ParticipantClose(Participant **participant)
   for (int k = 0; k < NROLES; k++) free(p->world[k]);
   free(p->host);
   free(p->resume);
+  BufferFree(&p->trace.spans);
   free(p);
   *participant = NULL;
   if (finalize) MPI_Finalize();

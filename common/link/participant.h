@@ -9,6 +9,7 @@
 #include "common/link/coracle.h"
 #include "common/link/failure_board.h"
 #include "common/link/handshake.h"
+#include "common/link/trace.h"
 #include "common/link/wait.h"
 #include <stdarg.h>
 
@@ -32,7 +33,10 @@ typedef struct {
   char *resume;       /* folder of the checkpoint that the run resumes from; NULL: none */
   double used[NUSED]; /* rank 0: by the participant in the runs before that, s */
   bool started_mpi;
+  bool shared; /* ranks share processors */
   Waiter waiter;
+  double waited_for[NROLES]; /* s, of it for messages of each role */
+  Trace trace;
   FailureBoard failures;
 } Participant;
 
@@ -50,4 +54,6 @@ int ParticipantClose(Participant **p);
 _Noreturn void ParticipantFail(Participant *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
 _Noreturn void ParticipantFailList(Participant *p, const char *format, va_list list);
 void ParticipantStep(Participant *p, int step);
+/* Local: `what` has been waited for, of a role, since `start` (WaitClock). */
+void ParticipantWaited(Participant *p, Role role, int rank, const char *what, double start);
 #endif

@@ -1,4 +1,5 @@
 #include "common/link/server_impl.h"
+#include <errno.h>
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -148,26 +149,39 @@ static void ReceiveClose(Server s, ClientList *clients, Role role)
     const MessageHeader *h = MessageReceive(s->p, m, KIND_CLOSE, KIND_CLOSE, clients->step);
     ClientListFlags(s, role, &clients->client[i], h);
     const size_t n = (size_t)h->count[0];
+    const size_t spans = (size_t)h->count[1] * sizeof(TraceSpan);
     ReportMerge(&s->reports[role], n, MessageTake(s->p, m, n * sizeof(Report)));
+    if (spans) memcpy(BufferExtend(&s->spans, spans), MessageTake(s->p, m, spans), spans);
   }
 }
 
-/* Rank 0 takes in what the other coupler ranks have of a role. */
-static void GatherReports(Server s, Role role)
+/* On rank 0 the lists of the other coupler ranks behind its own, in the order of the ranks. */
+static void GatherBuffer(Server s, Buffer *mine)
 {
-  Buffer *mine = &s->reports[role];
   const int bytes = (int)mine->size;
   int *count = calloc((size_t)s->p->size, sizeof *count),
       *start = calloc((size_t)s->p->size + 1, sizeof *start);
   MPI_Gather(&bytes, 1, MPI_INT, count, 1, MPI_INT, 0, s->p->app);
   for (int i = 0; i < s->p->size; i++) start[i + 1] = start[i] + count[i];
-  Report *all = malloc((size_t)start[s->p->size] + 1);
+  char *all = malloc((size_t)start[s->p->size] + 1);
   MPI_Gatherv(mine->data, bytes, MPI_BYTE, all, count, start, MPI_BYTE, 0, s->p->app);
-  if (s->p->rank == 0)
-    ReportMerge(mine, (size_t)(start[s->p->size] - bytes) / sizeof *all, all + (size_t)bytes / sizeof *all);
+  if (s->p->rank == 0) memcpy(BufferResize(mine, (size_t)start[s->p->size]), all, (size_t)start[s->p->size]);
   free(all);
   free(start);
   free(count);
+}
+
+/* Rank 0 takes in what the other coupler ranks have of a role. */
+static void GatherReports(Server s, Role role)
+{
+  Buffer all = {0};
+  memcpy(BufferResize(&all, s->reports[role].size), s->reports[role].data, s->reports[role].size);
+  GatherBuffer(s, &all);
+  const size_t own = s->reports[role].size;
+  if (s->p->rank == 0)
+    ReportMerge(&s->reports[role], (all.size - own) / sizeof(Report),
+                (const Report *)(const void *)(all.data + own));
+  BufferFree(&all);
 }
 
 int ServerFinish(Server s)
@@ -178,6 +192,39 @@ int ServerFinish(Server s)
   ReceiveClose(s, &s->solid, ROLE_SOLID);
   ReportResources(&s->reports[ROLE_COUPLER], s->p);
   for (int role = 0; role < NROLES; role++) GatherReports(s, (Role)role);
+  TraceEnd(&s->p->trace);
+  const size_t own = s->p->trace.spans.size;
+  if (own) memcpy(BufferExtend(&s->spans, own), s->p->trace.spans.data, own);
+  GatherBuffer(s, &s->spans);
+  return 0;
+}
+
+int ServerWriteTrace(Server s, const char *path)
+{
+  if (s->p->rank || !s->p->trace.on) return 0;
+  if (!TraceWrite(path, s->spans.size / sizeof(TraceSpan), (const TraceSpan *)(const void *)s->spans.data))
+    ServerFail(s, "%s: %s", path, strerror(errno));
+  return 0;
+}
+
+double ServerWaitedFor(Server s, const char *role)
+{
+  return s->p->waited_for[HandshakeRole(role)];
+}
+
+double ServerWall(Server s)
+{
+  return WaitClock() - s->p->start;
+}
+
+int ServerSharesProcessors(Server s)
+{
+  return s->p->shared;
+}
+
+int ServerPhase(Server s, const char *name)
+{
+  TracePhase(&s->p->trace, name);
   return 0;
 }
 
@@ -205,6 +252,7 @@ int ServerClose(Server *server)
   FieldListsFree(&s->elements);
   FieldListsFree(&s->flow);
   BufferFree(&s->gauge);
+  BufferFree(&s->spans);
   for (int role = 0; role < NROLES; role++) BufferFree(&s->reports[role]);
   ClientListFree(&s->fluid);
   ClientListFree(&s->solid);

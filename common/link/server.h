@@ -82,9 +82,19 @@ const char *ServerUnsaved(Server s);
 int ServerFinish(Server s);
 int ServerReports(Server s, void (*f)(void *context, const char *role, const char *key, double value),
                   void *context);
+/* After ServerFinish: what all ranks of the job did when, if the case asks for it (output.trace; trace.h). */
+int ServerWriteTrace(Server s, const char *path);
+/* Local: as CoraclePhase. */
+int ServerPhase(Server s, const char *name);
 /* Number of ranks of a role in the job. */
 int ServerRanks(Server s, const char *role);
 /* Seconds this rank has spent waiting for messages. */
 double ServerWaited(Server s);
+/* Of it for messages of a role: "fluid", "solid". */
+double ServerWaitedFor(Server s, const char *role);
+/* Local: seconds since this rank has joined. */
+double ServerWall(Server s);
+/* Local: 1 when this rank has no processor of its own, else 0. */
+int ServerSharesProcessors(Server s);
 int ServerClose(Server *s);
 #endif

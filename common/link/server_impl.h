@@ -40,6 +40,7 @@ struct Server_s {
   Buffer owner; /* int []: the fluid client of each coupling entry last sent, in the coupler's order */
   Buffer gauge; /* CoracleGauge [] */
   Buffer reports[NROLES];
+  Buffer spans; /* TraceSpan [], of the clients and this rank; at the end on rank 0 of all */
 };
 
 /* The client whose list holds index i. */

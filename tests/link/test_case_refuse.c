@@ -53,9 +53,10 @@ static void Vector(CoracleCase c)
   double v[2];
   CoracleCaseVector(c, "fluid.v", 2, v);
 }
+static void Ignore(void *context, const char *name) {}
 static void Keys(CoracleCase c)
 {
-  CoracleCaseKeys(c, "fluid.v", NULL, NULL);
+  CoracleCaseKeys(c, "fluid.v", Ignore, NULL);
 }
 static void Bodies(CoracleCase c)
 {

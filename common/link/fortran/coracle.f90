@@ -53,6 +53,9 @@ module coracle
       import; type(c_ptr), value :: client; character(c_char), intent(in) :: key(*)
       real(c_double), value :: number; integer(c_int), value :: total
     end function
+    integer(c_int) function c_phase(client, name) bind(c, name="CoraclePhase")
+      import; type(c_ptr), value :: client; character(c_char), intent(in) :: name(*)
+    end function
     integer(c_int) function c_case_open(argc, argv, fail, client, case) bind(c, name="CoracleCaseOpen")
       import; integer(c_int), value :: argc; type(c_ptr), intent(in) :: argv(*); type(c_funptr), value :: fail
       type(c_ptr), value :: client; type(c_ptr), intent(out) :: case
@@ -86,9 +89,18 @@ module coracle
     integer(c_int) function c_get_force(client, force) bind(c, name="CoracleGetForce")
       import; type(c_ptr), value :: client; type(c_ptr), intent(out) :: force
     end function
+    integer(c_int) function c_get_coupling(client, n, coupling) bind(c, name="CoracleGetCoupling")
+      import; type(c_ptr), value :: client; integer(c_int), intent(out) :: n; type(c_ptr), intent(out) :: coupling
+    end function
+    integer(c_int) function c_get_correction(client, n, correction) bind(c, name="CoracleGetCorrection")
+      import; type(c_ptr), value :: client; integer(c_int), intent(out) :: n; type(c_ptr), intent(out) :: correction
+    end function
+    integer(c_int) function c_get_gauges(client, n, gauge) bind(c, name="CoracleGetGauges")
+      import; type(c_ptr), value :: client; integer(c_int), intent(out) :: n; type(c_ptr), intent(out) :: gauge
+    end function
   end interface
-  private :: c_open, c_fail, c_report, c_case_open, c_case_has, c_case_count, c_case_number, c_case_positive, c_case_integer, &
-    c_case_vector, c_case_string, c_strlen, c_get_force
+  private :: c_open, c_fail, c_report, c_phase, c_case_open, c_case_has, c_case_count, c_case_number, c_case_positive, &
+    c_case_integer, c_case_vector, c_case_string, c_strlen, c_get_force, c_get_coupling, c_get_correction, c_get_gauges
 
   ! C's functions as they are; each returns 0
   interface
@@ -150,20 +162,11 @@ module coracle
     integer(c_int) function CoracleNeedsPressure(client) bind(c, name="CoracleNeedsPressure")
       import; type(c_ptr), value :: client
     end function
-    integer(c_int) function CoracleGetCoupling(client, n, coupling) bind(c, name="CoracleGetCoupling")
-      import; type(c_ptr), value :: client; integer(c_int), intent(out) :: n; type(c_ptr), intent(out) :: coupling
-    end function
     integer(c_int) function CoracleSetFlow(client, flow) bind(c, name="CoracleSetFlow")
       import; type(c_ptr), value :: client; type(CoracleFlow), intent(in) :: flow
     end function
     integer(c_int) function CoracleStepAccepted(client) bind(c, name="CoracleStepAccepted")
       import; type(c_ptr), value :: client
-    end function
-    integer(c_int) function CoracleGetCorrection(client, n, correction) bind(c, name="CoracleGetCorrection")
-      import; type(c_ptr), value :: client; integer(c_int), intent(out) :: n; type(c_ptr), intent(out) :: correction
-    end function
-    integer(c_int) function CoracleGetGauges(client, n, gauge) bind(c, name="CoracleGetGauges")
-      import; type(c_ptr), value :: client; integer(c_int), intent(out) :: n; type(c_ptr), intent(out) :: gauge
     end function
   end interface
 
@@ -223,6 +226,14 @@ contains
     ignored = c_report(client, trim(key)//c_null_char, number, merge(1, 0, total))
   end subroutine
 
+  !> What this rank computes from now on, in the run's trace; blank: nothing.
+  subroutine coracle_phase(client, name)
+    type(c_ptr), intent(in) :: client
+    character(*), intent(in) :: name
+    integer(c_int) :: ignored
+    ignored = c_phase(client, trim(name)//c_null_char)
+  end subroutine
+
   !> force(dim, n), N, a pointer to the library's memory until CoracleEnd.
   subroutine coracle_get_force(client, n, force)
     type(c_ptr), intent(in) :: client
@@ -234,6 +245,39 @@ contains
     nullify(force)
     if (n > 0) call c_f_pointer(memory, force, [CORACLE_DIM, n])
     if (n == 0) allocate(force(CORACLE_DIM, 0))
+  end subroutine
+
+  !> The entries of the coming step's coupling, a pointer to the library's memory until CoracleEnd.
+  subroutine coracle_get_coupling(client, coupling)
+    type(c_ptr), intent(in) :: client
+    type(CoracleCoupling), pointer, intent(out) :: coupling(:)
+    type(c_ptr) :: memory
+    integer(c_int) :: n, ignored
+    ignored = c_get_coupling(client, n, memory)
+    if (n > 0) call c_f_pointer(memory, coupling, [n])
+    if (n == 0) allocate(coupling(0))
+  end subroutine
+
+  !> One entry for each of the coupling's of the step just made, until the next CoracleEnd.
+  subroutine coracle_get_correction(client, correction)
+    type(c_ptr), intent(in) :: client
+    type(CoracleCorrection), pointer, intent(out) :: correction(:)
+    type(c_ptr) :: memory
+    integer(c_int) :: n, ignored
+    ignored = c_get_correction(client, n, memory)
+    if (n > 0) call c_f_pointer(memory, correction, [n])
+    if (n == 0) allocate(correction(0))
+  end subroutine
+
+  !> The gauges at the end of the step just made, until the next CoracleEnd.
+  subroutine coracle_get_gauges(client, gauge)
+    type(c_ptr), intent(in) :: client
+    type(CoracleGauge), pointer, intent(out) :: gauge(:)
+    type(c_ptr) :: memory
+    integer(c_int) :: n, ignored
+    ignored = c_get_gauges(client, n, memory)
+    if (n > 0) call c_f_pointer(memory, gauge, [n])
+    if (n == 0) allocate(gauge(0))
   end subroutine
 
   !> The case file; what is wrong in it ends the job with file, line and key.  Closed by CoracleCaseClose.

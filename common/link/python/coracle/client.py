@@ -53,6 +53,10 @@ class Client:
     def report(self, key, value, total=False):
         call("Report", self._handle, key.encode(), value, total)
 
+    def phase(self, name=None):
+        """What this rank computes from now on, in the run's trace."""
+        call("Phase", self._handle, name.encode() if name else None)
+
     def close(self):
         call("Close", byref(self._handle))
         sys.excepthook = sys.__excepthook__

@@ -32,7 +32,8 @@ FAIL_FUNCTION = ctypes.CFUNCTYPE(None, c_void_p, c_char_p)
 _C, _A = c_void_p, c_void_p  # a handle, an array
 _SIGNATURES = {
     "Version": (c_char_p,), "OpenFortran": (c_int, _A, c_char_p, c_int, POINTER(c_char_p), POINTER(c_int), POINTER(_C)),
-    "FailMessage": (None, _C, c_char_p), "Report": (c_int, _C, c_char_p, c_double, c_int), "Close": (c_int, POINTER(_C)),
+    "FailMessage": (None, _C, c_char_p), "Report": (c_int, _C, c_char_p, c_double, c_int), "Phase": (c_int, _C, c_char_p),
+    "Close": (c_int, POINTER(_C)),
     "SetNodes": (c_int, _C, c_int, c_int, _A, _A, _A), "SetSurface": (c_int, _C, c_int, _A), "SetVolume": (c_int, _C, c_int, _A),
     "SetInertia": (c_int, _C, _A, _A), "SetVelocity": (c_int, _C, _A), "Substep": (c_int, _C, c_double, _A),
     "GetForce": (c_int, _C, POINTER(_A)), "BindState": (c_int, _C, _A, c_size_t),

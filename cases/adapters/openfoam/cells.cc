@@ -1,0 +1,133 @@
+#include "cells.h"
+#include <algorithm>
+
+using namespace Foam;
+
+Cells::Cells(const fvMesh &mesh, double rho, double mu)
+    : k(mesh.nCells()), inertia(mesh.nCells()), ms(mesh.nCells()), us(mesh.nCells()), rho_(rho), mu_(mu),
+      centre_(mesh.C().primitiveField()), area_(mesh.nCells())
+{
+  forAll(mesh.boundaryMesh(), patchi)
+  {
+    const polyPatch &patch = mesh.boundaryMesh()[patchi];
+    if (!isA<emptyPolyPatch>(patch)) continue;
+    forAll(patch, i)
+    {
+      const int cell = patch.faceCells()[i];
+      const pointField corner = patch[i].points(mesh.points());
+      if (patch.faceAreas()[i].z() < 0) continue; // each cell by the face towards +z, which is counter-clockwise
+      area_[cell] = patch.faceAreas()[i].z();
+      for (int v = 2; v < corner.size(); v++)
+        triangle_.push_back({cell,
+                             {{corner[0].x(), corner[0].y()},
+                              {corner[v - 1].x(), corner[v - 1].y()},
+                              {corner[v].x(), corner[v].y()}}});
+    }
+  }
+}
+
+int Cells::region(void *context, int nbox, const double box[], CoracleElements *elements)
+{
+  Cells &c = *static_cast<Cells *>(context);
+  c.near_.clear();
+  c.x_.clear();
+  for (size_t t = 0; t < c.triangle_.size(); t++) {
+    const auto &x = c.triangle_[t].x;
+    const auto within = [&](const double b[4], int d) {
+      return std::min({x[0][d], x[1][d], x[2][d]}) <= b[2 + d] && std::max({x[0][d], x[1][d], x[2][d]}) >= b[d];
+    };
+    bool overlaps = false;
+    for (int b = 0; b < nbox; b++) overlaps = overlaps || (within(box + 4 * b, 0) && within(box + 4 * b, 1));
+    if (!overlaps) continue;
+    c.near_.push_back(t);
+    c.x_.insert(c.x_.end(), &x[0][0], &x[0][0] + 6);
+  }
+  c.density_.assign(c.near_.size(), c.rho_);
+  c.viscosity_.assign(c.near_.size(), c.mu_);
+  *elements = {int(c.near_.size()), c.x_.data(), c.density_.data(), c.viscosity_.data()};
+  return 0;
+}
+
+void Cells::receive(CoracleClient client)
+{
+  const CoracleCoupling *entry;
+  int n;
+  CoracleGetCoupling(client, &n, &entry);
+  coupling_.assign(entry, entry + n);
+  made_ = near_;
+  for (scalarField *f : {&k, &inertia, &ms}) *f = 0.0;
+  us = Zero;
+  for (const CoracleCoupling &c : coupling_) {
+    const int cell = triangle_[made_[c.element]].cell;
+    for (int d = 0; d < 2; d++)
+      for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+          k[cell] += 0.5 * (c.a[d][i][d][j] + c.implicit_inertia[d][i][d][j]) / (rho_ * area_[cell]);
+          inertia[cell] += 0.5 * c.implicit_inertia[d][i][d][j] / (rho_ * area_[cell]);
+          ms[cell] += 0.5 * c.ms[i][j] / area_[cell];
+        }
+        us[cell][d] += c.us[d][i] / area_[cell];
+      }
+  }
+}
+
+vector Cells::at(int t, int i, const vectorField &U, const tensorField &grad) const
+{
+  const Triangle &T = triangle_[t];
+  const vector d(T.x[i][0] - centre_[T.cell].x(), T.x[i][1] - centre_[T.cell].y(), 0);
+  return U[T.cell] + (d & grad[T.cell]);
+}
+
+void Cells::start(const vectorField &U, const tensorField &grad)
+{
+  start_.resize(6 * near_.size());
+  for (size_t e = 0; e < near_.size(); e++)
+    for (int i = 0; i < 3; i++)
+      for (int d = 0; d < 2; d++) start_[6 * e + 3 * d + i] = at(near_[e], i, U, grad)[d];
+}
+
+tmp<vectorField> Cells::force(const vectorField &U, const tensorField &grad) const
+{
+  auto f = tmp<vectorField>::New(k * U);
+  for (const CoracleCoupling &c : coupling_) {
+    const int t = made_[c.element], cell = triangle_[t].cell;
+    for (int j = 0; j < 3; j++) {
+      const vector u = at(t, j, U, grad);
+      for (int d = 0; d < 2; d++) {
+        double load = c.s[d][j];
+        for (int i = 0; i < 3; i++)
+          for (int b = 0; b < 2; b++)
+            load -= c.a[d][i][b][j] * u[b] + c.implicit_inertia[d][i][b][j] * (u[b] - start_[6 * c.element + 3 * b + j]);
+        f.ref()[cell][d] += load / (rho_ * area_[cell]);
+      }
+    }
+  }
+  return f;
+}
+
+void Cells::give(CoracleClient client, const vectorField &star, const vectorField &projected, const tensorField &grad)
+{
+  const size_t n = near_.size();
+  star_.resize(6 * n);
+  projected_.resize(6 * n);
+  for (size_t e = 0; e < n; e++)
+    for (int i = 0; i < 3; i++)
+      for (int d = 0; d < 2; d++) {
+        star_[6 * e + 3 * d + i] = at(near_[e], i, star, grad)[d];
+        projected_[6 * e + 3 * d + i] = at(near_[e], i, projected, grad)[d];
+      }
+  const CoracleFlow flow = {start_.data(), star_.data(), projected_.data(), nullptr, density_.data(), viscosity_.data()};
+  CoracleSetFlow(client, &flow);
+}
+
+void Cells::correct(CoracleClient client, vectorField &U) const
+{
+  const CoracleCorrection *entry;
+  int n;
+  CoracleGetCorrection(client, &n, &entry);
+  for (int m = 0; m < n; m++) {
+    const int cell = triangle_[made_[entry[m].element]].cell;
+    for (int d = 0; d < 2; d++)
+      for (int i = 0; i < 3; i++) U[cell][d] += entry[m].r[d][i] / area_[cell];
+  }
+}

@@ -1,0 +1,55 @@
+// OpenFOAM's cells as the coupler sees them: triangles that carry the cell's velocity, linear by its gradient.
+//
+//      3-------2      the cell's polygon in the plane, from its face on an empty patch, is cut from its first corner;
+//      | 1  .'/|      what the coupler sends for triangles is summed over the cell, so that a constant test function
+//      |  .' / |      tests the momentum equation: both sides of the coupling exchange the same momentum
+//      |.'  /  |
+//      0-------1
+#ifndef CORACLE_OPENFOAM_CELLS_H
+#define CORACLE_OPENFOAM_CELLS_H
+#include <coracle.h>
+#include <fvCFD.H>
+#include <vector>
+
+class Cells
+{
+public:
+  Cells(const Foam::fvMesh &mesh, double rho, double mu);
+
+  // CoracleRegionFunction; context: a Cells
+  static int region(void *context, int nbox, const double box[], CoracleElements *elements);
+  // Takes what the solid does in the coming step.
+  void receive(CoracleClient client);
+  // The velocity at the step's start, linear in the triangles by its gradient.
+  void start(const Foam::vectorField &U, const Foam::tensorField &grad);
+  // Force on the cells' volume without the implicit part, m/s2: (sum (s - a u - I (u - u start)) + k U)/(rho V), u linear in the
+  // triangles, I the implicit inertia.
+  Foam::tmp<Foam::vectorField> force(const Foam::vectorField &U, const Foam::tensorField &grad) const;
+  // Hands over u start, u* and u projected, these linear with the gradient of u*.
+  void give(CoracleClient client, const Foam::vectorField &star, const Foam::vectorField &projected,
+            const Foam::tensorField &grad);
+  // U += M^-1 r of the step that was made.
+  void correct(CoracleClient client, Foam::vectorField &U) const;
+
+  Foam::scalarField k;       // 1/s, the implicit coefficient: half the trace of a + I, over rho V
+  Foam::scalarField inertia; // 1/s, the part of it that moves under the pressure
+  Foam::scalarField ms;      // covered part of the cell in which the bulk velocity is the solid's
+  Foam::vectorField us;      // m/s, its velocity times that part
+
+private:
+  struct Triangle {
+    int cell;
+    double x[3][2]; // m
+  };
+  Foam::vector at(int triangle, int vertex, const Foam::vectorField &U, const Foam::tensorField &grad) const;
+
+  double rho_, mu_, depth_;
+  Foam::vectorField centre_;
+  std::vector<Triangle> triangle_; // of all cells
+  std::vector<int> near_,
+      made_; // that the coupler knows, by its numbers; those of the step that is being made
+  std::vector<CoracleCoupling> coupling_;
+  Foam::scalarField area_; // m2, of the cells' polygons
+  std::vector<double> x_, density_, viscosity_, start_, star_, projected_;
+};
+#endif

@@ -1,0 +1,191 @@
+// Laminar incompressible flow by OpenFOAM, in place of coracle-fluid: finite volumes, implicit Euler steps, one pressure
+// correction a step.  fluid.openfoam (foam in output.folder by default) is the folder of an OpenFOAM case with a mesh one cell
+// thick, U and p, the pressure without its hydrostatic part over the density; for more ranks it has been decomposed.
+#include "cells.h"
+#include "ranks.h"
+#include <case_file.h>
+
+using namespace Foam;
+
+struct Input {
+  std::string folder;
+  double rho, mu, dt_max, cfl, every;
+};
+
+static Input ReadCase(CoracleClient client, int argc, char **argv)
+{
+  static const char *const SECTIONS[] = {"fluid", nullptr};
+  Input in;
+  CoracleCase c;
+  CoracleCaseOpen(argc, argv, CoracleFailMessage, client, &c);
+  in.folder = CoracleCaseHas(c, "fluid.openfoam") ? CoracleCaseFile(c, "fluid.openfoam")
+                                                  : CoracleCaseString(c, "output.folder") + std::string("/foam");
+  in.rho = CoracleCasePositive(c, "fluid.density");
+  in.mu = CoracleCasePositive(c, "fluid.viscosity");
+  in.dt_max = CoracleCasePositive(c, "time.dt_max");
+  in.cfl = CoracleCasePositive(c, "time.cfl");
+  in.every = CoracleCasePositive(c, "output.every");
+  CoracleCaseFinish(c, SECTIONS);
+  CoracleCaseClose(&c);
+  return in;
+}
+
+class Flow
+{
+public:
+  Flow(CoracleClient client, const Input &in, Time &time);
+  void step(double t, double dt);
+
+private:
+  void restore();
+  void propose();
+  void predict(double dt);
+  void project(double dt);
+  // calls f(value) for each number of the state
+  template <class F> void forState(F f);
+
+  CoracleClient client_;
+  Input in_;
+  Time &time_;
+  fvMesh mesh_;
+  Cells cells_;
+  volScalarField p;
+  volVectorField U;
+  surfaceScalarField phi;
+  volVectorField grad_p_, star_; // of the step's start; U*
+  volTensorField grad_U_;        // of U*
+  // what a step changes, U, p and phi by cells and faces; the library restores it when a step is redone
+  std::vector<double> state_;
+  int steps_ = 0;
+};
+
+Flow::Flow(CoracleClient client, const Input &in, Time &time)
+    : client_(client), in_(in), time_(time),
+      mesh_(IOobject(fvMesh::defaultRegion, time.timeName(), time, IOobject::MUST_READ)), cells_(mesh_, in.rho, in.mu),
+      p(IOobject("p", time.timeName(), mesh_, IOobject::MUST_READ, IOobject::AUTO_WRITE), mesh_), U(IOobject("U", time.timeName(), mesh_, IOobject::MUST_READ, IOobject::AUTO_WRITE), mesh_), phi("phi", fvc::flux(U)), grad_p_(fvc::grad(p)), star_("star", U),
+      grad_U_(fvc::grad(U))
+{
+  mesh_.setFluxRequired("p");
+  forState([&](double &v) { state_.push_back(v); });
+  CoracleBindState(client, state_.data(), state_.size() * sizeof(double));
+  restore(); // in a run that resumes it is another
+  propose();
+  CoracleSetRegion(client, CORACLE_DIM, &mesh_.bounds().min()[0], &mesh_.bounds().max()[0], Cells::region, &cells_);
+  CoracleReady(client);
+  if (CoracleNeedsPressure(client)) CoracleFail(client, "coupler.mode: expected one without pressure, such as reaction");
+}
+
+template <class F> void Flow::forState(F f)
+{
+  for (vector &u : U.primitiveFieldRef())
+    for (int d = 0; d < 2; d++) f(u[d]);
+  for (double &v : p.primitiveFieldRef()) f(v);
+  for (double &v : phi.primitiveFieldRef()) f(v);
+  for (auto &patch : phi.boundaryFieldRef())
+    for (double &v : patch) f(v);
+}
+
+void Flow::restore()
+{
+  const double *from = state_.data();
+  forState([&](double &v) { v = *from++; });
+  U.correctBoundaryConditions();
+  p.correctBoundaryConditions();
+}
+
+void Flow::propose()
+{
+  const scalarField rate(0.5 * fvc::surfaceSum(mag(phi))().primitiveField() / mesh_.V().field());
+  CoracleProposeStep(client_, Foam::min(in_.dt_max, in_.cfl / Foam::max(gMax(rate), VSMALL)));
+}
+
+// (1/dt + k) U* + div(phi U*) - nu laplacian U* = U/dt - grad p + force, whose part beyond k follows in iterations: what a has
+// between components, and the velocity's gradient in the cells
+void Flow::predict(double dt)
+{
+  const dimensionedScalar per_dt("1/dt", dimless / dimTime, 1.0 / dt), nu("nu", dimViscosity, in_.mu / in_.rho);
+  const volVectorField start("start", U);
+  volScalarField k(IOobject("k", time_.timeName(), mesh_), mesh_, 0.0 * per_dt);
+  volVectorField force("force", 0.0 * per_dt * U);
+  k.primitiveFieldRef() = cells_.k;
+  grad_p_ = fvc::grad(p);
+  grad_U_ = fvc::grad(U);
+  cells_.start(U, grad_U_);
+  for (int iteration = 0; iteration < 4; iteration++) {
+    force.primitiveFieldRef() = cells_.force(U, grad_U_);
+    fvVectorMatrix momentum(fvm::Sp(per_dt + k, U) + fvm::div(phi, U) - fvm::laplacian(nu, U) ==
+                            per_dt * start + force - grad_p_);
+    momentum.solve();
+    grad_U_ = fvc::grad(U);
+  }
+  star_ = U;
+}
+
+// U = U* - D grad(p - p of the step's start), D = 1/(1/dt + implicit inertia).  The flux is that of the bulk velocity, with the
+// pressure's difference across the face in place of the cells' gradients; it has no divergence.
+void Flow::project(double dt)
+{
+  volScalarField D(IOobject("D", time_.timeName(), mesh_), mesh_, dimensionedScalar("dt", dimTime, dt));
+  D.primitiveFieldRef() = 1.0 / (1.0 / dt + cells_.inertia);
+  D.correctBoundaryConditions();
+  volVectorField bulk("bulk", star_ + D * grad_p_);
+  const vectorField without_pressure(bulk.primitiveField());
+  bulk.primitiveFieldRef() += cells_.us - cells_.ms * star_.primitiveField();
+  bulk.correctBoundaryConditions();
+  phi = fvc::flux(constrainHbyA(bulk, U, p));
+  adjustPhi(phi, U, p);
+  fvScalarMatrix pressure(fvm::laplacian(D, p) == fvc::div(phi));
+  pressure.setReference(UPstream::master() ? 0 : -1, 0.0);
+  pressure.solve();
+  phi -= pressure.flux();
+  U.primitiveFieldRef() = without_pressure - D.primitiveField() * fvc::grad(p)().primitiveField();
+}
+
+void Flow::step(double t, double dt)
+{
+  restore();
+  cells_.receive(client_);
+  CoraclePhase(client_, "momentum");
+  predict(dt);
+  CoraclePhase(client_, "pressure");
+  project(dt);
+  cells_.give(client_, star_, U, grad_U_);
+  propose();
+  CoracleEnd(client_, nullptr);
+  if (!CoracleStepAccepted(client_)) return;
+  cells_.correct(client_, U.primitiveFieldRef());
+  U.correctBoundaryConditions();
+  double *to = state_.data();
+  forState([&](double &v) { *to++ = v; });
+  time_.setTime(t + dt, ++steps_);
+  if (std::floor((t + dt) / in_.every + 1e-9) > std::floor(t / in_.every + 1e-9)) time_.writeNow();
+}
+
+static void Run(CoracleClient client, const Input &in)
+{
+  const fileName folder(in.folder);
+  Time time(Time::controlDictName, folder.path(),
+            UPstream::parRun() ? fileName(folder.name()) / "processor" + name(UPstream::myProcNo()) : folder.name());
+  Flow flow(client, in, time);
+  CoracleAction action;
+  double t, dt;
+  for (CoracleBegin(client, &t, &dt, &action); action != CORACLE_STOP; CoracleBegin(client, &t, &dt, &action))
+    flow.step(t, dt);
+}
+
+int main(int argc, char **argv)
+{
+  CoracleClient client;
+  MPI_Comm comm;
+  CoracleOpen("fluid", argc, argv, &comm, &client);
+  const Input in = ReadCase(client, argc, argv);
+  StartPstream(comm, argc, argv);
+  FatalError.throwExceptions();
+  FatalIOError.throwExceptions();
+  try {
+    Run(client, in);
+  } catch (const Foam::error &error) {
+    CoracleFail(client, "OpenFOAM: %s", error.message().c_str());
+  }
+  return CoracleClose(&client);
+}

@@ -1,0 +1,297 @@
+#include "common/conformance/examine.h"
+#include "common/conformance/patch.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The attempts of a step that repeats, in their order (examine.h). */
+typedef enum { HELD, MORE, FREE, SOURCE, COEFFICIENT, BULK, INERTIA, AGAIN, KINDS } Kind;
+
+enum { MOVE_STEP = 6 };               /* after which the box moves */
+static const double SHORT = 1e-6;     /* tau/dt */
+static const double TOLERANCE = 0.01; /* of what an attempt over tau gains */
+
+typedef struct {
+  double *u_start, *u_star, *u_projected; /* [n][2][3] m/s */
+} Flow;
+
+typedef struct {
+  Kit *kit;
+  Patch patch;
+  CoracleCoupling *coupling; /* [patch.ncoupled], of the current attempt */
+  CoracleCorrection *correction;
+  Flow flow[KINDS]; /* of the current step, by attempt */
+  double momentum[2],
+      corrected[2]; /* kg m/s: at the end of the last step, and what its correction has added */
+  bool known;       /* they are those of these elements */
+  double w[2];      /* m/s: velocity scale */
+} Fluid;
+
+static void Refuse(const Fluid *f, int step, const char *what, const char *expected)
+{
+  ServerFail(f->kit->server, "conformance: step %d: %s: %s", step, what, expected);
+}
+
+/* --- what is sent --------------------------------------------------------------------------------------- */
+
+/* V, or V + G */
+static void Target(const Fluid *f, Kind kind, double v[2])
+{
+  const double phase = KitPhase(f->kit), speed = hypot(f->w[0], f->w[1]);
+  v[0] = speed * (cos(phase) + 0.5 * (kind == MORE));
+  v[1] = speed * (sin(phase) - 0.25 * (kind == MORE));
+}
+
+static void SetBlocks(CoracleCoupling *c, Kind kind, double rho, double area, double dt)
+{
+  double a[3][3], inertia[3][3];
+  const bool held = kind == HELD || kind == MORE || kind == AGAIN || kind == COEFFICIENT;
+  PatchMass(area, held ? 9.0 * rho / dt : 0.0, a);
+  PatchMass(area, kind == INERTIA ? 99.0 * rho / dt : 0.0, inertia);
+  for (int d = 0; d < 2; d++)
+    for (int i = 0; i < 3; i++)
+      for (int j = 0; j < 3; j++) {
+        c->a[d][i][d][j] = a[i][j];
+        c->implicit_inertia[d][i][d][j] = inertia[i][j];
+      }
+}
+
+/* s = factor rho B v/dt, and the bulk velocity's part where the disc is held */
+static void SetLoads(CoracleCoupling *c, Kind kind, double rho, double area, double dt, const double v[2])
+{
+  const double factor = kind == COEFFICIENT || kind == BULK ? 0.0
+                        : kind == SOURCE                    ? 1.0
+                        : kind == INERTIA                   ? 99.0
+                                                            : 9.0;
+  const bool bulk = kind != SOURCE && kind != COEFFICIENT && kind != INERTIA;
+  if (bulk) PatchMass(area, 1.0, c->ms);
+  for (int d = 0; d < 2; d++)
+    for (int i = 0; i < 3; i++) {
+      c->s[d][i] = factor * rho / dt * area / 3.0 * v[d];
+      c->us[d][i] = bulk ? area / 3.0 * v[d] : 0.0;
+    }
+}
+
+static void SendCoupling(Fluid *f, Kind kind, CoracleAction action, int ncorrection)
+{
+  const Kit *k = f->kit;
+  const Patch *p = &f->patch;
+  const double dt = kind >= FREE && kind <= INERTIA ? SHORT * k->dt : k->dt;
+  double v[2] = {f->w[0], f->w[1]};
+  if (kind == HELD || kind == MORE || kind == AGAIN) Target(f, kind, v);
+  f->coupling = realloc(f->coupling, (size_t)p->ncoupled * sizeof *f->coupling + 1);
+  for (int i = 0; i < p->ncoupled; i++) {
+    const int e = p->coupled[i];
+    CoracleCoupling *c = &f->coupling[i];
+    *c = (CoracleCoupling){.element = e, .flags = kind == INERTIA ? CORACLE_HAS_INERTIA : 0, .alpha = 1.0};
+    memcpy(c->velocity, v, sizeof c->velocity);
+    SetBlocks(c, kind, p->rho[e], p->area[e], dt);
+    SetLoads(c, kind, p->rho[e], p->area[e], dt, v);
+  }
+  ServerSendCoupling(k->server, k->t, action == CORACLE_STOP ? 0.0 : dt, action, ncorrection, f->correction,
+                     kind == FREE || action == CORACLE_STOP ? 0 : p->ncoupled, f->coupling);
+}
+
+/* r of the accepted step, and what it adds to the momentum: int N (V - u+). */
+static void FindCorrection(Fluid *f)
+{
+  const Patch *p = &f->patch;
+  const double *u = f->flow[HELD].u_projected;
+  double v[2];
+  Target(f, HELD, v);
+  f->correction = realloc(f->correction, (size_t)p->ncoupled * sizeof *f->correction + 1);
+  memset(f->corrected, 0, sizeof f->corrected);
+  for (int i = 0; i < p->ncoupled; i++) {
+    const int e = p->coupled[i];
+    double mass[3][3];
+    PatchMass(p->area[e], 1.0, mass);
+    f->correction[i] = (CoracleCorrection){.element = e};
+    for (int d = 0; d < 2; d++)
+      for (int a = 0; a < 3; a++) {
+        for (int b = 0; b < 3; b++) f->correction[i].r[d][a] += mass[a][b] * (v[d] - u[6 * e + 3 * d + b]);
+        f->corrected[d] += p->rho[e] * f->correction[i].r[d][a];
+      }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, f->corrected, 2, MPI_DOUBLE, MPI_SUM, f->kit->comm);
+  PatchMomentum(f->kit, p, u, f->momentum);
+}
+
+/* --- what is checked ------------------------------------------------------------------------------------ */
+
+static double Distance(const double a[2], const double b[2])
+{
+  return hypot(a[0] - b[0], a[1] - b[1]);
+}
+
+static void CheckRepeats(const Fluid *f, int step)
+{
+  const size_t bytes = 6 * (size_t)f->patch.n * sizeof(double);
+  if (memcmp(f->flow[HELD].u_star, f->flow[AGAIN].u_star, bytes) ||
+      memcmp(f->flow[HELD].u_projected, f->flow[AGAIN].u_projected, bytes))
+    Refuse(f, step, "redone with the coupling of its first attempt, it has another flow",
+           "bind all state that a step changes (CoracleBindState) and let nothing else depend on the "
+           "attempts before");
+}
+
+static void CheckDirection(const Fluid *f, int step)
+{
+  double held[2], more[2], mass;
+  PatchCoupled(f->kit, &f->patch, f->flow[HELD].u_star, held, &mass);
+  PatchCoupled(f->kit, &f->patch, f->flow[MORE].u_star, more, &mass);
+  if (!(0.5 * (more[0] - held[0]) - 0.25 * (more[1] - held[1]) > 0.0))
+    Refuse(f, step, "a faster solid does not take the fluid along",
+           "s is added to the momentum equation, a u taken off");
+}
+
+/* Over tau nothing but the coupling changes the momentum. */
+static void CheckForcing(const Fluid *f, int step)
+{
+  double now[KINDS][2], held[2], expected[2], start[2], mass;
+  const Patch *p = &f->patch;
+  for (int kind = FREE; kind <= INERTIA; kind++) PatchMomentum(f->kit, p, f->flow[kind].u_star, now[kind]);
+  for (int c = 0; c < 2; c++) expected[c] = f->momentum[c] + f->corrected[c];
+  if (f->known && Distance(now[FREE], expected) > TOLERANCE * Distance(expected, f->momentum))
+    Refuse(f, step, "the correction of the step before has not been added to the velocity",
+           "u += M^-1 r when CoracleStepAccepted");
+  PatchMomentum(f->kit, p, f->flow[FREE].u_start, start);
+  if (f->known && Distance(start, expected) > TOLERANCE * Distance(expected, f->momentum))
+    Refuse(f, step, "u start is not the velocity at the start of the step",
+           "that at the end of the step before, corrected");
+  PatchCoupled(f->kit, p, f->flow[COEFFICIENT].u_star, held, &mass);
+  for (int c = 0; c < 2; c++) expected[c] = now[FREE][c] + 0.99 * mass * f->w[c];
+  if (Distance(now[INERTIA], expected) > TOLERANCE * Distance(expected, now[FREE]))
+    Refuse(f, step, "the fluid inside a heavy solid gains another momentum than dt s in all",
+           "(rho M/dt + implicit_inertia) (u* - u start) + a u* = s + ...");
+  for (int c = 0; c < 2; c++) expected[c] = now[FREE][c] + mass * f->w[c];
+  if (Distance(now[SOURCE], expected) > TOLERANCE * Distance(expected, now[FREE]))
+    Refuse(f, step, "the fluid does not gain dt s",
+           "s is a force on the element's vertices, N, the density not divided out");
+  for (int c = 0; c < 2; c++) expected[c] = now[FREE][c] - 9.0 * held[c];
+  if (Distance(now[COEFFICIENT], expected) > TOLERANCE * Distance(expected, now[FREE]))
+    Refuse(f, step, "the fluid does not lose dt a u*",
+           "a is implicit: rho M/dt (u* - u start) + a u* = s + ...");
+}
+
+/* Integral of |u projected - u*| over the elements of the box, and the mean of the vector on the disc. */
+static void Projection(const Fluid *f, Kind kind, double *all, double *disc)
+{
+  const Patch *p = &f->patch;
+  const Flow *flow = &f->flow[kind];
+  double star[2], projected[2], mass;
+  *all = 0.0;
+  for (int e = 0; e < p->n; e++)
+    *all += p->area[e] * hypot(PatchMean(flow->u_projected, e, 0) - PatchMean(flow->u_star, e, 0),
+                               PatchMean(flow->u_projected, e, 1) - PatchMean(flow->u_star, e, 1));
+  MPI_Allreduce(MPI_IN_PLACE, all, 1, MPI_DOUBLE, MPI_SUM, f->kit->comm);
+  PatchCoupled(f->kit, p, flow->u_star, star, &mass);
+  PatchCoupled(f->kit, p, flow->u_projected, projected, &mass);
+  *disc = Distance(star, projected) / mass;
+}
+
+static void CheckProjection(const Fluid *f, int step)
+{
+  double all[KINDS], disc[KINDS];
+  for (int kind = FREE; kind <= INERTIA; kind++) Projection(f, (Kind)kind, &all[kind], &disc[kind]);
+  const bool none = disc[SOURCE] < 1e-3 * hypot(f->w[0], f->w[1]);
+  if (none && f->kit->rank == 0 && step == 2) printf("conformance: note: the fluid has no projection\n");
+  if (none) return;
+  if (all[BULK] < 0.2 * all[SOURCE])
+    Refuse(f, step, "the pressure does not see the solid's motion",
+           "what is projected is u* + M^-1 (us - ms u*), the bulk velocity");
+  if (disc[INERTIA] > 0.1 * disc[SOURCE])
+    Refuse(f, step, "the pressure moves the fluid inside a heavy solid as if it were fluid",
+           "u projected = u* - dt W^-1 M grad phi, W = rho M/dt + implicit_inertia");
+}
+
+/* --- the run -------------------------------------------------------------------------------------------- */
+
+static void Receive(Fluid *f, Kind kind)
+{
+  CoracleFlow flow;
+  const size_t bytes = 6 * (size_t)f->patch.n * sizeof(double);
+  Flow *to = &f->flow[kind];
+  ServerReceiveFlow(f->kit->server, &flow);
+  to->u_start = realloc(to->u_start, bytes + 1);
+  to->u_star = realloc(to->u_star, bytes + 1);
+  to->u_projected = realloc(to->u_projected, bytes + 1);
+  if (bytes) memcpy(to->u_start, flow.u_start, bytes);
+  if (bytes) memcpy(to->u_star, flow.u_star, bytes);
+  if (bytes) memcpy(to->u_projected, flow.u_projected, bytes);
+}
+
+static void MoveSolid(const Fluid *f, Kind kind)
+{
+  const Kit *k = f->kit;
+  ServerSolid solid;
+  const double dt = kind >= FREE && kind <= INERTIA ? SHORT * k->dt : k->dt;
+  ServerSendForce(k->server, k->t, dt, kind == HELD ? CORACLE_RUN : CORACLE_REDO, NULL);
+  ServerReceiveSolid(k->server, &solid);
+}
+
+static void Row(Fluid *f, int step)
+{
+  double sum[5], projected[2];
+  PatchCoupled(f->kit, &f->patch, f->flow[HELD].u_star, sum + 1, sum);
+  PatchCoupled(f->kit, &f->patch, f->flow[HELD].u_projected, projected, sum);
+  for (int c = 0; c < 2; c++) {
+    sum[1 + c] /= sum[0];
+    sum[3 + c] = projected[c] / sum[0];
+  }
+  KitRow(f->kit, step, 5, sum);
+}
+
+static void Accept(Fluid *f, int step)
+{
+  Kit *k = f->kit;
+  const int n = f->patch.ncoupled;
+  FindCorrection(f);
+  k->t += k->dt;
+  Row(f, step);
+  KitCheckpoint(k, step);
+  const bool changed = ServerElementsChanged(k->server);
+  f->known = !changed && step != MOVE_STEP;
+  k->changed += changed;
+  if (!f->known) PatchAsk(k, step >= MOVE_STEP, &f->patch);
+  k->dt = KitStepSize(k, step + 1);
+  SendCoupling(f, HELD, step < k->steps ? CORACLE_RUN : CORACLE_STOP, n);
+}
+
+static void Step(Fluid *f, int step)
+{
+  for (int kind = HELD; kind < KINDS; kind++) {
+    Receive(f, (Kind)kind);
+    MoveSolid(f, (Kind)kind);
+    if (!KitRepeats(step) || kind == AGAIN) break;
+    SendCoupling(f, (Kind)(kind + 1), CORACLE_REDO, 0);
+  }
+  if (KitRepeats(step)) {
+    CheckRepeats(f, step);
+    CheckDirection(f, step);
+    CheckForcing(f, step);
+    CheckProjection(f, step);
+  }
+  Accept(f, step);
+}
+
+void ExamineFluid(Kit *k)
+{
+  Fluid f = {.kit = k};
+  ServerSolid solid;
+  KitOpenRows(k, "mass [kg],star_x [m/s],star_y [m/s],projected_x [m/s],projected_y [m/s]");
+  ServerReceiveSolid(k->server, &solid);
+  PatchAsk(k, k->first > MOVE_STEP, &f.patch);
+  f.w[0] = f.patch.radius / (12.0 * k->dt_max);
+  f.w[1] = -0.5 * f.w[0];
+  k->dt = KitStepSize(k, k->first);
+  SendCoupling(&f, HELD, k->steps >= k->first ? CORACLE_RUN : CORACLE_STOP, 0);
+  for (int step = k->first; step <= k->steps; step++) Step(&f, step);
+  ServerSendForce(k->server, k->t, 0.0, CORACLE_STOP, NULL);
+  PatchFree(&f.patch);
+  free(f.coupling);
+  free(f.correction);
+  for (int kind = 0; kind < KINDS; kind++) {
+    free(f.flow[kind].u_start);
+    free(f.flow[kind].u_star);
+    free(f.flow[kind].u_projected);
+  }
+}
