@@ -119,7 +119,7 @@ PetscErrorCode CouplerSetInterfaceVelocity(Coupler c, const double u[], int *n,
   PetscCall(InertiaBodyForce(o, c->density, c->acceleration, acceleration, c->options.gravity, c->term));
   PetscCall(PetscFree2(velocity, acceleration));
   c->us = u;
-  WallTermAssemble(o, c->term, c->density, c->coupling);
+  WallTermAssemble(o, c->term, c->density, (const double(*)[3][2])c->start_velocity, c->coupling);
   *n = o->ncoupled;
   *coupling = c->coupling;
   PetscFunctionReturn(0);

@@ -39,15 +39,16 @@ static void AddSolidMass(const double bb[3][3], const double cu[2][3], CoracleCo
   }
 }
 
-/* One pair's part of its element; velocity is the integral of u_s over the pairs, divided by |K|, so far. */
+/* One pair's part of its element; velocity is the integral of v over the pairs, divided by |K|, so far. */
 static void AddPair(const Overlap o, const SupermeshPair *pair, const PairTerm *term, PetscBool held,
-                    CoracleCoupling *k)
+                    const double start[3][2], CoracleCoupling *k)
 {
   const SourceTriangle *source = &o->source[pair->a];
   const WallCoefficient inertia = WallCoefficientIsotropic(term->inertia);
   const double fraction = pair->area / o->area[pair->b];
-  double cu[2][3], cq[2][3];
+  double cu[2][3], cq[2][3], cv[2][3];
   CrossVelocity(pair, source->u, cu);
+  CrossVelocity(pair, start, cv);
   CrossVelocity(pair, term->q, cq);
   AddTensor(&term->a, pair->bb, k->a);
   if (!held) {
@@ -56,7 +57,7 @@ static void AddPair(const Overlap o, const SupermeshPair *pair, const PairTerm *
   }
   AddSource(&term->a, (const double(*)[3])cu, k->s);
   for (int i = 0; i < 6; i++) k->s[i / 3][i % 3] += cq[i / 3][i % 3];
-  for (int d = 0; d < 2; d++) k->velocity[d] += (cu[d][0] + cu[d][1] + cu[d][2]) / o->area[pair->b];
+  for (int d = 0; d < 2; d++) k->velocity[d] += (cv[d][0] + cv[d][1] + cv[d][2]) / o->area[pair->b];
   if (source->is_shell) {
     k->flags |= CORACLE_HAS_SHELL;
     k->shell += fraction;
@@ -67,12 +68,12 @@ static void AddPair(const Overlap o, const SupermeshPair *pair, const PairTerm *
 }
 
 void WallTermAssemble(const Overlap o, const PairTerm term[], const double density[],
-                      CoracleCoupling coupling[])
+                      const double start_velocity[][3][2], CoracleCoupling coupling[])
 {
   for (int e = 0; e < o->ncoupled; e++) coupling[e] = (CoracleCoupling){.element = o->coupled_element[e]};
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    AddPair(o, pair, &term[p], density[pair->a] == 0.0 ? PETSC_TRUE : PETSC_FALSE,
+    AddPair(o, pair, &term[p], density[pair->a] == 0.0 ? PETSC_TRUE : PETSC_FALSE, start_velocity[pair->a],
             &coupling[o->coupled_index[p]]);
   }
   for (int e = 0; e < o->ncoupled; e++)

@@ -84,7 +84,8 @@ static inline void PairSlip(const SupermeshPair *pair, const double u[6], const 
 
 /* Local: coupling[overlap->ncoupled], one per coupled element (coracle.h has shapes and units), from the
  * pairs' term[pairs.n], the source triangles' velocities and density[overlap->nsources] (inertia.h), which is 0
- * where the solid is held. */
+ * where the solid is held; start_velocity[nsources][3][2]: the solid's at the step's start, m/s, which the
+ * elements' mean velocity is of. */
 void WallTermAssemble(const Overlap overlap, const PairTerm term[], const double density[],
-                      CoracleCoupling coupling[]);
+                      const double start_velocity[][3][2], CoracleCoupling coupling[]);
 #endif

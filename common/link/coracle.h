@@ -235,7 +235,7 @@ typedef struct {
   double ms[CORACLE_VERTICES][CORACLE_VERTICES];
   /* m3/s: int_{K and S} b N_i (u_s)_c */
   double us[CORACLE_DIM][CORACLE_VERTICES];
-  /* m/s: mean of u_s over what K overlaps, solid and shell */
+  /* m/s: mean over what K overlaps, solid and shell, of the solid's velocity at the start of the step */
   double velocity[CORACLE_DIM];
   double alpha; /* |K and S| / |K|, solid volume fraction */
   double shell; /* |K and shell| / |K|, volume fraction of the covered shell */
