@@ -2,11 +2,13 @@
 #include "common/output/output.h"
 #include "common/space/p2.h"
 #include "fluid/locate.h"
+#include "fluid/phase_gauge.h"
 #include "fluid/probe_case.h"
 #include "fluid/surface_gauge.h"
 #include <stdio.h>
 
-enum { VALUES = 4, FOLLOWING = 3, COLUMN_LENGTH = SERIES_NAME_MAX + 24 }; /* of a point: u, v, p, rho */
+/* The numbers of a point (u, v, p, rho), of a gauge or a surface, of a phase. */
+enum { VALUES = 4, FOLLOWING = 3, WHOLE = 6, COLUMN_LENGTH = SERIES_NAME_MAX + 24 };
 
 struct Probes_s {
   MPI_Comm comm;
@@ -59,6 +61,7 @@ static PetscErrorCode GaugeValues(Probes p, Fluid fluid, const CoracleGauge gaug
 /* The numbers of a point in a row. */
 static int Width(const Probes p, const Probe *probe)
 {
+  if (probe->kind == PROBE_PHASE) return WHOLE;
   return probe->kind == PROBE_POINT || probe->kind == PROBE_LINE ? 3 + (p->list.nphases > 0) : FOLLOWING;
 }
 
@@ -74,10 +77,24 @@ static PetscErrorCode SurfaceValues(const Probe *probe, Fluid fluid, double valu
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode PhaseValues(const Probe *probe, Fluid fluid, double value[WHOLE])
+{
+  PhaseMeasure measure;
+  PetscFunctionBeginUser;
+  PetscCall(PhaseMeasureOf(fluid, probe->phase, &measure));
+  value[0] = measure.area;
+  for (int c = 0; c < 2; c++) {
+    value[1 + c] = measure.centre[c];
+    value[3 + c] = measure.velocity[c];
+  }
+  value[5] = measure.interface;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode ProbesStep(Probes p, Fluid fluid, int n, const CoracleGauge gauge[])
 {
   double fixed[PROBE_POINTS_MAX][VALUES], moving[PROBES_MAX][VALUES],
-      row[1 + VALUES * (PROBE_POINTS_MAX + PROBES_MAX)];
+      row[1 + VALUES * PROBE_POINTS_MAX + WHOLE * PROBES_MAX];
   double *next = row;
   PetscFunctionBeginUser;
   if (!p) PetscFunctionReturn(0);
@@ -88,12 +105,14 @@ PetscErrorCode ProbesStep(Probes p, Fluid fluid, int n, const CoracleGauge gauge
   *next++ = FluidGetStats(fluid)->t;
   for (int k = 0; k < p->list.n; k++) {
     const Probe *probe = &p->list.probe[k];
-    const PetscBool follows = (PetscBool)(probe->kind == PROBE_GAUGE);
+    const PetscBool follows = (PetscBool)(probe->kind == PROBE_GAUGE),
+                    measured = (PetscBool)(probe->kind == PROBE_SURFACE || probe->kind == PROBE_PHASE);
     double(*value)[VALUES] = follows ? moving + probe->first : fixed + probe->first;
     if (follows) PetscCall(PetscArraycpy(value[0], gauge[probe->first].x, 2));
     if (probe->kind == PROBE_SURFACE) PetscCall(SurfaceValues(probe, fluid, next));
+    if (probe->kind == PROBE_PHASE) PetscCall(PhaseValues(probe, fluid, next));
     for (int i = 0; i < probe->n; i++, next += Width(p, probe))
-      if (probe->kind != PROBE_SURFACE) PetscCall(PetscArraycpy(next, value[i], (size_t)Width(p, probe)));
+      if (!measured) PetscCall(PetscArraycpy(next, value[i], (size_t)Width(p, probe)));
   }
   PetscCall(SeriesRow(p->series, row));
   PetscFunctionReturn(0);
@@ -149,8 +168,10 @@ static void AddColumns(const Probes p, const Probe *probe, int i, char **end)
 {
   static const char *const FLOW[] = {"u [m/s]", "v [m/s]", "p [Pa]", "rho [kg/m3]"},
                            *const GAUGE[] = {"x [m]", "y [m]", "p [Pa]"},
-                           *const SURFACE[] = {"first [m]", "last [m]", "length [m]"};
-  static const char *const *const COLUMNS[] = {FLOW, FLOW, GAUGE, SURFACE};
+                           *const SURFACE[] = {"first [m]", "last [m]", "length [m]"},
+                           *const PHASE[] = {"area [m2]", "x [m]",   "y [m]",
+                                             "u [m/s]",   "v [m/s]", "interface [m]"};
+  static const char *const *const COLUMNS[] = {FLOW, FLOW, GAUGE, SURFACE, PHASE};
   char number[16] = "";
   if (probe->kind == PROBE_LINE) (void)snprintf(number, sizeof number, "%d", i);
   for (int k = 0; k < Width(p, probe); k++)
@@ -162,7 +183,7 @@ PetscErrorCode ProbesOpen(Probes p, CoracleCase c, Checkpoint from)
   char *columns, *end;
   PetscFunctionBeginUser;
   if (!p) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc1(COLUMN_LENGTH * (1 + VALUES * (size_t)(p->list.nfixed + p->list.n)), &columns));
+  PetscCall(PetscMalloc1(COLUMN_LENGTH * (1 + WHOLE * (size_t)(p->list.nfixed + p->list.n)), &columns));
   end = columns + sprintf(columns, "t [s]");
   for (int k = 0; k < p->list.n; k++)
     for (int i = 0; i < p->list.probe[k].n; i++) AddColumns(p, &p->list.probe[k], i, &end);

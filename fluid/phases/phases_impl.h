@@ -33,6 +33,10 @@ static inline HalfPlane PhasesLine(Phases f, int e, int p, const double origin[2
   return PhasesMoveLine(f->line[(size_t)e * (size_t)(f->np - 1) + (size_t)p], f->stars->element[e].x[0],
                         origin);
 }
+/* With two phases: the distance of vertex v of an owned element from the interface, negative in the first phase, m; 0 where
+ * elements of both phases meet there, and around which no element is cut.  *inside: 1 in the first phase, 0 in the second,
+ * 1/2 on the interface. */
+double PhasesDistance(Phases phases, int v, double *inside);
 /* area[np] += weight * |polygon and phase p| in local element e; polygon lies in the element, relative to
  * origin. */
 void PhasesSplit(Phases phases, int e, const Polygon *polygon, const double origin[2], double weight,
