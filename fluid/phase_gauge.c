@@ -2,10 +2,7 @@
 #include "common/supermesh/geometry.h"
 #include "fluid/domain.h"
 
-/* Of an element's size: an edge of a phase's polygon is on the element's outline if its middle is this close to it. */
-#define ON_OUTLINE 1e-9
-
-enum { AREA, CENTRE, VELOCITY = CENTRE + 2, INTERFACE = VELOCITY + 2, SUMS };
+enum { AREA, CENTRE, VELOCITY = CENTRE + 2, SUMS = VELOCITY + 2 };
 
 static void Barycentric(const ElementGeometry *g, const double corner[2], const double x[2], double n[3])
 {
@@ -32,27 +29,23 @@ static void AddPolygon(const Mesh *m, int e, const Polygon *part, const double u
       }
     }
   }
-  for (int k = 0; k < part->n; k++) {
-    const double *a = part->x[k], *b = part->x[(k + 1) % part->n];
-    double n[3];
-    Barycentric(&g, corner, (const double[2]){0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])}, n);
-    if (fmin(n[0], fmin(n[1], n[2])) > ON_OUTLINE) sum[INTERFACE] += hypot(b[0] - a[0], b[1] - a[1]);
-  }
 }
 
 PetscErrorCode PhaseMeasureOf(Fluid fluid, int phase, PhaseMeasure *measure)
 {
   const Mesh *m = FluidMesh(fluid);
+  const Phases phases = PhaseTransportPhases(FluidPhases(fluid));
   const double *u = FluidVelocity(fluid);
   double sum[SUMS] = {0.0};
   PetscFunctionBeginUser;
   for (int e = 0; e < m->ne; e++) {
     Polygon part;
-    PetscCall(PhasesGetPolygon(PhaseTransportPhases(FluidPhases(fluid)), e, phase, &part));
+    PetscCall(PhasesGetPolygon(phases, e, phase, &part));
     if (part.n) AddPolygon(m, e, &part, u + 6 * e, sum);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, SUMS, MPI_DOUBLE, MPI_SUM, m->comm));
-  *measure = (PhaseMeasure){.area = sum[AREA], .interface = sum[INTERFACE]};
+  *measure = (PhaseMeasure){.area = sum[AREA]};
+  PetscCall(PhasesInterfaceLength(phases, &measure->interface));
   for (int c = 0; c < 2 && sum[AREA] > 0.0; c++) {
     measure->centre[c] = sum[CENTRE + c] / sum[AREA];
     measure->velocity[c] = sum[VELOCITY + c] / sum[AREA];

@@ -1,4 +1,4 @@
-/* What a phase is as a whole, from its polygons in the elements: its place, its motion, the length of its interface. */
+/* What a phase is as a whole, from its polygons in the elements: its place, its motion.*/
 #ifndef FLUID_PHASE_GAUGE_H
 #define FLUID_PHASE_GAUGE_H
 #include "fluid/fluid.h"
@@ -7,7 +7,7 @@ typedef struct {
   double area;        /* m2 */
   double centre[2];   /* m; 0 without the phase, like the velocity */
   double velocity[2]; /* mean, m/s */
-  double interface;   /* length of its lines in cut elements, m */
+  double interface;   /* its length, m; of two phases */
 } PhaseMeasure;
 
 /* Of the last completed step.  Collective. */

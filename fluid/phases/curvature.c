@@ -79,17 +79,14 @@ static void AddContact(Phases f, int e, const Neighbourhood *h, const HalfPlane 
   for (int i = 0; i < 3; i++) {
     if (element->tag[i] < 0 || data->ncontacts == CURVATURE_CONTACTS) continue;
     const double *a = element->x[(i + 1) % 3], *b = element->x[(i + 2) % 3];
-    double da = -line->d, db = -line->d, x[2], wall[2] = {b[1] - a[1], a[0] - b[0]}, normal[2];
-    for (int c = 0; c < 2; c++) {
-      da += line->n[c] * (a[c] - h->origin[c]);
-      db += line->n[c] * (b[c] - h->origin[c]);
-    }
-    if ((da > 0.0) == (db > 0.0)) continue;
+    const double wall[2] = {b[1] - a[1], a[0] - b[0]};
+    double x[2], normal[2];
+    if (!PhasesCrossing(f, e, i, x)) continue;
     const double size = hypot(wall[0], wall[1]), cosa = cosine ? cosine[element->tag[i]] : 0.0;
     const double along = (-wall[1] * line->n[0] + wall[0] * line->n[1]) / size;
     const double sine = copysign(sqrt(1.0 - cosa * cosa), along);
     for (int c = 0; c < 2; c++) {
-      x[c] = a[c] + da / (da - db) * (b[c] - a[c]) - h->origin[c];
+      x[c] -= h->origin[c];
       normal[c] = (-cosa * wall[c] + sine * (c ? wall[0] : -wall[1])) / size;
     }
     const double across = normal[0] * h->normal[0] + normal[1] * h->normal[1];
@@ -120,8 +117,7 @@ static void AddCell(Phases f, int e, const Neighbourhood *h, const double cosine
   AddContact(f, e, h, &line, cosine, data);
 }
 
-/* At vertex v; 0 where there is none. */
-static int Curvature(Phases f, int v, const double cosine[], double *curvature)
+int PhasesCurvature(Phases f, int v, const double cosine[], double *curvature)
 {
   const Stars *s = f->stars;
   Neighbourhood h = {.n = 0};
@@ -162,7 +158,7 @@ PetscErrorCode PhasesGetSurfaceForce(Phases f, double tension, const double cosi
   for (int v = 0; v < s->nowned; v++) {
     (void)PhasesDistance(f, v, &inside[v]);
     curvature[v] = 0.0;
-    known[v] = (char)Curvature(f, v, cosine, &curvature[v]);
+    known[v] = (char)PhasesCurvature(f, v, cosine, &curvature[v]);
   }
   for (int e = 0; e < s->ne; e++) {
     const double(*x)[2] = (const double(*)[2])s->element[e].x;

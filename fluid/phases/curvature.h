@@ -104,51 +104,81 @@ static inline int CurvatureSolve(const double a[3][3], const double r[3], double
   return 1;
 }
 
-/* One step of Gauss and Newton, in units of the length; 0 if the data do not determine it. */
-static inline int CurvatureImprove(const CurvatureData *data, CurvatureArc *arc, double *change)
+/* An arc, the weighted sum of its squared errors, and the step of Gauss and Newton from it, in units of the length. */
+typedef struct {
+  CurvatureArc arc;
+  double energy, step[3];
+  int determined;
+} CurvatureState;
+
+/* The equation of cell k, or of contact k - n: row . change of f[0 .. 2] = value, in units of the length; returns its weight,
+ * that of the contacts being that of all cells together, `cells`. */
+static inline double CurvatureEquation(const CurvatureData *data, const CurvatureArc *arc, int k,
+                                       double cells, double row[3], double *value)
 {
-  double a[3][3] = {{0.0}}, r[3] = {0.0}, x[3], sum = 0.0;
-  const double l = data->length, scale[3] = {l, 1.0, 1.0 / l};
+  const double l = data->length, *f = arc->f;
+  if (k < data->n) {
+    const CurvatureCell *c = &data->cell[k];
+    CurvatureBelow below = {0.0, {0.0, 0.0, 0.0}};
+    for (int i = 0; i < 3; i++) CurvatureAddEdge(arc, c->x[i], c->x[(i + 1) % 3], &below);
+    *value = (c->volume - below.area) / (l * l);
+    row[0] = below.derivative[0] / l;
+    row[1] = below.derivative[1] / (l * l);
+    row[2] = below.derivative[2] / (l * l * l);
+    return c->weight;
+  }
+  const CurvatureContact *c = &data->contact[k - data->n];
+  row[0] = 0.0;
+  row[1] = 1.0;
+  row[2] = -c->s / l;
+  *value = c->slope - f[1] + c->s * (f[2] - 3.0 * c->s * f[3] + 4.0 * c->s * c->s * f[4]);
+  return CURVATURE_CONTACT * cells;
+}
+
+static inline void CurvatureEvaluate(const CurvatureData *data, const double f[3], CurvatureState *state)
+{
+  const double most = 2.0 / data->length;
+  double a[3][3] = {{0.0}}, r[3] = {0.0}, cells = 0.0;
+  state->arc = (CurvatureArc){{f[0], f[1], fmax(fmin(f[2], most), -most), 0.0, 0.0}};
+  state->arc.f[3] = 0.5 * state->arc.f[1] * state->arc.f[2] * state->arc.f[2];
+  state->arc.f[4] = 0.125 * state->arc.f[2] * state->arc.f[2] * state->arc.f[2];
+  state->energy = 0.0;
   for (int k = 0; k < data->n + data->ncontacts; k++) {
-    double row[3], value, weight;
-    if (k < data->n) {
-      const CurvatureCell *c = &data->cell[k];
-      CurvatureBelow below = {0.0, {0.0, 0.0, 0.0}};
-      for (int i = 0; i < 3; i++) CurvatureAddEdge(arc, c->x[i], c->x[(i + 1) % 3], &below);
-      value = (c->volume - below.area) / (l * l);
-      for (int i = 0; i < 3; i++) row[i] = below.derivative[i] * scale[i] / (l * l);
-      weight = c->weight;
-      sum += weight * row[0] * row[0];
-    } else {
-      const CurvatureContact *c = &data->contact[k - data->n];
-      const double s = c->s, *f = arc->f;
-      row[0] = 0.0, row[1] = 1.0, row[2] = -s / l;
-      value = c->slope - f[1] + s * (f[2] - 3.0 * s * f[3] + 4.0 * s * s * f[4]);
-      weight = CURVATURE_CONTACT * sum;
-    }
+    double row[3], value;
+    const double weight = CurvatureEquation(data, &state->arc, k, cells, row, &value);
+    if (k < data->n) cells += weight * row[0] * row[0];
+    state->energy += weight * value * value;
     for (int i = 0; i < 3; i++) {
       for (int j = 0; j < 3; j++) a[i][j] += weight * row[i] * row[j];
       r[i] += weight * row[i] * value;
     }
   }
-  if (!CurvatureSolve((const double(*)[3])a, r, x)) return 0;
-  for (int i = 0; i < 3; i++) arc->f[i] += scale[i] * x[i];
-  arc->f[2] = fmax(fmin(arc->f[2], 2.0 / l), -2.0 / l);
-  arc->f[3] = 0.5 * arc->f[1] * arc->f[2] * arc->f[2];
-  arc->f[4] = 0.125 * arc->f[2] * arc->f[2] * arc->f[2];
-  *change = fmax(fabs(x[0]), fmax(fabs(x[1]), fabs(x[2])));
-  return 1;
+  state->determined = CurvatureSolve((const double(*)[3])a, r, state->step);
 }
 
-/* *curvature at s = 0, 1/m, positive where the first phase is convex; 0 is returned where there is too little to fit. */
+/* *curvature at s = 0, 1/m, positive where the first phase is convex; 0 is returned where there is too little to fit.  Steps are
+ * halved until the errors decrease. */
 static inline int CurvatureFit(const CurvatureData *data, double *curvature)
 {
-  CurvatureArc arc = {{0.0}};
-  double change = 1.0;
-  for (int k = 0; k < CURVATURE_ITERATIONS && change > 1e-10; k++)
-    if (!CurvatureImprove(data, &arc, &change)) return 0;
-  const double root = sqrt(1.0 + arc.f[1] * arc.f[1]);
-  *curvature = arc.f[2] / (root * root * root);
+  const double l = data->length, scale[3] = {l, 1.0, 1.0 / l}, start[3] = {0.0, 0.0, 0.0};
+  CurvatureState now, next;
+  CurvatureEvaluate(data, start, &now);
+  if (!now.determined) return 0;
+  for (int k = 0; k < CURVATURE_ITERATIONS; k++) {
+    double size = 0.0, part = 1.0;
+    for (int half = 0; half < 8; half++, part *= 0.5) {
+      double f[3];
+      for (int i = 0; i < 3; i++) f[i] = now.arc.f[i] + part * scale[i] * now.step[i];
+      CurvatureEvaluate(data, f, &next);
+      if (next.determined && next.energy < now.energy) break;
+    }
+    if (!next.determined || !(next.energy < now.energy)) break;
+    for (int i = 0; i < 3; i++) size = fmax(size, part * fabs(now.step[i]));
+    now = next;
+    if (size < 1e-10) break;
+  }
+  const double root = sqrt(1.0 + now.arc.f[1] * now.arc.f[1]);
+  *curvature = now.arc.f[2] / (root * root * root);
   return 1;
 }
 #endif

@@ -62,6 +62,11 @@ PetscErrorCode PhasesGetInverseDensity(Phases phases, const double rho[], const 
  * NULL: 90 degrees.  Needs the lines. */
 PetscErrorCode PhasesGetSurfaceForce(Phases phases, double tension, const double cosine[], double force[]);
 
+/* Collective.  Length of the interface between two phases, m: of the polygon through the means of the points in which the lines
+ * of neighbours cross their common face.  (The lines themselves turn too much in curved interfaces: 1 % at edges of R/20.)
+ * Needs the lines. */
+PetscErrorCode PhasesInterfaceLength(Phases phases, double *length);
+
 /* What flows in where nothing is known: outside of open boundaries. */
 typedef struct {
   const double (*fraction)[PHASES_MAX]; /* [ntags][nphases], sum 1; NULL: boundaries are closed */
