@@ -17,7 +17,7 @@ static const CoracleCaseKey KEYS[] = {
     {"fluid.phases[].name", "", "what regions and boundaries call it"},
     {"fluid.phases[].density", "kg/m3", "its density"},
     {"fluid.phases[].viscosity", "Pa s", "its dynamic viscosity"},
-    {"fluid.surface_tension", "N/m", "of the interface between the two phases"},
+    {"fluid.surface_tension", "N/m", "of the interface between the two phases; not possible with solids yet"},
     {"fluid.capillary_cfl", "",
      "largest time step over sqrt((sum of the densities) h^3/surface tension), h^2 twice the least area of "
      "the "
