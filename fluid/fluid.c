@@ -236,17 +236,6 @@ PetscErrorCode FluidMakeSolenoidal(Fluid f)
   PetscFunctionReturn(0);
 }
 
-/* The limit of capillary waves, s. */
-static double CapillaryStep(Fluid f)
-{
-  const PhaseProperties *p = &f->setup.phases;
-  double area = HUGE_VAL;
-  if (!f->phases || p->surface_tension == 0.0 || f->setup.capillary_cfl == 0.0) return HUGE_VAL;
-  for (int e = 0; e < f->domain.mesh->ne; e++)
-    if (PhasesSingle(PhaseTransportPhases(f->phases), e) < 0) area = fmin(area, f->domain.geometry[e].area);
-  return f->setup.capillary_cfl * sqrt((p->rho[0] + p->rho[1]) / p->surface_tension) * pow(2.0 * area, 0.75);
-}
-
 double FluidTimeStep(Fluid f)
 {
   const Mesh *m = f->domain.mesh;
@@ -265,7 +254,7 @@ double FluidTimeStep(Fluid f)
   (void)VecRestoreArrayRead(f->u_projected, &u);
   f->stats.max_speed = sqrt(speed);
   const double dt = rate * f->setup.dt_max > f->setup.cfl ? f->setup.cfl / rate : f->setup.dt_max;
-  return fmin(dt, CapillaryStep(f));
+  return fmin(dt, FluidCapillaryStep(f));
 }
 
 /* --- a step that is redone ---------------------------------------------------------------------------- */

@@ -330,24 +330,11 @@ static void MassFlux(PhaseTransport t, double dt, double mass_flux[])
   }
 }
 
-/* Where there is a solid the lines divide what fills it from what is outside: tension would act there, too. */
-static PetscErrorCode CheckSolid(PhaseTransport t, const double solid[])
-{
-  PetscFunctionBeginUser;
-  for (int e = 0; e < t->stars->ne && solid && t->properties.surface_tension > 0.0; e++)
-    PetscCheck(solid[e] == 0.0, PETSC_COMM_SELF, PETSC_ERR_SUP,
-               "fluid.surface_tension is %g N/m, and there is a solid: surface tension at solids is not "
-               "possible yet",
-               t->properties.surface_tension);
-  PetscFunctionReturn(0);
-}
-
 PetscErrorCode PhaseTransportStep(PhaseTransport t, const PhaseStep *s)
 {
   const FluxBoundary boundary = {t->open, t->moment};
   FluxReport report;
   PetscFunctionBeginUser;
-  PetscCall(CheckSolid(t, s->solid));
   SetMoments(t, s);
   PetscCall(FluxEquilibrate(t->stars, s->u, &boundary, t->flux, t->beta, &report));
   PetscCall(FluxVertexVelocity(t->stars, t->beta, t->velocity));
