@@ -30,6 +30,7 @@ typedef struct {
   double pressure;           /* where open: above hydrostatic, Pa */
   PetscBool has_phase;       /* which phase comes in is given; else it is the lightest */
   int phase;
+  double contact_cosine;  /* of the contact angle, through the first phase; 0: 90 degrees */
   FieldFunction function; /* instead of velocity; NULL: none */
   void *context;
 } Boundary;

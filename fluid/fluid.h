@@ -26,6 +26,7 @@ typedef struct {
   double gravity[2];      /* m/s2 */
   double velocity[2];     /* everywhere at the start, unless FluidSetInitial has another, m/s */
   double cfl, dt_max;     /* step control */
+  double capillary_cfl;   /* the same of capillary waves (FluidTimeStep); 0: no limit */
   Boundary *boundary;     /* [mesh->ntags], copied */
   FieldFunction source;   /* body force per volume, N/m3, or NULL */
   void *source_context;
@@ -82,7 +83,9 @@ PetscErrorCode FluidProject(Fluid fluid, double dt);
 PetscErrorCode FluidCorrect(Fluid fluid, double dt, const CoracleCorrection correction[]);
 /* The three in turn, for a fluid alone. */
 PetscErrorCode FluidStep(Fluid fluid, double dt);
-/* Largest dt of the CFL condition on this rank, capped by dt_max.  Not collective. */
+/* Largest dt on this rank, capped by dt_max, of the CFL condition and, with surface tension, of capillary waves of the
+ * interface's elements, of area A: capillary_cfl sqrt((rho_0 + rho_1) (2 A)^(3/2)/surface tension).  Not collective. */
+#define CAPILLARY_CFL 0.4 /* of case files that have none */
 double FluidTimeStep(Fluid fluid);
 
 /* Views, borrowed, not collective: velocities [ne][2][3] of the owned elements, as of the last completed

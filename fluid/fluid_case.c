@@ -108,10 +108,13 @@ PetscErrorCode FluidCaseMesh(CoracleCase c, MPI_Comm comm, Checkpoint from, Mesh
 
 /* --- boundaries ----------------------------------------------------------------------------------------- */
 
-/* Which phase comes in through a boundary, where there are phases. */
-static void ReadInflow(CoracleCase c, const char *key, const PhaseNames *names, Boundary *b)
+/* With phases: which one comes in through a boundary, and the contact angle there. */
+static void ReadPhases(CoracleCase c, const char *key, const PhaseNames *names, Boundary *b)
 {
   char sub[192];
+  (void)snprintf(sub, sizeof sub, "%s.contact_angle", key);
+  if (names->name[0] && CoracleCaseHas(c, sub))
+    b->contact_cosine = cos(CoracleCaseNumber(c, sub, 0.0, 180.0) * M_PI / 180.0);
   (void)snprintf(sub, sizeof sub, "%s.phase", key);
   b->has_phase = (PetscBool)(names->name[0] && CoracleCaseHas(c, sub));
   if (b->has_phase) b->phase = PhaseCaseIndex(c, sub, names);
@@ -119,14 +122,14 @@ static void ReadInflow(CoracleCase c, const char *key, const PhaseNames *names, 
 
 static void ReadBoundary(CoracleCase c, const char *name, const PhaseNames *names, Boundary *b)
 {
-  static const char *const WORDS[] = {"no_slip", "free_slip", "open", NULL}, *const PROFILES[] = {"uniform",
-                                                                                                  "parabolic",
-                                                                                                  NULL};
+  static const char *const WORDS[] = {"no_slip", "free_slip", "open", NULL},
+                           *const PROFILES[] = {"uniform", "parabolic", NULL},
+                           *const WALLS[] = {"no_slip", "free_slip", NULL};
   static const BoundaryKind KINDS[] = {BOUNDARY_VELOCITY, BOUNDARY_FREE_SLIP, BOUNDARY_OPEN};
   char key[160], sub[192];
   memset(b, 0, sizeof *b);
   (void)snprintf(key, sizeof key, "fluid.boundaries.%s", name);
-  ReadInflow(c, key, names, b);
+  ReadPhases(c, key, names, b);
   (void)snprintf(sub, sizeof sub, "%s.velocity", key);
   if (CoracleCaseHas(c, sub)) {
     b->kind = BOUNDARY_VELOCITY;
@@ -143,7 +146,9 @@ static void ReadBoundary(CoracleCase c, const char *name, const PhaseNames *name
     b->pressure = CoracleCaseNumber(c, sub, -HUGE_VAL, HUGE_VAL);
     return;
   }
-  b->kind = KINDS[CoracleCaseWord(c, key, -1, WORDS)];
+  (void)snprintf(sub, sizeof sub, "%s.wall", key);
+  b->kind = CoracleCaseHas(c, sub) ? KINDS[CoracleCaseWord(c, sub, -1, WALLS)]
+                                   : KINDS[CoracleCaseWord(c, key, -1, WORDS)];
 }
 
 /* The boundaries of the case file and those of the mesh. */
@@ -233,11 +238,15 @@ PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup
     setup->rho = CoracleCasePositive(c, "fluid.density");
     setup->mu = CoracleCasePositive(c, "fluid.viscosity");
   }
-  setup->theta = CoracleCaseNumberOr(c, "fluid.theta", 0.5, 0.5, 1.0);
+  setup->theta =
+      CoracleCaseNumberOr(c, "fluid.theta", setup->phases.surface_tension > 0.0 ? 1.0 : 0.5, 0.5, 1.0);
   CoracleCaseVector(c, "gravity", 2, setup->gravity);
   if (CoracleCaseHas(c, "fluid.initial")) CoracleCaseVector(c, "fluid.initial.velocity", 2, setup->velocity);
   setup->cfl = CoracleCasePositive(c, "time.cfl");
   setup->dt_max = CoracleCasePositive(c, "time.dt_max");
+  setup->capillary_cfl = CAPILLARY_CFL;
+  if (CoracleCaseHas(c, "fluid.capillary_cfl"))
+    setup->capillary_cfl = CoracleCasePositive(c, "fluid.capillary_cfl");
   PetscCall(PetscMalloc1(mesh->ntags, &setup->boundary));
   for (int b = 0; b < mesh->ntags; b++) ReadBoundary(c, mesh->tag_name[b], &names, setup->boundary + b);
   CoracleCaseKeys(c, "fluid.boundaries", CheckBoundaryName, &check);

@@ -37,6 +37,8 @@ ProjectionStep FluidProjectionStep(Fluid f, double t, double dt, PetscBool inert
 const InverseDensity *FluidInverseDensity(Fluid f);
 /* After the phases' volumes were set: density and viscosity at both levels.  Collective. */
 PetscErrorCode FluidPhasesChanged(Fluid f);
+/* The limit of capillary waves (fluid.h) on this rank, s; HUGE_VAL without.  Not collective. */
+double FluidCapillaryStep(Fluid f);
 /* Moves the phases over dt with the velocity in mass_flux, extrapolated by s steps, and makes it the mass flux.  Collective. */
 PetscErrorCode FluidMovePhases(Fluid f, double dt, double s);
 /* p becomes the pressure that, with its values on open boundaries as they are, makes the acceleration weight - R^-1 grad p

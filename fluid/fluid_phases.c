@@ -40,6 +40,29 @@ static void UniformInSolid(Fluid f)
                                MaterialDensity(f->material, MATERIAL_STEP)[entry[k].element]);
 }
 
+/* Where there is a solid the lines divide what fills it from what is outside: tension would act there, too. */
+static PetscErrorCode CheckSolid(Fluid f)
+{
+  const double *solid = SolidCouplingFraction(f->solid), tension = f->setup.phases.surface_tension;
+  PetscFunctionBeginUser;
+  for (int e = 0; e < f->domain.mesh->ne && tension > 0.0; e++)
+    PetscCheck(solid[e] == 0.0, PETSC_COMM_SELF, PETSC_ERR_SUP,
+               "fluid.surface_tension is %g N/m, and there is a solid: surface tension at solids is not "
+               "possible yet",
+               tension);
+  PetscFunctionReturn(0);
+}
+
+double FluidCapillaryStep(Fluid f)
+{
+  const PhaseProperties *p = &f->setup.phases;
+  double area = HUGE_VAL;
+  if (!f->phases || p->surface_tension == 0.0 || f->setup.capillary_cfl == 0.0) return HUGE_VAL;
+  for (int e = 0; e < f->domain.mesh->ne; e++)
+    if (PhasesSingle(PhaseTransportPhases(f->phases), e) < 0) area = fmin(area, f->domain.geometry[e].area);
+  return f->setup.capillary_cfl * sqrt((p->rho[0] + p->rho[1]) / p->surface_tension) * pow(2.0 * area, 0.75);
+}
+
 PetscErrorCode FluidMovePhases(Fluid f, double dt, double s)
 {
   PhaseStep step = {.time = f->t, .dt = dt, .extrapolated = s, .dt_before = f->dt_previous};
@@ -47,6 +70,7 @@ PetscErrorCode FluidMovePhases(Fluid f, double dt, double s)
   PetscScalar *flux;
   double *u;
   PetscFunctionBeginUser;
+  PetscCall(CheckSolid(f));
   PetscCall(PetscMalloc1(n, &u));
   PetscCall(VecGetArray(f->mass_flux, &flux));
   PetscCall(PetscArraycpy(u, flux, n));

@@ -25,6 +25,7 @@ void PhaseCaseRead(CoracleCase c, PhaseNames *names, PhaseProperties *p)
     (void)snprintf(key, sizeof key, "fluid.phases[%d].viscosity", k);
     p->mu[k] = CoracleCasePositive(c, key);
   }
+  p->surface_tension = CoracleCaseNumberOr(c, "fluid.surface_tension", 0.0, 0.0, HUGE_VAL);
 }
 
 int PhaseCaseIndex(CoracleCase c, const char *key, const PhaseNames *names)

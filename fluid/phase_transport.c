@@ -13,6 +13,7 @@ struct PhaseTransport_s {
   Phases phases;
   char *open;                                    /* [ntags] fluxes are free there */
   double (*inflow)[PHASES_MAX];                  /* [ntags] fractions of what comes in */
+  double *contact;                               /* [ntags] cosine of the contact angle */
   InverseDensity *begin, *end, *inverse_density; /* [ne] at the ends of the step, and what the step sees */
   double *saved;                                 /* [ne][n] volumes */
   double *flux, *beta, *velocity;                /* [ne][3], [ne][6], [ne][3][2] of the step */
@@ -37,6 +38,7 @@ static void SetInflow(PhaseTransport t)
   for (int b = 0; b < t->domain->mesh->ntags; b++) {
     const Boundary *boundary = &t->domain->boundary[b];
     t->open[b] = boundary->kind == BOUNDARY_OPEN;
+    t->contact[b] = boundary->contact_cosine;
     t->inflow[b][boundary->has_phase ? boundary->phase : lightest] = 1.0;
   }
 }
@@ -54,7 +56,7 @@ PetscErrorCode PhaseTransportCreate(const FluidDomain *domain, const PhaseProper
   for (int c = 0; c < 2; c++) t->gravity[c] = gravity[c];
   PetscCall(StarsCreate(m, &t->stars));
   PetscCall(PhasesCreate(t->stars, n, &t->phases));
-  PetscCall(PetscCalloc2(m->ntags, &t->open, m->ntags, &t->inflow));
+  PetscCall(PetscCalloc3(m->ntags, &t->open, m->ntags, &t->inflow, m->ntags, &t->contact));
   PetscCall(PetscMalloc4(m->ne, &t->begin, m->ne, &t->end, m->ne, &t->inverse_density,
                          (size_t)n * (size_t)m->ne, &t->saved));
   PetscCall(
@@ -72,7 +74,7 @@ PetscErrorCode PhaseTransportDestroy(PhaseTransport *transport)
   if (!t) PetscFunctionReturn(0);
   PetscCall(PhasesDestroy(&t->phases));
   PetscCall(StarsDestroy(&t->stars));
-  PetscCall(PetscFree2(t->open, t->inflow));
+  PetscCall(PetscFree3(t->open, t->inflow, t->contact));
   PetscCall(PetscFree4(t->begin, t->end, t->inverse_density, t->saved));
   PetscCall(PetscFree4(t->flux, t->beta, t->velocity, t->moment));
   PetscCall(PetscFree3(t->swept, t->part, t->single));
@@ -82,19 +84,35 @@ PetscErrorCode PhaseTransportDestroy(PhaseTransport *transport)
 
 /* --- state ---------------------------------------------------------------------------------------------- */
 
+/* After the effective densities at the end of the step. */
+static PetscErrorCode AddSurfaceTension(PhaseTransport t)
+{
+  double(*force)[2];
+  PetscFunctionBeginUser;
+  if (t->properties.surface_tension == 0.0) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(t->stars->ne, &force));
+  PetscCall(PhasesGetSurfaceForce(t->phases, t->properties.surface_tension, t->contact, (double *)force));
+  for (int e = 0; e < t->stars->ne; e++) InverseDensityAddSurface(force[e], &t->end[e]);
+  PetscCall(PetscFree(force));
+  PetscFunctionReturn(0);
+}
+
 /* Lines, and what follows from them. */
 static PetscErrorCode Reconstruct(PhaseTransport t)
 {
   PetscFunctionBeginUser;
   PetscCall(PhasesReconstruct(t->phases));
   PetscCall(PhasesGetInverseDensity(t->phases, t->properties.rho, t->gravity, t->end));
+  PetscCall(AddSurfaceTension(t));
   PhaseTransportSettle(t);
   PetscFunctionReturn(0);
 }
 
 void PhaseTransportSetUniform(PhaseTransport t, int e, double rho)
 {
+  const double surface[2] = {t->inverse_density[e].surface[0], t->inverse_density[e].surface[1]};
   InverseDensityUniform(rho, t->gravity, &t->inverse_density[e]);
+  if (t->properties.surface_tension != 0.0) InverseDensityAddSurface(surface, &t->inverse_density[e]);
 }
 
 void PhaseTransportSettle(PhaseTransport t)

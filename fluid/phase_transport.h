@@ -18,6 +18,7 @@ typedef struct PhaseTransport_s *PhaseTransport;
 typedef struct {
   int n;
   double rho[PHASES_MAX], mu[PHASES_MAX]; /* kg/m3, Pa s */
+  double surface_tension;                 /* N/m */
   char name[PHASES_MAX][32];
 } PhaseProperties;
 

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const KINDS[] = {"point", "line", "solid_point", "surface", NULL};
+static const char *const KINDS[] = {"point", "line", "solid_point", "surface", "phase", NULL};
 
 static const char *Key(int k, const char *what)
 {
@@ -27,8 +27,8 @@ static ProbeKind ReadKind(CoracleCase c, int k)
     n++;
   }
   if (n != 1)
-    CoracleCaseRefuse(c, Key(k, ""), "expected one of point, line, solid_point, surface, found %d of them",
-                      n);
+    CoracleCaseRefuse(c, Key(k, ""),
+                      "expected one of point, line, solid_point, surface, phase, found %d of them", n);
   return (ProbeKind)kind;
 }
 
@@ -79,7 +79,7 @@ static void ReadPlace(CoracleCase c, const PhaseNames *names, ProbeCase *list, i
   Probe *p = &list->probe[k];
   if (p->kind == PROBE_LINE || p->kind == PROBE_SURFACE)
     ReadEnds(c, k, p);
-  else
+  else if (p->kind != PROBE_PHASE)
     CoracleCaseVector(c, Key(k, KINDS[p->kind]), 2, p->from);
   switch (p->kind) {
   case PROBE_LINE:
@@ -94,8 +94,10 @@ static void ReadPlace(CoracleCase c, const PhaseNames *names, ProbeCase *list, i
     p->first = list->ngauges++;
     break;
   case PROBE_SURFACE:
-    if (!list->nphases) CoracleCaseRefuse(c, Key(k, "surface"), "there are no phases: expected fluid.phases");
-    p->phase = PhaseCaseIndex(c, Key(k, "surface.phase"), names);
+  case PROBE_PHASE:
+    if (!list->nphases)
+      CoracleCaseRefuse(c, Key(k, KINDS[p->kind]), "there are no phases: expected fluid.phases");
+    p->phase = PhaseCaseIndex(c, Key(k, p->kind == PROBE_PHASE ? "phase" : "surface.phase"), names);
     break;
   }
 }

@@ -2,11 +2,13 @@
 #include "common/output/output.h"
 #include "common/space/p2.h"
 #include "fluid/locate.h"
+#include "fluid/phase_gauge.h"
 #include "fluid/probe_case.h"
 #include "fluid/surface_gauge.h"
 #include <stdio.h>
 
-enum { VALUES = 4, FOLLOWING = 3, COLUMN_LENGTH = SERIES_NAME_MAX + 24 }; /* of a point: u, v, p, rho */
+/* The numbers of a point (u, v, p, rho), of a gauge or a surface, of a phase. */
+enum { VALUES = 4, FOLLOWING = 3, WHOLE = 6, COLUMN_LENGTH = SERIES_NAME_MAX + 24 };
 
 struct Probes_s {
   MPI_Comm comm;
@@ -59,6 +61,7 @@ static PetscErrorCode GaugeValues(Probes p, Fluid fluid, const CoracleGauge gaug
 /* The numbers of a point in a row. */
 static int Width(const Probes p, const Probe *probe)
 {
+  if (probe->kind == PROBE_PHASE) return WHOLE;
   return probe->kind == PROBE_POINT || probe->kind == PROBE_LINE ? 3 + (p->list.nphases > 0) : FOLLOWING;
 }
 
@@ -74,6 +77,20 @@ static PetscErrorCode SurfaceValues(const Probe *probe, Fluid fluid, double valu
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode PhaseValues(const Probe *probe, Fluid fluid, double value[WHOLE])
+{
+  PhaseMeasure measure;
+  PetscFunctionBeginUser;
+  PetscCall(PhaseMeasureOf(fluid, probe->phase, &measure));
+  value[0] = measure.area;
+  for (int c = 0; c < 2; c++) {
+    value[1 + c] = measure.centre[c];
+    value[3 + c] = measure.velocity[c];
+  }
+  value[5] = measure.interface;
+  PetscFunctionReturn(0);
+}
+
 /* The numbers of a probe in a row: fixed and moving are the values at the fixed points and before the gauges. */
 static PetscErrorCode ProbeValues(Probes p, const Probe *probe, Fluid fluid, const CoracleGauge gauge[],
                                   const double fixed[][VALUES], const double moving[][VALUES], double row[])
@@ -82,6 +99,9 @@ static PetscErrorCode ProbeValues(Probes p, const Probe *probe, Fluid fluid, con
   switch (probe->kind) {
   case PROBE_SURFACE:
     PetscCall(SurfaceValues(probe, fluid, row));
+    break;
+  case PROBE_PHASE:
+    PetscCall(PhaseValues(probe, fluid, row));
     break;
   case PROBE_GAUGE:
     PetscCall(PetscArraycpy(row, gauge[probe->first].x, 2));
@@ -98,7 +118,7 @@ static PetscErrorCode ProbeValues(Probes p, const Probe *probe, Fluid fluid, con
 PetscErrorCode ProbesStep(Probes p, Fluid fluid, int n, const CoracleGauge gauge[])
 {
   double fixed[PROBE_POINTS_MAX][VALUES], moving[PROBES_MAX][VALUES],
-      row[1 + VALUES * (PROBE_POINTS_MAX + PROBES_MAX)];
+      row[1 + VALUES * PROBE_POINTS_MAX + WHOLE * PROBES_MAX];
   double *next = row;
   PetscFunctionBeginUser;
   if (!p) PetscFunctionReturn(0);
@@ -167,8 +187,10 @@ static void AddColumns(const Probes p, const Probe *probe, int i, char **end)
 {
   static const char *const FLOW[] = {"u [m/s]", "v [m/s]", "p [Pa]", "rho [kg/m3]"},
                            *const GAUGE[] = {"x [m]", "y [m]", "p [Pa]"},
-                           *const SURFACE[] = {"first [m]", "last [m]", "length [m]"};
-  static const char *const *const COLUMNS[] = {FLOW, FLOW, GAUGE, SURFACE};
+                           *const SURFACE[] = {"first [m]", "last [m]", "length [m]"},
+                           *const PHASE[] = {"area [m2]", "x [m]",   "y [m]",
+                                             "u [m/s]",   "v [m/s]", "interface [m]"};
+  static const char *const *const COLUMNS[] = {FLOW, FLOW, GAUGE, SURFACE, PHASE};
   char number[16] = "";
   if (probe->kind == PROBE_LINE) (void)snprintf(number, sizeof number, "%d", i);
   for (int k = 0; k < Width(p, probe); k++)
@@ -180,7 +202,7 @@ PetscErrorCode ProbesOpen(Probes p, CoracleCase c, Checkpoint from)
   char *columns, *end;
   PetscFunctionBeginUser;
   if (!p) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc1(COLUMN_LENGTH * (1 + VALUES * (size_t)(p->list.nfixed + p->list.n)), &columns));
+  PetscCall(PetscMalloc1(COLUMN_LENGTH * (1 + WHOLE * (size_t)(p->list.nfixed + p->list.n)), &columns));
   end = columns + sprintf(columns, "t [s]");
   for (int k = 0; k < p->list.n; k++)
     for (int i = 0; i < p->list.probe[k].n; i++) AddColumns(p, &p->list.probe[k], i, &end);

@@ -21,8 +21,7 @@ static void AddLine(Phases f, int e, int v, VertexDistance *d)
   d->weight += length;
 }
 
-/* The distance of vertex v, 0 where elements of both phases meet there; of use for vertices of cut elements. */
-static double Distance(Phases f, int v)
+double PhasesDistance(Phases f, int v, double *inside)
 {
   const Stars *s = f->stars;
   VertexDistance d = {0};
@@ -38,6 +37,7 @@ static double Distance(Phases f, int v)
   double distance = d.weight > 0.0 ? d.sum / d.weight : 0.0;
   if (d.below) distance = fmin(distance, 0.0);
   if (d.above) distance = fmax(distance, 0.0);
+  *inside = distance != 0.0 ? distance < 0.0 : d.below == d.above ? 0.5 : d.below;
   return distance;
 }
 
@@ -61,13 +61,13 @@ PetscErrorCode PhasesGetInverseDensity(Phases f, const double rho[], const doubl
                                        InverseDensity inverse[])
 {
   const Stars *s = f->stars;
-  double *distance;
+  double *distance, inside;
   PetscFunctionBeginUser;
   PetscCheck(f->has_lines, s->mesh->comm, PETSC_ERR_ORDER,
              "effective densities need the lines: call PhasesReconstruct");
   PetscCheck(f->np == 2, s->mesh->comm, PETSC_ERR_SUP, "%d phases in a flow: two are possible", f->np);
   PetscCall(PetscMalloc1(s->nowned, &distance));
-  for (int v = 0; v < s->nowned; v++) distance[v] = Distance(f, v);
+  for (int v = 0; v < s->nowned; v++) distance[v] = PhasesDistance(f, v, &inside);
   for (int e = 0; e < s->ne; e++) {
     if (f->single[e] < 0)
       Element(f, e, distance, rho, gravity, &inverse[e]);

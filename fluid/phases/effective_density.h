@@ -26,12 +26,23 @@
 
 typedef struct {
   double inverse[3]; /* R^-1: xx, xy, yy, m3/kg */
-  double weight[2];  /* gravity, or what balances the pressure at rest where there is no R, m/s2 */
+  double weight
+      [2]; /* gravity, or what balances the pressure at rest where there is no R, and R^-1 surface; m/s2 */
+  double surface[2]; /* surface tension, N/m3 */
 } InverseDensity;
 
 static inline void InverseDensityUniform(double rho, const double gravity[2], InverseDensity *r)
 {
-  *r = (InverseDensity){{1.0 / rho, 0.0, 1.0 / rho}, {gravity[0], gravity[1]}};
+  *r = (InverseDensity){{1.0 / rho, 0.0, 1.0 / rho}, {gravity[0], gravity[1]}, {0.0, 0.0}};
+}
+
+/* force: N/m3 */
+static inline void InverseDensityAddSurface(const double force[2], InverseDensity *r)
+{
+  for (int c = 0; c < 2; c++) {
+    r->surface[c] += force[c];
+    r->weight[c] += r->inverse[c] * force[0] + r->inverse[c + 1] * force[1];
+  }
 }
 
 /* weight - R^-1 grad p, m/s2 */
@@ -62,6 +73,7 @@ static inline void InverseDensityMiddle(const InverseDensity *a, const InverseDe
     load[c] = 0.5 * (ra[c] * a->weight[0] + ra[c + 1] * a->weight[1] + rb[c] * b->weight[0] +
                      rb[c + 1] * b->weight[1]);
   for (int k = 0; k < 3; k++) ra[k] = 0.5 * (ra[k] + rb[k]);
+  for (int c = 0; c < 2; c++) middle->surface[c] = 0.5 * (a->surface[c] + b->surface[c]);
   SymmetricInvert(ra, middle->inverse);
   for (int c = 0; c < 2; c++)
     middle->weight[c] = middle->inverse[c] * load[0] + middle->inverse[c + 1] * load[1];

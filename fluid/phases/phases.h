@@ -55,6 +55,18 @@ PetscErrorCode PhasesGetKink(Phases phases, int e, const double rho[], const dou
 PetscErrorCode PhasesGetInverseDensity(Phases phases, const double rho[], const double gravity[2],
                                        InverseDensity inverse[]);
 
+/* Not collective.  Surface tension, N/m, in the owned elements: force[ne][2], N/m3, is tension kappa grad H, kappa the
+ * interface's curvature (curvature.h) and H linear between its values at the vertices, 1 in the first phase and 0 in the
+ * second.  So tension kappa H is a pressure that holds it to round-off where kappa is constant, and sharp (the jumps of
+ * Kang, Fedkiw and Liu 2000 on squares).  cosine[mesh->ntags]: of the contact angle at boundaries, through the first phase;
+ * NULL: 90 degrees.  Needs the lines. */
+PetscErrorCode PhasesGetSurfaceForce(Phases phases, double tension, const double cosine[], double force[]);
+
+/* Collective.  Length of the interface between two phases, m: of the polygon through the means of the points in which the lines
+ * of neighbours cross their common face.  (The lines themselves turn too much in curved interfaces: 1 % at edges of R/20.)
+ * Needs the lines. */
+PetscErrorCode PhasesInterfaceLength(Phases phases, double *length);
+
 /* What flows in where nothing is known: outside of open boundaries. */
 typedef struct {
   const double (*fraction)[PHASES_MAX]; /* [ntags][nphases], sum 1; NULL: boundaries are closed */

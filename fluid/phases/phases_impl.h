@@ -33,6 +33,15 @@ static inline HalfPlane PhasesLine(Phases f, int e, int p, const double origin[2
   return PhasesMoveLine(f->line[(size_t)e * (size_t)(f->np - 1) + (size_t)p], f->stars->element[e].x[0],
                         origin);
 }
+/* With two phases: the distance of vertex v of an owned element from the interface, negative in the first phase, m; 0 where
+ * elements of both phases meet there, and around which no element is cut.  *inside: 1 in the first phase, 0 in the second,
+ * 1/2 on the interface. */
+double PhasesDistance(Phases phases, int v, double *inside);
+/* The interface's curvature near vertex v of an owned element, 1/m, positive where the first phase is convex; 0 is returned
+ * where none is known.  cosine: of contact angles, as in PhasesGetSurfaceForce. */
+int PhasesCurvature(Phases phases, int v, const double cosine[], double *curvature);
+/* Where the first line of cut element e crosses its face i, m; 0 if it does not. */
+int PhasesCrossing(Phases phases, int e, int i, double x[2]);
 /* area[np] += weight * |polygon and phase p| in local element e; polygon lies in the element, relative to
  * origin. */
 void PhasesSplit(Phases phases, int e, const Polygon *polygon, const double origin[2], double weight,

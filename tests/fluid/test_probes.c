@@ -161,18 +161,17 @@ static void CheckRefused(const char *set_folder)
 {
   const struct {
     const char *set, *message;
-  } fault[] = {
-      {"fluid.probes[0].point=[2.01, 0.5]",
-       "--set fluid.probes[0].point=[2.01, 0.5]: key 'fluid.probes[0].point': expected what lies "
-       "in the mesh, (2.01, 0.5) does not; the mesh is in [0, 2] x [0, 1]"},
-      {"fluid.probes[2].line.to=[2, 2]",
-       ":11: key 'fluid.probes[2].line': expected what lies in the mesh, (1.25, 1.25) does not; the "
-       "mesh is in [0, 2] x [0, 1]"},
-      {"fluid.probes[3].name=inside",
-       "--set fluid.probes[3].name=inside: key 'fluid.probes[3].name': fluid.probes[0] has the name "
-       "'inside', too"},
-      {"fluid.probes[3].solid_point=[0, 0]",
-       ":12: key 'fluid.probes[3]': expected one of point, line, solid_point, surface, found 2 of them"}};
+  } fault[] = {{"fluid.probes[0].point=[2.01, 0.5]",
+                "--set fluid.probes[0].point=[2.01, 0.5]: key 'fluid.probes[0].point': expected what lies "
+                "in the mesh, (2.01, 0.5) does not; the mesh is in [0, 2] x [0, 1]"},
+               {"fluid.probes[2].line.to=[2, 2]",
+                ":11: key 'fluid.probes[2].line': expected what lies in the mesh, (1.25, 1.25) does not; the "
+                "mesh is in [0, 2] x [0, 1]"},
+               {"fluid.probes[3].name=inside",
+                "--set fluid.probes[3].name=inside: key 'fluid.probes[3].name': fluid.probes[0] has the name "
+                "'inside', too"},
+               {"fluid.probes[3].solid_point=[0, 0]", ":12: key 'fluid.probes[3]': expected one of point, "
+                                                      "line, solid_point, surface, phase, found 2 of them"}};
   for (int k = 0; k < (int)(sizeof fault / sizeof *fault); k++)
     CheckCase(CASE, (const char *const[]){set_folder, fault[k].set, NULL}, OnlyOpen, fault[k].message);
 }
