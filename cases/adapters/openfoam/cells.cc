@@ -95,18 +95,19 @@ tmp<vectorField> Cells::force(const vectorField &U, const tensorField &grad) con
   return f;
 }
 
-void Cells::give(CoracleClient client, const vectorField &star, const vectorField &projected, const tensorField &grad)
+void Cells::give(CoracleClient client, const vectorField &start, const vectorField &star, const vectorField &projected,
+                 const tensorField &grad)
 {
-  const size_t n = near_.size();
-  star_.resize(6 * n);
-  projected_.resize(6 * n);
-  for (size_t e = 0; e < n; e++)
-    for (int i = 0; i < 3; i++)
-      for (int d = 0; d < 2; d++) {
-        star_[6 * e + 3 * d + i] = at(near_[e], i, star, grad)[d];
-        projected_[6 * e + 3 * d + i] = at(near_[e], i, projected, grad)[d];
-      }
-  const CoracleFlow flow = {star_.data(), projected_.data(), nullptr, density_.data(), viscosity_.data()};
+  const auto fill = [&](std::vector<double> &to, const vectorField &U) {
+    to.clear();
+    for (const int t : near_)
+      for (int d = 0; d < 2; d++)
+        for (int i = 0; i < 3; i++) to.push_back(at(t, i, U, grad)[d]);
+  };
+  fill(start_, start);
+  fill(star_, star);
+  fill(projected_, projected);
+  const CoracleFlow flow = {start_.data(), star_.data(), projected_.data(), nullptr, density_.data(), viscosity_.data()};
   CoracleSetFlow(client, &flow);
 }
 

@@ -22,14 +22,14 @@ public:
   void receive(CoracleClient client);
   // Force on the cells' volume without the implicit part, m/s2: (sum (s - a u) + k U)/(rho V), u linear in the triangles.
   Foam::tmp<Foam::vectorField> force(const Foam::vectorField &U, const Foam::tensorField &grad) const;
-  // Hands over u* and u projected, linear with the gradient of u*.
-  void give(CoracleClient client, const Foam::vectorField &star, const Foam::vectorField &projected,
-            const Foam::tensorField &grad);
+  // Hands over u_start, u* and u projected, linear with the gradient of u*, so that they differ by a constant on a cell.
+  void give(CoracleClient client, const Foam::vectorField &start, const Foam::vectorField &star,
+            const Foam::vectorField &projected, const Foam::tensorField &grad);
   // U += M^-1 r of the step that was made.
   void correct(CoracleClient client, Foam::vectorField &U) const;
 
   Foam::scalarField k;       // 1/s, the implicit coefficient: half the trace of a, over rho V
-  Foam::scalarField inertia; // 1/s, the part of it that moves under the pressure
+  Foam::scalarField inertia; // 1/s, of the solid beyond the fluid's
   Foam::scalarField ms;      // covered part of the cell in which the bulk velocity is the solid's
   Foam::vectorField us;      // m/s, its velocity times that part
 
@@ -47,6 +47,6 @@ private:
       made_; // that the coupler knows, by its numbers; those of the step that is being made
   std::vector<CoracleCoupling> coupling_;
   Foam::scalarField area_; // m2, of the cells' polygons
-  std::vector<double> x_, density_, viscosity_, star_, projected_;
+  std::vector<double> x_, density_, viscosity_, start_, star_, projected_;
 };
 #endif

@@ -23,7 +23,7 @@ typedef struct {
   Velocity *u;       /* [n], what a step changes; the library restores it when a step is redone */
   int nnear, *near;  /* the elements that the coupler knows, by its numbers */
   double (*x_near)[3][2], *rho, *mu, *p; /* what it gets of them */
-  Velocity *u_star;
+  Velocity *u_start, *u_star;
 } Dust;
 
 static void ReadCase(Dust *d, int argc, char **argv, int cells[2])
@@ -51,6 +51,7 @@ static void MakeMesh(Dust *d, const int cells[2], int rank, int size)
   d->x = malloc(n * sizeof *d->x + 1);
   d->x_near = malloc(n * sizeof *d->x + 1);
   d->u = calloc(n + 1, sizeof *d->u);
+  d->u_start = malloc(n * sizeof *d->u + 1);
   d->u_star = malloc(n * sizeof *d->u + 1);
   d->near = malloc(n * sizeof *d->near + 1);
   d->rho = malloc(n * sizeof *d->rho + 1);
@@ -108,19 +109,21 @@ static double Mass(const Dust *d, int i, int j)
   return d->area / 12.0 * (i == j ? 2.0 : 1.0);
 }
 
-/* (rho M/dt + a) u* = rho M/dt u + s on the coupled elements; elsewhere nothing acts. */
+/* (rho M/dt + inertia) (u* - u) + a u* = s on the coupled elements; elsewhere nothing acts. */
 static void Advance(Dust *d, double dt)
 {
   const CoracleCoupling *k;
   int n;
   CoracleGetCoupling(d->client, &n, &k);
-  for (int e = 0; e < d->nnear; e++) memcpy(d->u_star[e], d->u[d->near[e]], sizeof *d->u);
+  for (int e = 0; e < d->nnear; e++) memcpy(d->u_start[e], d->u[d->near[e]], sizeof *d->u);
+  if (d->nnear) memcpy(d->u_star, d->u_start, (size_t)d->nnear * sizeof *d->u);
   for (int m = 0; m < n; m++) {
     double A[36], *u = &d->u_star[k[m].element][0][0], load[6];
     for (int r = 0; r < 6; r++) {
       load[r] = k[m].s[r / 3][r % 3];
       for (int q = 0; q < 6; q++) {
-        const double inertia = r / 3 == q / 3 ? d->density / dt * Mass(d, r % 3, q % 3) : 0.0;
+        const double inertia = (r / 3 == q / 3 ? d->density / dt * Mass(d, r % 3, q % 3) : 0.0) +
+                               k[m].implicit_inertia[r / 3][r % 3][q / 3][q % 3];
         A[6 * r + q] = inertia + k[m].a[r / 3][r % 3][q / 3][q % 3];
         load[r] += inertia * u[q];
       }
@@ -154,7 +157,8 @@ static void Step(Dust *d, double dt)
   Advance(d, dt);
   /* a projection has the bulk velocity u* + M^-1 (us - ms u*) and W = rho M/dt + implicit_inertia */
   Velocity *u_projected = d->u_star;
-  const CoracleFlow flow = {.u_star = &d->u_star[0][0][0],
+  const CoracleFlow flow = {.u_start = &d->u_start[0][0][0],
+                            .u_star = &d->u_star[0][0][0],
                             .u_projected = &u_projected[0][0][0],
                             .p = CoracleNeedsPressure(d->client) ? d->p : NULL,
                             .rho = d->rho,
@@ -190,7 +194,7 @@ int main(int argc, char **argv)
     if (action == CORACLE_STOP) break;
     Step(&d, dt);
   }
-  void *all[] = {d.x, d.x_near, d.u, d.u_star, d.near, d.rho, d.mu, d.p};
-  for (int k = 0; k < 8; k++) free(all[k]);
+  void *all[] = {d.x, d.x_near, d.u, d.u_start, d.u_star, d.near, d.rho, d.mu, d.p};
+  for (int k = 0; k < 9; k++) free(all[k]);
   return CoracleClose(&d.client);
 }

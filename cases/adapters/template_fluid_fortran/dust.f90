@@ -16,7 +16,7 @@ module dust_fluid  ! region is called from C: it must not be internal to the pro
   real(c_double), allocatable :: x(:, :, :)          ! m
   real(c_double), allocatable, target :: u(:, :, :)  ! m/s; what a step changes; the library restores it when it is redone
   integer, allocatable :: near(:), before(:)         ! the elements that the coupler knows, by its numbers + 1
-  real(c_double), allocatable, target :: x_near(:, :, :), rho(:), mu(:), p(:, :), u_star(:, :, :)
+  real(c_double), allocatable, target :: x_near(:, :, :), rho(:), mu(:), p(:, :), u_start(:, :, :), u_star(:, :, :)
 
 contains
 
@@ -75,18 +75,20 @@ contains
     region = 0
   end function
 
-  !> (rho M/dt + a) u* = rho M/dt u + s on the coupled elements; elsewhere nothing acts.
+  !> (rho M/dt + inertia) (u* - u) + a u* = s on the coupled elements; elsewhere nothing acts.
   subroutine advance()
     type(CoracleCoupling), pointer :: k(:)
-    real(c_double) :: a(6, 6), inertia(6, 6), load(6)
+    real(c_double) :: a(6, 6), own(6, 6), inertia(6, 6), load(6)
     integer :: m, e
     call coracle_get_coupling(client, k)
-    u_star = u(:, :, near(:nnear))
-    inertia = 0
-    inertia(1:3, 1:3) = density / dt * mass
-    inertia(4:6, 4:6) = inertia(1:3, 1:3)
+    u_start = u(:, :, near(:nnear))
+    u_star = u_start
+    own = 0
+    own(1:3, 1:3) = density / dt * mass
+    own(4:6, 4:6) = own(1:3, 1:3)
     do m = 1, size(k)
       e = k(m)%element + 1
+      inertia = own + transpose(reshape(k(m)%implicit_inertia, [6, 6]))
       a = inertia + transpose(reshape(k(m)%a, [6, 6]))
       load = matmul(inertia, reshape(u_star(:, :, e), [6])) + reshape(k(m)%s, [6])
       call solve(a, load)
@@ -97,7 +99,7 @@ contains
   subroutine set_flow()
     type(CoracleFlow) :: flow
     if (CoracleNeedsPressure(client) == 1) p = spread(0 * rho(:nnear), 1, CORACLE_PRESSURE_NODES)
-    flow = CoracleFlow(c_loc(u_star), c_loc(u_star), c_null_ptr, c_loc(rho), c_loc(mu))
+    flow = CoracleFlow(c_loc(u_start), c_loc(u_star), c_loc(u_star), c_null_ptr, c_loc(rho), c_loc(mu))
     if (allocated(p)) flow%p = c_loc(p)
     error = CoracleSetFlow(client, flow)
   end subroutine
