@@ -17,11 +17,12 @@ void ExamineSolid(Kit *k);
  *
  *     RUN  a = 9 rho B/dt towards V, as a solid that is held
  *     REDO the same towards V + G                must have moved with G
- *     REDO tau, no coupling                      u* = v, which has the correction of the step before
+ *     REDO tau, no coupling                      u* = u_start = v, with the correction of the step before
  *     REDO tau, s = rho B w/tau                  | rho (u* - v) = tau s
  *     REDO tau, a = 9 rho B/tau                  | rho (u* - v) = -tau a u*
  *     REDO tau, ms = B, us = B w                 the fluid around the disc is displaced
- *     REDO tau, implicit inertia 99 rho B/tau    the pressure moves the disc a hundredth as much
+ *     REDO tau, implicit inertia 9 rho B/tau,    | rho (u* - v) = tau s - tau (inertia) (u* - u_start); the pressure
+ *          s = 10 rho B w/tau                    moves the disc a tenth as much
  *     REDO as the first                          the first's bits */
 void ExamineFluid(Kit *k);
 #endif

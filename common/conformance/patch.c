@@ -129,3 +129,17 @@ void PatchCoupled(const Kit *k, const Patch *p, const double u[], double momentu
   momentum[1] = all[1];
   *mass = all[2];
 }
+
+void PatchDifference(const Kit *k, const Patch *p, const double u[], const double v[], double *all,
+                     double *disc)
+{
+  double a[2], b[2], mass;
+  *all = 0.0;
+  for (int e = 0; e < p->n; e++)
+    *all +=
+        p->area[e] * hypot(PatchMean(u, e, 0) - PatchMean(v, e, 0), PatchMean(u, e, 1) - PatchMean(v, e, 1));
+  MPI_Allreduce(MPI_IN_PLACE, all, 1, MPI_DOUBLE, MPI_SUM, k->comm);
+  PatchCoupled(k, p, u, a, &mass);
+  PatchCoupled(k, p, v, b, &mass);
+  *disc = hypot(a[0] - b[0], a[1] - b[1]) / mass;
+}

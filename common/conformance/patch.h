@@ -31,4 +31,7 @@ static inline void PatchMass(double area, double factor, double block[3][3])
 void PatchMomentum(const Kit *k, const Patch *p, const double u[], double momentum[2]);
 /* Collective: the same over the coupled elements; *mass: theirs, sum of rho |K|, kg. */
 void PatchCoupled(const Kit *k, const Patch *p, const double u[], double momentum[2], double *mass);
+/* Collective: the integral of |u - v| over the elements, m3/s, and the length of its mean over the coupled ones, m/s. */
+void PatchDifference(const Kit *k, const Patch *p, const double u[], const double v[], double *all,
+                     double *disc);
 #endif

@@ -62,7 +62,7 @@ void Cells::receive(CoracleClient client)
     for (int d = 0; d < 2; d++)
       for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
-          k[cell] += 0.5 * (c.a[d][i][d][j] + c.implicit_inertia[d][i][d][j]) / (rho_ * area_[cell]);
+          k[cell] += 0.5 * c.a[d][i][d][j] / (rho_ * area_[cell]);
           inertia[cell] += 0.5 * c.implicit_inertia[d][i][d][j] / (rho_ * area_[cell]);
           ms[cell] += 0.5 * c.ms[i][j] / area_[cell];
         }
@@ -78,14 +78,6 @@ vector Cells::at(int t, int i, const vectorField &U, const tensorField &grad) co
   return U[T.cell] + (d & grad[T.cell]);
 }
 
-void Cells::start(const vectorField &U, const tensorField &grad)
-{
-  start_.resize(6 * near_.size());
-  for (size_t e = 0; e < near_.size(); e++)
-    for (int i = 0; i < 3; i++)
-      for (int d = 0; d < 2; d++) start_[6 * e + 3 * d + i] = at(near_[e], i, U, grad)[d];
-}
-
 tmp<vectorField> Cells::force(const vectorField &U, const tensorField &grad) const
 {
   auto f = tmp<vectorField>::New(k * U);
@@ -95,9 +87,7 @@ tmp<vectorField> Cells::force(const vectorField &U, const tensorField &grad) con
       const vector u = at(t, j, U, grad);
       for (int d = 0; d < 2; d++) {
         double load = c.s[d][j];
-        for (int i = 0; i < 3; i++)
-          for (int b = 0; b < 2; b++)
-            load -= c.a[d][i][b][j] * u[b] + c.implicit_inertia[d][i][b][j] * (u[b] - start_[6 * c.element + 3 * b + j]);
+        for (int i = 0; i < 3; i++) load -= c.a[d][i][0][j] * u.x() + c.a[d][i][1][j] * u.y();
         f.ref()[cell][d] += load / (rho_ * area_[cell]);
       }
     }
@@ -105,17 +95,18 @@ tmp<vectorField> Cells::force(const vectorField &U, const tensorField &grad) con
   return f;
 }
 
-void Cells::give(CoracleClient client, const vectorField &star, const vectorField &projected, const tensorField &grad)
+void Cells::give(CoracleClient client, const vectorField &start, const vectorField &star, const vectorField &projected,
+                 const tensorField &grad)
 {
-  const size_t n = near_.size();
-  star_.resize(6 * n);
-  projected_.resize(6 * n);
-  for (size_t e = 0; e < n; e++)
-    for (int i = 0; i < 3; i++)
-      for (int d = 0; d < 2; d++) {
-        star_[6 * e + 3 * d + i] = at(near_[e], i, star, grad)[d];
-        projected_[6 * e + 3 * d + i] = at(near_[e], i, projected, grad)[d];
-      }
+  const auto fill = [&](std::vector<double> &to, const vectorField &U) {
+    to.clear();
+    for (const int t : near_)
+      for (int d = 0; d < 2; d++)
+        for (int i = 0; i < 3; i++) to.push_back(at(t, i, U, grad)[d]);
+  };
+  fill(start_, start);
+  fill(star_, star);
+  fill(projected_, projected);
   const CoracleFlow flow = {start_.data(), star_.data(), projected_.data(), nullptr, density_.data(), viscosity_.data()};
   CoracleSetFlow(client, &flow);
 }

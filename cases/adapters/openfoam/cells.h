@@ -20,19 +20,16 @@ public:
   static int region(void *context, int nbox, const double box[], CoracleElements *elements);
   // Takes what the solid does in the coming step.
   void receive(CoracleClient client);
-  // The velocity at the step's start, linear in the triangles by its gradient.
-  void start(const Foam::vectorField &U, const Foam::tensorField &grad);
-  // Force on the cells' volume without the implicit part, m/s2: (sum (s - a u - I (u - u start)) + k U)/(rho V), u linear in the
-  // triangles, I the implicit inertia.
+  // Force on the cells' volume without the implicit part, m/s2: (sum (s - a u) + k U)/(rho V), u linear in the triangles.
   Foam::tmp<Foam::vectorField> force(const Foam::vectorField &U, const Foam::tensorField &grad) const;
-  // Hands over u start, u* and u projected, these linear with the gradient of u*.
-  void give(CoracleClient client, const Foam::vectorField &star, const Foam::vectorField &projected,
-            const Foam::tensorField &grad);
+  // Hands over u_start, u* and u projected, linear with the gradient of u*, so that they differ by a constant on a cell.
+  void give(CoracleClient client, const Foam::vectorField &start, const Foam::vectorField &star,
+            const Foam::vectorField &projected, const Foam::tensorField &grad);
   // U += M^-1 r of the step that was made.
   void correct(CoracleClient client, Foam::vectorField &U) const;
 
-  Foam::scalarField k;       // 1/s, the implicit coefficient: half the trace of a + I, over rho V
-  Foam::scalarField inertia; // 1/s, the part of it that moves under the pressure
+  Foam::scalarField k;       // 1/s, the implicit coefficient: half the trace of a, over rho V
+  Foam::scalarField inertia; // 1/s, of the solid beyond the fluid's
   Foam::scalarField ms;      // covered part of the cell in which the bulk velocity is the solid's
   Foam::vectorField us;      // m/s, its velocity times that part
 

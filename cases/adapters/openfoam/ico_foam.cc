@@ -52,7 +52,7 @@ private:
   volScalarField p;
   volVectorField U;
   surfaceScalarField phi;
-  volVectorField grad_p_, star_; // of the step's start; U*
+  volVectorField grad_p_, start_, star_; // both of the step's start; U*
   volTensorField grad_U_;        // of U*
   // what a step changes, U, p and phi by cells and faces; the library restores it when a step is redone
   std::vector<double> state_;
@@ -62,7 +62,7 @@ private:
 Flow::Flow(CoracleClient client, const Input &in, Time &time)
     : client_(client), in_(in), time_(time),
       mesh_(IOobject(fvMesh::defaultRegion, time.timeName(), time, IOobject::MUST_READ)), cells_(mesh_, in.rho, in.mu),
-      p(IOobject("p", time.timeName(), mesh_, IOobject::MUST_READ, IOobject::AUTO_WRITE), mesh_), U(IOobject("U", time.timeName(), mesh_, IOobject::MUST_READ, IOobject::AUTO_WRITE), mesh_), phi("phi", fvc::flux(U)), grad_p_(fvc::grad(p)), star_("star", U),
+      p(IOobject("p", time.timeName(), mesh_, IOobject::MUST_READ, IOobject::AUTO_WRITE), mesh_), U(IOobject("U", time.timeName(), mesh_, IOobject::MUST_READ, IOobject::AUTO_WRITE), mesh_), phi("phi", fvc::flux(U)), grad_p_(fvc::grad(p)), start_("start", U), star_("star", U),
       grad_U_(fvc::grad(U))
 {
   mesh_.setFluxRequired("p");
@@ -99,22 +99,23 @@ void Flow::propose()
   CoracleProposeStep(client_, Foam::min(in_.dt_max, in_.cfl / Foam::max(gMax(rate), VSMALL)));
 }
 
-// (1/dt + k) U* + div(phi U*) - nu laplacian U* = U/dt - grad p + force, whose part beyond k follows in iterations: what a has
-// between components, and the velocity's gradient in the cells
+// (1/dt + inertia) (U* - U) + k U* + div(phi U*) - nu laplacian U* = force - grad p; what force has beyond k follows in
+// iterations: a's terms between components, and the velocity's gradient in the cells
 void Flow::predict(double dt)
 {
   const dimensionedScalar per_dt("1/dt", dimless / dimTime, 1.0 / dt), nu("nu", dimViscosity, in_.mu / in_.rho);
-  const volVectorField start("start", U);
-  volScalarField k(IOobject("k", time_.timeName(), mesh_), mesh_, 0.0 * per_dt);
+  start_ = U;
+  volScalarField k(IOobject("k", time_.timeName(), mesh_), mesh_, 0.0 * per_dt), inertia("inertia", k + per_dt);
   volVectorField force("force", 0.0 * per_dt * U);
   k.primitiveFieldRef() = cells_.k;
+  inertia.primitiveFieldRef() += cells_.inertia;
   grad_p_ = fvc::grad(p);
   grad_U_ = fvc::grad(U);
   cells_.start(U, grad_U_);
   for (int iteration = 0; iteration < 4; iteration++) {
     force.primitiveFieldRef() = cells_.force(U, grad_U_);
-    fvVectorMatrix momentum(fvm::Sp(per_dt + k, U) + fvm::div(phi, U) - fvm::laplacian(nu, U) ==
-                            per_dt * start + force - grad_p_);
+    fvVectorMatrix momentum(fvm::Sp(inertia + k, U) + fvm::div(phi, U) - fvm::laplacian(nu, U) ==
+                            inertia * start_ + force - grad_p_);
     momentum.solve();
     grad_U_ = fvc::grad(U);
   }
@@ -149,7 +150,7 @@ void Flow::step(double t, double dt)
   predict(dt);
   CoraclePhase(client_, "pressure");
   project(dt);
-  cells_.give(client_, star_, U, grad_U_);
+  cells_.give(client_, start_, star_, U, grad_U_);
   propose();
   CoracleEnd(client_, nullptr);
   if (!CoracleStepAccepted(client_)) return;

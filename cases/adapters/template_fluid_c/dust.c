@@ -109,16 +109,14 @@ static double Mass(const Dust *d, int i, int j)
   return d->area / 12.0 * (i == j ? 2.0 : 1.0);
 }
 
-/* (rho M/dt + I) (u* - u) + a u* = s on the coupled elements, I the implicit inertia; elsewhere nothing acts. */
+/* (rho M/dt + inertia) (u* - u) + a u* = s on the coupled elements; elsewhere nothing acts. */
 static void Advance(Dust *d, double dt)
 {
   const CoracleCoupling *k;
   int n;
   CoracleGetCoupling(d->client, &n, &k);
-  for (int e = 0; e < d->nnear; e++) {
-    memcpy(d->u_start[e], d->u[d->near[e]], sizeof *d->u);
-    memcpy(d->u_star[e], d->u[d->near[e]], sizeof *d->u);
-  }
+  for (int e = 0; e < d->nnear; e++) memcpy(d->u_start[e], d->u[d->near[e]], sizeof *d->u);
+  if (d->nnear) memcpy(d->u_star, d->u_start, (size_t)d->nnear * sizeof *d->u);
   for (int m = 0; m < n; m++) {
     double A[36], *u = &d->u_star[k[m].element][0][0], load[6];
     for (int r = 0; r < 6; r++) {
@@ -197,6 +195,6 @@ int main(int argc, char **argv)
     Step(&d, dt);
   }
   void *all[] = {d.x, d.x_near, d.u, d.u_start, d.u_star, d.near, d.rho, d.mu, d.p};
-  for (int k = 0; k < 8; k++) free(all[k]);
+  for (int k = 0; k < 9; k++) free(all[k]);
   return CoracleClose(&d.client);
 }

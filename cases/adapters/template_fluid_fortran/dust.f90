@@ -75,20 +75,20 @@ contains
     region = 0
   end function
 
-  !> (rho M/dt + I) (u* - u) + a u* = s on the coupled elements, I the implicit inertia; elsewhere nothing acts.
+  !> (rho M/dt + inertia) (u* - u) + a u* = s on the coupled elements; elsewhere nothing acts.
   subroutine advance()
     type(CoracleCoupling), pointer :: k(:)
-    real(c_double) :: a(6, 6), mass_dt(6, 6), inertia(6, 6), load(6)
+    real(c_double) :: a(6, 6), own(6, 6), inertia(6, 6), load(6)
     integer :: m, e
     call coracle_get_coupling(client, k)
     u_start = u(:, :, near(:nnear))
     u_star = u_start
-    mass_dt = 0
-    mass_dt(1:3, 1:3) = density / dt * mass
-    mass_dt(4:6, 4:6) = mass_dt(1:3, 1:3)
+    own = 0
+    own(1:3, 1:3) = density / dt * mass
+    own(4:6, 4:6) = own(1:3, 1:3)
     do m = 1, size(k)
       e = k(m)%element + 1
-      inertia = mass_dt + transpose(reshape(k(m)%implicit_inertia, [6, 6]))
+      inertia = own + transpose(reshape(k(m)%implicit_inertia, [6, 6]))
       a = inertia + transpose(reshape(k(m)%a, [6, 6]))
       load = matmul(inertia, reshape(u_star(:, :, e), [6])) + reshape(k(m)%s, [6])
       call solve(a, load)

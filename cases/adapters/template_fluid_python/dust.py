@@ -36,14 +36,13 @@ class Dust:
         return self.x[self.near], np.full(n, self.rho), np.full(n, self.mu)
 
     def solve(self, dt, coupling):
-        """(rho M/dt + I) (u* - u) + a u* = s on the coupled elements, I the implicit inertia; elsewhere nothing acts: u, u*."""
-        n = len(coupling)
+        """(rho M/dt + inertia) (u* - u) + a u* = s on the coupled elements; elsewhere nothing acts."""
+        u_star, n = self.u[self.near], len(coupling)
+        u = u_star[coupling["element"]].reshape(n, 6, 1)
         inertia = self.rho / dt * self.area * np.kron(np.eye(2), MASS) + coupling["implicit_inertia"].reshape(n, 6, 6)
-        u_start = self.u[self.near]
-        u_star = u_start.copy()
-        load = (inertia @ u_start[coupling["element"]].reshape(n, 6, 1))[:, :, 0] + coupling["s"].reshape(n, 6)
-        u_star[coupling["element"]] = np.linalg.solve(inertia + coupling["a"].reshape(n, 6, 6), load[:, :, None]).reshape(n, 2, 3)
-        return u_start, u_star
+        load = inertia @ u + coupling["s"].reshape(n, 6, 1)
+        u_star[coupling["element"]] = np.linalg.solve(inertia + coupling["a"].reshape(n, 6, 6), load).reshape(n, 2, 3)
+        return u_star
 
     def correct(self, near, correction):
         """u += M^-1 r inside the solid; the elements are those that the step began with."""
@@ -61,10 +60,10 @@ def main():
     client.ready()
     for step in client.steps():
         near, n = dust.near, len(dust.near)
-        u_start, u_star = dust.solve(step.dt, client.get_coupling())
+        u_star = dust.solve(step.dt, client.get_coupling())
         u_projected = u_star  # a projection has the bulk velocity u* + M^-1 (us - ms u*) and W = rho M/dt + implicit_inertia
         p = np.zeros((n, 6)) if client.needs_pressure() else None
-        client.set_flow(u_start, u_star, u_projected, np.full(n, dust.rho), np.full(n, dust.mu), p)
+        client.set_flow(dust.u[near], u_star, u_projected, np.full(n, dust.rho), np.full(n, dust.mu), p)
         client.propose_step(dt_max)
         client.end()
         if client.step_accepted():
