@@ -111,7 +111,6 @@ void Flow::predict(double dt)
   inertia.primitiveFieldRef() += cells_.inertia;
   grad_p_ = fvc::grad(p);
   grad_U_ = fvc::grad(U);
-  cells_.start(U, grad_U_);
   for (int iteration = 0; iteration < 4; iteration++) {
     force.primitiveFieldRef() = cells_.force(U, grad_U_);
     fvVectorMatrix momentum(fvm::Sp(inertia + k, U) + fvm::div(phi, U) - fvm::laplacian(nu, U) ==
