@@ -18,6 +18,7 @@ struct PhaseTransport_s {
   double *flux, *beta, *velocity;                /* [ne][3], [ne][6], [ne][3][2] of the step */
   double *swept, *part, *moment; /* [ne][3][n] of the step and of its part, m2; [ne][3][2] prescribed */
   int *single;                   /* [nl] at the start of the step */
+  PhaseBudget budget, saved_budget;
 };
 
 int PhaseLightest(const PhaseProperties *p)
@@ -80,6 +81,18 @@ PetscErrorCode PhaseTransportDestroy(PhaseTransport *transport)
   PetscFunctionReturn(0);
 }
 
+/* volume[n], m2, of all ranks. */
+static PetscErrorCode SumVolumes(PhaseTransport t, double volume[])
+{
+  int n;
+  const double *v = PhaseTransportVolumes(t, &n);
+  PetscFunctionBeginUser;
+  PetscCall(PetscArrayzero(volume, n));
+  for (int k = 0; k < n * t->stars->ne; k++) volume[k % n] += v[k];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, volume, n, MPI_DOUBLE, MPI_SUM, t->domain->mesh->comm));
+  PetscFunctionReturn(0);
+}
+
 /* --- state ---------------------------------------------------------------------------------------------- */
 
 /* Lines, and what follows from them. */
@@ -106,6 +119,7 @@ PetscErrorCode PhaseTransportFill(PhaseTransport t, int nregions, const Region r
 {
   PetscFunctionBeginUser;
   PetscCall(PhasesFill(t->phases, nregions, region));
+  PetscCall(SumVolumes(t, t->budget.initial));
   PetscCall(Reconstruct(t));
   PetscFunctionReturn(0);
 }
@@ -114,6 +128,7 @@ PetscErrorCode PhaseTransportRemap(PhaseTransport from, Transfer transfer, Phase
 {
   PetscFunctionBeginUser;
   PetscCall(PhasesRemap(from->phases, transfer, to->phases));
+  to->budget = from->budget;
   PetscCall(Reconstruct(to));
   PetscFunctionReturn(0);
 }
@@ -124,6 +139,7 @@ PetscErrorCode PhaseTransportSaveState(PhaseTransport t)
   PetscFunctionBeginUser;
   PetscCall(PhasesGetVolumes(t->phases, &volume));
   PetscCall(PetscArraycpy(t->saved, volume, (size_t)t->properties.n * (size_t)t->stars->ne));
+  t->saved_budget = t->budget;
   PetscFunctionReturn(0);
 }
 
@@ -131,6 +147,7 @@ PetscErrorCode PhaseTransportRestoreState(PhaseTransport t)
 {
   PetscFunctionBeginUser;
   PetscCall(PhasesSetVolumes(t->phases, t->saved));
+  t->budget = t->saved_budget;
   PetscCall(Reconstruct(t));
   PetscFunctionReturn(0);
 }
@@ -139,8 +156,12 @@ PetscErrorCode PhaseTransportSave(PhaseTransport t, Checkpoint to)
 {
   int n;
   const double *volume = PhaseTransportVolumes(t, &n);
+  PetscMPIInt rank;
   PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(t->domain->mesh->comm, &rank));
   PetscCall(CheckpointPutDoubles(to, "phases", t->stars->ne, n, volume));
+  PetscCall(CheckpointPutDoubles(to, "initial phases", rank ? 0 : 1, n, t->budget.initial));
+  PetscCall(CheckpointPutDoubles(to, "phases out", rank ? 0 : 1, n, t->budget.out));
   PetscFunctionReturn(0);
 }
 
@@ -152,6 +173,8 @@ PetscErrorCode PhaseTransportLoad(PhaseTransport t, const PetscInt row[], Checkp
   PetscCall(MeshLoadDoubles(t->domain->mesh, row, from, "phases", t->properties.n, volume));
   PetscCall(PhasesSetVolumes(t->phases, volume));
   PetscCall(PetscFree(volume));
+  PetscCall(CheckpointGetDoubles(from, "initial phases", 0, 1, t->properties.n, t->budget.initial));
+  PetscCall(CheckpointGetDoubles(from, "phases out", 0, 1, t->properties.n, t->budget.out));
   PetscCall(Reconstruct(t));
   PetscFunctionReturn(0);
 }
@@ -192,6 +215,14 @@ const double *PhaseTransportVolumes(PhaseTransport t, int *n)
 Phases PhaseTransportPhases(PhaseTransport t)
 {
   return t->phases;
+}
+
+PetscErrorCode PhaseTransportBudget(PhaseTransport t, PhaseBudget *budget)
+{
+  PetscFunctionBeginUser;
+  *budget = t->budget;
+  PetscCall(SumVolumes(t, budget->volume));
+  PetscFunctionReturn(0);
 }
 
 /* --- the step ------------------------------------------------------------------------------------------- */
@@ -264,6 +295,19 @@ static PetscErrorCode LeaveSolid(PhaseTransport t, const double solid[])
   PetscFunctionReturn(0);
 }
 
+/* Adds what this step has swept through the boundary. */
+static PetscErrorCode AddOut(PhaseTransport t)
+{
+  const int n = t->properties.n;
+  double out[PHASES_MAX] = {0.0};
+  PetscFunctionBeginUser;
+  for (int k = 0; k < 3 * t->stars->ne; k++)
+    for (int p = 0; p < n && t->domain->mesh->neighbor[k] < 0; p++) out[p] += t->swept[k * n + p];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, out, n, MPI_DOUBLE, MPI_SUM, t->domain->mesh->comm));
+  for (int p = 0; p < n; p++) t->budget.out[p] += out[p];
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode Advect(PhaseTransport t, double dt, const double solid[])
 {
   const int n = 3 * t->properties.n * t->stars->ne;
@@ -277,6 +321,7 @@ static PetscErrorCode Advect(PhaseTransport t, double dt, const double solid[])
     PetscCall(PhasesAdvect(t->phases, dt / parts, t->flux, t->velocity, &inflow, t->part));
     for (int i = 0; i < n; i++) t->swept[i] += t->part[i];
   }
+  PetscCall(AddOut(t));
   if (solid) PetscCall(LeaveSolid(t, solid));
   PetscCall(Reconstruct(t));
   PetscFunctionReturn(0);
