@@ -13,6 +13,7 @@ struct PhaseTransport_s {
   Phases phases;
   char *open;                                    /* [ntags] fluxes are free there */
   double (*inflow)[PHASES_MAX];                  /* [ntags] fractions of what comes in */
+  PhasesLevel *level;                            /* [ntags] */
   InverseDensity *begin, *end, *inverse_density; /* [ne] at the ends of the step, and what the step sees */
   double *saved;                                 /* [ne][n] volumes */
   double *flux, *beta, *velocity;                /* [ne][3], [ne][6], [ne][3][2] of the step */
@@ -39,6 +40,10 @@ static void SetInflow(PhaseTransport t)
     const Boundary *boundary = &t->domain->boundary[b];
     t->open[b] = boundary->kind == BOUNDARY_OPEN;
     t->inflow[b][boundary->has_phase ? boundary->phase : lightest] = 1.0;
+    if (!boundary->has_level) continue;
+    t->level[b].phase = 1 - lightest;
+    t->level[b].below.d = boundary->level;
+    for (int c = 0; c < 2; c++) t->level[b].below.n[c] = -t->gravity[c] / hypot(t->gravity[0], t->gravity[1]);
   }
 }
 
@@ -55,7 +60,7 @@ PetscErrorCode PhaseTransportCreate(const FluidDomain *domain, const PhaseProper
   for (int c = 0; c < 2; c++) t->gravity[c] = gravity[c];
   PetscCall(StarsCreate(m, &t->stars));
   PetscCall(PhasesCreate(t->stars, n, &t->phases));
-  PetscCall(PetscCalloc2(m->ntags, &t->open, m->ntags, &t->inflow));
+  PetscCall(PetscCalloc3(m->ntags, &t->open, m->ntags, &t->inflow, m->ntags, &t->level));
   PetscCall(PetscMalloc4(m->ne, &t->begin, m->ne, &t->end, m->ne, &t->inverse_density,
                          (size_t)n * (size_t)m->ne, &t->saved));
   PetscCall(
@@ -73,7 +78,7 @@ PetscErrorCode PhaseTransportDestroy(PhaseTransport *transport)
   if (!t) PetscFunctionReturn(0);
   PetscCall(PhasesDestroy(&t->phases));
   PetscCall(StarsDestroy(&t->stars));
-  PetscCall(PetscFree2(t->open, t->inflow));
+  PetscCall(PetscFree3(t->open, t->inflow, t->level));
   PetscCall(PetscFree4(t->begin, t->end, t->inverse_density, t->saved));
   PetscCall(PetscFree4(t->flux, t->beta, t->velocity, t->moment));
   PetscCall(PetscFree3(t->swept, t->part, t->single));
@@ -311,7 +316,7 @@ static PetscErrorCode AddOut(PhaseTransport t)
 static PetscErrorCode Advect(PhaseTransport t, double dt, const double solid[])
 {
   const int n = 3 * t->properties.n * t->stars->ne;
-  const PhasesInflow inflow = {(const double(*)[PHASES_MAX])t->inflow};
+  const PhasesInflow inflow = {(const double(*)[PHASES_MAX])t->inflow, t->level};
   int parts;
   PetscFunctionBeginUser;
   PetscCall(CountParts(t, dt, &parts));

@@ -55,9 +55,16 @@ PetscErrorCode PhasesGetKink(Phases phases, int e, const double rho[], const dou
 PetscErrorCode PhasesGetInverseDensity(Phases phases, const double rho[], const double gravity[2],
                                        InverseDensity inverse[]);
 
+/* Where n.x < d, phase alone flows in; n = 0, d = 0: nowhere. */
+typedef struct {
+  HalfPlane below;
+  int phase;
+} PhasesLevel;
+
 /* What flows in where nothing is known: outside of open boundaries. */
 typedef struct {
   const double (*fraction)[PHASES_MAX]; /* [ntags][nphases], sum 1; NULL: boundaries are closed */
+  const PhasesLevel *level;             /* [ntags], borrowed; NULL: none */
 } PhasesInflow;
 
 /* One step of dt, s, along fluxes flux[ne][3] (outward through face i, m2/s; what leaves an element enters
