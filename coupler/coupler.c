@@ -1,5 +1,6 @@
 #include "coupler/coupler_impl.h"
 #include "coupler/inertia.h"
+#include "coupler/slip.h"
 
 PetscErrorCode CouplerCreate(MPI_Comm comm, const CouplerOptions *options, Coupler *coupler)
 {
@@ -26,8 +27,8 @@ PetscErrorCode CouplerSetElements(Coupler c, const FluidElements *elements)
 static PetscErrorCode FreeStep(Coupler c)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscFree3(c->coefficient, c->body_force, c->coupling));
-  PetscCall(PetscFree5(c->vertex, c->start_velocity, c->implicit_factor, c->density, c->force));
+  PetscCall(PetscFree3(c->term, c->coupling, c->tangential));
+  PetscCall(PetscFree4(c->vertex, c->start_velocity, c->density, c->force));
   PetscCall(PetscFree5(c->node, c->start, c->predicted, c->acceleration, c->explicit_fraction));
   PetscCall(PetscFree(c->mobility));
   PetscFunctionReturn(0);
@@ -40,15 +41,15 @@ static PetscErrorCode NewStep(Coupler c, const SolidState *solid)
 
   PetscFunctionBeginUser;
   PetscCall(FreeStep(c));
-  PetscCall(PetscMalloc3(o->pairs.n, &c->coefficient, o->pairs.n, &c->body_force, o->ncoupled, &c->coupling));
-  PetscCall(PetscMalloc5(3 * nsources, &c->vertex, nsources, &c->start_velocity, nsources,
-                         &c->implicit_factor, nsources, &c->density, 2 * n, &c->force));
+  PetscCall(PetscMalloc3(o->pairs.n, &c->term, o->ncoupled, &c->coupling, o->ncoupled, &c->tangential));
+  PetscCall(PetscMalloc4(3 * nsources, &c->vertex, nsources, &c->start_velocity, nsources, &c->density, 2 * n,
+                         &c->force));
   PetscCall(PetscMalloc5(n, &c->node, 2 * n, &c->start, 2 * n, &c->predicted, 2 * n, &c->acceleration, n,
                          &c->explicit_fraction));
   PetscCall(PetscMalloc1(n, &c->mobility));
-  PetscCall(PetscArrayzero(c->body_force, o->pairs.n));
+  PetscCall(PetscArrayzero(c->term, o->pairs.n));
+  PetscCall(PetscArrayzero(c->tangential, o->ncoupled));
   PetscCall(PetscArrayzero(c->density, nsources));
-  for (size_t t = 0; t < nsources; t++) c->implicit_factor[t] = 1.0;
   for (size_t t = 0; t < nsources; t++)
     PetscCall(PetscArraycpy(&c->start_velocity[t][0][0], &o->source[t].u[0][0], 6));
   PetscCall(PetscArraycpy(c->start, solid->u, 2 * n));
@@ -113,13 +114,12 @@ PetscErrorCode CouplerSetInterfaceVelocity(Coupler c, const double u[], int *n,
   PetscCall(PetscMalloc2(o->nsources, &velocity, 2 * (size_t)c->nnodes, &acceleration));
   PetscCall(OverlapNodesToSources(o, 2, u, (double *)velocity));
   for (int t = 0; t < o->nsources; t++)
-    if (c->density[t] == 0.0) PetscCall(PetscMemcpy(o->source[t].u, velocity[t], sizeof velocity[t]));
+    PetscCall(PetscMemcpy(o->source[t].u, velocity[t], sizeof velocity[t]));
   for (int k = 0; k < 2 * c->nnodes; k++) acceleration[k] = (u[k] - c->start[k]) / c->dt;
-  PetscCall(
-      InertiaBodyForce(o, c->density, c->acceleration, acceleration, c->options.gravity, c->body_force));
+  PetscCall(InertiaBodyForce(o, c->density, c->acceleration, acceleration, c->options.gravity, c->term));
   PetscCall(PetscFree2(velocity, acceleration));
   c->us = u;
-  WallTermAssemble(o, c->coefficient, c->implicit_factor, (const double(*)[3][2])c->body_force, c->coupling);
+  WallTermAssemble(o, c->term, c->density, c->coupling);
   *n = o->ncoupled;
   *coupling = c->coupling;
   PetscFunctionReturn(0);
@@ -150,11 +150,12 @@ PetscErrorCode CouplerNoCorrection(Coupler c, const SolidState *moved)
 PetscErrorCode CouplerConservativeForce(Coupler c)
 {
   PetscFunctionBeginUser;
-  ForceReaction(c->overlap, c->coefficient, c->implicit_factor, (const double(*)[3][2])c->body_force,
-                &c->flow, c->vertex);
+  ForceReaction(c->overlap, c->term, &c->flow, c->vertex);
   ForceInertia(c->overlap, c->dt, c->options.gravity, c->flow.u_projected,
                (const double(*)[3][2])c->start_velocity, c->vertex);
   PetscCall(ForceAssembleToOwners(c->overlap, c->vertex, c->nnodes, c->node));
+  for (int i = 0; i < c->history.n; i++)
+    for (int d = 0; d < 2; d++) c->node[i].other[d] -= c->history.retained[i][d] / c->dt;
   PetscFunctionReturn(0);
 }
 
@@ -188,6 +189,23 @@ static PetscErrorCode StoreHistory(Coupler c, const SolidState *moved)
   PetscFunctionReturn(0);
 }
 
+/* Momentum that the fluid inside keeps of its slip, to the history's nodes; u[nsources][3][2]: the solid's velocity
+ * at the step's end. */
+static PetscErrorCode StoreRetained(Coupler c, const SolidState *moved, const double u[][3][2])
+{
+  const Overlap o = c->overlap;
+  double(*source)[3][2], (*owned)[3][2];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc2(o->nsources, &source, o->nowned, &owned));
+  SlipRetained(o, c->tangential, u, c->flow.u_projected, source);
+  PetscCall(OverlapReverseAdd(o, 6, (const double *)source, (double *)owned));
+  for (int k = 0; k < 3 * o->nvolume; k++)
+    for (int d = 0; d < 2; d++) c->history.retained[moved->element[k]][d] += owned[k / 3][k % 3][d];
+  PetscCall(PetscFree2(source, owned));
+  PetscFunctionReturn(0);
+}
+
 /* Corner by corner, so that it serves steps in which cracks have split nodes, too. */
 PetscErrorCode CouplerSolidCorrection(Coupler c, const SolidState *moved)
 {
@@ -203,6 +221,8 @@ PetscErrorCode CouplerSolidCorrection(Coupler c, const SolidState *moved)
     PetscCall(PetscArraycpy(owned[k / 3][k % 3], moved->u + 2 * moved->element[k], 2));
   PetscCall(OverlapForward(o, 6, (const double *)owned, (double *)u));
   ForceCorrection(o, (const double(*)[3][2])u, c->flow.u_projected, c->correction);
+  SlipCorrection(o, c->tangential, c->correction);
+  PetscCall(StoreRetained(c, moved, (const double(*)[3][2])u));
   PetscCall(PetscFree(u));
   PetscCall(PetscFree(owned));
   PetscFunctionReturn(0);
@@ -215,8 +235,8 @@ PetscErrorCode CouplerCorrect(Coupler c, const SolidState *moved, int *n,
   PetscCall(PetscFree(c->correction));
   PetscCall(PetscCalloc1(c->overlap->ncoupled, &c->correction));
   for (int e = 0; e < c->overlap->ncoupled; e++) c->correction[e].element = c->overlap->coupled_element[e];
-  if (!moved->lost) PetscCall(c->mode->correct(c, moved));
   PetscCall(StoreHistory(c, moved));
+  if (!moved->lost) PetscCall(c->mode->correct(c, moved));
   *n = c->overlap->ncoupled;
   *correction = c->correction;
   PetscFunctionReturn(0);

@@ -14,7 +14,6 @@ struct Coupler_s {
   int built, nnodes;              /* nnodes: nodes that this rank owns */
   const double *us;               /* [nnodes][2] the velocity that the fluid couples to, m/s; borrowed */
   double (*start_velocity)[3][2]; /* [overlap->nsources] the solid's velocity at the step's start, m/s */
-  double *implicit_factor;        /* [overlap->nsources] b (inertia.h) */
   double *density;                /* [overlap->nsources] kg/m3 (inertia.h) */
   /* the solid as the step began, and what is predicted for the step */
   double *mobility;              /* [nnodes] 1/kg */
@@ -24,8 +23,8 @@ struct Coupler_s {
   double *explicit_fraction;     /* [nnodes] (inertia.h) */
   History history;               /* of the steps before */
   CoracleFlow flow;              /* borrowed */
-  WallCoefficient *coefficient;  /* [overlap->pairs.n] a */
-  double (*body_force)[3][2];    /* [overlap->pairs.n] q at the source triangle's vertices, N/m3 */
+  WallCoefficient *tangential;   /* [overlap->ncoupled] D (slip.h) */
+  PairTerm *term;                /* [overlap->pairs.n] */
   CoracleCoupling *coupling;     /* [overlap->ncoupled] */
   CoracleCorrection *correction; /* [overlap->ncoupled] */
   ForceVertex *vertex;           /* [overlap->nsources][3] */

@@ -1,42 +1,31 @@
 #include "coupler/force.h"
 
-/* q[i] = int over the pair of N_T,i (u - u_s): u [2][3] on the fluid element, u_s [3][2] on the source
- * triangle. */
-static void Slip(const SupermeshPair *pair, const double u[6], const double us[3][2], double q[3][2])
+/* change[i] = int over the pair of N_T,i (u+ - u start). */
+static void Change(const SupermeshPair *pair, const double u_projected[6], const double u_start[6],
+                   double change[3][2])
 {
-  for (int i = 0; i < 3; i++) {
-    const double *ab = pair->ab[i], *aa = pair->aa[i];
-    for (int c = 0; c < 2; c++) {
-      q[i][c] = ab[0] * u[3 * c] + ab[1] * u[3 * c + 1] + ab[2] * u[3 * c + 2] -
-                (aa[0] * us[0][c] + aa[1] * us[1][c] + aa[2] * us[2][c]);
-    }
-  }
+  double du[6];
+  for (int k = 0; k < 6; k++) du[k] = u_projected[k] - u_start[k];
+  for (int i = 0; i < 3; i++)
+    for (int c = 0; c < 2; c++)
+      change[i][c] =
+          pair->ab[i][0] * du[3 * c] + pair->ab[i][1] * du[3 * c + 1] + pair->ab[i][2] * du[3 * c + 2];
 }
 
-/* u = b u* + (1 - b) u+, the fluid velocity in the reaction, on the pair's element. */
-static void ReactionVelocity(double implicit_factor, const double u_star[6], const double u_projected[6],
-                             double u[6])
-{
-  for (int i = 0; i < 6; i++)
-    u[i] = implicit_factor == 1.0 ? u_star[i]
-                                  : implicit_factor * u_star[i] + (1.0 - implicit_factor) * u_projected[i];
-}
-
-void ForceReaction(const Overlap o, const WallCoefficient coefficient[], const double implicit_factor[],
-                   const double body_force[][3][2], const CoracleFlow *flow, ForceVertex vertex[])
+void ForceReaction(const Overlap o, const PairTerm term[], const CoracleFlow *flow, ForceVertex vertex[])
 {
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
+    const size_t k = 6 * (size_t)pair->b;
     ForceVertex *v = &vertex[3 * pair->a];
-    double u[6], q[3][2], r[2];
-    ReactionVelocity(implicit_factor[pair->a], &flow->u_star[6 * pair->b], &flow->u_projected[6 * pair->b],
-                     u);
-    Slip(pair, u, o->source[pair->a].u, q);
+    double slip[3][2], change[3][2], r[2];
+    PairSlip(pair, &flow->u_star[k], o->source[pair->a].u, slip);
+    Change(pair, &flow->u_projected[k], &flow->u_start[k], change);
     for (int i = 0; i < 3; i++) {
-      WallApply(&coefficient[p], q[i], r);
+      WallApply(&term[p].a, slip[i], r);
       for (int c = 0; c < 2; c++) {
-        v[i].reaction[c] += r[c];
-        for (int j = 0; j < 3; j++) v[i].reaction[c] -= pair->aa[i][j] * body_force[p][j][c];
+        v[i].reaction[c] += r[c] + term[p].inertia * change[i][c];
+        for (int j = 0; j < 3; j++) v[i].reaction[c] -= pair->aa[i][j] * term[p].q[j][c];
       }
     }
   }
@@ -51,7 +40,7 @@ void ForceInertia(const Overlap o, double dt, const double gravity[2], const dou
     const double rho = o->rho[pair->b];
     ForceVertex *v = &vertex[3 * pair->a];
     double q[3][2];
-    Slip(pair, &u_projected[6 * pair->b], start_velocity[pair->a], q);
+    PairSlip(pair, &u_projected[6 * pair->b], start_velocity[pair->a], q);
     for (int i = 0; i < 3; i++) {
       const double mass = rho * (pair->aa[i][0] + pair->aa[i][1] + pair->aa[i][2]);
       for (int c = 0; c < 2; c++) v[i].other[c] += rho / dt * q[i][c] - mass * gravity[c];
@@ -66,17 +55,19 @@ PetscErrorCode ForceAssembleToOwners(Overlap o, const ForceVertex vertex[], int 
   PetscFunctionReturn(0);
 }
 
-/* One element's gain, the sum over its functions of s - a u* - (1 - b) a (u+ - u*). */
-static void ElementGain(const CoracleCoupling *k, const double u_star[6], const double u_projected[6],
-                        double gain[2])
+/* One element's gain, the sum over its functions of s - a u* - I (u+ - u start). */
+static void ElementGain(const CoracleCoupling *k, const CoracleFlow *flow, double gain[2])
 {
+  const size_t first = 6 * (size_t)k->element;
+  const double *u_star = flow->u_star + first, *u_projected = flow->u_projected + first,
+               *u_start = flow->u_start + first;
   for (int c = 0; c < 2; c++) {
     gain[c] = 0.0;
     for (int i = 0; i < 3; i++) {
       gain[c] += k->s[c][i];
       for (int j = 0; j < 6; j++) {
         gain[c] -= k->a[c][i][j / 3][j % 3] * u_star[j];
-        gain[c] -= k->implicit_inertia[c][i][j / 3][j % 3] * (u_projected[j] - u_star[j]);
+        gain[c] -= k->implicit_inertia[c][i][j / 3][j % 3] * (u_projected[j] - u_start[j]);
       }
     }
   }
@@ -109,9 +100,8 @@ PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const
 
   PetscFunctionBeginUser;
   for (int e = 0; e < o->ncoupled; e++) {
-    const int k = 6 * coupling[e].element;
     double gain[2];
-    ElementGain(&coupling[e], &flow->u_star[k], &flow->u_projected[k], gain);
+    ElementGain(&coupling[e], flow, gain);
     for (int c = 0; c < 2; c++) sum[GAIN + c] += gain[c];
     sum[SCALE] += hypot(gain[0], gain[1]);
   }

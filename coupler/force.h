@@ -3,17 +3,16 @@
  * fluid gains the solid loses, to round-off.
  *
  * With C = int N_T N_K^T and M = int N_T N_T^T over one pair (T a source triangle of the solid S or of its
- * shell, K a fluid element), the pair's coefficient a and body force q at T's vertices (wall_term.h), and v
- * the solid's velocity at the step's start:
+ * shell, K a fluid element), the pair's coefficient a, inertia m and body force q at T's vertices
+ * (wall_term.h), u and v the fluid's and the solid's velocity at the step's start:
  *
- *    reaction         R   =  a (C u* - M u_s) - M q     all pairs: minus what s_c gives the fluid
+ *    reaction         R   =  a (C u* - M u_s) + m C (u+ - u) - M q    all pairs: minus what the fluid is given
  *    added inertia    F_i =  rho_f (C u+ - M v)/dt      pairs in S: change of the inner fluid's momentum
  *    buoyancy         F_b = -rho_f g M 1                pairs in S: the pressure is total, also inside S
  *
  *    F = sum over pairs of R + F_i + F_b
  *
- * which is the momentum balance of the fluid inside S.  Where the fluid's solve has the solid's inertia
- * (inertia.h) the reaction is to b u* + (1 - b) u+.  The correction of element K is
+ * which is the momentum balance of the fluid inside S.  The correction of element K is
  *
  *    r   =  sum over its pairs in S of  C^T u_s^{n+1} - B u+,     B = int N_K N_K^T. */
 #ifndef CORACLE_FORCE_H
@@ -28,7 +27,7 @@ typedef struct {
 /* Totals over all ranks of one step. */
 typedef struct {
   /* N, momentum per time given to the fluid, evaluated on the fluid's side: the sum over K of
-   * s - a u* - (1 - b) a (u+ - u*) */
+   * s - a u* - I (u+ - u start), I the implicit inertia */
   double gain[2];
   double reaction[2]; /* N, the reaction summed over the solid's nodes */
   double force[2];    /* N, the whole force on the solid */
@@ -38,10 +37,9 @@ typedef struct {
   long long npairs;
 } ForceTotals;
 
-/* Local: vertex[nsources][3].reaction += R of all pairs.  implicit_factor[nsources]: b, 1 where explicit;
- * body_force[pairs.n][3][2]: q, N/m3. */
-void ForceReaction(const Overlap overlap, const WallCoefficient coefficient[], const double implicit_factor[],
-                   const double body_force[][3][2], const CoracleFlow *flow, ForceVertex vertex[]);
+/* Local: vertex[nsources][3].reaction += R of all pairs. */
+void ForceReaction(const Overlap overlap, const PairTerm term[], const CoracleFlow *flow,
+                   ForceVertex vertex[]);
 /* Local: vertex[nsources][3].other += F_i + F_b of the volume pairs; start_velocity[nsources][3][2]: v,
  * m/s. */
 void ForceInertia(const Overlap overlap, double dt, const double gravity[2], const double u_projected[],

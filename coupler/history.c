@@ -1,4 +1,5 @@
 #include "coupler/history.h"
+#include "common/exchange/copies.h"
 #include <stdlib.h>
 
 static PetscErrorCode Resize(History *h, const SolidState *solid)
@@ -7,10 +8,11 @@ static PetscErrorCode Resize(History *h, const SolidState *solid)
 
   PetscFunctionBeginUser;
   PetscCall(HistoryDestroy(h));
-  PetscCall(PetscMalloc3(n, &h->gid, n, &h->acceleration, n, &h->shell));
+  PetscCall(PetscMalloc4(n, &h->gid, n, &h->acceleration, n, &h->shell, n, &h->retained));
   PetscCall(PetscArraycpy(h->gid, solid->gid, n));
   PetscCall(PetscArrayzero(h->acceleration, n));
   PetscCall(PetscArrayzero(h->shell, n));
+  PetscCall(PetscArrayzero(h->retained, n));
   h->n = solid->nnodes;
   PetscFunctionReturn(0);
 }
@@ -32,7 +34,7 @@ PetscErrorCode HistoryStep(History *h, const SolidState *moved, double dt, const
   PetscFunctionReturn(0);
 }
 
-enum { ACCELERATION, SHELL = ACCELERATION + 2, NCOLUMNS = SHELL + 2 };
+enum { ACCELERATION, SHELL = ACCELERATION + 2, RETAINED = SHELL + 2, NCOLUMNS = RETAINED + 2 };
 
 typedef struct {
   long long gid;
@@ -56,6 +58,7 @@ PetscErrorCode HistorySave(const History *h, Checkpoint to)
     for (int c = 0; c < 2; c++) {
       value[i][ACCELERATION + c] = h->acceleration[i][c];
       value[i][SHELL + c] = h->shell[i][c];
+      value[i][RETAINED + c] = h->retained[i][c];
     }
   PetscCall(CheckpointPutIndices(to, "history nodes", h->n, 1, h->gid));
   PetscCall(CheckpointPutDoubles(to, "history", h->n, NCOLUMNS, (const double *)value));
@@ -87,6 +90,8 @@ PetscErrorCode HistoryLoad(History *h, const SolidState *solid, Checkpoint from)
   double known;
   long long total;
   Row *row;
+  Copies copies;
+  int rank;
 
   PetscFunctionBeginUser;
   PetscCall(Resize(h, solid));
@@ -95,14 +100,20 @@ PetscErrorCode HistoryLoad(History *h, const SolidState *solid, Checkpoint from)
   PetscCall(CheckpointRows(from, "history", &total));
   PetscCall(PetscMalloc1((size_t)total, &row));
   PetscCall(LoadRows(from, (int)total, row));
+  PetscCall(CopiesCreateByNumber(h->comm, h->n, h->gid, &copies));
+  PetscCallMPI(MPI_Comm_rank(h->comm, &rank));
   for (int i = 0; i < h->n; i++) {
-    const Row key = {.gid = h->gid[i]},
+    const Row key = {.gid = h->gid[i]}, *end = row + total,
               *found = total ? bsearch(&key, row, (size_t)total, sizeof *row, CompareRows) : NULL;
+    while (found > row && found[-1].gid == key.gid) found--;
     for (int c = 0; found && c < 2; c++) {
       h->acceleration[i][c] = found->value[ACCELERATION + c];
       h->shell[i][c] = found->value[SHELL + c];
+      for (const Row *r = found; CopiesOwner(copies, i) == rank && r < end && r->gid == key.gid; r++)
+        h->retained[i][c] += r->value[RETAINED + c];
     }
   }
+  PetscCall(CopiesDestroy(&copies));
   PetscCall(PetscFree(row));
   PetscFunctionReturn(0);
 }
@@ -110,7 +121,7 @@ PetscErrorCode HistoryLoad(History *h, const SolidState *solid, Checkpoint from)
 PetscErrorCode HistoryDestroy(History *h)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscFree3(h->gid, h->acceleration, h->shell));
+  PetscCall(PetscFree4(h->gid, h->acceleration, h->shell, h->retained));
   h->n = 0;
   h->known = PETSC_FALSE;
   PetscFunctionReturn(0);

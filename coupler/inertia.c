@@ -32,8 +32,8 @@ static double TriangleDensity(const double rho[3])
   return n ? sum / n : 0.0;
 }
 
-PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt,
-                                   WallCoefficient coefficient[], double density[], double implicit_factor[])
+PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt, PairTerm term[],
+                                   double density[])
 {
   double *rho, (*vertex)[3];
 
@@ -43,11 +43,12 @@ PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt
   PetscCall(OverlapNodesToSources(o, 1, rho, (double *)vertex));
   for (int t = 0; t < o->nsources; t++) {
     density[t] = o->source[t].is_shell ? 0.0 : TriangleDensity(vertex[t]);
-    if (density[t] > 0.0) implicit_factor[t] = 0.0;
   }
   for (int p = 0; p < o->pairs.n; p++) {
     const double rho_f = o->rho[o->pairs.pair[p].b], rho_s = density[o->pairs.pair[p].a];
-    if (rho_s > 0.0) coefficient[p] = WallCoefficientIsotropic((fmax(rho_s, rho_f) - rho_f) / dt);
+    if (rho_s == 0.0) continue;
+    term[p].a = WallCoefficientIsotropic(0.0);
+    term[p].inertia = (fmax(rho_s, rho_f) - rho_f) / dt;
   }
   PetscCall(PetscFree2(rho, vertex));
   PetscFunctionReturn(0);
@@ -55,7 +56,7 @@ PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt
 
 PetscErrorCode InertiaBodyForce(Overlap o, const double density[], const double acceleration[],
                                 const double interface_acceleration[], const double gravity[2],
-                                double body_force[][3][2])
+                                PairTerm term[])
 {
   double(*a)[3][2], (*b)[3][2];
 
@@ -69,7 +70,7 @@ PetscErrorCode InertiaBodyForce(Overlap o, const double density[], const double 
     if (rho_s == 0.0) continue;
     for (int i = 0; i < 3; i++)
       for (int c = 0; c < 2; c++)
-        body_force[p][i][c] = rho_s * a[t][i][c] + excess * b[t][i][c] - rho_f * gravity[c];
+        term[p].q[i][c] = rho_s * a[t][i][c] + excess * b[t][i][c] - rho_f * gravity[c];
   }
   PetscCall(PetscFree2(a, b));
   PetscFunctionReturn(0);

@@ -2,42 +2,41 @@
  * acceleration (CoracleSetInertia).
  *
  * Fluid is everywhere, inside the solid too.  There it is given the solid's density rho_s (its mass per area
- * now) and the forces that act on the solid: with v^n the solid's velocity at the step's start and a its
- * acceleration by all forces but the fluid's,
+ * now) and the forces that act on the solid: with u^n its velocity at the step's start, which is the solid's but along
+ * the surface (slip.h), and a the solid's acceleration by all forces but the fluid's,
  *
- *     rho_s (u - v^n)/dt  =  rho_s a - grad p + div tau            inside the solid,
+ *     rho_s (u - u^n)/dt  =  rho_s a - grad p + div tau            inside the solid,
  *
  * so that the fluid's solve moves fluid and solid together, by pressure too (implicit inertia in coracle.h),
- * and one coupling iteration is right at any density ratio >= 1.  As coefficient and body force of the pairs
+ * and one coupling iteration is right at any density ratio >= 1.  As inertia and body force of the pairs
  * (wall_term.h), beside the fluid's own rho_f (u - u^n)/dt - rho_f g:
  *
- *     coefficient  (rho_s - rho_f)/dt  towards v^n,     body force  q = rho_s a - rho_f g,
+ *     inertia  m = (rho_s - rho_f)/dt,     body force  q = rho_s a - rho_f g,
  *
  * and the force on the solid is the reaction to both plus the added inertia and buoyancy of force.h, together
- * F = int rho_s N ((u+ - v^n)/dt - a).
+ * F = int rho_s N ((u+ - u^n)/dt - a).
  *
- * A solid lighter than the fluid is filled with rho_f, which keeps the coefficient positive; the inertia in
+ * A solid lighter than the fluid is filled with rho_f, which keeps m positive; the inertia in
  * excess, rho_f - rho_s, acts with the acceleration a' = (v - v^n)/dt of the interface velocity v,
  *
  *     q = rho_s a + (rho_f - rho_s) a' - rho_f g,
  *
  * and coupling iterations find v (coupling_iteration.h).
  *
- * Where nodes have no mobility the solid is held: sigma towards v, implicit factor 1. */
+ * Where nodes have no mobility the solid is held: sigma towards v. */
 #ifndef CORACLE_INERTIA_H
 #define CORACLE_INERTIA_H
 #include "coupler/overlap.h"
 #include "coupler/wall_term.h"
 
 /* Collective.  density[nsources]: rho_s of volume triangles, kg/m3; 0 for the shell's, and where all nodes are
- * held.  Where it is not 0, coefficient[pairs.n] becomes the one above and implicit_factor[nsources] 0. */
-PetscErrorCode InertiaCoefficients(Overlap overlap, const SolidState *solid, double dt,
-                                   WallCoefficient coefficient[], double density[], double implicit_factor[]);
-/* Collective.  body_force[pairs.n][3][2]: q at the vertices of the pairs' source triangles, N/m3, where density
- * is not 0; acceleration and interface_acceleration [nnodes][2]: a and a', m/s2. */
+ * held.  Where it is not 0, term[pairs.n] gets the inertia above and a = 0. */
+PetscErrorCode InertiaCoefficients(Overlap overlap, const SolidState *solid, double dt, PairTerm term[],
+                                   double density[]);
+/* Collective.  q of term[pairs.n] where density is not 0; acceleration and interface_acceleration [nnodes][2]: a and a', m/s2. */
 PetscErrorCode InertiaBodyForce(Overlap overlap, const double density[], const double acceleration[],
                                 const double interface_acceleration[], const double gravity[2],
-                                double body_force[][3][2]);
+                                PairTerm term[]);
 /* Collective.  explicit_fraction[nnodes], 0 .. 1: how much of a node's motion the fluid's solve takes from the
  * interface velocity: 1 where the node is held, 1 - rho_s/rho_f where the solid is lighter than the fluid,
  * else 0. */

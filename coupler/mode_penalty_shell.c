@@ -11,7 +11,7 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
   PetscFunctionBeginUser;
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    c->coefficient[p] = WallCoefficientIsotropic(o->source[pair->a].is_shell ? o->rho[pair->b] / c->dt : 0.0);
+    c->term[p].a = WallCoefficientIsotropic(o->source[pair->a].is_shell ? o->rho[pair->b] / c->dt : 0.0);
   }
   PetscFunctionReturn(0);
 }

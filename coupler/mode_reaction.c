@@ -1,7 +1,8 @@
-/* Mode reaction: sigma in the solid's volume, the wall term in its shell, and the force as the reaction to
- * both. */
+/* Mode reaction: the solid's inertia, or sigma, in its volume, the wall term in its shell, slip in the elements
+ * that the surface crosses, and the force as the reaction to all. */
 #include "coupler/coupler_impl.h"
 #include "coupler/inertia.h"
+#include "coupler/slip.h"
 
 static void ReadOptions(CoracleCase file, CouplerOptions *o)
 {
@@ -20,12 +21,14 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
     const SourceTriangle *source = &o->source[o->pairs.pair[p].a];
     if (source->is_shell) {
       const double dxw = WallExtent((const double(*)[2])o->x[k], source->normal);
-      c->coefficient[p] = WallCoefficientOf(o->mu[k] / (c->options.thickness * dxw), source->normal);
+      c->term[p].a = WallCoefficientOf(o->mu[k] / (c->options.thickness * dxw), source->normal);
     } else {
-      c->coefficient[p] = WallCoefficientIsotropic(c->options.relaxation * o->rho[k] / c->dt);
+      c->term[p].a = WallCoefficientIsotropic(c->options.relaxation * o->rho[k] / c->dt);
     }
   }
-  PetscCall(InertiaCoefficients(o, solid, c->dt, c->coefficient, c->density, c->implicit_factor));
+  PetscCall(InertiaCoefficients(o, solid, c->dt, c->term, c->density));
+  PetscCall(SlipTensors(o, c->tangential));
+  SlipCoefficients(o, c->tangential, c->term);
   PetscFunctionReturn(0);
 }
 

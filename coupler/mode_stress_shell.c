@@ -99,9 +99,9 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
     double mean = 0.0;
     for (int i = 0; i < 3; i++)
       mean += k[pair->a][i] * (pair->aa[i][0] + pair->aa[i][1] + pair->aa[i][2]) / pair->area;
-    c->coefficient[p] = o->source[pair->a].is_shell
-                            ? WallCoefficientOf(mean / c->options.thickness, o->source[pair->a].normal)
-                            : WallCoefficientIsotropic(0.0);
+    c->term[p].a = o->source[pair->a].is_shell
+                       ? WallCoefficientOf(mean / c->options.thickness, o->source[pair->a].normal)
+                       : WallCoefficientIsotropic(0.0);
   }
   PetscCall(PetscFree(k));
   PetscFunctionReturn(0);

@@ -10,15 +10,15 @@ static void CrossVelocity(const SupermeshPair *pair, const double u[3][2], doubl
   }
 }
 
-/* to += f a N_i N_j */
-static void AddTensor(double f, const WallCoefficient *a, const double bb[3][3], double to[2][3][2][3])
+/* to += a N_i N_j */
+static void AddTensor(const WallCoefficient *a, const double bb[3][3], double to[2][3][2][3])
 {
   for (int i = 0; i < 3; i++) {
     for (int j = 0; j < 3; j++) {
-      to[0][i][0][j] += f * a->xx * bb[i][j];
-      to[0][i][1][j] += f * a->xy * bb[i][j];
-      to[1][i][0][j] += f * a->xy * bb[i][j];
-      to[1][i][1][j] += f * a->yy * bb[i][j];
+      to[0][i][0][j] += a->xx * bb[i][j];
+      to[0][i][1][j] += a->xy * bb[i][j];
+      to[1][i][0][j] += a->xy * bb[i][j];
+      to[1][i][1][j] += a->yy * bb[i][j];
     }
   }
 }
@@ -31,30 +31,30 @@ static void AddSource(const WallCoefficient *a, const double cu[2][3], double s[
   }
 }
 
-static void AddSolidMass(double implicit_factor, const double bb[3][3], const double cu[2][3],
-                         CoracleCoupling *k)
+static void AddSolidMass(const double bb[3][3], const double cu[2][3], CoracleCoupling *k)
 {
   for (int i = 0; i < 3; i++) {
-    for (int d = 0; d < 2; d++) k->us[d][i] += implicit_factor * cu[d][i];
-    for (int j = 0; j < 3; j++) k->ms[i][j] += implicit_factor * bb[i][j];
+    for (int d = 0; d < 2; d++) k->us[d][i] += cu[d][i];
+    for (int j = 0; j < 3; j++) k->ms[i][j] += bb[i][j];
   }
 }
 
 /* One pair's part of its element; velocity is the integral of u_s over the pairs, divided by |K|, so far. */
-static void AddPair(const Overlap o, const SupermeshPair *pair, const WallCoefficient *coefficient, double b,
-                    const double body_force[3][2], CoracleCoupling *k)
+static void AddPair(const Overlap o, const SupermeshPair *pair, const PairTerm *term, PetscBool held,
+                    CoracleCoupling *k)
 {
   const SourceTriangle *source = &o->source[pair->a];
+  const WallCoefficient inertia = WallCoefficientIsotropic(term->inertia);
   const double fraction = pair->area / o->area[pair->b];
   double cu[2][3], cq[2][3];
   CrossVelocity(pair, source->u, cu);
-  CrossVelocity(pair, body_force, cq);
-  AddTensor(1.0, coefficient, pair->bb, k->a);
-  if (b != 1.0) {
-    AddTensor(1.0 - b, coefficient, pair->bb, k->implicit_inertia);
+  CrossVelocity(pair, term->q, cq);
+  AddTensor(&term->a, pair->bb, k->a);
+  if (!held) {
+    AddTensor(&inertia, pair->bb, k->implicit_inertia);
     k->flags |= CORACLE_HAS_INERTIA;
   }
-  AddSource(coefficient, (const double(*)[3])cu, k->s);
+  AddSource(&term->a, (const double(*)[3])cu, k->s);
   for (int i = 0; i < 6; i++) k->s[i / 3][i % 3] += cq[i / 3][i % 3];
   for (int d = 0; d < 2; d++) k->velocity[d] += (cu[d][0] + cu[d][1] + cu[d][2]) / o->area[pair->b];
   if (source->is_shell) {
@@ -62,17 +62,17 @@ static void AddPair(const Overlap o, const SupermeshPair *pair, const WallCoeffi
     k->shell += fraction;
   } else {
     k->alpha += fraction;
-    AddSolidMass(b, pair->bb, (const double(*)[3])cu, k);
+    if (held) AddSolidMass(pair->bb, (const double(*)[3])cu, k);
   }
 }
 
-void WallTermAssemble(const Overlap o, const WallCoefficient coefficient[], const double implicit_factor[],
-                      const double body_force[][3][2], CoracleCoupling coupling[])
+void WallTermAssemble(const Overlap o, const PairTerm term[], const double density[],
+                      CoracleCoupling coupling[])
 {
   for (int e = 0; e < o->ncoupled; e++) coupling[e] = (CoracleCoupling){.element = o->coupled_element[e]};
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    AddPair(o, pair, &coefficient[p], implicit_factor[pair->a], body_force[p],
+    AddPair(o, pair, &term[p], density[pair->a] == 0.0 ? PETSC_TRUE : PETSC_FALSE,
             &coupling[o->coupled_index[p]]);
   }
   for (int e = 0; e < o->ncoupled; e++)

@@ -8,11 +8,11 @@
  * Element K receives, summed over its pairs (B = int N_K N_K^T, C = int N_T N_K^T),
  *
  *     a                 =  a B                s   =  a C^T u_s + C^T q
- *     implicit inertia  =  (1 - b) a B
- *     ms                =  b B                us  =  b C^T u_s        T in the solid's volume
+ *     implicit inertia  =  m B
+ *     ms                =  B                  us  =  C^T u_s          T in the solid's volume, held
  *
- * with q a body force at the vertices of T and b = 0 where the fluid's solve has the solid's inertia, else 1
- * (inertia.h).  The reaction (force.h) is made of the
+ * with q a body force at the vertices of T and m the solid's inertia in the fluid's solve (inertia.h); T is held
+ * where it has none.  The reaction (force.h) is made of the
  * same coefficients and integrals, so what the fluid gains the solid loses.  No field is projected, so none
  * undershoots: a sum of positive semidefinite coefficients times Gram matrices is positive semidefinite. */
 #ifndef CORACLE_WALL_TERM_H
@@ -61,10 +61,30 @@ static inline void WallApply(const WallCoefficient *a, const double v[2], double
   av[1] = a->xy * v[0] + a->yy * v[1];
 }
 
+/* What a pair gives the fluid, beside its integrals. */
+typedef struct {
+  WallCoefficient a;
+  double inertia; /* m, kg/(m3 s) */
+  double q[3][2]; /* N/m3, at the vertices of T */
+} PairTerm;
+
+/* q[i] = int over the pair of N_T,i (u - u_s): u [2][3] on the fluid element, u_s [3][2] on the source
+ * triangle. */
+static inline void PairSlip(const SupermeshPair *pair, const double u[6], const double us[3][2],
+                            double q[3][2])
+{
+  for (int i = 0; i < 3; i++) {
+    const double *ab = pair->ab[i], *aa = pair->aa[i];
+    for (int c = 0; c < 2; c++) {
+      q[i][c] = ab[0] * u[3 * c] + ab[1] * u[3 * c + 1] + ab[2] * u[3 * c + 2] -
+                (aa[0] * us[0][c] + aa[1] * us[1][c] + aa[2] * us[2][c]);
+    }
+  }
+}
+
 /* Local: coupling[overlap->ncoupled], one per coupled element (coracle.h has shapes and units), from the
- * pairs' coefficient[pairs.n] a, the source triangles' velocities, implicit_factor[overlap->nsources]
- * b and body_force[pairs.n][3][2] q, N/m3. */
-void WallTermAssemble(const Overlap overlap, const WallCoefficient coefficient[],
-                      const double implicit_factor[], const double body_force[][3][2],
+ * pairs' term[pairs.n], the source triangles' velocities and density[overlap->nsources] (inertia.h), which is 0
+ * where the solid is held. */
+void WallTermAssemble(const Overlap overlap, const PairTerm term[], const double density[],
                       CoracleCoupling coupling[]);
 #endif

@@ -5,9 +5,9 @@ struct Exchange_s {
   Fluid fluid;          /* borrowed: that of the current step */
   Fluid exchanged;      /* borrowed: the one whose elements the coupler asks for */
   int n, capacity;
-  int *element;                                /* [n] the fluid's local elements near the solid */
-  double *x;                                   /* [n][3][2] m */
-  double *u_star, *u_projected, *p, *rho, *mu; /* as in CoracleFlow */
+  int *element;                                          /* [n] the fluid's local elements near the solid */
+  double *x;                                             /* [n][3][2] m */
+  double *u_start, *u_star, *u_projected, *p, *rho, *mu; /* as in CoracleFlow */
   CoracleCoupling *coupling;
   int coupling_capacity;
 };
@@ -16,7 +16,7 @@ static PetscErrorCode FreeArrays(Exchange x)
 {
   PetscFunctionBeginUser;
   PetscCall(PetscFree2(x->element, x->x));
-  PetscCall(PetscFree5(x->u_star, x->u_projected, x->p, x->rho, x->mu));
+  PetscCall(PetscFree6(x->u_start, x->u_star, x->u_projected, x->p, x->rho, x->mu));
   PetscFunctionReturn(0);
 }
 
@@ -27,7 +27,8 @@ static PetscErrorCode Reserve(Exchange x, int n)
   const int c = x->capacity = n + n / 4;
   PetscCall(FreeArrays(x));
   PetscCall(PetscMalloc2(c, &x->element, 6 * c, &x->x));
-  PetscCall(PetscMalloc5(6 * c, &x->u_star, 6 * c, &x->u_projected, 6 * c, &x->p, c, &x->rho, c, &x->mu));
+  PetscCall(PetscMalloc6(6 * c, &x->u_start, 6 * c, &x->u_star, 6 * c, &x->u_projected, 6 * c, &x->p, c,
+                         &x->rho, c, &x->mu));
   PetscFunctionReturn(0);
 }
 
@@ -124,11 +125,14 @@ PetscErrorCode ExchangeReceiveCoupling(Exchange x)
 static PetscErrorCode SetFlow(Exchange x)
 {
   const int *node = FluidPressureSpace(x->fluid)->node;
-  const double *u_star = FluidVelocityStar(x->fluid), *u_projected = FluidVelocityProjected(x->fluid);
+  const double *u_start = FluidVelocity(x->fluid), *u_star = FluidVelocityStar(x->fluid),
+               *u_projected = FluidVelocityProjected(x->fluid);
   const PetscBool needs_pressure = CoracleNeedsPressure(x->client) ? PETSC_TRUE : PETSC_FALSE;
-  const CoracleFlow flow = {x->u_star, x->u_projected, needs_pressure ? x->p : NULL, x->rho, x->mu};
+  const CoracleFlow flow = {x->u_start, x->u_star, x->u_projected, needs_pressure ? x->p : NULL,
+                            x->rho,     x->mu};
   PetscFunctionBeginUser;
   for (int k = 0; k < x->n; k++) {
+    PetscCall(PetscArraycpy(x->u_start + 6 * k, u_start + 6 * x->element[k], 6));
     PetscCall(PetscArraycpy(x->u_star + 6 * k, u_star + 6 * x->element[k], 6));
     PetscCall(PetscArraycpy(x->u_projected + 6 * k, u_projected + 6 * x->element[k], 6));
   }

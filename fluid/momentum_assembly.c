@@ -120,19 +120,21 @@ static void ElementInertia(MomentumSolver s, const MomentumStep *step, int e, co
   }
 }
 
-/* a to the dense block, s + w a u^n to the load; false where there is no solid. */
+/* a and the implicit inertia I to the dense block, s + w a u^n + (1 + w) I u^n to the load; false where there is no
+ * solid. */
 static PetscBool AssembleSolid(MomentumSolver s, const MomentumStep *step, int e, const double u[6],
                                double dense[36], double load[6])
 {
   const double w = (1.0 - s->setup.theta) / s->setup.theta;
   const CoracleCoupling *k = SolidCouplingAt(step->solid, e);
   if (!k) return PETSC_FALSE;
-  const double *a = &k->a[0][0][0][0], *explicit_part = &k->s[0][0];
+  const double *a = &k->a[0][0][0][0], *inertia = &k->implicit_inertia[0][0][0][0],
+               *explicit_part = &k->s[0][0];
   for (int row = 0; row < 6; row++) {
     load[row] += explicit_part[row];
     for (int col = 0; col < 6; col++) {
-      dense[6 * col + row] += a[6 * row + col];
-      load[row] += w * a[6 * row + col] * u[col];
+      dense[6 * col + row] += a[6 * row + col] + inertia[6 * row + col];
+      load[row] += (w * a[6 * row + col] + (1.0 + w) * inertia[6 * row + col]) * u[col];
     }
   }
   return PETSC_TRUE;

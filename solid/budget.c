@@ -16,24 +16,27 @@ void BudgetAddSubstep(Solid s)
   }
 }
 
+void BudgetAddImpulse(Solid s, int n, int c, double impulse, double v)
+{
+  if (!SolidOwns(s, n)) return;
+  s->budget.reaction[c] += impulse;
+  s->budget.reaction_work += impulse * v;
+}
+
 /* After the nodes have moved. */
 void BudgetAddDecay(Solid s)
 {
   const double rate = s->setup.decay_rate;
   for (int n = 0; n < s->nnodes && rate > 0.0; n++)
-    for (int c = 0; c < 2 && SolidOwns(s, n); c++) {
-      const double impulse = -s->h * rate * s->mass[n] * s->v[2 * n + c];
-      s->budget.reaction[c] += impulse;
-      s->budget.reaction_work += impulse * s->v[2 * n + c];
+    for (int c = 0; c < 2; c++) {
+      const double v = s->v[2 * n + c];
+      BudgetAddImpulse(s, n, c, -s->h * rate * s->mass[n] * v, v);
     }
 }
 
 void BudgetAddPrescribed(Solid s, int n, int c, double v)
 {
-  if (!SolidOwns(s, n)) return;
-  const double impulse = s->mass[n] * (v - s->v[2 * n + c]);
-  s->budget.reaction[c] += impulse;
-  s->budget.reaction_work += impulse * v;
+  BudgetAddImpulse(s, n, c, s->mass[n] * (v - s->v[2 * n + c]), v);
 }
 
 PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget)

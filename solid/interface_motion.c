@@ -12,13 +12,23 @@
  *     velocity      w = S v
  *     acceleration  a = S ((f + F)/m + g) - F/m          by all forces but the fluid's
  *
- * so that a mode which the step does not resolve holds against F: a -> -F/m. */
+ * so that a mode which the step does not resolve holds against F: a -> -F/m.
+ *
+ * A force that is constant over a step does not act where a vibration with omega dt of 3 or more is, but where it was
+ * sampled, and can feed it: in a lumped model by up to 1.6 % a step without damping, at any ratio of added mass to mass.
+ * So each step takes DAMPING of the velocity that it does not resolve,
+ *
+ *     v -= DAMPING (v - S v),
+ *
+ * which keeps momentum and rigid motions. In the model nothing grows from 0.05 on; a mode with omega dt = 0.1 is
+ * damped by a ratio of 0.0006. */
 #include "solid/solid_impl.h"
 
 /* Of the conjugate gradients: the residual's norm, relative to that of the argument; and their number, after
  * which the result, then smoothed less, is taken as it is. */
-#define TOLERANCE 1e-5
+#define TOLERANCE 1e-7
 enum { MAX_ITERATIONS = 1000 };
+#define DAMPING 0.05
 
 /* f -= int sigma(d) grad N_i over element k as it is now, sigma = 2 mu e + lambda tr(e) I. */
 static void AddElementStiffness(const Elements *e, int k, const double x[], const double d[], double f[])
@@ -100,6 +110,17 @@ static PetscErrorCode Respond(Solid s, double d[])
   PetscFunctionReturn(0);
 }
 
+/* v -= DAMPING (v - S v) of free nodes, S v in interface_velocity. */
+static void DampUnresolved(Solid s)
+{
+  for (int n = 0; n < s->nnodes; n++)
+    for (int c = 0; c < 2 && s->inverse_mass[n] > 0.0 && !s->is_prescribed[n]; c++) {
+      const double dv = DAMPING * (s->interface_velocity[2 * n + c] - s->v[2 * n + c]);
+      BudgetAddImpulse(s, n, c, s->mass[n] * dv, s->v[2 * n + c] + 0.5 * dv);
+      s->v[2 * n + c] += dv;
+    }
+}
+
 PetscErrorCode SolidUpdateInterfaceMotion(Solid s, InterfaceMotion *interface)
 {
   const double *force;
@@ -114,6 +135,7 @@ PetscErrorCode SolidUpdateInterfaceMotion(Solid s, InterfaceMotion *interface)
                                        : 0.0;
   }
   PetscCall(Respond(s, s->interface_velocity));
+  DampUnresolved(s);
   PetscCall(Respond(s, s->acceleration));
   for (int k = 0; k < 2 * s->nnodes; k++) s->acceleration[k] -= s->inverse_mass[k / 2] * s->load[k];
   SolidGetInterfaceMotion(s, interface);

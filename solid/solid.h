@@ -138,8 +138,8 @@ PetscErrorCode SolidBodies(Solid s, int n, BodyState state[]);
  * g dt, to round-off. */
 typedef struct {
   double walls[2],
-      reaction[2]; /* impulse of the tank's walls; of what holds fixed and prescribed nodes, and of the
-                      * decay rate, N s/m */
+      reaction[2];            /* impulse of the tank's walls; of what holds fixed and prescribed nodes, of the
+                      * decay rate and of damping (interface_motion.c), N s/m */
   double work, reaction_work; /* of the fluid; of what drives nodes, J/m */
 } SolidBudget;
 PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget);

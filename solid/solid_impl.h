@@ -124,6 +124,8 @@ PetscErrorCode SolidPieces(Solid s, int *n, const int **piece);
 
 /* budget.c, not collective: what the walls and what holds fixed nodes do in the substep to come. */
 void BudgetAddSubstep(Solid s);
+/* An impulse on component c of node n that is neither the fluid's nor a wall's, N s/m; v: where its work is done, m/s. */
+void BudgetAddImpulse(Solid s, int n, int c, double impulse, double v);
 /* Component c of node n, free so far, is going to move with the prescribed v. */
 void BudgetAddPrescribed(Solid s, int n, int c, double v);
 /* What the decay rate has done in the substep, after its nodes have moved. */

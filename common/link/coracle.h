@@ -219,9 +219,10 @@ enum {
 typedef struct {
   int element; /* index into the elements last given by region */
   int flags;   /* CORACLE_HAS_... */
-  /* kg/s: int_K a_cd N_i N_j, the implicit coefficient, shell and volume together */
+  /* kg/s: int_K a_cd N_i N_j, the implicit coefficient of u*, shell and volume together */
   double a[CORACLE_DIM][CORACLE_VERTICES][CORACLE_DIM][CORACLE_VERTICES];
-  /* kg/s: the part of a that moves with the fluid under the pressure:
+  /* kg/s: the solid's inertia beyond the fluid's, which resists the change of the velocity over the step:
+   * implicit_inertia (u* - u start) beside rho M/dt (u* - u start), and under the pressure
    * u projected = u* - dt W^-1 M grad phi with W = rho M/dt + implicit_inertia */
   double implicit_inertia[CORACLE_DIM][CORACLE_VERTICES][CORACLE_DIM][CORACLE_VERTICES];
   /* N: int_K (a u_s)_c N_i, the explicit part of s_c */
@@ -251,6 +252,7 @@ typedef struct {
 
 /* The flow of one step on the n elements last given by region. */
 typedef struct {
+  const double *u_start;     /* [n][dim][dim + 1] m/s, at the start of the step */
   const double *u_star;      /* [n][dim][dim + 1] m/s, with the coupling solved, before the projection */
   const double *u_projected; /* [n][dim][dim + 1] m/s, after it */
   const double *p;   /* [n][6] Pa, on the P2 nodes: vertices, then the midpoints opposite to them; may be

@@ -61,6 +61,7 @@ static const Field ELEMENTS[] = {
 
 #define AT(member) offsetof(CoracleFlow, member)
 static const Field FLOW[] = {
+  {"velocity at the start of the step", "m/s", FIELD_REAL, P1_VECTOR, AT(u_start),   0, FIELD_ANY},
   {"velocity before the projection", "m/s", FIELD_REAL, P1_VECTOR,  AT(u_star),      0, FIELD_ANY},
   {"projected velocity", "m/s",   FIELD_REAL, P1_VECTOR,         AT(u_projected), 0, FIELD_ANY},
   {"pressure",           "Pa",    FIELD_REAL, {EXTENT_PRESSURE}, AT(p), FLAG_PRESSURE, FIELD_ANY},

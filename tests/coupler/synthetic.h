@@ -23,8 +23,8 @@ typedef struct {
   CoracleFlow flow;
   int n, global[SYNTHETIC_MAX];
   double x[SYNTHETIC_MAX][3][2], rho[SYNTHETIC_MAX];
-  double u_star[SYNTHETIC_MAX][2][3], u_projected[SYNTHETIC_MAX][2][3], p[SYNTHETIC_MAX][6],
-      mu[SYNTHETIC_MAX];
+  double u_start[SYNTHETIC_MAX][2][3], u_star[SYNTHETIC_MAX][2][3], u_projected[SYNTHETIC_MAX][2][3],
+      p[SYNTHETIC_MAX][6], mu[SYNTHETIC_MAX];
 } SyntheticFluid;
 
 static inline void SyntheticSolidView(SyntheticSolid *s)
@@ -143,7 +143,8 @@ static inline void SyntheticSolidPart(const SyntheticSolid *all, int rank, int s
 static inline void SyntheticFluidView(SyntheticFluid *f)
 {
   f->view = (FluidElements){f->n, &f->x[0][0][0], f->rho, f->mu, {0.0, 0.0}, {1.0, 1.0}};
-  f->flow = (CoracleFlow){&f->u_star[0][0][0], &f->u_projected[0][0][0], &f->p[0][0], f->rho, f->mu};
+  f->flow = (CoracleFlow){
+      &f->u_start[0][0][0], &f->u_star[0][0][0], &f->u_projected[0][0][0], &f->p[0][0], f->rho, f->mu};
 }
 
 /* n x n cells, density and viscosity 1, everything else 0. */
@@ -174,6 +175,7 @@ static inline void SyntheticFluidPart(const SyntheticFluid *all, int rank, int s
     part->rho[j] = all->rho[k];
     part->mu[j] = all->mu[k];
     memcpy(part->x[j], all->x[k], sizeof part->x[j]);
+    memcpy(part->u_start[j], all->u_start[k], sizeof part->u_start[j]);
     memcpy(part->u_star[j], all->u_star[k], sizeof part->u_star[j]);
     memcpy(part->u_projected[j], all->u_projected[k], sizeof part->u_projected[j]);
     memcpy(part->p[j], all->p[k], sizeof part->p[j]);

@@ -28,7 +28,7 @@ static void MakeSolid(double density, int rigid)
   }
 }
 
-/* (rho M/dt + a) u = rho M/dt START + s by relaxation in the element: 6 unknowns, diagonally dominant enough
+/* (rho M/dt + I) (u - START) + a u = s by relaxation in the element: 6 unknowns, diagonally dominant enough
  * for Gauss-Seidel. */
 static void SolveElement(const CoracleCoupling *k, double area, double u[2][3])
 {
@@ -37,7 +37,8 @@ static void SolveElement(const CoracleCoupling *k, double area, double u[2][3])
     for (int i = 0; i < 6; i++) {
       double r = k->s[i / 3][i % 3], diagonal = 0.0;
       for (int j = 0; j < 6; j++) {
-        const double mass = i / 3 == j / 3 ? RHO / DT * area / (i == j ? 6.0 : 12.0) : 0.0;
+        const double mass = (i / 3 == j / 3 ? RHO / DT * area / (i == j ? 6.0 : 12.0) : 0.0) +
+                            k->implicit_inertia[i / 3][i % 3][j / 3][j % 3];
         const double a = k->a[i / 3][i % 3][j / 3][j % 3] + mass;
         r += mass * START[j / 3];
         if (i == j)
@@ -70,7 +71,7 @@ static double Step(double kick, ForceTotals *totals, double v[2])
   CHECK(!CouplerSetElements(c, &fluid.view), "elements");
   CHECK(!CouplerBuild(c, &solid.view, DT, &n, &coupling), "build");
   for (int k = 0; k < fluid.n; k++)
-    for (int i = 0; i < 6; i++) fluid.u_star[k][i / 3][i % 3] = START[i / 3];
+    for (int i = 0; i < 6; i++) fluid.u_start[k][i / 3][i % 3] = fluid.u_star[k][i / 3][i % 3] = START[i / 3];
   for (int e = 0; e < n; e++) {
     const int k = coupling[e].element;
     SolveElement(&coupling[e], GeometryArea((const double(*)[2])fluid.x[k]), fluid.u_star[k]);

@@ -86,9 +86,10 @@ static void CheckGauges(const Fluid *f)
 
 static void SetFlow(Fluid *f)
 {
-  double u_star[MAX][6], u_projected[MAX][6], p[MAX][6], rho[MAX], mu[MAX];
+  double u_start[MAX][6], u_star[MAX][6], u_projected[MAX][6], p[MAX][6], rho[MAX], mu[MAX];
   for (int e = 0; e < f->n; e++) {
     for (int k = 0; k < 6; k++) {
+      u_start[e][k] = CellFlow(f->id[e], 4, k, f->step);
       u_star[e][k] = CellFlow(f->id[e], 1, k, f->step);
       u_projected[e][k] = CellFlow(f->id[e], 2, k, f->step);
       p[e][k] = CellFlow(f->id[e], 3, k, f->step);
@@ -99,8 +100,12 @@ static void SetFlow(Fluid *f)
   if (f->fault == FAULT_NAN && f->step == f->fault_step && f->n) p[f->n - 1][4] = INFINITY;
   if (f->needs_pressure != CoracleNeedsPressure(f->client)) CoracleFail(f->client, "needs pressure");
   const bool missing = f->fault == FAULT_MISSING && f->step == f->fault_step;
-  const CoracleFlow flow = {&u_star[0][0], &u_projected[0][0],
-                            f->needs_pressure && !missing ? &p[0][0] : NULL, rho, mu};
+  const CoracleFlow flow = {&u_start[0][0],
+                            &u_star[0][0],
+                            &u_projected[0][0],
+                            f->needs_pressure && !missing ? &p[0][0] : NULL,
+                            rho,
+                            mu};
   CoracleSetFlow(f->client, &flow);
 }
 

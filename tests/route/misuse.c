@@ -142,7 +142,7 @@ static void Fluid(CoracleClient c)
 {
   const double lower[2] = {0, 0}, upper[2] = {1, 1}, u[6] = {0}, nan[6] = {NAN}, rho[1] = {1000.0},
                mu[1] = {1.0};
-  const CoracleFlow good = {.u_star = u, .u_projected = u, .p = u, .rho = rho, .mu = mu};
+  const CoracleFlow good = {.u_start = u, .u_star = u, .u_projected = u, .p = u, .rho = rho, .mu = mu};
   CoracleFlow bad = good;
   const CoracleCoupling *coupling;
   const CoracleCorrection *correction;

@@ -13,7 +13,7 @@ typedef struct {
   double t;
   int n, id[MAX];                         /* fluid elements */
   int ncoupled, entry[MAX];               /* ids by coupling entry */
-  double motion[4 * MAX], flow[20 * MAX]; /* of the first try of a step */
+  double motion[4 * MAX], flow[26 * MAX]; /* of the first try of a step */
   bool needs_pressure;
   Fault fault;
 } Stub;
@@ -127,7 +127,8 @@ static void CheckFlow(const Stub *s, const CoracleFlow *f)
   if ((f->p != NULL) != s->needs_pressure) ServerFail(s->server, "the pressure travels when it must not");
   for (int e = 0; e < s->n; e++) {
     for (int k = 0; k < 6; k++)
-      if (f->u_star[6 * e + k] != CellFlow(s->id[e], 1, k, s->step) ||
+      if (f->u_start[6 * e + k] != CellFlow(s->id[e], 4, k, s->step) ||
+          f->u_star[6 * e + k] != CellFlow(s->id[e], 1, k, s->step) ||
           f->u_projected[6 * e + k] != CellFlow(s->id[e], 2, k, s->step) ||
           (f->p && f->p[6 * e + k] != CellFlow(s->id[e], 3, k, s->step)))
         ServerFail(s->server, "flow of element %d in step %d", e, s->step);
@@ -141,10 +142,10 @@ static void ReceiveFlow(Stub *s, int redo)
   CoracleFlow f;
   ServerReceiveFlow(s->server, &f);
   CheckFlow(s, &f);
-  const double *lists[] = {f.u_star, f.u_projected, f.p, f.rho, f.mu};
-  for (int k = 0; k < 5; k++) {
-    const size_t bytes = (k < 3 ? 6 : 1) * (size_t)s->n * sizeof(double);
-    double *first = s->flow + (k < 3 ? 6 * k : 15 + k) * MAX;
+  const double *lists[] = {f.u_start, f.u_star, f.u_projected, f.p, f.rho, f.mu};
+  for (int k = 0; k < 6; k++) {
+    const size_t bytes = (k < 4 ? 6 : 1) * (size_t)s->n * sizeof(double);
+    double *first = s->flow + (k < 4 ? 6 * k : 20 + k) * MAX;
     if (!lists[k]) continue;
     if (redo && memcmp(first, lists[k], bytes)) ServerFail(s->server, "the redone flow is another");
     memcpy(first, lists[k], bytes);

@@ -36,7 +36,7 @@ module coracle
     real(c_double) :: x(2), normal(2)  ! m; 1
   end type
   type, bind(c) :: CoracleFlow
-    type(c_ptr) :: u_star, u_projected, p, rho, mu  ! (vertices, dim, n) m/s, twice; (6, n) Pa; (n); (n)
+    type(c_ptr) :: u_start, u_star, u_projected, p, rho, mu  ! (vertices, dim, n) m/s, thrice; (6, n) Pa; (n); (n)
   end type
 
   ! private to coracle_open and the like, with C's strings and arguments

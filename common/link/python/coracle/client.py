@@ -180,9 +180,9 @@ class Client:
         """An array of COUPLING, a view that holds until end."""
         return self._entries("GetCoupling", COUPLING)
 
-    def set_flow(self, u_star, u_projected, rho, mu, p=None):
+    def set_flow(self, u_start, u_star, u_projected, rho, mu, p=None):
         n = self._elements
-        flow = Flow(array("u_star", u_star, (n, 2, 3)), array("u_projected", u_projected, (n, 2, 3)), array("p", p, (n, 6)),
+        flow = Flow(array("u_start", u_start, (n, 2, 3)), array("u_star", u_star, (n, 2, 3)), array("u_projected", u_projected, (n, 2, 3)), array("p", p, (n, 6)),
                     array("rho", rho, (n,)), array("mu", mu, (n,)))
         call("SetFlow", self._handle, byref(flow))
 
