@@ -20,6 +20,7 @@ static const CoracleCaseKey KEYS[] = {
     {"output.every", "s", "time from one snapshot of the fields to the next"},
     {"output.checkpoint", "s", "by the clock, from one checkpoint to the next; 0: none"},
     {"fluid.viscosity", "Pa s", "dynamic viscosity"},
+    {"fluid.phases", "", "two phases that do not mix, instead of density and viscosity"},
     {"fluid.probes", "", "list of points, lines and pressure gauges whose values are in fluid_probes.csv"},
     {"fluid.probes[].solid_point", "m",
      "a point of the solid's surface at the start: a pressure gauge that moves with it"},
