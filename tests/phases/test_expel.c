@@ -53,7 +53,8 @@ static double AtCentroid(double (*function)(double x, double y), const StarEleme
   return function((e->x[0][0] + e->x[1][0] + e->x[2][0]) / 3.0, (e->x[0][1] + e->x[1][1] + e->x[2][1]) / 3.0);
 }
 
-static void CheckElement(const Set *s, int e, const Situation *is, const double volume[], const double swept[])
+static void CheckElement(const Set *s, int e, const Situation *is, const double volume[],
+                         const double swept[])
 {
   const StarElement *element = &s->stars->element[e];
   const double area = 0.5 * StarsTwiceArea(s->stars, e), *v = &volume[NPHASES * e];
