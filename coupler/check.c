@@ -21,6 +21,7 @@ static const CoracleCaseKey KEYS[] = {
     {"output.checkpoint", "s", "by the clock, from one checkpoint to the next; 0: none"},
     {"output.trace", "", "trace.json: what each rank did when, for ui.perfetto.dev"},
     {"fluid.viscosity", "Pa s", "dynamic viscosity"},
+    {"fluid.phases", "", "two phases that do not mix, instead of density and viscosity"},
     {"fluid.probes", "", "list of points, lines and pressure gauges whose values are in fluid_probes.csv"},
     {"fluid.probes[].solid_point", "m",
      "a point of the solid's surface at the start: a pressure gauge that moves with it"},

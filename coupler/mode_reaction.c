@@ -9,6 +9,7 @@ static void ReadOptions(CoracleCase file, CouplerOptions *o)
   o->relaxation = CoracleCaseNumberOr(file, "coupler.relaxation", 10.0, 0.0, HUGE_VAL);
   if (o->relaxation <= 0.0)
     CoracleCaseRefuse(file, "coupler.relaxation", "expected a number > 0, found %g", o->relaxation);
+  o->slip = CoracleCaseHas(file, "fluid.phases") ? PETSC_FALSE : PETSC_TRUE;
 }
 
 static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
@@ -27,8 +28,12 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
     }
   }
   PetscCall(InertiaCoefficients(o, solid, c->dt, c->term, c->density));
-  PetscCall(SlipTensors(o, c->tangential));
-  SlipCoefficients(o, c->tangential, c->term);
+  if (c->options.slip) {
+    PetscCall(SlipTensors(o, c->tangential));
+    SlipCoefficients(o, c->tangential, c->term);
+  } else {
+    PetscCall(PetscArrayzero(c->tangential, o->ncoupled));
+  }
   PetscFunctionReturn(0);
 }
 

@@ -28,6 +28,8 @@ typedef struct {
   double lower[2], upper[2]; /* that box, m; set by BoundaryBoxes */
   double rise;               /* s: until then velocity times (1 - cos(pi t/rise))/2; 0: at once */
   double pressure;           /* where open: above hydrostatic, Pa */
+  PetscBool has_level;       /* where open: the heavier of two phases stands outside up to */
+  double level;              /* this height against gravity, m, and comes in below it */
   PetscBool has_phase;       /* which phase comes in is given; else it is the lightest */
   int phase;
   double contact_cosine;  /* of the contact angle, through the first phase; 0: 90 degrees */

@@ -55,6 +55,8 @@ static const CoracleCaseKey KEYS[] = {
     {"fluid.boundaries.*.profile", "", "of the velocity along the boundary"},
     {"fluid.boundaries.*.rise", "s", "time in which the velocity rises from zero"},
     {"fluid.boundaries.*.pressure", "Pa", "an open boundary with this pressure"},
+    {"fluid.boundaries.*.level", "m",
+     "an open boundary outside of which the heavier phase stands up to this height against gravity"},
     {"fluid.adapt.size_min", "m", "le: shortest edge wanted; that around the solid"},
     {"fluid.adapt.size_max", "m", "Le: longest edge wanted"},
     {"fluid.adapt.velocity_error", "m/s", "wanted error of linear interpolation, each component"},

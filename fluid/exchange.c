@@ -48,12 +48,14 @@ static PetscBool InAnyBox(const Mesh *m, int e, int nbox, const double box[])
   return PETSC_FALSE;
 }
 
-/* Density and viscosity of the fluid on the elements near the solid. */
+/* Density and viscosity of the fluid on the elements near the solid.  Of phases the density is that of the lightest, which alone
+ * fills the solid (phase_transport.h): an element that the solid covers in part has the mass of its water outside of it. */
 static void CopyProperties(Exchange x, Fluid fluid)
 {
   const double *rho = FluidDensity(fluid), *mu = FluidViscosity(fluid);
+  const PhaseProperties *phases = FluidPhases(fluid) ? PhaseTransportProperties(FluidPhases(fluid)) : NULL;
   for (int k = 0; k < x->n; k++) {
-    x->rho[k] = rho[x->element[k]];
+    x->rho[k] = phases ? phases->rho[PhaseLightest(phases)] : rho[x->element[k]];
     x->mu[k] = mu[x->element[k]];
   }
 }

@@ -120,6 +120,25 @@ static void ReadPhases(CoracleCase c, const char *key, const PhaseNames *names, 
   if (b->has_phase) b->phase = PhaseCaseIndex(c, sub, names);
 }
 
+/* Whether it is open by a pressure or a level. */
+static PetscBool ReadOpen(CoracleCase c, const char *key, const PhaseNames *names, Boundary *b)
+{
+  char level[192], pressure[192];
+  (void)snprintf(level, sizeof level, "%s.level", key);
+  (void)snprintf(pressure, sizeof pressure, "%s.pressure", key);
+  b->has_level = CoracleCaseHas(c, level) ? PETSC_TRUE : PETSC_FALSE;
+  if (!b->has_level && !CoracleCaseHas(c, pressure)) return PETSC_FALSE;
+  b->kind = BOUNDARY_OPEN;
+  if (b->has_level) {
+    if (!names->name[0]) CoracleCaseRefuse(c, level, "there are no phases: expected fluid.phases");
+    b->level = CoracleCaseNumber(c, level, -HUGE_VAL, HUGE_VAL);
+    b->pressure = CoracleCaseNumberOr(c, pressure, 0.0, -HUGE_VAL, HUGE_VAL);
+  } else {
+    b->pressure = CoracleCaseNumber(c, pressure, -HUGE_VAL, HUGE_VAL);
+  }
+  return PETSC_TRUE;
+}
+
 static void ReadBoundary(CoracleCase c, const char *name, const PhaseNames *names, Boundary *b)
 {
   static const char *const WORDS[] = {"no_slip", "free_slip", "open", NULL},
@@ -140,12 +159,7 @@ static void ReadBoundary(CoracleCase c, const char *name, const PhaseNames *name
     b->rise = CoracleCaseNumberOr(c, sub, 0.0, 0.0, HUGE_VAL);
     return;
   }
-  (void)snprintf(sub, sizeof sub, "%s.pressure", key);
-  if (CoracleCaseHas(c, sub)) {
-    b->kind = BOUNDARY_OPEN;
-    b->pressure = CoracleCaseNumber(c, sub, -HUGE_VAL, HUGE_VAL);
-    return;
-  }
+  if (ReadOpen(c, key, names, b)) return;
   (void)snprintf(sub, sizeof sub, "%s.wall", key);
   b->kind = CoracleCaseHas(c, sub) ? KINDS[CoracleCaseWord(c, sub, -1, WALLS)]
                                    : KINDS[CoracleCaseWord(c, key, -1, WORDS)];

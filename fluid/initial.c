@@ -9,13 +9,27 @@ static void P2NodePosition(const Mesh *m, int e, int k, double x[2])
   for (int c = 0; c < 2; c++) x[c] = 0.5 * (a[c] + b[c]);
 }
 
-/* p += the pressure above hydrostatic of open boundaries.  A node's owner need not have the boundary face: hence
- * sum and count. */
-static PetscErrorCode AddOpenPressure(Fluid f)
+/* rho g.(x - top), Pa */
+static double HydrostaticPressure(const Mesh *m, double rho, const double g[2], const double x[2])
+{
+  double p = 0.0;
+  for (int c = 0; c < 2; c++) p += rho * g[c] * (x[c] - (g[c] > 0.0 ? m->lower[c] : m->upper[c]));
+  return p;
+}
+
+/* Of the water outside of an open boundary, beyond that of the lighter phase, at x, Pa. */
+static double LevelPressure(Fluid f, const Boundary *b, const double x[2])
+{
+  const double *g = f->setup.gravity, *rho = f->setup.phases.rho;
+  if (!b->has_level) return 0.0;
+  return fabs(rho[1] - rho[0]) * fmax(hypot(g[0], g[1]) * b->level + g[0] * x[0] + g[1] * x[1], 0.0);
+}
+
+PetscErrorCode FluidSetOpenPressure(Fluid f)
 {
   const Mesh *m = f->domain.mesh;
   const P2Space *p2 = f->domain.p2;
-  Vec both[2], local[2]; /* sum and count */
+  Vec both[2], local[2]; /* sum and count: a node's owner need not have the boundary face */
   PetscScalar *v[2], *p;
   PetscFunctionBeginUser;
   for (int k = 0; k < 2; k++) {
@@ -28,8 +42,16 @@ static PetscErrorCode AddOpenPressure(Fluid f)
     for (int i = 0; i < 3; i++) {
       const Boundary *b = BoundaryOfFace(&f->domain, e, i);
       const int node[3] = {(i + 1) % 3, (i + 2) % 3, 3 + i};
-      for (int k = 0; k < 3 && b && b->kind == BOUNDARY_OPEN; k++) {
-        v[0][p2->node[6 * e + node[k]]] += b->pressure;
+      double value[3];
+      if (!b || b->kind != BOUNDARY_OPEN) continue;
+      for (int k = 0; k < 2; k++) {
+        const double *x = ElementVertex(m, e, node[k]);
+        value[k] =
+            HydrostaticPressure(m, f->setup.rho, f->setup.gravity, x) + b->pressure + LevelPressure(f, b, x);
+      }
+      value[2] = 0.5 * (value[0] + value[1]); /* linear also where the level is: effective_density.h */
+      for (int k = 0; k < 3; k++) {
+        v[0][p2->node[6 * e + node[k]]] += value[k];
         v[1][p2->node[6 * e + node[k]]] += 1.0;
       }
     }
@@ -41,7 +63,8 @@ static PetscErrorCode AddOpenPressure(Fluid f)
     PetscCall(VecGetArray(both[k], &v[k]));
   }
   PetscCall(VecGetArray(f->p, &p));
-  for (int k = 0; k < p2->nowned; k++) p[k] += v[1][k] > 0.0 ? v[0][k] / v[1][k] : 0.0;
+  for (int k = 0; k < p2->nowned; k++)
+    if (v[1][k] > 0.0) p[k] = v[0][k] / v[1][k];
   PetscCall(VecRestoreArray(f->p, &p));
   for (int k = 0; k < 2; k++) {
     PetscCall(VecRestoreArray(both[k], &v[k]));
@@ -50,14 +73,6 @@ static PetscErrorCode AddOpenPressure(Fluid f)
   PetscCall(VecGhostUpdateBegin(f->p, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGhostUpdateEnd(f->p, INSERT_VALUES, SCATTER_FORWARD));
   PetscFunctionReturn(0);
-}
-
-/* rho g.(x - top), Pa */
-static double HydrostaticPressure(const Mesh *m, double rho, const double g[2], const double x[2])
-{
-  double p = 0.0;
-  for (int c = 0; c < 2; c++) p += rho * g[c] * (x[c] - (g[c] > 0.0 ? m->lower[c] : m->upper[c]));
-  return p;
 }
 
 PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldFunction pressure,
@@ -96,7 +111,7 @@ PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldF
     }
   PetscCall(VecRestoreArray(local, &p));
   PetscCall(VecGhostRestoreLocalForm(f->p, &local));
-  if (!pressure) PetscCall(AddOpenPressure(f));
+  if (!pressure) PetscCall(FluidSetOpenPressure(f));
   if (!pressure && f->phases) PetscCall(FluidBalancePressure(f));
   PetscFunctionReturn(0);
 }

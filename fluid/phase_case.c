@@ -1,4 +1,5 @@
 #include "fluid/phase_case.h"
+#include "common/output/output.h"
 #include "fluid/fluid_case.h"
 
 #define EVERYWHERE 1e6 /* m: half the side of a box that holds any domain */
@@ -14,8 +15,9 @@ void PhaseCaseRead(CoracleCase c, PhaseNames *names, PhaseProperties *p)
   for (int k = 0; k < p->n; k++) {
     (void)snprintf(key, sizeof key, "fluid.phases[%d].name", k);
     names->name[k] = CoracleCaseString(c, key);
-    if (strlen(names->name[k]) >= sizeof p->name[k])
-      CoracleCaseRefuse(c, key, "expected a name of at most %d letters", (int)sizeof p->name[k] - 1);
+    if (!SeriesCanName(names->name[k]) || strlen(names->name[k]) >= sizeof p->name[k])
+      CoracleCaseRefuse(c, key, "expected a name of at most %d letters, without commas and quotes",
+                        (int)sizeof p->name[k] - 1);
     (void)snprintf(p->name[k], sizeof p->name[k], "%s", names->name[k]);
     for (int j = 0; j < k; j++)
       if (!strcmp(names->name[j], names->name[k]))

@@ -14,11 +14,13 @@ struct PhaseTransport_s {
   char *open;                                    /* [ntags] fluxes are free there */
   double (*inflow)[PHASES_MAX];                  /* [ntags] fractions of what comes in */
   double *contact;                               /* [ntags] cosine of the contact angle */
+  PhasesLevel *level;                            /* [ntags] */
   InverseDensity *begin, *end, *inverse_density; /* [ne] at the ends of the step, and what the step sees */
   double *saved;                                 /* [ne][n] volumes */
   double *flux, *beta, *velocity;                /* [ne][3], [ne][6], [ne][3][2] of the step */
   double *swept, *part, *moment; /* [ne][3][n] of the step and of its part, m2; [ne][3][2] prescribed */
   int *single;                   /* [nl] at the start of the step */
+  PhaseBudget budget, saved_budget;
 };
 
 int PhaseLightest(const PhaseProperties *p)
@@ -40,6 +42,10 @@ static void SetInflow(PhaseTransport t)
     t->open[b] = boundary->kind == BOUNDARY_OPEN;
     t->contact[b] = boundary->contact_cosine;
     t->inflow[b][boundary->has_phase ? boundary->phase : lightest] = 1.0;
+    if (!boundary->has_level) continue;
+    t->level[b].phase = 1 - lightest;
+    t->level[b].below.d = boundary->level;
+    for (int c = 0; c < 2; c++) t->level[b].below.n[c] = -t->gravity[c] / hypot(t->gravity[0], t->gravity[1]);
   }
 }
 
@@ -56,7 +62,8 @@ PetscErrorCode PhaseTransportCreate(const FluidDomain *domain, const PhaseProper
   for (int c = 0; c < 2; c++) t->gravity[c] = gravity[c];
   PetscCall(StarsCreate(m, &t->stars));
   PetscCall(PhasesCreate(t->stars, n, &t->phases));
-  PetscCall(PetscCalloc3(m->ntags, &t->open, m->ntags, &t->inflow, m->ntags, &t->contact));
+  PetscCall(
+      PetscCalloc4(m->ntags, &t->open, m->ntags, &t->inflow, m->ntags, &t->contact, m->ntags, &t->level));
   PetscCall(PetscMalloc4(m->ne, &t->begin, m->ne, &t->end, m->ne, &t->inverse_density,
                          (size_t)n * (size_t)m->ne, &t->saved));
   PetscCall(
@@ -74,11 +81,23 @@ PetscErrorCode PhaseTransportDestroy(PhaseTransport *transport)
   if (!t) PetscFunctionReturn(0);
   PetscCall(PhasesDestroy(&t->phases));
   PetscCall(StarsDestroy(&t->stars));
-  PetscCall(PetscFree3(t->open, t->inflow, t->contact));
+  PetscCall(PetscFree4(t->open, t->inflow, t->contact, t->level));
   PetscCall(PetscFree4(t->begin, t->end, t->inverse_density, t->saved));
   PetscCall(PetscFree4(t->flux, t->beta, t->velocity, t->moment));
   PetscCall(PetscFree3(t->swept, t->part, t->single));
   PetscCall(PetscFree(*transport));
+  PetscFunctionReturn(0);
+}
+
+/* volume[n], m2, of all ranks. */
+static PetscErrorCode SumVolumes(PhaseTransport t, double volume[])
+{
+  int n;
+  const double *v = PhaseTransportVolumes(t, &n);
+  PetscFunctionBeginUser;
+  PetscCall(PetscArrayzero(volume, n));
+  for (int k = 0; k < n * t->stars->ne; k++) volume[k % n] += v[k];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, volume, n, MPI_DOUBLE, MPI_SUM, t->domain->mesh->comm));
   PetscFunctionReturn(0);
 }
 
@@ -124,6 +143,7 @@ PetscErrorCode PhaseTransportFill(PhaseTransport t, int nregions, const Region r
 {
   PetscFunctionBeginUser;
   PetscCall(PhasesFill(t->phases, nregions, region));
+  PetscCall(SumVolumes(t, t->budget.initial));
   PetscCall(Reconstruct(t));
   PetscFunctionReturn(0);
 }
@@ -132,6 +152,7 @@ PetscErrorCode PhaseTransportRemap(PhaseTransport from, Transfer transfer, Phase
 {
   PetscFunctionBeginUser;
   PetscCall(PhasesRemap(from->phases, transfer, to->phases));
+  to->budget = from->budget;
   PetscCall(Reconstruct(to));
   PetscFunctionReturn(0);
 }
@@ -142,6 +163,7 @@ PetscErrorCode PhaseTransportSaveState(PhaseTransport t)
   PetscFunctionBeginUser;
   PetscCall(PhasesGetVolumes(t->phases, &volume));
   PetscCall(PetscArraycpy(t->saved, volume, (size_t)t->properties.n * (size_t)t->stars->ne));
+  t->saved_budget = t->budget;
   PetscFunctionReturn(0);
 }
 
@@ -149,6 +171,7 @@ PetscErrorCode PhaseTransportRestoreState(PhaseTransport t)
 {
   PetscFunctionBeginUser;
   PetscCall(PhasesSetVolumes(t->phases, t->saved));
+  t->budget = t->saved_budget;
   PetscCall(Reconstruct(t));
   PetscFunctionReturn(0);
 }
@@ -157,8 +180,12 @@ PetscErrorCode PhaseTransportSave(PhaseTransport t, Checkpoint to)
 {
   int n;
   const double *volume = PhaseTransportVolumes(t, &n);
+  PetscMPIInt rank;
   PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(t->domain->mesh->comm, &rank));
   PetscCall(CheckpointPutDoubles(to, "phases", t->stars->ne, n, volume));
+  PetscCall(CheckpointPutDoubles(to, "initial phases", rank ? 0 : 1, n, t->budget.initial));
+  PetscCall(CheckpointPutDoubles(to, "phases out", rank ? 0 : 1, n, t->budget.out));
   PetscFunctionReturn(0);
 }
 
@@ -170,6 +197,8 @@ PetscErrorCode PhaseTransportLoad(PhaseTransport t, const PetscInt row[], Checkp
   PetscCall(MeshLoadDoubles(t->domain->mesh, row, from, "phases", t->properties.n, volume));
   PetscCall(PhasesSetVolumes(t->phases, volume));
   PetscCall(PetscFree(volume));
+  PetscCall(CheckpointGetDoubles(from, "initial phases", 0, 1, t->properties.n, t->budget.initial));
+  PetscCall(CheckpointGetDoubles(from, "phases out", 0, 1, t->properties.n, t->budget.out));
   PetscCall(Reconstruct(t));
   PetscFunctionReturn(0);
 }
@@ -210,6 +239,14 @@ const double *PhaseTransportVolumes(PhaseTransport t, int *n)
 Phases PhaseTransportPhases(PhaseTransport t)
 {
   return t->phases;
+}
+
+PetscErrorCode PhaseTransportBudget(PhaseTransport t, PhaseBudget *budget)
+{
+  PetscFunctionBeginUser;
+  *budget = t->budget;
+  PetscCall(SumVolumes(t, budget->volume));
+  PetscFunctionReturn(0);
 }
 
 /* --- the step ------------------------------------------------------------------------------------------- */
@@ -282,10 +319,23 @@ static PetscErrorCode LeaveSolid(PhaseTransport t, const double solid[])
   PetscFunctionReturn(0);
 }
 
+/* Adds what this step has swept through the boundary. */
+static PetscErrorCode AddOut(PhaseTransport t)
+{
+  const int n = t->properties.n;
+  double out[PHASES_MAX] = {0.0};
+  PetscFunctionBeginUser;
+  for (int k = 0; k < 3 * t->stars->ne; k++)
+    for (int p = 0; p < n && t->domain->mesh->neighbor[k] < 0; p++) out[p] += t->swept[k * n + p];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, out, n, MPI_DOUBLE, MPI_SUM, t->domain->mesh->comm));
+  for (int p = 0; p < n; p++) t->budget.out[p] += out[p];
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode Advect(PhaseTransport t, double dt, const double solid[])
 {
   const int n = 3 * t->properties.n * t->stars->ne;
-  const PhasesInflow inflow = {(const double(*)[PHASES_MAX])t->inflow};
+  const PhasesInflow inflow = {(const double(*)[PHASES_MAX])t->inflow, t->level};
   int parts;
   PetscFunctionBeginUser;
   PetscCall(CountParts(t, dt, &parts));
@@ -295,6 +345,7 @@ static PetscErrorCode Advect(PhaseTransport t, double dt, const double solid[])
     PetscCall(PhasesAdvect(t->phases, dt / parts, t->flux, t->velocity, &inflow, t->part));
     for (int i = 0; i < n; i++) t->swept[i] += t->part[i];
   }
+  PetscCall(AddOut(t));
   if (solid) PetscCall(LeaveSolid(t, solid));
   PetscCall(Reconstruct(t));
   PetscFunctionReturn(0);

@@ -54,6 +54,13 @@ void PhaseTransportSettle(PhaseTransport t);
 /* Volumes, m2, [ne][n], borrowed; the number of phases.  Not collective. */
 const double *PhaseTransportVolumes(PhaseTransport t, int *n);
 Phases PhaseTransportPhases(PhaseTransport t);
+/* What has become of each phase since the run's start, m2: volume + out - initial is what adaptation and the pressure's solution
+ * have made of it. */
+typedef struct {
+  double initial[PHASES_MAX], out[PHASES_MAX]; /* at the start; what has left through the boundary, net */
+  double volume[PHASES_MAX];                   /* what there is */
+} PhaseBudget;
+PetscErrorCode PhaseTransportBudget(PhaseTransport t, PhaseBudget *budget);
 /* For a step that is redone. */
 PetscErrorCode PhaseTransportSaveState(PhaseTransport t);
 PetscErrorCode PhaseTransportRestoreState(PhaseTransport t);

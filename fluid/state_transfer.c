@@ -107,7 +107,7 @@ static PetscErrorCode PhasePressure(Fluid from, Fluid to, Transfer transfer)
   PetscCall(VecDuplicate(to->p, &still));
   PetscCall(VecCopy(from->p, p));
   PetscCall(FluidBalancePressure(from));
-  PetscCall(Pressure(from, to, transfer)); /* for its values on open boundaries */
+  PetscCall(FluidSetOpenPressure(to));
   PetscCall(FluidBalancePressure(to));
   PetscCall(VecCopy(to->p, still));
   PetscCall(VecAXPY(from->p, -1.0, p));

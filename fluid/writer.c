@@ -89,17 +89,51 @@ static PetscErrorCode Snapshot(Writer r, Fluid f)
   PetscFunctionReturn(0);
 }
 
+enum { NCOLUMNS = 16, ROW_MAX = NCOLUMNS + 3 * PHASES_MAX };
+
+/* columns[size]: COLUMNS, and three of each phase. */
+static PetscErrorCode SetColumns(Fluid f, size_t size, char columns[])
+{
+  const PhaseProperties *phases = FluidPhases(f) ? PhaseTransportProperties(FluidPhases(f)) : NULL;
+  PetscFunctionBeginUser;
+  PetscCall(PetscStrncpy(columns, COLUMNS, size));
+  for (int p = 0; phases && p < phases->n; p++) {
+    char more[160];
+    const char *name = phases->name[p];
+    PetscCall(PetscSNPrintf(more, sizeof more, ",%s [m2],%s out [m2],%s made [m2]", name, name, name));
+    PetscCall(PetscStrlcat(columns, more, size));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* row[3 n]: how much there is of each phase, how much has left, and what is more than there should be. */
+static PetscErrorCode AddPhases(Fluid f, double row[])
+{
+  PhaseBudget b;
+  PetscFunctionBeginUser;
+  if (!FluidPhases(f)) PetscFunctionReturn(0);
+  PetscCall(PhaseTransportBudget(FluidPhases(f), &b));
+  for (int p = 0; p < PhaseTransportProperties(FluidPhases(f))->n; p++) {
+    row[3 * p] = b.volume[p];
+    row[3 * p + 1] = b.out[p];
+    row[3 * p + 2] = b.volume[p] + b.out[p] - b.initial[p];
+  }
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode WriterCreate(CoracleCase c, Fluid f, Checkpoint from, Writer *writer)
 {
   const Mesh *m = FluidMesh(f);
   const char *folder = CoracleCaseString(c, "output.folder");
+  char columns[2048];
   Writer r;
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&r));
   PetscCall(OutputCreate(m->comm, folder, "fluid", CoracleCasePositive(c, "output.every"), from, &r->output));
   PetscCall(OutputText(r->output, "case", CoracleCaseStringOr(c, "case", "")));
   PetscCall(OutputText(r->output, "version", CORACLE_VERSION));
-  PetscCall(SeriesCreate(m->comm, folder, "fluid", COLUMNS, from, &r->series));
+  PetscCall(SetColumns(f, sizeof columns, columns));
+  PetscCall(SeriesCreate(m->comm, folder, "fluid", columns, from, &r->series));
   if (!from) PetscCall(Snapshot(r, f));
   *writer = r;
   PetscFunctionReturn(0);
@@ -124,22 +158,23 @@ PetscErrorCode WriterStep(Writer r, Fluid f)
   PetscCall(FluidMomentumTotal(f, momentum, &energy));
   PetscCallMPI(MPI_Comm_size(m->comm, &size));
   PetscCallMPI(MPI_Allreduce(&m->ne, &most, 1, MPI_INT, MPI_MAX, m->comm));
-  const double row[] = {s->t,
-                        s->dt,
-                        s->max_speed,
-                        momentum[0],
-                        momentum[1],
-                        energy,
-                        s->momentum_iterations,
-                        s->pressure_iterations,
-                        s->seconds[0],
-                        s->seconds[1],
-                        s->seconds[2],
-                        s->seconds[3],
-                        s->seconds[4],
-                        s->seconds[5],
-                        m->nglobal,
-                        (double)most * size / m->nglobal};
+  double row[ROW_MAX] = {s->t,
+                         s->dt,
+                         s->max_speed,
+                         momentum[0],
+                         momentum[1],
+                         energy,
+                         s->momentum_iterations,
+                         s->pressure_iterations,
+                         s->seconds[0],
+                         s->seconds[1],
+                         s->seconds[2],
+                         s->seconds[3],
+                         s->seconds[4],
+                         s->seconds[5],
+                         m->nglobal,
+                         (double)most * size / m->nglobal};
+  PetscCall(AddPhases(f, row + NCOLUMNS));
   PetscCall(SeriesRow(r->series, row));
   if (OutputDue(r->output, s->t)) PetscCall(Snapshot(r, f));
   PetscFunctionReturn(0);

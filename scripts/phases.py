@@ -53,42 +53,30 @@ def snapshot_times(folder):
         return [group.attrs["time"] for group in groups if len(group)]
 
 
-def volumes(folder, phase):
-    """Volume of the phase of this name in each snapshot, m2."""
-    found = []
-    for time in snapshot_times(folder):
-        grid = read_snapshot(os.path.join(folder, "fluid.h5"), time)[1]["velocity"]
-        a, b, c = grid.points[grid.cells][:, :, :2].transpose(1, 0, 2)
-        area = 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
-        found.append(float((area * grid.cell[phase].ravel()).sum()))
-    return np.array(found)
-
-
-COLUMNS = ("water lost", "imbalance", "iterations", "triangles", "steps", "cost")  # of Run.cells
+COLUMNS = ("water out", "water made", "imbalance", "iterations", "triangles", "steps", "cost")  # of Run.cells
 
 
 class Run:
-    """What any run of several phases has left behind: the water in each snapshot, elements, steps, and what they took."""
+    """What any run of several phases has left behind: what became of the water, elements, steps, and what they took."""
 
     def __init__(self, folder):
         with open(os.path.join(folder, "summary.json")) as file:
             self.summary = json.load(file)
-        self.water = volumes(folder, "water")
-        triangles = read_series(os.path.join(folder, "fluid.csv"))["triangles"]
+        series = read_series(os.path.join(folder, "fluid.csv"))
+        triangles = series["triangles"]
+        start = series["water"][0] + series["water out"][0] - series["water made"][0]
+        self.out = series["water out"][-1] / start  # through boundaries, of the water at the start
+        self.made = abs(series["water made"]).max() / start  # what is neither there nor gone out, or too much
         self.triangles, self.steps = int(triangles.max()), len(triangles)
         parts = self.summary["participants"].values()
         self.cpu = sum(p["seconds_cpu"] for p in parts)
         self.cpu_triangle = self.cpu / float(triangles.sum())  # of a triangle in a step
         self.passes = self.summary.get("iterations", self.steps) / self.summary["steps"]
 
-    def lost(self, last=-1):
-        """Of the water, between the first snapshot and this one."""
-        return abs(self.water[last] / self.water[0] - 1.0)
-
-    def cells(self, first, last=-1):
-        """Of a table's row: COLUMNS, water lost until this snapshot, cost: processor time over that of the run `first`."""
-        return ["%.0e" % self.lost(last), "%.0e" % self.summary["largest_momentum_imbalance"], "%.2f" % self.passes, str(self.triangles),
-                str(self.steps), "%.2g" % (self.cpu / first.cpu)]
+    def cells(self, first):
+        """Of a table's row: COLUMNS; water out and made: of that at the start; cost: processor time over that of the run `first`."""
+        return ["%.0e" % self.out, "%.0e" % self.made, "%.0e" % self.summary["largest_momentum_imbalance"], "%.2f" % self.passes,
+                str(self.triangles), str(self.steps), "%.2g" % (self.cpu / first.cpu)]
 
 
 def paint_arrows(axes, grid, spacing):

@@ -44,6 +44,14 @@ static int OpenTag(const Step *t, int v)
   return -1;
 }
 
+/* The fraction of phase p in what comes in at x through the boundary. */
+static double Inflow(const Step *t, int tag, const double x[2], int p)
+{
+  const PhasesLevel *level = t->inflow->level ? &t->inflow->level[tag] : NULL;
+  if (level && level->below.n[0] * x[0] + level->below.n[1] * x[1] < level->below.d) return p == level->phase;
+  return t->inflow->fraction[tag][p];
+}
+
 /* The phase that all elements around v have to themselves, and that may flow in there, or -1. */
 static int PureAt(const Step *t, int v, char on_boundary)
 {
@@ -54,7 +62,7 @@ static int PureAt(const Step *t, int v, char on_boundary)
   }
   if (p < 0 || !on_boundary || !t->inflow) return p;
   const int tag = OpenTag(t, v);
-  return tag >= 0 && t->inflow->fraction[tag][p] != 1.0 ? -1 : p;
+  return tag >= 0 && Inflow(t, tag, s->point[v], p) != 1.0 ? -1 : p;
 }
 
 static PetscErrorCode FindCalm(Step *t)
@@ -207,7 +215,9 @@ static void Balance(Step *t, int a, int b, int tag, double uncovered, double swe
     if (tag < 0) tag = OpenTag(t, a);
     if (tag < 0) tag = OpenTag(t, b);
     if (tag >= 0 && t->inflow) {
-      for (int p = 0; p < t->f->np; p++) area[p] += rest * t->inflow->fraction[tag][p];
+      const double *from = t->s->point[a], *to = t->s->point[b];
+      const double middle[2] = {0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])};
+      for (int p = 0; p < t->f->np; p++) area[p] += rest * Inflow(t, tag, middle, p);
       return;
     }
     t->lost = fmax(t->lost, uncovered);

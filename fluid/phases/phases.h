@@ -67,9 +67,16 @@ PetscErrorCode PhasesGetSurfaceForce(Phases phases, double tension, const double
  * Needs the lines. */
 PetscErrorCode PhasesInterfaceLength(Phases phases, double *length);
 
+/* Where n.x < d, phase alone flows in; n = 0, d = 0: nowhere. */
+typedef struct {
+  HalfPlane below;
+  int phase;
+} PhasesLevel;
+
 /* What flows in where nothing is known: outside of open boundaries. */
 typedef struct {
   const double (*fraction)[PHASES_MAX]; /* [ntags][nphases], sum 1; NULL: boundaries are closed */
+  const PhasesLevel *level;             /* [ntags], borrowed; NULL: none */
 } PhasesInflow;
 
 /* One step of dt, s, along fluxes flux[ne][3] (outward through face i, m2/s; what leaves an element enters
@@ -82,9 +89,10 @@ typedef struct {
 PetscErrorCode PhasesAdvect(Phases phases, double dt, const double flux[], const double velocity[],
                             const PhasesInflow *inflow, double swept[]);
 
-/* Collective.  Where an element holds more of `phase` than capacity[ne], m2, the excess is exchanged for the filler of
- * neighbours with room, in a few rounds (an element none of whose neighbours has room keeps it): each phase's volume is conserved, that of elements, too.  Added to
- * swept[ne][3][nphases] of PhasesAdvect. */
+/* Collective.  What an element holds of `phase` beyond capacity[ne], m2, is exchanged for the filler of the nearest elements that
+ * hold filler beside it and have capacity left, however far they are: each phase's volume is conserved, that of elements, too.
+ * Where all together have less room than there is excess, or in unconnected meshes, some is left.  Elements without capacity are
+ * passed only where there is no other way.  Added to swept[ne][3][nphases] of PhasesAdvect. */
 PetscErrorCode PhasesExpel(Phases phases, int phase, int filler, const double capacity[], double swept[]);
 
 /* Volumes of `to` from lines and volumes of `from`, both on the meshes that the transfer was made of: copies

@@ -10,7 +10,7 @@ python=$(command -v /usr/bin/python3 || command -v python3)
 run() {
   local label=$1 ranks=$2
   shift 2
-  timeout -k 5 120 "$root/scripts/launch.sh" --bin "$build" --ranks "$ranks" "${case:-$here/disc.yaml}" \
+  timeout -k 5 "${limit:-120}" "$root/scripts/launch.sh" --bin "$build" --ranks "$ranks" "${case:-$here/disc.yaml}" \
     --set "output.folder=$scratch/$label" "$@" >"$scratch/$label.log" 2>&1
 }
 must() { run "$@" || { echo "$1 failed:"; cat "$scratch/$1.log"; exit 1; }; }

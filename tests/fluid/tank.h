@@ -14,9 +14,10 @@ typedef struct {
   Fluid fluid;
 } Tank;
 
-/* The unit square of n x n shaken cells. */
-static inline PetscErrorCode TankCreate(int n, unsigned seed, double viscosity, int nregions,
-                                        const Region region[], Tank *t)
+/* The unit square of n x n shaken cells; between walls, or open at the top and, up to this level of water outside, at the
+ * sides. */
+static inline PetscErrorCode TankCreateOpen(int n, unsigned seed, double viscosity, int nregions,
+                                            const Region region[], PetscBool open, double level, Tank *t)
 {
   const Shaken shaken = {.n = n, .seed = seed, .radius = 1.0};
   Boundary boundary[8] = {0};
@@ -30,11 +31,25 @@ static inline PetscErrorCode TankCreate(int n, unsigned seed, double viscosity, 
                       .boundary = boundary};
   PetscFunctionBeginUser;
   PetscCall(ShakenMesh(PETSC_COMM_WORLD, &shaken, &t->mesh));
-  for (int b = 0; b < t->mesh->ntags; b++) boundary[b].kind = BOUNDARY_FREE_SLIP;
+  for (int b = 0; b < t->mesh->ntags; b++) {
+    const char *name = t->mesh->tag_name[b];
+    const PetscBool side = (PetscBool)(!strcmp(name, "left") || !strcmp(name, "right"));
+    boundary[b].kind = BOUNDARY_FREE_SLIP;
+    if (!open || (!side && strcmp(name, "top") != 0)) continue;
+    boundary[b].kind = BOUNDARY_OPEN;
+    boundary[b].has_level = side;
+    boundary[b].level = level;
+  }
   PetscCall(FluidCreate(t->mesh, &setup, &t->fluid));
   PetscCall(FluidSetPhases(t->fluid, nregions, region));
   PetscCall(FluidSetInitial(t->fluid, 0.0, NULL, NULL, NULL));
   PetscFunctionReturn(0);
+}
+
+static inline PetscErrorCode TankCreate(int n, unsigned seed, double viscosity, int nregions,
+                                        const Region region[], Tank *t)
+{
+  return TankCreateOpen(n, seed, viscosity, nregions, region, PETSC_FALSE, 0.0, t);
 }
 
 static inline PetscErrorCode TankDestroy(Tank *t)

@@ -1,17 +1,51 @@
 // ranks: 1 2 3
-/* Still water below air, 1060 : 1.2 kg/m3, on a random mesh stays still: level, and with gravity normal to a slope.
+/* Still water below air, 1060 : 1.2 kg/m3, on a random mesh stays still: between walls, and with sides open to
+ * water at the same level; water flows in where that is higher outside.
  * still_tank n steps viscosity: prints. */
 #include "tests/fluid/tank.h"
 
-static PetscErrorCode Still(int n, unsigned seed, int steps, double viscosity, int print)
+#define LEVEL 0.473
+
+static double Water(const Tank *t)
+{
+  double water = 0.0;
+  for (int e = 0; e < t->mesh->ne; e++) {
+    const double *x[3];
+    for (int i = 0; i < 3; i++) x[i] = t->mesh->x + 2 * t->mesh->vertex[3 * e + i];
+    const double area =
+        0.5 * ((x[1][0] - x[0][0]) * (x[2][1] - x[0][1]) - (x[1][1] - x[0][1]) * (x[2][0] - x[0][0]));
+    water += area * (FluidDensity(t->fluid)[e] - AIR) / (WATER - AIR);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &water, 1, MPI_DOUBLE, MPI_SUM, t->mesh->comm);
+  return water;
+}
+
+/* It comes no faster than it falls: sqrt(2 g above). */
+static PetscErrorCode Higher(int n, unsigned seed)
+{
+  const double above = 0.05, dt = 0.002, time = 0.1;
+  const Region region[2] = {{.shape = REGION_BOX, .phase = 1, .a = {-1, -1}, .b = {2, 2}},
+                            {.shape = REGION_HALF_PLANE, .phase = 0, .a = {0.5, LEVEL}, .b = {0.0, 1.0}}};
+  Tank t;
+  PetscFunctionBeginUser;
+  PetscCall(TankCreateOpen(n, seed, 0.001, 2, region, PETSC_TRUE, LEVEL + above, &t));
+  for (int k = 0; k * dt < time; k++) PetscCall(FluidStep(t.fluid, dt));
+  const double gain = Water(&t) - LEVEL;
+  CHECK(gain > 0.01 * above, "%g m2 of water have come in", gain);
+  CHECK(gain < 2.0 * (LEVEL + above) * sqrt(2.0 * 9.81 * above) * time, "%g m2 of water have come in", gain);
+  PetscCall(TankDestroy(&t));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Still(int n, unsigned seed, int steps, double viscosity, PetscBool open, int print)
 {
   const Region region[2] = {{.shape = REGION_BOX, .phase = 1, .a = {-1, -1}, .b = {2, 2}},
-                            {.shape = REGION_HALF_PLANE, .phase = 0, .a = {0.5, 0.473}, .b = {0.0, 1.0}}};
+                            {.shape = REGION_HALF_PLANE, .phase = 0, .a = {0.5, LEVEL}, .b = {0.0, 1.0}}};
   const double dt = 0.005;
   double worst = 0.0;
   Tank t;
   PetscFunctionBeginUser;
-  PetscCall(TankCreate(n, seed, viscosity, 2, region, &t));
+  PetscCall(TankCreateOpen(n, seed, viscosity, 2, region, open, LEVEL, &t));
   for (int k = 0; k < steps; k++) {
     PetscCall(FluidStep(t.fluid, dt));
     const double now = TankSpeed(&t, 0);
@@ -19,7 +53,7 @@ static PetscErrorCode Still(int n, unsigned seed, int steps, double viscosity, i
     if (print && (k < 5 || k % (steps / 10) == 0))
       PetscCall(PetscPrintf(PETSC_COMM_WORLD, "seed %u step %d: %.2e m/s\n", seed, k, now));
   }
-  CHECK(worst < 1e-6 * sqrt(9.81), "still water moves at %g m/s", worst);
+  CHECK(worst < 1e-6 * sqrt(9.81), "still water moves at %g m/s, %s sides", worst, open ? "open" : "closed");
   PetscCall(TankDestroy(&t));
   PetscFunctionReturn(0);
 }
@@ -29,9 +63,11 @@ int main(int argc, char **argv)
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   if (argc > 3) {
     for (unsigned seed = 1; seed <= 3; seed++)
-      PetscCall(Still(atoi(argv[1]), seed, atoi(argv[2]), atof(argv[3]), 1));
+      PetscCall(Still(atoi(argv[1]), seed, atoi(argv[2]), atof(argv[3]), PETSC_FALSE, 1));
   } else {
-    PetscCall(Still(8, 4u, 50, 0.001, 0));
+    PetscCall(Still(8, 4u, 50, 0.001, PETSC_FALSE, 0));
+    PetscCall(Still(8, 4u, 50, 0.001, PETSC_TRUE, 0));
+    PetscCall(Higher(8, 4u));
   }
   return PetscFinalize();
 }

@@ -50,4 +50,10 @@ phases "'fluid.regions': expected a list of where"
 phases "'fluid.regions': the first region is everywhere" --set 'fluid.regions=[{phase: water, lower: [0, 0], upper: [1, 1]}]'
 phases "'fluid.regions\[0\].phase': expected a phase (water, air), found 'oil'" --set 'fluid.regions=[{phase: oil}]'
 phases "'fluid.regions\[1\].upper': the box is empty" --set 'fluid.regions=[{phase: air}, {phase: water, lower: [0, 0], upper: [0, 1]}]'
+refused fluid "'fluid.boundaries.left.level': there are no phases" --set 'fluid.boundaries.left={level: 1}' --set fluid.density=1 --set fluid.viscosity=1
+phases "'fluid.boundaries.left.level': expected a number" --set 'fluid.regions=[{phase: air}]' --set 'fluid.boundaries.left={level: high}'
+phases "'fluid.phases\[1\].name': expected a name" --set 'fluid.regions=[{phase: water}]' --set 'fluid.phases[1].name="a, b"'
+# a gauge outside, a body across a wall
+phases "'fluid.probes\[0\].point': expected what lies in the mesh, (9, 1) does not" --set 'fluid.regions=[{phase: air}]' --set 'fluid.probes=[{name: P, point: [9, 1]}]'
+refused solid "'solid.bodies\[0\]': the body reaches through solid.walls at" --set 'solid.walls={lower: [1, 0], upper: [2, 4]}'
 accepted fluid --set "$water" --set 'fluid.regions=[{phase: air}, {phase: water, lower: [0, 0], upper: [1, 1]}]' --set 'solid.bodies=[]'

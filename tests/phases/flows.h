@@ -151,7 +151,7 @@ static inline PetscErrorCode March(Phases phases, const Mesh *m, const Flow *flo
                                    int steps, PhasesStats *worst, double *seconds)
 {
   static const double OUTER[4][PHASES_MAX] = {{0.0, 1.0}, {0.0, 1.0}, {0.0, 1.0}, {0.0, 1.0}};
-  const PhasesInflow inflow = {OUTER};
+  const PhasesInflow inflow = {.fraction = OUTER};
   double *flux, *velocity;
   PhasesStats stats;
   PetscFunctionBeginUser;

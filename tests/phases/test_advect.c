@@ -48,7 +48,7 @@ static PetscErrorCode Straight(int np)
   const Shaken shaken = {.n = 14, .seed = 8u, .radius = 1.0};
   const Flow flow = {Uniform, UniformVelocity, 0.0, 0, 1.0, 1.0};
   double fraction[4][PHASES_MAX], *flux, *velocity, *swept, worst = 0.0, excess = 0.0;
-  const PhasesInflow inflow = {(const double(*)[PHASES_MAX])fraction};
+  const PhasesInflow inflow = {.fraction = (const double(*)[PHASES_MAX])fraction};
   const double *volume, dt = 0.03;
   Region region[3];
   Mesh *mesh;

@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# A half-sunk block floats at Archimedes' draught, upright, on a force that is its weight; no water inside.
+# Usage: floating.sh ROOT BUILD [long]     long: half the size, to the bounds of issue 12
+set -euo pipefail
+long=${3:-}
+source "$(dirname "$0")/run.sh"
+case=$here/floating.yaml
+if [ "$long" ]; then
+  limit=1200
+  must rest 1:1:1 --set fluid.adapt.size_min=0.006 --set time.dt_max=0.001
+else
+  must rest 1:1:1 --set time.end=0.5
+fi
+"$python" - "$scratch/rest" "$long" <<'E2'
+import csv, h5py, numpy as np, sys
+folder, long = sys.argv[1:]
+TANK, WIDTH, HEIGHT, LEVEL, WATER, AIR, G = 0.6, 0.12, 0.06, 0.2, 1000.0, 1.2, 9.81
+DRAUGHT, WEIGHT = 0.5 * HEIGHT, 500.0 * WIDTH * HEIGHT * G
+def column(name, part):
+    return np.array([float(r[name]) for r in csv.DictReader(open("%s/%s.csv" % (folder, part)))])
+t, y, force = (column(name, "solid") for name in ("t [s]", "y0 [m]", "fy0 [N/m]"))
+# it heaves a little about its place: between the first lowest and the next highest one lies half a period
+low = int(np.argmin(y * (t < 0.4)  + 1.0 * (t >= 0.4)))
+high = low + int(np.argmax(y[low:]))
+assert 0.15 < t[high] - t[low] < 0.4, "half a period of %g s" % (t[high] - t[low])
+sunk = LEVEL - 0.5 * (y[low] + y[high])  # below where it started
+draught = DRAUGHT + sunk / (1.0 - WIDTH / TANK)  # the level rises with it
+half = slice(low + 1, high + 1)
+mean = np.average(force[half], weights=np.diff(t)[low:high])
+tilt = abs(column("left_y [m]", "solid_probes") - column("right_y [m]", "solid_probes")).max() / WIDTH
+inside = 0.0
+grid = h5py.File(folder + "/fluid.h5")["snapshot"]
+for key in sorted(grid):
+    velocity = grid[key]["velocity"]
+    if "points" in velocity:
+        x, cells = velocity["points"][:], velocity["cells"][:]
+    a, b, c = (x[cells[:, k]] for k in range(3))
+    area = 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+    inside = max(inside, (area * np.maximum(velocity["cell/water"][:] + velocity["cell/alpha"][:] - 1.0, 0.0)).sum())
+error = (draught / DRAUGHT - 1.0, mean / WEIGHT - 1.0, tilt, inside / (WIDTH * HEIGHT))
+bound = (0.005, 0.001, 0.005, 1e-6) if long else (0.015, 0.005, 0.01, 1e-6)
+report = "draught %+.2g, force %+.2g, tilt %.2g, water inside %.2g" % error
+if long: print(report)
+assert all(abs(e) < b for e, b in zip(error, bound)), report
+E2
