@@ -19,7 +19,9 @@
  * Without it where there are phases: beside the solid is water and inside of it air, so that such an element would be lighter than
  * the water and slide up along the surface (2.9 m/s beside a block that floats at rest, 0.2 m/s without).
  *
- * SLIP_FRICTION moves the place of no slip by a small part of an element: measured in cases/falling_cylinder. */
+ * SLIP_FRICTION moves the place of no slip by a small part of an element.  With 0, 2 and 4 the disc of
+ * cases/falling_cylinder (le 0.01 m, steps of 0.0025 s) is 0.9 % faster, 0.3 and 0.7 % slower at 0.2 s than body-fitted
+ * elements say. */
 #ifndef CORACLE_SLIP_H
 #define CORACLE_SLIP_H
 #include "coupler/wall_term.h"

@@ -26,7 +26,7 @@
 
 /* Of the conjugate gradients: the residual's norm, relative to that of the argument; and their number, after
  * which the result, then smoothed less, is taken as it is. */
-#define TOLERANCE 1e-7
+#define TOLERANCE 1e-9
 enum { MAX_ITERATIONS = 1000 };
 #define DAMPING 0.05
 

@@ -10,7 +10,7 @@ from phases import read_probes
 
 # Hysing et al. 2009, test 1: the ranges of the three codes on their finest meshes
 RANGES = {"least circularity": (0.9011, 0.9013), "greatest rise velocity": (0.2417, 0.2421), "centre at 3 s": (1.0799, 1.0819)}
-# test 2, quoted from its table: least circularity, first and second maximum of the rise velocity, m/s, and their times, s, centre at 3 s, m
+# test 2, from memory, not checked against the paper: least circularity, first and second maximum of the rise velocity, m/s, and their times, s, centre at 3 s, m
 CODES = {"TP2D": (0.5869, 0.2524, 0.7332, 0.2434, 2.0705, 1.1380),
          "FreeLIFE": (0.4647, 0.2514, 0.7281, 0.2440, 1.9844, 1.1249),
          "MooNMD": (0.5144, 0.2502, 0.7317, 0.2393, 2.0600, 1.1376)}
