@@ -2,7 +2,7 @@
 #include "common/mesh/mesh_checkpoint.h"
 #include "common/output/options.h"
 #include "common/supermesh/geometry.h"
-#include "fluid/phase_case.h"
+#include "fluid/boundary_case.h"
 
 /* --- mesh: a graded box, or a Gmsh file ------------------------------------------------------------------ */
 
@@ -106,141 +106,10 @@ PetscErrorCode FluidCaseMesh(CoracleCase c, MPI_Comm comm, Checkpoint from, Mesh
   PetscFunctionReturn(0);
 }
 
-/* --- boundaries ----------------------------------------------------------------------------------------- */
-
-/* With phases: which one comes in through a boundary, and the contact angle there. */
-static void ReadPhases(CoracleCase c, const char *key, const PhaseNames *names, Boundary *b)
-{
-  char sub[192];
-  (void)snprintf(sub, sizeof sub, "%s.contact_angle", key);
-  if (names->name[0] && CoracleCaseHas(c, sub))
-    b->contact_cosine = cos(CoracleCaseNumber(c, sub, 0.0, 180.0) * M_PI / 180.0);
-  (void)snprintf(sub, sizeof sub, "%s.phase", key);
-  b->has_phase = (PetscBool)(names->name[0] && CoracleCaseHas(c, sub));
-  if (b->has_phase) b->phase = PhaseCaseIndex(c, sub, names);
-}
-
-/* Whether it is open by a pressure or a level. */
-static PetscBool ReadOpen(CoracleCase c, const char *key, const PhaseNames *names, Boundary *b)
-{
-  char level[192], pressure[192];
-  (void)snprintf(level, sizeof level, "%s.level", key);
-  (void)snprintf(pressure, sizeof pressure, "%s.pressure", key);
-  b->has_level = CoracleCaseHas(c, level) ? PETSC_TRUE : PETSC_FALSE;
-  if (!b->has_level && !CoracleCaseHas(c, pressure)) return PETSC_FALSE;
-  b->kind = BOUNDARY_OPEN;
-  if (b->has_level) {
-    if (!names->name[0]) CoracleCaseRefuse(c, level, "there are no phases: expected fluid.phases");
-    b->level = CoracleCaseNumber(c, level, -HUGE_VAL, HUGE_VAL);
-    b->pressure = CoracleCaseNumberOr(c, pressure, 0.0, -HUGE_VAL, HUGE_VAL);
-  } else {
-    b->pressure = CoracleCaseNumber(c, pressure, -HUGE_VAL, HUGE_VAL);
-  }
-  return PETSC_TRUE;
-}
-
-static void ReadBoundary(CoracleCase c, const char *name, const PhaseNames *names, Boundary *b)
-{
-  static const char *const WORDS[] = {"no_slip", "free_slip", "open", NULL},
-                           *const PROFILES[] = {"uniform", "parabolic", NULL},
-                           *const WALLS[] = {"no_slip", "free_slip", NULL};
-  static const BoundaryKind KINDS[] = {BOUNDARY_VELOCITY, BOUNDARY_FREE_SLIP, BOUNDARY_OPEN};
-  char key[160], sub[192];
-  memset(b, 0, sizeof *b);
-  (void)snprintf(key, sizeof key, "fluid.boundaries.%s", name);
-  ReadPhases(c, key, names, b);
-  (void)snprintf(sub, sizeof sub, "%s.velocity", key);
-  if (CoracleCaseHas(c, sub)) {
-    b->kind = BOUNDARY_VELOCITY;
-    CoracleCaseVector(c, sub, 2, b->velocity);
-    (void)snprintf(sub, sizeof sub, "%s.profile", key);
-    b->parabolic = (PetscBool)(CoracleCaseWord(c, sub, 0, PROFILES) == 1);
-    (void)snprintf(sub, sizeof sub, "%s.rise", key);
-    b->rise = CoracleCaseNumberOr(c, sub, 0.0, 0.0, HUGE_VAL);
-    return;
-  }
-  if (ReadOpen(c, key, names, b)) return;
-  (void)snprintf(sub, sizeof sub, "%s.wall", key);
-  b->kind = CoracleCaseHas(c, sub) ? KINDS[CoracleCaseWord(c, sub, -1, WALLS)]
-                                   : KINDS[CoracleCaseWord(c, key, -1, WORDS)];
-}
-
-/* The boundaries of the case file and those of the mesh. */
-typedef struct {
-  CoracleCase c;
-  const Mesh *mesh;
-  int nlisted, nknown; /* in the case file, and of these in the mesh */
-  char listed[512];
-} BoundaryCheck;
-
-static void AppendName(char list[512], const char *name)
-{
-  const size_t used = strlen(list);
-  (void)snprintf(list + used, 512 - used, "%s%s", used ? ", " : "", name);
-}
-
-static void MeshBoundaries(const Mesh *m, char list[512])
-{
-  list[0] = 0;
-  for (int b = 0; b < m->ntags; b++) AppendName(list, m->tag_name[b]);
-}
-
-/* A boundary of the case file must be one of the mesh's. */
-static void CheckBoundaryName(void *context, const char *name)
-{
-  const BoundaryCheck *check = context;
-  char known[512], key[160];
-  if (MeshTagIndex(check->mesh, name) >= 0) return;
-  MeshBoundaries(check->mesh, known);
-  (void)snprintf(key, sizeof key, "fluid.boundaries.%s", name);
-  CoracleCaseRefuse(check->c, key, "the mesh has no boundary of this name; it has %s", known);
-}
-
-static void ListBoundaryName(void *context, const char *name)
-{
-  BoundaryCheck *check = context;
-  check->nlisted++;
-  check->nknown += MeshTagIndex(check->mesh, name) >= 0;
-  AppendName(check->listed, name);
-}
-
-void FluidCaseCheckResumed(CoracleCase c, const Mesh *mesh, const char *folder)
-{
-  BoundaryCheck check = {.c = c, .mesh = mesh};
-  char found[512];
-  CoracleCaseKeys(c, "fluid.boundaries", ListBoundaryName, &check);
-  if (check.nlisted == mesh->ntags && check.nknown == mesh->ntags) return;
-  MeshBoundaries(mesh, found);
-  CoracleCaseRefuse(
-      c, "resume",
-      "expected a mesh with the %d boundaries of fluid.boundaries (%s), found %d (%s) in %s/fluid.h5",
-      check.nlisted, check.listed, mesh->ntags, found, folder);
-}
-
-/* Without an open boundary what is prescribed must neither fill nor empty the domain: in the end, and as it rises. */
-static PetscErrorCode CheckFlux(CoracleCase c, const Mesh *mesh, Boundary boundary[])
-{
-  double net, gross, full;
-  PetscFunctionBeginUser;
-  for (int b = 0; b < mesh->ntags; b++)
-    if (boundary[b].kind == BOUNDARY_OPEN) PetscFunctionReturn(0);
-  PetscCall(BoundaryPrescribedFlux(mesh, boundary, HUGE_VAL, &net, &full));
-  gross = full;
-  for (int b = -1; b < mesh->ntags; b++) {
-    if (b >= 0) PetscCall(BoundaryPrescribedFlux(mesh, boundary, 0.5 * boundary[b].rise, &net, &gross));
-    if (fabs(net) > 1e-6 * full)
-      CoracleCaseRefuse(
-          c, "fluid.boundaries",
-          "no boundary is open, and the prescribed velocities bring %g m2/s %s than they take out%s",
-          fabs(net), net < 0.0 ? "more into the domain" : "less into the domain",
-          b < 0 ? "" : " as they rise");
-  }
-  PetscFunctionReturn(0);
-}
+/* --- the flow, its numbers and its adaptation ----------------------------------------------------------- */
 
 PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup)
 {
-  BoundaryCheck check = {.c = c, .mesh = mesh};
   PhaseNames names;
   PetscFunctionBeginUser;
   memset(setup, 0, sizeof *setup);
@@ -262,9 +131,7 @@ PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup
   if (CoracleCaseHas(c, "fluid.capillary_cfl"))
     setup->capillary_cfl = CoracleCasePositive(c, "fluid.capillary_cfl");
   PetscCall(PetscMalloc1(mesh->ntags, &setup->boundary));
-  for (int b = 0; b < mesh->ntags; b++) ReadBoundary(c, mesh->tag_name[b], &names, setup->boundary + b);
-  CoracleCaseKeys(c, "fluid.boundaries", CheckBoundaryName, &check);
-  PetscCall(CheckFlux(c, mesh, setup->boundary));
+  PetscCall(BoundaryCaseRead(c, mesh, &names, setup->boundary));
   PetscFunctionReturn(0);
 }
 

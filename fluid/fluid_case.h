@@ -8,8 +8,6 @@
 /* Collective over comm.  Builds or reads the mesh and distributes it; with a checkpoint (else NULL) the mesh
  * is the one that was saved there, and *row as of MeshLoad. */
 PetscErrorCode FluidCaseMesh(CoracleCase c, MPI_Comm comm, Checkpoint from, Mesh **mesh, PetscInt **row);
-/* Refuses the checkpoint in `folder`, whose mesh this is, unless its boundaries are those of the case. */
-void FluidCaseCheckResumed(CoracleCase c, const Mesh *mesh, const char *folder);
 /* Reads everything else.  setup->boundary is allocated: PetscFree it after FluidCreate has copied it. */
 PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup);
 /* With fluid.phases: where they are at the start (FluidSetPhases); *region is allocated, its polygons too: FluidCaseFreeRegions. */

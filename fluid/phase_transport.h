@@ -33,8 +33,8 @@ PetscErrorCode PhaseTransportDestroy(PhaseTransport *t);
 PetscErrorCode PhaseTransportFill(PhaseTransport t, int nregions, const Region region[]);
 /* The volumes from those on another mesh. */
 PetscErrorCode PhaseTransportRemap(PhaseTransport from, Transfer transfer, PhaseTransport to);
-/* From t^n over dt along u[ne][6], m/s, made of velocities of which `behind` says how far t^n lies behind them in
- * units of the step before (prescribed velocities are those of the same instants).  mass_flux[ne][6]: m, kg/(m2 s). */
+/* From t^n over dt along u[ne][6], m/s, extrapolated from t^n by `extrapolated` times the step before, dt_before; prescribed
+ * velocities are extrapolated likewise.  mass_flux[ne][6]: m, kg/(m2 s), is written. */
 typedef struct {
   double time, dt;                /* t^n, s */
   double extrapolated, dt_before; /* u = u^n + extrapolated (u^n - u^{n-1}) */

@@ -1,5 +1,6 @@
 #include "fluid/run.h"
 #include "common/mesh/mesh_checkpoint.h"
+#include "fluid/boundary_case.h"
 #include "fluid/fluid_case.h"
 
 /* The sections of the case that concern the fluid, all of whose keys must have been read. */
@@ -63,7 +64,7 @@ static PetscErrorCode Create(FluidRun *m, const char *resume, Checkpoint from, P
   PetscFunctionBeginUser;
   PetscCall(PetscOptionsInsertString(NULL, CoracleCaseStringOr(m->program->c, "fluid.petsc", "")));
   PetscCall(FluidCaseMesh(m->program->c, m->program->comm, from, &m->mesh, row));
-  if (from) FluidCaseCheckResumed(m->program->c, m->mesh, resume);
+  if (from) BoundaryCaseCheckResumed(m->program->c, m->mesh, resume);
   PetscCall(FluidCaseSetup(m->program->c, m->mesh, &setup));
   PetscCall(FluidCaseRegions(m->program->c, &nregions, &region));
   PetscCall(FluidCaseAdaptation(m->program->c, &setup, &adapts, &adaptation));

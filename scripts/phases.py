@@ -1,4 +1,5 @@
-"""Runs of several phases: their probes (fluid_probes.csv, solid_probes.csv), and pictures and animations of where they are.
+"""Runs of several phases: their probes (fluid_probes.csv, solid_probes.csv), tables of them, and pictures and animations of where
+they are.
 
 Needs numpy, h5py, matplotlib; Pillow for animations.
 """
@@ -77,6 +78,23 @@ class Run:
         """Of a table's row: COLUMNS; water out and made: of that at the start; cost: processor time over that of the run `first`."""
         return ["%.0e" % self.out, "%.0e" % self.made, "%.0e" % self.summary["largest_momentum_imbalance"], "%.2f" % self.passes,
                 str(self.triangles), str(self.steps), "%.2g" % (self.cpu / first.cpu)]
+
+
+def results(out, names, result):
+    """{name: result(folder)}, each with its Run as `run`, of the runs of these names that have come to their end: folders of `out`."""
+    there = {name: result(out / name) for name in names if (out / name / "summary.json").exists()}
+    for name, r in there.items():
+        r.run = Run(out / name)
+    return there
+
+
+def table(there, columns, cells):
+    """Lines of Markdown, a row a run of results(): its name, cells(result) below `columns`, those of its Run below COLUMNS."""
+    columns = ("run", *columns, *COLUMNS)
+    yield "| " + " | ".join(columns) + " |"
+    yield "|" + "---|" * len(columns)
+    for name, r in there.items():
+        yield "| " + " | ".join([name, *cells(r), *r.run.cells(next(iter(there.values())).run)]) + " |"
 
 
 def paint_arrows(axes, grid, spacing):

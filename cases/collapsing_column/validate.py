@@ -50,25 +50,14 @@ def run(name):
     validation.run(HERE, OUT / name, *RUNS[name])
 
 
-class Result(Column):
-    """What a run has left behind."""
-
-    def __init__(self, name):
-        super().__init__(OUT / name)
-        self.run = phases.Run(OUT / name)
-
-
 def results(names):
-    return {name: Result(name) for name in names if (OUT / name / "summary.json").exists()}
+    return phases.results(OUT, names, Column)
 
 
 def table(there):
-    columns = ("run", "front at the square [s]", "square at the wall [s]", "its speed [m/s]", *("%s, at" % g for g in GAUGES), *phases.COLUMNS)
-    yield "| " + " | ".join(columns) + " |"
-    yield "|" + "---|" * len(columns)
-    for name, r in there.items():
-        yield "| " + " | ".join([name, "%.3f" % r.reaches_square, "%.3f" % r.reaches_wall, "%.3f" % r.speed,
-                                 *("%.1f, %.3f s" % r.peak(g) for g in GAUGES), *r.run.cells(next(iter(there.values())).run)]) + " |"
+    columns = ("front at the square [s]", "square at the wall [s]", "its speed [m/s]", *("%s, at" % g for g in GAUGES))
+    return phases.table(there, columns, lambda r: ["%.3f" % r.reaches_square, "%.3f" % r.reaches_wall, "%.3f" % r.speed,
+                                                   *("%.1f, %.3f s" % r.peak(g) for g in GAUGES)])
 
 
 def claims(there):

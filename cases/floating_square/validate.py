@@ -35,25 +35,14 @@ def run(name):
     validation.run(HERE, OUT / name, *RUNS[name])
 
 
-class Result(Floating):
-    """What a run has left behind."""
-
-    def __init__(self, name):
-        super().__init__(OUT / name)
-        self.run = phases.Run(OUT / name)
-
-
 def results(names):
-    return {name: Result(name) for name in names if (OUT / name / "summary.json").exists()}
+    return phases.results(OUT, names, Floating)
 
 
 def table(there):
-    columns = ("run", "wet at 0.150 s", "afloat [s]", *("%s, %.3f s" % (what, t) for what, t in PAPER.items()), "square at 0.35 s [m]", *phases.COLUMNS)
-    yield "| " + " | ".join(columns) + " |"
-    yield "|" + "---|" * len(columns)
-    for name, r in there.items():
-        yield "| " + " | ".join([name, "%.2f" % r.sinking, "%.3f" % r.afloat, *("%.3f" % r.measured[what] for what in PAPER),
-                                 "(%.3f, %.3f)" % r.at(0.35), *r.run.cells(next(iter(there.values())).run)]) + " |"
+    columns = ("wet at 0.150 s", "afloat [s]", *("%s, %.3f s" % (what, t) for what, t in PAPER.items()), "square at 0.35 s [m]")
+    return phases.table(there, columns, lambda r: ["%.2f" % r.sinking, "%.3f" % r.afloat, *("%.3f" % r.measured[what] for what in PAPER),
+                                                   "(%.3f, %.3f)" % r.at(0.35)])
 
 
 def claims(there):

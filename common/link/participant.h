@@ -48,6 +48,8 @@ void ParticipantSetErrorHandler(void (*f)(void *context, const char *message), v
 void ParticipantUsed(const Participant *p, double used[NUSED]);
 /* Collective over the participant: into a checkpoint. */
 void ParticipantSaveUsed(Participant *p, const char *folder);
+/* Rank 0: back from there. */
+void ParticipantLoadUsed(Participant *p, const char *folder);
 /* Leaves in good order; collective over the job. */
 int ParticipantClose(Participant **p);
 /* "coracle <role>[rank]: error: ..." once, then the end of the job. */

@@ -2,6 +2,7 @@
 /* The fluid's part of a case that resumes from a checkpoint: its keys are read and checked as ever, its files
  * go on where they were, and a checkpoint of other boundaries is refused. */
 #include "common/mesh/mesh_checkpoint.h"
+#include "fluid/boundary_case.h"
 #include "fluid/fluid_case.h"
 #include "fluid/writer.h"
 #include "tests/link/catch.h"
@@ -31,7 +32,7 @@ static PetscErrorCode Read(CoracleCase c, FluidSetup *setup)
   PetscBool adapts;
   PetscFunctionBeginUser;
   PetscCall(FluidCaseMesh(c, PETSC_COMM_WORLD, from, &mesh, &row));
-  if (from) FluidCaseCheckResumed(c, mesh, folder);
+  if (from) BoundaryCaseCheckResumed(c, mesh, folder);
   PetscCall(FluidCaseSetup(c, mesh, setup));
   PetscCall(FluidCaseAdaptation(c, setup, &adapts, &adaptation));
   if (CoracleCaseFinish(c, SECTIONS)) PetscFunctionReturn(PETSC_ERR_PLIB);
