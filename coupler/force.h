@@ -14,7 +14,9 @@
  *
  * which is the momentum balance of the fluid inside S.  The correction of element K is
  *
- *    r   =  sum over its pairs in S of  C^T u_s^{n+1} - B u+,     B = int N_K N_K^T. */
+ *    r   =  sum over its pairs in S of  C^T u_s^{n+1} - B u+,     B = int N_K N_K^T,
+ *
+ * less its part along the surface where that crosses K (slip.h). */
 #ifndef CORACLE_FORCE_H
 #define CORACLE_FORCE_H
 #include "coupler/wall_term.h"

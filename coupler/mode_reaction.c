@@ -28,12 +28,9 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
     }
   }
   PetscCall(InertiaCoefficients(o, solid, c->dt, c->term, c->density));
-  if (c->options.slip) {
-    PetscCall(SlipTensors(o, c->tangential));
-    SlipCoefficients(o, c->tangential, c->term);
-  } else {
-    PetscCall(PetscArrayzero(c->tangential, o->ncoupled));
-  }
+  if (!c->options.slip) PetscFunctionReturn(0);
+  PetscCall(SlipTensors(o, c->tangential));
+  SlipCoefficients(o, c->tangential, c->term);
   PetscFunctionReturn(0);
 }
 

@@ -231,9 +231,9 @@ typedef struct {
   double implicit_inertia[CORACLE_DIM][CORACLE_VERTICES][CORACLE_DIM][CORACLE_VERTICES];
   /* N: int_K (a u_s)_c N_i, the explicit part of s_c */
   double s[CORACLE_DIM][CORACLE_VERTICES];
-  /* m2: int_{K and S} b N_i N_j, sub-cell solid mass; b = 1, less where nodes have a mobility */
+  /* m2: int_{K and S} N_i N_j, sub-cell solid mass, where the solid is held: has no mobility */
   double ms[CORACLE_VERTICES][CORACLE_VERTICES];
-  /* m3/s: int_{K and S} b N_i (u_s)_c */
+  /* m3/s: int_{K and S} N_i (u_s)_c, where the solid is held */
   double us[CORACLE_DIM][CORACLE_VERTICES];
   /* m/s: mean over what K overlaps, solid and shell, of the solid's velocity at the start of the step */
   double velocity[CORACLE_DIM];
@@ -242,7 +242,8 @@ typedef struct {
 } CoracleCoupling;
 
 /* The correction of the step just made, on its overlap: u += M^-1 r with the element's mass matrix M and
- * r[c][i] = int_{K and S} N_i (u_s - u projected)_c, u_s the solid's new velocity. */
+ * r[c][i] = int_{K and S} N_i (u_s - u projected)_c, u_s the solid's new velocity; in an element that the solid's
+ * surface crosses, of the component along its normal alone. */
 typedef struct {
   int element;
   double r[CORACLE_DIM][CORACLE_VERTICES]; /* m3/s */
