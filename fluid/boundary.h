@@ -6,7 +6,9 @@
  *   kind        velocity prescribed         traction               pressure
  *   VELOCITY    u = g(x, t)                 -                      -
  *   FREE_SLIP   u.n = 0                     (tau n).t = 0          -
- *   OPEN        -                           tau n = 0              hydrostatic + `pressure` */
+ *   OPEN        -                           tau n = 0              hydrostatic + `pressure`
+ *
+ * What comes in where it is OPEN has been at rest outside (AssembleBoundary). */
 #ifndef FLUID_BOUNDARY_H
 #define FLUID_BOUNDARY_H
 #include "common/mesh/mesh.h"
