@@ -3,6 +3,8 @@
  *
  *     mpirun -n 2 coracle-fluid CASE : -n 1 coracle-coupler CASE : -n 1 rigid_disc CASE
  *
+ * A key of its own, solid.bodies[0].spring (N/m a metre of depth), ties the centre to where it starts.
+ *
  *       2 ___ 1      nodes 0 .. n-1 on the circle, node n in the centre;
  *        /\ /\       facets i -> i + 1 run counter-clockwise, so that the disc lies on their left;
  *     3 |--n--| 0    triangles (n, i, i + 1) are the slices of the pie;
@@ -12,6 +14,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* What a step changes; the library saves it and puts it back when a step is redone. */
 typedef struct {
@@ -23,6 +26,7 @@ typedef struct {
   CoracleClient client;
   int n; /* nodes on the circle; 0 on empty ranks */
   double radius, mass, inertia, gravity[2];
+  double spring, start[2]; /* N/m a metre of depth; where it has no force, m */
   BulkMotion now;
 } Disc;
 
@@ -62,6 +66,9 @@ static void ReadCase(Disc *d, int argc, char **argv, int rank)
   CoracleCaseVector(c, "solid.bodies[0].centre", 2, d->now.x);
   if (CoracleCaseHas(c, "solid.bodies[0].velocity"))
     CoracleCaseVector(c, "solid.bodies[0].velocity", 2, d->now.v);
+  memcpy(d->start, d->now.x, sizeof d->start);
+  if (CoracleCaseHas(c, "solid.bodies[0].spring"))
+    d->spring = CoracleCasePositive(c, "solid.bodies[0].spring");
   d->radius = CoracleCasePositive(c, "solid.bodies[0].radius");
   const int n = (int)ceil(2.0 * M_PI * d->radius / CoracleCasePositive(c, "solid.bodies[0].size"));
   snprintf(key, sizeof key, "solid.materials.%s.density", CoracleCaseString(c, "solid.bodies[0].material"));
@@ -116,10 +123,11 @@ static void TellInertia(const Disc *d, const double own[])
   free(mobility);
 }
 
-/* Newton and Euler: m dv/dt = F + m g, I dw/dt = M, over one step. */
+/* Newton and Euler: m dv/dt = F + m g - k (x - x_start), I dw/dt = M, over one step. */
 static void Advance(Disc *d, double dt, const double x[], const double force[])
 {
-  double f[2] = {d->mass * d->gravity[0], d->mass * d->gravity[1]}, moment = 0.0;
+  double f[2], moment = 0.0;
+  for (int c = 0; c < 2; c++) f[c] = d->mass * d->gravity[c] - d->spring * (d->now.x[c] - d->start[c]);
   for (int i = 0; d->n && i <= d->n; i++) {
     f[0] += force[2 * i];
     f[1] += force[2 * i + 1];
