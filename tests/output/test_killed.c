@@ -67,8 +67,7 @@ int main(int argc, char **argv)
   }
   for (int ranks = 1; ranks <= 2; ranks++) {
     snprintf(folder, sizeof folder, "/tmp/coracle_killed_%d", (int)getpid());
-    snprintf(command, sizeof command,
-             "timeout -k 5 60 mpirun --allow-run-as-root --oversubscribe -n %d %s %s >/dev/null 2>&1", ranks,
+    snprintf(command, sizeof command, "timeout -k 5 60 " MPIRUN " -n %d %s %s >/dev/null 2>&1", ranks,
              argv[0], folder);
     CHECK(system(command), "the writer lived");
     CheckLeft(folder, ranks);
