@@ -22,7 +22,8 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
     const SourceTriangle *source = &o->source[o->pairs.pair[p].a];
     if (source->is_shell) {
       const double dxw = WallExtent((const double(*)[2])o->x[k], source->normal);
-      c->term[p].a = WallCoefficientOf(o->mu[k] / (c->options.thickness * dxw), source->normal);
+      c->term[p].a =
+          WallCoefficientOf(WALL_PENALTY * o->mu[k] / (c->options.thickness * dxw), source->normal);
     } else {
       c->term[p].a = WallCoefficientIsotropic(c->options.relaxation * o->rho[k] / c->dt);
     }

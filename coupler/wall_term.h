@@ -3,7 +3,9 @@
  * Each pair of the overlap (T, K) has one symmetric 2 x 2 coefficient a, kg/(m3 s): sigma I where T belongs
  * to the solid's volume, the wall term where it belongs to the shell,
  *
- *     a = mu / (dr dxw) (I + n n / 3)          [37], dr the shell's thickness, dxw the extent of K along n.
+ *     a = mu / (dr dxw) (I + n n / 3)          [37], dr the shell's thickness, dxw the extent of K along n
+ *
+ * times WALL_PENALTY in mode reaction.
  *
  * Element K receives, summed over its pairs (B = int N_K N_K^T, C = int N_T N_K^T),
  *
@@ -18,6 +20,11 @@
 #ifndef CORACLE_WALL_TERM_H
 #define CORACLE_WALL_TERM_H
 #include "coupler/overlap.h"
+
+/* The wall term of mode reaction is so many times [37], with which the velocity changes over a whole element: the body is as thin then
+ * as if the fluid slipped over an element's length.  The drag of a cylinder in a channel (Schaefer and Turek, 2D-1), with
+ * elements of D/12 and D/25: with 1 it is 3.4 and 1.3 % low, with 4 0.5 % low and 0.1 % high, with 10 (D/12) 1.7 % high. */
+#define WALL_PENALTY 4.0
 
 typedef struct {
   double xx, xy, yy; /* kg/(m3 s) */

@@ -22,8 +22,9 @@ from validation import percent
 
 OUT = validation.OUT
 TABLES = rows.tables()
+DEEP = ["fluid.mesh.upper=[2.5, 20]"]  # the reference's tank has its top far above the start, which a nearer one delays by 1.3 % at 0.1 s
 COARSE = ["fluid.adapt.size_min=0.02", "solid.bodies[0].size=0.03"]
-# What else is run, all at Re 20 (row Yc20-020 but for the keys given): name: (keys, ranks)
+# What else is run, all at Re 20 (row Yc20-020 in the tank DEEP, but for the keys given): name: (keys, ranks)
 CHECKS = {
     "ranks-1": (["time.end=4"], "1:1:1"),
     "ranks-2": (["time.end=4"], "2:1:1"),
@@ -104,7 +105,7 @@ def results(names):
 
 def run(name):
     keys, ranks = CHECKS[name] if name in CHECKS else (TABLES[name].settings(), "1:1:1")
-    validation.run(HERE, OUT / name, keys, ranks)
+    validation.run(HERE, OUT / name, (DEEP if name in CHECKS else []) + keys, ranks)
 
 
 def rows_table(there):
