@@ -1,5 +1,5 @@
 #include "solid/ranks/partition.h"
-#include "solid/solid_impl.h"
+#include "solid/step_response.h"
 
 /* The first subdomain; elements that may change ranks later need the model. */
 static PetscErrorCode Distribute(Solid s, const Model *a)
@@ -47,6 +47,7 @@ PetscErrorCode SolidFreeSubdomain(Solid s)
   PetscFunctionBeginUser;
   PetscCall(ContactDestroy(&s->contact));
   PetscCall(JointsDestroy(&s->joints));
+  PetscCall(StepResponseDestroy(&s->response));
   PetscCall(PetscFree2(s->shared.rank, s->shared.node));
   PetscCall(CopiesDestroy(&s->copies));
   PetscCall(

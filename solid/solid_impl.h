@@ -8,6 +8,7 @@
 
 typedef struct Contact_s *Contact;
 typedef struct Joints_s *Joints;
+typedef struct StepResponse_s *StepResponse;
 
 /* What all subdomains are of, the same on all ranks. */
 typedef struct {
@@ -86,6 +87,7 @@ struct Solid_s {
   double *start;                 /* [nnodes][2] positions when it began */
   double *interface_velocity, *mobility,
       *acceleration;          /* [nnodes][2], [nnodes], [nnodes][2] of SolidUpdateInterfaceMotion */
+  StepResponse response;      /* NULL before the first SolidUpdateInterfaceMotion */
   int npieces, *piece;        /* [nnodes] SolidPieces has found; npieces 0: since the last crack not yet */
   int remaining, until_check; /* substeps */
   SolidBudget budget;         /* this rank's part */
@@ -153,8 +155,11 @@ void JointsAddForces(Joints j, Solid s);
 /* Collective: edges loaded to their strength activate, broken ones become surface; *changed: nodes,
  * elements and facets are new, forces and limit too. */
 PetscErrorCode JointsAdvance(Joints j, Solid s, PetscBool *changed);
-/* force[nnodes][2] -= K d, K the stiffness of the active joints as they are; not summed over ranks. */
-void JointsAddStiffness(Joints j, Solid s, const double d[], double force[]);
+/* Not collective: how many joints are active here; 0 without joints. */
+int JointsActive(Joints j);
+/* Not collective: K of the k-th of them as it is, N/m, [2 i + c] of node[i] along axis c: end 0 on both elements,
+ * then end 1; false where another rank has it too, whose is to be added. */
+PetscBool JointsStiffness(Joints j, Solid s, int k, int node[4], double stiffness[8][8]);
 /* Bound of omega^2, 1/s2. */
 double JointsRate(Joints j);
 /* break.c: saves or puts back damage and topology; not collective. */
