@@ -60,6 +60,7 @@ PetscErrorCode SolidFreeSubdomain(Solid s)
   PetscCall(PetscFree2(s->motion, s->motion_rows));
   PetscCall(PetscFree(s->prescribed));
   PetscCall(PetscFree(s->position_before));
+  PetscCall(PetscFree(e->held));
   PetscCall(PetscFree3(e->node[0], e->node[1], e->node[2]));
   PetscCall(PetscFree4(e->inverse[0], e->inverse[1], e->inverse[2], e->inverse[3]));
   PetscCall(PetscFree3(e->stress[0], e->stress[1], e->stress[2]));

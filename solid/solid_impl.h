@@ -15,6 +15,8 @@ typedef struct {
   int elements, nodes, joints; /* nodes of the start */
 } GlobalSizes;
 
+enum { STRIP = 64 }; /* elements that are gathered at a time: they stay in the first cache */
+
 /* Structure of arrays, so that the element loop is vectorised. */
 typedef struct {
   int n;
@@ -24,11 +26,13 @@ typedef struct {
   double *thickness, *plane_stress;    /* m; 1 in plane stress, 0 in plane strain */
   double *kind;                        /* of law */
   int *body, *material;
-  int *number;       /* in the model */
-  double *force[2];  /* [3][n]: corner i of element e at i n + e */
-  double *stress[3]; /* NULL without joints: elastic xx, yy, xy of the last forces, Pa times thickness */
-  PetscBool damped;  /* any eta > 0 */
-  ElementLaws laws;  /* that any element has */
+  int *number;          /* in the model */
+  double *force[2];     /* [3][n]: corner i of element e at i n + e */
+  double *stress[3];    /* NULL without joints: elastic xx, yy, xy of the last forces, Pa times thickness */
+  PetscBool damped;     /* any eta > 0 */
+  char *held;           /* [n / STRIP + 1] all nodes of the strip's elements are fixed: */
+  PetscBool held_known; /* their forces are where they stay */
+  ElementLaws laws;     /* that any element has */
 } Elements;
 
 /* node[k], a node of the start, is also on rank[k]. */
@@ -112,10 +116,10 @@ static inline PetscBool SolidOwns(const Solid s, int node)
 
 /* forces.c: internal forces of this rank's elements into force; fails on an element with J <= 0. */
 PetscErrorCode SolidInternalForces(Solid s);
-/* corner_start and corner, from element */
+/* corner_start, corner and elements.held, from element */
 void SolidListCorners(Solid s);
 ElementRates SolidElementRates(Solid s, int k);
-/* The smallest stable step over this rank's elements, each with contact's rates added. */
+/* The smallest stable step over this rank's elements that can move, each with contact's rates added. */
 double SolidElementLimit(Solid s, ElementRates contact);
 ElementLaw ElementsLaw(const Elements *e, int k);
 void SolidElementShape(const Elements *e, int k, const double x[], Tensor *edges, Tensor *f);
@@ -178,6 +182,9 @@ PetscErrorCode ContactCreate(Solid s, Contact *contact);
 PetscErrorCode ContactRenew(Contact c, Solid s);
 /* Collective: new candidates, for motions of surface nodes up to ContactSkin. */
 PetscErrorCode ContactSearch(Contact c, Solid s, double min_buffer);
+/* Not collective: until the next call or search no surface node is going to be farther than `travel` from where it was
+ * at the search: what was farther apart than twice that is not looked at. */
+void ContactSetTravel(Contact c, double travel);
 /* Adds to force; every rank's edges against its own targets and those of other ranks. */
 PetscErrorCode ContactAddForces(Contact c, Solid s);
 /* Not collective: how far a node may move before a new search, and how far the farthest has; bounds of

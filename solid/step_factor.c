@@ -37,7 +37,7 @@ PetscErrorCode StepFactorUpdate(StepResponse a, Solid s, double c)
     for (int k = 2 * a->start[i]; k < 2 * a->start[i + 1]; k++, at++) {
       const int j = a->column[k / 2];
       value[at] = moves && s->inverse_mass[j] > 0.0 ? c * a->block[k / 2][2 * (row % 2) + k % 2] : 0.0;
-      if (2 * j + k % 2 == row) value[at] += moves ? a->share[i] * s->mass[i] : 1.0;
+      if (2 * j + k % 2 == row) value[at] += moves ? a->weight[i] * s->mass[i] : 1.0;
     }
   }
   PetscCall(MatSeqAIJRestoreArray(a->matrix, &value));
@@ -70,7 +70,7 @@ PetscErrorCode StepFactorApply(StepResponse a, Solid s, const double r[], double
   PetscFunctionBeginUser;
   PetscCall(VecGetArrayWrite(a->right, &right));
   for (int i = 0; i < a->nnodes; i++) {
-    const double x = a->share[i] * r[2 * i], y = a->share[i] * r[2 * i + 1], *t = a->turn[i];
+    const double x = a->weight[i] * r[2 * i], y = a->weight[i] * r[2 * i + 1], *t = a->turn[i];
     right[2 * i] = t[0] * x + t[1] * y;
     right[2 * i + 1] = t[0] * y - t[1] * x;
   }
@@ -78,7 +78,7 @@ PetscErrorCode StepFactorApply(StepResponse a, Solid s, const double r[], double
   PetscCall(PCApply(a->factor, a->right, a->left));
   PetscCall(VecGetArrayRead(a->left, &left));
   for (int i = 0; i < a->nnodes; i++) {
-    const double x = a->share[i] * left[2 * i], y = a->share[i] * left[2 * i + 1], *t = a->turn[i];
+    const double x = a->weight[i] * left[2 * i], y = a->weight[i] * left[2 * i + 1], *t = a->turn[i];
     z[2 * i] = t[0] * x - t[1] * y;
     z[2 * i + 1] = t[0] * y + t[1] * x;
   }

@@ -16,7 +16,7 @@ static PetscErrorCode Create(Solid s, StepResponse *response)
   a->nnodes = s->nnodes;
   a->nelements = s->elements.n;
   PetscCall(PetscMalloc4(3 * ne, &a->element, 4 * most, &a->joint, n + 1, &a->start, 9 * ne, &a->slot));
-  PetscCall(PetscMalloc3(n, &a->share, n, &a->owned, n, &a->turn));
+  PetscCall(PetscMalloc3(n, &a->weight, n, &a->owned, n, &a->turn));
   PetscCall(PetscMalloc4(2 * n, &a->r, 2 * n, &a->z, 2 * n, &a->p, 2 * n, &a->q));
   PetscCall(PetscArraycpy(a->element, s->element, 3 * ne));
   for (int k = 0; k < JointsActive(s->joints); k++)
@@ -37,7 +37,7 @@ PetscErrorCode StepResponseDestroy(StepResponse *response)
   PetscCall(VecDestroy(&a->right));
   PetscCall(VecDestroy(&a->left));
   PetscCall(PetscFree4(a->element, a->joint, a->start, a->slot));
-  PetscCall(PetscFree3(a->share, a->owned, a->turn));
+  PetscCall(PetscFree3(a->weight, a->owned, a->turn));
   PetscCall(PetscFree4(a->r, a->z, a->p, a->q));
   PetscCall(PetscFree(a->column));
   PetscCall(PetscFree(a->block));
@@ -61,10 +61,10 @@ static PetscErrorCode CountRanks(StepResponse a, Solid s)
   PetscFunctionBeginUser;
   for (int i = 0; i < a->nnodes; i++) {
     a->owned[i] = SolidOwns(s, i) ? 1.0 : 0.0;
-    a->share[i] = 1.0;
+    a->weight[i] = 1.0;
   }
-  PetscCall(CopiesSum(s->copies, 1, a->share));
-  for (int i = 0; i < a->nnodes; i++) a->share[i] = 1.0 / a->share[i];
+  PetscCall(CopiesSum(s->copies, 1, a->weight));
+  for (int i = 0; i < a->nnodes; i++) a->weight[i] = 1.0 / a->weight[i];
   PetscFunctionReturn(0);
 }
 

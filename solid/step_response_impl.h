@@ -14,10 +14,10 @@ struct StepResponse_s {
   double c, c0;         /* s2; c0 0: no factor */
   PC factor;
   Mat matrix;
-  Vec right, left;       /* of the factor */
-  double *share, *owned; /* [nnodes] 1/n; 1 on the rank that owns the node, else 0 */
-  double (*turn)[2];     /* [nnodes] cosine and sine of R */
-  double *r, *z, *p, *q; /* [nnodes][2] */
+  Vec right, left;        /* of the factor */
+  double *weight, *owned; /* [nnodes] 1/n; 1 on the rank that owns the node, else 0 */
+  double (*turn)[2];      /* [nnodes] cosine and sine of R */
+  double *r, *z, *p, *q;  /* [nnodes][2] */
 };
 
 /* step_matrix.c: the blocks' places, for element and joint; not collective. */

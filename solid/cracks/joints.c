@@ -39,13 +39,13 @@ static inline int Overloaded(const InitiationList *w, int k, double *const stres
   const double xy = 0.5 * (stress[2][p] + stress[2][q]);
   const Point t = {xx * d.y - xy * d.x, xy * d.y - yy * d.x};
   const double normal = t.x * d.y - t.y * d.x, shear = t.x * d.x + t.y * d.y, square = d.x * d.x + d.y * d.y;
-  const double tension = fmax(normal, 0.0);
-  const double beyond = fmax(fabs(shear) + w->friction[k] * fmin(normal, 0.0), 0.0);
+  const double tension = Greater(normal, 0.0);
+  const double beyond = Greater(fabs(shear) + w->friction[k] * Lesser(normal, 0.0), 0.0);
   return tension * tension * w->inverse_square[0][k] + beyond * beyond * w->inverse_square[1][k] >=
          square * square;
 }
 
-static int CountOverloaded(const InitiationList *initiation, double *const stress[3], const double x[])
+static WIDE int CountOverloaded(const InitiationList *initiation, double *const stress[3], const double x[])
 {
   const InitiationList w = *initiation;
   int n = 0;
@@ -85,13 +85,16 @@ void JointsBeginEnds(Joints j, Solid s)
   }
 }
 
-/* A crack-tip node that bears the strength. */
+/* A crack-tip node that bears the strength: JointLoad of the traction at least 1, times the edge's length squared, so
+ * that no direction is normalised in every substep.  The edge is intact: one node at each end. */
 static PetscBool Breaks(const Joints j, Solid s, const CrackTip *b)
 {
   const Joint *joint = &j->joint[b->joint];
-  const JointShape shape = ShapeOf(j, s, joint);
-  const Point t = JointsCrackTipTraction(j, s, b), m = shape.normal, e = shape.along;
-  return (PetscBool)(JointLoad(&joint->law, t.x * m.x + t.y * m.y, t.x * e.x + t.y * e.y) >= 1.0);
+  const Point d = PointMinus(PointAt(s->x, j->corner[joint->corner[1][0]].node),
+                             PointAt(s->x, j->corner[joint->corner[0][0]].node));
+  const Point t = JointsCrackTipTraction(j, s, b);
+  return (PetscBool)(JointLoad(&joint->law, t.x * d.y - t.y * d.x, t.x * d.x + t.y * d.y) >=
+                     d.x * d.x + d.y * d.y);
 }
 
 /* --- forces ------------------------------------------------------------------------------------------- */
