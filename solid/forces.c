@@ -206,7 +206,6 @@ static inline __attribute__((always_inline)) void StripLimits(const Elements *e,
 {
   double at[6][STRIP];
   GatherCorners(e, first, n, x, at);
-  VECTORIZE
   for (int i = 0; i < n; i++) {
     const int k = first + i;
     const Tensor edges = StripEdges((const double(*)[STRIP])at, i);

@@ -111,7 +111,7 @@ struct Solid_s {
 /* Not collective: no lower rank has the node. */
 static inline PetscBool SolidOwns(const Solid s, int node)
 {
-  return (PetscBool)(CopiesOwner(s->copies, node) == s->rank);
+  return (PetscBool)(s->size == 1 || CopiesOwner(s->copies, node) == s->rank);
 }
 
 /* forces.c: internal forces of this rank's elements into force; fails on an element with J <= 0. */
