@@ -12,22 +12,34 @@ static void Change(const SupermeshPair *pair, const double u_projected[6], const
           pair->ab[i][0] * du[3 * c] + pair->ab[i][1] * du[3 * c + 1] + pair->ab[i][2] * du[3 * c + 2];
 }
 
+/* The reaction of one pair: a slip + inertia change - q; inside solids a or the inertia is mostly 0. */
+static void AddReaction(const SupermeshPair *pair, const PairTerm *term, const double u[3][2],
+                        const CoracleFlow *flow, ForceVertex v[3])
+{
+  const size_t k = 6 * (size_t)pair->b;
+  double slip[3][2], change[3][2], r[2];
+  for (int i = 0; i < 3; i++)
+    for (int c = 0; c < 2; c++)
+      v[i].reaction[c] -=
+          pair->aa[i][0] * term->q[0][c] + pair->aa[i][1] * term->q[1][c] + pair->aa[i][2] * term->q[2][c];
+  if (!WallIsZero(&term->a)) {
+    PairSlip(pair, &flow->u_star[k], u, slip);
+    for (int i = 0; i < 3; i++) {
+      WallApply(&term->a, slip[i], r);
+      for (int c = 0; c < 2; c++) v[i].reaction[c] += r[c];
+    }
+  }
+  if (term->inertia == 0.0) return;
+  Change(pair, &flow->u_projected[k], &flow->u_start[k], change);
+  for (int i = 0; i < 3; i++)
+    for (int c = 0; c < 2; c++) v[i].reaction[c] += term->inertia * change[i][c];
+}
+
 void ForceReaction(const Overlap o, const PairTerm term[], const CoracleFlow *flow, ForceVertex vertex[])
 {
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    const size_t k = 6 * (size_t)pair->b;
-    ForceVertex *v = &vertex[3 * pair->a];
-    double slip[3][2], change[3][2], r[2];
-    PairSlip(pair, &flow->u_star[k], o->source[pair->a].u, slip);
-    Change(pair, &flow->u_projected[k], &flow->u_start[k], change);
-    for (int i = 0; i < 3; i++) {
-      WallApply(&term[p].a, slip[i], r);
-      for (int c = 0; c < 2; c++) {
-        v[i].reaction[c] += r[c] + term[p].inertia * change[i][c];
-        for (int j = 0; j < 3; j++) v[i].reaction[c] -= pair->aa[i][j] * term[p].q[j][c];
-      }
-    }
+    AddReaction(pair, &term[p], (const double(*)[2])o->source[pair->a].u, flow, &vertex[3 * pair->a]);
   }
 }
 

@@ -39,6 +39,7 @@ void SlipCoefficients(const Overlap o, const WallCoefficient tangential[], PairT
     const SupermeshPair *pair = &o->pairs.pair[p];
     if (o->source[pair->a].is_shell) continue;
     const WallCoefficient *d = &tangential[o->coupled_index[p]];
+    if (WallIsZero(d)) continue;
     const double friction = SLIP_FRICTION * o->mu[pair->b] / o->area[pair->b];
     WallCoefficient *a = &term[p].a;
     const double difference = friction - a->xx; /* a is isotropic */
@@ -50,6 +51,7 @@ void SlipCorrection(const Overlap o, const WallCoefficient tangential[], Coracle
 {
   for (int e = 0; e < o->ncoupled; e++) {
     double(*r)[3] = correction[e].r;
+    if (WallIsZero(&tangential[e])) continue;
     for (int i = 0; i < 3; i++) {
       const double ri[2] = {r[0][i], r[1][i]};
       double kept[2];
@@ -64,11 +66,12 @@ void SlipRetained(const Overlap o, const WallCoefficient tangential[], const dou
 {
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    if (o->source[pair->a].is_shell) continue;
+    const WallCoefficient *d = &tangential[o->coupled_index[p]];
+    if (o->source[pair->a].is_shell || WallIsZero(d)) continue;
     double slip[3][2], kept[2];
     PairSlip(pair, &u_projected[6 * pair->b], u[pair->a], slip);
     for (int i = 0; i < 3; i++) {
-      WallApply(&tangential[o->coupled_index[p]], slip[i], kept);
+      WallApply(d, slip[i], kept);
       for (int c = 0; c < 2; c++) retained[pair->a][i][c] += o->rho[pair->b] * kept[c];
     }
   }

@@ -10,17 +10,21 @@ static void CrossVelocity(const SupermeshPair *pair, const double u[3][2], doubl
   }
 }
 
+static void AddMass(double factor, const double bb[3][3], double to[3][2][3], int c)
+{
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) to[i][c][j] += factor * bb[i][j];
+}
+
 /* to += a N_i N_j */
 static void AddTensor(const WallCoefficient *a, const double bb[3][3], double to[2][3][2][3])
 {
-  for (int i = 0; i < 3; i++) {
-    for (int j = 0; j < 3; j++) {
-      to[0][i][0][j] += a->xx * bb[i][j];
-      to[0][i][1][j] += a->xy * bb[i][j];
-      to[1][i][0][j] += a->xy * bb[i][j];
-      to[1][i][1][j] += a->yy * bb[i][j];
-    }
-  }
+  if (WallIsZero(a)) return;
+  AddMass(a->xx, bb, to[0], 0);
+  AddMass(a->yy, bb, to[1], 1);
+  if (a->xy == 0.0) return;
+  AddMass(a->xy, bb, to[0], 1);
+  AddMass(a->xy, bb, to[1], 0);
 }
 
 static void AddSource(const WallCoefficient *a, const double cu[2][3], double s[2][3])

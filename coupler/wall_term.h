@@ -61,6 +61,11 @@ static inline WallCoefficient WallCoefficientScaled(const WallCoefficient *a, do
   return (WallCoefficient){factor * a->xx, factor * a->xy, factor * a->yy};
 }
 
+static inline int WallIsZero(const WallCoefficient *a)
+{
+  return (a->xx == 0.0) & (a->xy == 0.0) & (a->yy == 0.0);
+}
+
 /* a v */
 static inline void WallApply(const WallCoefficient *a, const double v[2], double av[2])
 {

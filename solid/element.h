@@ -229,7 +229,7 @@ static inline double ElementModulus(Tensor f, double j, ElementLaw law)
   const double principal = 0.5 * (t.xx + t.yy + sqrt((t.xx - t.yy) * (t.xx - t.yy) + 4.0 * t.xy * t.xy));
   const double volume = j * (law.plane_stress ? ElementThinning(j, law.mu, law.lambda) : 1.0); /* J l_3^2 */
   const double shear = 2.0 * law.mu / j + law.lambda * (1.0 / j - volume);
-  return fmax(shear, 0.0) + 2.0 * law.lambda * volume + fmax(principal, 0.0);
+  return (shear > 0.0 ? shear : 0.0) + 2.0 * law.lambda * volume + (principal > 0.0 ? principal : 0.0);
 }
 
 static inline ElementRates ElementRatesOf(Tensor edges, Tensor f, double density, ElementLaw law)

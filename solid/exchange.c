@@ -65,9 +65,9 @@ PetscErrorCode ExchangeBegin(Exchange *x, double *dt, CoracleAction *action, con
   PetscCall(BeginRegistered(x, *action));
   SolidGetView(x->solid, &v);
   x->dt = *dt;
-  x->remote = (PetscBool)!NodeDirectoryIsPresent(x->registered);
+  const PetscBool remote = (PetscBool)!NodeDirectoryIsPresent(x->registered);
   if (*action != CORACLE_STOP) PetscCall(CoracleGetForce(x->client, load));
-  if (*action != CORACLE_STOP && x->remote) {
+  if (*action != CORACLE_STOP && remote) {
     PetscCall(PetscRealloc(2 * (size_t)v.nnodes * sizeof *x->load + 1, &x->load));
     PetscCall(NodeDirectoryLoad(x->registered, *load, x->load));
     *load = x->load;
@@ -76,35 +76,44 @@ PetscErrorCode ExchangeBegin(Exchange *x, double *dt, CoracleAction *action, con
   PetscFunctionReturn(0);
 }
 
-/* On another partition than the registered one a step is one substep to the coupler, which only takes the mean of
- * the substeps' velocities where the interface velocity is set. */
-PetscErrorCode ExchangeSubstep(Exchange *x, double h)
+/* What the coupler receives of the nodes that it knows, [n][2], mobility [n]. */
+typedef struct {
+  const double *start, *mean, *x, *u, *mobility, *acceleration;
+} Motion;
+
+/* The end of a step: the coupler takes the mean of the substeps' velocities alone where the interface velocity is set, so
+ * that to the link the step is one substep.  Where cracks have changed the mesh it is that of `directory`, and nodes that
+ * they have made begin the step, too, at its start. */
+static PetscErrorCode Send(Exchange *x, NodeDirectory directory, const Motion *m)
 {
-  SolidView v;
   PetscFunctionBeginUser;
-  if (x->remote) PetscFunctionReturn(0);
-  SolidGetView(x->solid, &v);
-  PetscCall(CoracleSubstep(x->client, h, v.v));
+  if (directory) PetscCall(GiveMesh(x, directory, m->start, m->mean));
+  PetscCall(CoracleSubstep(x->client, x->dt, m->mean));
+  PetscCall(CoracleSetVelocity(x->client, m->u));
+  PetscCall(CoracleSetInertia(x->client, m->mobility, m->acceleration));
+  PetscCall(CoracleEnd(x->client, m->x));
   PetscFunctionReturn(0);
 }
 
-/* Cracks have changed the mesh in this step.  The substeps have reported the velocities of the nodes that existed
- * when it began; the others get the mean over the step. */
-static PetscErrorCode GiveCrackedMesh(Exchange *x, const SolidView *v)
+static PetscErrorCode SendPresent(Exchange *x)
 {
-  NodeDirectory directory;
+  NodeDirectory directory = NULL;
+  InterfaceMotion interface;
+  SolidView v;
   double *mean;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(2 * (size_t)v->nnodes, &mean));
-  for (int k = 0; k < 2 * v->nnodes; k++) mean[k] = (v->x[k] - v->start[k]) / x->dt;
-  PetscCall(NodeDirectoryCreate(x->solid, &directory));
-  PetscCall(GiveMesh(x, directory, v->x, mean));
+  SolidGetView(x->solid, &v);
+  SolidGetInterfaceMotion(x->solid, &interface);
+  PetscCall(PetscMalloc1(2 * (size_t)v.nnodes + 1, &mean));
+  for (int k = 0; k < 2 * v.nnodes; k++) mean[k] = (v.x[k] - v.start[k]) / x->dt;
+  if (!NodeDirectoryIsComplete(x->registered)) PetscCall(NodeDirectoryCreate(x->solid, &directory));
+  PetscCall(Send(x, directory,
+                 &(Motion){v.start, mean, v.x, interface.u, interface.mobility, interface.acceleration}));
   PetscCall(PetscFree(mean));
   PetscFunctionReturn(0);
 }
 
-/* The end of a step where the coupler knows the nodes.  Where none of its substeps has been reported the step is one, and
- * nodes that cracks have made begin it at its start. */
+/* The same where the coupler knows the nodes of another partition. */
 static PetscErrorCode SendRemote(Exchange *x)
 {
   const PetscBool cracked = (PetscBool)!NodeDirectoryIsComplete(x->registered);
@@ -125,11 +134,8 @@ static PetscErrorCode SendRemote(Exchange *x)
     mobility[k / 2] = motion[k / 2].mobility;
     start[k] = at[k] - x->dt * mean[k];
   }
-  if (cracked) PetscCall(GiveMesh(x, directory, x->remote ? start : at, mean));
-  if (x->remote) PetscCall(CoracleSubstep(x->client, x->dt, mean));
-  PetscCall(CoracleSetVelocity(x->client, interface));
-  PetscCall(CoracleSetInertia(x->client, mobility, acceleration));
-  PetscCall(CoracleEnd(x->client, at));
+  PetscCall(
+      Send(x, cracked ? directory : NULL, &(Motion){start, mean, at, interface, mobility, acceleration}));
   PetscCall(PetscFree7(motion, at, start, mean, interface, mobility, acceleration));
   PetscFunctionReturn(0);
 }
@@ -137,19 +143,8 @@ static PetscErrorCode SendRemote(Exchange *x)
 PetscErrorCode ExchangeMotion(Exchange *x)
 {
   const double start = MPI_Wtime();
-  SolidView v;
-  InterfaceMotion interface;
   PetscFunctionBeginUser;
-  SolidGetView(x->solid, &v);
-  SolidGetInterfaceMotion(x->solid, &interface);
-  if (NodeDirectoryIsPresent(x->registered)) {
-    if (!NodeDirectoryIsComplete(x->registered)) PetscCall(GiveCrackedMesh(x, &v));
-    PetscCall(CoracleSetVelocity(x->client, interface.u));
-    PetscCall(CoracleSetInertia(x->client, interface.mobility, interface.acceleration));
-    PetscCall(CoracleEnd(x->client, v.x));
-  } else {
-    PetscCall(SendRemote(x));
-  }
+  PetscCall(NodeDirectoryIsPresent(x->registered) ? SendPresent(x) : SendRemote(x));
   x->waited += MPI_Wtime() - start;
   PetscFunctionReturn(0);
 }

@@ -2,7 +2,7 @@
  *
  * The solid registers its nodes and elements with the coupler once, on the ranks where they are then, and nodes again only
  * when cracks make new ones: a mesh of other elements would cost the fluid a step's correction.  When elements change
- * ranks, the node directory brings what is exchanged from the registered ranks to the present ones and back (`remote`):
+ * ranks, the node directory brings what is exchanged from the registered ranks to the present ones and back:
  *
  *     coupler  -->  force on registered nodes       -- NodeDirectoryLoad -->     load[nnodes][2]  --> SolidStart
  *     coupler  <--  x, velocity, mobility of these  <-- NodeDirectoryMotion --   SolidView, InterfaceMotion */
@@ -18,8 +18,7 @@ typedef struct {
   double waited;                    /* seconds within the link */
   double dt;                        /* of the step, s */
   NodeDirectory registered, before; /* before: NULL unless this step has registered a new mesh */
-  PetscBool remote;                 /* the step has begun on another partition than the registered one */
-  double *load;                     /* [nnodes][2] of the present subdomain, when remote */
+  double *load; /* [nnodes][2] of the present subdomain, when it is not the registered one */
 } Exchange;
 
 /* Gives nodes, surface and volume with their interface motion, binds the state and makes the first exchange.
@@ -27,8 +26,6 @@ typedef struct {
 PetscErrorCode ExchangeCreate(CoracleClient client, Solid solid, Exchange *x);
 /* Waits for the next step; *load: the force on this rank's nodes, N, borrowed until ExchangeMotion. */
 PetscErrorCode ExchangeBegin(Exchange *x, double *dt, CoracleAction *action, const double **load);
-/* Reports a substep of h seconds. */
-PetscErrorCode ExchangeSubstep(Exchange *x, double h);
 /* Sends the new positions. */
 PetscErrorCode ExchangeMotion(Exchange *x);
 PetscErrorCode ExchangeDestroy(Exchange *x);

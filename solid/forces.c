@@ -14,6 +14,20 @@ static inline Tensor EdgesOf(const Elements *e, int k, const double value[])
                        PointAt(value, e->node[2][k]));
 }
 
+static inline int IsHeld(const Elements *e, int k, const double inverse_mass[])
+{
+  return inverse_mass[e->node[0][k]] + inverse_mass[e->node[1][k]] + inverse_mass[e->node[2][k]] == 0.0;
+}
+
+/* Strips of elements that cannot move. */
+static void FindHeld(Solid s)
+{
+  Elements *e = &s->elements;
+  for (int k = 0; k < e->n; k++)
+    e->held[k / STRIP] = IsHeld(e, k, s->inverse_mass) && (k % STRIP == 0 || e->held[k / STRIP]);
+  e->held_known = PETSC_FALSE;
+}
+
 void SolidListCorners(Solid s)
 {
   const int ne = s->elements.n;
@@ -24,6 +38,7 @@ void SolidListCorners(Solid s)
     s->corner[--s->corner_start[s->element[k] + 1]] = (k % 3) * ne + k / 3;
   for (int n = 0; n < s->nnodes; n++) s->corner_start[n] = s->corner_start[n + 1];
   s->corner_start[s->nnodes] = 3 * ne;
+  FindHeld(s);
 }
 
 void SolidElementShape(const Elements *e, int k, const double x[], Tensor *edges, Tensor *f)
@@ -32,47 +47,93 @@ void SolidElementShape(const Elements *e, int k, const double x[], Tensor *edges
   *f = TensorProduct(*edges, RestInverse(e, k));
 }
 
+/* x, y of the three corners of elements first .. first + n - 1 */
+static inline __attribute__((always_inline)) void GatherCorners(const Elements *e, int first, int n,
+                                                                const double value[], double corner[6][STRIP])
+{
+  for (int i = 0; i < 3; i++) {
+    const int *node = e->node[i] + first;
+    for (int k = 0; k < n; k++) {
+      corner[2 * i][k] = value[2 * node[k]];
+      corner[2 * i + 1][k] = value[2 * node[k] + 1];
+    }
+  }
+}
+
+static inline __attribute__((always_inline)) Tensor StripEdges(const double corner[6][STRIP], int k)
+{
+  return TensorOfEdges((Point){corner[0][k], corner[1][k]}, (Point){corner[2][k], corner[3][k]},
+                       (Point){corner[4][k], corner[5][k]});
+}
+
 /* Forces of all corners; returns the number of elements that are inside out (or not a number).  The arrays do
  * not overlap (ivdep), so that the loop is vectorised without asking at run time; laws (which there may be),
  * damped and jointed are constants of the caller, so that what is not needed falls away. */
-static inline __attribute__((always_inline)) int
-CornerForces(const Elements *e, const double x[], const double v[], ElementLaws laws, int damped, int jointed)
+static inline __attribute__((always_inline)) int StripForces(const Elements *e, int first, int n,
+                                                             const double x[], const double v[],
+                                                             ElementLaws laws, int damped, int jointed)
 {
-  const int n = e->n, *a = e->node[0], *b = e->node[1], *c = e->node[2];
-  const double *ixx = e->inverse[0], *ixy = e->inverse[1], *iyx = e->inverse[2], *iyy = e->inverse[3];
-  const double *mu = e->mu, *lambda = e->lambda, *eta = e->eta;
-  const double *plane_stress = e->plane_stress, *kind = e->kind;
-  double *fx = e->force[0], *fy = e->force[1];
+  const double *ixx = e->inverse[0] + first, *ixy = e->inverse[1] + first, *iyx = e->inverse[2] + first,
+               *iyy = e->inverse[3] + first;
+  const double *mu = e->mu + first, *lambda = e->lambda + first, *eta = e->eta + first;
+  const double *plane_stress = e->plane_stress + first, *kind = e->kind + first;
+  double *fx = e->force[0] + first, *fy = e->force[1] + first, at[6][STRIP], rates[6][STRIP], fit[STRIP];
   double *sxx = e->stress[0], *syy = e->stress[1], *sxy = e->stress[2];
   int bad = 0;
+  GatherCorners(e, first, n, x, at);
+  if (damped) GatherCorners(e, first, n, v, rates);
   VECTORIZE
   for (int k = 0; k < n; k++) {
-    const Tensor edges = TensorOfEdges(PointAt(x, a[k]), PointAt(x, b[k]), PointAt(x, c[k]));
+    const Tensor edges = StripEdges((const double(*)[STRIP])at, k);
     const Tensor f = TensorProduct(edges, (Tensor){ixx[k], ixy[k], iyx[k], iyy[k]});
     const double j = TensorDeterminant(f);
     const ElementLaw law = {mu[k], lambda[k], eta[k], laws != STRAIN_ONLY && plane_stress[k] > 0.0,
                             laws == WITH_COROTATED && kind[k] == LAW_COROTATED};
     ElementStress t = ElementElasticStress(f, j, law);
     if (jointed) {
-      sxx[k] = t.xx;
-      syy[k] = t.yy;
-      sxy[k] = t.xy;
+      sxx[first + k] = t.xx;
+      syy[first + k] = t.yy;
+      sxy[first + k] = t.xy;
     }
     if (damped) {
-      const Tensor rate = TensorOfEdges(PointAt(v, a[k]), PointAt(v, b[k]), PointAt(v, c[k]));
-      const ElementStress d = ElementViscousStress(edges, rate, eta[k]);
+      const ElementStress d =
+          ElementViscousStress(edges, StripEdges((const double(*)[STRIP])rates, k), eta[k]);
       t = (ElementStress){t.xx + d.xx, t.yy + d.yy, t.xy + d.xy};
     }
     const ElementForces g = ElementForcesOf(edges, t);
     fx[k] = g.a.x;
     fy[k] = g.a.y;
-    fx[n + k] = g.b.x;
-    fy[n + k] = g.b.y;
-    fx[2 * n + k] = g.c.x;
-    fy[2 * n + k] = g.c.y;
-    bad += !ElementAdmissible(f, j, law);
+    fx[e->n + k] = g.b.x;
+    fy[e->n + k] = g.b.y;
+    fx[2 * e->n + k] = g.c.x;
+    fy[2 * e->n + k] = g.c.y;
+    fit[k] = ElementAdmissible(f, j, law) ? 1.0 : 0.0;
   }
+  for (int k = 0; k < n; k++) bad += fit[k] == 0.0;
   return bad;
+}
+
+static inline __attribute__((always_inline)) int
+CornerForces(const Elements *e, const double x[], const double v[], ElementLaws laws, int damped, int jointed)
+{
+  int bad = 0;
+  for (int first = 0; first < e->n; first += STRIP)
+    if (!e->held_known || !e->held[first / STRIP])
+      bad += StripForces(e, first, e->n - first < STRIP ? e->n - first : STRIP, x, v, laws, damped, jointed);
+  return bad;
+}
+
+static WIDE int AllForces(const Elements *e, const double x[], const double v[])
+{
+  const int jointed = e->stress[0] != NULL;
+  if (e->laws == WITH_COROTATED)
+    return jointed ? CornerForces(e, x, v, WITH_COROTATED, 1, 1)
+                   : CornerForces(e, x, v, WITH_COROTATED, 1, 0);
+  if (e->laws == WITH_PLANE_STRESS)
+    return jointed ? CornerForces(e, x, v, WITH_PLANE_STRESS, 1, 1)
+                   : CornerForces(e, x, v, WITH_PLANE_STRESS, 1, 0);
+  if (jointed) return CornerForces(e, x, v, STRAIN_ONLY, 1, 1);
+  return e->damped ? CornerForces(e, x, v, STRAIN_ONLY, 1, 0) : CornerForces(e, x, v, STRAIN_ONLY, 0, 0);
 }
 
 static void SumCorners(const Solid s)
@@ -123,17 +184,9 @@ static PetscErrorCode FailOnElement(const Solid s)
 PetscErrorCode SolidInternalForces(Solid s)
 {
   PetscFunctionBeginUser;
-  const Elements *e = &s->elements;
-  const double *x = s->x, *v = s->v;
-  const int jointed = e->stress[0] != NULL;
-  const int bad = e->laws == WITH_COROTATED      ? (jointed ? CornerForces(e, x, v, WITH_COROTATED, 1, 1)
-                                                            : CornerForces(e, x, v, WITH_COROTATED, 1, 0))
-                  : e->laws == WITH_PLANE_STRESS ? (jointed ? CornerForces(e, x, v, WITH_PLANE_STRESS, 1, 1)
-                                                            : CornerForces(e, x, v, WITH_PLANE_STRESS, 1, 0))
-                  : jointed                      ? CornerForces(e, x, v, STRAIN_ONLY, 1, 1)
-                  : e->damped                    ? CornerForces(e, x, v, STRAIN_ONLY, 1, 0)
-                                                 : CornerForces(e, x, v, STRAIN_ONLY, 0, 0);
+  const int bad = AllForces(&s->elements, s->x, s->v);
   if (bad) PetscCall(FailOnElement(s));
+  s->elements.held_known = PETSC_TRUE;
   SumCorners(s);
   PetscFunctionReturn(0);
 }
@@ -146,16 +199,47 @@ ElementRates SolidElementRates(Solid s, int k)
   return ElementRatesOf(edges, f, e->density[k], ElementsLaw(e, k));
 }
 
-double SolidElementLimit(Solid s, ElementRates contact)
+/* The stable substep of each of elements first .. first + n - 1. */
+static inline __attribute__((always_inline)) void StripLimits(const Elements *e, int first, int n,
+                                                              const double x[], ElementRates contact,
+                                                              ElementLaws laws, double limit[STRIP])
 {
-  double limit = HUGE_VAL;
-  for (int k = 0; k < s->elements.n; k++) {
-    ElementRates rates = SolidElementRates(s, k);
-    rates.stiffness += contact.stiffness;
-    rates.damping += contact.damping;
-    limit = fmin(limit, ElementStableStep(rates));
+  double at[6][STRIP];
+  GatherCorners(e, first, n, x, at);
+  for (int i = 0; i < n; i++) {
+    const int k = first + i;
+    const Tensor edges = StripEdges((const double(*)[STRIP])at, i);
+    const Tensor f = TensorProduct(edges, RestInverse(e, k));
+    const ElementLaw law = {e->mu[k], e->lambda[k], e->eta[k],
+                            laws != STRAIN_ONLY && e->plane_stress[k] > 0.0,
+                            laws == WITH_COROTATED && e->kind[k] == LAW_COROTATED};
+    const ElementRates rates = ElementRatesOf(edges, f, e->density[k], law);
+    limit[i] = ElementStableStep(
+        (ElementRates){rates.stiffness + contact.stiffness, rates.damping + contact.damping});
+  }
+}
+
+/* Over the elements that can move. */
+static WIDE double Limit(const Elements *e, const double x[], const double inverse_mass[],
+                         ElementRates contact)
+{
+  double limit = HUGE_VAL, strip[STRIP];
+  for (int first = 0; first < e->n; first += STRIP) {
+    const int n = e->n - first < STRIP ? e->n - first : STRIP;
+    if (e->held[first / STRIP]) continue;
+    if (e->laws == STRAIN_ONLY)
+      StripLimits(e, first, n, x, contact, STRAIN_ONLY, strip);
+    else
+      StripLimits(e, first, n, x, contact, WITH_COROTATED, strip);
+    for (int k = 0; k < n; k++)
+      if (strip[k] < limit && !IsHeld(e, first + k, inverse_mass)) limit = strip[k];
   }
   return limit;
+}
+
+double SolidElementLimit(Solid s, ElementRates contact)
+{
+  return Limit(&s->elements, s->x, s->inverse_mass, contact);
 }
 
 ElementLaw ElementsLaw(const Elements *e, int k)

@@ -106,6 +106,7 @@ static PetscErrorCode CheckContact(Solid s, double *limit, int *substeps)
     m.moved = 0.0;
   }
   *substeps = SafeSubsteps(&m, ContactSkin(s->contact), h);
+  ContactSetTravel(s->contact, Travel(&m, *substeps, h));
   PetscFunctionReturn(0);
 }
 

@@ -19,7 +19,6 @@ static PetscErrorCode Step(SolidRun *m, CoracleClient client, double dt, const d
   PetscCall(SolidStart(m->solid, dt, load));
   while (SolidRemaining(m->solid)) {
     PetscCall(SolidSubstep(m->solid, &h));
-    PetscCall(ExchangeSubstep(&m->exchange, h));
   }
   PetscCall(CoraclePhase(client, "interface"));
   PetscCall(SolidUpdateInterfaceMotion(m->solid, &interface)); /* while contact is known */

@@ -10,6 +10,17 @@ typedef struct {
   double xx, xy, yx, yy;
 } Tensor;
 
+/* Without the C library's care for what is not a number, which costs a call. */
+static inline double Lesser(double a, double b)
+{
+  return a < b ? a : b;
+}
+
+static inline double Greater(double a, double b)
+{
+  return a > b ? a : b;
+}
+
 static inline Point PointAt(const double x[], int i)
 {
   return (Point){x[2 * i], x[2 * i + 1]};

@@ -39,7 +39,7 @@ PetscErrorCode SolidRunSave(const SolidRun *m)
 static PetscErrorCode Report(const Program *program, Solid solid)
 {
   static const char *const PHASES[] = {"seconds_elements", "seconds_contact", "seconds_exchange",
-                                       "seconds_limit", "seconds_joints"};
+                                       "seconds_limit",    "seconds_joints",  "seconds_response"};
   const CoracleClient client = program->client;
   const SolidStats *stats = SolidGetStats(solid);
   SolidView v;
@@ -49,8 +49,9 @@ static PetscErrorCode Report(const Program *program, Solid solid)
   PetscCall(CoracleReport(client, "bodies", v.nbodies, 0));
   PetscCall(CoracleReport(client, "substeps", (double)stats->total, 0));
   PetscCall(CoracleReport(client, "contact_searches", stats->searches, 0));
+  PetscCall(CoracleReport(client, "response_iterations", (double)stats->response_iterations, 0));
   PetscCall(CoracleReport(client, "rebalanced", stats->rebalanced, 0));
-  PetscCall(ProgramReportSeconds(program, 5, PHASES, stats->seconds));
+  PetscCall(ProgramReportSeconds(program, 6, PHASES, stats->seconds));
   PetscFunctionReturn(0);
 }
 

@@ -1,5 +1,5 @@
 #include "solid/ranks/partition.h"
-#include "solid/solid_impl.h"
+#include "solid/step_response.h"
 
 /* The first subdomain; elements that may change ranks later need the model. */
 static PetscErrorCode Distribute(Solid s, const Model *a)
@@ -47,6 +47,7 @@ PetscErrorCode SolidFreeSubdomain(Solid s)
   PetscFunctionBeginUser;
   PetscCall(ContactDestroy(&s->contact));
   PetscCall(JointsDestroy(&s->joints));
+  PetscCall(StepResponseDestroy(&s->response));
   PetscCall(PetscFree2(s->shared.rank, s->shared.node));
   PetscCall(CopiesDestroy(&s->copies));
   PetscCall(
@@ -59,6 +60,7 @@ PetscErrorCode SolidFreeSubdomain(Solid s)
   PetscCall(PetscFree2(s->motion, s->motion_rows));
   PetscCall(PetscFree(s->prescribed));
   PetscCall(PetscFree(s->position_before));
+  PetscCall(PetscFree(e->held));
   PetscCall(PetscFree3(e->node[0], e->node[1], e->node[2]));
   PetscCall(PetscFree4(e->inverse[0], e->inverse[1], e->inverse[2], e->inverse[3]));
   PetscCall(PetscFree3(e->stress[0], e->stress[1], e->stress[2]));

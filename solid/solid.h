@@ -114,7 +114,8 @@ typedef struct {
   long long total;   /* substeps so far */
   int searches;      /* contact searches so far */
   int rebalanced;    /* times that elements have changed ranks */
-  double seconds[5]; /* elements, contact, exchange between ranks, limit and search, joints */
+  double seconds[6]; /* elements, contact, exchange between ranks, limit and search, joints, step response */
+  long long response_iterations; /* conjugate gradients of interface_motion.c so far */
 } SolidStats;
 const SolidStats *SolidGetStats(Solid s);
 

@@ -8,11 +8,14 @@
 
 typedef struct Contact_s *Contact;
 typedef struct Joints_s *Joints;
+typedef struct StepResponse_s *StepResponse;
 
 /* What all subdomains are of, the same on all ranks. */
 typedef struct {
   int elements, nodes, joints; /* nodes of the start */
 } GlobalSizes;
+
+enum { STRIP = 64 }; /* elements that are gathered at a time: they stay in the first cache */
 
 /* Structure of arrays, so that the element loop is vectorised. */
 typedef struct {
@@ -23,11 +26,13 @@ typedef struct {
   double *thickness, *plane_stress;    /* m; 1 in plane stress, 0 in plane strain */
   double *kind;                        /* of law */
   int *body, *material;
-  int *number;       /* in the model */
-  double *force[2];  /* [3][n]: corner i of element e at i n + e */
-  double *stress[3]; /* NULL without joints: elastic xx, yy, xy of the last forces, Pa times thickness */
-  PetscBool damped;  /* any eta > 0 */
-  ElementLaws laws;  /* that any element has */
+  int *number;          /* in the model */
+  double *force[2];     /* [3][n]: corner i of element e at i n + e */
+  double *stress[3];    /* NULL without joints: elastic xx, yy, xy of the last forces, Pa times thickness */
+  PetscBool damped;     /* any eta > 0 */
+  char *held;           /* [n / STRIP + 1] all nodes of the strip's elements are fixed: */
+  PetscBool held_known; /* their forces are where they stay */
+  ElementLaws laws;     /* that any element has */
 } Elements;
 
 /* node[k], a node of the start, is also on rank[k]. */
@@ -86,6 +91,7 @@ struct Solid_s {
   double *start;                 /* [nnodes][2] positions when it began */
   double *interface_velocity, *mobility,
       *acceleration;          /* [nnodes][2], [nnodes], [nnodes][2] of SolidUpdateInterfaceMotion */
+  StepResponse response;      /* NULL before the first SolidUpdateInterfaceMotion */
   int npieces, *piece;        /* [nnodes] SolidPieces has found; npieces 0: since the last crack not yet */
   int remaining, until_check; /* substeps */
   SolidBudget budget;         /* this rank's part */
@@ -105,15 +111,15 @@ struct Solid_s {
 /* Not collective: no lower rank has the node. */
 static inline PetscBool SolidOwns(const Solid s, int node)
 {
-  return (PetscBool)(CopiesOwner(s->copies, node) == s->rank);
+  return (PetscBool)(s->size == 1 || CopiesOwner(s->copies, node) == s->rank);
 }
 
 /* forces.c: internal forces of this rank's elements into force; fails on an element with J <= 0. */
 PetscErrorCode SolidInternalForces(Solid s);
-/* corner_start and corner, from element */
+/* corner_start, corner and elements.held, from element */
 void SolidListCorners(Solid s);
 ElementRates SolidElementRates(Solid s, int k);
-/* The smallest stable step over this rank's elements, each with contact's rates added. */
+/* The smallest stable step over this rank's elements that can move, each with contact's rates added. */
 double SolidElementLimit(Solid s, ElementRates contact);
 ElementLaw ElementsLaw(const Elements *e, int k);
 void SolidElementShape(const Elements *e, int k, const double x[], Tensor *edges, Tensor *f);
@@ -153,8 +159,11 @@ void JointsAddForces(Joints j, Solid s);
 /* Collective: edges loaded to their strength activate, broken ones become surface; *changed: nodes,
  * elements and facets are new, forces and limit too. */
 PetscErrorCode JointsAdvance(Joints j, Solid s, PetscBool *changed);
-/* force[nnodes][2] -= K d, K the stiffness of the active joints as they are; not summed over ranks. */
-void JointsAddStiffness(Joints j, Solid s, const double d[], double force[]);
+/* Not collective: how many joints are active here; 0 without joints. */
+int JointsActive(Joints j);
+/* Not collective: K of the k-th of them as it is, N/m, [2 i + c] of node[i] along axis c: end 0 on both elements,
+ * then end 1; false where another rank has it too, whose is to be added. */
+PetscBool JointsStiffness(Joints j, Solid s, int k, int node[4], double stiffness[8][8]);
 /* Bound of omega^2, 1/s2. */
 double JointsRate(Joints j);
 /* break.c: saves or puts back damage and topology; not collective. */
@@ -173,6 +182,9 @@ PetscErrorCode ContactCreate(Solid s, Contact *contact);
 PetscErrorCode ContactRenew(Contact c, Solid s);
 /* Collective: new candidates, for motions of surface nodes up to ContactSkin. */
 PetscErrorCode ContactSearch(Contact c, Solid s, double min_buffer);
+/* Not collective: until the next call or search no surface node is going to be farther than `travel` from where it was
+ * at the search: what was farther apart than twice that is not looked at. */
+void ContactSetTravel(Contact c, double travel);
 /* Adds to force; every rank's edges against its own targets and those of other ranks. */
 PetscErrorCode ContactAddForces(Contact c, Solid s);
 /* Not collective: how far a node may move before a new search, and how far the farthest has; bounds of

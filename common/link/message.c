@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+_Static_assert((int)KIND_END <= (int)WAIT_KINDS, "a message kind is a kind of wait");
 enum { TAG = 1, UNIT = 8 }; /* messages are counted in units of 8 bytes: 16 GiB is their limit */
 static const uint32_t MAGIC = 0xC07AC1E1;
 
@@ -90,7 +91,7 @@ void MessageFinish(Participant *p, Message *m)
 static void WaitForIt(Participant *p, const Message *m, MessageKind kind, int step, MPI_Message *arrived,
                       int *units)
 {
-  Wait wait = WaitStart(&p->waiter);
+  Wait wait = WaitStart(&p->waiter, (int)kind);
   MPI_Status status;
   for (;;) {
     int here;

@@ -8,13 +8,16 @@
 typedef enum {
   WAIT_SPIN,  /* ask again at once: the lowest latency, for ranks with a core of their own */
   WAIT_YIELD, /* give the core away between two looks */
-  WAIT_SLEEP  /* sleep ever longer, up to 1 ms: for ranks that share cores */
+  WAIT_SLEEP /* sleep, first for most of what such a wait has taken, then up to 1 ms: for ranks that share cores */
 } WaitPolicy;
+
+enum { WAIT_KINDS = 16 }; /* of waits that are alike, 0: of no kind */
 
 typedef struct {
   WaitPolicy policy;
-  double timeout; /* s */
-  double waited;  /* s, all waits of this rank so far */
+  double timeout;             /* s */
+  double waited;              /* s, all waits of this rank so far */
+  double last[WAIT_KINDS][2]; /* s, the last two of each kind */
 } Waiter;
 
 /* One wait in progress. */
@@ -22,6 +25,8 @@ typedef struct {
   Waiter *waiter;
   double start;
   long looks;
+  int kind;
+  double nap; /* s from the start on; 0: none, or it is over */
 } Wait;
 
 /* Seconds on a clock that never jumps. */
@@ -29,7 +34,7 @@ double WaitClock(void);
 /* CORACLE_WAIT=spin|yield|sleep, else sleep when the ranks share cores and spin when not; CORACLE_TIMEOUT
  * seconds (default 600).  Returns NULL, or what is wrong with the environment. */
 const char *WaiterInit(Waiter *w, bool shares_core);
-Wait WaitStart(Waiter *w);
+Wait WaitStart(Waiter *w, int kind);
 /* Called between two looks; false when the time-out has passed. */
 bool WaitPause(Wait *wait);
 void WaitEnd(Wait *wait);

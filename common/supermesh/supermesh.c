@@ -3,74 +3,96 @@
 
 static const double SLIVER = 1e-14;
 
-/* On a fan triangle of area w with the values f, g of two P1 functions at its vertices,
- *   int f g = w/12 (sum_k f_k g_k + sum_k f_k sum_k g_k):  exact.
- * z holds N_A (3) and N_B (3) at the polygon's vertices; m = int z z^T. */
-static void IntegrateFan(int n, const double polygon[][2], const double z[][6], double m[6][6])
+/* int over the polygon of 1, x, y times 1, x, y, with its first vertex as the origin; on a fan triangle of area w with
+ * the values f, g of two linear functions at its vertices
+ *   int f g = w/12 (sum_k f_k g_k + sum_k f_k sum_k g_k):  exact. */
+static void Moments(int n, const double polygon[][2], double m[3][3])
 {
-  memset(m, 0, 36 * sizeof(double));
+  double sum[6] = {0.0};
   for (int k = 1; k + 1 < n; k++) {
-    const double w = GeometryTurn(polygon[0], polygon[k], polygon[k + 1]) / 24.0;
-    double s[6];
-    for (int i = 0; i < 6; i++) s[i] = z[0][i] + z[k][i] + z[k + 1][i];
-    for (int i = 0; i < 6; i++) {
-      for (int j = 0; j < 6; j++) {
-        m[i][j] += w * (z[0][i] * z[0][j] + z[k][i] * z[k][j] + z[k + 1][i] * z[k + 1][j] + s[i] * s[j]);
-      }
-    }
+    const double px = polygon[k][0] - polygon[0][0], py = polygon[k][1] - polygon[0][1];
+    const double qx = polygon[k + 1][0] - polygon[0][0], qy = polygon[k + 1][1] - polygon[0][1];
+    const double w = 0.5 * (px * qy - py * qx), sx = px + qx, sy = py + qy;
+    sum[0] += w;
+    sum[1] += w / 3.0 * sx;
+    sum[2] += w / 3.0 * sy;
+    sum[3] += w / 12.0 * (px * px + qx * qx + sx * sx);
+    sum[4] += w / 12.0 * (px * py + qx * qy + sx * sy);
+    sum[5] += w / 12.0 * (py * py + qy * qy + sy * sy);
   }
+  m[0][0] = sum[0];
+  m[0][1] = m[1][0] = sum[1];
+  m[0][2] = m[2][0] = sum[2];
+  m[1][1] = sum[3];
+  m[1][2] = m[2][1] = sum[4];
+  m[2][2] = sum[5];
 }
 
-/* The common polygon and the functions N_A (3) and N_B (3) at its vertices; 0 when there is next to none. */
-static int Common(const double a[3][2], const double b[3][2], double polygon[GEOMETRY_CLIP_MAX][2],
-                  double z[GEOMETRY_CLIP_MAX][6], double *area)
+/* A triangle's P1 functions: N_i = l[i][0] + l[i][1] x + l[i][2] y from the origin. */
+static void Functions(const double x[3][2], const double origin[2], double l[3][3])
+{
+  const double inverse = 1.0 / GeometryTurn(x[0], x[1], x[2]);
+  for (int i = 1; i < 3; i++) {
+    const double *p = x[(i + 1) % 3], *q = x[(i + 2) % 3];
+    l[i][0] = inverse * GeometryTurn(p, q, origin);
+    l[i][1] = inverse * (p[1] - q[1]);
+    l[i][2] = inverse * (q[0] - p[0]);
+  }
+  l[0][0] = 1.0 - l[1][0] - l[2][0];
+  l[0][1] = -l[1][1] - l[2][1];
+  l[0][2] = -l[1][2] - l[2][2];
+}
+
+/* c = a b^T */
+static void Product(const double a[3][3], const double b[3][3], double c[3][3])
+{
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) c[i][j] = a[i][0] * b[j][0] + a[i][1] * b[j][1] + a[i][2] * b[j][2];
+}
+
+/* What integrals over the common polygon are made of: its moments, and both triangles' functions. */
+typedef struct {
+  double area, m[3][3], a[3][3], b[3][3];
+} Common;
+
+/* 0 when there is next to nothing in common. */
+static int FindCommon(const double a[3][2], const double b[3][2], Common *common)
 {
   const double area_a = GeometryArea(a), area_b = GeometryArea(b);
+  double polygon[GEOMETRY_CLIP_MAX][2];
   if (!(area_a > 0.0 && area_b > 0.0)) return 0;
   const int n = GeometryClip(a, b, polygon);
-  *area = GeometryPolygonArea(n, (const double(*)[2])polygon);
-  if (*area <= SLIVER * fmin(area_a, area_b)) return 0;
-  for (int k = 0; k < n; k++) {
-    GeometryBarycentric(a, polygon[k], &z[k][0]);
-    GeometryBarycentric(b, polygon[k], &z[k][3]);
-  }
-  return n;
+  if (!n) return 0;
+  Moments(n, (const double(*)[2])polygon, common->m);
+  common->area = common->m[0][0];
+  if (common->area <= SLIVER * fmin(area_a, area_b)) return 0;
+  Functions(a, polygon[0], common->a);
+  Functions(b, polygon[0], common->b);
+  return 1;
 }
 
 int SupermeshIntegrate(const double a[3][2], const double b[3][2], SupermeshPair *pair)
 {
-  double polygon[GEOMETRY_CLIP_MAX][2], z[GEOMETRY_CLIP_MAX][6], m[6][6];
-  const int n = Common(a, b, polygon, z, &pair->area);
-  if (!n) return 0;
-  IntegrateFan(n, (const double(*)[2])polygon, (const double(*)[6])z, m);
-  for (int i = 0; i < 3; i++) {
-    for (int j = 0; j < 3; j++) {
-      pair->aa[i][j] = m[i][j];
-      pair->ab[i][j] = m[i][3 + j];
-      pair->bb[i][j] = m[3 + i][3 + j];
-    }
-  }
+  Common k;
+  double am[3][3], bm[3][3];
+  if (!FindCommon(a, b, &k)) return 0;
+  pair->area = k.area;
+  Product((const double(*)[3])k.a, (const double(*)[3])k.m, am);
+  Product((const double(*)[3])k.b, (const double(*)[3])k.m, bm);
+  Product((const double(*)[3])am, (const double(*)[3])k.a, pair->aa);
+  Product((const double(*)[3])am, (const double(*)[3])k.b, pair->ab);
+  Product((const double(*)[3])bm, (const double(*)[3])k.b, pair->bb);
   return 1;
 }
 
 int SupermeshMixed(const double a[3][2], const double b[3][2], double mixed[3][3])
 {
-  double polygon[GEOMETRY_CLIP_MAX][2], z[GEOMETRY_CLIP_MAX][6], area;
-  const int n = Common(a, b, polygon, z, &area);
-  if (!n) return 0;
-  memset(mixed, 0, 9 * sizeof(double));
-  for (int k = 1; k + 1 < n; k++) {
-    const double w = GeometryTurn(polygon[0], polygon[k], polygon[k + 1]) / 24.0;
-    double s[6];
-    for (int i = 0; i < 6; i++) s[i] = z[0][i] + z[k][i] + z[k + 1][i];
-    for (int i = 0; i < 3; i++) {
-      for (int j = 0; j < 3; j++) {
-        mixed[i][j] += w * (z[0][i] * z[0][3 + j] + z[k][i] * z[k][3 + j] + z[k + 1][i] * z[k + 1][3 + j] +
-                            s[i] * s[3 + j]);
-      }
-    }
-  }
-  return n > 0;
+  Common k;
+  double am[3][3];
+  if (!FindCommon(a, b, &k)) return 0;
+  Product((const double(*)[3])k.a, (const double(*)[3])k.m, am);
+  Product((const double(*)[3])am, (const double(*)[3])k.b, mixed);
+  return 1;
 }
 
 static int Reserve(SupermeshPairs *pairs, int n)

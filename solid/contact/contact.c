@@ -172,6 +172,7 @@ PetscErrorCode ContactDestroy(Contact *c)
   PetscCall(PetscFree((*c)->first_pair));
   PetscCall(PetscFree((*c)->target));
   PetscCall(PetscFree((*c)->candidate));
+  PetscCall(PetscFree((*c)->near));
   PetscCall(PetscFree((*c)->wall));
   PetscCall(PetscFree((*c)->pair));
   PetscCall(PetscFree((*c)->active));

@@ -75,9 +75,9 @@ static PetscErrorCode FindActivePairs(Contact c, Solid s, int *nactive)
   }
   for (int k = 0; k < c->npairs; k++)
     c->pair[k].normal = c->pair[k].inside = c->pair[k].vn = c->pair[k].vt = 0.0;
-  for (int k = 0; k < c->ncandidates; k++) {
-    c->active[n].candidate = k;
-    n += ActivePairTarget(c, s, &c->candidate[k], &c->active[n]);
+  for (int k = 0; k < c->nnear; k++) {
+    c->active[n].candidate = c->near[k];
+    n += ActivePairTarget(c, s, &c->candidate[c->near[k]], &c->active[n]);
   }
   for (int k = 0; k < c->nwalls; k++) {
     c->active[n].candidate = -1 - k;

@@ -11,6 +11,7 @@ enum { WALL_LEFT = -4, WALL_RIGHT, WALL_BOTTOM, WALL_TOP, NOTHING = -5 };
 typedef struct {
   int facet, target, pair;
   double strength; /* p times the target's rest area doubled: over its area now, that is p/J */
+  double distance; /* when searched, m */
 } Candidate;
 
 /* An edge that may touch a wall. */
@@ -59,7 +60,8 @@ struct Contact_s {
   WallCandidate *wall;
   Pair *pair;
   ActivePair *active;
-  int *first_pair; /* [nfacets] -1: none */
+  int nnear, *near; /* [candidate_capacity] candidates that may touch before the next check of motion */
+  int *first_pair;  /* [nfacets] -1: none */
   Slips history, saved;
   PetscBool restored; /* history, not the pairs, holds the slips */
   PetscBool rough;    /* any friction or damping: velocities are needed */

@@ -39,7 +39,7 @@ static inline void ContactPiece(double s0, double s1, double f0, double f1, doub
 static inline double ContactPotential(const double at_p[3], const double at_q[3], double s)
 {
   double phi = HUGE_VAL;
-  for (int i = 0; i < 3; i++) phi = fmin(phi, at_p[i] + s * (at_q[i] - at_p[i]));
+  for (int i = 0; i < 3; i++) phi = Lesser(phi, at_p[i] + s * (at_q[i] - at_p[i]));
   return 3.0 * phi;
 }
 
@@ -51,8 +51,8 @@ static inline int ContactClip(const double at_p[3], const double at_q[3], double
   for (int i = 0; i < 3; i++) {
     const double a = at_p[i], b = at_q[i];
     if (a <= 0.0 && b <= 0.0) return 0;
-    if (a < 0.0) *s0 = fmax(*s0, a / (a - b));
-    if (b < 0.0) *s1 = fmin(*s1, a / (a - b));
+    if (a < 0.0) *s0 = Greater(*s0, a / (a - b));
+    if (b < 0.0) *s1 = Lesser(*s1, a / (a - b));
   }
   return *s0 < *s1;
 }
@@ -72,13 +72,13 @@ static inline double ContactIntegrate(const double at_p[3], const double at_q[3]
     kink[k] = s;
   }
   kink[n++] = s1;
-  double left = fmax(ContactPotential(at_p, at_q, s0), 0.0);
+  double left = Greater(ContactPotential(at_p, at_q, s0), 0.0);
   largest = left;
   for (int k = 1; k < n; k++) {
-    const double right = fmax(ContactPotential(at_p, at_q, kink[k]), 0.0);
+    const double right = Greater(ContactPotential(at_p, at_q, kink[k]), 0.0);
     ContactPiece(kink[k - 1], kink[k], left, right, integral);
     left = right;
-    largest = fmax(largest, right);
+    largest = Greater(largest, right);
   }
   return largest;
 }
@@ -112,7 +112,7 @@ static inline int ContactEdgeWall(double depth_p, double depth_q, double height,
   if (a <= 0.0 && b <= 0.0) return 0;
   const double cut = a / (a - b);
   const double s0 = a >= 0.0 ? 0.0 : cut, s1 = b >= 0.0 ? 1.0 : cut;
-  ContactPiece(s0, s1, fmax(a, 0.0), fmax(b, 0.0), c->edge);
+  ContactPiece(s0, s1, Greater(a, 0.0), Greater(b, 0.0), c->edge);
   c->inside = s1 - s0;
   return 1;
 }
@@ -133,7 +133,7 @@ typedef struct {
 
 static inline double ContactClamp(double value, double bound)
 {
-  return fmax(-bound, fmin(bound, value));
+  return Greater(-bound, Lesser(bound, value));
 }
 
 /* Viscous force c v.n, no larger than N, so that nothing sticks and nothing jumps at first touch; tangential
@@ -143,7 +143,7 @@ static inline ContactResponse ContactRespond(ContactLaw law, double n, double in
                                              double vt)
 {
   ContactResponse r;
-  const double viscosity = law.viscosity * fmin(inside, 1.0);
+  const double viscosity = law.viscosity * Lesser(inside, 1.0);
   const double viscous = ContactClamp(viscosity * vn, n), cap = law.friction * (n + viscous);
   const double spring = ContactClamp(law.stiffness * slip, cap);
   r.normal = viscous / n;

@@ -79,7 +79,7 @@ PetscErrorCode ContactForgetPairs(Contact c)
   PetscFunctionBeginUser;
   PetscCall(ContactSlips(c, &n, &slip));
   c->restored = PETSC_TRUE;
-  c->ncandidates = c->nwalls = c->npairs = 0;
+  c->ncandidates = c->nnear = c->nwalls = c->npairs = 0;
   PetscFunctionReturn(0);
 }
 
@@ -137,6 +137,6 @@ PetscErrorCode ContactState(Contact c, int save)
   to->n = from->n;
   if (save) PetscFunctionReturn(0);
   c->restored = PETSC_TRUE;
-  c->ncandidates = c->nwalls = c->npairs = 0;
+  c->ncandidates = c->nnear = c->nwalls = c->npairs = 0;
   PetscFunctionReturn(0);
 }

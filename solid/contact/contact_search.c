@@ -44,7 +44,7 @@ static double Distance(Point p, Point q, const Point t[3])
 /* Farther than the buffer they cannot touch before the next search.  Of one body: a pair that shares a node
  * never touches by itself, neighbours at rest only once they have come closer, and a buffer that is long
  * because the body as a whole is fast is not needed. */
-static PetscBool MayBeActive(const Contact c, const Solid s, int facet, const Target *t)
+static PetscBool MayBeActive(const Contact c, const Solid s, int facet, const Target *t, double *distance)
 {
   const int *edge = s->facet + 2 * facet, body = s->elements.body[s->facet_element[facet]];
   Point now[3], rest[3];
@@ -55,12 +55,12 @@ static PetscBool MayBeActive(const Contact c, const Solid s, int facet, const Ta
     now[i] = PointAt(ContactPosition(c, s, t->node[i]), 0);
     rest[i] = PointAt(t->rest, i);
   }
-  const double distance = Distance(PointAt(s->x, edge[0]), PointAt(s->x, edge[1]), now);
-  if (distance > c->buffer) return PETSC_FALSE;
+  *distance = Distance(PointAt(s->x, edge[0]), PointAt(s->x, edge[1]), now);
+  if (*distance > c->buffer) return PETSC_FALSE;
   if (t->body != body) return PETSC_TRUE;
   const double apart = Distance(PointAt(s->rest, edge[0]), PointAt(s->rest, edge[1]), rest);
-  return (PetscBool)(distance <= c->shortest_buffer &&
-                     (apart == 0.0 || apart > c->shortest_buffer || distance < APPROACH * apart));
+  return (PetscBool)(*distance <= c->shortest_buffer &&
+                     (apart == 0.0 || apart > c->shortest_buffer || *distance < APPROACH * apart));
 }
 
 /* --- candidates --------------------------------------------------------------------------------------- */
@@ -92,13 +92,14 @@ static PetscErrorCode AddCandidate(void *context, int facet, int target)
   const Target *t = &c->target[target];
   const int element = s->facet_element[facet], body = s->elements.body[element];
   const Material *own = &s->material[s->elements.material[element]], *other = &s->material[t->material];
-  double friction, damping, viscous;
+  double friction, damping, viscous, distance;
   int pair;
   PetscFunctionBeginUser;
-  if (!MayBeActive(c, s, facet, t)) PetscFunctionReturn(0);
+  if (!MayBeActive(c, s, facet, t, &distance)) PetscFunctionReturn(0);
   if (c->ncandidates == c->candidate_capacity) {
     c->candidate_capacity = 2 * c->candidate_capacity + 64;
     PetscCall(PetscRealloc((size_t)c->candidate_capacity * sizeof *c->candidate, &c->candidate));
+    PetscCall(PetscRealloc((size_t)c->candidate_capacity * sizeof *c->near, &c->near));
   }
   const double penalty = fmin(own->penalty, other->penalty) * fmin(own->thickness, other->thickness);
   const double compliance = fmax(c->compliance[body], c->compliance[t->body]);
@@ -106,7 +107,7 @@ static PetscErrorCode AddCandidate(void *context, int facet, int target)
   const ContactLaw law = LawOf(s, facet, friction, damping, penalty, c->height[t->body],
                                Together(c->areal_mass[body], c->areal_mass[t->body]), &viscous);
   PetscCall(ContactPairOf(c, s, facet, t->body, law, &pair));
-  c->candidate[c->ncandidates++] = (Candidate){facet, target, pair, penalty * t->twice_area};
+  c->candidate[c->ncandidates++] = (Candidate){facet, target, pair, penalty * t->twice_area, distance};
   if (target >= c->ntargets) x->keep[target - c->ntargets] = 1;
   /* d(p phi)/dx = 3 p/height; a node takes half of its edges, |u_c - u_t|^2 <= 2 |u_c|^2 + 2 |u_t|^2, and
    * both bodies are contactor and target */
@@ -216,6 +217,13 @@ static PetscErrorCode FindPairs(Contact c, Solid s, const GeometryBox edge[])
   PetscFunctionReturn(0);
 }
 
+void ContactSetTravel(Contact c, double travel)
+{
+  c->nnear = 0;
+  for (int k = 0; k < c->ncandidates; k++)
+    if (c->candidate[k].distance <= 2.0 * travel) c->near[c->nnear++] = k;
+}
+
 PetscErrorCode ContactSearch(Contact c, Solid s, double min_buffer)
 {
   GeometryBox *edge;
@@ -236,6 +244,7 @@ PetscErrorCode ContactSearch(Contact c, Solid s, double min_buffer)
   }
   if (s->setup.walls) PetscCall(FindWalls(c, s, edge));
   PetscCall(FindPairs(c, s, edge));
+  ContactSetTravel(c, HUGE_VAL);
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->rate, 4, MPI_DOUBLE, MPI_MAX, s->comm));
   PetscCall(PetscArraycpy(c->searched, s->x, 2 * (size_t)s->nnodes));
   PetscCall(PetscFree(edge));

@@ -70,15 +70,15 @@ static inline double JointSoftening(double damage)
 /* What friction bears of a shear, at most f times the pressure. */
 static inline double JointFriction(const JointLaw *law, double normal, double shear)
 {
-  const double most = -law->friction * fmin(normal, 0.0);
-  return fmax(-most, fmin(most, shear));
+  const double most = -law->friction * Lesser(normal, 0.0);
+  return Greater(-most, Lesser(most, shear));
 }
 
 /* Of the traction on an edge, over its strength: (sigma/F_t)^2 + (tau'/F_s)^2, tau' what friction does not
  * bear. */
 static inline double JointLoad(const JointLaw *law, double normal, double shear)
 {
-  const double x = fmax(normal, 0.0) / law->strength[0];
+  const double x = Greater(normal, 0.0) / law->strength[0];
   const double y = (shear - JointFriction(law, normal, shear)) / law->strength[1];
   return x * x + y * y;
 }
@@ -89,8 +89,8 @@ static inline JointEnd JointBegin(const JointLaw *law, double normal, double she
 {
   const double friction = JointFriction(law, normal, shear);
   JointEnd end = {.residual = 1.0,
-                  .strong = fmax(1.0, sqrt(JointLoad(law, normal, shear))),
-                  .tension = fmax(normal, 0.0),
+                  .strong = Greater(1.0, sqrt(JointLoad(law, normal, shear))),
+                  .tension = Greater(normal, 0.0),
                   .shear = shear - friction,
                   .friction = friction};
   end.offset[0] = end.tension / law->stiffness;
@@ -110,7 +110,7 @@ static inline double JointDamage(double damage, double opening, double slip, con
     if (beyond <= 1e-14) break;
     damage += 0.5 * beyond / (x * x * range[0] / a + y * y * range[1] / b);
   }
-  return fmin(damage, 1.0);
+  return Lesser(damage, 1.0);
 }
 
 /* The other end has broken; theirs are its opening and slip, own this end's. */
@@ -128,7 +128,7 @@ static inline JointTraction JointTension(const JointLaw *law, JointEnd *end, dou
   const double range[2] = {law->energy[0] / (JOINT_SOFTENING_AREA * f[0]),
                            law->energy[1] / (JOINT_SOFTENING_AREA * f[1])};
   const double closing = end->offset[2] * (1.0 - end->damage);
-  const double o = fmax(opening + fmin(closing, 0.0) + end->offset[0], 0.0), s = slip + end->offset[1];
+  const double o = Greater(opening + Lesser(closing, 0.0) + end->offset[0], 0.0), s = slip + end->offset[1];
   const double damage = JointDamage(end->damage, o, s, start, range);
   if (damage > end->damage) end->residual = damage < 1.0 ? JointSoftening(damage) : 0.0;
   end->damage = damage;
@@ -145,7 +145,7 @@ static inline JointTraction JointTension(const JointLaw *law, JointEnd *end, dou
 
 static inline double JointPressure(const JointLaw *law, const JointEnd *end, double opening)
 {
-  return law->stiffness * fmin(opening + end->offset[2] * (1.0 - end->damage), 0.0);
+  return law->stiffness * Lesser(opening + end->offset[2] * (1.0 - end->damage), 0.0);
 }
 
 /* Pressure and friction of an end at its own opening and slip; remembers the friction. */

@@ -39,13 +39,13 @@ static inline int Overloaded(const InitiationList *w, int k, double *const stres
   const double xy = 0.5 * (stress[2][p] + stress[2][q]);
   const Point t = {xx * d.y - xy * d.x, xy * d.y - yy * d.x};
   const double normal = t.x * d.y - t.y * d.x, shear = t.x * d.x + t.y * d.y, square = d.x * d.x + d.y * d.y;
-  const double tension = fmax(normal, 0.0);
-  const double beyond = fmax(fabs(shear) + w->friction[k] * fmin(normal, 0.0), 0.0);
+  const double tension = Greater(normal, 0.0);
+  const double beyond = Greater(fabs(shear) + w->friction[k] * Lesser(normal, 0.0), 0.0);
   return tension * tension * w->inverse_square[0][k] + beyond * beyond * w->inverse_square[1][k] >=
          square * square;
 }
 
-static int CountOverloaded(const InitiationList *initiation, double *const stress[3], const double x[])
+static WIDE int CountOverloaded(const InitiationList *initiation, double *const stress[3], const double x[])
 {
   const InitiationList w = *initiation;
   int n = 0;
@@ -85,13 +85,16 @@ void JointsBeginEnds(Joints j, Solid s)
   }
 }
 
-/* A crack-tip node that bears the strength. */
+/* A crack-tip node that bears the strength: JointLoad of the traction at least 1, times the edge's length squared, so
+ * that no direction is normalised in every substep.  The edge is intact: one node at each end. */
 static PetscBool Breaks(const Joints j, Solid s, const CrackTip *b)
 {
   const Joint *joint = &j->joint[b->joint];
-  const JointShape shape = ShapeOf(j, s, joint);
-  const Point t = JointsCrackTipTraction(j, s, b), m = shape.normal, e = shape.along;
-  return (PetscBool)(JointLoad(&joint->law, t.x * m.x + t.y * m.y, t.x * e.x + t.y * e.y) >= 1.0);
+  const Point d = PointMinus(PointAt(s->x, j->corner[joint->corner[1][0]].node),
+                             PointAt(s->x, j->corner[joint->corner[0][0]].node));
+  const Point t = JointsCrackTipTraction(j, s, b);
+  return (PetscBool)(JointLoad(&joint->law, t.x * d.y - t.y * d.x, t.x * d.x + t.y * d.y) >=
+                     d.x * d.x + d.y * d.y);
 }
 
 /* --- forces ------------------------------------------------------------------------------------------- */
@@ -120,31 +123,37 @@ void JointsAddForces(Joints j, Solid s)
   }
 }
 
-void JointsAddStiffness(Joints j, Solid s, const double d[], double force[])
+int JointsActive(Joints j)
 {
-  for (int k = 0; j && k < j->nactive; k++) {
-    const Joint *joint = &j->joint[j->active[k]];
-    const JointEnd *end = j->memory[j->active[k]].end;
-    const JointShape shape = ShapeOf(j, s, joint);
-    const Point n = shape.normal, e = shape.along;
-    double opening[2], slip[2], normal[2] = {0.0, 0.0}, shear[2] = {0.0, 0.0};
-    if (!joint->mine) continue;
-    for (int i = 0; i < 2; i++) {
-      const Point u = PointMinus(PointAt(d, j->corner[joint->corner[i][1]].node),
-                                 PointAt(d, j->corner[joint->corner[i][0]].node));
-      opening[i] = u.x * n.x + u.y * n.y;
-      slip[i] = u.x * e.x + u.y * e.y;
-    }
-    for (int i = 0; i < 2; i++)
-      if (end[i].strong > 0.0) JointAddStiffness(&joint->law, end, &shape, i, opening, slip, normal, shear);
-    for (int i = 0; i < 2; i++) {
-      const double half = 0.5 * joint->length;
-      const Point force_on_first = {half * (normal[i] * n.x + shear[i] * e.x),
-                                    half * (normal[i] * n.y + shear[i] * e.y)};
-      Add(force, j->corner[joint->corner[i][0]].node, force_on_first);
-      Add(force, j->corner[joint->corner[i][1]].node, (Point){-force_on_first.x, -force_on_first.y});
-    }
+  return j ? j->nactive : 0;
+}
+
+/* The rates of the tractions on the ends when node i / 2 alone moves along axis i % 2, by the law for unit openings. */
+static void StiffnessColumn(const Joint *joint, const JointEnd end[2], const JointShape *shape, int i,
+                            double stiffness[8][8])
+{
+  const Point n = shape->normal, e = shape->along;
+  const double side = i / 2 % 2 ? 1.0 : -1.0, half = 0.5 * joint->length;
+  double opening[2] = {0.0, 0.0}, slip[2] = {0.0, 0.0}, normal[2] = {0.0, 0.0}, shear[2] = {0.0, 0.0};
+  opening[i / 4] = side * (i % 2 ? n.y : n.x);
+  slip[i / 4] = side * (i % 2 ? e.y : e.x);
+  for (int k = 0; k < 2; k++)
+    if (end[k].strong > 0.0) JointAddStiffness(&joint->law, end, shape, k, opening, slip, normal, shear);
+  for (int row = 0; row < 8; row++) {
+    const double on_second = row / 2 % 2 ? 1.0 : -1.0;
+    stiffness[row][i] = on_second * half *
+                        (row % 2 ? normal[row / 4] * n.y + shear[row / 4] * e.y
+                                 : normal[row / 4] * n.x + shear[row / 4] * e.x);
   }
+}
+
+PetscBool JointsStiffness(Joints j, Solid s, int k, int node[4], double stiffness[8][8])
+{
+  const Joint *joint = &j->joint[j->active[k]];
+  const JointShape shape = ShapeOf(j, s, joint);
+  for (int i = 0; i < 4; i++) node[i] = j->corner[joint->corner[i / 2][i % 2]].node;
+  for (int i = 0; i < 8; i++) StiffnessColumn(joint, j->memory[j->active[k]].end, &shape, i, stiffness);
+  return joint->mine;
 }
 
 /* --- events ------------------------------------------------------------------------------------------- */

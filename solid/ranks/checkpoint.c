@@ -14,7 +14,7 @@ static const char *const NUMBERS[NNUMBERS] = {"solid t",
                                               "solid rebalanced",
                                               "solid best balance",
                                               "solid loss of balance"};
-enum { NSECONDS = 5 };
+enum { NSECONDS = 6 };
 
 /* Between two steps the last substep's length is all that there is of one. */
 static PetscErrorCode PutNumbers(Solid s, Checkpoint to)

@@ -63,6 +63,7 @@ static PetscErrorCode Allocate(Solid s)
   PetscCall(PetscMalloc5(ne, &e->mu, ne, &e->lambda, ne, &e->eta, ne, &e->density, ne, &e->kind));
   PetscCall(PetscMalloc7(ne, &e->body, ne, &e->number, 3 * ne, &e->force[0], 3 * ne, &e->force[1], ne,
                          &e->thickness, ne, &e->plane_stress, ne, &e->material));
+  PetscCall(PetscMalloc1(ne / STRIP + 1, &e->held));
   PetscCall(PetscMalloc1((size_t)s->nmaterials, &s->material));
   PetscFunctionReturn(0);
 }

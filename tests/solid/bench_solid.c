@@ -1,5 +1,6 @@
 /* Element-substeps per second on one core, of each law: bench_solid [size]. */
 #include "tests/solid/build.h"
+#include <time.h>
 
 static PetscErrorCode Measure(double size, double damping, int plane_stress, int corotated)
 {
@@ -14,10 +15,10 @@ static PetscErrorCode Measure(double size, double damping, int plane_stress, int
   PetscCall(SolidCreate(PETSC_COMM_SELF, &a, &options, &s));
   PetscCall(SolidLimit(s, &limit));
   const int substeps = 1 + (int)(2e7 / a.nelements);
-  const double start = MPI_Wtime();
+  const clock_t start = clock(); /* of the processor: others may compute, too */
   PetscCall(SolidStart(s, 0.4999 * limit * substeps, NULL));
   while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
-  const double seconds = MPI_Wtime() - start;
+  const double seconds = (double)(clock() - start) / CLOCKS_PER_SEC;
   printf("%8d elements, damping %.1f, plane %s, %s: %.3g element-substeps/s\n", a.nelements, damping,
          plane_stress ? "stress" : "strain", corotated ? "corotated" : "neo-Hookean",
          (double)a.nelements * (double)SolidGetStats(s)->total / seconds);

@@ -1,0 +1,150 @@
+/* K of the step's response: 2 x 2 blocks in compressed rows. */
+#include "solid/step_response_impl.h"
+
+static int Cells(const StepResponse a)
+{
+  return a->nelements + a->njoints;
+}
+
+/* The nodes that a cell, an element or an active joint, couples. */
+static int NodesOf(const StepResponse a, int cell, const int **node)
+{
+  *node = cell < a->nelements ? a->element + 3 * cell : a->joint + 4 * (cell - a->nelements);
+  return cell < a->nelements ? 3 : 4;
+}
+
+/* Cells of each node: cell[first[node]] .. cell[first[node + 1]], allocated. */
+static PetscErrorCode ListCells(const StepResponse a, int **first, int **list)
+{
+  const int *node;
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1((size_t)a->nnodes + 2, first));
+  PetscCall(PetscMalloc1(3 * (size_t)a->nelements + 4 * (size_t)a->njoints, list));
+  for (int cell = 0; cell < Cells(a); cell++)
+    for (int n = NodesOf(a, cell, &node), i = 0; i < n; i++) (*first)[node[i] + 2]++;
+  for (int i = 2; i < a->nnodes + 2; i++) (*first)[i] += (*first)[i - 1];
+  for (int cell = 0; cell < Cells(a); cell++)
+    for (int n = NodesOf(a, cell, &node), i = 0; i < n; i++) (*list)[(*first)[node[i] + 1]++] = cell;
+  PetscFunctionReturn(0);
+}
+
+/* Sorted columns of each row. */
+static PetscErrorCode ListColumns(StepResponse a)
+{
+  const size_t most = 9 * (size_t)a->nelements + 16 * (size_t)a->njoints + (size_t)a->nnodes;
+  int *first, *cell, *row, n = 0;
+  PetscFunctionBeginUser;
+  PetscCall(ListCells(a, &first, &cell));
+  PetscCall(PetscMalloc1(most, &row));
+  PetscCall(PetscMalloc1(most, &a->column));
+  for (int i = 0; i < a->nnodes; i++) {
+    PetscInt m = 0;
+    a->start[i] = n;
+    row[m++] = i;
+    for (int k = first[i]; k < first[i + 1]; k++) {
+      const int *node, count = NodesOf(a, cell[k], &node);
+      for (int j = 0; j < count; j++) row[m++] = node[j];
+    }
+    PetscCall(PetscSortRemoveDupsInt(&m, row));
+    PetscCall(PetscArraycpy(a->column + n, row, m));
+    n += m;
+  }
+  a->start[a->nnodes] = n;
+  PetscCall(PetscFree(row));
+  PetscCall(PetscFree(cell));
+  PetscCall(PetscFree(first));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FindBlock(const StepResponse a, int i, int j, int *block)
+{
+  PetscInt at = 0;
+  PetscFunctionBeginUser;
+  PetscCall(PetscFindInt(j, a->start[i + 1] - a->start[i], a->column + a->start[i], &at));
+  *block = a->start[i] + (int)at;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode StepMatrixCreate(StepResponse a)
+{
+  PetscFunctionBeginUser;
+  PetscCall(ListColumns(a));
+  for (int k = 0; k < 9 * a->nelements; k++)
+    PetscCall(FindBlock(a, a->element[k / 3], a->element[k / 9 * 3 + k % 3], &a->slot[k]));
+  PetscCall(PetscMalloc1((size_t)a->start[a->nnodes], &a->block));
+  PetscFunctionReturn(0);
+}
+
+static PetscBool IsHeld(Solid s, int k)
+{
+  double mobility = 0.0;
+  for (int i = 0; i < 3; i++) mobility += s->inverse_mass[s->elements.node[i][k]];
+  return mobility == 0.0 ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Adds int sigma(d) grad N_i of element k with its nodes at x, sigma = 2 mu e + lambda tr(e) I. */
+static void AddElement(StepResponse a, const Elements *e, int k, const double x[])
+{
+  double normal[3][2], twice = 0.0;
+  for (int i = 0; i < 3; i++) {
+    const double *p = x + 2 * e->node[(i + 1) % 3][k], *q = x + 2 * e->node[(i + 2) % 3][k];
+    normal[i][0] = p[1] - q[1];
+    normal[i][1] = q[0] - p[0];
+    twice += p[0] * q[1] - q[0] * p[1];
+  }
+  const double plane = e->plane_stress[k] > 0.0 ? 2.0 * e->mu[k] / (e->lambda[k] + 2.0 * e->mu[k]) : 1.0;
+  const double mu = e->mu[k] / (2.0 * twice), bulk = plane * e->lambda[k] / (2.0 * twice);
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) {
+      const double *m = normal[i], *n = normal[j], both = mu * (m[0] * n[0] + m[1] * n[1]);
+      double *b = a->block[a->slot[9 * k + 3 * i + j]];
+      b[0] += both + (mu + bulk) * m[0] * n[0];
+      b[1] += mu * m[1] * n[0] + bulk * m[0] * n[1];
+      b[2] += mu * m[0] * n[1] + bulk * m[1] * n[0];
+      b[3] += both + (mu + bulk) * m[1] * n[1];
+    }
+}
+
+PetscErrorCode StepMatrixAssemble(StepResponse a, Solid s, const double x[])
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscArrayzero(a->block, a->start[a->nnodes]));
+  for (int k = 0; k < a->nelements; k++)
+    if (!IsHeld(s, k)) AddElement(a, &s->elements, k, x);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode StepMatrixAddJoints(StepResponse a, Solid s)
+{
+  double stiffness[8][8];
+  int node[4], at = 0;
+  PetscFunctionBeginUser;
+  for (int k = 0; k < JointsActive(s->joints); k++) {
+    if (!JointsStiffness(s->joints, s, k, node, stiffness)) continue;
+    for (int i = 0; i < 16; i++) {
+      const int p = i / 4, q = i % 4;
+      PetscCall(FindBlock(a, node[p], node[q], &at));
+      for (int c = 0; c < 4; c++) a->block[at][c] += stiffness[2 * p + c / 2][2 * q + c % 2];
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode StepMatrixMultiply(StepResponse a, Solid s, const double d[], double kd[])
+{
+  PetscFunctionBeginUser;
+  for (int i = 0; i < a->nnodes; i++) {
+    double x = 0.0, y = 0.0;
+    for (int k = a->start[i]; k < a->start[i + 1]; k++) {
+      const double *b = a->block[k], *u = d + 2 * a->column[k];
+      x += b[0] * u[0] + b[1] * u[1];
+      y += b[2] * u[0] + b[3] * u[1];
+    }
+    kd[2 * i] = x;
+    kd[2 * i + 1] = y;
+  }
+  PetscCall(CopiesSum(s->copies, 2, kd));
+  for (int k = 0; k < 2 * a->nnodes; k++)
+    if (s->inverse_mass[k / 2] == 0.0) kd[k] = 0.0;
+  PetscFunctionReturn(0);
+}

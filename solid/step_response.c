@@ -1,0 +1,147 @@
+#include "solid/step_response_impl.h"
+
+/* Of the conjugate gradients: the residual's norm relative to that of M d, and their number, after which the result,
+ * then smoothed less, is taken as it is. */
+#define TOLERANCE 1e-10
+enum { MAX_ITERATIONS = 1000 };
+#define RATIO 1.1 /* of successive c0 */
+
+static PetscErrorCode Create(Solid s, StepResponse *response)
+{
+  const size_t n = (size_t)s->nnodes, ne = (size_t)s->elements.n, most = (size_t)JointsActive(s->joints);
+  StepResponse a;
+  double unused[8][8];
+  PetscFunctionBeginUser;
+  PetscCall(PetscNew(&a));
+  a->nnodes = s->nnodes;
+  a->nelements = s->elements.n;
+  PetscCall(PetscMalloc4(3 * ne, &a->element, 4 * most, &a->joint, n + 1, &a->start, 9 * ne, &a->slot));
+  PetscCall(PetscMalloc3(n, &a->weight, n, &a->owned, n, &a->turn));
+  PetscCall(PetscMalloc4(2 * n, &a->r, 2 * n, &a->z, 2 * n, &a->p, 2 * n, &a->q));
+  PetscCall(PetscArraycpy(a->element, s->element, 3 * ne));
+  for (int k = 0; k < JointsActive(s->joints); k++)
+    a->njoints += JointsStiffness(s->joints, s, k, a->joint + 4 * a->njoints, unused);
+  PetscCall(StepMatrixCreate(a));
+  PetscCall(StepFactorCreate(a));
+  *response = a;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode StepResponseDestroy(StepResponse *response)
+{
+  StepResponse a = *response;
+  PetscFunctionBeginUser;
+  if (!a) PetscFunctionReturn(0);
+  PetscCall(PCDestroy(&a->factor));
+  PetscCall(MatDestroy(&a->matrix));
+  PetscCall(VecDestroy(&a->right));
+  PetscCall(VecDestroy(&a->left));
+  PetscCall(PetscFree4(a->element, a->joint, a->start, a->slot));
+  PetscCall(PetscFree3(a->weight, a->owned, a->turn));
+  PetscCall(PetscFree4(a->r, a->z, a->p, a->q));
+  PetscCall(PetscFree(a->column));
+  PetscCall(PetscFree(a->block));
+  PetscCall(PetscFree(*response));
+  PetscFunctionReturn(0);
+}
+
+/* The pattern fits the elements as they are, and neither then nor now a joint is active. */
+static PetscErrorCode IsPresent(const StepResponse a, Solid s, PetscBool *present)
+{
+  PetscFunctionBeginUser;
+  *present =
+      a && a->nnodes == s->nnodes && !a->njoints && !JointsActive(s->joints) ? PETSC_TRUE : PETSC_FALSE;
+  if (*present) PetscCall(PetscArraycmp(a->element, s->element, 3 * (size_t)a->nelements, present));
+  PetscFunctionReturn(0);
+}
+
+/* Owners, and by how many ranks nodes are shared. */
+static PetscErrorCode CountRanks(StepResponse a, Solid s)
+{
+  PetscFunctionBeginUser;
+  for (int i = 0; i < a->nnodes; i++) {
+    a->owned[i] = SolidOwns(s, i) ? 1.0 : 0.0;
+    a->weight[i] = 1.0;
+  }
+  PetscCall(CopiesSum(s->copies, 1, a->weight));
+  for (int i = 0; i < a->nnodes; i++) a->weight[i] = 1.0 / a->weight[i];
+  PetscFunctionReturn(0);
+}
+
+/* The factor at rest, unless there is one. */
+static PetscErrorCode FactorAtRest(StepResponse a, Solid s)
+{
+  const double c0 = pow(RATIO, round(log(a->c) / log(RATIO)));
+  PetscFunctionBeginUser;
+  if (a->c0 == c0) PetscFunctionReturn(0);
+  a->c0 = c0;
+  PetscCall(StepMatrixAssemble(a, s, s->rest));
+  PetscCall(StepFactorUpdate(a, s, c0));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode StepResponseUpdate(Solid s)
+{
+  PetscBool present;
+  PetscFunctionBeginUser;
+  PetscCall(IsPresent(s->response, s, &present));
+  if (!present) {
+    PetscCall(StepResponseDestroy(&s->response));
+    PetscCall(Create(s, &s->response));
+  }
+  const StepResponse a = s->response;
+  PetscCall(CountRanks(a, s));
+  a->c = 0.25 * s->dt * s->dt;
+  if (a->c == 0.0) PetscFunctionReturn(0);
+  if (!a->njoints) PetscCall(FactorAtRest(a, s));
+  PetscCall(StepMatrixAssemble(a, s, s->x));
+  PetscCall(StepMatrixAddJoints(a, s));
+  if (a->njoints) PetscCall(StepFactorUpdate(a, s, a->c));
+  StepFactorTurn(a, s, a->njoints ? PETSC_FALSE : PETSC_TRUE);
+  PetscFunctionReturn(0);
+}
+
+/* sum over the nodes of a.b, and of a.b times weight[nnodes] */
+static PetscErrorCode Dot(StepResponse r, Solid s, const double a[], const double b[], const double weight[],
+                          double *dot)
+{
+  double sum = 0.0;
+  PetscFunctionBeginUser;
+  for (int i = 0; i < r->nnodes; i++)
+    sum += r->owned[i] * (weight ? weight[i] : 1.0) * (a[2 * i] * b[2 * i] + a[2 * i + 1] * b[2 * i + 1]);
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm));
+  *dot = sum;
+  PetscFunctionReturn(0);
+}
+
+/* From d itself: exact at once where it is a rigid motion. */
+PetscErrorCode StepResponseApply(Solid s, double d[])
+{
+  const StepResponse a = s->response;
+  const int n = 2 * a->nnodes;
+  double *r = a->r, *z = a->z, *p = a->p, *q = a->q, rz, next, pq, rr, size;
+  PetscFunctionBeginUser;
+  if (a->c == 0.0) PetscFunctionReturn(0);
+  PetscCall(StepMatrixMultiply(a, s, d, r));
+  for (int k = 0; k < n; k++) r[k] *= -a->c;
+  PetscCall(Dot(a, s, d, d, s->mass, &size));
+  PetscCall(Dot(a, s, r, r, s->inverse_mass, &rr));
+  PetscCall(PetscArrayzero(p, n));
+  rz = 1.0;
+  for (int i = 0; i < MAX_ITERATIONS && rr > TOLERANCE * TOLERANCE * size; i++) {
+    PetscCall(StepFactorApply(a, s, r, z));
+    PetscCall(Dot(a, s, r, z, NULL, &next));
+    for (int k = 0; k < n; k++) p[k] = z[k] + next / rz * p[k];
+    rz = next;
+    PetscCall(StepMatrixMultiply(a, s, p, q));
+    for (int k = 0; k < n; k++) q[k] = a->c * q[k] + s->mass[k / 2] * p[k];
+    PetscCall(Dot(a, s, p, q, NULL, &pq));
+    for (int k = 0; k < n; k++) {
+      d[k] += rz / pq * p[k];
+      r[k] -= rz / pq * q[k];
+    }
+    PetscCall(Dot(a, s, r, r, s->inverse_mass, &rr));
+    s->stats.response_iterations++;
+  }
+  PetscFunctionReturn(0);
+}
