@@ -2,6 +2,8 @@
 #include "fluid/momentum_impl.h"
 #include "fluid/solver_options.h"
 
+#define VELOCITY_TOLERANCE 1e-5 /* -momentum_ksp_rtol chooses another one */
+
 /* MATOP_MULT */
 static PetscErrorCode Apply(Mat matrix, Vec x, Vec y)
 {
@@ -31,7 +33,7 @@ static PetscErrorCode CreateSolver(MomentumSolver s)
   PetscCall(KSPSetOptionsPrefix(s->ksp, "momentum_"));
   PetscCall(KSPSetOperators(s->ksp, s->matrix, s->matrix));
   PetscCall(KSPSetType(s->ksp, KSPGMRES));
-  PetscCall(KSPSetTolerances(s->ksp, 1e-6, 1e-50, 1e5, 500));
+  PetscCall(KSPSetTolerances(s->ksp, VELOCITY_TOLERANCE, 1e-50, 1e5, 500));
   PetscCall(PreconditionerCreate(&s->op, s->ksp, &s->preconditioner));
   PetscCall(KSPSetFromOptions(s->ksp));
   PetscCall(KSPGetTolerances(s->ksp, &s->tolerance, NULL, NULL, NULL));
