@@ -49,7 +49,8 @@ PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *flu
   if (setup->phases.n) {
     /* what the solver leaves of the divergence becomes a gap between volumes and areas */
     PetscCall(SolverDefaultOption("pressure_varying_", "ksp_rtol", "1e-10"));
-    PetscCall(SolverDefaultOption("momentum_", "ksp_rtol", "1e-6")); /* the norm hardly sees the lighter phase */
+    PetscCall(
+        SolverDefaultOption("momentum_", "ksp_rtol", "1e-6")); /* the norm hardly sees the lighter phase */
     PetscCall(PhaseTransportCreate(&f->domain, &setup->phases, setup->gravity, &f->phases));
   }
   PetscCall(CreateVectors(f));

@@ -31,8 +31,9 @@ static double InterfacePenalty(const MomentumStep *step, int e, int nb, double a
 }
 
 /* Interior face i of element e: its scalar blocks. */
-static void AssembleInterior(MomentumSolver s, const MomentumStep *step, int e, int i, const double flux[],
-                             double own[9], double other[9])
+static inline __attribute__((always_inline)) void AssembleInterior(MomentumSolver s, const MomentumStep *step,
+                                                                   int e, int i, const double flux[],
+                                                                   double own[9], double other[9])
 {
   const FluidDomain *d = s->domain;
   const double theta = s->setup.theta;
@@ -143,26 +144,36 @@ static PetscBool AssembleSolid(MomentumSolver s, const MomentumStep *step, int e
   return PETSC_TRUE;
 }
 
+/* Scalar blocks of element e, but for boundary faces.  i is a constant to the compiler in each of three copies. */
+static void AssembleScalar(MomentumSolver s, const MomentumStep *step, int e, const double flux[])
+{
+  const FluidDomain *d = s->domain;
+  const int *neighbor = d->mesh->neighbor + 3 * e;
+  double(*block)[9] = s->op.block[e], own[9];
+  ScalarVolume(d->geometry + e, step->rho[e] / step->dt, s->setup.theta, s->op.theta_mu[e], flux + 6 * e,
+               own);
+  memcpy(s->op.volume[e], own, sizeof own);
+  if (neighbor[0] >= 0) AssembleInterior(s, step, e, 0, flux, own, block[1]);
+  if (neighbor[1] >= 0) AssembleInterior(s, step, e, 1, flux, own, block[2]);
+  if (neighbor[2] >= 0) AssembleInterior(s, step, e, 2, flux, own, block[3]);
+  memcpy(block[0], own, sizeof own);
+}
+
 /* Blocks and load of element e. */
 static PetscErrorCode AssembleElement(MomentumSolver s, const MomentumStep *step, int e, const double flux[],
                                       const double u[6], const double p[], double load[6])
 {
   const FluidDomain *d = s->domain;
-  double(*block)[9] = s->op.block[e], dense[36] = {0};
+  const double diffusion = s->op.theta_mu[e] * step->dt / (step->rho[e] * d->geometry[e].area);
+  double dense[36] = {0};
   PetscBool has_dense = PETSC_FALSE;
   PetscFunctionBeginUser;
   memset(load, 0, 6 * sizeof *load);
-  s->op.diffusion =
-      fmax(s->op.diffusion, s->op.theta_mu[e] * step->dt / (step->rho[e] * d->geometry[e].area));
-  ScalarVolume(d->geometry + e, step->rho[e] / step->dt, s->setup.theta, s->op.theta_mu[e], flux + 6 * e,
-               block[0]);
-  PetscCall(PetscArraycpy(s->op.volume[e], block[0], 9));
-  for (int i = 0; i < 3; i++) {
-    if (d->mesh->neighbor[3 * e + i] >= 0)
-      AssembleInterior(s, step, e, i, flux, block[0], block[1 + i]);
-    else if (AssembleBoundary(s, step, e, i, flux + 6 * e, dense, load))
+  if (diffusion > s->op.diffusion) s->op.diffusion = diffusion;
+  AssembleScalar(s, step, e, flux);
+  for (int i = 0; i < 3; i++)
+    if (d->mesh->neighbor[3 * e + i] < 0 && AssembleBoundary(s, step, e, i, flux + 6 * e, dense, load))
       has_dense = PETSC_TRUE;
-  }
   ElementLoad(s, step, e, p, load);
   ElementInertia(s, step, e, u, load);
   if (AssembleSolid(s, step, e, u, dense, load)) has_dense = PETSC_TRUE;

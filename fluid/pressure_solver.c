@@ -3,8 +3,9 @@
 #include "fluid/solver_options.h"
 #include <math.h>
 
-#define DIRECT_MAX 400000       /* nodes times ranks, up to which a factor is made for a matrix that stays */
-#define TOLERANCE 1e-8  /* of the velocity that the pressure makes; -pressure_varying_ksp_rtol chooses another one */
+#define DIRECT_MAX 400000 /* nodes times ranks, up to which a factor is made for a matrix that stays */
+#define TOLERANCE                                                                                            \
+  1e-8 /* of the velocity that the pressure makes; -pressure_varying_ksp_rtol chooses another one */
 #define OF_VELOCITY 100 /* times that: of the whole velocity */
 
 struct PressureSolver_s {
@@ -16,6 +17,7 @@ struct PressureSolver_s {
   PetscInt nfixed;
   KSP direct, iterative; /* made when used first */
   PressurePreconditioner preconditioner;
+  PetscInt direct_max; /* nodes times ranks, up to which a factor is made for a matrix that stays */
   double contrast;     /* square root of the largest ratio of the coefficient */
   PetscReal tolerance; /* relative */
 };
@@ -87,6 +89,8 @@ PetscErrorCode PressureSolverCreate(const FluidDomain *domain, const char is_fix
   s->domain = domain;
   s->is_fixed = is_fixed;
   s->closed = closed;
+  s->direct_max = DIRECT_MAX;
+  PetscCall(PetscOptionsGetInt(NULL, "pressure_", "-direct_max", &s->direct_max, NULL));
   PetscCall(CreateMatrix(s));
   PetscCall(PetscMalloc1(domain->mesh->ne + s->nfixed / 36 + 1, &s->block));
   *solver = s;
@@ -159,7 +163,7 @@ PetscErrorCode PressureSolverSetMatrix(PressureSolver s, PetscBool varying)
   PetscMPIInt ranks;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_size(s->domain->mesh->comm, &ranks));
-  s->iterates = (PetscBool)(varying || s->domain->p2->nglobal > DIRECT_MAX / ranks);
+  s->iterates = (PetscBool)(varying || s->domain->p2->nglobal > s->direct_max / ranks);
   for (int k = 0; k < s->nfixed; k++) extra[k] = 1.0;
   if (HasFirstNode(s)) extra[s->nfixed] = s->iterates ? 0.0 : s->block[0][0];
   PetscCall(MatSetValuesCOO(s->matrix, s->block[0], INSERT_VALUES));
