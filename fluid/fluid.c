@@ -136,6 +136,7 @@ PetscErrorCode FluidMomentum(Fluid f, double dt)
                              dt,
                              MaterialDensity(f->material, MATERIAL_STEP),
                              MaterialViscosity(f->material, MATERIAL_STEP),
+                             MaterialRevision(f->material),
                              f->mass_flux,
                              f->u,
                              f->p,

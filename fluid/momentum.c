@@ -70,6 +70,7 @@ PetscErrorCode MomentumSolverDestroy(MomentumSolver *solver)
   PetscCall(VecDestroy(&s->sum));
   PetscCall(MatDestroy(&s->matrix));
   PetscCall(KSPDestroy(&s->ksp));
+  PetscCall(PetscFree(s->faces));
   PetscCall(SingleOperatorDestroy(&s->single));
   PetscCall(MomentumOperatorDestroy(&s->op));
   PetscCall(PreconditionerDestroy(&s->preconditioner));

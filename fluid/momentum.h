@@ -27,6 +27,7 @@ typedef struct {
   double t, dt;      /* from t to t + dt, s */
   const double *rho; /* [ne + ng] density of inertia and weight, kg/m3 */
   const double *mu;  /* [ne + ng] Pa s */
+  int revision;      /* of rho and mu; 0: they have always been these */
   Vec mass_flux;     /* m = rho beta at t + theta dt, kg/(m2 s); on a face the mean of its two sides counts */
   Vec u, p;          /* u^n, m/s; pressure on P2 nodes, Pa */
   SolidCoupling solid;

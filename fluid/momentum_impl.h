@@ -10,6 +10,7 @@ struct MomentumSolver_s {
   const FluidDomain *domain; /* borrowed */
   MomentumSetup setup;
   MomentumOperator op;
+  ScalarBlocks *faces; /* [ne] what viscosity makes of interior faces; NULL while it varies */
   SingleOperator single;
   Mat matrix; /* MATSHELL of single */
   Vec load, product, sum;
