@@ -134,7 +134,7 @@ static PetscErrorCode Restrict(ContinuousSpace s, int component, const double r[
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Extend(ContinuousSpace s, int component, double z[])
+static PetscErrorCode Extend(ContinuousSpace s, int component, SingleVector z[])
 {
   const PetscScalar *v;
   Vec local;
@@ -144,13 +144,13 @@ static PetscErrorCode Extend(ContinuousSpace s, int component, double z[])
   PetscCall(VecGhostGetLocalForm(s->correction, &local));
   PetscCall(VecGetArrayRead(local, &v));
   for (int e = 0; e < s->mesh->ne; e++)
-    for (int i = 0; i < 3; i++) z[6 * e + 3 * component + i] += v[s->node[3 * e + i]];
+    for (int i = 0; i < 4; i++) z[e][4 * component + i] = i < 3 ? (float)v[s->node[3 * e + i]] : 0.0f;
   PetscCall(VecRestoreArrayRead(local, &v));
   PetscCall(VecGhostRestoreLocalForm(s->correction, &local));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ContinuousSpaceCorrect(ContinuousSpace s, const double r[], double z[])
+PetscErrorCode ContinuousSpaceCorrect(ContinuousSpace s, const double r[], SingleVector z[])
 {
   PetscFunctionBeginUser;
   for (int c = 0; c < 2; c++) {

@@ -4,12 +4,13 @@
  *
  *     P1DG, 3 values an element             P1, one value a vertex
  *        restrict:  r_v = sum of r over the elements around v
- *        extend:    z at each element's vertex v  +=  z_v
+ *        extend:    z at each element's vertex v  =  z_v
  *
  * In continuous functions jumps vanish, and with them every interior face: the matrix is the sum of the elements' volume blocks. */
 #ifndef FLUID_CONTINUOUS_SPACE_H
 #define FLUID_CONTINUOUS_SPACE_H
 #include "common/mesh/mesh.h"
+#include "fluid/single.h"
 #include <petscksp.h>
 
 typedef struct ContinuousSpace_s *ContinuousSpace;
@@ -20,6 +21,6 @@ PetscErrorCode ContinuousSpaceDestroy(ContinuousSpace *s);
 /* The matrix from the elements' blocks, [ne][9], column-major, and its solver: an incomplete factor, or
  * multigrid (prefixes momentum_factor_ and momentum_multigrid_). */
 PetscErrorCode ContinuousSpaceUpdate(ContinuousSpace s, PetscBool multigrid, const double block[][9]);
-/* z[ne][2][3] += extension of the solution for the restriction of r[ne][2][3]. */
-PetscErrorCode ContinuousSpaceCorrect(ContinuousSpace s, const double r[], double z[]);
+/* z[ne] = extension of the solution for the restriction of r[ne][2][3]. */
+PetscErrorCode ContinuousSpaceCorrect(ContinuousSpace s, const double r[], SingleVector z[]);
 #endif

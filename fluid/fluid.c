@@ -49,6 +49,8 @@ PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *flu
   if (setup->phases.n) {
     /* what the solver leaves of the divergence becomes a gap between volumes and areas */
     PetscCall(SolverDefaultOption("pressure_varying_", "ksp_rtol", "1e-10"));
+    PetscCall(
+        SolverDefaultOption("momentum_", "ksp_rtol", "1e-6")); /* the norm hardly sees the lighter phase */
     PetscCall(PhaseTransportCreate(&f->domain, &setup->phases, setup->gravity, &f->phases));
   }
   PetscCall(CreateVectors(f));
@@ -134,6 +136,7 @@ PetscErrorCode FluidMomentum(Fluid f, double dt)
                              dt,
                              MaterialDensity(f->material, MATERIAL_STEP),
                              MaterialViscosity(f->material, MATERIAL_STEP),
+                             MaterialRevision(f->material),
                              f->mass_flux,
                              f->u,
                              f->p,

@@ -72,7 +72,7 @@ static inline void FaceInflow(double theta, double length, const double mn[2], d
   memset(w, 0, 4 * sizeof(double));
   for (int q = 0; q < 2; q++) {
     const double s = q ? 1.0 - GAUSS : GAUSS, n0 = 1.0 - s, n1 = s;
-    const double in = -theta * 0.5 * length * fmin(n0 * mn[0] + n1 * mn[1], 0.0);
+    const double flux = n0 * mn[0] + n1 * mn[1], in = flux < 0.0 ? -theta * 0.5 * length * flux : 0.0;
     w[0][0] += in * n0 * n0;
     w[0][1] += in * n0 * n1;
     w[1][1] += in * n1 * n1;
@@ -88,29 +88,28 @@ typedef struct {
 } FaceSide;
 
 /* Interior face, what both components share: rows of K.  own: block (K, K), added to; other: block (K, N),
- * written.  inflow as FaceInflow. */
+ * written.  inflow as FaceInflow.  With k->a and k->b known to the compiler own stays in registers. */
 static inline void ScalarFace(const FaceGeometry *face, const FaceSide *k, const FaceSide *nb,
                               double inflow[2][2], double own[9], double other[9])
 {
-  const double quarter = 0.25 * face->length, eta = k->eta + nb->eta;
-  const int rows[2] = {k->a, k->b}, cols[2] = {nb->a, nb->b};
-  double gk[3], gn[3];
+  const double quarter = 0.25 * face->length, penalty = (k->eta + nb->eta) * face->length / 6.0;
+  const int row[3] = {k->a, k->b, 3 - k->a - k->b}, col[3] = {nb->a, nb->b, 3 - nb->a - nb->b};
+  double gk[3], gn[3]; /* a quarter of the tractions of the basis, in the order of row and col */
   for (int s = 0; s < 3; s++) {
-    gk[s] = quarter * k->mu * (k->e->g[s][0] * face->n[0] + k->e->g[s][1] * face->n[1]);
-    gn[s] = quarter * nb->mu * (nb->e->g[s][0] * face->n[0] + nb->e->g[s][1] * face->n[1]);
+    gk[s] = quarter * k->mu * (k->e->g[row[s]][0] * face->n[0] + k->e->g[row[s]][1] * face->n[1]);
+    gn[s] = quarter * nb->mu * (nb->e->g[col[s]][0] * face->n[0] + nb->e->g[col[s]][1] * face->n[1]);
   }
-  memset(other, 0, 9 * sizeof(double));
-  for (int r = 0; r < 2; r++) {
-    for (int s = 0; s < 3; s++) {
-      own[3 * s + rows[r]] -= gk[s];
-      own[3 * rows[r] + s] -= gk[s];
-      other[3 * s + rows[r]] -= gn[s];
-      other[3 * cols[r] + s] += gk[s];
-    }
-    for (int q = 0; q < 2; q++) {
-      const double v = eta * face->length / 6.0 * (r == q ? 2.0 : 1.0) + inflow[r][q];
-      own[3 * rows[q] + rows[r]] += v;
-      other[3 * cols[q] + rows[r]] -= v;
+  for (int q = 0; q < 3; q++) {
+    double *column = other + 3 * col[q];
+    for (int r = 0; r < 3; r++) {
+      double o = (r < 2 ? gk[q] : 0.0) + (q < 2 ? gk[r] : 0.0),
+             n = (q < 2 ? gk[r] : 0.0) - (r < 2 ? gn[q] : 0.0);
+      if (r < 2 && q < 2) {
+        const double v = penalty * (r == q ? 2.0 : 1.0) + inflow[r][q];
+        o -= v, n -= v;
+      }
+      own[3 * row[q] + row[r]] -= o;
+      column[row[r]] = n;
     }
   }
 }
@@ -141,31 +140,6 @@ static inline void ScalarBlockAdd(const double block[9], const double u[6], Elem
     memcpy(&column, block + 3 * j, sizeof column);
     r->c[0] += column * u[j];
     r->c[1] += column * u[3 + j];
-  }
-}
-
-/* The same in single precision, for preconditioners: half of the memory. */
-typedef float SingleLanes __attribute__((vector_size(16)));
-
-static inline void ScalarBlockAddSingle(const float block[9], const double u[6], ElementVector *r)
-{
-  for (int j = 0; j < 3; j++) {
-    SingleLanes column;
-    memcpy(&column, block + 3 * j, sizeof column);
-    const Lanes wide = __builtin_convertvector(column, Lanes);
-    r->c[0] += wide * u[j];
-    r->c[1] += wide * u[3 + j];
-  }
-}
-
-static inline void ScalarBlockSubtractSingle(const float block[9], const double u[6], ElementVector *r)
-{
-  for (int j = 0; j < 3; j++) {
-    SingleLanes column;
-    memcpy(&column, block + 3 * j, sizeof column);
-    const Lanes wide = __builtin_convertvector(column, Lanes);
-    r->c[0] -= wide * u[j];
-    r->c[1] -= wide * u[3 + j];
   }
 }
 

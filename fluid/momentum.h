@@ -3,7 +3,8 @@
  *   [rho M/dt + theta L + a] u* = [rho M/dt - (1 - theta) L] u^n + M (rho g - grad p + source) + s
  *
  * L is upwind advection by a mass flux and the viscous stress (kernels.h); a and s are the solid's coupling.
- * Assembled in one pass over the elements, solved by GMRES (prefix momentum_). */
+ * Assembled in one pass over the elements, solved by GMRES (prefix momentum_)
+ * until the preconditioned residual is 1e-5 of the velocity (-momentum_ksp_rtol). */
 #ifndef FLUID_MOMENTUM_H
 #define FLUID_MOMENTUM_H
 #include "fluid/domain.h"
@@ -26,6 +27,7 @@ typedef struct {
   double t, dt;      /* from t to t + dt, s */
   const double *rho; /* [ne + ng] density of inertia and weight, kg/m3 */
   const double *mu;  /* [ne + ng] Pa s */
+  int revision;      /* of rho and mu; 0: they have always been these */
   Vec mass_flux;     /* m = rho beta at t + theta dt, kg/(m2 s); on a face the mean of its two sides counts */
   Vec u, p;          /* u^n, m/s; pressure on P2 nodes, Pa */
   SolidCoupling solid;

@@ -30,25 +30,62 @@ static double InterfacePenalty(const MomentumStep *step, int e, int nb, double a
   return INTERFACE_PENALTY * fmin(a, b) * sqrt(fmin(area, other)) / step->dt;
 }
 
-/* Interior face i of element e: its scalar blocks. */
-static void AssembleInterior(MomentumSolver s, const MomentumStep *step, int e, int i, const double flux[],
-                             double own[9], double other[9])
+/* Both sides of interior face i of element e; the other one, seen from e, runs backwards. */
+static inline void Sides(MomentumSolver s, const double mu[], int e, int i, FaceSide *k, FaceSide *o)
 {
   const FluidDomain *d = s->domain;
-  const double theta = s->setup.theta;
   const int nb = d->mesh->neighbor[3 * e + i], j = d->mesh->neighbor_face[3 * e + i];
-  const FaceGeometry *face = d->geometry[e].face + i;
-  const FaceSide k = FaceSideOf(d, step->mu, e, i, theta, PENALTY_INTERIOR);
-  FaceSide o = FaceSideOf(d, step->mu, nb, j, theta, PENALTY_INTERIOR);
+  *k = FaceSideOf(d, mu, e, i, s->setup.theta, PENALTY_INTERIOR);
+  *o = FaceSideOf(d, mu, nb, j, s->setup.theta, PENALTY_INTERIOR);
+  const int swap = o->a;
+  o->a = o->b, o->b = swap;
+}
+
+/* Viscous stress and penalty of interior face i of element e. */
+static inline __attribute__((always_inline)) void
+AssembleViscous(MomentumSolver s, const MomentumStep *step, int e, int i, double own[9], double other[9])
+{
+  const FluidDomain *d = s->domain;
+  const int nb = d->mesh->neighbor[3 * e + i];
+  double none[2][2] = {{0}};
+  FaceSide k, o;
+  if (nb < 0) return;
+  Sides(s, step->mu, e, i, &k, &o);
+  o.eta += s->setup.theta * InterfacePenalty(step, e, nb, d->geometry[e].area, d->geometry[nb].area);
+  ScalarFace(d->geometry[e].face + i, &k, &o, none, own, other);
+}
+
+/* Of all interior faces of element e.  The face's number is a constant to the compiler in each of three copies. */
+static void AssembleFaces(MomentumSolver s, const MomentumStep *step, int e, double block[4][9])
+{
+  double own[9] = {0};
+  AssembleViscous(s, step, e, 0, own, block[1]);
+  AssembleViscous(s, step, e, 1, own, block[2]);
+  AssembleViscous(s, step, e, 2, own, block[3]);
+  memcpy(block[0], own, sizeof own);
+}
+
+/* What flows in through interior face i of element e, upwind. */
+static inline void AssembleInflow(MomentumSolver s, const double mu[], int e, int i, const double flux[],
+                                  double block[4][9])
+{
+  const FaceGeometry *face = s->domain->geometry[e].face + i;
+  const int nb = s->domain->mesh->neighbor[3 * e + i];
+  double mn[2], inflow[2][2];
+  FaceSide k, o;
+  if (nb < 0) return;
   const double *mk = flux + 6 * e, *mo = flux + 6 * nb;
-  double mn[2], inflow[2][2] = {{0}};
-  o.eta += theta * InterfacePenalty(step, e, nb, d->geometry[e].area, d->geometry[nb].area);
-  const int swap = o.a;
-  o.a = o.b, o.b = swap; /* seen from the other side the face runs backwards */
+  Sides(s, mu, e, i, &k, &o);
   mn[0] = 0.5 * (face->n[0] * (mk[k.a] + mo[o.a]) + face->n[1] * (mk[3 + k.a] + mo[3 + o.a]));
   mn[1] = 0.5 * (face->n[0] * (mk[k.b] + mo[o.b]) + face->n[1] * (mk[3 + k.b] + mo[3 + o.b]));
-  if (mn[0] < 0.0 || mn[1] < 0.0) FaceInflow(theta, face->length, mn, inflow);
-  ScalarFace(face, &k, &o, inflow, own, other);
+  if (mn[0] >= 0.0 && mn[1] >= 0.0) return;
+  FaceInflow(s->setup.theta, face->length, mn, inflow);
+  const int row[2] = {k.a, k.b}, col[2] = {o.a, o.b};
+  for (int q = 0; q < 2; q++)
+    for (int r = 0; r < 2; r++) {
+      block[0][3 * row[q] + row[r]] += inflow[r][q];
+      block[1 + i][3 * col[q] + row[r]] -= inflow[r][q];
+    }
 }
 
 /* Boundary face i of element e: the dense block and the load; false where it is open and nothing comes in.  What comes in
@@ -147,26 +184,47 @@ static PetscBool AssembleSolid(MomentumSolver s, const MomentumStep *step, int e
   return PETSC_TRUE;
 }
 
+/* Scalar blocks of element e, but for boundary faces. */
+static void AssembleScalar(MomentumSolver s, const MomentumStep *step, int e, const double flux[])
+{
+  double(*block)[9] = s->op.block[e], *volume = s->op.volume[e];
+  if (s->faces)
+    memcpy(block, s->faces[e], sizeof s->faces[e]);
+  else
+    AssembleFaces(s, step, e, block);
+  ScalarVolume(s->domain->geometry + e, step->rho[e] / step->dt, s->setup.theta, s->op.theta_mu[e],
+               flux + 6 * e, volume);
+  for (int k = 0; k < 9; k++) block[0][k] += volume[k];
+  for (int i = 0; i < 3; i++) AssembleInflow(s, step->mu, e, i, flux, block);
+}
+
+/* The faces' blocks are kept while the viscosity is that of the beginning. */
+static PetscErrorCode KeepFaces(MomentumSolver s, const MomentumStep *step)
+{
+  const int ne = s->domain->mesh->ne;
+  PetscFunctionBeginUser;
+  if (step->revision > 0) PetscCall(PetscFree(s->faces));
+  if (step->revision > 0 || s->faces) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc1(ne, &s->faces));
+  for (int e = 0; e < ne; e++) AssembleFaces(s, step, e, s->faces[e]);
+  PetscFunctionReturn(0);
+}
+
 /* Blocks and load of element e. */
 static PetscErrorCode AssembleElement(MomentumSolver s, const MomentumStep *step, int e, const double flux[],
                                       const double u[6], const double p[], double load[6])
 {
   const FluidDomain *d = s->domain;
-  double(*block)[9] = s->op.block[e], dense[36] = {0};
+  const double diffusion = s->op.theta_mu[e] * step->dt / (step->rho[e] * d->geometry[e].area);
+  double dense[36] = {0};
   PetscBool has_dense = PETSC_FALSE;
   PetscFunctionBeginUser;
   memset(load, 0, 6 * sizeof *load);
-  s->op.diffusion =
-      fmax(s->op.diffusion, s->op.theta_mu[e] * step->dt / (step->rho[e] * d->geometry[e].area));
-  ScalarVolume(d->geometry + e, step->rho[e] / step->dt, s->setup.theta, s->op.theta_mu[e], flux + 6 * e,
-               block[0]);
-  PetscCall(PetscArraycpy(s->op.volume[e], block[0], 9));
-  for (int i = 0; i < 3; i++) {
-    if (d->mesh->neighbor[3 * e + i] >= 0)
-      AssembleInterior(s, step, e, i, flux, block[0], block[1 + i]);
-    else if (AssembleBoundary(s, step, e, i, flux + 6 * e, dense, load))
+  if (diffusion > s->op.diffusion) s->op.diffusion = diffusion;
+  AssembleScalar(s, step, e, flux);
+  for (int i = 0; i < 3; i++)
+    if (d->mesh->neighbor[3 * e + i] < 0 && AssembleBoundary(s, step, e, i, flux + 6 * e, dense, load))
       has_dense = PETSC_TRUE;
-  }
   ElementLoad(s, step, e, p, load);
   ElementInertia(s, step, e, u, load);
   if (AssembleSolid(s, step, e, u, dense, load)) has_dense = PETSC_TRUE;
@@ -181,6 +239,7 @@ PetscErrorCode MomentumAssemble(MomentumSolver s, const MomentumStep *step)
   PetscScalar *load;
   Vec flux_local, p_local;
   PetscFunctionBeginUser;
+  PetscCall(KeepFaces(s, step));
   s->op.ndense = 0;
   s->op.diffusion = 0.0;
   for (int e = 0; e < m->ne + m->ng; e++) s->op.theta_mu[e] = s->setup.theta * step->mu[e];

@@ -4,12 +4,15 @@
 #include "fluid/momentum.h"
 #include "fluid/momentum_operator.h"
 #include "fluid/preconditioner.h"
+#include "fluid/single_operator.h"
 
 struct MomentumSolver_s {
   const FluidDomain *domain; /* borrowed */
   MomentumSetup setup;
   MomentumOperator op;
-  Mat matrix; /* MATSHELL of op */
+  ScalarBlocks *faces; /* [ne] what viscosity makes of interior faces; NULL while it varies */
+  SingleOperator single;
+  Mat matrix; /* MATSHELL of single */
   Vec load, product, sum;
   KSP ksp;
   PetscReal tolerance; /* relative, of the velocity */

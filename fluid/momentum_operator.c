@@ -53,8 +53,7 @@ PetscErrorCode MomentumOperatorAddDense(MomentumOperator *op, int e, const doubl
   PetscFunctionReturn(0);
 }
 
-/* y += D x */
-static void ApplyDense(const MomentumOperator *op, const double x[], double y[])
+void MomentumOperatorApplyDense(const MomentumOperator *op, const double x[], double y[])
 {
   for (int k = 0; k < op->ndense; k++) {
     const double *d = op->dense[k], *from = x + 6 * op->dense_element[k];
@@ -72,8 +71,7 @@ static void Stresses(const MomentumOperator *op, const double x[])
     CoupledStress(op->domain->geometry[e].g, op->theta_mu[e], x + 6 * e, op->stress[e]);
 }
 
-/* *local: x with its ghosts; x itself on one rank. */
-static PetscErrorCode GetGhosted(MomentumOperator *op, Vec x, Vec *local)
+PetscErrorCode MomentumOperatorGetGhosted(MomentumOperator *op, Vec x, Vec *local)
 {
   PetscFunctionBeginUser;
   *local = x;
@@ -85,6 +83,13 @@ static PetscErrorCode GetGhosted(MomentumOperator *op, Vec x, Vec *local)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode MomentumOperatorRestoreGhosted(MomentumOperator *op, Vec *local)
+{
+  PetscFunctionBeginUser;
+  if (!op->alone) PetscCall(VecGhostRestoreLocalForm(op->ghosted, local));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode MomentumOperatorApply(MomentumOperator *op, Vec x, Vec y)
 {
   const Mesh *m = op->domain->mesh;
@@ -92,7 +97,7 @@ PetscErrorCode MomentumOperatorApply(MomentumOperator *op, Vec x, Vec y)
   PetscScalar *v;
   Vec local;
   PetscFunctionBeginUser;
-  PetscCall(GetGhosted(op, x, &local));
+  PetscCall(MomentumOperatorGetGhosted(op, x, &local));
   PetscCall(VecGetArrayRead(local, &u));
   PetscCall(VecGetArrayWrite(y, &v));
   Stresses(op, u);
@@ -113,9 +118,9 @@ PetscErrorCode MomentumOperatorApply(MomentumOperator *op, Vec x, Vec y)
     ElementVectorStore(&scalar, v + 6 * e);
     for (int k = 0; k < 6; k++) v[6 * e + k] += r[k];
   }
-  ApplyDense(op, u, v);
+  MomentumOperatorApplyDense(op, u, v);
   PetscCall(VecRestoreArrayWrite(y, &v));
   PetscCall(VecRestoreArrayRead(local, &u));
-  if (!op->alone) PetscCall(VecGhostRestoreLocalForm(op->ghosted, &local));
+  PetscCall(MomentumOperatorRestoreGhosted(op, &local));
   PetscFunctionReturn(0);
 }

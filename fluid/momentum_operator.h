@@ -10,7 +10,7 @@
  *     D   6 x 6 blocks of few elements: dense[k] of element dense_element[k], less the mean of its xx and yy parts,
  *         which S has
  *
- * 288 bytes an element instead of 1152, and half of the multiplications. */
+ * The Krylov iteration multiplies with its copy in single precision (single_operator.h). */
 #ifndef FLUID_MOMENTUM_OPERATOR_H
 #define FLUID_MOMENTUM_OPERATOR_H
 #include "fluid/domain.h"
@@ -39,4 +39,9 @@ PetscErrorCode MomentumOperatorDestroy(MomentumOperator *op);
 PetscErrorCode MomentumOperatorAddDense(MomentumOperator *op, int e, const double block[36]);
 /* y = A x.  Collective. */
 PetscErrorCode MomentumOperatorApply(MomentumOperator *op, Vec x, Vec y);
+/* y += D x, [ne][2][3].  Not collective. */
+void MomentumOperatorApplyDense(const MomentumOperator *op, const double x[], double y[]);
+/* *local: x with its ghosts (x itself on one rank), until it is restored.  Collective. */
+PetscErrorCode MomentumOperatorGetGhosted(MomentumOperator *op, Vec x, Vec *local);
+PetscErrorCode MomentumOperatorRestoreGhosted(MomentumOperator *op, Vec *local);
 #endif

@@ -1,75 +1,94 @@
 #include "fluid/preconditioner.h"
 #include "fluid/continuous_space.h"
 
-typedef float SingleBlocks[4][9];
-
 struct Preconditioner_s {
   MomentumOperator *op; /* borrowed */
-  SingleBlocks *block;  /* [ne + 1] S in single precision, block[e][0] inverted; the last is only read over */
+  SingleBlocks
+      *block; /* [ne + 1] S_ee^-1, then -S_ee^-1 S_en of the neighbours; the last is only read over */
+  SingleVector *start; /* [ne] S_ee^-1 r_e */
+  SingleVector *z;     /* [ne + ng] */
   ContinuousSpace coarse;
   PetscBool corrects; /* in the current step */
-  Vec work;           /* z with its ghosts */
+  Vec ghosted;        /* z with its ghosts, where there are other ranks */
 };
 
-/* z_e = S_ee^-1 (r_e - sum of S_en z_n over neighbours n below `below`) */
-static inline void Relax(const Preconditioner p, int e, int below, const double r[], double z[])
+/* z_e = S_ee^-1 (r_e - sum of S_en z_n over neighbours n below `below`).  Each neighbour has a sum of its own: the last one met is known last. */
+static inline void Relax(const Preconditioner p, int e, int below)
 {
   const int *neighbor = p->op->domain->mesh->neighbor + 3 * e;
-  ElementVector rest, solved = {{{0}, {0}}};
-  double value[6];
-  ElementVectorLoad(r + 6 * e, &rest);
+  SinglePair sum[3] = {{{{0}, {0}}}, {{{0}, {0}}}, {{{0}, {0}}}}, z;
+  SingleLoad(p->start[e], &z);
   for (int i = 0; i < 3; i++)
     if (neighbor[i] >= 0 && neighbor[i] < below)
-      ScalarBlockSubtractSingle(p->block[e][1 + i], z + 6 * neighbor[i], &rest);
-  ElementVectorStore(&rest, value);
-  ScalarBlockAddSingle(p->block[e][0], value, &solved);
-  ElementVectorStore(&solved, z + 6 * e);
+      SingleBlockAdd(p->block[e][1 + i], p->z[neighbor[i]], sum + i);
+  for (int c = 0; c < 2; c++) z.c[c] += (sum[0].c[c] + sum[1].c[c]) + sum[2].c[c];
+  SingleStore(&z, p->z[e]);
+}
+
+static inline void Start(const Preconditioner p, int e, const double r[])
+{
+  SingleVector from;
+  SinglePair start = {{{0}, {0}}};
+  SingleFromDouble(r + 6 * e, from);
+  SingleBlockAdd(p->block[e][0], from, &start);
+  SingleStore(&start, p->start[e]);
 }
 
 static PetscErrorCode UpdateGhosts(Preconditioner p)
 {
+  const Mesh *m = p->op->domain->mesh;
+  PetscScalar *v;
+  Vec local;
   PetscFunctionBeginUser;
   if (p->op->alone) PetscFunctionReturn(0);
-  PetscCall(VecGhostUpdateBegin(p->work, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostUpdateEnd(p->work, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGetArray(p->ghosted, &v));
+  for (int e = 0; e < m->ne; e++) SingleToDouble(p->z[e], v + 6 * e);
+  PetscCall(VecRestoreArray(p->ghosted, &v));
+  PetscCall(VecGhostUpdateBegin(p->ghosted, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostUpdateEnd(p->ghosted, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostGetLocalForm(p->ghosted, &local));
+  PetscCall(VecGetArray(local, &v));
+  for (int e = m->ne; e < m->ne + m->ng; e++) SingleFromDouble(v + 6 * e, p->z[e]);
+  PetscCall(VecRestoreArray(local, &v));
+  PetscCall(VecGhostRestoreLocalForm(p->ghosted, &local));
   PetscFunctionReturn(0);
 }
 
-/* r[ne][2][3], z[ne + ng][2][3]: the array of p->work. */
+/* z ~ S^-1 r, both [ne][2][3] */
 static PetscErrorCode Precondition(Preconditioner p, const double r[], double z[])
 {
   const Mesh *m = p->op->domain->mesh;
+  const int all = m->ne + m->ng;
   PetscFunctionBeginUser;
   if (p->corrects) {
-    PetscCall(PetscArrayzero(z, 6 * m->ne));
-    PetscCall(ContinuousSpaceCorrect(p->coarse, r, z));
+    PetscCall(ContinuousSpaceCorrect(p->coarse, r, p->z));
     PetscCall(UpdateGhosts(p));
   }
-  for (int e = 0; e < m->ne; e++) Relax(p, e, p->corrects ? m->ne + m->ng : e, r, z);
+  for (int e = 0; e < m->ne; e++) {
+    Start(p, e, r);
+    Relax(p, e, p->corrects ? all : e);
+  }
   PetscCall(UpdateGhosts(p));
-  for (int e = m->ne - 1; e >= 0; e--) Relax(p, e, m->ne + m->ng, r, z);
+  for (int e = m->ne - 1; e >= 0; e--) {
+    Relax(p, e, all);
+    SingleToDouble(p->z[e], z + 6 * e);
+  }
   PetscFunctionReturn(0);
 }
 
-/* PCSHELL.  On one rank z itself takes the place of p->work. */
+/* PCSHELL. */
 static PetscErrorCode Apply(PC shell, Vec r, Vec z)
 {
   Preconditioner p;
   const PetscScalar *from;
   PetscScalar *to;
-  Vec local = z;
   PetscFunctionBeginUser;
   PetscCall(PCShellGetContext(shell, &p));
   PetscCall(VecGetArrayRead(r, &from));
-  if (!p->op->alone) PetscCall(VecGhostGetLocalForm(p->work, &local));
-  PetscCall(VecGetArray(local, &to));
-  double *array = to; /* stays where it is while ghosts are updated */
-  PetscCall(VecRestoreArray(local, &to));
-  PetscCall(Precondition(p, from, array));
+  PetscCall(VecGetArrayWrite(z, &to));
+  PetscCall(Precondition(p, from, to));
+  PetscCall(VecRestoreArrayWrite(z, &to));
   PetscCall(VecRestoreArrayRead(r, &from));
-  if (p->op->alone) PetscFunctionReturn(0);
-  PetscCall(VecGhostRestoreLocalForm(p->work, &local));
-  PetscCall(VecCopy(p->work, z));
   PetscFunctionReturn(0);
 }
 
@@ -81,8 +100,9 @@ PetscErrorCode PreconditionerCreate(MomentumOperator *op, KSP ksp, Preconditione
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&p));
   p->op = op;
-  PetscCall(PetscMalloc1(m->ne + 1, &p->block));
-  PetscCall(VecDuplicate(op->ghosted, &p->work));
+  PetscCall(PetscCalloc1(m->ne + 1, &p->block));
+  PetscCall(PetscMalloc2(m->ne, &p->start, m->ne + m->ng, &p->z));
+  if (!op->alone) PetscCall(VecDuplicate(op->ghosted, &p->ghosted));
   PetscCall(KSPGetPC(ksp, &shell));
   PetscCall(PCSetType(shell, PCSHELL));
   PetscCall(PCShellSetName(shell, "relaxation and continuous functions"));
@@ -92,8 +112,8 @@ PetscErrorCode PreconditionerCreate(MomentumOperator *op, KSP ksp, Preconditione
   PetscFunctionReturn(0);
 }
 
-/* The scalar operator in single precision, its diagonal blocks inverted. */
-static void CopyBlocks(Preconditioner p)
+/* The blocks that Relax needs. */
+static void SetBlocks(Preconditioner p)
 {
   const Mesh *m = p->op->domain->mesh;
   for (int e = 0; e < m->ne; e++) {
@@ -101,8 +121,9 @@ static void CopyBlocks(Preconditioner p)
     double inverse[9];
     ScalarBlockInvert(from[0], inverse);
     for (int k = 0; k < 9; k++) p->block[e][0][k] = (float)inverse[k];
+    for (int k = 0; k < 9; k++) inverse[k] = -inverse[k];
     for (int i = 1; i < 4; i++)
-      for (int k = 0; k < 9 && m->neighbor[3 * e + i - 1] >= 0; k++) p->block[e][i][k] = (float)from[i][k];
+      if (m->neighbor[3 * e + i - 1] >= 0) SingleBlockProduct(inverse, from[i], p->block[e][i]);
   }
 }
 
@@ -111,7 +132,7 @@ PetscErrorCode PreconditionerUpdate(Preconditioner p)
   const Mesh *m = p->op->domain->mesh;
   double diffusion = p->op->diffusion;
   PetscFunctionBeginUser;
-  CopyBlocks(p);
+  SetBlocks(p);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &diffusion, 1, MPI_DOUBLE, MPI_MAX, m->comm));
   p->corrects = (PetscBool)(diffusion >= DIFFUSION_COARSE);
   if (!p->corrects) PetscFunctionReturn(0);
@@ -127,8 +148,9 @@ PetscErrorCode PreconditionerDestroy(Preconditioner *preconditioner)
   PetscFunctionBeginUser;
   if (!p) PetscFunctionReturn(0);
   PetscCall(ContinuousSpaceDestroy(&p->coarse));
-  PetscCall(VecDestroy(&p->work));
+  PetscCall(VecDestroy(&p->ghosted));
   PetscCall(PetscFree(p->block));
+  PetscCall(PetscFree2(p->start, p->z));
   PetscCall(PetscFree(*preconditioner));
   PetscFunctionReturn(0);
 }

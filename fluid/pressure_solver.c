@@ -3,19 +3,23 @@
 #include "fluid/solver_options.h"
 #include <math.h>
 
-#define DIRECT_MAX 400000       /* nodes times ranks, up to which a factor is made for a matrix that stays */
-#define VELOCITY_TOLERANCE 1e-8 /* -pressure_varying_ksp_rtol chooses another one */
+#define DIRECT_MAX 400000 /* nodes times ranks, up to which a factor is made for a matrix that stays */
+#define TOLERANCE                                                                                            \
+  1e-8 /* of the velocity that the pressure makes; -pressure_varying_ksp_rtol chooses another one */
+#define OF_VELOCITY 100 /* times that: of the whole velocity */
 
 struct PressureSolver_s {
   const FluidDomain *domain;  /* borrowed */
   const char *is_fixed;       /* borrowed */
   PetscBool closed, iterates; /* with the present matrix */
   Mat matrix;
+  double (*block)[36]; /* [ne], and the fixed nodes' diagonal behind them */
   PetscInt nfixed;
   KSP direct, iterative; /* made when used first */
   PressurePreconditioner preconditioner;
+  PetscInt direct_max; /* nodes times ranks, up to which a factor is made for a matrix that stays */
   double contrast;     /* square root of the largest ratio of the coefficient */
-  PetscReal tolerance; /* of the velocity, relative */
+  PetscReal tolerance; /* relative */
 };
 
 static PetscBool HasFirstNode(PressureSolver s)
@@ -70,7 +74,7 @@ static PetscErrorCode CreateIterative(PressureSolver s)
   PetscCall(KSPSetOperators(s->iterative, s->matrix, s->matrix));
   PetscCall(
       PressurePreconditionerCreate(s->domain, s->is_fixed, s->closed, s->iterative, &s->preconditioner));
-  PetscCall(KSPSetTolerances(s->iterative, VELOCITY_TOLERANCE, 1e-50, 1e5, 500));
+  PetscCall(KSPSetTolerances(s->iterative, TOLERANCE, 1e-50, 1e5, 500));
   PetscCall(KSPSetFromOptions(s->iterative));
   PetscCall(KSPGetTolerances(s->iterative, &s->tolerance, NULL, NULL, NULL));
   PetscFunctionReturn(0);
@@ -85,7 +89,10 @@ PetscErrorCode PressureSolverCreate(const FluidDomain *domain, const char is_fix
   s->domain = domain;
   s->is_fixed = is_fixed;
   s->closed = closed;
+  s->direct_max = DIRECT_MAX;
+  PetscCall(PetscOptionsGetInt(NULL, "pressure_", "-direct_max", &s->direct_max, NULL));
   PetscCall(CreateMatrix(s));
+  PetscCall(PetscMalloc1(domain->mesh->ne + s->nfixed / 36 + 1, &s->block));
   *solver = s;
   PetscFunctionReturn(0);
 }
@@ -99,15 +106,14 @@ PetscErrorCode PressureSolverDestroy(PressureSolver *solver)
   PetscCall(KSPDestroy(&s->iterative));
   PetscCall(PressurePreconditionerDestroy(&s->preconditioner));
   PetscCall(MatDestroy(&s->matrix));
+  PetscCall(PetscFree(s->block));
   PetscCall(PetscFree(*solver));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PressureSolverGetBlocks(PressureSolver s, double (**block)[36])
+double (*PressureSolverBlocks(PressureSolver s))[36]
 {
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(s->domain->mesh->ne + s->nfixed / 36 + 1, block));
-  PetscFunctionReturn(0);
+  return s->block;
 }
 
 /* Constants: the null space for CG; where there is none, phi = 0 in the first node for consistent right-hand
@@ -141,8 +147,9 @@ static PetscErrorCode SetContrast(PressureSolver s, const double block[][36])
 }
 
 /* CG for the matrix as it is now. */
-static PetscErrorCode PrepareIterative(PressureSolver s, const double block[][36])
+static PetscErrorCode PrepareIterative(PressureSolver s)
 {
+  const double(*block)[36] = (const double(*)[36])s->block;
   PetscFunctionBeginUser;
   if (!s->iterative) PetscCall(CreateIterative(s));
   PetscCall(SetContrast(s, block));
@@ -150,22 +157,21 @@ static PetscErrorCode PrepareIterative(PressureSolver s, const double block[][36
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PressureSolverSetMatrix(PressureSolver s, PetscBool varying, double (**block)[36])
+PetscErrorCode PressureSolverSetMatrix(PressureSolver s, PetscBool varying)
 {
-  double *extra = (*block)[s->domain->mesh->ne];
+  double *extra = s->block[s->domain->mesh->ne];
   PetscMPIInt ranks;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_size(s->domain->mesh->comm, &ranks));
-  s->iterates = (PetscBool)(varying || s->domain->p2->nglobal > DIRECT_MAX / ranks);
+  s->iterates = (PetscBool)(varying || s->domain->p2->nglobal > s->direct_max / ranks);
   for (int k = 0; k < s->nfixed; k++) extra[k] = 1.0;
-  if (HasFirstNode(s)) extra[s->nfixed] = s->iterates ? 0.0 : (*block)[0][0];
-  PetscCall(MatSetValuesCOO(s->matrix, (*block)[0], INSERT_VALUES));
+  if (HasFirstNode(s)) extra[s->nfixed] = s->iterates ? 0.0 : s->block[0][0];
+  PetscCall(MatSetValuesCOO(s->matrix, s->block[0], INSERT_VALUES));
   PetscCall(SetNullSpace(s));
   if (s->iterates)
-    PetscCall(PrepareIterative(s, (const double(*)[36]) * block));
+    PetscCall(PrepareIterative(s));
   else if (!s->direct)
     PetscCall(CreateDirect(s));
-  PetscCall(PetscFree(*block));
   PetscFunctionReturn(0);
 }
 
@@ -173,8 +179,8 @@ static PetscErrorCode Iterate(PressureSolver s, const PressureProblem *problem, 
 {
   const double tolerance = s->tolerance / s->contrast;
   PetscFunctionBeginUser;
-  PetscCall(
-      KSPSetTolerances(s->iterative, tolerance, tolerance * problem->size, PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscCall(KSPSetTolerances(s->iterative, tolerance, OF_VELOCITY * tolerance * problem->size, PETSC_DEFAULT,
+                             PETSC_DEFAULT));
   PetscCall(SolverSolve(s->iterative, "pressure", problem->t, problem->rhs, phi, iterations));
   PetscCall(PressurePreconditionerCount(s->preconditioner, *iterations));
   PetscFunctionReturn(0);

@@ -6,7 +6,7 @@
  *               pressure_varying_)
  *
  * CG stops when what is left changes the velocity by less than 1e-8 (-pressure_varying_ksp_rtol) of what the
- * pressure changes in it, or, if allowed, of the velocity.  Where the domain is closed the pressure is known up to a
+ * pressure changes in it, or, if allowed, by less than a hundred times that of the velocity.  Where the domain is closed the pressure is known up to a
  * constant: the direct solver fixes the first node, CG works with the null space. */
 #ifndef FLUID_PRESSURE_SOLVER_H
 #define FLUID_PRESSURE_SOLVER_H
@@ -26,10 +26,11 @@ typedef struct {
 PetscErrorCode PressureSolverCreate(const FluidDomain *domain, const char is_fixed[], PetscBool closed,
                                     PressureSolver *s);
 PetscErrorCode PressureSolverDestroy(PressureSolver *s);
-/* *block[ne][6][6], to be filled with the elements' contributions before PressureSolverSetMatrix. */
-PetscErrorCode PressureSolverGetBlocks(PressureSolver s, double (**block)[36]);
-/* The matrix is the sum of the blocks, which are void then; varying: it will be another one soon. */
-PetscErrorCode PressureSolverSetMatrix(PressureSolver s, PetscBool varying, double (**block)[36]);
+/* block[ne][6][6], the elements' contributions: to be filled before PressureSolverSetMatrix, and kept until the next.  Not
+ * collective. */
+double (*PressureSolverBlocks(PressureSolver s))[36];
+/* The matrix is the sum of the blocks; varying: it will be another one soon. */
+PetscErrorCode PressureSolverSetMatrix(PressureSolver s, PetscBool varying);
 PetscErrorCode PressureSolverSolve(PressureSolver s, const PressureProblem *problem, Vec phi,
                                    int *iterations);
 #endif

@@ -12,6 +12,7 @@ struct ProjectionSolver_s {
   int *fixed;     /* local P2 nodes (owned) where phi = 0 */
   char *is_fixed; /* [n] of the P2 space */
   WeightedProjection weighted;
+  char *is_weighted; /* [ne] whose block has the solid's inertia */
 };
 
 /* mark[n] of the P2 space on this rank's nodes of open boundaries; *any: on any rank */
@@ -74,23 +75,31 @@ static void Stiffness(const ElementGeometry *g, const ProjectionStep *step, int 
     P2Stiffness(g->area, (const double(*)[2])g->g, 1.0 / step->rho[e], block);
 }
 
+/* The blocks of the step.  While the density stays only those change that have, or had, the solid's inertia. */
+static void SetBlocks(ProjectionSolver s, const ProjectionStep *step)
+{
+  const FluidDomain *d = s->domain;
+  double(*block)[36] = PressureSolverBlocks(s->solver);
+  const PetscBool all = (PetscBool)(s->revision != step->revision);
+  for (int e = 0; e < d->mesh->ne; e++) {
+    const PetscBool weighted = s->inertia && WeightedProjectionBlock(s->weighted, e, (double(*)[6])block[e]);
+    if (!weighted && (all || s->is_weighted[e])) Stiffness(d->geometry + e, step, e, (double(*)[6])block[e]);
+    s->is_weighted[e] = weighted;
+  }
+}
+
 /* The pressure's matrix for the step, if it is not the solver's already. */
 static PetscErrorCode Assemble(ProjectionSolver s, const ProjectionStep *step)
 {
-  const FluidDomain *d = s->domain;
   const WeightedProjectionStep weighted = {step->dt, step->rho, step->solid};
   PetscBool inertia;
-  double(*block)[36];
   PetscFunctionBeginUser;
   PetscCall(WeightedProjectionPrepare(s->weighted, &weighted, &inertia));
   const PetscBool current = (PetscBool)(s->revision == step->revision && !s->inertia);
   s->inertia = (PetscBool)(inertia && step->inertia);
   if (current && !s->inertia) PetscFunctionReturn(0);
-  PetscCall(PressureSolverGetBlocks(s->solver, &block));
-  for (int e = 0; e < d->mesh->ne; e++)
-    if (!s->inertia || !WeightedProjectionBlock(s->weighted, e, (double(*)[6])block[e]))
-      Stiffness(d->geometry + e, step, e, (double(*)[6])block[e]);
-  PetscCall(PressureSolverSetMatrix(s->solver, (PetscBool)(inertia || step->revision > 0), &block));
+  SetBlocks(s, step);
+  PetscCall(PressureSolverSetMatrix(s->solver, (PetscBool)(inertia || step->revision > 0)));
   s->revision = step->revision;
   PetscFunctionReturn(0);
 }
@@ -108,6 +117,7 @@ PetscErrorCode ProjectionSolverCreate(const FluidDomain *domain, Vec like, Proje
   PetscCall(FindFixed(s, &closed));
   PetscCall(PressureSolverCreate(domain, s->is_fixed, closed, &s->solver));
   PetscCall(WeightedProjectionCreate(domain, &s->weighted));
+  PetscCall(PetscCalloc1(domain->mesh->ne, &s->is_weighted));
   *solver = s;
   PetscFunctionReturn(0);
 }
@@ -122,6 +132,7 @@ PetscErrorCode ProjectionSolverDestroy(ProjectionSolver *solver)
   PetscCall(PressureSolverDestroy(&s->solver));
   PetscCall(PetscFree(s->fixed));
   PetscCall(PetscFree(s->is_fixed));
+  PetscCall(PetscFree(s->is_weighted));
   PetscCall(WeightedProjectionDestroy(&s->weighted));
   PetscCall(PetscFree(*solver));
   PetscFunctionReturn(0);

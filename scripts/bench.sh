@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # What a step costs.  Usage: scripts/bench.sh [--quick]
-#   the fluid alone from 10 000 to 300 000 triangles, and two ranks against one at 50 000;
+#   the fluid alone from 5 000 to 1 000 000 triangles (--quick: to 51 000) on one rank and on two: each phase in seconds and, in
+#   brackets, the fraction of them that its bytes would take at the memory's speed (tests/fluid/step_bytes.h);
 #   the falling cylinder's steps split into momentum, pressure, assembly, coupling, exchange and waiting.
 # Built for this processor (preset native).  Times are of this machine, now: compare ratios within one run, or with the
-# triad's bandwidth, which is printed first.
+# triad's bandwidth, which is printed first and which the fractions are of.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
@@ -12,14 +13,17 @@ cmake --preset native >/dev/null
 cmake --build --preset native -- --quiet
 export OPENBLAS_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 
-echo "-- memory"
-echo "triad $(build-native/tests/bench_stream) GB/s"
-echo "-- the fluid alone, one rank"
-sizes="0.0141 0.01 0.0063 0.00258"
-[ "${1:-}" = --quick ] && sizes="0.0141 0.0063"
-for h in $sizes; do build-native/tests/bench_fluid -h "$h" -steps 10; done
-echo "-- the same, two ranks"
-mpirun --oversubscribe --bind-to none -n 2 build-native/tests/bench_fluid -h 0.0063 -steps 10
+echo "-- $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo 2>/dev/null | head -1), $(nproc) cores, $(uptime | sed 's/.*load/load/')"
+triad=$(build-native/tests/bench_stream)
+echo "triad $triad GB/s on one core"
+sizes="0.02 0.0063 0.00258 0.00141"
+[ "${1:-}" = --quick ] && sizes="0.02 0.0063"
+for ranks in 1 2; do
+  echo "-- the fluid alone, ranks: $ranks"
+  for h in $sizes; do
+    mpirun --oversubscribe --bind-to none -n "$ranks" build-native/tests/bench_fluid -h "$h" -steps 10 -triad "$triad"
+  done
+done
 
 echo "-- the falling cylinder, 0.2 s, ranks 1:1:1"
 out=$(mktemp -d)
