@@ -47,8 +47,9 @@ static int OpenTag(const Step *t, int v)
 /* The fraction of phase p in what comes in at x through the boundary. */
 static double Inflow(const Step *t, int tag, const double x[2], int p)
 {
-  const PhasesLevel *level = t->inflow->level ? &t->inflow->level[tag] : NULL;
-  if (level && level->below.n[0] * x[0] + level->below.n[1] * x[1] < level->below.d) return p == level->phase;
+  const PhasesLevels *levels = t->inflow->levels ? &t->inflow->levels[tag] : NULL;
+  for (int k = 0; levels && k < levels->n; k++)
+    if (levels->normal[0] * x[0] + levels->normal[1] * x[1] < levels->d[k]) return p == levels->phase[k];
   return t->inflow->fraction[tag][p];
 }
 

@@ -37,8 +37,8 @@ static inline PetscErrorCode TankCreateOpen(int n, unsigned seed, double viscosi
     boundary[b].kind = BOUNDARY_FREE_SLIP;
     if (!open || (!side && strcmp(name, "top") != 0)) continue;
     boundary[b].kind = BOUNDARY_OPEN;
-    boundary[b].has_level = side;
-    boundary[b].level = level;
+    boundary[b].phases.nlevels = side;
+    boundary[b].phases.level[0] = level;
   }
   PetscCall(FluidCreate(t->mesh, &setup, &t->fluid));
   PetscCall(FluidSetPhases(t->fluid, nregions, region));
