@@ -30,12 +30,12 @@ static void ReadPhases(CoracleCase c, const char *key, const PhaseNames *names, 
   (void)snprintf(sub, sizeof sub, "%s.contact_angle", key);
   PhaseCasePairs(c, &angle, names, &b->contact_cosine);
   (void)snprintf(sub, sizeof sub, "%s.phase", key);
-  if (CoracleCaseHas(c, sub)) {
-    b->inflow[PhaseCaseIndex(c, sub, names)] = 1.0;
-    return;
-  }
+  const PetscBool single = CoracleCaseHas(c, sub) ? PETSC_TRUE : PETSC_FALSE;
+  if (single) b->inflow[PhaseCaseIndex(c, sub, names)] = 1.0;
   (void)snprintf(sub, sizeof sub, "%s.fractions", key);
-  if (CoracleCaseHas(c, sub)) ReadFractions(c, sub, names, b);
+  if (!CoracleCaseHas(c, sub)) return;
+  if (single) CoracleCaseRefuse(c, sub, "expected phase or fractions, not both");
+  ReadFractions(c, sub, names, b);
 }
 
 /* The layers of the list at key, from below. */
