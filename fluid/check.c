@@ -18,7 +18,8 @@ static const CoracleCaseKey KEYS[] = {
     {"fluid.phases[].density", "kg/m3", "its density"},
     {"fluid.phases[].viscosity", "Pa s", "its dynamic viscosity"},
     {"fluid.surface_tension", "N/m",
-     "of the interfaces between phases: a number for all, or a list; none if not given; not possible with solids yet"},
+     "of the interfaces between phases: a number for all, or a list; none if not given; not possible with "
+     "solids yet"},
     {"fluid.surface_tension[].between", "", "two phases"},
     {"fluid.surface_tension[].between[]", "", "a phase"},
     {"fluid.surface_tension[].value", "N/m", "surface tension between them; 0 for pairs that are not listed"},
