@@ -115,11 +115,13 @@ static PetscErrorCode VertexVelocity(Fluid f, double *mean[2], double weight[])
   PetscFunctionReturn(0);
 }
 
-/* With phases: the share of the velocity's error that counts at vertices in the lighter one. */
+/* With phases: the share of the velocity's error that counts at vertices in those lighter than the mean of all. */
 static PetscErrorCode WeighLightPhase(const AdaptationSetup *s, Fluid f, double *hessian[2], double weight[])
 {
   const Mesh *m = f->domain.mesh;
-  const double *rho = MaterialDensity(f->material, MATERIAL_NEW), *limit = f->setup.phases.rho;
+  const double *rho = MaterialDensity(f->material, MATERIAL_NEW);
+  const PhaseProperties *p = &f->setup.phases;
+  const double limit = 0.5 * (p->rho[PhaseLightest(p)] + p->rho[PhaseHeaviest(p)]);
   const double share = s->light_velocity_error > 0.0 ? s->velocity_error / s->light_velocity_error : 0.0;
   PetscFunctionBeginUser;
   if (!f->phases) PetscFunctionReturn(0);
@@ -127,8 +129,7 @@ static PetscErrorCode WeighLightPhase(const AdaptationSetup *s, Fluid f, double 
   for (int e = 0; e < m->ne + m->ng; e++)
     for (int i = 0; i < 3; i++) weight[m->vertex[3 * e + i]] = fmax(weight[m->vertex[3 * e + i]], rho[e]);
   for (int v = 0; v < m->nv; v++)
-    for (int k = 0; k < 6 && weight[v] < 0.5 * (limit[0] + limit[1]); k++)
-      hessian[k / 3][3 * v + k % 3] *= share;
+    for (int k = 0; k < 6 && weight[v] < limit; k++) hessian[k / 3][3 * v + k % 3] *= share;
   PetscFunctionReturn(0);
 }
 

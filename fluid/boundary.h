@@ -12,6 +12,7 @@
 #ifndef FLUID_BOUNDARY_H
 #define FLUID_BOUNDARY_H
 #include "common/mesh/mesh.h"
+#include "fluid/phases/phases.h"
 #include <petscsys.h>
 
 /* v: value(s) at x, m, and t, s */
@@ -23,6 +24,14 @@ typedef enum {
   BOUNDARY_OPEN       /* no viscous traction, hydrostatic pressure plus `pressure` */
 } BoundaryKind;
 
+/* What a boundary does to phases; all zero: the lightest comes in, and interfaces meet walls at 90 degrees. */
+typedef struct {
+  int nlevels, level_phase[PHASES_MAX]; /* where open: layers outside, from below, each up to a height */
+  double level[PHASES_MAX];             /* against gravity, m, rising; they come in below it */
+  double inflow[PHASES_MAX];            /* fractions of what else comes in, sum 1; all 0: the lightest */
+  PhasesPairs contact_cosine;           /* of contact angles, through the first phase of each pair */
+} BoundaryPhases;
+
 typedef struct {
   BoundaryKind kind;
   double velocity[2];        /* m/s */
@@ -30,11 +39,7 @@ typedef struct {
   double lower[2], upper[2]; /* that box, m; set by BoundaryBoxes */
   double rise;               /* s: until then velocity times (1 - cos(pi t/rise))/2; 0: at once */
   double pressure;           /* where open: above hydrostatic, Pa */
-  PetscBool has_level;       /* where open: the heavier of two phases stands outside up to */
-  double level;              /* this height against gravity, m, and comes in below it */
-  PetscBool has_phase;       /* which phase comes in is given; else it is the lightest */
-  int phase;
-  double contact_cosine;  /* of the contact angle, through the first phase; 0: 90 degrees */
+  BoundaryPhases phases;
   FieldFunction function; /* instead of velocity; NULL: none */
   void *context;
 } Boundary;

@@ -1,29 +1,87 @@
 #include "fluid/boundary_case.h"
 
-/* With phases: which one comes in through a boundary, and the contact angle there. */
-static void ReadPhases(CoracleCase c, const char *key, const PhaseNames *names, Boundary *b)
+static double CosineOfDegrees(double angle)
+{
+  return cos(angle * M_PI / 180.0);
+}
+
+/* Fractions of what comes in. */
+static void ReadFractions(CoracleCase c, const char *key, const PhaseNames *names, BoundaryPhases *b)
+{
+  char sub[224];
+  double sum = 0.0;
+  const int n = CoracleCaseCount(c, key);
+  for (int k = 0; k < n; k++) {
+    (void)snprintf(sub, sizeof sub, "%s[%d].phase", key, k);
+    const int p = PhaseCaseIndex(c, sub, names);
+    if (b->inflow[p] != 0.0) CoracleCaseRefuse(c, sub, "an item before this one is of the same phase");
+    (void)snprintf(sub, sizeof sub, "%s[%d].value", key, k);
+    sum += b->inflow[p] = CoracleCaseNumber(c, sub, 0.0, 1.0);
+  }
+  if (fabs(sum - 1.0) > 1e-9) CoracleCaseRefuse(c, key, "expected fractions whose sum is 1, found %g", sum);
+}
+
+/* With phases: which ones come in through a boundary, and the contact angles there. */
+static void ReadPhases(CoracleCase c, const char *key, const PhaseNames *names, BoundaryPhases *b)
 {
   char sub[192];
+  const PhasePairsKey angle = {sub, 0.0, 180.0, CosineOfDegrees, PETSC_TRUE};
+  if (!names->name[0]) return;
   (void)snprintf(sub, sizeof sub, "%s.contact_angle", key);
-  if (names->name[0] && CoracleCaseHas(c, sub))
-    b->contact_cosine = cos(CoracleCaseNumber(c, sub, 0.0, 180.0) * M_PI / 180.0);
+  PhaseCasePairs(c, &angle, names, &b->contact_cosine);
   (void)snprintf(sub, sizeof sub, "%s.phase", key);
-  b->has_phase = (PetscBool)(names->name[0] && CoracleCaseHas(c, sub));
-  if (b->has_phase) b->phase = PhaseCaseIndex(c, sub, names);
+  const PetscBool single = CoracleCaseHas(c, sub) ? PETSC_TRUE : PETSC_FALSE;
+  if (single) b->inflow[PhaseCaseIndex(c, sub, names)] = 1.0;
+  (void)snprintf(sub, sizeof sub, "%s.fractions", key);
+  if (!CoracleCaseHas(c, sub)) return;
+  if (single) CoracleCaseRefuse(c, sub, "expected phase or fractions, not both");
+  ReadFractions(c, sub, names, b);
+}
+
+/* The layers of the list at key, from below. */
+static void ReadLayers(CoracleCase c, const char *key, const PhaseNames *names, BoundaryPhases *b)
+{
+  char sub[224];
+  b->nlevels = CoracleCaseCount(c, key);
+  if (b->nlevels > PHASES_MAX) CoracleCaseRefuse(c, key, "expected at most %d layers", PHASES_MAX);
+  for (int k = 0; k < b->nlevels; k++) {
+    (void)snprintf(sub, sizeof sub, "%s[%d].phase", key, k);
+    b->level_phase[k] = PhaseCaseIndex(c, sub, names);
+    (void)snprintf(sub, sizeof sub, "%s[%d].height", key, k);
+    b->level[k] = CoracleCaseNumber(c, sub, -HUGE_VAL, HUGE_VAL);
+    if (k && !(b->level[k] > b->level[k - 1]))
+      CoracleCaseRefuse(c, sub, "expected layers from below: more than %g, found %g", b->level[k - 1],
+                        b->level[k]);
+  }
+}
+
+static void ReadLevel(CoracleCase c, const char *key, const PhaseNames *names, const PhaseProperties *p,
+                      BoundaryPhases *b)
+{
+  char first[200];
+  if (!names->name[0]) CoracleCaseRefuse(c, key, "there are no phases: expected fluid.phases");
+  (void)snprintf(first, sizeof first, "%s[0]", key);
+  if (CoracleCaseHas(c, first)) {
+    ReadLayers(c, key, names, b);
+    return;
+  }
+  b->nlevels = 1;
+  b->level_phase[0] = PhaseHeaviest(p);
+  b->level[0] = CoracleCaseNumber(c, key, -HUGE_VAL, HUGE_VAL);
 }
 
 /* Whether it is open by a pressure or a level. */
-static PetscBool ReadOpen(CoracleCase c, const char *key, const PhaseNames *names, Boundary *b)
+static PetscBool ReadOpen(CoracleCase c, const char *key, const PhaseNames *names, const PhaseProperties *p,
+                          Boundary *b)
 {
   char level[192], pressure[192];
   (void)snprintf(level, sizeof level, "%s.level", key);
   (void)snprintf(pressure, sizeof pressure, "%s.pressure", key);
-  b->has_level = CoracleCaseHas(c, level) ? PETSC_TRUE : PETSC_FALSE;
-  if (!b->has_level && !CoracleCaseHas(c, pressure)) return PETSC_FALSE;
+  const PetscBool has_level = CoracleCaseHas(c, level) ? PETSC_TRUE : PETSC_FALSE;
+  if (!has_level && !CoracleCaseHas(c, pressure)) return PETSC_FALSE;
   b->kind = BOUNDARY_OPEN;
-  if (b->has_level) {
-    if (!names->name[0]) CoracleCaseRefuse(c, level, "there are no phases: expected fluid.phases");
-    b->level = CoracleCaseNumber(c, level, -HUGE_VAL, HUGE_VAL);
+  if (has_level) {
+    ReadLevel(c, level, names, p, &b->phases);
     b->pressure = CoracleCaseNumberOr(c, pressure, 0.0, -HUGE_VAL, HUGE_VAL);
   } else {
     b->pressure = CoracleCaseNumber(c, pressure, -HUGE_VAL, HUGE_VAL);
@@ -31,7 +89,8 @@ static PetscBool ReadOpen(CoracleCase c, const char *key, const PhaseNames *name
   return PETSC_TRUE;
 }
 
-static void ReadBoundary(CoracleCase c, const char *name, const PhaseNames *names, Boundary *b)
+static void ReadBoundary(CoracleCase c, const char *name, const PhaseNames *names, const PhaseProperties *p,
+                         Boundary *b)
 {
   static const char *const WORDS[] = {"no_slip", "free_slip", "open", NULL},
                            *const PROFILES[] = {"uniform", "parabolic", NULL},
@@ -40,7 +99,7 @@ static void ReadBoundary(CoracleCase c, const char *name, const PhaseNames *name
   char key[160], sub[192];
   memset(b, 0, sizeof *b);
   (void)snprintf(key, sizeof key, "fluid.boundaries.%s", name);
-  ReadPhases(c, key, names, b);
+  ReadPhases(c, key, names, &b->phases);
   (void)snprintf(sub, sizeof sub, "%s.velocity", key);
   if (CoracleCaseHas(c, sub)) {
     b->kind = BOUNDARY_VELOCITY;
@@ -51,7 +110,7 @@ static void ReadBoundary(CoracleCase c, const char *name, const PhaseNames *name
     b->rise = CoracleCaseNumberOr(c, sub, 0.0, 0.0, HUGE_VAL);
     return;
   }
-  if (ReadOpen(c, key, names, b)) return;
+  if (ReadOpen(c, key, names, p, b)) return;
   (void)snprintf(sub, sizeof sub, "%s.wall", key);
   b->kind = CoracleCaseHas(c, sub) ? KINDS[CoracleCaseWord(c, sub, -1, WALLS)]
                                    : KINDS[CoracleCaseWord(c, key, -1, WORDS)];
@@ -130,11 +189,12 @@ static PetscErrorCode CheckFlux(CoracleCase c, const Mesh *mesh, Boundary bounda
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode BoundaryCaseRead(CoracleCase c, const Mesh *mesh, const PhaseNames *names, Boundary boundary[])
+PetscErrorCode BoundaryCaseRead(CoracleCase c, const Mesh *mesh, const PhaseNames *names,
+                                const PhaseProperties *p, Boundary boundary[])
 {
   BoundaryCheck check = {.c = c, .mesh = mesh};
   PetscFunctionBeginUser;
-  for (int b = 0; b < mesh->ntags; b++) ReadBoundary(c, mesh->tag_name[b], names, boundary + b);
+  for (int b = 0; b < mesh->ntags; b++) ReadBoundary(c, mesh->tag_name[b], names, p, boundary + b);
   CoracleCaseKeys(c, "fluid.boundaries", CheckBoundaryName, &check);
   PetscCall(CheckFlux(c, mesh, boundary));
   PetscFunctionReturn(0);

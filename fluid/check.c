@@ -13,11 +13,16 @@ static const CoracleCaseKey KEYS[] = {
     {"output.every", "s", "time from one snapshot of the fields to the next"},
     {"fluid.density", "kg/m3", "density"},
     {"fluid.viscosity", "Pa s", "dynamic viscosity"},
-    {"fluid.phases", "", "two phases that do not mix, instead of density and viscosity"},
+    {"fluid.phases", "", "two or more phases that do not mix, instead of density and viscosity"},
     {"fluid.phases[].name", "", "what regions and boundaries call it"},
     {"fluid.phases[].density", "kg/m3", "its density"},
     {"fluid.phases[].viscosity", "Pa s", "its dynamic viscosity"},
-    {"fluid.surface_tension", "N/m", "of the interface between the two phases; not possible with solids yet"},
+    {"fluid.surface_tension", "N/m",
+     "of the interfaces between phases: a number for all, or a list; none if not given; not possible with "
+     "solids yet"},
+    {"fluid.surface_tension[].between", "", "two phases"},
+    {"fluid.surface_tension[].between[]", "", "a phase"},
+    {"fluid.surface_tension[].value", "N/m", "surface tension between them; 0 for pairs that are not listed"},
     {"fluid.capillary_cfl", "",
      "largest time step over sqrt((sum of the densities) h^3/surface tension), h^2 twice the least area of "
      "the "
@@ -34,9 +39,18 @@ static const CoracleCaseKey KEYS[] = {
     {"fluid.regions[].polygon", "", "corners of a polygon that does not cross itself"},
     {"fluid.regions[].polygon[]", "m", "a corner"},
     {"fluid.boundaries.*.phase", "", "phase of what flows in; the lightest if none is given"},
+    {"fluid.boundaries.*.fractions", "", "of phases in what flows in, in place of phase; their sum is 1"},
+    {"fluid.boundaries.*.fractions[].phase", "", "a phase"},
+    {"fluid.boundaries.*.fractions[].value", "", "its fraction"},
     {"fluid.boundaries.*.wall", "", "a wall with further keys, in place of the word alone"},
     {"fluid.boundaries.*.contact_angle", "degrees",
-     "between the boundary and the interface, through the first phase; 90 if not given"},
+     "between the boundary and interfaces, through the first phase of two, the heavier one if there are "
+     "more; or a "
+     "list; 90 if not given"},
+    {"fluid.boundaries.*.contact_angle[].between", "", "two phases"},
+    {"fluid.boundaries.*.contact_angle[].between[]", "", "a phase"},
+    {"fluid.boundaries.*.contact_angle[].value", "degrees",
+     "contact angle of the interface between them, through the one that is named first"},
     {"fluid.theta", "", "0.5 Crank-Nicolson ... 1 backward Euler; by default 0.5, with surface tension 1"},
     {"fluid.petsc", "", "options for PETSc's solvers: -momentum_ksp_monitor"},
     {"fluid.initial.velocity", "m/s", "everywhere at the start; without it the fluid is at rest"},
@@ -56,7 +70,12 @@ static const CoracleCaseKey KEYS[] = {
     {"fluid.boundaries.*.rise", "s", "time in which the velocity rises from zero"},
     {"fluid.boundaries.*.pressure", "Pa", "an open boundary with this pressure"},
     {"fluid.boundaries.*.level", "m",
-     "an open boundary outside of which the heavier phase stands up to this height against gravity"},
+     "an open boundary outside of which the heaviest phase stands up to this height against gravity, or a "
+     "list of "
+     "layers"},
+    {"fluid.boundaries.*.level[].phase", "", "phase of a layer outside, from below"},
+    {"fluid.boundaries.*.level[].height", "m",
+     "height of its upper side; above the last: the lightest phase"},
     {"fluid.adapt.size_min", "m", "le: shortest edge wanted; that around the solid"},
     {"fluid.adapt.size_max", "m", "Le: longest edge wanted"},
     {"fluid.adapt.velocity_error", "m/s", "wanted error of linear interpolation, each component"},

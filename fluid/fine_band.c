@@ -8,13 +8,27 @@ typedef struct {
   double from[2], to[2], size;
 } Sweep;
 
+/* The sum of the densities of the lightest and the heaviest phase that element e has, kg/m3. */
+static double DensityRange(Fluid f, int e)
+{
+  int n;
+  const double *volume = PhaseTransportVolumes(f->phases, &n), *rho = f->setup.phases.rho;
+  double low = HUGE_VAL, high = 0.0;
+  for (int p = 0; p < n; p++) {
+    if (!(volume[n * e + p] > 0.0)) continue;
+    low = fmin(low, rho[p]);
+    high = fmax(high, rho[p]);
+  }
+  return low + high;
+}
+
 /* Mean velocity of element e in the flow of the current step, if the interface cuts it; light elements follow the others,
  * whose motion it is. */
 static PetscBool InterfaceVelocity(Fluid f, int e, double velocity[2])
 {
-  const double *u = FluidVelocityProjected(f) + 6 * e, *rho = f->setup.phases.rho;
+  const double *u = FluidVelocityProjected(f) + 6 * e;
   if (!f->phases || PhasesSingle(PhaseTransportPhases(f->phases), e) >= 0) return PETSC_FALSE;
-  const double heavy = FluidDensity(f)[e] < 0.25 * (rho[0] + rho[1]) ? 0.0 : 1.0;
+  const double heavy = FluidDensity(f)[e] < 0.25 * DensityRange(f, e) ? 0.0 : 1.0;
   for (int c = 0; c < 2; c++) velocity[c] = heavy / 3.0 * (u[3 * c] + u[3 * c + 1] + u[3 * c + 2]);
   return PETSC_TRUE;
 }

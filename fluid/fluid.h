@@ -84,7 +84,8 @@ PetscErrorCode FluidCorrect(Fluid fluid, double dt, const CoracleCorrection corr
 /* The three in turn, for a fluid alone. */
 PetscErrorCode FluidStep(Fluid fluid, double dt);
 /* Largest dt on this rank, capped by dt_max, of the CFL condition and, with surface tension, of capillary waves of the
- * interface's elements, of area A: capillary_cfl sqrt((rho_0 + rho_1) (2 A)^(3/2)/surface tension).  Not collective. */
+ * interface's elements, of area A: capillary_cfl sqrt((rho_0 + rho_1) (2 A)^(3/2)/surface tension), least of all pairs of phases.  Not
+ * collective. */
 #define CAPILLARY_CFL 0.4 /* of case files that have none */
 double FluidTimeStep(Fluid fluid);
 

@@ -121,8 +121,7 @@ PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup
     setup->rho = CoracleCasePositive(c, "fluid.density");
     setup->mu = CoracleCasePositive(c, "fluid.viscosity");
   }
-  setup->theta =
-      CoracleCaseNumberOr(c, "fluid.theta", setup->phases.surface_tension > 0.0 ? 1.0 : 0.5, 0.5, 1.0);
+  setup->theta = CoracleCaseNumberOr(c, "fluid.theta", PhaseHasTension(&setup->phases) ? 1.0 : 0.5, 0.5, 1.0);
   CoracleCaseVector(c, "gravity", 2, setup->gravity);
   if (CoracleCaseHas(c, "fluid.initial")) CoracleCaseVector(c, "fluid.initial.velocity", 2, setup->velocity);
   setup->cfl = CoracleCasePositive(c, "time.cfl");
@@ -131,7 +130,7 @@ PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup
   if (CoracleCaseHas(c, "fluid.capillary_cfl"))
     setup->capillary_cfl = CoracleCasePositive(c, "fluid.capillary_cfl");
   PetscCall(PetscMalloc1(mesh->ntags, &setup->boundary));
-  PetscCall(BoundaryCaseRead(c, mesh, &names, setup->boundary));
+  PetscCall(BoundaryCaseRead(c, mesh, &names, &setup->phases, setup->boundary));
   PetscFunctionReturn(0);
 }
 

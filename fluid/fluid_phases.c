@@ -43,24 +43,28 @@ static void UniformInSolid(Fluid f)
 /* Where there is a solid the lines divide what fills it from what is outside: tension would act there, too. */
 static PetscErrorCode CheckSolid(Fluid f)
 {
-  const double *solid = SolidCouplingFraction(f->solid), tension = f->setup.phases.surface_tension;
+  const double *solid = SolidCouplingFraction(f->solid);
+  const PetscBool tension = PhaseHasTension(&f->setup.phases);
   PetscFunctionBeginUser;
-  for (int e = 0; e < f->domain.mesh->ne && tension > 0.0; e++)
+  for (int e = 0; e < f->domain.mesh->ne && tension; e++)
     PetscCheck(solid[e] == 0.0, PETSC_COMM_SELF, PETSC_ERR_SUP,
-               "fluid.surface_tension is %g N/m, and there is a solid: surface tension at solids is not "
-               "possible yet",
-               tension);
+               "fluid.surface_tension is given, and there is a solid: surface tension at solids is not "
+               "possible yet");
   PetscFunctionReturn(0);
 }
 
 double FluidCapillaryStep(Fluid f)
 {
   const PhaseProperties *p = &f->setup.phases;
-  double area = HUGE_VAL;
-  if (!f->phases || p->surface_tension == 0.0 || f->setup.capillary_cfl == 0.0) return HUGE_VAL;
+  double area = HUGE_VAL, least = HUGE_VAL;
+  if (!f->phases || !PhaseHasTension(p) || f->setup.capillary_cfl == 0.0) return HUGE_VAL;
   for (int e = 0; e < f->domain.mesh->ne; e++)
     if (PhasesSingle(PhaseTransportPhases(f->phases), e) < 0) area = fmin(area, f->domain.geometry[e].area);
-  return f->setup.capillary_cfl * sqrt((p->rho[0] + p->rho[1]) / p->surface_tension) * pow(2.0 * area, 0.75);
+  for (int k = 0; k < p->n; k++)
+    for (int j = 0; j < k; j++)
+      if (p->surface_tension.value[j][k] != 0.0)
+        least = fmin(least, (p->rho[j] + p->rho[k]) / p->surface_tension.value[j][k]);
+  return f->setup.capillary_cfl * sqrt(least) * pow(2.0 * area, 0.75);
 }
 
 PetscErrorCode FluidMovePhases(Fluid f, double dt, double s)

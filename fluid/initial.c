@@ -17,12 +17,18 @@ static double HydrostaticPressure(const Mesh *m, double rho, const double g[2], 
   return p;
 }
 
-/* Of the water outside of an open boundary, beyond that of the lighter phase, at x, Pa. */
+/* Of the layers outside of an open boundary, beyond that of the lightest phase, at x, Pa. */
 static double LevelPressure(Fluid f, const Boundary *b, const double x[2])
 {
   const double *g = f->setup.gravity, *rho = f->setup.phases.rho;
-  if (!b->has_level) return 0.0;
-  return fabs(rho[1] - rho[0]) * fmax(hypot(g[0], g[1]) * b->level + g[0] * x[0] + g[1] * x[1], 0.0);
+  const BoundaryPhases *outside = &b->phases;
+  double pressure = 0.0;
+  for (int k = 0; k < outside->nlevels; k++) {
+    const double above = k + 1 < outside->nlevels ? rho[outside->level_phase[k + 1]] : f->setup.rho;
+    pressure += (rho[outside->level_phase[k]] - above) *
+                fmax(hypot(g[0], g[1]) * outside->level[k] + g[0] * x[0] + g[1] * x[1], 0.0);
+  }
+  return pressure;
 }
 
 PetscErrorCode FluidSetOpenPressure(Fluid f)

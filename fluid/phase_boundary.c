@@ -6,12 +6,17 @@ static void SetInflow(PhaseBoundaries *s, const PhaseProperties *properties, con
   for (int b = 0; b < s->domain->mesh->ntags; b++) {
     const Boundary *boundary = &s->domain->boundary[b];
     s->open[b] = boundary->kind == BOUNDARY_OPEN;
-    s->contact[b] = boundary->contact_cosine;
-    s->inflow[b][boundary->has_phase ? boundary->phase : lightest] = 1.0;
-    if (!boundary->has_level) continue;
-    s->level[b].phase = 1 - lightest;
-    s->level[b].below.d = boundary->level;
-    for (int c = 0; c < 2; c++) s->level[b].below.n[c] = -gravity[c] / hypot(gravity[0], gravity[1]);
+    double sum = 0.0;
+    s->contact[b] = boundary->phases.contact_cosine;
+    for (int p = 0; p < properties->n; p++) sum += s->inflow[b][p] = boundary->phases.inflow[p];
+    if (sum == 0.0) s->inflow[b][lightest] = 1.0;
+    s->levels[b].n = boundary->phases.nlevels;
+    for (int k = 0; k < s->levels[b].n; k++) {
+      s->levels[b].phase[k] = boundary->phases.level_phase[k];
+      s->levels[b].d[k] = boundary->phases.level[k];
+    }
+    for (int c = 0; c < 2 && s->levels[b].n; c++)
+      s->levels[b].normal[c] = -gravity[c] / hypot(gravity[0], gravity[1]);
   }
 }
 
@@ -22,7 +27,7 @@ PetscErrorCode PhaseBoundariesCreate(const FluidDomain *domain, const PhasePrope
   PetscFunctionBeginUser;
   s->domain = domain;
   PetscCall(
-      PetscCalloc4(m->ntags, &s->open, m->ntags, &s->inflow, m->ntags, &s->contact, m->ntags, &s->level));
+      PetscCalloc4(m->ntags, &s->open, m->ntags, &s->inflow, m->ntags, &s->contact, m->ntags, &s->levels));
   PetscCall(PetscMalloc1(6 * m->ne, &s->moment));
   SetInflow(s, properties, gravity);
   PetscFunctionReturn(0);
@@ -31,7 +36,7 @@ PetscErrorCode PhaseBoundariesCreate(const FluidDomain *domain, const PhasePrope
 PetscErrorCode PhaseBoundariesDestroy(PhaseBoundaries *s)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscFree4(s->open, s->inflow, s->contact, s->level));
+  PetscCall(PetscFree4(s->open, s->inflow, s->contact, s->levels));
   PetscCall(PetscFree(s->moment));
   PetscFunctionReturn(0);
 }

@@ -8,12 +8,12 @@ typedef struct {
   const FluidDomain *domain;    /* borrowed */
   char *open;                   /* [ntags] fluxes are free there */
   double (*inflow)[PHASES_MAX]; /* [ntags] fractions of what comes in */
-  double *contact;              /* [ntags] cosine of the contact angle */
-  PhasesLevel *level;           /* [ntags] */
+  PhasesPairs *contact;         /* [ntags] cosines of contact angles */
+  PhasesLevels *levels;         /* [ntags] */
   double *moment;               /* [ne][3][2] of FluxBoundary, of the step */
 } PhaseBoundaries;
 
-/* What comes in through an open boundary, or is prescribed: the lightest phase, unless the boundary says which; level against
+/* What comes in through an open boundary, or is prescribed: the lightest phase, unless the boundary says which; levels against
  * gravity[2], m/s2.  The domain is borrowed.  Not collective, like what follows. */
 PetscErrorCode PhaseBoundariesCreate(const FluidDomain *domain, const PhaseProperties *properties,
                                      const double gravity[2], PhaseBoundaries *boundaries);

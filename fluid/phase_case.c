@@ -4,30 +4,100 @@
 
 #define EVERYWHERE 1e6 /* m: half the side of a box that holds any domain */
 
-void PhaseCaseRead(CoracleCase c, PhaseNames *names, PhaseProperties *p)
+/* Item k of fluid.phases becomes phase k. */
+static void ReadPhase(CoracleCase c, int k, PhaseNames *names, PhaseProperties *p)
 {
   char key[64];
+  (void)snprintf(key, sizeof key, "fluid.phases[%d].name", k);
+  names->name[k] = CoracleCaseString(c, key);
+  if (!SeriesCanName(names->name[k]) || strlen(names->name[k]) >= sizeof p->name[k])
+    CoracleCaseRefuse(c, key, "expected a name of at most %d letters, without commas and quotes",
+                      (int)sizeof p->name[k] - 1);
+  for (int j = 0; j < k; j++)
+    if (!strcmp(names->name[j], names->name[k]))
+      CoracleCaseRefuse(c, key, "two phases are called '%s'", names->name[k]);
+  (void)snprintf(key, sizeof key, "fluid.phases[%d].density", k);
+  p->rho[k] = CoracleCasePositive(c, key);
+  (void)snprintf(key, sizeof key, "fluid.phases[%d].viscosity", k);
+  p->mu[k] = CoracleCasePositive(c, key);
+}
+
+static void Swap(double *a, double *b)
+{
+  const double other = *a;
+  *a = *b;
+  *b = other;
+}
+
+/* The heaviest first; those of equal density stay in the order of the case. */
+static void SortByDensity(PhaseNames *names, PhaseProperties *p)
+{
+  for (int k = 1; k < p->n; k++)
+    for (int j = k; j > 0 && p->rho[j - 1] < p->rho[j]; j--) {
+      const char *name = names->name[j];
+      names->name[j] = names->name[j - 1];
+      names->name[j - 1] = name;
+      Swap(&p->rho[j], &p->rho[j - 1]);
+      Swap(&p->mu[j], &p->mu[j - 1]);
+    }
+}
+
+void PhaseCaseRead(CoracleCase c, PhaseNames *names, PhaseProperties *p)
+{
+  const PhasePairsKey tension = {"fluid.surface_tension", 0.0, HUGE_VAL, NULL, PETSC_FALSE};
   *names = (PhaseNames){{NULL}};
   *p = (PhaseProperties){0};
   if (!CoracleCaseHas(c, "fluid.phases")) return;
   p->n = CoracleCaseCount(c, "fluid.phases");
-  if (p->n != 2) CoracleCaseRefuse(c, "fluid.phases", "expected two phases, found %d", p->n);
-  for (int k = 0; k < p->n; k++) {
-    (void)snprintf(key, sizeof key, "fluid.phases[%d].name", k);
-    names->name[k] = CoracleCaseString(c, key);
-    if (!SeriesCanName(names->name[k]) || strlen(names->name[k]) >= sizeof p->name[k])
-      CoracleCaseRefuse(c, key, "expected a name of at most %d letters, without commas and quotes",
-                        (int)sizeof p->name[k] - 1);
-    (void)snprintf(p->name[k], sizeof p->name[k], "%s", names->name[k]);
-    for (int j = 0; j < k; j++)
-      if (!strcmp(names->name[j], names->name[k]))
-        CoracleCaseRefuse(c, key, "two phases are called '%s'", names->name[k]);
-    (void)snprintf(key, sizeof key, "fluid.phases[%d].density", k);
-    p->rho[k] = CoracleCasePositive(c, key);
-    (void)snprintf(key, sizeof key, "fluid.phases[%d].viscosity", k);
-    p->mu[k] = CoracleCasePositive(c, key);
+  if (p->n < 2 || p->n > PHASES_MAX)
+    CoracleCaseRefuse(c, "fluid.phases", "expected from 2 to %d phases, found %d", PHASES_MAX, p->n);
+  for (int k = 0; k < p->n; k++) ReadPhase(c, k, names, p);
+  if (p->n > 2) SortByDensity(names, p);
+  for (int k = 0; k < p->n; k++) (void)snprintf(p->name[k], sizeof p->name[k], "%s", names->name[k]);
+  PhaseCasePairs(c, &tension, names, &p->surface_tension);
+}
+
+static void SetPair(const PhasePairsKey *key, int first, int second, double number, PhasesPairs *pairs)
+{
+  const double value = key->convert ? key->convert(number) : number;
+  pairs->value[first][second] = value;
+  pairs->value[second][first] = key->antisymmetric ? -value : value;
+}
+
+/* Item k of the list. */
+static void ReadPair(CoracleCase c, const PhasePairsKey *key, int k, const PhaseNames *names,
+                     PetscBool seen[PHASES_MAX][PHASES_MAX], PhasesPairs *pairs)
+{
+  int phase[2];
+  char sub[192];
+  (void)snprintf(sub, sizeof sub, "%s[%d].between", key->key, k);
+  if (CoracleCaseCount(c, sub) != 2) CoracleCaseRefuse(c, sub, "expected the names of two phases");
+  for (int i = 0; i < 2; i++) {
+    (void)snprintf(sub, sizeof sub, "%s[%d].between[%d]", key->key, k, i);
+    phase[i] = PhaseCaseIndex(c, sub, names);
   }
-  p->surface_tension = CoracleCaseNumberOr(c, "fluid.surface_tension", 0.0, 0.0, HUGE_VAL);
+  if (phase[0] == phase[1] || seen[phase[0]][phase[1]])
+    CoracleCaseRefuse(c, sub,
+                      phase[0] == phase[1] ? "expected another phase than the first"
+                                           : "an item before this one is of the same two phases");
+  seen[phase[0]][phase[1]] = seen[phase[1]][phase[0]] = PETSC_TRUE;
+  (void)snprintf(sub, sizeof sub, "%s[%d].value", key->key, k);
+  SetPair(key, phase[0], phase[1], CoracleCaseNumber(c, sub, key->lower, key->upper), pairs);
+}
+
+void PhaseCasePairs(CoracleCase c, const PhasePairsKey *key, const PhaseNames *names, PhasesPairs *pairs)
+{
+  PetscBool seen[PHASES_MAX][PHASES_MAX] = {{PETSC_FALSE}};
+  char first[192];
+  *pairs = (PhasesPairs){{{0.0}}};
+  (void)snprintf(first, sizeof first, "%s[0]", key->key);
+  if (CoracleCaseHas(c, first)) {
+    for (int k = 0; k < CoracleCaseCount(c, key->key); k++) ReadPair(c, key, k, names, seen, pairs);
+  } else if (CoracleCaseHas(c, key->key)) {
+    const double number = CoracleCaseNumber(c, key->key, key->lower, key->upper);
+    for (int k = 0; names->name[k]; k++)
+      for (int j = 0; j < k; j++) SetPair(key, j, k, number, pairs);
+  }
 }
 
 int PhaseCaseIndex(CoracleCase c, const char *key, const PhaseNames *names)

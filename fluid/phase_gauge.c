@@ -45,7 +45,7 @@ PetscErrorCode PhaseMeasureOf(Fluid fluid, int phase, PhaseMeasure *measure)
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, SUMS, MPI_DOUBLE, MPI_SUM, m->comm));
   *measure = (PhaseMeasure){.area = sum[AREA]};
-  PetscCall(PhasesInterfaceLength(phases, &measure->interface));
+  PetscCall(PhasesInterfaceLength(phases, phase, &measure->interface));
   for (int c = 0; c < 2 && sum[AREA] > 0.0; c++) {
     measure->centre[c] = sum[CENTRE + c] / sum[AREA];
     measure->velocity[c] = sum[VELOCITY + c] / sum[AREA];

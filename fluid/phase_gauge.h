@@ -7,7 +7,7 @@ typedef struct {
   double area;        /* m2 */
   double centre[2];   /* m; 0 without the phase, like the velocity */
   double velocity[2]; /* mean, m/s */
-  double interface;   /* its length, m; of two phases */
+  double interface;   /* its length, m */
 } PhaseMeasure;
 
 /* Of the last completed step.  Collective. */

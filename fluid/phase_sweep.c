@@ -71,16 +71,34 @@ static PetscErrorCode CountParts(PhaseSweep s, double dt, int *parts)
   PetscFunctionReturn(0);
 }
 
-/* The heavier phase leaves what the solid fills of elements, which the lighter one fills with it. */
+/* The phases from the heaviest to the lightest: PhaseLightest is the last. */
+static void SortByDensity(const PhaseProperties *p, int order[])
+{
+  for (int k = 0; k < p->n; k++) {
+    int at = k;
+    for (; at > 0 && p->rho[order[at - 1]] <= p->rho[k]; at--) order[at] = order[at - 1];
+    order[at] = k;
+  }
+}
+
+/* The heavier phases leave what the solid fills of elements, which the lightest one fills with it: one after the other, each has
+ * the room that heavier ones leave. */
 static PetscErrorCode LeaveSolid(PhaseSweep s, const double solid[])
 {
-  const int light = PhaseLightest(s->properties);
+  const int n = s->properties->n;
+  const double *volume;
   double *capacity;
+  int order[PHASES_MAX];
   PetscFunctionBeginUser;
+  SortByDensity(s->properties, order);
   PetscCall(PetscMalloc1(s->stars->ne, &capacity));
   for (int e = 0; e < s->stars->ne; e++)
     capacity[e] = fmax(1.0 - solid[e], 0.0) * s->domain->geometry[e].area;
-  PetscCall(PhasesExpel(s->phases, 1 - light, light, capacity, s->swept));
+  PetscCall(PhasesGetVolumes(s->phases, &volume));
+  for (int k = 0; k + 1 < n; k++) {
+    PetscCall(PhasesExpel(s->phases, order[k], order[n - 1], capacity, s->swept));
+    for (int e = 0; e < s->stars->ne; e++) capacity[e] = fmax(capacity[e] - volume[n * e + order[k]], 0.0);
+  }
   PetscCall(PetscFree(capacity));
   PetscFunctionReturn(0);
 }
@@ -101,7 +119,7 @@ static PetscErrorCode AddOut(PhaseSweep s, double total[])
 static PetscErrorCode Advect(PhaseSweep s, double dt)
 {
   const int n = 3 * s->properties->n * s->stars->ne;
-  const PhasesInflow inflow = {(const double(*)[PHASES_MAX])s->boundaries->inflow, s->boundaries->level};
+  const PhasesInflow inflow = {(const double(*)[PHASES_MAX])s->boundaries->inflow, s->boundaries->levels};
   int parts;
   PetscFunctionBeginUser;
   PetscCall(CountParts(s, dt, &parts));

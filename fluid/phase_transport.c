@@ -24,6 +24,22 @@ int PhaseLightest(const PhaseProperties *p)
   return lightest;
 }
 
+int PhaseHeaviest(const PhaseProperties *p)
+{
+  int heaviest = 0;
+  for (int k = 1; k < p->n; k++)
+    if (p->rho[k] > p->rho[heaviest]) heaviest = k;
+  return heaviest;
+}
+
+PetscBool PhaseHasTension(const PhaseProperties *p)
+{
+  for (int k = 0; k < p->n; k++)
+    for (int j = 0; j < k; j++)
+      if (p->surface_tension.value[j][k] != 0.0) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
 /* --- life ----------------------------------------------------------------------------------------------- */
 
 PetscErrorCode PhaseTransportCreate(const FluidDomain *domain, const PhaseProperties *properties,
@@ -80,9 +96,9 @@ static PetscErrorCode AddSurfaceTension(PhaseTransport t)
 {
   double(*force)[2];
   PetscFunctionBeginUser;
-  if (t->properties.surface_tension == 0.0) PetscFunctionReturn(0);
+  if (!PhaseHasTension(&t->properties)) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(t->stars->ne, &force));
-  PetscCall(PhasesGetSurfaceForce(t->phases, t->properties.surface_tension, t->boundaries.contact,
+  PetscCall(PhasesGetSurfaceForce(t->phases, &t->properties.surface_tension, t->boundaries.contact,
                                   (double *)force));
   for (int e = 0; e < t->stars->ne; e++) InverseDensityAddSurface(force[e], &t->end[e]);
   PetscCall(PetscFree(force));
@@ -104,7 +120,7 @@ void PhaseTransportSetUniform(PhaseTransport t, int e, double rho)
 {
   const double surface[2] = {t->inverse_density[e].surface[0], t->inverse_density[e].surface[1]};
   InverseDensityUniform(rho, t->gravity, &t->inverse_density[e]);
-  if (t->properties.surface_tension != 0.0) InverseDensityAddSurface(surface, &t->inverse_density[e]);
+  if (PhaseHasTension(&t->properties)) InverseDensityAddSurface(surface, &t->inverse_density[e]);
 }
 
 void PhaseTransportSettle(PhaseTransport t)

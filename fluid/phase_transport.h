@@ -18,13 +18,15 @@ typedef struct PhaseTransport_s *PhaseTransport;
 typedef struct {
   int n;
   double rho[PHASES_MAX], mu[PHASES_MAX]; /* kg/m3, Pa s */
-  double surface_tension;                 /* N/m */
+  PhasesPairs surface_tension;            /* N/m */
   char name[PHASES_MAX][32];
 } PhaseProperties;
 
 const PhaseProperties *PhaseTransportProperties(PhaseTransport t);
-/* The lightest phase.  Not collective. */
+/* The lightest phase, the heaviest; whether any two have surface tension.  Not collective. */
 int PhaseLightest(const PhaseProperties *properties);
+int PhaseHeaviest(const PhaseProperties *properties);
+PetscBool PhaseHasTension(const PhaseProperties *properties);
 /* Without volumes; domain is borrowed.  Collective, like all that says nothing else. */
 PetscErrorCode PhaseTransportCreate(const FluidDomain *domain, const PhaseProperties *properties,
                                     const double gravity[2], PhaseTransport *t);
@@ -39,7 +41,7 @@ typedef struct {
   double time, dt;                /* t^n, s */
   double extrapolated, dt_before; /* u = u^n + extrapolated (u^n - u^{n-1}) */
   const double *u;
-  const double *solid; /* [ne] alpha_s: the heavier phase stays out of it; NULL: none */
+  const double *solid; /* [ne] alpha_s: heavier phases stay out of it; NULL: none */
   double *mass_flux;
 } PhaseStep;
 PetscErrorCode PhaseTransportStep(PhaseTransport t, const PhaseStep *step);

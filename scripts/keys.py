@@ -15,7 +15,7 @@ import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PARTS = ("coupler", "fluid", "solid")
-SAMPLES = ("tests/hardening/keys_box.yaml", "tests/hardening/keys_file.yaml")
+SAMPLES = ("tests/hardening/keys_box.yaml", "tests/hardening/keys_file.yaml", "tests/hardening/keys_phases.yaml")
 SECTIONS = ("case", "note", "gravity", "time", "fluid", "solid", "coupler", "output", "resume")
 
 

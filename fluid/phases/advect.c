@@ -1,13 +1,7 @@
-/* Unsplit, flux-matched advection of the volumes.
- *
- *      a----------b     Face ab, outward to its right.  a' and b' are where its vertices were dt ago; m'
- *       \        /      moves out of the middle of a'b' until the area a b b' m' a' is flux dt.  The phases
- *        \      /       that lie in this polygon leave through the face.  It is taken as three signed
- *        a'--.b'        triangles at a, so that it may cross itself.
- *          m'
- *
- * Faces among elements of one phase, two rings deep, carry this phase and need no polygon. */
+/* Unsplit, flux-matched advection of the volumes: what leaves an element through a face is what lies in the region that the face
+ * sweeps (swept.h).  Faces among elements of one phase, two rings deep, carry this phase and need no polygon. */
 #include "fluid/phases/phases_impl.h"
+#include "fluid/phases/swept.h"
 #include "fluid/phases/trace.h"
 
 #define OUTSIDE 1e-12 /* of the square of an edge: what round-off may leave uncovered of a swept area */
@@ -19,16 +13,9 @@ typedef struct {
   const PhasesInflow *inflow;
   int *calm;          /* [nowned] phase of all elements two rings around, or -1 */
   double (*shift)[2]; /* [nowned] */
-  int stamp, *mark;   /* [nl] */
-  int n, *list;       /* elements that a face may sweep, by ascending global number */
-  double lost;        /* largest swept area that is nowhere, over the square of its edge */
+  SweptSearch search;
+  double lost; /* largest swept area that is nowhere, over the square of its edge */
 } Step;
-
-/* A swept region: corners relative to its face's first vertex. */
-typedef struct {
-  double origin[2], corner[5][2]; /* a, b, b', m, a' */
-  double low[2], high[2];
-} Swept;
 
 /* The tag of an open boundary face at vertex v, -1 if there is none. */
 static int OpenTag(const Step *t, int v)
@@ -47,8 +34,9 @@ static int OpenTag(const Step *t, int v)
 /* The fraction of phase p in what comes in at x through the boundary. */
 static double Inflow(const Step *t, int tag, const double x[2], int p)
 {
-  const PhasesLevel *level = t->inflow->level ? &t->inflow->level[tag] : NULL;
-  if (level && level->below.n[0] * x[0] + level->below.n[1] * x[1] < level->below.d) return p == level->phase;
+  const PhasesLevels *levels = t->inflow->levels ? &t->inflow->levels[tag] : NULL;
+  for (int k = 0; levels && k < levels->n; k++)
+    if (levels->normal[0] * x[0] + levels->normal[1] * x[1] < levels->d[k]) return p == levels->phase[k];
   return t->inflow->fraction[tag][p];
 }
 
@@ -91,114 +79,6 @@ static PetscErrorCode FindCalm(Step *t)
   }
   PetscCall(PetscFree3(pure, around, boundary));
   PetscFunctionReturn(0);
-}
-
-static void ListVertex(Step *t, int v)
-{
-  const Stars *s = t->s;
-  for (int k = s->start[v]; k < s->start[v + 1]; k++) {
-    const int e = s->around[k] / 3;
-    if (t->mark[e] == t->stamp) continue;
-    t->mark[e] = t->stamp;
-    int at = t->n++;
-    for (; at > 0 && s->element[t->list[at - 1]].egid > s->element[e].egid; at--)
-      t->list[at] = t->list[at - 1];
-    t->list[at] = e;
-  }
-}
-
-/* Elements around the two vertices; with `wide` also those around the vertices of these. */
-static void ListFace(Step *t, int a, int b, int wide)
-{
-  t->stamp++;
-  t->n = 0;
-  ListVertex(t, a);
-  ListVertex(t, b);
-  if (!wide) return;
-  for (int v = 0; v < 2; v++) {
-    const int center = v ? b : a;
-    for (int k = t->s->start[center]; k < t->s->start[center + 1]; k++) {
-      for (int i = 0; i < 3; i++) ListVertex(t, t->s->vertex[t->s->around[k] / 3][i]);
-    }
-  }
-}
-
-/* The swept region of area `swept` > 0 to the left of a -> b. */
-static void MakeSwept(const Step *t, int a, int b, double swept, Swept *r)
-{
-  const double *xa = t->s->point[a], *xb = t->s->point[b];
-  double twice = 0.0;
-  for (int c = 0; c < 2; c++) {
-    r->origin[c] = xa[c];
-    r->corner[0][c] = 0.0;
-    r->corner[1][c] = xb[c] - xa[c];
-    r->corner[2][c] = r->corner[1][c] + t->shift[b][c];
-    r->corner[4][c] = t->shift[a][c];
-    r->corner[3][c] = 0.5 * (r->corner[2][c] + r->corner[4][c]);
-  }
-  const double(*x)[2] = (const double(*)[2])r->corner;
-  twice = x[1][0] * x[2][1] - x[1][1] * x[2][0] + x[2][0] * x[4][1] - x[2][1] * x[4][0];
-  const double edge[2] = {x[4][0] - x[2][0], x[4][1] - x[2][1]};
-  const double push = (2.0 * swept - twice) / (edge[0] * edge[0] + edge[1] * edge[1]);
-  r->corner[3][0] += push * edge[1];
-  r->corner[3][1] -= push * edge[0];
-  for (int c = 0; c < 2; c++) {
-    r->low[c] = r->high[c] = 0.0;
-    for (int k = 1; k < 5; k++) {
-      r->low[c] = fmin(r->low[c], r->corner[k][c]);
-      r->high[c] = fmax(r->high[c], r->corner[k][c]);
-    }
-  }
-}
-
-static int Apart(const Swept *r, const double x[3][2])
-{
-  for (int c = 0; c < 2; c++) {
-    const double low = r->low[c] + r->origin[c], high = r->high[c] + r->origin[c];
-    if (x[0][c] >= high && x[1][c] >= high && x[2][c] >= high) return 1;
-    if (x[0][c] <= low && x[1][c] <= low && x[2][c] <= low) return 1;
-  }
-  return 0;
-}
-
-/* area[np] of the listed elements' phases in the region; returns what they do not cover of it, over the
- * square of the edge. */
-static double Collect(const Step *t, const Swept *r, double area[])
-{
-  Polygon triangle[3], moved, part;
-  double sign[3], all = 0.0, covered = 0.0;
-  for (int k = 0; k < 3; k++) {
-    Polygon *q = &triangle[k];
-    q->n = 3;
-    for (int c = 0; c < 2; c++) {
-      q->x[0][c] = 0.0;
-      q->x[1][c] = r->corner[k + 1][c];
-      q->x[2][c] = r->corner[k + 2][c];
-    }
-    const double signed_area = PolygonArea(q);
-    sign[k] = signed_area < 0.0 ? -1.0 : 1.0;
-    all += fabs(signed_area);
-    if (signed_area >= 0.0) continue;
-    for (int c = 0; c < 2; c++) {
-      const double swap = q->x[1][c];
-      q->x[1][c] = q->x[2][c];
-      q->x[2][c] = swap;
-    }
-  }
-  for (int j = 0; j < t->n; j++) {
-    const int e = t->list[j];
-    const double(*x)[2] = (const double(*)[2])t->s->element[e].x;
-    if (Apart(r, x)) continue;
-    PolygonTriangle(x, r->origin, &moved);
-    for (int k = 0; k < 3; k++) {
-      PolygonClipTriangle(&triangle[k], (const double(*)[2])moved.x, &part);
-      if (!part.n) continue;
-      covered += PolygonArea(&part);
-      PhasesSplit(t->f, e, &part, r->origin, sign[k], area);
-    }
-  }
-  const double *edge = r->corner[1];
-  return (all - covered) / (edge[0] * edge[0] + edge[1] * edge[1]);
 }
 
 /* What the elements leave of the swept area, `rest`, comes from outside of open boundaries, or is round-off.
@@ -244,13 +124,11 @@ static void SweepFace(Step *t, int e, int i, double area[])
     b = other;
   }
   Swept region;
-  MakeSwept(t, a, b, swept, &region);
-  ListFace(t, a, b, 0);
-  double uncovered = Collect(t, &region, area);
+  SweptMake(s, a, b, (const double(*)[2])t->shift, swept, &region);
+  double uncovered = SweptCollect(&t->search, a, b, 0, &region, area);
   if (uncovered > OUTSIDE) {
     for (int p = 0; p < np; p++) area[p] = 0.0;
-    ListFace(t, a, b, 1);
-    uncovered = Collect(t, &region, area);
+    uncovered = SweptCollect(&t->search, a, b, 1, &region, area);
   }
   Balance(t, a, b, tag, uncovered, swept, area);
   for (int p = 0; p < np; p++) area[p] *= sign;
@@ -314,8 +192,7 @@ static PetscErrorCode StepBegin(Phases f, double dt, const double flux[], const 
   PetscCall(StarsExchange(s, sizeof *all_velocity, all_velocity));
   t->flow = (TraceFlow){s, dt, (const double(*)[3])all_flux, (const double(*)[3][2])all_velocity};
   PetscCall(PetscMalloc2(s->nowned, &t->calm, s->nowned, &t->shift));
-  PetscCall(PetscCalloc1(s->nl, &t->mark));
-  PetscCall(PetscMalloc1(s->nl, &t->list));
+  PetscCall(SweptSearchCreate(f, &t->search));
   PetscCall(FindCalm(t));
   for (int v = 0; v < s->nowned; v++) {
     t->shift[v][0] = t->shift[v][1] = 0.0;
@@ -329,8 +206,7 @@ static PetscErrorCode StepEnd(Step *t)
   PetscFunctionBeginUser;
   PetscCall(PetscFree2(t->flow.flux, t->flow.velocity));
   PetscCall(PetscFree2(t->calm, t->shift));
-  PetscCall(PetscFree(t->mark));
-  PetscCall(PetscFree(t->list));
+  PetscCall(SweptSearchDestroy(&t->search));
   PetscFunctionReturn(0);
 }
 

@@ -1,38 +1,32 @@
-/* Distances of the vertices from the interface between two phases, and the effective densities that follow. */
+/* Distances of the vertices from the lines around them, and the effective densities that follow. */
 #include "fluid/phases/phases_impl.h"
 
 /* What is known of a vertex: the weighted sum of its distances from the lines around, and what they cannot be. */
 typedef struct {
   double sum, weight;
-  char below, above; /* an element around it is of the first phase alone; of the second */
+  char below, above; /* an element around it lies below the line; above it */
 } VertexDistance;
 
-/* The line of cut element e as seen from local vertex v: its length there is the weight. */
-static void AddLine(Phases f, int e, int v, VertexDistance *d)
+/* Line k of cut element e as seen from local vertex v: its length there is the weight. */
+static void AddLine(Phases f, int e, int k, int v, VertexDistance *d)
 {
   const double *origin = f->stars->element[e].x[0];
-  const HalfPlane h = PhasesLine(f, e, 0, origin);
-  Polygon whole;
-  if (h.n[0] == 0.0 && h.n[1] == 0.0) return;
-  PolygonTriangle((const double(*)[2])f->stars->element[e].x, origin, &whole);
-  const double length = PolygonCutBy(&whole, 0.5 * StarsTwiceArea(f->stars, e), &h).length;
+  HalfPlane h;
+  const double length = PhasesSegment(f, e, k, origin, &h).length;
   const double *x = f->stars->point[v];
   d->sum += length * (h.n[0] * (x[0] - origin[0]) + h.n[1] * (x[1] - origin[1]) - h.d);
   d->weight += length;
 }
 
-double PhasesDistance(Phases f, int v, double *inside)
+double PhasesDistance(Phases f, int line, int v, double *inside)
 {
   const Stars *s = f->stars;
   VertexDistance d = {0};
   for (int k = s->start[v]; k < s->start[v + 1]; k++) {
-    const int e = s->around[k] / 3;
-    if (f->single[e] < 0)
-      AddLine(f, e, v, &d);
-    else if (f->single[e] == 0)
-      d.below = 1;
-    else
-      d.above = 1;
+    const int e = s->around[k] / 3, side = PhasesSide(f, e, line);
+    if (side == 0 && PhasesHasLine(f, e, line)) AddLine(f, e, line, v, &d);
+    d.below |= side < 0;
+    d.above |= side > 0;
   }
   double distance = d.weight > 0.0 ? d.sum / d.weight : 0.0;
   if (d.below) distance = fmin(distance, 0.0);
@@ -41,20 +35,30 @@ double PhasesDistance(Phases f, int v, double *inside)
   return distance;
 }
 
+/* distance[np - 1][nowned] */
 static void Element(Phases f, int e, const double distance[], const double rho[], const double gravity[2],
                     InverseDensity *inverse)
 {
-  const double(*x)[2] = (const double(*)[2])f->stars->element[e].x, *v = &f->volume[2 * (size_t)e];
+  const double(*x)[2] = (const double(*)[2])f->stars->element[e].x,
+        *v = &f->volume[(size_t)e * (size_t)f->np];
   const double twice = StarsTwiceArea(f->stars, e);
-  double grad[3][2], d[3];
+  DensityLine line[PHASES_MAX - 1];
+  double grad[3][2], mass = 0.0;
+  int n = 0;
   for (int i = 0; i < 3; i++) {
     const double *a = x[(i + 1) % 3], *b = x[(i + 2) % 3];
     grad[i][0] = (a[1] - b[1]) / twice;
     grad[i][1] = (b[0] - a[0]) / twice;
-    d[i] = distance[f->stars->vertex[e][i]];
   }
-  InverseDensityCut((const double(*)[2])grad, d, rho, 2.0 * (rho[0] * v[0] + rho[1] * v[1]) / twice, gravity,
-                    inverse);
+  for (int p = 0; p < f->np; p++) mass += rho[p] * v[p];
+  for (int k = 0; k + 1 < f->np; k++) {
+    if (!PhasesHasLine(f, e, k)) continue;
+    const double *d = distance + (size_t)k * (size_t)f->stars->nowned;
+    line[n] = (DensityLine){.rho = {rho[k], rho[PhasesBehind(f, e, k)]}};
+    for (int i = 0; i < 3; i++) line[n].d[i] = d[f->stars->vertex[e][i]];
+    n++;
+  }
+  InverseDensityCut((const double(*)[2])grad, n, line, 2.0 * mass / twice, gravity, inverse);
 }
 
 PetscErrorCode PhasesGetInverseDensity(Phases f, const double rho[], const double gravity[2],
@@ -65,9 +69,9 @@ PetscErrorCode PhasesGetInverseDensity(Phases f, const double rho[], const doubl
   PetscFunctionBeginUser;
   PetscCheck(f->has_lines, s->mesh->comm, PETSC_ERR_ORDER,
              "effective densities need the lines: call PhasesReconstruct");
-  PetscCheck(f->np == 2, s->mesh->comm, PETSC_ERR_SUP, "%d phases in a flow: two are possible", f->np);
-  PetscCall(PetscMalloc1(s->nowned, &distance));
-  for (int v = 0; v < s->nowned; v++) distance[v] = PhasesDistance(f, v, &inside);
+  PetscCall(PetscMalloc1((size_t)(f->np - 1) * (size_t)s->nowned, &distance));
+  for (int k = 0; k + 1 < f->np; k++)
+    for (int v = 0; v < s->nowned; v++) distance[k * s->nowned + v] = PhasesDistance(f, k, v, &inside);
   for (int e = 0; e < s->ne; e++) {
     if (f->single[e] < 0)
       Element(f, e, distance, rho, gravity, &inverse[e]);

@@ -15,7 +15,11 @@
  *
  * The distances are those of the vertices, shared by all elements around them: then rho_i d_i G is one pressure for all
  * elements, and errors of the distances do not set the light phase in motion (the densities of edges of Kang, Fedkiw
- * and Liu 2000 on squares have the same property).  Along the line R has the mean density of the element. */
+ * and Liu 2000 on squares have the same property).  Along the line R has the mean density of the element.
+ *
+ * Of several lines in an element the last one has the normal n, and rho_i d_i becomes the integral of the density along it from
+ * that line to the vertex: rho_i d_i + sum [rho]_k min(d_ki, 0) cos_k over the other lines k, [rho]_k = below - above and
+ * cos_k = n_k.n.  This is exact for layers. */
 #ifndef CORACLE_PHASES_EFFECTIVE_DENSITY_H
 #define CORACLE_PHASES_EFFECTIVE_DENSITY_H
 #include <math.h>
@@ -79,18 +83,45 @@ static inline void InverseDensityMiddle(const InverseDensity *a, const InverseDe
     middle->weight[c] = middle->inverse[c] * load[0] + middle->inverse[c + 1] * load[1];
 }
 
-/* grad[i]: of the barycentric coordinates; d[i]: distances, m; rho: densities where d is negative and positive; mean: that
- * of the element's content, kg/m3. */
-static inline void InverseDensityCut(const double grad[3][2], const double d[3], const double rho[2],
+/* A line of an element: distances of the vertices, m; the densities where they are negative and positive, kg/m3. */
+typedef struct {
+  double d[3], rho[2];
+} DensityLine;
+
+/* sum value[i] grad[i] */
+static inline void DensityGradient(const double grad[3][2], const double value[3], double sum[2])
+{
+  for (int c = 0; c < 2; c++) sum[c] = value[0] * grad[0][c];
+  for (int i = 1; i < 3; i++)
+    for (int c = 0; c < 2; c++) sum[c] += value[i] * grad[i][c];
+}
+
+/* integral[i] += [rho] min(d_i, 0) cos of a line that is not the last, whose m is given. */
+static inline void DensityAddLine(const double grad[3][2], const DensityLine *line, const double last[2],
+                                  double integral[3])
+{
+  double m[2];
+  DensityGradient(grad, line->d, m);
+  const double square = m[0] * m[0] + m[1] * m[1];
+  if (!(square > 0.0)) return;
+  const double weight = (line->rho[0] - line->rho[1]) * (m[0] * last[0] + m[1] * last[1]) / square;
+  for (int i = 0; i < 3; i++) integral[i] += weight * fmin(line->d[i], 0.0);
+}
+
+/* grad[i]: of the barycentric coordinates; line[n_lines], at least one; mean: density of the element's content, kg/m3. */
+static inline void InverseDensityCut(const double grad[3][2], int n_lines, const DensityLine line[],
                                      double mean, const double gravity[2], InverseDensity *r)
 {
-  double m[2] = {0.0, 0.0}, q[2] = {0.0, 0.0};
-  for (int i = 0; i < 3; i++)
-    for (int c = 0; c < 2; c++) {
-      m[c] += d[i] * grad[i][c];
-      q[c] += rho[d[i] > 0.0] * d[i] * grad[i][c];
-    }
-  const double size = hypot(m[0], m[1]), low = fmin(rho[0], rho[1]);
+  const DensityLine *last = &line[n_lines - 1];
+  double m[2], q[2], integral[3], low = fmin(last->rho[0], last->rho[1]);
+  DensityGradient(grad, last->d, m);
+  for (int i = 0; i < 3; i++) integral[i] = last->rho[last->d[i] > 0.0] * last->d[i];
+  for (int k = 0; k + 1 < n_lines; k++) {
+    DensityAddLine(grad, &line[k], m, integral);
+    low = fmin(low, line[k].rho[0]);
+  }
+  DensityGradient(grad, integral, q);
+  const double size = hypot(m[0], m[1]);
   if (!(size > 0.0)) {
     InverseDensityUniform(mean, gravity, r);
     return;

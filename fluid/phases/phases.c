@@ -130,8 +130,28 @@ PetscErrorCode PhasesGetInertia(Phases f, int e, const double rho[], PetscBool c
   PetscFunctionReturn(0);
 }
 
-/* The next phase behind p that element e has. */
-static int Behind(Phases f, int e, int p)
+int PhasesSide(Phases f, int e, int k)
+{
+  const int p = f->single[e];
+  if (p >= 0) return p == k ? -1 : p > k;
+  if (PhasesHasLine(f, e, k)) return 0;
+  const double tiny = PHASES_TINY * 0.5 * StarsTwiceArea(f->stars, e),
+               *v = &f->volume[(size_t)e * (size_t)f->np];
+  int first = 0, last = f->np - 1;
+  while (v[first] < tiny) first++;
+  while (v[last] < tiny) last--;
+  return last == k ? -1 : first > k;
+}
+
+PolygonCut PhasesSegment(Phases f, int e, int k, const double origin[2], HalfPlane *line)
+{
+  Polygon rest;
+  *line = PhasesLine(f, e, k, origin);
+  PhasesRest(f, e, k, origin, &rest);
+  return PolygonCutBy(&rest, 0.0, line);
+}
+
+int PhasesBehind(Phases f, int e, int p)
 {
   const double tiny = PHASES_TINY * 0.5 * StarsTwiceArea(f->stars, e);
   for (p++; p + 1 < f->np; p++) {
@@ -152,7 +172,7 @@ PetscErrorCode PhasesGetKink(Phases f, int e, const double rho[], const double g
     const HalfPlane h = PhasesLine(f, e, p, x[0]);
     if (IsTrivial(&h)) continue;
     InertiaRidge(&h, &m);
-    InertiaKink(&m, h.n, rho[p], rho[Behind(f, e, p)], gravity, force);
+    InertiaKink(&m, h.n, rho[p], rho[PhasesBehind(f, e, p)], gravity, force);
   }
   PetscFunctionReturn(0);
 }

@@ -55,28 +55,34 @@ PetscErrorCode PhasesGetKink(Phases phases, int e, const double rho[], const dou
 PetscErrorCode PhasesGetInverseDensity(Phases phases, const double rho[], const double gravity[2],
                                        InverseDensity inverse[]);
 
-/* Not collective.  Surface tension, N/m, in the owned elements: force[ne][2], N/m3, is tension kappa grad H, kappa the
- * interface's curvature (curvature.h) and H linear between its values at the vertices, 1 in the first phase and 0 in the
- * second.  So tension kappa H is a pressure that holds it to round-off where kappa is constant, and sharp (the jumps of
- * Kang, Fedkiw and Liu 2000 on squares).  cosine[mesh->ntags]: of the contact angle at boundaries, through the first phase;
- * NULL: 90 degrees.  Needs the lines. */
-PetscErrorCode PhasesGetSurfaceForce(Phases phases, double tension, const double cosine[], double force[]);
-
-/* Collective.  Length of the interface between two phases, m: of the polygon through the means of the points in which the lines
- * of neighbours cross their common face.  (The lines themselves turn too much in curved interfaces: 1 % at edges of R/20.)
- * Needs the lines. */
-PetscErrorCode PhasesInterfaceLength(Phases phases, double *length);
-
-/* Where n.x < d, phase alone flows in; n = 0, d = 0: nowhere. */
+/* Of the interfaces between two phases: [first][second], 0 among themselves. */
 typedef struct {
-  HalfPlane below;
-  int phase;
-} PhasesLevel;
+  double value[PHASES_MAX][PHASES_MAX];
+} PhasesPairs;
+
+/* Not collective.  Surface tension, N/m, in the owned elements: force[ne][2], N/m3, is the sum over the lines k of tension kappa
+ * grad H, tension that of the phases on both sides, kappa the line's curvature (curvature.h) and H linear between its values at
+ * the vertices, 1 in phase k and 0 behind it.  So tension kappa H is a pressure that holds it to round-off where kappa is
+ * constant, and sharp (the jumps of Kang, Fedkiw and Liu 2000 on squares).  cosine[mesh->ntags]: of the contact angles at
+ * boundaries, through the first phase of each pair; NULL: 90 degrees.  Needs the lines. */
+PetscErrorCode PhasesGetSurfaceForce(Phases phases, const PhasesPairs *tension, const PhasesPairs cosine[],
+                                     double force[]);
+
+/* Collective.  Length of the interfaces between a phase and others, m: of the polygon through the means of the points in which
+ * the lines of neighbours cross their common face.  (The lines themselves turn too much in curved interfaces: 1 % at edges of
+ * R/20.)  Where an element has several lines: of these.  Needs the lines. */
+PetscErrorCode PhasesInterfaceLength(Phases phases, int phase, double *length);
+
+/* Layers outside of a boundary: phase[k] alone flows in where n.x < d[k], and not n.x < d[k - 1]. */
+typedef struct {
+  int n, phase[PHASES_MAX];
+  double normal[2], d[PHASES_MAX];
+} PhasesLevels;
 
 /* What flows in where nothing is known: outside of open boundaries. */
 typedef struct {
   const double (*fraction)[PHASES_MAX]; /* [ntags][nphases], sum 1; NULL: boundaries are closed */
-  const PhasesLevel *level;             /* [ntags], borrowed; NULL: none */
+  const PhasesLevels *levels;           /* [ntags], borrowed; NULL: none */
 } PhasesInflow;
 
 /* One step of dt, s, along fluxes flux[ne][3] (outward through face i, m2/s; what leaves an element enters

@@ -33,15 +33,27 @@ static inline HalfPlane PhasesLine(Phases f, int e, int p, const double origin[2
   return PhasesMoveLine(f->line[(size_t)e * (size_t)(f->np - 1) + (size_t)p], f->stars->element[e].x[0],
                         origin);
 }
-/* With two phases: the distance of vertex v of an owned element from the interface, negative in the first phase, m; 0 where
- * elements of both phases meet there, and around which no element is cut.  *inside: 1 in the first phase, 0 in the second,
- * 1/2 on the interface. */
-double PhasesDistance(Phases phases, int v, double *inside);
-/* The interface's curvature near vertex v of an owned element, 1/m, positive where the first phase is convex; 0 is returned
- * where none is known.  cosine: of contact angles, as in PhasesGetSurfaceForce. */
-int PhasesCurvature(Phases phases, int v, const double cosine[], double *curvature);
-/* Where the first line of cut element e crosses its face i, m; 0 if it does not. */
-int PhasesCrossing(Phases phases, int e, int i, double x[2]);
+/* Whether line k divides local element e. */
+static inline int PhasesHasLine(Phases f, int e, int k)
+{
+  const HalfPlane *h = &f->line[(size_t)e * (size_t)(f->np - 1) + (size_t)k];
+  return f->single[e] < 0 && (h->n[0] != 0.0 || h->n[1] != 0.0);
+}
+/* The next phase behind k that element e has: what its line k divides phase k from. */
+int PhasesBehind(Phases phases, int e, int k);
+/* Of local element e, which line k does not divide: -1 below it (the last of its phases is k), 1 above it (all are behind k); else,
+ * and where line k divides it, 0. */
+int PhasesSide(Phases phases, int e, int k);
+/* The segment of line k of cut element e in what earlier lines leave, and *line, relative to origin. */
+PolygonCut PhasesSegment(Phases phases, int e, int k, const double origin[2], HalfPlane *line);
+/* The distance of vertex v of an owned element from the lines k around it, negative in phase k, m; 0 where elements below and
+ * above meet there, and around which no element has such a line.  *inside: 1 in phase k, 0 behind it, 1/2 on the interface. */
+double PhasesDistance(Phases phases, int k, int v, double *inside);
+/* The curvature of lines k near vertex v of an owned element, 1/m, positive where phase k is convex; 0 is returned where none is
+ * known.  cosine: of contact angles, as in PhasesGetSurfaceForce. */
+int PhasesCurvature(Phases phases, int k, int v, const PhasesPairs cosine[], double *curvature);
+/* Where line k of cut element e crosses its face i, m; 0 if it does not. */
+int PhasesCrossing(Phases phases, int e, int k, int i, double x[2]);
 /* area[np] += weight * |polygon and phase p| in local element e; polygon lies in the element, relative to
  * origin. */
 void PhasesSplit(Phases phases, int e, const Polygon *polygon, const double origin[2], double weight,

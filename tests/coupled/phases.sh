@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A square among water and air: few coupling iterations, momentum and water kept, no water inside, the same on other ranks and after a resume.
+# A square among water and air, and among water, oil and air: few coupling iterations, momentum and water kept, no water inside, the same on other ranks and after a resume.
 # Usage: phases.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
@@ -8,12 +8,15 @@ must one 1:1:1
 must two 2:1:1
 must half 1:1:1 --set time.end=0.06
 must half 1:1:1 --set resume=last
+must three 2:1:1 --set 'fluid.phases=[{name: air, density: 1.2, viscosity: 1.8e-5}, {name: water, density: 1000, viscosity: 1.0e-3},
+  {name: oil, density: 800, viscosity: 1.0e-2}]' --set 'fluid.regions=[{phase: air}, {phase: oil, lower: [-1, -1], upper: [0.20, 0.195]},
+  {phase: water, lower: [-1, -1], upper: [0.20, 0.183]}]'
 "$python" - "$scratch" ${1:+print} <<'E2'
 import csv, h5py, numpy as np, sys
 def rows(label, part):
     return list(csv.DictReader(open("%s/%s/%s.csv" % (sys.argv[1], label, part))))
-def snapshots(label):
-    """Areas, solid and water fractions of the elements in each snapshot."""
+def snapshots(label, phases=("water",)):
+    """Areas, solid and the phases' fractions of the elements in each snapshot."""
     grid = h5py.File("%s/%s/fluid.h5" % (sys.argv[1], label))["snapshot"]
     for key in sorted(grid):
         velocity = grid[key]["velocity"]
@@ -21,7 +24,7 @@ def snapshots(label):
             x, cells = velocity["points"][:], velocity["cells"][:]
         a, b, c = (x[cells[:, k]] for k in range(3))
         area = 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
-        yield area, velocity["cell/alpha"][:], velocity["cell/water"][:]
+        yield area, velocity["cell/alpha"][:], sum(velocity["cell/" + name][:] for name in phases)
 place = {}
 for label in ("one", "two", "half"):
     for area, solid, water in snapshots(label):
@@ -39,6 +42,15 @@ for label in ("one", "two", "half"):
     assert max(float(r["imbalance"]) for r in coupler) < 1e-10, label
     place[label] = np.array([float(last["x0 [m]"]), float(last["y0 [m]"])])
     assert 0.15 < place[label][1] < 0.19, "%s: at %s" % (label, place[label])
+for area, solid, liquid in snapshots("three", ("water", "oil")):
+    inside = (area * np.maximum(liquid + solid - 1.0, 0.0)).sum() / 0.0016
+    assert inside < 1e-9, "three: water and oil in %g of the square" % inside
+for row in rows("three", "fluid"):
+    for name, start in (("water", 0.0366), ("oil", 0.0024), ("air", 0.201)):
+        assert abs(float(row[name + " made [m2]"])) < 1e-13, "three: %s made %s m2" % (name, row[name + " made [m2]"])
+        kept = float(row[name + " [m2]"]) + float(row[name + " out [m2]"])
+        assert abs(kept - start) < 1e-11, "three: %s %.14g m2 of %g" % (name, kept, start)
+assert 0.15 < float(rows("three", "solid")[-1]["y0 [m]"]) < 0.19, rows("three", "solid")[-1]
 for label in ("two", "half"):
     assert abs(place[label] - place["one"]).max() < 5e-4, "%s: at %s, one rank at %s" % (label, place[label], place["one"])
 if len(sys.argv) > 2: print(place)

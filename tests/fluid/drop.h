@@ -32,7 +32,7 @@ static inline PetscErrorCode DropCreate(const DropSetup *s, int nregions, const 
                       .phases = {.n = 2,
                                  .rho = {1.0, 1.0 / s->ratio},
                                  .mu = {s->viscosity[0], s->viscosity[1]},
-                                 .surface_tension = s->tension},
+                                 .surface_tension = {{{0.0, s->tension}, {s->tension, 0.0}}}},
                       .gravity = {0.0, -s->gravity},
                       .cfl = 0.5,
                       .dt_max = 1.0,
@@ -41,7 +41,8 @@ static inline PetscErrorCode DropCreate(const DropSetup *s, int nregions, const 
   PetscFunctionBeginUser;
   PetscCall(ShakenMesh(PETSC_COMM_WORLD, &shaken, &d->mesh));
   for (int b = 0; b < d->mesh->ntags; b++)
-    boundary[b] = (Boundary){.kind = s->wall, .contact_cosine = s->cosine[b]};
+    boundary[b] =
+        (Boundary){.kind = s->wall, .phases.contact_cosine = {{{0.0, s->cosine[b]}, {-s->cosine[b], 0.0}}}};
   PetscCall(FluidCreate(d->mesh, &setup, &d->fluid));
   PetscCall(FluidSetPhases(d->fluid, nregions, region));
   PetscCall(FluidSetInitial(d->fluid, 0.0, NULL, NULL, NULL));

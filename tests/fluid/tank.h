@@ -1,4 +1,4 @@
-/* Water below air in a closed box with free-slip walls, on a mesh that knows nothing of the surface. */
+/* Water below air, or other phases, in a box with free-slip walls, on a mesh that knows nothing of the surface. */
 #ifndef TEST_FLUID_TANK_H
 #define TEST_FLUID_TANK_H
 #include "fluid/fluid.h"
@@ -14,20 +14,25 @@ typedef struct {
   Fluid fluid;
 } Tank;
 
-/* The unit square of n x n shaken cells; between walls, or open at the top and, up to this level of water outside, at the
- * sides. */
-static inline PetscErrorCode TankCreateOpen(int n, unsigned seed, double viscosity, int nregions,
-                                            const Region region[], PetscBool open, double level, Tank *t)
+/* Sides open to these layers outside, and an open top; NULL: walls. */
+typedef BoundaryPhases TankOutside;
+
+/* The unit square of n x n shaken cells, with these phases. */
+static inline PetscErrorCode TankCreatePhases(int n, unsigned seed, const PhaseProperties *phases,
+                                              int nregions, const Region region[], const TankOutside *outside,
+                                              Tank *t)
 {
   const Shaken shaken = {.n = n, .seed = seed, .radius = 1.0};
+  const int lightest = PhaseLightest(phases);
   Boundary boundary[8] = {0};
-  FluidSetup setup = {.theta = 0.5,
-                      .rho = AIR,
-                      .mu = 1.8e-5,
-                      .phases = {.n = 2, .rho = {WATER, AIR}, .mu = {viscosity, 0.018 * viscosity}},
+  FluidSetup setup = {.theta = PhaseHasTension(phases) ? 1.0 : 0.5,
+                      .rho = phases->rho[lightest],
+                      .mu = phases->mu[lightest],
+                      .phases = *phases,
                       .gravity = {0.0, -9.81},
                       .cfl = 0.5,
                       .dt_max = 1.0,
+                      .capillary_cfl = CAPILLARY_CFL,
                       .boundary = boundary};
   PetscFunctionBeginUser;
   PetscCall(ShakenMesh(PETSC_COMM_WORLD, &shaken, &t->mesh));
@@ -35,14 +40,24 @@ static inline PetscErrorCode TankCreateOpen(int n, unsigned seed, double viscosi
     const char *name = t->mesh->tag_name[b];
     const PetscBool side = (PetscBool)(!strcmp(name, "left") || !strcmp(name, "right"));
     boundary[b].kind = BOUNDARY_FREE_SLIP;
-    if (!open || (!side && strcmp(name, "top") != 0)) continue;
+    if (!outside || (!side && strcmp(name, "top") != 0)) continue;
     boundary[b].kind = BOUNDARY_OPEN;
-    boundary[b].has_level = side;
-    boundary[b].level = level;
+    if (side) boundary[b].phases = *outside;
   }
   PetscCall(FluidCreate(t->mesh, &setup, &t->fluid));
   PetscCall(FluidSetPhases(t->fluid, nregions, region));
   PetscCall(FluidSetInitial(t->fluid, 0.0, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+/* Water below air; between walls, or open at the top and, up to this level of water outside, at the sides. */
+static inline PetscErrorCode TankCreateOpen(int n, unsigned seed, double viscosity, int nregions,
+                                            const Region region[], PetscBool open, double level, Tank *t)
+{
+  const PhaseProperties phases = {.n = 2, .rho = {WATER, AIR}, .mu = {viscosity, 0.018 * viscosity}};
+  const TankOutside outside = {.nlevels = 1, .level = {level}};
+  PetscFunctionBeginUser;
+  PetscCall(TankCreatePhases(n, seed, &phases, nregions, region, open ? &outside : NULL, t));
   PetscFunctionReturn(0);
 }
 

@@ -2,53 +2,12 @@
 /* Water and air on a mesh that adapts to their interface: still water stays still, no water is lost, the interface's
  * elements have the size asked for, and a column that collapses does the same on any ranks.
  * phase_adaptation print: says what it found. */
-#include "fluid/adaptation.h"
-#include "tests/fluid/tank.h"
+#include "tests/fluid/adapting_tank.h"
 
 /* Of the column's water after 12 steps: from this program with `print`; meshes of different ranks differ, and the centre
  * by 1e-5 m. */
 #define CENTRE_X 0.15417
 #define CENTRE_Y 0.28753
-
-typedef struct {
-  Tank tank;
-  Adaptation adaptation;
-  PetscBool new_mesh;
-  int meshes;
-} RunState;
-
-static const AdaptationSetup SETUP = {.size_min = 0.03,
-                                      .size_max = 0.3,
-                                      .interface_size = 0.03,
-                                      .velocity_error = 0.05,
-                                      .growth = 1.5,
-                                      .anisotropy = 5.0,
-                                      .elements_max = 1e5,
-                                      .every = 3};
-
-/* As in main.c. */
-static PetscErrorCode Step(RunState *m, double dt)
-{
-  Fluid f = m->tank.fluid, next;
-  PetscBool due;
-  Mesh *mesh;
-  PetscFunctionBeginUser;
-  if (m->new_mesh) PetscCall(FluidMakeSolenoidal(f));
-  m->new_mesh = PETSC_FALSE;
-  PetscCall(FluidMomentum(f, dt));
-  PetscCall(FluidProject(f, dt));
-  PetscCall(AdaptationDue(m->adaptation, f, &due));
-  if (due) PetscCall(AdaptationMesh(m->adaptation, f, &mesh));
-  PetscCall(FluidCorrect(f, dt, NULL));
-  if (!due) PetscFunctionReturn(0);
-  PetscCall(FluidCreateLike(f, mesh, &next));
-  PetscCall(FluidTransfer(f, next));
-  PetscCall(TankDestroy(&m->tank));
-  m->tank = (Tank){mesh, next};
-  m->new_mesh = PETSC_TRUE;
-  m->meshes++;
-  PetscFunctionReturn(0);
-}
 
 /* The water's volume and centre, and the longest edge of a cut element. */
 static PetscErrorCode Measure(const Tank *t, double *volume, double centre[2], double *longest)
@@ -79,15 +38,15 @@ static PetscErrorCode Measure(const Tank *t, double *volume, double centre[2], d
 }
 
 /* March on a mesh that starts coarse; *speed: the largest of all steps. */
-static PetscErrorCode March(const Region region[2], int steps, double dt, RunState *m, double *speed)
+static PetscErrorCode March(const Region region[2], int steps, double dt, AdaptingTank *m, double *speed)
 {
   PetscFunctionBeginUser;
-  *m = (RunState){0};
+  *m = (AdaptingTank){0};
   PetscCall(TankCreate(12, 3u, 1e-3, 2, region, &m->tank));
-  PetscCall(AdaptationCreate(&SETUP, &m->adaptation));
+  PetscCall(AdaptationCreate(&TANK_ADAPTATION, &m->adaptation));
   *speed = 0.0;
   for (int k = 0; k < steps; k++) {
-    PetscCall(Step(m, dt));
+    PetscCall(AdaptingTankStep(m, dt));
     *speed = fmax(*speed, TankSpeed(&m->tank, 0));
   }
   PetscFunctionReturn(0);
@@ -98,14 +57,14 @@ static PetscErrorCode Still(void)
   const Region region[2] = {{.shape = REGION_BOX, .phase = 1, .a = {-1, -1}, .b = {2, 2}},
                             {.shape = REGION_HALF_PLANE, .phase = 0, .a = {0.5, 0.473}, .b = {0.0, 1.0}}};
   double volume, centre[2], longest, speed;
-  RunState m;
+  AdaptingTank m;
   PetscFunctionBeginUser;
   PetscCall(March(region, 12, 0.005, &m, &speed));
   PetscCall(Measure(&m.tank, &volume, centre, &longest));
   CHECK(m.meshes == 4, "%d meshes", m.meshes);
   CHECK(speed < 1e-6 * sqrt(9.81), "still water moves at %g m/s", speed);
   CHECK(fabs(volume - 0.473) < 1e-12, "%.15g m2 of 0.473", volume);
-  CHECK(longest < 2.0 * SETUP.interface_size, "edges of %g m at the interface", longest);
+  CHECK(longest < 2.0 * TANK_ADAPTATION.interface_size, "edges of %g m at the interface", longest);
   PetscCall(AdaptationDestroy(&m.adaptation));
   PetscCall(TankDestroy(&m.tank));
   PetscFunctionReturn(0);
@@ -116,7 +75,7 @@ static PetscErrorCode Column(int print)
   const Region region[2] = {{.shape = REGION_BOX, .phase = 1, .a = {-1, -1}, .b = {2, 2}},
                             {.shape = REGION_BOX, .phase = 0, .a = {-1, -1}, .b = {0.3, 0.6}}};
   double volume, centre[2], longest, speed;
-  RunState m;
+  AdaptingTank m;
   PetscFunctionBeginUser;
   PetscCall(March(region, 12, 0.005, &m, &speed));
   PetscCall(Measure(&m.tank, &volume, centre, &longest));

@@ -38,7 +38,7 @@ static double SetExactTension(Fluid f)
     const ElementGeometry *g = f->domain.geometry + e;
     double force[2] = {0.0, 0.0}, inside;
     for (int i = 0; i < 3; i++) {
-      (void)PhasesDistance(phases, phases->stars->vertex[e][i], &inside);
+      (void)PhasesDistance(phases, 0, phases->stars->vertex[e][i], &inside);
       for (int c = 0; c < 2; c++) force[c] += inside * g->g[i][c] / RADIUS;
     }
     for (int c = 0; c < 2; c++) {

@@ -53,6 +53,20 @@ phases "'fluid.regions\[1\].upper': the box is empty" --set 'fluid.regions=[{pha
 refused fluid "'fluid.boundaries.left.level': there are no phases" --set 'fluid.boundaries.left={level: 1}' --set fluid.density=1 --set fluid.viscosity=1
 phases "'fluid.boundaries.left.level': expected a number" --set 'fluid.regions=[{phase: air}]' --set 'fluid.boundaries.left={level: high}'
 phases "'fluid.phases\[1\].name': expected a name" --set 'fluid.regions=[{phase: water}]' --set 'fluid.phases[1].name="a, b"'
+# more than two, and what is said of pairs of them
+three='fluid.phases=[{name: water, density: 1000, viscosity: 1.0e-3}, {name: oil, density: 800, viscosity: 1.0e-3}, {name: air, density: 1.2, viscosity: 1.8e-5}]'
+liquids() { local expect=$1; shift; refused fluid "$expect" --set "$three" --set 'fluid.regions=[{phase: air}]' "$@"; }
+phases "'fluid.phases': expected from 2 to 8 phases, found 1" --set 'fluid.phases=[{name: water, density: 1000, viscosity: 1.0e-3}]' --set 'fluid.regions=[{phase: water}]'
+liquids "'fluid.surface_tension\[0\].between': expected the names of two phases" --set 'fluid.surface_tension=[{between: [oil], value: 1}]'
+liquids "'fluid.surface_tension\[0\].between\[1\]': expected a phase (water, oil, air), found 'gas'" --set 'fluid.surface_tension=[{between: [oil, gas], value: 1}]'
+liquids "'fluid.surface_tension\[0\].between\[1\]': expected another phase" --set 'fluid.surface_tension=[{between: [oil, oil], value: 1}]'
+liquids "'fluid.surface_tension\[1\].between\[1\]': an item before this one" --set 'fluid.surface_tension=[{between: [oil, air], value: 1}, {between: [air, oil], value: 1}]'
+liquids "'fluid.surface_tension\[0\].value': expected a number >= 0" --set 'fluid.surface_tension=[{between: [oil, air], value: -1}]'
+liquids "'fluid.boundaries.left.contact_angle\[0\].value': expected a number from 0 to 180" --set 'fluid.boundaries.left={wall: no_slip, contact_angle: [{between: [oil, air], value: 190}]}'
+liquids "'fluid.boundaries.left.level\[1\].height': expected layers from below: more than 2, found 1" --set 'fluid.boundaries.left={level: [{phase: water, height: 2}, {phase: oil, height: 1}]}'
+liquids "'fluid.boundaries.left.fractions': expected fractions whose sum is 1, found 0.9" --set 'fluid.boundaries.left={velocity: [0, 0], fractions: [{phase: water, value: 0.4}, {phase: oil, value: 0.5}]}'
+liquids "'fluid.boundaries.left.fractions\[1\].phase': an item before this one" --set 'fluid.boundaries.left={velocity: [0, 0], fractions: [{phase: oil, value: 0.4}, {phase: oil, value: 0.6}]}'
+liquids "'fluid.boundaries.left.fractions': expected phase or fractions, not both" --set 'fluid.boundaries.left={velocity: [0, 0], phase: oil, fractions: [{phase: oil, value: 1}]}'
 # a gauge outside, a body across a wall
 phases "'fluid.probes\[0\].point': expected what lies in the mesh, (9, 1) does not" --set 'fluid.regions=[{phase: air}]' --set 'fluid.probes=[{name: P, point: [9, 1]}]'
 refused solid "'solid.bodies\[0\]': the body reaches through solid.walls at" --set 'solid.walls={lower: [1, 0], upper: [2, 4]}'

@@ -10,7 +10,7 @@ enum { CORNERS = 400 };
 /* A circle (b = a) or an ellipse of half axes a, b. */
 typedef struct {
   double centre[2], a, b;
-  double cosine[8]; /* of the contact angle at all boundaries */
+  PhasesPairs cosine[8]; /* of the contact angle at all boundaries */
 } Shape;
 
 /* Curvature in the point of the ellipse that is next to x, by Newton's method from the angle that x has on stretched axes. */
@@ -52,7 +52,7 @@ static PetscErrorCode Errors(const Shape *shape, int n, unsigned seed, double *w
   for (int e = 0; e < s.stars->ne; e++)
     for (int i = 0; i < 3 && PhasesSingle(s.phases, e) < 0; i++) {
       double kappa;
-      CHECK(PhasesCurvature(s.phases, s.stars->vertex[e][i], shape->cosine, &kappa), "no curvature");
+      CHECK(PhasesCurvature(s.phases, 0, s.stars->vertex[e][i], shape->cosine, &kappa), "no curvature");
       const double error = (kappa - Exact(shape, s.stars->element[e].x[i])) * sqrt(shape->a * shape->b);
       *worst = fmax(*worst, fabs(error));
       sum[0] += error * error;
@@ -91,21 +91,22 @@ static PetscErrorCode Straight(void)
   const Region region[2] = {{.shape = REGION_BOX, .phase = 1, .a = {-1, -1}, .b = {2, 2}},
                             {.shape = REGION_HALF_PLANE, .phase = 0, .a = {0.51, 0.47}, .b = {0.4, 0.7}}};
   const double normal[2] = {0.4 / hypot(0.4, 0.7), 0.7 / hypot(0.4, 0.7)};
-  double cosine[8], kappa;
+  PhasesPairs cosine[8];
+  double kappa;
   Set s;
   Mesh *mesh;
   PetscFunctionBeginUser;
   PetscCall(ShakenMesh(PETSC_COMM_WORLD, &shaken, &mesh));
   for (int b = 0; b < mesh->ntags; b++) { /* the angle at which the line meets this wall */
     const int axis = b < 2 ? 0 : 1;
-    cosine[b] = (b % 2 ? -1.0 : 1.0) * normal[axis];
+    cosine[b].value[0][1] = (b % 2 ? -1.0 : 1.0) * normal[axis];
   }
   PetscCall(SetMake(mesh, 2, &s));
   PetscCall(PhasesFill(s.phases, 2, region));
   PetscCall(PhasesReconstruct(s.phases));
   for (int e = 0; e < s.stars->ne; e++)
     for (int i = 0; i < 3 && PhasesSingle(s.phases, e) < 0; i++) {
-      CHECK(PhasesCurvature(s.phases, s.stars->vertex[e][i], cosine, &kappa), "no curvature");
+      CHECK(PhasesCurvature(s.phases, 0, s.stars->vertex[e][i], cosine, &kappa), "no curvature");
       CHECK(fabs(kappa) < 1e-6, "a straight interface has the curvature %g", kappa);
     }
   PetscCall(SetDestroy(&s));
@@ -119,7 +120,7 @@ int main(int argc, char **argv)
               ellipse = {.centre = {0.51, 0.507}, .a = 0.3, .b = 0.2};
   Shape cap = {.centre = {0.503, -0.4 * cos(angle)}, .a = 0.4, .b = 0.4};
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
-  for (int b = 0; b < 8; b++) cap.cosine[b] = cos(angle);
+  for (int b = 0; b < 8; b++) cap.cosine[b].value[0][1] = cos(angle);
   PetscCall(Straight());
   PetscCall(Converges("circle", &circle, 16, 2e-4, 6.0, argc > 1));
   PetscCall(Converges("cap, 60 degrees", &cap, 16, 4e-3, 3.0, argc > 1));

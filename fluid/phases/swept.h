@@ -1,0 +1,33 @@
+/* The region that passes a face in a step, and the phases in it.
+ *
+ *      a----------b     Face ab, outward to its right.  a' and b' are where its vertices were dt ago; m'
+ *       \        /      moves out of the middle of a'b' until the area a b b' m' a' is flux dt.  The phases
+ *        \      /       that lie in this polygon leave through the face.  It is taken as three signed
+ *        a'--.b'        triangles at a, so that it may cross itself.
+ *          m'
+ *
+ * Private to the phases room; nothing here is collective. */
+#ifndef CORACLE_PHASES_SWEPT_H
+#define CORACLE_PHASES_SWEPT_H
+#include "fluid/phases/phases_impl.h"
+
+/* Corners relative to the face's first vertex. */
+typedef struct {
+  double origin[2], corner[5][2]; /* a, b, b', m, a' */
+  double low[2], high[2];
+} Swept;
+
+typedef struct {
+  Phases f;         /* borrowed */
+  int stamp, *mark; /* [nl] */
+  int n, *list;     /* elements that a face may sweep, by ascending global number */
+} SweptSearch;
+
+PetscErrorCode SweptSearchCreate(Phases phases, SweptSearch *search);
+PetscErrorCode SweptSearchDestroy(SweptSearch *search);
+/* The region of area `swept` > 0, m2, to the left of a -> b; shift[vertex]: from where it is to where it was, m. */
+void SweptMake(const Stars *stars, int a, int b, const double shift[][2], double swept, Swept *region);
+/* area[np] += that of each phase in the region, m2, among the elements around a and b, with `wide` also those around their
+ * neighbours; returns what these do not cover of it, over the square of the edge. */
+double SweptCollect(SweptSearch *search, int a, int b, int wide, const Swept *region, double area[]);
+#endif
