@@ -23,8 +23,11 @@ typedef struct {
 } PhaseProperties;
 
 const PhaseProperties *PhaseTransportProperties(PhaseTransport t);
-/* The lightest phase.  Not collective. */
+/* The lightest phase, which fills solids.  Not collective. */
 int PhaseLightest(const PhaseProperties *properties);
+/* Of element e: the density of the phase that fills solids, and the mean density of its other phases, 0 where it has none, kg/m3.
+ * Not collective. */
+void PhaseTransportBesideSolid(PhaseTransport t, int e, double *inside, double *beside);
 /* Without volumes; domain is borrowed.  Collective, like all that says nothing else. */
 PetscErrorCode PhaseTransportCreate(const FluidDomain *domain, const PhaseProperties *properties,
                                     const double gravity[2], PhaseTransport *t);

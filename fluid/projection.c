@@ -78,7 +78,7 @@ static void Stiffness(const ElementGeometry *g, const ProjectionStep *step, int 
 static PetscErrorCode Assemble(ProjectionSolver s, const ProjectionStep *step)
 {
   const FluidDomain *d = s->domain;
-  const WeightedProjectionStep weighted = {step->dt, step->rho, step->solid};
+  const WeightedProjectionStep weighted = {step->dt, step->rho, step->solid, step->inertia};
   PetscBool inertia;
   double(*block)[36];
   PetscFunctionBeginUser;

@@ -13,7 +13,7 @@ static PetscErrorCode Fluid(int rank, int size, FluidElements *e, double **x, do
 
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2(12 * CELLS * CELLS, x, 2 * CELLS * CELLS, rho));
-  *e = (FluidElements){0, *x, *rho, *rho, {-0.2, -0.2}, {0.2, 0.2}};
+  *e = (FluidElements){0, *x, *rho, *rho, NULL, NULL, {-0.2, -0.2}, {0.2, 0.2}};
   for (int k = 0; k < CELLS * CELLS; k++) {
     if (k % CELLS * size / CELLS != rank) continue;
     const double a = -0.2 + h * (k % CELLS), b = -0.2 + h * (k / CELLS);
@@ -68,7 +68,11 @@ static PetscErrorCode Measure(Coupler c, const SolidState *solid, int nfluid, in
 
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(6 * (size_t)nfluid, &flow));
-  const CoracleFlow still = {flow, flow, NULL, CouplerOverlap(c)->rho, CouplerOverlap(c)->mu};
+  const CoracleFlow still = {.u_start = flow,
+                             .u_star = flow,
+                             .u_projected = flow,
+                             .rho = CouplerOverlap(c)->rho,
+                             .mu = CouplerOverlap(c)->mu};
   for (int step = 0; step < STEPS; step++) {
     const CoracleCoupling *coupling;
     const CoracleCorrection *correction;
