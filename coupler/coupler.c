@@ -125,12 +125,17 @@ PetscErrorCode CouplerSetInterfaceVelocity(Coupler c, const double u[], int *n,
   PetscFunctionReturn(0);
 }
 
+void CouplerSetAcceleration(Coupler c, const SolidState *end)
+{
+  for (int k = 0; k < 2 * c->nnodes; k++) c->acceleration[k] = end->acceleration[k];
+}
+
 PetscErrorCode CouplerComputeForce(Coupler c, const CoracleFlow *flow, const double **force,
                                    ForceTotals *totals)
 {
   PetscFunctionBeginUser;
   c->flow = *flow;
-  PetscCall(OverlapSetProperties(c->overlap, flow->rho, flow->mu));
+  PetscCall(OverlapSetProperties(c->overlap, flow));
   PetscCall(PetscArrayzero(c->vertex, 3 * (size_t)c->overlap->nsources));
   PetscCall(c->mode->force(c));
   for (int i = 0; i < c->nnodes; i++) {

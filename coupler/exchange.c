@@ -28,7 +28,8 @@ PetscErrorCode ExchangeRequestElements(Server server, const Region region, Fluid
 
   PetscFunctionBeginUser;
   PetscCall(ServerAskElements(server, region->nbox, &region->box[0][0][0], &e));
-  *elements = (FluidElements){e.n, e.x, e.rho, e.mu, {e.lower[0], e.lower[1]}, {e.upper[0], e.upper[1]}};
+  *elements = (FluidElements){
+      e.n, e.x, e.rho, e.mu, e.rho_inside, e.rho_beside, {e.lower[0], e.lower[1]}, {e.upper[0], e.upper[1]}};
   PetscFunctionReturn(0);
 }
 

@@ -7,9 +7,10 @@
 #include "common/link/coracle.h"
 
 typedef struct {
-  int n;                     /* elements of this rank's clients */
-  const double *x;           /* [n][3][2] vertices, m */
-  const double *rho, *mu;    /* [n] kg/m3, Pa s: at the start of the coming step */
-  double lower[2], upper[2]; /* bounds of the fluid's whole domain, m */
+  int n;                                 /* elements of this rank's clients */
+  const double *x;                       /* [n][3][2] vertices, m */
+  const double *rho, *mu;                /* [n] kg/m3, Pa s: at the start of the coming step */
+  const double *rho_inside, *rho_beside; /* [n] kg/m3, as in CoracleElements */
+  double lower[2], upper[2];             /* bounds of the fluid's whole domain, m */
 } FluidElements;
 #endif

@@ -28,7 +28,6 @@ typedef struct {
   double thickness;  /* of the shell, dr, m */
   double relaxation; /* sigma dt / rho_f, used by the mode reaction */
   double gravity[2]; /* m/s2 */
-  PetscBool slip;    /* of one fluid, which also fills the solid (slip.h), used by the mode reaction */
 } CouplerOptions;
 
 /* Which of the solid's velocities over the last step u_s is: the one at its end, without vibrations, or the

@@ -9,12 +9,12 @@ static void ReadOptions(CoracleCase file, CouplerOptions *o)
   o->relaxation = CoracleCaseNumberOr(file, "coupler.relaxation", 10.0, 0.0, HUGE_VAL);
   if (o->relaxation <= 0.0)
     CoracleCaseRefuse(file, "coupler.relaxation", "expected a number > 0, found %g", o->relaxation);
-  o->slip = CoracleCaseHas(file, "fluid.phases") ? PETSC_FALSE : PETSC_TRUE;
 }
 
 static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
 {
   const Overlap o = c->overlap;
+  OutsideFluid *outside;
 
   PetscFunctionBeginUser;
   for (int p = 0; p < o->pairs.n; p++) {
@@ -29,8 +29,11 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
     }
   }
   PetscCall(InertiaCoefficients(o, solid, c->dt, c->term, c->density));
-  if (!c->options.slip) PetscFunctionReturn(0);
-  PetscCall(SlipTensors(o, c->tangential));
+  PetscCall(PetscMalloc1(o->ncoupled, &outside));
+  PetscCall(OutsideFind(o, c->density, outside));
+  OutsideCoefficients(o, outside, c->density, c->dt, c->options.gravity, c->term);
+  PetscCall(SlipTensors(o, outside, c->tangential));
+  PetscCall(PetscFree(outside));
   SlipCoefficients(o, c->tangential, c->term);
   PetscFunctionReturn(0);
 }

@@ -12,6 +12,18 @@ PetscErrorCode OverlapCreate(MPI_Comm comm, Overlap *overlap)
   PetscFunctionReturn(0);
 }
 
+/* A fluid that is one has the same density inside and beside the solid. */
+static PetscErrorCode SetProperties(Overlap o, const double rho[], const double mu[],
+                                    const double rho_inside[], const double rho_beside[])
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscArraycpy(o->rho, rho_inside ? rho_inside : rho, o->nelements));
+  PetscCall(PetscArraycpy(o->mu, mu, o->nelements));
+  PetscCall(PetscArraycpy(o->rho_mean, rho, o->nelements));
+  PetscCall(PetscArraycpy(o->rho_beside, rho_beside ? rho_beside : rho, o->nelements));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode OverlapSetElements(Overlap o, const FluidElements *elements)
 {
   const size_t n = (size_t)elements->n;
@@ -19,14 +31,13 @@ PetscErrorCode OverlapSetElements(Overlap o, const FluidElements *elements)
 
   PetscFunctionBeginUser;
   SearchDestroy(&o->search);
-  PetscCall(PetscFree4(o->x, o->area, o->rho, o->mu));
-  PetscCall(PetscMalloc4(n, &o->x, n, &o->area, n, &o->rho, n, &o->mu));
+  PetscCall(PetscFree6(o->x, o->area, o->rho, o->mu, o->rho_mean, o->rho_beside));
+  PetscCall(PetscMalloc6(n, &o->x, n, &o->area, n, &o->rho, n, &o->mu, n, &o->rho_mean, n, &o->rho_beside));
   PetscCall(PetscMemcpy(o->x, elements->x, n * sizeof *o->x));
-  PetscCall(PetscArraycpy(o->rho, elements->rho, n));
-  PetscCall(PetscArraycpy(o->mu, elements->mu, n));
   PetscCall(PetscArraycpy(o->lower, elements->lower, 2));
   PetscCall(PetscArraycpy(o->upper, elements->upper, 2));
   o->nelements = elements->n;
+  PetscCall(SetProperties(o, elements->rho, elements->mu, elements->rho_inside, elements->rho_beside));
   o->pairs.n = o->ncoupled = 0;
   for (int k = 0; k < o->nelements; k++) {
     o->area[k] = GeometryArea((const double(*)[2])o->x[k]);
@@ -38,11 +49,10 @@ PetscErrorCode OverlapSetElements(Overlap o, const FluidElements *elements)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode OverlapSetProperties(Overlap o, const double rho[], const double mu[])
+PetscErrorCode OverlapSetProperties(Overlap o, const CoracleFlow *flow)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscArraycpy(o->rho, rho, o->nelements));
-  PetscCall(PetscArraycpy(o->mu, mu, o->nelements));
+  PetscCall(SetProperties(o, flow->rho, flow->mu, flow->rho_inside, flow->rho_beside));
   PetscFunctionReturn(0);
 }
 
@@ -206,7 +216,7 @@ PetscErrorCode OverlapDestroy(Overlap *overlap)
   SearchDestroy(&o->search);
   SupermeshPairsDestroy(&o->pairs);
   PetscCall(PetscFree(o->bounds));
-  PetscCall(PetscFree4(o->x, o->area, o->rho, o->mu));
+  PetscCall(PetscFree6(o->x, o->area, o->rho, o->mu, o->rho_mean, o->rho_beside));
   PetscCall(PetscFree(o->node));
   PetscCall(PetscFree(o->source));
   PetscCall(PetscFree2(o->coupled_element, o->coupled_index));

@@ -36,10 +36,12 @@ typedef struct {
   MPI_Comm comm;
   /* the fluid elements of this rank's clients */
   int nelements;
-  double (*x)[3][2], *area;  /* [nelements] m (copied), m2 */
-  double *rho, *mu;          /* [nelements] kg/m3, Pa s, of the last flow or exchange of elements (copied) */
-  double lower[2], upper[2]; /* bounds of the fluid's whole domain, m */
-  GeometryBox *bounds;       /* [size] bounding box of each rank's elements */
+  double (*x)[3][2], *area; /* [nelements] m (copied), m2 */
+  double *rho,
+      *mu; /* [nelements] kg/m3, Pa s, of the last flow or exchange of elements (copied): rho that of what fills the solid */
+  double *rho_mean, *rho_beside; /* [nelements] kg/m3: the element's, and its other phases' */
+  double lower[2], upper[2];     /* bounds of the fluid's whole domain, m */
+  GeometryBox *bounds;           /* [size] bounding box of each rank's elements */
   Search search;
   Copies nodes; /* of the solid's nodes on this rank, by gid: sums over the ranks that have a node */
   /* the solid's triangles that this rank owns, and the scatter from there to the source triangles */
@@ -59,9 +61,8 @@ PetscErrorCode OverlapCreate(MPI_Comm comm, Overlap *overlap);
 PetscErrorCode OverlapDestroy(Overlap *overlap);
 /* The fluid's elements near the solid, copied.  Pairs made before are void. */
 PetscErrorCode OverlapSetElements(Overlap overlap, const FluidElements *elements);
-/* Local: density rho[nelements], kg/m3, and viscosity mu[nelements], Pa s, of the fluid's last flow
- * (copied). */
-PetscErrorCode OverlapSetProperties(Overlap overlap, const double rho[], const double mu[]);
+/* Local: densities and viscosity of the fluid's last flow (copied). */
+PetscErrorCode OverlapSetProperties(Overlap overlap, const CoracleFlow *flow);
 /* Distributes the solid and its shell as they are now and finds all pairs.  new_mesh: nodes are others than at
  * the last call, not just moved. */
 PetscErrorCode OverlapBuild(Overlap overlap, const SolidState *solid, const Shell shell, PetscBool new_mesh);

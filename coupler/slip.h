@@ -16,20 +16,19 @@
  * momentum of the fluid: the added inertia of the next step, which takes the inner part to begin with the solid's
  * velocity, is less by it.
  *
- * Without it where there are phases: beside the solid is water and inside of it air, so that such an element would be lighter than
- * the water and slide up along the surface (2.9 m/s beside a block that floats at rest, 0.2 m/s without).
+ * Among phases D is scaled by what is beside the solid (outside.h).
  *
  * SLIP_FRICTION moves the place of no slip by a small part of an element.  The disc of cases/falling_cylinder, against
  * body-fitted elements in the reference's tank (le 0.01 m, top at 20 m): with 0 it is 0.8, 0.7, 0.4, -0.1 % fast at
  * 0.1, 0.2, 0.5 and 2.5 s, with 2 0.3, 0.2, 0.1 and -0.1 %. */
 #ifndef CORACLE_SLIP_H
 #define CORACLE_SLIP_H
-#include "coupler/wall_term.h"
+#include "coupler/outside.h"
 
 #define SLIP_FRICTION 2.0
 
-/* Local.  tangential[overlap->ncoupled]: D, without unit. */
-PetscErrorCode SlipTensors(const Overlap overlap, WallCoefficient tangential[]);
+/* Local.  tangential[overlap->ncoupled]: D, without unit, scaled by outside[overlap->ncoupled].slip. */
+PetscErrorCode SlipTensors(const Overlap overlap, const OutsideFluid outside[], WallCoefficient tangential[]);
 /* Local: a of the pairs in the solid's volume, isotropic so far, becomes (I - D) a + SLIP_FRICTION mu/|K| D. */
 void SlipCoefficients(const Overlap overlap, const WallCoefficient tangential[], PairTerm term[]);
 /* Local: r -= D r of all corrections[overlap->ncoupled]. */

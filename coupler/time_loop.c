@@ -12,6 +12,10 @@
 #include "coupler/exchange.h"
 #include "coupler/run_state.h"
 
+/* Of the first step: attempts, and the squared change of the velocity relative to that of the first. */
+enum { SUPPORT_ATTEMPTS = 8 };
+#define SUPPORT_TOLERANCE 1e-4
+
 /* Requests the fluid's elements near the solid. */
 static PetscErrorCode RequestElements(RunState *run)
 {
@@ -133,6 +137,48 @@ static PetscErrorCode RepeatStep(RunState *run)
   PetscFunctionReturn(0);
 }
 
+/* The first step knows nothing of how the solid holds against the fluid: with the acceleration of a free fall everywhere, what is
+ * inside it would move like a fluid (a block at rest in water lacked a seventh of its weight).  So the step is made again
+ * with the acceleration at its end until the velocity does not change; from then on the last step's serves. */
+static PetscErrorCode FindSupport(RunState *run, StepRecord *step)
+{
+  const TimeLoop *loop = run->loop;
+  const int n = 2 * run->start.nnodes;
+  double *u, change = 1.0, first = 0.0;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(n, &u));
+  PetscCall(PetscArraycpy(u, CouplerPredictedVelocity(loop->coupler), n));
+  for (int i = 0; i < SUPPORT_ATTEMPTS && change > SUPPORT_TOLERANCE * first; i++) {
+    const CoracleCoupling *coupling;
+    int ncoupling, lost;
+    PetscCall(Iterate(run, step->iterations++ ? CORACLE_REDO : CORACLE_RUN, step));
+    lost = run->solid.changed || run->solid.lost;
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &lost, 1, MPI_INT, MPI_LOR, PETSC_COMM_WORLD));
+    change = 0.0;
+    for (int k = 0; k < n && !lost; k++) {
+      change += PetscSqr(run->solid.u[k] - u[k]);
+      u[k] = run->solid.u[k];
+    }
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &change, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
+    if (i == 0) first = change;
+    if (!lost) CouplerSetAcceleration(loop->coupler, &run->solid);
+    PetscCall(CouplerSetInterfaceVelocity(loop->coupler, CouplerPredictedVelocity(loop->coupler), &ncoupling,
+                                          &coupling));
+    PetscCall(ServerSendCoupling(loop->server, run->t, run->dt, CORACLE_REDO, 0, NULL, ncoupling, coupling));
+  }
+  PetscCall(PetscFree(u));
+  PetscFunctionReturn(0);
+}
+
+static PetscBool NeedsSupport(const RunState *run)
+{
+  const CouplerCase *c = run->loop->c;
+  return run->t == 0.0 && !run->loop->from && c->options.mode == COUPLER_REACTION && c->max_iterations > 1
+             ? PETSC_TRUE
+             : PETSC_FALSE;
+}
+
 /* Coupling iterations over dt, at most as many as are allowed. */
 static PetscErrorCode SolveOverStep(RunState *run, StepRecord *step, PetscBool *converged)
 {
@@ -225,6 +271,7 @@ PetscErrorCode TimeLoopRun(TimeLoop *loop)
   while (run.t < loop->c->end) {
     const double waited = ServerWaited(loop->server);
     StepRecord step = {0};
+    if (NeedsSupport(&run)) PetscCall(FindSupport(&run, &step));
     PetscCall(SolveStep(&run, &step));
     PetscCall(AcceptStep(&run, &step));
     if (run.t < loop->c->end) PetscCall(BeginStep(&run, &step));

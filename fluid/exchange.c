@@ -8,6 +8,7 @@ struct Exchange_s {
   int *element;                                          /* [n] the fluid's local elements near the solid */
   double *x;                                             /* [n][3][2] m */
   double *u_start, *u_star, *u_projected, *p, *rho, *mu; /* as in CoracleFlow */
+  double *inside, *beside;                               /* rho_inside, rho_beside; NULL: one fluid */
   CoracleCoupling *coupling;
   int coupling_capacity;
 };
@@ -16,6 +17,7 @@ static PetscErrorCode FreeArrays(Exchange x)
 {
   PetscFunctionBeginUser;
   PetscCall(PetscFree2(x->element, x->x));
+  PetscCall(PetscFree2(x->inside, x->beside));
   PetscCall(PetscFree6(x->u_start, x->u_star, x->u_projected, x->p, x->rho, x->mu));
   PetscFunctionReturn(0);
 }
@@ -27,6 +29,7 @@ static PetscErrorCode Reserve(Exchange x, int n)
   const int c = x->capacity = n + n / 4;
   PetscCall(FreeArrays(x));
   PetscCall(PetscMalloc2(c, &x->element, 6 * c, &x->x));
+  if (FluidPhases(x->fluid)) PetscCall(PetscMalloc2(c, &x->inside, c, &x->beside));
   PetscCall(PetscMalloc6(6 * c, &x->u_start, 6 * c, &x->u_star, 6 * c, &x->u_projected, 6 * c, &x->p, c,
                          &x->rho, c, &x->mu));
   PetscFunctionReturn(0);
@@ -48,15 +51,15 @@ static PetscBool InAnyBox(const Mesh *m, int e, int nbox, const double box[])
   return PETSC_FALSE;
 }
 
-/* Density and viscosity of the fluid on the elements near the solid.  Of phases the density is that of the lightest, which alone
- * fills the solid (phase_transport.h): an element that the solid covers in part has the mass of its water outside of it. */
+/* Density and viscosity of the fluid on the elements near the solid; of phases, the lightest fills the solid. */
 static void CopyProperties(Exchange x, Fluid fluid)
 {
   const double *rho = FluidDensity(fluid), *mu = FluidViscosity(fluid);
-  const PhaseProperties *phases = FluidPhases(fluid) ? PhaseTransportProperties(FluidPhases(fluid)) : NULL;
   for (int k = 0; k < x->n; k++) {
-    x->rho[k] = phases ? phases->rho[PhaseLightest(phases)] : rho[x->element[k]];
+    x->rho[k] = rho[x->element[k]];
     x->mu[k] = mu[x->element[k]];
+    if (FluidPhases(fluid))
+      PhaseTransportBesideSolid(FluidPhases(fluid), x->element[k], &x->inside[k], &x->beside[k]);
   }
 }
 
@@ -76,7 +79,7 @@ static int ElementsInRegion(void *context, int nbox, const double box[], Coracle
     s->element[s->n++] = e;
   }
   CopyProperties(s, s->exchanged);
-  *elements = (CoracleElements){.n = s->n, .x = s->x, .rho = s->rho, .mu = s->mu};
+  *elements = (CoracleElements){s->n, s->x, s->rho, s->mu, s->inside, s->beside};
   return 0;
 }
 
@@ -128,7 +131,7 @@ static PetscErrorCode SetFlow(Exchange x)
   const double *u_star = FluidVelocityStar(x->fluid), *u_projected = FluidVelocityProjected(x->fluid);
   const PetscBool needs_pressure = CoracleNeedsPressure(x->client) ? PETSC_TRUE : PETSC_FALSE;
   const CoracleFlow flow = {x->u_start, x->u_star, x->u_projected, needs_pressure ? x->p : NULL,
-                            x->rho,     x->mu};
+                            x->rho,     x->mu,     x->inside,      x->beside};
   PetscFunctionBeginUser;
   for (int k = 0; k < x->n; k++) {
     FluidStartVelocity(x->fluid, x->element[k], x->u_start + 6 * k);

@@ -74,6 +74,7 @@ PetscErrorCode FluidDestroy(Fluid *fluid)
   Fluid f = *fluid;
   PetscFunctionBeginUser;
   if (!f) PetscFunctionReturn(0);
+  PetscCall(TransferDestroy(&f->transfer));
   PetscCall(MomentumSolverDestroy(&f->momentum));
   PetscCall(ProjectionSolverDestroy(&f->projection));
   PetscCall(DestroyVectors(f));

@@ -16,6 +16,7 @@ struct Fluid_s {
   Material material;
   SolidCoupling solid;
   PhaseTransport phases; /* NULL: one fluid */
+  Transfer transfer;     /* from the mesh before this one, between FluidTransferPhases and FluidTransfer */
   /* with phases: the bulk velocities of the last two steps, which are free of divergence and move them */
   Vec bulk, bulk_previous;
   MomentumSolver momentum;

@@ -3,6 +3,9 @@
 #include "fluid/phase_boundary.h"
 #include "fluid/phase_sweep.h"
 
+/* Of an element, less than which of a phase is none. */
+#define SLIVER 1e-12
+
 struct PhaseTransport_s {
   const FluidDomain *domain; /* borrowed */
   PhaseProperties properties;
@@ -205,6 +208,21 @@ void PhaseTransportMaterial(PhaseTransport t, double rho[], double mu[])
     }
     if (mu[e] < 0.0) mu[e] = 0.0;
   }
+}
+
+void PhaseTransportBesideSolid(PhaseTransport t, int e, double *inside, double *beside)
+{
+  const int light = PhaseLightest(&t->properties);
+  double mass = 0.0, sum = 0.0;
+  int n;
+  const double *volume = PhaseTransportVolumes(t, &n) + t->properties.n * e;
+  for (int p = 0; p < n; p++)
+    if (p != light) {
+      mass += t->properties.rho[p] * fmax(volume[p], 0.0);
+      sum += fmax(volume[p], 0.0);
+    }
+  *inside = t->properties.rho[light];
+  *beside = sum > SLIVER * t->domain->geometry[e].area ? mass / sum : 0.0;
 }
 
 const PhaseProperties *PhaseTransportProperties(PhaseTransport t)

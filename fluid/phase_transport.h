@@ -23,10 +23,13 @@ typedef struct {
 } PhaseProperties;
 
 const PhaseProperties *PhaseTransportProperties(PhaseTransport t);
-/* The lightest phase, the heaviest; whether any two have surface tension.  Not collective. */
+/* The lightest phase, which fills solids, the heaviest; whether any two have surface tension.  Not collective. */
 int PhaseLightest(const PhaseProperties *properties);
 int PhaseHeaviest(const PhaseProperties *properties);
 PetscBool PhaseHasTension(const PhaseProperties *properties);
+/* Of element e: the density of the phase that fills solids, and the mean density of its other phases, 0 where it has none, kg/m3.
+ * Not collective. */
+void PhaseTransportBesideSolid(PhaseTransport t, int e, double *inside, double *beside);
 /* Without volumes; domain is borrowed.  Collective, like all that says nothing else. */
 PetscErrorCode PhaseTransportCreate(const FluidDomain *domain, const PhaseProperties *properties,
                                     const double gravity[2], PhaseTransport *t);

@@ -91,7 +91,7 @@ static void SetBlocks(ProjectionSolver s, const ProjectionStep *step)
 /* The pressure's matrix for the step, if it is not the solver's already. */
 static PetscErrorCode Assemble(ProjectionSolver s, const ProjectionStep *step)
 {
-  const WeightedProjectionStep weighted = {step->dt, step->rho, step->solid};
+  const WeightedProjectionStep weighted = {step->dt, step->rho, step->solid, step->inertia};
   PetscBool inertia;
   PetscFunctionBeginUser;
   PetscCall(WeightedProjectionPrepare(s->weighted, &weighted, &inertia));

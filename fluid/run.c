@@ -131,6 +131,7 @@ PetscErrorCode FluidRunRemesh(FluidRun *m, Mesh **mesh, Fluid *fluid)
   if (!due) PetscFunctionReturn(0);
   PetscCall(AdaptationMesh(m->adaptation, m->fluid, mesh));
   PetscCall(FluidCreateLike(m->fluid, *mesh, fluid));
+  PetscCall(FluidTransferPhases(m->fluid, *fluid));
   PetscFunctionReturn(0);
 }
 

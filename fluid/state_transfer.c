@@ -122,11 +122,9 @@ static PetscErrorCode PhasePressure(Fluid from, Fluid to, Transfer transfer)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode TransferPhases(Fluid from, Fluid to, Transfer transfer)
+static PetscErrorCode PhaseFlow(Fluid from, Fluid to, Transfer transfer)
 {
   PetscFunctionBeginUser;
-  PetscCall(PhaseTransportRemap(from->phases, transfer, to->phases));
-  PetscCall(FluidPhasesChanged(to));
   PhaseTransportSettle(from->phases);
   PetscCall(FluidPhasesChanged(from));
   PetscCall(PhaseVelocities(from, to, transfer));
@@ -134,24 +132,37 @@ static PetscErrorCode TransferPhases(Fluid from, Fluid to, Transfer transfer)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode FluidTransferPhases(Fluid from, Fluid to)
+{
+  const double start = MPI_Wtime();
+  PetscFunctionBeginUser;
+  PetscCall(TransferCreate(from->domain.mesh, to->domain.mesh, &to->transfer));
+  if (from->phases) {
+    PetscCall(PhaseTransportRemap(from->phases, to->transfer, to->phases));
+    PetscCall(FluidPhasesChanged(to));
+  }
+  to->stats.seconds[ADAPTATION] += MPI_Wtime() - start;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode FluidTransfer(Fluid from, Fluid to)
 {
-  const double start = MPI_Wtime(), setup = to->stats.seconds[SETUP];
-  Transfer transfer;
+  const double start = MPI_Wtime();
   PetscFunctionBeginUser;
-  PetscCall(TransferCreate(from->domain.mesh, to->domain.mesh, &transfer));
+  if (!to->transfer) PetscCall(FluidTransferPhases(from, to));
+  const double setup = to->stats.seconds[SETUP], remap = to->stats.seconds[ADAPTATION];
   to->t = from->t;
   if (from->phases) {
-    PetscCall(TransferPhases(from, to, transfer));
+    PetscCall(PhaseFlow(from, to, to->transfer));
   } else {
-    PetscCall(Velocities(from, to, transfer));
-    PetscCall(Pressure(from, to, transfer));
+    PetscCall(Velocities(from, to, to->transfer));
+    PetscCall(Pressure(from, to, to->transfer));
   }
-  PetscCall(TransferDestroy(&transfer));
+  PetscCall(TransferDestroy(&to->transfer));
   PetscCall(VecCopy(to->u, to->u_projected));
   to->dt_previous = from->dt_previous;
   to->stats = from->stats;
-  to->stats.seconds[ADAPTATION] += MPI_Wtime() - start;
+  to->stats.seconds[ADAPTATION] += remap + MPI_Wtime() - start;
   to->stats.seconds[SETUP] += setup;
   PetscFunctionReturn(0);
 }

@@ -95,7 +95,7 @@ PetscErrorCode WeightedProjectionPrepare(WeightedProjection w, const WeightedPro
   w->dt = s->dt;
   PetscCall(PetscFree(w->response));
   PetscCall(PetscMalloc1(n, &w->response));
-  for (int k = 0; k < n; k++) {
+  for (int k = 0; k < n && s->inertia; k++) {
     const int e = entry[k].element;
     if (IsWeighted(entry + k))
       PetscCall(Response(w->domain->geometry[e].area, s->rho[e] / s->dt, entry[k].implicit_inertia,

@@ -16,6 +16,7 @@ typedef struct {
   double dt;           /* s */
   const double *rho;   /* [ne], kg/m3 */
   SolidCoupling solid; /* borrowed until the next Prepare */
+  PetscBool inertia;   /* it takes part: responses are wanted */
 } WeightedProjectionStep;
 
 PetscErrorCode WeightedProjectionCreate(const FluidDomain *domain, WeightedProjection *w);

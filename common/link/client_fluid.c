@@ -59,6 +59,8 @@ static void AnswerElements(CoracleClient c)
   CoracleElements elements = {0};
   if (f->region(f->context, f->nbox, f->box, &elements) || elements.n < 0)
     ParticipantFail(c->p, "the region function failed in step %d", c->p->step);
+  if (!elements.rho_inside) elements.rho_inside = elements.rho;
+  if (!elements.rho_beside) elements.rho_beside = elements.rho;
   MessageHeader *h = MessageStart(&c->out, KIND_ELEMENTS, c->p->step);
   h->count[0] = f->n = elements.n;
   h->dt = f->proposed;
@@ -146,11 +148,14 @@ int CoracleGetGauges(CoracleClient c, int *n, const CoracleGauge **gauge)
 int CoracleSetFlow(CoracleClient c, const CoracleFlow *flow)
 {
   ClientFluid *f = &c->fluid;
+  CoracleFlow all = *flow;
   ClientExpect(c, "CoracleSetFlow", ROLE_FLUID, STAGE_STEP, STAGE_STEP);
   MessageHeader *h = MessageStart(&c->out, KIND_FLOW, c->p->step);
   h->count[0] = f->n;
   h->flag = f->needs_pressure ? FLAG_PRESSURE : 0;
-  FieldsPack(c->p, &c->out, &FIELDS_FLOW, (size_t)f->n, flow);
+  if (!all.rho_inside) all.rho_inside = all.rho;
+  if (!all.rho_beside) all.rho_beside = all.rho;
+  FieldsPack(c->p, &c->out, &FIELDS_FLOW, (size_t)f->n, &all);
   f->flow_set = true;
   return 0;
 }

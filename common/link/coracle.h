@@ -143,6 +143,10 @@ typedef struct {
   const double *x;   /* [n][dim + 1][dim] vertices, m */
   const double *rho; /* [n] density, kg/m3 */
   const double *mu;  /* [n] dynamic viscosity, Pa s */
+  /* optional, for a fluid of several phases that share a velocity, kg/m3; NULL: rho */
+  const double *
+      rho_inside; /* [n] density of the phase that fills the solid there: the coupler fills it up from that */
+  const double *rho_beside; /* [n] mean density of the element's other phases; 0 where it has none */
 } CoracleElements;
 
 /* The region near the solid, before the fluid has elements: waits until the coupler has the solid.
@@ -265,6 +269,7 @@ typedef struct {
                               * NULL unless CoracleNeedsPressure */
   const double *rho; /* [n] kg/m3 */
   const double *mu;  /* [n] Pa s */
+  const double *rho_inside, *rho_beside; /* [n] kg/m3, as in CoracleElements; NULL: rho */
 } CoracleFlow;
 
 /* After CoracleReady and after CoracleEnd: the coupling of the coming step.  Borrowed until the next

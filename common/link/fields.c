@@ -56,7 +56,9 @@ static const Field DOMAIN_BOUNDS[] = {
 static const Field ELEMENTS[] = {
   {"vertices",  "m",     FIELD_REAL, {EXTENT_VERTICES, EXTENT_DIM}, AT(x),   0, FIELD_ANY},
   {"density",   "kg/m3", FIELD_REAL, {0},                           AT(rho), 0, FIELD_POSITIVE},
-  {"viscosity", "Pa s",  FIELD_REAL, {0},                           AT(mu),  0, FIELD_NOT_NEGATIVE}};
+  {"viscosity", "Pa s",  FIELD_REAL, {0},                           AT(mu),  0, FIELD_NOT_NEGATIVE},
+  {"density inside the solid",  "kg/m3", FIELD_REAL, {0}, AT(rho_inside), 0, FIELD_POSITIVE},
+  {"density beside the solid",  "kg/m3", FIELD_REAL, {0}, AT(rho_beside), 0, FIELD_NOT_NEGATIVE}};
 #undef AT
 
 #define AT(member) offsetof(CoracleFlow, member)
@@ -66,7 +68,9 @@ static const Field FLOW[] = {
   {"projected velocity", "m/s",   FIELD_REAL, P1_VECTOR,         AT(u_projected), 0, FIELD_ANY},
   {"pressure",           "Pa",    FIELD_REAL, {EXTENT_PRESSURE}, AT(p), FLAG_PRESSURE, FIELD_ANY},
   {"density",            "kg/m3", FIELD_REAL, {0},               AT(rho),         0, FIELD_POSITIVE},
-  {"viscosity",          "Pa s",  FIELD_REAL, {0},               AT(mu),          0, FIELD_NOT_NEGATIVE}};
+  {"viscosity",          "Pa s",  FIELD_REAL, {0},               AT(mu),          0, FIELD_NOT_NEGATIVE},
+  {"density inside the solid", "kg/m3", FIELD_REAL, {0},         AT(rho_inside),  0, FIELD_POSITIVE},
+  {"density beside the solid", "kg/m3", FIELD_REAL, {0},         AT(rho_beside),  0, FIELD_NOT_NEGATIVE}};
 #undef AT
 
 #define AT(member) offsetof(CoracleCorrection, member)

@@ -30,10 +30,11 @@ typedef struct {
 } ServerSolid;
 
 typedef struct {
-  int n;                     /* the elements of this coupler rank's clients */
-  const double *x;           /* [n][3][2] vertices, m */
-  const double *rho, *mu;    /* [n] kg/m3, Pa s: at the start of the coming step */
-  double lower[2], upper[2]; /* the fluid's whole domain, m */
+  int n;                                 /* the elements of this coupler rank's clients */
+  const double *x;                       /* [n][3][2] vertices, m */
+  const double *rho, *mu;                /* [n] kg/m3, Pa s: at the start of the coming step */
+  const double *rho_inside, *rho_beside; /* [n] kg/m3, as in CoracleElements, never NULL */
+  double lower[2], upper[2];             /* the fluid's whole domain, m */
 } ServerElements;
 
 /* Joins as "coupler"; as CoracleOpen. */

@@ -77,7 +77,12 @@ int ServerAskElements(Server s, int nbox, const double box[], ServerElements *el
   s->asked = true;
   s->elements_changed = false;
   FieldsView(&FIELDS_ELEMENTS, &s->elements, 0, &all);
-  *elements = (ServerElements){.n = s->nelements, .x = all.x, .rho = all.rho, .mu = all.mu};
+  *elements = (ServerElements){.n = s->nelements,
+                               .x = all.x,
+                               .rho = all.rho,
+                               .mu = all.mu,
+                               .rho_inside = all.rho_inside,
+                               .rho_beside = all.rho_beside};
   memcpy(elements->lower, s->domain.lower, sizeof elements->lower);
   memcpy(elements->upper, s->domain.upper, sizeof elements->upper);
   return 0;

@@ -14,7 +14,7 @@ static PetscErrorCode Fluid(int rank, int size, FluidElements *e, double **x, do
 
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2(12 * CELLS * CELLS, x, 2 * CELLS * CELLS, rho));
-  *e = (FluidElements){0, *x, *rho, *rho, {-0.2, -0.2}, {0.2, 0.2}};
+  *e = (FluidElements){0, *x, *rho, *rho, NULL, NULL, {-0.2, -0.2}, {0.2, 0.2}};
   for (int k = 0; k < CELLS * CELLS; k++) {
     if (k % CELLS * size / CELLS != rank) continue;
     const double a = -0.2 + h * (k % CELLS), b = -0.2 + h * (k / CELLS);

@@ -39,7 +39,7 @@ static int ElementsIn(void *context, int nbox, const double box[], CoracleElemen
     region.mu[region.n] = 0.1;
     region.global[region.n++] = k;
   }
-  *elements = (CoracleElements){region.n, &region.x[0][0][0], region.rho, region.mu};
+  *elements = (CoracleElements){region.n, &region.x[0][0][0], region.rho, region.mu, NULL, NULL};
   return 0;
 }
 
@@ -114,7 +114,9 @@ static void FluidStep(CoracleClient client, double dt)
                             &region.u_projected[0][0][0],
                             NULL,
                             region.rho,
-                            region.mu};
+                            region.mu,
+                            NULL,
+                            NULL};
   CHECK(!CoracleNeedsPressure(client), "the mode reaction asks for the pressure");
   CHECK(!CoracleSetFlow(client, &flow), "flow");
   CHECK(!CoracleProposeStep(client, DT * (1.0 + 0.5 * sin(1e3 * dt))), "propose");
@@ -195,7 +197,7 @@ static void RunCoupler(int argc, char **argv, const char *folder, double end, do
   WriterTotals totals;
   Server server;
   MPI_Comm comm;
-  c.options = (CouplerOptions){COUPLER_REACTION, 0.002, 10.0, {GRAVITY[0], GRAVITY[1]}, PETSC_TRUE};
+  c.options = (CouplerOptions){COUPLER_REACTION, 0.002, 10.0, {GRAVITY[0], GRAVITY[1]}};
   snprintf(c.folder, sizeof c.folder, "%s", folder);
   CHECK(!ServerOpen(argc, argv, &comm, &server), "open");
   PETSC_COMM_WORLD = comm;

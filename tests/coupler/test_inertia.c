@@ -55,7 +55,7 @@ static void SolveElement(const CoracleCoupling *k, double area, double u[2][3])
  * how far that is from free fall, of what free fall has added. */
 static double Step(double kick, ForceTotals *totals, double v[2])
 {
-  const CouplerOptions options = {COUPLER_REACTION, 0.002, 10.0, {0.0, 0.0}, PETSC_TRUE};
+  const CouplerOptions options = {COUPLER_REACTION, 0.002, 10.0, {0.0, 0.0}};
   const CoracleCoupling *coupling;
   const double *force;
   double total[3] = {0.0};

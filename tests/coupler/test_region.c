@@ -41,8 +41,8 @@ static PetscBool Stale(Region region, double dt)
 int main(int argc, char **argv)
 {
   const double centre[2] = {0.5, 0.6}, dr = 0.001;
-  const FluidElements tank = {0, NULL, NULL, NULL, {0.0, 0.0}, {1.0, 1.0}},
-                      low = {0, NULL, NULL, NULL, {0.0, 0.0}, {1.0, 0.75}};
+  const FluidElements tank = {0, NULL, NULL, NULL, NULL, NULL, {0.0, 0.0}, {1.0, 1.0}},
+                      low = {0, NULL, NULL, NULL, NULL, NULL, {0.0, 0.0}, {1.0, 0.75}};
   Region region;
   long long gid;
   int rank, size, local, found;

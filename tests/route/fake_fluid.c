@@ -34,7 +34,7 @@ static int Region(void *context, int nbox, const double box[], CoracleElements *
     for (int i = 0; i < 3; i++)
       for (int c = 0; c < 2; c++) f->x[e][i][c] = CellVertex(f->id[e], i, c);
   }
-  *elements = (CoracleElements){f->n, &f->x[0][0][0], f->rho, f->mu};
+  *elements = (CoracleElements){f->n, &f->x[0][0][0], f->rho, f->mu, NULL, NULL};
   return 0;
 }
 
@@ -105,7 +105,9 @@ static void SetFlow(Fluid *f)
                             &u_projected[0][0],
                             f->needs_pressure && !missing ? &p[0][0] : NULL,
                             rho,
-                            mu};
+                            mu,
+                            NULL,
+                            NULL};
   CoracleSetFlow(f->client, &flow);
 }
 

@@ -107,7 +107,7 @@ void Cells::give(CoracleClient client, const vectorField &start, const vectorFie
   fill(start_, start);
   fill(star_, star);
   fill(projected_, projected);
-  const CoracleFlow flow = {start_.data(), star_.data(), projected_.data(), nullptr, density_.data(), viscosity_.data()};
+  const CoracleFlow flow = {start_.data(), star_.data(), projected_.data(), nullptr, density_.data(), viscosity_.data(), nullptr, nullptr};
   CoracleSetFlow(client, &flow);
 }
 

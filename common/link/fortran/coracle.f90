@@ -20,6 +20,7 @@ module coracle
   type, bind(c) :: CoracleElements
     integer(c_int) :: n
     type(c_ptr) :: x, rho, mu      ! (dim, vertices, n) m; (n) kg/m3; (n) Pa s
+    type(c_ptr) :: rho_inside = c_null_ptr, rho_beside = c_null_ptr  ! (n) kg/m3; null: rho
   end type
   type, bind(c) :: CoracleCoupling
     integer(c_int) :: element, flags
@@ -37,6 +38,7 @@ module coracle
   end type
   type, bind(c) :: CoracleFlow
     type(c_ptr) :: u_start, u_star, u_projected, p, rho, mu  ! (vertices, dim, n) m/s, thrice; (6, n) Pa; (n); (n)
+    type(c_ptr) :: rho_inside = c_null_ptr, rho_beside = c_null_ptr  ! as in CoracleElements
   end type
 
   ! private to coracle_open and the like, with C's strings and arguments

@@ -18,11 +18,11 @@ GAUGE = np.dtype([("x", np.float64, (2,)), ("normal", np.float64, (2,))], align=
 
 
 class Elements(ctypes.Structure):
-    _fields_ = [("n", c_int), ("x", c_void_p), ("rho", c_void_p), ("mu", c_void_p)]
+    _fields_ = [("n", c_int)] + [(name, c_void_p) for name in ("x", "rho", "mu", "rho_inside", "rho_beside")]
 
 
 class Flow(ctypes.Structure):
-    _fields_ = [(name, c_void_p) for name in ("u_start", "u_star", "u_projected", "p", "rho", "mu")]
+    _fields_ = [(name, c_void_p) for name in ("u_start", "u_star", "u_projected", "p", "rho", "mu", "rho_inside", "rho_beside")]
 
 
 STATE_FUNCTION = ctypes.CFUNCTYPE(c_int, c_void_p, c_int)
