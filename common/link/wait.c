@@ -59,11 +59,12 @@ bool WaitPause(Wait *wait)
   if (policy == WAIT_SPIN && ++wait->looks % 1024) return true; /* the clock is dearer than a look */
   const double waited = WaitClock() - wait->start;
   if (waited > wait->waiter->timeout) return false;
-  if (policy == WAIT_SPIN || waited < SPIN) return true;
-  if (policy == WAIT_YIELD || waited < YIELD) {
+  if (policy == WAIT_SPIN || (waited < SPIN && wait->nap == 0.0)) return true;
+  if (policy == WAIT_YIELD || (waited < YIELD && wait->nap == 0.0)) {
     sched_yield();
   } else {
-    Sleep(wait->nap > waited ? wait->nap - waited : Pause(waited - wait->nap));
+    Sleep(wait->nap > waited ? wait->nap - waited
+                             : fmax(Pause(waited - wait->nap), fmin(waited / 100, LONG)));
   }
   return true;
 }
