@@ -10,7 +10,7 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
 scripts/setup.sh
 cmake --preset native >/dev/null
-cmake --build --preset native -- --quiet
+cmake --build --preset native --target bench_stream bench_fluid coracle-fluid coracle-coupler coracle-solid -- --quiet
 export OPENBLAS_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 
 echo "-- $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo 2>/dev/null | head -1), $(nproc) cores, $(uptime | sed 's/.*load/load/')"
