@@ -18,6 +18,7 @@ struct Fluid_s {
   PhaseTransport phases; /* NULL: one fluid */
   /* with phases: the bulk velocities of the last two steps, which are free of divergence and move them */
   Vec bulk, bulk_previous;
+  CompressibleElement *compressible; /* [ne] of the current step; NULL: no phase is */
   MomentumSolver momentum;
   ProjectionSolver projection;
   /* the flow; ghosted, velocities in blocks [2][3] an element, pressure on P2 nodes */
@@ -39,6 +40,12 @@ const InverseDensity *FluidInverseDensity(Fluid f);
 PetscErrorCode FluidPhasesChanged(Fluid f);
 /* The limit of capillary waves (fluid.h) on this rank, s; HUGE_VAL without.  Not collective. */
 double FluidCapillaryStep(Fluid f);
+/* Of f->compressible, from the phases and the pressure as they are: the target is the share `old` of the pressure and the rest of
+ * that of the equations of state; beta.  Not collective. */
+void FluidSetTarget(Fluid f, double old);
+void FluidSetCompressibility(Fluid f);
+/* The same for a velocity that is to be free of divergence where there is no compressible phase, and left alone where there is. */
+PetscErrorCode FluidLeaveCompressible(Fluid f);
 /* Moves the phases over dt with the velocity in mass_flux, extrapolated by s steps, and makes it the mass flux.  Collective. */
 PetscErrorCode FluidMovePhases(Fluid f, double dt, double s);
 /* p becomes the pressure that, with its values on open boundaries as they are, makes the acceleration weight - R^-1 grad p

@@ -12,6 +12,8 @@ struct PhaseSweep_s {
   Phases phases;
   double *flux, *beta, *velocity; /* [ne][3], [ne][6], [ne][3][2] of the step */
   double *swept, *part;           /* [ne][3][n] of the step and of its part, m2 */
+  double *mass, *mass_part;       /* the same of compressible phases, kg */
+  double *weight, *expected;      /* [nl] of fluxes' divergence; [ne][n] densities, kg/m3 */
   int *single;                    /* [nl] at the start of the step */
 };
 
@@ -30,6 +32,9 @@ PetscErrorCode PhaseSweepCreate(const FluidDomain *domain, const PhaseProperties
   s->phases = phases;
   PetscCall(PetscMalloc3(3 * ne, &s->flux, 6 * ne, &s->beta, 6 * ne, &s->velocity));
   PetscCall(PetscMalloc3(3 * n * ne, &s->swept, 3 * n * ne, &s->part, stars->nl, &s->single));
+  if (PhaseHasGas(properties))
+    PetscCall(PetscMalloc4(3 * n * ne, &s->mass, 3 * n * ne, &s->mass_part, stars->nl, &s->weight, n * ne,
+                           &s->expected));
   *sweep = s;
   PetscFunctionReturn(0);
 }
@@ -41,6 +46,7 @@ PetscErrorCode PhaseSweepDestroy(PhaseSweep *sweep)
   if (!s) PetscFunctionReturn(0);
   PetscCall(PetscFree3(s->flux, s->beta, s->velocity));
   PetscCall(PetscFree3(s->swept, s->part, s->single));
+  PetscCall(PetscFree4(s->mass, s->mass_part, s->weight, s->expected));
   PetscCall(PetscFree(*sweep));
   PetscFunctionReturn(0);
 }
@@ -124,20 +130,37 @@ static PetscErrorCode Advect(PhaseSweep s, double dt)
   PetscFunctionBeginUser;
   PetscCall(CountParts(s, dt, &parts));
   PetscCall(PetscArrayzero(s->swept, n));
+  if (s->mass) PetscCall(PetscArrayzero(s->mass, n));
   for (int k = 0; k < parts; k++) {
     if (k) PetscCall(PhasesReconstruct(s->phases));
-    PetscCall(PhasesAdvect(s->phases, dt / parts, s->flux, s->velocity, &inflow, s->part));
+    PetscCall(PhasesAdvect(s->phases, dt / parts, s->flux, s->velocity, &inflow, s->part, s->mass_part));
     for (int i = 0; i < n; i++) s->swept[i] += s->part[i];
+    for (int i = 0; i < n && s->mass; i++) s->mass[i] += s->mass_part[i];
+    if (s->mass) PetscCall(PhasesFillGaps(s->phases, s->expected, s->swept));
   }
   PetscFunctionReturn(0);
 }
 
+/* Where the flow may have a divergence, and the densities that compressible phases should have about. */
+static void SetGas(PhaseSweep s, const PhaseStep *step)
+{
+  const int n = s->properties->n;
+  double pressure;
+  for (int e = 0; e < s->stars->nl; e++)
+    s->weight[e] = 0.5 * StarsTwiceArea(s->stars, e) * PhasesCompressibility(s->phases, e, &pressure);
+  for (int k = 0; k < n * s->stars->ne; k++) {
+    const EquationOfState *state = &s->properties->state[k % n];
+    s->expected[k] = state->pressure > 0.0 ? GasDensity(state, step->pressure[k / n]) : state->density;
+  }
+}
+
 PetscErrorCode PhaseSweepStep(PhaseSweep s, const PhaseStep *step, double out[])
 {
-  const FluxBoundary boundary = {s->boundaries->open, s->boundaries->moment};
+  const FluxBoundary boundary = {s->boundaries->open, s->boundaries->moment, s->weight};
   FluxReport report;
   PetscFunctionBeginUser;
   PhaseBoundariesSetMoments(s->boundaries, step);
+  if (s->mass) SetGas(s, step);
   PetscCall(FluxEquilibrate(s->stars, step->u, &boundary, s->flux, s->beta, &report));
   PetscCall(FluxVertexVelocity(s->stars, s->beta, s->velocity));
   for (int e = 0; e < s->stars->nl; e++) s->single[e] = PhasesSingle(s->phases, e);
@@ -170,8 +193,14 @@ void PhaseSweepMassFlux(PhaseSweep s, const PhaseStep *step)
       const int p = PhaseOfFace(s, e, i);
       double length, mass = 0.0;
       FluxNormalParts(element, &s->beta[6 * e], i, normal[i], &length);
-      for (int q = 0; q < n; q++) mass += rho[q] * s->swept[(3 * e + i) * n + q];
-      for (int k = 0; k < 2; k++) normal[i][k] = p >= 0 ? rho[p] * normal[i][k] : mass / (step->dt * length);
+      double density = p >= 0 ? rho[p] : 0.0;
+      for (int q = 0; q < n; q++) {
+        const int k = (3 * e + i) * n + q;
+        const PetscBool gas = (PetscBool)(s->properties->state[q].pressure > 0.0);
+        mass += gas ? s->mass[k] : rho[q] * s->swept[k];
+        if (gas && q == p && s->swept[k] != 0.0) density = s->mass[k] / s->swept[k];
+      }
+      for (int k = 0; k < 2; k++) normal[i][k] = p >= 0 ? density * normal[i][k] : mass / (step->dt * length);
     }
     FluxLinearField(element, (const double(*)[2])normal, &step->mass_flux[6 * e]);
   }

@@ -19,6 +19,7 @@ typedef struct {
   int n;
   double rho[PHASES_MAX], mu[PHASES_MAX]; /* kg/m3, Pa s */
   PhasesPairs surface_tension;            /* N/m */
+  EquationOfState state[PHASES_MAX];      /* pressure 0: incompressible, of density rho */
   char name[PHASES_MAX][32];
 } PhaseProperties;
 
@@ -27,6 +28,8 @@ const PhaseProperties *PhaseTransportProperties(PhaseTransport t);
 int PhaseLightest(const PhaseProperties *properties);
 int PhaseHeaviest(const PhaseProperties *properties);
 PetscBool PhaseHasTension(const PhaseProperties *properties);
+/* Whether any phase is compressible. */
+PetscBool PhaseHasGas(const PhaseProperties *properties);
 /* Without volumes; domain is borrowed.  Collective, like all that says nothing else. */
 PetscErrorCode PhaseTransportCreate(const FluidDomain *domain, const PhaseProperties *properties,
                                     const double gravity[2], PhaseTransport *t);
@@ -42,6 +45,7 @@ typedef struct {
   double extrapolated, dt_before; /* u = u^n + extrapolated (u^n - u^{n-1}) */
   const double *u;
   const double *solid; /* [ne] alpha_s: heavier phases stay out of it; NULL: none */
+  const double *pressure; /* [ne] at t^n, Pa; read with compressible phases only */
   double *mass_flux;
 } PhaseStep;
 PetscErrorCode PhaseTransportStep(PhaseTransport t, const PhaseStep *step);

@@ -13,10 +13,15 @@ struct Phases_s {
   double *volume;  /* [nl][np] m2 */
   HalfPlane *line; /* [nl][np - 1] */
   int *single;     /* [nl] the only phase, or -1 */
+  /* NULL: all phases are incompressible */
+  EquationOfState *state; /* [np] */
+  double *mass, *density; /* [nl][np] kg, kg/m3; of incompressible phases nothing, and theirs */
   double courant;
   PetscBool has_lines;
 };
 
+/* Densities of all local elements, from volumes and masses.  Collective. */
+PetscErrorCode PhasesUpdateDensities(Phases phases);
 /* The part of phase p in local element e, relative to origin. */
 void PhasesPart(Phases phases, int e, int p, const double origin[2], Polygon *part);
 /* The same, of those that phases 0 .. p - 1 leave together. */

@@ -8,6 +8,7 @@ typedef struct {
   double area;
   double volume[PHASES_MAX];
   double defect[PHASES_MAX]; /* volume less that of the polygon, over the element's area */
+  double density[PHASES_MAX];    /* of masses over volumes */
   HalfPlane line[PHASES_MAX - 1];
 } Load;
 
@@ -22,22 +23,29 @@ static void SetLoad(Phases f, int e, Load *load)
   for (int p = 0; p < f->np; p++) {
     load->volume[p] = f->volume[(size_t)e * (size_t)f->np + (size_t)p];
     load->defect[p] = (load->volume[p] - area[p]) / load->area;
+    const double v = load->volume[p], m = f->mass ? f->mass[(size_t)e * (size_t)f->np + (size_t)p] : 0.0;
+    load->density[p] = v > 0.0 ? m / v : 0.0;
   }
   for (int p = 0; p + 1 < f->np; p++) load->line[p] = f->line[(size_t)e * (size_t)(f->np - 1) + (size_t)p];
 }
 
-/* volume[np] += what the element takes of an old one */
+/* volume[np], mass[np] += what the element takes of an old one; mass may be NULL */
 static void Take(const double element[3][2], const double part[3][2], const Load *load, int np,
-                 double volume[])
+                 double volume[], double mass[])
 {
+  double taken[PHASES_MAX] = {0.0};
   Polygon whole, old, common;
   PolygonTriangle(element, element[0], &whole);
   PolygonTriangle(part, element[0], &old);
   PolygonClipTriangle(&whole, (const double(*)[2])old.x, &common);
   if (!common.n) return;
   const double area = PolygonArea(&common);
-  PhasesSplitBy(np, load->single, load->line, part[0], &common, element[0], 1.0, volume);
-  for (int p = 0; p < np; p++) volume[p] += load->defect[p] * area;
+  PhasesSplitBy(np, load->single, load->line, part[0], &common, element[0], 1.0, taken);
+  for (int p = 0; p < np; p++) {
+    taken[p] += load->defect[p] * area;
+    volume[p] += taken[p];
+    if (mass) mass[p] += load->density[p] * taken[p];
+  }
 }
 
 static PetscErrorCode TakeAll(const TransferParts *parts, const Load load[], Phases to)
@@ -48,9 +56,11 @@ static PetscErrorCode TakeAll(const TransferParts *parts, const Load load[], Pha
     const GeometryBox box = GeometryBoxOf(parts->element[k]);
     const int *hit, nhit = SearchQuery(parts->search, &box, &hit);
     PetscCheck(nhit >= 0, PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory to search %d elements", parts->nparts);
+    double *mass = to->mass ? &to->mass[(size_t)parts->changed[k] * (size_t)to->np] : NULL;
     for (int p = 0; p < to->np; p++) volume[p] = 0.0;
+    for (int p = 0; p < to->np && mass; p++) mass[p] = 0.0;
     for (int h = 0; h < nhit; h++)
-      Take(parts->element[k], parts->part[hit[h]], &load[hit[h]], to->np, volume);
+      Take(parts->element[k], parts->part[hit[h]], &load[hit[h]], to->np, volume, mass);
   }
   PetscFunctionReturn(0);
 }
@@ -70,7 +80,9 @@ PetscErrorCode PhasesRemap(Phases from, Transfer transfer, Phases to)
   PetscCall(TransferSendParts(transfer, sizeof *source, source, copy, load));
   for (int k = 0; k < parts.ncopies; k++) {
     double *volume = &to->volume[(size_t)TransferCopyTarget(transfer, k) * (size_t)to->np];
+    double *mass = to->mass ? &to->mass[(size_t)TransferCopyTarget(transfer, k) * (size_t)to->np] : NULL;
     for (int p = 0; p < to->np; p++) volume[p] = copy[k].volume[p];
+    for (int p = 0; p < to->np && mass; p++) mass[p] = copy[k].density[p] * copy[k].volume[p];
   }
   PetscCall(TakeAll(&parts, load, to));
   PetscCall(PetscFree3(source, copy, load));
