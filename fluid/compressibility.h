@@ -2,9 +2,11 @@
  *
  *   div u = -beta (p - p~)/dt:    int k grad phi.grad q + int beta phi q/dt^2 = int u.grad q/dt - ... - int beta (p - p~) q/dt^2
  *
- * p is the pressure before phi is added, p~ the one that the phases would have without the step.  Kernels: no mesh, no MPI. */
+ * p is the pressure before phi is added, p~ the one that the phases would have without the step. */
 #ifndef FLUID_COMPRESSIBILITY_H
 #define FLUID_COMPRESSIBILITY_H
+#include "fluid/domain.h"
+#include <petscvec.h>
 
 /* Of an element: beta, 1/Pa; p~ at the P2 nodes, Pa. */
 typedef struct {
@@ -36,4 +38,8 @@ static inline void CompressibilityLoad(const CompressibleElement *c, double area
   for (int i = 0; i < 6; i++)
     for (int j = 0; j < 6; j++) load[i] -= c->beta / dt * area * P2Mass(i, j) * (p[j] - c->target[j]);
 }
+
+/* d[n of the P2 space] += the loads of all elements[ne]; p: ghosted.  Not collective. */
+PetscErrorCode CompressibilityAddLoads(const FluidDomain *domain, const CompressibleElement elements[],
+                                       double dt, Vec p, PetscScalar d[]);
 #endif

@@ -40,8 +40,10 @@ const InverseDensity *FluidInverseDensity(Fluid f);
 PetscErrorCode FluidPhasesChanged(Fluid f);
 /* The limit of capillary waves (fluid.h) on this rank, s; HUGE_VAL without.  Not collective. */
 double FluidCapillaryStep(Fluid f);
+/* fluid_gas.c: *pressure[ne] of the elements, Pa, is allocated.  Not collective, like what follows. */
+PetscErrorCode FluidMeanPressure(Fluid f, double **pressure);
 /* Of f->compressible, from the phases and the pressure as they are: the target is the share `old` of the pressure and the rest of
- * that of the equations of state; beta.  Not collective. */
+ * that of the equations of state; beta. */
 void FluidSetTarget(Fluid f, double old);
 void FluidSetCompressibility(Fluid f);
 /* The same for a velocity that is to be free of divergence where there is no compressible phase, and left alone where there is. */

@@ -67,53 +67,6 @@ double FluidCapillaryStep(Fluid f)
   return f->setup.capillary_cfl * sqrt(least) * pow(2.0 * area, 0.75);
 }
 
-/* *pressure[ne] of the elements, Pa, is allocated. */
-static PetscErrorCode MeanPressure(Fluid f, double **pressure)
-{
-  const int ne = f->domain.mesh->ne, *node = f->domain.p2->node;
-  const double *p = FluidPressure(f);
-  PetscFunctionBeginUser;
-  PetscCall(PetscCalloc1(ne + 1, pressure));
-  for (int k = 0; k < 3 * ne; k++) (*pressure)[k / 3] += p[node[6 * (k / 3) + 3 + k % 3]] / 3.0;
-  PetscFunctionReturn(0);
-}
-
-void FluidSetTarget(Fluid f, double old)
-{
-  const int *node = f->domain.p2->node;
-  const double *p = FluidPressure(f);
-  for (int e = 0; e < f->domain.mesh->ne && f->compressible; e++) {
-    double own;
-    const double share = PhasesCompressibility(PhaseTransportPhases(f->phases), e, &own) > 0.0 ? old : 1.0;
-    for (int k = 0; k < 6; k++)
-      f->compressible[e].target[k] = share * p[node[6 * e + k]] + (1.0 - share) * own;
-  }
-}
-
-void FluidSetCompressibility(Fluid f)
-{
-  double own;
-  for (int e = 0; e < f->domain.mesh->ne && f->compressible; e++)
-    f->compressible[e].beta = PhasesCompressibility(PhaseTransportPhases(f->phases), e, &own);
-}
-
-/* Of beta over its element's coefficient: leaves about its inverse of the divergence's pressure. */
-#define LEAVE 1e6
-
-PetscErrorCode FluidLeaveCompressible(Fluid f)
-{
-  const InverseDensity *r = FluidInverseDensity(f);
-  PetscFunctionBeginUser;
-  for (int e = 0; e < f->domain.mesh->ne; e++) {
-    double own;
-    CompressibleElement *c = &f->compressible[e];
-    c->beta = PhasesCompressibility(PhaseTransportPhases(f->phases), e, &own);
-    if (c->beta > 0.0)
-      c->beta = LEAVE * (r[e].inverse[0] + r[e].inverse[2]) / f->domain.geometry[e].area;
-  }
-  PetscFunctionReturn(0);
-}
-
 PetscErrorCode FluidMovePhases(Fluid f, double dt, double s)
 {
   PhaseStep step = {.time = f->t, .dt = dt, .extrapolated = s, .dt_before = f->dt_previous};
@@ -129,7 +82,7 @@ PetscErrorCode FluidMovePhases(Fluid f, double dt, double s)
   step.solid = SolidCouplingFraction(f->solid);
   step.mass_flux = flux;
   double *pressure = NULL;
-  if (f->compressible) PetscCall(MeanPressure(f, &pressure));
+  if (f->compressible) PetscCall(FluidMeanPressure(f, &pressure));
   step.pressure = pressure;
   PetscCall(PhaseTransportStep(f->phases, &step));
   PetscCall(VecRestoreArray(f->mass_flux, &flux));
@@ -190,7 +143,8 @@ static PetscErrorCode SolvePressure(Fluid f, const ProjectionStep *step, Vec sta
 
 PetscErrorCode FluidBalancePressure(Fluid f)
 {
-  const double dt = f->compressible ? 1.0 : 1e8; /* large: what prescribed velocities contribute goes with 1/dt */
+  const double dt =
+      f->compressible ? 1.0 : 1e8; /* large: what prescribed velocities contribute goes with 1/dt */
   const ProjectionStep step = FluidProjectionStep(f, f->t, dt, PETSC_FALSE);
   PetscFunctionBeginUser;
   FluidSetTarget(f, 0.0);

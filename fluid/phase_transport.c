@@ -86,14 +86,15 @@ PetscErrorCode PhaseTransportDestroy(PhaseTransport *transport)
   PetscFunctionReturn(0);
 }
 
-/* volume[n], m2, of all ranks. */
+/* volume[n], m2, of compressible phases mass, kg, of all ranks. */
 static PetscErrorCode SumVolumes(PhaseTransport t, double volume[])
 {
   int n;
-  const double *v = PhaseTransportVolumes(t, &n);
+  const double *v = PhaseTransportVolumes(t, &n), *mass = PhasesMasses(t->phases);
   PetscFunctionBeginUser;
   PetscCall(PetscArrayzero(volume, n));
-  for (int k = 0; k < n * t->stars->ne; k++) volume[k % n] += v[k];
+  for (int k = 0; k < n * t->stars->ne; k++)
+    volume[k % n] += t->properties.state[k % n].pressure > 0.0 ? mass[k] : v[k];
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, volume, n, MPI_DOUBLE, MPI_SUM, t->domain->mesh->comm));
   PetscFunctionReturn(0);
 }
@@ -189,6 +190,8 @@ PetscErrorCode PhaseTransportSave(PhaseTransport t, Checkpoint to)
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(t->domain->mesh->comm, &rank));
   PetscCall(CheckpointPutDoubles(to, "phases", t->stars->ne, n, volume));
+  if (PhasesMasses(t->phases))
+    PetscCall(CheckpointPutDoubles(to, "phases' masses", t->stars->ne, n, PhasesMasses(t->phases)));
   PetscCall(CheckpointPutDoubles(to, "initial phases", rank ? 0 : 1, n, t->budget.initial));
   PetscCall(CheckpointPutDoubles(to, "phases out", rank ? 0 : 1, n, t->budget.out));
   PetscFunctionReturn(0);
@@ -202,6 +205,9 @@ PetscErrorCode PhaseTransportLoad(PhaseTransport t, const PetscInt row[], Checkp
   PetscCall(MeshLoadDoubles(t->domain->mesh, row, from, "phases", t->properties.n, volume));
   PetscCall(PhasesSetVolumes(t->phases, volume));
   PetscCall(PetscFree(volume));
+  if (PhasesMasses(t->phases))
+    PetscCall(MeshLoadDoubles(t->domain->mesh, row, from, "phases' masses", t->properties.n,
+                              PhasesMasses(t->phases)));
   PetscCall(CheckpointGetDoubles(from, "initial phases", 0, 1, t->properties.n, t->budget.initial));
   PetscCall(CheckpointGetDoubles(from, "phases out", 0, 1, t->properties.n, t->budget.out));
   PetscCall(Reconstruct(t));

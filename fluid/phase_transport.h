@@ -44,7 +44,7 @@ typedef struct {
   double time, dt;                /* t^n, s */
   double extrapolated, dt_before; /* u = u^n + extrapolated (u^n - u^{n-1}) */
   const double *u;
-  const double *solid; /* [ne] alpha_s: heavier phases stay out of it; NULL: none */
+  const double *solid;    /* [ne] alpha_s: heavier phases stay out of it; NULL: none */
   const double *pressure; /* [ne] at t^n, Pa; read with compressible phases only */
   double *mass_flux;
 } PhaseStep;
@@ -60,7 +60,7 @@ void PhaseTransportSettle(PhaseTransport t);
 /* Volumes, m2, [ne][n], borrowed; the number of phases.  Not collective. */
 const double *PhaseTransportVolumes(PhaseTransport t, int *n);
 Phases PhaseTransportPhases(PhaseTransport t);
-/* What has become of each phase since the run's start, m2: volume + out - initial is what adaptation and the pressure's solution
+/* What has become of each phase since the run's start, m2, of compressible ones kg: volume + out - initial is what adaptation and the pressure's solution
  * have made of it. */
 typedef struct {
   double initial[PHASES_MAX], out[PHASES_MAX]; /* at the start; what has left through the boundary, net */

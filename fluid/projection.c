@@ -83,8 +83,7 @@ static PetscErrorCode Assemble(ProjectionSolver s, const ProjectionStep *step)
   double(*block)[36];
   PetscFunctionBeginUser;
   PetscCall(WeightedProjectionPrepare(s->weighted, &weighted, &inertia));
-  const PetscBool current =
-      (PetscBool)(s->revision == step->revision && !s->inertia && !step->compressible);
+  const PetscBool current = (PetscBool)(s->revision == step->revision && !s->inertia && !step->compressible);
   s->inertia = (PetscBool)(inertia && step->inertia);
   if (current && !s->inertia) PetscFunctionReturn(0);
   PetscCall(PressureSolverGetBlocks(s->solver, &block));
@@ -189,27 +188,6 @@ static PetscErrorCode Size(ProjectionSolver s, const ProjectionStep *step, Vec v
   PetscFunctionReturn(0);
 }
 
-/* d[n of the P2 space] += what compressible elements take in. */
-static PetscErrorCode AddCompression(ProjectionSolver s, const ProjectionStep *step, PetscScalar d[])
-{
-  const int *node = s->domain->p2->node;
-  const PetscScalar *p;
-  Vec local;
-  PetscFunctionBeginUser;
-  if (!step->compressible || !step->pressure) PetscFunctionReturn(0);
-  PetscCall(VecGhostGetLocalForm(step->pressure, &local));
-  PetscCall(VecGetArrayRead(local, &p));
-  for (int e = 0; e < s->domain->mesh->ne; e++) {
-    double own[6], load[6] = {0.0};
-    for (int k = 0; k < 6; k++) own[k] = p[node[6 * e + k]];
-    CompressibilityLoad(&step->compressible[e], s->domain->geometry[e].area, step->dt, own, load);
-    for (int k = 0; k < 6; k++) d[node[6 * e + k]] += load[k];
-  }
-  PetscCall(VecRestoreArrayRead(local, &p));
-  PetscCall(VecGhostRestoreLocalForm(step->pressure, &local));
-  PetscFunctionReturn(0);
-}
-
 /* Of the bulk velocity made of u, over dt: the right-hand side, 0 on fixed nodes. */
 static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step, Vec velocity)
 {
@@ -231,7 +209,8 @@ static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step,
     for (int k = 0; k < 6; k++) d[domain->p2->node[6 * e + k]] += r[k];
   }
   PetscCall(VecRestoreArrayRead(velocity, &u));
-  PetscCall(AddCompression(s, step, d));
+  if (step->compressible && step->pressure)
+    PetscCall(CompressibilityAddLoads(domain, step->compressible, step->dt, step->pressure, d));
   PetscCall(VecRestoreArray(local, &d));
   PetscCall(VecGhostRestoreLocalForm(s->divergence, &local));
   PetscCall(VecGhostUpdateBegin(s->divergence, ADD_VALUES, SCATTER_REVERSE));

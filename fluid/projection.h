@@ -26,7 +26,7 @@ typedef struct {
   SolidCoupling solid; /* borrowed until ProjectionSubtract */
   /* [ne] of phases, in place of 1/rho (effective_density.h); NULL: 1/rho */
   const InverseDensity *inverse_density;
-  PetscBool inertia; /* whether the solid's implicit inertia takes part */
+  PetscBool inertia;                       /* whether the solid's implicit inertia takes part */
   const CompressibleElement *compressible; /* [ne]; NULL: the velocity is to be free of divergence */
   Vec pressure;                            /* before phi is added, ghosted; NULL: that of `compressible` */
 } ProjectionStep;

@@ -122,7 +122,7 @@ static void SweepCalm(const Step *t, int e, int i, int p, double swept, Content 
 {
   const Phases f = t->f;
   const int donor = swept > 0.0 ? e : t->s->neighbor[e][i];
-  const double density = !f->mass   ? 0.0
+  const double density = !f->mass    ? 0.0
                          : donor < 0 ? f->state[p].density
                                      : f->density[(size_t)donor * (size_t)f->np + (size_t)p];
   Add(c, p, swept, density);

@@ -43,6 +43,7 @@ PetscErrorCode PhasesUpdateDensities(Phases f)
   PetscFunctionBeginUser;
   if (!f->mass) PetscFunctionReturn(0);
   PetscCall(StarsExchange(s, (size_t)f->np * sizeof *f->mass, f->mass));
+  PetscCall(StarsExchange(s, (size_t)f->np * sizeof *f->volume, f->volume));
   for (int k = 0; k < s->nl * f->np; k++) {
     const double tiny = VOLUME_TINY * 0.5 * StarsTwiceArea(s, k / f->np);
     f->density[k] = f->state[k % f->np].density;
@@ -52,7 +53,19 @@ PetscErrorCode PhasesUpdateDensities(Phases f)
   PetscFunctionReturn(0);
 }
 
-double PhasesCompressibility(Phases f, int e, double *pressure)
+void PhasesMoveMasses(Phases f, const double before[], const double swept[], double swept_mass[])
+{
+  for (int k = 0; k < 3 * f->stars->ne * f->np; k++) {
+    const int face = k / f->np, e = face / 3, p = k % f->np, o = f->stars->neighbor[e][face % 3];
+    const double moved = swept[k] - before[k];
+    if (!IsGas(f, p) || moved == 0.0) continue;
+    const double mass = moved * f->density[(moved > 0.0 ? e : o) * f->np + p];
+    f->mass[e * f->np + p] -= mass;
+    swept_mass[k] += mass;
+  }
+}
+
+double PhasesCompressibility(Phases f, int e, double solid, double *pressure)
 {
   const double area = 0.5 * StarsTwiceArea(f->stars, e);
   double sum = 0.0, weight = 0.0;
@@ -65,7 +78,7 @@ double PhasesCompressibility(Phases f, int e, double *pressure)
     *pressure += f->volume[k] * GasPressure(&f->state[p], f->density[k]);
   }
   if (weight > 0.0) *pressure /= weight;
-  return sum;
+  return weight > solid * area ? sum * (1.0 - solid * area / weight) : 0.0;
 }
 
 /* Compressible phases of each element take its gap by their volumes; where there is none, `gas` becomes that, also negative. */
@@ -96,8 +109,8 @@ static PetscErrorCode Bound(Phases f, int gas, int liquid, const double expected
   PetscCall(PetscMalloc1(s->ne, &capacity));
   for (int e = 0; e < s->ne; e++) {
     const size_t k = (size_t)e * (size_t)f->np + (size_t)gas;
-    const double others = 0.5 * StarsTwiceArea(s, e) - f->volume[k] -
-                          f->volume[(size_t)e * (size_t)f->np + (size_t)liquid];
+    const double others =
+        0.5 * StarsTwiceArea(s, e) - f->volume[k] - f->volume[(size_t)e * (size_t)f->np + (size_t)liquid];
     capacity[e] = fmax(0.5 * StarsTwiceArea(s, e) - others - 0.5 * f->mass[k] / expected[k], 0.0);
   }
   PetscCall(PhasesExpel(f, liquid, gas, capacity, swept));

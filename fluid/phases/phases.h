@@ -40,8 +40,14 @@ void PhasesStartMasses(Phases phases);
 double *PhasesMasses(Phases phases);
 /* [nl][nphases], borrowed, kg/m3, as of the last PhasesReconstruct; NULL without. */
 const double *PhasesDensities(Phases phases);
-/* Share of element e that is compressible times its mean compressibility, 1/Pa, and its pressure by the equation of state, Pa. */
-double PhasesCompressibility(Phases phases, int e, double *pressure);
+/* Share of local element e, outside of the solid's share of it, that is compressible times its mean compressibility, 1/Pa; its
+ * pressure by the equation of state, Pa.  Of volumes and densities as of the last PhasesReconstruct or PhasesUpdateDensities. */
+double PhasesCompressibility(Phases phases, int e, double solid, double *pressure);
+/* Densities of all local elements, from volumes and masses; PhasesReconstruct has this.  Collective. */
+PetscErrorCode PhasesUpdateDensities(Phases phases);
+/* With the volumes that passed faces beyond `before` to make swept (PhasesExpel) goes their mass, also in swept_mass; all
+ * [ne][3][nphases].  Needs the densities from before. */
+void PhasesMoveMasses(Phases phases, const double before[], const double swept[], double swept_mass[]);
 /* Collective, after PhasesAdvect along fluxes with divergence: compressible phases take the volume that elements lack or have too
  * much, which goes to the nearest ones that have some; expected[ne][nphases]: density near which theirs stays, kg/m3 (within a
  * factor of 2).  Added to swept of PhasesAdvect. */

@@ -20,8 +20,6 @@ struct Phases_s {
   PetscBool has_lines;
 };
 
-/* Densities of all local elements, from volumes and masses.  Collective. */
-PetscErrorCode PhasesUpdateDensities(Phases phases);
 /* The part of phase p in local element e, relative to origin. */
 void PhasesPart(Phases phases, int e, int p, const double origin[2], Polygon *part);
 /* The same, of those that phases 0 .. p - 1 leave together. */

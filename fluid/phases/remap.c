@@ -7,8 +7,8 @@ typedef struct {
   int single;
   double area;
   double volume[PHASES_MAX];
-  double defect[PHASES_MAX]; /* volume less that of the polygon, over the element's area */
-  double density[PHASES_MAX];    /* of masses over volumes */
+  double defect[PHASES_MAX];  /* volume less that of the polygon, over the element's area */
+  double density[PHASES_MAX]; /* of masses over volumes */
   HalfPlane line[PHASES_MAX - 1];
 } Load;
 

@@ -42,7 +42,7 @@ static PetscErrorCode Standing(int cells, int steps_a_period, int print)
                              .state = {{0.0, 0.0, 0.0}, {0.0, GAS * SOUND * SOUND, 1.0}}};
   const Region region = {.shape = REGION_BOX, .phase = 1, .a = {-1, -1}, .b = {2, 2}};
   const double period = 2.0 / SOUND, dt = period / steps_a_period;
-  double before = 1.0, crossing[4], mass;
+  double before = 1.0, crossing[4] = {0.0}, mass;
   int n = 0;
   Tank t;
   PetscFunctionBeginUser;
@@ -53,14 +53,14 @@ static PetscErrorCode Standing(int cells, int steps_a_period, int print)
     PetscCall(FluidStep(t.fluid, dt));
     const double now = Amplitude(&t);
     if (print && k % (steps_a_period / 10) == 0)
-      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "t/T %.3f: %.4f, pressure iterations %d\n", k * dt / period, now,
-                            FluidGetStats(t.fluid)->pressure_iterations));
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "t/T %.3f: %.4f, pressure iterations %d\n", k * dt / period,
+                            now, FluidGetStats(t.fluid)->pressure_iterations));
     if (now * before < 0.0) crossing[n++] = (k - now / (now - before)) * dt / period;
     before = now;
   }
   if (print)
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "crossings %g %g %g %g; mass changed by %.1e of it\n", crossing[0],
-                          crossing[1], crossing[2], crossing[3], Mass(&t) / mass - 1.0));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "crossings %g %g %g %g; mass changed by %.1e of it\n",
+                          crossing[0], crossing[1], crossing[2], crossing[3], Mass(&t) / mass - 1.0));
   CHECK(n == 4 && fabs(crossing[2] - crossing[0] - 1.0) < 0.01, "a period of %g", crossing[2] - crossing[0]);
   PetscCall(TankDestroy(&t));
   PetscFunctionReturn(0);
@@ -91,8 +91,10 @@ static PetscErrorCode SumGas(const Tank *t, double middle, GasSum *sum)
 static PetscErrorCode Cushion(int n, double dt, int steps, int print)
 {
   const double bottom = 0.31, top = 0.73, pressure = 2.0e4, exponent = 1.4, g = 9.81;
-  const PhaseProperties p = {
-      .n = 2, .rho = {1000.0, 1.2}, .mu = {100.0, 1.8e-5}, .state = {{0.0, 0.0, 0.0}, {0.0, pressure, exponent}}};
+  const PhaseProperties p = {.n = 2,
+                             .rho = {1000.0, 1.2},
+                             .mu = {100.0, 1.8e-5},
+                             .state = {{0.0, 0.0, 0.0}, {0.0, pressure, exponent}}};
   const Region region[3] = {{.shape = REGION_BOX, .phase = 1, .a = {-1, -1}, .b = {2, 2}},
                             {.shape = REGION_HALF_PLANE, .phase = 0, .a = {0.5, top}, .b = {0.0, 1.0}},
                             {.shape = REGION_HALF_PLANE, .phase = 1, .a = {0.5, bottom}, .b = {0.0, 1.0}}};
@@ -108,10 +110,10 @@ static PetscErrorCode Cushion(int n, double dt, int steps, int print)
     PetscCall(FluidStep(t.fluid, dt));
     for (int j = 0; j < 100; j++) { /* the ODE */
       const double middle = h + 0.5 * v * dt / 100;
-      const double a = pressure / column *
-                           (pow(bottom / middle, exponent) -
-                            pow((1.0 - top) / (1.0 - top + bottom - middle), exponent)) -
-                       g;
+      const double a =
+          pressure / column *
+              (pow(bottom / middle, exponent) - pow((1.0 - top) / (1.0 - top + bottom - middle), exponent)) -
+          g;
       h += v * dt / 100 + 0.5 * a * (dt / 100) * (dt / 100);
       v += a * dt / 100;
     }
@@ -119,11 +121,12 @@ static PetscErrorCode Cushion(int n, double dt, int steps, int print)
     PetscCall(SumGas(&t, h + 0.2, &now));
     worst = fmax(worst, fabs(now.below - h));
     if (print && k % (steps / 20) == 0)
-      PetscCall(PetscPrintf(PETSC_COMM_WORLD,
-                            "t %.4f: gas below %.5f m2, ODE %.5f, all %.1e, mass %.1e, water %.2e, gap %.1e, lowest "
-                            "%.1e, |u| %.3f, v %.3f\n",
-                            k * dt, now.below, h, now.volume - start.volume, now.mass / start.mass - 1.0,
-                            stats.volume[0] - (top - bottom), stats.gap, stats.lowest, TankSpeed(&t, 0), v));
+      PetscCall(PetscPrintf(
+          PETSC_COMM_WORLD,
+          "t %.4f: gas below %.5f m2, ODE %.5f, all %.1e, mass %.1e, water %.2e, gap %.1e, lowest "
+          "%.1e, |u| %.3f, v %.3f\n",
+          k * dt, now.below, h, now.volume - start.volume, now.mass / start.mass - 1.0,
+          stats.volume[0] - (top - bottom), stats.gap, stats.lowest, TankSpeed(&t, 0), v));
   }
   PetscCall(TankDestroy(&t));
   PetscFunctionReturn(0);
@@ -132,8 +135,11 @@ static PetscErrorCode Cushion(int n, double dt, int steps, int print)
 int main(int argc, char **argv)
 {
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
-  if (argc > 3) PetscCall(Cushion(atoi(argv[1]), atof(argv[2]), atoi(argv[3]), 1));
-  else if (argc > 2) PetscCall(Standing(atoi(argv[1]), atoi(argv[2]), 1));
-  else PetscCall(Standing(10, 200, argc > 1));
+  if (argc > 3)
+    PetscCall(Cushion(atoi(argv[1]), atof(argv[2]), atoi(argv[3]), 1));
+  else if (argc > 2)
+    PetscCall(Standing(atoi(argv[1]), atoi(argv[2]), 1));
+  else
+    PetscCall(Standing(10, 200, argc > 1));
   return PetscFinalize();
 }
