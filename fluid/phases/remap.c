@@ -33,18 +33,18 @@ static void SetLoad(Phases f, int e, Load *load)
 static void Take(const double element[3][2], const double part[3][2], const Load *load, int np,
                  double volume[], double mass[])
 {
-  double taken[PHASES_MAX] = {0.0};
+  double before[PHASES_MAX];
   Polygon whole, old, common;
   PolygonTriangle(element, element[0], &whole);
   PolygonTriangle(part, element[0], &old);
   PolygonClipTriangle(&whole, (const double(*)[2])old.x, &common);
   if (!common.n) return;
   const double area = PolygonArea(&common);
-  PhasesSplitBy(np, load->single, load->line, part[0], &common, element[0], 1.0, taken);
+  for (int p = 0; p < np; p++) before[p] = volume[p];
+  PhasesSplitBy(np, load->single, load->line, part[0], &common, element[0], 1.0, volume);
   for (int p = 0; p < np; p++) {
-    taken[p] += load->defect[p] * area;
-    volume[p] += taken[p];
-    if (mass) mass[p] += load->density[p] * taken[p];
+    volume[p] += load->defect[p] * area;
+    if (mass) mass[p] += load->density[p] * (volume[p] - before[p]);
   }
 }
 
