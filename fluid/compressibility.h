@@ -8,9 +8,10 @@
 #include "fluid/domain.h"
 #include <petscvec.h>
 
-/* Of an element: beta, 1/Pa; p~ at the P2 nodes, Pa. */
+/* Of an element: beta, 1/Pa; p~ at the P2 nodes, Pa; the pressure by the equation of state at the start of the step, and its share
+ * in p~. */
 typedef struct {
-  double beta, target[6];
+  double beta, target[6], state, share;
 } CompressibleElement;
 
 /* int N_i N_j over the P2 functions of an element of unit area: vertices, then the edges opposite. */

@@ -22,18 +22,21 @@ void FluidSetTarget(Fluid f, double old)
   const int *node = f->domain.p2->node;
   const double *p = FluidPressure(f);
   for (int e = 0; e < f->domain.mesh->ne && f->compressible; e++) {
-    double own;
-    const double share = ElementCompressibility(f, e, &own) > 0.0 ? old : 1.0;
-    for (int k = 0; k < 6; k++)
-      f->compressible[e].target[k] = share * p[node[6 * e + k]] + (1.0 - share) * own;
+    CompressibleElement *c = &f->compressible[e];
+    c->share = ElementCompressibility(f, e, &c->state) > 0.0 ? 1.0 - old : 0.0;
+    for (int k = 0; k < 6; k++) c->target[k] = (1.0 - c->share) * p[node[6 * e + k]] + c->share * c->state;
   }
 }
 
 void FluidSetCompressibility(Fluid f)
 {
-  double own;
-  for (int e = 0; e < f->domain.mesh->ne && f->compressible; e++)
-    f->compressible[e].beta = ElementCompressibility(f, e, &own);
+  for (int e = 0; e < f->domain.mesh->ne && f->compressible; e++) {
+    CompressibleElement *c = &f->compressible[e];
+    double state;
+    c->beta = ElementCompressibility(f, e, &state);
+    if (c->beta == 0.0) continue;
+    for (int k = 0; k < 6; k++) c->target[k] += 0.5 * c->share * (state - c->state);
+  }
 }
 
 /* Of beta over its element's coefficient: leaves about its inverse of the divergence's pressure. */

@@ -42,8 +42,8 @@ PetscErrorCode FluidPhasesChanged(Fluid f);
 double FluidCapillaryStep(Fluid f);
 /* fluid_gas.c: *pressure[ne] of the elements, Pa, is allocated.  Not collective, like what follows. */
 PetscErrorCode FluidMeanPressure(Fluid f, double **pressure);
-/* Of f->compressible, from the phases and the pressure as they are: the target is the share `old` of the pressure and the rest of
- * that of the equations of state; beta. */
+/* Of f->compressible: before the phases move, the target is the share `old` of the pressure and the rest of that of the equations of
+ * state; after it, beta, and these in the middle of the step, where a pressure of backward Euler is the volumes'. */
 void FluidSetTarget(Fluid f, double old);
 void FluidSetCompressibility(Fluid f);
 /* The same for a velocity that is to be free of divergence where there is no compressible phase, and left alone where there is. */
