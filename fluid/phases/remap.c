@@ -2,13 +2,15 @@
 #include "common/transfer/transfer_parts.h"
 #include "fluid/phases/phases_impl.h"
 
+#define MASS_TINY 1e-9 /* of an element's area: a volume that says nothing of where its mass is */
+
 /* An old element's phases on their way. */
 typedef struct {
   int single;
   double area;
   double volume[PHASES_MAX];
-  double defect[PHASES_MAX];  /* volume less that of the polygon, over the element's area */
-  double density[PHASES_MAX]; /* of masses over volumes */
+  double defect[PHASES_MAX]; /* volume less that of the polygon, over the element's area */
+  double mass[PHASES_MAX];
   HalfPlane line[PHASES_MAX - 1];
 } Load;
 
@@ -23,29 +25,38 @@ static void SetLoad(Phases f, int e, Load *load)
   for (int p = 0; p < f->np; p++) {
     load->volume[p] = f->volume[(size_t)e * (size_t)f->np + (size_t)p];
     load->defect[p] = (load->volume[p] - area[p]) / load->area;
-    const double v = load->volume[p], m = f->mass ? f->mass[(size_t)e * (size_t)f->np + (size_t)p] : 0.0;
-    load->density[p] = v > 0.0 ? m / v : 0.0;
+    if (f->mass) load->mass[p] = f->mass[(size_t)e * (size_t)f->np + (size_t)p];
   }
   for (int p = 0; p + 1 < f->np; p++) load->line[p] = f->line[(size_t)e * (size_t)(f->np - 1) + (size_t)p];
+}
+
+/* mass[np] += by the share of each phase's volume in `common`, or, of what has hardly any volume, by its share of the element. */
+static void TakeMasses(const Polygon *common, const double origin[2], const double part[3][2],
+                       const Load *load, int np, double mass[])
+{
+  const double area = PolygonArea(common);
+  double taken[PHASES_MAX] = {0.0};
+  PhasesSplitBy(np, load->single, load->line, part[0], common, origin, 1.0, taken);
+  for (int p = 0; p < np; p++) {
+    const double volume = load->volume[p];
+    mass[p] += load->mass[p] * (volume > MASS_TINY * load->area ? (taken[p] + load->defect[p] * area) / volume
+                                                                : area / load->area);
+  }
 }
 
 /* volume[np], mass[np] += what the element takes of an old one; mass may be NULL */
 static void Take(const double element[3][2], const double part[3][2], const Load *load, int np,
                  double volume[], double mass[])
 {
-  double before[PHASES_MAX];
   Polygon whole, old, common;
   PolygonTriangle(element, element[0], &whole);
   PolygonTriangle(part, element[0], &old);
   PolygonClipTriangle(&whole, (const double(*)[2])old.x, &common);
   if (!common.n) return;
   const double area = PolygonArea(&common);
-  for (int p = 0; p < np; p++) before[p] = volume[p];
   PhasesSplitBy(np, load->single, load->line, part[0], &common, element[0], 1.0, volume);
-  for (int p = 0; p < np; p++) {
-    volume[p] += load->defect[p] * area;
-    if (mass) mass[p] += load->density[p] * (volume[p] - before[p]);
-  }
+  for (int p = 0; p < np; p++) volume[p] += load->defect[p] * area;
+  if (mass) TakeMasses(&common, element[0], part, load, np, mass);
 }
 
 static PetscErrorCode TakeAll(const TransferParts *parts, const Load load[], Phases to)
@@ -82,7 +93,7 @@ PetscErrorCode PhasesRemap(Phases from, Transfer transfer, Phases to)
     double *volume = &to->volume[(size_t)TransferCopyTarget(transfer, k) * (size_t)to->np];
     double *mass = to->mass ? &to->mass[(size_t)TransferCopyTarget(transfer, k) * (size_t)to->np] : NULL;
     for (int p = 0; p < to->np; p++) volume[p] = copy[k].volume[p];
-    for (int p = 0; p < to->np && mass; p++) mass[p] = copy[k].density[p] * copy[k].volume[p];
+    for (int p = 0; p < to->np && mass; p++) mass[p] = copy[k].mass[p];
   }
   PetscCall(TakeAll(&parts, load, to));
   PetscCall(PetscFree3(source, copy, load));
