@@ -113,8 +113,8 @@ typedef struct {
  * Needs the lines; afterwards these belong to the old volumes.  swept[ne][3][nphases], or NULL: volume of
  * each phase that left through face i, m2.  A boundary face of flux 0 is a wall: its vertices slide along it,
  * or stay at corners.  With masses: swept_mass[ne][3][nphases], kg, is what of the compressible phases' leaves with them; fluxes
- * may have a divergence then, and PhasesFillGaps is due.  Error PETSC_ERR_ARG_OUTOFRANGE, on all ranks, for a step that traces a vertex out of
- * its two rings. */
+ * may have a divergence then, and PhasesFillGaps is due.  Error PETSC_ERR_ARG_OUTOFRANGE, on all ranks, for a step that traces a
+ * vertex out of its two rings. */
 PetscErrorCode PhasesAdvect(Phases phases, double dt, const double flux[], const double velocity[],
                             const PhasesInflow *inflow, double swept[], double swept_mass[]);
 
