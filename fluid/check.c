@@ -17,6 +17,13 @@ static const CoracleCaseKey KEYS[] = {
     {"fluid.phases[].name", "", "what regions and boundaries call it"},
     {"fluid.phases[].density", "kg/m3", "its density"},
     {"fluid.phases[].viscosity", "Pa s", "its dynamic viscosity"},
+    {"fluid.phases[].sound_speed", "m/s",
+     "speed of sound of a compressible phase, whose density is that given where the pressure is 0"},
+    {"fluid.phases[].gas.pressure", "Pa",
+     "a compressible phase is an ideal gas of this absolute pressure where the fluid's pressure is 0 and its "
+     "density that given"},
+    {"fluid.phases[].gas.exponent", "",
+     "of the density in pressure ~ density^exponent: 1 isothermal, 1.4 adiabatic air"},
     {"fluid.surface_tension", "N/m",
      "of the interfaces between phases: a number for all, or a list; none if not given; not possible with "
      "solids yet"},

@@ -2,6 +2,10 @@
 #include "fluid/fluid_impl.h"
 #include "fluid/solver_options.h"
 
+/* How much of the pressure that a step's compression starts from is the last one's; what is left keeps it at the equation of
+ * state.  (0 is on the edge of stability: phases/README.md.) */
+#define GAS_OLD 0.98
+
 /* --- life -------------------------------------------------------------------------------------------- */
 
 static PetscErrorCode CreateVectors(Fluid f)
@@ -53,9 +57,10 @@ PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *flu
         SolverDefaultOption("momentum_", "ksp_rtol", "1e-6")); /* the norm hardly sees the lighter phase */
     PetscCall(PhaseTransportCreate(&f->domain, &setup->phases, setup->gravity, &f->phases));
   }
+  if (PhaseHasGas(&setup->phases)) PetscCall(PetscCalloc1(mesh->ne, &f->compressible));
   PetscCall(CreateVectors(f));
   PetscCall(MomentumSolverCreate(&f->domain, &momentum, f->u, &f->momentum));
-  PetscCall(ProjectionSolverCreate(&f->domain, f->p, &f->projection));
+  PetscCall(ProjectionSolverCreate(&f->domain, f->p, PhaseHasGas(&setup->phases), &f->projection));
   *fluid = f;
   PetscFunctionReturn(0);
 }
@@ -81,6 +86,7 @@ PetscErrorCode FluidDestroy(Fluid *fluid)
   PetscCall(SolidCouplingDestroy(&f->solid));
   PetscCall(PhaseTransportDestroy(&f->phases));
   PetscCall(MaterialDestroy(&f->material));
+  PetscCall(PetscFree(f->compressible));
   PetscCall(DomainDestroy(&f->domain));
   PetscCall(PetscFree(*fluid));
   PetscFunctionReturn(0);
@@ -131,7 +137,9 @@ PetscErrorCode FluidMomentum(Fluid f, double dt)
   MomentumReport report;
   PetscFunctionBeginUser;
   f->stats.dt = dt;
+  FluidSetTarget(f, f->dt_previous > 0.0 ? GAS_OLD : 0.0);
   PetscCall(Extrapolate(f, dt));
+  FluidSetCompressibility(f);
   if (f->phases) PetscCall(FluidPredictPressure(f, dt));
   const MomentumStep step = {f->t,
                              dt,
@@ -158,7 +166,9 @@ ProjectionStep FluidProjectionStep(Fluid f, double t, double dt, PetscBool inert
                           MaterialRevision(f->material),
                           f->solid,
                           FluidInverseDensity(f),
-                          inertia};
+                          inertia,
+                          f->compressible,
+                          f->p};
 }
 
 PetscErrorCode FluidProject(Fluid f, double dt)
@@ -217,9 +227,11 @@ PetscErrorCode FluidStep(Fluid f, double dt)
 /* velocity less the part whose bulk velocity is not free of divergence */
 static PetscErrorCode SubtractDivergence(Fluid f, Vec velocity, Vec also)
 {
-  const ProjectionStep step = FluidProjectionStep(f, f->t, 1.0, PETSC_FALSE); /* any dt: it cancels */
+  ProjectionStep step = FluidProjectionStep(f, f->t, 1.0, PETSC_FALSE); /* any dt: it cancels */
   Vec phi;
   PetscFunctionBeginUser;
+  step.pressure = NULL;
+  if (f->compressible) PetscCall(FluidLeaveCompressible(f));
   PetscCall(ProjectionSolverSolve(f->projection, &step, velocity, &phi, &f->stats.pressure_iterations));
   PetscCall(ProjectionSolverSubtract(f->projection, &step, velocity));
   if (also) PetscCall(ProjectionSolverSubtract(f->projection, &step, also));

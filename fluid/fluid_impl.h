@@ -19,6 +19,7 @@ struct Fluid_s {
   Transfer transfer;     /* from the mesh before this one, between FluidTransferPhases and FluidTransfer */
   /* with phases: the bulk velocities of the last two steps, which are free of divergence and move them */
   Vec bulk, bulk_previous;
+  CompressibleElement *compressible; /* [ne] of the current step; NULL: no phase is */
   MomentumSolver momentum;
   ProjectionSolver projection;
   /* the flow; ghosted, velocities in blocks [2][3] an element, pressure on P2 nodes */
@@ -40,6 +41,14 @@ const InverseDensity *FluidInverseDensity(Fluid f);
 PetscErrorCode FluidPhasesChanged(Fluid f);
 /* The limit of capillary waves (fluid.h) on this rank, s; HUGE_VAL without.  Not collective. */
 double FluidCapillaryStep(Fluid f);
+/* fluid_gas.c: *pressure[ne] of the elements, Pa, is allocated.  Not collective, like what follows. */
+PetscErrorCode FluidMeanPressure(Fluid f, double **pressure);
+/* Of f->compressible: before the phases move, the target is the share `old` of the pressure and the rest of that of the equations of
+ * state; after it, beta, and these in the middle of the step, where a pressure of backward Euler is the volumes'. */
+void FluidSetTarget(Fluid f, double old);
+void FluidSetCompressibility(Fluid f);
+/* The same for a velocity that is to be free of divergence where there is no compressible phase, and left alone where there is. */
+PetscErrorCode FluidLeaveCompressible(Fluid f);
 /* Moves the phases over dt with the velocity in mass_flux, extrapolated by s steps, and makes it the mass flux.  Collective. */
 PetscErrorCode FluidMovePhases(Fluid f, double dt, double s);
 /* p becomes the pressure that, with its values on open boundaries as they are, makes the acceleration weight - R^-1 grad p

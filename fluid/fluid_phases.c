@@ -81,9 +81,13 @@ PetscErrorCode FluidMovePhases(Fluid f, double dt, double s)
   step.u = u;
   step.solid = SolidCouplingFraction(f->solid);
   step.mass_flux = flux;
+  double *pressure = NULL;
+  if (f->compressible) PetscCall(FluidMeanPressure(f, &pressure));
+  step.pressure = pressure;
   PetscCall(PhaseTransportStep(f->phases, &step));
   PetscCall(VecRestoreArray(f->mass_flux, &flux));
   PetscCall(PetscFree(u));
+  PetscCall(PetscFree(pressure));
   PetscCall(SetPhaseMaterial(f, MATERIAL_NEW));
   UniformInSolid(f);
   PetscFunctionReturn(0);
@@ -139,9 +143,12 @@ static PetscErrorCode SolvePressure(Fluid f, const ProjectionStep *step, Vec sta
 
 PetscErrorCode FluidBalancePressure(Fluid f)
 {
-  const double dt = 1e8; /* large: what prescribed velocities contribute goes with 1/dt */
+  const double dt =
+      f->compressible ? 1.0 : 1e8; /* large: what prescribed velocities contribute goes with 1/dt */
   const ProjectionStep step = FluidProjectionStep(f, f->t, dt, PETSC_FALSE);
   PetscFunctionBeginUser;
+  FluidSetTarget(f, 0.0);
+  FluidSetCompressibility(f);
   PetscCall(SolvePressure(f, &step, NULL));
   PetscFunctionReturn(0);
 }
@@ -153,7 +160,10 @@ PetscErrorCode FluidPredictPressure(Fluid f, double dt)
   PetscFunctionBeginUser;
   (void)SolidCouplingEntries(f->solid, &n);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT, MPI_MAX, f->domain.mesh->comm));
-  PetscCall(n ? SolvePressure(f, &step, f->bulk) : FluidBalancePressure(f));
+  if (n || f->compressible)
+    PetscCall(SolvePressure(f, &step, n ? f->bulk : NULL));
+  else
+    PetscCall(FluidBalancePressure(f));
   PetscFunctionReturn(0);
 }
 

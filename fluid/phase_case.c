@@ -4,6 +4,25 @@
 
 #define EVERYWHERE 1e6 /* m: half the side of a box that holds any domain */
 
+/* Of phase k, which is incompressible unless it says otherwise. */
+static void ReadState(CoracleCase c, int k, double density, EquationOfState *state)
+{
+  char key[64], gas[64];
+  (void)snprintf(key, sizeof key, "fluid.phases[%d].sound_speed", k);
+  (void)snprintf(gas, sizeof gas, "fluid.phases[%d].gas.pressure", k);
+  *state = (EquationOfState){density, 0.0, 1.0};
+  if (CoracleCaseHas(c, key)) {
+    const double speed = CoracleCasePositive(c, key);
+    if (CoracleCaseHas(c, gas)) CoracleCaseRefuse(c, key, "expected sound_speed or gas, not both");
+    state->pressure = density * speed * speed;
+  }
+  (void)snprintf(key, sizeof key, "fluid.phases[%d].gas", k);
+  if (!CoracleCaseHas(c, key)) return;
+  state->pressure = CoracleCasePositive(c, gas);
+  (void)snprintf(gas, sizeof gas, "fluid.phases[%d].gas.exponent", k);
+  state->exponent = CoracleCaseNumberOr(c, gas, 1.0, 1.0, 10.0);
+}
+
 /* Item k of fluid.phases becomes phase k. */
 static void ReadPhase(CoracleCase c, int k, PhaseNames *names, PhaseProperties *p)
 {
@@ -20,6 +39,7 @@ static void ReadPhase(CoracleCase c, int k, PhaseNames *names, PhaseProperties *
   p->rho[k] = CoracleCasePositive(c, key);
   (void)snprintf(key, sizeof key, "fluid.phases[%d].viscosity", k);
   p->mu[k] = CoracleCasePositive(c, key);
+  ReadState(c, k, p->rho[k], &p->state[k]);
 }
 
 static void Swap(double *a, double *b)
@@ -39,6 +59,9 @@ static void SortByDensity(PhaseNames *names, PhaseProperties *p)
       names->name[j - 1] = name;
       Swap(&p->rho[j], &p->rho[j - 1]);
       Swap(&p->mu[j], &p->mu[j - 1]);
+      const EquationOfState state = p->state[j];
+      p->state[j] = p->state[j - 1];
+      p->state[j - 1] = state;
     }
 }
 

@@ -12,6 +12,9 @@ struct PhaseSweep_s {
   Phases phases;
   double *flux, *beta, *velocity; /* [ne][3], [ne][6], [ne][3][2] of the step */
   double *swept, *part;           /* [ne][3][n] of the step and of its part, m2 */
+  double *mass, *mass_part;       /* the same of compressible phases, kg */
+  double *weight, *solid;         /* [nl] of fluxes' divergence; the solid's share */
+  double *expected;               /* [ne][n] densities, kg/m3 */
   int *single;                    /* [nl] at the start of the step */
 };
 
@@ -30,6 +33,9 @@ PetscErrorCode PhaseSweepCreate(const FluidDomain *domain, const PhaseProperties
   s->phases = phases;
   PetscCall(PetscMalloc3(3 * ne, &s->flux, 6 * ne, &s->beta, 6 * ne, &s->velocity));
   PetscCall(PetscMalloc3(3 * n * ne, &s->swept, 3 * n * ne, &s->part, stars->nl, &s->single));
+  if (PhaseHasGas(properties))
+    PetscCall(PetscMalloc5(3 * n * ne, &s->mass, 3 * n * ne, &s->mass_part, stars->nl, &s->weight, stars->nl,
+                           &s->solid, n * ne, &s->expected));
   *sweep = s;
   PetscFunctionReturn(0);
 }
@@ -41,6 +47,7 @@ PetscErrorCode PhaseSweepDestroy(PhaseSweep *sweep)
   if (!s) PetscFunctionReturn(0);
   PetscCall(PetscFree3(s->flux, s->beta, s->velocity));
   PetscCall(PetscFree3(s->swept, s->part, s->single));
+  PetscCall(PetscFree5(s->mass, s->mass_part, s->weight, s->solid, s->expected));
   PetscCall(PetscFree(*sweep));
   PetscFunctionReturn(0);
 }
@@ -95,10 +102,15 @@ static PetscErrorCode LeaveSolid(PhaseSweep s, const double solid[])
   for (int e = 0; e < s->stars->ne; e++)
     capacity[e] = fmax(1.0 - solid[e], 0.0) * s->domain->geometry[e].area;
   PetscCall(PhasesGetVolumes(s->phases, &volume));
+  if (s->mass) {
+    PetscCall(PhasesUpdateDensities(s->phases));
+    PetscCall(PetscArraycpy(s->part, s->swept, 3 * n * s->stars->ne));
+  }
   for (int k = 0; k + 1 < n; k++) {
     PetscCall(PhasesExpel(s->phases, order[k], order[n - 1], capacity, s->swept));
     for (int e = 0; e < s->stars->ne; e++) capacity[e] = fmax(capacity[e] - volume[n * e + order[k]], 0.0);
   }
+  if (s->mass) PhasesMoveMasses(s->phases, s->part, s->swept, s->mass);
   PetscCall(PetscFree(capacity));
   PetscFunctionReturn(0);
 }
@@ -110,7 +122,8 @@ static PetscErrorCode AddOut(PhaseSweep s, double total[])
   double out[PHASES_MAX] = {0.0};
   PetscFunctionBeginUser;
   for (int k = 0; k < 3 * s->stars->ne; k++)
-    for (int p = 0; p < n && s->domain->mesh->neighbor[k] < 0; p++) out[p] += s->swept[k * n + p];
+    for (int p = 0; p < n && s->domain->mesh->neighbor[k] < 0; p++)
+      out[p] += s->properties->state[p].pressure > 0.0 ? s->mass[k * n + p] : s->swept[k * n + p];
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, out, n, MPI_DOUBLE, MPI_SUM, s->domain->mesh->comm));
   for (int p = 0; p < n; p++) total[p] += out[p];
   PetscFunctionReturn(0);
@@ -124,20 +137,44 @@ static PetscErrorCode Advect(PhaseSweep s, double dt)
   PetscFunctionBeginUser;
   PetscCall(CountParts(s, dt, &parts));
   PetscCall(PetscArrayzero(s->swept, n));
+  if (s->mass) PetscCall(PetscArrayzero(s->mass, n));
   for (int k = 0; k < parts; k++) {
     if (k) PetscCall(PhasesReconstruct(s->phases));
-    PetscCall(PhasesAdvect(s->phases, dt / parts, s->flux, s->velocity, &inflow, s->part));
+    PetscCall(PhasesAdvect(s->phases, dt / parts, s->flux, s->velocity, &inflow, s->part, s->mass_part));
     for (int i = 0; i < n; i++) s->swept[i] += s->part[i];
+    for (int i = 0; i < n && s->mass; i++) s->mass[i] += s->mass_part[i];
+    if (s->mass) PetscCall(PhasesFillGaps(s->phases, s->expected, s->swept));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Where the flow may have a divergence, and the densities that compressible phases should have about. */
+static PetscErrorCode SetGas(PhaseSweep s, const PhaseStep *step)
+{
+  const int n = s->properties->n;
+  double pressure;
+  PetscFunctionBeginUser;
+  PetscCall(PetscArrayzero(s->solid, s->stars->nl));
+  if (step->solid) PetscCall(PetscArraycpy(s->solid, step->solid, s->stars->ne));
+  PetscCall(StarsExchange(s->stars, sizeof *s->solid, s->solid));
+  for (int e = 0; e < s->stars->nl; e++)
+    s->weight[e] =
+        0.5 * StarsTwiceArea(s->stars, e) * PhasesCompressibility(s->phases, e, s->solid[e], &pressure);
+  for (int k = 0; k < n * s->stars->ne; k++) {
+    const EquationOfState *state = &s->properties->state[k % n];
+    s->expected[k] = state->pressure > 0.0 ? GasDensity(state, step->pressure[k / n]) : state->density;
+    if (s->solid[k / n] > 0.0) s->expected[k] = PhasesDensities(s->phases)[k];
   }
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode PhaseSweepStep(PhaseSweep s, const PhaseStep *step, double out[])
 {
-  const FluxBoundary boundary = {s->boundaries->open, s->boundaries->moment};
+  const FluxBoundary boundary = {s->boundaries->open, s->boundaries->moment, s->weight};
   FluxReport report;
   PetscFunctionBeginUser;
   PhaseBoundariesSetMoments(s->boundaries, step);
+  if (s->mass) PetscCall(SetGas(s, step));
   PetscCall(FluxEquilibrate(s->stars, step->u, &boundary, s->flux, s->beta, &report));
   PetscCall(FluxVertexVelocity(s->stars, s->beta, s->velocity));
   for (int e = 0; e < s->stars->nl; e++) s->single[e] = PhasesSingle(s->phases, e);
@@ -170,8 +207,14 @@ void PhaseSweepMassFlux(PhaseSweep s, const PhaseStep *step)
       const int p = PhaseOfFace(s, e, i);
       double length, mass = 0.0;
       FluxNormalParts(element, &s->beta[6 * e], i, normal[i], &length);
-      for (int q = 0; q < n; q++) mass += rho[q] * s->swept[(3 * e + i) * n + q];
-      for (int k = 0; k < 2; k++) normal[i][k] = p >= 0 ? rho[p] * normal[i][k] : mass / (step->dt * length);
+      double density = p >= 0 ? rho[p] : 0.0;
+      for (int q = 0; q < n; q++) {
+        const int k = (3 * e + i) * n + q;
+        const PetscBool gas = (PetscBool)(s->properties->state[q].pressure > 0.0);
+        mass += gas ? s->mass[k] : rho[q] * s->swept[k];
+        if (gas && q == p && s->swept[k] != 0.0) density = s->mass[k] / s->swept[k];
+      }
+      for (int k = 0; k < 2; k++) normal[i][k] = p >= 0 ? density * normal[i][k] : mass / (step->dt * length);
     }
     FluxLinearField(element, (const double(*)[2])normal, &step->mass_flux[6 * e]);
   }

@@ -15,7 +15,7 @@ struct PhaseTransport_s {
   PhaseBoundaries boundaries;
   PhaseSweep sweep;
   InverseDensity *begin, *end, *inverse_density; /* [ne] at the ends of the step, and what the step sees */
-  double *saved;                                 /* [ne][n] volumes */
+  double *saved, *saved_mass;                    /* [ne][n] volumes, masses */
   PhaseBudget budget, saved_budget;
 };
 
@@ -33,6 +33,13 @@ int PhaseHeaviest(const PhaseProperties *p)
   for (int k = 1; k < p->n; k++)
     if (p->rho[k] > p->rho[heaviest]) heaviest = k;
   return heaviest;
+}
+
+PetscBool PhaseHasGas(const PhaseProperties *p)
+{
+  for (int k = 0; k < p->n; k++)
+    if (p->state[k].pressure > 0.0) return PETSC_TRUE;
+  return PETSC_FALSE;
 }
 
 PetscBool PhaseHasTension(const PhaseProperties *p)
@@ -58,10 +65,12 @@ PetscErrorCode PhaseTransportCreate(const FluidDomain *domain, const PhaseProper
   for (int c = 0; c < 2; c++) t->gravity[c] = gravity[c];
   PetscCall(StarsCreate(m, &t->stars));
   PetscCall(PhasesCreate(t->stars, n, &t->phases));
+  for (int k = 0; k < n; k++) t->properties.state[k].density = properties->rho[k];
+  if (PhaseHasGas(properties)) PetscCall(PhasesSetStates(t->phases, t->properties.state));
   PetscCall(PhaseBoundariesCreate(domain, &t->properties, gravity, &t->boundaries));
   PetscCall(PhaseSweepCreate(domain, &t->properties, t->stars, &t->boundaries, t->phases, &t->sweep));
-  PetscCall(PetscMalloc4(m->ne, &t->begin, m->ne, &t->end, m->ne, &t->inverse_density,
-                         (size_t)n * (size_t)m->ne, &t->saved));
+  PetscCall(PetscMalloc5(m->ne, &t->begin, m->ne, &t->end, m->ne, &t->inverse_density,
+                         (size_t)n * (size_t)m->ne, &t->saved, (size_t)n * (size_t)m->ne, &t->saved_mass));
   *transport = t;
   PetscFunctionReturn(0);
 }
@@ -75,19 +84,20 @@ PetscErrorCode PhaseTransportDestroy(PhaseTransport *transport)
   PetscCall(PhaseBoundariesDestroy(&t->boundaries));
   PetscCall(PhasesDestroy(&t->phases));
   PetscCall(StarsDestroy(&t->stars));
-  PetscCall(PetscFree4(t->begin, t->end, t->inverse_density, t->saved));
+  PetscCall(PetscFree5(t->begin, t->end, t->inverse_density, t->saved, t->saved_mass));
   PetscCall(PetscFree(*transport));
   PetscFunctionReturn(0);
 }
 
-/* volume[n], m2, of all ranks. */
+/* volume[n], m2, of compressible phases mass, kg, of all ranks. */
 static PetscErrorCode SumVolumes(PhaseTransport t, double volume[])
 {
   int n;
-  const double *v = PhaseTransportVolumes(t, &n);
+  const double *v = PhaseTransportVolumes(t, &n), *mass = PhasesMasses(t->phases);
   PetscFunctionBeginUser;
   PetscCall(PetscArrayzero(volume, n));
-  for (int k = 0; k < n * t->stars->ne; k++) volume[k % n] += v[k];
+  for (int k = 0; k < n * t->stars->ne; k++)
+    volume[k % n] += t->properties.state[k % n].pressure > 0.0 ? mass[k] : v[k];
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, volume, n, MPI_DOUBLE, MPI_SUM, t->domain->mesh->comm));
   PetscFunctionReturn(0);
 }
@@ -135,6 +145,7 @@ PetscErrorCode PhaseTransportFill(PhaseTransport t, int nregions, const Region r
 {
   PetscFunctionBeginUser;
   PetscCall(PhasesFill(t->phases, nregions, region));
+  if (PhasesMasses(t->phases)) PhasesStartMasses(t->phases);
   PetscCall(SumVolumes(t, t->budget.initial));
   PetscCall(Reconstruct(t));
   PetscFunctionReturn(0);
@@ -155,6 +166,9 @@ PetscErrorCode PhaseTransportSaveState(PhaseTransport t)
   PetscFunctionBeginUser;
   PetscCall(PhasesGetVolumes(t->phases, &volume));
   PetscCall(PetscArraycpy(t->saved, volume, (size_t)t->properties.n * (size_t)t->stars->ne));
+  if (PhasesMasses(t->phases))
+    PetscCall(PetscArraycpy(t->saved_mass, PhasesMasses(t->phases),
+                            (size_t)t->properties.n * (size_t)t->stars->ne));
   t->saved_budget = t->budget;
   PetscFunctionReturn(0);
 }
@@ -163,6 +177,9 @@ PetscErrorCode PhaseTransportRestoreState(PhaseTransport t)
 {
   PetscFunctionBeginUser;
   PetscCall(PhasesSetVolumes(t->phases, t->saved));
+  if (PhasesMasses(t->phases))
+    PetscCall(PetscArraycpy(PhasesMasses(t->phases), t->saved_mass,
+                            (size_t)t->properties.n * (size_t)t->stars->ne));
   t->budget = t->saved_budget;
   PetscCall(Reconstruct(t));
   PetscFunctionReturn(0);
@@ -176,6 +193,8 @@ PetscErrorCode PhaseTransportSave(PhaseTransport t, Checkpoint to)
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(t->domain->mesh->comm, &rank));
   PetscCall(CheckpointPutDoubles(to, "phases", t->stars->ne, n, volume));
+  if (PhasesMasses(t->phases))
+    PetscCall(CheckpointPutDoubles(to, "phases' masses", t->stars->ne, n, PhasesMasses(t->phases)));
   PetscCall(CheckpointPutDoubles(to, "initial phases", rank ? 0 : 1, n, t->budget.initial));
   PetscCall(CheckpointPutDoubles(to, "phases out", rank ? 0 : 1, n, t->budget.out));
   PetscFunctionReturn(0);
@@ -189,6 +208,9 @@ PetscErrorCode PhaseTransportLoad(PhaseTransport t, const PetscInt row[], Checkp
   PetscCall(MeshLoadDoubles(t->domain->mesh, row, from, "phases", t->properties.n, volume));
   PetscCall(PhasesSetVolumes(t->phases, volume));
   PetscCall(PetscFree(volume));
+  if (PhasesMasses(t->phases))
+    PetscCall(MeshLoadDoubles(t->domain->mesh, row, from, "phases' masses", t->properties.n,
+                              PhasesMasses(t->phases)));
   PetscCall(CheckpointGetDoubles(from, "initial phases", 0, 1, t->properties.n, t->budget.initial));
   PetscCall(CheckpointGetDoubles(from, "phases out", 0, 1, t->properties.n, t->budget.out));
   PetscCall(Reconstruct(t));
@@ -203,7 +225,11 @@ void PhaseTransportMaterial(PhaseTransport t, double rho[], double mu[])
     const double area = t->domain->geometry[e].area;
     rho[e] = mu[e] = 0.0;
     for (int p = 0; p < n; p++) {
-      rho[e] += t->properties.rho[p] * volume[n * e + p] / area;
+      const double *mass = PhasesMasses(t->phases);
+      if (t->properties.state[p].pressure > 0.0)
+        rho[e] += mass[n * e + p] / area;
+      else
+        rho[e] += t->properties.rho[p] * volume[n * e + p] / area;
       mu[e] += t->properties.mu[p] * volume[n * e + p] / area;
     }
     if (mu[e] < 0.0) mu[e] = 0.0;

@@ -19,6 +19,7 @@ typedef struct {
   int n;
   double rho[PHASES_MAX], mu[PHASES_MAX]; /* kg/m3, Pa s */
   PhasesPairs surface_tension;            /* N/m */
+  EquationOfState state[PHASES_MAX];      /* pressure 0: incompressible, of density rho */
   char name[PHASES_MAX][32];
 } PhaseProperties;
 
@@ -30,6 +31,8 @@ PetscBool PhaseHasTension(const PhaseProperties *properties);
 /* Of element e: the density of the phase that fills solids, and the mean density of its other phases, 0 where it has none, kg/m3.
  * Not collective. */
 void PhaseTransportBesideSolid(PhaseTransport t, int e, double *inside, double *beside);
+/* Whether any phase is compressible. */
+PetscBool PhaseHasGas(const PhaseProperties *properties);
 /* Without volumes; domain is borrowed.  Collective, like all that says nothing else. */
 PetscErrorCode PhaseTransportCreate(const FluidDomain *domain, const PhaseProperties *properties,
                                     const double gravity[2], PhaseTransport *t);
@@ -44,7 +47,8 @@ typedef struct {
   double time, dt;                /* t^n, s */
   double extrapolated, dt_before; /* u = u^n + extrapolated (u^n - u^{n-1}) */
   const double *u;
-  const double *solid; /* [ne] alpha_s: heavier phases stay out of it; NULL: none */
+  const double *solid;    /* [ne] alpha_s: heavier phases stay out of it; NULL: none */
+  const double *pressure; /* [ne] at t^n, Pa; read with compressible phases only */
   double *mass_flux;
 } PhaseStep;
 PetscErrorCode PhaseTransportStep(PhaseTransport t, const PhaseStep *step);
@@ -59,7 +63,7 @@ void PhaseTransportSettle(PhaseTransport t);
 /* Volumes, m2, [ne][n], borrowed; the number of phases.  Not collective. */
 const double *PhaseTransportVolumes(PhaseTransport t, int *n);
 Phases PhaseTransportPhases(PhaseTransport t);
-/* What has become of each phase since the run's start, m2: volume + out - initial is what adaptation and the pressure's solution
+/* What has become of each phase since the run's start, m2, of compressible ones kg: volume + out - initial is what adaptation and the pressure's solution
  * have made of it. */
 typedef struct {
   double initial[PHASES_MAX], out[PHASES_MAX]; /* at the start; what has left through the boundary, net */

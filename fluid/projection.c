@@ -80,11 +80,13 @@ static void SetBlocks(ProjectionSolver s, const ProjectionStep *step)
 {
   const FluidDomain *d = s->domain;
   double(*block)[36] = PressureSolverBlocks(s->solver);
-  const PetscBool all = (PetscBool)(s->revision != step->revision);
+  const PetscBool all = (PetscBool)(s->revision != step->revision || step->compressible);
   for (int e = 0; e < d->mesh->ne; e++) {
     const PetscBool weighted = s->inertia && WeightedProjectionBlock(s->weighted, e, (double(*)[6])block[e]);
     if (!weighted && (all || s->is_weighted[e])) Stiffness(d->geometry + e, step, e, (double(*)[6])block[e]);
     s->is_weighted[e] = weighted;
+    if (step->compressible)
+      CompressibilityBlock(&step->compressible[e], d->geometry[e].area, step->dt, (double(*)[6])block[e]);
   }
 }
 
@@ -95,7 +97,7 @@ static PetscErrorCode Assemble(ProjectionSolver s, const ProjectionStep *step)
   PetscBool inertia;
   PetscFunctionBeginUser;
   PetscCall(WeightedProjectionPrepare(s->weighted, &weighted, &inertia));
-  const PetscBool current = (PetscBool)(s->revision == step->revision && !s->inertia);
+  const PetscBool current = (PetscBool)(s->revision == step->revision && !s->inertia && !step->compressible);
   s->inertia = (PetscBool)(inertia && step->inertia);
   if (current && !s->inertia) PetscFunctionReturn(0);
   SetBlocks(s, step);
@@ -104,7 +106,8 @@ static PetscErrorCode Assemble(ProjectionSolver s, const ProjectionStep *step)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ProjectionSolverCreate(const FluidDomain *domain, Vec like, ProjectionSolver *solver)
+PetscErrorCode ProjectionSolverCreate(const FluidDomain *domain, Vec like, PetscBool compressible,
+                                      ProjectionSolver *solver)
 {
   ProjectionSolver s;
   PetscBool closed = PETSC_FALSE;
@@ -115,7 +118,7 @@ PetscErrorCode ProjectionSolverCreate(const FluidDomain *domain, Vec like, Proje
   PetscCall(VecDuplicate(like, &s->phi));
   PetscCall(VecDuplicate(like, &s->divergence));
   PetscCall(FindFixed(s, &closed));
-  PetscCall(PressureSolverCreate(domain, s->is_fixed, closed, &s->solver));
+  PetscCall(PressureSolverCreate(domain, s->is_fixed, (PetscBool)(closed && !compressible), &s->solver));
   PetscCall(WeightedProjectionCreate(domain, &s->weighted));
   PetscCall(PetscCalloc1(domain->mesh->ne, &s->is_weighted));
   *solver = s;
@@ -217,6 +220,8 @@ static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step,
     for (int k = 0; k < 6; k++) d[domain->p2->node[6 * e + k]] += r[k];
   }
   PetscCall(VecRestoreArrayRead(velocity, &u));
+  if (step->compressible && step->pressure)
+    PetscCall(CompressibilityAddLoads(domain, step->compressible, step->dt, step->pressure, d));
   PetscCall(VecRestoreArray(local, &d));
   PetscCall(VecGhostRestoreLocalForm(s->divergence, &local));
   PetscCall(VecGhostUpdateBegin(s->divergence, ADD_VALUES, SCATTER_REVERSE));

@@ -11,6 +11,7 @@
  * implicit inertia; how it is solved: pressure_solver.h. */
 #ifndef FLUID_PROJECTION_H
 #define FLUID_PROJECTION_H
+#include "fluid/compressibility.h"
 #include "fluid/domain.h"
 #include "fluid/phases/effective_density.h"
 #include "fluid/solid_coupling.h"
@@ -25,11 +26,14 @@ typedef struct {
   SolidCoupling solid; /* borrowed until ProjectionSubtract */
   /* [ne] of phases, in place of 1/rho (effective_density.h); NULL: 1/rho */
   const InverseDensity *inverse_density;
-  PetscBool inertia; /* whether the solid's implicit inertia takes part */
+  PetscBool inertia;                       /* whether the solid's implicit inertia takes part */
+  const CompressibleElement *compressible; /* [ne]; NULL: the velocity is to be free of divergence */
+  Vec pressure;                            /* before phi is added, ghosted; NULL: that of `compressible` */
 } ProjectionStep;
 
-/* like: a ghosted vector of the P2 nodes; domain is borrowed.  Collective, like all of this. */
-PetscErrorCode ProjectionSolverCreate(const FluidDomain *domain, Vec like, ProjectionSolver *s);
+/* like: a ghosted vector of the P2 nodes; domain is borrowed; compressible: steps may have such elements.  Collective, like all of this. */
+PetscErrorCode ProjectionSolverCreate(const FluidDomain *domain, Vec like, PetscBool compressible,
+                                      ProjectionSolver *s);
 PetscErrorCode ProjectionSolverDestroy(ProjectionSolver *s);
 /* p, ghosted on the P2 nodes, becomes 0 but on open boundaries. */
 PetscErrorCode ProjectionSolverKeepFixed(ProjectionSolver s, Vec p);

@@ -100,7 +100,9 @@ static PetscErrorCode SetColumns(Fluid f, size_t size, char columns[])
   for (int p = 0; phases && p < phases->n; p++) {
     char more[160];
     const char *name = phases->name[p];
-    PetscCall(PetscSNPrintf(more, sizeof more, ",%s [m2],%s out [m2],%s made [m2]", name, name, name));
+    const char *unit = phases->state[p].pressure > 0.0 ? "kg" : "m2";
+    PetscCall(PetscSNPrintf(more, sizeof more, ",%s [%s],%s out [%s],%s made [%s]", name, unit, name, unit,
+                            name, unit));
     PetscCall(PetscStrlcat(columns, more, size));
   }
   PetscFunctionReturn(0);

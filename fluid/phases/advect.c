@@ -81,15 +81,26 @@ static PetscErrorCode FindCalm(Step *t)
   PetscFunctionReturn(0);
 }
 
-/* What the elements leave of the swept area, `rest`, comes from outside of open boundaries, or is round-off.
- * */
-static void Balance(Step *t, int a, int b, int tag, double uncovered, double swept, double area[])
+/* Of each phase: area, m2, and, if phases have masses, mass, kg. */
+typedef struct {
+  double area[PHASES_MAX], mass[PHASES_MAX];
+} Content;
+
+static void Add(Content *c, int p, double area, double density)
 {
+  c->area[p] += area;
+  c->mass[p] += area * density;
+}
+
+/* What the elements leave of the swept area, `rest`, comes from outside of open boundaries, or is round-off of element e. */
+static void Balance(Step *t, int e, int a, int b, int tag, double uncovered, double swept, Content *c)
+{
+  const Phases f = t->f;
   double rest = swept;
   int largest = 0;
-  for (int p = 0; p < t->f->np; p++) {
-    rest -= area[p];
-    if (fabs(area[p]) > fabs(area[largest])) largest = p;
+  for (int p = 0; p < f->np; p++) {
+    rest -= c->area[p];
+    if (fabs(c->area[p]) > fabs(c->area[largest])) largest = p;
   }
   if (uncovered > OUTSIDE) {
     if (tag < 0) tag = OpenTag(t, a);
@@ -97,25 +108,37 @@ static void Balance(Step *t, int a, int b, int tag, double uncovered, double swe
     if (tag >= 0 && t->inflow) {
       const double *from = t->s->point[a], *to = t->s->point[b];
       const double middle[2] = {0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])};
-      for (int p = 0; p < t->f->np; p++) area[p] += rest * Inflow(t, tag, middle, p);
+      for (int p = 0; p < f->np; p++)
+        Add(c, p, rest * Inflow(t, tag, middle, p), f->mass ? f->state[p].density : 0.0);
       return;
     }
     t->lost = fmax(t->lost, uncovered);
   }
-  area[largest] += rest;
+  Add(c, largest, rest, f->mass ? f->density[(size_t)e * (size_t)f->np + (size_t)largest] : 0.0);
 }
 
-/* area[np]: what leaves owned element e through face i. */
-static void SweepFace(Step *t, int e, int i, double area[])
+/* Through face i of element e, among elements of phase p. */
+static void SweepCalm(const Step *t, int e, int i, int p, double swept, Content *c)
+{
+  const Phases f = t->f;
+  const int donor = swept > 0.0 ? e : t->s->neighbor[e][i];
+  const double density = !f->mass    ? 0.0
+                         : donor < 0 ? f->state[p].density
+                                     : f->density[(size_t)donor * (size_t)f->np + (size_t)p];
+  Add(c, p, swept, density);
+}
+
+/* What leaves owned element e through face i. */
+static void SweepFace(Step *t, int e, int i, Content *c)
 {
   const Stars *s = t->s;
   int a = s->vertex[e][(i + 1) % 3], b = s->vertex[e][(i + 2) % 3];
   const double sign = s->gid[a] < s->gid[b] ? 1.0 : -1.0, swept = sign * t->flow.flux[e][i] * t->flow.dt;
-  const int np = t->f->np, tag = s->element[e].tag[i];
-  for (int p = 0; p < np; p++) area[p] = 0.0;
+  const int tag = s->element[e].tag[i];
+  *c = (Content){{0.0}, {0.0}};
   if (tag >= 0 && t->flow.flux[e][i] == 0.0) return;
   if (t->calm[a] >= 0 && t->calm[a] == t->calm[b]) {
-    area[t->calm[a]] = sign * swept;
+    SweepCalm(t, e, i, t->calm[a], sign * swept, c);
     return;
   }
   if (sign < 0.0) {
@@ -123,35 +146,40 @@ static void SweepFace(Step *t, int e, int i, double area[])
     a = b;
     b = other;
   }
+  const int owner = sign > 0.0 || s->neighbor[e][i] < 0 ? e : s->neighbor[e][i];
   Swept region;
   SweptMake(s, a, b, (const double(*)[2])t->shift, swept, &region);
-  double uncovered = SweptCollect(&t->search, a, b, 0, &region, area);
+  double uncovered = SweptCollect(&t->search, a, b, 0, &region, c->area, c->mass);
   if (uncovered > OUTSIDE) {
-    for (int p = 0; p < np; p++) area[p] = 0.0;
-    uncovered = SweptCollect(&t->search, a, b, 1, &region, area);
+    *c = (Content){{0.0}, {0.0}};
+    uncovered = SweptCollect(&t->search, a, b, 1, &region, c->area, c->mass);
   }
-  Balance(t, a, b, tag, uncovered, swept, area);
-  for (int p = 0; p < np; p++) area[p] *= sign;
+  Balance(t, owner, a, b, tag, uncovered, swept, c);
+  for (int p = 0; p < t->f->np; p++) {
+    c->area[p] *= sign;
+    c->mass[p] *= sign;
+  }
 }
 
-/* swept[ne][3][np]: faces between owned elements once, those to other ranks on both. */
-static void SweepFaces(Step *t, double swept[])
+/* swept[ne][3][np], mass likewise or NULL: faces between owned elements once, those to other ranks on both. */
+static void SweepFaces(Step *t, double swept[], double mass[])
 {
   const Mesh *m = t->s->mesh;
   const size_t np = (size_t)t->f->np;
   for (int k = 0; k < 3 * m->ne; k++) {
     const int o = m->neighbor[k];
-    double *area = &swept[(size_t)k * np];
-    if (o >= 0 && o < k / 3) {
-      const double *other = &swept[(size_t)(3 * o + m->neighbor_face[k]) * np];
-      for (size_t p = 0; p < np; p++) area[p] = -other[p];
-    } else {
-      SweepFace(t, k / 3, k % 3, area);
-    }
+    const size_t at = (size_t)k * np, other = (size_t)(3 * o + m->neighbor_face[k]) * np;
+    Content c;
+    if (o < 0 || o >= k / 3) SweepFace(t, k / 3, k % 3, &c);
+    for (size_t p = 0; p < np; p++) swept[at + p] = o >= 0 && o < k / 3 ? -swept[other + p] : c.area[p];
+    for (size_t p = 0; p < np && mass; p++)
+      mass[at + p] = t->f->state[p].pressure == 0.0 ? 0.0
+                     : o >= 0 && o < k / 3          ? -mass[other + p]
+                                                    : c.mass[p];
   }
 }
 
-static void Update(Step *t, const double swept[])
+static void Update(Step *t, const double swept[], const double mass[])
 {
   const Stars *s = t->s;
   const size_t np = (size_t)t->f->np;
@@ -159,6 +187,8 @@ static void Update(Step *t, const double swept[])
   for (int e = 0; e < s->ne; e++) {
     double *v = &t->f->volume[(size_t)e * np], out = 0.0;
     for (size_t k = 0; k < 3 * np; k++) v[k % np] -= swept[3 * (size_t)e * np + k];
+    for (size_t k = 0; k < 3 * np && mass; k++)
+      t->f->mass[(size_t)e * np + k % np] -= mass[3 * (size_t)e * np + k];
     for (int i = 0; i < 3; i++) out += fmax(t->flow.flux[e][i], 0.0);
     if (t->calm[s->vertex[e][0]] < 0)
       t->f->courant = fmax(t->f->courant, 2.0 * out * t->flow.dt / StarsTwiceArea(s, e));
@@ -211,7 +241,7 @@ static PetscErrorCode StepEnd(Step *t)
 }
 
 PetscErrorCode PhasesAdvect(Phases f, double dt, const double flux[], const double velocity[],
-                            const PhasesInflow *inflow, double swept[])
+                            const PhasesInflow *inflow, double swept[], double swept_mass[])
 {
   const size_t n = 3 * (size_t)f->stars->ne * (size_t)f->np;
   Step t = {.f = f, .s = f->stars, .inflow = inflow && inflow->fraction ? inflow : NULL};
@@ -220,10 +250,11 @@ PetscErrorCode PhasesAdvect(Phases f, double dt, const double flux[], const doub
   PetscCheck(f->has_lines, f->stars->mesh->comm, PETSC_ERR_ORDER,
              "PhasesAdvect needs the lines of the present volumes: call PhasesReconstruct before it");
   PetscCall(StepBegin(f, dt, flux, velocity, &t));
+  double *mass = f->mass ? swept_mass : NULL;
   if (!swept) PetscCall(PetscMalloc1(n, &own));
-  SweepFaces(&t, swept ? swept : own);
+  SweepFaces(&t, swept ? swept : own, mass);
   PetscCallMPI(MPI_Allreduce(&t.lost, &lost, 1, MPI_DOUBLE, MPI_MAX, f->stars->mesh->comm));
-  if (!(lost > 0.0)) Update(&t, swept ? swept : own);
+  if (!(lost > 0.0)) Update(&t, swept ? swept : own, mass);
   f->has_lines = PETSC_FALSE;
   PetscCall(PetscFree(own));
   PetscCall(StepEnd(&t));

@@ -73,10 +73,11 @@ PetscErrorCode PhasesGetInverseDensity(Phases f, const double rho[], const doubl
   for (int k = 0; k + 1 < f->np; k++)
     for (int v = 0; v < s->nowned; v++) distance[k * s->nowned + v] = PhasesDistance(f, k, v, &inside);
   for (int e = 0; e < s->ne; e++) {
+    const double *density = f->mass ? &f->density[(size_t)e * (size_t)f->np] : rho;
     if (f->single[e] < 0)
-      Element(f, e, distance, rho, gravity, &inverse[e]);
+      Element(f, e, distance, density, gravity, &inverse[e]);
     else
-      InverseDensityUniform(rho[f->single[e]], gravity, &inverse[e]);
+      InverseDensityUniform(density[f->single[e]], gravity, &inverse[e]);
   }
   PetscCall(PetscFree(distance));
   PetscFunctionReturn(0);

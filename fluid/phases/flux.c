@@ -10,6 +10,7 @@ typedef struct {
   double (*moment)[3][2]; /* [nl] prescribed on boundary faces, or NULL */
   double (*part)[3][2];   /* [ne] outward flux of face i by its first and second vertex */
   double defect;
+  const double *weight; /* [nl] or NULL */
 } Balance;
 
 /* A chain of elements around a vertex, counter-clockwise; edge k lies before element k. */
@@ -109,7 +110,10 @@ static void Follow(const Balance *w, int v, int first, Chain *c)
 static void Spread(Balance *w, double defect, Chain *c)
 {
   w->defect = fmax(w->defect, fabs(defect));
-  for (int k = 0; k < c->n; k++) c->r[k] -= defect / c->n;
+  double sum = 0.0;
+  for (int k = 0; k < c->n && w->weight; k++) sum += w->weight[c->corner[k] / 3];
+  for (int k = 0; k < c->n; k++)
+    c->r[k] -= sum > 0.0 ? defect * w->weight[c->corner[k] / 3] / sum : defect / c->n;
 }
 
 static void Walk(Chain *c)
@@ -234,7 +238,7 @@ static PetscErrorCode Report(const Balance *w, const double flux[], FluxReport *
 static PetscErrorCode Begin(const Stars *s, const double u[], const FluxBoundary *boundary, Balance *w)
 {
   PetscFunctionBeginUser;
-  *w = (Balance){.s = s, .boundary = boundary};
+  *w = (Balance){.s = s, .boundary = boundary, .weight = boundary ? boundary->weight : NULL};
   PetscCall(PetscMalloc2(s->nl, &w->u, s->ne, &w->part));
   if (s->ne) PetscCall(PetscArraycpy(&w->u[0][0], u, 6 * s->ne));
   PetscCall(StarsExchange(s, sizeof *w->u, w->u));

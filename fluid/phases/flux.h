@@ -24,6 +24,9 @@ typedef struct {
   /* [ne][3][2] int_f lambda g.n, m2/s, of a face's first and second vertex (i + 1) % 3 and (i + 2) % 3, read
    * on prescribed boundary faces only.  NULL: 0 everywhere */
   const double *moment;
+  /* [nl] of elements that may have a divergence: what does not close around a vertex goes by these.  NULL, or where all are 0:
+   * evenly */
+  const double *weight;
 } FluxBoundary;
 
 typedef struct {

@@ -24,6 +24,9 @@ PetscErrorCode PhasesDestroy(Phases *phases)
   PetscCall(PetscFree(f->volume));
   PetscCall(PetscFree(f->line));
   PetscCall(PetscFree(f->single));
+  PetscCall(PetscFree(f->state));
+  PetscCall(PetscFree(f->mass));
+  PetscCall(PetscFree(f->density));
   PetscCall(PetscFree(*phases));
   PetscFunctionReturn(0);
 }

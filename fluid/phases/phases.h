@@ -15,6 +15,7 @@
 #define CORACLE_PHASES_H
 #include "common/transfer/transfer.h"
 #include "fluid/phases/effective_density.h"
+#include "fluid/phases/gas.h"
 #include "fluid/phases/inertia.h"
 #include "fluid/phases/plic.h"
 #include "fluid/phases/stars.h"
@@ -30,6 +31,27 @@ PetscErrorCode PhasesDestroy(Phases *phases);
 PetscErrorCode PhasesSetVolumes(Phases phases, const double volume[]);
 /* Borrowed: [ne][nphases].  Not collective. */
 PetscErrorCode PhasesGetVolumes(Phases phases, const double *volume[]);
+
+/* From now on phases have masses: state[nphases], incompressible where its pressure is 0.  At the start their densities are those of
+ * pressure 0: PhasesStartMasses, after the volumes are set.  Not collective. */
+PetscErrorCode PhasesSetStates(Phases phases, const EquationOfState state[]);
+void PhasesStartMasses(Phases phases);
+/* [ne][nphases], borrowed, of compressible phases: masses, kg, to be read and set; NULL without. */
+double *PhasesMasses(Phases phases);
+/* [nl][nphases], borrowed, kg/m3, as of the last PhasesReconstruct; NULL without. */
+const double *PhasesDensities(Phases phases);
+/* Share of local element e, outside of the solid's share of it, that is compressible times its mean compressibility, 1/Pa; its
+ * pressure by the equation of state, Pa.  Of volumes and densities as of the last PhasesReconstruct or PhasesUpdateDensities. */
+double PhasesCompressibility(Phases phases, int e, double solid, double *pressure);
+/* Densities of all local elements, from volumes and masses; PhasesReconstruct has this.  Collective. */
+PetscErrorCode PhasesUpdateDensities(Phases phases);
+/* With the volumes that passed faces beyond `before` to make swept (PhasesExpel) goes their mass, also in swept_mass; all
+ * [ne][3][nphases].  Needs the densities from before. */
+void PhasesMoveMasses(Phases phases, const double before[], const double swept[], double swept_mass[]);
+/* Collective, after PhasesAdvect along fluxes with divergence: compressible phases take the volume that elements lack or have too
+ * much, which goes to the nearest ones that have some; expected[ne][nphases]: density near which theirs stays, kg/m3 (within a
+ * factor of 2).  Added to swept of PhasesAdvect. */
+PetscErrorCode PhasesFillGaps(Phases phases, const double expected[], double swept[]);
 
 /* The lines in cut elements, from the volumes.  Straight interfaces are found to round-off; the error of a
  * curved one is of order h^2. */
@@ -90,10 +112,11 @@ typedef struct {
  * the vertices, m/s, the same bits wherever a vertex appears; both are those of the middle of the step.
  * Needs the lines; afterwards these belong to the old volumes.  swept[ne][3][nphases], or NULL: volume of
  * each phase that left through face i, m2.  A boundary face of flux 0 is a wall: its vertices slide along it,
- * or stay at corners. Error PETSC_ERR_ARG_OUTOFRANGE, on all ranks, for a step that traces a vertex out of
- * its two rings. */
+ * or stay at corners.  With masses: swept_mass[ne][3][nphases], kg, is what of the compressible phases' leaves with them; fluxes
+ * may have a divergence then, and PhasesFillGaps is due.  Error PETSC_ERR_ARG_OUTOFRANGE, on all ranks, for a step that traces a
+ * vertex out of its two rings. */
 PetscErrorCode PhasesAdvect(Phases phases, double dt, const double flux[], const double velocity[],
-                            const PhasesInflow *inflow, double swept[]);
+                            const PhasesInflow *inflow, double swept[], double swept_mass[]);
 
 /* Collective.  What an element holds of `phase` beyond capacity[ne], m2, is exchanged for the filler of the nearest elements that
  * hold filler beside it and have capacity left, however far they are: each phase's volume is conserved, that of elements, too.

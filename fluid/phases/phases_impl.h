@@ -13,6 +13,9 @@ struct Phases_s {
   double *volume;  /* [nl][np] m2 */
   HalfPlane *line; /* [nl][np - 1] */
   int *single;     /* [nl] the only phase, or -1 */
+  /* NULL: all phases are incompressible */
+  EquationOfState *state; /* [np] */
+  double *mass, *density; /* [nl][np] kg, kg/m3; of incompressible phases nothing, and theirs */
   double courant;
   PetscBool has_lines;
 };

@@ -83,6 +83,7 @@ PetscErrorCode PhasesReconstruct(Phases f)
   PetscFunctionBeginUser;
   PetscCall(StarsExchange(s, (size_t)f->np * sizeof *f->volume, f->volume));
   for (int e = 0; e < s->nl; e++) f->single[e] = SingleOf(f, e);
+  PetscCall(PhasesUpdateDensities(f));
   PetscCall(PetscMalloc1(PLIC_CELLS, &cell));
   for (int p = 0; p + 1 < f->np; p++) {
     for (int e = 0; e < s->ne; e++) {

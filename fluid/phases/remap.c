@@ -2,12 +2,15 @@
 #include "common/transfer/transfer_parts.h"
 #include "fluid/phases/phases_impl.h"
 
+#define MASS_TINY 1e-9 /* of an element's area: a volume that says nothing of where its mass is */
+
 /* An old element's phases on their way. */
 typedef struct {
   int single;
   double area;
   double volume[PHASES_MAX];
   double defect[PHASES_MAX]; /* volume less that of the polygon, over the element's area */
+  double mass[PHASES_MAX];
   HalfPlane line[PHASES_MAX - 1];
 } Load;
 
@@ -22,13 +25,28 @@ static void SetLoad(Phases f, int e, Load *load)
   for (int p = 0; p < f->np; p++) {
     load->volume[p] = f->volume[(size_t)e * (size_t)f->np + (size_t)p];
     load->defect[p] = (load->volume[p] - area[p]) / load->area;
+    if (f->mass) load->mass[p] = f->mass[(size_t)e * (size_t)f->np + (size_t)p];
   }
   for (int p = 0; p + 1 < f->np; p++) load->line[p] = f->line[(size_t)e * (size_t)(f->np - 1) + (size_t)p];
 }
 
-/* volume[np] += what the element takes of an old one */
+/* mass[np] += by the share of each phase's volume in `common`, or, of what has hardly any volume, by its share of the element. */
+static void TakeMasses(const Polygon *common, const double origin[2], const double part[3][2],
+                       const Load *load, int np, double mass[])
+{
+  const double area = PolygonArea(common);
+  double taken[PHASES_MAX] = {0.0};
+  PhasesSplitBy(np, load->single, load->line, part[0], common, origin, 1.0, taken);
+  for (int p = 0; p < np; p++) {
+    const double volume = load->volume[p];
+    mass[p] += load->mass[p] * (volume > MASS_TINY * load->area ? (taken[p] + load->defect[p] * area) / volume
+                                                                : area / load->area);
+  }
+}
+
+/* volume[np], mass[np] += what the element takes of an old one; mass may be NULL */
 static void Take(const double element[3][2], const double part[3][2], const Load *load, int np,
-                 double volume[])
+                 double volume[], double mass[])
 {
   Polygon whole, old, common;
   PolygonTriangle(element, element[0], &whole);
@@ -38,6 +56,7 @@ static void Take(const double element[3][2], const double part[3][2], const Load
   const double area = PolygonArea(&common);
   PhasesSplitBy(np, load->single, load->line, part[0], &common, element[0], 1.0, volume);
   for (int p = 0; p < np; p++) volume[p] += load->defect[p] * area;
+  if (mass) TakeMasses(&common, element[0], part, load, np, mass);
 }
 
 static PetscErrorCode TakeAll(const TransferParts *parts, const Load load[], Phases to)
@@ -48,9 +67,11 @@ static PetscErrorCode TakeAll(const TransferParts *parts, const Load load[], Pha
     const GeometryBox box = GeometryBoxOf(parts->element[k]);
     const int *hit, nhit = SearchQuery(parts->search, &box, &hit);
     PetscCheck(nhit >= 0, PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory to search %d elements", parts->nparts);
+    double *mass = to->mass ? &to->mass[(size_t)parts->changed[k] * (size_t)to->np] : NULL;
     for (int p = 0; p < to->np; p++) volume[p] = 0.0;
+    for (int p = 0; p < to->np && mass; p++) mass[p] = 0.0;
     for (int h = 0; h < nhit; h++)
-      Take(parts->element[k], parts->part[hit[h]], &load[hit[h]], to->np, volume);
+      Take(parts->element[k], parts->part[hit[h]], &load[hit[h]], to->np, volume, mass);
   }
   PetscFunctionReturn(0);
 }
@@ -70,7 +91,9 @@ PetscErrorCode PhasesRemap(Phases from, Transfer transfer, Phases to)
   PetscCall(TransferSendParts(transfer, sizeof *source, source, copy, load));
   for (int k = 0; k < parts.ncopies; k++) {
     double *volume = &to->volume[(size_t)TransferCopyTarget(transfer, k) * (size_t)to->np];
+    double *mass = to->mass ? &to->mass[(size_t)TransferCopyTarget(transfer, k) * (size_t)to->np] : NULL;
     for (int p = 0; p < to->np; p++) volume[p] = copy[k].volume[p];
+    for (int p = 0; p < to->np && mass; p++) mass[p] = copy[k].mass[p];
   }
   PetscCall(TakeAll(&parts, load, to));
   PetscCall(PetscFree3(source, copy, load));

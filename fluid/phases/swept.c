@@ -86,7 +86,7 @@ static int Apart(const Swept *r, const double x[3][2])
 
 /* area[np] of the listed elements' phases in the region; returns what they do not cover of it, over the
  * square of the edge. */
-static double Collect(const SweptSearch *t, const Swept *r, double area[])
+static double Collect(const SweptSearch *t, const Swept *r, double area[], double mass[])
 {
   Polygon triangle[3], moved, part;
   double sign[3], all = 0.0, covered = 0.0;
@@ -117,15 +117,24 @@ static double Collect(const SweptSearch *t, const Swept *r, double area[])
       PolygonClipTriangle(&triangle[k], (const double(*)[2])moved.x, &part);
       if (!part.n) continue;
       covered += PolygonArea(&part);
-      PhasesSplit(t->f, e, &part, r->origin, sign[k], area);
+      if (!t->f->mass) {
+        PhasesSplit(t->f, e, &part, r->origin, sign[k], area);
+        continue;
+      }
+      double split[PHASES_MAX] = {0.0};
+      PhasesSplit(t->f, e, &part, r->origin, sign[k], split);
+      for (int p = 0; p < t->f->np; p++) {
+        area[p] += split[p];
+        mass[p] += split[p] * t->f->density[e * t->f->np + p];
+      }
     }
   }
   const double *edge = r->corner[1];
   return (all - covered) / (edge[0] * edge[0] + edge[1] * edge[1]);
 }
 
-double SweptCollect(SweptSearch *t, int a, int b, int wide, const Swept *r, double area[])
+double SweptCollect(SweptSearch *t, int a, int b, int wide, const Swept *r, double area[], double mass[])
 {
   ListFace(t, a, b, wide);
-  return Collect(t, r, area);
+  return Collect(t, r, area, mass);
 }

@@ -27,7 +27,8 @@ PetscErrorCode SweptSearchCreate(Phases phases, SweptSearch *search);
 PetscErrorCode SweptSearchDestroy(SweptSearch *search);
 /* The region of area `swept` > 0, m2, to the left of a -> b; shift[vertex]: from where it is to where it was, m. */
 void SweptMake(const Stars *stars, int a, int b, const double shift[][2], double swept, Swept *region);
-/* area[np] += that of each phase in the region, m2, among the elements around a and b, with `wide` also those around their
+/* area[np] += that of each phase in the region, m2, and mass[np] += its mass, kg, if phases have masses, among the elements around a and b, with `wide` also those around their
  * neighbours; returns what these do not cover of it, over the square of the edge. */
-double SweptCollect(SweptSearch *search, int a, int b, int wide, const Swept *region, double area[]);
+double SweptCollect(SweptSearch *search, int a, int b, int wide, const Swept *region, double area[],
+                    double mass[]);
 #endif

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A square among water and air, and among water, oil and air: few coupling iterations, momentum and water kept, no water inside, the same on other ranks and after a resume.
+# A square among water and air, among water, oil and air, among water and compressible air: few coupling iterations, momentum and water kept, no water inside, the same on other ranks and after a resume.
 # Usage: phases.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
@@ -11,6 +11,9 @@ must half 1:1:1 --set resume=last
 must three 2:1:1 --set 'fluid.phases=[{name: air, density: 1.2, viscosity: 1.8e-5}, {name: water, density: 1000, viscosity: 1.0e-3},
   {name: oil, density: 800, viscosity: 1.0e-2}]' --set 'fluid.regions=[{phase: air}, {phase: oil, lower: [-1, -1], upper: [0.20, 0.195]},
   {phase: water, lower: [-1, -1], upper: [0.20, 0.183]}]'
+for end in 0.06 0.12; do # a closed box of compressible air
+  must gas 2:1:1 --set 'fluid.phases[1].sound_speed=340' --set fluid.boundaries.top=free_slip --set "time.end=$end" --set resume=last
+done
 "$python" - "$scratch" ${1:+print} <<'E2'
 import csv, h5py, numpy as np, sys
 def rows(label, part):
@@ -51,6 +54,13 @@ for row in rows("three", "fluid"):
         kept = float(row[name + " [m2]"]) + float(row[name + " out [m2]"])
         assert abs(kept - start) < 1e-11, "three: %s %.14g m2 of %g" % (name, kept, start)
 assert 0.15 < float(rows("three", "solid")[-1]["y0 [m]"]) < 0.19, rows("three", "solid")[-1]
+for area, solid, water in snapshots("gas"):
+    inside = (area * np.maximum(water + solid - 1.0, 0.0)).sum() / 0.0016
+    assert inside < 1e-9, "gas: water in %g of the square" % inside
+for row in rows("gas", "fluid"):
+    assert abs(float(row["water made [m2]"])) < 1e-13 and abs(float(row["air made [kg]"])) < 1e-13, "gas: made %s" % row
+    assert abs(float(row["air [kg]"]) - 1.2 * (0.24 - 0.039)) < 1e-11, "gas: %s kg" % row["air [kg]"]
+assert 0.15 < float(rows("gas", "solid")[-1]["y0 [m]"]) < 0.19, rows("gas", "solid")[-1]
 for label in ("two", "half"):
     assert abs(place[label] - place["one"]).max() < 5e-4, "%s: at %s, one rank at %s" % (label, place[label], place["one"])
 if len(sys.argv) > 2: print(place)

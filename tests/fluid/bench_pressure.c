@@ -35,7 +35,7 @@ static void Stop(double time[NTIMES])
 static PetscErrorCode Step(const FluidDomain *d, const Bench *b, int k, ProjectionSolver s,
                            SolidCoupling none, double rho[], Vec u, Cost *cost)
 {
-  const ProjectionStep step = {0.0, DT, rho, b->constant ? 0 : k + 1, none, NULL, PETSC_FALSE};
+  const ProjectionStep step = {0.0, DT, rho, b->constant ? 0 : k + 1, none, NULL, PETSC_FALSE, NULL, NULL};
   double time[NTIMES];
   Vec phi;
   int iterations;
@@ -70,7 +70,7 @@ static PetscErrorCode Run(const FluidDomain *d, const Bench *b)
   PetscCall(LayerVectors(d, &u, &p));
   PetscCall(SolidCouplingCreate(d->mesh->ne, &none));
   Start(cost.first);
-  PetscCall(ProjectionSolverCreate(d, p, &s));
+  PetscCall(ProjectionSolverCreate(d, p, PETSC_FALSE, &s));
   Stop(cost.first);
   for (int k = 0; k <= b->steps; k++) PetscCall(Step(d, b, k, s, none, rho, u, &cost));
   PetscCall(PetscPrintf(

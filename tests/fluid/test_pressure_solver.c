@@ -17,7 +17,7 @@ static PetscErrorCode Project(const FluidDomain *d, const Layer *l, int k, int r
   PetscCall(PetscMalloc1(d->mesh->ne, &rho));
   for (int e = 0; e < d->mesh->ne; e++) rho[e] = LayerDensity(l, d, e, k);
   PetscCall(SolidCouplingCreate(d->mesh->ne, &none));
-  const ProjectionStep step = {0.0, DT, rho, revision, none, NULL, PETSC_FALSE};
+  const ProjectionStep step = {0.0, DT, rho, revision, none, NULL, PETSC_FALSE, NULL, NULL};
   PetscCall(LayerFall(d->mesh, u));
   PetscCall(ProjectionSolverSolve(s, &step, u, &phi, iterations));
   PetscCall(ProjectionSolverSubtract(s, &step, u));
@@ -36,10 +36,10 @@ static PetscErrorCode Compare(const FluidDomain *d, const Layer *l)
   PetscFunctionBeginUser;
   PetscCall(LayerVectors(d, &u, &p));
   PetscCall(VecDuplicate(u, &exact));
-  PetscCall(ProjectionSolverCreate(d, p, &s));
+  PetscCall(ProjectionSolverCreate(d, p, PETSC_FALSE, &s));
   for (int k = 0; k < 3; k++) {
     PetscCall(Project(d, l, k, k + 1, s, u, &iterations));
-    PetscCall(ProjectionSolverCreate(d, p, &direct));
+    PetscCall(ProjectionSolverCreate(d, p, PETSC_FALSE, &direct));
     PetscCall(Project(d, l, k, 0, direct, exact, &one));
     PetscCall(ProjectionSolverDestroy(&direct));
     PetscCall(VecAXPY(u, -1.0, exact));

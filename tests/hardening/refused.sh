@@ -67,6 +67,11 @@ liquids "'fluid.boundaries.left.level\[1\].height': expected layers from below: 
 liquids "'fluid.boundaries.left.fractions': expected fractions whose sum is 1, found 0.9" --set 'fluid.boundaries.left={velocity: [0, 0], fractions: [{phase: water, value: 0.4}, {phase: oil, value: 0.5}]}'
 liquids "'fluid.boundaries.left.fractions\[1\].phase': an item before this one" --set 'fluid.boundaries.left={velocity: [0, 0], fractions: [{phase: oil, value: 0.4}, {phase: oil, value: 0.6}]}'
 liquids "'fluid.boundaries.left.fractions': expected phase or fractions, not both" --set 'fluid.boundaries.left={velocity: [0, 0], phase: oil, fractions: [{phase: oil, value: 1}]}'
+gas='{name: air, density: 1.2, viscosity: 1.8e-5'
+liquids "'fluid.phases\[2\].sound_speed': expected a number > 0" --set "fluid.phases[2]=$gas, sound_speed: 0}"
+liquids "'fluid.phases\[2\].sound_speed': expected sound_speed or gas, not both" --set "fluid.phases[2]=$gas, sound_speed: 340, gas: {pressure: 1.0e5}}"
+liquids "'fluid.phases\[2\].gas.pressure' is missing" --set "fluid.phases[2]=$gas, gas: {exponent: 1.4}}"
+liquids "'fluid.phases\[2\].gas.exponent': expected a number from 1 to 10" --set "fluid.phases[2]=$gas, gas: {pressure: 1.0e5, exponent: 0.9}}"
 # a gauge outside, a body across a wall
 phases "'fluid.probes\[0\].point': expected what lies in the mesh, (9, 1) does not" --set 'fluid.regions=[{phase: air}]' --set 'fluid.probes=[{name: P, point: [9, 1]}]'
 refused solid "'solid.bodies\[0\]': the body reaches through solid.walls at" --set 'solid.walls={lower: [1, 0], upper: [2, 4]}'

@@ -160,7 +160,7 @@ static inline PetscErrorCode March(Phases phases, const Mesh *m, const Flow *flo
     FlowAt(flow, m, t + (k + 0.5) * dt, flux, velocity);
     const double begin = CpuSeconds();
     PetscCall(PhasesReconstruct(phases));
-    PetscCall(PhasesAdvect(phases, dt, flux, velocity, &inflow, NULL));
+    PetscCall(PhasesAdvect(phases, dt, flux, velocity, &inflow, NULL, NULL));
     if (seconds) *seconds += CpuSeconds() - begin;
     PetscCall(PhasesGetStats(phases, &stats));
     worst->lowest = fmin(worst->lowest, stats.lowest);

@@ -239,7 +239,7 @@ static inline PetscErrorCode TankMove(int form, Tank *t, double dt, double *defe
                          &mean, s->ne, &q));
   PetscCall(FluxEquilibrate(s, t->u, NULL, flux, beta, &report));
   PetscCall(FluxVertexVelocity(s, beta, velocity));
-  PetscCall(PhasesAdvect(t->phases, dt, flux, velocity, NULL, swept));
+  PetscCall(PhasesAdvect(t->phases, dt, flux, velocity, NULL, swept, NULL));
   for (int e = 0; e < s->ne; e++) {
     const double mass = TankMomentum(&t->inertia[e], &t->u[6 * e], q[e]);
     for (int c = 0; c < 2; c++) mean[e][c] = q[e][c] / mass;

@@ -67,7 +67,7 @@ static PetscErrorCode Straight(int np)
   PetscCall(PhasesFill(s.phases, Layers(np, 0.0, region), region));
   for (int k = 0; k < 6; k++) {
     PetscCall(PhasesReconstruct(s.phases));
-    PetscCall(PhasesAdvect(s.phases, dt, flux, velocity, &inflow, swept));
+    PetscCall(PhasesAdvect(s.phases, dt, flux, velocity, &inflow, swept, NULL));
   }
   PetscCall(PhasesFill(exact.phases, Layers(np, 6 * dt, region), region));
   PetscCall(PhasesGetVolumes(s.phases, &volume));

@@ -131,7 +131,7 @@ static PetscErrorCode Through(double defect)
     }
   }
   for (int k = 0; k < 3 * mesh->ne; k++) u[6 * (k / 3) + k % 3] += defect * Corner(mesh, k / 3, k % 3)[0];
-  const FluxBoundary boundary = {open, moment};
+  const FluxBoundary boundary = {open, moment, NULL};
   PetscCall(FluxEquilibrate(stars, u, &boundary, flux, beta, &report));
   for (int k = 0; k < 6 * mesh->ne; k++) worst = fmax(worst, fabs(beta[k] - u[k]));
   MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
