@@ -29,10 +29,10 @@ PetscErrorCode OutsideFind(const Overlap o, const double density[], OutsideFluid
   for (int e = 0; e < o->ncoupled; e++) {
     const int k = o->coupled_element[e];
     const double open = fmax(1.0 - sums[e].solid / o->area[k], LEAST_OPEN);
-    const double most = fmax(o->rho_beside[k] - o->rho[k], 0.0),
+    const double limit = fmax(o->rho_beside[k] - o->rho[k], 0.0),
                  excess = fmax(o->rho_mean[k] - o->rho[k], 0.0) / open;
-    outside[e].density = fmin(excess, most);
-    outside[e].slip = Slip(most > 0.0 ? excess / most : 0.0, o->rho[k], o->rho_beside[k], sums[e].held);
+    outside[e].density = fmin(excess, limit);
+    outside[e].slip = Slip(limit > 0.0 ? excess / limit : 0.0, o->rho[k], o->rho_beside[k], sums[e].held);
   }
   PetscCall(PetscFree(sums));
   PetscFunctionReturn(0);

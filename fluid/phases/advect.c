@@ -161,12 +161,22 @@ static int Apart(const Swept *r, const double x[3][2])
   return 0;
 }
 
-/* area[np] of the listed elements' phases in the region; returns what they do not cover of it, over the
- * square of the edge. */
-static double Collect(const Step *t, const Swept *r, double area[])
+/* The signed area of p on the side of h, in p's coordinates; h NULL: 0. */
+static double AreaBelow(const Polygon *p, const HalfPlane *h, double sign)
+{
+  Polygon below;
+  if (!h) return 0.0;
+  PolygonClip(p, h, &below);
+  return below.n ? sign * PolygonArea(&below) : 0.0;
+}
+
+/* area[np] of the listed elements' phases in the region, and *below: what they leave of its part on the side of `level` (from the
+ * region's origin, or NULL); returns what they do not cover of it, over the square of the edge. */
+static double Collect(const Step *t, const Swept *r, const HalfPlane *level, double area[], double *below)
 {
   Polygon triangle[3], moved, part;
   double sign[3], all = 0.0, covered = 0.0;
+  *below = 0.0;
   for (int k = 0; k < 3; k++) {
     Polygon *q = &triangle[k];
     q->n = 3;
@@ -178,12 +188,12 @@ static double Collect(const Step *t, const Swept *r, double area[])
     const double signed_area = PolygonArea(q);
     sign[k] = signed_area < 0.0 ? -1.0 : 1.0;
     all += fabs(signed_area);
-    if (signed_area >= 0.0) continue;
-    for (int c = 0; c < 2; c++) {
+    for (int c = 0; c < 2 && signed_area < 0.0; c++) {
       const double swap = q->x[1][c];
       q->x[1][c] = q->x[2][c];
       q->x[2][c] = swap;
     }
+    *below += AreaBelow(q, level, sign[k]);
   }
   for (int j = 0; j < t->n; j++) {
     const int e = t->list[j];
@@ -194,6 +204,7 @@ static double Collect(const Step *t, const Swept *r, double area[])
       PolygonClipTriangle(&triangle[k], (const double(*)[2])moved.x, &part);
       if (!part.n) continue;
       covered += PolygonArea(&part);
+      *below -= AreaBelow(&part, level, sign[k]);
       PhasesSplit(t->f, e, &part, r->origin, sign[k], area);
     }
   }
@@ -201,9 +212,9 @@ static double Collect(const Step *t, const Swept *r, double area[])
   return (all - covered) / (edge[0] * edge[0] + edge[1] * edge[1]);
 }
 
-/* What the elements leave of the swept area, `rest`, comes from outside of open boundaries, or is round-off.
- * */
-static void Balance(Step *t, int a, int b, int tag, double uncovered, double swept, double area[])
+/* What the elements leave of the swept area, `rest`, comes from outside of open boundaries, `below` of it from below their
+ * level, or is round-off. */
+static void Balance(Step *t, int tag, double uncovered, double swept, double below, double area[])
 {
   double rest = swept;
   int largest = 0;
@@ -212,17 +223,24 @@ static void Balance(Step *t, int a, int b, int tag, double uncovered, double swe
     if (fabs(area[p]) > fabs(area[largest])) largest = p;
   }
   if (uncovered > OUTSIDE) {
-    if (tag < 0) tag = OpenTag(t, a);
-    if (tag < 0) tag = OpenTag(t, b);
     if (tag >= 0 && t->inflow) {
-      const double *from = t->s->point[a], *to = t->s->point[b];
-      const double middle[2] = {0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])};
-      for (int p = 0; p < t->f->np; p++) area[p] += rest * Inflow(t, tag, middle, p);
+      for (int p = 0; p < t->f->np; p++) area[p] += (rest - below) * t->inflow->fraction[tag][p];
+      if (t->inflow->level) area[t->inflow->level[tag].phase] += below;
       return;
     }
     t->lost = fmax(t->lost, uncovered);
   }
   area[largest] += rest;
+}
+
+/* The level outside of boundary `tag`, seen from `origin`; NULL: it has none. */
+static const HalfPlane *LevelFrom(const Step *t, int tag, const double origin[2], HalfPlane *h)
+{
+  if (tag < 0 || !t->inflow || !t->inflow->level) return NULL;
+  *h = t->inflow->level[tag].below;
+  if (h->n[0] == 0.0 && h->n[1] == 0.0) return NULL;
+  h->d -= h->n[0] * origin[0] + h->n[1] * origin[1];
+  return h;
 }
 
 /* area[np]: what leaves owned element e through face i. */
@@ -244,15 +262,19 @@ static void SweepFace(Step *t, int e, int i, double area[])
     b = other;
   }
   Swept region;
+  double below;
+  HalfPlane h;
   MakeSwept(t, a, b, swept, &region);
+  const int from = tag >= 0 ? tag : OpenTag(t, a) >= 0 ? OpenTag(t, a) : OpenTag(t, b);
+  const HalfPlane *level = LevelFrom(t, from, region.origin, &h);
   ListFace(t, a, b, 0);
-  double uncovered = Collect(t, &region, area);
+  double uncovered = Collect(t, &region, level, area, &below);
   if (uncovered > OUTSIDE) {
     for (int p = 0; p < np; p++) area[p] = 0.0;
     ListFace(t, a, b, 1);
-    uncovered = Collect(t, &region, area);
+    uncovered = Collect(t, &region, level, area, &below);
   }
-  Balance(t, a, b, tag, uncovered, swept, area);
+  Balance(t, from, uncovered, swept, below, area);
   for (int p = 0; p < np; p++) area[p] *= sign;
 }
 

@@ -143,8 +143,14 @@ static inline void SyntheticSolidPart(const SyntheticSolid *all, int rank, int s
 static inline void SyntheticFluidView(SyntheticFluid *f)
 {
   f->view = (FluidElements){f->n, &f->x[0][0][0], f->rho, f->mu, NULL, NULL, {0.0, 0.0}, {1.0, 1.0}};
-  f->flow = (CoracleFlow){
-      &f->u_start[0][0][0], &f->u_star[0][0][0], &f->u_projected[0][0][0], &f->p[0][0], f->rho, f->mu, NULL, NULL};
+  f->flow = (CoracleFlow){&f->u_start[0][0][0],
+                          &f->u_star[0][0][0],
+                          &f->u_projected[0][0][0],
+                          &f->p[0][0],
+                          f->rho,
+                          f->mu,
+                          NULL,
+                          NULL};
 }
 
 /* n x n cells, density and viscosity 1, everything else 0. */
