@@ -12,30 +12,13 @@
  *
  * and element, solid and water have their masses where they are, as with one fluid, for which this is 0.  Reaction on the
  * vertices of a pair's triangle: (rho_o - rho_f)/dt (int N_T of [u] - int N_T u), u the change over the step, [u] its mean
- * over K; the weight has none.
- *
- * The fluid slips along the solid (slip.h) where all that is beside the solid is of the phases that do not fill it: `slip`
- * goes from 0 to 1 where their share of K outside goes from SLIP_SHARE[0] to SLIP_SHARE[1].  At a contact line, and in the
- * phase that fills solids (air), it does not: what an element of one velocity and one pressure leaves of forces beside a
- * solid is many times the weight of air (2.9 m/s beside a block at rest).  Nor beside solids that are held, whose inside has
- * no inertia. */
+ * over K; the weight has none. */
 #ifndef CORACLE_COUPLER_OUTSIDE_H
 #define CORACLE_COUPLER_OUTSIDE_H
 #include "coupler/wall_term.h"
 
-#define SLIP_SHARE                                                                                           \
-  {                                                                                                          \
-    0.8, 0.95                                                                                                \
-  }
-
-typedef struct {
-  double density; /* rho_o - rho_f, kg/m3 */
-  double slip;    /* 0 .. 1 */
-} OutsideFluid;
-
-/* Local.  outside[overlap->ncoupled]; density[overlap->nsources]: of the solid, 0 where it is held (inertia.h). */
-PetscErrorCode OutsideFind(const Overlap overlap, const double density[], OutsideFluid outside[]);
-/* Local: inertia and weight above of the pairs in the solid's volume that are not held. */
-void OutsideCoefficients(const Overlap overlap, const OutsideFluid outside[], const double density[],
-                         double dt, const double gravity[2], PairTerm term[]);
+/* Local: inertia and weight above of the pairs in the solid's volume that are not held; density[overlap->nsources]: of the solid, 0
+ * where it is held (inertia.h). */
+PetscErrorCode OutsideCoefficients(const Overlap overlap, const double density[], double dt,
+                                   const double gravity[2], PairTerm term[]);
 #endif
