@@ -180,7 +180,7 @@ PetscErrorCode FluidCorrect(Fluid f, double dt, const CoracleCorrection correcti
   const Vec oldest = f->u_previous, oldest_bulk = f->bulk_previous;
   PetscFunctionBeginUser;
   if (f->phases) {
-    /* as the projection has made it free of divergence: that of u_projected is not, where a held solid fills a part of an element */
+    /* that of u_projected is not free of divergence where a held solid fills a part of an element */
     const ProjectionStep step = FluidProjectionStep(f, f->t + dt, dt, PETSC_TRUE);
     PetscCall(FluidBulkVelocity(f, f->u_star, oldest_bulk));
     PetscCall(ProjectionSolverSubtract(f->projection, &step, oldest_bulk));
