@@ -2,7 +2,6 @@
  * that the surface crosses, and the force as the reaction to all. */
 #include "coupler/coupler_impl.h"
 #include "coupler/inertia.h"
-#include "coupler/outside.h"
 #include "coupler/slip.h"
 
 static void ReadOptions(CoracleCase file, CouplerOptions *o)
@@ -28,7 +27,6 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
     }
   }
   PetscCall(InertiaCoefficients(o, solid, c->dt, c->term, c->density));
-  PetscCall(OutsideCoefficients(o, c->density, c->dt, c->options.gravity, c->term));
   PetscCall(SlipTensors(o, c->tangential));
   SlipCoefficients(o, c->tangential, c->term);
   PetscFunctionReturn(0);

@@ -16,11 +16,13 @@
  * momentum of the fluid: the added inertia of the next step, which takes the inner part to begin with the solid's
  * velocity, is less by it.
  *
- * Where the fluid says that it has phases (rho_inside, rho_beside of coracle.h) D = 0.  What such an element, of one velocity and
- * one pressure, leaves of forces along a solid adds up where nothing stops it: with slip where all that is beside the
- * solid is water a disc sinks alike with any step (0.2 % between dt and dt/4; 4 % without) and a block rolls with
- * 2 % less than the period of potential theory (6 % more without; le 0.008), but a block that floats at rest turns by
- * 0.014 in half a second (le 0.010, dt 0.004; 0.003 without), and with slip in air, too, the air beside it reaches 2.9 m/s.
+ * Where the fluid says that it has phases (rho_inside, rho_beside of coracle.h) D = 0: what such an element, of one velocity, one
+ * density and one pressure, leaves of forces along a solid adds up where nothing stops it.  Measured with slip where all
+ * that is beside the solid is water, and the water's mass in the part of the element where it is: a disc sinks alike with
+ * any step (0.2 % between dt and dt/4; 4 % without) and a block rolls within 2.2 % of the period of potential theory (5.9 %
+ * without; le 0.008), but a block that floats at rest turns by 0.014 in half a second (le 0.010, dt 0.004; 0.003 without).
+ * The mass alone, without slip, lets a floating disc of a tenth of the water's density drift by 0.056 m in 0.4 s.  With slip in
+ * air, too, the air beside a block reaches 2.9 m/s.
  *
  * SLIP_FRICTION moves the place of no slip by a small part of an element.  With 0, 2 and 4 the disc of
  * cases/falling_cylinder (le 0.01 m, steps of 0.0025 s) is 0.9 % faster, 0.3 and 0.7 % slower at 0.2 s than body-fitted

@@ -62,7 +62,7 @@ PetscErrorCode FluidTransfer(Fluid from, Fluid to);
 /* Before that, as soon as the phases of `from` are those of the step's end: the phases alone, and with them density and
  * viscosity, which the coupler asks for before the step is over; FluidTransfer does it where it was left out. */
 PetscErrorCode FluidTransferPhases(Fluid from, Fluid to);
-/* After that, with the coupling of the coming step set: subtracts the part of the bulk velocity that is not
+/* After FluidTransfer, with the coupling of the coming step set: subtracts the part of the bulk velocity that is not
  * free of divergence, which else would appear as a jump of the pressure. */
 PetscErrorCode FluidMakeSolenoidal(Fluid fluid);
 
