@@ -12,19 +12,6 @@ static void Change(const SupermeshPair *pair, const double u_projected[6], const
           pair->ab[i][0] * du[3 * c] + pair->ab[i][1] * du[3 * c + 1] + pair->ab[i][2] * du[3 * c + 2];
 }
 
-/* += outside (int N_T,i mean of du - int N_T,i du), du = u+ - u start. */
-static void AddOutside(const SupermeshPair *pair, double outside, const double u_projected[6],
-                       const double u_start[6], const double change[3][2], ForceVertex v[])
-{
-  for (int c = 0; c < 2; c++) {
-    double mean = 0.0;
-    for (int j = 3 * c; j < 3 * c + 3; j++) mean += (u_projected[j] - u_start[j]) / 3.0;
-    for (int i = 0; i < 3; i++)
-      v[i].reaction[c] +=
-          outside * ((pair->aa[i][0] + pair->aa[i][1] + pair->aa[i][2]) * mean - change[i][c]);
-  }
-}
-
 /* The reaction of one pair: a slip + inertia change - q; inside solids a or the inertia is mostly 0. */
 static void AddReaction(const SupermeshPair *pair, const PairTerm *term, const double u[3][2],
                         const CoracleFlow *flow, ForceVertex v[3])
@@ -42,11 +29,10 @@ static void AddReaction(const SupermeshPair *pair, const PairTerm *term, const d
       for (int c = 0; c < 2; c++) v[i].reaction[c] += r[c];
     }
   }
-  if (term->inertia == 0.0 && term->outside == 0.0) return;
+  if (term->inertia == 0.0) return;
   Change(pair, &flow->u_projected[k], &flow->u_start[k], change);
   for (int i = 0; i < 3; i++)
     for (int c = 0; c < 2; c++) v[i].reaction[c] += term->inertia * change[i][c];
-  AddOutside(pair, term->outside, &flow->u_projected[k], &flow->u_start[k], (const double(*)[2])change, v);
 }
 
 void ForceReaction(const Overlap o, const PairTerm term[], const CoracleFlow *flow, ForceVertex vertex[])

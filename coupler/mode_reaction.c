@@ -14,7 +14,6 @@ static void ReadOptions(CoracleCase file, CouplerOptions *o)
 static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
 {
   const Overlap o = c->overlap;
-  OutsideFluid *outside;
 
   PetscFunctionBeginUser;
   for (int p = 0; p < o->pairs.n; p++) {
@@ -29,11 +28,7 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
     }
   }
   PetscCall(InertiaCoefficients(o, solid, c->dt, c->term, c->density));
-  PetscCall(PetscMalloc1(o->ncoupled, &outside));
-  PetscCall(OutsideFind(o, c->density, outside));
-  OutsideCoefficients(o, outside, c->density, c->dt, c->options.gravity, c->term);
-  PetscCall(SlipTensors(o, outside, c->tangential));
-  PetscCall(PetscFree(outside));
+  PetscCall(SlipTensors(o, c->tangential));
   SlipCoefficients(o, c->tangential, c->term);
   PetscFunctionReturn(0);
 }

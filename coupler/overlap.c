@@ -19,7 +19,6 @@ static PetscErrorCode SetProperties(Overlap o, const double rho[], const double 
   PetscFunctionBeginUser;
   PetscCall(PetscArraycpy(o->rho, rho_inside ? rho_inside : rho, o->nelements));
   PetscCall(PetscArraycpy(o->mu, mu, o->nelements));
-  PetscCall(PetscArraycpy(o->rho_mean, rho, o->nelements));
   PetscCall(PetscArraycpy(o->rho_beside, rho_beside ? rho_beside : rho, o->nelements));
   PetscFunctionReturn(0);
 }
@@ -31,8 +30,8 @@ PetscErrorCode OverlapSetElements(Overlap o, const FluidElements *elements)
 
   PetscFunctionBeginUser;
   SearchDestroy(&o->search);
-  PetscCall(PetscFree6(o->x, o->area, o->rho, o->mu, o->rho_mean, o->rho_beside));
-  PetscCall(PetscMalloc6(n, &o->x, n, &o->area, n, &o->rho, n, &o->mu, n, &o->rho_mean, n, &o->rho_beside));
+  PetscCall(PetscFree5(o->x, o->area, o->rho, o->mu, o->rho_beside));
+  PetscCall(PetscMalloc5(n, &o->x, n, &o->area, n, &o->rho, n, &o->mu, n, &o->rho_beside));
   PetscCall(PetscMemcpy(o->x, elements->x, n * sizeof *o->x));
   PetscCall(PetscArraycpy(o->lower, elements->lower, 2));
   PetscCall(PetscArraycpy(o->upper, elements->upper, 2));
@@ -216,7 +215,7 @@ PetscErrorCode OverlapDestroy(Overlap *overlap)
   SearchDestroy(&o->search);
   SupermeshPairsDestroy(&o->pairs);
   PetscCall(PetscFree(o->bounds));
-  PetscCall(PetscFree6(o->x, o->area, o->rho, o->mu, o->rho_mean, o->rho_beside));
+  PetscCall(PetscFree5(o->x, o->area, o->rho, o->mu, o->rho_beside));
   PetscCall(PetscFree(o->node));
   PetscCall(PetscFree(o->source));
   PetscCall(PetscFree2(o->coupled_element, o->coupled_index));

@@ -37,11 +37,11 @@ typedef struct {
   /* the fluid elements of this rank's clients */
   int nelements;
   double (*x)[3][2], *area; /* [nelements] m (copied), m2 */
-  double *rho,
-      *mu; /* [nelements] kg/m3, Pa s, of the last flow or exchange of elements (copied): rho that of what fills the solid */
-  double *rho_mean, *rho_beside; /* [nelements] kg/m3: the element's, and its other phases' */
-  double lower[2], upper[2];     /* bounds of the fluid's whole domain, m */
-  GeometryBox *bounds;           /* [size] bounding box of each rank's elements */
+  /* [nelements] kg/m3, Pa s, kg/m3, of the last flow or exchange of elements (copied): rho of what fills the solid,
+   * rho_beside of the other phases, equal to rho with one fluid */
+  double *rho, *mu, *rho_beside;
+  double lower[2], upper[2]; /* bounds of the fluid's whole domain, m */
+  GeometryBox *bounds;       /* [size] bounding box of each rank's elements */
   Search search;
   Copies nodes; /* of the solid's nodes on this rank, by gid: sums over the ranks that have a node */
   /* the solid's triangles that this rank owns, and the scatter from there to the source triangles */

@@ -171,12 +171,19 @@ static PetscErrorCode FindSupport(RunState *run, StepRecord *step)
   PetscFunctionReturn(0);
 }
 
-static PetscBool NeedsSupport(const RunState *run)
+/* The first step of a run among phases; with one fluid a body in it has begun to move as a whole. */
+static PetscErrorCode NeedsSupport(const RunState *run, PetscBool *needs)
 {
   const CouplerCase *c = run->loop->c;
-  return run->t == 0.0 && !run->loop->from && c->options.mode == COUPLER_REACTION && c->max_iterations > 1
-             ? PETSC_TRUE
-             : PETSC_FALSE;
+  int phases = 0;
+
+  PetscFunctionBeginUser;
+  for (int k = 0; k < run->elements.n; k++)
+    phases |= run->elements.rho_beside[k] != run->elements.rho_inside[k];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &phases, 1, MPI_INT, MPI_LOR, PETSC_COMM_WORLD));
+  *needs =
+      (PetscBool)(phases && !run->loop->from && c->options.mode == COUPLER_REACTION && c->max_iterations > 1);
+  PetscFunctionReturn(0);
 }
 
 /* Coupling iterations over dt, at most as many as are allowed. */
@@ -265,13 +272,16 @@ static PetscErrorCode Stop(RunState *run)
 PetscErrorCode TimeLoopRun(TimeLoop *loop)
 {
   RunState run = {.loop = loop, .mode = CouplerModeGet(loop->c->options.mode)};
+  PetscBool first = PETSC_FALSE;
 
   PetscFunctionBeginUser;
   PetscCall(Start(&run));
+  PetscCall(NeedsSupport(&run, &first));
   while (run.t < loop->c->end) {
     const double waited = ServerWaited(loop->server);
     StepRecord step = {0};
-    if (NeedsSupport(&run)) PetscCall(FindSupport(&run, &step));
+    if (first) PetscCall(FindSupport(&run, &step));
+    first = PETSC_FALSE;
     PetscCall(SolveStep(&run, &step));
     PetscCall(AcceptStep(&run, &step));
     if (run.t < loop->c->end) PetscCall(BeginStep(&run, &step));

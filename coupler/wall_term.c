@@ -43,20 +43,6 @@ static void AddSolidMass(const double bb[3][3], const double cu[2][3], CoracleCo
   }
 }
 
-/* The fluid's mass and weight from inside the solid to beside it. */
-static void AddOutside(const SupermeshPair *pair, const PairTerm *term, CoracleCoupling *k)
-{
-  for (int i = 0; i < 3; i++) {
-    const double moved = pair->area / 3.0 - (pair->ab[0][i] + pair->ab[1][i] + pair->ab[2][i]);
-    for (int d = 0; d < 2; d++) {
-      k->s[d][i] += term->outside_weight[d] * moved;
-      for (int j = 0; j < 3; j++)
-        k->implicit_inertia[d][i][d][j] +=
-            term->outside * (pair->area / 12.0 * (i == j ? 2.0 : 1.0) - pair->bb[i][j]);
-    }
-  }
-}
-
 /* One pair's part of its element; velocity is the integral of v over the pairs, divided by |K|, so far. */
 static void AddPair(const Overlap o, const SupermeshPair *pair, const PairTerm *term, PetscBool held,
                     const double start[3][2], CoracleCoupling *k)
@@ -71,7 +57,6 @@ static void AddPair(const Overlap o, const SupermeshPair *pair, const PairTerm *
   AddTensor(&term->a, pair->bb, k->a);
   if (!held) {
     AddTensor(&inertia, pair->bb, k->implicit_inertia);
-    AddOutside(pair, term, k);
     k->flags |= CORACLE_HAS_INERTIA;
   }
   AddSource(&term->a, (const double(*)[3])cu, k->s);

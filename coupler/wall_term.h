@@ -14,7 +14,7 @@
  *     ms                =  B                  us  =  C^T u_s          T in the solid's volume, held
  *
  * with q a body force at the vertices of T and m the solid's inertia in the fluid's solve (inertia.h); T is held
- * where it has none.  What outside.h adds is of an element's fluid alone.  The reaction (force.h) is made of the
+ * where it has none.  The reaction (force.h) is made of the
  * same coefficients and integrals, so what the fluid gains the solid loses.  No field is projected, so none
  * undershoots: a sum of positive semidefinite coefficients times Gram matrices is positive semidefinite. */
 #ifndef CORACLE_WALL_TERM_H
@@ -78,8 +78,6 @@ typedef struct {
   WallCoefficient a;
   double inertia; /* m, kg/(m3 s) */
   double q[3][2]; /* N/m3, at the vertices of T */
-  /* of the fluid beside the solid (outside.h), kg/(m3 s) and N/m3 */
-  double outside, outside_weight[2];
 } PairTerm;
 
 /* q[i] = int over the pair of N_T,i (u - u_s): u [2][3] on the fluid element, u_s [3][2] on the source

@@ -193,7 +193,10 @@ PetscErrorCode FluidCorrect(Fluid f, double dt, const CoracleCorrection correcti
   const Vec oldest = f->u_previous, oldest_bulk = f->bulk_previous;
   PetscFunctionBeginUser;
   if (f->phases) {
-    PetscCall(FluidBulkVelocity(f, f->u_projected, oldest_bulk));
+    /* that of u_projected is not free of divergence where a held solid fills a part of an element */
+    const ProjectionStep step = FluidProjectionStep(f, f->t + dt, dt, PETSC_TRUE);
+    PetscCall(FluidBulkVelocity(f, f->u_star, oldest_bulk));
+    PetscCall(ProjectionSolverSubtract(f->projection, &step, oldest_bulk));
     f->bulk_previous = f->bulk;
     f->bulk = oldest_bulk;
   }
@@ -243,10 +246,10 @@ PetscErrorCode FluidMakeSolenoidal(Fluid f)
   const double start = MPI_Wtime();
   PetscFunctionBeginUser;
   if (f->phases) { /* which the extrapolated velocity moves: it must be free of divergence, too */
-    PetscCall(SubtractDivergence(f, f->u, NULL));
-    PetscCall(SubtractDivergence(f, f->u_previous, NULL));
     PetscCall(FluidBulkVelocity(f, f->u, f->bulk));
     PetscCall(FluidBulkVelocity(f, f->u_previous, f->bulk_previous));
+    PetscCall(SubtractDivergence(f, f->u, f->bulk));
+    PetscCall(SubtractDivergence(f, f->u_previous, f->bulk_previous));
   } else {
     PetscCall(SubtractDivergence(f, f->u, f->u_previous)); /* their difference extrapolates */
   }

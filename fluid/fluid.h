@@ -58,9 +58,11 @@ PetscErrorCode FluidStartInside(Fluid fluid);
 /* Takes the state between two steps over from a fluid on another mesh of the same domain: velocity by
  * Galerkin projection, which conserves momentum to round-off; pressure by interpolation; time and counters.
  * A material that varies is to be set on the new mesh (FluidSetMaterial, MATERIAL_OLD). */
-PetscErrorCode FluidTransferPhases(Fluid from, Fluid to);
 PetscErrorCode FluidTransfer(Fluid from, Fluid to);
-/* After that, with the coupling of the coming step set: subtracts the part of the bulk velocity that is not
+/* Before that, as soon as the phases of `from` are those of the step's end: the phases alone, and with them density and
+ * viscosity, which the coupler asks for before the step is over; FluidTransfer does it where it was left out. */
+PetscErrorCode FluidTransferPhases(Fluid from, Fluid to);
+/* After FluidTransfer, with the coupling of the coming step set: subtracts the part of the bulk velocity that is not
  * free of divergence, which else would appear as a jump of the pressure. */
 PetscErrorCode FluidMakeSolenoidal(Fluid fluid);
 

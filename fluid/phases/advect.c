@@ -92,8 +92,36 @@ static void Add(Content *c, int p, double area, double density)
   c->mass[p] += area * density;
 }
 
+/* The layers outside of boundary `tag` (-1: none), seen from `origin`. */
+static SweptLevels LevelsFrom(const Step *t, int tag, const double origin[2])
+{
+  SweptLevels seen = {.n = 0};
+  if (tag < 0 || !t->inflow || !t->inflow->levels) return seen;
+  const PhasesLevels *levels = &t->inflow->levels[tag];
+  const double *n = levels->normal;
+  seen.n = levels->n;
+  for (int k = 0; k < seen.n; k++)
+    seen.plane[k] = (HalfPlane){{n[0], n[1]}, levels->d[k] - n[0] * origin[0] - n[1] * origin[1]};
+  return seen;
+}
+
+/* What comes in through the open boundary `tag`: of each layer what lies in it, of the rest the boundary's fractions. */
+static void AddInflow(const Step *t, int tag, double rest, const SweptLevels *levels, Content *c)
+{
+  const Phases f = t->f;
+  double below = 0.0;
+  for (int k = 0; k < levels->n; k++) {
+    const int p = t->inflow->levels[tag].phase[k];
+    Add(c, p, levels->uncovered[k] - below, f->mass ? f->state[p].density : 0.0);
+    below = levels->uncovered[k];
+  }
+  for (int p = 0; p < f->np; p++)
+    Add(c, p, (rest - below) * t->inflow->fraction[tag][p], f->mass ? f->state[p].density : 0.0);
+}
+
 /* What the elements leave of the swept area, `rest`, comes from outside of open boundaries, or is round-off of element e. */
-static void Balance(Step *t, int e, int a, int b, int tag, double uncovered, double swept, Content *c)
+static void Balance(Step *t, int e, int tag, double uncovered, double swept, const SweptLevels *levels,
+                    Content *c)
 {
   const Phases f = t->f;
   double rest = swept;
@@ -103,13 +131,8 @@ static void Balance(Step *t, int e, int a, int b, int tag, double uncovered, dou
     if (fabs(c->area[p]) > fabs(c->area[largest])) largest = p;
   }
   if (uncovered > OUTSIDE) {
-    if (tag < 0) tag = OpenTag(t, a);
-    if (tag < 0) tag = OpenTag(t, b);
     if (tag >= 0 && t->inflow) {
-      const double *from = t->s->point[a], *to = t->s->point[b];
-      const double middle[2] = {0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])};
-      for (int p = 0; p < f->np; p++)
-        Add(c, p, rest * Inflow(t, tag, middle, p), f->mass ? f->state[p].density : 0.0);
+      AddInflow(t, tag, rest, levels, c);
       return;
     }
     t->lost = fmax(t->lost, uncovered);
@@ -149,12 +172,14 @@ static void SweepFace(Step *t, int e, int i, Content *c)
   const int owner = sign > 0.0 || s->neighbor[e][i] < 0 ? e : s->neighbor[e][i];
   Swept region;
   SweptMake(s, a, b, (const double(*)[2])t->shift, swept, &region);
-  double uncovered = SweptCollect(&t->search, a, b, 0, &region, c->area, c->mass);
+  const int from = tag >= 0 ? tag : OpenTag(t, a) >= 0 ? OpenTag(t, a) : OpenTag(t, b);
+  SweptLevels levels = LevelsFrom(t, from, region.origin);
+  double uncovered = SweptCollect(&t->search, a, b, 0, &region, &levels, c->area, c->mass);
   if (uncovered > OUTSIDE) {
     *c = (Content){{0.0}, {0.0}};
-    uncovered = SweptCollect(&t->search, a, b, 1, &region, c->area, c->mass);
+    uncovered = SweptCollect(&t->search, a, b, 1, &region, &levels, c->area, c->mass);
   }
-  Balance(t, owner, a, b, tag, uncovered, swept, c);
+  Balance(t, owner, from, uncovered, swept, &levels, c);
   for (int p = 0; p < t->f->np; p++) {
     c->area[p] *= sign;
     c->mass[p] *= sign;

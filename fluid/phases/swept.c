@@ -84,12 +84,23 @@ static int Apart(const Swept *r, const double x[3][2])
   return 0;
 }
 
+/* levels->uncovered += sign times the area of p in each half plane. */
+static void AddBelow(const Polygon *p, double sign, SweptLevels *levels)
+{
+  for (int k = 0; k < levels->n; k++) {
+    Polygon below;
+    PolygonClip(p, &levels->plane[k], &below);
+    if (below.n) levels->uncovered[k] += sign * PolygonArea(&below);
+  }
+}
+
 /* area[np] of the listed elements' phases in the region; returns what they do not cover of it, over the
  * square of the edge. */
-static double Collect(const SweptSearch *t, const Swept *r, double area[], double mass[])
+static double Collect(const SweptSearch *t, const Swept *r, SweptLevels *levels, double area[], double mass[])
 {
   Polygon triangle[3], moved, part;
   double sign[3], all = 0.0, covered = 0.0;
+  for (int k = 0; k < levels->n; k++) levels->uncovered[k] = 0.0;
   for (int k = 0; k < 3; k++) {
     Polygon *q = &triangle[k];
     q->n = 3;
@@ -101,12 +112,12 @@ static double Collect(const SweptSearch *t, const Swept *r, double area[], doubl
     const double signed_area = PolygonArea(q);
     sign[k] = signed_area < 0.0 ? -1.0 : 1.0;
     all += fabs(signed_area);
-    if (signed_area >= 0.0) continue;
-    for (int c = 0; c < 2; c++) {
+    for (int c = 0; c < 2 && signed_area < 0.0; c++) {
       const double swap = q->x[1][c];
       q->x[1][c] = q->x[2][c];
       q->x[2][c] = swap;
     }
+    AddBelow(q, sign[k], levels);
   }
   for (int j = 0; j < t->n; j++) {
     const int e = t->list[j];
@@ -117,6 +128,7 @@ static double Collect(const SweptSearch *t, const Swept *r, double area[], doubl
       PolygonClipTriangle(&triangle[k], (const double(*)[2])moved.x, &part);
       if (!part.n) continue;
       covered += PolygonArea(&part);
+      AddBelow(&part, -sign[k], levels);
       if (!t->f->mass) {
         PhasesSplit(t->f, e, &part, r->origin, sign[k], area);
         continue;
@@ -133,8 +145,9 @@ static double Collect(const SweptSearch *t, const Swept *r, double area[], doubl
   return (all - covered) / (edge[0] * edge[0] + edge[1] * edge[1]);
 }
 
-double SweptCollect(SweptSearch *t, int a, int b, int wide, const Swept *r, double area[], double mass[])
+double SweptCollect(SweptSearch *t, int a, int b, int wide, const Swept *r, SweptLevels *levels,
+                    double area[], double mass[])
 {
   ListFace(t, a, b, wide);
-  return Collect(t, r, area, mass);
+  return Collect(t, r, levels, area, mass);
 }

@@ -17,6 +17,13 @@ typedef struct {
   double low[2], high[2];
 } Swept;
 
+/* Half planes n.x <= d, x from the region's origin, and the area in each of them that no element covers, m2. */
+typedef struct {
+  int n;
+  HalfPlane plane[PHASES_MAX];
+  double uncovered[PHASES_MAX];
+} SweptLevels;
+
 typedef struct {
   Phases f;         /* borrowed */
   int stamp, *mark; /* [nl] */
@@ -27,8 +34,9 @@ PetscErrorCode SweptSearchCreate(Phases phases, SweptSearch *search);
 PetscErrorCode SweptSearchDestroy(SweptSearch *search);
 /* The region of area `swept` > 0, m2, to the left of a -> b; shift[vertex]: from where it is to where it was, m. */
 void SweptMake(const Stars *stars, int a, int b, const double shift[][2], double swept, Swept *region);
-/* area[np] += that of each phase in the region, m2, and mass[np] += its mass, kg, if phases have masses, among the elements around a and b, with `wide` also those around their
- * neighbours; returns what these do not cover of it, over the square of the edge. */
-double SweptCollect(SweptSearch *search, int a, int b, int wide, const Swept *region, double area[],
-                    double mass[]);
+/* area[np] += that of each phase in the region, m2, and mass[np] += its mass, kg, if phases have masses, among the elements
+ * around a and b, with `wide` also those around their neighbours; levels->uncovered is written.  Returns what these elements do
+ * not cover of the region, over the square of the edge. */
+double SweptCollect(SweptSearch *search, int a, int b, int wide, const Swept *region, SweptLevels *levels,
+                    double area[], double mass[]);
 #endif
