@@ -48,11 +48,22 @@ def build():
         subprocess.run(["cmake", *arguments], check=True, cwd=ROOT, stdout=subprocess.DEVNULL)
 
 
+def merge_tables(old, new):
+    """The lines of a Markdown table (header, rule, rows) with those rows of the old one whose first cell the new one has not, in the
+    order of the old one; the new one where the headers differ."""
+    if old[:1] != new[:1]:
+        return new
+    rows = {line.split("|")[1]: line for line in old[2:]}
+    rows.update((line.split("|")[1], line) for line in new[2:])
+    return new[:2] + list(rows.values())
+
+
 def put_into_readme(path, mark, lines):
-    """Replaces what is between <!-- mark --> and <!-- end of mark -->."""
+    """Puts a table between <!-- mark --> and <!-- end of mark -->; rows of runs that are not there now stay as they are."""
     begin, end = "<!-- %s -->\n" % mark, "<!-- end of %s -->\n" % mark
     head, rest = path.read_text().split(begin)
-    path.write_text(head + begin + "\n".join(lines) + "\n" + end + rest.split(end)[1])
+    table, tail = rest.split(end)
+    path.write_text(head + begin + "\n".join(merge_tables(table.splitlines(), lines)) + "\n" + end + tail)
 
 
 def check(claims):
