@@ -1,5 +1,12 @@
 #include "fluid/solver_options.h"
 
+/* Least fill, where PETSc has been built with it. */
+#if defined(PETSC_HAVE_SUITESPARSE)
+#define ORDERING MATORDERINGAMD
+#else
+#define ORDERING MATORDERINGND
+#endif
+
 PetscErrorCode SolverDefaultOption(const char *prefix, const char *option, const char *value)
 {
   char name[96];
@@ -38,13 +45,13 @@ PetscErrorCode SolverCreateDirect(MPI_Comm comm, const char *prefix, KSPType typ
   PetscCall(KSPGetPC(*ksp, &pc));
   if (size == 1) {
     PetscCall(PCSetType(pc, PCCHOLESKY));
-    PetscCall(PCFactorSetMatOrderingType(pc, MATORDERINGAMD));
+    PetscCall(PCFactorSetMatOrderingType(pc, ORDERING));
   } else {
     PetscCall(PCSetType(pc, PCTELESCOPE));
     PetscCall(PCTelescopeSetReductionFactor(pc, size));
     PetscCall(SolverDefaultOption(prefix, "telescope_ksp_type", "preonly"));
     PetscCall(SolverDefaultOption(prefix, "telescope_pc_type", "cholesky"));
-    PetscCall(SolverDefaultOption(prefix, "telescope_pc_factor_mat_ordering_type", "amd"));
+    PetscCall(SolverDefaultOption(prefix, "telescope_pc_factor_mat_ordering_type", ORDERING));
   }
   PetscFunctionReturn(0);
 }

@@ -70,9 +70,12 @@ plain() {
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
 env_names=$(compgen -e | grep -E '^(CORACLE_|OPENBLAS_NUM_THREADS$|OMP_NUM_THREADS$|PYTHONPATH$|LD_LIBRARY_PATH$)' || true)
 
-openmpi() { mpirun --version 2>/dev/null | grep -qi 'open mpi'; }
+# Of the command line that is used or printed: appfiles are Open MPI's, and so is what is printed where no mpirun is.
+openmpi() {
+  [ "$print" = appfile ] || ! command -v mpirun >/dev/null || mpirun --version 2>/dev/null | grep -qi 'open mpi'
+}
 options=() each=() # for mpirun, and for every part of its command line
-if openmpi || [ -n "$print" ]; then
+if openmpi; then
   for name in $env_names; do each+=(-x "$name=${!name}"); done
   [ "$(id -u)" -ne 0 ] || options+=(--allow-run-as-root)
   [ -n "$cluster" ] || options+=(--oversubscribe --bind-to none)

@@ -179,7 +179,8 @@ def claims(there):
     for name in ("cost-0.02", "cost-0.01"):
         if name in there:
             yield name + ": U(2.5)", abs(interpolate(there[name].curve, 2.5) / 1.219 - 1.0), 0.01
-            for t, bound in ((0.1, 0.015), (0.2, 0.01)):  # the start, in one coupling iteration a step
+            fine = name == "cost-0.01"
+            for t, bound in ((0.1, 0.01 if fine else 0.015), (0.2, 0.005 if fine else 0.01)):  # the start, in one coupling iteration a step
                 yield name + ": U(%g)" % t, abs(interpolate(there[name].curve, t) / interpolate(reference_curve(20), t) - 1.0), bound
             yield name + ": coupling iterations of a step less 1", iterations(name) - 1.0, 0.0
     if "ratio-0.05" in there:

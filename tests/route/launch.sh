@@ -23,7 +23,9 @@ expect srun "0-1 $fluid
 3-4 $solid"
 
 timeout -k 5 30 "${run[@]}" "$case" --set time.end=1 >"$scratch/log" 2>&1 || fail 'the run failed'
-for form in colon appfile; do
+forms=(colon hydra)
+! mpirun --version | grep -qi "open mpi" || forms=(colon appfile)
+for form in "${forms[@]}"; do
   use=$("${run[@]}" --print $form --write "$scratch/$form" "$case" --set time.end=1) || fail "--write of $form failed"
   # shellcheck disable=SC2086 # the command is words
   timeout -k 5 30 $use >"$scratch/log" 2>&1 || fail "'$use' failed"
