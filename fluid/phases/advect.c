@@ -31,6 +31,13 @@ static int OpenTag(const Step *t, int v)
   return -1;
 }
 
+/* That of the boundary from which what is swept by a face with vertices a and b may come in: `tag`, the face's own, if it has one. */
+static int InflowTag(const Step *t, int tag, int a, int b)
+{
+  if (tag < 0 && t->inflow) tag = OpenTag(t, a);
+  return tag < 0 && t->inflow ? OpenTag(t, b) : tag;
+}
+
 /* The fraction of phase p in what comes in at x through the boundary. */
 static double Inflow(const Step *t, int tag, const double x[2], int p)
 {
@@ -172,7 +179,7 @@ static void SweepFace(Step *t, int e, int i, Content *c)
   const int owner = sign > 0.0 || s->neighbor[e][i] < 0 ? e : s->neighbor[e][i];
   Swept region;
   SweptMake(s, a, b, (const double(*)[2])t->shift, swept, &region);
-  const int from = tag >= 0 ? tag : OpenTag(t, a) >= 0 ? OpenTag(t, a) : OpenTag(t, b);
+  const int from = InflowTag(t, tag, a, b);
   SweptLevels levels = LevelsFrom(t, from, region.origin);
   double uncovered = SweptCollect(&t->search, a, b, 0, &region, &levels, c->area, c->mass);
   if (uncovered > OUTSIDE) {
