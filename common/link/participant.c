@@ -123,7 +123,7 @@ static void Handshake(MPI_Comm job, const HandshakeEntry *mine, Waiter *waiter)
   MPI_Comm_size(job, &size);
   HandshakeEntry *entry = rank ? NULL : calloc((size_t)size, sizeof *entry);
   MPI_Igather(mine, sizeof *mine, MPI_BYTE, entry, sizeof *entry, MPI_BYTE, 0, job, &request);
-  if (!WaitRequest(waiter, &request)) {
+  if (!WaitRequest(waiter, &request, false)) {
     snprintf(message, sizeof message, "not all %d ranks of this job have called CoracleOpen within %g s",
              size, waiter->timeout);
     RefuseToStart(rank, mine->role, message);
@@ -132,7 +132,7 @@ static void Handshake(MPI_Comm job, const HandshakeEntry *mine, Waiter *waiter)
   if (rank == 0 && HandshakeNote(size, entry, message)) fprintf(stderr, "coracle: note: %s\n", message);
   free(entry);
   MPI_Ibarrier(job, &request); /* no rank continues before rank 0 has agreed */
-  if (!WaitRequest(waiter, &request)) RefuseToStart(1, mine->role, "");
+  if (!WaitRequest(waiter, &request, false)) RefuseToStart(1, mine->role, "");
 }
 
 static void MapRoles(Participant *p, const HandshakeEntry *mine)
@@ -219,6 +219,7 @@ int ParticipantOpen(MPI_Comm job, const char *role, bool client, int argc, char 
   /* when one hangs all wait: the coupler, whose partners they all are, gives up first and so names the one */
   if (client) p->waiter.timeout = 1.1 * p->waiter.timeout + 1.0;
   FailureBoardOpen(p->job, role, p->rank, &p->failures);
+  DoorbellOpen(p->job, &p->waiter.doorbell);
   ExitGuardWatch(p);
   if (share.pinned) AffinityNotePinned(role, p->rank);
   ReadCase(p, argc, argv);
@@ -250,6 +251,7 @@ int ParticipantClose(Participant **participant)
   ExitGuardExpected();
   ExitGuardUnwatch();
   FailureBoardClose(&p->failures);
+  DoorbellClose(&p->waiter.doorbell);
   MPI_Comm_free(&p->link);
   MPI_Comm_free(&p->app);
   for (int k = 0; k < NROLES; k++) free(p->world[k]);

@@ -6,8 +6,7 @@
 #include <time.h>
 
 static const double SPIN = 20e-6, YIELD = 100e-6, SHORT = 200e-6, LONG = 1e-3; /* s */
-static const double NAP =
-    0.7; /* of the shorter of the last two waits of a kind: each look costs some microseconds */
+static const double RUNG = 50e-3; /* s: the longest sleep of one that will be woken */
 
 /* Grows fast to 200 us, and after 20 ms to 1 ms: a wake-up is at most 1 % late. */
 static double Pause(double waited)
@@ -42,15 +41,24 @@ const char *WaiterInit(Waiter *w, bool shares_core)
   return NULL;
 }
 
-Wait WaitStart(Waiter *w, int kind)
+Wait WaitStart(Waiter *w, WaitFor what, bool rings)
 {
-  const double nap = NAP * fmin(w->last[kind][0], w->last[kind][1]);
-  return (Wait){.waiter = w, .start = WaitClock(), .kind = kind, .nap = kind && nap > LONG ? nap : 0.0};
+  Wait wait = {.waiter = w, .start = WaitClock(), .what = what, .rings = w->doorbell && rings};
+  if (wait.rings) wait.rung = DoorbellRings(w->doorbell);
+  return wait;
 }
 
 static void Sleep(double seconds)
 {
   nanosleep(&(struct timespec){.tv_sec = (time_t)seconds, .tv_nsec = (long)(1e9 * fmod(seconds, 1.0))}, NULL);
+}
+
+/* A sender looks often in any case: MPI may need it for the message to move. */
+static void SleepUntilRung(Wait *wait, double waited)
+{
+  const Doorbell doorbell = wait->waiter->doorbell;
+  DoorbellSleep(doorbell, wait->rung, wait->what == WAIT_FOR_ARRIVAL ? RUNG : Pause(waited));
+  wait->rung = DoorbellRings(doorbell);
 }
 
 bool WaitPause(Wait *wait)
@@ -59,28 +67,24 @@ bool WaitPause(Wait *wait)
   if (policy == WAIT_SPIN && ++wait->looks % 1024) return true; /* the clock is dearer than a look */
   const double waited = WaitClock() - wait->start;
   if (waited > wait->waiter->timeout) return false;
-  if (policy == WAIT_SPIN || (waited < SPIN && wait->nap == 0.0)) return true;
-  if (policy == WAIT_YIELD || (waited < YIELD && wait->nap == 0.0)) {
+  if (policy == WAIT_SPIN || waited < SPIN) return true;
+  if (policy == WAIT_SLEEP && wait->rings)
+    SleepUntilRung(wait, waited);
+  else if (policy == WAIT_YIELD || waited < YIELD)
     sched_yield();
-  } else {
-    Sleep(wait->nap > waited ? wait->nap - waited
-                             : fmax(Pause(waited - wait->nap), fmin(waited / 100, LONG)));
-  }
+  else
+    Sleep(Pause(waited));
   return true;
 }
 
 void WaitEnd(Wait *wait)
 {
-  Waiter *w = wait->waiter;
-  const double waited = WaitClock() - wait->start;
-  w->waited += waited;
-  w->last[wait->kind][1] = w->last[wait->kind][0];
-  w->last[wait->kind][0] = waited;
+  wait->waiter->waited += WaitClock() - wait->start;
 }
 
-bool WaitRequest(Waiter *w, MPI_Request *request)
+bool WaitRequest(Waiter *w, MPI_Request *request, bool rings)
 {
-  Wait wait = WaitStart(w, 0);
+  Wait wait = WaitStart(w, WAIT_FOR_REQUEST, rings);
   int done = 0;
   for (;;) {
     MPI_Test(request, &done, MPI_STATUS_IGNORE);

@@ -2,22 +2,22 @@
  * cores. */
 #ifndef CORACLE_WAIT_H
 #define CORACLE_WAIT_H
-#include <mpi.h>
-#include <stdbool.h>
+#include "common/link/doorbell.h"
 
 typedef enum {
   WAIT_SPIN,  /* ask again at once: the lowest latency, for ranks with a core of their own */
   WAIT_YIELD, /* give the core away between two looks */
-  WAIT_SLEEP /* sleep, first for most of what such a wait has taken, then up to 1 ms: for ranks that share cores */
+  WAIT_SLEEP  /* sleep until the doorbell rings, or up to 1 ms where it cannot: for ranks that share cores */
 } WaitPolicy;
 
-enum { WAIT_KINDS = 16 }; /* of waits that are alike, 0: of no kind */
+/* What is waited for: a partner's message, or that MPI is done with a request. */
+typedef enum { WAIT_FOR_ARRIVAL, WAIT_FOR_REQUEST } WaitFor;
 
 typedef struct {
   WaitPolicy policy;
-  double timeout;             /* s */
-  double waited;              /* s, all waits of this rank so far */
-  double last[WAIT_KINDS][2]; /* s, the last two of each kind */
+  double timeout;    /* s */
+  double waited;     /* s, all waits of this rank so far */
+  Doorbell doorbell; /* borrowed; NULL: there is none */
 } Waiter;
 
 /* One wait in progress. */
@@ -25,8 +25,9 @@ typedef struct {
   Waiter *waiter;
   double start;
   long looks;
-  int kind;
-  double nap; /* s from the start on; 0: none, or it is over */
+  WaitFor what;
+  bool rings;    /* the partner rings the doorbell */
+  uint32_t rung; /* how often it had been rung before the last look */
 } Wait;
 
 /* Seconds on a clock that never jumps. */
@@ -34,10 +35,11 @@ double WaitClock(void);
 /* CORACLE_WAIT=spin|yield|sleep, else sleep when the ranks share cores and spin when not; CORACLE_TIMEOUT
  * seconds (default 600).  Returns NULL, or what is wrong with the environment. */
 const char *WaiterInit(Waiter *w, bool shares_core);
-Wait WaitStart(Waiter *w, int kind);
+/* rings: who ends the wait rings the doorbell then. */
+Wait WaitStart(Waiter *w, WaitFor what, bool rings);
 /* Called between two looks; false when the time-out has passed. */
 bool WaitPause(Wait *wait);
 void WaitEnd(Wait *wait);
 /* Waits for a request; false when the time-out has passed. */
-bool WaitRequest(Waiter *w, MPI_Request *request);
+bool WaitRequest(Waiter *w, MPI_Request *request, bool rings);
 #endif
