@@ -77,10 +77,9 @@ static void ElementGain(const CoracleCoupling *k, const CoracleFlow *flow, doubl
     gain[c] = 0.0;
     for (int i = 0; i < 3; i++) {
       gain[c] += k->s[c][i];
-      for (int j = 0; j < 6; j++) {
-        gain[c] -= k->a[c][i][j / 3][j % 3] * u_star[j];
-        gain[c] -= k->implicit_inertia[c][i][j / 3][j % 3] * (u_projected[j] - u_start[j]);
-      }
+      for (int j = 0; j < 6; j++) gain[c] -= k->a[c][i][j / 3][j % 3] * u_star[j];
+      for (int j = 3 * c; j < 3 * c + 3; j++)
+        gain[c] -= k->implicit_inertia[i][j % 3] * (u_projected[j] - u_start[j]);
     }
   }
 }

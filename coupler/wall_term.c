@@ -48,7 +48,6 @@ static void AddPair(const Overlap o, const SupermeshPair *pair, const PairTerm *
                     const double start[3][2], CoracleCoupling *k)
 {
   const SourceTriangle *source = &o->source[pair->a];
-  const WallCoefficient inertia = WallCoefficientIsotropic(term->inertia);
   const double fraction = pair->area / o->area[pair->b];
   double cu[2][3], cq[2][3], cv[2][3];
   CrossVelocity(pair, source->u, cu);
@@ -56,7 +55,7 @@ static void AddPair(const Overlap o, const SupermeshPair *pair, const PairTerm *
   CrossVelocity(pair, term->q, cq);
   AddTensor(&term->a, pair->bb, k->a);
   if (!held) {
-    AddTensor(&inertia, pair->bb, k->implicit_inertia);
+    for (int i = 0; i < 9; i++) k->implicit_inertia[i / 3][i % 3] += term->inertia * pair->bb[i / 3][i % 3];
     k->flags |= CORACLE_HAS_INERTIA;
   }
   AddSource(&term->a, (const double(*)[3])cu, k->s);

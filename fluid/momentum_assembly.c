@@ -169,16 +169,15 @@ static PetscBool AssembleSolid(MomentumSolver s, const MomentumStep *step, int e
   const double w = (1.0 - s->setup.theta) / s->setup.theta;
   const CoracleCoupling *k = SolidCouplingAt(step->solid, e);
   if (!k) return PETSC_FALSE;
-  const double *a = &k->a[0][0][0][0], *inertia = &k->implicit_inertia[0][0][0][0],
-               *explicit_part = &k->s[0][0];
+  const double *a = &k->a[0][0][0][0], *explicit_part = &k->s[0][0];
   double start[6];
   SolidCouplingStart(step->solid, e, u, start);
   for (int row = 0; row < 6; row++) {
     load[row] += explicit_part[row];
     for (int col = 0; col < 6; col++) {
-      dense[6 * col + row] += a[6 * row + col] + inertia[6 * row + col];
-      load[row] +=
-          w * (a[6 * row + col] + inertia[6 * row + col]) * u[col] + inertia[6 * row + col] * start[col];
+      const double inertia = row / 3 == col / 3 ? k->implicit_inertia[row % 3][col % 3] : 0.0;
+      dense[6 * col + row] += a[6 * row + col] + inertia;
+      load[row] += w * (a[6 * row + col] + inertia) * u[col] + inertia * start[col];
     }
   }
   return PETSC_TRUE;

@@ -1,12 +1,12 @@
 #include "fluid/weighted_projection.h"
 
-enum { NU = 6 }; /* velocity unknowns of an element: component, then vertex */
+enum { N = 3 }; /* velocity unknowns of an element and component */
 
 struct WeightedProjection_s {
   const FluidDomain *domain; /* borrowed */
   SolidCoupling solid;       /* borrowed: of the current step */
   double dt;
-  double (*response)[NU][NU]; /* [entries of solid] W^-1 M */
+  double (*response)[N][N]; /* [entries of solid] W^-1 M, the same for both components */
 };
 
 PetscErrorCode WeightedProjectionCreate(const FluidDomain *domain, WeightedProjection *w)
@@ -26,20 +26,20 @@ PetscErrorCode WeightedProjectionDestroy(WeightedProjection *w)
   PetscFunctionReturn(0);
 }
 
-static void MassMatrix(double area, double m[NU][NU])
+static void MassMatrix(double area, double m[N][N])
 {
-  for (int i = 0; i < NU; i++)
-    for (int j = 0; j < NU; j++) m[i][j] = i / 3 == j / 3 ? area / 12.0 * (i == j ? 2.0 : 1.0) : 0.0;
+  for (int i = 0; i < N; i++)
+    for (int j = 0; j < N; j++) m[i][j] = area / 12.0 * (i == j ? 2.0 : 1.0);
 }
 
 /* w = L L^T in its lower triangle; false if it is not positive definite */
-static PetscBool Factor(double w[NU][NU])
+static PetscBool Factor(double w[N][N])
 {
-  for (int j = 0; j < NU; j++) {
+  for (int j = 0; j < N; j++) {
     for (int k = 0; k < j; k++) w[j][j] -= w[j][k] * w[j][k];
     if (!(w[j][j] > 0.0)) return PETSC_FALSE;
     w[j][j] = sqrt(w[j][j]);
-    for (int i = j + 1; i < NU; i++) {
+    for (int i = j + 1; i < N; i++) {
       for (int k = 0; k < j; k++) w[i][j] -= w[i][k] * w[j][k];
       w[i][j] /= w[j][j];
     }
@@ -48,32 +48,31 @@ static PetscBool Factor(double w[NU][NU])
 }
 
 /* x -> (L L^T)^-1 x for the columns of x */
-static void SolveColumns(const double l[NU][NU], double x[NU][NU])
+static void SolveColumns(const double l[N][N], double x[N][N])
 {
-  for (int i = 0; i < NU; i++) {
+  for (int i = 0; i < N; i++) {
     for (int k = 0; k < i; k++)
-      for (int c = 0; c < NU; c++) x[i][c] -= l[i][k] * x[k][c];
-    for (int c = 0; c < NU; c++) x[i][c] *= 1.0 / l[i][i];
+      for (int c = 0; c < N; c++) x[i][c] -= l[i][k] * x[k][c];
+    for (int c = 0; c < N; c++) x[i][c] *= 1.0 / l[i][i];
   }
-  for (int i = NU - 1; i >= 0; i--) {
-    for (int k = i + 1; k < NU; k++)
-      for (int c = 0; c < NU; c++) x[i][c] -= l[k][i] * x[k][c];
-    for (int c = 0; c < NU; c++) x[i][c] *= 1.0 / l[i][i];
+  for (int i = N - 1; i >= 0; i--) {
+    for (int k = i + 1; k < N; k++)
+      for (int c = 0; c < N; c++) x[i][c] -= l[k][i] * x[k][c];
+    for (int c = 0; c < N; c++) x[i][c] *= 1.0 / l[i][i];
   }
 }
 
 /* response = W^-1 M */
-static PetscErrorCode Response(double area, double rho_dt, const double inertia[2][3][2][3],
-                               double response[NU][NU])
+static PetscErrorCode Response(double area, double rho_dt, const double inertia[N][N], double response[N][N])
 {
-  double w[NU][NU];
+  double w[N][N];
   PetscFunctionBeginUser;
   MassMatrix(area, response);
-  for (int i = 0; i < NU; i++)
-    for (int j = 0; j < NU; j++) w[i][j] = rho_dt * response[i][j] + inertia[i / 3][i % 3][j / 3][j % 3];
+  for (int i = 0; i < N; i++)
+    for (int j = 0; j < N; j++) w[i][j] = rho_dt * response[i][j] + inertia[i][j];
   PetscCheck(Factor(w), PETSC_COMM_SELF, PETSC_ERR_NOT_CONVERGED,
              "the implicit inertia of the solid is not positive on a fluid element");
-  SolveColumns((const double(*)[NU])w, response);
+  SolveColumns((const double(*)[N])w, response);
   PetscFunctionReturn(0);
 }
 
@@ -105,40 +104,39 @@ PetscErrorCode WeightedProjectionPrepare(WeightedProjection w, const WeightedPro
 }
 
 /* The response where element e has implicit inertia, else NULL. */
-static const double (*ResponseAt(WeightedProjection w, int e))[NU]
+static const double (*ResponseAt(WeightedProjection w, int e))[N]
 {
   return IsWeighted(SolidCouplingAt(w->solid, e))
-             ? (const double(*)[NU])w->response[SolidCouplingIndex(w->solid, e)]
+             ? (const double(*)[N])w->response[SolidCouplingIndex(w->solid, e)]
              : NULL;
 }
 
 PetscBool WeightedProjectionBlock(WeightedProjection w, int e, double block[6][6])
 {
   const ElementGeometry *g = w->domain->geometry + e;
-  const double(*response)[NU] = ResponseAt(w, e);
-  double half[6][NU] = {{0}}; /* transposed: of the gradients of the basis, int of grad N_q . M W^-1 */
+  const double(*response)[N] = ResponseAt(w, e);
   if (!response) return PETSC_FALSE;
-  for (int j = 0; j < NU; j++) {
-    double column[2][3], r[6] = {0};
+  for (int r = 0; r < 6; r++) {
+    double basis[6] = {0}, grad[3][2], moved[2][3];
+    basis[r] = 1.0;
+    P2Gradient(g->g, basis, grad);
     for (int c = 0; c < 2; c++) {
-      const double u[3] = {response[3 * c][j], response[3 * c + 1][j], response[3 * c + 2][j]};
-      P1MassApply(g->area / w->dt, u, column[c]);
+      double u[3] = {0};
+      for (int i = 0; i < 9; i++) u[i / 3] += response[i / 3][i % 3] * grad[i % 3][c];
+      P1MassApply(g->area / w->dt, u, moved[c]);
     }
-    P2GradientTranspose(g->g, (const double(*)[3])column, r);
-    for (int q = 0; q < 6; q++) half[q][j] = r[q];
-  }
-  for (int q = 0; q < 6; q++) {
-    for (int r = 0; r < 6; r++) block[q][r] = 0.0;
-    P2GradientTranspose(g->g, (const double(*)[3])half[q], block[q]);
+    for (int q = 0; q < 6; q++) block[r][q] = 0.0;
+    P2GradientTranspose(g->g, (const double(*)[3])moved, block[r]);
   }
   return PETSC_TRUE;
 }
 
 PetscBool WeightedProjectionVelocity(WeightedProjection w, int e, const double grad[3][2], double u[6])
 {
-  const double(*response)[NU] = ResponseAt(w, e);
+  const double(*response)[N] = ResponseAt(w, e);
   if (!response) return PETSC_FALSE;
-  for (int i = 0; i < NU; i++)
-    for (int j = 0; j < NU; j++) u[i] -= response[i][j] * grad[j % 3][j / 3];
+  for (int c = 0; c < 2; c++)
+    for (int i = 0; i < N; i++)
+      for (int j = 0; j < N; j++) u[3 * c + i] -= response[i][j] * grad[j][c];
   return PETSC_TRUE;
 }

@@ -1,7 +1,7 @@
 /* The inertia-weighted projection: on elements with a solid's implicit inertia (coracle.h) the pressure moves
  * fluid and solid together,
  *
- *     u_projected = u* - dt W^-1 M grad phi,   W = rho M/dt + implicit inertia   (6 x 6, element by element)
+ *     u_projected = u* - dt W^-1 M grad phi,   W = rho M/dt + implicit inertia   (3 x 3, element by element)
  *
  * and the pressure's matrix is C^T M W^-1 M C/dt there instead of C^T M C/rho.  Not collective, but for Prepare. */
 #ifndef FLUID_WEIGHTED_PROJECTION_H

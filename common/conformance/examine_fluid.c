@@ -44,16 +44,13 @@ static void Target(const Fluid *f, Kind kind, double v[2])
 
 static void SetBlocks(CoracleCoupling *c, Kind kind, double rho, double area, double dt)
 {
-  double a[3][3], inertia[3][3];
+  double a[3][3];
   const double factor = kind == HELD || kind == MORE || kind == AGAIN || kind == COEFFICIENT ? 9.0 : 0.0;
   PatchMass(area, factor * rho / dt, a);
-  PatchMass(area, kind == INERTIA ? 9.0 * rho / dt : 0.0, inertia);
+  PatchMass(area, kind == INERTIA ? 9.0 * rho / dt : 0.0, c->implicit_inertia);
   for (int d = 0; d < 2; d++)
     for (int i = 0; i < 3; i++)
-      for (int j = 0; j < 3; j++) {
-        c->a[d][i][d][j] = a[i][j];
-        c->implicit_inertia[d][i][d][j] = inertia[i][j];
-      }
+      for (int j = 0; j < 3; j++) c->a[d][i][d][j] = a[i][j];
 }
 
 /* s = factor rho B v/dt, and the bulk velocity's part where the disc is held */

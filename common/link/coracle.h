@@ -229,10 +229,10 @@ typedef struct {
   int flags;   /* CORACLE_HAS_... */
   /* kg/s: int_K a_cd N_i N_j, the implicit coefficient of u*, shell and volume together */
   double a[CORACLE_DIM][CORACLE_VERTICES][CORACLE_DIM][CORACLE_VERTICES];
-  /* kg/s: the solid's inertia beyond the fluid's, which resists the change of the velocity over the step:
-   * implicit_inertia (u* - u start) beside rho M/dt (u* - u start), and under the pressure
+  /* kg/s: the solid's inertia beyond the fluid's, int_K m N_i N_j, the same for each component, which resists the change
+   * of the velocity over the step: implicit_inertia (u* - u start) beside rho M/dt (u* - u start), and under the pressure
    * u projected = u* - dt W^-1 M grad phi with W = rho M/dt + implicit_inertia */
-  double implicit_inertia[CORACLE_DIM][CORACLE_VERTICES][CORACLE_DIM][CORACLE_VERTICES];
+  double implicit_inertia[CORACLE_VERTICES][CORACLE_VERTICES];
   /* N: int_K (a u_s)_c N_i, the explicit part of s_c */
   double s[CORACLE_DIM][CORACLE_VERTICES];
   /* m2: int_{K and S} N_i N_j, sub-cell solid mass, where the solid is held: has no mobility */

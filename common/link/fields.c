@@ -15,6 +15,10 @@
   {                                                                                                          \
     EXTENT_DIM, EXTENT_VERTICES, EXTENT_DIM, EXTENT_VERTICES                                                 \
   }
+#define P1_MATRIX                                                                                            \
+  {                                                                                                          \
+    EXTENT_VERTICES, EXTENT_VERTICES                                                                         \
+  }
 #define NUMBER_OF(list) (int)(sizeof(list) / sizeof *(list))
 #define ARRAYS(entity, direction, list)                                                                      \
   {                                                                                                          \
@@ -84,9 +88,9 @@ static const Field COUPLING[] = {
   {"element",                "-",    FIELD_INDEX, {0},        AT(element),          0, FIELD_ANY},
   {"flags",                  "-",    FIELD_FLAGS, {0},        AT(flags),            0, FIELD_ANY},
   {"implicit coefficient a", "kg/s", FIELD_REAL, P1_TENSOR,   AT(a),                0, FIELD_ANY},
-  {"implicit inertia",       "kg/s", FIELD_REAL, P1_TENSOR,   AT(implicit_inertia), FLAG_INERTIA, FIELD_ANY},
+  {"implicit inertia",       "kg/s", FIELD_REAL, P1_MATRIX,   AT(implicit_inertia), FLAG_INERTIA, FIELD_ANY},
   {"source s",               "N",    FIELD_REAL, P1_VECTOR,   AT(s),                0, FIELD_ANY},
-  {"solid mass",             "m2",   FIELD_REAL, {EXTENT_VERTICES, EXTENT_VERTICES}, AT(ms), 0, FIELD_ANY},
+  {"solid mass",             "m2",   FIELD_REAL, P1_MATRIX,   AT(ms),               0, FIELD_ANY},
   {"solid momentum",         "m3/s", FIELD_REAL, P1_VECTOR,   AT(us),               0, FIELD_ANY},
   {"solid velocity",         "m/s",  FIELD_REAL, VECTOR,      AT(velocity),         0, FIELD_ANY},
   {"solid fraction",         "-",    FIELD_REAL, {0},         AT(alpha),            0, FIELD_NOT_NEGATIVE},

@@ -66,8 +66,9 @@ static void Implicit(const CoracleCoupling *c, double dt, const double x[3][2], 
   for (int p = 0; p < 6; p++) {
     r[p] = c->s[p / 3][p % 3];
     for (int q = 0; q < 6; q++) {
-      const double mass = (p / 3 == q / 3 ? RHO / dt * GeometryArea(x) / (p == q ? 6.0 : 12.0) : 0.0) +
-                          c->implicit_inertia[p / 3][p % 3][q / 3][q % 3];
+      const double mass = p / 3 != q / 3 ? 0.0
+                                         : RHO / dt * GeometryArea(x) / (p == q ? 6.0 : 12.0) +
+                                               c->implicit_inertia[p % 3][q % 3];
       m[p][q] = c->a[p / 3][p % 3][q / 3][q % 3] + mass;
       r[p] += mass * u[q / 3][q % 3];
     }

@@ -37,8 +37,9 @@ static void SolveElement(const CoracleCoupling *k, double area, double u[2][3])
     for (int i = 0; i < 6; i++) {
       double r = k->s[i / 3][i % 3], diagonal = 0.0;
       for (int j = 0; j < 6; j++) {
-        const double mass = (i / 3 == j / 3 ? RHO / DT * area / (i == j ? 6.0 : 12.0) : 0.0) +
-                            k->implicit_inertia[i / 3][i % 3][j / 3][j % 3];
+        const double mass = i / 3 != j / 3
+                                ? 0.0
+                                : RHO / DT * area / (i == j ? 6.0 : 12.0) + k->implicit_inertia[i % 3][j % 3];
         const double a = k->a[i / 3][i % 3][j / 3][j % 3] + mass;
         r += mass * START[j / 3];
         if (i == j)

@@ -29,7 +29,7 @@ static PetscErrorCode Load(Fluid fluid, double heavy, double below)
       for (int i = 0; i < 3; i++) {
         k->s[c][i] = (heavy - LIGHT) * GRAVITY[c] * area / 3.0;
         for (int j = 0; j < 3; j++)
-          k->implicit_inertia[c][i][c][j] = (heavy - LIGHT) / DT * area / (i == j ? 6.0 : 12.0);
+          k->implicit_inertia[i][j] = (heavy - LIGHT) / DT * area / (i == j ? 6.0 : 12.0);
       }
   }
   PetscCall(FluidSetCoupling(fluid, n, coupling));

@@ -63,7 +63,7 @@ void Cells::receive(CoracleClient client)
       for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
           k[cell] += 0.5 * c.a[d][i][d][j] / (rho_ * area_[cell]);
-          inertia[cell] += 0.5 * c.implicit_inertia[d][i][d][j] / (rho_ * area_[cell]);
+          inertia[cell] += 0.5 * c.implicit_inertia[i][j] / (rho_ * area_[cell]);
           ms[cell] += 0.5 * c.ms[i][j] / area_[cell];
         }
         us[cell][d] += c.us[d][i] / area_[cell];

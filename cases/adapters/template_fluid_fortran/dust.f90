@@ -78,17 +78,16 @@ contains
   !> (rho M/dt + inertia) (u* - u) + a u* = s on the coupled elements; elsewhere nothing acts.
   subroutine advance()
     type(CoracleCoupling), pointer :: k(:)
-    real(c_double) :: a(6, 6), own(6, 6), inertia(6, 6), load(6)
+    real(c_double) :: a(6, 6), inertia(6, 6), load(6)
     integer :: m, e
     call coracle_get_coupling(client, k)
     u_start = u(:, :, near(:nnear))
     u_star = u_start
-    own = 0
-    own(1:3, 1:3) = density / dt * mass
-    own(4:6, 4:6) = own(1:3, 1:3)
+    inertia = 0
     do m = 1, size(k)
       e = k(m)%element + 1
-      inertia = own + transpose(reshape(k(m)%implicit_inertia, [6, 6]))
+      inertia(1:3, 1:3) = density / dt * mass + k(m)%implicit_inertia
+      inertia(4:6, 4:6) = inertia(1:3, 1:3)
       a = inertia + transpose(reshape(k(m)%a, [6, 6]))
       load = matmul(inertia, reshape(u_star(:, :, e), [6])) + reshape(k(m)%s, [6])
       call solve(a, load)

@@ -39,7 +39,7 @@ class Dust:
         """(rho M/dt + inertia) (u* - u) + a u* = s on the coupled elements; elsewhere nothing acts."""
         u_star, n = self.u[self.near], len(coupling)
         u = u_star[coupling["element"]].reshape(n, 6, 1)
-        inertia = self.rho / dt * self.area * np.kron(np.eye(2), MASS) + coupling["implicit_inertia"].reshape(n, 6, 6)
+        inertia = np.kron(np.eye(2), self.rho / dt * self.area * MASS + coupling["implicit_inertia"])
         load = inertia @ u + coupling["s"].reshape(n, 6, 1)
         u_star[coupling["element"]] = np.linalg.solve(inertia + coupling["a"].reshape(n, 6, 6), load).reshape(n, 2, 3)
         return u_star

@@ -8,10 +8,10 @@ import numpy as np
 from coracle.location import LIBRARY, VERSION
 
 HAS_SHELL, HAS_INERTIA = 1, 2
-_BLOCK, _LOAD = (np.float64, (2, 3, 2, 3)), (np.float64, (2, 3))
+_MATRIX, _LOAD = (np.float64, (3, 3)), (np.float64, (2, 3))
 # CoracleCoupling and CoracleCorrection of coracle.h
-COUPLING = np.dtype([("element", np.intc), ("flags", np.intc), ("a", *_BLOCK), ("implicit_inertia", *_BLOCK), ("s", *_LOAD),
-                     ("ms", np.float64, (3, 3)), ("us", *_LOAD), ("velocity", np.float64, 2), ("alpha", np.float64),
+COUPLING = np.dtype([("element", np.intc), ("flags", np.intc), ("a", np.float64, (2, 3, 2, 3)), ("implicit_inertia", *_MATRIX),
+                     ("s", *_LOAD), ("ms", *_MATRIX), ("us", *_LOAD), ("velocity", np.float64, 2), ("alpha", np.float64),
                      ("shell", np.float64)], align=True)
 CORRECTION = np.dtype([("element", np.intc), ("r", *_LOAD)], align=True)
 GAUGE = np.dtype([("x", np.float64, (2,)), ("normal", np.float64, (2,))], align=True)
