@@ -141,7 +141,7 @@ PetscErrorCode CouplerComputeForce(Coupler c, const CoracleFlow *flow, const dou
   for (int i = 0; i < c->nnodes; i++) {
     for (int d = 0; d < 2; d++) c->force[2 * i + d] = c->node[i].reaction[d] + c->node[i].other[d];
   }
-  PetscCall(ForceSum(c->overlap, c->coupling, flow, c->nnodes, c->node, totals));
+  PetscCall(ForceSum(c->overlap, c->dt, c->coupling, flow, c->nnodes, c->node, totals));
   *force = c->force;
   PetscFunctionReturn(0);
 }
@@ -155,7 +155,7 @@ PetscErrorCode CouplerNoCorrection(Coupler c, const SolidState *moved)
 PetscErrorCode CouplerConservativeForce(Coupler c)
 {
   PetscFunctionBeginUser;
-  ForceReaction(c->overlap, c->term, &c->flow, c->vertex);
+  ForceReaction(c->overlap, c->term, (const double(*)[3][2])c->start_velocity, &c->flow, c->vertex);
   ForceInertia(c->overlap, c->dt, c->options.gravity, c->flow.u_projected,
                (const double(*)[3][2])c->start_velocity, c->vertex);
   PetscCall(ForceAssembleToOwners(c->overlap, c->vertex, c->nnodes, c->node));

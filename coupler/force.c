@@ -14,7 +14,7 @@ static void Change(const SupermeshPair *pair, const double u_projected[6], const
 
 /* The reaction of one pair: a slip + inertia change - q; inside solids a or the inertia is mostly 0. */
 static void AddReaction(const SupermeshPair *pair, const PairTerm *term, const double u[3][2],
-                        const CoracleFlow *flow, ForceVertex v[3])
+                        const double start_velocity[3][2], const CoracleFlow *flow, ForceVertex v[3])
 {
   const size_t k = 6 * (size_t)pair->b;
   double slip[3][2], change[3][2], r[2];
@@ -29,17 +29,24 @@ static void AddReaction(const SupermeshPair *pair, const PairTerm *term, const d
       for (int c = 0; c < 2; c++) v[i].reaction[c] += r[c];
     }
   }
+  if (term->start > 0.0) {
+    PairSlip(pair, &flow->u_start[k], start_velocity, slip);
+    for (int i = 0; i < 3; i++)
+      for (int c = 0; c < 2; c++) v[i].reaction[c] += term->start * slip[i][c];
+  }
   if (term->inertia == 0.0) return;
   Change(pair, &flow->u_projected[k], &flow->u_start[k], change);
   for (int i = 0; i < 3; i++)
     for (int c = 0; c < 2; c++) v[i].reaction[c] += term->inertia * change[i][c];
 }
 
-void ForceReaction(const Overlap o, const PairTerm term[], const CoracleFlow *flow, ForceVertex vertex[])
+void ForceReaction(const Overlap o, const PairTerm term[], const double start_velocity[][3][2],
+                   const CoracleFlow *flow, ForceVertex vertex[])
 {
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    AddReaction(pair, &term[p], (const double(*)[2])o->source[pair->a].u, flow, &vertex[3 * pair->a]);
+    AddReaction(pair, &term[p], (const double(*)[2])o->source[pair->a].u, start_velocity[pair->a], flow,
+                &vertex[3 * pair->a]);
   }
 }
 
@@ -67,9 +74,11 @@ PetscErrorCode ForceAssembleToOwners(Overlap o, const ForceVertex vertex[], int 
   PetscFunctionReturn(0);
 }
 
-/* One element's gain, the sum over its functions of s - a u* - I (u+ - u start). */
-static void ElementGain(const CoracleCoupling *k, const CoracleFlow *flow, double gain[2])
+/* One element's gain, the sum over its functions of s - a u* - I (u+ - u start), where it is covered of s - a u* - I u+ -
+ * rho_f M/dt u start; mass: rho_f |K|/dt. */
+static void ElementGain(const CoracleCoupling *k, double mass, const CoracleFlow *flow, double gain[2])
 {
+  const int covered = k->flags & CORACLE_IS_COVERED;
   const size_t first = 6 * (size_t)k->element;
   const double *u_star = flow->u_star + first, *u_projected = flow->u_projected + first,
                *u_start = flow->u_start + first;
@@ -79,7 +88,8 @@ static void ElementGain(const CoracleCoupling *k, const CoracleFlow *flow, doubl
       gain[c] += k->s[c][i];
       for (int j = 0; j < 6; j++) gain[c] -= k->a[c][i][j / 3][j % 3] * u_star[j];
       for (int j = 3 * c; j < 3 * c + 3; j++)
-        gain[c] -= k->implicit_inertia[i][j % 3] * (u_projected[j] - u_start[j]);
+        gain[c] -= k->implicit_inertia[i][j % 3] * (u_projected[j] - (covered ? 0.0 : u_start[j]));
+      if (covered) gain[c] -= mass / 3.0 * u_start[3 * c + i];
     }
   }
 }
@@ -103,7 +113,7 @@ static void AddSquare(const Overlap o, const double u[], double *area, double *s
   }
 }
 
-PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const CoracleFlow *flow,
+PetscErrorCode ForceSum(const Overlap o, double dt, const CoracleCoupling coupling[], const CoracleFlow *flow,
                         int nnodes, const ForceVertex node[], ForceTotals *totals)
 {
   enum { GAIN, REACTION = 2, FORCE = 4, SCALE = 6, MASS, PAIRS, AREA, SQUARE, COUNT };
@@ -111,8 +121,9 @@ PetscErrorCode ForceSum(const Overlap o, const CoracleCoupling coupling[], const
 
   PetscFunctionBeginUser;
   for (int e = 0; e < o->ncoupled; e++) {
+    const int k = coupling[e].element;
     double gain[2];
-    ElementGain(&coupling[e], flow, gain);
+    ElementGain(&coupling[e], o->rho[k] * o->area[k] / dt, flow, gain);
     for (int c = 0; c < 2; c++) sum[GAIN + c] += gain[c];
     sum[SCALE] += hypot(gain[0], gain[1]);
   }

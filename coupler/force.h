@@ -6,7 +6,8 @@
  * shell, K a fluid element), the pair's coefficient a, inertia m and body force q at T's vertices
  * (wall_term.h), u and v the fluid's and the solid's velocity at the step's start:
  *
- *    reaction         R   =  a (C u* - M u_s) + m C (u+ - u) - M q    all pairs: minus what the fluid is given
+ *    reaction         R   =  a (C u* - M u_s) + m C (u+ - u) - M q + start (C u - M v)
+ *                                                       all pairs: minus what the fluid is given
  *    added inertia    F_i =  rho_f (C u+ - M v)/dt      pairs in S: change of the inner fluid's momentum
  *    buoyancy         F_b = -rho_f g M 1                pairs in S: the pressure is total, also inside S
  *
@@ -29,7 +30,7 @@ typedef struct {
 /* Totals over all ranks of one step. */
 typedef struct {
   /* N, momentum per time given to the fluid, evaluated on the fluid's side: the sum over K of
-   * s - a u* - I (u+ - u start), I the implicit inertia */
+   * s - a u* - I (u+ - u start), I the implicit inertia; where K is covered, less (rho_f M/dt + I) u start */
   double gain[2];
   double reaction[2]; /* N, the reaction summed over the solid's nodes */
   double force[2];    /* N, the whole force on the solid */
@@ -39,9 +40,9 @@ typedef struct {
   long long npairs;
 } ForceTotals;
 
-/* Local: vertex[nsources][3].reaction += R of all pairs. */
-void ForceReaction(const Overlap overlap, const PairTerm term[], const CoracleFlow *flow,
-                   ForceVertex vertex[]);
+/* Local: vertex[nsources][3].reaction += R of all pairs; start_velocity[nsources][3][2]: v, m/s. */
+void ForceReaction(const Overlap overlap, const PairTerm term[], const double start_velocity[][3][2],
+                   const CoracleFlow *flow, ForceVertex vertex[]);
 /* Local: vertex[nsources][3].other += F_i + F_b of the volume pairs; start_velocity[nsources][3][2]: v,
  * m/s. */
 void ForceInertia(const Overlap overlap, double dt, const double gravity[2], const double u_projected[],
@@ -50,8 +51,8 @@ void ForceInertia(const Overlap overlap, double dt, const double gravity[2], con
 PetscErrorCode ForceAssembleToOwners(Overlap overlap, const ForceVertex vertex[], int nnodes,
                                      ForceVertex node[]);
 /* Collective: the totals; coupling[ncoupled] is what the fluid was sent, flow what came back. */
-PetscErrorCode ForceSum(const Overlap overlap, const CoracleCoupling coupling[], const CoracleFlow *flow,
-                        int nnodes, const ForceVertex node[], ForceTotals *totals);
+PetscErrorCode ForceSum(const Overlap overlap, double dt, const CoracleCoupling coupling[],
+                        const CoracleFlow *flow, int nnodes, const ForceVertex node[], ForceTotals *totals);
 /* Local: correction[ncoupled].r += r; u[nsources][3][2]: u_s^{n+1} at the source triangles' vertices, m/s. */
 void ForceCorrection(const Overlap overlap, const double u[][3][2], const double u_projected[],
                      CoracleCorrection correction[]);

@@ -1,5 +1,8 @@
 #include "coupler/inertia.h"
 
+/* An element is covered where its pairs' areas add up to its own to this part of it. */
+#define COVERED 1e-10
+
 /* rho[nnodes]: the solid's density at its nodes now: mass over a third of the triangles around, of all ranks;
  * 0 where the node is held. */
 static PetscErrorCode NodeDensities(const Overlap o, const SolidState *solid, double rho[])
@@ -51,6 +54,26 @@ PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt
     term[p].inertia = (fmax(rho_s, rho_f) - rho_f) / dt;
   }
   PetscCall(PetscFree2(rho, vertex));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode InertiaStart(Overlap o, const double density[], double dt, PairTerm term[])
+{
+  double *covered; /* [ncoupled] m2, by nodes that are free */
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(o->ncoupled, &covered));
+  for (int p = 0; p < o->pairs.n; p++)
+    if (density[o->pairs.pair[p].a] > 0.0) covered[o->coupled_index[p]] += o->pairs.pair[p].area;
+  for (int p = 0; p < o->pairs.n; p++) {
+    const int k = o->pairs.pair[p].b;
+    const PetscBool phases = o->rho_beside[k] != o->rho[k] ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool whole =
+        fabs(covered[o->coupled_index[p]] - o->area[k]) < COVERED * o->area[k] ? PETSC_TRUE : PETSC_FALSE;
+    if (whole && !phases && density[o->pairs.pair[p].a] > 0.0)
+      term[p].start = term[p].inertia + o->rho[k] / dt;
+  }
+  PetscCall(PetscFree(covered));
   PetscFunctionReturn(0);
 }
 

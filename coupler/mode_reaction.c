@@ -28,6 +28,7 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
     }
   }
   PetscCall(InertiaCoefficients(o, solid, c->dt, c->term, c->density));
+  PetscCall(InertiaStart(o, c->density, c->dt, c->term));
   PetscCall(SlipTensors(o, c->tangential));
   SlipCoefficients(o, c->tangential, c->term);
   PetscFunctionReturn(0);

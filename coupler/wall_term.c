@@ -52,6 +52,8 @@ static void AddPair(const Overlap o, const SupermeshPair *pair, const PairTerm *
   double cu[2][3], cq[2][3], cv[2][3];
   CrossVelocity(pair, source->u, cu);
   CrossVelocity(pair, start, cv);
+  for (int i = 0; i < 6 && term->start > 0.0; i++) k->s[i / 3][i % 3] += term->start * cv[i / 3][i % 3];
+  if (term->start > 0.0) k->flags |= CORACLE_IS_COVERED;
   CrossVelocity(pair, term->q, cq);
   AddTensor(&term->a, pair->bb, k->a);
   if (!held) {

@@ -9,11 +9,12 @@
  *
  * Element K receives, summed over its pairs (B = int N_K N_K^T, C = int N_T N_K^T),
  *
- *     a                 =  a B                s   =  a C^T u_s + C^T q
+ *     a                 =  a B                s   =  a C^T u_s + C^T q + start C^T v
  *     implicit inertia  =  m B
  *     ms                =  B                  us  =  C^T u_s          T in the solid's volume, held
  *
- * with q a body force at the vertices of T and m the solid's inertia in the fluid's solve (inertia.h); T is held
+ * with q a body force at the vertices of T, m the solid's inertia in the fluid's solve and start that of elements that the
+ * solid has covered, which begin with its velocity v (inertia.h); T is held
  * where it has none.  The reaction (force.h) is made of the
  * same coefficients and integrals, so what the fluid gains the solid loses.  No field is projected, so none
  * undershoots: a sum of positive semidefinite coefficients times Gram matrices is positive semidefinite. */
@@ -77,6 +78,8 @@ static inline void WallApply(const WallCoefficient *a, const double v[2], double
 typedef struct {
   WallCoefficient a;
   double inertia; /* m, kg/(m3 s) */
+  double
+      start; /* rho_f/dt + m where the inertia starts from the solid's velocity (inertia.h), else 0; kg/(m3 s) */
   double q[3][2]; /* N/m3, at the vertices of T */
 } PairTerm;
 

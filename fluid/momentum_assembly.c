@@ -161,8 +161,8 @@ static void ElementInertia(MomentumSolver s, const MomentumStep *step, int e, co
   }
 }
 
-/* a and the implicit inertia I to the dense block, s + w a u^n + I (u start + w u^n) to the load
- * (SolidCouplingStart); false where there is no solid. */
+/* a and the implicit inertia I to the dense block, s + w a u^n + I (u start + w u^n) to the load (SolidCouplingStart), less
+ * (rho M/dt + I) u start where the solid covers the element and s has the start; false where there is no solid. */
 static PetscBool AssembleSolid(MomentumSolver s, const MomentumStep *step, int e, const double u[6],
                                double dense[36], double load[6])
 {
@@ -170,14 +170,20 @@ static PetscBool AssembleSolid(MomentumSolver s, const MomentumStep *step, int e
   const CoracleCoupling *k = SolidCouplingAt(step->solid, e);
   if (!k) return PETSC_FALSE;
   const double *a = &k->a[0][0][0][0], *explicit_part = &k->s[0][0];
+  const int covered = k->flags & CORACLE_IS_COVERED;
   double start[6];
   SolidCouplingStart(step->solid, e, u, start);
+  for (int c = 0; c < 2 && covered; c++) {
+    double m[3];
+    P1MassApply(s->domain->geometry[e].area, start + 3 * c, m);
+    for (int i = 0; i < 3; i++) load[3 * c + i] -= step->rho[e] / step->dt * m[i];
+  }
   for (int row = 0; row < 6; row++) {
     load[row] += explicit_part[row];
     for (int col = 0; col < 6; col++) {
       const double inertia = row / 3 == col / 3 ? k->implicit_inertia[row % 3][col % 3] : 0.0;
       dense[6 * col + row] += a[6 * row + col] + inertia;
-      load[row] += w * (a[6 * row + col] + inertia) * u[col] + inertia * start[col];
+      load[row] += w * (a[6 * row + col] + inertia) * u[col] + (covered ? 0.0 : inertia * start[col]);
     }
   }
   return PETSC_TRUE;

@@ -5,11 +5,13 @@
 #include <string.h>
 
 /* The attempts of a step that repeats, in their order (examine.h). */
-typedef enum { HELD, MORE, FREE, SOURCE, COEFFICIENT, BULK, INERTIA, AGAIN, KINDS } Kind;
+typedef enum { HELD, MORE, FREE, SOURCE, COEFFICIENT, BULK, INERTIA, COVERED, AGAIN, KINDS } Kind;
 
 enum { MOVE_STEP = 6 };               /* after which the box moves */
 static const double SHORT = 1e-6;     /* tau/dt */
 static const double TOLERANCE = 0.01; /* of what an attempt over tau gains */
+static const double ROUGH =
+    0.1; /* the same, of cells whose gradient is the step's before and that are covered in part */
 
 typedef struct {
   double *u_start, *u_star, *u_projected; /* [n][2][3] m/s */
@@ -47,7 +49,7 @@ static void SetBlocks(CoracleCoupling *c, Kind kind, double rho, double area, do
   double a[3][3];
   const double factor = kind == HELD || kind == MORE || kind == AGAIN || kind == COEFFICIENT ? 9.0 : 0.0;
   PatchMass(area, factor * rho / dt, a);
-  PatchMass(area, kind == INERTIA ? 9.0 * rho / dt : 0.0, c->implicit_inertia);
+  PatchMass(area, kind == INERTIA || kind == COVERED ? 9.0 * rho / dt : 0.0, c->implicit_inertia);
   for (int d = 0; d < 2; d++)
     for (int i = 0; i < 3; i++)
       for (int j = 0; j < 3; j++) c->a[d][i][d][j] = a[i][j];
@@ -56,11 +58,11 @@ static void SetBlocks(CoracleCoupling *c, Kind kind, double rho, double area, do
 /* s = factor rho B v/dt, and the bulk velocity's part where the disc is held */
 static void SetLoads(CoracleCoupling *c, Kind kind, double rho, double area, double dt, const double v[2])
 {
-  const double factor = kind == COEFFICIENT || kind == BULK ? 0.0
-                        : kind == SOURCE                    ? 1.0
-                        : kind == INERTIA                   ? 10.0
-                                                            : 9.0;
-  const bool bulk = kind != SOURCE && kind != COEFFICIENT && kind != INERTIA;
+  const double factor = kind == COEFFICIENT || kind == BULK  ? 0.0
+                        : kind == SOURCE                     ? 1.0
+                        : kind == INERTIA || kind == COVERED ? 10.0
+                                                             : 9.0;
+  const bool bulk = kind != SOURCE && kind != COEFFICIENT && kind != INERTIA && kind != COVERED;
   if (bulk) PatchMass(area, 1.0, c->ms);
   for (int d = 0; d < 2; d++)
     for (int i = 0; i < 3; i++) {
@@ -73,14 +75,16 @@ static void SendCoupling(Fluid *f, Kind kind, CoracleAction action, int ncorrect
 {
   const Kit *k = f->kit;
   const Patch *p = &f->patch;
-  const double dt = kind >= FREE && kind <= INERTIA ? SHORT * k->dt : k->dt;
+  const double dt = kind >= FREE && kind <= COVERED ? SHORT * k->dt : k->dt;
   double v[2] = {f->w[0], f->w[1]};
   if (kind == HELD || kind == MORE || kind == AGAIN) Target(f, kind, v);
   f->coupling = realloc(f->coupling, (size_t)p->ncoupled * sizeof *f->coupling + 1);
   for (int i = 0; i < p->ncoupled; i++) {
     const int e = p->coupled[i];
     CoracleCoupling *c = &f->coupling[i];
-    *c = (CoracleCoupling){.element = e, .flags = kind == INERTIA ? CORACLE_HAS_INERTIA : 0, .alpha = 1.0};
+    *c = (CoracleCoupling){.element = e, .alpha = 1.0};
+    if (kind == INERTIA || kind == COVERED) c->flags |= CORACLE_HAS_INERTIA;
+    if (kind == COVERED) c->flags |= CORACLE_IS_COVERED;
     memcpy(c->velocity, v, sizeof c->velocity);
     SetBlocks(c, kind, p->rho[e], p->area[e], dt);
     SetLoads(c, kind, p->rho[e], p->area[e], dt, v);
@@ -161,7 +165,7 @@ static void CheckForcing(const Fluid *f, int step)
 {
   double now[KINDS][2], held[2], start[2], expected[2], mass;
   const Patch *p = &f->patch;
-  for (int kind = FREE; kind <= INERTIA; kind++) PatchMomentum(f->kit, p, f->flow[kind].u_star, now[kind]);
+  for (int kind = FREE; kind <= COVERED; kind++) PatchMomentum(f->kit, p, f->flow[kind].u_star, now[kind]);
   PatchCoupled(f->kit, p, f->flow[SOURCE].u_star, held, &mass);
   for (int c = 0; c < 2; c++) expected[c] = now[FREE][c] + mass * f->w[c];
   const double scale = Distance(expected, now[FREE]);
@@ -174,6 +178,11 @@ static void CheckForcing(const Fluid *f, int step)
   if (Distance(now[INERTIA], expected) > TOLERANCE * scale)
     Refuse(f, step, "the implicit inertia does not resist the change of the velocity",
            "(rho M/dt + implicit_inertia) (u* - u_start) + a u* = ... + s");
+  PatchCoupled(f->kit, p, f->flow[COVERED].u_star, held, &mass);
+  for (int c = 0; c < 2; c++) expected[c] = now[FREE][c] + 10.0 * mass * f->w[c] - 9.0 * held[c] - start[c];
+  if (Distance(now[COVERED], expected) > ROUGH * Distance(expected, now[FREE]))
+    Refuse(f, step, "where it is covered the fluid does not start from the solid's velocity",
+           "CORACLE_IS_COVERED: (rho M/dt + implicit_inertia) u* + a u* = ... + s");
   PatchCoupled(f->kit, p, f->flow[COEFFICIENT].u_star, held, &mass);
   for (int c = 0; c < 2; c++) expected[c] = now[FREE][c] - 9.0 * held[c];
   if (Distance(now[COEFFICIENT], expected) > TOLERANCE * Distance(expected, now[FREE]))
@@ -183,7 +192,7 @@ static void CheckForcing(const Fluid *f, int step)
 static void CheckProjection(const Fluid *f, int step)
 {
   double all[KINDS], disc[KINDS];
-  for (int kind = FREE; kind <= INERTIA; kind++)
+  for (int kind = FREE; kind <= COVERED; kind++)
     PatchDifference(f->kit, &f->patch, f->flow[kind].u_projected, f->flow[kind].u_star, &all[kind],
                     &disc[kind]);
   const bool none = disc[SOURCE] < 1e-3 * hypot(f->w[0], f->w[1]);
@@ -217,7 +226,7 @@ static void MoveSolid(const Fluid *f, Kind kind)
 {
   const Kit *k = f->kit;
   ServerSolid solid;
-  const double dt = kind >= FREE && kind <= INERTIA ? SHORT * k->dt : k->dt;
+  const double dt = kind >= FREE && kind <= COVERED ? SHORT * k->dt : k->dt;
   ServerSendForce(k->server, k->t, dt, kind == HELD ? CORACLE_RUN : CORACLE_REDO, NULL);
   ServerReceiveSolid(k->server, &solid);
 }

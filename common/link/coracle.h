@@ -221,8 +221,12 @@ int CoracleSetInertia(CoracleClient c, const double mobility[], const double acc
 
 /* What the solid does to one fluid element K (S the solid; i, j vertices; c, d components; in 2D per metre): */
 enum {
-  CORACLE_HAS_SHELL = 1,  /* K overlaps the shell around the solid's surface */
-  CORACLE_HAS_INERTIA = 2 /* implicit_inertia is in use: K overlaps nodes with a mobility */
+  CORACLE_HAS_SHELL = 1,   /* K overlaps the shell around the solid's surface */
+  CORACLE_HAS_INERTIA = 2, /* implicit_inertia is in use: K overlaps nodes with a mobility */
+  CORACLE_IS_COVERED =
+      4 /* K lies in the solid as a whole, which moves freely: the step begins with the solid's velocity
+                            * there, and s has what that gives.  u start counts as 0 in rho M/dt (u* - u start) and in
+                            * implicit_inertia (u* - u start) on K; what CoracleSetFlow gives is the fluid's own all the same */
 };
 typedef struct {
   int element; /* index into the elements last given by region */

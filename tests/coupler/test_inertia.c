@@ -28,7 +28,7 @@ static void MakeSolid(double density, int rigid)
   }
 }
 
-/* (rho M/dt + I) (u - START) + a u = s by relaxation in the element: 6 unknowns, diagonally dominant enough
+/* (rho M/dt + I) (u - START) + a u = s, without START where the element is covered, by relaxation in the element: 6 unknowns, diagonally dominant enough
  * for Gauss-Seidel. */
 static void SolveElement(const CoracleCoupling *k, double area, double u[2][3])
 {
@@ -41,7 +41,7 @@ static void SolveElement(const CoracleCoupling *k, double area, double u[2][3])
                                 ? 0.0
                                 : RHO / DT * area / (i == j ? 6.0 : 12.0) + k->implicit_inertia[i % 3][j % 3];
         const double a = k->a[i / 3][i % 3][j / 3][j % 3] + mass;
-        r += mass * START[j / 3];
+        r += k->flags & CORACLE_IS_COVERED ? 0.0 : mass * START[j / 3];
         if (i == j)
           diagonal = a;
         else

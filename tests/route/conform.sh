@@ -32,6 +32,7 @@ if [ "$role" = fluid ]; then
   plant sign 's/load\[r\] = k/load[r] = -k/' 'does not take the fluid along'
   plant density 's/load\[r\] = k\(.*\);/load[r] = k\1 \/ 1000.0;/' 'the fluid does not gain dt s'
   plant inertia 's/ + k\[m\].implicit_inertia.*;/;/' 'the implicit inertia does not resist'
+  plant covered 's/CORACLE_IS_COVERED/8/' 'where it is covered the fluid does not start'
   plant start 's/.u_start = &d->u_start/.u_start = \&d->u_star/' 'has not been added to the velocity'
   plant ignored 's/A\[6 \* r + q\] = inertia + k.*/A[6 * r + q] = inertia;/' 'does not lose dt a u\*'
   plant uncorrected 's/^    Correct(d, near);//' 'the correction of the step before has not been added'

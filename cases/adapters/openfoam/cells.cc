@@ -4,8 +4,8 @@
 using namespace Foam;
 
 Cells::Cells(const fvMesh &mesh, double rho, double mu)
-    : k(mesh.nCells()), inertia(mesh.nCells()), ms(mesh.nCells()), us(mesh.nCells()), rho_(rho), mu_(mu),
-      centre_(mesh.C().primitiveField()), area_(mesh.nCells())
+    : k(mesh.nCells()), inertia(k), own_inertia(k), ms(k), covered(k), us(mesh.nCells()), rho_(rho), mu_(mu),
+      centre_(mesh.C().primitiveField()), area_(k)
 {
   forAll(mesh.boundaryMesh(), patchi)
   {
@@ -13,15 +13,14 @@ Cells::Cells(const fvMesh &mesh, double rho, double mu)
     if (!isA<emptyPolyPatch>(patch)) continue;
     forAll(patch, i)
     {
+      if (patch.faceAreas()[i].z() < 0) continue; // each cell by the face towards +z, which is counter-clockwise
       const int cell = patch.faceCells()[i];
       const pointField corner = patch[i].points(mesh.points());
-      if (patch.faceAreas()[i].z() < 0) continue; // each cell by the face towards +z, which is counter-clockwise
       area_[cell] = patch.faceAreas()[i].z();
-      for (int v = 2; v < corner.size(); v++)
-        triangle_.push_back({cell,
-                             {{corner[0].x(), corner[0].y()},
-                              {corner[v - 1].x(), corner[v - 1].y()},
-                              {corner[v].x(), corner[v].y()}}});
+      for (int v = 2; v < corner.size(); v++) {
+        const point &a = corner[0], &b = corner[v - 1], &c = corner[v];
+        triangle_.push_back({cell, 0.5 * ((b - a) ^ (c - a)).z(), {{a.x(), a.y()}, {b.x(), b.y()}, {c.x(), c.y()}}});
+      }
     }
   }
 }
@@ -55,15 +54,18 @@ void Cells::receive(CoracleClient client)
   CoracleGetCoupling(client, &n, &entry);
   coupling_.assign(entry, entry + n);
   made_ = near_;
-  for (scalarField *f : {&k, &inertia, &ms}) *f = 0.0;
+  for (scalarField *f : {&k, &inertia, &covered, &own_inertia, &ms}) *f = 0.0;
   us = Zero;
   for (const CoracleCoupling &c : coupling_) {
-    const int cell = triangle_[made_[c.element]].cell;
+    const auto &[cell, area, x] = triangle_[made_[c.element]];
+    const bool whole = c.flags & CORACLE_IS_COVERED;
+    if (whole) covered[cell] += area / area_[cell];
     for (int d = 0; d < 2; d++)
       for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
           k[cell] += 0.5 * c.a[d][i][d][j] / (rho_ * area_[cell]);
           inertia[cell] += 0.5 * c.implicit_inertia[i][j] / (rho_ * area_[cell]);
+          if (!whole) own_inertia[cell] += 0.5 * c.implicit_inertia[i][j] / (rho_ * area_[cell]);
           ms[cell] += 0.5 * c.ms[i][j] / area_[cell];
         }
         us[cell][d] += c.us[d][i] / area_[cell];
@@ -95,8 +97,7 @@ tmp<vectorField> Cells::force(const vectorField &U, const tensorField &grad) con
   return f;
 }
 
-void Cells::give(CoracleClient client, const vectorField &start, const vectorField &star, const vectorField &projected,
-                 const tensorField &grad)
+void Cells::give(CoracleClient client, const vectorField &start, const vectorField &star, const vectorField &projected, const tensorField &grad)
 {
   const auto fill = [&](std::vector<double> &to, const vectorField &U) {
     to.clear();
@@ -104,9 +105,7 @@ void Cells::give(CoracleClient client, const vectorField &start, const vectorFie
       for (int d = 0; d < 2; d++)
         for (int i = 0; i < 3; i++) to.push_back(at(t, i, U, grad)[d]);
   };
-  fill(start_, start);
-  fill(star_, star);
-  fill(projected_, projected);
+  fill(start_, start), fill(star_, star), fill(projected_, projected);
   const CoracleFlow flow = {start_.data(), star_.data(), projected_.data(), nullptr, density_.data(), viscosity_.data(), nullptr, nullptr};
   CoracleSetFlow(client, &flow);
 }

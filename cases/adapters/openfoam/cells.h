@@ -28,15 +28,15 @@ public:
   // U += M^-1 r of the step that was made.
   void correct(CoracleClient client, Foam::vectorField &U) const;
 
-  Foam::scalarField k;       // 1/s, the implicit coefficient: half the trace of a, over rho V
-  Foam::scalarField inertia; // 1/s, of the solid beyond the fluid's
-  Foam::scalarField ms;      // covered part of the cell in which the bulk velocity is the solid's
-  Foam::vectorField us;      // m/s, its velocity times that part
+  Foam::scalarField k;                    // 1/s, the implicit coefficient: half the trace of a, over rho V
+  Foam::scalarField inertia, own_inertia; // 1/s, of the solid; where not covered
+  Foam::scalarField ms, covered;          // parts of the cell: bulk velocity, start are the solid's
+  Foam::vectorField us;                   // m/s, its velocity times that part
 
 private:
   struct Triangle {
     int cell;
-    double x[3][2]; // m
+    double area, x[3][2]; // m2, m
   };
   Foam::vector at(int triangle, int vertex, const Foam::vectorField &U, const Foam::tensorField &grad) const;
 

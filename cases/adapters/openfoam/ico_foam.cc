@@ -105,16 +105,17 @@ void Flow::predict(double dt)
 {
   const dimensionedScalar per_dt("1/dt", dimless / dimTime, 1.0 / dt), nu("nu", dimViscosity, in_.mu / in_.rho);
   start_ = U;
-  volScalarField k(IOobject("k", time_.timeName(), mesh_), mesh_, 0.0 * per_dt), inertia("inertia", k + per_dt);
+  volScalarField k(IOobject("k", time_.timeName(), mesh_), mesh_, 0.0 * per_dt), inertia("inertia", k + per_dt), start(inertia);
   volVectorField force("force", 0.0 * per_dt * U);
   k.primitiveFieldRef() = cells_.k;
   inertia.primitiveFieldRef() += cells_.inertia;
+  start.primitiveFieldRef() = (1.0 - cells_.covered) / dt + cells_.own_inertia;
   grad_p_ = fvc::grad(p);
   grad_U_ = fvc::grad(U);
   for (int iteration = 0; iteration < 4; iteration++) {
     force.primitiveFieldRef() = cells_.force(U, grad_U_);
     fvVectorMatrix momentum(fvm::Sp(inertia + k, U) + fvm::div(phi, U) - fvm::laplacian(nu, U) ==
-                            inertia * start_ + force - grad_p_);
+                            start * start_ + force - grad_p_);
     momentum.solve();
     grad_U_ = fvc::grad(U);
   }

@@ -109,7 +109,8 @@ static double Mass(const Dust *d, int i, int j)
   return d->area / 12.0 * (i == j ? 2.0 : 1.0);
 }
 
-/* (rho M/dt + inertia) (u* - u) + a u* = s on the coupled elements; elsewhere nothing acts. */
+/* (rho M/dt + inertia) (u* - u) + a u* = s on the coupled elements, 0 in place of u where they are covered; elsewhere nothing
+ * acts. */
 static void Advance(Dust *d, double dt)
 {
   const CoracleCoupling *k;
@@ -126,7 +127,7 @@ static void Advance(Dust *d, double dt)
             r / 3 != q / 3 ? 0.0
                            : d->density / dt * Mass(d, r % 3, q % 3) + k[m].implicit_inertia[r % 3][q % 3];
         A[6 * r + q] = inertia + k[m].a[r / 3][r % 3][q / 3][q % 3];
-        load[r] += inertia * u[q];
+        load[r] += k[m].flags & CORACLE_IS_COVERED ? 0.0 : inertia * u[q];
       }
     }
     Solve(6, A, load);

@@ -36,10 +36,11 @@ class Dust:
         return self.x[self.near], np.full(n, self.rho), np.full(n, self.mu)
 
     def solve(self, dt, coupling):
-        """(rho M/dt + inertia) (u* - u) + a u* = s on the coupled elements; elsewhere nothing acts."""
+        """(rho M/dt + inertia) (u* - u) + a u* = s on the coupled elements, 0 for u where they are covered; elsewhere nothing acts."""
         u_star, n = self.u[self.near], len(coupling)
         u = u_star[coupling["element"]].reshape(n, 6, 1)
         inertia = np.kron(np.eye(2), self.rho / dt * self.area * MASS + coupling["implicit_inertia"])
+        u[(coupling["flags"] & coracle.IS_COVERED) != 0] = 0
         load = inertia @ u + coupling["s"].reshape(n, 6, 1)
         u_star[coupling["element"]] = np.linalg.solve(inertia + coupling["a"].reshape(n, 6, 6), load).reshape(n, 2, 3)
         return u_star
