@@ -1,4 +1,5 @@
 #include "fluid/continuous_space.h"
+#include "fluid/assembly.h"
 #include "fluid/solver_options.h"
 
 enum { FACTOR, MULTIGRID, NSOLVERS };
@@ -7,6 +8,7 @@ struct ContinuousSpace_s {
   const Mesh *mesh; /* borrowed */
   int *node;        /* [ne][3] local P1 nodes: owned vertices first, then those of other ranks */
   Mat matrix;
+  Assembly assembly;
   PC pc[NSOLVERS]; /* made when used first */
   PC used;
   Vec residual, correction; /* ghosted, of one component */
@@ -49,10 +51,7 @@ static PetscErrorCode CreateMatrix(ContinuousSpace s)
       row[9 * e + k] = m->vgid[m->vertex[3 * e + k % 3]];
       column[9 * e + k] = m->vgid[m->vertex[3 * e + k / 3]];
     }
-  PetscCall(MatCreate(m->comm, &s->matrix));
-  PetscCall(MatSetSizes(s->matrix, m->nv_owned, m->nv_owned, PETSC_DETERMINE, PETSC_DETERMINE));
-  PetscCall(MatSetType(s->matrix, MATAIJ));
-  PetscCall(MatSetPreallocationCOO(s->matrix, 9 * m->ne, row, column));
+  PetscCall(AssemblyCreate(m->comm, m->nv_owned, 9 * m->ne, row, column, &s->assembly, &s->matrix));
   PetscCall(PetscFree2(row, column));
   PetscFunctionReturn(0);
 }
@@ -76,6 +75,7 @@ PetscErrorCode ContinuousSpaceDestroy(ContinuousSpace *space)
   PetscFunctionBeginUser;
   if (!s) PetscFunctionReturn(0);
   for (int k = 0; k < NSOLVERS; k++) PetscCall(PCDestroy(&s->pc[k]));
+  PetscCall(AssemblyDestroy(&s->assembly));
   PetscCall(MatDestroy(&s->matrix));
   PetscCall(VecDestroy(&s->residual));
   PetscCall(VecDestroy(&s->correction));
@@ -110,7 +110,7 @@ PetscErrorCode ContinuousSpaceUpdate(ContinuousSpace s, PetscBool multigrid, con
 {
   const int kind = multigrid ? MULTIGRID : FACTOR;
   PetscFunctionBeginUser;
-  PetscCall(MatSetValuesCOO(s->matrix, block[0], INSERT_VALUES));
+  PetscCall(AssemblySum(s->assembly, block[0], s->matrix));
   if (!s->pc[kind]) PetscCall(CreateSolver(s, kind));
   s->used = s->pc[kind];
   PetscCall(PCSetUp(s->used));

@@ -35,19 +35,24 @@ static PetscErrorCode Reserve(Exchange x, int n)
   PetscFunctionReturn(0);
 }
 
-static PetscBool InAnyBox(const Mesh *m, int e, int nbox, const double box[])
+static PetscBool Overlaps(const double lower[2], const double upper[2], const double box[4])
+{
+  return (PetscBool)(lower[0] <= box[2] && upper[0] >= box[0] && lower[1] <= box[3] && upper[1] >= box[1]);
+}
+
+/* whole: a box around all boxes. */
+static PetscBool InAnyBox(const Mesh *m, int e, int nbox, const double box[], const double whole[4])
 {
   double lower[2] = {HUGE_VAL, HUGE_VAL}, upper[2] = {-HUGE_VAL, -HUGE_VAL};
   for (int i = 0; i < 3; i++)
     for (int c = 0; c < 2; c++) {
       const double v = m->x[2 * m->vertex[3 * e + i] + c];
-      lower[c] = fmin(lower[c], v);
-      upper[c] = fmax(upper[c], v);
+      lower[c] = v < lower[c] ? v : lower[c];
+      upper[c] = v > upper[c] ? v : upper[c];
     }
-  for (int b = 0; b < nbox; b++) {
-    const double *k = box + 4 * b;
-    if (lower[0] <= k[2] && upper[0] >= k[0] && lower[1] <= k[3] && upper[1] >= k[1]) return PETSC_TRUE;
-  }
+  if (!Overlaps(lower, upper, whole)) return PETSC_FALSE;
+  for (int b = 0; b < nbox; b++)
+    if (Overlaps(lower, upper, box + 4 * b)) return PETSC_TRUE;
   return PETSC_FALSE;
 }
 
@@ -68,12 +73,15 @@ static int ElementsInRegion(void *context, int nbox, const double box[], Coracle
 {
   Exchange s = context;
   const Mesh *m = FluidMesh(s->exchanged);
+  double whole[4] = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   int count = 0;
-  for (int e = 0; e < m->ne; e++) count += InAnyBox(m, e, nbox, box);
+  for (int k = 0; k < 4 * nbox; k++)
+    whole[k % 4] = k % 4 < 2 ? fmin(whole[k % 4], box[k]) : fmax(whole[k % 4], box[k]);
+  for (int e = 0; e < m->ne; e++) count += InAnyBox(m, e, nbox, box, whole);
   if (Reserve(s, count)) return 1;
   s->n = 0;
   for (int e = 0; e < m->ne; e++) {
-    if (!InAnyBox(m, e, nbox, box)) continue;
+    if (!InAnyBox(m, e, nbox, box, whole)) continue;
     for (int i = 0; i < 3; i++)
       for (int c = 0; c < 2; c++) s->x[6 * s->n + 2 * i + c] = m->x[2 * m->vertex[3 * e + i] + c];
     s->element[s->n++] = e;

@@ -1,4 +1,5 @@
 #include "fluid/pressure_preconditioner.h"
+#include "fluid/assembly.h"
 #include "fluid/relaxation.h"
 #include "fluid/solver_options.h"
 #include <limits.h>
@@ -10,11 +11,12 @@
 struct PressurePreconditioner_s {
   const FluidDomain *domain; /* borrowed */
   Relaxation relaxation;
-  Mat extension;    /* E */
-  Mat coarse;       /* A1 */
-  PetscInt nfixed;  /* owned vertices whose row of A1 is the identity's */
-  PetscBool pinned; /* this rank has the vertex that makes A1 definite in a closed domain */
-  KSP solver;       /* of A1 */
+  Mat extension;     /* E */
+  Mat coarse;        /* A1 */
+  Assembly assembly; /* of A1 */
+  PetscInt nfixed;   /* owned vertices whose row of A1 is the identity's */
+  PetscBool pinned;  /* this rank has the vertex that makes A1 definite in a closed domain */
+  KSP solver;        /* of A1 */
   Vec r1, z1;
   int setup;           /* iterations of CG that cost as much as the set-up of a coarse solver */
   int fresh;           /* least iterations with the coarse solver; -1: it has not been used yet */
@@ -79,10 +81,7 @@ static PetscErrorCode CreateCoarse(PressurePreconditioner p, const char is_fixed
   PetscCall(ListFixed(p, is_fixed, &n, row, column));
   p->nfixed = n - 9 * m->ne;
   if (p->pinned) row[n] = column[n] = 0, n++;
-  PetscCall(MatCreate(m->comm, &p->coarse));
-  PetscCall(MatSetSizes(p->coarse, m->nv_owned, m->nv_owned, PETSC_DETERMINE, PETSC_DETERMINE));
-  PetscCall(MatSetType(p->coarse, MATAIJ));
-  PetscCall(MatSetPreallocationCOO(p->coarse, n, row, column));
+  PetscCall(AssemblyCreate(m->comm, m->nv_owned, n, row, column, &p->assembly, &p->coarse));
   PetscCall(MatSetOption(p->coarse, MAT_SPD, PETSC_TRUE));
   PetscCall(PetscFree2(row, column));
   PetscFunctionReturn(0);
@@ -169,6 +168,7 @@ PetscErrorCode PressurePreconditionerDestroy(PressurePreconditioner *preconditio
   if (!p) PetscFunctionReturn(0);
   PetscCall(KSPDestroy(&p->solver));
   PetscCall(MatDestroy(&p->extension));
+  PetscCall(AssemblyDestroy(&p->assembly));
   PetscCall(MatDestroy(&p->coarse));
   PetscCall(RelaxationDestroy(&p->relaxation));
   PetscCall(VecDestroy(&p->r1));
@@ -212,7 +212,7 @@ static PetscErrorCode SetCoarse(PressurePreconditioner p, double coarse[][9])
   for (int k = 0; k < p->nfixed; k++) single[k] = 1.0;
   if (p->pinned) single[p->nfixed] = coarse[0][0];
   for (int e = 0; e < ne; e++) p->coefficient[e] = coarse[e][0] + coarse[e][4] + coarse[e][8];
-  PetscCall(MatSetValuesCOO(p->coarse, coarse[0], INSERT_VALUES));
+  PetscCall(AssemblySum(p->assembly, coarse[0], p->coarse));
   p->fresh = -1;
   p->excess = 0;
   PetscFunctionReturn(0);

@@ -1,4 +1,5 @@
 #include "fluid/pressure_solver.h"
+#include "fluid/assembly.h"
 #include "fluid/pressure_preconditioner.h"
 #include "fluid/solver_options.h"
 #include <math.h>
@@ -13,6 +14,7 @@ struct PressureSolver_s {
   const char *is_fixed;       /* borrowed */
   PetscBool closed, iterates; /* with the present matrix */
   Mat matrix;
+  Assembly assembly;
   double (*block)[36]; /* [ne], and the fixed nodes' diagonal behind them */
   PetscInt nfixed;
   KSP direct, iterative; /* made when used first */
@@ -45,10 +47,7 @@ static PetscErrorCode CreateMatrix(PressureSolver s)
     if (s->is_fixed[k]) row[n] = column[n] = p2->start + k, n++;
   s->nfixed = n - 36 * ne;
   if (HasFirstNode(s)) row[n] = column[n] = 0, n++;
-  PetscCall(MatCreate(s->domain->mesh->comm, &s->matrix));
-  PetscCall(MatSetSizes(s->matrix, p2->nowned, p2->nowned, PETSC_DETERMINE, PETSC_DETERMINE));
-  PetscCall(MatSetType(s->matrix, MATAIJ));
-  PetscCall(MatSetPreallocationCOO(s->matrix, n, row, column));
+  PetscCall(AssemblyCreate(s->domain->mesh->comm, p2->nowned, n, row, column, &s->assembly, &s->matrix));
   PetscCall(MatSetOption(s->matrix, MAT_SPD, PETSC_TRUE));
   PetscCall(PetscFree2(row, column));
   PetscFunctionReturn(0);
@@ -105,6 +104,7 @@ PetscErrorCode PressureSolverDestroy(PressureSolver *solver)
   PetscCall(KSPDestroy(&s->direct));
   PetscCall(KSPDestroy(&s->iterative));
   PetscCall(PressurePreconditionerDestroy(&s->preconditioner));
+  PetscCall(AssemblyDestroy(&s->assembly));
   PetscCall(MatDestroy(&s->matrix));
   PetscCall(PetscFree(s->block));
   PetscCall(PetscFree(*solver));
@@ -166,7 +166,7 @@ PetscErrorCode PressureSolverSetMatrix(PressureSolver s, PetscBool varying)
   s->iterates = (PetscBool)(varying || s->domain->p2->nglobal > s->direct_max / ranks);
   for (int k = 0; k < s->nfixed; k++) extra[k] = 1.0;
   if (HasFirstNode(s)) extra[s->nfixed] = s->iterates ? 0.0 : s->block[0][0];
-  PetscCall(MatSetValuesCOO(s->matrix, s->block[0], INSERT_VALUES));
+  PetscCall(AssemblySum(s->assembly, s->block[0], s->matrix));
   PetscCall(SetNullSpace(s));
   if (s->iterates)
     PetscCall(PrepareIterative(s));

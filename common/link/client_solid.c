@@ -105,8 +105,8 @@ int CoracleSetNodes(CoracleClient c, int dim, int n, const long long gid[], cons
   BeforeChange(c, "CoracleSetNodes");
   if (dim != DIM) ParticipantFail(c->p, "CoracleSetNodes: dim is %d, only %d is there yet", dim, DIM);
   if (n < 0) ClientMisuse(c, "CoracleSetNodes", "n is negative");
-  MessageCheckFinite(c->p, "position", "node", (size_t)n, DIM, x);
-  MessageCheckFinite(c->p, "velocity", "node", (size_t)n, DIM, u);
+  MessageCheckFinite(c->p, "position", "node", NULL, (size_t)n, DIM, x);
+  MessageCheckFinite(c->p, "velocity", "node", NULL, (size_t)n, DIM, u);
   BufferResize(&sums, 2 * bytes);
   BufferResize(&start, bytes);
   CarrySums(&c->solid, n, gid, x, u, Doubles(&sums), Doubles(&start));
@@ -239,7 +239,7 @@ int CoracleSubstep(CoracleClient c, double h, const double u[])
   double *sums = Doubles(&s->mesh.sums);
   ClientExpect(c, "CoracleSubstep", ROLE_SOLID, STAGE_STEP, STAGE_STEP);
   if (!(h > 0.0)) ParticipantFail(c->p, "CoracleSubstep: h is %g s in step %d", h, c->p->step);
-  MessageCheckFinite(c->p, "velocity", "node", (size_t)s->mesh.n, DIM, u);
+  MessageCheckFinite(c->p, "velocity", "node", NULL, (size_t)s->mesh.n, DIM, u);
   s->last = s->elapsed + 0.5 * h;
   for (int i = 0; i < s->mesh.n; i++)
     for (int d = 0; d < DIM; d++) {
@@ -256,7 +256,7 @@ int CoracleSetVelocity(CoracleClient c, const double u[])
 {
   ClientSolid *s = &c->solid;
   ClientExpect(c, "CoracleSetVelocity", ROLE_SOLID, STAGE_STEP, STAGE_STEP);
-  MessageCheckFinite(c->p, "velocity", "node", (size_t)s->mesh.n, DIM, u);
+  MessageCheckFinite(c->p, "velocity", "node", NULL, (size_t)s->mesh.n, DIM, u);
   Copy(&s->given, u, s->mesh.x.size);
   s->has_given = true;
   return 0;
@@ -322,7 +322,7 @@ void SolidEnd(CoracleClient c, const double x[])
     ParticipantFail(c->p, "the substeps of step %d sum up to %.12g s, the step is %.12g s", c->p->step,
                     s->elapsed, c->dt);
   if (!x && m->n) ClientMisuse(c, "CoracleEnd", "a solid gives its positions");
-  MessageCheckFinite(c->p, "position", "node", (size_t)m->n, DIM, x);
+  MessageCheckFinite(c->p, "position", "node", NULL, (size_t)m->n, DIM, x);
   CheckDisplacement(c, x);
   Velocities(s);
   if (s->has_given && m->n) memcpy(s->velocity.data, s->given.data, m->x.size);

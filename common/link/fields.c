@@ -1,5 +1,4 @@
 #include "common/link/fields.h"
-#include <string.h>
 
 /* --- the table ------------------------------------------------------------------------------------------ */
 
@@ -87,11 +86,11 @@ static const Field CORRECTION[] = {
 static const Field COUPLING[] = {
   {"element",                "-",    FIELD_INDEX, {0},        AT(element),          0, FIELD_ANY},
   {"flags",                  "-",    FIELD_FLAGS, {0},        AT(flags),            0, FIELD_ANY},
-  {"implicit coefficient a", "kg/s", FIELD_REAL, P1_TENSOR,   AT(a),                0, FIELD_ANY},
-  {"implicit inertia",       "kg/s", FIELD_REAL, P1_MATRIX,   AT(implicit_inertia), FLAG_INERTIA, FIELD_ANY},
+  {"implicit coefficient a", "kg/s", FIELD_REAL, P1_TENSOR,   AT(a),                FIELD_SPARSE, FIELD_ANY},
+  {"implicit inertia",       "kg/s", FIELD_REAL, P1_MATRIX,   AT(implicit_inertia), FIELD_SPARSE, FIELD_ANY},
   {"source s",               "N",    FIELD_REAL, P1_VECTOR,   AT(s),                0, FIELD_ANY},
-  {"solid mass",             "m2",   FIELD_REAL, P1_MATRIX,   AT(ms),               0, FIELD_ANY},
-  {"solid momentum",         "m3/s", FIELD_REAL, P1_VECTOR,   AT(us),               0, FIELD_ANY},
+  {"solid mass",             "m2",   FIELD_REAL, P1_MATRIX,   AT(ms),               FIELD_SPARSE, FIELD_ANY},
+  {"solid momentum",         "m3/s", FIELD_REAL, P1_VECTOR,   AT(us),               FIELD_SPARSE, FIELD_ANY},
   {"solid velocity",         "m/s",  FIELD_REAL, VECTOR,      AT(velocity),         0, FIELD_ANY},
   {"solid fraction",         "-",    FIELD_REAL, {0},         AT(alpha),            0, FIELD_NOT_NEGATIVE},
   {"shell fraction",         "-",    FIELD_REAL, {0},         AT(shell),            0, FIELD_NOT_NEGATIVE}};
@@ -131,123 +130,4 @@ int FieldSize(const Field *field, const int extent[NEXTENTS])
   int size = 1;
   for (int k = 0; field->shape[k] != EXTENT_END; k++) size *= extent[field->shape[k]];
   return size;
-}
-
-static size_t Bytes(const Field *field, const int extent[NEXTENTS])
-{
-  static const size_t TYPE[] = {sizeof(double), sizeof(int), sizeof(int), sizeof(long long)};
-  return TYPE[field->type] * (size_t)FieldSize(field, extent);
-}
-
-static bool Travels(const Field *field, int flags)
-{
-  return !field->only || (flags & field->only);
-}
-
-/* --- packing -------------------------------------------------------------------------------------------- */
-
-/* Checks values[n][size], where they are about to travel. */
-static void Check(Participant *p, const FieldGroup *group, const Field *field, size_t n, int size,
-                  const double values[])
-{
-  static const char *const EXPECTED[] = {"", "it must not be negative", "it must be positive"};
-  MessageCheckFinite(p, field->name, group->entity, n, size, values);
-  if (field->range == FIELD_ANY) return;
-  for (size_t i = 0; i < n * (size_t)size; i++)
-    if (values[i] < 0.0 || (field->range == FIELD_POSITIVE && values[i] == 0.0))
-      ParticipantFail(p, "%s is %g %s at %s %zu in step %d: %s", field->name, values[i], field->unit,
-                      group->entity, i / (size_t)size, p->step, EXPECTED[field->range]);
-}
-
-static void PackArray(Participant *p, Message *m, const FieldGroup *group, const Field *field, size_t n,
-                      size_t bytes, const void *structure)
-{
-  const void *array;
-  memcpy(&array, (const char *)structure + field->offset, sizeof array);
-  if (!array && n)
-    ParticipantFail(p, "the %s of %zu %ss is missing in step %d: the pointer is NULL", field->name, n,
-                    group->entity, p->step);
-  MessageAdd(m, array, n * bytes);
-}
-
-static void PackEntries(Message *m, const FieldGroup *group, const Field *field, size_t n, size_t bytes,
-                        const char *entries)
-{
-  MessageAdd(m, NULL, n * bytes);
-  char *to = m->buffer.data + m->last;
-  for (size_t i = 0; i < n; i++) memcpy(to + i * bytes, entries + i * group->entry + field->offset, bytes);
-}
-
-void FieldsPack(Participant *p, Message *m, const FieldGroup *group, size_t n, const void *data)
-{
-  int extent[NEXTENTS];
-  FieldsExtents(p->dim, extent);
-  MessageHeaderOf(m)->dim = p->dim;
-  for (int k = 0; k < group->nfields; k++) {
-    const Field *field = &group->field[k];
-    const size_t bytes = Bytes(field, extent);
-    if (!Travels(field, MessageHeaderOf(m)->flag)) continue;
-    if (group->entry)
-      PackEntries(m, group, field, n, bytes, data);
-    else
-      PackArray(p, m, group, field, n, bytes, data);
-    if (field->type == FIELD_REAL)
-      Check(p, group, field, n, FieldSize(field, extent),
-            (const double *)(const void *)(m->buffer.data + m->last));
-  }
-}
-
-/* --- unpacking ------------------------------------------------------------------------------------------ */
-
-/* The next block of the message, or NULL if the field has not travelled. */
-static const void *TakeBlock(Participant *p, Message *m, const Field *field, size_t n, size_t *bytes)
-{
-  const MessageHeader *h = MessageHeaderOf(m);
-  int extent[NEXTENTS];
-  if (h->dim != p->dim)
-    ParticipantFail(p, "%s rank %d sends fields in %d dimensions, this run has %d", ROLE_NAMES[m->role],
-                    m->rank, h->dim, p->dim);
-  FieldsExtents(p->dim, extent);
-  *bytes = Bytes(field, extent);
-  return Travels(field, h->flag) ? MessageTake(p, m, n * *bytes) : NULL;
-}
-
-void FieldsAppend(Participant *p, Message *m, const FieldGroup *group, size_t n, FieldLists *lists)
-{
-  for (int k = 0; k < group->nfields; k++) {
-    size_t bytes;
-    const void *block = TakeBlock(p, m, &group->field[k], n, &bytes);
-    if (block && n) memcpy(BufferExtend(&lists->list[k], n * bytes), block, n * bytes);
-  }
-}
-
-void FieldsView(const FieldGroup *group, const FieldLists *lists, int flags, void *structure)
-{
-  for (int k = 0; k < group->nfields; k++) {
-    const void *array = Travels(&group->field[k], flags) ? lists->list[k].data : NULL;
-    memcpy((char *)structure + group->field[k].offset, &array, sizeof array);
-  }
-}
-
-void FieldsTake(Participant *p, Message *m, const FieldGroup *group, size_t n, Buffer *entries)
-{
-  char *to = BufferResize(entries, n * group->entry);
-  if (n) memset(to, 0, n * group->entry); /* where a field has not travelled it is 0 */
-  for (int k = 0; k < group->nfields; k++) {
-    const Field *field = &group->field[k];
-    size_t bytes;
-    const char *block = TakeBlock(p, m, field, n, &bytes);
-    for (size_t i = 0; block && i < n; i++)
-      memcpy(to + i * group->entry + field->offset, block + i * bytes, bytes);
-  }
-}
-
-void FieldListsClear(FieldLists *lists)
-{
-  for (int k = 0; k < FIELDS_MAX; k++) BufferResize(&lists->list[k], 0);
-}
-
-void FieldListsFree(FieldLists *lists)
-{
-  for (int k = 0; k < FIELDS_MAX; k++) BufferFree(&lists->list[k]);
 }

@@ -5,6 +5,10 @@
  *
  *     x: n * dim doubles | u: n * dim doubles | ...          C order, each array padded to 8 bytes
  *
+ * A field that is 0 for most entities travels for the others alone:
+ *
+ *     carries: n bytes, 0 or 1 | a: so many times its doubles as there are 1
+ *
  * Shapes are products of extents that depend on the dimension of the mesh (FieldsExtents), which the header of
  * each message carries. */
 #ifndef CORACLE_FIELDS_H
@@ -27,6 +31,9 @@ typedef enum {
   NEXTENTS
 } FieldExtent;
 
+/* Instead of a header's flag, of a real field of structures: it travels for the entities where it is not 0 throughout. */
+enum { FIELD_SPARSE = -1 };
+
 enum { FIELD_RANK = 4, FIELDS_MAX = 10 }; /* most extents of a field, most fields of a group */
 
 typedef struct {
@@ -34,7 +41,7 @@ typedef struct {
   FieldType type;
   FieldExtent shape[FIELD_RANK + 1]; /* of one entity, ended by EXTENT_END; none: a scalar */
   size_t offset; /* in the C structure: of the pointer to the array, or of the value itself */
-  int only;      /* travels only in messages whose header has this flag; 0: always */
+  int only;      /* travels only in messages whose header has this flag; 0: always; or FIELD_SPARSE */
   FieldRange range;
 } Field;
 

@@ -50,11 +50,10 @@ extern const FieldGroup FIELDS_NODES, FIELDS_MOTION, FIELDS_FACETS, FIELDS_SIMPL
 
 /* MessageHeader.flag */
 enum {
-  FLAG_CHANGED = 1,  /* FLOW: the fluid's elements will be others */
-  FLAG_SAVED = 2,    /* of a client: it has saved itself into the checkpoint that was due */
-  FLAG_RESUMES = 4,  /* of a client: it resumes from a checkpoint */
-  FLAG_PRESSURE = 8, /* ASK: the coupling mode needs the pressure; FLOW: it is there */
-  FLAG_INERTIA = 16  /* COUPLING: some entry has an implicit inertia */
+  FLAG_CHANGED = 1, /* FLOW: the fluid's elements will be others */
+  FLAG_SAVED = 2,   /* of a client: it has saved itself into the checkpoint that was due */
+  FLAG_RESUMES = 4, /* of a client: it resumes from a checkpoint */
+  FLAG_PRESSURE = 8 /* ASK: the coupling mode needs the pressure; FLOW: it is there */
 };
 
 typedef struct {
@@ -80,7 +79,7 @@ void MessageFree(Message *m);
 MessageHeader *MessageStart(Message *m, MessageKind kind, int step);
 /* The header of the message being written, or received last; moves when the message grows. */
 MessageHeader *MessageHeaderOf(Message *m);
-/* Copies a block; NULL: its bytes are 0 until they are written. */
+/* Copies a block; NULL: its bytes are to be written. */
 void MessageAdd(Message *m, const void *block, size_t bytes);
 /* Sending is done when MessageFinish returns; the message must stay as it is until then. */
 void MessageSend(Participant *p, Message *m);
@@ -91,7 +90,8 @@ const MessageHeader *MessageReceive(Participant *p, Message *m, MessageKind kind
 /* The next block; its size must be `bytes`.  Borrowed until the next receive. */
 const void *MessageTake(Participant *p, Message *m, size_t bytes);
 
-/* Fails when array[n][per], about to travel, holds a NaN or an infinity: names field, entry, component. */
-void MessageCheckFinite(Participant *p, const char *field, const char *entry, size_t n, int per,
-                        const double array[]);
+/* Fails when array[n][per], about to travel, holds a NaN or an infinity: names field, entry, component.
+ * carries: NULL, or for each entry whether the array has a row of it. */
+void MessageCheckFinite(Participant *p, const char *field, const char *entry, const char carries[], size_t n,
+                        int per, const double array[]);
 #endif

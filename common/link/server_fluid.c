@@ -154,18 +154,20 @@ static void AddCouplings(Server s, int k, int n, const CoracleCoupling coupling[
 {
   ClientRank *client = &s->fluid.client[k];
   size_t mine = 0;
+  const bool all = s->fluid.n == 1; /* then they have the client's indices already */
   BufferResize(scratch, 0);
   BufferResize(&client->coupled, 0);
   for (int i = 0; i < n; i++) {
     if (owner[i] != k) continue;
+    const int element = coupling[i].element - client->first;
+    *(int *)BufferExtend(&client->coupled, sizeof element) = element;
+    mine++;
+    if (all) continue;
     CoracleCoupling *c = BufferExtend(scratch, sizeof *c);
     *c = coupling[i];
-    c->element -= client->first;
-    *(int *)BufferExtend(&client->coupled, sizeof(int)) = c->element;
-    mine++;
-    if (c->flags & CORACLE_HAS_INERTIA) MessageHeaderOf(&client->out)->flag |= FLAG_INERTIA;
+    c->element = element;
   }
-  FieldsPack(s->p, &client->out, &FIELDS_COUPLING, mine, scratch->data);
+  FieldsPack(s->p, &client->out, &FIELDS_COUPLING, mine, all ? (const void *)coupling : scratch->data);
 }
 
 int ServerSetGauges(Server s, int n, const CoracleGauge gauge[])

@@ -74,11 +74,13 @@ static inline void GeometryBarycentric(const double x[3][2], const double p[2], 
   n[0] = 1.0 - n[1] - n[2];
 }
 
-/* Keeps what lies on the left of the line p -> q (Sutherland and Hodgman 1974).  A vertex on the line stays
+/* Keeps of *polygon, n vertices, what lies on the left of the line p -> q (Sutherland and Hodgman 1974): a polygon
+ * that lies there as a whole stays where it is, else *polygon becomes out.  A vertex on the line stays
  * and cuts no edge; a crossing is a convex combination of the edge's ends, so it never leaves the edge. */
-static inline int GeometryClipHalfPlane(int n, const double in[][2], const double p[2], const double q[2],
-                                        double out[][2])
+static inline int GeometryClipHalfPlane(int n, const double (**polygon)[2], const double p[2],
+                                        const double q[2], double out[][2])
 {
+  const double(*in)[2] = *polygon;
   double side[GEOMETRY_CLIP_MAX];
   int inside = 0, m = 0;
   for (int i = 0; i < n; i++) {
@@ -86,10 +88,8 @@ static inline int GeometryClipHalfPlane(int n, const double in[][2], const doubl
     inside += side[i] >= 0.0;
   }
   if (!inside) return 0;
-  if (inside == n) {
-    memcpy(out, in, (size_t)n * sizeof out[0]);
-    return n;
-  }
+  if (inside == n) return n;
+  *polygon = (const double(*)[2])out;
   for (int i = 0; i < n; i++) {
     const int j = i + 1 < n ? i + 1 : 0;
     if (side[i] >= 0.0) {
@@ -109,10 +109,13 @@ static inline int GeometryClipHalfPlane(int n, const double in[][2], const doubl
 static inline int GeometryClip(const double a[3][2], const double b[3][2],
                                double polygon[GEOMETRY_CLIP_MAX][2])
 {
-  double buffer[GEOMETRY_CLIP_MAX][2];
-  int n = GeometryClipHalfPlane(3, a, b[0], b[1], polygon);
-  n = GeometryClipHalfPlane(n, (const double(*)[2])polygon, b[1], b[2], buffer);
-  n = GeometryClipHalfPlane(n, (const double(*)[2])buffer, b[2], b[0], polygon);
+  double first[GEOMETRY_CLIP_MAX][2], second[GEOMETRY_CLIP_MAX][2];
+  const double(*now)[2] = a;
+  int n = GeometryClipHalfPlane(3, &now, b[0], b[1], first);
+  n = GeometryClipHalfPlane(n, &now, b[1], b[2], second);
+  n = GeometryClipHalfPlane(n, &now, b[2], b[0], polygon);
+  for (int i = 0; i < n && now != (const double(*)[2])polygon; i++)
+    for (int c = 0; c < 2; c++) polygon[i][c] = now[i][c];
   return n < 3 ? 0 : n;
 }
 

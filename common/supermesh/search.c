@@ -177,7 +177,8 @@ static void OverlapNode(const Node *node, const GeometryBox *box, int hit[WIDTH]
 
 int SearchQuery(Search s, const GeometryBox *box, const int **hit)
 {
-  int stack[STACK] = {s->first[s->nlevels] - 1}, top = 1, n = 0, overlap[WIDTH];
+  int stack[STACK], top = 1, n = 0, overlap[WIDTH];
+  stack[0] = s->first[s->nlevels] - 1;
   while (top) {
     const Node *node = &s->node[stack[--top]];
     OverlapNode(node, box, overlap);

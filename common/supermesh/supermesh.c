@@ -29,9 +29,9 @@ static void Moments(int n, const double polygon[][2], double m[3][3])
 }
 
 /* A triangle's P1 functions: N_i = l[i][0] + l[i][1] x + l[i][2] y from the origin. */
-static void Functions(const double x[3][2], const double origin[2], double l[3][3])
+static void Functions(const double x[3][2], double area, const double origin[2], double l[3][3])
 {
-  const double inverse = 1.0 / GeometryTurn(x[0], x[1], x[2]);
+  const double inverse = 0.5 / area;
   for (int i = 1; i < 3; i++) {
     const double *p = x[(i + 1) % 3], *q = x[(i + 2) % 3];
     l[i][0] = inverse * GeometryTurn(p, q, origin);
@@ -43,11 +43,39 @@ static void Functions(const double x[3][2], const double origin[2], double l[3][
   l[0][2] = -l[1][2] - l[2][2];
 }
 
-/* c = a b^T */
-static void Product(const double a[3][3], const double b[3][3], double c[3][3])
+static double Dot(const double a[3], const double b[3])
 {
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) c[i][j] = a[i][0] * b[j][0] + a[i][1] * b[j][1] + a[i][2] * b[j][2];
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* fm[i] = int N_i (1, x, y); the functions add to 1, here and below. */
+static void FirstMoments(const double f[3][3], const double m[3][3], double fm[3][3])
+{
+  for (int k = 0; k < 3; k++) {
+    fm[1][k] = Dot(f[1], m[k]);
+    fm[2][k] = Dot(f[2], m[k]);
+    fm[0][k] = m[0][k] - fm[1][k] - fm[2][k];
+  }
+}
+
+/* int N_A,i N_B,j */
+static void Mixed(const double am[3][3], const double b[3][3], double ab[3][3])
+{
+  for (int i = 0; i < 3; i++) {
+    ab[i][1] = Dot(am[i], b[1]);
+    ab[i][2] = Dot(am[i], b[2]);
+    ab[i][0] = am[i][0] - ab[i][1] - ab[i][2];
+  }
+}
+
+/* int N_i N_j */
+static void Gram(const double fm[3][3], const double f[3][3], double g[3][3])
+{
+  g[1][1] = Dot(fm[1], f[1]);
+  g[2][2] = Dot(fm[2], f[2]);
+  g[1][2] = g[2][1] = Dot(fm[1], f[2]);
+  for (int i = 1; i < 3; i++) g[0][i] = g[i][0] = fm[i][0] - g[i][1] - g[i][2];
+  g[0][0] = fm[0][0] - g[0][1] - g[0][2];
 }
 
 /* What integrals over the common polygon are made of: its moments, and both triangles' functions. */
@@ -66,8 +94,8 @@ static int FindCommon(const double a[3][2], const double b[3][2], Common *common
   Moments(n, (const double(*)[2])polygon, common->m);
   common->area = common->m[0][0];
   if (common->area <= SLIVER * fmin(area_a, area_b)) return 0;
-  Functions(a, polygon[0], common->a);
-  Functions(b, polygon[0], common->b);
+  Functions(a, area_a, polygon[0], common->a);
+  Functions(b, area_b, polygon[0], common->b);
   return 1;
 }
 
@@ -77,11 +105,11 @@ int SupermeshIntegrate(const double a[3][2], const double b[3][2], SupermeshPair
   double am[3][3], bm[3][3];
   if (!FindCommon(a, b, &k)) return 0;
   pair->area = k.area;
-  Product((const double(*)[3])k.a, (const double(*)[3])k.m, am);
-  Product((const double(*)[3])k.b, (const double(*)[3])k.m, bm);
-  Product((const double(*)[3])am, (const double(*)[3])k.a, pair->aa);
-  Product((const double(*)[3])am, (const double(*)[3])k.b, pair->ab);
-  Product((const double(*)[3])bm, (const double(*)[3])k.b, pair->bb);
+  FirstMoments((const double(*)[3])k.a, (const double(*)[3])k.m, am);
+  FirstMoments((const double(*)[3])k.b, (const double(*)[3])k.m, bm);
+  Gram((const double(*)[3])am, (const double(*)[3])k.a, pair->aa);
+  Mixed((const double(*)[3])am, (const double(*)[3])k.b, pair->ab);
+  Gram((const double(*)[3])bm, (const double(*)[3])k.b, pair->bb);
   return 1;
 }
 
@@ -90,8 +118,8 @@ int SupermeshMixed(const double a[3][2], const double b[3][2], double mixed[3][3
   Common k;
   double am[3][3];
   if (!FindCommon(a, b, &k)) return 0;
-  Product((const double(*)[3])k.a, (const double(*)[3])k.m, am);
-  Product((const double(*)[3])am, (const double(*)[3])k.b, mixed);
+  FirstMoments((const double(*)[3])k.a, (const double(*)[3])k.m, am);
+  Mixed((const double(*)[3])am, (const double(*)[3])k.b, mixed);
   return 1;
 }
 
