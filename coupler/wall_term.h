@@ -24,7 +24,7 @@
 
 /* The wall term of mode reaction is so many times [37], with which the velocity changes over a whole element: the body is as thin then
  * as if the fluid slipped over an element's length.  The drag of a cylinder in a channel (Schaefer and Turek, 2D-1), with
- * elements of D/12 and D/25: with 1 it is 3.4 and 1.3 % low, with 4 0.5 % low and 0.1 % high, with 10 (D/12) 1.7 % high. */
+ * elements of D/12 and D/25 and a shell of D/200: with 1 it is 3.4 and 1.3 % low, with 4 0.5 % low and 0.1 % high, with 10 (D/12) 1.7 % high. */
 #define WALL_PENALTY 4.0
 
 typedef struct {
