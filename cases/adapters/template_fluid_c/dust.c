@@ -123,9 +123,9 @@ static void Advance(Dust *d, double dt)
     for (int r = 0; r < 6; r++) {
       load[r] = k[m].s[r / 3][r % 3];
       for (int q = 0; q < 6; q++) {
-        const double inertia =
-            r / 3 != q / 3 ? 0.0
-                           : d->density / dt * Mass(d, r % 3, q % 3) + k[m].implicit_inertia[r % 3][q % 3];
+        double inertia = 0.0;
+        if (r / 3 == q / 3)
+          inertia = d->density / dt * Mass(d, r % 3, q % 3) + k[m].implicit_inertia[r % 3][q % 3];
         A[6 * r + q] = inertia + k[m].a[r / 3][r % 3][q / 3][q % 3];
         load[r] += k[m].flags & CORACLE_IS_COVERED ? 0.0 : inertia * u[q];
       }
