@@ -100,6 +100,7 @@ PetscErrorCode CouplerBuild(Coupler c, const SolidState *solid, double dt, int *
   PetscCall(BuildAt(c, solid, x));
   PetscCall(PetscFree(x));
   Predict(c, solid);
+  PetscCall(InertiaNodalForces(c->overlap, solid, c->acceleration));
   PetscCall(CouplerSetInterfaceVelocity(c, c->predicted, n, coupling));
   PetscFunctionReturn(0);
 }
@@ -125,9 +126,12 @@ PetscErrorCode CouplerSetInterfaceVelocity(Coupler c, const double u[], int *n,
   PetscFunctionReturn(0);
 }
 
-void CouplerSetAcceleration(Coupler c, const SolidState *end)
+PetscErrorCode CouplerSetAcceleration(Coupler c, const SolidState *end)
 {
-  for (int k = 0; k < 2 * c->nnodes; k++) c->acceleration[k] = end->acceleration[k];
+  PetscFunctionBeginUser;
+  PetscCall(PetscArraycpy(c->acceleration, end->acceleration, 2 * c->nnodes));
+  PetscCall(InertiaNodalForces(c->overlap, end, c->acceleration));
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode CouplerComputeForce(Coupler c, const CoracleFlow *flow, const double **force,

@@ -37,8 +37,8 @@ PetscErrorCode CouplerBuild(Coupler coupler, const SolidState *solid, double dt,
 PetscErrorCode CouplerSetInterfaceVelocity(Coupler coupler, const double u[], int *n,
                                            const CoracleCoupling **coupling);
 /* In the step that was built a, the solid's acceleration by all but the fluid inside (inertia.h), becomes that of `end`, the
- * solid as an attempt at the step has left it, on the same mesh: CouplerSetInterfaceVelocity comes next.  Local. */
-void CouplerSetAcceleration(Coupler coupler, const SolidState *end);
+ * solid as an attempt at the step has left it, on the same mesh: CouplerSetInterfaceVelocity comes next.  Collective. */
+PetscErrorCode CouplerSetAcceleration(Coupler coupler, const SolidState *end);
 /* Not collective; of the step that was built, borrowed: the velocity predicted for its end [nnodes][2], m/s;
  * and how much of each node's motion depends on that prediction [nnodes], 0 .. 1 (inertia.h). */
 const double *CouplerPredictedVelocity(Coupler coupler);

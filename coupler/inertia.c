@@ -2,6 +2,8 @@
 
 /* An element is covered where its pairs' areas add up to its own to this part of it. */
 #define COVERED 1e-10
+/* Terms of the series of a~ after the first. */
+enum { NTERMS = 3 };
 
 /* rho[nnodes]: the solid's density at its nodes now: mass over a third of the triangles around, of all ranks;
  * 0 where the node is held. */
@@ -62,18 +64,58 @@ PetscErrorCode InertiaStart(Overlap o, const double density[], double dt, PairTe
   double *covered; /* [ncoupled] m2, by nodes that are free */
 
   PetscFunctionBeginUser;
+  if (o->phases) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1(o->ncoupled, &covered));
   for (int p = 0; p < o->pairs.n; p++)
     if (density[o->pairs.pair[p].a] > 0.0) covered[o->coupled_index[p]] += o->pairs.pair[p].area;
   for (int p = 0; p < o->pairs.n; p++) {
     const int k = o->pairs.pair[p].b;
-    const PetscBool phases = o->rho_beside[k] != o->rho[k] ? PETSC_TRUE : PETSC_FALSE;
     const PetscBool whole =
         fabs(covered[o->coupled_index[p]] - o->area[k]) < COVERED * o->area[k] ? PETSC_TRUE : PETSC_FALSE;
-    if (whole && !phases && density[o->pairs.pair[p].a] > 0.0)
-      term[p].start = term[p].inertia + o->rho[k] / dt;
+    if (whole && density[o->pairs.pair[p].a] > 0.0) term[p].start = term[p].inertia + o->rho[k] / dt;
   }
   PetscCall(PetscFree(covered));
+  PetscFunctionReturn(0);
+}
+
+/* force[nnodes][2] = M a of the free nodes' densities rho. */
+static PetscErrorCode ApplyMass(const Overlap o, const SolidState *solid, const double rho[],
+                                const double a[], double force[])
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscArrayzero(force, 2 * solid->nnodes));
+  for (int t = 0; t < solid->nelements; t++) {
+    const int *node = solid->element + 3 * t;
+    const double vertex[3] = {rho[node[0]], rho[node[1]], rho[node[2]]};
+    double x[3][2];
+    for (int i = 0; i < 3; i++)
+      for (int c = 0; c < 2; c++) x[i][c] = solid->x[2 * node[i] + c];
+    const double mass = TriangleDensity(vertex) * GeometryArea((const double(*)[2])x) / 12.0;
+    for (int c = 0; c < 2; c++) {
+      const double sum = a[2 * node[0] + c] + a[2 * node[1] + c] + a[2 * node[2] + c];
+      for (int i = 0; i < 3; i++) force[2 * node[i] + c] += mass * (sum + a[2 * node[i] + c]);
+    }
+  }
+  PetscCall(CopiesSum(o->nodes, 2, force));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode InertiaNodalForces(Overlap o, const SolidState *solid, double acceleration[])
+{
+  const int n = solid->nnodes;
+  double *rho, *a, *force;
+
+  PetscFunctionBeginUser;
+  if (!o->phases) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc3(n, &rho, 2 * n, &a, 2 * n, &force));
+  PetscCall(NodeDensities(o, solid, rho));
+  PetscCall(PetscArraycpy(a, acceleration, 2 * n));
+  for (int term = 0; term < NTERMS; term++) {
+    PetscCall(ApplyMass(o, solid, rho, acceleration, force));
+    for (int k = 0; k < 2 * n; k++)
+      if (rho[k / 2] > 0.0) acceleration[k] += a[k] - solid->mobility[k / 2] * force[k];
+  }
+  PetscCall(PetscFree3(rho, a, force));
   PetscFunctionReturn(0);
 }
 

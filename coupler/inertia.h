@@ -32,6 +32,15 @@
  *
  * and coupling iterations find v (coupling_iteration.h).
  *
+ * A solid sends a as forces on its nodes over their masses, m_l a; that field's forces are M a, M = int rho_s N N.  Where a
+ * varies over few elements the two differ: the fluid inside is accelerated in each step by what the forces lack, and a body
+ * that floats, whose a goes from 2 g below the water to 0 above, is pushed about.  Among phases q is therefore of
+ *
+ *     a~ = a + (1 - m_l^-1 M) a + ... + (1 - m_l^-1 M)^3 a,         M a~ -> m_l a
+ *
+ * Not more of the series: forces that no fluid element sees, between nodes closer than its size, would be kept for ever (M a~ = m_l a
+ * exactly lets a block of elements as large as the fluid's tremble), so a part of them is let go in each step.
+ *
  * Where nodes have no mobility the solid is held: sigma towards v. */
 #ifndef CORACLE_INERTIA_H
 #define CORACLE_INERTIA_H
@@ -42,8 +51,11 @@
  * held.  Where it is not 0, term[pairs.n] gets the inertia above and a = 0. */
 PetscErrorCode InertiaCoefficients(Overlap overlap, const SolidState *solid, double dt, PairTerm term[],
                                    double density[]);
-/* Local, after InertiaCoefficients: start of term[pairs.n] in the elements that lie as a whole in solid that moves. */
+/* Local, after InertiaCoefficients: start of term[pairs.n] in the elements that lie as a whole in solid that moves; not
+ * where the fluid has phases. */
 PetscErrorCode InertiaStart(Overlap overlap, const double density[], double dt, PairTerm term[]);
+/* Collective: a~ of acceleration[nnodes][2], in place, where the fluid has phases. */
+PetscErrorCode InertiaNodalForces(Overlap overlap, const SolidState *solid, double acceleration[]);
 /* Collective.  q of term[pairs.n] where density is not 0; acceleration and interface_acceleration [nnodes][2]: a and a', m/s2. */
 PetscErrorCode InertiaBodyForce(Overlap overlap, const double density[], const double acceleration[],
                                 const double interface_acceleration[], const double gravity[2],

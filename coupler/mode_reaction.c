@@ -14,6 +14,7 @@ static void ReadOptions(CoracleCase file, CouplerOptions *o)
 static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
 {
   const Overlap o = c->overlap;
+  OutsideFluid *outside;
 
   PetscFunctionBeginUser;
   for (int p = 0; p < o->pairs.n; p++) {
@@ -29,7 +30,11 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
   }
   PetscCall(InertiaCoefficients(o, solid, c->dt, c->term, c->density));
   PetscCall(InertiaStart(o, c->density, c->dt, c->term));
-  PetscCall(SlipTensors(o, c->tangential));
+  PetscCall(PetscMalloc1(o->ncoupled, &outside));
+  PetscCall(OutsideFind(o, c->density, outside));
+  OutsideWeight(o, outside, c->density, c->options.gravity, c->term);
+  PetscCall(SlipTensors(o, outside, c->tangential));
+  PetscCall(PetscFree(outside));
   SlipCoefficients(o, c->tangential, c->term);
   PetscFunctionReturn(0);
 }

@@ -19,6 +19,7 @@ static PetscErrorCode SetProperties(Overlap o, const double rho[], const double 
   PetscFunctionBeginUser;
   PetscCall(PetscArraycpy(o->rho, rho_inside ? rho_inside : rho, o->nelements));
   PetscCall(PetscArraycpy(o->mu, mu, o->nelements));
+  PetscCall(PetscArraycpy(o->rho_mean, rho, o->nelements));
   PetscCall(PetscArraycpy(o->rho_beside, rho_beside ? rho_beside : rho, o->nelements));
   PetscFunctionReturn(0);
 }
@@ -27,11 +28,12 @@ PetscErrorCode OverlapSetElements(Overlap o, const FluidElements *elements)
 {
   const size_t n = (size_t)elements->n;
   GeometryBox box = GeometryBoxEmpty();
+  int phases = 0;
 
   PetscFunctionBeginUser;
   SearchDestroy(&o->search);
-  PetscCall(PetscFree5(o->x, o->area, o->rho, o->mu, o->rho_beside));
-  PetscCall(PetscMalloc5(n, &o->x, n, &o->area, n, &o->rho, n, &o->mu, n, &o->rho_beside));
+  PetscCall(PetscFree6(o->x, o->area, o->rho, o->mu, o->rho_mean, o->rho_beside));
+  PetscCall(PetscMalloc6(n, &o->x, n, &o->area, n, &o->rho, n, &o->mu, n, &o->rho_mean, n, &o->rho_beside));
   PetscCall(PetscMemcpy(o->x, elements->x, n * sizeof *o->x));
   PetscCall(PetscArraycpy(o->lower, elements->lower, 2));
   PetscCall(PetscArraycpy(o->upper, elements->upper, 2));
@@ -44,6 +46,9 @@ PetscErrorCode OverlapSetElements(Overlap o, const FluidElements *elements)
   }
   PetscCheck(!SearchCreateTriangles(o->nelements, (const double(*)[3][2])o->x, &o->search), PETSC_COMM_SELF,
              PETSC_ERR_MEM, "no memory for the search tree of %d elements", o->nelements);
+  for (int k = 0; k < o->nelements; k++) phases |= o->rho_beside[k] != o->rho[k];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &phases, 1, MPI_INT, MPI_LOR, o->comm));
+  o->phases = (PetscBool)phases;
   PetscCallMPI(MPI_Allgather(&box, 4, MPI_DOUBLE, o->bounds, 4, MPI_DOUBLE, o->comm));
   PetscFunctionReturn(0);
 }
@@ -215,7 +220,7 @@ PetscErrorCode OverlapDestroy(Overlap *overlap)
   SearchDestroy(&o->search);
   SupermeshPairsDestroy(&o->pairs);
   PetscCall(PetscFree(o->bounds));
-  PetscCall(PetscFree5(o->x, o->area, o->rho, o->mu, o->rho_beside));
+  PetscCall(PetscFree6(o->x, o->area, o->rho, o->mu, o->rho_mean, o->rho_beside));
   PetscCall(PetscFree(o->node));
   PetscCall(PetscFree(o->source));
   PetscCall(PetscFree2(o->coupled_element, o->coupled_index));

@@ -37,9 +37,10 @@ typedef struct {
   /* the fluid elements of this rank's clients */
   int nelements;
   double (*x)[3][2], *area; /* [nelements] m (copied), m2 */
-  /* [nelements] kg/m3, Pa s, kg/m3, of the last flow or exchange of elements (copied): rho of what fills the solid,
-   * rho_beside of the other phases, equal to rho with one fluid */
-  double *rho, *mu, *rho_beside;
+  /* [nelements] kg/m3, Pa s, of the last flow or exchange of elements (copied): rho of what fills the solid, rho_mean of the
+   * element, rho_beside of the other phases; all equal with one fluid */
+  double *rho, *mu, *rho_mean, *rho_beside;
+  PetscBool phases;          /* the fluid has several, on any rank */
   double lower[2], upper[2]; /* bounds of the fluid's whole domain, m */
   GeometryBox *bounds;       /* [size] bounding box of each rank's elements */
   Search search;

@@ -16,25 +16,19 @@
  * momentum of the fluid: the added inertia of the next step, which takes the inner part to begin with the solid's
  * velocity, is less by it.
  *
- * Where the fluid says that it has phases (rho_inside, rho_beside of coracle.h) D = 0: what such an element, of one velocity, one
- * density and one pressure, leaves of forces along a solid adds up where nothing stops it.  Measured with slip where all
- * that is beside the solid is water, and the water's mass in the part of the element where it is: a disc sinks alike with
- * any step (0.2 % between dt and dt/4; 4 % without) and a block rolls within 2.2 % of the period of potential theory (5.9 %
- * without; le 0.008), but a block that floats at rest turns by 0.014 in half a second (le 0.010, dt 0.004; 0.003 without).
- * The mass alone, without slip, lets a floating disc of a tenth of the water's density drift by 0.056 m in 0.4 s.  With slip in
- * air, too, the air beside a block reaches 2.9 m/s.
+ * Among phases D is scaled by what is beside the solid (outside.h).
  *
  * SLIP_FRICTION moves the place of no slip by a small part of an element.  The disc of cases/falling_cylinder, against
  * body-fitted elements in the reference's tank (le 0.01 m, top at 20 m): with 0 it is 0.8, 0.7, 0.4, -0.1 % fast at
  * 0.1, 0.2, 0.5 and 2.5 s, with 2 0.3, 0.2, 0.1 and -0.1 %. */
 #ifndef CORACLE_SLIP_H
 #define CORACLE_SLIP_H
-#include "coupler/wall_term.h"
+#include "coupler/outside.h"
 
 #define SLIP_FRICTION 2.0
 
-/* Local.  tangential[overlap->ncoupled]: D, without unit. */
-PetscErrorCode SlipTensors(const Overlap overlap, WallCoefficient tangential[]);
+/* Local.  tangential[overlap->ncoupled]: D, without unit, scaled by outside[overlap->ncoupled].slip. */
+PetscErrorCode SlipTensors(const Overlap overlap, const OutsideFluid outside[], WallCoefficient tangential[]);
 /* Local: a of the pairs in the solid's volume, isotropic so far, becomes (I - D) a + SLIP_FRICTION mu/|K| D. */
 void SlipCoefficients(const Overlap overlap, const WallCoefficient tangential[], PairTerm term[]);
 /* Local: r -= D r of all corrections[overlap->ncoupled]. */

@@ -162,7 +162,7 @@ static PetscErrorCode FindSupport(RunState *run, StepRecord *step)
     }
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &change, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
     if (i == 0) first = change;
-    if (!lost) CouplerSetAcceleration(loop->coupler, &run->solid);
+    if (!lost) PetscCall(CouplerSetAcceleration(loop->coupler, &run->solid));
     PetscCall(CouplerSetInterfaceVelocity(loop->coupler, CouplerPredictedVelocity(loop->coupler), &ncoupling,
                                           &coupling));
     PetscCall(ServerSendCoupling(loop->server, run->t, run->dt, CORACLE_REDO, 0, NULL, ncoupling, coupling));
@@ -172,18 +172,11 @@ static PetscErrorCode FindSupport(RunState *run, StepRecord *step)
 }
 
 /* The first step of a run among phases; with one fluid a body in it has begun to move as a whole. */
-static PetscErrorCode NeedsSupport(const RunState *run, PetscBool *needs)
+static PetscBool NeedsSupport(const RunState *run)
 {
   const CouplerCase *c = run->loop->c;
-  int phases = 0;
-
-  PetscFunctionBeginUser;
-  for (int k = 0; k < run->elements.n; k++)
-    phases |= run->elements.rho_beside[k] != run->elements.rho_inside[k];
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &phases, 1, MPI_INT, MPI_LOR, PETSC_COMM_WORLD));
-  *needs =
-      (PetscBool)(phases && !run->loop->from && c->options.mode == COUPLER_REACTION && c->max_iterations > 1);
-  PetscFunctionReturn(0);
+  return (PetscBool)(run->t == 0.0 && !run->loop->from && c->options.mode == COUPLER_REACTION &&
+                     c->max_iterations > 1 && CouplerOverlap(run->loop->coupler)->phases);
 }
 
 /* Coupling iterations over dt, at most as many as are allowed. */
@@ -272,16 +265,13 @@ static PetscErrorCode Stop(RunState *run)
 PetscErrorCode TimeLoopRun(TimeLoop *loop)
 {
   RunState run = {.loop = loop, .mode = CouplerModeGet(loop->c->options.mode)};
-  PetscBool first = PETSC_FALSE;
 
   PetscFunctionBeginUser;
   PetscCall(Start(&run));
-  PetscCall(NeedsSupport(&run, &first));
   while (run.t < loop->c->end) {
     const double waited = ServerWaited(loop->server);
     StepRecord step = {0};
-    if (first) PetscCall(FindSupport(&run, &step));
-    first = PETSC_FALSE;
+    if (NeedsSupport(&run)) PetscCall(FindSupport(&run, &step));
     PetscCall(SolveStep(&run, &step));
     PetscCall(AcceptStep(&run, &step));
     if (run.t < loop->c->end) PetscCall(BeginStep(&run, &step));

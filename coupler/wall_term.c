@@ -43,6 +43,15 @@ static void AddSolidMass(const double bb[3][3], const double cu[2][3], CoracleCo
   }
 }
 
+/* The fluid's weight from inside the solid to beside it. */
+static void AddOutsideWeight(const SupermeshPair *pair, const double weight[2], double s[2][3])
+{
+  for (int i = 0; i < 3; i++) {
+    const double moved = pair->area / 3.0 - (pair->ab[0][i] + pair->ab[1][i] + pair->ab[2][i]);
+    for (int c = 0; c < 2; c++) s[c][i] += weight[c] * moved;
+  }
+}
+
 /* One pair's part of its element; velocity is the integral of v over the pairs, divided by |K|, so far. */
 static void AddPair(const Overlap o, const SupermeshPair *pair, const PairTerm *term, PetscBool held,
                     const double start[3][2], CoracleCoupling *k)
@@ -61,6 +70,7 @@ static void AddPair(const Overlap o, const SupermeshPair *pair, const PairTerm *
     k->flags |= CORACLE_HAS_INERTIA;
   }
   AddSource(&term->a, (const double(*)[3])cu, k->s);
+  AddOutsideWeight(pair, term->outside_weight, k->s);
   for (int i = 0; i < 6; i++) k->s[i / 3][i % 3] += cq[i / 3][i % 3];
   for (int d = 0; d < 2; d++) k->velocity[d] += (cv[d][0] + cv[d][1] + cv[d][2]) / o->area[pair->b];
   if (source->is_shell) {

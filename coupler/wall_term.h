@@ -81,6 +81,8 @@ typedef struct {
   double
       start; /* rho_f/dt + m where the inertia starts from the solid's velocity (inertia.h), else 0; kg/(m3 s) */
   double q[3][2]; /* N/m3, at the vertices of T */
+  /* N/m3, of the fluid beside the solid (outside.h), which the solid does not feel */
+  double outside_weight[2];
 } PairTerm;
 
 /* q[i] = int over the pair of N_T,i (u - u_s): u [2][3] on the fluid element, u_s [3][2] on the source

@@ -59,7 +59,11 @@ static void ReadLevel(CoracleCase c, const char *key, const PhaseNames *names, c
                       BoundaryPhases *b)
 {
   char first[200];
+  double gravity[2];
+  CoracleCaseVector(c, "gravity", 2, gravity);
   if (!names->name[0]) CoracleCaseRefuse(c, key, "there are no phases: expected fluid.phases");
+  if (gravity[0] == 0.0 && gravity[1] == 0.0)
+    CoracleCaseRefuse(c, key, "without gravity no side is up: expected a pressure instead, or a gravity");
   (void)snprintf(first, sizeof first, "%s[0]", key);
   if (CoracleCaseHas(c, first)) {
     ReadLayers(c, key, names, b);

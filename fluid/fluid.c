@@ -19,6 +19,7 @@ static PetscErrorCode CreateVectors(Fluid f)
   PetscCall(PetscMalloc1(m->ng, &ghosts));
   for (int e = 0; e < m->ng; e++) ghosts[e] = m->egid[m->ne + e];
   PetscCall(VecCreateGhostBlock(m->comm, 6, 6 * m->ne, PETSC_DETERMINE, m->ng, ghosts, &f->u));
+  if (f->phases) PetscCall(VecCreateGhost(m->comm, m->ne, PETSC_DETERMINE, m->ng, ghosts, &f->outside));
   PetscCall(PetscFree(ghosts));
   for (size_t k = f->phases ? 0 : 2; k < sizeof velocity / sizeof *velocity; k++)
     PetscCall(VecDuplicate(f->u, velocity[k]));
@@ -32,7 +33,7 @@ static PetscErrorCode DestroyVectors(Fluid f)
 {
   Vec *all[] = {&f->bulk,        &f->bulk_previous, &f->u,       &f->u_previous,       &f->u_star,
                 &f->u_projected, &f->mass_flux,     &f->saved.u, &f->saved.u_previous, &f->p,
-                &f->saved.p};
+                &f->saved.p,     &f->outside};
   PetscFunctionBeginUser;
   for (size_t k = 0; k < sizeof all / sizeof *all; k++) PetscCall(VecDestroy(all[k]));
   PetscFunctionReturn(0);
@@ -134,13 +135,20 @@ static PetscErrorCode Extrapolate(Fluid f, double dt)
 PetscErrorCode FluidMomentum(Fluid f, double dt)
 {
   const double start = MPI_Wtime();
+  const PetscScalar *outside = NULL;
   MomentumReport report;
+  Vec local;
   PetscFunctionBeginUser;
   f->stats.dt = dt;
   FluidSetTarget(f, f->dt_previous > 0.0 ? GAS_OLD : 0.0);
   PetscCall(Extrapolate(f, dt));
   FluidSetCompressibility(f);
-  if (f->phases) PetscCall(FluidPredictPressure(f, dt));
+  if (f->phases) {
+    PetscCall(FluidPredictPressure(f, dt));
+    PetscCall(FluidSetOutside(f));
+    PetscCall(VecGhostGetLocalForm(f->outside, &local));
+    PetscCall(VecGetArrayRead(local, &outside));
+  }
   const MomentumStep step = {f->t,
                              dt,
                              MaterialDensity(f->material, MATERIAL_STEP),
@@ -150,8 +158,13 @@ PetscErrorCode FluidMomentum(Fluid f, double dt)
                              f->u,
                              f->p,
                              f->solid,
+                             outside,
                              FluidInverseDensity(f)};
   PetscCall(MomentumSolverSolve(f->momentum, &step, f->u_star, &report));
+  if (f->phases) {
+    PetscCall(VecRestoreArrayRead(local, &outside));
+    PetscCall(VecGhostRestoreLocalForm(f->outside, &local));
+  }
   f->stats.momentum_iterations = report.iterations;
   f->stats.seconds[MOMENTUM] += report.seconds_solve;
   f->stats.seconds[ASSEMBLY] += MPI_Wtime() - start - report.seconds_solve;

@@ -19,6 +19,7 @@ struct Fluid_s {
   Transfer transfer;     /* from the mesh before this one, between FluidTransferPhases and FluidTransfer */
   /* with phases: the bulk velocities of the last two steps, which are free of divergence and move them */
   Vec bulk, bulk_previous;
+  Vec outside; /* ghosted, a number an element: density of what is beside the solid (momentum.h) */
   CompressibleElement *compressible; /* [ne] of the current step; NULL: no phase is */
   MomentumSolver momentum;
   ProjectionSolver projection;
@@ -51,6 +52,8 @@ void FluidSetCompressibility(Fluid f);
 PetscErrorCode FluidLeaveCompressible(Fluid f);
 /* Moves the phases over dt with the velocity in mass_flux, extrapolated by s steps, and makes it the mass flux.  Collective. */
 PetscErrorCode FluidMovePhases(Fluid f, double dt, double s);
+/* After that: the density of what elements have beside the solid (f->outside).  Collective. */
+PetscErrorCode FluidSetOutside(Fluid f);
 /* p becomes the pressure that, with its values on open boundaries as they are, makes the acceleration weight - R^-1 grad p
  * free of divergence: that of the first instant of phases at rest.  Collective. */
 PetscErrorCode FluidBalancePressure(Fluid f);

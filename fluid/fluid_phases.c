@@ -1,6 +1,11 @@
 /* What a fluid of several phases does differently. */
 #include "fluid/fluid_impl.h"
 
+/* Of an element, less than which beside a solid is none. */
+#define LEAST_OPEN 1e-3
+/* Of the density beside a solid, what may be missing: the lighter phase that a solid leaves behind where it moves. */
+#define LITTLE 1e-2
+
 /* Density and viscosity of the phases as they are. */
 static PetscErrorCode SetPhaseMaterial(Fluid f, MaterialLevel level)
 {
@@ -90,6 +95,30 @@ PetscErrorCode FluidMovePhases(Fluid f, double dt, double s)
   PetscCall(PetscFree(pressure));
   PetscCall(SetPhaseMaterial(f, MATERIAL_NEW));
   UniformInSolid(f);
+  PetscFunctionReturn(0);
+}
+
+/* Density of what element e has beside the solid, which covers `alpha` of it; rho: of all that it has. */
+static double OutsideDensity(Fluid f, int e, double rho, double alpha)
+{
+  double inside, beside;
+  if (alpha == 0.0) return rho;
+  if (alpha > 1.0 - LEAST_OPEN) return 0.0;
+  PhaseTransportBesideSolid(f->phases, e, &inside, &beside);
+  const double outside = fmax((rho - alpha * inside) / (1.0 - alpha), inside);
+  return outside > (1.0 - LITTLE) * beside ? fmax(beside, inside) : outside;
+}
+
+PetscErrorCode FluidSetOutside(Fluid f)
+{
+  const double *alpha = SolidCouplingFraction(f->solid), *rho = MaterialDensity(f->material, MATERIAL_STEP);
+  PetscScalar *outside;
+  PetscFunctionBeginUser;
+  PetscCall(VecGetArrayWrite(f->outside, &outside));
+  for (int e = 0; e < f->domain.mesh->ne; e++) outside[e] = OutsideDensity(f, e, rho[e], alpha[e]);
+  PetscCall(VecRestoreArrayWrite(f->outside, &outside));
+  PetscCall(VecGhostUpdateBegin(f->outside, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostUpdateEnd(f->outside, INSERT_VALUES, SCATTER_FORWARD));
   PetscFunctionReturn(0);
 }
 

@@ -31,6 +31,8 @@ typedef struct {
   Vec mass_flux;     /* m = rho beta at t + theta dt, kg/(m2 s); on a face the mean of its two sides counts */
   Vec u, p;          /* u^n, m/s; pressure on P2 nodes, Pa */
   SolidCoupling solid;
+  /* [ne + ng] with phases: density of what an element has beside a solid, 0 where it has nothing but the solid, kg/m3; NULL: one fluid */
+  const double *outside;
   /* [ne] with phases: the pressure acts as rho R^-1 grad p and gravity is the weight (effective_density.h), and what comes
    * in through open boundaries is at rest; NULL: one fluid */
   const InverseDensity *inverse_density;

@@ -22,11 +22,13 @@ static void BoundaryLoad(MomentumSolver s, const MomentumStep *step, const Bound
 }
 
 /* Penalty of jumps, Pa s/m, beside an interface: what the lines' errors move there, mostly light elements, is given to their
- * neighbours within a step, momentum conserved.  Of the lighter side's density, so that water does not feel air. */
+ * neighbours within a step, momentum conserved.  Of the lighter side's density, so that water does not feel air.  A solid in
+ * an element makes no interface: water beside it is not held to the water around by what fills the solid. */
 static double InterfacePenalty(const MomentumStep *step, int e, int nb, double area, double other)
 {
-  const double a = step->rho[e], b = step->rho[nb];
-  if (!step->inverse_density || fabs(a - b) < 1e-6 * (a + b)) return 0.0;
+  if (!step->outside) return 0.0;
+  const double a = step->outside[e], b = step->outside[nb];
+  if (fmin(a, b) == 0.0 || fabs(a - b) < 1e-6 * (a + b)) return 0.0;
   return INTERFACE_PENALTY * fmin(a, b) * sqrt(fmin(area, other)) / step->dt;
 }
 
