@@ -14,18 +14,18 @@ static void Moments(int n, const double polygon[][2], double m[3][3])
     const double qx = polygon[k + 1][0] - polygon[0][0], qy = polygon[k + 1][1] - polygon[0][1];
     const double w = 0.5 * (px * qy - py * qx), sx = px + qx, sy = py + qy;
     sum[0] += w;
-    sum[1] += w * sx;
-    sum[2] += w * sy;
-    sum[3] += w * (px * px + qx * qx + sx * sx);
-    sum[4] += w * (px * py + qx * qy + sx * sy);
-    sum[5] += w * (py * py + qy * qy + sy * sy);
+    sum[1] += w / 3.0 * sx;
+    sum[2] += w / 3.0 * sy;
+    sum[3] += w / 12.0 * (px * px + qx * qx + sx * sx);
+    sum[4] += w / 12.0 * (px * py + qx * qy + sx * sy);
+    sum[5] += w / 12.0 * (py * py + qy * qy + sy * sy);
   }
   m[0][0] = sum[0];
-  m[0][1] = m[1][0] = sum[1] * (1.0 / 3.0);
-  m[0][2] = m[2][0] = sum[2] * (1.0 / 3.0);
-  m[1][1] = sum[3] * (1.0 / 12.0);
-  m[1][2] = m[2][1] = sum[4] * (1.0 / 12.0);
-  m[2][2] = sum[5] * (1.0 / 12.0);
+  m[0][1] = m[1][0] = sum[1];
+  m[0][2] = m[2][0] = sum[2];
+  m[1][1] = sum[3];
+  m[1][2] = m[2][1] = sum[4];
+  m[2][2] = sum[5];
 }
 
 /* A triangle's P1 functions: N_i = l[i][0] + l[i][1] x + l[i][2] y from the origin. */
