@@ -2,6 +2,7 @@
  * that the surface crosses, and the force as the reaction to all. */
 #include "coupler/coupler_impl.h"
 #include "coupler/inertia.h"
+#include "coupler/outside.h"
 #include "coupler/slip.h"
 
 static void ReadOptions(CoracleCase file, CouplerOptions *o)
@@ -14,7 +15,6 @@ static void ReadOptions(CoracleCase file, CouplerOptions *o)
 static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
 {
   const Overlap o = c->overlap;
-  OutsideFluid *outside;
 
   PetscFunctionBeginUser;
   for (int p = 0; p < o->pairs.n; p++) {
@@ -30,11 +30,8 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
   }
   PetscCall(InertiaCoefficients(o, solid, c->dt, c->term, c->density));
   PetscCall(InertiaStart(o, c->density, c->dt, c->term));
-  PetscCall(PetscMalloc1(o->ncoupled, &outside));
-  PetscCall(OutsideFind(o, c->density, outside));
-  OutsideWeight(o, outside, c->density, c->options.gravity, c->term);
-  PetscCall(SlipTensors(o, outside, c->tangential));
-  PetscCall(PetscFree(outside));
+  PetscCall(OutsideWeight(o, c->density, c->options.gravity, c->term));
+  PetscCall(SlipTensors(o, c->tangential));
   SlipCoefficients(o, c->tangential, c->term);
   PetscFunctionReturn(0);
 }

@@ -1,6 +1,6 @@
 #include "coupler/slip.h"
 
-PetscErrorCode SlipTensors(const Overlap o, const OutsideFluid outside[], WallCoefficient tangential[])
+PetscErrorCode SlipTensors(const Overlap o, WallCoefficient tangential[])
 {
   typedef struct {
     double solid, shell, xx, xy, yy; /* areas */
@@ -26,10 +26,8 @@ PetscErrorCode SlipTensors(const Overlap o, const OutsideFluid outside[], WallCo
   for (int e = 0; e < o->ncoupled; e++) {
     const Sums *k = &sums[e];
     tangential[e] = WallCoefficientIsotropic(0.0);
-    if (k->shell > 0.0 && k->solid < 0.999 * o->area[o->coupled_element[e]]) {
-      const WallCoefficient d = {1.0 - k->xx / k->shell, -k->xy / k->shell, 1.0 - k->yy / k->shell};
-      tangential[e] = WallCoefficientScaled(&d, outside[e].slip);
-    }
+    if (!o->phases && k->shell > 0.0 && k->solid < 0.999 * o->area[o->coupled_element[e]])
+      tangential[e] = (WallCoefficient){1.0 - k->xx / k->shell, -k->xy / k->shell, 1.0 - k->yy / k->shell};
   }
   PetscCall(PetscFree(sums));
   PetscFunctionReturn(0);

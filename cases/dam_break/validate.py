@@ -31,7 +31,9 @@ RUNS = {
     "ranks-2": (cells(8), "2:1:1"),
     "ranks-3": (cells(8), "3:1:1"),
     "dt-half": (cells(8) + ["time.cfl=0.25", "time.dt_max=0.0005"], "1:1:1"),
+    "no-slip-8": (cells(8) + ["fluid.boundaries.bottom=no_slip"], "1:1:1"),
     "no-slip": (["fluid.boundaries.bottom=no_slip"], "1:1:1"),
+    "no-slip-32": (cells(32) + ["fluid.boundaries.bottom=no_slip"], "1:1:1"),
 }
 
 

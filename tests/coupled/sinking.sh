@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Among phases the coupling has no length of a step in it, either: a disc sinks alike with steps of 4 ms and a quarter of that
-# (0.8 % apart; 4.6 % while the fluid stuck to it).  Usage: sinking.sh ROOT BUILD
+# Among phases a disc sinks nearly alike with steps of 4 ms and a quarter of that: 1.6 % apart, 4.6 % while water beside it was held
+# to the water around by a penalty.  Usage: sinking.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
 case=$here/drop.yaml
@@ -20,5 +20,5 @@ import csv, sys
 def depth(dt):
     return 0.12 - float(list(csv.DictReader(open("%s/%s/solid.csv" % (sys.argv[1], dt))))[-1]["y0 [m]"])
 long, short = depth("0.004"), depth("0.001")
-assert long > 0.03 and abs(short / long - 1.0) < 0.02, "depth with long and short steps: %g, %g m" % (long, short)
+assert long > 0.03 and abs(short / long - 1.0) < 0.03, "depth with long and short steps: %g, %g m" % (long, short)
 E2
