@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A beam cracks and sinks in the tank while its elements change ranks: fluid and solid get the same answer, to solver tolerance, as
-# when they stay; a light one, whose cracking steps are redone, to that of the coupling iterations.  Usage: rebalance.sh ROOT BUILD
+# when they stay; a light one, whose cracking steps are redone, to that of the coupling iterations while they converge.  Usage: rebalance.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/../coupled/run.sh"
 case=$here/../coupled/disc.yaml
@@ -22,7 +22,10 @@ for light, broken, tolerance in (("", 3, 1e-6), ("light-", 2, 1e-3)):  # eight s
     (stay, none), (move, times) = read(light + "0"), read(light + "0.001")
     assert none == 0 and times >= 2, "%s%d and %d redistributions" % (light, none, times)
     assert float(stay[0][-1]["broken joints"]) >= broken, "%s%s joints broken" % (light, stay[0][-1]["broken joints"])
-    assert not light or any(float(row["iterations"]) > 1 and float(other["broken joints"]) > 0 for row, other in zip(stay[1], stay[0])), "nothing is redone"
+    if light:  # from the first step on whose iterations do not converge, because joints open in one and not in the next, round-off decides
+        converged = next((i for i, row in enumerate(stay[1]) if float(row["iterations"]) >= 30), len(stay[1]))
+        stay, move = ([rows[:converged] for rows in run] for run in (stay, move))
+        assert any(float(row["iterations"]) > 1 and float(other["debonded [J/m]"]) > 0 for row, other in zip(stay[1], stay[0])), "nothing is redone"
     def largest(rows, key):  # of a vector's components: the bar hardly moves along itself
         other = {"x": "y", "y": "x", "u": "v", "v": "u"}
         partners = [key] + [k for k in rows[0] if k != key and len(k) == len(key) and all(p == q or other.get(p) == q for p, q in zip(k, key))]
