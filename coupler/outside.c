@@ -22,6 +22,7 @@ PetscErrorCode OutsideWeight(const Overlap o, const double density[], const doub
   double *excess;
 
   PetscFunctionBeginUser;
+  if (!o->phases) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(o->ncoupled, &excess));
   Excess(o, excess);
   for (int p = 0; p < o->pairs.n; p++)

@@ -61,8 +61,10 @@ static void AddPair(const Overlap o, const SupermeshPair *pair, const PairTerm *
   double cu[2][3], cq[2][3], cv[2][3];
   CrossVelocity(pair, source->u, cu);
   CrossVelocity(pair, start, cv);
-  for (int i = 0; i < 6 && term->start > 0.0; i++) k->s[i / 3][i % 3] += term->start * cv[i / 3][i % 3];
-  if (term->start > 0.0) k->flags |= CORACLE_IS_COVERED;
+  if (term->start > 0.0) {
+    for (int i = 0; i < 6; i++) k->s[i / 3][i % 3] += term->start * cv[i / 3][i % 3];
+    k->flags |= CORACLE_IS_COVERED;
+  }
   CrossVelocity(pair, term->q, cq);
   AddTensor(&term->a, pair->bb, k->a);
   if (!held) {
@@ -70,7 +72,7 @@ static void AddPair(const Overlap o, const SupermeshPair *pair, const PairTerm *
     k->flags |= CORACLE_HAS_INERTIA;
   }
   AddSource(&term->a, (const double(*)[3])cu, k->s);
-  AddOutsideWeight(pair, term->outside_weight, k->s);
+  if (o->phases) AddOutsideWeight(pair, term->outside_weight, k->s);
   for (int i = 0; i < 6; i++) k->s[i / 3][i % 3] += cq[i / 3][i % 3];
   for (int d = 0; d < 2; d++) k->velocity[d] += (cv[d][0] + cv[d][1] + cv[d][2]) / o->area[pair->b];
   if (source->is_shell) {

@@ -10,8 +10,8 @@ typedef enum { HELD, MORE, FREE, SOURCE, COEFFICIENT, BULK, INERTIA, COVERED, AG
 enum { MOVE_STEP = 6 };               /* after which the box moves */
 static const double SHORT = 1e-6;     /* tau/dt */
 static const double TOLERANCE = 0.01; /* of what an attempt over tau gains */
-static const double ROUGH =
-    0.1; /* the same, of cells whose gradient is the step's before and that are covered in part */
+/* The same, of cells whose gradient is the step's before and that are covered in part. */
+static const double ROUGH = 0.1;
 
 typedef struct {
   double *u_start, *u_star, *u_projected; /* [n][2][3] m/s */
@@ -36,6 +36,11 @@ static void Refuse(const Fluid *f, int step, const char *what, const char *expec
 
 /* --- what is sent --------------------------------------------------------------------------------------- */
 
+static bool HasInertia(Kind kind)
+{
+  return kind == INERTIA || kind == COVERED;
+}
+
 /* V, or V + G */
 static void Target(const Fluid *f, Kind kind, double v[2])
 {
@@ -49,7 +54,7 @@ static void SetBlocks(CoracleCoupling *c, Kind kind, double rho, double area, do
   double a[3][3];
   const double factor = kind == HELD || kind == MORE || kind == AGAIN || kind == COEFFICIENT ? 9.0 : 0.0;
   PatchMass(area, factor * rho / dt, a);
-  PatchMass(area, kind == INERTIA || kind == COVERED ? 9.0 * rho / dt : 0.0, c->implicit_inertia);
+  PatchMass(area, HasInertia(kind) ? 9.0 * rho / dt : 0.0, c->implicit_inertia);
   for (int d = 0; d < 2; d++)
     for (int i = 0; i < 3; i++)
       for (int j = 0; j < 3; j++) c->a[d][i][d][j] = a[i][j];
@@ -58,11 +63,11 @@ static void SetBlocks(CoracleCoupling *c, Kind kind, double rho, double area, do
 /* s = factor rho B v/dt, and the bulk velocity's part where the disc is held */
 static void SetLoads(CoracleCoupling *c, Kind kind, double rho, double area, double dt, const double v[2])
 {
-  const double factor = kind == COEFFICIENT || kind == BULK  ? 0.0
-                        : kind == SOURCE                     ? 1.0
-                        : kind == INERTIA || kind == COVERED ? 10.0
-                                                             : 9.0;
-  const bool bulk = kind != SOURCE && kind != COEFFICIENT && kind != INERTIA && kind != COVERED;
+  const double factor = kind == COEFFICIENT || kind == BULK ? 0.0
+                        : kind == SOURCE                    ? 1.0
+                        : HasInertia(kind)                  ? 10.0
+                                                            : 9.0;
+  const bool bulk = kind != SOURCE && kind != COEFFICIENT && !HasInertia(kind);
   if (bulk) PatchMass(area, 1.0, c->ms);
   for (int d = 0; d < 2; d++)
     for (int i = 0; i < 3; i++) {
@@ -83,7 +88,7 @@ static void SendCoupling(Fluid *f, Kind kind, CoracleAction action, int ncorrect
     const int e = p->coupled[i];
     CoracleCoupling *c = &f->coupling[i];
     *c = (CoracleCoupling){.element = e, .alpha = 1.0};
-    if (kind == INERTIA || kind == COVERED) c->flags |= CORACLE_HAS_INERTIA;
+    if (HasInertia(kind)) c->flags |= CORACLE_HAS_INERTIA;
     if (kind == COVERED) c->flags |= CORACLE_IS_COVERED;
     memcpy(c->velocity, v, sizeof c->velocity);
     SetBlocks(c, kind, p->rho[e], p->area[e], dt);

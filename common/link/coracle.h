@@ -223,14 +223,14 @@ int CoracleSetInertia(CoracleClient c, const double mobility[], const double acc
 enum {
   CORACLE_HAS_SHELL = 1,   /* K overlaps the shell around the solid's surface */
   CORACLE_HAS_INERTIA = 2, /* implicit_inertia is in use: K overlaps nodes with a mobility */
-  CORACLE_IS_COVERED =
-      4 /* K lies in the solid as a whole, which moves freely: the step begins with the solid's velocity
-                            * there, and s has what that gives.  u start counts as 0 in rho M/dt (u* - u start) and in
-                            * implicit_inertia (u* - u start) on K; what CoracleSetFlow gives is the fluid's own all the same */
+  /* K lies in the solid as a whole, which moves freely: the step begins with the solid's velocity there, and s has what that
+   * gives.  u start counts as 0 in rho M/dt (u* - u start) and in implicit_inertia (u* - u start) on K; what CoracleSetFlow
+   * gives is the fluid's own all the same */
+  CORACLE_IS_COVERED = 4
 };
 typedef struct {
   int element; /* index into the elements last given by region */
-  int flags;   /* CORACLE_HAS_... */
+  int flags;   /* CORACLE_HAS_..., CORACLE_IS_COVERED */
   /* kg/s: int_K a_cd N_i N_j, the implicit coefficient of u*, shell and volume together */
   double a[CORACLE_DIM][CORACLE_VERTICES][CORACLE_DIM][CORACLE_VERTICES];
   /* kg/s: the solid's inertia beyond the fluid's, int_K m N_i N_j, the same for each component, which resists the change
