@@ -24,6 +24,9 @@ static const CoracleCaseKey KEYS[] = {
      "density that given"},
     {"fluid.phases[].gas.exponent", "",
      "of the density in pressure ~ density^exponent: 1 isothermal, 1.4 adiabatic air"},
+    {"fluid.phases_advection", "",
+     "how phases move: geometric, a sharp line in each cut element; compressive, the limited shares of the "
+     "paper"},
     {"fluid.surface_tension", "N/m",
      "of the interfaces between phases: a number for all, or a list; none if not given; not possible with "
      "solids yet"},

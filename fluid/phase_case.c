@@ -67,6 +67,8 @@ static void SortByDensity(PhaseNames *names, PhaseProperties *p)
 
 void PhaseCaseRead(CoracleCase c, PhaseNames *names, PhaseProperties *p)
 {
+  static const char *const ADVECTIONS[] = {
+      [PHASES_GEOMETRIC] = "geometric", [PHASES_COMPRESSIVE] = "compressive", NULL};
   const PhasePairsKey tension = {"fluid.surface_tension", 0.0, HUGE_VAL, NULL, PETSC_FALSE};
   *names = (PhaseNames){{NULL}};
   *p = (PhaseProperties){0};
@@ -78,6 +80,7 @@ void PhaseCaseRead(CoracleCase c, PhaseNames *names, PhaseProperties *p)
   if (p->n > 2) SortByDensity(names, p);
   for (int k = 0; k < p->n; k++) (void)snprintf(p->name[k], sizeof p->name[k], "%s", names->name[k]);
   PhaseCasePairs(c, &tension, names, &p->surface_tension);
+  p->advection = (PhasesAdvection)CoracleCaseWord(c, "fluid.phases_advection", PHASES_GEOMETRIC, ADVECTIONS);
 }
 
 static void SetPair(const PhasePairsKey *key, int first, int second, double number, PhasesPairs *pairs)

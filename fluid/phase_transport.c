@@ -65,6 +65,7 @@ PetscErrorCode PhaseTransportCreate(const FluidDomain *domain, const PhaseProper
   for (int c = 0; c < 2; c++) t->gravity[c] = gravity[c];
   PetscCall(StarsCreate(m, &t->stars));
   PetscCall(PhasesCreate(t->stars, n, &t->phases));
+  PhasesSetAdvection(t->phases, properties->advection);
   for (int k = 0; k < n; k++) t->properties.state[k].density = properties->rho[k];
   if (PhaseHasGas(properties)) PetscCall(PhasesSetStates(t->phases, t->properties.state));
   PetscCall(PhaseBoundariesCreate(domain, &t->properties, gravity, &t->boundaries));

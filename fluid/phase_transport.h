@@ -19,7 +19,8 @@ typedef struct {
   int n;
   double rho[PHASES_MAX], mu[PHASES_MAX]; /* kg/m3, Pa s */
   PhasesPairs surface_tension;            /* N/m */
-  EquationOfState state[PHASES_MAX];      /* pressure 0: incompressible, of density rho */
+  PhasesAdvection advection;
+  EquationOfState state[PHASES_MAX]; /* pressure 0: incompressible, of density rho */
   char name[PHASES_MAX][32];
 } PhaseProperties;
 

@@ -33,6 +33,8 @@ RUNS = {
     "dt-half": (cells(8) + ["time.cfl=0.25", "time.dt_max=0.0005"], "1:1:1"),
     "no-slip-8": (cells(8) + ["fluid.boundaries.bottom=no_slip"], "1:1:1"),
     "no-slip": (["fluid.boundaries.bottom=no_slip"], "1:1:1"),
+    "compressive-8": (cells(8) + ["fluid.phases_advection=compressive", "fluid.boundaries.bottom=no_slip"], "1:1:1"),
+    "compressive": (["fluid.phases_advection=compressive", "fluid.boundaries.bottom=no_slip"], "1:1:1"),
     "no-slip-32": (cells(32) + ["fluid.boundaries.bottom=no_slip"], "1:1:1"),
 }
 

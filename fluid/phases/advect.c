@@ -272,23 +272,16 @@ static PetscErrorCode StepEnd(Step *t)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PhasesAdvect(Phases f, double dt, const double flux[], const double velocity[],
-                            const PhasesInflow *inflow, double swept[], double swept_mass[])
+PetscErrorCode GeometricAdvect(Phases f, double dt, const double flux[], const double velocity[],
+                               const PhasesInflow *inflow, double swept[], double mass[])
 {
-  const size_t n = 3 * (size_t)f->stars->ne * (size_t)f->np;
-  Step t = {.f = f, .s = f->stars, .inflow = inflow && inflow->fraction ? inflow : NULL};
-  double *own = NULL, lost;
+  Step t = {.f = f, .s = f->stars, .inflow = inflow};
+  double lost;
   PetscFunctionBeginUser;
-  PetscCheck(f->has_lines, f->stars->mesh->comm, PETSC_ERR_ORDER,
-             "PhasesAdvect needs the lines of the present volumes: call PhasesReconstruct before it");
   PetscCall(StepBegin(f, dt, flux, velocity, &t));
-  double *mass = f->mass ? swept_mass : NULL;
-  if (!swept) PetscCall(PetscMalloc1(n, &own));
-  SweepFaces(&t, swept ? swept : own, mass);
+  SweepFaces(&t, swept, mass);
   PetscCallMPI(MPI_Allreduce(&t.lost, &lost, 1, MPI_DOUBLE, MPI_MAX, f->stars->mesh->comm));
-  if (!(lost > 0.0)) Update(&t, swept ? swept : own, mass);
-  f->has_lines = PETSC_FALSE;
-  PetscCall(PetscFree(own));
+  if (!(lost > 0.0)) Update(&t, swept, mass);
   PetscCall(StepEnd(&t));
   PetscCheck(
       !(lost > 0.0), f->stars->mesh->comm, PETSC_ERR_ARG_OUTOFRANGE,

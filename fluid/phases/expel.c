@@ -126,12 +126,6 @@ static double Pass(const Expel *x, int e, int i)
   return x->balance[e].excess * (weight / (Weight(x, e, 0) + Weight(x, e, 1) + Weight(x, e, 2)));
 }
 
-/* The face of o at which e lies. */
-static int FaceTo(const Stars *s, int o, int e)
-{
-  return s->neighbor[o][0] == e ? 0 : s->neighbor[o][1] == e ? 1 : 2;
-}
-
 /* Every excess crosses one face; come[ne]: what comes to each element. */
 static PetscErrorCode Hop(Expel *x, double come[], double swept[])
 {
@@ -143,7 +137,7 @@ static PetscErrorCode Hop(Expel *x, double come[], double swept[])
     for (int i = 0; i < 3; i++) {
       const int o = s->neighbor[e][i];
       if (o < 0) continue;
-      const double in = Pass(x, o, FaceTo(s, o, e)), out = Pass(x, e, i) - in;
+      const double in = Pass(x, o, StarsFaceTo(s, o, e)), out = Pass(x, e, i) - in;
       const size_t face = (3 * (size_t)e + (size_t)i) * (size_t)x->f->np;
       come[e] += in;
       v[x->phase] -= out;

@@ -13,14 +13,6 @@ int PhasesCrossing(Phases f, int e, int k, int i, double x[2])
   return 1;
 }
 
-/* The face of the neighbour o that it shares with element e. */
-static int FaceTowards(const Stars *s, int o, int e)
-{
-  int j = 0;
-  while (j < 2 && s->neighbor[o][j] != e) j++;
-  return j;
-}
-
 /* Of line k, the only one of element e, between its ends on the faces. */
 static double LineLength(Phases f, int e, int k)
 {
@@ -29,7 +21,7 @@ static double LineLength(Phases f, int e, int k)
   for (int i = 0; i < 3; i++) {
     const int o = f->stars->neighbor[e][i];
     if (!PhasesCrossing(f, e, k, i, end[n])) continue;
-    if (o >= 0 && PhasesHasLine(f, o, k) && PhasesCrossing(f, o, k, FaceTowards(f->stars, o, e), other))
+    if (o >= 0 && PhasesHasLine(f, o, k) && PhasesCrossing(f, o, k, StarsFaceTo(f->stars, o, e), other))
       for (int c = 0; c < 2; c++) end[n][c] = 0.5 * (end[n][c] + other[c]);
     n++;
   }

@@ -31,6 +31,11 @@ PetscErrorCode PhasesDestroy(Phases *phases)
   PetscFunctionReturn(0);
 }
 
+void PhasesSetAdvection(Phases f, PhasesAdvection advection)
+{
+  f->advection = advection;
+}
+
 PetscErrorCode PhasesSetVolumes(Phases f, const double volume[])
 {
   PetscFunctionBeginUser;
@@ -203,6 +208,25 @@ void PhasesSplit(Phases f, int e, const Polygon *polygon, const double origin[2]
 {
   PhasesSplitBy(f->np, f->single[e], &f->line[(size_t)e * (size_t)(f->np - 1)], f->stars->element[e].x[0],
                 polygon, origin, weight, area);
+}
+
+PetscErrorCode PhasesAdvect(Phases f, double dt, const double flux[], const double velocity[],
+                            const PhasesInflow *inflow, double swept[], double swept_mass[])
+{
+  const size_t n = 3 * (size_t)f->stars->ne * (size_t)f->np;
+  const PhasesInflow *open = inflow && inflow->fraction ? inflow : NULL;
+  double *own = NULL, *mass = f->mass ? swept_mass : NULL;
+  PetscFunctionBeginUser;
+  PetscCheck(f->has_lines, f->stars->mesh->comm, PETSC_ERR_ORDER,
+             "PhasesAdvect needs the lines of the present volumes: call PhasesReconstruct before it");
+  if (!swept) PetscCall(PetscMalloc1(n, &own));
+  f->has_lines = PETSC_FALSE;
+  if (f->advection == PHASES_COMPRESSIVE)
+    PetscCall(CompressiveAdvect(f, dt, flux, velocity, open, swept ? swept : own, mass));
+  else
+    PetscCall(GeometricAdvect(f, dt, flux, velocity, open, swept ? swept : own, mass));
+  PetscCall(PetscFree(own));
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode PhasesGetStats(Phases f, PhasesStats *stats)

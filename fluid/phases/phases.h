@@ -27,6 +27,11 @@ enum { PHASES_MAX = 8 };
 PetscErrorCode PhasesCreate(const Stars *stars, int nphases, Phases *phases);
 PetscErrorCode PhasesDestroy(Phases *phases);
 
+/* How volumes move: by the regions that faces sweep, cut by the lines (as from PhasesCreate), or by limited shares on faces
+ * (face_share.h).  Not collective. */
+typedef enum { PHASES_GEOMETRIC, PHASES_COMPRESSIVE } PhasesAdvection;
+void PhasesSetAdvection(Phases phases, PhasesAdvection advection);
+
 /* volume[ne][nphases], m2.  Not collective. */
 PetscErrorCode PhasesSetVolumes(Phases phases, const double volume[]);
 /* Borrowed: [ne][nphases].  Not collective. */
@@ -114,7 +119,7 @@ typedef struct {
  * each phase that left through face i, m2.  A boundary face of flux 0 is a wall: its vertices slide along it,
  * or stay at corners.  With masses: swept_mass[ne][3][nphases], kg, is what of the compressible phases' leaves with them; fluxes
  * may have a divergence then, and PhasesFillGaps is due.  Error PETSC_ERR_ARG_OUTOFRANGE, on all ranks, for a step that traces a
- * vertex out of its two rings. */
+ * vertex out of its two rings; compressive advection divides such a step. */
 PetscErrorCode PhasesAdvect(Phases phases, double dt, const double flux[], const double velocity[],
                             const PhasesInflow *inflow, double swept[], double swept_mass[]);
 

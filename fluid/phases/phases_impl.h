@@ -10,6 +10,7 @@
 struct Phases_s {
   const Stars *stars; /* borrowed */
   int np;
+  PhasesAdvection advection;
   double *volume;  /* [nl][np] m2 */
   HalfPlane *line; /* [nl][np - 1] */
   int *single;     /* [nl] the only phase, or -1 */
@@ -65,4 +66,10 @@ void PhasesSplit(Phases phases, int e, const Polygon *polygon, const double orig
  * */
 void PhasesSplitBy(int np, int single, const HalfPlane line[], const double x0[2], const Polygon *polygon,
                    const double origin[2], double weight, double area[]);
+/* The two ways of PhasesAdvect; inflow: NULL where boundaries are closed; swept is written, mass, too, unless it is NULL.  Lines are
+ * those of the start, or none.  The compressive one divides its step where an element would lose too much of its content. */
+PetscErrorCode GeometricAdvect(Phases phases, double dt, const double flux[], const double velocity[],
+                               const PhasesInflow *inflow, double swept[], double mass[]);
+PetscErrorCode CompressiveAdvect(Phases phases, double dt, const double flux[], const double velocity[],
+                                 const PhasesInflow *inflow, double swept[], double mass[]);
 #endif

@@ -50,4 +50,9 @@ static inline double StarsTwiceArea(const Stars *s, int e)
   const double(*x)[2] = (const double(*)[2])s->element[e].x;
   return (x[1][0] - x[0][0]) * (x[2][1] - x[0][1]) - (x[1][1] - x[0][1]) * (x[2][0] - x[0][0]);
 }
+/* The face of local element o at which its neighbour e lies. */
+static inline int StarsFaceTo(const Stars *s, int o, int e)
+{
+  return s->neighbor[o][0] == e ? 0 : s->neighbor[o][1] == e ? 1 : 2;
+}
 #endif

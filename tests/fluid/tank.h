@@ -14,6 +14,9 @@ typedef struct {
   Fluid fluid;
 } Tank;
 
+/* How the phases of the tanks to come move. */
+static PhasesAdvection tank_advection = PHASES_GEOMETRIC;
+
 /* Sides open to these layers outside, and an open top; NULL: walls. */
 typedef BoundaryPhases TankOutside;
 
@@ -35,6 +38,7 @@ static inline PetscErrorCode TankCreatePhases(int n, unsigned seed, const PhaseP
                       .capillary_cfl = CAPILLARY_CFL,
                       .boundary = boundary};
   PetscFunctionBeginUser;
+  setup.phases.advection = tank_advection;
   PetscCall(ShakenMesh(PETSC_COMM_WORLD, &shaken, &t->mesh));
   for (int b = 0; b < t->mesh->ntags; b++) {
     const char *name = t->mesh->tag_name[b];

@@ -1,7 +1,7 @@
 // ranks: 1 2
 /* A standing wave of small amplitude between water and air in the unit square: inviscid theory has w^2 = g k (rho_0 -
  * rho_1)/(rho_0 coth k h_0 + rho_1 coth k h_1), and viscosity damps the amplitude by exp(-2 nu k^2 t).
- * standing_wave n periods steps-a-period amplitude viscosity: prints each half period. */
+ * standing_wave n periods steps-a-period amplitude viscosity [compressive]: prints each half period. */
 #include "tests/fluid/tank.h"
 #include "tests/phases/wave.h"
 
@@ -66,6 +66,7 @@ int main(int argc, char **argv)
 {
   WaveReport r;
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
+  if (argc > 6) tank_advection = PHASES_COMPRESSIVE;
   if (argc > 5) {
     PetscCall(Wave(atoi(argv[1]), 2 * atoi(argv[2]), atoi(argv[3]), atof(argv[4]), atof(argv[5]), 1, &r));
   } else {

@@ -5,6 +5,7 @@
  *   bench_phases short [n ...]     the same, period 2
  *   bench_phases zalesak [n ...]   the slotted disc after one revolution; default 32 64 128 167
  *   bench_phases sliding [n ...]   the vortex of Basilisk's reversed.c, period 15
+ *   bench_phases compressive CASE [n ...]   one of these with compressive advection, bounds alone checked
  *
  * Prints a table; exit code 1 if an error is above the published one, or area or bounds are not kept.
  * Published, m2, on n x n squares (half as many cells), for n = 32, 64, 128:
@@ -25,6 +26,7 @@ typedef struct {
 } CoracleCase;
 
 static int failed;
+static PhasesAdvection advection = PHASES_GEOMETRIC;
 
 static void Judge(const CoracleCase *c, int n, double error, double relative, const PhasesStats *worst,
                   double kept)
@@ -35,8 +37,10 @@ static void Judge(const CoracleCase *c, int n, double error, double relative, co
     if (c->n[k] == n) published = c->published[k];
   }
   PetscPrintf(PETSC_COMM_WORLD, published > 0.0 ? "  %.2e\n" : "  -\n", published);
-  failed |= published > 0.0 && (zalesak ? relative : error) > published;
-  failed |= !(kept < 1e-12) || worst->lowest < -1e-10 || worst->highest > 1.0 + 1e-10;
+  if (advection == PHASES_GEOMETRIC) failed |= published > 0.0 && (zalesak ? relative : error) > published;
+  /* what the smeared edge leaves of Zalesak's disc at the open sides */
+  const double lost = advection == PHASES_COMPRESSIVE && zalesak ? 1e-4 : 1e-12;
+  failed |= !(kept < lost) || worst->lowest < -1e-10 || worst->highest > 1.0 + 1e-10;
 }
 
 static PetscErrorCode Row(const CoracleCase *c, int n, double *before)
@@ -54,6 +58,7 @@ static PetscErrorCode Row(const CoracleCase *c, int n, double *before)
   PetscCall(UnstructuredMesh(PETSC_COMM_WORLD, 1.0 / n, &mesh));
   PetscCall(StarsCreate(mesh, &stars));
   PetscCall(PhasesCreate(stars, 2, &phases));
+  PhasesSetAdvection(phases, advection);
   PetscCall(PhasesFill(phases, c->regions(region), region));
   PetscCall(PhasesGetVolumes(phases, &volume));
   PetscCall(PetscMalloc1(2 * mesh->ne, &start));
@@ -87,6 +92,11 @@ int main(int argc, char **argv)
   const CoracleCase *c = &all[0];
   double before = 0.0;
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
+  if (argc > 1 && !strcmp(argv[1], "compressive")) {
+    advection = PHASES_COMPRESSIVE;
+    argc--;
+    argv++;
+  }
   for (int k = 0; k < 4; k++) {
     if (argc > 1 && !strcmp(argv[1], all[k].name)) c = &all[k];
   }
