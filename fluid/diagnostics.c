@@ -23,6 +23,28 @@ PetscErrorCode FluidMomentumTotal(Fluid f, double momentum[2], double *energy)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode FluidPotentialEnergy(Fluid f, double *energy)
+{
+  int n;
+  const double *volume = PhaseTransportVolumes(f->phases, &n), *g = f->setup.gravity;
+  const Phases phases = PhaseTransportPhases(f->phases);
+  const double *mass = PhasesMasses(phases);
+  PetscFunctionBeginUser;
+  *energy = 0.0;
+  for (int k = 0; k < n * f->domain.mesh->ne; k++) {
+    const EquationOfState *state = &f->setup.phases.state[k % n];
+    Polygon part;
+    double moment[2];
+    if (!(volume[k] > 0.0)) continue;
+    PetscCall(PhasesGetPolygon(phases, k / n, k % n, &part));
+    PolygonMoment(&part, moment);
+    const double rho = state->pressure > 0.0 ? mass[k] / volume[k] : f->setup.phases.rho[k % n];
+    *energy -= rho * (g[0] * moment[0] + g[1] * moment[1]);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, energy, 1, MPI_DOUBLE, MPI_SUM, f->domain.mesh->comm));
+  PetscFunctionReturn(0);
+}
+
 /* int (p n - tau n + eta (u - g)) over one boundary face: what the scheme itself takes from the fluid there
  */
 static void FaceForce(Fluid f, int e, int i, const Boundary *b, const double u[6], const double p[],

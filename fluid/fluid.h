@@ -114,6 +114,8 @@ PetscErrorCode FluidRestoreState(Fluid fluid);
 
 /* Total momentum, kg m/s a metre, and kinetic energy, J/m. */
 PetscErrorCode FluidMomentumTotal(Fluid fluid, double momentum[2], double *energy);
+/* Of phases, also of that which fills solids, J/m: - int rho g.x. */
+PetscErrorCode FluidPotentialEnergy(Fluid fluid, double *energy);
 /* Force of the fluid on a boundary, N/m, from the interior-penalty traction (consistent with the scheme). */
 PetscErrorCode FluidBoundaryForce(Fluid fluid, const char *boundary, double force[2]);
 /* L2 errors against exact fields (any NULL skipped); pressure up to a constant. */

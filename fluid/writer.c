@@ -89,14 +89,15 @@ static PetscErrorCode Snapshot(Writer r, Fluid f)
   PetscFunctionReturn(0);
 }
 
-enum { NCOLUMNS = 16, ROW_MAX = NCOLUMNS + 3 * PHASES_MAX };
+enum { NCOLUMNS = 16, ROW_MAX = NCOLUMNS + 1 + 3 * PHASES_MAX };
 
-/* columns[size]: COLUMNS, and three of each phase. */
+/* columns[size]: COLUMNS, and with phases their potential energy and three of each. */
 static PetscErrorCode SetColumns(Fluid f, size_t size, char columns[])
 {
   const PhaseProperties *phases = FluidPhases(f) ? PhaseTransportProperties(FluidPhases(f)) : NULL;
   PetscFunctionBeginUser;
   PetscCall(PetscStrncpy(columns, COLUMNS, size));
+  if (phases) PetscCall(PetscStrlcat(columns, ",potential energy [J/m]", size));
   for (int p = 0; phases && p < phases->n; p++) {
     char more[160];
     const char *name = phases->name[p];
@@ -108,13 +109,14 @@ static PetscErrorCode SetColumns(Fluid f, size_t size, char columns[])
   PetscFunctionReturn(0);
 }
 
-/* row[3 n]: how much there is of each phase, how much has left, and what is more than there should be. */
+/* row[1 + 3 n]: potential energy; how much there is of each phase, how much has left, and what is more than there should be. */
 static PetscErrorCode AddPhases(Fluid f, double row[])
 {
   PhaseBudget b;
   PetscFunctionBeginUser;
   if (!FluidPhases(f)) PetscFunctionReturn(0);
   PetscCall(PhaseTransportBudget(FluidPhases(f), &b));
+  PetscCall(FluidPotentialEnergy(f, row++));
   for (int p = 0; p < PhaseTransportProperties(FluidPhases(f))->n; p++) {
     row[3 * p] = b.volume[p];
     row[3 * p + 1] = b.out[p];

@@ -1,4 +1,4 @@
-"""The front of a run of the dam break beside the experiment of Martin and Moyce."""
+"""The front of a run of the dam break beside the experiment of Martin and Moyce, and beside potential flow."""
 import pathlib
 import sys
 
@@ -16,6 +16,11 @@ def experiment():
     return np.loadtxt(HERE / "reference" / "martin_moyce.csv", delimiter=",", comments="#", skiprows=3).T
 
 
+def potential():
+    """T and Z of potential flow (potential.py), for a floor without friction and no gate."""
+    return np.loadtxt(HERE / "reference" / "potential.csv", delimiter=",", comments="#", skiprows=2).T
+
+
 def front(folder):
     """T and Z of every step."""
     probes = read_probes(folder)
@@ -24,7 +29,8 @@ def front(folder):
 
 class Comparison:
     """shift: the experiment's times less the run's at the same Z, T, the median over its points; difference: of Z at the experiment's
-    times less the shift, relative; speed: dZ/dT of the run from T = 4 on."""
+    times less the shift, relative; potential: largest relative difference of Z from potential flow, from T = 1 on; speed: dZ/dT of
+    the run from T = 4 on."""
 
     def __init__(self, folder):
         t, z = front(folder)
@@ -36,5 +42,8 @@ class Comparison:
         self.difference = np.interp(reference_t[reached] - self.shift, t, z) / reference_z[reached] - 1.0
         self.mean = float(abs(self.difference).mean())
         self.second, self.largest = (float(d) for d in np.sort(abs(self.difference))[-2:])
+        potential_t, potential_z = potential()
+        there = (potential_t >= 1.0) & (potential_t <= t[-1])
+        self.potential = float(abs(np.interp(potential_t[there], t, z) / potential_z[there] - 1.0).max())
         late = (t > 4.0) & (z < 14.0)
         self.speed = float(np.polyfit(t[late], z[late], 1)[0])

@@ -37,21 +37,28 @@ static double AreaOf(const Stars *s, int e)
   return 0.5 * StarsTwiceArea(s, e);
 }
 
+/* Whether the shares of any phase differ. */
+static int Differ(const Compressive *t, const Shares *a, const Shares *b)
+{
+  for (int p = 0; p < t->f->np; p++)
+    if (fabs(a->share[p] - b->share[p]) > SHARE_TINY) return 1;
+  return 0;
+}
+
 /* --- values on faces ------------------------------------------------------------------------------------ */
 
 static void SetMeans(Compressive *t)
 {
   const Stars *s = t->s;
   for (int v = 0; v < s->nwhole; v++) {
-    double area = 0.0;
-    t->mean[v] = (Shares){{0.0}};
+    double *mean = t->mean[v].share, area = 0.0;
+    for (int p = 0; p < t->f->np; p++) mean[p] = 0.0;
     for (int k = s->start[v]; k < s->start[v + 1]; k++) {
-      const int e = s->around[k] / 3;
-      const double a = AreaOf(s, e);
+      const double a = AreaOf(s, s->around[k] / 3), *share = t->now[s->around[k] / 3].share;
       area += a;
-      for (int p = 0; p < t->f->np; p++) t->mean[v].share[p] += a * t->now[e].share[p];
+      for (int p = 0; p < t->f->np; p++) mean[p] += a * share[p];
     }
-    for (int p = 0; p < t->f->np; p++) t->mean[v].share[p] /= area;
+    for (int p = 0; p < t->f->np; p++) mean[p] /= area;
   }
 }
 
@@ -101,26 +108,6 @@ static void FaceValues(const Compressive *t, int from, int i, int to, const doub
   for (int p = 0; p < t->f->np; p++) value[p] /= sum;
 }
 
-/* What comes in through boundary face i of element e: of each layer its share of the face, of the rest the boundary's. */
-static void InflowValues(const Compressive *t, int e, int i, double value[])
-{
-  const StarElement *element = &t->s->element[e];
-  const PhasesLevels *levels = t->inflow->levels ? &t->inflow->levels[element->tag[i]] : NULL;
-  const double *a = element->x[(i + 1) % 3], *b = element->x[(i + 2) % 3];
-  double below = 0.0;
-  for (int p = 0; p < t->f->np; p++) value[p] = 0.0;
-  for (int k = 0; levels && k < levels->n; k++) {
-    const double da = levels->normal[0] * a[0] + levels->normal[1] * a[1] - levels->d[k],
-                 db = levels->normal[0] * b[0] + levels->normal[1] * b[1] - levels->d[k];
-    const double share = fmax(da, db) <= 0.0   ? 1.0
-                         : fmin(da, db) >= 0.0 ? 0.0
-                                               : -fmin(da, db) / fabs(db - da);
-    value[levels->phase[k]] += share - below;
-    below = share;
-  }
-  for (int p = 0; p < t->f->np; p++) value[p] += (1.0 - below) * t->inflow->fraction[element->tag[i]][p];
-}
-
 static void SetFace(Compressive *t, int e, int i)
 {
   const Stars *s = t->s;
@@ -131,15 +118,19 @@ static void SetFace(Compressive *t, int e, int i)
   double value[PHASES_MAX];
   const Shares *donor = swept > 0.0 || o < 0 ? &t->now[e] : &t->now[o];
   Shares *upwind = &t->upwind[3 * e + i], *more = &t->more[3 * e + i], inflow;
-  *upwind = *more = (Shares){{0.0}};
+  for (int p = 0; p < np; p++) upwind->share[p] = more->share[p] = 0.0;
   if (swept == 0.0) return;
   if (o < 0 && swept < 0.0 && t->inflow) {
-    InflowValues(t, e, i, inflow.share);
+    InflowShares(t->inflow, &s->element[e], i, np, inflow.share);
     donor = &inflow;
   }
   for (int p = 0; p < np; p++) value[p] = donor->share[p];
-  if (o >= 0 && swept > 0.0) FaceValues(t, e, i, o, u, value);
-  if (o >= 0 && swept < 0.0) FaceValues(t, o, StarsFaceTo(s, o, e), e, u, value);
+  if (o >= 0 && Differ(t, &t->now[e], &t->now[o])) {
+    if (swept > 0.0)
+      FaceValues(t, e, i, o, u, value);
+    else
+      FaceValues(t, o, StarsFaceTo(s, o, e), e, u, value);
+  }
   for (int p = 0; p < np; p++) {
     upwind->share[p] = swept * donor->share[p];
     more->share[p] = swept * (value[p] - donor->share[p]);
@@ -262,8 +253,7 @@ static PetscErrorCode SetCourant(Compressive *t, double *largest)
     for (int i = 0; i < 3; i++) {
       const int o = s->neighbor[e][i];
       t->courant[e] += fmax(t->flux[3 * e + i], 0.0) * t->dt / AreaOf(s, e);
-      for (int p = 0; p < t->f->np && o >= 0; p++)
-        mixed |= fabs(t->now[o].share[p] - t->now[e].share[p]) > SHARE_TINY;
+      mixed |= o >= 0 && Differ(t, &t->now[e], &t->now[o]);
     }
     if (mixed) *largest = fmax(*largest, t->courant[e]);
   }

@@ -66,6 +66,8 @@ void PhasesSplit(Phases phases, int e, const Polygon *polygon, const double orig
  * */
 void PhasesSplitBy(int np, int single, const HalfPlane line[], const double x0[2], const Polygon *polygon,
                    const double origin[2], double weight, double area[]);
+/* share[np] of what comes in through boundary face i: of each layer outside its part of the face, of the rest the boundary's. */
+void InflowShares(const PhasesInflow *inflow, const StarElement *element, int i, int np, double share[]);
 /* The two ways of PhasesAdvect; inflow: NULL where boundaries are closed; swept is written, mass, too, unless it is NULL.  Lines are
  * those of the start, or none.  The compressive one divides its step where an element would lose too much of its content. */
 PetscErrorCode GeometricAdvect(Phases phases, double dt, const double flux[], const double velocity[],

@@ -36,6 +36,17 @@ static inline double PolygonArea(const Polygon *p)
   return 0.5 * twice;
 }
 
+/* moment: int x over the polygon, m3. */
+static inline void PolygonMoment(const Polygon *p, double moment[2])
+{
+  moment[0] = moment[1] = 0.0;
+  for (int k = 1; k + 1 < p->n; k++) {
+    const double *a = p->x[0], *b = p->x[k], *c = p->x[k + 1];
+    const double area = 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+    for (int d = 0; d < 2; d++) moment[d] += area / 3.0 * (a[d] + b[d] + c[d]);
+  }
+}
+
 /* Triangle x, moved so that origin is 0. */
 static inline void PolygonTriangle(const double x[3][2], const double origin[2], Polygon *p)
 {

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A square among water and air, among water, oil and air, among water and compressible air, among water and air with compressive advection: few coupling iterations, momentum and water kept, no water inside, the same on other ranks and after a resume.
+# A square among water and air, among water, oil and air, among water and compressible air, among water and air with compressive advection: few coupling iterations, momentum and water kept, hardly any energy made, no water inside, the same on other ranks and after a resume.
 # Usage: phases.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
@@ -39,6 +39,12 @@ for label in ("one", "two", "half", "compressive"):
         assert abs(float(row["water made [m2]"])) < 0.039e-12, "%s: water made %s m2" % (label, row["water made [m2]"])
         assert abs(float(row["water [m2]"]) + float(row["water out [m2]"]) - 0.039) < 1e-11, "%s: water %s m2, out %s" % (
             label, row["water [m2]"], row["water out [m2]"])
+    energy = [float(f["kinetic energy [J/m]"]) + float(f["potential energy [J/m]"]) + float(s["kinetic0 [J/m]"]) + float(s["strain0 [J/m]"])
+              + 9.81 * float(s["mass0 [kg/m]"]) * float(s["y0 [m]"]) for f, s in zip(rows(label, "fluid"), rows(label, "solid"))]
+    rises, scale = np.maximum(np.diff(energy), 0.0).sum(), max(float(f["kinetic energy [J/m]"]) for f in rows(label, "fluid"))
+    if len(sys.argv) > 2: print("%s: energy %+.1e of the largest kinetic energy, all rises %.1e, highest above the start %.1e" % (
+        label, (energy[-1] - energy[0]) / scale, rises / scale, (max(energy) - energy[0]) / scale))
+    assert rises < (3e-2 if label == "compressive" else 2e-3) * scale, "%s: energy rises by %g of the kinetic energy" % (label, rises / scale)
     coupler, last = rows(label, "coupler"), rows(label, "solid")[-1]
     # water in an element of the surface is heavier than this solid: where that happens the step is repeated
     iterations = [int(float(r["iterations"])) for r in coupler]

@@ -53,7 +53,7 @@ phases "'fluid.regions\[1\].upper': the box is empty" --set 'fluid.regions=[{pha
 refused fluid "'fluid.boundaries.left.level': there are no phases" --set 'fluid.boundaries.left={level: 1}' --set fluid.density=1 --set fluid.viscosity=1
 phases "'fluid.boundaries.left.level': expected a number" --set 'fluid.regions=[{phase: air}]' --set 'fluid.boundaries.left={level: high}'
 phases "'fluid.boundaries.left.level': without gravity no side is up" --set 'fluid.regions=[{phase: air}]' --set 'fluid.boundaries.left={level: 1}' --set 'gravity=[0, 0]'
-phases "'fluid.phases_advection': expected geometric or compressive, found 'sharp'" --set 'fluid.regions=[{phase: air}]' --set fluid.phases_advection=sharp
+phases "'fluid.phases_advection': expected one of geometric, compressive, found 'sharp'" --set 'fluid.regions=[{phase: air}]' --set fluid.phases_advection=sharp
 phases "'fluid.phases\[1\].name': expected a name" --set 'fluid.regions=[{phase: water}]' --set 'fluid.phases[1].name="a, b"'
 # more than two, and what is said of pairs of them
 three='fluid.phases=[{name: water, density: 1000, viscosity: 1.0e-3}, {name: oil, density: 800, viscosity: 1.0e-3}, {name: air, density: 1.2, viscosity: 1.8e-5}]'

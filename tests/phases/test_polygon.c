@@ -49,6 +49,29 @@ static void CheckDivision(int k)
         share * all);
 }
 
+/* Of a triangle: its area times the mean of its corners; of a polygon, that of its parts. */
+static void CheckMoment(int k)
+{
+  const Polygon p = RandomPolygon(k);
+  const double zero[2] = {0.0, 0.0}, x[3][2] = {{0.1, 0.2}, {1.3, 0.1 * k / 100.0}, {0.4, 0.9}};
+  const HalfPlane h = {{0.6, 0.8}, 0.5}, other = HalfPlaneOther(&h);
+  Polygon low, high, triangle;
+  double all[2], below[2], above[2], mean[2];
+  PolygonClip(&p, &h, &low);
+  PolygonClip(&p, &other, &high);
+  PolygonTriangle(x, zero, &triangle);
+  PolygonMoment(&p, all);
+  PolygonMoment(&low, below);
+  PolygonMoment(&high, above);
+  PolygonMoment(&triangle, mean);
+  for (int c = 0; c < 2; c++) {
+    CHECK(fabs(below[c] + above[c] - all[c]) < 1e-14, "polygon %d: moments %.17g + %.17g of %.17g", k,
+          below[c], above[c], all[c]);
+    CHECK(fabs(mean[c] - PolygonArea(&triangle) * (x[0][c] + x[1][c] + x[2][c]) / 3.0) < 1e-15,
+          "triangle %d: moment %.17g", k, mean[c]);
+  }
+}
+
 /* dA_J/dtheta = l_J (t_K - t_J) */
 static void CheckDerivative(int k)
 {
@@ -75,6 +98,7 @@ static void CheckDerivative(int k)
 int main(void)
 {
   for (int k = 0; k < 20000; k++) CheckDivision(k);
+  for (int k = 0; k < 2000; k++) CheckMoment(k);
   for (int k = 0; k < 5000; k++) CheckDerivative(k);
   return 0;
 }
