@@ -54,12 +54,12 @@ def snapshot_times(folder):
         return [group.attrs["time"] for group in groups if len(group)]
 
 
-COLUMNS = ("water out", "water made", "imbalance", "iterations after the first step", "triangles", "steps", "cost")  # of Run.cells
+COLUMNS = ("water out", "water made", "imbalance", "iterations", "triangles", "steps", "cost")  # of Run.cells
 
 
 class Run:
-    """What any run of several phases has left behind: what became of the water, elements, steps, and what they took; passes: the mean
-    of the coupling iterations of a step, without the first step."""
+    """What any run of several phases has left behind: what became of the water, elements, steps, and what they took; passes: coupling
+    iterations of a step, the mean; later_passes: the most after the first step, which is repeated until a body's forces are known."""
 
     def __init__(self, folder):
         with open(os.path.join(folder, "summary.json")) as file:
@@ -73,8 +73,8 @@ class Run:
         parts = self.summary["participants"].values()
         self.cpu = sum(p["seconds_cpu"] for p in parts)
         self.cpu_triangle = self.cpu / float(triangles.sum())  # of a triangle in a step
-        # of steps after the first, which is repeated until a body's first forces are known
-        self.passes = read_series(os.path.join(folder, "coupler.csv"))["iterations"][1:].mean()
+        self.passes = self.summary.get("iterations", self.steps) / self.summary["steps"]
+        self.later_passes = read_series(os.path.join(folder, "coupler.csv"))["iterations"][1:].max()
 
     def cells(self, first):
         """Of a table's row: COLUMNS; water out and made: of that at the start; cost: processor time over that of the run `first`."""
