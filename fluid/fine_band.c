@@ -3,6 +3,9 @@
 #include "common/supermesh/search.h"
 #include "fluid/fluid_impl.h"
 
+/* Of an element, what of all phases but one is the tail of a smeared interface. */
+#define TAIL 1e-3
+
 /* Where a piece of the surface is and where it will be at the next adaptation, and the size that it wants. */
 typedef struct {
   double from[2], to[2], size;
@@ -22,12 +25,24 @@ static double DensityRange(Fluid f, int e)
   return low + high;
 }
 
+/* Whether element e has more than one phase; of a smeared interface, more than its tail. */
+static PetscBool OfInterface(Fluid f, int e)
+{
+  int n;
+  const double *volume = PhaseTransportVolumes(f->phases, &n);
+  double most = 0.0;
+  if (PhasesSingle(PhaseTransportPhases(f->phases), e) >= 0) return PETSC_FALSE;
+  for (int p = 0; p < n; p++) most = fmax(most, volume[n * e + p]);
+  return (PetscBool)(f->setup.phases.advection == PHASES_GEOMETRIC ||
+                     most < (1.0 - TAIL) * f->domain.geometry[e].area);
+}
+
 /* Mean velocity of element e in the flow of the current step, if the interface cuts it; light elements follow the others,
  * whose motion it is. */
 static PetscBool InterfaceVelocity(Fluid f, int e, double velocity[2])
 {
   const double *u = FluidVelocityProjected(f) + 6 * e;
-  if (!f->phases || PhasesSingle(PhaseTransportPhases(f->phases), e) >= 0) return PETSC_FALSE;
+  if (!f->phases || !OfInterface(f, e)) return PETSC_FALSE;
   const double heavy = FluidDensity(f)[e] < 0.25 * DensityRange(f, e) ? 0.0 : 1.0;
   for (int c = 0; c < 2; c++) velocity[c] = heavy / 3.0 * (u[3 * c] + u[3 * c + 1] + u[3 * c + 2]);
   return PETSC_TRUE;
