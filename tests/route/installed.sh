@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # An outside solid must build against the installed client library alone, by CMake and by pkg-config, and join a job;
-# the library exports Coracle* and nothing else; its headers are C11, and C++11 to C++20 with any compiler there is.
+# the library exports Coracle* and nothing else; its headers are C11, and C++11 to C++20 with any compiler there is; clients in all
+# languages run (languages.sh).
 # Usage: installed.sh BUILD_DIR CASE MPIRUN...
 set -euo pipefail
-build=$1 case=$2 template=$(cd "$(dirname "$0")/../../cases/adapters/template_c" && pwd)
+build=$1 case=$2 root=$(cd "$(dirname "$0")/../.." && pwd)
+template=$root/cases/adapters/template_c
 shift 2
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -58,3 +60,5 @@ for program in "$scratch/build/by_client" "$scratch/build/by_client_shared" "$sc
   timeout -k 5 30 "$@" -n 1 "$program" "$case" >"$scratch/log" 2>&1 && { echo 'joined a job of its own'; exit 1; }
   grep -q 'error: there is no fluid among the 1 ranks' "$scratch/log" || { cat "$scratch/log"; exit 1; }
 done
+
+"$root/tests/route/languages.sh" "$root" "$build" "$scratch/there"

@@ -1,0 +1,121 @@
+"""The model of scripts/scaling.py: what a rank computes in a step, fitted to the runs, and a step on many ranks, on paper.
+
+Of each participant, with n elements (of the fluid, of the fluid near the solid, of the solid) on P ranks, the busiest rank computes
+
+    w(n, P) = a + b n/P + [P > 1] (c sqrt(n/P) + d)      a, b, c, d >= 0: what every rank does, its elements, its part's edge, its messages
+
+by least squares of relative errors.  On paper a step takes the sum over the participants, which wait for each other, of
+
+    w + latency (reductions log2 P + messages + 2 log2 P gathers) + (bytes + 8 P gathers) / bandwidth
+
+with the counts of a rank that the runs with the most ranks have.  n of the coupler and of the solid are shares of the fluid's, as in the runs.
+"""
+import itertools
+import math
+
+import numpy
+
+PARTS = ("fluid", "coupler", "solid")
+SIZE = {"fluid": "elements", "coupler": "near", "solid": "solid elements"}
+LATENCY, BANDWIDTH = 2e-6, 1e10  # s, bytes/s: assumed of a cluster's network
+PAPER = (8, 80, 800, 8000)  # ranks of the fluid on paper; the coupler and the solid have an eighth of them each
+WEAK, STRONG = 5000, 40e6  # elements a rank of the fluid, elements in all, on paper
+
+
+def describe(row):
+    """A line for the log."""
+    return " ".join([f"{row['set']:>8} {':'.join(f'{row[p]:.0f}' for p in PARTS):>8} {row['elements']:7.0f} elements, {row['steps']:.0f} steps of "
+                     f"{row['step [s]']:.3g} s;",
+                     *(f"{p} computed {1e3 * row[p + ' computed [s]']:.3g} ms, waited {1e3 * row[p + ' waited [s]']:.3g} ms, sent "
+                       f"{row[p + ' messages']:.0f}+{row[p + ' exchanged']:.0f};" for p in PARTS)])
+
+
+def terms(n, ranks):
+    part, several = n / ranks, numpy.where(numpy.asarray(ranks) > 1, 1.0, 0.0)
+    return numpy.array([numpy.ones_like(part), part, several * numpy.sqrt(part), several])
+
+
+def fit(n, ranks, work):
+    """Coefficients a, b, c, d >= 0 of the least relative errors, and those errors."""
+    matrix = (terms(n, ranks) / work).T
+    best = None
+    for used in itertools.chain.from_iterable(itertools.combinations(range(4), k) for k in (1, 2, 3, 4)):
+        x = numpy.zeros(4)
+        x[list(used)] = numpy.linalg.lstsq(matrix[:, used], numpy.ones(len(work)), rcond=None)[0]
+        error = matrix @ x - 1
+        if x.min() >= 0 and (best is None or error @ error < best[1] @ best[1]):
+            best = x, error
+    return best
+
+
+def models(rows):
+    result = {}
+    for p in PARTS:
+        n, ranks, work = (numpy.array([row[k] for row in rows]) for k in (SIZE[p], p, p + " computed [s]"))
+        result[p] = fit(n, ranks, work)
+    return result
+
+
+def paper(rows, fitted, n, ranks):
+    """Seconds of a step by what they are for, on paper: n elements on `ranks` ranks of the fluid."""
+    most = max(rows, key=lambda row: (row["fluid"], row["elements"]))
+    cost = {}
+    for p in PARTS:
+        mine = max(1, ranks if p == "fluid" else ranks // 8)
+        size = n * sum(row[SIZE[p]] for row in rows) / sum(row["elements"] for row in rows)
+        count = {c: most[f"{p} {c}"] for c in ("messages", "bytes", "exchanged", "exchanged bytes", "reductions", "gathers")}
+        deep = math.log2(mine) if mine > 1 else 0
+        cost[p, "computes"] = float(fitted[p][0] @ terms(numpy.array(size), mine))
+        cost[p, "reductions"] = LATENCY * deep * (count["reductions"] + 2 * count["gathers"])
+        cost[p, "gathers"] = 8 * mine * count["gathers"] / BANDWIDTH
+        cost[p, "messages"] = (LATENCY * (count["messages"] + count["exchanged"]) + (count["bytes"] + count["exchanged bytes"]) / BANDWIDTH) * (mine > 1)
+    return cost
+
+
+def table(header, rows):
+    return ["| " + " | ".join(header) + " |", "|---" * len(header) + "|", *("| " + " | ".join(row) + " |" for row in rows)]
+
+
+def tables(rows):
+    """{mark: lines of Markdown}, and the fitted models."""
+    fitted = models(rows)
+    measured = []
+    for k, row in enumerate(rows):
+        cells = [f"{row['set']} {':'.join(f'{row[p]:.0f}' for p in PARTS)}", f"{row['elements']:.0f}", f"{1e3 * row['step [s]']:.3g}"]
+        for p in PARTS:
+            cells += [f"{1e3 * row[p + ' computed [s]']:.3g} ({100 * fitted[p][1][k]:+.0f} %)", f"{1e3 * row[p + ' waited [s]']:.3g}",
+                      f"{row[p + ' messages']:.0f} + {row[p + ' exchanged']:.0f}", f"{(row[p + ' bytes'] + row[p + ' exchanged bytes']) / 1e3:.0f}",
+                      f"{row[p + ' reductions']:.0f} + {row[p + ' gathers']:.0f}"]
+        measured.append(cells)
+    header = ["run", "triangles", "step", *(f"{p}: {c}" for p in PARTS for c in ("computes (model)", "waits", "messages", "kB", "collective"))]
+    coefficients = [[p, SIZE[p], *(f"{1e6 * x:.3g}" for x in fitted[p][0]), f"{100 * numpy.sqrt(numpy.mean(fitted[p][1] ** 2)):.0f} %",
+                     f"{100 * abs(fitted[p][1]).max():.0f} %"] for p in PARTS]
+    on_paper = []
+    for what, size in (("weak", lambda ranks: WEAK * ranks), ("strong", lambda ranks: STRONG)):
+        for ranks in PAPER:
+            cost = paper(rows, fitted, size(ranks), ranks)
+            total = sum(cost.values())
+            worst = max((k for k in cost if k != ("fluid", "computes")), key=cost.get)
+            on_paper.append([f"{what} {ranks}:{max(1, ranks // 8)}:{max(1, ranks // 8)}", f"{size(ranks):.3g}", f"{1e3 * total:.3g}",
+                             *(f"{1e3 * cost[p, 'computes']:.3g} + {1e3 * (cost[p, 'reductions'] + cost[p, 'messages'] + cost[p, 'gathers']):.3g}"
+                               for p in PARTS), f"{worst[0]}: {worst[1]}, {100 * cost[worst] / total:.0f} %"])
+    return {"scaling": table(header, measured), "model": table(["", "n", "a [us]", "b [us]", "c [us]", "d [us]", "rms", "largest"], coefficients),
+            "paper": table(["ranks", "triangles", "step [ms]", *(f"{p} computes + communicates" for p in PARTS), "most beside the fluid's work"],
+                           on_paper)}, fitted
+
+
+def plot(path, rows, fitted):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    figure, axes = plt.subplots(1, 3, figsize=(13, 4.5), sharey=True, layout="constrained")
+    for p, ax in zip(PARTS, axes):
+        for name in dict.fromkeys(row["set"] for row in rows):
+            of = sorted((row for row in rows if row["set"] == name), key=lambda row: row[p])
+            ranks = [row[p] for row in of]
+            points, = ax.loglog(ranks, [1e3 * row[p + " computed [s]"] for row in of], "o", label=name)
+            ax.loglog(ranks, [1e3 * float(fitted[p][0] @ terms(numpy.array(row[SIZE[p]]), row[p])) for row in of], "-", color=points.get_color())
+        ax.set(title=p, xlabel="ranks")
+    axes[0].set_ylabel("ms a step, busiest rank, outside of MPI; lines: model")
+    axes[0].legend()
+    figure.savefig(path, dpi=150)
