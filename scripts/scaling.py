@@ -5,7 +5,7 @@ Usage: scripts/scaling.py CASE [--splits 1:1:1,2:2:2,4:4:4] [--weak 1:1:1,2:2:2,
 
 --splits  strong: the same case on each split (fluid:coupler:solid)
 --weak    the mesh grows with the ranks: the keys of --length (sizes, time.dt_max, time.end, and --skip) shrink with the root of the ranks
---skip    time of the case whose cost does not count: each run is made up to there, too, and taken off
+--skip    time of the case whose cost does not count: each run is made up to there, too, and taken off; wall clock and waiting are of all steps
 --readme  tables between <!-- scaling -->, <!-- model -->, <!-- paper --> and their ends in that file
 DIR (--out) holds scaling.csv, scaling.png; rows of earlier calls stay, and the model (scaling_model.py) is of all rows.
 
@@ -61,18 +61,14 @@ def run(arguments, name, split, scale, counter):
     row = dict(zip(PARTS, map(int, split.split(":"))), set=name, elements=int(who["fluid"]["elements"]),
                near=summary["elements"]["fluid_near_solid"], steps=steps)
     row["solid elements"] = summary["elements"]["solid"]
-    wall = {p: who[p]["seconds_wall"] for p in PARTS}
-    waited = {p: who[p]["seconds_waiting"] for p in PARTS}
+    row["step [s]"] = max(who[p]["seconds_wall"] for p in PARTS) / steps
+    row.update((f"{p} waited [s]", who[p]["seconds_waiting"] / steps) for p in PARTS)
     if arguments.skip:
         before, less = launch(arguments, split, sets + [f"time.end={scale * arguments.skip:.12g}"], counter)
         row["steps"] = steps = steps - before["steps"]
         for p in PARTS:
-            wall[p] -= before["participants"][p]["seconds_wall"]
-            waited[p] -= before["participants"][p]["seconds_waiting"]
             counts[p] = [[a - b for a, b in zip(of, off)] for of, off in zip(counts[p], less[p])]
-    row["step [s]"] = max(wall.values()) / steps
     for p in PARTS:
-        row[f"{p} waited [s]"] = waited[p] / steps
         row.update((f"{p} {c}", max(of[k + 1] for of in counts[p]) / steps) for k, c in enumerate(COUNTS))
     return row
 

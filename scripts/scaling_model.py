@@ -2,13 +2,14 @@
 
 Of each participant, with n elements (of the fluid, of the fluid near the solid, of the solid) on P ranks, the busiest rank computes
 
-    w(n, P) = a + b n/P + [P > 1] (c sqrt(n/P) + d)      a, b, c, d >= 0: what every rank does, its elements, its part's edge, its messages
+    w = a + b n/P + c messages + d collectives      a, b, c, d >= 0; collectives count where P > 1
 
 by least squares of relative errors.  On paper a step takes the sum over the participants, which wait for each other, of
 
     w + latency (reductions log2 P + messages + 2 log2 P gathers) + (bytes + 8 P gathers) / bandwidth
 
-with the counts of a rank that the runs with the most ranks have.  n of the coupler and of the solid are shares of the fluid's, as in the runs.
+and the partition of the new mesh on one rank after every adaptation, with the counts of a rank that the run with the most ranks has.  n of the
+coupler and of the solid are shares of the fluid's, as in the runs.
 """
 import itertools
 import math
@@ -18,8 +19,9 @@ import numpy
 PARTS = ("fluid", "coupler", "solid")
 SIZE = {"fluid": "elements", "coupler": "near", "solid": "solid elements"}
 LATENCY, BANDWIDTH = 2e-6, 1e10  # s, bytes/s: assumed of a cluster's network
-PAPER = (8, 80, 800, 8000)  # ranks of the fluid on paper; the coupler and the solid have an eighth of them each
-WEAK, STRONG = 5000, 40e6  # elements a rank of the fluid, elements in all, on paper
+PAPER = ((7, 2, 1), (70, 20, 10), (700, 200, 100), (7000, 2000, 1000))  # splits on paper
+WEAK, STRONG = 5000, 35e6  # triangles a rank of the fluid, and in all, on paper
+PARTITION, EVERY = 4e-6, 30  # s a triangle of METIS on one rank with its gather (tests/mesh/bench_mesh: 216 194 triangles in 0.9 s), steps between adaptations
 
 
 def describe(row):
@@ -30,45 +32,38 @@ def describe(row):
                        f"{row[p + ' messages']:.0f}+{row[p + ' exchanged']:.0f};" for p in PARTS)])
 
 
-def terms(n, ranks):
-    part, several = n / ranks, numpy.where(numpy.asarray(ranks) > 1, 1.0, 0.0)
-    return numpy.array([numpy.ones_like(part), part, several * numpy.sqrt(part), several])
+def terms(row, p, n=None, ranks=None):
+    """What a, b, c, d go with, for participant p of a run; on paper with n elements on `ranks` ranks."""
+    n, ranks = (row[SIZE[p]], row[p]) if n is None else (n, ranks)
+    several = ranks > 1
+    return [1.0, n / ranks, several * row[f"{p} messages"], several * (row[f"{p} reductions"] + row[f"{p} gathers"])]
 
 
-def fit(n, ranks, work):
+def fit(rows, p):
     """Coefficients a, b, c, d >= 0 of the least relative errors, and those errors."""
-    matrix = (terms(n, ranks) / work).T
+    matrix = numpy.array([numpy.array(terms(row, p)) / row[p + " computed [s]"] for row in rows])
     best = None
     for used in itertools.chain.from_iterable(itertools.combinations(range(4), k) for k in (1, 2, 3, 4)):
         x = numpy.zeros(4)
-        x[list(used)] = numpy.linalg.lstsq(matrix[:, used], numpy.ones(len(work)), rcond=None)[0]
+        x[list(used)] = numpy.linalg.lstsq(matrix[:, used], numpy.ones(len(rows)), rcond=None)[0]
         error = matrix @ x - 1
         if x.min() >= 0 and (best is None or error @ error < best[1] @ best[1]):
             best = x, error
     return best
 
 
-def models(rows):
-    result = {}
-    for p in PARTS:
-        n, ranks, work = (numpy.array([row[k] for row in rows]) for k in (SIZE[p], p, p + " computed [s]"))
-        result[p] = fit(n, ranks, work)
-    return result
-
-
-def paper(rows, fitted, n, ranks):
-    """Seconds of a step by what they are for, on paper: n elements on `ranks` ranks of the fluid."""
+def paper(rows, fitted, n, split):
+    """Seconds of a step by what they are for, on paper: n elements of the fluid on a split of ranks."""
     most = max(rows, key=lambda row: (row["fluid"], row["elements"]))
     cost = {}
-    for p in PARTS:
-        mine = max(1, ranks if p == "fluid" else ranks // 8)
-        size = n * sum(row[SIZE[p]] for row in rows) / sum(row["elements"] for row in rows)
+    for p, ranks in zip(PARTS, split):
+        mine = n * sum(row[SIZE[p]] for row in rows) / sum(row["elements"] for row in rows)
         count = {c: most[f"{p} {c}"] for c in ("messages", "bytes", "exchanged", "exchanged bytes", "reductions", "gathers")}
-        deep = math.log2(mine) if mine > 1 else 0
-        cost[p, "computes"] = float(fitted[p][0] @ terms(numpy.array(size), mine))
-        cost[p, "reductions"] = LATENCY * deep * (count["reductions"] + 2 * count["gathers"])
-        cost[p, "gathers"] = 8 * mine * count["gathers"] / BANDWIDTH
-        cost[p, "messages"] = (LATENCY * (count["messages"] + count["exchanged"]) + (count["bytes"] + count["exchanged bytes"]) / BANDWIDTH) * (mine > 1)
+        deep = math.log2(ranks)
+        cost[p, "computes"] = float(fitted[p][0] @ terms(most, p, mine, ranks))
+        cost[p, "reductions"] = LATENCY * deep * (count["reductions"] + 2 * count["gathers"]) + 8 * ranks * count["gathers"] / BANDWIDTH
+        cost[p, "messages"] = (LATENCY * (count["messages"] + count["exchanged"]) + (count["bytes"] + count["exchanged bytes"]) / BANDWIDTH) * (ranks > 1)
+    cost["rank 0", "partition"] = n * PARTITION / EVERY if sum(split) > len(split) else 0.0
     return cost
 
 
@@ -78,7 +73,7 @@ def table(header, rows):
 
 def tables(rows):
     """{mark: lines of Markdown}, and the fitted models."""
-    fitted = models(rows)
+    fitted = {p: fit(rows, p) for p in PARTS}
     measured = []
     for k, row in enumerate(rows):
         cells = [f"{row['set']} {':'.join(f'{row[p]:.0f}' for p in PARTS)}", f"{row['elements']:.0f}", f"{1e3 * row['step [s]']:.3g}"]
@@ -92,15 +87,16 @@ def tables(rows):
                      f"{100 * abs(fitted[p][1]).max():.0f} %"] for p in PARTS]
     on_paper = []
     for what, size in (("weak", lambda ranks: WEAK * ranks), ("strong", lambda ranks: STRONG)):
-        for ranks in PAPER:
-            cost = paper(rows, fitted, size(ranks), ranks)
+        for split in PAPER:
+            n = size(split[0])
+            cost = paper(rows, fitted, n, split)
             total = sum(cost.values())
             worst = max((k for k in cost if k != ("fluid", "computes")), key=cost.get)
-            on_paper.append([f"{what} {ranks}:{max(1, ranks // 8)}:{max(1, ranks // 8)}", f"{size(ranks):.3g}", f"{1e3 * total:.3g}",
-                             *(f"{1e3 * cost[p, 'computes']:.3g} + {1e3 * (cost[p, 'reductions'] + cost[p, 'messages'] + cost[p, 'gathers']):.3g}"
-                               for p in PARTS), f"{worst[0]}: {worst[1]}, {100 * cost[worst] / total:.0f} %"])
+            cells = [f"{1e3 * cost[p, 'computes']:.3g} + {1e3 * (cost[p, 'reductions'] + cost[p, 'messages']):.3g}" for p in PARTS]
+            on_paper.append([what + " " + ":".join(map(str, split)), f"{n:.2g}", f"{1e3 * total:.3g}", *cells, f"{1e3 * cost['rank 0', 'partition']:.3g}",
+                             f"{worst[0]}: {worst[1]}, {100 * cost[worst] / total:.0f} %"])
     return {"scaling": table(header, measured), "model": table(["", "n", "a [us]", "b [us]", "c [us]", "d [us]", "rms", "largest"], coefficients),
-            "paper": table(["ranks", "triangles", "step [ms]", *(f"{p} computes + communicates" for p in PARTS), "most beside the fluid's work"],
+            "paper": table(["ranks", "triangles", "step [ms]", *(f"{p} computes + communicates" for p in PARTS), "partition", "most beside the fluid's work"],
                            on_paper)}, fitted
 
 
@@ -114,7 +110,7 @@ def plot(path, rows, fitted):
             of = sorted((row for row in rows if row["set"] == name), key=lambda row: row[p])
             ranks = [row[p] for row in of]
             points, = ax.loglog(ranks, [1e3 * row[p + " computed [s]"] for row in of], "o", label=name)
-            ax.loglog(ranks, [1e3 * float(fitted[p][0] @ terms(numpy.array(row[SIZE[p]]), row[p])) for row in of], "-", color=points.get_color())
+            ax.loglog(ranks, [1e3 * float(fitted[p][0] @ terms(row, p)) for row in of], "-", color=points.get_color())
         ax.set(title=p, xlabel="ranks")
     axes[0].set_ylabel("ms a step, busiest rank, outside of MPI; lines: model")
     axes[0].legend()
