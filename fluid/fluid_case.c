@@ -94,7 +94,12 @@ PetscErrorCode FluidCaseMesh(CoracleCase c, MPI_Comm comm, Checkpoint from, Mesh
   const PetscBool make = (PetscBool)(rank == 0 && !from);
   if (CoracleCaseHas(c, "fluid.mesh.file")) {
     const char *path = CoracleCaseFile(c, "fluid.mesh.file"), *why = NULL;
+    int pieces = 1;
     if (make && MeshReadGmsh(path, &serial, &why)) CoracleCaseRefuse(c, "fluid.mesh.file", "%s", why);
+    if (make) PetscCall(MeshSerialPieces(&serial, &pieces));
+    if (pieces != 1)
+      CoracleCaseRefuse(c, "fluid.mesh.file",
+                        "%s: the mesh is of %d pieces that share no vertex, expected one", path, pieces);
   } else {
     PetscCall(BoxMesh(c, make, &serial));
   }
