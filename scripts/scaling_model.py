@@ -8,7 +8,7 @@ by least squares of relative errors.  On paper a step takes the sum over the par
 
     w + latency (reductions log2 P + messages + 2 log2 P gathers) + (bytes + 8 P gathers) / bandwidth
 
-and the partition of the new mesh on one rank after every adaptation, with the counts of a rank that the run with the most ranks has.  n of the
+and the partition of the new mesh after every adaptation, with the counts of a rank that the run with the most ranks has.  n of the
 coupler and of the solid are shares of the fluid's, as in the runs.
 """
 import itertools
@@ -21,7 +21,7 @@ SIZE = {"fluid": "elements", "coupler": "near", "solid": "solid elements"}
 LATENCY, BANDWIDTH = 2e-6, 1e10  # s, bytes/s: assumed of a cluster's network
 PAPER = ((7, 2, 1), (70, 20, 10), (700, 200, 100), (7000, 2000, 1000))  # splits on paper
 WEAK, STRONG = 5000, 35e6  # triangles a rank of the fluid, and in all, on paper
-PARTITION, EVERY = 4e-6, 30  # s a triangle of METIS on one rank with its gather (tests/mesh/bench_mesh: 216 194 triangles in 0.9 s), steps between adaptations
+PARTITION, EVERY = 6.4e-6, 30  # s a vertex of METIS for many parts (tests/mesh/bench_mesh: 200 000 triangles a rank into 2500), steps between adaptations
 
 
 def describe(row):
@@ -63,7 +63,8 @@ def paper(rows, fitted, n, split):
         cost[p, "computes"] = float(fitted[p][0] @ terms(most, p, mine, ranks))
         cost[p, "reductions"] = LATENCY * deep * (count["reductions"] + 2 * count["gathers"]) + 8 * ranks * count["gathers"] / BANDWIDTH
         cost[p, "messages"] = (LATENCY * (count["messages"] + count["exchanged"]) + (count["bytes"] + count["exchanged bytes"]) / BANDWIDTH) * (ranks > 1)
-    cost["rank 0", "partition"] = n * PARTITION / EVERY if sum(split) > len(split) else 0.0
+    clusters = n / split[0] + min(n / 10, max(1e4, 30 * split[0]))  # a rank's own triangles, and rank 0's clusters: common/mesh/part_partition.c
+    cost["rank 0", "partition"] = PARTITION / EVERY * (clusters if n > 1e5 and split[0] >= 8 else n)
     return cost
 
 

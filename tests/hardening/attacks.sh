@@ -36,6 +36,9 @@ done
 stops ring "at t = 0.0[0-9]* s the solid's velocity has become\|has turned inside out at t = 0.0" --set time.end=0.5 \
   --set 'solid.bodies[0]={shape: ring, centre: [1, 1], radius: 0.1, thickness: 1.0e-4, size: 0.05, layers: 1, material: disc}'
 
+# a stream that nothing stands
+stops stream 'turned inside out\|runs away\|has become' --set 'fluid.boundaries.left={velocity: [1.0e6, 0]}' --set fluid.boundaries.right=open
+
 # a body that falls through an open side
 must leaves 1:1:1 --set fluid.boundaries.bottom=open --set 'solid.bodies[0].centre=[1, 0.2]' --set time.end=0.4 --set solid.materials.disc.density=8000
 [ "$(grep -c 'note: at t = .* has left the fluid.s domain' "$scratch/leaves.log")" -eq 1 ] || fail leaves 'nobody says once that the body has left'
