@@ -15,7 +15,8 @@ static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const
 {
   char text[2048];
   struct rusage usage;
-  if (code == PETSC_ERR_MEM || !strcmp(function, "PetscMallocAlign")) { /* whose code is a line number in PETSc 3.18 */
+  if (code == PETSC_ERR_MEM ||
+      !strcmp(function, "PetscMallocAlign")) { /* whose code is a line number in PETSc 3.18 */
     (void)getrusage(RUSAGE_SELF, &usage);
     (void)snprintf(text, sizeof text,
                    "out of memory: this rank has had up to %.0f MB; a coarser mesh needs less, and so do "

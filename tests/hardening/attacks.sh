@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What goes wrong while a run runs is said for what it is: a full disk, no memory, a mesh in pieces, a body that falls apart or leaves; and
+# What goes wrong while a run runs is said for what it is: a full disk, no memory, a mesh of two components, a body that falls apart or leaves; and
 # snapshots cost the hundredth time what they cost the first.  Usage: attacks.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/../coupled/run.sh"
@@ -29,7 +29,7 @@ squares() { # OFFSET
 sed -e '/lower: \[0.0/,/refine/d' -e '/- {lower/d' -e 's/^  mesh:/  mesh: {file: squares.msh}/' -e 's/boundaries: .*/boundaries: {boundary: no_slip}/' "$here/disc.yaml" >"$scratch/pieces.yaml"
 for offset in 3 0; do
   squares $offset >"$scratch/squares.msh"
-  case=$scratch/pieces.yaml stops "pieces$offset" "'fluid.mesh.file': .*the mesh is of 2 pieces that share no vertex, expected one"
+  case=$scratch/pieces.yaml stops "pieces$offset" "'fluid.mesh.file': .*the mesh has 2 components that share no vertex, expected one"
 done
 
 # a ring too thin for its weight stops when it fails, not at the end
