@@ -21,7 +21,7 @@ SIZE = {"fluid": "elements", "coupler": "near", "solid": "solid elements"}
 LATENCY, BANDWIDTH = 2e-6, 1e10  # s, bytes/s: assumed of a cluster's network
 PAPER = ((7, 2, 1), (70, 20, 10), (700, 200, 100), (7000, 2000, 1000))  # splits on paper
 WEAK, STRONG = 5000, 35e6  # triangles a rank of the fluid, and in all, on paper
-PARTITION, EVERY = 6.4e-6, 30  # s a vertex of METIS for many parts (tests/mesh/bench_mesh: 200 000 triangles a rank into 2500), steps between adaptations
+FEW, PARTITION, EVERY = 6e-7, 6.4e-6, 30  # s a vertex of METIS for 8 parts and for many (tests/mesh/bench_mesh), steps between adaptations
 
 
 def describe(row):
@@ -64,8 +64,12 @@ def paper(rows, fitted, n, split):
         cost[p, "reductions"] = LATENCY * deep * (count["reductions"] + 2 * count["gathers"]) + 8 * ranks * count["gathers"] / BANDWIDTH
         cost[p, "messages"] = (LATENCY * (count["messages"] + count["exchanged"]) + (count["bytes"] + count["exchanged bytes"]) / BANDWIDTH) * (ranks > 1)
     clusters = n / split[0] + min(n / 10, max(1e4, 30 * split[0]))  # a rank's own triangles, and rank 0's clusters: common/mesh/part_partition.c
-    cost["rank 0", "partition"] = PARTITION / EVERY * (clusters if n > 1e5 and split[0] >= 8 else n)
+    cost["rank 0", "partition"] = PARTITION / EVERY * (clusters if n > 1e5 and split[0] >= 8 else n if split[0] > 8 else n * FEW / PARTITION)
     return cost
+
+
+def number(x):
+    return f"{x:.0f}" if x >= 100 else f"{x:.3g}" if x >= 1 else f"{x:.2f}"
 
 
 def table(header, rows):
@@ -77,9 +81,9 @@ def tables(rows):
     fitted = {p: fit(rows, p) for p in PARTS}
     measured = []
     for k, row in enumerate(rows):
-        cells = [f"{row['set']} {':'.join(f'{row[p]:.0f}' for p in PARTS)}", f"{row['elements']:.0f}", f"{1e3 * row['step [s]']:.3g}"]
+        cells = [f"{row['set']} {':'.join(f'{row[p]:.0f}' for p in PARTS)}", f"{row['elements']:.0f}", number(1e3 * row["step [s]"])]
         for p in PARTS:
-            cells += [f"{1e3 * row[p + ' computed [s]']:.3g} ({100 * fitted[p][1][k]:+.0f} %)", f"{1e3 * row[p + ' waited [s]']:.3g}",
+            cells += [f"{number(1e3 * row[p + ' computed [s]'])} ({100 * fitted[p][1][k]:+.0f} %)", number(1e3 * row[p + " waited [s]"]),
                       f"{row[p + ' messages']:.0f} + {row[p + ' exchanged']:.0f}", f"{(row[p + ' bytes'] + row[p + ' exchanged bytes']) / 1e3:.0f}",
                       f"{row[p + ' reductions']:.0f} + {row[p + ' gathers']:.0f}"]
         measured.append(cells)
@@ -93,8 +97,8 @@ def tables(rows):
             cost = paper(rows, fitted, n, split)
             total = sum(cost.values())
             worst = max((k for k in cost if k != ("fluid", "computes")), key=cost.get)
-            cells = [f"{1e3 * cost[p, 'computes']:.3g} + {1e3 * (cost[p, 'reductions'] + cost[p, 'messages']):.3g}" for p in PARTS]
-            on_paper.append([what + " " + ":".join(map(str, split)), f"{n:.2g}", f"{1e3 * total:.3g}", *cells, f"{1e3 * cost['rank 0', 'partition']:.3g}",
+            cells = [f"{number(1e3 * cost[p, 'computes'])} + {number(1e3 * (cost[p, 'reductions'] + cost[p, 'messages']))}" for p in PARTS]
+            on_paper.append([what + " " + ":".join(map(str, split)), f"{n:.2g}", number(1e3 * total), *cells, number(1e3 * cost["rank 0", "partition"]),
                              f"{worst[0]}: {worst[1]}, {100 * cost[worst] / total:.0f} %"])
     return {"scaling": table(header, measured), "model": table(["", "n", "a [us]", "b [us]", "c [us]", "d [us]", "rms", "largest"], coefficients),
             "paper": table(["ranks", "triangles", "step [ms]", *(f"{p} computes + communicates" for p in PARTS), "partition", "most beside the fluid's work"],
