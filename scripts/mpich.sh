@@ -16,9 +16,10 @@ command -v mpicc.mpich >/dev/null && [ -e /usr/include/hdf5/mpich ] || {
 
 # MPICH's tools by their usual names, which scripts and CMake look for
 mkdir -p "$top/bin"
-for tool in mpicc mpicxx mpiexec mpirun; do ln -sf "$(command -v $tool.mpich)" "$top/bin/$tool"; done
+for tool in mpicc mpicxx mpif90 mpiexec mpirun; do ln -sf "$(command -v $tool.mpich)" "$top/bin/$tool"; done
 ln -sf "$(command -v hydra_pmi_proxy)" "$top/bin/" # mpiexec looks for it beside itself
 export PATH=$top/bin:$PATH PKG_CONFIG_PATH=$petsc/lib/pkgconfig LD_LIBRARY_PATH=$petsc/lib OPENBLAS_NUM_THREADS=1
+export MPIR_CVAR_POLLS_BEFORE_YIELD=1 # ranks that wait leave the cores to others
 if command -v ccache >/dev/null; then export MPICH_CC="ccache gcc" MPICH_CXX="ccache g++"; fi
 
 if [ ! -e "$petsc/lib/pkgconfig/PETSc.pc" ]; then

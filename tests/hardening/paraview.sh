@@ -6,7 +6,7 @@ source "$(dirname "$0")/../coupled/run.sh"
 folders=()
 for case in "$here/../coupled/disc.yaml" "$root"/cases/*/case.yaml; do
   name=$(basename "$(dirname "$case")")
-  dt=$(sed -n 's/^  dt_max: *\([0-9.e-]*\).*/\1/p' "$case")
+  dt=$(grep -om1 'dt_max: *[0-9.e-]*' "$case" | cut -d: -f2)
   must "$name" 1:1:1 --set "time.end=$(awk "BEGIN {print 4 * $dt}")" --set "output.every=$(awk "BEGIN {print 2 * $dt}")"
   folders+=("$scratch/$name")
 done

@@ -22,10 +22,11 @@ done
 
 printf '#include <case_file.h>\n#include <coracle.h>\nint main(void) { return CORACLE_DIM - 2; }\n' >"$scratch/host.c"
 cp "$scratch/host.c" "$scratch/host.cc"
+mpi_flags=$(mpicc --showme:compile 2>/dev/null || mpicc -show | grep -oE -- '-I[^ ]+') # of Open MPI, or another MPI's
 strict() { # COMPILER STANDARD FILE
   command -v "$1" >/dev/null || return 0
   # shellcheck disable=SC2046 # the flags are words
-  "$1" "-std=$2" -Wall -Wextra -pedantic -Werror -fsyntax-only $(mpicc --showme:compile | sed 's/-I/-isystem /g') \
+  "$1" "-std=$2" -Wall -Wextra -pedantic -Werror -fsyntax-only $(sed 's/-I/-isystem /g' <<<"$mpi_flags") \
     -I"$scratch/there/include" "$scratch/$3" || { echo "the headers are not $2 with $1"; exit 1; }
 }
 for compiler in gcc clang; do strict $compiler c11 host.c; done
