@@ -112,8 +112,8 @@ PetscErrorCode RegionStale(Region r, const SolidState *solid, double dt, PetscBo
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode RegionOutside(Region r, const SolidState *solid, const FluidElements *elements, long long *gid,
-                             int *local)
+PetscErrorCode RegionOutside(Region r, const SolidState *solid, const FluidElements *elements, double margin,
+                             long long *gid, int *local)
 {
   struct {
     long value;
@@ -125,8 +125,8 @@ PetscErrorCode RegionOutside(Region r, const SolidState *solid, const FluidEleme
   PetscCallMPI(MPI_Comm_rank(r->comm, &mine.rank));
   for (int i = 0; i < solid->nnodes; i++) {
     const double *x = &solid->x[2 * i];
-    const int inside = x[0] >= elements->lower[0] && x[0] <= elements->upper[0] &&
-                       x[1] >= elements->lower[1] && x[1] <= elements->upper[1];
+    const int inside = x[0] >= elements->lower[0] - margin && x[0] <= elements->upper[0] + margin &&
+                       x[1] >= elements->lower[1] - margin && x[1] <= elements->upper[1] + margin;
     if (inside || solid->gid[i] >= mine.value) continue;
     mine.value = (long)solid->gid[i];
     found = i;

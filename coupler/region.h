@@ -32,9 +32,9 @@ PetscErrorCode RegionUpdate(Region region, const SolidState *solid, double dt);
 /* Collective: has a node moved farther than the margin since, or will it by the middle of a step of dt seconds, or
  * has the solid changed its mesh? */
 PetscErrorCode RegionStale(Region region, const SolidState *solid, double dt, PetscBool *stale);
-/* Collective: the smallest global id of the nodes outside of the domain and, on the one rank that gets *local
+/* Collective: the smallest global id of the nodes that are farther than margin, m, outside of the domain and, on the one rank that gets *local
  * >= 0, its local index; *gid < 0: none. */
 PetscErrorCode RegionOutside(Region region, const SolidState *solid, const FluidElements *elements,
-                             long long *gid, int *local);
+                             double margin, long long *gid, int *local);
 PetscErrorCode RegionDestroy(Region *region);
 #endif

@@ -7,6 +7,9 @@
 /* A step over the one before it, at most: what is extrapolated over it stays near. */
 #define MAX_GROWTH 1.3
 
+/* Of the domain's smaller extent: a node farther outside has left it. */
+#define LEAVES 0.01
+
 /* How often a step that does not converge is halved before the run is given up. */
 enum { MAX_HALVINGS = 6 };
 
@@ -52,7 +55,7 @@ PetscErrorCode RunCheckInside(const RunState *run)
   int local;
 
   PetscFunctionBeginUser;
-  PetscCall(RegionOutside(run->loop->region, &run->solid, &run->elements, &gid, &local));
+  PetscCall(RegionOutside(run->loop->region, &run->solid, &run->elements, 0.0, &gid, &local));
   if (local >= 0) {
     const double *x = &run->solid.x[2 * local];
     ServerFail(run->loop->server,
@@ -61,6 +64,24 @@ PetscErrorCode RunCheckInside(const RunState *run)
   }
   /* the other ranks wait here for the end of the job */
   if (gid >= 0) PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RunNoteLeaving(RunState *run)
+{
+  const double *lower = run->elements.lower, *upper = run->elements.upper;
+  const double margin = LEAVES * fmin(upper[0] - lower[0], upper[1] - lower[1]);
+  long long gid;
+  int local;
+
+  PetscFunctionBeginUser;
+  if (run->has_left) PetscFunctionReturn(0);
+  PetscCall(RegionOutside(run->loop->region, &run->solid, &run->elements, margin, &gid, &local));
+  run->has_left = (PetscBool)(gid >= 0);
+  if (local >= 0)
+    printf("coracle: note: at t = %g s the solid's node %lld at (%g, %g) has left the fluid's domain; the "
+           "fluid does not act on what is outside\n",
+           run->t, gid, run->solid.x[2 * local], run->solid.x[2 * local + 1]);
   PetscFunctionReturn(0);
 }
 

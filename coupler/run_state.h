@@ -18,7 +18,8 @@ typedef struct {
   DivergenceMonitor monitor;
   Checkpoints checkpoints;
   Gauges gauges;
-  double t, dt; /* start and length of the current step, s */
+  double t, dt;       /* start and length of the current step, s */
+  PetscBool has_left; /* a node has been seen outside of the fluid's domain */
   int ncorrection;
   const CoracleCorrection *correction; /* [ncorrection] of the last accepted step, not sent yet; borrowed */
 } RunState;
@@ -29,6 +30,9 @@ typedef struct {
 PetscErrorCode RunChooseStep(RunState *run, double proposed);
 /* Ends the job when a node of the solid is outside of the fluid's domain. */
 PetscErrorCode RunCheckInside(const RunState *run);
+/* Says, once a run, that a node of the solid has left the fluid's domain, by more than a hundredth of its smaller extent: through an open side, as a
+ * body on a wall does not. */
+PetscErrorCode RunNoteLeaving(RunState *run);
 /* Finds the gauges on the solid, or those of the checkpoint; ends the job when one is not on its surface. */
 PetscErrorCode RunCreateGauges(RunState *run);
 /* Ends the job when the accepted step shows that the coupling diverges. */

@@ -221,6 +221,7 @@ static PetscErrorCode AcceptStep(RunState *run, StepRecord *step)
   step->t = run->t;
   step->dt = run->dt;
   PetscCall(RunCheckDivergence(run, step));
+  PetscCall(RunNoteLeaving(run));
   PetscCall(CheckpointsFinish(&run->checkpoints));
   PetscFunctionReturn(0);
 }

@@ -94,7 +94,13 @@ PetscErrorCode FluidCaseMesh(CoracleCase c, MPI_Comm comm, Checkpoint from, Mesh
   const PetscBool make = (PetscBool)(rank == 0 && !from);
   if (CoracleCaseHas(c, "fluid.mesh.file")) {
     const char *path = CoracleCaseFile(c, "fluid.mesh.file"), *why = NULL;
+    int components = 1;
     if (make && MeshReadGmsh(path, &serial, &why)) CoracleCaseRefuse(c, "fluid.mesh.file", "%s", why);
+    if (make) PetscCall(MeshSerialComponents(&serial, &components));
+    if (components != 1)
+      CoracleCaseRefuse(c, "fluid.mesh.file",
+                        "%s: the mesh has %d components that share no vertex, expected one", path,
+                        components);
   } else {
     PetscCall(BoxMesh(c, make, &serial));
   }

@@ -36,6 +36,7 @@ file=$(realpath "$file") out=$(realpath -m "$out")
 if [ -z "$bin" ]; then
   "$root/scripts/setup.sh"
   cd "$root"
+  [ -x build/fluid/coracle-fluid ] || echo "run.sh: builds the programs into $root/build, which takes some minutes the first time"
   cmake --preset release >/dev/null
   cmake --build --preset release --target coracle-fluid coracle-coupler coracle-solid -- --quiet
 fi

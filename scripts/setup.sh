@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what Coracle stands on where it is missing (Debian 12, as root or with sudo); elsewhere says what it needs.
-# Usage: scripts/setup.sh [--adapters]
+# Usage: scripts/setup.sh [--adapters] [--paraview]
+#   --paraview   ParaView with its Python, for the test of that label
 #   --adapters   what the outside solids and fluids of cases/adapters stand on, too: their packages, and in /usr/src the source
 #                packages (files `sources`) of those whose headers Debian does not package
 set -euo pipefail
@@ -8,10 +9,15 @@ set -euo pipefail
 packages=(build-essential cmake ninja-build pkg-config git libopenmpi-dev openmpi-bin libpetsc-real-dev libmetis-dev
   libhdf5-openmpi-dev libyaml-dev libopenblas0-pthread gmsh python3 python3-numpy python3-h5py python3-matplotlib python3-pil)
 sources=()
-if [ "${1:-}" = --adapters ]; then
-  mapfile -t sources < <(sort -u "$(dirname "$0")"/../cases/adapters/*/sources)
-  mapfile -t -O "${#packages[@]}" packages < <(sort -u "$(dirname "$0")"/../cases/adapters/*/packages)
-fi
+for option in "$@"; do
+  case $option in
+    --adapters)
+      mapfile -t sources < <(sort -u "$(dirname "$0")"/../cases/adapters/*/sources)
+      mapfile -t -O "${#packages[@]}" packages < <(sort -u "$(dirname "$0")"/../cases/adapters/*/packages) ;;
+    --paraview) packages+=(paraview python3-paraview) ;;
+    *) echo "setup.sh: unknown option '$option'" >&2; exit 2 ;;
+  esac
+done
 
 if ! command -v dpkg-query >/dev/null; then
   cat >&2 <<'EOF'
@@ -32,22 +38,6 @@ as_root() {
   echo "coracle setup: installing $*"
 }
 
-# The folders src of a source package into /usr/src/NAME, by apt's own sources with deb turned into deb-src.
-unpack_source() { # NAME
-  local scratch options
-  scratch=$(mktemp -d)
-  mkdir -p "$scratch"/{parts,lists/partial}
-  for file in /etc/apt/sources.list /etc/apt/sources.list.d/*.list /etc/apt/sources.list.d/*.sources; do
-    [ ! -f "$file" ] || sed 's/^Types:.*/Types: deb-src/; s/^deb /deb-src /' "$file" >"$scratch/parts/$(basename "$file")"
-  done
-  [ ! -f "$scratch/parts/sources.list" ] || mv "$scratch/parts/sources.list" "$scratch/parts/main.list"
-  options=(-qq -o Dir::Etc::sourcelist=- -o "Dir::Etc::sourceparts=$scratch/parts" -o "Dir::State::lists=$scratch/lists" -o APT::Sandbox::User=root)
-  (cd "$scratch" && "${sudo[@]}" apt-get "${options[@]}" update && "${sudo[@]}" apt-get "${options[@]}" --download-only source "$1")
-  "${sudo[@]}" mkdir -p "/usr/src/$1"
-  "${sudo[@]}" tar xf "$scratch/$1"_*.orig.tar.* -C "/usr/src/$1" --strip-components=1 --wildcards '*/src/*'
-  "${sudo[@]}" rm -rf "$scratch"
-}
-
 missing=()
 for p in "${packages[@]}"; do
   dpkg-query -W -f '${Status}' "$p" 2>/dev/null | grep -q 'ok installed' || missing+=("$p")
@@ -61,5 +51,5 @@ fi
 for source in "${sources[@]}"; do
   [ ! -d "/usr/src/$source/src" ] || continue
   as_root "the headers of $source"
-  unpack_source "$source"
+  "${sudo[@]}" "$(dirname "$0")/debian_source.sh" "$source" "/usr/src/$source" --wildcards '*/src/*'
 done

@@ -1,125 +1,17 @@
+#include "common/conformance/attempts.h"
 #include "common/conformance/examine.h"
-#include "common/conformance/patch.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The attempts of a step that repeats, in their order (examine.h). */
-typedef enum { HELD, MORE, FREE, SOURCE, COEFFICIENT, BULK, INERTIA, COVERED, AGAIN, KINDS } Kind;
-
 enum { MOVE_STEP = 6 };               /* after which the box moves */
-static const double SHORT = 1e-6;     /* tau/dt */
 static const double TOLERANCE = 0.01; /* of what an attempt over tau gains */
 /* The same, of cells whose gradient is the step's before and that are covered in part. */
 static const double ROUGH = 0.1;
 
-typedef struct {
-  double *u_start, *u_star, *u_projected; /* [n][2][3] m/s */
-} Flow;
-
-typedef struct {
-  Kit *kit;
-  Patch patch;
-  CoracleCoupling *coupling; /* [patch.ncoupled], of the current attempt */
-  CoracleCorrection *correction;
-  Flow flow[KINDS]; /* of the current step, by attempt */
-  double momentum[2],
-      corrected[2]; /* kg m/s: at the end of the last step, and what its correction has added */
-  bool known;       /* they are those of these elements */
-  double w[2];      /* m/s: velocity scale */
-} Fluid;
-
 static void Refuse(const Fluid *f, int step, const char *what, const char *expected)
 {
   ServerFail(f->kit->server, "conformance: step %d: %s: %s", step, what, expected);
-}
-
-/* --- what is sent --------------------------------------------------------------------------------------- */
-
-static bool HasInertia(Kind kind)
-{
-  return kind == INERTIA || kind == COVERED;
-}
-
-/* V, or V + G */
-static void Target(const Fluid *f, Kind kind, double v[2])
-{
-  const double phase = KitPhase(f->kit), speed = hypot(f->w[0], f->w[1]);
-  v[0] = speed * (cos(phase) + 0.5 * (kind == MORE));
-  v[1] = speed * (sin(phase) - 0.25 * (kind == MORE));
-}
-
-static void SetBlocks(CoracleCoupling *c, Kind kind, double rho, double area, double dt)
-{
-  double a[3][3];
-  const double factor = kind == HELD || kind == MORE || kind == AGAIN || kind == COEFFICIENT ? 9.0 : 0.0;
-  PatchMass(area, factor * rho / dt, a);
-  PatchMass(area, HasInertia(kind) ? 9.0 * rho / dt : 0.0, c->implicit_inertia);
-  for (int d = 0; d < 2; d++)
-    for (int i = 0; i < 3; i++)
-      for (int j = 0; j < 3; j++) c->a[d][i][d][j] = a[i][j];
-}
-
-/* s = factor rho B v/dt, and the bulk velocity's part where the disc is held */
-static void SetLoads(CoracleCoupling *c, Kind kind, double rho, double area, double dt, const double v[2])
-{
-  const double factor = kind == COEFFICIENT || kind == BULK ? 0.0
-                        : kind == SOURCE                    ? 1.0
-                        : HasInertia(kind)                  ? 10.0
-                                                            : 9.0;
-  const bool bulk = kind != SOURCE && kind != COEFFICIENT && !HasInertia(kind);
-  if (bulk) PatchMass(area, 1.0, c->ms);
-  for (int d = 0; d < 2; d++)
-    for (int i = 0; i < 3; i++) {
-      c->s[d][i] = factor * rho / dt * area / 3.0 * v[d];
-      c->us[d][i] = bulk ? area / 3.0 * v[d] : 0.0;
-    }
-}
-
-static void SendCoupling(Fluid *f, Kind kind, CoracleAction action, int ncorrection)
-{
-  const Kit *k = f->kit;
-  const Patch *p = &f->patch;
-  const double dt = kind >= FREE && kind <= COVERED ? SHORT * k->dt : k->dt;
-  double v[2] = {f->w[0], f->w[1]};
-  if (kind == HELD || kind == MORE || kind == AGAIN) Target(f, kind, v);
-  f->coupling = realloc(f->coupling, (size_t)p->ncoupled * sizeof *f->coupling + 1);
-  for (int i = 0; i < p->ncoupled; i++) {
-    const int e = p->coupled[i];
-    CoracleCoupling *c = &f->coupling[i];
-    *c = (CoracleCoupling){.element = e, .alpha = 1.0};
-    if (HasInertia(kind)) c->flags |= CORACLE_HAS_INERTIA;
-    if (kind == COVERED) c->flags |= CORACLE_IS_COVERED;
-    memcpy(c->velocity, v, sizeof c->velocity);
-    SetBlocks(c, kind, p->rho[e], p->area[e], dt);
-    SetLoads(c, kind, p->rho[e], p->area[e], dt, v);
-  }
-  ServerSendCoupling(k->server, k->t, action == CORACLE_STOP ? 0.0 : dt, action, ncorrection, f->correction,
-                     kind == FREE || action == CORACLE_STOP ? 0 : p->ncoupled, f->coupling);
-}
-
-/* r of the accepted step, and what it adds to the momentum: int N (V - u+). */
-static void FindCorrection(Fluid *f)
-{
-  const Patch *p = &f->patch;
-  const double *u = f->flow[HELD].u_projected;
-  double v[2];
-  Target(f, HELD, v);
-  f->correction = realloc(f->correction, (size_t)p->ncoupled * sizeof *f->correction + 1);
-  memset(f->corrected, 0, sizeof f->corrected);
-  for (int i = 0; i < p->ncoupled; i++) {
-    const int e = p->coupled[i];
-    double mass[3][3];
-    PatchMass(p->area[e], 1.0, mass);
-    f->correction[i] = (CoracleCorrection){.element = e};
-    for (int d = 0; d < 2; d++)
-      for (int a = 0; a < 3; a++) {
-        for (int b = 0; b < 3; b++) f->correction[i].r[d][a] += mass[a][b] * (v[d] - u[6 * e + 3 * d + b]);
-        f->corrected[d] += p->rho[e] * f->correction[i].r[d][a];
-      }
-  }
-  MPI_Allreduce(MPI_IN_PLACE, f->corrected, 2, MPI_DOUBLE, MPI_SUM, f->kit->comm);
-  PatchMomentum(f->kit, p, u, f->momentum);
 }
 
 /* --- what is checked ------------------------------------------------------------------------------------ */
@@ -231,7 +123,7 @@ static void MoveSolid(const Fluid *f, Kind kind)
 {
   const Kit *k = f->kit;
   ServerSolid solid;
-  const double dt = kind >= FREE && kind <= COVERED ? SHORT * k->dt : k->dt;
+  const double dt = AttemptStep(f, kind);
   ServerSendForce(k->server, k->t, dt, kind == HELD ? CORACLE_RUN : CORACLE_REDO, NULL);
   ServerReceiveSolid(k->server, &solid);
 }
@@ -252,7 +144,7 @@ static void Accept(Fluid *f, int step)
 {
   Kit *k = f->kit;
   const int n = f->patch.ncoupled;
-  FindCorrection(f);
+  AttemptCorrection(f);
   k->t += k->dt;
   Row(f, step);
   KitCheckpoint(k, step);
@@ -261,7 +153,7 @@ static void Accept(Fluid *f, int step)
   k->changed += changed;
   if (!f->known) PatchAsk(k, step >= MOVE_STEP, &f->patch);
   k->dt = KitStepSize(k, step + 1);
-  SendCoupling(f, HELD, step < k->steps ? CORACLE_RUN : CORACLE_STOP, n);
+  AttemptSend(f, HELD, step < k->steps ? CORACLE_RUN : CORACLE_STOP, n);
 }
 
 static void Step(Fluid *f, int step)
@@ -270,7 +162,7 @@ static void Step(Fluid *f, int step)
     Receive(f, (Kind)kind);
     MoveSolid(f, (Kind)kind);
     if (!KitRepeats(step) || kind == AGAIN) break;
-    SendCoupling(f, (Kind)(kind + 1), CORACLE_REDO, 0);
+    AttemptSend(f, (Kind)(kind + 1), CORACLE_REDO, 0);
   }
   if (KitRepeats(step)) {
     CheckRepeats(f, step);
@@ -292,7 +184,7 @@ void ExamineFluid(Kit *k)
   f.w[0] = f.patch.radius / (12.0 * k->dt_max);
   f.w[1] = -0.5 * f.w[0];
   k->dt = KitStepSize(k, k->first);
-  SendCoupling(&f, HELD, k->steps >= k->first ? CORACLE_RUN : CORACLE_STOP, 0);
+  AttemptSend(&f, HELD, k->steps >= k->first ? CORACLE_RUN : CORACLE_STOP, 0);
   for (int step = k->first; step <= k->steps; step++) Step(&f, step);
   ServerSendForce(k->server, k->t, 0.0, CORACLE_STOP, NULL);
   PatchFree(&f.patch);

@@ -1,5 +1,6 @@
 #include "common/link/buffer.h"
 #include <stdlib.h>
+#include <string.h>
 
 static void Reserve(Buffer *b, size_t bytes)
 {
@@ -22,6 +23,12 @@ void *BufferExtend(Buffer *b, size_t bytes)
   Reserve(b, b->size + bytes);
   b->size += bytes;
   return b->data + b->size - bytes;
+}
+
+void BufferCopy(Buffer *b, const void *from, size_t bytes)
+{
+  BufferResize(b, bytes);
+  if (bytes) memcpy(b->data, from, bytes);
 }
 
 void BufferFree(Buffer *b)

@@ -13,5 +13,7 @@ typedef struct {
 void *BufferResize(Buffer *b, size_t bytes);
 /* Room for `bytes` more at the end: where to write them. */
 void *BufferExtend(Buffer *b, size_t bytes);
+/* size = bytes, with what is at `from`. */
+void BufferCopy(Buffer *b, const void *from, size_t bytes);
 void BufferFree(Buffer *b);
 #endif

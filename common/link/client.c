@@ -31,6 +31,7 @@ int CoracleSetErrorHandler(void (*f)(void *context, const char *message), void *
 int CoracleOpenComm(MPI_Comm job, const char *role, int argc, char **argv, MPI_Comm *app_comm,
                     CoracleClient *client)
 {
+  if (!role) ParticipantFail(NULL, "CoracleOpen: role is NULL, expected \"fluid\" or \"solid\"");
   CoracleClient c = calloc(1, sizeof *c);
   ParticipantOpen(job, role, true, argc, argv, &c->p);
   const int owner = c->p->rank % c->p->count[ROLE_COUPLER];
@@ -46,7 +47,7 @@ void CoracleFail(CoracleClient c, const char *format, ...)
 {
   va_list list;
   va_start(list, format);
-  ParticipantFailList(c->p, format, list);
+  ParticipantFailList(c ? c->p : NULL, format, list);
 }
 
 void CoracleFailMessage(void *client, const char *message)
@@ -59,16 +60,30 @@ void ClientMisuse(CoracleClient c, const char *function, const char *why)
   ParticipantFail(c->p, "%s: %s", function, why);
 }
 
+void ClientMustBe(CoracleClient c, const char *function)
+{
+  if (!c)
+    ParticipantFail(NULL, "%s: the client is NULL: CoracleOpen comes first, and CoracleClose nulls it",
+                    function);
+}
+
 void ClientExpect(CoracleClient c, const char *function, Role role, Stage stage, Stage other)
 {
   static const char *const WHEN[] = {"before CoracleReady", "between CoracleEnd and CoracleBegin",
                                      "between CoracleBegin and CoracleEnd", "after CORACLE_STOP"};
-  if (c->p->role != role) ParticipantFail(c->p, "%s is for a %s", function, ROLE_NAMES[role]);
+  ClientMustBe(c, function);
+  if (role != ROLE_ANY && c->p->role != role)
+    ParticipantFail(c->p, "%s is for a %s", function, ROLE_NAMES[role]);
   if (c->stage == stage || c->stage == other) return;
   if (stage == other)
     ParticipantFail(c->p, "%s was called %s: its place is %s", function, WHEN[c->stage], WHEN[stage]);
   ParticipantFail(c->p, "%s was called %s: its place is %s or %s", function, WHEN[c->stage], WHEN[stage],
                   WHEN[other]);
+}
+
+void ClientGiven(CoracleClient c, const char *function, const char *name, const void *array, int n)
+{
+  if (n > 0 && !array) ParticipantFail(c->p, "%s: %s is NULL, expected an array for %d", function, name, n);
 }
 
 void ClientSend(CoracleClient c)
@@ -98,7 +113,7 @@ void ClientTakePath(CoracleClient c, const MessageHeader *h)
 
 const char *CoracleCheckpointPath(CoracleClient c)
 {
-  ClientExpect(c, "CoracleCheckpointPath", c->p->role, STAGE_STEP, STAGE_STOPPED);
+  ClientExpect(c, "CoracleCheckpointPath", ROLE_ANY, STAGE_STEP, STAGE_STOPPED);
   if (c->action == CORACLE_REDO || !c->save.size) return NULL;
   c->asked_save = true;
   return c->save.data;
@@ -106,7 +121,7 @@ const char *CoracleCheckpointPath(CoracleClient c)
 
 const char *CoracleResumePath(CoracleClient c)
 {
-  ClientExpect(c, "CoracleResumePath", c->p->role, STAGE_SETUP, STAGE_SETUP);
+  ClientExpect(c, "CoracleResumePath", ROLE_ANY, STAGE_SETUP, STAGE_SETUP);
   c->asked_resume = true;
   return c->p->resume;
 }
@@ -121,7 +136,7 @@ int ClientFlags(CoracleClient c)
 
 int CoracleReady(CoracleClient c)
 {
-  ClientExpect(c, "CoracleReady", c->p->role, STAGE_SETUP, STAGE_SETUP);
+  ClientExpect(c, "CoracleReady", ROLE_ANY, STAGE_SETUP, STAGE_SETUP);
   if (c->p->role == ROLE_SOLID)
     SolidReady(c);
   else
@@ -132,7 +147,7 @@ int CoracleReady(CoracleClient c)
 
 int CoracleBegin(CoracleClient c, double *t, double *dt, CoracleAction *action)
 {
-  ClientExpect(c, "CoracleBegin", c->p->role, STAGE_BETWEEN, STAGE_BETWEEN);
+  ClientExpect(c, "CoracleBegin", ROLE_ANY, STAGE_BETWEEN, STAGE_BETWEEN);
   if (c->p->role == ROLE_SOLID) SolidBegin(c);
   c->stage = c->action == CORACLE_STOP ? STAGE_STOPPED : STAGE_STEP;
   if (c->action == CORACLE_RUN) {
@@ -152,7 +167,7 @@ int CoracleBegin(CoracleClient c, double *t, double *dt, CoracleAction *action)
 
 int CoracleEnd(CoracleClient c, const double x[])
 {
-  ClientExpect(c, "CoracleEnd", c->p->role, STAGE_STEP, STAGE_STEP);
+  ClientExpect(c, "CoracleEnd", ROLE_ANY, STAGE_STEP, STAGE_STEP);
   if (c->p->role == ROLE_SOLID)
     SolidEnd(c, x);
   else
@@ -163,12 +178,14 @@ int CoracleEnd(CoracleClient c, const double x[])
 
 int CoracleReport(CoracleClient c, const char *key, double value, int sum)
 {
+  ClientMustBe(c, "CoracleReport");
   if (!ReportSet(&c->reports, key, value, sum != 0)) ClientMisuse(c, "CoracleReport", "the key is too long");
   return 0;
 }
 
 int CoraclePhase(CoracleClient c, const char *name)
 {
+  ClientMustBe(c, "CoraclePhase");
   TracePhase(&c->p->trace, name);
   return 0;
 }

@@ -5,15 +5,6 @@
 
 enum { NV = DIM + 1 };
 
-static const int *Ints(const Buffer *b)
-{
-  return (const int *)(const void *)b->data;
-}
-static const long long *Ids(const Buffer *b)
-{
-  return (const long long *)(const void *)b->data;
-}
-
 /* --- on this rank --------------------------------------------------------------------------------------- */
 
 static void CheckConnectivity(CoracleClient c, const char *what, int ne, int per, const int conn[])

@@ -26,6 +26,7 @@ int CoracleElementsChanged(CoracleClient c)
 
 int CoracleProposeStep(CoracleClient c, double dt)
 {
+  ClientMustBe(c, "CoracleProposeStep");
   ClientExpect(c, "CoracleProposeStep", ROLE_FLUID, c->stage, c->stage);
   if (!(dt > 0.0)) ParticipantFail(c->p, "proposes a time step of %g s after step %d", dt, c->p->step);
   c->fluid.proposed = dt;
@@ -108,6 +109,7 @@ void FluidReady(CoracleClient c)
 
 int CoracleNeedsPressure(CoracleClient c)
 {
+  ClientMustBe(c, "CoracleNeedsPressure");
   const Stage stage = c->stage == STAGE_SETUP ? STAGE_BETWEEN : c->stage;
   ClientExpect(c, "CoracleNeedsPressure", ROLE_FLUID, stage, STAGE_STEP);
   return c->fluid.needs_pressure;
@@ -148,8 +150,9 @@ int CoracleGetGauges(CoracleClient c, int *n, const CoracleGauge **gauge)
 int CoracleSetFlow(CoracleClient c, const CoracleFlow *flow)
 {
   ClientFluid *f = &c->fluid;
-  CoracleFlow all = *flow;
   ClientExpect(c, "CoracleSetFlow", ROLE_FLUID, STAGE_STEP, STAGE_STEP);
+  if (!flow) ClientMisuse(c, "CoracleSetFlow", "the flow is NULL");
+  CoracleFlow all = *flow;
   MessageHeader *h = MessageStart(&c->out, KIND_FLOW, c->p->step);
   h->count[0] = f->n;
   h->flag = f->needs_pressure ? FLAG_PRESSURE : 0;

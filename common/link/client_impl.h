@@ -71,8 +71,25 @@ struct CoracleClient_s {
   Buffer reports; /* Report[] */
 };
 
-/* Fails unless the client has this role and the stage is one of two. */
+static inline double *Doubles(const Buffer *b)
+{
+  return (double *)(void *)b->data;
+}
+static inline int *Ints(const Buffer *b)
+{
+  return (int *)(void *)b->data;
+}
+static inline long long *Ids(const Buffer *b)
+{
+  return (long long *)(void *)b->data;
+}
+
+/* Fails if the client is NULL. */
+void ClientMustBe(CoracleClient c, const char *function);
+/* Fails unless the client has this role, or ROLE_ANY is meant, and the stage is one of two. */
 void ClientExpect(CoracleClient c, const char *function, Role role, Stage stage, Stage other);
+/* Fails if an array of n > 0 entries is NULL. */
+void ClientGiven(CoracleClient c, const char *function, const char *name, const void *array, int n);
 _Noreturn void ClientMisuse(CoracleClient c, const char *function, const char *why);
 
 /* Sends c->out and waits until it has gone. */
@@ -100,6 +117,7 @@ void CheckSurface(CoracleClient c);
 void SolidReady(CoracleClient c);
 void SolidBegin(CoracleClient c); /* waits for the force */
 void SolidEnd(CoracleClient c, const double x[]);
+void SolidMeshFree(SolidMesh *mesh);
 void SolidFree(CoracleClient c);
 
 void FluidReady(CoracleClient c);

@@ -1,146 +1,10 @@
-/* The solid's end: its mesh, its velocity over the substeps, the force on it. */
+/* The solid's end: its velocity over the substeps, the force on it. */
 #include "common/link/client_impl.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Of the largest displacement of a step: what the sum of h u may miss. */
 #define DISPLACEMENT_ERROR 1e-6
-
-static double *Doubles(const Buffer *b)
-{
-  return (double *)(void *)b->data;
-}
-static int *Ints(const Buffer *b)
-{
-  return (int *)(void *)b->data;
-}
-static long long *Ids(const Buffer *b)
-{
-  return (long long *)(void *)b->data;
-}
-
-static void Copy(Buffer *to, const void *from, size_t bytes)
-{
-  BufferResize(to, bytes);
-  if (bytes) memcpy(to->data, from, bytes);
-}
-
-/* --- the mesh ------------------------------------------------------------------------------------------- */
-
-static void MeshCopy(SolidMesh *to, const SolidMesh *from)
-{
-  to->n = from->n;
-  to->nfacets = from->nfacets;
-  to->nelements = from->nelements;
-  Copy(&to->gid, from->gid.data, from->gid.size);
-  Copy(&to->x, from->x.data, from->x.size);
-  Copy(&to->u, from->u.data, from->u.size);
-  Copy(&to->start, from->start.data, from->start.size);
-  Copy(&to->sums, from->sums.data, from->sums.size);
-  Copy(&to->facet, from->facet.data, from->facet.size);
-  Copy(&to->element, from->element.data, from->element.size);
-}
-
-static void MeshFree(SolidMesh *m)
-{
-  Buffer *all[] = {&m->gid, &m->x, &m->u, &m->start, &m->sums, &m->facet, &m->element};
-  for (int k = 0; k < 7; k++) BufferFree(all[k]);
-}
-
-/* Before the mesh changes: within a step the old one is kept, for the step may be redone. */
-static void BeforeChange(CoracleClient c, const char *function)
-{
-  ClientSolid *s = &c->solid;
-  ClientExpect(c, function, ROLE_SOLID, STAGE_SETUP, STAGE_STEP);
-  if (c->stage == STAGE_STEP && !s->has_before) {
-    MeshCopy(&s->before, &s->mesh);
-    s->has_before = true;
-  }
-  s->changed = true;
-}
-
-static int CompareIds(const void *a, const void *b)
-{
-  const long long x = **(const long long *const *)a, y = **(const long long *const *)b;
-  return (x > y) - (x < y);
-}
-
-/* Pointers to the ids, in the ids' order. */
-static const long long **SortIds(const long long gid[], int n)
-{
-  const long long **sorted = malloc(((size_t)n + 1) * sizeof *sorted);
-  for (int i = 0; i < n; i++) sorted[i] = &gid[i];
-  qsort(sorted, (size_t)n, sizeof *sorted, CompareIds);
-  return sorted;
-}
-
-/* Sums and start positions on new nodes: a node whose id was there before keeps its own, a new one has moved
- * with u to x so far. */
-static void CarrySums(const ClientSolid *s, int n, const long long gid[], const double x[], const double u[],
-                      double sums[], double start[])
-{
-  const SolidMesh *m = &s->mesh;
-  const long long **sorted = SortIds(Ids(&m->gid), m->n);
-  for (int i = 0; i < n; i++) {
-    const long long *id = &gid[i];
-    const long long **found = bsearch(&id, sorted, (size_t)m->n, sizeof *sorted, CompareIds);
-    const ptrdiff_t k = found ? *found - Ids(&m->gid) : -1;
-    for (int d = 0; d < DIM; d++) {
-      const int at = DIM * i + d;
-      sums[2 * DIM * i + d] = k < 0 ? s->elapsed * u[at] : Doubles(&m->sums)[2 * DIM * k + d];
-      sums[2 * DIM * i + DIM + d] = k < 0 ? s->first * u[at] : Doubles(&m->sums)[2 * DIM * k + DIM + d];
-      start[at] = k < 0 ? x[at] - s->elapsed * u[at] : Doubles(&m->start)[DIM * k + d];
-    }
-  }
-  free(sorted);
-}
-
-int CoracleSetNodes(CoracleClient c, int dim, int n, const long long gid[], const double x[],
-                    const double u[])
-{
-  SolidMesh *m = &c->solid.mesh;
-  const size_t bytes = DIM * (size_t)n * sizeof(double);
-  Buffer sums = {0}, start = {0};
-  BeforeChange(c, "CoracleSetNodes");
-  if (dim != DIM) ParticipantFail(c->p, "CoracleSetNodes: dim is %d, only %d is there yet", dim, DIM);
-  if (n < 0) ClientMisuse(c, "CoracleSetNodes", "n is negative");
-  MessageCheckFinite(c->p, "position", "node", NULL, (size_t)n, DIM, x);
-  MessageCheckFinite(c->p, "velocity", "node", NULL, (size_t)n, DIM, u);
-  BufferResize(&sums, 2 * bytes);
-  BufferResize(&start, bytes);
-  CarrySums(&c->solid, n, gid, x, u, Doubles(&sums), Doubles(&start));
-  BufferFree(&m->sums);
-  BufferFree(&m->start);
-  m->sums = sums;
-  m->start = start;
-  m->n = n;
-  Copy(&m->gid, gid, (size_t)n * sizeof *gid);
-  Copy(&m->x, x, bytes);
-  Copy(&m->u, u, bytes);
-  c->solid.has_nodes = true;
-  return 0;
-}
-
-int CoracleSetSurface(CoracleClient c, int ne, const int conn[])
-{
-  BeforeChange(c, "CoracleSetSurface");
-  if (ne < 0) ClientMisuse(c, "CoracleSetSurface", "ne is negative");
-  c->solid.mesh.nfacets = ne;
-  Copy(&c->solid.mesh.facet, conn, DIM * (size_t)ne * sizeof *conn);
-  return 0;
-}
-
-int CoracleSetVolume(CoracleClient c, int ne, const int conn[])
-{
-  BeforeChange(c, "CoracleSetVolume");
-  if (ne < 0) ClientMisuse(c, "CoracleSetVolume", "ne is negative");
-  c->solid.mesh.nelements = ne;
-  Copy(&c->solid.mesh.element, conn, (DIM + 1) * (size_t)ne * sizeof *conn);
-  return 0;
-}
-
-/* --- the exchanges -------------------------------------------------------------------------------------- */
 
 /* Mobilities and accelerations of CoracleSetInertia, none by default. */
 static const double *Inertia(CoracleClient c)
@@ -207,7 +71,7 @@ static void BeginMesh(ClientSolid *s, CoracleAction action)
   s->has_before = false;
   s->elapsed = s->first = s->second = s->last = 0.0;
   s->has_given = false;
-  if (action == CORACLE_RUN) Copy(&s->mesh.start, s->mesh.x.data, s->mesh.x.size);
+  if (action == CORACLE_RUN) BufferCopy(&s->mesh.start, s->mesh.x.data, s->mesh.x.size);
   if (s->mesh.n) memset(s->mesh.sums.data, 0, s->mesh.sums.size);
 }
 
@@ -236,8 +100,9 @@ int CoracleGetForce(CoracleClient c, const double **force)
 int CoracleSubstep(CoracleClient c, double h, const double u[])
 {
   ClientSolid *s = &c->solid;
-  double *sums = Doubles(&s->mesh.sums);
   ClientExpect(c, "CoracleSubstep", ROLE_SOLID, STAGE_STEP, STAGE_STEP);
+  double *sums = Doubles(&s->mesh.sums);
+  ClientGiven(c, "CoracleSubstep", "u", u, s->mesh.n);
   if (!(h > 0.0)) ParticipantFail(c->p, "CoracleSubstep: h is %g s in step %d", h, c->p->step);
   MessageCheckFinite(c->p, "velocity", "node", NULL, (size_t)s->mesh.n, DIM, u);
   s->last = s->elapsed + 0.5 * h;
@@ -256,8 +121,9 @@ int CoracleSetVelocity(CoracleClient c, const double u[])
 {
   ClientSolid *s = &c->solid;
   ClientExpect(c, "CoracleSetVelocity", ROLE_SOLID, STAGE_STEP, STAGE_STEP);
+  ClientGiven(c, "CoracleSetVelocity", "u", u, s->mesh.n);
   MessageCheckFinite(c->p, "velocity", "node", NULL, (size_t)s->mesh.n, DIM, u);
-  Copy(&s->given, u, s->mesh.x.size);
+  BufferCopy(&s->given, u, s->mesh.x.size);
   s->has_given = true;
   return 0;
 }
@@ -265,8 +131,10 @@ int CoracleSetVelocity(CoracleClient c, const double u[])
 int CoracleSetInertia(CoracleClient c, const double mobility[], const double acceleration[])
 {
   ClientSolid *s = &c->solid;
-  const size_t n = (size_t)s->mesh.n;
   ClientExpect(c, "CoracleSetInertia", ROLE_SOLID, STAGE_SETUP, STAGE_STEP);
+  const size_t n = (size_t)s->mesh.n;
+  ClientGiven(c, "CoracleSetInertia", "mobility", mobility, s->mesh.n);
+  ClientGiven(c, "CoracleSetInertia", "acceleration", acceleration, s->mesh.n);
   double *to = (double *)BufferResize(&s->inertia, (1 + DIM) * n * sizeof *to);
   if (n) memcpy(to, mobility, n * sizeof *to);
   if (n) memcpy(to + n, acceleration, DIM * n * sizeof *to);
@@ -332,8 +200,8 @@ void SolidEnd(CoracleClient c, const double x[])
 
 void SolidFree(CoracleClient c)
 {
-  MeshFree(&c->solid.mesh);
-  MeshFree(&c->solid.before);
+  SolidMeshFree(&c->solid.mesh);
+  SolidMeshFree(&c->solid.before);
   BufferFree(&c->solid.velocity);
   BufferFree(&c->solid.given);
   BufferFree(&c->solid.inertia);

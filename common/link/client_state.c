@@ -94,6 +94,7 @@ static int Bind(CoracleClient c, const char *function, BoundState state)
 int CoracleBindState(CoracleClient c, void *state, size_t bytes)
 {
   BoundState bound = {.state = state};
+  ClientMustBe(c, "CoracleBindState");
   if (!state && bytes) ClientMisuse(c, "CoracleBindState", "state is NULL");
   BufferResize(&bound.saved, bytes);
   Bind(c, "CoracleBindState", bound);
@@ -103,6 +104,7 @@ int CoracleBindState(CoracleClient c, void *state, size_t bytes)
 
 int CoracleBindStateFunction(CoracleClient c, int (*f)(void *context, int save), void *context)
 {
+  ClientMustBe(c, "CoracleBindStateFunction");
   if (!f) ClientMisuse(c, "CoracleBindStateFunction", "there must be a function");
   return Bind(c, "CoracleBindStateFunction", (BoundState){.f = f, .context = context});
 }

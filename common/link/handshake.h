@@ -4,7 +4,7 @@
 #define CORACLE_ROLL_CALL_H
 #include "common/link/case_impl.h"
 
-typedef enum { ROLE_FLUID, ROLE_COUPLER, ROLE_SOLID, NROLES } Role;
+typedef enum { ROLE_FLUID, ROLE_COUPLER, ROLE_SOLID, NROLES, ROLE_ANY = NROLES } Role;
 extern const char *const ROLE_NAMES[NROLES];
 
 enum { HANDSHAKE_MESSAGE = 2048 };

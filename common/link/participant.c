@@ -29,9 +29,12 @@ static void Report(const char *role, int rank, const char *message)
 
 static _Noreturn void Abort(const char *message)
 {
+  int started;
   fflush(NULL);
   ExitGuardExpected();
   if (HANDLER.f) HANDLER.f(HANDLER.context, message);
+  MPI_Initialized(&started);
+  if (!started) _exit(1);
   MPI_Abort(MPI_COMM_WORLD, 1);
   for (;;) pause(); /* until the launcher has ended this process */
 }
@@ -42,9 +45,9 @@ void ParticipantFailList(Participant *p, const char *format, va_list list)
   char text[HANDSHAKE_MESSAGE];
   vsnprintf(text, sizeof text, format, list);
   ExitGuardExpected();
-  reporting = reporting || FailureBoardClaim(p->failures);
+  reporting = reporting || !p || FailureBoardClaim(p->failures);
   if (reporting)
-    Report(ROLE_NAMES[p->role], p->rank, text);
+    Report(p ? ROLE_NAMES[p->role] : "client", p ? p->rank : 0, text);
   else
     sleep(5); /* another rank reports and ends the job */
   Abort(text);

@@ -27,6 +27,29 @@ PetscErrorCode MeshDestroy(Mesh **mesh)
   PetscFunctionReturn(0);
 }
 
+/* The first vertex of the component that v is known to belong to; the way there is shortened. */
+static int Root(int root[], int v)
+{
+  while (root[v] != v) v = root[v] = root[root[v]];
+  return v;
+}
+
+PetscErrorCode MeshSerialComponents(const MeshSerial *mesh, int *components)
+{
+  int *root;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(mesh->nv, &root));
+  for (int v = 0; v < mesh->nv; v++) root[v] = v;
+  *components = mesh->nv;
+  for (int k = 0; k < 3 * mesh->ne; k++) {
+    const int a = Root(root, mesh->vertex[k]), b = Root(root, mesh->vertex[k - k % 3]);
+    if (a != b) --*components;
+    root[a > b ? a : b] = a > b ? b : a;
+  }
+  PetscCall(PetscFree(root));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode MeshSerialDestroy(MeshSerial *mesh)
 {
   PetscFunctionBeginUser;

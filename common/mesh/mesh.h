@@ -66,6 +66,8 @@ PetscErrorCode MeshBox(const double lower[2], const double upper[2], double size
  * element.  On failure *error (a static buffer) says why and a PETSc error code is returned without a
  * trace-back. */
 PetscErrorCode MeshReadGmsh(const char *path, MeshSerial *mesh, const char **error);
+/* Not collective: the number of connected components, which share no vertex. */
+PetscErrorCode MeshSerialComponents(const MeshSerial *mesh, int *components);
 PetscErrorCode MeshSerialDestroy(MeshSerial *mesh);
 
 /* Collective: partitions and distributes what rank 0 holds.  Same global mesh for any number of ranks. */

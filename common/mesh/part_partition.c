@@ -1,61 +1,13 @@
-#include "common/mesh/mesh_impl.h"
-#include <metis.h>
+#include "common/mesh/part_partition.h"
 
-/* The graph of all triangles, on rank 0. */
-typedef struct {
-  int n;
-  int *count, *start; /* [size], [size + 1] numbers a rank sends: 3 an element */
-  long long *across;  /* [n][3] 3 element + face beyond a face, -1 on the boundary */
-  int *weight;        /* [n][3] or NULL */
-} Graph;
+/* A mesh of more triangles, if no rank has more than an eighth of them, is partitioned by clusters: of some ten
+ * triangles at least, some thirty a part where these are enough. */
+#define MAX_SERIAL 100000LL
+enum { SPREAD = 8, CLUSTER_TRIANGLES = 10, PART_CLUSTERS = 30, MIN_CLUSTERS = 10000 };
 
-/* The number of what lies beyond each face of this part. */
-static void Across(const MeshSerial *s, const PartFaces *f, long long across[])
-{
-  const long long base = 3 * f->start[f->rank];
-  for (int k = 0; k < 3 * s->ne; k++) {
-    const int o = f->local.neighbor[k];
-    across[k] = o < 0 ? -1 : base + 3 * o + f->local.face[k];
-  }
-  for (int k = 0; k < f->nopen; k++) across[f->open[k]] = f->across[k];
-}
+/* --- on one rank ---------------------------------------------------------------------------------------- */
 
-static PetscErrorCode GraphGather(MPI_Comm comm, const MeshPart *part, const int weight[], Graph *g)
-{
-  const int n = 3 * part->serial.ne;
-  long long *across;
-  PartFaces f;
-  PetscFunctionBeginUser;
-  const PetscErrorCode failed = PartFacesCreate(comm, part, &f);
-  if (failed) PetscFunctionReturn(failed);
-  g->n = f.rank ? 0 : (int)f.start[f.size];
-  PetscCall(PetscMalloc2(f.size, &g->count, f.size + 1, &g->start));
-  for (int r = 0; r <= f.size; r++) g->start[r] = (int)(3 * f.start[r]);
-  for (int r = 0; r < f.size; r++) g->count[r] = g->start[r + 1] - g->start[r];
-  PetscCall(PetscMalloc1(n, &across));
-  Across(&part->serial, &f, across);
-  PetscCall(PetscMalloc1(3 * g->n, &g->across));
-  PetscCallMPI(MPI_Gatherv(across, n, MPI_LONG_LONG, g->across, g->count, g->start, MPI_LONG_LONG, 0, comm));
-  PetscCall(PetscFree(across));
-  PetscCall(PartFacesDestroy(&f));
-  g->weight = NULL;
-  if (!weight) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc1(3 * g->n, &g->weight));
-  PetscCallMPI(MPI_Gatherv(weight, n, MPI_INT, g->weight, g->count, g->start, MPI_INT, 0, comm));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode GraphDestroy(Graph *g)
-{
-  PetscFunctionBeginUser;
-  PetscCall(PetscFree2(g->count, g->start));
-  PetscCall(PetscFree(g->across));
-  PetscCall(PetscFree(g->weight));
-  PetscFunctionReturn(0);
-}
-
-/* The graph as METIS wants it: the neighbours of element e are list[first[e]] to list[first[e + 1] - 1]. */
-static void Compress(const Graph *g, idx_t first[], idx_t list[], idx_t weight[])
+static void Compress(const PartGraph *g, idx_t first[], idx_t list[], idx_t weight[])
 {
   first[0] = 0;
   for (int e = 0; e < g->n; e++) {
@@ -69,51 +21,109 @@ static void Compress(const Graph *g, idx_t first[], idx_t list[], idx_t weight[]
   }
 }
 
-static PetscErrorCode Metis(const Graph *g, idx_t nparts, int target[])
+static PetscErrorCode Metis(idx_t n, idx_t first[], idx_t list[], idx_t size[], idx_t weight[], idx_t nparts,
+                            int target[])
 {
-  idx_t n = g->n, ncon = 1, cut, options[METIS_NOPTIONS], *first, *list, *weight, *metis_part;
+  idx_t ncon = 1, cut, options[METIS_NOPTIONS], *metis_part;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc4(n + 1, &first, 3 * n, &list, g->weight ? 3 * n : 0, &weight, n, &metis_part));
-  Compress(g, first, list, g->weight ? weight : NULL);
+  PetscCall(PetscMalloc1(n, &metis_part));
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 1;
   const int status = (nparts <= 8 ? METIS_PartGraphRecursive : METIS_PartGraphKway)(
-      &n, &ncon, first, list, NULL, NULL, g->weight ? weight : NULL, &nparts, NULL, NULL, options, &cut,
-      metis_part);
-  for (int e = 0; e < g->n && status == METIS_OK; e++) target[e] = (int)metis_part[e];
-  PetscCall(PetscFree4(first, list, weight, metis_part));
+      &n, &ncon, first, list, size, NULL, weight, &nparts, NULL, NULL, options, &cut, metis_part);
+  for (int e = 0; e < n && status == METIS_OK; e++) target[e] = (int)metis_part[e];
+  PetscCall(PetscFree(metis_part));
   PetscCheck(status == METIS_OK, PETSC_COMM_SELF, PETSC_ERR_LIB,
-             "METIS could not cut %d elements in %d parts: status %d", g->n, (int)nparts, status);
+             "METIS could not cut %d elements in %d parts: status %d", (int)n, (int)nparts, status);
   PetscFunctionReturn(0);
 }
 
 /* Few elements are dealt out one by one, as METIS may fail on graphs smaller than the number of parts. */
-static PetscErrorCode Cut(const Graph *g, int nparts, int target[])
+PetscErrorCode PartCut(int n, idx_t first[], idx_t list[], idx_t size[], idx_t weight[], int nparts,
+                       int target[])
 {
   PetscFunctionBeginUser;
-  if (g->n > 2 * nparts && nparts > 1) {
-    PetscCall(Metis(g, nparts, target));
+  if (n > 2 * nparts && nparts > 1) {
+    PetscCall(Metis(n, first, list, size, weight, nparts, target));
   } else {
-    for (int e = 0; e < g->n; e++) target[e] = e % nparts;
+    for (int e = 0; e < n; e++) target[e] = e % nparts;
   }
   PetscFunctionReturn(0);
+}
+
+PetscErrorCode PartGraphCut(const PartGraph *g, int nparts, int target[])
+{
+  idx_t *first, *list, *weight;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc3(g->n + 1, &first, 3 * g->n, &list, g->weight ? 3 * g->n : 0, &weight));
+  Compress(g, first, list, g->weight ? weight : NULL);
+  const PetscErrorCode failed = PartCut(g->n, first, list, NULL, g->weight ? weight : NULL, nparts, target);
+  PetscCall(PetscFree3(first, list, weight));
+  PetscFunctionReturn(failed);
+}
+
+/* --- on all ranks --------------------------------------------------------------------------------------- */
+
+/* The number of what lies beyond each face of this part. */
+static void Across(const MeshSerial *s, const PartFaces *f, long long across[])
+{
+  const long long base = 3 * f->start[f->rank];
+  for (int k = 0; k < 3 * s->ne; k++) {
+    const int o = f->local.neighbor[k];
+    across[k] = o < 0 ? -1 : base + 3 * o + f->local.face[k];
+  }
+  for (int k = 0; k < f->nopen; k++) across[f->open[k]] = f->across[k];
+}
+
+/* The graph of all triangles on rank 0, and its parts back. */
+static PetscErrorCode PartitionGathered(MPI_Comm comm, const MeshPart *part, const PartFaces *f, int nparts,
+                                        const int weight[], int target[])
+{
+  const int ne = part->serial.ne, n = f->rank ? 0 : (int)f->start[f->size];
+  int *count, *start, *all, *every;
+  long long *across, *gathered;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(f->size, &count, f->size, &start));
+  for (int r = 0; r < f->size; r++)
+    start[r] = (int)(3 * f->start[r]), count[r] = (int)(3 * f->start[r + 1]) - start[r];
+  PetscCall(PetscMalloc4(3 * ne, &across, 3 * n, &gathered, weight ? 3 * n : 0, &every, n, &all));
+  Across(&part->serial, f, across);
+  PetscCallMPI(MPI_Gatherv(across, 3 * ne, MPI_LONG_LONG, gathered, count, start, MPI_LONG_LONG, 0, comm));
+  if (weight) PetscCallMPI(MPI_Gatherv(weight, 3 * ne, MPI_INT, every, count, start, MPI_INT, 0, comm));
+  const PartGraph graph = {.n = n, .across = gathered, .weight = weight ? every : NULL};
+  const PetscErrorCode failed = CollectiveError(comm, PartGraphCut(&graph, nparts, all));
+  for (int r = 0; r < f->size; r++) count[r] /= 3, start[r] /= 3;
+  if (!failed) PetscCallMPI(MPI_Scatterv(all, count, start, MPI_INT, target, ne, MPI_INT, 0, comm));
+  PetscCall(PetscFree4(across, gathered, every, all));
+  PetscCall(PetscFree2(count, start));
+  PetscFunctionReturn(failed);
+}
+
+PetscErrorCode PartPartition(MPI_Comm comm, const MeshPart *part, int nparts, const int weight[],
+                             PetscBool clusters, int target[])
+{
+  PartFaces f;
+  PetscFunctionBeginUser;
+  PetscErrorCode failed = PartFacesCreate(comm, part, &f);
+  if (failed) PetscFunctionReturn(failed);
+  const long long total = f.start[f.size];
+  const long long wanted =
+      PetscMin(total / CLUSTER_TRIANGLES, PetscMax(MIN_CLUSTERS, PART_CLUSTERS * (long long)nparts));
+  if (clusters)
+    failed = PartPartitionClusters(comm, &f, part->serial.ne, nparts, weight, (int)wanted, target);
+  else
+    failed = PartitionGathered(comm, part, &f, nparts, weight, target);
+  PetscCall(PartFacesDestroy(&f));
+  PetscFunctionReturn(failed);
 }
 
 PetscErrorCode MeshPartPartition(MPI_Comm comm, const MeshPart *part, int nparts, const int weight[],
                                  int target[])
 {
-  const int ne = part->serial.ne;
-  int size, *all;
-  Graph g;
+  long long total = part->serial.ne, largest = total;
   PetscFunctionBeginUser;
-  PetscErrorCode failed = GraphGather(comm, part, weight, &g);
-  if (failed) PetscFunctionReturn(failed);
-  PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCall(PetscMalloc1(g.n, &all));
-  failed = CollectiveError(comm, Cut(&g, nparts, all));
-  for (int r = 0; r < size; r++) g.count[r] /= 3, g.start[r] /= 3;
-  if (!failed) PetscCallMPI(MPI_Scatterv(all, g.count, g.start, MPI_INT, target, ne, MPI_INT, 0, comm));
-  PetscCall(PetscFree(all));
-  PetscCall(GraphDestroy(&g));
-  PetscFunctionReturn(failed);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_LONG_LONG, MPI_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_LONG_LONG, MPI_MAX, comm));
+  const PetscBool clusters = (PetscBool)(total > MAX_SERIAL && largest * SPREAD <= total);
+  PetscFunctionReturn(PartPartition(comm, part, nparts, weight, clusters, target));
 }

@@ -69,8 +69,10 @@ int main(int argc, char **argv)
   if (part.nnodes && rank == 0) part.x[part.nnodes - 1][1] -= 0.02 * region->margin;
   CHECK(Stale(region, 0.0), "a node has left its margin");
   SyntheticSolidPart(&all, rank, size, &part);
-  CHECK(!RegionOutside(region, &part.view, &tank, &gid, &local) && gid == -1 && local == -1, "inside");
-  CHECK(!RegionOutside(region, &part.view, &low, &gid, &local), "outside");
+  CHECK(!RegionOutside(region, &part.view, &tank, 0.0, &gid, &local) && gid == -1 && local == -1, "inside");
+  CHECK(!RegionOutside(region, &part.view, &low, 10.0, &gid, &local) && gid == -1 && local == -1,
+        "within the margin");
+  CHECK(!RegionOutside(region, &part.view, &low, 0.0, &gid, &local), "outside");
   found = local >= 0;
   MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT, MPI_SUM, PETSC_COMM_WORLD);
   CHECK(found == 1, "%d ranks report", found);

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What documents repeat is what it is: versions, lines of adapters, links between documents, the case of the guide.  Usage: documents.sh ROOT BUILD
+# What documents repeat is what it is: versions, lines of adapters, links between documents, the case of the guide; and each public function has a test of its misuse.  Usage: documents.sh ROOT BUILD
 set -euo pipefail
 cd "$1"
 build=$2
@@ -25,6 +25,16 @@ for document in *.md cases/*.md cases/*/*.md cases/adapters/*/*.md common/*.md c
   while read -r link; do
     [ -e "$(dirname "$document")/$link" ] || wrong "$document: there is no $link"
   done < <(grep -oE '\]\([^)#:]+' "$document" | cut -c3- || true)
+done
+
+# each public function is used wrongly somewhere, but for those that cannot be; CoracleOpen*'s ways are those of tests/route/bad_start.sh
+for function in $(grep -ohE '\bCoracle[A-Z][A-Za-z]*\(' common/link/coracle.h common/link/case_file.h | tr -d '(' | sort -u); do
+  case $function in
+    CoracleVersion | CoracleSetErrorHandler | CoracleClose | CoracleOpen*) continue ;;
+    CoracleCase*) file=tests/link/test_case_misuse.c ;;
+    *) file=tests/route/misuse.c ;;
+  esac
+  grep -q "NOBODY($function,\|REFUSED($function(\|$function(" "$file" || wrong "no wrong use of $function is tested in $file"
 done
 
 awk '/^```yaml/ {on = 1; next} /^```/ {on = 0} on' cases/GUIDE.md >"$scratch/my_discs.yaml"

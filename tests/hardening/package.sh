@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The .deb, installed into a scratch root, runs a case, checks one, and lets an outside solid build against its library.
+# The .deb, installed into a scratch root, runs a case, checks one, and lets outside solids in all languages build against its library.
 # Usage: package.sh ROOT BUILD
 set -euo pipefail
 root=$1 build=$2
@@ -32,6 +32,4 @@ export PKG_CONFIG_PATH=$there/usr/lib/pkgconfig
 mpicc "$("$coracle" cases)/adapters/template_c/rigid_disc.c" -o rigid_disc $(pkg-config --define-prefix --cflags --libs coracle-client) -lm >log 2>&1 ||
   say 'an outside solid does not compile'
 LD_LIBRARY_PATH=$there/usr/lib "$coracle" conform --solid ./rigid_disc --ranks 1 disc.yaml >log 2>&1 || say 'coracle conform failed'
-if /usr/bin/python3 -c 'import numpy, mpi4py' 2>/dev/null; then
-  PYTHONPATH=$there/usr/lib/python3/dist-packages /usr/bin/python3 -c 'import coracle; print(coracle.version())' >log 2>&1 || say 'the Python package is not found'
-fi
+"$root/tests/route/languages.sh" "$root" "$build" "$there/usr" >log 2>&1 || say 'a client in another language fails'

@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # An outside solid must build against the installed client library alone, by CMake and by pkg-config, and join a job;
-# the library exports Coracle* and nothing else; its headers are C11, and C++11 to C++20 with any compiler there is.
+# the library exports Coracle* and nothing else; its headers are C11, and C++11 to C++20 with any compiler there is; clients in all
+# languages run (languages.sh).
 # Usage: installed.sh BUILD_DIR CASE MPIRUN...
 set -euo pipefail
-build=$1 case=$2 template=$(cd "$(dirname "$0")/../../cases/adapters/template_c" && pwd)
+build=$1 case=$2 root=$(cd "$(dirname "$0")/../.." && pwd)
+template=$root/cases/adapters/template_c
 shift 2
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -20,10 +22,11 @@ done
 
 printf '#include <case_file.h>\n#include <coracle.h>\nint main(void) { return CORACLE_DIM - 2; }\n' >"$scratch/host.c"
 cp "$scratch/host.c" "$scratch/host.cc"
+mpi_flags=$(mpicc --showme:compile 2>/dev/null || mpicc -show | grep -oE -- '-I[^ ]+') # of Open MPI, or another MPI's
 strict() { # COMPILER STANDARD FILE
   command -v "$1" >/dev/null || return 0
   # shellcheck disable=SC2046 # the flags are words
-  "$1" "-std=$2" -Wall -Wextra -pedantic -Werror -fsyntax-only $(mpicc --showme:compile | sed 's/-I/-isystem /g') \
+  "$1" "-std=$2" -Wall -Wextra -pedantic -Werror -fsyntax-only $(sed 's/-I/-isystem /g' <<<"$mpi_flags") \
     -I"$scratch/there/include" "$scratch/$3" || { echo "the headers are not $2 with $1"; exit 1; }
 }
 for compiler in gcc clang; do strict $compiler c11 host.c; done
@@ -58,3 +61,5 @@ for program in "$scratch/build/by_client" "$scratch/build/by_client_shared" "$sc
   timeout -k 5 30 "$@" -n 1 "$program" "$case" >"$scratch/log" 2>&1 && { echo 'joined a job of its own'; exit 1; }
   grep -q 'error: there is no fluid among the 1 ranks' "$scratch/log" || { cat "$scratch/log"; exit 1; }
 done
+
+"$root/tests/route/languages.sh" "$root" "$build" "$scratch/there"

@@ -52,6 +52,53 @@ static int Failing(void *context, int nbox, const double box[], CoracleElements 
   return 1;
 }
 
+/* --- without a client --------------------------------------------------------------------------------- */
+
+static void Nobody(void)
+{
+  const CoracleCoupling *coupling;
+  const CoracleCorrection *correction;
+  const CoracleGauge *gauge;
+  const CoracleFlow flow = {0};
+  const double *force, *box, corner[2] = {0, 0};
+  const CoracleClient c = NULL;
+  CoracleAction action;
+  CoracleClient opened;
+  MPI_Comm comm;
+  double t, dt;
+  int n;
+#define NOBODY(name, arguments) REFUSED(name arguments, #name ": the client is NULL: CoracleOpen comes first")
+  NOBODY(CoracleBegin, (c, &t, &dt, &action));
+  NOBODY(CoracleBindState, (c, &t, sizeof t));
+  NOBODY(CoracleBindStateFunction, (c, NULL, NULL));
+  NOBODY(CoracleCheckpointPath, (c));
+  NOBODY(CoracleElementsChanged, (c));
+  NOBODY(CoracleEnd, (c, X));
+  NOBODY(CoracleGetCorrection, (c, &n, &correction));
+  NOBODY(CoracleGetCoupling, (c, &n, &coupling));
+  NOBODY(CoracleGetForce, (c, &force));
+  NOBODY(CoracleGetGauges, (c, &n, &gauge));
+  NOBODY(CoracleGetRegion, (c, &n, &box));
+  NOBODY(CoracleNeedsPressure, (c));
+  NOBODY(CoraclePhase, (c, "a phase"));
+  NOBODY(CoracleProposeStep, (c, 0.1));
+  NOBODY(CoracleReady, (c));
+  NOBODY(CoracleReport, (c, "a key", 0.0, 0));
+  NOBODY(CoracleResumePath, (c));
+  NOBODY(CoracleSetFlow, (c, &flow));
+  NOBODY(CoracleSetInertia, (c, ONE, ZERO));
+  NOBODY(CoracleSetNodes, (c, 2, 3, GID, X, ZERO));
+  NOBODY(CoracleSetRegion, (c, 2, corner, corner, Region, NULL));
+  NOBODY(CoracleSetSurface, (c, 3, FACET));
+  NOBODY(CoracleSetVelocity, (c, ZERO));
+  NOBODY(CoracleSetVolume, (c, 1, TRIANGLE));
+  NOBODY(CoracleStepAccepted, (c));
+  NOBODY(CoracleSubstep, (c, 0.1, ZERO));
+  REFUSED(CoracleFail(c, "nobody's %s", "words"), "nobody's words");
+  REFUSED(CoracleFailMessage(c, "nobody's words"), "nobody's words");
+  REFUSED(CoracleOpen(NULL, 0, NULL, &comm, &opened), "role is NULL, expected \"fluid\" or \"solid\"");
+}
+
 /* --- the solid ------------------------------------------------------------------------------------------ */
 
 static void GiveMesh(CoracleClient c, const long long gid[], const int triangle[])
@@ -84,6 +131,11 @@ static void Setup(CoracleClient c)
   REFUSED(CoracleSetNodes(c, 2, -1, GID, X, ZERO), "CoracleSetNodes: n is negative");
   REFUSED(CoracleSetNodes(c, 2, 3, GID, BAD, ZERO), "position is nan at node 1, component 1");
   REFUSED(CoracleSetNodes(c, 2, 3, GID, X, BAD), "velocity is nan at node 1, component 1");
+  REFUSED(CoracleSetNodes(c, 2, 3, NULL, X, ZERO), "CoracleSetNodes: gid is NULL, expected an array for 3");
+  REFUSED(CoracleSetNodes(c, 2, 3, GID, NULL, ZERO), "CoracleSetNodes: x is NULL");
+  REFUSED(CoracleSetNodes(c, 2, 3, GID, X, NULL), "CoracleSetNodes: u is NULL");
+  REFUSED(CoracleSetSurface(c, 3, NULL), "CoracleSetSurface: conn is NULL");
+  REFUSED(CoracleSetVolume(c, 1, NULL), "CoracleSetVolume: conn is NULL");
   REFUSED(CoracleSetSurface(c, -1, FACET), "CoracleSetSurface: ne is negative");
   REFUSED(CoracleSetVolume(c, -1, TRIANGLE), "CoracleSetVolume: ne is negative");
   REFUSED((GiveMesh(c, SAME, TRIANGLE), CoracleReady(c)), "two nodes of this rank have the id 1");
@@ -127,6 +179,10 @@ static void InStep(CoracleClient c)
   REFUSED(CoracleBindState(c, &t, sizeof t), "CoracleBindState: state is bound before the first step");
   REFUSED(CoracleSubstep(c, 0.0, ZERO), "CoracleSubstep: h is 0 s in step 1");
   REFUSED(CoracleSubstep(c, NAN, ZERO), "CoracleSubstep: h is nan s in step 1");
+  REFUSED(CoracleSubstep(c, dt, NULL), "CoracleSubstep: u is NULL");
+  REFUSED(CoracleSetVelocity(c, NULL), "CoracleSetVelocity: u is NULL");
+  REFUSED(CoracleSetInertia(c, NULL, ZERO), "CoracleSetInertia: mobility is NULL");
+  REFUSED(CoracleSetInertia(c, ONE, NULL), "CoracleSetInertia: acceleration is NULL");
   REFUSED(CoracleSubstep(c, dt, BAD), "velocity is nan at node 1, component 1, in step 1");
   REFUSED(CoracleSetVelocity(c, BAD), "velocity is nan at node 1, component 1, in step 1");
   REFUSED(CoracleEnd(c, X), "the substeps of step 1 sum up to 0 s");
@@ -146,6 +202,7 @@ static void Fluid(CoracleClient c)
   CoracleFlow bad = good;
   const CoracleCoupling *coupling;
   const CoracleCorrection *correction;
+  const CoracleGauge *gauge;
   CoracleAction action;
   double t, dt;
   int n;
@@ -162,6 +219,7 @@ static void Fluid(CoracleClient c)
   REFUSED(CoracleStepAccepted(c), "CoracleStepAccepted was called before CoracleReady");
   REFUSED(CoracleElementsChanged(c), "CoracleElementsChanged was called before CoracleReady");
   REFUSED(CoracleSetFlow(c, &good), "CoracleSetFlow was called before CoracleReady");
+  REFUSED(CoracleGetGauges(c, &n, &gauge), "CoracleGetGauges was called before CoracleReady");
   REFUSED(CoracleSetNodes(c, 2, 3, GID, X, ZERO), "CoracleSetNodes is for a solid");
   REFUSED(CoracleSetInertia(c, ONE, ZERO), "CoracleSetInertia is for a solid");
   REFUSED(CoracleSubstep(c, 0.1, ZERO), "CoracleSubstep is for a solid");
@@ -177,6 +235,7 @@ static void Fluid(CoracleClient c)
           "CoracleGetRegion was called between CoracleEnd and CoracleBegin");
   CoracleBegin(c, &t, &dt, &action);
   REFUSED(CoracleEnd(c, NULL), "CoracleEnd: CoracleSetFlow comes first, in every step");
+  REFUSED(CoracleSetFlow(c, NULL), "CoracleSetFlow: the flow is NULL");
   bad.u_star = nan;
   REFUSED(CoracleSetFlow(c, &bad),
           "velocity before the projection is nan at element 0, component 0, in step 1");
@@ -190,6 +249,7 @@ int main(int argc, char **argv)
   MPI_Comm comm;
   CoracleClient c;
   CoracleSetErrorHandler(Catch, NULL);
+  Nobody();
   CoracleOpen(role, argc, argv, &comm, &c);
   if (!strcmp(role, "solid")) {
     Setup(c);
