@@ -89,7 +89,6 @@ PetscErrorCode CouplingIterationHasConverged(CouplingIteration *t, int iteration
   *converged = t->residual <= fmax(t->tolerance * size, NEGLIGIBLE_DISPLACEMENT * t->thickness / t->dt)
                    ? PETSC_TRUE
                    : PETSC_FALSE;
-  if (solid->changed && iteration == t->max_iterations) *converged = PETSC_TRUE;
   if (*converged || iteration == t->max_iterations) t->failures = *converged ? 0 : t->failures + 1;
   PetscFunctionReturn(0);
 }

@@ -38,8 +38,8 @@ PetscErrorCode CouplingIterationDestroy(CouplingIteration *t);
 PetscErrorCode CouplingIterationBegin(CouplingIteration *t, const SolidState *solid, double dt,
                                       const double predicted[], const double explicit_fraction[]);
 /* Has the step converged with `solid` as the result of iteration number `iteration` (from 1)?  Always true
- * when at most one is allowed or the nodes of the start are lost, and in the last iteration of a
- * step in which cracks have opened: whether they do may alternate from iteration to iteration. */
+ * when at most one is allowed or the nodes of the start are lost.  In a step in which cracks open they may do so in one iteration and
+ * not, or at another time, in the next: it converges over a part of dt (time_loop.c). */
 PetscErrorCode CouplingIterationHasConverged(CouplingIteration *t, int iteration, const SolidState *solid,
                                              PetscBool *converged);
 /* *u = v_k+1 [n][2], m/s, borrowed until the next step. */

@@ -40,7 +40,8 @@
  *
  * Not more of the series: forces that no fluid element sees, between nodes closer than its size, would be kept for ever; so a part of
  * them is let go in each step.  (With 16 terms the air beside a block at rest, of elements of half the fluid's size, is fast enough
- * for 15 % more steps.)
+ * for 15 % more steps.)  In one fluid q is of a: with a~ the tip of the beam of cases/flexible_beam, FSI1 with le 0.008, is 0.30
+ * instead of 0.70 mm high after 6 s (reference 0.82).
  *
  * Where nodes have no mobility the solid is held: sigma towards v. */
 #ifndef CORACLE_INERTIA_H
