@@ -99,22 +99,27 @@ int CoracleSetNodes(CoracleClient c, int dim, int n, const long long gid[], cons
   return 0;
 }
 
+/* conn[ne][nodes] of the elements that `name` sets. */
+static void SetElements(CoracleClient c, const char *name, int ne, int nodes, const int conn[], int *n,
+                        Buffer *elements)
+{
+  BeforeChange(c, name);
+  if (ne < 0) ClientMisuse(c, name, "ne is negative");
+  ClientGiven(c, name, "conn", conn, ne);
+  *n = ne;
+  BufferCopy(elements, conn, (size_t)nodes * (size_t)ne * sizeof *conn);
+}
+
 int CoracleSetSurface(CoracleClient c, int ne, const int conn[])
 {
-  BeforeChange(c, "CoracleSetSurface");
-  if (ne < 0) ClientMisuse(c, "CoracleSetSurface", "ne is negative");
-  ClientGiven(c, "CoracleSetSurface", "conn", conn, ne);
-  c->solid.mesh.nfacets = ne;
-  BufferCopy(&c->solid.mesh.facet, conn, DIM * (size_t)ne * sizeof *conn);
+  SolidMesh *m = &c->solid.mesh;
+  SetElements(c, "CoracleSetSurface", ne, DIM, conn, &m->nfacets, &m->facet);
   return 0;
 }
 
 int CoracleSetVolume(CoracleClient c, int ne, const int conn[])
 {
-  BeforeChange(c, "CoracleSetVolume");
-  if (ne < 0) ClientMisuse(c, "CoracleSetVolume", "ne is negative");
-  ClientGiven(c, "CoracleSetVolume", "conn", conn, ne);
-  c->solid.mesh.nelements = ne;
-  BufferCopy(&c->solid.mesh.element, conn, (DIM + 1) * (size_t)ne * sizeof *conn);
+  SolidMesh *m = &c->solid.mesh;
+  SetElements(c, "CoracleSetVolume", ne, DIM + 1, conn, &m->nelements, &m->element);
   return 0;
 }
