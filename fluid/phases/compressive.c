@@ -32,11 +32,6 @@ typedef struct {
   Shares *upwind, *more; /* [ne][3] volumes that leave through faces: a_C F dt, (a_f - a_C) F dt */
 } Compressive;
 
-static double AreaOf(const Stars *s, int e)
-{
-  return 0.5 * StarsTwiceArea(s, e);
-}
-
 /* Whether the shares of any phase differ. */
 static int Differ(const Compressive *t, const Shares *a, const Shares *b)
 {
@@ -54,7 +49,7 @@ static void SetMeans(Compressive *t)
     double *mean = t->mean[v].share, area = 0.0;
     for (int p = 0; p < t->f->np; p++) mean[p] = 0.0;
     for (int k = s->start[v]; k < s->start[v + 1]; k++) {
-      const double a = AreaOf(s, s->around[k] / 3), *share = t->now[s->around[k] / 3].share;
+      const double a = StarsArea(s, s->around[k] / 3), *share = t->now[s->around[k] / 3].share;
       area += a;
       for (int p = 0; p < t->f->np; p++) mean[p] += a * share[p];
     }
@@ -145,14 +140,14 @@ static void SetLow(Compressive *t)
     const double *v = &t->f->volume[(size_t)e * (size_t)t->f->np];
     const Shares *out = &t->upwind[3 * e];
     for (int p = 0; p < t->f->np; p++)
-      t->low[e].share[p] = (v[p] - out[0].share[p] - out[1].share[p] - out[2].share[p]) / AreaOf(t->s, e);
+      t->low[e].share[p] = (v[p] - out[0].share[p] - out[1].share[p] - out[2].share[p]) / StarsArea(t->s, e);
   }
 }
 
 /* Of phase p in owned element e. */
 static void SetRoom(Compressive *t, int e, int p)
 {
-  const double area = AreaOf(t->s, e), low = t->low[e].share[p];
+  const double area = StarsArea(t->s, e), low = t->low[e].share[p];
   double least = fmin(t->now[e].share[p], low), most = fmax(t->now[e].share[p], low), come = 0.0, leave = 0.0;
   for (int i = 0; i < 3; i++) {
     const int o = t->s->neighbor[e][i];
@@ -252,7 +247,7 @@ static PetscErrorCode SetCourant(Compressive *t, double *largest)
     t->courant[e] = 0.0;
     for (int i = 0; i < 3; i++) {
       const int o = s->neighbor[e][i];
-      t->courant[e] += fmax(t->flux[3 * e + i], 0.0) * t->dt / AreaOf(s, e);
+      t->courant[e] += fmax(t->flux[3 * e + i], 0.0) * t->dt / StarsArea(s, e);
       mixed |= o >= 0 && Differ(t, &t->now[e], &t->now[o]);
     }
     if (mixed) *largest = fmax(*largest, t->courant[e]);

@@ -52,7 +52,7 @@ static int Frame(Phases f, int v, Neighbourhood *h)
     const int e = s->around[k] / 3;
     HalfPlane line;
     double end[2][2];
-    area += 0.5 * StarsTwiceArea(s, e) / (s->start[v + 1] - s->start[v]);
+    area += StarsArea(s, e) / (s->start[v + 1] - s->start[v]);
     if (!Segment(f, e, h->k, s->point[v], &line, end)) continue;
     const double length = hypot(end[1][0] - end[0][0], end[1][1] - end[0][1]);
     sum += length;

@@ -43,7 +43,7 @@ static PetscErrorCode SetBalance(Expel *x, double *share)
   double sum[2] = {0.0, 0.0};
   PetscFunctionBeginUser;
   for (int e = 0; e < s->ne; e++) {
-    const double *v = VolumeOf(x->f, e), area = 0.5 * StarsTwiceArea(s, e);
+    const double *v = VolumeOf(x->f, e), area = StarsArea(s, e);
     const double over = v[x->phase] - x->capacity[e], room = fmin(-over, v[x->filler]);
     x->balance[e] = (Balance){over > EXCESS_TINY * area ? over : 0.0, room > ROOM_TINY * area ? room : 0.0,
                               x->capacity[e] < CAPACITY_TINY * area};

@@ -45,7 +45,7 @@ PetscErrorCode PhasesUpdateDensities(Phases f)
   PetscCall(StarsExchange(s, (size_t)f->np * sizeof *f->mass, f->mass));
   PetscCall(StarsExchange(s, (size_t)f->np * sizeof *f->volume, f->volume));
   for (int k = 0; k < s->nl * f->np; k++) {
-    const double tiny = VOLUME_TINY * 0.5 * StarsTwiceArea(s, k / f->np);
+    const double tiny = VOLUME_TINY * StarsArea(s, k / f->np);
     f->density[k] = f->state[k % f->np].density;
     if (IsGas(f, k % f->np) && f->volume[k] > tiny && f->mass[k] > 0.0)
       f->density[k] = f->mass[k] / f->volume[k];
@@ -67,7 +67,7 @@ void PhasesMoveMasses(Phases f, const double before[], const double swept[], dou
 
 double PhasesCompressibility(Phases f, int e, double solid, double *pressure)
 {
-  const double area = 0.5 * StarsTwiceArea(f->stars, e);
+  const double area = StarsArea(f->stars, e);
   double sum = 0.0, weight = 0.0;
   *pressure = 0.0;
   for (int p = 0; f->mass && p < f->np; p++) {
@@ -85,7 +85,7 @@ double PhasesCompressibility(Phases f, int e, double solid, double *pressure)
 static void TakeGaps(Phases f, int gas)
 {
   for (int e = 0; e < f->stars->ne; e++) {
-    double *v = &f->volume[(size_t)e * (size_t)f->np], gap = 0.5 * StarsTwiceArea(f->stars, e), all = 0.0;
+    double *v = &f->volume[(size_t)e * (size_t)f->np], gap = StarsArea(f->stars, e), all = 0.0;
     const double area = gap;
     for (int p = 0; p < f->np; p++) {
       gap -= v[p];
@@ -110,8 +110,8 @@ static PetscErrorCode Bound(Phases f, int gas, int liquid, const double expected
   for (int e = 0; e < s->ne; e++) {
     const size_t k = (size_t)e * (size_t)f->np + (size_t)gas;
     const double others =
-        0.5 * StarsTwiceArea(s, e) - f->volume[k] - f->volume[(size_t)e * (size_t)f->np + (size_t)liquid];
-    capacity[e] = fmax(0.5 * StarsTwiceArea(s, e) - others - 0.5 * f->mass[k] / expected[k], 0.0);
+        StarsArea(s, e) - f->volume[k] - f->volume[(size_t)e * (size_t)f->np + (size_t)liquid];
+    capacity[e] = fmax(StarsArea(s, e) - others - 0.5 * f->mass[k] / expected[k], 0.0);
   }
   PetscCall(PhasesExpel(f, liquid, gas, capacity, swept));
   for (int e = 0; e < s->ne; e++) {

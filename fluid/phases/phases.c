@@ -143,8 +143,7 @@ int PhasesSide(Phases f, int e, int k)
   const int p = f->single[e];
   if (p >= 0) return p == k ? -1 : p > k;
   if (PhasesHasLine(f, e, k)) return 0;
-  const double tiny = PHASES_TINY * 0.5 * StarsTwiceArea(f->stars, e),
-               *v = &f->volume[(size_t)e * (size_t)f->np];
+  const double tiny = PHASES_TINY * StarsArea(f->stars, e), *v = &f->volume[(size_t)e * (size_t)f->np];
   int first = 0, last = f->np - 1;
   while (v[first] < tiny) first++;
   while (v[last] < tiny) last--;
@@ -161,7 +160,7 @@ PolygonCut PhasesSegment(Phases f, int e, int k, const double origin[2], HalfPla
 
 int PhasesBehind(Phases f, int e, int p)
 {
-  const double tiny = PHASES_TINY * 0.5 * StarsTwiceArea(f->stars, e);
+  const double tiny = PHASES_TINY * StarsArea(f->stars, e);
   for (p++; p + 1 < f->np; p++) {
     if (f->volume[(size_t)e * (size_t)f->np + (size_t)p] >= tiny) break;
   }
@@ -235,7 +234,7 @@ PetscErrorCode PhasesGetStats(Phases f, PhasesStats *stats)
   double sum[PHASES_MAX + 1] = {0.0}, top[4] = {-HUGE_VAL, -HUGE_VAL, 0.0, f->courant};
   PetscFunctionBeginUser;
   for (int e = 0; e < s->ne; e++) {
-    const double area = 0.5 * StarsTwiceArea(s, e), *v = &f->volume[(size_t)e * (size_t)f->np];
+    const double area = StarsArea(s, e), *v = &f->volume[(size_t)e * (size_t)f->np];
     double all = 0.0;
     for (int p = 0; p < f->np; p++) {
       sum[p] += v[p];

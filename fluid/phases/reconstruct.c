@@ -15,7 +15,7 @@ static HalfPlane *LineOf(Phases f, int e, int p)
 /* The phase that has an element to itself, -1 if several share it. */
 static int SingleOf(Phases f, int e)
 {
-  const double *v = VolumeOf(f, e), tiny = PHASES_TINY * 0.5 * StarsTwiceArea(f->stars, e);
+  const double *v = VolumeOf(f, e), tiny = PHASES_TINY * StarsArea(f->stars, e);
   int found = -1;
   for (int p = 0; p < f->np; p++) {
     if (v[p] < tiny) continue;
@@ -28,7 +28,7 @@ static int SingleOf(Phases f, int e)
 static void SetCell(Phases f, int e, int p, const double origin[2], PlicCell *cell)
 {
   const double(*x)[2] = (const double(*)[2])f->stars->element[e].x;
-  cell->area = 0.5 * StarsTwiceArea(f->stars, e);
+  cell->area = StarsArea(f->stars, e);
   for (int c = 0; c < 2; c++) cell->center[c] = (x[0][c] + x[1][c] + x[2][c]) / 3.0 - origin[c];
   if (f->single[e] >= 0) { /* phases before p leave nothing, or all */
     const int gone = f->single[e] < p;
@@ -67,7 +67,7 @@ static int Gather(Phases f, int e, int p, PlicCell cell[PLIC_CELLS])
 
 static HalfPlane FitLine(Phases f, int e, int p, PlicCell cell[])
 {
-  const double area = 0.5 * StarsTwiceArea(f->stars, e), *v = VolumeOf(f, e);
+  const double area = StarsArea(f->stars, e), *v = VolumeOf(f, e);
   double behind = 0.0; /* what is left for the phases behind */
   for (int k = p + 1; k < f->np; k++) behind += v[k];
   if (v[p] < PHASES_TINY * area) return (HalfPlane){{0.0, 0.0}, -1.0};

@@ -258,8 +258,8 @@ PetscErrorCode PhasesFill(Phases f, int nregions, const Region region[])
   for (int e = 0; e < s->ne; e++) {
     double *v = &f->volume[(size_t)e * (size_t)f->np];
     PetscCall(FillElement(s, e, nregions, region, triangles, search, &list, f->np, v, &bare));
-    Close(0.5 * StarsTwiceArea(s, e), f->np, v);
-    total += 0.5 * StarsTwiceArea(s, e);
+    Close(StarsArea(s, e), f->np, v);
+    total += StarsArea(s, e);
   }
   for (int r = 0; r < nregions; r++) {
     PetscCall(PetscFree(triangles[r].x));

@@ -19,7 +19,7 @@ static void SetLoad(Phases f, int e, Load *load)
   const double(*x)[2] = (const double(*)[2])f->stars->element[e].x;
   Polygon whole;
   double area[PHASES_MAX] = {0.0};
-  *load = (Load){.single = f->single[e], .area = 0.5 * StarsTwiceArea(f->stars, e)};
+  *load = (Load){.single = f->single[e], .area = StarsArea(f->stars, e)};
   PolygonTriangle(x, x[0], &whole);
   PhasesSplit(f, e, &whole, x[0], 1.0, area);
   for (int p = 0; p < f->np; p++) {

@@ -50,6 +50,11 @@ static inline double StarsTwiceArea(const Stars *s, int e)
   const double(*x)[2] = (const double(*)[2])s->element[e].x;
   return (x[1][0] - x[0][0]) * (x[2][1] - x[0][1]) - (x[1][1] - x[0][1]) * (x[2][0] - x[0][0]);
 }
+/* Of element e, m2. */
+static inline double StarsArea(const Stars *s, int e)
+{
+  return 0.5 * StarsTwiceArea(s, e);
+}
 /* The face of local element o at which its neighbour e lies. */
 static inline int StarsFaceTo(const Stars *s, int o, int e)
 {

@@ -57,7 +57,7 @@ static void CheckElement(const Set *s, int e, const Situation *is, const double 
                          const double swept[])
 {
   const StarElement *element = &s->stars->element[e];
-  const double area = 0.5 * StarsTwiceArea(s->stars, e), *v = &volume[NPHASES * e];
+  const double area = StarsArea(s->stars, e), *v = &volume[NPHASES * e];
   const double capacity = AtCentroid(is->capacity, element);
   double before = AtCentroid(is->share, element) * area;
   for (int i = 0; i < 3; i++) {
@@ -84,7 +84,7 @@ static PetscErrorCode Check(const Set *s, const Situation *is)
   PetscCall(PetscMalloc3(NPHASES * ne, &volume, ne, &capacity, 3 * NPHASES * ne, &swept));
   PetscCall(PetscArrayzero(swept, 3 * NPHASES * ne));
   for (int e = 0; e < ne; e++) {
-    const double area = 0.5 * StarsTwiceArea(s->stars, e);
+    const double area = StarsArea(s->stars, e);
     volume[NPHASES * e + WATER] = AtCentroid(is->share, &s->stars->element[e]) * area;
     volume[NPHASES * e + FILLER] = area - volume[NPHASES * e + WATER];
     capacity[e] = AtCentroid(is->capacity, &s->stars->element[e]) * area;

@@ -49,7 +49,7 @@ static void CheckField(const Stars *s, const double flux[], const double beta[],
       double div = 0.0;
       P1Gradients((const double(*)[2])s->element[e].x, grad);
       for (int j = 0; j < 3; j++) div += grad[j][0] * all[e][j] + grad[j][1] * all[e][3 + j];
-      divergence = fmax(divergence, fabs(div) * 0.5 * StarsTwiceArea(s, e));
+      divergence = fmax(divergence, fabs(div) * StarsArea(s, e));
     }
     if (o < 0) continue;
     int j = 0;
