@@ -22,7 +22,7 @@ static int IsFinite(const DivergenceMonitorStep *s)
 }
 
 /* Counts alternating, growing changes; a change within that of free fall over one step is negligible, and so
- * is one with hardly any energy compared with the flow's. */
+ * is one with hardly any energy compared with the flow's, or that hardly moves the solid. */
 static int Alternates(DivergenceMonitor *g, const DivergenceMonitorStep *s, const double change[2])
 {
   const double size = hypot(change[0], change[1]), before = hypot(g->change[0], g->change[1]);
@@ -33,6 +33,7 @@ static int Alternates(DivergenceMonitor *g, const DivergenceMonitorStep *s, cons
       2 * g->alternations >= DIVERGENCE_ALTERNATIONS && size > DIVERGENCE_TOTAL_GROWTH * g->first;
   return (fast || g->alternations >= DIVERGENCE_ALTERNATIONS) &&
          size > hypot(s->gravity[0], s->gravity[1]) * s->dt &&
+         size * s->dt > DIVERGENCE_DISPLACEMENT * s->thickness &&
          size * size > DIVERGENCE_ENERGY * s->speed * s->speed;
 }
 

@@ -13,6 +13,9 @@
 /* Part of the flow's kinetic energy per mass near the solid: changes of velocity with less are vibrations,
  * whether or not they grow. */
 #define DIVERGENCE_ENERGY 0.01
+/* Part of the shell's thickness: changes of velocity that move the solid by less within a step are not looked at.  A hundred times what
+ * coupling iterations take as equal (coupling_iteration.c): below that a light solid's round-off grows until they are needed. */
+#define DIVERGENCE_DISPLACEMENT 0.01
 
 typedef struct {
   int nsteps, alternations;
@@ -28,6 +31,7 @@ typedef struct {
   double displaced;   /* fluid mass inside the solid, kg */
   double extent;      /* of the fluid's domain, m */
   double speed;       /* of the flow near the solid, root mean square, m/s */
+  double thickness;   /* of the shell, m */
   int max_iterations; /* coupling iterations that a step may take; 1: the first is accepted */
 } DivergenceMonitorStep;
 

@@ -21,6 +21,7 @@ static int Watch(double (*velocity)(int n), char message[512])
                                         .gravity = {0.0, gravity},
                                         .displaced = 2.0,
                                         .speed = flow,
+                                        .thickness = 1e-3,
                                         .extent = 5.0};
     if (DivergenceMonitorCheck(&monitor, &step, 512, message)) return n;
   }
@@ -64,6 +65,12 @@ static double Noise(int n)
 {
   return 1e-9 * (n % 2 ? 1.0 : -1.0) * pow(1.2, n % 40);
 }
+/* Round-off of a light solid at rest: twenty times as much in each step, until coupling iterations stop it. */
+static double RoundOff(int n)
+{
+  const int grows = n % 10;
+  return 1e-14 * (n % 2 ? 1.0 : -1.0) * pow(20.0, grows);
+}
 static double NotANumber(int n)
 {
   return n < 7 ? 0.0 : NAN;
@@ -87,6 +94,7 @@ int main(void)
   CHECK(Watch(Bounce, message) == STEPS, "bounce: %s", message);
   CHECK(Watch(Noise, message) == STEPS, "noise: %s", message);
   gravity = 0.0;
+  CHECK(Watch(RoundOff, message) == STEPS, "round-off at rest: %s", message);
   flow = 1.0; /* without gravity it is the flow's energy that a vibration is beside */
   CHECK(Watch(Noise, message) == STEPS, "noise in a flow: %s", message);
   CHECK(Watch(VeryLight, message) < 15 && strstr(message, "density ratio"), "a blow-up in a flow: %s",
