@@ -29,10 +29,12 @@ static void AddReaction(const SupermeshPair *pair, const PairTerm *term, const d
       for (int c = 0; c < 2; c++) v[i].reaction[c] += r[c];
     }
   }
-  if (term->start > 0.0) {
+  if (!WallIsZero(&term->start)) {
     PairSlip(pair, &flow->u_start[k], start_velocity, slip);
-    for (int i = 0; i < 3; i++)
-      for (int c = 0; c < 2; c++) v[i].reaction[c] += term->start * slip[i][c];
+    for (int i = 0; i < 3; i++) {
+      WallApply(&term->start, slip[i], r);
+      for (int c = 0; c < 2; c++) v[i].reaction[c] += r[c];
+    }
   }
   if (term->inertia == 0.0) return;
   Change(pair, &flow->u_projected[k], &flow->u_start[k], change);
@@ -74,8 +76,8 @@ PetscErrorCode ForceAssembleToOwners(Overlap o, const ForceVertex vertex[], int 
   PetscFunctionReturn(0);
 }
 
-/* One element's gain, the sum over its functions of s - a u* - I (u+ - u start), where it is covered of s - a u* - I u+ -
- * rho_f M/dt u start; mass: rho_f |K|/dt. */
+/* One element's gain, the sum over its functions of s - a u* - I (u+ - kept u start), where it is covered less rho_f M/dt u start;
+ * mass: rho_f |K|/dt. */
 static void ElementGain(const CoracleCoupling *k, double mass, const CoracleFlow *flow, double gain[2])
 {
   const int covered = k->flags & CORACLE_IS_COVERED;
@@ -87,8 +89,9 @@ static void ElementGain(const CoracleCoupling *k, double mass, const CoracleFlow
     for (int i = 0; i < 3; i++) {
       gain[c] += k->s[c][i];
       for (int j = 0; j < 6; j++) gain[c] -= k->a[c][i][j / 3][j % 3] * u_star[j];
-      for (int j = 3 * c; j < 3 * c + 3; j++)
-        gain[c] -= k->implicit_inertia[i][j % 3] * (u_projected[j] - (covered ? 0.0 : u_start[j]));
+      for (int j = 0; j < 3; j++)
+        gain[c] -= k->implicit_inertia[i][j] *
+                   (u_projected[3 * c + j] - k->kept[c][0] * u_start[j] - k->kept[c][1] * u_start[3 + j]);
       if (covered) gain[c] -= mass / 3.0 * u_start[3 * c + i];
     }
   }

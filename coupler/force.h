@@ -30,7 +30,7 @@ typedef struct {
 /* Totals over all ranks of one step. */
 typedef struct {
   /* N, momentum per time given to the fluid, evaluated on the fluid's side: the sum over K of
-   * s - a u* - I (u+ - u start), I the implicit inertia; where K is covered, less (rho_f M/dt + I) u start */
+   * s - a u* - I (u+ - kept u start), I the implicit inertia; where K is covered, less rho_f M/dt u start */
   double gain[2];
   double reaction[2]; /* N, the reaction summed over the solid's nodes */
   double force[2];    /* N, the whole force on the solid */

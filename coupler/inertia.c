@@ -59,20 +59,26 @@ PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode InertiaStart(Overlap o, const double density[], double dt, PairTerm term[])
+PetscErrorCode InertiaStart(Overlap o, const double density[], double dt, const WallCoefficient tangential[],
+                            PairTerm term[], WallCoefficient kept[])
 {
   double *covered; /* [ncoupled] m2, by nodes that are free */
 
   PetscFunctionBeginUser;
+  for (int e = 0; e < o->ncoupled; e++) kept[e] = o->phases ? WallCoefficientIsotropic(1.0) : tangential[e];
   if (o->phases) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1(o->ncoupled, &covered));
   for (int p = 0; p < o->pairs.n; p++)
     if (density[o->pairs.pair[p].a] > 0.0) covered[o->coupled_index[p]] += o->pairs.pair[p].area;
   for (int p = 0; p < o->pairs.n; p++) {
     const int k = o->pairs.pair[p].b;
-    const PetscBool whole =
-        fabs(covered[o->coupled_index[p]] - o->area[k]) < COVERED * o->area[k] ? PETSC_TRUE : PETSC_FALSE;
-    if (whole && density[o->pairs.pair[p].a] > 0.0) term[p].start = term[p].inertia + o->rho[k] / dt;
+    PairTerm *t = &term[p];
+    if (density[o->pairs.pair[p].a] == 0.0) continue;
+    t->covered = (PetscBool)(fabs(covered[o->coupled_index[p]] - o->area[k]) < COVERED * o->area[k]);
+    t->start = WallCoefficientScaled(&kept[o->coupled_index[p]], -t->inertia);
+    const double all = t->inertia + (t->covered ? o->rho[k] / dt : 0.0);
+    t->start.xx += all;
+    t->start.yy += all;
   }
   PetscCall(PetscFree(covered));
   PetscFunctionReturn(0);

@@ -2,8 +2,8 @@
  * acceleration (CoracleSetInertia).
  *
  * Fluid is everywhere, inside the solid too.  There it is given the solid's density rho_s (its mass per area
- * now) and the forces that act on the solid: with u^n its velocity at the step's start, which is the solid's but along
- * the surface (slip.h), and a the solid's acceleration by all forces but the fluid's,
+ * now) and the forces that act on the solid: with u^n its velocity at the step's start and a the solid's acceleration by all
+ * forces but the fluid's,
  *
  *     rho_s (u - u^n)/dt  =  rho_s a - grad p + div tau            inside the solid,
  *
@@ -16,14 +16,18 @@
  * and the force on the solid is the reaction to both plus the added inertia and buoyancy of force.h, together
  * F = int rho_s N ((u+ - u^n)/dt - a).
  *
- * Elements that lie in the solid as a whole start from its velocity v instead of u^n: those that it has covered since the last
- * step have another one, of the fluid that was there.  So
+ * What of u^n is not the solid's velocity v is of the fluid that was there before, or, along the surface, slip (slip.h).  The
+ * solid's inertia begins with v but for the slip, in elements that lie in the solid as a whole the fluid's, too:
  *
- *     (rho_f + m dt) (u - v)/dt:     start  =  rho_f/dt + m,
+ *     m (u - D u^n - (I - D) v):     start  =  m (I - D) (+ rho_f/dt in covered elements),     kept  =  D,
  *
- * and the pressure displaces what was there within the step.  Without it that fluid's momentum is given to the solid by the correction
- * alone (force.h), after the step, and the drag grows with dt: a disc at Re 180 (row Yc20-200 of cases/falling_cylinder, U dt
- * = le/2) is at 2 s 0.5 % slower than with half of the step; with it 0.2 %, and 0.6 % faster.
+ * D of slip.h, 0 in covered elements.  Were m to begin with u^n, an element that the surface crosses could keep a velocity through
+ * it: the correction (force.h) takes a part of that away in each step, so that the solid leaked the more the longer the steps are.
+ * FSI2 of cases/flexible_beam, a beam of ten times the fluid's density, swung by 92, 78, 69 mm with steps of 4, 2, 1 ms (le 0.008 m;
+ * 71, 66, 62 with v).  In covered elements the pressure displaces the fluid that was there within the step.  Without that its
+ * momentum is given to the solid by the correction alone, after the step, and the drag grows with dt: a disc at Re 180 (row
+ * Yc20-200 of cases/falling_cylinder, U dt = le/2) is at 2 s 0.5 % slower than with half of the step; with it 0.2 %, and 0.6 %
+ * faster.
  *
  * A solid lighter than the fluid is filled with rho_f, which keeps m positive; the inertia in
  * excess, rho_f - rho_s, acts with the acceleration a' = (v - v^n)/dt of the interface velocity v,
@@ -53,9 +57,10 @@
  * held.  Where it is not 0, term[pairs.n] gets the inertia above and a = 0. */
 PetscErrorCode InertiaCoefficients(Overlap overlap, const SolidState *solid, double dt, PairTerm term[],
                                    double density[]);
-/* Local, after InertiaCoefficients: start of term[pairs.n] in the elements that lie as a whole in solid that moves; not
- * where the fluid has phases. */
-PetscErrorCode InertiaStart(Overlap overlap, const double density[], double dt, PairTerm term[]);
+/* Local, after InertiaCoefficients and SlipTensors: start and covered of term[pairs.n], kept[ncoupled]; where the fluid has phases
+ * all is kept. */
+PetscErrorCode InertiaStart(Overlap overlap, const double density[], double dt,
+                            const WallCoefficient tangential[], PairTerm term[], WallCoefficient kept[]);
 /* Collective: a~ of acceleration[nnodes][2], in place, where the fluid has phases. */
 PetscErrorCode InertiaNodalForces(Overlap overlap, const SolidState *solid, double acceleration[]);
 /* Collective.  q of term[pairs.n] where density is not 0; acceleration and interface_acceleration [nnodes][2]: a and a', m/s2. */

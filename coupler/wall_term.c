@@ -61,10 +61,8 @@ static void AddPair(const Overlap o, const SupermeshPair *pair, const PairTerm *
   double cu[2][3], cq[2][3], cv[2][3];
   CrossVelocity(pair, source->u, cu);
   CrossVelocity(pair, start, cv);
-  if (term->start > 0.0) {
-    for (int i = 0; i < 6; i++) k->s[i / 3][i % 3] += term->start * cv[i / 3][i % 3];
-    k->flags |= CORACLE_IS_COVERED;
-  }
+  if (term->covered) k->flags |= CORACLE_IS_COVERED;
+  AddSource(&term->start, (const double(*)[3])cv, k->s);
   CrossVelocity(pair, term->q, cq);
   AddTensor(&term->a, pair->bb, k->a);
   if (!held) {
@@ -85,7 +83,8 @@ static void AddPair(const Overlap o, const SupermeshPair *pair, const PairTerm *
 }
 
 void WallTermAssemble(const Overlap o, const PairTerm term[], const double density[],
-                      const double start_velocity[][3][2], CoracleCoupling coupling[])
+                      const WallCoefficient kept[], const double start_velocity[][3][2],
+                      CoracleCoupling coupling[])
 {
   for (int e = 0; e < o->ncoupled; e++) coupling[e] = (CoracleCoupling){.element = o->coupled_element[e]};
   for (int p = 0; p < o->pairs.n; p++) {
@@ -93,6 +92,10 @@ void WallTermAssemble(const Overlap o, const PairTerm term[], const double densi
     AddPair(o, pair, &term[p], density[pair->a] == 0.0 ? PETSC_TRUE : PETSC_FALSE, start_velocity[pair->a],
             &coupling[o->coupled_index[p]]);
   }
+  for (int e = 0; e < o->ncoupled; e++)
+    if (coupling[e].flags & CORACLE_HAS_INERTIA)
+      memcpy(coupling[e].kept, (double[2][2]){{kept[e].xx, kept[e].xy}, {kept[e].xy, kept[e].yy}},
+             sizeof coupling[e].kept);
   for (int e = 0; e < o->ncoupled; e++)
     for (int d = 0; d < 2; d++) coupling[e].velocity[d] /= coupling[e].alpha + coupling[e].shell;
 }

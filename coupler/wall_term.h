@@ -13,11 +13,9 @@
  *     implicit inertia  =  m B
  *     ms                =  B                  us  =  C^T u_s          T in the solid's volume, held
  *
- * with q a body force at the vertices of T, m the solid's inertia in the fluid's solve and start that of elements that the
- * solid has covered, which begin with its velocity v (inertia.h); T is held
- * where it has none.  The reaction (force.h) is made of the
- * same coefficients and integrals, so what the fluid gains the solid loses.  No field is projected, so none
- * undershoots: a sum of positive semidefinite coefficients times Gram matrices is positive semidefinite. */
+ * with q a body force at the vertices of T, m the solid's inertia in the fluid's solve and start the inertia that begins with the
+ * solid's velocity v (inertia.h); T is held where it has none.  The reaction (force.h) is made of the same coefficients and
+ * integrals, so what the fluid gains the solid loses.  No field is projected, so none undershoots: a sum of positive semidefinite coefficients times Gram matrices is positive semidefinite. */
 #ifndef CORACLE_WALL_TERM_H
 #define CORACLE_WALL_TERM_H
 #include "coupler/overlap.h"
@@ -77,10 +75,10 @@ static inline void WallApply(const WallCoefficient *a, const double v[2], double
 /* What a pair gives the fluid, beside its integrals. */
 typedef struct {
   WallCoefficient a;
-  double inertia; /* m, kg/(m3 s) */
-  double
-      start; /* rho_f/dt + m where the inertia starts from the solid's velocity (inertia.h), else 0; kg/(m3 s) */
-  double q[3][2]; /* N/m3, at the vertices of T */
+  double inertia;        /* m, kg/(m3 s) */
+  PetscBool covered;     /* K lies in the solid as a whole (inertia.h) */
+  WallCoefficient start; /* how much of the inertia starts from the solid's velocity (inertia.h), kg/(m3 s) */
+  double q[3][2];        /* N/m3, at the vertices of T */
   /* N/m3, of the fluid beside the solid (outside.h), which the solid does not feel */
   double outside_weight[2];
 } PairTerm;
@@ -101,8 +99,9 @@ static inline void PairSlip(const SupermeshPair *pair, const double u[6], const 
 
 /* Local: coupling[overlap->ncoupled], one per coupled element (coracle.h has shapes and units), from the
  * pairs' term[pairs.n], the source triangles' velocities and density[overlap->nsources] (inertia.h), which is 0
- * where the solid is held; start_velocity[nsources][3][2]: the solid's at the step's start, m/s, which the
+ * where the solid is held; kept[ncoupled]: (inertia.h); start_velocity[nsources][3][2]: the solid's at the step's start, m/s, which the
  * elements' mean velocity is of. */
 void WallTermAssemble(const Overlap overlap, const PairTerm term[], const double density[],
-                      const double start_velocity[][3][2], CoracleCoupling coupling[]);
+                      const WallCoefficient kept[], const double start_velocity[][3][2],
+                      CoracleCoupling coupling[]);
 #endif

@@ -223,9 +223,8 @@ int CoracleSetInertia(CoracleClient c, const double mobility[], const double acc
 enum {
   CORACLE_HAS_SHELL = 1,   /* K overlaps the shell around the solid's surface */
   CORACLE_HAS_INERTIA = 2, /* implicit_inertia is in use: K overlaps nodes with a mobility */
-  /* K lies in the solid as a whole, which moves freely: the step begins with the solid's velocity there, and s has what that
-   * gives.  u start counts as 0 in rho M/dt (u* - u start) and in implicit_inertia (u* - u start) on K; what CoracleSetFlow
-   * gives is the fluid's own all the same */
+  /* K lies in the solid as a whole, which moves freely: the step begins with the solid's velocity there, which s has, and
+   * u start counts as 0 in rho M/dt (u* - u start); what CoracleSetFlow gives is the fluid's own all the same */
   CORACLE_IS_COVERED = 4
 };
 typedef struct {
@@ -233,10 +232,12 @@ typedef struct {
   int flags;   /* CORACLE_HAS_..., CORACLE_IS_COVERED */
   /* kg/s: int_K a_cd N_i N_j, the implicit coefficient of u*, shell and volume together */
   double a[CORACLE_DIM][CORACLE_VERTICES][CORACLE_DIM][CORACLE_VERTICES];
-  /* kg/s: the solid's inertia beyond the fluid's, int_K m N_i N_j, the same for each component, which resists the change
-   * of the velocity over the step: implicit_inertia (u* - u start) beside rho M/dt (u* - u start), and under the pressure
+  /* kg/s: the solid's inertia beyond the fluid's, int_K m N_i N_j, the same for each component, which resists the change of
+   * the velocity over the step: implicit_inertia (u* - kept u start) beside rho M/dt (u* - u start), and under the pressure
    * u projected = u* - dt W^-1 M grad phi with W = rho M/dt + implicit_inertia */
   double implicit_inertia[CORACLE_VERTICES][CORACLE_VERTICES];
+  /* what the inertia keeps of u start: its part along the surface; the rest is the solid's velocity, which s has */
+  double kept[CORACLE_DIM][CORACLE_DIM];
   /* N: int_K (a u_s)_c N_i, the explicit part of s_c */
   double s[CORACLE_DIM][CORACLE_VERTICES];
   /* m2: int_{K and S} N_i N_j, sub-cell solid mass, where the solid is held: has no mobility */

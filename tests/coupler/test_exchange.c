@@ -59,18 +59,17 @@ static void Solve(int n, double m[6][6], double r[6])
   }
 }
 
-/* (rho M / dt + I) (u* - u) + a u* = s */
+/* rho M / dt (u* - u) + I (u* - kept u) + a u* = s */
 static void Implicit(const CoracleCoupling *c, double dt, const double x[3][2], double u[2][3])
 {
   double m[6][6], r[6];
   for (int p = 0; p < 6; p++) {
     r[p] = c->s[p / 3][p % 3];
     for (int q = 0; q < 6; q++) {
-      const double mass = p / 3 != q / 3 ? 0.0
-                                         : RHO / dt * GeometryArea(x) / (p == q ? 6.0 : 12.0) +
-                                               c->implicit_inertia[p % 3][q % 3];
-      m[p][q] = c->a[p / 3][p % 3][q / 3][q % 3] + mass;
-      r[p] += mass * u[q / 3][q % 3];
+      const double mass = p / 3 != q / 3 ? 0.0 : RHO / dt * GeometryArea(x) / (p == q ? 6.0 : 12.0);
+      const double inertia = c->implicit_inertia[p % 3][q % 3];
+      m[p][q] = c->a[p / 3][p % 3][q / 3][q % 3] + mass + (p / 3 == q / 3 ? inertia : 0.0);
+      r[p] += (mass + inertia * c->kept[p / 3][q / 3]) * u[q / 3][q % 3];
     }
   }
   Solve(6, m, r);

@@ -28,8 +28,8 @@ static void MakeSolid(double density, int rigid)
   }
 }
 
-/* (rho M/dt + I) (u - START) + a u = s, without START where the element is covered, by relaxation in the element: 6 unknowns, diagonally dominant enough
- * for Gauss-Seidel. */
+/* rho M/dt (u - START) + I (u - kept START) + a u = s, rho M/dt u where the element is covered, by relaxation in the element: 6 unknowns,
+ * diagonally dominant enough for Gauss-Seidel. */
 static void SolveElement(const CoracleCoupling *k, double area, double u[2][3])
 {
   for (int i = 0; i < 6; i++) u[i / 3][i % 3] = START[i / 3];
@@ -37,11 +37,11 @@ static void SolveElement(const CoracleCoupling *k, double area, double u[2][3])
     for (int i = 0; i < 6; i++) {
       double r = k->s[i / 3][i % 3], diagonal = 0.0;
       for (int j = 0; j < 6; j++) {
-        const double mass = i / 3 != j / 3
-                                ? 0.0
-                                : RHO / DT * area / (i == j ? 6.0 : 12.0) + k->implicit_inertia[i % 3][j % 3];
-        const double a = k->a[i / 3][i % 3][j / 3][j % 3] + mass;
-        r += k->flags & CORACLE_IS_COVERED ? 0.0 : mass * START[j / 3];
+        const double mass = i / 3 != j / 3 ? 0.0 : RHO / DT * area / (i == j ? 6.0 : 12.0);
+        const double inertia = k->implicit_inertia[i % 3][j % 3];
+        const double a = k->a[i / 3][i % 3][j / 3][j % 3] + mass + (i / 3 == j / 3 ? inertia : 0.0);
+        r += (k->flags & CORACLE_IS_COVERED ? 0.0 : mass * START[j / 3]) +
+             inertia * k->kept[i / 3][j / 3] * START[j / 3];
         if (i == j)
           diagonal = a;
         else

@@ -99,23 +99,23 @@ void Flow::propose()
   CoracleProposeStep(client_, Foam::min(in_.dt_max, in_.cfl / Foam::max(gMax(rate), VSMALL)));
 }
 
-// (1/dt + inertia) (U* - U) + k U* + div(phi U*) - nu laplacian U* = force - grad p; what force has beyond k follows in
+// (U* - U)/dt + inertia (U* - kept U) + k U* + div(phi U*) - nu laplacian U* = force - grad p; what force has beyond k follows in
 // iterations: a's terms between components, and the velocity's gradient in the cells
 void Flow::predict(double dt)
 {
   const dimensionedScalar per_dt("1/dt", dimless / dimTime, 1.0 / dt), nu("nu", dimViscosity, in_.mu / in_.rho);
   start_ = U;
-  volScalarField k(IOobject("k", time_.timeName(), mesh_), mesh_, 0.0 * per_dt), inertia("inertia", k + per_dt), start(inertia);
-  volVectorField force("force", 0.0 * per_dt * U);
+  volScalarField k(IOobject("k", time_.timeName(), mesh_), mesh_, 0.0 * per_dt), inertia("inertia", k + per_dt);
+  volVectorField force("force", 0.0 * per_dt * U), start(force);
   k.primitiveFieldRef() = cells_.k;
   inertia.primitiveFieldRef() += cells_.inertia;
-  start.primitiveFieldRef() = (1.0 - cells_.covered) / dt + cells_.own_inertia;
+  start.primitiveFieldRef() = (1.0 - cells_.covered) / dt * U.primitiveField() + (cells_.kept_inertia & U.primitiveField());
   grad_p_ = fvc::grad(p);
   grad_U_ = fvc::grad(U);
   for (int iteration = 0; iteration < 4; iteration++) {
     force.primitiveFieldRef() = cells_.force(U, grad_U_);
     fvVectorMatrix momentum(fvm::Sp(inertia + k, U) + fvm::div(phi, U) - fvm::laplacian(nu, U) ==
-                            start * start_ + force - grad_p_);
+                            start + force - grad_p_);
     momentum.solve();
     grad_U_ = fvc::grad(U);
   }

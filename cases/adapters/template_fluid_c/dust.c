@@ -109,8 +109,8 @@ static double Mass(const Dust *d, int i, int j)
   return d->area / 12.0 * (i == j ? 2.0 : 1.0);
 }
 
-/* (rho M/dt + inertia) (u* - u) + a u* = s on the coupled elements, 0 in place of u where they are covered; elsewhere nothing
- * acts. */
+/* rho M/dt (u* - u) + inertia (u* - kept u) + a u* = s on the coupled elements, 0 in place of u where they are covered; elsewhere
+ * nothing acts. */
 static void Advance(Dust *d, double dt)
 {
   const CoracleCoupling *k;
@@ -123,11 +123,11 @@ static void Advance(Dust *d, double dt)
     for (int r = 0; r < 6; r++) {
       load[r] = k[m].s[r / 3][r % 3];
       for (int q = 0; q < 6; q++) {
-        double inertia = 0.0;
-        if (r / 3 == q / 3)
-          inertia = d->density / dt * Mass(d, r % 3, q % 3) + k[m].implicit_inertia[r % 3][q % 3];
-        A[6 * r + q] = inertia + k[m].a[r / 3][r % 3][q / 3][q % 3];
-        load[r] += k[m].flags & CORACLE_IS_COVERED ? 0.0 : inertia * u[q];
+        const double mass = r / 3 == q / 3 ? d->density / dt * Mass(d, r % 3, q % 3) : 0.0;
+        const double inertia = k[m].implicit_inertia[r % 3][q % 3];
+        A[6 * r + q] = mass + (r / 3 == q / 3 ? inertia : 0.0) + k[m].a[r / 3][r % 3][q / 3][q % 3];
+        load[r] +=
+            (k[m].flags & CORACLE_IS_COVERED ? 0.0 : mass * u[q]) + inertia * k[m].kept[r / 3][q / 3] * u[q];
       }
     }
     Solve(6, A, load);

@@ -75,7 +75,7 @@ contains
     region = 0
   end function
 
-  !> (rho M/dt + inertia) (u* - u) + a u* = s on the coupled elements, 0 for u where they are covered; elsewhere nothing acts.
+  !> rho M/dt (u* - u) + inertia (u* - kept u) + a u* = s on the coupled elements, 0 for u where they are covered; elsewhere nothing acts.
   subroutine advance()
     type(CoracleCoupling), pointer :: k(:)
     real(c_double) :: a(6, 6), inertia(6, 6), load(6)
@@ -89,8 +89,8 @@ contains
       inertia(1:3, 1:3) = density / dt * mass + k(m)%implicit_inertia
       inertia(4:6, 4:6) = inertia(1:3, 1:3)
       a = inertia + transpose(reshape(k(m)%a, [6, 6]))
-      load = reshape(k(m)%s, [6])
-      if (iand(k(m)%flags, CORACLE_IS_COVERED) == 0) load = load + matmul(inertia, reshape(u_star(:, :, e), [6]))
+      load = reshape(k(m)%s + matmul(k(m)%implicit_inertia, matmul(u_star(:, :, e), k(m)%kept)), [6])
+      if (iand(k(m)%flags, CORACLE_IS_COVERED) == 0) load = load + density / dt * reshape(matmul(mass, u_star(:, :, e)), [6])
       call solve(a, load)
       u_star(:, :, e) = reshape(load, [3, 2])
     end do

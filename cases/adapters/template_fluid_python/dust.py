@@ -36,13 +36,14 @@ class Dust:
         return self.x[self.near], np.full(n, self.rho), np.full(n, self.mu)
 
     def solve(self, dt, coupling):
-        """(rho M/dt + inertia) (u* - u) + a u* = s on the coupled elements, 0 for u where they are covered; elsewhere nothing acts."""
+        """rho M/dt (u* - u) + inertia (u* - kept u) + a u* = s on the coupled elements, 0 for u where they are covered; elsewhere nothing acts."""
         u_star, n = self.u[self.near], len(coupling)
-        u = u_star[coupling["element"]].reshape(n, 6, 1)
-        inertia = np.kron(np.eye(2), self.rho / dt * self.area * MASS + coupling["implicit_inertia"])
-        u[(coupling["flags"] & coracle.IS_COVERED) != 0] = 0
-        load = inertia @ u + coupling["s"].reshape(n, 6, 1)
-        u_star[coupling["element"]] = np.linalg.solve(inertia + coupling["a"].reshape(n, 6, 6), load).reshape(n, 2, 3)
+        u, mass, inertia = u_star[coupling["element"]], self.rho / dt * self.area * MASS, coupling["implicit_inertia"]
+        load = coupling["s"] + coupling["kept"] @ u @ inertia
+        free = (coupling["flags"] & coracle.IS_COVERED) == 0
+        load[free] += u[free] @ mass
+        matrix = np.kron(np.eye(2), mass + inertia) + coupling["a"].reshape(n, 6, 6)
+        u_star[coupling["element"]] = np.linalg.solve(matrix, load.reshape(n, 6, 1)).reshape(n, 2, 3)
         return u_star
 
     def correct(self, near, correction):
