@@ -1,4 +1,5 @@
 #include "solid/alone.h"
+#include "common/link/participant.h"
 #include "common/output/claim.h"
 #include "solid/solid_case.h"
 #include "solid/writer.h"
@@ -12,7 +13,7 @@ static void Fail(void *context, const char *message)
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   fflush(stdout);
   fprintf(stderr, "coracle solid[%d]: error: %s\n", rank, message);
-  MPI_Abort(MPI_COMM_WORLD, 1);
+  ParticipantAbort();
 }
 
 /* What concerns every rank is said by the first; the others wait for their end. */

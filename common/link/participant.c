@@ -4,7 +4,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 /* --- failing -------------------------------------------------------------------------------------------- */
@@ -27,6 +29,25 @@ static void Report(const char *role, int rank, const char *message)
   fprintf(stderr, "coracle %s[%d]: error: %s\n", role, rank, message);
 }
 
+/* Until the reader of a pipe has taken all, a second at most: MPICH's launcher drops at MPI_Abort what it has not read. */
+static void AwaitReader(int file)
+{
+  struct stat s;
+  int left = 0;
+  if (fstat(file, &s) || !S_ISFIFO(s.st_mode)) return;
+  for (int k = 0; k < 1000 && !ioctl(file, FIONREAD, &left) && left > 0; k++)
+    nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+}
+
+void ParticipantAbort(void)
+{
+  fflush(NULL);
+  AwaitReader(STDOUT_FILENO);
+  AwaitReader(STDERR_FILENO);
+  MPI_Abort(MPI_COMM_WORLD, 1);
+  for (;;) pause(); /* until the launcher has ended this process */
+}
+
 static _Noreturn void Abort(const char *message)
 {
   int started;
@@ -35,8 +56,7 @@ static _Noreturn void Abort(const char *message)
   if (HANDLER.f) HANDLER.f(HANDLER.context, message);
   MPI_Initialized(&started);
   if (!started) _exit(1);
-  MPI_Abort(MPI_COMM_WORLD, 1);
-  for (;;) pause(); /* until the launcher has ended this process */
+  ParticipantAbort();
 }
 
 void ParticipantFailList(Participant *p, const char *format, va_list list)

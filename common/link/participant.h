@@ -55,6 +55,8 @@ int ParticipantClose(Participant **p);
 /* "coracle <role>[rank]: error: ..." once, then the end of the job. */
 _Noreturn void ParticipantFail(Participant *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
 _Noreturn void ParticipantFailList(Participant *p, const char *format, va_list list);
+/* Ends the job, when what has been written has been read. */
+_Noreturn void ParticipantAbort(void);
 void ParticipantStep(Participant *p, int step);
 /* Local: `what` has been waited for, of a role, since `start` (WaitClock). */
 void ParticipantWaited(Participant *p, Role role, int rank, const char *what, double start);

@@ -19,6 +19,8 @@ const char *Hdf5Reason(void)
   static char text[256];
   text[0] = 0;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, Innermost, text);
+  for (char *c = text; *c; c++)
+    if (*c == '\n') *c = ' '; /* MPICH's */
   return text;
 }
 
@@ -119,20 +121,30 @@ static PetscErrorCode Select(const char *path, const Hdf5Rows *rows, hid_t space
   PetscFunctionReturn(0);
 }
 
+/* For messages: a dataset of this path, in its file. */
+static const char *DatasetName(hid_t set, const char *path)
+{
+  static char text[512];
+  const ssize_t n = H5Fget_name(set, text, sizeof text);
+  if (n > 0 && (size_t)n < sizeof text) snprintf(text + n, sizeof text - (size_t)n, ": %s", path);
+  return n > 0 ? text : path;
+}
+
 /* This rank's rows between memory and an open dataset, out to it or in from it; closes both. */
 static PetscErrorCode Move(hid_t set, hid_t space, const char *path, const Hdf5Rows *rows, hid_t in_memory,
                            const void *out, void *in)
 {
-  double nothing = 0.0; /* HDF5 wants an address from ranks without rows, too */
+  double nothing = 0.0;                      /* HDF5 wants an address from ranks without rows, too */
+  const char *name = DatasetName(set, path); /* asked for later it would clear HDF5's messages */
   hid_t memory, transfer;
   PetscFunctionBeginUser;
   H5(transfer = H5Pcreate(H5P_DATASET_XFER), "set up", path);
   H5(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE), "set up", path);
   PetscCall(Select(path, rows, space, &memory));
   if (rows->total && in)
-    H5(H5Dread(set, in_memory, memory, space, transfer, in), "read", path);
+    H5(H5Dread(set, in_memory, memory, space, transfer, in), "read", name);
   else if (rows->total)
-    H5(H5Dwrite(set, in_memory, memory, space, transfer, rows->n ? out : &nothing), "write", path);
+    H5(H5Dwrite(set, in_memory, memory, space, transfer, rows->n ? out : &nothing), "write", name);
   H5(H5Pclose(transfer), "close", path);
   H5(H5Sclose(memory), "close", path);
   H5(H5Sclose(space), "close", path);

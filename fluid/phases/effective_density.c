@@ -7,15 +7,28 @@ typedef struct {
   char below, above; /* an element around it lies below the line; above it */
 } VertexDistance;
 
+/* A line shorter than this, over the root of the element's area, cuts off no more than a corner, where it has to be if advection has
+ * left a trace of a phase there: it says little of where the interface is. */
+#define CORNER 0.01
+
 /* Line k of cut element e as seen from local vertex v: its length there is the weight. */
 static void AddLine(Phases f, int e, int k, int v, VertexDistance *d)
 {
   const double *origin = f->stars->element[e].x[0];
   HalfPlane h;
   const double length = PhasesSegment(f, e, k, origin, &h).length;
+  const double weight = length * fmin(1.0, length * length / (CORNER * CORNER * StarsArea(f->stars, e)));
   const double *x = f->stars->point[v];
-  d->sum += length * (h.n[0] * (x[0] - origin[0]) + h.n[1] * (x[1] - origin[1]) - h.d);
-  d->weight += length;
+  d->sum += weight * (h.n[0] * (x[0] - origin[0]) + h.n[1] * (x[1] - origin[1]) - h.d);
+  d->weight += weight;
+}
+
+/* Line k of cut element e is a trace's: a corner's, and the lines around leave its vertices, at distances d, on one side. */
+static int IsTrace(Phases f, int e, int k, const double d[3])
+{
+  HalfPlane h;
+  if (fmin(d[0], fmin(d[1], d[2])) < 0.0 && fmax(d[0], fmax(d[1], d[2])) > 0.0) return 0;
+  return PhasesSegment(f, e, k, f->stars->element[e].x[0], &h).length < CORNER * sqrt(StarsArea(f->stars, e));
 }
 
 double PhasesDistance(Phases f, int line, int v, double *inside)
@@ -56,9 +69,12 @@ static void Element(Phases f, int e, const double distance[], const double rho[]
     const double *d = distance + (size_t)k * (size_t)f->stars->nowned;
     line[n] = (DensityLine){.rho = {rho[k], rho[PhasesBehind(f, e, k)]}};
     for (int i = 0; i < 3; i++) line[n].d[i] = d[f->stars->vertex[e][i]];
-    n++;
+    n += !IsTrace(f, e, k, line[n].d);
   }
-  InverseDensityCut((const double(*)[2])grad, n, line, 2.0 * mass / twice, gravity, inverse);
+  if (n)
+    InverseDensityCut((const double(*)[2])grad, n, line, 2.0 * mass / twice, gravity, inverse);
+  else
+    InverseDensityUniform(2.0 * mass / twice, gravity, inverse);
 }
 
 PetscErrorCode PhasesGetInverseDensity(Phases f, const double rho[], const double gravity[2],

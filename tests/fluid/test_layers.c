@@ -54,6 +54,48 @@ static PetscErrorCode Still(const int number[3], double high, PetscBool open, in
   PetscFunctionReturn(0);
 }
 
+/* Elements of water and oil, two vertices of which have the interface of oil and air around them, with a trace of air, as advection may leave one. */
+static PetscErrorCode Traced(int print)
+{
+  const int number[3] = {0, 1, 2};
+  const Layers l = MakeLayers(number, 0.387);
+  const double *volume;
+  double worst = 0.0, *traced;
+  int n = 0, *near;
+  Tank t;
+  PetscFunctionBeginUser;
+  PetscCall(TankCreatePhases(16, 3u, &l.phases, 3, l.region, NULL, &t));
+  Phases phases = PhaseTransportPhases(FluidPhases(t.fluid));
+  PetscCall(PhasesGetVolumes(phases, &volume));
+  PetscCall(PetscMalloc1(3 * (size_t)t.mesh->ne, &traced));
+  PetscCall(PetscCalloc1(t.mesh->nv, &near));
+  for (int e = 0; e < t.mesh->ne; e++) {
+    const double little = 0.01 * ElementArea(t.mesh, e), *v = volume + 3 * (size_t)e;
+    for (int i = 0; i < 3; i++) near[t.mesh->vertex[3 * e + i]] |= v[1] > little && v[2] > little;
+  }
+  for (int e = 0; e < t.mesh->ne; e++) {
+    const double trace = 1e-11 * ElementArea(t.mesh, e), *v = volume + 3 * (size_t)e;
+    const int *vertex = t.mesh->vertex + 3 * e,
+              around = near[vertex[0]] + near[vertex[1]] + near[vertex[2]] > 1;
+    const int mixed = around && v[0] > trace && v[1] > 2.0 * trace && v[2] < trace;
+    for (int p = 0; p < 3; p++) traced[3 * e + p] = v[p] + (mixed ? trace * (p == 1 ? -1.0 : p == 2) : 0.0);
+    n += mixed;
+  }
+  PetscCall(PhasesSetVolumes(phases, traced));
+  PetscCall(PhasesReconstruct(phases));
+  PetscCall(PetscFree(traced));
+  PetscCall(PetscFree(near));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT, MPI_SUM, PETSC_COMM_WORLD));
+  for (int k = 0; k < 4; k++) {
+    PetscCall(FluidStep(t.fluid, 0.005));
+    worst = fmax(worst, TankSpeed(&t, 0));
+  }
+  if (print) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%d elements with a trace: %.1e m/s\n", n, worst));
+  CHECK(n > 0 && worst < STILL, "%d elements have a trace of a phase, layers move at %g m/s", n, worst);
+  PetscCall(TankDestroy(&t));
+  PetscFunctionReturn(0);
+}
+
 /* The volumes, m2, of all ranks. */
 static PetscErrorCode Volumes(const Tank *t, double volume[3])
 {
@@ -200,6 +242,7 @@ static PetscErrorCode All(int print)
   PetscFunctionBeginUser;
   for (int k = 0; k < 6; k++) PetscCall(Still(order[k], 0.72, (PetscBool)(k % 2), print));
   for (int k = 0; k < 2; k++) PetscCall(Still(order[0], LOW + 0.013, (PetscBool)k, print));
+  PetscCall(Traced(print));
   PetscCall(Adapted(print));
   PetscCall(Empty(print));
   PetscCall(Rise(print));

@@ -4,6 +4,8 @@
 set -euo pipefail
 root=$1 build=$2
 command -v dpkg-deb >/dev/null && command -v dpkg-shlibdeps >/dev/null || { echo 'this system makes no .deb'; exit 77; }
+petsc=$(ldd "$build/fluid/coracle-fluid" | awk '/libpetsc/ {print $3}')
+dpkg -S "$(realpath "$petsc")" >/dev/null 2>&1 || { echo "no package has $petsc, on which a .deb could depend"; exit 77; }
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 there=$scratch/root

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static jmp_buf JUMP;
 static char MESSAGE[4096];
@@ -259,6 +260,7 @@ int main(int argc, char **argv)
   }
   printf("misuse: %d wrong calls of a %s were refused\n", COUNT, role);
   fflush(stdout);
+  sleep(1); /* MPICH's launcher drops what it has not read */
   MPI_Abort(MPI_COMM_WORLD, 0);
   return 0;
 }

@@ -4,6 +4,7 @@
  * Box2D computes in single precision and lets bodies overlap by 0.005 of its unit of length, which therefore is the radius
  * here.  A b2World cannot be copied: it is made anew from positions and velocities, in double precision, when a step begins,
  * so that a redone step has the same bits and a checkpoint is those arrays alone.  Rank 0 holds all. */
+#include <algorithm>
 #include <box2d/box2d.h>
 #include <case_file.h>
 #include <cmath>
@@ -18,7 +19,7 @@ struct Motion { // of one disc
 struct Discs {
   CoracleClient client = nullptr;
   int n = 0;                                             // nodes on a circle; n + 1 of each disc, its centre last
-  double radius = 0, corner = 0, mass = 0, inertia = 0;  // corner: radius of the nodes, for the polygon has the disc's area
+  double radius = 0, corner = 0, mass = 0, inertia = 0;  // corner: radius of the nodes; the polygon has the disc's area
   double gravity[2], lower[2], upper[2], friction = 0, h = 0;
   std::vector<Motion> now;                               // bound
   std::vector<double> own;                               // bound: acceleration of nodes by all but the fluid, m/s2
@@ -34,7 +35,7 @@ static void ReadCase(Discs &d, int argc, char **argv, bool empty)
   CoracleCaseVector(c, "solid.walls.lower", 2, d.lower);
   CoracleCaseVector(c, "solid.walls.upper", 2, d.upper);
   d.radius = CoracleCasePositive(c, "solid.bodies[0].radius");
-  d.n = static_cast<int>(std::ceil(2 * M_PI * d.radius / CoracleCasePositive(c, "solid.bodies[0].size")));
+  d.n = 6 * std::max(2, static_cast<int>(std::ceil(M_PI * d.radius / (3 * CoracleCasePositive(c, "solid.bodies[0].size")))));
   const std::string material = std::string("solid.materials.") + CoracleCaseString(c, "solid.bodies[0].material");
   d.friction = CoracleCaseNumberOr(c, (material + ".friction").c_str(), 0, 0, HUGE_VAL);
   d.corner = d.radius * std::sqrt(M_PI / (0.5 * d.n * std::sin(2 * M_PI / d.n)));
@@ -109,7 +110,7 @@ static void Build(const Discs &d, b2World &world, std::vector<b2Body *> &body)
     def.position = Scaled(d, m.x);
     def.linearVelocity = Scaled(d, m.v);
     def.angularVelocity = static_cast<float>(m.spin);
-    circle.m_radius = static_cast<float>(d.corner / d.radius);
+    circle.m_radius = 1; // the case's disc, not the circle of the nodes
     fixture.shape = &circle;
     fixture.friction = float(d.friction);
     body.push_back(world.CreateBody(&def));
