@@ -178,7 +178,7 @@ ProjectionStep FluidProjectionStep(Fluid f, double t, double dt, PetscBool inert
                           MaterialDensity(f->material, MATERIAL_STEP),
                           MaterialRevision(f->material),
                           f->solid,
-                          FluidInverseDensity(f),
+                          NULL,
                           inertia,
                           f->compressible,
                           f->p};

@@ -152,14 +152,28 @@ static PetscErrorCode Accelerate(Fluid f, double dt, Vec velocity)
   PetscFunctionReturn(0);
 }
 
+/* On any rank. */
+static PetscErrorCode HasSolid(Fluid f, PetscBool *solid)
+{
+  int n;
+  PetscFunctionBeginUser;
+  (void)SolidCouplingEntries(f->solid, &n);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT, MPI_MAX, f->domain.mesh->comm));
+  *solid = (PetscBool)(n > 0);
+  PetscFunctionReturn(0);
+}
+
 /* p, with its values on open boundaries as they are, makes the velocity that starts as `start` (NULL: 0) and is accelerated
- * over the step by weight - R^-1 grad p free of divergence. */
-static PetscErrorCode SolvePressure(Fluid f, const ProjectionStep *step, Vec start)
+ * over the step by weight - R^-1 grad p free of divergence.  It is improved from what it was, so that what the solver leaves, which
+ * the projection, by 1/rho, does not take away, does not add up over the steps; or made from 0 with a solid, where a pressure's response is not
+ * R^-1 grad p alone, or a gas. */
+static PetscErrorCode SolvePressure(Fluid f, ProjectionStep *step, PetscBool from_zero, Vec start)
 {
   Vec velocity, phi;
   PetscFunctionBeginUser;
+  step->inverse_density = FluidInverseDensity(f);
   PetscCall(VecDuplicate(f->u, &velocity));
-  PetscCall(ProjectionSolverKeepFixed(f->projection, f->p));
+  if (from_zero) PetscCall(ProjectionSolverKeepFixed(f->projection, f->p));
   PetscCall(Accelerate(f, step->dt, velocity));
   if (start) PetscCall(VecAXPY(velocity, 1.0, start));
   PetscCall(ProjectionSolverSolve(f->projection, step, velocity, &phi, &f->stats.pressure_iterations));
@@ -174,23 +188,24 @@ PetscErrorCode FluidBalancePressure(Fluid f)
 {
   const double dt =
       f->compressible ? 1.0 : 1e8; /* large: what prescribed velocities contribute goes with 1/dt */
-  const ProjectionStep step = FluidProjectionStep(f, f->t, dt, PETSC_FALSE);
+  ProjectionStep step = FluidProjectionStep(f, f->t, dt, PETSC_FALSE);
+  PetscBool solid;
   PetscFunctionBeginUser;
+  PetscCall(HasSolid(f, &solid));
   FluidSetTarget(f, 0.0);
   FluidSetCompressibility(f);
-  PetscCall(SolvePressure(f, &step, NULL));
+  PetscCall(SolvePressure(f, &step, (PetscBool)(solid || f->compressible), NULL));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode FluidPredictPressure(Fluid f, double dt)
 {
-  const ProjectionStep step = FluidProjectionStep(f, f->t, dt, PETSC_TRUE);
-  int n;
+  ProjectionStep step = FluidProjectionStep(f, f->t, dt, PETSC_TRUE);
+  PetscBool solid;
   PetscFunctionBeginUser;
-  (void)SolidCouplingEntries(f->solid, &n);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT, MPI_MAX, f->domain.mesh->comm));
-  if (n || f->compressible)
-    PetscCall(SolvePressure(f, &step, n ? f->bulk : NULL));
+  PetscCall(HasSolid(f, &solid));
+  if (solid || f->compressible)
+    PetscCall(SolvePressure(f, &step, PETSC_TRUE, solid ? f->bulk : NULL));
   else
     PetscCall(FluidBalancePressure(f));
   PetscFunctionReturn(0);

@@ -7,6 +7,7 @@ struct ProjectionSolver_s {
   Vec phi, divergence;       /* ghosted P2 vectors */
   PressureSolver solver;
   int revision;      /* of the density in the solver's matrix, -1: there is none */
+  PetscBool tensor;  /* it has R^-1 */
   PetscBool inertia; /* it has the solid's */
   int nfixed;
   int *fixed;     /* local P2 nodes (owned) where phi = 0 */
@@ -75,12 +76,19 @@ static void Stiffness(const ElementGeometry *g, const ProjectionStep *step, int 
     P2Stiffness(g->area, (const double(*)[2])g->g, 1.0 / step->rho[e], block);
 }
 
+/* The solver's matrix has the step's coefficient, but for what the solid does to it. */
+static PetscBool HasCoefficient(ProjectionSolver s, const ProjectionStep *step)
+{
+  return (PetscBool)(s->revision == step->revision && !step->compressible &&
+                     s->tensor == !!step->inverse_density);
+}
+
 /* The blocks of the step.  While the density stays only those change that have, or had, the solid's inertia. */
 static void SetBlocks(ProjectionSolver s, const ProjectionStep *step)
 {
   const FluidDomain *d = s->domain;
   double(*block)[36] = PressureSolverBlocks(s->solver);
-  const PetscBool all = (PetscBool)(s->revision != step->revision || step->compressible);
+  const PetscBool all = (PetscBool)!HasCoefficient(s, step);
   for (int e = 0; e < d->mesh->ne; e++) {
     const PetscBool weighted = s->inertia && WeightedProjectionBlock(s->weighted, e, (double(*)[6])block[e]);
     if (!weighted && (all || s->is_weighted[e])) Stiffness(d->geometry + e, step, e, (double(*)[6])block[e]);
@@ -97,12 +105,13 @@ static PetscErrorCode Assemble(ProjectionSolver s, const ProjectionStep *step)
   PetscBool inertia;
   PetscFunctionBeginUser;
   PetscCall(WeightedProjectionPrepare(s->weighted, &weighted, &inertia));
-  const PetscBool current = (PetscBool)(s->revision == step->revision && !s->inertia && !step->compressible);
+  const PetscBool current = (PetscBool)(HasCoefficient(s, step) && !s->inertia);
   s->inertia = (PetscBool)(inertia && step->inertia);
   if (current && !s->inertia) PetscFunctionReturn(0);
   SetBlocks(s, step);
   PetscCall(PressureSolverSetMatrix(s->solver, (PetscBool)(inertia || step->revision > 0)));
   s->revision = step->revision;
+  s->tensor = (PetscBool) !!step->inverse_density;
   PetscFunctionReturn(0);
 }
 

@@ -24,7 +24,7 @@ typedef struct {
   const double *rho;   /* [ne], kg/m3 */
   int revision;        /* of rho */
   SolidCoupling solid; /* borrowed until ProjectionSubtract */
-  /* [ne] of phases, in place of 1/rho (effective_density.h); NULL: 1/rho */
+  /* [ne] of phases, in place of 1/rho (effective_density.h), for the pressure that gravity makes; NULL: 1/rho */
   const InverseDensity *inverse_density;
   PetscBool inertia;                       /* whether the solid's implicit inertia takes part */
   const CompressibleElement *compressible; /* [ne]; NULL: the velocity is to be free of divergence */
