@@ -28,11 +28,11 @@ static void MakeSolid(double density, int rigid)
   }
 }
 
-/* rho M/dt (u - START) + I (u - kept START) + a u = s, rho M/dt u where the element is covered, by relaxation in the element: 6 unknowns,
+/* rho M/dt (u - start) + I (u - kept start) + a u = s, rho M/dt u where the element is covered, by relaxation in the element: 6 unknowns,
  * diagonally dominant enough for Gauss-Seidel. */
-static void SolveElement(const CoracleCoupling *k, double area, double u[2][3])
+static void SolveElement(const CoracleCoupling *k, double area, const double start[2], double u[2][3])
 {
-  for (int i = 0; i < 6; i++) u[i / 3][i % 3] = START[i / 3];
+  for (int i = 0; i < 6; i++) u[i / 3][i % 3] = start[i / 3];
   for (int sweep = 0; sweep < 400; sweep++) {
     for (int i = 0; i < 6; i++) {
       double r = k->s[i / 3][i % 3], diagonal = 0.0;
@@ -40,8 +40,8 @@ static void SolveElement(const CoracleCoupling *k, double area, double u[2][3])
         const double mass = i / 3 != j / 3 ? 0.0 : RHO / DT * area / (i == j ? 6.0 : 12.0);
         const double inertia = k->implicit_inertia[i % 3][j % 3];
         const double a = k->a[i / 3][i % 3][j / 3][j % 3] + mass + (i / 3 == j / 3 ? inertia : 0.0);
-        r += (k->flags & CORACLE_IS_COVERED ? 0.0 : mass * START[j / 3]) +
-             inertia * k->kept[i / 3][j / 3] * START[j / 3];
+        r += (k->flags & CORACLE_IS_COVERED ? 0.0 : mass * start[j / 3]) +
+             inertia * k->kept[i / 3][j / 3] * start[j / 3];
         if (i == j)
           diagonal = a;
         else
@@ -75,7 +75,7 @@ static double Step(double kick, ForceTotals *totals, double v[2])
     for (int i = 0; i < 6; i++) fluid.u_start[k][i / 3][i % 3] = fluid.u_star[k][i / 3][i % 3] = START[i / 3];
   for (int e = 0; e < n; e++) {
     const int k = coupling[e].element;
-    SolveElement(&coupling[e], GeometryArea((const double(*)[2])fluid.x[k]), fluid.u_star[k]);
+    SolveElement(&coupling[e], GeometryArea((const double(*)[2])fluid.x[k]), START, fluid.u_star[k]);
   }
   for (int k = 0; k < fluid.n; k++)
     for (int i = 0; i < 6; i++)
@@ -90,6 +90,47 @@ static double Step(double kick, ForceTotals *totals, double v[2])
   for (int d = 0; d < 2; d++) v[d] = START[d] + DT * (OWN[d] + total[d]);
   CHECK(!CouplerDestroy(&c), "destroy");
   return hypot(v[0] - START[0] - DT * OWN[0], v[1] - START[1] - DT * OWN[1]) / (DT * hypot(OWN[0], OWN[1]));
+}
+
+/* A fluid that goes through the surface of a very heavy solid at a step's start: in the elements that the surface crosses it gets the
+ * solid's velocity along the normal and keeps its own along the surface; elsewhere inside it gets the solid's. */
+static void CheckSurface(void)
+{
+  static const double WIND[2] = {1.0, 2.0};
+  const CouplerOptions options = {COUPLER_REACTION, 0.002, 10.0, {0.0, 0.0}};
+  const double start[2] = {START[0] + WIND[0], START[1] + WIND[1]};
+  const CoracleCoupling *coupling;
+  Coupler c;
+  int n, rank, size, crossed = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  MakeSolid(RHO * 1e6, 0);
+  SyntheticSolidPart(&all_solid, rank, size, &solid);
+  CHECK(!CouplerCreate(PETSC_COMM_WORLD, &options, &c), "create");
+  CHECK(!CouplerSetElements(c, &fluid.view), "elements");
+  CHECK(!CouplerBuild(c, &solid.view, DT, &n, &coupling), "build");
+  for (int e = 0; e < n; e++) {
+    const CoracleCoupling *k = &coupling[e];
+    const double(*x)[2] = (const double(*)[2])fluid.x[k->element];
+    double normal[2] = {(x[0][0] + x[1][0] + x[2][0]) / 3.0 - 0.5, (x[0][1] + x[1][1] + x[2][1]) / 3.0 - 0.5},
+           u[2][3];
+    const double r = hypot(normal[0], normal[1]);
+    const int is_crossed = k->shell > 0.0 && k->alpha < 0.999;
+    if (k->alpha < 0.3) continue;
+    crossed += is_crossed;
+    SolveElement(k, GeometryArea(x), start, u);
+    for (int d = 0; d < 2; d++) {
+      const double across = (WIND[0] * normal[0] + WIND[1] * normal[1]) / (r * r) * normal[d];
+      const double expected = START[d] + DT * OWN[d] + (is_crossed ? WIND[d] - across : 0.0);
+      for (int i = 0; i < 3; i++)
+        CHECK(fabs(u[d][i] - expected) < 0.2 * hypot(WIND[0], WIND[1]),
+              "an element %g of which is solid, at (%g, %g): u%c = %g, not %g", k->alpha, normal[0],
+              normal[1], "xy"[d], u[d][i], expected);
+    }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &crossed, 1, MPI_INT, MPI_SUM, PETSC_COMM_WORLD);
+  CHECK(crossed > 10, "%d elements are crossed", crossed);
+  CHECK(!CouplerDestroy(&c), "destroy");
 }
 
 int main(int argc, char **argv)
@@ -110,6 +151,7 @@ int main(int argc, char **argv)
     CHECK(totals.imbalance < 1e-12, "density %g, moved by the pressure: imbalance %g", DENSITY[k],
           totals.imbalance);
   }
+  CheckSurface();
   MakeSolid(2.0, 1);
   (void)Step(0.3, &totals, v);
   CHECK(hypot(totals.reaction[0], totals.reaction[1]) < 1e-9,
