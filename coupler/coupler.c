@@ -27,7 +27,7 @@ PetscErrorCode CouplerSetElements(Coupler c, const FluidElements *elements)
 static PetscErrorCode FreeStep(Coupler c)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscFree4(c->term, c->coupling, c->tangential, c->kept));
+  PetscCall(PetscFree3(c->term, c->coupling, c->tangential));
   PetscCall(PetscFree4(c->vertex, c->start_velocity, c->density, c->force));
   PetscCall(PetscFree5(c->node, c->start, c->predicted, c->acceleration, c->explicit_fraction));
   PetscCall(PetscFree(c->mobility));
@@ -41,8 +41,7 @@ static PetscErrorCode NewStep(Coupler c, const SolidState *solid)
 
   PetscFunctionBeginUser;
   PetscCall(FreeStep(c));
-  PetscCall(PetscMalloc4(o->pairs.n, &c->term, o->ncoupled, &c->coupling, o->ncoupled, &c->tangential,
-                         o->ncoupled, &c->kept));
+  PetscCall(PetscMalloc3(o->pairs.n, &c->term, o->ncoupled, &c->coupling, o->ncoupled, &c->tangential));
   PetscCall(PetscMalloc4(3 * nsources, &c->vertex, nsources, &c->start_velocity, nsources, &c->density, 2 * n,
                          &c->force));
   PetscCall(PetscMalloc5(n, &c->node, 2 * n, &c->start, 2 * n, &c->predicted, 2 * n, &c->acceleration, n,
@@ -50,7 +49,6 @@ static PetscErrorCode NewStep(Coupler c, const SolidState *solid)
   PetscCall(PetscMalloc1(n, &c->mobility));
   PetscCall(PetscArrayzero(c->term, o->pairs.n));
   PetscCall(PetscArrayzero(c->tangential, o->ncoupled));
-  for (int e = 0; e < o->ncoupled; e++) c->kept[e] = WallCoefficientIsotropic(1.0);
   PetscCall(PetscArrayzero(c->density, nsources));
   for (size_t t = 0; t < nsources; t++)
     PetscCall(PetscArraycpy(&c->start_velocity[t][0][0], &o->source[t].u[0][0], 6));
@@ -122,7 +120,8 @@ PetscErrorCode CouplerSetInterfaceVelocity(Coupler c, const double u[], int *n,
   PetscCall(InertiaBodyForce(o, c->density, c->acceleration, acceleration, c->options.gravity, c->term));
   PetscCall(PetscFree2(velocity, acceleration));
   c->us = u;
-  WallTermAssemble(o, c->term, c->density, c->kept, (const double(*)[3][2])c->start_velocity, c->coupling);
+  WallTermAssemble(o, c->term, c->density, c->tangential, (const double(*)[3][2])c->start_velocity,
+                   c->coupling);
   *n = o->ncoupled;
   *coupling = c->coupling;
   PetscFunctionReturn(0);

@@ -24,7 +24,6 @@ struct Coupler_s {
   History history;               /* of the steps before */
   CoracleFlow flow;              /* borrowed */
   WallCoefficient *tangential;   /* [overlap->ncoupled] D (slip.h) */
-  WallCoefficient *kept;         /* [overlap->ncoupled] (inertia.h) */
   PairTerm *term;                /* [overlap->pairs.n] */
   CoracleCoupling *coupling;     /* [overlap->ncoupled] */
   CoracleCorrection *correction; /* [overlap->ncoupled] */

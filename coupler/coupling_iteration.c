@@ -1,8 +1,5 @@
 #include "coupler/coupling_iteration.h"
 
-/* Part of the shell's thickness: displacements over a step that differ by less are taken as equal. */
-#define NEGLIGIBLE_DISPLACEMENT 1e-4
-
 PetscErrorCode CouplingIterationCreate(MPI_Comm comm, int max_iterations, double tolerance, double thickness,
                                        CouplingIteration *t)
 {

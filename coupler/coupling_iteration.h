@@ -14,6 +14,9 @@
 #include "coupler/quasi_newton.h"
 #include "coupler/solid_state.h"
 
+/* Part of the shell's thickness: displacements over a step that differ by less are taken as equal. */
+#define NEGLIGIBLE_DISPLACEMENT 1e-4
+
 typedef struct {
   MPI_Comm comm;
   int max_iterations;        /* of a step; 1: the first is accepted */

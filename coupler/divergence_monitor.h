@@ -3,6 +3,7 @@
  * velocity changes with alternating sign and growing size from step to step. */
 #ifndef CORACLE_DIVERGENCE_MONITOR_H
 #define CORACLE_DIVERGENCE_MONITOR_H
+#include "coupler/coupling_iteration.h"
 
 /* Heuristic: the coupling diverges after this many alternations in a row, each DIVERGENCE_GROWTH times the
  * one before; or after half as many that have grown by DIVERGENCE_TOTAL_GROWTH altogether (of a very light
@@ -13,9 +14,9 @@
 /* Part of the flow's kinetic energy per mass near the solid: changes of velocity with less are vibrations,
  * whether or not they grow. */
 #define DIVERGENCE_ENERGY 0.01
-/* Part of the shell's thickness: changes of velocity that move the solid by less within a step are not looked at.  A hundred times what
- * coupling iterations take as equal (coupling_iteration.c): below that a light solid's round-off grows until they are needed. */
-#define DIVERGENCE_DISPLACEMENT 0.01
+/* Part of the shell's thickness: changes of velocity that move the solid by less within a step are not looked at.  A hundred times
+ * what coupling iterations take as equal: below that a light solid's round-off grows until they are needed. */
+#define DIVERGENCE_DISPLACEMENT (100.0 * NEGLIGIBLE_DISPLACEMENT)
 
 typedef struct {
   int nsteps, alternations;

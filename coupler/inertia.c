@@ -60,12 +60,11 @@ PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt
 }
 
 PetscErrorCode InertiaStart(Overlap o, const double density[], double dt, const WallCoefficient tangential[],
-                            PairTerm term[], WallCoefficient kept[])
+                            PairTerm term[])
 {
   double *covered; /* [ncoupled] m2, by nodes that are free */
 
   PetscFunctionBeginUser;
-  for (int e = 0; e < o->ncoupled; e++) kept[e] = o->phases ? WallCoefficientIsotropic(1.0) : tangential[e];
   if (o->phases) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1(o->ncoupled, &covered));
   for (int p = 0; p < o->pairs.n; p++)
@@ -75,7 +74,8 @@ PetscErrorCode InertiaStart(Overlap o, const double density[], double dt, const 
     PairTerm *t = &term[p];
     if (density[o->pairs.pair[p].a] == 0.0) continue;
     t->covered = (PetscBool)(fabs(covered[o->coupled_index[p]] - o->area[k]) < COVERED * o->area[k]);
-    t->start = WallCoefficientScaled(&kept[o->coupled_index[p]], -t->inertia);
+    const WallCoefficient kept = InertiaKept(o, &tangential[o->coupled_index[p]]);
+    t->start = WallCoefficientScaled(&kept, -t->inertia);
     const double all = t->inertia + (t->covered ? o->rho[k] / dt : 0.0);
     t->start.xx += all;
     t->start.yy += all;

@@ -57,10 +57,14 @@
  * held.  Where it is not 0, term[pairs.n] gets the inertia above and a = 0. */
 PetscErrorCode InertiaCoefficients(Overlap overlap, const SolidState *solid, double dt, PairTerm term[],
                                    double density[]);
-/* Local, after InertiaCoefficients and SlipTensors: start and covered of term[pairs.n], kept[ncoupled]; where the fluid has phases
- * all is kept. */
+/* What the inertia keeps of u^n in an element that D = tangential (slip.h) is of: D; where the fluid has phases, all. */
+static inline WallCoefficient InertiaKept(const Overlap overlap, const WallCoefficient *tangential)
+{
+  return overlap->phases ? WallCoefficientIsotropic(1.0) : *tangential;
+}
+/* Local, after InertiaCoefficients and SlipTensors: start and covered of term[pairs.n]; tangential[ncoupled]: D. */
 PetscErrorCode InertiaStart(Overlap overlap, const double density[], double dt,
-                            const WallCoefficient tangential[], PairTerm term[], WallCoefficient kept[]);
+                            const WallCoefficient tangential[], PairTerm term[]);
 /* Collective: a~ of acceleration[nnodes][2], in place, where the fluid has phases. */
 PetscErrorCode InertiaNodalForces(Overlap overlap, const SolidState *solid, double acceleration[]);
 /* Collective.  q of term[pairs.n] where density is not 0; acceleration and interface_acceleration [nnodes][2]: a and a', m/s2. */

@@ -31,7 +31,7 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
   PetscCall(InertiaCoefficients(o, solid, c->dt, c->term, c->density));
   PetscCall(OutsideWeight(o, c->density, c->options.gravity, c->term));
   PetscCall(SlipTensors(o, c->tangential));
-  PetscCall(InertiaStart(o, c->density, c->dt, c->tangential, c->term, c->kept));
+  PetscCall(InertiaStart(o, c->density, c->dt, c->tangential, c->term));
   SlipCoefficients(o, c->tangential, c->term);
   PetscFunctionReturn(0);
 }

@@ -1,4 +1,4 @@
-#include "coupler/wall_term.h"
+#include "coupler/inertia.h"
 
 /* c[j] = int over the pair of N_K,j u, from u at the source triangle's vertices: by component, then vertex of
  * K. */
@@ -83,7 +83,7 @@ static void AddPair(const Overlap o, const SupermeshPair *pair, const PairTerm *
 }
 
 void WallTermAssemble(const Overlap o, const PairTerm term[], const double density[],
-                      const WallCoefficient kept[], const double start_velocity[][3][2],
+                      const WallCoefficient tangential[], const double start_velocity[][3][2],
                       CoracleCoupling coupling[])
 {
   for (int e = 0; e < o->ncoupled; e++) coupling[e] = (CoracleCoupling){.element = o->coupled_element[e]};
@@ -92,10 +92,11 @@ void WallTermAssemble(const Overlap o, const PairTerm term[], const double densi
     AddPair(o, pair, &term[p], density[pair->a] == 0.0 ? PETSC_TRUE : PETSC_FALSE, start_velocity[pair->a],
             &coupling[o->coupled_index[p]]);
   }
-  for (int e = 0; e < o->ncoupled; e++)
-    if (coupling[e].flags & CORACLE_HAS_INERTIA)
-      memcpy(coupling[e].kept, (double[2][2]){{kept[e].xx, kept[e].xy}, {kept[e].xy, kept[e].yy}},
-             sizeof coupling[e].kept);
+  for (int e = 0; e < o->ncoupled; e++) {
+    const WallCoefficient kept = InertiaKept(o, &tangential[e]);
+    if (!(coupling[e].flags & CORACLE_HAS_INERTIA)) continue;
+    memcpy(coupling[e].kept, (double[2][2]){{kept.xx, kept.xy}, {kept.xy, kept.yy}}, sizeof coupling[e].kept);
+  }
   for (int e = 0; e < o->ncoupled; e++)
     for (int d = 0; d < 2; d++) coupling[e].velocity[d] /= coupling[e].alpha + coupling[e].shell;
 }

@@ -15,7 +15,8 @@
  *
  * with q a body force at the vertices of T, m the solid's inertia in the fluid's solve and start the inertia that begins with the
  * solid's velocity v (inertia.h); T is held where it has none.  The reaction (force.h) is made of the same coefficients and
- * integrals, so what the fluid gains the solid loses.  No field is projected, so none undershoots: a sum of positive semidefinite coefficients times Gram matrices is positive semidefinite. */
+ * integrals, so what the fluid gains the solid loses.  No field is projected, so none undershoots: a sum of
+ * positive semidefinite coefficients times Gram matrices is positive semidefinite. */
 #ifndef CORACLE_WALL_TERM_H
 #define CORACLE_WALL_TERM_H
 #include "coupler/overlap.h"
@@ -99,9 +100,9 @@ static inline void PairSlip(const SupermeshPair *pair, const double u[6], const 
 
 /* Local: coupling[overlap->ncoupled], one per coupled element (coracle.h has shapes and units), from the
  * pairs' term[pairs.n], the source triangles' velocities and density[overlap->nsources] (inertia.h), which is 0
- * where the solid is held; kept[ncoupled]: (inertia.h); start_velocity[nsources][3][2]: the solid's at the step's start, m/s, which the
- * elements' mean velocity is of. */
+ * where the solid is held; tangential[ncoupled]: D (slip.h); start_velocity[nsources][3][2]: the solid's at the
+ * step's start, m/s, which the elements' mean velocity is of. */
 void WallTermAssemble(const Overlap overlap, const PairTerm term[], const double density[],
-                      const WallCoefficient kept[], const double start_velocity[][3][2],
+                      const WallCoefficient tangential[], const double start_velocity[][3][2],
                       CoracleCoupling coupling[]);
 #endif

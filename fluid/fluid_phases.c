@@ -165,8 +165,8 @@ static PetscErrorCode HasSolid(Fluid f, PetscBool *solid)
 
 /* p, with its values on open boundaries as they are, makes the velocity that starts as `start` (NULL: 0) and is accelerated
  * over the step by weight - R^-1 grad p free of divergence.  It is improved from what it was, so that what the solver leaves, which
- * the projection, by 1/rho, does not take away, does not add up over the steps; or made from 0 with a solid, where a pressure's response is not
- * R^-1 grad p alone, or a gas. */
+ * the projection, by 1/rho, does not take away, does not add up over the steps; or made from 0 with a solid, where a pressure's
+ * response is not R^-1 grad p alone, or a gas. */
 static PetscErrorCode SolvePressure(Fluid f, ProjectionStep *step, PetscBool from_zero, Vec start)
 {
   Vec velocity, phi;
@@ -184,17 +184,24 @@ static PetscErrorCode SolvePressure(Fluid f, ProjectionStep *step, PetscBool fro
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode FluidBalancePressure(Fluid f)
+static PetscErrorCode Balance(Fluid f, PetscBool from_zero)
 {
   const double dt =
       f->compressible ? 1.0 : 1e8; /* large: what prescribed velocities contribute goes with 1/dt */
   ProjectionStep step = FluidProjectionStep(f, f->t, dt, PETSC_FALSE);
+  PetscFunctionBeginUser;
+  FluidSetTarget(f, 0.0);
+  FluidSetCompressibility(f);
+  PetscCall(SolvePressure(f, &step, from_zero, NULL));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidBalancePressure(Fluid f)
+{
   PetscBool solid;
   PetscFunctionBeginUser;
   PetscCall(HasSolid(f, &solid));
-  FluidSetTarget(f, 0.0);
-  FluidSetCompressibility(f);
-  PetscCall(SolvePressure(f, &step, (PetscBool)(solid || f->compressible), NULL));
+  PetscCall(Balance(f, (PetscBool)(solid || f->compressible)));
   PetscFunctionReturn(0);
 }
 
@@ -207,7 +214,7 @@ PetscErrorCode FluidPredictPressure(Fluid f, double dt)
   if (solid || f->compressible)
     PetscCall(SolvePressure(f, &step, PETSC_TRUE, solid ? f->bulk : NULL));
   else
-    PetscCall(FluidBalancePressure(f));
+    PetscCall(Balance(f, PETSC_FALSE));
   PetscFunctionReturn(0);
 }
 

@@ -7,7 +7,7 @@ const double AttemptKept[2][2] = {{1.0, 0.25}, {0.25, 1.0}};
 
 bool AttemptHasInertia(Kind kind)
 {
-  return kind == INERTIA || kind == COVERED;
+  return kind == INERTIA || kind == KEPT || kind == COVERED;
 }
 
 double AttemptStep(const Fluid *f, Kind kind)
@@ -28,7 +28,8 @@ static void SetBlocks(CoracleCoupling *c, Kind kind, double rho, double area, do
   const double factor = kind == HELD || kind == MORE || kind == AGAIN || kind == COEFFICIENT ? 9.0 : 0.0;
   PatchMass(area, factor * rho / dt, a);
   PatchMass(area, AttemptHasInertia(kind) ? 9.0 * rho / dt : 0.0, c->implicit_inertia);
-  if (kind == INERTIA) memcpy(c->kept, AttemptKept, sizeof c->kept);
+  if (kind == INERTIA) c->kept[0][0] = c->kept[1][1] = 1.0;
+  if (kind == KEPT) memcpy(c->kept, AttemptKept, sizeof c->kept);
   for (int d = 0; d < 2; d++)
     for (int i = 0; i < 3; i++)
       for (int j = 0; j < 3; j++) c->a[d][i][d][j] = a[i][j];

@@ -4,7 +4,7 @@
 #include "common/conformance/patch.h"
 
 /* The attempts of a step that repeats, in their order (examine.h). */
-typedef enum { HELD, MORE, FREE, SOURCE, COEFFICIENT, BULK, INERTIA, COVERED, AGAIN, KINDS } Kind;
+typedef enum { HELD, MORE, FREE, SOURCE, COEFFICIENT, BULK, INERTIA, KEPT, COVERED, AGAIN, KINDS } Kind;
 
 #define SHORT 1e-6 /* tau/dt */
 
@@ -24,7 +24,7 @@ typedef struct {
   double w[2];      /* m/s: velocity scale */
 } Fluid;
 
-/* CoracleCoupling.kept of attempt INERTIA. */
+/* CoracleCoupling.kept of attempt KEPT. */
 extern const double AttemptKept[2][2];
 /* The solid's inertia is among what is sent. */
 bool AttemptHasInertia(Kind kind);

@@ -71,11 +71,17 @@ static void CheckForcing(const Fluid *f, int step)
            "s is a force on the element's vertices, N, the density not divided out");
   PatchCoupled(f->kit, p, f->flow[INERTIA].u_star, held, &mass);
   PatchCoupled(f->kit, p, f->flow[INERTIA].u_start, start, &mass);
+  for (int c = 0; c < 2; c++) expected[c] = now[FREE][c] + 10.0 * mass * f->w[c] - 9.0 * (held[c] - start[c]);
+  if (Distance(now[INERTIA], expected) > TOLERANCE * scale)
+    Refuse(f, step, "the implicit inertia does not resist the change of the velocity",
+           "rho M/dt (u* - u_start) + implicit_inertia (u* - kept u_start) + a u* = ... + s");
+  PatchCoupled(f->kit, p, f->flow[KEPT].u_star, held, &mass);
+  PatchCoupled(f->kit, p, f->flow[KEPT].u_start, start, &mass);
   for (int c = 0; c < 2; c++)
     expected[c] = now[FREE][c] + 10.0 * mass * f->w[c] -
                   9.0 * (held[c] - AttemptKept[c][0] * start[0] - AttemptKept[c][1] * start[1]);
-  if (Distance(now[INERTIA], expected) > ROUGH * scale)
-    Refuse(f, step, "the implicit inertia does not resist the change of the velocity",
+  if (Distance(now[KEPT], expected) > ROUGH * scale)
+    Refuse(f, step, "the implicit inertia does not begin with what is kept of the velocity",
            "rho M/dt (u* - u_start) + implicit_inertia (u* - kept u_start) + a u* = ... + s");
   PatchCoupled(f->kit, p, f->flow[COVERED].u_star, held, &mass);
   for (int c = 0; c < 2; c++) expected[c] = now[FREE][c] + 10.0 * mass * f->w[c] - 9.0 * held[c] - start[c];

@@ -20,6 +20,14 @@ static const AdaptationSetup TANK_ADAPTATION = {.size_min = 0.03,
                                                 .elements_max = 1e5,
                                                 .every = 3};
 
+static inline PetscErrorCode AdaptingTankDestroy(AdaptingTank *m)
+{
+  PetscFunctionBeginUser;
+  PetscCall(AdaptationDestroy(&m->adaptation));
+  PetscCall(TankDestroy(&m->tank));
+  PetscFunctionReturn(0);
+}
+
 /* As in main.c. */
 static inline PetscErrorCode AdaptingTankStep(AdaptingTank *m, double dt)
 {

@@ -61,14 +61,6 @@ static PetscErrorCode Create(int n, double viscosity, const Region region[2], Ad
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Destroy(AdaptingTank *m)
-{
-  PetscFunctionBeginUser;
-  PetscCall(AdaptationDestroy(&m->adaptation));
-  PetscCall(TankDestroy(&m->tank));
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode Wave(int n, int steps, int periods, double a, double viscosity, int adapting, int print)
 {
   const double dt = WavePeriod(DEPTH, WATER, AIR) / steps;
@@ -99,7 +91,7 @@ static PetscErrorCode Wave(int n, int steps, int periods, double a, double visco
   }
   if (print) PetscCall(EnergyPrint(&e, "wave", scale));
   PetscCall(PetscFree(before));
-  PetscCall(Destroy(&m));
+  PetscCall(AdaptingTankDestroy(&m));
   PetscFunctionReturn(0);
 }
 
@@ -126,7 +118,7 @@ static PetscErrorCode Column(int n, double end, int print)
           e.above / scale);
   }
   if (print) PetscCall(EnergyPrint(&e, "column", scale));
-  PetscCall(Destroy(&m));
+  PetscCall(AdaptingTankDestroy(&m));
   PetscFunctionReturn(0);
 }
 

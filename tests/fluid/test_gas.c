@@ -178,8 +178,7 @@ static PetscErrorCode Cushion(int n, double dt, int steps, PetscBool adapts, int
   for (int k = 0; k < exact.found; k++)
     CHECK(fabs(found.time[k] / exact.time[k] - 1.0) < 0.01, "it turns at %g s in place of %g s",
           found.time[k], exact.time[k]);
-  PetscCall(AdaptationDestroy(&m.adaptation));
-  PetscCall(TankDestroy(&m.tank));
+  PetscCall(AdaptingTankDestroy(&m));
   PetscFunctionReturn(0);
 }
 

@@ -127,8 +127,7 @@ static PetscErrorCode Adapted(int print)
   CHECK(m.meshes == 4 && worst < STILL, "%d meshes, layers move at %g m/s", m.meshes, worst);
   for (int p = 0; p < 3; p++)
     CHECK(fabs(after[p] - before[p]) < 1e-12, "phase %d changes by %g m2", p, after[p] - before[p]);
-  PetscCall(AdaptationDestroy(&m.adaptation));
-  PetscCall(TankDestroy(&m.tank));
+  PetscCall(AdaptingTankDestroy(&m));
   PetscFunctionReturn(0);
 }
 

@@ -65,8 +65,7 @@ static PetscErrorCode Still(void)
   CHECK(speed < 1e-6 * sqrt(9.81), "still water moves at %g m/s", speed);
   CHECK(fabs(volume - 0.473) < 1e-12, "%.15g m2 of 0.473", volume);
   CHECK(longest < 2.0 * TANK_ADAPTATION.interface_size, "edges of %g m at the interface", longest);
-  PetscCall(AdaptationDestroy(&m.adaptation));
-  PetscCall(TankDestroy(&m.tank));
+  PetscCall(AdaptingTankDestroy(&m));
   PetscFunctionReturn(0);
 }
 
@@ -85,8 +84,7 @@ static PetscErrorCode Column(int print)
   CHECK(fabs(volume - 0.18) < 1e-12, "%.15g m2 of 0.18", volume);
   CHECK(hypot(centre[0] - CENTRE_X, centre[1] - CENTRE_Y) < 1e-4, "the water's centre is (%g, %g)", centre[0],
         centre[1]);
-  PetscCall(AdaptationDestroy(&m.adaptation));
-  PetscCall(TankDestroy(&m.tank));
+  PetscCall(AdaptingTankDestroy(&m));
   PetscFunctionReturn(0);
 }
 

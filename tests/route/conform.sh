@@ -32,7 +32,7 @@ if [ "$role" = fluid ]; then
   plant sign 's/load\[r\] = k/load[r] = -k/' 'does not take the fluid along'
   plant density 's/load\[r\] = k\(.*\);/load[r] = k\1 \/ 1000.0;/' 'the fluid does not gain dt s'
   plant inertia 's/= k\[m\].implicit_inertia.*;/= 0.0;/' 'the implicit inertia does not resist'
-  plant kept 's/k\[m\].kept\[r \/ 3\]\[q \/ 3\]/(r \/ 3 == q \/ 3)/' 'the implicit inertia does not resist'
+  plant kept 's/k\[m\].kept\[r \/ 3\]\[q \/ 3\]/(r \/ 3 == q \/ 3)/' 'does not begin with what is kept'
   plant covered 's/CORACLE_IS_COVERED/8/' 'where it is covered the fluid does not start'
   plant start 's/.u_start = &d->u_start/.u_start = \&d->u_star/' 'has not been added to the velocity'
   plant ignored 's/ + k\[m\].a\[.*\];/;/' 'does not lose dt a u\*'
