@@ -1,5 +1,6 @@
 /* What a fluid of several phases does differently. */
 #include "fluid/fluid_impl.h"
+#include "fluid/weighted_projection.h"
 
 /* Of an element, less than which beside a solid is none. */
 #define LEAST_OPEN 1e-3
@@ -152,6 +153,38 @@ static PetscErrorCode Accelerate(Fluid f, double dt, Vec velocity)
   PetscFunctionReturn(0);
 }
 
+/* velocity where the solid has implicit inertia: what the momentum equation makes of the solid's forces there before viscosity and
+ * advection, W (u* - u) = rho M (g - grad p/rho) + (s + I kept start - ...) - (a + I) u. */
+static PetscErrorCode AccelerateSolid(Fluid f, double dt, Vec velocity)
+{
+  const double *rho = MaterialDensity(f->material, MATERIAL_STEP);
+  int n;
+  const CoracleCoupling *entry = SolidCouplingEntries(f->solid, &n);
+  const PetscScalar *u;
+  PetscScalar *v;
+  PetscFunctionBeginUser;
+  PetscCall(VecGetArrayRead(f->u, &u));
+  PetscCall(VecGetArray(velocity, &v));
+  for (int k = 0; k < n; k++) {
+    const int e = entry[k].element;
+    const double area = f->domain.geometry[e].area, *a = &entry[k].a[0][0][0][0], *ue = u + 6 * e;
+    double load[6];
+    if (!(entry[k].flags & CORACLE_HAS_INERTIA)) continue;
+    for (int c = 0; c < 2; c++) P1MassApply(area * rho[e] / dt, v + 6 * e + 3 * c, load + 3 * c);
+    SolidCouplingLoad(f->solid, e, ue, area, rho[e] / dt, load);
+    for (int row = 0; row < 6; row++)
+      for (int col = 0; col < 6; col++) {
+        const double inertia = row / 3 == col / 3 ? entry[k].implicit_inertia[row % 3][col % 3] : 0.0;
+        load[row] -= (a[6 * row + col] + inertia) * ue[col];
+      }
+    PetscCall(WeightedProjectionSolve(area, rho[e] / dt, entry[k].implicit_inertia, load));
+    for (int i = 0; i < 6; i++) v[6 * e + i] = load[i];
+  }
+  PetscCall(VecRestoreArray(velocity, &v));
+  PetscCall(VecRestoreArrayRead(f->u, &u));
+  PetscFunctionReturn(0);
+}
+
 /* On any rank. */
 static PetscErrorCode HasSolid(Fluid f, PetscBool *solid)
 {
@@ -175,7 +208,10 @@ static PetscErrorCode SolvePressure(Fluid f, ProjectionStep *step, PetscBool fro
   PetscCall(VecDuplicate(f->u, &velocity));
   if (from_zero) PetscCall(ProjectionSolverKeepFixed(f->projection, f->p));
   PetscCall(Accelerate(f, step->dt, velocity));
-  if (start) PetscCall(VecAXPY(velocity, 1.0, start));
+  if (start) {
+    PetscCall(AccelerateSolid(f, step->dt, velocity));
+    PetscCall(VecAXPY(velocity, 1.0, start));
+  }
   PetscCall(ProjectionSolverSolve(f->projection, step, velocity, &phi, &f->stats.pressure_iterations));
   PetscCall(VecAXPY(f->p, 1.0, phi));
   PetscCall(VecGhostUpdateBegin(f->p, INSERT_VALUES, SCATTER_FORWARD));

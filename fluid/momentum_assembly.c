@@ -163,31 +163,21 @@ static void ElementInertia(MomentumSolver s, const MomentumStep *step, int e, co
   }
 }
 
-/* a and the implicit inertia I to the dense block, s + w a u^n + I (kept u start + w u^n) to the load (SolidCouplingStart), less
- * rho M/dt u start where the solid covers the element and s has the start; false where there is no solid. */
+/* a and the implicit inertia I to the dense block, w (a + I) u^n and what does not depend on u* (SolidCouplingLoad) to the load;
+ * false where there is no solid. */
 static PetscBool AssembleSolid(MomentumSolver s, const MomentumStep *step, int e, const double u[6],
                                double dense[36], double load[6])
 {
   const double w = (1.0 - s->setup.theta) / s->setup.theta;
   const CoracleCoupling *k = SolidCouplingAt(step->solid, e);
   if (!k) return PETSC_FALSE;
-  const double *a = &k->a[0][0][0][0], *explicit_part = &k->s[0][0];
-  const int covered = k->flags & CORACLE_IS_COVERED;
-  double start[6], kept[6];
-  SolidCouplingStart(step->solid, e, u, start);
-  for (int i = 0; i < 6; i++)
-    kept[i] = k->kept[i / 3][0] * start[i % 3] + k->kept[i / 3][1] * start[3 + i % 3];
-  for (int c = 0; c < 2 && covered; c++) {
-    double m[3];
-    P1MassApply(s->domain->geometry[e].area, start + 3 * c, m);
-    for (int i = 0; i < 3; i++) load[3 * c + i] -= step->rho[e] / step->dt * m[i];
-  }
+  const double *a = &k->a[0][0][0][0];
+  SolidCouplingLoad(step->solid, e, u, s->domain->geometry[e].area, step->rho[e] / step->dt, load);
   for (int row = 0; row < 6; row++) {
-    load[row] += explicit_part[row];
     for (int col = 0; col < 6; col++) {
       const double inertia = row / 3 == col / 3 ? k->implicit_inertia[row % 3][col % 3] : 0.0;
       dense[6 * col + row] += a[6 * row + col] + inertia;
-      load[row] += w * (a[6 * row + col] + inertia) * u[col] + inertia * kept[col];
+      load[row] += w * (a[6 * row + col] + inertia) * u[col];
     }
   }
   return PETSC_TRUE;

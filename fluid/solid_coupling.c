@@ -79,6 +79,23 @@ void SolidCouplingStart(SolidCoupling s, int e, const double u[], double start[]
   for (int i = 0; i < 6; i++) start[i] = solid ? s->entry[s->index[e]].velocity[i / 3] : u[i];
 }
 
+void SolidCouplingLoad(SolidCoupling s, int e, const double u[6], double area, double rho_dt, double load[6])
+{
+  const CoracleCoupling *k = SolidCouplingAt(s, e);
+  double start[6], m[3];
+  SolidCouplingStart(s, e, u, start);
+  for (int c = 0; c < 2; c++) {
+    P1MassApply(area, start + 3 * c, m);
+    for (int i = 0; i < 3; i++) {
+      load[3 * c + i] += k->s[c][i];
+      if (k->flags & CORACLE_IS_COVERED) load[3 * c + i] -= rho_dt * m[i];
+      for (int j = 0; j < 3; j++)
+        load[3 * c + i] +=
+            k->implicit_inertia[i][j] * (k->kept[c][0] * start[j] + k->kept[c][1] * start[3 + j]);
+    }
+  }
+}
+
 const double *SolidCouplingFraction(SolidCoupling s)
 {
   return s->alpha;

@@ -76,6 +76,22 @@ static PetscErrorCode Response(double area, double rho_dt, const double inertia[
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode WeightedProjectionSolve(double area, double rho_dt, const double inertia[N][N], double v[6])
+{
+  double response[N][N];
+  PetscFunctionBeginUser;
+  PetscCall(Response(area, rho_dt, inertia, response));
+  for (int c = 0; c < 2; c++) {
+    double q[N];
+    P1MassSolve(area, v + 3 * c, q);
+    for (int i = 0; i < N; i++) {
+      v[3 * c + i] = 0.0;
+      for (int j = 0; j < N; j++) v[3 * c + i] += response[i][j] * q[j];
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
 static PetscBool IsWeighted(const CoracleCoupling *k)
 {
   return k && k->flags & CORACLE_HAS_INERTIA ? PETSC_TRUE : PETSC_FALSE;

@@ -29,4 +29,6 @@ PetscErrorCode WeightedProjectionPrepare(WeightedProjection w, const WeightedPro
 PetscBool WeightedProjectionBlock(WeightedProjection w, int e, double block[6][6]);
 /* u[2][3] of element e -= its response to grad phi; false where it has no implicit inertia. */
 PetscBool WeightedProjectionVelocity(WeightedProjection w, int e, const double grad[3][2], double u[6]);
+/* v[2][3] = W^-1 v on an element of this area, m2, with rho/dt, kg/(m3 s), and the implicit inertia. */
+PetscErrorCode WeightedProjectionSolve(double area, double rho_dt, const double inertia[3][3], double v[6]);
 #endif
