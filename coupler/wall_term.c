@@ -1,102 +1,109 @@
 #include "coupler/inertia.h"
 
-/* c[j] = int over the pair of N_K,j u, from u at the source triangle's vertices: by component, then vertex of
- * K. */
-static void CrossVelocity(const SupermeshPair *pair, const double u[3][2], double c[2][3])
+/* Sums over the pairs of one element, with its basis as the origin. */
+typedef struct {
+  MassMoments xx, xy, yy; /* of a */
+  MassMoments inertia, solid;
+  VectorMoments s, us;
+  double velocity[2], area;     /* int v, m2 */
+  double alpha, shell, outside; /* m2; outside: of pairs that move weight to beside the solid */
+  int flags;
+} ElementSums;
+
+/* d: the pair's centre from the origin of its element. */
+static void AddPair(const SupermeshPair *pair, const PairTerm *term, const ElementTerm *element,
+                    const SourceTerm *source, PetscBool is_shell, const double gravity[2], const double d[2],
+                    ElementSums *k)
 {
-  for (int d = 0; d < 2; d++) {
-    for (int j = 0; j < 3; j++)
-      c[d][j] = pair->ab[0][j] * u[0][d] + pair->ab[1][j] * u[1][d] + pair->ab[2][j] * u[2][d];
+  const MassMoments mass = PairMass(pair, d);
+  const LinearField start = LinearFieldAt(&source->start, pair->centre),
+                    us = LinearFieldAt(&source->velocity, pair->centre);
+  LinearField density = {{0.0}, {{0.0}}};
+  if (!WallIsZero(&term->a)) {
+    WallAdd(&term->a, &us, &density);
+    MassMomentsAdd(term->a.xx, &mass, &k->xx);
+    MassMomentsAdd(term->a.yy, &mass, &k->yy);
+    if (term->a.xy != 0.0) MassMomentsAdd(term->a.xy, &mass, &k->xy);
   }
-}
-
-static void AddMass(double factor, const double bb[3][3], double to[3][2][3], int c)
-{
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) to[i][c][j] += factor * bb[i][j];
-}
-
-/* to += a N_i N_j */
-static void AddTensor(const WallCoefficient *a, const double bb[3][3], double to[2][3][2][3])
-{
-  if (WallIsZero(a)) return;
-  AddMass(a->xx, bb, to[0], 0);
-  AddMass(a->yy, bb, to[1], 1);
-  if (a->xy == 0.0) return;
-  AddMass(a->xy, bb, to[0], 1);
-  AddMass(a->xy, bb, to[1], 0);
-}
-
-static void AddSource(const WallCoefficient *a, const double cu[2][3], double s[2][3])
-{
-  for (int i = 0; i < 3; i++) {
-    s[0][i] += a->xx * cu[0][i] + a->xy * cu[1][i];
-    s[1][i] += a->xy * cu[0][i] + a->yy * cu[1][i];
-  }
-}
-
-static void AddSolidMass(const double bb[3][3], const double cu[2][3], CoracleCoupling *k)
-{
-  for (int i = 0; i < 3; i++) {
-    for (int d = 0; d < 2; d++) k->us[d][i] += cu[d][i];
-    for (int j = 0; j < 3; j++) k->ms[i][j] += bb[i][j];
-  }
-}
-
-/* The fluid's weight from inside the solid to beside it. */
-static void AddOutsideWeight(const SupermeshPair *pair, const double weight[2], double s[2][3])
-{
-  for (int i = 0; i < 3; i++) {
-    const double moved = pair->area / 3.0 - (pair->ab[0][i] + pair->ab[1][i] + pair->ab[2][i]);
-    for (int c = 0; c < 2; c++) s[c][i] += weight[c] * moved;
-  }
-}
-
-/* One pair's part of its element; velocity is the integral of v over the pairs, divided by |K|, so far. */
-static void AddPair(const Overlap o, const SupermeshPair *pair, const PairTerm *term, PetscBool held,
-                    const double start[3][2], CoracleCoupling *k)
-{
-  const SourceTriangle *source = &o->source[pair->a];
-  const double fraction = pair->area / o->area[pair->b];
-  double cu[2][3], cq[2][3], cv[2][3];
-  CrossVelocity(pair, source->u, cu);
-  CrossVelocity(pair, start, cv);
-  if (term->covered) k->flags |= CORACLE_IS_COVERED;
-  AddSource(&term->start, (const double(*)[3])cv, k->s);
-  CrossVelocity(pair, term->q, cq);
-  AddTensor(&term->a, pair->bb, k->a);
-  if (!held) {
-    for (int i = 0; i < 9; i++) k->implicit_inertia[i / 3][i % 3] += term->inertia * pair->bb[i / 3][i % 3];
+  if (source->density > 0.0) {
+    const LinearField body = PairBodyForce(term, source, gravity, pair->centre);
+    LinearFieldAdd(1.0, &body, &density);
+    WallAdd(&term->start, &start, &density);
+    MassMomentsAdd(term->inertia, &mass, &k->inertia);
+    for (int c = 0; c < 2; c++) density.value[c] -= element->outside_weight[c];
+    k->outside += pair->area;
     k->flags |= CORACLE_HAS_INERTIA;
   }
-  AddSource(&term->a, (const double(*)[3])cu, k->s);
-  if (o->phases) AddOutsideWeight(pair, term->outside_weight, k->s);
-  for (int i = 0; i < 6; i++) k->s[i / 3][i % 3] += cq[i / 3][i % 3];
-  for (int d = 0; d < 2; d++) k->velocity[d] += (cv[d][0] + cv[d][1] + cv[d][2]) / o->area[pair->b];
-  if (source->is_shell) {
+  VectorMomentsAdd(pair, &density, d, &k->s);
+  for (int c = 0; c < 2; c++) k->velocity[c] += pair->area * start.value[c];
+  if (is_shell) {
     k->flags |= CORACLE_HAS_SHELL;
-    k->shell += fraction;
+    k->shell += pair->area;
   } else {
-    k->alpha += fraction;
-    if (held) AddSolidMass(pair->bb, (const double(*)[3])cu, k);
+    k->alpha += pair->area;
+    if (source->density > 0.0) return;
+    MassMomentsAdd(1.0, &mass, &k->solid);
+    VectorMomentsAdd(pair, &us, d, &k->us);
   }
 }
 
-void WallTermAssemble(const Overlap o, const PairTerm term[], const double density[],
-                      const WallCoefficient tangential[], const double start_velocity[][3][2],
-                      CoracleCoupling coupling[])
+/* int a N_i N_j of one component of a to a[c][i][d][j] */
+static void SetTensor(const SupermeshBasis *basis, const MassMoments *m, int c, int d, CoracleCoupling *k)
 {
-  for (int e = 0; e < o->ncoupled; e++) coupling[e] = (CoracleCoupling){.element = o->coupled_element[e]};
-  for (int p = 0; p < o->pairs.n; p++) {
-    const SupermeshPair *pair = &o->pairs.pair[p];
-    AddPair(o, pair, &term[p], density[pair->a] == 0.0 ? PETSC_TRUE : PETSC_FALSE, start_velocity[pair->a],
-            &coupling[o->coupled_index[p]]);
+  double matrix[3][3];
+  if (m->zero == 0.0) return;
+  MassMomentsMatrix(basis, m, matrix);
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) k->a[c][i][d][j] = matrix[i][j];
+}
+
+static void SetVectors(const SupermeshBasis *basis, const VectorMoments *m, double to[2][3])
+{
+  double vertex[3][2];
+  VectorMomentsVertices(basis, m, vertex);
+  for (int i = 0; i < 6; i++) to[i / 3][i % 3] = vertex[i % 3][i / 3];
+}
+
+/* Of element K, whose coupling is 0 so far. */
+static void SetCoupling(const Overlap o, const ElementSums *sums, const ElementTerm *element,
+                        CoracleCoupling *k)
+{
+  const SupermeshBasis *basis = &o->basis[k->element];
+  const double area = o->area[k->element], both = sums->alpha + sums->shell;
+  k->flags = sums->flags | (element->covered ? CORACLE_IS_COVERED : 0);
+  k->alpha = sums->alpha / area;
+  k->shell = sums->shell / area;
+  SetTensor(basis, &sums->xx, 0, 0, k);
+  SetTensor(basis, &sums->yy, 1, 1, k);
+  SetTensor(basis, &sums->xy, 0, 1, k);
+  SetTensor(basis, &sums->xy, 1, 0, k);
+  SetVectors(basis, &sums->s, k->s);
+  for (int i = 0; i < 6; i++) k->s[i / 3][i % 3] += element->outside_weight[i / 3] * sums->outside / 3.0;
+  for (int c = 0; c < 2; c++) k->velocity[c] = sums->velocity[c] / both;
+  if (sums->solid.zero > 0.0) {
+    MassMomentsMatrix(basis, &sums->solid, k->ms);
+    SetVectors(basis, &sums->us, k->us);
   }
+  if (!(sums->flags & CORACLE_HAS_INERTIA)) return;
+  const WallCoefficient kept = InertiaKept(o, &element->tangential);
+  memcpy(k->kept, (double[2][2]){{kept.xx, kept.xy}, {kept.xy, kept.yy}}, sizeof k->kept);
+  MassMomentsMatrix(basis, &sums->inertia, k->implicit_inertia);
+}
+
+void WallTermAssemble(const Overlap o, const PairTerm term[], const ElementTerm element[],
+                      const SourceTerm source[], const double gravity[2], CoracleCoupling coupling[])
+{
   for (int e = 0; e < o->ncoupled; e++) {
-    const WallCoefficient kept = InertiaKept(o, &tangential[e]);
-    if (!(coupling[e].flags & CORACLE_HAS_INERTIA)) continue;
-    memcpy(coupling[e].kept, (double[2][2]){{kept.xx, kept.xy}, {kept.xy, kept.yy}}, sizeof coupling[e].kept);
+    ElementSums sums = {.flags = 0};
+    coupling[e] = (CoracleCoupling){.element = o->coupled_element[e]};
+    for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
+      const int p = o->of_element[i];
+      const SupermeshPair *pair = &o->pairs.pair[p];
+      double d[2];
+      SupermeshCentreInB(pair, &o->source_basis[pair->a], &o->basis[pair->b], d);
+      AddPair(pair, &term[p], &element[e], &source[pair->a], (PetscBool)o->source[pair->a].is_shell, gravity,
+              d, &sums);
+    }
+    SetCoupling(o, &sums, &element[e], &coupling[e]);
   }
-  for (int e = 0; e < o->ncoupled; e++)
-    for (int d = 0; d < 2; d++) coupling[e].velocity[d] /= coupling[e].alpha + coupling[e].shell;
 }
