@@ -123,7 +123,9 @@ static PetscErrorCode SetSourceTerms(Coupler c, const double u[])
     const SupermeshBasis *basis = &o->source_basis[t];
     const double *p = vertex[t][0], *q = vertex[t][1], *r = vertex[t][2];
     c->source[t].velocity = LinearFieldOf(basis, p + VELOCITY, q + VELOCITY, r + VELOCITY);
-    c->source[t].acceleration = LinearFieldOf(basis, p + ACCELERATION, q + ACCELERATION, r + ACCELERATION);
+    const LinearField a = LinearFieldOf(basis, p + ACCELERATION, q + ACCELERATION, r + ACCELERATION);
+    c->source[t].force = (LinearField){{0.0}, {{0.0}}};
+    LinearFieldAdd(c->source[t].density, &a, &c->source[t].force);
     c->source[t].interface_acceleration = LinearFieldOf(basis, p + INTERFACE, q + INTERFACE, r + INTERFACE);
   }
   PetscCall(PetscFree2(node, vertex));
@@ -136,7 +138,7 @@ PetscErrorCode CouplerSetInterfaceVelocity(Coupler c, const double u[], int *n,
   PetscFunctionBeginUser;
   PetscCall(SetSourceTerms(c, u));
   c->us = u;
-  WallTermAssemble(c->overlap, c->term, c->element, c->source, c->options.gravity, c->coupling);
+  PetscCall(WallTermAssemble(c->overlap, c->term, c->element, c->source, c->options.gravity, c->coupling));
   *n = c->overlap->ncoupled;
   *coupling = c->coupling;
   PetscFunctionReturn(0);

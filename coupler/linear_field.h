@@ -6,8 +6,8 @@
  * centre.  Sums of fields times coefficients are linear too, so that a pair's terms are first added and then integrated, once;
  * and what is integrated is summed over a triangle's pairs before its functions come in, once a triangle:
  *
- *     pair       m0 += int q,  m1 += int q (x - origin)^T          VectorMomentsAdd
- *     triangle   int N_i q  =  m1 grad N_i,  i = 1, 2              VectorMomentsVertices; N_0 = 1 - N_1 - N_2
+ *     pair       m0 += int q,  m1 += int (x - origin) q^T          VectorMomentsAdd
+ *     triangle   int N_i q  =  grad N_i . m1,  i = 1, 2              VectorMomentsVertices; N_0 = 1 - N_1 - N_2
  *
  * and likewise int N_i N_j with the moments up to the second of a coefficient (MassMoments). */
 #ifndef CORACLE_LINEAR_FIELD_H
@@ -15,11 +15,11 @@
 #include "common/supermesh/supermesh.h"
 
 typedef struct {
-  double value[2], gradient[2][2]; /* gradient[c][d]: of component c along axis d */
+  double value[2], gradient[2][2]; /* gradient[d]: of both components along axis d */
 } LinearField;
 
 typedef struct {
-  double zero[2], first[2][2];
+  double zero[2], first[2][2]; /* first[d]: of both components times x_d */
 } VectorMoments;
 
 /* second: xx, xy, yy */
@@ -32,11 +32,10 @@ static inline LinearField LinearFieldOf(const SupermeshBasis *basis, const doubl
                                         const double c[2])
 {
   LinearField q;
-  for (int k = 0; k < 2; k++) {
-    q.value[k] = a[k];
-    for (int d = 0; d < 2; d++)
-      q.gradient[k][d] = (b[k] - a[k]) * basis->gradient[0][d] + (c[k] - a[k]) * basis->gradient[1][d];
-  }
+  for (int k = 0; k < 2; k++) q.value[k] = a[k];
+  for (int d = 0; d < 2; d++)
+    for (int k = 0; k < 2; k++)
+      q.gradient[d][k] = (b[k] - a[k]) * basis->gradient[0][d] + (c[k] - a[k]) * basis->gradient[1][d];
   return q;
 }
 
@@ -53,33 +52,38 @@ static inline LinearField LinearFieldOnElement(const SupermeshBasis *basis, cons
                        (const double[2]){u[2], u[5]});
 }
 
+/* value = q at d from its origin */
+static inline void LinearFieldValue(const LinearField *q, const double d[2], double value[2])
+{
+  for (int c = 0; c < 2; c++) value[c] = q->value[c] + q->gradient[0][c] * d[0] + q->gradient[1][c] * d[1];
+}
+
 /* The same field with its origin moved by d. */
 static inline LinearField LinearFieldAt(const LinearField *q, const double d[2])
 {
   LinearField at = *q;
-  for (int c = 0; c < 2; c++) at.value[c] += q->gradient[c][0] * d[0] + q->gradient[c][1] * d[1];
+  LinearFieldValue(q, d, at.value);
   return at;
 }
 
 /* to += factor q */
 static inline void LinearFieldAdd(double factor, const LinearField *q, LinearField *to)
 {
-  for (int c = 0; c < 2; c++) {
-    to->value[c] += factor * q->value[c];
-    for (int d = 0; d < 2; d++) to->gradient[c][d] += factor * q->gradient[c][d];
-  }
+  for (int c = 0; c < 2; c++) to->value[c] += factor * q->value[c];
+  for (int d = 0; d < 2; d++)
+    for (int c = 0; c < 2; c++) to->gradient[d][c] += factor * q->gradient[d][c];
 }
 
 /* q, seen from the pair's centre; d: the centre from the origin of m. */
 static inline void VectorMomentsAdd(const SupermeshPair *pair, const LinearField *q, const double d[2],
                                     VectorMoments *m)
 {
-  const double *s = pair->second;
+  const double *s = pair->second, *gx = q->gradient[0], *gy = q->gradient[1];
   for (int c = 0; c < 2; c++) {
-    const double all = pair->area * q->value[c], *g = q->gradient[c];
+    const double all = pair->area * q->value[c];
     m->zero[c] += all;
-    m->first[c][0] += all * d[0] + s[0] * g[0] + s[1] * g[1];
-    m->first[c][1] += all * d[1] + s[1] * g[0] + s[2] * g[1];
+    m->first[0][c] += all * d[0] + s[0] * gx[c] + s[1] * gy[c];
+    m->first[1][c] += all * d[1] + s[1] * gx[c] + s[2] * gy[c];
   }
 }
 
@@ -87,11 +91,10 @@ static inline void VectorMomentsAdd(const SupermeshPair *pair, const LinearField
 static inline void VectorMomentsVertices(const SupermeshBasis *basis, const VectorMoments *m,
                                          double vertex[3][2])
 {
-  for (int c = 0; c < 2; c++) {
-    for (int i = 1; i < 3; i++)
-      vertex[i][c] = m->first[c][0] * basis->gradient[i - 1][0] + m->first[c][1] * basis->gradient[i - 1][1];
-    vertex[0][c] = m->zero[c] - vertex[1][c] - vertex[2][c];
-  }
+  for (int i = 1; i < 3; i++)
+    for (int c = 0; c < 2; c++)
+      vertex[i][c] = m->first[0][c] * basis->gradient[i - 1][0] + m->first[1][c] * basis->gradient[i - 1][1];
+  for (int c = 0; c < 2; c++) vertex[0][c] = m->zero[c] - vertex[1][c] - vertex[2][c];
 }
 
 /* Of 1 over the pair. */

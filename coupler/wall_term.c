@@ -1,50 +1,72 @@
 #include "coupler/inertia.h"
 
-/* Sums over the pairs of one element, with its basis as the origin. */
+/* Sums over the pairs of one element, with its basis as the origin: of all elements, and of those with an a or what is held. */
+typedef struct {
+  VectorMoments s;
+  MassMoments inertia;
+  double velocity[2];           /* int v */
+  double alpha, shell, outside; /* m2; outside: of pairs that move weight to beside the solid */
+  int flags, has_wall;
+} ElementSums;
 typedef struct {
   MassMoments xx, xy, yy; /* of a */
-  MassMoments inertia, solid;
-  VectorMoments s, us;
-  double velocity[2], area;     /* int v, m2 */
-  double alpha, shell, outside; /* m2; outside: of pairs that move weight to beside the solid */
-  int flags;
-} ElementSums;
+  MassMoments solid;      /* held */
+  VectorMoments us;       /* held */
+} WallSums;
+
+/* a of one pair, and what is held; density += a u_s. */
+static void AddWall(const SupermeshPair *pair, const WallCoefficient *a, const SourceTerm *source,
+                    PetscBool held, const MassMoments *mass, const double d[2], LinearField *density,
+                    WallSums *w)
+{
+  const LinearField us = LinearFieldAt(&source->velocity, pair->centre);
+  WallAdd(a, &us, density);
+  MassMomentsAdd(a->xx, mass, &w->xx);
+  MassMomentsAdd(a->xy, mass, &w->xy);
+  MassMomentsAdd(a->yy, mass, &w->yy);
+  if (!held) return;
+  MassMomentsAdd(1.0, mass, &w->solid);
+  VectorMomentsAdd(pair, &us, d, &w->us);
+}
+
+/* The solid's inertia of one pair; density += what it begins with and the body force. */
+static void AddInertia(const SupermeshPair *pair, const PairTerm *term, const ElementTerm *element,
+                       const SourceTerm *source, const double gravity[2], const MassMoments *mass,
+                       LinearField *density, ElementSums *k)
+{
+  const LinearField body = PairBodyForce(term, source, gravity, pair->centre);
+  LinearFieldAdd(1.0, &body, density);
+  for (int c = 0; c < 2; c++) density->value[c] -= element->outside_weight[c];
+  if (!WallIsZero(&term->start)) {
+    const LinearField start = LinearFieldAt(&source->start, pair->centre);
+    WallAdd(&term->start, &start, density);
+  }
+  MassMomentsAdd(term->inertia, mass, &k->inertia);
+  k->outside += pair->area;
+  k->flags |= CORACLE_HAS_INERTIA;
+}
 
 /* d: the pair's centre from the origin of its element. */
 static void AddPair(const SupermeshPair *pair, const PairTerm *term, const ElementTerm *element,
                     const SourceTerm *source, PetscBool is_shell, const double gravity[2], const double d[2],
-                    ElementSums *k)
+                    ElementSums *k, WallSums *w)
 {
+  const PetscBool is_free = source->density > 0.0 ? PETSC_TRUE : PETSC_FALSE,
+                  held = (PetscBool)(!is_shell && !is_free);
   const MassMoments mass = PairMass(pair, d);
-  const LinearField start = LinearFieldAt(&source->start, pair->centre),
-                    us = LinearFieldAt(&source->velocity, pair->centre);
   LinearField density = {{0.0}, {{0.0}}};
-  if (!WallIsZero(&term->a)) {
-    WallAdd(&term->a, &us, &density);
-    MassMomentsAdd(term->a.xx, &mass, &k->xx);
-    MassMomentsAdd(term->a.yy, &mass, &k->yy);
-    if (term->a.xy != 0.0) MassMomentsAdd(term->a.xy, &mass, &k->xy);
-  }
-  if (source->density > 0.0) {
-    const LinearField body = PairBodyForce(term, source, gravity, pair->centre);
-    LinearFieldAdd(1.0, &body, &density);
-    WallAdd(&term->start, &start, &density);
-    MassMomentsAdd(term->inertia, &mass, &k->inertia);
-    for (int c = 0; c < 2; c++) density.value[c] -= element->outside_weight[c];
-    k->outside += pair->area;
-    k->flags |= CORACLE_HAS_INERTIA;
+  double v[2];
+  LinearFieldValue(&source->start, pair->centre, v);
+  for (int c = 0; c < 2; c++) k->velocity[c] += pair->area * v[c];
+  *(is_shell ? &k->shell : &k->alpha) += pair->area;
+  if (is_shell) k->flags |= CORACLE_HAS_SHELL;
+  if (is_free) AddInertia(pair, term, element, source, gravity, &mass, &density, k);
+  if (held || !WallIsZero(&term->a)) {
+    if (!k->has_wall) *w = (WallSums){.us = {{0.0}, {{0.0}}}};
+    k->has_wall = 1;
+    AddWall(pair, &term->a, source, held, &mass, d, &density, w);
   }
   VectorMomentsAdd(pair, &density, d, &k->s);
-  for (int c = 0; c < 2; c++) k->velocity[c] += pair->area * start.value[c];
-  if (is_shell) {
-    k->flags |= CORACLE_HAS_SHELL;
-    k->shell += pair->area;
-  } else {
-    k->alpha += pair->area;
-    if (source->density > 0.0) return;
-    MassMomentsAdd(1.0, &mass, &k->solid);
-    VectorMomentsAdd(pair, &us, d, &k->us);
-  }
 }
 
 /* int a N_i N_j of one component of a to a[c][i][d][j] */
@@ -65,45 +87,51 @@ static void SetVectors(const SupermeshBasis *basis, const VectorMoments *m, doub
 }
 
 /* Of element K, whose coupling is 0 so far. */
-static void SetCoupling(const Overlap o, const ElementSums *sums, const ElementTerm *element,
-                        CoracleCoupling *k)
+static void SetCoupling(const Overlap o, const ElementSums *sums, const WallSums *w,
+                        const ElementTerm *element, CoracleCoupling *k)
 {
   const SupermeshBasis *basis = &o->basis[k->element];
-  const double area = o->area[k->element], both = sums->alpha + sums->shell;
+  const double area = o->area[k->element];
   k->flags = sums->flags | (element->covered ? CORACLE_IS_COVERED : 0);
   k->alpha = sums->alpha / area;
   k->shell = sums->shell / area;
-  SetTensor(basis, &sums->xx, 0, 0, k);
-  SetTensor(basis, &sums->yy, 1, 1, k);
-  SetTensor(basis, &sums->xy, 0, 1, k);
-  SetTensor(basis, &sums->xy, 1, 0, k);
+  for (int c = 0; c < 2; c++) k->velocity[c] = sums->velocity[c] / (sums->alpha + sums->shell);
   SetVectors(basis, &sums->s, k->s);
   for (int i = 0; i < 6; i++) k->s[i / 3][i % 3] += element->outside_weight[i / 3] * sums->outside / 3.0;
-  for (int c = 0; c < 2; c++) k->velocity[c] = sums->velocity[c] / both;
-  if (sums->solid.zero > 0.0) {
-    MassMomentsMatrix(basis, &sums->solid, k->ms);
-    SetVectors(basis, &sums->us, k->us);
+  if (sums->flags & CORACLE_HAS_INERTIA) {
+    const WallCoefficient kept = InertiaKept(o, &element->tangential);
+    memcpy(k->kept, (double[2][2]){{kept.xx, kept.xy}, {kept.xy, kept.yy}}, sizeof k->kept);
+    MassMomentsMatrix(basis, &sums->inertia, k->implicit_inertia);
   }
-  if (!(sums->flags & CORACLE_HAS_INERTIA)) return;
-  const WallCoefficient kept = InertiaKept(o, &element->tangential);
-  memcpy(k->kept, (double[2][2]){{kept.xx, kept.xy}, {kept.xy, kept.yy}}, sizeof k->kept);
-  MassMomentsMatrix(basis, &sums->inertia, k->implicit_inertia);
+  if (!sums->has_wall) return;
+  SetTensor(basis, &w->xx, 0, 0, k);
+  SetTensor(basis, &w->yy, 1, 1, k);
+  SetTensor(basis, &w->xy, 0, 1, k);
+  SetTensor(basis, &w->xy, 1, 0, k);
+  MassMomentsMatrix(basis, &w->solid, k->ms);
+  SetVectors(basis, &w->us, k->us);
 }
 
-void WallTermAssemble(const Overlap o, const PairTerm term[], const ElementTerm element[],
-                      const SourceTerm source[], const double gravity[2], CoracleCoupling coupling[])
+PetscErrorCode WallTermAssemble(const Overlap o, const PairTerm term[], const ElementTerm element[],
+                                const SourceTerm source[], const double gravity[2],
+                                CoracleCoupling coupling[])
 {
+  WallSums w;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscArrayzero(coupling, o->ncoupled));
   for (int e = 0; e < o->ncoupled; e++) {
     ElementSums sums = {.flags = 0};
-    coupling[e] = (CoracleCoupling){.element = o->coupled_element[e]};
+    coupling[e].element = o->coupled_element[e];
     for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
       const int p = o->of_element[i];
       const SupermeshPair *pair = &o->pairs.pair[p];
       double d[2];
       SupermeshCentreInB(pair, &o->source_basis[pair->a], &o->basis[pair->b], d);
       AddPair(pair, &term[p], &element[e], &source[pair->a], (PetscBool)o->source[pair->a].is_shell, gravity,
-              d, &sums);
+              d, &sums, &w);
     }
-    SetCoupling(o, &sums, &element[e], &coupling[e]);
+    SetCoupling(o, &sums, &w, &element[e], &coupling[e]);
   }
+  PetscFunctionReturn(0);
 }

@@ -92,10 +92,11 @@ typedef struct {
 
 /* What a source triangle's vertices have, with its basis as the origin. */
 typedef struct {
-  double density;                                   /* rho_s, kg/m3; 0: held, or of the shell (inertia.h) */
-  LinearField velocity;                             /* u_s, that the fluid couples to, m/s */
-  LinearField start;                                /* v, the solid's at the step's start, m/s */
-  LinearField acceleration, interface_acceleration; /* a and a' of the body force (inertia.h), m/s2 */
+  double density;                     /* rho_s, kg/m3; 0: held, or of the shell (inertia.h) */
+  LinearField velocity;               /* u_s, that the fluid couples to, m/s */
+  LinearField start;                  /* v, the solid's at the step's start, m/s */
+  LinearField force;                  /* rho_s a of the body force (inertia.h), N/m3 */
+  LinearField interface_acceleration; /* a' of the body force, m/s2 */
 } SourceTerm;
 
 /* to += a q */
@@ -104,24 +105,28 @@ static inline void WallAdd(const WallCoefficient *a, const LinearField *q, Linea
   to->value[0] += a->xx * q->value[0] + a->xy * q->value[1];
   to->value[1] += a->xy * q->value[0] + a->yy * q->value[1];
   for (int d = 0; d < 2; d++) {
-    to->gradient[0][d] += a->xx * q->gradient[0][d] + a->xy * q->gradient[1][d];
-    to->gradient[1][d] += a->xy * q->gradient[0][d] + a->yy * q->gradient[1][d];
+    to->gradient[d][0] += a->xx * q->gradient[d][0] + a->xy * q->gradient[d][1];
+    to->gradient[d][1] += a->xy * q->gradient[d][0] + a->yy * q->gradient[d][1];
   }
 }
 
-/* The body force q of a pair of a triangle that is not held, its centre at d from the triangle's origin: linear there. */
+/* The body force q on a pair with a triangle that is not held, seen from the pair's centre. */
 static inline LinearField PairBodyForce(const PairTerm *term, const SourceTerm *source,
-                                        const double gravity[2], const double d[2])
+                                        const double gravity[2], const double centre[2])
 {
   const double excess = fmax(term->rho - source->density, 0.0);
-  LinearField from_origin = {{-term->rho * gravity[0], -term->rho * gravity[1]}, {{0.0}}};
-  LinearFieldAdd(source->density, &source->acceleration, &from_origin);
-  if (excess > 0.0) LinearFieldAdd(excess, &source->interface_acceleration, &from_origin);
-  return LinearFieldAt(&from_origin, d);
+  LinearField q = LinearFieldAt(&source->force, centre);
+  for (int c = 0; c < 2; c++) q.value[c] -= term->rho * gravity[c];
+  if (excess > 0.0) {
+    const LinearField a = LinearFieldAt(&source->interface_acceleration, centre);
+    LinearFieldAdd(excess, &a, &q);
+  }
+  return q;
 }
 
 /* Local: coupling[overlap->ncoupled], one per coupled element (coracle.h has shapes and units), from term[pairs.n],
  * element[ncoupled] and source[nsources]; the elements' mean velocity is of the solid's at the step's start. */
-void WallTermAssemble(const Overlap overlap, const PairTerm term[], const ElementTerm element[],
-                      const SourceTerm source[], const double gravity[2], CoracleCoupling coupling[]);
+PetscErrorCode WallTermAssemble(const Overlap overlap, const PairTerm term[], const ElementTerm element[],
+                                const SourceTerm source[], const double gravity[2],
+                                CoracleCoupling coupling[]);
 #endif
