@@ -3,7 +3,7 @@
  * fused multiply-adds both give the same bits.  (Not under sanitizers, which start after the loader has chosen.) */
 #ifndef CORACLE_VECTORIZE_H
 #define CORACLE_VECTORIZE_H
-#include <stddef.h> /* __GLIBC__ */
+#include <stdlib.h> /* __GLIBC__ */
 
 #if defined(__clang__)
 #define VECTORIZE _Pragma("clang loop vectorize(assume_safety)")
