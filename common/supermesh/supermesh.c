@@ -181,19 +181,21 @@ static void Clip(const double a[3][2], const double b[3][2], int k, Batch *batch
   if (n) SetCommon(&m, (Place){polygon[0][0] - a[0][0], polygon[0][1] - a[0][1]}, k, batch);
 }
 
-/* There is room for them. */
+/* There is room for all of them.  Each is written, and the next one over it where it is none: which are is random to the
+ * processor. */
 static void AddPairs(int a, double area, int n, const int hit[], const Batch *batch, SupermeshPairs *pairs)
 {
+  SupermeshPair *next = pairs->pair + pairs->n;
   for (int k = 0; k < n; k++) {
-    const double least = area < batch->of_b[k] ? area : batch->of_b[k];
-    if (!(batch->of_b[k] > 0.0 && batch->area[k] > SLIVER * least)) continue;
-    pairs->pair[pairs->n++] =
-        (SupermeshPair){a,
-                        hit[k],
-                        batch->area[k],
-                        {batch->centre[0][k], batch->centre[1][k]},
-                        {batch->second[0][k], batch->second[1][k], batch->second[2][k]}};
+    const double of_b = batch->of_b[k], least = area < of_b ? area : of_b;
+    *next = (SupermeshPair){a,
+                            hit[k],
+                            batch->area[k],
+                            {batch->centre[0][k], batch->centre[1][k]},
+                            {batch->second[0][k], batch->second[1][k], batch->second[2][k]}};
+    next += (of_b > 0.0) & (batch->area[k] > SLIVER * least);
   }
+  pairs->n = (int)(next - pairs->pair);
 }
 
 int SupermeshIntersect(int na, const double a[][3][2], Search search, const double b[][3][2],
