@@ -8,7 +8,7 @@
  *        owner rank                              rank of fluid element K
  *      owned triangle T  ---(x, u_s, normal)--->  source triangle T
  *                                                       |   x  fluid element K  =  pair (T, K):
- *                                                       |   exact integrals over T and K
+ *                                                       |   moments of T and K's polygon
  *      owned triangle T  <---(sums at vertices)---  source triangle T
  *
  * Every part of T that the fluid covers is in exactly one pair on one rank, since each fluid element is on
