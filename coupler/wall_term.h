@@ -13,7 +13,7 @@
  *     implicit inertia  =  m B
  *     ms                =  B                  us  =  C^T u_s          T in the solid's volume, held
  *
- * with q a body force at the vertices of T, m the solid's inertia in the fluid's solve and start the inertia that begins with the
+ * with q a body force, linear on T, m the solid's inertia in the fluid's solve and start the inertia that begins with the
  * solid's velocity v (inertia.h); T is held where it has none.  The reaction (force.h) is made of the same coefficients and
  * integrals, so what the fluid gains the solid loses.  No field is projected, so none undershoots: a sum of
  * positive semidefinite coefficients times Gram matrices is positive semidefinite. */

@@ -2,8 +2,8 @@
 #include "common/supermesh/vectorize.h"
 #include <stdlib.h>
 
-#define SLIVER 1e-13
-#define THIN 50.0 /* longest edge squared over twice the area, of triangles that are clipped one by one */
+#define SLIVER 1e-13 /* of the smaller area; round-off is 1e-16 times a slenderness of THIN at most */
+#define THIN 50.0    /* longest edge squared over twice the area, of triangles that are clipped one by one */
 
 /* Candidates side by side, so that the loop over them is vectorised. */
 enum { BATCH = 64 };
@@ -18,11 +18,12 @@ typedef struct {
   double one, x, y, xx, xy, yy;
 } Moments;
 
-/* From the origin, which is vertex 0 of a triangle with the edges e, f from there and twice its area: p, and of p
- * the triangle's functions N_1, N_2, N_0 times that. */
 typedef struct {
   double x, y;
 } Place;
+
+/* A place from the origin, which is vertex 0 of a triangle with the edges e, f from there, and the triangle's functions N_1, N_2, N_0
+ * there times twice its area. */
 typedef struct {
   Place at;
   double first, second, third;
