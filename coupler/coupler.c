@@ -27,8 +27,8 @@ PetscErrorCode CouplerSetElements(Coupler c, const FluidElements *elements)
 static PetscErrorCode FreeStep(Coupler c)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscFree3(c->term, c->coupling, c->tangential));
-  PetscCall(PetscFree4(c->vertex, c->start_velocity, c->density, c->force));
+  PetscCall(PetscFree3(c->term, c->coupling, c->element));
+  PetscCall(PetscFree3(c->vertex, c->source, c->force));
   PetscCall(PetscFree5(c->node, c->start, c->predicted, c->acceleration, c->explicit_fraction));
   PetscCall(PetscFree(c->mobility));
   PetscFunctionReturn(0);
@@ -41,17 +41,16 @@ static PetscErrorCode NewStep(Coupler c, const SolidState *solid)
 
   PetscFunctionBeginUser;
   PetscCall(FreeStep(c));
-  PetscCall(PetscMalloc3(o->pairs.n, &c->term, o->ncoupled, &c->coupling, o->ncoupled, &c->tangential));
-  PetscCall(PetscMalloc4(3 * nsources, &c->vertex, nsources, &c->start_velocity, nsources, &c->density, 2 * n,
-                         &c->force));
+  PetscCall(PetscMalloc3(o->pairs.n, &c->term, o->ncoupled, &c->coupling, o->ncoupled, &c->element));
+  PetscCall(PetscMalloc3(3 * nsources, &c->vertex, nsources, &c->source, 2 * n, &c->force));
   PetscCall(PetscMalloc5(n, &c->node, 2 * n, &c->start, 2 * n, &c->predicted, 2 * n, &c->acceleration, n,
                          &c->explicit_fraction));
   PetscCall(PetscMalloc1(n, &c->mobility));
   PetscCall(PetscArrayzero(c->term, o->pairs.n));
-  PetscCall(PetscArrayzero(c->tangential, o->ncoupled));
-  PetscCall(PetscArrayzero(c->density, nsources));
+  PetscCall(PetscArrayzero(c->element, o->ncoupled));
+  PetscCall(PetscArrayzero(c->source, nsources));
   for (size_t t = 0; t < nsources; t++)
-    PetscCall(PetscArraycpy(&c->start_velocity[t][0][0], &o->source[t].u[0][0], 6));
+    c->source[t].start = LinearFieldOnSource(&o->source_basis[t], (const double(*)[2])o->source[t].u);
   PetscCall(PetscArraycpy(c->start, solid->u, 2 * n));
   PetscCall(PetscArraycpy(c->mobility, solid->mobility, n));
   c->nnodes = solid->nnodes;
@@ -83,7 +82,7 @@ static PetscErrorCode BuildAt(Coupler c, const SolidState *solid, const double x
   PetscCall(NewStep(c, &at));
   c->built = 1;
   PetscCall(c->mode->coefficients(c, &at));
-  PetscCall(InertiaExplicitFraction(c->overlap, &at, c->density, c->explicit_fraction));
+  PetscCall(InertiaExplicitFraction(c->overlap, &at, c->source, c->explicit_fraction));
   PetscFunctionReturn(0);
 }
 
@@ -105,24 +104,42 @@ PetscErrorCode CouplerBuild(Coupler c, const SolidState *solid, double dt, int *
   PetscFunctionReturn(0);
 }
 
+/* The source triangles' velocity, acceleration and interface acceleration of this rank's nodes. */
+static PetscErrorCode SetSourceTerms(Coupler c, const double u[])
+{
+  enum { VELOCITY, ACCELERATION = 2, INTERFACE = 4, NVALUES = 6 };
+  const Overlap o = c->overlap;
+  double(*node)[NVALUES], (*vertex)[3][NVALUES];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(c->nnodes, &node, o->nsources, &vertex));
+  for (int k = 0; k < 2 * c->nnodes; k++) {
+    node[k / 2][VELOCITY + k % 2] = u[k];
+    node[k / 2][ACCELERATION + k % 2] = c->acceleration[k];
+    node[k / 2][INTERFACE + k % 2] = (u[k] - c->start[k]) / c->dt;
+  }
+  PetscCall(OverlapNodesToSources(o, NVALUES, (const double *)node, (double *)vertex));
+  for (int t = 0; t < o->nsources; t++) {
+    const SupermeshBasis *basis = &o->source_basis[t];
+    const double *p = vertex[t][0], *q = vertex[t][1], *r = vertex[t][2];
+    c->source[t].velocity = LinearFieldOf(basis, p + VELOCITY, q + VELOCITY, r + VELOCITY);
+    const LinearField a = LinearFieldOf(basis, p + ACCELERATION, q + ACCELERATION, r + ACCELERATION);
+    c->source[t].force = (LinearField){{0.0}, {{0.0}}};
+    LinearFieldAdd(c->source[t].density, &a, &c->source[t].force);
+    c->source[t].interface_acceleration = LinearFieldOf(basis, p + INTERFACE, q + INTERFACE, r + INTERFACE);
+  }
+  PetscCall(PetscFree2(node, vertex));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode CouplerSetInterfaceVelocity(Coupler c, const double u[], int *n,
                                            const CoracleCoupling **coupling)
 {
-  const Overlap o = c->overlap;
-  double(*velocity)[3][2], *acceleration;
-
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2(o->nsources, &velocity, 2 * (size_t)c->nnodes, &acceleration));
-  PetscCall(OverlapNodesToSources(o, 2, u, (double *)velocity));
-  for (int t = 0; t < o->nsources; t++)
-    PetscCall(PetscMemcpy(o->source[t].u, velocity[t], sizeof velocity[t]));
-  for (int k = 0; k < 2 * c->nnodes; k++) acceleration[k] = (u[k] - c->start[k]) / c->dt;
-  PetscCall(InertiaBodyForce(o, c->density, c->acceleration, acceleration, c->options.gravity, c->term));
-  PetscCall(PetscFree2(velocity, acceleration));
+  PetscCall(SetSourceTerms(c, u));
   c->us = u;
-  WallTermAssemble(o, c->term, c->density, c->tangential, (const double(*)[3][2])c->start_velocity,
-                   c->coupling);
-  *n = o->ncoupled;
+  PetscCall(WallTermAssemble(c->overlap, c->term, c->element, c->source, c->options.gravity, c->coupling));
+  *n = c->overlap->ncoupled;
   *coupling = c->coupling;
   PetscFunctionReturn(0);
 }
@@ -160,9 +177,7 @@ PetscErrorCode CouplerNoCorrection(Coupler c, const SolidState *moved)
 PetscErrorCode CouplerConservativeForce(Coupler c)
 {
   PetscFunctionBeginUser;
-  ForceReaction(c->overlap, c->term, (const double(*)[3][2])c->start_velocity, &c->flow, c->vertex);
-  ForceInertia(c->overlap, c->dt, c->options.gravity, c->flow.u_projected,
-               (const double(*)[3][2])c->start_velocity, c->vertex);
+  PetscCall(ForceOfPairs(c->overlap, c->term, c->source, c->options.gravity, c->dt, &c->flow, c->vertex));
   PetscCall(ForceAssembleToOwners(c->overlap, c->vertex, c->nnodes, c->node));
   for (int i = 0; i < c->history.n; i++)
     for (int d = 0; d < 2; d++) c->node[i].other[d] -= c->history.retained[i][d] / c->dt;
@@ -199,16 +214,16 @@ static PetscErrorCode StoreHistory(Coupler c, const SolidState *moved)
   PetscFunctionReturn(0);
 }
 
-/* Momentum that the fluid inside keeps of its slip, to the history's nodes; u[nsources][3][2]: the solid's velocity
- * at the step's end. */
-static PetscErrorCode StoreRetained(Coupler c, const SolidState *moved, const double u[][3][2])
+/* Momentum that the fluid inside keeps of its slip, to the history's nodes; u[nsources]: the solid's velocity at the
+ * step's end. */
+static PetscErrorCode StoreRetained(Coupler c, const SolidState *moved, const LinearField u[])
 {
   const Overlap o = c->overlap;
   double(*source)[3][2], (*owned)[3][2];
 
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc2(o->nsources, &source, o->nowned, &owned));
-  SlipRetained(o, c->tangential, u, c->flow.u_projected, source);
+  SlipRetained(o, c->element, u, c->flow.u_projected, source);
   PetscCall(OverlapReverseAdd(o, 6, (const double *)source, (double *)owned));
   for (int k = 0; k < 3 * o->nvolume; k++)
     for (int d = 0; d < 2; d++) c->history.retained[moved->element[k]][d] += owned[k / 3][k % 3][d];
@@ -220,20 +235,23 @@ static PetscErrorCode StoreRetained(Coupler c, const SolidState *moved, const do
 PetscErrorCode CouplerSolidCorrection(Coupler c, const SolidState *moved)
 {
   const Overlap o = c->overlap;
-  double(*owned)[3][2], (*u)[3][2];
+  double(*owned)[3][2], (*vertex)[3][2];
+  LinearField *u;
 
   PetscFunctionBeginUser;
   PetscCheck(moved->nelements == o->nvolume, PETSC_COMM_SELF, PETSC_ERR_PLIB,
              "%d elements of the solid have become %d within a step", o->nvolume, moved->nelements);
   PetscCall(PetscCalloc1(o->nowned, &owned));
-  PetscCall(PetscMalloc1(o->nsources, &u));
+  PetscCall(PetscMalloc2(o->nsources, &vertex, o->nsources, &u));
   for (int k = 0; k < 3 * o->nvolume; k++)
     PetscCall(PetscArraycpy(owned[k / 3][k % 3], moved->u + 2 * moved->element[k], 2));
-  PetscCall(OverlapForward(o, 6, (const double *)owned, (double *)u));
-  ForceCorrection(o, (const double(*)[3][2])u, c->flow.u_projected, c->correction);
-  SlipCorrection(o, c->tangential, c->correction);
-  PetscCall(StoreRetained(c, moved, (const double(*)[3][2])u));
-  PetscCall(PetscFree(u));
+  PetscCall(OverlapForward(o, 6, (const double *)owned, (double *)vertex));
+  for (int t = 0; t < o->nsources; t++)
+    u[t] = LinearFieldOnSource(&o->source_basis[t], (const double(*)[2])vertex[t]);
+  ForceCorrection(o, u, c->flow.u_projected, c->correction);
+  SlipCorrection(o, c->element, c->correction);
+  PetscCall(StoreRetained(c, moved, u));
+  PetscCall(PetscFree2(vertex, u));
   PetscCall(PetscFree(owned));
   PetscFunctionReturn(0);
 }

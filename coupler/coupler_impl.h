@@ -10,11 +10,9 @@ struct Coupler_s {
   const CouplerModeTable *mode;
   Shell shell;
   Overlap overlap;
-  double dt;                      /* of the step that was built, s */
-  int built, nnodes;              /* nnodes: nodes that this rank owns */
-  const double *us;               /* [nnodes][2] the velocity that the fluid couples to, m/s; borrowed */
-  double (*start_velocity)[3][2]; /* [overlap->nsources] the solid's velocity at the step's start, m/s */
-  double *density;                /* [overlap->nsources] kg/m3 (inertia.h) */
+  double dt;         /* of the step that was built, s */
+  int built, nnodes; /* nnodes: nodes that this rank owns */
+  const double *us;  /* [nnodes][2] the velocity that the fluid couples to, m/s; borrowed */
   /* the solid as the step began, and what is predicted for the step */
   double *mobility;              /* [nnodes] 1/kg */
   double *start;                 /* [nnodes][2] velocity, m/s */
@@ -23,7 +21,8 @@ struct Coupler_s {
   double *explicit_fraction;     /* [nnodes] (inertia.h) */
   History history;               /* of the steps before */
   CoracleFlow flow;              /* borrowed */
-  WallCoefficient *tangential;   /* [overlap->ncoupled] D (slip.h) */
+  SourceTerm *source;            /* [overlap->nsources] */
+  ElementTerm *element;          /* [overlap->ncoupled] */
   PairTerm *term;                /* [overlap->pairs.n] */
   CoracleCoupling *coupling;     /* [overlap->ncoupled] */
   CoracleCorrection *correction; /* [overlap->ncoupled] */

@@ -1,72 +1,91 @@
 #include "coupler/force.h"
 
-/* change[i] = int over the pair of N_T,i (u+ - u start). */
-static void Change(const SupermeshPair *pair, const double u_projected[6], const double u_start[6],
-                   double change[3][2])
-{
-  double du[6];
-  for (int k = 0; k < 6; k++) du[k] = u_projected[k] - u_start[k];
-  for (int i = 0; i < 3; i++)
-    for (int c = 0; c < 2; c++)
-      change[i][c] =
-          pair->ab[i][0] * du[3 * c] + pair->ab[i][1] * du[3 * c + 1] + pair->ab[i][2] * du[3 * c + 2];
-}
+/* The flow on one coupled element. */
+typedef struct {
+  LinearField star, start, projected;
+} ElementFlow;
 
-/* The reaction of one pair: a slip + inertia change - q; inside solids a or the inertia is mostly 0. */
-static void AddReaction(const SupermeshPair *pair, const PairTerm *term, const double u[3][2],
-                        const double start_velocity[3][2], const CoracleFlow *flow, ForceVertex v[3])
+/* R's density, at the pair's centre; inside solids a or the inertia is mostly 0. */
+static LinearField Reaction(const PairTerm *term, const SourceTerm *source, const double gravity[2],
+                            const ElementFlow *flow, const LinearField *start, const double d[2])
 {
-  const size_t k = 6 * (size_t)pair->b;
-  double slip[3][2], change[3][2], r[2];
-  for (int i = 0; i < 3; i++)
-    for (int c = 0; c < 2; c++)
-      v[i].reaction[c] -=
-          pair->aa[i][0] * term->q[0][c] + pair->aa[i][1] * term->q[1][c] + pair->aa[i][2] * term->q[2][c];
+  LinearField reaction = {{0.0}, {{0.0}}};
   if (!WallIsZero(&term->a)) {
-    PairSlip(pair, &flow->u_star[k], u, slip);
-    for (int i = 0; i < 3; i++) {
-      WallApply(&term->a, slip[i], r);
-      for (int c = 0; c < 2; c++) v[i].reaction[c] += r[c];
-    }
+    const LinearField us = LinearFieldAt(&source->velocity, d);
+    LinearField slip = flow->star;
+    LinearFieldAdd(-1.0, &us, &slip);
+    WallAdd(&term->a, &slip, &reaction);
   }
+  if (source->density == 0.0) return reaction;
+  const LinearField body = PairBodyForce(term, source, gravity, d);
+  LinearFieldAdd(-1.0, &body, &reaction);
+  LinearFieldAdd(term->inertia, &flow->projected, &reaction);
+  LinearFieldAdd(-term->inertia, &flow->start, &reaction);
   if (!WallIsZero(&term->start)) {
-    PairSlip(pair, &flow->u_start[k], start_velocity, slip);
-    for (int i = 0; i < 3; i++) {
-      WallApply(&term->start, slip[i], r);
-      for (int c = 0; c < 2; c++) v[i].reaction[c] += r[c];
-    }
+    LinearField difference = flow->start;
+    LinearFieldAdd(-1.0, start, &difference);
+    WallAdd(&term->start, &difference, &reaction);
   }
-  if (term->inertia == 0.0) return;
-  Change(pair, &flow->u_projected[k], &flow->u_start[k], change);
+  return reaction;
+}
+
+/* The density of F_i + F_b. */
+static LinearField Other(double rho, double dt, const double gravity[2], const ElementFlow *flow,
+                         const LinearField *start)
+{
+  LinearField other = {{-rho * gravity[0], -rho * gravity[1]}, {{0.0}}};
+  LinearFieldAdd(rho / dt, &flow->projected, &other);
+  LinearFieldAdd(-rho / dt, start, &other);
+  return other;
+}
+
+static void SetVertices(const SupermeshBasis *basis, const VectorMoments *reaction,
+                        const VectorMoments *other, ForceVertex vertex[3])
+{
+  double r[3][2], o[3][2];
+  VectorMomentsVertices(basis, reaction, r);
+  VectorMomentsVertices(basis, other, o);
   for (int i = 0; i < 3; i++)
-    for (int c = 0; c < 2; c++) v[i].reaction[c] += term->inertia * change[i][c];
-}
-
-void ForceReaction(const Overlap o, const PairTerm term[], const double start_velocity[][3][2],
-                   const CoracleFlow *flow, ForceVertex vertex[])
-{
-  for (int p = 0; p < o->pairs.n; p++) {
-    const SupermeshPair *pair = &o->pairs.pair[p];
-    AddReaction(pair, &term[p], (const double(*)[2])o->source[pair->a].u, start_velocity[pair->a], flow,
-                &vertex[3 * pair->a]);
-  }
-}
-
-void ForceInertia(const Overlap o, double dt, const double gravity[2], const double u_projected[],
-                  const double start_velocity[][3][2], ForceVertex vertex[])
-{
-  for (int p = 0; p < o->pairs.n; p++) {
-    const SupermeshPair *pair = &o->pairs.pair[p];
-    if (o->source[pair->a].is_shell) continue;
-    const double rho = o->rho[pair->b];
-    ForceVertex *v = &vertex[3 * pair->a];
-    double q[3][2];
-    PairSlip(pair, &u_projected[6 * pair->b], start_velocity[pair->a], q);
-    for (int i = 0; i < 3; i++) {
-      const double mass = rho * (pair->aa[i][0] + pair->aa[i][1] + pair->aa[i][2]);
-      for (int c = 0; c < 2; c++) v[i].other[c] += rho / dt * q[i][c] - mass * gravity[c];
+    for (int c = 0; c < 2; c++) {
+      vertex[i].reaction[c] = r[i][c];
+      vertex[i].other[c] = o[i][c];
     }
+}
+
+PetscErrorCode ForceOfPairs(const Overlap o, const PairTerm term[], const SourceTerm source[],
+                            const double gravity[2], double dt, const CoracleFlow *flow, ForceVertex vertex[])
+{
+  ElementFlow *on;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(o->ncoupled, &on));
+  for (int e = 0; e < o->ncoupled; e++) {
+    const int k = o->coupled_element[e];
+    on[e] = (ElementFlow){LinearFieldOnElement(&o->basis[k], &flow->u_star[6 * k]),
+                          LinearFieldOnElement(&o->basis[k], &flow->u_start[6 * k]),
+                          LinearFieldOnElement(&o->basis[k], &flow->u_projected[6 * k])};
   }
+  for (int t = 0, p = 0; t < o->nsources; t++) {
+    VectorMoments reaction = {{0.0}, {{0.0}}}, other = {{0.0}, {{0.0}}};
+    for (; p < o->pairs.n && o->pairs.pair[p].a == t; p++) {
+      const SupermeshPair *pair = &o->pairs.pair[p];
+      const ElementFlow *k = &on[o->coupled_index[p]];
+      const double *d = pair->centre;
+      double from_element[2];
+      SupermeshCentreInB(pair, &o->source_basis[t], &o->basis[pair->b], from_element);
+      const ElementFlow at = {LinearFieldAt(&k->star, from_element), LinearFieldAt(&k->start, from_element),
+                              LinearFieldAt(&k->projected, from_element)};
+      const LinearField start = LinearFieldAt(&source[t].start, d);
+      const LinearField density = Reaction(&term[p], &source[t], gravity, &at, &start, d);
+      VectorMomentsAdd(pair, &density, d, &reaction);
+      if (o->source[t].is_shell) continue;
+      const LinearField rest = Other(o->rho[pair->b], dt, gravity, &at, &start);
+      VectorMomentsAdd(pair, &rest, d, &other);
+    }
+    SetVertices(&o->source_basis[t], &reaction, &other, &vertex[3 * t]);
+  }
+  PetscCall(PetscFree(on));
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode ForceAssembleToOwners(Overlap o, const ForceVertex vertex[], int nnodes, ForceVertex node[])
@@ -76,25 +95,33 @@ PetscErrorCode ForceAssembleToOwners(Overlap o, const ForceVertex vertex[], int 
   PetscFunctionReturn(0);
 }
 
+/* gain[c] -= sum over i of a u*; where a has nothing on its diagonal it has nothing at all, inside solids. */
+static void SubtractWall(const CoracleCoupling *k, const double u[6], double gain[2])
+{
+  if (k->a[0][0][0][0] == 0.0 && k->a[1][0][1][0] == 0.0) return;
+  for (int c = 0; c < 2; c++)
+    for (int i = 0; i < 3; i++)
+      for (int j = 0; j < 6; j++) gain[c] -= k->a[c][i][j / 3][j % 3] * u[j];
+}
+
 /* One element's gain, the sum over its functions of s - a u* - I (u+ - kept u start), where it is covered less rho_f M/dt u start;
  * mass: rho_f |K|/dt. */
 static void ElementGain(const CoracleCoupling *k, double mass, const CoracleFlow *flow, double gain[2])
 {
   const int covered = k->flags & CORACLE_IS_COVERED;
   const size_t first = 6 * (size_t)k->element;
-  const double *u_star = flow->u_star + first, *u_projected = flow->u_projected + first,
-               *u_start = flow->u_start + first;
+  const double *u_projected = flow->u_projected + first, *u_start = flow->u_start + first;
   for (int c = 0; c < 2; c++) {
-    gain[c] = 0.0;
-    for (int i = 0; i < 3; i++) {
-      gain[c] += k->s[c][i];
-      for (int j = 0; j < 6; j++) gain[c] -= k->a[c][i][j / 3][j % 3] * u_star[j];
-      for (int j = 0; j < 3; j++)
-        gain[c] -= k->implicit_inertia[i][j] *
-                   (u_projected[3 * c + j] - k->kept[c][0] * u_start[j] - k->kept[c][1] * u_start[3 + j]);
-      if (covered) gain[c] -= mass / 3.0 * u_start[3 * c + i];
+    gain[c] = k->s[c][0] + k->s[c][1] + k->s[c][2];
+    for (int j = 0; j < 3; j++) {
+      const double inertia =
+          k->implicit_inertia[0][j] + k->implicit_inertia[1][j] + k->implicit_inertia[2][j];
+      gain[c] -=
+          inertia * (u_projected[3 * c + j] - k->kept[c][0] * u_start[j] - k->kept[c][1] * u_start[3 + j]);
     }
+    if (covered) gain[c] -= mass / 3.0 * (u_start[3 * c] + u_start[3 * c + 1] + u_start[3 * c + 2]);
   }
+  SubtractWall(k, flow->u_star + first, gain);
 }
 
 static double DisplacedMass(const Overlap o)
@@ -128,7 +155,7 @@ PetscErrorCode ForceSum(const Overlap o, double dt, const CoracleCoupling coupli
     double gain[2];
     ElementGain(&coupling[e], o->rho[k] * o->area[k] / dt, flow, gain);
     for (int c = 0; c < 2; c++) sum[GAIN + c] += gain[c];
-    sum[SCALE] += hypot(gain[0], gain[1]);
+    sum[SCALE] += sqrt(gain[0] * gain[0] + gain[1] * gain[1]);
   }
   for (int i = 0; i < nnodes; i++) {
     for (int c = 0; c < 2; c++) {
@@ -153,28 +180,25 @@ PetscErrorCode ForceSum(const Overlap o, double dt, const CoracleCoupling coupli
   PetscFunctionReturn(0);
 }
 
-/* r -= B u+ of one pair. */
-static void SubtractFluid(const SupermeshPair *pair, const double u_projected[6], double r[2][3])
-{
-  for (int c = 0; c < 2; c++) {
-    for (int i = 0; i < 3; i++) {
-      for (int j = 0; j < 3; j++) r[c][i] -= pair->bb[i][j] * u_projected[3 * c + j];
-    }
-  }
-}
-
-void ForceCorrection(const Overlap o, const double u[][3][2], const double u_projected[],
+void ForceCorrection(const Overlap o, const LinearField u[], const double u_projected[],
                      CoracleCorrection correction[])
 {
-  for (int p = 0; p < o->pairs.n; p++) {
-    const SupermeshPair *pair = &o->pairs.pair[p];
-    if (o->source[pair->a].is_shell) continue;
-    CoracleCorrection *k = &correction[o->coupled_index[p]];
-    SubtractFluid(pair, &u_projected[6 * pair->b], k->r);
-    for (int c = 0; c < 2; c++) {
-      for (int j = 0; j < 3; j++) {
-        for (int i = 0; i < 3; i++) k->r[c][j] += pair->ab[i][j] * u[pair->a][i][c];
-      }
+  for (int e = 0; e < o->ncoupled; e++) {
+    const SupermeshBasis *basis = &o->basis[o->coupled_element[e]];
+    const LinearField flow = LinearFieldOnElement(basis, &u_projected[6 * o->coupled_element[e]]);
+    VectorMoments sums = {{0.0}, {{0.0}}};
+    double r[3][2];
+    for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
+      const SupermeshPair *pair = &o->pairs.pair[o->of_element[i]];
+      double d[2];
+      if (o->source[pair->a].is_shell) continue;
+      SupermeshCentreInB(pair, &o->source_basis[pair->a], basis, d);
+      const LinearField at = LinearFieldAt(&flow, d);
+      LinearField difference = LinearFieldAt(&u[pair->a], pair->centre);
+      LinearFieldAdd(-1.0, &at, &difference);
+      VectorMomentsAdd(pair, &difference, d, &sums);
     }
+    VectorMomentsVertices(basis, &sums, r);
+    for (int i = 0; i < 6; i++) correction[e].r[i / 3][i % 3] += r[i % 3][i / 3];
   }
 }

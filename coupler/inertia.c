@@ -38,7 +38,7 @@ static double TriangleDensity(const double rho[3])
 }
 
 PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt, PairTerm term[],
-                                   double density[])
+                                   SourceTerm source[])
 {
   double *rho, (*vertex)[3];
 
@@ -46,42 +46,45 @@ PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt
   PetscCall(PetscMalloc2(solid->nnodes, &rho, o->nsources, &vertex));
   PetscCall(NodeDensities(o, solid, rho));
   PetscCall(OverlapNodesToSources(o, 1, rho, (double *)vertex));
-  for (int t = 0; t < o->nsources; t++) {
-    density[t] = o->source[t].is_shell ? 0.0 : TriangleDensity(vertex[t]);
-  }
+  for (int t = 0; t < o->nsources; t++)
+    source[t].density = o->source[t].is_shell ? 0.0 : TriangleDensity(vertex[t]);
   for (int p = 0; p < o->pairs.n; p++) {
-    const double rho_f = o->rho[o->pairs.pair[p].b], rho_s = density[o->pairs.pair[p].a];
+    const double rho_f = o->rho[o->pairs.pair[p].b], rho_s = source[o->pairs.pair[p].a].density;
     if (rho_s == 0.0) continue;
     term[p].a = WallCoefficientIsotropic(0.0);
+    term[p].rho = rho_f;
     term[p].inertia = (fmax(rho_s, rho_f) - rho_f) / dt;
   }
   PetscCall(PetscFree2(rho, vertex));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode InertiaStart(Overlap o, const double density[], double dt, const WallCoefficient tangential[],
-                            PairTerm term[])
+/* Its area is covered by pairs with nodes that are free. */
+static PetscBool IsCovered(const Overlap o, const SourceTerm source[], int e)
 {
-  double *covered; /* [ncoupled] m2, by nodes that are free */
+  const double area = o->area[o->coupled_element[e]];
+  double covered = 0.0;
+  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
+    const SupermeshPair *pair = &o->pairs.pair[o->of_element[i]];
+    if (source[pair->a].density > 0.0) covered += pair->area;
+  }
+  return fabs(covered - area) < COVERED * area ? PETSC_TRUE : PETSC_FALSE;
+}
 
-  PetscFunctionBeginUser;
-  if (o->phases) PetscFunctionReturn(0);
-  PetscCall(PetscCalloc1(o->ncoupled, &covered));
-  for (int p = 0; p < o->pairs.n; p++)
-    if (density[o->pairs.pair[p].a] > 0.0) covered[o->coupled_index[p]] += o->pairs.pair[p].area;
+void InertiaStart(Overlap o, const SourceTerm source[], double dt, ElementTerm element[], PairTerm term[])
+{
+  if (o->phases) return;
+  for (int e = 0; e < o->ncoupled; e++) element[e].covered = IsCovered(o, source, e);
   for (int p = 0; p < o->pairs.n; p++) {
-    const int k = o->pairs.pair[p].b;
+    const ElementTerm *k = &element[o->coupled_index[p]];
     PairTerm *t = &term[p];
-    if (density[o->pairs.pair[p].a] == 0.0) continue;
-    t->covered = (PetscBool)(fabs(covered[o->coupled_index[p]] - o->area[k]) < COVERED * o->area[k]);
-    const WallCoefficient kept = InertiaKept(o, &tangential[o->coupled_index[p]]);
+    if (source[o->pairs.pair[p].a].density == 0.0) continue;
+    const WallCoefficient kept = InertiaKept(o, &k->tangential);
+    const double all = t->inertia + (k->covered ? t->rho / dt : 0.0);
     t->start = WallCoefficientScaled(&kept, -t->inertia);
-    const double all = t->inertia + (t->covered ? o->rho[k] / dt : 0.0);
     t->start.xx += all;
     t->start.yy += all;
   }
-  PetscCall(PetscFree(covered));
-  PetscFunctionReturn(0);
 }
 
 /* force[nnodes][2] = M a of the free nodes' densities rho. */
@@ -125,29 +128,7 @@ PetscErrorCode InertiaNodalForces(Overlap o, const SolidState *solid, double acc
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode InertiaBodyForce(Overlap o, const double density[], const double acceleration[],
-                                const double interface_acceleration[], const double gravity[2],
-                                PairTerm term[])
-{
-  double(*a)[3][2], (*b)[3][2];
-
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2(o->nsources, &a, o->nsources, &b));
-  PetscCall(OverlapNodesToSources(o, 2, acceleration, (double *)a));
-  PetscCall(OverlapNodesToSources(o, 2, interface_acceleration, (double *)b));
-  for (int p = 0; p < o->pairs.n; p++) {
-    const int t = o->pairs.pair[p].a;
-    const double rho_f = o->rho[o->pairs.pair[p].b], rho_s = density[t], excess = fmax(rho_f - rho_s, 0.0);
-    if (rho_s == 0.0) continue;
-    for (int i = 0; i < 3; i++)
-      for (int c = 0; c < 2; c++)
-        term[p].q[i][c] = rho_s * a[t][i][c] + excess * b[t][i][c] - rho_f * gravity[c];
-  }
-  PetscCall(PetscFree2(a, b));
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode InertiaExplicitFraction(Overlap o, const SolidState *solid, const double density[],
+PetscErrorCode InertiaExplicitFraction(Overlap o, const SolidState *solid, const SourceTerm source[],
                                        double explicit_fraction[])
 {
   enum { AREA, EXPLICIT, NSUMS };
@@ -159,7 +140,7 @@ PetscErrorCode InertiaExplicitFraction(Overlap o, const SolidState *solid, const
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
     if (o->source[pair->a].is_shell) continue;
-    const double fraction = fmax(0.0, 1.0 - density[pair->a] / o->rho[pair->b]);
+    const double fraction = fmax(0.0, 1.0 - source[pair->a].density / o->rho[pair->b]);
     for (int i = 0; i < 3; i++) {
       vertex[pair->a][i][AREA] += pair->area;
       vertex[pair->a][i][EXPLICIT] += fraction * pair->area;

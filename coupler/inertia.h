@@ -53,27 +53,23 @@
 #include "coupler/overlap.h"
 #include "coupler/wall_term.h"
 
-/* Collective.  density[nsources]: rho_s of volume triangles, kg/m3; 0 for the shell's, and where all nodes are
+/* Collective.  Density of source[nsources]: rho_s of volume triangles; 0 for the shell's, and where all nodes are
  * held.  Where it is not 0, term[pairs.n] gets the inertia above and a = 0. */
 PetscErrorCode InertiaCoefficients(Overlap overlap, const SolidState *solid, double dt, PairTerm term[],
-                                   double density[]);
+                                   SourceTerm source[]);
 /* What the inertia keeps of u^n in an element that D = tangential (slip.h) is of: D; where the fluid has phases, all. */
 static inline WallCoefficient InertiaKept(const Overlap overlap, const WallCoefficient *tangential)
 {
   return overlap->phases ? WallCoefficientIsotropic(1.0) : *tangential;
 }
-/* Local, after InertiaCoefficients and SlipTensors: start and covered of term[pairs.n]; tangential[ncoupled]: D. */
-PetscErrorCode InertiaStart(Overlap overlap, const double density[], double dt,
-                            const WallCoefficient tangential[], PairTerm term[]);
+/* Local, after InertiaCoefficients and SlipTensors: start of term[pairs.n] and covered of element[ncoupled], whose D it takes. */
+void InertiaStart(Overlap overlap, const SourceTerm source[], double dt, ElementTerm element[],
+                  PairTerm term[]);
 /* Collective: a~ of acceleration[nnodes][2], in place, where the fluid has phases. */
 PetscErrorCode InertiaNodalForces(Overlap overlap, const SolidState *solid, double acceleration[]);
-/* Collective.  q of term[pairs.n] where density is not 0; acceleration and interface_acceleration [nnodes][2]: a and a', m/s2. */
-PetscErrorCode InertiaBodyForce(Overlap overlap, const double density[], const double acceleration[],
-                                const double interface_acceleration[], const double gravity[2],
-                                PairTerm term[]);
 /* Collective.  explicit_fraction[nnodes], 0 .. 1: how much of a node's motion the fluid's solve takes from the
  * interface velocity: 1 where the node is held, 1 - rho_s/rho_f where the solid is lighter than the fluid,
  * else 0. */
-PetscErrorCode InertiaExplicitFraction(Overlap overlap, const SolidState *solid, const double density[],
+PetscErrorCode InertiaExplicitFraction(Overlap overlap, const SolidState *solid, const SourceTerm source[],
                                        double explicit_fraction[]);
 #endif

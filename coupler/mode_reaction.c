@@ -28,11 +28,11 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
       c->term[p].a = WallCoefficientIsotropic(c->options.relaxation * o->rho[k] / c->dt);
     }
   }
-  PetscCall(InertiaCoefficients(o, solid, c->dt, c->term, c->density));
-  PetscCall(OutsideWeight(o, c->density, c->options.gravity, c->term));
-  PetscCall(SlipTensors(o, c->tangential));
-  PetscCall(InertiaStart(o, c->density, c->dt, c->tangential, c->term));
-  SlipCoefficients(o, c->tangential, c->term);
+  PetscCall(InertiaCoefficients(o, solid, c->dt, c->term, c->source));
+  PetscCall(OutsideWeight(o, c->options.gravity, c->element));
+  SlipTensors(o, c->element);
+  InertiaStart(o, c->source, c->dt, c->element, c->term);
+  SlipCoefficients(o, c->element, c->term);
   PetscFunctionReturn(0);
 }
 

@@ -96,9 +96,9 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
   PetscCall(WallFactorOnSources(c, k));
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    double mean = 0.0;
-    for (int i = 0; i < 3; i++)
-      mean += k[pair->a][i] * (pair->aa[i][0] + pair->aa[i][1] + pair->aa[i][2]) / pair->area;
+    const double(*g)[2] = (const double(*)[2])o->source_basis[pair->a].gradient, *d = pair->centre;
+    const double n1 = g[0][0] * d[0] + g[0][1] * d[1], n2 = g[1][0] * d[0] + g[1][1] * d[1];
+    const double mean = (1.0 - n1 - n2) * k[pair->a][0] + n1 * k[pair->a][1] + n2 * k[pair->a][2];
     c->term[p].a = o->source[pair->a].is_shell
                        ? WallCoefficientOf(mean / c->options.thickness, o->source[pair->a].normal)
                        : WallCoefficientIsotropic(0.0);

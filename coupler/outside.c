@@ -16,8 +16,7 @@ static void Excess(const Overlap o, double excess[])
   }
 }
 
-PetscErrorCode OutsideWeight(const Overlap o, const double density[], const double gravity[2],
-                             PairTerm term[])
+PetscErrorCode OutsideWeight(const Overlap o, const double gravity[2], ElementTerm element[])
 {
   double *excess;
 
@@ -25,9 +24,8 @@ PetscErrorCode OutsideWeight(const Overlap o, const double density[], const doub
   if (!o->phases) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(o->ncoupled, &excess));
   Excess(o, excess);
-  for (int p = 0; p < o->pairs.n; p++)
-    for (int c = 0; c < 2 && density[o->pairs.pair[p].a] > 0.0; c++) /* not the shell's */
-      term[p].outside_weight[c] = excess[o->coupled_index[p]] * gravity[c];
+  for (int e = 0; e < o->ncoupled; e++)
+    for (int c = 0; c < 2; c++) element[e].outside_weight[c] = excess[e] * gravity[c];
   PetscCall(PetscFree(excess));
   PetscFunctionReturn(0);
 }

@@ -17,8 +17,6 @@
 #define CORACLE_COUPLER_OUTSIDE_H
 #include "coupler/wall_term.h"
 
-/* Local: the weight above of the pairs in the solid's volume that are not held, term[overlap->pairs.n]; density[overlap->nsources]: of
- * the solid, 0 where it is held (inertia.h), kg/m3; gravity in m/s2. */
-PetscErrorCode OutsideWeight(const Overlap overlap, const double density[], const double gravity[2],
-                             PairTerm term[]);
+/* Local: the weight above, beside the pairs in the solid's volume that are not held, of element[overlap->ncoupled]; gravity in m/s2. */
+PetscErrorCode OutsideWeight(const Overlap overlap, const double gravity[2], ElementTerm element[]);
 #endif

@@ -32,8 +32,9 @@ PetscErrorCode OverlapSetElements(Overlap o, const FluidElements *elements)
 
   PetscFunctionBeginUser;
   SearchDestroy(&o->search);
-  PetscCall(PetscFree6(o->x, o->area, o->rho, o->mu, o->rho_mean, o->rho_beside));
-  PetscCall(PetscMalloc6(n, &o->x, n, &o->area, n, &o->rho, n, &o->mu, n, &o->rho_mean, n, &o->rho_beside));
+  PetscCall(PetscFree7(o->x, o->area, o->basis, o->rho, o->mu, o->rho_mean, o->rho_beside));
+  PetscCall(PetscMalloc7(n, &o->x, n, &o->area, n, &o->basis, n, &o->rho, n, &o->mu, n, &o->rho_mean, n,
+                         &o->rho_beside));
   PetscCall(PetscMemcpy(o->x, elements->x, n * sizeof *o->x));
   PetscCall(PetscArraycpy(o->lower, elements->lower, 2));
   PetscCall(PetscArraycpy(o->upper, elements->upper, 2));
@@ -42,6 +43,7 @@ PetscErrorCode OverlapSetElements(Overlap o, const FluidElements *elements)
   o->pairs.n = o->ncoupled = 0;
   for (int k = 0; k < o->nelements; k++) {
     o->area[k] = GeometryArea((const double(*)[2])o->x[k]);
+    o->basis[k] = SupermeshBasisOf((const double(*)[2])o->x[k]);
     for (int i = 0; i < 3; i++) GeometryBoxGrow(&box, o->x[k][i]);
   }
   PetscCheck(!SearchCreateTriangles(o->nelements, (const double(*)[3][2])o->x, &o->search), PETSC_COMM_SELF,
@@ -110,7 +112,12 @@ static PetscErrorCode FindPairs(Overlap o)
 
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(o->nsources, &x));
-  for (int t = 0; t < o->nsources; t++) PetscCall(PetscMemcpy(x[t], o->source[t].x, sizeof x[t]));
+  PetscCall(PetscFree(o->source_basis));
+  PetscCall(PetscMalloc1(o->nsources, &o->source_basis));
+  for (int t = 0; t < o->nsources; t++) {
+    PetscCall(PetscMemcpy(x[t], o->source[t].x, sizeof x[t]));
+    o->source_basis[t] = SupermeshBasisOf((const double(*)[2])x[t]);
+  }
   PetscCheck(!SupermeshIntersect(o->nsources, (const double(*)[3][2])x, o->search,
                                  (const double(*)[3][2])o->x, &o->pairs),
              PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory for the pairs of solid and fluid");
@@ -118,13 +125,24 @@ static PetscErrorCode FindPairs(Overlap o)
   PetscFunctionReturn(0);
 }
 
+/* Counts, then fills; while it does, that of e is first[e + 1]. */
+static void ListPairsOfElements(Overlap o)
+{
+  int *first = o->first_of_element;
+  for (int e = 0; e < o->ncoupled + 2; e++) first[e] = 0;
+  for (int p = 0; p < o->pairs.n; p++) first[o->coupled_index[p] + 2]++;
+  for (int e = 2; e < o->ncoupled + 2; e++) first[e] += first[e - 1];
+  for (int p = 0; p < o->pairs.n; p++) o->of_element[first[o->coupled_index[p] + 1]++] = p;
+}
+
 static PetscErrorCode FindCoupledElements(Overlap o)
 {
   int *index_of;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscFree2(o->coupled_element, o->coupled_index));
-  PetscCall(PetscMalloc2(o->nelements, &o->coupled_element, o->pairs.n, &o->coupled_index));
+  PetscCall(PetscFree4(o->coupled_element, o->coupled_index, o->first_of_element, o->of_element));
+  PetscCall(PetscMalloc4(o->nelements, &o->coupled_element, o->pairs.n, &o->coupled_index,
+                         (size_t)o->nelements + 2, &o->first_of_element, o->pairs.n, &o->of_element));
   PetscCall(PetscCalloc1(o->nelements, &index_of));
   for (int p = 0; p < o->pairs.n; p++) index_of[o->pairs.pair[p].b] = 1;
   o->ncoupled = 0;
@@ -135,6 +153,7 @@ static PetscErrorCode FindCoupledElements(Overlap o)
   }
   for (int p = 0; p < o->pairs.n; p++) o->coupled_index[p] = index_of[o->pairs.pair[p].b];
   PetscCall(PetscFree(index_of));
+  ListPairsOfElements(o);
   PetscFunctionReturn(0);
 }
 
@@ -220,10 +239,11 @@ PetscErrorCode OverlapDestroy(Overlap *overlap)
   SearchDestroy(&o->search);
   SupermeshPairsDestroy(&o->pairs);
   PetscCall(PetscFree(o->bounds));
-  PetscCall(PetscFree6(o->x, o->area, o->rho, o->mu, o->rho_mean, o->rho_beside));
+  PetscCall(PetscFree7(o->x, o->area, o->basis, o->rho, o->mu, o->rho_mean, o->rho_beside));
   PetscCall(PetscFree(o->node));
   PetscCall(PetscFree(o->source));
-  PetscCall(PetscFree2(o->coupled_element, o->coupled_index));
+  PetscCall(PetscFree(o->source_basis));
+  PetscCall(PetscFree4(o->coupled_element, o->coupled_index, o->first_of_element, o->of_element));
   PetscCall(ScatterDestroy(&o->scatter));
   PetscCall(CopiesDestroy(&o->nodes));
   PetscCall(PetscFree(*overlap));

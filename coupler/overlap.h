@@ -8,7 +8,7 @@
  *        owner rank                              rank of fluid element K
  *      owned triangle T  ---(x, u_s, normal)--->  source triangle T
  *                                                       |   x  fluid element K  =  pair (T, K):
- *                                                       |   exact integrals over T and K
+ *                                                       |   moments of T and K's polygon
  *      owned triangle T  <---(sums at vertices)---  source triangle T
  *
  * Every part of T that the fluid covers is in exactly one pair on one rank, since each fluid element is on
@@ -17,6 +17,9 @@
  *
  *      pairs.pair[p].a = T   in 0 .. nsources - 1        coupled_index[p]    = e   in 0 .. ncoupled - 1
  *      pairs.pair[p].b = K   in 0 .. nelements - 1       coupled_element[e]  = K   ascending
+ *
+ * The pairs of coupled element e are pairs.pair[of_element[k]], k = first_of_element[e] .. first_of_element[e + 1] - 1; those of a
+ * source triangle follow each other.
  *
  * Fields are for reading.  Functions are collective. */
 #ifndef CORACLE_OVERLAP_H
@@ -27,7 +30,7 @@
 #include "coupler/shell.h"
 
 typedef struct {
-  double x[3][2], u[3][2]; /* vertices, m; the velocity that the fluid couples to there, m/s */
+  double x[3][2], u[3][2]; /* vertices, m; the solid's velocity there at the step's start, m/s */
   double normal[2];        /* shell: unit, out of the solid; else 0 */
   int is_shell, pad;
 } SourceTriangle;
@@ -37,6 +40,7 @@ typedef struct {
   /* the fluid elements of this rank's clients */
   int nelements;
   double (*x)[3][2], *area; /* [nelements] m (copied), m2 */
+  SupermeshBasis *basis;    /* [nelements] */
   /* [nelements] kg/m3, Pa s, of the last flow or exchange of elements (copied): rho of what fills the solid, rho_mean of the
    * element, rho_beside of the other phases; all equal with one fluid */
   double *rho, *mu, *rho_mean, *rho_beside;
@@ -51,11 +55,13 @@ typedef struct {
   Scatter scatter;
   /* the source triangles on this rank, the pairs and the coupled elements */
   int nsources;
-  SourceTriangle *source; /* [nsources] */
+  SourceTriangle *source;       /* [nsources] */
+  SupermeshBasis *source_basis; /* [nsources] */
   SupermeshPairs pairs;
   int ncoupled;
-  int *coupled_element; /* [ncoupled] */
-  int *coupled_index;   /* [pairs.n] */
+  int *coupled_element;               /* [ncoupled] */
+  int *coupled_index;                 /* [pairs.n] */
+  int *first_of_element, *of_element; /* [ncoupled + 1], [pairs.n] */
 } * Overlap;
 
 PetscErrorCode OverlapCreate(MPI_Comm comm, Overlap *overlap);

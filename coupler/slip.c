@@ -1,44 +1,32 @@
 #include "coupler/slip.h"
 
-PetscErrorCode SlipTensors(const Overlap o, WallCoefficient tangential[])
+void SlipTensors(const Overlap o, ElementTerm element[])
 {
-  typedef struct {
-    double solid, shell, xx, xy, yy; /* areas */
-  } Sums;
-  Sums *sums;
-
-  PetscFunctionBeginUser;
-  PetscCall(PetscCalloc1(o->ncoupled, &sums));
-  for (int p = 0; p < o->pairs.n; p++) {
-    const SupermeshPair *pair = &o->pairs.pair[p];
-    const SourceTriangle *source = &o->source[pair->a];
-    const double *n = source->normal;
-    Sums *k = &sums[o->coupled_index[p]];
-    if (!source->is_shell) {
-      k->solid += pair->area;
-      continue;
-    }
-    k->shell += pair->area;
-    k->xx += pair->area * n[0] * n[0];
-    k->xy += pair->area * n[0] * n[1];
-    k->yy += pair->area * n[1] * n[1];
-  }
   for (int e = 0; e < o->ncoupled; e++) {
-    const Sums *k = &sums[e];
-    tangential[e] = WallCoefficientIsotropic(0.0);
-    if (!o->phases && k->shell > 0.0 && k->solid < 0.999 * o->area[o->coupled_element[e]])
-      tangential[e] = (WallCoefficient){1.0 - k->xx / k->shell, -k->xy / k->shell, 1.0 - k->yy / k->shell};
+    double solid = 0.0, shell = 0.0, xx = 0.0, xy = 0.0, yy = 0.0; /* areas */
+    for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
+      const SupermeshPair *pair = &o->pairs.pair[o->of_element[i]];
+      const SourceTriangle *source = &o->source[pair->a];
+      const double *n = source->normal;
+      if (!source->is_shell) solid += pair->area;
+      if (!source->is_shell) continue;
+      shell += pair->area;
+      xx += pair->area * n[0] * n[0];
+      xy += pair->area * n[0] * n[1];
+      yy += pair->area * n[1] * n[1];
+    }
+    element[e].tangential = WallCoefficientIsotropic(0.0);
+    if (!o->phases && shell > 0.0 && solid < 0.999 * o->area[o->coupled_element[e]])
+      element[e].tangential = (WallCoefficient){1.0 - xx / shell, -xy / shell, 1.0 - yy / shell};
   }
-  PetscCall(PetscFree(sums));
-  PetscFunctionReturn(0);
 }
 
-void SlipCoefficients(const Overlap o, const WallCoefficient tangential[], PairTerm term[])
+void SlipCoefficients(const Overlap o, const ElementTerm element[], PairTerm term[])
 {
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
     if (o->source[pair->a].is_shell) continue;
-    const WallCoefficient *d = &tangential[o->coupled_index[p]];
+    const WallCoefficient *d = &element[o->coupled_index[p]].tangential;
     if (WallIsZero(d)) continue;
     const double friction = SLIP_FRICTION * o->mu[pair->b] / o->area[pair->b];
     WallCoefficient *a = &term[p].a;
@@ -47,32 +35,40 @@ void SlipCoefficients(const Overlap o, const WallCoefficient tangential[], PairT
   }
 }
 
-void SlipCorrection(const Overlap o, const WallCoefficient tangential[], CoracleCorrection correction[])
+void SlipCorrection(const Overlap o, const ElementTerm element[], CoracleCorrection correction[])
 {
   for (int e = 0; e < o->ncoupled; e++) {
     double(*r)[3] = correction[e].r;
-    if (WallIsZero(&tangential[e])) continue;
+    if (WallIsZero(&element[e].tangential)) continue;
     for (int i = 0; i < 3; i++) {
       const double ri[2] = {r[0][i], r[1][i]};
       double kept[2];
-      WallApply(&tangential[e], ri, kept);
+      WallApply(&element[e].tangential, ri, kept);
       for (int c = 0; c < 2; c++) r[c][i] -= kept[c];
     }
   }
 }
 
-void SlipRetained(const Overlap o, const WallCoefficient tangential[], const double u[][3][2],
+void SlipRetained(const Overlap o, const ElementTerm element[], const LinearField u[],
                   const double u_projected[], double retained[][3][2])
 {
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    const WallCoefficient *d = &tangential[o->coupled_index[p]];
-    if (o->source[pair->a].is_shell || WallIsZero(d)) continue;
-    double slip[3][2], kept[2];
-    PairSlip(pair, &u_projected[6 * pair->b], u[pair->a], slip);
-    for (int i = 0; i < 3; i++) {
-      WallApply(d, slip[i], kept);
-      for (int c = 0; c < 2; c++) retained[pair->a][i][c] += o->rho[pair->b] * kept[c];
-    }
+    const SupermeshBasis *basis = &o->basis[pair->b], *source = &o->source_basis[pair->a];
+    const WallCoefficient *tangential = &element[o->coupled_index[p]].tangential;
+    if (o->source[pair->a].is_shell || WallIsZero(tangential)) continue;
+    const WallCoefficient kept = WallCoefficientScaled(tangential, o->rho[pair->b]);
+    const LinearField flow = LinearFieldOnElement(basis, &u_projected[6 * pair->b]);
+    LinearField slip, momentum = {{0.0}, {{0.0}}};
+    VectorMoments sums = {{0.0}, {{0.0}}};
+    double d[2], vertex[3][2];
+    SupermeshCentreInB(pair, source, basis, d);
+    slip = LinearFieldAt(&flow, d);
+    const LinearField us = LinearFieldAt(&u[pair->a], pair->centre);
+    LinearFieldAdd(-1.0, &us, &slip);
+    WallAdd(&kept, &slip, &momentum);
+    VectorMomentsAdd(pair, &momentum, pair->centre, &sums);
+    VectorMomentsVertices(source, &sums, vertex);
+    for (int i = 0; i < 6; i++) retained[pair->a][i / 2][i % 2] += vertex[i / 2][i % 2];
   }
 }

@@ -33,15 +33,14 @@
 
 #define SLIP_FRICTION 2.0
 
-/* Local.  tangential[overlap->ncoupled]: D, without unit. */
-PetscErrorCode SlipTensors(const Overlap overlap, WallCoefficient tangential[]);
+/* Local: D of element[overlap->ncoupled]. */
+void SlipTensors(const Overlap overlap, ElementTerm element[]);
 /* Local: a of the pairs in the solid's volume, isotropic so far, becomes (I - D) a + SLIP_FRICTION mu/|K| D. */
-void SlipCoefficients(const Overlap overlap, const WallCoefficient tangential[], PairTerm term[]);
+void SlipCoefficients(const Overlap overlap, const ElementTerm element[], PairTerm term[]);
 /* Local: r -= D r of all corrections[overlap->ncoupled]. */
-void SlipCorrection(const Overlap overlap, const WallCoefficient tangential[],
-                    CoracleCorrection correction[]);
-/* Local: retained[nsources][3][2] += rho_f int N_T D (u+ - u_s), kg m/s, with u[nsources][3][2] the solid's velocity at
+void SlipCorrection(const Overlap overlap, const ElementTerm element[], CoracleCorrection correction[]);
+/* Local: retained[nsources][3][2] += rho_f int N_T D (u+ - u_s), kg m/s, with u[nsources] the solid's velocity at
  * the step's end, m/s. */
-void SlipRetained(const Overlap overlap, const WallCoefficient tangential[], const double u[][3][2],
+void SlipRetained(const Overlap overlap, const ElementTerm element[], const LinearField u[],
                   const double u_projected[], double retained[][3][2]);
 #endif

@@ -7,14 +7,17 @@ static void SumPairs(const Overlap o, int ncomp, SurfaceFields fields, void *con
 {
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
-    double f[SURFACE_FIELDS_MAX][3], *s = sum[pair->a];
+    const SupermeshBasis *basis = &o->source_basis[pair->a];
+    double f[SURFACE_FIELDS_MAX][3], ab[3][3], aa[3][3], *s = sum[pair->a];
     if (!o->source[pair->a].is_shell) continue;
+    SupermeshProduct(pair, basis, &o->basis[pair->b], ab);
+    SupermeshProduct(pair, basis, basis, aa);
     fields(context, o, pair, f);
     for (int i = 0; i < 3; i++) {
       for (int c = 0; c < ncomp; c++) {
-        for (int j = 0; j < 3; j++) s[3 * c + i] += pair->ab[i][j] * f[c][j];
+        for (int j = 0; j < 3; j++) s[3 * c + i] += ab[i][j] * f[c][j];
       }
-      for (int j = 0; j < 3; j++) s[MASS + 3 * i + j] += pair->aa[i][j];
+      for (int j = 0; j < 3; j++) s[MASS + 3 * i + j] += aa[i][j];
     }
     s[AREA] += pair->area;
   }

@@ -1,102 +1,137 @@
 #include "coupler/inertia.h"
 
-/* c[j] = int over the pair of N_K,j u, from u at the source triangle's vertices: by component, then vertex of
- * K. */
-static void CrossVelocity(const SupermeshPair *pair, const double u[3][2], double c[2][3])
+/* Sums over the pairs of one element, with its basis as the origin: of all elements, and of those with an a or what is held. */
+typedef struct {
+  VectorMoments s;
+  MassMoments inertia;
+  double velocity[2];           /* int v */
+  double alpha, shell, outside; /* m2; outside: of pairs that move weight to beside the solid */
+  int flags, has_wall;
+} ElementSums;
+typedef struct {
+  MassMoments xx, xy, yy; /* of a */
+  MassMoments solid;      /* held */
+  VectorMoments us;       /* held */
+} WallSums;
+
+/* a of one pair, and what is held; density += a u_s. */
+static void AddWall(const SupermeshPair *pair, const WallCoefficient *a, const SourceTerm *source,
+                    PetscBool held, const MassMoments *mass, const double d[2], LinearField *density,
+                    WallSums *w)
 {
-  for (int d = 0; d < 2; d++) {
-    for (int j = 0; j < 3; j++)
-      c[d][j] = pair->ab[0][j] * u[0][d] + pair->ab[1][j] * u[1][d] + pair->ab[2][j] * u[2][d];
-  }
+  const LinearField us = LinearFieldAt(&source->velocity, pair->centre);
+  WallAdd(a, &us, density);
+  MassMomentsAdd(a->xx, mass, &w->xx);
+  MassMomentsAdd(a->xy, mass, &w->xy);
+  MassMomentsAdd(a->yy, mass, &w->yy);
+  if (!held) return;
+  MassMomentsAdd(1.0, mass, &w->solid);
+  VectorMomentsAdd(pair, &us, d, &w->us);
 }
 
-static void AddMass(double factor, const double bb[3][3], double to[3][2][3], int c)
+/* The solid's inertia of one pair; density += what it begins with and the body force. */
+static void AddInertia(const SupermeshPair *pair, const PairTerm *term, const ElementTerm *element,
+                       const SourceTerm *source, const double gravity[2], const MassMoments *mass,
+                       LinearField *density, ElementSums *k)
 {
+  const LinearField body = PairBodyForce(term, source, gravity, pair->centre);
+  LinearFieldAdd(1.0, &body, density);
+  for (int c = 0; c < 2; c++) density->value[c] -= element->outside_weight[c];
+  if (!WallIsZero(&term->start)) {
+    const LinearField start = LinearFieldAt(&source->start, pair->centre);
+    WallAdd(&term->start, &start, density);
+  }
+  MassMomentsAdd(term->inertia, mass, &k->inertia);
+  k->outside += pair->area;
+  k->flags |= CORACLE_HAS_INERTIA;
+}
+
+/* d: the pair's centre from the origin of its element. */
+static void AddPair(const SupermeshPair *pair, const PairTerm *term, const ElementTerm *element,
+                    const SourceTerm *source, PetscBool is_shell, const double gravity[2], const double d[2],
+                    ElementSums *k, WallSums *w)
+{
+  const PetscBool is_free = source->density > 0.0 ? PETSC_TRUE : PETSC_FALSE,
+                  held = (PetscBool)(!is_shell && !is_free);
+  const MassMoments mass = PairMass(pair, d);
+  LinearField density = {{0.0}, {{0.0}}};
+  double v[2];
+  LinearFieldValue(&source->start, pair->centre, v);
+  for (int c = 0; c < 2; c++) k->velocity[c] += pair->area * v[c];
+  *(is_shell ? &k->shell : &k->alpha) += pair->area;
+  if (is_shell) k->flags |= CORACLE_HAS_SHELL;
+  if (is_free) AddInertia(pair, term, element, source, gravity, &mass, &density, k);
+  if (held || !WallIsZero(&term->a)) {
+    if (!k->has_wall) *w = (WallSums){.us = {{0.0}, {{0.0}}}};
+    k->has_wall = 1;
+    AddWall(pair, &term->a, source, held, &mass, d, &density, w);
+  }
+  VectorMomentsAdd(pair, &density, d, &k->s);
+}
+
+/* int a N_i N_j of one component of a to a[c][i][d][j] */
+static void SetTensor(const SupermeshBasis *basis, const MassMoments *m, int c, int d, CoracleCoupling *k)
+{
+  double matrix[3][3];
+  if (m->zero == 0.0) return;
+  MassMomentsMatrix(basis, m, matrix);
   for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) to[i][c][j] += factor * bb[i][j];
+    for (int j = 0; j < 3; j++) k->a[c][i][d][j] = matrix[i][j];
 }
 
-/* to += a N_i N_j */
-static void AddTensor(const WallCoefficient *a, const double bb[3][3], double to[2][3][2][3])
+static void SetVectors(const SupermeshBasis *basis, const VectorMoments *m, double to[2][3])
 {
-  if (WallIsZero(a)) return;
-  AddMass(a->xx, bb, to[0], 0);
-  AddMass(a->yy, bb, to[1], 1);
-  if (a->xy == 0.0) return;
-  AddMass(a->xy, bb, to[0], 1);
-  AddMass(a->xy, bb, to[1], 0);
+  double vertex[3][2];
+  VectorMomentsVertices(basis, m, vertex);
+  for (int i = 0; i < 6; i++) to[i / 3][i % 3] = vertex[i % 3][i / 3];
 }
 
-static void AddSource(const WallCoefficient *a, const double cu[2][3], double s[2][3])
+/* Of element K, whose coupling is 0 so far. */
+static void SetCoupling(const Overlap o, const ElementSums *sums, const WallSums *w,
+                        const ElementTerm *element, CoracleCoupling *k)
 {
-  for (int i = 0; i < 3; i++) {
-    s[0][i] += a->xx * cu[0][i] + a->xy * cu[1][i];
-    s[1][i] += a->xy * cu[0][i] + a->yy * cu[1][i];
+  const SupermeshBasis *basis = &o->basis[k->element];
+  const double area = o->area[k->element];
+  k->flags = sums->flags | (element->covered ? CORACLE_IS_COVERED : 0);
+  k->alpha = sums->alpha / area;
+  k->shell = sums->shell / area;
+  for (int c = 0; c < 2; c++) k->velocity[c] = sums->velocity[c] / (sums->alpha + sums->shell);
+  SetVectors(basis, &sums->s, k->s);
+  for (int i = 0; i < 6; i++) k->s[i / 3][i % 3] += element->outside_weight[i / 3] * sums->outside / 3.0;
+  if (sums->flags & CORACLE_HAS_INERTIA) {
+    const WallCoefficient kept = InertiaKept(o, &element->tangential);
+    memcpy(k->kept, (double[2][2]){{kept.xx, kept.xy}, {kept.xy, kept.yy}}, sizeof k->kept);
+    MassMomentsMatrix(basis, &sums->inertia, k->implicit_inertia);
   }
+  if (!sums->has_wall) return;
+  SetTensor(basis, &w->xx, 0, 0, k);
+  SetTensor(basis, &w->yy, 1, 1, k);
+  SetTensor(basis, &w->xy, 0, 1, k);
+  SetTensor(basis, &w->xy, 1, 0, k);
+  MassMomentsMatrix(basis, &w->solid, k->ms);
+  SetVectors(basis, &w->us, k->us);
 }
 
-static void AddSolidMass(const double bb[3][3], const double cu[2][3], CoracleCoupling *k)
+PetscErrorCode WallTermAssemble(const Overlap o, const PairTerm term[], const ElementTerm element[],
+                                const SourceTerm source[], const double gravity[2],
+                                CoracleCoupling coupling[])
 {
-  for (int i = 0; i < 3; i++) {
-    for (int d = 0; d < 2; d++) k->us[d][i] += cu[d][i];
-    for (int j = 0; j < 3; j++) k->ms[i][j] += bb[i][j];
-  }
-}
+  WallSums w;
 
-/* The fluid's weight from inside the solid to beside it. */
-static void AddOutsideWeight(const SupermeshPair *pair, const double weight[2], double s[2][3])
-{
-  for (int i = 0; i < 3; i++) {
-    const double moved = pair->area / 3.0 - (pair->ab[0][i] + pair->ab[1][i] + pair->ab[2][i]);
-    for (int c = 0; c < 2; c++) s[c][i] += weight[c] * moved;
-  }
-}
-
-/* One pair's part of its element; velocity is the integral of v over the pairs, divided by |K|, so far. */
-static void AddPair(const Overlap o, const SupermeshPair *pair, const PairTerm *term, PetscBool held,
-                    const double start[3][2], CoracleCoupling *k)
-{
-  const SourceTriangle *source = &o->source[pair->a];
-  const double fraction = pair->area / o->area[pair->b];
-  double cu[2][3], cq[2][3], cv[2][3];
-  CrossVelocity(pair, source->u, cu);
-  CrossVelocity(pair, start, cv);
-  if (term->covered) k->flags |= CORACLE_IS_COVERED;
-  AddSource(&term->start, (const double(*)[3])cv, k->s);
-  CrossVelocity(pair, term->q, cq);
-  AddTensor(&term->a, pair->bb, k->a);
-  if (!held) {
-    for (int i = 0; i < 9; i++) k->implicit_inertia[i / 3][i % 3] += term->inertia * pair->bb[i / 3][i % 3];
-    k->flags |= CORACLE_HAS_INERTIA;
-  }
-  AddSource(&term->a, (const double(*)[3])cu, k->s);
-  if (o->phases) AddOutsideWeight(pair, term->outside_weight, k->s);
-  for (int i = 0; i < 6; i++) k->s[i / 3][i % 3] += cq[i / 3][i % 3];
-  for (int d = 0; d < 2; d++) k->velocity[d] += (cv[d][0] + cv[d][1] + cv[d][2]) / o->area[pair->b];
-  if (source->is_shell) {
-    k->flags |= CORACLE_HAS_SHELL;
-    k->shell += fraction;
-  } else {
-    k->alpha += fraction;
-    if (held) AddSolidMass(pair->bb, (const double(*)[3])cu, k);
-  }
-}
-
-void WallTermAssemble(const Overlap o, const PairTerm term[], const double density[],
-                      const WallCoefficient tangential[], const double start_velocity[][3][2],
-                      CoracleCoupling coupling[])
-{
-  for (int e = 0; e < o->ncoupled; e++) coupling[e] = (CoracleCoupling){.element = o->coupled_element[e]};
-  for (int p = 0; p < o->pairs.n; p++) {
-    const SupermeshPair *pair = &o->pairs.pair[p];
-    AddPair(o, pair, &term[p], density[pair->a] == 0.0 ? PETSC_TRUE : PETSC_FALSE, start_velocity[pair->a],
-            &coupling[o->coupled_index[p]]);
-  }
+  PetscFunctionBeginUser;
+  PetscCall(PetscArrayzero(coupling, o->ncoupled));
   for (int e = 0; e < o->ncoupled; e++) {
-    const WallCoefficient kept = InertiaKept(o, &tangential[e]);
-    if (!(coupling[e].flags & CORACLE_HAS_INERTIA)) continue;
-    memcpy(coupling[e].kept, (double[2][2]){{kept.xx, kept.xy}, {kept.xy, kept.yy}}, sizeof coupling[e].kept);
+    ElementSums sums = {.flags = 0};
+    coupling[e].element = o->coupled_element[e];
+    for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
+      const int p = o->of_element[i];
+      const SupermeshPair *pair = &o->pairs.pair[p];
+      double d[2];
+      SupermeshCentreInB(pair, &o->source_basis[pair->a], &o->basis[pair->b], d);
+      AddPair(pair, &term[p], &element[e], &source[pair->a], (PetscBool)o->source[pair->a].is_shell, gravity,
+              d, &sums, &w);
+    }
+    SetCoupling(o, &sums, &w, &element[e], &coupling[e]);
   }
-  for (int e = 0; e < o->ncoupled; e++)
-    for (int d = 0; d < 2; d++) coupling[e].velocity[d] /= coupling[e].alpha + coupling[e].shell;
+  PetscFunctionReturn(0);
 }

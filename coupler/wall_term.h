@@ -13,12 +13,13 @@
  *     implicit inertia  =  m B
  *     ms                =  B                  us  =  C^T u_s          T in the solid's volume, held
  *
- * with q a body force at the vertices of T, m the solid's inertia in the fluid's solve and start the inertia that begins with the
+ * with q a body force, linear on T, m the solid's inertia in the fluid's solve and start the inertia that begins with the
  * solid's velocity v (inertia.h); T is held where it has none.  The reaction (force.h) is made of the same coefficients and
  * integrals, so what the fluid gains the solid loses.  No field is projected, so none undershoots: a sum of
  * positive semidefinite coefficients times Gram matrices is positive semidefinite. */
 #ifndef CORACLE_WALL_TERM_H
 #define CORACLE_WALL_TERM_H
+#include "coupler/linear_field.h"
 #include "coupler/overlap.h"
 
 /* The wall term of mode reaction is so many times [37], with which the velocity changes over a whole element: the body is as thin then
@@ -77,32 +78,55 @@ static inline void WallApply(const WallCoefficient *a, const double v[2], double
 typedef struct {
   WallCoefficient a;
   double inertia;        /* m, kg/(m3 s) */
-  PetscBool covered;     /* K lies in the solid as a whole (inertia.h) */
+  double rho;            /* rho_f, kg/m3, of which the inertia and the body force are */
   WallCoefficient start; /* how much of the inertia starts from the solid's velocity (inertia.h), kg/(m3 s) */
-  double q[3][2];        /* N/m3, at the vertices of T */
-  /* N/m3, of the fluid beside the solid (outside.h), which the solid does not feel */
-  double outside_weight[2];
 } PairTerm;
 
-/* q[i] = int over the pair of N_T,i (u - u_s): u [2][3] on the fluid element, u_s [3][2] on the source
- * triangle. */
-static inline void PairSlip(const SupermeshPair *pair, const double u[6], const double us[3][2],
-                            double q[3][2])
+/* What a coupled element's pairs have in common. */
+typedef struct {
+  WallCoefficient tangential; /* D (slip.h), without unit */
+  PetscBool covered;          /* K lies in the solid as a whole (inertia.h) */
+  /* N/m3, of the fluid beside the solid (outside.h), which the solid does not feel */
+  double outside_weight[2];
+} ElementTerm;
+
+/* What a source triangle's vertices have, with its basis as the origin. */
+typedef struct {
+  double density;                     /* rho_s, kg/m3; 0: held, or of the shell (inertia.h) */
+  LinearField velocity;               /* u_s, that the fluid couples to, m/s */
+  LinearField start;                  /* v, the solid's at the step's start, m/s */
+  LinearField force;                  /* rho_s a of the body force (inertia.h), N/m3 */
+  LinearField interface_acceleration; /* a' of the body force, m/s2 */
+} SourceTerm;
+
+/* to += a q */
+static inline void WallAdd(const WallCoefficient *a, const LinearField *q, LinearField *to)
 {
-  for (int i = 0; i < 3; i++) {
-    const double *ab = pair->ab[i], *aa = pair->aa[i];
-    for (int c = 0; c < 2; c++) {
-      q[i][c] = ab[0] * u[3 * c] + ab[1] * u[3 * c + 1] + ab[2] * u[3 * c + 2] -
-                (aa[0] * us[0][c] + aa[1] * us[1][c] + aa[2] * us[2][c]);
-    }
+  to->value[0] += a->xx * q->value[0] + a->xy * q->value[1];
+  to->value[1] += a->xy * q->value[0] + a->yy * q->value[1];
+  for (int d = 0; d < 2; d++) {
+    to->gradient[d][0] += a->xx * q->gradient[d][0] + a->xy * q->gradient[d][1];
+    to->gradient[d][1] += a->xy * q->gradient[d][0] + a->yy * q->gradient[d][1];
   }
 }
 
-/* Local: coupling[overlap->ncoupled], one per coupled element (coracle.h has shapes and units), from the
- * pairs' term[pairs.n], the source triangles' velocities and density[overlap->nsources] (inertia.h), which is 0
- * where the solid is held; tangential[ncoupled]: D (slip.h); start_velocity[nsources][3][2]: the solid's at the
- * step's start, m/s, which the elements' mean velocity is of. */
-void WallTermAssemble(const Overlap overlap, const PairTerm term[], const double density[],
-                      const WallCoefficient tangential[], const double start_velocity[][3][2],
-                      CoracleCoupling coupling[]);
+/* The body force q on a pair with a triangle that is not held, seen from the pair's centre. */
+static inline LinearField PairBodyForce(const PairTerm *term, const SourceTerm *source,
+                                        const double gravity[2], const double centre[2])
+{
+  const double excess = fmax(term->rho - source->density, 0.0);
+  LinearField q = LinearFieldAt(&source->force, centre);
+  for (int c = 0; c < 2; c++) q.value[c] -= term->rho * gravity[c];
+  if (excess > 0.0) {
+    const LinearField a = LinearFieldAt(&source->interface_acceleration, centre);
+    LinearFieldAdd(excess, &a, &q);
+  }
+  return q;
+}
+
+/* Local: coupling[overlap->ncoupled], one per coupled element (coracle.h has shapes and units), from term[pairs.n],
+ * element[ncoupled] and source[nsources]; the elements' mean velocity is of the solid's at the step's start. */
+PetscErrorCode WallTermAssemble(const Overlap overlap, const PairTerm term[], const ElementTerm element[],
+                                const SourceTerm source[], const double gravity[2],
+                                CoracleCoupling coupling[]);
 #endif

@@ -1,6 +1,6 @@
 /* The loops over this rank's elements. */
+#include "common/supermesh/vectorize.h"
 #include "solid/solid_impl.h"
-#include "solid/vectorize.h"
 #include <stdio.h>
 
 static inline Tensor RestInverse(const Elements *e, int k)

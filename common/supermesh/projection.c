@@ -9,59 +9,49 @@ typedef struct {
 } Share;
 
 struct Projection_s {
-  int nt, capacity;
+  int nt;
   int *first;   /* [nt + 1] shares of target t: first[t] .. first[t + 1] - 1 */
   double *area; /* [nt] m2 */
   Share *share;
 };
 
-static int Reserve(Projection p, int n)
+/* The shares of each pair, which ascend in their targets. */
+static void SetShares(Projection p, const double target[][3][2], const double source[][3][2],
+                      const SupermeshPairs *pairs)
 {
-  if (n <= p->capacity) return 0;
-  const int capacity = n + n / 2 + 64;
-  Share *share = realloc(p->share, (size_t)capacity * sizeof *share);
-  if (!share) return 1;
-  p->share = share;
-  p->capacity = capacity;
-  return 0;
-}
-
-/* The shares of one target; returns their new total, -1 without memory. */
-static int AddTarget(Projection p, int n, const double target[3][2], Search search,
-                     const double source[][3][2])
-{
-  const GeometryBox box = GeometryBoxOf(target);
-  const int *hit, nhit = SearchQuery(search, &box, &hit);
-  if (nhit < 0 || Reserve(p, n + nhit)) return -1;
-  for (int h = 0; h < nhit; h++) {
-    if (!SupermeshMixed(target, source[hit[h]], p->share[n].mixed)) continue;
-    p->share[n++].source = hit[h];
+  int n = 0;
+  for (int t = 0; t < p->nt; t++) {
+    const SupermeshBasis of_target = SupermeshBasisOf(target[t]);
+    p->first[t] = n;
+    p->area[t] = GeometryArea(target[t]);
+    for (; n < pairs->n && pairs->pair[n].a == t; n++) {
+      const SupermeshBasis of_source = SupermeshBasisOf(source[pairs->pair[n].b]);
+      p->share[n].source = pairs->pair[n].b;
+      SupermeshProduct(&pairs->pair[n], &of_target, &of_source, p->share[n].mixed);
+    }
   }
-  return n;
+  p->first[p->nt] = n;
 }
 
 int ProjectionCreate(int nt, const double target[][3][2], Search search, const double source[][3][2],
                      Projection *projection)
 {
   Projection p = calloc(1, sizeof *p);
-  int n = 0;
+  SupermeshPairs pairs = {0};
+  int failed = 1;
   *projection = p;
   if (!p) return 1;
   p->nt = nt;
-  p->first = malloc(((size_t)nt + 1) * sizeof *p->first);
-  p->area = malloc(((size_t)nt + 1) * sizeof *p->area);
-  if (!p->first || !p->area) n = -1;
-  for (int t = 0; t < nt && n >= 0; t++) {
-    p->first[t] = n;
-    p->area[t] = GeometryArea(target[t]);
-    n = AddTarget(p, n, target[t], search, source);
+  if (!SupermeshIntersect(nt, target, search, source, &pairs)) {
+    p->first = malloc(((size_t)nt + 1) * sizeof *p->first);
+    p->area = malloc(((size_t)nt + 1) * sizeof *p->area);
+    p->share = malloc(((size_t)pairs.n + 1) * sizeof *p->share);
+    failed = !p->first || !p->area || !p->share;
   }
-  if (n < 0) {
-    ProjectionDestroy(projection);
-    return 1;
-  }
-  p->first[nt] = n;
-  return 0;
+  if (!failed) SetShares(p, target, source, &pairs);
+  SupermeshPairsDestroy(&pairs);
+  if (failed) ProjectionDestroy(projection);
+  return failed;
 }
 
 /* The inverse of the P1 mass matrix area/12 (I + 1 1^T) is 12/area (I - 1 1^T / 4). */

@@ -1,7 +1,7 @@
 /* Joints at work: which edges have reached their strength, and the tractions of active joints. */
 #include "common/exchange/scatter.h"
+#include "common/supermesh/vectorize.h"
 #include "solid/cracks/joints_impl.h"
-#include "solid/vectorize.h"
 
 /* --- lists -------------------------------------------------------------------------------------------- */
 

@@ -135,7 +135,7 @@ static void CheckMotion(void)
   const Overlap o = c->overlap;
   for (int p = 0; p < o->pairs.n; p++) {
     double kept[2];
-    WallApply(&c->tangential[o->coupled_index[p]], du, kept);
+    WallApply(&c->element[o->coupled_index[p]].tangential, du, kept);
     for (int d = 0; d < 2 && !o->source[o->pairs.pair[p].a].is_shell; d++)
       force[d] += sigma * o->pairs.pair[p].area * (du[d] - kept[d]);
   }

@@ -7,7 +7,7 @@
 enum { NA = 13, NB = 21 };
 
 static double (*a)[3][2], (*b)[3][2];
-static const int na = 2 * NA * NA, nb = 2 * NB * NB;
+static int na, nb;
 static SupermeshPairs pairs;
 
 /* The same integral by a degree-2 rule on the fan. */
@@ -38,17 +38,17 @@ static void CheckPairs(void)
   double total = 0.0, *covered = calloc((size_t)na, sizeof *covered);
   for (int p = 0; p < pairs.n; p++) {
     const SupermeshPair *pair = &pairs.pair[p];
-    double aa = 0, ab = 0, bb = 0;
+    const SupermeshBasis of_a = SupermeshBasisOf((const double(*)[2])a[pair->a]),
+                         of_b = SupermeshBasisOf((const double(*)[2])b[pair->b]);
+    double product[3][3], sum = 0.0;
+    SupermeshProduct(pair, &of_a, &of_b, product);
     for (int i = 0; i < 3; i++) {
       for (int j = 0; j < 3; j++) {
-        aa += pair->aa[i][j];
-        ab += pair->ab[i][j];
-        bb += pair->bb[i][j];
-        CHECK(fabs(pair->ab[i][j] - QuadratureAB(pair, i, j)) < 1e-16, "pair %d, %d %d", p, i, j);
+        sum += product[i][j];
+        CHECK(fabs(product[i][j] - QuadratureAB(pair, i, j)) < 1e-16, "pair %d, %d %d", p, i, j);
       }
     }
-    CHECK(fabs(aa - pair->area) < 1e-16 && fabs(ab - pair->area) < 1e-16 && fabs(bb - pair->area) < 1e-16,
-          "pair %d: functions do not sum to 1", p);
+    CHECK(fabs(sum - pair->area) < 1e-16, "pair %d: functions do not sum to 1", p);
     covered[pair->a] += pair->area;
     total += pair->area;
   }
@@ -106,18 +106,58 @@ static void CheckProjection(int ns, const double xs[][3][2], int nt, const doubl
   free(target);
 }
 
-int main(void)
+/* Finds and checks the pairs of a and b. */
+static void CheckMeshes(void)
 {
   Search search;
+  CHECK(SearchCreateTriangles(nb, (const double(*)[3][2])b, &search) == 0, "no memory");
+  CHECK(SupermeshIntersect(na, (const double(*)[3][2])a, search, (const double(*)[3][2])b, &pairs) == 0,
+        "no memory");
+  CheckPairs();
+  SearchDestroy(&search);
+}
+
+/* Edges and vertices lie on each other: a mesh meets itself in its own triangles alone; two of them share the square's sides. */
+static void CheckTouching(void)
+{
+  na = nb = 2 * NA * NA;
+  a = RandomMesh(NA, 1);
+  b = RandomMesh(NA, 1);
+  CheckMeshes();
+  CHECK(pairs.n == na, "%d pairs of %d triangles with themselves", pairs.n, na);
+  free(b);
+  nb = 2;
+  b = RandomMesh(1, 1);
+  CheckMeshes();
+  free(a);
+  free(b);
+}
+
+/* Columns and rows of a hundredth of their length and less, which cross (their projections: tests/transfer). */
+static void CheckSlender(void)
+{
+  na = 2 * NA * NA;
+  nb = 2 * NB * NB;
   a = RandomMesh(NA, 1);
   b = RandomMesh(NB, 2);
-  const double(*xa)[3][2] = (const double(*)[3][2])a, (*xb)[3][2] = (const double(*)[3][2])b;
-  CHECK(SearchCreateTriangles(nb, xb, &search) == 0, "no memory");
-  CHECK(SupermeshIntersect(na, xa, search, xb, &pairs) == 0, "no memory");
-  CheckPairs();
-  CheckProjection(na, xa, nb, xb);
-  CheckProjection(nb, xb, na, xa);
-  SearchDestroy(&search);
+  for (int k = 0; k < 3 * na; k++) a[k / 3][k % 3][0] = pow(a[k / 3][k % 3][0], 3.0);
+  for (int k = 0; k < 3 * nb; k++) b[k / 3][k % 3][1] = pow(b[k / 3][k % 3][1], 3.0);
+  CheckMeshes();
+  free(a);
+  free(b);
+}
+
+int main(void)
+{
+  CheckTouching();
+  CheckSlender();
+  na = 2 * NA * NA;
+  nb = 2 * NB * NB;
+  a = RandomMesh(NA, 1);
+  b = RandomMesh(NB, 2);
+  CheckMeshes();
+  CheckProjection(na, (const double(*)[3][2])a, nb, (const double(*)[3][2])b);
+  CheckProjection(nb, (const double(*)[3][2])b, na, (const double(*)[3][2])a);
   SupermeshPairsDestroy(&pairs);
   free(a);
   free(b);

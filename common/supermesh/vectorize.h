@@ -1,9 +1,9 @@
 /* VECTORIZE before a loop: its passes do not depend on each other, whatever the compiler can prove.
  * WIDE before a function: it is compiled for processors with AVX2, too, and the loader takes the one that fits.  Without
  * fused multiply-adds both give the same bits.  (Not under sanitizers, which start after the loader has chosen.) */
-#ifndef SOLID_VECTORIZE_H
-#define SOLID_VECTORIZE_H
-#include <stddef.h> /* __GLIBC__ */
+#ifndef CORACLE_VECTORIZE_H
+#define CORACLE_VECTORIZE_H
+#include <stdlib.h> /* __GLIBC__ */
 
 #if defined(__clang__)
 #define VECTORIZE _Pragma("clang loop vectorize(assume_safety)")
