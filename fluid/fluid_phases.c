@@ -153,8 +153,8 @@ static PetscErrorCode Accelerate(Fluid f, double dt, Vec velocity)
   PetscFunctionReturn(0);
 }
 
-/* velocity where the solid has implicit inertia: what the momentum equation makes of the solid's forces there before viscosity and
- * advection, W (u* - u) = rho M (g - grad p/rho) + (s + I kept start - ...) - (a + I) u. */
+/* velocity, which is dt (weight - R^-1 grad p), becomes where the solid has implicit inertia what the momentum equation without
+ * viscosity and advection makes of all forces there: W^-1 (rho M (weight - grad p/rho) + load - (a + I) u), load of SolidCouplingLoad. */
 static PetscErrorCode AccelerateSolid(Fluid f, double dt, Vec velocity)
 {
   const double *rho = MaterialDensity(f->material, MATERIAL_STEP);
