@@ -167,16 +167,14 @@ static PetscErrorCode AccelerateSolid(Fluid f, double dt, Vec velocity)
   PetscCall(VecGetArray(velocity, &v));
   for (int k = 0; k < n; k++) {
     const int e = entry[k].element;
-    const double area = f->domain.geometry[e].area, *a = &entry[k].a[0][0][0][0], *ue = u + 6 * e;
-    double load[6];
+    const double area = f->domain.geometry[e].area;
+    double load[6], matrix[6][6];
     if (!(entry[k].flags & CORACLE_HAS_INERTIA)) continue;
     for (int c = 0; c < 2; c++) P1MassApply(area * rho[e] / dt, v + 6 * e + 3 * c, load + 3 * c);
-    SolidCouplingLoad(f->solid, e, ue, area, rho[e] / dt, load);
+    SolidCouplingLoad(f->solid, e, u + 6 * e, area, rho[e] / dt, load);
+    SolidCouplingMatrix(entry + k, matrix);
     for (int row = 0; row < 6; row++)
-      for (int col = 0; col < 6; col++) {
-        const double inertia = row / 3 == col / 3 ? entry[k].implicit_inertia[row % 3][col % 3] : 0.0;
-        load[row] -= (a[6 * row + col] + inertia) * ue[col];
-      }
+      for (int col = 0; col < 6; col++) load[row] -= matrix[row][col] * u[6 * e + col];
     PetscCall(WeightedProjectionSolve(area, rho[e] / dt, entry[k].implicit_inertia, load));
     for (int i = 0; i < 6; i++) v[6 * e + i] = load[i];
   }

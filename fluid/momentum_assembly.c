@@ -171,15 +171,14 @@ static PetscBool AssembleSolid(MomentumSolver s, const MomentumStep *step, int e
   const double w = (1.0 - s->setup.theta) / s->setup.theta;
   const CoracleCoupling *k = SolidCouplingAt(step->solid, e);
   if (!k) return PETSC_FALSE;
-  const double *a = &k->a[0][0][0][0];
+  double matrix[6][6];
+  SolidCouplingMatrix(k, matrix);
   SolidCouplingLoad(step->solid, e, u, s->domain->geometry[e].area, step->rho[e] / step->dt, load);
-  for (int row = 0; row < 6; row++) {
+  for (int row = 0; row < 6; row++)
     for (int col = 0; col < 6; col++) {
-      const double inertia = row / 3 == col / 3 ? k->implicit_inertia[row % 3][col % 3] : 0.0;
-      dense[6 * col + row] += a[6 * row + col] + inertia;
-      load[row] += w * (a[6 * row + col] + inertia) * u[col];
+      dense[6 * col + row] += matrix[row][col];
+      load[row] += w * matrix[row][col] * u[col];
     }
-  }
   return PETSC_TRUE;
 }
 

@@ -96,6 +96,16 @@ void SolidCouplingLoad(SolidCoupling s, int e, const double u[6], double area, d
   }
 }
 
+void SolidCouplingMatrix(const CoracleCoupling *entry, double matrix[6][6])
+{
+  for (int c = 0; c < 2; c++)
+    for (int i = 0; i < 3; i++) {
+      double *row = matrix[3 * c + i];
+      for (int k = 0; k < 6; k++) row[k] = entry->a[c][i][k / 3][k % 3];
+      for (int j = 0; j < 3; j++) row[3 * c + j] += entry->implicit_inertia[i][j];
+    }
+}
+
 const double *SolidCouplingFraction(SolidCoupling s)
 {
   return s->alpha;

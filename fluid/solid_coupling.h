@@ -31,6 +31,8 @@ void SolidCouplingStart(SolidCoupling s, int e, const double u[], double start[]
 /* load[2][3] += s + I kept start, less rho M/dt start where the solid covers element e and s has the start: what of the coupling
  * does not depend on the velocity at the step's end.  u[2][3]: the fluid's at its start; area of e, m2; rho/dt, kg/(m3 s). */
 void SolidCouplingLoad(SolidCoupling s, int e, const double u[6], double area, double rho_dt, double load[6]);
+/* What of it does: matrix[row][column] = a + I of an entry, rows and columns [2][3]. */
+void SolidCouplingMatrix(const CoracleCoupling *entry, double matrix[6][6]);
 /* alpha_s[ne], borrowed. */
 const double *SolidCouplingFraction(SolidCoupling s);
 /* u[ne][2][3] += M^-1 r, one correction an entry. */

@@ -62,33 +62,27 @@ static void SolveColumns(const double l[N][N], double x[N][N])
   }
 }
 
-/* response = W^-1 M */
-static PetscErrorCode Response(double area, double rho_dt, const double inertia[N][N], double response[N][N])
+/* x -> W^-1 x for the columns of x */
+static PetscErrorCode DivideColumns(double area, double rho_dt, const double inertia[N][N], double x[N][N])
 {
   double w[N][N];
   PetscFunctionBeginUser;
-  MassMatrix(area, response);
+  MassMatrix(area, w);
   for (int i = 0; i < N; i++)
-    for (int j = 0; j < N; j++) w[i][j] = rho_dt * response[i][j] + inertia[i][j];
+    for (int j = 0; j < N; j++) w[i][j] = rho_dt * w[i][j] + inertia[i][j];
   PetscCheck(Factor(w), PETSC_COMM_SELF, PETSC_ERR_NOT_CONVERGED,
              "the implicit inertia of the solid is not positive on a fluid element");
-  SolveColumns((const double(*)[N])w, response);
+  SolveColumns((const double(*)[N])w, x);
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode WeightedProjectionSolve(double area, double rho_dt, const double inertia[N][N], double v[6])
 {
-  double response[N][N];
+  double columns[N][N] = {{0.0}};
   PetscFunctionBeginUser;
-  PetscCall(Response(area, rho_dt, inertia, response));
-  for (int c = 0; c < 2; c++) {
-    double q[N];
-    P1MassSolve(area, v + 3 * c, q);
-    for (int i = 0; i < N; i++) {
-      v[3 * c + i] = 0.0;
-      for (int j = 0; j < N; j++) v[3 * c + i] += response[i][j] * q[j];
-    }
-  }
+  for (int i = 0; i < 2 * N; i++) columns[i % N][i / N] = v[i];
+  PetscCall(DivideColumns(area, rho_dt, inertia, columns));
+  for (int i = 0; i < 2 * N; i++) v[i] = columns[i % N][i / N];
   PetscFunctionReturn(0);
 }
 
@@ -112,9 +106,10 @@ PetscErrorCode WeightedProjectionPrepare(WeightedProjection w, const WeightedPro
   PetscCall(PetscMalloc1(n, &w->response));
   for (int k = 0; k < n && s->inertia; k++) {
     const int e = entry[k].element;
-    if (IsWeighted(entry + k))
-      PetscCall(Response(w->domain->geometry[e].area, s->rho[e] / s->dt, entry[k].implicit_inertia,
-                         w->response[k]));
+    const double area = w->domain->geometry[e].area;
+    if (!IsWeighted(entry + k)) continue;
+    MassMatrix(area, w->response[k]);
+    PetscCall(DivideColumns(area, s->rho[e] / s->dt, entry[k].implicit_inertia, w->response[k]));
   }
   PetscFunctionReturn(0);
 }

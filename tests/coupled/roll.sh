@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # A floating block let go at 5 degrees rolls with the period of potential theory in the same tank (roll_reference.py), within 8 %
 # where the block is 7 elements high, within 3 % where it is 22 (with long).  The block has elements of 0.008 m: those of
-# floating.yaml have more than 1 % too much moment of inertia, with their masses at the nodes.  Usage: roll.sh ROOT BUILD [long]
+# floating.yaml have 8 % too much moment of inertia, with their masses at the nodes.  Usage: roll.sh ROOT BUILD [long]
 long=${3:-}
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
