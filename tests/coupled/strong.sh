@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Coupling iterations: a disc of a twentieth of the fluid's density rises smoothly, on any number of ranks and while the mesh adapts, in few iterations a
-# step; a heavy one moves off in long steps as in short ones, with one; a step that does not converge is halved, and one that never does ends the run with a reason.  Usage: strong.sh ROOT BUILD
+# step; a heavy one moves off in long steps as in short ones, with one; a step that cracks and does not converge is halved, and one that never does ends the run with a reason.  Usage: strong.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
 light=(--set solid.materials.disc.density=50 --set time.end=0.3 --set coupler.max_iterations=30)
@@ -19,7 +19,6 @@ weak='{density: 50.0, youngs_modulus: 1.0e6, poisson_ratio: 0.3, damping: 0.2, t
 must weak 1:1:1 --set "solid.materials.disc=$weak" --set "solid.bodies[0]=$bar" --set time.end=0.12
 must short 1:1:1 --set time.end=0.1 --set time.dt_max=0.00125 "${adapt[@]}"
 must long 1:1:1 --set time.end=0.1 "${adapt[@]}"
-must halved 1:1:1 "${light[@]}" --set coupler.max_iterations=4
 if run few 1:1:1 "${light[@]}" --set coupler.max_iterations=2; then echo "two iterations were enough"; exit 1; fi
 grep -q 'error: the step from t = .* does not converge' "$scratch/few.log" || { cat "$scratch/few.log"; exit 1; }
 "$python" - "$scratch" <<'E2'
@@ -41,17 +40,14 @@ for label in ("cracks-1-1-1", "cracks-1-2-2"):
     assert json.load(open("%s/%s/summary.json" % (sys.argv[1], label)))["largest_momentum_imbalance"] < 1e-10
 broken = [rows(label, "solid")[-1]["broken joints"] for label in ("cracks-1-1-1", "cracks-1-2-2")]
 assert broken[0] == broken[1], "broken joints: %s" % broken
-solid, iterations = rows("weak", "solid"), [r["iterations"] for r in rows("weak")]
+# a step of more than thirty iterations is one that was halved; from then on steps grow by at most 1.3
+weak, solid = rows("weak"), rows("weak", "solid")
+steps, iterations = [r["dt [s]"] for r in weak], [r["iterations"] for r in weak]
 assert 2 <= solid[-1]["broken joints"] <= 8 and max(iterations) > 30, "weak: %g broken joints, iterations %s" % (solid[-1]["broken joints"], iterations)
+assert min(steps) < 0.006 and all(b < 1.3001 * a for a, b in zip(steps, steps[1:])) and abs(weak[-1]["t [s]"] - 0.12) < 1e-12, "steps %s" % steps
 one, three = speeds("one")[-1], speeds("three")[-1]
 assert abs(one / three - 1) < 1e-3, "one rank %g m/s, three %g" % (one, three)
 assert len({r["triangles"] for r in rows("adaptive", "fluid")}) > 3, "the mesh has not changed"
-# a step of more than four iterations is one that was halved; from then on steps grow by at most 1.3
-halved = rows("halved")
-steps, iterations = [r["dt [s]"] for r in halved], [r["iterations"] for r in halved]
-assert max(iterations) > 4 and min(steps) < 0.006 and abs(halved[-1]["t [s]"] - 0.3) < 1e-12, "steps %s, iterations %s" % (steps, iterations)
-assert all(b < 1.3001 * a for a, b in zip(steps, steps[1:])), "steps %s" % steps
-assert abs(halved[-1]["u_y [m/s]"] / speeds("one")[-1] - 1) < 0.05, "%g m/s with halved steps" % halved[-1]["u_y [m/s]"]
 # steps eight times as long: the first iteration is right
 short, long = speeds("short")[-1], speeds("long")[-1]
 assert abs(long / short - 1) < 0.03, "%g m/s in long steps, %g in short ones" % (long, short)

@@ -1,11 +1,13 @@
 // ranks: 1 2 3
 /* Elements change ranks while bodies slide, have a prescribed motion and break: the answer is that of one rank to
- * round-off, a step that is redone after another try and another redistribution has the same bits, and what
+ * what contact and cracks make of round-off (a run from positions that differ by as much is measured beside it), a step that is redone after another try and another redistribution has the same bits, and what
  * has moved away from its rank's other bodies is dealt out anew by itself. */
+#include <float.h>
+
 #include "solid/contact/contact_impl.h"
 #include "tests/solid/breaking.h"
 
-enum { STEPS = 6, CALM, SCATTERED, REDONE };
+enum { STEPS = 6, CALM, PERTURBED, SCATTERED, REDONE };
 
 typedef struct {
   double *all; /* [nids][4] x and v by global number, NAN for nodes that this rank has not */
@@ -38,6 +40,7 @@ static PetscErrorCode Simulate(MPI_Comm comm, int how, int nids, Answer *out)
   Model a = {0};
   Solid s;
   Bodies(&a);
+  for (int k = 0; k < 2 * a.nnodes && how == PERTURBED; k++) a.x[k] *= 1.0 + (k % 3 - 1) * DBL_EPSILON;
   PetscCall(SolidCreate(comm, &a, &options, &s));
   for (int k = 0; k < STEPS; k++) {
     if (how == REDONE) {
@@ -48,31 +51,40 @@ static PetscErrorCode Simulate(MPI_Comm comm, int how, int nids, Answer *out)
       PetscCall(SolidState(s, 0));
     }
     PetscCall(Step(s, 1e6));
-    if (how != CALM) PetscCall(ScatterElements(s, a.nelements, k));
+    if (how > PERTURBED) PetscCall(ScatterElements(s, a.nelements, k));
   }
   PetscCall(CollectAnswer(s, nids, out));
   PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
-static PetscErrorCode Compare(const Answer *one, const Answer *many, const Answer *redone, int n)
+/* Of x in parts of 0.1 m and v in parts of 10 m/s, over the nodes that b has. */
+static double LargestDifference(const Answer *a, const Answer *b, int n)
 {
   double largest = 0.0;
+  for (int k = 0; k < n; k++)
+    if (!isnan(b->all[k])) largest = fmax(largest, fabs(b->all[k] - a->all[k]) / (k % 4 < 2 ? 0.1 : 10.0));
+  return largest;
+}
+
+/* bound: of the largest difference to one rank. */
+static PetscErrorCode Compare(const Answer *one, const Answer *many, const Answer *redone, int n,
+                              double bound)
+{
+  const double largest = LargestDifference(one, many, n);
   for (int k = 0; k < n; k++) {
     const double a = many->all[k], b = redone->all[k];
     CHECK(isnan(a) == isnan(b) && !(a < b || a > b), "node %d: %.17g, redone %.17g", k / 4, a, b);
-    if (isnan(a)) continue;
-    CHECK(!isnan(one->all[k]), "node %d is not there on one rank", k / 4);
-    largest = fmax(largest, fabs(a - one->all[k]) / (k % 4 < 2 ? 0.1 : 10.0));
+    CHECK(isnan(a) || !isnan(one->all[k]), "node %d is not there on one rank", k / 4);
   }
   if (getenv("VERBOSE"))
-    printf("largest difference %.2e; %d broken, %d live, %d pieces\n", largest, many->f.broken,
-           many->f.active, many->pieces);
-  CHECK(largest < 1e-11, "differs from one rank by %g", largest);
+    printf("largest difference %.2e, bound %.2e; %d broken, %d live, %d pieces\n", largest, bound,
+           many->f.broken, many->f.active, many->pieces);
+  CHECK(largest < bound, "differs from one rank by %g, bound %g", largest, bound);
   CHECK(one->f.broken > 20 && one->pieces > 4, "%d broken, %d pieces", one->f.broken, one->pieces);
   CHECK(one->f.broken == many->f.broken && one->f.active == many->f.active && one->pieces == many->pieces,
         "%d broken and %d", one->f.broken, many->f.broken);
-  CHECK(fabs(one->f.energy / many->f.energy - 1.0) < 1e-11 && many->f.energy == redone->f.energy,
+  CHECK(fabs(one->f.energy / many->f.energy - 1.0) < bound && many->f.energy == redone->f.energy,
         "energy %.12g, %.12g, %.12g", one->f.energy, many->f.energy, redone->f.energy);
   for (int b = 0; b < 4; b++)
     CHECK(fabs(one->body[b].load[0] - many->body[b].load[0]) < 1e-9 * 1e5 &&
@@ -82,17 +94,23 @@ static PetscErrorCode Compare(const Answer *one, const Answer *many, const Answe
   return CopiesAgree(many->all, n, 1);
 }
 
+/* What a relative change of the first positions by DBL_EPSILON grows to is 2e-11 to 4e-11; sums in another order change every substep by as much,
+ * so the bound is ten times what it has grown to. */
 static PetscErrorCode Forced(void)
 {
-  Answer one, many, redone;
+  Answer one, perturbed, many, redone;
   Model a = {0};
   Bodies(&a);
   const int nids = a.nnodes + 3 * a.nelements;
   PetscCall(Simulate(PETSC_COMM_SELF, CALM, nids, &one));
+  PetscCall(Simulate(PETSC_COMM_SELF, PERTURBED, nids, &perturbed));
   PetscCall(Simulate(PETSC_COMM_WORLD, SCATTERED, nids, &many));
   PetscCall(Simulate(PETSC_COMM_WORLD, REDONE, nids, &redone));
-  PetscCall(Compare(&one, &many, &redone, 4 * nids));
+  const double grown = LargestDifference(&one, &perturbed, 4 * nids);
+  CHECK(grown > 0.0 && grown < 1e-9, "a perturbation by round-off grows to %g", grown);
+  PetscCall(Compare(&one, &many, &redone, 4 * nids, 10.0 * grown));
   free(one.all);
+  free(perturbed.all);
   free(many.all);
   free(redone.all);
   return ModelDestroy(&a);
