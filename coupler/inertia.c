@@ -1,4 +1,5 @@
 #include "coupler/inertia.h"
+#include "coupler/outside.h"
 
 /* An element is covered where its pairs' areas add up to its own to this part of it. */
 #define COVERED 1e-10
@@ -71,17 +72,36 @@ static PetscBool IsCovered(const Overlap o, const SourceTerm source[], int e)
   return fabs(covered - area) < COVERED * area ? PETSC_TRUE : PETSC_FALSE;
 }
 
+/* k of element e. */
+static double KeptPart(const Overlap o, const SourceTerm source[], const ElementTerm *element, int e)
+{
+  const int k = o->coupled_element[e];
+  const double rho = o->rho[k];
+  double area = 0.0, excess = 0.0;
+  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
+    const SupermeshPair *pair = &o->pairs.pair[o->of_element[i]];
+    if (source[pair->a].density == 0.0) continue;
+    area += pair->area;
+    excess += pair->area * fmax(source[pair->a].density - rho, 0.0);
+  }
+  if (excess == 0.0 || area > (1.0 - OUTSIDE_LEAST) * o->area[k]) return 1.0;
+  return fmin(1.0, INERTIA_LIGHT * (rho + element->outside) * area / excess);
+}
+
 void InertiaStart(Overlap o, const SourceTerm source[], double dt, ElementTerm element[], PairTerm term[])
 {
-  if (o->phases) return;
-  for (int e = 0; e < o->ncoupled; e++) element[e].covered = IsCovered(o, source, e);
+  for (int e = 0; e < o->ncoupled; e++) {
+    const double kept = KeptPart(o, source, &element[e], e);
+    element[e].covered = (PetscBool)(!o->phases && IsCovered(o, source, e));
+    element[e].kept =
+        o->phases ? WallCoefficientIsotropic(kept) : WallCoefficientScaled(&element[e].tangential, kept);
+  }
   for (int p = 0; p < o->pairs.n; p++) {
     const ElementTerm *k = &element[o->coupled_index[p]];
     PairTerm *t = &term[p];
     if (source[o->pairs.pair[p].a].density == 0.0) continue;
-    const WallCoefficient kept = InertiaKept(o, &k->tangential);
     const double all = t->inertia + (k->covered ? t->rho / dt : 0.0);
-    t->start = WallCoefficientScaled(&kept, -t->inertia);
+    t->start = WallCoefficientScaled(&k->kept, -t->inertia);
     t->start.xx += all;
     t->start.yy += all;
   }

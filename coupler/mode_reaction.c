@@ -29,7 +29,7 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
     }
   }
   PetscCall(InertiaCoefficients(o, solid, c->dt, c->term, c->source));
-  PetscCall(OutsideWeight(o, c->options.gravity, c->element));
+  OutsideDensity(o, c->element);
   SlipTensors(o, c->element);
   InertiaStart(o, c->source, c->dt, c->element, c->term);
   SlipCoefficients(o, c->element, c->term);

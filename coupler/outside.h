@@ -11,12 +11,16 @@
  *
  *     (rho_o - rho_f) (alpha int_K N - int_{K and S} N) g.
  *
- * Without it each element that is crossed turns beside a solid at rest.  (Its inertia, moved likewise, needs a reaction with
+ * The solid does not feel it.  Without it each element that is crossed turns beside a solid at rest.  (Its inertia, moved likewise, needs a reaction with
  * the water's density on the solid's nodes: nodes lighter than that are thrown about.) */
 #ifndef CORACLE_COUPLER_OUTSIDE_H
 #define CORACLE_COUPLER_OUTSIDE_H
 #include "coupler/wall_term.h"
 
-/* Local: the weight above, beside the pairs in the solid's volume that are not held, of element[overlap->ncoupled]; gravity in m/s2. */
-PetscErrorCode OutsideWeight(const Overlap overlap, const double gravity[2], ElementTerm element[]);
+/* Of K: less than that is nothing beside the solid. */
+#define OUTSIDE_LEAST 1e-3
+
+/* Local: rho_o - rho_f of element[overlap->ncoupled], between 0 and that of the phases beside the solid; 0 with one fluid.  Its weight
+ * is that of the pairs in the solid's volume that are not held. */
+void OutsideDensity(const Overlap overlap, ElementTerm element[]);
 #endif

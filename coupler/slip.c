@@ -1,4 +1,5 @@
 #include "coupler/slip.h"
+#include "coupler/outside.h"
 
 void SlipTensors(const Overlap o, ElementTerm element[])
 {
@@ -16,7 +17,7 @@ void SlipTensors(const Overlap o, ElementTerm element[])
       yy += pair->area * n[1] * n[1];
     }
     element[e].tangential = WallCoefficientIsotropic(0.0);
-    if (!o->phases && shell > 0.0 && solid < 0.999 * o->area[o->coupled_element[e]])
+    if (!o->phases && shell > 0.0 && solid < (1.0 - OUTSIDE_LEAST) * o->area[o->coupled_element[e]])
       element[e].tangential = (WallCoefficient){1.0 - xx / shell, -xy / shell, 1.0 - yy / shell};
   }
 }

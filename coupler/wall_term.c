@@ -36,7 +36,7 @@ static void AddInertia(const SupermeshPair *pair, const PairTerm *term, const El
 {
   const LinearField body = PairBodyForce(term, source, gravity, pair->centre);
   LinearFieldAdd(1.0, &body, density);
-  for (int c = 0; c < 2; c++) density->value[c] -= element->outside_weight[c];
+  for (int c = 0; c < 2; c++) density->value[c] -= element->outside * gravity[c];
   if (!WallIsZero(&term->start)) {
     const LinearField start = LinearFieldAt(&source->start, pair->centre);
     WallAdd(&term->start, &start, density);
@@ -88,7 +88,7 @@ static void SetVectors(const SupermeshBasis *basis, const VectorMoments *m, doub
 
 /* Of element K, whose coupling is 0 so far. */
 static void SetCoupling(const Overlap o, const ElementSums *sums, const WallSums *w,
-                        const ElementTerm *element, CoracleCoupling *k)
+                        const ElementTerm *element, const double gravity[2], CoracleCoupling *k)
 {
   const SupermeshBasis *basis = &o->basis[k->element];
   const double area = o->area[k->element];
@@ -97,9 +97,9 @@ static void SetCoupling(const Overlap o, const ElementSums *sums, const WallSums
   k->shell = sums->shell / area;
   for (int c = 0; c < 2; c++) k->velocity[c] = sums->velocity[c] / (sums->alpha + sums->shell);
   SetVectors(basis, &sums->s, k->s);
-  for (int i = 0; i < 6; i++) k->s[i / 3][i % 3] += element->outside_weight[i / 3] * sums->outside / 3.0;
+  for (int i = 0; i < 6; i++) k->s[i / 3][i % 3] += element->outside * gravity[i / 3] * sums->outside / 3.0;
   if (sums->flags & CORACLE_HAS_INERTIA) {
-    const WallCoefficient kept = InertiaKept(o, &element->tangential);
+    const WallCoefficient kept = element->kept;
     memcpy(k->kept, (double[2][2]){{kept.xx, kept.xy}, {kept.xy, kept.yy}}, sizeof k->kept);
     MassMomentsMatrix(basis, &sums->inertia, k->implicit_inertia);
   }
@@ -131,7 +131,7 @@ PetscErrorCode WallTermAssemble(const Overlap o, const PairTerm term[], const El
       AddPair(pair, &term[p], &element[e], &source[pair->a], (PetscBool)o->source[pair->a].is_shell, gravity,
               d, &sums, &w);
     }
-    SetCoupling(o, &sums, &w, &element[e], &coupling[e]);
+    SetCoupling(o, &sums, &w, &element[e], gravity, &coupling[e]);
   }
   PetscFunctionReturn(0);
 }

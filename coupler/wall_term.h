@@ -85,9 +85,9 @@ typedef struct {
 /* What a coupled element's pairs have in common. */
 typedef struct {
   WallCoefficient tangential; /* D (slip.h), without unit */
+  WallCoefficient kept;       /* of u^n, by the solid's inertia (inertia.h), without unit */
   PetscBool covered;          /* K lies in the solid as a whole (inertia.h) */
-  /* N/m3, of the fluid beside the solid (outside.h), which the solid does not feel */
-  double outside_weight[2];
+  double outside;             /* rho_o - rho_f of the fluid beside the solid (outside.h), kg/m3 */
 } ElementTerm;
 
 /* What a source triangle's vertices have, with its basis as the origin. */
