@@ -1,6 +1,6 @@
 /* What the coupler keeps of the last step at the solid's nodes: their acceleration over the step, which
- * predicts the velocity at the end of the coming one; their acceleration by the shell's reaction, which is
- * outside of the solid but moves its inside too (inertia.h); and the momentum that the fluid inside has kept of
+ * predicts the velocity at the end of the coming one; their acceleration by the shell's reaction, and by the load of the
+ * pressure outside if there is one (pressure_load.h), which are of outside of the solid but move its inside too (inertia.h); and the momentum that the fluid inside has kept of
  * its slip (slip.h), which the caller adds after HistoryStep.  In checkpoints. */
 #ifndef CORACLE_HISTORY_H
 #define CORACLE_HISTORY_H
@@ -18,7 +18,7 @@ typedef struct {
 } History;                   /* zero-initialise but for comm: nothing is known */
 
 /* Collective: a step of dt seconds has ended with `moved`; start[n][2]: the velocity at its start, m/s;
- * shell[n][2]: the acceleration by the shell's reaction, m/s2.  After cracks, which make other nodes, nothing
+ * shell[n][2]: that acceleration by what is outside, m/s2.  After cracks, which make other nodes, nothing
  * is known but what is retained, 0 at first. */
 PetscErrorCode HistoryStep(History *h, const SolidState *moved, double dt, const double start[],
                            const double shell[]);
