@@ -1,34 +1,26 @@
 #include "coupler/pressure_load.h"
 #include "common/space/p2.h"
+#include "coupler/harmonic.h"
 #include <stdlib.h>
 
 /* H(p_s) and H(p_o) at a node; q and H(p_o) in an element. */
-enum { SURFACE, OUTSIDE, NFIELDS };
+enum { SURFACE, OUTSIDE };
 enum { Q, LEVEL, NVALUES };
-
-/* Conjugate gradients of H: residuals relative to the first ones. */
-#define TOLERANCE 1e-9
-enum { MAX_ITERATIONS = 1000 };
 
 typedef struct {
   long long gid[3]; /* of the nodes, ascending */
   double value[NVALUES];
 } Row;
 
-typedef double Fields[NFIELDS];
-
 struct PressureLoad_s {
   MPI_Comm comm;
-  PetscBool has_mesh;
+  Harmonic harmonic; /* NULL: nothing is known of the solid yet */
   int nnodes, nelements;
-  int (*node)[3];           /* [nelements] */
-  double (*gradient)[3][2]; /* [nelements] int_T grad N_i, m */
-  double *area;             /* [nelements] m2 */
-  Row *row, *attempt;       /* [nelements] as the step began, and as its last attempt has left it, Pa */
-  double *diagonal;         /* [nnodes] of the Laplacian, summed over the ranks */
-  Fields *h, *residual, *direction; /* [nnodes] */
-  Fields *image;                    /* [nnodes] */
-  char *counts, *is_free;           /* [nnodes] on this rank in sums over all nodes; H is found here */
+  int (*node)[3];               /* [nelements] */
+  double *x;                    /* [nnodes][2] m */
+  Row *row, *attempt;           /* [nelements] as the step began, and as its last attempt has left it, Pa */
+  double (*h)[HARMONIC_FIELDS]; /* [nnodes] Pa */
+  char *is_given;               /* [nnodes] h is p_s and p_o */
 };
 
 PetscErrorCode PressureLoadCreate(MPI_Comm comm, PressureLoad *load)
@@ -45,9 +37,9 @@ PetscErrorCode PressureLoadDestroy(PressureLoad *load)
 
   PetscFunctionBeginUser;
   if (!l) PetscFunctionReturn(0);
-  PetscCall(PetscFree5(l->node, l->gradient, l->area, l->row, l->attempt));
-  PetscCall(PetscFree5(l->diagonal, l->h, l->residual, l->direction, l->image));
-  PetscCall(PetscFree2(l->counts, l->is_free));
+  PetscCall(HarmonicDestroy(&l->harmonic));
+  PetscCall(PetscFree3(l->node, l->row, l->attempt));
+  PetscCall(PetscFree3(l->x, l->h, l->is_given));
   PetscCall(PetscFree(*load));
   PetscFunctionReturn(0);
 }
@@ -65,12 +57,11 @@ static PetscErrorCode Allocate(PressureLoad l, const SolidState *solid)
   const size_t n = (size_t)solid->nnodes, ne = (size_t)solid->nelements;
 
   PetscFunctionBeginUser;
-  l->has_mesh = PETSC_TRUE;
+  PetscCall(HarmonicCreate(l->comm, solid, &l->harmonic));
   l->nnodes = solid->nnodes;
   l->nelements = solid->nelements;
-  PetscCall(PetscMalloc5(ne, &l->node, ne, &l->gradient, ne, &l->area, ne, &l->row, ne, &l->attempt));
-  PetscCall(PetscMalloc5(n, &l->diagonal, n, &l->h, n, &l->residual, n, &l->direction, n, &l->image));
-  PetscCall(PetscMalloc2(n, &l->counts, n, &l->is_free));
+  PetscCall(PetscMalloc3(ne, &l->node, ne, &l->row, ne, &l->attempt));
+  PetscCall(PetscMalloc3(2 * n, &l->x, n, &l->h, n, &l->is_given));
   PetscCall(PetscArrayzero(l->row, ne));
   for (size_t t = 0; t < ne; t++) {
     PetscCall(PetscArraycpy(l->node[t], solid->element + 3 * t, 3));
@@ -84,19 +75,10 @@ static PetscErrorCode Allocate(PressureLoad l, const SolidState *solid)
 PetscErrorCode PressureLoadBuild(PressureLoad l, const SolidState *solid)
 {
   PetscFunctionBeginUser;
-  if (!l->has_mesh) PetscCall(Allocate(l, solid));
+  if (!l->harmonic) PetscCall(Allocate(l, solid));
   PetscCheck(l->nelements == solid->nelements && l->nnodes == solid->nnodes, PETSC_COMM_SELF, PETSC_ERR_SUP,
              "the solid has other elements than when it asked for the load of the pressure");
-  for (int t = 0; t < l->nelements; t++) {
-    const double *x[3];
-    for (int i = 0; i < 3; i++) x[i] = solid->x + 2 * l->node[t][i];
-    l->area[t] = 0.5 * GeometryTurn(x[0], x[1], x[2]);
-    for (int i = 0; i < 3; i++) {
-      const double *j = x[(i + 1) % 3], *k = x[(i + 2) % 3];
-      l->gradient[t][i][0] = 0.5 * (j[1] - k[1]);
-      l->gradient[t][i][1] = 0.5 * (k[0] - j[0]);
-    }
-  }
+  PetscCall(PetscArraycpy(l->x, solid->x, 2 * l->nnodes));
   PetscFunctionReturn(0);
 }
 
@@ -146,7 +128,7 @@ static PetscErrorCode SumPairs(Overlap o, const double p[], double owned[][NSUMS
   PetscFunctionReturn(0);
 }
 
-/* p_s and p_o in h of the surface's nodes, 0 elsewhere; after SetDiagonal. */
+/* p_s and p_o in h of the surface's nodes, 0 elsewhere. */
 static PetscErrorCode SurfaceValues(PressureLoad l, Overlap o, const double owned[][NSUMS])
 {
   double(*node)[NSUMS];
@@ -159,102 +141,11 @@ static PetscErrorCode SurfaceValues(PressureLoad l, Overlap o, const double owne
   PetscCall(CopiesSum(o->nodes, NSUMS, (double *)node));
   for (int i = 0; i < l->nnodes; i++) {
     const double area = node[i][AREA];
-    l->is_free[i] = area == 0.0 && l->diagonal[i] > 0.0;
+    l->is_given[i] = area > 0.0;
     l->h[i][SURFACE] = area > 0.0 ? node[i][INSIDE] / area : 0.0;
     l->h[i][OUTSIDE] = area > 0.0 ? node[i][OUTER] / area : 0.0;
   }
   PetscCall(PetscFree(node));
-  PetscFunctionReturn(0);
-}
-
-/* --- H -------------------------------------------------------------------------------------------------- */
-
-/* image = K v, K the Laplacian's stiffness matrix; 0 at nodes that are not free. */
-static PetscErrorCode ApplyLaplacian(PressureLoad l, Overlap o, const Fields v[], Fields image[])
-{
-  PetscFunctionBeginUser;
-  PetscCall(PetscArrayzero(image, l->nnodes));
-  for (int t = 0; t < l->nelements; t++) {
-    const double(*g)[2] = (const double(*)[2])l->gradient[t];
-    const int *node = l->node[t];
-    for (int c = 0; c < NFIELDS; c++) {
-      double d[2] = {0.0, 0.0};
-      for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 2; k++) d[k] += g[i][k] * v[node[i]][c];
-      for (int i = 0; i < 3; i++) image[node[i]][c] += (g[i][0] * d[0] + g[i][1] * d[1]) / l->area[t];
-    }
-  }
-  PetscCall(CopiesSum(o->nodes, NFIELDS, (double *)image));
-  for (int i = 0; i < l->nnodes; i++)
-    for (int c = 0; c < NFIELDS && !l->is_free[i]; c++) image[i][c] = 0.0;
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode SetDiagonal(PressureLoad l, Overlap o)
-{
-  PetscMPIInt rank;
-
-  PetscFunctionBeginUser;
-  PetscCall(PetscArrayzero(l->diagonal, l->nnodes));
-  for (int t = 0; t < l->nelements; t++)
-    for (int i = 0; i < 3; i++) {
-      const double *g = l->gradient[t][i];
-      l->diagonal[l->node[t][i]] += (g[0] * g[0] + g[1] * g[1]) / l->area[t];
-    }
-  PetscCall(CopiesSum(o->nodes, 1, l->diagonal));
-  PetscCallMPI(MPI_Comm_rank(l->comm, &rank));
-  for (int i = 0; i < l->nnodes; i++) l->counts[i] = CopiesOwner(o->nodes, i) == rank;
-  PetscFunctionReturn(0);
-}
-
-/* sum[c] = a_c.b_c over all nodes, over the diagonal where by_diagonal. */
-static PetscErrorCode Dot(const PressureLoad l, const Fields a[], const Fields b[], PetscBool by_diagonal,
-                          double sum[NFIELDS])
-{
-  PetscFunctionBeginUser;
-  for (int c = 0; c < NFIELDS; c++) sum[c] = 0.0;
-  for (int i = 0; i < l->nnodes; i++)
-    for (int c = 0; c < NFIELDS && l->counts[i] && l->is_free[i]; c++)
-      sum[c] += a[i][c] * b[i][c] / (by_diagonal ? l->diagonal[i] : 1.0);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, NFIELDS, MPI_DOUBLE, MPI_SUM, l->comm));
-  PetscFunctionReturn(0);
-}
-
-/* h at free nodes, where it is 0 so far, from the others: conjugate gradients with the diagonal, both fields at once. */
-static PetscErrorCode SolveHarmonic(PressureLoad l, Overlap o)
-{
-  double rz[NFIELDS], first[NFIELDS], pq[NFIELDS], next[NFIELDS];
-
-  PetscFunctionBeginUser;
-  PetscCall(ApplyLaplacian(l, o, (const Fields *)l->h, l->residual));
-  PetscCall(PetscArrayzero(l->direction, l->nnodes));
-  for (int i = 0; i < l->nnodes; i++)
-    for (int c = 0; c < NFIELDS; c++) {
-      l->residual[i][c] = -l->residual[i][c];
-      if (l->is_free[i]) l->direction[i][c] = l->residual[i][c] / l->diagonal[i];
-    }
-  PetscCall(Dot(l, (const Fields *)l->residual, (const Fields *)l->residual, PETSC_TRUE, rz));
-  PetscCall(PetscArraycpy(first, rz, NFIELDS));
-  for (int k = 0; k < MAX_ITERATIONS; k++) {
-    PetscBool done = PETSC_TRUE;
-    for (int c = 0; c < NFIELDS; c++)
-      if (rz[c] > TOLERANCE * TOLERANCE * first[c]) done = PETSC_FALSE;
-    if (done) break;
-    PetscCall(ApplyLaplacian(l, o, (const Fields *)l->direction, l->image));
-    PetscCall(Dot(l, (const Fields *)l->direction, (const Fields *)l->image, PETSC_FALSE, pq));
-    for (int i = 0; i < l->nnodes; i++)
-      for (int c = 0; c < NFIELDS && l->is_free[i]; c++) {
-        const double alpha = pq[c] > 0.0 ? rz[c] / pq[c] : 0.0;
-        l->h[i][c] += alpha * l->direction[i][c];
-        l->residual[i][c] -= alpha * l->image[i][c];
-      }
-    PetscCall(Dot(l, (const Fields *)l->residual, (const Fields *)l->residual, PETSC_TRUE, next));
-    for (int i = 0; i < l->nnodes; i++)
-      for (int c = 0; c < NFIELDS && l->is_free[i]; c++)
-        l->direction[i][c] =
-            l->residual[i][c] / l->diagonal[i] + (rz[c] > 0.0 ? next[c] / rz[c] : 0.0) * l->direction[i][c];
-    PetscCall(PetscArraycpy(rz, next, NFIELDS));
-  }
   PetscFunctionReturn(0);
 }
 
@@ -264,9 +155,12 @@ static PetscErrorCode SolveHarmonic(PressureLoad l, Overlap o)
 static void AddLoad(const PressureLoad l, int value, double force[])
 {
   for (int t = 0; t < l->nelements; t++)
-    for (int i = 0; i < 3; i++)
-      for (int d = 0; d < 2; d++)
-        force[2 * l->node[t][i] + d] -= l->attempt[t].value[value] * l->gradient[t][i][d];
+    for (int i = 0; i < 3; i++) {
+      const double *j = l->x + 2 * l->node[t][(i + 1) % 3], *k = l->x + 2 * l->node[t][(i + 2) % 3];
+      const double half = 0.5 * l->attempt[t].value[value];
+      force[2 * l->node[t][i]] -= half * (j[1] - k[1]);
+      force[2 * l->node[t][i] + 1] -= half * (k[0] - j[0]);
+    }
 }
 
 PetscErrorCode PressureLoadAdd(PressureLoad l, Overlap o, const double p[], double force[])
@@ -276,9 +170,8 @@ PetscErrorCode PressureLoadAdd(PressureLoad l, Overlap o, const double p[], doub
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(o->nowned, &owned));
   PetscCall(SumPairs(o, p, owned));
-  PetscCall(SetDiagonal(l, o));
   PetscCall(SurfaceValues(l, o, (const double(*)[NSUMS])owned));
-  PetscCall(SolveHarmonic(l, o));
+  PetscCall(HarmonicSolve(l->harmonic, o->nodes, l->x, l->is_given, l->h));
   for (int t = 0; t < l->nelements; t++) {
     double surface = 0.0, outside = 0.0;
     for (int i = 0; i < 3; i++) {

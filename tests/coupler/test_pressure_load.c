@@ -68,7 +68,7 @@ static void CheckTraction(const char *what, double value[][2], double factor)
   }
   for (int i = 0; i < all_solid.nnodes; i++)
     for (int d = 0; d < 2; d++)
-      CHECK(fabs(value[i][d] - expected[i][d]) < 1e-8 * factor, "%s at node %d: %g instead of %g", what, i,
+      CHECK(fabs(value[i][d] - expected[i][d]) <= 1e-8 * factor, "%s at node %d: %g instead of %g", what, i,
             value[i][d], expected[i][d]);
 }
 
@@ -90,6 +90,14 @@ static void CheckOutside(void)
   }
   Run(PETSC_COMM_WORLD, &shared);
   CheckTraction("acceleration", shared.acceleration, PRESSURE_LOAD_RISE * MOBILITY);
+}
+
+/* A solid that the fluid does not cover at all. */
+static void CheckFar(void)
+{
+  for (int i = 0; i < all_solid.nnodes; i++) all_solid.x[i][0] += 5.0;
+  Run(PETSC_COMM_WORLD, &shared);
+  CheckTraction("load outside of the fluid", shared.force, 0.0);
 }
 
 static void CheckAny(void)
@@ -122,5 +130,6 @@ int main(int argc, char **argv)
   CheckUniform();
   CheckOutside();
   CheckAny();
+  CheckFar();
   return PetscFinalize();
 }
