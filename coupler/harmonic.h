@@ -1,7 +1,7 @@
 /* Harmonic functions inside the solid: from values at some of its nodes, those at the others by the Laplacian's linear elements on the
  * solid's mesh as it is now, two fields at once.  Conjugate gradients to a residual of 1e-10 of the first one; their preconditioner is the
- * factor of each rank's part at the first solve.  The Laplacian does not know rotations and deformation changes it little: one to
- * five iterations on one rank. */
+ * factor of each rank's part at the first solve.  The Laplacian does not know rotations and deformation changes it little: on one
+ * rank three iterations at the start of FSI3 (cases/flexible_beam), six when the beam swings. */
 #ifndef CORACLE_COUPLER_HARMONIC_H
 #define CORACLE_COUPLER_HARMONIC_H
 #include "common/exchange/copies.h"
