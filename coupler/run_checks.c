@@ -76,9 +76,8 @@ PetscErrorCode RunCheckPressureLoad(const RunState *run)
                            "coupler.mode: reaction has"));
   if (CouplerOverlap(run->loop->coupler)->phases)
     PetscCall(RunFail(run, "the solid asks for the load of the pressure (solid.pressure_load), and the fluid "
-                           "has phases: an element "
-                           "with their interface has one pressure for both sides of it, and a load made of "
-                           "that turns a floating body"));
+                           "has phases: an element with their interface has one pressure for both sides "
+                           "of it, and a load made of that turns a floating body"));
   PetscFunctionReturn(0);
 }
 
