@@ -17,6 +17,13 @@ PetscErrorCode CouplerCreate(MPI_Comm comm, const CouplerOptions *options, Coupl
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode CouplerUsePressureLoad(Coupler c)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PressureLoadCreate(c->comm, &c->pressure_load));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode CouplerSetElements(Coupler c, const FluidElements *elements)
 {
   PetscFunctionBeginUser;
@@ -58,14 +65,14 @@ static PetscErrorCode NewStep(Coupler c, const SolidState *solid)
 }
 
 /* From the step before: the velocity at the end of this one, and the acceleration by all but the fluid inside
- * the solid, which the shell's reaction is part of. */
+ * the solid, which the shell's reaction and the pressure outside are part of. */
 static void Predict(Coupler c, const SolidState *solid)
 {
   const History *h = &c->history;
   const PetscBool known = h->known && c->options.mode == COUPLER_REACTION ? PETSC_TRUE : PETSC_FALSE;
   for (int k = 0; k < 2 * c->nnodes; k++) {
     c->predicted[k] = c->start[k] + (known ? c->dt * h->acceleration[k / 2][k % 2] : 0.0);
-    c->acceleration[k] = solid->acceleration[k] + (known ? h->shell[k / 2][k % 2] : 0.0);
+    c->acceleration[k] = solid->acceleration[k] + (known ? h->outside[k / 2][k % 2] : 0.0);
   }
 }
 
@@ -80,6 +87,7 @@ static PetscErrorCode BuildAt(Coupler c, const SolidState *solid, const double x
   PetscCall(ShellExtrude(c->shell, &at, new_mesh));
   PetscCall(OverlapBuild(c->overlap, &at, c->shell, new_mesh));
   PetscCall(NewStep(c, &at));
+  if (c->pressure_load) PetscCall(PressureLoadBuild(c->pressure_load, &at));
   c->built = 1;
   PetscCall(c->mode->coefficients(c, &at));
   PetscCall(InertiaExplicitFraction(c->overlap, &at, c->source, c->explicit_fraction));
@@ -164,6 +172,7 @@ PetscErrorCode CouplerComputeForce(Coupler c, const CoracleFlow *flow, const dou
     for (int d = 0; d < 2; d++) c->force[2 * i + d] = c->node[i].reaction[d] + c->node[i].other[d];
   }
   PetscCall(ForceSum(c->overlap, c->dt, c->coupling, flow, c->nnodes, c->node, totals));
+  if (c->pressure_load) PetscCall(PressureLoadAdd(c->pressure_load, c->overlap, flow->p, c->force));
   *force = c->force;
   PetscFunctionReturn(0);
 }
@@ -204,13 +213,14 @@ static PetscErrorCode ShellAcceleration(Coupler c, double acceleration[])
 
 static PetscErrorCode StoreHistory(Coupler c, const SolidState *moved)
 {
-  double *shell;
+  double *outside;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(2 * (size_t)c->nnodes, &shell));
-  PetscCall(ShellAcceleration(c, shell));
-  PetscCall(HistoryStep(&c->history, moved, c->dt, c->start, shell));
-  PetscCall(PetscFree(shell));
+  PetscCall(PetscMalloc1(2 * (size_t)c->nnodes, &outside));
+  PetscCall(ShellAcceleration(c, outside));
+  if (c->pressure_load) PetscCall(PressureLoadAccept(c->pressure_load, c->overlap, c->mobility, outside));
+  PetscCall(HistoryStep(&c->history, moved, c->dt, c->start, outside));
+  PetscCall(PetscFree(outside));
   PetscFunctionReturn(0);
 }
 
@@ -282,12 +292,14 @@ PetscErrorCode CouplerSave(Coupler c, Checkpoint to)
 {
   PetscFunctionBeginUser;
   PetscCall(HistorySave(&c->history, to));
+  if (c->pressure_load) PetscCall(PressureLoadSave(c->pressure_load, to));
   PetscFunctionReturn(0);
 }
 PetscErrorCode CouplerLoad(Coupler c, const SolidState *solid, Checkpoint from)
 {
   PetscFunctionBeginUser;
   PetscCall(HistoryLoad(&c->history, solid, from));
+  if (c->pressure_load) PetscCall(PressureLoadLoad(c->pressure_load, solid, from));
   PetscFunctionReturn(0);
 }
 Shell CouplerShell(Coupler c)
@@ -305,6 +317,7 @@ PetscErrorCode CouplerDestroy(Coupler *coupler)
   if (!*coupler) PetscFunctionReturn(0);
   PetscCall(FreeStep(*coupler));
   PetscCall(HistoryDestroy(&(*coupler)->history));
+  PetscCall(PressureLoadDestroy(&(*coupler)->pressure_load));
   PetscCall(PetscFree((*coupler)->correction));
   PetscCall(ShellDestroy(&(*coupler)->shell));
   PetscCall(OverlapDestroy(&(*coupler)->overlap));

@@ -21,6 +21,9 @@
 
 PetscErrorCode CouplerCreate(MPI_Comm comm, const CouplerOptions *options, Coupler *coupler);
 PetscErrorCode CouplerDestroy(Coupler *coupler);
+/* Before the first CouplerBuild: the pressure compresses the solid (pressure_load.h), whose mesh must not change, in mode
+ * reaction; the flow then has p. */
+PetscErrorCode CouplerUsePressureLoad(Coupler coupler);
 
 /* The fluid's elements near the solid, with density and viscosity at the start of the coming step (copied). */
 PetscErrorCode CouplerSetElements(Coupler coupler, const FluidElements *elements);
@@ -52,7 +55,7 @@ PetscErrorCode CouplerComputeForce(Coupler coupler, const CoracleFlow *flow, con
 PetscErrorCode CouplerCorrect(Coupler coupler, const SolidState *moved, int *n,
                               const CoracleCorrection **correction);
 
-/* The history (history.h): between two steps; Load before the first CouplerBuild. */
+/* The history (history.h) and what has risen of the pressure's load: between two steps; Load before the first CouplerBuild. */
 PetscErrorCode CouplerSave(Coupler coupler, Checkpoint to);
 PetscErrorCode CouplerLoad(Coupler coupler, const SolidState *solid, Checkpoint from);
 

@@ -3,6 +3,7 @@
 #define CORACLE_COUPLER_IMPL_H
 #include "coupler/coupler.h"
 #include "coupler/history.h"
+#include "coupler/pressure_load.h"
 
 struct Coupler_s {
   MPI_Comm comm;
@@ -20,6 +21,7 @@ struct Coupler_s {
   double *acceleration;          /* [nnodes][2] a: by all but the fluid inside the solid, m/s2 (inertia.h) */
   double *explicit_fraction;     /* [nnodes] (inertia.h) */
   History history;               /* of the steps before */
+  PressureLoad pressure_load;    /* NULL: none */
   CoracleFlow flow;              /* borrowed */
   SourceTerm *source;            /* [overlap->nsources] */
   ElementTerm *element;          /* [overlap->ncoupled] */

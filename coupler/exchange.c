@@ -9,6 +9,7 @@ PetscErrorCode ExchangeReceiveSolid(Server server, const CouplerModeTable *mode,
   *solid = (SolidState){.changed = s.changed,
                         .lost = s.lost,
                         .start_element = s.before,
+                        .pressure_load = s.pressure_load,
                         .nnodes = s.nnodes,
                         .nfacets = s.nfacets,
                         .nelements = s.nelements,
@@ -33,9 +34,9 @@ PetscErrorCode ExchangeRequestElements(Server server, const Region region, Fluid
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ExchangeSelectFields(Server server, const CouplerModeTable *mode)
+PetscErrorCode ExchangeSelectFields(Server server, const CouplerModeTable *mode, const SolidState *solid)
 {
   PetscFunctionBeginUser;
-  if (mode->needs_pressure) PetscCall(ServerNeedPressure(server));
+  if (mode->needs_pressure || solid->pressure_load) PetscCall(ServerNeedPressure(server));
   PetscFunctionReturn(0);
 }

@@ -8,17 +8,17 @@ static PetscErrorCode Resize(History *h, const SolidState *solid)
 
   PetscFunctionBeginUser;
   PetscCall(HistoryDestroy(h));
-  PetscCall(PetscMalloc4(n, &h->gid, n, &h->acceleration, n, &h->shell, n, &h->retained));
+  PetscCall(PetscMalloc4(n, &h->gid, n, &h->acceleration, n, &h->outside, n, &h->retained));
   PetscCall(PetscArraycpy(h->gid, solid->gid, n));
   PetscCall(PetscArrayzero(h->acceleration, n));
-  PetscCall(PetscArrayzero(h->shell, n));
+  PetscCall(PetscArrayzero(h->outside, n));
   PetscCall(PetscArrayzero(h->retained, n));
   h->n = solid->nnodes;
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode HistoryStep(History *h, const SolidState *moved, double dt, const double start[],
-                           const double shell[])
+                           const double outside[])
 {
   int changed = moved->changed;
 
@@ -29,12 +29,12 @@ PetscErrorCode HistoryStep(History *h, const SolidState *moved, double dt, const
   for (int i = 0; i < h->n && h->known; i++)
     for (int c = 0; c < 2; c++) {
       h->acceleration[i][c] = (moved->u[2 * i + c] - start[2 * i + c]) / dt;
-      h->shell[i][c] = shell[2 * i + c];
+      h->outside[i][c] = outside[2 * i + c];
     }
   PetscFunctionReturn(0);
 }
 
-enum { ACCELERATION, SHELL = ACCELERATION + 2, RETAINED = SHELL + 2, NCOLUMNS = RETAINED + 2 };
+enum { ACCELERATION, OUTSIDE = ACCELERATION + 2, RETAINED = OUTSIDE + 2, NCOLUMNS = RETAINED + 2 };
 
 typedef struct {
   long long gid;
@@ -57,7 +57,7 @@ PetscErrorCode HistorySave(const History *h, Checkpoint to)
   for (int i = 0; i < h->n; i++)
     for (int c = 0; c < 2; c++) {
       value[i][ACCELERATION + c] = h->acceleration[i][c];
-      value[i][SHELL + c] = h->shell[i][c];
+      value[i][OUTSIDE + c] = h->outside[i][c];
       value[i][RETAINED + c] = h->retained[i][c];
     }
   PetscCall(CheckpointPutIndices(to, "history nodes", h->n, 1, h->gid));
@@ -108,7 +108,7 @@ PetscErrorCode HistoryLoad(History *h, const SolidState *solid, Checkpoint from)
     while (found > row && found[-1].gid == key.gid) found--;
     for (int c = 0; found && c < 2; c++) {
       h->acceleration[i][c] = found->value[ACCELERATION + c];
-      h->shell[i][c] = found->value[SHELL + c];
+      h->outside[i][c] = found->value[OUTSIDE + c];
       for (const Row *r = found; CopiesOwner(copies, i) == rank && r < end && r->gid == key.gid; r++)
         h->retained[i][c] += r->value[RETAINED + c];
     }
@@ -121,7 +121,7 @@ PetscErrorCode HistoryLoad(History *h, const SolidState *solid, Checkpoint from)
 PetscErrorCode HistoryDestroy(History *h)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscFree4(h->gid, h->acceleration, h->shell, h->retained));
+  PetscCall(PetscFree4(h->gid, h->acceleration, h->outside, h->retained));
   h->n = 0;
   h->known = PETSC_FALSE;
   PetscFunctionReturn(0);

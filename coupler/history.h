@@ -1,7 +1,7 @@
 /* What the coupler keeps of the last step at the solid's nodes: their acceleration over the step, which
- * predicts the velocity at the end of the coming one; their acceleration by the shell's reaction, which is
- * outside of the solid but moves its inside too (inertia.h); and the momentum that the fluid inside has kept of
- * its slip (slip.h), which the caller adds after HistoryStep.  In checkpoints. */
+ * predicts the velocity at the end of the coming one; their acceleration by what is outside of the solid but moves its inside
+ * too, the shell's reaction (inertia.h) and the load of the pressure outside, if there is one (pressure_load.h); and the
+ * momentum that the fluid inside has kept of its slip (slip.h), which the caller adds after HistoryStep.  In checkpoints. */
 #ifndef CORACLE_HISTORY_H
 #define CORACLE_HISTORY_H
 #include "common/output/checkpoint.h"
@@ -13,15 +13,15 @@ typedef struct {
   PetscBool known;           /* the same on all ranks */
   long long *gid;            /* [n] */
   double (*acceleration)[2]; /* [n] m/s2 */
-  double (*shell)[2];        /* [n] m/s2 */
+  double (*outside)[2];      /* [n] m/s2 */
   double (*retained)[2];     /* [n] kg m/s, known after cracks, too; each copy of a node has a part of it */
 } History;                   /* zero-initialise but for comm: nothing is known */
 
 /* Collective: a step of dt seconds has ended with `moved`; start[n][2]: the velocity at its start, m/s;
- * shell[n][2]: the acceleration by the shell's reaction, m/s2.  After cracks, which make other nodes, nothing
+ * outside[n][2]: that acceleration by what is outside, m/s2.  After cracks, which make other nodes, nothing
  * is known but what is retained, 0 at first. */
 PetscErrorCode HistoryStep(History *h, const SolidState *moved, double dt, const double start[],
-                           const double shell[]);
+                           const double outside[]);
 /* Collective.  Load gives this rank's nodes, those of `solid`, what any rank has saved of them; 0 for nodes
  * that nobody has. */
 PetscErrorCode HistorySave(const History *h, Checkpoint to);

@@ -67,6 +67,20 @@ PetscErrorCode RunCheckInside(const RunState *run)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode RunCheckPressureLoad(const RunState *run)
+{
+  PetscFunctionBeginUser;
+  if (!run->solid.pressure_load) PetscFunctionReturn(0);
+  if (run->loop->c->options.mode != COUPLER_REACTION)
+    PetscCall(RunFail(run, "the solid asks for the load of the pressure (solid.pressure_load), which only "
+                           "coupler.mode: reaction has"));
+  if (CouplerOverlap(run->loop->coupler)->phases)
+    PetscCall(RunFail(run, "the solid asks for the load of the pressure (solid.pressure_load), and the fluid "
+                           "has phases: an element with their interface has one pressure for both sides "
+                           "of it, and a load made of that turns a floating body"));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode RunNoteLeaving(RunState *run)
 {
   const double *lower = run->elements.lower, *upper = run->elements.upper;

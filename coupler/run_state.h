@@ -30,6 +30,8 @@ typedef struct {
 PetscErrorCode RunChooseStep(RunState *run, double proposed);
 /* Ends the job when a node of the solid is outside of the fluid's domain. */
 PetscErrorCode RunCheckInside(const RunState *run);
+/* Ends the job when the solid asks for the load of the pressure where there is none: in modes other than reaction and among phases. */
+PetscErrorCode RunCheckPressureLoad(const RunState *run);
 /* Says, once a run, that a node of the solid has left the fluid's domain, by more than a hundredth of its smaller extent: through an open side, as a
  * body on a wall does not. */
 PetscErrorCode RunNoteLeaving(RunState *run);

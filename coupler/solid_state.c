@@ -27,9 +27,20 @@ PetscErrorCode SolidStateCopy(const SolidState *solid, SolidState *copy)
   PetscCall(PetscArraycpy(acceleration, solid->acceleration, 2 * n));
   PetscCall(PetscArraycpy(facet, solid->facet, 2 * nfacets));
   PetscCall(PetscArraycpy(element, solid->element, 3 * ne));
-  *copy = (SolidState){
-      solid->changed, solid->lost,  NULL,  solid->nnodes, solid->nfacets, solid->nelements, gid, x, u,
-      mobility,       acceleration, facet, element};
+  *copy = (SolidState){solid->changed,
+                       solid->lost,
+                       NULL,
+                       solid->pressure_load,
+                       solid->nnodes,
+                       solid->nfacets,
+                       solid->nelements,
+                       gid,
+                       x,
+                       u,
+                       mobility,
+                       acceleration,
+                       facet,
+                       element};
   PetscFunctionReturn(0);
 }
 

@@ -16,6 +16,7 @@ typedef struct {
   /* changed on this rank within the step and not lost: the elements in the nodes that this rank had at the
    * step's start, [nelements][3]; else NULL */
   const int *start_element;
+  int pressure_load;                     /* the fluid's pressure is to compress it (pressure_load.h) */
   int nnodes, nfacets, nelements;        /* on this rank */
   const long long *gid;                  /* [nnodes] */
   const double *x;                       /* [nnodes][2] position, m */

@@ -92,9 +92,11 @@ static PetscErrorCode Start(RunState *run)
                                     &run->iteration));
   if (loop->from) PetscCall(RunLoad(run, loop->from));
   PetscCall(ExchangeReceiveSolid(loop->server, run->mode, &run->solid));
+  if (run->solid.pressure_load) PetscCall(CouplerUsePressureLoad(loop->coupler));
   if (loop->from) PetscCall(CouplerLoad(loop->coupler, &run->solid, loop->from));
-  PetscCall(ExchangeSelectFields(loop->server, run->mode));
+  PetscCall(ExchangeSelectFields(loop->server, run->mode, &run->solid));
   PetscCall(RequestElements(run));
+  PetscCall(RunCheckPressureLoad(run));
   if (!loop->from) PetscCall(RunCheckInside(run));
   PetscCall(RunChooseStep(run, run->dt > 0.0 ? run->dt : ServerProposedStep(loop->server)));
   PetscCall(RunCreateGauges(run));

@@ -78,6 +78,9 @@ static const CoracleCaseKey KEYS[] = {
     {"solid.probes[].point", "m", "where it is in the bodies at rest"},
     {"solid.courant", "", "substep over the limit of stability"},
     {"solid.decay_rate", "1/s", "of velocities, by a resistance over the mass: leads to the static state"},
+    {"solid.pressure_load", "",
+     "the pressure of the fluid around compresses the bodies; leave it off for those whose stiffness stands "
+     "for rigid"},
     {"solid.rebalance", "substeps",
      "lost to a bad share of the work after which elements change ranks; 0: never"},
     {"solid.petsc", "", "options for PETSc"},

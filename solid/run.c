@@ -11,6 +11,7 @@ PetscErrorCode SolidRunCreate(const Program *program, SolidRun *m)
     PetscCall(CheckpointOpen(program->comm, resume, "solid", &m->from));
     PetscCall(SolidLoad(m->solid, m->from));
   }
+  if (SolidCasePressureLoad(program->c)) PetscCall(CoracleSetPressureLoad(program->client));
   PetscCall(ExchangeCreate(program->client, m->solid, &m->exchange));
   PetscFunctionReturn(0);
 }

@@ -52,6 +52,22 @@ static void ReadWalls(CoracleCase c, const Model *a, SolidSetup *setup)
                           "the body reaches through solid.walls at (%g, %g)", a->x[2 * n], a->x[2 * n + 1]);
 }
 
+PetscBool SolidCasePressureLoad(CoracleCase c)
+{
+  return (PetscBool)CoracleCaseBoolOr(c, "solid.pressure_load", false);
+}
+
+/* The elements keep what they have of the load. */
+static void CheckPressureLoad(CoracleCase c, const Model *a)
+{
+  int jointed = 0;
+  for (int k = 0; k < a->nelements; k++) jointed |= a->jointed[k];
+  if (SolidCasePressureLoad(c) && jointed)
+    CoracleCaseRefuse(
+        c, "solid.pressure_load",
+        "not possible with joints: the load belongs to elements and to a surface that cracks change");
+}
+
 PetscErrorCode SolidCaseRead(CoracleCase c, Model *a, SolidSetup *setup)
 {
   const int nbodies = CoracleCaseCount(c, "solid.bodies");
@@ -66,6 +82,7 @@ PetscErrorCode SolidCaseRead(CoracleCase c, Model *a, SolidSetup *setup)
   if (!CoracleCaseHas(c, "solid.bodies"))
     CoracleCaseRefuse(c, "solid.bodies", "expected a list of bodies; of a fluid alone an empty one, []");
   for (int b = 0; b < nbodies; b++) PetscCall(CaseReadBody(c, b, a));
+  CheckPressureLoad(c, a);
   ReadWalls(c, a, setup);
   ReadRules(c, setup);
   ProbesCheckCase(c);

@@ -9,6 +9,9 @@
  */
 PetscErrorCode SolidCaseRead(CoracleCase c, Model *a, SolidSetup *setup);
 
+/* Key solid.pressure_load: the fluid's pressure compresses the bodies (CoracleSetPressureLoad); at any time, not collective. */
+PetscBool SolidCasePressureLoad(CoracleCase c);
+
 /* Collective: options for PETSc, bodies and set-up of the case, whose section solid must then have been read
  * in full; fail and context as in SolidSetup. */
 PetscErrorCode SolidFromCase(CoracleCase c, MPI_Comm comm, void (*fail)(void *context, const char *message),

@@ -156,6 +156,12 @@ int CoracleSetFlow(CoracleClient c, const CoracleFlow *flow)
   MessageHeader *h = MessageStart(&c->out, KIND_FLOW, c->p->step);
   h->count[0] = f->n;
   h->flag = f->needs_pressure ? FLAG_PRESSURE : 0;
+  if (f->needs_pressure && f->n && !all.p)
+    ParticipantFail(
+        c->p,
+        "the pressure of %d elements is missing in step %d: the coupling mode or the solid's load uses it "
+        "(CoracleNeedsPressure)",
+        f->n, c->p->step);
   if (!all.rho_inside) all.rho_inside = all.rho;
   if (!all.rho_beside) all.rho_beside = all.rho;
   FieldsPack(c->p, &c->out, &FIELDS_FLOW, (size_t)f->n, &all);

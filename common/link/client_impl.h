@@ -33,6 +33,7 @@ typedef struct {
   bool has_given;
   Buffer inertia; /* double [3][n], of CoracleSetInertia: mobility, 1/kg; acceleration [n][2], m/s2 */
   bool has_inertia;
+  bool pressure_load;
   FieldLists force;
 } ClientSolid;
 

@@ -27,6 +27,8 @@ static void BeforeChange(CoracleClient c, const char *function)
 {
   ClientSolid *s = &c->solid;
   ClientExpect(c, function, ROLE_SOLID, STAGE_SETUP, STAGE_STEP);
+  if (c->stage == STAGE_STEP && s->pressure_load)
+    ClientMisuse(c, function, "the mesh of a solid with CoracleSetPressureLoad does not change");
   if (c->stage == STAGE_STEP && !s->has_before) {
     SolidMeshCopy(&s->before, &s->mesh);
     s->has_before = true;

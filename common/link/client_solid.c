@@ -37,7 +37,7 @@ static void SendMotion(CoracleClient c, const double x[], const double fitted[],
   h->count[0] = m->n;
   h->count[1] = m->nfacets;
   h->count[2] = m->nelements;
-  h->flag = ClientFlags(c);
+  h->flag = ClientFlags(c) | (s->pressure_load ? FLAG_PRESSURE_LOAD : 0);
   if (s->changed) FieldsPack(c->p, &c->out, &FIELDS_NODES, (size_t)m->n, &fields);
   FieldsPack(c->p, &c->out, &FIELDS_MOTION, (size_t)m->n, &fields);
   if (s->changed) {
@@ -139,6 +139,13 @@ int CoracleSetInertia(CoracleClient c, const double mobility[], const double acc
   if (n) memcpy(to, mobility, n * sizeof *to);
   if (n) memcpy(to + n, acceleration, DIM * n * sizeof *to);
   s->has_inertia = true;
+  return 0;
+}
+
+int CoracleSetPressureLoad(CoracleClient c)
+{
+  ClientExpect(c, "CoracleSetPressureLoad", ROLE_SOLID, STAGE_SETUP, STAGE_SETUP);
+  c->solid.pressure_load = true;
   return 0;
 }
 

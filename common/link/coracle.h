@@ -18,7 +18,7 @@
  *     CoracleOpen                                       CoracleOpen
  *     CoracleBindState                                  CoracleGetRegion        where the solid is
  *     CoracleSetNodes, SetSurface, SetVolume            CoracleBindState
- *     CoracleSetInertia           (optional)            CoracleSetRegion, CoracleProposeStep
+ *     CoracleSetInertia, SetPressureLoad (optional)     CoracleSetRegion, CoracleProposeStep
  *     CoracleReady                                      CoracleReady
  *     loop                                              loop
  *       CoracleBegin(c, &t, &dt, &action)                 CoracleBegin(c, &t, &dt, &action)
@@ -134,6 +134,13 @@ int CoracleSetSurface(CoracleClient c, int ne, const int conn[]);
 /* conn[ne][dim + 1]: this rank's simplices of the volume, positively oriented; ne = 0 for a surface-only
  * solid.  Every element and facet is given by one rank. */
 int CoracleSetVolume(CoracleClient c, int ne, const int conn[]);
+/* Optional, before CoracleReady, on any rank for all: the pressure of the fluid around compresses the solid.  The force on its
+ * nodes has no part in a uniform pressure without it; with it CoracleGetForce has, in each element of the volume, a load
+ * without resultant and without moment of the pressure outside, Pa, which rises over some tens of steps.  Nothing else changes
+ * for the solid: the load is a part of the fluid's force in CoracleSetInertia.  Not for bodies whose stiffness stands for
+ * rigid.  Refused where the coupling mode is not reaction and where the fluid has phases; the mesh must not change after
+ * it. */
+int CoracleSetPressureLoad(CoracleClient c);
 
 /* --- the fluid's elements near the solid ---------------------------------------------------------------- */
 
@@ -280,7 +287,8 @@ typedef struct {
 /* After CoracleReady and after CoracleEnd: the coupling of the coming step.  Borrowed until the next
  * CoracleEnd. */
 int CoracleGetCoupling(CoracleClient c, int *n, const CoracleCoupling **coupling);
-/* From CoracleReady on: 1 when the coupling mode uses the pressure, else 0. */
+/* From CoracleReady on: 1 when the coupling mode or the solid (CoracleSetPressureLoad) uses the pressure, else 0.  A fluid
+ * without one must end the job then. */
 int CoracleNeedsPressure(CoracleClient c);
 /* Between CoracleBegin and CoracleEnd, once a step: the flow (copied). */
 int CoracleSetFlow(CoracleClient c, const CoracleFlow *flow);

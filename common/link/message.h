@@ -50,10 +50,11 @@ extern const FieldGroup FIELDS_NODES, FIELDS_MOTION, FIELDS_FACETS, FIELDS_SIMPL
 
 /* MessageHeader.flag */
 enum {
-  FLAG_CHANGED = 1, /* FLOW: the fluid's elements will be others */
-  FLAG_SAVED = 2,   /* of a client: it has saved itself into the checkpoint that was due */
-  FLAG_RESUMES = 4, /* of a client: it resumes from a checkpoint */
-  FLAG_PRESSURE = 8 /* ASK: the coupling mode needs the pressure; FLOW: it is there */
+  FLAG_CHANGED = 1,       /* FLOW: the fluid's elements will be others */
+  FLAG_SAVED = 2,         /* of a client: it has saved itself into the checkpoint that was due */
+  FLAG_RESUMES = 4,       /* of a client: it resumes from a checkpoint */
+  FLAG_PRESSURE = 8,      /* ASK: the coupling mode or the solid needs the pressure; FLOW: it is there */
+  FLAG_PRESSURE_LOAD = 16 /* SURFACE: the solid wants it as a load */
 };
 
 typedef struct {

@@ -20,6 +20,7 @@ typedef struct {
   /* changed on this rank within a step and not lost: the elements in the nodes that this rank had when the step began,
    * [nelements][3]; else NULL */
   const int *before;
+  int pressure_load;              /* CoracleSetPressureLoad was called, the same on all coupler ranks */
   int nnodes, nfacets, nelements; /* on this coupler rank */
   const long long *gid;           /* [nnodes] */
   const double *x;                /* [nnodes][2] position, m */
@@ -45,7 +46,7 @@ CORACLE_NORETURN void ServerFail(Server s, const char *format, ...) __attribute_
 
 /* The solid's mesh (first call, matches CoracleReady) or its motion (matches CoracleEnd). */
 int ServerReceiveSolid(Server s, ServerSolid *solid);
-/* Before the first ServerAskElements: the coupling mode uses the fluid's pressure (the same on all coupler
+/* Before the first ServerAskElements: the coupling mode or the solid's load uses the fluid's pressure (the same on all coupler
  * ranks); without this call it does not travel. */
 int ServerNeedPressure(Server s);
 /* Asks the fluid for its elements in the boxes: box[nbox][2][2], the same on all coupler ranks (matches the

@@ -14,6 +14,7 @@ static int ReceiveMotion(Server s, ClientRank *client, int *nnodes)
   const MessageHeader *h = MessageReceive(s->p, m, kind, KIND_SURFACE, s->solid.step);
   const bool whole = h->kind == KIND_SURFACE;
   ClientListFlags(s, ROLE_SOLID, client, h);
+  s->pressure_load |= (h->flag & FLAG_PRESSURE_LOAD) != 0;
   if (!whole && (int)h->count[0] != client->n)
     ServerFail(s, "solid rank %d moves %d nodes but has %d", m->rank, (int)h->count[0], client->n);
   client->first = *nnodes;
@@ -98,7 +99,8 @@ static bool SameElements(Server s)
 /* What the coupler reads: the arrays of all clients' lists. */
 static void View(const Server s, int nnodes, ServerSolid *solid)
 {
-  *solid = (ServerSolid){.nnodes = nnodes,
+  *solid = (ServerSolid){.pressure_load = s->pressure_load,
+                         .nnodes = nnodes,
                          .nfacets = (int)(s->facet.size / (DIM * sizeof(int))),
                          .nelements = (int)(s->element.size / ((DIM + 1) * sizeof(int))),
                          .gid = (const long long *)(const void *)s->gid.data,
@@ -115,6 +117,7 @@ int ServerReceiveSolid(Server s, ServerSolid *solid)
   for (int i = 0; i < s->solid.n; i++) changed |= ReceiveMotion(s, &s->solid.client[i], &nnodes);
   if (changed || first) AssembleMesh(s);
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, s->p->app);
+  if (first) MPI_Allreduce(MPI_IN_PLACE, &s->pressure_load, 1, MPI_C_BOOL, MPI_LOR, s->p->app);
   s->received_solid = true;
   const bool mine = changed && !first && s->kept_start;
   int lost = mine && !SameElements(s);

@@ -61,6 +61,11 @@ case $scenario in
   first_budget) with 'fluid.adapt={size_min: 1.0e-5, size_max: 0.2, velocity_error: 0.1}'
     expect="fluid.adapt.elements_max.*200000.*fluid.adapt.size_min" ;;
   bad_folder) with output.folder=/proc/nowhere; sets+=(--set output.folder=/proc/nowhere); expect="/proc/nowhere" ;;
+  load_joints) with solid.pressure_load=true; with 'solid.bodies[0].joints=all'
+    with 'solid.materials.disc={density: 2000, youngs_modulus: 1.0e6, poisson_ratio: 0.3, tensile_strength: 6.0e3, shear_strength: 1.2e4, fracture_energy: 1}'
+    expect="solid.*'solid.pressure_load': not possible with joints" ;;
+  load_phases) case=$here/floating.yaml; with solid.pressure_load=true; expect='coupler.*solid.pressure_load.*the fluid has phases' ;;
+  load_mode) with solid.pressure_load=true; with coupler.mode=stress_shell; expect='coupler.*solid.pressure_load.*coupler.mode: reaction' ;;
   *) echo "no scenario '$scenario'" >&2; exit 2 ;;
 esac
 

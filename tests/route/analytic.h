@@ -183,11 +183,12 @@ typedef enum {
   FAULT_BUS,
   FAULT_FPE,
   FAULT_TERM,
-  FAULT_OVERFLOW /* of the stack */
+  FAULT_OVERFLOW, /* of the stack */
+  FAULT_LOAD      /* of the solid: asks for the load of the pressure and changes its mesh */
 } Fault;
 static const char *const FAULT_WORDS[] = {
     "none",   "kill", "exit",  "finalize", "hang", "nan", "close", "order", "clockwise", "twice", "open",
-    "turned", "ids",  "drift", "missing",  "segv", "bus", "fpe",   "term",  "overflow",  NULL};
+    "turned", "ids",  "drift", "missing",  "segv", "bus", "fpe",   "term",  "overflow",  "load",  NULL};
 
 /* --- a job that is not the whole world ------------------------------------------------------------------- */
 /* With TEST_SPECTATOR set the participants split themselves from the world's other ranks first; the argument

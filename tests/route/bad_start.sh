@@ -74,6 +74,7 @@ case $scenario in
     expect='node 38 has moved by .* in component 1 in step 4, its velocities over the substeps sum up to' ;;
   fluid_order) with fluid.fault=order; expect='CoracleEnd: CoracleSetFlow comes first, in every step' ;;
   fluid_missing) with fluid.fault=missing; expect='the pressure of 7 elements is missing in step 4' ;;
+  solid_load) with solid.fault=load; expect='CoracleSetNodes: the mesh of a solid with CoracleSetPressureLoad does not change' ;;
   solid_hangs) with solid.fault=hang; extra=(CORACLE_TIMEOUT=2)
     expect='error: waited 2 s for MOTION of step 4 from solid rank 0' ;;
   fluid_hangs) with fluid.fault=hang; extra=(CORACLE_TIMEOUT=2)

@@ -158,6 +158,7 @@ int main(int argc, char **argv)
   if (s.fault == FAULT_ORDER) CoracleSubstep(s.client, 0.1, &s.u[0][0]);
   CoracleBindState(s.client, s.memory, sizeof s.memory);
   CoracleBindStateFunction(s.client, SaveFunctionState, &s);
+  if (s.fault == FAULT_LOAD) CoracleSetPressureLoad(s.client);
   CoracleReady(s.client);
   for (;;) {
     CoracleBegin(s.client, &t, &dt, &action);

@@ -89,6 +89,7 @@ static void Nobody(void)
   NOBODY(CoracleSetFlow, (c, &flow));
   NOBODY(CoracleSetInertia, (c, ONE, ZERO));
   NOBODY(CoracleSetNodes, (c, 2, 3, GID, X, ZERO));
+  NOBODY(CoracleSetPressureLoad, (c));
   NOBODY(CoracleSetRegion, (c, 2, corner, corner, Region, NULL));
   NOBODY(CoracleSetSurface, (c, 3, FACET));
   NOBODY(CoracleSetVelocity, (c, ZERO));
@@ -175,6 +176,7 @@ static void InStep(CoracleClient c)
   REFUSED(CoracleSetNodes(c, 2, 3, GID, X, ZERO),
           "CoracleSetNodes was called between CoracleEnd and CoracleBegin");
   REFUSED(CoracleResumePath(c), "CoracleResumePath was called between CoracleEnd and CoracleBegin");
+  REFUSED(CoracleSetPressureLoad(c), "its place is before CoracleReady");
   CoracleBegin(c, &t, &dt, &action);
   REFUSED(CoracleBegin(c, &t, &dt, &action), "CoracleBegin was called between CoracleBegin and CoracleEnd");
   REFUSED(CoracleBindState(c, &t, sizeof t), "CoracleBindState: state is bound before the first step");

@@ -142,6 +142,9 @@ module coracle
     integer(c_int) function CoracleSetInertia(client, mobility, acceleration) bind(c, name="CoracleSetInertia")
       import; type(c_ptr), value :: client; real(c_double), intent(in) :: mobility(*), acceleration(*)
     end function
+    integer(c_int) function CoracleSetPressureLoad(client) bind(c, name="CoracleSetPressureLoad")
+      import; type(c_ptr), value :: client
+    end function
     integer(c_int) function CoracleSubstep(client, h, u) bind(c, name="CoracleSubstep")
       import; type(c_ptr), value :: client; real(c_double), value :: h; real(c_double), intent(in) :: u(*)
     end function

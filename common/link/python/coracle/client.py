@@ -133,6 +133,9 @@ class Client:
     def set_inertia(self, mobility, acceleration):
         call("SetInertia", self._handle, array("mobility", mobility, (self.n,)), array("acceleration", acceleration, (self.n, 2)))
 
+    def set_pressure_load(self):
+        call("SetPressureLoad", self._handle)
+
     def get_force(self):
         """force[n][2], N; a view that holds until end."""
         force = c_void_p()

@@ -36,7 +36,7 @@ _SIGNATURES = {
     "FailMessage": (None, _C, c_char_p), "Report": (c_int, _C, c_char_p, c_double, c_int), "Phase": (c_int, _C, c_char_p),
     "Close": (c_int, POINTER(_C)),
     "SetNodes": (c_int, _C, c_int, c_int, _A, _A, _A), "SetSurface": (c_int, _C, c_int, _A), "SetVolume": (c_int, _C, c_int, _A),
-    "SetInertia": (c_int, _C, _A, _A), "SetVelocity": (c_int, _C, _A), "Substep": (c_int, _C, c_double, _A),
+    "SetInertia": (c_int, _C, _A, _A), "SetPressureLoad": (c_int, _C), "SetVelocity": (c_int, _C, _A), "Substep": (c_int, _C, c_double, _A),
     "GetForce": (c_int, _C, POINTER(_A)), "BindState": (c_int, _C, _A, c_size_t),
     "BindStateFunction": (c_int, _C, STATE_FUNCTION, _A), "Ready": (c_int, _C),
     "Begin": (c_int, _C, POINTER(c_double), POINTER(c_double), POINTER(c_int)), "End": (c_int, _C, _A),
