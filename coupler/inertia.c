@@ -85,7 +85,7 @@ static double KeptPart(const Overlap o, const SourceTerm source[], const Element
     excess += pair->area * fmax(source[pair->a].density - rho, 0.0);
   }
   if (excess == 0.0 || area > (1.0 - OUTSIDE_LEAST) * o->area[k]) return 1.0;
-  return fmin(1.0, INERTIA_LIGHT * (rho + element->outside) * area / excess);
+  return fmin(1.0, INERTIA_KEPT_RATIO * (rho + element->outside) * area / excess);
 }
 
 void InertiaStart(Overlap o, const SourceTerm source[], double dt, ElementTerm element[], PairTerm term[])

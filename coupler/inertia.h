@@ -23,13 +23,13 @@
  *
  * D of slip.h, 0 in covered elements, and k = 1 but beside a fluid that is much lighter than the solid:
  *
- *     k  =  min(1, INERTIA_LIGHT rho_o |K and S| / int_{K and S} (rho_s - rho_f)),     rho_o of outside.h, else rho_f.
+ *     k  =  min(1, INERTIA_KEPT_RATIO rho_o |K and S| / int_{K and S} (rho_s - rho_f)),     rho_o of outside.h, else rho_f.
  *
  * With k = 1 the solid's mass in an element that its surface comes to begins with what velocity a light fluid has along it, and
  * that is momentum which the fluid never had: a disc of 2500 kg/m3 and 2 m/s in a fluid of 1 kg/m3 (radius 0.02 m, le 0.006 m) made
  * it as fast as 424 m/s, and itself 10 % faster within 0.1 s; a wall of rubber that swung in it was torn (4.9 m/s; 2.000 m/s to
  * 1.995; whole).  With k < 1 the fluid along the surface is held to the solid, the more the shorter the steps, as it is without
- * slip (slip.h): INERTIA_LIGHT is half of the largest that was tried, which was stable.
+ * slip (slip.h): INERTIA_KEPT_RATIO is half of the largest that was tried, which was stable.
  *
  * Were m to begin with u^n, an element that the surface crosses could keep a velocity through
  * it: the correction (force.h) takes a part of that away in each step, so that the solid leaked the more the longer the steps are.
@@ -65,8 +65,8 @@
 #include "coupler/overlap.h"
 #include "coupler/wall_term.h"
 
-/* A fluid that is so many times lighter than the solid, less itself, holds on to no velocity of its own inside it. */
-#define INERTIA_LIGHT 20.0
+/* The solid's inertia keeps u^n with at most so many times the mass that the fluid beside the solid would have in the solid's place. */
+#define INERTIA_KEPT_RATIO 20.0
 
 /* Collective.  Density of source[nsources]: rho_s of volume triangles; 0 for the shell's, and where all nodes are
  * held.  Where it is not 0, term[pairs.n] gets the inertia above and a = 0. */
