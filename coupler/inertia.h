@@ -27,9 +27,10 @@
  *
  * With k = 1 the solid's mass in an element that its surface comes to begins with what velocity a light fluid has along it, and
  * that is momentum which the fluid never had: a disc of 2500 kg/m3 and 2 m/s in a fluid of 1 kg/m3 (radius 0.02 m, le 0.006 m) made
- * it as fast as 424 m/s, and itself 10 % faster within 0.1 s; a wall of rubber that swung in it was torn (4.9 m/s; 2.000 m/s to
- * 1.995; whole).  With k < 1 the fluid along the surface is held to the solid, the more the shorter the steps, as it is without
- * slip (slip.h): INERTIA_KEPT_RATIO is half of the largest that was tried, which was stable.
+ * it as fast as 424 m/s, and itself 10 % faster within 0.1 s, and a wall of rubber that swung in it was torn; with k the fluid
+ * reaches 4.9 m/s, the disc has 1.995 m/s after 0.1 s, and the wall swings on (tests/coupled/air.sh).  But with k < 1 the fluid along
+ * the surface is held to the solid, the more the shorter the steps, as it is without slip (slip.h).  INERTIA_KEPT_RATIO is half of
+ * the largest that was tried, which was stable.
  *
  * Were m to begin with u^n, an element that the surface crosses could keep a velocity through
  * it: the correction (force.h) takes a part of that away in each step, so that the solid leaked the more the longer the steps are.
