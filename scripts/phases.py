@@ -90,6 +90,13 @@ def results(out, names, result):
     return there
 
 
+def claims(name, r):
+    """What must hold of any run of results(): (statement, measured, bound)."""
+    yield name + ": water made, of it", r.run.made, 1e-10
+    yield name + ": momentum imbalance", r.run.summary["largest_momentum_imbalance"], 1e-10
+    yield name + ": coupling iterations of any step after the first less 1", r.run.later_passes - 1.0, 0.0
+
+
 def table(there, columns, cells):
     """Lines of Markdown, a row a run of results(): its name, cells(result) below `columns`, those of its Run below COLUMNS."""
     columns = ("run", *columns, *COLUMNS)

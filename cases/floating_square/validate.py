@@ -48,8 +48,7 @@ def table(there):
 def claims(there):
     """What must hold of the runs that are there: (statement, measured, bound)."""
     for name, r in there.items():
-        yield name + ": water made, of it", r.run.made, 1e-10
-        yield name + ": momentum imbalance", r.run.summary["largest_momentum_imbalance"], 1e-10
+        yield from phases.claims(name, r)
     for name in ("le-0.004", "le-0.002"):
         if name in there:
             for what, t in PAPER.items():
