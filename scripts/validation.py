@@ -17,11 +17,10 @@ OUT = ROOT / "out" / "validation"
 PROGRAMS = ("coracle-fluid", "coracle-coupler", "coracle-solid")
 
 
-def launch(case, folder, keys, ranks):
-    """Runs `case`/case.yaml with `keys` ("key=value") on `ranks` ("F:C:S") into `folder`, from the last checkpoint there if it was
-    stopped, what it prints into log.txt there; whether it failed."""
-    command = [ROOT / "scripts" / "launch.sh", "--ranks", ranks, case / "case.yaml"]
-    for key in ["output.folder=%s" % folder, "resume=last", *keys]:
+def launch(arguments, folder, keys):
+    """Runs scripts/launch.sh with `arguments` and `keys` ("key=value") into `folder`, what it prints into log.txt there; whether it failed."""
+    command = [ROOT / "scripts" / "launch.sh", *arguments]
+    for key in ["output.folder=%s" % folder, *keys]:
         command += ["--set", key]
     folder.mkdir(parents=True, exist_ok=True)
     print("begun " + folder.name, flush=True)
@@ -29,11 +28,18 @@ def launch(case, folder, keys, ranks):
         return subprocess.run(command, stdout=log, stderr=subprocess.STDOUT).returncode != 0
 
 
-def run(case, folder, keys, ranks):
-    """Launches what has not come to its end before: its summary.json is not there."""
+def launch_coupled(case, folder, keys, ranks, after=None):
+    """Runs `case`/case.yaml on `ranks` ("F:C:S"): from the last checkpoint in `folder` if it was stopped, else from that in the folder
+    `after` if one is given; whether it failed."""
+    begins = after if after and not (folder / "checkpoint").exists() else None
+    return launch(["--ranks", ranks, case / "case.yaml"], folder, ["resume=%s" % (begins / "checkpoint" if begins else "last"), *keys])
+
+
+def run(case, folder, keys, ranks, after=None):
+    """launch_coupled() of what has not come to its end before: its summary.json is not there."""
     if (folder / "summary.json").exists():
         return
-    failed = launch(case, folder, keys, ranks)
+    failed = launch_coupled(case, folder, keys, ranks, after)
     print("FAILED %s: see %s/log.txt" % (folder.name, folder) if failed else "done " + folder.name, flush=True)
 
 

@@ -109,7 +109,7 @@ def run(name):
     if name != "base":
         keys = ["time.end=%g" % END, "output.every=0.05"] + keys
     keys = ["case=%s" % name, "solid.bodies[0].mesh=%s" % (folder / "block.msh"), *keys]
-    failed = validation.launch(HERE, folder, keys, ranks)
+    failed = validation.launch_coupled(HERE, folder, keys, ranks)
     errors = [line for line in open(folder / "log.txt") if ": error: " in line]
     (folder / "message.txt").write_text((errors[0].split(": error: ")[1] if errors else "failed") if failed else "")
     print("done" if not failed else "stopped", name, flush=True)

@@ -1,6 +1,6 @@
 // Cylinder and flexible beam of Turek and Hron (2006), one body: gmsh -2 -format msh41 beam.geo [-setnumber size 0.004] -o beam.msh
 // The beam's triangles are structured, `layers` through its thickness; the cylinder, which is held, is as coarse as its boundary allows.
-DefineConstant[layers = 12];
+DefineConstant[layers = 16];
 length = 0.35; thickness = 0.02; radius = 0.05; x = 0.2; y = 0.2; // m
 size = thickness / layers;
 root = x + Sqrt(radius^2 - (thickness / 2)^2);       // where the beam's faces leave the cylinder
