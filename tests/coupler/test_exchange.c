@@ -9,6 +9,7 @@
 #include "coupler/coupler_impl.h"
 #include "coupler/time_loop.h"
 #include "tests/coupler/synthetic.h"
+#include "tests/remove_folder.h"
 
 static const double GRAVITY[2] = {0.4, -1.0}, RHO = 3.0, DENSITY = 7.0, DT = 0.013;
 static const char *const CASE = "case: exchange\n";
@@ -232,17 +233,6 @@ static void MakeCaseFile(int rank, char folder[64], char path[96])
     CHECK(f && fputs(CASE, f) >= 0 && !fclose(f), "no case file");
   }
   CHECK(!MPI_Barrier(MPI_COMM_WORLD), "barrier");
-}
-
-static void RemoveFolder(const char *folder)
-{
-  static const char *const FILES[] = {"case.yaml", "coupler.csv", "coupler.h5", "coupler.xdmf"};
-  char path[128];
-  for (int i = 0; i < 4; i++) {
-    snprintf(path, sizeof path, "%s/%s", folder, FILES[i]);
-    (void)remove(path);
-  }
-  (void)remove(folder);
 }
 
 int main(int argc, char **argv)

@@ -5,8 +5,8 @@
 #include "common/mesh/mesh_checkpoint.h"
 #include "common/supermesh/geometry.h"
 #include "fluid/adaptation.h"
-#include "tests/check.h"
 #include "tests/fluid/exact.h"
+#include "tests/remove_folder.h"
 #include <string.h>
 #include <unistd.h>
 
@@ -230,7 +230,6 @@ static PetscErrorCode CheckTogether(PetscBool repeats, const RunState *uninterru
 
 int main(int argc, char **argv)
 {
-  char path[512];
   FluidStats then[3];
   RunState m;
   Mesh *mesh;
@@ -258,11 +257,7 @@ int main(int argc, char **argv)
   if (rank == 0) PetscCall(CheckAgrees(PETSC_COMM_SELF, SAVED[1], SAVED[2]));
   PetscCall(Destroy(&m));
   PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
-  for (int k = 0; k < 3 && rank == 0; k++) {
-    snprintf(path, sizeof path, "%s/step_%d.h5", folder, SAVED[k]);
-    remove(path);
-  }
-  if (rank == 0) remove(folder);
+  if (rank == 0) RemoveFolder(folder);
   PetscCall(PetscFinalize());
   return 0;
 }

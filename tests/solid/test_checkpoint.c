@@ -4,6 +4,7 @@
  * round-off.  A checkpoint of other bodies is refused. */
 #include "solid/contact/contact_impl.h"
 #include "solid/cracks/joints_impl.h"
+#include "tests/remove_folder.h"
 #include "tests/solid/breaking.h"
 #include "tests/solid/same_solid.h"
 #include <sys/stat.h>
@@ -243,22 +244,9 @@ static void MakeFolder(void)
   MPI_Barrier(PETSC_COMM_WORLD);
 }
 
-static void RemoveFolder(void)
-{
-  static const char *const NAMES[] = {"same", "parted", "joined"};
-  PetscMPIInt rank;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  MPI_Barrier(PETSC_COMM_WORLD);
-  for (int k = 0; k < 3 && rank == 0; k++) {
-    char path[128];
-    snprintf(path, sizeof path, "%s/%s.h5", folder, NAMES[k]);
-    remove(path);
-  }
-  if (rank == 0) rmdir(folder);
-}
-
 int main(int argc, char **argv)
 {
+  PetscMPIInt rank;
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   MakeFolder();
   PetscCall(Same(STAY, 0));
@@ -268,6 +256,8 @@ int main(int argc, char **argv)
   PetscCall(Other(PETSC_COMM_WORLD, PETSC_COMM_SELF, "parted"));
   PetscCall(Other(PETSC_COMM_SELF, PETSC_COMM_WORLD, "joined"));
   PetscCall(Refused());
-  RemoveFolder();
+  MPI_Barrier(PETSC_COMM_WORLD);
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  if (rank == 0) RemoveFolder(folder);
   return PetscFinalize();
 }
