@@ -184,10 +184,19 @@ ProjectionStep FluidProjectionStep(Fluid f, double t, double dt, PetscBool inert
                           f->p};
 }
 
+/* Of the step's end: with its density, so that what the pressure gives to an element is the change of the momentum that it has
+ * then, rho^{n+1} u. */
+static ProjectionStep EndProjection(Fluid f, double dt)
+{
+  ProjectionStep step = FluidProjectionStep(f, f->t + dt, dt, PETSC_TRUE);
+  step.rho = MaterialDensity(f->material, MATERIAL_NEW);
+  return step;
+}
+
 PetscErrorCode FluidProject(Fluid f, double dt)
 {
   const double start = MPI_Wtime();
-  const ProjectionStep step = FluidProjectionStep(f, f->t + dt, dt, PETSC_TRUE);
+  const ProjectionStep step = EndProjection(f, dt);
   Vec phi;
   PetscFunctionBeginUser;
   PetscCall(ProjectionSolverSolve(f->projection, &step, f->u_star, &phi, &f->stats.pressure_iterations));
@@ -207,7 +216,7 @@ PetscErrorCode FluidCorrect(Fluid f, double dt, const CoracleCorrection correcti
   PetscFunctionBeginUser;
   if (f->phases) {
     /* that of u_projected is not free of divergence where a held solid fills a part of an element */
-    const ProjectionStep step = FluidProjectionStep(f, f->t + dt, dt, PETSC_TRUE);
+    const ProjectionStep step = EndProjection(f, dt);
     PetscCall(FluidBulkVelocity(f, f->u_star, oldest_bulk));
     PetscCall(ProjectionSolverSubtract(f->projection, &step, oldest_bulk));
     f->bulk_previous = f->bulk;

@@ -3,12 +3,13 @@
  *   level            rho, mu                          who sets it
  *   MATERIAL_OLD     at t^n                           MaterialAdvance, from MATERIAL_NEW
  *   MATERIAL_NEW     at t^{n+1}                       MaterialSet, before the step's momentum equation
- *   MATERIAL_STEP    (1 - theta) new + theta old      follows: inertia, weight and projection have one density
+ *   MATERIAL_STEP    (1 - theta) new + theta old      follows: inertia and weight have one density
  *
  * That weighting of the density makes momentum (rho u) telescope from step to step when mass moves (theta the
- * scheme's); the viscosity has theta new + (1 - theta) old, as its term in the equation.  A fluid whose
- * material is never set keeps three views of one constant array, and the revision 0: what was made of the
- * density (the pressure's matrix and its factor) need not be made again while the revision stays. */
+ * scheme's); the projection, the last part of a step, has the density of its end.  The viscosity has
+ * theta new + (1 - theta) old, as its term in the equation.  A fluid whose material is never set keeps three
+ * views of one constant array, and the revision 0: what was made of the density (the pressure's matrix and its
+ * factor) need not be made again while the revision stays. */
 #ifndef FLUID_MATERIAL_H
 #define FLUID_MATERIAL_H
 #include "common/mesh/mesh.h"

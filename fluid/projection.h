@@ -21,7 +21,7 @@ typedef struct ProjectionSolver_s *ProjectionSolver;
 
 typedef struct {
   double t, dt;        /* of the boundaries' velocity, s; the step, s */
-  const double *rho;   /* [ne], kg/m3 */
+  const double *rho;   /* [ne] that the pressure moves, kg/m3 */
   int revision;        /* of rho */
   SolidCoupling solid; /* borrowed until ProjectionSubtract */
   /* [ne] of phases, in place of 1/rho (effective_density.h), for the pressure that gravity makes; NULL: 1/rho */
