@@ -1,4 +1,4 @@
-/* What is measured of a flow: momentum, forces on boundaries, errors against exact fields. */
+/* What is measured of a flow: momentum, energy, errors against exact fields. */
 #include "fluid/fluid_impl.h"
 
 PetscErrorCode FluidMomentumTotal(Fluid f, double momentum[2], double *energy)
@@ -45,52 +45,13 @@ PetscErrorCode FluidPotentialEnergy(Fluid f, double *energy)
   PetscFunctionReturn(0);
 }
 
-/* int (p n - tau n + eta (u - g)) over one boundary face: what the scheme itself takes from the fluid there
- */
-static void FaceForce(Fluid f, int e, int i, const Boundary *b, const double u[6], const double p[],
-                      double force[2])
-{
-  const Mesh *m = f->domain.mesh;
-  const FaceGeometry face = f->domain.geometry[e].face[i];
-  const FaceSide k = FaceSideOf(&f->domain, FluidViscosity(f), e, i, 1.0, PENALTY_BOUNDARY);
-  const int node[2] = {k.a, k.b}, *p2 = f->domain.p2->node + 6 * e;
-  const double pressure = (p[p2[k.a]] + 4.0 * p[p2[3 + i]] + p[p2[k.b]]) / 6.0;
-  double t[2][6], project[2][2], slip[2] = {0};
-  Traction(k.e->g, k.mu, face.n, t);
-  BoundaryProjection(b, face.n, project);
-  for (int r = 0; r < 2 && b->kind != BOUNDARY_OPEN; r++) {
-    double v[2] = {0};
-    if (b->kind == BOUNDARY_VELOCITY) BoundaryVelocity(b, f->t, ElementVertex(m, e, node[r]), v);
-    for (int c = 0; c < 2; c++) slip[c] += 0.5 * (u[3 * c + node[r]] - v[c]);
-  }
-  for (int c = 0; c < 2; c++) {
-    double traction = 0.0;
-    for (int s = 0; s < 6; s++) traction += t[c][s] * u[s];
-    force[c] += face.length * (pressure * face.n[c] - traction +
-                               k.eta * (project[c][0] * slip[0] + project[c][1] * slip[1]));
-  }
-}
-
 PetscErrorCode FluidBoundaryForce(Fluid f, const char *boundary, double force[2])
 {
-  const Mesh *m = f->domain.mesh;
-  const PetscScalar *u, *p;
-  Vec local;
+  const int tag = MeshTagIndex(f->domain.mesh, boundary);
   PetscFunctionBeginUser;
-  force[0] = force[1] = 0.0;
-  PetscCall(VecGetArrayRead(f->u, &u));
-  PetscCall(VecGhostGetLocalForm(f->p, &local));
-  PetscCall(VecGetArrayRead(local, &p));
-  for (int e = 0; e < m->ne; e++)
-    for (int i = 0; i < 3; i++) {
-      const int tag = m->tag[3 * e + i];
-      if (tag >= 0 && !strcmp(m->tag_name[tag], boundary))
-        FaceForce(f, e, i, f->setup.boundary + tag, u + 6 * e, p, force);
-    }
-  PetscCall(VecRestoreArrayRead(local, &p));
-  PetscCall(VecGhostRestoreLocalForm(f->p, &local));
-  PetscCall(VecRestoreArrayRead(f->u, &u));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, force, 2, MPI_DOUBLE, MPI_SUM, m->comm));
+  PetscCheck(tag >= 0, f->domain.mesh->comm, PETSC_ERR_ARG_WRONG, "the mesh has no boundary %s", boundary);
+  for (int c = 0; c < 2; c++)
+    force[c] = f->budget.boundary[tag][FORCE_PRESSURE][c] + f->budget.boundary[tag][FORCE_VISCOUS][c];
   PetscFunctionReturn(0);
 }
 

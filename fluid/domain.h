@@ -11,6 +11,7 @@ typedef struct {
   P2Space *p2;               /* of the pressure */
   ElementGeometry *geometry; /* [ne + ng] */
   Boundary *boundary;        /* [mesh->ntags], a copy */
+  int nfaces, *face;         /* [nfaces] 3 e + i: faces of this rank's elements on boundaries */
 } FluidDomain;
 
 /* Collective over mesh->comm (bounding boxes of the boundaries). */

@@ -60,6 +60,7 @@ PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *flu
   }
   if (PhaseHasGas(&setup->phases)) PetscCall(PetscCalloc1(mesh->ne, &f->compressible));
   PetscCall(CreateVectors(f));
+  PetscCall(FluidBudgetCreate(f));
   PetscCall(MomentumSolverCreate(&f->domain, &momentum, f->u, &f->momentum));
   PetscCall(ProjectionSolverCreate(&f->domain, f->p, PhaseHasGas(&setup->phases), &f->projection));
   *fluid = f;
@@ -84,6 +85,7 @@ PetscErrorCode FluidDestroy(Fluid *fluid)
   PetscCall(MomentumSolverDestroy(&f->momentum));
   PetscCall(ProjectionSolverDestroy(&f->projection));
   PetscCall(DestroyVectors(f));
+  PetscCall(FluidBudgetDestroy(f));
   PetscCall(SolidCouplingDestroy(&f->solid));
   PetscCall(PhaseTransportDestroy(&f->phases));
   PetscCall(MaterialDestroy(&f->material));
@@ -149,6 +151,7 @@ PetscErrorCode FluidMomentum(Fluid f, double dt)
     PetscCall(VecGhostGetLocalForm(f->outside, &local));
     PetscCall(VecGetArrayRead(local, &outside));
   }
+  PetscCall(FluidBudgetBegin(f));
   const MomentumStep step = {f->t,
                              dt,
                              MaterialDensity(f->material, MATERIAL_STEP),
@@ -222,12 +225,14 @@ PetscErrorCode FluidCorrect(Fluid f, double dt, const CoracleCorrection correcti
     f->bulk_previous = f->bulk;
     f->bulk = oldest_bulk;
   }
+  PetscCall(FluidBudgetSolid(f, dt, correction));
   if (correction) {
     PetscScalar *u;
     PetscCall(VecGetArray(f->u_projected, &u));
     SolidCouplingCorrect(f->solid, f->domain.geometry, correction, u);
     PetscCall(VecRestoreArray(f->u_projected, &u));
   }
+  PetscCall(FluidBudgetEnd(f, dt));
   SolidCouplingSetStarting(f->solid, PETSC_FALSE);
   f->u_previous = f->u;
   f->u = f->u_projected;
@@ -275,6 +280,7 @@ PetscErrorCode FluidMakeSolenoidal(Fluid f)
   } else {
     PetscCall(SubtractDivergence(f, f->u, f->u_previous)); /* their difference extrapolates */
   }
+  PetscCall(FluidBudgetChanged(f));
   f->stats.seconds[PRESSURE] += MPI_Wtime() - start;
   PetscFunctionReturn(0);
 }

@@ -116,7 +116,7 @@ PetscErrorCode FluidRestoreState(Fluid fluid);
 PetscErrorCode FluidMomentumTotal(Fluid fluid, double momentum[2], double *energy);
 /* Of phases, also of that which fills solids, J/m: - int rho g.x. */
 PetscErrorCode FluidPotentialEnergy(Fluid fluid, double *energy);
-/* Force of the fluid on a boundary, N/m, from the interior-penalty traction (consistent with the scheme). */
+/* Force of the fluid on a boundary over the last step, N/m: pressure and viscous part of budget.h.  Not collective. */
 PetscErrorCode FluidBoundaryForce(Fluid fluid, const char *boundary, double force[2]);
 /* L2 errors against exact fields (any NULL skipped); pressure up to a constant. */
 PetscErrorCode FluidErrors(Fluid fluid, double t, FieldFunction velocity, FieldFunction pressure,

@@ -2,7 +2,7 @@
  * flow itself and what the three parts of a step hand each other. */
 #ifndef FLUID_IMPL_H
 #define FLUID_IMPL_H
-#include "fluid/fluid.h"
+#include "fluid/budget.h"
 #include "fluid/material.h"
 #include "fluid/momentum.h"
 #include "fluid/projection.h"
@@ -30,8 +30,12 @@ struct Fluid_s {
   struct {
     double t, dt_previous;
     Vec u, u_previous, p;
+    double momentum[2], budget_start[2];
   } saved;
   FluidStats stats;
+  FluidBudget budget;
+  double budget_start[2]; /* momentum when the next step begins, kg/s */
+  double *budget_sum;     /* this rank's part of the current step's (budget.c) */
 };
 
 /* fluid.c: what the projection of a velocity at t over dt sees.  Not collective. */
@@ -63,4 +67,15 @@ PetscErrorCode FluidSetOpenPressure(Fluid f);
 PetscErrorCode FluidPredictPressure(Fluid f, double dt);
 /* bulk = velocity + M^-1 (us - ms velocity), with ghosts left alone.  Not collective. */
 PetscErrorCode FluidBulkVelocity(Fluid f, Vec velocity, Vec bulk);
+/* budget.c, not collective. */
+PetscErrorCode FluidBudgetCreate(Fluid f);
+PetscErrorCode FluidBudgetDestroy(Fluid f);
+/* Between two steps u has been given another value.  Collective. */
+PetscErrorCode FluidBudgetChanged(Fluid f);
+/* When the step's pressure is predicted: begins its budget.  Not collective. */
+PetscErrorCode FluidBudgetBegin(Fluid f);
+/* What the solid does to the fluid over the step, before the correction is applied.  Not collective. */
+PetscErrorCode FluidBudgetSolid(Fluid f, double dt, const CoracleCorrection correction[]);
+/* The rest, with the step's end in u_projected, its start still in u, and the material not advanced.  Collective. */
+PetscErrorCode FluidBudgetEnd(Fluid f, double dt);
 #endif

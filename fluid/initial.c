@@ -119,6 +119,8 @@ PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldF
   PetscCall(VecGhostRestoreLocalForm(f->p, &local));
   if (!pressure) PetscCall(FluidSetOpenPressure(f));
   if (!pressure && f->phases) PetscCall(FluidBalancePressure(f));
+  PetscCall(FluidBudgetChanged(f));
+  PetscCall(PetscArraycpy(f->budget.momentum, f->budget_start, 2));
   PetscFunctionReturn(0);
 }
 
@@ -140,5 +142,6 @@ PetscErrorCode FluidStartInside(Fluid f)
   PetscCall(VecGhostUpdateEnd(f->u, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecCopy(f->u, f->u_previous));
   SolidCouplingSetStarting(f->solid, PETSC_TRUE);
+  PetscCall(FluidBudgetChanged(f));
   PetscFunctionReturn(0);
 }

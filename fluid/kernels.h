@@ -80,6 +80,25 @@ static inline void FaceInflow(double theta, double length, const double mn[2], d
   w[1][0] = w[0][1];
 }
 
+/* The weak divergence of the mass flux m as the functions of element K see it, kg/(m s):
+ *
+ *   divergence[j] = <m.n, N_j> - (m, grad N_j),     m.n on a face common to both sides
+ *
+ * Advection in the form above, tested with 1 on all elements, is what leaves through the boundary less sum_j divergence[j] u_j. */
+static inline void FluxDivergenceVolume(const ElementGeometry *e, const double flux[6], double divergence[3])
+{
+  const double x = e->area / 3.0 * (flux[0] + flux[1] + flux[2]),
+               y = e->area / 3.0 * (flux[3] + flux[4] + flux[5]);
+  for (int j = 0; j < 3; j++) divergence[j] = -(x * e->g[j][0] + y * e->g[j][1]);
+}
+
+/* mn: m.n at the face's vertices a and b. */
+static inline void FluxDivergenceFace(double length, const double mn[2], int a, int b, double divergence[3])
+{
+  divergence[a] += length / 6.0 * (2.0 * mn[0] + mn[1]);
+  divergence[b] += length / 6.0 * (mn[0] + 2.0 * mn[1]);
+}
+
 /* One side of a face as the kernels see it. */
 typedef struct {
   const ElementGeometry *e;

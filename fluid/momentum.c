@@ -54,6 +54,7 @@ PetscErrorCode MomentumSolverCreate(const FluidDomain *domain, const MomentumSet
   PetscCall(VecDuplicate(like, &s->load));
   PetscCall(VecDuplicate(like, &s->product));
   PetscCall(VecDuplicate(like, &s->sum));
+  PetscCall(PetscCalloc1(domain->mesh->ne, &s->divergence));
   PetscCall(CreateMatrix(s, like));
   PetscCall(CreateSolver(s));
   *solver = s;
@@ -71,11 +72,18 @@ PetscErrorCode MomentumSolverDestroy(MomentumSolver *solver)
   PetscCall(MatDestroy(&s->matrix));
   PetscCall(KSPDestroy(&s->ksp));
   PetscCall(PetscFree(s->faces));
+  PetscCall(PetscFree(s->divergence));
   PetscCall(SingleOperatorDestroy(&s->single));
   PetscCall(MomentumOperatorDestroy(&s->op));
   PetscCall(PreconditionerDestroy(&s->preconditioner));
   PetscCall(PetscFree(*solver));
   PetscFunctionReturn(0);
+}
+
+const double (*MomentumSolverDivergence(MomentumSolver s, double advected[2]))[3]
+{
+  for (int c = 0; c < 2; c++) advected[c] = s->advected[c];
+  return (const double(*)[3])s->divergence;
 }
 
 /* A d = load for the correction d of u_star, and u_star += d; *more: d, found in single precision, is too large for the

@@ -47,6 +47,9 @@ typedef struct {
 PetscErrorCode MomentumSolverCreate(const FluidDomain *domain, const MomentumSetup *setup, Vec like,
                                     MomentumSolver *s);
 PetscErrorCode MomentumSolverDestroy(MomentumSolver *s);
+/* [ne], borrowed: the weak divergence of the last step's mass flux, as each function of an element sees it (kernels.h), kg/(m s);
+ * advected: the sum over this rank's elements of it times u^n, N/m.  Not collective. */
+const double (*MomentumSolverDivergence(MomentumSolver s, double advected[2]))[3];
 /* u_star: the first guess in, the solution out. */
 PetscErrorCode MomentumSolverSolve(MomentumSolver s, const MomentumStep *step, Vec u_star,
                                    MomentumReport *report);

@@ -80,6 +80,7 @@ static inline void AssembleInflow(MomentumSolver s, const double mu[], int e, in
   Sides(s, mu, e, i, &k, &o);
   mn[0] = 0.5 * (face->n[0] * (mk[k.a] + mo[o.a]) + face->n[1] * (mk[3 + k.a] + mo[3 + o.a]));
   mn[1] = 0.5 * (face->n[0] * (mk[k.b] + mo[o.b]) + face->n[1] * (mk[3 + k.b] + mo[3 + o.b]));
+  FluxDivergenceFace(face->length, mn, k.a, k.b, s->divergence[e]);
   if (mn[0] >= 0.0 && mn[1] >= 0.0) return;
   FaceInflow(s->setup.theta, face->length, mn, inflow);
   const int row[2] = {k.a, k.b}, col[2] = {o.a, o.b};
@@ -104,9 +105,10 @@ static PetscBool AssembleBoundary(MomentumSolver s, const MomentumStep *step, in
   const PetscBool half = (PetscBool)(b->kind == BOUNDARY_OPEN && !step->inverse_density);
   double project[2][2], lift[4][6], mn[2], inflow[2][2] = {{0}};
   BoundaryProjection(b, face->n, project);
+  mn[0] = face->n[0] * m[k.a] + face->n[1] * m[3 + k.a];
+  mn[1] = face->n[0] * m[k.b] + face->n[1] * m[3 + k.b];
+  FluxDivergenceFace(face->length, mn, k.a, k.b, s->divergence[e]);
   if (b->kind != BOUNDARY_FREE_SLIP) {
-    mn[0] = face->n[0] * m[k.a] + face->n[1] * m[3 + k.a];
-    mn[1] = face->n[0] * m[k.b] + face->n[1] * m[3 + k.b];
     if (b->kind == BOUNDARY_OPEN && mn[0] >= 0.0 && mn[1] >= 0.0) return PETSC_FALSE;
     FaceInflow(s->setup.theta * (half ? 0.5 : 1.0), face->length, mn, inflow);
   }
@@ -193,6 +195,7 @@ static void AssembleScalar(MomentumSolver s, const MomentumStep *step, int e, co
   ScalarVolume(s->domain->geometry + e, step->rho[e] / step->dt, s->setup.theta, s->op.theta_mu[e],
                flux + 6 * e, volume);
   for (int k = 0; k < 9; k++) block[0][k] += volume[k];
+  FluxDivergenceVolume(s->domain->geometry + e, flux + 6 * e, s->divergence[e]);
   for (int i = 0; i < 3; i++) AssembleInflow(s, step->mu, e, i, flux, block);
 }
 
@@ -223,6 +226,8 @@ static PetscErrorCode AssembleElement(MomentumSolver s, const MomentumStep *step
   for (int i = 0; i < 3; i++)
     if (d->mesh->neighbor[3 * e + i] < 0 && AssembleBoundary(s, step, e, i, flux + 6 * e, dense, load))
       has_dense = PETSC_TRUE;
+  for (int j = 0; j < 3; j++)
+    for (int c = 0; c < 2; c++) s->advected[c] += s->divergence[e][j] * u[3 * c + j];
   ElementLoad(s, step, e, p, load);
   ElementInertia(s, step, e, u, load);
   if (AssembleSolid(s, step, e, u, dense, load)) has_dense = PETSC_TRUE;
@@ -240,6 +245,7 @@ PetscErrorCode MomentumAssemble(MomentumSolver s, const MomentumStep *step)
   PetscCall(KeepFaces(s, step));
   s->op.ndense = 0;
   s->op.diffusion = 0.0;
+  s->advected[0] = s->advected[1] = 0.0;
   for (int e = 0; e < m->ne + m->ng; e++) s->op.theta_mu[e] = s->setup.theta * step->mu[e];
   PetscCall(VecGhostGetLocalForm(step->mass_flux, &flux_local));
   PetscCall(VecGhostGetLocalForm(step->p, &p_local));

@@ -58,11 +58,23 @@ static PetscErrorCode LoadPressure(Fluid f, const PetscInt row[], Checkpoint fro
   PetscFunctionReturn(0);
 }
 
+/* At the end of the last step and at the start of the next one (adaptation comes between them). */
+static PetscErrorCode SaveMomentum(Fluid f, Checkpoint to)
+{
+  PetscMPIInt rank;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(f->domain.mesh->comm, &rank));
+  PetscCall(CheckpointPutDoubles(to, "momentum", rank ? 0 : 1, 2, f->budget.momentum));
+  PetscCall(CheckpointPutDoubles(to, "starting momentum", rank ? 0 : 1, 2, f->budget_start));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode FluidSave(Fluid f, Checkpoint to)
 {
   PetscFunctionBeginUser;
   PetscCall(CheckpointPutNumber(to, "time", f->t));
   PetscCall(CheckpointPutNumber(to, "previous step", f->dt_previous));
+  PetscCall(SaveMomentum(f, to));
   PetscCall(SaveVelocity(f->u, f->domain.mesh->ne, "velocity", to));
   PetscCall(SaveVelocity(f->u_previous, f->domain.mesh->ne, "previous velocity", to));
   PetscCall(SavePressure(f, to));
@@ -92,6 +104,8 @@ PetscErrorCode FluidLoad(Fluid f, const PetscInt row[], Checkpoint from)
   PetscFunctionBeginUser;
   PetscCall(CheckpointGetNumber(from, "time", &f->t));
   PetscCall(CheckpointGetNumber(from, "previous step", &f->dt_previous));
+  PetscCall(CheckpointGetDoubles(from, "momentum", 0, 1, 2, f->budget.momentum));
+  PetscCall(CheckpointGetDoubles(from, "starting momentum", 0, 1, 2, f->budget_start));
   PetscCall(LoadVelocity(f, row, from, "velocity", f->u));
   PetscCall(LoadVelocity(f, row, from, "previous velocity", f->u_previous));
   PetscCall(LoadPressure(f, row, from));

@@ -161,6 +161,8 @@ PetscErrorCode FluidTransfer(Fluid from, Fluid to)
   PetscCall(TransferDestroy(&to->transfer));
   PetscCall(VecCopy(to->u, to->u_projected));
   to->dt_previous = from->dt_previous;
+  PetscCall(PetscArraycpy(to->budget.momentum, from->budget.momentum, 2));
+  PetscCall(FluidBudgetChanged(to));
   to->stats = from->stats;
   to->stats.seconds[ADAPTATION] += remap + MPI_Wtime() - start;
   to->stats.seconds[SETUP] += setup;

@@ -1,9 +1,12 @@
 #include "fluid/writer.h"
 #include "common/link/coracle.h"
 #include "common/output/output.h"
+#include "fluid/budget.h"
+#include "fluid/force_series.h"
 
 #define COLUMNS                                                                                              \
-  "t [s],dt [s],max speed [m/s],momentum x [kg/s],momentum y [kg/s],kinetic energy [J/m],momentum "          \
+  "t [s],dt [s],max speed [m/s],momentum x [kg/s],momentum y [kg/s],momentum defect,"                        \
+  "kinetic energy [J/m],momentum "                                                                           \
   "iterations,"                                                                                              \
   "pressure iterations,assembly [s],momentum [s],pressure [s],coupling [s],adaptation [s],setup "            \
   "[s],triangles,largest part"
@@ -11,6 +14,7 @@
 struct Writer_s {
   Output output;
   Series series;
+  ForceSeries forces;
   int revision; /* of the mesh */
 };
 
@@ -89,7 +93,7 @@ static PetscErrorCode Snapshot(Writer r, Fluid f)
   PetscFunctionReturn(0);
 }
 
-enum { NCOLUMNS = 16, ROW_MAX = NCOLUMNS + 1 + 3 * PHASES_MAX };
+enum { NCOLUMNS = 17, ROW_MAX = NCOLUMNS + 1 + 3 * PHASES_MAX };
 
 /* columns[size]: COLUMNS, and with phases their potential energy and three of each. */
 static PetscErrorCode SetColumns(Fluid f, size_t size, char columns[])
@@ -138,6 +142,7 @@ PetscErrorCode WriterCreate(CoracleCase c, Fluid f, Checkpoint from, Writer *wri
   PetscCall(OutputText(r->output, "version", CORACLE_VERSION));
   PetscCall(SetColumns(f, sizeof columns, columns));
   PetscCall(SeriesCreate(m->comm, folder, "fluid", columns, from, &r->series));
+  PetscCall(ForceSeriesCreate(c, f, from, &r->forces));
   if (!from) PetscCall(Snapshot(r, f));
   *writer = r;
   PetscFunctionReturn(0);
@@ -148,6 +153,7 @@ PetscErrorCode WriterSave(Writer r, Checkpoint to)
   PetscFunctionBeginUser;
   PetscCall(OutputSave(r->output, to));
   PetscCall(SeriesSave(r->series, to));
+  PetscCall(ForceSeriesSave(r->forces, to));
   PetscFunctionReturn(0);
 }
 
@@ -155,19 +161,19 @@ PetscErrorCode WriterStep(Writer r, Fluid f)
 {
   const FluidStats *s = FluidGetStats(f);
   const Mesh *m = FluidMesh(f);
-  double momentum[2], energy;
+  const FluidBudget *budget = FluidGetBudget(f);
   PetscMPIInt size;
   int most;
   PetscFunctionBeginUser;
-  PetscCall(FluidMomentumTotal(f, momentum, &energy));
   PetscCallMPI(MPI_Comm_size(m->comm, &size));
   PetscCallMPI(MPI_Allreduce(&m->ne, &most, 1, MPI_INT, MPI_MAX, m->comm));
   double row[ROW_MAX] = {s->t,
                          s->dt,
                          s->max_speed,
-                         momentum[0],
-                         momentum[1],
-                         energy,
+                         budget->momentum[0],
+                         budget->momentum[1],
+                         BudgetDefect(budget),
+                         budget->energy,
                          s->momentum_iterations,
                          s->pressure_iterations,
                          s->seconds[0],
@@ -180,6 +186,7 @@ PetscErrorCode WriterStep(Writer r, Fluid f)
                          (double)most * size / m->nglobal};
   PetscCall(AddPhases(f, row + NCOLUMNS));
   PetscCall(SeriesRow(r->series, row));
+  PetscCall(ForceSeriesStep(r->forces, f));
   if (OutputDue(r->output, s->t)) PetscCall(Snapshot(r, f));
   PetscFunctionReturn(0);
 }
@@ -195,6 +202,7 @@ PetscErrorCode WriterDestroy(Writer *r)
   if (!*r) PetscFunctionReturn(0);
   PetscCall(OutputDestroy(&(*r)->output));
   PetscCall(SeriesDestroy(&(*r)->series));
+  PetscCall(ForceSeriesDestroy(&(*r)->forces));
   PetscCall(PetscFree(*r));
   PetscFunctionReturn(0);
 }

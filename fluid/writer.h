@@ -1,4 +1,4 @@
-/* The output of the fluid: fluid.h5/.xdmf snapshots and the series fluid.csv. */
+/* The output of the fluid: fluid.h5/.xdmf snapshots and the series fluid.csv and fluid_forces.csv. */
 #ifndef FLUID_WRITER_H
 #define FLUID_WRITER_H
 #include "common/link/case_file.h"

@@ -41,13 +41,36 @@ void BudgetAddPrescribed(Solid s, int n, int c, double v)
 
 PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget)
 {
+  enum {
+    WALLS,
+    REACTION = 2,
+    WORK = 4,
+    REACTION_WORK,
+    MASS,
+    MOMENTUM,
+    LOAD = MOMENTUM + 2,
+    COUNT = LOAD + 2
+  };
   const SolidBudget *b = &s->budget;
-  double sum[6] = {b->walls[0], b->walls[1], b->reaction[0], b->reaction[1], 0.0, b->reaction_work};
+  double sum[COUNT] = {b->walls[0], b->walls[1], b->reaction[0], b->reaction[1], 0.0, b->reaction_work};
   PetscFunctionBeginUser;
-  for (int n = 0; n < s->nnodes; n++)
-    for (int c = 0; c < 2 && SolidOwns(s, n); c++)
-      sum[4] += s->load[2 * n + c] * (s->x[2 * n + c] - s->start[2 * n + c]);
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 6, MPI_DOUBLE, MPI_SUM, s->comm));
-  *budget = (SolidBudget){{sum[0], sum[1]}, {sum[2], sum[3]}, sum[4], sum[5]};
+  for (int n = 0; n < s->nnodes; n++) {
+    if (!SolidOwns(s, n)) continue;
+    sum[MASS] += s->mass[n];
+    for (int c = 0; c < 2; c++) {
+      const int k = 2 * n + c;
+      sum[WORK] += s->load[k] * (s->x[k] - s->start[k]);
+      sum[MOMENTUM + c] += s->mass[n] * s->v[k];
+      sum[LOAD + c] += s->load[k];
+    }
+  }
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, COUNT, MPI_DOUBLE, MPI_SUM, s->comm));
+  *budget = (SolidBudget){{sum[WALLS], sum[WALLS + 1]},
+                          {sum[REACTION], sum[REACTION + 1]},
+                          sum[WORK],
+                          sum[REACTION_WORK],
+                          {sum[MOMENTUM], sum[MOMENTUM + 1]},
+                          {sum[LOAD], sum[LOAD + 1]},
+                          {sum[MASS] * s->setup.gravity[0], sum[MASS] * s->setup.gravity[1]}};
   PetscFunctionReturn(0);
 }

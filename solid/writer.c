@@ -4,7 +4,7 @@
 #include "solid/probes.h"
 #include <stdio.h>
 
-enum { MAX_BODIES = 8, PER_BODY = 10, COMMON = 16 };
+enum { MAX_BODIES = 8, PER_BODY = 10, COMMON = 22 };
 
 struct Writer_s {
   MPI_Comm comm;
@@ -18,7 +18,7 @@ struct Writer_s {
 
 static PetscErrorCode CreateSeries(Writer r, const char *folder, Checkpoint from)
 {
-  char columns[MAX_BODIES * 160 + 320] = "t [s]";
+  char columns[MAX_BODIES * 160 + 512] = "t [s]";
   PetscFunctionBeginUser;
   for (int b = 0; b < r->nbodies; b++) {
     const size_t used = strlen(columns);
@@ -29,11 +29,12 @@ static PetscErrorCode CreateSeries(Writer r, const char *folder, Checkpoint from
         b, b, b, b, b, b, b, b, b, b);
   }
   const size_t used = strlen(columns);
-  (void)snprintf(
-      columns + used, sizeof columns - used,
-      ",fracture [J/m],debonded [J/m],broken joints,cracks [m],pieces,walls_x [N s/m],walls_y [N "
-      "s/m],reaction_x [N s/m],"
-      "reaction_y [N s/m],work [J/m],reaction work [J/m],substeps,dt_s [s],computing [s],waiting [s]");
+  (void)snprintf(columns + used, sizeof columns - used,
+                 ",fracture [J/m],debonded [J/m],broken joints,cracks [m],pieces,walls_x [N s/m],walls_y [N "
+                 "s/m],reaction_x [N s/m],"
+                 "reaction_y [N s/m],momentum_x [N s/m],momentum_y [N s/m],load_x [N/m],load_y "
+                 "[N/m],weight_x [N/m],weight_y [N/m],"
+                 "work [J/m],reaction work [J/m],substeps,dt_s [s],computing [s],waiting [s]");
   PetscCall(SeriesCreate(r->comm, folder, "solid", columns, from, &r->series));
   PetscFunctionReturn(0);
 }
@@ -191,11 +192,8 @@ PetscErrorCode WriterStep(Writer r, Solid s, double waited)
   row[n++] = fracture.length;
   row[n++] = fracture.pieces;
   PetscCall(SolidGetBudget(s, &budget));
-  for (int c = 0; c < 2; c++) {
-    row[n + c] = budget.walls[c];
-    row[n + 2 + c] = budget.reaction[c];
-  }
-  n += 4;
+  const double *const vector[] = {budget.walls, budget.reaction, budget.momentum, budget.load, budget.weight};
+  for (int k = 0; k < 10; k++) row[n++] = vector[k / 2][k % 2];
   row[n++] = budget.work;
   row[n++] = budget.reaction_work;
   row[n++] = stats->substeps;

@@ -97,7 +97,7 @@ PetscErrorCode SeriesRow(Series s, const double value[])
                PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", s->path, strerror(errno));
     s->length = 0;
   }
-  for (int k = 0; k < s->ncolumn; k++) fprintf(s->file, k ? ",%.10g" : "%.10g", value[k]);
+  for (int k = 0; k < s->ncolumn; k++) fprintf(s->file, k ? ",%.15g" : "%.15g", value[k]);
   fputc('\n', s->file);
   PetscCheck(!fflush(s->file) && !ferror(s->file), PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", s->path,
              strerror(errno));

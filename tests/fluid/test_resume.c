@@ -151,10 +151,15 @@ static PetscErrorCode CheckRefused(const char *set_folder)
 
 static PetscErrorCode Remove(void)
 {
-  static const char *const FILES[] = {"fluid.csv",           "fluid.h5",
-                                      "fluid.xdmf",          "fluid.velocity.xdmf",
-                                      "fluid.pressure.xdmf", "checkpoint.3/fluid.h5",
-                                      "checkpoint.3",        ""};
+  static const char *const FILES[] = {"fluid.csv",
+                                      "fluid_forces.csv",
+                                      "fluid.h5",
+                                      "fluid.xdmf",
+                                      "fluid.velocity.xdmf",
+                                      "fluid.pressure.xdmf",
+                                      "checkpoint.3/fluid.h5",
+                                      "checkpoint.3",
+                                      ""};
   PetscFunctionBeginUser;
   for (int k = 0; k < (int)(sizeof FILES / sizeof *FILES); k++) {
     char path[512];

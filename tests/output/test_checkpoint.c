@@ -117,7 +117,7 @@ static void CheckFiles(int first)
   hsize_t dims[2];
   for (int k = first; k < 12; k++) {
     const size_t used = strlen(expected);
-    snprintf(expected + used, sizeof expected - used, "%.10g,%d\n", 0.1 * k, k);
+    snprintf(expected + used, sizeof expected - used, "%.15g,%d\n", 0.1 * k, k);
     snapshots += k % 2 == 0;
   }
   Path(path, "run.csv");
