@@ -284,24 +284,3 @@ PetscErrorCode FluidMakeSolenoidal(Fluid f)
   f->stats.seconds[PRESSURE] += MPI_Wtime() - start;
   PetscFunctionReturn(0);
 }
-
-double FluidTimeStep(Fluid f)
-{
-  const Mesh *m = f->domain.mesh;
-  const PetscScalar *u;
-  double rate = 0.0, speed = 0.0;
-  if (VecGetArrayRead(f->u_projected, &u)) return 0.0;
-  for (int e = 0; e < m->ne; e++)
-    for (int i = 0; i < 3; i++) {
-      const double *v = u + 6 * e + i;
-      double sum = 0.0; /* of |u.grad lambda|: twice the inverse of the time to cross the element */
-      for (int k = 0; k < 3; k++)
-        sum += fabs(v[0] * f->domain.geometry[e].g[k][0] + v[3] * f->domain.geometry[e].g[k][1]);
-      rate = fmax(rate, 0.5 * sum);
-      speed = fmax(speed, v[0] * v[0] + v[3] * v[3]);
-    }
-  (void)VecRestoreArrayRead(f->u_projected, &u);
-  f->stats.max_speed = sqrt(speed);
-  const double dt = rate * f->setup.dt_max > f->setup.cfl ? f->setup.cfl / rate : f->setup.dt_max;
-  return fmin(dt, FluidCapillaryStep(f));
-}

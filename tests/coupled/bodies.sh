@@ -22,7 +22,8 @@ for k in range(10):
     print("    - {shape: %s, centre: [%.4f, %.4f], size: 0.04, material: m%d}" % (shape, x, y, k))
 print("  walls: {lower: [0.0, 0.0], upper: [2.0, 2.0]}\ncoupler: {shell_thickness: 0.001}\noutput: {folder: out/bodies, every: 0.1}")
 E2
-must one 1:1:1
+must one 1:1:1 --set "fluid.petsc=-momentum_ksp_rtol 1e-13"
+"$python" "$root/scripts/momentum.py" "$scratch/one" --bound 1e-10 >"$scratch/report" || { cat "$scratch/report"; exit 1; }
 must two 2:2:2
 "$python" - "$scratch" <<'E2'
 import csv, json, sys
