@@ -1,10 +1,5 @@
 #include "fluid/boundary_case.h"
 
-static double CosineOfDegrees(double angle)
-{
-  return cos(angle * M_PI / 180.0);
-}
-
 /* Fractions of what comes in. */
 static void ReadFractions(CoracleCase c, const char *key, const PhaseNames *names, BoundaryPhases *b)
 {
@@ -25,10 +20,9 @@ static void ReadFractions(CoracleCase c, const char *key, const PhaseNames *name
 static void ReadPhases(CoracleCase c, const char *key, const PhaseNames *names, BoundaryPhases *b)
 {
   char sub[192];
-  const PhasePairsKey angle = {sub, 0.0, 180.0, CosineOfDegrees, PETSC_TRUE};
   if (!names->name[0]) return;
   (void)snprintf(sub, sizeof sub, "%s.contact_angle", key);
-  PhaseCasePairs(c, &angle, names, &b->contact_cosine);
+  PhaseCaseAngles(c, sub, names, &b->contact_cosine);
   (void)snprintf(sub, sizeof sub, "%s.phase", key);
   const PetscBool single = CoracleCaseHas(c, sub) ? PETSC_TRUE : PETSC_FALSE;
   if (single) b->inflow[PhaseCaseIndex(c, sub, names)] = 1.0;

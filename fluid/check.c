@@ -28,11 +28,18 @@ static const CoracleCaseKey KEYS[] = {
      "how phases move: geometric, a sharp line in each cut element; compressive, the limited shares of the "
      "paper"},
     {"fluid.surface_tension", "N/m",
-     "of the interfaces between phases: a number for all, or a list; none if not given; not possible with "
-     "solids yet"},
+     "of the interfaces between phases: a number for all, or a list; none if not given"},
     {"fluid.surface_tension[].between", "", "two phases"},
     {"fluid.surface_tension[].between[]", "", "a phase"},
     {"fluid.surface_tension[].value", "N/m", "surface tension between them; 0 for pairs that are not listed"},
+    {"fluid.contact_angle", "degrees",
+     "with surface_tension: between solids and interfaces, through the first phase of two, the heavier one "
+     "if there are "
+     "more; or a list; 90 if not given"},
+    {"fluid.contact_angle[].between", "", "two phases"},
+    {"fluid.contact_angle[].between[]", "", "a phase"},
+    {"fluid.contact_angle[].value", "degrees",
+     "contact angle of the interface between them, through the one that is named first"},
     {"fluid.capillary_cfl", "",
      "largest time step over sqrt((sum of the densities) h^3/surface tension), h^2 twice the least area of "
      "the "

@@ -46,16 +46,14 @@ static void UniformInSolid(Fluid f)
                                MaterialDensity(f->material, MATERIAL_STEP)[entry[k].element]);
 }
 
-/* Where there is a solid the lines divide what fills it from what is outside: tension would act there, too. */
-static PetscErrorCode CheckSolid(Fluid f)
+/* moves[ne]: elements in which the solid has implicit inertia. */
+static PetscErrorCode WhereSolidMoves(Fluid f, char moves[])
 {
-  const double *solid = SolidCouplingFraction(f->solid);
-  const PetscBool tension = PhaseHasTension(&f->setup.phases);
+  int n;
+  const CoracleCoupling *entry = SolidCouplingEntries(f->solid, &n);
   PetscFunctionBeginUser;
-  for (int e = 0; e < f->domain.mesh->ne && tension; e++)
-    PetscCheck(solid[e] == 0.0, PETSC_COMM_SELF, PETSC_ERR_SUP,
-               "fluid.surface_tension is given, and there is a solid: surface tension at solids is not "
-               "possible yet");
+  PetscCall(PetscArrayzero(moves, f->domain.mesh->ne));
+  for (int k = 0; k < n; k++) moves[entry[k].element] = (entry[k].flags & CORACLE_HAS_INERTIA) != 0;
   PetscFunctionReturn(0);
 }
 
@@ -79,20 +77,22 @@ PetscErrorCode FluidMovePhases(Fluid f, double dt, double s)
   const size_t n = 6 * (size_t)f->domain.mesh->ne;
   PetscScalar *flux;
   double *u;
+  char *moves;
   PetscFunctionBeginUser;
-  PetscCall(CheckSolid(f));
-  PetscCall(PetscMalloc1(n, &u));
+  PetscCall(PetscMalloc2(n, &u, f->domain.mesh->ne, &moves));
+  PetscCall(WhereSolidMoves(f, moves));
   PetscCall(VecGetArray(f->mass_flux, &flux));
   PetscCall(PetscArraycpy(u, flux, n));
   step.u = u;
   step.solid = SolidCouplingFraction(f->solid);
+  step.moves = moves;
   step.mass_flux = flux;
   double *pressure = NULL;
   if (f->compressible) PetscCall(FluidMeanPressure(f, &pressure));
   step.pressure = pressure;
   PetscCall(PhaseTransportStep(f->phases, &step));
   PetscCall(VecRestoreArray(f->mass_flux, &flux));
-  PetscCall(PetscFree(u));
+  PetscCall(PetscFree2(u, moves));
   PetscCall(PetscFree(pressure));
   PetscCall(SetPhaseMaterial(f, MATERIAL_NEW));
   UniformInSolid(f);
@@ -197,7 +197,8 @@ static PetscErrorCode HasSolid(Fluid f, PetscBool *solid)
 /* p, with its values on open boundaries as they are, makes the velocity that starts as `start` (NULL: 0) and is accelerated
  * over the step by weight - R^-1 grad p free of divergence.  It is improved from what it was, so that what the solver leaves, which
  * the projection, by 1/rho, does not take away, does not add up over the steps; or made from 0 with a solid, where a pressure's
- * response is not R^-1 grad p alone, or a gas. */
+ * response is not R^-1 grad p alone, or a gas.  With surface tension it is improved with a solid, too: the solver's matrix lets the
+ * pressure through a solid that is held, and the pressure of a drop on it would drive the fluid there in each step. */
 static PetscErrorCode SolvePressure(Fluid f, ProjectionStep *step, PetscBool from_zero, Vec start)
 {
   Vec velocity, phi;
@@ -245,8 +246,9 @@ PetscErrorCode FluidPredictPressure(Fluid f, double dt)
   PetscBool solid;
   PetscFunctionBeginUser;
   PetscCall(HasSolid(f, &solid));
+  const PetscBool from_zero = (PetscBool)(f->compressible || !PhaseHasTension(&f->setup.phases));
   if (solid || f->compressible)
-    PetscCall(SolvePressure(f, &step, PETSC_TRUE, solid ? f->bulk : NULL));
+    PetscCall(SolvePressure(f, &step, from_zero, solid ? f->bulk : NULL));
   else
     PetscCall(Balance(f, PETSC_FALSE));
   PetscFunctionReturn(0);

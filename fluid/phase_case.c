@@ -80,6 +80,7 @@ void PhaseCaseRead(CoracleCase c, PhaseNames *names, PhaseProperties *p)
   if (p->n > 2) SortByDensity(names, p);
   for (int k = 0; k < p->n; k++) (void)snprintf(p->name[k], sizeof p->name[k], "%s", names->name[k]);
   PhaseCasePairs(c, &tension, names, &p->surface_tension);
+  PhaseCaseAngles(c, "fluid.contact_angle", names, &p->solid_cosine);
   p->advection = (PhasesAdvection)CoracleCaseWord(c, "fluid.phases_advection", PHASES_GEOMETRIC, ADVECTIONS);
 }
 
@@ -124,6 +125,17 @@ void PhaseCasePairs(CoracleCase c, const PhasePairsKey *key, const PhaseNames *n
     for (int k = 0; names->name[k]; k++)
       for (int j = 0; j < k; j++) SetPair(key, j, k, number, pairs);
   }
+}
+
+static double CosineOfDegrees(double angle)
+{
+  return cos(angle * M_PI / 180.0);
+}
+
+void PhaseCaseAngles(CoracleCase c, const char *key, const PhaseNames *names, PhasesPairs *cosine)
+{
+  const PhasePairsKey angle = {key, 0.0, 180.0, CosineOfDegrees, PETSC_TRUE};
+  PhaseCasePairs(c, &angle, names, cosine);
 }
 
 int PhaseCaseIndex(CoracleCase c, const char *key, const PhaseNames *names)

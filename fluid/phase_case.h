@@ -18,6 +18,8 @@ typedef struct {
   PetscBool antisymmetric;
 } PhasePairsKey;
 void PhaseCasePairs(CoracleCase c, const PhasePairsKey *key, const PhaseNames *names, PhasesPairs *pairs);
+/* Cosines of the angles at key, degrees from 0 to 180, through the first phase of each pair.  Not collective. */
+void PhaseCaseAngles(CoracleCase c, const char *key, const PhaseNames *names, PhasesPairs *cosine);
 /* The phase that the string at key names.  Not collective. */
 int PhaseCaseIndex(CoracleCase c, const char *key, const PhaseNames *names);
 /* properties->n = 0 without the key.  More than two phases are sorted by density, the heaviest first (phases/README.md).  Not

@@ -2,6 +2,7 @@
 #include "common/mesh/mesh_checkpoint.h"
 #include "fluid/phase_boundary.h"
 #include "fluid/phase_sweep.h"
+#include "fluid/phase_tension.h"
 
 /* Of an element, less than which of a phase is none. */
 #define SLIVER 1e-12
@@ -14,6 +15,7 @@ struct PhaseTransport_s {
   Phases phases;
   PhaseBoundaries boundaries;
   PhaseSweep sweep;
+  PhaseTension tension;
   InverseDensity *begin, *end, *inverse_density; /* [ne] at the ends of the step, and what the step sees */
   double *saved, *saved_mass;                    /* [ne][n] volumes, masses */
   PhaseBudget budget, saved_budget;
@@ -69,6 +71,7 @@ PetscErrorCode PhaseTransportCreate(const FluidDomain *domain, const PhaseProper
   for (int k = 0; k < n; k++) t->properties.state[k].density = properties->rho[k];
   if (PhaseHasGas(properties)) PetscCall(PhasesSetStates(t->phases, t->properties.state));
   PetscCall(PhaseBoundariesCreate(domain, &t->properties, gravity, &t->boundaries));
+  PetscCall(PhaseTensionCreate(t->stars, &t->properties, &t->boundaries, &t->tension));
   PetscCall(PhaseSweepCreate(domain, &t->properties, t->stars, &t->boundaries, t->phases, &t->sweep));
   PetscCall(PetscMalloc5(m->ne, &t->begin, m->ne, &t->end, m->ne, &t->inverse_density,
                          (size_t)n * (size_t)m->ne, &t->saved, (size_t)n * (size_t)m->ne, &t->saved_mass));
@@ -81,6 +84,7 @@ PetscErrorCode PhaseTransportDestroy(PhaseTransport *transport)
   PhaseTransport t = *transport;
   PetscFunctionBeginUser;
   if (!t) PetscFunctionReturn(0);
+  PetscCall(PhaseTensionDestroy(&t->tension));
   PetscCall(PhaseSweepDestroy(&t->sweep));
   PetscCall(PhaseBoundariesDestroy(&t->boundaries));
   PetscCall(PhasesDestroy(&t->phases));
@@ -105,17 +109,13 @@ static PetscErrorCode SumVolumes(PhaseTransport t, double volume[])
 
 /* --- state ---------------------------------------------------------------------------------------------- */
 
-/* After the effective densities at the end of the step. */
-static PetscErrorCode AddSurfaceTension(PhaseTransport t)
+/* How elements respond at the end of the step. */
+static PetscErrorCode SetEnd(PhaseTransport t)
 {
-  double(*force)[2];
   PetscFunctionBeginUser;
-  if (!PhaseHasTension(&t->properties)) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc1(t->stars->ne, &force));
-  PetscCall(PhasesGetSurfaceForce(t->phases, &t->properties.surface_tension, t->boundaries.contact,
-                                  (double *)force));
-  for (int e = 0; e < t->stars->ne; e++) InverseDensityAddSurface(force[e], &t->end[e]);
-  PetscCall(PetscFree(force));
+  PetscCall(PhasesGetInverseDensity(t->phases, t->properties.rho, t->gravity, t->end));
+  PetscCall(PhaseTensionAdd(t->tension, t->phases, t->end));
+  PhaseTransportSettle(t);
   PetscFunctionReturn(0);
 }
 
@@ -124,9 +124,7 @@ static PetscErrorCode Reconstruct(PhaseTransport t)
 {
   PetscFunctionBeginUser;
   PetscCall(PhasesReconstruct(t->phases));
-  PetscCall(PhasesGetInverseDensity(t->phases, t->properties.rho, t->gravity, t->end));
-  PetscCall(AddSurfaceTension(t));
-  PhaseTransportSettle(t);
+  PetscCall(SetEnd(t));
   PetscFunctionReturn(0);
 }
 
@@ -156,6 +154,7 @@ PetscErrorCode PhaseTransportRemap(PhaseTransport from, Transfer transfer, Phase
 {
   PetscFunctionBeginUser;
   PetscCall(PhasesRemap(from->phases, transfer, to->phases));
+  PetscCall(PhaseTensionRemap(from->tension, transfer, to->tension));
   to->budget = from->budget;
   PetscCall(Reconstruct(to));
   PetscFunctionReturn(0);
@@ -288,6 +287,8 @@ PetscErrorCode PhaseTransportBudget(PhaseTransport t, PhaseBudget *budget)
 PetscErrorCode PhaseTransportStep(PhaseTransport t, const PhaseStep *s)
 {
   PetscFunctionBeginUser;
+  PetscCall(PhaseTensionSetSolid(t->tension, s->solid, s->moves));
+  if (PhaseTensionHasSolid(t->tension)) PetscCall(SetEnd(t)); /* with the solid of this step */
   for (int e = 0; e < t->stars->ne; e++) t->begin[e] = t->end[e];
   PetscCall(PhaseSweepStep(t->sweep, s, t->budget.out));
   PetscCall(Reconstruct(t));

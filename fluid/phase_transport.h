@@ -19,6 +19,7 @@ typedef struct {
   int n;
   double rho[PHASES_MAX], mu[PHASES_MAX]; /* kg/m3, Pa s */
   PhasesPairs surface_tension;            /* N/m */
+  PhasesPairs solid_cosine; /* of contact angles at solids, through the first phase of each pair */
   PhasesAdvection advection;
   EquationOfState state[PHASES_MAX]; /* pressure 0: incompressible, of density rho */
   char name[PHASES_MAX][32];
@@ -49,6 +50,7 @@ typedef struct {
   double extrapolated, dt_before; /* u = u^n + extrapolated (u^n - u^{n-1}) */
   const double *u;
   const double *solid;    /* [ne] alpha_s: heavier phases stay out of it; NULL: none */
+  const char *moves;      /* [ne] whether it moves freely; read with surface tension only */
   const double *pressure; /* [ne] at t^n, Pa; read with compressible phases only */
   double *mass_flux;
 } PhaseStep;

@@ -106,6 +106,8 @@ static PetscErrorCode PhasePressure(Fluid from, Fluid to, Transfer transfer)
   PetscCall(VecDuplicate(from->p, &p));
   PetscCall(VecDuplicate(to->p, &still));
   PetscCall(VecCopy(from->p, p));
+  /* with surface tension a step begins from this pressure (FluidPredictPressure): the new mesh knows no coupling yet */
+  if (PhaseHasTension(&from->setup.phases)) PetscCall(FluidSetCoupling(from, 0, NULL));
   PetscCall(FluidBalancePressure(from));
   PetscCall(FluidSetOpenPressure(to));
   PetscCall(FluidBalancePressure(to));

@@ -8,20 +8,21 @@
  *
  * by least squares of the elements' volumes below it (Renardy and Renardy 2002 for parabolas, on squares).  The area of a
  * polygon below the arc is the integral of min(h, h of its outline) ds along its outline.  The higher powers are those of a
- * circle, so that circles of a few elements across are found.  At a wall the contact angle is one more condition: the
- * slope at the contact point. */
+ * circle, so that circles of a few elements across are found.  At a wall, or a solid's surface, the contact angle is one
+ * more condition: the slope at the contact point. */
 #ifndef CORACLE_PHASES_CURVATURE_H
 #define CORACLE_PHASES_CURVATURE_H
 #include <math.h>
 
-enum { CURVATURE_CELLS = 64, CURVATURE_CONTACTS = 8, CURVATURE_ITERATIONS = 12 };
+enum { CURVATURE_CELLS = 64, CURVATURE_CORNERS = 4, CURVATURE_CONTACTS = 8, CURVATURE_ITERATIONS = 12 };
 
 /* What the conditions at walls weigh beside all elements together. */
 #define CURVATURE_CONTACT 10.0
 
-/* A cut element: corners (s, h), counter-clockwise, m; the first phase's volume, m2. */
+/* What a cut element has outside of solids: corners (s, h), counter-clockwise, m; the first phase's volume, m2. */
 typedef struct {
-  double x[3][2], volume, weight;
+  int n;
+  double x[CURVATURE_CORNERS][2], volume, weight;
 } CurvatureCell;
 
 typedef struct {
@@ -120,7 +121,7 @@ static inline double CurvatureEquation(const CurvatureData *data, const Curvatur
   if (k < data->n) {
     const CurvatureCell *c = &data->cell[k];
     CurvatureBelow below = {0.0, {0.0, 0.0, 0.0}};
-    for (int i = 0; i < 3; i++) CurvatureAddEdge(arc, c->x[i], c->x[(i + 1) % 3], &below);
+    for (int i = 0; i < c->n; i++) CurvatureAddEdge(arc, c->x[i], c->x[(i + 1) % c->n], &below);
     *value = (c->volume - below.area) / (l * l);
     row[0] = below.derivative[0] / l;
     row[1] = below.derivative[1] / (l * l);

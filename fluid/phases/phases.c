@@ -138,13 +138,26 @@ PetscErrorCode PhasesGetInertia(Phases f, int e, const double rho[], PetscBool c
   PetscFunctionReturn(0);
 }
 
+int PhasesOnly(Phases f, int e)
+{
+  const double tiny = PHASES_TINY * StarsArea(f->stars, e), *v = &f->volume[(size_t)e * (size_t)f->np];
+  int found = -1;
+  if (f->single[e] >= 0 || !f->first) return f->single[e];
+  for (int p = f->first; p < f->np; p++) {
+    if (v[p] < tiny) continue;
+    if (found >= 0) return -1;
+    found = p;
+  }
+  return found;
+}
+
 int PhasesSide(Phases f, int e, int k)
 {
   const int p = f->single[e];
   if (p >= 0) return p == k ? -1 : p > k;
   if (PhasesHasLine(f, e, k)) return 0;
   const double tiny = PHASES_TINY * StarsArea(f->stars, e), *v = &f->volume[(size_t)e * (size_t)f->np];
-  int first = 0, last = f->np - 1;
+  int first = f->first, last = f->np - 1;
   while (v[first] < tiny) first++;
   while (v[last] < tiny) last--;
   return last == k ? -1 : first > k;

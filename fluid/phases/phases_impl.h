@@ -3,20 +3,28 @@
 #define CORACLE_PHASES_IMPL_H
 #include "fluid/phases/phases.h"
 
+/* Where line k of an element meets the solid's surface (wetting.h). */
+typedef struct {
+  double x[2], wall[2]; /* m; unit, into the solid */
+  double cosine;        /* of the contact angle through phase k */
+  int found;
+} WettingContact;
+
 /* An element within this fraction of empty or full of a phase counts as such when lines are made. */
 #define PHASES_TINY 1e-12
 
 /* Lines of a cut element, relative to its first vertex.  A line of n = 0 takes all (d >= 0) or nothing. */
 struct Phases_s {
   const Stars *stars; /* borrowed */
-  int np;
+  int np, first;      /* phases before `first` are the solid's (wetting.h): 0, or 1 */
   PhasesAdvection advection;
   double *volume;  /* [nl][np] m2 */
   HalfPlane *line; /* [nl][np - 1] */
   int *single;     /* [nl] the only phase, or -1 */
   /* NULL: all phases are incompressible */
-  EquationOfState *state; /* [np] */
-  double *mass, *density; /* [nl][np] kg, kg/m3; of incompressible phases nothing, and theirs */
+  EquationOfState *state;        /* [np] */
+  double *mass, *density;        /* [nl][np] kg, kg/m3; of incompressible phases nothing, and theirs */
+  const WettingContact *contact; /* [nl][np - 1], borrowed; NULL: no solid */
   double courant;
   PetscBool has_lines;
 };
@@ -48,6 +56,8 @@ int PhasesBehind(Phases phases, int e, int k);
 /* Of local element e, which line k does not divide: -1 below it (the last of its phases is k), 1 above it (all are behind k); else,
  * and where line k divides it, 0. */
 int PhasesSide(Phases phases, int e, int k);
+/* The phase that local element e has to itself, beside a solid, too; -1: it has several; below `first`: it has none. */
+int PhasesOnly(Phases phases, int e);
 /* The segment of line k of cut element e in what earlier lines leave, and *line, relative to origin. */
 PolygonCut PhasesSegment(Phases phases, int e, int k, const double origin[2], HalfPlane *line);
 /* The distance of vertex v of an owned element from the lines k around it, negative in phase k, m; 0 where elements below and
@@ -56,6 +66,17 @@ double PhasesDistance(Phases phases, int k, int v, double *inside);
 /* The curvature of lines k near vertex v of an owned element, 1/m, positive where phase k is convex; 0 is returned where none is
  * known.  cosine: of contact angles, as in PhasesGetSurfaceForce. */
 int PhasesCurvature(Phases phases, int k, int v, const PhasesPairs cosine[], double *curvature);
+/* The forces of lines k: force[ne][2] += as in PhasesGetSurfaceForce; excess[ne][2], N/m, unless it is NULL, += what the force of an
+ * element has beyond that of the line's segment in it, - tension kappa n times its length; vertex[nowned]: scratch. */
+typedef struct {
+  double inside, curvature; /* of PhasesDistance and PhasesCurvature */
+  int known;
+} VertexSurface;
+void PhasesAddSurfaceForce(Phases phases, int k, const PhasesPairs *tension, const PhasesPairs cosine[],
+                           VertexSurface vertex[], double force[], double excess[]);
+/* The interface's unit normal, out of its first phase, where it meets a wall of unit normal wall[2], out of the fluid, at an angle
+ * of this cosine; line[2]: its normal as it is, which says to which side it is inclined. */
+void PhasesContactNormal(const double wall[2], double cosine, const double line[2], double normal[2]);
 /* Where line k of cut element e crosses its face i, m; 0 if it does not. */
 int PhasesCrossing(Phases phases, int e, int k, int i, double x[2]);
 /* area[np] += weight * |polygon and phase p| in local element e; polygon lies in the element, relative to

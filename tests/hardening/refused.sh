@@ -65,6 +65,7 @@ liquids "'fluid.surface_tension\[0\].between\[1\]': expected another phase" --se
 liquids "'fluid.surface_tension\[1\].between\[1\]': an item before this one" --set 'fluid.surface_tension=[{between: [oil, air], value: 1}, {between: [air, oil], value: 1}]'
 liquids "'fluid.surface_tension\[0\].value': expected a number >= 0" --set 'fluid.surface_tension=[{between: [oil, air], value: -1}]'
 liquids "'fluid.boundaries.left.contact_angle\[0\].value': expected a number from 0 to 180" --set 'fluid.boundaries.left={wall: no_slip, contact_angle: [{between: [oil, air], value: 190}]}'
+liquids "'fluid.contact_angle': expected a number from 0 to 180" --set fluid.contact_angle=190
 liquids "'fluid.boundaries.left.level\[1\].height': expected layers from below: more than 2, found 1" --set 'fluid.boundaries.left={level: [{phase: water, height: 2}, {phase: oil, height: 1}]}'
 liquids "'fluid.boundaries.left.fractions': expected fractions whose sum is 1, found 0.9" --set 'fluid.boundaries.left={velocity: [0, 0], fractions: [{phase: water, value: 0.4}, {phase: oil, value: 0.5}]}'
 liquids "'fluid.boundaries.left.fractions\[1\].phase': an item before this one" --set 'fluid.boundaries.left={velocity: [0, 0], fractions: [{phase: oil, value: 0.4}, {phase: oil, value: 0.6}]}'
