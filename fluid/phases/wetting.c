@@ -99,6 +99,15 @@ static int IsBeside(Wetting w, int e, int p, int wide)
   return 0;
 }
 
+/* Whether element e, or one across a face, has a solid. */
+static int IsAtSolid(Wetting w, int e)
+{
+  const int *o = w->stars->neighbor[e];
+  int solid = w->solid[e].alpha > 0.0;
+  for (int i = 0; i < 3; i++) solid |= o[i] >= 0 && w->solid[o[i]].alpha > 0.0;
+  return solid;
+}
+
 /* What of phases in element e, beside a solid, is no part of what is around it, but has moved with the surface, goes to the one that it
  * has most of. */
 static void DropFilms(Wetting w, int e, double volume[])
@@ -132,7 +141,7 @@ static PetscErrorCode SetVolumes(Wetting w, Phases fluid, const WettingSolid *so
   }
   PetscCall(StarsExchange(s, sizeof *w->solid, w->solid));
   for (int e = 0; e < s->ne; e++)
-    if (w->solid[e].alpha > 0.0) DropFilms(w, e, &w->volume[(n + 1) * e + 1]);
+    if (IsAtSolid(w, e)) DropFilms(w, e, &w->volume[(n + 1) * e + 1]);
   PetscCall(PhasesSetVolumes(w->wet, w->volume));
   PetscCall(PhasesReconstruct(w->wet));
   PetscFunctionReturn(0);

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# A drop on a block that does not move comes to rest at its contact angle, with the pressure of its radius; long: also on a disc, and a
+# A drop on a block that does not move comes to rest at its contact angle, with the pressure of its radius; beside a half-sunk
+# block at 90 degrees water stays at rest; long: also on a disc, and a
 # disc of twice the water's density floats, held by surface tension.  Usage: [print=1] wetting.sh ROOT BUILD [long]
 set -euo pipefail
 long=${3:-}
@@ -7,6 +8,9 @@ source "$(dirname "$0")/run.sh"
 case=$here/wetting.yaml
 limit=600
 for angle in 60 120; do must "plane $angle" 1:1:1 --set fluid.contact_angle=$angle; done
+must "half wet 90" 1:1:1 --set fluid.contact_angle=90 --set 'gravity=[0.0, -1.0]' --set time.end=0.3 \
+  --set 'fluid.regions=[{phase: air}, {phase: water, lower: [-1, -1], upper: [2, 0.37]}, {phase: air, lower: [0.3, 0.2], upper: [0.7, 0.5]}]' \
+  --set 'solid.bodies=[{shape: rectangle, centre: [0.5, 0.35], width: 0.4, height: 0.3, size: 0.05, material: block, fixed: true}]'
 if [ "$long" ]; then
   for angle in 60 120; do must "fine plane $angle" 1:1:1 --set fluid.contact_angle=$angle --set fluid.mesh.size_max=0.0268; done
   must "disc 90" 1:1:1 --set fluid.contact_angle=90 --set 'fluid.mesh={lower: [0.0, 0.0], upper: [1.0, 1.0], size_max: 0.0268}' \
@@ -62,9 +66,17 @@ def check_float(name, angle):
     if sys.argv[2]: print(report)
     assert abs(mean(y) - exact) < 0.04 and abs(mean(fx)) < 0.1 * weight and abs(mean(fy) / weight - 1.0) < 0.03, report
 
+def check_still(name):
+    rows = csv.DictReader(open(os.path.join(sys.argv[1], name, "fluid.csv")))
+    speed = max(float(r["max speed [m/s]"]) for r in rows)
+    report = "%s: largest speed %.1e" % (name, speed)
+    if sys.argv[2]: print(report)
+    assert speed < 0.02, report
+
 for name in sorted(os.listdir(sys.argv[1])):
     if not os.path.isdir(os.path.join(sys.argv[1], name)): continue
     place, angle = name.split()[-2], float(name.split()[-1])
-    if place == "float": check_float(name, angle)
+    if place == "wet": check_still(name)
+    elif place == "float": check_float(name, angle)
     else: check_drop(name, place, angle)
 E2
