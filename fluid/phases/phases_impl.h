@@ -74,6 +74,9 @@ typedef struct {
 } VertexSurface;
 void PhasesAddSurfaceForce(Phases phases, int k, const PhasesPairs *tension, const PhasesPairs cosine[],
                            VertexSurface vertex[], double force[], double excess[]);
+/* The nearest point in which line k of owned element e, made longer, meets the solid's surface in the elements around; cosine: of contact
+ * angles. */
+WettingContact WettingFindContact(Phases phases, int e, int k, const PhasesPairs *cosine);
 /* The interface's unit normal, out of its first phase, where it meets a wall of unit normal wall[2], out of the fluid, at an angle
  * of this cosine; line[2]: its normal as it is, which says to which side it is inclined. */
 void PhasesContactNormal(const double wall[2], double cosine, const double line[2], double normal[2]);
