@@ -6,22 +6,15 @@ Prints, for each component, the largest of what each term has given in a step, N
 more than that part of the step's terms is left over.
 """
 import argparse
-import csv
 import os
 import sys
 
 import numpy as np
 
+from series import read_series
+
 FLUID_TERMS = ("weight", "divergence", "interface", "adaptation", "correction")  # of fluid_forces.csv, but for `solid` and `rest`
 BOUNDARY_PARTS = ("pressure", "viscous", "convection")
-
-
-def read_series(path):
-    """Columns of a CSV by their names without units."""
-    with open(path, encoding="utf-8") as file:
-        rows = list(csv.reader(file))
-    values = np.array(rows[1:], float)
-    return {name.split(" [")[0]: values[:, k] for k, name in enumerate(rows[0])}
 
 
 def boundaries(forces):

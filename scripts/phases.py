@@ -3,7 +3,6 @@ they are.
 
 Needs numpy, h5py, matplotlib; Pillow for animations.
 """
-import csv
 import json
 import os
 
@@ -14,18 +13,11 @@ from matplotlib.animation import PillowWriter
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.tri import Triangulation
 
+from series import read_series
 from snapshot import Window, outline, read_bodies, read_snapshot
 
 AIR, WATER = (0.93, 0.96, 0.98), (0.10, 0.35, 0.65)
 COLOURS = LinearSegmentedColormap.from_list("air to water", [AIR, WATER])
-
-
-def read_series(path):
-    """Columns of a CSV by their names without units."""
-    with open(path) as file:
-        rows = list(csv.reader(file))
-    values = np.array(rows[1:], float)
-    return {name.split(" [")[0]: values[:, k] for k, name in enumerate(rows[0])}
 
 
 def read_probes(folder):

@@ -10,7 +10,7 @@ import numpy as np
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent.parent / "scripts"))
-import phases
+from series import read_series
 
 QUANTITIES = ("x", "y", "drag", "lift")  # mm, mm, N/m, N/m
 HARMONICS = 8  # of the beam's frequency, that a force is made of; what is faster is noise from step to step
@@ -62,7 +62,7 @@ class Run:
     stand at its middle."""
 
     def __init__(self, folder, start):
-        tip, solid = (phases.read_series(folder / name) for name in ("solid_probes.csv", "solid.csv"))
+        tip, solid = (read_series(folder / name) for name in ("solid_probes.csv", "solid.csv"))
         self.t, late = tip["t"], tip["t"] > start
         self.t_force = solid["t"] - 0.5 * np.diff(solid["t"], prepend=0.0)
         self.series = {"x": 1e3 * tip["tip_x"], "y": 1e3 * tip["tip_y"], "drag": solid["fx0"], "lift": solid["fy0"]}

@@ -13,7 +13,7 @@ import pathlib
 import subprocess
 
 from beam import QUANTITIES, Run  # puts scripts/ on the path
-import phases
+from series import read_series
 import validation
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -93,7 +93,7 @@ def ended(name):
     folder = OUT / name
     if not ROWS[name].alone:
         return (folder / "summary.json").exists()
-    return (folder / "solid.csv").exists() and phases.read_series(folder / "solid.csv")["t"][-1] > ROWS[name].end - 1e-6
+    return (folder / "solid.csv").exists() and read_series(folder / "solid.csv")["t"][-1] > ROWS[name].end - 1e-6
 
 
 def run(name):
