@@ -102,7 +102,7 @@ static PetscErrorCode CheckResponse(double youngs_modulus, double *change)
     const double stiff = (up[k] - down[k]) / (2.0 * moved / speed) * interface.mobility[k / 2];
     largest[0] = fmax(largest[0], fabs(interface.u[k] - 0.25 * STEP * STEP * stiff - start[k]));
     largest[1] = fmax(largest[1], fabs(interface.u[k] - start[k]));
-    damped = fmax(damped, fabs(start[k] - 0.05 * (start[k] - interface.u[k]) - view.v[k]));
+    damped = fmax(damped, fabs(start[k] - 0.15 * (start[k] - interface.u[k]) - view.v[k]));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD));
   CHECK(damped < 1e-12 * speed, "E %g: damping is %g m/s off", youngs_modulus, damped);
