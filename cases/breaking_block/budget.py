@@ -1,16 +1,13 @@
 """Momentum and energy of a run of the breaking block, from its solid.csv."""
-import csv
+import pathlib
+import sys
 
 import numpy as np
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+from series import read_series
+
 GRAVITY = (0.0, -9.81)  # m/s2
-
-
-def read_series(path):
-    """Columns by name without unit."""
-    with open(path) as lines:
-        rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
-    return {name.split("[")[0].strip(): np.array([float(row[name]) for row in rows]) for name in rows[0]}
 
 
 class Budget:

@@ -10,17 +10,15 @@ with 1 when a number is out of its bounds.
 import json
 import pathlib
 import subprocess
-import sys
 
 import h5py
 import numpy as np
 
-from budget import Budget, read_series
-
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent.parent / "scripts"))
+from budget import Budget  # puts scripts/ on the path
+from series import read_series
 import validation
 
+HERE = pathlib.Path(__file__).resolve().parent
 OUT = validation.OUT / "breaking_block"
 TOUGHNESS, TENSILE, SHEAR, YOUNG = 12.8, 8.0e4, 1.6e5, 5.0e7  # J/m2 and Pa, of case.yaml
 STREAM, RELEASE, END = 0.55, 0.7, 0.95  # s: the stream is nearly there; the projectile is free; the block is in pieces
