@@ -186,7 +186,8 @@ PetscErrorCode CouplerNoCorrection(Coupler c, const SolidState *moved)
 PetscErrorCode CouplerConservativeForce(Coupler c)
 {
   PetscFunctionBeginUser;
-  PetscCall(ForceOfPairs(c->overlap, c->term, c->source, c->options.gravity, c->dt, &c->flow, c->vertex));
+  PetscCall(ForceOfPairs(c->overlap, c->term, c->element, c->source, c->options.gravity, c->dt, &c->flow,
+                         c->vertex));
   PetscCall(ForceAssembleToOwners(c->overlap, c->vertex, c->nnodes, c->node));
   for (int i = 0; i < c->history.n; i++)
     for (int d = 0; d < 2; d++) c->node[i].other[d] -= c->history.retained[i][d] / c->dt;

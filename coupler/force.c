@@ -6,8 +6,9 @@ typedef struct {
 } ElementFlow;
 
 /* R's density, at the pair's centre; inside solids a or the inertia is mostly 0. */
-static LinearField Reaction(const PairTerm *term, const SourceTerm *source, const double gravity[2],
-                            const ElementFlow *flow, const LinearField *start, const double d[2])
+static LinearField Reaction(const PairTerm *term, const ElementTerm *element, const SourceTerm *source,
+                            const double gravity[2], const ElementFlow *flow, const LinearField *start,
+                            const double d[2])
 {
   LinearField reaction = {{0.0}, {{0.0}}};
   if (!WallIsZero(&term->a)) {
@@ -17,10 +18,15 @@ static LinearField Reaction(const PairTerm *term, const SourceTerm *source, cons
     WallAdd(&term->a, &slip, &reaction);
   }
   if (source->density == 0.0) return reaction;
-  const LinearField body = PairBodyForce(term, source, gravity, d);
+  const LinearField body = PairBodyForce(term, element, source, gravity, d);
   LinearFieldAdd(-1.0, &body, &reaction);
-  LinearFieldAdd(term->inertia, &flow->projected, &reaction);
-  LinearFieldAdd(-term->inertia, &flow->start, &reaction);
+  LinearField change = flow->projected;
+  LinearFieldAdd(-1.0, &flow->start, &change);
+  LinearFieldAdd(term->inertia, &change, &reaction);
+  if (!WallIsZero(&element->freed)) {
+    const WallCoefficient freed = WallCoefficientScaled(&element->freed, -term->inertia);
+    WallAdd(&freed, &change, &reaction);
+  }
   if (!WallIsZero(&term->start)) {
     LinearField difference = flow->start;
     LinearFieldAdd(-1.0, start, &difference);
@@ -52,8 +58,9 @@ static void SetVertices(const SupermeshBasis *basis, const VectorMoments *reacti
     }
 }
 
-PetscErrorCode ForceOfPairs(const Overlap o, const PairTerm term[], const SourceTerm source[],
-                            const double gravity[2], double dt, const CoracleFlow *flow, ForceVertex vertex[])
+PetscErrorCode ForceOfPairs(const Overlap o, const PairTerm term[], const ElementTerm element[],
+                            const SourceTerm source[], const double gravity[2], double dt,
+                            const CoracleFlow *flow, ForceVertex vertex[])
 {
   ElementFlow *on;
 
@@ -76,7 +83,8 @@ PetscErrorCode ForceOfPairs(const Overlap o, const PairTerm term[], const Source
       const ElementFlow at = {LinearFieldAt(&k->star, from_element), LinearFieldAt(&k->start, from_element),
                               LinearFieldAt(&k->projected, from_element)};
       const LinearField start = LinearFieldAt(&source[t].start, d);
-      const LinearField density = Reaction(&term[p], &source[t], gravity, &at, &start, d);
+      const LinearField density =
+          Reaction(&term[p], &element[o->coupled_index[p]], &source[t], gravity, &at, &start, d);
       VectorMomentsAdd(pair, &density, d, &reaction);
       if (o->source[t].is_shell) continue;
       const LinearField rest = Other(o->rho[pair->b], dt, gravity, &at, &start);
@@ -104,7 +112,7 @@ static void SubtractWall(const CoracleCoupling *k, const double u[6], double gai
       for (int j = 0; j < 6; j++) gain[c] -= k->a[c][i][j / 3][j % 3] * u[j];
 }
 
-/* One element's gain, the sum over its functions of s - a u* - I (u+ - kept u start), where it is covered less rho_f M/dt u start;
+/* One element's gain, the sum over its functions of s - a u* - I (G u+ - kept u start), where it is covered less rho_f M/dt u start;
  * mass: rho_f |K|/dt. */
 static void ElementGain(const CoracleCoupling *k, double mass, const CoracleFlow *flow, double gain[2])
 {
@@ -116,8 +124,9 @@ static void ElementGain(const CoracleCoupling *k, double mass, const CoracleFlow
     for (int j = 0; j < 3; j++) {
       const double inertia =
           k->implicit_inertia[0][j] + k->implicit_inertia[1][j] + k->implicit_inertia[2][j];
-      gain[c] -=
-          inertia * (u_projected[3 * c + j] - k->kept[c][0] * u_start[j] - k->kept[c][1] * u_start[3 + j]);
+      for (int d = 0; d < 2; d++)
+        gain[c] -=
+            inertia * (k->inertia_tensor[c][d] * u_projected[3 * d + j] - k->kept[c][d] * u_start[3 * d + j]);
     }
     if (covered) gain[c] -= mass / 3.0 * (u_start[3 * c] + u_start[3 * c + 1] + u_start[3 * c + 2]);
   }

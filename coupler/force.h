@@ -3,9 +3,9 @@
  * fluid gains the solid loses, to round-off.
  *
  * With int over one pair (T a source triangle of the solid S or of its shell, K a fluid element), the pair's coefficient a,
- * inertia m and body force q (wall_term.h), u and v the fluid's and the solid's velocity at the step's start:
+ * inertia m G and body force q (wall_term.h), u and v the fluid's and the solid's velocity at the step's start:
  *
- *    reaction         R   =  int N_T (a (u* - u_s) + m (u+ - u) - q + start (u - v))
+ *    reaction         R   =  int N_T (a (u* - u_s) + m G (u+ - u) - q + start (u - v))
  *                                                            all pairs: minus what the fluid is given
  *    added inertia    F_i =  int N_T rho_f (u+ - v)/dt       pairs in S: change of the inner fluid's momentum
  *    buoyancy         F_b = -int N_T rho_f g                 pairs in S: the pressure is total, also inside S
@@ -29,7 +29,7 @@ typedef struct {
 /* Totals over all ranks of one step. */
 typedef struct {
   /* N, momentum per time given to the fluid, evaluated on the fluid's side: the sum over K of
-   * s - a u* - I (u+ - kept u start), I the implicit inertia; where K is covered, less rho_f M/dt u start */
+   * s - a u* - I (G u+ - kept u start), I the implicit inertia, G its tensor; where K is covered, less rho_f M/dt u start */
   double gain[2];
   double reaction[2]; /* N, the reaction summed over the solid's nodes */
   double force[2];    /* N, the whole force on the solid */
@@ -40,9 +40,9 @@ typedef struct {
 } ForceTotals;
 
 /* Local: vertex[nsources][3] of all pairs (overwritten): R, and F_i + F_b. */
-PetscErrorCode ForceOfPairs(const Overlap overlap, const PairTerm term[], const SourceTerm source[],
-                            const double gravity[2], double dt, const CoracleFlow *flow,
-                            ForceVertex vertex[]);
+PetscErrorCode ForceOfPairs(const Overlap overlap, const PairTerm term[], const ElementTerm element[],
+                            const SourceTerm source[], const double gravity[2], double dt,
+                            const CoracleFlow *flow, ForceVertex vertex[]);
 /* Collective: sums the vertices' forces on the nodes of their owner ranks, node[nnodes] (overwritten). */
 PetscErrorCode ForceAssembleToOwners(Overlap overlap, const ForceVertex vertex[], int nnodes,
                                      ForceVertex node[]);

@@ -3,6 +3,8 @@
 
 /* An element is covered where its pairs' areas add up to its own to this part of it. */
 #define COVERED 1e-10
+/* Normals whose mean of sin^2 is below 0.1 count as one: 1/(1 - 2 0.1) (P of inertia.h). */
+#define CORNER 1.25
 /* Terms of the series of a~ after the first. */
 enum { NTERMS = 3 };
 
@@ -88,22 +90,33 @@ static double KeptPart(const Overlap o, const SourceTerm source[], const Element
   return fmin(1.0, INERTIA_KEPT_RATIO * (rho + element->outside) * area / excess);
 }
 
+/* P of D, whose trace is 1 and the difference of whose principal values 1 - 2 s, or which is 0. */
+static WallCoefficient Sharpened(const WallCoefficient *d, double k)
+{
+  const double spread = hypot(d->xx - d->yy, 2.0 * d->xy); /* of D's principal values */
+  if (k == 1.0 || spread == 0.0) return *d;
+  const double part = (1.0 - k) * fmin(1.0, CORNER * spread), share = part / spread + k,
+               rest = 0.5 * (part + k - share);
+  return (WallCoefficient){share * d->xx + rest, share * d->xy, share * d->yy + rest};
+}
+
 void InertiaStart(Overlap o, const SourceTerm source[], double dt, ElementTerm element[], PairTerm term[])
 {
   for (int e = 0; e < o->ncoupled; e++) {
     const double kept = KeptPart(o, source, &element[e], e);
+    const WallCoefficient along = Sharpened(&element[e].tangential, kept);
     element[e].covered = (PetscBool)(!o->phases && IsCovered(o, source, e));
-    element[e].kept =
-        o->phases ? WallCoefficientIsotropic(kept) : WallCoefficientScaled(&element[e].tangential, kept);
+    element[e].kept = o->phases ? WallCoefficientIsotropic(kept) : WallCoefficientScaled(&along, kept);
+    element[e].freed = WallCoefficientScaled(&along, 1.0 - kept);
   }
   for (int p = 0; p < o->pairs.n; p++) {
     const ElementTerm *k = &element[o->coupled_index[p]];
     PairTerm *t = &term[p];
     if (source[o->pairs.pair[p].a].density == 0.0) continue;
     const double all = t->inertia + (k->covered ? t->rho / dt : 0.0);
-    t->start = WallCoefficientScaled(&k->kept, -t->inertia);
-    t->start.xx += all;
-    t->start.yy += all;
+    t->start = (WallCoefficient){all - t->inertia * (k->kept.xx + k->freed.xx),
+                                 -t->inertia * (k->kept.xy + k->freed.xy),
+                                 all - t->inertia * (k->kept.yy + k->freed.yy)};
   }
 }
 

@@ -34,7 +34,7 @@ static void AddInertia(const SupermeshPair *pair, const PairTerm *term, const El
                        const SourceTerm *source, const double gravity[2], const MassMoments *mass,
                        LinearField *density, ElementSums *k)
 {
-  const LinearField body = PairBodyForce(term, source, gravity, pair->centre);
+  const LinearField body = PairBodyForce(term, element, source, gravity, pair->centre);
   LinearFieldAdd(1.0, &body, density);
   for (int c = 0; c < 2; c++) density->value[c] -= element->outside * gravity[c];
   if (!WallIsZero(&term->start)) {
@@ -99,8 +99,10 @@ static void SetCoupling(const Overlap o, const ElementSums *sums, const WallSums
   SetVectors(basis, &sums->s, k->s);
   for (int i = 0; i < 6; i++) k->s[i / 3][i % 3] += element->outside * gravity[i / 3] * sums->outside / 3.0;
   if (sums->flags & CORACLE_HAS_INERTIA) {
-    const WallCoefficient kept = element->kept;
+    const WallCoefficient kept = element->kept, freed = element->freed;
     memcpy(k->kept, (double[2][2]){{kept.xx, kept.xy}, {kept.xy, kept.yy}}, sizeof k->kept);
+    memcpy(k->inertia_tensor, (double[2][2]){{1.0 - freed.xx, -freed.xy}, {-freed.xy, 1.0 - freed.yy}},
+           sizeof k->inertia_tensor);
     MassMomentsMatrix(basis, &sums->inertia, k->implicit_inertia);
   }
   if (!sums->has_wall) return;

@@ -10,7 +10,7 @@
  * Element K receives, summed over its pairs (B = int N_K N_K^T, C = int N_T N_K^T),
  *
  *     a                 =  a B                s   =  a C^T u_s + C^T q + start C^T v
- *     implicit inertia  =  m B
+ *     implicit inertia  =  m B, with a tensor of the element (inertia.h)
  *     ms                =  B                  us  =  C^T u_s          T in the solid's volume, held
  *
  * with q a body force, linear on T, m the solid's inertia in the fluid's solve and start the inertia that begins with the
@@ -86,6 +86,7 @@ typedef struct {
 typedef struct {
   WallCoefficient tangential; /* D (slip.h), without unit */
   WallCoefficient kept;       /* of u^n, by the solid's inertia (inertia.h), without unit */
+  WallCoefficient freed;      /* of the inertia, (1 - k) D (inertia.h), without unit */
   PetscBool covered;          /* K lies in the solid as a whole (inertia.h) */
   double outside;             /* rho_o - rho_f of the fluid beside the solid (outside.h), kg/m3 */
 } ElementTerm;
@@ -111,11 +112,17 @@ static inline void WallAdd(const WallCoefficient *a, const LinearField *q, Linea
 }
 
 /* The body force q on a pair with a triangle that is not held, seen from the pair's centre. */
-static inline LinearField PairBodyForce(const PairTerm *term, const SourceTerm *source,
-                                        const double gravity[2], const double centre[2])
+static inline LinearField PairBodyForce(const PairTerm *term, const ElementTerm *element,
+                                        const SourceTerm *source, const double gravity[2],
+                                        const double centre[2])
 {
   const double excess = fmax(term->rho - source->density, 0.0);
-  LinearField q = LinearFieldAt(&source->force, centre);
+  const LinearField force = LinearFieldAt(&source->force, centre);
+  LinearField q = force;
+  if (!WallIsZero(&element->freed)) { /* the solid is heavier */
+    const WallCoefficient freed = WallCoefficientScaled(&element->freed, term->rho / source->density - 1.0);
+    WallAdd(&freed, &force, &q);
+  }
   for (int c = 0; c < 2; c++) q.value[c] -= term->rho * gravity[c];
   if (excess > 0.0) {
     const LinearField a = LinearFieldAt(&source->interface_acceleration, centre);

@@ -85,9 +85,11 @@ static void AddGain(const CoracleCoupling *k, double mass, const double start[6]
     inertia[j] = k->implicit_inertia[0][j] + k->implicit_inertia[1][j] + k->implicit_inertia[2][j];
   for (int c = 0; c < 2; c++) {
     gain[c] += k->s[c][0] + k->s[c][1] + k->s[c][2];
-    for (int j = 0; j < 3; j++)
-      gain[c] -= third * start[3 * c + j] + inertia[j] * (u_projected[3 * c + j] - k->kept[c][0] * start[j] -
-                                                          k->kept[c][1] * start[3 + j]);
+    for (int j = 0; j < 3; j++) gain[c] -= third * start[3 * c + j];
+    for (int d = 0; d < 2; d++)
+      for (int j = 0; j < 3; j++)
+        gain[c] -= inertia[j] *
+                   (k->inertia_tensor[c][d] * u_projected[3 * d + j] - k->kept[c][d] * start[3 * d + j]);
   }
   if (k->a[0][0][0][0] == 0.0 && k->a[1][0][1][0] == 0.0) return; /* a has nothing at all */
   for (int c = 0; c < 2; c++)

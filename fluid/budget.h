@@ -5,7 +5,7 @@
  *
  *   P           sum over K of rho_K int u, rho_K at the same time
  *   weight      rho |K| g, rho of the step, and the body force
- *   solid       s - a u* - I (u_projected - kept start), where K is covered less rho M/dt start: minus the reaction on the solid
+ *   solid       s - a u* - I (G u_projected - kept start), where K is covered less rho M/dt start: minus the reaction on the solid
  *               (coupler/force.h), equal to round-off
  *   correction  rho^{n+1} r/dt, r of solid_coupling.h
  *   divergence  sum (d_j + (rho^{n+1} - rho^n) |K|/(3 dt)) u_j, d_j the weak divergence of the mass flux (kernels.h), u at

@@ -175,7 +175,7 @@ static PetscErrorCode AccelerateSolid(Fluid f, double dt, Vec velocity)
     SolidCouplingMatrix(entry + k, matrix);
     for (int row = 0; row < 6; row++)
       for (int col = 0; col < 6; col++) load[row] -= matrix[row][col] * u[6 * e + col];
-    PetscCall(WeightedProjectionSolve(area, rho[e] / dt, entry[k].implicit_inertia, load));
+    PetscCall(WeightedProjectionSolve(area, rho[e] / dt, entry + k, load));
     for (int i = 0; i < 6; i++) v[6 * e + i] = load[i];
   }
   PetscCall(VecRestoreArray(velocity, &v));

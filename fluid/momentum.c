@@ -5,6 +5,10 @@
 #define VELOCITY_TOLERANCE 1e-5 /* -momentum_ksp_rtol chooses another one */
 #define SINGLE_PRECISION 1e-6   /* of a correction: what single_operator.h leaves of it */
 #define REFINEMENTS_MAX 4
+/* The force on a solid is its mass times what the solver finds as its change of velocity: of one that is heavier than so many times the
+ * fluid the tolerance is the smaller, down to the least. */
+#define HEAVY 20.0
+#define TOLERANCE_LEAST 1e-10
 
 /* MATOP_MULT */
 static PetscErrorCode Apply(Mat matrix, Vec x, Vec y)
@@ -86,21 +90,40 @@ const double (*MomentumSolverDivergence(MomentumSolver s, double advected[2]))[3
   return (const double(*)[3])s->divergence;
 }
 
+/* The largest ratio, over all ranks, of the inertia of what fills an element to the fluid's; 1 among phases, where solids are compared
+ * with the water's. */
+static PetscErrorCode LargestInertia(const MomentumSolver s, const MomentumStep *step, double *ratio)
+{
+  int n;
+  const CoracleCoupling *entry = SolidCouplingEntries(step->solid, &n);
+  PetscFunctionBeginUser;
+  *ratio = 1.0;
+  for (int k = 0; k < n && !step->inverse_density; k++) {
+    const int e = entry[k].element;
+    double inertia = 0.0;
+    for (int i = 0; i < 9; i++) inertia += entry[k].implicit_inertia[i / 3][i % 3];
+    *ratio = PetscMax(*ratio, 1.0 + inertia * step->dt / (step->rho[e] * s->domain->geometry[e].area));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, ratio, 1, MPI_DOUBLE, MPI_MAX, s->domain->mesh->comm));
+  PetscFunctionReturn(0);
+}
+
 /* A d = load for the correction d of u_star, and u_star += d; *more: d, found in single precision, is too large for the
  * tolerance.  The tolerance is relative to the velocity, which the preconditioned load is close to; to the first
  * residual where that is larger, as in a flow that starts from rest. */
-static PetscErrorCode SolveOnce(MomentumSolver s, double t, Vec u_star, int *iterations, PetscBool *more)
+static PetscErrorCode SolveOnce(MomentumSolver s, double t, double tolerance, Vec u_star, int *iterations,
+                                PetscBool *more)
 {
   PetscReal norm, correction;
   PetscFunctionBeginUser;
   PetscCall(VecNorm(u_star, NORM_2, &norm));
-  PetscCall(KSPSetTolerances(s->ksp, s->tolerance, PetscMax(s->tolerance * norm, 1e-50), PETSC_DEFAULT,
-                             PETSC_DEFAULT));
+  PetscCall(KSPSetTolerances(s->ksp, PetscMax(tolerance, SINGLE_PRECISION), PetscMax(tolerance * norm, 1e-50),
+                             PETSC_DEFAULT, PETSC_DEFAULT));
   PetscCall(SolverSolve(s->ksp, "momentum", t, s->load, s->product, iterations));
   PetscCall(VecAXPY(u_star, 1.0, s->product));
   PetscCall(VecNorm(u_star, NORM_2, &norm));
   PetscCall(VecNorm(s->product, NORM_2, &correction));
-  *more = (PetscBool)(SINGLE_PRECISION * correction > s->tolerance * norm);
+  *more = (PetscBool)(SINGLE_PRECISION * correction > tolerance * norm);
   PetscFunctionReturn(0);
 }
 
@@ -108,7 +131,11 @@ static PetscErrorCode SolveOnce(MomentumSolver s, double t, Vec u_star, int *ite
 static PetscErrorCode SolveCorrection(MomentumSolver s, const MomentumStep *step, Vec u_star, int *iterations)
 {
   PetscBool more = PETSC_TRUE;
+  double ratio;
   PetscFunctionBeginUser;
+  PetscCall(LargestInertia(s, step, &ratio));
+  const double tolerance =
+      PetscMin(s->tolerance, PetscMax(VELOCITY_TOLERANCE * HEAVY / ratio, TOLERANCE_LEAST));
   *iterations = 0;
   for (int k = 0; k < REFINEMENTS_MAX && more; k++) {
     int n;
@@ -116,7 +143,7 @@ static PetscErrorCode SolveCorrection(MomentumSolver s, const MomentumStep *step
       PetscCall(MomentumOperatorApply(&s->op, s->product, s->sum));
       PetscCall(VecAXPY(s->load, -1.0, s->sum));
     }
-    PetscCall(SolveOnce(s, step->t, u_star, &n, &more));
+    PetscCall(SolveOnce(s, step->t, tolerance, u_star, &n, &more));
     *iterations += n;
   }
   PetscFunctionReturn(0);

@@ -4,7 +4,7 @@
  *
  * L is upwind advection by a mass flux and the viscous stress (kernels.h); a and s are the solid's coupling.
  * Assembled in one pass over the elements, solved by GMRES (prefix momentum_)
- * until the preconditioned residual is 1e-5 of the velocity (-momentum_ksp_rtol). */
+ * until the preconditioned residual is 1e-5 of the velocity (-momentum_ksp_rtol), less beside solids more than 20 times as heavy. */
 #ifndef FLUID_MOMENTUM_H
 #define FLUID_MOMENTUM_H
 #include "fluid/domain.h"

@@ -102,7 +102,8 @@ void SolidCouplingMatrix(const CoracleCoupling *entry, double matrix[6][6])
     for (int i = 0; i < 3; i++) {
       double *row = matrix[3 * c + i];
       for (int k = 0; k < 6; k++) row[k] = entry->a[c][i][k / 3][k % 3];
-      for (int j = 0; j < 3; j++) row[3 * c + j] += entry->implicit_inertia[i][j];
+      for (int k = 0; k < 6; k++)
+        row[k] += entry->inertia_tensor[c][k / 3] * entry->implicit_inertia[i][k % 3];
     }
 }
 

@@ -2,11 +2,21 @@
 
 enum { N = 3 }; /* velocity unknowns of an element and component */
 
+/* The inertia tensor's principal values, of the unit vector `axis` and of what is across, axis turned by a right angle. */
+typedef struct {
+  double axis[2], value[2];
+} Principal;
+
+typedef struct {
+  Principal tensor;
+  double along[2][N][N]; /* W^-1 M of the components along the axis and across */
+} Response;
+
 struct WeightedProjection_s {
   const FluidDomain *domain; /* borrowed */
   SolidCoupling solid;       /* borrowed: of the current step */
   double dt;
-  double (*response)[N][N]; /* [entries of solid] W^-1 M, the same for both components */
+  Response *response; /* [entries of solid] */
 };
 
 PetscErrorCode WeightedProjectionCreate(const FluidDomain *domain, WeightedProjection *w)
@@ -62,28 +72,95 @@ static void SolveColumns(const double l[N][N], double x[N][N])
   }
 }
 
-/* x -> W^-1 x for the columns of x */
-static PetscErrorCode DivideColumns(double area, double rho_dt, const double inertia[N][N], double x[N][N])
+static Principal PrincipalOf(const double tensor[2][2])
+{
+  const double mean = 0.5 * (tensor[0][0] + tensor[1][1]), half = 0.5 * (tensor[0][0] - tensor[1][1]);
+  const double radius = hypot(half, tensor[0][1]);
+  Principal p = {{1.0, 0.0}, {mean + radius, mean - radius}};
+  if (radius == 0.0) return p;
+  p.axis[0] = half > 0.0 ? radius + half : tensor[0][1];
+  p.axis[1] = half > 0.0 ? tensor[0][1] : radius - half;
+  const double length = hypot(p.axis[0], p.axis[1]);
+  for (int c = 0; c < 2; c++) p.axis[c] /= length;
+  return p;
+}
+
+/* v[2][N]: components along the axis and across become those along x and y, and back */
+static void FromAxes(const Principal *p, double v[2 * N])
+{
+  for (int i = 0; i < N; i++) {
+    const double along = v[i], across = v[N + i];
+    v[i] = p->axis[0] * along - p->axis[1] * across;
+    v[N + i] = p->axis[1] * along + p->axis[0] * across;
+  }
+}
+
+static void ToAxes(const Principal *p, double v[2 * N])
+{
+  for (int i = 0; i < N; i++) {
+    const double x = v[i], y = v[N + i];
+    v[i] = p->axis[0] * x + p->axis[1] * y;
+    v[N + i] = p->axis[0] * y - p->axis[1] * x;
+  }
+}
+
+/* x -> W^-1 x for the columns of x, of components that move with `value` of the inertia */
+static PetscErrorCode DivideColumns(double area, double rho_dt, double value, const double inertia[N][N],
+                                    double x[N][N])
 {
   double w[N][N];
   PetscFunctionBeginUser;
   MassMatrix(area, w);
   for (int i = 0; i < N; i++)
-    for (int j = 0; j < N; j++) w[i][j] = rho_dt * w[i][j] + inertia[i][j];
+    for (int j = 0; j < N; j++) w[i][j] = rho_dt * w[i][j] + value * inertia[i][j];
   PetscCheck(Factor(w), PETSC_COMM_SELF, PETSC_ERR_NOT_CONVERGED,
              "the implicit inertia of the solid is not positive on a fluid element");
   SolveColumns((const double(*)[N])w, x);
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode WeightedProjectionSolve(double area, double rho_dt, const double inertia[N][N], double v[6])
+PetscErrorCode WeightedProjectionSolve(double area, double rho_dt, const CoracleCoupling *k, double v[6])
 {
-  double columns[N][N] = {{0.0}};
+  const Principal tensor = PrincipalOf(k->inertia_tensor);
   PetscFunctionBeginUser;
-  for (int i = 0; i < 2 * N; i++) columns[i % N][i / N] = v[i];
-  PetscCall(DivideColumns(area, rho_dt, inertia, columns));
-  for (int i = 0; i < 2 * N; i++) v[i] = columns[i % N][i / N];
+  ToAxes(&tensor, v);
+  for (int c = 0; c < 2; c++) {
+    double column[N][N] = {{0.0}};
+    for (int i = 0; i < N; i++) column[i][0] = v[N * c + i];
+    PetscCall(DivideColumns(area, rho_dt, tensor.value[c], k->implicit_inertia, column));
+    for (int i = 0; i < N; i++) v[N * c + i] = column[i][0];
+  }
+  FromAxes(&tensor, v);
   PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FindResponse(double area, double rho_dt, const CoracleCoupling *k, Response *r)
+{
+  PetscFunctionBeginUser;
+  r->tensor = PrincipalOf(k->inertia_tensor);
+  for (int c = 0; c < 2; c++) {
+    if (c > 0 && r->tensor.value[c] == r->tensor.value[0]) {
+      PetscCall(PetscArraycpy(r->along[c], r->along[0], N));
+      continue;
+    }
+    MassMatrix(area, r->along[c]);
+    PetscCall(DivideColumns(area, rho_dt, r->tensor.value[c], k->implicit_inertia, r->along[c]));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* u[2][N] of grad[N][2], values at the element's vertices */
+static void Respond(const Response *r, const double grad[N][2], double u[2 * N])
+{
+  double v[2 * N];
+  for (int i = 0; i < 2 * N; i++) v[i] = grad[i % N][i / N];
+  ToAxes(&r->tensor, v);
+  for (int i = 0; i < 2 * N; i++) {
+    const double *row = r->along[i / N][i % N];
+    u[i] = 0.0;
+    for (int j = 0; j < N; j++) u[i] += row[j] * v[i / N * N + j];
+  }
+  FromAxes(&r->tensor, u);
 }
 
 static PetscBool IsWeighted(const CoracleCoupling *k)
@@ -106,36 +183,29 @@ PetscErrorCode WeightedProjectionPrepare(WeightedProjection w, const WeightedPro
   PetscCall(PetscMalloc1(n, &w->response));
   for (int k = 0; k < n && s->inertia; k++) {
     const int e = entry[k].element;
-    const double area = w->domain->geometry[e].area;
     if (!IsWeighted(entry + k)) continue;
-    MassMatrix(area, w->response[k]);
-    PetscCall(DivideColumns(area, s->rho[e] / s->dt, entry[k].implicit_inertia, w->response[k]));
+    PetscCall(FindResponse(w->domain->geometry[e].area, s->rho[e] / s->dt, entry + k, &w->response[k]));
   }
   PetscFunctionReturn(0);
 }
 
 /* The response where element e has implicit inertia, else NULL. */
-static const double (*ResponseAt(WeightedProjection w, int e))[N]
+static const Response *ResponseAt(WeightedProjection w, int e)
 {
-  return IsWeighted(SolidCouplingAt(w->solid, e))
-             ? (const double(*)[N])w->response[SolidCouplingIndex(w->solid, e)]
-             : NULL;
+  return IsWeighted(SolidCouplingAt(w->solid, e)) ? w->response + SolidCouplingIndex(w->solid, e) : NULL;
 }
 
 PetscBool WeightedProjectionBlock(WeightedProjection w, int e, double block[6][6])
 {
   const ElementGeometry *g = w->domain->geometry + e;
-  const double(*response)[N] = ResponseAt(w, e);
+  const Response *response = ResponseAt(w, e);
   if (!response) return PETSC_FALSE;
   for (int r = 0; r < 6; r++) {
-    double basis[6] = {0}, grad[3][2], moved[2][3];
+    double basis[6] = {0}, grad[3][2], u[6], moved[2][3];
     basis[r] = 1.0;
     P2Gradient(g->g, basis, grad);
-    for (int c = 0; c < 2; c++) {
-      double u[3] = {0};
-      for (int i = 0; i < 9; i++) u[i / 3] += response[i / 3][i % 3] * grad[i % 3][c];
-      P1MassApply(g->area / w->dt, u, moved[c]);
-    }
+    Respond(response, (const double(*)[2])grad, u);
+    for (int c = 0; c < 2; c++) P1MassApply(g->area / w->dt, u + 3 * c, moved[c]);
     for (int q = 0; q < 6; q++) block[r][q] = 0.0;
     P2GradientTranspose(g->g, (const double(*)[3])moved, block[r]);
   }
@@ -144,10 +214,10 @@ PetscBool WeightedProjectionBlock(WeightedProjection w, int e, double block[6][6
 
 PetscBool WeightedProjectionVelocity(WeightedProjection w, int e, const double grad[3][2], double u[6])
 {
-  const double(*response)[N] = ResponseAt(w, e);
+  const Response *response = ResponseAt(w, e);
+  double change[2 * N];
   if (!response) return PETSC_FALSE;
-  for (int c = 0; c < 2; c++)
-    for (int i = 0; i < N; i++)
-      for (int j = 0; j < N; j++) u[3 * c + i] -= response[i][j] * grad[j][c];
+  Respond(response, grad, change);
+  for (int i = 0; i < 2 * N; i++) u[i] -= change[i];
   return PETSC_TRUE;
 }

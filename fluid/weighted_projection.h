@@ -1,7 +1,8 @@
 /* The inertia-weighted projection: on elements with a solid's implicit inertia (coracle.h) the pressure moves
  * fluid and solid together,
  *
- *     u_projected = u* - dt W^-1 M grad phi,   W = rho M/dt + implicit inertia   (3 x 3, element by element)
+ *     u_projected = u* - dt W^-1 M grad phi,   W = rho M/dt + implicit inertia times its tensor   (6 x 6, element by element:
+ *                                              3 x 3 along each of the tensor's principal axes)
  *
  * and the pressure's matrix is C^T M W^-1 M C/dt there instead of C^T M C/rho.  Not collective, but for Prepare. */
 #ifndef FLUID_WEIGHTED_PROJECTION_H
@@ -29,6 +30,6 @@ PetscErrorCode WeightedProjectionPrepare(WeightedProjection w, const WeightedPro
 PetscBool WeightedProjectionBlock(WeightedProjection w, int e, double block[6][6]);
 /* u[2][3] of element e -= its response to grad phi; false where it has no implicit inertia. */
 PetscBool WeightedProjectionVelocity(WeightedProjection w, int e, const double grad[3][2], double u[6]);
-/* v[2][3] = W^-1 v on an element of this area, m2, with rho/dt, kg/(m3 s), and the implicit inertia. */
-PetscErrorCode WeightedProjectionSolve(double area, double rho_dt, const double inertia[3][3], double v[6]);
+/* v[2][3] = W^-1 v on the element of an entry: its area, m2, and rho/dt, kg/(m3 s). */
+PetscErrorCode WeightedProjectionSolve(double area, double rho_dt, const CoracleCoupling *entry, double v[6]);
 #endif

@@ -4,6 +4,7 @@
 #include <string.h>
 
 const double AttemptKept[2][2] = {{1.0, 0.25}, {0.25, 1.0}};
+const double AttemptTensor[2][2] = {{0.8, 0.2}, {0.2, 0.6}};
 
 bool AttemptHasInertia(Kind kind)
 {
@@ -29,7 +30,11 @@ static void SetBlocks(CoracleCoupling *c, Kind kind, double rho, double area, do
   PatchMass(area, factor * rho / dt, a);
   PatchMass(area, AttemptHasInertia(kind) ? 9.0 * rho / dt : 0.0, c->implicit_inertia);
   if (kind == INERTIA) c->kept[0][0] = c->kept[1][1] = 1.0;
-  if (kind == KEPT) memcpy(c->kept, AttemptKept, sizeof c->kept);
+  if (AttemptHasInertia(kind)) c->inertia_tensor[0][0] = c->inertia_tensor[1][1] = 1.0;
+  if (kind == KEPT) {
+    memcpy(c->kept, AttemptKept, sizeof c->kept);
+    memcpy(c->inertia_tensor, AttemptTensor, sizeof c->inertia_tensor);
+  }
   for (int d = 0; d < 2; d++)
     for (int i = 0; i < 3; i++)
       for (int j = 0; j < 3; j++) c->a[d][i][d][j] = a[i][j];

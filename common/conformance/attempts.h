@@ -24,8 +24,8 @@ typedef struct {
   double w[2];      /* m/s: velocity scale */
 } Fluid;
 
-/* CoracleCoupling.kept of attempt KEPT. */
-extern const double AttemptKept[2][2];
+/* CoracleCoupling.kept and inertia_tensor of attempt KEPT. */
+extern const double AttemptKept[2][2], AttemptTensor[2][2];
 /* The solid's inertia is among what is sent. */
 bool AttemptHasInertia(Kind kind);
 /* s: of the attempt's step */

@@ -23,7 +23,8 @@ void ExamineSolid(Kit *k);
  *     REDO tau, ms = B, us = B w                 the fluid around the disc is displaced
  *     REDO tau, implicit inertia 9 rho B/tau,    | rho (u* - v) = tau s - tau (inertia) (u* - u_start); the pressure
  *          s = 10 rho B w/tau, kept = 1          moves the disc a tenth as much
- *     REDO tau, the same, kept a tensor          | rho (u* - v) = tau s - tau (inertia) (u* - kept u_start)
+ *     REDO tau, the same, kept and inertia       | rho (u* - v) = tau s - tau (inertia) (inertia_tensor u* - kept u_start)
+ *          tensors
  *     REDO tau, the same, covered                | rho (u* - v) = tau s - (tau (inertia) u* + rho B u_start)
  *     REDO as the first                          the first's bits */
 void ExamineFluid(Kit *k);

@@ -74,20 +74,22 @@ static void CheckForcing(const Fluid *f, int step)
   for (int c = 0; c < 2; c++) expected[c] = now[FREE][c] + 10.0 * mass * f->w[c] - 9.0 * (held[c] - start[c]);
   if (Distance(now[INERTIA], expected) > TOLERANCE * scale)
     Refuse(f, step, "the implicit inertia does not resist the change of the velocity",
-           "rho M/dt (u* - u_start) + implicit_inertia (u* - kept u_start) + a u* = ... + s");
+           "rho M/dt (u* - u_start) + implicit_inertia (inertia_tensor u* - kept u_start) + a u* = ... + s");
   PatchCoupled(f->kit, p, f->flow[KEPT].u_star, held, &mass);
   PatchCoupled(f->kit, p, f->flow[KEPT].u_start, start, &mass);
   for (int c = 0; c < 2; c++)
     expected[c] = now[FREE][c] + 10.0 * mass * f->w[c] -
-                  9.0 * (held[c] - AttemptKept[c][0] * start[0] - AttemptKept[c][1] * start[1]);
+                  9.0 * (AttemptTensor[c][0] * held[0] + AttemptTensor[c][1] * held[1] -
+                         AttemptKept[c][0] * start[0] - AttemptKept[c][1] * start[1]);
   if (Distance(now[KEPT], expected) > ROUGH * scale)
-    Refuse(f, step, "the implicit inertia does not begin with what is kept of the velocity",
-           "rho M/dt (u* - u_start) + implicit_inertia (u* - kept u_start) + a u* = ... + s");
+    Refuse(f, step,
+           "the implicit inertia does not move by its tensor or begin with what is kept of the velocity",
+           "rho M/dt (u* - u_start) + implicit_inertia (inertia_tensor u* - kept u_start) + a u* = ... + s");
   PatchCoupled(f->kit, p, f->flow[COVERED].u_star, held, &mass);
   for (int c = 0; c < 2; c++) expected[c] = now[FREE][c] + 10.0 * mass * f->w[c] - 9.0 * held[c] - start[c];
   if (Distance(now[COVERED], expected) > ROUGH * Distance(expected, now[FREE]))
     Refuse(f, step, "where it is covered the fluid does not start from the solid's velocity",
-           "CORACLE_IS_COVERED: (rho M/dt + implicit_inertia) u* + a u* = ... + s");
+           "CORACLE_IS_COVERED: (rho M/dt + implicit_inertia inertia_tensor) u* + a u* = ... + s");
   PatchCoupled(f->kit, p, f->flow[COEFFICIENT].u_star, held, &mass);
   for (int c = 0; c < 2; c++) expected[c] = now[FREE][c] - 9.0 * held[c];
   if (Distance(now[COEFFICIENT], expected) > TOLERANCE * Distance(expected, now[FREE]))
@@ -108,7 +110,7 @@ static void CheckProjection(const Fluid *f, int step)
            "what is projected is u* + M^-1 (us - ms u*), the bulk velocity");
   if (disc[INERTIA] > 0.3 * disc[SOURCE])
     Refuse(f, step, "the pressure moves the fluid inside a heavy solid as if it were fluid",
-           "u projected = u* - dt W^-1 M grad phi, W = rho M/dt + implicit_inertia");
+           "u projected = u* - dt W^-1 M grad phi, W = rho M/dt + implicit_inertia inertia_tensor");
 }
 
 /* --- the run -------------------------------------------------------------------------------------------- */

@@ -239,10 +239,13 @@ typedef struct {
   int flags;   /* CORACLE_HAS_..., CORACLE_IS_COVERED */
   /* kg/s: int_K a_cd N_i N_j, the implicit coefficient of u*, shell and volume together */
   double a[CORACLE_DIM][CORACLE_VERTICES][CORACLE_DIM][CORACLE_VERTICES];
-  /* kg/s: the solid's inertia beyond the fluid's, int_K m N_i N_j, the same for each component, which resists the change of
-   * the velocity over the step: implicit_inertia (u* - kept u start) beside rho M/dt (u* - u start), and under the pressure
-   * u projected = u* - dt W^-1 M grad phi with W = rho M/dt + implicit_inertia */
+  /* kg/s: the solid's inertia beyond the fluid's, int_K m N_i N_j, which resists the change of the velocity over the step:
+   * implicit_inertia (inertia_tensor u* - kept u start) beside rho M/dt (u* - u start), and under the pressure
+   * u projected = u* - dt W^-1 M grad phi with W = rho M/dt + implicit_inertia inertia_tensor */
   double implicit_inertia[CORACLE_VERTICES][CORACLE_VERTICES];
+  /* symmetric, positive definite: what of the velocity moves with that inertia: all of it, I, but along the surface beside a fluid
+   * that is much lighter than the solid */
+  double inertia_tensor[CORACLE_DIM][CORACLE_DIM];
   /* what the inertia keeps of u start: its part along the surface; the rest is the solid's velocity, which s has */
   double kept[CORACLE_DIM][CORACLE_DIM];
   /* N: int_K (a u_s)_c N_i, the explicit part of s_c */

@@ -88,6 +88,7 @@ static const Field COUPLING[] = {
   {"flags",                  "-",    FIELD_FLAGS, {0},        AT(flags),            0, FIELD_ANY},
   {"implicit coefficient a", "kg/s", FIELD_REAL, P1_TENSOR,   AT(a),                FIELD_SPARSE, FIELD_ANY},
   {"implicit inertia",       "kg/s", FIELD_REAL, P1_MATRIX,   AT(implicit_inertia), FIELD_SPARSE, FIELD_ANY},
+  {"inertia tensor",         "-",    FIELD_REAL, {EXTENT_DIM, EXTENT_DIM}, AT(inertia_tensor), FIELD_SPARSE, FIELD_ANY},
   {"kept velocity",          "-",    FIELD_REAL, {EXTENT_DIM, EXTENT_DIM}, AT(kept), FIELD_SPARSE, FIELD_ANY},
   {"source s",               "N",    FIELD_REAL, P1_VECTOR,   AT(s),                0, FIELD_ANY},
   {"solid mass",             "m2",   FIELD_REAL, P1_MATRIX,   AT(ms),               FIELD_SPARSE, FIELD_ANY},

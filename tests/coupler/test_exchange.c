@@ -9,6 +9,7 @@
 #include "coupler/coupler_impl.h"
 #include "coupler/time_loop.h"
 #include "tests/coupler/synthetic.h"
+#include "tests/coupler/synthetic_momentum.h"
 #include "tests/remove_folder.h"
 
 static const double GRAVITY[2] = {0.4, -1.0}, RHO = 3.0, DENSITY = 7.0, DT = 0.013;
@@ -44,39 +45,6 @@ static int ElementsIn(void *context, int nbox, const double box[], CoracleElemen
   return 0;
 }
 
-/* m v = r by Gauss elimination; n <= 6, m symmetric positive definite. */
-static void Solve(int n, double m[6][6], double r[6])
-{
-  for (int k = 0; k < n; k++) {
-    for (int i = k + 1; i < n; i++) {
-      const double f = m[i][k] / m[k][k];
-      for (int j = k; j < n; j++) m[i][j] -= f * m[k][j];
-      r[i] -= f * r[k];
-    }
-  }
-  for (int k = n - 1; k >= 0; k--) {
-    for (int j = k + 1; j < n; j++) r[k] -= m[k][j] * r[j];
-    r[k] /= m[k][k];
-  }
-}
-
-/* rho M / dt (u* - u) + I (u* - kept u) + a u* = s */
-static void Implicit(const CoracleCoupling *c, double dt, const double x[3][2], double u[2][3])
-{
-  double m[6][6], r[6];
-  for (int p = 0; p < 6; p++) {
-    r[p] = c->s[p / 3][p % 3];
-    for (int q = 0; q < 6; q++) {
-      const double mass = p / 3 != q / 3 ? 0.0 : RHO / dt * GeometryArea(x) / (p == q ? 6.0 : 12.0);
-      const double inertia = c->implicit_inertia[p % 3][q % 3];
-      m[p][q] = c->a[p / 3][p % 3][q / 3][q % 3] + mass + (p / 3 == q / 3 ? inertia : 0.0);
-      r[p] += (mass + inertia * c->kept[p / 3][q / 3]) * u[q / 3][q % 3];
-    }
-  }
-  Solve(6, m, r);
-  memcpy(u, r, sizeof r);
-}
-
 /* M u += r */
 static void Correct(const CoracleCorrection *k, const double x[3][2], double u[2][3])
 {
@@ -86,7 +54,7 @@ static void Correct(const CoracleCorrection *k, const double x[3][2], double u[2
       r[i] = k->r[d][i];
       for (int j = 0; j < 3; j++) m[i][j] = GeometryArea(x) / (i == j ? 6.0 : 12.0);
     }
-    Solve(3, m, r);
+    SyntheticSolve(3, m, r);
     for (int i = 0; i < 3; i++) u[d][i] += r[i];
   }
 }
@@ -106,7 +74,7 @@ static void FluidStep(CoracleClient client, double dt)
     memcpy(region.u_start[i], fluid.u_projected[region.global[i]], sizeof region.u_start[i]);
   for (int e = 0; e < n; e++) {
     const int k = global[kept[e].element];
-    Implicit(&kept[e], dt, (const double(*)[2])fluid.x[k], fluid.u_projected[k]);
+    SyntheticMomentum(&kept[e], GeometryArea((const double(*)[2])fluid.x[k]), RHO / dt, fluid.u_projected[k]);
   }
   for (int i = 0; i < region.n; i++)
     memcpy(region.u_projected[i], fluid.u_projected[region.global[i]], sizeof region.u_projected[i]);

@@ -3,6 +3,7 @@
  * solid is, and fall freely together. */
 #include "coupler/coupler_impl.h"
 #include "tests/coupler/synthetic.h"
+#include "tests/coupler/synthetic_momentum.h"
 
 static SyntheticSolid all_solid, solid;
 static SyntheticFluid all_fluid, fluid;
@@ -24,30 +25,6 @@ static void MakeSolid(double density, int rigid)
     for (int c = 0; c < 2; c++) {
       all_solid.acceleration[i][c] = rigid ? 0.0 : OWN[c];
       all_solid.u[i][c] = START[c];
-    }
-  }
-}
-
-/* rho M/dt (u - start) + I (u - kept start) + a u = s, rho M/dt u where the element is covered, by relaxation in the element: 6 unknowns,
- * diagonally dominant enough for Gauss-Seidel. */
-static void SolveElement(const CoracleCoupling *k, double area, const double start[2], double u[2][3])
-{
-  for (int i = 0; i < 6; i++) u[i / 3][i % 3] = start[i / 3];
-  for (int sweep = 0; sweep < 400; sweep++) {
-    for (int i = 0; i < 6; i++) {
-      double r = k->s[i / 3][i % 3], diagonal = 0.0;
-      for (int j = 0; j < 6; j++) {
-        const double mass = i / 3 != j / 3 ? 0.0 : RHO / DT * area / (i == j ? 6.0 : 12.0);
-        const double inertia = k->implicit_inertia[i % 3][j % 3];
-        const double a = k->a[i / 3][i % 3][j / 3][j % 3] + mass + (i / 3 == j / 3 ? inertia : 0.0);
-        r += (k->flags & CORACLE_IS_COVERED ? 0.0 : mass * start[j / 3]) +
-             inertia * k->kept[i / 3][j / 3] * start[j / 3];
-        if (i == j)
-          diagonal = a;
-        else
-          r -= a * u[j / 3][j % 3];
-      }
-      u[i / 3][i % 3] = r / diagonal;
     }
   }
 }
@@ -75,7 +52,7 @@ static double Step(double kick, ForceTotals *totals, double v[2])
     for (int i = 0; i < 6; i++) fluid.u_start[k][i / 3][i % 3] = fluid.u_star[k][i / 3][i % 3] = START[i / 3];
   for (int e = 0; e < n; e++) {
     const int k = coupling[e].element;
-    SolveElement(&coupling[e], GeometryArea((const double(*)[2])fluid.x[k]), START, fluid.u_star[k]);
+    SyntheticMomentum(&coupling[e], GeometryArea((const double(*)[2])fluid.x[k]), RHO / DT, fluid.u_star[k]);
   }
   for (int k = 0; k < fluid.n; k++)
     for (int i = 0; i < 6; i++)
@@ -93,13 +70,12 @@ static double Step(double kick, ForceTotals *totals, double v[2])
 }
 
 /* A fluid that goes through the surface of a solid at a step's start: where the surface crosses, the inertia of a solid 20 times as dense
- * keeps the fluid's velocity along the surface; that of a very heavy one keeps nothing, and the fluid gets the solid's velocity
- * altogether, as elsewhere inside. */
+ * keeps the fluid's velocity along the surface, and all of the velocity moves with it; that of a very heavy one does neither: the fluid
+ * gets the solid's velocity across the surface and keeps its own along it. */
 static void CheckSurface(double ratio, double kept)
 {
   static const double WIND[2] = {1.0, 2.0};
   const CouplerOptions options = {COUPLER_REACTION, 0.002, 10.0, {0.0, 0.0}};
-  const double start[2] = {START[0] + WIND[0], START[1] + WIND[1]};
   const CoracleCoupling *coupling;
   Coupler c;
   int n, rank, size, crossed = 0;
@@ -118,12 +94,19 @@ static void CheckSurface(double ratio, double kept)
     double u[2][3];
     crossed += is_crossed;
     if (!(k->flags & CORACLE_HAS_INERTIA)) continue;
+    const double moves = k->inertia_tensor[0][0] + k->inertia_tensor[1][1],
+                 free_part = is_crossed && kept == 0.0 ? 1.0 : 0.0;
     CHECK(fabs(trace - is_crossed * kept) < 1e-3, "an element %g of which is solid keeps %g", k->alpha,
           trace);
+    CHECK(fabs(moves - (2.0 - free_part)) < 1e-3, "an element %g of which is solid moves %g", k->alpha,
+          moves);
     if (kept > 0.0 || k->alpha < 0.3) continue;
-    SolveElement(k, GeometryArea(x), start, u);
+    for (int i = 0; i < 6; i++) u[i / 3][i % 3] = START[i / 3] + WIND[i / 3];
+    SyntheticMomentum(k, GeometryArea(x), RHO / DT, u);
+    const double slip = free_part * (WIND[0] * k->inertia_tensor[1][1] - WIND[1] * k->inertia_tensor[0][1]);
+    const double along = free_part * (WIND[1] * k->inertia_tensor[0][0] - WIND[0] * k->inertia_tensor[0][1]);
     for (int d = 0; d < 2; d++) {
-      const double expected = START[d] + DT * OWN[d];
+      const double expected = START[d] + DT * OWN[d] + (d == 0 ? slip : along);
       for (int i = 0; i < 3; i++)
         CHECK(fabs(u[d][i] - expected) < 0.2 * hypot(WIND[0], WIND[1]),
               "an element %g of which is solid: u%c = %g, not %g", k->alpha, "xy"[d], u[d][i], expected);

@@ -134,6 +134,7 @@ static inline CoracleCoupling CellCoupling(int id, int step)
   if (CellHasInertia(id, step)) {
     k.flags = CORACLE_HAS_INERTIA;
     for (int i = 0; i < 9; i++) (&k.implicit_inertia[0][0])[i] = 7.0 * id - i + step;
+    for (int i = 0; i < 4; i++) (&k.inertia_tensor[0][0])[i] = 0.25 * i + step;
     for (int i = 0; i < 4; i++) (&k.kept[0][0])[i] = 0.5 * i - step;
   }
   if (id % 5 == 0) k.flags |= CORACLE_HAS_SHELL;

@@ -99,8 +99,8 @@ void Flow::propose()
   CoracleProposeStep(client_, Foam::min(in_.dt_max, in_.cfl / Foam::max(gMax(rate), VSMALL)));
 }
 
-// (U* - U)/dt + inertia (U* - kept U) + k U* + div(phi U*) - nu laplacian U* = force - grad p; what force has beyond k follows in
-// iterations: a's terms between components, and the velocity's gradient in the cells
+// (U* - U)/dt + inertia (tensor U* - kept U) + k U* + div(phi U*) - nu laplacian U* = force - grad p; in iterations follow a's terms
+// between components, the velocity's gradient in the cells, and what the tensor takes off the inertia
 void Flow::predict(double dt)
 {
   const dimensionedScalar per_dt("1/dt", dimless / dimTime, 1.0 / dt), nu("nu", dimViscosity, in_.mu / in_.rho);
@@ -113,7 +113,7 @@ void Flow::predict(double dt)
   grad_p_ = fvc::grad(p);
   grad_U_ = fvc::grad(U);
   for (int iteration = 0; iteration < 4; iteration++) {
-    force.primitiveFieldRef() = cells_.force(U, grad_U_);
+    force.primitiveFieldRef() = cells_.force(U, grad_U_) + cells_.inertia * U.primitiveField() - (cells_.inertia_tensor & U.primitiveField());
     fvVectorMatrix momentum(fvm::Sp(inertia + k, U) + fvm::div(phi, U) - fvm::laplacian(nu, U) ==
                             start + force - grad_p_);
     momentum.solve();
@@ -122,14 +122,14 @@ void Flow::predict(double dt)
   star_ = U;
 }
 
-// U = U* - D grad(p - p of the step's start), D = 1/(1/dt + implicit inertia).  The flux is that of the bulk velocity, with the
+// U = U* - D grad(p - p of the step's start), D = (1/dt + implicit inertia times its tensor)^-1.  The flux is that of the bulk velocity, with the
 // pressure's difference across the face in place of the cells' gradients; it has no divergence.
 void Flow::project(double dt)
 {
-  volScalarField D(IOobject("D", time_.timeName(), mesh_), mesh_, dimensionedScalar("dt", dimTime, dt));
-  D.primitiveFieldRef() = 1.0 / (1.0 / dt + cells_.inertia);
+  volTensorField D(IOobject("D", time_.timeName(), mesh_), mesh_, dimensionedTensor("dt", dimTime, dt * tensor(tensor::I)));
+  D.primitiveFieldRef() = inv(tensorField(tensor::I / dt + cells_.inertia_tensor));
   D.correctBoundaryConditions();
-  volVectorField bulk("bulk", star_ + D * grad_p_);
+  volVectorField bulk("bulk", star_ + (D & grad_p_));
   const vectorField without_pressure(bulk.primitiveField());
   bulk.primitiveFieldRef() += cells_.us - cells_.ms * star_.primitiveField();
   bulk.correctBoundaryConditions();
@@ -139,7 +139,7 @@ void Flow::project(double dt)
   pressure.setReference(UPstream::master() ? 0 : -1, 0.0);
   pressure.solve();
   phi -= pressure.flux();
-  U.primitiveFieldRef() = without_pressure - D.primitiveField() * fvc::grad(p)().primitiveField();
+  U.primitiveFieldRef() = without_pressure - (D.primitiveField() & fvc::grad(p)().primitiveField());
 }
 
 void Flow::step(double t, double dt)

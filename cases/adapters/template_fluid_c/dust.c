@@ -109,8 +109,8 @@ static double Mass(const Dust *d, int i, int j)
   return d->area / 12.0 * (i == j ? 2.0 : 1.0);
 }
 
-/* rho M/dt (u* - u) + inertia (u* - kept u) + a u* = s on the coupled elements, 0 in place of u where they are covered; elsewhere
- * nothing acts. */
+/* rho M/dt (u* - u) + inertia (tensor u* - kept u) + a u* = s on the coupled elements, 0 in place of u where they are covered;
+ * elsewhere nothing acts. */
 static void Advance(Dust *d, double dt)
 {
   const CoracleCoupling *k;
@@ -125,7 +125,8 @@ static void Advance(Dust *d, double dt)
       for (int q = 0; q < 6; q++) {
         const double mass = r / 3 == q / 3 ? d->density / dt * Mass(d, r % 3, q % 3) : 0.0;
         const double inertia = k[m].implicit_inertia[r % 3][q % 3];
-        A[6 * r + q] = mass + (r / 3 == q / 3 ? inertia : 0.0) + k[m].a[r / 3][r % 3][q / 3][q % 3];
+        A[6 * r + q] =
+            mass + inertia * k[m].inertia_tensor[r / 3][q / 3] + k[m].a[r / 3][r % 3][q / 3][q % 3];
         load[r] +=
             (k[m].flags & CORACLE_IS_COVERED ? 0.0 : mass * u[q]) + inertia * k[m].kept[r / 3][q / 3] * u[q];
       }
@@ -157,7 +158,7 @@ static void Step(Dust *d, double dt)
   int *near = malloc((size_t)n * sizeof *near + 1);
   memcpy(near, d->near, (size_t)n * sizeof *near);
   Advance(d, dt);
-  /* a projection has the bulk velocity u* + M^-1 (us - ms u*) and W = rho M/dt + implicit_inertia */
+  /* a projection has the bulk velocity u* + M^-1 (us - ms u*) and W = rho M/dt + implicit_inertia inertia_tensor */
   Velocity *u_projected = d->u_star;
   const CoracleFlow flow = {.u_start = &d->u_start[0][0][0],
                             .u_star = &d->u_star[0][0][0],

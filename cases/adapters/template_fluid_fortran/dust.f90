@@ -75,19 +75,22 @@ contains
     region = 0
   end function
 
-  !> rho M/dt (u* - u) + inertia (u* - kept u) + a u* = s on the coupled elements, 0 for u where they are covered; elsewhere nothing acts.
+  !> rho M/dt (u* - u) + inertia (tensor u* - kept u) + a u* = s on the coupled elements, 0 for u where they are covered; elsewhere nothing acts.
   subroutine advance()
     type(CoracleCoupling), pointer :: k(:)
     real(c_double) :: a(6, 6), inertia(6, 6), load(6)
-    integer :: m, e
+    integer :: m, e, c, d
     call coracle_get_coupling(client, k)
     u_start = u(:, :, near(:nnear))
     u_star = u_start
-    inertia = 0
     do m = 1, size(k)
       e = k(m)%element + 1
-      inertia(1:3, 1:3) = density / dt * mass + k(m)%implicit_inertia
-      inertia(4:6, 4:6) = inertia(1:3, 1:3)
+      do c = 0, 1
+        do d = 0, 1
+          inertia(3*c + 1:3*c + 3, 3*d + 1:3*d + 3) = k(m)%inertia_tensor(d + 1, c + 1) * k(m)%implicit_inertia
+        end do
+        inertia(3*c + 1:3*c + 3, 3*c + 1:3*c + 3) = inertia(3*c + 1:3*c + 3, 3*c + 1:3*c + 3) + density / dt * mass
+      end do
       a = inertia + transpose(reshape(k(m)%a, [6, 6]))
       load = reshape(k(m)%s + matmul(k(m)%implicit_inertia, matmul(u_star(:, :, e), k(m)%kept)), [6])
       if (iand(k(m)%flags, CORACLE_IS_COVERED) == 0) load = load + density / dt * reshape(matmul(mass, u_star(:, :, e)), [6])
@@ -154,7 +157,7 @@ program dust
     if (action == CORACLE_STOP) exit
     before = near(:nnear)
     call advance()
-    ! a projection has the bulk velocity u* + M^-1 (us - ms u*) and W = rho M/dt + implicit_inertia; here u projected is u*
+    ! a projection has the bulk velocity u* + M^-1 (us - ms u*) and W = rho M/dt + implicit_inertia inertia_tensor; here u projected is u*
     call set_flow()
     error = CoracleProposeStep(client, dt_max)
     error = CoracleEnd(client)

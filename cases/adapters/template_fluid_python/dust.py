@@ -36,13 +36,14 @@ class Dust:
         return self.x[self.near], np.full(n, self.rho), np.full(n, self.mu)
 
     def solve(self, dt, coupling):
-        """rho M/dt (u* - u) + inertia (u* - kept u) + a u* = s on the coupled elements, 0 for u where they are covered; elsewhere nothing acts."""
+        """rho M/dt (u* - u) + inertia (tensor u* - kept u) + a u* = s on the coupled elements, 0 for u where they are covered; elsewhere nothing acts."""
         u_star, n = self.u[self.near], len(coupling)
         u, mass, inertia = u_star[coupling["element"]], self.rho / dt * self.area * MASS, coupling["implicit_inertia"]
         load = coupling["s"] + coupling["kept"] @ u @ inertia
         free = (coupling["flags"] & coracle.IS_COVERED) == 0
         load[free] += u[free] @ mass
-        matrix = np.kron(np.eye(2), mass + inertia) + coupling["a"].reshape(n, 6, 6)
+        matrix = np.kron(np.eye(2), mass) + coupling["a"].reshape(n, 6, 6)
+        matrix += np.einsum("ncd,nij->ncidj", coupling["inertia_tensor"], inertia).reshape(n, 6, 6)
         u_star[coupling["element"]] = np.linalg.solve(matrix, load.reshape(n, 6, 1)).reshape(n, 2, 3)
         return u_star
 
@@ -63,7 +64,7 @@ def main():
     for step in client.steps():
         near, n = dust.near, len(dust.near)
         u_star = dust.solve(step.dt, client.get_coupling())
-        u_projected = u_star  # a projection has the bulk velocity u* + M^-1 (us - ms u*) and W = rho M/dt + implicit_inertia
+        u_projected = u_star  # a projection has the bulk velocity u* + M^-1 (us - ms u*) and W = rho M/dt + implicit_inertia inertia_tensor
         p = np.zeros((n, 6)) if client.needs_pressure() else None
         client.set_flow(dust.u[near], u_star, u_projected, np.full(n, dust.rho), np.full(n, dust.mu), p)
         client.propose_step(dt_max)

@@ -25,6 +25,7 @@ module coracle
   type, bind(c) :: CoracleCoupling
     integer(c_int) :: element, flags
     real(c_double) :: a(3, 2, 3, 2), implicit_inertia(3, 3)       ! kg/s; (j, d, i, c), (j, i)
+    real(c_double) :: inertia_tensor(2, 2)                        ! 1; symmetric
     real(c_double) :: kept(2, 2)                                  ! 1; (d, c)
     real(c_double) :: s(3, 2)                                     ! N; (i, c)
     real(c_double) :: ms(3, 3), us(3, 2)                          ! m2; m3/s

@@ -11,7 +11,7 @@ HAS_SHELL, HAS_INERTIA, IS_COVERED = 1, 2, 4
 _MATRIX, _LOAD = (np.float64, (3, 3)), (np.float64, (2, 3))
 # CoracleCoupling and CoracleCorrection of coracle.h
 COUPLING = np.dtype([("element", np.intc), ("flags", np.intc), ("a", np.float64, (2, 3, 2, 3)), ("implicit_inertia", *_MATRIX),
-                     ("kept", np.float64, (2, 2)),
+                     ("inertia_tensor", np.float64, (2, 2)), ("kept", np.float64, (2, 2)),
                      ("s", *_LOAD), ("ms", *_MATRIX), ("us", *_LOAD), ("velocity", np.float64, 2), ("alpha", np.float64),
                      ("shell", np.float64)], align=True)
 CORRECTION = np.dtype([("element", np.intc), ("r", *_LOAD)], align=True)
