@@ -4,7 +4,7 @@
 #include <string.h>
 
 const double AttemptKept[2][2] = {{1.0, 0.25}, {0.25, 1.0}};
-const double AttemptTensor[2][2] = {{0.8, 0.2}, {0.2, 0.6}};
+const double AttemptTensor[2][2] = {{0.85, 0.15}, {0.15, 0.7}};
 
 bool AttemptHasInertia(Kind kind)
 {

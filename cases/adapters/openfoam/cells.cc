@@ -4,7 +4,7 @@
 using namespace Foam;
 
 Cells::Cells(const fvMesh &mesh, double rho, double mu)
-    : k(mesh.nCells()), inertia(k), ms(k), covered(k), inertia_tensor(mesh.nCells()), kept_inertia(mesh.nCells()), us(mesh.nCells()), rho_(rho), mu_(mu),
+    : k(mesh.nCells()), ms(k), covered(k), inertia_tensor(mesh.nCells()), kept_inertia(mesh.nCells()), us(mesh.nCells()), rho_(rho), mu_(mu),
       centre_(mesh.C().primitiveField()), area_(k)
 {
   forAll(mesh.boundaryMesh(), patchi)
@@ -54,7 +54,7 @@ void Cells::receive(CoracleClient client)
   CoracleGetCoupling(client, &n, &entry);
   coupling_.assign(entry, entry + n);
   made_ = near_;
-  for (scalarField *f : {&k, &inertia, &covered, &ms}) *f = 0.0;
+  for (scalarField *f : {&k, &covered, &ms}) *f = 0.0;
   inertia_tensor = Zero, kept_inertia = Zero, us = Zero;
   for (const CoracleCoupling &c : coupling_) {
     const auto &[cell, area, x] = triangle_[made_[c.element]];
@@ -63,7 +63,7 @@ void Cells::receive(CoracleClient client)
       for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
           const double part = c.implicit_inertia[i][j] / (rho_ * area_[cell]);
-          k[cell] += 0.5 * c.a[d][i][d][j] / (rho_ * area_[cell]), inertia[cell] += 0.5 * part;
+          k[cell] += 0.5 * c.a[d][i][d][j] / (rho_ * area_[cell]);
           for (int e = 0; e < 2; e++)
             inertia_tensor[cell](d, e) += c.inertia_tensor[d][e] * part, kept_inertia[cell](d, e) += c.kept[d][e] * part;
           ms[cell] += 0.5 * c.ms[i][j] / area_[cell];

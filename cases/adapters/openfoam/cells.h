@@ -28,8 +28,7 @@ public:
   // U += M^-1 r of the step that was made.
   void correct(CoracleClient client, Foam::vectorField &U) const;
 
-  Foam::scalarField k,
-      inertia; // 1/s, half the trace of the implicit coefficient a over rho V, and the solid's inertia
+  Foam::scalarField k;              // 1/s, the implicit coefficient: half the trace of a, over rho V
   Foam::scalarField ms, covered;    // parts of the cell: bulk velocity, start are the solid's
   Foam::tensorField inertia_tensor; // 1/s, of the solid; zz is of no use
   Foam::tensorField kept_inertia;   // 1/s, the inertia times what is kept of the velocity at the step's start

@@ -99,8 +99,8 @@ void Flow::propose()
   CoracleProposeStep(client_, Foam::min(in_.dt_max, in_.cfl / Foam::max(gMax(rate), VSMALL)));
 }
 
-// (U* - U)/dt + inertia (tensor U* - kept U) + k U* + div(phi U*) - nu laplacian U* = force - grad p; in iterations follow a's terms
-// between components, the velocity's gradient in the cells, and what the tensor takes off the inertia
+// (U* - U)/dt + inertia (tensor U* - kept U) + k U* + div(phi U*) - nu laplacian U* = force - grad p; what force has beyond k follows in
+// iterations; the matrix has the inertia's trace, and then each cell is solved with its tensor, the neighbours as they are
 void Flow::predict(double dt)
 {
   const dimensionedScalar per_dt("1/dt", dimless / dimTime, 1.0 / dt), nu("nu", dimViscosity, in_.mu / in_.rho);
@@ -108,15 +108,20 @@ void Flow::predict(double dt)
   volScalarField k(IOobject("k", time_.timeName(), mesh_), mesh_, 0.0 * per_dt), inertia("inertia", k + per_dt);
   volVectorField force("force", 0.0 * per_dt * U), start(force);
   k.primitiveFieldRef() = cells_.k;
-  inertia.primitiveFieldRef() += cells_.inertia;
+  inertia.primitiveFieldRef() += tr(cells_.inertia_tensor);
+  const tensorField rest(tr(cells_.inertia_tensor) * tensor::I - cells_.inertia_tensor);
   start.primitiveFieldRef() = (1.0 - cells_.covered) / dt * U.primitiveField() + (cells_.kept_inertia & U.primitiveField());
   grad_p_ = fvc::grad(p);
   grad_U_ = fvc::grad(U);
   for (int iteration = 0; iteration < 4; iteration++) {
-    force.primitiveFieldRef() = cells_.force(U, grad_U_) + cells_.inertia * U.primitiveField() - (cells_.inertia_tensor & U.primitiveField());
+    const vectorField deferred(rest & U.primitiveField());
+    force.primitiveFieldRef() = cells_.force(U, grad_U_) + deferred;
     fvVectorMatrix momentum(fvm::Sp(inertia + k, U) + fvm::div(phi, U) - fvm::laplacian(nu, U) ==
                             start + force - grad_p_);
     momentum.solve();
+    const vectorField others(momentum.H()().primitiveField() - deferred); // a temporary would be overwritten while it is read
+    U.primitiveFieldRef() = inv(tensorField(momentum.A()().primitiveField() * tensor::I - rest)) & others;
+    U.correctBoundaryConditions();
     grad_U_ = fvc::grad(U);
   }
   star_ = U;
