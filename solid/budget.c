@@ -8,8 +8,9 @@ void BudgetAddSubstep(Solid s)
   const Point walls = ContactWalls(s->contact);
   s->budget.walls[0] += s->h * walls.x;
   s->budget.walls[1] += s->h * walls.y;
-  for (int n = 0; n < s->nnodes; n++) {
-    if (s->inverse_mass[n] > 0.0 || !SolidOwns(s, n)) continue;
+  for (int k = 0; k < s->nfixed; k++) {
+    const int n = s->fixed[k];
+    if (!SolidOwns(s, n)) continue;
     for (int c = 0; c < 2; c++)
       s->budget.reaction[c] -=
           s->h * (s->force[2 * n + c] + s->load[2 * n + c] + s->mass[n] * s->setup.gravity[c]);

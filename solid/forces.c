@@ -19,13 +19,16 @@ static inline int IsHeld(const Elements *e, int k, const double inverse_mass[])
   return inverse_mass[e->node[0][k]] + inverse_mass[e->node[1][k]] + inverse_mass[e->node[2][k]] == 0.0;
 }
 
-/* Strips of elements that cannot move. */
+/* Strips of elements, and nodes, that cannot move. */
 static void FindHeld(Solid s)
 {
   Elements *e = &s->elements;
   for (int k = 0; k < e->n; k++)
     e->held[k / STRIP] = IsHeld(e, k, s->inverse_mass) && (k % STRIP == 0 || e->held[k / STRIP]);
   e->held_known = PETSC_FALSE;
+  s->nfixed = 0;
+  for (int n = 0; n < s->nnodes; n++)
+    if (s->inverse_mass[n] == 0.0) s->fixed[s->nfixed++] = n;
 }
 
 void SolidListCorners(Solid s)

@@ -52,6 +52,7 @@ PetscErrorCode SolidFreeSubdomain(Solid s)
   PetscCall(CopiesDestroy(&s->copies));
   PetscCall(
       PetscFree7(s->gid, s->node_body, s->surface, s->mass, s->inverse_mass, s->corner_start, s->corner));
+  PetscCall(PetscFree(s->fixed));
   PetscCall(PetscFree7(s->rest, s->x, s->v, s->force, s->load, s->saved.x, s->saved.v));
   PetscCall(PetscFree5(s->start, s->interface_velocity, s->mobility, s->acceleration, s->piece));
   PetscCall(PetscFree6(s->element, s->facet, s->facet_element, s->facet_side, s->base, s->body));

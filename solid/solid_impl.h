@@ -72,6 +72,7 @@ struct Solid_s {
   double *rest, *x, *v;        /* [nnodes][2] */
   double *force, *load;        /* [nnodes][2] internal and contact; the fluid's, summed over ranks */
   double *mass, *inverse_mass; /* [nnodes] all ranks' elements; inverse 0 where fixed */
+  int nfixed, *fixed;          /* [nfixed] nodes with inverse mass 0 */
   int *corner_start, *corner;  /* [nnodes + 1], [3 ne]: where a node's forces lie in elements.force */
   Elements elements;
   int *element;               /* [ne][3] */
@@ -116,7 +117,7 @@ static inline PetscBool SolidOwns(const Solid s, int node)
 
 /* forces.c: internal forces of this rank's elements into force; fails on an element with J <= 0. */
 PetscErrorCode SolidInternalForces(Solid s);
-/* corner_start, corner and elements.held, from element */
+/* corner_start, corner, elements.held and fixed, from element and inverse_mass */
 void SolidListCorners(Solid s);
 ElementRates SolidElementRates(Solid s, int k);
 /* The smallest stable step over this rank's elements that can move, each with contact's rates added. */

@@ -58,6 +58,7 @@ static PetscErrorCode Allocate(Solid s)
   PetscCall(PetscMalloc6(3 * ne, &s->element, 2 * nf, &s->facet, nf, &s->facet_element, nf, &s->facet_side,
                          nn, &s->base, (size_t)s->nbodies, &s->body));
   PetscCall(PetscCalloc1(nn, &s->is_prescribed));
+  PetscCall(PetscMalloc1(nn, &s->fixed));
   PetscCall(PetscMalloc3(ne, &e->node[0], ne, &e->node[1], ne, &e->node[2]));
   PetscCall(PetscMalloc4(ne, &e->inverse[0], ne, &e->inverse[1], ne, &e->inverse[2], ne, &e->inverse[3]));
   PetscCall(PetscMalloc5(ne, &e->mu, ne, &e->lambda, ne, &e->eta, ne, &e->density, ne, &e->kind));
