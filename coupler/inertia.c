@@ -49,8 +49,9 @@ PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt
   PetscCall(PetscMalloc2(solid->nnodes, &rho, o->nsources, &vertex));
   PetscCall(NodeDensities(o, solid, rho));
   PetscCall(OverlapNodesToSources(o, 1, rho, (double *)vertex));
+  const double heaviest = o->pairs.n ? INERTIA_MOST * o->rho[o->pairs.pair[0].b] : HUGE_VAL;
   for (int t = 0; t < o->nsources; t++)
-    source[t].density = o->source[t].is_shell ? 0.0 : TriangleDensity(vertex[t]);
+    source[t].density = o->source[t].is_shell ? 0.0 : fmin(TriangleDensity(vertex[t]), heaviest);
   for (int p = 0; p < o->pairs.n; p++) {
     const double rho_f = o->rho[o->pairs.pair[p].b], rho_s = source[o->pairs.pair[p].a].density;
     if (rho_s == 0.0) continue;

@@ -39,6 +39,9 @@
  *
  * The cylinder's drag is then that of a fixed one within 1 % (k up to 21 times the fluid's density is 1; tests/coupled/wind.sh).
  *
+ * A solid of more than INERTIA_MOST times the fluid's density counts as one of so many times, on both sides of the coupling: beyond that
+ * round-off decides what is left along the surface.
+ *
  * Were m to begin with u^n, an element that the surface crosses could keep a velocity through
  * it: the correction (force.h) takes a part of that away in each step, so that the solid leaked the more the longer the steps are.
  * FSI2 of cases/flexible_beam, a beam of ten times the fluid's density, swung by 92, 78, 69 mm with steps of 4, 2, 1 ms (le 0.008 m;
@@ -77,7 +80,9 @@
  * the largest with which u^n was stable when all of the inertia counted. */
 #define INERTIA_KEPT_RATIO 20.0
 
-/* Collective.  Density of source[nsources]: rho_s of volume triangles; 0 for the shell's, and where all nodes are
+#define INERTIA_MOST 1e6
+
+/* Collective.  Density of source[nsources]: rho_s of volume triangles, at most INERTIA_MOST times rho_f; 0 for the shell's, and where all nodes are
  * held.  Where it is not 0, term[pairs.n] gets the inertia above and a = 0. */
 PetscErrorCode InertiaCoefficients(Overlap overlap, const SolidState *solid, double dt, PairTerm term[],
                                    SourceTerm source[]);

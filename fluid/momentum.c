@@ -6,9 +6,9 @@
 #define SINGLE_PRECISION 1e-6   /* of a correction: what single_operator.h leaves of it */
 #define REFINEMENTS_MAX 4
 /* The force on a solid is its mass times what the solver finds as its change of velocity: of one that is heavier than so many times the
- * fluid the tolerance is the smaller, down to the least. */
+ * fluid the tolerance is the smaller, down to round-off times that ratio. */
 #define HEAVY 20.0
-#define TOLERANCE_LEAST 1e-10
+#define ROUND_OFF 1e-14
 
 /* MATOP_MULT */
 static PetscErrorCode Apply(Mat matrix, Vec x, Vec y)
@@ -135,7 +135,7 @@ static PetscErrorCode SolveCorrection(MomentumSolver s, const MomentumStep *step
   PetscFunctionBeginUser;
   PetscCall(LargestInertia(s, step, &ratio));
   const double tolerance =
-      PetscMin(s->tolerance, PetscMax(VELOCITY_TOLERANCE * HEAVY / ratio, TOLERANCE_LEAST));
+      PetscMin(s->tolerance, PetscMax(VELOCITY_TOLERANCE * HEAVY / ratio, ROUND_OFF * ratio));
   *iterations = 0;
   for (int k = 0; k < REFINEMENTS_MAX && more; k++) {
     int n;

@@ -35,21 +35,30 @@ static PetscErrorCode Reserve(MomentumOperator *op)
   PetscFunctionReturn(0);
 }
 
+/* xx = yy, xy = yx = 0 */
+static PetscBool IsScalar(const double block[36])
+{
+  int same = 1;
+  for (int j = 0; j < 3; j++)
+    for (int i = 0; i < 3; i++)
+      same &= (block[6 * j + i] == block[6 * (3 + j) + 3 + i]) & (block[6 * j + 3 + i] == 0.0) &
+              (block[6 * (3 + j) + i] == 0.0);
+  return (PetscBool)same;
+}
+
 PetscErrorCode MomentumOperatorAddDense(MomentumOperator *op, int e, const double block[36])
 {
+  const PetscBool scalar = IsScalar(block);
   PetscFunctionBeginUser;
-  PetscCall(Reserve(op));
-  double *rest = op->dense[op->ndense];
-  op->dense_element[op->ndense++] = e;
-  memcpy(rest, block, 36 * sizeof *rest);
   for (int j = 0; j < 3; j++)
     for (int i = 0; i < 3; i++) {
-      const double mean = 0.5 * (block[6 * j + i] + block[6 * (3 + j) + 3 + i]);
-      op->block[e][0][3 * j + i] += mean;
-      op->volume[e][3 * j + i] += mean;
-      rest[6 * j + i] -= mean;
-      rest[6 * (3 + j) + 3 + i] -= mean;
+      op->volume[e][3 * j + i] += 0.5 * (block[6 * j + i] + block[6 * (3 + j) + 3 + i]);
+      if (scalar) op->block[e][0][3 * j + i] += block[6 * j + i];
     }
+  if (scalar) PetscFunctionReturn(0);
+  PetscCall(Reserve(op));
+  memcpy(op->dense[op->ndense], block, 36 * sizeof *block);
+  op->dense_element[op->ndense++] = e;
   PetscFunctionReturn(0);
 }
 

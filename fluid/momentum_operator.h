@@ -7,8 +7,7 @@
  *     S   3 x 3 blocks, column-major      block[e][0]      element e with itself
  *                                         block[e][1 + i]  with its neighbour across face i
  *     C   stress theta mu (grad u^T - 2/3 div u I), interior penalty on interior faces
- *     D   6 x 6 blocks of few elements: dense[k] of element dense_element[k], less the mean of its xx and yy parts,
- *         which S has
+ *     D   6 x 6 blocks of few elements: dense[k] of element dense_element[k]; what is the same for both components S has
  *
  * The Krylov iteration multiplies with its copy in single precision (single_operator.h). */
 #ifndef FLUID_MOMENTUM_OPERATOR_H
@@ -35,7 +34,8 @@ typedef struct {
 /* like: a velocity, ghosted blocks [2][3].  Collective. */
 PetscErrorCode MomentumOperatorCreate(const FluidDomain *domain, Vec like, MomentumOperator *op);
 PetscErrorCode MomentumOperatorDestroy(MomentumOperator *op);
-/* Adds the dense block (6 x 6, column-major) of element e: its mean to S, the rest to D.  Not collective. */
+/* Adds the dense block (6 x 6, column-major) of element e: to S where it is the same for both components, else to D; to volume the mean of
+ * its xx and yy parts.  Not collective. */
 PetscErrorCode MomentumOperatorAddDense(MomentumOperator *op, int e, const double block[36]);
 /* y = A x.  Collective. */
 PetscErrorCode MomentumOperatorApply(MomentumOperator *op, Vec x, Vec y);

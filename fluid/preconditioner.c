@@ -5,14 +5,27 @@ struct Preconditioner_s {
   MomentumOperator *op; /* borrowed */
   SingleBlocks
       *block; /* [ne + 1] S_ee^-1, then -S_ee^-1 S_en of the neighbours; the last is only read over */
-  SingleVector *start; /* [ne] S_ee^-1 r_e */
-  SingleVector *z;     /* [ne + ng] */
+  int *dense; /* [ne] the index of the element's dense block, or -1 */
+  int dense_capacity;
+  float (*response)[36]; /* [dense_capacity] (S_ee + D_e)^-1 S_ee, column-major */
+  SingleVector *start;   /* [ne] S_ee^-1 r_e */
+  SingleVector *z;       /* [ne + ng] */
   ContinuousSpace coarse;
   PetscBool corrects; /* in the current step */
   Vec ghosted;        /* z with its ghosts, where there are other ranks */
 };
 
-/* z_e = S_ee^-1 (r_e - sum of S_en z_n over neighbours n below `below`).  Each neighbour has a sum of its own: the last one met is known last. */
+/* z = (S_ee + D_e)^-1 S_ee z */
+static inline void Respond(const float response[36], SinglePair *z)
+{
+  float from[8], to[8] = {0};
+  SingleStore(z, from);
+  for (int j = 0; j < 6; j++)
+    for (int i = 0; i < 6; i++) to[i + i / 3] += response[6 * j + i] * from[j + j / 3];
+  SingleLoad(to, z);
+}
+
+/* z_e = (S_ee + D_e)^-1 (r_e - sum of S_en z_n over neighbours n below `below`).  Each neighbour has a sum of its own: the last one met is known last. */
 static inline void Relax(const Preconditioner p, int e, int below)
 {
   const int *neighbor = p->op->domain->mesh->neighbor + 3 * e;
@@ -22,6 +35,7 @@ static inline void Relax(const Preconditioner p, int e, int below)
     if (neighbor[i] >= 0 && neighbor[i] < below)
       SingleBlockAdd(p->block[e][1 + i], p->z[neighbor[i]], sum + i);
   for (int c = 0; c < 2; c++) z.c[c] += (sum[0].c[c] + sum[1].c[c]) + sum[2].c[c];
+  if (p->dense[e] >= 0) Respond(p->response[p->dense[e]], &z);
   SingleStore(&z, p->z[e]);
 }
 
@@ -101,7 +115,7 @@ PetscErrorCode PreconditionerCreate(MomentumOperator *op, KSP ksp, Preconditione
   PetscCall(PetscNew(&p));
   p->op = op;
   PetscCall(PetscCalloc1(m->ne + 1, &p->block));
-  PetscCall(PetscMalloc2(m->ne, &p->start, m->ne + m->ng, &p->z));
+  PetscCall(PetscMalloc3(m->ne, &p->start, m->ne + m->ng, &p->z, m->ne, &p->dense));
   if (!op->alone) PetscCall(VecDuplicate(op->ghosted, &p->ghosted));
   PetscCall(KSPGetPC(ksp, &shell));
   PetscCall(PCSetType(shell, PCSHELL));
@@ -127,12 +141,61 @@ static void SetBlocks(Preconditioner p)
   }
 }
 
+/* b -> a^-1 b, both 6 x 6 and column-major; a's symmetric part is positive definite, so that no pivot is 0. */
+static void Eliminate(double a[36], double b[36])
+{
+  for (int k = 0; k < 6; k++) {
+    const double scale = 1.0 / a[7 * k];
+    for (int j = 0; j < 6; j++) {
+      a[6 * j + k] *= j > k ? scale : 1.0;
+      b[6 * j + k] *= scale;
+    }
+    for (int i = 0; i < 6; i++) {
+      const double factor = i == k ? 0.0 : a[6 * k + i];
+      for (int j = k + 1; j < 6; j++) a[6 * j + i] -= factor * a[6 * j + k];
+      for (int j = 0; j < 6; j++) b[6 * j + i] -= factor * b[6 * j + k];
+    }
+  }
+}
+
+/* Of dense element k. */
+static void FindResponse(Preconditioner p, int k)
+{
+  const int e = p->op->dense_element[k];
+  const double *scalar = p->op->block[e][0];
+  double a[36], response[36] = {0.0};
+  p->dense[e] = k;
+  memcpy(a, p->op->dense[k], sizeof a);
+  for (int c = 0; c < 2; c++)
+    for (int i = 0; i < 9; i++) {
+      const int at = 6 * (3 * c + i / 3) + 3 * c + i % 3;
+      a[at] += scalar[i];
+      response[at] = scalar[i];
+    }
+  Eliminate(a, response);
+  for (int i = 0; i < 36; i++) p->response[k][i] = (float)response[i];
+}
+
+static PetscErrorCode FindResponses(Preconditioner p)
+{
+  PetscFunctionBeginUser;
+  if (p->op->ndense > p->dense_capacity) {
+    p->dense_capacity = p->op->dense_capacity;
+    PetscCall(PetscFree(p->response));
+    PetscCall(PetscMalloc1(p->dense_capacity, &p->response));
+  }
+  for (int e = 0; e < p->op->domain->mesh->ne; e++) p->dense[e] = -1;
+  for (int k = 0; k < p->op->ndense; k++) FindResponse(p, k);
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PreconditionerUpdate(Preconditioner p)
 {
   const Mesh *m = p->op->domain->mesh;
   double diffusion = p->op->diffusion;
   PetscFunctionBeginUser;
   SetBlocks(p);
+  PetscCall(FindResponses(p));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &diffusion, 1, MPI_DOUBLE, MPI_MAX, m->comm));
   p->corrects = (PetscBool)(diffusion >= DIFFUSION_COARSE);
   if (!p->corrects) PetscFunctionReturn(0);
@@ -150,7 +213,8 @@ PetscErrorCode PreconditionerDestroy(Preconditioner *preconditioner)
   PetscCall(ContinuousSpaceDestroy(&p->coarse));
   PetscCall(VecDestroy(&p->ghosted));
   PetscCall(PetscFree(p->block));
-  PetscCall(PetscFree2(p->start, p->z));
+  PetscCall(PetscFree(p->response));
+  PetscCall(PetscFree3(p->start, p->z, p->dense));
   PetscCall(PetscFree(*preconditioner));
   PetscFunctionReturn(0);
 }

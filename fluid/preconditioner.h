@@ -6,6 +6,9 @@
  *   forward     z_e = S_ee^-1 (r_e - sum over neighbours n of S_en z_n)          e = 0, 1, ...
  *   backward    the same                                                         e = ..., 1, 0
  *
+ * and where an element has a dense block D_e, z_e = (S_ee + D_e)^-1 (...): what a solid's surface does to one direction may be a thousand
+ * times what it does to the other.
+ *
  * The coarse correction removes what viscosity spreads over many elements, relaxation the jumps and advected
  * errors.  Whether the former is needed, and its solver, follow from the largest number
  * D = theta mu dt/(rho |K|) of any element:

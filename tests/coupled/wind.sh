@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A cylinder in a channel (Schaefer and Turek 2D-1, D/le = 12.5) that is free to move, of 10 000 times the fluid's density: it has the drag of
-# a fixed one, with any steps.  Usage: wind.sh ROOT BUILD
+# a fixed one, with any steps; of 1e9 times it the run goes on, too.  Usage: wind.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
 case=$here/channel.yaml
@@ -8,6 +8,7 @@ coarse=(--set fluid.adapt.size_min=0.008 --set fluid.adapt.velocity_error=0.0024
 free=(--set solid.materials.steel.density=1e4 --set solid.materials.steel.youngs_modulus=1e8 --set 'solid.bodies[0].fixed=false')
 must fixed 1:1:1 "${coarse[@]}"
 must free 1:1:1 "${coarse[@]}" "${free[@]}"
+must heaviest 2:1:1 "${coarse[@]}" "${free[@]}" --set solid.materials.steel.density=1e9 --set solid.materials.steel.youngs_modulus=1e13 --set time.end=0.2
 must short 1:1:1 "${coarse[@]}" "${free[@]}" --set time.dt_max=0.004
 "$python" - "$scratch" <<'E2'
 import csv, sys
