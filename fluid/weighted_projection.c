@@ -1,4 +1,5 @@
 #include "fluid/weighted_projection.h"
+#include "fluid/adapt/metric_tensor.h"
 
 enum { N = 3 }; /* velocity unknowns of an element and component */
 
@@ -74,14 +75,9 @@ static void SolveColumns(const double l[N][N], double x[N][N])
 
 static Principal PrincipalOf(const double tensor[2][2])
 {
-  const double mean = 0.5 * (tensor[0][0] + tensor[1][1]), half = 0.5 * (tensor[0][0] - tensor[1][1]);
-  const double radius = hypot(half, tensor[0][1]);
-  Principal p = {{1.0, 0.0}, {mean + radius, mean - radius}};
-  if (radius == 0.0) return p;
-  p.axis[0] = half > 0.0 ? radius + half : tensor[0][1];
-  p.axis[1] = half > 0.0 ? tensor[0][1] : radius - half;
-  const double length = hypot(p.axis[0], p.axis[1]);
-  for (int c = 0; c < 2; c++) p.axis[c] /= length;
+  const double packed[3] = {tensor[0][0], tensor[0][1], tensor[1][1]};
+  Principal p;
+  MetricEigen(packed, p.value, p.axis);
   return p;
 }
 

@@ -104,13 +104,13 @@ def drag(re):
 
 
 def tables():
-    """Rows by name: the 19 of Tables 1 to 3 with closed sides, Af20-200 coarser too, Y020-200 with a tenth of the kick, those of
+    """Rows by name: the 19 of Tables 1 to 3 with closed sides, Af20-200 coarser too, Y020-200 and Y060-200 with a tenth of the kick, those of
     Y020 with open sides, and where there is a reference for it, the disc held."""
     rows = [Row("Y0%d0-%03d" % (ratio, re), ratio, re, 0.005) for ratio in (2, 4, 6) for re in (20, 100, 200)]
     rows += [Row("%s20-%03d" % (series, re), 2, re, le, dr) for series, le, dr in
              (("Yc", 0.01, 0.0005), ("Yf", 0.0025, 0.0005), ("Yr", 0.005, 0.001)) for re in (20, 100, 200)]
     rows += [Row("Af20-200", 2, 200, 0.0025, mode="penalty_shell"), Row("Af20-200-le-0.005", 2, 200, 0.005, mode="penalty_shell")]
-    rows += [Row("Y020-200-kick-0.03", 2, 200, 0.005, kick=0.03)]
+    rows += [Row("Y0%d0-200-kick-0.03" % ratio, ratio, 200, 0.005, kick=0.03) for ratio in (2, 6)]
     rows += [Row("Y020-%03d-open" % re, 2, re, 0.005, sides="open") for re in (20, 100, 200)]
     rows += [Row("Y0%d0-%03d%s-held" % (ratio, re, "-open" * (sides == "open")), ratio, re, 0.005, sides=sides, held=True)
              for sides, ratio, re in HELD_REFERENCE]
