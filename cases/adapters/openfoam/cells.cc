@@ -64,8 +64,7 @@ void Cells::receive(CoracleClient client)
         for (int j = 0; j < 3; j++) {
           const double part = c.implicit_inertia[i][j] / (rho_ * area_[cell]);
           k[cell] += 0.5 * c.a[d][i][d][j] / (rho_ * area_[cell]);
-          for (int e = 0; e < 2; e++)
-            inertia_tensor[cell](d, e) += c.inertia_tensor[d][e] * part, kept_inertia[cell](d, e) += c.kept[d][e] * part;
+          for (int e = 0; e < 2; e++) inertia_tensor[cell](d, e) += c.inertia_tensor[d][e] * part, kept_inertia[cell](d, e) += c.kept[d][e] * part;
           ms[cell] += 0.5 * c.ms[i][j] / area_[cell];
         }
         us[cell][d] += c.us[d][i] / area_[cell];

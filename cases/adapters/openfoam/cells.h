@@ -28,11 +28,11 @@ public:
   // U += M^-1 r of the step that was made.
   void correct(CoracleClient client, Foam::vectorField &U) const;
 
-  Foam::scalarField k;              // 1/s, the implicit coefficient: half the trace of a, over rho V
-  Foam::scalarField ms, covered;    // parts of the cell: bulk velocity, start are the solid's
-  Foam::tensorField inertia_tensor; // 1/s, of the solid; zz is of no use
-  Foam::tensorField kept_inertia;   // 1/s, the inertia times what is kept of the velocity at the step's start
-  Foam::vectorField us;             // m/s, the solid's velocity times ms
+  Foam::scalarField k;           // 1/s, the implicit coefficient: half the trace of a, over rho V
+  Foam::scalarField ms, covered; // parts of the cell: bulk velocity, start are the solid's
+  Foam::tensorField inertia_tensor,
+      kept_inertia;     // 1/s, of the solid; times what is kept of the velocity at the step's start
+  Foam::vectorField us; // m/s, the solid's velocity times ms
 
 private:
   struct Triangle {

@@ -89,8 +89,7 @@ void Flow::restore()
 {
   const double *from = state_.data();
   forState([&](double &v) { v = *from++; });
-  U.correctBoundaryConditions();
-  p.correctBoundaryConditions();
+  U.correctBoundaryConditions(), p.correctBoundaryConditions();
 }
 
 void Flow::propose()
@@ -105,24 +104,20 @@ void Flow::predict(double dt)
 {
   const dimensionedScalar per_dt("1/dt", dimless / dimTime, 1.0 / dt), nu("nu", dimViscosity, in_.mu / in_.rho);
   start_ = U;
-  volScalarField k(IOobject("k", time_.timeName(), mesh_), mesh_, 0.0 * per_dt), inertia("inertia", k + per_dt);
-  volVectorField force("force", 0.0 * per_dt * U), start(force);
-  k.primitiveFieldRef() = cells_.k;
-  inertia.primitiveFieldRef() += tr(cells_.inertia_tensor);
+  volScalarField k(IOobject("k", time_.timeName(), mesh_), mesh_, per_dt);
+  volVectorField force("force", 0.0 * per_dt * U);
+  k.primitiveFieldRef() += cells_.k + tr(cells_.inertia_tensor);
   const tensorField rest(tr(cells_.inertia_tensor) * tensor::I - cells_.inertia_tensor);
-  start.primitiveFieldRef() = (1.0 - cells_.covered) / dt * U.primitiveField() + (cells_.kept_inertia & U.primitiveField());
-  grad_p_ = fvc::grad(p);
-  grad_U_ = fvc::grad(U);
+  const vectorField start((1.0 - cells_.covered) / dt * U.primitiveField() + (cells_.kept_inertia & U.primitiveField()));
+  grad_p_ = fvc::grad(p), grad_U_ = fvc::grad(U);
   for (int iteration = 0; iteration < 4; iteration++) {
     const vectorField deferred(rest & U.primitiveField());
-    force.primitiveFieldRef() = cells_.force(U, grad_U_) + deferred;
-    fvVectorMatrix momentum(fvm::Sp(inertia + k, U) + fvm::div(phi, U) - fvm::laplacian(nu, U) ==
-                            start + force - grad_p_);
+    force.primitiveFieldRef() = start + cells_.force(U, grad_U_) + deferred;
+    fvVectorMatrix momentum(fvm::Sp(k, U) + fvm::div(phi, U) - fvm::laplacian(nu, U) == force - grad_p_);
     momentum.solve();
     const vectorField others(momentum.H()().primitiveField() - deferred); // a temporary would be overwritten while it is read
     U.primitiveFieldRef() = inv(tensorField(momentum.A()().primitiveField() * tensor::I - rest)) & others;
-    U.correctBoundaryConditions();
-    grad_U_ = fvc::grad(U);
+    U.correctBoundaryConditions(), grad_U_ = fvc::grad(U);
   }
   star_ = U;
 }
