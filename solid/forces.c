@@ -1,5 +1,6 @@
 /* The loops over this rank's elements. */
 #include "common/supermesh/vectorize.h"
+#include "solid/six_node_kernel.h"
 #include "solid/solid_impl.h"
 #include <stdio.h>
 
@@ -8,51 +9,21 @@ static inline Tensor RestInverse(const Elements *e, int k)
   return (Tensor){e->inverse[0][k], e->inverse[1][k], e->inverse[2][k], e->inverse[3][k]};
 }
 
-static inline Tensor EdgesOf(const Elements *e, int k, const double value[])
+static inline int IsCorner(const Elements *e, int k)
 {
-  return TensorOfEdges(PointAt(value, e->node[0][k]), PointAt(value, e->node[1][k]),
-                       PointAt(value, e->node[2][k]));
+  return e->six_node[k] >= SIX_NODE_A && e->six_node[k] <= SIX_NODE_C;
 }
 
-static inline int IsHeld(const Elements *e, int k, const double inverse_mass[])
+PetscBool SolidElementHeld(const Elements *e, int k, const double inverse_mass[])
 {
-  return inverse_mass[e->node[0][k]] + inverse_mass[e->node[1][k]] + inverse_mass[e->node[2][k]] == 0.0;
+  double mobility = 0.0;
+  for (int i = 0; i < 3; i++) mobility += inverse_mass[e->node[i][k]] + inverse_mass[e->far[i][k]];
+  return mobility == 0.0 ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Strips of elements, and nodes, that cannot move. */
-static void FindHeld(Solid s)
-{
-  Elements *e = &s->elements;
-  for (int k = 0; k < e->n; k++)
-    e->held[k / STRIP] = IsHeld(e, k, s->inverse_mass) && (k % STRIP == 0 || e->held[k / STRIP]);
-  e->held_known = PETSC_FALSE;
-  s->nfixed = 0;
-  for (int n = 0; n < s->nnodes; n++)
-    if (s->inverse_mass[n] == 0.0) s->fixed[s->nfixed++] = n;
-}
-
-void SolidListCorners(Solid s)
-{
-  const int ne = s->elements.n;
-  for (int n = 0; n <= s->nnodes; n++) s->corner_start[n] = 0;
-  for (int k = 0; k < 3 * ne; k++) s->corner_start[s->element[k] + 1]++;
-  for (int n = 0; n < s->nnodes; n++) s->corner_start[n + 1] += s->corner_start[n];
-  for (int k = 3 * ne - 1; k >= 0; k--) /* fills from behind, then shifts back */
-    s->corner[--s->corner_start[s->element[k] + 1]] = (k % 3) * ne + k / 3;
-  for (int n = 0; n < s->nnodes; n++) s->corner_start[n] = s->corner_start[n + 1];
-  s->corner_start[s->nnodes] = 3 * ne;
-  FindHeld(s);
-}
-
-void SolidElementShape(const Elements *e, int k, const double x[], Tensor *edges, Tensor *f)
-{
-  *edges = EdgesOf(e, k, x);
-  *f = TensorProduct(*edges, RestInverse(e, k));
-}
-
-/* x, y of the three corners of elements first .. first + n - 1 */
-static inline __attribute__((always_inline)) void GatherCorners(const Elements *e, int first, int n,
-                                                                const double value[], double corner[6][STRIP])
+/* x, y of the corners of elements first .. first + n - 1: of nodes, or carried along in a six-node triangle */
+static inline __attribute__((always_inline)) void
+GatherCorners(const Elements *e, int first, int n, int bends, const double value[], double corner[6][STRIP])
 {
   for (int i = 0; i < 3; i++) {
     const int *node = e->node[i] + first;
@@ -61,12 +32,68 @@ static inline __attribute__((always_inline)) void GatherCorners(const Elements *
       corner[2 * i + 1][k] = value[2 * node[k] + 1];
     }
   }
+  for (int k = 0; bends && k < n; k++) {
+    const double w = IsCorner(e, first + k) ? 1.0 : 0.0, *next = value + 2 * e->far[0][first + k],
+                 *last = value + 2 * e->far[1][first + k], *between = value + 2 * e->far[2][first + k];
+    for (int c = 0; c < 2; c++)
+      SixNodeCarry(w, next[c], last[c], between[c], &corner[c][k], &corner[2 + c][k], &corner[4 + c][k]);
+  }
 }
 
 static inline __attribute__((always_inline)) Tensor StripEdges(const double corner[6][STRIP], int k)
 {
   return TensorOfEdges((Point){corner[0][k], corner[1][k]}, (Point){corner[2][k], corner[3][k]},
                        (Point){corner[4][k], corner[5][k]});
+}
+
+Tensor SolidElementEdges(const Elements *e, int k, const double value[])
+{
+  double corner[6][STRIP];
+  GatherCorners(e, k, 1, 1, value, corner);
+  return StripEdges((const double(*)[STRIP])corner, 0);
+}
+
+/* Strips of elements, and nodes, that cannot move. */
+static void FindHeld(Solid s)
+{
+  Elements *e = &s->elements;
+  for (int k = 0; k < e->n; k++)
+    e->held[k / STRIP] = SolidElementHeld(e, k, s->inverse_mass) && (k % STRIP == 0 || e->held[k / STRIP]);
+  e->held_known = PETSC_FALSE;
+  s->nfixed = 0;
+  for (int n = 0; n < s->nnodes; n++)
+    if (s->inverse_mass[n] == 0.0) s->fixed[s->nfixed++] = n;
+}
+
+/* The node of which the k-th of all force entries is a part, or -1: corners of elements, then nodes of six-node triangles. */
+static int NodeOfForce(const Solid s, int k)
+{
+  const Elements *e = &s->elements;
+  if (k < 3 * e->n) return e->six_node[k / 3] ? -1 : s->element[k];
+  const int first = e->six_first[(k - 3 * e->n) / 6], i = (k - 3 * e->n) % 6;
+  return s->element[3 * (first + i % 3) + i / 3];
+}
+
+void SolidListCorners(Solid s)
+{
+  const int ne = s->elements.n, n = 3 * ne + 6 * s->elements.nsix;
+  int *end = s->corner_start + 1;
+  for (int i = 0; i <= s->nnodes; i++) s->corner_start[i] = 0;
+  for (int k = 0; k < n; k++)
+    if (NodeOfForce(s, k) >= 0) end[NodeOfForce(s, k)]++;
+  for (int i = 1; i < s->nnodes; i++) end[i] += end[i - 1];
+  const int all = s->nnodes > 0 ? end[s->nnodes - 1] : 0;
+  for (int k = n - 1; k >= 0; k--) /* fills from behind, then shifts back */
+    if (NodeOfForce(s, k) >= 0) s->corner[--end[NodeOfForce(s, k)]] = k < 3 * ne ? (k % 3) * ne + k / 3 : k;
+  for (int i = 0; i < s->nnodes; i++) s->corner_start[i] = end[i];
+  s->corner_start[s->nnodes] = all;
+  FindHeld(s);
+}
+
+void SolidElementShape(const Elements *e, int k, const double x[], Tensor *edges, Tensor *f)
+{
+  *edges = SolidElementEdges(e, k, x);
+  *f = TensorProduct(*edges, RestInverse(e, k));
 }
 
 /* Forces of all corners; returns the number of elements that are inside out (or not a number).  The arrays do
@@ -82,9 +109,10 @@ static inline __attribute__((always_inline)) int StripForces(const Elements *e, 
   const double *plane_stress = e->plane_stress + first, *kind = e->kind + first;
   double *fx = e->force[0] + first, *fy = e->force[1] + first, at[6][STRIP], rates[6][STRIP], fit[STRIP];
   double *sxx = e->stress[0], *syy = e->stress[1], *sxy = e->stress[2];
+  const int bends = e->bends[first / STRIP];
   int bad = 0;
-  GatherCorners(e, first, n, x, at);
-  if (damped) GatherCorners(e, first, n, v, rates);
+  GatherCorners(e, first, n, bends, x, at);
+  if (damped) GatherCorners(e, first, n, bends, v, rates);
   VECTORIZE
   for (int k = 0; k < n; k++) {
     const Tensor edges = StripEdges((const double(*)[STRIP])at, k);
@@ -139,6 +167,19 @@ static WIDE int AllForces(const Elements *e, const double x[], const double v[])
   return e->damped ? CornerForces(e, x, v, STRAIN_ONLY, 1, 0) : CornerForces(e, x, v, STRAIN_ONLY, 0, 0);
 }
 
+/* What acts on the corners that six-node triangles carry along acts on their nodes. */
+static void ReturnForces(const Elements *e)
+{
+  for (int k = 0; k < e->nsix; k++) {
+    for (int c = 0; c < 2; c++) {
+      double on[3][3];
+      for (int q = 0; q < 3; q++)
+        for (int v = 0; v < 3; v++) on[q][v] = e->force[c][v * e->n + e->six_first[k] + q];
+      SixNodeReturn((const double(*)[3])on, e->force[c] + 3 * e->n + 6 * k);
+    }
+  }
+}
+
 static void SumCorners(const Solid s)
 {
   const int *restrict start = s->corner_start, *restrict corner = s->corner;
@@ -190,16 +231,9 @@ PetscErrorCode SolidInternalForces(Solid s)
   const int bad = AllForces(&s->elements, s->x, s->v);
   if (bad) PetscCall(FailOnElement(s));
   s->elements.held_known = PETSC_TRUE;
+  ReturnForces(&s->elements);
   SumCorners(s);
   PetscFunctionReturn(0);
-}
-
-ElementRates SolidElementRates(Solid s, int k)
-{
-  const Elements *e = &s->elements;
-  Tensor edges, f;
-  SolidElementShape(e, k, s->x, &edges, &f);
-  return ElementRatesOf(edges, f, e->density[k], ElementsLaw(e, k));
 }
 
 /* The stable substep of each of elements first .. first + n - 1. */
@@ -208,9 +242,10 @@ static inline __attribute__((always_inline)) void StripLimits(const Elements *e,
                                                               ElementLaws laws, double limit[STRIP])
 {
   double at[6][STRIP];
-  GatherCorners(e, first, n, x, at);
+  GatherCorners(e, first, n, e->bends[first / STRIP], x, at);
   for (int i = 0; i < n; i++) {
     const int k = first + i;
+    const double whole = IsCorner(e, k) ? SIX_NODE_RATE : 1.0;
     const Tensor edges = StripEdges((const double(*)[STRIP])at, i);
     const Tensor f = TensorProduct(edges, RestInverse(e, k));
     const ElementLaw law = {e->mu[k], e->lambda[k], e->eta[k],
@@ -218,7 +253,7 @@ static inline __attribute__((always_inline)) void StripLimits(const Elements *e,
                             laws == WITH_COROTATED && e->kind[k] == LAW_COROTATED};
     const ElementRates rates = ElementRatesOf(edges, f, e->density[k], law);
     limit[i] = ElementStableStep(
-        (ElementRates){rates.stiffness + contact.stiffness, rates.damping + contact.damping});
+        (ElementRates){whole * rates.stiffness + contact.stiffness, whole * rates.damping + contact.damping});
   }
 }
 
@@ -235,7 +270,7 @@ static WIDE double Limit(const Elements *e, const double x[], const double inver
     else
       StripLimits(e, first, n, x, contact, WITH_COROTATED, strip);
     for (int k = 0; k < n; k++)
-      if (strip[k] < limit && !IsHeld(e, first + k, inverse_mass)) limit = strip[k];
+      if (strip[k] < limit && !SolidElementHeld(e, first + k, inverse_mass)) limit = strip[k];
   }
   return limit;
 }
@@ -250,16 +285,28 @@ ElementLaw ElementsLaw(const Elements *e, int k)
   return (ElementLaw){e->mu[k], e->lambda[k], e->eta[k], e->plane_stress[k] > 0.0, (int)e->kind[k]};
 }
 
+/* value[n][components] of the middle of a six-node triangle, k, from its corners: what is linear. */
+static void MeanOfCorners(int k, int components, double value[])
+{
+  double *mean = value + components * k;
+  for (int c = 0; c < components; c++)
+    mean[c] = (mean[c - components] + mean[c - 2 * components] + mean[c - 3 * components]) / 3.0;
+}
+
 void SolidStress(Solid s, double stress[])
 {
   const Elements *e = &s->elements;
   for (int k = 0; k < e->n; k++) {
+    if (e->six_node[k] == SIX_NODE_MIDDLE) {
+      MeanOfCorners(k, 3, stress);
+      continue;
+    }
     const ElementLaw law = ElementsLaw(e, k);
     Tensor edges, f;
     SolidElementShape(e, k, s->x, &edges, &f);
     const double j = TensorDeterminant(f);
     const ElementStress t = ElementElasticStress(f, j, law);
-    const ElementStress d = ElementViscousStress(edges, EdgesOf(e, k, s->v), law.eta);
+    const ElementStress d = ElementViscousStress(edges, SolidElementEdges(e, k, s->v), law.eta);
     const double scale = 1.0 / (e->thickness[k] * ElementThicknessStretch(f, j, law));
     stress[3 * k] = scale * (t.xx + d.xx);
     stress[3 * k + 1] = scale * (t.yy + d.yy);
@@ -272,6 +319,10 @@ void SolidEnergyDensity(Solid s, double density[])
   const Elements *e = &s->elements;
   for (int k = 0; k < e->n; k++) {
     Tensor edges, f;
+    if (e->six_node[k] == SIX_NODE_MIDDLE) {
+      MeanOfCorners(k, 1, density);
+      continue;
+    }
     SolidElementShape(e, k, s->x, &edges, &f);
     density[k] = ElementEnergy(f, ElementsLaw(e, k)) / e->thickness[k];
   }

@@ -11,7 +11,7 @@ static PetscErrorCode Distribute(Solid s, const Model *a)
   if (s->size > 1) {
     PetscCall(PartitionGraphCreate(a, &graph));
     PetscCall(PartitionGraphNear(&graph, a));
-    PetscCall(PartitionGraphCut(&graph, a->nelements, s->size, part));
+    PetscCall(PartitionGraphCut(&graph, a, s->size, part));
   }
   PetscCall(SolidTakeSubdomain(s, a, part));
   if (s->size > 1 && s->setup.rebalance > 0.0) {
@@ -62,6 +62,8 @@ PetscErrorCode SolidFreeSubdomain(Solid s)
   PetscCall(PetscFree(s->prescribed));
   PetscCall(PetscFree(s->position_before));
   PetscCall(PetscFree(e->held));
+  PetscCall(PetscFree(e->bends));
+  PetscCall(PetscFree5(e->six_node, e->six_first, e->far[0], e->far[1], e->far[2]));
   PetscCall(PetscFree3(e->node[0], e->node[1], e->node[2]));
   PetscCall(PetscFree4(e->inverse[0], e->inverse[1], e->inverse[2], e->inverse[3]));
   PetscCall(PetscFree3(e->stress[0], e->stress[1], e->stress[2]));

@@ -20,18 +20,22 @@ enum { STRIP = 64 }; /* elements that are gathered at a time: they stay in the f
 /* Structure of arrays, so that the element loop is vectorised. */
 typedef struct {
   int n;
-  int *node[3];                        /* local nodes, counter-clockwise */
-  double *inverse[4];                  /* D0^-1: xx, xy, yx, yy of the rest edges' inverse, 1/m */
+  int *node[3];         /* local nodes, counter-clockwise */
+  double *inverse[4];   /* D0^-1: xx, xy, yx, yy of the rest edges' inverse, 1/m */
+  int nsix, *six_first; /* [nsix] of the four elements of a six-node triangle, the first */
+  int *six_node;        /* [n] SixNodePart */
+  int *far[3];          /* of its corners: the next vertex, the last, the node between; else its own nodes */
   double *mu, *lambda, *eta, *density; /* times the thickness */
   double *thickness, *plane_stress;    /* m; 1 in plane stress, 0 in plane strain */
   double *kind;                        /* of law */
   int *body, *material;
   int *number;          /* in the model */
-  double *force[2];     /* [3][n]: corner i of element e at i n + e */
+  double *force[2];     /* [3][n]: corner i of element e at i n + e; [nsix][6]: vertices, nodes after them */
   double *stress[3];    /* NULL without joints: elastic xx, yy, xy of the last forces, Pa times thickness */
   PetscBool damped;     /* any eta > 0 */
   char *held;           /* [n / STRIP + 1] all nodes of the strip's elements are fixed: */
   PetscBool held_known; /* their forces are where they stay */
+  char *bends;          /* [n / STRIP + 1] the strip has corners of six-node triangles */
   ElementLaws laws;     /* that any element has */
 } Elements;
 
@@ -119,10 +123,14 @@ static inline PetscBool SolidOwns(const Solid s, int node)
 PetscErrorCode SolidInternalForces(Solid s);
 /* corner_start, corner, elements.held and fixed, from element and inverse_mass */
 void SolidListCorners(Solid s);
-ElementRates SolidElementRates(Solid s, int k);
+/* No node that its forces act on can move. */
+PetscBool SolidElementHeld(const Elements *e, int k, const double inverse_mass[]);
 /* The smallest stable step over this rank's elements that can move, each with contact's rates added. */
 double SolidElementLimit(Solid s, ElementRates contact);
 ElementLaw ElementsLaw(const Elements *e, int k);
+/* Of the corners of its constant-strain triangle, which a six-node triangle carries along; value: positions or velocities */
+Tensor SolidElementEdges(const Elements *e, int k, const double value[]);
+/* F where its law is evaluated (six_node_kernel.h), and the edges that make it of D0^-1. */
 void SolidElementShape(const Elements *e, int k, const double x[], Tensor *edges, Tensor *f);
 
 /* fragments.c, collective: piece[nnodes], borrowed: 0 .. *n - 1 as in SolidFragments; kept until nodes split.

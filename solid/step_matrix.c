@@ -1,16 +1,18 @@
 /* K of the step's response: 2 x 2 blocks in compressed rows. */
+#include "solid/six_node_kernel.h"
 #include "solid/step_response_impl.h"
 
 static int Cells(const StepResponse a)
 {
-  return a->nelements + a->njoints;
+  return a->nelements + a->nsix + a->njoints;
 }
 
-/* The nodes that a cell, an element or an active joint, couples. */
+/* The nodes that a cell, an element, a six-node triangle or an active joint, couples. */
 static int NodesOf(const StepResponse a, int cell, const int **node)
 {
-  *node = cell < a->nelements ? a->element + 3 * cell : a->joint + 4 * (cell - a->nelements);
-  return cell < a->nelements ? 3 : 4;
+  const int six = cell - a->nelements, joint = six - a->nsix;
+  *node = six < 0 ? a->element + 3 * cell : joint < 0 ? a->six + 6 * six : a->joint + 4 * joint;
+  return six < 0 ? 3 : joint < 0 ? 6 : 4;
 }
 
 /* Cells of each node: cell[first[node]] .. cell[first[node + 1]], allocated. */
@@ -19,7 +21,7 @@ static PetscErrorCode ListCells(const StepResponse a, int **first, int **list)
   const int *node;
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1((size_t)a->nnodes + 2, first));
-  PetscCall(PetscMalloc1(3 * (size_t)a->nelements + 4 * (size_t)a->njoints, list));
+  PetscCall(PetscMalloc1(3 * (size_t)a->nelements + 6 * (size_t)a->nsix + 4 * (size_t)a->njoints, list));
   for (int cell = 0; cell < Cells(a); cell++)
     for (int n = NodesOf(a, cell, &node), i = 0; i < n; i++) (*first)[node[i] + 2]++;
   for (int i = 2; i < a->nnodes + 2; i++) (*first)[i] += (*first)[i - 1];
@@ -31,7 +33,8 @@ static PetscErrorCode ListCells(const StepResponse a, int **first, int **list)
 /* Sorted columns of each row. */
 static PetscErrorCode ListColumns(StepResponse a)
 {
-  const size_t most = 9 * (size_t)a->nelements + 16 * (size_t)a->njoints + (size_t)a->nnodes;
+  const size_t most =
+      9 * (size_t)a->nelements + 36 * (size_t)a->nsix + 16 * (size_t)a->njoints + (size_t)a->nnodes;
   int *first, *cell, *row, n = 0;
   PetscFunctionBeginUser;
   PetscCall(ListCells(a, &first, &cell));
@@ -71,46 +74,69 @@ PetscErrorCode StepMatrixCreate(StepResponse a)
   PetscCall(ListColumns(a));
   for (int k = 0; k < 9 * a->nelements; k++)
     PetscCall(FindBlock(a, a->element[k / 3], a->element[k / 9 * 3 + k % 3], &a->slot[k]));
+  for (int k = 0; k < 36 * a->nsix; k++)
+    PetscCall(FindBlock(a, a->six[k / 6], a->six[k / 36 * 6 + k % 6], &a->six_slot[k]));
   PetscCall(PetscMalloc1((size_t)a->start[a->nnodes], &a->block));
   PetscFunctionReturn(0);
 }
 
-static PetscBool IsHeld(Solid s, int k)
+/* block[i][j]: that of corners i, j of int sigma(d) grad N_i over element e with its nodes at x, sigma = 2 mu e + lambda tr(e) I. */
+static void ElementStiffness(const Elements *e, int k, const double x[], double block[3][3][4])
 {
-  double mobility = 0.0;
-  for (int i = 0; i < 3; i++) mobility += s->inverse_mass[s->elements.node[i][k]];
-  return mobility == 0.0 ? PETSC_TRUE : PETSC_FALSE;
-}
-
-/* Adds int sigma(d) grad N_i of element k with its nodes at x, sigma = 2 mu e + lambda tr(e) I. */
-static void AddElement(StepResponse a, const Elements *e, int k, const double x[])
-{
-  double normal[3][2], twice = 0.0;
-  for (int i = 0; i < 3; i++) {
-    const double *p = x + 2 * e->node[(i + 1) % 3][k], *q = x + 2 * e->node[(i + 2) % 3][k];
-    normal[i][0] = p[1] - q[1];
-    normal[i][1] = q[0] - p[0];
-    twice += p[0] * q[1] - q[0] * p[1];
-  }
+  const Tensor edges = SolidElementEdges(e, k, x);
+  const double twice = TensorDeterminant(edges);
+  const double normal[3][2] = {
+      {edges.yx - edges.yy, edges.xy - edges.xx}, {edges.yy, -edges.xy}, {-edges.yx, edges.xx}};
   const double plane = e->plane_stress[k] > 0.0 ? 2.0 * e->mu[k] / (e->lambda[k] + 2.0 * e->mu[k]) : 1.0;
   const double mu = e->mu[k] / (2.0 * twice), bulk = plane * e->lambda[k] / (2.0 * twice);
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) {
       const double *m = normal[i], *n = normal[j], both = mu * (m[0] * n[0] + m[1] * n[1]);
-      double *b = a->block[a->slot[9 * k + 3 * i + j]];
-      b[0] += both + (mu + bulk) * m[0] * n[0];
-      b[1] += mu * m[1] * n[0] + bulk * m[0] * n[1];
-      b[2] += mu * m[0] * n[1] + bulk * m[1] * n[0];
-      b[3] += both + (mu + bulk) * m[1] * n[1];
+      double *b = block[i][j];
+      b[0] = both + (mu + bulk) * m[0] * n[0];
+      b[1] = mu * m[1] * n[0] + bulk * m[0] * n[1];
+      b[2] = mu * m[0] * n[1] + bulk * m[1] * n[0];
+      b[3] = both + (mu + bulk) * m[1] * n[1];
     }
+}
+
+static void AddElement(StepResponse a, int k, const double block[3][3][4])
+{
+  for (int i = 0; i < 9; i++)
+    for (int c = 0; c < 4; c++) a->block[a->slot[9 * k + i]][c] += block[i / 3][i % 3][c];
+}
+
+/* The corner at vertex q of six-node triangle k: what couples the corners that it carries along couples the nodes. */
+static void AddCorner(StepResponse a, int k, int q, const double block[3][3][4])
+{
+  const int *slot = a->six_slot + 36 * k;
+  for (int pair = 0; pair < 9; pair++) {
+    const int v = pair / 3, w = pair % 3;
+    for (int i = 0; i < 9; i++) {
+      const int row = SixNodeOf(q, SIX_NODE_FROM[v][i / 3]), column = SixNodeOf(q, SIX_NODE_FROM[w][i % 3]);
+      const double factor = SIX_NODE_FACTOR[v][i / 3] * SIX_NODE_FACTOR[w][i % 3];
+      for (int c = 0; c < 4; c++) a->block[slot[6 * row + column]][c] += factor * block[v][w][c];
+    }
+  }
 }
 
 PetscErrorCode StepMatrixAssemble(StepResponse a, Solid s, const double x[])
 {
   PetscFunctionBeginUser;
   PetscCall(PetscArrayzero(a->block, a->start[a->nnodes]));
-  for (int k = 0; k < a->nelements; k++)
-    if (!IsHeld(s, k)) AddElement(a, &s->elements, k, x);
+  const Elements *e = &s->elements;
+  double block[3][3][4];
+  for (int k = 0; k < a->nelements; k++) {
+    if (e->six_node[k] || SolidElementHeld(e, k, s->inverse_mass)) continue;
+    ElementStiffness(e, k, x, block);
+    AddElement(a, k, (const double(*)[3][4])block);
+  }
+  for (int k = 0; k < 3 * a->nsix; k++) {
+    const int corner = e->six_first[k / 3] + k % 3;
+    if (SolidElementHeld(e, corner, s->inverse_mass)) continue;
+    ElementStiffness(e, corner, x, block);
+    AddCorner(a, k / 3, k % 3, (const double(*)[3][4])block);
+  }
   PetscFunctionReturn(0);
 }
 

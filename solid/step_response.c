@@ -8,17 +8,22 @@ enum { MAX_ITERATIONS = 1000 };
 
 static PetscErrorCode Create(Solid s, StepResponse *response)
 {
-  const size_t n = (size_t)s->nnodes, ne = (size_t)s->elements.n, most = (size_t)JointsActive(s->joints);
+  const size_t n = (size_t)s->nnodes, ne = (size_t)s->elements.n, nsix = (size_t)s->elements.nsix;
+  const size_t most = (size_t)JointsActive(s->joints);
   StepResponse a;
   double unused[8][8];
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&a));
   a->nnodes = s->nnodes;
   a->nelements = s->elements.n;
+  a->nsix = s->elements.nsix;
   PetscCall(PetscMalloc4(3 * ne, &a->element, 4 * most, &a->joint, n + 1, &a->start, 9 * ne, &a->slot));
+  PetscCall(PetscMalloc2(6 * nsix, &a->six, 36 * nsix, &a->six_slot));
   PetscCall(PetscMalloc3(n, &a->weight, n, &a->owned, n, &a->turn));
   PetscCall(PetscMalloc4(2 * n, &a->r, 2 * n, &a->z, 2 * n, &a->p, 2 * n, &a->q));
   PetscCall(PetscArraycpy(a->element, s->element, 3 * ne));
+  for (int k = 0; k < 6 * a->nsix; k++)
+    a->six[k] = s->element[3 * (s->elements.six_first[k / 6] + k % 3) + k % 6 / 3];
   for (int k = 0; k < JointsActive(s->joints); k++)
     a->njoints += JointsStiffness(s->joints, s, k, a->joint + 4 * a->njoints, unused);
   PetscCall(StepMatrixCreate(a));
@@ -37,6 +42,7 @@ PetscErrorCode StepResponseDestroy(StepResponse *response)
   PetscCall(VecDestroy(&a->right));
   PetscCall(VecDestroy(&a->left));
   PetscCall(PetscFree4(a->element, a->joint, a->start, a->slot));
+  PetscCall(PetscFree2(a->six, a->six_slot));
   PetscCall(PetscFree3(a->weight, a->owned, a->turn));
   PetscCall(PetscFree4(a->r, a->z, a->p, a->q));
   PetscCall(PetscFree(a->column));

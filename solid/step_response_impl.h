@@ -6,12 +6,13 @@
 
 /* Of the matrix's rows, in its order: node n has the blocks start[n] .. start[n + 1]. */
 struct StepResponse_s {
-  int nnodes, nelements, njoints;
-  int *element, *joint; /* [nelements][3], [njoints][4] of which the pattern has been made */
-  int *start, *column;  /* [nnodes + 1]; [nblocks] nodes, sorted */
-  int *slot;            /* [nelements][9] block of corners i, j at 3 i + j */
-  double (*block)[4];   /* [nblocks] of K: xx, xy, yx, yy, N/m */
-  double c, c0;         /* s2; c0 0: no factor */
+  int nnodes, nelements, nsix, njoints;
+  int *element, *six, *joint; /* [nelements][3], [nsix][6], [njoints][4] of which the pattern has been made */
+  int *start, *column;        /* [nnodes + 1]; [nblocks] nodes, sorted */
+  int *slot,
+      *six_slot;      /* [nelements][9] block of corners i, j at 3 i + j; [nsix][36] the same of six nodes */
+  double (*block)[4]; /* [nblocks] of K: xx, xy, yx, yy, N/m */
+  double c, c0;       /* s2; c0 0: no factor */
   PC factor;
   Mat matrix;
   Vec right, left;        /* of the factor */

@@ -1,6 +1,6 @@
-// Cylinder and flexible beam of Turek and Hron (2006), one body: gmsh -2 -format msh41 beam.geo [-setnumber size 0.004] -o beam.msh
+// Cylinder and flexible beam of Turek and Hron (2006), one body: gmsh -2 -format msh41 beam.geo [-setnumber layers 8] -o beam.msh
 // The beam's triangles are structured, `layers` through its thickness; the cylinder, which is held, is as coarse as its boundary allows.
-DefineConstant[layers = 16];
+DefineConstant[layers = 4];
 length = 0.35; thickness = 0.02; radius = 0.05; x = 0.2; y = 0.2; // m
 size = thickness / layers;
 root = x + Sqrt(radius^2 - (thickness / 2)^2);       // where the beam's faces leave the cylinder
@@ -17,6 +17,9 @@ Curve Loop(2) = {4, 5, 6, 7, 8}; Plane Surface(2) = {2};
 Transfinite Curve {1, 3} = n + 1; Transfinite Curve {2, 4} = layers + 1;
 Transfinite Surface {1} Alternated;
 arc = Round(Pi / 2 * radius / (1.5 * size));
+If (arc < 21)
+  arc = 21;
+EndIf
 Transfinite Curve {5, 6, 7, 8} = arc + 1;
 Physical Curve("cylinder") = {5, 6, 7, 8};
 

@@ -260,6 +260,9 @@ PetscErrorCode CaseReadBody(CoracleCase c, int body, Model *a)
   PetscCall(ReadPrescribed(c, body, &setup, &prescribed));
   PetscCall(ReadJoints(c, body, &setup.joints, &joint_box, &joint_region));
   PetscCall(CaseReadStretch(c, body, &mesh, &setup, &position));
+  setup.six_node = CoracleCaseIntegerOr(c, BodyKey(key, body, "order"), 1, 1, 2) == 2;
+  if (setup.six_node) PetscCall(SixNodeSplit(&mesh, &position));
+  setup.position = position;
   (void)CoracleCaseVectorOptional(c, BodyKey(key, body, "velocity"), 2, setup.velocity);
   if (setup.fixed && (setup.velocity[0] != 0.0 || setup.velocity[1] != 0.0))
     CoracleCaseRefuse(c, key, "a fixed body has no velocity");

@@ -184,7 +184,7 @@ static PetscErrorCode AddSurface(Model *a, int first)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AddElements(Model *a, const MeshSerial *m, const int renumber[])
+static PetscErrorCode AddElements(Model *a, const MeshSerial *m, const BodySetup *setup, const int renumber[])
 {
   const int first = a->nelements, n = first + m->ne;
   PetscFunctionBeginUser;
@@ -192,8 +192,12 @@ static PetscErrorCode AddElements(Model *a, const MeshSerial *m, const int renum
   PetscCall(PetscRealloc((size_t)n * sizeof *a->element_body, &a->element_body));
   PetscCall(PetscRealloc((size_t)n * sizeof *a->jointed, &a->jointed));
   PetscCall(PetscRealloc((size_t)n * sizeof *a->element_material, &a->element_material));
+  PetscCall(PetscRealloc((size_t)n * sizeof *a->six_node, &a->six_node));
   for (int k = 0; k < 3 * m->ne; k++) a->element[3 * first + k] = renumber[m->vertex[k]];
-  for (int e = first; e < n; e++) a->element_body[e] = a->nbodies;
+  for (int e = first; e < n; e++) {
+    a->element_body[e] = a->nbodies;
+    a->six_node[e] = setup->six_node ? SIX_NODE_A + (e - first) % 4 : NOT_SIX_NODE;
+  }
   a->nelements = n;
   PetscFunctionReturn(0);
 }
@@ -219,6 +223,8 @@ static PetscErrorCode GiveJoints(Model *a, const MeshSerial *m, const JointSetup
   for (int e = 0; e < m->ne; e++) {
     const Material *of = &a->material[a->element_material[first + e]];
     a->jointed[first + e] = InJoints(m, e, joints);
+    if (a->jointed[first + e] && a->six_node[first + e])
+      return ModelRefuse("six-node triangles (order 2) have no joints: they do not crack");
     for (int k = 0; k < 2 && a->jointed[first + e]; k++)
       if (!(of->strength[k] > 0.0 && of->fracture_energy[k] > 0.0))
         return ModelRefuse(
@@ -242,7 +248,7 @@ PetscErrorCode ModelAdd(Model *a, const MeshSerial *mesh, const BodySetup *setup
   PlaceNodes(a, mesh, setup, body.centre, renumber);
   FixNodes(a, mesh, setup, renumber);
   PetscCall(PrescribeNodes(a, mesh, setup, renumber));
-  PetscCall(AddElements(a, mesh, renumber));
+  PetscCall(AddElements(a, mesh, setup, renumber));
   PetscCall(GiveMaterials(a, mesh, setup, body.first_element));
   code = GiveJoints(a, mesh, &setup->joints, body.first_element);
   if (code) PetscFunctionReturn(code);

@@ -4,6 +4,7 @@
 #ifndef SOLID_MODEL_H
 #define SOLID_MODEL_H
 #include "common/mesh/mesh.h"
+#include "solid/bodies/six_node.h"
 #include "solid/element.h"
 #include "solid/prescribed_motion.h"
 
@@ -57,6 +58,7 @@ typedef struct {
   double velocity[2];      /* m/s */
   double angular_velocity; /* rad/s about the mass centre, counter-clockwise */
   int fixed;               /* whole body */
+  int six_node;            /* its mesh has been split into six-node triangles (SixNodeSplit) */
   int nfixed;              /* or these boundaries and regions of the mesh */
   const char *const *fixed_name;
   JointSetup joints;
@@ -82,6 +84,7 @@ typedef struct {
   int *element_body;     /* [nelements] */
   int *element_material; /* [nelements] */
   int *jointed;          /* [nelements] may part from its jointed neighbours */
+  int *six_node;         /* [nelements] SixNodePart */
   int *facet;            /* [nfacets][2] surface edges, the solid on their left */
   int *facet_element;    /* [nfacets] the element behind */
   Body *body;            /* [nbodies] */

@@ -22,12 +22,13 @@ static PetscErrorCode FindTargets(Contact c, Solid s)
     if (!s->surface[node[0]] && !s->surface[node[1]] && !s->surface[node[2]]) continue;
     Target *t = &c->target[c->ntargets++];
     *t = (Target){.body = e->body[k], .material = e->material[k], .number = e->number[k]};
-    t->twice_area = 1.0 / (e->inverse[0][k] * e->inverse[3][k] - e->inverse[1][k] * e->inverse[2][k]);
     for (int i = 0; i < 3; i++) {
       t->node[i] = node[i];
       t->gid[i] = s->gid[node[i]];
       for (int d = 0; d < 2; d++) t->rest[2 * i + d] = s->rest[2 * node[i] + d];
     }
+    t->twice_area =
+        TensorDeterminant(TensorOfEdges(PointAt(t->rest, 0), PointAt(t->rest, 1), PointAt(t->rest, 2)));
   }
   PetscFunctionReturn(0);
 }

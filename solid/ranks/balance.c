@@ -133,7 +133,7 @@ static PetscErrorCode NewPart(Solid s, int part[])
   if (s->rank == 0) PetscCall(PartitionGraphCreate(s->model, &graph));
   PetscCall(GatherGraph(s, &graph));
   if (s->rank == 0) {
-    PetscCall(PartitionGraphCut(&graph, n, s->size, part));
+    PetscCall(PartitionGraphCut(&graph, s->model, s->size, part));
     PetscCall(PartitionKeep(n, s->size, s->part, part));
   }
   PetscCallMPI(MPI_Bcast(part, n, MPI_INT, 0, s->comm));

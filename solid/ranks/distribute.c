@@ -1,4 +1,5 @@
 /* This rank's subdomain of the model, which every rank has: nothing is sent. */
+#include "solid/six_node_kernel.h"
 #include "solid/solid_impl.h"
 #include <stdlib.h>
 
@@ -62,9 +63,12 @@ static PetscErrorCode Allocate(Solid s)
   PetscCall(PetscMalloc3(ne, &e->node[0], ne, &e->node[1], ne, &e->node[2]));
   PetscCall(PetscMalloc4(ne, &e->inverse[0], ne, &e->inverse[1], ne, &e->inverse[2], ne, &e->inverse[3]));
   PetscCall(PetscMalloc5(ne, &e->mu, ne, &e->lambda, ne, &e->eta, ne, &e->density, ne, &e->kind));
-  PetscCall(PetscMalloc7(ne, &e->body, ne, &e->number, 3 * ne, &e->force[0], 3 * ne, &e->force[1], ne,
+  PetscCall(PetscMalloc7(ne, &e->body, ne, &e->number, 5 * ne, &e->force[0], 5 * ne, &e->force[1], ne,
                          &e->thickness, ne, &e->plane_stress, ne, &e->material));
   PetscCall(PetscMalloc1(ne / STRIP + 1, &e->held));
+  PetscCall(PetscCalloc1(ne / STRIP + 1, &e->bends));
+  PetscCall(
+      PetscMalloc5(ne, &e->six_node, ne / 4, &e->six_first, ne, &e->far[0], ne, &e->far[1], ne, &e->far[2]));
   PetscCall(PetscMalloc1((size_t)s->nmaterials, &s->material));
   PetscFunctionReturn(0);
 }
@@ -150,13 +154,46 @@ static PetscErrorCode FindCopies(Solid s, const Model *a, int nghosts, const Gho
 
 /* --- elements ----------------------------------------------------------------------------------------- */
 
+/* Which part of a six-node triangle it is, and the nodes of that which are not its own. */
+static void TakeSixNode(Solid s, const Model *a, int from, int k, const int local[])
+{
+  Elements *e = &s->elements;
+  const SixNodePart part = a->six_node[from];
+  const int q = part - SIX_NODE_A, *triangle = a->element + 3 * (from - q);
+  e->six_node[k] = part;
+  for (int i = 0; i < 3; i++) e->far[i][k] = e->node[i][k];
+  if (part == SIX_NODE_A) e->six_first[e->nsix++] = k;
+  if (part == NOT_SIX_NODE || part == SIX_NODE_MIDDLE) return;
+  for (int i = 0; i < 3; i++) {
+    const int node = SixNodeOf(q, 3 + i);
+    e->far[i][k] = local[triangle[3 * (node % 3) + node / 3]];
+  }
+  e->bends[k / STRIP] = 1;
+}
+
+/* A corner has a third of the triangle; the middle has mass, but nothing that resists. */
+static void ShareSixNode(SixNodePart part, ElementLaw *law, double *thickness)
+{
+  if (part == SIX_NODE_MIDDLE) {
+    *law = (ElementLaw){0.0, 0.0, 0.0, 0, LAW_NEO_HOOKEAN};
+    return;
+  }
+  law->mu /= 3.0;
+  law->lambda /= 3.0;
+  law->eta /= 3.0;
+  *thickness /= 3.0;
+}
+
 static void TakeElement(Solid s, const Model *a, int from, int k, const int local[])
 {
   Elements *e = &s->elements;
   const Material *m = &a->material[a->element_material[from]];
-  const ElementLaw law = ModelElementLaw(a, from);
-  const Tensor inverse = TensorInverse(ModelRestEdges(a, from));
+  ElementLaw law = ModelElementLaw(a, from);
+  double thickness = m->thickness;
   for (int i = 0; i < 3; i++) s->element[3 * k + i] = e->node[i][k] = local[a->element[3 * from + i]];
+  TakeSixNode(s, a, from, k, local);
+  if (e->six_node[k]) ShareSixNode(e->six_node[k], &law, &thickness);
+  const Tensor inverse = TensorInverse(SolidElementEdges(e, k, s->rest));
   e->inverse[0][k] = inverse.xx;
   e->inverse[1][k] = inverse.xy;
   e->inverse[2][k] = inverse.yx;
@@ -165,7 +202,7 @@ static void TakeElement(Solid s, const Model *a, int from, int k, const int loca
   e->lambda[k] = law.lambda;
   e->eta[k] = law.eta;
   e->density[k] = m->thickness * m->density;
-  e->thickness[k] = m->thickness;
+  e->thickness[k] = thickness;
   e->plane_stress[k] = law.plane_stress;
   e->kind[k] = law.kind;
   e->material[k] = a->element_material[from];

@@ -201,13 +201,16 @@ static PetscErrorCode Metis(const PartitionGraph *g, int n, int parts, int part[
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PartitionGraphCut(PartitionGraph *g, int nelements, int parts, int part[])
+PetscErrorCode PartitionGraphCut(PartitionGraph *g, const Model *a, int parts, int part[])
 {
+  const int nelements = a->nelements;
   PetscFunctionBeginUser;
   for (int e = 0; e < nelements; e++) part[e] = 0;
   if (PetscMin(parts, nelements) > 1) {
     PetscCall(LinkCurve(g, nelements));
     PetscCall(Metis(g, nelements, PetscMin(parts, nelements), part));
+    for (int e = 0; e < nelements; e++)
+      if (a->six_node[e]) part[e] = part[e - (a->six_node[e] - SIX_NODE_A)];
   }
   PetscCall(PetscFree(g->link));
   PetscCall(PetscFree2(g->work, g->at));

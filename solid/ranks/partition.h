@@ -27,8 +27,9 @@ PetscErrorCode PartitionGraphCreate(const Model *a, PartitionGraph *g);
 PetscErrorCode PartitionGraphLink(PartitionGraph *g, int a, int b, int weight);
 /* Contact as the model lies: links, work and centres. */
 PetscErrorCode PartitionGraphNear(PartitionGraph *g, const Model *a);
-/* part[nelements] of `parts` parts, some empty if there are fewer elements.  Destroys the graph. */
-PetscErrorCode PartitionGraphCut(PartitionGraph *g, int nelements, int parts, int part[]);
+/* part[elements of the model] of `parts` parts, some empty if there are fewer elements; a six-node triangle stays in one piece.
+ * Destroys the graph. */
+PetscErrorCode PartitionGraphCut(PartitionGraph *g, const Model *a, int parts, int part[]);
 /* Renumbers the parts so that as much as possible of the work stays where it was. */
 PetscErrorCode PartitionKeep(int nelements, int parts, const int before[], int part[]);
 #endif

@@ -23,6 +23,8 @@ static inline BodySetup BodyAtRest(Material material)
 static inline void AddMesh(Model *a, MeshSerial *mesh, const BodySetup *setup)
 {
   const char *why = NULL;
+  double *none = NULL;
+  if (setup->six_node) (void)SixNodeSplit(mesh, &none);
   CHECK(!ModelAdd(a, mesh, setup, &why), "%s", why);
   (void)MeshSerialDestroy(mesh);
 }

@@ -1,4 +1,4 @@
-/* The stability limit of both laws: at it, 1e5 substeps of free vibration keep the energy, with and without
+/* The stability limit of both laws, three and six nodes: at it, 1e5 substeps of free vibration keep the energy, with and without
  * damping; the bound is not idle, three quarters above it (twice, damped) the motion blows up; SolidSubstep
  * ends a run whose element turns inside out. */
 #include "tests/solid/build.h"
@@ -16,14 +16,19 @@ static void Fail(void *context, const char *text)
   longjmp(stopped, 1);
 }
 
+typedef struct {
+  int corotated, six_node;
+} Kind;
+
 /* A disc that vibrates in many modes, with substeps of factor times the limit. */
-static PetscErrorCode Vibrating(int corotated, double factor, double damping, double amplitude, Model *a,
+static PetscErrorCode Vibrating(Kind kind, double factor, double damping, double amplitude, Model *a,
                                 Solid *s)
 {
   const SolidSetup options = {.courant = factor, .fail = Fail};
   BodySetup setup = BodyAtRest(MaterialOf(1000.0, 1.0e6, 0.3, damping));
   double *x;
-  setup.material.law = corotated;
+  setup.material.law = kind.corotated;
+  setup.six_node = kind.six_node;
   memset(a, 0, sizeof *a);
   AddDisc(a, 0.0, 0.0, 0.1, 0.03, &setup);
   PetscCall(SolidCreate(PETSC_COMM_SELF, a, &options, s));
@@ -32,12 +37,12 @@ static PetscErrorCode Vibrating(int corotated, double factor, double damping, do
   return 0;
 }
 
-static PetscErrorCode Conserves(int corotated)
+static PetscErrorCode Conserves(Kind kind)
 {
   double limit, before = 0.0, now = 0.0, worst = 0.0;
   Model a;
   Solid s;
-  PetscCall(Vibrating(corotated, 1.0, 0.0, 1e-6, &a, &s));
+  PetscCall(Vibrating(kind, 1.0, 0.0, 1e-6, &a, &s));
   PetscCall(SolidLimit(s, &limit));
   PetscCall(Run(s, 999.9 * limit, 999.9 * limit)); /* what the scheme keeps depends on its substep */
   PetscCall(TotalEnergy(s, 1, &before));
@@ -48,20 +53,21 @@ static PetscErrorCode Conserves(int corotated)
   }
   CHECK(SolidGetStats(s)->total >= 100000, "%lld substeps", SolidGetStats(s)->total);
   if (getenv("VERBOSE"))
-    printf("%s: energy within %.2e over %lld substeps\n", corotated ? "corotated" : "neo-Hookean", worst,
+    printf("%s: energy within %.2e over %lld substeps\n", kind.corotated ? "corotated" : "neo-Hookean", worst,
            SolidGetStats(s)->total);
-  CHECK(worst < 1e-3, "energy off by %g", worst);
+  /* the bound of six-node triangles is nearly the highest frequency: what the scheme keeps differs more from the energy */
+  CHECK(worst < (kind.six_node ? 4e-3 : 1e-3), "energy off by %g", worst);
   PetscCall(ModelDestroy(&a));
   return SolidDestroy(&s);
 }
 
 /* Energy of the damped disc only falls. */
-static PetscErrorCode Decays(int corotated, double damping)
+static PetscErrorCode Decays(Kind kind, double damping)
 {
   double limit, start = 0.0, before, now = 0.0;
   Model a;
   Solid s;
-  PetscCall(Vibrating(corotated, 1.0, damping, 1e-5, &a, &s));
+  PetscCall(Vibrating(kind, 1.0, damping, 1e-5, &a, &s));
   PetscCall(SolidLimit(s, &limit));
   PetscCall(TotalEnergy(s, 1, &start));
   before = start;
@@ -108,13 +114,13 @@ static PetscErrorCode Swings(int plane_stress)
   return SolidDestroy(&s);
 }
 
-static PetscErrorCode Explodes(int corotated, double factor, double damping)
+static PetscErrorCode Explodes(Kind kind, double factor, double damping)
 {
   Model a;
   Solid s;
   double limit;
   message[0] = '\0';
-  PetscCall(Vibrating(corotated, factor, damping, 1e-5, &a, &s));
+  PetscCall(Vibrating(kind, factor, damping, 1e-5, &a, &s));
   PetscCall(SolidLimit(s, &limit));
   expected = 1;
   if (!setjmp(stopped)) PetscCall(Run(s, 5e3 * limit, 50.0 * limit));
@@ -128,12 +134,13 @@ static PetscErrorCode Explodes(int corotated, double factor, double damping)
 int main(int argc, char **argv)
 {
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
-  for (int corotated = 0; corotated < 2; corotated++) {
-    PetscCall(Conserves(corotated));
-    PetscCall(Decays(corotated, 0.05));
-    PetscCall(Decays(corotated, 0.9));
-    PetscCall(Explodes(corotated, 1.75, 0.0));
-    PetscCall(Explodes(corotated, 2.0, 0.5));
+  for (int k = 0; k < 4; k++) {
+    const Kind kind = {k % 2, k / 2};
+    PetscCall(Conserves(kind));
+    PetscCall(Decays(kind, 0.05));
+    PetscCall(Decays(kind, 0.9));
+    PetscCall(Explodes(kind, 1.75, 0.0));
+    PetscCall(Explodes(kind, 2.0, 0.5));
   }
   PetscCall(Swings(0));
   PetscCall(Swings(1));

@@ -1,5 +1,5 @@
 // ranks: 1 2 3
-/* Patch test on a shaken mesh, both laws, plane strain and plane stress: a finite rotation by 73 degrees
+/* Patch test on a shaken mesh, three and six nodes, both laws, plane strain and plane stress: a finite rotation by 73 degrees
  * leaves no force; a pull, a shear and a general affine map a uniform exact stress and no force inside; rest
  * coordinates are kept apart from positions. */
 #include "tests/solid/build.h"
@@ -23,7 +23,7 @@ static double LargestForce(Solid s, int inside_only)
 
 typedef enum { STRAIN, STRESS, BIOT_STRAIN, BIOT_STRESS, NLAWS } Law; /* BIOT: corotated */
 
-static PetscErrorCode Mapped(const double f[4], Law law, Solid *s)
+static PetscErrorCode Mapped(const double f[4], Law law, int six_node, Solid *s)
 {
   BodySetup setup = BodyAtRest(MaterialOf(1000.0, E, 0.3, 0.0));
   const SolidSetup options = {.courant = 0.5};
@@ -32,6 +32,7 @@ static PetscErrorCode Mapped(const double f[4], Law law, Solid *s)
   setup.material.plane_stress = law % 2;
   setup.material.law = law >= BIOT_STRAIN;
   setup.material.thickness = THICKNESS;
+  setup.six_node = six_node;
   AddRectangle(&a, 0.0, 0.0, 1.0, 1.0, 0.0, 0.1, 1, &setup);
   PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, s));
   SolidView v = ViewOf(*s, &x, NULL);
@@ -42,11 +43,11 @@ static PetscErrorCode Mapped(const double f[4], Law law, Solid *s)
   return ModelDestroy(&a);
 }
 
-static PetscErrorCode Rotation(Law law)
+static PetscErrorCode Rotation(Law law, int six_node)
 {
   const double angle = 73.0 * M_PI / 180.0, f[4] = {cos(angle), -sin(angle), sin(angle), cos(angle)};
   Solid s;
-  PetscCall(Mapped(f, law, &s));
+  PetscCall(Mapped(f, law, six_node, &s));
   const double largest = LargestForce(s, 0);
   CHECK(largest < 1e-13 * E, "a rotation leaves a force of %g, %g of E", largest, largest / E);
   return SolidDestroy(&s);
@@ -91,12 +92,12 @@ static void BiotStress(const double f[4], int plane_stress, double stress[3])
   stress[2] = (first - second) * sin(angle) * cos(angle);
 }
 
-static PetscErrorCode Affine(const double f[4], Law law)
+static PetscErrorCode Affine(const double f[4], Law law, int six_node)
 {
   double exact[3];
   Solid s;
   (law >= BIOT_STRAIN ? BiotStress : ExactStress)(f, law % 2, exact);
-  PetscCall(Mapped(f, law, &s));
+  PetscCall(Mapped(f, law, six_node, &s));
   SolidView v = ViewOf(s, NULL, NULL);
   double *stress = calloc(3 * (size_t)v.nelements + 1, sizeof *stress);
   SolidStress(s, stress);
@@ -136,13 +137,15 @@ static PetscErrorCode Stretched(void)
 int main(int argc, char **argv)
 {
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
-  for (Law law = STRAIN; law < NLAWS; law++) {
+  for (int k = 0; k < 2 * NLAWS; k++) {
+    const Law law = (Law)(k / 2);
+    const int six_node = k % 2;
     const double tension[4] = {1.2, 0.0, 0.0, 0.93}, shear[4] = {1.0, 0.3, 0.0, 1.0},
                  all[4] = {1.3, 0.4, -0.2, 0.9};
-    PetscCall(Rotation(law));
-    PetscCall(Affine(tension, law));
-    PetscCall(Affine(shear, law));
-    PetscCall(Affine(all, law));
+    PetscCall(Rotation(law, six_node));
+    PetscCall(Affine(tension, law, six_node));
+    PetscCall(Affine(shear, law, six_node));
+    PetscCall(Affine(all, law, six_node));
   }
   PetscCall(Stretched());
   return PetscFinalize();

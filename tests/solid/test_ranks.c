@@ -1,5 +1,5 @@
 // ranks: 1 2 3
-/* The same motion on any number of ranks, to round-off: three bodies of which two collide and one is a single
+/* The same motion on any number of ranks, to round-off: three bodies of which two collide, one of six-node triangles, and one is a single
  * element pair that leaves ranks without elements of it, walls, a load, and a step that is redone to the last
  * bit. */
 #include "tests/solid/build.h"
@@ -13,7 +13,9 @@ static void Bodies(Model *a)
   setup.angular_velocity = 2.0;
   AddDisc(a, -0.105, 0.15, 0.1, 0.03, &setup);
   setup.velocity[0] = -1.0;
-  AddRectangle(a, 0.1, 0.15, 0.18, 0.2, 0.2, 0.03, 1, &setup);
+  setup.six_node = 1;
+  AddRectangle(a, 0.1, 0.15, 0.18, 0.2, 0.2, 0.06, 1, &setup);
+  setup.six_node = 0;
   setup.velocity[0] = 0.0;
   AddRectangle(a, 0.5, 0.05, 0.1, 0.05, 0.5, 0.1, 0, &setup);
 }
