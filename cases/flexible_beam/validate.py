@@ -136,7 +136,8 @@ class Result:
         if not self.row.alone:
             with open(OUT / name / "summary.json") as file:
                 summary = json.load(file)
-            self.cpu = sum(p["seconds_cpu"] for p in summary["participants"].values())
+            first = ROWS[self.row.after].end if self.row.after else 0.0
+            self.cpu = sum(p["seconds_cpu"] for p in summary["participants"].values()) / (self.row.end - first)
             self.passes = summary["iterations"] / summary["steps"]
 
     def errors(self):
@@ -161,18 +162,26 @@ def cell(q, value):
     return "%.4g +- %.4g" % value if isinstance(value, tuple) else "%.4g" % value
 
 
+def cost(there, r):
+    """Processor time for a second, over that of the case as it is."""
+    if r.row.alone or "fsi3-0.008" not in there:
+        return ""
+    return "%.2g" % (r.cpu / there["fsi3-0.008"].cpu)
+
+
 def table(tests, there):
     """A row a run, those of each test under its reference."""
-    yield "| run | triangles through the beam | x [mm] | y [mm] | drag [N/m] | lift [N/m] | frequency [Hz] | iterations a step |"
-    yield "|" + "---|" * 8
+    yield "| run | triangles through the beam | x [mm] | y [mm] | drag [N/m] | lift [N/m] | frequency [Hz] | iterations a step | cost |"
+    yield "|" + "---|" * 9
     for test in tests:
         expected = REFERENCE[test]
-        yield "| **%s** | | " % test + " | ".join(cell(q, expected.get(q)) for q in (*QUANTITIES, "frequency")) + " | |"
+        yield "| **%s** | | " % test + " | ".join(cell(q, expected.get(q)) for q in (*QUANTITIES, "frequency")) + " | | |"
         for name, r in there.items():
             if r.row.test == test:
                 cells = [cell(q, r.found[q] if q in expected else None) for q in (*QUANTITIES, "frequency")]
                 layers = "" if r.row.held else "%d of %d nodes" % (r.row.layers, r.row.nodes)
-                yield "| " + " | ".join([name, layers, *cells, "" if r.row.alone else "%.2f" % r.passes]) + " |"
+                yield "| " + " | ".join([name, layers, *cells, "" if r.row.alone else "%.2f" % r.passes,
+                                              cost(there, r)]) + " |"
 
 
 def bound(test, what):
