@@ -245,15 +245,15 @@ static inline __attribute__((always_inline)) void StripLimits(const Elements *e,
   GatherCorners(e, first, n, e->bends[first / STRIP], x, at);
   for (int i = 0; i < n; i++) {
     const int k = first + i;
-    const double whole = IsCorner(e, k) ? SIX_NODE_RATE : 1.0;
+    const double factor = IsCorner(e, k) ? SIX_NODE_RATE : 1.0;
     const Tensor edges = StripEdges((const double(*)[STRIP])at, i);
     const Tensor f = TensorProduct(edges, RestInverse(e, k));
     const ElementLaw law = {e->mu[k], e->lambda[k], e->eta[k],
                             laws != STRAIN_ONLY && e->plane_stress[k] > 0.0,
                             laws == WITH_COROTATED && e->kind[k] == LAW_COROTATED};
     const ElementRates rates = ElementRatesOf(edges, f, e->density[k], law);
-    limit[i] = ElementStableStep(
-        (ElementRates){whole * rates.stiffness + contact.stiffness, whole * rates.damping + contact.damping});
+    limit[i] = ElementStableStep((ElementRates){factor * rates.stiffness + contact.stiffness,
+                                                factor * rates.damping + contact.damping});
   }
 }
 

@@ -24,6 +24,7 @@ RUNS = {
     "le-0.004": (SWING + ["fluid.adapt.size_min=0.004", "fluid.adapt.velocity_error=0.053"], "1:1:1"),
     "no-slip": (SWING + NO_SLIP, "1:1:1"),
     "solid-0.002": (SWING + ["solid.bodies[0].size=0.002"], "1:1:1"),
+    "solid-three-0.001": (SWING + ["solid.bodies[0].order=1", "solid.bodies[0].size=0.001"], "1:1:1"),
     "dt-half": (SWING + ["time.dt_max=0.0005", "time.cfl=0.25"], "1:1:1"),
     "ranks-2": (SWING, "2:1:2"),
 }

@@ -172,7 +172,7 @@ static void TakeSixNode(Solid s, const Model *a, int from, int k, const int loca
 }
 
 /* A corner has a third of the triangle; the middle has mass, but nothing that resists. */
-static void ShareSixNode(SixNodePart part, ElementLaw *law, double *thickness)
+static void DivideSixNode(SixNodePart part, ElementLaw *law, double *thickness)
 {
   if (part == SIX_NODE_MIDDLE) {
     *law = (ElementLaw){0.0, 0.0, 0.0, 0, LAW_NEO_HOOKEAN};
@@ -192,7 +192,7 @@ static void TakeElement(Solid s, const Model *a, int from, int k, const int loca
   double thickness = m->thickness;
   for (int i = 0; i < 3; i++) s->element[3 * k + i] = e->node[i][k] = local[a->element[3 * from + i]];
   TakeSixNode(s, a, from, k, local);
-  if (e->six_node[k]) ShareSixNode(e->six_node[k], &law, &thickness);
+  if (e->six_node[k]) DivideSixNode(e->six_node[k], &law, &thickness);
   const Tensor inverse = TensorInverse(SolidElementEdges(e, k, s->rest));
   e->inverse[0][k] = inverse.xx;
   e->inverse[1][k] = inverse.xy;
