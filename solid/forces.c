@@ -171,10 +171,12 @@ static WIDE int AllForces(const Elements *e, const double x[], const double v[])
 static void ReturnForces(const Elements *e)
 {
   for (int k = 0; k < e->nsix; k++) {
+    const int first = e->six_first[k];
+    if (e->held_known && e->held[first / STRIP] && e->held[(first + 2) / STRIP]) continue;
     for (int c = 0; c < 2; c++) {
       double on[3][3];
       for (int q = 0; q < 3; q++)
-        for (int v = 0; v < 3; v++) on[q][v] = e->force[c][v * e->n + e->six_first[k] + q];
+        for (int v = 0; v < 3; v++) on[q][v] = e->force[c][v * e->n + first + q];
       SixNodeReturn((const double(*)[3])on, e->force[c] + 3 * e->n + 6 * k);
     }
   }
@@ -230,8 +232,8 @@ PetscErrorCode SolidInternalForces(Solid s)
   PetscFunctionBeginUser;
   const int bad = AllForces(&s->elements, s->x, s->v);
   if (bad) PetscCall(FailOnElement(s));
-  s->elements.held_known = PETSC_TRUE;
   ReturnForces(&s->elements);
+  s->elements.held_known = PETSC_TRUE;
   SumCorners(s);
   PetscFunctionReturn(0);
 }

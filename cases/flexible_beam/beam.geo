@@ -17,8 +17,8 @@ Curve Loop(2) = {4, 5, 6, 7, 8}; Plane Surface(2) = {2};
 Transfinite Curve {1, 3} = n + 1; Transfinite Curve {2, 4} = layers + 1;
 Transfinite Surface {1} Alternated;
 arc = Round(Pi / 2 * radius / (1.5 * size));
-If (arc < 21)
-  arc = 21;
+If (arc < 14)
+  arc = 14;
 EndIf
 Transfinite Curve {5, 6, 7, 8} = arc + 1;
 Physical Curve("cylinder") = {5, 6, 7, 8};
