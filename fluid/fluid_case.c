@@ -96,6 +96,10 @@ PetscErrorCode FluidCaseMesh(CoracleCase c, MPI_Comm comm, Checkpoint from, Mesh
     const char *path = CoracleCaseFile(c, "fluid.mesh.file"), *why = NULL;
     int components = 1;
     if (make && MeshReadGmsh(path, &serial, &why)) CoracleCaseRefuse(c, "fluid.mesh.file", "%s", why);
+    if (serial.order == 2)
+      CoracleCaseRefuse(
+          c, "fluid.mesh.file",
+          "%s: the fluid's triangles have straight sides: write the mesh with Mesh.ElementOrder = 1", path);
     if (make) PetscCall(MeshSerialComponents(&serial, &components));
     if (components != 1)
       CoracleCaseRefuse(c, "fluid.mesh.file",

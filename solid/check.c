@@ -36,7 +36,8 @@ static const CoracleCaseKey KEYS[] = {
     {"solid.bodies[].scale", "", "factor on the mesh's coordinates; absent: 1"},
     {"solid.bodies[].shape", "", "required unless there is a mesh"},
     {"solid.bodies[].order", "",
-     "of its triangles: 1, of constant strain, which can crack; 2, of linear strain, six nodes, which bend"},
+     "of its triangles: 1, of constant strain, which can crack; 2, of linear strain, six nodes, which bend; "
+     "absent: the mesh's, 1"},
     {"solid.bodies[].centre", "m", "centre of a shape"},
     {"solid.bodies[].size", "m", "edge of its elements"},
     {"solid.bodies[].radius", "m", "of a disc; of the middle of a ring's wall"},

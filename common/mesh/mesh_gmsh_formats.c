@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LINE = 1, TRIANGLE = 2, POINT = 15 }; /* Gmsh's element types */
+enum { LINE = 1, TRIANGLE = 2, LINE_3 = 8, TRIANGLE_6 = 9, POINT = 15 }; /* Gmsh's element types */
 
 static PetscErrorCode Append(size_t *n, size_t *capacity, size_t bytes, void *list)
 {
@@ -28,26 +28,47 @@ static int Group(int tag)
   return tag >= 0 ? tag : tag == INT32_MIN ? 0 : -tag;
 }
 
+/* A part of e: its nodes number a, b and, of a triangle, c. */
+static PetscErrorCode AddPart(GmshFile *f, const GmshElement *e, int a, int b, int c)
+{
+  GmshElement part = {.number = e->number, .physical = e->physical, .node = {e->node[a], e->node[b]}};
+  if (c < 0) {
+    GMSH_TRY(Append(&f->nline, &f->line_capacity, sizeof part, &f->line));
+    f->line[f->nline - 1] = part;
+    return 0;
+  }
+  part.node[2] = e->node[c];
+  GMSH_TRY(Append(&f->ntriangle, &f->triangle_capacity, sizeof part, &f->triangle));
+  f->triangle[f->ntriangle - 1] = part;
+  return 0;
+}
+
 static PetscErrorCode AddElement(GmshFile *f, int type, const GmshElement *e)
 {
-  if (type == TRIANGLE) {
-    GMSH_TRY(Append(&f->ntriangle, &f->triangle_capacity, sizeof *e, &f->triangle));
-    f->triangle[f->ntriangle - 1] = *e;
-  } else if (type == LINE) {
-    GMSH_TRY(Append(&f->nline, &f->line_capacity, sizeof *e, &f->line));
-    f->line[f->nline - 1] = *e;
+  const int order = type == TRIANGLE ? 1 : type == TRIANGLE_6 ? 2 : 0;
+  if (order) {
+    if (f->order && f->order != order)
+      return GmshRefuse(f, "triangle %ld is of order %d, those before it of order %d", e->number, order,
+                        f->order);
+    f->order = order;
   }
-  return 0;
+  if (type == TRIANGLE) return AddPart(f, e, 0, 1, 2);
+  if (type == LINE) return AddPart(f, e, 0, 1, -1);
+  if (type == LINE_3) { /* ends, then the node between */
+    GMSH_TRY(AddPart(f, e, 0, 2, -1));
+    return AddPart(f, e, 2, 1, -1);
+  }
+  if (type != TRIANGLE_6) return 0;
+  /* vertices 0, 1, 2, then the nodes after them: as MeshSerial has them */
+  for (int i = 0; i < 3; i++) GMSH_TRY(AddPart(f, e, i, 3 + i, 3 + (i + 2) % 3));
+  return AddPart(f, e, 3, 4, 5);
 }
 
 /* How many nodes an element of a type has; other types than points, lines and triangles are refused. */
 static PetscErrorCode NodesOfType(const GmshFile *f, long number, int type, int *n)
 {
-  *n = type == POINT ? 1 : type + 1;
-  if (type == POINT || type == LINE || type == TRIANGLE) return 0;
-  if (type == 8 || type == 9) {
-    return GmshRefuse(f, "element %ld is of second order: write the mesh with Mesh.ElementOrder = 1", number);
-  }
+  *n = type == POINT ? 1 : type == LINE_3 ? 3 : type == TRIANGLE_6 ? 6 : type + 1;
+  if (type == POINT || type == LINE || type == TRIANGLE || type == LINE_3 || type == TRIANGLE_6) return 0;
   if (type == 3) return GmshRefuse(f, "element %ld is a quadrangle: only triangles are understood", number);
   return GmshRefuse(f, "element %ld is of Gmsh's type %d: only triangles are understood", number, type);
 }

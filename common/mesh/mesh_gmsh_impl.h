@@ -9,10 +9,10 @@ typedef struct {
   double x[3];
 } GmshNode;
 
-/* A line (node[2] unused) or a triangle. */
+/* A line (node[0], node[1]) or a triangle; as it is read, one of second order, too. */
 typedef struct {
   long number;
-  int node[3];  /* node tags */
+  int node[6];  /* node tags */
   int physical; /* tag of its physical group, 0: none */
 } GmshElement;
 
@@ -31,6 +31,7 @@ typedef struct {
   char *data; /* the whole file, ended by a 0 */
   size_t size, at;
   int binary, version; /* version: 22 or 41 */
+  int order;           /* of its triangles; 0: none yet */
   size_t nnode, nline, ntriangle, nname, nentity;
   size_t line_capacity, triangle_capacity, entity_capacity;
   GmshNode *node;

@@ -260,8 +260,8 @@ PetscErrorCode CaseReadBody(CoracleCase c, int body, Model *a)
   PetscCall(ReadPrescribed(c, body, &setup, &prescribed));
   PetscCall(ReadJoints(c, body, &setup.joints, &joint_box, &joint_region));
   PetscCall(CaseReadStretch(c, body, &mesh, &setup, &position));
-  setup.six_node = CoracleCaseIntegerOr(c, BodyKey(key, body, "order"), 1, 1, 2) == 2;
-  if (setup.six_node) PetscCall(SixNodeSplit(&mesh, &position));
+  setup.six_node = CoracleCaseIntegerOr(c, BodyKey(key, body, "order"), PetscMax(mesh.order, 1), 1, 2) == 2;
+  if (setup.six_node && mesh.order != 2) PetscCall(SixNodeSplit(&mesh, &position));
   setup.position = position;
   (void)CoracleCaseVectorOptional(c, BodyKey(key, body, "velocity"), 2, setup.velocity);
   if (setup.fixed && (setup.velocity[0] != 0.0 || setup.velocity[1] != 0.0))

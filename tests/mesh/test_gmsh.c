@@ -74,6 +74,32 @@ static void CheckTurned(void)
   CHECK(!MeshSerialDestroy(&m), "destroyed");
 }
 
+#define NINE                                                                                                 \
+  "$Nodes\n9\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0.5 0 0\n6 1 0.5 0\n7 0.5 1 0\n8 0 0.5 0\n9 0.5 0.5 0\n" \
+  "$EndNodes\n"
+
+/* Triangles of second order, one of them clockwise, become four each; so do lines, two each. */
+static void CheckSecondOrder(void)
+{
+  static const char text[] =
+      HEAD NINE ELEMENTS("3", "10 8 2 5 1 1 2 5\n11 9 2 0 1 1 2 3 5 6 9\n12 9 2 0 1 1 4 3 8 7 9\n");
+  MeshSerial m;
+  const char *error;
+  int named = 0;
+  Write(text, sizeof text - 1);
+  CHECK(!MeshReadGmsh(path, &m, &error), "%s", error);
+  CHECK(m.order == 2 && m.ne == 8 && m.nv == 9 && m.nb == 8, "order %d, %d triangles, %d vertices, %d edges",
+        m.order, m.ne, m.nv, m.nb);
+  for (int e = 0; e < 8; e++) {
+    const int *corner = m.vertex + 12 * (e / 4) + 3 * (e % 4), *middle = m.vertex + 12 * (e / 4) + 9;
+    CHECK(fabs(TriangleArea(m.x, corner) - 0.125) < 1e-15, "part %d", e);
+    CHECK(e % 4 == 3 || (corner[1] == middle[e % 4] && corner[2] == middle[(e % 4 + 2) % 3]), "part %d", e);
+  }
+  for (int k = 0; k < m.nb; k++) named += m.facet_tag[k] == Place(m.ntags, m.tag_name, "5");
+  CHECK(named == 2, "%d edges are named", named);
+  CHECK(!MeshSerialDestroy(&m), "destroyed");
+}
+
 static void CheckRefused(const char *text, const char *wanted)
 {
   MeshSerial m;
@@ -97,7 +123,9 @@ static void CheckDamaged(void)
   CheckRefused(HEAD SQUARE ELEMENTS("2", "11 2 2 0 1 1 2 3\n12 2 2 0 1 1 2 40\n"),
                "triangle 12 repeats or overlaps triangle 11");
   CheckRefused(HEAD SQUARE ELEMENTS("1", "7 3 2 0 1 1 2 3 40\n"), "element 7 is a quadrangle");
-  CheckRefused(HEAD SQUARE ELEMENTS("1", "7 9 2 0 1 1 2 3 40 5 1\n"), "element 7 is of second order");
+  CheckRefused(HEAD SQUARE ELEMENTS("2", "7 2 2 0 1 1 2 5\n8 9 2 0 1 1 2 3 40 5 1\n"),
+               "triangle 8 is of order 2, those before it of order 1");
+  CheckRefused(HEAD NINE ELEMENTS("1", "7 9 2 0 1 1 2 3 5 4 9\n"), "triangle 7 is folded");
   CheckRefused(HEAD SQUARE ELEMENTS("1", "7 1 2 0 1 1 2\n"), "no triangles");
   CheckRefused(HEAD SQUARE ELEMENTS("2", "7 1 2 0 1 1 9\n11 2 2 0 1 1 2 3\n"),
                "line 7 has vertex 9, which does not exist");
@@ -155,6 +183,7 @@ int main(int argc, char **argv)
   snprintf(path, sizeof path, "/tmp/coracle_gmsh_%d.msh", (int)getpid());
   for (int k = 0; k < 4; k++) CheckSquare(data[k]);
   CheckTurned();
+  CheckSecondOrder();
   CheckDamaged();
   CheckMissingFile();
   for (int k = 0; k < 4; k++) CheckTorn(data[k]);
