@@ -87,6 +87,10 @@ static PetscErrorCode Triangles(const GmshFile *f, MeshTable *index, MeshTable *
     GMSH_TRY(Turn(f, triangle, v));
     for (int i = 0; i < 3; i++) {
       int *side = MeshTableAt(sides, v[i], v[(i + 1) % 3]);
+      if (*side >= 0 && f->triangle[*side].number == triangle->number) /* of its own parts */
+        return GmshRefuse(f,
+                          "triangle %ld is folded: its nodes between the vertices are too far from the sides",
+                          triangle->number);
       if (*side >= 0) {
         return GmshRefuse(f, "triangle %ld repeats or overlaps triangle %ld", triangle->number,
                           f->triangle[*side].number);
@@ -107,22 +111,17 @@ static void SwapTriangles(int *a, int *b)
 }
 
 /* The parts of triangles of second order as MeshSerial has them: a triangle given clockwise, whose parts have been turned, changes the
- * order of its vertices.  Refused where parts lie in different senses. */
-static PetscErrorCode OrderParts(const GmshFile *f, MeshSerial *m)
+ * order of its vertices. */
+static void OrderParts(MeshSerial *m)
 {
   m->order = 2;
   for (int e = 0; e < m->ne; e += 4) {
     int *a = m->vertex + 3 * e, *b = a + 3, *c = b + 3, *middle = c + 3;
     if (a[1] != b[2]) SwapTriangles(b, c);
-    if (a[1] != b[2] || b[1] != c[2] || c[1] != a[2])
-      return GmshRefuse(f,
-                        "triangle %ld is folded: its nodes between the vertices are too far from the sides",
-                        f->triangle[e].number);
     middle[0] = a[1];
     middle[1] = b[1];
     middle[2] = c[1];
   }
-  return 0;
 }
 
 /* The name of a physical group; its number where it has none. */
@@ -220,7 +219,7 @@ static PetscErrorCode Convert(const GmshFile *f, MeshTable *index, MeshTable *si
 {
   GMSH_TRY(IndexNodes(f, index));
   GMSH_TRY(Triangles(f, index, sides, m));
-  if (f->order == 2) GMSH_TRY(OrderParts(f, m));
+  if (f->order == 2) OrderParts(m);
   GMSH_TRY(Lines(f, index, named));
   GMSH_TRY(Boundary(f, sides, named, m));
   GMSH_TRY(Regions(f, m));
