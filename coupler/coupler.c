@@ -70,7 +70,7 @@ static void Predict(Coupler c, const SolidState *solid)
   const History *h = &c->history;
   const PetscBool known = h->known && c->options.mode == COUPLER_REACTION ? PETSC_TRUE : PETSC_FALSE;
   for (int k = 0; k < 2 * c->nnodes; k++) {
-    c->predicted[k] = c->start[k] + (known ? c->dt * h->acceleration[k / 2][k % 2] : 0.0);
+    c->predicted[k] = c->start[k] + (known ? c->dt * h->lasting[k / 2][k % 2] : 0.0);
     c->acceleration[k] = solid->acceleration[k] + (known ? h->outside[k / 2][k % 2] : 0.0);
   }
 }

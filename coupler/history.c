@@ -8,33 +8,56 @@ static PetscErrorCode Resize(History *h, const SolidState *solid)
 
   PetscFunctionBeginUser;
   PetscCall(HistoryDestroy(h));
-  PetscCall(PetscMalloc4(n, &h->gid, n, &h->acceleration, n, &h->outside, n, &h->retained));
+  PetscCall(PetscMalloc5(n, &h->gid, n, &h->acceleration, n, &h->lasting, n, &h->outside, n, &h->retained));
   PetscCall(PetscArraycpy(h->gid, solid->gid, n));
   PetscCall(PetscArrayzero(h->acceleration, n));
+  PetscCall(PetscArrayzero(h->lasting, n));
   PetscCall(PetscArrayzero(h->outside, n));
   PetscCall(PetscArrayzero(h->retained, n));
   h->n = solid->nnodes;
   PetscFunctionReturn(0);
 }
 
+/* What of acceleration a lasts, that before being b. */
+static void Lasting(const double a[2], const double b[2], double lasting[2])
+{
+  const double common = a[0] * b[0] + a[1] * b[1], square = a[0] * a[0] + a[1] * a[1];
+  const double part = common <= 0.0 ? 0.0 : common < square ? common / square : 1.0;
+  for (int c = 0; c < 2; c++) lasting[c] = part * a[c];
+}
+
 PetscErrorCode HistoryStep(History *h, const SolidState *moved, double dt, const double start[],
                            const double outside[])
 {
   int changed = moved->changed;
+  double(*before)[2];
+  PetscBool same = (PetscBool)(h->known && h->n == moved->nnodes);
 
   PetscFunctionBeginUser;
+  if (same) PetscCall(PetscArraycmp(h->gid, moved->gid, h->n, &same));
+  PetscCall(PetscMalloc1(moved->nnodes, &before));
+  if (same) PetscCall(PetscArraycpy(before, h->acceleration, h->n));
   PetscCall(Resize(h, moved));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, h->comm));
   h->known = changed ? PETSC_FALSE : PETSC_TRUE;
-  for (int i = 0; i < h->n && h->known; i++)
+  for (int i = 0; i < h->n && h->known; i++) {
     for (int c = 0; c < 2; c++) {
       h->acceleration[i][c] = (moved->u[2 * i + c] - start[2 * i + c]) / dt;
       h->outside[i][c] = outside[2 * i + c];
     }
+    Lasting(h->acceleration[i], same ? before[i] : h->acceleration[i], h->lasting[i]);
+  }
+  PetscCall(PetscFree(before));
   PetscFunctionReturn(0);
 }
 
-enum { ACCELERATION, OUTSIDE = ACCELERATION + 2, RETAINED = OUTSIDE + 2, NCOLUMNS = RETAINED + 2 };
+enum {
+  ACCELERATION,
+  LASTING = ACCELERATION + 2,
+  OUTSIDE = LASTING + 2,
+  RETAINED = OUTSIDE + 2,
+  NCOLUMNS = RETAINED + 2
+};
 
 typedef struct {
   long long gid;
@@ -57,6 +80,7 @@ PetscErrorCode HistorySave(const History *h, Checkpoint to)
   for (int i = 0; i < h->n; i++)
     for (int c = 0; c < 2; c++) {
       value[i][ACCELERATION + c] = h->acceleration[i][c];
+      value[i][LASTING + c] = h->lasting[i][c];
       value[i][OUTSIDE + c] = h->outside[i][c];
       value[i][RETAINED + c] = h->retained[i][c];
     }
@@ -108,6 +132,7 @@ PetscErrorCode HistoryLoad(History *h, const SolidState *solid, Checkpoint from)
     while (found > row && found[-1].gid == key.gid) found--;
     for (int c = 0; found && c < 2; c++) {
       h->acceleration[i][c] = found->value[ACCELERATION + c];
+      h->lasting[i][c] = found->value[LASTING + c];
       h->outside[i][c] = found->value[OUTSIDE + c];
       for (const Row *r = found; CopiesOwner(copies, i) == rank && r < end && r->gid == key.gid; r++)
         h->retained[i][c] += r->value[RETAINED + c];
@@ -121,7 +146,7 @@ PetscErrorCode HistoryLoad(History *h, const SolidState *solid, Checkpoint from)
 PetscErrorCode HistoryDestroy(History *h)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscFree4(h->gid, h->acceleration, h->outside, h->retained));
+  PetscCall(PetscFree5(h->gid, h->acceleration, h->lasting, h->outside, h->retained));
   h->n = 0;
   h->known = PETSC_FALSE;
   PetscFunctionReturn(0);
