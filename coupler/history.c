@@ -1,5 +1,6 @@
 #include "coupler/history.h"
 #include "common/exchange/copies.h"
+#include <math.h>
 #include <stdlib.h>
 
 static PetscErrorCode Resize(History *h, const SolidState *solid)
@@ -8,9 +9,11 @@ static PetscErrorCode Resize(History *h, const SolidState *solid)
 
   PetscFunctionBeginUser;
   PetscCall(HistoryDestroy(h));
-  PetscCall(PetscMalloc5(n, &h->gid, n, &h->acceleration, n, &h->lasting, n, &h->outside, n, &h->retained));
+  PetscCall(PetscMalloc6(n, &h->gid, n, &h->acceleration, n, &h->earlier, n, &h->lasting, n, &h->outside, n,
+                         &h->retained));
   PetscCall(PetscArraycpy(h->gid, solid->gid, n));
   PetscCall(PetscArrayzero(h->acceleration, n));
+  PetscCall(PetscArrayzero(h->earlier, n));
   PetscCall(PetscArrayzero(h->lasting, n));
   PetscCall(PetscArrayzero(h->outside, n));
   PetscCall(PetscArrayzero(h->retained, n));
@@ -18,34 +21,41 @@ static PetscErrorCode Resize(History *h, const SolidState *solid)
   PetscFunctionReturn(0);
 }
 
-/* What of acceleration a lasts, that before being b. */
-static void Lasting(const double a[2], const double b[2], double lasting[2])
+/* What part of a is in b, 0 .. 1. */
+static double Common(const double a[2], const double b[2])
 {
   const double common = a[0] * b[0] + a[1] * b[1], square = a[0] * a[0] + a[1] * a[1];
-  const double part = common <= 0.0 ? 0.0 : common < square ? common / square : 1.0;
-  for (int c = 0; c < 2; c++) lasting[c] = part * a[c];
+  return common <= 0.0 ? 0.0 : common < square ? common / square : 1.0;
 }
 
 PetscErrorCode HistoryStep(History *h, const SolidState *moved, double dt, const double start[],
                            const double outside[])
 {
   int changed = moved->changed;
-  double(*before)[2];
+  double(*before)[2][2]; /* a^{n-1}, a^{n-2} */
   PetscBool same = (PetscBool)(h->known && h->n == moved->nnodes);
 
   PetscFunctionBeginUser;
   if (same) PetscCall(PetscArraycmp(h->gid, moved->gid, h->n, &same));
   PetscCall(PetscMalloc1(moved->nnodes, &before));
-  if (same) PetscCall(PetscArraycpy(before, h->acceleration, h->n));
+  for (int i = 0; i < h->n && same; i++) {
+    PetscCall(PetscArraycpy(before[i][0], h->acceleration[i], 2));
+    PetscCall(PetscArraycpy(before[i][1], h->earlier[i], 2));
+  }
   PetscCall(Resize(h, moved));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, h->comm));
   h->known = changed ? PETSC_FALSE : PETSC_TRUE;
   for (int i = 0; i < h->n && h->known; i++) {
+    double *a = h->acceleration[i];
     for (int c = 0; c < 2; c++) {
-      h->acceleration[i][c] = (moved->u[2 * i + c] - start[2 * i + c]) / dt;
+      a[c] = (moved->u[2 * i + c] - start[2 * i + c]) / dt;
       h->outside[i][c] = outside[2 * i + c];
     }
-    Lasting(h->acceleration[i], same ? before[i] : h->acceleration[i], h->lasting[i]);
+    const double part = same ? fmin(Common(a, before[i][0]), Common(a, before[i][1])) : 1.0;
+    for (int c = 0; c < 2; c++) {
+      h->earlier[i][c] = same ? before[i][0][c] : a[c];
+      h->lasting[i][c] = part * a[c];
+    }
   }
   PetscCall(PetscFree(before));
   PetscFunctionReturn(0);
@@ -53,7 +63,8 @@ PetscErrorCode HistoryStep(History *h, const SolidState *moved, double dt, const
 
 enum {
   ACCELERATION,
-  LASTING = ACCELERATION + 2,
+  EARLIER = ACCELERATION + 2,
+  LASTING = EARLIER + 2,
   OUTSIDE = LASTING + 2,
   RETAINED = OUTSIDE + 2,
   NCOLUMNS = RETAINED + 2
@@ -80,6 +91,7 @@ PetscErrorCode HistorySave(const History *h, Checkpoint to)
   for (int i = 0; i < h->n; i++)
     for (int c = 0; c < 2; c++) {
       value[i][ACCELERATION + c] = h->acceleration[i][c];
+      value[i][EARLIER + c] = h->earlier[i][c];
       value[i][LASTING + c] = h->lasting[i][c];
       value[i][OUTSIDE + c] = h->outside[i][c];
       value[i][RETAINED + c] = h->retained[i][c];
@@ -132,6 +144,7 @@ PetscErrorCode HistoryLoad(History *h, const SolidState *solid, Checkpoint from)
     while (found > row && found[-1].gid == key.gid) found--;
     for (int c = 0; found && c < 2; c++) {
       h->acceleration[i][c] = found->value[ACCELERATION + c];
+      h->earlier[i][c] = found->value[EARLIER + c];
       h->lasting[i][c] = found->value[LASTING + c];
       h->outside[i][c] = found->value[OUTSIDE + c];
       for (const Row *r = found; CopiesOwner(copies, i) == rank && r < end && r->gid == key.gid; r++)
@@ -146,7 +159,7 @@ PetscErrorCode HistoryLoad(History *h, const SolidState *solid, Checkpoint from)
 PetscErrorCode HistoryDestroy(History *h)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscFree5(h->gid, h->acceleration, h->lasting, h->outside, h->retained));
+  PetscCall(PetscFree6(h->gid, h->acceleration, h->earlier, h->lasting, h->outside, h->retained));
   h->n = 0;
   h->known = PETSC_FALSE;
   PetscFunctionReturn(0);
