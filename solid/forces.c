@@ -9,11 +9,6 @@ static inline Tensor RestInverse(const Elements *e, int k)
   return (Tensor){e->inverse[0][k], e->inverse[1][k], e->inverse[2][k], e->inverse[3][k]};
 }
 
-static inline int IsCorner(const Elements *e, int k)
-{
-  return e->six_node[k] >= SIX_NODE_A && e->six_node[k] <= SIX_NODE_C;
-}
-
 /* x, y of the corners of elements first .. first + n - 1: of nodes, or carried along in a six-node triangle */
 static inline __attribute__((always_inline)) void
 GatherCorners(const Elements *e, int first, int n, int bends, const double value[], double corner[6][STRIP])
@@ -26,8 +21,9 @@ GatherCorners(const Elements *e, int first, int n, int bends, const double value
     }
   }
   for (int k = 0; bends && k < n; k++) {
-    const double w = IsCorner(e, first + k) ? 1.0 : 0.0, *next = value + 2 * e->far[0][first + k],
-                 *last = value + 2 * e->far[1][first + k], *between = value + 2 * e->far[2][first + k];
+    const double w = SixNodeIsCorner(e->six_node[first + k]) ? 1.0 : 0.0,
+                 *next = value + 2 * e->far[0][first + k], *last = value + 2 * e->far[1][first + k],
+                 *between = value + 2 * e->far[2][first + k];
     for (int c = 0; c < 2; c++)
       SixNodeCarry(w, next[c], last[c], between[c], &corner[c][k], &corner[2 + c][k], &corner[4 + c][k]);
   }
@@ -203,7 +199,7 @@ static inline __attribute__((always_inline)) void StripLimits(const Elements *e,
   GatherCorners(e, first, n, e->bends[first / STRIP], x, at);
   for (int i = 0; i < n; i++) {
     const int k = first + i;
-    const double factor = IsCorner(e, k) ? SIX_NODE_RATE : 1.0;
+    const double factor = SixNodeIsCorner(e->six_node[k]) ? SIX_NODE_RATE : 1.0;
     const Tensor edges = StripEdges((const double(*)[STRIP])at, i);
     const Tensor f = TensorProduct(edges, RestInverse(e, k));
     const ElementLaw law = {e->mu[k], e->lambda[k], e->eta[k],

@@ -110,10 +110,12 @@ static void AddElement(StepResponse a, int k, const double block[3][3][4])
 static void AddCorner(StepResponse a, int k, int q, const double block[3][3][4])
 {
   const int *slot = a->six_slot + 36 * k;
+  int of[6];
+  for (int i = 0; i < 6; i++) of[i] = SixNodeOf(q, i);
   for (int pair = 0; pair < 9; pair++) {
     const int v = pair / 3, w = pair % 3;
     for (int i = 0; i < 9; i++) {
-      const int row = SixNodeOf(q, SIX_NODE_FROM[v][i / 3]), column = SixNodeOf(q, SIX_NODE_FROM[w][i % 3]);
+      const int row = of[SIX_NODE_FROM[v][i / 3]], column = of[SIX_NODE_FROM[w][i % 3]];
       const double factor = SIX_NODE_FACTOR[v][i / 3] * SIX_NODE_FACTOR[w][i % 3];
       for (int c = 0; c < 4; c++) a->block[slot[6 * row + column]][c] += factor * block[v][w][c];
     }

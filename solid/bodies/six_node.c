@@ -102,6 +102,7 @@ PetscErrorCode SixNodeSplit(MeshSerial *m, double **position)
   m->nv += sides.n;
   m->ne *= 4;
   m->nb *= 2;
+  m->order = 2;
   PetscCall(PetscFree2(sides.of, sides.end));
   PetscFunctionReturn(0);
 }

@@ -12,7 +12,13 @@
  *    a---ab--b */
 typedef enum { NOT_SIX_NODE, SIX_NODE_A, SIX_NODE_B, SIX_NODE_C, SIX_NODE_MIDDLE } SixNodePart;
 
+/* It has a third of the triangle's stiffness; the middle has none. */
+static inline PetscBool SixNodeIsCorner(int part)
+{
+  return part >= SIX_NODE_A && part <= SIX_NODE_C ? PETSC_TRUE : PETSC_FALSE;
+}
+
 /* Each triangle becomes the four of a six-node triangle, with nodes halfway along its sides; boundaries and regions go along,
- * and position[nv][2], if there is any.  Not collective. */
+ * and position[nv][2], if there is any; mesh->order is 2 then.  Not collective. */
 PetscErrorCode SixNodeSplit(MeshSerial *mesh, double **position);
 #endif

@@ -163,7 +163,7 @@ static void TakeSixNode(Solid s, const Model *a, int from, int k, const int loca
   e->six_node[k] = part;
   for (int i = 0; i < 3; i++) e->far[i][k] = e->node[i][k];
   if (part == SIX_NODE_A) e->six_first[e->nsix++] = k;
-  if (part == NOT_SIX_NODE || part == SIX_NODE_MIDDLE) return;
+  if (!SixNodeIsCorner(part)) return;
   for (int i = 0; i < 3; i++) {
     const int node = SixNodeOf(q, 3 + i);
     e->far[i][k] = local[triangle[3 * (node % 3) + node / 3]];
