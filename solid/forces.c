@@ -71,7 +71,7 @@ static inline __attribute__((always_inline)) int StripForces(const Elements *e, 
     const Tensor f = TensorProduct(edges, (Tensor){ixx[k], ixy[k], iyx[k], iyy[k]});
     const double j = TensorDeterminant(f);
     const ElementLaw law = {mu[k], lambda[k], eta[k], laws != STRAIN_ONLY && plane_stress[k] > 0.0,
-                            laws == WITH_COROTATED && kind[k] == LAW_COROTATED};
+                            laws == ALL_LAWS ? (int)kind[k] : LAW_NEO_HOOKEAN};
     ElementStress t = ElementElasticStress(f, j, law);
     if (jointed) {
       sxx[first + k] = t.xx;
@@ -109,9 +109,8 @@ CornerForces(const Elements *e, const double x[], const double v[], ElementLaws 
 static WIDE int AllForces(const Elements *e, const double x[], const double v[])
 {
   const int jointed = e->stress[0] != NULL;
-  if (e->laws == WITH_COROTATED)
-    return jointed ? CornerForces(e, x, v, WITH_COROTATED, 1, 1)
-                   : CornerForces(e, x, v, WITH_COROTATED, 1, 0);
+  if (e->laws == ALL_LAWS)
+    return jointed ? CornerForces(e, x, v, ALL_LAWS, 1, 1) : CornerForces(e, x, v, ALL_LAWS, 1, 0);
   if (e->laws == WITH_PLANE_STRESS)
     return jointed ? CornerForces(e, x, v, WITH_PLANE_STRESS, 1, 1)
                    : CornerForces(e, x, v, WITH_PLANE_STRESS, 1, 0);
@@ -204,7 +203,7 @@ static inline __attribute__((always_inline)) void StripLimits(const Elements *e,
     const Tensor f = TensorProduct(edges, RestInverse(e, k));
     const ElementLaw law = {e->mu[k], e->lambda[k], e->eta[k],
                             laws != STRAIN_ONLY && e->plane_stress[k] > 0.0,
-                            laws == WITH_COROTATED && e->kind[k] == LAW_COROTATED};
+                            laws == ALL_LAWS ? (int)e->kind[k] : LAW_NEO_HOOKEAN};
     const ElementRates rates = ElementRatesOf(edges, f, e->density[k], law);
     limit[i] = ElementStableStep((ElementRates){factor * rates.stiffness + contact.stiffness,
                                                 factor * rates.damping + contact.damping});
@@ -222,7 +221,7 @@ static WIDE double Limit(const Elements *e, const double x[], const double inver
     if (e->laws == STRAIN_ONLY)
       StripLimits(e, first, n, x, contact, STRAIN_ONLY, strip);
     else
-      StripLimits(e, first, n, x, contact, WITH_COROTATED, strip);
+      StripLimits(e, first, n, x, contact, ALL_LAWS, strip);
     for (int k = 0; k < n; k++)
       if (strip[k] < limit && !SolidElementHeld(e, first + k, inverse_mass)) limit = strip[k];
   }

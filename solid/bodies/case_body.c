@@ -39,7 +39,8 @@ static void ReadStrength(CoracleCase c, const char *name, Material *m)
 static Material ReadMaterial(CoracleCase c, const char *name)
 {
   static const char *const PLANES[] = {"strain", "stress", NULL};
-  static const char *const LAWS[] = {"neo_hookean", "corotated", NULL}; /* in the order of ElementLawKind */
+  /* in the order of ElementLawKind */
+  static const char *const LAWS[] = {"neo_hookean", "corotated", "st_venant_kirchhoff", NULL};
   Material m = {0};
   char key[KEY];
   m.density = Property(c, name, "density", 0.0, 0.0);

@@ -5,7 +5,7 @@
 #define SOLID_MODEL_H
 #include "common/mesh/mesh.h"
 #include "solid/bodies/six_node.h"
-#include "solid/element.h"
+#include "solid/element_law.h"
 #include "solid/prescribed_motion.h"
 
 enum { MATERIAL_NAME = 48 };
@@ -22,7 +22,7 @@ typedef struct {
   double contact_damping;                  /* of contact with the same material, fraction of the critical */
   double thickness;                        /* m; 0 stands for 1: per metre of depth */
   int plane_stress;                        /* else plane strain */
-  int law;                                 /* ElementLawKind (element.h) */
+  int law;                                 /* ElementLawKind (element_law.h) */
   double strength[2];                      /* of joints: in tension and in shear, Pa */
   double internal_friction;  /* of joints: what pressure adds to the shear strength, over the pressure */
   double fracture_energy[2]; /* per unit of new surface, mode I and mode II, J/m2 */

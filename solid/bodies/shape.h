@@ -2,7 +2,7 @@
 #ifndef SOLID_SHAPE_H
 #define SOLID_SHAPE_H
 #include "common/mesh/mesh.h"
-#include "solid/element.h"
+#include "solid/element_law.h"
 
 /* A disc of m rings, ring k having 6 k nodes; its boundary is a regular polygon of 6 m edges no longer than
  * size whose *area is pi r^2* (the corners lie slightly outside the circle, by r pi^2/(3 (6m)^2)), so that

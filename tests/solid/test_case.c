@@ -229,7 +229,8 @@ static void Refusals(void)
   CheckCase("gravity: [0, 0]\nsolid:\n  materials:\n    m: {density: 1, youngs_modulus: 1, poisson_ratio: 0, "
             "law: hooke}\n",
             NULL, Read,
-            ":4: key 'solid.materials.m.law': expected one of neo_hookean, corotated, found 'hooke'");
+            ":4: key 'solid.materials.m.law': expected one of neo_hookean, corotated, st_venant_kirchhoff, "
+            "found 'hooke'");
   CheckCase(HEAD "  bodies:\n" DISC, NULL, Read, NULL);
   CheckCase(HEAD, NULL, Read,
             ":2: key 'solid.bodies': expected a list of bodies; of a fluid alone an empty one, []");
