@@ -116,8 +116,7 @@ static PetscErrorCode Apply(PC shell, Vec r, Vec z)
   Vec residual = NULL;
   PetscFunctionBeginUser;
   PetscCall(PCShellGetContext(shell, &p));
-  PetscCall(RelaxationForward(p->relaxation, r, z));
-  PetscCall(RelaxationResidual(p->relaxation, r, z, &residual));
+  PetscCall(RelaxationForward(p->relaxation, r, z, &residual));
   PetscCall(MatMultTranspose(p->extension, residual, p->r1));
   PetscCall(KSPSolve(p->solver, p->r1, p->z1));
   PetscCall(MatMultAdd(p->extension, p->z1, z, z));

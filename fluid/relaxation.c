@@ -1,10 +1,57 @@
 #include "fluid/relaxation.h"
 
 struct Relaxation_s {
-  Mat matrix; /* borrowed: A */
-  Mat raised; /* A with l on its diagonal; on one rank A itself */
-  Vec residual, update;
+  Mat own;     /* borrowed: this rank's block of A */
+  Mat between; /* borrowed: B, its columns of other ranks; NULL on one rank */
+  VecScatter scatter;
+  Vec ghosts;       /* of z in B's columns */
+  PetscInt n;       /* rows */
+  PetscInt *start;  /* [n + 1] of the rows of L, the lower triangle of `own`; U is its transpose */
+  PetscInt *column; /* of L */
+  float *value;     /* of L */
+  double *inverse;  /* [n] 1/(D + l) */
+  double *held;     /* [n] l */
+  Vec residual;
 };
+
+/* L's place for `own`: the entries of each row before its diagonal. */
+static PetscErrorCode CreateLower(Relaxation s)
+{
+  const PetscInt *start, *column;
+  PetscInt rows;
+  PetscBool done;
+  PetscFunctionBeginUser;
+  PetscCall(MatGetRowIJ(s->own, 0, PETSC_FALSE, PETSC_FALSE, &rows, &start, &column, &done));
+  s->n = rows;
+  PetscCall(PetscMalloc5(s->n + 1, &s->start, start[s->n], &s->column, start[s->n], &s->value, s->n,
+                         &s->inverse, s->n, &s->held));
+  PetscCall(PetscArrayzero(s->held, s->n));
+  s->start[0] = 0;
+  for (PetscInt i = 0; i < s->n; i++) {
+    PetscInt n = s->start[i], k = start[i];
+    for (; k < start[i + 1] && column[k] < i; k++) s->column[n++] = column[k];
+    s->start[i + 1] = n;
+    PetscCheck(k < start[i + 1] && column[k] == i, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE,
+               "row %d has no diagonal", (int)i);
+  }
+  PetscCall(MatRestoreRowIJ(s->own, 0, PETSC_FALSE, PETSC_FALSE, &rows, &start, &column, &done));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CreateScatter(Relaxation s, Mat matrix)
+{
+  const PetscInt *column;
+  PetscInt n;
+  IS from;
+  PetscFunctionBeginUser;
+  PetscCall(MatMPIAIJGetSeqAIJ(matrix, &s->own, &s->between, &column));
+  PetscCall(MatGetSize(s->between, NULL, &n));
+  PetscCall(ISCreateGeneral(PETSC_COMM_SELF, n, column, PETSC_COPY_VALUES, &from));
+  PetscCall(VecCreateSeq(PETSC_COMM_SELF, n, &s->ghosts));
+  PetscCall(VecScatterCreate(s->residual, from, s->ghosts, NULL, &s->scatter));
+  PetscCall(ISDestroy(&from));
+  PetscFunctionReturn(0);
+}
 
 PetscErrorCode RelaxationCreate(Mat matrix, Relaxation *relaxation)
 {
@@ -13,9 +60,10 @@ PetscErrorCode RelaxationCreate(Mat matrix, Relaxation *relaxation)
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&s));
   PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)matrix), &ranks));
-  s->matrix = matrix;
-  s->raised = ranks == 1 ? matrix : NULL;
-  PetscCall(MatCreateVecs(matrix, &s->update, &s->residual));
+  PetscCall(MatCreateVecs(matrix, NULL, &s->residual));
+  s->own = matrix;
+  if (ranks > 1) PetscCall(CreateScatter(s, matrix));
+  PetscCall(CreateLower(s));
   *relaxation = s;
   PetscFunctionReturn(0);
 }
@@ -25,75 +73,123 @@ PetscErrorCode RelaxationDestroy(Relaxation *relaxation)
   Relaxation s = *relaxation;
   PetscFunctionBeginUser;
   if (!s) PetscFunctionReturn(0);
-  if (s->raised != s->matrix) PetscCall(MatDestroy(&s->raised));
+  PetscCall(PetscFree5(s->start, s->column, s->value, s->inverse, s->held));
   PetscCall(VecDestroy(&s->residual));
-  PetscCall(VecDestroy(&s->update));
+  PetscCall(VecDestroy(&s->ghosts));
+  PetscCall(VecScatterDestroy(&s->scatter));
   PetscCall(PetscFree(*relaxation));
   PetscFunctionReturn(0);
 }
 
 /* l[i] = half of the absolute sum of row i over the columns of other ranks */
-static PetscErrorCode HalfOffRankSums(Mat matrix, Vec l)
+static PetscErrorCode SetHeld(Relaxation s)
 {
-  Mat off;
-  PetscInt rows;
-  PetscScalar *sum;
+  const PetscInt *start, *column;
+  const PetscScalar *value;
+  PetscInt n;
+  PetscBool done;
   PetscFunctionBeginUser;
-  PetscCall(MatMPIAIJGetSeqAIJ(matrix, NULL, &off, NULL));
-  PetscCall(MatGetSize(off, &rows, NULL));
-  PetscCall(VecGetArrayWrite(l, &sum));
-  for (PetscInt i = 0; i < rows; i++) {
-    const PetscScalar *value;
-    PetscInt n;
-    sum[i] = 0.0;
-    PetscCall(MatGetRow(off, i, &n, NULL, &value));
-    for (PetscInt k = 0; k < n; k++) sum[i] += 0.5 * PetscAbsScalar(value[k]);
-    PetscCall(MatRestoreRow(off, i, &n, NULL, &value));
+  PetscCall(MatGetRowIJ(s->between, 0, PETSC_FALSE, PETSC_FALSE, &n, &start, &column, &done));
+  PetscCall(MatSeqAIJGetArrayRead(s->between, &value));
+  for (PetscInt i = 0; i < n; i++) {
+    s->held[i] = 0.0;
+    for (PetscInt k = start[i]; k < start[i + 1]; k++) s->held[i] += 0.5 * PetscAbsScalar(value[k]);
   }
-  PetscCall(VecRestoreArrayWrite(l, &sum));
+  PetscCall(MatSeqAIJRestoreArrayRead(s->between, &value));
+  PetscCall(MatRestoreRowIJ(s->between, 0, PETSC_FALSE, PETSC_FALSE, &n, &start, &column, &done));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode RelaxationUpdate(Relaxation s)
 {
+  const PetscInt *start, *column;
+  const PetscScalar *value;
+  PetscInt rows;
+  PetscBool done;
   PetscFunctionBeginUser;
-  if (s->raised == s->matrix) PetscFunctionReturn(0);
-  if (!s->raised) PetscCall(MatDuplicate(s->matrix, MAT_DO_NOT_COPY_VALUES, &s->raised));
-  PetscCall(MatCopy(s->matrix, s->raised, SAME_NONZERO_PATTERN));
-  PetscCall(HalfOffRankSums(s->matrix, s->update));
-  PetscCall(MatDiagonalSet(s->raised, s->update, ADD_VALUES));
+  if (s->between) PetscCall(SetHeld(s));
+  PetscCall(MatGetRowIJ(s->own, 0, PETSC_FALSE, PETSC_FALSE, &rows, &start, &column, &done));
+  PetscCall(MatSeqAIJGetArrayRead(s->own, &value));
+  for (PetscInt i = 0; i < s->n; i++) {
+    const PetscScalar *row = value + start[i];
+    const PetscInt n = s->start[i + 1] - s->start[i];
+    for (PetscInt k = 0; k < n; k++) s->value[s->start[i] + k] = (float)row[k];
+    s->inverse[i] = 1.0 / (row[n] + s->held[i]);
+  }
+  PetscCall(MatSeqAIJRestoreArrayRead(s->own, &value));
+  PetscCall(MatRestoreRowIJ(s->own, 0, PETSC_FALSE, PETSC_FALSE, &rows, &start, &column, &done));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode RelaxationForward(Relaxation s, Vec r, Vec z)
+/* y -= B z */
+static PetscErrorCode SubtractBetween(Relaxation s, Vec z, double y[])
 {
-  const MatSORType forward = (MatSORType)(SOR_LOCAL_FORWARD_SWEEP | SOR_ZERO_INITIAL_GUESS);
+  const PetscInt *start, *column;
+  const PetscScalar *value, *ghost;
+  PetscInt n;
+  PetscBool done;
   PetscFunctionBeginUser;
-  PetscCall(MatSOR(s->raised, r, 1.0, forward, 0.0, 1, 1, z));
+  if (!s->between) PetscFunctionReturn(0);
+  PetscCall(VecScatterBegin(s->scatter, z, s->ghosts, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterEnd(s->scatter, z, s->ghosts, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(MatGetRowIJ(s->between, 0, PETSC_FALSE, PETSC_FALSE, &n, &start, &column, &done));
+  PetscCall(MatSeqAIJGetArrayRead(s->between, &value));
+  PetscCall(VecGetArrayRead(s->ghosts, &ghost));
+  for (PetscInt i = 0; i < n; i++)
+    for (PetscInt k = start[i]; k < start[i + 1]; k++) y[i] -= value[k] * ghost[column[k]];
+  PetscCall(VecRestoreArrayRead(s->ghosts, &ghost));
+  PetscCall(MatSeqAIJRestoreArrayRead(s->between, &value));
+  PetscCall(MatRestoreRowIJ(s->between, 0, PETSC_FALSE, PETSC_FALSE, &n, &start, &column, &done));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode RelaxationResidual(Relaxation s, Vec r, Vec z, Vec *residual)
+/* sum - (L z)_i */
+static inline double Above(const Relaxation s, PetscInt i, const double z[], double sum)
 {
+  for (PetscInt k = s->start[i]; k < s->start[i + 1]; k++) sum -= (double)s->value[k] * z[s->column[k]];
+  return sum;
+}
+
+/* y -= U z: what z_i alone has in it */
+static inline void SubtractColumn(const Relaxation s, PetscInt i, double z, double y[])
+{
+  for (PetscInt k = s->start[i]; k < s->start[i + 1]; k++) y[s->column[k]] -= (double)s->value[k] * z;
+}
+
+PetscErrorCode RelaxationForward(Relaxation s, Vec r, Vec z, Vec *residual)
+{
+  const PetscScalar *right;
+  PetscScalar *x, *left;
   PetscFunctionBeginUser;
-  PetscCall(MatMult(s->matrix, z, s->residual));
-  PetscCall(VecAYPX(s->residual, -1.0, r));
+  PetscCall(VecGetArrayRead(r, &right));
+  PetscCall(VecGetArrayWrite(z, &x));
+  PetscCall(VecGetArrayWrite(s->residual, &left));
+  for (PetscInt i = 0; i < s->n; i++) {
+    x[i] = s->inverse[i] * Above(s, i, x, right[i]);
+    left[i] = s->held[i] * x[i];
+    SubtractColumn(s, i, x[i], left);
+  }
+  PetscCall(VecRestoreArrayWrite(z, &x));
+  PetscCall(VecRestoreArrayRead(r, &right));
+  PetscCall(SubtractBetween(s, z, left));
+  PetscCall(VecRestoreArrayWrite(s->residual, &left));
   *residual = s->residual;
   PetscFunctionReturn(0);
 }
 
-/* On one rank that is a sweep over z itself. */
 PetscErrorCode RelaxationBackward(Relaxation s, Vec r, Vec z)
 {
-  const MatSORType backward = (MatSORType)(SOR_LOCAL_BACKWARD_SWEEP | SOR_ZERO_INITIAL_GUESS);
-  Vec residual = NULL;
+  PetscScalar *x, *right;
   PetscFunctionBeginUser;
-  if (s->raised == s->matrix) {
-    PetscCall(MatSOR(s->matrix, r, 1.0, SOR_LOCAL_BACKWARD_SWEEP, 0.0, 1, 1, z));
-    PetscFunctionReturn(0);
+  PetscCall(VecCopy(r, s->residual));
+  PetscCall(VecGetArray(s->residual, &right));
+  PetscCall(SubtractBetween(s, z, right));
+  PetscCall(VecGetArray(z, &x));
+  for (PetscInt i = s->n - 1; i >= 0; i--) {
+    x[i] = s->inverse[i] * Above(s, i, x, right[i] + s->held[i] * x[i]);
+    SubtractColumn(s, i, x[i], right);
   }
-  PetscCall(RelaxationResidual(s, r, z, &residual));
-  PetscCall(MatSOR(s->raised, residual, 1.0, backward, 0.0, 1, 1, s->update));
-  PetscCall(VecAXPY(z, 1.0, s->update));
+  PetscCall(VecRestoreArray(z, &x));
+  PetscCall(VecRestoreArray(s->residual, &right));
   PetscFunctionReturn(0);
 }

@@ -39,12 +39,12 @@ static PetscErrorCode Energy(Mat matrix, Vec e, double *energy)
 /* e -= M^-T (...) M^-1 A e */
 static PetscErrorCode Sweep(Mat matrix, Relaxation relaxation, Vec e)
 {
-  Vec r, z;
+  Vec r, z, residual;
   PetscFunctionBeginUser;
   PetscCall(VecDuplicate(e, &r));
   PetscCall(VecDuplicate(e, &z));
   PetscCall(MatMult(matrix, e, r));
-  PetscCall(RelaxationForward(relaxation, r, z));
+  PetscCall(RelaxationForward(relaxation, r, z, &residual));
   PetscCall(RelaxationBackward(relaxation, r, z));
   PetscCall(VecAXPY(e, -1.0, z));
   PetscCall(VecDestroy(&r));
