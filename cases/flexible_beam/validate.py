@@ -77,6 +77,7 @@ ROWS = {
     **solid_alone(6, 8),
     "fsi1-0.004": Row("FSI1", FSI1 + ["fluid.adapt.size_min=0.004"], 7.1, 7.0),
     "fsi1-0.002": Row("FSI1", FSI1 + FINE, 10.0, 9.9),
+    "fsi1-0.001": Row("FSI1", FSI1 + FINE + ["fluid.adapt.size_min=0.001", "coupler.shell_thickness=0.00005"], 13.0, 12.9, after="fsi1-0.002"),
     "fsi2-0.008": Row("FSI2", FSI2 + ["time.cfl=2"], 12.0, 10.5),
     "fsi2-0.004": Row("FSI2", FSI2 + ["fluid.adapt.size_min=0.004", "time.cfl=2"], 18.6, 17.5, after="fsi2-0.008"),
     "fsi2-0.002": Row("FSI2", FSI2 + FINE, 18.6, 17.5, after="fsi2-0.008"),
