@@ -185,7 +185,7 @@ static double Length(const double v[2])
 static void SetBudget(Fluid f, double dt)
 {
   FluidBudget *b = &f->budget;
-  const double *sum = f->budget_sum, before[2] = {b->momentum[0], b->momentum[1]};
+  const double *sum = f->budget_sum;
   const int n = f->domain.mesh->ntags;
   b->dt = dt;
   b->energy = sum[ENERGY];
@@ -193,9 +193,10 @@ static void SetBudget(Fluid f, double dt)
   memcpy(b->term, sum + TERMS, sizeof b->term);
   memcpy(b->boundary, sum + FORCES, (size_t)n * sizeof *b->boundary);
   for (int c = 0; c < 2; c++) {
+    b->start[c] = b->momentum[c];
     b->momentum[c] = sum[END + c];
-    b->term[BUDGET_ADAPTATION][c] = (f->budget_start[c] - before[c]) / dt;
-    b->rest[c] = (b->momentum[c] - before[c]) / dt;
+    b->term[BUDGET_ADAPTATION][c] = (f->budget_start[c] - b->start[c]) / dt;
+    b->rest[c] = (b->momentum[c] - b->start[c]) / dt;
     f->budget_start[c] = b->momentum[c];
     for (int k = 0; k < BUDGET_TERMS; k++) b->rest[c] -= b->term[k][c];
     for (int k = 0; k < n * FORCE_PARTS; k++) b->rest[c] += b->boundary[k / FORCE_PARTS][k % FORCE_PARTS][c];

@@ -40,8 +40,9 @@ enum { FORCE_PRESSURE, FORCE_VISCOUS, FORCE_CONVECTION, FORCE_PARTS };
 typedef double BoundaryForce[FORCE_PARTS][2];
 
 typedef struct {
-  double dt;                    /* s */
-  double momentum[2], energy;   /* at the step's end, kg/s and J/m */
+  double dt;                  /* s */
+  double start[2];            /* momentum that the step begins with, that of the end of the last one, kg/s */
+  double momentum[2], energy; /* at the step's end, kg/s and J/m */
   double term[BUDGET_TERMS][2]; /* N/m */
   double rest[2];               /* N/m */
   double scale; /* N/m: the sum of the absolute values of all terms and of all parts on all boundaries */

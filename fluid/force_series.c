@@ -21,7 +21,7 @@ static void AddColumns(const char *name, const char *part, const char *unit, cha
 PetscErrorCode ForceSeriesCreate(CoracleCase c, Fluid fluid, Checkpoint from, ForceSeries *series)
 {
   const Mesh *m = FluidMesh(fluid);
-  const size_t nvectors = 1 + BUDGET_TERMS + 1 + FORCE_PARTS * (size_t)m->ntags;
+  const size_t nvectors = 2 + BUDGET_TERMS + 1 + FORCE_PARTS * (size_t)m->ntags;
   size_t longest = 32;
   char *columns, *end;
   ForceSeries s;
@@ -30,6 +30,7 @@ PetscErrorCode ForceSeriesCreate(CoracleCase c, Fluid fluid, Checkpoint from, Fo
   for (int b = 0; b < m->ntags; b++) longest = PetscMax(longest, strlen(m->tag_name[b]) + 32);
   PetscCall(PetscMalloc1(2 * nvectors * longest + 32, &columns));
   end = columns + sprintf(columns, "t [s],dt [s]");
+  AddColumns("start momentum", NULL, "kg/s", &end);
   AddColumns("momentum", NULL, "kg/s", &end);
   for (int k = 0; k <= BUDGET_TERMS; k++) AddColumns(TERM[k], NULL, "N/m", &end);
   for (int b = 0; b < m->ntags; b++)
@@ -56,6 +57,7 @@ PetscErrorCode ForceSeriesStep(ForceSeries s, Fluid fluid)
   PetscFunctionBeginUser;
   *next++ = FluidGetStats(fluid)->t;
   *next++ = b->dt;
+  for (int c = 0; c < 2; c++) *next++ = b->start[c];
   for (int c = 0; c < 2; c++) *next++ = b->momentum[c];
   for (int k = 0; k < 2 * BUDGET_TERMS; k++) *next++ = b->term[k / 2][k % 2];
   for (int c = 0; c < 2; c++) *next++ = b->rest[c];

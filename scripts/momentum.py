@@ -22,8 +22,13 @@ def boundaries(forces):
     return [name[:-len(" pressure x")] for name in forces if name.endswith(" pressure x")]
 
 
+def change(start, end):
+    """From the end of one step to that of the next; of the first one, from its start."""
+    return end - np.concatenate([start[:1], end[:-1]])
+
+
 def terms_of(folder):
-    """{term: [steps][2]}: the impulses of all steps but the first, N s/m.
+    """{term: [steps][2]}: the impulses of all steps, N s/m.
 
     `change` of the momentum of fluid and solids is the sum of all other terms but `scale`, and of `rest`.  Of these, `inside` is what
     the coupler adds to the reaction: the inertia and the weight of the fluid that fills the solids, which the solids have in place
@@ -33,10 +38,10 @@ def terms_of(folder):
     for other in (solid, coupler):
         if len(other["t"]) != len(fluid["t"]) or abs(other["t"] - fluid["t"]).max() > 1e-9 * fluid["t"][-1]:
             sys.exit(f"{folder}: the series are not of the same steps")
-    dt = fluid["dt"][1:, None]
-    vector = lambda series, name, between=" ": np.stack([series[name + between + axis][1:] for axis in "xy"], axis=1)
-    change = lambda series, name, between=" ": np.stack([np.diff(series[name + between + axis]) for axis in "xy"], axis=1)
-    terms = {"change": change(fluid, "momentum") + change(solid, "momentum", "_")}
+    dt = fluid["dt"][:, None]
+    vector = lambda series, name, between=" ": np.stack([series[name + between + axis] for axis in "xy"], axis=1)
+    terms = {"change": change(vector(fluid, "start momentum"), vector(fluid, "momentum")) +
+                       change(vector(solid, "start_momentum", "_"), vector(solid, "momentum", "_"))}
     for name in FLUID_TERMS:
         terms[name] = dt * vector(fluid, name)
     for name in boundaries(fluid):

@@ -2,6 +2,13 @@
  * energy. */
 #include "solid/solid_impl.h"
 
+void BudgetStart(Solid s)
+{
+  s->budget = (SolidBudget){.work = 0.0};
+  for (int n = 0; n < s->nnodes; n++)
+    for (int c = 0; c < 2 && SolidOwns(s, n); c++) s->budget.start[c] += s->mass[n] * s->v[2 * n + c];
+}
+
 /* What holds a fixed node takes all that would accelerate it. */
 void BudgetAddSubstep(Solid s)
 {
@@ -48,12 +55,14 @@ PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget)
     WORK = 4,
     REACTION_WORK,
     MASS,
-    MOMENTUM,
+    START,
+    MOMENTUM = START + 2,
     LOAD = MOMENTUM + 2,
     COUNT = LOAD + 2
   };
   const SolidBudget *b = &s->budget;
-  double sum[COUNT] = {b->walls[0], b->walls[1], b->reaction[0], b->reaction[1], 0.0, b->reaction_work};
+  double sum[COUNT] = {b->walls[0],      b->walls[1], b->reaction[0], b->reaction[1], 0.0,
+                       b->reaction_work, 0.0,         b->start[0],    b->start[1]};
   PetscFunctionBeginUser;
   for (int n = 0; n < s->nnodes; n++) {
     if (!SolidOwns(s, n)) continue;
@@ -70,6 +79,7 @@ PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget)
                           {sum[REACTION], sum[REACTION + 1]},
                           sum[WORK],
                           sum[REACTION_WORK],
+                          {sum[START], sum[START + 1]},
                           {sum[MOMENTUM], sum[MOMENTUM + 1]},
                           {sum[LOAD], sum[LOAD + 1]},
                           {sum[MASS] * s->setup.gravity[0], sum[MASS] * s->setup.gravity[1]}};

@@ -149,7 +149,7 @@ PetscErrorCode SolidStart(Solid s, double dt, const double load[])
   s->dt = dt;
   s->done = 0.0;
   s->stats.substeps = 0;
-  s->budget = (SolidBudget){.work = 0.0};
+  BudgetStart(s);
   PetscCall(Plan(s));
   PetscFunctionReturn(0);
 }

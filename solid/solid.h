@@ -142,8 +142,8 @@ typedef struct {
       reaction[2];            /* impulse of the tank's walls; of what holds fixed and prescribed nodes, of the
                       * decay rate and of damping (interface_motion.c), N s/m */
   double work, reaction_work; /* of the fluid; of what drives nodes, J/m */
-  double momentum[2];         /* of all bodies at its end, N s/m */
-  double load[2], weight[2];  /* the fluid's and gravity's force, N/m */
+  double start[2], momentum[2]; /* of all bodies, what it begins and ends with, N s/m */
+  double load[2], weight[2];    /* the fluid's and gravity's force, N/m */
 } SolidBudget;
 PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget);
 

@@ -137,7 +137,9 @@ void SolidElementShape(const Elements *e, int k, const double x[], Tensor *edges
  */
 PetscErrorCode SolidPieces(Solid s, int *n, const int **piece);
 
-/* budget.c, not collective: what the walls and what holds fixed nodes do in the substep to come. */
+/* budget.c, not collective: a step begins. */
+void BudgetStart(Solid s);
+/* What the walls and what holds fixed nodes do in the substep to come. */
 void BudgetAddSubstep(Solid s);
 /* An impulse on component c of node n that is neither the fluid's nor a wall's, N s/m; v: where its work is done, m/s. */
 void BudgetAddImpulse(Solid s, int n, int c, double impulse, double v);

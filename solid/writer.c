@@ -4,7 +4,7 @@
 #include "solid/probes.h"
 #include <stdio.h>
 
-enum { MAX_BODIES = 8, PER_BODY = 10, COMMON = 22 };
+enum { MAX_BODIES = 8, PER_BODY = 10, COMMON = 24 };
 
 struct Writer_s {
   MPI_Comm comm;
@@ -32,7 +32,8 @@ static PetscErrorCode CreateSeries(Writer r, const char *folder, Checkpoint from
   (void)snprintf(columns + used, sizeof columns - used,
                  ",fracture [J/m],debonded [J/m],broken joints,cracks [m],pieces,walls_x [N s/m],walls_y [N "
                  "s/m],reaction_x [N s/m],"
-                 "reaction_y [N s/m],momentum_x [N s/m],momentum_y [N s/m],load_x [N/m],load_y "
+                 "reaction_y [N s/m],start_momentum_x [N s/m],start_momentum_y [N s/m],momentum_x [N "
+                 "s/m],momentum_y [N s/m],load_x [N/m],load_y "
                  "[N/m],weight_x [N/m],weight_y [N/m],"
                  "work [J/m],reaction work [J/m],substeps,dt_s [s],computing [s],waiting [s]");
   PetscCall(SeriesCreate(r->comm, folder, "solid", columns, from, &r->series));
@@ -192,8 +193,9 @@ PetscErrorCode WriterStep(Writer r, Solid s, double waited)
   row[n++] = fracture.length;
   row[n++] = fracture.pieces;
   PetscCall(SolidGetBudget(s, &budget));
-  const double *const vector[] = {budget.walls, budget.reaction, budget.momentum, budget.load, budget.weight};
-  for (int k = 0; k < 10; k++) row[n++] = vector[k / 2][k % 2];
+  const double *const vector[] = {budget.walls,    budget.reaction, budget.start,
+                                  budget.momentum, budget.load,     budget.weight};
+  for (int k = 0; k < 12; k++) row[n++] = vector[k / 2][k % 2];
   row[n++] = budget.work;
   row[n++] = budget.reaction_work;
   row[n++] = stats->substeps;
