@@ -29,11 +29,22 @@ typedef struct {
   Balance *balance;       /* [nl] */
   int *distance;          /* [nl] */
   int around;             /* elements farther than this have no way around what the solid covers */
+  int nactive, *active;   /* elements with an excess, of other ranks, too */
+  int nfront, *front;     /* those of the largest distance so far; in a hop, owned ones that change */
+  int *next;              /* [nl] scratch */
+  double *come;           /* [ne] what a hop brings */
 } Expel;
 
 static double *VolumeOf(Phases f, int e)
 {
   return &f->volume[(size_t)e * (size_t)f->np];
+}
+
+/* Of the elements from `from` on those with an excess are active. */
+static void AddActive(Expel *x, int from, int to)
+{
+  for (int e = from; e < to; e++)
+    if (x->balance[e].excess > 0.0) x->active[x->nactive++] = e;
 }
 
 /* *share: of the excess of all elements, what there is room for; 0: nothing is to be moved, or nothing can be. */
@@ -54,6 +65,8 @@ static PetscErrorCode SetBalance(Expel *x, double *share)
   *share = sum[0] > 0.0 ? fmin(1.0, sum[1] / sum[0]) : 0.0;
   for (int e = 0; e < s->ne; e++) x->balance[e].excess *= *share;
   if (*share > 0.0) PetscCall(StarsExchange(s, sizeof *x->balance, x->balance));
+  x->nactive = 0;
+  AddActive(x, 0, s->nl);
   PetscFunctionReturn(0);
 }
 
@@ -74,20 +87,31 @@ static int Reached(const Expel *x, int e, int distance)
   return 0;
 }
 
-/* The elements at this distance, known to this rank's own only. */
-static void SetLevel(Expel *x, int level, int *reached, int *missing)
+/* Element e, if it is at this distance, has it from now on, but not yet as its neighbours see it. */
+static void Visit(Expel *x, int e, int level, int *n)
 {
-  *reached = *missing = 0;
-  for (int e = 0; e < x->f->stars->ne; e++) {
-    if (x->distance[e] < FAR) continue;
-    if (Reached(x, e, level)) {
-      x->distance[e] = -level; /* not yet seen by its neighbours */
-      *reached = 1;
-    } else if (x->balance[e].excess > 0.0) {
-      *missing = 1;
+  if (x->distance[e] < FAR || !Reached(x, e, level)) return;
+  x->distance[e] = -level;
+  x->next[(*n)++] = e;
+}
+
+/* The owned elements at this distance: beside the front or, when there is none yet or another way has been opened, anywhere. */
+static void SetLevel(Expel *x, int level, int anywhere, int *reached, int *missing)
+{
+  const Stars *s = x->f->stars;
+  int n = 0;
+  for (int e = 0; e < s->ne && anywhere; e++) Visit(x, e, level, &n);
+  for (int k = 0; k < x->nfront && !anywhere; k++)
+    for (int i = 0; i < 3; i++) {
+      const int o = s->neighbor[x->front[k]][i];
+      if (o >= 0 && o < s->ne) Visit(x, o, level, &n);
     }
-  }
-  for (int e = 0; e < x->f->stars->ne; e++) x->distance[e] = abs(x->distance[e]);
+  for (int k = 0; k < n; k++) x->distance[x->front[k] = x->next[k]] = level;
+  x->nfront = n;
+  *reached = n > 0;
+  *missing = 0;
+  for (int k = 0; k < x->nactive; k++)
+    if (x->active[k] < s->ne) *missing |= x->distance[x->active[k]] == FAR;
 }
 
 /* Until every excess has a way.  *levels: the largest distance. */
@@ -99,12 +123,15 @@ static PetscErrorCode SetDistances(Expel *x, int *levels)
   for (int e = 0; e < s->nl; e++) x->distance[e] = x->balance[e].room > 0.0 ? 0 : FAR;
   x->around = FAR;
   for (*levels = 0; state[1] && (state[0] || x->around == FAR);) {
-    if (!state[0]) x->around = *levels;
-    SetLevel(x, *levels + 1, &state[0], &state[1]);
+    const int stuck = !state[0];
+    if (stuck) x->around = *levels;
+    SetLevel(x, *levels + 1, *levels == 0 || stuck, &state[0], &state[1]);
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, state, 2, MPI_INT, MPI_LOR, s->mesh->comm));
     if (!state[0]) continue;
     ++*levels;
     PetscCall(StarsExchange(s, sizeof *x->distance, x->distance));
+    for (int e = s->ne; e < s->nl; e++)
+      if (x->distance[e] == *levels) x->front[x->nfront++] = e;
   }
   PetscFunctionReturn(0);
 }
@@ -126,46 +153,76 @@ static double Pass(const Expel *x, int e, int i)
   return x->balance[e].excess * (weight / (Weight(x, e, 0) + Weight(x, e, 1) + Weight(x, e, 2)));
 }
 
-/* Every excess crosses one face; come[ne]: what comes to each element. */
-static PetscErrorCode Hop(Expel *x, double come[], double swept[])
+/* *n: the owned elements that have an excess or are beside one, in front. */
+static int ListChanging(Expel *x)
 {
   const Stars *s = x->f->stars;
-  PetscFunctionBeginUser;
-  for (int e = 0; e < s->ne; e++) {
-    double *v = VolumeOf(x->f, e);
-    come[e] = 0.0;
-    for (int i = 0; i < 3; i++) {
-      const int o = s->neighbor[e][i];
-      if (o < 0) continue;
-      const double in = Pass(x, o, StarsFaceTo(s, o, e)), out = Pass(x, e, i) - in;
-      const size_t face = (3 * (size_t)e + (size_t)i) * (size_t)x->f->np;
-      come[e] += in;
-      v[x->phase] -= out;
-      v[x->filler] += out;
-      swept[face + (size_t)x->phase] += out;
-      swept[face + (size_t)x->filler] -= out;
+  int n = 0;
+  for (int k = 0; k < x->nactive; k++)
+    for (int i = -1; i < 3; i++) {
+      const int e = i < 0 ? x->active[k] : s->neighbor[x->active[k]][i];
+      if (e < 0 || e >= s->ne || x->next[e]) continue;
+      x->next[e] = 1;
+      x->front[n++] = e;
     }
+  for (int k = 0; k < n; k++) x->next[x->front[k]] = 0;
+  return n;
+}
+
+/* What comes to element e and leaves it. */
+static void Exchange(Expel *x, int e, double swept[])
+{
+  const Stars *s = x->f->stars;
+  double *v = VolumeOf(x->f, e);
+  x->come[e] = 0.0;
+  for (int i = 0; i < 3; i++) {
+    const int o = s->neighbor[e][i];
+    if (o < 0) continue;
+    const double in = Pass(x, o, StarsFaceTo(s, o, e)), out = Pass(x, e, i) - in;
+    const size_t face = (3 * (size_t)e + (size_t)i) * (size_t)x->f->np;
+    x->come[e] += in;
+    v[x->phase] -= out;
+    v[x->filler] += out;
+    swept[face + (size_t)x->phase] += out;
+    swept[face + (size_t)x->filler] -= out;
   }
-  for (int e = 0; e < s->ne; e++)
-    if (x->distance[e] != FAR) x->balance[e].excess = x->distance[e] ? come[e] : 0.0;
+}
+
+/* Every excess crosses one face. */
+static PetscErrorCode Hop(Expel *x, double swept[])
+{
+  const Stars *s = x->f->stars;
+  const int n = ListChanging(x);
+  PetscFunctionBeginUser;
+  for (int k = 0; k < n; k++) Exchange(x, x->front[k], swept);
+  x->nactive = 0;
+  for (int k = 0; k < n; k++) {
+    const int e = x->front[k];
+    if (x->distance[e] != FAR) x->balance[e].excess = x->distance[e] ? x->come[e] : 0.0;
+    if (x->balance[e].excess > 0.0) x->active[x->nactive++] = e;
+  }
   PetscCall(StarsExchange(s, sizeof *x->balance, x->balance));
+  AddActive(x, s->ne, s->nl);
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode PhasesExpel(Phases f, int phase, int filler, const double capacity[], double swept[])
 {
+  const int ne = f->stars->ne, nl = f->stars->nl;
   Expel x = {.f = f, .phase = phase, .filler = filler, .capacity = capacity};
-  double share = 0.0, *come;
+  double share = 0.0;
   int levels;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc3(f->stars->nl, &x.balance, f->stars->nl, &x.distance, f->stars->ne, &come));
+  PetscCall(
+      PetscMalloc6(nl, &x.balance, nl, &x.distance, nl, &x.active, nl, &x.front, nl, &x.next, ne, &x.come));
   for (int pass = 0; pass < PASSES; pass++) {
     PetscCall(SetBalance(&x, &share));
     if (!(share > 0.0)) break;
     PetscCall(SetDistances(&x, &levels));
-    for (int hop = 0; hop < levels; hop++) PetscCall(Hop(&x, come, swept));
+    PetscCall(PetscArrayzero(x.next, nl));
+    for (int hop = 0; hop < levels; hop++) PetscCall(Hop(&x, swept));
     f->has_lines = PETSC_FALSE;
   }
-  PetscCall(PetscFree3(x.balance, x.distance, come));
+  PetscCall(PetscFree6(x.balance, x.distance, x.active, x.front, x.next, x.come));
   PetscFunctionReturn(0);
 }
