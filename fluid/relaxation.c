@@ -14,27 +14,54 @@ struct Relaxation_s {
   Vec residual;
 };
 
+/* Rows of a sequential matrix, borrowed. */
+typedef struct {
+  PetscInt n;
+  const PetscInt *start, *column;
+  const PetscScalar *value;
+} Rows;
+
+static PetscErrorCode GetRows(Mat matrix, Rows *rows)
+{
+  PetscBool done;
+  PetscFunctionBeginUser;
+  PetscCall(MatGetRowIJ(matrix, 0, PETSC_FALSE, PETSC_FALSE, &rows->n, &rows->start, &rows->column, &done));
+  PetscCall(MatSeqAIJGetArrayRead(matrix, &rows->value));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode RestoreRows(Mat matrix, Rows *rows)
+{
+  PetscBool done;
+  PetscFunctionBeginUser;
+  PetscCall(MatSeqAIJRestoreArrayRead(matrix, &rows->value));
+  PetscCall(
+      MatRestoreRowIJ(matrix, 0, PETSC_FALSE, PETSC_FALSE, &rows->n, &rows->start, &rows->column, &done));
+  PetscFunctionReturn(0);
+}
+
 /* L's place for `own`: the entries of each row before its diagonal. */
 static PetscErrorCode CreateLower(Relaxation s)
 {
-  const PetscInt *start, *column;
-  PetscInt rows;
-  PetscBool done;
+  Rows own;
   PetscFunctionBeginUser;
-  PetscCall(MatGetRowIJ(s->own, 0, PETSC_FALSE, PETSC_FALSE, &rows, &start, &column, &done));
-  s->n = rows;
-  PetscCall(PetscMalloc5(s->n + 1, &s->start, start[s->n], &s->column, start[s->n], &s->value, s->n,
-                         &s->inverse, s->n, &s->held));
+  PetscCall(GetRows(s->own, &own));
+  s->n = own.n;
+  PetscCall(PetscMalloc3(s->n + 1, &s->start, s->n, &s->inverse, s->n, &s->held));
   PetscCall(PetscArrayzero(s->held, s->n));
   s->start[0] = 0;
   for (PetscInt i = 0; i < s->n; i++) {
-    PetscInt n = s->start[i], k = start[i];
-    for (; k < start[i + 1] && column[k] < i; k++) s->column[n++] = column[k];
-    s->start[i + 1] = n;
-    PetscCheck(k < start[i + 1] && column[k] == i, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE,
+    PetscInt k = own.start[i];
+    while (k < own.start[i + 1] && own.column[k] < i) k++;
+    PetscCheck(k < own.start[i + 1] && own.column[k] == i, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE,
                "row %d has no diagonal", (int)i);
+    s->start[i + 1] = s->start[i] + k - own.start[i];
   }
-  PetscCall(MatRestoreRowIJ(s->own, 0, PETSC_FALSE, PETSC_FALSE, &rows, &start, &column, &done));
+  PetscCall(PetscMalloc2(s->start[s->n], &s->column, s->start[s->n], &s->value));
+  for (PetscInt i = 0; i < s->n; i++)
+    PetscCall(
+        PetscArraycpy(s->column + s->start[i], own.column + own.start[i], s->start[i + 1] - s->start[i]));
+  PetscCall(RestoreRows(s->own, &own));
   PetscFunctionReturn(0);
 }
 
@@ -73,7 +100,8 @@ PetscErrorCode RelaxationDestroy(Relaxation *relaxation)
   Relaxation s = *relaxation;
   PetscFunctionBeginUser;
   if (!s) PetscFunctionReturn(0);
-  PetscCall(PetscFree5(s->start, s->column, s->value, s->inverse, s->held));
+  PetscCall(PetscFree3(s->start, s->inverse, s->held));
+  PetscCall(PetscFree2(s->column, s->value));
   PetscCall(VecDestroy(&s->residual));
   PetscCall(VecDestroy(&s->ghosts));
   PetscCall(VecScatterDestroy(&s->scatter));
@@ -84,62 +112,48 @@ PetscErrorCode RelaxationDestroy(Relaxation *relaxation)
 /* l[i] = half of the absolute sum of row i over the columns of other ranks */
 static PetscErrorCode SetHeld(Relaxation s)
 {
-  const PetscInt *start, *column;
-  const PetscScalar *value;
-  PetscInt n;
-  PetscBool done;
+  Rows b;
   PetscFunctionBeginUser;
-  PetscCall(MatGetRowIJ(s->between, 0, PETSC_FALSE, PETSC_FALSE, &n, &start, &column, &done));
-  PetscCall(MatSeqAIJGetArrayRead(s->between, &value));
-  for (PetscInt i = 0; i < n; i++) {
+  PetscCall(GetRows(s->between, &b));
+  for (PetscInt i = 0; i < b.n; i++) {
     s->held[i] = 0.0;
-    for (PetscInt k = start[i]; k < start[i + 1]; k++) s->held[i] += 0.5 * PetscAbsScalar(value[k]);
+    for (PetscInt k = b.start[i]; k < b.start[i + 1]; k++) s->held[i] += 0.5 * PetscAbsScalar(b.value[k]);
   }
-  PetscCall(MatSeqAIJRestoreArrayRead(s->between, &value));
-  PetscCall(MatRestoreRowIJ(s->between, 0, PETSC_FALSE, PETSC_FALSE, &n, &start, &column, &done));
+  PetscCall(RestoreRows(s->between, &b));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode RelaxationUpdate(Relaxation s)
 {
-  const PetscInt *start, *column;
-  const PetscScalar *value;
-  PetscInt rows;
-  PetscBool done;
+  Rows own;
   PetscFunctionBeginUser;
   if (s->between) PetscCall(SetHeld(s));
-  PetscCall(MatGetRowIJ(s->own, 0, PETSC_FALSE, PETSC_FALSE, &rows, &start, &column, &done));
-  PetscCall(MatSeqAIJGetArrayRead(s->own, &value));
+  PetscCall(GetRows(s->own, &own));
   for (PetscInt i = 0; i < s->n; i++) {
-    const PetscScalar *row = value + start[i];
+    const PetscScalar *row = own.value + own.start[i];
     const PetscInt n = s->start[i + 1] - s->start[i];
     for (PetscInt k = 0; k < n; k++) s->value[s->start[i] + k] = (float)row[k];
     s->inverse[i] = 1.0 / (row[n] + s->held[i]);
   }
-  PetscCall(MatSeqAIJRestoreArrayRead(s->own, &value));
-  PetscCall(MatRestoreRowIJ(s->own, 0, PETSC_FALSE, PETSC_FALSE, &rows, &start, &column, &done));
+  PetscCall(RestoreRows(s->own, &own));
   PetscFunctionReturn(0);
 }
 
 /* y -= B z */
 static PetscErrorCode SubtractBetween(Relaxation s, Vec z, double y[])
 {
-  const PetscInt *start, *column;
-  const PetscScalar *value, *ghost;
-  PetscInt n;
-  PetscBool done;
+  const PetscScalar *ghost;
+  Rows b;
   PetscFunctionBeginUser;
   if (!s->between) PetscFunctionReturn(0);
   PetscCall(VecScatterBegin(s->scatter, z, s->ghosts, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecScatterEnd(s->scatter, z, s->ghosts, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(MatGetRowIJ(s->between, 0, PETSC_FALSE, PETSC_FALSE, &n, &start, &column, &done));
-  PetscCall(MatSeqAIJGetArrayRead(s->between, &value));
+  PetscCall(GetRows(s->between, &b));
   PetscCall(VecGetArrayRead(s->ghosts, &ghost));
-  for (PetscInt i = 0; i < n; i++)
-    for (PetscInt k = start[i]; k < start[i + 1]; k++) y[i] -= value[k] * ghost[column[k]];
+  for (PetscInt i = 0; i < b.n; i++)
+    for (PetscInt k = b.start[i]; k < b.start[i + 1]; k++) y[i] -= b.value[k] * ghost[b.column[k]];
   PetscCall(VecRestoreArrayRead(s->ghosts, &ghost));
-  PetscCall(MatSeqAIJRestoreArrayRead(s->between, &value));
-  PetscCall(MatRestoreRowIJ(s->between, 0, PETSC_FALSE, PETSC_FALSE, &n, &start, &column, &done));
+  PetscCall(RestoreRows(s->between, &b));
   PetscFunctionReturn(0);
 }
 

@@ -116,7 +116,8 @@ static inline ElementCoefficients ElementStVenant(Tensor f, double j, ElementLaw
                                -law.mu * j};
 }
 
-/* The thickness of plane stress, 1 at rest: l_3^2 of St. Venant's law, l_3 of the others (of the neo-Hookean it does not end). */
+/* What plane stress leaves of the thickness, 1 at rest: l_3^2 of St. Venant's law, l_3 of the corotated one, not > 0 where there is
+ * none; not of the neo-Hookean law, whose thickness does not vanish. */
 static inline double ElementThicknessLeft(Tensor f, ElementLaw law)
 {
   const double strain = law.kind == LAW_COROTATED ? ElementTraceU(f) - 2.0 : 2.0 * ElementTraceGreen(f);

@@ -95,7 +95,7 @@ static void Visit(Expel *x, int e, int level, int *n)
   x->next[(*n)++] = e;
 }
 
-/* The owned elements at this distance: beside the front or, when there is none yet or another way has been opened, anywhere. */
+/* The owned elements at this distance: beside the front, or anywhere, where there is no front or a way has been opened. */
 static void SetLevel(Expel *x, int level, int anywhere, int *reached, int *missing)
 {
   const Stars *s = x->f->stars;
@@ -153,7 +153,7 @@ static double Pass(const Expel *x, int e, int i)
   return x->balance[e].excess * (weight / (Weight(x, e, 0) + Weight(x, e, 1) + Weight(x, e, 2)));
 }
 
-/* *n: the owned elements that have an excess or are beside one, in front. */
+/* The owned elements that have an excess or are beside one, into front; their number. */
 static int ListChanging(Expel *x)
 {
   const Stars *s = x->f->stars;

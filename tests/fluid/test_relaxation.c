@@ -71,8 +71,6 @@ int main(int argc, char **argv)
   Mat matrix;
   Vec e;
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
-  PetscCall(
-      PetscOptionsSetValue(NULL, "-mat_no_inode", NULL)); /* rows that are alike would be solved as one */
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
   PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &ranks));
   PetscCall(CreateMatrix(rank, ranks, &matrix));
