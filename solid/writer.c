@@ -4,7 +4,7 @@
 #include "solid/probes.h"
 #include <stdio.h>
 
-enum { MAX_BODIES = 8, PER_BODY = 10, COMMON = 24 };
+enum { MAX_BODIES = 1000, PER_BODY = 10, COMMON = 24 };
 
 struct Writer_s {
   MPI_Comm comm;
@@ -18,18 +18,19 @@ struct Writer_s {
 
 static PetscErrorCode CreateSeries(Writer r, const char *folder, Checkpoint from)
 {
-  char columns[MAX_BODIES * 160 + 512] = "t [s]";
+  const size_t size = (size_t)r->nbodies * 200 + 512;
+  char *columns;
+  size_t used;
   PetscFunctionBeginUser;
-  for (int b = 0; b < r->nbodies; b++) {
-    const size_t used = strlen(columns);
-    (void)snprintf(
-        columns + used, sizeof columns - used,
+  PetscCall(PetscMalloc1(size, &columns));
+  used = (size_t)snprintf(columns, size, "t [s]");
+  for (int b = 0; b < r->nbodies; b++)
+    used += (size_t)snprintf(
+        columns + used, size - used,
         ",x%d [m],y%d [m],u%d [m/s],v%d [m/s],omega%d [rad/s],fx%d [N/m],fy%d [N/m],kinetic%d [J/m],"
         "strain%d [J/m],mass%d [kg/m]",
         b, b, b, b, b, b, b, b, b, b);
-  }
-  const size_t used = strlen(columns);
-  (void)snprintf(columns + used, sizeof columns - used,
+  (void)snprintf(columns + used, size - used,
                  ",fracture [J/m],debonded [J/m],broken joints,cracks [m],pieces,walls_x [N s/m],walls_y [N "
                  "s/m],reaction_x [N s/m],"
                  "reaction_y [N s/m],start_momentum_x [N s/m],start_momentum_y [N s/m],momentum_x [N "
@@ -37,6 +38,7 @@ static PetscErrorCode CreateSeries(Writer r, const char *folder, Checkpoint from
                  "[N/m],weight_x [N/m],weight_y [N/m],"
                  "work [J/m],reaction work [J/m],substeps,dt_s [s],computing [s],waiting [s]");
   PetscCall(SeriesCreate(r->comm, folder, "solid", columns, from, &r->series));
+  PetscCall(PetscFree(columns));
   PetscFunctionReturn(0);
 }
 
@@ -172,12 +174,13 @@ PetscErrorCode WriterCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoin
 PetscErrorCode WriterStep(Writer r, Solid s, double waited)
 {
   const SolidStats *stats = SolidGetStats(s);
-  BodyState state[MAX_BODIES];
   FractureState fracture;
   SolidBudget budget;
-  double row[COMMON + MAX_BODIES * PER_BODY];
+  double *row;
+  BodyState *state;
   int n = 0;
   PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(r->nbodies, &state, COMMON + PER_BODY * r->nbodies, &row));
   PetscCall(SolidBodies(s, r->nbodies, state));
   row[n++] = stats->t;
   for (int b = 0; b < r->nbodies; b++) {
@@ -204,6 +207,7 @@ PetscErrorCode WriterStep(Writer r, Solid s, double waited)
   row[n++] = MPI_Wtime() - r->start - waited;
   row[n++] = waited;
   PetscCall(SeriesRow(r->series, row));
+  PetscCall(PetscFree2(state, row));
   PetscCall(ProbesStep(r->probes, s));
   if (OutputDue(r->output, stats->t)) PetscCall(Snapshot(r, s));
   PetscFunctionReturn(0);

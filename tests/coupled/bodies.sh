@@ -36,7 +36,7 @@ for label in ("one", "two"):
     assert sum(iterations) < 12 * len(iterations), "%s: iterations %s" % (label, iterations)
     assert json.load(open("%s/%s/summary.json" % (sys.argv[1], label)))["largest_momentum_imbalance"] < 1e-10
 speed = lambda rows, t, body: next(r["v%d [m/s]" % body] for r in rows if r["t [s]"] > t - 1e-9)
-velocities = [(speed(one, 0.05, k), speed(two, 0.05, k)) for k in range(8)]
+velocities = [(speed(one, 0.05, k), speed(two, 0.05, k)) for k in range(10)]
 largest = max(abs(a) for a, b in velocities)
 assert largest > 0.1, velocities
 for k, (a, b) in enumerate(velocities):
