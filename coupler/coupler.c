@@ -215,7 +215,7 @@ PetscErrorCode CouplerCorrect(Coupler c, const SolidState *moved, int *n,
   PetscCall(PetscCalloc1(c->overlap->ncoupled, &c->correction));
   for (int e = 0; e < c->overlap->ncoupled; e++) c->correction[e].element = c->overlap->coupled_element[e];
   PetscCall(StoreHistory(c, moved));
-  if (!moved->lost) PetscCall(c->mode->correct(c, moved));
+  if (!moved->lost) PetscCall(CouplerSolidCorrection(c, moved));
   *n = c->overlap->ncoupled;
   *correction = c->correction;
   PetscFunctionReturn(0);

@@ -35,8 +35,6 @@ struct Coupler_s {
 
 /* The force of the modes that conserve momentum (force.h): reaction, added inertia and buoyancy. */
 PetscErrorCode CouplerConservativeForce(Coupler coupler);
-/* The correction that sets the fluid inside the solid to the solid's new velocity. */
+/* The correction that sets the fluid inside the solid to the solid's new velocity [5]; all modes have it. */
 PetscErrorCode CouplerSolidCorrection(Coupler coupler, const SolidState *moved);
-/* The correction of modes that have none: the fluid keeps its velocity. */
-PetscErrorCode CouplerNoCorrection(Coupler coupler, const SolidState *moved);
 #endif

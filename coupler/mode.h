@@ -5,9 +5,11 @@
  *                      the wall term.  The force is the reaction to both, plus the inertia of the fluid
  *                      inside and buoyancy.  Conservative.
  *     stress_shell     Yang et al. 2016, literal: wall term in the shell only, from the viscosity
- *                      projected to the surface; force by the surface integral of [43], [44].
+ *                      projected to the surface; force by the surface integral of [43], [44].  Not conservative.
  *     penalty_shell    Vire, Xiang, Pain 2015: a = rho_f/dt I in the shell only; the force is the reaction to
  *                      it, plus the inertia of the fluid inside and buoyancy.  Conservative.
+ *
+ * In all of them the fluid inside takes the solid's velocity at the step's end [5] (CouplerSolidCorrection).
  *
  * A mode is one file, mode_<name>.c, which exports one constant table.  Numbers in [ ], here and in the other
  * headers, are equations of Yang, Xiang, Fang, Pavlidis, Latham, Pain, J.  Comput.  Phys. 2016, doi
@@ -35,7 +37,7 @@ typedef struct {
  * unstable below rho_s/rho_f of about 1, and it excites the vibrations of a disc until elements invert. */
 typedef enum { COUPLER_VELOCITY_END, COUPLER_VELOCITY_MEAN } CouplerVelocity;
 
-/* What a mode decides.  The last three functions are collective. */
+/* What a mode decides.  The last two functions are collective. */
 typedef struct {
   CouplerVelocity velocity;
   PetscBool needs_pressure; /* the fluid sends p with its flow */
@@ -44,7 +46,6 @@ typedef struct {
   void (*read_options)(CoracleCase file, CouplerOptions *options);
   PetscErrorCode (*coefficients)(Coupler coupler, const SolidState *solid); /* sets every pair's a */
   PetscErrorCode (*force)(Coupler coupler);                                 /* sets node from the flow */
-  PetscErrorCode (*correct)(Coupler coupler, const SolidState *moved);      /* adds to the corrections */
 } CouplerModeTable;
 
 extern const CouplerModeTable COUPLER_MODE_REACTION, COUPLER_MODE_STRESS_SHELL, COUPLER_MODE_PENALTY_SHELL;

@@ -1,7 +1,5 @@
 /* Mode penalty_shell (Vire, Xiang, Pain 2015; the paper's Af20 rows): a = rho_f/dt I in the shell, nothing in
- * the volume.  The force is the reaction to it, so that momentum is kept, and the fluid inside takes the
- * solid's velocity at the step's end [5].  With the pressure integrated over the surface instead, and the
- * inside left alone, a disc falls half as fast as it should and the flow inside of it runs away. */
+ * the volume.  The force is the reaction to it, so that momentum is kept. */
 #include "coupler/coupler_impl.h"
 
 static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
@@ -16,7 +14,5 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
   PetscFunctionReturn(0);
 }
 
-const CouplerModeTable COUPLER_MODE_PENALTY_SHELL = {.velocity = COUPLER_VELOCITY_END,
-                                                     .coefficients = Coefficients,
-                                                     .force = CouplerConservativeForce,
-                                                     .correct = CouplerSolidCorrection};
+const CouplerModeTable COUPLER_MODE_PENALTY_SHELL = {
+    .velocity = COUPLER_VELOCITY_END, .coefficients = Coefficients, .force = CouplerConservativeForce};

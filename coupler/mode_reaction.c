@@ -39,5 +39,4 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
 const CouplerModeTable COUPLER_MODE_REACTION = {.velocity = COUPLER_VELOCITY_END,
                                                 .read_options = ReadOptions,
                                                 .coefficients = Coefficients,
-                                                .force = CouplerConservativeForce,
-                                                .correct = CouplerSolidCorrection};
+                                                .force = CouplerConservativeForce};

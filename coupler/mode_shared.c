@@ -1,12 +1,6 @@
-/* What several modes share: the force and the correction of those that conserve momentum, and no correction. */
+/* The correction, which all modes have, and the force of those that conserve momentum. */
 #include "coupler/coupler_impl.h"
 #include "coupler/slip.h"
-
-PetscErrorCode CouplerNoCorrection(Coupler c, const SolidState *moved)
-{
-  PetscFunctionBeginUser;
-  PetscFunctionReturn(0);
-}
 
 PetscErrorCode CouplerConservativeForce(Coupler c)
 {

@@ -34,7 +34,7 @@ CHECKS = {
     "Le-0.06": (["time.end=4", "fluid.adapt.size_max=0.06", "fluid.mesh.size_max=0.06"], "1:1:1"),
     "cost-0.02": (["time.end=2.5"] + COARSE, "1:1:1"),
     "cost-0.01": (["time.end=2.5"], "1:1:1"),
-    "stress_shell": (["time.end=4", "coupler.mode=stress_shell", "coupler.max_iterations=1"], "1:1:1"),
+    "stress_shell": (["time.end=4", "time.cfl=0.5", "coupler.mode=stress_shell", "coupler.max_iterations=1"], "1:1:1"),
     "penalty_shell": (["time.end=4", "coupler.mode=penalty_shell", "coupler.max_iterations=1"], "1:1:1"),
     "ratio-0.5": (["time.end=1", "solid.materials.disc.density=500", "solid.bodies[0].centre=[1.25, 9]"], "1:1:1"),
     "ratio-0.05": (["time.end=1", "solid.materials.disc.density=50", "solid.bodies[0].centre=[1.25, 9]"], "1:1:1"),
