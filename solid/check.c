@@ -53,7 +53,7 @@ static const CoracleCaseKey KEYS[] = {
      "true, or a list of names of boundaries and physical surfaces that do not move"},
     {"solid.bodies[].fixed[]", "", "name of a boundary or a physical surface that does not move"},
     {"solid.bodies[].prescribed", "", "list of boundaries whose motion is prescribed"},
-    {"solid.bodies[].prescribed[].boundary", "", "name of the boundary"},
+    {"solid.bodies[].prescribed[].boundary", "", "name of the boundary; absent: the whole surface"},
     {"solid.bodies[].prescribed[].component", "", "which component is prescribed; the other stays free"},
     {"solid.bodies[].prescribed[].table", "", "list of rows of time and velocity, linear between them"},
     {"solid.bodies[].prescribed[].table[]", "s, m/s", "time, velocity along x and y"},

@@ -6,20 +6,37 @@ static double Row(const PrescribedMotion *d, int k, int column)
   return d->row[3 * k + column];
 }
 
-/* The integral of the velocity from the first row's time to t, m. */
-static double Displacement(const PrescribedMotion *d, int c, double t)
+/* The first row after t, nrows if there is none: tables may be records of thousands of rows. */
+static int NextRow(const PrescribedMotion *d, double t)
 {
-  double sum = Row(d, 0, 1 + c) * fmin(t - Row(d, 0, 0), 0.0);
-  for (int k = 0; k + 1 < d->nrows; k++) {
-    const double t0 = Row(d, k, 0), t1 = Row(d, k + 1, 0), v0 = Row(d, k, 1 + c), v1 = Row(d, k + 1, 1 + c);
-    const double span = fmin(t, t1) - t0;
-    if (span > 0.0) sum += span * (v0 + 0.5 * span * (v1 - v0) / (t1 - t0));
+  int below = 0, above = d->nrows;
+  while (below < above) {
+    const int middle = (below + above) / 2;
+    if (Row(d, middle, 0) <= t)
+      below = middle + 1;
+    else
+      above = middle;
   }
-  return sum + Row(d, d->nrows - 1, 1 + c) * fmax(t - Row(d, d->nrows - 1, 0), 0.0);
+  return below;
 }
 
-double PrescribedVelocity(const PrescribedMotion *d, int component, double from, double h)
+/* The velocity at t, which lies between row next - 1 and row next. */
+static double Velocity(const PrescribedMotion *d, int next, int c, double t)
 {
-  if (d->nrows == 1) return Row(d, 0, 1 + component);
-  return (Displacement(d, component, from + h) - Displacement(d, component, from)) / h;
+  if (next == 0) return Row(d, 0, 1 + c);
+  if (next == d->nrows) return Row(d, next - 1, 1 + c);
+  const double t0 = Row(d, next - 1, 0), v0 = Row(d, next - 1, 1 + c);
+  return v0 + (t - t0) / (Row(d, next, 0) - t0) * (Row(d, next, 1 + c) - v0);
+}
+
+double PrescribedVelocity(const PrescribedMotion *d, int c, double from, double h)
+{
+  const double to = from + h;
+  double sum = 0.0;
+  int next = NextRow(d, from);
+  for (double start = from, end; start < to; start = end, next++) {
+    end = next < d->nrows ? fmin(Row(d, next, 0), to) : to;
+    sum += 0.5 * (end - start) * (Velocity(d, next, c, start) + Velocity(d, next, c, end));
+  }
+  return sum / (to - from);
 }

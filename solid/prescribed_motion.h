@@ -15,6 +15,6 @@ typedef struct {
   int node, motion;
 } PrescribedNode;
 
-/* The velocity's mean over from .. from + h. */
+/* The velocity's mean over from .. from + h, h > 0. */
 double PrescribedVelocity(const PrescribedMotion *d, int component, double from, double h);
 #endif

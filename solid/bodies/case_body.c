@@ -124,7 +124,7 @@ static PetscErrorCode ReadMotion(CoracleCase c, const char *item, BoundaryMotion
   double *row;
   PetscFunctionBeginUser;
   (void)snprintf(key, sizeof key, "%s.boundary", item);
-  d->boundary = CoracleCaseString(c, key);
+  d->boundary = CoracleCaseHas(c, key) ? CoracleCaseString(c, key) : NULL;
   (void)snprintf(key, sizeof key, "%s.component", item);
   const int component = CoracleCaseWord(c, key, 0, COMPONENTS);
   d->motion.prescribed[0] = component != 2;

@@ -114,7 +114,8 @@ static PetscErrorCode PrescribeNodes(Model *a, const MeshSerial *m, const BodySe
     PetscCall(
         PetscRealloc(((size_t)a->nprescribed + 2 * (size_t)m->nb) * sizeof *a->prescribed, &a->prescribed));
     for (int i = 0; i < 2 * m->nb; i++) {
-      if (strcmp(m->tag_name[m->facet_tag[i / 2]], setup->prescribed[k].boundary)) continue;
+      const char *wanted = setup->prescribed[k].boundary;
+      if (wanted && strcmp(m->tag_name[m->facet_tag[i / 2]], wanted)) continue;
       const int n = renumber[m->facet[i]];
       a->prescribed[a->nprescribed++] = (PrescribedNode){n, a->nmotions};
       for (int c = 0; c < 2; c++)

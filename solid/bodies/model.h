@@ -41,7 +41,7 @@ typedef struct {
 } JointSetup;
 
 typedef struct {
-  const char *boundary;
+  const char *boundary; /* NULL: all of the body's */
   PrescribedMotion motion;
 } BoundaryMotion;
 

@@ -77,7 +77,8 @@ static PetscErrorCode CheckNames(const MeshSerial *m, const BodySetup *setup)
     if (!IsRegion(m, setup->fixed_name[k]))
       code = CheckName("boundary", setup->fixed_name[k], m->ntags, m->tag_name);
   for (int k = 0; k < setup->nprescribed && !code; k++)
-    code = CheckName("boundary", setup->prescribed[k].boundary, m->ntags, m->tag_name);
+    if (setup->prescribed[k].boundary)
+      code = CheckName("boundary", setup->prescribed[k].boundary, m->ntags, m->tag_name);
   for (int k = 0; k < setup->nregions && !code; k++)
     code = CheckName("region", setup->region[k].region, m->nregions, m->region_name);
   for (int k = 0; k < setup->joints.nregions && !code; k++)

@@ -147,6 +147,23 @@ static void Joints(void)
   CheckCase(text, NULL, Read, ":8: key 'solid.bodies[0]': the body has no region 'crust'; it has plate");
 }
 
+/* The mean velocity over intervals within, before, after and over several rows of a table. */
+static void CheckTable(void)
+{
+  const double row[] = {0.0, 0.0, 1.0, 1.0, 4.0, 1.0, 1.5, -2.0, 0.0, 3.0, 1.0, 0.0};
+  const PrescribedMotion motion = {{1, 1}, 4, row, 0.0};
+  static const double CASE[][4] = {
+      {-2.0, 1.0, 0.0, 1.0}, {-1.0, 5.0, 0.55, 0.45}, /* from, length, mean of u, v */
+      {0.25, 0.5, 2.0, 1.0}, {1.0, 0.25, 2.5, 0.75},  {0.5, 2.5, 0.5, 0.3},
+      {3.0, 2.0, 1.0, 0.0},  {1.5, 1.5, -0.5, 0.0}};
+  for (size_t k = 0; k < sizeof CASE / sizeof *CASE; k++)
+    for (int c = 0; c < 2; c++) {
+      const double mean = PrescribedVelocity(&motion, c, CASE[k][0], CASE[k][1]);
+      CHECK(fabs(mean - CASE[k][2 + c]) < 1e-14, "mean velocity %d from %g for %g s: %g", c, CASE[k][0],
+            CASE[k][1], mean);
+    }
+}
+
 /* Regions of a mesh, contact's table, walls, planes, drives and rings. */
 static void Full(void)
 {
@@ -189,6 +206,7 @@ static void Full(void)
         "drives");
   const double mean = PrescribedVelocity(&model.motion[0], 0, 1.0, 2.0); /* 2 to 3, then 3 */
   CHECK(fabs(mean - 2.75) < 1e-14, "mean velocity %g", mean);
+  CheckTable();
   double area[3] = {0.0, 0.0, 0.0}, span[2] = {0.0, 0.0};
   for (int n = 0; n < model.nnodes; n++) /* the stretched ring's wall is 0.1 at its right, thinner above */
     for (int c = 0; c < 2 && model.node_body[n] == 1; c++)
