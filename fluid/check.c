@@ -45,7 +45,8 @@ static const CoracleCaseKey KEYS[] = {
      "the "
      "interface's elements; 0.4 if not given; large: no limit"},
     {"fluid.regions", "",
-     "where the phases are at the start, the first one everywhere, later ones over earlier ones"},
+     "where the phases are at the start, the first one everywhere, later ones over earlier ones; solids hold "
+     "the lightest"},
     {"fluid.regions[].phase", "", "which phase; without a shape: everywhere"},
     {"fluid.regions[].lower", "m", "lower left corner of a box"},
     {"fluid.regions[].upper", "m", "upper right corner of the box"},

@@ -130,6 +130,10 @@ PetscErrorCode FluidStartInside(Fluid f)
   PetscScalar *u;
   int n;
   PetscFunctionBeginUser;
+  if (f->phases) {
+    PetscCall(PhaseTransportStartSolid(f->phases, SolidCouplingFraction(f->solid)));
+    PetscCall(FluidPhasesChanged(f));
+  }
   entry = SolidCouplingEntries(f->solid, &n);
   PetscCall(VecGetArray(f->u, &u));
   for (int k = 0; k < n; k++)

@@ -41,6 +41,9 @@ PetscErrorCode PhaseTransportCreate(const FluidDomain *domain, const PhaseProper
 PetscErrorCode PhaseTransportDestroy(PhaseTransport *t);
 /* The initial state; errors of PhasesFill. */
 PetscErrorCode PhaseTransportFill(PhaseTransport t, int nregions, const Region region[]);
+/* At the run's start: the lightest phase takes the place of heavier ones where the solid is, solid[ne] = alpha_s.  An element that
+ * its surface crosses keeps what fits beside it. */
+PetscErrorCode PhaseTransportStartSolid(PhaseTransport t, const double solid[]);
 /* The volumes from those on another mesh. */
 PetscErrorCode PhaseTransportRemap(PhaseTransport from, Transfer transfer, PhaseTransport to);
 /* From t^n over dt along u[ne][6], m/s, extrapolated from t^n by `extrapolated` times the step before, dt_before; prescribed

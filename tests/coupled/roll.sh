@@ -12,7 +12,6 @@ a = math.radians(5.0)
 def turned(x, y): return "[%.9f, %.9f]" % (0.3 + math.cos(a) * x - math.sin(a) * y, 0.2 + math.sin(a) * x + math.cos(a) * y)
 print("solid.bodies[0].size=0.008")
 print("solid.bodies[0].angle=%.9f" % a)
-print("fluid.regions[2]={phase: air, polygon: [%s]}" % ", ".join(turned(*c) for c in ((-0.06, -0.03), (0.06, -0.03), (0.06, 0.03), (-0.06, 0.03))))
 print("solid.probes[0].point=" + turned(-0.05, 0.0))
 print("solid.probes[1].point=" + turned(0.05, 0.0))
 E2

@@ -9,18 +9,18 @@ case=$here/wetting.yaml
 limit=600
 for angle in 60 120; do must "plane $angle" 1:1:1 --set fluid.contact_angle=$angle; done
 must "half wet 90" 1:1:1 --set fluid.contact_angle=90 --set 'gravity=[0.0, -1.0]' --set time.end=0.3 \
-  --set 'fluid.regions=[{phase: air}, {phase: water, lower: [-1, -1], upper: [2, 0.37]}, {phase: air, lower: [0.3, 0.2], upper: [0.7, 0.5]}]' \
+  --set 'fluid.regions=[{phase: air}, {phase: water, lower: [-1, -1], upper: [2, 0.37]}]' \
   --set 'solid.bodies=[{shape: rectangle, centre: [0.5, 0.35], width: 0.4, height: 0.3, size: 0.05, material: block, fixed: true}]'
 if [ "$long" ]; then
   for angle in 60 120; do must "fine plane $angle" 1:1:1 --set fluid.contact_angle=$angle --set fluid.mesh.size_max=0.0268; done
   must "disc 90" 1:1:1 --set fluid.contact_angle=90 --set 'fluid.mesh={lower: [0.0, 0.0], upper: [1.0, 1.0], size_max: 0.0268}' \
-    --set 'fluid.regions=[{phase: air}, {phase: water, centre: [0.503, 0.58], radius: 0.2}, {phase: air, centre: [0.503, 0.35], radius: 0.2}]' \
+    --set 'fluid.regions=[{phase: air}, {phase: water, centre: [0.503, 0.58], radius: 0.2}]' \
     --set 'solid.bodies=[{shape: disc, centre: [0.503, 0.35], radius: 0.2, size: 0.03, material: block, fixed: true}]'
   must "float 120" 1:1:1 --set fluid.contact_angle=120 --set time.end=12 --set time.dt_max=0.02 --set 'gravity=[0.0, -1.0]' \
     --set 'fluid.phases=[{name: water, density: 1.0, viscosity: 0.3}, {name: air, density: 0.01, viscosity: 0.03}]' \
     --set 'fluid.mesh={lower: [-3.0, -2.0], upper: [3.0, 1.5], size_max: 0.3}' \
     --set 'fluid.adapt={size_min: 0.08, size_max: 0.4, velocity_error: 0.2, every: 10}' \
-    --set 'fluid.regions=[{phase: air}, {phase: water, lower: [-9.0, -9.0], upper: [9.0, 0.0]}, {phase: air, centre: [0.01, -0.2], radius: 0.5}]' \
+    --set 'fluid.regions=[{phase: air}, {phase: water, lower: [-9.0, -9.0], upper: [9.0, 0.0]}]' \
     --set 'solid.bodies=[{shape: disc, centre: [0.01, -0.2], radius: 0.5, size: 0.08, material: block}]' --set coupler.shell_thickness=0.005
 fi
 PYTHONPATH=$here "$python" -B - "$scratch" "${print:-}" <<'E2'
