@@ -40,9 +40,10 @@ static double TriangleDensity(const double rho[3])
   return n ? sum / n : 0.0;
 }
 
-PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt, PairTerm term[],
-                                   SourceTerm source[])
+PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt,
+                                   PetscBool sigma_among_phases, PairTerm term[], SourceTerm source[])
 {
+  const PetscBool heavy = (PetscBool)(o->phases && !sigma_among_phases);
   double *rho, (*vertex)[3];
 
   PetscFunctionBeginUser;
@@ -50,8 +51,12 @@ PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt
   PetscCall(NodeDensities(o, solid, rho));
   PetscCall(OverlapNodesToSources(o, 1, rho, (double *)vertex));
   const double heaviest = o->pairs.n ? INERTIA_MOST * o->rho[o->pairs.pair[0].b] : HUGE_VAL;
-  for (int t = 0; t < o->nsources; t++)
-    source[t].density = o->source[t].is_shell ? 0.0 : fmin(TriangleDensity(vertex[t]), heaviest);
+  for (int t = 0; t < o->nsources; t++) {
+    const double density = TriangleDensity(vertex[t]);
+    const PetscBool is_shell = o->source[t].is_shell ? PETSC_TRUE : PETSC_FALSE;
+    source[t].held = (PetscBool)(!is_shell && density == 0.0);
+    source[t].density = is_shell ? 0.0 : source[t].held && heavy ? heaviest : fmin(density, heaviest);
+  }
   for (int p = 0; p < o->pairs.n; p++) {
     const double rho_f = o->rho[o->pairs.pair[p].b], rho_s = source[o->pairs.pair[p].a].density;
     if (rho_s == 0.0) continue;

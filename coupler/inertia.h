@@ -70,7 +70,10 @@
  * for 15 % more steps.)  In one fluid q is of a: with a~ the tip of the beam of cases/flexible_beam, FSI1 with le 0.008, is 0.30
  * instead of 0.70 mm high after 6 s (reference 0.82).
  *
- * Where nodes have no mobility the solid is held: sigma towards v. */
+ * Where nodes have no mobility the solid is held: in one fluid by sigma towards v, among phases as one of INERTIA_MOST times the density of
+ * the fluid that fills it.  Held by sigma it is to the pressure what fills it, air: a caisson in still water 0.5 m deep set the water and
+ * the air beside it in motion with 6 m/s.  With surface tension it is held by sigma all the same: a line's force in an element that is
+ * held by inertia does not balance the pressure of the drop beside it (a drop at 120 degrees on a block stood at 108 and never came to rest). */
 #ifndef CORACLE_INERTIA_H
 #define CORACLE_INERTIA_H
 #include "coupler/overlap.h"
@@ -82,10 +85,10 @@
 
 #define INERTIA_MOST 1e6
 
-/* Collective.  Density of source[nsources]: rho_s of volume triangles, at most INERTIA_MOST times rho_f; 0 for the shell's, and where all nodes are
- * held.  Where it is not 0, term[pairs.n] gets the inertia above and a = 0. */
-PetscErrorCode InertiaCoefficients(Overlap overlap, const SolidState *solid, double dt, PairTerm term[],
-                                   SourceTerm source[]);
+/* Collective.  Density and held of source[nsources]: rho_s of volume triangles, at most INERTIA_MOST times rho_f; 0 for the shell's, and where all
+ * nodes are held by sigma.  Where it is not 0, term[pairs.n] gets the inertia above and a = 0. */
+PetscErrorCode InertiaCoefficients(Overlap overlap, const SolidState *solid, double dt,
+                                   PetscBool sigma_among_phases, PairTerm term[], SourceTerm source[]);
 /* Local, after InertiaCoefficients, OutsideDensity and SlipTensors: start of term[pairs.n], kept and covered of element[ncoupled]. */
 void InertiaStart(Overlap overlap, const SourceTerm source[], double dt, ElementTerm element[],
                   PairTerm term[]);

@@ -27,9 +27,10 @@ extern const char *const COUPLER_MODES[];
 
 typedef struct {
   CouplerMode mode;
-  double thickness;  /* of the shell, dr, m */
-  double relaxation; /* sigma dt / rho_f, used by the mode reaction */
-  double gravity[2]; /* m/s2 */
+  double thickness;             /* of the shell, dr, m */
+  double relaxation;            /* sigma dt / rho_f, used by the mode reaction */
+  double gravity[2];            /* m/s2 */
+  PetscBool sigma_among_phases; /* what is held among phases is held by sigma, too (inertia.h) */
 } CouplerOptions;
 
 /* Which of the solid's velocities over the last step u_s is: the one at its end, without vibrations, or the

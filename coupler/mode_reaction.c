@@ -10,6 +10,7 @@ static void ReadOptions(CoracleCase file, CouplerOptions *o)
   o->relaxation = CoracleCaseNumberOr(file, "coupler.relaxation", 10.0, 0.0, HUGE_VAL);
   if (o->relaxation <= 0.0)
     CoracleCaseRefuse(file, "coupler.relaxation", "expected a number > 0, found %g", o->relaxation);
+  o->sigma_among_phases = CoracleCaseHas(file, "fluid.surface_tension") ? PETSC_TRUE : PETSC_FALSE;
 }
 
 static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
@@ -28,7 +29,7 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
       c->term[p].a = WallCoefficientIsotropic(c->options.relaxation * o->rho[k] / c->dt);
     }
   }
-  PetscCall(InertiaCoefficients(o, solid, c->dt, c->term, c->source));
+  PetscCall(InertiaCoefficients(o, solid, c->dt, c->options.sigma_among_phases, c->term, c->source));
   OutsideDensity(o, c->element);
   SlipTensors(o, c->element);
   InertiaStart(o, c->source, c->dt, c->element, c->term);

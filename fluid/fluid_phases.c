@@ -46,14 +46,16 @@ static void UniformInSolid(Fluid f)
                                MaterialDensity(f->material, MATERIAL_STEP)[entry[k].element]);
 }
 
-/* moves[ne]: elements in which the solid has implicit inertia. */
+/* moves[ne]: elements with the volume of a solid that is not held. */
 static PetscErrorCode WhereSolidMoves(Fluid f, char moves[])
 {
   int n;
   const CoracleCoupling *entry = SolidCouplingEntries(f->solid, &n);
   PetscFunctionBeginUser;
   PetscCall(PetscArrayzero(moves, f->domain.mesh->ne));
-  for (int k = 0; k < n; k++) moves[entry[k].element] = (entry[k].flags & CORACLE_HAS_INERTIA) != 0;
+  for (int k = 0; k < n; k++)
+    moves[entry[k].element] =
+        (entry[k].flags & (CORACLE_HAS_INERTIA | CORACLE_IS_HELD)) == CORACLE_HAS_INERTIA;
   PetscFunctionReturn(0);
 }
 

@@ -38,17 +38,19 @@ static void DampUnresolved(Solid s)
     }
 }
 
-/* What moves prescribed nodes acts beside the fluid: their whole acceleration is that of the prescribed velocity. */
+/* What moves prescribed nodes acts beside the fluid: their whole acceleration is that of the prescribed velocity, and the fluid does not
+ * move them. */
 static void AcceleratePrescribed(Solid s)
 {
   const double t = s->stats.t, dt = s->dt;
-  for (int k = 0; k < s->nprescribed && dt > 0.0; k++) {
+  for (int k = 0; k < s->nprescribed; k++) {
     const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
     if (d->release > 0.0 && t >= d->release * (1.0 - 1e-12)) continue;
+    if (d->prescribed[0] && d->prescribed[1]) s->mobility[s->prescribed[k].node] = 0.0;
     for (int c = 0; c < 2; c++)
       if (d->prescribed[c])
         s->acceleration[2 * s->prescribed[k].node + c] =
-            (PrescribedVelocity(d, c, t, dt) - PrescribedVelocity(d, c, t - dt, dt)) / dt;
+            dt > 0.0 ? (PrescribedVelocity(d, c, t, dt) - PrescribedVelocity(d, c, t - dt, dt)) / dt : 0.0;
   }
 }
 
@@ -71,7 +73,8 @@ PetscErrorCode SolidUpdateInterfaceMotion(Solid s, InterfaceMotion *interface)
   DampUnresolved(s);
   AcceleratePrescribed(s);
   PetscCall(StepResponseApply(s, s->acceleration));
-  for (int k = 0; k < 2 * s->nnodes; k++) s->acceleration[k] -= s->load[k] / s->mass[k / 2];
+  for (int k = 0; k < 2 * s->nnodes; k++)
+    if (s->mobility[k / 2] > 0.0) s->acceleration[k] -= s->load[k] / s->mass[k / 2];
   s->stats.seconds[5] += MPI_Wtime() - start;
   SolidGetInterfaceMotion(s, interface);
   PetscFunctionReturn(0);

@@ -232,11 +232,12 @@ enum {
   CORACLE_HAS_INERTIA = 2, /* implicit_inertia is in use: K overlaps nodes with a mobility */
   /* K lies in the solid as a whole, which moves freely: the step begins with the solid's velocity there, which s has, and
    * u start counts as 0 in rho M/dt (u* - u start); what CoracleSetFlow gives is the fluid's own all the same */
-  CORACLE_IS_COVERED = 4
+  CORACLE_IS_COVERED = 4,
+  CORACLE_IS_HELD = 8 /* K overlaps nodes without a mobility, which the fluid does not move */
 };
 typedef struct {
   int element; /* index into the elements last given by region */
-  int flags;   /* CORACLE_HAS_..., CORACLE_IS_COVERED */
+  int flags;   /* CORACLE_HAS_..., CORACLE_IS_... */
   /* kg/s: int_K a_cd N_i N_j, the implicit coefficient of u*, shell and volume together */
   double a[CORACLE_DIM][CORACLE_VERTICES][CORACLE_DIM][CORACLE_VERTICES];
   /* kg/s: the solid's inertia beyond the fluid's, int_K m N_i N_j, which resists the change of the velocity over the step:
@@ -250,7 +251,8 @@ typedef struct {
   double kept[CORACLE_DIM][CORACLE_DIM];
   /* N: int_K (a u_s)_c N_i, the explicit part of s_c */
   double s[CORACLE_DIM][CORACLE_VERTICES];
-  /* m2: int_{K and S} N_i N_j, sub-cell solid mass, where the solid is held: has no mobility */
+  /* m2: int_{K and S} N_i N_j, sub-cell solid mass, where the solid is held: has no mobility; 0 where implicit_inertia
+   * holds it */
   double ms[CORACLE_VERTICES][CORACLE_VERTICES];
   /* m3/s: int_{K and S} N_i (u_s)_c, where the solid is held */
   double us[CORACLE_DIM][CORACLE_VERTICES];

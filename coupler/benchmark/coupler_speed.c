@@ -112,7 +112,7 @@ static PetscErrorCode Measure(Coupler c, const SolidState *solid, int nfluid, in
 
 int main(int argc, char **argv)
 {
-  const CouplerOptions options = {COUPLER_REACTION, 0.0005, 10.0, {0.0, -9.81}};
+  const CouplerOptions options = {COUPLER_REACTION, 0.0005, 10.0, {0.0, -9.81}, PETSC_FALSE};
   FluidElements elements;
   SolidState solid;
   Coupler c;

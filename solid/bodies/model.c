@@ -99,6 +99,15 @@ static void FixNodes(Model *a, const MeshSerial *m, const BodySetup *setup, cons
     if (renumber[v] >= 0 && a->fixed[renumber[v]]) a->u[2 * renumber[v]] = a->u[2 * renumber[v] + 1] = 0.0;
 }
 
+/* Node n moves as the last of the motions. */
+static void PrescribeNode(Model *a, int n)
+{
+  const PrescribedMotion *motion = &a->motion[a->nmotions];
+  a->prescribed[a->nprescribed++] = (PrescribedNode){n, a->nmotions};
+  for (int c = 0; c < 2; c++)
+    if (motion->prescribed[c]) a->u[2 * n + c] = PrescribedVelocity(motion, c, 0.0, 1e-12);
+}
+
 static PetscErrorCode PrescribeNodes(Model *a, const MeshSerial *m, const BodySetup *setup,
                                      const int renumber[])
 {
@@ -111,16 +120,13 @@ static PetscErrorCode PrescribeNodes(Model *a, const MeshSerial *m, const BodySe
     motion.row = row;
     PetscCall(PetscRealloc((size_t)(a->nmotions + 1) * sizeof *a->motion, &a->motion));
     a->motion[a->nmotions] = motion;
-    PetscCall(
-        PetscRealloc(((size_t)a->nprescribed + 2 * (size_t)m->nb) * sizeof *a->prescribed, &a->prescribed));
-    for (int i = 0; i < 2 * m->nb; i++) {
-      const char *wanted = setup->prescribed[k].boundary;
-      if (wanted && strcmp(m->tag_name[m->facet_tag[i / 2]], wanted)) continue;
-      const int n = renumber[m->facet[i]];
-      a->prescribed[a->nprescribed++] = (PrescribedNode){n, a->nmotions};
-      for (int c = 0; c < 2; c++)
-        if (motion.prescribed[c]) a->u[2 * n + c] = PrescribedVelocity(&motion, c, 0.0, 1e-12);
-    }
+    const char *boundary = setup->prescribed[k].boundary;
+    const size_t most = boundary ? 2 * (size_t)m->nb : (size_t)m->nv;
+    PetscCall(PetscRealloc(((size_t)a->nprescribed + most) * sizeof *a->prescribed, &a->prescribed));
+    for (int v = 0; !boundary && v < m->nv; v++)
+      if (renumber[v] >= 0) PrescribeNode(a, renumber[v]);
+    for (int i = 0; boundary && i < 2 * m->nb; i++)
+      if (!strcmp(m->tag_name[m->facet_tag[i / 2]], boundary)) PrescribeNode(a, renumber[m->facet[i]]);
     a->nmotions++;
   }
   PetscFunctionReturn(0);

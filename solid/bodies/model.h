@@ -41,7 +41,7 @@ typedef struct {
 } JointSetup;
 
 typedef struct {
-  const char *boundary; /* NULL: all of the body's */
+  const char *boundary; /* NULL: the whole body */
   PrescribedMotion motion;
 } BoundaryMotion;
 

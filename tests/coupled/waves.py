@@ -16,7 +16,7 @@ import sys
 
 import numpy as np
 
-STROKE, PERIOD, END = 0.02, 1.0, 2.4  # m, s
+STROKE, PERIOD, END = 0.01, 1.0, 2.4  # m, s
 FACE, WALL, DEPTH, G = 0.35, 3.0, 0.5, 9.81  # m, m/s2
 GAUGES = {"near": 0.9, "far": 1.5}  # m
 

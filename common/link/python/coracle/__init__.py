@@ -17,6 +17,6 @@ An exception that nobody catches ends the whole job with one message.
 """
 from coracle.case import Case
 from coracle.client import REDO, RUN, STOP, Client
-from coracle.library import CORRECTION, COUPLING, GAUGE, HAS_INERTIA, HAS_SHELL, IS_COVERED, version
+from coracle.library import CORRECTION, COUPLING, GAUGE, HAS_INERTIA, HAS_SHELL, IS_COVERED, IS_HELD, version
 
-__all__ = ["Case", "Client", "CORRECTION", "COUPLING", "GAUGE", "HAS_INERTIA", "HAS_SHELL", "IS_COVERED", "REDO", "RUN", "STOP", "version"]
+__all__ = ["Case", "Client", "CORRECTION", "COUPLING", "GAUGE", "HAS_INERTIA", "HAS_SHELL", "IS_COVERED", "IS_HELD", "REDO", "RUN", "STOP", "version"]

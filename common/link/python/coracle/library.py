@@ -7,7 +7,7 @@ import numpy as np
 
 from coracle.location import LIBRARY, VERSION
 
-HAS_SHELL, HAS_INERTIA, IS_COVERED = 1, 2, 4
+HAS_SHELL, HAS_INERTIA, IS_COVERED, IS_HELD = 1, 2, 4, 8
 _MATRIX, _LOAD = (np.float64, (3, 3)), (np.float64, (2, 3))
 # CoracleCoupling and CoracleCorrection of coracle.h
 COUPLING = np.dtype([("element", np.intc), ("flags", np.intc), ("a", np.float64, (2, 3, 2, 3)), ("implicit_inertia", *_MATRIX),
@@ -115,5 +115,5 @@ def view(pointer, shape, dtype=np.float64):
     return values
 
 
-__all__ = ["CORRECTION", "COUPLING", "Elements", "Flow", "GAUGE", "HAS_INERTIA", "HAS_SHELL", "IS_COVERED", "REGION_FUNCTION", "STATE_FUNCTION", "address",
+__all__ = ["CORRECTION", "COUPLING", "Elements", "Flow", "GAUGE", "HAS_INERTIA", "HAS_SHELL", "IS_COVERED", "IS_HELD", "REGION_FUNCTION", "STATE_FUNCTION", "address",
            "array", "byref", "c_double", "c_int", "c_longlong", "c_void_p", "call", "version", "view", "words"]
