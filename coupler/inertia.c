@@ -50,12 +50,14 @@ PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt
   PetscCall(PetscMalloc2(solid->nnodes, &rho, o->nsources, &vertex));
   PetscCall(NodeDensities(o, solid, rho));
   PetscCall(OverlapNodesToSources(o, 1, rho, (double *)vertex));
-  const double heaviest = o->pairs.n ? INERTIA_MOST * o->rho[o->pairs.pair[0].b] : HUGE_VAL;
+  const double filler = o->pairs.n ? o->rho[o->pairs.pair[0].b] : 1.0;
   for (int t = 0; t < o->nsources; t++) {
     const double density = TriangleDensity(vertex[t]);
     const PetscBool is_shell = o->source[t].is_shell ? PETSC_TRUE : PETSC_FALSE;
     source[t].held = (PetscBool)(!is_shell && density == 0.0);
-    source[t].density = is_shell ? 0.0 : source[t].held && heavy ? heaviest : fmin(density, heaviest);
+    source[t].density = is_shell                  ? 0.0
+                        : source[t].held && heavy ? INERTIA_HELD * filler
+                                                  : fmin(density, INERTIA_MOST * filler);
   }
   for (int p = 0; p < o->pairs.n; p++) {
     const double rho_f = o->rho[o->pairs.pair[p].b], rho_s = source[o->pairs.pair[p].a].density;
@@ -96,6 +98,16 @@ static double KeptPart(const Overlap o, const SourceTerm source[], const Element
   return fmin(1.0, INERTIA_KEPT_RATIO * (rho + element->outside) * area / excess);
 }
 
+/* Among phases, by inertia. */
+static PetscBool IsHeld(const Overlap o, const SourceTerm source[], int e)
+{
+  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1] && o->phases; i++) {
+    const SourceTerm *s = &source[o->pairs.pair[o->of_element[i]].a];
+    if (s->held && s->density > 0.0) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
 /* P of D, whose trace is 1 and the difference of whose principal values 1 - 2 s, or which is 0. */
 static WallCoefficient Sharpened(const WallCoefficient *d, double k)
 {
@@ -109,10 +121,12 @@ static WallCoefficient Sharpened(const WallCoefficient *d, double k)
 void InertiaStart(Overlap o, const SourceTerm source[], double dt, ElementTerm element[], PairTerm term[])
 {
   for (int e = 0; e < o->ncoupled; e++) {
+    const PetscBool held = IsHeld(o, source, e);
     const double kept = KeptPart(o, source, &element[e], e);
-    const WallCoefficient along = Sharpened(&element[e].tangential, kept);
+    const WallCoefficient along = Sharpened(held ? &element[e].along : &element[e].tangential, kept);
     element[e].covered = (PetscBool)(!o->phases && IsCovered(o, source, e));
-    element[e].kept = o->phases ? WallCoefficientIsotropic(kept) : WallCoefficientScaled(&along, kept);
+    element[e].kept =
+        o->phases && !held ? WallCoefficientIsotropic(kept) : WallCoefficientScaled(&along, kept);
     element[e].freed = WallCoefficientScaled(&along, 1.0 - kept);
   }
   for (int p = 0; p < o->pairs.n; p++) {

@@ -16,9 +16,10 @@ void SlipTensors(const Overlap o, ElementTerm element[])
       xy += pair->area * n[0] * n[1];
       yy += pair->area * n[1] * n[1];
     }
-    element[e].tangential = WallCoefficientIsotropic(0.0);
-    if (!o->phases && shell > 0.0 && solid < (1.0 - OUTSIDE_LEAST) * o->area[o->coupled_element[e]])
-      element[e].tangential = (WallCoefficient){1.0 - xx / shell, -xy / shell, 1.0 - yy / shell};
+    element[e].along = element[e].tangential = WallCoefficientIsotropic(0.0);
+    if (shell > 0.0 && solid < (1.0 - OUTSIDE_LEAST) * o->area[o->coupled_element[e]])
+      element[e].along = (WallCoefficient){1.0 - xx / shell, -xy / shell, 1.0 - yy / shell};
+    if (!o->phases) element[e].tangential = element[e].along;
   }
 }
 

@@ -33,7 +33,7 @@
 
 #define SLIP_FRICTION 2.0
 
-/* Local: D of element[overlap->ncoupled]. */
+/* Local: D of element[overlap->ncoupled], and what it is with one fluid. */
 void SlipTensors(const Overlap overlap, ElementTerm element[]);
 /* Local: a of the pairs in the solid's volume, isotropic so far, becomes (I - D) a + SLIP_FRICTION mu/|K| D. */
 void SlipCoefficients(const Overlap overlap, const ElementTerm element[], PairTerm term[]);
