@@ -71,9 +71,10 @@
  * instead of 0.70 mm high after 6 s (reference 0.82).
  *
  * Where nodes have no mobility the solid is held: in one fluid by sigma towards v, among phases as one of INERTIA_HELD times the density of
- * the fluid that fills it, whose inertia counts along the surface as that of other heavy ones in one fluid (P of I - mean of n n).  Held by sigma it is to the pressure what fills it, air: a caisson in still water 0.5 m deep set the water and
- * the air beside it in motion with 6 m/s.  With surface tension it is held by sigma all the same: a line's force in an element that is
- * held by inertia does not balance the pressure of the drop beside it (a drop at 120 degrees on a block stood at 108 and never came to rest). */
+ * the phase that fills it, whose inertia counts along the surface as that of other heavy ones does in one fluid (P, with D = I - mean of
+ * n n).  Held by sigma it is to the pressure what fills it, air: a caisson in still water 0.5 m deep set the water and the air beside it in
+ * motion with 6 m/s.  With surface tension it is held by sigma all the same: a line's force in an element that is held by inertia does not
+ * balance the pressure of the drop beside it (a drop at 120 degrees on a block stood at 108 and never came to rest). */
 #ifndef CORACLE_INERTIA_H
 #define CORACLE_INERTIA_H
 #include "coupler/overlap.h"

@@ -11,7 +11,7 @@
  *
  *     a                 =  a B                s   =  a C^T u_s + C^T q + start C^T v
  *     implicit inertia  =  m B, with a tensor of the element (inertia.h)
- *     ms                =  B                  us  =  C^T u_s          T in the solid's volume, held, in one fluid
+ *     ms                =  B                  us  =  C^T u_s          T in the solid's volume, held by sigma
  *
  * with q a body force, linear on T, m the solid's inertia in the fluid's solve and start the inertia that begins with the
  * solid's velocity v (inertia.h); T is held where it has none.  The reaction (force.h) is made of the same coefficients and
@@ -94,7 +94,7 @@ typedef struct {
 
 /* What a source triangle's vertices have, with its basis as the origin. */
 typedef struct {
-  double density;                     /* rho_s, kg/m3; 0: of the shell, or held in one fluid (inertia.h) */
+  double density;                     /* rho_s, kg/m3; 0: of the shell, or held by sigma (inertia.h) */
   PetscBool held;                     /* its nodes have no mobility */
   LinearField velocity;               /* u_s, that the fluid couples to, m/s */
   LinearField start;                  /* v, the solid's at the step's start, m/s */

@@ -51,8 +51,8 @@ PetscErrorCode FluidSetPhases(Fluid fluid, int nregions, const Region region[]);
  * phases the pressure of the first instant, in which gravity alone acts. */
 PetscErrorCode FluidSetInitial(Fluid fluid, double t, FieldFunction velocity, FieldFunction pressure,
                                void *context);
-/* Before the first step of a run, with its coupling set: the fluid inside the solid moves with it, and of phases it is the lightest.  A body that
- * begins with a velocity has its whole momentum then, and strikes the fluid around it in the first step. */
+/* Before the first step of a run, with its coupling set: the fluid inside the solid moves with it, and of phases it is the
+ * lightest.  A body that begins with a velocity has its whole momentum then, and strikes the fluid around it in the first step. */
 PetscErrorCode FluidStartInside(Fluid fluid);
 
 /* Takes the state between two steps over from a fluid on another mesh of the same domain: velocity by
