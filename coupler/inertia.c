@@ -50,14 +50,12 @@ PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt
   PetscCall(PetscMalloc2(solid->nnodes, &rho, o->nsources, &vertex));
   PetscCall(NodeDensities(o, solid, rho));
   PetscCall(OverlapNodesToSources(o, 1, rho, (double *)vertex));
-  const double filler = o->pairs.n ? o->rho[o->pairs.pair[0].b] : 1.0;
+  const double heaviest = o->pairs.n ? INERTIA_MOST * o->rho[o->pairs.pair[0].b] : HUGE_VAL;
   for (int t = 0; t < o->nsources; t++) {
     const double density = TriangleDensity(vertex[t]);
     const PetscBool is_shell = o->source[t].is_shell ? PETSC_TRUE : PETSC_FALSE;
     source[t].held = (PetscBool)(!is_shell && density == 0.0);
-    source[t].density = is_shell                  ? 0.0
-                        : source[t].held && heavy ? INERTIA_HELD * filler
-                                                  : fmin(density, INERTIA_MOST * filler);
+    source[t].density = is_shell ? 0.0 : source[t].held && heavy ? heaviest : fmin(density, heaviest);
   }
   for (int p = 0; p < o->pairs.n; p++) {
     const double rho_f = o->rho[o->pairs.pair[p].b], rho_s = source[o->pairs.pair[p].a].density;

@@ -70,10 +70,11 @@
  * for 15 % more steps.)  In one fluid q is of a: with a~ the tip of the beam of cases/flexible_beam, FSI1 with le 0.008, is 0.30
  * instead of 0.70 mm high after 6 s (reference 0.82).
  *
- * Where nodes have no mobility the solid is held: in one fluid by sigma towards v, among phases as one of INERTIA_HELD times the density of
+ * Where nodes have no mobility the solid is held: in one fluid by sigma towards v, among phases as one of INERTIA_MOST times the density of
  * the phase that fills it, whose inertia counts along the surface as that of other heavy ones does in one fluid (P, with D = I - mean of
  * n n).  Held by sigma it is to the pressure what fills it, air: a caisson in still water 0.5 m deep set the water and the air beside it in
- * motion with 6 m/s.  With surface tension it is held by sigma all the same: a line's force in an element that is held by inertia does not
+ * motion with 6 m/s.  (With 1e5 times, 4e-4 of the water that a wall holds back 0.5 m deep passes it in a second, with 1e6 nothing, at 62 iterations
+ * of the pressure instead of 40.)  With surface tension it is held by sigma all the same: a line's force in an element that is held by inertia does not
  * balance the pressure of the drop beside it (a drop at 120 degrees on a block stood at 108 and never came to rest). */
 #ifndef CORACLE_INERTIA_H
 #define CORACLE_INERTIA_H
@@ -85,9 +86,6 @@
 #define INERTIA_KEPT_RATIO 20.0
 
 #define INERTIA_MOST 1e6
-/* Of what is held among phases, times the density of the phase that fills it.  A caisson in still water 0.5 m deep (tests/coupled/waves.yaml, le 0.02 m)
- * leaves it with 0.03, 0.003, 0.002 J/m of kinetic energy after 0.5 s with 1e4, 1e5, 1e6, at 31, 38, 62 iterations of the pressure. */
-#define INERTIA_HELD 1e5
 
 /* Collective.  Density and held of source[nsources]: rho_s of volume triangles, at most INERTIA_MOST times rho_f; 0 for the shell's, and where all
  * nodes are held by sigma.  Where it is not 0, term[pairs.n] gets the inertia above and a = 0. */

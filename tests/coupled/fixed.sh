@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Water that strikes a block that does not move keeps its volume, and no element holds more than its area: what moves the phases is the
-# velocity that the projection has made free of divergence.  Usage: fixed.sh ROOT BUILD
+# velocity that the projection has made free of divergence.  A wall that holds back water bears its pressure, and nothing passes.
+# Usage: fixed.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
 case=$here/fixed.yaml
@@ -22,4 +23,20 @@ for key in sorted(grid):
     wet = water[(x[cells][:, :, 0].mean(1) > 0.3)]
     covered = max(covered, wet.max())
 assert covered > 0.9, "the water has not come to the block"
+E2
+case=$here/dam.yaml
+for ranks in 1:1:1 2:1:2; do must "dam $ranks" $ranks; done
+"$python" - "$scratch" <<'E2'
+import csv, h5py, numpy as np, sys
+for ranks in "1:1:1", "2:1:2":
+    folder = "%s/dam %s" % (sys.argv[1], ranks)
+    force = np.mean([float(row["fx0 [N/m]"]) for row in csv.DictReader(open(folder + "/solid.csv")) if float(row["t [s]"]) > 0.25])
+    grid = h5py.File(folder + "/fluid.h5")["snapshot"]
+    velocity = grid[max(grid)]["velocity"]
+    corner = velocity["points"][:][velocity["cells"][:]]
+    area = 0.5 * np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    passed = (area * velocity["cell/water"][:])[corner[:, :, 0].mean(1) > 0.55].sum() / 0.25
+    report = "%s: force %.1f of %.1f N/m, %.1e of the water behind the wall" % (ranks, force, 500.0 * 9.81 * 0.25, passed)
+    print(report)
+    assert abs(force / (500.0 * 9.81 * 0.25) - 1.0) < 0.01 and passed < 1e-9, report
 E2
