@@ -16,11 +16,12 @@ struct PressureSolver_s {
   Mat matrix;
   Assembly assembly;
   double (*block)[36]; /* [ne], and the fixed nodes' diagonal behind them */
+  double *unevenness;  /* [ne] */
   PetscInt nfixed;
   KSP direct, iterative; /* made when used first */
   PressurePreconditioner preconditioner;
   PetscInt direct_max; /* nodes times ranks, up to which a factor is made for a matrix that stays */
-  double contrast;     /* square root of the largest ratio of the coefficient */
+  double contrast;     /* of the matrix */
   PetscReal tolerance; /* relative */
 };
 
@@ -92,6 +93,8 @@ PetscErrorCode PressureSolverCreate(const FluidDomain *domain, const char is_fix
   PetscCall(PetscOptionsGetInt(NULL, "pressure_", "-direct_max", &s->direct_max, NULL));
   PetscCall(CreateMatrix(s));
   PetscCall(PetscMalloc1(domain->mesh->ne + s->nfixed / 36 + 1, &s->block));
+  PetscCall(PetscMalloc1(domain->mesh->ne, &s->unevenness));
+  for (int e = 0; e < domain->mesh->ne; e++) s->unevenness[e] = 1.0;
   *solver = s;
   PetscFunctionReturn(0);
 }
@@ -107,6 +110,7 @@ PetscErrorCode PressureSolverDestroy(PressureSolver *solver)
   PetscCall(AssemblyDestroy(&s->assembly));
   PetscCall(MatDestroy(&s->matrix));
   PetscCall(PetscFree(s->block));
+  PetscCall(PetscFree(s->unevenness));
   PetscCall(PetscFree(*solver));
   PetscFunctionReturn(0);
 }
@@ -114,6 +118,11 @@ PetscErrorCode PressureSolverDestroy(PressureSolver *solver)
 double (*PressureSolverBlocks(PressureSolver s))[36]
 {
   return s->block;
+}
+
+double *PressureSolverUnevenness(PressureSolver s)
+{
+  return s->unevenness;
 }
 
 /* Constants: the null space for CG; where there is none, phi = 0 in the first node for consistent right-hand
@@ -129,40 +138,22 @@ static PetscErrorCode SetNullSpace(PressureSolver s)
   PetscFunctionReturn(0);
 }
 
-/* The square root of the coefficient's largest ratio: CG stops by the energy norm, which sees a velocity u as rho u^2,
- * and has to go on further for the same relative error where the fluid is light. */
-static PetscErrorCode SetContrast(PressureSolver s, const double block[][36])
-{
-  /* of the vertices' diagonal, which has no size of the element: largest, inverse of the least */
-  double range[2] = {0.0, 0.0};
-  PetscFunctionBeginUser;
-  for (int e = 0; e < s->domain->mesh->ne; e++) {
-    const double coefficient = block[e][0] + block[e][7] + block[e][14];
-    range[0] = PetscMax(range[0], coefficient);
-    range[1] = PetscMax(range[1], 1.0 / coefficient);
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, range, 2, MPI_DOUBLE, MPI_MAX, s->domain->mesh->comm));
-  s->contrast = sqrt(range[0] * range[1]);
-  PetscFunctionReturn(0);
-}
-
 /* CG for the matrix as it is now. */
 static PetscErrorCode PrepareIterative(PressureSolver s)
 {
-  const double(*block)[36] = (const double(*)[36])s->block;
   PetscFunctionBeginUser;
   if (!s->iterative) PetscCall(CreateIterative(s));
-  PetscCall(SetContrast(s, block));
-  PetscCall(PressurePreconditionerUpdate(s->preconditioner, block));
+  PetscCall(PressurePreconditionerUpdate(s->preconditioner, (const double(*)[36])s->block, s->unevenness));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PressureSolverSetMatrix(PressureSolver s, PetscBool varying)
+PetscErrorCode PressureSolverSetMatrix(PressureSolver s, PetscBool varying, double contrast)
 {
   double *extra = s->block[s->domain->mesh->ne];
   PetscMPIInt ranks;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_size(s->domain->mesh->comm, &ranks));
+  s->contrast = contrast;
   s->iterates = (PetscBool)(varying || s->domain->p2->nglobal > s->direct_max / ranks);
   for (int k = 0; k < s->nfixed; k++) extra[k] = 1.0;
   if (HasFirstNode(s)) extra[s->nfixed] = s->iterates ? 0.0 : s->block[0][0];

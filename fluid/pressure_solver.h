@@ -29,8 +29,11 @@ PetscErrorCode PressureSolverDestroy(PressureSolver *s);
 /* block[ne][6][6], the elements' contributions: to be filled before PressureSolverSetMatrix, and kept until the next.  Not
  * collective. */
 double (*PressureSolverBlocks(PressureSolver s))[36];
-/* The matrix is the sum of the blocks; varying: it will be another one soon. */
-PetscErrorCode PressureSolverSetMatrix(PressureSolver s, PetscBool varying);
+/* [ne], likewise: how much an element's coefficient depends on place and direction, the largest ratio of what its vertices have in the
+ * diagonal of its block to what they have with a coefficient of one; 1 at the start. */
+double *PressureSolverUnevenness(PressureSolver s);
+/* The matrix is the sum of the blocks; varying: it will be another one soon.  contrast: square root of the fluid's largest density over its least. */
+PetscErrorCode PressureSolverSetMatrix(PressureSolver s, PetscBool varying, double contrast);
 PetscErrorCode PressureSolverSolve(PressureSolver s, const PressureProblem *problem, Vec phi,
                                    int *iterations);
 #endif

@@ -77,6 +77,18 @@ static void Stiffness(const ElementGeometry *g, const ProjectionStep *step, int 
     P2Stiffness(g->area, (const double(*)[2])g->g, 1.0 / step->rho[e], block);
 }
 
+/* int |grad N|^2 over a vertex's function is area |grad lambda|^2. */
+static double Unevenness(const ElementGeometry *g, const double block[36])
+{
+  double least = HUGE_VAL, largest = 0.0;
+  for (int i = 0; i < 3; i++) {
+    const double coefficient = block[7 * i] / (g->g[i][0] * g->g[i][0] + g->g[i][1] * g->g[i][1]);
+    least = PetscMin(least, coefficient);
+    largest = PetscMax(largest, coefficient);
+  }
+  return largest / least;
+}
+
 /* The solver's matrix has the step's coefficient, but for what the solid does to it. */
 static PetscBool HasCoefficient(ProjectionSolver s, const ProjectionStep *step)
 {
@@ -88,15 +100,30 @@ static PetscBool HasCoefficient(ProjectionSolver s, const ProjectionStep *step)
 static void SetBlocks(ProjectionSolver s, const ProjectionStep *step)
 {
   const FluidDomain *d = s->domain;
-  double(*block)[36] = PressureSolverBlocks(s->solver);
+  double(*block)[36] = PressureSolverBlocks(s->solver), *unevenness = PressureSolverUnevenness(s->solver);
   const PetscBool all = (PetscBool)!HasCoefficient(s, step);
   for (int e = 0; e < d->mesh->ne; e++) {
     const PetscBool weighted = s->inertia && WeightedProjectionBlock(s->weighted, e, (double(*)[6])block[e]);
     if (!weighted && (all || s->is_weighted[e])) Stiffness(d->geometry + e, step, e, (double(*)[6])block[e]);
     s->is_weighted[e] = weighted;
+    unevenness[e] = weighted || step->inverse_density ? Unevenness(d->geometry + e, block[e]) : 1.0;
     if (step->compressible)
       CompressibilityBlock(&step->compressible[e], d->geometry[e].area, step->dt, (double(*)[6])block[e]);
   }
+}
+
+/* The square root of the largest ratio of the fluid's densities. */
+static PetscErrorCode Contrast(const Mesh *m, const double rho[], double *contrast)
+{
+  double range[2] = {0.0, 0.0}; /* largest, inverse of the least */
+  PetscFunctionBeginUser;
+  for (int e = 0; e < m->ne; e++) {
+    range[0] = PetscMax(range[0], rho[e]);
+    range[1] = PetscMax(range[1], 1.0 / rho[e]);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, range, 2, MPI_DOUBLE, MPI_MAX, m->comm));
+  *contrast = sqrt(range[0] * range[1]);
+  PetscFunctionReturn(0);
 }
 
 /* The pressure's matrix for the step, if it is not the solver's already. */
@@ -104,13 +131,15 @@ static PetscErrorCode Assemble(ProjectionSolver s, const ProjectionStep *step)
 {
   const WeightedProjectionStep weighted = {step->dt, step->rho, step->solid, step->inertia};
   PetscBool inertia;
+  double contrast;
   PetscFunctionBeginUser;
   PetscCall(WeightedProjectionPrepare(s->weighted, &weighted, &inertia));
   const PetscBool current = (PetscBool)(HasCoefficient(s, step) && !s->inertia);
   s->inertia = (PetscBool)(inertia && step->inertia);
   if (current && !s->inertia) PetscFunctionReturn(0);
   SetBlocks(s, step);
-  PetscCall(PressureSolverSetMatrix(s->solver, (PetscBool)(inertia || step->revision > 0)));
+  PetscCall(Contrast(s->domain->mesh, step->rho, &contrast));
+  PetscCall(PressureSolverSetMatrix(s->solver, (PetscBool)(inertia || step->revision > 0), contrast));
   s->revision = step->revision;
   s->tensor = (PetscBool) !!step->inverse_density;
   PetscFunctionReturn(0);

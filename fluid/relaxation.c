@@ -139,6 +139,11 @@ PetscErrorCode RelaxationUpdate(Relaxation s)
   PetscFunctionReturn(0);
 }
 
+const double *RelaxationHeld(Relaxation s)
+{
+  return s->held;
+}
+
 /* y -= B z */
 static PetscErrorCode SubtractBetween(Relaxation s, Vec z, double y[])
 {

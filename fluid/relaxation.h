@@ -21,6 +21,8 @@ PetscErrorCode RelaxationCreate(Mat matrix, Relaxation *relaxation);
 PetscErrorCode RelaxationDestroy(Relaxation *relaxation);
 /* A has other values. */
 PetscErrorCode RelaxationUpdate(Relaxation relaxation);
+/* l[rows of this rank], borrowed until the next update.  Not collective. */
+const double *RelaxationHeld(Relaxation relaxation);
 /* From z = 0; *residual = r - A z, borrowed until the next call of one of these. */
 PetscErrorCode RelaxationForward(Relaxation relaxation, Vec r, Vec z, Vec *residual);
 PetscErrorCode RelaxationBackward(Relaxation relaxation, Vec r, Vec z);
