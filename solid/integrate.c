@@ -1,5 +1,6 @@
 /* Time stepping: forces, substeps, and how long a substep may be. */
 #include "solid/solid_impl.h"
+#include "solid/springs.h"
 
 enum { CHECK_EVERY = 20 }; /* substeps between two checks of the stability limit, at most */
 #define KEEP 0.75          /* of the allowed length, down to which the last one is kept */
@@ -20,6 +21,7 @@ PetscErrorCode SolidForces(Solid s, const double **force)
   if (s->joints) JointsAddForces(s->joints, s);
   const double joints = Clock();
   PetscCall(ContactAddForces(s->contact, s));
+  SpringsAddForces(s);
   const double contact = Clock();
   PetscCall(CopiesSum(s->copies, 2, s->force));
   s->force_valid = PETSC_TRUE;
@@ -37,6 +39,7 @@ PetscErrorCode SolidLimit(Solid s, double *limit)
   PetscFunctionBeginUser;
   ElementRates rates = ContactRate(s->contact);
   if (s->joints) rates.stiffness += JointsRate(s->joints);
+  PetscCall(SpringsRate(s, &rates));
   *limit = SolidElementLimit(s, rates);
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, limit, 1, MPI_DOUBLE, MPI_MIN, s->comm));
   PetscFunctionReturn(0);
@@ -226,6 +229,7 @@ PetscErrorCode SolidSubstep(Solid s, double *h)
   MovePrescribed(s, 1);
   Move(s);
   BudgetAddDecay(s);
+  SpringsAddBudget(s);
   MovePrescribed(s, 0);
   s->force_valid = PETSC_FALSE;
   s->moved_for = s->h;

@@ -3,13 +3,13 @@
 #include "common/supermesh/geometry.h"
 #include <stdio.h>
 
-enum { MAX_PROBES = 64, VALUES = 4, SUMS = VALUES + 1, COLUMNS = MAX_PROBES * 220 };
+enum { MAX_PROBES = 64, VALUES = 4, SUMS = VALUES + 1, COLUMNS = (MAX_PROBES + MAX_SPRINGS) * 220 };
 #define ON_EDGE 1e-9 /* barycentric coordinate of a point that counts as inside */
 
 struct Probes_s {
   MPI_Comm comm;
   Series series;
-  int n;
+  int n, nsprings;
   double point[MAX_PROBES][2]; /* m, at rest */
 };
 
@@ -49,28 +49,41 @@ static PetscErrorCode Values(Probes p, Solid s, double value[][VALUES], int *mis
   PetscFunctionReturn(0);
 }
 
+static const char *ReadName(CoracleCase c, const char *list, int k)
+{
+  char key[64];
+  (void)snprintf(key, sizeof key, "%s[%d].name", list, k);
+  const char *name = CoracleCaseString(c, key);
+  if (!SeriesCanName(name))
+    CoracleCaseRefuse(c, key, "expected a name of up to %d characters without commas and quotes",
+                      SERIES_NAME_MAX);
+  return name;
+}
+
 /* Reads probe k and adds its columns behind those before it. */
 static void ReadProbe(CoracleCase c, int k, double point[2], size_t size, char columns[])
 {
   char key[64];
   (void)snprintf(key, sizeof key, "solid.probes[%d].point", k);
   CoracleCaseVector(c, key, 2, point);
-  (void)snprintf(key, sizeof key, "solid.probes[%d].name", k);
-  const char *name = CoracleCaseString(c, key);
+  const char *name = ReadName(c, "solid.probes", k);
   const size_t used = strlen(columns);
-  if (!SeriesCanName(name))
-    CoracleCaseRefuse(c, key, "expected a name of up to %d characters without commas and quotes",
-                      SERIES_NAME_MAX);
   (void)snprintf(columns + used, size - used, ",%s_x [m],%s_y [m],%s_u [m/s],%s_v [m/s]", name, name, name,
                  name);
 }
 
+/* Both lists' columns; point: of the probes. */
 static int ReadProbes(CoracleCase c, double point[][2], size_t size, char columns[])
 {
-  const int n = CoracleCaseCount(c, "solid.probes");
+  const int n = CoracleCaseCount(c, "solid.probes"), nsprings = CoracleCaseCount(c, "solid.springs");
   if (n > MAX_PROBES) CoracleCaseRefuse(c, "solid.probes", "more than %d probes", MAX_PROBES);
   (void)snprintf(columns, size, "t [s]");
   for (int k = 0; k < n; k++) ReadProbe(c, k, point[k], size, columns);
+  for (int k = 0; k < nsprings; k++) {
+    const char *name = ReadName(c, "solid.springs", k);
+    const size_t used = strlen(columns);
+    (void)snprintf(columns + used, size - used, ",%s_length [m],%s_tension [N/m]", name, name);
+  }
   return n;
 }
 
@@ -89,9 +102,11 @@ PetscErrorCode ProbesCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoin
   Probes p;
   PetscFunctionBeginUser;
   *probes = NULL;
-  if (CoracleCaseCount(c, "solid.probes") == 0) PetscFunctionReturn(0);
+  const int nsprings = CoracleCaseCount(c, "solid.springs");
+  if (CoracleCaseCount(c, "solid.probes") + nsprings == 0) PetscFunctionReturn(0);
   PetscCall(PetscNew(&p));
   p->comm = comm;
+  p->nsprings = nsprings;
   p->n = ReadProbes(c, p->point, sizeof columns, columns);
   PetscCall(Values(p, solid, value, &missing));
   if (missing >= 0) {
@@ -122,7 +137,8 @@ PetscErrorCode ProbesSave(Probes p, Checkpoint to)
 
 PetscErrorCode ProbesStep(Probes p, Solid solid)
 {
-  double row[1 + MAX_PROBES * VALUES], value[MAX_PROBES][VALUES];
+  double row[1 + MAX_PROBES * VALUES + 2 * MAX_SPRINGS], value[MAX_PROBES][VALUES];
+  SpringState spring[MAX_SPRINGS];
   int missing;
   PetscFunctionBeginUser;
   if (!p) PetscFunctionReturn(0);
@@ -130,6 +146,11 @@ PetscErrorCode ProbesStep(Probes p, Solid solid)
   row[0] = SolidGetStats(solid)->t;
   for (int k = 0; k < p->n; k++)
     for (int i = 0; i < VALUES; i++) row[1 + VALUES * k + i] = value[k][i];
+  PetscCall(SolidSprings(solid, spring));
+  for (int k = 0; k < p->nsprings; k++) {
+    row[1 + VALUES * p->n + 2 * k] = spring[k].length;
+    row[2 + VALUES * p->n + 2 * k] = spring[k].tension;
+  }
   PetscCall(SeriesRow(p->series, row));
   PetscFunctionReturn(0);
 }

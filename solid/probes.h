@@ -1,17 +1,17 @@
-/* Points of the solid that are followed: the list solid.probes of the case.  solid_probes.csv has a row a step: the
- * time, then for each probe its displacement from rest, m, and its velocity, m/s, interpolated in the element that has
- * the point at rest; on an edge or a node, the mean over the elements there. */
+/* What is followed of the solid: points, the list solid.probes of the case, and the list solid.springs.  solid_probes.csv has a row a step: the
+ * time, for each probe its displacement from rest, m, and its velocity, m/s, interpolated in the element that has
+ * the point at rest; on an edge or a node, the mean over the elements there; last, for each spring its length, m, and tension, N/m. */
 #ifndef SOLID_PROBES_H
 #define SOLID_PROBES_H
 #include "common/link/case_file.h"
 #include "common/output/checkpoint.h"
 #include "solid/solid.h"
 
-typedef struct Probes_s *Probes; /* NULL: a case without probes; every function takes it */
+typedef struct Probes_s *Probes; /* NULL: a case without any; every function takes it */
 
-/* Not collective.  Reads the list, so that the case can be checked before anything is made of it. */
+/* Not collective.  Reads the lists, so that the case can be checked before anything is made of it. */
 void ProbesCheckCase(CoracleCase c);
-/* Collective.  Reads the list and output.folder; refuses a point that is in no body at rest. */
+/* Collective.  Reads the lists and output.folder; refuses a point that is in no body at rest. */
 PetscErrorCode ProbesCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoint from, Probes *probes);
 PetscErrorCode ProbesDestroy(Probes *probes);
 /* Collective, between two steps. */

@@ -15,6 +15,7 @@
 #define SOLID_H
 #include "common/output/checkpoint.h"
 #include "solid/bodies/model.h"
+#include "solid/spring.h"
 
 typedef struct Solid_s *Solid;
 
@@ -40,6 +41,8 @@ typedef struct {
   double wall_friction, wall_damping;
   int nrules;
   ContactRule rule[MAX_RULES]; /* [nrules] the last that fits holds */
+  int nsprings;
+  Spring spring[MAX_SPRINGS]; /* [nsprings] */
   /* called on the rank that finds an element inside out; must not return.  NULL: message and MPI_Abort */
   void (*fail)(void *context, const char *message);
   void *context;
@@ -139,13 +142,16 @@ PetscErrorCode SolidBodies(Solid s, int n, BodyState state[]);
  * g dt, to round-off. */
 typedef struct {
   double walls[2],
-      reaction[2];            /* impulse of the tank's walls; of what holds fixed and prescribed nodes, of the
+      reaction
+          [2]; /* impulse of the tank's walls; of what holds fixed and prescribed nodes, of springs, of the
                       * decay rate and of damping (interface_motion.c), N s/m */
-  double work, reaction_work; /* of the fluid; of what drives nodes, J/m */
+  double work, reaction_work;   /* of the fluid; of what drives nodes, J/m */
   double start[2], momentum[2]; /* of all bodies, what it begins and ends with, N s/m */
   double load[2], weight[2];    /* the fluid's and gravity's force, N/m */
 } SolidBudget;
 PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget);
+/* state[springs of the setup] now. */
+PetscErrorCode SolidSprings(Solid s, SpringState state[]);
 
 typedef struct {
   int active, broken; /* joints that have activate and are not broken yet; that are broken */

@@ -1,8 +1,11 @@
 #include "solid/solid_case.h"
 #include "common/output/options.h"
+#include "common/supermesh/geometry.h"
 #include "solid/bodies/case_body.h"
 #include "solid/probes.h"
 #include <stdio.h>
+
+#define ON_EDGE 1e-9 /* barycentric coordinate of a point that counts as inside */
 
 /* Friction and damping of walls; absent: those of what touches them. */
 static void ReadWallContact(CoracleCase c, SolidSetup *setup)
@@ -12,6 +15,48 @@ static void ReadWallContact(CoracleCase c, SolidSetup *setup)
   setup->rough_walls = PETSC_TRUE;
   setup->wall_friction = friction ? CoracleCaseNumber(c, "solid.walls.friction", 0.0, HUGE_VAL) : -1.0;
   setup->wall_damping = damping ? CoracleCaseNumber(c, "solid.walls.contact_damping", 0.0, 10.0) : -1.0;
+}
+
+/* The element of the model that is at the point at the start, and the point in it. */
+static PetscBool FindElement(const Model *a, const double point[2], Spring *spring)
+{
+  for (int e = 0; e < a->nelements; e++) {
+    double corner[3][2], *w = spring->weight;
+    for (int i = 0; i < 3; i++)
+      for (int c = 0; c < 2; c++) corner[i][c] = a->x[2 * a->element[3 * e + i] + c];
+    GeometryBarycentric((const double(*)[2])corner, point, w);
+    spring->element = e;
+    if (fmin(w[0], fmin(w[1], w[2])) > -ON_EDGE) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
+static void ReadSpring(CoracleCase c, const Model *a, int k, Spring *s)
+{
+  char key[CASE_BODY_KEY];
+  double point[2];
+  (void)snprintf(key, sizeof key, "solid.springs[%d].anchor", k);
+  CoracleCaseVector(c, key, 2, s->anchor);
+  (void)snprintf(key, sizeof key, "solid.springs[%d].stiffness", k);
+  s->stiffness = CoracleCasePositive(c, key);
+  (void)snprintf(key, sizeof key, "solid.springs[%d].damping", k);
+  s->damping = CoracleCaseNumberOr(c, key, 0.0, 0.0, HUGE_VAL);
+  (void)snprintf(key, sizeof key, "solid.springs[%d].slack", k);
+  s->slack = CoracleCaseBoolOr(c, key, false);
+  (void)snprintf(key, sizeof key, "solid.springs[%d].point", k);
+  CoracleCaseVector(c, key, 2, point);
+  if (!FindElement(a, point, s)) CoracleCaseRefuse(c, key, "no body is at (%g, %g)", point[0], point[1]);
+  (void)snprintf(key, sizeof key, "solid.springs[%d].length", k);
+  s->length = CoracleCaseHas(c, key) ? CoracleCaseNumber(c, key, 0.0, HUGE_VAL)
+                                     : hypot(s->anchor[0] - point[0], s->anchor[1] - point[1]);
+}
+
+static void ReadSprings(CoracleCase c, const Model *a, SolidSetup *setup)
+{
+  setup->nsprings = CoracleCaseCount(c, "solid.springs");
+  if (setup->nsprings > MAX_SPRINGS)
+    CoracleCaseRefuse(c, "solid.springs", "more than %d springs", MAX_SPRINGS);
+  for (int k = 0; k < setup->nsprings; k++) ReadSpring(c, a, k, &setup->spring[k]);
 }
 
 /* The list `contact`: overrides for pairs. */
@@ -85,6 +130,7 @@ PetscErrorCode SolidCaseRead(CoracleCase c, Model *a, SolidSetup *setup)
   CheckPressureLoad(c, a);
   ReadWalls(c, a, setup);
   ReadRules(c, setup);
+  ReadSprings(c, a, setup);
   ProbesCheckCase(c);
   PetscCall(ModelOverlap(a, &first, &second));
   if (first >= 0)

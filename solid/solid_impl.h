@@ -91,6 +91,9 @@ struct Solid_s {
   PrescribedMotion *motion;
   double *motion_rows, *position_before; /* [nprescribed][2] room for places before a substep */
   int nmotions;
+  /* of the setup's springs: this rank's element, or -1, and what it does in the last forces */
+  int spring_element[MAX_SPRINGS];
+  double spring_force[MAX_SPRINGS][2]; /* N */
   /* the current step */
   double dt, done, h, moved_for; /* moved_for: length of the last substep made, s */
   double *start;                 /* [nnodes][2] positions when it began */

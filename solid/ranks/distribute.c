@@ -1,6 +1,7 @@
 /* This rank's subdomain of the model, which every rank has: nothing is sent. */
 #include "solid/six_node_kernel.h"
 #include "solid/solid_impl.h"
+#include "solid/springs.h"
 #include <stdlib.h>
 
 /* --- counting and numbering --------------------------------------------------------------------------- */
@@ -276,6 +277,7 @@ PetscErrorCode SolidTakeSubdomain(Solid s, const Model *a, const int part[])
   TakeElements(s, a, part, local, renumber);
   PetscCall(FindCopies(s, a, nghosts, ghost, part, local));
   PetscCall(TakeMotions(s, a, local));
+  PetscCall(SpringsFind(s));
   PetscCall(PetscCalloc5(2 * s->node_capacity, &s->start, 2 * s->node_capacity, &s->interface_velocity,
                          s->node_capacity, &s->mobility, 2 * s->node_capacity, &s->acceleration,
                          s->node_capacity, &s->piece));

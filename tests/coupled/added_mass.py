@@ -1,5 +1,6 @@
 """A disc in a closed box of fluid that is at rest and nearly inviscid: its first acceleration and its frequency on a spring, against
-potential flow in the same box.  Usage: added_mass.py FOLDER; the runs of added_mass.sh are FOLDER/fall-RATIO and FOLDER/spring-RATIO.
+potential flow in the same box.  Usage: added_mass.py FOLDER; the runs of added_mass.sh are FOLDER/fall-RATIO, FOLDER/spring-RATIO
+and FOLDER/elastic-RATIO.
 added_mass.py --stiffness RATIO prints the spring's stiffness, N/m a metre, for one period a second."""
 import csv
 import math
@@ -55,11 +56,11 @@ def main():
         error = u[0] / t[0] / ((1.0 - ratio) * GRAVITY / (ratio + added)) - 1.0
         print("ratio %g: first acceleration %+.2f %%" % (ratio, 100 * error))
         failed |= abs(error) > ACCELERATION
-    for ratio in (0.5, 2.0):
-        t, u = series("%s/spring-%g" % (sys.argv[1], ratio))
+    for disc, ratio in ("spring", 0.5), ("spring", 2.0), ("elastic", 2.0):
+        t, u = series("%s/%s-%g" % (sys.argv[1], disc, ratio))
         zero = [a - (b - a) * p / (q - p) for a, b, p, q in zip(t, t[1:], u, u[1:]) if p * q < 0]
         error = (len(zero) - 1) / (2.0 * (zero[-1] - zero[0])) - 1.0
-        print("ratio %g: frequency on a spring %+.2f %% over %g periods" % (ratio, 100 * error, (len(zero) - 1) / 2))
+        print("ratio %g: frequency on a spring (%s) %+.2f %% over %g periods" % (ratio, disc, 100 * error, (len(zero) - 1) / 2))
         failed |= abs(error) > FREQUENCY or len(zero) < 3
     sys.exit(failed)
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The added mass that a solid feels, against potential flow (added_mass.py): the first acceleration of discs of 0.05, 0.5 and 2 times the
-# fluid's density (D/le = 50), and the frequency of a rigid disc on a spring (D/le = 25, Stokes number f D^2/nu = 6250).
+# fluid's density (D/le = 50), and the frequency of a rigid disc and of an elastic one on a spring (D/le = 25, Stokes number f D^2/nu = 6250).
 # Usage: added_mass.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
@@ -16,4 +16,7 @@ for ratio in 0.5 2; do
     --set "solid.materials.disc.density=$("$python" -c "print(1000 * $ratio)")" --set "solid.bodies[0].velocity=[0.0, 0.06]" \
     --set "solid.bodies[0].spring=$("$python" "$here/added_mass.py" --stiffness $ratio)" --set time.end=1.6
 done
+must elastic-2 1:1:1 "${box[@]}" --set "solid.bodies[0].size=0.01" --set "gravity=[0.0, 0.0]" --set solid.materials.disc.density=2000 \
+  --set "solid.bodies[0].velocity=[0.0, 0.06]" --set time.end=1.6 \
+  --set "solid.springs=[{name: s, point: [0.375, 0.375], anchor: [0.375, 0.375], stiffness: $("$python" "$here/added_mass.py" --stiffness 2)}]"
 "$python" "$here/added_mass.py" "$scratch"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A disc that flies freely: its probes say where it is and how fast, on one rank and on two; a probe outside of all bodies is refused.
+# A disc that flies freely: its probes say where it is and how fast, on one rank and on two; a probe outside of all bodies is refused.  So for a spring, its length and its tension.
 # Usage: probes.sh ROOT BUILD
 set -euo pipefail
 root=$1 build=$2 scratch=$(mktemp -d)
@@ -16,5 +16,10 @@ for ranks in 1 2; do
   awk -F, 'NR > 1 { for (k = 0; k < 2; k++) { e = ($(2 + 4*k) - $1)^2 + ($(3 + 4*k) + 0.5*$1)^2 + ($(4 + 4*k) - 1)^2 + ($(5 + 4*k) + 0.5)^2
     if (e > 1e-16) { print FILENAME ": " $0; exit 1 } } } END { if (NR != 11) { print FILENAME ": " NR " rows"; exit 1 } }' "$scratch/$ranks/solid_probes.csv"
 done
+fly 2 --set 'solid.springs=[{name: line, point: [0.0, 0.1], anchor: [0.0, 0.4], stiffness: 0.001, length: 0.25}]' >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
+awk -F, 'NR > 1 { l = sqrt($1^2 + (0.3 + 0.5*$1)^2); if (($10 - l)^2 > 1e-12 || ($11 - 0.001*(l - 0.25))^2 > 1e-16) { print FILENAME ": " $0; exit 1 } }
+  END { if (NR != 11) { print FILENAME ": " NR " rows"; exit 1 } }' "$scratch/2/solid_probes.csv"
+if fly 1 --set 'solid.springs=[{name: line, point: [0.2, 0], anchor: [0, 1], stiffness: 1}]' >"$scratch/log" 2>&1; then echo 'a spring outside was accepted'; exit 1; fi
+grep -q "key 'solid.springs\[0\].point': no body is at (0.2, 0)" "$scratch/log" || { cat "$scratch/log"; exit 1; }
 if fly 1 --set 'solid.probes[1].point=[0.2, 0]' >"$scratch/log" 2>&1; then echo 'a probe outside was accepted'; exit 1; fi
 grep -q "key 'solid.probes\[1\].point': no body is at (0.2, 0) at rest" "$scratch/log" || { cat "$scratch/log"; exit 1; }

@@ -1,6 +1,6 @@
 // ranks: 1 2 3
 /* The same motion on any number of ranks, to round-off: three bodies of which two collide, one of six-node triangles, and one is a single
- * element pair that leaves ranks without elements of it, walls, a load, and a step that is redone to the last
+ * element pair that leaves ranks without elements of it, walls, a spring, a load, and a step that is redone to the last
  * bit. */
 #include "tests/solid/build.h"
 
@@ -45,11 +45,15 @@ static PetscErrorCode Step(Solid s, int step)
 /* x and v, by global number, of the nodes that comm has */
 static PetscErrorCode Simulate(MPI_Comm comm, int redo, double *all, int nnodes, int *searches)
 {
-  const SolidSetup options = {.gravity = {0.0, -9.81},
-                              .courant = 0.8,
-                              .walls = PETSC_TRUE,
-                              .lower = {-0.5, 0.0},
-                              .upper = {0.6, 1.0}};
+  const SolidSetup options = {
+      .gravity = {0.0, -9.81},
+      .courant = 0.8,
+      .walls = PETSC_TRUE,
+      .lower = {-0.5, 0.0},
+      .upper = {0.6, 1.0},
+      .nsprings = 1,
+      .spring = {
+          {.element = 7, .weight = {0.2, 0.3, 0.5}, .anchor = {-0.3, 0.4}, .stiffness = 1e4, .length = 0.1}}};
   Model a = {0};
   Solid s;
   Bodies(&a);

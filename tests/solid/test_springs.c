@@ -1,0 +1,116 @@
+// ranks: 1 2 3
+/* A stiff block on springs does what a mass on springs does: it swings in all directions alike on one of length 0, it is thrown back
+ * by a line that was slack, it decays with a dashpot.  Energy and momentum are in the budget. */
+#include "tests/solid/build.h"
+
+#define SIDE 0.1
+#define MASS (1000.0 * SIDE * SIDE) /* kg/m */
+#define STIFFNESS 1e4               /* N/m: 31.6 rad/s, where the block's own lowest is 7000 */
+#define DT 1e-3
+
+/* A block at rest in the origin, with a spring in its middle. */
+static PetscErrorCode Block(const Spring *spring, const double velocity[2], Solid *s)
+{
+  SolidSetup setup = {.courant = 0.8, .rebalance = 200.0, .nsprings = 1};
+  Model a = {0};
+  BodySetup body = BodyAtRest(MaterialOf(1000.0, 1e9, 0.3, 0.0));
+  body.velocity[0] = velocity[0];
+  body.velocity[1] = velocity[1];
+  AddRectangle(&a, 0.0, 0.0, SIDE, SIDE, 0.0, 0.05, 0, &body);
+  setup.spring[0] = *spring;
+  for (int e = 0; e < a.nelements; e++)
+    for (int i = 0; i < 3; i++) {
+      const double *x = a.x + 2 * a.element[3 * e + i];
+      if (fabs(x[0]) + fabs(x[1]) > 1e-12) continue;
+      setup.spring[0].element = e;
+      for (int k = 0; k < 3; k++) setup.spring[0].weight[k] = k == i;
+    }
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &setup, s));
+  PetscCall(ModelDestroy(&a));
+  return 0;
+}
+
+/* Runs to t and compares the mass centre; the momentum of all steps is the springs' impulse. */
+static PetscErrorCode Check(Solid s, double t, const double x[2], double bound, const char *what)
+{
+  const double left = t - SolidGetStats(s)->t;
+  BodyState body;
+  for (int k = 0, n = (int)round(left / DT); k < n; k++) {
+    SolidBudget b;
+    PetscCall(Run(s, left / n, DT));
+    PetscCall(SolidGetBudget(s, &b));
+    for (int c = 0; c < 2; c++)
+      CHECK(fabs(b.momentum[c] - b.start[c] - b.reaction[c]) < 1e-12 * MASS, "%s: momentum %g, impulse %g",
+            what, b.momentum[c] - b.start[c], b.reaction[c]);
+  }
+  PetscCall(SolidBodies(s, 1, &body));
+  for (int c = 0; c < 2; c++)
+    CHECK(fabs(body.x[c] - x[c]) < bound, "%s, t %g: at (%g, %g), expected (%g, %g)", what, t, body.x[0],
+          body.x[1], x[0], x[1]);
+  return 0;
+}
+
+/* About an anchor aside of it, with a velocity across: an ellipse. */
+static PetscErrorCode Swing(void)
+{
+  const double omega = sqrt(STIFFNESS / MASS), amplitude = 0.01, velocity[2] = {0.0, 0.2};
+  const Spring spring = {.anchor = {amplitude, 0.0}, .stiffness = STIFFNESS};
+  Solid s;
+  PetscCall(Block(&spring, velocity, &s));
+  for (int k = 1; k <= 16; k++) {
+    const double t = 2.0 * PETSC_PI / omega * k / 8.0,
+                 x[2] = {amplitude * (1.0 - cos(omega * t)), velocity[1] / omega * sin(omega * t)};
+    PetscCall(Check(s, t, x, 2e-3 * amplitude, "swing"));
+  }
+  PetscCall(SolidDestroy(&s));
+  return 0;
+}
+
+/* Away from its anchor with a line of 0.05 m more than there is: free, then half a swing, then free again with the opposite velocity. */
+static PetscErrorCode Line(void)
+{
+  const double omega = sqrt(STIFFNESS / MASS), velocity[2] = {0.5, 0.0}, free_time = 0.05 / velocity[0];
+  const Spring line = {.anchor = {-0.2, 0.0}, .stiffness = STIFFNESS, .length = 0.25, .slack = 1};
+  const double back = free_time + PETSC_PI / omega;
+  SpringState state;
+  Solid s;
+  PetscCall(Block(&line, velocity, &s));
+  PetscCall(Check(s, 0.9 * free_time, (const double[2]){0.045, 0.0}, 1e-9, "slack line"));
+  PetscCall(SolidSprings(s, &state));
+  CHECK(fabs(state.length - 0.245) < 1e-9 && state.tension == 0.0, "slack line: %g m, %g N/m", state.length,
+        state.tension);
+  PetscCall(Check(s, free_time + 0.5 * PETSC_PI / omega, (const double[2]){0.05 + velocity[0] / omega, 0.0},
+                  5e-5, "taut line"));
+  PetscCall(SolidSprings(s, &state));
+  CHECK(fabs(state.tension - STIFFNESS * velocity[0] / omega) < 0.01 * state.tension, "taut line: %g N/m",
+        state.tension);
+  PetscCall(Check(s, back + 0.1, (const double[2]){0.05 - 0.1 * velocity[0], 0.0}, 2e-4, "slack again"));
+  PetscCall(SolidDestroy(&s));
+  return 0;
+}
+
+/* A tenth of the critical damping. */
+static PetscErrorCode Decay(void)
+{
+  const double omega = sqrt(STIFFNESS / MASS), ratio = 0.1, damped = omega * sqrt(1.0 - ratio * ratio);
+  const double t = 2.0 * 2.0 * PETSC_PI / damped, amplitude = 0.01, still[2] = {0.0, 0.0};
+  const Spring spring = {.anchor = {-1.0 + amplitude, 0.0},
+                         .stiffness = STIFFNESS,
+                         .length = 1.0,
+                         .damping = 2.0 * ratio * omega * MASS};
+  Solid s;
+  PetscCall(Block(&spring, still, &s));
+  PetscCall(Check(s, t, (const double[2]){amplitude * (1.0 - exp(-ratio * omega * t)), 0.0}, 2e-3 * amplitude,
+                  "decay"));
+  PetscCall(SolidDestroy(&s));
+  return 0;
+}
+
+int main(int argc, char **argv)
+{
+  PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
+  PetscCall(Swing());
+  PetscCall(Line());
+  PetscCall(Decay());
+  return PetscFinalize();
+}
