@@ -142,6 +142,21 @@ static double Sum(const double v[3])
   return v[0] + v[1] + v[2];
 }
 
+static void AddAbsorption(Fluid f, const BudgetStep *s)
+{
+  for (int e = 0; e < f->domain.mesh->ne; e++) {
+    double x[2] = {0.0, 0.0};
+    for (int i = 0; i < 3; i++)
+      for (int c = 0; c < 2; c++) x[c] += ElementVertex(f->domain.mesh, e, i)[c] / 3.0;
+    const AbsorptionAt a = AbsorptionOf(&f->setup.absorption, x);
+    for (int c = 0; c < 2; c++) {
+      const double u =
+          ((1.0 - s->theta) * Sum(s->u + 6 * e + 3 * c) + s->theta * Sum(s->u_star + 6 * e + 3 * c)) / 3.0;
+      Term(f, BUDGET_ABSORPTION)[c] += s->step[e] * f->domain.geometry[e].area * (a.push[c] - a.rate * u);
+    }
+  }
+}
+
 static void AddElements(Fluid f, const BudgetStep *s)
 {
   double start[2], end[2] = {0.0}, advected[2] = {0.0}, energy = 0.0, mass = 0.0;
@@ -226,6 +241,7 @@ PetscErrorCode FluidBudgetEnd(Fluid f, double dt)
   AddElements(f, &s);
   if (MaterialRevision(f->material) > 0) AddChange(f, &s);
   if (f->setup.source) AddSource(f, &s);
+  if (f->setup.absorption.n) AddAbsorption(f, &s);
   BudgetAddBoundaries(f, &s, (BoundaryForce *)(f->budget_sum + FORCES));
   PetscCall(VecRestoreArrayRead(f->mass_flux, &s.flux));
   PetscCall(VecRestoreArrayRead(f->u_projected, &s.end));

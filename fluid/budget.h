@@ -12,6 +12,7 @@
  *               t + theta dt: the advective form of one fluid lets what its mass flux lacks of balance have the velocity there.  With
  *               phases the mass flux is balanced in each element, and it is round-off
  *   interface   with phases: rho (weight - R^-1 grad p_0) - (rho g - grad p_0), which includes surface tension
+ *   absorption  rho |K| k (U - u), u at t + theta dt (absorption.h)
  *   adaptation  what has changed P between two steps: transfer to another mesh, the projection of its velocity, at the start of a
  *               run the solid's velocity inside it (FluidStartInside)
  *   pressure    int p n, p at the step's end
@@ -31,6 +32,7 @@ enum {
   BUDGET_CORRECTION,
   BUDGET_DIVERGENCE,
   BUDGET_INTERFACE,
+  BUDGET_ABSORPTION,
   BUDGET_ADAPTATION,
   BUDGET_TERMS
 };

@@ -41,8 +41,11 @@ static PetscErrorCode DestroyVectors(Fluid f)
 
 PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *fluid)
 {
-  const MomentumSetup momentum = {
-      setup->theta, {setup->gravity[0], setup->gravity[1]}, setup->source, setup->source_context};
+  const MomentumSetup momentum = {setup->theta,
+                                  {setup->gravity[0], setup->gravity[1]},
+                                  setup->source,
+                                  setup->source_context,
+                                  setup->absorption};
   Fluid f;
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&f));

@@ -12,6 +12,7 @@
 #include "common/link/coracle.h"
 #include "common/output/checkpoint.h"
 #include "common/space/p2_space.h"
+#include "fluid/absorption.h"
 #include "fluid/boundary.h"
 #include "fluid/kernels.h"
 #include "fluid/material.h"
@@ -30,6 +31,7 @@ typedef struct {
   Boundary *boundary;     /* [mesh->ntags], copied */
   FieldFunction source;   /* body force per volume, N/m3, or NULL */
   void *source_context;
+  Absorption absorption;
 } FluidSetup;
 
 typedef struct Fluid_s *Fluid;

@@ -118,6 +118,29 @@ PetscErrorCode FluidCaseMesh(CoracleCase c, MPI_Comm comm, Checkpoint from, Mesh
 
 /* --- the flow, its numbers and its adaptation ----------------------------------------------------------- */
 
+static void ReadZone(CoracleCase c, int k, AbsorptionZone *z)
+{
+  char key[64];
+  (void)snprintf(key, sizeof key, "fluid.absorption[%d].rate", k);
+  z->rate = CoracleCaseNumber(c, key, 0.0, HUGE_VAL);
+  (void)snprintf(key, sizeof key, "fluid.absorption[%d].velocity", k);
+  z->velocity[0] = z->velocity[1] = 0.0;
+  if (CoracleCaseHas(c, key)) CoracleCaseVector(c, key, 2, z->velocity);
+  (void)snprintf(key, sizeof key, "fluid.absorption[%d].from", k);
+  CoracleCaseVector(c, key, 2, z->from);
+  (void)snprintf(key, sizeof key, "fluid.absorption[%d].to", k);
+  CoracleCaseVector(c, key, 2, z->to);
+  if (z->to[0] == z->from[0] && z->to[1] == z->from[1])
+    CoracleCaseRefuse(c, key, "expected another point than from, (%g, %g)", z->to[0], z->to[1]);
+}
+
+static void ReadAbsorption(CoracleCase c, Absorption *a)
+{
+  a->n = CoracleCaseCount(c, "fluid.absorption");
+  if (a->n > ABSORPTION_MAX) CoracleCaseRefuse(c, "fluid.absorption", "more than %d zones", ABSORPTION_MAX);
+  for (int k = 0; k < a->n; k++) ReadZone(c, k, &a->zone[k]);
+}
+
 PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup)
 {
   PhaseNames names;
@@ -134,6 +157,7 @@ PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup
   setup->theta = CoracleCaseNumberOr(c, "fluid.theta", PhaseHasTension(&setup->phases) ? 1.0 : 0.5, 0.5, 1.0);
   CoracleCaseVector(c, "gravity", 2, setup->gravity);
   if (CoracleCaseHas(c, "fluid.initial")) CoracleCaseVector(c, "fluid.initial.velocity", 2, setup->velocity);
+  ReadAbsorption(c, &setup->absorption);
   setup->cfl = CoracleCasePositive(c, "time.cfl");
   setup->dt_max = CoracleCasePositive(c, "time.dt_max");
   setup->capillary_cfl = CAPILLARY_CFL;

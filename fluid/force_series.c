@@ -3,7 +3,7 @@
 #include "fluid/budget.h"
 
 static const char *const TERM[BUDGET_TERMS + 1] = {"weight",    "solid",      "correction", "divergence",
-                                                   "interface", "adaptation", "rest"},
+                                                   "interface", "absorption", "adaptation", "rest"},
                                              *const PART[FORCE_PARTS] = {"pressure", "viscous", "convection"};
 
 struct ForceSeries_s {

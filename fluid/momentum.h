@@ -1,12 +1,13 @@
 /* The momentum equation of one step, for u*:
  *
- *   [rho M/dt + theta L + a] u* = [rho M/dt - (1 - theta) L] u^n + M (rho g - grad p + source) + s
+ *   [rho M/dt + theta L + a] u* = [rho M/dt - (1 - theta) L] u^n + M (rho g - grad p + source + rho k U) + s
  *
- * L is upwind advection by a mass flux and the viscous stress (kernels.h); a and s are the solid's coupling.
+ * L is upwind advection by a mass flux, the viscous stress (kernels.h) and rho k u, k and U of absorption.h; a and s are the solid's coupling.
  * Assembled in one pass over the elements, solved by GMRES (prefix momentum_)
  * until the preconditioned residual is 1e-5 of the velocity (-momentum_ksp_rtol), less beside solids more than 20 times as heavy. */
 #ifndef FLUID_MOMENTUM_H
 #define FLUID_MOMENTUM_H
+#include "fluid/absorption.h"
 #include "fluid/domain.h"
 #include "fluid/phase_transport.h"
 #include "fluid/solid_coupling.h"
@@ -20,6 +21,7 @@ typedef struct {
   double gravity[2];    /* m/s2 */
   FieldFunction source; /* body force per volume, N/m3, or NULL */
   void *source_context;
+  Absorption absorption;
 } MomentumSetup;
 
 /* One step.  Vectors have a block [2][3] an element (component, vertex) and ghosts; those of mass_flux and p are up to date. */

@@ -129,11 +129,21 @@ static void WeightAndPressure(MomentumSolver s, const MomentumStep *step, int e,
   for (int c = 0; c < 2; c++) q[c] *= step->rho[e];
 }
 
-/* Body force and pressure: M (rho g - grad p + source). */
+/* Of element e, at its centre. */
+static AbsorptionAt ElementAbsorption(MomentumSolver s, int e)
+{
+  double x[2] = {0.0, 0.0};
+  for (int i = 0; i < 3; i++)
+    for (int c = 0; c < 2; c++) x[c] += ElementVertex(s->domain->mesh, e, i)[c] / 3.0;
+  return AbsorptionOf(&s->setup.absorption, x);
+}
+
+/* Body force, pressure and absorption: M (rho g - grad p + source + rho k U). */
 static void ElementLoad(MomentumSolver s, const MomentumStep *step, int e, const double p[], double load[6])
 {
   const Mesh *m = s->domain->mesh;
   const ElementGeometry *g = s->domain->geometry + e;
+  const AbsorptionAt absorption = ElementAbsorption(s, e);
   double grad[3][2], q[2][3];
   DomainGradient(s->domain, e, p, grad);
   for (int i = 0; i < 3; i++) {
@@ -144,7 +154,8 @@ static void ElementLoad(MomentumSolver s, const MomentumStep *step, int e, const
       s->setup.source(s->setup.source_context, step->t + step->dt, ElementVertex(m, e, i), next);
     }
     for (int c = 0; c < 2; c++)
-      q[c][i] = force[c] + s->setup.theta * next[c] + (1.0 - s->setup.theta) * now[c];
+      q[c][i] = force[c] + step->rho[e] * absorption.push[c] + s->setup.theta * next[c] +
+                (1.0 - s->setup.theta) * now[c];
   }
   for (int c = 0; c < 2; c++) {
     double mq[3];
@@ -192,8 +203,8 @@ static void AssembleScalar(MomentumSolver s, const MomentumStep *step, int e, co
     memcpy(block, s->faces[e], sizeof s->faces[e]);
   else
     AssembleFaces(s, step, e, block);
-  ScalarVolume(s->domain->geometry + e, step->rho[e] / step->dt, s->setup.theta, s->op.theta_mu[e],
-               flux + 6 * e, volume);
+  const double mass = step->rho[e] * (1.0 / step->dt + s->setup.theta * ElementAbsorption(s, e).rate);
+  ScalarVolume(s->domain->geometry + e, mass, s->setup.theta, s->op.theta_mu[e], flux + 6 * e, volume);
   for (int k = 0; k < 9; k++) block[0][k] += volume[k];
   FluxDivergenceVolume(s->domain->geometry + e, flux + 6 * e, s->divergence[e]);
   for (int i = 0; i < 3; i++) AssembleInflow(s, step->mu, e, i, flux, block);

@@ -13,7 +13,7 @@ import numpy as np
 
 from series import read_series
 
-FLUID_TERMS = ("weight", "divergence", "interface", "adaptation", "correction")  # of fluid_forces.csv, but for `solid` and `rest`
+FLUID_TERMS = ("weight", "divergence", "interface", "absorption", "adaptation", "correction")  # of fluid_forces.csv, but for `solid` and `rest`
 BOUNDARY_PARTS = ("pressure", "viscous", "convection")
 
 

@@ -24,7 +24,7 @@ typedef struct {
 } SpringState;
 
 /* force[2] on the point at x, which moves with v. */
-static inline SpringState SpringPull(const Spring *s, const double x[2], const double v[2], double force[2])
+static inline SpringState SpringForce(const Spring *s, const double x[2], const double v[2], double force[2])
 {
   const double d[2] = {s->anchor[0] - x[0], s->anchor[1] - x[1]}, length = sqrt(d[0] * d[0] + d[1] * d[1]);
   if (s->length == 0.0) {

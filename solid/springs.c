@@ -28,12 +28,12 @@ static void AtPoint(const Solid s, int k, const double value[], double at[2])
   }
 }
 
-static SpringState Pull(const Solid s, int k, double force[2])
+static SpringState Act(const Solid s, int k, double force[2])
 {
   double x[2], v[2];
   AtPoint(s, k, s->x, x);
   AtPoint(s, k, s->v, v);
-  return SpringPull(&s->setup.spring[k], x, v, force);
+  return SpringForce(&s->setup.spring[k], x, v, force);
 }
 
 void SpringsAddForces(Solid s)
@@ -41,7 +41,7 @@ void SpringsAddForces(Solid s)
   for (int k = 0; k < s->setup.nsprings; k++) {
     const int *node = NodesOf(s, k);
     if (!node) continue;
-    (void)Pull(s, k, s->spring_force[k]);
+    (void)Act(s, k, s->spring_force[k]);
     for (int i = 0; i < 3; i++)
       for (int c = 0; c < 2; c++)
         s->force[2 * node[i] + c] += s->setup.spring[k].weight[i] * s->spring_force[k][c];
@@ -87,7 +87,7 @@ PetscErrorCode SolidSprings(Solid s, SpringState state[])
   for (int k = 0; k < s->setup.nsprings; k++) {
     double force[2];
     if (!NodesOf(s, k)) continue;
-    const SpringState now = Pull(s, k, force);
+    const SpringState now = Act(s, k, force);
     sum[k][0] = now.length;
     sum[k][1] = now.tension;
   }
