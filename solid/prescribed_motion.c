@@ -29,9 +29,21 @@ static double Velocity(const PrescribedMotion *d, int next, int c, double t)
   return v0 + (t - t0) / (Row(d, next, 0) - t0) * (Row(d, next, 1 + c) - v0);
 }
 
+/* The integral from 0 to t > 0 of min(t/rise, 1), or of that times sin(2 pi t/period). */
+static double IntegralOfOneRow(const PrescribedMotion *d, double t)
+{
+  const double omega = d->period > 0.0 ? 2.0 * acos(-1.0) / d->period : 0.0, rising = fmin(t, d->rise);
+  if (omega == 0.0) return (d->rise > 0.0 ? 0.5 * rising * rising / d->rise : 0.0) + (t - rising);
+  const double before =
+      d->rise > 0.0 ? (sin(omega * rising) / omega - rising * cos(omega * rising)) / (omega * d->rise) : 0.0;
+  return before + (cos(omega * rising) - cos(omega * t)) / omega;
+}
+
 double PrescribedVelocity(const PrescribedMotion *d, int c, double from, double h)
 {
   const double to = from + h;
+  if (d->nrows == 1)
+    return Row(d, 0, 1 + c) * (IntegralOfOneRow(d, to) - IntegralOfOneRow(d, from)) / (to - from);
   double sum = 0.0;
   int next = NextRow(d, from);
   for (double start = from, end; start < to; start = end, next++) {

@@ -1,14 +1,15 @@
-/* Prescribed motion of nodes: a velocity, constant or a table in time, linear between its rows and constant
- * before the first and after the last.  A substep moves a prescribed node by the integral of its velocity, so
+/* Prescribed motion of nodes: a velocity, a table in time, linear between its rows and constant before the first and after the
+ * last; one row: times sin(2 pi t/period), if there is a period, and from 0 at t = 0 on in proportion to t until `rise`.  A substep moves a prescribed node by the integral of its velocity, so
  * that where it gets does not depend on the substeps. */
 #ifndef SOLID_PRESCRIBED_MOTION_H
 #define SOLID_PRESCRIBED_MOTION_H
 
 typedef struct {
-  int prescribed[2]; /* which components; the others stay free */
-  int nrows;         /* at least 1 */
-  const double *row; /* [nrows][3] t, u, v; s and m/s, t rising */
-  double release;    /* s: from then on the nodes are free; 0: never */
+  int prescribed[2];   /* which components; the others stay free */
+  int nrows;           /* at least 1 */
+  const double *row;   /* [nrows][3] t, u, v; s and m/s, t rising */
+  double release;      /* s: from then on the nodes are free; 0: never */
+  double period, rise; /* s, of one row; 0: constant, at once */
 } PrescribedMotion;
 
 typedef struct {

@@ -142,6 +142,10 @@ static PetscErrorCode ReadMotion(CoracleCase c, const char *item, BoundaryMotion
   if (nrows == 0) {
     (void)snprintf(key, sizeof key, "%s.velocity", item);
     CoracleCaseVector(c, key, 2, row + 1);
+    (void)snprintf(key, sizeof key, "%s.period", item);
+    if (CoracleCaseHas(c, key)) d->motion.period = CoracleCasePositive(c, key);
+    (void)snprintf(key, sizeof key, "%s.rise", item);
+    d->motion.rise = CoracleCaseNumberOr(c, key, 0.0, 0.0, HUGE_VAL);
   }
   (void)snprintf(key, sizeof key, "%s.release", item);
   if (CoracleCaseHas(c, key)) d->motion.release = CoracleCasePositive(c, key);

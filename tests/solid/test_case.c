@@ -151,7 +151,7 @@ static void Joints(void)
 static void CheckTable(void)
 {
   const double row[] = {0.0, 0.0, 1.0, 1.0, 4.0, 1.0, 1.5, -2.0, 0.0, 3.0, 1.0, 0.0};
-  const PrescribedMotion motion = {{1, 1}, 4, row, 0.0};
+  const PrescribedMotion motion = {{1, 1}, 4, row, 0.0, 0.0, 0.0};
   static const double CASE[][4] = {
       {-2.0, 1.0, 0.0, 1.0}, {-1.0, 5.0, 0.55, 0.45}, /* from, length, mean of u, v */
       {0.25, 0.5, 2.0, 1.0}, {1.0, 0.25, 2.5, 0.75},  {0.5, 2.5, 0.5, 0.3},
@@ -161,6 +161,29 @@ static void CheckTable(void)
       const double mean = PrescribedVelocity(&motion, c, CASE[k][0], CASE[k][1]);
       CHECK(fabs(mean - CASE[k][2 + c]) < 1e-14, "mean velocity %d from %g for %g s: %g", c, CASE[k][0],
             CASE[k][1], mean);
+    }
+}
+
+/* Of one row that rises and swings, against its sum over many short intervals. */
+static void CheckSwing(void)
+{
+  enum { MANY = 200000 };
+  const double row[] = {0.0, 2.0, -3.0};
+  static const double PERIOD_RISE[][2] = {{0.0, 0.0}, {0.0, 1.5}, {0.7, 0.0}, {0.7, 1.5}};
+  for (size_t k = 0; k < sizeof PERIOD_RISE / sizeof *PERIOD_RISE; k++)
+    for (double from = 0.0; from < 2.0; from += 0.9) {
+      const double period = PERIOD_RISE[k][0], rise = PERIOD_RISE[k][1], h = 0.8;
+      const PrescribedMotion motion = {{1, 1}, 1, row, 0.0, period, rise};
+      double sum = 0.0;
+      for (int i = 0; i < MANY; i++) {
+        const double t = from + h * (i + 0.5) / MANY;
+        sum += (period > 0.0 ? sin(2.0 * M_PI * t / period) : 1.0) * (t < rise ? t / rise : 1.0) / MANY;
+      }
+      for (int c = 0; c < 2; c++) {
+        const double mean = PrescribedVelocity(&motion, c, from, h);
+        CHECK(fabs(mean - sum * row[1 + c]) < 1e-9, "period %g, rise %g: mean velocity %d from %g: %g",
+              period, rise, c, from, mean);
+      }
     }
 }
 
@@ -207,6 +230,7 @@ static void Full(void)
   const double mean = PrescribedVelocity(&model.motion[0], 0, 1.0, 2.0); /* 2 to 3, then 3 */
   CHECK(fabs(mean - 2.75) < 1e-14, "mean velocity %g", mean);
   CheckTable();
+  CheckSwing();
   double area[3] = {0.0, 0.0, 0.0}, span[2] = {0.0, 0.0};
   for (int n = 0; n < model.nnodes; n++) /* the stretched ring's wall is 0.1 at its right, thinner above */
     for (int c = 0; c < 2 && model.node_body[n] == 1; c++)
