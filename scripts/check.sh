@@ -33,6 +33,7 @@ export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 faults=0
+for part in coupler fluid solid; do program $part >/dev/null; done
 for part in coupler fluid solid; do
   "$(program $part)" --check "$case" "${sets[@]}" >"$scratch/$part" 2>&1 || faults=1
 done

@@ -10,7 +10,9 @@
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 
-[ $# -ge 1 ] || { sed -n '2,9p' "$0" | cut -c3-; exit 2; }
+usage() { sed -n '2,9p' "$0" | cut -c3-; }
+[ $# -ge 1 ] || { usage; exit 2; }
+case "$1" in -h | --help) usage; exit 0 ;; esac
 case=$1; shift
 ranks=1:1:1 out="" bin="" sets=()
 while [ $# -gt 0 ]; do
@@ -28,7 +30,7 @@ if [ -f "$case" ]; then
 else
   file=$root/cases/$case/case.yaml name=$case
 fi
-[ -f "$file" ] || { echo "run.sh: no case '$case': cases are $(cd "$root/cases" && echo *)" >&2; exit 2; }
+[ -f "$file" ] || { echo "run.sh: no case '$case': cases are $(cd "$root/cases" && echo */case.yaml | sed 's|/case.yaml||g')" >&2; exit 2; }
 beside=${bin:+$PWD}
 out=${out:-${beside:-$root}/out/$name}
 file=$(realpath "$file") out=$(realpath -m "$out")

@@ -34,7 +34,7 @@ static int LastFace(int corner)
 static void Ends(const StarElement *element, int face, double *length, double normal[2])
 {
   const double *a = element->x[(face + 1) % 3], *b = element->x[(face + 2) % 3];
-  *length = hypot(b[0] - a[0], b[1] - a[1]);
+  *length = sqrt((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]));
   normal[0] = (b[1] - a[1]) / *length;
   normal[1] = (a[0] - b[0]) / *length;
 }

@@ -1,6 +1,6 @@
 // ranks: 1 2 3
 /* The budget of momentum closes in each step to 1e-10 of its terms when the momentum equation is solved to 1e-13, with every kind of
- * boundary, theta, moving phases, surface tension, a gas, adapting meshes.  Forces on walls: water at rest weighs on them, and in a
+ * boundary, absorption, theta, moving phases, surface tension, a gas, adapting meshes.  Forces on walls: water at rest weighs on them, and in a
  * channel they take the pressure drop. */
 #include "fluid/budget.h"
 #include "tests/fluid/adapting_tank.h"
@@ -64,6 +64,7 @@ static PetscErrorCode Stream(double theta)
                       .cfl = 1.0,
                       .dt_max = 1.0,
                       .source = BodyForce,
+                      .absorption = {1, {{{1.0, 0.0}, {1.7, 0.3}, {0.5, 0.2}, 3.0}}},
                       .boundary = boundary};
   Mesh *mesh;
   Fluid fluid;
