@@ -4,12 +4,51 @@
 #include <stdio.h>
 #include <string.h>
 
+static double OfItem(CoracleCase file, const char *list, int k, const char *item)
+{
+  char key[64];
+  snprintf(key, sizeof key, "%s[%d].%s", list, k, item);
+  return CoracleCaseHas(file, key) ? CoracleCaseNumber(file, key, 0.0, HUGE_VAL) : 0.0;
+}
+
+/* sqrt(largest surface tension/(range of the densities g)), m: water rises so far at a wall.  Infinite without gravity. */
+static double CapillaryLength(CoracleCase file, const double gravity[2])
+{
+  const char *const tensions = "fluid.surface_tension", *const phases = "fluid.phases";
+  double least = HUGE_VAL, largest = 0.0, tension = 0.0;
+  char first[64];
+  for (int k = 0; k < CoracleCaseCount(file, phases); k++) {
+    least = fmin(least, OfItem(file, phases, k, "density"));
+    largest = fmax(largest, OfItem(file, phases, k, "density"));
+  }
+  snprintf(first, sizeof first, "%s[0]", tensions);
+  if (!CoracleCaseHas(file, first))
+    tension = CoracleCaseNumber(file, tensions, 0.0, HUGE_VAL);
+  else
+    for (int k = 0; k < CoracleCaseCount(file, tensions); k++)
+      tension = fmax(tension, OfItem(file, tensions, k, "value"));
+  const double weight = (largest - least) * hypot(gravity[0], gravity[1]);
+  return weight > 0.0 ? sqrt(tension / weight) : HUGE_VAL;
+}
+
+/* Of the elements at the interface, m; 0: the case does not say. */
+static double InterfaceSize(CoracleCase file)
+{
+  static const char *const KEYS[] = {"fluid.adapt.interface_size", "fluid.adapt.size_min",
+                                     "fluid.mesh.size_max", NULL};
+  for (int k = 0; KEYS[k]; k++)
+    if (CoracleCaseHas(file, KEYS[k])) return CoracleCasePositive(file, KEYS[k]);
+  return 0.0;
+}
+
 static void ReadOptions(CoracleCase file, CouplerOptions *o)
 {
   o->mode = (CouplerMode)CoracleCaseWord(file, "coupler.mode", COUPLER_REACTION, COUPLER_MODES);
   o->thickness = CoracleCasePositive(file, "coupler.shell_thickness");
-  CouplerModesReadOptions(file, o);
   CoracleCaseVector(file, "gravity", 2, o->gravity);
+  CouplerModesReadOptions(file, o);
+  o->sigma_among_phases = (PetscBool)(CoracleCaseHas(file, "fluid.surface_tension") &&
+                                      InterfaceSize(file) < CapillaryLength(file, o->gravity));
 }
 
 /* Open MPI's shared file pointers (4.1) write names of files into buffers of 256 characters. */

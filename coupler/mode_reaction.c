@@ -10,7 +10,6 @@ static void ReadOptions(CoracleCase file, CouplerOptions *o)
   o->relaxation = CoracleCaseNumberOr(file, "coupler.relaxation", 10.0, 0.0, HUGE_VAL);
   if (o->relaxation <= 0.0)
     CoracleCaseRefuse(file, "coupler.relaxation", "expected a number > 0, found %g", o->relaxation);
-  o->sigma_among_phases = CoracleCaseHas(file, "fluid.surface_tension") ? PETSC_TRUE : PETSC_FALSE;
 }
 
 static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)

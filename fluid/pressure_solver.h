@@ -6,7 +6,8 @@
  *               pressure_varying_)
  *
  * CG stops when what is left changes the velocity by less than 1e-8 (-pressure_varying_ksp_rtol) of what the
- * pressure changes in it, or, if allowed, by less than a hundred times that of the velocity.  Where the domain is closed the pressure is known up to a
+ * pressure changes in it, or, if allowed, by less than a hundred times that of the velocity.  It measures by the energy norm, which sees a
+ * velocity u as rho u^2, and so goes on further by the square root of the densities' contrast, for the same where the fluid is light.  Where the domain is closed the pressure is known up to a
  * constant: the direct solver fixes the first node, CG works with the null space. */
 #ifndef FLUID_PRESSURE_SOLVER_H
 #define FLUID_PRESSURE_SOLVER_H

@@ -112,7 +112,8 @@ static void SetBlocks(ProjectionSolver s, const ProjectionStep *step)
   }
 }
 
-/* The square root of the largest ratio of the fluid's densities. */
+/* The square root of the largest ratio of the fluid's densities.  What the solid adds does not count: the heavier it is, the less of the
+ * energy is in what the pressure changes there. */
 static PetscErrorCode Contrast(const Mesh *m, const double rho[], double *contrast)
 {
   double range[2] = {0.0, 0.0}; /* largest, inverse of the least */

@@ -39,18 +39,27 @@ static void DampUnresolved(Solid s)
 }
 
 /* What moves prescribed nodes acts beside the fluid: their whole acceleration is that of the prescribed velocity, and the fluid does not
- * move them. */
+ * move them.  Of a rotation it is what makes it faster: what leads it around is no part of a rigid velocity. */
 static void AcceleratePrescribed(Solid s)
 {
   const double t = s->stats.t, dt = s->dt;
   for (int k = 0; k < s->nprescribed; k++) {
     const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
     if (d->release > 0.0 && t >= d->release * (1.0 - 1e-12)) continue;
-    if (d->prescribed[0] && d->prescribed[1]) s->mobility[s->prescribed[k].node] = 0.0;
+    const int n = s->prescribed[k].node;
+    double pivot[2] = {0.0, 0.0}, spin_up = 0.0;
+    if (d->prescribed[0] && d->prescribed[1]) s->mobility[n] = 0.0;
+    if (d->angular_velocity != 0.0 && dt > 0.0) {
+      PrescribedPivot(d, t, pivot);
+      spin_up = (PrescribedRotation(d, t, dt) - PrescribedRotation(d, t - dt, dt)) / dt;
+    }
+    const double turned[2] = {-(s->x[2 * n + 1] - pivot[1]) * spin_up, (s->x[2 * n] - pivot[0]) * spin_up};
     for (int c = 0; c < 2; c++)
       if (d->prescribed[c])
-        s->acceleration[2 * s->prescribed[k].node + c] =
-            dt > 0.0 ? (PrescribedVelocity(d, c, t, dt) - PrescribedVelocity(d, c, t - dt, dt)) / dt : 0.0;
+        s->acceleration[2 * n + c] =
+            dt > 0.0
+                ? (PrescribedVelocity(d, c, t, dt) - PrescribedVelocity(d, c, t - dt, dt)) / dt + turned[c]
+                : 0.0;
   }
 }
 

@@ -52,3 +52,28 @@ double PrescribedVelocity(const PrescribedMotion *d, int c, double from, double 
   }
   return sum / (to - from);
 }
+
+double PrescribedRotation(const PrescribedMotion *d, double from, double h)
+{
+  const double to = from + h;
+  return d->angular_velocity == 0.0
+             ? 0.0
+             : d->angular_velocity * (IntegralOfOneRow(d, to) - IntegralOfOneRow(d, from)) / (to - from);
+}
+
+void PrescribedPivot(const PrescribedMotion *d, double t, double pivot[2])
+{
+  for (int c = 0; c < 2; c++) pivot[c] = d->pivot[c] + Row(d, 0, 1 + c) * IntegralOfOneRow(d, t);
+}
+
+void PrescribedNodeVelocity(const PrescribedMotion *d, double from, double h, const double x[2], double v[2])
+{
+  const double turn = h * PrescribedRotation(d, from, h), less = -2.0 * sin(0.5 * turn) * sin(0.5 * turn);
+  double pivot[2];
+  for (int c = 0; c < 2; c++) v[c] = PrescribedVelocity(d, c, from, h);
+  if (turn == 0.0) return;
+  PrescribedPivot(d, from, pivot);
+  const double r[2] = {x[0] - pivot[0], x[1] - pivot[1]};
+  v[0] += (less * r[0] - sin(turn) * r[1]) / h;
+  v[1] += (sin(turn) * r[0] + less * r[1]) / h;
+}

@@ -1,21 +1,28 @@
 /* Prescribed motion of nodes: a velocity, a table in time, linear between its rows and constant before the first and after the
- * last; one row: times sin(2 pi t/period), if there is a period, and from 0 at t = 0 on in proportion to t until `rise`.  A substep moves a prescribed node by the integral of its velocity, so
+ * last; one row: times sin(2 pi t/period), if there is a period, and from 0 at t = 0 on in proportion to t until `rise`; so is a
+ * rotation, about a pivot that moves with the velocity.  A substep moves a prescribed node by the integral of its velocity, so
  * that where it gets does not depend on the substeps. */
 #ifndef SOLID_PRESCRIBED_MOTION_H
 #define SOLID_PRESCRIBED_MOTION_H
 
 typedef struct {
-  int prescribed[2];   /* which components; the others stay free */
-  int nrows;           /* at least 1 */
-  const double *row;   /* [nrows][3] t, u, v; s and m/s, t rising */
-  double release;      /* s: from then on the nodes are free; 0: never */
-  double period, rise; /* s, of one row; 0: constant, at once */
+  int prescribed[2];                 /* which components; the others stay free */
+  int nrows;                         /* at least 1 */
+  const double *row;                 /* [nrows][3] t, u, v; s and m/s, t rising */
+  double release;                    /* s: from then on the nodes are free; 0: never */
+  double period, rise;               /* s, of one row; 0: constant, at once */
+  double angular_velocity, pivot[2]; /* rad/s, of one row; m, at t = 0 */
 } PrescribedMotion;
 
 typedef struct {
   int node, motion;
 } PrescribedNode;
 
-/* The velocity's mean over from .. from + h, h > 0. */
+/* The velocity's mean over from .. from + h, h > 0; where there is a rotation, the pivot's. */
 double PrescribedVelocity(const PrescribedMotion *d, int component, double from, double h);
+/* The mean of the angular velocity, rad/s, and where the pivot is at t, m. */
+double PrescribedRotation(const PrescribedMotion *d, double from, double h);
+void PrescribedPivot(const PrescribedMotion *d, double t, double pivot[2]);
+/* v: the mean velocity of a node that is at x at `from`. */
+void PrescribedNodeVelocity(const PrescribedMotion *d, double from, double h, const double x[2], double v[2]);
 #endif

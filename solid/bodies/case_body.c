@@ -116,6 +116,27 @@ static PetscErrorCode ReadFixed(CoracleCase c, int body, BodySetup *setup, const
   PetscFunctionReturn(0);
 }
 
+/* Of one row: velocity, rotation, and how they depend on time. */
+static void ReadSteady(CoracleCase c, const char *item, PrescribedMotion *d, double velocity[2])
+{
+  char key[KEY + 64];
+  (void)snprintf(key, sizeof key, "%s.angular_velocity", item);
+  const PetscBool turns = (PetscBool)CoracleCaseHas(c, key);
+  if (turns) {
+    d->angular_velocity = CoracleCaseNumber(c, key, -HUGE_VAL, HUGE_VAL);
+    if (!d->prescribed[0] || !d->prescribed[1])
+      CoracleCaseRefuse(c, key, "a rotation prescribes both components");
+    (void)snprintf(key, sizeof key, "%s.pivot", item);
+    CoracleCaseVector(c, key, 2, d->pivot);
+  }
+  (void)snprintf(key, sizeof key, "%s.velocity", item);
+  if (!turns || CoracleCaseHas(c, key)) CoracleCaseVector(c, key, 2, velocity);
+  (void)snprintf(key, sizeof key, "%s.period", item);
+  if (CoracleCaseHas(c, key)) d->period = CoracleCasePositive(c, key);
+  (void)snprintf(key, sizeof key, "%s.rise", item);
+  d->rise = CoracleCaseNumberOr(c, key, 0.0, 0.0, HUGE_VAL);
+}
+
 /* One item of `prescribed`: rows are allocated. */
 static PetscErrorCode ReadMotion(CoracleCase c, const char *item, BoundaryMotion *d)
 {
@@ -139,14 +160,7 @@ static PetscErrorCode ReadMotion(CoracleCase c, const char *item, BoundaryMotion
     CoracleCaseVector(c, key, 3, row + 3 * k);
     if (k > 0 && !(row[3 * k] > row[3 * k - 3])) CoracleCaseRefuse(c, key, "the table's times must rise");
   }
-  if (nrows == 0) {
-    (void)snprintf(key, sizeof key, "%s.velocity", item);
-    CoracleCaseVector(c, key, 2, row + 1);
-    (void)snprintf(key, sizeof key, "%s.period", item);
-    if (CoracleCaseHas(c, key)) d->motion.period = CoracleCasePositive(c, key);
-    (void)snprintf(key, sizeof key, "%s.rise", item);
-    d->motion.rise = CoracleCaseNumberOr(c, key, 0.0, 0.0, HUGE_VAL);
-  }
+  if (nrows == 0) ReadSteady(c, item, &d->motion, row + 1);
   (void)snprintf(key, sizeof key, "%s.release", item);
   if (CoracleCaseHas(c, key)) d->motion.release = CoracleCasePositive(c, key);
   PetscFunctionReturn(0);

@@ -104,8 +104,10 @@ static void PrescribeNode(Model *a, int n)
 {
   const PrescribedMotion *motion = &a->motion[a->nmotions];
   a->prescribed[a->nprescribed++] = (PrescribedNode){n, a->nmotions};
+  double v[2];
+  PrescribedNodeVelocity(motion, 0.0, 1e-12, a->x + 2 * n, v);
   for (int c = 0; c < 2; c++)
-    if (motion->prescribed[c]) a->u[2 * n + c] = PrescribedVelocity(motion, c, 0.0, 1e-12);
+    if (motion->prescribed[c]) a->u[2 * n + c] = v[c];
 }
 
 static PetscErrorCode PrescribeNodes(Model *a, const MeshSerial *m, const BodySetup *setup,

@@ -1,0 +1,64 @@
+// ranks: 1 2
+/* A plate whose rotation is prescribed, about a pivot that moves: after any time its nodes are where a rigid plate's are, and so are
+ * its velocities; also when the rotation swings and rises. */
+#include "tests/solid/build.h"
+
+#define SPIN 3.0
+
+typedef struct {
+  double period, rise;
+} Way;
+
+/* How far it has turned, over SPIN: by short intervals. */
+static double Turned(const Way *w, double t)
+{
+  enum { MANY = 100000 };
+  double sum = 0.0;
+  for (int i = 0; i < MANY; i++) {
+    const double at = t * (i + 0.5) / MANY;
+    sum += (w->period > 0.0 ? sin(2.0 * M_PI * at / w->period) : 1.0) * (at < w->rise ? at / w->rise : 1.0) *
+           t / MANY;
+  }
+  return sum;
+}
+
+static PetscErrorCode Rotate(const Way *w)
+{
+  const SolidSetup setup = {.courant = 0.8, .rebalance = 200.0, .gravity = {0.0, -9.81}};
+  const double row[3] = {0.0, 0.4, -0.2}, t = 0.7;
+  const BoundaryMotion motion = {NULL, {{1, 1}, 1, row, 0.0, w->period, w->rise, SPIN, {0.3, 0.1}}};
+  BodySetup body = BodyAtRest(MaterialOf(1000.0, 1e6, 0.3, 0.1));
+  Model a = {0};
+  Solid s;
+  body.nprescribed = 1;
+  body.prescribed = &motion;
+  AddRectangle(&a, 0.0, 0.0, 0.2, 0.1, 0.0, 0.05, 1, &body);
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &setup, &s));
+  PetscCall(Run(s, t, 0.01));
+  const double factor = Turned(w, t), angle = SPIN * factor,
+               rate = (Turned(w, t) - Turned(w, t - 1e-4)) / 1e-4;
+  const SolidView v = ViewOf(s, NULL, NULL);
+  for (int n = 0; n < v.nnodes; n++) {
+    const double r[2] = {v.rest[2 * n] - 0.3, v.rest[2 * n + 1] - 0.1};
+    const double arm[2] = {cos(angle) * r[0] - sin(angle) * r[1], sin(angle) * r[0] + cos(angle) * r[1]};
+    const double x[2] = {0.3 + 0.4 * factor + arm[0], 0.1 - 0.2 * factor + arm[1]};
+    const double u[2] = {0.4 * rate - SPIN * rate * arm[1], -0.2 * rate + SPIN * rate * arm[0]};
+    for (int c = 0; c < 2; c++) {
+      CHECK(fabs(v.x[2 * n + c] - x[c]) < 1e-8, "node %d at (%g, %g), expected (%g, %g)", n, v.x[2 * n],
+            v.x[2 * n + 1], x[0], x[1]);
+      CHECK(fabs(v.v[2 * n + c] - u[c]) < 2e-3, "node %d moves with (%g, %g), expected (%g, %g)", n,
+            v.v[2 * n], v.v[2 * n + 1], u[0], u[1]);
+    }
+  }
+  PetscCall(SolidDestroy(&s));
+  PetscCall(ModelDestroy(&a));
+  return 0;
+}
+
+int main(int argc, char **argv)
+{
+  static const Way WAYS[] = {{0.0, 0.0}, {0.0, 0.3}, {0.5, 0.0}, {0.5, 0.3}};
+  PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
+  for (size_t k = 0; k < sizeof WAYS / sizeof *WAYS; k++) PetscCall(Rotate(&WAYS[k]));
+  return PetscFinalize();
+}
