@@ -173,10 +173,10 @@ static void AddStrainEnergy(const Solid s, int n, double sum[][NSUMS])
   }
 }
 
-/* Angular momentum and moment of inertia about the mass centres. */
-static PetscErrorCode AngularVelocities(const Solid s, int n, BodyState state[])
+/* What is about the mass centres: angular momentum, moment of inertia, the load's moment. */
+static PetscErrorCode AboutCentres(const Solid s, int n, BodyState state[])
 {
-  double(*sum)[2];
+  double(*sum)[3];
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1((size_t)n, &sum));
   for (int i = 0; i < s->nnodes; i++) {
@@ -186,9 +186,11 @@ static PetscErrorCode AngularVelocities(const Solid s, int n, BodyState state[])
     const Point v = {s->v[2 * i] - state[b].v[0], s->v[2 * i + 1] - state[b].v[1]};
     sum[b][0] += s->mass[i] * PointCross(r, v);
     sum[b][1] += s->mass[i] * (r.x * r.x + r.y * r.y);
+    sum[b][2] += r.x * s->load[2 * i + 1] - r.y * s->load[2 * i];
   }
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2 * n, MPI_DOUBLE, MPI_SUM, s->comm));
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3 * n, MPI_DOUBLE, MPI_SUM, s->comm));
   for (int b = 0; b < n; b++) {
+    state[b].moment = sum[b][2];
     state[b].inertia = sum[b][1];
     state[b].angular_velocity = sum[b][0] / sum[b][1];
   }
@@ -215,7 +217,7 @@ PetscErrorCode SolidBodies(Solid s, int n, BodyState state[])
       state[b].load[c] = k[FX + c];
     }
   }
-  PetscCall(AngularVelocities(s, n, state));
+  PetscCall(AboutCentres(s, n, state));
   PetscCall(PetscFree(sum));
   PetscFunctionReturn(0);
 }

@@ -1,6 +1,6 @@
 // ranks: 1 2
 /* A plate whose rotation is prescribed, about a pivot that moves: after any time its nodes are where a rigid plate's are, and so are
- * its velocities; also when the rotation swings and rises. */
+ * its velocities; also when the rotation swings and rises.  And the moment of a load. */
 #include "tests/solid/build.h"
 
 #define SPIN 3.0
@@ -55,10 +55,41 @@ static PetscErrorCode Rotate(const Way *w)
   return 0;
 }
 
+/* The moment of a load that is given element by element. */
+static PetscErrorCode Moment(void)
+{
+  const SolidSetup setup = {.courant = 0.8};
+  BodySetup body = BodyAtRest(MaterialOf(1000.0, 1e6, 0.3, 0.1));
+  double sum[2] = {0.0, 0.0}; /* of x f_y and of y f_x about the centre */
+  Model a = {0};
+  BodyState state;
+  Solid s;
+  AddRectangle(&a, 0.3, -0.2, 0.2, 0.1, 0.4, 0.05, 1, &body);
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &setup, &s));
+  const SolidView v = ViewOf(s, NULL, NULL);
+  double *load = calloc(2 * (size_t)v.nnodes + 1, sizeof *load);
+  for (int k = 0; k < 3 * v.nelements; k++) {
+    const double *x = v.rest + 2 * v.element[k], force[2] = {1.0 + x[1], 2.0 - 3.0 * x[0]};
+    for (int c = 0; c < 2; c++) load[2 * v.element[k] + c] += force[c];
+    sum[0] += (x[0] - 0.3) * force[1];
+    sum[1] += (x[1] + 0.2) * force[0];
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
+  PetscCall(SolidStart(s, 1e-9, load));
+  PetscCall(SolidBodies(s, 1, &state));
+  CHECK(fabs(state.moment - (sum[0] - sum[1])) < 1e-9, "moment %g, expected %g", state.moment,
+        sum[0] - sum[1]);
+  free(load);
+  PetscCall(SolidDestroy(&s));
+  PetscCall(ModelDestroy(&a));
+  return 0;
+}
+
 int main(int argc, char **argv)
 {
   static const Way WAYS[] = {{0.0, 0.0}, {0.0, 0.3}, {0.5, 0.0}, {0.5, 0.3}};
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   for (size_t k = 0; k < sizeof WAYS / sizeof *WAYS; k++) PetscCall(Rotate(&WAYS[k]));
+  PetscCall(Moment());
   return PetscFinalize();
 }
