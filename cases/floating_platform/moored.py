@@ -72,6 +72,7 @@ class Flume:
 
     def __init__(self, folder):
         p = phases.read_probes(folder)
+        self.piston = theory().piston * (0.5 if folder.name == "waves-half" else 1.0)
         elevation = {name: harmonic(p["t"], p[name + "_last"] - SURFACE) for name in GAUGES}
         self.incident = elevation["middle"]
         place = np.array(list(GAUGES.values()))
