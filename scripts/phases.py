@@ -128,9 +128,9 @@ def paint_phases(axes, folder, time, phase, arrows=0.0, mesh=False):
 
 
 def draw_times(folder, times, phase, path, columns=2, arrows=0.0, mesh=False, size=(6.0, 2.3)):
-    """A panel a time; times that the run has not reached are left out."""
+    """A panel a time; times that the run has not reached are left out; its last if it has reached none."""
     last = snapshot_times(folder)[-1]
-    times = [t for t in times if t <= last * (1.0 + 1e-9)]
+    times = [t for t in times if t <= last * (1.0 + 1e-9)] or [last]
     rows = -(-len(times) // columns)
     figure, axes = plt.subplots(rows, columns, figsize=(columns * size[0], rows * size[1]), squeeze=False, layout="constrained")
     for axis in axes.flat[len(times):]:

@@ -21,8 +21,11 @@ WINDOW = (6.4, 6.4 + 3.0 * PERIOD)  # s: after the waves have come, before what 
 
 
 def harmonic(t, values):
-    """The complex amplitude X of Re(X e^{-i omega t}) over the window, beside its first overtone and what changes slowly."""
+    """The complex amplitude X of Re(X e^{-i omega t}) over the window, beside its first overtone and what changes slowly; nan if the run has
+    not come to its end."""
     there = (t >= WINDOW[0]) & (t <= WINDOW[1])
+    if t[-1] < WINDOW[1] - 0.1 * PERIOD:
+        return complex("nan")
     phase, slow = OMEGA * t[there], (t[there] - WINDOW[0]) / (WINDOW[1] - WINDOW[0])
     columns = [np.cos(phase), np.sin(phase), np.cos(2.0 * phase), np.sin(2.0 * phase), np.ones_like(slow), slow, slow**2]
     fit = np.linalg.lstsq(np.array(columns).T, np.asarray(values)[there], rcond=None)[0]
@@ -92,11 +95,10 @@ class Moored(Motion):
         self.t, self.x, self.y, turn = s["t"], s["x1"] - PLACE, s["y1"] - SURFACE, s["omega1"]
         k = 2.0 * np.pi / flume.length
         super().__init__(harmonic(self.t, self.x) / wave, harmonic(self.t, self.y) / wave, harmonic(self.t, turn) / (-1j * OMEGA) / (k * wave))
-        last = self.t > WINDOW[1] - PERIOD
-        self.drift = float(self.x[last & (self.t <= WINDOW[1])].mean())
+        self.drift = float(self.x[self.t > self.t[-1] - PERIOD].mean())
         p = phases.read_probes(folder)
         self.line = {name: p[name + "_tension"] for name in ("windward", "lee")}
         self.line_t = p["solid t"]
-        there = (self.line_t >= WINDOW[0]) & (self.line_t <= WINDOW[1])
+        there = (self.line_t >= WINDOW[0]) | (self.line_t[-1] < WINDOW[0])
         self.tension = {name: (values[there].min(), values[there].max()) for name, values in self.line.items()}
         self.angle = np.concatenate([[0.0], np.cumsum(np.diff(self.t) * turn[1:])])
