@@ -5,6 +5,7 @@
  * 0 before `from`, `rate` beyond `to`.  Zones add up. */
 #ifndef FLUID_ABSORPTION_H
 #define FLUID_ABSORPTION_H
+#include "fluid/domain.h"
 
 enum { ABSORPTION_MAX = 8 };
 
@@ -34,5 +35,14 @@ static inline AbsorptionAt AbsorptionOf(const Absorption *a, const double x[2])
     for (int c = 0; c < 2; c++) sum.push[c] += k * zone->velocity[c];
   }
   return sum;
+}
+
+/* At the centre of element e. */
+static inline AbsorptionAt AbsorptionOfElement(const Absorption *a, const Mesh *mesh, int e)
+{
+  double x[2] = {0.0, 0.0};
+  for (int i = 0; i < 3 && a->n > 0; i++)
+    for (int c = 0; c < 2; c++) x[c] += ElementVertex(mesh, e, i)[c] / 3.0;
+  return AbsorptionOf(a, x);
 }
 #endif

@@ -145,10 +145,7 @@ static double Sum(const double v[3])
 static void AddAbsorption(Fluid f, const BudgetStep *s)
 {
   for (int e = 0; e < f->domain.mesh->ne; e++) {
-    double x[2] = {0.0, 0.0};
-    for (int i = 0; i < 3; i++)
-      for (int c = 0; c < 2; c++) x[c] += ElementVertex(f->domain.mesh, e, i)[c] / 3.0;
-    const AbsorptionAt a = AbsorptionOf(&f->setup.absorption, x);
+    const AbsorptionAt a = AbsorptionOfElement(&f->setup.absorption, f->domain.mesh, e);
     for (int c = 0; c < 2; c++) {
       const double u =
           ((1.0 - s->theta) * Sum(s->u + 6 * e + 3 * c) + s->theta * Sum(s->u_star + 6 * e + 3 * c)) / 3.0;

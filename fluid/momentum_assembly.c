@@ -129,21 +129,12 @@ static void WeightAndPressure(MomentumSolver s, const MomentumStep *step, int e,
   for (int c = 0; c < 2; c++) q[c] *= step->rho[e];
 }
 
-/* Of element e, at its centre. */
-static AbsorptionAt ElementAbsorption(MomentumSolver s, int e)
-{
-  double x[2] = {0.0, 0.0};
-  for (int i = 0; i < 3; i++)
-    for (int c = 0; c < 2; c++) x[c] += ElementVertex(s->domain->mesh, e, i)[c] / 3.0;
-  return AbsorptionOf(&s->setup.absorption, x);
-}
-
 /* Body force, pressure and absorption: M (rho g - grad p + source + rho k U). */
 static void ElementLoad(MomentumSolver s, const MomentumStep *step, int e, const double p[], double load[6])
 {
   const Mesh *m = s->domain->mesh;
   const ElementGeometry *g = s->domain->geometry + e;
-  const AbsorptionAt absorption = ElementAbsorption(s, e);
+  const AbsorptionAt absorption = AbsorptionOfElement(&s->setup.absorption, s->domain->mesh, e);
   double grad[3][2], q[2][3];
   DomainGradient(s->domain, e, p, grad);
   for (int i = 0; i < 3; i++) {
@@ -203,7 +194,9 @@ static void AssembleScalar(MomentumSolver s, const MomentumStep *step, int e, co
     memcpy(block, s->faces[e], sizeof s->faces[e]);
   else
     AssembleFaces(s, step, e, block);
-  const double mass = step->rho[e] * (1.0 / step->dt + s->setup.theta * ElementAbsorption(s, e).rate);
+  const double mass =
+      step->rho[e] *
+      (1.0 / step->dt + s->setup.theta * AbsorptionOfElement(&s->setup.absorption, s->domain->mesh, e).rate);
   ScalarVolume(s->domain->geometry + e, mass, s->setup.theta, s->op.theta_mu[e], flux + 6 * e, volume);
   for (int k = 0; k < 9; k++) block[0][k] += volume[k];
   FluxDivergenceVolume(s->domain->geometry + e, flux + 6 * e, s->divergence[e]);

@@ -22,10 +22,10 @@ PetscErrorCode PatchCorrectionCreate(Mat matrix, PatchCorrection *patch)
   PetscFunctionReturn(0);
 }
 
-/* The patches. */
-static PetscErrorCode Clear(PatchCorrection p)
+PetscErrorCode PatchCorrectionClear(PatchCorrection p)
 {
   PetscFunctionBeginUser;
+  p->active = PETSC_FALSE;
   PetscCall(PetscFree(p->own));
   PetscCall(MatDestroy(&p->rows));
   PetscCall(KSPDestroy(&p->solver));
@@ -40,7 +40,7 @@ PetscErrorCode PatchCorrectionDestroy(PatchCorrection *patch)
   PatchCorrection p = *patch;
   PetscFunctionBeginUser;
   if (!p) PetscFunctionReturn(0);
-  PetscCall(Clear(p));
+  PetscCall(PatchCorrectionClear(p));
   PetscCall(VecDestroy(&p->image));
   PetscCall(PetscFree(*patch));
   PetscFunctionReturn(0);
@@ -89,13 +89,9 @@ static PetscErrorCode MakeSolver(PatchCorrection p, const double held[])
 PetscErrorCode PatchCorrectionUpdate(PatchCorrection p, PetscInt n, const PetscInt row[], const double held[])
 {
   PetscInt first;
-  int any = n > 0;
   PetscFunctionBeginUser;
-  PetscCallMPI(
-      MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_LOR, PetscObjectComm((PetscObject)p->matrix)));
-  PetscCall(Clear(p));
-  p->active = (PetscBool)any;
-  if (!any) PetscFunctionReturn(0);
+  PetscCall(PatchCorrectionClear(p));
+  p->active = PETSC_TRUE;
   p->n = n;
   PetscCall(MatGetOwnershipRange(p->matrix, &first, NULL));
   PetscCall(PetscMalloc1(n, &p->own));

@@ -14,10 +14,12 @@ typedef struct PatchCorrection_s *PatchCorrection;
 /* Of the symmetric positive definite matrix A, AIJ, borrowed.  Without patches until the first Update.  Collective, like all of this. */
 PetscErrorCode PatchCorrectionCreate(Mat matrix, PatchCorrection *p);
 PetscErrorCode PatchCorrectionDestroy(PatchCorrection *p);
-/* A has other values, and the patches are row[n], ascending, owned by this rank, global; held[own rows]: l. */
+/* A has other values, and the patches are row[n], ascending, owned by this rank, global, some on any rank; held[own rows]: l. */
 PetscErrorCode PatchCorrectionUpdate(PatchCorrection p, PetscInt n, const PetscInt row[],
                                      const double held[]);
-/* Some rank has patches.  Not collective. */
+/* There are no patches.  Not collective. */
+PetscErrorCode PatchCorrectionClear(PatchCorrection p);
+/* There are.  Not collective. */
 PetscBool PatchCorrectionActive(PatchCorrection p);
 /* z as above, residual = r - A z of the z before, and becomes that of the new one. */
 PetscErrorCode PatchCorrectionFirst(PatchCorrection p, Vec residual, Vec z);

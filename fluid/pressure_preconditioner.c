@@ -260,7 +260,7 @@ static PetscErrorCode UpdatePatches(PressurePreconditioner p, const double uneve
   for (int e = 0; e < p->domain->mesh->ne; e++) most = PetscMax(most, unevenness[e]);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, p->domain->mesh->comm));
   if (most <= VERY_UNEVEN) {
-    PetscCall(PatchCorrectionUpdate(p->patches, 0, NULL, NULL));
+    PetscCall(PatchCorrectionClear(p->patches));
     PetscFunctionReturn(0);
   }
   PetscCall(VecCreateGhost(p->domain->mesh->comm, p2->nowned, PETSC_DETERMINE, p2->n - p2->nowned,

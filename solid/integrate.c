@@ -165,14 +165,14 @@ PetscBool SolidRemaining(Solid s)
 /* Prescribed nodes go their own way: from where they were (before: 1, puts it down) by their velocity's mean. */
 static void MovePrescribed(Solid s, int before)
 {
-  double v[2] = {0.0,
-                 0.0}; /* of the node before, which has the same motion: of a table it is looked up once */
+  PrescribedSubstep substep = {0}; /* of the motion of the node before */
+  double v[2] = {0.0, 0.0};
   for (int k = 0, motion = -1; k < s->nprescribed; k++) {
     const int n = s->prescribed[k].node;
     const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
     if (d->release > 0.0 && s->stats.t >= d->release * (1.0 - 1e-12)) continue;
-    if (!before && (motion != s->prescribed[k].motion || d->angular_velocity != 0.0))
-      PrescribedNodeVelocity(d, s->stats.t, s->h, s->position_before + 2 * k, v);
+    if (!before && motion != s->prescribed[k].motion) substep = PrescribedSubstepOf(d, s->stats.t, s->h);
+    if (!before) PrescribedNodeVelocity(&substep, s->position_before + 2 * k, v);
     for (int c = 0; c < 2; c++) {
       if (before) {
         s->position_before[2 * k + c] = s->x[2 * n + c];

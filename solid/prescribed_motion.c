@@ -66,14 +66,14 @@ void PrescribedPivot(const PrescribedMotion *d, double t, double pivot[2])
   for (int c = 0; c < 2; c++) pivot[c] = d->pivot[c] + Row(d, 0, 1 + c) * IntegralOfOneRow(d, t);
 }
 
-void PrescribedNodeVelocity(const PrescribedMotion *d, double from, double h, const double x[2], double v[2])
+PrescribedSubstep PrescribedSubstepOf(const PrescribedMotion *d, double from, double h)
 {
-  const double turn = h * PrescribedRotation(d, from, h), less = -2.0 * sin(0.5 * turn) * sin(0.5 * turn);
-  double pivot[2];
-  for (int c = 0; c < 2; c++) v[c] = PrescribedVelocity(d, c, from, h);
-  if (turn == 0.0) return;
-  PrescribedPivot(d, from, pivot);
-  const double r[2] = {x[0] - pivot[0], x[1] - pivot[1]};
-  v[0] += (less * r[0] - sin(turn) * r[1]) / h;
-  v[1] += (sin(turn) * r[0] + less * r[1]) / h;
+  PrescribedSubstep s = {
+      {PrescribedVelocity(d, 0, from, h), PrescribedVelocity(d, 1, from, h)}, {0.0, 0.0}, 0.0, 0.0};
+  if (d->angular_velocity == 0.0) return s;
+  const double turn = h * PrescribedRotation(d, from, h);
+  PrescribedPivot(d, from, s.pivot);
+  s.parallel = -2.0 * sin(0.5 * turn) * sin(0.5 * turn) / h;
+  s.normal = sin(turn) / h;
+  return s;
 }

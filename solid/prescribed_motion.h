@@ -23,6 +23,16 @@ double PrescribedVelocity(const PrescribedMotion *d, int component, double from,
 /* The mean of the angular velocity, rad/s, and where the pivot is at t, m. */
 double PrescribedRotation(const PrescribedMotion *d, double from, double h);
 void PrescribedPivot(const PrescribedMotion *d, double t, double pivot[2]);
-/* v: the mean velocity of a node that is at x at `from`. */
-void PrescribedNodeVelocity(const PrescribedMotion *d, double from, double h, const double x[2], double v[2]);
+/* What a substep of h has for all nodes of a motion: the mean velocity of the pivot, where it begins, and (turn - 1)/h. */
+typedef struct {
+  double velocity[2], pivot[2], parallel, normal;
+} PrescribedSubstep;
+PrescribedSubstep PrescribedSubstepOf(const PrescribedMotion *d, double from, double h);
+/* v: the mean velocity of a node that is at x when it begins. */
+static inline void PrescribedNodeVelocity(const PrescribedSubstep *s, const double x[2], double v[2])
+{
+  const double r[2] = {x[0] - s->pivot[0], x[1] - s->pivot[1]};
+  v[0] = s->velocity[0] + s->parallel * r[0] - s->normal * r[1];
+  v[1] = s->velocity[1] + s->normal * r[0] + s->parallel * r[1];
+}
 #endif

@@ -1,4 +1,5 @@
 """What a run of the moored platform says, and the flume without it; and what linear theory expects."""
+import functools
 import os
 import pathlib
 import sys
@@ -66,6 +67,7 @@ class Theory(Motion):
         self.piston = height_over_stroke * SPEED / OMEGA  # amplitude of its waves, m
 
 
+@functools.cache
 def theory():
     return Theory()
 

@@ -105,7 +105,8 @@ static void PrescribeNode(Model *a, int n)
   const PrescribedMotion *motion = &a->motion[a->nmotions];
   a->prescribed[a->nprescribed++] = (PrescribedNode){n, a->nmotions};
   double v[2];
-  PrescribedNodeVelocity(motion, 0.0, 1e-12, a->x + 2 * n, v);
+  const PrescribedSubstep first = PrescribedSubstepOf(motion, 0.0, 1e-12);
+  PrescribedNodeVelocity(&first, a->x + 2 * n, v);
   for (int c = 0; c < 2; c++)
     if (motion->prescribed[c]) a->u[2 * n + c] = v[c];
 }

@@ -1,6 +1,6 @@
 // ranks: 1 2 3
 /* A stiff block on springs does what a mass on springs does: it swings in all directions alike on one of length 0, it is thrown back
- * by a line that was slack, it decays with a dashpot.  Energy and momentum are in the budget. */
+ * by a line that was slack, it decays with a dashpot.  Momentum is in the budget. */
 #include "tests/solid/build.h"
 
 #define SIDE 0.1
