@@ -19,19 +19,33 @@ PetscErrorCode BoundaryBoxes(const Mesh *m, Boundary boundary[])
   PetscFunctionReturn(0);
 }
 
+double BoundaryFactor(const Boundary *b, double t)
+{
+  double factor = t < b->rise && b->rise > 0.0 ? 0.5 * (1.0 - cos(M_PI * fmax(t, 0.0) / b->rise)) : 1.0;
+  if (b->factor.nrows)
+    factor *= TimeTableValue(&b->factor, 1, b->period > 0.0 ? t - b->period * floor(t / b->period) : t);
+  else if (b->period > 0.0)
+    factor *= sin(2.0 * M_PI * t / b->period);
+  return factor;
+}
+
+PetscBool BoundaryVaries(const Boundary *b)
+{
+  return (PetscBool)(b->rise > 0.0 || b->factor.nrows || b->period > 0.0);
+}
+
 void BoundaryVelocity(const Boundary *b, double t, const double x[2], double v[2])
 {
   if (b->function) {
     b->function(b->context, t, x, v);
     return;
   }
-  double scale = 1.0;
+  double scale = BoundaryFactor(b, t);
   if (b->parabolic) {
     const int c = b->upper[0] - b->lower[0] > b->upper[1] - b->lower[1] ? 0 : 1;
     const double s = (x[c] - b->lower[c]) / (b->upper[c] - b->lower[c]);
-    scale = 4.0 * s * (1.0 - s);
+    scale *= 4.0 * s * (1.0 - s);
   }
-  if (t < b->rise) scale *= 0.5 * (1.0 - cos(M_PI * fmax(t, 0.0) / b->rise));
   for (int c = 0; c < 2; c++) v[c] = scale * b->velocity[c];
 }
 

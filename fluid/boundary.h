@@ -6,12 +6,14 @@
  *   kind        velocity prescribed         traction               pressure
  *   VELOCITY    u = g(x, t)                 -                      -
  *   FREE_SLIP   u.n = 0                     (tau n).t = 0          -
- *   OPEN        -                           tau n = 0              hydrostatic + `pressure`
+ *   OPEN        -                           tau n = 0              hydrostatic + `pressure`(t)
  *
+ * What depends on time (rise, factor, period) is that of both ends of a step for velocities, of its middle for pressures.
  * What comes in where it is OPEN has been at rest outside (AssembleBoundary). */
 #ifndef FLUID_BOUNDARY_H
 #define FLUID_BOUNDARY_H
 #include "common/mesh/mesh.h"
+#include "common/program/time_table.h"
 #include "fluid/phases/phases.h"
 #include <petscsys.h>
 
@@ -37,8 +39,10 @@ typedef struct {
   double velocity[2];        /* m/s */
   PetscBool parabolic;       /* velocity times 4 s (1 - s), s along the boundary's bounding box */
   double lower[2], upper[2]; /* that box, m; set by BoundaryBoxes */
-  double rise;               /* s: until then velocity times (1 - cos(pi t/rise))/2; 0: at once */
   double pressure;           /* where open: above hydrostatic, Pa */
+  double rise;               /* s: until then velocity, pressure times (1 - cos(pi t/rise))/2; 0: at once */
+  TimeTable factor;          /* of t, s, and a factor of velocity, pressure; nrows 0: none */
+  double period; /* s: in which factor repeats itself; without a factor: times sin(2 pi t/period); 0: no */
   BoundaryPhases phases;
   FieldFunction function; /* instead of velocity; NULL: none */
   void *context;
@@ -46,7 +50,10 @@ typedef struct {
 
 /* Sets the bounding boxes of boundary[mesh->ntags].  Collective over mesh->comm. */
 PetscErrorCode BoundaryBoxes(const Mesh *mesh, Boundary boundary[]);
-/* The velocity v, m/s, that a BOUNDARY_VELOCITY prescribes at x and t.  Not collective, like what follows. */
+/* What velocity and pressure are times at t.  Not collective, like what follows. */
+double BoundaryFactor(const Boundary *b, double t);
+PetscBool BoundaryVaries(const Boundary *b);
+/* The velocity v, m/s, that a BOUNDARY_VELOCITY prescribes at x and t. */
 void BoundaryVelocity(const Boundary *b, double t, const double x[2], double v[2]);
 /* project[c][d]: the directions in which a boundary with outward unit normal n prescribes the velocity: I, n n or 0. */
 void BoundaryProjection(const Boundary *b, const double n[2], double project[2][2]);

@@ -68,6 +68,24 @@ static void ReadLevel(CoracleCase c, const char *key, const PhaseNames *names, c
   b->level[0] = CoracleCaseNumber(c, key, -HUGE_VAL, HUGE_VAL);
 }
 
+/* How velocity or pressure depend on time. */
+static void ReadVariation(CoracleCase c, const char *key, Boundary *b)
+{
+  char sub[192];
+  (void)snprintf(sub, sizeof sub, "%s.rise", key);
+  b->rise = CoracleCaseNumberOr(c, sub, 0.0, 0.0, HUGE_VAL);
+  (void)snprintf(sub, sizeof sub, "%s.period", key);
+  if (CoracleCaseHas(c, sub)) b->period = CoracleCasePositive(c, sub);
+  (void)snprintf(sub, sizeof sub, "%s.factor", key);
+  b->factor.width = 2;
+  b->factor.row = CoracleCaseTable(c, sub, 2, &b->factor.nrows);
+  if (!b->factor.nrows || b->period == 0.0) return;
+  const double first = TimeTableAt(&b->factor, 0, 0), last = TimeTableAt(&b->factor, b->factor.nrows - 1, 0);
+  if (first < 0.0 || last > b->period)
+    CoracleCaseRefuse(c, sub, "expected times from 0 to the period, %g s, found %g to %g s", b->period, first,
+                      last);
+}
+
 /* Whether it is open by a pressure or a level. */
 static PetscBool ReadOpen(CoracleCase c, const char *key, const PhaseNames *names, const PhaseProperties *p,
                           Boundary *b)
@@ -83,6 +101,7 @@ static PetscBool ReadOpen(CoracleCase c, const char *key, const PhaseNames *name
     b->pressure = CoracleCaseNumberOr(c, pressure, 0.0, -HUGE_VAL, HUGE_VAL);
   } else {
     b->pressure = CoracleCaseNumber(c, pressure, -HUGE_VAL, HUGE_VAL);
+    ReadVariation(c, key, b);
   }
   return PETSC_TRUE;
 }
@@ -104,8 +123,7 @@ static void ReadBoundary(CoracleCase c, const char *name, const PhaseNames *name
     CoracleCaseVector(c, sub, 2, b->velocity);
     (void)snprintf(sub, sizeof sub, "%s.profile", key);
     b->parabolic = (PetscBool)(CoracleCaseWord(c, sub, 0, PROFILES) == 1);
-    (void)snprintf(sub, sizeof sub, "%s.rise", key);
-    b->rise = CoracleCaseNumberOr(c, sub, 0.0, 0.0, HUGE_VAL);
+    ReadVariation(c, key, b);
     return;
   }
   if (ReadOpen(c, key, names, p, b)) return;
@@ -166,24 +184,40 @@ void BoundaryCaseCheckResumed(CoracleCase c, const Mesh *mesh, const char *folde
       check.nlisted, check.listed, mesh->ntags, found, folder);
 }
 
-/* Without an open boundary what is prescribed must neither fill nor empty the domain: in the end, and as it rises. */
+/* Times, s, that show how what b prescribes depends on time: time[k] of k = 0 .. CheckTimes(b) - 1. */
+static int CheckTimes(const Boundary *b)
+{
+  return 3 + b->factor.nrows;
+}
+
+static double CheckTime(const Boundary *b, int k)
+{
+  if (k < 3) return k == 0 ? 2.0 * b->rise : k == 1 ? 0.5 * b->rise : b->rise + 0.25 * b->period;
+  return b->rise + TimeTableAt(&b->factor, k - 3, 0);
+}
+
+/* Without an open boundary what is prescribed must neither fill nor empty the domain, at any time. */
 static PetscErrorCode CheckFlux(CoracleCase c, const Mesh *mesh, Boundary boundary[])
 {
-  double net, gross, full;
+  double net, gross, largest[2] = {0.0, 0.0}, at = 0.0; /* of net, gross; when */
   PetscFunctionBeginUser;
   for (int b = 0; b < mesh->ntags; b++)
     if (boundary[b].kind == BOUNDARY_OPEN) PetscFunctionReturn(0);
-  PetscCall(BoundaryPrescribedFlux(mesh, boundary, HUGE_VAL, &net, &full));
-  gross = full;
-  for (int b = -1; b < mesh->ntags; b++) {
-    if (b >= 0) PetscCall(BoundaryPrescribedFlux(mesh, boundary, 0.5 * boundary[b].rise, &net, &gross));
-    if (fabs(net) > 1e-6 * full)
-      CoracleCaseRefuse(
-          c, "fluid.boundaries",
-          "no boundary is open, and the prescribed velocities bring %g m2/s %s than they take out%s",
-          fabs(net), net < 0.0 ? "more into the domain" : "less into the domain",
-          b < 0 ? "" : " as they rise");
-  }
+  for (int b = 0; b < mesh->ntags; b++)
+    for (int k = 0; k < CheckTimes(&boundary[b]); k++) {
+      const double t = CheckTime(&boundary[b], k);
+      PetscCall(BoundaryPrescribedFlux(mesh, boundary, t, &net, &gross));
+      if (fabs(net) > fabs(largest[0])) {
+        largest[0] = net;
+        at = t;
+      }
+      largest[1] = PetscMax(largest[1], gross);
+    }
+  if (fabs(largest[0]) > 1e-6 * largest[1])
+    CoracleCaseRefuse(
+        c, "fluid.boundaries",
+        "no boundary is open, and at %g s the prescribed velocities bring %g m2/s %s than they take out", at,
+        fabs(largest[0]), largest[0] < 0.0 ? "more into the domain" : "less into the domain");
   PetscFunctionReturn(0);
 }
 

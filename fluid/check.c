@@ -91,7 +91,12 @@ static const CoracleCaseKey KEYS[] = {
      "what holds on the mesh's boundary of this name; a box has left, right, bottom, top"},
     {"fluid.boundaries.*.velocity", "m/s", "prescribed velocity; in the middle, of a parabolic profile"},
     {"fluid.boundaries.*.profile", "", "of the velocity along the boundary"},
-    {"fluid.boundaries.*.rise", "s", "time in which the velocity rises from zero"},
+    {"fluid.boundaries.*.rise", "s", "time in which the velocity, or the pressure, rises from zero"},
+    {"fluid.boundaries.*.period", "s",
+     "of a velocity or pressure that swings, times sin(2 pi t/period), or in which factor repeats itself"},
+    {"fluid.boundaries.*.factor", "",
+     "list of rows of time and factor of the velocity or pressure, linear between them"},
+    {"fluid.boundaries.*.factor[]", "s, 1", "time, factor"},
     {"fluid.boundaries.*.pressure", "Pa", "an open boundary with this pressure"},
     {"fluid.boundaries.*.level", "m",
      "an open boundary outside of which the heaviest phase stands up to this height against gravity, or a "

@@ -137,6 +137,19 @@ static PetscErrorCode Extrapolate(Fluid f, double dt)
   PetscFunctionReturn(0);
 }
 
+/* Open boundaries whose pressure depends on time have what it is in the middle of the step, which moves u over all of it, from the
+ * step's start: the projection leaves it alone. */
+static PetscErrorCode SetVaryingPressure(Fluid f, double t)
+{
+  PetscFunctionBeginUser;
+  for (int b = 0; b < f->domain.mesh->ntags; b++)
+    if (f->domain.boundary[b].kind == BOUNDARY_OPEN && BoundaryVaries(&f->domain.boundary[b])) {
+      PetscCall(FluidSetOpenPressure(f, t));
+      break;
+    }
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode FluidMomentum(Fluid f, double dt)
 {
   const double start = MPI_Wtime();
@@ -148,6 +161,7 @@ PetscErrorCode FluidMomentum(Fluid f, double dt)
   FluidSetTarget(f, f->dt_previous > 0.0 ? GAS_OLD : 0.0);
   PetscCall(Extrapolate(f, dt));
   FluidSetCompressibility(f);
+  PetscCall(SetVaryingPressure(f, f->t + 0.5 * dt));
   if (f->phases) {
     PetscCall(FluidPredictPressure(f, dt));
     PetscCall(FluidSetOutside(f));

@@ -61,8 +61,8 @@ PetscErrorCode FluidSetOutside(Fluid f);
 /* p becomes the pressure that, with its values on open boundaries as they are, makes the acceleration weight - R^-1 grad p
  * free of divergence: that of the first instant of phases at rest.  Collective. */
 PetscErrorCode FluidBalancePressure(Fluid f);
-/* p on open boundaries, and nowhere else: hydrostatic, with their pressures and levels.  Collective. */
-PetscErrorCode FluidSetOpenPressure(Fluid f);
+/* p on open boundaries, and nowhere else: hydrostatic, with their pressures at t and levels.  Collective. */
+PetscErrorCode FluidSetOpenPressure(Fluid f, double t);
 /* The same with the solid, whose inertia and motion of the coming step over dt take part. */
 PetscErrorCode FluidPredictPressure(Fluid f, double dt);
 /* bulk = velocity + M^-1 (us - ms velocity), with ghosts left alone.  Not collective. */

@@ -31,7 +31,7 @@ static double LevelPressure(Fluid f, const Boundary *b, const double x[2])
   return pressure;
 }
 
-PetscErrorCode FluidSetOpenPressure(Fluid f)
+PetscErrorCode FluidSetOpenPressure(Fluid f, double t)
 {
   const Mesh *m = f->domain.mesh;
   const P2Space *p2 = f->domain.p2;
@@ -52,8 +52,8 @@ PetscErrorCode FluidSetOpenPressure(Fluid f)
       if (!b || b->kind != BOUNDARY_OPEN) continue;
       for (int k = 0; k < 2; k++) {
         const double *x = ElementVertex(m, e, node[k]);
-        value[k] =
-            HydrostaticPressure(m, f->setup.rho, f->setup.gravity, x) + b->pressure + LevelPressure(f, b, x);
+        value[k] = HydrostaticPressure(m, f->setup.rho, f->setup.gravity, x) +
+                   BoundaryFactor(b, t) * b->pressure + LevelPressure(f, b, x);
       }
       value[2] = 0.5 * (value[0] + value[1]); /* linear also where the level is: effective_density.h */
       for (int k = 0; k < 3; k++) {
@@ -117,7 +117,7 @@ PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldF
     }
   PetscCall(VecRestoreArray(local, &p));
   PetscCall(VecGhostRestoreLocalForm(f->p, &local));
-  if (!pressure) PetscCall(FluidSetOpenPressure(f));
+  if (!pressure) PetscCall(FluidSetOpenPressure(f, t));
   if (!pressure && f->phases) PetscCall(FluidBalancePressure(f));
   PetscCall(FluidBudgetChanged(f));
   PetscCall(PetscArraycpy(f->budget.momentum, f->budget_start, 2));

@@ -109,7 +109,7 @@ static PetscErrorCode PhasePressure(Fluid from, Fluid to, Transfer transfer)
   /* with surface tension a step begins from this pressure (FluidPredictPressure): the new mesh knows no coupling yet */
   if (PhaseHasTension(&from->setup.phases)) PetscCall(FluidSetCoupling(from, 0, NULL));
   PetscCall(FluidBalancePressure(from));
-  PetscCall(FluidSetOpenPressure(to));
+  PetscCall(FluidSetOpenPressure(to, from->t + 0.5 * from->stats.dt));
   PetscCall(FluidBalancePressure(to));
   PetscCall(VecCopy(to->p, still));
   PetscCall(VecAXPY(from->p, -1.0, p));

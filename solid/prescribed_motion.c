@@ -1,32 +1,10 @@
 #include "solid/prescribed_motion.h"
+#include "common/program/time_table.h"
 #include <math.h>
 
-static double Row(const PrescribedMotion *d, int k, int column)
+static TimeTable Table(const PrescribedMotion *d)
 {
-  return d->row[3 * k + column];
-}
-
-/* The first row after t, nrows if there is none: tables may be records of thousands of rows. */
-static int NextRow(const PrescribedMotion *d, double t)
-{
-  int below = 0, above = d->nrows;
-  while (below < above) {
-    const int middle = (below + above) / 2;
-    if (Row(d, middle, 0) <= t)
-      below = middle + 1;
-    else
-      above = middle;
-  }
-  return below;
-}
-
-/* The velocity at t, which lies between row next - 1 and row next. */
-static double Velocity(const PrescribedMotion *d, int next, int c, double t)
-{
-  if (next == 0) return Row(d, 0, 1 + c);
-  if (next == d->nrows) return Row(d, next - 1, 1 + c);
-  const double t0 = Row(d, next - 1, 0), v0 = Row(d, next - 1, 1 + c);
-  return v0 + (t - t0) / (Row(d, next, 0) - t0) * (Row(d, next, 1 + c) - v0);
+  return (TimeTable){d->nrows, 3, d->row};
 }
 
 /* The integral from 0 to t > 0 of min(t/rise, 1), or of that times sin(2 pi t/period). */
@@ -42,13 +20,15 @@ static double IntegralOfOneRow(const PrescribedMotion *d, double t)
 double PrescribedVelocity(const PrescribedMotion *d, int c, double from, double h)
 {
   const double to = from + h;
+  const TimeTable table = Table(d);
   if (d->nrows == 1)
-    return Row(d, 0, 1 + c) * (IntegralOfOneRow(d, to) - IntegralOfOneRow(d, from)) / (to - from);
+    return d->row[1 + c] * (IntegralOfOneRow(d, to) - IntegralOfOneRow(d, from)) / (to - from);
   double sum = 0.0;
-  int next = NextRow(d, from);
+  int next = TimeTableNext(&table, from);
   for (double start = from, end; start < to; start = end, next++) {
-    end = next < d->nrows ? fmin(Row(d, next, 0), to) : to;
-    sum += 0.5 * (end - start) * (Velocity(d, next, c, start) + Velocity(d, next, c, end));
+    end = next < d->nrows ? fmin(TimeTableAt(&table, next, 0), to) : to;
+    sum += 0.5 * (end - start) *
+           (TimeTableBetween(&table, next, 1 + c, start) + TimeTableBetween(&table, next, 1 + c, end));
   }
   return sum / (to - from);
 }
@@ -63,7 +43,7 @@ double PrescribedRotation(const PrescribedMotion *d, double from, double h)
 
 void PrescribedPivot(const PrescribedMotion *d, double t, double pivot[2])
 {
-  for (int c = 0; c < 2; c++) pivot[c] = d->pivot[c] + Row(d, 0, 1 + c) * IntegralOfOneRow(d, t);
+  for (int c = 0; c < 2; c++) pivot[c] = d->pivot[c] + d->row[1 + c] * IntegralOfOneRow(d, t);
 }
 
 PrescribedSubstep PrescribedSubstepOf(const PrescribedMotion *d, double from, double h)

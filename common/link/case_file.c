@@ -118,6 +118,26 @@ bool CoracleCaseVectorOptional(CoracleCase c, const char *key, int n, double v[]
   return true;
 }
 
+const double *CoracleCaseTable(CoracleCase c, const char *key, int n, int *nrows)
+{
+  char row[CASE_KEY];
+  CaseUse(c, "CoracleCaseTable", key);
+  if (n < 1 || !nrows)
+    CaseMisuse(c, "CoracleCaseTable: key '%s': rows have 1 number or more, and their number needs a place",
+               key);
+  *nrows = CoracleCaseHas(c, key) ? CoracleCaseCount(c, key) : 0;
+  if (!*nrows) return NULL;
+  double *table = calloc((size_t)*nrows * (size_t)n, sizeof *table);
+  CasePush(&c->kept, &c->nkept, &c->kept_capacity, (char *)table);
+  for (int k = 0; k < *nrows; k++) {
+    double *v = table + (size_t)k * (size_t)n;
+    snprintf(row, sizeof row, "%s[%d]", key, k);
+    CoracleCaseVector(c, row, n, v);
+    if (k > 0 && !(v[0] > v[-n])) CoracleCaseRefuse(c, row, "the table's times must rise");
+  }
+  return table;
+}
+
 /* --- words ---------------------------------------------------------------------------------------------- */
 
 bool CoracleCaseBoolOr(CoracleCase c, const char *key, bool fallback)

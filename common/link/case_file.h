@@ -48,6 +48,8 @@ bool CoracleCaseBoolOr(CoracleCase c, const char *key, bool fallback);
 void CoracleCaseVector(CoracleCase c, const char *key, int n, double v[]);
 bool CoracleCaseVectorOptional(CoracleCase c, const char *key, int n,
                                double v[]); /* false: absent, v untouched */
+/* The rows of n numbers each of the list at key, [*nrows][n], whose first numbers rise; NULL: absent.  Borrowed until CoracleCaseClose. */
+const double *CoracleCaseTable(CoracleCase c, const char *key, int n, int *nrows);
 /* Borrowed until CoracleCaseClose.  A relative path is resolved by CoracleCaseFile against the case file's folder. */
 const char *CoracleCaseString(CoracleCase c, const char *key);
 const char *CoracleCaseStringOr(CoracleCase c, const char *key, const char *fallback);

@@ -56,7 +56,7 @@ struct CoracleCase_s {
   int nslots;
   int *slot; /* [nslots] hashed places in asked, -1: empty */
   int nkept, kept_capacity;
-  char **kept;  /* [nkept] strings handed out by CoracleCaseFile */
+  char **kept;  /* [nkept] what CoracleCaseFile and CoracleCaseTable handed out */
   bool listing; /* readings are kept, for CaseListKeys */
   int nreadings, readings_capacity;
   CaseReading *reading; /* [nreadings] */

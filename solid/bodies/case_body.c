@@ -137,13 +137,11 @@ static void ReadSteady(CoracleCase c, const char *item, PrescribedMotion *d, dou
   d->rise = CoracleCaseNumberOr(c, key, 0.0, 0.0, HUGE_VAL);
 }
 
-/* One item of `prescribed`: rows are allocated. */
-static PetscErrorCode ReadMotion(CoracleCase c, const char *item, BoundaryMotion *d)
+/* One item of `prescribed`; steady: room for the only row of one that has no table. */
+static void ReadMotion(CoracleCase c, const char *item, BoundaryMotion *d, double steady[3])
 {
   static const char *const COMPONENTS[] = {"both", "x", "y", NULL};
   char key[KEY + 64];
-  double *row;
-  PetscFunctionBeginUser;
   (void)snprintf(key, sizeof key, "%s.boundary", item);
   d->boundary = CoracleCaseHas(c, key) ? CoracleCaseString(c, key) : NULL;
   (void)snprintf(key, sizeof key, "%s.component", item);
@@ -151,32 +149,28 @@ static PetscErrorCode ReadMotion(CoracleCase c, const char *item, BoundaryMotion
   d->motion.prescribed[0] = component != 2;
   d->motion.prescribed[1] = component != 1;
   (void)snprintf(key, sizeof key, "%s.table", item);
-  const int nrows = CoracleCaseHas(c, key) ? CoracleCaseCount(c, key) : 0;
-  d->motion.nrows = PetscMax(nrows, 1);
-  PetscCall(PetscCalloc1(3 * (size_t)d->motion.nrows, &row));
-  d->motion.row = row;
-  for (int k = 0; k < nrows; k++) {
-    (void)snprintf(key, sizeof key, "%s.table[%d]", item, k);
-    CoracleCaseVector(c, key, 3, row + 3 * k);
-    if (k > 0 && !(row[3 * k] > row[3 * k - 3])) CoracleCaseRefuse(c, key, "the table's times must rise");
+  d->motion.row = CoracleCaseTable(c, key, 3, &d->motion.nrows);
+  if (!d->motion.row) {
+    ReadSteady(c, item, &d->motion, steady + 1);
+    d->motion.row = steady;
+    d->motion.nrows = 1;
   }
-  if (nrows == 0) ReadSteady(c, item, &d->motion, row + 1);
   (void)snprintf(key, sizeof key, "%s.release", item);
   if (CoracleCaseHas(c, key)) d->motion.release = CoracleCasePositive(c, key);
-  PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ReadPrescribed(CoracleCase c, int body, BodySetup *setup, BoundaryMotion **prescribed)
+static PetscErrorCode ReadPrescribed(CoracleCase c, int body, BodySetup *setup, BoundaryMotion **prescribed,
+                                     double (**steady)[3])
 {
   char key[KEY], old[KEY], item[KEY + 16];
   PetscFunctionBeginUser;
   (void)snprintf(old, sizeof old, "solid.bodies[%d].driven", body);
   CoracleCaseRenamed(c, old, BodyKey(key, body, "prescribed"));
   setup->nprescribed = CoracleCaseCount(c, key);
-  PetscCall(PetscCalloc1((size_t)setup->nprescribed, prescribed));
+  PetscCall(PetscCalloc2((size_t)setup->nprescribed, prescribed, (size_t)setup->nprescribed, steady));
   for (int k = 0; k < setup->nprescribed; k++) {
     (void)snprintf(item, sizeof item, "%s[%d]", key, k);
-    PetscCall(ReadMotion(c, item, &(*prescribed)[k]));
+    ReadMotion(c, item, &(*prescribed)[k], (*steady)[k]);
   }
   setup->prescribed = *prescribed;
   PetscFunctionReturn(0);
@@ -266,6 +260,7 @@ PetscErrorCode CaseReadBody(CoracleCase c, int body, Model *a)
   Regions regions = {.c = c, .body = body};
   MeshSerial mesh = {0};
   BoundaryMotion *prescribed;
+  double(*steady)[3];
   const char **name, **joint_region;
   double(*joint_box)[4], *position;
   char key[KEY];
@@ -276,7 +271,7 @@ PetscErrorCode CaseReadBody(CoracleCase c, int body, Model *a)
   setup.region = regions.region;
   PetscCall(CaseReadShape(c, body, &mesh));
   PetscCall(ReadFixed(c, body, &setup, &name));
-  PetscCall(ReadPrescribed(c, body, &setup, &prescribed));
+  PetscCall(ReadPrescribed(c, body, &setup, &prescribed, &steady));
   PetscCall(ReadJoints(c, body, &setup.joints, &joint_box, &joint_region));
   PetscCall(CaseReadStretch(c, body, &mesh, &setup, &position));
   setup.six_node = CoracleCaseIntegerOr(c, BodyKey(key, body, "order"), PetscMax(mesh.order, 1), 1, 2) == 2;
@@ -289,8 +284,7 @@ PetscErrorCode CaseReadBody(CoracleCase c, int body, Model *a)
       CoracleCaseNumberOr(c, BodyKey(key, body, "angular_velocity"), 0.0, -HUGE_VAL, HUGE_VAL);
   if (setup.fixed && setup.angular_velocity != 0.0) CoracleCaseRefuse(c, key, "a fixed body does not turn");
   PetscCall(AddRepeated(c, a, &mesh, &setup, joint_box));
-  for (int k = 0; k < setup.nprescribed; k++) PetscCall(PetscFree(prescribed[k].motion.row));
-  PetscCall(PetscFree(prescribed));
+  PetscCall(PetscFree2(prescribed, steady));
   PetscCall(PetscFree(name));
   PetscCall(PetscFree(position));
   PetscCall(PetscFree2(joint_box, joint_region));

@@ -1,6 +1,22 @@
-/* A velocity that is prescribed rises smoothly and keeps its profile. */
+/* A velocity that is prescribed rises smoothly and keeps its profile; it may swing, or follow a table, once or in each period. */
 #include "fluid/fluid_impl.h"
 #include "tests/check.h"
+
+static void Factors(void)
+{
+  static const double ROW[] = {0.0, 1.0, 0.5, 3.0, 1.0, 2.0};
+  const double time[] = {-1.0, 0.25, 0.5, 0.75, 1.125, 1.5}, once[] = {1.0, 2.0, 3.0, 2.5, 2.0, 2.0},
+               repeated[] = {2.0, 2.0, 3.0, 2.5, 2.0, 2.0}; /* the last row's from 1 s to the period's end */
+  Boundary b = {.factor = {3, 2, ROW}};
+  for (int k = 0; k < 6; k++) CHECK(BoundaryFactor(&b, time[k]) == once[k], "factor at %g s", time[k]);
+  b.period = 1.25;
+  for (int k = 0; k < 6; k++)
+    CHECK(BoundaryFactor(&b, time[k]) == repeated[k], "factor at %g s that repeats itself", time[k]);
+  b.factor.nrows = 0;
+  for (int k = 0; k < 6; k++)
+    CHECK(BoundaryFactor(&b, time[k]) == sin(2.0 * M_PI * time[k] / 1.25), "factor at %g s that swings",
+          time[k]);
+}
 
 int main(void)
 {
@@ -18,6 +34,7 @@ int main(void)
     for (int c = 0; c < 2; c++)
       CHECK(fabs(v[c] - 0.75 * part[k] * b.velocity[c]) < 1e-15, "%g m/s at %g s", v[c], time[k]);
   }
+  Factors();
   b.rise = 0.0;
   BoundaryVelocity(&b, 0.0, x, v);
   CHECK(v[0] == 1.5 && v[1] == -0.75, "%g, %g m/s at once", v[0], v[1]);

@@ -32,7 +32,9 @@ refused fluid "'fluid.mesh.refine\[0\].upper': the box is empty" --set 'fluid.me
 left='fluid.boundaries.left={velocity: [1, 0]}'
 refused fluid "'fluid.boundaries': .* 2 m2/s more into the domain" --set "$left"
 refused fluid "'fluid.boundaries': .* 1 m2/s more into the domain" --set "$left" --set 'fluid.boundaries.right={velocity: [0.5, 0]}'
-refused fluid "'fluid.boundaries': .* as they rise" --set "$left" --set 'fluid.boundaries.right={velocity: [1, 0], rise: 1}'
+refused fluid "'fluid.boundaries': .* at 0 s .* more into the domain" --set "$left" --set 'fluid.boundaries.right={velocity: [1, 0], rise: 1}'
+refused fluid "'fluid.boundaries.left.factor': expected times from 0 to the period, 1 s, found 0 to 2 s" --set 'fluid.boundaries.left={velocity: [1, 0], period: 1, factor: [[0, 1], [2, 1]]}' --set fluid.boundaries.right=open
+refused fluid "'fluid.boundaries.left.factor\[1\]': the table's times must rise" --set 'fluid.boundaries.left={velocity: [1, 0], factor: [[0, 1], [0, 2]]}' --set fluid.boundaries.right=open
 accepted fluid --set "$left" --set 'fluid.boundaries.right={velocity: [1.5, 0], profile: parabolic}'
 accepted fluid --set "$left" --set fluid.boundaries.right=open
 accepted fluid --set 'fluid.boundaries.top={velocity: [1, 0]}'

@@ -34,6 +34,8 @@ WRONG(BoolBracket, (CoracleCaseBoolOr(c, "fluid]", true)))
 WRONG(VectorNone, (CoracleCaseVector(c, "fluid.list", 0, v), 0))
 WRONG(VectorNull, (CoracleCaseVector(c, "fluid.list", 2, NULL), 0))
 WRONG(OptionalNull, (CoracleCaseVectorOptional(c, "fluid.list", 2, NULL)))
+WRONG(TableNone, (CoracleCaseTable(c, "fluid.list", 0, &(int){0})))
+WRONG(TableNull, (CoracleCaseTable(c, "fluid.list", 2, NULL)))
 WRONG(StringNull, (CoracleCaseString(c, NULL)))
 WRONG(StringOrNull, (CoracleCaseStringOr(c, "fluid.x", NULL)))
 WRONG(FileStart, (CoracleCaseFile(c, ".file")))
@@ -70,6 +72,10 @@ static void Open(void)
       {BoolBracket, "CoracleCaseBoolOr: the key 'fluid]' is malformed (expected name.name[0].name)"},
       {VectorNone, "CoracleCaseVector: key 'fluid.list': there must be room for 1 number or more"},
       {VectorNull, "CoracleCaseVector: key 'fluid.list': there must be room for 1 number or more"},
+      {TableNone,
+       "CoracleCaseTable: key 'fluid.list': rows have 1 number or more, and their number needs a place"},
+      {TableNull,
+       "CoracleCaseTable: key 'fluid.list': rows have 1 number or more, and their number needs a place"},
       {OptionalNull, "CoracleCaseVector: key 'fluid.list': there must be room for 1 number or more"},
       {StringNull, "CoracleCaseString: the key is NULL"},
       {StringOrNull, "CoracleCaseStringOr: key 'fluid.x': the default is NULL"},
