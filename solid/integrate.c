@@ -137,6 +137,22 @@ static PetscErrorCode Plan(Solid s)
 
 /* --- the step ----------------------------------------------------------------------------------------- */
 
+/* interface_velocity: what the forces at the step's start make of the velocity by its end (interface_motion.c). */
+static PetscErrorCode ExtrapolateVelocity(Solid s)
+{
+  const double *force;
+  PetscFunctionBeginUser;
+  PetscCall(SolidForces(s, &force));
+  for (int k = 0; k < 2 * s->nnodes; k++) {
+    const double by_mass = s->inverse_mass[k / 2];
+    s->interface_velocity[k] = s->v[k];
+    if (by_mass > 0.0)
+      s->interface_velocity[k] += s->dt * (by_mass * (force[k] + s->load[k]) + s->setup.gravity[k % 2] -
+                                           s->setup.decay_rate * s->v[k]);
+  }
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode SolidStart(Solid s, double dt, const double load[])
 {
   PetscFunctionBeginUser;
@@ -154,6 +170,7 @@ PetscErrorCode SolidStart(Solid s, double dt, const double load[])
   s->stats.substeps = 0;
   BudgetStart(s);
   PetscCall(Plan(s));
+  PetscCall(ExtrapolateVelocity(s));
   PetscFunctionReturn(0);
 }
 

@@ -98,7 +98,8 @@ struct Solid_s {
   double dt, done, h, moved_for; /* moved_for: length of the last substep made, s */
   double *start;                 /* [nnodes][2] positions when it began */
   double *interface_velocity, *mobility,
-      *acceleration;          /* [nnodes][2], [nnodes], [nnodes][2] of SolidUpdateInterfaceMotion */
+      *acceleration; /* [nnodes][2], [nnodes], [nnodes][2] of SolidUpdateInterfaceMotion; within a step the first is
+                               * what the forces at its start make of the velocity */
   StepResponse response;      /* NULL before the first SolidUpdateInterfaceMotion */
   int npieces, *piece;        /* [nnodes] SolidPieces has found; npieces 0: since the last crack not yet */
   int remaining, until_check; /* substeps */

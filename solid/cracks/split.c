@@ -19,9 +19,9 @@ void JointsConnectCorners(const Joints j, int ncorners, int n, const Bond bond[]
 /* A node at the same place with the same velocity and history. */
 static int CopyNode(Solid s, int from, long long gid)
 {
-  double *const field[] = {s->rest, s->x, s->v, s->start, s->load};
+  double *const field[] = {s->rest, s->x, s->v, s->start, s->load, s->interface_velocity};
   const int n = s->nnodes++;
-  for (int k = 0; k < 5; k++)
+  for (int k = 0; k < 6; k++)
     for (int c = 0; c < 2; c++) field[k][2 * n + c] = field[k][2 * from + c];
   s->gid[n] = gid;
   s->node_body[n] = s->node_body[from];
