@@ -25,6 +25,8 @@ static const CoracleCaseKey KEYS[] = {
     {"fluid.probes", "", "list of points, lines and pressure gauges whose values are in fluid_probes.csv"},
     {"fluid.probes[].solid_point", "m",
      "a point of the solid's surface at the start: a pressure gauge that moves with it"},
+    {"solid.walls.lower", "m", "lower left corner of four rigid walls around all bodies"},
+    {"solid.walls.upper", "m", "upper right corner of the walls"},
     {"coupler.mode", "", "how fluid and solid are coupled"},
     {"coupler.shell_thickness", "m",
      "dr: thickness of the shell around the solid in which wall friction acts"},

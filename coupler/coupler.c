@@ -12,6 +12,8 @@ PetscErrorCode CouplerCreate(MPI_Comm comm, const CouplerOptions *options, Coupl
   c->mode = CouplerModeGet(options->mode);
   PetscCall(ShellCreate(comm, options->thickness, &c->shell));
   PetscCall(OverlapCreate(comm, &c->overlap));
+  if (options->walls)
+    PetscCall(UpliftCreate(comm, options->lower, options->upper, options->gravity, &c->uplift));
   *coupler = c;
   PetscFunctionReturn(0);
 }
@@ -87,6 +89,7 @@ static PetscErrorCode BuildAt(Coupler c, const SolidState *solid, const double x
   PetscCall(OverlapBuild(c->overlap, &at, c->shell, new_mesh));
   PetscCall(NewStep(c, &at));
   if (c->pressure_load) PetscCall(PressureLoadBuild(c->pressure_load, &at));
+  if (c->uplift) PetscCall(UpliftBuild(c->uplift, &at, c->shell));
   c->built = 1;
   PetscCall(c->mode->coefficients(c, &at));
   PetscCall(InertiaExplicitFraction(c->overlap, &at, c->source, c->explicit_fraction));
@@ -172,6 +175,7 @@ PetscErrorCode CouplerComputeForce(Coupler c, const CoracleFlow *flow, const dou
   }
   PetscCall(ForceSum(c->overlap, c->dt, c->coupling, flow, c->nnodes, c->node, totals));
   if (c->pressure_load) PetscCall(PressureLoadAdd(c->pressure_load, c->overlap, flow->p, c->force));
+  if (c->uplift) PetscCall(UpliftAdd(c->uplift, c->overlap, c->element, flow->p, c->force, totals->uplift));
   *force = c->force;
   PetscFunctionReturn(0);
 }
@@ -259,6 +263,7 @@ PetscErrorCode CouplerDestroy(Coupler *coupler)
   PetscCall(FreeStep(*coupler));
   PetscCall(HistoryDestroy(&(*coupler)->history));
   PetscCall(PressureLoadDestroy(&(*coupler)->pressure_load));
+  PetscCall(UpliftDestroy(&(*coupler)->uplift));
   PetscCall(PetscFree((*coupler)->correction));
   PetscCall(ShellDestroy(&(*coupler)->shell));
   PetscCall(OverlapDestroy(&(*coupler)->overlap));

@@ -47,6 +47,9 @@ static void ReadOptions(CoracleCase file, CouplerOptions *o)
   o->thickness = CoracleCasePositive(file, "coupler.shell_thickness");
   CoracleCaseVector(file, "gravity", 2, o->gravity);
   CouplerModesReadOptions(file, o);
+  o->walls = (PetscBool)(o->mode == COUPLER_REACTION &&
+                         CoracleCaseVectorOptional(file, "solid.walls.lower", 2, o->lower) &&
+                         CoracleCaseVectorOptional(file, "solid.walls.upper", 2, o->upper));
   o->sigma_among_phases = (PetscBool)(CoracleCaseHas(file, "fluid.surface_tension") &&
                                       InterfaceSize(file) < CapillaryLength(file, o->gravity));
 }

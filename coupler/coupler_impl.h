@@ -4,6 +4,7 @@
 #include "coupler/coupler.h"
 #include "coupler/history.h"
 #include "coupler/pressure_load.h"
+#include "coupler/uplift.h"
 
 struct Coupler_s {
   MPI_Comm comm;
@@ -22,6 +23,7 @@ struct Coupler_s {
   double *explicit_fraction;     /* [nnodes] (inertia.h) */
   History history;               /* of the steps before */
   PressureLoad pressure_load;    /* NULL: none */
+  Uplift uplift;                 /* NULL: there are no walls */
   CoracleFlow flow;              /* borrowed */
   SourceTerm *source;            /* [overlap->nsources] */
   ElementTerm *element;          /* [overlap->ncoupled] */

@@ -34,9 +34,10 @@ PetscErrorCode ExchangeRequestElements(Server server, const Region region, Fluid
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ExchangeSelectFields(Server server, const CouplerModeTable *mode, const SolidState *solid)
+PetscErrorCode ExchangeSelectFields(Server server, const CouplerOptions *options, const SolidState *solid)
 {
   PetscFunctionBeginUser;
-  if (mode->needs_pressure || solid->pressure_load) PetscCall(ServerNeedPressure(server));
+  if (CouplerModeGet(options->mode)->needs_pressure || options->walls || solid->pressure_load)
+    PetscCall(ServerNeedPressure(server));
   PetscFunctionReturn(0);
 }

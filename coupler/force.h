@@ -32,7 +32,8 @@ typedef struct {
    * s - a u* - I (G u+ - kept u start), I the implicit inertia, G its tensor; where K is covered, less rho_f M/dt u start */
   double gain[2];
   double reaction[2]; /* N, the reaction summed over the solid's nodes */
-  double force[2];    /* N, the whole force on the solid */
+  double force[2];    /* N, the whole force on the solid, but for uplift */
+  double uplift[2];   /* N, what the solid has beside it where it stands on a wall (uplift.h) */
   double imbalance;   /* |gain + reaction| / sum over K of |K's gain| */
   double displaced;   /* kg, fluid mass inside the solid */
   double speed;       /* m/s, root mean square of u* near the solid */

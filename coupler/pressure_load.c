@@ -1,6 +1,6 @@
 #include "coupler/pressure_load.h"
-#include "common/space/p2.h"
 #include "coupler/harmonic.h"
+#include "coupler/surface_pressure.h"
 #include <stdlib.h>
 
 /* H(p_s) and H(p_o) at a node; q and H(p_o) in an element. */
@@ -82,73 +82,6 @@ PetscErrorCode PressureLoadBuild(PressureLoad l, const SolidState *solid)
   PetscFunctionReturn(0);
 }
 
-/* --- the fluid's pressure ------------------------------------------------------------------------------- */
-
-/* Sums over the pairs of a source triangle. */
-enum { AREA, INSIDE, OUTER, NSUMS };
-
-static double PressureAtCentre(const Overlap o, const SupermeshPair *pair, const double p[6])
-{
-  const SupermeshBasis *b = &o->basis[pair->b];
-  double d[2], n[3];
-  SupermeshCentreInB(pair, &o->source_basis[pair->a], b, d);
-  for (int i = 1; i < 3; i++) n[i] = b->gradient[i - 1][0] * d[0] + b->gradient[i - 1][1] * d[1];
-  n[0] = 1.0 - n[1] - n[2];
-  return P2Evaluate(p, n);
-}
-
-static int OutermostVertex(const double x[3][2], const double normal[2])
-{
-  int outermost = 0;
-  for (int i = 1; i < 3; i++)
-    if (normal[0] * (x[i][0] - x[outermost][0]) + normal[1] * (x[i][1] - x[outermost][1]) > 0.0)
-      outermost = i;
-  return outermost;
-}
-
-/* owned[nowned][NSUMS]: area, int p and, of the shell, int p_o over what the fluid covers. */
-static PetscErrorCode SumPairs(Overlap o, const double p[], double owned[][NSUMS])
-{
-  double(*source)[NSUMS];
-
-  PetscFunctionBeginUser;
-  PetscCall(PetscCalloc1(o->nsources, &source));
-  for (int k = 0; k < o->pairs.n; k++) {
-    const SupermeshPair *pair = &o->pairs.pair[k];
-    const SourceTriangle *t = &o->source[pair->a];
-    const double *at = &p[6 * pair->b];
-    double *s = source[pair->a];
-    s[AREA] += pair->area;
-    s[INSIDE] += pair->area * PressureAtCentre(o, pair, at);
-    if (t->is_shell)
-      s[OUTER] += pair->area * at[OutermostVertex((const double(*)[2])o->x[pair->b], t->normal)];
-  }
-  PetscCall(OverlapReverseAdd(o, NSUMS, (const double *)source, (double *)owned));
-  PetscCall(PetscFree(source));
-  PetscFunctionReturn(0);
-}
-
-/* p_s and p_o in h of the surface's nodes, 0 elsewhere. */
-static PetscErrorCode SurfaceValues(PressureLoad l, Overlap o, const double owned[][NSUMS])
-{
-  double(*node)[NSUMS];
-
-  PetscFunctionBeginUser;
-  PetscCall(PetscCalloc1(l->nnodes, &node));
-  for (int t = o->nvolume; t < o->nowned; t++)
-    for (int i = 0; i < 3; i++)
-      for (int c = 0; c < NSUMS; c++) node[o->node[t][i]][c] += owned[t][c];
-  PetscCall(CopiesSum(o->nodes, NSUMS, (double *)node));
-  for (int i = 0; i < l->nnodes; i++) {
-    const double area = node[i][AREA];
-    l->is_given[i] = area > 0.0;
-    l->h[i][SURFACE] = area > 0.0 ? node[i][INSIDE] / area : 0.0;
-    l->h[i][OUTSIDE] = area > 0.0 ? node[i][OUTER] / area : 0.0;
-  }
-  PetscCall(PetscFree(node));
-  PetscFunctionReturn(0);
-}
-
 /* --- the load ------------------------------------------------------------------------------------------- */
 
 /* force[nnodes][2] -= value int grad N_i of this rank's elements. */
@@ -165,12 +98,12 @@ static void AddLoad(const PressureLoad l, int value, double force[])
 
 PetscErrorCode PressureLoadAdd(PressureLoad l, Overlap o, const double p[], double force[])
 {
-  double(*owned)[NSUMS];
+  double(*owned)[SURFACE_SUMS];
 
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(o->nowned, &owned));
-  PetscCall(SumPairs(o, p, owned));
-  PetscCall(SurfaceValues(l, o, (const double(*)[NSUMS])owned));
+  PetscCall(SurfacePressureSums(o, p, owned));
+  PetscCall(SurfacePressureNodes(o, (const double(*)[SURFACE_SUMS])owned, l->nnodes, l->is_given, l->h));
   PetscCall(HarmonicSolve(l->harmonic, o->nodes, l->x, l->is_given, l->h));
   for (int t = 0; t < l->nelements; t++) {
     double surface = 0.0, outside = 0.0;
@@ -178,7 +111,8 @@ PetscErrorCode PressureLoadAdd(PressureLoad l, Overlap o, const double p[], doub
       surface += l->h[l->node[t][i]][SURFACE] / 3.0;
       outside += l->h[l->node[t][i]][OUTSIDE] / 3.0;
     }
-    const double inside = owned[t][AREA] > 0.0 ? owned[t][INSIDE] / owned[t][AREA] : surface;
+    const double inside =
+        owned[t][SURFACE_AREA] > 0.0 ? owned[t][SURFACE_INSIDE] / owned[t][SURFACE_AREA] : surface;
     const double *was = l->row[t].value;
     l->attempt[t].value[Q] = was[Q] + PRESSURE_LOAD_RISE * (inside - surface + outside - was[Q]);
     l->attempt[t].value[LEVEL] = was[LEVEL] + PRESSURE_LOAD_RISE * (outside - was[LEVEL]);

@@ -94,7 +94,7 @@ static PetscErrorCode Start(RunState *run)
   PetscCall(ExchangeReceiveSolid(loop->server, run->mode, &run->solid));
   if (run->solid.pressure_load) PetscCall(CouplerUsePressureLoad(loop->coupler));
   if (loop->from) PetscCall(CouplerLoad(loop->coupler, &run->solid, loop->from));
-  PetscCall(ExchangeSelectFields(loop->server, run->mode, &run->solid));
+  PetscCall(ExchangeSelectFields(loop->server, &c->options, &run->solid));
   PetscCall(RequestElements(run));
   PetscCall(RunCheckPressureLoad(run));
   if (!loop->from) PetscCall(RunCheckInside(run));

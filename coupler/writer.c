@@ -1,9 +1,9 @@
 #include "coupler/writer.h"
 #include "common/link/coracle.h"
 
-static const char COLUMNS[] =
-    "t [s],dt [s],u_x [m/s],u_y [m/s],F_x [N],F_y [N],R_x [N],R_y [N],imbalance,pairs,"
-    "overlap [s],force [s],waiting [s],iterations";
+static const char COLUMNS[] = "t [s],dt [s],u_x [m/s],u_y [m/s],F_x [N],F_y [N],R_x [N],R_y [N],uplift_x "
+                              "[N],uplift_y [N],imbalance,pairs,"
+                              "overlap [s],force [s],waiting [s],iterations";
 
 struct Writer_s {
   MPI_Comm comm;
@@ -166,7 +166,8 @@ static void LogProgress(Writer r, const StepRecord *s)
 
 PetscErrorCode WriterStep(Writer r, const StepRecord *s)
 {
-  const double *u = s->motion.velocity, *force = s->totals.force, *reaction = s->totals.reaction;
+  const double *u = s->motion.velocity, *force = s->totals.force, *reaction = s->totals.reaction,
+               *uplift = s->totals.uplift;
   const double row[] = {s->t,
                         s->dt,
                         u[0],
@@ -175,6 +176,8 @@ PetscErrorCode WriterStep(Writer r, const StepRecord *s)
                         force[1],
                         reaction[0],
                         reaction[1],
+                        uplift[0],
+                        uplift[1],
                         s->totals.imbalance,
                         (double)s->totals.npairs,
                         s->overlap,

@@ -32,7 +32,8 @@ def terms_of(folder):
 
     `change` of the momentum of fluid and solids is the sum of all other terms but `scale`, and of `rest`.  Of these, `inside` is what
     the coupler adds to the reaction: the inertia and the weight of the fluid that fills the solids, which the solids have in place
-    of it; with `correction` it is the change of that fluid's momentum less its weight.  What fluid and solids exchange cancels:
+    of it; with `correction` it is the change of that fluid's momentum less its weight.  `uplift` is what walls beneath solids give back
+    (coupler/uplift.h).  What fluid and solids exchange cancels:
     `exchange`, the fluid's gain and the coupler's reaction, and `load`, the coupler's force and the solids' load, are left over."""
     fluid, solid, coupler = (read_series(os.path.join(folder, name + ".csv")) for name in ("fluid_forces", "solid", "coupler"))
     for other in (solid, coupler):
@@ -48,13 +49,14 @@ def terms_of(folder):
         terms[name] = -dt * sum(vector(fluid, name + " " + part) for part in BOUNDARY_PARTS)
     terms["solids' weight"] = dt * vector(solid, "weight", "_")
     terms["solids' walls"], terms["solids' supports"] = vector(solid, "walls", "_"), vector(solid, "reaction", "_")
+    terms["uplift"] = dt * vector(coupler, "uplift", "_")
     terms["inside"] = dt * (vector(coupler, "F", "_") - vector(coupler, "R", "_"))
     terms["rest"] = terms["change"] - sum(value for name, value in terms.items() if name != "change")
     terms["exchange"] = dt * (vector(fluid, "solid") + vector(coupler, "R", "_"))
-    terms["load"] = dt * (vector(solid, "load", "_") - vector(coupler, "F", "_"))
+    terms["load"] = dt * (vector(solid, "load", "_") - vector(coupler, "F", "_") - vector(coupler, "uplift", "_"))
     parts = [dt * vector(fluid, name + " " + part) for name in boundaries(fluid) for part in BOUNDARY_PARTS]
     parts += [dt * vector(fluid, "solid"), dt * vector(solid, "load", "_")]
-    parts += [terms[name] for name in (*FLUID_TERMS, "solids' weight", "solids' walls", "solids' supports")]
+    parts += [terms[name] for name in (*FLUID_TERMS, "solids' weight", "solids' walls", "solids' supports", "uplift")]
     terms["scale"] = sum(np.linalg.norm(part, axis=1) for part in parts)
     return terms
 

@@ -32,9 +32,6 @@
 #include "solid/step_response.h"
 
 #define DAMPING 0.15
-/* Of responses, and of those that steady w. */
-#define EXACT 1e-10
-#define ROUGH 1e-3
 
 /* Of free nodes; resolved[nnodes][2]: S v; total[nnodes][2]: the acceleration by all forces, S of it in acceleration. */
 static void DampUnresolved(Solid s, const double resolved[], const double total[])
@@ -81,13 +78,13 @@ static PetscErrorCode SteadyVelocity(Solid s, const double resolved[])
   PetscFunctionBeginUser;
   for (size_t k = 0; k < n; k++)
     d[k] = s->is_prescribed[k / 2] || s->inverse_mass[k / 2] == 0.0 ? 0.0 : d[k] - s->v[k];
-  PetscCall(StepResponseApply(s, ROUGH, d));
+  PetscCall(StepResponseApply(s, d));
   PetscCall(PetscMalloc1(n, &slower));
   PetscCall(PetscArraycpy(slower, d, n));
-  PetscCall(StepResponseApply(s, ROUGH, slower));
+  PetscCall(StepResponseApply(s, slower));
   for (size_t k = 0; k < n; k++) d[k] = 2.0 * (d[k] - slower[k]);
   PetscCall(PetscFree(slower));
-  PetscCall(StepResponseApply(s, ROUGH, d));
+  PetscCall(StepResponseApply(s, d));
   for (size_t k = 0; k < n; k++) d[k] += resolved[k];
   PetscFunctionReturn(0);
 }
@@ -112,8 +109,8 @@ PetscErrorCode SolidUpdateInterfaceMotion(Solid s, InterfaceMotion *interface)
   PetscCall(PetscArraycpy(resolved, s->v, n));
   PetscCall(PetscArraycpy(total, s->acceleration, n));
   PetscCall(StepResponseUpdate(s));
-  PetscCall(StepResponseApply(s, EXACT, resolved));
-  PetscCall(StepResponseApply(s, EXACT, s->acceleration));
+  PetscCall(StepResponseApply(s, resolved));
+  PetscCall(StepResponseApply(s, s->acceleration));
   if (s->dt > 0.0)
     PetscCall(SteadyVelocity(s, resolved));
   else

@@ -16,8 +16,7 @@
 
 /* Collective: K and P of the solid as it is now, for steps of s->dt. */
 PetscErrorCode StepResponseUpdate(Solid s);
-/* Collective: d[nnodes][2] -> S d, with K and P of the last update; fixed nodes keep their d.  tolerance: of the residual, over M d; what d
- * has of rigid motions is exact. */
-PetscErrorCode StepResponseApply(Solid s, double tolerance, double d[]);
+/* Collective: d[nnodes][2] -> S d, with K and P of the last update; fixed nodes keep their d. */
+PetscErrorCode StepResponseApply(Solid s, double d[]);
 PetscErrorCode StepResponseDestroy(StepResponse *response);
 #endif

@@ -127,16 +127,16 @@ static PetscErrorCode CheckResponse(double youngs_modulus, int six_node, double 
   PetscCall(SolidUpdateInterfaceMotion(s, &interface));
   SolidGetView(s, &view);
   PetscCall(PetscArraycpy(w, now, n));
-  PetscCall(StepResponseApply(s, 1e-10, w));
+  PetscCall(StepResponseApply(s, w));
   for (int k = 0; k < n; k++) d[k] -= now[k];
-  PetscCall(StepResponseApply(s, 1e-10, d));
+  PetscCall(StepResponseApply(s, d));
   PetscCall(PetscArraycpy(image, d, n));
-  PetscCall(StepResponseApply(s, 1e-10, image));
+  PetscCall(StepResponseApply(s, image));
   for (int k = 0; k < n; k++) d[k] = 2.0 * (d[k] - image[k]);
-  PetscCall(StepResponseApply(s, 1e-10, d));
+  PetscCall(StepResponseApply(s, d));
   for (int k = 0; k < n; k++) w[k] += d[k];
   PetscCall(Largest(n, w, interface.u, &off));
-  CHECK(off < 0.01 * SPEED, "E %g: the interface velocity is %g m/s off", youngs_modulus, off);
+  CHECK(off < 1e-6 * SPEED, "E %g: the interface velocity is %g m/s off", youngs_modulus, off);
   PetscCall(Largest(n, now, interface.u, change));
   *change /= SPEED;
   PetscCall(ForcesAt(&a, view.nnodes, view.x, image));
@@ -189,7 +189,7 @@ static PetscErrorCode CheckEnergy(void)
 }
 
 /* The preconditioner turns with the material: a disc squeezed by 2 % that has turned by 1 rad takes as many iterations as
- * one that has not; either at most 15 a response on one rank. */
+ * one that has not; either at most 15 a response on one rank; a step has five. */
 static PetscErrorCode CheckIterations(double angle, double dt, long long *iterations)
 {
   const SolidSetup options = {.courant = 0.8};
@@ -213,7 +213,7 @@ static PetscErrorCode CheckIterations(double angle, double dt, long long *iterat
   while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
   PetscCall(SolidUpdateInterfaceMotion(s, &interface));
   *iterations = SolidGetStats(s)->response_iterations;
-  if (getenv("VERBOSE")) printf("turned by %g: %lld iterations for two responses\n", angle, *iterations);
+  if (getenv("VERBOSE")) printf("turned by %g: %lld iterations for five responses\n", angle, *iterations);
   PetscCall(SolidDestroy(&s));
   PetscCall(ModelDestroy(&a));
   PetscFunctionReturn(0);
@@ -228,7 +228,7 @@ static PetscErrorCode CheckTurned(void)
   PetscCall(CheckIterations(0.0, STEP, &rest));
   PetscCall(CheckIterations(1.0, STEP, &turned));
   CHECK(turned <= rest + 2, "%lld iterations at rest, %lld turned", rest, turned);
-  CHECK(size > 1 || turned <= 30, "%lld iterations for two responses", turned);
+  CHECK(size > 1 || turned <= 75, "%lld iterations for five responses", turned);
   PetscFunctionReturn(0);
 }
 

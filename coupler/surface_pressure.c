@@ -1,0 +1,130 @@
+#include "coupler/surface_pressure.h"
+#include "common/space/p2.h"
+
+/* p and its gradient at a pair's centre; p: of the pair's element. */
+static double PressureAtCentre(const Overlap o, const SupermeshPair *pair, const double p[6],
+                               double gradient[2])
+{
+  const SupermeshBasis *b = &o->basis[pair->b];
+  double d[2], n[3], g[3][2], corner[3][2];
+  SupermeshCentreInB(pair, &o->source_basis[pair->a], b, d);
+  for (int i = 1; i < 3; i++) n[i] = b->gradient[i - 1][0] * d[0] + b->gradient[i - 1][1] * d[1];
+  n[0] = 1.0 - n[1] - n[2];
+  for (int c = 0; c < 2 && gradient; c++) {
+    g[1][c] = b->gradient[0][c];
+    g[2][c] = b->gradient[1][c];
+    g[0][c] = -g[1][c] - g[2][c];
+  }
+  if (gradient) P2Gradient((const double(*)[2])g, p, corner);
+  for (int c = 0; c < 2 && gradient; c++)
+    gradient[c] = n[0] * corner[0][c] + n[1] * corner[1][c] + n[2] * corner[2][c];
+  return P2Evaluate(p, n);
+}
+
+static int OutermostVertex(const double x[3][2], const double normal[2])
+{
+  int outermost = 0;
+  for (int i = 1; i < 3; i++)
+    if (normal[0] * (x[i][0] - x[outermost][0]) + normal[1] * (x[i][1] - x[outermost][1]) > 0.0)
+      outermost = i;
+  return outermost;
+}
+
+PetscErrorCode SurfacePressureSums(Overlap o, const double p[], double owned[][SURFACE_SUMS])
+{
+  double(*source)[SURFACE_SUMS];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(o->nsources, &source));
+  for (int k = 0; k < o->pairs.n; k++) {
+    const SupermeshPair *pair = &o->pairs.pair[k];
+    const SourceTriangle *t = &o->source[pair->a];
+    const double *at = &p[6 * pair->b];
+    double *s = source[pair->a];
+    s[SURFACE_AREA] += pair->area;
+    s[SURFACE_INSIDE] += pair->area * PressureAtCentre(o, pair, at, NULL);
+    if (t->is_shell)
+      s[SURFACE_OUTSIDE] += pair->area * at[OutermostVertex((const double(*)[2])o->x[pair->b], t->normal)];
+  }
+  PetscCall(OverlapReverseAdd(o, SURFACE_SUMS, (const double *)source, (double *)owned));
+  PetscCall(PetscFree(source));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SurfacePressureNodes(Overlap o, const double owned[][SURFACE_SUMS], int nnodes,
+                                    char is_given[], double value[][2])
+{
+  double(*node)[SURFACE_SUMS];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(nnodes, &node));
+  for (int t = o->nvolume; t < o->nowned; t++)
+    for (int i = 0; i < 3; i++)
+      for (int c = 0; c < SURFACE_SUMS; c++) node[o->node[t][i]][c] += owned[t][c];
+  PetscCall(CopiesSum(o->nodes, SURFACE_SUMS, (double *)node));
+  for (int i = 0; i < nnodes; i++) {
+    const double area = node[i][SURFACE_AREA];
+    is_given[i] = area > 0.0;
+    value[i][0] = area > 0.0 ? node[i][SURFACE_INSIDE] / area : 0.0;
+    value[i][1] = area > 0.0 ? node[i][SURFACE_OUTSIDE] / area : 0.0;
+  }
+  PetscCall(PetscFree(node));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SurfaceHeadSums(Overlap o, const ElementTerm element[], const double gravity[2],
+                               const double p[], double owned[][3])
+{
+  double(*source)[3];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(o->nsources, &source));
+  for (int k = 0; k < o->pairs.n; k++) {
+    const SupermeshPair *pair = &o->pairs.pair[k];
+    const SourceTriangle *t = &o->source[pair->a];
+    if (!t->is_shell) continue;
+    const double rho = o->rho[pair->b] + element[o->coupled_index[k]].outside;
+    const int outermost = OutermostVertex((const double(*)[2])o->x[pair->b], t->normal);
+    const double *x = o->x[pair->b][outermost], *at = &p[6 * pair->b];
+    source[pair->a][0] += pair->area * (at[outermost] - rho * (gravity[0] * x[0] + gravity[1] * x[1]));
+    source[pair->a][1] += pair->area * rho;
+    source[pair->a][2] += pair->area;
+  }
+  PetscCall(OverlapReverseAdd(o, 3, (const double *)source, (double *)owned));
+  PetscCall(PetscFree(source));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SurfacePressureInside(Overlap o, const double p[], int nnodes, double node[], double size[])
+{
+  enum { AREA, PRESSURE, SIZE, NSUMS };
+  double(*source)[3][NSUMS], (*sum)[NSUMS];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(o->nsources, &source));
+  PetscCall(PetscMalloc1(nnodes, &sum));
+  for (int k = 0; k < o->pairs.n; k++) {
+    const SupermeshPair *pair = &o->pairs.pair[k];
+    const SourceTriangle *t = &o->source[pair->a];
+    double gradient[2];
+    if (t->is_shell) continue;
+    const double at = PressureAtCentre(o, pair, &p[6 * pair->b], gradient);
+    for (int i = 0; i < 3; i++) {
+      double value = at;
+      for (int c = 0; c < 2; c++) value += gradient[c] * (t->x[i][c] - t->x[0][c] - pair->centre[c]);
+      source[pair->a][i][AREA] += pair->area;
+      source[pair->a][i][PRESSURE] += pair->area * value;
+      source[pair->a][i][SIZE] += pair->area * sqrt(2.0 * o->area[pair->b]);
+    }
+  }
+  PetscCall(OverlapSourcesToNodes(o, NSUMS, (const double *)source, nnodes, (double *)sum));
+  PetscCall(CopiesSum(o->nodes, NSUMS, (double *)sum));
+  for (int i = 0; i < nnodes; i++) {
+    const double area = sum[i][AREA];
+    node[i] = area > 0.0 ? sum[i][PRESSURE] / area : 0.0;
+    size[i] = area > 0.0 ? sum[i][SIZE] / area : 0.0;
+  }
+  PetscCall(PetscFree(sum));
+  PetscCall(PetscFree(source));
+  PetscFunctionReturn(0);
+}

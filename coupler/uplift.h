@@ -1,0 +1,34 @@
+/* The pressure beneath solids that stand on a wall of the tank, or are about to (mode reaction; solid.walls).
+ *
+ * Between such a solid and the wall lies less than a fluid element: what is there moves with the solid, and the wall stops both.  So the
+ * fluid's solve holds the solid by a pressure p beneath it whatever the contact does: with any contact force N the fluid's force is the
+ * weight less N, and a block that is let down stands on the water, without friction.  But water gets in between, and what it has there is the
+ * pressure of the water around: beneath, the head
+ *
+ *     h  =  p_o - rho_o g.x        at the ends of the close facets, p_o at x beside the solid, rho_o the density there (outside.h)
+ *
+ * is linear along the surface from one end to the other, as of a slow flow through the gap.  What p has beyond that is taken from the force,
+ *
+ *     F_i  +=  int N_i (p - rho_o g.x - h) n       over the close facets: they face a wall within UPLIFT_REACH of an element's size
+ *
+ * and the contact carries the rest of the weight.  Facets that no end is connected with stay as they are.  The momentum is the wall's: columns
+ * `uplift` of coupler.csv. */
+#ifndef CORACLE_COUPLER_UPLIFT_H
+#define CORACLE_COUPLER_UPLIFT_H
+#include "coupler/wall_term.h"
+
+#define UPLIFT_REACH 0.5
+
+typedef struct Uplift_s *Uplift;
+
+/* lower, upper: the walls, m. */
+PetscErrorCode UpliftCreate(MPI_Comm comm, const double lower[2], const double upper[2],
+                            const double gravity[2], Uplift *uplift);
+PetscErrorCode UpliftDestroy(Uplift *uplift);
+/* Not collective: the solid of the step to come (copied), and its shell, borrowed until the next call. */
+PetscErrorCode UpliftBuild(Uplift uplift, const SolidState *solid, const Shell shell);
+/* Collective: force[nnodes][2] += the above, N, to each copy of a node what its facets do; total[2]: of all ranks.  element[ncoupled] of the step
+ * that was built; p[nelements][6], Pa, of the overlap's elements. */
+PetscErrorCode UpliftAdd(Uplift uplift, Overlap overlap, const ElementTerm element[], const double p[],
+                         double force[], double total[2]);
+#endif

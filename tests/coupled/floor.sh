@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# A block that stands on a floor under water presses on it with its weight less the displaced water's (coupler/uplift.h), in one fluid and beneath
+# air, also let down with a gap, and friction stops one that slides (before, the water carried it: no force on the floor, 0.13 m in 0.3 s); what
+# the floor gives back is in the budget of momentum.  Usage: floor.sh ROOT BUILD
+set -euo pipefail
+source "$(dirname "$0")/run.sh"
+case=$here/floor.yaml
+must stands 1:1:1
+must ranks 2:2:2
+one='fluid={density: 1000.0, viscosity: 1.0e-3, petsc: -momentum_ksp_rtol 1e-13, mesh: {lower: [0.0, 0.0], upper: [1.0, 0.3], size_max: 0.1}, adapt: {size_min: 0.014, size_max: 0.1, velocity_error: 0.05, every: 10}, boundaries: {left: free_slip, right: free_slip, bottom: free_slip, top: free_slip}}'
+must lowered 1:1:1 --set "$one" --set "solid.bodies[0].centre=[0.3, 0.045]"
+must slides 1:1:1 --set time.end=0.3 --set "solid.bodies[0].centre=[0.3, 0.045]" --set "solid.bodies[0].velocity=[0.5, 0.0]"
+"$python" "$root/scripts/momentum.py" "$scratch/lowered" --bound 1e-10 >"$scratch/report" || { cat "$scratch/report"; exit 1; }
+"$python" - "$scratch" <<'E2'
+import csv, sys
+def column(run, name):
+    return [float(row[name]) for row in csv.DictReader(open("%s/%s/solid.csv" % (sys.argv[1], run)))]
+expected = 9.81 * (2600.0 - 1000.0) * 0.08 * 0.08
+for run in "stands", "ranks", "lowered":
+    t, impulse = column(run, "t [s]"), column(run, "walls_y [N s/m]")
+    first = next(k for k in range(len(t)) if t[k] > 0.8)
+    force = sum(impulse[first:]) / (t[-1] - t[first - 1])
+    print("%s: %.2f N/m on the floor, of %.2f" % (run, force, expected))
+    assert abs(force / expected - 1.0) < 0.02, "%s: %g N/m on the floor, expected %g" % (run, force, expected)
+x = column("slides", "x0 [m]")
+assert 0.002 < x[-1] - 0.3 < 0.05 and x[-1] - x[len(x) // 2] < 0.002, "it has slid to %g m, %g at half of the time" % (x[-1], x[len(x) // 2])
+E2
