@@ -3,7 +3,7 @@
  * The explicit substeps follow every vibration; a step of the fluid resolves those with omega dt << 1 only.  What
  * is sent is therefore the response of one implicit step to the same forces,
  *
- *     S = (M + dt^2/4 K)^-1 M,    K the tangent stiffness of elements and joints where they are now,
+ *     S = (M + dt^2/4 K)^-1 M,    K the tangent stiffness of elements, joints and springs where they are now,
  *
  * which keeps rigid motions, and slow deformation (omega dt << 1) too, and divides fast vibrations by
  * 1 + (omega dt/2)^2; it has no parameter and no switch.  With v the velocity, f the solid's own forces

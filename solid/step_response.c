@@ -102,6 +102,7 @@ PetscErrorCode StepResponseUpdate(Solid s)
   if (!a->njoints) PetscCall(FactorAtRest(a, s));
   PetscCall(StepMatrixAssemble(a, s, s->x));
   PetscCall(StepMatrixAddJoints(a, s));
+  PetscCall(StepMatrixAddSprings(a, s));
   if (a->njoints) PetscCall(StepFactorUpdate(a, s, a->c));
   StepFactorTurn(a, s, a->njoints ? PETSC_FALSE : PETSC_TRUE);
   PetscFunctionReturn(0);

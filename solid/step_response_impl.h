@@ -25,8 +25,9 @@ struct StepResponse_s {
 PetscErrorCode StepMatrixCreate(StepResponse a);
 /* K of this rank's elements with the nodes at x[nnodes][2]; not collective. */
 PetscErrorCode StepMatrixAssemble(StepResponse a, Solid s, const double x[]);
-/* Adds that of the joints.  Not collective. */
+/* Adds that of the joints; of the springs, each in the nodes of its element.  Not collective. */
 PetscErrorCode StepMatrixAddJoints(StepResponse a, Solid s);
+PetscErrorCode StepMatrixAddSprings(StepResponse a, Solid s);
 /* kd = K d of all ranks; 0 on fixed nodes.  Collective. */
 PetscErrorCode StepMatrixMultiply(StepResponse a, Solid s, const double d[], double kd[]);
 
