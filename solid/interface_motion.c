@@ -3,7 +3,7 @@
  * The explicit substeps follow every vibration; a step of the fluid resolves those with omega dt << 1 only.  What
  * is sent is therefore the response of one implicit step to the same forces,
  *
- *     S = (M + dt^2/4 K)^-1 M,    K the tangent stiffness of elements and joints where they are now,
+ *     S = (M + dt^2/4 K)^-1 M,    K the tangent stiffness of elements, joints and springs where they are now,
  *
  * which keeps rigid motions, and slow deformation (omega dt << 1) too, and divides fast vibrations by
  * 1 + (omega dt/2)^2; it has no parameter and no switch.  With v the velocity, f the solid's own forces
@@ -12,7 +12,8 @@
  *     velocity      w = S v + 2 S^2 (1 - S) d,      d = v^n + dt ((f^n + F)/m + g) - v
  *     acceleration  a = S ((f + F)/m + g) - F/m          by all forces but the fluid's
  *
- * so that a mode which the step does not resolve holds against F: a -> -F/m.  What holds or moves nodes is among the forces.
+ * so that a mode which the step does not resolve holds against F: a -> -F/m.  What holds or moves nodes is among the forces:
+ * a component that is fixed or prescribed keeps its own velocity and acceleration in S.
  * d is what the forces at the step's start make of the velocity, less what the substeps have made of it.  S^2 (1 - S) lets through what of it
  * has omega dt of 1 to 6, neither motions that the step resolves nor stiff ones: the phase in which the last substep has left a
  * vibration.  With w = S v solids much lighter than the fluid fed on that: a lumped mode of a tenth of the fluid's density grew by up to
@@ -33,16 +34,16 @@
 
 #define DAMPING 0.15
 
-/* Of free nodes; resolved[nnodes][2]: S v; total[nnodes][2]: the acceleration by all forces, S of it in acceleration. */
+/* resolved[nnodes][2]: S v; total[nnodes][2]: the acceleration by all forces, S of it in acceleration. */
 static void DampUnresolved(Solid s, const double resolved[], const double total[])
 {
-  for (int n = 0; n < s->nnodes; n++)
-    for (int k = 2 * n; k < 2 * n + 2 && s->inverse_mass[n] > 0.0 && !s->is_prescribed[n]; k++) {
-      const double unresolved = s->v[k] - resolved[k] + 0.5 * s->stats.h * (total[k] - s->acceleration[k]);
-      const double dv = -DAMPING * unresolved;
-      BudgetAddImpulse(s, n, k % 2, s->mass[n] * dv, s->v[k] + 0.5 * dv);
-      s->v[k] += dv;
-    }
+  for (int k = 0; k < 2 * s->nnodes; k++) {
+    if (StepResponseHolds(s, k)) continue;
+    const double unresolved = s->v[k] - resolved[k] + 0.5 * s->stats.h * (total[k] - s->acceleration[k]);
+    const double dv = -DAMPING * unresolved;
+    BudgetAddImpulse(s, k / 2, k % 2, s->mass[k / 2] * dv, s->v[k] + 0.5 * dv);
+    s->v[k] += dv;
+  }
 }
 
 /* What moves prescribed nodes acts beside the fluid: their whole acceleration is that of the prescribed velocity, and the fluid does not
@@ -52,7 +53,7 @@ static void AcceleratePrescribed(Solid s)
   const double t = s->stats.t, dt = s->dt;
   for (int k = 0; k < s->nprescribed; k++) {
     const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
-    if (d->release > 0.0 && t >= d->release * (1.0 - 1e-12)) continue;
+    if (!PrescribedActs(d, t)) continue;
     const int n = s->prescribed[k].node;
     double pivot[2] = {0.0, 0.0}, spin_up = 0.0;
     if (d->prescribed[0] && d->prescribed[1]) s->mobility[n] = 0.0;
@@ -70,14 +71,13 @@ static void AcceleratePrescribed(Solid s)
   }
 }
 
-/* interface_velocity, to which v has been extrapolated, becomes w; resolved[nnodes][2]: S v.  Prescribed nodes have their v. */
+/* interface_velocity, to which v has been extrapolated, becomes w; resolved[nnodes][2]: S v. */
 static PetscErrorCode SteadyVelocity(Solid s, const double resolved[])
 {
   const size_t n = 2 * (size_t)s->nnodes;
   double *d = s->interface_velocity, *slower;
   PetscFunctionBeginUser;
-  for (size_t k = 0; k < n; k++)
-    d[k] = s->is_prescribed[k / 2] || s->inverse_mass[k / 2] == 0.0 ? 0.0 : d[k] - s->v[k];
+  for (int k = 0; k < 2 * s->nnodes; k++) d[k] = StepResponseHolds(s, k) ? 0.0 : d[k] - s->v[k];
   PetscCall(StepResponseApply(s, d));
   PetscCall(PetscMalloc1(n, &slower));
   PetscCall(PetscArraycpy(slower, d, n));

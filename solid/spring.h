@@ -37,4 +37,19 @@ static inline SpringState SpringForce(const Spring *s, const double x[2], const 
   for (int c = 0; c < 2; c++) force[c] = tension * n[c];
   return (SpringState){length, tension};
 }
+
+/* stiffness[2][2], N/m: -d(force)/dx, k n n^T + T/L (1 - n n^T), T without the dashpot's part.  Across itself a spring counts
+ * where it pulls alone, so that there is no negative stiffness, and a slack one that does not pull has none. */
+static inline void SpringStiffness(const Spring *s, const double x[2], const double v[2], double stiffness[4])
+{
+  double n[2], force[2];
+  const SpringState now = SpringForce(s, x, v, force);
+  const int acts = s->length == 0.0 || (now.length > 0.0 && (!s->slack || now.tension > 0.0));
+  const double along = acts ? s->stiffness : 0.0;
+  const double stretched = s->length == 0.0 ? 1.0 : fmax(0.0, 1.0 - s->length / fmax(s->length, now.length));
+  const double lateral = along * stretched;
+  for (int c = 0; c < 2; c++) n[c] = now.length > 0.0 ? (s->anchor[c] - x[c]) / now.length : 0.0;
+  for (int k = 0; k < 4; k++)
+    stiffness[k] = (along - lateral) * n[k / 2] * n[k % 2] + (k / 2 == k % 2 ? lateral : 0.0);
+}
 #endif

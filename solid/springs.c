@@ -61,6 +61,22 @@ void SpringsAddBudget(Solid s)
   }
 }
 
+PetscBool SpringsStiffness(Solid s, int k, int node[3], double stiffness[6][6])
+{
+  const double *w = s->setup.spring[k].weight;
+  double x[2], v[2], at_point[4];
+  if (!NodesOf(s, k)) return PETSC_FALSE;
+  AtPoint(s, k, s->x, x);
+  AtPoint(s, k, s->v, v);
+  SpringStiffness(&s->setup.spring[k], x, v, at_point);
+  for (int i = 0; i < 3; i++) node[i] = NodesOf(s, k)[i];
+  for (int i = 0; i < 36; i++) {
+    const int row = i / 6, column = i % 6;
+    stiffness[row][column] = w[row / 2] * w[column / 2] * at_point[2 * (row % 2) + column % 2];
+  }
+  return PETSC_TRUE;
+}
+
 PetscErrorCode SpringsRate(Solid s, ElementRates *rates)
 {
   double sum[2] = {0.0, 0.0};

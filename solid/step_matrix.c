@@ -1,5 +1,6 @@
 /* K of the step's response: 2 x 2 blocks in compressed rows. */
 #include "solid/six_node_kernel.h"
+#include "solid/springs.h"
 #include "solid/step_response_impl.h"
 
 static int Cells(const StepResponse a)
@@ -142,19 +143,36 @@ PetscErrorCode StepMatrixAssemble(StepResponse a, Solid s, const double x[])
   PetscFunctionReturn(0);
 }
 
+/* stiffness[2 n][2 n] of n nodes that are together in a cell */
+static PetscErrorCode AddNodes(StepResponse a, int n, const int node[], const double *stiffness)
+{
+  int at = 0;
+  PetscFunctionBeginUser;
+  for (int i = 0; i < n * n; i++) {
+    const int p = i / n, q = i % n;
+    PetscCall(FindBlock(a, node[p], node[q], &at));
+    for (int c = 0; c < 4; c++) a->block[at][c] += stiffness[(2 * p + c / 2) * 2 * n + 2 * q + c % 2];
+  }
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode StepMatrixAddJoints(StepResponse a, Solid s)
 {
   double stiffness[8][8];
-  int node[4], at = 0;
+  int node[4];
   PetscFunctionBeginUser;
-  for (int k = 0; k < JointsActive(s->joints); k++) {
-    if (!JointsStiffness(s->joints, s, k, node, stiffness)) continue;
-    for (int i = 0; i < 16; i++) {
-      const int p = i / 4, q = i % 4;
-      PetscCall(FindBlock(a, node[p], node[q], &at));
-      for (int c = 0; c < 4; c++) a->block[at][c] += stiffness[2 * p + c / 2][2 * q + c % 2];
-    }
-  }
+  for (int k = 0; k < JointsActive(s->joints); k++)
+    if (JointsStiffness(s->joints, s, k, node, stiffness)) PetscCall(AddNodes(a, 4, node, stiffness[0]));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode StepMatrixAddSprings(StepResponse a, Solid s)
+{
+  double stiffness[6][6];
+  int node[3];
+  PetscFunctionBeginUser;
+  for (int k = 0; k < s->setup.nsprings; k++)
+    if (SpringsStiffness(s, k, node, stiffness)) PetscCall(AddNodes(a, 3, node, stiffness[0]));
   PetscFunctionReturn(0);
 }
 
@@ -173,6 +191,6 @@ PetscErrorCode StepMatrixMultiply(StepResponse a, Solid s, const double d[], dou
   }
   PetscCall(CopiesSum(s->copies, 2, kd));
   for (int k = 0; k < 2 * a->nnodes; k++)
-    if (s->inverse_mass[k / 2] == 0.0) kd[k] = 0.0;
+    if (a->held[k]) kd[k] = 0.0;
   PetscFunctionReturn(0);
 }

@@ -106,9 +106,49 @@ static PetscErrorCode Decay(void)
   return 0;
 }
 
+/* -d(force)/dx, by central differences, of springs of 0.5 m with different lengths without tension: one that pushes
+ * has nothing across it, and a slack one nothing at all. */
+static void Stiffness(void)
+{
+  static const struct {
+    Spring spring;
+    double along, lateral;
+  } CASES[] = {{{.length = 0.0}, 1.0, 1.0},
+               {{.length = 0.3}, 1.0, 0.4},
+               {{.length = 0.3, .slack = 1}, 1.0, 0.4},
+               {{.length = 0.8}, 1.0, 0.0},
+               {{.length = 0.8, .slack = 1}, 0.0, 0.0}};
+  const double x[2] = {0.1, -0.2}, still[2] = {0.0, 0.0}, moved = 1e-6;
+  for (int k = 0; k < 5; k++) {
+    Spring spring = CASES[k].spring;
+    double stiffness[4], force[2][2];
+    spring.anchor[0] = 0.4;
+    spring.anchor[1] = 0.2;
+    spring.stiffness = STIFFNESS;
+    SpringStiffness(&spring, x, still, stiffness);
+    for (int direction = 0; direction < 2; direction++) {
+      const double d[2] = {direction ? -0.8 : 0.6, direction ? 0.6 : 0.8};
+      const double expected = STIFFNESS * (direction ? CASES[k].lateral : CASES[k].along);
+      for (int side = 0; side < 2; side++) {
+        const double by = side ? moved : -moved, at[2] = {x[0] + by * d[0], x[1] + by * d[1]};
+        (void)SpringForce(&spring, at, still, force[side]);
+      }
+      for (int c = 0; c < 2; c++) {
+        const double is = stiffness[2 * c] * d[0] + stiffness[2 * c + 1] * d[1];
+        const double pulled = (force[0][c] - force[1][c]) / (2.0 * moved);
+        CHECK(fabs(is - expected * d[c]) < 1e-12 * STIFFNESS, "spring %d: %g N/m instead of %g", k, is,
+              expected * d[c]);
+        CHECK((k == 3 && direction) || fabs(is - pulled) < 1e-6 * STIFFNESS,
+              "spring %d: %g N/m, its force changes by %g", k, is, pulled);
+      }
+    }
+  }
+}
+
 int main(int argc, char **argv)
 {
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
+  Stiffness();
   PetscCall(Swing());
   PetscCall(Line());
   PetscCall(Decay());
