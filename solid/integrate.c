@@ -170,7 +170,7 @@ static void MovePrescribed(Solid s, int before)
   for (int k = 0, motion = -1; k < s->nprescribed; k++) {
     const int n = s->prescribed[k].node;
     const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
-    if (d->release > 0.0 && s->stats.t >= d->release * (1.0 - 1e-12)) continue;
+    if (!PrescribedActs(d, s->stats.t)) continue;
     if (!before && motion != s->prescribed[k].motion) substep = PrescribedSubstepOf(d, s->stats.t, s->h);
     if (!before) PrescribedNodeVelocity(&substep, s->position_before + 2 * k, v);
     for (int c = 0; c < 2; c++) {

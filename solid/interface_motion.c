@@ -12,7 +12,8 @@
  *     velocity      w = S v
  *     acceleration  a = S ((f + F)/m + g) - F/m          by all forces but the fluid's
  *
- * so that a mode which the step does not resolve holds against F: a -> -F/m.  What holds or moves nodes is among the forces.
+ * so that a mode which the step does not resolve holds against F: a -> -F/m.  What holds or moves nodes is among the forces:
+ * a component that is fixed or prescribed keeps its own velocity and acceleration in S.
  *
  * A force that is constant over a step does not act where a vibration with omega dt of 3 or more is, but where it was
  * sampled, and can feed it: in a lumped model by up to 1.6 % a step without damping, at any ratio of added mass to mass, the beam
@@ -28,17 +29,17 @@
 
 #define DAMPING 0.15
 
-/* Of free nodes, S v in interface_velocity; total[nnodes][2]: the acceleration by all forces, S of it in acceleration. */
+/* S v in interface_velocity; total[nnodes][2]: the acceleration by all forces, S of it in acceleration. */
 static void DampUnresolved(Solid s, const double total[])
 {
-  for (int n = 0; n < s->nnodes; n++)
-    for (int k = 2 * n; k < 2 * n + 2 && s->inverse_mass[n] > 0.0 && !s->is_prescribed[n]; k++) {
-      const double unresolved =
-          s->v[k] - s->interface_velocity[k] + 0.5 * s->stats.h * (total[k] - s->acceleration[k]);
-      const double dv = -DAMPING * unresolved;
-      BudgetAddImpulse(s, n, k % 2, s->mass[n] * dv, s->v[k] + 0.5 * dv);
-      s->v[k] += dv;
-    }
+  for (int k = 0; k < 2 * s->nnodes; k++) {
+    if (StepResponseHolds(s, k)) continue;
+    const double unresolved =
+        s->v[k] - s->interface_velocity[k] + 0.5 * s->stats.h * (total[k] - s->acceleration[k]);
+    const double dv = -DAMPING * unresolved;
+    BudgetAddImpulse(s, k / 2, k % 2, s->mass[k / 2] * dv, s->v[k] + 0.5 * dv);
+    s->v[k] += dv;
+  }
 }
 
 /* What moves prescribed nodes acts beside the fluid: their whole acceleration is that of the prescribed velocity, and the fluid does not
@@ -48,7 +49,7 @@ static void AcceleratePrescribed(Solid s)
   const double t = s->stats.t, dt = s->dt;
   for (int k = 0; k < s->nprescribed; k++) {
     const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
-    if (d->release > 0.0 && t >= d->release * (1.0 - 1e-12)) continue;
+    if (!PrescribedActs(d, t)) continue;
     const int n = s->prescribed[k].node;
     double pivot[2] = {0.0, 0.0}, spin_up = 0.0;
     if (d->prescribed[0] && d->prescribed[1]) s->mobility[n] = 0.0;

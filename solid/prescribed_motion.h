@@ -18,6 +18,11 @@ typedef struct {
   int node, motion;
 } PrescribedNode;
 
+/* It moves its nodes at t; from `release` on they are free. */
+static inline int PrescribedActs(const PrescribedMotion *d, double t)
+{
+  return d->release <= 0.0 || t < d->release * (1.0 - 1e-12);
+}
 /* The velocity's mean over from .. from + h, h > 0; where there is a rotation, the pivot's. */
 double PrescribedVelocity(const PrescribedMotion *d, int component, double from, double h);
 /* The mean of the angular velocity, rad/s, and where the pivot is at t, m. */

@@ -33,11 +33,11 @@ PetscErrorCode StepFactorUpdate(StepResponse a, Solid s, double c)
   PetscFunctionBeginUser;
   PetscCall(MatSeqAIJGetArray(a->matrix, &value));
   for (int row = 0, at = 0; row < 2 * a->nnodes; row++) {
-    const int i = row / 2, moves = s->inverse_mass[i] > 0.0;
+    const int i = row / 2, held = a->held[row];
     for (int k = 2 * a->start[i]; k < 2 * a->start[i + 1]; k++, at++) {
-      const int j = a->column[k / 2];
-      value[at] = moves && s->inverse_mass[j] > 0.0 ? c * a->block[k / 2][2 * (row % 2) + k % 2] : 0.0;
-      if (2 * j + k % 2 == row) value[at] += moves ? a->weight[i] * s->mass[i] : 1.0;
+      const int column = 2 * a->column[k / 2] + k % 2;
+      value[at] = held || a->held[column] ? 0.0 : c * a->block[k / 2][2 * (row % 2) + k % 2];
+      if (column == row) value[at] += held ? 1.0 : a->weight[i] * s->mass[i];
     }
   }
   PetscCall(MatSeqAIJRestoreArray(a->matrix, &value));
@@ -58,7 +58,8 @@ void StepFactorTurn(StepResponse a, Solid s, PetscBool turned)
     }
   }
   for (int i = 0; i < a->nnodes; i++) {
-    const double size = hypot(a->turn[i][0], a->turn[i][1]);
+    const int held = a->held[2 * i] || a->held[2 * i + 1];
+    const double size = held ? 0.0 : hypot(a->turn[i][0], a->turn[i][1]);
     for (int c = 0; c < 2; c++) a->turn[i][c] = size > 0.0 ? a->turn[i][c] / size : 1.0 - c;
   }
 }

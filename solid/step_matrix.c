@@ -191,6 +191,6 @@ PetscErrorCode StepMatrixMultiply(StepResponse a, Solid s, const double d[], dou
   }
   PetscCall(CopiesSum(s->copies, 2, kd));
   for (int k = 0; k < 2 * a->nnodes; k++)
-    if (s->inverse_mass[k / 2] == 0.0) kd[k] = 0.0;
+    if (a->held[k]) kd[k] = 0.0;
   PetscFunctionReturn(0);
 }

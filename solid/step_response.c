@@ -20,6 +20,7 @@ static PetscErrorCode Create(Solid s, StepResponse *response)
   PetscCall(PetscMalloc4(3 * ne, &a->element, 4 * most, &a->joint, n + 1, &a->start, 9 * ne, &a->slot));
   PetscCall(PetscMalloc2(6 * nsix, &a->six, 36 * nsix, &a->six_slot));
   PetscCall(PetscMalloc3(n, &a->weight, n, &a->owned, n, &a->turn));
+  PetscCall(PetscCalloc1(2 * n, &a->held));
   PetscCall(PetscMalloc4(2 * n, &a->r, 2 * n, &a->z, 2 * n, &a->p, 2 * n, &a->q));
   PetscCall(PetscArraycpy(a->element, s->element, 3 * ne));
   for (int k = 0; k < 6 * a->nsix; k++)
@@ -45,6 +46,7 @@ PetscErrorCode StepResponseDestroy(StepResponse *response)
   PetscCall(PetscFree2(a->six, a->six_slot));
   PetscCall(PetscFree3(a->weight, a->owned, a->turn));
   PetscCall(PetscFree4(a->r, a->z, a->p, a->q));
+  PetscCall(PetscFree(a->held));
   PetscCall(PetscFree(a->column));
   PetscCall(PetscFree(a->block));
   PetscCall(PetscFree(*response));
@@ -74,6 +76,32 @@ static PetscErrorCode CountRanks(StepResponse a, Solid s)
   PetscFunctionReturn(0);
 }
 
+/* Another set of what is held makes the factor at rest another. */
+static PetscErrorCode FindHeld(StepResponse a, Solid s)
+{
+  const size_t n = 2 * (size_t)a->nnodes;
+  PetscBool same;
+  char *before;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(n, &before));
+  PetscCall(PetscArraycpy(before, a->held, n));
+  for (int k = 0; k < 2 * a->nnodes; k++) a->held[k] = s->inverse_mass[k / 2] == 0.0;
+  for (int k = 0; k < s->nprescribed; k++) {
+    const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
+    for (int c = 0; c < 2 && PrescribedActs(d, s->stats.t); c++)
+      if (d->prescribed[c]) a->held[2 * s->prescribed[k].node + c] = 1;
+  }
+  PetscCall(PetscArraycmp(before, a->held, n, &same));
+  if (!same) a->c0 = 0.0;
+  PetscCall(PetscFree(before));
+  PetscFunctionReturn(0);
+}
+
+PetscBool StepResponseHolds(Solid s, int k)
+{
+  return (PetscBool)s->response->held[k];
+}
+
 /* The factor at rest, unless there is one. */
 static PetscErrorCode FactorAtRest(StepResponse a, Solid s)
 {
@@ -97,6 +125,7 @@ PetscErrorCode StepResponseUpdate(Solid s)
   }
   const StepResponse a = s->response;
   PetscCall(CountRanks(a, s));
+  PetscCall(FindHeld(a, s));
   a->c = 0.25 * s->dt * s->dt;
   if (a->c == 0.0) PetscFunctionReturn(0);
   if (!a->njoints) PetscCall(FactorAtRest(a, s));

@@ -16,6 +16,7 @@ struct StepResponse_s {
   PC factor;
   Mat matrix;
   Vec right, left;        /* of the factor */
+  char *held;             /* [nnodes][2] StepResponseHolds */
   double *weight, *owned; /* [nnodes] 1/n; 1 on the rank that owns the node, else 0 */
   double (*turn)[2];      /* [nnodes] cosine and sine of R */
   double *r, *z, *p, *q;  /* [nnodes][2] */
@@ -28,14 +29,14 @@ PetscErrorCode StepMatrixAssemble(StepResponse a, Solid s, const double x[]);
 /* Adds that of the joints; of the springs, each in the nodes of its element.  Not collective. */
 PetscErrorCode StepMatrixAddJoints(StepResponse a, Solid s);
 PetscErrorCode StepMatrixAddSprings(StepResponse a, Solid s);
-/* kd = K d of all ranks; 0 on fixed nodes.  Collective. */
+/* kd = K d of all ranks; 0 where it is held.  Collective. */
 PetscErrorCode StepMatrixMultiply(StepResponse a, Solid s, const double d[], double kd[]);
 
 /* step_factor.c: the matrix M/n + c0 K0, two rows a node, and what factors it; not collective, nor the next two. */
 PetscErrorCode StepFactorCreate(StepResponse a);
-/* Of M/n + c times the blocks as they are, with 1 on the diagonal of fixed nodes and nothing that couples them. */
+/* Of M/n + c times the blocks as they are, with 1 on the diagonal of what is held and nothing that couples it. */
 PetscErrorCode StepFactorUpdate(StepResponse a, Solid s, double c);
-/* R with the nodes where they are; without one where `turned` is false. */
+/* R with the nodes where they are; 1 where `turned` is false, and of a node with a component that is held. */
 void StepFactorTurn(StepResponse a, Solid s, PetscBool turned);
 /* z = P^-1 r.  Collective. */
 PetscErrorCode StepFactorApply(StepResponse a, Solid s, const double r[], double z[]);
