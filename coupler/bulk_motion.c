@@ -12,7 +12,7 @@ static void AddSimplex(const SolidState *solid, int n, const int node[], double 
 
 PetscErrorCode BulkMotionOf(MPI_Comm comm, const SolidState *solid, BulkMotion *motion)
 {
-  double sum[8] = {0.0};
+  double sum[9] = {0.0};
 
   PetscFunctionBeginUser;
   for (int t = 0; t < solid->nelements; t++) {
@@ -27,9 +27,11 @@ PetscErrorCode BulkMotionOf(MPI_Comm comm, const SolidState *solid, BulkMotion *
   }
   sum[6] = solid->nelements;
   sum[7] = solid->nfacets;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 8, MPI_DOUBLE, MPI_SUM, comm));
+  for (int n = 0; n < solid->nnodes && solid->mobility; n++) sum[8] += solid->mobility[n] == 0.0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 9, MPI_DOUBLE, MPI_SUM, comm));
   const double *mean = sum[6] > 0.0 ? sum : sum + 3;
   for (int c = 0; c < 2; c++) motion->velocity[c] = mean[0] != 0.0 ? mean[1 + c] / mean[0] : 0.0;
+  motion->held = sum[8] > 0.0;
   motion->nelements = (long long)sum[6];
   motion->nfacets = (long long)sum[7];
   PetscFunctionReturn(0);

@@ -7,6 +7,7 @@
 typedef struct {
   double velocity[2]; /* m/s, the mean over the volume, or over the surface of a solid without volume */
   long long nelements, nfacets; /* on all ranks */
+  int held;                     /* a node has no mobility: it is fixed, or moves as prescribed */
 } BulkMotion;
 
 /* Collective.  Integrals over elements (or facets), each of which is on one rank: shared nodes count once. */

@@ -21,34 +21,47 @@ static int IsFinite(const DivergenceMonitorStep *s)
          isfinite(s->force[1]);
 }
 
-/* Counts alternating, growing changes; a change within that of free fall over one step is negligible, and so
- * is one with hardly any energy compared with the flow's, or that hardly moves the solid. */
-static int Alternates(DivergenceMonitor *g, const DivergenceMonitorStep *s, const double change[2])
+/* A change within that of free fall over one step is negligible, and so is one with hardly any energy compared with the flow's, or that
+ * hardly moves the solid. */
+static int Matters(const DivergenceMonitorStep *s, double size)
 {
-  const double size = hypot(change[0], change[1]), before = hypot(g->change[0], g->change[1]);
-  const int opposite = change[0] * g->change[0] + change[1] * g->change[1] < -0.5 * size * before;
-  g->alternations = opposite && size > DIVERGENCE_GROWTH * before ? g->alternations + 1 : 0;
-  if (g->alternations == 0) g->first = size;
-  const int fast =
-      2 * g->alternations >= DIVERGENCE_ALTERNATIONS && size > DIVERGENCE_TOTAL_GROWTH * g->first;
-  return (fast || g->alternations >= DIVERGENCE_ALTERNATIONS) &&
-         size > hypot(s->gravity[0], s->gravity[1]) * s->dt &&
+  return size > hypot(s->gravity[0], s->gravity[1]) * s->dt &&
          size * s->dt > DIVERGENCE_DISPLACEMENT * s->thickness &&
          size * size > DIVERGENCE_ENERGY * s->speed * s->speed;
 }
 
-/* what: how the velocity diverges; the message adds the likely cause and what to do. */
+/* Counts alternating, growing changes, from the first one that matters on: a vibration that begins grows from nothing, by any factor. */
+static int Alternates(DivergenceMonitor *g, const DivergenceMonitorStep *s, const double change[2])
+{
+  const double size = hypot(change[0], change[1]), before = hypot(g->change[0], g->change[1]);
+  const int opposite = change[0] * g->change[0] + change[1] * g->change[1] < -0.5 * size * before;
+  g->alternations =
+      opposite && size > DIVERGENCE_GROWTH * before && Matters(s, before) ? g->alternations + 1 : 0;
+  if (g->alternations == 0) g->first = size;
+  const int fast =
+      2 * g->alternations >= DIVERGENCE_ALTERNATIONS && size > DIVERGENCE_TOTAL_GROWTH * g->first;
+  return (fast || g->alternations >= DIVERGENCE_ALTERNATIONS) && Matters(s, size);
+}
+
+/* what: how the velocity diverges; the message adds the likely cause and what to do.  The motion of a body that is held implies no density
+ * ratio, nor does a force against the acceleration. */
 static void WriteMessage(const DivergenceMonitorStep *s, const double change[2], const char *what,
                          int nmessage, char message[])
 {
-  snprintf(message, (size_t)nmessage,
-           "at t = %g s the solid's velocity has become (%g, %g) m/s, %s: with a solid to fluid density "
-           "ratio of about %.2g the added mass is too large for %s",
-           s->t, s->velocity[0], s->velocity[1], what, DensityRatio(s, change),
-           s->max_iterations > 1
-               ? "steps of this length; shorter ones (time.dt_max) or a heavier solid are needed"
-               : "a staggered exchange; a heavier solid is needed, or strong coupling "
-                 "(coupler.max_iterations: 30)");
+  const double ratio = s->held ? 0.0 : DensityRatio(s, change);
+  const int iterates = s->max_iterations > 1;
+  char cause[256];
+  if (ratio > 0.0 && isfinite(ratio))
+    snprintf(cause, sizeof cause,
+             "with a solid to fluid density ratio of about %.2g the added mass is too large for %s", ratio,
+             iterates ? "steps of this length; shorter ones (time.dt_max) or a heavier solid are needed"
+                      : "a staggered exchange; a heavier solid is needed, or strong coupling "
+                        "(coupler.max_iterations: 30)");
+  else
+    snprintf(cause, sizeof cause, "shorter steps (time.dt_max)%s or damping of the solid's material may help",
+             iterates ? "" : ", strong coupling (coupler.max_iterations: 30)");
+  snprintf(message, (size_t)nmessage, "at t = %g s the solid's velocity has become (%g, %g) m/s, %s: %s",
+           s->t, s->velocity[0], s->velocity[1], what, cause);
 }
 
 int DivergenceMonitorCheck(DivergenceMonitor *g, const DivergenceMonitorStep *s, int nmessage, char message[])

@@ -6,7 +6,7 @@
 #include "coupler/coupling_iteration.h"
 
 /* Heuristic: the coupling diverges after this many alternations in a row, each DIVERGENCE_GROWTH times the
- * one before; or after half as many that have grown by DIVERGENCE_TOTAL_GROWTH altogether (of a very light
+ * one before, which is large enough to be looked at; or after half as many that have grown by DIVERGENCE_TOTAL_GROWTH altogether (of a very light
  * solid the velocity overflows within a few steps, and the fluid's time step shrinks with it). */
 #define DIVERGENCE_ALTERNATIONS 6
 #define DIVERGENCE_GROWTH 1.1
@@ -33,11 +33,12 @@ typedef struct {
   double extent;      /* of the fluid's domain, m */
   double speed;       /* of the flow near the solid, root mean square, m/s */
   double thickness;   /* of the shell, m */
+  int held;           /* nodes of the solid are fixed or move as prescribed */
   int max_iterations; /* coupling iterations that a step may take; 1: the first is accepted */
 } DivergenceMonitorStep;
 
 /* Local, the same on all ranks given the same numbers: 0, or 1 when the coupling diverges; then message
- * says how, the density ratio that the motion implies, and what to do. */
+ * says how, the density ratio that the motion of a free solid implies, and what to do. */
 int DivergenceMonitorCheck(DivergenceMonitor *monitor, const DivergenceMonitorStep *step, int nmessage,
                            char message[]);
 #endif

@@ -122,6 +122,7 @@ PetscErrorCode RunCheckDivergence(RunState *run, const StepRecord *step)
                              .dt = step->dt,
                              .displaced = step->totals.displaced,
                              .speed = step->totals.speed,
+                             .held = step->motion.held,
                              .thickness = run->loop->c->options.thickness,
                              .max_iterations = run->iteration.max_iterations};
   char message[512];

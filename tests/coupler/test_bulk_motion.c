@@ -26,6 +26,15 @@ int main(int argc, char **argv)
         motion.nfacets);
   CHECK(fabs(motion.velocity[0] - 2.0 * (lower[1] + 0.5 * side)) < 1e-14, "u_x %.17g", motion.velocity[0]);
   CHECK(fabs(motion.velocity[1] - 1.0) < 1e-14, "u_y %.17g", motion.velocity[1]);
+  static double mobility[sizeof part.x / sizeof *part.x];
+  part.view.mobility = NULL;
+  CHECK(!BulkMotionOf(PETSC_COMM_WORLD, &part.view, &motion) && !motion.held, "without inertia it is held");
+  part.view.mobility = mobility;
+  for (int i = 0; i < part.nnodes; i++) mobility[i] = 1.0;
+  CHECK(!BulkMotionOf(PETSC_COMM_WORLD, &part.view, &motion) && !motion.held, "a free solid is held");
+  for (int i = 0; i < part.nnodes; i++)
+    mobility[i] = part.x[i][0] > lower[0] + 1e-9; /* the left side is fixed */
+  CHECK(!BulkMotionOf(PETSC_COMM_WORLD, &part.view, &motion) && motion.held, "what is fixed is free");
   part.view.nelements = 0;
   CHECK(!BulkMotionOf(PETSC_COMM_WORLD, &part.view, &motion), "motion");
   CHECK(fabs(motion.velocity[1] - 3.5) < 1e-14, "of the surface: u_y %.17g", motion.velocity[1]);
