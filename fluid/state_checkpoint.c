@@ -115,6 +115,8 @@ PetscErrorCode FluidLoad(Fluid f, const PetscInt row[], Checkpoint from)
     PetscCall(LoadVelocity(f, row, from, "previous bulk velocity", f->bulk_previous));
     PetscCall(FluidPhasesChanged(f));
   }
+  /* steps leave it as it is: what the case says of it now counts */
+  PetscCall(FluidSetOpenPressure(f, f->t));
   PetscCall(LoadSeconds(f, from));
   PetscCall(VecCopy(f->u, f->u_projected)); /* of which the next step is proposed */
   f->stats.t = f->t;

@@ -159,6 +159,7 @@ PetscErrorCode FluidTransfer(Fluid from, Fluid to)
   } else {
     PetscCall(Velocities(from, to, to->transfer));
     PetscCall(Pressure(from, to, to->transfer));
+    PetscCall(FluidSetOpenPressure(to, to->t)); /* to the last bit what a run that resumes sets */
   }
   PetscCall(TransferDestroy(&to->transfer));
   PetscCall(VecCopy(to->u, to->u_projected));

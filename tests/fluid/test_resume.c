@@ -1,6 +1,6 @@
 // ranks: 1 2 3
 /* The fluid's part of a case that resumes from a checkpoint: its keys are read and checked as ever, its files
- * go on where they were, and a checkpoint of other boundaries is refused. */
+ * go on where they were, an open boundary has the pressure that the case says now, and a checkpoint of other boundaries is refused. */
 #include "common/mesh/mesh_checkpoint.h"
 #include "fluid/boundary_case.h"
 #include "fluid/fluid_case.h"
@@ -85,6 +85,35 @@ static void OnlyRead(CoracleCase c)
 {
   FluidSetup setup;
   CHECK(!Read(c, &setup) && !PetscFree(setup.boundary));
+}
+
+/* 5 Pa above the hydrostatic pressure on the right side, which had none when the checkpoint was made. */
+static PetscErrorCode PressureState(CoracleCase c)
+{
+  FluidSetup setup;
+  Fluid fluid;
+  int n = 0;
+  PetscFunctionBeginUser;
+  PetscCall(Read(c, &setup));
+  PetscCall(FluidCreate(mesh, &setup, &fluid));
+  PetscCall(PetscFree(setup.boundary));
+  PetscCall(FluidLoad(fluid, row, from));
+  for (int k = 0; k < 3 * mesh->ne; k++) {
+    const double *x = mesh->x + 2 * mesh->vertex[k],
+                 p = FluidPressure(fluid)[FluidPressureSpace(fluid)->node[k / 3 * 6 + k % 3]];
+    if (x[0] < 1.0 - 1e-9) continue;
+    CHECK(fabs(p - 5.0 - 9810.0 * (1.0 - x[1])) < 1e-9);
+    n++;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT, MPI_SUM, PETSC_COMM_WORLD));
+  CHECK(n >= 8); /* corners of the side's triangles */
+  PetscCall(FluidDestroy(&fluid));
+  PetscFunctionReturn(0);
+}
+
+static void CheckPressure(CoracleCase c)
+{
+  CHECK(!PressureState(c));
 }
 
 static PetscErrorCode Finish(void)
@@ -187,6 +216,8 @@ int main(int argc, char **argv)
   if (rank == 0) CheckFiles();
   PetscCall(Resume(sets, Run, NULL));
   if (rank == 0) CheckFiles();
+  const char *const pressure[] = {set_folder, "fluid.boundaries.right={pressure: 5.0}", NULL};
+  PetscCall(Resume(pressure, CheckPressure, NULL));
   PetscCall(CheckRefused(set_folder));
   PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
   if (rank == 0) PetscCall(Remove());
