@@ -1,5 +1,8 @@
 #include "solid/check.h"
+#include "solid/bodies/case_body.h"
+#include "solid/probes.h"
 #include "solid/solid_case.h"
+#include "solid/solid_impl.h"
 #include "solid/writer.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -119,6 +122,44 @@ static void Fail(void *context, const char *message)
   exit(1);
 }
 
+/* The fluid's domain, as far as the case says it: the box, or the mesh in a file.  What is wrong with these the fluid tells. */
+static PetscErrorCode FluidDomain(CoracleCase c, double lower[2], double upper[2], PetscBool *known)
+{
+  const char *why;
+  MeshSerial mesh;
+  PetscFunctionBeginUser;
+  *known = (PetscBool)(CoracleCaseVectorOptional(c, "fluid.mesh.lower", 2, lower) &&
+                       CoracleCaseVectorOptional(c, "fluid.mesh.upper", 2, upper));
+  if (*known || !CoracleCaseHas(c, "fluid.mesh.file")) PetscFunctionReturn(0);
+  if (MeshReadGmsh(CoracleCaseFile(c, "fluid.mesh.file"), &mesh, &why)) PetscFunctionReturn(0);
+  for (int k = 0; k < 2 * mesh.nv; k++) {
+    lower[k % 2] = k < 2 ? mesh.x[k] : fmin(lower[k % 2], mesh.x[k]);
+    upper[k % 2] = k < 2 ? mesh.x[k] : fmax(upper[k % 2], mesh.x[k]);
+  }
+  *known = PETSC_TRUE;
+  PetscCall(MeshSerialDestroy(&mesh));
+  PetscFunctionReturn(0);
+}
+
+/* As the coupler at the start of a run (run_checks.c): no node may be outside. */
+static PetscErrorCode CheckInside(CoracleCase c, Solid s)
+{
+  double lower[2], upper[2];
+  PetscBool known;
+  char key[CASE_BODY_KEY];
+  PetscFunctionBeginUser;
+  PetscCall(FluidDomain(c, lower, upper, &known));
+  for (int n = 0; n < s->nnodes && known; n++) {
+    const double *x = s->x + 2 * n;
+    if (x[0] >= lower[0] && x[0] <= upper[0] && x[1] >= lower[1] && x[1] <= upper[1]) continue;
+    CoracleCaseRefuse(
+        c, BodyKey(key, s->body[s->node_body[n]].entry, ""),
+        "the solid's node %lld at (%g, %g) lies outside of the fluid domain [%g, %g] x [%g, %g]", s->gid[n],
+        x[0], x[1], lower[0], upper[0], lower[1], upper[1]);
+  }
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode Expect(CoracleCase c, Solid s, Command command)
 {
   SolidView v;
@@ -149,7 +190,11 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
   (void)CoracleCaseString(c, "output.folder");
   (void)CoracleCasePositive(c, "output.every");
   PetscCall(SolidFromCase(c, PETSC_COMM_SELF, Fail, NULL, &solid));
-  if (command != COMMAND_KEYS && CoracleCaseFaultless(c)) PetscCall(Expect(c, solid, command));
+  if (command != COMMAND_KEYS && CoracleCaseFaultless(c)) {
+    PetscCall(CheckInside(c, solid));
+    PetscCall(ProbesCheckPoints(c, PETSC_COMM_SELF, solid));
+    PetscCall(Expect(c, solid, command));
+  }
   PetscCall(SolidDestroy(&solid));
   PetscFunctionReturn(0);
 }

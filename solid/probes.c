@@ -94,11 +94,31 @@ void ProbesCheckCase(CoracleCase c)
   (void)ReadProbes(c, point, sizeof columns, columns);
 }
 
-PetscErrorCode ProbesCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoint from, Probes *probes)
+static PetscErrorCode CheckPoints(CoracleCase c, Probes p, Solid solid)
 {
-  char columns[COLUMNS], key[64];
+  char key[64];
   double value[MAX_PROBES][VALUES];
   int missing;
+  PetscFunctionBeginUser;
+  PetscCall(Values(p, solid, value, &missing));
+  if (missing < 0) PetscFunctionReturn(0);
+  (void)snprintf(key, sizeof key, "solid.probes[%d].point", missing);
+  CoracleCaseRefuse(c, key, "no body is at (%g, %g) at rest", p->point[missing][0], p->point[missing][1]);
+}
+
+PetscErrorCode ProbesCheckPoints(CoracleCase c, MPI_Comm comm, Solid solid)
+{
+  struct Probes_s p = {.comm = comm};
+  char columns[COLUMNS];
+  PetscFunctionBeginUser;
+  p.n = ReadProbes(c, p.point, sizeof columns, columns);
+  PetscCall(CheckPoints(c, &p, solid));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ProbesCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoint from, Probes *probes)
+{
+  char columns[COLUMNS];
   Probes p;
   PetscFunctionBeginUser;
   *probes = NULL;
@@ -108,11 +128,7 @@ PetscErrorCode ProbesCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoin
   p->comm = comm;
   p->nsprings = nsprings;
   p->n = ReadProbes(c, p->point, sizeof columns, columns);
-  PetscCall(Values(p, solid, value, &missing));
-  if (missing >= 0) {
-    (void)snprintf(key, sizeof key, "solid.probes[%d].point", missing);
-    CoracleCaseRefuse(c, key, "no body is at (%g, %g) at rest", p->point[missing][0], p->point[missing][1]);
-  }
+  PetscCall(CheckPoints(c, p, solid));
   PetscCall(
       SeriesCreate(comm, CoracleCaseString(c, "output.folder"), "solid_probes", columns, from, &p->series));
   *probes = p;

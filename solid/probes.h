@@ -11,6 +11,8 @@ typedef struct Probes_s *Probes; /* NULL: a case without any; every function tak
 
 /* Not collective.  Reads the lists, so that the case can be checked before anything is made of it. */
 void ProbesCheckCase(CoracleCase c);
+/* Collective.  Reads the lists and refuses a point that is in no body at rest. */
+PetscErrorCode ProbesCheckPoints(CoracleCase c, MPI_Comm comm, Solid solid);
 /* Collective.  Reads the lists and output.folder; refuses a point that is in no body at rest. */
 PetscErrorCode ProbesCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoint from, Probes *probes);
 PetscErrorCode ProbesDestroy(Probes *probes);

@@ -16,6 +16,18 @@ for key in output.every time.end coupler.mode fluid.densty fluid.viscosity fluid
 done
 [ "$(wc -l <"$scratch/log")" -eq 10 ] || fail "not ten lines"
 
+# what a run would refuse at its start: a body that reaches out of the fluid, of a box or of a mesh, and a probe outside of all bodies
+body='solid.bodies\[0\].: the solid.s node [0-9]* at (.*) lies outside of the fluid domain \[0, 2\] x'
+! check "$case" --set 'solid.bodies[0].centre=[1.95, 1.1]' || fail "a body outside of the fluid is accepted"
+grep -q "$body \[0, 2\]" "$scratch/log" && [ "$(wc -l <"$scratch/log")" -eq 1 ] || fail "not where the body is outside"
+square=(--set "fluid.mesh={file: $root/tests/solid/square.msh}" --set 'fluid.boundaries={boundary: no_slip, clamp: no_slip}')
+! check "$case" "${square[@]}" || fail "a body outside of a mesh is accepted"
+grep -q "${body/2/1} \[0, 1\]" "$scratch/log" && [ "$(wc -l <"$scratch/log")" -eq 1 ] || fail "not where the body is outside of a mesh"
+check "$case" "${square[@]}" --set 'solid.bodies[0].centre=[0.5, 0.5]' || fail "a body in a mesh has faults"
+! check "$case" --set 'solid.probes=[{name: a, point: [1.0, 1.1]}, {name: b, point: [1.2, 1.1]}]' || fail "a probe outside of all bodies is accepted"
+grep -q "solid.probes\[1\].point.: no body is at (1.2, 1.1) at rest" "$scratch/log" && [ "$(wc -l <"$scratch/log")" -eq 1 ] ||
+  fail "not where the probe is"
+
 ! check "$scratch/nowhere.yaml" || fail "a case that is not there is accepted"
 [ "$(wc -l <"$scratch/log")" -eq 1 ] && grep -q "nowhere.yaml.: No such file" "$scratch/log" || fail "not one line"
 
