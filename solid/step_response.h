@@ -5,7 +5,7 @@
  *
  *     P^-1 = sum over ranks  W R (M/n + c0 K0)^-1 R^T W,    W = 1/n,
  *
- * R the mean rotation of the elements around each node, n the number of ranks that have it.  Turned that way K0 is the
+ * R the mean rotation of the elements around each node (1 where a component is held), n the number of ranks that have it.  Turned that way K0 is the
  * tangent of a body that has turned and bent without much strain, so that the factor serves all steps whose c is within
  * 5 % of c0 = 1.1^k; only other lengths of step need a new one.  While joints are active, their stiffness changes by
  * orders of magnitude: then the factor is that of the present K, and R = 1.  P follows from the state alone: a step that
