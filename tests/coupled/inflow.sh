@@ -1,16 +1,19 @@
 #!/usr/bin/env bash
-# Water flows into air: at once, and beside an inflow of air. The phases fill the domain, no more and no less, from the
+# Water flows into air: at once, rising on a mesh that is adapted, and beside an inflow of air. The phases fill the domain, no more and no less, from the
 # first step on.  Usage: inflow.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
 case=$here/inflow.yaml
+adapt=(--set 'fluid.adapt={size_min: 0.02, size_max: 0.06, velocity_error: 0.1, every: 3}')
 must once 1:1:1
 must once2 2:1:1
+must rising 1:1:1 "${adapt[@]}" --set fluid.boundaries.left.rise=0.2
+must swinging 2:1:1 "${adapt[@]}" --set fluid.boundaries.left.period=0.2
 must beside 1:1:1 --set 'fluid.boundaries.bottom={velocity: [0.1, 0.4], phase: air}'
-must beside2 2:1:1 --set 'fluid.boundaries.bottom={velocity: [0.1, 0.4], phase: air}'
+must beside2 2:1:1 "${adapt[@]}" --set 'fluid.boundaries.bottom={velocity: [0.1, 0.4], phase: air}'
 "$python" - "$scratch" <<'E2'
 import csv, sys
-for label in ("once", "once2", "beside", "beside2"):
+for label in ("once", "once2", "rising", "swinging", "beside", "beside2"):
     rows = [{k: float(v) for k, v in r.items()} for r in csv.DictReader(open("%s/%s/fluid.csv" % (sys.argv[1], label)))]
     assert rows[-1]["water [m2]"] > 5e-3, "%s: %g m2 of water came in" % (label, rows[-1]["water [m2]"])
     for row in rows:
