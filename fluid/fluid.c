@@ -271,10 +271,10 @@ PetscErrorCode FluidStep(Fluid f, double dt)
   PetscFunctionReturn(0);
 }
 
-/* velocity less the part whose bulk velocity is not free of divergence */
-static PetscErrorCode SubtractDivergence(Fluid f, Vec velocity, Vec also)
+/* velocity, that of time t, less the part whose bulk velocity is not free of divergence */
+static PetscErrorCode SubtractDivergence(Fluid f, double t, Vec velocity, Vec also)
 {
-  ProjectionStep step = FluidProjectionStep(f, f->t, 1.0, PETSC_FALSE); /* any dt: it cancels */
+  ProjectionStep step = FluidProjectionStep(f, t, 1.0, PETSC_FALSE); /* any dt: it cancels */
   Vec phi;
   PetscFunctionBeginUser;
   step.pressure = NULL;
@@ -289,13 +289,13 @@ PetscErrorCode FluidMakeSolenoidal(Fluid f)
 {
   const double start = MPI_Wtime();
   PetscFunctionBeginUser;
-  if (f->phases) { /* which the extrapolated velocity moves: it must be free of divergence, too */
+  if (f->phases) { /* which the extrapolated velocity moves: it must be free of divergence, too, and have the boundaries' values */
     PetscCall(FluidBulkVelocity(f, f->u, f->bulk));
     PetscCall(FluidBulkVelocity(f, f->u_previous, f->bulk_previous));
-    PetscCall(SubtractDivergence(f, f->u, f->bulk));
-    PetscCall(SubtractDivergence(f, f->u_previous, f->bulk_previous));
+    PetscCall(SubtractDivergence(f, f->t, f->u, f->bulk));
+    PetscCall(SubtractDivergence(f, f->t - f->dt_previous, f->u_previous, f->bulk_previous));
   } else {
-    PetscCall(SubtractDivergence(f, f->u, f->u_previous)); /* their difference extrapolates */
+    PetscCall(SubtractDivergence(f, f->t, f->u, f->u_previous)); /* their difference extrapolates */
   }
   PetscCall(FluidBudgetChanged(f));
   f->stats.seconds[PRESSURE] += MPI_Wtime() - start;

@@ -64,8 +64,9 @@ PetscErrorCode FluidTransfer(Fluid from, Fluid to);
 /* Before that, as soon as the phases of `from` are those of the step's end: the phases alone, and with them density and
  * viscosity, which the coupler asks for before the step is over; FluidTransfer does it where it was left out. */
 PetscErrorCode FluidTransferPhases(Fluid from, Fluid to);
-/* After FluidTransfer, with the coupling of the coming step set: subtracts the part of the bulk velocity that is not
- * free of divergence, which else would appear as a jump of the pressure. */
+/* After FluidTransfer, or FluidSetInitial with a velocity that does not fit together with the boundaries' (at rest among moving
+ * phases, too: they would be swept by it), with the coupling of the coming step set: subtracts the part of the bulk velocity that
+ * is not free of divergence, which else would appear as a jump of the pressure. */
 PetscErrorCode FluidMakeSolenoidal(Fluid fluid);
 
 /* The state between two steps in a checkpoint, and out of it on a mesh of MeshLoad, with its rows (a material

@@ -90,21 +90,75 @@ const double (*MomentumSolverDivergence(MomentumSolver s, double advected[2]))[3
   return (const double(*)[3])s->divergence;
 }
 
-/* The largest ratio, over all ranks, of the inertia of what fills an element to the fluid's; 1 among phases, where solids are compared
- * with the water's. */
-static PetscErrorCode LargestInertia(const MomentumSolver s, const MomentumStep *step, double *ratio)
+/* The density, kg/m3, that the implicit inertia of an entry would have in its element. */
+static double SolidDensity(const MomentumSolver s, const MomentumStep *step, const CoracleCoupling *entry)
+{
+  double inertia = 0.0;
+  for (int i = 0; i < 9; i++) inertia += entry->implicit_inertia[i / 3][i % 3];
+  return inertia * step->dt / s->domain->geometry[entry->element].area;
+}
+
+/* Whether it is more than that of the fluid in and around the element: what the neighbours do to such an element is little. */
+static PetscBool IsHeavy(const MomentumSolver s, const MomentumStep *step, const CoracleCoupling *entry)
+{
+  const int *neighbor = s->domain->mesh->neighbor + 3 * entry->element;
+  double most = step->rho[entry->element];
+  for (int i = 0; i < 3; i++)
+    if (neighbor[i] >= 0) most = PetscMax(most, step->rho[neighbor[i]]);
+  return (PetscBool)(SolidDensity(s, step, entry) > most);
+}
+
+/* The largest ratio, over all ranks, of the inertia of what fills an element to the fluid's, 1 among phases, where solids are compared
+ * with the water's; *heavy: some elements are. */
+static PetscErrorCode LargestInertia(const MomentumSolver s, const MomentumStep *step, double *ratio,
+                                     PetscBool *heavy)
 {
   int n;
   const CoracleCoupling *entry = SolidCouplingEntries(step->solid, &n);
+  double most[2] = {1.0, 0.0};
   PetscFunctionBeginUser;
-  *ratio = 1.0;
-  for (int k = 0; k < n && !step->inverse_density; k++) {
-    const int e = entry[k].element;
-    double inertia = 0.0;
-    for (int i = 0; i < 9; i++) inertia += entry[k].implicit_inertia[i / 3][i % 3];
-    *ratio = PetscMax(*ratio, 1.0 + inertia * step->dt / (step->rho[e] * s->domain->geometry[e].area));
+  for (int k = 0; k < n; k++) {
+    if (IsHeavy(s, step, entry + k)) most[1] = 1.0;
+    if (step->inverse_density) continue;
+    most[0] = PetscMax(most[0], 1.0 + SolidDensity(s, step, entry + k) / step->rho[entry[k].element]);
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, ratio, 1, MPI_DOUBLE, MPI_MAX, s->domain->mesh->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, s->domain->mesh->comm));
+  *ratio = most[0];
+  *heavy = (PetscBool)(most[1] > 0.0);
+  PetscFunctionReturn(0);
+}
+
+/* load -= A product */
+static PetscErrorCode UpdateLoad(MomentumSolver s)
+{
+  PetscFunctionBeginUser;
+  PetscCall(MomentumOperatorApply(&s->op, s->product, s->sum));
+  PetscCall(VecAXPY(s->load, -1.0, s->sum));
+  PetscFunctionReturn(0);
+}
+
+/* Heavy elements take what the iteration has left of their load.  Its norm is that of a velocity, in which the load of an element of a
+ * thousand times the water's density is a thousandth; but it is a force on the solid, and all of the rest that the budget of momentum
+ * has.  Each is solved alone, in double precision. */
+static PetscErrorCode SolveHeavy(MomentumSolver s, const MomentumStep *step, Vec u_star)
+{
+  int n;
+  const CoracleCoupling *entry = SolidCouplingEntries(step->solid, &n);
+  const PetscScalar *load;
+  PetscScalar *u;
+  PetscFunctionBeginUser;
+  PetscCall(UpdateLoad(s));
+  PetscCall(VecGetArrayRead(s->load, &load));
+  PetscCall(VecGetArray(u_star, &u));
+  for (int k = 0; k < n; k++) {
+    const int e = entry[k].element;
+    double change[6];
+    if (!IsHeavy(s, step, entry + k)) continue;
+    PreconditionerSolveElement(s->preconditioner, e, load + 6 * e, change);
+    for (int i = 0; i < 6; i++) u[6 * e + i] += change[i];
+  }
+  PetscCall(VecRestoreArray(u_star, &u));
+  PetscCall(VecRestoreArrayRead(s->load, &load));
   PetscFunctionReturn(0);
 }
 
@@ -127,25 +181,24 @@ static PetscErrorCode SolveOnce(MomentumSolver s, double t, double tolerance, Ve
   PetscFunctionReturn(0);
 }
 
-/* Until the load, which is load - A (u_star + w u^n) first, is small enough: once, but for a tolerance that is much smaller than usual. */
+/* Until the load, which is load - A (u_star + w u^n) first, is small enough: once, but for a tolerance that is much smaller than usual;
+ * then of heavy elements. */
 static PetscErrorCode SolveCorrection(MomentumSolver s, const MomentumStep *step, Vec u_star, int *iterations)
 {
-  PetscBool more = PETSC_TRUE;
+  PetscBool more = PETSC_TRUE, heavy;
   double ratio;
   PetscFunctionBeginUser;
-  PetscCall(LargestInertia(s, step, &ratio));
+  PetscCall(LargestInertia(s, step, &ratio, &heavy));
   const double tolerance =
       PetscMin(s->tolerance, PetscMax(VELOCITY_TOLERANCE * HEAVY / ratio, ROUND_OFF * ratio));
   *iterations = 0;
   for (int k = 0; k < REFINEMENTS_MAX && more; k++) {
     int n;
-    if (k > 0) {
-      PetscCall(MomentumOperatorApply(&s->op, s->product, s->sum));
-      PetscCall(VecAXPY(s->load, -1.0, s->sum));
-    }
+    if (k > 0) PetscCall(UpdateLoad(s));
     PetscCall(SolveOnce(s, step->t, tolerance, u_star, &n, &more));
     *iterations += n;
   }
+  if (heavy) PetscCall(SolveHeavy(s, step, u_star));
   PetscFunctionReturn(0);
 }
 

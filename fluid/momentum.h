@@ -4,7 +4,8 @@
  *
  * L is upwind advection by a mass flux, the viscous stress (kernels.h) and rho k u, k and U of absorption.h; a and s are the solid's coupling.
  * Assembled in one pass over the elements, solved by GMRES (prefix momentum_)
- * until the preconditioned residual is 1e-5 of the velocity (-momentum_ksp_rtol), less beside solids more than 20 times as heavy. */
+ * until the preconditioned residual is 1e-5 of the velocity (-momentum_ksp_rtol), less beside solids more than 20 times as heavy; elements
+ * in which a solid is heavier than all fluid around are solved once more, each alone, for the force on it. */
 #ifndef FLUID_MOMENTUM_H
 #define FLUID_MOMENTUM_H
 #include "fluid/absorption.h"

@@ -107,6 +107,22 @@ static PetscErrorCode SumVolumes(PhaseTransport t, double volume[])
   PetscFunctionReturn(0);
 }
 
+/* Of all ranks, m2. */
+static PetscErrorCode SumGap(PhaseTransport t, double *gap)
+{
+  int n;
+  const double *v = PhaseTransportVolumes(t, &n);
+  PetscFunctionBeginUser;
+  *gap = 0.0;
+  for (int e = 0; e < t->stars->ne; e++) {
+    double more = -t->domain->geometry[e].area;
+    for (int p = 0; p < n; p++) more += v[n * e + p];
+    *gap += fabs(more);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, gap, 1, MPI_DOUBLE, MPI_SUM, t->domain->mesh->comm));
+  PetscFunctionReturn(0);
+}
+
 /* --- state ---------------------------------------------------------------------------------------------- */
 
 /* How elements respond at the end of the step. */
@@ -317,6 +333,7 @@ PetscErrorCode PhaseTransportBudget(PhaseTransport t, PhaseBudget *budget)
   PetscFunctionBeginUser;
   *budget = t->budget;
   PetscCall(SumVolumes(t, budget->volume));
+  PetscCall(SumGap(t, &budget->gap));
   PetscFunctionReturn(0);
 }
 

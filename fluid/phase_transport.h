@@ -74,6 +74,8 @@ Phases PhaseTransportPhases(PhaseTransport t);
 typedef struct {
   double initial[PHASES_MAX], out[PHASES_MAX]; /* at the start; what has left through the boundary, net */
   double volume[PHASES_MAX];                   /* what there is */
+  double
+      gap; /* sum over the elements of |sum of the volumes - area|, m2: what fluxes with a divergence have made */
 } PhaseBudget;
 PetscErrorCode PhaseTransportBudget(PhaseTransport t, PhaseBudget *budget);
 /* For a step that is redone. */

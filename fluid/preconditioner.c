@@ -141,19 +141,17 @@ static void SetBlocks(Preconditioner p)
   }
 }
 
-/* b -> a^-1 b, both 6 x 6 and column-major; a's symmetric part is positive definite, so that no pivot is 0. */
-static void Eliminate(double a[36], double b[36])
+/* b -> a^-1 b of n columns of 6, a 6 x 6, column-major; a's symmetric part is positive definite, so that no pivot is 0. */
+static void Eliminate(double a[36], int n, double b[])
 {
   for (int k = 0; k < 6; k++) {
     const double scale = 1.0 / a[7 * k];
-    for (int j = 0; j < 6; j++) {
-      a[6 * j + k] *= j > k ? scale : 1.0;
-      b[6 * j + k] *= scale;
-    }
+    for (int j = k + 1; j < 6; j++) a[6 * j + k] *= scale;
+    for (int j = 0; j < n; j++) b[6 * j + k] *= scale;
     for (int i = 0; i < 6; i++) {
       const double factor = i == k ? 0.0 : a[6 * k + i];
       for (int j = k + 1; j < 6; j++) a[6 * j + i] -= factor * a[6 * j + k];
-      for (int j = 0; j < 6; j++) b[6 * j + i] -= factor * b[6 * j + k];
+      for (int j = 0; j < n; j++) b[6 * j + i] -= factor * b[6 * j + k];
     }
   }
 }
@@ -172,7 +170,7 @@ static void FindResponse(Preconditioner p, int k)
       a[at] += scalar[i];
       response[at] = scalar[i];
     }
-  Eliminate(a, response);
+  Eliminate(a, 6, response);
   for (int i = 0; i < 36; i++) p->response[k][i] = (float)response[i];
 }
 
@@ -187,6 +185,16 @@ static PetscErrorCode FindResponses(Preconditioner p)
   for (int e = 0; e < p->op->domain->mesh->ne; e++) p->dense[e] = -1;
   for (int k = 0; k < p->op->ndense; k++) FindResponse(p, k);
   PetscFunctionReturn(0);
+}
+
+void PreconditionerSolveElement(Preconditioner p, int e, const double r[6], double z[6])
+{
+  double a[36] = {0.0};
+  if (p->dense[e] >= 0) memcpy(a, p->op->dense[p->dense[e]], sizeof a);
+  for (int c = 0; c < 2; c++)
+    for (int i = 0; i < 9; i++) a[6 * (3 * c + i / 3) + 3 * c + i % 3] += p->op->block[e][0][i];
+  memcpy(z, r, 6 * sizeof *z);
+  Eliminate(a, 1, z);
 }
 
 PetscErrorCode PreconditionerUpdate(Preconditioner p)

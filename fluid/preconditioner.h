@@ -33,5 +33,7 @@ typedef struct Preconditioner_s *Preconditioner;
 PetscErrorCode PreconditionerCreate(MomentumOperator *op, KSP ksp, Preconditioner *p);
 /* For the operator as it has been assembled. */
 PetscErrorCode PreconditionerUpdate(Preconditioner p);
+/* z = (S_ee + D_e)^-1 r, [2][3], of the last PreconditionerUpdate, in double precision.  Not collective. */
+void PreconditionerSolveElement(Preconditioner p, int e, const double r[6], double z[6]);
 PetscErrorCode PreconditionerDestroy(Preconditioner *p);
 #endif

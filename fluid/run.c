@@ -53,6 +53,17 @@ static PetscErrorCode FirstMesh(FluidRun *m, AdaptationStart *start)
   PetscFunctionReturn(0);
 }
 
+/* Whether the run starts with a velocity that is not free of divergence: a given one; or one of phases at rest where boundaries
+ * already move, with which the first step would make volume. */
+static PetscErrorCode StartsWithDivergence(FluidRun *m, const FluidSetup *setup, PetscBool *starts)
+{
+  double net, gross;
+  PetscFunctionBeginUser;
+  PetscCall(BoundaryPrescribedFlux(m->mesh, setup->boundary, 0.0, &net, &gross));
+  *starts = (PetscBool)(CoracleCaseHas(m->program->c, "fluid.initial") || (setup->phases.n && gross > 0.0));
+  PetscFunctionReturn(0);
+}
+
 /* Mesh, fluid and adaptation as the case says; row: of a checkpoint's mesh (FluidLoad). */
 static PetscErrorCode Create(FluidRun *m, const char *resume, Checkpoint from, PetscInt **row)
 {
@@ -76,6 +87,7 @@ static PetscErrorCode Create(FluidRun *m, const char *resume, Checkpoint from, P
   PetscCall(ProbesNewMesh(m->probes, m->mesh));
   PetscCall(FluidCreate(m->mesh, &setup, &m->fluid));
   if (setup.phases.n && !from) PetscCall(FluidSetPhases(m->fluid, nregions, region));
+  if (!from) PetscCall(StartsWithDivergence(m, &setup, &m->not_solenoidal));
   PetscCall(FluidCaseFreeRegions(nregions, &region));
   PetscCall(PetscFree(setup.boundary));
   PetscFunctionReturn(0);
@@ -93,7 +105,6 @@ PetscErrorCode FluidRunCreate(const Program *program, FluidRun *m)
     PetscCall(Load(m, m->from, row));
   else
     PetscCall(FluidSetInitial(m->fluid, 0.0, NULL, NULL, NULL));
-  if (!m->from && CoracleCaseHas(program->c, "fluid.initial")) m->not_solenoidal = PETSC_TRUE;
   PetscCall(PetscFree(row));
   PetscCall(ExchangeCreate(m->program->client, m->fluid, &m->exchange));
   PetscFunctionReturn(0);

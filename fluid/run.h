@@ -17,7 +17,7 @@ typedef struct {
   Probes probes;            /* NULL: the case has none */
   Adaptation adaptation;    /* NULL: the mesh stays */
   PetscBool first;          /* the run's first step is not accepted yet */
-  PetscBool not_solenoidal; /* the velocity: it is given, or the mesh is new since the last step */
+  PetscBool not_solenoidal; /* the velocity: as the run starts, or the mesh is new since the last step */
   Checkpoint from;          /* that the run resumes from, until the output is open; else NULL */
 } FluidRun;
 

@@ -93,9 +93,9 @@ static PetscErrorCode Snapshot(Writer r, Fluid f)
   PetscFunctionReturn(0);
 }
 
-enum { NCOLUMNS = 17, ROW_MAX = NCOLUMNS + 1 + 3 * PHASES_MAX };
+enum { NCOLUMNS = 17, ROW_MAX = NCOLUMNS + 2 + 3 * PHASES_MAX };
 
-/* columns[size]: COLUMNS, and with phases their potential energy and three of each. */
+/* columns[size]: COLUMNS, and with phases their potential energy, three of each, and the gap. */
 static PetscErrorCode SetColumns(Fluid f, size_t size, char columns[])
 {
   const PhaseProperties *phases = FluidPhases(f) ? PhaseTransportProperties(FluidPhases(f)) : NULL;
@@ -110,10 +110,12 @@ static PetscErrorCode SetColumns(Fluid f, size_t size, char columns[])
                             name, unit));
     PetscCall(PetscStrlcat(columns, more, size));
   }
+  if (phases) PetscCall(PetscStrlcat(columns, ",volume gap [m2]", size));
   PetscFunctionReturn(0);
 }
 
-/* row[1 + 3 n]: potential energy; how much there is of each phase, how much has left, and what is more than there should be. */
+/* row[2 + 3 n]: potential energy; how much there is of each phase, how much has left, and what is more than there should be; by how
+ * much all of them together miss the elements' areas. */
 static PetscErrorCode AddPhases(Fluid f, double row[])
 {
   PhaseBudget b;
@@ -126,6 +128,7 @@ static PetscErrorCode AddPhases(Fluid f, double row[])
     row[3 * p + 1] = b.out[p];
     row[3 * p + 2] = b.volume[p] + b.out[p] - b.initial[p];
   }
+  row[3 * PhaseTransportProperties(FluidPhases(f))->n] = b.gap;
   PetscFunctionReturn(0);
 }
 

@@ -1,7 +1,6 @@
 /* Unsplit, flux-matched advection of the volumes: what leaves an element through a face is what lies in the region that the face
  * sweeps (swept.h).  Faces among elements of one phase, two rings deep, carry this phase and need no polygon. */
-#include "fluid/phases/phases_impl.h"
-#include "fluid/phases/swept.h"
+#include "fluid/phases/outside.h"
 #include "fluid/phases/trace.h"
 
 #define OUTSIDE 1e-12 /* of the square of an edge: what round-off may leave uncovered of a swept area */
@@ -10,42 +9,12 @@ typedef struct {
   Phases f;
   const Stars *s;
   TraceFlow flow;
-  const PhasesInflow *inflow;
+  Outside outside;
   int *calm;          /* [nowned] phase of all elements two rings around, or -1 */
   double (*shift)[2]; /* [nowned] */
   SweptSearch search;
   double lost; /* largest swept area that is nowhere, over the square of its edge */
 } Step;
-
-/* The tag of an open boundary face at vertex v, -1 if there is none. */
-static int OpenTag(const Step *t, int v)
-{
-  const Stars *s = t->s;
-  for (int k = s->start[v]; k < s->start[v + 1]; k++) {
-    const int e = s->around[k] / 3, c = s->around[k] % 3;
-    for (int i = 1; i < 3; i++) {
-      const int face = (c + i) % 3, tag = s->element[e].tag[face];
-      if (tag >= 0 && t->flow.flux[e][face] != 0.0) return tag;
-    }
-  }
-  return -1;
-}
-
-/* That of the boundary from which what is swept by a face with vertices a and b may come in: `tag`, the face's own, if it has one. */
-static int InflowTag(const Step *t, int tag, int a, int b)
-{
-  if (tag < 0 && t->inflow) tag = OpenTag(t, a);
-  return tag < 0 && t->inflow ? OpenTag(t, b) : tag;
-}
-
-/* The fraction of phase p in what comes in at x through the boundary. */
-static double Inflow(const Step *t, int tag, const double x[2], int p)
-{
-  const PhasesLevels *levels = t->inflow->levels ? &t->inflow->levels[tag] : NULL;
-  for (int k = 0; levels && k < levels->n; k++)
-    if (levels->normal[0] * x[0] + levels->normal[1] * x[1] < levels->d[k]) return p == levels->phase[k];
-  return t->inflow->fraction[tag][p];
-}
 
 /* The phase that all elements around v have to themselves, and that may flow in there, or -1. */
 static int PureAt(const Step *t, int v, char on_boundary)
@@ -55,9 +24,7 @@ static int PureAt(const Step *t, int v, char on_boundary)
   for (int k = s->start[v]; k < s->start[v + 1]; k++) {
     if (t->f->single[s->around[k] / 3] != p) return -1;
   }
-  if (p < 0 || !on_boundary || !t->inflow) return p;
-  const int tag = OpenTag(t, v);
-  return tag >= 0 && Inflow(t, tag, s->point[v], p) != 1.0 ? -1 : p;
+  return p < 0 || !on_boundary || OutsideIsOnly(&t->outside, v, p) ? p : -1;
 }
 
 static PetscErrorCode FindCalm(Step *t)
@@ -99,36 +66,8 @@ static void Add(Content *c, int p, double area, double density)
   c->mass[p] += area * density;
 }
 
-/* The layers outside of boundary `tag` (-1: none), seen from `origin`. */
-static SweptLevels LevelsFrom(const Step *t, int tag, const double origin[2])
-{
-  SweptLevels seen = {.n = 0};
-  if (tag < 0 || !t->inflow || !t->inflow->levels) return seen;
-  const PhasesLevels *levels = &t->inflow->levels[tag];
-  const double *n = levels->normal;
-  seen.n = levels->n;
-  for (int k = 0; k < seen.n; k++)
-    seen.plane[k] = (HalfPlane){{n[0], n[1]}, levels->d[k] - n[0] * origin[0] - n[1] * origin[1]};
-  return seen;
-}
-
-/* What comes in through the open boundary `tag`: of each layer what lies in it, of the rest the boundary's fractions. */
-static void AddInflow(const Step *t, int tag, double rest, const SweptLevels *levels, Content *c)
-{
-  const Phases f = t->f;
-  double below = 0.0;
-  for (int k = 0; k < levels->n; k++) {
-    const int p = t->inflow->levels[tag].phase[k];
-    Add(c, p, levels->uncovered[k] - below, f->mass ? f->state[p].density : 0.0);
-    below = levels->uncovered[k];
-  }
-  for (int p = 0; p < f->np; p++)
-    Add(c, p, (rest - below) * t->inflow->fraction[tag][p], f->mass ? f->state[p].density : 0.0);
-}
-
 /* What the elements leave of the swept area, `rest`, comes from outside of open boundaries, or is round-off of element e. */
-static void Balance(Step *t, int e, int tag, double uncovered, double swept, const SweptLevels *levels,
-                    Content *c)
+static void Balance(Step *t, int e, double uncovered, double swept, const SweptOutside *parts, Content *c)
 {
   const Phases f = t->f;
   double rest = swept;
@@ -138,8 +77,11 @@ static void Balance(Step *t, int e, int tag, double uncovered, double swept, con
     if (fabs(c->area[p]) > fabs(c->area[largest])) largest = p;
   }
   if (uncovered > OUTSIDE) {
-    if (tag >= 0 && t->inflow) {
-      AddInflow(t, tag, rest, levels, c);
+    if (parts->n) {
+      double inside[PHASES_MAX];
+      memcpy(inside, c->area, sizeof inside);
+      OutsideShare(&t->outside, f->np, rest, parts, c->area);
+      for (int p = 0; p < f->np && f->mass; p++) c->mass[p] += (c->area[p] - inside[p]) * f->state[p].density;
       return;
     }
     t->lost = fmax(t->lost, uncovered);
@@ -164,9 +106,8 @@ static void SweepFace(Step *t, int e, int i, Content *c)
   const Stars *s = t->s;
   int a = s->vertex[e][(i + 1) % 3], b = s->vertex[e][(i + 2) % 3];
   const double sign = s->gid[a] < s->gid[b] ? 1.0 : -1.0, swept = sign * t->flow.flux[e][i] * t->flow.dt;
-  const int tag = s->element[e].tag[i];
   *c = (Content){{0.0}, {0.0}};
-  if (tag >= 0 && t->flow.flux[e][i] == 0.0) return;
+  if (s->element[e].tag[i] >= 0 && t->flow.flux[e][i] == 0.0) return;
   if (t->calm[a] >= 0 && t->calm[a] == t->calm[b]) {
     SweepCalm(t, e, i, t->calm[a], sign * swept, c);
     return;
@@ -179,14 +120,14 @@ static void SweepFace(Step *t, int e, int i, Content *c)
   const int owner = sign > 0.0 || s->neighbor[e][i] < 0 ? e : s->neighbor[e][i];
   Swept region;
   SweptMake(s, a, b, (const double(*)[2])t->shift, swept, &region);
-  const int from = InflowTag(t, tag, a, b);
-  SweptLevels levels = LevelsFrom(t, from, region.origin);
-  double uncovered = SweptCollect(&t->search, a, b, 0, &region, &levels, c->area, c->mass);
+  SweptOutside parts;
+  OutsideDivide(&t->outside, a, b, region.origin, &parts);
+  double uncovered = SweptCollect(&t->search, a, b, 0, &region, &parts, c->area, c->mass);
   if (uncovered > OUTSIDE) {
     *c = (Content){{0.0}, {0.0}};
-    uncovered = SweptCollect(&t->search, a, b, 1, &region, &levels, c->area, c->mass);
+    uncovered = SweptCollect(&t->search, a, b, 1, &region, &parts, c->area, c->mass);
   }
-  Balance(t, owner, from, uncovered, swept, &levels, c);
+  Balance(t, owner, uncovered, swept, &parts, c);
   for (int p = 0; p < t->f->np; p++) {
     c->area[p] *= sign;
     c->mass[p] *= sign;
@@ -254,6 +195,8 @@ static PetscErrorCode StepBegin(Phases f, double dt, const double flux[], const 
   PetscCall(StarsExchange(s, sizeof *all_velocity, all_velocity));
   t->flow = (TraceFlow){s, dt, (const double(*)[3])all_flux, (const double(*)[3][2])all_velocity};
   PetscCall(PetscMalloc2(s->nowned, &t->calm, s->nowned, &t->shift));
+  t->outside.flux = t->flow.flux;
+  t->outside.shift = (const double(*)[2])t->shift;
   PetscCall(SweptSearchCreate(f, &t->search));
   PetscCall(FindCalm(t));
   for (int v = 0; v < s->nowned; v++) {
@@ -275,7 +218,7 @@ static PetscErrorCode StepEnd(Step *t)
 PetscErrorCode GeometricAdvect(Phases f, double dt, const double flux[], const double velocity[],
                                const PhasesInflow *inflow, double swept[], double mass[])
 {
-  Step t = {.f = f, .s = f->stars, .inflow = inflow};
+  Step t = {.f = f, .s = f->stars, .outside = {.stars = f->stars, .inflow = inflow}};
   double lost;
   PetscFunctionBeginUser;
   PetscCall(StepBegin(f, dt, flux, velocity, &t));

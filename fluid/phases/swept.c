@@ -84,23 +84,35 @@ static int Apart(const Swept *r, const double x[3][2])
   return 0;
 }
 
-/* levels->uncovered += sign times the area of p in each half plane. */
-static void AddBelow(const Polygon *p, double sign, SweptLevels *levels)
+/* uncovered += sign times the area of p in each part of the outside. */
+static void AddOutside(const Polygon *p, double sign, SweptOutside *outside)
 {
-  for (int k = 0; k < levels->n; k++) {
-    Polygon below;
-    PolygonClip(p, &levels->plane[k], &below);
-    if (below.n) levels->uncovered[k] += sign * PolygonArea(&below);
+  for (int i = 0; i < outside->n; i++) {
+    SweptPart *part = &outside->part[i];
+    Polygon in[2], below;
+    const Polygon *all = p;
+    if (outside->n == 1 && !part->nlevels) return;
+    for (int k = 0; k < part->ncuts; k++) {
+      PolygonClip(all, &part->cut[k], &in[k]);
+      all = &in[k];
+    }
+    for (int k = 0; k < part->nlevels; k++) {
+      PolygonClip(all, &part->level[k], &below);
+      if (below.n) part->uncovered[k] += sign * PolygonArea(&below);
+    }
+    if (outside->n > 1 && all->n) part->uncovered[part->nlevels] += sign * PolygonArea(all);
   }
 }
 
 /* area[np] of the listed elements' phases in the region; returns what they do not cover of it, over the
  * square of the edge. */
-static double Collect(const SweptSearch *t, const Swept *r, SweptLevels *levels, double area[], double mass[])
+static double Collect(const SweptSearch *t, const Swept *r, SweptOutside *outside, double area[],
+                      double mass[])
 {
   Polygon triangle[3], moved, part;
   double sign[3], all = 0.0, covered = 0.0;
-  for (int k = 0; k < levels->n; k++) levels->uncovered[k] = 0.0;
+  for (int i = 0; i < outside->n; i++)
+    memset(outside->part[i].uncovered, 0, sizeof outside->part[i].uncovered);
   for (int k = 0; k < 3; k++) {
     Polygon *q = &triangle[k];
     q->n = 3;
@@ -117,7 +129,7 @@ static double Collect(const SweptSearch *t, const Swept *r, SweptLevels *levels,
       q->x[1][c] = q->x[2][c];
       q->x[2][c] = swap;
     }
-    AddBelow(q, sign[k], levels);
+    AddOutside(q, sign[k], outside);
   }
   for (int j = 0; j < t->n; j++) {
     const int e = t->list[j];
@@ -128,7 +140,7 @@ static double Collect(const SweptSearch *t, const Swept *r, SweptLevels *levels,
       PolygonClipTriangle(&triangle[k], (const double(*)[2])moved.x, &part);
       if (!part.n) continue;
       covered += PolygonArea(&part);
-      AddBelow(&part, -sign[k], levels);
+      AddOutside(&part, -sign[k], outside);
       if (!t->f->mass) {
         PhasesSplit(t->f, e, &part, r->origin, sign[k], area);
         continue;
@@ -145,9 +157,9 @@ static double Collect(const SweptSearch *t, const Swept *r, SweptLevels *levels,
   return (all - covered) / (edge[0] * edge[0] + edge[1] * edge[1]);
 }
 
-double SweptCollect(SweptSearch *t, int a, int b, int wide, const Swept *r, SweptLevels *levels,
+double SweptCollect(SweptSearch *t, int a, int b, int wide, const Swept *r, SweptOutside *outside,
                     double area[], double mass[])
 {
   ListFace(t, a, b, wide);
-  return Collect(t, r, levels, area, mass);
+  return Collect(t, r, outside, area, mass);
 }

@@ -17,12 +17,18 @@ typedef struct {
   double low[2], high[2];
 } Swept;
 
-/* Half planes n.x <= d, x from the region's origin, and the area in each of them that no element covers, m2. */
+/* What is outside of one boundary: half planes n.x <= d, x from the region's origin, in all of which it is, and layers in it: the
+ * area in each layer and those before it that no element covers, and at last that of all, m2 (0 where there is one part alone). */
+typedef struct {
+  int tag, ncuts, nlevels;
+  HalfPlane cut[2], level[PHASES_MAX];
+  double uncovered[PHASES_MAX + 1];
+} SweptPart;
+
 typedef struct {
   int n;
-  HalfPlane plane[PHASES_MAX];
-  double uncovered[PHASES_MAX];
-} SweptLevels;
+  SweptPart part[4]; /* of two boundaries at each end of a face */
+} SweptOutside;
 
 typedef struct {
   Phases f;         /* borrowed */
@@ -35,8 +41,8 @@ PetscErrorCode SweptSearchDestroy(SweptSearch *search);
 /* The region of area `swept` > 0, m2, to the left of a -> b; shift[vertex]: from where it is to where it was, m. */
 void SweptMake(const Stars *stars, int a, int b, const double shift[][2], double swept, Swept *region);
 /* area[np] += that of each phase in the region, m2, and mass[np] += its mass, kg, if phases have masses, among the elements
- * around a and b, with `wide` also those around their neighbours; levels->uncovered is written.  Returns what these elements do
- * not cover of the region, over the square of the edge. */
-double SweptCollect(SweptSearch *search, int a, int b, int wide, const Swept *region, SweptLevels *levels,
+ * around a and b, with `wide` also those around their neighbours; outside->part[].uncovered is written.  Returns what these elements
+ * do not cover of the region, over the square of the edge. */
+double SweptCollect(SweptSearch *search, int a, int b, int wide, const Swept *region, SweptOutside *outside,
                     double area[], double mass[]);
 #endif
