@@ -112,7 +112,8 @@ static PetscErrorCode Measure(Coupler c, const SolidState *solid, int nfluid, in
 
 int main(int argc, char **argv)
 {
-  const CouplerOptions options = {COUPLER_REACTION, 0.0005, 10.0, {0.0, -9.81}, PETSC_FALSE};
+  const CouplerOptions options = {
+      .mode = COUPLER_REACTION, .thickness = 0.0005, .relaxation = 10.0, .gravity = {0.0, -9.81}};
   FluidElements elements;
   SolidState solid;
   Coupler c;

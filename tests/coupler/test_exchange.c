@@ -166,7 +166,8 @@ static void RunCoupler(int argc, char **argv, const char *folder, double end, do
   WriterTotals totals;
   Server server;
   MPI_Comm comm;
-  c.options = (CouplerOptions){COUPLER_REACTION, 0.002, 10.0, {GRAVITY[0], GRAVITY[1]}, PETSC_FALSE};
+  c.options = (CouplerOptions){
+      .mode = COUPLER_REACTION, .thickness = 0.002, .relaxation = 10.0, .gravity = {GRAVITY[0], GRAVITY[1]}};
   snprintf(c.folder, sizeof c.folder, "%s", folder);
   CHECK(!ServerOpen(argc, argv, &comm, &server), "open");
   PETSC_COMM_WORLD = comm;

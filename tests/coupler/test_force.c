@@ -54,7 +54,8 @@ static void SetSolid(FlowFunction f)
 static void Step(CouplerMode mode, double thickness, double dt, Coupler *c, ForceTotals *totals)
 {
   const double half = mode == COUPLER_REACTION ? 0.5 * dt : 0.0;
-  const CouplerOptions options = {mode, thickness, 10.0, {GRAVITY[0], GRAVITY[1]}, PETSC_FALSE};
+  const CouplerOptions options = {
+      .mode = mode, .thickness = thickness, .relaxation = 10.0, .gravity = {GRAVITY[0], GRAVITY[1]}};
   const CoracleCoupling *coupling;
   const double *force;
   int rank, size, n;

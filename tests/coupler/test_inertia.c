@@ -33,7 +33,8 @@ static void MakeSolid(double density, int rigid)
  * how far that is from free fall, of what free fall has added. */
 static double Step(double kick, ForceTotals *totals, double v[2])
 {
-  const CouplerOptions options = {COUPLER_REACTION, 0.002, 10.0, {0.0, 0.0}, PETSC_FALSE};
+  const CouplerOptions options = {
+      .mode = COUPLER_REACTION, .thickness = 0.002, .relaxation = 10.0, .gravity = {0.0, 0.0}};
   const CoracleCoupling *coupling;
   const double *force;
   double total[3] = {0.0};
@@ -75,7 +76,8 @@ static double Step(double kick, ForceTotals *totals, double v[2])
 static void CheckSurface(double ratio, double kept)
 {
   static const double WIND[2] = {1.0, 2.0};
-  const CouplerOptions options = {COUPLER_REACTION, 0.002, 10.0, {0.0, 0.0}, PETSC_FALSE};
+  const CouplerOptions options = {
+      .mode = COUPLER_REACTION, .thickness = 0.002, .relaxation = 10.0, .gravity = {0.0, 0.0}};
   const CoracleCoupling *coupling;
   Coupler c;
   int n, rank, size, crossed = 0;
