@@ -65,7 +65,8 @@ static double Along(const double gravity[2], const double x[2])
 
 /* --- which facets are close to a wall --------------------------------------------------------------------- */
 
-static PetscBool IsClose(const Uplift u, int f, const double size[])
+/* Whether facet f faces a wall nearer than UPLIFT_REACH of size[nnodes]; NULL: of `largest`. */
+static PetscBool IsClose(const Uplift u, int f, const double size[], double largest)
 {
   const int *node = &u->solid.facet[2 * f];
   const double *n = u->shell->normal[f];
@@ -74,10 +75,26 @@ static PetscBool IsClose(const Uplift u, int f, const double size[])
     const double wall = n[c] > 0.0 ? u->upper[c] : u->lower[c];
     PetscBool within = PETSC_TRUE;
     for (int i = 0; i < 2; i++)
-      if (fabs(wall - u->solid.x[2 * node[i] + c]) > UPLIFT_REACH * size[node[i]]) within = PETSC_FALSE;
+      if (fabs(wall - u->solid.x[2 * node[i] + c]) > UPLIFT_REACH * (size ? size[node[i]] : largest))
+        within = PETSC_FALSE;
     if (within) return PETSC_TRUE;
   }
   return PETSC_FALSE;
+}
+
+/* *may: some facet may be close, as far as the largest element at the solid says: most solids are not, at no cost. */
+static PetscErrorCode MayBeClose(const Uplift u, const Overlap o, PetscBool *may)
+{
+  double largest = 0.0;
+  int close = 0;
+
+  PetscFunctionBeginUser;
+  for (int e = 0; e < o->ncoupled; e++) largest = fmax(largest, sqrt(2.0 * o->area[o->coupled_element[e]]));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, u->comm));
+  for (int f = 0; f < u->solid.nfacets && !close; f++) close = IsClose(u, f, NULL, largest);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &close, 1, MPI_INT, MPI_LOR, u->comm));
+  *may = close ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(0);
 }
 
 /* The ends are nodes of close facets and of others whose shell the fluid covers, where the values of `outside` are; *any: some facet of any
@@ -94,7 +111,7 @@ static PetscErrorCode FindClose(Uplift u, Overlap o, const double size[], const 
   PetscCallMPI(MPI_Comm_rank(u->comm, &rank));
   PetscCall(PetscCalloc1(n, &facets));
   for (int f = 0; f < u->solid.nfacets; f++) {
-    b->is_close[f] = (char)IsClose(u, f, size);
+    b->is_close[f] = (char)IsClose(u, f, size, 0.0);
     close |= b->is_close[f];
     for (int i = 0; i < 2; i++) facets[u->solid.facet[2 * f + i]][!b->is_close[f]] += 1.0;
   }
@@ -230,6 +247,8 @@ PetscErrorCode UpliftAdd(Uplift u, Overlap o, const ElementTerm element[], const
 
   PetscFunctionBeginUser;
   total[0] = total[1] = 0.0;
+  PetscCall(MayBeClose(u, o, &any));
+  if (!any) PetscFunctionReturn(0);
   PetscCall(PetscMalloc3(n, &excess, n, &size, n, &outside));
   PetscCall(PetscMalloc5((size_t)u->solid.nfacets, &b.is_close, n, &b.is_end, n, &b.is_free, n, &b.counts, n,
                          &b.value));
