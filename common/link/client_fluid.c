@@ -159,7 +159,8 @@ int CoracleSetFlow(CoracleClient c, const CoracleFlow *flow)
   if (f->needs_pressure && f->n && !all.p)
     ParticipantFail(
         c->p,
-        "the pressure of %d elements is missing in step %d: the coupling mode or the solid's load uses it "
+        "the pressure of %d elements is missing in step %d: the coupling mode, the solid's load or "
+        "solids on walls (solid.walls) need it "
         "(CoracleNeedsPressure)",
         f->n, c->p->step);
   if (!all.rho_inside) all.rho_inside = all.rho;
