@@ -95,7 +95,8 @@ PetscErrorCode SurfaceHeadSums(Overlap o, const ElementTerm element[], const dou
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SurfacePressureInside(Overlap o, const double p[], int nnodes, double node[], double size[])
+PetscErrorCode SurfacePressureInside(Overlap o, const double p[], int nnodes, double node[], double size[],
+                                     double area[])
 {
   enum { AREA, PRESSURE, SIZE, NSUMS };
   double(*source)[3][NSUMS], (*sum)[NSUMS];
@@ -120,9 +121,9 @@ PetscErrorCode SurfacePressureInside(Overlap o, const double p[], int nnodes, do
   PetscCall(OverlapSourcesToNodes(o, NSUMS, (const double *)source, nnodes, (double *)sum));
   PetscCall(CopiesSum(o->nodes, NSUMS, (double *)sum));
   for (int i = 0; i < nnodes; i++) {
-    const double area = sum[i][AREA];
-    node[i] = area > 0.0 ? sum[i][PRESSURE] / area : 0.0;
-    size[i] = area > 0.0 ? sum[i][SIZE] / area : 0.0;
+    area[i] = sum[i][AREA];
+    node[i] = area[i] > 0.0 ? sum[i][PRESSURE] / area[i] : 0.0;
+    size[i] = area[i] > 0.0 ? sum[i][SIZE] / area[i] : 0.0;
   }
   PetscCall(PetscFree(sum));
   PetscCall(PetscFree(source));

@@ -21,7 +21,7 @@ PetscErrorCode SurfacePressureNodes(Overlap overlap, const double owned[][SURFAC
 PetscErrorCode SurfaceHeadSums(Overlap overlap, const ElementTerm element[], const double gravity[2],
                                const double p[], double owned[][3]);
 /* node[nnodes]: p, linear from each pair of the solid's volume around the node, their mean by area, Pa; size[nnodes]: the square root of
- * twice the fluid elements' area, m, likewise.  Of all ranks' pairs; 0 where there are none. */
+ * twice the fluid elements' area, m, likewise; area[nnodes]: of those pairs, m2.  Of all ranks' pairs; 0 where there are none. */
 PetscErrorCode SurfacePressureInside(Overlap overlap, const double p[], int nnodes, double node[],
-                                     double size[]);
+                                     double size[], double area[]);
 #endif

@@ -236,11 +236,21 @@ static void AddForce(const Uplift u, const Beneath *b, const double excess[], do
     }
 }
 
-PetscErrorCode UpliftAdd(Uplift u, Overlap o, const ElementTerm element[], const double p[], double force[],
-                         double total[2])
+/* e of node i, with p inside the solid there; area: of the triangles around it, m2. */
+static double Excess(const Uplift u, const Beneath *b, int i, double p, double area, double dt)
+{
+  const double *value = b->value[i], g = hypot(u->gravity[0], u->gravity[1]);
+  if (value[REACHED] < 0.5 || area == 0.0 || u->solid.mobility[i] == 0.0) return 0.0;
+  const double e = p - value[HEAD] - value[DENSITY] * Along(u->gravity, &u->solid.x[2 * i]),
+               rho = 3.0 / (u->solid.mobility[i] * area), largest = dt * g * sqrt(2.0 * rho * fabs(e));
+  return fmax(-largest, fmin(largest, e));
+}
+
+PetscErrorCode UpliftAdd(Uplift u, Overlap o, const ElementTerm element[], const double p[], double dt,
+                         double force[], double total[2])
 {
   const size_t n = (size_t)u->solid.nnodes;
-  double *excess, *size;
+  double *excess, *size, *area;
   Fields *outside;
   Beneath b;
   PetscBool any = PETSC_FALSE;
@@ -249,22 +259,19 @@ PetscErrorCode UpliftAdd(Uplift u, Overlap o, const ElementTerm element[], const
   total[0] = total[1] = 0.0;
   PetscCall(MayBeClose(u, o, &any));
   if (!any) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc3(n, &excess, n, &size, n, &outside));
+  PetscCall(PetscMalloc4(n, &excess, n, &size, n, &area, n, &outside));
   PetscCall(PetscMalloc5((size_t)u->solid.nfacets, &b.is_close, n, &b.is_end, n, &b.is_free, n, &b.counts, n,
                          &b.value));
-  PetscCall(SurfacePressureInside(o, p, (int)n, excess, size));
+  PetscCall(SurfacePressureInside(o, p, (int)n, excess, size, area));
   PetscCall(Outside(u, o, element, p, outside));
   PetscCall(FindClose(u, o, size, (const Fields *)outside, &b, &any));
   if (any) {
     PetscCall(Interpolate(u, o, &b));
-    for (size_t i = 0; i < n; i++)
-      excess[i] = b.value[i][REACHED] > 0.5 ? excess[i] - b.value[i][HEAD] -
-                                                  b.value[i][DENSITY] * Along(u->gravity, &u->solid.x[2 * i])
-                                            : 0.0;
+    for (int i = 0; i < (int)n; i++) excess[i] = Excess(u, &b, i, excess[i], area[i], dt);
     AddForce(u, &b, excess, force, total);
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, total, 2, MPI_DOUBLE, MPI_SUM, u->comm));
   }
   PetscCall(PetscFree5(b.is_close, b.is_end, b.is_free, b.counts, b.value));
-  PetscCall(PetscFree3(excess, size, outside));
+  PetscCall(PetscFree4(excess, size, area, outside));
   PetscFunctionReturn(0);
 }

@@ -7,11 +7,15 @@
  *
  *     h  =  p_o - rho_o g.x        at the ends of the close facets, p_o at x beside the solid, rho_o the density there (outside.h)
  *
- * is linear along the surface from one end to the other, as of a slow flow through the gap.  What p has beyond that is taken from the force,
+ * is linear along the surface from one end to the other, as of a slow flow through the gap.  What p has beyond that is taken from the force in part,
  *
- *     F_i  +=  int N_i (p - rho_o g.x - h) n       over the close facets: they face a wall within UPLIFT_REACH of an element's size
+ *     F_i  +=  int N_i e n       over the close facets: they face a wall within UPLIFT_REACH of an element's size
+ *     e     =  p - rho_o g.x - h,   but at most dt |g| sqrt(2 rho_s |e|)
  *
- * and the contact carries the rest of the weight.  Facets that no end is connected with stay as they are.  The momentum is the wall's: columns
+ * e moves the solid against the wall, by a part of a step's fall, and the next step's p lacks what the contact bears then: N grows by the
+ * integral of e in each step, until e is 0, in the time that the solid takes to fall through the height of that pressure.  A blow of a few
+ * steps passes: the wall's reaction to it is the fluid's (with all of e a square that a dam's front struck was thrown up, with an e
+ * that follows p at that rate a caisson bounced).  Facets that no end is connected with stay as they are.  The momentum is the wall's: columns
  * `uplift` of coupler.csv. */
 #ifndef CORACLE_COUPLER_UPLIFT_H
 #define CORACLE_COUPLER_UPLIFT_H
@@ -28,7 +32,7 @@ PetscErrorCode UpliftDestroy(Uplift *uplift);
 /* Not collective: the solid of the step to come (copied), and its shell, borrowed until the next call. */
 PetscErrorCode UpliftBuild(Uplift uplift, const SolidState *solid, const Shell shell);
 /* Collective: force[nnodes][2] += the above, N, to each copy of a node what its facets do; total[2]: of all ranks.  element[ncoupled] of the step
- * that was built; p[nelements][6], Pa, of the overlap's elements. */
+ * of dt that was built; p[nelements][6], Pa, of the overlap's elements. */
 PetscErrorCode UpliftAdd(Uplift uplift, Overlap overlap, const ElementTerm element[], const double p[],
-                         double force[], double total[2]);
+                         double dt, double force[], double total[2]);
 #endif
