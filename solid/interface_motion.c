@@ -33,6 +33,9 @@
 #include "solid/step_response.h"
 
 #define DAMPING 0.15
+/* Of responses; and of those that steady w, whose errors are 1e-3 of that in w. */
+#define EXACT 1e-10
+#define ROUGH 1e-5
 
 /* resolved[nnodes][2]: S v; total[nnodes][2]: the acceleration by all forces, S of it in acceleration. */
 static void DampUnresolved(Solid s, const double resolved[], const double total[])
@@ -78,13 +81,13 @@ static PetscErrorCode SteadyVelocity(Solid s, const double resolved[])
   double *d = s->interface_velocity, *slower;
   PetscFunctionBeginUser;
   for (int k = 0; k < 2 * s->nnodes; k++) d[k] = StepResponseHolds(s, k) ? 0.0 : d[k] - s->v[k];
-  PetscCall(StepResponseApply(s, d));
+  PetscCall(StepResponseApply(s, ROUGH, d));
   PetscCall(PetscMalloc1(n, &slower));
   PetscCall(PetscArraycpy(slower, d, n));
-  PetscCall(StepResponseApply(s, slower));
+  PetscCall(StepResponseApply(s, ROUGH, slower));
   for (size_t k = 0; k < n; k++) d[k] = 2.0 * (d[k] - slower[k]);
   PetscCall(PetscFree(slower));
-  PetscCall(StepResponseApply(s, d));
+  PetscCall(StepResponseApply(s, ROUGH, d));
   for (size_t k = 0; k < n; k++) d[k] += resolved[k];
   PetscFunctionReturn(0);
 }
@@ -109,8 +112,8 @@ PetscErrorCode SolidUpdateInterfaceMotion(Solid s, InterfaceMotion *interface)
   PetscCall(PetscArraycpy(resolved, s->v, n));
   PetscCall(PetscArraycpy(total, s->acceleration, n));
   PetscCall(StepResponseUpdate(s));
-  PetscCall(StepResponseApply(s, resolved));
-  PetscCall(StepResponseApply(s, s->acceleration));
+  PetscCall(StepResponseApply(s, EXACT, resolved));
+  PetscCall(StepResponseApply(s, EXACT, s->acceleration));
   if (s->dt > 0.0)
     PetscCall(SteadyVelocity(s, resolved));
   else

@@ -1,8 +1,6 @@
 #include "solid/step_response_impl.h"
 
-/* Of the conjugate gradients: the residual's norm relative to that of M d, and their number, after which the result,
- * then smoothed less, is taken as it is. */
-#define TOLERANCE 1e-10
+/* Of the conjugate gradients: after so many the result, then smoothed less, is taken as it is. */
 enum { MAX_ITERATIONS = 1000 };
 #define RATIO 1.1 /* of successive c0 */
 
@@ -151,7 +149,7 @@ static PetscErrorCode Dot(StepResponse r, Solid s, const double a[], const doubl
 }
 
 /* From d itself: exact at once where it is a rigid motion. */
-PetscErrorCode StepResponseApply(Solid s, double d[])
+PetscErrorCode StepResponseApply(Solid s, double tolerance, double d[])
 {
   const StepResponse a = s->response;
   const int n = 2 * a->nnodes;
@@ -164,7 +162,7 @@ PetscErrorCode StepResponseApply(Solid s, double d[])
   PetscCall(Dot(a, s, r, r, s->inverse_mass, &rr));
   PetscCall(PetscArrayzero(p, n));
   rz = 1.0;
-  for (int i = 0; i < MAX_ITERATIONS && rr > TOLERANCE * TOLERANCE * size; i++) {
+  for (int i = 0; i < MAX_ITERATIONS && rr > tolerance * tolerance * size; i++) {
     PetscCall(StepFactorApply(a, s, r, z));
     PetscCall(Dot(a, s, r, z, NULL, &next));
     for (int k = 0; k < n; k++) p[k] = z[k] + next / rz * p[k];

@@ -17,8 +17,8 @@
 
 /* Collective: K and P of the solid as it is now, for steps of s->dt. */
 PetscErrorCode StepResponseUpdate(Solid s);
-/* Collective: d[nnodes][2] -> S d, with K and P of the last update; what is held keeps its d. */
-PetscErrorCode StepResponseApply(Solid s, double d[]);
+/* Collective: d[nnodes][2] -> S d, with K and P of the last update; what is held keeps its d.  tolerance: of the residual, over M d. */
+PetscErrorCode StepResponseApply(Solid s, double tolerance, double d[]);
 /* Not collective: component k = 2 node + c was held at the last update: its node is fixed, or a prescribed motion moves it. */
 PetscBool StepResponseHolds(Solid s, int k);
 PetscErrorCode StepResponseDestroy(StepResponse *response);

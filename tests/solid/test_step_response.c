@@ -71,7 +71,7 @@ static PetscErrorCode CheckResponse(Solid s, const int held[2], const char *what
   PetscCall(PetscMalloc2(n, &w, n, &kw));
   for (int k = 0; k < n; k++) w[k] = Rough(s->rest + k / 2 * 2, k % 2);
   PetscCall(StepResponseUpdate(s));
-  PetscCall(StepResponseApply(s, w));
+  PetscCall(StepResponseApply(s, 1e-10, w));
   PetscCall(Stiffness(s, w, kw));
   for (int k = 0; k < n; k++) {
     const double d = Rough(s->rest + k / 2 * 2, k % 2);
