@@ -1,23 +1,27 @@
 #include "coupler/surface_pressure.h"
 #include "common/space/p2.h"
 
-/* p and its gradient at a pair's centre; p: of the pair's element. */
-static double PressureAtCentre(const Overlap o, const SupermeshPair *pair, const double p[6],
-                               double gradient[2])
+/* n: the barycentric coordinates of a pair's centre in its fluid element. */
+static void CentreIn(const Overlap o, const SupermeshPair *pair, double n[3])
 {
   const SupermeshBasis *b = &o->basis[pair->b];
-  double d[2], n[3], g[3][2], corner[3][2];
+  double d[2];
   SupermeshCentreInB(pair, &o->source_basis[pair->a], b, d);
   for (int i = 1; i < 3; i++) n[i] = b->gradient[i - 1][0] * d[0] + b->gradient[i - 1][1] * d[1];
   n[0] = 1.0 - n[1] - n[2];
-  for (int c = 0; c < 2 && gradient; c++) {
+}
+
+/* p and its gradient at a pair's centre n; p: of the pair's element. */
+static double PressureAt(const SupermeshBasis *b, const double p[6], const double n[3], double gradient[2])
+{
+  double g[3][2], corner[3][2];
+  for (int c = 0; c < 2; c++) {
     g[1][c] = b->gradient[0][c];
     g[2][c] = b->gradient[1][c];
     g[0][c] = -g[1][c] - g[2][c];
   }
-  if (gradient) P2Gradient((const double(*)[2])g, p, corner);
-  for (int c = 0; c < 2 && gradient; c++)
-    gradient[c] = n[0] * corner[0][c] + n[1] * corner[1][c] + n[2] * corner[2][c];
+  P2Gradient((const double(*)[2])g, p, corner);
+  for (int c = 0; c < 2; c++) gradient[c] = n[0] * corner[0][c] + n[1] * corner[1][c] + n[2] * corner[2][c];
   return P2Evaluate(p, n);
 }
 
@@ -40,9 +44,10 @@ PetscErrorCode SurfacePressureSums(Overlap o, const double p[], double owned[][S
     const SupermeshPair *pair = &o->pairs.pair[k];
     const SourceTriangle *t = &o->source[pair->a];
     const double *at = &p[6 * pair->b];
-    double *s = source[pair->a];
+    double *s = source[pair->a], n[3];
+    CentreIn(o, pair, n);
     s[SURFACE_AREA] += pair->area;
-    s[SURFACE_INSIDE] += pair->area * PressureAtCentre(o, pair, at, NULL);
+    s[SURFACE_INSIDE] += pair->area * P2Evaluate(at, n);
     if (t->is_shell)
       s[SURFACE_OUTSIDE] += pair->area * at[OutermostVertex((const double(*)[2])o->x[pair->b], t->normal)];
   }
@@ -72,10 +77,10 @@ PetscErrorCode SurfacePressureNodes(Overlap o, const double owned[][SURFACE_SUMS
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SurfaceHeadSums(Overlap o, const ElementTerm element[], const double gravity[2],
-                               const double p[], double owned[][3])
+PetscErrorCode SurfacePressureHead(Overlap o, const ElementTerm element[], const double gravity[2],
+                                   const double p[], int nnodes, double node[][SURFACE_HEAD_FIELDS])
 {
-  double(*source)[3];
+  double(*source)[3][SURFACE_HEAD_FIELDS];
 
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(o->nsources, &source));
@@ -85,12 +90,20 @@ PetscErrorCode SurfaceHeadSums(Overlap o, const ElementTerm element[], const dou
     if (!t->is_shell) continue;
     const double rho = o->rho[pair->b] + element[o->coupled_index[k]].outside;
     const int outermost = OutermostVertex((const double(*)[2])o->x[pair->b], t->normal);
-    const double *x = o->x[pair->b][outermost], *at = &p[6 * pair->b];
-    source[pair->a][0] += pair->area * (at[outermost] - rho * (gravity[0] * x[0] + gravity[1] * x[1]));
-    source[pair->a][1] += pair->area * rho;
-    source[pair->a][2] += pair->area;
+    const double *x = o->x[pair->b][outermost],
+                 head = p[6 * pair->b + outermost] - rho * (gravity[0] * x[0] + gravity[1] * x[1]);
+    for (int i = 0; i < 3; i++) {
+      source[pair->a][i][SURFACE_HEAD] += pair->area * head;
+      source[pair->a][i][SURFACE_DENSITY] += pair->area * rho;
+      source[pair->a][i][SURFACE_REACHED] += pair->area;
+    }
   }
-  PetscCall(OverlapReverseAdd(o, 3, (const double *)source, (double *)owned));
+  PetscCall(OverlapSourcesToNodes(o, SURFACE_HEAD_FIELDS, (const double *)source, nnodes, (double *)node));
+  PetscCall(CopiesSum(o->nodes, SURFACE_HEAD_FIELDS, (double *)node));
+  for (int i = 0; i < nnodes; i++) {
+    const double area = node[i][SURFACE_REACHED];
+    for (int c = 0; c < SURFACE_HEAD_FIELDS; c++) node[i][c] = area > 0.0 ? node[i][c] / area : 0.0;
+  }
   PetscCall(PetscFree(source));
   PetscFunctionReturn(0);
 }
@@ -107,9 +120,10 @@ PetscErrorCode SurfacePressureInside(Overlap o, const double p[], int nnodes, do
   for (int k = 0; k < o->pairs.n; k++) {
     const SupermeshPair *pair = &o->pairs.pair[k];
     const SourceTriangle *t = &o->source[pair->a];
-    double gradient[2];
+    double gradient[2], n[3];
     if (t->is_shell) continue;
-    const double at = PressureAtCentre(o, pair, &p[6 * pair->b], gradient);
+    CentreIn(o, pair, n);
+    const double at = PressureAt(&o->basis[pair->b], &p[6 * pair->b], n, gradient);
     for (int i = 0; i < 3; i++) {
       double value = at;
       for (int c = 0; c < 2; c++) value += gradient[c] * (t->x[i][c] - t->x[0][c] - pair->centre[c]);

@@ -16,10 +16,11 @@ PetscErrorCode SurfacePressureSums(Overlap overlap, const double p[], double own
 /* value[nnodes][2]: p_s and p_o, Pa, where is_given[nnodes], on the surface where the fluid covers some of the shell; else 0. */
 PetscErrorCode SurfacePressureNodes(Overlap overlap, const double owned[][SURFACE_SUMS], int nnodes,
                                     char is_given[], double value[][2]);
-/* owned[nowned][3] += int p_o - rho_o g.x, N, and int rho_o, kg/m, over the pairs of the shell's triangles, x where p_o is, rho_o the density
- * beside the solid in the pair's element (outside.h), and their area, m2. */
-PetscErrorCode SurfaceHeadSums(Overlap overlap, const ElementTerm element[], const double gravity[2],
-                               const double p[], double owned[][3]);
+/* At nodes of the surface: p_o - rho_o g.x, Pa, x where p_o is, and rho_o, the density beside the solid (outside.h), kg/m3, means over the
+ * shell around the node; 1 where the fluid covers some of it, all 0 elsewhere. */
+enum { SURFACE_HEAD, SURFACE_DENSITY, SURFACE_REACHED, SURFACE_HEAD_FIELDS };
+PetscErrorCode SurfacePressureHead(Overlap overlap, const ElementTerm element[], const double gravity[2],
+                                   const double p[], int nnodes, double node[][SURFACE_HEAD_FIELDS]);
 /* node[nnodes]: p, linear from each pair of the solid's volume around the node, their mean by area, Pa; size[nnodes]: the square root of
  * twice the fluid elements' area, m, likewise; area[nnodes]: of those pairs, m2.  Of all ranks' pairs; 0 where there are none. */
 PetscErrorCode SurfacePressureInside(Overlap overlap, const double p[], int nnodes, double node[],

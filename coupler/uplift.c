@@ -12,13 +12,13 @@ struct Uplift_s {
   SolidState solid; /* a copy */
 };
 
-/* What is known of a node. */
+/* Along the close facets: head and density beneath, 1 where they are connected with an end. */
 enum {
-  HEAD,
-  DENSITY,
-  REACHED,
-  NFIELDS
-}; /* h and rho_o along the close facets; 1 where they are connected with an end */
+  HEAD = SURFACE_HEAD,
+  DENSITY = SURFACE_DENSITY,
+  REACHED = SURFACE_REACHED,
+  NFIELDS = SURFACE_HEAD_FIELDS
+};
 typedef double Fields[NFIELDS];
 
 /* Of the step: close facets, and their nodes. */
@@ -200,28 +200,6 @@ static PetscErrorCode Interpolate(Uplift u, Overlap o, Beneath *b)
 
 /* --- the force -------------------------------------------------------------------------------------------- */
 
-/* outside[nnodes]: head and density beside the nodes of the surface, REACHED 1 where the fluid covers some of their shell. */
-static PetscErrorCode Outside(Uplift u, Overlap o, const ElementTerm element[], const double p[],
-                              Fields outside[])
-{
-  double(*owned)[NFIELDS];
-
-  PetscFunctionBeginUser;
-  PetscCall(PetscCalloc1(o->nowned, &owned));
-  PetscCall(SurfaceHeadSums(o, element, u->gravity, p, owned));
-  PetscCall(PetscArrayzero(outside, u->solid.nnodes));
-  for (int t = o->nvolume; t < o->nowned; t++)
-    for (int i = 0; i < 3; i++)
-      for (int c = 0; c < NFIELDS; c++) outside[o->node[t][i]][c] += owned[t][c];
-  PetscCall(CopiesSum(o->nodes, NFIELDS, (double *)outside));
-  for (int i = 0; i < u->solid.nnodes; i++) {
-    const double area = outside[i][REACHED];
-    for (int c = 0; c < NFIELDS; c++) outside[i][c] = area > 0.0 ? outside[i][c] / area : 0.0;
-  }
-  PetscCall(PetscFree(owned));
-  PetscFunctionReturn(0);
-}
-
 /* force += int N_i excess n over the close facets; excess[nnodes], Pa. */
 static void AddForce(const Uplift u, const Beneath *b, const double excess[], double force[], double total[2])
 {
@@ -263,7 +241,7 @@ PetscErrorCode UpliftAdd(Uplift u, Overlap o, const ElementTerm element[], const
   PetscCall(PetscMalloc5((size_t)u->solid.nfacets, &b.is_close, n, &b.is_end, n, &b.is_free, n, &b.counts, n,
                          &b.value));
   PetscCall(SurfacePressureInside(o, p, (int)n, excess, size, area));
-  PetscCall(Outside(u, o, element, p, outside));
+  PetscCall(SurfacePressureHead(o, element, u->gravity, p, (int)n, outside));
   PetscCall(FindClose(u, o, size, (const Fields *)outside, &b, &any));
   if (any) {
     PetscCall(Interpolate(u, o, &b));

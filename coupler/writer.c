@@ -1,8 +1,8 @@
 #include "coupler/writer.h"
 #include "common/link/coracle.h"
 
-static const char COLUMNS[] = "t [s],dt [s],u_x [m/s],u_y [m/s],F_x [N],F_y [N],R_x [N],R_y [N],uplift_x "
-                              "[N],uplift_y [N],imbalance,pairs,"
+static const char COLUMNS[] = "t [s],dt [s],u_x [m/s],u_y [m/s],F_x [N],F_y [N],R_x [N],R_y [N],"
+                              "uplift_x [N],uplift_y [N],imbalance,pairs,"
                               "overlap [s],force [s],waiting [s],iterations";
 
 struct Writer_s {
