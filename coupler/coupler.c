@@ -12,7 +12,7 @@ PetscErrorCode CouplerCreate(MPI_Comm comm, const CouplerOptions *options, Coupl
   c->mode = CouplerModeGet(options->mode);
   PetscCall(ShellCreate(comm, options->thickness, &c->shell));
   PetscCall(OverlapCreate(comm, &c->overlap));
-  if (options->walls)
+  if (options->uplift)
     PetscCall(UpliftCreate(comm, options->lower, options->upper, options->gravity, &c->uplift));
   *coupler = c;
   PetscFunctionReturn(0);

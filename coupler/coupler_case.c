@@ -41,15 +41,34 @@ static double InterfaceSize(CoracleCase file)
   return 0.0;
 }
 
+/* One body without joints has nothing to touch but walls; what a solid of others has is not known. */
+static PetscBool IsOneBody(CoracleCase file)
+{
+  return (PetscBool)(CoracleCaseCount(file, "solid.bodies") == 1 &&
+                     !CoracleCaseHas(file, "solid.bodies[0].joints") &&
+                     !CoracleCaseHas(file, "solid.bodies[0].repeat") &&
+                     !CoracleCaseHas(file, "solid.bodies[0].mesh"));
+}
+
+static void ReadUplift(CoracleCase file, CouplerOptions *o)
+{
+  const PetscBool walls = (PetscBool)(CoracleCaseVectorOptional(file, "solid.walls.lower", 2, o->lower) &&
+                                      CoracleCaseVectorOptional(file, "solid.walls.upper", 2, o->upper));
+  for (int d = 0; d < 2 && !walls; d++) {
+    o->lower[d] = -HUGE_VAL;
+    o->upper[d] = HUGE_VAL;
+  }
+  o->uplift = (PetscBool)(o->mode == COUPLER_REACTION && (walls || !IsOneBody(file)) &&
+                          hypot(o->gravity[0], o->gravity[1]) > 0.0);
+}
+
 static void ReadOptions(CoracleCase file, CouplerOptions *o)
 {
   o->mode = (CouplerMode)CoracleCaseWord(file, "coupler.mode", COUPLER_REACTION, COUPLER_MODES);
   o->thickness = CoracleCasePositive(file, "coupler.shell_thickness");
   CoracleCaseVector(file, "gravity", 2, o->gravity);
   CouplerModesReadOptions(file, o);
-  o->walls = (PetscBool)(o->mode == COUPLER_REACTION &&
-                         CoracleCaseVectorOptional(file, "solid.walls.lower", 2, o->lower) &&
-                         CoracleCaseVectorOptional(file, "solid.walls.upper", 2, o->upper));
+  ReadUplift(file, o);
   o->sigma_among_phases = (PetscBool)(CoracleCaseHas(file, "fluid.surface_tension") &&
                                       InterfaceSize(file) < CapillaryLength(file, o->gravity));
 }

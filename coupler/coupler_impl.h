@@ -23,7 +23,7 @@ struct Coupler_s {
   double *explicit_fraction;     /* [nnodes] (inertia.h) */
   History history;               /* of the steps before */
   PressureLoad pressure_load;    /* NULL: none */
-  Uplift uplift;                 /* NULL: there are no walls */
+  Uplift uplift;                 /* NULL: nothing to touch */
   CoracleFlow flow;              /* borrowed */
   SourceTerm *source;            /* [overlap->nsources] */
   ElementTerm *element;          /* [overlap->ncoupled] */

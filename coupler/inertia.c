@@ -122,7 +122,8 @@ void InertiaStart(Overlap o, const SourceTerm source[], double dt, ElementTerm e
     const PetscBool held = IsHeld(o, source, e);
     const double kept = KeptPart(o, source, &element[e], e);
     const WallCoefficient along = Sharpened(held ? &element[e].along : &element[e].tangential, kept);
-    element[e].covered = (PetscBool)(!o->phases && IsCovered(o, source, e));
+    element[e].covered =
+        (PetscBool)(!o->phases && WallIsZero(&element[e].tangential) && IsCovered(o, source, e));
     element[e].kept =
         o->phases && !held ? WallCoefficientIsotropic(kept) : WallCoefficientScaled(&along, kept);
     element[e].freed = WallCoefficientScaled(&along, 1.0 - kept);

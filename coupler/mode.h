@@ -31,8 +31,8 @@ typedef struct {
   double relaxation;            /* sigma dt / rho_f, used by the mode reaction */
   double gravity[2];            /* m/s2 */
   PetscBool sigma_among_phases; /* what is held among phases is held by sigma, too (inertia.h) */
-  PetscBool walls;              /* the solid has walls to stand on (uplift.h) */
-  double lower[2], upper[2];    /* m; of them */
+  PetscBool uplift;             /* the solid may touch walls or itself (uplift.h) */
+  double lower[2], upper[2];    /* m; the walls, infinite where there are none */
 } CouplerOptions;
 
 /* Which of the solid's velocities over the last step u_s is: the one at its end, without vibrations, or the

@@ -16,8 +16,11 @@ void SlipTensors(const Overlap o, ElementTerm element[])
       xy += pair->area * n[0] * n[1];
       yy += pair->area * n[1] * n[1];
     }
+    const double area = o->area[o->coupled_element[e]];
+    const PetscBool open = (PetscBool)(solid < (1.0 - OUTSIDE_LEAST) * area),
+                    shared = (PetscBool)(!o->phases && solid + shell > (1.0 + OUTSIDE_LEAST) * area);
     element[e].along = element[e].tangential = WallCoefficientIsotropic(0.0);
-    if (shell > 0.0 && solid < (1.0 - OUTSIDE_LEAST) * o->area[o->coupled_element[e]])
+    if (shell > 0.0 && (open || shared))
       element[e].along = (WallCoefficient){1.0 - xx / shell, -xy / shell, 1.0 - yy / shell};
     if (!o->phases) element[e].tangential = element[e].along;
   }

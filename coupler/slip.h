@@ -16,6 +16,10 @@
  * momentum of the fluid: the added inertia of the next step, which takes the inner part to begin with the solid's
  * velocity, is less by it.
  *
+ * An element that two solids which touch cover together has surfaces in it, too, and D as above: with D = 0 there the two were
+ * held to each other's mean velocity by a part of their momentum in each step (a block on a slope slid with 0.09 of its acceleration when steps
+ * were a quarter as long; tests/coupled/slope.sh).  The shell of one solid overlaps the other there.
+ *
  * Where the fluid says that it has phases (Overlap.phases) D = 0: what such an element, of one velocity, one density and one pressure,
  * leaves of forces along a solid adds up where nothing stops it, and water is not viscous enough to.  With slip where what is beside
  * the solid is water, a block that rolls gets water that runs along its bottom at 0.95 m/s, inside elements that are nearly covered

@@ -77,6 +77,20 @@ PetscErrorCode SurfacePressureNodes(Overlap o, const double owned[][SURFACE_SUMS
   PetscFunctionReturn(0);
 }
 
+/* Whether the solid covers vertex v of the element of pair k. */
+static PetscBool IsCovered(const Overlap o, int k, const double v[2])
+{
+  const int e = o->coupled_index[k];
+  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
+    const SourceTriangle *t = &o->source[o->pairs.pair[o->of_element[i]].a];
+    double n[3];
+    if (t->is_shell) continue;
+    GeometryBarycentric((const double(*)[2])t->x, v, n);
+    if (n[0] > 0.0 && n[1] > 0.0 && n[2] > 0.0) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
 PetscErrorCode SurfacePressureHead(Overlap o, const ElementTerm element[], const double gravity[2],
                                    const double p[], int nnodes, double node[][SURFACE_HEAD_FIELDS])
 {
@@ -88,9 +102,10 @@ PetscErrorCode SurfacePressureHead(Overlap o, const ElementTerm element[], const
     const SupermeshPair *pair = &o->pairs.pair[k];
     const SourceTriangle *t = &o->source[pair->a];
     if (!t->is_shell) continue;
-    const double rho = o->rho[pair->b] + element[o->coupled_index[k]].outside;
     const int outermost = OutermostVertex((const double(*)[2])o->x[pair->b], t->normal);
-    const double *x = o->x[pair->b][outermost],
+    const double *x = o->x[pair->b][outermost];
+    if (IsCovered(o, k, x)) continue;
+    const double rho = o->rho[pair->b] + element[o->coupled_index[k]].outside,
                  head = p[6 * pair->b + outermost] - rho * (gravity[0] * x[0] + gravity[1] * x[1]);
     for (int i = 0; i < 3; i++) {
       source[pair->a][i][SURFACE_HEAD] += pair->area * head;

@@ -1,8 +1,7 @@
 #include "coupler/uplift.h"
+#include "coupler/close_points.h"
 #include "coupler/surface_pressure.h"
 
-/* Cosine of the angle between a close facet's normal and the wall's, at least. */
-#define FACING 0.7
 #define TOLERANCE 1e-10
 
 struct Uplift_s {
@@ -10,9 +9,10 @@ struct Uplift_s {
   double lower[2], upper[2], gravity[2];
   Shell shell;      /* borrowed */
   SolidState solid; /* a copy */
+  ClosePoints points;
 };
 
-/* Along the close facets: head and density beneath, 1 where they are connected with an end. */
+/* Along the surface: head and density, 1 where they are connected with a place where they are known. */
 enum {
   HEAD = SURFACE_HEAD,
   DENSITY = SURFACE_DENSITY,
@@ -21,13 +21,12 @@ enum {
 };
 typedef double Fields[NFIELDS];
 
-/* Of the step: close facets, and their nodes. */
+/* Of the step, at the solid's nodes. */
 typedef struct {
-  char *is_close;         /* [nfacets] */
-  char *is_end, *is_free; /* [nnodes] the fluid has access to the node; it is between ends */
-  char *counts;           /* [nnodes] in sums on this rank */
-  Fields *value;          /* [nnodes] */
-} Beneath;
+  char *is_free; /* [nnodes] on the surface, between places where the fields are known */
+  char *counts;  /* [nnodes] in sums on this rank */
+  Fields *value; /* [nnodes] */
+} Gap;
 
 PetscErrorCode UpliftCreate(MPI_Comm comm, const double lower[2], const double upper[2],
                             const double gravity[2], Uplift *uplift)
@@ -46,6 +45,7 @@ PetscErrorCode UpliftDestroy(Uplift *uplift)
   PetscFunctionBeginUser;
   if (!*uplift) PetscFunctionReturn(0);
   PetscCall(SolidStateDestroy(&(*uplift)->solid));
+  PetscCall(ClosePointsDestroy(&(*uplift)->points));
   PetscCall(PetscFree(*uplift));
   PetscFunctionReturn(0);
 }
@@ -63,105 +63,131 @@ static double Along(const double gravity[2], const double x[2])
   return gravity[0] * x[0] + gravity[1] * x[1];
 }
 
-/* --- which facets are close to a wall --------------------------------------------------------------------- */
+/* --- which points are close ------------------------------------------------------------------------------- */
 
-/* Whether facet f faces a wall nearer than UPLIFT_REACH of size[nnodes]; NULL: of `largest`. */
-static PetscBool IsClose(const Uplift u, int f, const double size[], double largest)
-{
-  const int *node = &u->solid.facet[2 * f];
-  const double *n = u->shell->normal[f];
-  for (int c = 0; c < 2; c++) {
-    if (fabs(n[c]) < FACING) continue;
-    const double wall = n[c] > 0.0 ? u->upper[c] : u->lower[c];
-    PetscBool within = PETSC_TRUE;
-    for (int i = 0; i < 2; i++)
-      if (fabs(wall - u->solid.x[2 * node[i] + c]) > UPLIFT_REACH * (size ? size[node[i]] : largest))
-        within = PETSC_FALSE;
-    if (within) return PETSC_TRUE;
-  }
-  return PETSC_FALSE;
-}
-
-/* *may: some facet may be close, as far as the largest element at the solid says: most solids are not, at no cost. */
-static PetscErrorCode MayBeClose(const Uplift u, const Overlap o, PetscBool *may)
+/* Points within reach of the largest element at the solid: most solids have none, and no more is done. */
+static PetscErrorCode FindCandidates(Uplift u, const Overlap o, PetscBool *any)
 {
   double largest = 0.0;
-  int close = 0;
+  int close;
 
   PetscFunctionBeginUser;
   for (int e = 0; e < o->ncoupled; e++) largest = fmax(largest, sqrt(2.0 * o->area[o->coupled_element[e]]));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, u->comm));
-  for (int f = 0; f < u->solid.nfacets && !close; f++) close = IsClose(u, f, NULL, largest);
+  PetscCall(ClosePointsFind(&u->solid, u->shell, u->lower, u->upper, UPLIFT_REACH * largest, &u->points));
+  close = u->points.n > 0;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &close, 1, MPI_INT, MPI_LOR, u->comm));
-  *may = close ? PETSC_TRUE : PETSC_FALSE;
+  *any = close ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
-/* The ends are nodes of close facets and of others whose shell the fluid covers, where the values of `outside` are; *any: some facet of any
- * rank is close.  size[nnodes]: of the elements, m. */
-static PetscErrorCode FindClose(Uplift u, Overlap o, const double size[], const Fields outside[], Beneath *b,
-                                PetscBool *any)
+/* Of those the points within reach of the elements there; size[nnodes], m. */
+static void KeepClose(Uplift u, const double size[])
+{
+  ClosePoints *points = &u->points;
+  int n = 0;
+  for (int k = 0; k < points->n; k++) {
+    const ClosePoint *p = &points->point[k];
+    const int *node = &u->solid.facet[2 * p->facet];
+    if (p->gap <= UPLIFT_REACH * (p->n[0] * size[node[0]] + p->n[1] * size[node[1]])) points->point[n++] = *p;
+  }
+  points->n = n;
+}
+
+/* The fields are known in nodes of facets without close points, where the values of `outside` are. */
+static PetscErrorCode FindKnown(Uplift u, Overlap o, const Fields outside[], Gap *gap)
 {
   const int n = u->solid.nnodes;
-  double(*facets)[2]; /* close ones of the node, and others, on any rank */
+  double(*facets)[2]; /* of the node, on any rank: all; with close points */
+  char *is_close;
   PetscMPIInt rank;
-  int close = 0;
 
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(u->comm, &rank));
-  PetscCall(PetscCalloc1(n, &facets));
-  for (int f = 0; f < u->solid.nfacets; f++) {
-    b->is_close[f] = (char)IsClose(u, f, size, 0.0);
-    close |= b->is_close[f];
-    for (int i = 0; i < 2; i++) facets[u->solid.facet[2 * f + i]][!b->is_close[f]] += 1.0;
+  PetscCall(PetscCalloc2(n, &facets, u->solid.nfacets, &is_close));
+  for (int k = 0; k < u->points.n; k++) is_close[u->points.point[k].facet] = 1;
+  for (int k = 0; k < 2 * u->solid.nfacets; k++) {
+    facets[u->solid.facet[k]][0] += 1.0;
+    facets[u->solid.facet[k]][1] += is_close[k / 2];
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &close, 1, MPI_INT, MPI_LOR, u->comm));
-  *any = close ? PETSC_TRUE : PETSC_FALSE;
-  if (close) PetscCall(CopiesSum(o->nodes, 2, (double *)facets));
+  PetscCall(CopiesSum(o->nodes, 2, (double *)facets));
   for (int i = 0; i < n; i++) {
-    b->counts[i] = CopiesOwner(o->nodes, i) == rank;
-    b->is_end[i] = facets[i][0] > 0.0 && facets[i][1] > 0.0 && outside[i][REACHED] > 0.0;
-    b->is_free[i] = facets[i][0] > 0.0 && !b->is_end[i];
-    for (int c = 0; c < NFIELDS; c++) b->value[i][c] = b->is_end[i] ? outside[i][c] : 0.0;
+    const PetscBool known = (PetscBool)(facets[i][1] < facets[i][0] && outside[i][REACHED] > 0.0);
+    gap->counts[i] = CopiesOwner(o->nodes, i) == rank;
+    gap->is_free[i] = facets[i][0] > 0.0 && !known;
+    for (int c = 0; c < NFIELDS; c++) gap->value[i][c] = known ? outside[i][c] : 0.0;
   }
-  PetscCall(PetscFree(facets));
+  PetscCall(PetscFree2(facets, is_close));
   PetscFunctionReturn(0);
 }
 
-/* --- linear between the ends ------------------------------------------------------------------------------ */
+/* --- harmonic between the nodes where the fields are known ------------------------------------------------ */
 
-/* image = sum over the close facets of (v_a - v_b)/length at free nodes, of all ranks. */
-static PetscErrorCode Apply(Uplift u, Overlap o, const Beneath *b, const Fields v[], Fields image[])
+/* image += the flow out of each node through the gaps, with as little resistance across as along a facet. */
+static PetscErrorCode ApplyAcross(Uplift u, const Fields v[], Fields image[])
+{
+  const ClosePoints *points = &u->points;
+  const int n = ScatterArriving(points->scatter);
+  Fields(*there)[2], (*flow)[2];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(n, &there));
+  PetscCall(PetscCalloc1(n, &flow));
+  PetscCall(ClosePointsForward(points, &u->solid, NFIELDS, (const double *)v, (double *)there));
+  for (int k = 0; k < points->n; k++) {
+    const ClosePoint *p = &points->point[k];
+    const int *node = &u->solid.facet[2 * p->facet];
+    if (p->opposite == CLOSE_TO_WALL) continue;
+    for (int c = 0; c < NFIELDS; c++) {
+      double difference = 0.0;
+      for (int i = 0; i < 2; i++)
+        difference += p->n[i] * v[node[i]][c] - p->opposite_n[i] * there[p->opposite][i][c];
+      difference *= p->weight / (u->shell->length[p->facet] * u->shell->length[p->facet]);
+      for (int i = 0; i < 2; i++) {
+        image[node[i]][c] += p->n[i] * difference;
+        flow[p->opposite][i][c] -= p->opposite_n[i] * difference;
+      }
+    }
+  }
+  PetscCall(ClosePointsReverseAdd(points, &u->solid, NFIELDS, (const double *)flow, (double *)image));
+  PetscCall(PetscFree(there));
+  PetscCall(PetscFree(flow));
+  PetscFunctionReturn(0);
+}
+
+/* image = sum over the facets of (v_a - v_b)/length, and through the gaps, at free nodes, of all ranks. */
+static PetscErrorCode Apply(Uplift u, Overlap o, const Gap *gap, const Fields v[], Fields image[])
 {
   PetscFunctionBeginUser;
   PetscCall(PetscArrayzero(image, u->solid.nnodes));
   for (int f = 0; f < u->solid.nfacets; f++) {
     const int p = u->solid.facet[2 * f], q = u->solid.facet[2 * f + 1];
-    if (!b->is_close[f] || u->shell->length[f] == 0.0) continue;
+    if (u->shell->length[f] == 0.0) continue;
     for (int c = 0; c < NFIELDS; c++) {
       const double flux = (v[p][c] - v[q][c]) / u->shell->length[f];
       image[p][c] += flux;
       image[q][c] -= flux;
     }
   }
+  PetscCall(ApplyAcross(u, v, image));
   PetscCall(CopiesSum(o->nodes, NFIELDS, (double *)image));
   for (int i = 0; i < u->solid.nnodes; i++)
-    for (int c = 0; c < NFIELDS && !b->is_free[i]; c++) image[i][c] = 0.0;
+    for (int c = 0; c < NFIELDS && !gap->is_free[i]; c++) image[i][c] = 0.0;
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Dot(const Uplift u, const Beneath *b, const Fields v[], const Fields w[], double sum[])
+static PetscErrorCode Dot(const Uplift u, const Gap *gap, const Fields v[], const Fields w[], double sum[])
 {
   PetscFunctionBeginUser;
   for (int c = 0; c < NFIELDS; c++) sum[c] = 0.0;
   for (int i = 0; i < u->solid.nnodes; i++)
-    for (int c = 0; c < NFIELDS && b->counts[i]; c++) sum[c] += v[i][c] * w[i][c];
+    for (int c = 0; c < NFIELDS && gap->counts[i]; c++) sum[c] += v[i][c] * w[i][c];
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, NFIELDS, MPI_DOUBLE, MPI_SUM, u->comm));
   PetscFunctionReturn(0);
 }
 
-/* Conjugate gradients: at most as many iterations as there are nodes between two ends. */
-static PetscErrorCode Interpolate(Uplift u, Overlap o, Beneath *b)
+/* Conjugate gradients: at most as many iterations as there are nodes to be found. */
+static PetscErrorCode Interpolate(Uplift u, Overlap o, Gap *gap)
 {
   const int n = u->solid.nnodes;
   Fields *r, *d, *image;
@@ -170,26 +196,26 @@ static PetscErrorCode Interpolate(Uplift u, Overlap o, Beneath *b)
 
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc3(n, &r, n, &d, n, &image));
-  for (int i = 0; i < n; i++) max_iterations += b->is_free[i] && b->counts[i];
+  for (int i = 0; i < n; i++) max_iterations += gap->is_free[i] && gap->counts[i];
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &max_iterations, 1, MPI_INT, MPI_SUM, u->comm));
-  PetscCall(Apply(u, o, b, (const Fields *)b->value, r));
+  PetscCall(Apply(u, o, gap, (const Fields *)gap->value, r));
   for (int i = 0; i < n; i++)
     for (int c = 0; c < NFIELDS; c++) d[i][c] = r[i][c] = -r[i][c];
-  PetscCall(Dot(u, b, (const Fields *)r, (const Fields *)r, first));
+  PetscCall(Dot(u, gap, (const Fields *)r, (const Fields *)r, first));
   PetscCall(PetscArraycpy(rr, first, NFIELDS));
   for (int k = 0; k < max_iterations; k++) {
     PetscBool more = PETSC_FALSE;
     for (int c = 0; c < NFIELDS; c++) more |= rr[c] > TOLERANCE * TOLERANCE * first[c];
     if (!more) break;
-    PetscCall(Apply(u, o, b, (const Fields *)d, image));
-    PetscCall(Dot(u, b, (const Fields *)d, (const Fields *)image, dd));
+    PetscCall(Apply(u, o, gap, (const Fields *)d, image));
+    PetscCall(Dot(u, gap, (const Fields *)d, (const Fields *)image, dd));
     for (int i = 0; i < n; i++)
-      for (int c = 0; c < NFIELDS && b->is_free[i]; c++) {
+      for (int c = 0; c < NFIELDS && gap->is_free[i]; c++) {
         const double step = dd[c] > 0.0 ? rr[c] / dd[c] : 0.0;
-        b->value[i][c] += step * d[i][c];
+        gap->value[i][c] += step * d[i][c];
         r[i][c] -= step * image[i][c];
       }
-    PetscCall(Dot(u, b, (const Fields *)r, (const Fields *)r, next));
+    PetscCall(Dot(u, gap, (const Fields *)r, (const Fields *)r, next));
     for (int i = 0; i < n; i++)
       for (int c = 0; c < NFIELDS; c++) d[i][c] = r[i][c] + (rr[c] > 0.0 ? next[c] / rr[c] : 0.0) * d[i][c];
     PetscCall(PetscArraycpy(rr, next, NFIELDS));
@@ -200,24 +226,36 @@ static PetscErrorCode Interpolate(Uplift u, Overlap o, Beneath *b)
 
 /* --- the force -------------------------------------------------------------------------------------------- */
 
-/* force += int N_i excess n over the close facets; excess[nnodes], Pa. */
-static void AddForce(const Uplift u, const Beneath *b, const double excess[], double force[], double total[2])
+/* force += int N_i excess n over the close points, and the opposite to what is there; excess[nnodes], Pa; total: of this rank's walls. */
+static PetscErrorCode AddForce(Uplift u, const double excess[], double force[], double total[2])
 {
-  for (int f = 0; f < u->solid.nfacets; f++)
-    for (int i = 0; i < 2 && b->is_close[f]; i++) {
-      const int *node = &u->solid.facet[2 * f];
-      const double weight = u->shell->length[f] / 6.0 * (2.0 * excess[node[i]] + excess[node[1 - i]]);
-      for (int c = 0; c < 2; c++) {
-        force[2 * node[i] + c] += weight * u->shell->normal[f][c];
-        total[c] += weight * u->shell->normal[f][c];
-      }
+  const ClosePoints *points = &u->points;
+  double(*there)[2][2];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(ScatterArriving(points->scatter), &there));
+  for (int k = 0; k < points->n; k++) {
+    const ClosePoint *p = &points->point[k];
+    const int *node = &u->solid.facet[2 * p->facet];
+    const double share = p->opposite_is_held ? 1.0 : 0.5,
+                 push = share * p->weight * (p->n[0] * excess[node[0]] + p->n[1] * excess[node[1]]);
+    for (int c = 0; c < 2; c++) {
+      const double normal = u->shell->normal[p->facet][c];
+      for (int i = 0; i < 2; i++) force[2 * node[i] + c] += push * p->n[i] * normal;
+      if (p->opposite == CLOSE_TO_WALL) total[c] += push * normal;
+      for (int i = 0; i < 2 && p->opposite != CLOSE_TO_WALL; i++)
+        there[p->opposite][i][c] -= push * p->opposite_n[i] * normal;
     }
+  }
+  PetscCall(ClosePointsReverseAdd(points, &u->solid, 2, (const double *)there, force));
+  PetscCall(PetscFree(there));
+  PetscFunctionReturn(0);
 }
 
 /* e of node i, with p inside the solid there; area: of the triangles around it, m2. */
-static double Excess(const Uplift u, const Beneath *b, int i, double p, double area, double dt)
+static double Excess(const Uplift u, const Gap *gap, int i, double p, double area, double dt)
 {
-  const double *value = b->value[i], g = hypot(u->gravity[0], u->gravity[1]);
+  const double *value = gap->value[i], g = hypot(u->gravity[0], u->gravity[1]);
   if (value[REACHED] < 0.5 || area == 0.0 || u->solid.mobility[i] == 0.0) return 0.0;
   const double e = p - value[HEAD] - value[DENSITY] * Along(u->gravity, &u->solid.x[2 * i]),
                rho = 3.0 / (u->solid.mobility[i] * area), largest = dt * g * sqrt(2.0 * rho * fabs(e));
@@ -230,26 +268,24 @@ PetscErrorCode UpliftAdd(Uplift u, Overlap o, const ElementTerm element[], const
   const size_t n = (size_t)u->solid.nnodes;
   double *excess, *size, *area;
   Fields *outside;
-  Beneath b;
+  Gap gap;
   PetscBool any = PETSC_FALSE;
 
   PetscFunctionBeginUser;
   total[0] = total[1] = 0.0;
-  PetscCall(MayBeClose(u, o, &any));
+  PetscCall(FindCandidates(u, o, &any));
   if (!any) PetscFunctionReturn(0);
   PetscCall(PetscMalloc4(n, &excess, n, &size, n, &area, n, &outside));
-  PetscCall(PetscMalloc5((size_t)u->solid.nfacets, &b.is_close, n, &b.is_end, n, &b.is_free, n, &b.counts, n,
-                         &b.value));
+  PetscCall(PetscMalloc3(n, &gap.is_free, n, &gap.counts, n, &gap.value));
   PetscCall(SurfacePressureInside(o, p, (int)n, excess, size, area));
   PetscCall(SurfacePressureHead(o, element, u->gravity, p, (int)n, outside));
-  PetscCall(FindClose(u, o, size, (const Fields *)outside, &b, &any));
-  if (any) {
-    PetscCall(Interpolate(u, o, &b));
-    for (int i = 0; i < (int)n; i++) excess[i] = Excess(u, &b, i, excess[i], area[i], dt);
-    AddForce(u, &b, excess, force, total);
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, total, 2, MPI_DOUBLE, MPI_SUM, u->comm));
-  }
-  PetscCall(PetscFree5(b.is_close, b.is_end, b.is_free, b.counts, b.value));
+  KeepClose(u, size);
+  PetscCall(FindKnown(u, o, (const Fields *)outside, &gap));
+  PetscCall(Interpolate(u, o, &gap));
+  for (int i = 0; i < (int)n; i++) excess[i] = Excess(u, &gap, i, excess[i], area[i], dt);
+  PetscCall(AddForce(u, excess, force, total));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, total, 2, MPI_DOUBLE, MPI_SUM, u->comm));
+  PetscCall(PetscFree3(gap.is_free, gap.counts, gap.value));
   PetscCall(PetscFree4(excess, size, area, outside));
   PetscFunctionReturn(0);
 }

@@ -1,22 +1,25 @@
-/* The pressure beneath solids that stand on a wall of the tank, or are about to (mode reaction; solid.walls).
+/* The pressure between solids that touch each other or a wall of the tank, or are about to (mode reaction).
  *
- * Between such a solid and the wall lies less than a fluid element: what is there moves with the solid, and the wall stops both.  So the
- * fluid's solve holds the solid by a pressure p beneath it whatever the contact does: with any contact force N the fluid's force is the
- * weight less N, and a block that is let down stands on the water, without friction.  But water gets in between, and what it has there is the
- * pressure of the water around: beneath, the head
+ * Between the two lies less than a fluid element: what is there moves with both, and so the fluid's solve holds them apart by a pressure p,
+ * whatever the contact does: with any contact force N the fluid's force is the weight less N; a block that is let down
+ * on a floor stands on the water, without friction, and a heap of stones flows.  But water gets in between, and what it has there is the
+ * pressure of the water around: the head
  *
- *     h  =  p_o - rho_o g.x        at the ends of the close facets, p_o at x beside the solid, rho_o the density there (outside.h)
+ *     h  =  p_o - rho_o g.x        p_o at x beside the solid, rho_o the density there (outside.h),
  *
- * is linear along the surface from one end to the other, as of a slow flow through the gap.  What p has beyond that is taken from the force in part,
+ * known where the fluid beside the surface is resolved, is harmonic between such places: linear along the surface, as of a slow flow
+ * through the gap, and nearly the same on both sides of it.  What p has beyond that is taken from the force in part,
  *
- *     F_i  +=  int N_i e n       over the close facets: they face a wall within UPLIFT_REACH of an element's size
+ *     F_i  +=  int N_i e n       over the close points of close_points.h, within UPLIFT_REACH of an element's size
  *     e     =  p - rho_o g.x - h,   but at most dt |g| sqrt(2 rho_s |e|)
  *
- * e moves the solid against the wall, by a part of a step's fall, and the next step's p lacks what the contact bears then: N grows by the
+ * and from what is opposite with the other sign; of two facets, each with half of its e (all, if the other is held).
+ *
+ * e moves the solid against the other, by a part of a step's fall, and the next step's p lacks what the contact bears then: N grows by the
  * integral of e in each step, until e is 0, in the time that the solid takes to fall through the height of that pressure.  A blow of a few
  * steps passes: the wall's reaction to it is the fluid's (with all of e a square that a dam's front struck was thrown up, with an e
- * that follows p at that rate a caisson bounced).  Facets that no end is connected with stay as they are.  The momentum is the wall's: columns
- * `uplift` of coupler.csv. */
+ * that follows p at that rate a caisson bounced).  Facets that no such place is connected with stay as they are.  The momentum of walls is in
+ * the columns `uplift` of coupler.csv. */
 #ifndef CORACLE_COUPLER_UPLIFT_H
 #define CORACLE_COUPLER_UPLIFT_H
 #include "coupler/wall_term.h"
@@ -25,7 +28,7 @@
 
 typedef struct Uplift_s *Uplift;
 
-/* lower, upper: the walls, m. */
+/* lower, upper: the walls, m; infinite where there are none. */
 PetscErrorCode UpliftCreate(MPI_Comm comm, const double lower[2], const double upper[2],
                             const double gravity[2], Uplift *uplift);
 PetscErrorCode UpliftDestroy(Uplift *uplift);

@@ -23,6 +23,7 @@ struct PressurePreconditioner_s {
   PetscInt nfixed;     /* owned vertices whose row of A1 is the identity's */
   PetscBool pinned;    /* this rank has the vertex that makes A1 definite in a closed domain */
   KSP solver;          /* of A1 */
+  Vec balanced;        /* in a closed domain: r without its sum */
   Vec r1, z1, change;  /* in P1; E z1 */
   int setup;           /* iterations of CG that cost as much as the set-up of a coarse solver */
   int fresh;           /* least iterations with the coarse solver; -1: it has not been used yet */
@@ -115,6 +116,21 @@ static PetscErrorCode CreateSolver(PressurePreconditioner p)
   PetscFunctionReturn(0);
 }
 
+/* Constants are known to nobody in a closed domain, and the sum of r, round-off of A x, would end CG where it is as large as r itself. */
+static PetscErrorCode Balance(PressurePreconditioner p, Vec *r)
+{
+  PetscScalar sum;
+  PetscInt n;
+  PetscFunctionBeginUser;
+  if (!p->balanced) PetscFunctionReturn(0);
+  PetscCall(VecCopy(*r, p->balanced));
+  PetscCall(VecSum(p->balanced, &sum));
+  PetscCall(VecGetSize(p->balanced, &n));
+  PetscCall(VecShift(p->balanced, -sum / n));
+  *r = p->balanced;
+  PetscFunctionReturn(0);
+}
+
 /* PCSHELL */
 static PetscErrorCode Apply(PC shell, Vec r, Vec z)
 {
@@ -122,6 +138,7 @@ static PetscErrorCode Apply(PC shell, Vec r, Vec z)
   Vec residual = NULL;
   PetscFunctionBeginUser;
   PetscCall(PCShellGetContext(shell, &p));
+  PetscCall(Balance(p, &r));
   PetscCall(RelaxationForward(p->relaxation, r, z, &residual));
   if (PatchCorrectionActive(p->patches)) PetscCall(PatchCorrectionFirst(p->patches, residual, z));
   PetscCall(MatMultTranspose(p->extension, residual, p->r1));
@@ -164,6 +181,7 @@ PetscErrorCode PressurePreconditionerCreate(const FluidDomain *domain, const cha
   PetscCall(CreateExtension(p, is_fixed));
   PetscCall(CreateCoarse(p, is_fixed));
   PetscCall(MatCreateVecs(p->extension, &p->r1, &p->change));
+  if (closed) PetscCall(VecDuplicate(p->change, &p->balanced));
   PetscCall(VecDuplicate(p->r1, &p->z1));
   PetscCall(CreateSolver(p));
   *preconditioner = p;
@@ -181,6 +199,7 @@ PetscErrorCode PressurePreconditionerDestroy(PressurePreconditioner *preconditio
   PetscCall(MatDestroy(&p->coarse));
   PetscCall(RelaxationDestroy(&p->relaxation));
   PetscCall(PatchCorrectionDestroy(&p->patches));
+  PetscCall(VecDestroy(&p->balanced));
   PetscCall(VecDestroy(&p->r1));
   PetscCall(VecDestroy(&p->z1));
   PetscCall(VecDestroy(&p->change));
