@@ -5,6 +5,15 @@ typedef struct {
   LinearField star, start, projected;
 } ElementFlow;
 
+/* The element's flow seen from the centre of one of its pairs. */
+static ElementFlow FlowAt(const Overlap o, const SupermeshPair *pair, const ElementFlow *flow)
+{
+  double d[2];
+  SupermeshCentreInB(pair, &o->source_basis[pair->a], &o->basis[pair->b], d);
+  return (ElementFlow){LinearFieldAt(&flow->star, d), LinearFieldAt(&flow->start, d),
+                       LinearFieldAt(&flow->projected, d)};
+}
+
 /* R's density, at the pair's centre; inside solids a or the inertia is mostly 0. */
 static LinearField Reaction(const PairTerm *term, const ElementTerm *element, const SourceTerm *source,
                             const double gravity[2], const ElementFlow *flow, const LinearField *start,
@@ -35,6 +44,37 @@ static LinearField Reaction(const PairTerm *term, const ElementTerm *element, co
   return reaction;
 }
 
+/* What two solids that touch share: the mean of the reaction over their pairs, which is the pressure's gradient there. */
+static void ReactionShared(const Overlap o, const PairTerm term[], const ElementTerm *element,
+                           const SourceTerm source[], const double gravity[2], const ElementFlow *flow, int e,
+                           double mean[2])
+{
+  VectorMoments sum = {{0.0}, {{0.0}}};
+  double area = 0.0;
+  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
+    const int p = o->of_element[i];
+    const SupermeshPair *pair = &o->pairs.pair[p];
+    if (o->source[pair->a].is_shell) continue;
+    const ElementFlow at = FlowAt(o, pair, flow);
+    const LinearField start = LinearFieldAt(&source[pair->a].start, pair->centre),
+                      density =
+                          Reaction(&term[p], element, &source[pair->a], gravity, &at, &start, pair->centre);
+    VectorMomentsAdd(pair, &density, pair->centre, &sum);
+    area += pair->area;
+  }
+  const double whole[2] = {sum.zero[0] / area, sum.zero[1] / area};
+  WallApply(&element->shared, whole, mean);
+}
+
+/* Of a pair's reaction, the part that is shared becomes the mean. */
+static void Share(const WallCoefficient *shared, const double mean[2], LinearField *density)
+{
+  const WallCoefficient less = WallCoefficientScaled(shared, -1.0);
+  const LinearField own = *density;
+  WallAdd(&less, &own, density);
+  for (int c = 0; c < 2; c++) density->value[c] += mean[c];
+}
+
 /* The density of F_i + F_b. */
 static LinearField Other(double rho, double dt, const double gravity[2], const ElementFlow *flow,
                          const LinearField *start)
@@ -63,28 +103,29 @@ PetscErrorCode ForceOfPairs(const Overlap o, const PairTerm term[], const Elemen
                             const CoracleFlow *flow, ForceVertex vertex[])
 {
   ElementFlow *on;
+  double(*mean)[2]; /* of shared elements */
 
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(o->ncoupled, &on));
+  PetscCall(PetscMalloc2(o->ncoupled, &on, o->ncoupled, &mean));
   for (int e = 0; e < o->ncoupled; e++) {
     const int k = o->coupled_element[e];
     on[e] = (ElementFlow){LinearFieldOnElement(&o->basis[k], &flow->u_star[6 * k]),
                           LinearFieldOnElement(&o->basis[k], &flow->u_start[6 * k]),
                           LinearFieldOnElement(&o->basis[k], &flow->u_projected[6 * k])};
+    if (!WallIsZero(&element[e].shared))
+      ReactionShared(o, term, &element[e], source, gravity, &on[e], e, mean[e]);
   }
   for (int t = 0, p = 0; t < o->nsources; t++) {
     VectorMoments reaction = {{0.0}, {{0.0}}}, other = {{0.0}, {{0.0}}};
     for (; p < o->pairs.n && o->pairs.pair[p].a == t; p++) {
       const SupermeshPair *pair = &o->pairs.pair[p];
-      const ElementFlow *k = &on[o->coupled_index[p]];
+      const int e = o->coupled_index[p];
       const double *d = pair->centre;
-      double from_element[2];
-      SupermeshCentreInB(pair, &o->source_basis[t], &o->basis[pair->b], from_element);
-      const ElementFlow at = {LinearFieldAt(&k->star, from_element), LinearFieldAt(&k->start, from_element),
-                              LinearFieldAt(&k->projected, from_element)};
+      const ElementFlow at = FlowAt(o, pair, &on[e]);
       const LinearField start = LinearFieldAt(&source[t].start, d);
-      const LinearField density =
-          Reaction(&term[p], &element[o->coupled_index[p]], &source[t], gravity, &at, &start, d);
+      LinearField density = Reaction(&term[p], &element[e], &source[t], gravity, &at, &start, d);
+      if (!WallIsZero(&element[e].shared) && !o->source[t].is_shell)
+        Share(&element[e].shared, mean[e], &density);
       VectorMomentsAdd(pair, &density, d, &reaction);
       if (o->source[t].is_shell) continue;
       const LinearField rest = Other(o->rho[pair->b], dt, gravity, &at, &start);
@@ -92,7 +133,7 @@ PetscErrorCode ForceOfPairs(const Overlap o, const PairTerm term[], const Elemen
     }
     SetVertices(&o->source_basis[t], &reaction, &other, &vertex[3 * t]);
   }
-  PetscCall(PetscFree(on));
+  PetscCall(PetscFree2(on, mean));
   PetscFunctionReturn(0);
 }
 

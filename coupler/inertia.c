@@ -54,7 +54,7 @@ PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt
   for (int t = 0; t < o->nsources; t++) {
     const double density = TriangleDensity(vertex[t]);
     const PetscBool is_shell = o->source[t].is_shell ? PETSC_TRUE : PETSC_FALSE;
-    source[t].held = (PetscBool)(!is_shell && density == 0.0);
+    source[t].held = (PetscBool)(density == 0.0);
     source[t].density = is_shell ? 0.0 : source[t].held && heavy ? heaviest : fmin(density, heaviest);
   }
   for (int p = 0; p < o->pairs.n; p++) {
@@ -80,20 +80,38 @@ static PetscBool IsCovered(const Overlap o, const SourceTerm source[], int e)
   return fabs(covered - area) < COVERED * area ? PETSC_TRUE : PETSC_FALSE;
 }
 
+/* Of element e, over its pairs with inertia: areas, and those times what the solid has beyond the fluid's density; of those that are free, too. */
+typedef struct {
+  double area, excess, free_area, free_excess;
+} Excess;
+
+static Excess ExcessOf(const Overlap o, const SourceTerm source[], int e)
+{
+  Excess sum = {0.0, 0.0, 0.0, 0.0};
+  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
+    const SupermeshPair *pair = &o->pairs.pair[o->of_element[i]];
+    const SourceTerm *s = &source[pair->a];
+    if (s->density == 0.0) continue;
+    const double excess = pair->area * fmax(s->density - o->rho[pair->b], 0.0);
+    sum.area += pair->area;
+    sum.excess += excess;
+    if (s->held) continue;
+    sum.free_area += pair->area;
+    sum.free_excess += excess;
+  }
+  return sum;
+}
+
 /* k of element e. */
 static double KeptPart(const Overlap o, const SourceTerm source[], const ElementTerm *element, int e)
 {
   const int k = o->coupled_element[e];
-  const double rho = o->rho[k];
-  double area = 0.0, excess = 0.0;
-  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
-    const SupermeshPair *pair = &o->pairs.pair[o->of_element[i]];
-    if (source[pair->a].density == 0.0) continue;
-    area += pair->area;
-    excess += pair->area * fmax(source[pair->a].density - rho, 0.0);
-  }
-  if (excess == 0.0 || area > (1.0 - OUTSIDE_LEAST) * o->area[k]) return 1.0;
-  return fmin(1.0, INERTIA_KEPT_RATIO * (rho + element->outside) * area / excess);
+  const Excess sum = ExcessOf(o, source, e);
+  if (sum.excess == 0.0) return 1.0;
+  if (!WallIsZero(&element->shared) && sum.free_area > 0.0)
+    return fmin(1.0, sum.free_excess / sum.free_area * sum.area / sum.excess);
+  if (sum.area > (1.0 - OUTSIDE_LEAST) * o->area[k]) return 1.0;
+  return fmin(1.0, INERTIA_KEPT_RATIO * (o->rho[k] + element->outside) * sum.area / sum.excess);
 }
 
 /* Among phases, by inertia. */
@@ -124,8 +142,9 @@ void InertiaStart(Overlap o, const SourceTerm source[], double dt, ElementTerm e
     const WallCoefficient along = Sharpened(held ? &element[e].along : &element[e].tangential, kept);
     element[e].covered =
         (PetscBool)(!o->phases && WallIsZero(&element[e].tangential) && IsCovered(o, source, e));
-    element[e].kept =
-        o->phases && !held ? WallCoefficientIsotropic(kept) : WallCoefficientScaled(&along, kept);
+    element[e].kept = o->phases && !held && WallIsZero(&element[e].shared)
+                          ? WallCoefficientIsotropic(kept)
+                          : WallCoefficientScaled(&along, kept);
     element[e].freed = WallCoefficientScaled(&along, 1.0 - kept);
   }
   for (int p = 0; p < o->pairs.n; p++) {

@@ -30,7 +30,7 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
   }
   PetscCall(InertiaCoefficients(o, solid, c->dt, c->options.sigma_among_phases, c->term, c->source));
   OutsideDensity(o, c->element);
-  SlipTensors(o, c->element);
+  SlipTensors(o, c->source, c->element);
   InertiaStart(o, c->source, c->dt, c->element, c->term);
   SlipCoefficients(o, c->element, c->term);
   PetscFunctionReturn(0);

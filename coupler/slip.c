@@ -1,16 +1,18 @@
 #include "coupler/slip.h"
 #include "coupler/outside.h"
 
-void SlipTensors(const Overlap o, ElementTerm element[])
+void SlipTensors(const Overlap o, const SourceTerm term[], ElementTerm element[])
 {
   for (int e = 0; e < o->ncoupled; e++) {
-    double solid = 0.0, shell = 0.0, xx = 0.0, xy = 0.0, yy = 0.0; /* areas */
+    double solid = 0.0, all = 0.0, shell = 0.0, xx = 0.0, xy = 0.0, yy = 0.0; /* areas */
     for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
       const SupermeshPair *pair = &o->pairs.pair[o->of_element[i]];
       const SourceTriangle *source = &o->source[pair->a];
       const double *n = source->normal;
       if (!source->is_shell) solid += pair->area;
       if (!source->is_shell) continue;
+      all += pair->area;
+      if (o->phases && !term[pair->a].held) continue;
       shell += pair->area;
       xx += pair->area * n[0] * n[0];
       xy += pair->area * n[0] * n[1];
@@ -18,11 +20,12 @@ void SlipTensors(const Overlap o, ElementTerm element[])
     }
     const double area = o->area[o->coupled_element[e]];
     const PetscBool open = (PetscBool)(solid < (1.0 - OUTSIDE_LEAST) * area),
-                    shared = (PetscBool)(!o->phases && solid + shell > (1.0 + OUTSIDE_LEAST) * area);
+                    shared = (PetscBool)(!open && solid + all > (1.0 + OUTSIDE_LEAST) * area);
     element[e].along = element[e].tangential = WallCoefficientIsotropic(0.0);
     if (shell > 0.0 && (open || shared))
       element[e].along = (WallCoefficient){1.0 - xx / shell, -xy / shell, 1.0 - yy / shell};
     if (!o->phases) element[e].tangential = element[e].along;
+    element[e].shared = o->phases && shared ? element[e].along : WallCoefficientIsotropic(0.0);
   }
 }
 

@@ -20,6 +20,11 @@
  * held to each other's mean velocity by a part of their momentum in each step (a block on a slope slid with 0.09 of its acceleration when steps
  * were a quarter as long; tests/coupled/slope.sh).  The shell of one solid overlaps the other there.
  *
+ * The same among phases where one of the two is held: its inertia, INERTIA_MOST, would hold the other, too.  Along the surface all of the
+ * element has the other's inertia, and each pair gets the mean of the reaction there (ElementTerm.shared), which is what the pressure's
+ * gradient gives to both.  Normals are those of what is held alone: an element at the foot of a block on a slope slides along the slope.  Two
+ * that are free accelerate together there, which lets them slide.
+ *
  * Where the fluid says that it has phases (Overlap.phases) D = 0: what such an element, of one velocity, one density and one pressure,
  * leaves of forces along a solid adds up where nothing stops it, and water is not viscous enough to.  With slip where what is beside
  * the solid is water, a block that rolls gets water that runs along its bottom at 0.95 m/s, inside elements that are nearly covered
@@ -37,8 +42,8 @@
 
 #define SLIP_FRICTION 2.0
 
-/* Local: D of element[overlap->ncoupled], and what it is with one fluid. */
-void SlipTensors(const Overlap overlap, ElementTerm element[]);
+/* Local, after InertiaCoefficients: D, along and shared of element[overlap->ncoupled]. */
+void SlipTensors(const Overlap overlap, const SourceTerm source[], ElementTerm element[]);
 /* Local: a of the pairs in the solid's volume, isotropic so far, becomes (I - D) a + SLIP_FRICTION mu/|K| D. */
 void SlipCoefficients(const Overlap overlap, const ElementTerm element[], PairTerm term[]);
 /* Local: r -= D r of all corrections[overlap->ncoupled]. */

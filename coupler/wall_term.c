@@ -53,7 +53,7 @@ static void AddPair(const SupermeshPair *pair, const PairTerm *term, const Eleme
 {
   const PetscBool is_free = source->density > 0.0 ? PETSC_TRUE : PETSC_FALSE,
                   held = (PetscBool)(!is_shell && !is_free);
-  if (source->held) k->flags |= CORACLE_IS_HELD;
+  if (source->held && !is_shell) k->flags |= CORACLE_IS_HELD;
   const MassMoments mass = PairMass(pair, d);
   LinearField density = {{0.0}, {{0.0}}};
   double v[2];

@@ -84,10 +84,12 @@ typedef struct {
 
 /* What a coupled element's pairs have in common. */
 typedef struct {
-  WallCoefficient along; /* I - mean of n n over the shell in K, where it is crossed (slip.h), without unit */
+  WallCoefficient
+      along; /* I - mean of n n over the shell in K, among phases of what is held, where it is crossed (slip.h), without unit */
   WallCoefficient tangential; /* D (slip.h), without unit */
   WallCoefficient kept;       /* of u^n, by the solid's inertia (inertia.h), without unit */
   WallCoefficient freed;      /* of the inertia, (1 - k) D (inertia.h), without unit */
+  WallCoefficient shared;     /* the part of the reaction that two solids in K share (slip.h), without unit */
   PetscBool covered;          /* K lies in the solid as a whole (inertia.h) */
   double outside;             /* rho_o - rho_f of the fluid beside the solid (outside.h), kg/m3 */
 } ElementTerm;
@@ -95,7 +97,7 @@ typedef struct {
 /* What a source triangle's vertices have, with its basis as the origin. */
 typedef struct {
   double density;                     /* rho_s, kg/m3; 0: of the shell, or held by sigma (inertia.h) */
-  PetscBool held;                     /* its nodes have no mobility */
+  PetscBool held;                     /* its nodes have no mobility; shells, too */
   LinearField velocity;               /* u_s, that the fluid couples to, m/s */
   LinearField start;                  /* v, the solid's at the step's start, m/s */
   LinearField force;                  /* rho_s a of the body force (inertia.h), N/m3 */
@@ -121,7 +123,7 @@ static inline LinearField PairBodyForce(const PairTerm *term, const ElementTerm 
   const double excess = fmax(term->rho - source->density, 0.0);
   const LinearField force = LinearFieldAt(&source->force, centre);
   LinearField q = force;
-  if (!WallIsZero(&element->freed)) { /* the solid is heavier */
+  if (!WallIsZero(&element->freed) && WallIsZero(&element->shared)) { /* the solid is heavier */
     const WallCoefficient freed = WallCoefficientScaled(&element->freed, term->rho / source->density - 1.0);
     WallAdd(&freed, &force, &q);
   }
