@@ -5,6 +5,7 @@
 void BudgetStart(Solid s)
 {
   s->budget = (SolidBudget){.work = 0.0};
+  memset(s->reaction, 0, (size_t)s->nbodies * sizeof *s->reaction);
   for (int n = 0; n < s->nnodes; n++)
     for (int c = 0; c < 2 && SolidOwns(s, n); c++) s->budget.start[c] += s->mass[n] * s->v[2 * n + c];
 }
@@ -19,7 +20,7 @@ void BudgetAddSubstep(Solid s)
     const int n = s->fixed[k];
     if (!SolidOwns(s, n)) continue;
     for (int c = 0; c < 2; c++)
-      s->budget.reaction[c] -=
+      s->reaction[s->node_body[n]][c] -=
           s->h * (s->force[2 * n + c] + s->load[2 * n + c] + s->mass[n] * s->setup.gravity[c]);
   }
 }
@@ -27,7 +28,7 @@ void BudgetAddSubstep(Solid s)
 void BudgetAddImpulse(Solid s, int n, int c, double impulse, double v)
 {
   if (!SolidOwns(s, n)) return;
-  s->budget.reaction[c] += impulse;
+  s->reaction[s->node_body[n]][c] += impulse;
   s->budget.reaction_work += impulse * v;
 }
 
@@ -61,9 +62,10 @@ PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget)
     COUNT = LOAD + 2
   };
   const SolidBudget *b = &s->budget;
-  double sum[COUNT] = {b->walls[0],      b->walls[1], b->reaction[0], b->reaction[1], 0.0,
-                       b->reaction_work, 0.0,         b->start[0],    b->start[1]};
+  double sum[COUNT] = {b->walls[0], b->walls[1], [REACTION_WORK] = b->reaction_work, [START] = b->start[0],
+                       b->start[1]};
   PetscFunctionBeginUser;
+  for (int k = 0; k < 2 * s->nbodies; k++) sum[REACTION + k % 2] += s->reaction[k / 2][k % 2];
   for (int n = 0; n < s->nnodes; n++) {
     if (!SolidOwns(s, n)) continue;
     sum[MASS] += s->mass[n];

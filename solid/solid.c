@@ -57,6 +57,7 @@ PetscErrorCode SolidFreeSubdomain(Solid s)
   PetscCall(PetscFree5(s->start, s->interface_velocity, s->mobility, s->acceleration, s->piece));
   PetscCall(PetscFree6(s->element, s->facet, s->facet_element, s->facet_side, s->base, s->body));
   PetscCall(PetscFree(s->is_prescribed));
+  PetscCall(PetscFree(s->reaction));
   PetscCall(PetscFree(s->material));
   PetscCall(PetscFree2(s->motion, s->motion_rows));
   PetscCall(PetscFree(s->prescribed));
@@ -140,8 +141,8 @@ PetscErrorCode SolidState(Solid s, int save)
 
 /* --- sums over bodies --------------------------------------------------------------------------------- */
 
-/* First sums: mass, mass x, mass v, load, kinetic energy; then strain energy. */
-enum { M, MX, MY, MU, MV, FX, FY, KINETIC, STRAIN, NSUMS };
+/* First sums: mass, mass x, mass v, load, kinetic energy; then strain energy, impulse of the reaction. */
+enum { M, MX, MY, MU, MV, FX, FY, KINETIC, STRAIN, RX, RY, NSUMS };
 
 static void AddNodes(const Solid s, int n, double sum[][NSUMS])
 {
@@ -207,6 +208,7 @@ PetscErrorCode SolidBodies(Solid s, int n, BodyState state[])
   PetscCall(PetscCalloc1((size_t)n, &sum));
   AddNodes(s, n, sum);
   AddStrainEnergy(s, n, sum);
+  for (int k = 0; k < 2 * n; k++) sum[k / 2][RX + k % 2] = s->reaction[k / 2][k % 2];
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, NSUMS * n, MPI_DOUBLE, MPI_SUM, s->comm));
   for (int b = 0; b < n; b++) {
     const double *k = sum[b];
@@ -215,6 +217,7 @@ PetscErrorCode SolidBodies(Solid s, int n, BodyState state[])
       state[b].x[c] = k[MX + c] / k[M];
       state[b].v[c] = k[MU + c] / k[M];
       state[b].load[c] = k[FX + c];
+      state[b].reaction[c] = s->dt > 0.0 ? k[RX + c] / s->dt : 0.0;
     }
   }
   PetscCall(AboutCentres(s, n, state));

@@ -135,6 +135,7 @@ typedef struct {
   double load[2];          /* what the fluid does, N/m */
   double moment;           /* of it about the mass centre, counter-clockwise, N m/m */
   double kinetic, strain;  /* J/m; kinetic at the time of x: sum m v.(v + h a)/2 */
+  double reaction[2];      /* SolidBudget's of this body, mean over the last step, N/m */
 } BodyState;
 /* state[n]: of the first n bodies. */
 PetscErrorCode SolidBodies(Solid s, int n, BodyState state[]);

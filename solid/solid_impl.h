@@ -103,7 +103,8 @@ struct Solid_s {
   StepResponse response;      /* NULL before the first SolidUpdateInterfaceMotion */
   int npieces, *piece;        /* [nnodes] SolidPieces has found; npieces 0: since the last crack not yet */
   int remaining, until_check; /* substeps */
-  SolidBudget budget;         /* this rank's part */
+  SolidBudget budget;         /* this rank's part, but for the reaction */
+  double (*reaction)[2];      /* [nbodies] this rank's part of what budget.reaction is of all, N s/m */
   PetscBool force_valid;      /* force belongs to x and v */
   PetscBool unsynchronised;   /* after SolidState(0): JointsSynchronise is due */
   SolidStats stats;

@@ -52,10 +52,11 @@ void SpringsAddBudget(Solid s)
 {
   for (int k = 0; k < s->setup.nsprings; k++) {
     double v[2];
-    if (!NodesOf(s, k)) continue;
+    const int *node = NodesOf(s, k);
+    if (!node) continue;
     AtPoint(s, k, s->v, v);
     for (int c = 0; c < 2; c++) {
-      s->budget.reaction[c] += s->h * s->spring_force[k][c];
+      s->reaction[s->node_body[node[0]]][c] += s->h * s->spring_force[k][c];
       s->budget.reaction_work += s->h * s->spring_force[k][c] * v[c];
     }
   }

@@ -59,6 +59,7 @@ static PetscErrorCode Allocate(Solid s)
                          2 * nn, &s->saved.x, 2 * nn, &s->saved.v));
   PetscCall(PetscMalloc6(3 * ne, &s->element, 2 * nf, &s->facet, nf, &s->facet_element, nf, &s->facet_side,
                          nn, &s->base, (size_t)s->nbodies, &s->body));
+  PetscCall(PetscCalloc1((size_t)s->nbodies, &s->reaction));
   PetscCall(PetscCalloc1(nn, &s->is_prescribed));
   PetscCall(PetscMalloc1(nn, &s->fixed));
   PetscCall(PetscMalloc3(ne, &e->node[0], ne, &e->node[1], ne, &e->node[2]));

@@ -79,6 +79,7 @@ static void TakeTime(const Solid s, Solid fresh)
   fresh->moved_for = s->moved_for;
   fresh->stats = s->stats;
   fresh->budget = s->budget;
+  memcpy(fresh->reaction, s->reaction, (size_t)s->nbodies * sizeof *s->reaction);
   fresh->balance = s->balance;
   fresh->model = s->model;
   fresh->before = s->before;
