@@ -1,24 +1,26 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, runs a coupled case with progress, and draws its figures.
-# Usage: scripts/run.sh CASE [--set key=value]... [--ranks F:C:S] [--out DIR] [--resume] [--bin DIR]
+# Usage: scripts/run.sh CASE [--set key=value]... [--ranks F:C:S] [--out DIR] [--resume] [--alone] [--bin DIR]
 #   CASE   a folder of cases/, or a case file
 #   --set  overrides a key of the case file, e.g. --set time.end=1.0
 #   --ranks  ranks of fluid, coupler and solid (default 1:1:1)
 #   --out  output folder (default out/<case>)
 #   --resume  resumes from the last checkpoint in the output folder, if there is one
+#   --alone  the solid alone: no fluid, no coupler
 #   --bin  programs that are there already: nothing is installed or built, and out/ is beside you
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 
-usage() { sed -n '2,9p' "$0" | cut -c3-; }
+usage() { sed -n '2,10p' "$0" | cut -c3-; }
 [ $# -ge 1 ] || { usage; exit 2; }
 case "$1" in -h | --help) usage; exit 0 ;; esac
 case=$1; shift
-ranks=1:1:1 out="" bin="" sets=()
+ranks=1:1:1 out="" bin="" sets=() alone=()
 while [ $# -gt 0 ]; do
   case "$1" in
     --set) sets+=(--set "${2:?--set needs key=value}"); shift 2 ;;
     --ranks) ranks=${2:?--ranks needs F:C:S}; shift 2 ;;
+    --alone) alone=(--alone); shift ;;
     --resume) sets+=(--set resume=last); shift ;;
     --bin) bin=${2:?--bin needs a folder}; shift 2 ;;
     --out) out=${2:?--out needs a folder}; shift 2 ;;
@@ -43,7 +45,7 @@ if [ -z "$bin" ]; then
   cmake --build --preset release --target coracle-fluid coracle-coupler coracle-solid -- --quiet
 fi
 mkdir -p "$out"
-"$root/scripts/launch.sh" --bin "${bin:-$root/build}" --ranks "$ranks" "$file" --set "output.folder=$out" "${sets[@]}"
+"$root/scripts/launch.sh" "${alone[@]}" --bin "${bin:-$root/build}" --ranks "$ranks" "$file" --set "output.folder=$out" "${sets[@]}"
 
 figures=$root/cases/$name/figures.sh
 if [ -f "$figures" ]; then bash "$figures" "$out"; fi

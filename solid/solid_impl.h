@@ -170,6 +170,9 @@ PetscErrorCode SolidKeepSubdomain(Solid s);
 PetscErrorCode JointsCreate(Solid s, const Model *a, const InteriorEdges *edges, int nghosts,
                             const GhostElement ghost[], const int part[], const int local[], Joints *joints);
 PetscErrorCode JointsDestroy(Joints *j);
+/* How this rank's joints suit the mesh: the least E G_I/F_t^2 and the greatest opening at which one breaks, each over the length of its
+ * edge.  Not collective; returns their number. */
+int JointsResolution(Joints j, Solid s, double *zone, double *opening);
 /* joints.c: adds to force and remembers damage. */
 void JointsAddForces(Joints j, Solid s);
 /* Collective: edges loaded to their strength activate, broken ones become surface; *changed: nodes,

@@ -102,7 +102,7 @@ PetscErrorCode CaseReadShape(CoracleCase c, int body, MeshSerial *mesh)
   } else if (shape == SHAPE_RECTANGLE) {
     const double width = CoracleCasePositive(c, BodyKey(key, body, "width"));
     const double height = CoracleCasePositive(c, BodyKey(key, body, "height"));
-    const double angle = CoracleCaseNumberOr(c, BodyKey(key, body, "angle"), 0.0, -HUGE_VAL, HUGE_VAL);
+    const double angle = CoracleCaseNumberOr(c, BodyKey(key, body, "angle"), 0.0, -2.0 * M_PI, 2.0 * M_PI);
     CheckCount(c, body, "size", 2.0 * (width / size + 1.0) * (height / size + 1.0));
     PetscCall(ShapeRectangle(centre, width, height, angle, size, mesh));
   } else {

@@ -39,6 +39,22 @@ done
 [ "$(head -c 4 "$scratch/case.png" | tail -c 3)" = PNG ] || fail "there is no picture"
 [ ! -e "$scratch/out" ] || fail "output was made"
 
+# the solid alone needs no keys of the others, and is told whether its mesh resolves cracks
+cat >"$scratch/alone.yaml" <<'E2'
+gravity: [0, 0]
+solid:
+  materials: {rock: {density: 1.0, youngs_modulus: 1.0e6, poisson_ratio: 0.2, tensile_strength: 1.0e4, shear_strength: 1.0e4, fracture_energy: 10.0}}
+  bodies: [{shape: rectangle, centre: [0, 0], width: 0.2, height: 0.2, size: 0.1, material: rock, joints: all}]
+output: {folder: out, every: 1.0}
+E2
+check --alone "$scratch/alone.yaml" || fail "a case of the solid alone has faults"
+[ "$(wc -l <"$scratch/log")" -eq 3 ] || fail "not three lines"
+grep -q 'edges can crack; .* is 0.7[0-9]* edges long (less than one.*open by 0.026 of its length$' "$scratch/log" || fail "not how long cracks are"
+check --alone "$scratch/alone.yaml" --set solid.materials.rock.fracture_energy=100 || fail "a case of the solid alone has faults"
+grep -q ' is 7.[0-9]* edges long, .*0.26 of its length (more than 0.1' "$scratch/log" || fail "not how wide cracks are"
+! check --alone "$scratch/alone.yaml" --set 'solid.bodies[0].size=-1' || fail "a size below 0 is accepted"
+[ "$(wc -l <"$scratch/log")" -eq 1 ] && grep -q "key 'solid.bodies\[0\].size'" "$scratch/log" || fail "not one line"
+
 for part in fluid coupler solid; do
   "$build/$part/coracle-$part" --version | grep -q "^coracle-$part [0-9.]*$" || fail "--version of $part"
   "$build/$part/coracle-$part" --help | grep -q -- "--set key=value" || fail "--help of $part"

@@ -21,6 +21,8 @@ accepted() {
 for size in 3.5e-6 1e-11 1e-300; do refused solid "'solid.bodies\[0\].size': .* elements" --set "solid.bodies[0].size=$size"; done
 rectangle='{shape: rectangle, centre: [1, 1], width: 0.2, height: 0.1, material: disc, size: '
 refused solid "'solid.bodies\[0\].size': .* elements" --set "solid.bodies[0]=${rectangle} 1e-7}"
+refused solid "'solid.bodies\[0\].angle': expected a number from -6.28" --set "solid.bodies[0]=${rectangle} 0.05, angle: 30}" # degrees
+accepted solid --set "solid.bodies[0]=${rectangle} 0.05, angle: -6.28}"
 ring='{shape: ring, centre: [1, 1], radius: 0.2, thickness: 0.1, material: disc, size: '
 refused solid "'solid.bodies\[0\].size': .* elements" --set "solid.bodies[0]=${ring} 1e-7}"
 refused solid "'solid.bodies\[0\].repeat.n': 9e+06 bodies" --set 'solid.bodies[0].repeat={n: [3000, 3000], step: [1, 1]}'
