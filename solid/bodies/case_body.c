@@ -283,6 +283,8 @@ PetscErrorCode CaseReadBody(CoracleCase c, int body, Model *a)
   setup.angular_velocity =
       CoracleCaseNumberOr(c, BodyKey(key, body, "angular_velocity"), 0.0, -HUGE_VAL, HUGE_VAL);
   if (setup.fixed && setup.angular_velocity != 0.0) CoracleCaseRefuse(c, key, "a fixed body does not turn");
+  if (setup.fixed && setup.nprescribed > 0)
+    CoracleCaseRefuse(c, BodyKey(key, body, "prescribed"), "a fixed body has no prescribed motion");
   PetscCall(AddRepeated(c, a, &mesh, &setup, joint_box));
   PetscCall(PetscFree2(prescribed, steady));
   PetscCall(PetscFree(name));

@@ -214,15 +214,8 @@ static PetscErrorCode AddElements(Model *a, const MeshSerial *m, const BodySetup
 
 static int InJoints(const MeshSerial *m, int e, const JointSetup *j)
 {
-  double centre[2] = {0.0, 0.0};
   int inside = j->all;
-  for (int i = 0; i < 3; i++) {
-    centre[0] += ModelVertex(m, e, i).x / 3.0;
-    centre[1] += ModelVertex(m, e, i).y / 3.0;
-  }
-  for (int k = 0; k < j->nboxes; k++)
-    inside |= centre[0] >= j->box[k][0] && centre[1] >= j->box[k][1] && centre[0] <= j->box[k][2] &&
-              centre[1] <= j->box[k][3];
+  for (int k = 0; k < j->nboxes; k++) inside |= ModelInBox(m, e, j->box[k]);
   for (int k = 0; k < j->nregions; k++)
     inside |= m->region && m->region[e] >= 0 && !strcmp(m->region_name[m->region[e]], j->region[k]);
   return inside;

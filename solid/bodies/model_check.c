@@ -86,10 +86,31 @@ static PetscErrorCode CheckNames(const MeshSerial *m, const BodySetup *setup)
   return code;
 }
 
+PetscBool ModelInBox(const MeshSerial *m, int e, const double box[4])
+{
+  const Point a = ModelVertex(m, e, 0), b = ModelVertex(m, e, 1), c = ModelVertex(m, e, 2);
+  const double x = (a.x + b.x + c.x) / 3.0, y = (a.y + b.y + c.y) / 3.0;
+  return (PetscBool)(x >= box[0] && y >= box[1] && x <= box[2] && y <= box[3]);
+}
+
+static PetscErrorCode CheckJoints(const MeshSerial *m, const JointSetup *j)
+{
+  for (int k = 0; k < j->nboxes; k++) {
+    const double *box = j->box[k];
+    int e = 0;
+    while (e < m->ne && !ModelInBox(m, e, box)) e++;
+    if (e == m->ne)
+      return ModelRefuse("no element's centre is in the joints' box [%g, %g] x [%g, %g]", box[0], box[2],
+                         box[1], box[3]);
+  }
+  return 0;
+}
+
 PetscErrorCode ModelCheck(const MeshSerial *m, const BodySetup *setup)
 {
   PetscErrorCode code = CheckElements(m);
   if (!code) code = CheckPositions(m, setup->position);
   if (!code) code = CheckNames(m, setup);
+  if (!code) code = CheckJoints(m, &setup->joints);
   return code;
 }

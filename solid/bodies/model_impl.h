@@ -14,4 +14,6 @@ static inline Point ModelVertex(const MeshSerial *m, int e, int i)
 {
   return PointAt(m->x, m->vertex[3 * e + i]);
 }
+/* The centre of element e of a body's mesh lies in the box (lower x, y, upper x, y). */
+PetscBool ModelInBox(const MeshSerial *m, int e, const double box[4]);
 #endif
