@@ -6,7 +6,7 @@
 #include <limits.h>
 #include <math.h>
 
-#define FACTOR_MAX 40000 /* vertices times ranks, from which on multigrid is cheaper than a factor */
+#define FACTOR_MAX 25000 /* vertices times ranks, from which on multigrid is cheaper than a factor */
 #define CHANGE_MAX 4.0   /* of an element, as a factor: what an old coarse solver is good for */
 /* Of elements: patches are made of those above the first when there is one above the second.  (2 in place of 1.2: up to 38 iterations in place of 16 in
  * tests/fluid/test_pressure_solver.c.  A skin of a fiftieth of the fluid's density has 5, and the iteration less would not pay for its patches.) */
@@ -109,6 +109,9 @@ static PetscErrorCode CreateSolver(PressurePreconditioner p)
     PetscCall(KSPGetPC(p->solver, &pc));
     PetscCall(PCSetType(pc, PCHYPRE));
     PetscCall(PCHYPRESetType(pc, "boomeramg"));
+    PetscCall(SolverDefaultOption("pressure_coarse_", "pc_hypre_boomeramg_relax_type_down", "SOR/Jacobi"));
+    PetscCall(
+        SolverDefaultOption("pressure_coarse_", "pc_hypre_boomeramg_relax_type_up", "backward-SOR/Jacobi"));
   }
 #endif
   PetscCall(KSPSetOperators(p->solver, p->coarse, p->coarse));
