@@ -2,11 +2,12 @@
  *
  *     repeat     fluid   -- u*, u+, rho, mu -->  force     -- force -->  solid
  *                solid   -- x, u_s ---------->  converged?
- *                           if not:             next u_s  -- coupling, REDO -->  fluid
+ *                           if not:             next u_s  -- REDO, coupling -->  fluid
  *     until converged; where that takes too many iterations, from the start over half of dt
  *     correction of the fluid to the solid's new velocity
- *     choose dt;   shell, overlap and coupling at the solid's new position
- *                                               correction, coupling, RUN -->  fluid
+ *     choose dt                                 correction, RUN -->  fluid
+ *     shell, overlap and coupling at the solid's new position
+ *                                               coupling -->         fluid
  */
 #include "coupler/time_loop.h"
 #include "coupler/exchange.h"
@@ -52,8 +53,16 @@ static PetscErrorCode MoveGauges(RunState *run)
   PetscFunctionReturn(0);
 }
 
-/* The coupling of the step from t over dt: RUN, with the correction of the step before it, or REDO. */
-static PetscErrorCode SendCoupling(RunState *run, CoracleAction action)
+/* The fluid repeats the step from t over dt; it begins to before it has the coupling. */
+static PetscErrorCode SendRedo(RunState *run)
+{
+  PetscFunctionBeginUser;
+  PetscCall(ServerSendStep(run->loop->server, run->t, run->dt, CORACLE_REDO, 0, NULL));
+  PetscFunctionReturn(0);
+}
+
+/* The coupling of the step from t over dt, which has been announced. */
+static PetscErrorCode SendCoupling(RunState *run)
 {
   const TimeLoop *loop = run->loop;
   const CoracleCoupling *coupling;
@@ -64,20 +73,20 @@ static PetscErrorCode SendCoupling(RunState *run, CoracleAction action)
   PetscCall(CouplingIterationBegin(&run->iteration, &run->start, run->dt,
                                    CouplerPredictedVelocity(loop->coupler),
                                    CouplerExplicitFraction(loop->coupler)));
-  PetscCall(ServerSendCoupling(loop->server, run->t, run->dt, action,
-                               action == CORACLE_RUN ? run->ncorrection : 0, run->correction, n, coupling));
+  PetscCall(ServerSendCoupling(loop->server, n, coupling));
   PetscFunctionReturn(0);
 }
 
-/* Begins the coming step. */
+/* Begins the coming step; the fluid ends the one before it with the correction, while the coupling is computed. */
 static PetscErrorCode SendStep(RunState *run)
 {
   const TimeLoop *loop = run->loop;
 
   PetscFunctionBeginUser;
   PetscCall(SolidStateCopy(&run->solid, &run->start));
+  PetscCall(ServerSendStep(loop->server, run->t, run->dt, CORACLE_RUN, run->ncorrection, run->correction));
   PetscCall(ServerPhase(loop->server, "overlap"));
-  PetscCall(SendCoupling(run, CORACLE_RUN));
+  PetscCall(SendCoupling(run));
   PetscCall(WriterShell(loop->writer, run->t, loop->coupler, &run->start));
   PetscFunctionReturn(0);
 }
@@ -133,9 +142,10 @@ static PetscErrorCode RepeatStep(RunState *run)
   int n;
 
   PetscFunctionBeginUser;
+  PetscCall(SendRedo(run));
   PetscCall(CouplingIterationNext(&run->iteration, &u));
   PetscCall(CouplerSetInterfaceVelocity(loop->coupler, u, &n, &coupling));
-  PetscCall(ServerSendCoupling(loop->server, run->t, run->dt, CORACLE_REDO, 0, NULL, n, coupling));
+  PetscCall(ServerSendCoupling(loop->server, n, coupling));
   PetscFunctionReturn(0);
 }
 
@@ -165,9 +175,10 @@ static PetscErrorCode FindSupport(RunState *run, StepRecord *step)
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &change, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
     if (i == 0) first = change;
     if (!lost) PetscCall(CouplerSetAcceleration(loop->coupler, &run->solid));
+    PetscCall(SendRedo(run));
     PetscCall(CouplerSetInterfaceVelocity(loop->coupler, CouplerPredictedVelocity(loop->coupler), &ncoupling,
                                           &coupling));
-    PetscCall(ServerSendCoupling(loop->server, run->t, run->dt, CORACLE_REDO, 0, NULL, ncoupling, coupling));
+    PetscCall(ServerSendCoupling(loop->server, ncoupling, coupling));
   }
   PetscCall(PetscFree(u));
   PetscFunctionReturn(0);
@@ -204,7 +215,8 @@ static PetscErrorCode SolveStep(RunState *run, StepRecord *step)
     PetscCall(SolveOverStep(run, step, &converged));
     if (converged) break;
     PetscCall(RunHalveStep(run, halvings));
-    PetscCall(SendCoupling(run, CORACLE_REDO));
+    PetscCall(SendRedo(run));
+    PetscCall(SendCoupling(run));
   }
   PetscFunctionReturn(0);
 }
@@ -252,8 +264,7 @@ static PetscErrorCode Stop(RunState *run)
   run->dt = 0.0;
   PetscCall(CheckpointsRequest(&run->checkpoints, WriterSteps(run->loop->writer), run->t, PETSC_TRUE));
   PetscCall(PetscCalloc1(2 * (size_t)run->solid.nnodes, &zero));
-  PetscCall(
-      ServerSendCoupling(server, run->t, 0.0, CORACLE_STOP, run->ncorrection, run->correction, 0, NULL));
+  PetscCall(ServerSendStep(server, run->t, 0.0, CORACLE_STOP, run->ncorrection, run->correction));
   PetscCall(ServerSendForce(server, run->t, 0.0, CORACLE_STOP, zero));
   PetscCall(PetscFree(zero));
   PetscCall(RunSave(run));

@@ -81,6 +81,9 @@ PetscErrorCode FluidLoad(Fluid fluid, const PetscInt row[], Checkpoint from);
 PetscErrorCode FluidSetMaterial(Fluid fluid, MaterialLevel level, const double rho[], const double mu[]);
 /* The solid's coupling of the coming step, element indices being local elements (copied); n = 0: no solid. */
 PetscErrorCode FluidSetCoupling(Fluid fluid, int n, const CoracleCoupling coupling[]);
+/* Optional, before FluidSetCoupling, for one fluid whose velocity is free of divergence: assembles what of the momentum equation from t to
+ * t + dt, s, does not depend on the solid. */
+PetscErrorCode FluidPrepareMomentum(Fluid fluid, double dt);
 /* u*, then u_projected and p, from t to t + dt, s. */
 PetscErrorCode FluidMomentum(Fluid fluid, double dt);
 PetscErrorCode FluidProject(Fluid fluid, double dt);

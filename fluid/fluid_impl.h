@@ -26,6 +26,7 @@ struct Fluid_s {
   /* the flow; ghosted, velocities in blocks [2][3] an element, pressure on P2 nodes */
   double t, dt_previous;
   Vec u, u_previous, u_star, u_projected, mass_flux;
+  PetscBool prepared; /* FluidPrepareMomentum has been called for the step */
   Vec p;
   struct {
     double t, dt_previous;

@@ -2,6 +2,7 @@
  *
  *     start; mesh, fluid, first exchange
  *     each step from t over dt
+ *         assembly without the solid, while the coupler computes
  *         coupling of the solid        -->  u*, u projected, p; another mesh when it is due
  *         flow near the solid          -->  coupler, solid  -->  correction inside the solid, or: to be redone
  *     report, end */
@@ -16,6 +17,10 @@ static PetscErrorCode Step(FluidRun *m, double dt)
   Fluid next;
   PetscBool accepted;
   PetscFunctionBeginUser;
+  if (!m->first && !m->not_solenoidal && !FluidPhases(m->fluid)) {
+    PetscCall(CoraclePhase(m->program->client, "momentum"));
+    PetscCall(FluidPrepareMomentum(m->fluid, dt));
+  }
   PetscCall(ExchangeReceiveCoupling(m->exchange));
   if (m->not_solenoidal) PetscCall(FluidMakeSolenoidal(m->fluid));
   if (m->first) PetscCall(FluidStartInside(m->fluid));

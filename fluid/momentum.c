@@ -207,7 +207,7 @@ PetscErrorCode MomentumSolverSolve(MomentumSolver s, const MomentumStep *step, V
 {
   const double w = (1.0 - s->setup.theta) / s->setup.theta, start = MPI_Wtime();
   PetscFunctionBeginUser;
-  PetscCall(MomentumAssemble(s, step));
+  PetscCall(MomentumAssembleSolid(s, step));
   PetscCall(VecWAXPY(s->sum, w, step->u, u_star));
   PetscCall(MomentumOperatorApply(&s->op, s->sum, s->product));
   PetscCall(VecAXPY(s->load, -1.0, s->product));

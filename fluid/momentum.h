@@ -3,7 +3,7 @@
  *   [rho M/dt + theta L + a] u* = [rho M/dt - (1 - theta) L] u^n + M (rho g - grad p + source + rho k U) + s
  *
  * L is upwind advection by a mass flux, the viscous stress (kernels.h) and rho k u, k and U of absorption.h; a and s are the solid's coupling.
- * Assembled in one pass over the elements, solved by GMRES (prefix momentum_)
+ * Assembled in one pass over the elements and one over those that the solid overlaps, solved by GMRES (prefix momentum_)
  * until the preconditioned residual is 1e-5 of the velocity (-momentum_ksp_rtol), less beside solids more than 20 times as heavy; elements
  * in which a solid is heavier than all fluid around are solved once more, each alone, for the force on it. */
 #ifndef FLUID_MOMENTUM_H
@@ -53,7 +53,9 @@ PetscErrorCode MomentumSolverDestroy(MomentumSolver *s);
 /* [ne], borrowed: the weak divergence of the last step's mass flux, as each function of an element sees it (kernels.h), kg/(m s);
  * advected: the sum over this rank's elements of it times u^n, N/m.  Not collective. */
 const double (*MomentumSolverDivergence(MomentumSolver s, double advected[2]))[3];
-/* u_star: the first guess in, the solution out. */
+/* Operator and load of the step but for the solid's coupling, which may not be known yet. */
+PetscErrorCode MomentumSolverAssemble(MomentumSolver s, const MomentumStep *step);
+/* After that, for the same step.  u_star: the first guess in, the solution out. */
 PetscErrorCode MomentumSolverSolve(MomentumSolver s, const MomentumStep *step, Vec u_star,
                                    MomentumReport *report);
 #endif

@@ -156,7 +156,7 @@ static void ElementLoad(MomentumSolver s, const MomentumStep *step, int e, const
 }
 
 /* rho M/dt u^n (1 + w), w = (1 - theta)/theta: what is left of -(1 - theta) L u^n = -w (A - rho M/dt - a) u^n
- * once A u^n has been subtracted; the coupling's part is in AssembleSolid. */
+ * once A u^n has been subtracted; the coupling's part is in AssembleEntry. */
 static void ElementInertia(MomentumSolver s, const MomentumStep *step, int e, const double u[6],
                            double load[6])
 {
@@ -167,23 +167,40 @@ static void ElementInertia(MomentumSolver s, const MomentumStep *step, int e, co
   }
 }
 
-/* a and the implicit inertia I to the dense block, w (a + I) u^n and what does not depend on u* (SolidCouplingLoad) to the load;
- * false where there is no solid. */
-static PetscBool AssembleSolid(MomentumSolver s, const MomentumStep *step, int e, const double u[6],
-                               double dense[36], double load[6])
+/* a and the implicit inertia I to the dense block, w (a + I) u^n and what does not depend on u* (SolidCouplingLoad) to the load. */
+static void AssembleEntry(MomentumSolver s, const MomentumStep *step, const CoracleCoupling *k,
+                          const double u[6], double dense[36], double load[6])
 {
   const double w = (1.0 - s->setup.theta) / s->setup.theta;
-  const CoracleCoupling *k = SolidCouplingAt(step->solid, e);
-  if (!k) return PETSC_FALSE;
+  const int e = k->element;
   double matrix[6][6];
   SolidCouplingMatrix(k, matrix);
   SolidCouplingLoad(step->solid, e, u, s->domain->geometry[e].area, step->rho[e] / step->dt, load);
   for (int row = 0; row < 6; row++)
     for (int col = 0; col < 6; col++) {
-      dense[6 * col + row] += matrix[row][col];
+      dense[6 * col + row] = matrix[row][col];
       load[row] += w * matrix[row][col] * u[col];
     }
-  return PETSC_TRUE;
+}
+
+PetscErrorCode MomentumAssembleSolid(MomentumSolver s, const MomentumStep *step)
+{
+  int n;
+  const CoracleCoupling *entry = SolidCouplingEntries(step->solid, &n);
+  const PetscScalar *u;
+  PetscScalar *load;
+  PetscFunctionBeginUser;
+  PetscCall(VecGetArrayRead(step->u, &u));
+  PetscCall(VecGetArray(s->load, &load));
+  for (int k = 0; k < n; k++) {
+    const int e = entry[k].element;
+    double dense[36];
+    AssembleEntry(s, step, entry + k, u + 6 * e, dense, load + 6 * e);
+    PetscCall(MomentumOperatorAddDense(&s->op, e, dense));
+  }
+  PetscCall(VecRestoreArray(s->load, &load));
+  PetscCall(VecRestoreArrayRead(step->u, &u));
+  PetscFunctionReturn(0);
 }
 
 /* Scalar blocks of element e, but for boundary faces. */
@@ -234,12 +251,11 @@ static PetscErrorCode AssembleElement(MomentumSolver s, const MomentumStep *step
     for (int c = 0; c < 2; c++) s->advected[c] += s->divergence[e][j] * u[3 * c + j];
   ElementLoad(s, step, e, p, load);
   ElementInertia(s, step, e, u, load);
-  if (AssembleSolid(s, step, e, u, dense, load)) has_dense = PETSC_TRUE;
   if (has_dense) PetscCall(MomentumOperatorAddDense(&s->op, e, dense));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode MomentumAssemble(MomentumSolver s, const MomentumStep *step)
+PetscErrorCode MomentumSolverAssemble(MomentumSolver s, const MomentumStep *step)
 {
   const Mesh *m = s->domain->mesh;
   const PetscScalar *flux, *u, *p;

@@ -21,7 +21,6 @@ struct MomentumSolver_s {
   Preconditioner preconditioner;
 };
 
-/* Operator and load of a step; the load still lacks -(1 - theta)/theta A u^n.
- * momentum_assembly.c */
-PetscErrorCode MomentumAssemble(MomentumSolver s, const MomentumStep *step);
+/* momentum_assembly.c: the solid's part of operator and load; the load still lacks -(1 - theta)/theta A u^n. */
+PetscErrorCode MomentumAssembleSolid(MomentumSolver s, const MomentumStep *step);
 #endif

@@ -46,6 +46,12 @@ static PetscBool IsScalar(const double block[36])
   return (PetscBool)same;
 }
 
+static PetscBool IsAtBoundary(const MomentumOperator *op, int e)
+{
+  const int *neighbor = op->domain->mesh->neighbor + 3 * e;
+  return (PetscBool)(neighbor[0] < 0 || neighbor[1] < 0 || neighbor[2] < 0);
+}
+
 PetscErrorCode MomentumOperatorAddDense(MomentumOperator *op, int e, const double block[36])
 {
   const PetscBool scalar = IsScalar(block);
@@ -56,6 +62,11 @@ PetscErrorCode MomentumOperatorAddDense(MomentumOperator *op, int e, const doubl
       if (scalar) op->block[e][0][3 * j + i] += block[6 * j + i];
     }
   if (scalar) PetscFunctionReturn(0);
+  for (int k = 0; k < op->ndense && IsAtBoundary(op, e); k++)
+    if (op->dense_element[k] == e) {
+      for (int i = 0; i < 36; i++) op->dense[k][i] += block[i];
+      PetscFunctionReturn(0);
+    }
   PetscCall(Reserve(op));
   memcpy(op->dense[op->ndense], block, 36 * sizeof *block);
   op->dense_element[op->ndense++] = e;

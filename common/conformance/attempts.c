@@ -74,8 +74,8 @@ void AttemptSend(Fluid *f, Kind kind, CoracleAction action, int ncorrection)
     SetBlocks(c, kind, p->rho[e], p->area[e], dt);
     SetLoads(c, kind, p->rho[e], p->area[e], dt, v);
   }
-  ServerSendCoupling(k->server, k->t, action == CORACLE_STOP ? 0.0 : dt, action, ncorrection, f->correction,
-                     kind == FREE || action == CORACLE_STOP ? 0 : p->ncoupled, f->coupling);
+  ServerSendStep(k->server, k->t, action == CORACLE_STOP ? 0.0 : dt, action, ncorrection, f->correction);
+  if (action != CORACLE_STOP) ServerSendCoupling(k->server, kind == FREE ? 0 : p->ncoupled, f->coupling);
 }
 
 void AttemptCorrection(Fluid *f)

@@ -39,7 +39,8 @@ static void SendForce(const Solid *s, CoracleAction action, bool more)
 
 static void SendCoupling(Kit *k, CoracleAction action)
 {
-  ServerSendCoupling(k->server, k->t, action == CORACLE_STOP ? 0.0 : k->dt, action, 0, NULL, 0, NULL);
+  ServerSendStep(k->server, k->t, action == CORACLE_STOP ? 0.0 : k->dt, action, 0, NULL);
+  if (action != CORACLE_STOP) ServerSendCoupling(k->server, 0, NULL);
 }
 
 /* --- what is checked ------------------------------------------------------------------------------------ */

@@ -74,37 +74,46 @@ static void AnswerElements(CoracleClient c)
 
 /* --- coupling ------------------------------------------------------------------------------------------- */
 
-static void TakeCoupling(CoracleClient c, const MessageHeader *h)
+static void TakeStep(CoracleClient c, const MessageHeader *h)
 {
   ClientFluid *f = &c->fluid;
   f->ncorrection = (int)h->count[0];
-  f->ncoupling = (int)h->count[1];
   FieldsTake(c->p, &c->in, &FIELDS_CORRECTION, (size_t)f->ncorrection, &f->correction);
-  FieldsTake(c->p, &c->in, &FIELDS_COUPLING, (size_t)f->ncoupling, &f->coupling);
   f->ngauges = (int)h->count[3];
   FieldsTake(c->p, &c->in, &FIELDS_GAUGES, (size_t)f->ngauges, &f->gauge);
   ClientTakePath(c, h);
   ClientTakeStep(c, h);
+  f->awaits_coupling = c->action != CORACLE_STOP;
 }
 
-/* The coupler may ask for elements any number of times before it sends the coupling. */
-static void WaitForCoupling(CoracleClient c)
+/* The coupler may ask for elements any number of times before it announces the step. */
+static void WaitForStep(CoracleClient c)
 {
   for (;;) {
     if (c->fluid.asked) AnswerElements(c);
-    const MessageHeader *h = MessageReceive(c->p, &c->in, KIND_COUPLING, KIND_ASK, c->p->step);
-    if (h->kind == KIND_COUPLING) {
-      TakeCoupling(c, h);
+    const MessageHeader *h = MessageReceive(c->p, &c->in, KIND_STEP, KIND_ASK, c->p->step);
+    if (h->kind == KIND_STEP) {
+      TakeStep(c, h);
       return;
     }
     TakeBoxes(c, h);
   }
 }
 
+/* The coupler computes the coupling while the fluid ends its step, and sends it by itself. */
+static void WaitForCoupling(CoracleClient c)
+{
+  ClientFluid *f = &c->fluid;
+  if (!f->awaits_coupling) return;
+  f->ncoupling = (int)MessageReceive(c->p, &c->in, KIND_COUPLING, KIND_COUPLING, c->p->step)->count[0];
+  FieldsTake(c->p, &c->in, &FIELDS_COUPLING, (size_t)f->ncoupling, &f->coupling);
+  f->awaits_coupling = false;
+}
+
 void FluidReady(CoracleClient c)
 {
   if (!c->fluid.region) ClientMisuse(c, "CoracleReady", "CoracleSetRegion comes first");
-  WaitForCoupling(c);
+  WaitForStep(c);
 }
 
 int CoracleNeedsPressure(CoracleClient c)
@@ -117,7 +126,8 @@ int CoracleNeedsPressure(CoracleClient c)
 
 int CoracleGetCoupling(CoracleClient c, int *n, const CoracleCoupling **coupling)
 {
-  ClientExpect(c, "CoracleGetCoupling", ROLE_FLUID, STAGE_BETWEEN, STAGE_STEP);
+  ClientExpect(c, "CoracleGetCoupling", ROLE_FLUID, STAGE_STEP, STAGE_STEP);
+  WaitForCoupling(c);
   *n = c->fluid.ncoupling;
   *coupling = (const CoracleCoupling *)(const void *)c->fluid.coupling.data;
   return 0;
@@ -177,8 +187,9 @@ void FluidEnd(CoracleClient c)
   h->flag |= ClientFlags(c) | (c->fluid.changed ? FLAG_CHANGED : 0);
   h->dt = c->fluid.proposed;
   c->fluid.flow_set = false;
-  ClientSend(c);
   WaitForCoupling(c);
+  ClientSend(c);
+  WaitForStep(c);
   if (c->action == CORACLE_REDO) c->fluid.changed = false;
 }
 

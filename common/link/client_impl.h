@@ -46,6 +46,7 @@ typedef struct {
   const double *box;
   int n; /* elements last given by region */
   bool asked, needs_pressure, changed, flow_set;
+  bool awaits_coupling; /* of the step that the coupler has announced */
   int ncoupling, ncorrection;
   int ngauges;
   Buffer coupling, correction, gauge;
@@ -122,6 +123,6 @@ void SolidMeshFree(SolidMesh *mesh);
 void SolidFree(CoracleClient c);
 
 void FluidReady(CoracleClient c);
-void FluidEnd(CoracleClient c); /* waits for the coupling */
+void FluidEnd(CoracleClient c); /* waits for the coming step */
 void FluidFree(CoracleClient c);
 #endif

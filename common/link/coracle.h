@@ -187,7 +187,7 @@ int CoracleBindStateFunction(CoracleClient c, int (*f)(void *context, int save),
 int CoracleReady(CoracleClient c);
 /* Waits for the next step: from *t over *dt, s. */
 int CoracleBegin(CoracleClient c, double *t, double *dt, CoracleAction *action);
-/* Ends the step.  Solid: x[n][dim] new positions, m; fluid: NULL, waits for the next coupling. */
+/* Ends the step.  Solid: x[n][dim] new positions, m; fluid: NULL, waits for the correction. */
 int CoracleEnd(CoracleClient c, const double x[]);
 
 /* A checkpoint, from which another run can resume (keys output.checkpoint and resume of the case): the
@@ -289,8 +289,8 @@ typedef struct {
   const double *rho_inside, *rho_beside; /* [n] kg/m3, as in CoracleElements; NULL: rho */
 } CoracleFlow;
 
-/* After CoracleReady and after CoracleEnd: the coupling of the coming step.  Borrowed until the next
- * CoracleEnd. */
+/* Between CoracleBegin and CoracleEnd: waits for the coupling of the step, which the coupler computes meanwhile: call it as
+ * late as you can.  Borrowed until the next CoracleEnd. */
 int CoracleGetCoupling(CoracleClient c, int *n, const CoracleCoupling **coupling);
 /* From CoracleReady on: 1 when the coupling mode or the solid (CoracleSetPressureLoad) uses the pressure, else 0.  A fluid
  * without one must end the job then. */

@@ -11,12 +11,13 @@
  *     FORCE     solid <- coupler   nodes, -, bytes of path         force; path                        Begin
  *     ASK       fluid <- coupler   boxes                           boxes                              GetRegion, Ready, End
  *     ELEMENTS  fluid -> coupler   elements                        domain, elements                   answers ASK
- *     COUPLING  fluid <- coupler   corrections, couplings,         corrections, couplings, gauges;    ends Ready, End
- *                                  bytes of path, gauges           path
+ *     STEP      fluid <- coupler   corrections, -, bytes of path,  corrections, gauges; path          ends Ready, End
+ *                                  gauges
+ *     COUPLING  fluid <- coupler   couplings                       couplings                          GetCoupling
  *     FLOW      fluid -> coupler   elements                        flow                               End
  *     CLOSE     both  -> coupler   reports                         reports                            Close
  *
- * FORCE and COUPLING carry the coming step (action, t, dt) and
+ * FORCE and STEP carry the coming step (action, t, dt) and
  * the path of the checkpoint that is due in it; ELEMENTS and FLOW carry in dt the step that the fluid proposes.
  * Kind and step travel with every message: one that does not fit ends the job with both sides' names. */
 #ifndef CORACLE_MESSAGE_H
@@ -27,7 +28,8 @@
 #include <stdint.h>
 
 #define MESSAGE_KINDS(KIND)                                                                                  \
-  KIND(SURFACE) KIND(MOTION) KIND(FORCE) KIND(ASK) KIND(ELEMENTS) KIND(COUPLING) KIND(FLOW) KIND(CLOSE)
+  KIND(SURFACE)                                                                                              \
+  KIND(MOTION) KIND(FORCE) KIND(ASK) KIND(ELEMENTS) KIND(STEP) KIND(COUPLING) KIND(FLOW) KIND(CLOSE)
 
 #define MESSAGE_KIND(name) KIND_##name,
 typedef enum { KIND_NONE, MESSAGE_KINDS(MESSAGE_KIND) KIND_END } MessageKind;
@@ -41,8 +43,8 @@ typedef enum { KIND_NONE, MESSAGE_KINDS(MESSAGE_KIND) KIND_END } MessageKind;
  *     ASK        FIELDS_BOXES                      FieldsBoxes, an array over the boxes
  *     ELEMENTS   FIELDS_DOMAIN, FIELDS_ELEMENTS    FieldsDomain, one; CoracleElements, arrays over the fluid's elements
  *     FLOW       FIELDS_FLOW                       CoracleFlow, arrays over the fluid's elements
- *     COUPLING   FIELDS_CORRECTION, FIELDS_COUPLING   CoracleCorrection, CoracleCoupling, one an element
- *                FIELDS_GAUGES                     CoracleGauge, one a gauge on the solid */
+ *     STEP       FIELDS_CORRECTION, FIELDS_GAUGES  CoracleCorrection, one an element; CoracleGauge, one a gauge on the solid
+ *     COUPLING   FIELDS_COUPLING                   CoracleCoupling, one an element */
 typedef struct FieldGroup FieldGroup;
 extern const FieldGroup FIELDS_NODES, FIELDS_MOTION, FIELDS_FACETS, FIELDS_SIMPLICES, FIELDS_FORCE,
     FIELDS_BOXES, FIELDS_DOMAIN, FIELDS_ELEMENTS, FIELDS_FLOW, FIELDS_CORRECTION, FIELDS_COUPLING,

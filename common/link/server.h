@@ -58,11 +58,14 @@ int ServerElementsChanged(Server s);
 /* The smallest step that the fluid's ranks proposed last, s; the same on all coupler ranks. */
 double ServerProposedStep(Server s);
 /* Ends the fluid's CoracleReady or CoracleEnd.  correction[ncorrection] has one entry per coupling entry
- * of the last call, in its order (0 at the first call or when stopping is not after a step, and as you
- * like at CORACLE_REDO); `element` of coupling indexes ServerElements. */
-int ServerSendCoupling(Server s, double t, double dt, CoracleAction action, int ncorrection,
-                       const CoracleCorrection correction[], int ncoupling, const CoracleCoupling coupling[]);
-/* The gauges on the solid that the next couplings carry, the same on all coupler ranks (copied); none before the
+ * of the step just made, in its order (0 at the first call or when stopping is not after a step, and as you
+ * like at CORACLE_REDO). */
+int ServerSendStep(Server s, double t, double dt, CoracleAction action, int ncorrection,
+                   const CoracleCorrection correction[]);
+/* After that, unless the action was CORACLE_STOP: the coupling of the step; matches CoracleGetCoupling.  `element` indexes
+ * ServerElements. */
+int ServerSendCoupling(Server s, int n, const CoracleCoupling coupling[]);
+/* The gauges on the solid that the next steps carry, the same on all coupler ranks (copied); none before the
  * first call. */
 int ServerSetGauges(Server s, int n, const CoracleGauge gauge[]);
 /* Matches the first half of the fluid's CoracleEnd. */

@@ -64,8 +64,8 @@ int ServerAskElements(Server s, int nbox, const double box[], ServerElements *el
   FieldsDomain domain;
   CoracleElements all;
   double proposed = HUGE_VAL;
-  if (s->fluid.step > 0 && !s->owes_correction)
-    ServerFail(s, "ServerAskElements: the fluid answers only between its flow and its coupling");
+  if (s->fluid.step > 0 && !s->owes_step)
+    ServerFail(s, "ServerAskElements: the fluid answers only between its flow and its next step");
   SendAsk(s, nbox, box);
   s->nelements = 0;
   FieldListsClear(&s->elements);
@@ -115,14 +115,15 @@ int ServerReceiveFlow(Server s, CoracleFlow *flow)
 {
   double proposed = HUGE_VAL;
   int changed = 0;
-  if (s->owes_correction) ServerFail(s, "ServerReceiveFlow: the fluid waits for ServerSendCoupling");
+  if (s->owes_step || s->owes_coupling)
+    ServerFail(s, "ServerReceiveFlow: the fluid waits for ServerSendStep and ServerSendCoupling");
   FieldListsClear(&s->flow);
   for (int i = 0; i < s->fluid.n; i++)
     proposed = fmin(proposed, ReceiveFlow(s, &s->fluid.client[i], &changed));
   ReduceProposed(s, proposed);
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, s->p->app);
   s->elements_changed = changed;
-  s->owes_correction = true;
+  s->owes_step = true;
   FieldsView(&FIELDS_FLOW, &s->flow, s->needs_pressure ? FLAG_PRESSURE : 0, flow);
   return 0;
 }
@@ -195,7 +196,7 @@ static void CheckCouplings(Server s, int n, const CoracleCoupling coupling[])
 static void CheckCorrections(Server s, CoracleAction action, int n)
 {
   if (action == CORACLE_REDO && n == 0) return;
-  const int expected = s->owes_correction ? (int)(s->owner.size / sizeof(int)) : 0;
+  const int expected = s->owes_step ? (int)(s->owner.size / sizeof(int)) : 0;
   if (n != expected)
     ServerFail(s, "%d corrections after step %d, which had %d coupling entries", n, s->fluid.step, expected);
 }
@@ -207,35 +208,48 @@ static int CountOwned(const int owner[], int n, int k)
   return count;
 }
 
-int ServerSendCoupling(Server s, double t, double dt, CoracleAction action, int ncorrection,
-                       const CoracleCorrection correction[], int ncoupling, const CoracleCoupling coupling[])
+int ServerSendStep(Server s, double t, double dt, CoracleAction action, int ncorrection,
+                   const CoracleCorrection correction[])
 {
   const int step = s->fluid.step; /* which the clients are in until they get this */
-  Buffer owner = {0}, scratch = {0};
-  if (!s->asked) ServerFail(s, "ServerSendCoupling comes after the first ServerAskElements");
-  if (s->elements_changed && ncoupling && action != CORACLE_REDO)
-    ServerFail(s, "the fluid's elements have changed: ServerAskElements comes first");
+  Buffer scratch = {0};
+  if (!s->asked) ServerFail(s, "ServerSendStep comes after the first ServerAskElements");
   CheckCorrections(s, action, ncorrection);
-  CheckCouplings(s, ncoupling, coupling);
-  int *own = BufferResize(&owner, (size_t)ncoupling * sizeof *own);
-  for (int i = 0; i < ncoupling; i++) own[i] = ClientListFind(&s->fluid, coupling[i].element);
   ClientListStep(s, &s->fluid, action);
   for (int k = 0; k < s->fluid.n; k++) {
-    MessageHeader *h = MessageStart(&s->fluid.client[k].out, KIND_COUPLING, step);
+    MessageHeader *h = MessageStart(&s->fluid.client[k].out, KIND_STEP, step);
     h->action = action;
     h->t = t;
     h->dt = dt;
     h->count[0] = CountOwned(Ints(&s->owner), ncorrection, k);
-    h->count[1] = CountOwned(own, ncoupling, k);
     AddCorrections(s, k, ncorrection, correction, &scratch);
-    AddCouplings(s, k, ncoupling, coupling, own, &scratch);
     AddGauges(s, &s->fluid.client[k].out);
     ClientListAskSave(s, &s->fluid.client[k], action);
   }
   ClientListSend(s, &s->fluid);
-  BufferFree(&s->owner);
-  s->owner = owner;
   BufferFree(&scratch);
-  s->owes_correction = s->elements_changed = false;
+  if (action == CORACLE_REDO) s->elements_changed = false;
+  s->owes_step = false;
+  s->owes_coupling = action != CORACLE_STOP;
+  return 0;
+}
+
+int ServerSendCoupling(Server s, int n, const CoracleCoupling coupling[])
+{
+  Buffer scratch = {0};
+  if (!s->owes_coupling) ServerFail(s, "ServerSendCoupling comes after ServerSendStep");
+  if (s->elements_changed && n)
+    ServerFail(s, "the fluid's elements have changed: ServerAskElements comes first");
+  CheckCouplings(s, n, coupling);
+  int *owner = BufferResize(&s->owner, (size_t)n * sizeof *owner);
+  for (int i = 0; i < n; i++) owner[i] = ClientListFind(&s->fluid, coupling[i].element);
+  for (int k = 0; k < s->fluid.n; k++) {
+    MessageHeader *h = MessageStart(&s->fluid.client[k].out, KIND_COUPLING, s->fluid.step);
+    h->count[0] = CountOwned(owner, n, k);
+    AddCouplings(s, k, n, coupling, owner, &scratch);
+  }
+  ClientListSend(s, &s->fluid);
+  BufferFree(&scratch);
+  s->owes_coupling = s->elements_changed = false;
   return 0;
 }

@@ -25,7 +25,7 @@ typedef struct {
 struct Server_s {
   Participant *p;
   ClientList fluid, solid;
-  bool received_solid, asked, elements_changed, owes_correction, needs_pressure, pressure_load;
+  bool received_solid, asked, elements_changed, owes_step, owes_coupling, needs_pressure, pressure_load;
   double proposed;
   Buffer save; /* path of the checkpoint that is due, or empty */
   /* solid's lists */

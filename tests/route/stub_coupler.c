@@ -173,8 +173,8 @@ static void SendCoupling(Stub *s, CoracleAction action, int coming)
   CoracleGauge gauge[STEPS];
   for (int i = 0; i < GaugeCount(s->step); i++) gauge[i] = GaugeAt(i, s->step);
   ServerSetGauges(s->server, GaugeCount(s->step), gauge);
-  ServerSendCoupling(s->server, s->t, StepSize(coming), action, ncorrection, correction, s->ncoupled,
-                     coupling);
+  ServerSendStep(s->server, s->t, StepSize(coming), action, ncorrection, correction);
+  if (action != CORACLE_STOP) ServerSendCoupling(s->server, s->ncoupled, coupling);
 }
 
 /* --- the run -------------------------------------------------------------------------------------------- */
