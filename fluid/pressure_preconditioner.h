@@ -13,7 +13,7 @@
  * 98 iterations, with them 12, the patches having a tenth of the nodes.
  *
  * A1 has a quarter of the unknowns and is factored on one rank or, where it is large, solved by algebraic multigrid on all
- * (prefix pressure_coarse_).  That is done again when an element's coefficient has changed by a factor, or when
+ * (prefix pressure_coarse_), which relaxes forwards on the way down and backwards on the way up: symmetric, as CG needs it.  That is done again when an element's coefficient has changed by a factor, or when
  * the old one has cost as many iterations more as the set-up takes time for. */
 #ifndef FLUID_PRESSURE_PRECONDITIONER_H
 #define FLUID_PRESSURE_PRECONDITIONER_H

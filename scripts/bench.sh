@@ -2,7 +2,7 @@
 # What a step costs.  Usage: scripts/bench.sh [--quick]
 #   the fluid alone from 5 000 to 1 000 000 triangles (--quick: to 51 000) on one rank and on two: each phase in seconds and, in
 #   brackets, the fraction of them that its bytes would take at the memory's speed (tests/fluid/step_bytes.h);
-#   the falling cylinder's steps split into momentum, pressure, assembly, coupling, exchange and waiting.
+#   the falling cylinder's steps split into the fluid's phases and its waiting for the others, and what each program waits and takes of the processor.
 # Built for this processor (preset native).  Times are of this machine, now: compare ratios within one run, or with the
 # triad's bandwidth, which is printed first and which the fractions are of.
 set -euo pipefail
@@ -33,13 +33,10 @@ python=$(command -v /usr/bin/python3 || command -v python3)
 "$python" - "$out/summary.json" <<'EOF'
 import json, sys
 s = json.load(open(sys.argv[1]))
-f, c, d = (s["participants"][k] for k in ("fluid", "coupler", "solid"))
+f = s["participants"]["fluid"]
 n = s["steps"]
-coupling = c["seconds_overlap"] + c["seconds_force"]
-solid = d["seconds_wall"] - d["seconds_waiting"]
 step = {"momentum": f["seconds_momentum"], "pressure": f["seconds_pressure"],
-        "assembly": f["seconds_assembly"], "coupling": coupling + f["seconds_correction"], "solid": solid,
-        "exchange": max(f["seconds_waiting"] - coupling - solid, 0.0)}
+        "assembly": f["seconds_assembly"], "correction": f["seconds_correction"], "waiting": f["seconds_waiting"]}
 total = sum(step.values())
 print("%d triangles, %d steps" % (f["elements"], n))
 for name, seconds in step.items():
