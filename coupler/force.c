@@ -62,17 +62,7 @@ static void ReactionShared(const Overlap o, const PairTerm term[], const Element
     VectorMomentsAdd(pair, &density, pair->centre, &sum);
     area += pair->area;
   }
-  const double whole[2] = {sum.zero[0] / area, sum.zero[1] / area};
-  WallApply(&element->shared, whole, mean);
-}
-
-/* Of a pair's reaction, the part that is shared becomes the mean. */
-static void Share(const WallCoefficient *shared, const double mean[2], LinearField *density)
-{
-  const WallCoefficient less = WallCoefficientScaled(shared, -1.0);
-  const LinearField own = *density;
-  WallAdd(&less, &own, density);
-  for (int c = 0; c < 2; c++) density->value[c] += mean[c];
+  for (int c = 0; c < 2; c++) mean[c] = sum.zero[c] / area;
 }
 
 /* The density of F_i + F_b. */
@@ -112,8 +102,7 @@ PetscErrorCode ForceOfPairs(const Overlap o, const PairTerm term[], const Elemen
     on[e] = (ElementFlow){LinearFieldOnElement(&o->basis[k], &flow->u_star[6 * k]),
                           LinearFieldOnElement(&o->basis[k], &flow->u_start[6 * k]),
                           LinearFieldOnElement(&o->basis[k], &flow->u_projected[6 * k])};
-    if (!WallIsZero(&element[e].shared))
-      ReactionShared(o, term, &element[e], source, gravity, &on[e], e, mean[e]);
+    if (element[e].shared) ReactionShared(o, term, &element[e], source, gravity, &on[e], e, mean[e]);
   }
   for (int t = 0, p = 0; t < o->nsources; t++) {
     VectorMoments reaction = {{0.0}, {{0.0}}}, other = {{0.0}, {{0.0}}};
@@ -123,9 +112,9 @@ PetscErrorCode ForceOfPairs(const Overlap o, const PairTerm term[], const Elemen
       const double *d = pair->centre;
       const ElementFlow at = FlowAt(o, pair, &on[e]);
       const LinearField start = LinearFieldAt(&source[t].start, d);
-      LinearField density = Reaction(&term[p], &element[e], &source[t], gravity, &at, &start, d);
-      if (!WallIsZero(&element[e].shared) && !o->source[t].is_shell)
-        Share(&element[e].shared, mean[e], &density);
+      const LinearField density = element[e].shared && !o->source[t].is_shell
+                                      ? (LinearField){{mean[e][0], mean[e][1]}, {{0.0}}}
+                                      : Reaction(&term[p], &element[e], &source[t], gravity, &at, &start, d);
       VectorMomentsAdd(pair, &density, d, &reaction);
       if (o->source[t].is_shell) continue;
       const LinearField rest = Other(o->rho[pair->b], dt, gravity, &at, &start);

@@ -108,7 +108,7 @@ static double KeptPart(const Overlap o, const SourceTerm source[], const Element
   const int k = o->coupled_element[e];
   const Excess sum = ExcessOf(o, source, e);
   if (sum.excess == 0.0) return 1.0;
-  if (!WallIsZero(&element->shared) && sum.free_area > 0.0)
+  if (element->shared && sum.free_area > 0.0)
     return fmin(1.0, sum.free_excess / sum.free_area * sum.area / sum.excess);
   if (sum.area > (1.0 - OUTSIDE_LEAST) * o->area[k]) return 1.0;
   return fmin(1.0, INERTIA_KEPT_RATIO * (o->rho[k] + element->outside) * sum.area / sum.excess);
@@ -142,9 +142,8 @@ void InertiaStart(Overlap o, const SourceTerm source[], double dt, ElementTerm e
     const WallCoefficient along = Sharpened(held ? &element[e].along : &element[e].tangential, kept);
     element[e].covered =
         (PetscBool)(!o->phases && WallIsZero(&element[e].tangential) && IsCovered(o, source, e));
-    element[e].kept = o->phases && !held && WallIsZero(&element[e].shared)
-                          ? WallCoefficientIsotropic(kept)
-                          : WallCoefficientScaled(&along, kept);
+    element[e].kept = o->phases && !held && !element[e].shared ? WallCoefficientIsotropic(kept)
+                                                               : WallCoefficientScaled(&along, kept);
     element[e].freed = WallCoefficientScaled(&along, 1.0 - kept);
   }
   for (int p = 0; p < o->pairs.n; p++) {

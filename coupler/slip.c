@@ -25,7 +25,7 @@ void SlipTensors(const Overlap o, const SourceTerm term[], ElementTerm element[]
     if (shell > 0.0 && (open || shared))
       element[e].along = (WallCoefficient){1.0 - xx / shell, -xy / shell, 1.0 - yy / shell};
     if (!o->phases) element[e].tangential = element[e].along;
-    element[e].shared = o->phases && shared ? element[e].along : WallCoefficientIsotropic(0.0);
+    element[e].shared = (PetscBool)(o->phases && shared && shell > 0.0);
   }
 }
 

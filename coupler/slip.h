@@ -21,8 +21,8 @@
  * were a quarter as long; tests/coupled/slope.sh).  The shell of one solid overlaps the other there.
  *
  * The same among phases where one of the two is held: its inertia, INERTIA_MOST, would hold the other, too.  Along the surface all of the
- * element has the other's inertia, and each pair gets the mean of the reaction there (ElementTerm.shared), which is what the pressure's
- * gradient gives to both.  Normals are those of what is held alone: an element at the foot of a block on a slope slides along the slope.  Two
+ * element has the other's inertia, and each pair gets the mean of the reaction (ElementTerm.shared), which is what the pressure's
+ * gradient gives to both: with its own, what its contact does in the element would press the other.  Normals are those of what is held alone: an element at the foot of a block on a slope slides along the slope.  Two
  * that are free accelerate together there, which lets them slide.
  *
  * Where the fluid says that it has phases (Overlap.phases) D = 0: what such an element, of one velocity, one density and one pressure,

@@ -89,8 +89,8 @@ typedef struct {
   WallCoefficient tangential; /* D (slip.h), without unit */
   WallCoefficient kept;       /* of u^n, by the solid's inertia (inertia.h), without unit */
   WallCoefficient freed;      /* of the inertia, (1 - k) D (inertia.h), without unit */
-  WallCoefficient shared;     /* the part of the reaction that two solids in K share (slip.h), without unit */
   PetscBool covered;          /* K lies in the solid as a whole (inertia.h) */
+  PetscBool shared;           /* two solids in K, one of which is held, share the reaction (slip.h) */
   double outside;             /* rho_o - rho_f of the fluid beside the solid (outside.h), kg/m3 */
 } ElementTerm;
 
@@ -123,7 +123,7 @@ static inline LinearField PairBodyForce(const PairTerm *term, const ElementTerm 
   const double excess = fmax(term->rho - source->density, 0.0);
   const LinearField force = LinearFieldAt(&source->force, centre);
   LinearField q = force;
-  if (!WallIsZero(&element->freed) && WallIsZero(&element->shared)) { /* the solid is heavier */
+  if (!WallIsZero(&element->freed) && !element->shared) { /* the solid is heavier */
     const WallCoefficient freed = WallCoefficientScaled(&element->freed, term->rho / source->density - 1.0);
     WallAdd(&freed, &force, &q);
   }
