@@ -119,6 +119,16 @@ def run(name):
         validation.run(HERE, folder, row.settings, "1:1:1", OUT / row.after if row.after else None)
 
 
+def summary(name):
+    with open(OUT / name / "summary.json") as file:
+        return json.load(file)
+
+
+def seconds_cpu(name):
+    """Processor time up to the end of a run, with that of the runs before it that it resumes from."""
+    return sum(p["seconds_cpu"] for p in summary(name)["participants"].values())
+
+
 class Result:
     """{quantity: value, or (mean, amplitude)} as REFERENCE has them, and what the run has taken."""
 
@@ -135,11 +145,10 @@ class Result:
             self.found = {q: series.mean(q) for q in QUANTITIES}
         self.cpu = None
         if not self.row.alone:
-            with open(OUT / name / "summary.json") as file:
-                summary = json.load(file)
-            first = ROWS[self.row.after].end if self.row.after else 0.0
-            self.cpu = sum(p["seconds_cpu"] for p in summary["participants"].values()) / (self.row.end - first)
-            self.passes = summary["iterations"] / summary["steps"]
+            before = self.row.after
+            first, spent = (ROWS[before].end, seconds_cpu(before)) if before else (0.0, 0.0)
+            self.cpu = (seconds_cpu(name) - spent) / (self.row.end - first)
+            self.passes = summary(name)["iterations"] / summary(name)["steps"]
 
     def errors(self):
         """(what, relative error) of each number of the reference, of means that are small beside their amplitude of that."""
