@@ -32,6 +32,8 @@ SOFT, HEAVY, SLOW = ("solid.materials.beam.youngs_modulus=1.4e6", "solid.materia
 FSI1 = [SOFT, "fluid.boundaries.left.velocity=[0.3, 0.0]", "fluid.adapt.velocity_error=0.003", "time.dt_max=0.01"]
 FSI2 = [SOFT, HEAVY, SLOW, "time.dt_max=0.004"]
 FINE = ["fluid.adapt.size_min=0.002", "coupler.shell_thickness=0.0001", "time.cfl=4"]
+FINEST = FINE + ["fluid.adapt.size_min=0.001", "coupler.shell_thickness=0.00005"]
+FLUID, STEP = ["fluid.adapt.velocity_error=0.001"], ["time.dt_max=0.0025"]
 
 
 def mesh(layers):
@@ -75,9 +77,14 @@ def solid_alone(nodes, layers):
 ROWS = {
     **solid_alone(3, 8), **solid_alone(3, 16), **solid_alone(6, 1), **solid_alone(6, 2), **solid_alone(6, 4),
     **solid_alone(6, 8),
-    "fsi1-0.004": Row("FSI1", FSI1 + ["fluid.adapt.size_min=0.004"], 7.1, 7.0),
-    "fsi1-0.002": Row("FSI1", FSI1 + FINE, 10.0, 9.9),
-    "fsi1-0.001": Row("FSI1", FSI1 + FINE + ["fluid.adapt.size_min=0.001", "coupler.shell_thickness=0.00005"], 13.0, 12.9, after="fsi1-0.002"),
+    "fsi1-0.004": Row("FSI1", FSI1 + ["fluid.adapt.size_min=0.004"], 22.0, 21.9),
+    "fsi1-0.004-mesh": Row("FSI1", FSI1 + ["fluid.adapt.size_min=0.004", "fluid.mesh.size_max=0.043"], 10.0, 9.9),
+    "fsi1-0.002": Row("FSI1", FSI1 + FINE, 25.0, 24.9, after="fsi1-0.004"),
+    "fsi1-0.002-fluid": Row("FSI1", FSI1 + FINE + FLUID, 27.5, 27.4, after="fsi1-0.002"),
+    "fsi1-0.002-fluid-step": Row("FSI1", FSI1 + FINE + FLUID + STEP, 29.0, 28.9, after="fsi1-0.002-fluid"),
+    "fsi1-0.001": Row("FSI1", FSI1 + FINEST, 28.0, 27.9, after="fsi1-0.002"),
+    "fsi1-0.001-fluid": Row("FSI1", FSI1 + FINEST + FLUID, 30.5, 30.4, after="fsi1-0.001"),
+    "fsi1-0.001-fluid-step": Row("FSI1", FSI1 + FINEST + FLUID + STEP, 32.0, 31.9, after="fsi1-0.001-fluid"),
     "fsi2-0.008": Row("FSI2", FSI2 + ["time.cfl=2"], 12.0, 10.5),
     "fsi2-0.004": Row("FSI2", FSI2 + ["fluid.adapt.size_min=0.004", "time.cfl=2"], 18.6, 17.5, after="fsi2-0.008"),
     "fsi2-0.002": Row("FSI2", FSI2 + FINE, 18.6, 17.5, after="fsi2-0.008"),
@@ -89,8 +96,9 @@ ROWS = {
     "fsi3-0.002": Row("FSI3", FINE, 8.0, 7.4, after="fsi3-0.008"),
     "fsi3-0.002-six-8": Row("FSI3", FINE, 8.0, 7.4, 6, 8, after="fsi3-0.008-six-8"),
     "cfd2-0.008": Row("CFD2", [SLOW, "time.cfl=2", "time.dt_max=0.01"], 5.0, 4.9),
+    "cfd2-0.002": Row("CFD2", [SLOW, *FINE, "time.dt_max=0.01"], 9.0, 8.9, after="cfd2-0.008"),
     "cfd3-0.008": Row("CFD3", [], 10.0, 9.0),
-    "cfd3-0.002": Row("CFD3", FINE, 11.5, 10.8, after="cfd3-0.008"),
+    "cfd3-0.002": Row("CFD3", FINE, 16.0, 15.0, after="cfd3-0.008"),
 }
 
 
