@@ -3,7 +3,6 @@
 #include "coupler/surface_pressure.h"
 
 #define TOLERANCE 1e-10
-#define CLOSING 0.25 /* of e, across a gap; with all of it the force alternates */
 
 struct Uplift_s {
   MPI_Comm comm;
@@ -227,32 +226,8 @@ static PetscErrorCode Interpolate(Uplift u, Overlap o, Gap *gap)
 
 /* --- the force -------------------------------------------------------------------------------------------- */
 
-/* What p has beyond the head at node i, with p inside the solid there, Pa; 0 where the solid does not yield. */
-static double Excess(const Uplift u, const Gap *gap, int i, double p)
-{
-  const double *value = gap->value[i];
-  if (value[REACHED] < 0.5 || u->solid.mobility[i] == 0.0) return 0.0;
-  return p - value[HEAD] - value[DENSITY] * Along(u->gravity, &u->solid.x[2 * i]);
-}
-
-/* e at a close point; density[nnodes], area[nnodes]: of the solid and of the triangles around its nodes, kg/m3, m2. */
-static double Limited(const Uplift u, const ClosePoint *p, const double excess[], const double density[],
-                      const double area[], double dt)
-{
-  const int *node = &u->solid.facet[2 * p->facet];
-  const double g = hypot(u->gravity[0], u->gravity[1]),
-               e = p->n[0] * excess[node[0]] + p->n[1] * excess[node[1]],
-               rho = p->n[0] * density[node[0]] + p->n[1] * density[node[1]],
-               mass = rho * (p->n[0] * area[node[0]] + p->n[1] * area[node[1]]) /
-                      (3.0 * u->shell->length[p->facet]),
-               largest = fmax(dt * g * sqrt(2.0 * rho * fabs(e)),
-                              fmin(CLOSING * fabs(e), mass * p->gap / (dt * dt)));
-  return fmax(-largest, fmin(largest, e));
-}
-
-/* force += int N_i e n over the close points, and the opposite to what is there; total: of this rank's walls. */
-static PetscErrorCode AddForce(Uplift u, const double excess[], const double density[], const double area[],
-                               double dt, double force[], double total[2])
+/* force += int N_i excess n over the close points, and the opposite to what is there; excess[nnodes], Pa; total: of this rank's walls. */
+static PetscErrorCode AddForce(Uplift u, const double excess[], double force[], double total[2])
 {
   const ClosePoints *points = &u->points;
   double(*there)[2][2];
@@ -263,7 +238,7 @@ static PetscErrorCode AddForce(Uplift u, const double excess[], const double den
     const ClosePoint *p = &points->point[k];
     const int *node = &u->solid.facet[2 * p->facet];
     const double share = p->opposite_is_held ? 1.0 : 0.5,
-                 push = share * p->weight * Limited(u, p, excess, density, area, dt);
+                 push = share * p->weight * (p->n[0] * excess[node[0]] + p->n[1] * excess[node[1]]);
     for (int c = 0; c < 2; c++) {
       const double normal = u->shell->normal[p->facet][c];
       for (int i = 0; i < 2; i++) force[2 * node[i] + c] += push * p->n[i] * normal;
@@ -277,11 +252,21 @@ static PetscErrorCode AddForce(Uplift u, const double excess[], const double den
   PetscFunctionReturn(0);
 }
 
+/* e of node i, with p inside the solid there; area: of the triangles around it, m2. */
+static double Excess(const Uplift u, const Gap *gap, int i, double p, double area, double dt)
+{
+  const double *value = gap->value[i], g = hypot(u->gravity[0], u->gravity[1]);
+  if (value[REACHED] < 0.5 || area == 0.0 || u->solid.mobility[i] == 0.0) return 0.0;
+  const double e = p - value[HEAD] - value[DENSITY] * Along(u->gravity, &u->solid.x[2 * i]),
+               rho = 3.0 / (u->solid.mobility[i] * area), largest = dt * g * sqrt(2.0 * rho * fabs(e));
+  return fmax(-largest, fmin(largest, e));
+}
+
 PetscErrorCode UpliftAdd(Uplift u, Overlap o, const ElementTerm element[], const double p[], double dt,
                          double force[], double total[2])
 {
   const size_t n = (size_t)u->solid.nnodes;
-  double *excess, *size, *area, *density;
+  double *excess, *size, *area;
   Fields *outside;
   Gap gap;
   PetscBool any = PETSC_FALSE;
@@ -290,20 +275,17 @@ PetscErrorCode UpliftAdd(Uplift u, Overlap o, const ElementTerm element[], const
   total[0] = total[1] = 0.0;
   PetscCall(FindCandidates(u, o, &any));
   if (!any) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc5(n, &excess, n, &size, n, &area, n, &density, n, &outside));
+  PetscCall(PetscMalloc4(n, &excess, n, &size, n, &area, n, &outside));
   PetscCall(PetscMalloc3(n, &gap.is_free, n, &gap.counts, n, &gap.value));
   PetscCall(SurfacePressureInside(o, p, (int)n, excess, size, area));
   PetscCall(SurfacePressureHead(o, element, u->gravity, p, (int)n, outside));
   KeepClose(u, size);
   PetscCall(FindKnown(u, o, (const Fields *)outside, &gap));
   PetscCall(Interpolate(u, o, &gap));
-  for (int i = 0; i < (int)n; i++) {
-    excess[i] = area[i] > 0.0 ? Excess(u, &gap, i, excess[i]) : 0.0;
-    density[i] = excess[i] != 0.0 ? 3.0 / (u->solid.mobility[i] * area[i]) : 0.0;
-  }
-  PetscCall(AddForce(u, excess, density, area, dt, force, total));
+  for (int i = 0; i < (int)n; i++) excess[i] = Excess(u, &gap, i, excess[i], area[i], dt);
+  PetscCall(AddForce(u, excess, force, total));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, total, 2, MPI_DOUBLE, MPI_SUM, u->comm));
   PetscCall(PetscFree3(gap.is_free, gap.counts, gap.value));
-  PetscCall(PetscFree5(excess, size, area, density, outside));
+  PetscCall(PetscFree4(excess, size, area, outside));
   PetscFunctionReturn(0);
 }

@@ -11,7 +11,7 @@
  * through the gap, and nearly the same on both sides of it.  What p has beyond that is taken from the force in part,
  *
  *     F_i  +=  int N_i e n       over the close points of close_points.h, within UPLIFT_REACH of an element's size
- *     e     =  p - rho_o g.x - h,   but at most dt |g| sqrt(2 rho_s |e|) or, across a gap, what closes it in this step, but a quarter of e
+ *     e     =  p - rho_o g.x - h,   but at most dt |g| sqrt(2 rho_s |e|)
  *
  * and from what is opposite with the other sign; of two facets, each with half of its e (all, if the other is held).
  *

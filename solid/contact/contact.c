@@ -49,8 +49,8 @@ static double TargetHeight(const Target *t)
   return t->twice_area / longest;
 }
 
-/* The mass behind a metre of a body's surface, as if it were a square lying on a side. */
-static PetscErrorCode MeasureArealMass(Contact c, Solid s)
+/* A body's mass, and that behind a metre of its surface, as if it were a square lying on a side. */
+static PetscErrorCode MeasureMass(Contact c, Solid s)
 {
   double *sum; /* [nbodies][3] mass, perimeter, fixed nodes */
   PetscFunctionBeginUser;
@@ -63,8 +63,11 @@ static PetscErrorCode MeasureArealMass(Contact c, Solid s)
   for (int k = 0; k < s->nfacets; k++)
     sum[3 * s->elements.body[s->facet_element[k]] + 1] += FacetLength(s, k);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3 * s->nbodies, MPI_DOUBLE, MPI_SUM, s->comm));
-  for (int b = 0; b < s->nbodies; b++)
-    c->areal_mass[b] = sum[3 * b + 2] > 0.0 ? HUGE_VAL : 4.0 * sum[3 * b] / sum[3 * b + 1];
+  for (int b = 0; b < s->nbodies; b++) {
+    const PetscBool fixed = (PetscBool)(sum[3 * b + 2] > 0.0);
+    c->mass[b] = fixed ? HUGE_VAL : sum[3 * b];
+    c->areal_mass[b] = fixed ? HUGE_VAL : 4.0 * sum[3 * b] / sum[3 * b + 1];
+  }
   PetscCall(PetscFree(sum));
   PetscFunctionReturn(0);
 }
@@ -117,8 +120,8 @@ PetscErrorCode ContactCreate(Solid s, Contact *contact)
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&c));
   if (s->size > 1) PetscCall(HaloCreate(s->comm, &c->halo));
-  PetscCall(PetscCalloc3((size_t)s->nbodies, &c->height, (size_t)s->nbodies, &c->compliance,
-                         (size_t)s->nbodies, &c->areal_mass));
+  PetscCall(PetscCalloc4((size_t)s->nbodies, &c->height, (size_t)s->nbodies, &c->compliance,
+                         (size_t)s->nbodies, &c->mass, (size_t)s->nbodies, &c->areal_mass));
   c->rough = AnyRough(s);
   PetscCall(ContactRenew(c, s));
   *contact = c;
@@ -133,7 +136,7 @@ PetscErrorCode ContactRenew(Contact c, Solid s)
   PetscCall(PetscRealloc((size_t)s->nfacets * sizeof *c->first_pair, &c->first_pair));
   PetscCall(FindTargets(c, s));
   PetscCall(Measure(c, s));
-  PetscCall(MeasureArealMass(c, s));
+  PetscCall(MeasureMass(c, s));
   PetscFunctionReturn(0);
 }
 
@@ -168,7 +171,7 @@ PetscErrorCode ContactDestroy(Contact *c)
   PetscFunctionBeginUser;
   if (!*c) PetscFunctionReturn(0);
   PetscCall(HaloDestroy(&(*c)->halo));
-  PetscCall(PetscFree3((*c)->height, (*c)->compliance, (*c)->areal_mass));
+  PetscCall(PetscFree4((*c)->height, (*c)->compliance, (*c)->mass, (*c)->areal_mass));
   PetscCall(PetscFree((*c)->searched));
   PetscCall(PetscFree((*c)->first_pair));
   PetscCall(PetscFree((*c)->target));

@@ -28,6 +28,8 @@ static void AddMotion(const Contact c, const Solid s, const ActivePair *active, 
   const double scale = active->scale * sum; /* normal force over the edge's length */
   pair->normal += scale * hypot(d.x, d.y);
   pair->inside += k->inside;
+  pair->phi += sum;
+  pair->largest_phi = Greater(pair->largest_phi, k->largest_phi);
   pair->vn += scale * (v.x * d.y - v.y * d.x);
   pair->vt += scale * (v.x * d.x + v.y * d.y);
 }
@@ -73,8 +75,10 @@ static PetscErrorCode FindActivePairs(Contact c, Solid s, int *nactive)
     c->active_capacity = most + most / 2;
     PetscCall(PetscRealloc((size_t)c->active_capacity * sizeof *c->active, &c->active));
   }
-  for (int k = 0; k < c->npairs; k++)
-    c->pair[k].normal = c->pair[k].inside = c->pair[k].vn = c->pair[k].vt = 0.0;
+  for (int k = 0; k < c->npairs; k++) {
+    Pair *p = &c->pair[k];
+    p->normal = p->inside = p->vn = p->vt = p->phi = p->largest_phi = 0.0;
+  }
   for (int k = 0; k < c->nnear; k++) {
     c->active[n].candidate = c->near[k];
     n += ActivePairTarget(c, s, &c->candidate[c->near[k]], &c->active[n]);
@@ -98,7 +102,8 @@ static void Respond(Contact c, const Solid s)
     if (!(p->normal > 0.0)) continue;
     /* vn and vt were summed with the edge's length as a factor, as was the normal force */
     const double vn = p->vn / p->normal, vt = p->vt / p->normal;
-    p->response = ContactRespond(p->law, p->normal, p->inside, p->slip + s->moved_for * vt, vn, vt);
+    const double viscosity = ContactViscosity(p->law, p->inside, p->phi / p->largest_phi);
+    p->response = ContactRespond(p->law, p->normal, viscosity, p->slip + s->moved_for * vt, vn, vt);
     p->now = p->response.slip;
   }
 }

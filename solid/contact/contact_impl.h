@@ -31,6 +31,7 @@ typedef struct {
   double now;  /* with the motion of the last substep */
   /* this evaluation's sums over targets */
   double normal, inside, vn, vt; /* N; share of the edge; velocities times the normal force */
+  double phi, largest_phi;       /* its mean over the edge; its maximum */
   ContactResponse response;
 } Pair;
 
@@ -68,6 +69,7 @@ struct Contact_s {
   Halo halo;          /* NULL on one rank */
   double *height;     /* [nbodies] smallest height of the surface elements at rest, m */
   double *compliance; /* [nbodies] largest (half the edges' lengths at a node)/(its mass), m/kg */
+  double *mass;       /* [nbodies] kg/m; HUGE_VAL: fixed */
   double *areal_mass; /* [nbodies] mass behind a metre of surface, 4 M/perimeter, kg/m2; HUGE_VAL: fixed */
   double *searched;   /* [nnodes][2] positions of the last search */
   double buffer, shortest_buffer;

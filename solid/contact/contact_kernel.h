@@ -114,6 +114,7 @@ static inline int ContactEdgeWall(double depth_p, double depth_q, double height,
   const double s0 = a >= 0.0 ? 0.0 : cut, s1 = b >= 0.0 ? 1.0 : cut;
   ContactPiece(s0, s1, Greater(a, 0.0), Greater(b, 0.0), c->edge);
   c->inside = s1 - s0;
+  c->largest_phi = Greater(a, b);
   return 1;
 }
 
@@ -123,7 +124,8 @@ static inline int ContactEdgeWall(double depth_p, double depth_q, double height,
 typedef struct {
   double friction;  /* Coulomb's mu */
   double stiffness; /* of the tangential spring, N/m */
-  double viscosity; /* N s/m, for the whole edge */
+  double viscosity; /* N s/m, for the whole edge with the mass behind it */
+  double bodies;    /* the mass of the bodies over that behind the edge */
 } ContactLaw;
 
 typedef struct {
@@ -136,14 +138,21 @@ static inline double ContactClamp(double value, double bound)
   return Greater(-bound, Lesser(bound, value));
 }
 
+/* c = 2 zeta sqrt(k m) of the part of the edge inside: k = N/depth is `full`, the mean of phi over the edge over its largest, times the whole
+ * edge's stiffness, and behind a corner is the mass of its body, not of its length.  Not more than that of the whole edge. */
+static inline double ContactViscosity(ContactLaw law, double inside, double full)
+{
+  const double mass = 1.0 + Greater(1.0 - inside, 0.0) * Greater(law.bodies - 1.0, 0.0);
+  return law.viscosity * Lesser(sqrt(full * mass), 1.0);
+}
+
 /* Viscous force c v.n, no larger than N, so that nothing sticks and nothing jumps at first touch; tangential
  * spring and dashpot, together no larger than mu times the whole normal force.  Each part takes energy or
  * stores it: the spring is cut back when it slips, and the dashpot always works against the motion. */
-static inline ContactResponse ContactRespond(ContactLaw law, double n, double inside, double slip, double vn,
-                                             double vt)
+static inline ContactResponse ContactRespond(ContactLaw law, double n, double viscosity, double slip,
+                                             double vn, double vt)
 {
   ContactResponse r;
-  const double viscosity = law.viscosity * Lesser(inside, 1.0);
   const double viscous = ContactClamp(viscosity * vn, n), cap = law.friction * (n + viscous);
   const double spring = ContactClamp(law.stiffness * slip, cap);
   r.normal = viscous / n;

@@ -65,7 +65,7 @@ static PetscBool MayBeActive(const Contact c, const Solid s, int facet, const Ta
 
 /* --- candidates --------------------------------------------------------------------------------------- */
 
-/* Mass behind a metre of both surfaces. */
+/* Of both bodies in series. */
 static double Together(double one, double other)
 {
   if (one == HUGE_VAL || other == HUGE_VAL) return fmin(one, other);
@@ -75,13 +75,14 @@ static double Together(double one, double other)
 /* Tangential spring half as stiff as the normal contact of the whole edge, 3 p L/height; damping as a
  * fraction of the critical 2 sqrt(k m).  *rate: its viscous rate per metre and mass, c/L. */
 static ContactLaw LawOf(const Solid s, int facet, double friction, double damping, double penalty,
-                        double height, double areal_mass, double *rate)
+                        double height, double mass, double areal_mass, double *rate)
 {
   const Point d =
       PointMinus(PointAt(s->rest, s->facet[2 * facet + 1]), PointAt(s->rest, s->facet[2 * facet]));
   const double length = hypot(d.x, d.y), stiffness = 3.0 * penalty / height;
   *rate = damping > 0.0 && areal_mass < HUGE_VAL ? 2.0 * damping * sqrt(stiffness * areal_mass) : 0.0;
-  return (ContactLaw){friction, friction > 0.0 ? 0.5 * stiffness * length : 0.0, *rate * length};
+  return (ContactLaw){friction, friction > 0.0 ? 0.5 * stiffness * length : 0.0, *rate * length,
+                      *rate > 0.0 ? mass / (areal_mass * length) : 1.0};
 }
 
 static PetscErrorCode AddCandidate(void *context, int facet, int target)
@@ -105,6 +106,7 @@ static PetscErrorCode AddCandidate(void *context, int facet, int target)
   const double compliance = fmax(c->compliance[body], c->compliance[t->body]);
   ContactMaterials(s, s->elements.material[element], t->material, &friction, &damping);
   const ContactLaw law = LawOf(s, facet, friction, damping, penalty, c->height[t->body],
+                               Together(c->mass[body], c->mass[t->body]),
                                Together(c->areal_mass[body], c->areal_mass[t->body]), &viscous);
   PetscCall(ContactPairOf(c, s, facet, t->body, law, &pair));
   c->candidate[c->ncandidates++] = (Candidate){facet, target, pair, penalty * t->twice_area, distance};
@@ -132,7 +134,7 @@ static PetscErrorCode AddWall(Contact c, Solid s, int facet, int axis, double ou
   *w = (WallCandidate){facet, axis, -1, outward, at};
   ContactMaterials(s, s->elements.material[element], wall, &friction, &damping);
   const ContactLaw law = LawOf(s, facet, friction, damping, m->penalty * m->thickness, c->height[body],
-                               c->areal_mass[body], &viscous);
+                               c->mass[body], c->areal_mass[body], &viscous);
   PetscCall(ContactPairOf(c, s, facet, wall, law, &w->pair));
   c->rate[3] = fmax(c->rate[3], 2.0 * viscous * c->compliance[body]); /* in a corner two walls act */
   PetscFunctionReturn(0);
