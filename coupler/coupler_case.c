@@ -41,13 +41,17 @@ static double InterfaceSize(CoracleCase file)
   return 0.0;
 }
 
-/* One body without joints has nothing to touch but walls; what a solid of others has is not known. */
+/* One body without joints has nothing to touch but walls; a solid of others counts as one. */
 static PetscBool IsOneBody(CoracleCase file)
 {
-  return (PetscBool)(CoracleCaseCount(file, "solid.bodies") == 1 &&
-                     !CoracleCaseHas(file, "solid.bodies[0].joints") &&
-                     !CoracleCaseHas(file, "solid.bodies[0].repeat") &&
-                     !CoracleCaseHas(file, "solid.bodies[0].mesh"));
+  static const char *const SEVERAL[] = {"joints", "repeat", "mesh"};
+  PetscBool one = (PetscBool)(CoracleCaseCount(file, "solid.bodies") <= 1);
+  for (size_t k = 0; k < sizeof SEVERAL / sizeof *SEVERAL; k++) {
+    char key[64];
+    snprintf(key, sizeof key, "solid.bodies[%d].%s", 0, SEVERAL[k]);
+    if (CoracleCaseHas(file, key)) one = PETSC_FALSE;
+  }
+  return one;
 }
 
 static void ReadUplift(CoracleCase file, CouplerOptions *o)

@@ -72,7 +72,7 @@ Flow::Flow(CoracleClient client, const Input &in, Time &time)
   propose();
   CoracleSetRegion(client, CORACLE_DIM, &mesh_.bounds().min()[0], &mesh_.bounds().max()[0], Cells::region, &cells_);
   CoracleReady(client);
-  if (CoracleNeedsPressure(client)) CoracleFail(client, "this fluid gives no pressure: expected coupler.mode: reaction, no solid.pressure_load and no solid.walls");
+  if (CoracleNeedsPressure(client)) CoracleFail(client, "this fluid gives no pressure: expected coupler.mode: reaction, no solid.pressure_load, no solid.walls and, with gravity, one body without joints");
 }
 
 template <class F> void Flow::forState(F f)
