@@ -59,6 +59,13 @@ static void ReadSprings(CoracleCase c, const Model *a, SolidSetup *setup)
   for (int k = 0; k < setup->nsprings; k++) ReadSpring(c, a, k, &setup->spring[k]);
 }
 
+static PetscBool IsSamePair(const ContactRule *a, const ContactRule *b)
+{
+  const int crossed = strcmp(a->between[0], b->between[0]) != 0;
+  return (PetscBool)(!strcmp(a->between[0], b->between[crossed]) &&
+                     !strcmp(a->between[1], b->between[1 - crossed]));
+}
+
 /* The list `contact`: overrides for pairs. */
 static void ReadRules(CoracleCase c, SolidSetup *setup)
 {
@@ -75,6 +82,10 @@ static void ReadRules(CoracleCase c, SolidSetup *setup)
       if (strcmp(name, CONTACT_WALLS)) CaseMaterialExists(c, key, name);
       (void)snprintf(r->between[i], sizeof r->between[i], "%s", name);
     }
+    (void)snprintf(key, sizeof key, "solid.contact[%d].between", k);
+    for (int i = 0; i < k; i++)
+      if (IsSamePair(r, &setup->rule[i]))
+        CoracleCaseRefuse(c, key, "an item before this one is of the same pair");
     (void)snprintf(key, sizeof key, "solid.contact[%d].friction", k);
     r->friction = CoracleCaseHas(c, key) ? CoracleCaseNumber(c, key, 0.0, HUGE_VAL) : -1.0;
     (void)snprintf(key, sizeof key, "solid.contact[%d].damping", k);

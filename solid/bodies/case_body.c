@@ -159,6 +159,15 @@ static void ReadMotion(CoracleCase c, const char *item, BoundaryMotion *d, doubl
   if (CoracleCaseHas(c, key)) d->motion.release = CoracleCasePositive(c, key);
 }
 
+/* Whether both prescribe a component of the same nodes. */
+static PetscBool Collide(const BoundaryMotion *a, const BoundaryMotion *b)
+{
+  const PetscBool same = (PetscBool)(a->boundary && b->boundary ? !strcmp(a->boundary, b->boundary)
+                                                                : a->boundary == b->boundary);
+  return (PetscBool)(same && ((a->motion.prescribed[0] && b->motion.prescribed[0]) ||
+                              (a->motion.prescribed[1] && b->motion.prescribed[1])));
+}
+
 static PetscErrorCode ReadPrescribed(CoracleCase c, int body, BodySetup *setup, BoundaryMotion **prescribed,
                                      double (**steady)[3])
 {
@@ -171,6 +180,9 @@ static PetscErrorCode ReadPrescribed(CoracleCase c, int body, BodySetup *setup, 
   for (int k = 0; k < setup->nprescribed; k++) {
     (void)snprintf(item, sizeof item, "%s[%d]", key, k);
     ReadMotion(c, item, &(*prescribed)[k], (*steady)[k]);
+    for (int i = 0; i < k; i++)
+      if (Collide(&(*prescribed)[i], &(*prescribed)[k]))
+        CoracleCaseRefuse(c, item, "an item before this one prescribes the same component of the same nodes");
   }
   setup->prescribed = *prescribed;
   PetscFunctionReturn(0);

@@ -26,6 +26,8 @@ accepted solid --set "solid.bodies[0]=${rectangle} 0.05, angle: -6.28}"
 rock='{density: 1, youngs_modulus: 1, poisson_ratio: 0, tensile_strength: 1, shear_strength: 1, fracture_energy: 1}'
 thin="${rectangle} 0.05, joints: [{lower: [0.999, 0], upper: [1.001, 2]}]}" # between the centres
 refused solid "'solid.bodies\[0\]': no element's centre is in the joints' box \[0.999, 1.001\] x \[0, 2\]" --set "solid.bodies[0]=$thin" --set "solid.materials.disc=$rock"
+refused solid "'solid.bodies\[0\].prescribed\[1\]': an item before this one" --set "solid.bodies[0]=${rectangle} 0.05, prescribed: [{velocity: [1, 0], component: x}, {velocity: [0, 1]}]}"
+refused solid "'solid.contact\[1\].between': an item before this one" --set 'solid.contact=[{between: [disc, walls], friction: 0.1}, {between: [walls, disc], friction: 0.2}]'
 refused solid "'solid.bodies\[0\].prescribed': a fixed body has no prescribed motion" --set "solid.bodies[0]=${rectangle} 0.05, fixed: true, prescribed: [{velocity: [1, 0]}]}"
 ring='{shape: ring, centre: [1, 1], radius: 0.2, thickness: 0.1, material: disc, size: '
 refused solid "'solid.bodies\[0\].size': .* elements" --set "solid.bodies[0]=${ring} 1e-7}"
