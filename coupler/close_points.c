@@ -1,5 +1,6 @@
 #include "coupler/close_points.h"
 #include "common/supermesh/search.h"
+#include "coupler/box_scatter.h"
 
 /* Cosine of the angle between the normal of a facet and the direction to the wall that it faces, at least. */
 #define FACING_WALL 0.7
@@ -43,32 +44,21 @@ static GeometryBox BoxOf(const Facet *f, double reach)
 static PetscErrorCode Exchange(ClosePoints *points, MPI_Comm comm, int n, const Facet own[], double reach,
                                Facet **arrived)
 {
-  GeometryBox *bounds, mine = GeometryBoxEmpty();
+  GeometryBox *bounds, *box, mine = GeometryBoxEmpty();
   PetscMPIInt size;
-  int nitems = 0, *to, *row;
 
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCall(PetscMalloc3(size, &bounds, (size_t)n * (size_t)size, &to, (size_t)n * (size_t)size, &row));
+  PetscCall(PetscMalloc2(size, &bounds, n, &box));
   for (int f = 0; f < n; f++) {
-    const GeometryBox box = BoxOf(&own[f], 0.0);
-    GeometryBoxGrow(&mine, box.lower);
-    GeometryBoxGrow(&mine, box.upper);
+    for (int i = 0; i < 2; i++) GeometryBoxGrow(&mine, own[f].x[i]);
+    box[f] = BoxOf(&own[f], reach);
   }
   PetscCallMPI(MPI_Allgather(&mine, 4, MPI_DOUBLE, bounds, 4, MPI_DOUBLE, comm));
-  for (int f = 0; f < n; f++) {
-    const GeometryBox box = BoxOf(&own[f], reach);
-    for (int p = 0; p < size; p++) {
-      if (!GeometryBoxOverlap(&box, &bounds[p])) continue;
-      to[nitems] = p;
-      row[nitems++] = f;
-    }
-  }
-  PetscCall(ScatterDestroy(&points->scatter));
-  PetscCall(ScatterCreate(comm, nitems, to, row, &points->scatter));
+  PetscCall(BoxScatterCreate(comm, n, box, bounds, &points->scatter));
   PetscCall(PetscMalloc1(ScatterArriving(points->scatter), arrived));
   PetscCall(ScatterForward(points->scatter, sizeof(Facet), own, *arrived));
-  PetscCall(PetscFree3(bounds, to, row));
+  PetscCall(PetscFree2(bounds, box));
   PetscFunctionReturn(0);
 }
 
@@ -148,7 +138,7 @@ static PetscErrorCode FindOfFacet(ClosePoints *points, const Facet *f, int index
   PetscCheck(nhits >= 0, PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory for the facets near a facet");
   for (int k = 0; k < 2; k++) {
     ClosePoint point = {.facet = index,
-                        .opposite = CLOSE_TO_WALL - 1,
+                        .opposite = CLOSE_TO_NOTHING,
                         .gap = reach,
                         .weight = 0.5 * f->length,
                         .n = {1.0 - gauss[k], gauss[k]}};
@@ -156,7 +146,7 @@ static PetscErrorCode FindOfFacet(ClosePoints *points, const Facet *f, int index
     PointOn(f, gauss[k], x);
     CloseToWall(f, x, lower, upper, &point);
     for (int h = 0; h < nhits; h++) CloseToFacet(f, x, &arrived[hit[h]], hit[h], &point);
-    if (point.opposite >= CLOSE_TO_WALL) PetscCall(Append(points, &point));
+    if (point.opposite != CLOSE_TO_NOTHING) PetscCall(Append(points, &point));
   }
   PetscFunctionReturn(0);
 }

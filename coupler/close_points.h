@@ -11,7 +11,7 @@
 #define CORACLE_COUPLER_CLOSE_POINTS_H
 #include "coupler/shell.h"
 
-enum { CLOSE_TO_WALL = -1 };
+enum { CLOSE_TO_WALL = -1, CLOSE_TO_NOTHING = -2 };
 
 typedef struct {
   int facet;            /* f, of this rank */

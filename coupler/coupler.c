@@ -89,7 +89,7 @@ static PetscErrorCode BuildAt(Coupler c, const SolidState *solid, const double x
   PetscCall(OverlapBuild(c->overlap, &at, c->shell, new_mesh));
   PetscCall(NewStep(c, &at));
   if (c->pressure_load) PetscCall(PressureLoadBuild(c->pressure_load, &at));
-  if (c->uplift) PetscCall(UpliftBuild(c->uplift, &at, c->shell));
+  if (c->uplift) PetscCall(UpliftBuild(c->uplift, &at, c->shell, c->overlap));
   c->built = 1;
   PetscCall(c->mode->coefficients(c, &at));
   PetscCall(InertiaExplicitFraction(c->overlap, &at, c->source, c->explicit_fraction));

@@ -1,4 +1,5 @@
 #include "coupler/overlap.h"
+#include "coupler/box_scatter.h"
 
 PetscErrorCode OverlapCreate(MPI_Comm comm, Overlap *overlap)
 {
@@ -87,22 +88,13 @@ static PetscErrorCode OwnedTriangles(Overlap o, const SolidState *solid, const S
 /* Which triangles go where: to every rank whose elements' bounding box they touch. */
 static PetscErrorCode MakeScatter(Overlap o, const SourceTriangle owned[])
 {
-  int size, n = 0, *rank, *source;
+  GeometryBox *box;
 
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_size(o->comm, &size));
-  PetscCall(PetscMalloc2((size_t)o->nowned * (size_t)size, &rank, (size_t)o->nowned * (size_t)size, &source));
-  for (int t = 0; t < o->nowned; t++) {
-    const GeometryBox box = GeometryBoxOf(owned[t].x);
-    for (int p = 0; p < size; p++) {
-      if (!GeometryBoxOverlap(&box, &o->bounds[p])) continue;
-      rank[n] = p;
-      source[n++] = t;
-    }
-  }
-  PetscCall(ScatterDestroy(&o->scatter));
-  PetscCall(ScatterCreate(o->comm, n, rank, source, &o->scatter));
-  PetscCall(PetscFree2(rank, source));
+  PetscCall(PetscMalloc1(o->nowned, &box));
+  for (int t = 0; t < o->nowned; t++) box[t] = GeometryBoxOf(owned[t].x);
+  PetscCall(BoxScatterCreate(o->comm, o->nowned, box, o->bounds, &o->scatter));
+  PetscCall(PetscFree(box));
   PetscFunctionReturn(0);
 }
 

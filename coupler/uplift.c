@@ -10,6 +10,7 @@ struct Uplift_s {
   Shell shell;      /* borrowed */
   SolidState solid; /* a copy */
   ClosePoints points;
+  PetscBool any; /* points, on any rank */
 };
 
 /* Along the surface: head and density, 1 where they are connected with a place where they are known. */
@@ -50,14 +51,6 @@ PetscErrorCode UpliftDestroy(Uplift *uplift)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode UpliftBuild(Uplift u, const SolidState *solid, const Shell shell)
-{
-  PetscFunctionBeginUser;
-  PetscCall(SolidStateCopy(solid, &u->solid));
-  u->shell = shell;
-  PetscFunctionReturn(0);
-}
-
 static double Along(const double gravity[2], const double x[2])
 {
   return gravity[0] * x[0] + gravity[1] * x[1];
@@ -66,18 +59,20 @@ static double Along(const double gravity[2], const double x[2])
 /* --- which points are close ------------------------------------------------------------------------------- */
 
 /* Points within reach of the largest element at the solid: most solids have none, and no more is done. */
-static PetscErrorCode FindCandidates(Uplift u, const Overlap o, PetscBool *any)
+PetscErrorCode UpliftBuild(Uplift u, const SolidState *solid, const Shell shell, const Overlap o)
 {
   double largest = 0.0;
   int close;
 
   PetscFunctionBeginUser;
+  PetscCall(SolidStateCopy(solid, &u->solid));
+  u->shell = shell;
   for (int e = 0; e < o->ncoupled; e++) largest = fmax(largest, sqrt(2.0 * o->area[o->coupled_element[e]]));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, u->comm));
   PetscCall(ClosePointsFind(&u->solid, u->shell, u->lower, u->upper, UPLIFT_REACH * largest, &u->points));
   close = u->points.n > 0;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &close, 1, MPI_INT, MPI_LOR, u->comm));
-  *any = close ? PETSC_TRUE : PETSC_FALSE;
+  u->any = close ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -269,12 +264,10 @@ PetscErrorCode UpliftAdd(Uplift u, Overlap o, const ElementTerm element[], const
   double *excess, *size, *area;
   Fields *outside;
   Gap gap;
-  PetscBool any = PETSC_FALSE;
 
   PetscFunctionBeginUser;
   total[0] = total[1] = 0.0;
-  PetscCall(FindCandidates(u, o, &any));
-  if (!any) PetscFunctionReturn(0);
+  if (!u->any) PetscFunctionReturn(0);
   PetscCall(PetscMalloc4(n, &excess, n, &size, n, &area, n, &outside));
   PetscCall(PetscMalloc3(n, &gap.is_free, n, &gap.counts, n, &gap.value));
   PetscCall(SurfacePressureInside(o, p, (int)n, excess, size, area));

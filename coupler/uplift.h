@@ -32,8 +32,8 @@ typedef struct Uplift_s *Uplift;
 PetscErrorCode UpliftCreate(MPI_Comm comm, const double lower[2], const double upper[2],
                             const double gravity[2], Uplift *uplift);
 PetscErrorCode UpliftDestroy(Uplift *uplift);
-/* Not collective: the solid of the step to come (copied), and its shell, borrowed until the next call. */
-PetscErrorCode UpliftBuild(Uplift uplift, const SolidState *solid, const Shell shell);
+/* Collective: the solid of the step to come (copied), its shell, borrowed until the next call, and their overlap: what is close. */
+PetscErrorCode UpliftBuild(Uplift uplift, const SolidState *solid, const Shell shell, const Overlap overlap);
 /* Collective: force[nnodes][2] += the above, N, to each copy of a node what its facets do; total[2]: of all ranks.  element[ncoupled] of the step
  * of dt that was built; p[nelements][6], Pa, of the overlap's elements. */
 PetscErrorCode UpliftAdd(Uplift uplift, Overlap overlap, const ElementTerm element[], const double p[],

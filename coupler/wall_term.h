@@ -84,8 +84,7 @@ typedef struct {
 
 /* What a coupled element's pairs have in common. */
 typedef struct {
-  WallCoefficient
-      along; /* I - mean of n n over the shell in K, among phases of what is held, where it is crossed (slip.h), without unit */
+  WallCoefficient along;      /* I - mean of n n over the shell in K, where crossed (slip.h), without unit */
   WallCoefficient tangential; /* D (slip.h), without unit */
   WallCoefficient kept;       /* of u^n, by the solid's inertia (inertia.h), without unit */
   WallCoefficient freed;      /* of the inertia, (1 - k) D (inertia.h), without unit */

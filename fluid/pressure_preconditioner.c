@@ -120,16 +120,16 @@ static PetscErrorCode CreateSolver(PressurePreconditioner p)
 }
 
 /* Constants are known to nobody in a closed domain, and the sum of r, round-off of A x, would end CG where it is as large as r itself. */
-static PetscErrorCode Balance(PressurePreconditioner p, Vec *r)
+static PetscErrorCode Balance(PressurePreconditioner p, PC shell, Vec *r)
 {
-  PetscScalar sum;
-  PetscInt n;
+  Mat matrix;
+  MatNullSpace constants;
   PetscFunctionBeginUser;
   if (!p->balanced) PetscFunctionReturn(0);
   PetscCall(VecCopy(*r, p->balanced));
-  PetscCall(VecSum(p->balanced, &sum));
-  PetscCall(VecGetSize(p->balanced, &n));
-  PetscCall(VecShift(p->balanced, -sum / n));
+  PetscCall(PCGetOperators(shell, &matrix, NULL));
+  PetscCall(MatGetNullSpace(matrix, &constants));
+  PetscCall(MatNullSpaceRemove(constants, p->balanced));
   *r = p->balanced;
   PetscFunctionReturn(0);
 }
@@ -141,7 +141,7 @@ static PetscErrorCode Apply(PC shell, Vec r, Vec z)
   Vec residual = NULL;
   PetscFunctionBeginUser;
   PetscCall(PCShellGetContext(shell, &p));
-  PetscCall(Balance(p, &r));
+  PetscCall(Balance(p, shell, &r));
   PetscCall(RelaxationForward(p->relaxation, r, z, &residual));
   if (PatchCorrectionActive(p->patches)) PetscCall(PatchCorrectionFirst(p->patches, residual, z));
   PetscCall(MatMultTranspose(p->extension, residual, p->r1));

@@ -170,7 +170,7 @@ int CoracleSetFlow(CoracleClient c, const CoracleFlow *flow)
     ParticipantFail(
         c->p,
         "the pressure of %d elements is missing in step %d: the coupling mode, the solid's load or "
-        "solids on walls (solid.walls) need it "
+        "solids that may touch each other or walls need it "
         "(CoracleNeedsPressure)",
         f->n, c->p->step);
   if (!all.rho_inside) all.rho_inside = all.rho;

@@ -292,7 +292,7 @@ typedef struct {
 /* Between CoracleBegin and CoracleEnd: waits for the coupling of the step, which the coupler computes meanwhile: call it as
  * late as you can.  Borrowed until the next CoracleEnd. */
 int CoracleGetCoupling(CoracleClient c, int *n, const CoracleCoupling **coupling);
-/* From CoracleReady on: 1 when the coupling mode or the solid (CoracleSetPressureLoad) uses the pressure, else 0.  A fluid
+/* From CoracleReady on: 1 when the coupling mode, the solid (CoracleSetPressureLoad) or what may touch it uses the pressure, else 0.  A fluid
  * without one must end the job then. */
 int CoracleNeedsPressure(CoracleClient c);
 /* Between CoracleBegin and CoracleEnd, once a step: the flow (copied). */
