@@ -1,5 +1,5 @@
 #include "coupler/check.h"
-#include "coupler/coupler_case.h"
+#include "coupler/input/coupler_case.h"
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>

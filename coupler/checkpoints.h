@@ -10,7 +10,7 @@
 #ifndef CORACLE_CHECKPOINTS_H
 #define CORACLE_CHECKPOINTS_H
 #include "common/link/server.h"
-#include "coupler/coupler_case.h"
+#include "coupler/input/coupler_case.h"
 
 typedef struct {
   MPI_Comm comm;

@@ -11,8 +11,8 @@
  * collective. */
 #ifndef CORACLE_COUPLING_ITERATION_H
 #define CORACLE_COUPLING_ITERATION_H
+#include "coupler/geometry/solid_state.h"
 #include "coupler/quasi_newton.h"
-#include "coupler/solid_state.h"
 
 /* Part of the shell's thickness: displacements over a step that differ by less are taken as equal. */
 #define NEGLIGIBLE_DISPLACEMENT 1e-4

@@ -9,9 +9,9 @@
 #ifndef CORACLE_EXCHANGE_H
 #define CORACLE_EXCHANGE_H
 #include "common/link/server.h"
-#include "coupler/fluid_state.h"
-#include "coupler/mode.h"
+#include "coupler/geometry/fluid_state.h"
 #include "coupler/region.h"
+#include "coupler/step/mode.h"
 
 /* The solid's mesh at the first call, then its motion over each step. */
 PetscErrorCode ExchangeReceiveSolid(Server server, const CouplerModeTable *mode, SolidState *solid);

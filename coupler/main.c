@@ -8,7 +8,7 @@
  *     write summary.json */
 #include "common/program/program.h"
 #include "coupler/check.h"
-#include "coupler/summary.h"
+#include "coupler/output/summary.h"
 #include "coupler/time_loop.h"
 
 static PetscErrorCode Run(Server server, const CouplerCase *c)

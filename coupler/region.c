@@ -1,6 +1,6 @@
 #include "coupler/region.h"
 #include "common/supermesh/geometry.h"
-#include "coupler/shell.h"
+#include "coupler/geometry/shell.h"
 #include <limits.h>
 
 PetscErrorCode RegionCreate(MPI_Comm comm, double thickness, Region *region)

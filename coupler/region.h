@@ -9,8 +9,8 @@
  *      +-------------+ */
 #ifndef CORACLE_REGION_H
 #define CORACLE_REGION_H
-#include "coupler/fluid_state.h"
-#include "coupler/solid_state.h"
+#include "coupler/geometry/fluid_state.h"
+#include "coupler/geometry/solid_state.h"
 
 enum { REGION_SIDE = 16, REGION_BOXES = REGION_SIDE * REGION_SIDE, REGION_STEPS = 20 };
 

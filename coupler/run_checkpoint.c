@@ -1,5 +1,5 @@
 #include "common/output/folder.h"
-#include "coupler/case_copy.h"
+#include "coupler/input/case_copy.h"
 #include "coupler/run_state.h"
 
 enum { MONITOR_NUMBERS = 7 };

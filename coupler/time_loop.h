@@ -3,8 +3,8 @@
 #define CORACLE_TIME_LOOP_H
 #include "common/link/server.h"
 #include "common/output/claim.h"
+#include "coupler/output/writer.h"
 #include "coupler/region.h"
-#include "coupler/writer.h"
 
 typedef struct {
   Server server; /* borrowed, as all of these */

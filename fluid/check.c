@@ -1,7 +1,7 @@
 #include "fluid/check.h"
-#include "fluid/fluid_case.h"
-#include "fluid/probes.h"
-#include "fluid/writer.h"
+#include "fluid/input/fluid_case.h"
+#include "fluid/output/probes.h"
+#include "fluid/output/writer.h"
 
 /* What the calls that read them do not say of the fluid's keys. */
 static const CoracleCaseKey KEYS[] = {

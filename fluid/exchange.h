@@ -5,7 +5,7 @@
  *     ExchangeFlow             u*, u projected, rho, mu (, p) of the step -->  correction, or: to be redone */
 #ifndef FLUID_EXCHANGE_H
 #define FLUID_EXCHANGE_H
-#include "fluid/fluid.h"
+#include "fluid/flow/fluid.h"
 
 typedef struct Exchange_s *Exchange;
 

@@ -7,7 +7,7 @@
  *         flow near the solid          -->  coupler, solid  -->  correction inside the solid, or: to be redone
  *     report, end */
 #include "fluid/check.h"
-#include "fluid/fluid_case.h"
+#include "fluid/input/fluid_case.h"
 #include "fluid/run.h"
 
 static PetscErrorCode Step(FluidRun *m, double dt)

@@ -1,7 +1,7 @@
 #include "fluid/run.h"
 #include "common/mesh/mesh_checkpoint.h"
-#include "fluid/boundary_case.h"
-#include "fluid/fluid_case.h"
+#include "fluid/input/boundary_case.h"
+#include "fluid/input/fluid_case.h"
 
 /* The sections of the case that concern the fluid, all of whose keys must have been read. */
 static const char *const SECTIONS[] = {"fluid", NULL};

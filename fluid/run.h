@@ -3,10 +3,10 @@
 #ifndef FLUID_RUN_H
 #define FLUID_RUN_H
 #include "common/program/program.h"
-#include "fluid/adaptation.h"
 #include "fluid/exchange.h"
-#include "fluid/probes.h"
-#include "fluid/writer.h"
+#include "fluid/output/probes.h"
+#include "fluid/output/writer.h"
+#include "fluid/remeshing/adaptation.h"
 
 typedef struct {
   const Program *program;

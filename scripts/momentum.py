@@ -33,7 +33,7 @@ def terms_of(folder):
     `change` of the momentum of fluid and solids is the sum of all other terms but `scale`, and of `rest`.  Of these, `inside` is what
     the coupler adds to the reaction: the inertia and the weight of the fluid that fills the solids, which the solids have in place
     of it; with `correction` it is the change of that fluid's momentum less its weight.  `uplift` is what walls beneath solids give back
-    (coupler/uplift.h).  What fluid and solids exchange cancels:
+    (coupler/force/uplift.h).  What fluid and solids exchange cancels:
     `exchange`, the fluid's gain and the coupler's reaction, and `load`, the coupler's force and the solids' load, are left over."""
     fluid, solid, coupler = (read_series(os.path.join(folder, name + ".csv")) for name in ("fluid_forces", "solid", "coupler"))
     for other in (solid, coupler):

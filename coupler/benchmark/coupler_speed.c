@@ -1,6 +1,6 @@
 /* How long the coupler takes a step: a disc of radius 0.125 m, elements of 0.008 m, in a fluid mesh of 0.008
  * m near it. mpirun -n N coupler_speed */
-#include "coupler/coupler.h"
+#include "coupler/step/coupler.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A block that stands on a floor under water presses on it with its weight less the displaced water's (coupler/uplift.h), in one fluid and beneath
+# A block that stands on a floor under water presses on it with its weight less the displaced water's (coupler/force/uplift.h), in one fluid and beneath
 # air, also let down with a gap, and friction stops one that slides (before, the water carried it: no force on the floor, 0.13 m in 0.3 s); what
 # the floor gives back is in the budget of momentum.  Usage: floor.sh ROOT BUILD
 set -euo pipefail

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A block on a slope under water, both bodies of the same mesh size as the fluid's elements.  With friction it stands, and the fluid's force on it is the
-# displaced water's weight (coupler/uplift.h), in one fluid and beneath air; without, it slides as fast with short steps as with long
+# displaced water's weight (coupler/force/uplift.h), in one fluid and beneath air; without, it slides as fast with short steps as with long
 # ones (before, elements that both bodies share held it, the more the shorter the steps: 0.09 of the acceleration with dt 1.25 ms), and the
 # fluid resists its acceleration alone.  Usage: slope.sh ROOT BUILD
 set -euo pipefail

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # The coupling has no length of a step in it: a disc falls alike with steps of 5 ms and a quarter of that.  It did not while each step
-# mixed the solid's velocity into the fluid beside it (coupler/slip.h): 3.3 % slower with the short steps.
+# mixed the solid's velocity into the fluid beside it (coupler/terms/slip.h): 3.3 % slower with the short steps.
 # A fast disc (Re about 180) that moves by half an element a step and by one and a half: its drag grew with the step while the fluid that it
-# covers was taken to the solid's velocity after the step alone (coupler/inertia.h): 7 % slower after 1 s, now 3 %.
+# covers was taken to the solid's velocity after the step alone (coupler/terms/inertia.h): 7 % slower after 1 s, now 3 %.
 # Usage: time_step.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"

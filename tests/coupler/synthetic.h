@@ -5,7 +5,7 @@
  * compared whatever the split. */
 #ifndef TESTS_SYNTHETIC_H
 #define TESTS_SYNTHETIC_H
-#include "coupler/coupler.h"
+#include "coupler/step/coupler.h"
 #include "tests/supermesh/random_mesh.h"
 
 enum { SYNTHETIC_MAX = 4000 };

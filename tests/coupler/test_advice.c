@@ -1,5 +1,5 @@
 /* The line on ranks names the participant that took most of the time, where more ranks of it would help, and who has too many. */
-#include "coupler/advice.h"
+#include "coupler/output/advice.h"
 #include "tests/check.h"
 #include <string.h>
 

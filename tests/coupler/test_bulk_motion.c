@@ -1,7 +1,7 @@
 // ranks: 1 2 3
 /* The mean velocity is that of the volume, however the solid is dealt out; of the surface when there is no
  * volume. */
-#include "coupler/bulk_motion.h"
+#include "coupler/geometry/bulk_motion.h"
 #include "tests/coupler/synthetic.h"
 
 int main(int argc, char **argv)

@@ -6,7 +6,7 @@
  * that of the fluid inside, R what that keeps of its slip (slip.h) and v the solid's velocity,
  * P - R + (m - M_f) v - (m - M_f) g t     stays what it was,
  * whatever the time steps, to round-off. */
-#include "coupler/coupler_impl.h"
+#include "coupler/step/coupler_impl.h"
 #include "coupler/time_loop.h"
 #include "tests/coupler/synthetic.h"
 #include "tests/coupler/synthetic_momentum.h"

@@ -2,7 +2,7 @@
 /* Forces on a closed polygon against what mechanics says: buoyancy, rigid motion, accelerated fluid, the wall
  * term's coefficients. */
 #include "common/space/p2.h"
-#include "coupler/coupler_impl.h"
+#include "coupler/step/coupler_impl.h"
 #include "tests/coupler/synthetic.h"
 
 static SyntheticSolid all_solid, solid;

@@ -1,7 +1,7 @@
 // ranks: 1 2 3
 /* Gauges follow a disc that is moved, turned and stretched, on any split of its surface; they are found again from a
  * checkpoint and where a node has another id, and one that is not on the surface is found. */
-#include "coupler/gauges.h"
+#include "coupler/geometry/gauges.h"
 #include "tests/coupler/synthetic.h"
 #include <unistd.h>
 

@@ -1,7 +1,7 @@
 // ranks: 1 2 3
 /* Nodes with a mobility: momentum is conserved to round-off, fluid and solid move together however light the
  * solid is, and fall freely together. */
-#include "coupler/coupler_impl.h"
+#include "coupler/step/coupler_impl.h"
 #include "tests/coupler/synthetic.h"
 #include "tests/coupler/synthetic_momentum.h"
 

@@ -1,7 +1,7 @@
 // ranks: 1 2 3
 /* The load of the fluid's pressure in the solid: that of a uniform pressure is the traction's on the surface and nothing inside, any other
  * has no resultant and no moment; of the pressure outside alone the acceleration is told; however all is dealt out to ranks. */
-#include "coupler/pressure_load.h"
+#include "coupler/force/pressure_load.h"
 #include "tests/coupler/synthetic.h"
 
 static const double CENTRE[2] = {0.45, 0.5}, RADIUS = 0.31, MOBILITY = 3.0;

@@ -2,7 +2,7 @@
 /* Coupling, forces and corrections do not depend on how solid and fluid are dealt out to ranks (some of which
  * are empty), in any mode; the default mode conserves momentum, solid mass and momentum of the solid on the
  * fluid to round-off. */
-#include "coupler/coupler_impl.h"
+#include "coupler/step/coupler_impl.h"
 #include "tests/coupler/synthetic.h"
 #include <stddef.h>
 

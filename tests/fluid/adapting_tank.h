@@ -1,7 +1,7 @@
 /* A tank whose mesh adapts to the interfaces. */
 #ifndef TEST_FLUID_ADAPTING_TANK_H
 #define TEST_FLUID_ADAPTING_TANK_H
-#include "fluid/adaptation.h"
+#include "fluid/remeshing/adaptation.h"
 #include "tests/fluid/tank.h"
 
 typedef struct {

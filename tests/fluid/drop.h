@@ -1,7 +1,7 @@
 /* Two phases with surface tension in the unit square, closed by free-slip walls, on a random mesh. */
 #ifndef TEST_FLUID_DROP_H
 #define TEST_FLUID_DROP_H
-#include "fluid/fluid.h"
+#include "fluid/flow/fluid.h"
 #include "tests/check.h"
 #include "tests/transfer/shaken.h"
 #include <math.h>

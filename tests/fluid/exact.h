@@ -1,7 +1,7 @@
 /* A manufactured solution on the unit square and the set-up of a fluid that has it. */
 #ifndef TEST_FLUID_EXACT_H
 #define TEST_FLUID_EXACT_H
-#include "fluid/fluid.h"
+#include "fluid/flow/fluid.h"
 #include "tests/fluid/box_mesh.h"
 #include <math.h>
 

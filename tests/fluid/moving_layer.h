@@ -2,7 +2,7 @@
  * velocity that gravity makes in one step from rest. */
 #ifndef TEST_FLUID_MOVING_LAYER_H
 #define TEST_FLUID_MOVING_LAYER_H
-#include "fluid/projection.h"
+#include "fluid/pressure/projection.h"
 #include "tests/fluid/exact.h"
 
 #define DT 0.01

@@ -1,7 +1,7 @@
 /* Water below air, or other phases, in a box with free-slip walls, on a mesh that knows nothing of the surface. */
 #ifndef TEST_FLUID_TANK_H
 #define TEST_FLUID_TANK_H
-#include "fluid/fluid.h"
+#include "fluid/flow/fluid.h"
 #include "tests/check.h"
 #include "tests/transfer/shaken.h"
 #include <math.h>

@@ -2,7 +2,7 @@
 /* A uniform stream through a zone of absorption: one that is drawn to its own velocity stays as it is; where it is drawn to rest it cannot slow
  * down, and the pressure before the zone is what the zone takes, rho U rate L/3 for a rate that rises with the square of the way
  * over the length L.  The budget of momentum has it. */
-#include "fluid/budget.h"
+#include "fluid/flow/budget.h"
 #include "tests/check.h"
 #include "tests/fluid/box_mesh.h"
 

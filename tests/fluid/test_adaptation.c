@@ -1,7 +1,7 @@
 // ranks: 1 2 3
 /* A flow with a known solution on a mesh that adapts to it: its error follows the one asked for, momentum
  * goes over to round-off, the pressure does not jump; and a fluid at rest stays at rest. */
-#include "fluid/adaptation.h"
+#include "fluid/remeshing/adaptation.h"
 #include "tests/check.h"
 #include "tests/fluid/exact.h"
 

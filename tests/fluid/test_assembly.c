@@ -1,7 +1,7 @@
 // ranks: 1 2 3
 /* A matrix summed from contributions is that of MatSetValues: entries of many contributions, of none, in rows of
  * other ranks; summed again with other values it has nothing of the first ones. */
-#include "fluid/assembly.h"
+#include "fluid/discretization/assembly.h"
 #include "tests/check.h"
 
 enum { ROWS = 40, CONTRIBUTIONS = 900 };

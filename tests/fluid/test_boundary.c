@@ -1,5 +1,5 @@
 /* A velocity that is prescribed rises smoothly and keeps its profile; it may swing, or follow a table, once or in each period. */
-#include "fluid/fluid_impl.h"
+#include "fluid/flow/fluid_impl.h"
 #include "tests/check.h"
 
 static void Factors(void)

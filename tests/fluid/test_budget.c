@@ -2,7 +2,7 @@
 /* The budget of momentum closes in each step to 1e-10 of its terms when the momentum equation is solved to 1e-13, with every kind of
  * boundary, absorption, theta, moving phases, surface tension, a gas, adapting meshes.  Forces on walls: water at rest weighs on them, and in a
  * channel they take the pressure drop. */
-#include "fluid/budget.h"
+#include "fluid/flow/budget.h"
 #include "tests/fluid/adapting_tank.h"
 #include "tests/fluid/box_mesh.h"
 

@@ -4,7 +4,7 @@
  * three ranks or more do not (they are made as messages arrive); to the solvers' tolerance on any ranks. */
 #include "common/mesh/mesh_checkpoint.h"
 #include "common/supermesh/geometry.h"
-#include "fluid/adaptation.h"
+#include "fluid/remeshing/adaptation.h"
 #include "tests/fluid/exact.h"
 #include "tests/remove_folder.h"
 #include <string.h>

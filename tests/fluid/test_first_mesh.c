@@ -1,6 +1,6 @@
 // ranks: 1 2 3
 /* The first mesh is fine along an interface, also where the mesh of the case has its faces there and no element is cut. */
-#include "fluid/adaptation.h"
+#include "fluid/remeshing/adaptation.h"
 #include "tests/check.h"
 #include "tests/fluid/box_mesh.h"
 

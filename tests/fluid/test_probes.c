@@ -1,8 +1,8 @@
 // ranks: 1 2 3
 /* Probes give linear velocities and quadratic pressures exactly, in elements, on faces, vertices, walls and corners and
  * before a gauge on a solid; also on another mesh and after a checkpoint.  What lies outside of the mesh is refused. */
-#include "fluid/fluid_case.h"
-#include "fluid/probes.h"
+#include "fluid/input/fluid_case.h"
+#include "fluid/output/probes.h"
 #include "tests/fluid/box_mesh.h"
 #include "tests/link/catch.h"
 

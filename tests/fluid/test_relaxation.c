@@ -1,7 +1,7 @@
 // ranks: 1 2 3
 /* Gauss-Seidel within the ranks converges for any symmetric positive definite matrix, also where the entries between
  * ranks outweigh the diagonal: the error's energy falls in each pair of sweeps. */
-#include "fluid/relaxation.h"
+#include "fluid/pressure/relaxation.h"
 #include <petscksp.h>
 
 enum { N = 4 };    /* rows a rank */

@@ -2,9 +2,9 @@
 /* The fluid's part of a case that resumes from a checkpoint: its keys are read and checked as ever, its files
  * go on where they were, an open boundary has the pressure that the case says now, and a checkpoint of other boundaries is refused. */
 #include "common/mesh/mesh_checkpoint.h"
-#include "fluid/boundary_case.h"
-#include "fluid/fluid_case.h"
-#include "fluid/writer.h"
+#include "fluid/input/boundary_case.h"
+#include "fluid/input/fluid_case.h"
+#include "fluid/output/writer.h"
 #include "tests/link/catch.h"
 
 static const char *const CASE =

@@ -4,8 +4,8 @@
  * schaefer_turek.geo.  The drag's error falls with the square of its size h at the cylinder; bounds for any h are those of 0.004 times that (lift) and h
  * (pressure drop): both are erratic from mesh to mesh.  schaefer_turek -h 0.0028 */
 #include "common/space/p2.h"
-#include "fluid/fluid.h"
-#include "fluid/locate.h"
+#include "fluid/flow/fluid.h"
+#include "fluid/output/locate.h"
 #include <stdlib.h>
 #include <unistd.h>
 

@@ -1,8 +1,8 @@
 // ranks: 1 2 3
 /* A free-surface gauge finds a straight surface exactly on a mesh that knows nothing of it, a drop above it, and nothing where the phase is
  * not. */
-#include "fluid/fluid.h"
-#include "fluid/surface_gauge.h"
+#include "fluid/flow/fluid.h"
+#include "fluid/output/surface_gauge.h"
 #include "tests/check.h"
 #include "tests/fluid/box_mesh.h"
 

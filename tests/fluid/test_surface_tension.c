@@ -2,7 +2,7 @@
 /* Surface tension: with the exact curvature a drop is in balance to round-off; with the computed one it nearly stays at rest, and
  * its pressure is Laplace's; a capillary wave decays as Prosperetti (1981) says.
  * surface_tension drop n ratio laplace steps, surface_tension wave n: print. */
-#include "fluid/fluid_impl.h"
+#include "fluid/flow/fluid_impl.h"
 #include "fluid/phases/phases_impl.h"
 #include "tests/fluid/drop.h"
 #include <complex.h>

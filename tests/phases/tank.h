@@ -7,7 +7,7 @@
 #ifndef TESTS_PHASES_TANK_H
 #define TESTS_PHASES_TANK_H
 #include "common/space/p2_space.h"
-#include "fluid/kernels.h"
+#include "fluid/discretization/kernels.h"
 #include "fluid/phases/flux.h"
 #include "tests/phases/flows.h"
 #include <petscksp.h>

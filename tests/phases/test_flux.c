@@ -3,7 +3,7 @@
  * on both sides of a face, stay near {u}.n; beta is continuous in its normal part and free of divergence.  A
  * linear solenoidal velocity gives its own fluxes to round-off, also through open boundaries.  flux print:
  * says how well. */
-#include "fluid/fluid.h"
+#include "fluid/flow/fluid.h"
 #include "fluid/phases/flux.h"
 #include "tests/phases/flows.h"
 

@@ -119,24 +119,27 @@ def comments(fix):
     return problems
 
 
-def picture():
+def picture(readme):
     """What README.md says each room stands on: lines 'room -> room, room' in its block headed 'Rooms and what they include'."""
-    block = re.search(r"^Rooms and what they include.*?\n+```\n(.*?)```", read("README.md"), flags=re.S | re.M)
-    if not block:
-        return None
+    block = re.search(r"^Rooms and what they include.*?\n+```\n(.*?)```", read(readme), flags=re.S | re.M)
     allowed = {}
-    for line in block.group(1).strip().split("\n"):
+    for line in block.group(1).strip().split("\n") if block else []:
         room, _, on = line.partition("->")
         allowed[room.strip()] = {r.strip() for r in on.split(",") if r.strip()}
     return allowed
 
 
-def folder_of(name):
-    """A room: fluid/adapt, common/link, coupler ...; of the programs' own folders only those that are libraries of their own."""
+def library_of(name):
+    """A room of the whole: common/link, fluid/adapt, coupler ...; of the programs' own folders only those that are libraries of their own."""
     parts = name.split("/")
     if parts[0] == "common" or os.path.exists(os.path.join(*parts[:2], "CMakeLists.txt") if len(parts) > 2 else ""):
         return "/".join(parts[:2])
     return parts[0]
+
+
+def folder_of(name):
+    """A room of a program: flow, momentum, ...; the program's name for what lies in none."""
+    return name.split("/")[-2]
 
 
 def circle(graph):
@@ -166,25 +169,28 @@ def circle(graph):
 
 
 def includes():
-    problems, graph, here = [], collections.defaultdict(set), set(files(".h"))
+    problems, here, pairs = [], set(files(".h")), []
     for name in files(".c", ".h"):
         for k, line in enumerate(read(name).split("\n"), 1):
             m = re.match(r'#include "([^"]+)"', line)
-            if not m:
-                continue
-            if m.group(1) not in here:
+            if m and m.group(1) not in here:
                 problems.append(f"{name}:{k}: \"{m.group(1)}\" does not name its room from the repository's root")
-            elif not name.startswith("tests/") and folder_of(name) != folder_of(m.group(1)):
-                graph[folder_of(name)].add(folder_of(m.group(1)))
-    found = circle(graph)
-    if found:
-        problems.append("rooms include each other in a circle: " + " -> ".join(found))
-    allowed = picture()
-    if allowed is None:
-        return problems + ["README.md has no picture 'Rooms and what they include'"]
-    for room, on in sorted(graph.items()):
-        if on != allowed.get(room, set()):
-            problems.append(f"{room} includes {', '.join(sorted(on))}; README.md says {', '.join(sorted(allowed.get(room, {'nothing'})))}")
+            elif m and not name.startswith("tests/"):
+                pairs.append((name, m.group(1)))
+    for readme, room_of_file in (("README.md", library_of), ("fluid/README.md", folder_of), ("coupler/README.md", folder_of)):
+        inside, graph = os.path.dirname(readme), collections.defaultdict(set)
+        for name, other in pairs:
+            if name.startswith(inside) and other.startswith(inside) and room_of_file(name) != room_of_file(other):
+                graph[room_of_file(name)].add(room_of_file(other))
+        found = circle(graph)
+        if found:
+            problems.append("rooms include each other in a circle: " + " -> ".join(found))
+        allowed = picture(readme)
+        if not allowed:
+            problems.append(f"{readme} has no picture 'Rooms and what they include'")
+        for room, on in sorted(graph.items()):
+            if on != allowed.get(room, set()):
+                problems.append(f"{room} includes {', '.join(sorted(on))}; {readme} says {', '.join(sorted(allowed.get(room, {'nothing'})))}")
     return problems
 
 

@@ -1,0 +1,243 @@
+#include "coupler/force/force.h"
+
+/* The flow on one coupled element. */
+typedef struct {
+  LinearField star, start, projected;
+} ElementFlow;
+
+/* The element's flow seen from the centre of one of its pairs. */
+static ElementFlow FlowAt(const Overlap o, const SupermeshPair *pair, const ElementFlow *flow)
+{
+  double d[2];
+  SupermeshCentreInB(pair, &o->source_basis[pair->a], &o->basis[pair->b], d);
+  return (ElementFlow){LinearFieldAt(&flow->star, d), LinearFieldAt(&flow->start, d),
+                       LinearFieldAt(&flow->projected, d)};
+}
+
+/* R's density, at the pair's centre; inside solids a or the inertia is mostly 0. */
+static LinearField Reaction(const PairTerm *term, const ElementTerm *element, const SourceTerm *source,
+                            const double gravity[2], const ElementFlow *flow, const LinearField *start,
+                            const double d[2])
+{
+  LinearField reaction = {{0.0}, {{0.0}}};
+  if (!WallIsZero(&term->a)) {
+    const LinearField us = LinearFieldAt(&source->velocity, d);
+    LinearField slip = flow->star;
+    LinearFieldAdd(-1.0, &us, &slip);
+    WallAdd(&term->a, &slip, &reaction);
+  }
+  if (source->density == 0.0) return reaction;
+  const LinearField body = PairBodyForce(term, element, source, gravity, d);
+  LinearFieldAdd(-1.0, &body, &reaction);
+  LinearField change = flow->projected;
+  LinearFieldAdd(-1.0, &flow->start, &change);
+  LinearFieldAdd(term->inertia, &change, &reaction);
+  if (!WallIsZero(&element->freed)) {
+    const WallCoefficient freed = WallCoefficientScaled(&element->freed, -term->inertia);
+    WallAdd(&freed, &change, &reaction);
+  }
+  if (!WallIsZero(&term->start)) {
+    LinearField difference = flow->start;
+    LinearFieldAdd(-1.0, start, &difference);
+    WallAdd(&term->start, &difference, &reaction);
+  }
+  return reaction;
+}
+
+/* What two solids that touch share: the mean of the reaction over their pairs, which is the pressure's gradient there. */
+static void ReactionShared(const Overlap o, const PairTerm term[], const ElementTerm *element,
+                           const SourceTerm source[], const double gravity[2], const ElementFlow *flow, int e,
+                           double mean[2])
+{
+  VectorMoments sum = {{0.0}, {{0.0}}};
+  double area = 0.0;
+  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
+    const int p = o->of_element[i];
+    const SupermeshPair *pair = &o->pairs.pair[p];
+    if (o->source[pair->a].is_shell) continue;
+    const ElementFlow at = FlowAt(o, pair, flow);
+    const LinearField start = LinearFieldAt(&source[pair->a].start, pair->centre),
+                      density =
+                          Reaction(&term[p], element, &source[pair->a], gravity, &at, &start, pair->centre);
+    VectorMomentsAdd(pair, &density, pair->centre, &sum);
+    area += pair->area;
+  }
+  for (int c = 0; c < 2; c++) mean[c] = sum.zero[c] / area;
+}
+
+/* The density of F_i + F_b. */
+static LinearField Other(double rho, double dt, const double gravity[2], const ElementFlow *flow,
+                         const LinearField *start)
+{
+  LinearField other = {{-rho * gravity[0], -rho * gravity[1]}, {{0.0}}};
+  LinearFieldAdd(rho / dt, &flow->projected, &other);
+  LinearFieldAdd(-rho / dt, start, &other);
+  return other;
+}
+
+static void SetVertices(const SupermeshBasis *basis, const VectorMoments *reaction,
+                        const VectorMoments *other, ForceVertex vertex[3])
+{
+  double r[3][2], o[3][2];
+  VectorMomentsVertices(basis, reaction, r);
+  VectorMomentsVertices(basis, other, o);
+  for (int i = 0; i < 3; i++)
+    for (int c = 0; c < 2; c++) {
+      vertex[i].reaction[c] = r[i][c];
+      vertex[i].other[c] = o[i][c];
+    }
+}
+
+PetscErrorCode ForceOfPairs(const Overlap o, const PairTerm term[], const ElementTerm element[],
+                            const SourceTerm source[], const double gravity[2], double dt,
+                            const CoracleFlow *flow, ForceVertex vertex[])
+{
+  ElementFlow *on;
+  double(*mean)[2]; /* of shared elements */
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(o->ncoupled, &on, o->ncoupled, &mean));
+  for (int e = 0; e < o->ncoupled; e++) {
+    const int k = o->coupled_element[e];
+    on[e] = (ElementFlow){LinearFieldOnElement(&o->basis[k], &flow->u_star[6 * k]),
+                          LinearFieldOnElement(&o->basis[k], &flow->u_start[6 * k]),
+                          LinearFieldOnElement(&o->basis[k], &flow->u_projected[6 * k])};
+    if (element[e].shared) ReactionShared(o, term, &element[e], source, gravity, &on[e], e, mean[e]);
+  }
+  for (int t = 0, p = 0; t < o->nsources; t++) {
+    VectorMoments reaction = {{0.0}, {{0.0}}}, other = {{0.0}, {{0.0}}};
+    for (; p < o->pairs.n && o->pairs.pair[p].a == t; p++) {
+      const SupermeshPair *pair = &o->pairs.pair[p];
+      const int e = o->coupled_index[p];
+      const double *d = pair->centre;
+      const ElementFlow at = FlowAt(o, pair, &on[e]);
+      const LinearField start = LinearFieldAt(&source[t].start, d);
+      const LinearField density = element[e].shared && !o->source[t].is_shell
+                                      ? (LinearField){{mean[e][0], mean[e][1]}, {{0.0}}}
+                                      : Reaction(&term[p], &element[e], &source[t], gravity, &at, &start, d);
+      VectorMomentsAdd(pair, &density, d, &reaction);
+      if (o->source[t].is_shell) continue;
+      const LinearField rest = Other(o->rho[pair->b], dt, gravity, &at, &start);
+      VectorMomentsAdd(pair, &rest, d, &other);
+    }
+    SetVertices(&o->source_basis[t], &reaction, &other, &vertex[3 * t]);
+  }
+  PetscCall(PetscFree2(on, mean));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ForceAssembleToOwners(Overlap o, const ForceVertex vertex[], int nnodes, ForceVertex node[])
+{
+  PetscFunctionBeginUser;
+  PetscCall(OverlapSourcesToNodes(o, 4, (const double *)vertex, nnodes, (double *)node));
+  PetscFunctionReturn(0);
+}
+
+/* gain[c] -= sum over i of a u*; where a has nothing on its diagonal it has nothing at all, inside solids. */
+static void SubtractWall(const CoracleCoupling *k, const double u[6], double gain[2])
+{
+  if (k->a[0][0][0][0] == 0.0 && k->a[1][0][1][0] == 0.0) return;
+  for (int c = 0; c < 2; c++)
+    for (int i = 0; i < 3; i++)
+      for (int j = 0; j < 6; j++) gain[c] -= k->a[c][i][j / 3][j % 3] * u[j];
+}
+
+/* One element's gain, the sum over its functions of s - a u* - I (G u+ - kept u start), where it is covered less rho_f M/dt u start;
+ * mass: rho_f |K|/dt. */
+static void ElementGain(const CoracleCoupling *k, double mass, const CoracleFlow *flow, double gain[2])
+{
+  const int covered = k->flags & CORACLE_IS_COVERED;
+  const size_t first = 6 * (size_t)k->element;
+  const double *u_projected = flow->u_projected + first, *u_start = flow->u_start + first;
+  for (int c = 0; c < 2; c++) {
+    gain[c] = k->s[c][0] + k->s[c][1] + k->s[c][2];
+    for (int j = 0; j < 3; j++) {
+      const double inertia =
+          k->implicit_inertia[0][j] + k->implicit_inertia[1][j] + k->implicit_inertia[2][j];
+      for (int d = 0; d < 2; d++)
+        gain[c] -=
+            inertia * (k->inertia_tensor[c][d] * u_projected[3 * d + j] - k->kept[c][d] * u_start[3 * d + j]);
+    }
+    if (covered) gain[c] -= mass / 3.0 * (u_start[3 * c] + u_start[3 * c + 1] + u_start[3 * c + 2]);
+  }
+  SubtractWall(k, flow->u_star + first, gain);
+}
+
+static double DisplacedMass(const Overlap o)
+{
+  double mass = 0.0;
+  for (int p = 0; p < o->pairs.n; p++) {
+    const SupermeshPair *pair = &o->pairs.pair[p];
+    if (!o->source[pair->a].is_shell) mass += o->rho[pair->b] * pair->area;
+  }
+  return mass;
+}
+
+/* area += that of the fluid near the solid, square += int |u|^2 over it with the vertices as points. */
+static void AddSquare(const Overlap o, const double u[], double *area, double *square)
+{
+  for (int k = 0; k < o->nelements; k++) {
+    *area += o->area[k];
+    for (int i = 6 * k; i < 6 * k + 6; i++) *square += o->area[k] / 3.0 * u[i] * u[i];
+  }
+}
+
+PetscErrorCode ForceSum(const Overlap o, double dt, const CoracleCoupling coupling[], const CoracleFlow *flow,
+                        int nnodes, const ForceVertex node[], ForceTotals *totals)
+{
+  enum { GAIN, REACTION = 2, FORCE = 4, SCALE = 6, MASS, PAIRS, AREA, SQUARE, COUNT };
+  double sum[COUNT] = {0};
+
+  PetscFunctionBeginUser;
+  for (int e = 0; e < o->ncoupled; e++) {
+    const int k = coupling[e].element;
+    double gain[2];
+    ElementGain(&coupling[e], o->rho[k] * o->area[k] / dt, flow, gain);
+    for (int c = 0; c < 2; c++) sum[GAIN + c] += gain[c];
+    sum[SCALE] += sqrt(gain[0] * gain[0] + gain[1] * gain[1]);
+  }
+  for (int i = 0; i < nnodes; i++) {
+    for (int c = 0; c < 2; c++) {
+      sum[REACTION + c] += node[i].reaction[c];
+      sum[FORCE + c] += node[i].reaction[c] + node[i].other[c];
+    }
+  }
+  AddSquare(o, flow->u_star, &sum[AREA], &sum[SQUARE]);
+  sum[MASS] = DisplacedMass(o);
+  sum[PAIRS] = o->pairs.n;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, COUNT, MPI_DOUBLE, MPI_SUM, o->comm));
+  for (int c = 0; c < 2; c++) {
+    totals->gain[c] = sum[GAIN + c];
+    totals->reaction[c] = sum[REACTION + c];
+    totals->force[c] = sum[FORCE + c];
+  }
+  const double lost = hypot(sum[GAIN] + sum[REACTION], sum[GAIN + 1] + sum[REACTION + 1]);
+  totals->imbalance = sum[SCALE] > 0.0 ? lost / sum[SCALE] : lost;
+  totals->displaced = sum[MASS];
+  totals->speed = sum[AREA] > 0.0 ? sqrt(sum[SQUARE] / sum[AREA]) : 0.0;
+  totals->npairs = (long long)sum[PAIRS];
+  PetscFunctionReturn(0);
+}
+
+void ForceCorrection(const Overlap o, const LinearField u[], const double u_projected[],
+                     CoracleCorrection correction[])
+{
+  for (int e = 0; e < o->ncoupled; e++) {
+    const SupermeshBasis *basis = &o->basis[o->coupled_element[e]];
+    const LinearField flow = LinearFieldOnElement(basis, &u_projected[6 * o->coupled_element[e]]);
+    VectorMoments sums = {{0.0}, {{0.0}}};
+    double r[3][2];
+    for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
+      const SupermeshPair *pair = &o->pairs.pair[o->of_element[i]];
+      double d[2];
+      if (o->source[pair->a].is_shell) continue;
+      SupermeshCentreInB(pair, &o->source_basis[pair->a], basis, d);
+      const LinearField at = LinearFieldAt(&flow, d);
+      LinearField difference = LinearFieldAt(&u[pair->a], pair->centre);
+      LinearFieldAdd(-1.0, &at, &difference);
+      VectorMomentsAdd(pair, &difference, d, &sums);
+    }
+    VectorMomentsVertices(basis, &sums, r);
+    for (int i = 0; i < 6; i++) correction[e].r[i / 3][i % 3] += r[i % 3][i / 3];
+  }
+}

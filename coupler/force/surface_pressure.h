@@ -1,0 +1,28 @@
+/* The fluid's pressure at the solid's surface, from the pairs of the overlap.
+ *
+ *     p_s   at the surface, the mean over the shell around a surface node
+ *     p_o   outside, the mean over the same pairs of p at the vertex of the fluid element that lies farthest out of the solid
+ *
+ * All functions are collective; p[nelements][6], Pa, of the overlap's elements. */
+#ifndef CORACLE_COUPLER_SURFACE_PRESSURE_H
+#define CORACLE_COUPLER_SURFACE_PRESSURE_H
+#include "coupler/terms/wall_term.h"
+
+/* Sums over the pairs of a triangle: their area, m2, int p and, of the shell's, int p_o, N. */
+enum { SURFACE_AREA, SURFACE_INSIDE, SURFACE_OUTSIDE, SURFACE_SUMS };
+
+/* owned[nowned][SURFACE_SUMS] += the sums of all ranks' pairs. */
+PetscErrorCode SurfacePressureSums(Overlap overlap, const double p[], double owned[][SURFACE_SUMS]);
+/* value[nnodes][2]: p_s and p_o, Pa, where is_given[nnodes], on the surface where the fluid covers some of the shell; else 0. */
+PetscErrorCode SurfacePressureNodes(Overlap overlap, const double owned[][SURFACE_SUMS], int nnodes,
+                                    char is_given[], double value[][2]);
+/* At nodes of the surface: p_o - rho_o g.x, Pa, x where p_o is, and rho_o, the density beside the solid (outside.h), kg/m3, means over the
+ * shell around the node where no solid is at x; 1 where there is some, all 0 elsewhere. */
+enum { SURFACE_HEAD, SURFACE_DENSITY, SURFACE_REACHED, SURFACE_HEAD_FIELDS };
+PetscErrorCode SurfacePressureHead(Overlap overlap, const ElementTerm element[], const double gravity[2],
+                                   const double p[], int nnodes, double node[][SURFACE_HEAD_FIELDS]);
+/* node[nnodes]: p, linear from each pair of the solid's volume around the node, their mean by area, Pa; size[nnodes]: the square root of
+ * twice the fluid elements' area, m, likewise; area[nnodes]: of those pairs, m2.  Of all ranks' pairs; 0 where there are none. */
+PetscErrorCode SurfacePressureInside(Overlap overlap, const double p[], int nnodes, double node[],
+                                     double size[], double area[]);
+#endif

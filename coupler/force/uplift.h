@@ -1,0 +1,41 @@
+/* The pressure between solids that touch each other or a wall of the tank, or are about to (mode reaction).
+ *
+ * Between the two lies less than a fluid element: what is there moves with both, and so the fluid's solve holds them apart by a pressure p,
+ * whatever the contact does: with any contact force N the fluid's force is the weight less N; a block that is let down
+ * on a floor stands on the water, without friction, and a heap of stones flows.  But water gets in between, and what it has there is the
+ * pressure of the water around: the head
+ *
+ *     h  =  p_o - rho_o g.x        p_o at x beside the solid, rho_o the density there (outside.h),
+ *
+ * known where the fluid beside the surface is resolved, is harmonic between such places: linear along the surface, as of a slow flow
+ * through the gap, and nearly the same on both sides of it.  What p has beyond that is taken from the force in part,
+ *
+ *     F_i  +=  int N_i e n       over the close points of close_points.h, within UPLIFT_REACH of an element's size
+ *     e     =  p - rho_o g.x - h,   but at most dt |g| sqrt(2 rho_s |e|)
+ *
+ * and from what is opposite with the other sign; of two facets, each with half of its e (all, if the other is held).
+ *
+ * e moves the solid against the other, by a part of a step's fall, and the next step's p lacks what the contact bears then: N grows by the
+ * integral of e in each step, until e is 0, in the time that the solid takes to fall through the height of that pressure.  A blow of a few
+ * steps passes: the wall's reaction to it is the fluid's (with all of e a square that a dam's front struck was thrown up, with an e
+ * that follows p at that rate a caisson bounced).  Facets that no such place is connected with stay as they are.  The momentum of walls is in
+ * the columns `uplift` of coupler.csv. */
+#ifndef CORACLE_COUPLER_UPLIFT_H
+#define CORACLE_COUPLER_UPLIFT_H
+#include "coupler/terms/wall_term.h"
+
+#define UPLIFT_REACH 0.5
+
+typedef struct Uplift_s *Uplift;
+
+/* lower, upper: the walls, m; infinite where there are none. */
+PetscErrorCode UpliftCreate(MPI_Comm comm, const double lower[2], const double upper[2],
+                            const double gravity[2], Uplift *uplift);
+PetscErrorCode UpliftDestroy(Uplift *uplift);
+/* Collective: the solid of the step to come (copied), its shell, borrowed until the next call, and their overlap: what is close. */
+PetscErrorCode UpliftBuild(Uplift uplift, const SolidState *solid, const Shell shell, const Overlap overlap);
+/* Collective: force[nnodes][2] += the above, N, to each copy of a node what its facets do; total[2]: of all ranks.  element[ncoupled] of the step
+ * of dt that was built; p[nelements][6], Pa, of the overlap's elements. */
+PetscErrorCode UpliftAdd(Uplift uplift, Overlap overlap, const ElementTerm element[], const double p[],
+                         double dt, double force[], double total[2]);
+#endif

@@ -1,0 +1,22 @@
+#include "coupler/geometry/box_scatter.h"
+
+PetscErrorCode BoxScatterCreate(MPI_Comm comm, int n, const GeometryBox box[], const GeometryBox bounds[],
+                                Scatter *scatter)
+{
+  PetscMPIInt size;
+  int nitems = 0, *to, *row;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCall(PetscMalloc2((size_t)n * (size_t)size, &to, (size_t)n * (size_t)size, &row));
+  for (int k = 0; k < n; k++)
+    for (int p = 0; p < size; p++) {
+      if (!GeometryBoxOverlap(&box[k], &bounds[p])) continue;
+      to[nitems] = p;
+      row[nitems++] = k;
+    }
+  PetscCall(ScatterDestroy(scatter));
+  PetscCall(ScatterCreate(comm, nitems, to, row, scatter));
+  PetscCall(PetscFree2(to, row));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,120 @@
+#include "coupler/input/coupler_case.h"
+#include "common/output/options.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static double OfItem(CoracleCase file, const char *list, int k, const char *item)
+{
+  char key[64];
+  snprintf(key, sizeof key, "%s[%d].%s", list, k, item);
+  return CoracleCaseHas(file, key) ? CoracleCaseNumber(file, key, 0.0, HUGE_VAL) : 0.0;
+}
+
+/* sqrt(largest surface tension/(range of the densities g)), m: water rises so far at a wall.  Infinite without gravity. */
+static double CapillaryLength(CoracleCase file, const double gravity[2])
+{
+  const char *const tensions = "fluid.surface_tension", *const phases = "fluid.phases";
+  double least = HUGE_VAL, largest = 0.0, tension = 0.0;
+  char first[64];
+  for (int k = 0; k < CoracleCaseCount(file, phases); k++) {
+    least = fmin(least, OfItem(file, phases, k, "density"));
+    largest = fmax(largest, OfItem(file, phases, k, "density"));
+  }
+  snprintf(first, sizeof first, "%s[0]", tensions);
+  if (!CoracleCaseHas(file, first))
+    tension = CoracleCaseNumber(file, tensions, 0.0, HUGE_VAL);
+  else
+    for (int k = 0; k < CoracleCaseCount(file, tensions); k++)
+      tension = fmax(tension, OfItem(file, tensions, k, "value"));
+  const double weight = (largest - least) * hypot(gravity[0], gravity[1]);
+  return weight > 0.0 ? sqrt(tension / weight) : HUGE_VAL;
+}
+
+/* Of the elements at the interface, m; 0: the case does not say. */
+static double InterfaceSize(CoracleCase file)
+{
+  static const char *const KEYS[] = {"fluid.adapt.interface_size", "fluid.adapt.size_min",
+                                     "fluid.mesh.size_max", NULL};
+  for (int k = 0; KEYS[k]; k++)
+    if (CoracleCaseHas(file, KEYS[k])) return CoracleCasePositive(file, KEYS[k]);
+  return 0.0;
+}
+
+/* One body without joints has nothing to touch but walls; a solid of others counts as one. */
+static PetscBool IsOneBody(CoracleCase file)
+{
+  static const char *const SEVERAL[] = {"joints", "repeat", "mesh"};
+  PetscBool one = (PetscBool)(CoracleCaseCount(file, "solid.bodies") <= 1);
+  for (size_t k = 0; k < sizeof SEVERAL / sizeof *SEVERAL; k++) {
+    char key[64];
+    snprintf(key, sizeof key, "solid.bodies[%d].%s", 0, SEVERAL[k]);
+    if (CoracleCaseHas(file, key)) one = PETSC_FALSE;
+  }
+  return one;
+}
+
+static void ReadUplift(CoracleCase file, CouplerOptions *o)
+{
+  const PetscBool walls = (PetscBool)(CoracleCaseVectorOptional(file, "solid.walls.lower", 2, o->lower) &&
+                                      CoracleCaseVectorOptional(file, "solid.walls.upper", 2, o->upper));
+  for (int d = 0; d < 2 && !walls; d++) {
+    o->lower[d] = -HUGE_VAL;
+    o->upper[d] = HUGE_VAL;
+  }
+  o->uplift = (PetscBool)(o->mode == COUPLER_REACTION && (walls || !IsOneBody(file)) &&
+                          hypot(o->gravity[0], o->gravity[1]) > 0.0);
+}
+
+static void ReadOptions(CoracleCase file, CouplerOptions *o)
+{
+  o->mode = (CouplerMode)CoracleCaseWord(file, "coupler.mode", COUPLER_REACTION, COUPLER_MODES);
+  o->thickness = CoracleCasePositive(file, "coupler.shell_thickness");
+  CoracleCaseVector(file, "gravity", 2, o->gravity);
+  CouplerModesReadOptions(file, o);
+  ReadUplift(file, o);
+  o->sigma_among_phases = (PetscBool)(CoracleCaseHas(file, "fluid.surface_tension") &&
+                                      InterfaceSize(file) < CapillaryLength(file, o->gravity));
+}
+
+/* Open MPI's shared file pointers (4.1) write names of files into buffers of 256 characters. */
+enum { FOLDER_LENGTH = 200 };
+
+static void ReadFolder(CoracleCase file, CouplerCase *c)
+{
+  const char *folder = CoracleCaseString(file, "output.folder");
+  const size_t n = strlen(folder);
+  if (n > FOLDER_LENGTH)
+    CoracleCaseRefuse(file, "output.folder",
+                      "its name has %zu characters, more than %d: use a relative path or a link", n,
+                      (int)FOLDER_LENGTH);
+  snprintf(c->folder, sizeof c->folder, "%s", folder);
+}
+
+PetscErrorCode CouplerCaseRead(CoracleCase file, CouplerCase *c)
+{
+  static const char *const SECTIONS[] = {"case", "note", "gravity", "time", "coupler", "output", NULL};
+  char option[256];
+
+  PetscFunctionBeginUser;
+  snprintf(c->name, sizeof c->name, "%s", CoracleCaseString(file, "case"));
+  snprintf(c->note, sizeof c->note, "%s", CoracleCaseStringOr(file, "note", ""));
+  ReadFolder(file, c);
+  c->every = CoracleCasePositive(file, "output.every");
+  c->checkpoint = CoracleCaseNumberOr(file, "output.checkpoint", 600.0, 0.0, HUGE_VAL);
+  (void)CoracleCaseBoolOr(file, "output.trace", false); /* the library's */
+  c->end = CoracleCasePositive(file, "time.end");
+  c->dt_max = CoracleCasePositive(file, "time.dt_max");
+  /* the fluid's, read here so that the whole section can be checked */
+  (void)CoracleCaseNumberOr(file, "time.cfl", 0.5, 0.0, HUGE_VAL);
+  ReadOptions(file, &c->options);
+  GaugesReadCase(file, &c->gauges);
+  CoracleCaseRenamed(file, "coupler.tries", "coupler.max_iterations");
+  c->max_iterations = CoracleCaseIntegerOr(file, "coupler.max_iterations", 30, 1, 1000);
+  c->tolerance = CoracleCaseNumberOr(file, "coupler.tolerance", 1e-4, 1e-12, 1.0);
+  PetscCall(PetscOptionsInsertString(NULL, CoracleCaseStringOr(file, "coupler.petsc", "")));
+  PetscCall(CoracleCaseFinish(file, SECTIONS));
+  PetscCall(OptionsUnused(CoracleCaseStringOr(file, "coupler.petsc", ""), sizeof option, option));
+  if (option[0]) CoracleCaseRefuse(file, "coupler.petsc", "nothing in the coupler has the option %s", option);
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,273 @@
+#include "coupler/step/coupler_impl.h"
+#include "coupler/terms/inertia.h"
+
+PetscErrorCode CouplerCreate(MPI_Comm comm, const CouplerOptions *options, Coupler *coupler)
+{
+  Coupler c;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscNew(&c));
+  c->comm = c->history.comm = comm;
+  c->options = *options;
+  c->mode = CouplerModeGet(options->mode);
+  PetscCall(ShellCreate(comm, options->thickness, &c->shell));
+  PetscCall(OverlapCreate(comm, &c->overlap));
+  if (options->uplift)
+    PetscCall(UpliftCreate(comm, options->lower, options->upper, options->gravity, &c->uplift));
+  *coupler = c;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CouplerUsePressureLoad(Coupler c)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PressureLoadCreate(c->comm, &c->pressure_load));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CouplerSetElements(Coupler c, const FluidElements *elements)
+{
+  PetscFunctionBeginUser;
+  PetscCall(OverlapSetElements(c->overlap, elements));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FreeStep(Coupler c)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscFree3(c->term, c->coupling, c->element));
+  PetscCall(PetscFree3(c->vertex, c->source, c->force));
+  PetscCall(PetscFree5(c->node, c->start, c->predicted, c->acceleration, c->explicit_fraction));
+  PetscCall(PetscFree(c->mobility));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode NewStep(Coupler c, const SolidState *solid)
+{
+  const Overlap o = c->overlap;
+  const size_t nsources = (size_t)o->nsources, n = (size_t)solid->nnodes;
+
+  PetscFunctionBeginUser;
+  PetscCall(FreeStep(c));
+  PetscCall(PetscMalloc3(o->pairs.n, &c->term, o->ncoupled, &c->coupling, o->ncoupled, &c->element));
+  PetscCall(PetscMalloc3(3 * nsources, &c->vertex, nsources, &c->source, 2 * n, &c->force));
+  PetscCall(PetscMalloc5(n, &c->node, 2 * n, &c->start, 2 * n, &c->predicted, 2 * n, &c->acceleration, n,
+                         &c->explicit_fraction));
+  PetscCall(PetscMalloc1(n, &c->mobility));
+  PetscCall(PetscArrayzero(c->term, o->pairs.n));
+  PetscCall(PetscArrayzero(c->element, o->ncoupled));
+  PetscCall(PetscArrayzero(c->source, nsources));
+  for (size_t t = 0; t < nsources; t++)
+    c->source[t].start = LinearFieldOnSource(&o->source_basis[t], (const double(*)[2])o->source[t].u);
+  PetscCall(PetscArraycpy(c->start, solid->u, 2 * n));
+  PetscCall(PetscArraycpy(c->mobility, solid->mobility, n));
+  c->nnodes = solid->nnodes;
+  PetscFunctionReturn(0);
+}
+
+/* From the step before: the velocity at the end of this one, and the acceleration by all but the fluid inside
+ * the solid, which the shell's reaction and the pressure outside are part of. */
+static void Predict(Coupler c, const SolidState *solid)
+{
+  const History *h = &c->history;
+  const PetscBool known = h->known && c->options.mode == COUPLER_REACTION ? PETSC_TRUE : PETSC_FALSE;
+  for (int k = 0; k < 2 * c->nnodes; k++) {
+    c->predicted[k] = c->start[k] + (known ? c->dt * h->lasting[k / 2][k % 2] : 0.0);
+    c->acceleration[k] = solid->acceleration[k] + (known ? h->outside[k / 2][k % 2] : 0.0);
+  }
+}
+
+/* Shell, overlap and coefficients with the solid at x. */
+static PetscErrorCode BuildAt(Coupler c, const SolidState *solid, const double x[])
+{
+  const PetscBool new_mesh = solid->changed || !c->built ? PETSC_TRUE : PETSC_FALSE;
+  SolidState at = *solid;
+
+  PetscFunctionBeginUser;
+  at.x = x;
+  PetscCall(ShellExtrude(c->shell, &at, new_mesh));
+  PetscCall(OverlapBuild(c->overlap, &at, c->shell, new_mesh));
+  PetscCall(NewStep(c, &at));
+  if (c->pressure_load) PetscCall(PressureLoadBuild(c->pressure_load, &at));
+  if (c->uplift) PetscCall(UpliftBuild(c->uplift, &at, c->shell, c->overlap));
+  c->built = 1;
+  PetscCall(c->mode->coefficients(c, &at));
+  PetscCall(InertiaExplicitFraction(c->overlap, &at, c->source, c->explicit_fraction));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CouplerBuild(Coupler c, const SolidState *solid, double dt, int *n,
+                            const CoracleCoupling **coupling)
+{
+  const double ahead = c->options.mode == COUPLER_REACTION ? 0.5 * dt : 0.0;
+  double *x;
+
+  PetscFunctionBeginUser;
+  c->dt = dt;
+  PetscCall(PetscMalloc1(2 * (size_t)solid->nnodes, &x));
+  for (int k = 0; k < 2 * solid->nnodes; k++) x[k] = solid->x[k] + ahead * solid->u[k];
+  PetscCall(BuildAt(c, solid, x));
+  PetscCall(PetscFree(x));
+  Predict(c, solid);
+  PetscCall(InertiaNodalForces(c->overlap, solid, c->acceleration));
+  PetscCall(CouplerSetInterfaceVelocity(c, c->predicted, n, coupling));
+  PetscFunctionReturn(0);
+}
+
+/* The source triangles' velocity, acceleration and interface acceleration of this rank's nodes. */
+static PetscErrorCode SetSourceTerms(Coupler c, const double u[])
+{
+  enum { VELOCITY, ACCELERATION = 2, INTERFACE = 4, NVALUES = 6 };
+  const Overlap o = c->overlap;
+  double(*node)[NVALUES], (*vertex)[3][NVALUES];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(c->nnodes, &node, o->nsources, &vertex));
+  for (int k = 0; k < 2 * c->nnodes; k++) {
+    node[k / 2][VELOCITY + k % 2] = u[k];
+    node[k / 2][ACCELERATION + k % 2] = c->acceleration[k];
+    node[k / 2][INTERFACE + k % 2] = (u[k] - c->start[k]) / c->dt;
+  }
+  PetscCall(OverlapNodesToSources(o, NVALUES, (const double *)node, (double *)vertex));
+  for (int t = 0; t < o->nsources; t++) {
+    const SupermeshBasis *basis = &o->source_basis[t];
+    const double *p = vertex[t][0], *q = vertex[t][1], *r = vertex[t][2];
+    c->source[t].velocity = LinearFieldOf(basis, p + VELOCITY, q + VELOCITY, r + VELOCITY);
+    const LinearField a = LinearFieldOf(basis, p + ACCELERATION, q + ACCELERATION, r + ACCELERATION);
+    c->source[t].force = (LinearField){{0.0}, {{0.0}}};
+    LinearFieldAdd(c->source[t].density, &a, &c->source[t].force);
+    c->source[t].interface_acceleration = LinearFieldOf(basis, p + INTERFACE, q + INTERFACE, r + INTERFACE);
+  }
+  PetscCall(PetscFree2(node, vertex));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CouplerSetInterfaceVelocity(Coupler c, const double u[], int *n,
+                                           const CoracleCoupling **coupling)
+{
+  PetscFunctionBeginUser;
+  PetscCall(SetSourceTerms(c, u));
+  c->us = u;
+  PetscCall(WallTermAssemble(c->overlap, c->term, c->element, c->source, c->options.gravity, c->coupling));
+  *n = c->overlap->ncoupled;
+  *coupling = c->coupling;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CouplerSetAcceleration(Coupler c, const SolidState *end)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscArraycpy(c->acceleration, end->acceleration, 2 * c->nnodes));
+  PetscCall(InertiaNodalForces(c->overlap, end, c->acceleration));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CouplerComputeForce(Coupler c, const CoracleFlow *flow, const double **force,
+                                   ForceTotals *totals)
+{
+  PetscFunctionBeginUser;
+  c->flow = *flow;
+  PetscCall(OverlapSetProperties(c->overlap, flow));
+  PetscCall(PetscArrayzero(c->vertex, 3 * (size_t)c->overlap->nsources));
+  PetscCall(c->mode->force(c));
+  for (int i = 0; i < c->nnodes; i++) {
+    for (int d = 0; d < 2; d++) c->force[2 * i + d] = c->node[i].reaction[d] + c->node[i].other[d];
+  }
+  PetscCall(ForceSum(c->overlap, c->dt, c->coupling, flow, c->nnodes, c->node, totals));
+  if (c->pressure_load) PetscCall(PressureLoadAdd(c->pressure_load, c->overlap, flow->p, c->force));
+  if (c->uplift)
+    PetscCall(UpliftAdd(c->uplift, c->overlap, c->element, flow->p, c->dt, c->force, totals->uplift));
+  *force = c->force;
+  PetscFunctionReturn(0);
+}
+
+/* acceleration[nnodes][2] of the nodes by the shell's reaction in the last CouplerComputeForce, m/s2. */
+static PetscErrorCode ShellAcceleration(Coupler c, double acceleration[])
+{
+  const Overlap o = c->overlap;
+  double(*vertex)[3][2];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(o->nsources, &vertex));
+  for (int t = 0; t < o->nsources; t++)
+    for (int i = 0; i < 3 && o->source[t].is_shell; i++)
+      PetscCall(PetscArraycpy(vertex[t][i], c->vertex[3 * t + i].reaction, 2));
+  PetscCall(OverlapSourcesToNodes(o, 2, (const double *)vertex, c->nnodes, acceleration));
+  PetscCall(CopiesSum(o->nodes, 2, acceleration));
+  for (int k = 0; k < 2 * c->nnodes; k++) acceleration[k] *= c->mobility[k / 2];
+  PetscCall(PetscFree(vertex));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode StoreHistory(Coupler c, const SolidState *moved)
+{
+  double *outside;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(2 * (size_t)c->nnodes, &outside));
+  PetscCall(ShellAcceleration(c, outside));
+  if (c->pressure_load) PetscCall(PressureLoadAccept(c->pressure_load, c->overlap, c->mobility, outside));
+  PetscCall(HistoryStep(&c->history, moved, c->dt, c->start, outside));
+  PetscCall(PetscFree(outside));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CouplerCorrect(Coupler c, const SolidState *moved, int *n,
+                              const CoracleCorrection **correction)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscFree(c->correction));
+  PetscCall(PetscCalloc1(c->overlap->ncoupled, &c->correction));
+  for (int e = 0; e < c->overlap->ncoupled; e++) c->correction[e].element = c->overlap->coupled_element[e];
+  PetscCall(StoreHistory(c, moved));
+  if (!moved->lost) PetscCall(CouplerSolidCorrection(c, moved));
+  *n = c->overlap->ncoupled;
+  *correction = c->correction;
+  PetscFunctionReturn(0);
+}
+
+const double *CouplerPredictedVelocity(Coupler c)
+{
+  return c->predicted;
+}
+const double *CouplerExplicitFraction(Coupler c)
+{
+  return c->explicit_fraction;
+}
+PetscErrorCode CouplerSave(Coupler c, Checkpoint to)
+{
+  PetscFunctionBeginUser;
+  PetscCall(HistorySave(&c->history, to));
+  if (c->pressure_load) PetscCall(PressureLoadSave(c->pressure_load, to));
+  PetscFunctionReturn(0);
+}
+PetscErrorCode CouplerLoad(Coupler c, const SolidState *solid, Checkpoint from)
+{
+  PetscFunctionBeginUser;
+  PetscCall(HistoryLoad(&c->history, solid, from));
+  if (c->pressure_load) PetscCall(PressureLoadLoad(c->pressure_load, solid, from));
+  PetscFunctionReturn(0);
+}
+Shell CouplerShell(Coupler c)
+{
+  return c->shell;
+}
+Overlap CouplerOverlap(Coupler c)
+{
+  return c->overlap;
+}
+
+PetscErrorCode CouplerDestroy(Coupler *coupler)
+{
+  PetscFunctionBeginUser;
+  if (!*coupler) PetscFunctionReturn(0);
+  PetscCall(FreeStep(*coupler));
+  PetscCall(HistoryDestroy(&(*coupler)->history));
+  PetscCall(PressureLoadDestroy(&(*coupler)->pressure_load));
+  PetscCall(UpliftDestroy(&(*coupler)->uplift));
+  PetscCall(PetscFree((*coupler)->correction));
+  PetscCall(ShellDestroy(&(*coupler)->shell));
+  PetscCall(OverlapDestroy(&(*coupler)->overlap));
+  PetscCall(PetscFree(*coupler));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,228 @@
+#include "coupler/terms/inertia.h"
+#include "coupler/terms/outside.h"
+
+/* An element is covered where its pairs' areas add up to its own to this part of it. */
+#define COVERED 1e-10
+/* Normals whose mean of sin^2 is below 0.1 count as one: 1/(1 - 2 0.1) (P of inertia.h). */
+#define CORNER 1.25
+/* Terms of the series of a~ after the first. */
+enum { NTERMS = 3 };
+
+/* rho[nnodes]: the solid's density at its nodes now: mass over a third of the triangles around, of all ranks;
+ * 0 where the node is held. */
+static PetscErrorCode NodeDensities(const Overlap o, const SolidState *solid, double rho[])
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscArrayzero(rho, solid->nnodes));
+  for (int t = 0; t < solid->nelements; t++) {
+    const int *node = solid->element + 3 * t;
+    double x[3][2];
+    for (int i = 0; i < 3; i++)
+      for (int c = 0; c < 2; c++) x[i][c] = solid->x[2 * node[i] + c];
+    const double third = GeometryArea((const double(*)[2])x) / 3.0;
+    for (int i = 0; i < 3; i++) rho[node[i]] += third;
+  }
+  PetscCall(CopiesSum(o->nodes, 1, rho));
+  for (int i = 0; i < solid->nnodes; i++)
+    rho[i] = solid->mobility[i] > 0.0 && rho[i] > 0.0 ? 1.0 / (solid->mobility[i] * rho[i]) : 0.0;
+  PetscFunctionReturn(0);
+}
+
+/* Mean over the vertices that are free, 0 if none is. */
+static double TriangleDensity(const double rho[3])
+{
+  double sum = 0.0;
+  int n = 0;
+  for (int i = 0; i < 3; i++) {
+    sum += rho[i];
+    n += rho[i] > 0.0;
+  }
+  return n ? sum / n : 0.0;
+}
+
+PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt,
+                                   PetscBool sigma_among_phases, PairTerm term[], SourceTerm source[])
+{
+  const PetscBool heavy = (PetscBool)(o->phases && !sigma_among_phases);
+  double *rho, (*vertex)[3];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(solid->nnodes, &rho, o->nsources, &vertex));
+  PetscCall(NodeDensities(o, solid, rho));
+  PetscCall(OverlapNodesToSources(o, 1, rho, (double *)vertex));
+  const double heaviest = o->pairs.n ? INERTIA_MOST * o->rho[o->pairs.pair[0].b] : HUGE_VAL;
+  for (int t = 0; t < o->nsources; t++) {
+    const double density = TriangleDensity(vertex[t]);
+    const PetscBool is_shell = o->source[t].is_shell ? PETSC_TRUE : PETSC_FALSE;
+    source[t].held = (PetscBool)(density == 0.0);
+    source[t].density = is_shell ? 0.0 : source[t].held && heavy ? heaviest : fmin(density, heaviest);
+  }
+  for (int p = 0; p < o->pairs.n; p++) {
+    const double rho_f = o->rho[o->pairs.pair[p].b], rho_s = source[o->pairs.pair[p].a].density;
+    if (rho_s == 0.0) continue;
+    term[p].a = WallCoefficientIsotropic(0.0);
+    term[p].rho = rho_f;
+    term[p].inertia = (fmax(rho_s, rho_f) - rho_f) / dt;
+  }
+  PetscCall(PetscFree2(rho, vertex));
+  PetscFunctionReturn(0);
+}
+
+/* Its area is covered by pairs with nodes that are free. */
+static PetscBool IsCovered(const Overlap o, const SourceTerm source[], int e)
+{
+  const double area = o->area[o->coupled_element[e]];
+  double covered = 0.0;
+  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
+    const SupermeshPair *pair = &o->pairs.pair[o->of_element[i]];
+    if (source[pair->a].density > 0.0) covered += pair->area;
+  }
+  return fabs(covered - area) < COVERED * area ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Of element e, over its pairs with inertia: areas, and those times what the solid has beyond the fluid's density; of those that are free, too. */
+typedef struct {
+  double area, excess, free_area, free_excess;
+} Excess;
+
+static Excess ExcessOf(const Overlap o, const SourceTerm source[], int e)
+{
+  Excess sum = {0.0, 0.0, 0.0, 0.0};
+  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
+    const SupermeshPair *pair = &o->pairs.pair[o->of_element[i]];
+    const SourceTerm *s = &source[pair->a];
+    if (s->density == 0.0) continue;
+    const double excess = pair->area * fmax(s->density - o->rho[pair->b], 0.0);
+    sum.area += pair->area;
+    sum.excess += excess;
+    if (s->held) continue;
+    sum.free_area += pair->area;
+    sum.free_excess += excess;
+  }
+  return sum;
+}
+
+/* k of element e. */
+static double KeptPart(const Overlap o, const SourceTerm source[], const ElementTerm *element, int e)
+{
+  const int k = o->coupled_element[e];
+  const Excess sum = ExcessOf(o, source, e);
+  if (sum.excess == 0.0) return 1.0;
+  if (element->shared && sum.free_area > 0.0)
+    return fmin(1.0, sum.free_excess / sum.free_area * sum.area / sum.excess);
+  if (sum.area > (1.0 - OUTSIDE_LEAST) * o->area[k]) return 1.0;
+  return fmin(1.0, INERTIA_KEPT_RATIO * (o->rho[k] + element->outside) * sum.area / sum.excess);
+}
+
+/* Among phases, by inertia. */
+static PetscBool IsHeld(const Overlap o, const SourceTerm source[], int e)
+{
+  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1] && o->phases; i++) {
+    const SourceTerm *s = &source[o->pairs.pair[o->of_element[i]].a];
+    if (s->held && s->density > 0.0) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
+/* P of D, whose trace is 1 and the difference of whose principal values 1 - 2 s, or which is 0. */
+static WallCoefficient Sharpened(const WallCoefficient *d, double k)
+{
+  const double spread = hypot(d->xx - d->yy, 2.0 * d->xy); /* of D's principal values */
+  if (k == 1.0 || spread == 0.0) return *d;
+  const double part = (1.0 - k) * fmin(1.0, CORNER * spread), share = part / spread + k,
+               rest = 0.5 * (part + k - share);
+  return (WallCoefficient){share * d->xx + rest, share * d->xy, share * d->yy + rest};
+}
+
+void InertiaStart(Overlap o, const SourceTerm source[], double dt, ElementTerm element[], PairTerm term[])
+{
+  for (int e = 0; e < o->ncoupled; e++) {
+    const PetscBool held = IsHeld(o, source, e);
+    const double kept = KeptPart(o, source, &element[e], e);
+    const WallCoefficient along = Sharpened(held ? &element[e].along : &element[e].tangential, kept);
+    element[e].covered =
+        (PetscBool)(!o->phases && WallIsZero(&element[e].tangential) && IsCovered(o, source, e));
+    element[e].kept = o->phases && !held && !element[e].shared ? WallCoefficientIsotropic(kept)
+                                                               : WallCoefficientScaled(&along, kept);
+    element[e].freed = WallCoefficientScaled(&along, 1.0 - kept);
+  }
+  for (int p = 0; p < o->pairs.n; p++) {
+    const ElementTerm *k = &element[o->coupled_index[p]];
+    PairTerm *t = &term[p];
+    if (source[o->pairs.pair[p].a].density == 0.0) continue;
+    const double all = t->inertia + (k->covered ? t->rho / dt : 0.0);
+    t->start = (WallCoefficient){all - t->inertia * (k->kept.xx + k->freed.xx),
+                                 -t->inertia * (k->kept.xy + k->freed.xy),
+                                 all - t->inertia * (k->kept.yy + k->freed.yy)};
+  }
+}
+
+/* force[nnodes][2] = M a of the free nodes' densities rho. */
+static PetscErrorCode ApplyMass(const Overlap o, const SolidState *solid, const double rho[],
+                                const double a[], double force[])
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscArrayzero(force, 2 * solid->nnodes));
+  for (int t = 0; t < solid->nelements; t++) {
+    const int *node = solid->element + 3 * t;
+    const double vertex[3] = {rho[node[0]], rho[node[1]], rho[node[2]]};
+    double x[3][2];
+    for (int i = 0; i < 3; i++)
+      for (int c = 0; c < 2; c++) x[i][c] = solid->x[2 * node[i] + c];
+    const double mass = TriangleDensity(vertex) * GeometryArea((const double(*)[2])x) / 12.0;
+    for (int c = 0; c < 2; c++) {
+      const double sum = a[2 * node[0] + c] + a[2 * node[1] + c] + a[2 * node[2] + c];
+      for (int i = 0; i < 3; i++) force[2 * node[i] + c] += mass * (sum + a[2 * node[i] + c]);
+    }
+  }
+  PetscCall(CopiesSum(o->nodes, 2, force));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode InertiaNodalForces(Overlap o, const SolidState *solid, double acceleration[])
+{
+  const int n = solid->nnodes;
+  double *rho, *a, *force;
+
+  PetscFunctionBeginUser;
+  if (!o->phases) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc3(n, &rho, 2 * n, &a, 2 * n, &force));
+  PetscCall(NodeDensities(o, solid, rho));
+  PetscCall(PetscArraycpy(a, acceleration, 2 * n));
+  for (int term = 0; term < NTERMS; term++) {
+    PetscCall(ApplyMass(o, solid, rho, acceleration, force));
+    for (int k = 0; k < 2 * n; k++)
+      if (rho[k / 2] > 0.0) acceleration[k] += a[k] - solid->mobility[k / 2] * force[k];
+  }
+  PetscCall(PetscFree3(rho, a, force));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode InertiaExplicitFraction(Overlap o, const SolidState *solid, const SourceTerm source[],
+                                       double explicit_fraction[])
+{
+  enum { AREA, EXPLICIT, NSUMS };
+  double(*vertex)[3][NSUMS], (*node)[NSUMS];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(o->nsources, &vertex));
+  PetscCall(PetscMalloc1(solid->nnodes, &node));
+  for (int p = 0; p < o->pairs.n; p++) {
+    const SupermeshPair *pair = &o->pairs.pair[p];
+    if (o->source[pair->a].is_shell) continue;
+    const double fraction = fmax(0.0, 1.0 - source[pair->a].density / o->rho[pair->b]);
+    for (int i = 0; i < 3; i++) {
+      vertex[pair->a][i][AREA] += pair->area;
+      vertex[pair->a][i][EXPLICIT] += fraction * pair->area;
+    }
+  }
+  PetscCall(OverlapSourcesToNodes(o, NSUMS, (const double *)vertex, solid->nnodes, (double *)node));
+  PetscCall(CopiesSum(o->nodes, NSUMS, (double *)node));
+  for (int i = 0; i < solid->nnodes; i++)
+    explicit_fraction[i] = node[i][AREA] > 0.0        ? node[i][EXPLICIT] / node[i][AREA]
+                           : solid->mobility[i] > 0.0 ? 0.0
+                                                      : 1.0;
+  PetscCall(PetscFree(node));
+  PetscCall(PetscFree(vertex));
+  PetscFunctionReturn(0);
+}

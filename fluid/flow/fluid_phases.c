@@ -1,0 +1,284 @@
+/* What a fluid of several phases does differently. */
+#include "fluid/flow/fluid_impl.h"
+#include "fluid/pressure/weighted_projection.h"
+
+/* Of an element, less than which beside a solid is none. */
+#define LEAST_OPEN 1e-3
+/* Of the density beside a solid, what may be missing: the lighter phase that a solid leaves behind where it moves. */
+#define LITTLE 1e-2
+
+/* Density and viscosity of the phases as they are. */
+static PetscErrorCode SetPhaseMaterial(Fluid f, MaterialLevel level)
+{
+  double *rho, *mu;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(f->domain.mesh->ne, &rho, f->domain.mesh->ne, &mu));
+  PhaseTransportMaterial(f->phases, rho, mu);
+  PetscCall(MaterialSet(f->material, level, rho, mu));
+  PetscCall(PetscFree2(rho, mu));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidPhasesChanged(Fluid f)
+{
+  PetscFunctionBeginUser;
+  PetscCall(SetPhaseMaterial(f, MATERIAL_OLD));
+  PetscCall(SetPhaseMaterial(f, MATERIAL_NEW));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidSetPhases(Fluid f, int nregions, const Region region[])
+{
+  PetscFunctionBeginUser;
+  PetscCall(PhaseTransportFill(f->phases, nregions, region));
+  PetscCall(FluidPhasesChanged(f));
+  PetscFunctionReturn(0);
+}
+
+/* Where the solid has implicit inertia the weighted projection knows one density an element. */
+static void UniformInSolid(Fluid f)
+{
+  int n;
+  const CoracleCoupling *entry = SolidCouplingEntries(f->solid, &n);
+  for (int k = 0; k < n; k++)
+    if (entry[k].flags & CORACLE_HAS_INERTIA)
+      PhaseTransportSetUniform(f->phases, entry[k].element,
+                               MaterialDensity(f->material, MATERIAL_STEP)[entry[k].element]);
+}
+
+/* moves[ne]: elements with the volume of a solid that is not held. */
+static PetscErrorCode WhereSolidMoves(Fluid f, char moves[])
+{
+  int n;
+  const CoracleCoupling *entry = SolidCouplingEntries(f->solid, &n);
+  PetscFunctionBeginUser;
+  PetscCall(PetscArrayzero(moves, f->domain.mesh->ne));
+  for (int k = 0; k < n; k++)
+    moves[entry[k].element] =
+        (entry[k].flags & (CORACLE_HAS_INERTIA | CORACLE_IS_HELD)) == CORACLE_HAS_INERTIA;
+  PetscFunctionReturn(0);
+}
+
+double FluidCapillaryStep(Fluid f)
+{
+  const PhaseProperties *p = &f->setup.phases;
+  double area = HUGE_VAL, least = HUGE_VAL;
+  if (!f->phases || !PhaseHasTension(p) || f->setup.capillary_cfl == 0.0) return HUGE_VAL;
+  for (int e = 0; e < f->domain.mesh->ne; e++)
+    if (PhasesSingle(PhaseTransportPhases(f->phases), e) < 0) area = fmin(area, f->domain.geometry[e].area);
+  for (int k = 0; k < p->n; k++)
+    for (int j = 0; j < k; j++)
+      if (p->surface_tension.value[j][k] != 0.0)
+        least = fmin(least, (p->rho[j] + p->rho[k]) / p->surface_tension.value[j][k]);
+  return f->setup.capillary_cfl * sqrt(least) * pow(2.0 * area, 0.75);
+}
+
+PetscErrorCode FluidMovePhases(Fluid f, double dt, double s)
+{
+  PhaseStep step = {.time = f->t, .dt = dt, .extrapolated = s, .dt_before = f->dt_previous};
+  const size_t n = 6 * (size_t)f->domain.mesh->ne;
+  PetscScalar *flux;
+  double *u;
+  char *moves;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(n, &u, f->domain.mesh->ne, &moves));
+  PetscCall(WhereSolidMoves(f, moves));
+  PetscCall(VecGetArray(f->mass_flux, &flux));
+  PetscCall(PetscArraycpy(u, flux, n));
+  step.u = u;
+  step.solid = SolidCouplingFraction(f->solid);
+  step.moves = moves;
+  step.mass_flux = flux;
+  double *pressure = NULL;
+  if (f->compressible) PetscCall(FluidMeanPressure(f, &pressure));
+  step.pressure = pressure;
+  PetscCall(PhaseTransportStep(f->phases, &step));
+  PetscCall(VecRestoreArray(f->mass_flux, &flux));
+  PetscCall(PetscFree2(u, moves));
+  PetscCall(PetscFree(pressure));
+  PetscCall(SetPhaseMaterial(f, MATERIAL_NEW));
+  UniformInSolid(f);
+  PetscFunctionReturn(0);
+}
+
+/* Density of what element e has beside the solid, which covers `alpha` of it; rho: of all that it has. */
+static double OutsideDensity(Fluid f, int e, double rho, double alpha)
+{
+  double inside, beside;
+  if (alpha == 0.0) return rho;
+  if (alpha > 1.0 - LEAST_OPEN) return 0.0;
+  PhaseTransportBesideSolid(f->phases, e, &inside, &beside);
+  const double outside = fmax((rho - alpha * inside) / (1.0 - alpha), inside);
+  return outside > (1.0 - LITTLE) * beside ? fmax(beside, inside) : outside;
+}
+
+PetscErrorCode FluidSetOutside(Fluid f)
+{
+  const double *alpha = SolidCouplingFraction(f->solid), *rho = MaterialDensity(f->material, MATERIAL_STEP);
+  PetscScalar *outside;
+  PetscFunctionBeginUser;
+  PetscCall(VecGetArrayWrite(f->outside, &outside));
+  for (int e = 0; e < f->domain.mesh->ne; e++) outside[e] = OutsideDensity(f, e, rho[e], alpha[e]);
+  PetscCall(VecRestoreArrayWrite(f->outside, &outside));
+  PetscCall(VecGhostUpdateBegin(f->outside, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostUpdateEnd(f->outside, INSERT_VALUES, SCATTER_FORWARD));
+  PetscFunctionReturn(0);
+}
+
+const InverseDensity *FluidInverseDensity(Fluid f)
+{
+  return f->phases ? PhaseTransportInverseDensity(f->phases) : NULL;
+}
+
+/* velocity = dt (weight - R^-1 grad p) */
+static PetscErrorCode Accelerate(Fluid f, double dt, Vec velocity)
+{
+  const InverseDensity *r = FluidInverseDensity(f);
+  const PetscScalar *p;
+  PetscScalar *u;
+  Vec local;
+  PetscFunctionBeginUser;
+  PetscCall(VecGhostGetLocalForm(f->p, &local));
+  PetscCall(VecGetArrayRead(local, &p));
+  PetscCall(VecGetArrayWrite(velocity, &u));
+  for (int e = 0; e < f->domain.mesh->ne; e++) {
+    double grad[3][2], acceleration[2];
+    DomainGradient(&f->domain, e, p, grad);
+    for (int i = 0; i < 3; i++) {
+      InverseDensityAcceleration(&r[e], grad[i], acceleration);
+      for (int c = 0; c < 2; c++) u[6 * e + 3 * c + i] = dt * acceleration[c];
+    }
+  }
+  PetscCall(VecRestoreArrayWrite(velocity, &u));
+  PetscCall(VecRestoreArrayRead(local, &p));
+  PetscCall(VecGhostRestoreLocalForm(f->p, &local));
+  PetscFunctionReturn(0);
+}
+
+/* velocity, which is dt (weight - R^-1 grad p), becomes where the solid has implicit inertia what the momentum equation without
+ * viscosity and advection makes of all forces there: W^-1 (rho M (weight - grad p/rho) + load - (a + I) u), load of SolidCouplingLoad. */
+static PetscErrorCode AccelerateSolid(Fluid f, double dt, Vec velocity)
+{
+  const double *rho = MaterialDensity(f->material, MATERIAL_STEP);
+  int n;
+  const CoracleCoupling *entry = SolidCouplingEntries(f->solid, &n);
+  const PetscScalar *u;
+  PetscScalar *v;
+  PetscFunctionBeginUser;
+  PetscCall(VecGetArrayRead(f->u, &u));
+  PetscCall(VecGetArray(velocity, &v));
+  for (int k = 0; k < n; k++) {
+    const int e = entry[k].element;
+    const double area = f->domain.geometry[e].area;
+    double load[6], matrix[6][6];
+    if (!(entry[k].flags & CORACLE_HAS_INERTIA)) continue;
+    for (int c = 0; c < 2; c++) P1MassApply(area * rho[e] / dt, v + 6 * e + 3 * c, load + 3 * c);
+    SolidCouplingLoad(f->solid, e, u + 6 * e, area, rho[e] / dt, load);
+    SolidCouplingMatrix(entry + k, matrix);
+    for (int row = 0; row < 6; row++)
+      for (int col = 0; col < 6; col++) load[row] -= matrix[row][col] * u[6 * e + col];
+    PetscCall(WeightedProjectionSolve(area, rho[e] / dt, entry + k, load));
+    for (int i = 0; i < 6; i++) v[6 * e + i] = load[i];
+  }
+  PetscCall(VecRestoreArray(velocity, &v));
+  PetscCall(VecRestoreArrayRead(f->u, &u));
+  PetscFunctionReturn(0);
+}
+
+/* On any rank. */
+static PetscErrorCode HasSolid(Fluid f, PetscBool *solid)
+{
+  int n;
+  PetscFunctionBeginUser;
+  (void)SolidCouplingEntries(f->solid, &n);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT, MPI_MAX, f->domain.mesh->comm));
+  *solid = (PetscBool)(n > 0);
+  PetscFunctionReturn(0);
+}
+
+/* p, with its values on open boundaries as they are, makes the velocity that starts as `start` (NULL: 0) and is accelerated
+ * over the step by weight - R^-1 grad p free of divergence.  It is improved from what it was, so that what the solver leaves, which
+ * the projection, by 1/rho, does not take away, does not add up over the steps; or made from 0 with a solid, where a pressure's
+ * response is not R^-1 grad p alone, or a gas.  With surface tension it is improved with a solid, too: the solver's matrix lets the
+ * pressure through a solid that is held, and the pressure of a drop on it would drive the fluid there in each step. */
+static PetscErrorCode SolvePressure(Fluid f, ProjectionStep *step, PetscBool from_zero, Vec start)
+{
+  Vec velocity, phi;
+  PetscFunctionBeginUser;
+  step->inverse_density = FluidInverseDensity(f);
+  PetscCall(VecDuplicate(f->u, &velocity));
+  if (from_zero) PetscCall(ProjectionSolverKeepFixed(f->projection, f->p));
+  PetscCall(Accelerate(f, step->dt, velocity));
+  if (start) {
+    PetscCall(AccelerateSolid(f, step->dt, velocity));
+    PetscCall(VecAXPY(velocity, 1.0, start));
+  }
+  PetscCall(ProjectionSolverSolve(f->projection, step, velocity, &phi, &f->stats.pressure_iterations));
+  PetscCall(VecAXPY(f->p, 1.0, phi));
+  PetscCall(VecGhostUpdateBegin(f->p, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostUpdateEnd(f->p, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecDestroy(&velocity));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Balance(Fluid f, PetscBool from_zero)
+{
+  const double dt =
+      f->compressible ? 1.0 : 1e8; /* large: what prescribed velocities contribute goes with 1/dt */
+  ProjectionStep step = FluidProjectionStep(f, f->t, dt, PETSC_FALSE);
+  PetscFunctionBeginUser;
+  FluidSetTarget(f, 0.0);
+  FluidSetCompressibility(f);
+  PetscCall(SolvePressure(f, &step, from_zero, NULL));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidBalancePressure(Fluid f)
+{
+  PetscBool solid;
+  PetscFunctionBeginUser;
+  PetscCall(HasSolid(f, &solid));
+  PetscCall(Balance(f, (PetscBool)(solid || f->compressible)));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidPredictPressure(Fluid f, double dt)
+{
+  ProjectionStep step = FluidProjectionStep(f, f->t, dt, PETSC_TRUE);
+  PetscBool solid;
+  PetscFunctionBeginUser;
+  PetscCall(HasSolid(f, &solid));
+  const PetscBool from_zero = (PetscBool)(f->compressible || !PhaseHasTension(&f->setup.phases));
+  if (solid || f->compressible)
+    PetscCall(SolvePressure(f, &step, from_zero, solid ? f->bulk : NULL));
+  else
+    PetscCall(Balance(f, PETSC_FALSE));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidBulkVelocity(Fluid f, Vec velocity, Vec bulk)
+{
+  int n;
+  const CoracleCoupling *entry = SolidCouplingEntries(f->solid, &n);
+  const PetscScalar *v;
+  PetscScalar *b;
+  PetscFunctionBeginUser;
+  PetscCall(VecCopy(velocity, bulk));
+  PetscCall(VecGetArrayRead(velocity, &v));
+  PetscCall(VecGetArray(bulk, &b));
+  for (int k = 0; k < n; k++) {
+    const int e = entry[k].element;
+    for (int c = 0; c < 2; c++) {
+      double r[3], du[3];
+      for (int i = 0; i < 3; i++) {
+        r[i] = entry[k].us[c][i];
+        for (int j = 0; j < 3; j++) r[i] -= entry[k].ms[i][j] * v[6 * e + 3 * c + j];
+      }
+      P1MassSolve(f->domain.geometry[e].area, r, du);
+      for (int i = 0; i < 3; i++) b[6 * e + 3 * c + i] += du[i];
+    }
+  }
+  PetscCall(VecRestoreArray(bulk, &b));
+  PetscCall(VecRestoreArrayRead(velocity, &v));
+  PetscFunctionReturn(0);
+}

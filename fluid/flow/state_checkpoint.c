@@ -1,0 +1,124 @@
+/* The state of the fluid in a checkpoint and out of it: tables with a row an element, in the order of the
+ * elements' global numbers, as in mesh_checkpoint.h. */
+#include "common/mesh/mesh_checkpoint.h"
+#include "fluid/flow/fluid_impl.h"
+
+#define PHASES ((int)(sizeof((FluidStats *)NULL)->seconds / sizeof(double)))
+
+static PetscErrorCode SaveVelocity(Vec velocity, int ne, const char *name, Checkpoint to)
+{
+  const PetscScalar *u;
+  PetscFunctionBeginUser;
+  PetscCall(VecGetArrayRead(velocity, &u));
+  PetscCall(CheckpointPutDoubles(to, name, ne, 6, u));
+  PetscCall(VecRestoreArrayRead(velocity, &u));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode LoadVelocity(Fluid f, const PetscInt row[], Checkpoint from, const char *name,
+                                   Vec velocity)
+{
+  PetscScalar *u;
+  PetscFunctionBeginUser;
+  PetscCall(VecGetArrayWrite(velocity, &u));
+  PetscCall(MeshLoadDoubles(f->domain.mesh, row, from, name, 6, u));
+  PetscCall(VecRestoreArrayWrite(velocity, &u));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SavePressure(Fluid f, Checkpoint to)
+{
+  const Mesh *m = f->domain.mesh;
+  const double *p = FluidPressure(f);
+  double *nodes;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(6 * m->ne, &nodes));
+  for (int k = 0; k < 6 * m->ne; k++) nodes[k] = p[f->domain.p2->node[k]];
+  PetscCall(CheckpointPutDoubles(to, "pressure", m->ne, 6, nodes));
+  PetscCall(PetscFree(nodes));
+  PetscFunctionReturn(0);
+}
+
+/* Elements of this rank have all of its nodes, also those of other ranks. */
+static PetscErrorCode LoadPressure(Fluid f, const PetscInt row[], Checkpoint from)
+{
+  const Mesh *m = f->domain.mesh;
+  double *nodes;
+  PetscScalar *p;
+  Vec local;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(6 * m->ne, &nodes));
+  PetscCall(MeshLoadDoubles(m, row, from, "pressure", 6, nodes));
+  PetscCall(VecGhostGetLocalForm(f->p, &local));
+  PetscCall(VecGetArray(local, &p));
+  for (int k = 0; k < 6 * m->ne; k++) p[f->domain.p2->node[k]] = nodes[k];
+  PetscCall(VecRestoreArray(local, &p));
+  PetscCall(VecGhostRestoreLocalForm(f->p, &local));
+  PetscCall(PetscFree(nodes));
+  PetscFunctionReturn(0);
+}
+
+/* At the end of the last step and at the start of the next one (adaptation comes between them). */
+static PetscErrorCode SaveMomentum(Fluid f, Checkpoint to)
+{
+  PetscMPIInt rank;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(f->domain.mesh->comm, &rank));
+  PetscCall(CheckpointPutDoubles(to, "momentum", rank ? 0 : 1, 2, f->budget.momentum));
+  PetscCall(CheckpointPutDoubles(to, "starting momentum", rank ? 0 : 1, 2, f->budget_start));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidSave(Fluid f, Checkpoint to)
+{
+  PetscFunctionBeginUser;
+  PetscCall(CheckpointPutNumber(to, "time", f->t));
+  PetscCall(CheckpointPutNumber(to, "previous step", f->dt_previous));
+  PetscCall(SaveMomentum(f, to));
+  PetscCall(SaveVelocity(f->u, f->domain.mesh->ne, "velocity", to));
+  PetscCall(SaveVelocity(f->u_previous, f->domain.mesh->ne, "previous velocity", to));
+  PetscCall(SavePressure(f, to));
+  if (f->phases) {
+    PetscCall(PhaseTransportSave(f->phases, to));
+    PetscCall(SaveVelocity(f->bulk, f->domain.mesh->ne, "bulk velocity", to));
+    PetscCall(SaveVelocity(f->bulk_previous, f->domain.mesh->ne, "previous bulk velocity", to));
+  }
+  PetscCall(CheckpointPutDoubles(to, "seconds", 1, PHASES, f->stats.seconds));
+  PetscFunctionReturn(0);
+}
+
+/* Each rank resumes its own; ranks that the saved run did not have take those of its last one. */
+static PetscErrorCode LoadSeconds(Fluid f, Checkpoint from)
+{
+  long long ranks;
+  PetscMPIInt rank;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(f->domain.mesh->comm, &rank));
+  PetscCall(CheckpointRows(from, "seconds", &ranks));
+  PetscCall(CheckpointGetDoubles(from, "seconds", PetscMin(rank, ranks - 1), 1, PHASES, f->stats.seconds));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidLoad(Fluid f, const PetscInt row[], Checkpoint from)
+{
+  PetscFunctionBeginUser;
+  PetscCall(CheckpointGetNumber(from, "time", &f->t));
+  PetscCall(CheckpointGetNumber(from, "previous step", &f->dt_previous));
+  PetscCall(CheckpointGetDoubles(from, "momentum", 0, 1, 2, f->budget.momentum));
+  PetscCall(CheckpointGetDoubles(from, "starting momentum", 0, 1, 2, f->budget_start));
+  PetscCall(LoadVelocity(f, row, from, "velocity", f->u));
+  PetscCall(LoadVelocity(f, row, from, "previous velocity", f->u_previous));
+  PetscCall(LoadPressure(f, row, from));
+  if (f->phases) {
+    PetscCall(PhaseTransportLoad(f->phases, row, from));
+    PetscCall(LoadVelocity(f, row, from, "bulk velocity", f->bulk));
+    PetscCall(LoadVelocity(f, row, from, "previous bulk velocity", f->bulk_previous));
+    PetscCall(FluidPhasesChanged(f));
+  }
+  /* steps leave it as it is: what the case says of it now counts */
+  PetscCall(FluidSetOpenPressure(f, f->t));
+  PetscCall(LoadSeconds(f, from));
+  PetscCall(VecCopy(f->u, f->u_projected)); /* of which the next step is proposed */
+  f->stats.t = f->t;
+  PetscFunctionReturn(0);
+}

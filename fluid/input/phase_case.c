@@ -1,0 +1,249 @@
+#include "fluid/input/phase_case.h"
+#include "common/output/output.h"
+#include "fluid/input/fluid_case.h"
+
+#define EVERYWHERE 1e6 /* m: half the side of a box that holds any domain */
+
+/* Of phase k, which is incompressible unless it says otherwise. */
+static void ReadState(CoracleCase c, int k, double density, EquationOfState *state)
+{
+  char key[64], gas[64];
+  (void)snprintf(key, sizeof key, "fluid.phases[%d].sound_speed", k);
+  (void)snprintf(gas, sizeof gas, "fluid.phases[%d].gas.pressure", k);
+  *state = (EquationOfState){density, 0.0, 1.0};
+  if (CoracleCaseHas(c, key)) {
+    const double speed = CoracleCasePositive(c, key);
+    if (CoracleCaseHas(c, gas)) CoracleCaseRefuse(c, key, "expected sound_speed or gas, not both");
+    state->pressure = density * speed * speed;
+  }
+  (void)snprintf(key, sizeof key, "fluid.phases[%d].gas", k);
+  if (!CoracleCaseHas(c, key)) return;
+  state->pressure = CoracleCasePositive(c, gas);
+  (void)snprintf(gas, sizeof gas, "fluid.phases[%d].gas.exponent", k);
+  state->exponent = CoracleCaseNumberOr(c, gas, 1.0, 1.0, 10.0);
+}
+
+/* Item k of fluid.phases becomes phase k. */
+static void ReadPhase(CoracleCase c, int k, PhaseNames *names, PhaseProperties *p)
+{
+  char key[64];
+  (void)snprintf(key, sizeof key, "fluid.phases[%d].name", k);
+  names->name[k] = CoracleCaseString(c, key);
+  if (!SeriesCanName(names->name[k]) || strlen(names->name[k]) >= sizeof p->name[k])
+    CoracleCaseRefuse(c, key, "expected a name of at most %d letters, without commas and quotes",
+                      (int)sizeof p->name[k] - 1);
+  for (int j = 0; j < k; j++)
+    if (!strcmp(names->name[j], names->name[k]))
+      CoracleCaseRefuse(c, key, "two phases are called '%s'", names->name[k]);
+  (void)snprintf(key, sizeof key, "fluid.phases[%d].density", k);
+  p->rho[k] = CoracleCasePositive(c, key);
+  (void)snprintf(key, sizeof key, "fluid.phases[%d].viscosity", k);
+  p->mu[k] = CoracleCasePositive(c, key);
+  ReadState(c, k, p->rho[k], &p->state[k]);
+}
+
+static void Swap(double *a, double *b)
+{
+  const double other = *a;
+  *a = *b;
+  *b = other;
+}
+
+/* The heaviest first; those of equal density stay in the order of the case. */
+static void SortByDensity(PhaseNames *names, PhaseProperties *p)
+{
+  for (int k = 1; k < p->n; k++)
+    for (int j = k; j > 0 && p->rho[j - 1] < p->rho[j]; j--) {
+      const char *name = names->name[j];
+      names->name[j] = names->name[j - 1];
+      names->name[j - 1] = name;
+      Swap(&p->rho[j], &p->rho[j - 1]);
+      Swap(&p->mu[j], &p->mu[j - 1]);
+      const EquationOfState state = p->state[j];
+      p->state[j] = p->state[j - 1];
+      p->state[j - 1] = state;
+    }
+}
+
+void PhaseCaseRead(CoracleCase c, PhaseNames *names, PhaseProperties *p)
+{
+  static const char *const ADVECTIONS[] = {
+      [PHASES_GEOMETRIC] = "geometric", [PHASES_COMPRESSIVE] = "compressive", NULL};
+  const PhasePairsKey tension = {"fluid.surface_tension", 0.0, HUGE_VAL, NULL, PETSC_FALSE};
+  *names = (PhaseNames){{NULL}};
+  *p = (PhaseProperties){0};
+  if (!CoracleCaseHas(c, "fluid.phases")) return;
+  p->n = CoracleCaseCount(c, "fluid.phases");
+  if (p->n < 2 || p->n > PHASES_MAX)
+    CoracleCaseRefuse(c, "fluid.phases", "expected from 2 to %d phases, found %d", PHASES_MAX, p->n);
+  for (int k = 0; k < p->n; k++) ReadPhase(c, k, names, p);
+  if (p->n > 2) SortByDensity(names, p);
+  for (int k = 0; k < p->n; k++) (void)snprintf(p->name[k], sizeof p->name[k], "%s", names->name[k]);
+  PhaseCasePairs(c, &tension, names, &p->surface_tension);
+  PhaseCaseAngles(c, "fluid.contact_angle", names, &p->solid_cosine);
+  p->advection = (PhasesAdvection)CoracleCaseWord(c, "fluid.phases_advection", PHASES_GEOMETRIC, ADVECTIONS);
+}
+
+static void SetPair(const PhasePairsKey *key, int first, int second, double number, PhasesPairs *pairs)
+{
+  const double value = key->convert ? key->convert(number) : number;
+  pairs->value[first][second] = value;
+  pairs->value[second][first] = key->antisymmetric ? -value : value;
+}
+
+/* Item k of the list. */
+static void ReadPair(CoracleCase c, const PhasePairsKey *key, int k, const PhaseNames *names,
+                     PetscBool seen[PHASES_MAX][PHASES_MAX], PhasesPairs *pairs)
+{
+  int phase[2];
+  char sub[192];
+  (void)snprintf(sub, sizeof sub, "%s[%d].between", key->key, k);
+  if (CoracleCaseCount(c, sub) != 2) CoracleCaseRefuse(c, sub, "expected the names of two phases");
+  for (int i = 0; i < 2; i++) {
+    (void)snprintf(sub, sizeof sub, "%s[%d].between[%d]", key->key, k, i);
+    phase[i] = PhaseCaseIndex(c, sub, names);
+  }
+  if (phase[0] == phase[1] || seen[phase[0]][phase[1]])
+    CoracleCaseRefuse(c, sub,
+                      phase[0] == phase[1] ? "expected another phase than the first"
+                                           : "an item before this one is of the same two phases");
+  seen[phase[0]][phase[1]] = seen[phase[1]][phase[0]] = PETSC_TRUE;
+  (void)snprintf(sub, sizeof sub, "%s[%d].value", key->key, k);
+  SetPair(key, phase[0], phase[1], CoracleCaseNumber(c, sub, key->lower, key->upper), pairs);
+}
+
+void PhaseCasePairs(CoracleCase c, const PhasePairsKey *key, const PhaseNames *names, PhasesPairs *pairs)
+{
+  PetscBool seen[PHASES_MAX][PHASES_MAX] = {{PETSC_FALSE}};
+  char first[192];
+  *pairs = (PhasesPairs){{{0.0}}};
+  (void)snprintf(first, sizeof first, "%s[0]", key->key);
+  if (CoracleCaseHas(c, first)) {
+    for (int k = 0; k < CoracleCaseCount(c, key->key); k++) ReadPair(c, key, k, names, seen, pairs);
+  } else if (CoracleCaseHas(c, key->key)) {
+    const double number = CoracleCaseNumber(c, key->key, key->lower, key->upper);
+    for (int k = 0; names->name[k]; k++)
+      for (int j = 0; j < k; j++) SetPair(key, j, k, number, pairs);
+  }
+}
+
+static double CosineOfDegrees(double angle)
+{
+  return cos(angle * M_PI / 180.0);
+}
+
+void PhaseCaseAngles(CoracleCase c, const char *key, const PhaseNames *names, PhasesPairs *cosine)
+{
+  const PhasePairsKey angle = {key, 0.0, 180.0, CosineOfDegrees, PETSC_TRUE};
+  PhaseCasePairs(c, &angle, names, cosine);
+}
+
+int PhaseCaseIndex(CoracleCase c, const char *key, const PhaseNames *names)
+{
+  const char *name = CoracleCaseString(c, key);
+  char known[256] = "";
+  for (int k = 0; names->name[k]; k++) {
+    const size_t used = strlen(known);
+    if (!strcmp(name, names->name[k])) return k;
+    (void)snprintf(known + used, sizeof known - used, "%s%s", k ? ", " : "", names->name[k]);
+  }
+  CoracleCaseRefuse(c, key, "expected a phase (%s), found '%s'", known, name);
+}
+
+/* fluid.regions[k].what */
+static const char *KeyOf(int k, const char *what, char key[64])
+{
+  (void)snprintf(key, 64, "fluid.regions[%d].%s", k, what);
+  return key;
+}
+
+static PetscErrorCode ReadPolygon(CoracleCase c, int k, Region *r)
+{
+  double(*x)[2];
+  char key[64];
+  PetscFunctionBeginUser;
+  r->n = CoracleCaseCount(c, KeyOf(k, "polygon", key));
+  if (r->n < 3) CoracleCaseRefuse(c, key, "expected at least three corners, found %d", r->n);
+  PetscCall(PetscMalloc1(r->n, &x));
+  for (int i = 0; i < r->n; i++) {
+    (void)snprintf(key, sizeof key, "fluid.regions[%d].polygon[%d]", k, i);
+    CoracleCaseVector(c, key, 2, x[i]);
+  }
+  r->x = (const double(*)[2])x;
+  PetscFunctionReturn(0);
+}
+
+static void ReadBox(CoracleCase c, int k, Region *r)
+{
+  char key[64];
+  CoracleCaseVector(c, KeyOf(k, "lower", key), 2, r->a);
+  CoracleCaseVector(c, KeyOf(k, "upper", key), 2, r->b);
+  if (!(r->b[0] > r->a[0] && r->b[1] > r->a[1]))
+    CoracleCaseRefuse(c, key,
+                      "the box is empty: expected a corner above and right of lower (%g, %g), found (%g, %g)",
+                      r->a[0], r->a[1], r->b[0], r->b[1]);
+}
+
+/* Whether region k has a shape; else it is everywhere. */
+static PetscBool HasShape(CoracleCase c, int k)
+{
+  static const char *const SHAPES[] = {"lower", "upper", "centre", "polygon", "point", "normal", NULL};
+  char key[64];
+  for (int i = 0; SHAPES[i]; i++)
+    if (CoracleCaseHas(c, KeyOf(k, SHAPES[i], key))) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* The shape follows from the keys that are there. */
+static PetscErrorCode ReadRegion(CoracleCase c, const PhaseNames *names, int k, Region *r)
+{
+  char key[64];
+  PetscFunctionBeginUser;
+  *r = (Region){.phase = PhaseCaseIndex(c, KeyOf(k, "phase", key), names)};
+  if (!HasShape(c, k)) {
+    r->shape = REGION_BOX;
+    for (int d = 0; d < 2; d++) r->a[d] = -EVERYWHERE, r->b[d] = EVERYWHERE;
+  } else if (CoracleCaseHas(c, KeyOf(k, "lower", key)) || CoracleCaseHas(c, KeyOf(k, "upper", key))) {
+    r->shape = REGION_BOX;
+    ReadBox(c, k, r);
+  } else if (CoracleCaseHas(c, KeyOf(k, "centre", key))) {
+    r->shape = REGION_DISC;
+    CoracleCaseVector(c, key, 2, r->a);
+    r->radius = CoracleCasePositive(c, KeyOf(k, "radius", key));
+  } else if (CoracleCaseHas(c, KeyOf(k, "polygon", key))) {
+    r->shape = REGION_POLYGON;
+    PetscCall(ReadPolygon(c, k, r));
+  } else {
+    r->shape = REGION_HALF_PLANE;
+    CoracleCaseVector(c, KeyOf(k, "point", key), 2, r->a);
+    CoracleCaseVector(c, KeyOf(k, "normal", key), 2, r->b);
+    if (r->b[0] == 0.0 && r->b[1] == 0.0) CoracleCaseRefuse(c, key, "expected a direction, found (0, 0)");
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidCaseRegions(CoracleCase c, int *nregions, Region **region)
+{
+  PhaseNames names;
+  PhaseProperties properties;
+  PetscFunctionBeginUser;
+  *nregions = 0;
+  *region = NULL;
+  PhaseCaseRead(c, &names, &properties);
+  if (!properties.n) PetscFunctionReturn(0);
+  *nregions = CoracleCaseCount(c, "fluid.regions");
+  if (!*nregions) CoracleCaseRefuse(c, "fluid.regions", "expected a list of where the phases are");
+  PetscCall(PetscCalloc1(*nregions, region));
+  for (int k = 0; k < *nregions; k++) PetscCall(ReadRegion(c, &names, k, *region + k));
+  if (HasShape(c, 0))
+    CoracleCaseRefuse(c, "fluid.regions", "the first region is everywhere: expected the key phase alone");
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidCaseFreeRegions(int nregions, Region **region)
+{
+  PetscFunctionBeginUser;
+  for (int k = 0; k < nregions; k++) PetscCall(PetscFree((*region)[k].x));
+  PetscCall(PetscFree(*region));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,116 @@
+#include "fluid/input/probe_case.h"
+#include "common/output/output.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char *const KINDS[] = {"point", "line", "solid_point", "surface", "phase", NULL};
+
+static const char *Key(int k, const char *what)
+{
+  static char key[80];
+  (void)snprintf(key, sizeof key, "fluid.probes[%d]%s%s", k, *what ? "." : "", what);
+  return key;
+}
+
+const char *ProbeCaseKey(const ProbeCase *list, int k)
+{
+  return Key(k, KINDS[list->probe[k].kind]);
+}
+
+static ProbeKind ReadKind(CoracleCase c, int k)
+{
+  int kind = -1, n = 0;
+  for (int i = 0; KINDS[i]; i++) {
+    if (!CoracleCaseHas(c, Key(k, KINDS[i]))) continue;
+    kind = i;
+    n++;
+  }
+  if (n != 1)
+    CoracleCaseRefuse(c, Key(k, ""),
+                      "expected one of point, line, solid_point, surface, phase, found %d of them", n);
+  return (ProbeKind)kind;
+}
+
+static const char *ReadName(CoracleCase c, const ProbeCase *list, int k)
+{
+  const char *name = CoracleCaseString(c, Key(k, "name"));
+  if (!SeriesCanName(name))
+    CoracleCaseRefuse(c, Key(k, "name"), "expected a name of up to %d characters without commas and quotes",
+                      SERIES_NAME_MAX);
+  for (int i = 0; i < k; i++)
+    if (!strcmp(list->probe[i].name, name))
+      CoracleCaseRefuse(c, Key(k, "name"), "fluid.probes[%d] has the name '%s', too", i, name);
+  return name;
+}
+
+static void AddFixed(CoracleCase c, ProbeCase *list, int k)
+{
+  Probe *p = &list->probe[k];
+  p->first = list->nfixed;
+  if (p->first + p->n > PROBE_POINTS_MAX)
+    CoracleCaseRefuse(c, "fluid.probes", "more than %d points", PROBE_POINTS_MAX);
+  for (int i = 0; i < p->n; i++)
+    for (int d = 0; d < 2; d++)
+      list->fixed[p->first + i][d] =
+          p->from[d] + (p->n > 1 ? (double)i / (p->n - 1) : 0.0) * (p->to[d] - p->from[d]);
+  list->nfixed += p->n;
+}
+
+/* The pressure of an element that the face crosses mixes both of its sides: by default one edge of the finest mesh
+ * away from the face. */
+static double ReadDistance(CoracleCase c, int k)
+{
+  if (!CoracleCaseHas(c, "fluid.adapt")) return CoracleCaseNumber(c, Key(k, "distance"), 0.0, HUGE_VAL);
+  return CoracleCaseNumberOr(c, Key(k, "distance"), CoracleCasePositive(c, "fluid.adapt.size_min"), 0.0,
+                             HUGE_VAL);
+}
+
+static void ReadEnds(CoracleCase c, int k, Probe *p)
+{
+  const PetscBool line = (PetscBool)(p->kind == PROBE_LINE);
+  CoracleCaseVector(c, Key(k, line ? "line.from" : "surface.from"), 2, p->from);
+  CoracleCaseVector(c, Key(k, line ? "line.to" : "surface.to"), 2, p->to);
+}
+
+/* Where probe k of this kind is. */
+static void ReadPlace(CoracleCase c, const PhaseNames *names, ProbeCase *list, int k)
+{
+  Probe *p = &list->probe[k];
+  if (p->kind == PROBE_LINE || p->kind == PROBE_SURFACE)
+    ReadEnds(c, k, p);
+  else if (p->kind != PROBE_PHASE)
+    CoracleCaseVector(c, Key(k, KINDS[p->kind]), 2, p->from);
+  switch (p->kind) {
+  case PROBE_LINE:
+    p->n = CoracleCaseIntegerOr(c, Key(k, "line.points"), 51, 2, PROBE_POINTS_MAX);
+    AddFixed(c, list, k);
+    break;
+  case PROBE_POINT:
+    AddFixed(c, list, k);
+    break;
+  case PROBE_GAUGE:
+    p->distance = ReadDistance(c, k);
+    p->first = list->ngauges++;
+    break;
+  case PROBE_SURFACE:
+  case PROBE_PHASE:
+    if (!list->nphases)
+      CoracleCaseRefuse(c, Key(k, KINDS[p->kind]), "there are no phases: expected fluid.phases");
+    p->phase = PhaseCaseIndex(c, Key(k, p->kind == PROBE_PHASE ? "phase" : "surface.phase"), names);
+    break;
+  }
+}
+
+void ProbeCaseRead(CoracleCase c, ProbeCase *list)
+{
+  PhaseNames names;
+  PhaseProperties properties;
+  PhaseCaseRead(c, &names, &properties);
+  *list = (ProbeCase){.n = CoracleCaseCount(c, "fluid.probes"), .nphases = properties.n};
+  if (list->n > PROBES_MAX) CoracleCaseRefuse(c, "fluid.probes", "more than %d probes", PROBES_MAX);
+  for (int k = 0; k < list->n; k++) {
+    list->probe[k] = (Probe){.kind = ReadKind(c, k), .name = ReadName(c, list, k), .n = 1};
+    ReadPlace(c, &names, list, k);
+  }
+}

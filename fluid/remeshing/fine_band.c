@@ -1,0 +1,148 @@
+#include "fluid/remeshing/fine_band.h"
+#include "common/exchange/scatter.h"
+#include "common/supermesh/search.h"
+#include "fluid/flow/fluid_impl.h"
+
+/* Of an element, what of all phases but one is the tail of a smeared interface. */
+#define TAIL 1e-3
+
+/* Where a piece of the surface is and where it will be at the next adaptation, and the size that it wants. */
+typedef struct {
+  double from[2], to[2], size;
+} Sweep;
+
+/* The sum of the densities of the lightest and the heaviest phase that element e has, kg/m3. */
+static double DensityRange(Fluid f, int e)
+{
+  int n;
+  const double *volume = PhaseTransportVolumes(f->phases, &n), *rho = f->setup.phases.rho;
+  double low = HUGE_VAL, high = 0.0;
+  for (int p = 0; p < n; p++) {
+    if (!(volume[n * e + p] > 0.0)) continue;
+    low = fmin(low, rho[p]);
+    high = fmax(high, rho[p]);
+  }
+  return low + high;
+}
+
+/* Whether element e has more than one phase; of a smeared interface, more than its tail. */
+static PetscBool OfInterface(Fluid f, int e)
+{
+  int n;
+  const double *volume = PhaseTransportVolumes(f->phases, &n);
+  double most = 0.0;
+  if (PhasesSingle(PhaseTransportPhases(f->phases), e) >= 0) return PETSC_FALSE;
+  for (int p = 0; p < n; p++) most = fmax(most, volume[n * e + p]);
+  return (PetscBool)(f->setup.phases.advection == PHASES_GEOMETRIC ||
+                     most < (1.0 - TAIL) * f->domain.geometry[e].area);
+}
+
+/* Mean velocity of element e in the flow of the current step, if the interface cuts it; light elements follow the others,
+ * whose motion it is. */
+static PetscBool InterfaceVelocity(Fluid f, int e, double velocity[2])
+{
+  const double *u = FluidVelocityProjected(f) + 6 * e;
+  if (!f->phases || !OfInterface(f, e)) return PETSC_FALSE;
+  const double heavy = FluidDensity(f)[e] < 0.25 * DensityRange(f, e) ? 0.0 : 1.0;
+  for (int c = 0; c < 2; c++) velocity[c] = heavy / 3.0 * (u[3 * c] + u[3 * c + 1] + u[3 * c + 2]);
+  return PETSC_TRUE;
+}
+
+PetscErrorCode FineBandSpeed(Fluid f, double *speed)
+{
+  int n;
+  const CoracleCoupling *entry = SolidCouplingEntries(f->solid, &n);
+  PetscFunctionBeginUser;
+  *speed = 0.0;
+  for (int k = 0; k < n; k++) {
+    const double *u = entry[k].velocity;
+    *speed = fmax(*speed, hypot(u[0], u[1]));
+  }
+  for (int e = 0; e < f->domain.mesh->ne; e++) {
+    double u[2];
+    if (InterfaceVelocity(f, e, u)) *speed = fmax(*speed, hypot(u[0], u[1]));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, speed, 1, MPI_DOUBLE, MPI_MAX, f->domain.mesh->comm));
+  PetscFunctionReturn(0);
+}
+
+static Sweep SweepOf(const Mesh *m, int e, const double velocity[2], double ahead, double size)
+{
+  Sweep s = {.size = size};
+  for (int c = 0; c < 2; c++) {
+    for (int i = 0; i < 3; i++) s.from[c] += ElementVertex(m, e, i)[c] / 3.0;
+    s.to[c] = s.from[c] + ahead * velocity[c];
+  }
+  return s;
+}
+
+/* This rank's part of the surfaces, and how far they go until the next adaptation; sweep has room for all elements. */
+static int LocalSweeps(Fluid f, const FineBand *b, Sweep sweep[])
+{
+  const Mesh *m = f->domain.mesh;
+  int n = 0, nentries;
+  const CoracleCoupling *entry = SolidCouplingEntries(f->solid, &nentries);
+  for (int k = 0; k < nentries; k++)
+    if (entry[k].flags & CORACLE_HAS_SHELL)
+      sweep[n++] = SweepOf(m, entry[k].element, entry[k].velocity, b->ahead, b->size_min);
+  for (int e = 0; e < m->ne; e++) {
+    double velocity[2];
+    if (InterfaceVelocity(f, e, velocity)) sweep[n++] = SweepOf(m, e, velocity, b->ahead, b->interface_size);
+  }
+  return n;
+}
+
+/* The surfaces of all ranks; *all is allocated. */
+static PetscErrorCode Sweeps(Fluid f, const FineBand *b, int *n, Sweep **all)
+{
+  Sweep *local;
+  void *gathered;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(2 * f->domain.mesh->ne, &local));
+  const int mine = LocalSweeps(f, b, local);
+  PetscCall(GatherRecords(f->domain.mesh->comm, mine, sizeof *local, local, n, &gathered));
+  *all = gathered;
+  PetscCall(PetscFree(local));
+  PetscFunctionReturn(0);
+}
+
+static double Distance(const Sweep *s, const double x[2])
+{
+  const double d[2] = {s->to[0] - s->from[0], s->to[1] - s->from[1]};
+  const double r[2] = {x[0] - s->from[0], x[1] - s->from[1]};
+  const double square = d[0] * d[0] + d[1] * d[1];
+  const double k = square > 0.0 ? fmin(fmax((r[0] * d[0] + r[1] * d[1]) / square, 0.0), 1.0) : 0.0;
+  return hypot(r[0] - k * d[0], r[1] - k * d[1]);
+}
+
+PetscErrorCode FineBandSizes(Fluid f, const FineBand *b, int nv, double size[])
+{
+  const double near = b->reach + 2.0 * FINE_BAND * fmax(b->size_min, b->interface_size);
+  Sweep *sweep;
+  GeometryBox *box;
+  Search search;
+  int n;
+  PetscFunctionBeginUser;
+  PetscCall(Sweeps(f, b, &n, &sweep));
+  PetscCall(PetscMalloc1(n, &box));
+  for (int k = 0; k < n; k++)
+    for (int c = 0; c < 2; c++) {
+      box[k].lower[c] = fmin(sweep[k].from[c], sweep[k].to[c]) - near;
+      box[k].upper[c] = fmax(sweep[k].from[c], sweep[k].to[c]) + near;
+    }
+  PetscCheck(!SearchCreate(n, box, &search), PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory for the surface");
+  for (int v = 0; v < nv; v++) {
+    const double *x = f->domain.mesh->x + 2 * v;
+    const GeometryBox point = {{x[0], x[1]}, {x[0], x[1]}};
+    const int *hit, nhit = SearchQuery(search, &point, &hit);
+    size[v] = b->size_max;
+    for (int h = 0; h < nhit; h++) {
+      const Sweep *k = sweep + hit[h];
+      size[v] = fmin(size[v], k->size + b->slope * fmax(Distance(k, x) - FINE_BAND * k->size, 0.0));
+    }
+  }
+  SearchDestroy(&search);
+  PetscCall(PetscFree(box));
+  PetscCall(PetscFree(sweep));
+  PetscFunctionReturn(0);
+}

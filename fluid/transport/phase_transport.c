@@ -1,0 +1,354 @@
+#include "fluid/transport/phase_transport.h"
+#include "common/mesh/mesh_checkpoint.h"
+#include "fluid/transport/phase_boundary.h"
+#include "fluid/transport/phase_sweep.h"
+#include "fluid/transport/phase_tension.h"
+
+/* Of an element, less than which of a phase is none. */
+#define SLIVER 1e-12
+
+struct PhaseTransport_s {
+  const FluidDomain *domain; /* borrowed */
+  PhaseProperties properties;
+  double gravity[2];
+  Stars *stars;
+  Phases phases;
+  PhaseBoundaries boundaries;
+  PhaseSweep sweep;
+  PhaseTension tension;
+  InverseDensity *begin, *end, *inverse_density; /* [ne] at the ends of the step, and what the step sees */
+  double *saved, *saved_mass;                    /* [ne][n] volumes, masses */
+  PhaseBudget budget, saved_budget;
+};
+
+int PhaseLightest(const PhaseProperties *p)
+{
+  int lightest = 0;
+  for (int k = 1; k < p->n; k++)
+    if (p->rho[k] < p->rho[lightest]) lightest = k;
+  return lightest;
+}
+
+int PhaseHeaviest(const PhaseProperties *p)
+{
+  int heaviest = 0;
+  for (int k = 1; k < p->n; k++)
+    if (p->rho[k] > p->rho[heaviest]) heaviest = k;
+  return heaviest;
+}
+
+PetscBool PhaseHasGas(const PhaseProperties *p)
+{
+  for (int k = 0; k < p->n; k++)
+    if (p->state[k].pressure > 0.0) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+PetscBool PhaseHasTension(const PhaseProperties *p)
+{
+  for (int k = 0; k < p->n; k++)
+    for (int j = 0; j < k; j++)
+      if (p->surface_tension.value[j][k] != 0.0) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* --- life ----------------------------------------------------------------------------------------------- */
+
+PetscErrorCode PhaseTransportCreate(const FluidDomain *domain, const PhaseProperties *properties,
+                                    const double gravity[2], PhaseTransport *transport)
+{
+  const Mesh *m = domain->mesh;
+  const int n = properties->n;
+  PhaseTransport t;
+  PetscFunctionBeginUser;
+  PetscCall(PetscNew(&t));
+  t->domain = domain;
+  t->properties = *properties;
+  for (int c = 0; c < 2; c++) t->gravity[c] = gravity[c];
+  PetscCall(StarsCreate(m, &t->stars));
+  PetscCall(PhasesCreate(t->stars, n, &t->phases));
+  PhasesSetAdvection(t->phases, properties->advection);
+  for (int k = 0; k < n; k++) t->properties.state[k].density = properties->rho[k];
+  if (PhaseHasGas(properties)) PetscCall(PhasesSetStates(t->phases, t->properties.state));
+  PetscCall(PhaseBoundariesCreate(domain, &t->properties, gravity, &t->boundaries));
+  PetscCall(PhaseTensionCreate(t->stars, &t->properties, &t->boundaries, &t->tension));
+  PetscCall(PhaseSweepCreate(domain, &t->properties, t->stars, &t->boundaries, t->phases, &t->sweep));
+  PetscCall(PetscMalloc5(m->ne, &t->begin, m->ne, &t->end, m->ne, &t->inverse_density,
+                         (size_t)n * (size_t)m->ne, &t->saved, (size_t)n * (size_t)m->ne, &t->saved_mass));
+  *transport = t;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PhaseTransportDestroy(PhaseTransport *transport)
+{
+  PhaseTransport t = *transport;
+  PetscFunctionBeginUser;
+  if (!t) PetscFunctionReturn(0);
+  PetscCall(PhaseTensionDestroy(&t->tension));
+  PetscCall(PhaseSweepDestroy(&t->sweep));
+  PetscCall(PhaseBoundariesDestroy(&t->boundaries));
+  PetscCall(PhasesDestroy(&t->phases));
+  PetscCall(StarsDestroy(&t->stars));
+  PetscCall(PetscFree5(t->begin, t->end, t->inverse_density, t->saved, t->saved_mass));
+  PetscCall(PetscFree(*transport));
+  PetscFunctionReturn(0);
+}
+
+/* volume[n], m2, of compressible phases mass, kg, of all ranks. */
+static PetscErrorCode SumVolumes(PhaseTransport t, double volume[])
+{
+  int n;
+  const double *v = PhaseTransportVolumes(t, &n), *mass = PhasesMasses(t->phases);
+  PetscFunctionBeginUser;
+  PetscCall(PetscArrayzero(volume, n));
+  for (int k = 0; k < n * t->stars->ne; k++)
+    volume[k % n] += t->properties.state[k % n].pressure > 0.0 ? mass[k] : v[k];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, volume, n, MPI_DOUBLE, MPI_SUM, t->domain->mesh->comm));
+  PetscFunctionReturn(0);
+}
+
+/* Of all ranks, m2. */
+static PetscErrorCode SumGap(PhaseTransport t, double *gap)
+{
+  int n;
+  const double *v = PhaseTransportVolumes(t, &n);
+  PetscFunctionBeginUser;
+  *gap = 0.0;
+  for (int e = 0; e < t->stars->ne; e++) {
+    double more = -t->domain->geometry[e].area;
+    for (int p = 0; p < n; p++) more += v[n * e + p];
+    *gap += fabs(more);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, gap, 1, MPI_DOUBLE, MPI_SUM, t->domain->mesh->comm));
+  PetscFunctionReturn(0);
+}
+
+/* --- state ---------------------------------------------------------------------------------------------- */
+
+/* How elements respond at the end of the step. */
+static PetscErrorCode SetEnd(PhaseTransport t)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PhasesGetInverseDensity(t->phases, t->properties.rho, t->gravity, t->end));
+  PetscCall(PhaseTensionAdd(t->tension, t->phases, t->end));
+  PhaseTransportSettle(t);
+  PetscFunctionReturn(0);
+}
+
+/* Lines, and what follows from them. */
+static PetscErrorCode Reconstruct(PhaseTransport t)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PhasesReconstruct(t->phases));
+  PetscCall(SetEnd(t));
+  PetscFunctionReturn(0);
+}
+
+void PhaseTransportSetUniform(PhaseTransport t, int e, double rho)
+{
+  const double surface[2] = {t->inverse_density[e].surface[0], t->inverse_density[e].surface[1]};
+  InverseDensityUniform(rho, t->gravity, &t->inverse_density[e]);
+  if (PhaseHasTension(&t->properties)) InverseDensityAddSurface(surface, &t->inverse_density[e]);
+}
+
+void PhaseTransportSettle(PhaseTransport t)
+{
+  for (int e = 0; e < t->stars->ne; e++) t->inverse_density[e] = t->end[e];
+}
+
+/* The volumes are those of the run's start. */
+static PetscErrorCode StartVolumes(PhaseTransport t)
+{
+  PetscFunctionBeginUser;
+  if (PhasesMasses(t->phases)) PhasesStartMasses(t->phases);
+  PetscCall(SumVolumes(t, t->budget.initial));
+  PetscCall(Reconstruct(t));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PhaseTransportFill(PhaseTransport t, int nregions, const Region region[])
+{
+  PetscFunctionBeginUser;
+  PetscCall(PhasesFill(t->phases, nregions, region));
+  PetscCall(StartVolumes(t));
+  PetscFunctionReturn(0);
+}
+
+/* volume[n] of an element: heavier phases than `light` no more than room, m2, all by the same factor. */
+static void MakeRoom(int n, int light, double room, double volume[])
+{
+  double heavy = 0.0;
+  for (int k = 0; k < n; k++)
+    if (k != light) heavy += volume[k];
+  if (heavy <= room) return;
+  for (int k = 0; k < n; k++)
+    if (k != light) volume[k] *= room / heavy;
+  volume[light] += heavy - room;
+}
+
+PetscErrorCode PhaseTransportStartSolid(PhaseTransport t, const double solid[])
+{
+  const int light = PhaseLightest(&t->properties);
+  int n;
+  const double *filled = PhaseTransportVolumes(t, &n);
+  double *volume;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1((size_t)n * (size_t)t->stars->ne, &volume));
+  PetscCall(PetscArraycpy(volume, filled, (size_t)n * (size_t)t->stars->ne));
+  for (int e = 0; e < t->stars->ne; e++)
+    if (solid[e] > 0.0)
+      MakeRoom(n, light, fmax(1.0 - solid[e], 0.0) * t->domain->geometry[e].area, volume + n * e);
+  PetscCall(PhasesSetVolumes(t->phases, volume));
+  PetscCall(PetscFree(volume));
+  PetscCall(StartVolumes(t));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PhaseTransportRemap(PhaseTransport from, Transfer transfer, PhaseTransport to)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PhasesRemap(from->phases, transfer, to->phases));
+  PetscCall(PhaseTensionRemap(from->tension, transfer, to->tension));
+  to->budget = from->budget;
+  PetscCall(Reconstruct(to));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PhaseTransportSaveState(PhaseTransport t)
+{
+  const double *volume;
+  PetscFunctionBeginUser;
+  PetscCall(PhasesGetVolumes(t->phases, &volume));
+  PetscCall(PetscArraycpy(t->saved, volume, (size_t)t->properties.n * (size_t)t->stars->ne));
+  if (PhasesMasses(t->phases))
+    PetscCall(PetscArraycpy(t->saved_mass, PhasesMasses(t->phases),
+                            (size_t)t->properties.n * (size_t)t->stars->ne));
+  t->saved_budget = t->budget;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PhaseTransportRestoreState(PhaseTransport t)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PhasesSetVolumes(t->phases, t->saved));
+  if (PhasesMasses(t->phases))
+    PetscCall(PetscArraycpy(PhasesMasses(t->phases), t->saved_mass,
+                            (size_t)t->properties.n * (size_t)t->stars->ne));
+  t->budget = t->saved_budget;
+  PetscCall(Reconstruct(t));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PhaseTransportSave(PhaseTransport t, Checkpoint to)
+{
+  int n;
+  const double *volume = PhaseTransportVolumes(t, &n);
+  PetscMPIInt rank;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(t->domain->mesh->comm, &rank));
+  PetscCall(CheckpointPutDoubles(to, "phases", t->stars->ne, n, volume));
+  if (PhasesMasses(t->phases))
+    PetscCall(CheckpointPutDoubles(to, "phases' masses", t->stars->ne, n, PhasesMasses(t->phases)));
+  PetscCall(CheckpointPutDoubles(to, "initial phases", rank ? 0 : 1, n, t->budget.initial));
+  PetscCall(CheckpointPutDoubles(to, "phases out", rank ? 0 : 1, n, t->budget.out));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PhaseTransportLoad(PhaseTransport t, const PetscInt row[], Checkpoint from)
+{
+  double *volume;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1((size_t)t->properties.n * (size_t)t->stars->ne, &volume));
+  PetscCall(MeshLoadDoubles(t->domain->mesh, row, from, "phases", t->properties.n, volume));
+  PetscCall(PhasesSetVolumes(t->phases, volume));
+  PetscCall(PetscFree(volume));
+  if (PhasesMasses(t->phases))
+    PetscCall(MeshLoadDoubles(t->domain->mesh, row, from, "phases' masses", t->properties.n,
+                              PhasesMasses(t->phases)));
+  PetscCall(CheckpointGetDoubles(from, "initial phases", 0, 1, t->properties.n, t->budget.initial));
+  PetscCall(CheckpointGetDoubles(from, "phases out", 0, 1, t->properties.n, t->budget.out));
+  PetscCall(Reconstruct(t));
+  PetscFunctionReturn(0);
+}
+
+void PhaseTransportMaterial(PhaseTransport t, double rho[], double mu[])
+{
+  int n;
+  const double *volume = PhaseTransportVolumes(t, &n);
+  for (int e = 0; e < t->stars->ne; e++) {
+    const double area = t->domain->geometry[e].area;
+    rho[e] = mu[e] = 0.0;
+    for (int p = 0; p < n; p++) {
+      const double *mass = PhasesMasses(t->phases);
+      if (t->properties.state[p].pressure > 0.0)
+        rho[e] += mass[n * e + p] / area;
+      else
+        rho[e] += t->properties.rho[p] * volume[n * e + p] / area;
+      mu[e] += t->properties.mu[p] * volume[n * e + p] / area;
+    }
+    if (mu[e] < 0.0) mu[e] = 0.0;
+  }
+}
+
+void PhaseTransportBesideSolid(PhaseTransport t, int e, double *inside, double *beside)
+{
+  const int light = PhaseLightest(&t->properties);
+  double mass = 0.0, sum = 0.0;
+  int n;
+  const double *volume = PhaseTransportVolumes(t, &n) + t->properties.n * e;
+  for (int p = 0; p < n; p++)
+    if (p != light) {
+      mass += t->properties.rho[p] * fmax(volume[p], 0.0);
+      sum += fmax(volume[p], 0.0);
+    }
+  *inside = t->properties.rho[light];
+  *beside = sum > SLIVER * t->domain->geometry[e].area ? mass / sum : 0.0;
+}
+
+const PhaseProperties *PhaseTransportProperties(PhaseTransport t)
+{
+  return &t->properties;
+}
+
+const InverseDensity *PhaseTransportInverseDensity(PhaseTransport t)
+{
+  return t->inverse_density;
+}
+
+const double *PhaseTransportVolumes(PhaseTransport t, int *n)
+{
+  const double *volume = NULL;
+  *n = t->properties.n;
+  (void)PhasesGetVolumes(t->phases, &volume);
+  return volume;
+}
+
+Phases PhaseTransportPhases(PhaseTransport t)
+{
+  return t->phases;
+}
+
+PetscErrorCode PhaseTransportBudget(PhaseTransport t, PhaseBudget *budget)
+{
+  PetscFunctionBeginUser;
+  *budget = t->budget;
+  PetscCall(SumVolumes(t, budget->volume));
+  PetscCall(SumGap(t, &budget->gap));
+  PetscFunctionReturn(0);
+}
+
+/* --- the step ------------------------------------------------------------------------------------------- */
+
+PetscErrorCode PhaseTransportStep(PhaseTransport t, const PhaseStep *s)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PhaseTensionSetSolid(t->tension, s->solid, s->moves));
+  if (PhaseTensionHasSolid(t->tension)) PetscCall(SetEnd(t)); /* with the solid of this step */
+  for (int e = 0; e < t->stars->ne; e++) t->begin[e] = t->end[e];
+  PetscCall(PhaseSweepStep(t->sweep, s, t->budget.out));
+  PetscCall(Reconstruct(t));
+  for (int e = 0; e < t->stars->ne; e++)
+    InverseDensityMiddle(&t->begin[e], &t->end[e], &t->inverse_density[e]);
+  PhaseSweepMassFlux(t->sweep, s);
+  PetscFunctionReturn(0);
+}

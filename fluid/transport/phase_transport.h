@@ -1,0 +1,86 @@
+/* The phases of the fluid in a step: they move with the velocity, and momentum with their mass (phases/README.md).
+ *
+ *     u at t + theta dt, free of divergence --> fluxes F, beta --> V^{n+1}, swept volumes
+ *       --> rho, mu of the elements at t^{n+1}          rho = sum of rho_p V_p/|K|
+ *           mass flux m, sum_f m_f = -(rho^{n+1} - rho^n) |K|/dt to round-off
+ *           R^-1 and the weight of cut elements          effective_density.h */
+#ifndef FLUID_PHASE_TRANSPORT_H
+#define FLUID_PHASE_TRANSPORT_H
+#include "common/output/checkpoint.h"
+#include "common/transfer/transfer.h"
+#include "fluid/discretization/domain.h"
+#include "fluid/phases/phases.h"
+#include "fluid/phases/region.h"
+
+typedef struct PhaseTransport_s *PhaseTransport;
+
+/* n = 0: one fluid, whose density and viscosity are elsewhere. */
+typedef struct {
+  int n;
+  double rho[PHASES_MAX], mu[PHASES_MAX]; /* kg/m3, Pa s */
+  PhasesPairs surface_tension;            /* N/m */
+  PhasesPairs solid_cosine; /* of contact angles at solids, through the first phase of each pair */
+  PhasesAdvection advection;
+  EquationOfState state[PHASES_MAX]; /* pressure 0: incompressible, of density rho */
+  char name[PHASES_MAX][32];
+} PhaseProperties;
+
+const PhaseProperties *PhaseTransportProperties(PhaseTransport t);
+/* The lightest phase, which fills solids, the heaviest; whether any two have surface tension.  Not collective. */
+int PhaseLightest(const PhaseProperties *properties);
+int PhaseHeaviest(const PhaseProperties *properties);
+PetscBool PhaseHasTension(const PhaseProperties *properties);
+/* Of element e: the density of the phase that fills solids, and the mean density of its other phases, 0 where it has none, kg/m3.
+ * Not collective. */
+void PhaseTransportBesideSolid(PhaseTransport t, int e, double *inside, double *beside);
+/* Whether any phase is compressible. */
+PetscBool PhaseHasGas(const PhaseProperties *properties);
+/* Without volumes; domain is borrowed.  Collective, like all that says nothing else. */
+PetscErrorCode PhaseTransportCreate(const FluidDomain *domain, const PhaseProperties *properties,
+                                    const double gravity[2], PhaseTransport *t);
+PetscErrorCode PhaseTransportDestroy(PhaseTransport *t);
+/* The initial state; errors of PhasesFill. */
+PetscErrorCode PhaseTransportFill(PhaseTransport t, int nregions, const Region region[]);
+/* At the run's start: the lightest phase takes the place of heavier ones where the solid is, solid[ne] = alpha_s.  An element that
+ * its surface crosses keeps what fits beside it. */
+PetscErrorCode PhaseTransportStartSolid(PhaseTransport t, const double solid[]);
+/* The volumes from those on another mesh. */
+PetscErrorCode PhaseTransportRemap(PhaseTransport from, Transfer transfer, PhaseTransport to);
+/* From t^n over dt along u[ne][6], m/s, extrapolated from t^n by `extrapolated` times the step before, dt_before; prescribed
+ * velocities are extrapolated likewise.  mass_flux[ne][6]: m, kg/(m2 s), is written. */
+typedef struct {
+  double time, dt;                /* t^n, s */
+  double extrapolated, dt_before; /* u = u^n + extrapolated (u^n - u^{n-1}) */
+  const double *u;
+  const double *solid;    /* [ne] alpha_s: heavier phases stay out of it; NULL: none */
+  const char *moves;      /* [ne] whether it moves freely; read with surface tension only */
+  const double *pressure; /* [ne] at t^n, Pa; read with compressible phases only */
+  double *mass_flux;
+} PhaseStep;
+PetscErrorCode PhaseTransportStep(PhaseTransport t, const PhaseStep *step);
+/* rho[ne], kg/m3, and mu[ne], Pa s, of the owned elements.  Not collective. */
+void PhaseTransportMaterial(PhaseTransport t, double rho[], double mu[]);
+/* How elements respond to a pressure gradient, [ne], borrowed: in the middle of the last step.  Not collective. */
+const InverseDensity *PhaseTransportInverseDensity(PhaseTransport t);
+/* Element e has one density, kg/m3, until the next step.  Not collective. */
+void PhaseTransportSetUniform(PhaseTransport t, int e, double rho);
+/* From now on, until the next step, it is that of its end; the density's revision is the caller's affair. */
+void PhaseTransportSettle(PhaseTransport t);
+/* Volumes, m2, [ne][n], borrowed; the number of phases.  Not collective. */
+const double *PhaseTransportVolumes(PhaseTransport t, int *n);
+Phases PhaseTransportPhases(PhaseTransport t);
+/* What has become of each phase since the run's start, m2, of compressible ones kg: volume + out - initial is what adaptation and the pressure's solution
+ * have made of it. */
+typedef struct {
+  double initial[PHASES_MAX], out[PHASES_MAX]; /* at the start; what has left through the boundary, net */
+  double volume[PHASES_MAX];                   /* what there is */
+  double
+      gap; /* sum over the elements of |sum of the volumes - area|, m2: what fluxes with a divergence have made */
+} PhaseBudget;
+PetscErrorCode PhaseTransportBudget(PhaseTransport t, PhaseBudget *budget);
+/* For a step that is redone. */
+PetscErrorCode PhaseTransportSaveState(PhaseTransport t);
+PetscErrorCode PhaseTransportRestoreState(PhaseTransport t);
+PetscErrorCode PhaseTransportSave(PhaseTransport t, Checkpoint to);
+PetscErrorCode PhaseTransportLoad(PhaseTransport t, const PetscInt row[], Checkpoint from);
+#endif
