@@ -39,7 +39,7 @@ struct Fluid_s {
   double *budget_sum;     /* this rank's part of the current step's (budget.c) */
 };
 
-/* fluid.c: what the projection of a velocity at t over dt sees.  Not collective. */
+/* fluid_step.c: what the projection of a velocity at t over dt sees.  Not collective. */
 ProjectionStep FluidProjectionStep(Fluid f, double t, double dt, PetscBool inertia);
 /* fluid_phases.c: [ne], borrowed; NULL for one fluid.  Not collective. */
 const InverseDensity *FluidInverseDensity(Fluid f);

@@ -3,18 +3,14 @@
  *
  *   forward     Gauss-Seidel over the nodes of this rank from z = 0 (relaxation.h)
  *   patches     an exact correction in the nodes of uneven elements (patch_correction.h), if some are very uneven
- *   coarse      z += E A1^-1 E^T (r - A z),   A1 = E^T A E: the matrix of the P1 functions
+ *   coarse      z += E A1^-1 E^T (r - A z)   (coarse_correction.h)
  *   patches     again
  *   backward    Gauss-Seidel in the other order
  *
- * E: a P1 function's values at the P2 nodes.  Both spaces see the same coefficients on the same elements, so
- * that the iterations know neither their contrast nor the size of the elements: 6 to 8 of CG for 1e-7.  Relaxation does not see a coefficient
- * with a direction in an element (a cut one, one with a solid's surface among phases): without patches a tank with an elastic gate and a wall took
- * 98 iterations, with them 12, the patches having a tenth of the nodes.
- *
- * A1 has a quarter of the unknowns and is factored on one rank or, where it is large, solved by algebraic multigrid on all
- * (prefix pressure_coarse_), which relaxes forwards on the way down and backwards on the way up: symmetric, as CG needs it.  That is done again when an element's coefficient has changed by a factor, or when
- * the old one has cost as many iterations more as the set-up takes time for. */
+ * Both spaces see the same coefficients on the same elements, so that the iterations know neither their contrast nor the size of the
+ * elements: 6 to 8 of CG for 1e-7.  Relaxation does not see a coefficient with a direction in an element (a cut one, one with a solid's
+ * surface among phases): without patches a tank with an elastic gate and a wall took 98 iterations, with them 12, the patches having a
+ * tenth of the nodes. */
 #ifndef FLUID_PRESSURE_PRECONDITIONER_H
 #define FLUID_PRESSURE_PRECONDITIONER_H
 #include "fluid/discretization/domain.h"
@@ -29,6 +25,6 @@ PetscErrorCode PressurePreconditionerDestroy(PressurePreconditioner *p);
 /* A has changed; block[ne][6][6] are its elements' contributions, unevenness[ne]: pressure_solver.h. */
 PetscErrorCode PressurePreconditionerUpdate(PressurePreconditioner p, const double block[][36],
                                             const double unevenness[]);
-/* What the last solve took. */
-PetscErrorCode PressurePreconditionerCount(PressurePreconditioner p, int iterations);
+/* What the last solve took.  Not collective. */
+void PressurePreconditionerCount(PressurePreconditioner p, int iterations);
 #endif

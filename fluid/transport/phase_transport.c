@@ -1,25 +1,7 @@
-#include "fluid/transport/phase_transport.h"
-#include "common/mesh/mesh_checkpoint.h"
-#include "fluid/transport/phase_boundary.h"
-#include "fluid/transport/phase_sweep.h"
-#include "fluid/transport/phase_tension.h"
+#include "fluid/transport/phase_transport_impl.h"
 
 /* Of an element, less than which of a phase is none. */
 #define SLIVER 1e-12
-
-struct PhaseTransport_s {
-  const FluidDomain *domain; /* borrowed */
-  PhaseProperties properties;
-  double gravity[2];
-  Stars *stars;
-  Phases phases;
-  PhaseBoundaries boundaries;
-  PhaseSweep sweep;
-  PhaseTension tension;
-  InverseDensity *begin, *end, *inverse_density; /* [ne] at the ends of the step, and what the step sees */
-  double *saved, *saved_mass;                    /* [ne][n] volumes, masses */
-  PhaseBudget budget, saved_budget;
-};
 
 int PhaseLightest(const PhaseProperties *p)
 {
@@ -135,8 +117,7 @@ static PetscErrorCode SetEnd(PhaseTransport t)
   PetscFunctionReturn(0);
 }
 
-/* Lines, and what follows from them. */
-static PetscErrorCode Reconstruct(PhaseTransport t)
+PetscErrorCode PhaseTransportReconstruct(PhaseTransport t)
 {
   PetscFunctionBeginUser;
   PetscCall(PhasesReconstruct(t->phases));
@@ -162,7 +143,7 @@ static PetscErrorCode StartVolumes(PhaseTransport t)
   PetscFunctionBeginUser;
   if (PhasesMasses(t->phases)) PhasesStartMasses(t->phases);
   PetscCall(SumVolumes(t, t->budget.initial));
-  PetscCall(Reconstruct(t));
+  PetscCall(PhaseTransportReconstruct(t));
   PetscFunctionReturn(0);
 }
 
@@ -201,73 +182,6 @@ PetscErrorCode PhaseTransportStartSolid(PhaseTransport t, const double solid[])
   PetscCall(PhasesSetVolumes(t->phases, volume));
   PetscCall(PetscFree(volume));
   PetscCall(StartVolumes(t));
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode PhaseTransportRemap(PhaseTransport from, Transfer transfer, PhaseTransport to)
-{
-  PetscFunctionBeginUser;
-  PetscCall(PhasesRemap(from->phases, transfer, to->phases));
-  PetscCall(PhaseTensionRemap(from->tension, transfer, to->tension));
-  to->budget = from->budget;
-  PetscCall(Reconstruct(to));
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode PhaseTransportSaveState(PhaseTransport t)
-{
-  const double *volume;
-  PetscFunctionBeginUser;
-  PetscCall(PhasesGetVolumes(t->phases, &volume));
-  PetscCall(PetscArraycpy(t->saved, volume, (size_t)t->properties.n * (size_t)t->stars->ne));
-  if (PhasesMasses(t->phases))
-    PetscCall(PetscArraycpy(t->saved_mass, PhasesMasses(t->phases),
-                            (size_t)t->properties.n * (size_t)t->stars->ne));
-  t->saved_budget = t->budget;
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode PhaseTransportRestoreState(PhaseTransport t)
-{
-  PetscFunctionBeginUser;
-  PetscCall(PhasesSetVolumes(t->phases, t->saved));
-  if (PhasesMasses(t->phases))
-    PetscCall(PetscArraycpy(PhasesMasses(t->phases), t->saved_mass,
-                            (size_t)t->properties.n * (size_t)t->stars->ne));
-  t->budget = t->saved_budget;
-  PetscCall(Reconstruct(t));
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode PhaseTransportSave(PhaseTransport t, Checkpoint to)
-{
-  int n;
-  const double *volume = PhaseTransportVolumes(t, &n);
-  PetscMPIInt rank;
-  PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(t->domain->mesh->comm, &rank));
-  PetscCall(CheckpointPutDoubles(to, "phases", t->stars->ne, n, volume));
-  if (PhasesMasses(t->phases))
-    PetscCall(CheckpointPutDoubles(to, "phases' masses", t->stars->ne, n, PhasesMasses(t->phases)));
-  PetscCall(CheckpointPutDoubles(to, "initial phases", rank ? 0 : 1, n, t->budget.initial));
-  PetscCall(CheckpointPutDoubles(to, "phases out", rank ? 0 : 1, n, t->budget.out));
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode PhaseTransportLoad(PhaseTransport t, const PetscInt row[], Checkpoint from)
-{
-  double *volume;
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1((size_t)t->properties.n * (size_t)t->stars->ne, &volume));
-  PetscCall(MeshLoadDoubles(t->domain->mesh, row, from, "phases", t->properties.n, volume));
-  PetscCall(PhasesSetVolumes(t->phases, volume));
-  PetscCall(PetscFree(volume));
-  if (PhasesMasses(t->phases))
-    PetscCall(MeshLoadDoubles(t->domain->mesh, row, from, "phases' masses", t->properties.n,
-                              PhasesMasses(t->phases)));
-  PetscCall(CheckpointGetDoubles(from, "initial phases", 0, 1, t->properties.n, t->budget.initial));
-  PetscCall(CheckpointGetDoubles(from, "phases out", 0, 1, t->properties.n, t->budget.out));
-  PetscCall(Reconstruct(t));
   PetscFunctionReturn(0);
 }
 
@@ -346,7 +260,7 @@ PetscErrorCode PhaseTransportStep(PhaseTransport t, const PhaseStep *s)
   if (PhaseTensionHasSolid(t->tension)) PetscCall(SetEnd(t)); /* with the solid of this step */
   for (int e = 0; e < t->stars->ne; e++) t->begin[e] = t->end[e];
   PetscCall(PhaseSweepStep(t->sweep, s, t->budget.out));
-  PetscCall(Reconstruct(t));
+  PetscCall(PhaseTransportReconstruct(t));
   for (int e = 0; e < t->stars->ne; e++)
     InverseDensityMiddle(&t->begin[e], &t->end[e], &t->inverse_density[e]);
   PhaseSweepMassFlux(t->sweep, s);

@@ -1,0 +1,225 @@
+/* The fluid's step. */
+#include "fluid/flow/fluid_impl.h"
+
+/* How much of the pressure that a step's compression starts from is the last one's; what is left keeps it at the equation of
+ * state.  (0 is on the edge of stability: phases/README.md.) */
+#define GAS_OLD 0.98
+
+PetscErrorCode FluidSetMaterial(Fluid f, MaterialLevel level, const double rho[], const double mu[])
+{
+  return MaterialSet(f->material, level, rho, mu);
+}
+
+PetscErrorCode FluidSetCoupling(Fluid f, int n, const CoracleCoupling coupling[])
+{
+  return SolidCouplingSet(f->solid, n, coupling);
+}
+
+/* u* = u at t + dt, the solver's first guess, and the mass flux rho u at t + theta dt, both extrapolated by at most two of
+ * the last step. */
+static PetscErrorCode Extrapolate(Fluid f, double dt)
+{
+  const double r = f->dt_previous > 0.0 ? fmin(dt / f->dt_previous, 2.0) : 0.0,
+               s = (f->phases ? 0.5 : f->setup.theta) * r;
+  const double *rho = MaterialDensity(f->material, MATERIAL_STEP);
+  PetscScalar *flux;
+  PetscFunctionBeginUser;
+  PetscCall(VecWAXPY(f->mass_flux, -1.0, f->u_previous, f->u));
+  PetscCall(VecWAXPY(f->u_star, r, f->mass_flux, f->u));
+  PetscCall(VecAYPX(f->mass_flux, s, f->u));
+  if (f->phases) {
+    PetscCall(VecWAXPY(f->mass_flux, -1.0, f->bulk_previous, f->bulk));
+    PetscCall(VecAYPX(f->mass_flux, s, f->bulk));
+    PetscCall(FluidMovePhases(f, dt, s));
+  } else {
+    PetscCall(VecGetArray(f->mass_flux, &flux));
+    for (int e = 0; e < f->domain.mesh->ne; e++)
+      for (int k = 0; k < 6; k++) flux[6 * e + k] *= rho[e];
+    PetscCall(VecRestoreArray(f->mass_flux, &flux));
+  }
+  PetscCall(VecGhostUpdateBegin(f->mass_flux, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostUpdateEnd(f->mass_flux, INSERT_VALUES, SCATTER_FORWARD));
+  PetscFunctionReturn(0);
+}
+
+/* Open boundaries whose pressure depends on time have what it is in the middle of the step, which moves u over all of it, from the
+ * step's start: the projection leaves it alone. */
+static PetscErrorCode SetVaryingPressure(Fluid f, double t)
+{
+  PetscFunctionBeginUser;
+  for (int b = 0; b < f->domain.mesh->ntags; b++)
+    if (f->domain.boundary[b].kind == BOUNDARY_OPEN && BoundaryVaries(&f->domain.boundary[b])) {
+      PetscCall(FluidSetOpenPressure(f, t));
+      break;
+    }
+  PetscFunctionReturn(0);
+}
+
+static MomentumStep StepOfMomentum(Fluid f, double dt, const double outside[])
+{
+  return (MomentumStep){f->t,
+                        dt,
+                        MaterialDensity(f->material, MATERIAL_STEP),
+                        MaterialViscosity(f->material, MATERIAL_STEP),
+                        MaterialRevision(f->material),
+                        f->mass_flux,
+                        f->u,
+                        f->p,
+                        f->solid,
+                        outside,
+                        FluidInverseDensity(f)};
+}
+
+PetscErrorCode FluidPrepareMomentum(Fluid f, double dt)
+{
+  const double start = MPI_Wtime();
+  const PetscScalar *outside = NULL;
+  Vec local;
+  PetscFunctionBeginUser;
+  f->stats.dt = dt;
+  FluidSetTarget(f, f->dt_previous > 0.0 ? GAS_OLD : 0.0);
+  PetscCall(Extrapolate(f, dt));
+  FluidSetCompressibility(f);
+  PetscCall(SetVaryingPressure(f, f->t + 0.5 * dt));
+  if (f->phases) {
+    PetscCall(FluidPredictPressure(f, dt));
+    PetscCall(FluidSetOutside(f));
+    PetscCall(VecGhostGetLocalForm(f->outside, &local));
+    PetscCall(VecGetArrayRead(local, &outside));
+  }
+  const MomentumStep step = StepOfMomentum(f, dt, outside);
+  PetscCall(MomentumSolverAssemble(f->momentum, &step));
+  if (f->phases) {
+    PetscCall(VecRestoreArrayRead(local, &outside));
+    PetscCall(VecGhostRestoreLocalForm(f->outside, &local));
+  }
+  f->prepared = PETSC_TRUE;
+  f->stats.seconds[ASSEMBLY] += MPI_Wtime() - start;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidMomentum(Fluid f, double dt)
+{
+  MomentumReport report;
+  PetscFunctionBeginUser;
+  if (!f->prepared) PetscCall(FluidPrepareMomentum(f, dt));
+  f->prepared = PETSC_FALSE;
+  PetscCall(FluidBudgetBegin(f));
+  const MomentumStep step = StepOfMomentum(f, dt, NULL);
+  PetscCall(MomentumSolverSolve(f->momentum, &step, f->u_star, &report));
+  f->stats.momentum_iterations = report.iterations;
+  f->stats.seconds[MOMENTUM] += report.seconds_solve;
+  f->stats.seconds[ASSEMBLY] += report.seconds_assembly;
+  PetscFunctionReturn(0);
+}
+
+ProjectionStep FluidProjectionStep(Fluid f, double t, double dt, PetscBool inertia)
+{
+  return (ProjectionStep){t,
+                          dt,
+                          MaterialDensity(f->material, MATERIAL_STEP),
+                          MaterialRevision(f->material),
+                          f->solid,
+                          NULL,
+                          inertia,
+                          f->compressible,
+                          f->p};
+}
+
+/* Of the step's end: with its density, so that what the pressure gives to an element is the change of the momentum that it has
+ * then, rho^{n+1} u. */
+static ProjectionStep EndProjection(Fluid f, double dt)
+{
+  ProjectionStep step = FluidProjectionStep(f, f->t + dt, dt, PETSC_TRUE);
+  step.rho = MaterialDensity(f->material, MATERIAL_NEW);
+  return step;
+}
+
+PetscErrorCode FluidProject(Fluid f, double dt)
+{
+  const double start = MPI_Wtime();
+  const ProjectionStep step = EndProjection(f, dt);
+  Vec phi;
+  PetscFunctionBeginUser;
+  PetscCall(ProjectionSolverSolve(f->projection, &step, f->u_star, &phi, &f->stats.pressure_iterations));
+  PetscCall(VecCopy(f->u_star, f->u_projected));
+  PetscCall(ProjectionSolverSubtract(f->projection, &step, f->u_projected));
+  PetscCall(VecAXPY(f->p, 1.0, phi));
+  PetscCall(VecGhostUpdateBegin(f->p, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecGhostUpdateEnd(f->p, INSERT_VALUES, SCATTER_FORWARD));
+  f->stats.seconds[PRESSURE] += MPI_Wtime() - start;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidCorrect(Fluid f, double dt, const CoracleCorrection correction[])
+{
+  const double start = MPI_Wtime();
+  const Vec oldest = f->u_previous, oldest_bulk = f->bulk_previous;
+  PetscFunctionBeginUser;
+  if (f->phases) {
+    /* that of u_projected is not free of divergence where a held solid fills a part of an element */
+    const ProjectionStep step = EndProjection(f, dt);
+    PetscCall(FluidBulkVelocity(f, f->u_star, oldest_bulk));
+    PetscCall(ProjectionSolverSubtract(f->projection, &step, oldest_bulk));
+    f->bulk_previous = f->bulk;
+    f->bulk = oldest_bulk;
+  }
+  PetscCall(FluidBudgetSolid(f, dt, correction));
+  if (correction) {
+    PetscScalar *u;
+    PetscCall(VecGetArray(f->u_projected, &u));
+    SolidCouplingCorrect(f->solid, f->domain.geometry, correction, u);
+    PetscCall(VecRestoreArray(f->u_projected, &u));
+  }
+  PetscCall(FluidBudgetEnd(f, dt));
+  SolidCouplingSetStarting(f->solid, PETSC_FALSE);
+  f->u_previous = f->u;
+  f->u = f->u_projected;
+  f->u_projected = oldest;
+  PetscCall(MaterialAdvance(f->material));
+  f->dt_previous = dt;
+  f->t += dt;
+  f->stats.t = f->t;
+  f->stats.seconds[COUPLING] += MPI_Wtime() - start;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidStep(Fluid f, double dt)
+{
+  PetscFunctionBeginUser;
+  PetscCall(FluidMomentum(f, dt));
+  PetscCall(FluidProject(f, dt));
+  PetscCall(FluidCorrect(f, dt, NULL));
+  PetscFunctionReturn(0);
+}
+
+/* velocity, that of time t, less the part whose bulk velocity is not free of divergence */
+static PetscErrorCode SubtractDivergence(Fluid f, double t, Vec velocity, Vec also)
+{
+  ProjectionStep step = FluidProjectionStep(f, t, 1.0, PETSC_FALSE); /* any dt: it cancels */
+  Vec phi;
+  PetscFunctionBeginUser;
+  step.pressure = NULL;
+  if (f->compressible) PetscCall(FluidLeaveCompressible(f));
+  PetscCall(ProjectionSolverSolve(f->projection, &step, velocity, &phi, &f->stats.pressure_iterations));
+  PetscCall(ProjectionSolverSubtract(f->projection, &step, velocity));
+  if (also) PetscCall(ProjectionSolverSubtract(f->projection, &step, also));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidMakeSolenoidal(Fluid f)
+{
+  const double start = MPI_Wtime();
+  PetscFunctionBeginUser;
+  if (f->phases) { /* which the extrapolated velocity moves: it must be free of divergence, too, and have the boundaries' values */
+    PetscCall(FluidBulkVelocity(f, f->u, f->bulk));
+    PetscCall(FluidBulkVelocity(f, f->u_previous, f->bulk_previous));
+    PetscCall(SubtractDivergence(f, f->t, f->u, f->bulk));
+    PetscCall(SubtractDivergence(f, f->t - f->dt_previous, f->u_previous, f->bulk_previous));
+  } else {
+    PetscCall(SubtractDivergence(f, f->t, f->u, f->u_previous)); /* their difference extrapolates */
+  }
+  PetscCall(FluidBudgetChanged(f));
+  f->stats.seconds[PRESSURE] += MPI_Wtime() - start;
+  PetscFunctionReturn(0);
+}

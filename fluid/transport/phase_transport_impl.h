@@ -1,0 +1,24 @@
+/* What the files of PhaseTransport share. */
+#ifndef FLUID_PHASE_TRANSPORT_IMPL_H
+#define FLUID_PHASE_TRANSPORT_IMPL_H
+#include "fluid/transport/phase_sweep.h"
+#include "fluid/transport/phase_tension.h"
+#include "fluid/transport/phase_transport.h"
+
+struct PhaseTransport_s {
+  const FluidDomain *domain; /* borrowed */
+  PhaseProperties properties;
+  double gravity[2];
+  Stars *stars;
+  Phases phases;
+  PhaseBoundaries boundaries;
+  PhaseSweep sweep;
+  PhaseTension tension;
+  InverseDensity *begin, *end, *inverse_density; /* [ne] at the ends of the step, and what the step sees */
+  double *saved, *saved_mass;                    /* [ne][n] volumes, masses */
+  PhaseBudget budget, saved_budget;
+};
+
+/* Lines, and what follows from them.  Collective. */
+PetscErrorCode PhaseTransportReconstruct(PhaseTransport t);
+#endif
