@@ -118,10 +118,12 @@ static CaseNode *Enter(CaseNode *node, PathStep step, const char *name, int item
   else if (step == STEP_ITEM && node->kind == NODE_LIST && item <= node->n)
     child = item < node->n ? node->child[item] : NULL;
   else {
-    *why = step == STEP_BAD          ? "the key is malformed (expected name.name[0].name)"
-           : step == STEP_NAME       ? "the key goes through a value that is not a map"
-           : node->kind != NODE_LIST ? "the key has an index on a value that is not a list"
-                                     : "the list is shorter than this index";
+    *why = step == STEP_BAD ? "the key is malformed (expected name.name[0].name)"
+           : step == STEP_ITEM && node->kind != NODE_LIST
+               ? "the key has an index on a value that is not a list"
+           : step == STEP_ITEM       ? "the list is shorter than this index"
+           : node->kind == NODE_LIST ? "the key goes through a list without an index (expected name[0].name)"
+                                     : "the key goes through a value that is not a map";
     return NULL;
   }
   if (child) return child;

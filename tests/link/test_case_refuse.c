@@ -178,7 +178,8 @@ static void Sets(void)
              *const UNKNOWN[] = {"fluid.densiti=1", NULL}, *const NO_VALUE[] = {"fluid.density", NULL},
              *const LONG[] = {"fluid.v[2]=1", NULL}, *const THROUGH[] = {"fluid.density.x=1", NULL},
              *const BROKEN[] = {"fluid.v=[1", NULL}, *const NO_KEY[] = {"=3", NULL},
-             *const MALFORMED[] = {"fluid..v=3", NULL}, *const NOT_LIST[] = {"fluid.density[0]=3", NULL};
+             *const MALFORMED[] = {"fluid..v=3", NULL}, *const NOT_LIST[] = {"fluid.density[0]=3", NULL},
+             *const NO_INDEX[] = {"fluid.v.0=3", NULL};
   static const char TEXT[] = "fluid:\n  density: 1\n  v: [1]\n";
   CheckCase(TEXT, NEGATIVE, Density,
             "--set fluid.density=-1: key 'fluid.density': expected a number > 0, found '-1'");
@@ -189,6 +190,8 @@ static void Sets(void)
   CheckCase(TEXT, LONG, Nothing, "--set fluid.v[2]=1: the list is shorter than this index");
   CheckCase(TEXT, NOT_LIST, Nothing,
             "--set fluid.density[0]=3: the key has an index on a value that is not a list");
+  CheckCase(TEXT, NO_INDEX, Nothing,
+            "--set fluid.v.0=3: the key goes through a list without an index (expected name[0].name)");
   CheckCase(TEXT, THROUGH, Nothing,
             "--set fluid.density.x=1: the key goes through a value that is not a map");
   CheckCase(TEXT, MALFORMED, Nothing, "--set fluid..v=3: the key is malformed (expected name.name[0].name)");
