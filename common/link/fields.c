@@ -133,3 +133,34 @@ int FieldSize(const Field *field, const int extent[NEXTENTS])
   for (int k = 0; field->shape[k] != EXTENT_END; k++) size *= extent[field->shape[k]];
   return size;
 }
+
+/* --- the protocol --------------------------------------------------------------------------------------- */
+
+static unsigned HashText(unsigned hash, const char *text)
+{
+  do hash = (hash ^ (unsigned char)*text) * 16777619U;
+  while (*text++);
+  return hash;
+}
+
+static unsigned HashField(unsigned hash, const Field *field)
+{
+  const int numbers[] = {(int)field->type, field->only};
+  hash = HashText(HashText(hash, field->name), field->unit);
+  for (int k = 0; k < 2; k++) hash = (hash ^ (unsigned)numbers[k]) * 16777619U;
+  for (int k = 0; k <= FIELD_RANK; k++) hash = (hash ^ (unsigned)field->shape[k]) * 16777619U;
+  return hash;
+}
+
+unsigned FieldsProtocol(void)
+{
+#define KIND_TEXT(name) #name " "
+  static const char KINDS[] = MESSAGE_KINDS(KIND_TEXT);
+  static const FieldGroup *const GROUPS[] = {
+      &FIELDS_NODES,    &FIELDS_MOTION, &FIELDS_FACETS,     &FIELDS_SIMPLICES, &FIELDS_FORCE,  &FIELDS_BOXES,
+      &FIELDS_ELEMENTS, &FIELDS_DOMAIN, &FIELDS_CORRECTION, &FIELDS_COUPLING,  &FIELDS_GAUGES, &FIELDS_FLOW};
+  unsigned hash = HashText(2166136261U ^ (unsigned)sizeof(MessageHeader), KINDS);
+  for (int g = 0; g < NUMBER_OF(GROUPS); g++)
+    for (int k = 0; k < GROUPS[g]->nfields; k++) hash = HashField(hash, &GROUPS[g]->field[k]);
+  return hash;
+}

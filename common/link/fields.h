@@ -67,6 +67,10 @@ void FieldsExtents(int dim, int extent[NEXTENTS]);
 /* Number of values of one entity. */
 int FieldSize(const Field *field, const int extent[NEXTENTS]);
 
+/* A number that differs, as good as always, where kinds of messages, groups or their fields differ: programs of one protocol alone
+ * can run together. */
+unsigned FieldsProtocol(void);
+
 /* Checks the group's n entities and adds them to the message.  data: the structure of arrays, or the array of
  * n structures.  Ends the job naming field, entity and component of a value that cannot be. */
 void FieldsPack(Participant *p, Message *m, const FieldGroup *group, size_t n, const void *data);

@@ -87,8 +87,12 @@ static bool CheckSame(int n, const HandshakeEntry entry[], char message[])
   char a[160], b[160];
   int odd, most;
   if (!AllSame(n, entry, SameVersion, &odd, &most)) {
-    snprintf(message, HANDSHAKE_MESSAGE, "different versions: %s has %s, %s has %s", Who(entry, odd, a),
-             entry[odd].version, Who(entry, most, b), entry[most].version);
+    snprintf(
+        message, HANDSHAKE_MESSAGE,
+        "different versions: %s has %s, %s has %s: build the older one again with the other's client library "
+        "(%s, %s)",
+        Who(entry, odd, a), entry[odd].version, Who(entry, most, b), entry[most].version, entry[odd].program,
+        entry[most].program);
     return false;
   }
   if (!AllSame(n, entry, SameFile, &odd, &most)) {

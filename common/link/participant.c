@@ -1,6 +1,7 @@
 #include "common/link/participant.h"
 #include "common/link/affinity.h"
 #include "common/link/exit_guard.h"
+#include "common/link/fields.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -119,7 +120,7 @@ static void Describe(const char *role, bool client, int argc, char **argv, Hands
   CoracleCase c;
   memset(e, 0, sizeof *e);
   snprintf(e->role, sizeof e->role, "%s", role);
-  snprintf(e->version, sizeof e->version, "%s", CORACLE_VERSION);
+  snprintf(e->version, sizeof e->version, "%s, protocol %08x", CORACLE_VERSION, FieldsProtocol());
   gethostname(e->host, sizeof e->host - 1);
   if (readlink("/proc/self/exe", e->program, sizeof e->program - 1) < 0)
     snprintf(e->program, sizeof e->program, "%s", argc > 0 ? argv[0] : "?");

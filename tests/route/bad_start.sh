@@ -27,6 +27,11 @@ case $scenario in
   different_files)
     { cat "$good"; echo '# another'; } >"$scratch/other.yaml"
     solid=("$bin/fake_solid" "$scratch/other.yaml") expect='different case files: solid rank 0 .*other.yaml' ;;
+  other_protocol) # what an adapter has that was built before a field was added
+    LC_ALL=C sed 's/%s, protocol %08x/%s, protocol 1234/' "$bin/fake_solid" >"$scratch/solid"
+    chmod +x "$scratch/solid"
+    solid=("$scratch/solid" "$good")
+    expect='different versions: solid rank 0 .* has .*protocol 1234, .* build the older one again with the other.s client library' ;;
   different_sets) solid+=(--set time.end=1); expect='different settings: the --set arguments of solid rank 0' ;;
   wrong_role) extra=(TEST_SOLID_ROLE=solids) expect="'solids' is no role" ;;
   coupler_as_client) extra=(TEST_SOLID_ROLE=coupler) expect='CoracleOpen joins a fluid or a solid' ;;
