@@ -36,12 +36,8 @@ PetscErrorCode ExchangeRequestElements(Server server, const Region region, Fluid
 
 PetscErrorCode ExchangeSelectFields(Server server, const CouplerOptions *options, const SolidState *solid)
 {
-  int yields = 0; /* some node does, to uplift */
-
   PetscFunctionBeginUser;
-  for (int i = 0; i < solid->nnodes && !yields; i++) yields = solid->mobility[i] > 0.0;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &yields, 1, MPI_INT, MPI_LOR, PETSC_COMM_WORLD));
-  if (CouplerModeGet(options->mode)->needs_pressure || (options->uplift && yields) || solid->pressure_load)
+  if (CouplerModeGet(options->mode)->needs_pressure || options->uplift || solid->pressure_load)
     PetscCall(ServerNeedPressure(server));
   PetscFunctionReturn(0);
 }

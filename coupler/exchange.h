@@ -17,7 +17,7 @@
 PetscErrorCode ExchangeReceiveSolid(Server server, const CouplerModeTable *mode, SolidState *solid);
 /* Requests the fluid's elements in the region (set by RegionUpdate). */
 PetscErrorCode ExchangeRequestElements(Server server, const Region region, FluidElements *elements);
-/* Before the first request of elements: the fluid sends its pressure only if the mode needs it, the solid may touch something (uplift.h) or
- * has asked for the pressure's load. */
+/* Before the first request of elements: the fluid sends its pressure only if the mode needs it, the solid may touch something, now or once it is
+ * released (uplift.h), or it has asked for the pressure's load. */
 PetscErrorCode ExchangeSelectFields(Server server, const CouplerOptions *options, const SolidState *solid);
 #endif
