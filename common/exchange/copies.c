@@ -10,7 +10,7 @@ PetscErrorCode CopiesDestroy(Copies *copies)
   PetscCall(PetscFree(c->item));
   PetscCall(PetscFree(c->item_group));
   PetscCall(PetscFree(c->group));
-  PetscCall(PetscFree(c->owner));
+  PetscCall(PetscFree2(c->owner, c->is_first));
   PetscCall(PetscFree(c->arrived));
   PetscCall(PetscFree(c->result));
   PetscCall(PetscFree(c->begun));
@@ -21,6 +21,11 @@ PetscErrorCode CopiesDestroy(Copies *copies)
 int CopiesOwner(Copies c, int item)
 {
   return c->owner[item];
+}
+
+PetscBool CopiesIsFirst(Copies c, int item)
+{
+  return c->is_first[item] ? PETSC_TRUE : PETSC_FALSE;
 }
 
 static PetscErrorCode Reserve(size_t bytes, size_t *capacity, char **buffer)

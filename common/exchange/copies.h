@@ -33,6 +33,8 @@ PetscErrorCode CopiesDestroy(Copies *copies);
 
 /* Not collective: the lowest rank that has a copy of item i. */
 int CopiesOwner(Copies copies, int item);
+/* Not collective: whether item i is the first one of its owner's copies; of one thing a single copy is, whether or not a rank has several. */
+PetscBool CopiesIsFirst(Copies copies, int item);
 
 /* Collective over ranks that hold copies of the same thing.  value[n][ncomp] becomes the sum, or the least,
  * over all copies.  Items of a single copy stay as they are. */

@@ -138,7 +138,7 @@ static PetscErrorCode Allocate(int n, Copies *copies)
   PetscFunctionBeginUser;
   PetscCall(PetscNew(copies));
   (*copies)->n = n;
-  PetscCall(PetscMalloc1(n, &(*copies)->owner));
+  PetscCall(PetscMalloc2(n, &(*copies)->owner, n, &(*copies)->is_first));
   PetscFunctionReturn(0);
 }
 
@@ -160,6 +160,21 @@ static PetscErrorCode MakeGroups(Copies c, const long long thing[])
   for (int k = 0; k < narriving; k++) c->group[k] = Find(c->ngroups, sorted, there[k]);
   PetscCall(PetscMalloc1(c->ngroups, &c->begun));
   PetscCall(PetscFree2(sorted, there));
+  PetscFunctionReturn(0);
+}
+
+/* After the owners; shared items rise, and a group's first one here is the first that is met. */
+static PetscErrorCode MarkFirst(Copies c, int me)
+{
+  char *met;
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(c->ngroups, &met));
+  for (int i = 0; i < c->n; i++) c->is_first[i] = c->owner[i] == me;
+  for (int k = 0; k < c->nshared; k++) {
+    if (met[c->item_group[k]]) c->is_first[c->item[k]] = 0;
+    met[c->item_group[k]] = 1;
+  }
+  PetscCall(PetscFree(met));
   PetscFunctionReturn(0);
 }
 
@@ -189,6 +204,7 @@ PetscErrorCode CopiesCreate(MPI_Comm comm, int n, const CopiesKey key[], Copies 
   }
   PetscCall(ScatterCreate(comm, nholders, rank, item, &c->scatter));
   PetscCall(MakeGroups(c, thing));
+  PetscCall(MarkFirst(c, me));
   PetscCall(PetscFree3(thing, rank, item));
   PetscCall(PetscFree(holder));
   PetscFunctionReturn(0);
@@ -251,6 +267,7 @@ PetscErrorCode CopiesCreateMatched(MPI_Comm comm, int nitems, int n, const int r
   PetscCall(PetscMalloc1(n, &c->item));
   PetscCall(PetscMalloc1(n, &c->item_group));
   ListShared(c, me, n, rank, item, group);
+  PetscCall(MarkFirst(c, me));
   Interleave(c, me, n, rank, item, to, row);
   PetscCall(ScatterCreateMatched(comm, n + c->nshared, to, row, n + c->nshared, to, &c->scatter));
   PetscCall(PetscMalloc1(n + c->nshared, &c->group));

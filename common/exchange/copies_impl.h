@@ -11,6 +11,7 @@ struct Copies_s {
   int *item_group; /* [nshared] */
   int *group;      /* [arriving] of what arrives */
   int *owner;      /* [n] lowest rank with a copy */
+  char *is_first;  /* [n] of the copies there */
   char *arrived, *result;
   size_t arrived_capacity, result_capacity;
   char *begun; /* [ngroups] */

@@ -221,14 +221,11 @@ static PetscErrorCode Iterate(Harmonic h, Copies nodes, Fields value[])
 PetscErrorCode HarmonicSolve(Harmonic h, Copies nodes, const double x[], const char is_given[],
                              Fields value[])
 {
-  PetscMPIInt rank;
-
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(h->comm, &rank));
   PetscCall(SetStiffness(h, nodes, x));
   for (int i = 0; i < h->nnodes; i++) {
     h->is_free[i] = !is_given[i] && h->diagonal[i] > 0.0;
-    h->counts[i] = CopiesOwner(nodes, i) == rank;
+    h->counts[i] = CopiesIsFirst(nodes, i);
     for (int c = 0; c < N && !is_given[i]; c++) value[i][c] = 0.0;
   }
   if (!h->matrix || memcmp(h->is_free, h->was_free, (size_t)h->nnodes)) PetscCall(Factor(h));

@@ -127,7 +127,6 @@ PetscErrorCode HistoryLoad(History *h, const SolidState *solid, Checkpoint from)
   long long total;
   Row *row;
   Copies copies;
-  int rank;
 
   PetscFunctionBeginUser;
   PetscCall(Resize(h, solid));
@@ -137,7 +136,6 @@ PetscErrorCode HistoryLoad(History *h, const SolidState *solid, Checkpoint from)
   PetscCall(PetscMalloc1((size_t)total, &row));
   PetscCall(LoadRows(from, (int)total, row));
   PetscCall(CopiesCreateByNumber(h->comm, h->n, h->gid, &copies));
-  PetscCallMPI(MPI_Comm_rank(h->comm, &rank));
   for (int i = 0; i < h->n; i++) {
     const Row key = {.gid = h->gid[i]}, *end = row + total,
               *found = total ? bsearch(&key, row, (size_t)total, sizeof *row, CompareRows) : NULL;
@@ -147,7 +145,7 @@ PetscErrorCode HistoryLoad(History *h, const SolidState *solid, Checkpoint from)
       h->earlier[i][c] = found->value[EARLIER + c];
       h->lasting[i][c] = found->value[LASTING + c];
       h->outside[i][c] = found->value[OUTSIDE + c];
-      for (const Row *r = found; CopiesOwner(copies, i) == rank && r < end && r->gid == key.gid; r++)
+      for (const Row *r = found; CopiesIsFirst(copies, i) && r < end && r->gid == key.gid; r++)
         h->retained[i][c] += r->value[RETAINED + c];
     }
   }

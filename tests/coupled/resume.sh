@@ -51,6 +51,9 @@ must longer 1:1:1 --set time.end=0.05 "${probes[@]}"
 must longer 1:1:1 --set time.end=0.1 --set resume=last "${probes[@]}"
 cp -r "$scratch/longer" "$scratch/longer-kept"
 must whole 1:1:1 --set time.end=0.1 "${probes[@]}"
+# ... on more ranks of the solid than of the coupler, which then has nodes twice
+must longer-spread 1:1:1 --set time.end=0.05 "${probes[@]}"
+must longer-spread 1:1:3 --set time.end=0.1 --set resume=last "${probes[@]}"
 
 # fails LABEL MESSAGE [launch.sh arguments]: LABEL ends with an error.
 fails() {
@@ -99,6 +102,7 @@ compare("other", "other-again", {"coupler": ["t [s]", "u_y [m/s]"]}, 1e-9)
 compare("strong", "strong-again", {"coupler": ["t [s]", "u_y [m/s]"]}, 1e-3)  # quasi-Newton columns are not saved
 compare("wet", "wet-again", {"coupler": ["t [s]", "u_y [m/s]", "F_y [N]"], "fluid": ["t [s]", "kinetic energy [J/m]"], "solid": ["t [s]", "omega0 [rad/s]"]}, 1e-6)
 compare("whole", "longer-kept", {"solid_probes": ["t [s]", "middle_y [m]", "middle_v [m/s]"]}, 1e-9)
+compare("whole", "longer-spread", {"solid_probes": ["t [s]", "middle_y [m]", "middle_v [m/s]"]}, 1e-7)
 times = [float(r["t [s]"]) for r in rows("other-folder", "coupler")]
 assert abs(times[0] - 0.11) < 1e-9 and abs(times[-1] - 0.15) < 1e-9, "in another folder: %s" % times
 assert abs(float(rows("whole", "coupler")[-1]["u_y [m/s]"]) + 0.2419) < 0.01

@@ -186,18 +186,19 @@ static void CheckCopies(void)
         "not reduced");
   for (int k = 0; k < COPIES; k++) {
     double expected = 0.0, smallest = INFINITY;
-    int count = 0, owner = -1;
+    int count = 0, owner = -1, first = -1;
     for (int r = 0; r < size; r++) {
       for (int j = 0; j < COPIES; j++) {
         if (Thing(r, j) != Thing(rank, k)) continue;
         expected += 1.0 / Value(r, j);
         smallest = fmin(smallest, 1.0 / Value(r, j));
         count++;
-        if (owner < 0) owner = r;
+        if (owner < 0) owner = r, first = j;
       }
     }
     CHECK(sum[k][0] == expected && sum[k][1] == count, "copy %d: %.17g, not %.17g", k, sum[k][0], expected);
     CHECK(folded[k] == expected && least[k] == smallest && CopiesOwner(c, k) == owner, "copy %d is wrong", k);
+    CHECK(CopiesIsFirst(c, k) == (owner == rank && first == k), "copy %d is first, or not", k);
   }
   CHECK(!CopiesDestroy(&c) && !c, "not destroyed");
 }
@@ -225,6 +226,7 @@ static void CheckMatched(void)
   CHECK(value[2] == (rank < size - 1 ? 2.0 * (2.0 + rank) : 2.0 + rank), "above: %g", value[2]);
   CHECK(size == 1 || value[1] == all, "all: %.17g, not %.17g", value[1], all);
   CHECK(value[3] == 7.0 && CopiesOwner(c, 3) == rank && CopiesOwner(c, 1) == 0, "alone");
+  CHECK(CopiesIsFirst(c, 3) && CopiesIsFirst(c, 1) == (rank == 0), "first");
   CHECK(!CopiesDestroy(&c), "not destroyed");
 }
 
