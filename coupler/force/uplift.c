@@ -1,8 +1,5 @@
 #include "coupler/force/uplift.h"
-#include "coupler/force/surface_pressure.h"
-#include "coupler/geometry/close_points.h"
-
-#define TOLERANCE 1e-10
+#include "coupler/force/gap_head.h"
 
 struct Uplift_s {
   MPI_Comm comm;
@@ -25,7 +22,6 @@ typedef double Fields[NFIELDS];
 /* Of the step, at the solid's nodes. */
 typedef struct {
   char *is_free; /* [nnodes] on the surface, between places where the fields are known */
-  char *counts;  /* [nnodes] in sums on this rank */
   Fields *value; /* [nnodes] */
 } Gap;
 
@@ -95,10 +91,8 @@ static PetscErrorCode FindKnown(Uplift u, Overlap o, const Fields outside[], Gap
   const int n = u->solid.nnodes;
   double(*facets)[2]; /* of the node, on any rank: all; with close points */
   char *is_close;
-  PetscMPIInt rank;
 
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(u->comm, &rank));
   PetscCall(PetscCalloc2(n, &facets, u->solid.nfacets, &is_close));
   for (int k = 0; k < u->points.n; k++) is_close[u->points.point[k].facet] = 1;
   for (int k = 0; k < 2 * u->solid.nfacets; k++) {
@@ -108,114 +102,10 @@ static PetscErrorCode FindKnown(Uplift u, Overlap o, const Fields outside[], Gap
   PetscCall(CopiesSum(o->nodes, 2, (double *)facets));
   for (int i = 0; i < n; i++) {
     const PetscBool known = (PetscBool)(facets[i][1] < facets[i][0] && outside[i][REACHED] > 0.0);
-    gap->counts[i] = CopiesOwner(o->nodes, i) == rank;
     gap->is_free[i] = facets[i][0] > 0.0 && !known;
     for (int c = 0; c < NFIELDS; c++) gap->value[i][c] = known ? outside[i][c] : 0.0;
   }
   PetscCall(PetscFree2(facets, is_close));
-  PetscFunctionReturn(0);
-}
-
-/* --- harmonic between the nodes where the fields are known ------------------------------------------------ */
-
-/* image += the flow out of each node through the gaps, with as little resistance across as along a facet. */
-static PetscErrorCode ApplyAcross(Uplift u, const Fields v[], Fields image[])
-{
-  const ClosePoints *points = &u->points;
-  const int n = ScatterArriving(points->scatter);
-  Fields(*there)[2], (*flow)[2];
-
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(n, &there));
-  PetscCall(PetscCalloc1(n, &flow));
-  PetscCall(ClosePointsForward(points, &u->solid, NFIELDS, (const double *)v, (double *)there));
-  for (int k = 0; k < points->n; k++) {
-    const ClosePoint *p = &points->point[k];
-    const int *node = &u->solid.facet[2 * p->facet];
-    if (p->opposite == CLOSE_TO_WALL) continue;
-    for (int c = 0; c < NFIELDS; c++) {
-      double difference = 0.0;
-      for (int i = 0; i < 2; i++)
-        difference += p->n[i] * v[node[i]][c] - p->opposite_n[i] * there[p->opposite][i][c];
-      difference *= p->weight / (u->shell->length[p->facet] * u->shell->length[p->facet]);
-      for (int i = 0; i < 2; i++) {
-        image[node[i]][c] += p->n[i] * difference;
-        flow[p->opposite][i][c] -= p->opposite_n[i] * difference;
-      }
-    }
-  }
-  PetscCall(ClosePointsReverseAdd(points, &u->solid, NFIELDS, (const double *)flow, (double *)image));
-  PetscCall(PetscFree(there));
-  PetscCall(PetscFree(flow));
-  PetscFunctionReturn(0);
-}
-
-/* image = sum over the facets of (v_a - v_b)/length, and through the gaps, at free nodes, of all ranks. */
-static PetscErrorCode Apply(Uplift u, Overlap o, const Gap *gap, const Fields v[], Fields image[])
-{
-  PetscFunctionBeginUser;
-  PetscCall(PetscArrayzero(image, u->solid.nnodes));
-  for (int f = 0; f < u->solid.nfacets; f++) {
-    const int p = u->solid.facet[2 * f], q = u->solid.facet[2 * f + 1];
-    if (u->shell->length[f] == 0.0) continue;
-    for (int c = 0; c < NFIELDS; c++) {
-      const double flux = (v[p][c] - v[q][c]) / u->shell->length[f];
-      image[p][c] += flux;
-      image[q][c] -= flux;
-    }
-  }
-  PetscCall(ApplyAcross(u, v, image));
-  PetscCall(CopiesSum(o->nodes, NFIELDS, (double *)image));
-  for (int i = 0; i < u->solid.nnodes; i++)
-    for (int c = 0; c < NFIELDS && !gap->is_free[i]; c++) image[i][c] = 0.0;
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode Dot(const Uplift u, const Gap *gap, const Fields v[], const Fields w[], double sum[])
-{
-  PetscFunctionBeginUser;
-  for (int c = 0; c < NFIELDS; c++) sum[c] = 0.0;
-  for (int i = 0; i < u->solid.nnodes; i++)
-    for (int c = 0; c < NFIELDS && gap->counts[i]; c++) sum[c] += v[i][c] * w[i][c];
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, NFIELDS, MPI_DOUBLE, MPI_SUM, u->comm));
-  PetscFunctionReturn(0);
-}
-
-/* Conjugate gradients: at most as many iterations as there are nodes to be found. */
-static PetscErrorCode Interpolate(Uplift u, Overlap o, Gap *gap)
-{
-  const int n = u->solid.nnodes;
-  Fields *r, *d, *image;
-  double rr[NFIELDS], next[NFIELDS], first[NFIELDS], dd[NFIELDS];
-  int max_iterations = 1;
-
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc3(n, &r, n, &d, n, &image));
-  for (int i = 0; i < n; i++) max_iterations += gap->is_free[i] && gap->counts[i];
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &max_iterations, 1, MPI_INT, MPI_SUM, u->comm));
-  PetscCall(Apply(u, o, gap, (const Fields *)gap->value, r));
-  for (int i = 0; i < n; i++)
-    for (int c = 0; c < NFIELDS; c++) d[i][c] = r[i][c] = -r[i][c];
-  PetscCall(Dot(u, gap, (const Fields *)r, (const Fields *)r, first));
-  PetscCall(PetscArraycpy(rr, first, NFIELDS));
-  for (int k = 0; k < max_iterations; k++) {
-    PetscBool more = PETSC_FALSE;
-    for (int c = 0; c < NFIELDS; c++) more |= rr[c] > TOLERANCE * TOLERANCE * first[c];
-    if (!more) break;
-    PetscCall(Apply(u, o, gap, (const Fields *)d, image));
-    PetscCall(Dot(u, gap, (const Fields *)d, (const Fields *)image, dd));
-    for (int i = 0; i < n; i++)
-      for (int c = 0; c < NFIELDS && gap->is_free[i]; c++) {
-        const double step = dd[c] > 0.0 ? rr[c] / dd[c] : 0.0;
-        gap->value[i][c] += step * d[i][c];
-        r[i][c] -= step * image[i][c];
-      }
-    PetscCall(Dot(u, gap, (const Fields *)r, (const Fields *)r, next));
-    for (int i = 0; i < n; i++)
-      for (int c = 0; c < NFIELDS; c++) d[i][c] = r[i][c] + (rr[c] > 0.0 ? next[c] / rr[c] : 0.0) * d[i][c];
-    PetscCall(PetscArraycpy(rr, next, NFIELDS));
-  }
-  PetscCall(PetscFree3(r, d, image));
   PetscFunctionReturn(0);
 }
 
@@ -269,16 +159,16 @@ PetscErrorCode UpliftAdd(Uplift u, Overlap o, const ElementTerm element[], const
   total[0] = total[1] = 0.0;
   if (!u->any) PetscFunctionReturn(0);
   PetscCall(PetscMalloc4(n, &excess, n, &size, n, &area, n, &outside));
-  PetscCall(PetscMalloc3(n, &gap.is_free, n, &gap.counts, n, &gap.value));
+  PetscCall(PetscMalloc2(n, &gap.is_free, n, &gap.value));
   PetscCall(SurfacePressureInside(o, p, (int)n, excess, size, area));
   PetscCall(SurfacePressureHead(o, element, u->gravity, p, (int)n, outside));
   KeepClose(u, size);
   PetscCall(FindKnown(u, o, (const Fields *)outside, &gap));
-  PetscCall(Interpolate(u, o, &gap));
+  PetscCall(GapHeadSolve(&u->points, &u->solid, u->shell, o->nodes, gap.is_free, gap.value));
   for (int i = 0; i < (int)n; i++) excess[i] = Excess(u, &gap, i, excess[i], area[i], dt);
   PetscCall(AddForce(u, excess, force, total));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, total, 2, MPI_DOUBLE, MPI_SUM, u->comm));
-  PetscCall(PetscFree3(gap.is_free, gap.counts, gap.value));
+  PetscCall(PetscFree2(gap.is_free, gap.value));
   PetscCall(PetscFree4(excess, size, area, outside));
   PetscFunctionReturn(0);
 }
