@@ -55,7 +55,8 @@ PetscErrorCode SolidFreeSubdomain(Solid s)
   PetscCall(PetscFree(s->fixed));
   PetscCall(PetscFree7(s->rest, s->x, s->v, s->force, s->load, s->saved.x, s->saved.v));
   PetscCall(PetscFree5(s->start, s->interface_velocity, s->mobility, s->acceleration, s->piece));
-  PetscCall(PetscFree6(s->element, s->facet, s->facet_element, s->facet_side, s->base, s->body));
+  PetscCall(
+      PetscFree7(s->element, s->facet, s->facet_element, s->facet_side, s->facet_across, s->base, s->body));
   PetscCall(PetscFree(s->is_prescribed));
   PetscCall(PetscFree(s->reaction));
   PetscCall(PetscFree(s->material));

@@ -79,9 +79,11 @@ struct Solid_s {
   int nfixed, *fixed;          /* [nfixed] nodes with inverse mass 0 */
   int *corner_start, *corner;  /* [nnodes + 1], [3 ne]: where a node's forces lie in elements.force */
   Elements elements;
-  int *element;               /* [ne][3] */
-  int *facet, *facet_element; /* [nfacets][2], [nfacets] */
-  int *facet_side;            /* [nfacets] from that corner of the element to the next */
+  int *element; /* [ne][3] */
+  int nfaces;   /* the surface's nfacets, and after them the faces of active joints: what contact sees */
+  int *facet, *facet_element; /* [nfaces][2], [nfaces] */
+  int *facet_side;            /* [nfaces] from that corner of the element to the next */
+  int *facet_across; /* [nfaces] the element, in the model, that an active joint holds there; -1: none */
   SharedNodes shared;
   Copies copies; /* of the nodes: what acts on one is the sum of what its ranks' elements do */
   Contact contact;
@@ -170,9 +172,8 @@ PetscErrorCode SolidKeepSubdomain(Solid s);
 PetscErrorCode JointsCreate(Solid s, const Model *a, const InteriorEdges *edges, int nghosts,
                             const GhostElement ghost[], const int part[], const int local[], Joints *joints);
 PetscErrorCode JointsDestroy(Joints *j);
-/* How this rank's joints suit the mesh: the least E G_I/F_t^2 and the greatest opening at which one breaks, each over the length of its
- * edge.  Not collective; returns their number. */
-int JointsResolution(Joints j, Solid s, double *zone, double *opening);
+/* How this rank's joints suit the mesh: the least E G_I/F_t^2 over the length of its edge.  Not collective; returns their number. */
+int JointsResolution(Joints j, Solid s, double *zone);
 /* joints.c: adds to force and remembers damage. */
 void JointsAddForces(Joints j, Solid s);
 /* Collective: edges loaded to their strength activate, broken ones become surface; *changed: nodes,

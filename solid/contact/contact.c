@@ -75,7 +75,7 @@ static PetscErrorCode MeasureMass(Contact c, Solid s)
 /* height, compliance and the shortest buffer, over all ranks. */
 static PetscErrorCode Measure(Contact c, Solid s)
 {
-  double sum[2] = {0.0, s->nfacets}, *half;
+  double sum[2] = {0.0, s->nfaces}, *half;
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1(2 * (size_t)s->nnodes, &half));
   for (int b = 0; b < s->nbodies; b++) {
@@ -86,7 +86,7 @@ static PetscErrorCode Measure(Contact c, Solid s)
     const int b = c->target[k].body;
     c->height[b] = fmin(c->height[b], TargetHeight(&c->target[k]));
   }
-  for (int k = 0; k < s->nfacets; k++) {
+  for (int k = 0; k < s->nfaces; k++) {
     const double length = FacetLength(s, k);
     sum[0] += length;
     for (int i = 0; i < 2; i++) half[2 * s->facet[2 * k + i]] += 0.5 * length;
@@ -108,7 +108,9 @@ static PetscBool AnyRough(const Solid s)
 {
   PetscBool rough = PETSC_FALSE;
   for (int m = 0; m < s->nmaterials; m++)
-    if (s->material[m].friction > 0.0 || s->material[m].contact_damping > 0.0) rough = PETSC_TRUE;
+    if (s->material[m].friction > 0.0 || s->material[m].internal_friction > 0.0 ||
+        s->material[m].contact_damping > 0.0)
+      rough = PETSC_TRUE;
   for (int k = 0; k < s->setup.nrules; k++)
     if (s->setup.rule[k].friction > 0.0 || s->setup.rule[k].damping > 0.0) rough = PETSC_TRUE;
   return rough;
@@ -133,7 +135,7 @@ PetscErrorCode ContactRenew(Contact c, Solid s)
   PetscFunctionBeginUser;
   PetscCall(ContactForgetPairs(c));
   PetscCall(PetscRealloc(2 * (size_t)s->nnodes * sizeof *c->searched, &c->searched));
-  PetscCall(PetscRealloc((size_t)s->nfacets * sizeof *c->first_pair, &c->first_pair));
+  PetscCall(PetscRealloc((size_t)s->nfaces * sizeof *c->first_pair, &c->first_pair));
   PetscCall(FindTargets(c, s));
   PetscCall(Measure(c, s));
   PetscCall(MeasureMass(c, s));

@@ -5,7 +5,7 @@
 #include "solid/contact/contact_kernel.h"
 #include "solid/solid_impl.h"
 
-enum { WALL_LEFT = -4, WALL_RIGHT, WALL_BOTTOM, WALL_TOP, NOTHING = -5 };
+enum { WALL_LEFT = -4, WALL_RIGHT, WALL_BOTTOM, WALL_TOP, JOINED = -5 };
 
 /* An edge that may touch a target before the next search. */
 typedef struct {
@@ -62,7 +62,7 @@ struct Contact_s {
   Pair *pair;
   ActivePair *active;
   int nnear, *near; /* [candidate_capacity] candidates that may touch before the next check of motion */
-  int *first_pair;  /* [nfacets] -1: none */
+  int *first_pair;  /* [nfaces] -1: none */
   Slips history, saved;
   PetscBool restored; /* history, not the pairs, holds the slips */
   PetscBool rough;    /* any friction or damping: velocities are needed */

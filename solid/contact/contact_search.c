@@ -41,6 +41,12 @@ static double Distance(Point p, Point q, const Point t[3])
   return sqrt(least);
 }
 
+/* An active joint holds them together. */
+static PetscBool Joined(const Solid s, int facet, const Target *t)
+{
+  return (PetscBool)(s->facet_across[facet] == t->number);
+}
+
 /* Farther than the buffer they cannot touch before the next search.  Of one body: a pair that shares a node
  * never touches by itself, neighbours at rest only once they have come closer, and a buffer that is long
  * because the body as a whole is fast is not needed. */
@@ -48,7 +54,7 @@ static PetscBool MayBeActive(const Contact c, const Solid s, int facet, const Ta
 {
   const int *edge = s->facet + 2 * facet, body = s->elements.body[s->facet_element[facet]];
   Point now[3], rest[3];
-  if (t->body == body)
+  if (t->body == body && !Joined(s, facet, t))
     for (int i = 0; i < 6; i++)
       if (t->gid[i % 3] == s->gid[edge[i / 3]]) return PETSC_FALSE;
   for (int i = 0; i < 3; i++) {
@@ -104,11 +110,13 @@ static PetscErrorCode AddCandidate(void *context, int facet, int target)
   }
   const double penalty = fmin(own->penalty, other->penalty) * fmin(own->thickness, other->thickness);
   const double compliance = fmax(c->compliance[body], c->compliance[t->body]);
+  const PetscBool joined = Joined(s, facet, t);
   ContactMaterials(s, s->elements.material[element], t->material, &friction, &damping);
+  if (joined) friction = fmin(own->internal_friction, other->internal_friction);
   const ContactLaw law = LawOf(s, facet, friction, damping, penalty, c->height[t->body],
                                Together(c->mass[body], c->mass[t->body]),
                                Together(c->areal_mass[body], c->areal_mass[t->body]), &viscous);
-  PetscCall(ContactPairOf(c, s, facet, t->body, law, &pair));
+  PetscCall(ContactPairOf(c, s, facet, joined ? JOINED : t->body, law, &pair));
   c->candidate[c->ncandidates++] = (Candidate){facet, target, pair, penalty * t->twice_area, distance};
   if (target >= c->ntargets) x->keep[target - c->ntargets] = 1;
   /* d(p phi)/dx = 3 p/height; a node takes half of its edges, |u_c - u_t|^2 <= 2 |u_c|^2 + 2 |u_t|^2, and
@@ -144,7 +152,7 @@ static PetscErrorCode FindWalls(Contact c, Solid s, const GeometryBox edge[])
 {
   const double *lower = s->setup.lower, *upper = s->setup.upper;
   PetscFunctionBeginUser;
-  for (int k = 0; k < s->nfacets; k++) {
+  for (int k = 0; k < s->nfaces; k++) {
     const int element = s->facet_element[k], body = s->elements.body[element], before = c->nwalls;
     const Material *m = &s->material[s->elements.material[element]];
     for (int axis = 0; axis < 2; axis++) {
@@ -166,7 +174,7 @@ static PetscErrorCode BringTargets(Contact c, Solid s, const GeometryBox edge[])
   PetscFunctionBeginUser;
   c->nall = c->ntargets;
   if (!c->halo) PetscFunctionReturn(0);
-  for (int k = 0; k < s->nfacets; k++) {
+  for (int k = 0; k < s->nfaces; k++) {
     GeometryBoxGrow(&all, edge[k].lower);
     GeometryBoxGrow(&all, edge[k].upper);
   }
@@ -212,7 +220,7 @@ static PetscErrorCode FindPairs(Contact c, Solid s, const GeometryBox edge[])
     box[k] = GeometryBoxEmpty();
     for (int i = 0; i < 3; i++) GeometryBoxGrow(&box[k], ContactPosition(c, s, c->target[k].node[i]));
   }
-  PetscCall(CellGridPairs(s->nfacets, edge, c->nall, box, AddCandidate, &context));
+  PetscCall(CellGridPairs(s->nfaces, edge, c->nall, box, AddCandidate, &context));
   PetscCall(DropTargets(c, context.keep));
   PetscCall(PetscFree(context.keep));
   PetscCall(PetscFree(box));
@@ -232,11 +240,11 @@ PetscErrorCode ContactSearch(Contact c, Solid s, double min_buffer)
   PetscFunctionBeginUser;
   PetscCall(ContactForgetPairs(c));
   c->restored = PETSC_FALSE;
-  for (int k = 0; k < s->nfacets; k++) c->first_pair[k] = -1;
+  for (int k = 0; k < s->nfaces; k++) c->first_pair[k] = -1;
   c->buffer = fmax(c->shortest_buffer, min_buffer);
   for (int k = 0; k < 4; k++) c->rate[k] = 0.0;
-  PetscCall(PetscMalloc1((size_t)s->nfacets, &edge));
-  for (int k = 0; k < s->nfacets; k++) {
+  PetscCall(PetscMalloc1((size_t)s->nfaces, &edge));
+  for (int k = 0; k < s->nfaces; k++) {
     edge[k] = GeometryBoxEmpty();
     for (int i = 0; i < 2; i++) GeometryBoxGrow(&edge[k], s->x + 2 * s->facet[2 * k + i]);
     for (int axis = 0; axis < 2; axis++) {

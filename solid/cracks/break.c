@@ -18,21 +18,25 @@ int JointsFind(Joints j, int number)
 
 /* --- surface ------------------------------------------------------------------------------------------ */
 
-static void PlaceFacets(Solid s, int first)
-{
-  for (int k = first; k < s->nfacets; k++)
-    for (int i = 0; i < 2; i++)
-      s->facet[2 * k + i] = s->element[3 * s->facet_element[k] + (s->facet_side[k] + i) % 3];
-}
-
-/* This rank's sides of a broken edge. */
-static void AddFacets(Solid s, const Joint *joint)
+/* This rank's sides of an edge that is broken, or that its joint holds, behind the n facets before. */
+static void AddFacets(Solid s, const Joint *joint, PetscBool held, int *n)
 {
   for (int i = 0; i < 2; i++) {
     if (joint->place[i] < 0 || joint->place[i] >= s->elements.n) continue;
-    s->facet_element[s->nfacets] = joint->place[i];
-    s->facet_side[s->nfacets++] = joint->side[i];
+    s->facet_element[*n] = joint->place[i];
+    s->facet_across[*n] = !held ? -1 : i ? joint->first : joint->second;
+    s->facet_side[(*n)++] = joint->side[i];
   }
+}
+
+/* Joints are listed. */
+static void PlaceFacets(Joints j, Solid s)
+{
+  s->nfaces = s->nfacets;
+  for (int k = 0; k < j->nactive; k++) AddFacets(s, &j->joint[j->active[k]], PETSC_TRUE, &s->nfaces);
+  for (int k = 0; k < s->nfaces; k++)
+    for (int i = 0; i < 2; i++)
+      s->facet[2 * k + i] = s->element[3 * s->facet_element[k] + (s->facet_side[k] + i) % 3];
 }
 
 static PetscErrorCode MarkSurface(Solid s)
@@ -40,7 +44,7 @@ static PetscErrorCode MarkSurface(Solid s)
   double *on;
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1((size_t)s->nnodes, &on));
-  for (int k = 0; k < 2 * s->nfacets; k++) on[s->facet[k]] = 1.0;
+  for (int k = 0; k < 2 * s->nfaces; k++) on[s->facet[k]] = 1.0;
   PetscCall(CopiesSum(s->copies, 1, on));
   for (int n = 0; n < s->nnodes; n++) s->surface[n] = on[n] > 0.0;
   PetscCall(PetscFree(on));
@@ -113,7 +117,7 @@ static void ApplyEvent(Joints j, Solid s, int revision, int event)
     for (int end = 0; end < 2; end++) MarkStar(j, j->joint[k].star[end]);
   } else {
     j->memory[k].stage = JOINT_BROKEN;
-    AddFacets(s, &j->joint[k]);
+    AddFacets(s, &j->joint[k], PETSC_FALSE, &s->nfacets);
   }
 }
 
@@ -150,9 +154,9 @@ PetscErrorCode JointsApply(Joints j, Solid s, int n, const int event[])
   s->revision++;
   for (int k = 0; k < n; k++) ApplyEvent(j, s, s->revision, event[k]);
   PetscCall(SplitMarked(j, s));
-  PlaceFacets(s, 0);
   SolidListCorners(s);
   JointsList(j, s);
+  PlaceFacets(j, s);
   JointsBeginEnds(j, s);
   JointsFindCrackTips(j, s, PETSC_FALSE);
   JointsList(j, s);
@@ -202,10 +206,10 @@ PetscErrorCode JointsReplay(Joints j, Solid s)
     PetscCall(SplitMarked(j, s));
     ClearMarks(j);
   }
-  PlaceFacets(s, 0);
   SolidListCorners(s);
   JointsFindCrackTips(j, s, PETSC_TRUE);
   JointsList(j, s);
+  PlaceFacets(j, s);
   PetscCall(PetscFree(past));
   PetscFunctionReturn(0);
 }
@@ -236,10 +240,10 @@ static PetscErrorCode Restore(Joints j, Solid s)
   s->nfacets = k->nfacets;
   s->revision = k->revision;
   for (int star = 0; star < j->nstars; star++) JointsRestoreStar(j, s, star);
-  PlaceFacets(s, 0);
   SolidListCorners(s);
   JointsFindCrackTips(j, s, PETSC_TRUE);
   JointsList(j, s);
+  PlaceFacets(j, s);
   s->unsynchronised = PETSC_TRUE;
   PetscFunctionReturn(0);
 }

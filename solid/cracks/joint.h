@@ -10,9 +10,10 @@
  *     intact      (O/a)^2 + (S/b)^2 <= 1 at D = 0     sigma = k O, tau = k S
  *     softening   D = the least in 0 .. 1 with (O/a)^2 + (S/b)^2 <= 1, never less than before
  *                 sigma = z(D) F_t O/a,  tau = z(D) F_s S/b
- *     pressed     sigma = k (o + c (1 - D)) < 0       as contact presses, damaged or not
- *     friction    q += k ds, cut back to |q| <= f |sigma| where pressed; tau is the value above plus q, so
- *                 that an intact edge bears F_s + f |sigma| (Mohr and Coulomb)
+ *     pressed     sigma = k max(c', min(o + c', 0)), c' = c (1 - D) <= 0: the pressure of its activation, which contact
+ *                 between the two faces, k min(o, 0), takes over as they close
+ *     friction    q += k ds, cut back to |q| <= f |sigma| where pressed, as contact's is; tau is the value above plus q,
+ *                 so that an intact edge bears F_s + f |sigma| (Mohr and Coulomb)
  *
  * with z(D) of method.md 8 and A = int_0^1 z dD.  Strength and residual strength are ellipses: (sigma/F_t)^2
  * + (tau/F_s)^2 = z^2 while D grows; unloading goes straight to the origin.  (o0, s0) and c are chosen when
@@ -21,7 +22,8 @@
  * Energy.  With O = a cos q, S = b sin q the work while D grows is, per unit of edge,
  *     sigma do + tau ds = z/A (G_I cos^2 q + G_II sin^2 q) dD + z (F_s b - F_t a) sin q cos q dq
  * so that an end dissipates exactly G_I in tension, G_II in shear, G_I cos^2 q + G_II sin^2 q at a constant
- * mixture; for G_I = G_II it is G on every path up to (F_s^2 - F_t^2)/2k.
+ * mixture; for G_I = G_II it is G on every path up to (F_s^2 - F_t^2)/2k.  One that activates under a pressure P and
+ * breaks under it takes P^2/2k more, which is not counted.
  *
  * The last end.  Two pieces that turn about an end do not open it: on its half of the edge they would hang
  * for ever, and folded back to back (midline of length 0) have no joint's shape.  So from when the other end
@@ -95,7 +97,7 @@ static inline JointEnd JointBegin(const JointLaw *law, double normal, double she
                   .friction = friction};
   end.offset[0] = end.tension / law->stiffness;
   end.offset[1] = end.shear / law->stiffness;
-  end.offset[2] = normal / law->stiffness;
+  end.offset[2] = Lesser(normal, 0.0) / law->stiffness;
   return end;
 }
 
@@ -127,8 +129,8 @@ static inline JointTraction JointTension(const JointLaw *law, JointEnd *end, dou
   const double start[2] = {f[0] / k, f[1] / k};
   const double range[2] = {law->energy[0] / (JOINT_SOFTENING_AREA * f[0]),
                            law->energy[1] / (JOINT_SOFTENING_AREA * f[1])};
-  const double closing = end->offset[2] * (1.0 - end->damage);
-  const double o = Greater(opening + Lesser(closing, 0.0) + end->offset[0], 0.0), s = slip + end->offset[1];
+  const double preload = end->offset[2] * (1.0 - end->damage);
+  const double o = Greater(opening + preload + end->offset[0], 0.0), s = slip + end->offset[1];
   const double damage = JointDamage(end->damage, o, s, start, range);
   if (damage > end->damage) end->residual = damage < 1.0 ? JointSoftening(damage) : 0.0;
   end->damage = damage;
@@ -143,9 +145,11 @@ static inline JointTraction JointTension(const JointLaw *law, JointEnd *end, dou
   return (JointTraction){tension, shear};
 }
 
+/* What is left of the pressure with which an end activated. */
 static inline double JointPressure(const JointLaw *law, const JointEnd *end, double opening)
 {
-  return law->stiffness * Lesser(opening + end->offset[2] * (1.0 - end->damage), 0.0);
+  const double preload = end->offset[2] * (1.0 - end->damage);
+  return law->stiffness * Greater(preload, Lesser(opening + preload, 0.0));
 }
 
 /* Pressure and friction of an end at its own opening and slip; remembers the friction. */
@@ -209,7 +213,7 @@ static inline void JointTractions(const JointLaw *law, JointEnd end[2], const Jo
 }
 
 /* Adds end i's part to the rates normal[2] and shear[2], Pa/s, of the tractions on both ends when the ends open
- * and slip with these velocities, m/s: with the stiffness of unloading to the origin, or of pressed faces.
+ * and slip with these velocities, m/s: with the stiffness of unloading to the origin, or of pressed faces, contact's part of it included.
  * Linear and symmetric in (opening, slip). */
 static inline void JointAddStiffness(const JointLaw *law, const JointEnd end[2], const JointShape *shape,
                                      int i, const double opening[2], const double slip[2], double normal[2],
@@ -218,14 +222,15 @@ static inline void JointAddStiffness(const JointLaw *law, const JointEnd end[2],
   const JointEnd *k = &end[i];
   const double k0 = law->stiffness, own = 1.0 - k->other_weight,
                pressure = JointPressure(law, k, shape->opening[i]);
+  const int pressed = shape->opening[i] < 0.0 || pressure < 0.0;
   const double rate[2] = {own * opening[i] + k->other_weight * opening[1 - i],
                           own * slip[i] + k->other_weight * slip[1 - i]};
   double *growth[2] = {normal, shear};
-  if (pressure < 0.0) normal[i] += k0 * opening[i];
+  if (pressed) normal[i] += k0 * opening[i];
   if (fabs(k->friction) < -law->friction * pressure) shear[i] += k0 * slip[i];
   for (int mode = 0; mode < 2; mode++) {
     const double f = k->strong * law->strength[mode];
-    if (mode == 0 && pressure < 0.0) continue;
+    if (mode == 0 && pressed && k->tension == 0.0) continue;
     const double traction =
         k->residual * f / (f / k0 + k->damage * law->energy[mode] / (JOINT_SOFTENING_AREA * f)) * rate[mode];
     growth[mode][i] += own * traction;

@@ -242,11 +242,10 @@ PetscErrorCode JointsDestroy(Joints *j)
   PetscFunctionReturn(0);
 }
 
-int JointsResolution(Joints j, Solid s, double *zone, double *opening)
+int JointsResolution(Joints j, Solid s, double *zone)
 {
   int n = 0;
   *zone = HUGE_VAL;
-  *opening = 0.0;
   for (int k = 0; j && k < j->n; k++) {
     const Joint *joint = &j->joint[k];
     const JointLaw *law = &joint->law;
@@ -254,7 +253,6 @@ int JointsResolution(Joints j, Solid s, double *zone, double *opening)
     const Material *m = &s->material[s->elements.material[joint->place[0]]];
     const double of_edge = law->energy[0] / (law->strength[0] * joint->length);
     *zone = fmin(*zone, m->youngs_modulus * m->thickness / law->strength[0] * of_edge);
-    *opening = fmax(*opening, of_edge / JOINT_SOFTENING_AREA);
     n++;
   }
   return n;

@@ -23,6 +23,7 @@ static void NumberLocally(Solid s, const Model *a, int nghosts, const GhostEleme
       if (local[a->element[3 * ghost[k].element + i]] < 0)
         local[a->element[3 * ghost[k].element + i]] = s->nnodes++;
   for (int k = 0; k < a->nfacets; k++) s->nfacets += part[a->facet_element[k]] == s->rank;
+  s->nfaces = s->nfacets;
 }
 
 /* Room for a node of its own for each corner at a joint, and for both sides of every joint. */
@@ -57,8 +58,8 @@ static PetscErrorCode Allocate(Solid s)
                          nn + 1, &s->corner_start, 3 * ne, &s->corner));
   PetscCall(PetscCalloc7(2 * nn, &s->rest, 2 * nn, &s->x, 2 * nn, &s->v, 2 * nn, &s->force, 2 * nn, &s->load,
                          2 * nn, &s->saved.x, 2 * nn, &s->saved.v));
-  PetscCall(PetscMalloc6(3 * ne, &s->element, 2 * nf, &s->facet, nf, &s->facet_element, nf, &s->facet_side,
-                         nn, &s->base, (size_t)s->nbodies, &s->body));
+  PetscCall(PetscMalloc7(3 * ne, &s->element, 2 * nf, &s->facet, nf, &s->facet_element, nf, &s->facet_side,
+                         nf, &s->facet_across, nn, &s->base, (size_t)s->nbodies, &s->body));
   PetscCall(PetscCalloc1((size_t)s->nbodies, &s->reaction));
   PetscCall(PetscCalloc1(nn, &s->is_prescribed));
   PetscCall(PetscMalloc1(nn, &s->fixed));
@@ -227,6 +228,7 @@ static void TakeElements(Solid s, const Model *a, const int part[], const int lo
     const int *node = a->element + 3 * a->facet_element[from];
     for (int i = 0; i < 2; i++) s->facet[2 * k + i] = local[a->facet[2 * from + i]];
     s->facet_side[k] = a->facet[2 * from] == node[0] ? 0 : a->facet[2 * from] == node[1] ? 1 : 2;
+    s->facet_across[k] = -1;
     s->facet_element[k++] = renumber[a->facet_element[from]];
   }
   SolidListCorners(s);

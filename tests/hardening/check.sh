@@ -49,9 +49,9 @@ output: {folder: out, every: 1.0}
 E2
 check --alone "$scratch/alone.yaml" || fail "a case of the solid alone has faults"
 [ "$(wc -l <"$scratch/log")" -eq 3 ] || fail "not three lines"
-grep -q 'edges can crack; .* is 0.7[0-9]* edges long (less than one.*open by 0.026 of its length$' "$scratch/log" || fail "not how long cracks are"
+grep -q 'edges can crack; .* is 0.7[0-9]* edges long (less than one' "$scratch/log" || fail "not how long cracks are"
 check --alone "$scratch/alone.yaml" --set solid.materials.rock.fracture_energy=100 || fail "a case of the solid alone has faults"
-grep -q ' is 7.[0-9]* edges long, .*0.26 of its length (more than 0.1' "$scratch/log" || fail "not how wide cracks are"
+grep -q ' is 7.[0-9]* edges long$' "$scratch/log" || fail "warned of cracks that the mesh resolves"
 ! check --alone "$scratch/alone.yaml" --set 'solid.bodies[0].size=-1' || fail "a size below 0 is accepted"
 [ "$(wc -l <"$scratch/log")" -eq 1 ] && grep -q "key 'solid.bodies\[0\].size'" "$scratch/log" || fail "not one line"
 

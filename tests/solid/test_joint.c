@@ -19,6 +19,14 @@ static double OpeningRange(const JointLaw *law, int mode, double damage)
   return damage * law->energy[mode] / (JOINT_SOFTENING_AREA * STRENGTH[mode]);
 }
 
+/* The traction on an end, with that of contact between its faces. */
+static JointTraction WithContact(const JointLaw *law, JointEnd *end, double opening, double slip)
+{
+  JointTraction t = JointTractionAt(law, end, opening, slip);
+  t.normal += law->stiffness * fmin(opening, 0.0);
+  return t;
+}
+
 /* The work until the end is broken, at a constant mixture of modes, or with the slip first and then the
  * opening. */
 static double Work(const JointLaw *law, double angle, int bent)
@@ -76,8 +84,7 @@ static void NoHealing(void)
   for (int back = 0; back < 2; back++)
     for (int k = 0; k <= 10; k++) {
       const double part = back ? 0.1 * k : 1.0 - 0.1 * k, o = zero + part * (0.3 * range - zero);
-      const double pressure = fmin(0.0, law.stiffness * (o + end.offset[2] * (1.0 - damage)));
-      const double traction = JointTractionAt(&law, &end, o, 0.0).normal - pressure;
+      const double traction = JointTractionAt(&law, &end, o, 0.0).normal;
       CHECK(fabs(traction - part * peak) < 1e-9 * peak, "%g Pa instead of %g", traction, part * peak);
       CHECK(end.damage == damage, "D = %g", end.damage);
     }
@@ -85,21 +92,21 @@ static void NoHealing(void)
   CHECK(fabs(further / (STRENGTH[0] * JointSoftening(0.6)) - 1.0) < 1e-12, "%g Pa", further);
 }
 
+/* Broken, an end leaves all of the pressure to contact; till then both together press as hard as the edge did. */
 static void Pressed(void)
 {
   const JointLaw law = Law(120.0, 300.0);
   JointEnd end = JointBegin(&law, STRENGTH[0], 0.0);
   (void)JointTractionAt(&law, &end, 1.0, 0.0);
   const JointTraction t = JointTractionAt(&law, &end, -1e-7, 0.0);
-  CHECK(fabs(t.normal / (-1e-7 * law.stiffness) - 1.0) < 1e-12 && t.shear == 0.0, "a broken end: %g Pa",
-        t.normal);
+  CHECK(t.normal == 0.0 && t.shear == 0.0, "a broken end: %g Pa", t.normal);
   /* sheared under pressure: the pressure stays while the shear goes, its joint closing a little */
   end = JointBegin(&law, -2e6, STRENGTH[1]);
   const JointTraction first = JointTractionAt(&law, &end, 0.0, 0.0);
   CHECK(fabs(first.normal / -2e6 - 1.0) < 1e-12 && fabs(first.shear / STRENGTH[1] - 1.0) < 1e-12, "%g %g",
         first.normal, first.shear);
   (void)JointTractionAt(&law, &end, 0.0, 1.0);
-  const JointTraction last = JointTractionAt(&law, &end, -2e6 / law.stiffness, 1.0);
+  const JointTraction last = WithContact(&law, &end, -2e6 / law.stiffness, 1.0);
   CHECK(end.damage == 1.0 && last.shear == 0.0 && fabs(last.normal / -2e6 - 1.0) < 1e-12, "%g", last.normal);
 }
 
@@ -164,9 +171,8 @@ static void Stiffness(void)
     JointShape shape = {.opening = {at[k][0] * OpeningRange(&law, 0, 1.0), 0.0},
                         .slip = {at[k][1] * OpeningRange(&law, 1, 1.0), 0.0}};
     const double way[2] = {-1e-4 * fabs(shape.opening[0]) - 1e-10, -1e-4 * shape.slip[0]};
-    const JointTraction far = JointTractionAt(&law, &end[0], shape.opening[0], shape.slip[0]);
-    const JointTraction near =
-        JointTractionAt(&law, &end[0], shape.opening[0] + way[0], shape.slip[0] + way[1]);
+    const JointTraction far = WithContact(&law, &end[0], shape.opening[0], shape.slip[0]);
+    const JointTraction near = WithContact(&law, &end[0], shape.opening[0] + way[0], shape.slip[0] + way[1]);
     const double expected = (near.normal - far.normal) * way[0] + (near.shear - far.shear) * way[1];
     double normal[2] = {0.0, 0.0}, shear[2] = {0.0, 0.0};
     JointAddStiffness(&law, end, &shape, 0, (double[2]){way[0], 0.0}, (double[2]){way[1], 0.0}, normal,
@@ -212,8 +218,8 @@ static void Hinge(void)
         end[0].absorbed, end[1].absorbed);
 }
 
-/* Mohr and Coulomb: a pressed edge bears F_s + f p, activates without a jump, slides against f times the
- * pressure to and fro when it is broken, and its energy of fracture does not count that. */
+/* Mohr and Coulomb: a pressed edge bears F_s + f p and activates without a jump; as it is damaged it leaves the pressure
+ * and the friction of it to contact, and its energy of fracture does not count that. */
 static void FrictionCase(void)
 {
   JointLaw law = Law(120.0, 300.0);
@@ -226,7 +232,7 @@ static void FrictionCase(void)
     JointTraction t = JointTractionAt(&law, &end, 0.0, 0.0);
     CHECK(fabs(t.normal + p) + fabs(t.shear - sign * bears) < 1e-6 * p && end.strong == 1.0,
           "begins with %g, %g", t.normal, t.shear);
-    for (int k = 1; k <= STEPS; k++) { /* pressed as hard, whatever its damage */
+    for (int k = 1; k <= STEPS; k++) { /* pressed as hard, whatever its damage: contact's part is p D */
       const double opening = -p / law.stiffness - end.offset[2] * (1.0 - end.damage);
       t = JointTractionAt(&law, &end, opening, sign * 1.1 * other_weight * k / STEPS);
       const double cohesion = end.residual * STRENGTH[1];
@@ -235,9 +241,7 @@ static void FrictionCase(void)
     }
     CHECK(end.damage == 1.0 && fabs(end.absorbed / 300.0 - 1.0) < 1e-5, "absorbed %g J/m2", end.absorbed);
     t = JointTractionAt(&law, &end, -p / law.stiffness, 0.9 * sign * other_weight);
-    CHECK(fabs(t.shear + sign * 0.7 * p) < 1e-6 * p, "%g Pa on the way back", t.shear);
-    t = JointTractionAt(&law, &end, 1e-9, 0.0);
-    CHECK(t.normal == 0.0 && t.shear == 0.0, "%g, %g Pa when open", t.normal, t.shear);
+    CHECK(t.normal == 0.0 && t.shear == 0.0, "%g, %g Pa when broken", t.normal, t.shear);
   }
 }
 
