@@ -33,11 +33,73 @@ static PetscErrorCode Smash(double zone, double shear)
   return SolidDestroy(&s);
 }
 
+/* What the part of a body above y = 0.019 m at rest does to what holds its top: shear and pressure, N/m. */
+static PetscErrorCode OnTop(Solid s, double *shear, double *pressure)
+{
+  const SolidView v = ViewOf(s, NULL, NULL);
+  const double *force;
+  *shear = *pressure = 0.0;
+  PetscCall(SolidForces(s, &force));
+  for (int n = 0; n < v.nnodes; n++) {
+    if (v.rest[2 * n + 1] < 0.019) continue;
+    *shear -= force[2 * n];
+    *pressure += force[2 * n + 1];
+  }
+  return 0;
+}
+
+/* Two halves of a block, pressed together and then drawn along each other: Mohr and Coulomb's strength at the peak, and
+ * their friction before their joints break and after, without a jump. */
+static PetscErrorCode Sheared(void)
+{
+  static const double ROW[] = {0.0,    0.0, -0.01, 6e-4,   0.0,  -0.01, 8e-4, 0.0,  0.0,
+                               1.0e-3, 0.0, 0.0,   1.5e-3, 0.06, 0.0,   1.0,  0.06, 0.0};
+  static const char *const BOTTOM[] = {"bottom"};
+  static const double BOX[1][4] = {{-1.0, -0.0101, 1.0, 0.0101}};
+  const BoundaryMotion top = {"top", {.prescribed = {1, 1}, .nrows = 6, .row = ROW}};
+  const SolidSetup options = {.courant = 0.8};
+  const double cohesion = 2e6, friction = 0.5, width = 0.2;
+  Material m = RockOf(cohesion, cohesion, 20.0, 0.3);
+  m.friction = m.internal_friction = friction;
+  m.contact_damping = 0.2;
+  m.fracture_energy[1] = 100.0;
+  BodySetup setup = BodyAtRest(m);
+  Model a = {0};
+  FractureState f;
+  Solid s;
+  double shear, pressure, peak = 0.0, held = 0.0, apart = 0.0;
+  setup.joints = (JointSetup){.nboxes = 1, .box = BOX};
+  setup.nfixed = 1;
+  setup.fixed_name = BOTTOM;
+  setup.nprescribed = 1;
+  setup.prescribed = &top;
+  AddRectangle(&a, 0.0, 0.0, width, 0.04, 0.0, 0.01, 0, &setup);
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, &s));
+  for (int k = 0; k < 50; k++) {
+    PetscCall(Run(s, 1e-4, 1e-4));
+    PetscCall(OnTop(s, &shear, &pressure));
+    PetscCall(SolidFracture(s, &f));
+    if (getenv("VERBOSE"))
+      printf("%g s: %g, %g Pa, %d broken\n", 1e-4 * (k + 1), shear / width, pressure / width, f.broken);
+    peak = fmax(peak, (shear - friction * pressure) / (cohesion * width));
+    if (f.broken == 0) held = shear / pressure;
+    apart = shear / pressure;
+  }
+  CHECK(peak > 0.9 && peak < 1.02, "the joints bear %g of their cohesion", peak);
+  CHECK(held > friction && held < 1.1 * friction && fabs(apart / friction - 1.0) < 0.01,
+        "friction %g before they break, %g after", held, apart);
+  CHECK(f.broken == 20 && fabs(f.debonded / (100.0 * width) - 1.0) < 0.01, "%d broken, %g J/m", f.broken,
+        f.debonded);
+  PetscCall(ModelDestroy(&a));
+  return SolidDestroy(&s);
+}
+
 int main(int argc, char **argv)
 {
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   PetscCall(Smash(20.0, 1.0));
   PetscCall(Smash(20.0, 3.0));
   PetscCall(Smash(4.0, 1.0));
+  PetscCall(Sheared());
   return PetscFinalize();
 }
