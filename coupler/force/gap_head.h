@@ -7,8 +7,8 @@
 #ifndef CORACLE_COUPLER_GAP_HEAD_H
 #define CORACLE_COUPLER_GAP_HEAD_H
 #include "common/exchange/copies.h"
-#include "coupler/geometry/close_points.h"
 #include "coupler/force/surface_pressure.h"
+#include "coupler/geometry/close_points.h"
 
 /* Collective: value[nnodes] where is_free[nnodes], from that of the other nodes, to 1e-10; 0 where nothing is given on surfaces that are
  * connected.  The same on all copies of a node, which nodes knows; solid and shell are those of the points. */
