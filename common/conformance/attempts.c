@@ -70,7 +70,7 @@ void AttemptSend(Fluid *f, Kind kind, CoracleAction action, int ncorrection)
     *c = (CoracleCoupling){.element = e, .alpha = 1.0};
     if (AttemptHasInertia(kind)) c->flags |= CORACLE_HAS_INERTIA;
     if (kind == COVERED) c->flags |= CORACLE_IS_COVERED;
-    memcpy(c->velocity, v, sizeof c->velocity);
+    for (int d = 0; d < 2; d++) c->velocity[d] = 0.5 * v[d]; /* at the step's start */
     SetBlocks(c, kind, p->rho[e], p->area[e], dt);
     SetLoads(c, kind, p->rho[e], p->area[e], dt, v);
   }

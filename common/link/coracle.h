@@ -204,7 +204,10 @@ const char *CoracleResumePath(CoracleClient c);
 /* --- the solid in a step -------------------------------------------------------------------------------- */
 
 /* force[n][dim], N, on this rank's nodes from this rank's elements and facets: a node shared by ranks has its
- * force spread over them and the solid sums it, as it sums its internal forces.  Borrowed until CoracleEnd. */
+ * force spread over them and the solid sums it, as it sums its internal forces.  Borrowed until CoracleEnd.
+ * It is constant over the step, which must have its whole impulse (Newmark's average acceleration leaves half of it for the next
+ * step), and it feeds vibrations that the step does not resolve: an implicit scheme needs some damping of those
+ * (cases/adapters/dealii/README.md). */
 int CoracleGetForce(CoracleClient c, const double **force);
 /* One substep of h seconds has been made with nodal velocities u[n][dim], m/s: x += h u.  The library computes
  * from the substeps the mean velocity over the step (displacement / dt), and the least-squares line through
@@ -256,7 +259,8 @@ typedef struct {
   double ms[CORACLE_VERTICES][CORACLE_VERTICES];
   /* m3/s: int_{K and S} N_i (u_s)_c, where the solid is held */
   double us[CORACLE_DIM][CORACLE_VERTICES];
-  /* m/s: mean over what K overlaps, solid and shell, of the solid's velocity at the start of the step */
+  /* m/s: mean over what K overlaps, solid and shell, of the solid's velocity at the start of the step.  A run's first step (t = 0)
+   * begins with u += alpha (velocity - u): a body that begins with a velocity has its whole momentum */
   double velocity[CORACLE_DIM];
   double alpha; /* |K and S| / |K|, solid volume fraction */
   double shell; /* |K and shell| / |K|, volume fraction of the covered shell */

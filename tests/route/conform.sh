@@ -27,7 +27,7 @@ if [ "$role" = fluid ]; then
   grep -q 'the mesh has changed' "$scratch/log" || { echo 'the mesh has not been adapted'; cat "$scratch/log"; exit 1; }
 
   template=$root/cases/adapters/template_fluid_c/dust.c
-  plant unbound '/CoracleBindState/d; s/^  Advance(d, dt);/&\nfor (int e = 0; e < n; e++) memcpy(d->u[near[e]], d->u_star[e], sizeof *d->u);/' \
+  plant unbound '/CoracleBindState/d; s/^  Advance(d, t, dt);/&\nfor (int e = 0; e < n; e++) memcpy(d->u[near[e]], d->u_star[e], sizeof *d->u);/' \
     'has another flow: bind all state'
   plant sign 's/load\[r\] = k/load[r] = -k/' 'does not take the fluid along'
   plant density 's/load\[r\] = k\(.*\);/load[r] = k\1 \/ 1000.0;/' 'the fluid does not gain dt s'

@@ -28,8 +28,7 @@ Cells::Cells(const fvMesh &mesh, double rho, double mu)
 int Cells::region(void *context, int nbox, const double box[], CoracleElements *elements)
 {
   Cells &c = *static_cast<Cells *>(context);
-  c.near_.clear();
-  c.x_.clear();
+  c.near_.clear(), c.x_.clear();
   for (size_t t = 0; t < c.triangle_.size(); t++) {
     const auto &x = c.triangle_[t].x;
     const auto within = [&](const double b[4], int d) {
@@ -41,8 +40,7 @@ int Cells::region(void *context, int nbox, const double box[], CoracleElements *
     c.near_.push_back(t);
     c.x_.insert(c.x_.end(), &x[0][0], &x[0][0] + 6);
   }
-  c.density_.assign(c.near_.size(), c.rho_);
-  c.viscosity_.assign(c.near_.size(), c.mu_);
+  c.density_.assign(c.near_.size(), c.rho_), c.viscosity_.assign(c.near_.size(), c.mu_);
   *elements = {int(c.near_.size()), c.x_.data(), c.density_.data(), c.viscosity_.data()};
   return 0;
 }
@@ -72,11 +70,20 @@ void Cells::receive(CoracleClient client)
   }
 }
 
-vector Cells::at(int t, int i, const vectorField &U, const tensorField &grad) const
+void Cells::begin(vectorField &U) const
 {
-  const Triangle &T = triangle_[t];
-  const vector d(T.x[i][0] - centre_[T.cell].x(), T.x[i][1] - centre_[T.cell].y(), 0);
-  return U[T.cell] + (d & grad[T.cell]);
+  const vectorField before(U);
+  for (const CoracleCoupling &c : coupling_) {
+    const auto &[cell, area, x] = triangle_[made_[c.element]];
+    U[cell] += c.alpha * area / area_[cell] * (vector(c.velocity[0], c.velocity[1], 0) - before[cell]);
+  }
+}
+
+vector Cells::from_centre(int t, int i) const
+{
+  const auto &[cell, area, x] = triangle_[t];
+  const int a = i < 3 ? i : (i + 1) % 3, b = i < 3 ? i : (i + 2) % 3;
+  return {0.5 * (x[a][0] + x[b][0]) - centre_[cell].x(), 0.5 * (x[a][1] + x[b][1]) - centre_[cell].y(), 0};
 }
 
 tmp<vectorField> Cells::force(const vectorField &U, const tensorField &grad) const
@@ -96,7 +103,8 @@ tmp<vectorField> Cells::force(const vectorField &U, const tensorField &grad) con
   return f;
 }
 
-void Cells::give(CoracleClient client, const vectorField &start, const vectorField &star, const vectorField &projected, const tensorField &grad)
+void Cells::give(CoracleClient client, const vectorField &start, const vectorField &star, const vectorField &projected, const tensorField &grad,
+                 const scalarField &p, const vectorField &grad_p)
 {
   const auto fill = [&](std::vector<double> &to, const vectorField &U) {
     to.clear();
@@ -105,7 +113,10 @@ void Cells::give(CoracleClient client, const vectorField &start, const vectorFie
         for (int i = 0; i < 3; i++) to.push_back(at(t, i, U, grad)[d]);
   };
   fill(start_, start), fill(star_, star), fill(projected_, projected);
-  const CoracleFlow flow = {start_.data(), star_.data(), projected_.data(), nullptr, density_.data(), viscosity_.data(), nullptr, nullptr};
+  pressure_.clear();
+  for (const int t : near_)
+    for (int i = 0; i < CORACLE_PRESSURE_NODES; i++) pressure_.push_back(rho_ * at(t, i, p, grad_p));
+  const CoracleFlow flow = {start_.data(), star_.data(), projected_.data(), pressure_.data(), density_.data(), viscosity_.data(), nullptr, nullptr};
   CoracleSetFlow(client, &flow);
 }
 

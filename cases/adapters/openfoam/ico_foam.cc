@@ -9,26 +9,21 @@ using namespace Foam;
 
 struct Input {
   std::string folder;
-  double rho, mu, dt_max, cfl, every;
+  double rho, mu, dt_max, cfl, every, gravity[2];
+  Input(CoracleClient client, int argc, char **argv)
+  {
+    static const char *const SECTIONS[] = {"fluid", nullptr};
+    CoracleCase c;
+    CoracleCaseOpen(argc, argv, CoracleFailMessage, client, &c);
+    folder = CoracleCaseHas(c, "fluid.openfoam") ? CoracleCaseFile(c, "fluid.openfoam") : CoracleCaseString(c, "output.folder") + std::string("/foam");
+    rho = CoracleCasePositive(c, "fluid.density"), mu = CoracleCasePositive(c, "fluid.viscosity");
+    dt_max = CoracleCasePositive(c, "time.dt_max"), cfl = CoracleCasePositive(c, "time.cfl");
+    every = CoracleCasePositive(c, "output.every");
+    CoracleCaseVector(c, "gravity", 2, gravity);
+    CoracleCaseFinish(c, SECTIONS);
+    CoracleCaseClose(&c);
+  }
 };
-
-static Input ReadCase(CoracleClient client, int argc, char **argv)
-{
-  static const char *const SECTIONS[] = {"fluid", nullptr};
-  Input in;
-  CoracleCase c;
-  CoracleCaseOpen(argc, argv, CoracleFailMessage, client, &c);
-  in.folder = CoracleCaseHas(c, "fluid.openfoam") ? CoracleCaseFile(c, "fluid.openfoam")
-                                                  : CoracleCaseString(c, "output.folder") + std::string("/foam");
-  in.rho = CoracleCasePositive(c, "fluid.density");
-  in.mu = CoracleCasePositive(c, "fluid.viscosity");
-  in.dt_max = CoracleCasePositive(c, "time.dt_max");
-  in.cfl = CoracleCasePositive(c, "time.cfl");
-  in.every = CoracleCasePositive(c, "output.every");
-  CoracleCaseFinish(c, SECTIONS);
-  CoracleCaseClose(&c);
-  return in;
-}
 
 class Flow
 {
@@ -37,12 +32,29 @@ public:
   void step(double t, double dt);
 
 private:
-  void restore();
-  void propose();
   void predict(double dt);
   void project(double dt);
   // calls f(value) for each number of the state
-  template <class F> void forState(F f);
+  template <class F> void forState(F f)
+  {
+    for (vector &u : U.primitiveFieldRef())
+      for (int d = 0; d < 2; d++) f(u[d]);
+    for (double &v : p.primitiveFieldRef()) f(v);
+    for (double &v : phi.primitiveFieldRef()) f(v);
+    for (auto &patch : phi.boundaryFieldRef())
+      for (double &v : patch) f(v);
+  }
+  void restore()
+  {
+    const double *from = state_.data();
+    forState([&](double &v) { v = *from++; });
+    U.correctBoundaryConditions(), p.correctBoundaryConditions();
+  }
+  void propose()
+  {
+    const scalarField rate(0.5 * fvc::surfaceSum(mag(phi))().primitiveField() / mesh_.V().field());
+    CoracleProposeStep(client_, Foam::min(in_.dt_max, in_.cfl / Foam::max(gMax(rate), VSMALL)));
+  }
 
   CoracleClient client_;
   Input in_;
@@ -53,17 +65,17 @@ private:
   volVectorField U;
   surfaceScalarField phi;
   volVectorField grad_p_, start_, star_; // both of the step's start; U*
-  volTensorField grad_U_;        // of U*
-  // what a step changes, U, p and phi by cells and faces; the library restores it when a step is redone
-  std::vector<double> state_;
+  volTensorField grad_U_;                // of U*
+  std::vector<double> state_;            // U, p and phi by cells and faces, which a step changes; the library restores them when it is redone
   int steps_ = 0;
 };
 
 Flow::Flow(CoracleClient client, const Input &in, Time &time)
     : client_(client), in_(in), time_(time),
       mesh_(IOobject(fvMesh::defaultRegion, time.timeName(), time, IOobject::MUST_READ)), cells_(mesh_, in.rho, in.mu),
-      p(IOobject("p", time.timeName(), mesh_, IOobject::MUST_READ, IOobject::AUTO_WRITE), mesh_), U(IOobject("U", time.timeName(), mesh_, IOobject::MUST_READ, IOobject::AUTO_WRITE), mesh_), phi("phi", fvc::flux(U)), grad_p_(fvc::grad(p)), start_("start", U), star_("star", U),
-      grad_U_(fvc::grad(U))
+      p(IOobject("p", time.timeName(), mesh_, IOobject::MUST_READ, IOobject::AUTO_WRITE), mesh_),
+      U(IOobject("U", time.timeName(), mesh_, IOobject::MUST_READ, IOobject::AUTO_WRITE), mesh_),
+      phi("phi", fvc::flux(U)), grad_p_(fvc::grad(p)), start_("start", U), star_("star", U), grad_U_(fvc::grad(U))
 {
   mesh_.setFluxRequired("p");
   forState([&](double &v) { state_.push_back(v); });
@@ -72,30 +84,6 @@ Flow::Flow(CoracleClient client, const Input &in, Time &time)
   propose();
   CoracleSetRegion(client, CORACLE_DIM, &mesh_.bounds().min()[0], &mesh_.bounds().max()[0], Cells::region, &cells_);
   CoracleReady(client);
-  if (CoracleNeedsPressure(client)) CoracleFail(client, "this fluid gives no pressure: expected coupler.mode: reaction, no solid.pressure_load, no solid.walls and, with gravity, one body without joints");
-}
-
-template <class F> void Flow::forState(F f)
-{
-  for (vector &u : U.primitiveFieldRef())
-    for (int d = 0; d < 2; d++) f(u[d]);
-  for (double &v : p.primitiveFieldRef()) f(v);
-  for (double &v : phi.primitiveFieldRef()) f(v);
-  for (auto &patch : phi.boundaryFieldRef())
-    for (double &v : patch) f(v);
-}
-
-void Flow::restore()
-{
-  const double *from = state_.data();
-  forState([&](double &v) { v = *from++; });
-  U.correctBoundaryConditions(), p.correctBoundaryConditions();
-}
-
-void Flow::propose()
-{
-  const scalarField rate(0.5 * fvc::surfaceSum(mag(phi))().primitiveField() / mesh_.V().field());
-  CoracleProposeStep(client_, Foam::min(in_.dt_max, in_.cfl / Foam::max(gMax(rate), VSMALL)));
 }
 
 // (U* - U)/dt + inertia (tensor U* - kept U) + k U* + div(phi U*) - nu laplacian U* = force - grad p; what force has beyond k follows in
@@ -144,13 +132,16 @@ void Flow::project(double dt)
 
 void Flow::step(double t, double dt)
 {
+  const vector g(in_.gravity[0], in_.gravity[1], 0);
   restore();
   cells_.receive(client_);
+  if (t == 0.0) cells_.begin(U.primitiveFieldRef());
   CoraclePhase(client_, "momentum");
   predict(dt);
   CoraclePhase(client_, "pressure");
   project(dt);
-  cells_.give(client_, start_, star_, U, grad_U_);
+  const vectorField grad_p(fvc::grad(p)().primitiveField() + g);
+  cells_.give(client_, start_, star_, U, grad_U_, p.primitiveField() + (g & mesh_.C().primitiveField()), grad_p);
   propose();
   CoracleEnd(client_, nullptr);
   if (!CoracleStepAccepted(client_)) return;
@@ -162,29 +153,21 @@ void Flow::step(double t, double dt)
   if (std::floor((t + dt) / in_.every + 1e-9) > std::floor(t / in_.every + 1e-9)) time_.writeNow();
 }
 
-static void Run(CoracleClient client, const Input &in)
-{
-  const fileName folder(in.folder);
-  Time time(Time::controlDictName, folder.path(),
-            UPstream::parRun() ? fileName(folder.name()) / "processor" + name(UPstream::myProcNo()) : folder.name());
-  Flow flow(client, in, time);
-  CoracleAction action;
-  double t, dt;
-  for (CoracleBegin(client, &t, &dt, &action); action != CORACLE_STOP; CoracleBegin(client, &t, &dt, &action))
-    flow.step(t, dt);
-}
-
 int main(int argc, char **argv)
 {
   CoracleClient client;
   MPI_Comm comm;
   CoracleOpen("fluid", argc, argv, &comm, &client);
-  const Input in = ReadCase(client, argc, argv);
+  const Input in(client, argc, argv);
   StartPstream(comm, argc, argv);
-  FatalError.throwExceptions();
-  FatalIOError.throwExceptions();
+  FatalError.throwExceptions(), FatalIOError.throwExceptions();
   try {
-    Run(client, in);
+    const fileName folder(in.folder);
+    Time time(Time::controlDictName, folder.path(), UPstream::parRun() ? fileName(folder.name()) / "processor" + name(UPstream::myProcNo()) : folder.name());
+    Flow flow(client, in, time);
+    CoracleAction action;
+    double t, dt;
+    for (CoracleBegin(client, &t, &dt, &action); action != CORACLE_STOP; CoracleBegin(client, &t, &dt, &action)) flow.step(t, dt);
   } catch (const Foam::error &error) {
     CoracleFail(client, "OpenFOAM: %s", error.message().c_str());
   }

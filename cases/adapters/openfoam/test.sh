@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# OpenFOAM's fluid keeps the contract on one rank and two, and the disc falls in it as the body-fitted reference.  Usage: test.sh ROOT BUILD
+# OpenFOAM's fluid keeps the contract on one rank and two, a block stands on a floor in it and slides along, and the disc falls in it as
+# the body-fitted reference.  Usage: test.sh ROOT BUILD
 set -euo pipefail
 root=$1 build=$2 here=$(cd "$(dirname "$0")" && pwd)
 scratch=$(mktemp -d)
@@ -20,10 +21,32 @@ plant() { # NAME SED_EXPRESSION MESSAGE: faults of the pressure that the kit mus
 }
 plant bulk 's/+= cells_.us - cells_.ms.*/+= 0.0 * cells_.us;/' 'the pressure does not see the solid.s motion'
 plant inertia 's,/ dt + cells_.inertia_tensor,/ dt + 0.0 * cells_.inertia_tensor,' 'as if it were fluid'
+python=$(command -v /usr/bin/python3 || command -v python3)
+for run in stands slides; do # the block of tests/coupled/floor.sh
+  "$here/prepare.sh" "$scratch/$run" 1 "$here/floor.blockMeshDict"
+  sets=(--set "fluid={density: 1000.0, viscosity: 1.0e-3, openfoam: $scratch/$run/foam}" --set 'solid.bodies[0].centre=[0.3, 0.045]')
+  [ $run = stands ] || sets+=(--set 'solid.bodies[0].velocity=[0.5, 0.0]')
+  "$root/scripts/launch.sh" --bin "$build" --fluid "$program" "$root/tests/coupled/floor.yaml" "${sets[@]}" --set "output.folder=$scratch/$run" \
+    >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
+done
+"$python" - "$scratch" <<'E2'
+import csv, sys
+def column(run, name):
+    return [float(row[name]) for row in csv.DictReader(open("%s/%s/solid.csv" % (sys.argv[1], run)))]
+weight = 9.81 * (2600.0 - 1000.0) * 0.08 * 0.08  # less that of the water
+for run in "stands", "slides":
+    t, impulse = column(run, "t [s]"), column(run, "walls_y [N s/m]")
+    first = next(k for k in range(len(t)) if t[k] > 0.8)
+    force = sum(impulse[first:]) / (t[-1] - t[first - 1])
+    print("%s: %.2f N/m on the floor, of %.2f; it has slid by %.4f m" % (run, force, weight, column(run, "x0 [m]")[-1] - 0.3))
+    assert abs(force / weight - 1.0) < 0.02
+# what friction leaves of 0.5 m/s that water of 0.6 times the block's mass shares
+assert 0.02 < column("slides", "x0 [m]")[-1] - 0.3 < 0.04
+E2
 "$here/prepare.sh" "$scratch/fall"
 "$root/scripts/launch.sh" --bin "$build" --fluid "$program" "$here/case.yaml" --set "output.folder=$scratch/fall" >"$scratch/log" 2>&1 ||
   { cat "$scratch/log"; exit 1; }
-"$(command -v /usr/bin/python3 || command -v python3)" - "$scratch/fall/coupler.csv" "$here/../../falling_cylinder/reference/nu0.017173.csv" <<'E2'
+"$python" - "$scratch/fall/coupler.csv" "$here/../../falling_cylinder/reference/nu0.017173.csv" <<'E2'
 import csv
 import sys
 

@@ -109,13 +109,24 @@ static double Mass(const Dust *d, int i, int j)
   return d->area / 12.0 * (i == j ? 2.0 : 1.0);
 }
 
+/* In a run's first step the dust inside the solid moves with it. */
+static void Begin(Dust *d, int n, const CoracleCoupling k[])
+{
+  for (int m = 0; m < n; m++)
+    for (int i = 0; i < 6; i++) {
+      double *u = &d->u[d->near[k[m].element]][i / 3][i % 3];
+      *u += k[m].alpha * (k[m].velocity[i / 3] - *u);
+    }
+}
+
 /* rho M/dt (u* - u) + inertia (tensor u* - kept u) + a u* = s on the coupled elements, 0 in place of u where they are covered;
  * elsewhere nothing acts. */
-static void Advance(Dust *d, double dt)
+static void Advance(Dust *d, double t, double dt)
 {
   const CoracleCoupling *k;
   int n;
   CoracleGetCoupling(d->client, &n, &k);
+  if (t == 0.0) Begin(d, n, k);
   for (int e = 0; e < d->nnear; e++) memcpy(d->u_start[e], d->u[d->near[e]], sizeof *d->u);
   if (d->nnear) memcpy(d->u_star, d->u_start, (size_t)d->nnear * sizeof *d->u);
   for (int m = 0; m < n; m++) {
@@ -152,12 +163,12 @@ static void Correct(Dust *d, const int near[])
     }
 }
 
-static void Step(Dust *d, double dt)
+static void Step(Dust *d, double t, double dt)
 {
   const int n = d->nnear;
   int *near = malloc((size_t)n * sizeof *near + 1);
   memcpy(near, d->near, (size_t)n * sizeof *near);
-  Advance(d, dt);
+  Advance(d, t, dt);
   /* a projection has the bulk velocity u* + M^-1 (us - ms u*) and W = rho M/dt + implicit_inertia inertia_tensor */
   Velocity *u_projected = d->u_star;
   const CoracleFlow flow = {.u_start = &d->u_start[0][0][0],
@@ -195,7 +206,7 @@ int main(int argc, char **argv)
   for (;;) {
     CoracleBegin(d.client, &t, &dt, &action);
     if (action == CORACLE_STOP) break;
-    Step(&d, dt);
+    Step(&d, t, dt);
   }
   void *all[] = {d.x, d.x_near, d.u, d.u_start, d.u_star, d.near, d.rho, d.mu, d.p};
   for (int k = 0; k < 9; k++) free(all[k]);

@@ -81,6 +81,7 @@ contains
     real(c_double) :: a(6, 6), inertia(6, 6), load(6)
     integer :: m, e, c, d
     call coracle_get_coupling(client, k)
+    if (t == 0) call begin(k)
     u_start = u(:, :, near(:nnear))
     u_star = u_start
     do m = 1, size(k)
@@ -96,6 +97,18 @@ contains
       if (iand(k(m)%flags, CORACLE_IS_COVERED) == 0) load = load + density / dt * reshape(matmul(mass, u_star(:, :, e)), [6])
       call solve(a, load)
       u_star(:, :, e) = reshape(load, [3, 2])
+    end do
+  end subroutine
+
+  !> In a run's first step the dust inside the solid moves with it.
+  subroutine begin(k)
+    type(CoracleCoupling), intent(in) :: k(:)
+    integer :: m, e, i
+    do m = 1, size(k)
+      e = near(k(m)%element + 1)
+      do i = 1, 3
+        u(i, :, e) = u(i, :, e) + k(m)%alpha * (k(m)%velocity - u(i, :, e))
+      end do
     end do
   end subroutine
 

@@ -35,6 +35,11 @@ class Dust:
         n = len(self.near)
         return self.x[self.near], np.full(n, self.rho), np.full(n, self.mu)
 
+    def begin(self, coupling):
+        """In a run's first step the dust inside the solid moves with it."""
+        e = self.near[coupling["element"]]
+        self.u[e] += coupling["alpha"][:, None, None] * (coupling["velocity"][:, :, None] - self.u[e])
+
     def solve(self, dt, coupling):
         """rho M/dt (u* - u) + inertia (tensor u* - kept u) + a u* = s on the coupled elements, 0 for u where they are covered; elsewhere nothing acts."""
         u_star, n = self.u[self.near], len(coupling)
@@ -63,7 +68,10 @@ def main():
     client.ready()
     for step in client.steps():
         near, n = dust.near, len(dust.near)
-        u_star = dust.solve(step.dt, client.get_coupling())
+        coupling = client.get_coupling()
+        if step.t == 0:
+            dust.begin(coupling)
+        u_star = dust.solve(step.dt, coupling)
         u_projected = u_star  # a projection has the bulk velocity u* + M^-1 (us - ms u*) and W = rho M/dt + implicit_inertia inertia_tensor
         p = np.zeros((n, 6)) if client.needs_pressure() else None
         client.set_flow(dust.u[near], u_star, u_projected, np.full(n, dust.rho), np.full(n, dust.mu), p)
