@@ -123,7 +123,7 @@ struct Solid_s {
 /* Not collective: no lower rank has the node. */
 static inline PetscBool SolidOwns(const Solid s, int node)
 {
-  return (PetscBool)(s->size == 1 || CopiesOwner(s->copies, node) == s->rank);
+  return (PetscBool)(s->size == 1 || CopiesIsFirst(s->copies, node));
 }
 
 /* forces.c: internal forces of this rank's elements into force; fails on an element with J <= 0. */

@@ -155,10 +155,9 @@ static unsigned HashField(unsigned hash, const Field *field)
 unsigned FieldsProtocol(void)
 {
 #define KIND_TEXT(name) #name " "
+#define GROUP_ADDRESS(name) &FIELDS_##name,
   static const char KINDS[] = MESSAGE_KINDS(KIND_TEXT);
-  static const FieldGroup *const GROUPS[] = {
-      &FIELDS_NODES,    &FIELDS_MOTION, &FIELDS_FACETS,     &FIELDS_SIMPLICES, &FIELDS_FORCE,  &FIELDS_BOXES,
-      &FIELDS_ELEMENTS, &FIELDS_DOMAIN, &FIELDS_CORRECTION, &FIELDS_COUPLING,  &FIELDS_GAUGES, &FIELDS_FLOW};
+  static const FieldGroup *const GROUPS[] = {FIELD_GROUPS(GROUP_ADDRESS)};
   unsigned hash = HashText(2166136261U ^ (unsigned)sizeof(MessageHeader), KINDS);
   for (int g = 0; g < NUMBER_OF(GROUPS); g++)
     for (int k = 0; k < GROUPS[g]->nfields; k++) hash = HashField(hash, &GROUPS[g]->field[k]);

@@ -45,10 +45,17 @@ typedef enum { KIND_NONE, MESSAGE_KINDS(MESSAGE_KIND) KIND_END } MessageKind;
  *     FLOW       FIELDS_FLOW                       CoracleFlow, arrays over the fluid's elements
  *     STEP       FIELDS_CORRECTION, FIELDS_GAUGES  CoracleCorrection, one an element; CoracleGauge, one a gauge on the solid
  *     COUPLING   FIELDS_COUPLING                   CoracleCoupling, one an element */
+#define FIELD_GROUPS(GROUP)                                                                                  \
+  GROUP(NODES)                                                                                               \
+  GROUP(MOTION)                                                                                              \
+  GROUP(FACETS)                                                                                              \
+  GROUP(SIMPLICES)                                                                                           \
+  GROUP(FORCE)                                                                                               \
+  GROUP(BOXES) GROUP(DOMAIN) GROUP(ELEMENTS) GROUP(FLOW) GROUP(CORRECTION) GROUP(COUPLING) GROUP(GAUGES)
+
 typedef struct FieldGroup FieldGroup;
-extern const FieldGroup FIELDS_NODES, FIELDS_MOTION, FIELDS_FACETS, FIELDS_SIMPLICES, FIELDS_FORCE,
-    FIELDS_BOXES, FIELDS_DOMAIN, FIELDS_ELEMENTS, FIELDS_FLOW, FIELDS_CORRECTION, FIELDS_COUPLING,
-    FIELDS_GAUGES;
+#define FIELD_GROUP(name) extern const FieldGroup FIELDS_##name;
+FIELD_GROUPS(FIELD_GROUP)
 
 /* MessageHeader.flag */
 enum {

@@ -168,6 +168,15 @@ PetscErrorCode JointsApply(Joints j, Solid s, int n, const int event[])
 
 /* --- once more ---------------------------------------------------------------------------------------- */
 
+/* After nodes and joints' stages have become those of a state that was. */
+static void ListAgain(Joints j, Solid s)
+{
+  SolidListCorners(s);
+  JointsFindCrackTips(j, s, PETSC_TRUE);
+  JointsList(j, s);
+  PlaceFacets(j, s);
+}
+
 typedef struct {
   int revision, event;
 } Past;
@@ -206,10 +215,7 @@ PetscErrorCode JointsReplay(Joints j, Solid s)
     PetscCall(SplitMarked(j, s));
     ClearMarks(j);
   }
-  SolidListCorners(s);
-  JointsFindCrackTips(j, s, PETSC_TRUE);
-  JointsList(j, s);
-  PlaceFacets(j, s);
+  ListAgain(j, s);
   PetscCall(PetscFree(past));
   PetscFunctionReturn(0);
 }
@@ -240,10 +246,7 @@ static PetscErrorCode Restore(Joints j, Solid s)
   s->nfacets = k->nfacets;
   s->revision = k->revision;
   for (int star = 0; star < j->nstars; star++) JointsRestoreStar(j, s, star);
-  SolidListCorners(s);
-  JointsFindCrackTips(j, s, PETSC_TRUE);
-  JointsList(j, s);
-  PlaceFacets(j, s);
+  ListAgain(j, s);
   s->unsynchronised = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
