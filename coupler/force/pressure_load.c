@@ -1,6 +1,6 @@
 #include "coupler/force/pressure_load.h"
-#include "coupler/force/harmonic.h"
 #include "coupler/force/surface_pressure.h"
+#include "coupler/geometry/harmonic.h"
 #include <stdlib.h>
 
 /* H(p_s) and H(p_o) at a node; q and H(p_o) in an element. */

@@ -18,7 +18,8 @@
  * e moves the solid against the other, by a part of a step's fall, and the next step's p lacks what the contact bears then: N grows by the
  * integral of e in each step, until e is 0, in the time that the solid takes to fall through the height of that pressure.  A blow of a few
  * steps passes: the wall's reaction to it is the fluid's (with all of e a square that a dam's front struck was thrown up, with an e
- * that follows p at that rate a caisson bounced).  Facets that no such place is connected with stay as they are.  The momentum of walls is in
+ * that follows p at that rate a caisson bounced).  What is held (no mobility) does not move: it has e as a whole, against a wall, half of it against
+ * what is held, too, and against what is free what that takes from it.  Facets that no such place is connected with stay as they are.  The momentum of walls is in
  * the columns `uplift` of coupler.csv. */
 #ifndef CORACLE_COUPLER_UPLIFT_H
 #define CORACLE_COUPLER_UPLIFT_H

@@ -38,7 +38,7 @@ static PetscErrorCode FreeStep(Coupler c)
   PetscCall(PetscFree3(c->term, c->coupling, c->element));
   PetscCall(PetscFree3(c->vertex, c->source, c->force));
   PetscCall(PetscFree5(c->node, c->start, c->predicted, c->acceleration, c->explicit_fraction));
-  PetscCall(PetscFree(c->mobility));
+  PetscCall(PetscFree2(c->mobility, c->displaced));
   PetscFunctionReturn(0);
 }
 
@@ -53,7 +53,7 @@ static PetscErrorCode NewStep(Coupler c, const SolidState *solid)
   PetscCall(PetscMalloc3(3 * nsources, &c->vertex, nsources, &c->source, 2 * n, &c->force));
   PetscCall(PetscMalloc5(n, &c->node, 2 * n, &c->start, 2 * n, &c->predicted, 2 * n, &c->acceleration, n,
                          &c->explicit_fraction));
-  PetscCall(PetscMalloc1(n, &c->mobility));
+  PetscCall(PetscCalloc2(n, &c->mobility, n, &c->displaced));
   PetscCall(PetscArrayzero(c->term, o->pairs.n));
   PetscCall(PetscArrayzero(c->element, o->ncoupled));
   PetscCall(PetscArrayzero(c->source, nsources));
@@ -90,6 +90,7 @@ static PetscErrorCode BuildAt(Coupler c, const SolidState *solid, const double x
   PetscCall(NewStep(c, &at));
   if (c->pressure_load) PetscCall(PressureLoadBuild(c->pressure_load, &at));
   if (c->uplift) PetscCall(UpliftBuild(c->uplift, &at, c->shell, c->overlap));
+  if (new_mesh) PetscCall(HarmonicDestroy(&c->harmonic));
   c->built = 1;
   PetscCall(c->mode->coefficients(c, &at));
   PetscCall(InertiaExplicitFraction(c->overlap, &at, c->source, c->explicit_fraction));
@@ -114,10 +115,17 @@ PetscErrorCode CouplerBuild(Coupler c, const SolidState *solid, double dt, int *
   PetscFunctionReturn(0);
 }
 
+/* rho[3] g, of the vertices of a triangle. */
+static LinearField Weight(const SupermeshBasis *basis, const double g[2], double p, double q, double r)
+{
+  return LinearFieldOf(basis, (double[2]){p * g[0], p * g[1]}, (double[2]){q * g[0], q * g[1]},
+                       (double[2]){r * g[0], r * g[1]});
+}
+
 /* The source triangles' velocity, acceleration and interface acceleration of this rank's nodes. */
 static PetscErrorCode SetSourceTerms(Coupler c, const double u[])
 {
-  enum { VELOCITY, ACCELERATION = 2, INTERFACE = 4, NVALUES = 6 };
+  enum { VELOCITY, ACCELERATION = 2, INTERFACE = 4, DISPLACED = 6, NVALUES = 7 };
   const Overlap o = c->overlap;
   double(*node)[NVALUES], (*vertex)[3][NVALUES];
 
@@ -128,6 +136,7 @@ static PetscErrorCode SetSourceTerms(Coupler c, const double u[])
     node[k / 2][ACCELERATION + k % 2] = c->acceleration[k];
     node[k / 2][INTERFACE + k % 2] = (u[k] - c->start[k]) / c->dt;
   }
+  for (int i = 0; i < c->nnodes; i++) node[i][DISPLACED] = c->displaced[i];
   PetscCall(OverlapNodesToSources(o, NVALUES, (const double *)node, (double *)vertex));
   for (int t = 0; t < o->nsources; t++) {
     const SupermeshBasis *basis = &o->source_basis[t];
@@ -136,6 +145,8 @@ static PetscErrorCode SetSourceTerms(Coupler c, const double u[])
     const LinearField a = LinearFieldOf(basis, p + ACCELERATION, q + ACCELERATION, r + ACCELERATION);
     c->source[t].force = (LinearField){{0.0}, {{0.0}}};
     LinearFieldAdd(c->source[t].density, &a, &c->source[t].force);
+    if (IsHeldByInertia(&c->source[t]))
+      c->source[t].force = Weight(basis, c->options.gravity, p[DISPLACED], q[DISPLACED], r[DISPLACED]);
     c->source[t].interface_acceleration = LinearFieldOf(basis, p + INTERFACE, q + INTERFACE, r + INTERFACE);
   }
   PetscCall(PetscFree2(node, vertex));
@@ -265,6 +276,7 @@ PetscErrorCode CouplerDestroy(Coupler *coupler)
   PetscCall(HistoryDestroy(&(*coupler)->history));
   PetscCall(PressureLoadDestroy(&(*coupler)->pressure_load));
   PetscCall(UpliftDestroy(&(*coupler)->uplift));
+  PetscCall(HarmonicDestroy(&(*coupler)->harmonic));
   PetscCall(PetscFree((*coupler)->correction));
   PetscCall(ShellDestroy(&(*coupler)->shell));
   PetscCall(OverlapDestroy(&(*coupler)->overlap));

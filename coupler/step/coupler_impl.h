@@ -5,6 +5,7 @@
 #include "coupler/force/uplift.h"
 #include "coupler/step/coupler.h"
 #include "coupler/step/history.h"
+#include "coupler/terms/displaced.h"
 
 struct Coupler_s {
   MPI_Comm comm;
@@ -21,6 +22,8 @@ struct Coupler_s {
   double *predicted;             /* [nnodes][2] velocity at the step's end, m/s */
   double *acceleration;          /* [nnodes][2] a: by all but the fluid inside the solid, m/s2 (inertia.h) */
   double *explicit_fraction;     /* [nnodes] (inertia.h) */
+  double *displaced;             /* [nnodes] kg/m3 (displaced.h) */
+  Harmonic harmonic;             /* of the solid's elements, for displaced; NULL: not needed so far */
   History history;               /* of the steps before */
   PressureLoad pressure_load;    /* NULL: none */
   Uplift uplift;                 /* NULL: nothing to touch */

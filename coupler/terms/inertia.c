@@ -114,13 +114,10 @@ static double KeptPart(const Overlap o, const SourceTerm source[], const Element
   return fmin(1.0, INERTIA_KEPT_RATIO * (o->rho[k] + element->outside) * sum.area / sum.excess);
 }
 
-/* Among phases, by inertia. */
 static PetscBool IsHeld(const Overlap o, const SourceTerm source[], int e)
 {
-  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1] && o->phases; i++) {
-    const SourceTerm *s = &source[o->pairs.pair[o->of_element[i]].a];
-    if (s->held && s->density > 0.0) return PETSC_TRUE;
-  }
+  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++)
+    if (IsHeldByInertia(&source[o->pairs.pair[o->of_element[i]].a])) return PETSC_TRUE;
   return PETSC_FALSE;
 }
 

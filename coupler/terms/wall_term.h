@@ -90,7 +90,8 @@ typedef struct {
   WallCoefficient freed;      /* of the inertia, (1 - k) D (inertia.h), without unit */
   PetscBool covered;          /* K lies in the solid as a whole (inertia.h) */
   PetscBool shared;           /* two solids in K, one of which is held, share the reaction (slip.h) */
-  double outside;             /* rho_o - rho_f of the fluid beside the solid (outside.h), kg/m3 */
+  PetscBool open;             /* K has fluid beside the solid (outside.h) */
+  double outside;             /* rho_o - rho_f of that, kg/m3 */
 } ElementTerm;
 
 /* What a source triangle's vertices have, with its basis as the origin. */
@@ -99,9 +100,15 @@ typedef struct {
   PetscBool held;                     /* its nodes have no mobility; shells, too */
   LinearField velocity;               /* u_s, that the fluid couples to, m/s */
   LinearField start;                  /* v, the solid's at the step's start, m/s */
-  LinearField force;                  /* rho_s a of the body force (inertia.h), N/m3 */
+  LinearField force;                  /* rho_s a of the body force (inertia.h); weight of displaced.h; N/m3 */
   LinearField interface_acceleration; /* a' of the body force, m/s2 */
 } SourceTerm;
+
+/* Among phases (inertia.h). */
+static inline int IsHeldByInertia(const SourceTerm *source)
+{
+  return source->held && source->density > 0.0;
+}
 
 /* to += a q */
 static inline void WallAdd(const WallCoefficient *a, const LinearField *q, LinearField *to)
@@ -114,13 +121,16 @@ static inline void WallAdd(const WallCoefficient *a, const LinearField *q, Linea
   }
 }
 
-/* The body force q on a pair with a triangle that is not held, seen from the pair's centre. */
+/* The body force q on a pair with a triangle that is not held by sigma, seen from the pair's centre. */
 static inline LinearField PairBodyForce(const PairTerm *term, const ElementTerm *element,
                                         const SourceTerm *source, const double gravity[2],
                                         const double centre[2])
 {
   const double excess = fmax(term->rho - source->density, 0.0);
+  if (IsHeldByInertia(source) && element->open) /* the weight of displaced.h, less the fluid's own */
+    return (LinearField){{element->outside * gravity[0], element->outside * gravity[1]}, {{0.0}}};
   const LinearField force = LinearFieldAt(&source->force, centre);
+  if (IsHeldByInertia(source)) return force;
   LinearField q = force;
   if (!WallIsZero(&element->freed) && !element->shared) { /* the solid is heavier */
     const WallCoefficient freed = WallCoefficientScaled(&element->freed, term->rho / source->density - 1.0);

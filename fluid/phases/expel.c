@@ -7,7 +7,10 @@
  *               | # | ~ | ~ |   |   |    to neighbours of smaller distance, through elements that are full of the
  *               excess -> -> room        phase, around elements that the solid covers where there is a way around
  *
- * What arrives beyond the room of an element is an excess of the next pass, which goes farther. */
+ * What arrives beyond the room of an element is an excess of the next pass, which goes farther.
+ *
+ * The first pass takes what has come into covered elements to the nearest others, which need no room: on the side where it came in.  (The nearest room may
+ * be behind the solid: a wall leaked.) */
 #include "fluid/phases/phases_impl.h"
 
 enum { PASSES = 100, FAR = INT_MAX };
@@ -26,6 +29,7 @@ typedef struct {
   Phases f;
   int phase, filler;
   const double *capacity; /* [ne] */
+  int uncovers;           /* the first pass */
   Balance *balance;       /* [nl] */
   int *distance;          /* [nl] */
   int around;             /* elements farther than this have no way around what the solid covers */
@@ -47,11 +51,11 @@ static void AddActive(Expel *x, int from, int to)
     if (x->balance[e].excess > 0.0) x->active[x->nactive++] = e;
 }
 
-/* *share: of the excess of all elements, what there is room for; 0: nothing is to be moved, or nothing can be. */
-static PetscErrorCode SetBalance(Expel *x, double *share)
+/* *share: of the excess of all elements, what there is room for; 0: nothing is to be moved, or nothing can be; *covered: that of covered ones, m2. */
+static PetscErrorCode SetBalance(Expel *x, double *share, double *covered)
 {
   const Stars *s = x->f->stars;
-  double sum[2] = {0.0, 0.0};
+  double sum[3] = {0.0, 0.0, 0.0};
   PetscFunctionBeginUser;
   for (int e = 0; e < s->ne; e++) {
     const double *v = VolumeOf(x->f, e), area = StarsArea(s, e);
@@ -60,9 +64,11 @@ static PetscErrorCode SetBalance(Expel *x, double *share)
                               x->capacity[e] < CAPACITY_TINY * area};
     sum[0] += x->balance[e].excess;
     sum[1] += x->balance[e].room;
+    sum[2] += x->balance[e].covered ? x->balance[e].excess : 0.0;
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->mesh->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_DOUBLE, MPI_SUM, s->mesh->comm));
   *share = sum[0] > 0.0 ? fmin(1.0, sum[1] / sum[0]) : 0.0;
+  *covered = sum[2];
   for (int e = 0; e < s->ne; e++) x->balance[e].excess *= *share;
   if (*share > 0.0) PetscCall(StarsExchange(s, sizeof *x->balance, x->balance));
   x->nactive = 0;
@@ -114,13 +120,19 @@ static void SetLevel(Expel *x, int level, int anywhere, int *reached, int *missi
     if (x->active[k] < s->ne) *missing |= x->distance[x->active[k]] == FAR;
 }
 
+/* An excess ends there. */
+static int IsEnd(const Expel *x, int e)
+{
+  return x->uncovers ? !x->balance[e].covered : x->balance[e].room > 0.0;
+}
+
 /* Until every excess has a way.  *levels: the largest distance. */
 static PetscErrorCode SetDistances(Expel *x, int *levels)
 {
   const Stars *s = x->f->stars;
   int state[2] = {1, 1}; /* the last level has elements; an excess has no way yet */
   PetscFunctionBeginUser;
-  for (int e = 0; e < s->nl; e++) x->distance[e] = x->balance[e].room > 0.0 ? 0 : FAR;
+  for (int e = 0; e < s->nl; e++) x->distance[e] = IsEnd(x, e) ? 0 : FAR;
   x->around = FAR;
   for (*levels = 0; state[1] && (state[0] || x->around == FAR);) {
     const int stuck = !state[0];
@@ -141,7 +153,7 @@ static double Weight(const Expel *x, int e, int i)
 {
   const int o = x->f->stars->neighbor[e][i];
   if (o < 0 || x->distance[o] >= x->distance[e] || !MayPass(x, e, x->distance[e], o)) return 0.0;
-  return x->distance[e] == 1 ? x->balance[o].room : 1.0;
+  return x->distance[e] == 1 && !x->uncovers ? x->balance[o].room : 1.0;
 }
 
 /* What element e passes on through face i. */
@@ -210,14 +222,15 @@ PetscErrorCode PhasesExpel(Phases f, int phase, int filler, const double capacit
 {
   const int ne = f->stars->ne, nl = f->stars->nl;
   Expel x = {.f = f, .phase = phase, .filler = filler, .capacity = capacity};
-  double share = 0.0;
+  double share = 0.0, covered = 0.0;
   int levels;
   PetscFunctionBeginUser;
   PetscCall(
       PetscMalloc6(nl, &x.balance, nl, &x.distance, nl, &x.active, nl, &x.front, nl, &x.next, ne, &x.come));
   for (int pass = 0; pass < PASSES; pass++) {
-    PetscCall(SetBalance(&x, &share));
+    PetscCall(SetBalance(&x, &share, &covered));
     if (!(share > 0.0)) break;
+    x.uncovers = pass == 0 && share == 1.0 && covered > 0.0;
     PetscCall(SetDistances(&x, &levels));
     PetscCall(PetscArrayzero(x.next, nl));
     for (int hop = 0; hop < levels; hop++) PetscCall(Hop(&x, swept));

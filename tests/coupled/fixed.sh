@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Water that strikes a block that does not move keeps its volume, and no element holds more than its area: what moves the phases is the
-# velocity that the projection has made free of divergence.  A wall that holds back water bears its pressure, and nothing passes.
+# velocity that the projection has made free of divergence.  A wall that holds back water bears its pressure, and nothing passes.  A caisson at
+# the floor, on it or nearer than an element, bears the weight of the water that it displaces, above the water, too, and still water stays still.
 # What moves as prescribed has its momentum from the equations as solved: a closed pipe half full of water that is shaken.
 # Usage: fixed.sh ROOT BUILD
 set -euo pipefail
@@ -51,4 +52,24 @@ for ranks in "1:1:1", "2:1:2":
     report = "%s: force %.1f of %.1f N/m, %.1e of the water behind the wall" % (ranks, force, 500.0 * 9.81 * 0.25, passed)
     print(report)
     assert abs(force / (500.0 * 9.81 * 0.25) - 1.0) < 0.01 and passed < 1e-9, report
+E2
+case=$here/floor.yaml
+caisson() { # label ranks height_of_its_centre level
+  must "$1" $2 --set time.end=0.1 --set time.dt_max=0.01 --set "solid.bodies[0]={shape: rectangle, centre: [0.503, $3], width: 0.4, height: 0.1, size: 0.02, material: rock, fixed: true}" \
+    --set "fluid.regions[1].upper=[3.0, $4]"
+}
+caisson "above the floor" 1:1:1 0.055 0.25
+caisson "on the floor" 1:1:1 0.05 0.25
+caisson "above the water" 2:2:2 0.05 0.06
+"$python" - "$scratch" <<'E2'
+import csv, sys
+def last(label, file, name):
+    return float(list(csv.DictReader(open("%s/%s/%s.csv" % (sys.argv[1], label, file))))[-1][name])
+for label, height, still in ("above the floor", 0.1, 1e-6), ("on the floor", 0.1, 1e-6), ("above the water", 0.06, 1e-3):
+    expected = 1000.0 * 9.81 * 0.4 * height
+    x, y = (last(label, "solid", "f%s0 [N/m]" % c) for c in "xy")
+    energy = last(label, "fluid", "kinetic energy [J/m]")
+    report = "%s: force %.2f, %.2f of %.2f N/m, kinetic energy %.1e J/m" % (label, x, y, expected, energy)
+    print(report)
+    assert abs(y / expected - 1.0) < 5e-3 and abs(x / expected) < 5e-3 and energy < still, report
 E2

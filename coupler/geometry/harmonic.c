@@ -1,4 +1,4 @@
-#include "coupler/force/harmonic.h"
+#include "coupler/geometry/harmonic.h"
 #include "common/supermesh/geometry.h"
 #include <petscpc.h>
 
