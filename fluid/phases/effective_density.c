@@ -10,6 +10,8 @@ typedef struct {
 /* A line shorter than this, over the root of the element's area, cuts off no more than a corner, where it has to be if advection has
  * left a trace of a phase there: it says little of where the interface is. */
 #define CORNER 0.01
+/* Beside a solid, of what it leaves of an element: less of a phase may be a film along the surface. */
+#define FILM 0.01
 
 /* Line k of cut element e as seen from local vertex v: its length there is the weight. */
 static void AddLine(Phases f, int e, int k, int v, VertexDistance *d)
@@ -31,13 +33,24 @@ static int IsTrace(Phases f, int e, int k, const double d[3])
   return PhasesSegment(f, e, k, f->stars->element[e].x[0], &h).length < CORNER * sqrt(StarsArea(f->stars, e));
 }
 
+/* PhasesSide of what a solid leaves of element e; 0, too, where that is little. */
+static int SideBeside(Phases f, int e, int line)
+{
+  const double area = StarsArea(f->stars, e);
+  double below = 0.0;
+  if (PhasesOpen(f, e) < PHASES_LEAST_OPEN) return 0;
+  for (int p = 0; p <= line; p++) below += PhasesVolumeBeside(f, e, p);
+  return below > (1.0 - FILM) * area ? -1 : below < FILM * area ? 1 : 0;
+}
+
 double PhasesDistance(Phases f, int line, int v, double *inside)
 {
   const Stars *s = f->stars;
   VertexDistance d = {0};
   for (int k = s->start[v]; k < s->start[v + 1]; k++) {
-    const int e = s->around[k] / 3, side = PhasesSide(f, e, line);
-    if (side == 0 && PhasesHasLine(f, e, line)) AddLine(f, e, line, v, &d);
+    const int e = s->around[k] / 3, has_solid = PhasesOpen(f, e) < 1.0,
+              side = has_solid ? SideBeside(f, e, line) : PhasesSide(f, e, line);
+    if (side == 0 && !has_solid && PhasesHasLine(f, e, line)) AddLine(f, e, line, v, &d);
     d.below |= side < 0;
     d.above |= side > 0;
   }

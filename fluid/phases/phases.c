@@ -27,6 +27,7 @@ PetscErrorCode PhasesDestroy(Phases *phases)
   PetscCall(PetscFree(f->state));
   PetscCall(PetscFree(f->mass));
   PetscCall(PetscFree(f->density));
+  PetscCall(PetscFree(f->solid));
   PetscCall(PetscFree(*phases));
   PetscFunctionReturn(0);
 }
@@ -42,6 +43,22 @@ PetscErrorCode PhasesSetVolumes(Phases f, const double volume[])
   PetscCall(PetscArraycpy(f->volume, volume, (size_t)f->stars->ne * (size_t)f->np));
   f->has_lines = PETSC_FALSE;
   PetscFunctionReturn(0);
+}
+
+PetscErrorCode PhasesSetSolid(Phases f, int filler, const double solid[])
+{
+  PetscFunctionBeginUser;
+  if (!f->solid) PetscCall(PetscMalloc1(f->stars->nl, &f->solid));
+  f->filler = filler;
+  for (int e = 0; e < f->stars->ne; e++)
+    f->solid[e] = solid[e] < PHASES_LEAST_SOLID ? 0.0 : fmin(solid[e], 1.0);
+  PetscCall(StarsExchange(f->stars, sizeof *f->solid, f->solid));
+  PetscFunctionReturn(0);
+}
+
+const double *PhasesSolid(Phases f)
+{
+  return f->solid;
 }
 
 PetscErrorCode PhasesGetVolumes(Phases f, const double *volume[])

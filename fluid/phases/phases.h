@@ -58,6 +58,12 @@ void PhasesMoveMasses(Phases phases, const double before[], const double swept[]
  * factor of 2).  Added to swept of PhasesAdvect. */
 PetscErrorCode PhasesFillGaps(Phases phases, const double expected[], double swept[]);
 
+/* What a solid covers of the elements, filled by phase `filler`, until the next call: solid[ne], |K and S|/|K|.  Lines of elements beside it and the
+ * distances of their vertices are those of the phases outside of the solid. */
+PetscErrorCode PhasesSetSolid(Phases phases, int filler, const double solid[]);
+/* Borrowed: [ne]; NULL: never set.  Not collective. */
+const double *PhasesSolid(Phases phases);
+
 /* The lines in cut elements, from the volumes.  Straight interfaces are found to round-off; the error of a
  * curved one is of order h^2. */
 PetscErrorCode PhasesReconstruct(Phases phases);

@@ -10,6 +10,9 @@ typedef struct {
   int found;
 } WettingContact;
 
+/* Of an element: what a solid leaves, if less, says nothing of where lines are; less of a solid is none. */
+#define PHASES_LEAST_OPEN 0.1
+#define PHASES_LEAST_SOLID 1e-6
 /* An element within this fraction of empty or full of a phase counts as such when lines are made. */
 #define PHASES_TINY 1e-12
 
@@ -25,6 +28,8 @@ struct Phases_s {
   EquationOfState *state;        /* [np] */
   double *mass, *density;        /* [nl][np] kg, kg/m3; of incompressible phases nothing, and theirs */
   const WettingContact *contact; /* [nl][np - 1], borrowed; NULL: no solid */
+  double *solid;                 /* [nl] |K and S|/|K|; NULL: none */
+  int filler;                    /* the phase that fills S */
   double courant;
   PetscBool has_lines;
 };
@@ -45,6 +50,19 @@ static inline HalfPlane PhasesLine(Phases f, int e, int p, const double origin[2
   return PhasesMoveLine(f->line[(size_t)e * (size_t)(f->np - 1) + (size_t)p], f->stars->element[e].x[0],
                         origin);
 }
+/* The part of local element e that the solid leaves, 0 .. 1. */
+static inline double PhasesOpen(Phases f, int e)
+{
+  return f->solid ? 1.0 - f->solid[e] : 1.0;
+}
+/* The volume of phase p in local element e if the solid's part of it were as what it leaves, more than 0, m2. */
+static inline double PhasesVolumeBeside(Phases f, int e, int p)
+{
+  const double area = StarsArea(f->stars, e), open = PhasesOpen(f, e),
+               filled = p == f->filler ? (1.0 - open) * area : 0.0;
+  return fmin(fmax((f->volume[(size_t)e * (size_t)f->np + (size_t)p] - filled) / open, 0.0), area);
+}
+
 /* Whether line k divides local element e. */
 static inline int PhasesHasLine(Phases f, int e, int k)
 {

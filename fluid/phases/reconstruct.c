@@ -43,11 +43,13 @@ static void SetCell(Phases f, int e, int p, const double origin[2], PlicCell *ce
   cell->volume = VolumeOf(f, e)[p];
 }
 
-/* Owned element e and those around it that earlier phases leave something of. */
+/* Owned element e and those around it that earlier phases leave something of; around an element without a solid as if what solids cover were
+ * like what they leave. */
 static int Gather(Phases f, int e, int p, PlicCell cell[PLIC_CELLS])
 {
   const Stars *s = f->stars;
   const double *origin = s->element[e].x[0];
+  const int beside = PhasesOpen(f, e) == 1.0;
   int n = 1, seen[PLIC_CELLS] = {e};
   SetCell(f, e, p, origin, &cell[0]);
   for (int i = 0; i < 3; i++) {
@@ -57,7 +59,9 @@ static int Gather(Phases f, int e, int p, PlicCell cell[PLIC_CELLS])
       int known = 0;
       for (int m = 0; m < n; m++) known |= seen[m] == j;
       if (known) continue;
+      if (beside && PhasesOpen(f, j) < PHASES_LEAST_OPEN) continue;
       SetCell(f, j, p, origin, &cell[n]);
+      if (beside && PhasesOpen(f, j) < 1.0) cell[n].volume = fmin(cell[n].rest, PhasesVolumeBeside(f, j, p));
       if (!(cell[n].rest > PHASES_TINY * cell[n].area)) continue;
       seen[n++] = j;
     }

@@ -1,5 +1,4 @@
-/* Surface tension of the phases, and the solid that it has to know (phases/wetting.h): that of the last step, also on a mesh that
- * has just been made. */
+/* Surface tension of the phases, with the solid that they know (phases/wetting.h). */
 #ifndef FLUID_PHASE_TENSION_H
 #define FLUID_PHASE_TENSION_H
 #include "fluid/transport/phase_boundary.h"
@@ -10,12 +9,10 @@ typedef struct PhaseTension_s *PhaseTension;
 PetscErrorCode PhaseTensionCreate(const Stars *stars, const PhaseProperties *properties,
                                   const PhaseBoundaries *boundaries, PhaseTension *tension);
 PetscErrorCode PhaseTensionDestroy(PhaseTension *tension);
-/* alpha[ne], moves[ne]: as in PhaseStep; alpha NULL: none.  Without surface tension nothing is kept. */
-PetscErrorCode PhaseTensionSetSolid(PhaseTension tension, const double alpha[], const char moves[]);
-/* The solid of `from`, on another mesh. */
-PetscErrorCode PhaseTensionRemap(PhaseTension from, Transfer transfer, PhaseTension to);
-/* Whether any element has ever had a solid. */
-PetscBool PhaseTensionHasSolid(PhaseTension tension);
+/* There is a solid; moves[ne]: as in PhaseStep.  Without surface tension nothing is kept. */
+PetscErrorCode PhaseTensionSetSolid(PhaseTension tension, const char moves[]);
+/* As it was set, borrowed; NULL: nothing was kept.  Not collective. */
+const char *PhaseTensionMoves(PhaseTension tension);
 /* Adds the force of the phases' lines to inverse[ne]. */
 PetscErrorCode PhaseTensionAdd(PhaseTension tension, Phases phases, InverseDensity inverse[]);
 #endif

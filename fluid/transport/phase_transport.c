@@ -117,6 +117,18 @@ static PetscErrorCode SetEnd(PhaseTransport t)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PhaseTransportSetSolid(PhaseTransport t, const double alpha[], const char moves[])
+{
+  int any = PhasesSolid(t->phases) != NULL;
+  PetscFunctionBeginUser;
+  for (int e = 0; e < t->stars->ne; e++) any |= alpha[e] > 0.0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_LOR, t->domain->mesh->comm));
+  if (!any) PetscFunctionReturn(0);
+  PetscCall(PhasesSetSolid(t->phases, PhaseLightest(&t->properties), alpha));
+  PetscCall(PhaseTensionSetSolid(t->tension, moves));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PhaseTransportReconstruct(PhaseTransport t)
 {
   PetscFunctionBeginUser;
@@ -173,7 +185,11 @@ PetscErrorCode PhaseTransportStartSolid(PhaseTransport t, const double solid[])
   int n;
   const double *filled = PhaseTransportVolumes(t, &n);
   double *volume;
+  char *moves;
   PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(t->stars->ne, &moves));
+  PetscCall(PhaseTransportSetSolid(t, solid, moves));
+  PetscCall(PetscFree(moves));
   PetscCall(PetscMalloc1((size_t)n * (size_t)t->stars->ne, &volume));
   PetscCall(PetscArraycpy(volume, filled, (size_t)n * (size_t)t->stars->ne));
   for (int e = 0; e < t->stars->ne; e++)
@@ -256,8 +272,8 @@ PetscErrorCode PhaseTransportBudget(PhaseTransport t, PhaseBudget *budget)
 PetscErrorCode PhaseTransportStep(PhaseTransport t, const PhaseStep *s)
 {
   PetscFunctionBeginUser;
-  PetscCall(PhaseTensionSetSolid(t->tension, s->solid, s->moves));
-  if (PhaseTensionHasSolid(t->tension)) PetscCall(SetEnd(t)); /* with the solid of this step */
+  if (s->solid) PetscCall(PhaseTransportSetSolid(t, s->solid, s->moves));
+  if (PhasesSolid(t->phases)) PetscCall(PhaseTransportReconstruct(t));
   for (int e = 0; e < t->stars->ne; e++) t->begin[e] = t->end[e];
   PetscCall(PhaseSweepStep(t->sweep, s, t->budget.out));
   PetscCall(PhaseTransportReconstruct(t));

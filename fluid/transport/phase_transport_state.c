@@ -2,11 +2,61 @@
 #include "common/mesh/mesh_checkpoint.h"
 #include "fluid/transport/phase_transport_impl.h"
 
+/* The solid as fields: alpha, and alpha where it moves. */
+enum { SOLID, MOVING, SOLID_FIELDS };
+
+static void GetSolid(PhaseTransport t, double field[][SOLID_FIELDS])
+{
+  const double *solid = PhasesSolid(t->phases);
+  const char *moves = PhaseTensionMoves(t->tension);
+  for (int e = 0; e < t->stars->ne; e++) {
+    field[e][SOLID] = solid ? solid[e] : 0.0;
+    field[e][MOVING] = moves && moves[e] ? field[e][SOLID] : 0.0;
+  }
+}
+
+static PetscErrorCode SetSolid(PhaseTransport t, const double field[][SOLID_FIELDS])
+{
+  double *alpha;
+  char *moves;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(t->stars->ne, &alpha, t->stars->ne, &moves));
+  for (int e = 0; e < t->stars->ne; e++) {
+    alpha[e] = field[e][SOLID];
+    moves[e] = field[e][MOVING] > 0.5 * field[e][SOLID];
+  }
+  PetscCall(PhaseTransportSetSolid(t, alpha, moves));
+  PetscCall(PetscFree2(alpha, moves));
+  PetscFunctionReturn(0);
+}
+
+/* The solid of `from`, on the mesh of `to`. */
+static PetscErrorCode RemapSolid(PhaseTransport from, Transfer transfer, PhaseTransport to)
+{
+  const int nfrom = from->stars->ne, nto = to->stars->ne;
+  double(*old)[SOLID_FIELDS], (*new)[SOLID_FIELDS], (*old_vertex)[SOLID_FIELDS][3],
+      (*new_vertex)[SOLID_FIELDS][3];
+  PetscFunctionBeginUser;
+  if (!PhasesSolid(from->phases)) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc4(nfrom, &old, nto, &new, nfrom, &old_vertex, nto, &new_vertex));
+  GetSolid(from, old);
+  for (int e = 0; e < nfrom; e++)
+    for (int k = 0; k < SOLID_FIELDS; k++)
+      for (int i = 0; i < 3; i++) old_vertex[e][k][i] = old[e][k];
+  PetscCall(TransferP1DG(transfer, SOLID_FIELDS, (const double *)old_vertex, (double *)new_vertex));
+  for (int e = 0; e < nto; e++)
+    for (int k = 0; k < SOLID_FIELDS; k++)
+      new[e][k] = (new_vertex[e][k][0] + new_vertex[e][k][1] + new_vertex[e][k][2]) / 3.0;
+  PetscCall(SetSolid(to, (const double(*)[SOLID_FIELDS]) new));
+  PetscCall(PetscFree4(old, new, old_vertex, new_vertex));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PhaseTransportRemap(PhaseTransport from, Transfer transfer, PhaseTransport to)
 {
   PetscFunctionBeginUser;
   PetscCall(PhasesRemap(from->phases, transfer, to->phases));
-  PetscCall(PhaseTensionRemap(from->tension, transfer, to->tension));
+  PetscCall(RemapSolid(from, transfer, to));
   to->budget = from->budget;
   PetscCall(PhaseTransportReconstruct(to));
   PetscFunctionReturn(0);
@@ -41,9 +91,14 @@ PetscErrorCode PhaseTransportSave(PhaseTransport t, Checkpoint to)
 {
   int n;
   const double *volume = PhaseTransportVolumes(t, &n);
+  double(*solid)[SOLID_FIELDS];
   PetscMPIInt rank;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(t->domain->mesh->comm, &rank));
+  PetscCall(PetscMalloc1(t->stars->ne, &solid));
+  GetSolid(t, solid);
+  PetscCall(CheckpointPutDoubles(to, "solid", t->stars->ne, SOLID_FIELDS, (const double *)solid));
+  PetscCall(PetscFree(solid));
   PetscCall(CheckpointPutDoubles(to, "phases", t->stars->ne, n, volume));
   if (PhasesMasses(t->phases))
     PetscCall(CheckpointPutDoubles(to, "phases' masses", t->stars->ne, n, PhasesMasses(t->phases)));
@@ -54,8 +109,12 @@ PetscErrorCode PhaseTransportSave(PhaseTransport t, Checkpoint to)
 
 PetscErrorCode PhaseTransportLoad(PhaseTransport t, const PetscInt row[], Checkpoint from)
 {
-  double *volume;
+  double *volume, (*solid)[SOLID_FIELDS];
   PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(t->stars->ne, &solid));
+  PetscCall(MeshLoadDoubles(t->domain->mesh, row, from, "solid", SOLID_FIELDS, (double *)solid));
+  PetscCall(SetSolid(t, (const double(*)[SOLID_FIELDS])solid));
+  PetscCall(PetscFree(solid));
   PetscCall(PetscMalloc1((size_t)t->properties.n * (size_t)t->stars->ne, &volume));
   PetscCall(MeshLoadDoubles(t->domain->mesh, row, from, "phases", t->properties.n, volume));
   PetscCall(PhasesSetVolumes(t->phases, volume));

@@ -54,18 +54,19 @@ for ranks in "1:1:1", "2:1:2":
     assert abs(force / (500.0 * 9.81 * 0.25) - 1.0) < 0.01 and passed < 1e-9, report
 E2
 case=$here/floor.yaml
-caisson() { # label ranks height_of_its_centre level
-  must "$1" $2 --set time.end=0.1 --set time.dt_max=0.01 --set "solid.bodies[0]={shape: rectangle, centre: [0.503, $3], width: 0.4, height: 0.1, size: 0.02, material: rock, fixed: true}" \
+caisson() { # label ranks height_of_its_centre level [x]
+  must "$1" $2 --set time.end=0.1 --set time.dt_max=0.01 --set "solid.bodies[0]={shape: rectangle, centre: [${5:-0.503}, $3], width: 0.4, height: 0.1, size: 0.02, material: rock, fixed: true}" \
     --set "fluid.regions[1].upper=[3.0, $4]"
 }
 caisson "above the floor" 1:1:1 0.055 0.25
 caisson "on the floor" 1:1:1 0.05 0.25
 caisson "above the water" 2:2:2 0.05 0.06
+caisson "on the mesh's lines" 1:1:1 0.05 0.06 0.5
 "$python" - "$scratch" <<'E2'
 import csv, sys
 def last(label, file, name):
     return float(list(csv.DictReader(open("%s/%s/%s.csv" % (sys.argv[1], label, file))))[-1][name])
-for label, height, still in ("above the floor", 0.1, 1e-6), ("on the floor", 0.1, 1e-6), ("above the water", 0.06, 1e-3):
+for label, height, still in ("above the floor", 0.1, 1e-6), ("on the floor", 0.1, 1e-6), ("above the water", 0.06, 1e-3), ("on the mesh's lines", 0.06, 1e-6):
     expected = 1000.0 * 9.81 * 0.4 * height
     x, y = (last(label, "solid", "f%s0 [N/m]" % c) for c in "xy")
     energy = last(label, "fluid", "kinetic energy [J/m]")

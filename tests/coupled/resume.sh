@@ -35,8 +35,9 @@ must disc 1:1:1 "${adapt[@]}"
 must cracks 1:1:1 "${cracks[@]}"
 must other 1:1:1 "${other[@]}"
 must strong 1:1:1 "${strong[@]}"
-# a light block that floats, with surface tension: attempts at a step, the interface and its curvature at the solid
-wet=("${far[@]}" --set time.end=0.2 --set output.every=0.02 --set fluid.surface_tension=0.5 --set fluid.contact_angle=70 --set solid.materials.block.density=300)
+# a light block that floats, with surface tension: attempts at a step, the interface and its curvature at the solid (at 0.174 s a choice at the
+# contact line is left to round-off: runs of other tolerances differ from then on, too)
+wet=("${far[@]}" --set time.end=0.16 --set output.every=0.02 --set fluid.surface_tension=0.5 --set fluid.contact_angle=70 --set solid.materials.block.density=300)
 case=$here/floating.yaml must wet 1:1:1 "${wet[@]}"
 kill_and_resume disc-again 1:1:1 1:1:1 "${adapt[@]}"
 kill_and_resume disc-spread 2:1:1 1:2:2 "${adapt[@]}"
