@@ -273,7 +273,7 @@ PetscErrorCode PhaseTransportStep(PhaseTransport t, const PhaseStep *s)
 {
   PetscFunctionBeginUser;
   if (s->solid) PetscCall(PhaseTransportSetSolid(t, s->solid, s->moves));
-  if (PhasesSolid(t->phases)) PetscCall(PhaseTransportReconstruct(t));
+  if (PhaseTensionMoves(t->tension)) PetscCall(SetEnd(t)); /* with the solid of this step */
   for (int e = 0; e < t->stars->ne; e++) t->begin[e] = t->end[e];
   PetscCall(PhaseSweepStep(t->sweep, s, t->budget.out));
   PetscCall(PhaseTransportReconstruct(t));
