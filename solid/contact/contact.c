@@ -33,6 +33,34 @@ static PetscErrorCode FindTargets(Contact c, Solid s)
   PetscFunctionReturn(0);
 }
 
+/* The targets' facets, and which targets have any. */
+static PetscErrorCode ListFacets(Contact c, Solid s)
+{
+  const size_t n = (size_t)c->ntargets;
+  int *target, *start; /* [elements] */
+  PetscFunctionBeginUser;
+  PetscCall(PetscFree4(c->facet_start, c->facet, c->contactor, c->contactor_of));
+  PetscCall(PetscCalloc4(n + 2, &c->facet_start, (size_t)s->nfaces, &c->facet, n, &c->contactor, n,
+                         &c->contactor_of));
+  PetscCall(PetscMalloc1((size_t)s->elements.n, &target));
+  for (int k = 0, t = 0; k < s->elements.n; k++) {
+    target[k] = t;
+    t += t < c->ntargets && c->target[t].number == s->elements.number[k];
+  }
+  start = c->facet_start + 1; /* shifted: filling moves it to where it belongs */
+  for (int k = 0; k < s->nfaces; k++) start[target[s->facet_element[k]] + 1]++;
+  for (int t = 0; t < c->ntargets; t++) start[t + 1] += start[t];
+  for (int k = 0; k < s->nfaces; k++) c->facet[start[target[s->facet_element[k]]]++] = k;
+  c->ncontactors = 0;
+  for (int t = 0; t < c->ntargets; t++) {
+    const PetscBool any = (PetscBool)(c->facet_start[t + 1] > c->facet_start[t]);
+    c->contactor_of[t] = any ? c->ncontactors : -1;
+    if (any) c->contactor[c->ncontactors++] = t;
+  }
+  PetscCall(PetscFree(target));
+  PetscFunctionReturn(0);
+}
+
 static double FacetLength(const Solid s, int k)
 {
   const Point d = PointMinus(PointAt(s->rest, s->facet[2 * k + 1]), PointAt(s->rest, s->facet[2 * k]));
@@ -137,6 +165,7 @@ PetscErrorCode ContactRenew(Contact c, Solid s)
   PetscCall(PetscRealloc(2 * (size_t)s->nnodes * sizeof *c->searched, &c->searched));
   PetscCall(PetscRealloc((size_t)s->nfaces * sizeof *c->first_pair, &c->first_pair));
   PetscCall(FindTargets(c, s));
+  PetscCall(ListFacets(c, s));
   PetscCall(Measure(c, s));
   PetscCall(MeasureMass(c, s));
   PetscFunctionReturn(0);
@@ -177,7 +206,10 @@ PetscErrorCode ContactDestroy(Contact *c)
   PetscCall(PetscFree((*c)->searched));
   PetscCall(PetscFree((*c)->first_pair));
   PetscCall(PetscFree((*c)->target));
+  PetscCall(PetscFree4((*c)->facet_start, (*c)->facet, (*c)->contactor, (*c)->contactor_of));
   PetscCall(PetscFree((*c)->candidate));
+  PetscCall(PetscFree((*c)->couple));
+  PetscCall(PetscFree((*c)->pressed));
   PetscCall(PetscFree((*c)->near));
   PetscCall(PetscFree((*c)->wall));
   PetscCall(PetscFree((*c)->pair));

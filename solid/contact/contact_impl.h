@@ -11,8 +11,18 @@ enum { WALL_LEFT = -4, WALL_RIGHT, WALL_BOTTOM, WALL_TOP, JOINED = -5 };
 typedef struct {
   int facet, target, pair;
   double strength; /* p times the target's rest area doubled: over its area now, that is p/J */
-  double distance; /* when searched, m */
 } Candidate;
+
+/* Contacting couple (Munjiza): two elements, facets of which are candidates against the other.  Two triangles that do not
+ * overlap lie on either side of a line along a side of one of them: while they do along the one that did last, none of
+ * the candidates touches. */
+typedef struct {
+  int target[2];   /* the first is this rank's */
+  int node[2][3];  /* theirs */
+  int first, n;    /* candidates */
+  int separating;  /* side i, opposite to node i, of target[0], or 3 + i of target[1]; -1: none is known */
+  double distance; /* when searched, not less is between them, m */
+} Couple;
 
 /* An edge that may touch a wall. */
 typedef struct {
@@ -48,21 +58,30 @@ typedef struct {
 
 /* A candidate that touches now. */
 typedef struct {
-  int candidate; /* -1 - k: wall candidate k */
-  double scale;  /* of the integrals to a force over the edge's length, N/m */
+  int couple;   /* -1 - k: wall candidate k */
+  int of, side; /* the edge is that of target[of] from node `side` to the next; unset at a wall */
+  int pair;
+  double scale; /* of the integrals to a force over the edge's length, N/m */
+  Point along;  /* from the edge's start to its end, m */
   ContactIntegrals integrals;
 } ActivePair;
 
 struct Contact_s {
-  int ntargets, nall; /* this rank's; with those of the halo */
-  Target *target;     /* [nall] */
+  int ntargets, nall;          /* this rank's; with those of the halo */
+  Target *target;              /* [nall] */
+  int *facet_start, *facet;    /* [ntargets + 1], [nfaces] a target's facets */
+  int ncontactors, *contactor; /* [ncontactors] targets that have facets */
+  int *contactor_of;           /* [ntargets] its place among them, or -1 */
   int ncandidates, candidate_capacity, nwalls, wall_capacity, npairs, pair_capacity, active_capacity;
+  int ncouples, couple_capacity;
   Candidate *candidate;
+  Couple *couple;
   WallCandidate *wall;
   Pair *pair;
   ActivePair *active;
-  int nnear, *near; /* [candidate_capacity] candidates that may touch before the next check of motion */
-  int *first_pair;  /* [nfaces] -1: none */
+  int nnear, *near;       /* [couple_capacity] couples that may touch before the next check of motion */
+  int npressed, *pressed; /* [pair_capacity] pairs whose sums and response are not 0 */
+  int *first_pair;        /* [nfaces] -1: none */
   Slips history, saved;
   PetscBool restored; /* history, not the pairs, holds the slips */
   PetscBool rough;    /* any friction or damping: velocities are needed */
@@ -77,8 +96,13 @@ struct Contact_s {
   double rate[4]; /* bounds of omega^2 by bodies and by walls, 1/s2; of 2 xi omega by both, 1/s */
 };
 
-/* contact_search.c */
-const double *ContactPosition(const Contact c, const Solid s, int node);
+static inline Point ContactPosition(const Contact c, const Solid s, int node)
+{
+  return node < s->nnodes ? PointAt(s->x, node) : PointAt(HaloPositions(c->halo), node - s->nnodes);
+}
+
+/* contact_forces.c: Couple.separating as it is now. */
+int ContactSeparatingSide(const Contact c, const Solid s, const Couple *k);
 
 /* contact_pair.c */
 /* The pair of the facet and the other, made with the slip that history has of it. */

@@ -36,11 +36,14 @@ static inline void ContactPiece(double s0, double s1, double f0, double f1, doub
   integral[1] += moment;
 }
 
-static inline double ContactPotential(const double at_p[3], const double at_q[3], double s)
+/* phi at s; *i: of the lambda that it is made of. */
+static inline double ContactPotential(const double at_p[3], const double at_q[3], double s, int *i)
 {
-  double phi = HUGE_VAL;
-  for (int i = 0; i < 3; i++) phi = Lesser(phi, at_p[i] + s * (at_q[i] - at_p[i]));
-  return 3.0 * phi;
+  double lambda[3];
+  for (int k = 0; k < 3; k++) lambda[k] = at_p[k] + s * (at_q[k] - at_p[k]);
+  *i = lambda[1] < lambda[0];
+  *i = lambda[2] < lambda[*i] ? 2 : *i;
+  return Greater(3.0 * lambda[*i], 0.0);
 }
 
 /* The part s0 .. s1 of the edge on which all lambda_i >= 0; 0 if there is none. */
@@ -57,13 +60,17 @@ static inline int ContactClip(const double at_p[3], const double at_q[3], double
   return *s0 < *s1;
 }
 
-/* The integrals of phi over s0 .. s1: phi is linear between the places where two lambdas cross. */
+/* The integrals of phi over s0 .. s1: phi is linear between the places where two lambdas cross, and all the way where one of
+ * them is the least at both ends. */
 static inline double ContactIntegrate(const double at_p[3], const double at_q[3], double s0, double s1,
                                       double integral[2])
 {
-  double kink[5] = {s0}, largest;
-  int n = 1;
-  for (int i = 0; i < 3; i++) {
+  double kink[5] = {s0};
+  int n = 1, least[2];
+  double left = ContactPotential(at_p, at_q, s0, &least[0]),
+         last = ContactPotential(at_p, at_q, s1, &least[1]);
+  double largest = Greater(left, last);
+  for (int i = 0; i < 3 && least[0] != least[1]; i++) {
     const int j = (i + 1) % 3;
     const double slope = (at_q[i] - at_p[i]) - (at_q[j] - at_p[j]), s = (at_p[j] - at_p[i]) / slope;
     if (slope == 0.0 || !(s > s0 && s < s1)) continue;
@@ -71,29 +78,43 @@ static inline double ContactIntegrate(const double at_p[3], const double at_q[3]
     for (; k > 1 && kink[k - 1] > s; k--) kink[k] = kink[k - 1];
     kink[k] = s;
   }
-  kink[n++] = s1;
-  double left = Greater(ContactPotential(at_p, at_q, s0), 0.0);
-  largest = left;
   for (int k = 1; k < n; k++) {
-    const double right = Greater(ContactPotential(at_p, at_q, kink[k]), 0.0);
+    const double right = ContactPotential(at_p, at_q, kink[k], &least[0]);
     ContactPiece(kink[k - 1], kink[k], left, right, integral);
     left = right;
     largest = Greater(largest, right);
   }
+  ContactPiece(kink[n - 1], s1, left, last, integral);
   return largest;
 }
 
-/* Returns 0 when edge and triangle do not meet; *c is then unset. */
-static inline int ContactEdgeTriangle(Point p, Point q, const Point t[3], ContactIntegrals *c)
+/* at[k][i]: lambda_i of triangle t at x[k]. */
+static inline void ContactCoordinates(const Point t[3], double twice_area, int n, const Point x[],
+                                      double at[][3])
 {
-  const double twice_area = PointCross(PointMinus(t[1], t[0]), PointMinus(t[2], t[0]));
   const double inverse = 1.0 / twice_area;
-  double at_p[3], at_q[3], s0, s1;
   for (int i = 0; i < 3; i++) {
-    const Point edge = PointMinus(t[(i + 2) % 3], t[(i + 1) % 3]);
-    at_p[i] = PointCross(edge, PointMinus(p, t[(i + 1) % 3])) * inverse;
-    at_q[i] = PointCross(edge, PointMinus(q, t[(i + 1) % 3])) * inverse;
+    const Point from = t[(i + 1) % 3], side = PointMinus(t[(i + 2) % 3], from);
+    for (int k = 0; k < n; k++) at[k][i] = PointCross(side, PointMinus(x[k], from)) * inverse;
   }
+}
+
+static inline double ContactTwiceArea(const Point t[3])
+{
+  return PointCross(PointMinus(t[1], t[0]), PointMinus(t[2], t[0]));
+}
+
+/* The point is beyond, or on, a triangle's side p q: where its lambda there is not positive. */
+static inline int ContactBeyond(Point p, Point q, Point x)
+{
+  return PointCross(PointMinus(q, p), PointMinus(x, p)) <= 0.0;
+}
+
+/* With the coordinates of the edge's ends.  Returns 0 when edge and triangle do not meet; *c is then unset. */
+static inline int ContactIntegralsOf(const double at_p[3], const double at_q[3], double twice_area,
+                                     ContactIntegrals *c)
+{
+  double s0, s1;
   if (!ContactClip(at_p, at_q, &s0, &s1)) return 0;
   c->edge[0] = c->edge[1] = 0.0;
   c->twice_area = twice_area;
@@ -101,6 +122,15 @@ static inline int ContactEdgeTriangle(Point p, Point q, const Point t[3], Contac
   c->largest_phi = ContactIntegrate(at_p, at_q, s0, s1, c->edge);
   for (int i = 0; i < 3; i++) c->target[i] = at_p[i] * c->edge[0] + at_q[i] * c->edge[1];
   return 1;
+}
+
+static inline int ContactEdgeTriangle(Point p, Point q, const Point t[3], ContactIntegrals *c)
+{
+  const double twice_area = ContactTwiceArea(t);
+  const Point end[2] = {p, q};
+  double at[2][3];
+  ContactCoordinates(t, twice_area, 2, end, at);
+  return ContactIntegralsOf(at[0], at[1], twice_area, c);
 }
 
 /* A rigid half plane: phi = 3 depth / height behind the wall, depth_p and depth_q those of the edge's ends.

@@ -79,7 +79,7 @@ PetscErrorCode ContactForgetPairs(Contact c)
   PetscFunctionBeginUser;
   PetscCall(ContactSlips(c, &n, &slip));
   c->restored = PETSC_TRUE;
-  c->ncandidates = c->nnear = c->nwalls = c->npairs = 0;
+  c->ncandidates = c->ncouples = c->nnear = c->nwalls = c->npairs = c->npressed = 0;
   PetscFunctionReturn(0);
 }
 
@@ -102,6 +102,7 @@ PetscErrorCode ContactPairOf(Contact c, Solid s, int facet, int other, ContactLa
   if (c->npairs == c->pair_capacity) {
     c->pair_capacity = 2 * c->pair_capacity + 64;
     PetscCall(PetscRealloc((size_t)c->pair_capacity * sizeof *c->pair, &c->pair));
+    PetscCall(PetscRealloc((size_t)c->pair_capacity * sizeof *c->pressed, &c->pressed));
   }
   const Slip key = {EdgeOf(s, facet), other, 0.0};
   const Slip *found = c->history.n ? bsearch(&key, c->history.slip, (size_t)c->history.n,
@@ -137,6 +138,6 @@ PetscErrorCode ContactState(Contact c, int save)
   to->n = from->n;
   if (save) PetscFunctionReturn(0);
   c->restored = PETSC_TRUE;
-  c->ncandidates = c->nnear = c->nwalls = c->npairs = 0;
+  c->ncandidates = c->ncouples = c->nnear = c->nwalls = c->npairs = c->npressed = 0;
   PetscFunctionReturn(0);
 }

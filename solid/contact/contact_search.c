@@ -9,13 +9,11 @@
 typedef struct {
   Contact c;
   Solid s;
-  char *keep; /* [halo targets] */
+  const GeometryBox *facet;     /* [nfaces] with the buffer around them */
+  const GeometryBox *contactor; /* [ncontactors] of their facets */
+  const GeometryBox *target;    /* [nall] */
+  char *keep;                   /* [halo targets] */
 } SearchContext;
-
-const double *ContactPosition(const Contact c, const Solid s, int node)
-{
-  return node < s->nnodes ? s->x + 2 * node : HaloPositions(c->halo) + 2 * (node - s->nnodes);
-}
 
 /* --- distances ---------------------------------------------------------------------------------------- */
 
@@ -47,9 +45,22 @@ static PetscBool Joined(const Solid s, int facet, const Target *t)
   return (PetscBool)(s->facet_across[facet] == t->number);
 }
 
+/* They were one point at rest: the facet's end and the target's node that are least apart now, squared; HUGE_VAL: none. */
+static double Parted(const Solid s, const int *edge, const Target *t, const Point now[3])
+{
+  double least = HUGE_VAL;
+  for (int i = 0; i < 6; i++) {
+    const double *rest = s->rest + 2 * edge[i / 3];
+    if (t->rest[2 * (i % 3)] != rest[0] || t->rest[2 * (i % 3) + 1] != rest[1]) continue;
+    const Point d = PointMinus(PointAt(s->x, edge[i / 3]), now[i % 3]);
+    least = fmin(least, d.x * d.x + d.y * d.y);
+  }
+  return least;
+}
+
 /* Farther than the buffer they cannot touch before the next search.  Of one body: a pair that shares a node
  * never touches by itself, neighbours at rest only once they have come closer, and a buffer that is long
- * because the body as a whole is fast is not needed. */
+ * because the body as a whole is fast is not needed.  *distance: not less is between them. */
 static PetscBool MayBeActive(const Contact c, const Solid s, int facet, const Target *t, double *distance)
 {
   const int *edge = s->facet + 2 * facet, body = s->elements.body[s->facet_element[facet]];
@@ -58,15 +69,17 @@ static PetscBool MayBeActive(const Contact c, const Solid s, int facet, const Ta
     for (int i = 0; i < 6; i++)
       if (t->gid[i % 3] == s->gid[edge[i / 3]]) return PETSC_FALSE;
   for (int i = 0; i < 3; i++) {
-    now[i] = PointAt(ContactPosition(c, s, t->node[i]), 0);
+    now[i] = ContactPosition(c, s, t->node[i]);
     rest[i] = PointAt(t->rest, i);
   }
+  *distance = 0.0;
+  if (t->body == body && Parted(s, edge, t, now) <= c->shortest_buffer * c->shortest_buffer)
+    return PETSC_TRUE;
   *distance = Distance(PointAt(s->x, edge[0]), PointAt(s->x, edge[1]), now);
-  if (*distance > c->buffer) return PETSC_FALSE;
-  if (t->body != body) return PETSC_TRUE;
+  if (t->body != body) return (PetscBool)(*distance <= c->buffer);
+  if (*distance > c->shortest_buffer) return PETSC_FALSE;
   const double apart = Distance(PointAt(s->rest, edge[0]), PointAt(s->rest, edge[1]), rest);
-  return (PetscBool)(*distance <= c->shortest_buffer &&
-                     (apart == 0.0 || apart > c->shortest_buffer || *distance < APPROACH * apart));
+  return (PetscBool)(apart == 0.0 || apart > c->shortest_buffer || *distance < APPROACH * apart);
 }
 
 /* --- candidates --------------------------------------------------------------------------------------- */
@@ -91,22 +104,17 @@ static ContactLaw LawOf(const Solid s, int facet, double friction, double dampin
                       *rate > 0.0 ? mass / (areal_mass * length) : 1.0};
 }
 
-static PetscErrorCode AddCandidate(void *context, int facet, int target)
+static PetscErrorCode AddCandidate(Contact c, Solid s, int facet, int target)
 {
-  const SearchContext *x = context;
-  Contact c = x->c;
-  const Solid s = x->s;
   const Target *t = &c->target[target];
   const int element = s->facet_element[facet], body = s->elements.body[element];
   const Material *own = &s->material[s->elements.material[element]], *other = &s->material[t->material];
-  double friction, damping, viscous, distance;
+  double friction, damping, viscous;
   int pair;
   PetscFunctionBeginUser;
-  if (!MayBeActive(c, s, facet, t, &distance)) PetscFunctionReturn(0);
   if (c->ncandidates == c->candidate_capacity) {
     c->candidate_capacity = 2 * c->candidate_capacity + 64;
     PetscCall(PetscRealloc((size_t)c->candidate_capacity * sizeof *c->candidate, &c->candidate));
-    PetscCall(PetscRealloc((size_t)c->candidate_capacity * sizeof *c->near, &c->near));
   }
   const double penalty = fmin(own->penalty, other->penalty) * fmin(own->thickness, other->thickness);
   const double compliance = fmax(c->compliance[body], c->compliance[t->body]);
@@ -117,13 +125,59 @@ static PetscErrorCode AddCandidate(void *context, int facet, int target)
                                Together(c->mass[body], c->mass[t->body]),
                                Together(c->areal_mass[body], c->areal_mass[t->body]), &viscous);
   PetscCall(ContactPairOf(c, s, facet, joined ? JOINED : t->body, law, &pair));
-  c->candidate[c->ncandidates++] = (Candidate){facet, target, pair, penalty * t->twice_area, distance};
-  if (target >= c->ntargets) x->keep[target - c->ntargets] = 1;
+  c->candidate[c->ncandidates++] = (Candidate){facet, target, pair, penalty * t->twice_area};
   /* d(p phi)/dx = 3 p/height; a node takes half of its edges, |u_c - u_t|^2 <= 2 |u_c|^2 + 2 |u_t|^2, and
    * both bodies are contactor and target */
   c->rate[0] =
       fmax(c->rate[0], 6.0 * penalty * compliance * (1.0 / c->height[body] + 1.0 / c->height[t->body]));
   c->rate[2] = fmax(c->rate[2], 4.0 * viscous * compliance);
+  PetscFunctionReturn(0);
+}
+
+/* The facets of target `own` that may touch the target. */
+static PetscErrorCode AddCandidates(const SearchContext *x, int own, int target, Couple *couple)
+{
+  const Contact c = x->c;
+  double distance;
+  PetscFunctionBeginUser;
+  for (int k = c->facet_start[own]; k < c->facet_start[own + 1]; k++) {
+    const int facet = c->facet[k];
+    if (!GeometryBoxOverlap(&x->facet[facet], &x->target[target])) continue;
+    if (!MayBeActive(c, x->s, facet, &c->target[target], &distance)) continue;
+    PetscCall(AddCandidate(c, x->s, facet, target));
+    couple->distance = fmin(couple->distance, distance);
+  }
+  couple->n = c->ncandidates - couple->first;
+  PetscFunctionReturn(0);
+}
+
+static void TakeNodes(const Contact c, Couple *k)
+{
+  for (int i = 0; i < 6; i++) k->node[i / 3][i % 3] = c->target[k->target[i / 3]].node[i % 3];
+}
+
+/* Two contactors of this rank are found both ways round: both are dealt with when the first is the lower. */
+static PetscErrorCode AddCouple(void *context, int contactor, int target)
+{
+  const SearchContext *x = context;
+  const Contact c = x->c;
+  const int own = c->contactor[contactor], other = target < c->ntargets ? c->contactor_of[target] : -1;
+  const PetscBool both = (PetscBool)(other >= 0 && GeometryBoxOverlap(&x->contactor[other], &x->target[own]));
+  Couple couple = {.target = {own, target}, .first = c->ncandidates, .distance = HUGE_VAL};
+  PetscFunctionBeginUser;
+  if (own == target || (both && target < own)) PetscFunctionReturn(0);
+  PetscCall(AddCandidates(x, own, target, &couple));
+  if (both) PetscCall(AddCandidates(x, target, own, &couple));
+  if (couple.n == 0) PetscFunctionReturn(0);
+  if (c->ncouples == c->couple_capacity) {
+    c->couple_capacity = 2 * c->couple_capacity + 64;
+    PetscCall(PetscRealloc((size_t)c->couple_capacity * sizeof *c->couple, &c->couple));
+    PetscCall(PetscRealloc((size_t)c->couple_capacity * sizeof *c->near, &c->near));
+  }
+  TakeNodes(c, &couple);
+  couple.separating = ContactSeparatingSide(c, x->s, &couple);
+  c->couple[c->ncouples++] = couple;
+  if (target >= c->ntargets) x->keep[target - c->ntargets] = 1;
   PetscFunctionReturn(0);
 }
 
@@ -200,9 +254,14 @@ static PetscErrorCode DropTargets(Contact c, const char keep[])
     int *target = &c->candidate[k].target;
     if (*target >= c->ntargets) *target = c->ntargets + index[*target - c->ntargets];
   }
+  for (int k = 0; k < c->ncouples; k++) {
+    int *target = &c->couple[k].target[1];
+    if (*target >= c->ntargets) *target = c->ntargets + index[*target - c->ntargets];
+  }
   const int n = HaloTargets(c->halo, &foreign);
   c->nall = c->ntargets + n;
   PetscCall(PetscArraycpy(c->target + c->ntargets, foreign, (size_t)n));
+  for (int k = 0; k < c->ncouples; k++) TakeNodes(c, &c->couple[k]);
   PetscCall(PetscFree(index));
   PetscFunctionReturn(0);
 }
@@ -210,28 +269,40 @@ static PetscErrorCode DropTargets(Contact c, const char keep[])
 /* Every pair closer than the buffer. */
 static PetscErrorCode FindPairs(Contact c, Solid s, const GeometryBox edge[])
 {
-  SearchContext context = {c, s, NULL};
-  GeometryBox *box;
+  GeometryBox *contactor, *target;
+  char *keep;
   PetscFunctionBeginUser;
   PetscCall(BringTargets(c, s, edge));
-  PetscCall(PetscMalloc1((size_t)c->nall, &box));
-  PetscCall(PetscCalloc1((size_t)(c->nall - c->ntargets), &context.keep));
+  PetscCall(PetscMalloc2((size_t)c->ncontactors, &contactor, (size_t)c->nall, &target));
+  PetscCall(PetscCalloc1((size_t)(c->nall - c->ntargets), &keep));
   for (int k = 0; k < c->nall; k++) {
-    box[k] = GeometryBoxEmpty();
-    for (int i = 0; i < 3; i++) GeometryBoxGrow(&box[k], ContactPosition(c, s, c->target[k].node[i]));
+    target[k] = GeometryBoxEmpty();
+    for (int i = 0; i < 3; i++) {
+      const Point at = ContactPosition(c, s, c->target[k].node[i]);
+      GeometryBoxGrow(&target[k], (const double[]){at.x, at.y});
+    }
   }
-  PetscCall(CellGridPairs(s->nfaces, edge, c->nall, box, AddCandidate, &context));
-  PetscCall(DropTargets(c, context.keep));
-  PetscCall(PetscFree(context.keep));
-  PetscCall(PetscFree(box));
+  for (int k = 0; k < c->ncontactors; k++) {
+    const int own = c->contactor[k];
+    contactor[k] = GeometryBoxEmpty();
+    for (int i = c->facet_start[own]; i < c->facet_start[own + 1]; i++) {
+      GeometryBoxGrow(&contactor[k], edge[c->facet[i]].lower);
+      GeometryBoxGrow(&contactor[k], edge[c->facet[i]].upper);
+    }
+  }
+  SearchContext context = {c, s, edge, contactor, target, keep};
+  PetscCall(CellGridPairs(c->ncontactors, contactor, c->nall, target, AddCouple, &context));
+  PetscCall(DropTargets(c, keep));
+  PetscCall(PetscFree(keep));
+  PetscCall(PetscFree2(contactor, target));
   PetscFunctionReturn(0);
 }
 
 void ContactSetTravel(Contact c, double travel)
 {
   c->nnear = 0;
-  for (int k = 0; k < c->ncandidates; k++)
-    if (c->candidate[k].distance <= 2.0 * travel) c->near[c->nnear++] = k;
+  for (int k = 0; k < c->ncouples; k++)
+    if (c->couple[k].distance <= 2.0 * travel) c->near[c->nnear++] = k;
 }
 
 PetscErrorCode ContactSearch(Contact c, Solid s, double min_buffer)

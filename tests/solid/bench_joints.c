@@ -38,9 +38,10 @@ static PetscErrorCode Measure(double size, double stretch)
 
 int main(int argc, char **argv)
 {
-  const double sizes[] = {0.05, 0.02, 0.01};
+  const double sizes[] = {0.05, 0.02, 0.01}, given = argc > 1 ? atof(argv[1]) : 0.0;
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
-  for (int k = 0; k < 3; k++)
-    for (int active = 0; active < 2; active++) PetscCall(Measure(sizes[k], 1.0 + 4e-4 * active));
+  for (int k = 0; k < (given > 0.0 ? 1 : 3); k++)
+    for (int active = 0; active < 2; active++)
+      PetscCall(Measure(given > 0.0 ? given : sizes[k], 1.0 + 4e-4 * active));
   return PetscFinalize();
 }
