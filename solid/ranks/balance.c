@@ -52,7 +52,7 @@ static PetscErrorCode Inefficiency(Solid s, double *inefficiency)
 /* --- the new subdomain -------------------------------------------------------------------------------- */
 
 typedef struct {
-  int number, work;
+  int number, work, piece;
   double at[2];
 } Place;
 
@@ -61,9 +61,12 @@ static PetscErrorCode FindPlaces(Solid s, Place place[])
 {
   const Elements *e = &s->elements;
   const Contact c = s->contact;
+  const int *piece;
+  int npieces;
   PetscFunctionBeginUser;
+  PetscCall(SolidPieces(s, &npieces, &piece));
   for (int k = 0; k < e->n; k++) {
-    place[k] = (Place){.number = e->number[k], .work = WORK_ELEMENT};
+    place[k] = (Place){.number = e->number[k], .work = WORK_ELEMENT, .piece = piece[e->node[0][k]]};
     for (int i = 0; i < 3; i++)
       for (int d = 0; d < 2; d++) place[k].at[d] += s->x[2 * e->node[i][k] + d] / 3.0;
   }
@@ -112,6 +115,7 @@ static PetscErrorCode GatherGraph(Solid s, PartitionGraph *g)
   all = received;
   for (int k = 0; k < n; k++) {
     g->work[all[k].number] = all[k].work;
+    g->piece[all[k].number] = all[k].piece;
     for (int d = 0; d < 2; d++) g->at[all[k].number][d] = all[k].at[d];
   }
   PetscCall(PetscFree(all));

@@ -1,142 +1,6 @@
 #include "solid/ranks/partition.h"
-#include "solid/bodies/element_edges.h"
-#include "solid/contact/cell_grid.h"
 #include <metis.h>
-#include <stdint.h>
 #include <stdlib.h>
-
-/* --- links -------------------------------------------------------------------------------------------- */
-
-PetscErrorCode PartitionGraphLink(PartitionGraph *g, int a, int b, int weight)
-{
-  PetscFunctionBeginUser;
-  if (g->nlinks == g->capacity) {
-    g->capacity = 2 * g->capacity + 64;
-    PetscCall(PetscRealloc((size_t)g->capacity * sizeof *g->link, &g->link));
-  }
-  g->link[g->nlinks++] = (PartitionLink){a, b, weight};
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode PartitionGraphCreate(const Model *a, PartitionGraph *g)
-{
-  ElementEdge *edge;
-  PetscFunctionBeginUser;
-  *g = (PartitionGraph){.capacity = 4 * a->nelements};
-  PetscCall(PetscMalloc1((size_t)g->capacity, &g->link));
-  PetscCall(PetscMalloc2((size_t)a->nelements, &g->work, (size_t)a->nelements, &g->at));
-  for (int e = 0; e < a->nelements; e++) g->work[e] = WORK_ELEMENT;
-  PetscCall(ElementEdgesSorted(0, a->nelements, a->element, &edge));
-  for (int k = 0; k + 1 < 3 * a->nelements; k++)
-    if (edge[k].low == edge[k + 1].low && edge[k].high == edge[k + 1].high)
-      PetscCall(PartitionGraphLink(g, edge[k].element, edge[k + 1].element, LINK_INTACT));
-  PetscCall(PetscFree(edge));
-  PetscFunctionReturn(0);
-}
-
-typedef struct {
-  const Model *a;
-  PartitionGraph *g;
-} NearSearch;
-
-static PetscErrorCode NearFound(void *context, int facet, int e)
-{
-  const NearSearch *s = context;
-  const int own = s->a->facet_element[facet];
-  PetscFunctionBeginUser;
-  if (s->a->element_body[own] == s->a->element_body[e]) PetscFunctionReturn(0);
-  s->g->work[own] += WORK_CANDIDATE;
-  PetscCall(PartitionGraphLink(s->g, own, e, LINK_NEAR));
-  PetscFunctionReturn(0);
-}
-
-static double FacetSpan(const Model *a, int k)
-{
-  const double *p = a->x + 2 * a->facet[2 * k], *q = a->x + 2 * a->facet[2 * k + 1];
-  return hypot(q[0] - p[0], q[1] - p[1]);
-}
-
-/* As the first search for contact does, but with boxes alone. */
-PetscErrorCode PartitionGraphNear(PartitionGraph *g, const Model *a)
-{
-  NearSearch search = {a, g};
-  GeometryBox *facet, *element;
-  double buffer = 0.0;
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2((size_t)a->nfacets, &facet, (size_t)a->nelements, &element));
-  for (int k = 0; k < a->nfacets; k++) buffer += 0.5 * FacetSpan(a, k) / a->nfacets;
-  for (int k = 0; k < a->nfacets; k++) {
-    facet[k] = GeometryBoxEmpty();
-    for (int i = 0; i < 2; i++) GeometryBoxGrow(&facet[k], a->x + 2 * a->facet[2 * k + i]);
-    for (int c = 0; c < 2; c++) {
-      facet[k].lower[c] -= buffer;
-      facet[k].upper[c] += buffer;
-    }
-  }
-  for (int e = 0; e < a->nelements; e++) {
-    element[e] = GeometryBoxEmpty();
-    g->at[e][0] = g->at[e][1] = 0.0;
-    for (int i = 0; i < 3; i++) {
-      const double *x = a->x + 2 * a->element[3 * e + i];
-      GeometryBoxGrow(&element[e], x);
-      for (int c = 0; c < 2; c++) g->at[e][c] += x[c] / 3.0;
-    }
-  }
-  if (a->nbodies > 1) PetscCall(CellGridPairs(a->nfacets, facet, a->nelements, element, NearFound, &search));
-  PetscCall(PetscFree2(facet, element));
-  PetscFunctionReturn(0);
-}
-
-/* --- the curve ---------------------------------------------------------------------------------------- */
-
-typedef struct {
-  uint64_t key;
-  int element;
-} Stop;
-
-/* Place along Hilbert's curve through 2^16 x 2^16 cells. */
-static uint64_t HilbertKey(uint32_t x, uint32_t y)
-{
-  uint64_t key = 0;
-  for (uint32_t s = 1u << 15; s > 0; s /= 2) {
-    const uint32_t rx = (x & s) > 0, ry = (y & s) > 0;
-    key += (uint64_t)s * s * ((3 * rx) ^ ry);
-    if (ry) continue;
-    if (rx) {
-      x = 0xffff - x;
-      y = 0xffff - y;
-    }
-    const uint32_t swap = x;
-    x = y;
-    y = swap;
-  }
-  return key;
-}
-
-static int CompareStops(const void *a, const void *b)
-{
-  const Stop *p = a, *q = b;
-  return p->key != q->key ? (p->key > q->key) - (p->key < q->key) : p->element - q->element;
-}
-
-static PetscErrorCode LinkCurve(PartitionGraph *g, int n)
-{
-  GeometryBox all = GeometryBoxEmpty();
-  Stop *stop;
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1((size_t)n, &stop));
-  for (int e = 0; e < n; e++) GeometryBoxGrow(&all, g->at[e]);
-  const double size = fmax(fmax(all.upper[0] - all.lower[0], all.upper[1] - all.lower[1]), 1e-300);
-  for (int e = 0; e < n; e++)
-    stop[e] = (Stop){HilbertKey((uint32_t)(65535.0 * ((g->at[e][0] - all.lower[0]) / size)),
-                                (uint32_t)(65535.0 * ((g->at[e][1] - all.lower[1]) / size))),
-                     e};
-  qsort(stop, (size_t)n, sizeof *stop, CompareStops);
-  for (int k = 0; k + 1 < n; k++)
-    PetscCall(PartitionGraphLink(g, stop[k].element, stop[k + 1].element, LINK_CURVE));
-  PetscCall(PetscFree(stop));
-  PetscFunctionReturn(0);
-}
 
 /* --- METIS -------------------------------------------------------------------------------------------- */
 
@@ -201,19 +65,90 @@ static PetscErrorCode Metis(const PartitionGraph *g, int n, int parts, int part[
   PetscFunctionReturn(0);
 }
 
+/* --- whole pieces ------------------------------------------------------------------------------------- */
+
+/* vertex[nelements] of the graph in which pieces of at most that work are one vertex, and so are the parts of a six-node
+ * triangle. */
+static PetscErrorCode NumberVertices(const PartitionGraph *g, const Model *a, double most, int vertex[],
+                                     int *n)
+{
+  double *work;
+  int *first; /* [pieces] its vertex */
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1((size_t)a->nelements, &work));
+  PetscCall(PetscMalloc1((size_t)a->nelements, &first));
+  for (int e = 0; e < a->nelements; e++) {
+    work[g->piece[e]] += g->work[e];
+    first[e] = -1;
+  }
+  *n = 0;
+  for (int e = 0; e < a->nelements; e++) {
+    const int piece = g->piece[e], leader = a->six_node[e] ? e - (a->six_node[e] - SIX_NODE_A) : e;
+    if (work[piece] <= most) {
+      if (first[piece] < 0) first[piece] = (*n)++;
+      vertex[e] = first[piece];
+    } else {
+      vertex[e] = leader < e ? vertex[leader] : (*n)++;
+    }
+  }
+  PetscCall(PetscFree(work));
+  PetscCall(PetscFree(first));
+  PetscFunctionReturn(0);
+}
+
+/* The graph of the vertices; its pieces and places are not set. */
+static PetscErrorCode Contract(const PartitionGraph *g, int nelements, const int vertex[], int n,
+                               PartitionGraph *c)
+{
+  PetscFunctionBeginUser;
+  *c = (PartitionGraph){0};
+  PetscCall(PetscCalloc1((size_t)n, &c->work));
+  for (int e = 0; e < nelements; e++) c->work[vertex[e]] += g->work[e];
+  for (int k = 0; k < g->nlinks; k++) {
+    const PartitionLink *l = &g->link[k];
+    if (vertex[l->a] != vertex[l->b]) PetscCall(PartitionGraphLink(c, vertex[l->a], vertex[l->b], l->weight));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* *excess: of the largest part's work over the mean. */
+static PetscErrorCode CutVertices(const PartitionGraph *g, const Model *a, double most, int parts, int part[],
+                                  double *excess)
+{
+  PartitionGraph c;
+  double *load, all = 0.0;
+  int *vertex, *of, n = 0;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2((size_t)a->nelements, &vertex, (size_t)a->nelements, &of));
+  PetscCall(NumberVertices(g, a, most, vertex, &n));
+  for (int v = 0; v < n; v++) of[v] = 0;
+  PetscCall(Contract(g, a->nelements, vertex, n, &c));
+  if (PetscMin(parts, n) > 1) PetscCall(Metis(&c, n, PetscMin(parts, n), of));
+  PetscCall(PetscCalloc1((size_t)parts, &load));
+  for (int e = 0; e < a->nelements; e++) {
+    part[e] = of[vertex[e]];
+    load[part[e]] += g->work[e];
+    all += g->work[e];
+  }
+  *excess = 0.0;
+  for (int p = 0; p < parts; p++) *excess = fmax(*excess, load[p] * parts / all - 1.0);
+  PetscCall(PetscFree(load));
+  PetscCall(PetscFree(c.link));
+  PetscCall(PetscFree(c.work));
+  PetscCall(PetscFree2(vertex, of));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PartitionGraphCut(PartitionGraph *g, const Model *a, int parts, int part[])
 {
-  const int nelements = a->nelements;
+  double all = 0.0, excess;
   PetscFunctionBeginUser;
-  for (int e = 0; e < nelements; e++) part[e] = 0;
-  if (PetscMin(parts, nelements) > 1) {
-    PetscCall(LinkCurve(g, nelements));
-    PetscCall(Metis(g, nelements, PetscMin(parts, nelements), part));
-    for (int e = 0; e < nelements; e++)
-      if (a->six_node[e]) part[e] = part[e - (a->six_node[e] - SIX_NODE_A)];
-  }
+  for (int e = 0; e < a->nelements; e++) all += g->work[e];
+  if (parts > 1) PetscCall(PartitionGraphCurve(g, a->nelements));
+  PetscCall(CutVertices(g, a, (1.0 + WHOLE_EXCESS) * all / parts, parts, part, &excess));
+  if (excess > WHOLE_EXCESS) PetscCall(CutVertices(g, a, 0.0, parts, part, &excess));
   PetscCall(PetscFree(g->link));
-  PetscCall(PetscFree2(g->work, g->at));
+  PetscCall(PetscFree3(g->work, g->piece, g->at));
   PetscFunctionReturn(0);
 }
 
