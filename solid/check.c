@@ -72,7 +72,9 @@ static const CoracleCaseKey KEYS[] = {
     {"solid.bodies[].prescribed[].rise", "s", "time in which both rise from zero"},
     {"solid.bodies[].prescribed[].release", "s", "when the boundary becomes free; absent: never"},
     {"solid.bodies[].joints", "", "which edges between two elements can crack: none, all, or a list"},
-    {"solid.bodies[].joints[]", "", "name of a physical surface in which edges can crack"},
+    {"solid.bodies[].joints[]", "",
+     "name of a physical surface in which edges can crack, or of a physical curve inside, along which they "
+     "can"},
     {"solid.bodies[].joints[].lower", "m",
      "lower left corner of a box: edges between two elements with centres in it can crack"},
     {"solid.bodies[].joints[].upper", "m", "upper right corner of the box"},

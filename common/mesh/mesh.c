@@ -60,6 +60,8 @@ PetscErrorCode MeshSerialDestroy(MeshSerial *mesh)
   PetscCall(PetscFree(mesh->tag_name));
   PetscCall(PetscFree(mesh->region));
   PetscCall(PetscFree(mesh->region_name));
+  PetscCall(PetscFree(mesh->curve));
+  PetscCall(PetscFree(mesh->curve_name));
   memset(mesh, 0, sizeof *mesh);
   PetscFunctionReturn(0);
 }

@@ -51,6 +51,9 @@ typedef struct {
   int *region; /* [ne] or NULL: physical surface of each element */
   int nregions;
   char (*region_name)[64];
+  int *curve; /* [ne][3] or NULL: physical curve of each side between two triangles, -1 without one */
+  int ncurves;
+  char (*curve_name)[64];
   int order; /* 2: a mesh of second order; four elements are one of its triangles, those at its vertices (vertex, node after
                 it, node before it), counter-clockwise, then the middle one; else 0 */
 } MeshSerial;
@@ -63,7 +66,7 @@ typedef struct {
 PetscErrorCode MeshBox(const double lower[2], const double upper[2], double size_max,
                        double (*size)(void *context, const double x[2]), void *context, MeshSerial *mesh);
 /* Gmsh .msh, ASCII or binary, formats 2.2 and 4.1: triangles, of first order or all of second, boundary edges from physical curves (their
- * names; a boundary edge without one is called "boundary").  Triangles given clockwise are turned; a
+ * names; a boundary edge without one is called "boundary"), and those between triangles.  Triangles given clockwise are turned; a
  * degenerate or repeated one, or one with a vertex that does not exist, is an error that names file and
  * element.  On failure *error (a static buffer) says why and a PETSc error code is returned without a
  * trace-back. */

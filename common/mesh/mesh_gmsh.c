@@ -175,6 +175,24 @@ static PetscErrorCode Boundary(const GmshFile *f, MeshTable *sides, MeshTable *n
   return 0;
 }
 
+/* Physical curves between triangles, if the file has any. */
+static PetscErrorCode Curves(const GmshFile *f, MeshTable *sides, MeshTable *named, MeshSerial *m)
+{
+  for (int k = 0; k < 3 * m->ne; k++) {
+    const int a = m->vertex[k], b = m->vertex[k - k % 3 + (k + 1) % 3],
+              physical = *MeshTableEdge(named, a, b);
+    char name[64];
+    if (physical <= 0 || *MeshTableAt(sides, b, a) < 0) continue;
+    if (!m->curve) {
+      GMSH_TRY(PetscMalloc1(3 * (size_t)m->ne, &m->curve));
+      for (int i = 0; i < 3 * m->ne; i++) m->curve[i] = -1;
+    }
+    NameOf(f, 1, physical, name);
+    GMSH_TRY(PlaceOf(name, &m->ncurves, &m->curve_name, &m->curve[k]));
+  }
+  return 0;
+}
+
 /* Physical surfaces, if the file has any; triangles in none of them are of the region "none". */
 static PetscErrorCode Regions(const GmshFile *f, MeshSerial *m)
 {
@@ -222,6 +240,7 @@ static PetscErrorCode Convert(const GmshFile *f, MeshTable *index, MeshTable *si
   if (f->order == 2) OrderParts(m);
   GMSH_TRY(Lines(f, index, named));
   GMSH_TRY(Boundary(f, sides, named, m));
+  GMSH_TRY(Curves(f, sides, named, m));
   GMSH_TRY(Regions(f, m));
   return Compress(f, m);
 }

@@ -205,24 +205,24 @@ static void ReadRegion(void *context, const char *name)
   r->region[r->n++] = (RegionMaterial){name, MaterialAt(r->c, item)};
 }
 
-/* Item k of a list of joints: a box, or the name of a physical surface. */
-static void ReadJointRegion(CoracleCase c, const char *key, JointSetup *joints, double (*box)[4],
-                            const char **region)
+/* An item of a list of joints: a box, or the name of a physical surface or curve. */
+static void ReadJointItem(CoracleCase c, const char *key, JointSetup *joints, double (*box)[4],
+                          const char **name)
 {
   char corner[2][KEY + 32];
   (void)snprintf(corner[0], sizeof corner[0], "%s.lower", key);
   (void)snprintf(corner[1], sizeof corner[1], "%s.upper", key);
   if (!CoracleCaseHas(c, corner[0]) && !CoracleCaseHas(c, corner[1])) {
-    region[joints->nregions++] = CoracleCaseString(c, key);
+    name[joints->nnames++] = CoracleCaseString(c, key);
     return;
   }
   for (int i = 0; i < 2; i++) CoracleCaseVector(c, corner[i], 2, box[joints->nboxes] + 2 * i);
   joints->nboxes++;
 }
 
-/* all, none, or a list (*box and *region are allocated). */
+/* all, none, or a list (*box and *name are allocated). */
 static PetscErrorCode ReadJoints(CoracleCase c, int body, JointSetup *joints, double (**box)[4],
-                                 const char ***region)
+                                 const char ***name)
 {
   static const char *const WORDS[] = {"none", "all", NULL};
   char key[KEY], item[KEY + 16];
@@ -230,14 +230,14 @@ static PetscErrorCode ReadJoints(CoracleCase c, int body, JointSetup *joints, do
   BodyKey(key, body, "joints");
   (void)snprintf(item, sizeof item, "%s[0]", key);
   const int n = CoracleCaseHas(c, item) ? CoracleCaseCount(c, key) : 0;
-  PetscCall(PetscMalloc2((size_t)n, box, (size_t)n, region));
+  PetscCall(PetscMalloc2((size_t)n, box, (size_t)n, name));
   if (n == 0) joints->all = CoracleCaseWord(c, key, 0, WORDS);
   for (int k = 0; k < n; k++) {
     (void)snprintf(item, sizeof item, "%s[%d]", key, k);
-    ReadJointRegion(c, item, joints, *box, *region);
+    ReadJointItem(c, item, joints, *box, *name);
   }
   joints->box = *box;
-  joints->region = *region;
+  joints->name = *name;
   PetscFunctionReturn(0);
 }
 
@@ -273,7 +273,7 @@ PetscErrorCode CaseReadBody(CoracleCase c, int body, Model *a)
   MeshSerial mesh = {0};
   BoundaryMotion *prescribed;
   double(*steady)[3];
-  const char **name, **joint_region;
+  const char **name, **joint_name;
   double(*joint_box)[4], *position;
   char key[KEY];
   PetscFunctionBeginUser;
@@ -284,7 +284,7 @@ PetscErrorCode CaseReadBody(CoracleCase c, int body, Model *a)
   PetscCall(CaseReadShape(c, body, &mesh));
   PetscCall(ReadFixed(c, body, &setup, &name));
   PetscCall(ReadPrescribed(c, body, &setup, &prescribed, &steady));
-  PetscCall(ReadJoints(c, body, &setup.joints, &joint_box, &joint_region));
+  PetscCall(ReadJoints(c, body, &setup.joints, &joint_box, &joint_name));
   PetscCall(CaseReadStretch(c, body, &mesh, &setup, &position));
   setup.six_node = CoracleCaseIntegerOr(c, BodyKey(key, body, "order"), PetscMax(mesh.order, 1), 1, 2) == 2;
   if (setup.six_node && mesh.order != 2) PetscCall(SixNodeSplit(&mesh, &position));
@@ -301,7 +301,7 @@ PetscErrorCode CaseReadBody(CoracleCase c, int body, Model *a)
   PetscCall(PetscFree2(prescribed, steady));
   PetscCall(PetscFree(name));
   PetscCall(PetscFree(position));
-  PetscCall(PetscFree2(joint_box, joint_region));
+  PetscCall(PetscFree2(joint_box, joint_name));
   PetscCall(MeshSerialDestroy(&mesh));
   PetscFunctionReturn(0);
 }

@@ -3,6 +3,8 @@
 #include "solid/bodies/model_impl.h"
 #include <stdlib.h>
 
+#define ALL_SIDES 7
+
 /* --- materials ---------------------------------------------------------------------------------------- */
 
 /* The place of a material in the model, where it is put if it is not there. */
@@ -212,26 +214,37 @@ static PetscErrorCode AddElements(Model *a, const MeshSerial *m, const BodySetup
   PetscFunctionReturn(0);
 }
 
-static int InJoints(const MeshSerial *m, int e, const JointSetup *j)
+static int Named(int place, char (*list)[64], const char *name)
 {
-  int inside = j->all;
+  return place >= 0 && !strcmp(list[place], name);
+}
+
+/* The sides of an element that may part, a bit each. */
+static int SidesWithJoints(const MeshSerial *m, int e, const JointSetup *j)
+{
+  int inside = j->all, sides = 0;
   for (int k = 0; k < j->nboxes; k++) inside |= ModelInBox(m, e, j->box[k]);
-  for (int k = 0; k < j->nregions; k++)
-    inside |= m->region && m->region[e] >= 0 && !strcmp(m->region_name[m->region[e]], j->region[k]);
-  return inside;
+  for (int k = 0; k < j->nnames; k++) {
+    inside |= m->region && Named(m->region[e], m->region_name, j->name[k]);
+    for (int i = 0; i < 3 && m->curve; i++)
+      sides |= Named(m->curve[3 * e + i], m->curve_name, j->name[k]) << i;
+  }
+  return inside ? ALL_SIDES : sides;
 }
 
 static PetscErrorCode GiveJoints(Model *a, const MeshSerial *m, const JointSetup *joints, int first)
 {
   for (int e = 0; e < m->ne; e++) {
     const Material *of = &a->material[a->element_material[first + e]];
-    a->jointed[first + e] = InJoints(m, e, joints);
+    a->jointed[first + e] = SidesWithJoints(m, e, joints);
     if (a->jointed[first + e] && a->six_node[first + e])
       return ModelRefuse("six-node triangles (order 2) have no joints: they do not crack");
     for (int k = 0; k < 2 && a->jointed[first + e]; k++)
       if (!(of->strength[k] > 0.0 && of->fracture_energy[k] > 0.0))
         return ModelRefuse(
-            "joints need a material with tensile_strength, shear_strength and fracture_energy");
+            "joints need tensile_strength, shear_strength and fracture_energy, which material '%s' has "
+            "not",
+            of->name);
   }
   return 0;
 }

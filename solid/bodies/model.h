@@ -32,12 +32,12 @@ typedef struct {
 /* Without viscosity, per metre of thickness. */
 ElementLaw MaterialLaw(const Material *m);
 
-/* Where a body may crack: the edges between two elements that lie in one of the boxes or regions. */
+/* Where a body may crack: the edges between two elements that lie in one of the boxes or regions, and those on a curve. */
 typedef struct {
   int all;
-  int nboxes, nregions;
-  const double (*box)[4];    /* lower x, y, upper x, y: holds the element's centre at rest */
-  const char *const *region; /* physical surfaces of the mesh */
+  int nboxes, nnames;
+  const double (*box)[4];  /* lower x, y, upper x, y: holds the element's centre at rest */
+  const char *const *name; /* physical surfaces of the mesh, or physical curves between its triangles */
 } JointSetup;
 
 typedef struct {
@@ -83,7 +83,7 @@ typedef struct {
   int *element;          /* [nelements][3] counter-clockwise */
   int *element_body;     /* [nelements] */
   int *element_material; /* [nelements] */
-  int *jointed;          /* [nelements] may part from its jointed neighbours */
+  int *jointed;          /* [nelements] bit i: may part across side i, if the neighbour may */
   int *six_node;         /* [nelements] SixNodePart */
   int *facet;            /* [nfacets][2] surface edges, the solid on their left */
   int *facet_element;    /* [nfacets] the element behind */

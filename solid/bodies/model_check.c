@@ -51,38 +51,39 @@ static PetscErrorCode CheckPositions(const MeshSerial *m, const double x[])
   return 0;
 }
 
-/* what: "boundary" or "region" */
-static PetscErrorCode CheckName(const char *what, const char *name, int n, char (*known)[64])
-{
-  char all[160] = "";
-  for (int t = 0; t < n; t++) {
-    const size_t used = strlen(all);
-    if (!strcmp(known[t], name)) return 0;
-    (void)snprintf(all + used, sizeof all - used, "%s%s", t ? ", " : "", known[t]);
-  }
-  return ModelRefuse("the body has no %s '%s'; it has %s", what, name, n ? all : "none");
-}
+typedef struct {
+  int n;
+  char (*name)[64];
+} Names;
 
-static PetscBool IsRegion(const MeshSerial *m, const char *name)
+/* In one of two lists, which what describes. */
+static PetscErrorCode CheckName(const char *what, const char *name, Names one, Names two)
 {
-  for (int r = 0; r < m->nregions; r++)
-    if (!strcmp(m->region_name[r], name)) return PETSC_TRUE;
-  return PETSC_FALSE;
+  char all[160] = "none";
+  size_t used = 0;
+  for (int k = 0; k < one.n + two.n; k++) {
+    const char *known = k < one.n ? one.name[k] : two.name[k - one.n];
+    if (!strcmp(known, name)) return 0;
+    (void)snprintf(all + used, sizeof all - used, "%s%s", k ? ", " : "", known);
+    used = strlen(all);
+  }
+  return ModelRefuse("the body has no %s '%s'; it has %s", what, name, all);
 }
 
 static PetscErrorCode CheckNames(const MeshSerial *m, const BodySetup *setup)
 {
+  const Names boundaries = {m->ntags, m->tag_name}, regions = {m->nregions, m->region_name},
+              curves = {m->ncurves, m->curve_name}, none = {0};
   PetscErrorCode code = 0;
   for (int k = 0; k < setup->nfixed && !code; k++)
-    if (!IsRegion(m, setup->fixed_name[k]))
-      code = CheckName("boundary", setup->fixed_name[k], m->ntags, m->tag_name);
+    code = CheckName("boundary or region", setup->fixed_name[k], boundaries, regions);
   for (int k = 0; k < setup->nprescribed && !code; k++)
     if (setup->prescribed[k].boundary)
-      code = CheckName("boundary", setup->prescribed[k].boundary, m->ntags, m->tag_name);
+      code = CheckName("boundary", setup->prescribed[k].boundary, boundaries, none);
   for (int k = 0; k < setup->nregions && !code; k++)
-    code = CheckName("region", setup->region[k].region, m->nregions, m->region_name);
-  for (int k = 0; k < setup->joints.nregions && !code; k++)
-    code = CheckName("region", setup->joints.region[k], m->nregions, m->region_name);
+    code = CheckName("region", setup->region[k].region, regions, none);
+  for (int k = 0; k < setup->joints.nnames && !code; k++)
+    code = CheckName("region or curve inside", setup->joints.name[k], regions, curves);
   return code;
 }
 

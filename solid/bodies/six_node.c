@@ -35,10 +35,11 @@ static int CompareEnds(const void *a, const void *b)
 
 static PetscErrorCode SplitElements(MeshSerial *m, const Sides *sides)
 {
-  int *vertex, *region = NULL;
+  int *vertex, *region = NULL, *curve = NULL;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(12 * (size_t)m->ne, &vertex));
   if (m->region) PetscCall(PetscMalloc1(4 * (size_t)m->ne, &region));
+  if (m->curve) PetscCall(PetscMalloc1(12 * (size_t)m->ne, &curve));
   for (int e = 0; e < m->ne; e++) {
     int middle[3];
     for (int i = 0; i < 3; i++) middle[i] = m->nv + sides->of[3 * e + i];
@@ -50,11 +51,18 @@ static PetscErrorCode SplitElements(MeshSerial *m, const Sides *sides)
       vertex[12 * e + 9 + i] = middle[i];
     }
     for (int i = 0; i < 4 && region; i++) region[4 * e + i] = m->region[e];
+    for (int i = 0; i < 12 && curve; i++) curve[12 * e + i] = -1;
+    for (int i = 0; i < 3 && curve; i++) { /* the halves of side i */
+      curve[12 * e + 3 * i] = m->curve[3 * e + i];
+      curve[12 * e + 3 * ((i + 1) % 3) + 2] = m->curve[3 * e + i];
+    }
   }
   PetscCall(PetscFree(m->vertex));
   PetscCall(PetscFree(m->region));
+  PetscCall(PetscFree(m->curve));
   m->vertex = vertex;
   m->region = region;
+  m->curve = curve;
   PetscFunctionReturn(0);
 }
 

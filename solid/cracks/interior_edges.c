@@ -20,7 +20,8 @@ PetscErrorCode InteriorEdgesFind(const Model *a, InteriorEdges *edges)
   for (int k = 0; k + 1 < 3 * a->nelements; k++) {
     const ElementEdge *p = &edge[k], *q = &edge[k + 1];
     if (p->low != q->low || p->high != q->high) continue;
-    const int *node = a->element + 3 * p->element, parts = a->jointed[p->element] && a->jointed[q->element];
+    const int *node = a->element + 3 * p->element,
+              parts = a->jointed[p->element] >> p->side & a->jointed[q->element] >> q->side & 1;
     edges->edge[edges->n++] = (InteriorEdge){{node[p->side], node[(p->side + 1) % 3]},
                                              {p->element, q->element},
                                              {p->side, q->side},

@@ -57,11 +57,11 @@ static void CheckSquare(const char *name)
 #define ELEMENTS(n, list) "$Elements\n" n "\n" list "$EndElements\n"
 #define TAIL ELEMENTS("2", "11 2 2 0 1 1 2 3\n12 2 2 0 1 1 3 40\n")
 
-/* Clockwise triangles are turned; nodes of no triangle go; numbers may have gaps. */
+/* Clockwise triangles are turned; nodes of no triangle go; numbers may have gaps; a curve between triangles is kept apart from the boundary. */
 static void CheckTurned(void)
 {
   static const char text[] =
-      HEAD SQUARE ELEMENTS("3", "10 1 2 9 1 1 40\n11 2 2 0 1 1 3 2\n12 2 2 0 1 1 3 40\n");
+      HEAD SQUARE ELEMENTS("4", "10 1 2 9 1 1 40\n11 2 2 0 1 1 3 2\n12 2 2 0 1 1 3 40\n13 1 2 7 1 1 3\n");
   MeshSerial m;
   const char *error;
   Write(text, sizeof text - 1);
@@ -71,6 +71,12 @@ static void CheckTurned(void)
   for (int e = 0; e < 2; e++)
     CHECK(fabs(TriangleArea(m.x, &m.vertex[3 * e]) - 0.5) < 1e-15, "triangle %d", e);
   Place(2, m.tag_name, "9"); /* a physical curve without a name goes by its number */
+  CHECK(m.ncurves == 1 && m.curve && !strcmp(m.curve_name[0], "7"), "%d curves inside", m.ncurves);
+  for (int k = 0; k < 6; k++) {
+    const int a = m.vertex[k], b = m.vertex[k - k % 3 + (k + 1) % 3],
+              diagonal = (a == 0 && b == 2) || (a == 2 && b == 0);
+    CHECK(m.curve[k] == (diagonal ? 0 : -1), "side %d of triangle %d: curve %d", k % 3, k / 3, m.curve[k]);
+  }
   CHECK(!MeshSerialDestroy(&m), "destroyed");
 }
 

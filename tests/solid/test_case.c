@@ -1,6 +1,7 @@
 /* The solid's keys of a case file: what is read, and the message of a bad one. */
 #include "tests/link/catch.h"
 #undef CHECK
+#include "solid/cracks/interior_edges.h"
 #include "solid/solid_case.h"
 #include "tests/solid/build.h"
 
@@ -116,6 +117,8 @@ static int Jointed(int body)
 #define BLOCK                                                                                                \
   "    - {shape: rectangle, centre: [%g, 0], width: 1, height: 1, size: 0.5, material: %s, joints: %s}\n"
 
+#define CURVED "    - {mesh: " SOURCE_FOLDER "/regions.msh, material: r, joints: [%s]%s}\n"
+
 static void Joints(void)
 {
   char text[1600];
@@ -137,14 +140,39 @@ static void Joints(void)
         "strengths");
   n = snprintf(text, sizeof text, STRONG, "");
   (void)snprintf(text + n, sizeof text - (size_t)n, BLOCK, 0.0, "m", "all");
-  CheckCase(text, NULL, Read,
-            ":8: key 'solid.bodies[0]': joints need a material with tensile_strength, shear_strength and "
-            "fracture_energy");
+  CheckCase(
+      text, NULL, Read,
+      ":8: key 'solid.bodies[0]': joints need tensile_strength, shear_strength and fracture_energy, which "
+      "material 'm' has not");
   (void)snprintf(text + n, sizeof text - (size_t)n, BLOCK, 0.0, "r", "some");
   CheckCase(text, NULL, Read, ":8: key 'solid.bodies[0].joints': expected one of none, all, found 'some'");
   (void)snprintf(text + n, sizeof text - (size_t)n,
                  "    - {mesh: " SOURCE_FOLDER "/square.msh, material: r, joints: [crust]}\n");
-  CheckCase(text, NULL, Read, ":8: key 'solid.bodies[0]': the body has no region 'crust'; it has plate");
+  CheckCase(text, NULL, Read,
+            ":8: key 'solid.bodies[0]': the body has no region or curve inside 'crust'; "
+            "it has plate");
+}
+
+/* A physical curve between triangles is where a body may part, and nowhere else. */
+static void JointsOnCurve(void)
+{
+  static const int SIDES[] = {1 << 1, 0, 0, 1 << 2}; /* of soft and hard, the edge from (1, 0) to (1, 1) */
+  char text[1600];
+  const int n = snprintf(text, sizeof text, STRONG, "");
+  InteriorEdges edges;
+  (void)snprintf(text + n, sizeof text - (size_t)n, CURVED, "seam", "");
+  CheckCase(text, NULL, Read, NULL);
+  for (int e = 0; e < 4; e++) CHECK(model.jointed[e] == SIDES[e], "element %d: %d", e, model.jointed[e]);
+  CHECK(!InteriorEdgesFind(&model, &edges) && edges.n == 3 && edges.njoints == 1, "%d joints in %d edges",
+        edges.njoints, edges.n);
+  CHECK(!InteriorEdgesDestroy(&edges), "destroyed");
+  (void)snprintf(text + n, sizeof text - (size_t)n, CURVED, "seam", ", order: 2");
+  CheckCase(text, NULL, Read,
+            ":8: key 'solid.bodies[0]': six-node triangles (order 2) have no joints: they do not crack");
+  (void)snprintf(text + n, sizeof text - (size_t)n, CURVED, "clamp", "");
+  CheckCase(
+      text, NULL, Read,
+      ":8: key 'solid.bodies[0]': the body has no region or curve inside 'clamp'; it has soft, hard, seam");
 }
 
 /* The mean velocity over intervals within, before, after and over several rows of a table. */
@@ -289,10 +317,12 @@ static void Refusals(void)
   CheckCase(HEAD "  bodies:\n" DISC
                  "    - {shape: disc, centre: [0.15, 0], radius: 0.1, size: 0.05, material: m}\n",
             NULL, Read, ":7: key 'solid.bodies[1]': the body overlaps solid.bodies[0]");
-  CheckCase(HEAD "  bodies:\n    - {shape: rectangle, centre: [0, 0], width: 1, height: 1, size: 1, "
-                 "material: m, fixed: [lid]}\n",
-            NULL, Read,
-            ":6: key 'solid.bodies[0]': the body has no boundary 'lid'; it has left, right, bottom, top");
+  CheckCase(
+      HEAD "  bodies:\n    - {shape: rectangle, centre: [0, 0], width: 1, height: 1, size: 1, "
+           "material: m, fixed: [lid]}\n",
+      NULL, Read,
+      ":6: key 'solid.bodies[0]': the body has no boundary or region 'lid'; it has left, right, bottom, "
+      "top");
   CheckCase(HEAD "  walls: {lower: [-1, -1], upper: [1, 0.05]}\n  bodies:\n" DISC, NULL, Read,
             ":7: key 'solid.bodies[0]': the body reaches through solid.walls at (0.0336749, 0.0583267)");
   CheckCase(
@@ -310,6 +340,7 @@ int main(int argc, char **argv)
   Repeated();
   MeshFile();
   Joints();
+  JointsOnCurve();
   Full();
   Refusals();
   PetscCall(ModelDestroy(&model));
