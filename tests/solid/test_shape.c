@@ -118,6 +118,6 @@ int main(int argc, char **argv)
   PetscCall(Surface());
   Refused(4, 0.6, NULL, "is inverted: its area is");
   Refused(4, 0.5, NULL, "is degenerate: its area is");
-  Refused(0, -0.5, "lid", "no boundary 'lid'; it has left, right, bottom, top");
+  Refused(0, -0.5, "lid", "no boundary or region 'lid'; it has left, right, bottom, top");
   return PetscFinalize();
 }
