@@ -1,6 +1,8 @@
 #include "solid/alone.h"
 #include "common/link/participant.h"
+#include "common/output/checkpoint_folder.h"
 #include "common/output/claim.h"
+#include "common/output/folder.h"
 #include "solid/solid_case.h"
 #include "solid/writer.h"
 #include <stdio.h>
@@ -25,32 +27,90 @@ static void Refuse(void *context, const char *message)
   Fail(context, message);
 }
 
+typedef struct {
+  char *folder; /* output.folder */
+  char run[CHECKPOINT_RUN];
+  double end, longest, every; /* s; every: by the clock, 0: no checkpoints */
+  long long steps;            /* also those of runs that this one resumes from */
+  Solid solid;
+  Writer writer;
+} Run;
+
 /* About once a second, and at the end. */
-static void Say(const Solid s, int step, int steps, double dt, double start, double *said)
+static void Say(const Run *m, double dt, double begun, double start, double *said)
 {
   const double now = MPI_Wtime(), spent = now - start;
-  const SolidStats *stats = SolidGetStats(s);
+  const SolidStats *stats = SolidGetStats(m->solid);
   PetscMPIInt rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (rank || (now - *said < 1.0 && step < steps)) return;
+  const double left = m->end - stats->t;
+  if (rank || (now - *said < 1.0 && left > 0.5 * dt)) return;
   *said = now;
-  printf("coracle: t %.5g s of %g, step %d, dt %.3g s, %d substeps, %.0f s done, about %.0f s to go\n",
-         stats->t, steps * dt, step, dt, stats->substeps, spent, spent * (steps - step) / step);
+  printf("coracle: t %.5g s of %g, step %lld, dt %.3g s, %d substeps, %.0f s done, about %.0f s to go\n",
+         stats->t, m->end, m->steps, dt, stats->substeps, spent, spent * left / (stats->t - begun));
   fflush(stdout);
 }
 
-static PetscErrorCode Run(Solid solid, Writer record, double end, double longest)
+/* --- checkpoints (common/output/checkpoint_folder.h) ---------------------------------------------------- */
+
+static PetscErrorCode Load(Run *m, Checkpoint from)
 {
-  const int steps = PetscMax(1, (int)ceil(end / longest * (1.0 - 1e-12)));
-  const double start = MPI_Wtime(), dt = end / steps;
-  double said = start, h;
+  double steps;
+  PetscFunctionBeginUser;
+  if (!CheckpointHasNumber(from, "steps alone"))
+    Fail(NULL, "key 'resume': that is a checkpoint of a run with a fluid");
+  PetscCall(CheckpointGetNumber(from, "steps alone", &steps));
+  m->steps = (long long)steps;
+  PetscCall(SolidLoad(m->solid, from));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Save(const Run *m)
+{
+  char path[PETSC_MAX_PATH_LEN];
+  Checkpoint to;
+  PetscMPIInt rank;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  snprintf(path, sizeof path, "%s/" CORACLE_CHECKPOINT ".%lld", m->folder, m->steps);
+  if (!rank) PetscCall(CheckpointFolderMake(path, m->run, m->steps, SolidGetStats(m->solid)->t));
+  PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
+  PetscCall(CheckpointCreate(PETSC_COMM_WORLD, path, "solid", &to));
+  PetscCall(CheckpointPutNumber(to, "steps alone", (double)m->steps));
+  PetscCall(SolidSave(m->solid, to));
+  PetscCall(WriterSave(m->writer, 0.0, to));
+  PetscCall(CheckpointClose(&to));
+  if (!rank) PetscCall(CheckpointFolderPublish(path));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SaveIfDue(const Run *m, PetscBool ends, double *last)
+{
+  PetscFunctionBeginUser;
+  if (m->every <= 0.0) PetscFunctionReturn(0);
+  int due = ends || MPI_Wtime() - *last >= m->every;
+  PetscCallMPI(MPI_Bcast(&due, 1, MPI_INT, 0, PETSC_COMM_WORLD));
+  if (!due) PetscFunctionReturn(0);
+  PetscCall(Save(m));
+  *last = MPI_Wtime();
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Advance(Run *m)
+{
+  const double start = MPI_Wtime(), begun = SolidGetStats(m->solid)->t, length = m->end - begun;
+  const int steps = PetscMax(1, (int)ceil(length / m->longest * (1.0 - 1e-12)));
+  const double dt = length / steps;
+  double said = start, saved = start, h;
   PetscFunctionBeginUser;
   for (int step = 1; step <= steps; step++) {
-    PetscCall(SolidStart(solid, dt, NULL));
-    while (SolidRemaining(solid)) PetscCall(SolidSubstep(solid, &h));
-    PetscCall(SolidRebalance(solid));
-    PetscCall(WriterStep(record, solid, 0.0));
-    Say(solid, step, steps, dt, start, &said);
+    PetscCall(SolidStart(m->solid, dt, NULL));
+    while (SolidRemaining(m->solid)) PetscCall(SolidSubstep(m->solid, &h));
+    PetscCall(SolidRebalance(m->solid));
+    PetscCall(WriterStep(m->writer, m->solid, 0.0));
+    m->steps++;
+    Say(m, dt, begun, start, &said);
+    PetscCall(SaveIfDue(m, step == steps, &saved));
   }
   PetscFunctionReturn(0);
 }
@@ -66,23 +126,55 @@ int AloneTake(int *argc, char **argv)
   return found;
 }
 
+static PetscErrorCode ReadRun(CoracleCase c, Run *m, char resume[PETSC_MAX_PATH_LEN])
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscStrallocpy(CoracleCaseString(c, "output.folder"), &m->folder));
+  m->end = CoracleCasePositive(c, "time.end");
+  m->longest = CoracleCasePositive(c, "time.dt_max");
+  m->every = CoracleCaseNumberOr(c, "output.checkpoint", 600.0, 0.0, HUGE_VAL);
+  if (ParticipantFindResume(c, PETSC_MAX_PATH_LEN, resume))
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+                          "coracle: there is no %s/" CORACLE_CHECKPOINT ": begins at the start\n",
+                          m->folder));
+  CheckpointFolderRun(m->run);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Begin(CoracleCase c, Run *m, Claim *claim)
+{
+  Checkpoint from = NULL;
+  char resume[PETSC_MAX_PATH_LEN];
+  PetscFunctionBeginUser;
+  PetscCall(ReadRun(c, m, resume));
+  PetscCall(SolidFromCase(c, PETSC_COMM_WORLD, Fail, NULL, &m->solid));
+  if (resume[0]) {
+    PetscCall(CheckpointOpen(PETSC_COMM_WORLD, resume, "solid", &from));
+    PetscCall(Load(m, from));
+  }
+  const double t = SolidGetStats(m->solid)->t;
+  if (t > m->end - 1e-9 * m->longest)
+    CoracleCaseRefuse(c, "time.end", "the checkpoint to resume from is at t = %g s already", t);
+  const PetscBool resumes = (PetscBool)(from && FolderHolds(PETSC_COMM_WORLD, m->folder, resume));
+  PetscCall(ClaimFolder(PETSC_COMM_WORLD, m->folder, resumes, claim));
+  PetscCall(WriterCreate(c, PETSC_COMM_WORLD, m->solid, from, &m->writer));
+  PetscCall(CheckpointClose(&from));
+  PetscFunctionReturn(0);
+}
+
 int Alone(int argc, char **argv)
 {
   CoracleCase c;
-  Solid solid;
-  Writer record;
+  Run m = {0};
   Claim claim;
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
   PetscCall(CoracleCaseOpen(argc, argv, Refuse, NULL, &c));
-  if (CoracleCaseHas(c, "resume")) CoracleCaseRefuse(c, "resume", "the solid alone makes no checkpoints");
-  const double end = CoracleCasePositive(c, "time.end"), longest = CoracleCasePositive(c, "time.dt_max");
-  PetscCall(SolidFromCase(c, PETSC_COMM_WORLD, Fail, NULL, &solid));
-  PetscCall(ClaimFolder(PETSC_COMM_WORLD, CoracleCaseString(c, "output.folder"), PETSC_FALSE, &claim));
-  PetscCall(WriterCreate(c, PETSC_COMM_WORLD, solid, NULL, &record));
+  PetscCall(Begin(c, &m, &claim));
   PetscCall(CoracleCaseClose(&c));
-  PetscCall(Run(solid, record, end, longest));
-  PetscCall(WriterDestroy(&record));
+  PetscCall(Advance(&m));
+  PetscCall(WriterDestroy(&m.writer));
   PetscCall(ClaimRelease(&claim));
-  PetscCall(SolidDestroy(&solid));
+  PetscCall(SolidDestroy(&m.solid));
+  PetscCall(PetscFree(m.folder));
   return PetscFinalize();
 }

@@ -184,8 +184,7 @@ static void Refuse(void *p, const char *message)
   ParticipantFail(p, "%s", message);
 }
 
-/* The folder that the case's `resume` means, or "". */
-static void FindResume(Participant *p, CoracleCase c, size_t size, char folder[])
+bool ParticipantFindResume(CoracleCase c, size_t size, char folder[])
 {
   struct stat link;
   folder[0] = 0;
@@ -195,11 +194,10 @@ static void FindResume(Participant *p, CoracleCase c, size_t size, char folder[]
     snprintf(folder, size, "%s/" CORACLE_CHECKPOINT, CoracleCaseString(c, "output.folder"));
   else
     snprintf(folder, size, "%s", resume);
-  if (folder[0] && access(folder, F_OK)) {
-    if (!last || !lstat(folder, &link)) CoracleCaseRefuse(c, "resume", "there is no checkpoint '%s'", folder);
-    if (p->role == ROLE_COUPLER) printf("coracle: there is no %s: begins at the start\n", folder);
-    folder[0] = 0;
-  }
+  if (!folder[0] || !access(folder, F_OK)) return false;
+  if (!last || !lstat(folder, &link)) CoracleCaseRefuse(c, "resume", "there is no checkpoint '%s'", folder);
+  folder[0] = 0;
+  return true;
 }
 
 /* What the library itself has from the case: rank 0 looks for all. */
@@ -212,7 +210,9 @@ static void ReadCase(Participant *p, int argc, char **argv)
   CoracleCase c;
   if (p->rank == 0) {
     CoracleCaseOpen(argc, argv, Refuse, p, &c);
-    FindResume(p, c, sizeof read.folder, read.folder);
+    if (ParticipantFindResume(c, sizeof read.folder, read.folder) && p->role == ROLE_COUPLER)
+      printf("coracle: there is no %s/" CORACLE_CHECKPOINT ": begins at the start\n",
+             CoracleCaseString(c, "output.folder"));
     if (read.folder[0]) ParticipantLoadUsed(p, read.folder);
     read.trace = CoracleCaseBoolOr(c, "output.trace", false);
     CoracleCaseClose(&c);

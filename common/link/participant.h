@@ -6,6 +6,7 @@
  *     link             0     1     2         3       a duplicate of the job, for the messages */
 #ifndef CORACLE_PARTICIPANT_H
 #define CORACLE_PARTICIPANT_H
+#include "common/link/case_file.h"
 #include "common/link/coracle.h"
 #include "common/link/failure_board.h"
 #include "common/link/handshake.h"
@@ -13,7 +14,7 @@
 #include "common/link/wait.h"
 #include <stdarg.h>
 
-/* The link to the last checkpoint in a run's output folder (coupler/checkpoints.h). */
+/* The link to the last checkpoint in a run's output folder (common/output/checkpoint_folder.h). */
 #define CORACLE_CHECKPOINT "checkpoint"
 
 /* Seconds: of processors, on all ranks; by the clock; waiting for messages, at most. */
@@ -50,6 +51,8 @@ void ParticipantUsed(const Participant *p, double used[NUSED]);
 void ParticipantSaveUsed(Participant *p, const char *folder);
 /* Rank 0: back from there. */
 void ParticipantLoadUsed(Participant *p, const char *folder);
+/* Local: the folder of the checkpoint that the case's `resume` means, which is there, or ""; true: `last`, but there is none. */
+bool ParticipantFindResume(CoracleCase c, size_t size, char folder[]);
 /* Leaves in good order; collective over the job. */
 int ParticipantClose(Participant **p);
 /* "coracle <role>[rank]: error: ..." once, then the end of the job. */

@@ -16,6 +16,23 @@ tail -n 2 "$folder/1/solid.csv" | awk -F, '
 paste -d, "$folder/1/solid.csv" "$folder/2/solid.csv" | awk -F, 'NR > 1 {
   n = NF / 2
   for (k = 1; k <= 10; k++) if (($k - $(k + n)) ^ 2 > 1e-16) { print "row", NR, "column", k ":", $k, "and", $(k + n); exit 1 } }'
+# one that resumes from its checkpoint, on other ranks too, goes on in its files as if it had not ended
+for ranks in 1 2; do
+  rm -rf "$folder/resumed"
+  for part in "0.1 1" "0.2 $ranks"; do
+    "$1/scripts/launch.sh" --alone --ranks "1:1:${part#* }" --bin "$2" "$1/tests/solid/alone.yaml" --set resume=last \
+      --set output.folder="$folder/resumed" --set time.end="${part% *}" >"$folder/resumed.log" 2>&1 || { cat "$folder/resumed.log"; exit 1; }
+  done
+  paste -d, "$folder/1/solid.csv" "$folder/resumed/solid.csv" | awk -F, 'NR > 1 {
+    n = NF / 2
+    if ($(1 + n) == "") { print "no row", NR; exit 1 }
+    for (k = 1; k <= 10; k++) if (($k - $(k + n)) ^ 2 > 1e-16) { print "resumed: row", NR, "column", k ":", $k, "and", $(k + n); exit 1 } }'
+done
+[ ! -e "$folder/resumed/checkpoint.10" ] && [ -e "$folder/resumed/checkpoint/solid.h5" ] || { echo "checkpoints:"; ls "$folder/resumed"; exit 1; }
+if "$2/solid/coracle-solid" --alone "$1/tests/solid/alone.yaml" --set output.folder="$folder/resumed" --set resume=last >"$folder/bad.log" 2>&1; then
+  echo "a run that has ended was resumed"; exit 1
+fi
+grep -q "key 'time.end': the checkpoint to resume from is at t = 0.2 s already" "$folder/bad.log" || { cat "$folder/bad.log"; exit 1; }
 # what is wrong is said once, by name
 if "$2/solid/coracle-solid" --alone "$1/tests/solid/alone.yaml" --set time.end=-1 >"$folder/bad.log" 2>&1; then
   echo "a negative end was taken"; exit 1
