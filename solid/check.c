@@ -69,7 +69,7 @@ static const CoracleCaseKey KEYS[] = {
      "with the velocity or without it: a rotation about the pivot, which moves with the velocity"},
     {"solid.bodies[].prescribed[].pivot", "m", "at the start; required with angular_velocity"},
     {"solid.bodies[].prescribed[].period", "s", "both swing: times sin(2 pi t/period)"},
-    {"solid.bodies[].prescribed[].rise", "s", "time in which both rise from zero"},
+    {"solid.bodies[].prescribed[].rise", "s", "time in which both rise from zero, linearly"},
     {"solid.bodies[].prescribed[].release", "s", "when the boundary becomes free; absent: never"},
     {"solid.bodies[].joints", "", "which edges between two elements can crack: none, all, or a list"},
     {"solid.bodies[].joints[]", "",
