@@ -174,6 +174,9 @@ PetscErrorCode JointsCreate(Solid s, const Model *a, const InteriorEdges *edges,
 PetscErrorCode JointsDestroy(Joints *j);
 /* How this rank's joints suit the mesh: the least E G_I/F_t^2 over the length of its edge.  Not collective; returns their number. */
 int JointsResolution(Joints j, Solid s, double *zone);
+/* How few directions this rank's joints have, by their length: 0 for all alike, 1 for triangles in rows or halves of squares; 0 for joints in a
+ * line.  At rest, not collective. */
+double JointsDirections(Joints j, Solid s);
 /* joints.c: adds to force and remembers damage. */
 void JointsAddForces(Joints j, Solid s);
 /* Collective: edges loaded to their strength activate, broken ones become surface; *changed: nodes,

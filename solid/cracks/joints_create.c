@@ -257,3 +257,23 @@ int JointsResolution(Joints j, Solid s, double *zone)
   }
   return n;
 }
+
+double JointsDirections(Joints j, Solid s)
+{
+  static const double FOLDS[] = {2.0, 6.0, 8.0}; /* a line; 60 degrees; 45 degrees */
+  double sum[3][2] = {{0.0}}, length = 0.0, order[3];
+  for (int k = 0; j && k < j->n; k++) {
+    const Joint *joint = &j->joint[k];
+    if (!joint->mine) continue;
+    const int one = j->corner[joint->corner[0][0]].node, two = j->corner[joint->corner[1][0]].node;
+    const Point d = PointMinus(PointAt(s->rest, two), PointAt(s->rest, one));
+    const double angle = atan2(d.y, d.x);
+    for (int f = 0; f < 3; f++) {
+      sum[f][0] += joint->length * cos(FOLDS[f] * angle);
+      sum[f][1] += joint->length * sin(FOLDS[f] * angle);
+    }
+    length += joint->length;
+  }
+  for (int f = 0; f < 3; f++) order[f] = hypot(sum[f][0], sum[f][1]) / fmax(length, 1e-300);
+  return order[0] > 0.5 ? 0.0 : fmax(order[1], order[2]);
+}

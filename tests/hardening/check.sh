@@ -48,10 +48,13 @@ solid:
 output: {folder: out, every: 1.0}
 E2
 check --alone "$scratch/alone.yaml" || fail "a case of the solid alone has faults"
-[ "$(wc -l <"$scratch/log")" -eq 3 ] || fail "not three lines"
+[ "$(wc -l <"$scratch/log")" -eq 4 ] || fail "not four lines"
+grep -q 'these edges have few directions' "$scratch/log" || fail "not that cracks zigzag"
 grep -q 'edges can crack; .* is 0.7[0-9]* edges long (less than one' "$scratch/log" || fail "not how long cracks are"
 check --alone "$scratch/alone.yaml" --set solid.materials.rock.fracture_energy=100 || fail "a case of the solid alone has faults"
 grep -q ' is 7.[0-9]* edges long$' "$scratch/log" || fail "warned of cracks that the mesh resolves"
+check --alone "$scratch/alone.yaml" --set "solid.bodies=[{mesh: $root/cases/breaking_block/block.msh, material: rock, joints: all}]" || fail "a case of the solid alone has faults"
+! grep -q 'few directions' "$scratch/log" || fail "warned of a mesh of all directions"
 ! check --alone "$scratch/alone.yaml" --set 'solid.bodies[0].size=-1' || fail "a size below 0 is accepted"
 [ "$(wc -l <"$scratch/log")" -eq 1 ] && grep -q "key 'solid.bodies\[0\].size'" "$scratch/log" || fail "not one line"
 
