@@ -1,6 +1,6 @@
 #include "coupler/geometry/close_points.h"
+#include "common/exchange/box_scatter.h"
 #include "common/supermesh/search.h"
-#include "coupler/geometry/box_scatter.h"
 
 /* Cosine of the angle between the normal of a facet and the direction to the wall that it faces, at least. */
 #define FACING_WALL 0.7

@@ -1,5 +1,5 @@
 #include "coupler/geometry/overlap.h"
-#include "coupler/geometry/box_scatter.h"
+#include "common/exchange/box_scatter.h"
 
 PetscErrorCode OverlapCreate(MPI_Comm comm, Overlap *overlap)
 {

@@ -1,5 +1,5 @@
 #include "fluid/remeshing/fine_band.h"
-#include "common/exchange/scatter.h"
+#include "common/exchange/box_scatter.h"
 #include "common/supermesh/search.h"
 #include "fluid/flow/fluid_impl.h"
 
@@ -92,16 +92,34 @@ static int LocalSweeps(Fluid f, const FineBand *b, Sweep sweep[])
   return n;
 }
 
-/* The surfaces of all ranks; *all is allocated. */
-static PetscErrorCode Sweeps(Fluid f, const FineBand *b, int *n, Sweep **all)
+static GeometryBox BoxOf(const Sweep *s, double near)
 {
+  GeometryBox box = GeometryBoxEmpty();
+  GeometryBoxGrow(&box, s->from);
+  GeometryBoxGrow(&box, s->to);
+  for (int c = 0; c < 2; c++) {
+    box.lower[c] -= near;
+    box.upper[c] += near;
+  }
+  return box;
+}
+
+/* Of the surfaces of all ranks what is near the first nv vertices; *sweep is allocated. */
+static PetscErrorCode Sweeps(Fluid f, const FineBand *b, double near, int nv, int *n, Sweep **sweep)
+{
+  const Mesh *m = f->domain.mesh;
+  GeometryBox *box, bounds = GeometryBoxEmpty();
   Sweep *local;
-  void *gathered;
+  void *arrived;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(2 * f->domain.mesh->ne, &local));
+  PetscCall(PetscMalloc1(2 * m->ne, &local));
   const int mine = LocalSweeps(f, b, local);
-  PetscCall(GatherRecords(f->domain.mesh->comm, mine, sizeof *local, local, n, &gathered));
-  *all = gathered;
+  PetscCall(PetscMalloc1(mine, &box));
+  for (int k = 0; k < mine; k++) box[k] = BoxOf(&local[k], near);
+  for (int v = 0; v < nv; v++) GeometryBoxGrow(&bounds, m->x + 2 * v);
+  PetscCall(BoxScatterRecords(m->comm, mine, box, &bounds, sizeof *local, local, n, &arrived));
+  *sweep = arrived;
+  PetscCall(PetscFree(box));
   PetscCall(PetscFree(local));
   PetscFunctionReturn(0);
 }
@@ -123,13 +141,9 @@ PetscErrorCode FineBandSizes(Fluid f, const FineBand *b, int nv, double size[])
   Search search;
   int n;
   PetscFunctionBeginUser;
-  PetscCall(Sweeps(f, b, &n, &sweep));
+  PetscCall(Sweeps(f, b, near, nv, &n, &sweep));
   PetscCall(PetscMalloc1(n, &box));
-  for (int k = 0; k < n; k++)
-    for (int c = 0; c < 2; c++) {
-      box[k].lower[c] = fmin(sweep[k].from[c], sweep[k].to[c]) - near;
-      box[k].upper[c] = fmax(sweep[k].from[c], sweep[k].to[c]) + near;
-    }
+  for (int k = 0; k < n; k++) box[k] = BoxOf(&sweep[k], near);
   PetscCheck(!SearchCreate(n, box, &search), PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory for the surface");
   for (int v = 0; v < nv; v++) {
     const double *x = f->domain.mesh->x + 2 * v;

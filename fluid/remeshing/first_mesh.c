@@ -1,5 +1,5 @@
 /* The mesh before the first step. */
-#include "common/exchange/scatter.h"
+#include "common/exchange/box_scatter.h"
 #include "common/supermesh/geometry.h"
 #include "common/supermesh/search.h"
 #include "fluid/adapt/adapt_parallel.h"
@@ -34,27 +34,58 @@ static PetscBool IsAtInterface(const Mesh *m, Phases phases, int e)
   return at;
 }
 
-/* The bounding boxes of elements at an interface between phases, of all ranks; *box is allocated. */
-static PetscErrorCode CutBoxes(const Mesh *m, const AdaptationStart *start, int *n, GeometryBox **box)
+/* The bounding boxes of this rank's elements at an interface between phases; box has room for all of them. */
+static PetscErrorCode CutBoxes(const Mesh *m, const AdaptationStart *start, int *n, GeometryBox box[])
 {
-  int mine = 0;
-  GeometryBox *local;
-  void *gathered;
   Stars *stars;
   Phases phases;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(m->ne, &local));
   PetscCall(StarsCreate(m, &stars));
   PetscCall(PhasesCreate(stars, start->nphases, &phases));
   PetscCall(PhasesFill(phases, start->nregions, start->region));
   PetscCall(PhasesReconstruct(phases));
+  *n = 0;
   for (int e = 0; e < m->ne; e++)
-    if (IsAtInterface(m, phases, e)) local[mine++] = GeometryBoxOf((const double(*)[2])stars->element[e].x);
+    if (IsAtInterface(m, phases, e)) box[(*n)++] = GeometryBoxOf((const double(*)[2])stars->element[e].x);
   PetscCall(PhasesDestroy(&phases));
   PetscCall(StarsDestroy(&stars));
-  PetscCall(GatherRecords(m->comm, mine, sizeof *local, local, n, &gathered));
-  *box = gathered;
-  PetscCall(PetscFree(local));
+  PetscFunctionReturn(0);
+}
+
+/* How far from a box the size there matters. */
+static double Reach(const AdaptationSetup *s, double size_at)
+{
+  return fmax((s->size_max - size_at) / log(s->growth), 0.0);
+}
+
+static GeometryBox Widen(GeometryBox box, double reach)
+{
+  for (int c = 0; c < 2; c++) {
+    box.lower[c] -= reach;
+    box.upper[c] += reach;
+  }
+  return box;
+}
+
+/* size_at in the boxes, growing outside, where size[nv] is larger. */
+static PetscErrorCode RefineBoxes(const AdaptationSetup *s, const Mesh *m, double size_at, int n,
+                                  const GeometryBox box[], double size[])
+{
+  GeometryBox *wide;
+  Search search;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(n, &wide));
+  for (int k = 0; k < n; k++) wide[k] = Widen(box[k], Reach(s, size_at));
+  PetscCheck(!SearchCreate(n, wide, &search), PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory for %d boxes", n);
+  for (int v = 0; v < m->nv; v++) {
+    const double *x = m->x + 2 * v;
+    const GeometryBox point = {{x[0], x[1]}, {x[0], x[1]}};
+    const int *hit, nhit = SearchQuery(search, &point, &hit);
+    for (int h = 0; h < nhit; h++)
+      size[v] = fmin(size[v], size_at + log(s->growth) * GeometryBoxDistance(&box[hit[h]], x));
+  }
+  SearchDestroy(&search);
+  PetscCall(PetscFree(wide));
   PetscFunctionReturn(0);
 }
 
@@ -62,29 +93,31 @@ static PetscErrorCode CutBoxes(const Mesh *m, const AdaptationStart *start, int 
 static PetscErrorCode RefineInterface(const AdaptationSetup *s, const Mesh *m, const AdaptationStart *start,
                                       double size[])
 {
-  const double slope = log(s->growth), reach = (s->size_max - s->interface_size) / slope;
-  GeometryBox *box, *wide;
-  Search search;
-  int n;
+  GeometryBox *local, *wide, bounds = GeometryBoxEmpty();
+  void *box;
+  int mine, n;
   PetscFunctionBeginUser;
-  PetscCall(CutBoxes(m, start, &n, &box));
-  PetscCall(PetscMalloc1(n, &wide));
-  for (int k = 0; k < n; k++)
-    for (int c = 0; c < 2; c++) {
-      wide[k].lower[c] = box[k].lower[c] - fmax(reach, 0.0);
-      wide[k].upper[c] = box[k].upper[c] + fmax(reach, 0.0);
-    }
-  PetscCheck(!SearchCreate(n, wide, &search), PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory for the interface");
-  for (int v = 0; v < m->nv; v++) {
-    const double *x = m->x + 2 * v;
-    const GeometryBox point = {{x[0], x[1]}, {x[0], x[1]}};
-    const int *hit, nhit = SearchQuery(search, &point, &hit);
-    for (int h = 0; h < nhit; h++)
-      size[v] = fmin(size[v], s->interface_size + slope * GeometryBoxDistance(&box[hit[h]], x));
-  }
-  SearchDestroy(&search);
+  PetscCall(PetscMalloc2(m->ne, &local, m->ne, &wide));
+  PetscCall(CutBoxes(m, start, &mine, local));
+  for (int k = 0; k < mine; k++) wide[k] = Widen(local[k], Reach(s, s->interface_size));
+  for (int v = 0; v < m->nv; v++) GeometryBoxGrow(&bounds, m->x + 2 * v);
+  PetscCall(BoxScatterRecords(m->comm, mine, wide, &bounds, sizeof *local, local, &n, &box));
+  PetscCall(RefineBoxes(s, m, s->interface_size, n, box, size));
   PetscCall(PetscFree(box));
-  PetscCall(PetscFree(wide));
+  PetscCall(PetscFree2(local, wide));
+  PetscFunctionReturn(0);
+}
+
+/* le around the boxes of the solid. */
+static PetscErrorCode RefineSolid(const AdaptationSetup *s, const Mesh *m, const AdaptationStart *start,
+                                  double size[])
+{
+  GeometryBox *box;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(start->nbox, &box));
+  PetscCall(PetscMemcpy(box, start->box, (size_t)start->nbox * sizeof *box));
+  PetscCall(RefineBoxes(s, m, s->size_min, start->nbox, box, size));
+  PetscCall(PetscFree(box));
   PetscFunctionReturn(0);
 }
 
@@ -97,14 +130,8 @@ static PetscErrorCode Refine(const AdaptationSetup *s, const Mesh *m, const Adap
   double *size, *metric, count;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2(m->nv, &size, 3 * m->nv, &metric));
-  for (int v = 0; v < m->nv; v++) {
-    size[v] = s->size_max;
-    for (int b = 0; b < start->nbox; b++) {
-      const double *k = start->box + 4 * b;
-      const GeometryBox at = {{k[0], k[1]}, {k[2], k[3]}};
-      size[v] = fmin(size[v], s->size_min + log(s->growth) * GeometryBoxDistance(&at, m->x + 2 * v));
-    }
-  }
+  for (int v = 0; v < m->nv; v++) size[v] = s->size_max;
+  PetscCall(RefineSolid(s, m, start, size));
   if (start->nphases) PetscCall(RefineInterface(s, m, start, size));
   PetscCall(MetricFromSizes(m->nv, size, metric));
   PetscCall(SharedVerticesCreate(m, &shared));

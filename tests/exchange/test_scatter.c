@@ -1,6 +1,7 @@
 // ranks: 1 2 3 5
 /* Scatters bring rows where they belong and back; reductions over copies are those of a plain sum in the
  * order of the ranks, with the same bits on all ranks. */
+#include "common/exchange/box_scatter.h"
 #include "common/exchange/copies.h"
 #include "tests/check.h"
 #include <math.h>
@@ -158,6 +159,27 @@ static void CheckGather(void)
   CHECK(!PetscFree(all), "not freed");
 }
 
+/* Item k of rank r is a point at x = k; a rank sees those from its own number on up to one more. */
+static void CheckBoxes(void)
+{
+  const GeometryBox bounds = {{rank, 0.0}, {rank + 1.0, 0.0}};
+  GeometryBox box[6];
+  int mine[6][2], n;
+  void *arrived;
+  for (int k = 0; k <= size; k++) {
+    box[k] = (GeometryBox){{k, 0.0}, {k, 0.0}};
+    mine[k][0] = rank, mine[k][1] = k;
+  }
+  CHECK(!BoxScatterRecords(PETSC_COMM_WORLD, size + 1, box, &bounds, sizeof *mine, mine, &n, &arrived),
+        "not sent");
+  const int(*record)[2] = arrived;
+  CHECK(n == 2 * size, "%d records", n);
+  for (int k = 0; k < n; k++)
+    CHECK(record[k][0] == k / 2 && record[k][1] == rank + k % 2, "record %d: %d of rank %d", k, record[k][1],
+          record[k][0]);
+  CHECK(!PetscFree(arrived), "not freed");
+}
+
 /* Thing of copy k on a rank: a rank may have several copies of one, an even number is an edge. */
 static int Thing(int of, int k)
 {
@@ -238,6 +260,7 @@ int main(int argc, char **argv)
   CheckScatter();
   CheckRequest();
   CheckGather();
+  CheckBoxes();
   CheckCopies();
   CheckMatched();
   return PetscFinalize();
