@@ -27,7 +27,7 @@ static PetscErrorCode JoinBoxes(MPI_Comm comm, int n, GeometryBox box[])
 }
 
 /* Grows the box of the cluster whose grid cell contains the simplex's centre. */
-static void AddSimplex(const GeometryBox *whole, int n, const int node[], const double x[],
+static void AddSimplex(const GeometryBox *whole, int side, int n, const int node[], const double x[],
                        GeometryBox cluster[])
 {
   int cell[2];
@@ -35,23 +35,40 @@ static void AddSimplex(const GeometryBox *whole, int n, const int node[], const 
     const double extent = whole->upper[c] - whole->lower[c];
     double centre = 0.0;
     for (int i = 0; i < n; i++) centre += x[2 * node[i] + c] / n;
-    cell[c] = extent > 0.0 ? (int)(REGION_SIDE * (centre - whole->lower[c]) / extent) : 0;
-    cell[c] = PetscMin(PetscMax(cell[c], 0), REGION_SIDE - 1);
+    cell[c] = extent > 0.0 ? (int)(side * (centre - whole->lower[c]) / extent) : 0;
+    cell[c] = PetscMin(PetscMax(cell[c], 0), side - 1);
   }
-  for (int i = 0; i < n; i++) GeometryBoxGrow(&cluster[cell[0] + REGION_SIDE * cell[1]], &x[2 * node[i]]);
+  for (int i = 0; i < n; i++) GeometryBoxGrow(&cluster[cell[0] + side * cell[1]], &x[2 * node[i]]);
 }
 
-static PetscErrorCode Clusters(Region r, const SolidState *solid, GeometryBox cluster[REGION_BOXES])
+/* Cells of the grid along each side. */
+static PetscErrorCode Side(Region r, const SolidState *solid, int *side)
 {
-  GeometryBox whole = GeometryBoxEmpty();
+  long long facets = solid->nfacets;
 
   PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &facets, 1, MPI_LONG_LONG, MPI_SUM, r->comm));
+  *side = (int)PetscMin(PetscMax(sqrt((double)facets / REGION_FACETS), REGION_SIDE_MIN), REGION_SIDE_MAX);
+  PetscFunctionReturn(0);
+}
+
+/* cluster[n]; those of empty cells are empty. */
+static PetscErrorCode Clusters(Region r, const SolidState *solid, int *n, GeometryBox cluster[REGION_BOXES])
+{
+  GeometryBox whole = GeometryBoxEmpty();
+  int side = 0;
+
+  PetscFunctionBeginUser;
+  PetscCall(Side(r, solid, &side));
+  *n = side * side;
   for (int i = 0; i < solid->nnodes; i++) GeometryBoxGrow(&whole, &solid->x[2 * i]);
   PetscCall(JoinBoxes(r->comm, 1, &whole));
-  for (int k = 0; k < REGION_BOXES; k++) cluster[k] = GeometryBoxEmpty();
-  for (int t = 0; t < solid->nelements; t++) AddSimplex(&whole, 3, &solid->element[3 * t], solid->x, cluster);
-  for (int e = 0; e < solid->nfacets; e++) AddSimplex(&whole, 2, &solid->facet[2 * e], solid->x, cluster);
-  PetscCall(JoinBoxes(r->comm, REGION_BOXES, cluster));
+  for (int k = 0; k < *n; k++) cluster[k] = GeometryBoxEmpty();
+  for (int t = 0; t < solid->nelements; t++)
+    AddSimplex(&whole, side, 3, &solid->element[3 * t], solid->x, cluster);
+  for (int e = 0; e < solid->nfacets; e++)
+    AddSimplex(&whole, side, 2, &solid->facet[2 * e], solid->x, cluster);
+  PetscCall(JoinBoxes(r->comm, *n, cluster));
   PetscFunctionReturn(0);
 }
 
@@ -71,12 +88,13 @@ PetscErrorCode RegionUpdate(Region r, const SolidState *solid, double dt)
 {
   GeometryBox cluster[REGION_BOXES];
   double area = 0.0, reach = 0.0;
+  int n;
 
   PetscFunctionBeginUser;
-  PetscCall(Clusters(r, solid, cluster));
+  PetscCall(Clusters(r, solid, &n, cluster));
   PetscCall(Reach(r, solid, dt, &reach));
   r->nbox = 0;
-  for (int k = 0; k < REGION_BOXES; k++) {
+  for (int k = 0; k < n; k++) {
     if (cluster[k].lower[0] > cluster[k].upper[0]) continue;
     area += (cluster[k].upper[0] - cluster[k].lower[0]) * (cluster[k].upper[1] - cluster[k].lower[1]);
     PetscCall(PetscArraycpy(r->box[r->nbox][0], cluster[k].lower, 2));

@@ -1,18 +1,24 @@
 /* The region near the solid from which the fluid sends its elements: at most REGION_BOXES boxes around
  * clusters of the solid's triangles and facets, widened by a margin that the solid may move before they are
- * renewed.
+ * renewed.  The more facets there are, the more clusters, so that those of many bodies do not hold what is between them.
  *
  *      +-------------+
  *      |  .-------.  |         a cluster: the simplices whose centres are in one cell of a
- *      |  |cluster|  | margin  REGION_SIDE x REGION_SIDE grid on the solid's bounding box
- *      |  '-------'  |
+ *      |  |cluster|  | margin  side x side grid on the solid's bounding box
+ *      |  '-------'  |         side^2: a REGION_FACETS-th of the facets, within bounds
  *      +-------------+ */
 #ifndef CORACLE_REGION_H
 #define CORACLE_REGION_H
 #include "coupler/geometry/fluid_state.h"
 #include "coupler/geometry/solid_state.h"
 
-enum { REGION_SIDE = 16, REGION_BOXES = REGION_SIDE * REGION_SIDE, REGION_STEPS = 20 };
+enum {
+  REGION_SIDE_MIN = 16,
+  REGION_SIDE_MAX = 64,
+  REGION_BOXES = REGION_SIDE_MAX * REGION_SIDE_MAX,
+  REGION_FACETS = 4,
+  REGION_STEPS = 20
+};
 
 typedef struct {
   MPI_Comm comm;

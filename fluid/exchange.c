@@ -1,4 +1,5 @@
 #include "fluid/exchange.h"
+#include "common/supermesh/search.h"
 
 struct Exchange_s {
   CoracleClient client; /* borrowed */
@@ -35,27 +36,6 @@ static PetscErrorCode Reserve(Exchange x, int n)
   PetscFunctionReturn(0);
 }
 
-static PetscBool Overlaps(const double lower[2], const double upper[2], const double box[4])
-{
-  return (PetscBool)(lower[0] <= box[2] && upper[0] >= box[0] && lower[1] <= box[3] && upper[1] >= box[1]);
-}
-
-/* whole: a box around all boxes. */
-static PetscBool InAnyBox(const Mesh *m, int e, int nbox, const double box[], const double whole[4])
-{
-  double lower[2] = {HUGE_VAL, HUGE_VAL}, upper[2] = {-HUGE_VAL, -HUGE_VAL};
-  for (int i = 0; i < 3; i++)
-    for (int c = 0; c < 2; c++) {
-      const double v = m->x[2 * m->vertex[3 * e + i] + c];
-      lower[c] = v < lower[c] ? v : lower[c];
-      upper[c] = v > upper[c] ? v : upper[c];
-    }
-  if (!Overlaps(lower, upper, whole)) return PETSC_FALSE;
-  for (int b = 0; b < nbox; b++)
-    if (Overlaps(lower, upper, box + 4 * b)) return PETSC_TRUE;
-  return PETSC_FALSE;
-}
-
 /* Density and viscosity of the fluid on the elements near the solid; of phases, the lightest fills the solid. */
 static void CopyProperties(Exchange x, Fluid fluid)
 {
@@ -68,27 +48,52 @@ static void CopyProperties(Exchange x, Fluid fluid)
   }
 }
 
+static void Corners(const Mesh *m, int e, double x[3][2])
+{
+  for (int i = 0; i < 3; i++)
+    for (int c = 0; c < 2; c++) x[i][c] = m->x[2 * m->vertex[3 * e + i] + c];
+}
+
+/* list[*n] of the elements that overlap one of the boxes. */
+static PetscErrorCode ListElements(const Mesh *m, int nbox, const double box[], int *n, int list[])
+{
+  GeometryBox *boxes;
+  Search search;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(nbox, &boxes));
+  PetscCall(PetscMemcpy(boxes, box, 4 * (size_t)nbox * sizeof *box));
+  PetscCheck(!SearchCreate(nbox, boxes, &search), PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory for %d boxes",
+             nbox);
+  *n = 0;
+  for (int e = 0; e < m->ne; e++) {
+    const int *hit;
+    double x[3][2];
+    Corners(m, e, x);
+    const GeometryBox around = GeometryBoxOf((const double(*)[2])x);
+    if (SearchQuery(search, &around, &hit)) list[(*n)++] = e;
+  }
+  SearchDestroy(&search);
+  PetscCall(PetscFree(boxes));
+  PetscFunctionReturn(0);
+}
+
 /* CoracleRegionFunction */
 static int ElementsInRegion(void *context, int nbox, const double box[], CoracleElements *elements)
 {
   Exchange s = context;
   const Mesh *m = FluidMesh(s->exchanged);
-  double whole[4] = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  int count = 0;
-  for (int k = 0; k < 4 * nbox; k++)
-    whole[k % 4] = k % 4 < 2 ? fmin(whole[k % 4], box[k]) : fmax(whole[k % 4], box[k]);
-  for (int e = 0; e < m->ne; e++) count += InAnyBox(m, e, nbox, box, whole);
-  if (Reserve(s, count)) return 1;
-  s->n = 0;
-  for (int e = 0; e < m->ne; e++) {
-    if (!InAnyBox(m, e, nbox, box, whole)) continue;
-    for (int i = 0; i < 3; i++)
-      for (int c = 0; c < 2; c++) s->x[6 * s->n + 2 * i + c] = m->x[2 * m->vertex[3 * e + i] + c];
-    s->element[s->n++] = e;
-  }
+  int n, *list;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(m->ne, &list));
+  PetscCall(ListElements(m, nbox, box, &n, list));
+  PetscCall(Reserve(s, n));
+  s->n = n;
+  PetscCall(PetscArraycpy(s->element, list, n));
+  PetscCall(PetscFree(list));
+  for (int k = 0; k < n; k++) Corners(m, s->element[k], (double(*)[2])(s->x + 6 * k));
   CopyProperties(s, s->exchanged);
-  *elements = (CoracleElements){s->n, s->x, s->rho, s->mu, s->inside, s->beside};
-  return 0;
+  *elements = (CoracleElements){n, s->x, s->rho, s->mu, s->inside, s->beside};
+  PetscFunctionReturn(0);
 }
 
 static int SaveOrRestore(void *context, int save)

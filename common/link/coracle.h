@@ -157,7 +157,8 @@ typedef struct {
 } CoracleElements;
 
 /* The region near the solid, before the fluid has elements: waits until the coupler has the solid.
- * box[nbox][2][dim]: lower and upper corners, m, the same on all ranks; borrowed until CoracleReady.
+ * box[nbox][2][dim]: lower and upper corners, m, the same on all ranks, up to 256 or, with thousands of bodies, 4096; borrowed
+ * until CoracleReady.
  * Optional, once, before CoracleReady: for a fluid whose first mesh depends on where the solid is. */
 int CoracleGetRegion(CoracleClient c, int *nbox, const double **box);
 /* Called back (on every fluid rank, in CoracleReady and CoracleEnd) when the region has changed: the fluid

@@ -1,6 +1,6 @@
 // ranks: 1 2 3
 /* The boxes hold the solid with its margin, are the same on all ranks, and are renewed when a node has left
- * its margin; a node outside of the fluid is found by its smallest global id. */
+ * its margin; a node outside of the fluid is found by its smallest global id.  Those of many bodies do not hold what is between them. */
 #include "coupler/region.h"
 #include "tests/coupler/synthetic.h"
 
@@ -28,6 +28,36 @@ static void CheckBoxes(Region region)
     }
     CHECK(inside, "element %d and its margin are in no box", t);
   }
+}
+
+/* A square of side x side triangles, one a unit, whose boxes are `size` wide and high. */
+static void SetTriangles(int side, double size)
+{
+  all.nnodes = all.nfacets = all.nelements = 0;
+  for (int b = 0; b < side * side; b++) {
+    const int first = all.nnodes;
+    for (int i = 0; i < 3; i++, all.nnodes++) {
+      all.gid[all.nnodes] = all.nnodes;
+      all.x[all.nnodes][0] = b % side + (i == 1 ? size : 0.0);
+      all.x[all.nnodes][1] = b / side + (i == 2 ? size : 0.0);
+      SyntheticFacet(&all, first + i, first + (i + 1) % 3);
+    }
+    SyntheticElement(&all, first, first + 1, first + 2);
+  }
+  SyntheticSolidView(&all);
+}
+
+static void CheckManyBodies(Region region, int rank, int size)
+{
+  enum { SIDE = 30 };
+  double area = 0.0;
+  SetTriangles(SIDE, 0.2);
+  SyntheticSolidPart(&all, rank, size, &part);
+  CHECK(!RegionUpdate(region, &part.view, 0.0), "update");
+  CheckBoxes(region);
+  for (int b = 0; b < region->nbox; b++)
+    area += (region->box[b][1][0] - region->box[b][0][0]) * (region->box[b][1][1] - region->box[b][0][1]);
+  CHECK(area < 0.25 * SIDE * SIDE, "boxes of %g in %d", area, SIDE * SIDE);
 }
 
 /* Before a step of dt. */
@@ -79,6 +109,7 @@ int main(int argc, char **argv)
   if (local >= 0) CHECK(part.gid[local] == gid && part.x[local][1] > 0.75, "node %lld", gid);
   for (int i = 0; i < all.nnodes; i++)
     CHECK(all.x[i][1] <= 0.75 || all.gid[i] >= gid, "%lld is smaller", all.gid[i]);
+  CheckManyBodies(region, rank, size);
   CHECK(!RegionDestroy(&region), "destroy");
   return PetscFinalize();
 }
