@@ -72,6 +72,7 @@ PetscErrorCode MetricGrade(const MeshSerial *mesh, double growth, double metric[
   int *changed, sweep = 0, active = 1; /* the sweep in which a vertex changed last */
   PetscFunctionBeginUser;
   PetscCheck(growth > 1.0, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "growth %g, not above 1", growth);
+  const double log_growth = log(growth);
   PetscCall(PetscCalloc1(mesh->nv + 1, &changed));
   for (sweep = 1; active; sweep++) {
     active = 0;
@@ -79,8 +80,8 @@ PetscErrorCode MetricGrade(const MeshSerial *mesh, double growth, double metric[
       /* every other sweep runs backwards, so that fine sizes spread both ways */
       const int c = sweep % 2 ? k : 3 * mesh->ne - 1 - k;
       const int p = mesh->vertex[c], q = mesh->vertex[c % 3 == 2 ? c - 2 : c + 1];
-      if (changed[p] >= sweep - 1 && Grow(mesh->x, p, q, log(growth), metric)) changed[q] = sweep, active = 1;
-      if (changed[q] >= sweep - 1 && Grow(mesh->x, q, p, log(growth), metric)) changed[p] = sweep, active = 1;
+      if (changed[p] >= sweep - 1 && Grow(mesh->x, p, q, log_growth, metric)) changed[q] = sweep, active = 1;
+      if (changed[q] >= sweep - 1 && Grow(mesh->x, q, p, log_growth, metric)) changed[p] = sweep, active = 1;
     }
   }
   if (sweeps) *sweeps = sweep - 1;
