@@ -15,17 +15,16 @@ typedef struct {
 static int Penetrates(const Model *a, int facet, int e)
 {
   const int *behind = a->element + 3 * a->facet_element[facet];
-  ContactIntegrals f;
+  ContactIntegrals f[2];
   Point t[3], centre = {0.0, 0.0};
   for (int i = 0; i < 3; i++) {
     t[i] = PointAt(a->x, a->element[3 * e + i]);
     centre.x += PointAt(a->x, behind[i]).x / 3.0;
     centre.y += PointAt(a->x, behind[i]).y / 3.0;
   }
-  const int centred = ContactEdgeTriangle(centre, centre, t, &f) && f.largest_phi >= TOUCH;
-  return centred || (ContactEdgeTriangle(PointAt(a->x, a->facet[2 * facet]),
-                                         PointAt(a->x, a->facet[2 * facet + 1]), t, &f) &&
-                     f.largest_phi >= TOUCH);
+  f[0] = ContactEdgeTriangle(centre, centre, t);
+  f[1] = ContactEdgeTriangle(PointAt(a->x, a->facet[2 * facet]), PointAt(a->x, a->facet[2 * facet + 1]), t);
+  return (f[0].inside > 0.0 && f[0].largest_phi >= TOUCH) || (f[1].inside > 0.0 && f[1].largest_phi >= TOUCH);
 }
 
 static PetscErrorCode OverlapFound(void *context, int facet, int e)

@@ -1,5 +1,8 @@
 /* The forces of contact: what touches, springs and dampers of each pair, forces on edges and targets. */
+#include "common/supermesh/vectorize.h"
 #include "solid/contact/contact_impl.h"
+
+enum { MOST_CANDIDATES = 6 }; /* of a couple: the sides of both */
 
 /* --- couples ------------------------------------------------------------------------------------------ */
 
@@ -20,11 +23,16 @@ int ContactSeparatingSide(const Contact c, const Solid s, const Couple *couple)
   return k.separating;
 }
 
+static Point VelocityOf(const Contact c, const Solid s, int node)
+{
+  return node < s->nnodes ? PointAt(s->v, node) : PointAt(HaloVelocities(c->halo), node - s->nnodes);
+}
+
 /* --- what touches ------------------------------------------------------------------------------------- */
 
 /* Relative velocity at the force's place, into the pair's sums with the normal force as weight; edge[2], target[3]: velocities
  * of the nodes, the latter NULL at a wall. */
-static void AddMotion(Contact c, const ActivePair *active, const Point *const edge[2], const Point target[3])
+static void AddMotion(Contact c, const ActivePair *active, const Point edge[2], const Point target[3])
 {
   const ContactIntegrals *k = &active->integrals;
   const Point d = active->along;
@@ -33,8 +41,8 @@ static void AddMotion(Contact c, const ActivePair *active, const Point *const ed
   Point v = {0.0, 0.0}; /* times the sum */
   if (!(normal > 0.0)) return;
   for (int i = 0; i < 2; i++) {
-    v.x += k->edge[i] * edge[i]->x;
-    v.y += k->edge[i] * edge[i]->y;
+    v.x += k->edge[i] * edge[i].x;
+    v.y += k->edge[i] * edge[i].y;
   }
   for (int i = 0; target && i < 3; i++) {
     v.x -= k->target[i] * target[i].x;
@@ -49,55 +57,85 @@ static void AddMotion(Contact c, const ActivePair *active, const Point *const ed
   pair->vt += active->scale * (v.x * d.x + v.y * d.y);
 }
 
-/* Of the nodes of both elements. */
+/* Candidates whose integrals are made side by side. */
 typedef struct {
-  Point x[2][3], v[2][3];
-  double twice_area[2], at[2][3][3]; /* at[of][k][i]: lambda_i of the other element at node k of target[of] */
-} CoupleShape;
+  int n, couple[STRIP], candidate[STRIP];
+  double p[2][STRIP], q[2][STRIP], t[3][2][STRIP];
+  double edge[2][STRIP], target[3][STRIP], largest_phi[STRIP], inside[STRIP], twice_area[STRIP];
+} Strip;
 
-static void ShapeOf(const Contact c, const Solid s, const Couple *k, CoupleShape *shape)
-{
-  for (int of = 0; of < 2; of++) {
-    for (int i = 0; i < 3; i++) shape->x[of][i] = ContactPosition(c, s, k->node[of][i]);
-    shape->twice_area[of] = ContactTwiceArea(shape->x[of]);
-  }
-  for (int of = 0; of < 2; of++)
-    ContactCoordinates(shape->x[1 - of], shape->twice_area[1 - of], 3, shape->x[of], shape->at[of]);
-}
-
-static void VelocitiesOf(const Contact c, const Solid s, const Couple *k, CoupleShape *shape)
-{
-  for (int of = 0; of < 2; of++)
-    for (int i = 0; i < 3; i++) {
-      const int node = k->node[of][i];
-      shape->v[of][i] =
-          node < s->nnodes ? PointAt(s->v, node) : PointAt(HaloVelocities(c->halo), node - s->nnodes);
-    }
-}
-
-/* Adds those candidates of the couple that touch to active[n]; returns their number. */
-static int FindActive(Contact c, const Solid s, int couple, ActivePair active[])
+static void AddToStrip(const Contact c, const Solid s, int couple, Strip *strip)
 {
   const Couple *k = &c->couple[couple];
-  CoupleShape shape;
-  int n = 0;
-  ShapeOf(c, s, k, &shape);
   for (int i = k->first; i < k->first + k->n; i++) {
     const Candidate *candidate = &c->candidate[i];
-    const int of = candidate->target == k->target[0], p = s->facet_side[candidate->facet], q = (p + 1) % 3;
-    ActivePair *a = &active[n];
-    if (!ContactIntegralsOf(shape.at[of][p], shape.at[of][q], shape.twice_area[1 - of], &a->integrals))
-      continue;
-    if (c->rough && n == 0) VelocitiesOf(c, s, k, &shape);
-    a->couple = couple;
-    a->of = of;
-    a->side = p;
-    a->pair = candidate->pair;
-    a->scale = candidate->strength / shape.twice_area[1 - of];
-    a->along = PointMinus(shape.x[of][q], shape.x[of][p]);
-    if (c->rough) AddMotion(c, a, (const Point *[]){&shape.v[of][p], &shape.v[of][q]}, shape.v[1 - of]);
-    n++;
+    const int of = candidate->target == k->target[0], *edge = s->facet + 2 * candidate->facet, n = strip->n++;
+    strip->couple[n] = couple;
+    strip->candidate[n] = i;
+    for (int d = 0; d < 2; d++) {
+      strip->p[d][n] = s->x[2 * edge[0] + d];
+      strip->q[d][n] = s->x[2 * edge[1] + d];
+    }
+    for (int j = 0; j < 3; j++) {
+      const Point x = ContactPosition(c, s, k->node[1 - of][j]);
+      strip->t[j][0][n] = x.x;
+      strip->t[j][1][n] = x.y;
+    }
   }
+}
+
+static WIDE void IntegrateStrip(Strip *strip)
+{
+  VECTORIZE
+  for (int k = 0; k < strip->n; k++) {
+    const Point p = {strip->p[0][k], strip->p[1][k]}, q = {strip->q[0][k], strip->q[1][k]};
+    const Point t[3] = {{strip->t[0][0][k], strip->t[0][1][k]},
+                        {strip->t[1][0][k], strip->t[1][1][k]},
+                        {strip->t[2][0][k], strip->t[2][1][k]}};
+    const ContactIntegrals c = ContactEdgeTriangle(p, q, t);
+    for (int i = 0; i < 2; i++) strip->edge[i][k] = c.edge[i];
+    for (int i = 0; i < 3; i++) strip->target[i][k] = c.target[i];
+    strip->largest_phi[k] = c.largest_phi;
+    strip->inside[k] = c.inside;
+    strip->twice_area[k] = c.twice_area;
+  }
+}
+
+static void AddActive(Contact c, const Solid s, const Strip *strip, int k, ActivePair *a)
+{
+  const Couple *couple = &c->couple[strip->couple[k]];
+  const Candidate *candidate = &c->candidate[strip->candidate[k]];
+  a->couple = strip->couple[k];
+  a->of = candidate->target == couple->target[0];
+  a->side = s->facet_side[candidate->facet];
+  a->pair = candidate->pair;
+  a->scale = candidate->strength / strip->twice_area[k];
+  a->along = (Point){strip->q[0][k] - strip->p[0][k], strip->q[1][k] - strip->p[1][k]};
+  a->integrals = (ContactIntegrals){.edge = {strip->edge[0][k], strip->edge[1][k]},
+                                    .target = {strip->target[0][k], strip->target[1][k], strip->target[2][k]},
+                                    .largest_phi = strip->largest_phi[k],
+                                    .inside = strip->inside[k],
+                                    .twice_area = strip->twice_area[k]};
+  if (!c->rough) return;
+  const int *edge = s->facet + 2 * candidate->facet;
+  const Point v[2] = {PointAt(s->v, edge[0]), PointAt(s->v, edge[1])};
+  Point target[3];
+  for (int i = 0; i < 3; i++) target[i] = VelocityOf(c, s, couple->node[1 - a->of][i]);
+  AddMotion(c, a, v, target);
+}
+
+/* Adds those that touch to active[n]; returns their number.  The strip is empty then. */
+static int FindActive(Contact c, const Solid s, Strip *strip, ActivePair active[])
+{
+  int n = 0;
+  IntegrateStrip(strip);
+  for (int k = 0; k < strip->n;) {
+    const int couple = strip->couple[k], before = n;
+    for (; k < strip->n && strip->couple[k] == couple; k++)
+      if (strip->inside[k] > 0.0) AddActive(c, s, strip, k, &active[n++]);
+    c->couple[couple].separating = n > before ? -1 : ContactSeparatingSide(c, s, &c->couple[couple]);
+  }
+  strip->n = 0;
   return n;
 }
 
@@ -115,7 +153,7 @@ static int ActiveWall(const Contact c, Solid s, int wall, ActivePair *active)
   active->pair = w->pair;
   active->scale = m->penalty * m->thickness;
   active->along = PointMinus(PointAt(s->x, edge[1]), PointAt(s->x, edge[0]));
-  if (c->rough) AddMotion(c, active, (const Point *[]){&v[0], &v[1]}, NULL);
+  if (c->rough) AddMotion(c, active, v, NULL);
   return 1;
 }
 
@@ -133,6 +171,7 @@ static void ForgetSums(Contact c)
 static PetscErrorCode FindActivePairs(Contact c, Solid s, int *nactive)
 {
   const int most = c->ncandidates + c->nwalls;
+  Strip strip;
   int n = 0;
   PetscFunctionBeginUser;
   if (most > c->active_capacity) {
@@ -140,13 +179,13 @@ static PetscErrorCode FindActivePairs(Contact c, Solid s, int *nactive)
     PetscCall(PetscRealloc((size_t)c->active_capacity * sizeof *c->active, &c->active));
   }
   ForgetSums(c);
+  strip.n = 0;
   for (int k = 0; k < c->nnear; k++) {
-    Couple *couple = &c->couple[c->near[k]];
-    if (Separated(c, s, couple)) continue;
-    const int found = FindActive(c, s, c->near[k], c->active + n);
-    couple->separating = found > 0 ? -1 : ContactSeparatingSide(c, s, couple);
-    n += found;
+    if (Separated(c, s, &c->couple[c->near[k]])) continue;
+    AddToStrip(c, s, c->near[k], &strip);
+    if (strip.n > STRIP - MOST_CANDIDATES) n += FindActive(c, s, &strip, c->active + n);
   }
+  n += FindActive(c, s, &strip, c->active + n);
   for (int k = 0; k < c->nwalls; k++) n += ActiveWall(c, s, k, &c->active[n]);
   *nactive = n;
   PetscFunctionReturn(0);

@@ -101,6 +101,18 @@ static inline Point ContactPosition(const Contact c, const Solid s, int node)
   return node < s->nnodes ? PointAt(s->x, node) : PointAt(HaloPositions(c->halo), node - s->nnodes);
 }
 
+/* An active joint holds them together. */
+static inline PetscBool ContactJoined(const Solid s, int facet, const Target *t)
+{
+  return (PetscBool)(s->facet_across[facet] == t->number);
+}
+
+/* contact_near.c */
+/* Farther than the buffer they cannot touch before the next search.  Of one body: a pair that shares a node
+ * never touches by itself, neighbours at rest only once they have come closer, and a buffer that is long
+ * because the body as a whole is fast is not needed.  *distance: not less is between them. */
+PetscBool ContactMayBeActive(const Contact c, const Solid s, int facet, const Target *t, double *distance);
+
 /* contact_forces.c: Couple.separating as it is now. */
 int ContactSeparatingSide(const Contact c, const Solid s, const Couple *k);
 

@@ -36,66 +36,60 @@ static inline void ContactPiece(double s0, double s1, double f0, double f1, doub
   integral[1] += moment;
 }
 
-/* phi at s; *i: of the lambda that it is made of. */
-static inline double ContactPotential(const double at_p[3], const double at_q[3], double s, int *i)
+static inline double ContactPotential(const double at_p[3], const double at_q[3], double s)
 {
-  double lambda[3];
-  for (int k = 0; k < 3; k++) lambda[k] = at_p[k] + s * (at_q[k] - at_p[k]);
-  *i = lambda[1] < lambda[0];
-  *i = lambda[2] < lambda[*i] ? 2 : *i;
-  return Greater(3.0 * lambda[*i], 0.0);
+  double phi = HUGE_VAL;
+  for (int i = 0; i < 3; i++) phi = Lesser(phi, at_p[i] + s * (at_q[i] - at_p[i]));
+  return Greater(3.0 * phi, 0.0);
 }
 
-/* The part s0 .. s1 of the edge on which all lambda_i >= 0; 0 if there is none. */
-static inline int ContactClip(const double at_p[3], const double at_q[3], double *s0, double *s1)
+/* The part s0 .. s1 of the edge on which all lambda_i >= 0; there is none where s0 >= s1 or one of them is not a number. */
+static inline void ContactClip(const double at_p[3], const double at_q[3], double *s0, double *s1)
 {
   *s0 = 0.0;
   *s1 = 1.0;
   for (int i = 0; i < 3; i++) {
-    const double a = at_p[i], b = at_q[i];
-    if (a <= 0.0 && b <= 0.0) return 0;
-    if (a < 0.0) *s0 = Greater(*s0, a / (a - b));
-    if (b < 0.0) *s1 = Lesser(*s1, a / (a - b));
+    const double a = at_p[i], b = at_q[i], s = a / (a - b);
+    *s0 = a < 0.0 ? Greater(*s0, s) : *s0;
+    *s1 = b < 0.0 ? Lesser(*s1, s) : *s1;
+    *s1 = (a <= 0.0) & (b <= 0.0) ? -1.0 : *s1;
   }
-  return *s0 < *s1;
 }
 
-/* The integrals of phi over s0 .. s1: phi is linear between the places where two lambdas cross, and all the way where one of
- * them is the least at both ends. */
+/* The integrals of phi over s0 .. s1: phi is linear between the places where two lambdas cross.  Without branches, as edges and
+ * triangles are dealt with side by side: a place outside is moved to s0. */
 static inline double ContactIntegrate(const double at_p[3], const double at_q[3], double s0, double s1,
                                       double integral[2])
 {
-  double kink[5] = {s0};
-  int n = 1, least[2];
-  double left = ContactPotential(at_p, at_q, s0, &least[0]),
-         last = ContactPotential(at_p, at_q, s1, &least[1]);
-  double largest = Greater(left, last);
-  for (int i = 0; i < 3 && least[0] != least[1]; i++) {
+  double place[5] = {s0, s0, s0, s0, s1}, largest;
+  for (int i = 0; i < 3; i++) {
     const int j = (i + 1) % 3;
     const double slope = (at_q[i] - at_p[i]) - (at_q[j] - at_p[j]), s = (at_p[j] - at_p[i]) / slope;
-    if (slope == 0.0 || !(s > s0 && s < s1)) continue;
-    int k = n++;
-    for (; k > 1 && kink[k - 1] > s; k--) kink[k] = kink[k - 1];
-    kink[k] = s;
+    place[1 + i] = (s > s0) & (s < s1) ? s : s0;
   }
-  for (int k = 1; k < n; k++) {
-    const double right = ContactPotential(at_p, at_q, kink[k], &least[0]);
-    ContactPiece(kink[k - 1], kink[k], left, right, integral);
+  for (int i = 0; i < 3; i++) { /* sorts the three */
+    const int k = 1 + i % 2;
+    const double low = Lesser(place[k], place[k + 1]), high = Greater(place[k], place[k + 1]);
+    place[k] = low;
+    place[k + 1] = high;
+  }
+  double left = ContactPotential(at_p, at_q, s0);
+  largest = left;
+  for (int k = 1; k < 5; k++) {
+    const double right = ContactPotential(at_p, at_q, place[k]);
+    ContactPiece(place[k - 1], place[k], left, right, integral);
     left = right;
     largest = Greater(largest, right);
   }
-  ContactPiece(kink[n - 1], s1, left, last, integral);
   return largest;
 }
 
-/* at[k][i]: lambda_i of triangle t at x[k]. */
-static inline void ContactCoordinates(const Point t[3], double twice_area, int n, const Point x[],
-                                      double at[][3])
+/* lambda_i of triangle t at x. */
+static inline void ContactCoordinates(const Point t[3], double inverse_twice_area, Point x, double at[3])
 {
-  const double inverse = 1.0 / twice_area;
   for (int i = 0; i < 3; i++) {
     const Point from = t[(i + 1) % 3], side = PointMinus(t[(i + 2) % 3], from);
-    for (int k = 0; k < n; k++) at[k][i] = PointCross(side, PointMinus(x[k], from)) * inverse;
+    at[i] = PointCross(side, PointMinus(x, from)) * inverse_twice_area;
   }
 }
 
@@ -110,27 +104,29 @@ static inline int ContactBeyond(Point p, Point q, Point x)
   return PointCross(PointMinus(q, p), PointMinus(x, p)) <= 0.0;
 }
 
-/* With the coordinates of the edge's ends.  Returns 0 when edge and triangle do not meet; *c is then unset. */
-static inline int ContactIntegralsOf(const double at_p[3], const double at_q[3], double twice_area,
-                                     ContactIntegrals *c)
+/* Edge and triangle meet where `inside` is more than 0; else the rest is unset. */
+static inline __attribute__((always_inline)) ContactIntegrals ContactEdgeTriangle(Point p, Point q,
+                                                                                  const Point t[3])
 {
-  double s0, s1;
-  if (!ContactClip(at_p, at_q, &s0, &s1)) return 0;
-  c->edge[0] = c->edge[1] = 0.0;
-  c->twice_area = twice_area;
-  c->inside = s1 - s0;
-  c->largest_phi = ContactIntegrate(at_p, at_q, s0, s1, c->edge);
-  for (int i = 0; i < 3; i++) c->target[i] = at_p[i] * c->edge[0] + at_q[i] * c->edge[1];
-  return 1;
+  ContactIntegrals c = {.twice_area = ContactTwiceArea(t)};
+  double at_p[3], at_q[3], s0, s1;
+  ContactCoordinates(t, 1.0 / c.twice_area, p, at_p);
+  ContactCoordinates(t, 1.0 / c.twice_area, q, at_q);
+  ContactClip(at_p, at_q, &s0, &s1);
+  c.inside = s1 - s0;
+  c.largest_phi = ContactIntegrate(at_p, at_q, s0, s1, c.edge);
+  for (int i = 0; i < 3; i++) c.target[i] = at_p[i] * c.edge[0] + at_q[i] * c.edge[1];
+  return c;
 }
 
-static inline int ContactEdgeTriangle(Point p, Point q, const Point t[3], ContactIntegrals *c)
+static inline int ContactTouches(Point p, Point q, const Point t[3])
 {
-  const double twice_area = ContactTwiceArea(t);
-  const Point end[2] = {p, q};
-  double at[2][3];
-  ContactCoordinates(t, twice_area, 2, end, at);
-  return ContactIntegralsOf(at[0], at[1], twice_area, c);
+  const double inverse = 1.0 / ContactTwiceArea(t);
+  double at_p[3], at_q[3], s0, s1;
+  ContactCoordinates(t, inverse, p, at_p);
+  ContactCoordinates(t, inverse, q, at_q);
+  ContactClip(at_p, at_q, &s0, &s1);
+  return s0 < s1;
 }
 
 /* A rigid half plane: phi = 3 depth / height behind the wall, depth_p and depth_q those of the edge's ends.

@@ -2,10 +2,6 @@
 #include "solid/contact/cell_grid.h"
 #include "solid/contact/contact_impl.h"
 
-/* Neighbours on the mesh of one body that lie this close at rest become candidates when they have come closer
- * by half: till then they cost nothing. */
-#define APPROACH 0.5
-
 typedef struct {
   Contact c;
   Solid s;
@@ -14,73 +10,6 @@ typedef struct {
   const GeometryBox *target;    /* [nall] */
   char *keep;                   /* [halo targets] */
 } SearchContext;
-
-/* --- distances ---------------------------------------------------------------------------------------- */
-
-/* Squared distance from a to the segment p q. */
-static double PointSegment(Point a, Point p, Point q)
-{
-  const Point d = PointMinus(q, p), r = PointMinus(a, p);
-  const double s = fmax(0.0, fmin(1.0, (r.x * d.x + r.y * d.y) / (d.x * d.x + d.y * d.y)));
-  const double x = r.x - s * d.x, y = r.y - s * d.y;
-  return x * x + y * y;
-}
-
-static double Distance(Point p, Point q, const Point t[3])
-{
-  ContactIntegrals inside;
-  double least = HUGE_VAL;
-  if (ContactEdgeTriangle(p, q, t, &inside)) return 0.0;
-  for (int i = 0; i < 3; i++) {
-    const Point a = t[i], b = t[(i + 1) % 3];
-    least = fmin(least, fmin(PointSegment(p, a, b), PointSegment(q, a, b)));
-    least = fmin(least, PointSegment(a, p, q));
-  }
-  return sqrt(least);
-}
-
-/* An active joint holds them together. */
-static PetscBool Joined(const Solid s, int facet, const Target *t)
-{
-  return (PetscBool)(s->facet_across[facet] == t->number);
-}
-
-/* They were one point at rest: the facet's end and the target's node that are least apart now, squared; HUGE_VAL: none. */
-static double Parted(const Solid s, const int *edge, const Target *t, const Point now[3])
-{
-  double least = HUGE_VAL;
-  for (int i = 0; i < 6; i++) {
-    const double *rest = s->rest + 2 * edge[i / 3];
-    if (t->rest[2 * (i % 3)] != rest[0] || t->rest[2 * (i % 3) + 1] != rest[1]) continue;
-    const Point d = PointMinus(PointAt(s->x, edge[i / 3]), now[i % 3]);
-    least = fmin(least, d.x * d.x + d.y * d.y);
-  }
-  return least;
-}
-
-/* Farther than the buffer they cannot touch before the next search.  Of one body: a pair that shares a node
- * never touches by itself, neighbours at rest only once they have come closer, and a buffer that is long
- * because the body as a whole is fast is not needed.  *distance: not less is between them. */
-static PetscBool MayBeActive(const Contact c, const Solid s, int facet, const Target *t, double *distance)
-{
-  const int *edge = s->facet + 2 * facet, body = s->elements.body[s->facet_element[facet]];
-  Point now[3], rest[3];
-  if (t->body == body && !Joined(s, facet, t))
-    for (int i = 0; i < 6; i++)
-      if (t->gid[i % 3] == s->gid[edge[i / 3]]) return PETSC_FALSE;
-  for (int i = 0; i < 3; i++) {
-    now[i] = ContactPosition(c, s, t->node[i]);
-    rest[i] = PointAt(t->rest, i);
-  }
-  *distance = 0.0;
-  if (t->body == body && Parted(s, edge, t, now) <= c->shortest_buffer * c->shortest_buffer)
-    return PETSC_TRUE;
-  *distance = Distance(PointAt(s->x, edge[0]), PointAt(s->x, edge[1]), now);
-  if (t->body != body) return (PetscBool)(*distance <= c->buffer);
-  if (*distance > c->shortest_buffer) return PETSC_FALSE;
-  const double apart = Distance(PointAt(s->rest, edge[0]), PointAt(s->rest, edge[1]), rest);
-  return (PetscBool)(apart == 0.0 || apart > c->shortest_buffer || *distance < APPROACH * apart);
-}
 
 /* --- candidates --------------------------------------------------------------------------------------- */
 
@@ -118,7 +47,7 @@ static PetscErrorCode AddCandidate(Contact c, Solid s, int facet, int target)
   }
   const double penalty = fmin(own->penalty, other->penalty) * fmin(own->thickness, other->thickness);
   const double compliance = fmax(c->compliance[body], c->compliance[t->body]);
-  const PetscBool joined = Joined(s, facet, t);
+  const PetscBool joined = ContactJoined(s, facet, t);
   ContactMaterials(s, s->elements.material[element], t->material, &friction, &damping);
   if (joined) friction = fmin(own->internal_friction, other->internal_friction);
   const ContactLaw law = LawOf(s, facet, friction, damping, penalty, c->height[t->body],
@@ -143,7 +72,7 @@ static PetscErrorCode AddCandidates(const SearchContext *x, int own, int target,
   for (int k = c->facet_start[own]; k < c->facet_start[own + 1]; k++) {
     const int facet = c->facet[k];
     if (!GeometryBoxOverlap(&x->facet[facet], &x->target[target])) continue;
-    if (!MayBeActive(c, x->s, facet, &c->target[target], &distance)) continue;
+    if (!ContactMayBeActive(c, x->s, facet, &c->target[target], &distance)) continue;
     PetscCall(AddCandidate(c, x->s, facet, target));
     couple->distance = fmin(couple->distance, distance);
   }
