@@ -48,12 +48,6 @@ static void CopyProperties(Exchange x, Fluid fluid)
   }
 }
 
-static void Corners(const Mesh *m, int e, double x[3][2])
-{
-  for (int i = 0; i < 3; i++)
-    for (int c = 0; c < 2; c++) x[i][c] = m->x[2 * m->vertex[3 * e + i] + c];
-}
-
 /* list[*n] of the elements that overlap one of the boxes. */
 static PetscErrorCode ListElements(const Mesh *m, int nbox, const double box[], int *n, int list[])
 {
@@ -68,7 +62,7 @@ static PetscErrorCode ListElements(const Mesh *m, int nbox, const double box[], 
   for (int e = 0; e < m->ne; e++) {
     const int *hit;
     double x[3][2];
-    Corners(m, e, x);
+    MeshCorners(m, e, x);
     const GeometryBox around = GeometryBoxOf((const double(*)[2])x);
     if (SearchQuery(search, &around, &hit)) list[(*n)++] = e;
   }
@@ -90,7 +84,7 @@ static int ElementsInRegion(void *context, int nbox, const double box[], Coracle
   s->n = n;
   PetscCall(PetscArraycpy(s->element, list, n));
   PetscCall(PetscFree(list));
-  for (int k = 0; k < n; k++) Corners(m, s->element[k], (double(*)[2])(s->x + 6 * k));
+  for (int k = 0; k < n; k++) MeshCorners(m, s->element[k], (double(*)[2])(s->x + 6 * k));
   CopyProperties(s, s->exchanged);
   *elements = (CoracleElements){n, s->x, s->rho, s->mu, s->inside, s->beside};
   PetscFunctionReturn(0);

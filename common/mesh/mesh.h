@@ -80,4 +80,10 @@ PetscErrorCode MeshDistribute(MPI_Comm comm, const MeshSerial *serial, Mesh **me
 PetscErrorCode MeshDestroy(Mesh **mesh);
 /* Not collective: the index of a boundary's name in tag_name, -1 if the mesh has none of that name. */
 int MeshTagIndex(const Mesh *mesh, const char *name);
+/* Not collective: the vertices of element e, m. */
+static inline void MeshCorners(const Mesh *mesh, PetscInt e, double x[3][2])
+{
+  for (int i = 0; i < 3; i++)
+    for (int c = 0; c < 2; c++) x[i][c] = mesh->x[2 * mesh->vertex[3 * e + i] + c];
+}
 #endif

@@ -40,6 +40,30 @@ static inline void GeometryBoxGrow(GeometryBox *box, const double x[2])
   }
 }
 
+static inline void GeometryBoxJoin(GeometryBox *box, const GeometryBox *other)
+{
+  GeometryBoxGrow(box, other->lower);
+  GeometryBoxGrow(box, other->upper);
+}
+
+/* With a margin on all sides, m. */
+static inline GeometryBox GeometryBoxWidened(GeometryBox box, double margin)
+{
+  for (int c = 0; c < 2; c++) {
+    box.lower[c] -= margin;
+    box.upper[c] += margin;
+  }
+  return box;
+}
+
+/* Around nodes node[n] of x[][2]. */
+static inline GeometryBox GeometryBoxOfNodes(int n, const int node[], const double x[])
+{
+  GeometryBox box = GeometryBoxEmpty();
+  for (int i = 0; i < n; i++) GeometryBoxGrow(&box, x + 2 * node[i]);
+  return box;
+}
+
 static inline GeometryBox GeometryBoxOf(const double x[3][2])
 {
   GeometryBox box = GeometryBoxEmpty();

@@ -19,9 +19,7 @@ PetscErrorCode TransferElementsOf(const Mesh *mesh, TransferElements *elements)
   PetscCall(PetscMalloc2(mesh->ne, &elements->element, mesh->ne, &elements->x));
   for (int e = 0; e < mesh->ne; e++) {
     elements->element[e] = e;
-    for (int i = 0; i < 3; i++) {
-      for (int c = 0; c < 2; c++) elements->x[e][i][c] = mesh->x[2 * mesh->vertex[3 * e + i] + c];
-    }
+    MeshCorners(mesh, e, elements->x[e]);
   }
   PetscFunctionReturn(0);
 }

@@ -111,18 +111,11 @@ static PetscErrorCode FindKnown(Uplift u, Overlap o, const Fields outside[], Gap
 
 /* --- the force -------------------------------------------------------------------------------------------- */
 
-static PetscBool IsHeld(const Uplift u, int i)
-{
-  return (PetscBool)(u->solid.mobility[i] == 0.0);
-}
-
 /* How much of the excess at p is its facet's: all, half, or nothing where what is held meets what is free. */
-static double Share(const Uplift u, const ClosePoint *p)
+static double Share(const ClosePoint *p)
 {
-  const int *node = &u->solid.facet[2 * p->facet];
-  const PetscBool is_held = (PetscBool)(IsHeld(u, node[0]) && IsHeld(u, node[1]));
-  if (p->opposite == CLOSE_TO_WALL || (p->opposite_is_held && !is_held)) return 1.0;
-  return !p->opposite_is_held && is_held ? 0.0 : 0.5;
+  if (p->opposite == CLOSE_TO_WALL) return 1.0;
+  return 0.5 * (1 + p->opposite_is_held - p->is_held);
 }
 
 /* force += int N_i excess n over the close points, and the opposite to what is there; excess[nnodes], Pa; total: of this rank's walls. */
@@ -136,7 +129,7 @@ static PetscErrorCode AddForce(Uplift u, const double excess[], double force[], 
   for (int k = 0; k < points->n; k++) {
     const ClosePoint *p = &points->point[k];
     const int *node = &u->solid.facet[2 * p->facet];
-    const double share = Share(u, p),
+    const double share = Share(p),
                  push = share * p->weight * (p->n[0] * excess[node[0]] + p->n[1] * excess[node[1]]);
     for (int c = 0; c < 2; c++) {
       const double normal = u->shell->normal[p->facet][c];
@@ -157,7 +150,7 @@ static double Excess(const Uplift u, const Gap *gap, int i, double p, double are
   const double *value = gap->value[i], g = hypot(u->gravity[0], u->gravity[1]);
   if (value[REACHED] < 0.5 || area == 0.0) return 0.0;
   const double e = p - value[HEAD] - value[DENSITY] * Along(u->gravity, &u->solid.x[2 * i]);
-  if (IsHeld(u, i)) return e;
+  if (u->solid.mobility[i] == 0.0) return e;
   const double rho = 3.0 / (u->solid.mobility[i] * area), largest = dt * g * sqrt(2.0 * rho * fabs(e));
   return fmax(-largest, fmin(largest, e));
 }

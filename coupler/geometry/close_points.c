@@ -33,11 +33,7 @@ static GeometryBox BoxOf(const Facet *f, double reach)
 {
   GeometryBox box = GeometryBoxEmpty();
   for (int i = 0; i < 2; i++) GeometryBoxGrow(&box, f->x[i]);
-  for (int c = 0; c < 2; c++) {
-    box.lower[c] -= reach;
-    box.upper[c] += reach;
-  }
-  return box;
+  return GeometryBoxWidened(box, reach);
 }
 
 /* arrived[]: the facets that are within reach of this rank's, and its own. */
@@ -139,6 +135,7 @@ static PetscErrorCode FindOfFacet(ClosePoints *points, const Facet *f, int index
   for (int k = 0; k < 2; k++) {
     ClosePoint point = {.facet = index,
                         .opposite = CLOSE_TO_NOTHING,
+                        .is_held = f->is_held,
                         .gap = reach,
                         .weight = 0.5 * f->length,
                         .n = {1.0 - gauss[k], gauss[k]}};

@@ -14,12 +14,12 @@
 enum { CLOSE_TO_WALL = -1, CLOSE_TO_NOTHING = -2 };
 
 typedef struct {
-  int facet;            /* f, of this rank */
-  int opposite;         /* of the arrived facets; CLOSE_TO_WALL: a wall */
-  int opposite_is_held; /* nothing there is free to move */
-  double n[2];          /* the two functions of f there */
-  double opposite_n[2]; /* those of g at y */
-  double weight, gap;   /* m: the part of the length of f; the distance */
+  int facet;                     /* f, of this rank */
+  int opposite;                  /* of the arrived facets; CLOSE_TO_WALL: a wall */
+  int is_held, opposite_is_held; /* nothing of f, nothing there is free to move */
+  double n[2];                   /* the two functions of f there */
+  double opposite_n[2];          /* those of g at y */
+  double weight, gap;            /* m: the part of the length of f; the distance */
 } ClosePoint;
 
 typedef struct {

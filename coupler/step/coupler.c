@@ -115,17 +115,10 @@ PetscErrorCode CouplerBuild(Coupler c, const SolidState *solid, double dt, int *
   PetscFunctionReturn(0);
 }
 
-/* rho[3] g, of the vertices of a triangle. */
-static LinearField Weight(const SupermeshBasis *basis, const double g[2], double p, double q, double r)
-{
-  return LinearFieldOf(basis, (double[2]){p * g[0], p * g[1]}, (double[2]){q * g[0], q * g[1]},
-                       (double[2]){r * g[0], r * g[1]});
-}
-
-/* The source triangles' velocity, acceleration and interface acceleration of this rank's nodes. */
+/* The source triangles' velocity, force and interface acceleration of this rank's nodes. */
 static PetscErrorCode SetSourceTerms(Coupler c, const double u[])
 {
-  enum { VELOCITY, ACCELERATION = 2, INTERFACE = 4, DISPLACED = 6, NVALUES = 7 };
+  enum { VELOCITY, ACCELERATION = 2, INTERFACE = 4, WEIGHT = 6, NVALUES = 8 };
   const Overlap o = c->overlap;
   double(*node)[NVALUES], (*vertex)[3][NVALUES];
 
@@ -135,8 +128,8 @@ static PetscErrorCode SetSourceTerms(Coupler c, const double u[])
     node[k / 2][VELOCITY + k % 2] = u[k];
     node[k / 2][ACCELERATION + k % 2] = c->acceleration[k];
     node[k / 2][INTERFACE + k % 2] = (u[k] - c->start[k]) / c->dt;
+    node[k / 2][WEIGHT + k % 2] = c->displaced[k / 2] * c->options.gravity[k % 2];
   }
-  for (int i = 0; i < c->nnodes; i++) node[i][DISPLACED] = c->displaced[i];
   PetscCall(OverlapNodesToSources(o, NVALUES, (const double *)node, (double *)vertex));
   for (int t = 0; t < o->nsources; t++) {
     const SupermeshBasis *basis = &o->source_basis[t];
@@ -146,7 +139,7 @@ static PetscErrorCode SetSourceTerms(Coupler c, const double u[])
     c->source[t].force = (LinearField){{0.0}, {{0.0}}};
     LinearFieldAdd(c->source[t].density, &a, &c->source[t].force);
     if (IsHeldByInertia(&c->source[t]))
-      c->source[t].force = Weight(basis, c->options.gravity, p[DISPLACED], q[DISPLACED], r[DISPLACED]);
+      c->source[t].force = LinearFieldOf(basis, p + WEIGHT, q + WEIGHT, r + WEIGHT);
     c->source[t].interface_acceleration = LinearFieldOf(basis, p + INTERFACE, q + INTERFACE, r + INTERFACE);
   }
   PetscCall(PetscFree2(node, vertex));

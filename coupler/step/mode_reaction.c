@@ -30,8 +30,8 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
   }
   PetscCall(InertiaCoefficients(o, solid, c->dt, c->options.sigma_among_phases, c->term, c->source));
   OutsideDensity(o, c->element);
-  PetscCall(DisplacedDensity(o, solid, c->element, c->source, &c->harmonic, c->displaced));
   SlipTensors(o, c->source, c->element);
+  PetscCall(DisplacedDensity(o, solid, c->element, c->source, &c->harmonic, c->displaced));
   InertiaStart(o, c->source, c->dt, c->element, c->term);
   SlipCoefficients(o, c->element, c->term);
   PetscFunctionReturn(0);

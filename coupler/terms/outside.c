@@ -10,7 +10,6 @@ void OutsideDensity(const Overlap o, ElementTerm element[])
   for (int e = 0; e < o->ncoupled; e++) {
     const int k = o->coupled_element[e];
     const double open = fmax(1.0 - element[e].outside / o->area[k], OUTSIDE_LEAST);
-    element[e].open = (PetscBool)(open > OUTSIDE_LEAST);
     element[e].outside =
         fmin(fmax(o->rho_mean[k] - o->rho[k], 0.0) / open, fmax(o->rho_beside[k] - o->rho[k], 0.0));
   }

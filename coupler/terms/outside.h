@@ -20,7 +20,7 @@
 /* Of K: less than that is nothing beside the solid. */
 #define OUTSIDE_LEAST 1e-3
 
-/* Local: open and outside, rho_o - rho_f, of element[overlap->ncoupled], between 0 and that of the phases beside the solid; 0 with one fluid.  Its weight
+/* Local: rho_o - rho_f of element[overlap->ncoupled], between 0 and that of the phases beside the solid; 0 with one fluid.  Its weight
  * is that of the pairs in the solid's volume that are not held. */
 void OutsideDensity(const Overlap overlap, ElementTerm element[]);
 #endif

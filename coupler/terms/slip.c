@@ -19,7 +19,7 @@ void SlipTensors(const Overlap o, const SourceTerm term[], ElementTerm element[]
       yy += pair->area * n[1] * n[1];
     }
     const double area = o->area[o->coupled_element[e]];
-    const PetscBool open = (PetscBool)(solid < (1.0 - OUTSIDE_LEAST) * area),
+    const PetscBool open = element[e].open = (PetscBool)(solid < (1.0 - OUTSIDE_LEAST) * area),
                     shared = (PetscBool)(!open && solid + all > (1.0 + OUTSIDE_LEAST) * area);
     element[e].along = element[e].tangential = WallCoefficientIsotropic(0.0);
     if (shell > 0.0 && (open || shared))

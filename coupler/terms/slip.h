@@ -42,7 +42,7 @@
 
 #define SLIP_FRICTION 2.0
 
-/* Local, after InertiaCoefficients: D, along and shared of element[overlap->ncoupled]. */
+/* Local, after InertiaCoefficients: D, along, shared and open of element[overlap->ncoupled]. */
 void SlipTensors(const Overlap overlap, const SourceTerm source[], ElementTerm element[]);
 /* Local: a of the pairs in the solid's volume, isotropic so far, becomes (I - D) a + SLIP_FRICTION mu/|K| D. */
 void SlipCoefficients(const Overlap overlap, const ElementTerm element[], PairTerm term[]);

@@ -90,8 +90,8 @@ typedef struct {
   WallCoefficient freed;      /* of the inertia, (1 - k) D (inertia.h), without unit */
   PetscBool covered;          /* K lies in the solid as a whole (inertia.h) */
   PetscBool shared;           /* two solids in K, one of which is held, share the reaction (slip.h) */
-  PetscBool open;             /* K has fluid beside the solid (outside.h) */
-  double outside;             /* rho_o - rho_f of that, kg/m3 */
+  PetscBool open;             /* K has fluid beside the solid */
+  double outside;             /* rho_o - rho_f of that (outside.h), kg/m3 */
 } ElementTerm;
 
 /* What a source triangle's vertices have, with its basis as the origin. */
@@ -104,7 +104,7 @@ typedef struct {
   LinearField interface_acceleration; /* a' of the body force, m/s2 */
 } SourceTerm;
 
-/* Among phases (inertia.h). */
+/* What is held among phases (inertia.h). */
 static inline int IsHeldByInertia(const SourceTerm *source)
 {
   return source->held && source->density > 0.0;

@@ -39,8 +39,7 @@ static PetscErrorCode FindNear(const Mesh *m, int npoints, const double point[][
   p->n = 0;
   for (int e = 0; e < m->ne; e++) {
     double x[3][2];
-    for (int i = 0; i < 3; i++)
-      for (int c = 0; c < 2; c++) x[i][c] = m->x[2 * m->vertex[3 * e + i] + c];
+    MeshCorners(m, e, x);
     const GeometryBox box = Around((const double(*)[2])x);
     for (int k = 0; k < npoints; k++) {
       Place place = {.point = k, .element = e};

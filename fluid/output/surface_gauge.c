@@ -37,8 +37,7 @@ static PetscErrorCode ElementPiece(Phases phases, const Mesh *m, int e, int phas
   Polygon polygon;
   PetscFunctionBeginUser;
   *counts = PETSC_FALSE;
-  for (int i = 0; i < 3; i++)
-    for (int c = 0; c < 2; c++) x[i][c] = m->x[2 * m->vertex[3 * e + i] + c];
+  MeshCorners(m, e, x);
   if (!Clip(3, (const double(*)[2])x, from, to, whole)) PetscFunctionReturn(0);
   PetscCall(PhasesGetPolygon(phases, e, phase, &polygon));
   if (!Clip(polygon.n, (const double(*)[2])polygon.x, from, to, part)) PetscFunctionReturn(0);

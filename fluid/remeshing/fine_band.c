@@ -97,11 +97,7 @@ static GeometryBox BoxOf(const Sweep *s, double near)
   GeometryBox box = GeometryBoxEmpty();
   GeometryBoxGrow(&box, s->from);
   GeometryBoxGrow(&box, s->to);
-  for (int c = 0; c < 2; c++) {
-    box.lower[c] -= near;
-    box.upper[c] += near;
-  }
-  return box;
+  return GeometryBoxWidened(box, near);
 }
 
 /* Of the surfaces of all ranks what is near the first nv vertices; *sweep is allocated. */

@@ -58,15 +58,6 @@ static double Reach(const AdaptationSetup *s, double size_at)
   return fmax((s->size_max - size_at) / log(s->growth), 0.0);
 }
 
-static GeometryBox Widen(GeometryBox box, double reach)
-{
-  for (int c = 0; c < 2; c++) {
-    box.lower[c] -= reach;
-    box.upper[c] += reach;
-  }
-  return box;
-}
-
 /* size_at in the boxes, growing outside, where size[nv] is larger. */
 static PetscErrorCode RefineBoxes(const AdaptationSetup *s, const Mesh *m, double size_at, int n,
                                   const GeometryBox box[], double size[])
@@ -75,7 +66,7 @@ static PetscErrorCode RefineBoxes(const AdaptationSetup *s, const Mesh *m, doubl
   Search search;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(n, &wide));
-  for (int k = 0; k < n; k++) wide[k] = Widen(box[k], Reach(s, size_at));
+  for (int k = 0; k < n; k++) wide[k] = GeometryBoxWidened(box[k], Reach(s, size_at));
   PetscCheck(!SearchCreate(n, wide, &search), PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory for %d boxes", n);
   for (int v = 0; v < m->nv; v++) {
     const double *x = m->x + 2 * v;
@@ -99,7 +90,7 @@ static PetscErrorCode RefineInterface(const AdaptationSetup *s, const Mesh *m, c
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2(m->ne, &local, m->ne, &wide));
   PetscCall(CutBoxes(m, start, &mine, local));
-  for (int k = 0; k < mine; k++) wide[k] = Widen(local[k], Reach(s, s->interface_size));
+  for (int k = 0; k < mine; k++) wide[k] = GeometryBoxWidened(local[k], Reach(s, s->interface_size));
   for (int v = 0; v < m->nv; v++) GeometryBoxGrow(&bounds, m->x + 2 * v);
   PetscCall(BoxScatterRecords(m->comm, mine, wide, &bounds, sizeof *local, local, &n, &box));
   PetscCall(RefineBoxes(s, m, s->interface_size, n, box, size));

@@ -38,7 +38,10 @@ PetscErrorCode PhaseTensionSetSolid(PhaseTension t, const char moves[])
     PetscCall(WettingCreate(t->stars, t->properties->n, &t->wetting));
     PetscCall(PetscMalloc1(t->stars->ne, &t->moves));
   }
-  PetscCall(PetscArraycpy(t->moves, moves, t->stars->ne));
+  if (moves)
+    PetscCall(PetscArraycpy(t->moves, moves, t->stars->ne));
+  else
+    PetscCall(PetscArrayzero(t->moves, t->stars->ne));
   PetscFunctionReturn(0);
 }
 

@@ -9,7 +9,7 @@ typedef struct PhaseTension_s *PhaseTension;
 PetscErrorCode PhaseTensionCreate(const Stars *stars, const PhaseProperties *properties,
                                   const PhaseBoundaries *boundaries, PhaseTension *tension);
 PetscErrorCode PhaseTensionDestroy(PhaseTension *tension);
-/* There is a solid; moves[ne]: as in PhaseStep.  Without surface tension nothing is kept. */
+/* There is a solid; moves[ne]: as in PhaseStep, NULL: nothing moves.  Without surface tension nothing is kept. */
 PetscErrorCode PhaseTensionSetSolid(PhaseTension tension, const char moves[]);
 /* As it was set, borrowed; NULL: nothing was kept.  Not collective. */
 const char *PhaseTensionMoves(PhaseTension tension);

@@ -185,11 +185,8 @@ PetscErrorCode PhaseTransportStartSolid(PhaseTransport t, const double solid[])
   int n;
   const double *filled = PhaseTransportVolumes(t, &n);
   double *volume;
-  char *moves;
   PetscFunctionBeginUser;
-  PetscCall(PetscCalloc1(t->stars->ne, &moves));
-  PetscCall(PhaseTransportSetSolid(t, solid, moves));
-  PetscCall(PetscFree(moves));
+  PetscCall(PhaseTransportSetSolid(t, solid, NULL));
   PetscCall(PetscMalloc1((size_t)n * (size_t)t->stars->ne, &volume));
   PetscCall(PetscArraycpy(volume, filled, (size_t)n * (size_t)t->stars->ne));
   for (int e = 0; e < t->stars->ne; e++)

@@ -19,7 +19,7 @@ struct PhaseTransport_s {
   PhaseBudget budget, saved_budget;
 };
 
-/* The solid of the step to come: alpha[ne] and moves[ne] as in PhaseStep; of none, if there has never been one, nothing is kept.  Collective. */
+/* The solid of the step to come: alpha[ne] and moves[ne] as in PhaseStep, NULL: nothing moves; of none, if there has never been one, nothing is kept.  Collective. */
 PetscErrorCode PhaseTransportSetSolid(PhaseTransport t, const double alpha[], const char moves[]);
 /* Lines, and what follows from them.  Collective. */
 PetscErrorCode PhaseTransportReconstruct(PhaseTransport t);

@@ -38,21 +38,14 @@ static PetscErrorCode OverlapFound(void *context, int facet, int e)
   return 0;
 }
 
-static GeometryBox BoxOfNodes(const double x[], int n, const int node[])
-{
-  GeometryBox box = GeometryBoxEmpty();
-  for (int i = 0; i < n; i++) GeometryBoxGrow(&box, x + 2 * node[i]);
-  return box;
-}
-
 PetscErrorCode ModelOverlap(const Model *a, int *first, int *second)
 {
   OverlapSearch s = {a, -1, -1};
   GeometryBox *facet, *element;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2((size_t)a->nfacets, &facet, (size_t)a->nelements, &element));
-  for (int k = 0; k < a->nfacets; k++) facet[k] = BoxOfNodes(a->x, 2, a->facet + 2 * k);
-  for (int e = 0; e < a->nelements; e++) element[e] = BoxOfNodes(a->x, 3, a->element + 3 * e);
+  for (int k = 0; k < a->nfacets; k++) facet[k] = GeometryBoxOfNodes(2, a->facet + 2 * k, a->x);
+  for (int e = 0; e < a->nelements; e++) element[e] = GeometryBoxOfNodes(3, a->element + 3 * e, a->x);
   if (a->nbodies > 1) PetscCall(CellGridPairs(a->nfacets, facet, a->nelements, element, OverlapFound, &s));
   PetscCall(PetscFree2(facet, element));
   *first = s.first;

@@ -36,8 +36,7 @@ static void Measure(Grid *g, int n, const GeometryBox a[])
   GeometryBox bounds = GeometryBoxEmpty();
   for (int i = 0; i < n; i++) {
     extent += 0.5 * (a[i].upper[0] - a[i].lower[0] + a[i].upper[1] - a[i].lower[1]);
-    GeometryBoxGrow(&bounds, a[i].lower);
-    GeometryBoxGrow(&bounds, a[i].upper);
+    GeometryBoxJoin(&bounds, &a[i]);
   }
   for (int c = 0; c < 2; c++) {
     g->origin[c] = bounds.lower[c];
@@ -106,10 +105,7 @@ PetscErrorCode CellGridPairs(int na, const GeometryBox a[], int nb, const Geomet
   if (na == 0 || nb == 0) PetscFunctionReturn(0);
   Measure(&g, na, a);
   PetscCall(Fill(&g, na, a));
-  for (int i = 0; i < na; i++) {
-    GeometryBoxGrow(&bounds, a[i].lower);
-    GeometryBoxGrow(&bounds, a[i].upper);
-  }
+  for (int i = 0; i < na; i++) GeometryBoxJoin(&bounds, &a[i]);
   for (int j = 0; j < nb; j++) {
     if (!GeometryBoxOverlap(&b[j], &bounds)) continue;
     GeometryBox part = b[j];

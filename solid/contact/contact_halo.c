@@ -30,8 +30,7 @@ PetscErrorCode HaloCreate(MPI_Comm comm, Halo *halo)
 
 static PetscBool Wanted(const GeometryBox *edges, const Target *t, const double x[])
 {
-  GeometryBox box = GeometryBoxEmpty();
-  for (int i = 0; i < 3; i++) GeometryBoxGrow(&box, x + 2 * t->node[i]);
+  const GeometryBox box = GeometryBoxOfNodes(3, t->node, x);
   return (PetscBool)GeometryBoxOverlap(edges, &box);
 }
 

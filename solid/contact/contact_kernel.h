@@ -104,15 +104,23 @@ static inline int ContactBeyond(Point p, Point q, Point x)
   return PointCross(PointMinus(q, p), PointMinus(x, p)) <= 0.0;
 }
 
+/* The lambda_i of triangle t at both ends of the edge, and the part s0 .. s1 of it inside. */
+static inline __attribute__((always_inline)) void ContactInside(Point p, Point q, const Point t[3],
+                                                                double inverse_twice_area, double at_p[3],
+                                                                double at_q[3], double *s0, double *s1)
+{
+  ContactCoordinates(t, inverse_twice_area, p, at_p);
+  ContactCoordinates(t, inverse_twice_area, q, at_q);
+  ContactClip(at_p, at_q, s0, s1);
+}
+
 /* Edge and triangle meet where `inside` is more than 0; else the rest is unset. */
 static inline __attribute__((always_inline)) ContactIntegrals ContactEdgeTriangle(Point p, Point q,
                                                                                   const Point t[3])
 {
   ContactIntegrals c = {.twice_area = ContactTwiceArea(t)};
   double at_p[3], at_q[3], s0, s1;
-  ContactCoordinates(t, 1.0 / c.twice_area, p, at_p);
-  ContactCoordinates(t, 1.0 / c.twice_area, q, at_q);
-  ContactClip(at_p, at_q, &s0, &s1);
+  ContactInside(p, q, t, 1.0 / c.twice_area, at_p, at_q, &s0, &s1);
   c.inside = s1 - s0;
   c.largest_phi = ContactIntegrate(at_p, at_q, s0, s1, c.edge);
   for (int i = 0; i < 3; i++) c.target[i] = at_p[i] * c.edge[0] + at_q[i] * c.edge[1];
@@ -121,11 +129,8 @@ static inline __attribute__((always_inline)) ContactIntegrals ContactEdgeTriangl
 
 static inline int ContactTouches(Point p, Point q, const Point t[3])
 {
-  const double inverse = 1.0 / ContactTwiceArea(t);
   double at_p[3], at_q[3], s0, s1;
-  ContactCoordinates(t, inverse, p, at_p);
-  ContactCoordinates(t, inverse, q, at_q);
-  ContactClip(at_p, at_q, &s0, &s1);
+  ContactInside(p, q, t, 1.0 / ContactTwiceArea(t), at_p, at_q, &s0, &s1);
   return s0 < s1;
 }
 

@@ -157,10 +157,7 @@ static PetscErrorCode BringTargets(Contact c, Solid s, const GeometryBox edge[])
   PetscFunctionBeginUser;
   c->nall = c->ntargets;
   if (!c->halo) PetscFunctionReturn(0);
-  for (int k = 0; k < s->nfaces; k++) {
-    GeometryBoxGrow(&all, edge[k].lower);
-    GeometryBoxGrow(&all, edge[k].upper);
-  }
+  for (int k = 0; k < s->nfaces; k++) GeometryBoxJoin(&all, &edge[k]);
   PetscCall(HaloBuild(c->halo, s->nnodes, s->x, &all, c->ntargets, c->target));
   PetscCall(HaloForward(c->halo, s->x, NULL));
   const int n = HaloTargets(c->halo, &foreign);
@@ -214,10 +211,8 @@ static PetscErrorCode FindPairs(Contact c, Solid s, const GeometryBox edge[])
   for (int k = 0; k < c->ncontactors; k++) {
     const int own = c->contactor[k];
     contactor[k] = GeometryBoxEmpty();
-    for (int i = c->facet_start[own]; i < c->facet_start[own + 1]; i++) {
-      GeometryBoxGrow(&contactor[k], edge[c->facet[i]].lower);
-      GeometryBoxGrow(&contactor[k], edge[c->facet[i]].upper);
-    }
+    for (int i = c->facet_start[own]; i < c->facet_start[own + 1]; i++)
+      GeometryBoxJoin(&contactor[k], &edge[c->facet[i]]);
   }
   SearchContext context = {c, s, edge, contactor, target, keep};
   PetscCall(CellGridPairs(c->ncontactors, contactor, c->nall, target, AddCouple, &context));
@@ -244,14 +239,8 @@ PetscErrorCode ContactSearch(Contact c, Solid s, double min_buffer)
   c->buffer = fmax(c->shortest_buffer, min_buffer);
   for (int k = 0; k < 4; k++) c->rate[k] = 0.0;
   PetscCall(PetscMalloc1((size_t)s->nfaces, &edge));
-  for (int k = 0; k < s->nfaces; k++) {
-    edge[k] = GeometryBoxEmpty();
-    for (int i = 0; i < 2; i++) GeometryBoxGrow(&edge[k], s->x + 2 * s->facet[2 * k + i]);
-    for (int axis = 0; axis < 2; axis++) {
-      edge[k].lower[axis] -= c->buffer;
-      edge[k].upper[axis] += c->buffer;
-    }
-  }
+  for (int k = 0; k < s->nfaces; k++)
+    edge[k] = GeometryBoxWidened(GeometryBoxOfNodes(2, s->facet + 2 * k, s->x), c->buffer);
   if (s->setup.walls) PetscCall(FindWalls(c, s, edge));
   PetscCall(FindPairs(c, s, edge));
   ContactSetTravel(c, HUGE_VAL);

@@ -68,22 +68,12 @@ PetscErrorCode PartitionGraphNear(PartitionGraph *g, const Model *a)
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2((size_t)a->nfacets, &facet, (size_t)a->nelements, &element));
   for (int k = 0; k < a->nfacets; k++) buffer += 0.5 * FacetSpan(a, k) / a->nfacets;
-  for (int k = 0; k < a->nfacets; k++) {
-    facet[k] = GeometryBoxEmpty();
-    for (int i = 0; i < 2; i++) GeometryBoxGrow(&facet[k], a->x + 2 * a->facet[2 * k + i]);
-    for (int c = 0; c < 2; c++) {
-      facet[k].lower[c] -= buffer;
-      facet[k].upper[c] += buffer;
-    }
-  }
+  for (int k = 0; k < a->nfacets; k++)
+    facet[k] = GeometryBoxWidened(GeometryBoxOfNodes(2, a->facet + 2 * k, a->x), buffer);
   for (int e = 0; e < a->nelements; e++) {
-    element[e] = GeometryBoxEmpty();
+    element[e] = GeometryBoxOfNodes(3, a->element + 3 * e, a->x);
     g->at[e][0] = g->at[e][1] = 0.0;
-    for (int i = 0; i < 3; i++) {
-      const double *x = a->x + 2 * a->element[3 * e + i];
-      GeometryBoxGrow(&element[e], x);
-      for (int c = 0; c < 2; c++) g->at[e][c] += x[c] / 3.0;
-    }
+    for (int k = 0; k < 6; k++) g->at[e][k % 2] += a->x[2 * a->element[3 * e + k / 2] + k % 2] / 3.0;
   }
   if (a->nbodies > 1) PetscCall(CellGridPairs(a->nfacets, facet, a->nelements, element, NearFound, &search));
   PetscCall(PetscFree2(facet, element));

@@ -54,14 +54,15 @@ for ranks in "1:1:1", "2:1:2":
     assert abs(force / (500.0 * 9.81 * 0.25) - 1.0) < 0.01 and passed < 1e-9, report
 E2
 case=$here/floor.yaml
-caisson() { # label ranks height_of_its_centre level [x]
+caisson() { # label ranks height_of_its_centre level [x [right end of the water]]
   must "$1" $2 --set time.end=0.1 --set time.dt_max=0.01 --set "solid.bodies[0]={shape: rectangle, centre: [${5:-0.503}, $3], width: 0.4, height: 0.1, size: 0.02, material: rock, fixed: true}" \
-    --set "fluid.regions[1].upper=[3.0, $4]"
+    --set "fluid.regions[1].upper=[${6:-3.0}, $4]"
 }
 caisson "above the floor" 1:1:1 0.055 0.25
 caisson "on the floor" 1:1:1 0.05 0.25
 caisson "above the water" 2:2:2 0.05 0.06
 caisson "on the mesh's lines" 1:1:1 0.05 0.06 0.5
+caisson "a sill" 1:1:1 0.05 0.06 0.503 0.5
 "$python" - "$scratch" <<'E2'
 import csv, sys
 def last(label, file, name):
@@ -73,4 +74,7 @@ for label, height, still in ("above the floor", 0.1, 1e-6), ("on the floor", 0.1
     report = "%s: force %.2f, %.2f of %.2f N/m, kinetic energy %.1e J/m" % (label, x, y, expected, energy)
     print(report)
     assert abs(y / expected - 1.0) < 5e-3 and abs(x / expected) < 5e-3 and energy < still, report
+x, y = (last("a sill", "solid", "f%s0 [N/m]" % c) / (1000.0 * 9.81 * 0.06 * 0.5) for c in "xy")
+print("a sill: force %.4f, uplift %.4f of the expected" % (x / 0.06, y / 0.4))
+assert abs(x / 0.06 - 1.0) < 1e-2 and abs(y / 0.4 - 1.0) < 1e-2, "a sill: force %g, uplift %g of the expected" % (x / 0.06, y / 0.4)
 E2
