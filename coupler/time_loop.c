@@ -119,7 +119,7 @@ static PetscErrorCode Start(RunState *run)
 static PetscErrorCode Iterate(RunState *run, CoracleAction action, StepRecord *step)
 {
   const TimeLoop *loop = run->loop;
-  const double *force;
+  const double *force, *film, *resistance;
   CoracleFlow flow;
 
   PetscFunctionBeginUser;
@@ -128,6 +128,8 @@ static PetscErrorCode Iterate(RunState *run, CoracleAction action, StepRecord *s
   PetscCall(ServerPhase(loop->server, "force"));
   PetscCall(CouplerComputeForce(loop->coupler, &flow, &force, &step->totals));
   step->force += MPI_Wtime() - start;
+  CouplerFilm(loop->coupler, &film, &resistance);
+  PetscCall(ServerSetFilm(loop->server, film, resistance));
   PetscCall(ServerSendForce(loop->server, run->t, run->dt, action, force));
   PetscCall(ExchangeReceiveSolid(loop->server, run->mode, &run->solid));
   PetscFunctionReturn(0);

@@ -55,6 +55,17 @@ static PetscErrorCode BeginRegistered(Exchange *x, CoracleAction action)
   PetscFunctionReturn(0);
 }
 
+/* *value[nnodes][ncomp], unless it is NULL: of the registered nodes, then of those present, which own keeps. */
+static PetscErrorCode OnPresentNodes(Exchange *x, int nnodes, int ncomp, double **own, const double **value)
+{
+  PetscFunctionBeginUser;
+  if (!*value || NodeDirectoryIsPresent(x->registered)) PetscFunctionReturn(0);
+  PetscCall(PetscRealloc((size_t)ncomp * (size_t)nnodes * sizeof **own + 1, own));
+  PetscCall(NodeDirectoryLoad(x->registered, ncomp, *value, *own));
+  *value = *own;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode ExchangeBegin(Exchange *x, double *dt, CoracleAction *action, const double **load)
 {
   const double start = MPI_Wtime();
@@ -65,12 +76,14 @@ PetscErrorCode ExchangeBegin(Exchange *x, double *dt, CoracleAction *action, con
   PetscCall(BeginRegistered(x, *action));
   SolidGetView(x->solid, &v);
   x->dt = *dt;
-  const PetscBool remote = (PetscBool)!NodeDirectoryIsPresent(x->registered);
-  if (*action != CORACLE_STOP) PetscCall(CoracleGetForce(x->client, load));
-  if (*action != CORACLE_STOP && remote) {
-    PetscCall(PetscRealloc(2 * (size_t)v.nnodes * sizeof *x->load + 1, &x->load));
-    PetscCall(NodeDirectoryLoad(x->registered, *load, x->load));
-    *load = x->load;
+  if (*action != CORACLE_STOP) {
+    const double *film, *resistance;
+    PetscCall(CoracleGetForce(x->client, load));
+    PetscCall(CoracleGetFilm(x->client, &film, &resistance));
+    PetscCall(OnPresentNodes(x, v.nnodes, 2, &x->load, load));
+    PetscCall(OnPresentNodes(x, v.nnodes, 2, &x->film_load, &film));
+    PetscCall(OnPresentNodes(x, v.nnodes, 4, &x->film_resistance, &resistance));
+    SolidSetFilm(x->solid, film, resistance);
   }
   x->waited += MPI_Wtime() - start;
   PetscFunctionReturn(0);
@@ -155,5 +168,7 @@ PetscErrorCode ExchangeDestroy(Exchange *x)
   PetscCall(NodeDirectoryDestroy(&x->registered));
   PetscCall(NodeDirectoryDestroy(&x->before));
   PetscCall(PetscFree(x->load));
+  PetscCall(PetscFree(x->film_load));
+  PetscCall(PetscFree(x->film_resistance));
   PetscFunctionReturn(0);
 }

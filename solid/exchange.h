@@ -18,7 +18,8 @@ typedef struct {
   double waited;                    /* seconds within the link */
   double dt;                        /* of the step, s */
   NodeDirectory registered, before; /* before: NULL unless this step has registered a new mesh */
-  double *load; /* [nnodes][2] of the present subdomain, when it is not the registered one */
+  double *load, *film_load,
+      *film_resistance; /* [nnodes][2], [2], [4] of the present subdomain, when it is not the registered one */
 } Exchange;
 
 /* Gives nodes, surface and volume with their interface motion, binds the state and makes the first exchange.

@@ -168,6 +168,7 @@ PetscErrorCode SolidStart(Solid s, double dt, const double load[])
   s->dt = dt;
   s->done = 0.0;
   s->stats.substeps = 0;
+  PetscCall(SolidMoveFilms(s));
   BudgetStart(s);
   PetscCall(Plan(s));
   PetscCall(ExtrapolateVelocity(s));

@@ -55,6 +55,9 @@ PetscErrorCode SolidDestroy(Solid *solid);
 /* load[nnodes][2]: this rank's part of the force on its nodes, N; summed over the ranks that share a node,
  * kept during the step; NULL: none. */
 PetscErrorCode SolidStart(Solid s, double dt, const double load[]);
+/* Not collective, before SolidStart: the films of fluid that yield in the step (CoracleGetFilm), this rank's part of load[nnodes][2], N, and
+ * resistance[nnodes][2][2], N s/m, borrowed until the step has begun; NULL on all ranks or on none. */
+void SolidSetFilm(Solid s, const double load[], const double resistance[]);
 PetscBool SolidRemaining(Solid s); /* not collective, the same on all ranks */
 /* *h: the substep just made; SolidVelocity then is the displacement over it divided by h. */
 PetscErrorCode SolidSubstep(Solid s, double *h);

@@ -70,14 +70,15 @@ struct Solid_s {
   Material *material; /* [nmaterials] */
   /* nodes */
   long long *gid;
-  int *node_body, *surface;    /* [nnodes]; surface: some rank has a facet there */
-  int *is_prescribed;          /* [nnodes] a prescribed motion moves it */
-  int *base;                   /* [nnodes] the node of the start that it was then, on this rank */
-  double *rest, *x, *v;        /* [nnodes][2] */
-  double *force, *load;        /* [nnodes][2] internal and contact; the fluid's, summed over ranks */
-  double *mass, *inverse_mass; /* [nnodes] all ranks' elements; inverse 0 where fixed */
-  int nfixed, *fixed;          /* [nfixed] nodes with inverse mass 0 */
-  int *corner_start, *corner;  /* [nnodes + 1], [3 ne]: where a node's forces lie in elements.force */
+  int *node_body, *surface; /* [nnodes]; surface: some rank has a facet there */
+  int *is_prescribed;       /* [nnodes] a prescribed motion moves it */
+  int *base;                /* [nnodes] the node of the start that it was then, on this rank */
+  double *rest, *x, *v;     /* [nnodes][2] */
+  double *force, *load;     /* [nnodes][2] internal and contact; the fluid's, summed over ranks */
+  const double *film_load, *film_resistance; /* borrowed, of SolidSetFilm until the step begins; NULL: none */
+  double *mass, *inverse_mass;               /* [nnodes] all ranks' elements; inverse 0 where fixed */
+  int nfixed, *fixed;                        /* [nfixed] nodes with inverse mass 0 */
+  int *corner_start, *corner; /* [nnodes + 1], [3 ne]: where a node's forces lie in elements.force */
   Elements elements;
   int *element; /* [ne][3] */
   int nfaces;   /* the surface's nfacets, and after them the faces of active joints: what contact sees */
@@ -143,6 +144,9 @@ void SolidElementShape(const Elements *e, int k, const double x[], Tensor *edges
 /* fragments.c, collective: piece[nnodes], borrowed: 0 .. *n - 1 as in SolidFragments; kept until nodes split.
  */
 PetscErrorCode SolidPieces(Solid s, int *n, const int **piece);
+
+/* film.c, collective, at the start of a step: films yield. */
+PetscErrorCode SolidMoveFilms(Solid s);
 
 /* budget.c, not collective: a step begins. */
 void BudgetStart(Solid s);

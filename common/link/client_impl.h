@@ -34,7 +34,8 @@ typedef struct {
   Buffer inertia; /* double [3][n], of CoracleSetInertia: mobility, 1/kg; acceleration [n][2], m/s2 */
   bool has_inertia;
   bool pressure_load;
-  FieldLists force;
+  bool has_film;    /* of the step */
+  FieldLists force; /* force, film load, film resistance */
 } ClientSolid;
 
 typedef struct {

@@ -82,6 +82,7 @@ void SolidBegin(CoracleClient c)
   ClientTakeStep(c, h);
   FieldListsClear(&c->solid.force);
   FieldsAppend(c->p, &c->in, &FIELDS_FORCE, (size_t)h->count[0], &c->solid.force);
+  c->solid.has_film = (h->flag & FLAG_FILM) != 0;
   ClientTakePath(c, h);
   if (c->action == CORACLE_STOP) return;
   BeginMesh(&c->solid, c->action);
@@ -94,6 +95,16 @@ int CoracleGetForce(CoracleClient c, const double **force)
 {
   ClientExpect(c, "CoracleGetForce", ROLE_SOLID, STAGE_STEP, STAGE_STEP);
   *force = Doubles(&c->solid.force.list[0]);
+  return 0;
+}
+
+int CoracleGetFilm(CoracleClient c, const double **load, const double **resistance)
+{
+  ClientExpect(c, "CoracleGetFilm", ROLE_SOLID, STAGE_STEP, STAGE_STEP);
+  static const double NOTHING[1] = {0.0}; /* of a rank without nodes */
+  const double *list[2] = {Doubles(&c->solid.force.list[1]), Doubles(&c->solid.force.list[2])};
+  *load = c->solid.has_film ? (list[0] ? list[0] : NOTHING) : NULL;
+  *resistance = c->solid.has_film ? (list[1] ? list[1] : NOTHING) : NULL;
   return 0;
 }
 

@@ -210,6 +210,14 @@ const char *CoracleResumePath(CoracleClient c);
  * step), and it feeds vibrations that the step does not resolve: an implicit scheme needs some damping of those
  * (cases/adapters/dealii/README.md). */
 int CoracleGetForce(CoracleClient c, const double **force);
+/* Optional, between CoracleBegin and CoracleEnd: films of fluid between solids that are about to touch (they are thinner than the
+ * fluid's elements, which cannot move them out), on this rank's nodes from this rank's facets, as the force:
+ *   load[n][dim]             N, of the pressure that such a film has and does not keep
+ *   resistance[n][dim][dim]  N s/m, symmetric: what it does against a velocity of the node
+ * A body that is free to move gets, beside its velocity, the rigid motion w over the step for which sum resistance w = sum load, forces
+ * and moments: CoracleSubstep's u has it, CoracleSetVelocity's has not.  NULL, on all ranks, where no film yields.  Borrowed until
+ * CoracleEnd.  A solid that never asks closes such gaps more slowly, the shorter the steps the slower. */
+int CoracleGetFilm(CoracleClient c, const double **load, const double **resistance);
 /* One substep of h seconds has been made with nodal velocities u[n][dim], m/s: x += h u.  The library computes
  * from the substeps the mean velocity over the step (displacement / dt), and the least-squares line through
  * the velocities, evaluated at the last substep, for couplings that need the velocity at the step's end. */

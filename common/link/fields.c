@@ -44,8 +44,12 @@ static const Field SIMPLICES[] = {
   {"element node", "-",    FIELD_INDEX, {EXTENT_VERTICES}, AT(element), 0, FIELD_ANY}};
 #undef AT
 
+#define AT(member) offsetof(FieldsForce, member)
 static const Field FORCE[] = {
-  {"force", "N", FIELD_REAL, VECTOR,                       offsetof(FieldsForce, force), 0, FIELD_ANY}};
+  {"force",           "N",     FIELD_REAL, VECTOR,                   AT(force),           0,         FIELD_ANY},
+  {"film load",       "N",     FIELD_REAL, VECTOR,                   AT(film_load),       FLAG_FILM, FIELD_ANY},
+  {"film resistance", "N s/m", FIELD_REAL, {EXTENT_DIM, EXTENT_DIM}, AT(film_resistance), FLAG_FILM, FIELD_ANY}};
+#undef AT
 static const Field BOXES[] = {
   {"box",   "m", FIELD_REAL, {EXTENT_CORNERS, EXTENT_DIM}, offsetof(FieldsBoxes, box),   0, FIELD_ANY}};
 

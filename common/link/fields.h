@@ -53,7 +53,9 @@ struct FieldGroup {
 };
 
 typedef struct {
-  const double *force; /* [n][dim] N */
+  const double *force;           /* [n][dim] N */
+  const double *film_load;       /* [n][dim] N */
+  const double *film_resistance; /* [n][dim][dim] N s/m */
 } FieldsForce;
 typedef struct {
   const double *box; /* [n][2][dim] m */

@@ -59,11 +59,12 @@ FIELD_GROUPS(FIELD_GROUP)
 
 /* MessageHeader.flag */
 enum {
-  FLAG_CHANGED = 1,       /* FLOW: the fluid's elements will be others */
-  FLAG_SAVED = 2,         /* of a client: it has saved itself into the checkpoint that was due */
-  FLAG_RESUMES = 4,       /* of a client: it resumes from a checkpoint */
-  FLAG_PRESSURE = 8,      /* ASK: the coupling mode or the solid needs the pressure; FLOW: it is there */
-  FLAG_PRESSURE_LOAD = 16 /* SURFACE: the solid wants it as a load */
+  FLAG_CHANGED = 1,        /* FLOW: the fluid's elements will be others */
+  FLAG_SAVED = 2,          /* of a client: it has saved itself into the checkpoint that was due */
+  FLAG_RESUMES = 4,        /* of a client: it resumes from a checkpoint */
+  FLAG_PRESSURE = 8,       /* ASK: the coupling mode or the solid needs the pressure; FLOW: it is there */
+  FLAG_PRESSURE_LOAD = 16, /* SURFACE: the solid wants it as a load */
+  FLAG_FILM = 32           /* FORCE: films of fluid between solids yield, the same on all ranks */
 };
 
 typedef struct {

@@ -70,6 +70,9 @@ int ServerSendCoupling(Server s, int n, const CoracleCoupling coupling[]);
 int ServerSetGauges(Server s, int n, const CoracleGauge gauge[]);
 /* Matches the first half of the fluid's CoracleEnd. */
 int ServerReceiveFlow(Server s, CoracleFlow *flow);
+/* The films of the next ServerSendForce (CoracleGetFilm): load[nnodes][2], N, resistance[nnodes][2][2], N s/m, on its nodes, borrowed until then;
+ * all coupler ranks call it or none does. */
+int ServerSetFilm(Server s, const double load[], const double resistance[]);
 /* Ends the solid's CoracleBegin: force[nnodes][2], N, on the nodes last received; at CORACLE_REDO on those of
  * the step's start, which differ when the solid has changed its mesh in the step. */
 int ServerSendForce(Server s, double t, double dt, CoracleAction action, const double force[]);

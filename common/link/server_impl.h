@@ -37,8 +37,9 @@ struct Server_s {
   FieldLists elements, flow;
   int nelements;
   FieldsDomain domain;
-  Buffer owner; /* int []: the fluid client of each coupling entry last sent, in the coupler's order */
-  Buffer gauge; /* CoracleGauge [] */
+  Buffer owner;     /* int []: the fluid client of each coupling entry last sent, in the coupler's order */
+  Buffer gauge;     /* CoracleGauge [] */
+  FieldsForce film; /* of the next force, borrowed; NULL: none */
   Buffer reports[NROLES];
   Buffer spans; /* TraceSpan [], of the clients and this rank; at the end on rank 0 of all */
 };

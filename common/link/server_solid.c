@@ -129,6 +129,24 @@ int ServerReceiveSolid(Server s, ServerSolid *solid)
   return 0;
 }
 
+int ServerSetFilm(Server s, const double load[], const double resistance[])
+{
+  s->film = (FieldsForce){.film_load = load, .film_resistance = resistance};
+  return 0;
+}
+
+/* What n nodes from `first` on get, in the next force. */
+static FieldsForce ForceFrom(const FieldsForce *film, const double force[], int first, size_t n)
+{
+  FieldsForce its = {NULL, NULL, NULL};
+  if (n == 0) return its;
+  its.force = force + DIM * first;
+  if (!film->film_load) return its;
+  its.film_load = film->film_load + DIM * first;
+  its.film_resistance = film->film_resistance + DIM * DIM * first;
+  return its;
+}
+
 int ServerSendForce(Server s, double t, double dt, CoracleAction action, const double force[])
 {
   const int step = s->solid.step; /* which the clients are in until they get this */
@@ -142,8 +160,9 @@ int ServerSendForce(Server s, double t, double dt, CoracleAction action, const d
       client->n_start = client->n;
     }
     const size_t n = action == CORACLE_STOP ? 0 : (size_t)client->n_start;
-    const FieldsForce its = {n ? force + DIM * client->first_start : NULL};
+    const FieldsForce its = ForceFrom(&s->film, force, client->first_start, n);
     MessageHeader *h = MessageStart(&client->out, KIND_FORCE, step);
+    if (s->film.film_load) h->flag = FLAG_FILM;
     h->action = action;
     h->t = t;
     h->dt = dt;
@@ -152,5 +171,6 @@ int ServerSendForce(Server s, double t, double dt, CoracleAction action, const d
     ClientListAskSave(s, client, action);
   }
   ClientListSend(s, &s->solid);
+  s->film = (FieldsForce){NULL, NULL, NULL};
   return 0;
 }

@@ -142,11 +142,25 @@ static PetscErrorCode CreateSolver(System *s, MPI_Comm comm)
   PetscFunctionReturn(0);
 }
 
-/* Field c of the free nodes. */
-static PetscErrorCode SolveField(System *s, int nnodes, int c, double value[][N])
+/* Solves for s->right; value[nnodes * stride] where there are rows. */
+static PetscErrorCode Solve(System *s, int nnodes, int stride, double value[])
 {
   const double *solution;
 
+  PetscFunctionBeginUser;
+  PetscCall(VecAssemblyBegin(s->right));
+  PetscCall(VecAssemblyEnd(s->right));
+  PetscCall(KSPSolve(s->solver, s->right, s->solution));
+  PetscCall(VecGetArrayRead(s->solution, &solution));
+  for (int i = 0; i < nnodes; i++)
+    if (s->row_of[i] >= 0) value[i * stride] = solution[s->row_of[i]];
+  PetscCall(VecRestoreArrayRead(s->solution, &solution));
+  PetscFunctionReturn(0);
+}
+
+/* Field c of the free nodes. */
+static PetscErrorCode SolveField(System *s, int nnodes, int c, double value[][N])
+{
   PetscFunctionBeginUser;
   PetscCall(VecZeroEntries(s->right));
   for (int k = 0; k < s->n; k++) {
@@ -158,13 +172,25 @@ static PetscErrorCode SolveField(System *s, int nnodes, int c, double value[][N]
       PetscCall(VecSetValue(s->right, (PetscInt)link->end[i].row,
                             -link->conductance * link->weight[i] * given, ADD_VALUES));
   }
-  PetscCall(VecAssemblyBegin(s->right));
-  PetscCall(VecAssemblyEnd(s->right));
-  PetscCall(KSPSolve(s->solver, s->right, s->solution));
-  PetscCall(VecGetArrayRead(s->solution, &solution));
-  for (int i = 0; i < nnodes; i++)
-    if (s->row_of[i] >= 0) value[i][c] = solution[s->row_of[i]];
-  PetscCall(VecRestoreArrayRead(s->solution, &solution));
+  PetscCall(Solve(s, nnodes, N, &value[0][c]));
+  PetscFunctionReturn(0);
+}
+
+/* The profile, of the length of facets that have close points; of surfaces that no given node is connected with there is none. */
+static PetscErrorCode SolveProfile(System *s, const ClosePoints *points, const SolidState *solid,
+                                   const End end[], const double value[][N], double profile[])
+{
+  PetscFunctionBeginUser;
+  PetscCall(VecZeroEntries(s->right));
+  for (int k = 0; k < points->n; k++) {
+    const ClosePoint *p = &points->point[k];
+    for (int i = 0; i < 2; i++) {
+      const int node = solid->facet[2 * p->facet + i];
+      if (value[node][SURFACE_REACHED] < 0.5) continue;
+      PetscCall(VecSetValue(s->right, (PetscInt)end[node].row, p->weight * p->n[i], ADD_VALUES));
+    }
+  }
+  PetscCall(Solve(s, solid->nnodes, 1, profile));
   PetscFunctionReturn(0);
 }
 
@@ -197,7 +223,7 @@ static PetscErrorCode Share(Copies nodes, int nnodes, const char is_free[], doub
 }
 
 PetscErrorCode GapHeadSolve(const ClosePoints *points, const SolidState *solid, const Shell shell,
-                            Copies nodes, const char is_free[], double value[][N])
+                            Copies nodes, const char is_free[], double value[][N], double profile[])
 {
   System s = {0};
   End *end;
@@ -205,6 +231,7 @@ PetscErrorCode GapHeadSolve(const ClosePoints *points, const SolidState *solid, 
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(solid->nnodes, &end));
   PetscCall(PetscMalloc1(solid->nnodes, &s.row_of));
+  PetscCall(PetscArrayzero(profile, solid->nnodes));
   PetscCall(Number(&s, solid, shell->comm, nodes, is_free, (const double(*)[N])value, end));
   if (s.nall > 0) {
     PetscCall(FindLinks(&s, points, solid, shell, end));
@@ -214,6 +241,8 @@ PetscErrorCode GapHeadSolve(const ClosePoints *points, const SolidState *solid, 
       for (int c = 0; c < N && is_free[i]; c++) value[i][c] = 0.0;
     for (int c = 0; c < N; c++) PetscCall(SolveField(&s, solid->nnodes, c, value));
     PetscCall(Share(nodes, solid->nnodes, is_free, value));
+    PetscCall(SolveProfile(&s, points, solid, end, (const double(*)[N])value, profile));
+    PetscCall(CopiesSum(nodes, 1, profile));
   }
   PetscCall(PetscFree(end));
   PetscCall(Destroy(&s));

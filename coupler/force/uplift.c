@@ -1,5 +1,6 @@
 #include "coupler/force/uplift.h"
 #include "coupler/force/gap_head.h"
+#include "coupler/force/squeeze_film.h"
 
 struct Uplift_s {
   MPI_Comm comm;
@@ -7,13 +8,16 @@ struct Uplift_s {
   Shell shell;      /* borrowed */
   SolidState solid; /* a copy */
   ClosePoints points;
-  PetscBool any; /* points, on any rank */
+  PetscBool any;                                    /* points, on any rank */
+  double (*film_load)[2], (*film_resistance)[2][2]; /* [nnodes] N, N s/m */
+  PetscBool yields;                                 /* some film does, on any rank */
 };
 
-/* Along the surface: head and density, 1 where they are connected with a place where they are known. */
+/* Along the surface: head, density and viscosity, 1 where they are connected with a place where they are known. */
 enum {
   HEAD = SURFACE_HEAD,
   DENSITY = SURFACE_DENSITY,
+  VISCOSITY = SURFACE_VISCOSITY,
   REACHED = SURFACE_REACHED,
   NFIELDS = SURFACE_HEAD_FIELDS
 };
@@ -21,8 +25,9 @@ typedef double Fields[NFIELDS];
 
 /* Of the step, at the solid's nodes. */
 typedef struct {
-  char *is_free; /* [nnodes] on the surface, between places where the fields are known */
-  Fields *value; /* [nnodes] */
+  char *is_free;   /* [nnodes] on the surface, between places where the fields are known */
+  Fields *value;   /* [nnodes] */
+  double *profile; /* [nnodes] of gap_head.h */
 } Gap;
 
 PetscErrorCode UpliftCreate(MPI_Comm comm, const double lower[2], const double upper[2],
@@ -43,6 +48,7 @@ PetscErrorCode UpliftDestroy(Uplift *uplift)
   if (!*uplift) PetscFunctionReturn(0);
   PetscCall(SolidStateDestroy(&(*uplift)->solid));
   PetscCall(ClosePointsDestroy(&(*uplift)->points));
+  PetscCall(PetscFree2((*uplift)->film_load, (*uplift)->film_resistance));
   PetscCall(PetscFree(*uplift));
   PetscFunctionReturn(0);
 }
@@ -69,6 +75,7 @@ PetscErrorCode UpliftBuild(Uplift u, const SolidState *solid, const Shell shell,
   close = u->points.n > 0;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &close, 1, MPI_INT, MPI_LOR, u->comm));
   u->any = close ? PETSC_TRUE : PETSC_FALSE;
+  u->yields = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -144,15 +151,74 @@ static PetscErrorCode AddForce(Uplift u, const double excess[], double force[], 
   PetscFunctionReturn(0);
 }
 
-/* e of node i, with p inside the solid there; area: of the triangles around it, m2. */
-static double Excess(const Uplift u, const Gap *gap, int i, double p, double area, double dt)
+/* What p, inside the solid at node i, has beyond the head; area: of the triangles around it, m2. */
+static double Excess(const Uplift u, const Gap *gap, int i, double p, double area)
 {
-  const double *value = gap->value[i], g = hypot(u->gravity[0], u->gravity[1]);
+  const double *value = gap->value[i];
   if (value[REACHED] < 0.5 || area == 0.0) return 0.0;
-  const double e = p - value[HEAD] - value[DENSITY] * Along(u->gravity, &u->solid.x[2 * i]);
-  if (u->solid.mobility[i] == 0.0) return e;
-  const double rho = 3.0 / (u->solid.mobility[i] * area), largest = dt * g * sqrt(2.0 * rho * fabs(e));
-  return fmax(-largest, fmin(largest, e));
+  return p - value[HEAD] - value[DENSITY] * Along(u->gravity, &u->solid.x[2 * i]);
+}
+
+/* e of node i. */
+static double Limited(const Uplift u, int i, double excess, double area, double dt)
+{
+  const double g = hypot(u->gravity[0], u->gravity[1]);
+  if (excess == 0.0 || u->solid.mobility[i] == 0.0) return excess;
+  const double rho = 3.0 / (u->solid.mobility[i] * area), largest = dt * g * sqrt(2.0 * rho * fabs(excess));
+  return fmax(-largest, fmin(largest, excess));
+}
+
+/* The film at close point p, there[2][2]: the velocities of the nodes opposite, m/s; none at a wall. */
+static SqueezeFilm FilmAt(const Uplift u, const ClosePoint *p, const Gap *gap, const double excess[],
+                          const double there[2][2])
+{
+  const int *node = &u->solid.facet[2 * p->facet];
+  const double *normal = u->shell->normal[p->facet];
+  SqueezeFilm film = {.gap = p->gap};
+  for (int i = 0; i < 2; i++) {
+    film.excess += p->n[i] * excess[node[i]];
+    film.profile += p->n[i] * gap->profile[node[i]];
+    film.density += p->n[i] * gap->value[node[i]][DENSITY];
+    film.viscosity += p->n[i] * gap->value[node[i]][VISCOSITY];
+    for (int c = 0; c < 2; c++) film.closing += p->n[i] * normal[c] * u->solid.u[2 * node[i] + c];
+    for (int c = 0; c < 2 && there; c++) film.closing -= p->opposite_n[i] * normal[c] * there[i][c];
+  }
+  return film;
+}
+
+/* Loads and resistances of the films at the close points; *any: there is a load on this rank. */
+static PetscErrorCode SetFilm(Uplift u, const Gap *gap, const double excess[], double dt, int *any)
+{
+  const int n = u->solid.nnodes;
+  double(*there)[2][2];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscFree2(u->film_load, u->film_resistance));
+  PetscCall(PetscCalloc2(n, &u->film_load, n, &u->film_resistance));
+  PetscCall(PetscMalloc1(ScatterArriving(u->points.scatter), &there));
+  PetscCall(ClosePointsForward(&u->points, &u->solid, 2, u->solid.u, (double *)there));
+  *any = 0;
+  for (int k = 0; k < u->points.n; k++) {
+    const ClosePoint *p = &u->points.point[k];
+    const int *node = &u->solid.facet[2 * p->facet];
+    const double *normal = u->shell->normal[p->facet];
+    if (p->is_held) continue;
+    const SqueezeFilm film = FilmAt(
+        u, p, gap, excess, p->opposite == CLOSE_TO_WALL ? NULL : (const double(*)[2])there[p->opposite]);
+    const SqueezeFilmYield yield = SqueezeFilmYieldOf(&film, dt);
+    *any |= yield.load > 0.0;
+    for (int i = 0; i < 2; i++)
+      for (int c = 0; c < 2; c++) {
+        const double part = p->weight * p->n[i], resistance = part * yield.resistance / Share(p);
+        u->film_load[node[i]][c] += part * normal[c] * yield.load;
+        u->film_resistance[node[i]][c][c] += SQUEEZE_FILM_ALONG * resistance;
+        for (int d = 0; d < 2; d++)
+          u->film_resistance[node[i]][c][d] +=
+              (1.0 - SQUEEZE_FILM_ALONG) * resistance * normal[c] * normal[d];
+      }
+  }
+  PetscCall(PetscFree(there));
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode UpliftAdd(Uplift u, Overlap o, const ElementTerm element[], const double p[], double dt,
@@ -162,21 +228,32 @@ PetscErrorCode UpliftAdd(Uplift u, Overlap o, const ElementTerm element[], const
   double *excess, *size, *area;
   Fields *outside;
   Gap gap;
+  int film;
 
   PetscFunctionBeginUser;
   total[0] = total[1] = 0.0;
   if (!u->any) PetscFunctionReturn(0);
   PetscCall(PetscMalloc4(n, &excess, n, &size, n, &area, n, &outside));
-  PetscCall(PetscMalloc2(n, &gap.is_free, n, &gap.value));
+  PetscCall(PetscMalloc3(n, &gap.is_free, n, &gap.value, n, &gap.profile));
   PetscCall(SurfacePressureInside(o, p, (int)n, excess, size, area));
   PetscCall(SurfacePressureHead(o, element, u->gravity, p, (int)n, outside));
   KeepClose(u, size);
   PetscCall(FindKnown(u, o, (const Fields *)outside, &gap));
-  PetscCall(GapHeadSolve(&u->points, &u->solid, u->shell, o->nodes, gap.is_free, gap.value));
-  for (int i = 0; i < (int)n; i++) excess[i] = Excess(u, &gap, i, excess[i], area[i], dt);
+  PetscCall(GapHeadSolve(&u->points, &u->solid, u->shell, o->nodes, gap.is_free, gap.value, gap.profile));
+  for (int i = 0; i < (int)n; i++) excess[i] = Excess(u, &gap, i, excess[i], area[i]);
+  PetscCall(SetFilm(u, &gap, excess, dt, &film));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &film, 1, MPI_INT, MPI_LOR, u->comm));
+  u->yields = film ? PETSC_TRUE : PETSC_FALSE;
+  for (int i = 0; i < (int)n; i++) excess[i] = Limited(u, i, excess[i], area[i], dt);
   PetscCall(AddForce(u, excess, force, total));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, total, 2, MPI_DOUBLE, MPI_SUM, u->comm));
-  PetscCall(PetscFree2(gap.is_free, gap.value));
+  PetscCall(PetscFree3(gap.is_free, gap.value, gap.profile));
   PetscCall(PetscFree4(excess, size, area, outside));
   PetscFunctionReturn(0);
+}
+
+void UpliftFilm(Uplift u, const double **load, const double **resistance)
+{
+  *load = u->yields ? (const double *)u->film_load : NULL;
+  *resistance = u->yields ? (const double *)u->film_resistance : NULL;
 }

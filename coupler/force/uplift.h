@@ -15,6 +15,8 @@
  *
  * and from what is opposite with the other sign; of two facets, each with half of its e (all, if the other is held).
  *
+ * All that p has beyond the head drives the fluid out of the gap (squeeze_film.h).
+ *
  * e moves the solid against the other, by a part of a step's fall, and the next step's p lacks what the contact bears then: N grows by the
  * integral of e in each step, until e is 0, in the time that the solid takes to fall through the height of that pressure.  A blow of a few
  * steps passes: the wall's reaction to it is the fluid's (with all of e a square that a dam's front struck was thrown up, with an e
@@ -39,4 +41,7 @@ PetscErrorCode UpliftBuild(Uplift uplift, const SolidState *solid, const Shell s
  * of dt that was built; p[nelements][6], Pa, of the overlap's elements. */
 PetscErrorCode UpliftAdd(Uplift uplift, Overlap overlap, const ElementTerm element[], const double p[],
                          double dt, double force[], double total[2]);
+/* Not collective, after UpliftAdd: where films yield, on any rank, CoracleGetFilm's load[nnodes][2], N, and resistance[nnodes][2][2], N s/m,
+ * borrowed until the next call; else NULL. */
+void UpliftFilm(Uplift uplift, const double **load, const double **resistance);
 #endif

@@ -230,6 +230,12 @@ PetscErrorCode CouplerCorrect(Coupler c, const SolidState *moved, int *n,
   PetscFunctionReturn(0);
 }
 
+void CouplerFilm(Coupler c, const double **load, const double **resistance)
+{
+  *load = *resistance = NULL;
+  if (c->uplift) UpliftFilm(c->uplift, load, resistance);
+}
+
 const double *CouplerPredictedVelocity(Coupler c)
 {
   return c->predicted;

@@ -46,6 +46,9 @@ PetscErrorCode CouplerSetAcceleration(Coupler coupler, const SolidState *end);
  * and how much of each node's motion depends on that prediction [nnodes], 0 .. 1 (inertia.h). */
 const double *CouplerPredictedVelocity(Coupler coupler);
 const double *CouplerExplicitFraction(Coupler coupler);
+/* Not collective, after CouplerComputeForce: CoracleGetFilm's load[nnodes][2] and resistance[nnodes][2][2], borrowed until the next one; NULL, on
+ * all ranks, where no film yields (squeeze_film.h). */
+void CouplerFilm(Coupler coupler, const double **load, const double **resistance);
 /* force[nnodes][2], N, on the solid's nodes, borrowed until the next call of this; the flow's arrays are used
  * until CouplerCorrect has returned. */
 PetscErrorCode CouplerComputeForce(Coupler coupler, const CoracleFlow *flow, const double **force,

@@ -197,12 +197,14 @@ PetscErrorCode NodeDirectoryMotion(NodeDirectory d, NodeMotion motion[])
   PetscFunctionReturn(0);
 }
 
+enum { LOAD_MOST = 4 };
+
 typedef struct {
   long long gid;
-  double load[2];
+  double load[LOAD_MOST];
 } NodeLoad;
 
-PetscErrorCode NodeDirectoryLoad(NodeDirectory d, const double load[], double present[])
+PetscErrorCode NodeDirectoryLoad(NodeDirectory d, int ncomp, const double load[], double present[])
 {
   NodeNames names;
   NodeLoad *out, *in;
@@ -211,15 +213,18 @@ PetscErrorCode NodeDirectoryLoad(NodeDirectory d, const double load[], double pr
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2((size_t)d->n, &of, (size_t)d->n, &out));
   PetscCall(NodeRanks(d->s, d->n, d->gid, of));
-  for (int k = 0; k < d->n; k++) out[k] = (NodeLoad){d->gid[k], {load[2 * k], load[2 * k + 1]}};
+  for (int k = 0; k < d->n; k++) {
+    out[k] = (NodeLoad){.gid = d->gid[k]};
+    for (int c = 0; c < ncomp; c++) out[k].load[c] = load[ncomp * k + c];
+  }
   PetscCall(ScatterRecords(d->s->comm, d->n, of, sizeof *out, out, &nin, &received));
   in = received;
   PetscCall(NodeNamesCreate(d->s->nnodes, d->s->gid, &names));
-  PetscCall(PetscArrayzero(present, 2 * (size_t)d->s->nnodes));
+  PetscCall(PetscArrayzero(present, (size_t)ncomp * (size_t)d->s->nnodes));
   for (int k = 0; k < nin; k++) {
     const int node = NodeNamesFind(&names, in[k].gid);
     PetscCheck(node >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "node %lld is not here", in[k].gid);
-    for (int c = 0; c < 2; c++) present[2 * node + c] += in[k].load[c];
+    for (int c = 0; c < ncomp; c++) present[ncomp * node + c] += in[k].load[c];
   }
   PetscCall(NodeNamesDestroy(&names));
   PetscCall(PetscFree(in));

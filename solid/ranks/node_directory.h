@@ -40,6 +40,7 @@ PetscBool NodeDirectoryIsComplete(NodeDirectory directory);
 
 /* Collective: motion[nnodes] of the registered nodes, from where they are present. */
 PetscErrorCode NodeDirectoryMotion(NodeDirectory directory, NodeMotion motion[]);
-/* Collective: load[nnodes][2] on the registered nodes, this rank's part, to present[nnodes][2] for SolidStart. */
-PetscErrorCode NodeDirectoryLoad(NodeDirectory directory, const double load[], double present[]);
+/* Collective: load[nnodes][ncomp] on the registered nodes, this rank's part, to present[nnodes][ncomp] for SolidStart and SolidSetFilm; ncomp
+ * is at most 4. */
+PetscErrorCode NodeDirectoryLoad(NodeDirectory directory, int ncomp, const double load[], double present[]);
 #endif

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # A block that stands on a floor under water presses on it with its weight less the displaced water's (coupler/force/uplift.h), in one fluid and beneath
 # air, also let down with a gap, and friction stops one that slides (before, the water carried it: no force on the floor, 0.13 m in 0.3 s); what
-# the floor gives back is in the budget of momentum.  One that is held at first presses on it once it is let go.  Usage: floor.sh ROOT BUILD
+# the floor gives back is in the budget of momentum.  Water leaves the gap beneath one that comes down alike with long and short steps.  One that is held at first presses on it once it is let go.  Usage: floor.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
 case=$here/floor.yaml
@@ -11,6 +11,9 @@ one='fluid={density: 1000.0, viscosity: 1.0e-3, petsc: -momentum_ksp_rtol 1e-13,
 must lowered 1:1:1 --set "$one" --set "solid.bodies[0].centre=[0.3, 0.045]"
 must released 1:1:1 --set "solid.bodies[0].prescribed=[{velocity: [0, 0], release: 0.1}]"
 must slides 1:1:1 --set time.end=0.8 --set "solid.bodies[0].centre=[0.3, 0.045]" --set "solid.bodies[0].velocity=[0.5, 0.0]"
+for dt in 0.004 0.001; do
+  must "sinks_$dt" 1:1:1 --set time.end=0.06 --set time.dt_max=$dt --set "solid.bodies[0].centre=[0.3, 0.043]" --set "solid.bodies[0].velocity=[0.5, 0.0]"
+done
 "$python" "$root/scripts/momentum.py" "$scratch/lowered" --bound 1e-10 >"$scratch/report" || { cat "$scratch/report"; exit 1; }
 "$python" - "$scratch" <<'E2'
 import csv, sys
@@ -25,4 +28,7 @@ for run in "stands", "ranks", "lowered", "released":
     assert abs(force / expected - 1.0) < 0.02, "%s: %g N/m on the floor, expected %g" % (run, force, expected)
 x = column("slides", "x0 [m]")
 assert 0.01 < x[-1] - 0.3 < 0.09 and x[-1] - x[2 * len(x) // 3] < 0.002, "it has slid to %g m, %g before" % (x[-1], x[2 * len(x) // 3])
+for dt in "0.004", "0.001":
+    gap = 1e3 * (column("sinks_" + dt, "y0 [m]")[-1] - 0.04)  # 0.24 and 0.29 mm; before the film had a rate 1.3 and 2.2
+    assert 0.1 < gap < 0.45, "steps of %s s: a gap of %g mm" % (dt, gap)
 E2

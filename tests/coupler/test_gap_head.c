@@ -1,13 +1,14 @@
 // ranks: 1 2 3
 /* The head between solids: a pile of blocks a gap apart, given at the lower side of the lowest and the upper side of the highest, is linear
- * along it, for sides of blocks and gaps resist alike; a block apart has none.  Blocks are dealt out to ranks in turn, every
+ * along it, for sides of blocks and gaps resist alike; a block apart has none.  The profile, with 1 m of each side that is close and two
+ * links of conductance 1 between one level and the next, is k (m - k)/4 on level k of m.  Blocks are dealt out to ranks in turn, every
  * third one cut in two, and facets of every second one have copies of their nodes; once more with nothing on the last rank. */
 #include "coupler/force/gap_head.h"
 #include "tests/check.h"
 
 enum { BLOCKS = 60, NODES = 8 * (BLOCKS + 1), N = SURFACE_HEAD_FIELDS };
 #define GAP 0.02
-static const double LOWEST[N] = {3.0, -1.0, 1.0}, HIGHEST[N] = {7.0, -1.0, 1.0};
+static const double LOWEST[N] = {3.0, -1.0, 0.1, 1.0}, HIGHEST[N] = {7.0, -1.0, 0.5, 1.0};
 
 /* This rank's nodes and facets; corner[i] of node i: 4 block + corner. */
 typedef struct {
@@ -51,7 +52,7 @@ static PetscErrorCode Run(int parts)
 {
   static Blocks solid;
   static char is_free[NODES];
-  static double value[NODES][N];
+  static double value[NODES][N], profile[NODES];
   const double lower[2] = {-HUGE_VAL, -HUGE_VAL}, upper[2] = {HUGE_VAL, HUGE_VAL};
   ClosePoints points = {0};
   Copies nodes;
@@ -69,7 +70,7 @@ static PetscErrorCode Run(int parts)
     is_free[i] = !given;
     for (int c = 0; c < N; c++) value[i][c] = given ? given[c] : 99.0;
   }
-  PetscCall(GapHeadSolve(&points, &solid.view, shell, nodes, is_free, value));
+  PetscCall(GapHeadSolve(&points, &solid.view, shell, nodes, is_free, value, profile));
   for (int i = 0; i < solid.view.nnodes; i++) {
     const int block = solid.corner[i] / 4, up = solid.corner[i] % 4 >= 2;
     const double s = (2.0 * block + up) / (2.0 * BLOCKS - 1.0);
@@ -78,9 +79,13 @@ static PetscErrorCode Run(int parts)
       CHECK(fabs(value[i][c] - expected) < 1e-8, "block %d, field %d: %.12g instead of %.12g", block, c,
             value[i][c], expected);
     }
+    const double level = 2.0 * block + up,
+                 expected = block == BLOCKS ? 0.0 : 0.25 * level * (2.0 * BLOCKS - 1.0 - level);
+    CHECK(fabs(profile[i] - expected) < 1e-7 * BLOCKS * BLOCKS,
+          "block %d: a profile of %.12g instead of %.12g", block, profile[i], expected);
   }
   memset(is_free, 0, sizeof is_free); /* all given: nothing to solve */
-  PetscCall(GapHeadSolve(&points, &solid.view, shell, nodes, is_free, value));
+  PetscCall(GapHeadSolve(&points, &solid.view, shell, nodes, is_free, value, profile));
   PetscCall(CopiesDestroy(&nodes));
   PetscCall(ClosePointsDestroy(&points));
   return ShellDestroy(&shell);

@@ -81,6 +81,17 @@ static inline double NodeForce(long long id, int c, int step)
   return cos((double)id) * (1 + c) + step;
 }
 
+/* Steps with films. */
+static inline int HasFilm(int step)
+{
+  return step % 2 == 0 || step == REMESH_STEP;
+}
+/* Component k of load (0, 1) and resistance (2 .. 5). */
+static inline double NodeFilm(long long id, int k, int step)
+{
+  return sin((double)id) * (2 + k) - step;
+}
+
 /* --- the fluid: rank 2 is empty ------------------------------------------------------------------------- */
 static inline int CellCount(int rank, int adapted)
 {

@@ -72,6 +72,19 @@ static void CheckForce(const Solid *s)
         CoracleFail(s->client, "force %g on node %d in step %d", force[2 * i + c], i, s->step);
 }
 
+static void CheckFilm(const Solid *s)
+{
+  const double *load, *resistance;
+  CoracleGetFilm(s->client, &load, &resistance);
+  if (!load != !HasFilm(s->step) || !resistance != !load)
+    CoracleFail(s->client, "films are %s in step %d", load ? "there" : "missing", s->step);
+  for (int k = 0; k < 6 * s->n && load; k++) {
+    const double film = k % 6 < 2 ? load[2 * (k / 6) + k % 6] : resistance[4 * (k / 6) + k % 6 - 2];
+    if (film != NodeFilm(NodeId(s->rank, k / 6), k % 6, s->step))
+      CoracleFail(s->client, "film %g, component %d, on node %d in step %d", film, k % 6, k / 6, s->step);
+  }
+}
+
 /* State at the start of a redone step must be the state at the start of its first try, bit by bit. */
 static void CheckState(Solid *s, CoracleAction action)
 {
@@ -114,6 +127,7 @@ static void Step(Solid *s, double t, double dt)
     Misbehave(s->fault);
   }
   CheckForce(s);
+  CheckFilm(s);
   Substeps(s, t, dt);
   for (int i = 0; i < s->n; i++)
     for (int c = 0; c < 2; c++) s->x[i][c] = NodePosition(NodeId(s->rank, i), c, StepEnd(s->step));

@@ -77,6 +77,7 @@ static void Nobody(void)
   NOBODY(CoracleEnd, (c, X));
   NOBODY(CoracleGetCorrection, (c, &n, &correction));
   NOBODY(CoracleGetCoupling, (c, &n, &coupling));
+  NOBODY(CoracleGetFilm, (c, &force, &force));
   NOBODY(CoracleGetForce, (c, &force));
   NOBODY(CoracleGetGauges, (c, &n, &gauge));
   NOBODY(CoracleGetRegion, (c, &n, &box));
@@ -123,6 +124,7 @@ static void Setup(CoracleClient c)
           "CoracleBegin was called before CoracleReady: its place is between CoracleEnd and CoracleBegin");
   REFUSED(CoracleEnd(c, X),
           "CoracleEnd was called before CoracleReady: its place is between CoracleBegin and CoracleEnd");
+  REFUSED(CoracleGetFilm(c, &force, &force), "CoracleGetFilm was called before CoracleReady");
   REFUSED(CoracleGetForce(c, &force), "CoracleGetForce was called before CoracleReady");
   REFUSED(CoracleSubstep(c, 0.1, ZERO), "CoracleSubstep was called before CoracleReady");
   REFUSED(CoracleSetVelocity(c, ZERO), "CoracleSetVelocity was called before CoracleReady");

@@ -89,11 +89,15 @@ static void ReceiveSolid(Stub *s, int redo)
 
 static void SendForce(Stub *s, CoracleAction action)
 {
-  double force[MAX][2];
+  double force[MAX][2], load[MAX][2], resistance[MAX][4];
   int n = 0;
   for (int r = s->rank; r < ServerRanks(s->server, "solid"); r += s->size)
-    for (int i = 0; i < NodeCount(r, s->step > REMESH_STEP); i++, n++)
+    for (int i = 0; i < NodeCount(r, s->step > REMESH_STEP); i++, n++) {
       for (int c = 0; c < 2; c++) force[n][c] = NodeForce(NodeId(r, i), c, s->step);
+      for (int c = 0; c < 2; c++) load[n][c] = NodeFilm(NodeId(r, i), c, s->step);
+      for (int c = 0; c < 4; c++) resistance[n][c] = NodeFilm(NodeId(r, i), 2 + c, s->step);
+    }
+  if (HasFilm(s->step)) ServerSetFilm(s->server, load[0], resistance[0]);
   if (s->fault == FAULT_NAN && s->step == 4 && n) force[0][0] = NAN;
   ServerSendForce(s->server, s->t, StepSize(s->step), action, &force[0][0]);
 }

@@ -93,6 +93,9 @@ module coracle
     integer(c_int) function c_get_force(client, force) bind(c, name="CoracleGetForce")
       import; type(c_ptr), value :: client; type(c_ptr), intent(out) :: force
     end function
+    integer(c_int) function c_get_film(client, load, resistance) bind(c, name="CoracleGetFilm")
+      import; type(c_ptr), value :: client; type(c_ptr), intent(out) :: load, resistance
+    end function
     integer(c_int) function c_get_coupling(client, n, coupling) bind(c, name="CoracleGetCoupling")
       import; type(c_ptr), value :: client; integer(c_int), intent(out) :: n; type(c_ptr), intent(out) :: coupling
     end function
@@ -104,7 +107,8 @@ module coracle
     end function
   end interface
   private :: c_open, c_fail, c_report, c_phase, c_case_open, c_case_has, c_case_count, c_case_number, c_case_positive, &
-    c_case_integer, c_case_vector, c_case_string, c_strlen, c_get_force, c_get_coupling, c_get_correction, c_get_gauges
+    c_case_integer, c_case_vector, c_case_string, c_strlen, c_get_force, c_get_film, c_get_coupling, &
+    c_get_correction, c_get_gauges
 
   ! C's functions as they are; each returns 0
   interface
@@ -252,6 +256,20 @@ contains
     nullify(force)
     if (n > 0) call c_f_pointer(memory, force, [CORACLE_DIM, n])
     if (n == 0) allocate(force(CORACLE_DIM, 0))
+  end subroutine
+
+  !> load(dim, n), N, and resistance(dim, dim, n), N s/m, pointers to the library's memory until CoracleEnd; null where no film yields.
+  subroutine coracle_get_film(client, n, load, resistance)
+    type(c_ptr), intent(in) :: client
+    integer, intent(in) :: n
+    real(c_double), pointer, intent(out) :: load(:, :), resistance(:, :, :)
+    type(c_ptr) :: memory(2)
+    integer(c_int) :: ignored
+    ignored = c_get_film(client, memory(1), memory(2))
+    nullify(load, resistance)
+    if (.not. c_associated(memory(1))) return
+    call c_f_pointer(memory(1), load, [CORACLE_DIM, n])
+    call c_f_pointer(memory(2), resistance, [CORACLE_DIM, CORACLE_DIM, n])
   end subroutine
 
   !> The entries of the coming step's coupling, a pointer to the library's memory until CoracleEnd.

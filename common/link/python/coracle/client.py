@@ -142,6 +142,14 @@ class Client:
         call("GetForce", self._handle, byref(force))
         return view(force.value, (self.n, 2))
 
+    def get_film(self):
+        """load[n][2], N, and resistance[n][2][2], N s/m, views that hold until end; (None, None) where no film yields."""
+        load, resistance = c_void_p(), c_void_p()
+        call("GetFilm", self._handle, byref(load), byref(resistance))
+        if load.value is None:
+            return None, None
+        return view(load.value, (self.n, 2)), view(resistance.value, (self.n, 2, 2))
+
     def substep(self, h, u):
         call("Substep", self._handle, h, array("u", u, (self.n, 2)))
 
