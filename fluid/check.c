@@ -94,18 +94,20 @@ static const CoracleCaseKey KEYS[] = {
     {"fluid.boundaries.*.rise", "s",
      "time in which the velocity, or the pressure, rises from zero, as 1 - cos(pi t/rise)"},
     {"fluid.boundaries.*.period", "s",
-     "of a velocity or pressure that swings, times sin(2 pi t/period), or in which factor repeats itself"},
+     "of a velocity or pressure that swings, times sin(2 pi t/period), or in which the rows of factor or of "
+     "the level repeat themselves"},
     {"fluid.boundaries.*.factor", "",
      "list of rows of time and factor of the velocity or pressure, linear between them"},
     {"fluid.boundaries.*.factor[]", "s, 1", "time, factor"},
     {"fluid.boundaries.*.pressure", "Pa", "an open boundary with this pressure"},
     {"fluid.boundaries.*.level", "m",
-     "an open boundary outside of which the heaviest phase stands up to this height against gravity, or a "
-     "list of "
-     "layers"},
+     "an open boundary outside of which the heaviest phase stands up to this height against gravity; or rows "
+     "of time and height, linear between them; or a list of layers"},
+    {"fluid.boundaries.*.level[]", "s, m", "time, height; constant before the first and after the last"},
     {"fluid.boundaries.*.level[].phase", "", "phase of a layer outside, from below"},
     {"fluid.boundaries.*.level[].height", "m",
-     "height of its upper side; above the last: the lightest phase"},
+     "height of its upper side, or rows of time and height; above the last: the lightest phase"},
+    {"fluid.boundaries.*.level[].height[]", "s, m", "time, height"},
     {"fluid.adapt.size_min", "m", "le: shortest edge wanted; that around the solid"},
     {"fluid.adapt.size_max", "m", "Le: longest edge wanted"},
     {"fluid.adapt.velocity_error", "m/s", "wanted error of linear interpolation, each component"},

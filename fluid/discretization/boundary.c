@@ -19,18 +19,31 @@ PetscErrorCode BoundaryBoxes(const Mesh *m, Boundary boundary[])
   PetscFunctionReturn(0);
 }
 
+/* Of a table that repeats itself, unless the period is 0. */
+static double Repeated(const TimeTable *table, double period, double t)
+{
+  return TimeTableValue(table, 1, period > 0.0 ? t - period * floor(t / period) : t);
+}
+
 double BoundaryFactor(const Boundary *b, double t)
 {
   double factor = t < b->rise && b->rise > 0.0 ? 0.5 * (1.0 - cos(M_PI * fmax(t, 0.0) / b->rise)) : 1.0;
   if (b->factor.nrows)
-    factor *= TimeTableValue(&b->factor, 1, b->period > 0.0 ? t - b->period * floor(t / b->period) : t);
+    factor *= Repeated(&b->factor, b->period, t);
   else if (b->period > 0.0)
     factor *= sin(2.0 * M_PI * t / b->period);
   return factor;
 }
 
+double BoundaryLevel(const BoundaryPhases *b, int k, double t)
+{
+  return b->level_table[k].nrows ? Repeated(&b->level_table[k], b->level_period, t) : b->level[k];
+}
+
 PetscBool BoundaryVaries(const Boundary *b)
 {
+  for (int k = 0; k < b->phases.nlevels; k++)
+    if (b->phases.level_table[k].nrows) return PETSC_TRUE;
   return (PetscBool)(b->rise > 0.0 || b->factor.nrows || b->period > 0.0);
 }
 

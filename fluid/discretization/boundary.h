@@ -8,7 +8,8 @@
  *   FREE_SLIP   u.n = 0                     (tau n).t = 0          -
  *   OPEN        -                           tau n = 0              hydrostatic + `pressure`(t)
  *
- * What depends on time (rise, factor, period) is that of both ends of a step for velocities, of its middle for pressures.
+ * What depends on time (rise, factor, period, level) is that of both ends of a step for velocities, of its middle for pressures
+ * and for levels, also as what comes in goes by them.
  * What comes in where it is OPEN has been at rest outside (AssembleBoundary). */
 #ifndef FLUID_BOUNDARY_H
 #define FLUID_BOUNDARY_H
@@ -30,6 +31,8 @@ typedef enum {
 typedef struct {
   int nlevels, level_phase[PHASES_MAX]; /* where open: layers outside, from below, each up to a height */
   double level[PHASES_MAX];             /* against gravity, m, rising; they come in below it */
+  TimeTable level_table[PHASES_MAX];    /* of t, s, and the level, in its place; nrows 0: none */
+  double level_period;                  /* s: in which the tables repeat themselves; 0: they do not */
   double inflow[PHASES_MAX];            /* fractions of what else comes in, sum 1; all 0: the lightest */
   PhasesPairs contact_cosine;           /* of contact angles, through the first phase of each pair */
 } BoundaryPhases;
@@ -52,6 +55,9 @@ typedef struct {
 PetscErrorCode BoundaryBoxes(const Mesh *mesh, Boundary boundary[]);
 /* What velocity and pressure are times at t.  Not collective, like what follows. */
 double BoundaryFactor(const Boundary *b, double t);
+/* The height of layer k outside at t, m. */
+double BoundaryLevel(const BoundaryPhases *b, int k, double t);
+/* Whether velocity, pressure or a level depend on time. */
 PetscBool BoundaryVaries(const Boundary *b);
 /* The velocity v, m/s, that a BOUNDARY_VELOCITY prescribes at x and t. */
 void BoundaryVelocity(const Boundary *b, double t, const double x[2], double v[2]);

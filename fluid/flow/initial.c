@@ -17,8 +17,8 @@ static double HydrostaticPressure(const Mesh *m, double rho, const double g[2], 
   return p;
 }
 
-/* Of the layers outside of an open boundary, beyond that of the lightest phase, at x, Pa. */
-static double LevelPressure(Fluid f, const Boundary *b, const double x[2])
+/* Of the layers outside of an open boundary at t, beyond that of the lightest phase, at x, Pa. */
+static double LevelPressure(Fluid f, const Boundary *b, double t, const double x[2])
 {
   const double *g = f->setup.gravity, *rho = f->setup.phases.rho;
   const BoundaryPhases *outside = &b->phases;
@@ -26,7 +26,7 @@ static double LevelPressure(Fluid f, const Boundary *b, const double x[2])
   for (int k = 0; k < outside->nlevels; k++) {
     const double above = k + 1 < outside->nlevels ? rho[outside->level_phase[k + 1]] : f->setup.rho;
     pressure += (rho[outside->level_phase[k]] - above) *
-                fmax(hypot(g[0], g[1]) * outside->level[k] + g[0] * x[0] + g[1] * x[1], 0.0);
+                fmax(hypot(g[0], g[1]) * BoundaryLevel(outside, k, t) + g[0] * x[0] + g[1] * x[1], 0.0);
   }
   return pressure;
 }
@@ -53,7 +53,7 @@ PetscErrorCode FluidSetOpenPressure(Fluid f, double t)
       for (int k = 0; k < 2; k++) {
         const double *x = ElementVertex(m, e, node[k]);
         value[k] = HydrostaticPressure(m, f->setup.rho, f->setup.gravity, x) +
-                   BoundaryFactor(b, t) * b->pressure + LevelPressure(f, b, x);
+                   BoundaryFactor(b, t) * b->pressure + LevelPressure(f, b, t, x);
       }
       value[2] = 0.5 * (value[0] + value[1]); /* linear also where the level is: effective_density.h */
       for (int k = 0; k < 3; k++) {

@@ -32,6 +32,57 @@ static void ReadPhases(CoracleCase c, const char *key, const PhaseNames *names, 
   ReadFractions(c, sub, names, b);
 }
 
+/* Rows of time and value; period, s: in which they repeat themselves, 0: they do not. */
+static void ReadTable(CoracleCase c, const char *key, double period, TimeTable *table)
+{
+  table->width = 2;
+  table->row = CoracleCaseTable(c, key, 2, &table->nrows);
+  if (!table->nrows || period == 0.0) return;
+  const double first = TimeTableAt(table, 0, 0), last = TimeTableAt(table, table->nrows - 1, 0);
+  if (first < 0.0 || last > period)
+    CoracleCaseRefuse(c, key, "expected times from 0 to the period, %g s, found %g to %g s", period, first,
+                      last);
+}
+
+static double ReadPeriod(CoracleCase c, const char *key)
+{
+  char sub[192];
+  (void)snprintf(sub, sizeof sub, "%s.period", key);
+  return CoracleCaseHas(c, sub) ? CoracleCasePositive(c, sub) : 0.0;
+}
+
+/* Of layer k: a number, or a table. */
+static void ReadHeight(CoracleCase c, const char *key, int k, BoundaryPhases *b)
+{
+  char first[240];
+  (void)snprintf(first, sizeof first, "%s[0]", key);
+  if (CoracleCaseHas(c, first))
+    ReadTable(c, key, b->level_period, &b->level_table[k]);
+  else
+    b->level[k] = CoracleCaseNumber(c, key, -HUGE_VAL, HUGE_VAL);
+}
+
+/* Within a period. */
+static double HeightOnce(const BoundaryPhases *b, int k, double t)
+{
+  return b->level_table[k].nrows ? TimeTableValue(&b->level_table[k], 1, t) : b->level[k];
+}
+
+/* Layer k lies above that below it at any time: at those of both tables' rows, between which they are linear. */
+static void CheckAbove(CoracleCase c, const char *key, int k, const BoundaryPhases *b)
+{
+  for (int layer = k - 1; k > 0 && layer <= k; layer++) {
+    const TimeTable *table = &b->level_table[layer];
+    for (int row = 0; row < PetscMax(table->nrows, 1); row++) {
+      const double t = table->nrows ? TimeTableAt(table, row, 0) : 0.0;
+      const double below = HeightOnce(b, k - 1, t), height = HeightOnce(b, k, t);
+      if (!(height > below))
+        CoracleCaseRefuse(c, key, "expected layers from below: more than %g, found %g at %g s", below, height,
+                          t);
+    }
+  }
+}
+
 /* The layers of the list at key, from below. */
 static void ReadLayers(CoracleCase c, const char *key, const PhaseNames *names, BoundaryPhases *b)
 {
@@ -42,30 +93,29 @@ static void ReadLayers(CoracleCase c, const char *key, const PhaseNames *names, 
     (void)snprintf(sub, sizeof sub, "%s[%d].phase", key, k);
     b->level_phase[k] = PhaseCaseIndex(c, sub, names);
     (void)snprintf(sub, sizeof sub, "%s[%d].height", key, k);
-    b->level[k] = CoracleCaseNumber(c, sub, -HUGE_VAL, HUGE_VAL);
-    if (k && !(b->level[k] > b->level[k - 1]))
-      CoracleCaseRefuse(c, sub, "expected layers from below: more than %g, found %g", b->level[k - 1],
-                        b->level[k]);
+    ReadHeight(c, sub, k, b);
+    CheckAbove(c, sub, k, b);
   }
 }
 
 static void ReadLevel(CoracleCase c, const char *key, const PhaseNames *names, const PhaseProperties *p,
                       BoundaryPhases *b)
 {
-  char first[200];
+  char phase[216], height[216];
   double gravity[2];
   CoracleCaseVector(c, "gravity", 2, gravity);
   if (!names->name[0]) CoracleCaseRefuse(c, key, "there are no phases: expected fluid.phases");
   if (gravity[0] == 0.0 && gravity[1] == 0.0)
     CoracleCaseRefuse(c, key, "without gravity no side is up: expected a pressure instead, or a gravity");
-  (void)snprintf(first, sizeof first, "%s[0]", key);
-  if (CoracleCaseHas(c, first)) {
+  (void)snprintf(phase, sizeof phase, "%s[0].phase", key);
+  (void)snprintf(height, sizeof height, "%s[0].height", key);
+  if (CoracleCaseHas(c, phase) || CoracleCaseHas(c, height)) {
     ReadLayers(c, key, names, b);
     return;
   }
   b->nlevels = 1;
   b->level_phase[0] = PhaseHeaviest(p);
-  b->level[0] = CoracleCaseNumber(c, key, -HUGE_VAL, HUGE_VAL);
+  ReadHeight(c, key, 0, b);
 }
 
 /* How velocity or pressure depend on time. */
@@ -74,30 +124,27 @@ static void ReadVariation(CoracleCase c, const char *key, Boundary *b)
   char sub[192];
   (void)snprintf(sub, sizeof sub, "%s.rise", key);
   b->rise = CoracleCaseNumberOr(c, sub, 0.0, 0.0, HUGE_VAL);
-  (void)snprintf(sub, sizeof sub, "%s.period", key);
-  if (CoracleCaseHas(c, sub)) b->period = CoracleCasePositive(c, sub);
+  b->period = ReadPeriod(c, key);
   (void)snprintf(sub, sizeof sub, "%s.factor", key);
-  b->factor.width = 2;
-  b->factor.row = CoracleCaseTable(c, sub, 2, &b->factor.nrows);
-  if (!b->factor.nrows || b->period == 0.0) return;
-  const double first = TimeTableAt(&b->factor, 0, 0), last = TimeTableAt(&b->factor, b->factor.nrows - 1, 0);
-  if (first < 0.0 || last > b->period)
-    CoracleCaseRefuse(c, sub, "expected times from 0 to the period, %g s, found %g to %g s", b->period, first,
-                      last);
+  ReadTable(c, sub, b->period, &b->factor);
 }
 
 /* Whether it is open by a pressure or a level. */
 static PetscBool ReadOpen(CoracleCase c, const char *key, const PhaseNames *names, const PhaseProperties *p,
                           Boundary *b)
 {
-  char level[192], pressure[192];
+  char level[192], pressure[192], period[192];
   (void)snprintf(level, sizeof level, "%s.level", key);
   (void)snprintf(pressure, sizeof pressure, "%s.pressure", key);
+  (void)snprintf(period, sizeof period, "%s.period", key);
   const PetscBool has_level = CoracleCaseHas(c, level) ? PETSC_TRUE : PETSC_FALSE;
   if (!has_level && !CoracleCaseHas(c, pressure)) return PETSC_FALSE;
   b->kind = BOUNDARY_OPEN;
   if (has_level) {
+    b->phases.level_period = ReadPeriod(c, key);
     ReadLevel(c, level, names, p, &b->phases);
+    if (b->phases.level_period > 0.0 && !BoundaryVaries(b))
+      CoracleCaseRefuse(c, period, "the level is constant: expected rows of time and height, which repeat");
     b->pressure = CoracleCaseNumberOr(c, pressure, 0.0, -HUGE_VAL, HUGE_VAL);
   } else {
     b->pressure = CoracleCaseNumber(c, pressure, -HUGE_VAL, HUGE_VAL);

@@ -11,10 +11,7 @@ static void SetInflow(PhaseBoundaries *s, const PhaseProperties *properties, con
     for (int p = 0; p < properties->n; p++) sum += s->inflow[b][p] = boundary->phases.inflow[p];
     if (sum == 0.0) s->inflow[b][lightest] = 1.0;
     s->levels[b].n = boundary->phases.nlevels;
-    for (int k = 0; k < s->levels[b].n; k++) {
-      s->levels[b].phase[k] = boundary->phases.level_phase[k];
-      s->levels[b].d[k] = boundary->phases.level[k];
-    }
+    for (int k = 0; k < s->levels[b].n; k++) s->levels[b].phase[k] = boundary->phases.level_phase[k];
     for (int c = 0; c < 2 && s->levels[b].n; c++)
       s->levels[b].normal[c] = -gravity[c] / hypot(gravity[0], gravity[1]);
   }
@@ -52,7 +49,7 @@ static double PrescribedNormal(const PhaseStep *s, const Boundary *b, const doub
 }
 
 /* With the projection's quadrature (Simpson's rule). */
-void PhaseBoundariesSetMoments(PhaseBoundaries *boundaries, const PhaseStep *s)
+static void SetMoments(PhaseBoundaries *boundaries, const PhaseStep *s)
 {
   const FluidDomain *domain = boundaries->domain;
   const Mesh *m = domain->mesh;
@@ -69,4 +66,12 @@ void PhaseBoundariesSetMoments(PhaseBoundaries *boundaries, const PhaseStep *s)
       moment[2 * k + i] = face->length * (PrescribedNormal(s, b, ends[i], face->n) / 6.0 +
                                           PrescribedNormal(s, b, middle, face->n) / 3.0);
   }
+}
+
+void PhaseBoundariesSetStep(PhaseBoundaries *s, const PhaseStep *step)
+{
+  for (int b = 0; b < s->domain->mesh->ntags; b++)
+    for (int k = 0; k < s->levels[b].n; k++)
+      s->levels[b].d[k] = BoundaryLevel(&s->domain->boundary[b].phases, k, step->time + 0.5 * step->dt);
+  SetMoments(s, step);
 }

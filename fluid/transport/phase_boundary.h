@@ -9,7 +9,7 @@ typedef struct {
   char *open;                   /* [ntags] fluxes are free there */
   double (*inflow)[PHASES_MAX]; /* [ntags] fractions of what comes in */
   PhasesPairs *contact;         /* [ntags] cosines of contact angles */
-  PhasesLevels *levels;         /* [ntags] */
+  PhasesLevels *levels;         /* [ntags], of the step */
   double *moment;               /* [ne][3][2] of FluxBoundary, of the step */
 } PhaseBoundaries;
 
@@ -18,6 +18,7 @@ typedef struct {
 PetscErrorCode PhaseBoundariesCreate(const FluidDomain *domain, const PhaseProperties *properties,
                                      const double gravity[2], PhaseBoundaries *boundaries);
 PetscErrorCode PhaseBoundariesDestroy(PhaseBoundaries *boundaries);
-/* Sets moment: int lambda g.n, m2/s, on boundary faces, of the instants that the step's velocity is made of. */
-void PhaseBoundariesSetMoments(PhaseBoundaries *boundaries, const PhaseStep *step);
+/* Sets moment: int lambda g.n, m2/s, on boundary faces, of the instants that the step's velocity is made of; and the levels' heights
+ * in the middle of the step. */
+void PhaseBoundariesSetStep(PhaseBoundaries *boundaries, const PhaseStep *step);
 #endif

@@ -172,7 +172,7 @@ PetscErrorCode PhaseSweepStep(PhaseSweep s, const PhaseStep *step, double out[])
   const FluxBoundary boundary = {s->boundaries->open, s->boundaries->moment, s->weight};
   FluxReport report;
   PetscFunctionBeginUser;
-  PhaseBoundariesSetMoments(s->boundaries, step);
+  PhaseBoundariesSetStep(s->boundaries, step);
   if (s->mass) PetscCall(SetGas(s, step));
   PetscCall(FluxEquilibrate(s->stars, step->u, &boundary, s->flux, s->beta, &report));
   PetscCall(FluxVertexVelocity(s->stars, s->beta, s->velocity));

@@ -1,4 +1,5 @@
-/* A velocity that is prescribed rises smoothly and keeps its profile; it may swing, or follow a table, once or in each period. */
+/* A velocity that is prescribed rises smoothly and keeps its profile; it may swing, or follow a table, once or in each period; a level
+ * does. */
 #include "fluid/flow/fluid_impl.h"
 #include "tests/check.h"
 
@@ -12,6 +13,16 @@ static void Factors(void)
   b.period = 1.25;
   for (int k = 0; k < 6; k++)
     CHECK(BoundaryFactor(&b, time[k]) == repeated[k], "factor at %g s that repeats itself", time[k]);
+  BoundaryPhases phases = {.nlevels = 2, .level = {0.5}, .level_table = {{0}, {3, 2, ROW}}};
+  for (int k = 0; k < 6; k++) {
+    CHECK(BoundaryLevel(&phases, 0, time[k]) == 0.5, "a constant level at %g s", time[k]);
+    CHECK(BoundaryLevel(&phases, 1, time[k]) == once[k], "level at %g s", time[k]);
+  }
+  phases.level_period = 1.25;
+  for (int k = 0; k < 6; k++)
+    CHECK(BoundaryLevel(&phases, 1, time[k]) == repeated[k], "level at %g s that repeats itself", time[k]);
+  const Boundary open = {.kind = BOUNDARY_OPEN, .pressure = 2.0, .phases = phases};
+  CHECK(BoundaryVaries(&open) && BoundaryFactor(&open, 0.3) == 1.0, "a constant pressure beside a level");
   b.factor.nrows = 0;
   for (int k = 0; k < 6; k++)
     CHECK(BoundaryFactor(&b, time[k]) == sin(2.0 * M_PI * time[k] / 1.25), "factor at %g s that swings",

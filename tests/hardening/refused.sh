@@ -62,6 +62,13 @@ phases "'fluid.regions\[0\].phase': expected a phase (water, air), found 'oil'" 
 phases "'fluid.regions\[1\].upper': the box is empty" --set 'fluid.regions=[{phase: air}, {phase: water, lower: [0, 0], upper: [0, 1]}]'
 refused fluid "'fluid.boundaries.left.level': there are no phases" --set 'fluid.boundaries.left={level: 1}' --set fluid.density=1 --set fluid.viscosity=1
 phases "'fluid.boundaries.left.level': expected a number" --set 'fluid.regions=[{phase: air}]' --set 'fluid.boundaries.left={level: high}'
+level() { phases "$1" --set 'fluid.regions=[{phase: air}]' --set "fluid.boundaries.left={$2}"; } # expected, keys
+level "left={level: \[\[0, 1\], \[2, 1\], \[2, 3\]\]}: key 'fluid.boundaries.left.level\[2\]': the table's times must rise" 'level: [[0, 1], [2, 1], [2, 3]]'
+level "'fluid.boundaries.left.level': expected a number, found a list of 0" 'level: []'
+level "'fluid.boundaries.left.level\[0\]': expected a list of 2 numbers, found '0'" 'level: [0, 1]'
+level "'fluid.boundaries.left.level\[1\]': expected a list of 2 numbers, found 'high'" 'level: [[0, 1], [1, high]]'
+level "'fluid.boundaries.left.level': expected times from 0 to the period, 2 s, found 0 to 3 s" 'level: [[0, 1], [3, 1]], period: 2'
+level "'fluid.boundaries.left.period': the level is constant" 'level: 1, period: 2'
 phases "'fluid.boundaries.left.level': without gravity no side is up" --set 'fluid.regions=[{phase: air}]' --set 'fluid.boundaries.left={level: 1}' --set 'gravity=[0, 0]'
 phases "'fluid.phases_advection': expected one of geometric, compressive, found 'sharp'" --set 'fluid.regions=[{phase: air}]' --set fluid.phases_advection=sharp
 phases "'fluid.phases\[1\].name': expected a name" --set 'fluid.regions=[{phase: water}]' --set 'fluid.phases[1].name="a, b"'
@@ -76,6 +83,7 @@ liquids "'fluid.surface_tension\[1\].between\[1\]': an item before this one" --s
 liquids "'fluid.surface_tension\[0\].value': expected a number >= 0" --set 'fluid.surface_tension=[{between: [oil, air], value: -1}]'
 liquids "'fluid.boundaries.left.contact_angle\[0\].value': expected a number from 0 to 180" --set 'fluid.boundaries.left={wall: no_slip, contact_angle: [{between: [oil, air], value: 190}]}'
 liquids "'fluid.contact_angle': expected a number from 0 to 180" --set fluid.contact_angle=190
+liquids "'fluid.boundaries.left.level\[1\].height': expected layers from below: more than 2, found 1.5 at 3 s" --set 'fluid.boundaries.left={level: [{phase: water, height: [[0, 1], [3, 2]]}, {phase: oil, height: 1.5}]}'
 liquids "'fluid.boundaries.left.level\[1\].height': expected layers from below: more than 2, found 1" --set 'fluid.boundaries.left={level: [{phase: water, height: 2}, {phase: oil, height: 1}]}'
 liquids "'fluid.boundaries.left.fractions': expected fractions whose sum is 1, found 0.9" --set 'fluid.boundaries.left={velocity: [0, 0], fractions: [{phase: water, value: 0.4}, {phase: oil, value: 0.5}]}'
 liquids "'fluid.boundaries.left.fractions\[1\].phase': an item before this one" --set 'fluid.boundaries.left={velocity: [0, 0], fractions: [{phase: oil, value: 0.4}, {phase: oil, value: 0.6}]}'
