@@ -110,6 +110,7 @@ PetscErrorCode SurfacePressureHead(Overlap o, const ElementTerm element[], const
     for (int i = 0; i < 3; i++) {
       source[pair->a][i][SURFACE_HEAD] += pair->area * head;
       source[pair->a][i][SURFACE_DENSITY] += pair->area * rho;
+      source[pair->a][i][SURFACE_SPECIFIC_VOLUME] += pair->area / rho;
       source[pair->a][i][SURFACE_VISCOSITY] += pair->area * o->mu[pair->b];
       source[pair->a][i][SURFACE_REACHED] += pair->area;
     }

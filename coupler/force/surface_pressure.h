@@ -16,9 +16,16 @@ PetscErrorCode SurfacePressureSums(Overlap overlap, const double p[], double own
 /* value[nnodes][2]: p_s and p_o, Pa, where is_given[nnodes], on the surface where the fluid covers some of the shell; else 0. */
 PetscErrorCode SurfacePressureNodes(Overlap overlap, const double owned[][SURFACE_SUMS], int nnodes,
                                     char is_given[], double value[][2]);
-/* At nodes of the surface: p_o - rho_o g.x, Pa, x where p_o is, rho_o, the density beside the solid (outside.h), kg/m3, and the viscosity of
- * the elements there, Pa s, means over the shell around the node where no solid is at x; 1 where there is some, all 0 elsewhere. */
-enum { SURFACE_HEAD, SURFACE_DENSITY, SURFACE_VISCOSITY, SURFACE_REACHED, SURFACE_HEAD_FIELDS };
+/* At nodes of the surface: p_o - rho_o g.x, Pa, x where p_o is, rho_o, the density beside the solid (outside.h), kg/m3, 1/rho_o, and the viscosity
+ * of the elements there, Pa s, means over the shell around the node where no solid is at x; 1 where there is some, all 0 elsewhere. */
+enum {
+  SURFACE_HEAD,
+  SURFACE_DENSITY,
+  SURFACE_SPECIFIC_VOLUME,
+  SURFACE_VISCOSITY,
+  SURFACE_REACHED,
+  SURFACE_HEAD_FIELDS
+};
 PetscErrorCode SurfacePressureHead(Overlap overlap, const ElementTerm element[], const double gravity[2],
                                    const double p[], int nnodes, double node[][SURFACE_HEAD_FIELDS]);
 /* node[nnodes]: p, linear from each pair of the solid's volume around the node, their mean by area, Pa; size[nnodes]: the square root of

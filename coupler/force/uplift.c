@@ -2,6 +2,9 @@
 #include "coupler/force/gap_head.h"
 #include "coupler/force/squeeze_film.h"
 
+/* Mean of the density times mean of its inverse of what is one fluid. */
+#define ONE_FLUID 1.1
+
 struct Uplift_s {
   MPI_Comm comm;
   double lower[2], upper[2], gravity[2];
@@ -13,10 +16,11 @@ struct Uplift_s {
   PetscBool yields;                                 /* some film does, on any rank */
 };
 
-/* Along the surface: head, density and viscosity, 1 where they are connected with a place where they are known. */
+/* Along the surface: head, density, its inverse and viscosity, 1 where they are connected with a place where they are known. */
 enum {
   HEAD = SURFACE_HEAD,
   DENSITY = SURFACE_DENSITY,
+  SPECIFIC_VOLUME = SURFACE_SPECIFIC_VOLUME,
   VISCOSITY = SURFACE_VISCOSITY,
   REACHED = SURFACE_REACHED,
   NFIELDS = SURFACE_HEAD_FIELDS
@@ -168,14 +172,16 @@ static double Limited(const Uplift u, int i, double excess, double area, double 
   return fmax(-largest, fmin(largest, excess));
 }
 
-/* The film at close point p, there[2][2]: the velocities of the nodes opposite, m/s; none at a wall. */
+/* The film at close point p; where the gap's ends are in different fluids none: the head between them is not known so well.  there[2][2]: the velocities of the nodes opposite, m/s; none at a wall. */
 static SqueezeFilm FilmAt(const Uplift u, const ClosePoint *p, const Gap *gap, const double excess[],
                           const double there[2][2])
 {
   const int *node = &u->solid.facet[2 * p->facet];
   const double *normal = u->shell->normal[p->facet];
   SqueezeFilm film = {.gap = p->gap};
+  double volume = 0.0;
   for (int i = 0; i < 2; i++) {
+    volume += p->n[i] * gap->value[node[i]][SPECIFIC_VOLUME];
     film.excess += p->n[i] * excess[node[i]];
     film.profile += p->n[i] * gap->profile[node[i]];
     film.density += p->n[i] * gap->value[node[i]][DENSITY];
@@ -183,6 +189,7 @@ static SqueezeFilm FilmAt(const Uplift u, const ClosePoint *p, const Gap *gap, c
     for (int c = 0; c < 2; c++) film.closing += p->n[i] * normal[c] * u->solid.u[2 * node[i] + c];
     for (int c = 0; c < 2 && there; c++) film.closing -= p->opposite_n[i] * normal[c] * there[i][c];
   }
+  if (film.density * volume > ONE_FLUID) film.excess = 0.0;
   return film;
 }
 
@@ -206,7 +213,7 @@ static PetscErrorCode SetFilm(Uplift u, const Gap *gap, const double excess[], d
     const SqueezeFilm film = FilmAt(
         u, p, gap, excess, p->opposite == CLOSE_TO_WALL ? NULL : (const double(*)[2])there[p->opposite]);
     const SqueezeFilmYield yield = SqueezeFilmYieldOf(&film, dt);
-    *any |= yield.load > 0.0;
+    *any |= yield.load != 0.0;
     for (int i = 0; i < 2; i++)
       for (int c = 0; c < 2; c++) {
         const double part = p->weight * p->n[i], resistance = part * yield.resistance / Share(p);

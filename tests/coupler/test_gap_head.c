@@ -8,7 +8,7 @@
 
 enum { BLOCKS = 60, NODES = 8 * (BLOCKS + 1), N = SURFACE_HEAD_FIELDS };
 #define GAP 0.02
-static const double LOWEST[N] = {3.0, -1.0, 0.1, 1.0}, HIGHEST[N] = {7.0, -1.0, 0.5, 1.0};
+static const double LOWEST[N] = {3.0, -1.0, -1.0, 0.1, 1.0}, HIGHEST[N] = {7.0, -1.0, -2.0, 0.5, 1.0};
 
 /* This rank's nodes and facets; corner[i] of node i: 4 block + corner. */
 typedef struct {
