@@ -1,5 +1,5 @@
 /* Time stepping: forces, substeps, and how long a substep may be. */
-#include "solid/solid_impl.h"
+#include "solid/loads.h"
 #include "solid/springs.h"
 
 enum { CHECK_EVERY = 20 }; /* substeps between two checks of the stability limit, at most */
@@ -22,6 +22,7 @@ PetscErrorCode SolidForces(Solid s, const double **force)
   const double joints = Clock();
   PetscCall(ContactAddForces(s->contact, s));
   SpringsAddForces(s);
+  LoadsAddForces(s);
   const double contact = Clock();
   PetscCall(CopiesSum(s->copies, 2, s->force));
   s->force_valid = PETSC_TRUE;
@@ -250,6 +251,7 @@ PetscErrorCode SolidSubstep(Solid s, double *h)
   Move(s);
   BudgetAddDecay(s);
   SpringsAddBudget(s);
+  LoadsAddBudget(s);
   MovePrescribed(s, 0);
   s->force_valid = PETSC_FALSE;
   s->moved_for = s->h;

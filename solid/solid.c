@@ -1,3 +1,4 @@
+#include "solid/loads.h"
 #include "solid/ranks/partition.h"
 #include "solid/step_response.h"
 
@@ -63,6 +64,7 @@ PetscErrorCode SolidFreeSubdomain(Solid s)
   PetscCall(PetscFree2(s->motion, s->motion_rows));
   PetscCall(PetscFree(s->prescribed));
   PetscCall(PetscFree(s->position_before));
+  PetscCall(LoadsFree(s));
   PetscCall(PetscFree(e->held));
   PetscCall(PetscFree(e->bends));
   PetscCall(PetscFree5(e->six_node, e->six_first, e->far[0], e->far[1], e->far[2]));

@@ -148,7 +148,7 @@ PetscErrorCode SolidBodies(Solid s, int n, BodyState state[]);
 typedef struct {
   double walls[2],
       reaction
-          [2]; /* impulse of the tank's walls; of what holds fixed and prescribed nodes, of springs, of the
+          [2]; /* impulse of the tank's walls; of what holds fixed and prescribed nodes, of springs, loads, of the
                       * decay rate and of damping (interface_motion.c), N s/m */
   double work, reaction_work;   /* of the fluid; of what drives nodes, J/m */
   double start[2], momentum[2]; /* of all bodies, what it begins and ends with, N s/m */

@@ -94,6 +94,10 @@ struct Solid_s {
   PrescribedMotion *motion;
   double *motion_rows, *position_before; /* [nprescribed][2] room for places before a substep */
   int nmotions;
+  int nboundary_loads, nloaded; /* of the model; this rank's sides that have one */
+  BoundaryLoad *boundary_load;
+  LoadedSide *loaded;           /* [nloaded] local elements */
+  double (*loaded_force)[3][2]; /* [nloaded] in the last forces, N */
   /* of the setup's springs: this rank's element, or -1, and what it does in the last forces */
   int spring_element[MAX_SPRINGS];
   double spring_force[MAX_SPRINGS][2]; /* N */

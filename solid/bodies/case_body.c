@@ -275,6 +275,7 @@ PetscErrorCode CaseReadBody(CoracleCase c, int body, Model *a)
   double(*steady)[3];
   const char **name, **joint_name;
   double(*joint_box)[4], *position;
+  CaseLoads loads;
   char key[KEY];
   PetscFunctionBeginUser;
   setup.material = MaterialAt(c, BodyKey(key, body, "material"));
@@ -284,6 +285,7 @@ PetscErrorCode CaseReadBody(CoracleCase c, int body, Model *a)
   PetscCall(CaseReadShape(c, body, &mesh));
   PetscCall(ReadFixed(c, body, &setup, &name));
   PetscCall(ReadPrescribed(c, body, &setup, &prescribed, &steady));
+  PetscCall(CaseReadLoads(c, body, &setup, &loads));
   PetscCall(ReadJoints(c, body, &setup.joints, &joint_box, &joint_name));
   PetscCall(CaseReadStretch(c, body, &mesh, &setup, &position));
   setup.six_node = CoracleCaseIntegerOr(c, BodyKey(key, body, "order"), PetscMax(mesh.order, 1), 1, 2) == 2;
@@ -301,6 +303,7 @@ PetscErrorCode CaseReadBody(CoracleCase c, int body, Model *a)
   PetscCall(PetscFree2(prescribed, steady));
   PetscCall(PetscFree(name));
   PetscCall(PetscFree(position));
+  PetscCall(CaseFreeLoads(&loads));
   PetscCall(PetscFree2(joint_box, joint_name));
   PetscCall(MeshSerialDestroy(&mesh));
   PetscFunctionReturn(0);

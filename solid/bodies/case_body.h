@@ -12,6 +12,13 @@ const char *BodyKey(char key[CASE_BODY_KEY], int body, const char *name);
 void CaseCheckMaterial(void *c, const char *name);
 /* Refuses key when there is no material of that name. */
 void CaseMaterialExists(CoracleCase c, const char *key, const char *name);
+/* The loads of solid.bodies[body] into its setup, which borrows them until CaseFreeLoads. */
+typedef struct {
+  NamedLoad *load;
+  double (*constant)[3]; /* the only row of what is constant */
+} CaseLoads;
+PetscErrorCode CaseReadLoads(CoracleCase c, int body, BodySetup *setup, CaseLoads *loads);
+PetscErrorCode CaseFreeLoads(CaseLoads *loads);
 /* Adds solid.bodies[body]. */
 PetscErrorCode CaseReadBody(CoracleCase c, int body, Model *a);
 #endif

@@ -265,6 +265,7 @@ PetscErrorCode ModelAdd(Model *a, const MeshSerial *mesh, const BodySetup *setup
   FixNodes(a, mesh, setup, renumber);
   PetscCall(PrescribeNodes(a, mesh, setup, renumber));
   PetscCall(AddElements(a, mesh, setup, renumber));
+  PetscCall(ModelAddLoads(a, mesh, setup, body.first_element, renumber));
   PetscCall(GiveMaterials(a, mesh, setup, body.first_element));
   code = GiveJoints(a, mesh, &setup->joints, body.first_element);
   if (code) PetscFunctionReturn(code);

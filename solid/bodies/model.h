@@ -5,6 +5,7 @@
 #define SOLID_MODEL_H
 #include "common/mesh/mesh.h"
 #include "solid/bodies/six_node.h"
+#include "solid/boundary_load.h"
 #include "solid/element_law.h"
 #include "solid/prescribed_motion.h"
 
@@ -46,6 +47,11 @@ typedef struct {
 } BoundaryMotion;
 
 typedef struct {
+  const char *boundary;
+  BoundaryLoad load;
+} NamedLoad;
+
+typedef struct {
   const char *region; /* physical surface of the mesh */
   Material material;
 } RegionMaterial;
@@ -66,6 +72,8 @@ typedef struct {
   const RegionMaterial *region;
   int nprescribed;
   const BoundaryMotion *prescribed; /* rows are copied */
+  int nloads;
+  const NamedLoad *load; /* likewise */
 } BodySetup;
 
 typedef struct {
@@ -93,6 +101,9 @@ typedef struct {
   PrescribedMotion *motion; /* [nmotions] */
   PrescribedNode
       *prescribed; /* [nprescribed] in order of the motions: the last one of a node and component counts */
+  int nloads, nloaded;
+  BoundaryLoad *load; /* [nloads] */
+  LoadedSide *loaded; /* [nloaded] they add up where several are on a side */
 } Model;
 
 /* Adds a body; mesh holds its rest coordinates and is not kept.  On failure *error (a static buffer) says
@@ -104,6 +115,9 @@ PetscErrorCode ModelOverlap(const Model *a, int *first, int *second);
 /* Edges of an element at rest, m; its law, times its thickness. */
 Tensor ModelRestEdges(const Model *a, int element);
 ElementLaw ModelElementLaw(const Model *a, int element);
+/* With rows of its own. */
+PetscErrorCode BoundaryLoadCopy(const BoundaryLoad *from, BoundaryLoad *to);
+PetscErrorCode BoundaryLoadFree(BoundaryLoad *load);
 PetscErrorCode ModelCopy(const Model *from, Model *to);
 PetscErrorCode ModelDestroy(Model *a);
 #endif

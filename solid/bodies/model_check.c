@@ -80,6 +80,8 @@ static PetscErrorCode CheckNames(const MeshSerial *m, const BodySetup *setup)
   for (int k = 0; k < setup->nprescribed && !code; k++)
     if (setup->prescribed[k].boundary)
       code = CheckName("boundary", setup->prescribed[k].boundary, boundaries, none);
+  for (int k = 0; k < setup->nloads && !code; k++)
+    code = CheckName("boundary", setup->load[k].boundary, boundaries, none);
   for (int k = 0; k < setup->nregions && !code; k++)
     code = CheckName("region", setup->region[k].region, regions, none);
   for (int k = 0; k < setup->joints.nnames && !code; k++)

@@ -34,6 +34,9 @@ PetscErrorCode ModelCopy(const Model *from, Model *to)
   COPY(motion, from->nmotions);
   COPY(prescribed, from->nprescribed);
   for (int k = 0; k < from->nmotions; k++) COPY(motion[k].row, 3 * from->motion[k].nrows);
+  COPY(load, from->nloads);
+  COPY(loaded, from->nloaded);
+  for (int k = 0; k < from->nloads; k++) PetscCall(BoundaryLoadCopy(&from->load[k], &to->load[k]));
   PetscFunctionReturn(0);
 }
 
@@ -52,6 +55,9 @@ PetscErrorCode ModelDestroy(Model *a)
   for (int k = 0; k < a->nmotions; k++) PetscCall(PetscFree(a->motion[k].row));
   PetscCall(PetscFree(a->motion));
   PetscCall(PetscFree(a->prescribed));
+  for (int k = 0; k < a->nloads; k++) PetscCall(BoundaryLoadFree(&a->load[k]));
+  PetscCall(PetscFree(a->load));
+  PetscCall(PetscFree(a->loaded));
   PetscCall(PetscFree(a->material));
   PetscCall(PetscFree(a->element_material));
   PetscCall(PetscFree(a->facet));

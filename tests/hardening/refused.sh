@@ -27,6 +27,15 @@ rock='{density: 1, youngs_modulus: 1, poisson_ratio: 0, tensile_strength: 1, she
 thin="${rectangle} 0.05, joints: [{lower: [0.999, 0], upper: [1.001, 2]}]}" # between the centres
 refused solid "'solid.bodies\[0\]': no element's centre is in the joints' box \[0.999, 1.001\] x \[0, 2\]" --set "solid.bodies[0]=$thin" --set "solid.materials.disc=$rock"
 refused solid "'solid.bodies\[0\].prescribed\[1\]': an item before this one" --set "solid.bodies[0]=${rectangle} 0.05, prescribed: [{velocity: [1, 0], component: x}, {velocity: [0, 1]}]}"
+loads() { refused solid "$1" --set "solid.bodies[0]=${rectangle} 0.05, loads: $2}"; } # expected, loads
+loads "'solid.bodies\[0\]': the body has no boundary 'roof'; it has " '[{boundary: roof, pressure: 1}]'
+loads "'solid.bodies\[0\].loads\[0\].boundary' is missing" '[{pressure: 1}]'
+loads "'solid.bodies\[0\].loads\[0\]': expected a pressure or a traction" '[{boundary: left}]'
+loads "'solid.bodies\[0\].loads\[0\].pressure': expected a number, found 'high'" '[{boundary: left, pressure: high}]'
+loads "'solid.bodies\[0\].loads\[1\].pressure\[1\]': the table's times must rise" '[{boundary: left, pressure: 1}, {boundary: left, pressure: [[1, 0], [1, 2]]}]'
+loads "'solid.bodies\[0\].loads\[0\].traction': expected a list of 2 numbers, found '1'" '[{boundary: left, traction: 1}]'
+loads "'solid.bodies\[0\].loads': expected a list, found a map" '{boundary: left, pressure: 1}'
+accepted solid --set "solid.bodies[0]=${rectangle} 0.05, loads: [{boundary: left, pressure: [[0, 1], [1, 2]], traction: [1, 2]}]}"
 refused solid "'solid.contact\[1\].between': an item before this one" --set 'solid.contact=[{between: [disc, walls], friction: 0.1}, {between: [walls, disc], friction: 0.2}]'
 refused solid "'solid.bodies\[0\].prescribed': a fixed body has no prescribed motion" --set "solid.bodies[0]=${rectangle} 0.05, fixed: true, prescribed: [{velocity: [1, 0]}]}"
 ring='{shape: ring, centre: [1, 1], radius: 0.2, thickness: 0.1, material: disc, size: '

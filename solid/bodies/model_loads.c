@@ -1,0 +1,63 @@
+/* Loads on the boundaries of bodies. */
+#include "solid/bodies/element_edges.h"
+#include "solid/bodies/model_impl.h"
+#include <stdlib.h>
+
+static PetscErrorCode CopyRows(TimeTable *table)
+{
+  const size_t n = (size_t)table->nrows * (size_t)table->width;
+  double *row;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(n, &row));
+  if (n) PetscCall(PetscArraycpy(row, table->row, n));
+  table->row = row;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode BoundaryLoadCopy(const BoundaryLoad *from, BoundaryLoad *to)
+{
+  PetscFunctionBeginUser;
+  *to = *from;
+  PetscCall(CopyRows(&to->pressure));
+  PetscCall(CopyRows(&to->traction));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode BoundaryLoadFree(BoundaryLoad *load)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscFree(load->pressure.row));
+  PetscCall(PetscFree(load->traction.row));
+  PetscFunctionReturn(0);
+}
+
+static int CompareEnds(const void *a, const void *b)
+{
+  const ElementEdge *p = a, *q = b;
+  return p->low != q->low ? (p->low > q->low) - (p->low < q->low) : (p->high > q->high) - (p->high < q->high);
+}
+
+PetscErrorCode ModelAddLoads(Model *a, const MeshSerial *m, const BodySetup *setup, int first,
+                             const int renumber[])
+{
+  const size_t nedges = 3 * (size_t)(a->nelements - first);
+  ElementEdge *edge;
+  PetscFunctionBeginUser;
+  if (!setup->nloads) PetscFunctionReturn(0);
+  PetscCall(ElementEdgesSorted(first, a->nelements, a->element, &edge));
+  PetscCall(PetscRealloc((size_t)(a->nloads + setup->nloads) * sizeof *a->load, &a->load));
+  PetscCall(PetscRealloc(((size_t)a->nloaded + (size_t)setup->nloads * (size_t)m->nb) * sizeof *a->loaded,
+                         &a->loaded));
+  for (int k = 0; k < setup->nloads; k++, a->nloads++) {
+    PetscCall(BoundaryLoadCopy(&setup->load[k].load, &a->load[a->nloads]));
+    for (int b = 0; b < m->nb; b++) {
+      const int p = renumber[m->facet[2 * b]], q = renumber[m->facet[2 * b + 1]];
+      const ElementEdge key = {PetscMin(p, q), PetscMax(p, q), 0, 0}, *found;
+      if (strcmp(m->tag_name[m->facet_tag[b]], setup->load[k].boundary)) continue;
+      found = bsearch(&key, edge, nedges, sizeof *edge, CompareEnds);
+      if (found) a->loaded[a->nloaded++] = (LoadedSide){found->element, found->side, a->nloads};
+    }
+  }
+  PetscCall(PetscFree(edge));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,14 @@
+/* The loads on boundaries of bodies (boundary_load.h), on this rank's elements.  The sides are those of the start: new faces of
+ * cracks have no load, and a fragment keeps its own. */
+#ifndef SOLID_LOADS_H
+#define SOLID_LOADS_H
+#include "solid/solid_impl.h"
+
+/* Not collective: the model's loads, and the sides of this rank's elements; local[a->nelements]: its number of those in part. */
+PetscErrorCode LoadsTake(Solid s, const Model *a, const int part[], const int local[]);
+PetscErrorCode LoadsFree(Solid s);
+/* Not collective: adds to force what they are at the present time and positions. */
+void LoadsAddForces(Solid s);
+/* Not collective: what the last forces do in the substep, after its nodes have moved. */
+void LoadsAddBudget(Solid s);
+#endif
