@@ -9,14 +9,12 @@
 SqueezeFilmYield SqueezeFilmYieldOf(const SqueezeFilm *f, double dt)
 {
   if (f->profile <= 0.0) return (SqueezeFilmYield){0.0, 0.0};
-  const double length = sqrt(2.0 * f->profile),
-               h = fmax(f->gap - 0.5 * dt * fmax(f->closing, 0.0), CLOSED * length),
+  const double length = sqrt(2.0 * f->profile), closing = fmax(f->closing, 0.0),
+               h = fmax(f->gap - 0.5 * dt * closing, CLOSED * length),
                rough = fmax(h, SQUEEZE_FILM_ROUGHNESS * length),
-               friction = 6.0 * f->viscosity / (rough * rough), sign = f->excess > 0.0 ? 1.0 : -1.0,
-               e = fabs(f->excess);
+               friction = 6.0 * f->viscosity / (rough * rough), e = fmax(f->excess, 0.0);
   /* rho k^2 + 2 friction k = e/profile */
   const double root = sqrt(friction * friction + f->density * e / f->profile),
-               resistance = fmax(f->profile * (friction + root) / h, e * dt / (MOST_CLOSED * h)),
-               already = fmax(sign * f->closing, 0.0);
-  return (SqueezeFilmYield){sign * fmax(e - resistance * already, 0.0), resistance};
+               resistance = fmax(f->profile * (friction + root) / h, e * dt / (MOST_CLOSED * h));
+  return (SqueezeFilmYield){fmax(e - resistance * closing, 0.0), resistance};
 }

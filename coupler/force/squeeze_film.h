@@ -10,11 +10,11 @@
  * smooth ones would never be gone.  At each close point k follows from e, rho and mu there.  A block of 8 cm on water that presses with 1250 Pa on it sinks as
  * exp(-48 t/s).  What is handed to the solid are, of all close points,
  *
- *     load_i  =  int N_i r (w - v) n,       resistance_i  =  int N_i r/share (n n + SQUEEZE_FILM_ALONG t t),       r = |e/w|,
+ *     load_i  =  int N_i r (w - v) n  >=  0,       resistance_i  =  int N_i r/share (n n + SQUEEZE_FILM_ALONG t t),       r = e/w,
  *
  * whose balance over a body gives its rigid motion beside its velocity (CoracleGetFilm): the fluid and the forces do not see it.  v is the velocity with
- * which the sides come together as it is, of the load no more than leaves its direction.  A film holds sides together, e < 0, as it holds them apart: if it
- * yielded in one direction alone, an e that swings, or that keeps a body from turning back, would move it for ever.
+ * which the sides come together as it is.  A film that holds sides together, e < 0, does not yield: bodies that lie on each other under water would
+ * be lifted off their contacts.  So an e that swings about 0 draws a body to a wall that it is close to.
  * share: 1/2 where both sides are free to move.  The part along the surface, t, which a film has not, is for facets of one gap whose normals
  * differ by little: their loads would move a body along it.  A step closes at most half of a gap. */
 #ifndef CORACLE_COUPLER_SQUEEZE_FILM_H
@@ -33,7 +33,7 @@ typedef struct {
 } SqueezeFilm;
 
 typedef struct {
-  double load, resistance; /* Pa; Pa s/m, not negative */
+  double load, resistance; /* Pa, Pa s/m; neither is negative */
 } SqueezeFilmYield;
 
 /* Of a step of dt. */

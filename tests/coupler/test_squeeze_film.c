@@ -27,7 +27,7 @@ static double Rate(double p, double rho, double mu, double h, double closing, do
     load += W[k] * yield.load;
     resistance += W[k] * yield.resistance;
   }
-  return load / resistance;
+  return load > 0.0 ? load / resistance : 0.0;
 }
 
 static void Expect(double found, double expected, const char *what)
@@ -39,11 +39,9 @@ int main(void)
 {
   const double p = 1250.0, rho = 1000.0, h = 2e-3, k = sqrt(12.0 * p / rho) / LENGTH, dt = 1e-4;
   Expect(Rate(p, rho, 0.0, h, 0.0, dt), k * h, "inviscid");
-  Expect(Rate(-p, rho, 0.0, h, 0.0, dt), -k * h, "held together");
+  Expect(Rate(-p, rho, 0.0, h, 0.0, dt), 0.0, "held together");
   Expect(Rate(p, rho, 0.0, h, 0.25 * k * h, dt), k * (0.75 * h - 0.125 * k * h * dt), "it closes by itself");
   Expect(Rate(p, rho, 0.0, h, 2.0 * k * h, dt), 0.0, "it closes faster by itself");
-  Expect(Rate(-p, rho, 0.0, h, 0.5 * k * h, dt), -k * (h - 0.25 * k * h * dt),
-         "held together, while it closes");
   Expect(Rate(p, 1e-9, 1e3, h, 0.0, dt), h * h * h * p / (1e3 * LENGTH * LENGTH), "viscous");
   Expect(Rate(p, rho, 0.0, h, 0.0, 1.0), 0.5 * h, "a long step");
   return 0;
