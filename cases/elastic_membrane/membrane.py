@@ -16,6 +16,7 @@ REST_LENGTH = 2.0 * np.pi * RADIUS
 EQUILIBRIUM = np.sqrt(0.375)  # m
 YOUNG, POISSON = 1380.0, 0.205  # Pa, of Table 5
 FAR = 1.4  # m, where the pressure outside is read
+SKIN = 0.01  # m: half of the wall, an element of le = 0.004 m and the shell on either side
 
 
 def ring_tension(stretch):
@@ -125,8 +126,11 @@ def profile(folder, t):
 
 
 def profile_difference(one, other, t):
-    """RMS and largest difference of two runs' pressures along y = 0, over the drop from centre to outside."""
-    difference = abs(profile(one, t)[1] - profile(other, t)[1]) / drop(one, t)
+    """RMS and largest difference of two runs' pressures along y = 0, over the drop from centre to outside; SKIN away from the wall, where the
+    pressure jumps within an element that lies elsewhere in another mesh."""
+    x, p = profile(one, t)
+    away = abs(abs(x) - at(history(one), "rx", t)) > SKIN
+    difference = abs(p - profile(other, t)[1])[away] / drop(one, t)
     return float(np.sqrt(np.mean(difference**2))), float(np.max(difference))
 
 
