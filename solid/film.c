@@ -109,18 +109,20 @@ PetscErrorCode SolidMoveFilms(Solid s)
 {
   const int *piece;
   double(*place)[NPLACE], (*film)[NFILM];
+  RigidMotion *motion;
   int n;
 
   PetscFunctionBeginUser;
   if (!s->film_load) PetscFunctionReturn(0);
   PetscCall(SolidPieces(s, &n, &piece));
-  PetscCall(PetscCalloc2((size_t)n, &place, (size_t)n, &film));
+  PetscCall(PetscCalloc3((size_t)n, &place, (size_t)n, &film, (size_t)n, &motion));
   AddPlace(s, piece, place);
   PetscCall(SumOverRanks(s, n * NPLACE, place[0]));
   AddFilm(s, piece, (const double(*)[NPLACE])place, film);
   PetscCall(SumOverRanks(s, n * NFILM, film[0]));
+  for (int k = 0; k < n; k++) motion[k] = MotionOf(place[k], film[k]);
   for (int i = 0; i < s->nnodes; i++) {
-    const RigidMotion m = MotionOf(place[piece[i]], film[piece[i]]);
+    const RigidMotion m = motion[piece[i]];
     const double cosine = cos(s->dt * m.omega), sine = sin(s->dt * m.omega),
                  r[2] = {s->x[2 * i] - m.centre[0], s->x[2 * i + 1] - m.centre[1]};
     s->x[2 * i] = m.centre[0] + s->dt * m.u[0] + cosine * r[0] - sine * r[1];
@@ -128,7 +130,7 @@ PetscErrorCode SolidMoveFilms(Solid s)
   }
   s->film_load = s->film_resistance = NULL;
   s->force_valid = PETSC_FALSE;
-  PetscCall(PetscFree2(place, film));
+  PetscCall(PetscFree3(place, film, motion));
   PetscFunctionReturn(0);
 }
 

@@ -172,7 +172,8 @@ static double Limited(const Uplift u, int i, double excess, double area, double 
   return fmax(-largest, fmin(largest, excess));
 }
 
-/* The film at close point p; where the gap's ends are in different fluids none: the head between them is not known so well.  there[2][2]: the velocities of the nodes opposite, m/s; none at a wall. */
+/* The film at close point p; where the gap's ends are in different fluids none: the head between them is not known so well.
+ * there[2][2]: the velocities of the nodes opposite, m/s; none at a wall. */
 static SqueezeFilm FilmAt(const Uplift u, const ClosePoint *p, const Gap *gap, const double excess[],
                           const double there[2][2])
 {
@@ -235,7 +236,8 @@ PetscErrorCode UpliftAdd(Uplift u, Overlap o, const ElementTerm element[], const
   double *excess, *size, *area;
   Fields *outside;
   Gap gap;
-  int film;
+  double sums[3] = {0.0, 0.0, 0.0}; /* the walls' force; ranks with a film that yields */
+  int yields = 0;
 
   PetscFunctionBeginUser;
   total[0] = total[1] = 0.0;
@@ -248,12 +250,13 @@ PetscErrorCode UpliftAdd(Uplift u, Overlap o, const ElementTerm element[], const
   PetscCall(FindKnown(u, o, (const Fields *)outside, &gap));
   PetscCall(GapHeadSolve(&u->points, &u->solid, u->shell, o->nodes, gap.is_free, gap.value, gap.profile));
   for (int i = 0; i < (int)n; i++) excess[i] = Excess(u, &gap, i, excess[i], area[i]);
-  PetscCall(SetFilm(u, &gap, excess, dt, &film));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &film, 1, MPI_INT, MPI_LOR, u->comm));
-  u->yields = film ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(SetFilm(u, &gap, excess, dt, &yields));
   for (int i = 0; i < (int)n; i++) excess[i] = Limited(u, i, excess[i], area[i], dt);
-  PetscCall(AddForce(u, excess, force, total));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, total, 2, MPI_DOUBLE, MPI_SUM, u->comm));
+  PetscCall(AddForce(u, excess, force, sums));
+  sums[2] = yields;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, u->comm));
+  PetscCall(PetscArraycpy(total, sums, 2));
+  u->yields = (PetscBool)(sums[2] > 0.0);
   PetscCall(PetscFree3(gap.is_free, gap.value, gap.profile));
   PetscCall(PetscFree4(excess, size, area, outside));
   PetscFunctionReturn(0);

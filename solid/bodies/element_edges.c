@@ -1,12 +1,18 @@
 #include "solid/bodies/element_edges.h"
 #include <stdlib.h>
 
-static int CompareEdges(const void *a, const void *b)
+static int CompareEnds(const void *a, const void *b)
 {
   const ElementEdge *p = a, *q = b;
   if (p->low != q->low) return p->low < q->low ? -1 : 1;
-  if (p->high != q->high) return p->high < q->high ? -1 : 1;
-  return (p->element > q->element) - (p->element < q->element);
+  return (p->high > q->high) - (p->high < q->high);
+}
+
+static int CompareEdges(const void *a, const void *b)
+{
+  const ElementEdge *p = a, *q = b;
+  const int ends = CompareEnds(a, b);
+  return ends ? ends : (p->element > q->element) - (p->element < q->element);
 }
 
 PetscErrorCode ElementEdgesSorted(int first, int nelements, const int element[], ElementEdge **edge)
@@ -20,4 +26,10 @@ PetscErrorCode ElementEdgesSorted(int first, int nelements, const int element[],
   }
   if (n > 0) qsort(*edge, (size_t)n, sizeof **edge, CompareEdges);
   PetscFunctionReturn(0);
+}
+
+const ElementEdge *ElementEdgesFind(int n, const ElementEdge edge[], int p, int q)
+{
+  const ElementEdge key = {.low = PetscMin(p, q), .high = PetscMax(p, q)};
+  return n > 0 ? bsearch(&key, edge, (size_t)n, sizeof *edge, CompareEnds) : NULL;
 }

@@ -10,4 +10,6 @@ typedef struct {
 /* The 3 (nelements - first) edges of elements first .. nelements - 1; element[nelements][3] nodes.  *edge is
  * PetscFree'd by the caller.  Not collective. */
 PetscErrorCode ElementEdgesSorted(int first, int nelements, const int element[], ElementEdge **edge);
+/* One of the edges between nodes p and q among n sorted ones, NULL: there is none.  Not collective. */
+const ElementEdge *ElementEdgesFind(int n, const ElementEdge edge[], int p, int q);
 #endif

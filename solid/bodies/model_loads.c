@@ -1,7 +1,6 @@
 /* Loads on the boundaries of bodies. */
 #include "solid/bodies/element_edges.h"
 #include "solid/bodies/model_impl.h"
-#include <stdlib.h>
 
 static PetscErrorCode CopyRows(TimeTable *table)
 {
@@ -31,16 +30,10 @@ PetscErrorCode BoundaryLoadFree(BoundaryLoad *load)
   PetscFunctionReturn(0);
 }
 
-static int CompareEnds(const void *a, const void *b)
-{
-  const ElementEdge *p = a, *q = b;
-  return p->low != q->low ? (p->low > q->low) - (p->low < q->low) : (p->high > q->high) - (p->high < q->high);
-}
-
 PetscErrorCode ModelAddLoads(Model *a, const MeshSerial *m, const BodySetup *setup, int first,
                              const int renumber[])
 {
-  const size_t nedges = 3 * (size_t)(a->nelements - first);
+  const int nedges = 3 * (a->nelements - first);
   ElementEdge *edge;
   PetscFunctionBeginUser;
   if (!setup->nloads) PetscFunctionReturn(0);
@@ -51,10 +44,9 @@ PetscErrorCode ModelAddLoads(Model *a, const MeshSerial *m, const BodySetup *set
   for (int k = 0; k < setup->nloads; k++, a->nloads++) {
     PetscCall(BoundaryLoadCopy(&setup->load[k].load, &a->load[a->nloads]));
     for (int b = 0; b < m->nb; b++) {
-      const int p = renumber[m->facet[2 * b]], q = renumber[m->facet[2 * b + 1]];
-      const ElementEdge key = {PetscMin(p, q), PetscMax(p, q), 0, 0}, *found;
       if (strcmp(m->tag_name[m->facet_tag[b]], setup->load[k].boundary)) continue;
-      found = bsearch(&key, edge, nedges, sizeof *edge, CompareEnds);
+      const ElementEdge *found =
+          ElementEdgesFind(nedges, edge, renumber[m->facet[2 * b]], renumber[m->facet[2 * b + 1]]);
       if (found) a->loaded[a->nloaded++] = (LoadedSide){found->element, found->side, a->nloads};
     }
   }
