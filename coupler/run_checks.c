@@ -125,13 +125,16 @@ PetscErrorCode RunCheckDivergence(RunState *run, const StepRecord *step)
                              .held = step->motion.held,
                              .thickness = run->loop->c->options.thickness,
                              .max_iterations = run->iteration.max_iterations};
+  const CouplerOptions *o = &run->loop->c->options;
+  double gravity[2] = {o->gravity[0], o->gravity[1]};
   char message[512];
 
   PetscFunctionBeginUser;
+  GravityOver(&o->gravity_table, run->t - run->dt, run->dt, gravity);
   for (int c = 0; c < 2; c++) {
     s.velocity[c] = step->motion.velocity[c];
     s.force[c] = step->totals.force[c];
-    s.gravity[c] = run->loop->c->options.gravity[c];
+    s.gravity[c] = gravity[c];
     s.extent = hypot(s.extent, run->elements.upper[c] - run->elements.lower[c]);
   }
   if (DivergenceMonitorCheck(&run->monitor, &s, sizeof message, message))

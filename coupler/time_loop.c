@@ -69,7 +69,7 @@ static PetscErrorCode SendCoupling(RunState *run)
   int n;
 
   PetscFunctionBeginUser;
-  PetscCall(CouplerBuild(loop->coupler, &run->start, run->dt, &n, &coupling));
+  PetscCall(CouplerBuild(loop->coupler, &run->start, run->t, run->dt, &n, &coupling));
   PetscCall(CouplingIterationBegin(&run->iteration, &run->start, run->dt,
                                    CouplerPredictedVelocity(loop->coupler),
                                    CouplerExplicitFraction(loop->coupler)));

@@ -5,7 +5,9 @@
 
 /* What the calls that read them do not say of the fluid's keys. */
 static const CoracleCaseKey KEYS[] = {
-    {"gravity", "m/s2", "acceleration of gravity, x and y"},
+    {"gravity", "m/s2", "acceleration of gravity, x and y; or rows of time and both"},
+    {"gravity[]", "s, m/s2",
+     "time, x and y, linear between rows; of an accelerated frame gravity less its acceleration"},
     {"time.cfl", "",
      "largest time step over the time that the flow takes through an element, largest over the mesh"},
     {"time.dt_max", "s", "largest time step"},

@@ -43,12 +43,13 @@ def read_keys(build):
 
 
 def is_required(key, entry):
-    """By every case: read as required in all samples, and no item of a list or a map of the user's names."""
-    return len(entry["required"]) == len(SAMPLES) and not re.search(r"[\[*]", key)
+    """By every case: read as required in all samples (at the top in one: there a table takes its place in another), and no item of a list or a
+    map of the user's names."""
+    return len(entry["required"]) >= (len(SAMPLES) if "." in key else 1) and not re.search(r"[\[*]", key)
 
 
 def order(key):
-    return SECTIONS.index(key.split(".")[0]), [] if key in SECTIONS else key.split(".")[1:]
+    return SECTIONS.index(re.split(r"[.\[]", key)[0]), [] if key in SECTIONS else key.split(".")[1:]
 
 
 def table(keys):

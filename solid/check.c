@@ -9,7 +9,9 @@
 
 /* What the calls that read them do not say of the solid's keys. */
 static const CoracleCaseKey KEYS[] = {
-    {"gravity", "m/s2", "acceleration of gravity, x and y"},
+    {"gravity", "m/s2", "acceleration of gravity, x and y; or rows of time and both"},
+    {"gravity[]", "s, m/s2",
+     "time, x and y, linear between rows; of an accelerated frame gravity less its acceleration"},
     {"output.folder", "", "where results go; made if missing"},
     {"output.every", "s", "time from one snapshot of the fields to the next"},
     {"solid.materials.*.density", "kg/m3", "density"},

@@ -168,6 +168,7 @@ PetscErrorCode SolidStart(Solid s, double dt, const double load[])
   PetscCall(PetscArraycpy(s->start, s->x, 2 * (size_t)s->nnodes));
   s->dt = dt;
   s->done = 0.0;
+  GravityOver(&s->setup.gravity_table, s->stats.t, dt, s->setup.gravity);
   s->stats.substeps = 0;
   PetscCall(SolidMoveFilms(s));
   BudgetStart(s);

@@ -96,16 +96,18 @@ PetscErrorCode SolidUpdateInterfaceMotion(Solid s, InterfaceMotion *interface)
 {
   const size_t n = 2 * (size_t)s->nnodes;
   const double *force;
-  double *resolved, *total;
+  double *resolved, *total, gravity[2] = {s->setup.gravity[0], s->setup.gravity[1]};
   PetscFunctionBeginUser;
   PetscCall(SolidForces(s, &force));
+  GravityOver(&s->setup.gravity_table, s->stats.t, s->dt,
+              gravity); /* of the coming step, as long as the last */
   const double start = MPI_Wtime();
   for (int k = 0; k < 2 * s->nnodes; k++) {
     const double by_mass = s->inverse_mass[k / 2];
     s->mobility[k / 2] = by_mass;
-    s->acceleration[k] = by_mass > 0.0 ? by_mass * (force[k] + s->load[k]) + s->setup.gravity[k % 2] -
-                                             s->setup.decay_rate * s->v[k]
-                                       : 0.0;
+    s->acceleration[k] =
+        by_mass > 0.0 ? by_mass * (force[k] + s->load[k]) + gravity[k % 2] - s->setup.decay_rate * s->v[k]
+                      : 0.0;
   }
   AcceleratePrescribed(s);
   PetscCall(PetscMalloc2(n, &resolved, n, &total));

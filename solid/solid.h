@@ -14,6 +14,7 @@
 #ifndef SOLID_H
 #define SOLID_H
 #include "common/output/checkpoint.h"
+#include "common/program/gravity.h"
 #include "solid/bodies/model.h"
 #include "solid/spring.h"
 
@@ -31,7 +32,8 @@ typedef struct {
 enum { MAX_RULES = 32 };
 
 typedef struct {
-  double gravity[2];         /* m/s2 */
+  double gravity[2];         /* m/s2, of the current step */
+  TimeTable gravity_table;   /* of t, s, and gravity in its place, borrowed (gravity.h); nrows 0: none */
   double courant;            /* fraction of the stability limit, 0 .. 1 */
   double decay_rate;         /* 1/s, of the velocity of a body on which no force acts; 0: it keeps it */
   double rebalance;          /* SolidRebalance acts once so many substeps are lost; 0: never */

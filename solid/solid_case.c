@@ -130,7 +130,7 @@ PetscErrorCode SolidCaseRead(CoracleCase c, Model *a, SolidSetup *setup)
   int first, second;
   char key[CASE_BODY_KEY];
   PetscFunctionBeginUser;
-  CoracleCaseVector(c, "gravity", 2, setup->gravity);
+  GravityRead(c, setup->gravity, &setup->gravity_table);
   setup->courant = CoracleCaseNumberOr(c, "solid.courant", 0.8, 0.01, 1.0);
   setup->decay_rate = CoracleCaseNumberOr(c, "solid.decay_rate", 0.0, 0.0, HUGE_VAL);
   setup->rebalance = CoracleCaseNumberOr(c, "solid.rebalance", 200.0, 0.0, HUGE_VAL);

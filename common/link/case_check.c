@@ -52,6 +52,17 @@ static bool ReadOnce(int argc, char **argv, CoracleCaseReader read, void *contex
   return true;
 }
 
+/* Whether fault i is that of a list or a map in which a fault has been found before: what is said of it then may come from that. */
+static bool Follows(const CaseFaults *faults, int i)
+{
+  const size_t length = strlen(faults->key[i]);
+  for (int k = 0; k < i && length > 0; k++) {
+    const char *rest = faults->key[k] + length;
+    if (!strncmp(faults->key[k], faults->key[i], length) && (*rest == '.' || *rest == '[')) return true;
+  }
+  return false;
+}
+
 int CoracleCaseCheck(int argc, char **argv, CoracleCaseReader read, void *context,
                      void (*tell)(void *context, const char *message))
 {
@@ -62,13 +73,17 @@ int CoracleCaseCheck(int argc, char **argv, CoracleCaseReader read, void *contex
   faults.stuck = false;
   while (!ReadOnce(argc, argv, read, context, &faults) && !faults.stuck) {
   }
+  int nfaults = 0;
   for (int i = 0; i < faults.n; i++) {
-    tell(context, faults.message[i]);
+    if (!Follows(&faults, i)) {
+      tell(context, faults.message[i]);
+      nfaults++;
+    }
     free(faults.message[i]);
   }
   if (faults.stuck && faults.key[0][0]) tell(context, "(the rest can be checked when these are right)");
   for (int i = 0; i < faults.n; i++) free(faults.key[i]);
-  return faults.n;
+  return nfaults;
 }
 
 int CoracleCaseKeysOf(int argc, char **argv, CoracleCaseReader read, void *context,

@@ -93,7 +93,7 @@ static PetscErrorCode Measure(Coupler c, const SolidState *solid, int nfluid, in
     double t[4];
     int n;
     t[0] = Clock();
-    PetscCall(CouplerBuild(c, solid, 0.001, &n, &coupling));
+    PetscCall(CouplerBuild(c, solid, 0.0, 0.001, &n, &coupling));
     t[1] = Clock();
     PetscCall(CouplerComputeForce(c, &still, &force, &totals));
     t[2] = Clock();

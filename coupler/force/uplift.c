@@ -7,9 +7,10 @@
 
 struct Uplift_s {
   MPI_Comm comm;
-  double lower[2], upper[2], gravity[2];
-  Shell shell;      /* borrowed */
-  SolidState solid; /* a copy */
+  double lower[2], upper[2];
+  const double *gravity; /* [2] borrowed */
+  Shell shell;           /* borrowed */
+  SolidState solid;      /* a copy */
   ClosePoints points;
   PetscBool any;                                    /* points, on any rank */
   double (*film_load)[2], (*film_resistance)[2][2]; /* [nnodes] N, N s/m */
@@ -42,7 +43,7 @@ PetscErrorCode UpliftCreate(MPI_Comm comm, const double lower[2], const double u
   (*uplift)->comm = comm;
   PetscCall(PetscArraycpy((*uplift)->lower, lower, 2));
   PetscCall(PetscArraycpy((*uplift)->upper, upper, 2));
-  PetscCall(PetscArraycpy((*uplift)->gravity, gravity, 2));
+  (*uplift)->gravity = gravity;
   PetscFunctionReturn(0);
 }
 

@@ -31,7 +31,7 @@
 
 typedef struct Uplift_s *Uplift;
 
-/* lower, upper: the walls, m; infinite where there are none. */
+/* lower, upper: the walls, m; infinite where there are none.  gravity, m/s2: borrowed, that of the step to come whenever it is built. */
 PetscErrorCode UpliftCreate(MPI_Comm comm, const double lower[2], const double upper[2],
                             const double gravity[2], Uplift *uplift);
 PetscErrorCode UpliftDestroy(Uplift *uplift);

@@ -63,14 +63,14 @@ static void ReadUplift(CoracleCase file, CouplerOptions *o)
     o->upper[d] = HUGE_VAL;
   }
   o->uplift = (PetscBool)(o->mode == COUPLER_REACTION && (walls || !IsOneBody(file)) &&
-                          hypot(o->gravity[0], o->gravity[1]) > 0.0);
+                          GravityActs(o->gravity, &o->gravity_table));
 }
 
 static void ReadOptions(CoracleCase file, CouplerOptions *o)
 {
   o->mode = (CouplerMode)CoracleCaseWord(file, "coupler.mode", COUPLER_REACTION, COUPLER_MODES);
   o->thickness = CoracleCasePositive(file, "coupler.shell_thickness");
-  CoracleCaseVector(file, "gravity", 2, o->gravity);
+  GravityRead(file, o->gravity, &o->gravity_table);
   CouplerModesReadOptions(file, o);
   ReadUplift(file, o);
   o->sigma_among_phases = (PetscBool)(CoracleCaseHas(file, "fluid.surface_tension") &&

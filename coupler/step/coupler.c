@@ -13,7 +13,7 @@ PetscErrorCode CouplerCreate(MPI_Comm comm, const CouplerOptions *options, Coupl
   PetscCall(ShellCreate(comm, options->thickness, &c->shell));
   PetscCall(OverlapCreate(comm, &c->overlap));
   if (options->uplift)
-    PetscCall(UpliftCreate(comm, options->lower, options->upper, options->gravity, &c->uplift));
+    PetscCall(UpliftCreate(comm, options->lower, options->upper, c->options.gravity, &c->uplift));
   *coupler = c;
   PetscFunctionReturn(0);
 }
@@ -97,7 +97,7 @@ static PetscErrorCode BuildAt(Coupler c, const SolidState *solid, const double x
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CouplerBuild(Coupler c, const SolidState *solid, double dt, int *n,
+PetscErrorCode CouplerBuild(Coupler c, const SolidState *solid, double t, double dt, int *n,
                             const CoracleCoupling **coupling)
 {
   const double ahead = c->options.mode == COUPLER_REACTION ? 0.5 * dt : 0.0;
@@ -105,6 +105,7 @@ PetscErrorCode CouplerBuild(Coupler c, const SolidState *solid, double dt, int *
 
   PetscFunctionBeginUser;
   c->dt = dt;
+  GravityOver(&c->options.gravity_table, t, dt, c->options.gravity);
   PetscCall(PetscMalloc1(2 * (size_t)solid->nnodes, &x));
   for (int k = 0; k < 2 * solid->nnodes; k++) x[k] = solid->x[k] + ahead * solid->u[k];
   PetscCall(BuildAt(c, solid, x));

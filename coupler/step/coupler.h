@@ -28,12 +28,12 @@ PetscErrorCode CouplerUsePressureLoad(Coupler coupler);
 /* The fluid's elements near the solid, with density and viscosity at the start of the coming step (copied). */
 PetscErrorCode CouplerSetElements(Coupler coupler, const FluidElements *elements);
 
-/* The coupling over the coming step of dt seconds, with the solid where it is expected in the middle of the
+/* The coupling over the coming step of dt seconds from t on, with the solid where it is expected in the middle of the
  * step, x + dt/2 u_s (modes other than reaction: where it is now), so that forces which depend on its position
  * are neither early nor late; and with the velocity at the step's end that CouplerPredictedVelocity has:
  * coupling[n], one per fluid element that overlaps the solid or its shell,
  * in ascending order, borrowed until the next CouplerBuild. */
-PetscErrorCode CouplerBuild(Coupler coupler, const SolidState *solid, double dt, int *n,
+PetscErrorCode CouplerBuild(Coupler coupler, const SolidState *solid, double t, double dt, int *n,
                             const CoracleCoupling **coupling);
 /* The same coupling with u[nnodes][2], m/s, as the solid's velocity at the step's end.  u is used until
  * CouplerComputeForce has returned. */

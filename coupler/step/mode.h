@@ -17,6 +17,7 @@
 #ifndef CORACLE_COUPLER_MODE_H
 #define CORACLE_COUPLER_MODE_H
 #include "common/link/case_file.h"
+#include "common/program/gravity.h"
 #include "coupler/geometry/solid_state.h"
 
 typedef struct Coupler_s *Coupler;
@@ -29,7 +30,8 @@ typedef struct {
   CouplerMode mode;
   double thickness;             /* of the shell, dr, m */
   double relaxation;            /* sigma dt / rho_f, used by the mode reaction */
-  double gravity[2];            /* m/s2 */
+  double gravity[2];            /* m/s2, of the current step */
+  TimeTable gravity_table;      /* of t, s, and gravity in its place, borrowed (gravity.h); nrows 0: none */
   PetscBool sigma_among_phases; /* what is held among phases is held by sigma, too (inertia.h) */
   PetscBool uplift;             /* the solid may touch walls or itself (uplift.h) */
   double lower[2], upper[2];    /* m; the walls, infinite where there are none */

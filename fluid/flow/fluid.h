@@ -11,6 +11,7 @@
 #define FLUID_H
 #include "common/link/coracle.h"
 #include "common/output/checkpoint.h"
+#include "common/program/gravity.h"
 #include "common/space/p2_space.h"
 #include "fluid/discretization/absorption.h"
 #include "fluid/discretization/boundary.h"
@@ -23,13 +24,14 @@ typedef struct {
   double theta; /* 0.5 Crank-Nicolson .. 1 backward Euler */
   /* kg/m3, Pa s; with phases: of the lightest, which hydrostatic pressures at open boundaries have */
   double rho, mu;
-  PhaseProperties phases; /* n = 0: one fluid */
-  double gravity[2];      /* m/s2 */
-  double velocity[2];     /* everywhere at the start, unless FluidSetInitial has another, m/s */
-  double cfl, dt_max;     /* step control */
-  double capillary_cfl;   /* the same of capillary waves (FluidTimeStep); 0: no limit */
-  Boundary *boundary;     /* [mesh->ntags], copied */
-  FieldFunction source;   /* body force per volume, N/m3, or NULL */
+  PhaseProperties phases;  /* n = 0: one fluid */
+  double gravity[2];       /* m/s2, of the current step */
+  TimeTable gravity_table; /* of t, s, and gravity in its place, borrowed (gravity.h); nrows 0: none */
+  double velocity[2];      /* everywhere at the start, unless FluidSetInitial has another, m/s */
+  double cfl, dt_max;      /* step control */
+  double capillary_cfl;    /* the same of capillary waves (FluidTimeStep); 0: no limit */
+  Boundary *boundary;      /* [mesh->ntags], copied */
+  FieldFunction source;    /* body force per volume, N/m3, or NULL */
   void *source_context;
   Absorption absorption;
 } FluidSetup;

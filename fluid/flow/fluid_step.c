@@ -42,16 +42,27 @@ static PetscErrorCode Extrapolate(Fluid f, double dt)
   PetscFunctionReturn(0);
 }
 
-/* Open boundaries whose pressure depends on time have what it is in the middle of the step, which moves u over all of it, from the
+/* Open boundaries whose pressure depends on time, as all do where gravity does, have what it is in the middle of the step, which moves u over all of it, from the
  * step's start: the projection leaves it alone. */
 static PetscErrorCode SetVaryingPressure(Fluid f, double t)
 {
+  const PetscBool weight = (PetscBool)(f->setup.gravity_table.nrows > 0);
   PetscFunctionBeginUser;
   for (int b = 0; b < f->domain.mesh->ntags; b++)
-    if (f->domain.boundary[b].kind == BOUNDARY_OPEN && BoundaryVaries(&f->domain.boundary[b])) {
+    if (f->domain.boundary[b].kind == BOUNDARY_OPEN && (weight || BoundaryVaries(&f->domain.boundary[b]))) {
       PetscCall(FluidSetOpenPressure(f, t));
       break;
     }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SetGravity(Fluid f, double dt)
+{
+  double *g = f->setup.gravity;
+  PetscFunctionBeginUser;
+  if (!f->setup.gravity_table.nrows) PetscFunctionReturn(0);
+  GravityOver(&f->setup.gravity_table, f->t, dt, g);
+  if (f->phases) PetscCall(PhaseTransportSetGravity(f->phases, g));
   PetscFunctionReturn(0);
 }
 
@@ -59,6 +70,7 @@ static MomentumStep StepOfMomentum(Fluid f, double dt, const double outside[])
 {
   return (MomentumStep){f->t,
                         dt,
+                        {f->setup.gravity[0], f->setup.gravity[1]},
                         MaterialDensity(f->material, MATERIAL_STEP),
                         MaterialViscosity(f->material, MATERIAL_STEP),
                         MaterialRevision(f->material),
@@ -77,6 +89,7 @@ PetscErrorCode FluidPrepareMomentum(Fluid f, double dt)
   Vec local;
   PetscFunctionBeginUser;
   f->stats.dt = dt;
+  PetscCall(SetGravity(f, dt));
   FluidSetTarget(f, f->dt_previous > 0.0 ? GAS_OLD : 0.0);
   PetscCall(Extrapolate(f, dt));
   FluidSetCompressibility(f);

@@ -1,4 +1,5 @@
 #include "fluid/input/boundary_case.h"
+#include "common/program/gravity.h"
 
 /* Fractions of what comes in. */
 static void ReadFractions(CoracleCase c, const char *key, const PhaseNames *names, BoundaryPhases *b)
@@ -103,10 +104,15 @@ static void ReadLevel(CoracleCase c, const char *key, const PhaseNames *names, c
 {
   char phase[216], height[216];
   double gravity[2];
-  CoracleCaseVector(c, "gravity", 2, gravity);
+  TimeTable table;
+  GravityRead(c, gravity, &table);
   if (!names->name[0]) CoracleCaseRefuse(c, key, "there are no phases: expected fluid.phases");
   if (gravity[0] == 0.0 && gravity[1] == 0.0)
     CoracleCaseRefuse(c, key, "without gravity no side is up: expected a pressure instead, or a gravity");
+  if (table.nrows)
+    CoracleCaseRefuse(
+        c, key,
+        "with a gravity that depends on time levels outside would slope: expected a pressure instead");
   (void)snprintf(phase, sizeof phase, "%s[0].phase", key);
   (void)snprintf(height, sizeof height, "%s[0].height", key);
   if (CoracleCaseHas(c, phase) || CoracleCaseHas(c, height)) {

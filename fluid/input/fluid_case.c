@@ -155,7 +155,7 @@ PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup
     setup->mu = CoracleCasePositive(c, "fluid.viscosity");
   }
   setup->theta = CoracleCaseNumberOr(c, "fluid.theta", PhaseHasTension(&setup->phases) ? 1.0 : 0.5, 0.5, 1.0);
-  CoracleCaseVector(c, "gravity", 2, setup->gravity);
+  GravityRead(c, setup->gravity, &setup->gravity_table);
   if (CoracleCaseHas(c, "fluid.initial")) CoracleCaseVector(c, "fluid.initial.velocity", 2, setup->velocity);
   ReadAbsorption(c, &setup->absorption);
   setup->cfl = CoracleCasePositive(c, "time.cfl");

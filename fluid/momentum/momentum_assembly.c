@@ -122,7 +122,7 @@ static void WeightAndPressure(MomentumSolver s, const MomentumStep *step, int e,
                               double q[2])
 {
   if (!step->inverse_density) {
-    for (int c = 0; c < 2; c++) q[c] = step->rho[e] * s->setup.gravity[c] - grad[c];
+    for (int c = 0; c < 2; c++) q[c] = step->rho[e] * step->gravity[c] - grad[c];
     return;
   }
   InverseDensityAcceleration(&step->inverse_density[e], grad, q);

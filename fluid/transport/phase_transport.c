@@ -117,6 +117,14 @@ static PetscErrorCode SetEnd(PhaseTransport t)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PhaseTransportSetGravity(PhaseTransport t, const double gravity[2])
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscArraycpy(t->gravity, gravity, 2));
+  PetscCall(SetEnd(t));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PhaseTransportSetSolid(PhaseTransport t, const double alpha[], const char moves[])
 {
   int any = PhasesSolid(t->phases) != NULL;

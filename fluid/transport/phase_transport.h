@@ -39,6 +39,8 @@ PetscBool PhaseHasGas(const PhaseProperties *properties);
 PetscErrorCode PhaseTransportCreate(const FluidDomain *domain, const PhaseProperties *properties,
                                     const double gravity[2], PhaseTransport *t);
 PetscErrorCode PhaseTransportDestroy(PhaseTransport *t);
+/* Between two steps: the gravity of the coming one, m/s2. */
+PetscErrorCode PhaseTransportSetGravity(PhaseTransport t, const double gravity[2]);
 /* The initial state; errors of PhasesFill. */
 PetscErrorCode PhaseTransportFill(PhaseTransport t, int nregions, const Region region[]);
 /* At the run's start: the lightest phase takes the place of heavier ones where the solid is, solid[ne] = alpha_s.  An element that

@@ -71,7 +71,7 @@ static void Step(CouplerMode mode, double thickness, double dt, Coupler *c, Forc
   SyntheticFluidPart(&all_fluid, rank, size, &fluid);
   CHECK(!CouplerCreate(PETSC_COMM_WORLD, &options, c), "create");
   CHECK(!CouplerSetElements(*c, &fluid.view), "elements");
-  CHECK(!CouplerBuild(*c, &solid.view, dt, &n, &coupling), "build");
+  CHECK(!CouplerBuild(*c, &solid.view, 0.0, dt, &n, &coupling), "build");
   CHECK(!CouplerComputeForce(*c, &fluid.flow, &force, totals), "react");
 }
 

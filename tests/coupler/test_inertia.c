@@ -48,7 +48,7 @@ static double Step(double kick, ForceTotals *totals, double v[2])
   for (int k = 0; k < fluid.n; k++) fluid.mu[k] = 0.0;
   CHECK(!CouplerCreate(PETSC_COMM_WORLD, &options, &c), "create");
   CHECK(!CouplerSetElements(c, &fluid.view), "elements");
-  CHECK(!CouplerBuild(c, &solid.view, DT, &n, &coupling), "build");
+  CHECK(!CouplerBuild(c, &solid.view, 0.0, DT, &n, &coupling), "build");
   for (int k = 0; k < fluid.n; k++)
     for (int i = 0; i < 6; i++) fluid.u_start[k][i / 3][i % 3] = fluid.u_star[k][i / 3][i % 3] = START[i / 3];
   for (int e = 0; e < n; e++) {
@@ -87,7 +87,7 @@ static void CheckSurface(double ratio, double kept)
   SyntheticSolidPart(&all_solid, rank, size, &solid);
   CHECK(!CouplerCreate(PETSC_COMM_WORLD, &options, &c), "create");
   CHECK(!CouplerSetElements(c, &fluid.view), "elements");
-  CHECK(!CouplerBuild(c, &solid.view, DT, &n, &coupling), "build");
+  CHECK(!CouplerBuild(c, &solid.view, 0.0, DT, &n, &coupling), "build");
   for (int e = 0; e < n; e++) {
     const CoracleCoupling *k = &coupling[e];
     const double(*x)[2] = (const double(*)[2])fluid.x[k->element];

@@ -77,7 +77,7 @@ static void Run(MPI_Comm comm, CouplerMode mode, Result *r)
   CHECK(!CouplerCreate(comm, &options, &c), "create");
   CHECK(!CouplerSetElements(c, &fluid.view), "elements");
   for (int step = 0; step < 2; step++) {
-    CHECK(!CouplerBuild(c, &solid.view, DT, &n, &coupling), "build");
+    CHECK(!CouplerBuild(c, &solid.view, 0.0, DT, &n, &coupling), "build");
     CHECK(!CouplerComputeForce(c, &fluid.flow, &force, &r->totals), "react");
   }
   CHECK(!CouplerCorrect(c, &moved.view, &nc, &correction), "correct");

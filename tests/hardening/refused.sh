@@ -56,6 +56,15 @@ accepted fluid --set "$left" --set 'fluid.boundaries.right={velocity: [1.5, 0], 
 accepted fluid --set "$left" --set fluid.boundaries.right=open
 accepted fluid --set 'fluid.boundaries.top={velocity: [1, 0]}'
 
+# gravity in time
+for part in fluid solid coupler; do
+  refused $part "'gravity\[1\]': the table's times must rise" --set 'gravity=[[0, 0, -9.81], [0, 1, -9.81]]'
+  refused $part "'gravity\[0\]': expected a list of 3 numbers, found a list of 2" --set 'gravity=[[0, 0], [1, 1]]'
+  accepted $part --set 'gravity=[[0, 0, -9.81], [1, 1, -9.81]]'
+done
+case=$here/../coupled/level.yaml refused fluid "'fluid.boundaries.left.level': with a gravity that depends on time levels outside would slope" --set 'gravity=[[0, 0, -9.81], [1, 1, -9.81]]'
+! grep -q "'fluid.boundaries.left':" "$scratch/log" || { echo "a fault is told again of the map that it is in:"; cat "$scratch/log"; exit 1; }
+
 # options that nobody reads, folders that are none
 for part in solid coupler; do refused $part "'$part.petsc': nothing in the $part has the option -nonsense" --set "$part.petsc=-nonsense 1"; done
 for part in fluid solid coupler; do refused $part "'output.folder': expected a string, found 'null'" --set output.folder=null; done
