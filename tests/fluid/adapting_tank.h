@@ -1,7 +1,7 @@
 /* A tank whose mesh adapts to the interfaces. */
 #ifndef TEST_FLUID_ADAPTING_TANK_H
 #define TEST_FLUID_ADAPTING_TANK_H
-#include "fluid/remeshing/adaptation.h"
+#include "tests/fluid/adapting.h"
 #include "tests/fluid/tank.h"
 
 typedef struct {
@@ -28,27 +28,11 @@ static inline PetscErrorCode AdaptingTankDestroy(AdaptingTank *m)
   PetscFunctionReturn(0);
 }
 
-/* As in main.c. */
 static inline PetscErrorCode AdaptingTankStep(AdaptingTank *m, double dt)
 {
-  Fluid f = m->tank.fluid, next;
-  PetscBool due;
-  Mesh *mesh;
   PetscFunctionBeginUser;
-  if (m->new_mesh) PetscCall(FluidMakeSolenoidal(f));
-  m->new_mesh = PETSC_FALSE;
-  PetscCall(FluidMomentum(f, dt));
-  PetscCall(FluidProject(f, dt));
-  PetscCall(AdaptationDue(m->adaptation, f, &due));
-  if (due) PetscCall(AdaptationMesh(m->adaptation, f, &mesh));
-  PetscCall(FluidCorrect(f, dt, NULL));
-  if (!due) PetscFunctionReturn(0);
-  PetscCall(FluidCreateLike(f, mesh, &next));
-  PetscCall(FluidTransfer(f, next));
-  PetscCall(TankDestroy(&m->tank));
-  m->tank = (Tank){mesh, next};
-  m->new_mesh = PETSC_TRUE;
-  m->meshes++;
+  PetscCall(AdaptingStep(m->adaptation, dt, FluidTransfer, &m->tank.mesh, &m->tank.fluid, &m->new_mesh));
+  m->meshes += m->new_mesh;
   PetscFunctionReturn(0);
 }
 #endif

@@ -1,14 +1,15 @@
 // ranks: 1 2 3
 /* A flow with a known solution on a mesh that adapts to it: its error follows the one asked for, momentum
  * goes over to round-off, the pressure does not jump; and a fluid at rest stays at rest. */
-#include "fluid/remeshing/adaptation.h"
 #include "tests/check.h"
+#include "tests/fluid/adapting.h"
 #include "tests/fluid/exact.h"
 
 typedef struct {
   Mesh *mesh;
   Fluid fluid;
   Adaptation adaptation;
+  PetscBool new_mesh;
   int meshes;
 } RunState;
 
@@ -33,24 +34,9 @@ static PetscErrorCode TransferKeeps(Fluid from, Fluid to)
 
 static PetscErrorCode Step(RunState *m, double dt)
 {
-  PetscBool due;
-  Mesh *mesh;
-  Fluid next;
   PetscFunctionBeginUser;
-  PetscCall(FluidMomentum(m->fluid, dt));
-  PetscCall(FluidProject(m->fluid, dt));
-  PetscCall(AdaptationDue(m->adaptation, m->fluid, &due));
-  if (due) PetscCall(AdaptationMesh(m->adaptation, m->fluid, &mesh));
-  PetscCall(FluidCorrect(m->fluid, dt, NULL));
-  if (!due) PetscFunctionReturn(0);
-  PetscCall(FluidCreateLike(m->fluid, mesh, &next));
-  PetscCall(TransferKeeps(m->fluid, next));
-  PetscCall(FluidMakeSolenoidal(next));
-  PetscCall(FluidDestroy(&m->fluid));
-  PetscCall(MeshDestroy(&m->mesh));
-  m->mesh = mesh;
-  m->fluid = next;
-  m->meshes++;
+  PetscCall(AdaptingStep(m->adaptation, dt, TransferKeeps, &m->mesh, &m->fluid, &m->new_mesh));
+  m->meshes += m->new_mesh;
   PetscFunctionReturn(0);
 }
 

@@ -4,7 +4,7 @@
  * three ranks or more do not (they are made as messages arrive); to the solvers' tolerance on any ranks. */
 #include "common/mesh/mesh_checkpoint.h"
 #include "common/supermesh/geometry.h"
-#include "fluid/remeshing/adaptation.h"
+#include "tests/fluid/adapting.h"
 #include "tests/fluid/exact.h"
 #include "tests/remove_folder.h"
 #include <string.h>
@@ -80,30 +80,12 @@ static PetscErrorCode SetSolid(RunState *m)
   PetscFunctionReturn(0);
 }
 
-/* As in main.c. */
 static PetscErrorCode Step(RunState *m)
 {
-  PetscBool due;
-  Mesh *mesh;
-  Fluid next;
   PetscFunctionBeginUser;
   PetscCall(SetSolid(m));
-  if (m->new_mesh) PetscCall(FluidMakeSolenoidal(m->fluid));
-  m->new_mesh = PETSC_FALSE;
-  PetscCall(FluidMomentum(m->fluid, DT));
-  PetscCall(FluidProject(m->fluid, DT));
-  PetscCall(AdaptationDue(m->adaptation, m->fluid, &due));
-  if (due) PetscCall(AdaptationMesh(m->adaptation, m->fluid, &mesh));
-  PetscCall(FluidCorrect(m->fluid, DT, NULL));
-  if (!due) PetscFunctionReturn(0);
-  PetscCall(FluidCreateLike(m->fluid, mesh, &next));
-  PetscCall(FluidTransfer(m->fluid, next));
-  PetscCall(FluidDestroy(&m->fluid));
-  PetscCall(MeshDestroy(&m->mesh));
-  m->mesh = mesh;
-  m->fluid = next;
-  m->new_mesh = PETSC_TRUE;
-  m->adapted |= 1u << (int)(FluidGetStats(next)->t / DT + 0.5);
+  PetscCall(AdaptingStep(m->adaptation, DT, FluidTransfer, &m->mesh, &m->fluid, &m->new_mesh));
+  if (m->new_mesh) m->adapted |= 1u << (int)(FluidGetStats(m->fluid)->t / DT + 0.5);
   PetscFunctionReturn(0);
 }
 

@@ -9,20 +9,18 @@ static PetscErrorCode Measure(double size, double stretch)
   Model a = {0};
   FractureState f;
   Solid s;
-  double limit, h;
+  double limit;
   setup.joints.all = 1;
   setup.stretch[0] = setup.stretch[1] = stretch;
   AddRectangle(&a, 0.0, 0.0, 1.0, 1.0, 0.3, size, 0, &setup);
   PetscCall(SolidCreate(PETSC_COMM_SELF, &a, &options, &s));
   PetscCall(SolidLimit(s, &limit));
-  PetscCall(SolidStart(s, 0.1 * limit, NULL)); /* the joints activate */
-  while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
+  PetscCall(RunStep(s, 0.1 * limit, NULL)); /* the joints activate */
   PetscCall(SolidLimit(s, &limit));
   const SolidStats before = *SolidGetStats(s);
   const int substeps = 1 + (int)(2e6 / a.nelements);
   const double start = MPI_Wtime();
-  PetscCall(SolidStart(s, 0.3 * limit * substeps, NULL));
-  while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
+  PetscCall(RunStep(s, 0.3 * limit * substeps, NULL));
   const double seconds = MPI_Wtime() - start;
   const SolidStats *stats = SolidGetStats(s);
   const double joints = 0.5 * (3.0 * a.nelements - a.nfacets), total = (double)(stats->total - before.total);

@@ -36,21 +36,6 @@ static inline void Bodies(Model *a)
   AddRectangle(a, 0.3, 0.01, 0.2, 0.02, 0.0, 0.01, 1, &reaction);
 }
 
-/* As a fluid that pushes to the right, stronger in a step that is tried. */
-static inline PetscErrorCode Step(Solid s, double strength)
-{
-  SolidView v = ViewOf(s, NULL, NULL);
-  double *load = calloc(2 * (size_t)v.nnodes + 1, sizeof *load), h;
-  for (int k = 0; k < v.nfacets; k++)
-    for (int i = 0; i < 2; i++)
-      load[2 * v.facet[2 * k + i]] +=
-          strength * (v.x[2 * v.facet[2 * k + 1] + 1] - v.x[2 * v.facet[2 * k] + 1]);
-  PetscCall(SolidStart(s, 1e-5, load));
-  while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
-  free(load);
-  return 0;
-}
-
 /* Elements far and near, some ranks with none in the first step. */
 static inline PetscErrorCode ScatterElements(Solid s, int nelements, int step)
 {

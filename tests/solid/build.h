@@ -62,15 +62,20 @@ static inline SolidView ViewOf(Solid s, double **x, double **v)
   return view;
 }
 
+/* One step with this load[nnodes][2] on the nodes; NULL: none. */
+static inline PetscErrorCode RunStep(Solid s, double dt, const double load[])
+{
+  double h;
+  PetscCall(SolidStart(s, dt, load));
+  while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
+  return 0;
+}
+
 /* Runs from now on for `time` in steps of dt without load. */
 static inline PetscErrorCode Run(Solid s, double time, double dt)
 {
   const int steps = (int)ceil(time / dt * (1.0 - 1e-12));
-  double h;
-  for (int k = 0; k < steps; k++) {
-    PetscCall(SolidStart(s, time / steps, NULL));
-    while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
-  }
+  for (int k = 0; k < steps; k++) PetscCall(RunStep(s, time / steps, NULL));
   return 0;
 }
 

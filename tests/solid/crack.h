@@ -13,6 +13,20 @@ static inline Material RockOf(double tensile, double shear, double energy, doubl
   return m;
 }
 
+/* As a fluid that pushes to the right, stronger in a step that is tried. */
+static inline PetscErrorCode PushStep(Solid s, double strength)
+{
+  SolidView v = ViewOf(s, NULL, NULL);
+  double *load = calloc(2 * (size_t)v.nnodes + 1, sizeof *load);
+  for (int k = 0; k < v.nfacets; k++)
+    for (int i = 0; i < 2; i++)
+      load[2 * v.facet[2 * k + i]] +=
+          strength * (v.x[2 * v.facet[2 * k + 1] + 1] - v.x[2 * v.facet[2 * k] + 1]);
+  PetscCall(RunStep(s, 1e-5, load));
+  free(load);
+  return 0;
+}
+
 /* Gives nodes that are fixed, and so keep their velocity for ever, one along `axis`: -speed those on the left
  * of `middle` at rest, speed the others. */
 static inline void Draw(Solid s, const Model *a, int axis, double middle, double speed)

@@ -62,7 +62,7 @@ static PetscErrorCode Thrown(void)
   const BoundaryMotion motion = {"boundary", {{1, 1}, 2, row, 0.2, 0.0, 0.0, 0.0, {0.0, 0.0}}};
   BodySetup setup = BodyAtRest(MaterialOf(DENSITY, 1e8, POISSON, 0.3));
   Model a = {0};
-  double impulse[2] = {0.0, 0.0}, work = 0.0, h;
+  double impulse[2] = {0.0, 0.0}, work = 0.0;
   BodyState b;
   SolidBudget budget;
   Solid s;
@@ -72,8 +72,7 @@ static PetscErrorCode Thrown(void)
   AddDisc(&a, 0.0, 0.0, 0.05, 0.02, &setup);
   PetscCall(SolidCreate(PETSC_COMM_SELF, &a, &options, &s));
   for (int k = 0; k < 30; k++) {
-    PetscCall(SolidStart(s, 0.01, NULL));
-    while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
+    PetscCall(RunStep(s, 0.01, NULL));
     PetscCall(SolidGetBudget(s, &budget));
     for (int c = 0; c < 2; c++) impulse[c] += budget.reaction[c];
     work += budget.reaction_work;

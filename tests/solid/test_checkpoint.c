@@ -41,7 +41,7 @@ static PetscErrorCode Steps(Solid s, const Model *a, int how, int first, int n)
   BodyState body[NBODIES];
   InterfaceMotion interface;
   for (int k = first; k < first + n; k++) {
-    PetscCall(Step(s, 1e6));
+    PetscCall(PushStep(s, 1e6));
     PetscCall(SolidRebalance(s));
     if (how == SCATTER) PetscCall(ScatterElements(s, a->nelements, k));
     PetscCall(SolidUpdateInterfaceMotion(s, &interface));
@@ -105,7 +105,7 @@ static PetscErrorCode Same(int how, int redo)
           one->stats.seconds[k], two->stats.seconds[k]);
   if (redo) {
     PetscCall(SolidState(two, 1));
-    PetscCall(Step(two, 2e7));
+    PetscCall(PushStep(two, 2e7));
     if (how == SCATTER) PetscCall(ScatterElements(two, b.nelements, BEFORE + 1));
     PetscCall(SolidState(two, 0));
   }

@@ -19,28 +19,6 @@ static void Bodies(Model *a)
   AddRectangle(a, 0.0505, 0.01, 0.1, 0.08, 0.0, 0.012, 1, &right);
 }
 
-/* As a fluid that pushes to the right, stronger in a step that is tried; falls on the parts of shared nodes.
- */
-static void Load(const SolidView *v, double strength, double load[])
-{
-  memset(load, 0, 2 * (size_t)v->nnodes * sizeof *load);
-  for (int k = 0; k < v->nfacets; k++)
-    for (int i = 0; i < 2; i++)
-      load[2 * v->facet[2 * k + i]] +=
-          strength * (v->x[2 * v->facet[2 * k + 1] + 1] - v->x[2 * v->facet[2 * k] + 1]);
-}
-
-static PetscErrorCode Step(Solid s, double strength)
-{
-  SolidView v = ViewOf(s, NULL, NULL);
-  double *load = malloc((2 * (size_t)v.nnodes + 1) * sizeof *load), h;
-  Load(&v, strength, load);
-  PetscCall(SolidStart(s, 1e-5, load));
-  while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
-  free(load);
-  return 0;
-}
-
 /* all[nids][4]: x and v by global number, NAN for nodes that this rank has not. */
 static PetscErrorCode Simulate(MPI_Comm comm, int redo, double *all, int nids, FractureState *f, int *pieces)
 {
@@ -52,10 +30,10 @@ static PetscErrorCode Simulate(MPI_Comm comm, int redo, double *all, int nids, F
   for (int k = 0; k < STEPS; k++) {
     if (redo) {
       PetscCall(SolidState(s, 1));
-      PetscCall(Step(s, 2e7));
+      PetscCall(PushStep(s, 2e7));
       PetscCall(SolidState(s, 0));
     }
-    PetscCall(Step(s, 1e6));
+    PetscCall(PushStep(s, 1e6));
   }
   const SolidView v = ViewOf(s, NULL, NULL);
   for (int k = 0; k < 4 * nids; k++) all[k] = NAN;

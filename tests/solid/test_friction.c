@@ -131,7 +131,6 @@ static PetscErrorCode Squeezed(MPI_Comm comm, int redo, double *all, int *nnodes
   BodySetup setup = BodyAtRest(Rough(0.3));
   Model a = {0};
   Solid s;
-  double h;
   for (int k = 0; k < 3; k++) {
     setup.velocity[0] = k == 1 ? 0.5 : 0.0;
     AddRectangle(&a, 0.01 * k, 0.05 + 0.1 * k, 0.2, 0.1, 0.0, 0.04, 1, &setup);
@@ -144,8 +143,7 @@ static PetscErrorCode Squeezed(MPI_Comm comm, int redo, double *all, int *nnodes
     for (int try = redo ? 0 : 1; try < 2; try++) {
       for (int i = 0; i < 2 * v.nnodes; i++) load[i] = try ? 0.0 : 0.3 * sin(k + i);
       if (redo) PetscCall(SolidState(s, try == 0));
-      PetscCall(SolidStart(s, 1e-3, load));
-      while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
+      PetscCall(RunStep(s, 1e-3, load));
     }
   for (int i = 0; i < 2 * a.nnodes; i++) all[i] = NAN;
   for (int n = 0; n < v.nnodes; n++)

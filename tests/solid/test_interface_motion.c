@@ -18,7 +18,6 @@ static PetscErrorCode Difference(double youngs_modulus, double swelling, double 
   Solid s;
   SolidView view;
   InterfaceMotion interface;
-  double h;
   PetscFunctionBeginUser;
   setup.velocity[0] = 1.0;
   setup.velocity[1] = -2.0;
@@ -31,8 +30,7 @@ static PetscErrorCode Difference(double youngs_modulus, double swelling, double 
     v[2 * n] += SWELLING * (view.x[2 * n] - 0.3);
     v[2 * n + 1] += SWELLING * (view.x[2 * n + 1] - 0.2);
   }
-  PetscCall(SolidStart(s, STEP, NULL));
-  while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
+  PetscCall(RunStep(s, STEP, NULL));
   PetscCall(SolidUpdateInterfaceMotion(s, &interface));
   PetscCall(SolidBodies(s, 1, &b));
   *largest = 0.0;
@@ -164,7 +162,7 @@ static PetscErrorCode CheckEnergy(void)
   Solid s;
   InterfaceMotion interface;
   BodyState b;
-  double h, *v, start = 0.0;
+  double *v, start = 0.0;
   PetscFunctionBeginUser;
   setup.six_node = 1;
   AddRectangle(&a, 0.5, 0.5, 0.3, 0.3, 0.0, 0.03, 0, &setup);
@@ -174,8 +172,7 @@ static PetscErrorCode CheckEnergy(void)
     for (int c = 0; c < 2; c++)
       v[2 * i + c] = 1e-3 * sin(1e4 * view.rest[2 * i] + 3e3 * view.rest[2 * i + 1] + c);
   for (int step = 0; step < 600; step++) {
-    PetscCall(SolidStart(s, 0.006, NULL));
-    while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
+    PetscCall(RunStep(s, 0.006, NULL));
     PetscCall(SolidUpdateInterfaceMotion(s, &interface));
     PetscCall(SolidBodies(s, 1, &b));
     if (step == 100) start = b.kinetic + b.strain;
@@ -197,7 +194,7 @@ static PetscErrorCode CheckIterations(double angle, double dt, long long *iterat
   Model a = {0};
   Solid s;
   InterfaceMotion interface;
-  double h, *x, *v;
+  double *x, *v;
   PetscFunctionBeginUser;
   AddDisc(&a, 0.3, 0.2, 0.1, 0.01, &setup);
   PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, &s));
@@ -209,8 +206,7 @@ static PetscErrorCode CheckIterations(double angle, double dt, long long *iterat
     v[2 * i] = sin(60.0 * r[0] + 45.0 * r[1]);
     v[2 * i + 1] = cos(60.0 * r[0] - 90.0 * r[1]);
   }
-  PetscCall(SolidStart(s, dt, NULL));
-  while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
+  PetscCall(RunStep(s, dt, NULL));
   PetscCall(SolidUpdateInterfaceMotion(s, &interface));
   *iterations = SolidGetStats(s)->response_iterations;
   if (getenv("VERBOSE")) printf("turned by %g: %lld iterations for five responses\n", angle, *iterations);

@@ -34,10 +34,9 @@ static void Load(const SolidView *v, int step, double load[])
 static PetscErrorCode Step(Solid s, int step)
 {
   SolidView v = ViewOf(s, NULL, NULL);
-  double *load = malloc((2 * (size_t)v.nnodes + 1) * sizeof *load), h;
+  double *load = malloc((2 * (size_t)v.nnodes + 1) * sizeof *load);
   Load(&v, step, load);
-  PetscCall(SolidStart(s, 1e-3, load));
-  while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
+  PetscCall(RunStep(s, 1e-3, load));
   free(load);
   return 0;
 }

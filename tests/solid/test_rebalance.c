@@ -45,12 +45,12 @@ static PetscErrorCode Simulate(MPI_Comm comm, int how, int nids, Answer *out)
   for (int k = 0; k < STEPS; k++) {
     if (how == REDONE) {
       PetscCall(SolidState(s, 1));
-      PetscCall(Step(s, 2e7));
+      PetscCall(PushStep(s, 2e7));
       PetscCall(ScatterElements(s, a.nelements, k + 3));
       if (k % 2) PetscCall(ScatterElements(s, a.nelements, k + 4));
       PetscCall(SolidState(s, 0));
     }
-    PetscCall(Step(s, 1e6));
+    PetscCall(PushStep(s, 1e6));
     if (how > PERTURBED) PetscCall(ScatterElements(s, a.nelements, k));
   }
   PetscCall(CollectAnswer(s, nids, out));
@@ -136,9 +136,7 @@ static PetscErrorCode Slide(MPI_Comm comm, double rebalance, BodyState state[], 
   }
   PetscCall(SolidCreate(comm, &a, &options, &s));
   for (int k = 0; k < 20; k++) {
-    double h;
-    PetscCall(SolidStart(s, 2.5e-3, NULL));
-    while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
+    PetscCall(RunStep(s, 2.5e-3, NULL));
     PetscCall(SolidRebalance(s));
   }
   PetscCall(SolidBodies(s, n, state));
