@@ -129,10 +129,11 @@ def named_in_sources():
             if not name.endswith(".c") or name == "check.c":
                 continue
             with open(os.path.join(folder, name)) as source:
-                text = re.sub(r"/\*.*?\*/", "", source.read(), flags=re.S)
-            for key in re.findall(r'Case(?!Renamed)\w*\([^;]*?"((?:fluid|solid|coupler|time|output)\.[\w.\[\]%]+)"', text):
+                text = re.sub(r"/\*.*?\*/|CoracleCaseRenamed\([^;]*;", "", source.read(), flags=re.S)
+            for key in re.findall(r'Case\w*\([^;]*?"((?:fluid|solid|coupler|time|output)\.[\w.\[\]%]+)(?<!%s)"', text):
                 found.add(re.sub(r"%[.\d]*s", "*", key.replace("[%d]", "[]")))
-            found.update("solid.bodies[]." + key for key in re.findall(r'BodyKey\(\w+, [^,]+, "([\w.]+)"\)', text))
+            for reader, place in (("BodyKey", "solid.bodies[]."), ("MaterialKey", "solid.materials.*.")):
+                found.update(place + key for key in re.findall(reader + r'\(\w+, [^,]+, "([\w.]+)"\)', text))
     return found
 
 

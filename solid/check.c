@@ -163,7 +163,7 @@ static PetscErrorCode CheckInside(CoracleCase c, Solid s)
 {
   double lower[2], upper[2];
   PetscBool known;
-  char key[CASE_BODY_KEY];
+  char key[CASE_KEY];
   PetscFunctionBeginUser;
   PetscCall(FluidDomain(c, lower, upper, &known));
   for (int n = 0; n < s->nnodes && known; n++) {

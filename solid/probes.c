@@ -1,4 +1,5 @@
 #include "solid/probes.h"
+#include "common/link/case_key.h"
 #include "common/output/output.h"
 #include "common/supermesh/geometry.h"
 #include <stdio.h>
@@ -51,9 +52,8 @@ static PetscErrorCode Values(Probes p, Solid s, double value[][VALUES], int *mis
 
 static const char *ReadName(CoracleCase c, const char *list, int k)
 {
-  char key[64];
-  (void)snprintf(key, sizeof key, "%s[%d].name", list, k);
-  const char *name = CoracleCaseString(c, key);
+  char key[CASE_KEY];
+  const char *name = CoracleCaseString(c, CaseKey(key, "%s[%d].name", list, k));
   if (!SeriesCanName(name))
     CoracleCaseRefuse(c, key, "expected a name of up to %d characters without commas and quotes",
                       SERIES_NAME_MAX);
@@ -63,9 +63,8 @@ static const char *ReadName(CoracleCase c, const char *list, int k)
 /* Reads probe k and adds its columns behind those before it. */
 static void ReadProbe(CoracleCase c, int k, double point[2], size_t size, char columns[])
 {
-  char key[64];
-  (void)snprintf(key, sizeof key, "solid.probes[%d].point", k);
-  CoracleCaseVector(c, key, 2, point);
+  char key[CASE_KEY];
+  CoracleCaseVector(c, CaseKey(key, "solid.probes[%d].point", k), 2, point);
   const char *name = ReadName(c, "solid.probes", k);
   const size_t used = strlen(columns);
   (void)snprintf(columns + used, size - used, ",%s_x [m],%s_y [m],%s_u [m/s],%s_v [m/s]", name, name, name,
@@ -96,14 +95,14 @@ void ProbesCheckCase(CoracleCase c)
 
 static PetscErrorCode CheckPoints(CoracleCase c, Probes p, Solid solid)
 {
-  char key[64];
+  char key[CASE_KEY];
   double value[MAX_PROBES][VALUES];
   int missing;
   PetscFunctionBeginUser;
   PetscCall(Values(p, solid, value, &missing));
   if (missing < 0) PetscFunctionReturn(0);
-  (void)snprintf(key, sizeof key, "solid.probes[%d].point", missing);
-  CoracleCaseRefuse(c, key, "no body is at (%g, %g) at rest", p->point[missing][0], p->point[missing][1]);
+  CoracleCaseRefuse(c, CaseKey(key, "solid.probes[%d].point", missing), "no body is at (%g, %g) at rest",
+                    p->point[missing][0], p->point[missing][1]);
 }
 
 PetscErrorCode ProbesCheckPoints(CoracleCase c, MPI_Comm comm, Solid solid)

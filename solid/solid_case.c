@@ -33,22 +33,17 @@ static PetscBool FindElement(const Model *a, const double point[2], Spring *spri
 
 static void ReadSpring(CoracleCase c, const Model *a, int k, Spring *s)
 {
-  char key[CASE_BODY_KEY];
+  char key[CASE_KEY];
   double point[2];
-  (void)snprintf(key, sizeof key, "solid.springs[%d].anchor", k);
-  CoracleCaseVector(c, key, 2, s->anchor);
-  (void)snprintf(key, sizeof key, "solid.springs[%d].stiffness", k);
-  s->stiffness = CoracleCasePositive(c, key);
-  (void)snprintf(key, sizeof key, "solid.springs[%d].damping", k);
-  s->damping = CoracleCaseNumberOr(c, key, 0.0, 0.0, HUGE_VAL);
-  (void)snprintf(key, sizeof key, "solid.springs[%d].slack", k);
-  s->slack = CoracleCaseBoolOr(c, key, false);
-  (void)snprintf(key, sizeof key, "solid.springs[%d].point", k);
-  CoracleCaseVector(c, key, 2, point);
+  CoracleCaseVector(c, CaseKey(key, "solid.springs[%d].anchor", k), 2, s->anchor);
+  s->stiffness = CoracleCasePositive(c, CaseKey(key, "solid.springs[%d].stiffness", k));
+  s->damping = CoracleCaseNumberOr(c, CaseKey(key, "solid.springs[%d].damping", k), 0.0, 0.0, HUGE_VAL);
+  s->slack = CoracleCaseBoolOr(c, CaseKey(key, "solid.springs[%d].slack", k), false);
+  CoracleCaseVector(c, CaseKey(key, "solid.springs[%d].point", k), 2, point);
   if (!FindElement(a, point, s)) CoracleCaseRefuse(c, key, "no body is at (%g, %g)", point[0], point[1]);
-  (void)snprintf(key, sizeof key, "solid.springs[%d].length", k);
-  s->length = CoracleCaseHas(c, key) ? CoracleCaseNumber(c, key, 0.0, HUGE_VAL)
-                                     : hypot(s->anchor[0] - point[0], s->anchor[1] - point[1]);
+  s->length = CoracleCaseHas(c, CaseKey(key, "solid.springs[%d].length", k))
+                  ? CoracleCaseNumber(c, key, 0.0, HUGE_VAL)
+                  : hypot(s->anchor[0] - point[0], s->anchor[1] - point[1]);
 }
 
 static void ReadSprings(CoracleCase c, const Model *a, SolidSetup *setup)
@@ -69,33 +64,34 @@ static PetscBool IsSamePair(const ContactRule *a, const ContactRule *b)
 /* The list `contact`: overrides for pairs. */
 static void ReadRules(CoracleCase c, SolidSetup *setup)
 {
-  char key[CASE_BODY_KEY];
+  char key[CASE_KEY];
   setup->nrules = CoracleCaseCount(c, "solid.contact");
   if (setup->nrules > MAX_RULES) CoracleCaseRefuse(c, "solid.contact", "more than %d pairs", MAX_RULES);
   for (int k = 0; k < setup->nrules; k++) {
     ContactRule *r = &setup->rule[k];
-    (void)snprintf(key, sizeof key, "solid.contact[%d].between", k);
-    if (CoracleCaseCount(c, key) != 2) CoracleCaseRefuse(c, key, "expected two names");
+    if (CoracleCaseCount(c, CaseKey(key, "solid.contact[%d].between", k)) != 2)
+      CoracleCaseRefuse(c, key, "expected two names");
     for (int i = 0; i < 2; i++) {
-      (void)snprintf(key, sizeof key, "solid.contact[%d].between[%d]", k, i);
-      const char *name = CoracleCaseString(c, key);
+      const char *name = CoracleCaseString(c, CaseKey(key, "solid.contact[%d].between[%d]", k, i));
       if (strcmp(name, CONTACT_WALLS)) CaseMaterialExists(c, key, name);
       (void)snprintf(r->between[i], sizeof r->between[i], "%s", name);
     }
-    (void)snprintf(key, sizeof key, "solid.contact[%d].between", k);
     for (int i = 0; i < k; i++)
       if (IsSamePair(r, &setup->rule[i]))
-        CoracleCaseRefuse(c, key, "an item before this one is of the same pair");
-    (void)snprintf(key, sizeof key, "solid.contact[%d].friction", k);
-    r->friction = CoracleCaseHas(c, key) ? CoracleCaseNumber(c, key, 0.0, HUGE_VAL) : -1.0;
-    (void)snprintf(key, sizeof key, "solid.contact[%d].damping", k);
-    r->damping = CoracleCaseHas(c, key) ? CoracleCaseNumber(c, key, 0.0, 10.0) : -1.0;
+        CoracleCaseRefuse(c, CaseKey(key, "solid.contact[%d].between", k),
+                          "an item before this one is of the same pair");
+    r->friction = CoracleCaseHas(c, CaseKey(key, "solid.contact[%d].friction", k))
+                      ? CoracleCaseNumber(c, key, 0.0, HUGE_VAL)
+                      : -1.0;
+    r->damping = CoracleCaseHas(c, CaseKey(key, "solid.contact[%d].damping", k))
+                     ? CoracleCaseNumber(c, key, 0.0, 10.0)
+                     : -1.0;
   }
 }
 
 static void ReadWalls(CoracleCase c, const Model *a, SolidSetup *setup)
 {
-  char key[CASE_BODY_KEY];
+  char key[CASE_KEY];
   setup->walls = (PetscBool)CoracleCaseHas(c, "solid.walls");
   if (!setup->walls) return;
   CoracleCaseVector(c, "solid.walls.lower", 2, setup->lower);
@@ -128,7 +124,7 @@ PetscErrorCode SolidCaseRead(CoracleCase c, Model *a, SolidSetup *setup)
 {
   const int nbodies = CoracleCaseCount(c, "solid.bodies");
   int first, second;
-  char key[CASE_BODY_KEY];
+  char key[CASE_KEY];
   PetscFunctionBeginUser;
   GravityRead(c, setup->gravity, &setup->gravity_table);
   setup->courant = CoracleCaseNumberOr(c, "solid.courant", 0.8, 0.01, 1.0);

@@ -3,18 +3,11 @@
 #ifndef CORACLE_CASE_IMPL_H
 #define CORACLE_CASE_IMPL_H
 #include "common/link/case_file.h"
+#include "common/link/case_key.h"
 #include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 
-enum {
-  CASE_NAME = 128,
-  CASE_KEY = 512,
-  CASE_MESSAGE = 1024,
-  CASE_FAULTS = 64,
-  CASE_TABLES = 8,
-  CASE_NODES = 1000000
-};
+enum { CASE_NAME = 128, CASE_MESSAGE = 1024, CASE_FAULTS = 64, CASE_TABLES = 8, CASE_NODES = 1000000 };
 
 typedef enum { NODE_SCALAR, NODE_LIST, NODE_MAP } CaseKind;
 

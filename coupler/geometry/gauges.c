@@ -1,7 +1,7 @@
 #include "coupler/geometry/gauges.h"
+#include "common/link/case_key.h"
 #include <limits.h>
 #include <math.h>
-#include <stdio.h>
 
 #define SAME 1e-12 /* part of a facet's length: a distance that counts as equal */
 
@@ -21,12 +21,11 @@ struct Gauges_s {
 void GaugesReadCase(CoracleCase file, GaugesCase *c)
 {
   const int n = CoracleCaseCount(file, "fluid.probes");
-  char key[64];
+  char key[CASE_KEY];
   c->n = 0;
   c->path = CoracleCasePath(file);
   for (int k = 0; k < n; k++) {
-    (void)snprintf(key, sizeof key, "fluid.probes[%d].solid_point", k);
-    if (!CoracleCaseHas(file, key)) continue;
+    if (!CoracleCaseHas(file, CaseKey(key, "fluid.probes[%d].solid_point", k))) continue;
     if (c->n == GAUGES_MAX) CoracleCaseRefuse(file, key, "more than %d gauges on solids", GAUGES_MAX);
     CoracleCaseVector(file, key, 2, c->point[c->n]);
     c->probe[c->n++] = k;

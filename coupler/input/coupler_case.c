@@ -1,4 +1,5 @@
 #include "coupler/input/coupler_case.h"
+#include "common/link/case_key.h"
 #include "common/output/options.h"
 #include <math.h>
 #include <stdio.h>
@@ -6,9 +7,10 @@
 
 static double OfItem(CoracleCase file, const char *list, int k, const char *item)
 {
-  char key[64];
-  snprintf(key, sizeof key, "%s[%d].%s", list, k, item);
-  return CoracleCaseHas(file, key) ? CoracleCaseNumber(file, key, 0.0, HUGE_VAL) : 0.0;
+  char key[CASE_KEY];
+  return CoracleCaseHas(file, CaseKey(key, "%s[%d].%s", list, k, item))
+             ? CoracleCaseNumber(file, key, 0.0, HUGE_VAL)
+             : 0.0;
 }
 
 /* sqrt(largest surface tension/(range of the densities g)), m: water rises so far at a wall.  Infinite without gravity. */
@@ -16,13 +18,12 @@ static double CapillaryLength(CoracleCase file, const double gravity[2])
 {
   const char *const tensions = "fluid.surface_tension", *const phases = "fluid.phases";
   double least = HUGE_VAL, largest = 0.0, tension = 0.0;
-  char first[64];
+  char first[CASE_KEY];
   for (int k = 0; k < CoracleCaseCount(file, phases); k++) {
     least = fmin(least, OfItem(file, phases, k, "density"));
     largest = fmax(largest, OfItem(file, phases, k, "density"));
   }
-  snprintf(first, sizeof first, "%s[0]", tensions);
-  if (!CoracleCaseHas(file, first))
+  if (!CoracleCaseHas(file, CaseKey(first, "%s[0]", tensions)))
     tension = CoracleCaseNumber(file, tensions, 0.0, HUGE_VAL);
   else
     for (int k = 0; k < CoracleCaseCount(file, tensions); k++)
@@ -47,9 +48,8 @@ static PetscBool IsOneBody(CoracleCase file)
   static const char *const SEVERAL[] = {"joints", "repeat", "mesh"};
   PetscBool one = (PetscBool)(CoracleCaseCount(file, "solid.bodies") <= 1);
   for (size_t k = 0; k < sizeof SEVERAL / sizeof *SEVERAL; k++) {
-    char key[64];
-    snprintf(key, sizeof key, "solid.bodies[%d].%s", 0, SEVERAL[k]);
-    if (CoracleCaseHas(file, key)) one = PETSC_FALSE;
+    char key[CASE_KEY];
+    if (CoracleCaseHas(file, CaseKey(key, "solid.bodies[%d].%s", 0, SEVERAL[k]))) one = PETSC_FALSE;
   }
   return one;
 }

@@ -4,15 +4,13 @@
 /* Fractions of what comes in. */
 static void ReadFractions(CoracleCase c, const char *key, const PhaseNames *names, BoundaryPhases *b)
 {
-  char sub[224];
+  char sub[CASE_KEY];
   double sum = 0.0;
   const int n = CoracleCaseCount(c, key);
   for (int k = 0; k < n; k++) {
-    (void)snprintf(sub, sizeof sub, "%s[%d].phase", key, k);
-    const int p = PhaseCaseIndex(c, sub, names);
+    const int p = PhaseCaseIndex(c, CaseKey(sub, "%s[%d].phase", key, k), names);
     if (b->inflow[p] != 0.0) CoracleCaseRefuse(c, sub, "an item before this one is of the same phase");
-    (void)snprintf(sub, sizeof sub, "%s[%d].value", key, k);
-    sum += b->inflow[p] = CoracleCaseNumber(c, sub, 0.0, 1.0);
+    sum += b->inflow[p] = CoracleCaseNumber(c, CaseKey(sub, "%s[%d].value", key, k), 0.0, 1.0);
   }
   if (fabs(sum - 1.0) > 1e-9) CoracleCaseRefuse(c, key, "expected fractions whose sum is 1, found %g", sum);
 }
@@ -20,15 +18,12 @@ static void ReadFractions(CoracleCase c, const char *key, const PhaseNames *name
 /* With phases: which ones come in through a boundary, and the contact angles there. */
 static void ReadPhases(CoracleCase c, const char *key, const PhaseNames *names, BoundaryPhases *b)
 {
-  char sub[192];
+  char sub[CASE_KEY];
   if (!names->name[0]) return;
-  (void)snprintf(sub, sizeof sub, "%s.contact_angle", key);
-  PhaseCaseAngles(c, sub, names, &b->contact_cosine);
-  (void)snprintf(sub, sizeof sub, "%s.phase", key);
-  const PetscBool single = CoracleCaseHas(c, sub) ? PETSC_TRUE : PETSC_FALSE;
+  PhaseCaseAngles(c, CaseKey(sub, "%s.contact_angle", key), names, &b->contact_cosine);
+  const PetscBool single = (PetscBool)CoracleCaseHas(c, CaseKey(sub, "%s.phase", key));
   if (single) b->inflow[PhaseCaseIndex(c, sub, names)] = 1.0;
-  (void)snprintf(sub, sizeof sub, "%s.fractions", key);
-  if (!CoracleCaseHas(c, sub)) return;
+  if (!CoracleCaseHas(c, CaseKey(sub, "%s.fractions", key))) return;
   if (single) CoracleCaseRefuse(c, sub, "expected phase or fractions, not both");
   ReadFractions(c, sub, names, b);
 }
@@ -47,17 +42,15 @@ static void ReadTable(CoracleCase c, const char *key, double period, TimeTable *
 
 static double ReadPeriod(CoracleCase c, const char *key)
 {
-  char sub[192];
-  (void)snprintf(sub, sizeof sub, "%s.period", key);
-  return CoracleCaseHas(c, sub) ? CoracleCasePositive(c, sub) : 0.0;
+  char sub[CASE_KEY];
+  return CoracleCaseHas(c, CaseKey(sub, "%s.period", key)) ? CoracleCasePositive(c, sub) : 0.0;
 }
 
 /* Of layer k: a number, or a table. */
 static void ReadHeight(CoracleCase c, const char *key, int k, BoundaryPhases *b)
 {
-  char first[240];
-  (void)snprintf(first, sizeof first, "%s[0]", key);
-  if (CoracleCaseHas(c, first))
+  char first[CASE_KEY];
+  if (CoracleCaseHas(c, CaseKey(first, "%s[0]", key)))
     ReadTable(c, key, b->level_period, &b->level_table[k]);
   else
     b->level[k] = CoracleCaseNumber(c, key, -HUGE_VAL, HUGE_VAL);
@@ -87,14 +80,12 @@ static void CheckAbove(CoracleCase c, const char *key, int k, const BoundaryPhas
 /* The layers of the list at key, from below. */
 static void ReadLayers(CoracleCase c, const char *key, const PhaseNames *names, BoundaryPhases *b)
 {
-  char sub[224];
+  char sub[CASE_KEY];
   b->nlevels = CoracleCaseCount(c, key);
   if (b->nlevels > PHASES_MAX) CoracleCaseRefuse(c, key, "expected at most %d layers", PHASES_MAX);
   for (int k = 0; k < b->nlevels; k++) {
-    (void)snprintf(sub, sizeof sub, "%s[%d].phase", key, k);
-    b->level_phase[k] = PhaseCaseIndex(c, sub, names);
-    (void)snprintf(sub, sizeof sub, "%s[%d].height", key, k);
-    ReadHeight(c, sub, k, b);
+    b->level_phase[k] = PhaseCaseIndex(c, CaseKey(sub, "%s[%d].phase", key, k), names);
+    ReadHeight(c, CaseKey(sub, "%s[%d].height", key, k), k, b);
     CheckAbove(c, sub, k, b);
   }
 }
@@ -102,7 +93,7 @@ static void ReadLayers(CoracleCase c, const char *key, const PhaseNames *names, 
 static void ReadLevel(CoracleCase c, const char *key, const PhaseNames *names, const PhaseProperties *p,
                       BoundaryPhases *b)
 {
-  char phase[216], height[216];
+  char sub[CASE_KEY];
   double gravity[2];
   TimeTable table;
   GravityRead(c, gravity, &table);
@@ -113,9 +104,8 @@ static void ReadLevel(CoracleCase c, const char *key, const PhaseNames *names, c
     CoracleCaseRefuse(
         c, key,
         "with a gravity that depends on time levels outside would slope: expected a pressure instead");
-  (void)snprintf(phase, sizeof phase, "%s[0].phase", key);
-  (void)snprintf(height, sizeof height, "%s[0].height", key);
-  if (CoracleCaseHas(c, phase) || CoracleCaseHas(c, height)) {
+  if (CoracleCaseHas(c, CaseKey(sub, "%s[0].phase", key)) ||
+      CoracleCaseHas(c, CaseKey(sub, "%s[0].height", key))) {
     ReadLayers(c, key, names, b);
     return;
   }
@@ -127,30 +117,27 @@ static void ReadLevel(CoracleCase c, const char *key, const PhaseNames *names, c
 /* How velocity or pressure depend on time. */
 static void ReadVariation(CoracleCase c, const char *key, Boundary *b)
 {
-  char sub[192];
-  (void)snprintf(sub, sizeof sub, "%s.rise", key);
-  b->rise = CoracleCaseNumberOr(c, sub, 0.0, 0.0, HUGE_VAL);
+  char sub[CASE_KEY];
+  b->rise = CoracleCaseNumberOr(c, CaseKey(sub, "%s.rise", key), 0.0, 0.0, HUGE_VAL);
   b->period = ReadPeriod(c, key);
-  (void)snprintf(sub, sizeof sub, "%s.factor", key);
-  ReadTable(c, sub, b->period, &b->factor);
+  ReadTable(c, CaseKey(sub, "%s.factor", key), b->period, &b->factor);
 }
 
 /* Whether it is open by a pressure or a level. */
 static PetscBool ReadOpen(CoracleCase c, const char *key, const PhaseNames *names, const PhaseProperties *p,
                           Boundary *b)
 {
-  char level[192], pressure[192], period[192];
-  (void)snprintf(level, sizeof level, "%s.level", key);
-  (void)snprintf(pressure, sizeof pressure, "%s.pressure", key);
-  (void)snprintf(period, sizeof period, "%s.period", key);
-  const PetscBool has_level = CoracleCaseHas(c, level) ? PETSC_TRUE : PETSC_FALSE;
-  if (!has_level && !CoracleCaseHas(c, pressure)) return PETSC_FALSE;
+  char level[CASE_KEY], pressure[CASE_KEY], period[CASE_KEY];
+  const PetscBool has_level = (PetscBool)CoracleCaseHas(c, CaseKey(level, "%s.level", key)),
+                  has_pressure = (PetscBool)CoracleCaseHas(c, CaseKey(pressure, "%s.pressure", key));
+  if (!has_level && !has_pressure) return PETSC_FALSE;
   b->kind = BOUNDARY_OPEN;
   if (has_level) {
     b->phases.level_period = ReadPeriod(c, key);
     ReadLevel(c, level, names, p, &b->phases);
     if (b->phases.level_period > 0.0 && !BoundaryVaries(b))
-      CoracleCaseRefuse(c, period, "the level is constant: expected rows of time and height, which repeat");
+      CoracleCaseRefuse(c, CaseKey(period, "%s.period", key),
+                        "the level is constant: expected rows of time and height, which repeat");
     b->pressure = CoracleCaseNumberOr(c, pressure, 0.0, -HUGE_VAL, HUGE_VAL);
   } else {
     b->pressure = CoracleCaseNumber(c, pressure, -HUGE_VAL, HUGE_VAL);
@@ -166,23 +153,19 @@ static void ReadBoundary(CoracleCase c, const char *name, const PhaseNames *name
                            *const PROFILES[] = {"uniform", "parabolic", NULL},
                            *const WALLS[] = {"no_slip", "free_slip", NULL};
   static const BoundaryKind KINDS[] = {BOUNDARY_VELOCITY, BOUNDARY_FREE_SLIP, BOUNDARY_OPEN};
-  char key[160], sub[192];
+  char key[CASE_KEY], sub[CASE_KEY];
   memset(b, 0, sizeof *b);
-  (void)snprintf(key, sizeof key, "fluid.boundaries.%s", name);
-  ReadPhases(c, key, names, &b->phases);
-  (void)snprintf(sub, sizeof sub, "%s.velocity", key);
-  if (CoracleCaseHas(c, sub)) {
+  ReadPhases(c, CaseKey(key, "fluid.boundaries.%s", name), names, &b->phases);
+  if (CoracleCaseHas(c, CaseKey(sub, "%s.velocity", key))) {
     b->kind = BOUNDARY_VELOCITY;
     CoracleCaseVector(c, sub, 2, b->velocity);
-    (void)snprintf(sub, sizeof sub, "%s.profile", key);
-    b->parabolic = (PetscBool)(CoracleCaseWord(c, sub, 0, PROFILES) == 1);
+    b->parabolic = (PetscBool)(CoracleCaseWord(c, CaseKey(sub, "%s.profile", key), 0, PROFILES) == 1);
     ReadVariation(c, key, b);
     return;
   }
   if (ReadOpen(c, key, names, p, b)) return;
-  (void)snprintf(sub, sizeof sub, "%s.wall", key);
-  b->kind = CoracleCaseHas(c, sub) ? KINDS[CoracleCaseWord(c, sub, -1, WALLS)]
-                                   : KINDS[CoracleCaseWord(c, key, -1, WORDS)];
+  b->kind = CoracleCaseHas(c, CaseKey(sub, "%s.wall", key)) ? KINDS[CoracleCaseWord(c, sub, -1, WALLS)]
+                                                            : KINDS[CoracleCaseWord(c, key, -1, WORDS)];
 }
 
 /* The boundaries of the case file and those of the mesh. */
@@ -209,11 +192,11 @@ static void MeshBoundaries(const Mesh *m, char list[512])
 static void CheckBoundaryName(void *context, const char *name)
 {
   const BoundaryCheck *check = context;
-  char known[512], key[160];
+  char known[512], key[CASE_KEY];
   if (MeshTagIndex(check->mesh, name) >= 0) return;
   MeshBoundaries(check->mesh, known);
-  (void)snprintf(key, sizeof key, "fluid.boundaries.%s", name);
-  CoracleCaseRefuse(check->c, key, "the mesh has no boundary of this name; it has %s", known);
+  CoracleCaseRefuse(check->c, CaseKey(key, "fluid.boundaries.%s", name),
+                    "the mesh has no boundary of this name; it has %s", known);
 }
 
 static void ListBoundaryName(void *context, const char *name)

@@ -41,23 +41,21 @@ static void CheckCount(CoracleCase c, const char *key, const double lower[2], co
 
 static void CheckRefined(CoracleCase c, int k, const RefinedBox *box, double size)
 {
-  char key[64];
+  char key[CASE_KEY];
   for (int i = 0; i < 2; i++) {
     if (box->at.lower[i] <= box->at.upper[i]) continue;
-    (void)snprintf(key, sizeof key, "fluid.mesh.refine[%d].upper", k);
-    CoracleCaseRefuse(c, key,
+    CoracleCaseRefuse(c, CaseKey(key, "fluid.mesh.refine[%d].upper", k),
                       "the box is empty: expected a corner above and right of lower (%g, %g), found (%g, %g)",
                       box->at.lower[0], box->at.lower[1], box->at.upper[0], box->at.upper[1]);
   }
-  (void)snprintf(key, sizeof key, "fluid.mesh.refine[%d].size", k);
-  CheckCount(c, key, box->at.lower, box->at.upper, size);
+  CheckCount(c, CaseKey(key, "fluid.mesh.refine[%d].size", k), box->at.lower, box->at.upper, size);
 }
 
 static PetscErrorCode BoxMesh(CoracleCase c, PetscBool make, MeshSerial *serial)
 {
   SizeField f = {0};
   double lower[2], upper[2];
-  char key[64];
+  char key[CASE_KEY];
   PetscFunctionBeginUser;
   CoracleCaseVector(c, "fluid.mesh.lower", 2, lower);
   CoracleCaseVector(c, "fluid.mesh.upper", 2, upper);
@@ -71,12 +69,9 @@ static PetscErrorCode BoxMesh(CoracleCase c, PetscBool make, MeshSerial *serial)
   f.n = CoracleCaseCount(c, "fluid.mesh.refine");
   PetscCall(PetscMalloc1(f.n, &f.box));
   for (int k = 0; k < f.n; k++) {
-    (void)snprintf(key, sizeof key, "fluid.mesh.refine[%d].lower", k);
-    CoracleCaseVector(c, key, 2, f.box[k].at.lower);
-    (void)snprintf(key, sizeof key, "fluid.mesh.refine[%d].upper", k);
-    CoracleCaseVector(c, key, 2, f.box[k].at.upper);
-    (void)snprintf(key, sizeof key, "fluid.mesh.refine[%d].size", k);
-    f.box[k].size = CoracleCasePositive(c, key);
+    CoracleCaseVector(c, CaseKey(key, "fluid.mesh.refine[%d].lower", k), 2, f.box[k].at.lower);
+    CoracleCaseVector(c, CaseKey(key, "fluid.mesh.refine[%d].upper", k), 2, f.box[k].at.upper);
+    f.box[k].size = CoracleCasePositive(c, CaseKey(key, "fluid.mesh.refine[%d].size", k));
     CheckRefined(c, k, &f.box[k], fmin(f.box[k].size, f.size_max));
   }
   if (make) PetscCall(MeshBox(lower, upper, f.size_max, SizeAt, &f, serial));
@@ -120,16 +115,12 @@ PetscErrorCode FluidCaseMesh(CoracleCase c, MPI_Comm comm, Checkpoint from, Mesh
 
 static void ReadZone(CoracleCase c, int k, AbsorptionZone *z)
 {
-  char key[64];
-  (void)snprintf(key, sizeof key, "fluid.absorption[%d].rate", k);
-  z->rate = CoracleCaseNumber(c, key, 0.0, HUGE_VAL);
-  (void)snprintf(key, sizeof key, "fluid.absorption[%d].velocity", k);
+  char key[CASE_KEY];
+  z->rate = CoracleCaseNumber(c, CaseKey(key, "fluid.absorption[%d].rate", k), 0.0, HUGE_VAL);
   z->velocity[0] = z->velocity[1] = 0.0;
-  if (CoracleCaseHas(c, key)) CoracleCaseVector(c, key, 2, z->velocity);
-  (void)snprintf(key, sizeof key, "fluid.absorption[%d].from", k);
-  CoracleCaseVector(c, key, 2, z->from);
-  (void)snprintf(key, sizeof key, "fluid.absorption[%d].to", k);
-  CoracleCaseVector(c, key, 2, z->to);
+  (void)CoracleCaseVectorOptional(c, CaseKey(key, "fluid.absorption[%d].velocity", k), 2, z->velocity);
+  CoracleCaseVector(c, CaseKey(key, "fluid.absorption[%d].from", k), 2, z->from);
+  CoracleCaseVector(c, CaseKey(key, "fluid.absorption[%d].to", k), 2, z->to);
   if (z->to[0] == z->from[0] && z->to[1] == z->from[1])
     CoracleCaseRefuse(c, key, "expected another point than from, (%g, %g)", z->to[0], z->to[1]);
 }

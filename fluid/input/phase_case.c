@@ -7,38 +7,32 @@
 /* Of phase k, which is incompressible unless it says otherwise. */
 static void ReadState(CoracleCase c, int k, double density, EquationOfState *state)
 {
-  char key[64], gas[64];
-  (void)snprintf(key, sizeof key, "fluid.phases[%d].sound_speed", k);
-  (void)snprintf(gas, sizeof gas, "fluid.phases[%d].gas.pressure", k);
+  char key[CASE_KEY], gas[CASE_KEY];
   *state = (EquationOfState){density, 0.0, 1.0};
-  if (CoracleCaseHas(c, key)) {
+  (void)CaseKey(gas, "fluid.phases[%d].gas", k);
+  if (CoracleCaseHas(c, CaseKey(key, "fluid.phases[%d].sound_speed", k))) {
     const double speed = CoracleCasePositive(c, key);
     if (CoracleCaseHas(c, gas)) CoracleCaseRefuse(c, key, "expected sound_speed or gas, not both");
     state->pressure = density * speed * speed;
   }
-  (void)snprintf(key, sizeof key, "fluid.phases[%d].gas", k);
-  if (!CoracleCaseHas(c, key)) return;
-  state->pressure = CoracleCasePositive(c, gas);
-  (void)snprintf(gas, sizeof gas, "fluid.phases[%d].gas.exponent", k);
-  state->exponent = CoracleCaseNumberOr(c, gas, 1.0, 1.0, 10.0);
+  if (!CoracleCaseHas(c, gas)) return;
+  state->pressure = CoracleCasePositive(c, CaseKey(key, "%s.pressure", gas));
+  state->exponent = CoracleCaseNumberOr(c, CaseKey(key, "%s.exponent", gas), 1.0, 1.0, 10.0);
 }
 
 /* Item k of fluid.phases becomes phase k. */
 static void ReadPhase(CoracleCase c, int k, PhaseNames *names, PhaseProperties *p)
 {
-  char key[64];
-  (void)snprintf(key, sizeof key, "fluid.phases[%d].name", k);
-  names->name[k] = CoracleCaseString(c, key);
+  char key[CASE_KEY];
+  names->name[k] = CoracleCaseString(c, CaseKey(key, "fluid.phases[%d].name", k));
   if (!SeriesCanName(names->name[k]) || strlen(names->name[k]) >= sizeof p->name[k])
     CoracleCaseRefuse(c, key, "expected a name of at most %d letters, without commas and quotes",
                       (int)sizeof p->name[k] - 1);
   for (int j = 0; j < k; j++)
     if (!strcmp(names->name[j], names->name[k]))
       CoracleCaseRefuse(c, key, "two phases are called '%s'", names->name[k]);
-  (void)snprintf(key, sizeof key, "fluid.phases[%d].density", k);
-  p->rho[k] = CoracleCasePositive(c, key);
-  (void)snprintf(key, sizeof key, "fluid.phases[%d].viscosity", k);
-  p->mu[k] = CoracleCasePositive(c, key);
+  p->rho[k] = CoracleCasePositive(c, CaseKey(key, "fluid.phases[%d].density", k));
+  p->mu[k] = CoracleCasePositive(c, CaseKey(key, "fluid.phases[%d].viscosity", k));
   ReadState(c, k, p->rho[k], &p->state[k]);
 }
 
@@ -96,29 +90,27 @@ static void ReadPair(CoracleCase c, const PhasePairsKey *key, int k, const Phase
                      PetscBool seen[PHASES_MAX][PHASES_MAX], PhasesPairs *pairs)
 {
   int phase[2];
-  char sub[192];
-  (void)snprintf(sub, sizeof sub, "%s[%d].between", key->key, k);
-  if (CoracleCaseCount(c, sub) != 2) CoracleCaseRefuse(c, sub, "expected the names of two phases");
+  char sub[CASE_KEY];
+  if (CoracleCaseCount(c, CaseKey(sub, "%s[%d].between", key->key, k)) != 2)
+    CoracleCaseRefuse(c, sub, "expected the names of two phases");
   for (int i = 0; i < 2; i++) {
-    (void)snprintf(sub, sizeof sub, "%s[%d].between[%d]", key->key, k, i);
-    phase[i] = PhaseCaseIndex(c, sub, names);
+    phase[i] = PhaseCaseIndex(c, CaseKey(sub, "%s[%d].between[%d]", key->key, k, i), names);
   }
   if (phase[0] == phase[1] || seen[phase[0]][phase[1]])
     CoracleCaseRefuse(c, sub,
                       phase[0] == phase[1] ? "expected another phase than the first"
                                            : "an item before this one is of the same two phases");
   seen[phase[0]][phase[1]] = seen[phase[1]][phase[0]] = PETSC_TRUE;
-  (void)snprintf(sub, sizeof sub, "%s[%d].value", key->key, k);
-  SetPair(key, phase[0], phase[1], CoracleCaseNumber(c, sub, key->lower, key->upper), pairs);
+  SetPair(key, phase[0], phase[1],
+          CoracleCaseNumber(c, CaseKey(sub, "%s[%d].value", key->key, k), key->lower, key->upper), pairs);
 }
 
 void PhaseCasePairs(CoracleCase c, const PhasePairsKey *key, const PhaseNames *names, PhasesPairs *pairs)
 {
   PetscBool seen[PHASES_MAX][PHASES_MAX] = {{PETSC_FALSE}};
-  char first[192];
+  char first[CASE_KEY];
   *pairs = (PhasesPairs){{{0.0}}};
-  (void)snprintf(first, sizeof first, "%s[0]", key->key);
-  if (CoracleCaseHas(c, first)) {
+  if (CoracleCaseHas(c, CaseKey(first, "%s[0]", key->key))) {
     for (int k = 0; k < CoracleCaseCount(c, key->key); k++) ReadPair(c, key, k, names, seen, pairs);
   } else if (CoracleCaseHas(c, key->key)) {
     const double number = CoracleCaseNumber(c, key->key, key->lower, key->upper);
@@ -151,23 +143,21 @@ int PhaseCaseIndex(CoracleCase c, const char *key, const PhaseNames *names)
 }
 
 /* fluid.regions[k].what */
-static const char *KeyOf(int k, const char *what, char key[64])
+static const char *KeyOf(int k, const char *what, char key[CASE_KEY])
 {
-  (void)snprintf(key, 64, "fluid.regions[%d].%s", k, what);
-  return key;
+  return CaseKey(key, "fluid.regions[%d].%s", k, what);
 }
 
 static PetscErrorCode ReadPolygon(CoracleCase c, int k, Region *r)
 {
   double(*x)[2];
-  char key[64];
+  char key[CASE_KEY];
   PetscFunctionBeginUser;
   r->n = CoracleCaseCount(c, KeyOf(k, "polygon", key));
   if (r->n < 3) CoracleCaseRefuse(c, key, "expected at least three corners, found %d", r->n);
   PetscCall(PetscMalloc1(r->n, &x));
   for (int i = 0; i < r->n; i++) {
-    (void)snprintf(key, sizeof key, "fluid.regions[%d].polygon[%d]", k, i);
-    CoracleCaseVector(c, key, 2, x[i]);
+    CoracleCaseVector(c, CaseKey(key, "fluid.regions[%d].polygon[%d]", k, i), 2, x[i]);
   }
   r->x = (const double(*)[2])x;
   PetscFunctionReturn(0);
@@ -175,7 +165,7 @@ static PetscErrorCode ReadPolygon(CoracleCase c, int k, Region *r)
 
 static void ReadBox(CoracleCase c, int k, Region *r)
 {
-  char key[64];
+  char key[CASE_KEY];
   CoracleCaseVector(c, KeyOf(k, "lower", key), 2, r->a);
   CoracleCaseVector(c, KeyOf(k, "upper", key), 2, r->b);
   if (!(r->b[0] > r->a[0] && r->b[1] > r->a[1]))
@@ -188,7 +178,7 @@ static void ReadBox(CoracleCase c, int k, Region *r)
 static PetscBool HasShape(CoracleCase c, int k)
 {
   static const char *const SHAPES[] = {"lower", "upper", "centre", "polygon", "point", "normal", NULL};
-  char key[64];
+  char key[CASE_KEY];
   for (int i = 0; SHAPES[i]; i++)
     if (CoracleCaseHas(c, KeyOf(k, SHAPES[i], key))) return PETSC_TRUE;
   return PETSC_FALSE;
@@ -197,7 +187,7 @@ static PetscBool HasShape(CoracleCase c, int k)
 /* The shape follows from the keys that are there. */
 static PetscErrorCode ReadRegion(CoracleCase c, const PhaseNames *names, int k, Region *r)
 {
-  char key[64];
+  char key[CASE_KEY];
   PetscFunctionBeginUser;
   *r = (Region){.phase = PhaseCaseIndex(c, KeyOf(k, "phase", key), names)};
   if (!HasShape(c, k)) {

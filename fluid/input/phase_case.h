@@ -2,6 +2,7 @@
 #ifndef FLUID_PHASE_CASE_H
 #define FLUID_PHASE_CASE_H
 #include "common/link/case_file.h"
+#include "common/link/case_key.h"
 #include "fluid/transport/phase_transport.h"
 
 /* Names in the order of the phases, borrowed from the case, then NULL. */

@@ -1,39 +1,31 @@
 /* One body and its materials, from the case. */
 #include "solid/bodies/case_body.h"
 #include "solid/bodies/case_shape.h"
-#include <stdarg.h>
-#include <stdio.h>
 
-enum { KEY = CASE_BODY_KEY };
-
-const char *BodyKey(char key[CASE_BODY_KEY], int body, const char *name)
+const char *BodyKey(char key[CASE_KEY], int body, const char *name)
 {
-  (void)snprintf(key, KEY, "solid.bodies[%d]%s%s", body, name[0] ? "." : "", name);
-  return key;
+  return CaseKey(key, "solid.bodies[%d]%s%s", body, name[0] ? "." : "", name);
 }
 
 /* --- materials ---------------------------------------------------------------------------------------- */
 
-static double Property(CoracleCase c, const char *material, const char *name, double lower, double upper)
+static const char *MaterialKey(char key[CASE_KEY], const char *material, const char *name)
 {
-  char key[KEY];
-  (void)snprintf(key, sizeof key, "solid.materials.%s.%s", material, name);
-  return lower < upper ? CoracleCaseNumber(c, key, lower, upper) : CoracleCasePositive(c, key);
+  return CaseKey(key, "solid.materials.%s.%s", material, name);
 }
 
 /* What joints need; all of it or nothing. */
 static void ReadStrength(CoracleCase c, const char *name, Material *m)
 {
-  char key[KEY];
-  (void)snprintf(key, sizeof key, "solid.materials.%s.tensile_strength", name);
-  if (!CoracleCaseHas(c, key)) return;
-  m->strength[0] = Property(c, name, "tensile_strength", 0.0, 0.0);
-  m->strength[1] = Property(c, name, "shear_strength", 0.0, 0.0);
-  m->fracture_energy[0] = m->fracture_energy[1] = Property(c, name, "fracture_energy", 0.0, 0.0);
-  (void)snprintf(key, sizeof key, "solid.materials.%s.internal_friction", name);
-  m->internal_friction = CoracleCaseNumberOr(c, key, 0.0, 0.0, 10.0);
-  (void)snprintf(key, sizeof key, "solid.materials.%s.shear_fracture_energy", name);
-  if (CoracleCaseHas(c, key)) m->fracture_energy[1] = CoracleCasePositive(c, key);
+  char key[CASE_KEY];
+  if (!CoracleCaseHas(c, MaterialKey(key, name, "tensile_strength"))) return;
+  m->strength[0] = CoracleCasePositive(c, MaterialKey(key, name, "tensile_strength"));
+  m->strength[1] = CoracleCasePositive(c, MaterialKey(key, name, "shear_strength"));
+  m->fracture_energy[0] = m->fracture_energy[1] =
+      CoracleCasePositive(c, MaterialKey(key, name, "fracture_energy"));
+  m->internal_friction = CoracleCaseNumberOr(c, MaterialKey(key, name, "internal_friction"), 0.0, 0.0, 10.0);
+  if (CoracleCaseHas(c, MaterialKey(key, name, "shear_fracture_energy")))
+    m->fracture_energy[1] = CoracleCasePositive(c, key);
 }
 
 static Material ReadMaterial(CoracleCase c, const char *name)
@@ -42,27 +34,21 @@ static Material ReadMaterial(CoracleCase c, const char *name)
   /* in the order of ElementLawKind */
   static const char *const LAWS[] = {"neo_hookean", "corotated", "st_venant_kirchhoff", NULL};
   Material m = {0};
-  char key[KEY];
-  m.density = Property(c, name, "density", 0.0, 0.0);
-  m.youngs_modulus = Property(c, name, "youngs_modulus", 0.0, 0.0);
-  m.poisson_ratio = Property(c, name, "poisson_ratio", 0.0, 0.499);
-  (void)snprintf(key, sizeof key, "solid.materials.%s.damping", name);
-  m.damping = CoracleCaseNumberOr(c, key, 0.0, 0.0, 0.999);
-  (void)snprintf(key, sizeof key, "solid.materials.%s.damping_ratio", name);
-  m.damping_ratio = CoracleCaseNumberOr(c, key, 0.0, 0.0, 1.0);
-  if (CoracleCaseHas(c, key)) m.damping_frequency = Property(c, name, "damping_frequency", 0.0, 0.0);
-  (void)snprintf(key, sizeof key, "solid.materials.%s.penalty", name);
-  m.penalty = CoracleCaseHas(c, key) ? CoracleCasePositive(c, key) : m.youngs_modulus;
-  (void)snprintf(key, sizeof key, "solid.materials.%s.friction", name);
-  m.friction = CoracleCaseNumberOr(c, key, 0.0, 0.0, HUGE_VAL);
-  (void)snprintf(key, sizeof key, "solid.materials.%s.contact_damping", name);
-  m.contact_damping = CoracleCaseNumberOr(c, key, 0.0, 0.0, 10.0);
-  (void)snprintf(key, sizeof key, "solid.materials.%s.plane", name);
-  m.plane_stress = CoracleCaseWord(c, key, 0, PLANES);
-  (void)snprintf(key, sizeof key, "solid.materials.%s.law", name);
-  m.law = CoracleCaseWord(c, key, 0, LAWS);
-  (void)snprintf(key, sizeof key, "solid.materials.%s.thickness", name);
-  m.thickness = CoracleCaseHas(c, key) ? CoracleCasePositive(c, key) : 1.0;
+  char key[CASE_KEY];
+  m.density = CoracleCasePositive(c, MaterialKey(key, name, "density"));
+  m.youngs_modulus = CoracleCasePositive(c, MaterialKey(key, name, "youngs_modulus"));
+  m.poisson_ratio = CoracleCaseNumber(c, MaterialKey(key, name, "poisson_ratio"), 0.0, 0.499);
+  m.damping = CoracleCaseNumberOr(c, MaterialKey(key, name, "damping"), 0.0, 0.0, 0.999);
+  m.damping_ratio = CoracleCaseNumberOr(c, MaterialKey(key, name, "damping_ratio"), 0.0, 0.0, 1.0);
+  if (CoracleCaseHas(c, key))
+    m.damping_frequency = CoracleCasePositive(c, MaterialKey(key, name, "damping_frequency"));
+  m.penalty =
+      CoracleCaseHas(c, MaterialKey(key, name, "penalty")) ? CoracleCasePositive(c, key) : m.youngs_modulus;
+  m.friction = CoracleCaseNumberOr(c, MaterialKey(key, name, "friction"), 0.0, 0.0, HUGE_VAL);
+  m.contact_damping = CoracleCaseNumberOr(c, MaterialKey(key, name, "contact_damping"), 0.0, 0.0, 10.0);
+  m.plane_stress = CoracleCaseWord(c, MaterialKey(key, name, "plane"), 0, PLANES);
+  m.law = CoracleCaseWord(c, MaterialKey(key, name, "law"), 0, LAWS);
+  m.thickness = CoracleCaseHas(c, MaterialKey(key, name, "thickness")) ? CoracleCasePositive(c, key) : 1.0;
   ReadStrength(c, name, &m);
   if (strlen(name) >= MATERIAL_NAME || !strcmp(name, CONTACT_WALLS))
     CoracleCaseRefuse(c, key, "a material's name must be shorter than %d characters and not '%s'",
@@ -79,9 +65,8 @@ void CaseCheckMaterial(void *c, const char *name)
 
 void CaseMaterialExists(CoracleCase c, const char *key, const char *name)
 {
-  char material[KEY];
-  (void)snprintf(material, sizeof material, "solid.materials.%.100s", name);
-  if (!CoracleCaseHas(c, material))
+  char material[CASE_KEY];
+  if (!CoracleCaseHas(c, CaseKey(material, "solid.materials.%s", name)))
     CoracleCaseRefuse(c, key, "there is no material '%s' in solid.materials", name);
 }
 
@@ -97,20 +82,18 @@ static Material MaterialAt(CoracleCase c, const char *key)
 /* true, or a list of names of boundaries and regions (*name is allocated). */
 static PetscErrorCode ReadFixed(CoracleCase c, int body, BodySetup *setup, const char ***name)
 {
-  char key[KEY], item[KEY + 16];
+  char key[CASE_KEY], item[CASE_KEY];
   PetscFunctionBeginUser;
   *name = NULL;
   BodyKey(key, body, "fixed");
-  (void)snprintf(item, sizeof item, "%s[0]", key);
-  if (!CoracleCaseHas(c, item)) {
+  if (!CoracleCaseHas(c, CaseKey(item, "%s[0]", key))) {
     setup->fixed = CoracleCaseBoolOr(c, key, false);
     PetscFunctionReturn(0);
   }
   setup->nfixed = CoracleCaseCount(c, key);
   PetscCall(PetscMalloc1((size_t)setup->nfixed, name));
   for (int k = 0; k < setup->nfixed; k++) {
-    (void)snprintf(item, sizeof item, "%s[%d]", key, k);
-    (*name)[k] = CoracleCaseString(c, item);
+    (*name)[k] = CoracleCaseString(c, CaseKey(item, "%s[%d]", key, k));
   }
   setup->fixed_name = *name;
   PetscFunctionReturn(0);
@@ -119,44 +102,36 @@ static PetscErrorCode ReadFixed(CoracleCase c, int body, BodySetup *setup, const
 /* Of one row: velocity, rotation, and how they depend on time. */
 static void ReadSteady(CoracleCase c, const char *item, PrescribedMotion *d, double velocity[2])
 {
-  char key[KEY + 64];
-  (void)snprintf(key, sizeof key, "%s.angular_velocity", item);
-  const PetscBool turns = (PetscBool)CoracleCaseHas(c, key);
+  char key[CASE_KEY];
+  const PetscBool turns = (PetscBool)CoracleCaseHas(c, CaseKey(key, "%s.angular_velocity", item));
   if (turns) {
     d->angular_velocity = CoracleCaseNumber(c, key, -HUGE_VAL, HUGE_VAL);
     if (!d->prescribed[0] || !d->prescribed[1])
       CoracleCaseRefuse(c, key, "a rotation prescribes both components");
-    (void)snprintf(key, sizeof key, "%s.pivot", item);
-    CoracleCaseVector(c, key, 2, d->pivot);
+    CoracleCaseVector(c, CaseKey(key, "%s.pivot", item), 2, d->pivot);
   }
-  (void)snprintf(key, sizeof key, "%s.velocity", item);
+  (void)CaseKey(key, "%s.velocity", item);
   if (!turns || CoracleCaseHas(c, key)) CoracleCaseVector(c, key, 2, velocity);
-  (void)snprintf(key, sizeof key, "%s.period", item);
-  if (CoracleCaseHas(c, key)) d->period = CoracleCasePositive(c, key);
-  (void)snprintf(key, sizeof key, "%s.rise", item);
-  d->rise = CoracleCaseNumberOr(c, key, 0.0, 0.0, HUGE_VAL);
+  if (CoracleCaseHas(c, CaseKey(key, "%s.period", item))) d->period = CoracleCasePositive(c, key);
+  d->rise = CoracleCaseNumberOr(c, CaseKey(key, "%s.rise", item), 0.0, 0.0, HUGE_VAL);
 }
 
 /* One item of `prescribed`; steady: room for the only row of one that has no table. */
 static void ReadMotion(CoracleCase c, const char *item, BoundaryMotion *d, double steady[3])
 {
   static const char *const COMPONENTS[] = {"both", "x", "y", NULL};
-  char key[KEY + 64];
-  (void)snprintf(key, sizeof key, "%s.boundary", item);
-  d->boundary = CoracleCaseHas(c, key) ? CoracleCaseString(c, key) : NULL;
-  (void)snprintf(key, sizeof key, "%s.component", item);
-  const int component = CoracleCaseWord(c, key, 0, COMPONENTS);
+  char key[CASE_KEY];
+  d->boundary = CoracleCaseHas(c, CaseKey(key, "%s.boundary", item)) ? CoracleCaseString(c, key) : NULL;
+  const int component = CoracleCaseWord(c, CaseKey(key, "%s.component", item), 0, COMPONENTS);
   d->motion.prescribed[0] = component != 2;
   d->motion.prescribed[1] = component != 1;
-  (void)snprintf(key, sizeof key, "%s.table", item);
-  d->motion.row = CoracleCaseTable(c, key, 3, &d->motion.nrows);
+  d->motion.row = CoracleCaseTable(c, CaseKey(key, "%s.table", item), 3, &d->motion.nrows);
   if (!d->motion.row) {
     ReadSteady(c, item, &d->motion, steady + 1);
     d->motion.row = steady;
     d->motion.nrows = 1;
   }
-  (void)snprintf(key, sizeof key, "%s.release", item);
-  if (CoracleCaseHas(c, key)) d->motion.release = CoracleCasePositive(c, key);
+  if (CoracleCaseHas(c, CaseKey(key, "%s.release", item))) d->motion.release = CoracleCasePositive(c, key);
 }
 
 /* Whether both prescribe a component of the same nodes. */
@@ -171,15 +146,13 @@ static PetscBool Collide(const BoundaryMotion *a, const BoundaryMotion *b)
 static PetscErrorCode ReadPrescribed(CoracleCase c, int body, BodySetup *setup, BoundaryMotion **prescribed,
                                      double (**steady)[3])
 {
-  char key[KEY], old[KEY], item[KEY + 16];
+  char key[CASE_KEY], old[CASE_KEY], item[CASE_KEY];
   PetscFunctionBeginUser;
-  (void)snprintf(old, sizeof old, "solid.bodies[%d].driven", body);
-  CoracleCaseRenamed(c, old, BodyKey(key, body, "prescribed"));
+  CoracleCaseRenamed(c, CaseKey(old, "solid.bodies[%d].driven", body), BodyKey(key, body, "prescribed"));
   setup->nprescribed = CoracleCaseCount(c, key);
   PetscCall(PetscCalloc2((size_t)setup->nprescribed, prescribed, (size_t)setup->nprescribed, steady));
   for (int k = 0; k < setup->nprescribed; k++) {
-    (void)snprintf(item, sizeof item, "%s[%d]", key, k);
-    ReadMotion(c, item, &(*prescribed)[k], (*steady)[k]);
+    ReadMotion(c, CaseKey(item, "%s[%d]", key, k), &(*prescribed)[k], (*steady)[k]);
     for (int i = 0; i < k; i++)
       if (Collide(&(*prescribed)[i], &(*prescribed)[k]))
         CoracleCaseRefuse(c, item, "an item before this one prescribes the same component of the same nodes");
@@ -199,25 +172,26 @@ typedef struct {
 static void ReadRegion(void *context, const char *name)
 {
   Regions *r = context;
-  char key[KEY], item[KEY + 80];
-  (void)snprintf(item, sizeof item, "%s.%.64s", BodyKey(key, r->body, "regions"), name);
-  if (r->n == MAX_REGIONS) CoracleCaseRefuse(r->c, key, "more than %d regions", MAX_REGIONS);
-  r->region[r->n++] = (RegionMaterial){name, MaterialAt(r->c, item)};
+  char key[CASE_KEY];
+  if (r->n == MAX_REGIONS)
+    CoracleCaseRefuse(r->c, BodyKey(key, r->body, "regions"), "more than %d regions", MAX_REGIONS);
+  r->region[r->n++] =
+      (RegionMaterial){name, MaterialAt(r->c, CaseKey(key, "solid.bodies[%d].regions.%s", r->body, name))};
 }
 
 /* An item of a list of joints: a box, or the name of a physical surface or curve. */
 static void ReadJointItem(CoracleCase c, const char *key, JointSetup *joints, double (*box)[4],
                           const char **name)
 {
-  char corner[2][KEY + 32];
-  (void)snprintf(corner[0], sizeof corner[0], "%s.lower", key);
-  (void)snprintf(corner[1], sizeof corner[1], "%s.upper", key);
-  if (!CoracleCaseHas(c, corner[0]) && !CoracleCaseHas(c, corner[1])) {
+  char lower[CASE_KEY], upper[CASE_KEY];
+  const bool has_lower = CoracleCaseHas(c, CaseKey(lower, "%s.lower", key)),
+             has_upper = CoracleCaseHas(c, CaseKey(upper, "%s.upper", key));
+  if (!has_lower && !has_upper) {
     name[joints->nnames++] = CoracleCaseString(c, key);
     return;
   }
-  for (int i = 0; i < 2; i++) CoracleCaseVector(c, corner[i], 2, box[joints->nboxes] + 2 * i);
-  joints->nboxes++;
+  CoracleCaseVector(c, lower, 2, box[joints->nboxes]);
+  CoracleCaseVector(c, upper, 2, box[joints->nboxes++] + 2);
 }
 
 /* all, none, or a list (*box and *name are allocated). */
@@ -225,16 +199,14 @@ static PetscErrorCode ReadJoints(CoracleCase c, int body, JointSetup *joints, do
                                  const char ***name)
 {
   static const char *const WORDS[] = {"none", "all", NULL};
-  char key[KEY], item[KEY + 16];
+  char key[CASE_KEY], item[CASE_KEY];
   PetscFunctionBeginUser;
   BodyKey(key, body, "joints");
-  (void)snprintf(item, sizeof item, "%s[0]", key);
-  const int n = CoracleCaseHas(c, item) ? CoracleCaseCount(c, key) : 0;
+  const int n = CoracleCaseHas(c, CaseKey(item, "%s[0]", key)) ? CoracleCaseCount(c, key) : 0;
   PetscCall(PetscMalloc2((size_t)n, box, (size_t)n, name));
   if (n == 0) joints->all = CoracleCaseWord(c, key, 0, WORDS);
   for (int k = 0; k < n; k++) {
-    (void)snprintf(item, sizeof item, "%s[%d]", key, k);
-    ReadJointItem(c, item, joints, *box, *name);
+    ReadJointItem(c, CaseKey(item, "%s[%d]", key, k), joints, *box, *name);
   }
   joints->box = *box;
   joints->name = *name;
@@ -254,7 +226,7 @@ static PetscErrorCode AddRepeated(CoracleCase c, Model *a, MeshSerial *mesh, Bod
 {
   const BodyRepeat r = CaseReadRepeat(c, setup->entry);
   const char *why = NULL;
-  char key[KEY];
+  char key[CASE_KEY];
   PetscFunctionBeginUser;
   for (int k = 0; k < r.n[1]; k++) {
     for (int i = 0; i < r.n[0]; i++) {
@@ -276,7 +248,7 @@ PetscErrorCode CaseReadBody(CoracleCase c, int body, Model *a)
   const char **name, **joint_name;
   double(*joint_box)[4], *position;
   CaseLoads loads;
-  char key[KEY];
+  char key[CASE_KEY];
   PetscFunctionBeginUser;
   setup.material = MaterialAt(c, BodyKey(key, body, "material"));
   CoracleCaseKeys(c, BodyKey(key, body, "regions"), ReadRegion, &regions);

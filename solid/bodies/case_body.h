@@ -2,12 +2,11 @@
 #ifndef SOLID_CASE_BODY_H
 #define SOLID_CASE_BODY_H
 #include "common/link/case_file.h"
+#include "common/link/case_key.h"
 #include "solid/solid.h"
 
-enum { CASE_BODY_KEY = 192 };
-
 /* "solid.bodies[i].name" */
-const char *BodyKey(char key[CASE_BODY_KEY], int body, const char *name);
+const char *BodyKey(char key[CASE_KEY], int body, const char *name);
 /* Reads all keys of a material (c: the Case; for CoracleCaseKeys). */
 void CaseCheckMaterial(void *c, const char *name);
 /* Refuses key when there is no material of that name. */

@@ -1,13 +1,11 @@
 #include "solid/bodies/case_shape.h"
 #include "solid/bodies/shape.h"
 
-enum { KEY = CASE_BODY_KEY };
-
 BodyRepeat CaseReadRepeat(CoracleCase c, int body)
 {
   BodyRepeat r = {.n = {1, 1}};
   double n[2];
-  char key[KEY];
+  char key[CASE_KEY];
   if (!CoracleCaseVectorOptional(c, BodyKey(key, body, "repeat.n"), 2, n)) return r;
   for (int k = 0; k < 2; k++) {
     if (!(n[k] >= 1.0 && n[k] <= 1e6 && n[k] == floor(n[k])))
@@ -26,7 +24,7 @@ static void CheckCount(CoracleCase c, int body, const char *name, double element
 {
   const BodyRepeat r = CaseReadRepeat(c, body);
   const double bodies = (double)r.n[0] * r.n[1];
-  char key[KEY];
+  char key[CASE_KEY];
   if (elements * bodies <= ELEMENTS_MAX) return;
   CoracleCaseRefuse(c, BodyKey(key, body, elements > ELEMENTS_MAX ? name : "repeat.n"),
                     "%.3g bodies of about %.3g elements each are more than %g elements", bodies, elements,
@@ -35,7 +33,7 @@ static void CheckCount(CoracleCase c, int body, const char *name, double element
 
 static PetscErrorCode ReadMeshFile(CoracleCase c, int body, MeshSerial *mesh)
 {
-  char key[KEY];
+  char key[CASE_KEY];
   const char *path = CoracleCaseFile(c, BodyKey(key, body, "mesh")), *why = NULL;
   double translate[2] = {0.0, 0.0};
   PetscFunctionBeginUser;
@@ -50,7 +48,7 @@ static PetscErrorCode ReadMeshFile(CoracleCase c, int body, MeshSerial *mesh)
 static PetscErrorCode ReadRing(CoracleCase c, int body, const double centre[2], double size, MeshSerial *mesh)
 {
   double inner, outer;
-  char key[KEY];
+  char key[CASE_KEY];
   PetscFunctionBeginUser;
   if (CoracleCaseHas(c, BodyKey(key, body, "radius"))) { /* of the wall's middle */
     const double radius = CoracleCasePositive(c, key),
@@ -76,7 +74,7 @@ typedef enum { SHAPE_DISC, SHAPE_RECTANGLE, SHAPE_RING, SHAPE_FILE } Shape;
 static Shape ReadShapeName(CoracleCase c, int body)
 {
   static const char *const SHAPES[] = {"disc", "rectangle", "ring", NULL};
-  char key[KEY];
+  char key[CASE_KEY];
   return CoracleCaseHas(c, BodyKey(key, body, "mesh"))
              ? SHAPE_FILE
              : (Shape)CoracleCaseWord(c, BodyKey(key, body, "shape"), -1, SHAPES);
@@ -86,7 +84,7 @@ PetscErrorCode CaseReadShape(CoracleCase c, int body, MeshSerial *mesh)
 {
   const Shape shape = ReadShapeName(c, body);
   double centre[2];
-  char key[KEY];
+  char key[CASE_KEY];
   PetscFunctionBeginUser;
   if (shape == SHAPE_FILE) {
     PetscCall(ReadMeshFile(c, body, mesh));
@@ -115,7 +113,7 @@ PetscErrorCode CaseReadStretch(CoracleCase c, int body, const MeshSerial *mesh, 
                                double **position)
 {
   double centre[2];
-  char key[KEY];
+  char key[CASE_KEY];
   PetscFunctionBeginUser;
   *position = NULL;
   (void)CoracleCaseVectorOptional(c, BodyKey(key, body, "stretch"), 2, setup->stretch);
