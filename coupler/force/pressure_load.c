@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 /* H(p_s) and H(p_o) at a node; q and H(p_o) in an element. */
-enum { SURFACE, OUTSIDE };
+enum { SURFACE, OUTSIDE, NFIELDS };
 enum { Q, LEVEL, NVALUES };
 
 typedef struct {
@@ -16,11 +16,11 @@ struct PressureLoad_s {
   MPI_Comm comm;
   Harmonic harmonic; /* NULL: nothing is known of the solid yet */
   int nnodes, nelements;
-  int (*node)[3];               /* [nelements] */
-  double *x;                    /* [nnodes][2] m */
-  Row *row, *attempt;           /* [nelements] as the step began, and as its last attempt has left it, Pa */
-  double (*h)[HARMONIC_FIELDS]; /* [nnodes] Pa */
-  char *is_given;               /* [nnodes] h is p_s and p_o */
+  int (*node)[3];       /* [nelements] */
+  double *x;            /* [nnodes][2] m */
+  Row *row, *attempt;   /* [nelements] as the step began, and as its last attempt has left it, Pa */
+  double (*h)[NFIELDS]; /* [nnodes] Pa */
+  char *is_given;       /* [nnodes] h is p_s and p_o */
 };
 
 PetscErrorCode PressureLoadCreate(MPI_Comm comm, PressureLoad *load)
@@ -104,7 +104,7 @@ PetscErrorCode PressureLoadAdd(PressureLoad l, Overlap o, const double p[], doub
   PetscCall(PetscCalloc1(o->nowned, &owned));
   PetscCall(SurfacePressureSums(o, p, owned));
   PetscCall(SurfacePressureNodes(o, (const double(*)[SURFACE_SUMS])owned, l->nnodes, l->is_given, l->h));
-  PetscCall(HarmonicSolve(l->harmonic, o->nodes, l->x, l->is_given, l->h));
+  PetscCall(HarmonicSolve(l->harmonic, o->nodes, l->x, l->is_given, NFIELDS, (double *)l->h));
   for (int t = 0; t < l->nelements; t++) {
     double surface = 0.0, outside = 0.0;
     for (int i = 0; i < 3; i++) {

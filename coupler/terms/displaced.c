@@ -29,7 +29,7 @@ PetscErrorCode DisplacedDensity(const Overlap o, const SolidState *solid, const 
                                 const SourceTerm source[], Harmonic *harmonic, double displaced[])
 {
   const int n = solid->nnodes;
-  double(*node)[NSUMS], (*value)[HARMONIC_FIELDS];
+  double(*node)[NSUMS];
   char *is_given;
   int any = 0;
 
@@ -38,18 +38,14 @@ PetscErrorCode DisplacedDensity(const Overlap o, const SolidState *solid, const 
   for (int t = 0; t < o->nsources; t++) any |= IsHeldByInertia(&source[t]);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_LOR, o->comm));
   if (!any) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc1(n, &node));
-  PetscCall(PetscMalloc2(n, &is_given, n, &value));
+  PetscCall(PetscMalloc2(n, &node, n, &is_given));
   PetscCall(SumsAtNodes(o, n, element, source, node));
   for (int i = 0; i < n; i++) {
     is_given[i] = node[i][AREA] > 0.0;
-    value[i][0] = is_given[i] ? node[i][DENSITY] / node[i][AREA] : 0.0;
-    value[i][1] = 0.0;
+    displaced[i] = is_given[i] ? node[i][DENSITY] / node[i][AREA] : 0.0;
   }
   if (!*harmonic) PetscCall(HarmonicCreate(o->comm, solid, harmonic));
-  PetscCall(HarmonicSolve(*harmonic, o->nodes, solid->x, is_given, value));
-  for (int i = 0; i < n; i++) displaced[i] = value[i][0];
-  PetscCall(PetscFree2(is_given, value));
-  PetscCall(PetscFree(node));
+  PetscCall(HarmonicSolve(*harmonic, o->nodes, solid->x, is_given, 1, displaced));
+  PetscCall(PetscFree2(node, is_given));
   PetscFunctionReturn(0);
 }
