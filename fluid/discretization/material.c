@@ -1,4 +1,5 @@
 #include "fluid/discretization/material.h"
+#include "fluid/discretization/ghosted.h"
 
 enum { RHO, MU, NFIELDS };
 enum { NLEVELS = 3 };
@@ -81,7 +82,6 @@ static void WeighLevels(Material m)
 PetscErrorCode MaterialSet(Material m, MaterialLevel level, const double rho[], const double mu[])
 {
   PetscScalar *v;
-  Vec local;
   PetscFunctionBeginUser;
   PetscCheck(level == MATERIAL_OLD || level == MATERIAL_NEW, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
              "material is set at the beginning or the end of a step (MATERIAL_OLD, MATERIAL_NEW)");
@@ -95,14 +95,11 @@ PetscErrorCode MaterialSet(Material m, MaterialLevel level, const double rho[], 
     v[NFIELDS * e + MU] = mu[e];
   }
   PetscCall(VecRestoreArrayWrite(m->ghosted, &v));
-  PetscCall(VecGhostUpdateBegin(m->ghosted, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostUpdateEnd(m->ghosted, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostGetLocalForm(m->ghosted, &local));
-  PetscCall(VecGetArray(local, &v));
+  PetscCall(GhostedUpdate(m->ghosted));
+  PetscCall(GhostedGetArray(m->ghosted, &v));
   for (size_t e = 0; e < Count(m); e++)
     for (int k = 0; k < NFIELDS; k++) m->value[level][k * Count(m) + e] = v[NFIELDS * e + k];
-  PetscCall(VecRestoreArray(local, &v));
-  PetscCall(VecGhostRestoreLocalForm(m->ghosted, &local));
+  PetscCall(GhostedRestoreArray(m->ghosted, &v));
   WeighLevels(m);
   PetscFunctionReturn(0);
 }

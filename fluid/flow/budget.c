@@ -1,4 +1,5 @@
 #include "fluid/flow/budget.h"
+#include "fluid/discretization/ghosted.h"
 #include "fluid/flow/budget_step.h"
 
 /* Sums over elements and faces, in the order in which ranks add them: P^{n+1}, energy, terms, boundaries' forces. */
@@ -50,10 +51,8 @@ static PetscErrorCode AddInterface(Fluid f)
   const double *rho = MaterialDensity(f->material, MATERIAL_STEP), *g = f->setup.gravity;
   double *sum = Term(f, BUDGET_INTERFACE);
   const PetscScalar *p;
-  Vec local;
   PetscFunctionBeginUser;
-  PetscCall(VecGhostGetLocalForm(f->p, &local));
-  PetscCall(VecGetArrayRead(local, &p));
+  PetscCall(GhostedGetArrayRead(f->p, &p));
   for (int e = 0; e < f->domain.mesh->ne; e++) {
     double grad[3][2], mean[2], acceleration[2];
     DomainGradient(&f->domain, e, p, grad);
@@ -62,8 +61,7 @@ static PetscErrorCode AddInterface(Fluid f)
     for (int c = 0; c < 2; c++)
       sum[c] += f->domain.geometry[e].area * (rho[e] * (acceleration[c] - g[c]) + mean[c]);
   }
-  PetscCall(VecRestoreArrayRead(local, &p));
-  PetscCall(VecGhostRestoreLocalForm(f->p, &local));
+  PetscCall(GhostedRestoreArrayRead(f->p, &p));
   PetscFunctionReturn(0);
 }
 
@@ -227,10 +225,8 @@ PetscErrorCode FluidBudgetEnd(Fluid f, double dt)
                   .step = MaterialDensity(f->material, MATERIAL_STEP),
                   .mu = MaterialViscosity(f->material, MATERIAL_STEP)};
   const Mesh *m = f->domain.mesh;
-  Vec local;
   PetscFunctionBeginUser;
-  PetscCall(VecGhostGetLocalForm(f->p, &local));
-  PetscCall(VecGetArrayRead(local, &s.p));
+  PetscCall(GhostedGetArrayRead(f->p, &s.p));
   PetscCall(VecGetArrayRead(f->u, &s.u));
   PetscCall(VecGetArrayRead(f->u_star, &s.u_star));
   PetscCall(VecGetArrayRead(f->u_projected, &s.end));
@@ -244,8 +240,7 @@ PetscErrorCode FluidBudgetEnd(Fluid f, double dt)
   PetscCall(VecRestoreArrayRead(f->u_projected, &s.end));
   PetscCall(VecRestoreArrayRead(f->u_star, &s.u_star));
   PetscCall(VecRestoreArrayRead(f->u, &s.u));
-  PetscCall(VecRestoreArrayRead(local, &s.p));
-  PetscCall(VecGhostRestoreLocalForm(f->p, &local));
+  PetscCall(GhostedRestoreArrayRead(f->p, &s.p));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, f->budget_sum, FORCES + m->ntags * FORCE_PARTS * 2, MPI_DOUBLE,
                              MPI_SUM, m->comm));
   SetBudget(f, dt);

@@ -1,4 +1,5 @@
 /* What is measured of a flow: the step that it allows, momentum, energy, errors against exact fields. */
+#include "fluid/discretization/ghosted.h"
 #include "fluid/flow/fluid_impl.h"
 
 PetscErrorCode FluidMomentumTotal(Fluid f, double momentum[2], double *energy)
@@ -95,19 +96,16 @@ PetscErrorCode FluidErrors(Fluid f, double t, FieldFunction velocity, FieldFunct
 {
   const Mesh *m = f->domain.mesh;
   const PetscScalar *u, *p;
-  Vec local;
   double sum[4] = {0};
   PetscFunctionBeginUser;
   PetscCall(VecGetArrayRead(f->u, &u));
-  PetscCall(VecGhostGetLocalForm(f->p, &local));
-  PetscCall(VecGetArrayRead(local, &p));
+  PetscCall(GhostedGetArrayRead(f->p, &p));
   for (int e = 0; e < m->ne; e++) {
     double pe[6];
     for (int k = 0; k < 6; k++) pe[k] = p[f->domain.p2->node[6 * e + k]];
     ElementErrors(f, e, t, velocity, pressure, context, u + 6 * e, pe, sum);
   }
-  PetscCall(VecRestoreArrayRead(local, &p));
-  PetscCall(VecGhostRestoreLocalForm(f->p, &local));
+  PetscCall(GhostedRestoreArrayRead(f->p, &p));
   PetscCall(VecRestoreArrayRead(f->u, &u));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 4, MPI_DOUBLE, MPI_SUM, m->comm));
   if (velocity_error) *velocity_error = sqrt(sum[0]);

@@ -1,4 +1,5 @@
 /* What a fluid of several phases does differently. */
+#include "fluid/discretization/ghosted.h"
 #include "fluid/flow/fluid_impl.h"
 #include "fluid/pressure/weighted_projection.h"
 
@@ -120,8 +121,7 @@ PetscErrorCode FluidSetOutside(Fluid f)
   PetscCall(VecGetArrayWrite(f->outside, &outside));
   for (int e = 0; e < f->domain.mesh->ne; e++) outside[e] = OutsideDensity(f, e, rho[e], alpha[e]);
   PetscCall(VecRestoreArrayWrite(f->outside, &outside));
-  PetscCall(VecGhostUpdateBegin(f->outside, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostUpdateEnd(f->outside, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(GhostedUpdate(f->outside));
   PetscFunctionReturn(0);
 }
 
@@ -136,10 +136,8 @@ static PetscErrorCode Accelerate(Fluid f, double dt, Vec velocity)
   const InverseDensity *r = FluidInverseDensity(f);
   const PetscScalar *p;
   PetscScalar *u;
-  Vec local;
   PetscFunctionBeginUser;
-  PetscCall(VecGhostGetLocalForm(f->p, &local));
-  PetscCall(VecGetArrayRead(local, &p));
+  PetscCall(GhostedGetArrayRead(f->p, &p));
   PetscCall(VecGetArrayWrite(velocity, &u));
   for (int e = 0; e < f->domain.mesh->ne; e++) {
     double grad[3][2], acceleration[2];
@@ -150,8 +148,7 @@ static PetscErrorCode Accelerate(Fluid f, double dt, Vec velocity)
     }
   }
   PetscCall(VecRestoreArrayWrite(velocity, &u));
-  PetscCall(VecRestoreArrayRead(local, &p));
-  PetscCall(VecGhostRestoreLocalForm(f->p, &local));
+  PetscCall(GhostedRestoreArrayRead(f->p, &p));
   PetscFunctionReturn(0);
 }
 
@@ -215,8 +212,7 @@ static PetscErrorCode SolvePressure(Fluid f, ProjectionStep *step, PetscBool fro
   }
   PetscCall(ProjectionSolverSolve(f->projection, step, velocity, &phi, &f->stats.pressure_iterations));
   PetscCall(VecAXPY(f->p, 1.0, phi));
-  PetscCall(VecGhostUpdateBegin(f->p, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostUpdateEnd(f->p, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(GhostedUpdate(f->p));
   PetscCall(VecDestroy(&velocity));
   PetscFunctionReturn(0);
 }

@@ -1,4 +1,5 @@
 /* The fluid's step. */
+#include "fluid/discretization/ghosted.h"
 #include "fluid/flow/fluid_impl.h"
 
 /* How much of the pressure that a step's compression starts from is the last one's; what is left keeps it at the equation of
@@ -37,8 +38,7 @@ static PetscErrorCode Extrapolate(Fluid f, double dt)
       for (int k = 0; k < 6; k++) flux[6 * e + k] *= rho[e];
     PetscCall(VecRestoreArray(f->mass_flux, &flux));
   }
-  PetscCall(VecGhostUpdateBegin(f->mass_flux, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostUpdateEnd(f->mass_flux, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(GhostedUpdate(f->mass_flux));
   PetscFunctionReturn(0);
 }
 
@@ -86,7 +86,6 @@ PetscErrorCode FluidPrepareMomentum(Fluid f, double dt)
 {
   const double start = MPI_Wtime();
   const PetscScalar *outside = NULL;
-  Vec local;
   PetscFunctionBeginUser;
   f->stats.dt = dt;
   PetscCall(SetGravity(f, dt));
@@ -97,15 +96,11 @@ PetscErrorCode FluidPrepareMomentum(Fluid f, double dt)
   if (f->phases) {
     PetscCall(FluidPredictPressure(f, dt));
     PetscCall(FluidSetOutside(f));
-    PetscCall(VecGhostGetLocalForm(f->outside, &local));
-    PetscCall(VecGetArrayRead(local, &outside));
+    PetscCall(GhostedGetArrayRead(f->outside, &outside));
   }
   const MomentumStep step = StepOfMomentum(f, dt, outside);
   PetscCall(MomentumSolverAssemble(f->momentum, &step));
-  if (f->phases) {
-    PetscCall(VecRestoreArrayRead(local, &outside));
-    PetscCall(VecGhostRestoreLocalForm(f->outside, &local));
-  }
+  if (f->phases) PetscCall(GhostedRestoreArrayRead(f->outside, &outside));
   f->prepared = PETSC_TRUE;
   f->stats.seconds[ASSEMBLY] += MPI_Wtime() - start;
   PetscFunctionReturn(0);
@@ -158,8 +153,7 @@ PetscErrorCode FluidProject(Fluid f, double dt)
   PetscCall(VecCopy(f->u_star, f->u_projected));
   PetscCall(ProjectionSolverSubtract(f->projection, &step, f->u_projected));
   PetscCall(VecAXPY(f->p, 1.0, phi));
-  PetscCall(VecGhostUpdateBegin(f->p, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostUpdateEnd(f->p, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(GhostedUpdate(f->p));
   f->stats.seconds[PRESSURE] += MPI_Wtime() - start;
   PetscFunctionReturn(0);
 }

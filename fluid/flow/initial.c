@@ -1,4 +1,5 @@
 /* The initial state of the fluid. */
+#include "fluid/discretization/ghosted.h"
 #include "fluid/flow/fluid_impl.h"
 
 /* x of P2 node k of element e */
@@ -35,14 +36,12 @@ PetscErrorCode FluidSetOpenPressure(Fluid f, double t)
 {
   const Mesh *m = f->domain.mesh;
   const P2Space *p2 = f->domain.p2;
-  Vec both[2], local[2]; /* sum and count: a node's owner need not have the boundary face */
+  Vec both[2]; /* sum and count: a node's owner need not have the boundary face */
   PetscScalar *v[2], *p;
   PetscFunctionBeginUser;
   for (int k = 0; k < 2; k++) {
     PetscCall(VecDuplicate(f->p, &both[k]));
-    PetscCall(VecGhostGetLocalForm(both[k], &local[k]));
-    PetscCall(VecSet(local[k], 0.0));
-    PetscCall(VecGetArray(local[k], &v[k]));
+    PetscCall(GhostedGetArrayZero(both[k], &v[k]));
   }
   for (int e = 0; e < m->ne; e++)
     for (int i = 0; i < 3; i++) {
@@ -62,10 +61,8 @@ PetscErrorCode FluidSetOpenPressure(Fluid f, double t)
       }
     }
   for (int k = 0; k < 2; k++) {
-    PetscCall(VecRestoreArray(local[k], &v[k]));
-    PetscCall(VecGhostRestoreLocalForm(both[k], &local[k]));
-    PetscCall(VecGhostUpdateBegin(both[k], ADD_VALUES, SCATTER_REVERSE));
-    PetscCall(VecGhostUpdateEnd(both[k], ADD_VALUES, SCATTER_REVERSE));
+    PetscCall(GhostedRestoreArray(both[k], &v[k]));
+    PetscCall(GhostedSum(both[k]));
     PetscCall(VecGetArray(both[k], &v[k]));
   }
   PetscCall(VecGetArray(f->p, &p));
@@ -76,8 +73,7 @@ PetscErrorCode FluidSetOpenPressure(Fluid f, double t)
     PetscCall(VecRestoreArray(both[k], &v[k]));
     PetscCall(VecDestroy(&both[k]));
   }
-  PetscCall(VecGhostUpdateBegin(f->p, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostUpdateEnd(f->p, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(GhostedUpdate(f->p));
   PetscFunctionReturn(0);
 }
 
@@ -87,7 +83,6 @@ PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldF
   const Mesh *m = f->domain.mesh;
   const int *node = f->domain.p2->node;
   PetscScalar *u, *p;
-  Vec local;
   PetscFunctionBeginUser;
   f->t = t;
   f->dt_previous = 0.0;
@@ -106,8 +101,7 @@ PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldF
     PetscCall(VecCopy(f->u, f->bulk));
     PetscCall(VecCopy(f->u, f->bulk_previous));
   }
-  PetscCall(VecGhostGetLocalForm(f->p, &local));
-  PetscCall(VecGetArray(local, &p));
+  PetscCall(GhostedGetArray(f->p, &p));
   for (int e = 0; e < m->ne; e++)
     for (int k = 0; k < 6; k++) {
       double x[2];
@@ -115,8 +109,7 @@ PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldF
       p[node[6 * e + k]] = HydrostaticPressure(m, f->setup.rho, f->setup.gravity, x);
       if (pressure) pressure(context, t, x, p + node[6 * e + k]);
     }
-  PetscCall(VecRestoreArray(local, &p));
-  PetscCall(VecGhostRestoreLocalForm(f->p, &local));
+  PetscCall(GhostedRestoreArray(f->p, &p));
   if (!pressure) PetscCall(FluidSetOpenPressure(f, t));
   if (!pressure && f->phases) PetscCall(FluidBalancePressure(f));
   PetscCall(FluidBudgetChanged(f));
@@ -142,8 +135,7 @@ PetscErrorCode FluidStartInside(Fluid f)
       *v += entry[k].alpha * (entry[k].velocity[i / 3] - *v);
     }
   PetscCall(VecRestoreArray(f->u, &u));
-  PetscCall(VecGhostUpdateBegin(f->u, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostUpdateEnd(f->u, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(GhostedUpdate(f->u));
   PetscCall(VecCopy(f->u, f->u_previous));
   SolidCouplingSetStarting(f->solid, PETSC_TRUE);
   PetscCall(FluidBudgetChanged(f));

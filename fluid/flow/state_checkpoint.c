@@ -1,6 +1,7 @@
 /* The state of the fluid in a checkpoint and out of it: tables with a row an element, in the order of the
  * elements' global numbers, as in mesh_checkpoint.h. */
 #include "common/mesh/mesh_checkpoint.h"
+#include "fluid/discretization/ghosted.h"
 #include "fluid/flow/fluid_impl.h"
 
 #define PHASES ((int)(sizeof((FluidStats *)NULL)->seconds / sizeof(double)))
@@ -45,15 +46,12 @@ static PetscErrorCode LoadPressure(Fluid f, const PetscInt row[], Checkpoint fro
   const Mesh *m = f->domain.mesh;
   double *nodes;
   PetscScalar *p;
-  Vec local;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(6 * m->ne, &nodes));
   PetscCall(MeshLoadDoubles(m, row, from, "pressure", 6, nodes));
-  PetscCall(VecGhostGetLocalForm(f->p, &local));
-  PetscCall(VecGetArray(local, &p));
+  PetscCall(GhostedGetArray(f->p, &p));
   for (int k = 0; k < 6 * m->ne; k++) p[f->domain.p2->node[k]] = nodes[k];
-  PetscCall(VecRestoreArray(local, &p));
-  PetscCall(VecGhostRestoreLocalForm(f->p, &local));
+  PetscCall(GhostedRestoreArray(f->p, &p));
   PetscCall(PetscFree(nodes));
   PetscFunctionReturn(0);
 }

@@ -1,5 +1,6 @@
 /* The state of the fluid from one mesh to the next. */
 #include "common/transfer/transfer.h"
+#include "fluid/discretization/ghosted.h"
 #include "fluid/flow/fluid_impl.h"
 
 /* u and u of the step before, in one go: [ne][2 fields][2][3]. */
@@ -30,19 +31,14 @@ static PetscErrorCode Velocities(Fluid from, Fluid to, Transfer transfer)
 
 static PetscErrorCode Pressure(Fluid from, Fluid to, Transfer transfer)
 {
-  Vec old, new;
   const PetscScalar *p;
   PetscScalar *q;
   PetscFunctionBeginUser;
-  PetscCall(VecGhostGetLocalForm(from->p, &old));
-  PetscCall(VecGhostGetLocalForm(to->p, &new));
-  PetscCall(VecGetArrayRead(old, &p));
-  PetscCall(VecGetArray(new, &q));
+  PetscCall(GhostedGetArrayRead(from->p, &p));
+  PetscCall(GhostedGetArray(to->p, &q));
   PetscCall(TransferP2(transfer, from->domain.p2, to->domain.p2, p, q));
-  PetscCall(VecRestoreArray(new, &q));
-  PetscCall(VecRestoreArrayRead(old, &p));
-  PetscCall(VecGhostRestoreLocalForm(to->p, &new));
-  PetscCall(VecGhostRestoreLocalForm(from->p, &old));
+  PetscCall(GhostedRestoreArray(to->p, &q));
+  PetscCall(GhostedRestoreArrayRead(from->p, &p));
   PetscFunctionReturn(0);
 }
 
@@ -113,12 +109,10 @@ static PetscErrorCode PhasePressure(Fluid from, Fluid to, Transfer transfer)
   PetscCall(FluidBalancePressure(to));
   PetscCall(VecCopy(to->p, still));
   PetscCall(VecAXPY(from->p, -1.0, p));
-  PetscCall(VecGhostUpdateBegin(from->p, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostUpdateEnd(from->p, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(GhostedUpdate(from->p));
   PetscCall(Pressure(from, to, transfer));
   PetscCall(VecAYPX(to->p, -1.0, still));
-  PetscCall(VecGhostUpdateBegin(to->p, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostUpdateEnd(to->p, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(GhostedUpdate(to->p));
   PetscCall(VecDestroy(&p));
   PetscCall(VecDestroy(&still));
   PetscFunctionReturn(0);

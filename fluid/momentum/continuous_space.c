@@ -1,5 +1,6 @@
 #include "fluid/momentum/continuous_space.h"
 #include "fluid/discretization/assembly.h"
+#include "fluid/discretization/ghosted.h"
 #include "fluid/discretization/solver_options.h"
 
 enum { FACTOR, MULTIGRID, NSOLVERS };
@@ -120,33 +121,24 @@ PetscErrorCode ContinuousSpaceUpdate(ContinuousSpace s, PetscBool multigrid, con
 static PetscErrorCode Restrict(ContinuousSpace s, int component, const double r[])
 {
   PetscScalar *v;
-  Vec local;
   PetscFunctionBeginUser;
-  PetscCall(VecGhostGetLocalForm(s->residual, &local));
-  PetscCall(VecSet(local, 0.0));
-  PetscCall(VecGetArray(local, &v));
+  PetscCall(GhostedGetArrayZero(s->residual, &v));
   for (int e = 0; e < s->mesh->ne; e++)
     for (int i = 0; i < 3; i++) v[s->node[3 * e + i]] += r[6 * e + 3 * component + i];
-  PetscCall(VecRestoreArray(local, &v));
-  PetscCall(VecGhostRestoreLocalForm(s->residual, &local));
-  PetscCall(VecGhostUpdateBegin(s->residual, ADD_VALUES, SCATTER_REVERSE));
-  PetscCall(VecGhostUpdateEnd(s->residual, ADD_VALUES, SCATTER_REVERSE));
+  PetscCall(GhostedRestoreArray(s->residual, &v));
+  PetscCall(GhostedSum(s->residual));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode Extend(ContinuousSpace s, int component, SingleVector z[])
 {
   const PetscScalar *v;
-  Vec local;
   PetscFunctionBeginUser;
-  PetscCall(VecGhostUpdateBegin(s->correction, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostUpdateEnd(s->correction, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostGetLocalForm(s->correction, &local));
-  PetscCall(VecGetArrayRead(local, &v));
+  PetscCall(GhostedUpdate(s->correction));
+  PetscCall(GhostedGetArrayRead(s->correction, &v));
   for (int e = 0; e < s->mesh->ne; e++)
     for (int i = 0; i < 4; i++) z[e][4 * component + i] = i < 3 ? (float)v[s->node[3 * e + i]] : 0.0f;
-  PetscCall(VecRestoreArrayRead(local, &v));
-  PetscCall(VecGhostRestoreLocalForm(s->correction, &local));
+  PetscCall(GhostedRestoreArrayRead(s->correction, &v));
   PetscFunctionReturn(0);
 }
 

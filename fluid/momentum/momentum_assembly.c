@@ -1,4 +1,5 @@
 /* The momentum equation: operator and load, one pass over the elements. */
+#include "fluid/discretization/ghosted.h"
 #include "fluid/momentum/momentum_impl.h"
 
 /* Of jumps beside an interface, in densities times lengths over the time step. */
@@ -260,25 +261,20 @@ PetscErrorCode MomentumSolverAssemble(MomentumSolver s, const MomentumStep *step
   const Mesh *m = s->domain->mesh;
   const PetscScalar *flux, *u, *p;
   PetscScalar *load;
-  Vec flux_local, p_local;
   PetscFunctionBeginUser;
   PetscCall(KeepFaces(s, step));
   s->op.ndense = 0;
   s->op.diffusion = 0.0;
   s->advected[0] = s->advected[1] = 0.0;
   for (int e = 0; e < m->ne + m->ng; e++) s->op.theta_mu[e] = s->setup.theta * step->mu[e];
-  PetscCall(VecGhostGetLocalForm(step->mass_flux, &flux_local));
-  PetscCall(VecGhostGetLocalForm(step->p, &p_local));
-  PetscCall(VecGetArrayRead(flux_local, &flux));
-  PetscCall(VecGetArrayRead(p_local, &p));
+  PetscCall(GhostedGetArrayRead(step->mass_flux, &flux));
+  PetscCall(GhostedGetArrayRead(step->p, &p));
   PetscCall(VecGetArrayRead(step->u, &u));
   PetscCall(VecGetArray(s->load, &load));
   for (int e = 0; e < m->ne; e++) PetscCall(AssembleElement(s, step, e, flux, u + 6 * e, p, load + 6 * e));
   PetscCall(VecRestoreArray(s->load, &load));
   PetscCall(VecRestoreArrayRead(step->u, &u));
-  PetscCall(VecRestoreArrayRead(p_local, &p));
-  PetscCall(VecRestoreArrayRead(flux_local, &flux));
-  PetscCall(VecGhostRestoreLocalForm(step->p, &p_local));
-  PetscCall(VecGhostRestoreLocalForm(step->mass_flux, &flux_local));
+  PetscCall(GhostedRestoreArrayRead(step->p, &p));
+  PetscCall(GhostedRestoreArrayRead(step->mass_flux, &flux));
   PetscFunctionReturn(0);
 }

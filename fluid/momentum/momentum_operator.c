@@ -1,4 +1,5 @@
 #include "fluid/momentum/momentum_operator.h"
+#include "fluid/discretization/ghosted.h"
 
 PetscErrorCode MomentumOperatorCreate(const FluidDomain *domain, Vec like, MomentumOperator *op)
 {
@@ -91,22 +92,23 @@ static void Stresses(const MomentumOperator *op, const double x[])
     CoupledStress(op->domain->geometry[e].g, op->theta_mu[e], x + 6 * e, op->stress[e]);
 }
 
-PetscErrorCode MomentumOperatorGetGhosted(MomentumOperator *op, Vec x, Vec *local)
+PetscErrorCode MomentumOperatorGetGhosted(MomentumOperator *op, Vec x, const PetscScalar **u)
 {
   PetscFunctionBeginUser;
-  *local = x;
-  if (op->alone) PetscFunctionReturn(0);
-  PetscCall(VecCopy(x, op->ghosted));
-  PetscCall(VecGhostUpdateBegin(op->ghosted, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostUpdateEnd(op->ghosted, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostGetLocalForm(op->ghosted, local));
+  if (op->alone) {
+    PetscCall(VecGetArrayRead(x, u));
+  } else {
+    PetscCall(VecCopy(x, op->ghosted));
+    PetscCall(GhostedUpdate(op->ghosted));
+    PetscCall(GhostedGetArrayRead(op->ghosted, u));
+  }
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode MomentumOperatorRestoreGhosted(MomentumOperator *op, Vec *local)
+PetscErrorCode MomentumOperatorRestoreGhosted(MomentumOperator *op, Vec x, const PetscScalar **u)
 {
   PetscFunctionBeginUser;
-  if (!op->alone) PetscCall(VecGhostRestoreLocalForm(op->ghosted, local));
+  PetscCall(op->alone ? VecRestoreArrayRead(x, u) : GhostedRestoreArrayRead(op->ghosted, u));
   PetscFunctionReturn(0);
 }
 
@@ -115,10 +117,8 @@ PetscErrorCode MomentumOperatorApply(MomentumOperator *op, Vec x, Vec y)
   const Mesh *m = op->domain->mesh;
   const PetscScalar *u;
   PetscScalar *v;
-  Vec local;
   PetscFunctionBeginUser;
-  PetscCall(MomentumOperatorGetGhosted(op, x, &local));
-  PetscCall(VecGetArrayRead(local, &u));
+  PetscCall(MomentumOperatorGetGhosted(op, x, &u));
   PetscCall(VecGetArrayWrite(y, &v));
   Stresses(op, u);
   for (int e = 0; e < m->ne; e++) {
@@ -140,7 +140,6 @@ PetscErrorCode MomentumOperatorApply(MomentumOperator *op, Vec x, Vec y)
   }
   MomentumOperatorApplyDense(op, u, v);
   PetscCall(VecRestoreArrayWrite(y, &v));
-  PetscCall(VecRestoreArrayRead(local, &u));
-  PetscCall(MomentumOperatorRestoreGhosted(op, &local));
+  PetscCall(MomentumOperatorRestoreGhosted(op, x, &u));
   PetscFunctionReturn(0);
 }

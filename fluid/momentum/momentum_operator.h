@@ -41,7 +41,7 @@ PetscErrorCode MomentumOperatorAddDense(MomentumOperator *op, int e, const doubl
 PetscErrorCode MomentumOperatorApply(MomentumOperator *op, Vec x, Vec y);
 /* y += D x, [ne][2][3].  Not collective. */
 void MomentumOperatorApplyDense(const MomentumOperator *op, const double x[], double y[]);
-/* *local: x with its ghosts (x itself on one rank), until it is restored.  Collective. */
-PetscErrorCode MomentumOperatorGetGhosted(MomentumOperator *op, Vec x, Vec *local);
-PetscErrorCode MomentumOperatorRestoreGhosted(MomentumOperator *op, Vec *local);
+/* *u: x and behind it the ghosts, until it is restored.  Collective. */
+PetscErrorCode MomentumOperatorGetGhosted(MomentumOperator *op, Vec x, const PetscScalar **u);
+PetscErrorCode MomentumOperatorRestoreGhosted(MomentumOperator *op, Vec x, const PetscScalar **u);
 #endif

@@ -1,4 +1,5 @@
 #include "fluid/momentum/preconditioner.h"
+#include "fluid/discretization/ghosted.h"
 #include "fluid/momentum/continuous_space.h"
 
 struct Preconditioner_s {
@@ -52,19 +53,15 @@ static PetscErrorCode UpdateGhosts(Preconditioner p)
 {
   const Mesh *m = p->op->domain->mesh;
   PetscScalar *v;
-  Vec local;
   PetscFunctionBeginUser;
   if (p->op->alone) PetscFunctionReturn(0);
   PetscCall(VecGetArray(p->ghosted, &v));
   for (int e = 0; e < m->ne; e++) SingleToDouble(p->z[e], v + 6 * e);
   PetscCall(VecRestoreArray(p->ghosted, &v));
-  PetscCall(VecGhostUpdateBegin(p->ghosted, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostUpdateEnd(p->ghosted, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostGetLocalForm(p->ghosted, &local));
-  PetscCall(VecGetArray(local, &v));
+  PetscCall(GhostedUpdate(p->ghosted));
+  PetscCall(GhostedGetArray(p->ghosted, &v));
   for (int e = m->ne; e < m->ne + m->ng; e++) SingleFromDouble(v + 6 * e, p->z[e]);
-  PetscCall(VecRestoreArray(local, &v));
-  PetscCall(VecGhostRestoreLocalForm(p->ghosted, &local));
+  PetscCall(GhostedRestoreArray(p->ghosted, &v));
   PetscFunctionReturn(0);
 }
 

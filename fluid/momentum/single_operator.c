@@ -83,10 +83,8 @@ PetscErrorCode SingleOperatorApply(SingleOperator s, Vec x, Vec y)
   const Mesh *m = s->op->domain->mesh;
   const PetscScalar *u;
   PetscScalar *v;
-  Vec local;
   PetscFunctionBeginUser;
-  PetscCall(MomentumOperatorGetGhosted(s->op, x, &local));
-  PetscCall(VecGetArrayRead(local, &u));
+  PetscCall(MomentumOperatorGetGhosted(s->op, x, &u));
   PetscCall(VecGetArrayWrite(y, &v));
   for (int e = 0; e < m->ne + m->ng; e++) {
     SingleFromDouble(u + 6 * e, s->x[e]);
@@ -95,7 +93,6 @@ PetscErrorCode SingleOperatorApply(SingleOperator s, Vec x, Vec y)
   for (int e = 0; e < m->ne; e++) ApplyElement(s, e, v + 6 * e);
   MomentumOperatorApplyDense(s->op, u, v);
   PetscCall(VecRestoreArrayWrite(y, &v));
-  PetscCall(VecRestoreArrayRead(local, &u));
-  PetscCall(MomentumOperatorRestoreGhosted(s->op, &local));
+  PetscCall(MomentumOperatorRestoreGhosted(s->op, x, &u));
   PetscFunctionReturn(0);
 }

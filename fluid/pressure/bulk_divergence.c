@@ -1,4 +1,5 @@
 #include "fluid/pressure/bulk_divergence.h"
+#include "fluid/discretization/ghosted.h"
 
 /* r -= <q, g.n> on boundaries that prescribe the velocity: Simpson's rule, exact for q in P2 and constant g
  */
@@ -37,11 +38,8 @@ PetscErrorCode BulkDivergence(const FluidDomain *domain, const ProjectionStep *s
   const Mesh *m = domain->mesh;
   const PetscScalar *u;
   PetscScalar *d;
-  Vec local;
   PetscFunctionBeginUser;
-  PetscCall(VecGhostGetLocalForm(divergence, &local));
-  PetscCall(VecSet(local, 0.0));
-  PetscCall(VecGetArray(local, &d));
+  PetscCall(GhostedGetArrayZero(divergence, &d));
   PetscCall(VecGetArrayRead(velocity, &u));
   for (int e = 0; e < m->ne; e++) {
     double mv[2][3], r[6] = {0};
@@ -53,9 +51,7 @@ PetscErrorCode BulkDivergence(const FluidDomain *domain, const ProjectionStep *s
   PetscCall(VecRestoreArrayRead(velocity, &u));
   if (step->compressible && step->pressure)
     PetscCall(CompressibilityAddLoads(domain, step->compressible, step->dt, step->pressure, d));
-  PetscCall(VecRestoreArray(local, &d));
-  PetscCall(VecGhostRestoreLocalForm(divergence, &local));
-  PetscCall(VecGhostUpdateBegin(divergence, ADD_VALUES, SCATTER_REVERSE));
-  PetscCall(VecGhostUpdateEnd(divergence, ADD_VALUES, SCATTER_REVERSE));
+  PetscCall(GhostedRestoreArray(divergence, &d));
+  PetscCall(GhostedSum(divergence));
   PetscFunctionReturn(0);
 }

@@ -1,4 +1,5 @@
 #include "fluid/pressure/pressure_preconditioner.h"
+#include "fluid/discretization/ghosted.h"
 #include "fluid/pressure/coarse_correction.h"
 #include "fluid/pressure/patch_correction.h"
 #include "fluid/pressure/relaxation.h"
@@ -96,17 +97,12 @@ static PetscErrorCode MarkPatches(PressurePreconditioner p, const double unevenn
 {
   const FluidDomain *d = p->domain;
   PetscScalar *v;
-  Vec local;
   PetscFunctionBeginUser;
-  PetscCall(VecGhostGetLocalForm(mark, &local));
-  PetscCall(VecSet(local, 0.0));
-  PetscCall(VecGetArray(local, &v));
+  PetscCall(GhostedGetArrayZero(mark, &v));
   for (int e = 0; e < d->mesh->ne; e++)
     for (int q = 0; q < 6 && unevenness[e] > UNEVEN; q++) v[d->p2->node[6 * e + q]] = 1.0;
-  PetscCall(VecRestoreArray(local, &v));
-  PetscCall(VecGhostRestoreLocalForm(mark, &local));
-  PetscCall(VecGhostUpdateBegin(mark, ADD_VALUES, SCATTER_REVERSE));
-  PetscCall(VecGhostUpdateEnd(mark, ADD_VALUES, SCATTER_REVERSE));
+  PetscCall(GhostedRestoreArray(mark, &v));
+  PetscCall(GhostedSum(mark));
   PetscFunctionReturn(0);
 }
 

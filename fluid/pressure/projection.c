@@ -1,4 +1,5 @@
 #include "fluid/pressure/projection.h"
+#include "fluid/discretization/ghosted.h"
 #include "fluid/pressure/bulk_divergence.h"
 #include "fluid/pressure/pressure_solver.h"
 #include "fluid/pressure/weighted_projection.h"
@@ -41,29 +42,24 @@ static PetscErrorCode FindFixed(ProjectionSolver s, PetscBool *closed)
 {
   PetscScalar *v;
   const P2Space *p2 = s->domain->p2;
-  Vec mark, local;
+  Vec mark;
   int has_open;
   PetscFunctionBeginUser;
   PetscCall(VecDuplicate(s->phi, &mark));
-  PetscCall(VecGhostGetLocalForm(mark, &local));
-  PetscCall(VecSet(local, 0.0));
-  PetscCall(VecGetArray(local, &v));
+  PetscCall(GhostedGetArrayZero(mark, &v));
   PetscCall(MarkOpen(s->domain, v, &has_open));
   *closed = (PetscBool)!has_open;
-  PetscCall(VecRestoreArray(local, &v));
-  PetscCall(VecGhostUpdateBegin(mark, ADD_VALUES, SCATTER_REVERSE));
-  PetscCall(VecGhostUpdateEnd(mark, ADD_VALUES, SCATTER_REVERSE));
-  PetscCall(VecGhostUpdateBegin(mark, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostUpdateEnd(mark, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGetArray(local, &v));
+  PetscCall(GhostedRestoreArray(mark, &v));
+  PetscCall(GhostedSum(mark));
+  PetscCall(GhostedUpdate(mark));
+  PetscCall(GhostedGetArray(mark, &v));
   PetscCall(PetscMalloc1(p2->n, &s->is_fixed));
   PetscCall(PetscMalloc1(p2->nowned, &s->fixed));
   for (int k = 0; k < p2->n; k++) {
     s->is_fixed[k] = v[k] > 0.5;
     if (s->is_fixed[k] && k < p2->nowned) s->fixed[s->nfixed++] = k;
   }
-  PetscCall(VecRestoreArray(local, &v));
-  PetscCall(VecGhostRestoreLocalForm(mark, &local));
+  PetscCall(GhostedRestoreArray(mark, &v));
   PetscCall(VecDestroy(&mark));
   PetscFunctionReturn(0);
 }
@@ -224,14 +220,11 @@ static PetscErrorCode Divergence(ProjectionSolver s, const ProjectionStep *step,
 PetscErrorCode ProjectionSolverKeepFixed(ProjectionSolver s, Vec p)
 {
   PetscScalar *v;
-  Vec local;
   PetscFunctionBeginUser;
-  PetscCall(VecGhostGetLocalForm(p, &local));
-  PetscCall(VecGetArray(local, &v));
+  PetscCall(GhostedGetArray(p, &v));
   for (int k = 0; k < s->domain->p2->n; k++)
     if (!s->is_fixed[k]) v[k] = 0.0;
-  PetscCall(VecRestoreArray(local, &v));
-  PetscCall(VecGhostRestoreLocalForm(p, &local));
+  PetscCall(GhostedRestoreArray(p, &v));
   PetscFunctionReturn(0);
 }
 
@@ -245,8 +238,7 @@ PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *s
   /* volumes of phases add up as far as the divergence is removed: its solver may not stop sooner for them */
   if (step->revision == 0) PetscCall(Size(s, step, velocity, &problem.size));
   PetscCall(PressureSolverSolve(s->solver, &problem, s->phi, iterations));
-  PetscCall(VecGhostUpdateBegin(s->phi, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostUpdateEnd(s->phi, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(GhostedUpdate(s->phi));
   *phi = s->phi;
   PetscFunctionReturn(0);
 }
@@ -266,10 +258,8 @@ PetscErrorCode ProjectionSolverSubtract(ProjectionSolver s, const ProjectionStep
   const Mesh *m = d->mesh;
   const PetscScalar *phi;
   PetscScalar *u;
-  Vec local;
   PetscFunctionBeginUser;
-  PetscCall(VecGhostGetLocalForm(s->phi, &local));
-  PetscCall(VecGetArrayRead(local, &phi));
+  PetscCall(GhostedGetArrayRead(s->phi, &phi));
   PetscCall(VecGetArray(velocity, &u));
   for (int e = 0; e < m->ne; e++) {
     double grad[3][2];
@@ -283,7 +273,6 @@ PetscErrorCode ProjectionSolverSubtract(ProjectionSolver s, const ProjectionStep
         for (int i = 0; i < 3; i++) u[6 * e + 3 * c + i] -= step->dt / step->rho[e] * grad[i][c];
   }
   PetscCall(VecRestoreArray(velocity, &u));
-  PetscCall(VecRestoreArrayRead(local, &phi));
-  PetscCall(VecGhostRestoreLocalForm(s->phi, &local));
+  PetscCall(GhostedRestoreArrayRead(s->phi, &phi));
   PetscFunctionReturn(0);
 }

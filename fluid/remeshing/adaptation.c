@@ -3,6 +3,7 @@
 #include "fluid/adapt/adapt_parallel.h"
 #include "fluid/adapt/metric.h"
 #include "fluid/adapt/metric_share.h"
+#include "fluid/discretization/ghosted.h"
 #include "fluid/flow/fluid_impl.h"
 #include "fluid/remeshing/fine_band.h"
 
@@ -94,22 +95,18 @@ static PetscErrorCode VertexVelocity(Fluid f, double *mean[2], double weight[])
 {
   const Mesh *m = f->domain.mesh;
   const PetscScalar *u;
-  Vec local;
   PetscFunctionBeginUser;
   PetscCall(PetscArrayzero(weight, m->nv));
   for (int c = 0; c < 2; c++) PetscCall(PetscArrayzero(mean[c], m->nv));
-  PetscCall(VecGhostUpdateBegin(f->u_projected, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostUpdateEnd(f->u_projected, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGhostGetLocalForm(f->u_projected, &local));
-  PetscCall(VecGetArrayRead(local, &u));
+  PetscCall(GhostedUpdate(f->u_projected));
+  PetscCall(GhostedGetArrayRead(f->u_projected, &u));
   for (int e = 0; e < m->ne + m->ng; e++)
     for (int i = 0; i < 3; i++) {
       const int v = m->vertex[3 * e + i];
       weight[v] += f->domain.geometry[e].area;
       for (int c = 0; c < 2; c++) mean[c][v] += f->domain.geometry[e].area * u[6 * e + 3 * c + i];
     }
-  PetscCall(VecRestoreArrayRead(local, &u));
-  PetscCall(VecGhostRestoreLocalForm(f->u_projected, &local));
+  PetscCall(GhostedRestoreArrayRead(f->u_projected, &u));
   for (int v = 0; v < m->nv; v++)
     for (int c = 0; c < 2; c++) mean[c][v] /= weight[v];
   PetscFunctionReturn(0);
