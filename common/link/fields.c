@@ -2,33 +2,15 @@
 
 /* --- the table ------------------------------------------------------------------------------------------ */
 
-#define VECTOR                                                                                               \
-  {                                                                                                          \
-    EXTENT_DIM                                                                                               \
-  }
-#define P1_VECTOR                                                                                            \
-  {                                                                                                          \
-    EXTENT_DIM, EXTENT_VERTICES                                                                              \
-  }
-#define P1_TENSOR                                                                                            \
-  {                                                                                                          \
-    EXTENT_DIM, EXTENT_VERTICES, EXTENT_DIM, EXTENT_VERTICES                                                 \
-  }
-#define P1_MATRIX                                                                                            \
-  {                                                                                                          \
-    EXTENT_VERTICES, EXTENT_VERTICES                                                                         \
-  }
-#define NUMBER_OF(list) (int)(sizeof(list) / sizeof *(list))
-#define ARRAYS(entity, direction, list)                                                                      \
-  {                                                                                                          \
-    entity, direction, 0, NUMBER_OF(list), list                                                              \
-  }
-#define ENTRIES(entity, direction, type, list)                                                               \
-  {                                                                                                          \
-    entity, direction, sizeof(type), NUMBER_OF(list), list                                                   \
-  }
-
 /* clang-format off */
+#define VECTOR {EXTENT_DIM}
+#define P1_VECTOR {EXTENT_DIM, EXTENT_VERTICES}
+#define P1_TENSOR {EXTENT_DIM, EXTENT_VERTICES, EXTENT_DIM, EXTENT_VERTICES}
+#define P1_MATRIX {EXTENT_VERTICES, EXTENT_VERTICES}
+#define NUMBER_OF(list) (int)(sizeof(list) / sizeof *(list))
+#define ARRAYS(entity, direction, list) {entity, direction, 0, NUMBER_OF(list), list}
+#define ENTRIES(entity, direction, type, list) {entity, direction, sizeof(type), NUMBER_OF(list), list}
+
 #define AT(member) offsetof(ServerSolid, member)
 static const Field NODES[] = {
   {"global id",    "-",    FIELD_ID,   {0},    AT(gid),          0, FIELD_ANY}};
@@ -59,13 +41,16 @@ static const Field DOMAIN_BOUNDS[] = {
   {"upper corner of the domain", "m", FIELD_REAL, VECTOR, AT(upper), 0, FIELD_ANY}};
 #undef AT
 
+/* of the fluid, with the elements and with the flow */
+#define PROPERTIES \
+  {"density",                  "kg/m3", FIELD_REAL, {0}, AT(rho),        0, FIELD_POSITIVE},     \
+  {"viscosity",                "Pa s",  FIELD_REAL, {0}, AT(mu),         0, FIELD_NOT_NEGATIVE}, \
+  {"density inside the solid", "kg/m3", FIELD_REAL, {0}, AT(rho_inside), 0, FIELD_POSITIVE},     \
+  {"density beside the solid", "kg/m3", FIELD_REAL, {0}, AT(rho_beside), 0, FIELD_NOT_NEGATIVE}
 #define AT(member) offsetof(CoracleElements, member)
 static const Field ELEMENTS[] = {
-  {"vertices",  "m",     FIELD_REAL, {EXTENT_VERTICES, EXTENT_DIM}, AT(x),   0, FIELD_ANY},
-  {"density",   "kg/m3", FIELD_REAL, {0},                           AT(rho), 0, FIELD_POSITIVE},
-  {"viscosity", "Pa s",  FIELD_REAL, {0},                           AT(mu),  0, FIELD_NOT_NEGATIVE},
-  {"density inside the solid",  "kg/m3", FIELD_REAL, {0}, AT(rho_inside), 0, FIELD_POSITIVE},
-  {"density beside the solid",  "kg/m3", FIELD_REAL, {0}, AT(rho_beside), 0, FIELD_NOT_NEGATIVE}};
+  {"vertices", "m", FIELD_REAL, {EXTENT_VERTICES, EXTENT_DIM}, AT(x), 0, FIELD_ANY},
+  PROPERTIES};
 #undef AT
 
 #define AT(member) offsetof(CoracleFlow, member)
@@ -74,10 +59,7 @@ static const Field FLOW[] = {
   {"velocity before the projection", "m/s", FIELD_REAL, P1_VECTOR,  AT(u_star),      0, FIELD_ANY},
   {"projected velocity", "m/s",   FIELD_REAL, P1_VECTOR,         AT(u_projected), 0, FIELD_ANY},
   {"pressure",           "Pa",    FIELD_REAL, {EXTENT_PRESSURE}, AT(p), FLAG_PRESSURE, FIELD_ANY},
-  {"density",            "kg/m3", FIELD_REAL, {0},               AT(rho),         0, FIELD_POSITIVE},
-  {"viscosity",          "Pa s",  FIELD_REAL, {0},               AT(mu),          0, FIELD_NOT_NEGATIVE},
-  {"density inside the solid", "kg/m3", FIELD_REAL, {0},         AT(rho_inside),  0, FIELD_POSITIVE},
-  {"density beside the solid", "kg/m3", FIELD_REAL, {0},         AT(rho_beside),  0, FIELD_NOT_NEGATIVE}};
+  PROPERTIES};
 #undef AT
 
 #define AT(member) offsetof(CoracleCorrection, member)
