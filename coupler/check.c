@@ -1,4 +1,5 @@
 #include "coupler/check.h"
+#include "common/program/program.h"
 #include "coupler/input/coupler_case.h"
 #include <errno.h>
 #include <stdio.h>
@@ -60,16 +61,8 @@ static void Read(CoracleCase c, void *command)
          ceil(k.end / k.dt_max), floor(k.end / k.every) + 1.0, k.folder);
 }
 
-static int Start(void)
-{
-  return PetscInitialize(NULL, NULL, NULL, NULL);
-}
-
 int CouplerAnswer(Command command, int argc, char **argv)
 {
-  static const CommandAnswers ANSWERS = {"coupler", "", Start, Read};
-  const int status = CommandAnswer(command, &ANSWERS, argc, argv);
-  PetscBool started;
-  if (!PetscInitialized(&started) && started) (void)PetscFinalize();
-  return status;
+  static const CommandAnswers ANSWERS = {"coupler", "", Read};
+  return ProgramAnswer(command, &ANSWERS, argc, argv);
 }

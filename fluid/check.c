@@ -1,4 +1,5 @@
 #include "fluid/check.h"
+#include "common/program/program.h"
 #include "fluid/input/fluid_case.h"
 #include "fluid/output/probes.h"
 #include "fluid/output/writer.h"
@@ -140,11 +141,6 @@ static const CoracleCaseKey KEYS[] = {
 #define MB_PROGRAM 50.0
 #define MB_TRIANGLE 0.0057
 
-static int Start(void)
-{
-  return PetscInitialize(NULL, NULL, NULL, NULL);
-}
-
 static void Expect(const Mesh *m, PetscBool adapts, const AdaptationSetup *s)
 {
   double shortest = HUGE_VAL, longest = 0.0;
@@ -216,9 +212,6 @@ static void Read(CoracleCase c, void *command)
 
 int FluidAnswer(Command command, int argc, char **argv)
 {
-  static const CommandAnswers ANSWERS = {"fluid", "", Start, Read};
-  const int status = CommandAnswer(command, &ANSWERS, argc, argv);
-  PetscBool started;
-  if (!PetscInitialized(&started) && started) (void)PetscFinalize();
-  return status;
+  static const CommandAnswers ANSWERS = {"fluid", "", Read};
+  return ProgramAnswer(command, &ANSWERS, argc, argv);
 }

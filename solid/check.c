@@ -1,4 +1,5 @@
 #include "solid/check.h"
+#include "common/program/program.h"
 #include "solid/bodies/case_body.h"
 #include "solid/probes.h"
 #include "solid/solid_case.h"
@@ -127,11 +128,6 @@ static const CoracleCaseKey KEYS[] = {
     {"solid.petsc", "", "options for PETSc"},
     {NULL, NULL, NULL}};
 
-static int Start(void)
-{
-  return PetscInitialize(NULL, NULL, NULL, NULL);
-}
-
 static void Fail(void *context, const char *message)
 {
   (void)context;
@@ -242,9 +238,6 @@ static void Read(CoracleCase c, void *command)
 int SolidAnswer(Command command, int argc, char **argv)
 {
   static const CommandAnswers ANSWERS = {
-      "solid", "  --alone          runs the solid without fluid and coupler\n", Start, Read};
-  const int status = CommandAnswer(command, &ANSWERS, argc, argv);
-  PetscBool started;
-  if (!PetscInitialized(&started) && started) (void)PetscFinalize();
-  return status;
+      "solid", "  --alone          runs the solid without fluid and coupler\n", Read};
+  return ProgramAnswer(command, &ANSWERS, argc, argv);
 }

@@ -80,7 +80,6 @@ int CommandAnswer(Command command, const CommandAnswers *answers, int argc, char
     printf("coracle-%s %s\n", answers->role, CORACLE_VERSION);
     return 0;
   }
-  if (answers->start && answers->start()) return 1;
   if (command == COMMAND_KEYS) return CoracleCaseKeysOf(argc, argv, Read, &asked, Fail, stdout);
   return CoracleCaseCheck(argc, argv, Read, &asked, Tell) > 0;
 }

@@ -26,10 +26,8 @@ Command CommandTake(int *argc, char **argv);
 typedef struct {
   const char *role;    /* "fluid" */
   const char *options; /* lines for --help about options of its own, or "" */
-  int (*start)(void);  /* before the case is read: PETSc; NULL: nothing */
-  CoracleCaseReader
-      read; /* context is a Command: of CHECK, DRAW, KEYS; prints what a run would be made of when
-                                  CoracleCaseFaultless, but for KEYS */
+  /* context is a Command: of CHECK, DRAW, KEYS; prints what a run would be made of when CoracleCaseFaultless, but for KEYS */
+  CoracleCaseReader read;
 } CommandAnswers;
 
 /* Answers; returns the program's exit status: 0, or 1 when the case has faults. */

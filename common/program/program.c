@@ -55,6 +55,15 @@ PetscErrorCode ProgramEnd(Program *p)
   return p->server ? ServerClose(&p->server) : CoracleClose(&p->client);
 }
 
+int ProgramAnswer(Command command, const CommandAnswers *answers, int argc, char **argv)
+{
+  const PetscBool reads = (PetscBool)(command != COMMAND_HELP && command != COMMAND_VERSION);
+  if (reads && PetscInitialize(NULL, NULL, NULL, NULL)) return 1;
+  const int status = CommandAnswer(command, answers, argc, argv);
+  if (reads) (void)PetscFinalize();
+  return status;
+}
+
 PetscErrorCode ProgramReportSeconds(const Program *p, int n, const char *const keys[], const double seconds[])
 {
   PetscFunctionBeginUser;

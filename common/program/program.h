@@ -9,6 +9,7 @@
 #ifndef CORACLE_PROGRAM_H
 #define CORACLE_PROGRAM_H
 #include "common/link/case_file.h"
+#include "common/link/command_line.h"
 #include "common/link/coracle.h"
 #include "common/link/server.h"
 #include <petscsys.h>
@@ -25,6 +26,8 @@ typedef struct {
 PetscErrorCode ProgramStart(const char *role, int argc, char **argv, Program *program);
 /* Collective over the job: after CORACLE_STOP. */
 PetscErrorCode ProgramEnd(Program *program);
+/* Without a job: answers as CommandAnswer, with PETSc for what reads the case; returns the program's exit status. */
+int ProgramAnswer(Command command, const CommandAnswers *answers, int argc, char **argv);
 /* Ends the job with the message (context: a Program); what case files and others call back. */
 void ProgramFail(void *context, const char *message);
 /* Reports seconds[n] under the keys (CoracleReport): the maximum over the ranks.  Fluid and solid. */
