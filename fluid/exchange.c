@@ -51,13 +51,10 @@ static void CopyProperties(Exchange x, Fluid fluid)
 /* list[*n] of the elements that overlap one of the boxes. */
 static PetscErrorCode ListElements(const Mesh *m, int nbox, const double box[], int *n, int list[])
 {
-  GeometryBox *boxes;
   Search search;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(nbox, &boxes));
-  PetscCall(PetscMemcpy(boxes, box, 4 * (size_t)nbox * sizeof *box));
-  PetscCheck(!SearchCreate(nbox, boxes, &search), PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory for %d boxes",
-             nbox);
+  PetscCheck(!SearchCreate(nbox, GeometryBoxes(box), &search), PETSC_COMM_SELF, PETSC_ERR_MEM,
+             "no memory for %d boxes", nbox);
   *n = 0;
   for (int e = 0; e < m->ne; e++) {
     const int *hit;
@@ -67,7 +64,6 @@ static PetscErrorCode ListElements(const Mesh *m, int nbox, const double box[], 
     if (SearchQuery(search, &around, &hit)) list[(*n)++] = e;
   }
   SearchDestroy(&search);
-  PetscCall(PetscFree(boxes));
   PetscFunctionReturn(0);
 }
 

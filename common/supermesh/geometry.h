@@ -14,6 +14,12 @@ typedef struct {
   double lower[2], upper[2];
 } GeometryBox;
 
+/* Boxes that are given as corner[n][2][2], lower and upper: the same memory. */
+static inline const GeometryBox *GeometryBoxes(const double corner[])
+{
+  return (const GeometryBox *)corner;
+}
+
 /* Twice the signed area of p, q, r: > 0 when they turn counter-clockwise. */
 static inline double GeometryTurn(const double p[2], const double q[2], const double r[2])
 {

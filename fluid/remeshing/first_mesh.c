@@ -99,19 +99,6 @@ static PetscErrorCode RefineInterface(const AdaptationSetup *s, const Mesh *m, c
   PetscFunctionReturn(0);
 }
 
-/* le around the boxes of the solid. */
-static PetscErrorCode RefineSolid(const AdaptationSetup *s, const Mesh *m, const AdaptationStart *start,
-                                  double size[])
-{
-  GeometryBox *box;
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(start->nbox, &box));
-  PetscCall(PetscMemcpy(box, start->box, (size_t)start->nbox * sizeof *box));
-  PetscCall(RefineBoxes(s, m, s->size_min, start->nbox, box, size));
-  PetscCall(PetscFree(box));
-  PetscFunctionReturn(0);
-}
-
 /* One pass: le in the boxes, the interface's size around it, and elsewhere what the mesh has. */
 static PetscErrorCode Refine(const AdaptationSetup *s, const Mesh *m, const AdaptationStart *start,
                              Mesh **mesh)
@@ -122,7 +109,7 @@ static PetscErrorCode Refine(const AdaptationSetup *s, const Mesh *m, const Adap
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2(m->nv, &size, 3 * m->nv, &metric));
   for (int v = 0; v < m->nv; v++) size[v] = s->size_max;
-  PetscCall(RefineSolid(s, m, start, size));
+  PetscCall(RefineBoxes(s, m, s->size_min, start->nbox, GeometryBoxes(start->box), size));
   if (start->nphases) PetscCall(RefineInterface(s, m, start, size));
   PetscCall(MetricFromSizes(m->nv, size, metric));
   PetscCall(SharedVerticesCreate(m, &shared));
