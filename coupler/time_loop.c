@@ -152,7 +152,7 @@ static PetscErrorCode RepeatStep(RunState *run)
 }
 
 /* The first step knows nothing of how the solid holds against the fluid: with the acceleration of a free fall everywhere, what is
- * inside it would move like a fluid (a block at rest in water lacked a seventh of its weight).  So the step is made again
+ * inside it would move like a fluid (a block at rest in water would lack a seventh of its weight).  So the step is made again
  * with the acceleration at its end until the velocity does not change; from then on the last step's serves. */
 static PetscErrorCode FindSupport(RunState *run, StepRecord *step)
 {
