@@ -13,13 +13,11 @@ sed -e 's/^  density:.*/  phases: [{name: air, density: 1.0, viscosity: 1.8e-5},
   -e '/^  viscosity:/d' -e 's/top: open/top: {pressure: 0.0, phase: air}/' "$case" >"$phases"
 case=$phases must phases 1:1:1 "${swing[@]}" --set "solid.bodies[0].size=0.001"
 "$python" - "$scratch" <<'E2'
-import csv, sys
-def read(label, name):
-    return [{k: float(v) for k, v in r.items()} for r in csv.DictReader(open("%s/%s/%s.csv" % (sys.argv[1], label, name)))]
+from results import rows
 for label, bodies in (("disc", 2.0), ("wall", 2.1), ("phases", 2.1)):  # m/s, the largest speed of the solid
-    fastest = max(r["max speed [m/s]"] for r in read(label, "fluid"))
+    fastest = max(r["max speed [m/s]"] for r in rows(label, "fluid"))
     assert fastest < 4.0 * bodies, "%s: the fluid moves with %g m/s beside a solid with at most %g m/s" % (label, fastest, bodies)
-    assert all(r["iterations"] == 1.0 for r in read(label, "coupler")[1:]), "%s: iterations" % label
-speeds = [r["u_x [m/s]"] for r in read("disc", "coupler")]
+    assert all(r["iterations"] == 1.0 for r in rows(label, "coupler")[1:]), "%s: iterations" % label
+speeds = [r["u_x [m/s]"] for r in rows("disc", "coupler")]
 assert all(1.99 < u <= 2.0 for u in speeds), "the disc's speed goes from 2 m/s to between %g and %g" % (min(speeds), max(speeds))
 E2

@@ -26,9 +26,8 @@ must one 1:1:1 --set "fluid.petsc=-momentum_ksp_rtol 1e-13"
 "$python" "$root/scripts/momentum.py" "$scratch/one" --bound 1e-10 >"$scratch/report" || { cat "$scratch/report"; exit 1; }
 must two 2:2:2
 "$python" - "$scratch" <<'E2'
-import csv, json, sys
-def rows(label, name):
-    return [{k: float(v) for k, v in r.items()} for r in csv.DictReader(open("%s/%s/%s.csv" % (sys.argv[1], label, name)))]
+import json, sys
+from results import rows
 one, two = rows("one", "solid"), rows("two", "solid")
 for label in ("one", "two"):
     assert abs(rows(label, "coupler")[-1]["t [s]"] - 0.2) < 1e-12

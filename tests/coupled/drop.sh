@@ -14,32 +14,27 @@ for rho; do
   must "$rho" 1:1:1 "${arguments[@]}"
 done
 "$python" - "$scratch" ${print:+print} <<'E2'
-import csv, h5py, numpy as np, os, sys
+import numpy as np, os, sys
+from results import rows, snapshots
 G, LEVEL, HALF = 9.81, 0.2, 0.03
-def column(folder, part, name):
-    return np.array([float(r[name]) for r in csv.DictReader(open("%s/%s.csv" % (folder, part)))])
-def inside(folder):
-    grid, largest = h5py.File(folder + "/fluid.h5")["snapshot"], 0.0
-    for key in sorted(grid):
-        velocity = grid[key]["velocity"]
-        if "points" in velocity:
-            x, cells = velocity["points"][:], velocity["cells"][:]
-        a, b, c = (x[cells[:, k]] for k in range(3))
-        area = 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+def column(label, part, name):
+    return np.array([row[name] for row in rows(label, part)])
+def inside(label):
+    largest = 0.0
+    for _, _, area, velocity in snapshots(label):
         solid = (area * velocity["cell/alpha"][:]).sum()
         if solid > 0.0:
             water = (area * np.maximum(velocity["cell/water"][:] + velocity["cell/alpha"][:] - 1.0, 0.0)).sum()
             largest = max(largest, water / solid)
     return largest
-for name in sorted(os.listdir(sys.argv[1])):
-    folder = os.path.join(sys.argv[1], name)
-    if not os.path.isdir(folder): continue
-    rho = float(name)
-    t, x, y, v = (column(folder, "solid", n) for n in ("t [s]", "x0 [m]", "y0 [m]", "v0 [m/s]"))
-    water, imbalance = inside(folder), column(folder, "coupler", "imbalance").max()
-    made, drift = abs(column(folder, "fluid", "water made [m2]")).max() / 0.08, abs(x - 0.2).max()
+for label in sorted(os.listdir(sys.argv[1])):
+    if not os.path.isdir(os.path.join(sys.argv[1], label)): continue
+    rho = float(label)
+    t, x, y, v = (column(label, "solid", n) for n in ("t [s]", "x0 [m]", "y0 [m]", "v0 [m/s]"))
+    water, imbalance = inside(label), column(label, "coupler", "imbalance").max()
+    made, drift = abs(column(label, "fluid", "water made [m2]")).max() / 0.08, abs(x - 0.2).max()
     report = "%g kg/m3: lowest %.4f, last %.4f m, fastest %.3f m/s, drift %.4f m, inside %.1e, water made %.1e, imbalance %.1e, %.2f iterations" % (
-        rho, y.min(), y[-1], abs(v).max(), drift, water, made, imbalance, column(folder, "coupler", "iterations").mean())
+        rho, y.min(), y[-1], abs(v).max(), drift, water, made, imbalance, column(label, "coupler", "iterations").mean())
     if len(sys.argv) > 2: print(report)
     assert t[-1] > 0.399, report
     assert water < 1e-6 and made < 1e-12 and imbalance < 1e-10, report

@@ -12,13 +12,14 @@ if [ "$long" ]; then
 else
   must rest 1:1:1 --set time.end=0.5
 fi
-"$python" - "$scratch/rest" "$long" <<'E2'
-import csv, h5py, numpy as np, sys
-folder, long = sys.argv[1:]
+"$python" - "$scratch" "$long" <<'E2'
+import numpy as np, sys
+from results import rows, snapshots
+long = sys.argv[2]
 TANK, WIDTH, HEIGHT, LEVEL, WATER, AIR, G = 0.6, 0.12, 0.06, 0.2, 1000.0, 1.2, 9.81
 DRAUGHT, WEIGHT = 0.5 * HEIGHT, 500.0 * WIDTH * HEIGHT * G
 def column(name, part):
-    return np.array([float(r[name]) for r in csv.DictReader(open("%s/%s.csv" % (folder, part)))])
+    return np.array([row[name] for row in rows("rest", part)])
 t, y, force = (column(name, "solid") for name in ("t [s]", "y0 [m]", "fy0 [N/m]"))
 # it starts where it floats, at rest, and stays there but for a little heave
 late = t > 0.5 * t[-1]
@@ -26,13 +27,7 @@ draught = DRAUGHT + (LEVEL - y[late].mean()) / (1.0 - WIDTH / TANK)  # the level
 mean = np.average(force[1:], weights=np.diff(t))
 tilt = abs(column("left_y [m]", "solid_probes") - column("right_y [m]", "solid_probes")).max() / WIDTH
 inside = 0.0
-grid = h5py.File(folder + "/fluid.h5")["snapshot"]
-for key in sorted(grid):
-    velocity = grid[key]["velocity"]
-    if "points" in velocity:
-        x, cells = velocity["points"][:], velocity["cells"][:]
-    a, b, c = (x[cells[:, k]] for k in range(3))
-    area = 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+for _, _, area, velocity in snapshots("rest"):
     inside = max(inside, (area * np.maximum(velocity["cell/water"][:] + velocity["cell/alpha"][:] - 1.0, 0.0)).sum())
 kinetic = column("kinetic energy [J/m]", "fluid").max()
 error = (draught / DRAUGHT - 1.0, mean / WEIGHT - 1.0, tilt, inside / (WIDTH * HEIGHT), kinetic)

@@ -20,11 +20,9 @@ must resumed 1:1:1 "${again[@]}" --set time.end=0.390625 --set resume=last
 must rows 1:1:1 "${far[@]}" --set time.end=0.390625 --set "fluid.boundaries.left.level=[[0.0, 0.3], [0.05, 0.305], [0.15, 0.295], [0.25, 0.305], [0.35, 0.295], [0.4, 0.3]]"
 must layers 1:1:1 "${again[@]}" --set time.end=0.390625 --set "fluid.boundaries.left.level=[{phase: water, height: [[0.0, 0.3], [0.05, 0.305], [0.15, 0.295], [0.2, 0.3]]}]"
 "$python" - "$scratch" <<'E2'
-import csv, sys
-def rows(label, file="fluid"):
-    return [{k: float(v) for k, v in r.items()} for r in csv.DictReader(open("%s/%s/%s.csv" % (sys.argv[1], label, file)))]
+from results import rows
 for label in ("step", "tide", "whole"):
-    made = max(abs(row["water made [m2]"]) + row["volume gap [m2]"] for row in rows(label))
+    made = max(abs(row["water made [m2]"]) + row["volume gap [m2]"] for row in rows(label, "fluid"))
     assert made < 1e-10, "%s: %g m2 of water from nothing" % (label, made)
 for label, tolerance in ("resumed", 1e-9), ("rows", 1e-9), ("layers", 1e-12):
     for file, name in ("fluid", "kinetic energy [J/m]"), ("fluid", "water [m2]"), ("fluid_probes", "near_last [m]"):

@@ -23,21 +23,19 @@ alone alone2 2
 alone alone-resumed 1 --set time.end=0.05
 alone alone-resumed 2 --set resume=last
 "$python" - "$scratch" <<'E2'
-import csv, sys
-def rows(label, file="solid"):
-    return [{k: float(v) for k, v in r.items()} for r in csv.DictReader(open("%s/%s/%s.csv" % (sys.argv[1], label, file)))]
+from results import rows
 u = {label: rows(label, "coupler")[-1]["u_y [m/s]"] for label in ("gravity", "traction", "two")}
 print("at the end they fall with", u)
 for label in "traction", "two":
     assert abs(u[label] / u["gravity"] - 1.0) < 2e-3, "%s falls with %g m/s, by gravity with %g" % (label, u[label], u["gravity"])
 for one, two, tolerance in ("whole", "resumed", 1e-9), ("alone", "alone2", 1e-9), ("alone", "alone-resumed", 1e-9):
     for name in "y0 [m]", "v0 [m/s]", "strain0 [J/m]", "ry0 [N/m]", "reaction work [J/m]":
-        a, b = rows(one), rows(two)
+        a, b = rows(one, "solid"), rows(two, "solid")
         assert len(a) == len(b), "%s: %d rows, %d" % (two, len(a), len(b))
         differ = max(abs(r[name] - s[name]) for r, s in zip(a, b)) / max(abs(r[name]) for r in a)
         assert differ < tolerance, "%s: %s differs by %g" % (two, name, differ)
 # alone: m v = int 12000 t P dt, P the length of the boundary; substeps of 0.6 ms have the load of their start
-last = rows("alone")[-1]
+last = rows("alone", "solid")[-1]
 expected = -0.5 * 1200.0 * 0.1 * 2.0 * (18.0 * 0.17632698 * 3.14159265) ** 0.5 * 0.125
 momentum = last["momentum_y [N s/m]"]
 assert abs(momentum / expected - 1.0) < 1e-2, "alone: momentum %g, expected %g N s/m" % (momentum, expected)

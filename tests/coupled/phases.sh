@@ -16,58 +16,51 @@ for end in 0.06 0.12; do # a closed box of compressible air
 done
 for end in 0.06 0.12; do must compressive 2:1:1 --set fluid.phases_advection=compressive --set "time.end=$end" --set resume=last; done
 "$python" - "$scratch" ${1:+print} <<'E2'
-import csv, h5py, numpy as np, sys
-def rows(label, part):
-    return list(csv.DictReader(open("%s/%s/%s.csv" % (sys.argv[1], label, part))))
-def snapshots(label, phases=("water",)):
+import numpy as np, sys
+from results import rows, snapshots
+def fractions(label, phases=("water",)):
     """Areas, solid and the phases' fractions of the elements in each snapshot."""
-    grid = h5py.File("%s/%s/fluid.h5" % (sys.argv[1], label))["snapshot"]
-    for key in sorted(grid):
-        velocity = grid[key]["velocity"]
-        if "points" in velocity:
-            x, cells = velocity["points"][:], velocity["cells"][:]
-        a, b, c = (x[cells[:, k]] for k in range(3))
-        area = 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+    for _, _, area, velocity in snapshots(label):
         yield area, velocity["cell/alpha"][:], sum(velocity["cell/" + name][:] for name in phases)
 place = {}
 for label in ("one", "two", "half", "compressive"):
-    for area, solid, water in snapshots(label):
+    for area, solid, water in fractions(label):
         inside = (area * np.maximum(water + solid - 1.0, 0.0)).sum() / 0.0016
         assert inside < 1e-9, "%s: water in %g of the square" % (label, inside)
         assert abs((area * water).sum() - 0.039) < 1e-8, "%s: water %.12f m2" % (label, (area * water).sum())
     for row in rows(label, "fluid"):
-        assert abs(float(row["water made [m2]"])) < 0.039e-12, "%s: water made %s m2" % (label, row["water made [m2]"])
-        assert abs(float(row["water [m2]"]) + float(row["water out [m2]"]) - 0.039) < 1e-11, "%s: water %s m2, out %s" % (
+        assert abs(row["water made [m2]"]) < 0.039e-12, "%s: water made %s m2" % (label, row["water made [m2]"])
+        assert abs(row["water [m2]"] + row["water out [m2]"] - 0.039) < 1e-11, "%s: water %s m2, out %s" % (
             label, row["water [m2]"], row["water out [m2]"])
-    energy = [float(f["kinetic energy [J/m]"]) + float(f["potential energy [J/m]"]) + float(s["kinetic0 [J/m]"]) + float(s["strain0 [J/m]"])
-              + 9.81 * float(s["mass0 [kg/m]"]) * float(s["y0 [m]"]) for f, s in zip(rows(label, "fluid"), rows(label, "solid"))]
-    rises, scale = np.maximum(np.diff(energy), 0.0).sum(), max(float(f["kinetic energy [J/m]"]) for f in rows(label, "fluid"))
+    energy = [f["kinetic energy [J/m]"] + f["potential energy [J/m]"] + s["kinetic0 [J/m]"] + s["strain0 [J/m]"]
+              + 9.81 * s["mass0 [kg/m]"] * s["y0 [m]"] for f, s in zip(rows(label, "fluid"), rows(label, "solid"))]
+    rises, scale = np.maximum(np.diff(energy), 0.0).sum(), max(f["kinetic energy [J/m]"] for f in rows(label, "fluid"))
     if len(sys.argv) > 2: print("%s: energy %+.1e of the largest kinetic energy, all rises %.1e, highest above the start %.1e" % (
         label, (energy[-1] - energy[0]) / scale, rises / scale, (max(energy) - energy[0]) / scale))
     assert rises < (3e-2 if label == "compressive" else 2e-3) * scale, "%s: energy rises by %g of the kinetic energy" % (label, rises / scale)
     coupler, last = rows(label, "coupler"), rows(label, "solid")[-1]
     # water in an element of the surface is heavier than this solid: where that happens the step is repeated
-    iterations = [int(float(r["iterations"])) for r in coupler]
+    iterations = [int(r["iterations"]) for r in coupler]
     assert sum(iterations) < 1.2 * len(iterations), "%s: %s iterations" % (label, iterations)
-    assert max(float(r["imbalance"]) for r in coupler) < 1e-10, label
-    place[label] = np.array([float(last["x0 [m]"]), float(last["y0 [m]"])])
+    assert max(r["imbalance"] for r in coupler) < 1e-10, label
+    place[label] = np.array([last["x0 [m]"], last["y0 [m]"]])
     assert 0.15 < place[label][1] < 0.19, "%s: at %s" % (label, place[label])
-for area, solid, liquid in snapshots("three", ("water", "oil")):
+for area, solid, liquid in fractions("three", ("water", "oil")):
     inside = (area * np.maximum(liquid + solid - 1.0, 0.0)).sum() / 0.0016
     assert inside < 1e-9, "three: water and oil in %g of the square" % inside
 for row in rows("three", "fluid"):
     for name, start in (("water", 0.0366), ("oil", 0.0024), ("air", 0.201)):
-        assert abs(float(row[name + " made [m2]"])) < 1e-13, "three: %s made %s m2" % (name, row[name + " made [m2]"])
-        kept = float(row[name + " [m2]"]) + float(row[name + " out [m2]"])
+        assert abs(row[name + " made [m2]"]) < 1e-13, "three: %s made %s m2" % (name, row[name + " made [m2]"])
+        kept = row[name + " [m2]"] + row[name + " out [m2]"]
         assert abs(kept - start) < 1e-11, "three: %s %.14g m2 of %g" % (name, kept, start)
-assert 0.15 < float(rows("three", "solid")[-1]["y0 [m]"]) < 0.19, rows("three", "solid")[-1]
-for area, solid, water in snapshots("gas"):
+assert 0.15 < rows("three", "solid")[-1]["y0 [m]"] < 0.19, rows("three", "solid")[-1]
+for area, solid, water in fractions("gas"):
     inside = (area * np.maximum(water + solid - 1.0, 0.0)).sum() / 0.0016
     assert inside < 1e-9, "gas: water in %g of the square" % inside
 for row in rows("gas", "fluid"):
-    assert abs(float(row["water made [m2]"])) < 1e-13 and abs(float(row["air made [kg]"])) < 1e-13, "gas: made %s" % row
-    assert abs(float(row["air [kg]"]) - 1.2 * (0.24 - 0.039)) < 1e-11, "gas: %s kg" % row["air [kg]"]
-assert 0.15 < float(rows("gas", "solid")[-1]["y0 [m]"]) < 0.19, rows("gas", "solid")[-1]
+    assert abs(row["water made [m2]"]) < 1e-13 and abs(row["air made [kg]"]) < 1e-13, "gas: made %s" % row
+    assert abs(row["air [kg]"] - 1.2 * (0.24 - 0.039)) < 1e-11, "gas: %s kg" % row["air [kg]"]
+assert 0.15 < rows("gas", "solid")[-1]["y0 [m]"] < 0.19, rows("gas", "solid")[-1]
 for label, bound in (("two", 5e-4), ("half", 5e-4), ("compressive", 1e-3)):
     assert abs(place[label] - place["one"]).max() < bound, "%s: at %s, one rank at %s" % (label, place[label], place["one"])
 if len(sys.argv) > 2: print(place)

@@ -22,26 +22,25 @@ must long 1:1:1 --set time.end=0.1 "${adapt[@]}"
 if run few 1:1:1 "${light[@]}" --set coupler.max_iterations=2; then echo "two iterations were enough"; exit 1; fi
 grep -q 'error: the step from t = .* does not converge' "$scratch/few.log" || { cat "$scratch/few.log"; exit 1; }
 "$python" - "$scratch" <<'E2'
-import csv, json, sys
-def rows(label, name="coupler"):
-    return [{k: float(v) for k, v in r.items()} for r in csv.DictReader(open("%s/%s/%s.csv" % (sys.argv[1], label, name)))]
+import json, sys
+from results import rows
 def speeds(label):
-    return [r["u_y [m/s]"] for r in rows(label)]
+    return [r["u_y [m/s]"] for r in rows(label, "coupler")]
 for label in ("one", "three", "adaptive"):
-    u, iterations = speeds(label)[5:], [r["iterations"] for r in rows(label)]
+    u, iterations = speeds(label)[5:], [r["iterations"] for r in rows(label, "coupler")]
     assert u[-1] > 0.5 and all(b > a for a, b in zip(u, u[1:])), "%s: velocities %s" % (label, u)
     assert 1.5 < sum(iterations) / len(iterations) < 4, "%s: %s iterations" % (label, iterations)
     summary = json.load(open("%s/%s/summary.json" % (sys.argv[1], label)))
     assert summary["largest_momentum_imbalance"] < 1e-10 and summary["iterations"] == sum(iterations), "%s: %s" % (label, summary)
     assert len(rows(label, "fluid")) == len(rows(label, "solid")) == len(iterations), "%s: rows for iterations that do not stand" % label
 for label in ("cracks-1-1-1", "cracks-1-2-2"):
-    solid, iterations = rows(label, "solid"), [r["iterations"] for r in rows(label)]
+    solid, iterations = rows(label, "solid"), [r["iterations"] for r in rows(label, "coupler")]
     assert solid[-1]["broken joints"] >= 3 and max(iterations) > 1, "%s: %g broken joints, iterations %s" % (label, solid[-1]["broken joints"], iterations)
     assert json.load(open("%s/%s/summary.json" % (sys.argv[1], label)))["largest_momentum_imbalance"] < 1e-10
 broken = [rows(label, "solid")[-1]["broken joints"] for label in ("cracks-1-1-1", "cracks-1-2-2")]
 assert broken[0] == broken[1], "broken joints: %s" % broken
 # a step of more than thirty iterations is one that was halved; from then on steps grow by at most 1.3
-weak, solid = rows("weak"), rows("weak", "solid")
+weak, solid = rows("weak", "coupler"), rows("weak", "solid")
 steps, iterations = [r["dt [s]"] for r in weak], [r["iterations"] for r in weak]
 assert 2 <= solid[-1]["broken joints"] <= 8 and max(iterations) > 30, "weak: %g broken joints, iterations %s" % (solid[-1]["broken joints"], iterations)
 assert min(steps) < 0.006 and all(b < 1.3001 * a for a, b in zip(steps, steps[1:])) and abs(weak[-1]["t [s]"] - 0.12) < 1e-12, "steps %s" % steps
@@ -51,5 +50,5 @@ assert len({r["triangles"] for r in rows("adaptive", "fluid")}) > 3, "the mesh h
 # steps eight times as long: the first iteration is right
 short, long = speeds("short")[-1], speeds("long")[-1]
 assert abs(long / short - 1) < 0.03, "%g m/s in long steps, %g in short ones" % (long, short)
-assert {r["iterations"] for r in rows("long")} == {1.0}, "a heavy disc takes more than one iteration"
+assert {r["iterations"] for r in rows("long", "coupler")} == {1.0}, "a heavy disc takes more than one iteration"
 E2
