@@ -6,7 +6,7 @@
 
 enum { CASE_KEY = 512 };
 
-/* Writes key as printf does, CaseKey(key, "fluid.phases[%d].density", k), and returns it; a longer one is cut. */
+/* Writes key as printf would, CaseKey(key, "fluid.phases[%d].density", k), at most CASE_KEY - 1 characters of it, and returns key. */
 __attribute__((format(printf, 2, 3))) static inline const char *CaseKey(char key[CASE_KEY],
                                                                         const char *format, ...)
 {

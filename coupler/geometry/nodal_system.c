@@ -19,7 +19,7 @@ PetscErrorCode NodalSystemCreate(MPI_Comm comm, Copies nodes, int nnodes, const 
                                  NodalSystem *system)
 {
   NodalSystem s;
-  double *row; /* 1 more, so that a node of another rank's rows has 0 here */
+  double *row; /* counted from 1 where this rank has it, else 0: the sum over a node's copies is its row */
 
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&s));
