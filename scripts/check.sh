@@ -16,7 +16,7 @@ while [ $# -gt 0 ]; do
     --alone) parts=(solid); shift ;;
     --png) png=${2:?--png needs a file}; shift 2 ;;
     --set) sets+=(--set "${2:?--set needs key=value}"); shift 2 ;;
-    -h | --help) sed -n '2,8p' "$0" | cut -c3-; exit 0 ;;
+    -h | --help) sed -n '2,7p' "$0" | cut -c3-; exit 0 ;;
     -*) die "unknown option '$1' (see --help)" ;;
     *) [ -z "$case" ] || die "two case files: '$case' and '$1'"; case=$1; shift ;;
   esac

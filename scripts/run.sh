@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, runs a coupled case with progress, and draws its figures.
-# Usage: scripts/run.sh CASE [--set key=value]... [--ranks F:C:S] [--out DIR] [--resume] [--alone] [--bin DIR]
+# Usage: scripts/run.sh CASE [--set key=value]... [--ranks F:C:S] [--out DIR] [--resume] [--alone] [--bin DIR], in any order
 #   CASE   a folder of cases/, or a case file
 #   --set  overrides a key of the case file, e.g. --set time.end=1.0
 #   --ranks  ranks of fluid, coupler and solid (default 1:1:1)
@@ -13,9 +13,7 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 
 usage() { sed -n '2,10p' "$0" | cut -c3-; }
 [ $# -ge 1 ] || { usage; exit 2; }
-case "$1" in -h | --help) usage; exit 0 ;; esac
-case=$1; shift
-ranks=1:1:1 out="" bin="" sets=() alone=()
+case="" ranks=1:1:1 out="" bin="" sets=() alone=()
 while [ $# -gt 0 ]; do
   case "$1" in
     --set) sets+=(--set "${2:?--set needs key=value}"); shift 2 ;;
@@ -24,9 +22,12 @@ while [ $# -gt 0 ]; do
     --resume) sets+=(--set resume=last); shift ;;
     --bin) bin=${2:?--bin needs a folder}; shift 2 ;;
     --out) out=${2:?--out needs a folder}; shift 2 ;;
-    *) echo "run.sh: unknown argument '$1'" >&2; exit 2 ;;
+    -h | --help) usage; exit 0 ;;
+    -*) echo "run.sh: unknown option '$1' (see --help)" >&2; exit 2 ;;
+    *) [ -z "$case" ] || { echo "run.sh: two cases: '$case' and '$1'" >&2; exit 2; }; case=$1; shift ;;
   esac
 done
+[ -n "$case" ] || { echo "run.sh: no case (see --help)" >&2; exit 2; }
 if [ -f "$case" ]; then
   file=$case name=$(basename "${case%.*}")
 else

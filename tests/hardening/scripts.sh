@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Scripts beside a run do what their usage says, on a small case: pictures of fields, scaling.  Usage: scripts.sh ROOT BUILD
+# Scripts beside a run do what their usage says, on a small case: pictures of fields, scaling, options before the case.  Usage: scripts.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/../coupled/run.sh"
 "$python" -c 'import numpy, h5py, matplotlib' 2>/dev/null || { echo 'needs numpy, h5py and matplotlib'; exit 77; }
@@ -14,3 +14,11 @@ grep -q "there is no field 'colour': .*solid:stress" "$scratch/log" || { cat "$s
 "$python" "$root/scripts/scaling.py" "$here/disc.yaml" --bin "$build" --splits 1:1:1,2:1:1 --out "$scratch/scaling" --set time.end=0.02 >"$scratch/log" 2>&1 ||
   { cat "$scratch/log"; exit 1; }
 [ "$(wc -l <"$scratch/scaling/scaling.csv")" -eq 3 ] && [ -s "$scratch/scaling/scaling.png" ] || { cat "$scratch/log"; exit 1; }
+# options stand before the case or after it; what is not one is told as such, and a usage ends with its last line
+for order in "--alone $root/tests/solid/alone.yaml" "$root/tests/solid/alone.yaml --alone"; do
+  "$root/scripts/run.sh" --bin "$build" --out "$scratch/alone" --set time.end=0.001 $order >"$scratch/log" 2>&1 && [ -s "$scratch/alone/solid.csv" ] || { cat "$scratch/log"; exit 1; }
+  rm -r "$scratch/alone"
+done
+if "$root/scripts/run.sh" --bin "$build" --allone "$root/tests/solid/alone.yaml" 2>"$scratch/log"; then echo 'an unknown option was taken'; exit 1; fi
+grep -q "^run.sh: unknown option '--allone'" "$scratch/log" || { cat "$scratch/log"; exit 1; }
+if "$root/scripts/check.sh" --help | grep '^t '; then echo 'more than the usage is shown'; exit 1; fi
