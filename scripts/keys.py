@@ -16,6 +16,7 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PARTS = ("coupler", "fluid", "solid")
 SAMPLES = ("tests/hardening/keys_box.yaml", "tests/hardening/keys_file.yaml", "tests/hardening/keys_phases.yaml")
+DEPENDS = "depends on other keys"
 SECTIONS = ("case", "note", "gravity", "time", "fluid", "solid", "coupler", "output", "resume")
 
 
@@ -31,14 +32,19 @@ def read_keys(build):
             for line in done.stdout.splitlines():
                 key, need, kind, extent, default, unit, meaning = line.split("\t")
                 entry = keys.setdefault(key, {"types": {}, "unit": "", "meaning": "", "parts": set(), "samples": set(), "required": set()})
-                if kind == "integer" or entry["types"].get(kind, ("", ""))[1] == "":
-                    entry["types"][kind] = (extent, default if "[%s]" % default != "[]" else "")
+                before = entry["types"].get(kind, ("", ""))
+                if kind == "integer" or before[1] == "":
+                    entry["types"][kind] = (extent, default)
+                elif default:  # what is not the same in all samples follows from other keys: its meaning says how
+                    entry["types"][kind] = tuple(a if a == b else DEPENDS for a, b in zip(before, (extent, default)))
                 entry["unit"] = unit or entry["unit"]
                 entry["meaning"] = meaning or entry["meaning"]
                 entry["parts"].add(part)
                 entry["samples"].add(sample)
                 if need == "required":
                     entry["required"].add(sample)
+    for entry in keys.values():
+        entry["types"] = {kind: tuple("" if part == DEPENDS else part for part in parts) for kind, parts in entry["types"].items()}
     return keys
 
 

@@ -48,7 +48,9 @@ static const CoracleCaseKey KEYS[] = {
      "absent: the mesh's, 1"},
     {"solid.bodies[].centre", "m", "centre of a shape"},
     {"solid.bodies[].size", "m", "edge of its elements"},
-    {"solid.bodies[].radius", "m", "of a disc; of the middle of a ring's wall"},
+    {"solid.bodies[].radius", "m",
+     "of a disc, a polygon of the same area (its corners lie outside the circle, by 2.3 % of the radius with "
+     "12 edges); of the middle of a ring's wall"},
     {"solid.bodies[].thickness", "m", "of a ring's wall, with radius"},
     {"solid.bodies[].outer_radius", "m", "of a ring, instead of radius and thickness"},
     {"solid.bodies[].inner_radius", "m", "of a ring, instead of radius and thickness"},
