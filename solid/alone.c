@@ -170,11 +170,11 @@ int Alone(int argc, char **argv)
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
   PetscCall(CoracleCaseOpen(argc, argv, Refuse, NULL, &c));
   PetscCall(Begin(c, &m, &claim));
-  PetscCall(CoracleCaseClose(&c));
   PetscCall(Advance(&m));
   PetscCall(WriterDestroy(&m.writer));
   PetscCall(ClaimRelease(&claim));
   PetscCall(SolidDestroy(&m.solid));
   PetscCall(PetscFree(m.folder));
+  PetscCall(CoracleCaseClose(&c)); /* gravity's rows are in it */
   return PetscFinalize();
 }
