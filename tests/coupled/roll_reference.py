@@ -8,7 +8,7 @@
 
     X: sway, heave, roll about the centre of mass; K: hydrostatic stiffness.  With phi = phi_s + phi_b, both harmonic, the first with its
     values on the free surface and none through the body, the second 0 on the surface: a system of ordinary differential equations for
-    (phi on the surface, eta, X, V), which an eigenvalue decomposition solves.
+    (phi on the surface, eta, X, V), which its exponential solves.
 """
 import numpy as np
 
@@ -35,7 +35,6 @@ class Tank:
             k, m = np.array([[1, -1], [-1, 1]]), np.array([[2, 1], [1, 2]]) / 6.0
             n = [node[i, j], node[i, j + 1], node[i + 1, j], node[i + 1, j + 1]]
             stiffness[np.ix_(n, n)] += np.kron(k / a, b * m) + np.kron(a * m, k / b)
-        used = np.diag(stiffness) > 0.0
         surface = np.array([node[i, -1] for i in range(nx) if x[i] <= left + 1e-12 or x[i] >= right - 1e-12])
         mass = np.zeros((nx * ny, nx * ny))
         for i in range(nx - 1):
@@ -58,7 +57,22 @@ class Tank:
             turn = arm[:, 0] * n[1] - arm[:, 1] * n[0]
             for r, v in enumerate((p, q)):
                 load[node[v]] += [0.5 * h * n[0], 0.5 * h * n[1], h * (2.0 * turn[r] + turn[1 - r]) / 6.0]
-        inner = np.setdiff1d(np.nonzero(used)[0], surface)
+        m_body = density * width * height * np.diag([1.0, 1.0, (width**2 + height**2) / 12.0])
+        metacentre = width**2 / (12.0 * draught) - 0.5 * (height - draught)
+        restore = g * width * np.diag([0.0, 1.0, draught * metacentre])
+        self.motion = Motion(stiffness, surface, mass, load, m_body, restore, g)
+
+    def roll(self, t):
+        """The angle at the times t of a body let go at rest at the angle 1."""
+        return self.motion.released(t, 2)
+
+
+class Motion:
+    """The system of a body's motions: the water's stiffness (0 at nodes that are not in it), its nodes on the surface and their mass, int N n over the body's
+    wetted faces for each motion; mass and hydrostatic stiffness of the body over the water's density."""
+
+    def __init__(self, stiffness, surface, mass, load, body, restore, g):
+        inner = np.setdiff1d(np.nonzero(np.diag(stiffness))[0], surface)
         lower = stiffness[np.ix_(inner, inner)]
         solved = np.linalg.solve(lower, np.hstack([stiffness[np.ix_(inner, surface)], load[inner]]))
         spread, response = -solved[:, :len(surface)], solved[:, len(surface):]  # phi inside of phi on the surface, of V
@@ -68,28 +82,30 @@ class Tank:
         c = load[surface].T + load[inner].T @ spread
         added = load[inner].T @ response
         ns = len(surface)
-        m_body = density * width * height * np.diag([1.0, 1.0, (width**2 + height**2) / 12.0])
-        metacentre = width**2 / (12.0 * draught) - 0.5 * (height - draught)
-        restore = g * width * np.diag([0.0, 1.0, draught * metacentre])
         # state: phi_s, eta, X, V.  (M + E) dV/dt = -K X + g C eta, for dphi_s/dt = -g eta
-        n = 2 * ns + 6
-        system = np.zeros((n, n))
+        k = len(body)
+        system = np.zeros((2 * ns + 2 * k, 2 * ns + 2 * k))
         system[:ns, ns:2 * ns] = -g * np.eye(ns)
         system[ns:2 * ns, :ns] = np.linalg.solve(mass, a)
-        system[ns:2 * ns, 2 * ns + 3:] = np.linalg.solve(mass, b)
-        system[2 * ns:2 * ns + 3, 2 * ns + 3:] = np.eye(3)
-        total = np.linalg.inv(m_body + added)
-        system[2 * ns + 3:, 2 * ns:2 * ns + 3] = -total @ restore
-        system[2 * ns + 3:, ns:2 * ns] = g * total @ c
+        system[ns:2 * ns, 2 * ns + k:] = np.linalg.solve(mass, b)
+        system[2 * ns:2 * ns + k, 2 * ns + k:] = np.eye(k)
+        total = np.linalg.inv(body + added)
+        system[2 * ns + k:, 2 * ns:2 * ns + k] = -total @ restore
+        system[2 * ns + k:, ns:2 * ns] = g * total @ c
         self.ns, self.system = ns, system
 
-    def roll(self, t):
-        """The angle at the times t of a body let go at rest at the angle 1."""
-        start = np.zeros(2 * self.ns + 6)
-        start[2 * self.ns + 2] = 1.0
-        rate, mode = np.linalg.eig(self.system)
-        share = np.linalg.solve(mode, start.astype(complex))
-        return (mode[2 * self.ns + 2] * share * np.exp(np.outer(t, rate))).sum(axis=1).real
+    def released(self, t, which):
+        """A motion at the times t, from 0 on in equal steps, of a body let go at rest where it is 1 and the others are 0."""
+        step = term = np.eye(len(self.system))
+        for k in range(1, 20):  # the exponential; eigenvectors would not do, of the water's level and the potential two are one
+            term = term @ self.system * (t[1] / k)
+            step = step + term
+        state, motion = np.zeros(len(self.system)), np.zeros(len(t))
+        state[2 * self.ns + which] = 1.0
+        for i in range(len(t)):
+            motion[i] = state[2 * self.ns + which]
+            state = step @ state
+        return motion
 
 
 def crossings(t, angle):
