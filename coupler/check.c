@@ -20,7 +20,7 @@ static const CoracleCaseKey KEYS[] = {
     {"time.cfl", "",
      "largest time step over the time that the flow takes through an element, largest over the mesh"},
     {"output.folder", "", "where results go; made if missing"},
-    {"output.every", "s", "time from one snapshot of the fields to the next"},
+    {"output.every", "s", "time from one snapshot of the fields to the next; there is one at the end, too"},
     {"output.checkpoint", "s", "by the clock, from one checkpoint to the next; 0: none"},
     {"output.trace", "", "trace.json: what each rank did when, for ui.perfetto.dev"},
     {"fluid.viscosity", "Pa s", "dynamic viscosity"},
@@ -58,7 +58,7 @@ static void Read(CoracleCase c, void *command)
   CheckFolder(c, k.folder);
   if (*(const Command *)command == COMMAND_KEYS || !CoracleCaseFaultless(c)) return;
   printf("coupler: to t = %g s in at least %.0f steps, %.0f snapshots into %s\n", k.end,
-         ceil(k.end / k.dt_max), floor(k.end / k.every) + 1.0, k.folder);
+         ceil(k.end / k.dt_max), ceil(k.end / k.every * (1.0 - 1e-9)) + 1.0, k.folder);
 }
 
 int CouplerAnswer(Command command, int argc, char **argv)

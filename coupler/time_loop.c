@@ -269,6 +269,8 @@ static PetscErrorCode Stop(RunState *run)
   PetscCall(ServerSendStep(server, run->t, 0.0, CORACLE_STOP, run->ncorrection, run->correction));
   PetscCall(ServerSendForce(server, run->t, 0.0, CORACLE_STOP, zero));
   PetscCall(PetscFree(zero));
+  PetscCall(ShellExtrude(CouplerShell(run->loop->coupler), &run->solid, run->solid.changed));
+  PetscCall(WriterShell(run->loop->writer, run->t, run->loop->coupler, &run->solid));
   PetscCall(RunSave(run));
   PetscCall(ServerFinish(server));
   PetscCall(CheckpointsFinish(&run->checkpoints));

@@ -12,8 +12,9 @@ static const CoracleCaseKey KEYS[] = {
     {"time.cfl", "",
      "largest time step over the time that the flow takes through an element, largest over the mesh"},
     {"time.dt_max", "s", "largest time step"},
+    {"time.end", "s", "when the run ends"},
     {"output.folder", "", "where results go; made if missing"},
-    {"output.every", "s", "time from one snapshot of the fields to the next"},
+    {"output.every", "s", "time from one snapshot of the fields to the next; there is one at the end, too"},
     {"fluid.density", "kg/m3", "density"},
     {"fluid.viscosity", "Pa s", "dynamic viscosity"},
     {"fluid.phases", "", "two or more phases that do not mix, instead of density and viscosity"},
@@ -190,6 +191,7 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
   (void)CoracleCaseStringOr(c, "fluid.petsc", "");
   (void)CoracleCaseString(c, "output.folder");
   (void)CoracleCasePositive(c, "output.every");
+  (void)CoracleCasePositive(c, "time.end");
   PetscCall(FluidCaseMesh(c, PETSC_COMM_SELF, NULL, &mesh, NULL));
   PetscCall(FluidCaseSetup(c, mesh, &setup));
   PetscCall(FluidCaseRegions(c, &nregions, &region));

@@ -13,8 +13,9 @@ static const CoracleCaseKey KEYS[] = {
     {"gravity", "m/s2", "acceleration of gravity, x and y; or rows of time and both"},
     {"gravity[]", "s, m/s2",
      "time, x and y, linear between rows; of an accelerated frame gravity less its acceleration"},
+    {"time.end", "s", "when the run ends"},
     {"output.folder", "", "where results go; made if missing"},
-    {"output.every", "s", "time from one snapshot of the fields to the next"},
+    {"output.every", "s", "time from one snapshot of the fields to the next; there is one at the end, too"},
     {"solid.materials.*.density", "kg/m3", "density"},
     {"solid.materials.*.youngs_modulus", "Pa", "Young's modulus"},
     {"solid.materials.*.poisson_ratio", "", "Poisson's ratio"},
@@ -221,6 +222,7 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
   CoracleCaseDescribe(c, KEYS);
   (void)CoracleCaseString(c, "output.folder");
   (void)CoracleCasePositive(c, "output.every");
+  (void)CoracleCasePositive(c, "time.end");
   PetscCall(SolidFromCase(c, PETSC_COMM_SELF, Fail, NULL, &solid));
   if (command != COMMAND_KEYS && CoracleCaseFaultless(c)) {
     PetscCall(CheckInside(c, solid));

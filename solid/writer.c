@@ -161,7 +161,8 @@ PetscErrorCode WriterCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoin
   r->comm = comm;
   r->nbodies = PetscMin(v.nbodies, MAX_BODIES);
   r->start = MPI_Wtime();
-  PetscCall(OutputCreate(comm, folder, "solid", CoracleCasePositive(c, "output.every"), from, &r->output));
+  PetscCall(OutputCreate(comm, folder, "solid", CoracleCasePositive(c, "output.every"),
+                         CoracleCasePositive(c, "time.end"), from, &r->output));
   PetscCall(OutputText(r->output, "case", CoracleCaseStringOr(c, "case", "")));
   PetscCall(OutputText(r->output, "version", CORACLE_VERSION));
   PetscCall(CreateSeries(r, folder, from));

@@ -6,7 +6,7 @@
 
 typedef struct Writer_s *Writer;
 
-/* Collective.  Reads output.folder and output.every of the case.  Writes the snapshot of the initial state,
+/* Collective.  Reads output.folder, output.every and time.end of the case.  Writes the snapshot of the initial state,
  * or, with a checkpoint (else NULL), continues as at WriterSave. */
 PetscErrorCode WriterCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoint from, Writer *r);
 /* Collective, after every step: one row of the series (of the first 1000 bodies), and a snapshot when it is due;

@@ -39,7 +39,7 @@ static PetscErrorCode CutLater(Output o)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name, double every,
+PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name, double every, double end,
                             Checkpoint from, Output *out)
 {
   Output o;
@@ -51,6 +51,7 @@ PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name,
   PetscCallMPI(MPI_Comm_dup(comm, &o->comm));
   PetscCallMPI(MPI_Comm_rank(comm, &o->rank));
   o->every = every;
+  o->end = end;
   if (from) PetscCall(CheckpointGetNumber(from, "output next", &o->next));
   snprintf(path, sizeof path, "%s/%s.h5", folder, name);
   PetscCall(PetscStrncpy(o->path, path, sizeof o->path));
@@ -88,7 +89,7 @@ PetscErrorCode OutputSave(Output o, Checkpoint to)
 
 PetscBool OutputDue(Output o, double t)
 {
-  return t >= o->next * NEARLY ? PETSC_TRUE : PETSC_FALSE;
+  return t >= PetscMin(o->next, o->end) * NEARLY ? PETSC_TRUE : PETSC_FALSE;
 }
 
 PetscErrorCode OutputBegin(Output o, double t)

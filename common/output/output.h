@@ -8,17 +8,17 @@
 typedef struct Output_s *Output;
 typedef enum { OUTPUT_NODE, OUTPUT_CELL } OutputCentre;
 
-/* Collective: <folder>/<name>.h5 and .xdmf, truncated; a snapshot is due `every` s.  The folder is made if
- * missing.  With a checkpoint (else NULL) of a run in this folder: goes on with its files as they were at
- * OutputSave; what came later is cut off by the first snapshot, when the run is sure to go on.  With
- * another's it begins new ones. */
-PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name, double every,
+/* Collective: <folder>/<name>.h5 and .xdmf, truncated; a snapshot is due `every` s and at
+ * `end`, s.  The folder is made if missing.  With a checkpoint (else NULL) of a run in this folder: goes on with
+ * its files as they were at OutputSave; what came later is cut off by the first snapshot, when the run is sure
+ * to go on.  With another's it begins new ones. */
+PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name, double every, double end,
                             Checkpoint from, Output *out);
 /* Collective: a text about the whole file (case, version), as an attribute; ignored where there is one of that name. */
 PetscErrorCode OutputText(Output out, const char *name, const char *text);
 /* Collective: between snapshots. */
 PetscErrorCode OutputSave(Output out, Checkpoint to);
-/* Not collective: at the start, and then whenever a multiple of `every` has come since the last snapshot. */
+/* Not collective: at the start, whenever a multiple of `every` has come since the last snapshot, and at the end. */
 PetscBool OutputDue(Output out, double t);
 /* Collective: starts the snapshot of time t, s, due or not. */
 PetscErrorCode OutputBegin(Output out, double t);

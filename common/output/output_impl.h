@@ -23,9 +23,9 @@ struct Output_s {
   char path[PETSC_MAX_PATH_LEN];
   Xdmf xdmf; /* rank 0 only */
   long long nsnapshot;
-  double every, next; /* s: when the next snapshot is due */
-  PetscBool open;     /* between Begin and End */
-  PetscBool later;    /* there are snapshots from after the checkpoint */
+  double every, next, end; /* s; next: when a snapshot is due */
+  PetscBool open;          /* between Begin and End */
+  PetscBool later;         /* there are snapshots from after the checkpoint */
   int ngrid, current;
   Grid grid[GRIDS_MAX];
 };

@@ -100,7 +100,7 @@ PetscErrorCode WriterCreate(MPI_Comm comm, const CouplerCase *c, Checkpoint from
   r->down[1] = size > 0.0 ? g[1] / size : -1.0;
   PetscCallMPI(MPI_Comm_rank(comm, &r->rank));
   if (!r->rank && c->note[0]) printf("coracle: %s: %s\n", c->name, c->note);
-  PetscCall(OutputCreate(comm, c->folder, "coupler", c->every, from, &r->output));
+  PetscCall(OutputCreate(comm, c->folder, "coupler", c->every, c->end, from, &r->output));
   PetscCall(OutputText(r->output, "case", c->name));
   PetscCall(OutputText(r->output, "version", CORACLE_VERSION));
   PetscCall(SeriesCreate(comm, c->folder, "coupler", COLUMNS, from, &r->series));

@@ -140,7 +140,8 @@ PetscErrorCode WriterCreate(CoracleCase c, Fluid f, Checkpoint from, Writer *wri
   Writer r;
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&r));
-  PetscCall(OutputCreate(m->comm, folder, "fluid", CoracleCasePositive(c, "output.every"), from, &r->output));
+  PetscCall(OutputCreate(m->comm, folder, "fluid", CoracleCasePositive(c, "output.every"),
+                         CoracleCasePositive(c, "time.end"), from, &r->output));
   PetscCall(OutputText(r->output, "case", CoracleCaseStringOr(c, "case", "")));
   PetscCall(OutputText(r->output, "version", CORACLE_VERSION));
   PetscCall(SetColumns(f, sizeof columns, columns));

@@ -6,7 +6,7 @@
 
 typedef struct Writer_s *Writer;
 
-/* Collective.  Reads output.folder and output.every of the case and writes the snapshot of the initial state;
+/* Collective.  Reads output.folder, output.every and time.end of the case and writes the snapshot of the initial state;
  * with a checkpoint (else NULL) resumes the files as they were at WriterSave. */
 PetscErrorCode WriterCreate(CoracleCase c, Fluid fluid, Checkpoint from, Writer *r);
 /* Collective, between two steps. */

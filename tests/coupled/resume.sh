@@ -72,13 +72,15 @@ cmp "$scratch/longer/coupler.csv" "$scratch/broken/coupler.csv" || { echo "a run
 rm -r "$scratch"/broken/checkpoint.*
 fails broken "resume.*there is no checkpoint" --set resume=last
 must other-folder 1:1:1 --set time.end=0.15 --set resume="$scratch/longer/checkpoint"
-must longer 1:1:1 --set time.end=0.02 --set output.checkpoint=0
+must longer 1:1:1 --set time.end=0.02 --set output.checkpoint=0 # between two snapshots
 [ ! -e "$scratch/longer/checkpoint" ] || { echo "a new run has left the checkpoint of the one before"; exit 1; }
 
 "$python" - "$scratch" <<'E2'
 import csv, json, re, sys
 def rows(label, name):
     return list(csv.DictReader(open("%s/%s/%s.csv" % (sys.argv[1], label, name))))
+def times(label, name):
+    return [float(t) for t in re.findall('Time Value="(.*)"', open("%s/%s/%s.xdmf" % (sys.argv[1], label, name)).read())]
 def compare(one, two, columns, tolerance):
     for name, keys in columns.items():
         a, b = rows(one, name), rows(two, name)
@@ -89,9 +91,8 @@ def compare(one, two, columns, tolerance):
                 assert abs(float(r[key]) - float(s[key])) <= tolerance * largest, "%s, %s at %s s: %s, after resuming %s" % (
                     two, key, r["t [s]"], r[key], s[key])
     for name in ("fluid", "coupler", "solid"):
-        indices = [open("%s/%s/%s.xdmf" % (sys.argv[1], label, name)).read() for label in (one, two)] if name in columns else []
-        times = [re.findall('Time Value="(.*)"', index) for index in indices]
-        assert not times or len(times[0]) > 2 and len(times[0]) == len(times[1]), "%s.xdmf: %s, after resuming %s" % (name, *times)
+        at = [times(label, name) for label in (one, two)] if name in columns else []
+        assert not at or len(at[0]) > 2 and len(at[0]) == len(at[1]), "%s.xdmf: %s, after resuming %s" % (name, *at)
     a, b = (json.load(open("%s/%s/summary.json" % (sys.argv[1], label))) for label in (one, two))
     assert a["steps"] == b["steps"] and b["resumed_at"] > 0 and b["largest_momentum_imbalance"] < 1e-10, (a, b)
 motion = {"coupler": ["t [s]", "u_y [m/s]"], "fluid": ["t [s]", "kinetic energy [J/m]", "triangles"], "solid": ["t [s]", "y0 [m]", "v0 [m/s]"]}
@@ -104,7 +105,12 @@ compare("strong", "strong-again", {"coupler": ["t [s]", "u_y [m/s]"]}, 1e-3)  # 
 compare("wet", "wet-again", {"coupler": ["t [s]", "u_y [m/s]", "F_y [N]"], "fluid": ["t [s]", "kinetic energy [J/m]"], "solid": ["t [s]", "omega0 [rad/s]"]}, 1e-6)
 compare("whole", "longer-kept", {"solid_probes": ["t [s]", "middle_y [m]", "middle_v [m/s]"]}, 1e-9)
 compare("whole", "longer-spread", {"solid_probes": ["t [s]", "middle_y [m]", "middle_v [m/s]"]}, 1e-7)
-times = [float(r["t [s]"]) for r in rows("other-folder", "coupler")]
-assert abs(times[0] - 0.11) < 1e-9 and abs(times[-1] - 0.15) < 1e-9, "in another folder: %s" % times
+t = [r["t [s]"] for r in rows("other-folder", "coupler")]
+assert abs(float(t[0]) - 0.11) < 1e-9 and abs(float(t[-1]) - 0.15) < 1e-9, "in another folder: %s" % t
+# all participants have snapshots at the multiples of 0.05 s and at the end, at which there is one where it is a multiple, too
+for label, expected in {"whole": [0, 0.05, 0.1], "longer-kept": [0, 0.05, 0.1], "other-folder": [0.15], "longer": [0, 0.02]}.items():
+    for name in ("fluid.velocity", "coupler", "solid"):
+        at = times(label, name)
+        assert len(at) == len(expected) and all(abs(a - b) < 1e-9 for a, b in zip(at, expected)), "%s of %s: snapshots at %s s" % (name, label, at)
 assert abs(float(rows("whole", "coupler")[-1]["u_y [m/s]"]) + 0.2419) < 0.01
 E2

@@ -42,6 +42,7 @@ done
 # the solid alone needs no keys of the others, and is told whether its mesh resolves cracks
 cat >"$scratch/alone.yaml" <<'E2'
 gravity: [0, 0]
+time: {end: 1.0, dt_max: 0.1}
 solid:
   materials: {rock: {density: 1.0, youngs_modulus: 1.0e6, poisson_ratio: 0.2, tensile_strength: 1.0e4, shear_strength: 1.0e4, fracture_energy: 10.0}}
   bodies: [{shape: rectangle, centre: [0, 0], width: 0.2, height: 0.2, size: 0.1, material: rock, joints: all}]

@@ -18,7 +18,7 @@ static PetscErrorCode Writer(const char *folder)
     x[2 * k] = k;
     cell[k] = k;
   }
-  PetscCall(OutputCreate(PETSC_COMM_WORLD, folder, "killed", 1.0, NULL, &out));
+  PetscCall(OutputCreate(PETSC_COMM_WORLD, folder, "killed", 1.0, WHOLE, NULL, &out));
   for (int t = 0; t <= WHOLE; t++) {
     PetscCall(OutputBegin(out, t));
     for (int k = 0; k < N; k++) u[k] = t + k;

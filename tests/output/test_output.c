@@ -40,7 +40,7 @@ static PetscErrorCode Write(const char *folder)
   const double x[4] = {0.0, 0.0, 1.0, 1.0}, one[2] = {1.0, 2.0};
   const int edge[2] = {0, 1};
   PetscFunctionBeginUser;
-  PetscCall(OutputCreate(PETSC_COMM_WORLD, folder, "test", 1.0, NULL, &out));
+  PetscCall(OutputCreate(PETSC_COMM_WORLD, folder, "test", 1.0, 9.0, NULL, &out));
   for (int k = 0; k < 3; k++) {
     const Piece p = MakePiece(0.5 * k);
     const int n = p.rank == p.size - 1 ? 2 : 0; /* on the last rank only */
@@ -168,9 +168,9 @@ static PetscErrorCode CheckMisuse(const char *folder)
   const Piece p = MakePiece(0.0);
   PetscFunctionBeginUser;
   PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
-  CHECK(OutputCreate(PETSC_COMM_WORLD, "/dev/null/x", "test", 1.0, NULL, &out),
+  CHECK(OutputCreate(PETSC_COMM_WORLD, "/dev/null/x", "test", 1.0, 9.0, NULL, &out),
         "a folder that cannot be made");
-  CHECK(!OutputCreate(PETSC_COMM_WORLD, folder, "misuse", 1.0, NULL, &out), "cannot be made");
+  CHECK(!OutputCreate(PETSC_COMM_WORLD, folder, "misuse", 1.0, 9.0, NULL, &out), "cannot be made");
   CHECK(OutputGrid(out, "body", 0, p.n, p.x, p.ne, 3, p.triangle), "a grid outside a snapshot");
   CHECK(!OutputBegin(out, 0.0) && OutputBegin(out, 0.0), "two snapshots at once");
   CHECK(OutputField(out, "u", OUTPUT_NODE, 1, p.node), "a field without a grid");
