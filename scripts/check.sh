@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # All faults of a case at once, without a run: what is wrong, or what a run would be made of and a picture of it.
 # Usage: scripts/check.sh [options] CASE [--set key=value]...
-#   --bin DIR     where the programs are (default: build beside this script)
+#   --bin DIR     programs that are there already (default: they are built, as by run.sh)
 #   --alone       the solid alone (launch.sh --alone): no fluid, no coupler, no picture
 #   --png FILE    where the picture goes (default: none)
 # Touches no output folder.  Exit status: 0, or 1 when the case has faults.
@@ -9,7 +9,7 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 die() { echo "check.sh: $*" >&2; exit 2; }
 
-bin=$root/build png="" case="" sets=() parts=(coupler fluid solid)
+bin="" png="" case="" sets=() parts=(coupler fluid solid)
 while [ $# -gt 0 ]; do
   case "$1" in
     --bin) bin=${2:?--bin needs a folder}; shift 2 ;;
@@ -22,13 +22,15 @@ while [ $# -gt 0 ]; do
   esac
 done
 [ -n "$case" ] || die "no case file (see --help)"
+[ -n "$bin" ] || "$root/scripts/build.sh" >&2
+bin=${bin:-$root/build}
 
 program() { # of a part
   local candidate
   for candidate in "$bin/coracle-$1" "$bin/$1/coracle-$1" "$bin/bin/coracle-$1"; do
     [ -x "$candidate" ] && echo "$candidate" && return
   done
-  die "no coracle-$1 under '$bin': build it, or say --bin"
+  die "no coracle-$1 under '$bin'"
 }
 
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}

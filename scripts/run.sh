@@ -4,10 +4,10 @@
 #   CASE   a folder of cases/, or a case file
 #   --set  overrides a key of the case file, e.g. --set time.end=1.0
 #   --ranks  ranks of fluid, coupler and solid (default 1:1:1)
-#   --out  output folder (default out/<case>)
+#   --out  output folder (default out/<case> in the folder where you are)
 #   --resume  resumes from the last checkpoint in the output folder, if there is one
 #   --alone  the solid alone: no fluid, no coupler
-#   --bin  programs that are there already: nothing is installed or built, and out/ is beside you
+#   --bin  programs that are there already: nothing is installed or built
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 
@@ -34,17 +34,9 @@ else
   file=$root/cases/$case/case.yaml name=$case
 fi
 [ -f "$file" ] || { echo "run.sh: no case '$case': cases are $(cd "$root/cases" && echo */case.yaml | sed 's|/case.yaml||g')" >&2; exit 2; }
-beside=${bin:+$PWD}
-out=${out:-${beside:-$root}/out/$name}
-file=$(realpath "$file") out=$(realpath -m "$out")
+file=$(realpath "$file") out=$(realpath -m "${out:-out/$name}")
 
-if [ -z "$bin" ]; then
-  "$root/scripts/setup.sh"
-  cd "$root"
-  [ -x build/fluid/coracle-fluid ] || echo "run.sh: builds the programs into $root/build, which takes some minutes the first time"
-  cmake --preset release >/dev/null
-  cmake --build --preset release --target coracle-fluid coracle-coupler coracle-solid -- --quiet
-fi
+[ -n "$bin" ] || "$root/scripts/build.sh"
 mkdir -p "$out"
 "$root/scripts/launch.sh" "${alone[@]}" --bin "${bin:-$root/build}" --ranks "$ranks" "$file" --set "output.folder=$out" "${sets[@]}"
 

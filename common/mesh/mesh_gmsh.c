@@ -248,7 +248,9 @@ static PetscErrorCode Convert(const GmshFile *f, MeshTable *index, MeshTable *si
 static PetscErrorCode Judge(const GmshFile *f, MeshSerial *m)
 {
   MeshTable index, sides, named;
-  if (!f->ntriangle) return GmshRefuse(f, "no triangles");
+  if (!f->ntriangle)
+    return GmshRefuse(
+        f, "no triangles: where there are physical curves Gmsh writes those of physical surfaces alone");
   if (f->ntriangle > INT32_MAX / 6 || f->nnode > INT32_MAX / 2) return GmshRefuse(f, "too large a mesh");
   GMSH_TRY(MeshTableCreate(&index, f->nnode));
   GMSH_TRY(MeshTableCreate(&sides, 3 * f->ntriangle));
