@@ -84,6 +84,13 @@ PetscErrorCode UpliftBuild(Uplift u, const SolidState *solid, const Shell shell,
   PetscFunctionReturn(0);
 }
 
+/* field[nnodes] at p. */
+static double At(const Uplift u, const ClosePoint *p, const double field[])
+{
+  const int *node = &u->solid.facet[2 * p->facet];
+  return p->n[0] * field[node[0]] + p->n[1] * field[node[1]];
+}
+
 /* Of those the points within reach of the elements there; size[nnodes], m. */
 static void KeepClose(Uplift u, const double size[])
 {
@@ -91,8 +98,7 @@ static void KeepClose(Uplift u, const double size[])
   int n = 0;
   for (int k = 0; k < points->n; k++) {
     const ClosePoint *p = &points->point[k];
-    const int *node = &u->solid.facet[2 * p->facet];
-    if (p->gap <= UPLIFT_REACH * (p->n[0] * size[node[0]] + p->n[1] * size[node[1]])) points->point[n++] = *p;
+    if (p->gap <= UPLIFT_REACH * At(u, p, size)) points->point[n++] = *p;
   }
   points->n = n;
 }
@@ -130,8 +136,10 @@ static double Share(const ClosePoint *p)
   return 0.5 * (1 + p->opposite_is_held - p->is_held);
 }
 
-/* force += int N_i excess n over the close points, and the opposite to what is there; excess[nnodes], Pa; total: of this rank's walls. */
-static PetscErrorCode AddForce(Uplift u, const double excess[], double force[], double total[2])
+/* force += int N_i e n over the close points, and the opposite to what is there; excess[nnodes], Pa, part[nnodes] of it where the gap is open,
+ * size[nnodes], m; total: of this rank's walls. */
+static PetscErrorCode AddForce(Uplift u, const double excess[], const double part[], const double size[],
+                               double force[], double total[2])
 {
   const ClosePoints *points = &u->points;
   double(*there)[2][2];
@@ -141,8 +149,10 @@ static PetscErrorCode AddForce(Uplift u, const double excess[], double force[], 
   for (int k = 0; k < points->n; k++) {
     const ClosePoint *p = &points->point[k];
     const int *node = &u->solid.facet[2 * p->facet];
-    const double share = Share(p),
-                 push = share * p->weight * (p->n[0] * excess[node[0]] + p->n[1] * excess[node[1]]);
+    const double least = p->gap < UPLIFT_CLOSED * At(u, p, size) ? UPLIFT_TAKEN : 0.0;
+    double push = 0.0;
+    for (int i = 0; i < 2; i++)
+      push += Share(p) * p->weight * p->n[i] * fmax(part[node[i]], least) * excess[node[i]];
     for (int c = 0; c < 2; c++) {
       const double normal = u->shell->normal[p->facet][c];
       for (int i = 0; i < 2; i++) force[2 * node[i] + c] += push * p->n[i] * normal;
@@ -164,13 +174,13 @@ static double Excess(const Uplift u, const Gap *gap, int i, double p, double are
   return p - value[HEAD] - value[DENSITY] * Along(u->gravity, &u->solid.x[2 * i]);
 }
 
-/* e of node i. */
-static double Limited(const Uplift u, int i, double excess, double area, double dt)
+/* The part of the excess of node i that moves it by a step's fall. */
+static double PartOfFall(const Uplift u, int i, double excess, double area, double dt)
 {
   const double g = hypot(u->gravity[0], u->gravity[1]);
-  if (excess == 0.0 || u->solid.mobility[i] == 0.0) return excess;
+  if (excess == 0.0 || u->solid.mobility[i] == 0.0) return 1.0;
   const double rho = 3.0 / (u->solid.mobility[i] * area), largest = dt * g * sqrt(2.0 * rho * fabs(excess));
-  return fmax(-largest, fmin(largest, excess));
+  return fmin(1.0, largest / fabs(excess));
 }
 
 /* The film at close point p; where the gap's ends are in different fluids none: the head between them is not known so well.
@@ -234,7 +244,7 @@ PetscErrorCode UpliftAdd(Uplift u, Overlap o, const ElementTerm element[], const
                          double force[], double total[2])
 {
   const size_t n = (size_t)u->solid.nnodes;
-  double *excess, *size, *area;
+  double *excess, *part, *size, *area;
   Fields *outside;
   Gap gap;
   double sums[3] = {0.0, 0.0, 0.0}; /* the walls' force; ranks with a film that yields */
@@ -243,7 +253,7 @@ PetscErrorCode UpliftAdd(Uplift u, Overlap o, const ElementTerm element[], const
   PetscFunctionBeginUser;
   total[0] = total[1] = 0.0;
   if (!u->any) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc4(n, &excess, n, &size, n, &area, n, &outside));
+  PetscCall(PetscMalloc5(n, &excess, n, &part, n, &size, n, &area, n, &outside));
   PetscCall(PetscMalloc3(n, &gap.is_free, n, &gap.value, n, &gap.profile));
   PetscCall(SurfacePressureInside(o, p, (int)n, excess, size, area));
   PetscCall(SurfacePressureHead(o, element, u->gravity, p, (int)n, outside));
@@ -252,14 +262,14 @@ PetscErrorCode UpliftAdd(Uplift u, Overlap o, const ElementTerm element[], const
   PetscCall(GapHeadSolve(&u->points, &u->solid, u->shell, o->nodes, gap.is_free, gap.value, gap.profile));
   for (int i = 0; i < (int)n; i++) excess[i] = Excess(u, &gap, i, excess[i], area[i]);
   PetscCall(SetFilm(u, &gap, excess, dt, &yields));
-  for (int i = 0; i < (int)n; i++) excess[i] = Limited(u, i, excess[i], area[i], dt);
-  PetscCall(AddForce(u, excess, force, sums));
+  for (int i = 0; i < (int)n; i++) part[i] = PartOfFall(u, i, excess[i], area[i], dt);
+  PetscCall(AddForce(u, excess, part, size, force, sums));
   sums[2] = yields;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, u->comm));
   PetscCall(PetscArraycpy(total, sums, 2));
   u->yields = (PetscBool)(sums[2] > 0.0);
   PetscCall(PetscFree3(gap.is_free, gap.value, gap.profile));
-  PetscCall(PetscFree4(excess, size, area, outside));
+  PetscCall(PetscFree5(excess, part, size, area, outside));
   PetscFunctionReturn(0);
 }
 

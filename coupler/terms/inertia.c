@@ -80,24 +80,20 @@ static PetscBool IsCovered(const Overlap o, const SourceTerm source[], int e)
   return fabs(covered - area) < COVERED * area ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Of element e, over its pairs with inertia: areas, and those times what the solid has beyond the fluid's density; of those that are free, too. */
+/* Of element e, over its pairs with inertia: areas, and those times what the solid has beyond the fluid's density. */
 typedef struct {
-  double area, excess, free_area, free_excess;
+  double area, excess;
 } Excess;
 
 static Excess ExcessOf(const Overlap o, const SourceTerm source[], int e)
 {
-  Excess sum = {0.0, 0.0, 0.0, 0.0};
+  Excess sum = {0.0, 0.0};
   for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
     const SupermeshPair *pair = &o->pairs.pair[o->of_element[i]];
     const SourceTerm *s = &source[pair->a];
     if (s->density == 0.0) continue;
-    const double excess = pair->area * fmax(s->density - o->rho[pair->b], 0.0);
     sum.area += pair->area;
-    sum.excess += excess;
-    if (s->held) continue;
-    sum.free_area += pair->area;
-    sum.free_excess += excess;
+    sum.excess += pair->area * fmax(s->density - o->rho[pair->b], 0.0);
   }
   return sum;
 }
@@ -108,8 +104,6 @@ static double KeptPart(const Overlap o, const SourceTerm source[], const Element
   const int k = o->coupled_element[e];
   const Excess sum = ExcessOf(o, source, e);
   if (sum.excess == 0.0) return 1.0;
-  if (element->shared && sum.free_area > 0.0)
-    return fmin(1.0, sum.free_excess / sum.free_area * sum.area / sum.excess);
   if (sum.area > (1.0 - OUTSIDE_LEAST) * o->area[k]) return 1.0;
   return fmin(1.0, INERTIA_KEPT_RATIO * (o->rho[k] + element->outside) * sum.area / sum.excess);
 }

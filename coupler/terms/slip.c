@@ -47,7 +47,7 @@ void SlipCorrection(const Overlap o, const ElementTerm element[], CoracleCorrect
 {
   for (int e = 0; e < o->ncoupled; e++) {
     double(*r)[3] = correction[e].r;
-    if (WallIsZero(&element[e].tangential)) continue;
+    if (!element[e].open || WallIsZero(&element[e].tangential)) continue;
     for (int i = 0; i < 3; i++) {
       const double ri[2] = {r[0][i], r[1][i]};
       double kept[2];

@@ -18,12 +18,14 @@
  *
  * An element that two solids which touch cover together has surfaces in it, too, and D as above: with D = 0 there the two were
  * held to each other's mean velocity by a part of their momentum in each step (a block on a slope slid with 0.09 of its acceleration when steps
- * were a quarter as long; tests/coupled/slope.sh).  The shell of one solid overlaps the other there.
+ * were a quarter as long; tests/coupled/slope.sh).  The shell of one solid overlaps the other there.  But the correction is whole: it takes the element to the
+ * mean of the two solids' velocities, and what that changes of its momentum the next step's added inertia gives to both.  Left to itself what is in
+ * such elements runs along the gap, ten times as fast as the solid that slides, and its pressure presses the two together or apart.
  *
- * The same among phases where one of the two is held: its inertia, INERTIA_MOST, would hold the other, too.  Along the surface all of the
- * element has the other's inertia, and each pair gets the mean of the reaction (ElementTerm.shared), which is what the pressure's
- * gradient gives to both: with its own, what its contact does in the element would press the other.  Normals are those of what is held alone: an element at the foot of a block on a slope slides along the slope.  Two
- * that are free accelerate together there, which lets them slide.
+ * The same among phases where one of the two is held: its inertia, INERTIA_MOST, would hold the other, too.  Along the surface the inertia begins
+ * with the fluid's velocity, the mean that the correction left there, and each pair gets the mean of the reaction (ElementTerm.shared), which is what the
+ * pressure's gradient gives to both: with its own, what its contact does in the element would press the other.  Normals are those of what is held alone: an
+ * element at the foot of a block on a slope slides along the slope.  Two that are free accelerate together there, which lets them slide.
  *
  * Where the fluid says that it has phases (Overlap.phases) D = 0: what such an element, of one velocity, one density and one pressure,
  * leaves of forces along a solid adds up where nothing stops it, and water is not viscous enough to.  With slip where what is beside
