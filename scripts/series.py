@@ -1,7 +1,9 @@
-"""Series of a run (fluid.csv, solid.csv, ...); needs numpy."""
+"""Series of a run (fluid.csv, solid.csv, ...), and what is periodic in them; needs numpy."""
 import csv
 
 import numpy as np
+
+HARMONICS = 8  # of its frequency, that what is periodic is made of; what is faster is noise from step to step
 
 
 def read_series(path):
@@ -10,3 +12,34 @@ def read_series(path):
         rows = list(csv.reader(file))
     values = np.array(rows[1:], float)
     return {name.split(" [")[0]: values[:, k] for k, name in enumerate(rows[0])}
+
+
+def upward(t, values):
+    """When the values pass the middle of their range upwards, linear between rows.  A crossing counts once they have been in the lower
+    fifth of the range, so that noise makes none."""
+    low, high = values.min(), values.max()
+    middle, crossings, below = 0.5 * (low + high), [], False
+    for k in range(1, len(t)):
+        below |= values[k] < low + 0.2 * (high - low)
+        if below and values[k - 1] < middle <= values[k]:
+            crossings.append(t[k - 1] + (middle - values[k - 1]) / (values[k] - values[k - 1]) * (t[k] - t[k - 1]))
+            below = False
+    return np.array(crossings)
+
+
+def harmonics(t, values, frequency, n=HARMONICS):
+    """Complex amplitudes c_0 .. c_n with values = Re sum c_k exp(2 pi i k frequency t), least squares."""
+    phase = 2.0 * np.pi * frequency * np.outer(t, np.arange(1, n + 1))
+    a = np.linalg.lstsq(np.hstack([np.ones((len(t), 1)), np.cos(phase), np.sin(phase)]), values, rcond=None)[0]
+    return np.concatenate([a[:1], a[1:n + 1] - 1j * a[n + 1:]])
+
+
+def curve(t, amplitudes, frequency):
+    """The values at t of what harmonics() found."""
+    return np.real(np.exp(2j * np.pi * frequency * np.outer(t, np.arange(len(amplitudes)))) @ amplitudes)
+
+
+def periodic(t, values, frequency):
+    """Mean and half of the range of the harmonics over a period."""
+    q = curve(np.linspace(0.0, 1.0 / frequency, 721), harmonics(t, values, frequency), frequency)
+    return 0.5 * (q.max() + q.min()), 0.5 * (q.max() - q.min())

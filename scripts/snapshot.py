@@ -114,6 +114,21 @@ def without_hydrostatic(grid, weight):
     return p - np.average(p, weights=grid.node_areas()), weight
 
 
+def vorticity(grid):
+    """At the vertices, dv/dx - du/dy: mean over the triangles there by their areas; and the triangulation of the vertices."""
+    x, u, cells = grid.points[:, :2], grid.node["velocity"][:, :2], grid.cells
+    vertices, place = np.unique(np.round(x, 9), axis=0, return_inverse=True)
+    corner, speed = x[cells], u[cells]
+    d1, d2 = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
+    twice = d1[:, 0] * d2[:, 1] - d1[:, 1] * d2[:, 0]
+    u1, u2 = speed[:, 1] - speed[:, 0], speed[:, 2] - speed[:, 0]
+    dvdx = (u1[:, 1] * d2[:, 1] - u2[:, 1] * d1[:, 1]) / twice
+    dudy = (u2[:, 0] * d1[:, 0] - u1[:, 0] * d2[:, 0]) / twice
+    at, weight = place.reshape(-1)[cells].ravel(), np.repeat(abs(twice), 3)
+    values = np.bincount(at, weight * np.repeat(dvdx - dudy, 3)) / np.bincount(at, weight)
+    return Triangulation(*vertices.T, place.reshape(-1)[cells]), values
+
+
 def centred(low, high, even=True):
     """A diverging colour map for low < 0 < high, neutral at 0: equally steep on both sides, or (not even) full at both ends."""
     below, above = (max(-low, high),) * 2 if even else (-low, high)

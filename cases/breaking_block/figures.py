@@ -20,7 +20,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.tri import Triangulation
 
 from budget import Budget
-from snapshot import Window, outline, read_snapshot
+from snapshot import Window, outline, read_snapshot, vorticity
 
 STRONGEST = 40.0  # 1/s, end of the colour scale of the vorticity
 SERIES = (0.4, 0.7, 0.76, 0.86, 1.1, 1.4, 1.8, 2.2)  # s
@@ -32,21 +32,6 @@ SAND, STEEL = (0.80, 0.72, 0.55, 1.0), (0.35, 0.35, 0.38, 1.0)
 def snapshot_times(folder):
     with h5py.File(os.path.join(folder, "solid.h5"), "r") as file:
         return [file["snapshot"][name].attrs["time"] for name in sorted(file["snapshot"]) if len(file["snapshot"][name])]
-
-
-def vorticity(grid):
-    """At the vertices, dv/dx - du/dy: mean over the triangles there by their areas; and the triangulation of the vertices."""
-    x, u, cells = grid.points[:, :2], grid.node["velocity"][:, :2], grid.cells
-    vertices, place = np.unique(np.round(x, 9), axis=0, return_inverse=True)
-    corner, speed = x[cells], u[cells]
-    d1, d2 = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
-    twice = d1[:, 0] * d2[:, 1] - d1[:, 1] * d2[:, 0]
-    u1, u2 = speed[:, 1] - speed[:, 0], speed[:, 2] - speed[:, 0]
-    dvdx = (u1[:, 1] * d2[:, 1] - u2[:, 1] * d1[:, 1]) / twice
-    dudy = (u2[:, 0] * d1[:, 0] - u1[:, 0] * d2[:, 0]) / twice
-    at, weight = place.reshape(-1)[cells].ravel(), np.repeat(abs(twice), 3)
-    values = np.bincount(at, weight * np.repeat(dvdx - dudy, 3)) / np.bincount(at, weight)
-    return Triangulation(*vertices.T, place.reshape(-1)[cells]), values
 
 
 def element_colours(folder, end):

@@ -13,6 +13,7 @@ from matplotlib.animation import PillowWriter
 
 import beam  # puts scripts/ on the path
 import phases
+from series import upward
 from snapshot import Window, paint, read_bodies, read_snapshot
 
 LABELS = {"x": "x of the tip [mm]", "y": "y of the tip [mm]", "drag": "drag [N/m]", "lift": "lift [N/m]"}
@@ -32,12 +33,12 @@ def draw_tip(run, path):
 
 def draw_period(run, path):
     """Time in periods since the tip passed its middle upwards.  Nothing where it has not swung often enough."""
-    crossings = beam.upward(run.t, run.series["y"])[-PERIODS - 1:]
+    crossings = upward(run.t, run.series["y"])[-PERIODS - 1:]
     if len(crossings) <= PERIODS or np.ptp(run.series["y"]) < 1.0:
         return
     frequency = PERIODS / (crossings[-1] - crossings[0])
     known = beam.reference()
-    start = beam.upward(*(np.concatenate([known[name], known[name] + shift]) for name, shift in (("t", beam.PERIOD), ("y", 0.0))))[0]
+    start = upward(*(np.concatenate([known[name], known[name] + shift]) for name, shift in (("t", beam.PERIOD), ("y", 0.0))))[0]
     figure, axes = plt.subplots(2, 2, figsize=(9.0, 5.5), sharex=True, layout="constrained")
     for axis, name in zip(axes.flat, ("y", "x", "lift", "drag")):
         t, values = run.times(name)
