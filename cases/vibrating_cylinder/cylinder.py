@@ -25,22 +25,25 @@ class Run:
         self.t, self.y = probe["t"], probe["centre_y"]
         self.t_force = solid["t"] - 0.5 * np.diff(solid["t"], prepend=0.0)
         self.drag, self.lift = 2.0 * solid["fx0"], 2.0 * solid["fy0"]
+        self.work, self.mass = np.cumsum(solid["fy0"] * np.diff(solid["y0"], prepend=solid["y0"][0])), solid["mass0"][-1]
 
     def periodic(self, end=np.inf):
-        """{quantity: value} over the last PERIODS before `end`."""
+        """{quantity: value} over the last PERIODS before `end`; damping: the ratio with which a spring's damper would take the fluid's work."""
         late, late_force = ((t > 0.4 * t[-1]) & (t <= end) for t in (self.t, self.t_force))
         moves = np.ptp(self.y[late]) > HELD
         crossings = (upward(self.t[late], self.y[late]) if moves else upward(self.t_force[late_force], self.lift[late_force]))[-PERIODS - 1:]
         frequency = (len(crossings) - 1) / (crossings[-1] - crossings[0])
         whole, whole_force = ((t > crossings[0]) & (t <= crossings[-1]) for t in (self.t, self.t_force))
         forces = {name: (self.t_force[whole_force], values[whole_force], frequency) for name, values in (("drag", self.drag), ("lift", self.lift))}
-        return {"amplitude": periodic(self.t[whole], self.y[whole], frequency)[1] if moves else 0.0, "frequency": frequency,
-                "drag": harmonics(*forces["drag"])[0].real, "lift": periodic(*forces["lift"])[1]}
+        amplitude = periodic(self.t[whole], self.y[whole], frequency)[1] if moves else 0.0
+        work = np.diff(self.work[whole_force][[0, -1]])[0] / (len(crossings) - 1)
+        return {"amplitude": amplitude, "frequency": frequency, "drag": harmonics(*forces["drag"])[0].real, "lift": periodic(*forces["lift"])[1],
+                "damping": work / (self.mass * (2.0 * np.pi * frequency * amplitude)**2 * 2.0 * np.pi) if moves else 0.0}
 
 
 def main():
     run = Run(sys.argv[1])
-    for end in (0.8 * run.t[-1], 0.9 * run.t[-1], run.t[-1]):
+    for end in (0.9 * run.t[-1], run.t[-1]):
         print("%6.1f  " % end + "  ".join("%s %.4f" % item for item in run.periodic(end).items()))
 
 
