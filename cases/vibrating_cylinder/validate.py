@@ -91,6 +91,11 @@ def claims(there):
             for q, bound in BOUNDS.items():
                 if expected[r.cylinder][q]:
                     yield "%s: %s" % (name, q), abs(r.found[q] / expected[r.cylinder][q] - 1.0), bound
+    for cylinder in SPRINGS:  # the error goes with the size of the elements
+        one, half = (there.get("%s-%s" % (cylinder, size)) for size in SIZES)
+        if SPRINGS[cylinder] and one and half:
+            amplitude = 2.0 * half.found["amplitude"] - one.found["amplitude"]
+            yield cylinder + ": amplitude, extrapolated", abs(amplitude / expected[cylinder]["amplitude"] - 1.0), 0.03
     if {"u5-0.025", "light-0.025"} <= set(there):
         for q in ("amplitude", "frequency"):
             yield "light-0.025: %s as of u5" % q, abs(there["light-0.025"].found[q] / there["u5-0.025"].found[q] - 1.0), 0.02
