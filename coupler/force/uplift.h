@@ -19,10 +19,9 @@
  *
  * e moves the solid against the other, by a part of a step's fall, and the next step's p lacks what the contact bears then: N grows by the
  * integral of e in each step, until e is 0: across an open gap in the time that the solid takes to fall through the height of that pressure, where
- * the two touch within a few steps.  Whatever small error the fluid's solve has in the force N sums up, too, over 1/(the part of e) steps: with the
- * fall alone a wedge that slides on a wall is pressed by 0.75 to 1.5 times what it should, the more the shorter the steps.  With all of e where they touch
- * a pile of stones is thrown apart.  A blow of a few steps passes an open gap: the wall's reaction to it is the fluid's (with all of e a square that a dam's front struck was thrown up, with an e
- * that follows p at that rate a caisson bounced).  What is held (no mobility) does not move: it has e as a whole, against a wall, half of it against
+ * the two touch within ten steps, too, since N keeps whatever error the force of a step has until e takes it away.  A blow of a few steps passes an open
+ * gap: the wall's reaction to it is the fluid's (with all of e a square that a dam's front struck was thrown up, with an e that follows p at that rate a
+ * caisson bounced).  What is held (no mobility) does not move: it has e as a whole, against a wall, half of it against
  * what is held, too, and against what is free what that takes from it.  Facets that no such place is connected with stay as they are.  The momentum of walls is in
  * the columns `uplift` of coupler.csv. */
 #ifndef CORACLE_COUPLER_UPLIFT_H
@@ -30,7 +29,7 @@
 #include "coupler/terms/wall_term.h"
 
 #define UPLIFT_REACH 0.5
-#define UPLIFT_TAKEN 0.3
+#define UPLIFT_TAKEN 0.1
 /* Below this part of an element's size a gap is closed. */
 #define UPLIFT_CLOSED 1e-3
 
