@@ -1,7 +1,7 @@
 #include "coupler/terms/inertia.h"
 #include "coupler/terms/outside.h"
 
-/* An element is covered where its pairs' areas add up to its own to this part of it. */
+/* An element is covered where its pairs add up to it to this part. */
 #define COVERED 1e-10
 /* Normals whose mean of sin^2 is below 0.1 count as one: 1/(1 - 2 0.1) (P of inertia.h). */
 #define CORNER 1.25
@@ -68,14 +68,23 @@ PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt
   PetscFunctionReturn(0);
 }
 
-/* Its area is covered by pairs with nodes that are free. */
+/* It is covered by pairs with nodes that are free: their areas and first moments are its own.  (At a crack's tip as much may lie twice as is open.) */
 static PetscBool IsCovered(const Overlap o, const SourceTerm source[], int e)
 {
-  const double area = o->area[o->coupled_element[e]];
-  double covered = 0.0;
+  const int k = o->coupled_element[e];
+  const double area = o->area[k], size = sqrt(area);
+  double covered = 0.0, moment[2] = {0.0, 0.0};
   for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
     const SupermeshPair *pair = &o->pairs.pair[o->of_element[i]];
-    if (source[pair->a].density > 0.0) covered += pair->area;
+    double d[2];
+    if (source[pair->a].density == 0.0) continue;
+    SupermeshCentreInB(pair, &o->source_basis[pair->a], &o->basis[k], d);
+    covered += pair->area;
+    for (int c = 0; c < 2; c++) moment[c] += pair->area * d[c];
+  }
+  for (int c = 0; c < 2; c++) {
+    const double centre = (o->x[k][0][c] + o->x[k][1][c] + o->x[k][2][c]) / 3.0 - o->basis[k].origin[c];
+    if (fabs(moment[c] - area * centre) > COVERED * area * size) return PETSC_FALSE;
   }
   return fabs(covered - area) < COVERED * area ? PETSC_TRUE : PETSC_FALSE;
 }
