@@ -7,7 +7,6 @@ A run is skipped when it has ended before (out/validation/breaking_block/<name>;
 names with wildcards.  --table only prints the tables of what has been run, --readme also puts them into README.md, --check exits
 with 1 when a number is out of its bounds.
 """
-import json
 import pathlib
 import subprocess
 
@@ -50,10 +49,6 @@ class Result:
         fluid = read_series(folder / "fluid.csv")
         self.triangles = int(fluid["triangles"].max())
         self.imbalance = read_series(folder / "coupler.csv")["imbalance"].max()
-        self.cpu = 0.0
-        if not self.message:
-            parts = json.load(open(folder / "summary.json"))["participants"].values()
-            self.cpu = sum(p["seconds_cpu"] for p in parts)
         self.pieces = self._pieces(folder)
 
     @staticmethod
@@ -119,21 +114,21 @@ def results(names):
 
 def runs_table(there):
     yield "| run | first crack [s] | stream on the block [N/m] | projectile's loss [N s/m] | foot, largest [N/m] | cracks [m] | G_f [J/m2] | pieces " \
-          "| largest three | momentum error | energy from nothing | imbalance | triangles | steps | CPU s |"
-    yield "|" + "---|" * 15
+          "| largest three | momentum error | energy from nothing | imbalance | triangles | steps |"
+    yield "|" + "---|" * 14
     for name, r in there.items():
         b = r.budget
         n = int(np.searchsorted(r.t, END * (1 - 1e-9)))
         n = min(n, len(r.t) - 1)
         if r.message:
             why = "shaken apart" if "alternating sign" in r.message else r.message.strip()
-            yield "| %s | stopped at %.3f s: %s |" % (name, r.t[-1], why) + " |" * 13
+            yield "| %s | stopped at %.3f s: %s |" % (name, r.t[-1], why) + " |" * 12
             continue
         yield "| " + " | ".join([
             name, "%.4f" % b.first_crack(), "%.1f" % r.stream, "%.1f" % r.lost, "%.0f" % r.foot, "%.2f" % b.cracks[n],
             "%.2f" % (b.debonded[n] / b.cracks[n]), "%.0f" % (b.pieces[n] - 1), ", ".join("%.0f %%" % (100 * p) for p in r.pieces[:3]),
             "%.0e" % max(b.momentum_error(0), b.momentum_error(1)), "%.2g" % max(b.excess.max(), 0.0), "%.0e" % r.imbalance,
-            str(r.triangles), str(len(r.t)), "%.0f" % r.cpu]) + " |"
+            str(r.triangles), str(len(r.t))]) + " |"
 
 
 def ranks_table(there):
