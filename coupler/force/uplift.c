@@ -190,12 +190,10 @@ static SqueezeFilm FilmAt(const Uplift u, const ClosePoint *p, const Gap *gap, c
 {
   const int *node = &u->solid.facet[2 * p->facet];
   const double *normal = u->shell->normal[p->facet];
-  SqueezeFilm film = {.gap = p->gap};
+  SqueezeFilm film = {.gap = p->gap, .excess = At(u, p, excess), .profile = At(u, p, gap->profile)};
   double volume = 0.0;
   for (int i = 0; i < 2; i++) {
     volume += p->n[i] * gap->value[node[i]][SPECIFIC_VOLUME];
-    film.excess += p->n[i] * excess[node[i]];
-    film.profile += p->n[i] * gap->profile[node[i]];
     film.density += p->n[i] * gap->value[node[i]][DENSITY];
     film.viscosity += p->n[i] * gap->value[node[i]][VISCOSITY];
     for (int c = 0; c < 2; c++) film.closing += p->n[i] * normal[c] * u->solid.u[2 * node[i] + c];

@@ -89,32 +89,20 @@ static PetscBool IsCovered(const Overlap o, const SourceTerm source[], int e)
   return fabs(covered - area) < COVERED * area ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Of element e, over its pairs with inertia: areas, and those times what the solid has beyond the fluid's density. */
-typedef struct {
-  double area, excess;
-} Excess;
-
-static Excess ExcessOf(const Overlap o, const SourceTerm source[], int e)
-{
-  Excess sum = {0.0, 0.0};
-  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
-    const SupermeshPair *pair = &o->pairs.pair[o->of_element[i]];
-    const SourceTerm *s = &source[pair->a];
-    if (s->density == 0.0) continue;
-    sum.area += pair->area;
-    sum.excess += pair->area * fmax(s->density - o->rho[pair->b], 0.0);
-  }
-  return sum;
-}
-
-/* k of element e. */
+/* k of element e: from its pairs with inertia, their area, and that times what the solid has beyond the fluid's density. */
 static double KeptPart(const Overlap o, const SourceTerm source[], const ElementTerm *element, int e)
 {
   const int k = o->coupled_element[e];
-  const Excess sum = ExcessOf(o, source, e);
-  if (sum.excess == 0.0) return 1.0;
-  if (sum.area > (1.0 - OUTSIDE_LEAST) * o->area[k]) return 1.0;
-  return fmin(1.0, INERTIA_KEPT_RATIO * (o->rho[k] + element->outside) * sum.area / sum.excess);
+  double area = 0.0, excess = 0.0;
+  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
+    const SupermeshPair *pair = &o->pairs.pair[o->of_element[i]];
+    const double density = source[pair->a].density;
+    if (density == 0.0) continue;
+    area += pair->area;
+    excess += pair->area * fmax(density - o->rho[pair->b], 0.0);
+  }
+  if (excess == 0.0 || area > (1.0 - OUTSIDE_LEAST) * o->area[k]) return 1.0;
+  return fmin(1.0, INERTIA_KEPT_RATIO * (o->rho[k] + element->outside) * area / excess);
 }
 
 static PetscBool IsHeld(const Overlap o, const SourceTerm source[], int e)
