@@ -44,10 +44,10 @@ static LinearField Reaction(const PairTerm *term, const ElementTerm *element, co
   return reaction;
 }
 
-/* What two solids that touch share: the mean of the reaction over their pairs, which is the pressure's gradient there. */
-static void ReactionShared(const Overlap o, const PairTerm term[], const ElementTerm *element,
-                           const SourceTerm source[], const double gravity[2], const ElementFlow *flow, int e,
-                           double mean[2])
+/* The mean of the reaction over the pairs of an element that two solids share (slip.h). */
+static void MeanReaction(const Overlap o, const PairTerm term[], const ElementTerm *element,
+                         const SourceTerm source[], const double gravity[2], const ElementFlow *flow, int e,
+                         LinearField *mean)
 {
   VectorMoments sum = {{0.0}, {{0.0}}};
   double area = 0.0;
@@ -62,7 +62,15 @@ static void ReactionShared(const Overlap o, const PairTerm term[], const Element
     VectorMomentsAdd(pair, &density, pair->centre, &sum);
     area += pair->area;
   }
-  for (int c = 0; c < 2; c++) mean[c] = sum.zero[c] / area;
+  *mean = (LinearField){{sum.zero[0] / area, sum.zero[1] / area}, {{0.0}}};
+}
+
+/* density, of one pair: along the surface it becomes the mean. */
+static void ShareAlong(const ElementTerm *element, const LinearField *mean, LinearField *density)
+{
+  LinearField difference = *mean;
+  LinearFieldAdd(-1.0, density, &difference);
+  WallAdd(&element->along, &difference, density);
 }
 
 /* The density of F_i + F_b. */
@@ -93,7 +101,7 @@ PetscErrorCode ForceOfPairs(const Overlap o, const PairTerm term[], const Elemen
                             const CoracleFlow *flow, ForceVertex vertex[])
 {
   ElementFlow *on;
-  double(*mean)[2]; /* of shared elements */
+  LinearField *mean; /* of shared elements */
 
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2(o->ncoupled, &on, o->ncoupled, &mean));
@@ -102,7 +110,7 @@ PetscErrorCode ForceOfPairs(const Overlap o, const PairTerm term[], const Elemen
     on[e] = (ElementFlow){LinearFieldOnElement(&o->basis[k], &flow->u_star[6 * k]),
                           LinearFieldOnElement(&o->basis[k], &flow->u_start[6 * k]),
                           LinearFieldOnElement(&o->basis[k], &flow->u_projected[6 * k])};
-    if (element[e].shared) ReactionShared(o, term, &element[e], source, gravity, &on[e], e, mean[e]);
+    if (element[e].shared) MeanReaction(o, term, &element[e], source, gravity, &on[e], e, &mean[e]);
   }
   for (int t = 0, p = 0; t < o->nsources; t++) {
     VectorMoments reaction = {{0.0}, {{0.0}}}, other = {{0.0}, {{0.0}}};
@@ -112,9 +120,8 @@ PetscErrorCode ForceOfPairs(const Overlap o, const PairTerm term[], const Elemen
       const double *d = pair->centre;
       const ElementFlow at = FlowAt(o, pair, &on[e]);
       const LinearField start = LinearFieldAt(&source[t].start, d);
-      const LinearField density = element[e].shared && !o->source[t].is_shell
-                                      ? (LinearField){{mean[e][0], mean[e][1]}, {{0.0}}}
-                                      : Reaction(&term[p], &element[e], &source[t], gravity, &at, &start, d);
+      LinearField density = Reaction(&term[p], &element[e], &source[t], gravity, &at, &start, d);
+      if (element[e].shared && !o->source[t].is_shell) ShareAlong(&element[e], &mean[e], &density);
       VectorMomentsAdd(pair, &density, d, &reaction);
       if (o->source[t].is_shell) continue;
       const LinearField rest = Other(o->rho[pair->b], dt, gravity, &at, &start);

@@ -24,7 +24,9 @@
  *
  * The same among phases where one of the two is held: its inertia, INERTIA_MOST, would hold the other, too.  Along the surface the inertia begins
  * with the fluid's velocity, the mean that the correction left there, and each pair gets the mean of the reaction (ElementTerm.shared), which is what the
- * pressure's gradient gives to both: with its own, what its contact does in the element would press the other.  Normals are those of what is held alone: an
+ * pressure's gradient gives to both: with its own, what drives one of them would be held there and would move the other.  Across the surface each has its
+ * own: with the mean, a part of the contact's force, much of which acts in these elements, would go to the other solid in each step, and contact could not
+ * take over what the pressure has beyond the head (uplift.h).  Normals are those of what is held alone: an
  * element at the foot of a block on a slope slides along the slope.  Two that are free accelerate together there, which lets them slide.
  *
  * Where the fluid says that it has phases (Overlap.phases) D = 0: what such an element, of one velocity, one density and one pressure,
