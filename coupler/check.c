@@ -1,5 +1,6 @@
 #include "coupler/check.h"
 #include "common/program/program.h"
+#include "common/program/run_case.h"
 #include "coupler/input/coupler_case.h"
 #include <errno.h>
 #include <stdio.h>
@@ -12,24 +13,10 @@ static const CoracleCaseKey KEYS[] = {
     {"note", "", "what a reader of the results must know"},
     {"resume", "",
      "a checkpoint's folder from which the run resumes, or last: that of output.folder, if there is one"},
-    {"gravity", "m/s2", "acceleration of gravity, x and y; or rows of time and both"},
-    {"gravity[]", "s, m/s2",
-     "time, x and y, linear between rows; of an accelerated frame gravity less its acceleration"},
-    {"time.end", "s", "when the run ends"},
-    {"time.dt_max", "s", "largest time step"},
-    {"time.cfl", "",
-     "largest time step over the time that the flow takes through an element, largest over the mesh"},
-    {"output.folder", "", "where results go; made if missing"},
-    {"output.every", "s", "time from one snapshot of the fields to the next; there is one at the end, too"},
     {"output.checkpoint", "s", "by the clock, from one checkpoint to the next; 0: none"},
     {"output.trace", "", "trace.json: what each rank did when, for ui.perfetto.dev"},
-    {"fluid.viscosity", "Pa s", "dynamic viscosity"},
-    {"fluid.phases", "", "two phases that do not mix, instead of density and viscosity"},
-    {"fluid.probes", "", "list of points, lines and pressure gauges whose values are in fluid_probes.csv"},
     {"fluid.probes[].solid_point", "m",
      "a point of the solid's surface at the start: a pressure gauge that moves with it"},
-    {"solid.walls.lower", "m", "lower left corner of four rigid walls around all bodies"},
-    {"solid.walls.upper", "m", "upper right corner of the walls"},
     {"coupler.mode", "", "how fluid and solid are coupled"},
     {"coupler.shell_thickness", "m",
      "dr: thickness of the shell around the solid in which wall friction acts"},
@@ -52,7 +39,7 @@ static void CheckFolder(CoracleCase c, const char *folder)
 static void Read(CoracleCase c, void *command)
 {
   static CouplerCase k;
-  CoracleCaseDescribe(c, KEYS);
+  RunCaseDescribe(c, KEYS);
   (void)CoracleCaseStringOr(c, "resume", "");
   if (CouplerCaseRead(c, &k)) return;
   CheckFolder(c, k.folder);

@@ -1,20 +1,12 @@
 #include "fluid/check.h"
 #include "common/program/program.h"
+#include "common/program/run_case.h"
 #include "fluid/input/fluid_case.h"
 #include "fluid/output/probes.h"
 #include "fluid/output/writer.h"
 
 /* What the calls that read them do not say of the fluid's keys. */
 static const CoracleCaseKey KEYS[] = {
-    {"gravity", "m/s2", "acceleration of gravity, x and y; or rows of time and both"},
-    {"gravity[]", "s, m/s2",
-     "time, x and y, linear between rows; of an accelerated frame gravity less its acceleration"},
-    {"time.cfl", "",
-     "largest time step over the time that the flow takes through an element, largest over the mesh"},
-    {"time.dt_max", "s", "largest time step"},
-    {"time.end", "s", "when the run ends"},
-    {"output.folder", "", "where results go; made if missing"},
-    {"output.every", "s", "time from one snapshot of the fields to the next; there is one at the end, too"},
     {"fluid.density", "kg/m3", "density"},
     {"fluid.viscosity", "Pa s", "dynamic viscosity"},
     {"fluid.phases", "", "two or more phases that do not mix, instead of density and viscosity"},
@@ -180,6 +172,7 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
 {
   static const char *const SECTIONS[] = {"fluid", NULL};
   Mesh *mesh;
+  RunCase run;
   FluidSetup setup;
   AdaptationSetup adaptation;
   Probes probes;
@@ -187,11 +180,9 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
   Region *region;
   int nregions;
   PetscFunctionBeginUser;
-  CoracleCaseDescribe(c, KEYS);
+  RunCaseDescribe(c, KEYS);
   (void)CoracleCaseStringOr(c, "fluid.petsc", "");
-  (void)CoracleCaseString(c, "output.folder");
-  (void)CoracleCasePositive(c, "output.every");
-  (void)CoracleCasePositive(c, "time.end");
+  RunCaseRead(c, &run);
   PetscCall(FluidCaseMesh(c, PETSC_COMM_SELF, NULL, &mesh, NULL));
   PetscCall(FluidCaseSetup(c, mesh, &setup));
   PetscCall(FluidCaseRegions(c, &nregions, &region));

@@ -3,6 +3,7 @@
 #include "common/output/checkpoint_folder.h"
 #include "common/output/claim.h"
 #include "common/output/folder.h"
+#include "common/program/run_case.h"
 #include "solid/solid_case.h"
 #include "solid/writer.h"
 #include <stdio.h>
@@ -28,10 +29,10 @@ static void Refuse(void *context, const char *message)
 }
 
 typedef struct {
-  char *folder; /* output.folder */
+  RunCase keys;
   char run[CHECKPOINT_RUN];
-  double end, longest, every; /* s; every: by the clock, 0: no checkpoints */
-  long long steps;            /* also those of runs that this one resumes from */
+  double longest, every; /* s, the largest step; by the clock from one checkpoint to the next, 0: none */
+  long long steps;       /* also those of runs that this one resumes from */
   Solid solid;
   Writer writer;
 } Run;
@@ -43,11 +44,11 @@ static void Say(const Run *m, double dt, double begun, double start, double *sai
   const SolidStats *stats = SolidGetStats(m->solid);
   PetscMPIInt rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  const double left = m->end - stats->t;
+  const double left = m->keys.end - stats->t;
   if (rank || (now - *said < 1.0 && left > 0.5 * dt)) return;
   *said = now;
   printf("coracle: t %.5g s of %g, step %lld, dt %.3g s, %d substeps, %.0f s done, about %.0f s to go\n",
-         stats->t, m->end, m->steps, dt, stats->substeps, spent, spent * left / (stats->t - begun));
+         stats->t, m->keys.end, m->steps, dt, stats->substeps, spent, spent * left / (stats->t - begun));
   fflush(stdout);
 }
 
@@ -72,7 +73,7 @@ static PetscErrorCode Save(const Run *m)
   PetscMPIInt rank;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  snprintf(path, sizeof path, "%s/" CORACLE_CHECKPOINT ".%lld", m->folder, m->steps);
+  snprintf(path, sizeof path, "%s/" CORACLE_CHECKPOINT ".%lld", m->keys.folder, m->steps);
   if (!rank) PetscCall(CheckpointFolderMake(path, m->run, m->steps, SolidGetStats(m->solid)->t));
   PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
   PetscCall(CheckpointCreate(PETSC_COMM_WORLD, path, "solid", &to));
@@ -98,7 +99,7 @@ static PetscErrorCode SaveIfDue(const Run *m, PetscBool ends, double *last)
 
 static PetscErrorCode Advance(Run *m)
 {
-  const double start = MPI_Wtime(), begun = SolidGetStats(m->solid)->t, length = m->end - begun;
+  const double start = MPI_Wtime(), begun = SolidGetStats(m->solid)->t, length = m->keys.end - begun;
   const int steps = PetscMax(1, (int)ceil(length / m->longest * (1.0 - 1e-12)));
   const double dt = length / steps;
   double said = start, saved = start, h;
@@ -129,14 +130,13 @@ int AloneTake(int *argc, char **argv)
 static PetscErrorCode ReadRun(CoracleCase c, Run *m, char resume[PETSC_MAX_PATH_LEN])
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscStrallocpy(CoracleCaseString(c, "output.folder"), &m->folder));
-  m->end = CoracleCasePositive(c, "time.end");
+  RunCaseRead(c, &m->keys);
   m->longest = CoracleCasePositive(c, "time.dt_max");
   m->every = CoracleCaseNumberOr(c, "output.checkpoint", 600.0, 0.0, HUGE_VAL);
   if (ParticipantFindResume(c, PETSC_MAX_PATH_LEN, resume))
     PetscCall(PetscPrintf(PETSC_COMM_WORLD,
                           "coracle: there is no %s/" CORACLE_CHECKPOINT ": begins at the start\n",
-                          m->folder));
+                          m->keys.folder));
   CheckpointFolderRun(m->run);
   PetscFunctionReturn(0);
 }
@@ -153,10 +153,10 @@ static PetscErrorCode Begin(CoracleCase c, Run *m, Claim *claim)
     PetscCall(Load(m, from));
   }
   const double t = SolidGetStats(m->solid)->t;
-  if (t > m->end - 1e-9 * m->longest)
+  if (t > m->keys.end - 1e-9 * m->longest)
     CoracleCaseRefuse(c, "time.end", "the checkpoint to resume from is at t = %g s already", t);
-  const PetscBool resumes = (PetscBool)(from && FolderHolds(PETSC_COMM_WORLD, m->folder, resume));
-  PetscCall(ClaimFolder(PETSC_COMM_WORLD, m->folder, resumes, claim));
+  const PetscBool resumes = (PetscBool)(from && FolderHolds(PETSC_COMM_WORLD, m->keys.folder, resume));
+  PetscCall(ClaimFolder(PETSC_COMM_WORLD, m->keys.folder, resumes, claim));
   PetscCall(WriterCreate(c, PETSC_COMM_WORLD, m->solid, from, &m->writer));
   PetscCall(CheckpointClose(&from));
   PetscFunctionReturn(0);
@@ -174,7 +174,6 @@ int Alone(int argc, char **argv)
   PetscCall(WriterDestroy(&m.writer));
   PetscCall(ClaimRelease(&claim));
   PetscCall(SolidDestroy(&m.solid));
-  PetscCall(PetscFree(m.folder));
-  PetscCall(CoracleCaseClose(&c)); /* gravity's rows are in it */
+  PetscCall(CoracleCaseClose(&c)); /* the folder's name and gravity's rows are in it */
   return PetscFinalize();
 }

@@ -1,5 +1,6 @@
 #include "solid/check.h"
 #include "common/program/program.h"
+#include "common/program/run_case.h"
 #include "solid/bodies/case_body.h"
 #include "solid/probes.h"
 #include "solid/solid_case.h"
@@ -10,12 +11,6 @@
 
 /* What the calls that read them do not say of the solid's keys. */
 static const CoracleCaseKey KEYS[] = {
-    {"gravity", "m/s2", "acceleration of gravity, x and y; or rows of time and both"},
-    {"gravity[]", "s, m/s2",
-     "time, x and y, linear between rows; of an accelerated frame gravity less its acceleration"},
-    {"time.end", "s", "when the run ends"},
-    {"output.folder", "", "where results go; made if missing"},
-    {"output.every", "s", "time from one snapshot of the fields to the next; there is one at the end, too"},
     {"solid.materials.*.density", "kg/m3", "density"},
     {"solid.materials.*.youngs_modulus", "Pa", "Young's modulus"},
     {"solid.materials.*.poisson_ratio", "", "Poisson's ratio"},
@@ -218,11 +213,10 @@ static PetscErrorCode Expect(CoracleCase c, Solid s, Command command)
 static PetscErrorCode ReadCase(CoracleCase c, Command command)
 {
   Solid solid;
+  RunCase run;
   PetscFunctionBeginUser;
-  CoracleCaseDescribe(c, KEYS);
-  (void)CoracleCaseString(c, "output.folder");
-  (void)CoracleCasePositive(c, "output.every");
-  (void)CoracleCasePositive(c, "time.end");
+  RunCaseDescribe(c, KEYS);
+  RunCaseRead(c, &run);
   PetscCall(SolidFromCase(c, PETSC_COMM_SELF, Fail, NULL, &solid));
   if (command != COMMAND_KEYS && CoracleCaseFaultless(c)) {
     PetscCall(CheckInside(c, solid));

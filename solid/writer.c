@@ -1,6 +1,7 @@
 #include "solid/writer.h"
 #include "common/link/coracle.h"
 #include "common/output/output.h"
+#include "common/program/run_case.h"
 #include "solid/probes.h"
 #include <stdio.h>
 
@@ -152,8 +153,8 @@ static PetscErrorCode Load(Writer r, Checkpoint from)
 
 PetscErrorCode WriterCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoint from, Writer *record)
 {
-  const char *folder = CoracleCaseString(c, "output.folder");
   SolidView v;
+  RunCase run;
   Writer r;
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&r));
@@ -161,11 +162,11 @@ PetscErrorCode WriterCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoin
   r->comm = comm;
   r->nbodies = PetscMin(v.nbodies, MAX_BODIES);
   r->start = MPI_Wtime();
-  PetscCall(OutputCreate(comm, folder, "solid", CoracleCasePositive(c, "output.every"),
-                         CoracleCasePositive(c, "time.end"), from, &r->output));
+  RunCaseRead(c, &run);
+  PetscCall(OutputCreate(comm, run.folder, "solid", run.every, run.end, from, &r->output));
   PetscCall(OutputText(r->output, "case", CoracleCaseStringOr(c, "case", "")));
   PetscCall(OutputText(r->output, "version", CORACLE_VERSION));
-  PetscCall(CreateSeries(r, folder, from));
+  PetscCall(CreateSeries(r, run.folder, from));
   PetscCall(ProbesCreate(c, comm, solid, from, &r->probes));
   PetscCall(from ? Load(r, from) : Snapshot(r, solid));
   *record = r;

@@ -1,9 +1,9 @@
 #include "coupler/input/coupler_case.h"
 #include "common/link/case_key.h"
 #include "common/output/options.h"
+#include "common/program/run_case.h"
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 static double OfItem(CoracleCase file, const char *list, int k, const char *item)
 {
@@ -77,33 +77,21 @@ static void ReadOptions(CoracleCase file, CouplerOptions *o)
                                       InterfaceSize(file) < CapillaryLength(file, o->gravity));
 }
 
-/* Open MPI's shared file pointers (4.1) write names of files into buffers of 256 characters. */
-enum { FOLDER_LENGTH = 200 };
-
-static void ReadFolder(CoracleCase file, CouplerCase *c)
-{
-  const char *folder = CoracleCaseString(file, "output.folder");
-  const size_t n = strlen(folder);
-  if (n > FOLDER_LENGTH)
-    CoracleCaseRefuse(file, "output.folder",
-                      "its name has %zu characters, more than %d: use a relative path or a link", n,
-                      (int)FOLDER_LENGTH);
-  snprintf(c->folder, sizeof c->folder, "%s", folder);
-}
-
 PetscErrorCode CouplerCaseRead(CoracleCase file, CouplerCase *c)
 {
   static const char *const SECTIONS[] = {"case", "note", "gravity", "time", "coupler", "output", NULL};
   char option[256];
+  RunCase run;
 
   PetscFunctionBeginUser;
   snprintf(c->name, sizeof c->name, "%s", CoracleCaseString(file, "case"));
   snprintf(c->note, sizeof c->note, "%s", CoracleCaseStringOr(file, "note", ""));
-  ReadFolder(file, c);
-  c->every = CoracleCasePositive(file, "output.every");
+  RunCaseRead(file, &run);
+  c->folder = run.folder;
+  c->every = run.every;
+  c->end = run.end;
   c->checkpoint = CoracleCaseNumberOr(file, "output.checkpoint", 600.0, 0.0, HUGE_VAL);
   (void)CoracleCaseBoolOr(file, "output.trace", false); /* the library's */
-  c->end = CoracleCasePositive(file, "time.end");
   c->dt_max = CoracleCasePositive(file, "time.dt_max");
   /* the fluid's, read here so that the whole section can be checked */
   (void)CoracleCaseNumberOr(file, "time.cfl", 0.5, 0.0, HUGE_VAL);

@@ -7,7 +7,8 @@
 #include "coupler/step/coupler.h"
 
 typedef struct {
-  char name[128], note[512], folder[512];
+  char name[128], note[512];
+  const char *folder;        /* output.folder, borrowed until CoracleCaseClose */
   double end, dt_max, every; /* s */
   double checkpoint;         /* wall-clock seconds from one to the next, 0: none */
   int max_iterations;        /* coupling iterations of a step; 1: the first is accepted */

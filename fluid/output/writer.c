@@ -1,6 +1,7 @@
 #include "fluid/output/writer.h"
 #include "common/link/coracle.h"
 #include "common/output/output.h"
+#include "common/program/run_case.h"
 #include "fluid/flow/budget.h"
 #include "fluid/output/force_series.h"
 
@@ -135,17 +136,17 @@ static PetscErrorCode AddPhases(Fluid f, double row[])
 PetscErrorCode WriterCreate(CoracleCase c, Fluid f, Checkpoint from, Writer *writer)
 {
   const Mesh *m = FluidMesh(f);
-  const char *folder = CoracleCaseString(c, "output.folder");
+  RunCase run;
   char columns[2048];
   Writer r;
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&r));
-  PetscCall(OutputCreate(m->comm, folder, "fluid", CoracleCasePositive(c, "output.every"),
-                         CoracleCasePositive(c, "time.end"), from, &r->output));
+  RunCaseRead(c, &run);
+  PetscCall(OutputCreate(m->comm, run.folder, "fluid", run.every, run.end, from, &r->output));
   PetscCall(OutputText(r->output, "case", CoracleCaseStringOr(c, "case", "")));
   PetscCall(OutputText(r->output, "version", CORACLE_VERSION));
   PetscCall(SetColumns(f, sizeof columns, columns));
-  PetscCall(SeriesCreate(m->comm, folder, "fluid", columns, from, &r->series));
+  PetscCall(SeriesCreate(m->comm, run.folder, "fluid", columns, from, &r->series));
   PetscCall(ForceSeriesCreate(c, f, from, &r->forces));
   if (!from) PetscCall(Snapshot(r, f));
   *writer = r;

@@ -168,7 +168,7 @@ static void RunCoupler(int argc, char **argv, const char *folder, double end, do
   MPI_Comm comm;
   c.options = (CouplerOptions){
       .mode = COUPLER_REACTION, .thickness = 0.002, .relaxation = 10.0, .gravity = {GRAVITY[0], GRAVITY[1]}};
-  snprintf(c.folder, sizeof c.folder, "%s", folder);
+  c.folder = folder;
   CHECK(!ServerOpen(argc, argv, &comm, &server), "open");
   PETSC_COMM_WORLD = comm;
   CHECK(!PetscInitialize(NULL, NULL, NULL, NULL), "PETSc");

@@ -1,0 +1,33 @@
+#include "common/program/run_case.h"
+#include <string.h>
+
+/* Open MPI's shared file pointers (4.1) write names of files into buffers of 256 characters. */
+enum { FOLDER_LENGTH = 200 };
+
+void RunCaseRead(CoracleCase c, RunCase *r)
+{
+  r->folder = CoracleCaseString(c, "output.folder");
+  if (strlen(r->folder) > FOLDER_LENGTH)
+    CoracleCaseRefuse(c, "output.folder",
+                      "its name has %zu characters, more than %d: use a relative path or a link",
+                      strlen(r->folder), (int)FOLDER_LENGTH);
+  r->every = CoracleCasePositive(c, "output.every");
+  r->end = CoracleCasePositive(c, "time.end");
+}
+
+void RunCaseDescribe(CoracleCase c, const CoracleCaseKey own[])
+{
+  static const CoracleCaseKey KEYS[] = {
+      {"gravity", "m/s2", "acceleration of gravity, x and y; or rows of time and both"},
+      {"gravity[]", "s, m/s2",
+       "time, x and y, linear between rows; of an accelerated frame gravity less its acceleration"},
+      {"time.end", "s", "when the run ends"},
+      {"time.dt_max", "s", "largest time step"},
+      {"time.cfl", "",
+       "largest time step over the time that the flow takes through an element, largest over the mesh"},
+      {"output.folder", "", "where results go; made if missing"},
+      {"output.every", "s", "time from one snapshot of the fields to the next; there is one at the end, too"},
+      {NULL, NULL, NULL}};
+  CoracleCaseDescribe(c, own);
+  CoracleCaseDescribe(c, KEYS);
+}

@@ -1,0 +1,14 @@
+/* The keys of a run that every program reads, and what those mean that more than one reads. */
+#ifndef CORACLE_RUN_CASE_H
+#define CORACLE_RUN_CASE_H
+#include "common/link/case_file.h"
+
+typedef struct {
+  const char *folder; /* output.folder, borrowed until CoracleCaseClose */
+  double every, end;  /* s: output.every, time.end */
+} RunCase;
+
+void RunCaseRead(CoracleCase c, RunCase *r);
+/* The program's own table and that of gravity, time and output (CoracleCaseDescribe). */
+void RunCaseDescribe(CoracleCase c, const CoracleCaseKey own[]);
+#endif
