@@ -27,7 +27,7 @@ void CaseDie(CoracleCase c, const CaseNode *node, const char *key, const char *f
   va_end(list);
   Place(c, node, place);
   snprintf(message, sizeof message, "%s: %s", place, text);
-  if (c->faults) CaseFault(c->faults, key, message);
+  if (c->faults) CaseFault(c->faults, key, message, node && node->file);
   c->fail(c->context, message);
   abort(); /* fail must not return */
 }

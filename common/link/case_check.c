@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-void CaseFault(CaseFaults *faults, const char *key, const char *message)
+void CaseFault(CaseFaults *faults, const char *key, const char *message, bool last)
 {
   faults->stuck = faults->n == CASE_FAULTS;
   for (int i = 0; i < faults->n; i++) faults->stuck = faults->stuck || !strcmp(faults->key[i], key);
@@ -11,6 +11,7 @@ void CaseFault(CaseFaults *faults, const char *key, const char *message)
     faults->key[faults->n] = strdup(key);
     faults->message[faults->n++] = strdup(message);
   }
+  faults->stuck |= last;
   longjmp(faults->next, 1);
 }
 
@@ -43,7 +44,7 @@ static bool ReadOnce(int argc, char **argv, CoracleCaseReader read, void *contex
     CoracleCaseClose(&c);
     return false;
   }
-  if (CaseLoad(argc, argv, problem, &c)) CaseFault(faults, "", problem);
+  if (CaseLoad(argc, argv, problem, &c)) CaseFault(faults, "", problem, false);
   c->faults = faults;
   CaseFaultsApply(c);
   read(c, context);

@@ -189,6 +189,8 @@ const char *CoracleCaseFile(CoracleCase c, const char *key)
 {
   CaseUse(c, "CoracleCaseFile", key);
   const char *name = StringAt(c, key, "file name"), *folder = name[0] == '/' ? "" : c->folder;
+  CaseNode *node = CaseTreeFind(c->root, key);
+  if (node) node->file = true; /* none: of a fault that a check has found before */
   char *path = malloc(strlen(folder) + strlen(name) + 1);
   strcpy(path, folder);
   strcat(path, name);

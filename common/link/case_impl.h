@@ -18,6 +18,7 @@ typedef struct CaseNode_s {
   bool quoted;     /* '3' and "3" are strings, 3 is a number */
   bool read;       /* some reader has asked for this value */
   bool below;      /* or for a key below it */
+  bool file;       /* as the name of a file */
   int line;        /* in the file, from 1 */
   const char *set; /* borrowed: the --set argument that the value comes from, or NULL */
   int n, capacity;
@@ -36,7 +37,8 @@ typedef struct {
 typedef struct {
   jmp_buf next;
   int n;
-  bool stuck; /* a key was refused again although its value had been set aside */
+  bool
+      stuck; /* a key was refused again although its value had been set aside, or a file, on which others depend */
   char *key[CASE_FAULTS], *message[CASE_FAULTS];
 } CaseFaults;
 
@@ -104,7 +106,7 @@ bool CaseIsExcused(CoracleCase c, const char *key);
 /* Whether the key is one of the faults that a check has found, so that its value does not matter. */
 bool CaseExcused(CoracleCase c, const char *key);
 /* The check's answer to a fault: remembers it and reads the case again.  Does not return. */
-_Noreturn void CaseFault(CaseFaults *faults, const char *key, const char *message);
+_Noreturn void CaseFault(CaseFaults *faults, const char *key, const char *message, bool last);
 /* Sets aside the values at which a check has found faults. */
 void CaseFaultsApply(CoracleCase c);
 /* While keys are listed: remembers how a value was read, once a key. */

@@ -28,6 +28,13 @@ check "$case" "${square[@]}" --set 'solid.bodies[0].centre=[0.5, 0.5]' || fail "
 grep -q "solid.probes\[1\].point.: no body is at (1.2, 1.1) at rest" "$scratch/log" && [ "$(wc -l <"$scratch/log")" -eq 1 ] ||
   fail "not where the probe is"
 
+# what depends on a refused mesh is not told: the keys of a box or a shape, names of boundaries
+for set in 'fluid.mesh={file: nowhere.msh}' 'solid.bodies=[{mesh: nowhere.msh, material: disc, translate: [1.0, 1.1]}]'; do
+  ! check "$case" --set "$set" || fail "a mesh that is not there is accepted"
+  grep -q "key '.*': .*nowhere.msh" "$scratch/log" && grep -q "the rest can be checked when" "$scratch/log" && [ "$(wc -l <"$scratch/log")" -eq 2 ] ||
+    fail "not the fault of the mesh alone"
+done
+
 ! check "$scratch/nowhere.yaml" || fail "a case that is not there is accepted"
 [ "$(wc -l <"$scratch/log")" -eq 1 ] && grep -q "nowhere.yaml.: No such file" "$scratch/log" || fail "not one line"
 
