@@ -1,4 +1,5 @@
 #include "coupler/check.h"
+#include "common/output/time_reached.h"
 #include "common/program/program.h"
 #include "common/program/run_case.h"
 #include "coupler/input/coupler_case.h"
@@ -45,7 +46,7 @@ static void Read(CoracleCase c, void *command)
   CheckFolder(c, k.folder);
   if (*(const Command *)command == COMMAND_KEYS || !CoracleCaseFaultless(c)) return;
   printf("coupler: to t = %g s in at least %.0f steps, %.0f snapshots into %s\n", k.end,
-         ceil(k.end / k.dt_max), ceil(k.end / k.every * (1.0 - 1e-9)) + 1.0, k.folder);
+         TimeSteps(k.end, k.dt_max), TimeSteps(k.end, k.every) + 1.0, k.folder);
 }
 
 int CouplerAnswer(Command command, int argc, char **argv)

@@ -1,3 +1,4 @@
+#include "common/output/time_reached.h"
 #include "coupler/run_state.h"
 #include <stdarg.h>
 
@@ -44,7 +45,7 @@ PetscErrorCode RunChooseStep(RunState *run, double proposed)
                       run->t, wanted, MIN_STEP));
   }
   run->dt = remaining < 2.0 * wanted ? 0.5 * remaining : wanted;
-  if (remaining <= wanted * (1.0 + 1e-9)) run->dt = remaining;
+  if (TimeReached(wanted, remaining)) run->dt = remaining;
   PetscFunctionReturn(0);
 }
 

@@ -10,6 +10,7 @@
  *                                               coupling -->         fluid
  */
 #include "coupler/time_loop.h"
+#include "common/output/time_reached.h"
 #include "coupler/exchange.h"
 #include "coupler/run_state.h"
 
@@ -227,13 +228,13 @@ static PetscErrorCode SolveStep(RunState *run, StepRecord *step)
 static PetscErrorCode AcceptStep(RunState *run, StepRecord *step)
 {
   const TimeLoop *loop = run->loop;
-  const double end = loop->c->end;
+  const double end = loop->c->end, t = run->t + run->dt;
 
   PetscFunctionBeginUser;
   PetscCall(CouplerCorrect(loop->coupler, &run->solid, &run->ncorrection, &run->correction));
   PetscCall(MoveGauges(run));
   PetscCall(BulkMotionOf(PETSC_COMM_WORLD, &run->solid, &step->motion));
-  run->t = run->t + run->dt >= end * (1.0 - 1e-14) ? end : run->t + run->dt;
+  run->t = TimeReached(t, end) ? end : t;
   step->t = run->t;
   step->dt = run->dt;
   PetscCall(RunCheckDivergence(run, step));

@@ -3,6 +3,7 @@
 #include "common/output/checkpoint_folder.h"
 #include "common/output/claim.h"
 #include "common/output/folder.h"
+#include "common/output/time_reached.h"
 #include "common/program/run_case.h"
 #include "solid/solid_case.h"
 #include "solid/writer.h"
@@ -100,7 +101,7 @@ static PetscErrorCode SaveIfDue(const Run *m, PetscBool ends, double *last)
 static PetscErrorCode Advance(Run *m)
 {
   const double start = MPI_Wtime(), begun = SolidGetStats(m->solid)->t, length = m->keys.end - begun;
-  const int steps = PetscMax(1, (int)ceil(length / m->longest * (1.0 - 1e-12)));
+  const int steps = (int)TimeSteps(length, m->longest);
   const double dt = length / steps;
   double said = start, saved = start, h;
   PetscFunctionBeginUser;
@@ -153,7 +154,7 @@ static PetscErrorCode Begin(CoracleCase c, Run *m, Claim *claim)
     PetscCall(Load(m, from));
   }
   const double t = SolidGetStats(m->solid)->t;
-  if (t > m->keys.end - 1e-9 * m->longest)
+  if (TimeReached(t, m->keys.end))
     CoracleCaseRefuse(c, "time.end", "the checkpoint to resume from is at t = %g s already", t);
   const PetscBool resumes = (PetscBool)(from && FolderHolds(PETSC_COMM_WORLD, m->keys.folder, resume));
   PetscCall(ClaimFolder(PETSC_COMM_WORLD, m->keys.folder, resumes, claim));

@@ -1,4 +1,5 @@
 /* Time stepping: forces, substeps, and how long a substep may be. */
+#include "common/output/time_reached.h"
 #include "solid/loads.h"
 #include "solid/springs.h"
 
@@ -130,7 +131,7 @@ static PetscErrorCode Plan(Solid s)
   PetscFunctionBeginUser;
   PetscCall(CheckContact(s, &limit, &s->until_check));
   const double length = ChooseLength(s, s->setup.courant * limit);
-  s->remaining = PetscMax(1, (int)ceil(rest / length * (1.0 - 1e-9)));
+  s->remaining = (int)TimeSteps(rest, length);
   s->h = rest / s->remaining;
   s->stats.seconds[3] += Clock() - start;
   PetscFunctionReturn(0);

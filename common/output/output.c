@@ -10,7 +10,7 @@
  */
 #include "common/output/folder.h"
 #include "common/output/output_impl.h"
-#include <math.h>
+#include "common/output/time_reached.h"
 #include <string.h>
 
 /* Snapshots after which what HDF5 keeps of them in memory is let go: time and memory stay flat. */
@@ -84,12 +84,9 @@ PetscErrorCode OutputSave(Output o, Checkpoint to)
   PetscFunctionReturn(0);
 }
 
-/* Times are sums of steps and may miss a multiple by round-off. */
-#define NEARLY (1.0 - 1e-9)
-
 PetscBool OutputDue(Output o, double t)
 {
-  return t >= PetscMin(o->next, o->end) * NEARLY ? PETSC_TRUE : PETSC_FALSE;
+  return (PetscBool)TimeReached(t, PetscMin(o->next, o->end));
 }
 
 PetscErrorCode OutputBegin(Output o, double t)
@@ -98,7 +95,7 @@ PetscErrorCode OutputBegin(Output o, double t)
   PetscFunctionBeginUser;
   PetscCheck(!o->open, o->comm, PETSC_ERR_ORDER, "OutputBegin: the last snapshot has no OutputEnd");
   o->open = PETSC_TRUE;
-  o->next = o->every * (floor(t / (o->every * NEARLY)) + 1.0);
+  o->next = o->every * (floor(t / (o->every * TIME_NEARLY)) + 1.0);
   o->current = -1;
   if (o->later) PetscCall(CutLater(o));
   snprintf(path, sizeof path, "/snapshot/%06lld", o->nsnapshot);
