@@ -49,7 +49,7 @@ PetscErrorCode SolidFreeSubdomain(Solid s)
   PetscCall(ContactDestroy(&s->contact));
   PetscCall(JointsDestroy(&s->joints));
   PetscCall(StepResponseDestroy(&s->response));
-  PetscCall(PetscFree2(s->shared.rank, s->shared.node));
+  PetscCall(PetscFree(s->shared.node));
   PetscCall(CopiesDestroy(&s->copies));
   PetscCall(
       PetscFree7(s->gid, s->node_body, s->surface, s->mass, s->inverse_mass, s->corner_start, s->corner));

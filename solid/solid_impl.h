@@ -39,9 +39,10 @@ typedef struct {
   ElementLaws laws;     /* that any element has */
 } Elements;
 
-/* node[k], a node of the start, is also on rank[k]. */
+/* Which nodes of the start are also on which ranks. */
 typedef struct {
-  int n, *rank, *node;
+  int n;
+  CopiesMatch *node; /* [n] */
 } SharedNodes;
 
 /* How much the present subdomain loses against the best that it has been (balance.c). */

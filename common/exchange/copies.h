@@ -25,10 +25,15 @@ typedef struct {
 PetscErrorCode CopiesCreate(MPI_Comm comm, int n, const CopiesKey key[], Copies *copies);
 /* The same with the key (number[i], number[i]). */
 PetscErrorCode CopiesCreateByNumber(MPI_Comm comm, int n, const long long number[], Copies *copies);
-/* Not collective: who holds what is known.  Item item[k] of nitems has a copy on rank[k]; sorted by rank and,
- * for one rank, in an order that both sides have.  One copy of a thing a rank. */
-PetscErrorCode CopiesCreateMatched(MPI_Comm comm, int nitems, int n, const int rank[], const int item[],
-                                   Copies *copies);
+/* An item of this rank has a copy on another; number: of the thing, on all ranks the same. */
+typedef struct {
+  int rank, item;
+  long long number;
+} CopiesMatch;
+
+/* Not collective: who holds what of nitems is known.  match[*n], in any order and also repeated, becomes sorted, each once.  One copy of a
+ * thing a rank. */
+PetscErrorCode CopiesCreateMatched(MPI_Comm comm, int nitems, int *n, CopiesMatch match[], Copies *copies);
 PetscErrorCode CopiesDestroy(Copies *copies);
 
 /* Not collective: the lowest rank that has a copy of item i. */

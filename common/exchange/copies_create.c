@@ -222,30 +222,31 @@ PetscErrorCode CopiesCreateByNumber(MPI_Comm comm, int n, const long long number
 }
 
 /* Each shared item once, with its lowest rank; group[nitems] of the items, -1 of those with one copy. */
-static void ListShared(Copies c, int me, int n, const int rank[], const int item[], int group[])
+static void ListShared(Copies c, int me, int n, const CopiesMatch match[], int group[])
 {
   for (int i = 0; i < c->n; i++) {
     group[i] = -1;
     c->owner[i] = me;
   }
   for (int k = 0; k < n; k++) {
-    if (rank[k] < c->owner[item[k]]) c->owner[item[k]] = rank[k];
-    if (group[item[k]] >= 0) continue;
-    group[item[k]] = c->item_group[c->nshared] = c->nshared;
-    c->item[c->nshared++] = item[k];
+    const int item = match[k].item;
+    if (match[k].rank < c->owner[item]) c->owner[item] = match[k].rank;
+    if (group[item] >= 0) continue;
+    group[item] = c->item_group[c->nshared] = c->nshared;
+    c->item[c->nshared++] = item;
   }
   c->ngroups = c->nshared;
 }
 
 /* The items for other ranks with those for this one at its place: to[] and row[] of n + nshared. */
-static void Interleave(Copies c, int me, int n, const int rank[], const int item[], int to[], int row[])
+static void Interleave(Copies c, int me, int n, const CopiesMatch match[], int to[], int row[])
 {
   int below = 0;
-  while (below < n && rank[below] < me) below++;
+  while (below < n && match[below].rank < me) below++;
   for (int k = 0; k < n; k++) {
     const int place = k < below ? k : k + c->nshared;
-    to[place] = rank[k];
-    row[place] = item[k];
+    to[place] = match[k].rank;
+    row[place] = match[k].item;
   }
   for (int k = 0; k < c->nshared; k++) {
     to[below + k] = me;
@@ -253,9 +254,27 @@ static void Interleave(Copies c, int me, int n, const int rank[], const int item
   }
 }
 
-PetscErrorCode CopiesCreateMatched(MPI_Comm comm, int nitems, int n, const int rank[], const int item[],
+static int CompareMatches(const void *a, const void *b)
+{
+  const CopiesMatch *p = a, *q = b;
+  return p->rank != q->rank ? (p->rank > q->rank) - (p->rank < q->rank)
+                            : (p->number > q->number) - (p->number < q->number);
+}
+
+/* Returns how many are left. */
+static int SortMatches(int n, CopiesMatch match[])
+{
+  int kept = 0;
+  if (n > 0) qsort(match, (size_t)n, sizeof *match, CompareMatches);
+  for (int k = 0; k < n; k++)
+    if (k == 0 || CompareMatches(&match[k], &match[kept - 1])) match[kept++] = match[k];
+  return kept;
+}
+
+PetscErrorCode CopiesCreateMatched(MPI_Comm comm, int nitems, int *nmatches, CopiesMatch match[],
                                    Copies *copies)
 {
+  const int n = *nmatches = SortMatches(*nmatches, match);
   PetscMPIInt me;
   int *group, *to, *row;
   Copies c;
@@ -266,9 +285,9 @@ PetscErrorCode CopiesCreateMatched(MPI_Comm comm, int nitems, int n, const int r
   PetscCall(PetscMalloc3(nitems, &group, 2 * n, &to, 2 * n, &row));
   PetscCall(PetscMalloc1(n, &c->item));
   PetscCall(PetscMalloc1(n, &c->item_group));
-  ListShared(c, me, n, rank, item, group);
+  ListShared(c, me, n, match, group);
   PetscCall(MarkFirst(c, me));
-  Interleave(c, me, n, rank, item, to, row);
+  Interleave(c, me, n, match, to, row);
   PetscCall(ScatterCreateMatched(comm, n + c->nshared, to, row, n + c->nshared, to, &c->scatter));
   PetscCall(PetscMalloc1(n + c->nshared, &c->group));
   for (int k = 0; k < n + c->nshared; k++) c->group[k] = group[row[k]];

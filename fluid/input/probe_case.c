@@ -8,9 +8,8 @@ static const char *const KINDS[] = {"point", "line", "solid_point", "surface", "
 
 static const char *Key(int k, const char *what)
 {
-  static char key[80];
-  (void)snprintf(key, sizeof key, "fluid.probes[%d]%s%s", k, *what ? "." : "", what);
-  return key;
+  static char key[CASE_KEY];
+  return CaseKey(key, "fluid.probes[%d]%s%s", k, *what ? "." : "", what);
 }
 
 const char *ProbeCaseKey(const ProbeCase *list, int k)

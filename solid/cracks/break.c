@@ -53,24 +53,12 @@ static PetscErrorCode MarkSurface(Solid s)
 
 /* --- ranks -------------------------------------------------------------------------------------------- */
 
-typedef struct {
-  int rank, node;
-  long long gid;
-} Copy;
-
-static int CompareCopies(const void *a, const void *b)
-{
-  const Copy *p = a, *q = b;
-  return p->rank != q->rank ? (p->rank > q->rank) - (p->rank < q->rank)
-                            : (p->gid > q->gid) - (p->gid < q->gid);
-}
-
 /* A part of a node is on all ranks that had the node. */
 static PetscErrorCode RenewSubdomain(Solid s)
 {
   const SharedNodes *c = &s->shared;
-  int n = 0, *first, *next, *rank, *node;
-  Copy *copy;
+  int n = 0, *first, *next;
+  CopiesMatch *match;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2((size_t)s->nnodes, &first, (size_t)s->nnodes, &next)); /* the parts of each base */
   for (int k = 0; k < s->nnodes; k++) first[k] = -1;
@@ -79,20 +67,15 @@ static PetscErrorCode RenewSubdomain(Solid s)
     first[s->base[k]] = k;
   }
   for (int k = 0; k < c->n; k++)
-    for (int part = first[c->node[k]]; part >= 0; part = next[part]) n++;
-  PetscCall(PetscMalloc3((size_t)n, &copy, (size_t)n, &rank, (size_t)n, &node));
+    for (int part = first[c->node[k].item]; part >= 0; part = next[part]) n++;
+  PetscCall(PetscMalloc1(n, &match));
   n = 0;
   for (int k = 0; k < c->n; k++)
-    for (int part = first[c->node[k]]; part >= 0; part = next[part])
-      copy[n++] = (Copy){c->rank[k], part, s->gid[part]};
-  if (n > 0) qsort(copy, (size_t)n, sizeof *copy, CompareCopies);
-  for (int k = 0; k < n; k++) {
-    rank[k] = copy[k].rank;
-    node[k] = copy[k].node;
-  }
+    for (int part = first[c->node[k].item]; part >= 0; part = next[part])
+      match[n++] = (CopiesMatch){c->node[k].rank, part, s->gid[part]};
   PetscCall(CopiesDestroy(&s->copies));
-  PetscCall(CopiesCreateMatched(s->comm, s->nnodes, n, rank, node, &s->copies));
-  PetscCall(PetscFree3(copy, rank, node));
+  PetscCall(CopiesCreateMatched(s->comm, s->nnodes, &n, match, &s->copies));
+  PetscCall(PetscFree(match));
   PetscCall(PetscFree2(first, next));
   PetscFunctionReturn(0);
 }

@@ -112,23 +112,13 @@ static void LumpMass(Solid s, const Model *a, const int local[])
     if (local[n] >= 0) s->inverse_mass[local[n]] = a->fixed[n] ? 0.0 : 1.0 / s->mass[local[n]];
 }
 
-typedef struct {
-  int rank, global, local;
-} Copy;
-
-static int CompareCopies(const void *a, const void *b)
-{
-  const Copy *p = a, *q = b;
-  return p->rank != q->rank ? (p->rank > q->rank) - (p->rank < q->rank)
-                            : (p->global > q->global) - (p->global < q->global);
-}
-
 /* Adds the other ranks that have a corner of element e, which rank has, also as a ghost. */
-static int AddCopies(const Solid s, const Model *a, int e, int rank, const int local[], Copy copy[], int n)
+static int AddCopies(const Solid s, const Model *a, int e, int rank, const int local[], CopiesMatch copy[],
+                     int n)
 {
   for (int i = 0; i < 3 && rank != s->rank; i++) {
     const int node = a->element[3 * e + i];
-    if (local[node] >= 0) copy[n++] = (Copy){rank, node, local[node]};
+    if (local[node] >= 0) copy[n++] = (CopiesMatch){rank, local[node], node};
   }
   return n;
 }
@@ -138,21 +128,13 @@ static PetscErrorCode FindCopies(Solid s, const Model *a, int nghosts, const Gho
                                  const int part[], const int local[])
 {
   SharedNodes *c = &s->shared;
-  Copy *copy;
-  int n = 0;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(3 * (size_t)a->nelements + 3 * (size_t)nghosts, &copy));
-  for (int e = 0; e < a->nelements; e++) n = AddCopies(s, a, e, part[e], local, copy, n);
-  for (int k = 0; k < nghosts; k++) n = AddCopies(s, a, ghost[k].element, ghost[k].rank, local, copy, n);
-  if (n > 0) qsort(copy, (size_t)n, sizeof *copy, CompareCopies);
-  PetscCall(PetscMalloc2((size_t)n, &c->rank, (size_t)n, &c->node));
-  for (int k = 0; k < n; k++) {
-    if (k > 0 && !CompareCopies(&copy[k], &copy[k - 1])) continue;
-    c->rank[c->n] = copy[k].rank;
-    c->node[c->n++] = copy[k].local;
-  }
-  PetscCall(CopiesCreateMatched(s->comm, s->nnodes, c->n, c->rank, c->node, &s->copies));
-  PetscCall(PetscFree(copy));
+  PetscCall(PetscMalloc1(3 * (size_t)a->nelements + 3 * (size_t)nghosts, &c->node));
+  for (int e = 0; e < a->nelements; e++) c->n = AddCopies(s, a, e, part[e], local, c->node, c->n);
+  for (int k = 0; k < nghosts; k++)
+    c->n = AddCopies(s, a, ghost[k].element, ghost[k].rank, local, c->node, c->n);
+  PetscCall(CopiesCreateMatched(s->comm, s->nnodes, &c->n, c->node, &s->copies));
+  PetscCall(PetscRealloc((size_t)c->n * sizeof *c->node, &c->node));
   PetscFunctionReturn(0);
 }
 

@@ -225,24 +225,23 @@ static void CheckCopies(void)
   CHECK(!CopiesDestroy(&c) && !c, "not destroyed");
 }
 
-/* A ring: item 0 is shared with the rank below, item 2 with the one above, item 1 with all, item 3 with none.
- * */
+/* A ring: item 0 is shared with the rank below, item 2 with the one above, item 1 with all and said twice, item 3 with none. */
 static void CheckMatched(void)
 {
-  int n = 0, other[16], item[16];
+  int n = 0;
+  CopiesMatch match[16];
   double value[4] = {1.0 + rank, 0.1 * (rank + 1), 2.0 + rank, 7.0}, all = 0.0;
   Copies c;
   for (int r = 0; r < size; r++) {
     all += 0.1 * (r + 1);
     if (r == rank) continue;
-    if (r == rank - 1) other[n] = r, item[n++] = 0;
-    other[n] = r, item[n++] = 1;
-    if (r == rank + 1) { /* the rank above lists this node before the common one */
-      other[n - 1] = r, item[n - 1] = 2;
-      other[n] = r, item[n++] = 1;
-    }
+    match[n++] = (CopiesMatch){r, 1, 9};
+    if (r == rank - 1) match[n++] = (CopiesMatch){r, 0, rank};
+    if (r == rank + 1) match[n++] = (CopiesMatch){r, 2, r};
+    match[n++] = (CopiesMatch){r, 1, 9};
   }
-  CHECK(!CopiesCreateMatched(PETSC_COMM_WORLD, 4, n, other, item, &c), "not made");
+  CHECK(!CopiesCreateMatched(PETSC_COMM_WORLD, 4, &n, match, &c), "not made");
+  CHECK(n == size - 1 + (rank > 0) + (rank < size - 1), "%d matches", n);
   CHECK(!CopiesSum(c, 1, value), "not summed");
   CHECK(value[0] == (rank > 0 ? 2.0 * (1.0 + rank) : 1.0), "below: %g", value[0]);
   CHECK(value[2] == (rank < size - 1 ? 2.0 * (2.0 + rank) : 2.0 + rank), "above: %g", value[2]);
