@@ -14,14 +14,12 @@ must resumed 1:1:1 "${lid[@]}" "${adapt[@]}" --set time.end=0.1
 must resumed 1:2:1 "${lid[@]}" "${adapt[@]}" --set resume=last
 ! run missing 1:1:1 --set solid=null || { echo "a case without solid.bodies is accepted"; exit 1; }
 "$python" - "$scratch" <<'E2'
-import csv, sys
-def rows(label):
-    return [[float(v) for v in r] for r in list(csv.reader(open("%s/%s/fluid_probes.csv" % (sys.argv[1], label))))[1:]]
+from results import column, rows
 def triangles(label):
-    return {r["triangles"] for r in csv.DictReader(open("%s/%s/fluid.csv" % (sys.argv[1], label)))}
+    return set(column(label, "fluid", "triangles"))
 assert len(triangles("one")) == 1 and len(triangles("resumed")) > 1, "%s and %s triangles" % (triangles("one"), triangles("resumed"))
 for label, same in (("one", "many"), ("adapted", "resumed")):
-    first, second = rows(label), rows(same)
+    first, second = ([list(r.values()) for r in rows(run, "fluid_probes")] for run in (label, same))
     top = max(abs(r[10]) for r in first)
     assert len(first) == len(second) >= 10 and 0.2 < top < 1.0, "%s: %d rows, %d; u below the lid at most %g m/s" % (label, len(first), len(second), top)
     for r, s in zip(first, second):

@@ -26,14 +26,13 @@ must one 1:1:1 --set "fluid.petsc=-momentum_ksp_rtol 1e-13"
 "$python" "$root/scripts/momentum.py" "$scratch/one" --bound 1e-10 >"$scratch/report" || { cat "$scratch/report"; exit 1; }
 must two 2:2:2
 "$python" - "$scratch" <<'E2'
-import json, sys
-from results import rows
+from results import column, rows, summary
 one, two = rows("one", "solid"), rows("two", "solid")
 for label in ("one", "two"):
     assert abs(rows(label, "coupler")[-1]["t [s]"] - 0.2) < 1e-12
-    iterations = [r["iterations"] for r in rows(label, "coupler")]
+    iterations = column(label, "coupler", "iterations")
     assert sum(iterations) < 12 * len(iterations), "%s: iterations %s" % (label, iterations)
-    assert json.load(open("%s/%s/summary.json" % (sys.argv[1], label)))["largest_momentum_imbalance"] < 1e-10
+    assert summary(label)["largest_momentum_imbalance"] < 1e-10
 speed = lambda rows, t, body: next(r["v%d [m/s]" % body] for r in rows if r["t [s]"] > t - 1e-9)
 velocities = [(speed(one, 0.05, k), speed(two, 0.05, k)) for k in range(10)]
 largest = max(abs(a) for a, b in velocities)

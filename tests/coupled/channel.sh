@@ -7,10 +7,11 @@ limit=3600 case=$here/channel.yaml
 must steady 1:1:1 --set time.end=3
 must shedding 1:1:1 --set time.end=7 --set time.dt_max=0.01 --set "fluid.boundaries.left.velocity=[1.5, 0.0]" --set fluid.adapt.velocity_error=0.01
 "$python" - "$scratch" <<'E2'
-import csv, sys
+import sys
+from results import rows
 def forces(label, per_newton, start):
-    rows = [r for r in csv.DictReader(open("%s/%s/solid.csv" % (sys.argv[1], label))) if float(r["t [s]"]) > start]
-    return [float(r["t [s]"]) for r in rows], *([per_newton * float(r[k]) for r in rows] for k in ("fx0 [N/m]", "fy0 [N/m]"))
+    late = [r for r in rows(label, "solid") if r["t [s]"] > start]
+    return [r["t [s]"] for r in late], *([per_newton * r[k] for r in late] for k in ("fx0 [N/m]", "fy0 [N/m]"))
 failed = False
 def compare(name, value, reference, bound):
     global failed

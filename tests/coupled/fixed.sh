@@ -26,24 +26,20 @@ moves=(--set 'solid.bodies[0]={shape: ring, centre: [0.3, 0.2], outer_radius: 0.
   --set 'fluid.regions=[{phase: air}, {phase: water, centre: [0.3, 0.2], radius: 0.09}, {phase: air, lower: [0.0, 0.2], upper: [0.6, 0.4]}]')
 for ranks in 1:1:1 2:1:1; do must "moves $ranks" $ranks "${moves[@]}" --set time.end=0.1; done
 "$python" - "$scratch" <<'E2'
-import csv, sys
+from results import column
 for label in "one", "moves 1:1:1", "moves 2:1:1":
-    rows = list(csv.DictReader(open("%s/%s/fluid.csv" % (sys.argv[1], label))))
-    defect, iterations = (max(float(row[name]) for row in rows) for name in ("momentum defect", "momentum iterations"))
+    defect, iterations = (max(column(label, "fluid", name)) for name in ("momentum defect", "momentum iterations"))
     # the default tolerance, 1e-6 of the velocity, leaves as much of the momentum in the fluid, in the solid a thousand times that
     assert defect < 3e-6 and iterations < 20, "%s: momentum defect %.1e, %d iterations" % (label, defect, iterations)
 E2
 case=$here/dam.yaml
 for ranks in 1:1:1 2:1:2; do must "dam $ranks" $ranks; done
 "$python" - "$scratch" <<'E2'
-import csv, h5py, numpy as np, sys
+import numpy as np
+from results import rows, snapshots
 for ranks in "1:1:1", "2:1:2":
-    folder = "%s/dam %s" % (sys.argv[1], ranks)
-    force = np.mean([float(row["fx0 [N/m]"]) for row in csv.DictReader(open(folder + "/solid.csv")) if float(row["t [s]"]) > 0.25])
-    grid = h5py.File(folder + "/fluid.h5")["snapshot"]
-    velocity = grid[max(grid)]["velocity"]
-    corner = velocity["points"][:][velocity["cells"][:]]
-    area = 0.5 * np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    force = np.mean([row["fx0 [N/m]"] for row in rows("dam " + ranks, "solid") if row["t [s]"] > 0.25])
+    *_, (_, corner, area, velocity) = snapshots("dam " + ranks)
     passed = (area * velocity["cell/water"][:])[corner[:, :, 0].mean(1) > 0.55].sum() / 0.25
     report = "%s: force %.1f of %.1f N/m, %.1e of the water behind the wall" % (ranks, force, 500.0 * 9.81 * 0.25, passed)
     print(report)
@@ -60,9 +56,9 @@ caisson "above the water" 2:2:2 0.05 0.06
 caisson "on the mesh's lines" 1:1:1 0.05 0.06 0.5
 caisson "a sill" 1:1:1 0.05 0.06 0.503 0.5
 "$python" - "$scratch" <<'E2'
-import csv, sys
+from results import column
 def last(label, file, name):
-    return float(list(csv.DictReader(open("%s/%s/%s.csv" % (sys.argv[1], label, file))))[-1][name])
+    return column(label, file, name)[-1]
 for label, height, still in ("above the floor", 0.1, 1e-6), ("on the floor", 0.1, 1e-6), ("above the water", 0.06, 1e-3), ("on the mesh's lines", 0.06, 1e-6):
     expected = 1000.0 * 9.81 * 0.4 * height
     x, y = (last(label, "solid", "f%s0 [N/m]" % c) for c in "xy")

@@ -16,19 +16,17 @@ for dt in 0.004 0.001; do
 done
 "$python" "$root/scripts/momentum.py" "$scratch/lowered" --bound 1e-10 >"$scratch/report" || { cat "$scratch/report"; exit 1; }
 "$python" - "$scratch" <<'E2'
-import csv, sys
-def column(run, name):
-    return [float(row[name]) for row in csv.DictReader(open("%s/%s/solid.csv" % (sys.argv[1], run)))]
+from results import column
 expected = 9.81 * (2600.0 - 1000.0) * 0.08 * 0.08
 for run in "stands", "ranks", "lowered", "released":
-    t, impulse = column(run, "t [s]"), column(run, "walls_y [N s/m]")
+    t, impulse = column(run, "solid", "t [s]"), column(run, "solid", "walls_y [N s/m]")
     first = next(k for k in range(len(t)) if t[k] > 0.8)
     force = sum(impulse[first:]) / (t[-1] - t[first - 1])
     print("%s: %.2f N/m on the floor, of %.2f" % (run, force, expected))
     assert abs(force / expected - 1.0) < 0.02, "%s: %g N/m on the floor, expected %g" % (run, force, expected)
-x = column("slides", "x0 [m]")
+x = column("slides", "solid", "x0 [m]")
 assert 0.01 < x[-1] - 0.3 < 0.09 and x[-1] - x[2 * len(x) // 3] < 0.002, "it has slid to %g m, %g before" % (x[-1], x[2 * len(x) // 3])
 for dt in "0.004", "0.001":
-    gap = 1e3 * (column("sinks_" + dt, "y0 [m]")[-1] - 0.04)  # 0.3 mm in both; before the film had a rate 1.3 and 2.2
+    gap = 1e3 * (column("sinks_" + dt, "solid", "y0 [m]")[-1] - 0.04)  # 0.3 mm in both; before the film had a rate 1.3 and 2.2
     assert 0.1 < gap < 0.45, "steps of %s s: a gap of %g mm" % (dt, gap)
 E2

@@ -18,12 +18,12 @@ grep -q "error: .*disc.yaml: key 'fluid.probes\[0\].solid_point': expected a poi
 [ ! -e "$scratch/far" ] || { echo "a case that is refused has made output"; exit 1; }
 
 "$python" - "$scratch" <<'E2'
-import csv, sys
+import results
 WEIGHT = 9810.0  # rho g, N/m3
 def rows(label):
-    table = list(csv.DictReader(open("%s/%s/fluid_probes.csv" % (sys.argv[1], label))))
-    assert [round(float(r["t [s]"]), 9) for r in table] == [round(0.01 * k, 9) for k in range(1, 11)], "%s: %s" % (label, [r["t [s]"] for r in table])
-    return [{k: float(v) for k, v in r.items()} for r in table]
+    table = results.rows(label, "fluid_probes")
+    assert [round(r["t [s]"], 9) for r in table] == [round(0.01 * k, 9) for k in range(1, 11)], "%s: %s" % (label, [r["t [s]"] for r in table])
+    return table
 def above(r, name, distance):
     """The pressure at the gauge above the hydrostatic one, which is that of the wall at y = 1 m."""
     y = r[name + "_y [m]"] + (distance if name == "head" else -distance)

@@ -12,9 +12,9 @@ must swinging 2:1:1 "${adapt[@]}" --set fluid.boundaries.left.period=0.2
 must beside 1:1:1 --set 'fluid.boundaries.bottom={velocity: [0.1, 0.4], phase: air}'
 must beside2 2:1:1 "${adapt[@]}" --set 'fluid.boundaries.bottom={velocity: [0.1, 0.4], phase: air}'
 "$python" - "$scratch" <<'E2'
-import csv, sys
+import results
 for label in ("once", "once2", "rising", "swinging", "beside", "beside2"):
-    rows = [{k: float(v) for k, v in r.items()} for r in csv.DictReader(open("%s/%s/fluid.csv" % (sys.argv[1], label)))]
+    rows = results.rows(label, "fluid")
     assert rows[-1]["water [m2]"] > 5e-3, "%s: %g m2 of water came in" % (label, rows[-1]["water [m2]"])
     for row in rows:
         both = row["air [m2]"] + row["water [m2]"]

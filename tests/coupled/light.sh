@@ -8,10 +8,9 @@ must light 1:1:1 --set 'solid.materials.disc.density=500' --set time.end=0.3
 must lightest 1:1:1 --set 'solid.materials.disc.density=50' --set time.end=0.3
 must heavy 1:1:1 --set time.end=0.05
 "$python" - "$scratch" <<'E2'
-import csv, sys
+from results import column
 def read(label):
-    rows = list(csv.DictReader(open("%s/%s/coupler.csv" % (sys.argv[1], label))))
-    return [float(r["u_y [m/s]"]) for r in rows], [int(float(r["iterations"])) for r in rows]
+    return column(label, "coupler", "u_y [m/s]"), column(label, "coupler", "iterations")
 for label in ("light", "lightest"):
     u, iterations = read(label)
     drops = [a - b for a, b in zip(u, u[1:]) if b < a]

@@ -12,14 +12,14 @@ for mode in stress_shell penalty_shell; do
   must "$mode-2" 2:2:2 $published
 done
 "$python" - "$scratch" <<'E2'
-import csv, json, sys
+from results import column, summary
 def fall(run):
-    return -float(list(csv.DictReader(open("%s/%s/solid.csv" % (sys.argv[1], run))))[-1]["v0 [m/s]"])
+    return -column(run, "solid", "v0 [m/s]")[-1]
 for mode in "stress_shell", "penalty_shell":
     one, two = fall(mode + "-1"), fall(mode + "-2")
     print("%s: %.4f, %.4f m/s" % (mode, one, two))
     assert abs(one / 1.0716 - 1.0) < 0.1, "%s: the disc falls at %.4f m/s" % (mode, one)
     assert abs(two / one - 1.0) < 0.02, "%s: the disc falls at %.4f m/s, on two ranks at %.4f" % (mode, one, two)
-imbalance = json.load(open(sys.argv[1] + "/penalty_shell-1/summary.json"))["largest_momentum_imbalance"]
+imbalance = summary("penalty_shell-1")["largest_momentum_imbalance"]
 assert imbalance < 1e-10, "penalty_shell: momentum imbalance %g" % imbalance
 E2

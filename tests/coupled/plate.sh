@@ -12,11 +12,7 @@ must adrift 1:1:1 --set time.end=2.4 --set time.dt_max=0.006 --set "fluid={densi
   --set "solid.bodies=[{shape: rectangle, centre: [0.5, 0.5], width: 0.3, height: 0.3, size: 0.03, material: sheet, order: 2, velocity: [0.1, 0.0]}]" \
   --set "solid.probes=[]" --set coupler.shell_thickness=0.005
 "$python" - "$scratch" <<'E2'
-import csv, sys
-def rows(run, series):
-    return list(csv.DictReader(open("%s/%s/%s.csv" % (sys.argv[1], run, series))))
-def column(run, series, name):
-    return [float(row[name]) for row in rows(run, series)]
+from results import column
 tip = {run: column(run, "solid_probes", "tip_x [m]")[-1] for run in ("light", "dense")}
 iterations = column("light", "coupler", "iterations")
 mean = sum(iterations) / len(iterations)

@@ -14,17 +14,15 @@ must spread 1:1:1 "${far[@]}" --set time.end=0.1
 must spread 1:2:2 "${far[@]}" --set time.end=0.2 --set resume=last
 must off 1:1:1 --set time.end=0.1 --set solid.pressure_load=false
 "$python" - "$scratch" <<'E2'
-import csv, sys
+from results import rows
 SIDE, THEORY = 0.1, (1 + 0.3) * (1 - 2 * 0.3) * 5e3 / 1e6
 def strains(label):
     """Of each step: its time and the block's strains along x and y."""
-    with open("%s/%s/solid_probes.csv" % (sys.argv[1], label)) as file:
-        return [(float(r["t [s]"]), (float(r["right_x [m]"]) - float(r["left_x [m]"])) / SIDE, (float(r["top_y [m]"]) - float(r["bottom_y [m]"])) / SIDE)
-                for r in csv.DictReader(file)]
+    return [(r["t [s]"], (r["right_x [m]"] - r["left_x [m]"]) / SIDE, (r["top_y [m]"] - r["bottom_y [m]"]) / SIDE) for r in rows(label, "solid_probes")]
 def compare(label, end, tolerance):
-    rows = strains(label)
-    assert abs(rows[-1][0] - end) < 1e-9, (label, rows[-1])
-    for r, s in zip(whole, rows):
+    found = strains(label)
+    assert abs(found[-1][0] - end) < 1e-9, (label, found[-1])
+    for r, s in zip(whole, found):
         assert abs(r[0] - s[0]) < 1e-9 and all(abs(a - b) < tolerance * THEORY for a, b in zip(r[1:], s[1:])), "%s: %s instead of %s" % (label, s, r)
 whole = strains("whole")
 for strain in whole[-1][1:]:

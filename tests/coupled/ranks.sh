@@ -5,13 +5,12 @@ set -euo pipefail
 source "$(dirname "$0")/run.sh"
 for ranks in 1:1:1 2:1:1 1:2:2 3:3:3; do must "${ranks//:/-}" "$ranks" --set 'fluid.petsc=-momentum_ksp_rtol 1e-9'; done # MPICH reads a name before a colon as a kind of file system
 "$python" - "$scratch" <<'E2'
-import csv, json, sys
+from results import rows, summary
 def last(label):
-    folder = "%s/%s/" % (sys.argv[1], label)
-    row = list(csv.DictReader(open(folder + "coupler.csv")))[-1]
-    imbalance = json.load(open(folder + "summary.json"))["largest_momentum_imbalance"]
+    row = rows(label, "coupler")[-1]
+    imbalance = summary(label)["largest_momentum_imbalance"]
     assert imbalance < 1e-10, "%s: momentum imbalance %g" % (label, imbalance)
-    return float(row["u_y [m/s]"]), float(row["F_y [N]"])
+    return row["u_y [m/s]"], row["F_y [N]"]
 u, f = last("1-1-1")
 assert -0.35 < u < -0.2, "the disc falls at %g m/s" % -u
 for label in ("2-1-1", "1-2-2", "3-3-3"):

@@ -1,5 +1,6 @@
 """What the runs of a test have left; sys.argv[1] is the folder in which each has its own (run.sh)."""
 import csv
+import json
 import sys
 
 
@@ -7,6 +8,16 @@ def rows(label, name):
     """The rows of a series by the names of its columns: rows("one", "fluid")[-1]["t [s]"]."""
     with open("%s/%s/%s.csv" % (sys.argv[1], label, name)) as file:
         return [{column: float(value) for column, value in row.items()} for row in csv.DictReader(file)]
+
+
+def column(label, name, key):
+    """One column of it."""
+    return [row[key] for row in rows(label, name)]
+
+
+def summary(label):
+    with open("%s/%s/summary.json" % (sys.argv[1], label)) as file:
+        return json.load(file)
 
 
 def snapshots(label):

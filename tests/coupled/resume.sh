@@ -76,9 +76,8 @@ must longer 1:1:1 --set time.end=0.02 --set output.checkpoint=0 # between two sn
 [ ! -e "$scratch/longer/checkpoint" ] || { echo "a new run has left the checkpoint of the one before"; exit 1; }
 
 "$python" - "$scratch" <<'E2'
-import csv, json, re, sys
-def rows(label, name):
-    return list(csv.DictReader(open("%s/%s/%s.csv" % (sys.argv[1], label, name))))
+import re, sys
+from results import column, rows, summary
 def times(label, name):
     return [float(t) for t in re.findall('Time Value="(.*)"', open("%s/%s/%s.xdmf" % (sys.argv[1], label, name)).read())]
 def compare(one, two, columns, tolerance):
@@ -86,18 +85,18 @@ def compare(one, two, columns, tolerance):
         a, b = rows(one, name), rows(two, name)
         assert len(a) == len(b), "%s.csv has %d rows, after resuming %d" % (name, len(a), len(b))
         for key in keys:
-            largest = max(abs(float(r[key])) for r in a)
+            largest = max(abs(r[key]) for r in a)
             for r, s in zip(a, b):
-                assert abs(float(r[key]) - float(s[key])) <= tolerance * largest, "%s, %s at %s s: %s, after resuming %s" % (
+                assert abs(r[key] - s[key]) <= tolerance * largest, "%s, %s at %s s: %s, after resuming %s" % (
                     two, key, r["t [s]"], r[key], s[key])
     for name in ("fluid", "coupler", "solid"):
         at = [times(label, name) for label in (one, two)] if name in columns else []
         assert not at or len(at[0]) > 2 and len(at[0]) == len(at[1]), "%s.xdmf: %s, after resuming %s" % (name, *at)
-    a, b = (json.load(open("%s/%s/summary.json" % (sys.argv[1], label))) for label in (one, two))
+    a, b = summary(one), summary(two)
     assert a["steps"] == b["steps"] and b["resumed_at"] > 0 and b["largest_momentum_imbalance"] < 1e-10, (a, b)
 motion = {"coupler": ["t [s]", "u_y [m/s]"], "fluid": ["t [s]", "kinetic energy [J/m]", "triangles"], "solid": ["t [s]", "y0 [m]", "v0 [m/s]"]}
 compare("disc", "disc-again", dict(motion, solid_probes=["t [s]", "top_y [m]"]), 1e-9)
-u = [float(rows(label, "coupler")[-1]["u_y [m/s]"]) for label in ("disc", "disc-spread")]
+u = [column(label, "coupler", "u_y [m/s]")[-1] for label in ("disc", "disc-spread")]
 assert abs(u[0] / u[1] - 1) < 0.002, "resumed on other ranks it falls at %g m/s instead of %g" % (u[1], u[0])
 compare("cracks", "cracks-again", {"coupler": ["t [s]"], "solid": ["t [s]", "v0 [m/s]", "broken joints", "fracture [J/m]"]}, 1e-5)
 compare("other", "other-again", {"coupler": ["t [s]", "u_y [m/s]"]}, 1e-9)
@@ -105,12 +104,12 @@ compare("strong", "strong-again", {"coupler": ["t [s]", "u_y [m/s]"]}, 1e-3)  # 
 compare("wet", "wet-again", {"coupler": ["t [s]", "u_y [m/s]", "F_y [N]"], "fluid": ["t [s]", "kinetic energy [J/m]"], "solid": ["t [s]", "omega0 [rad/s]"]}, 1e-6)
 compare("whole", "longer-kept", {"solid_probes": ["t [s]", "middle_y [m]", "middle_v [m/s]"]}, 1e-9)
 compare("whole", "longer-spread", {"solid_probes": ["t [s]", "middle_y [m]", "middle_v [m/s]"]}, 1e-7)
-t = [r["t [s]"] for r in rows("other-folder", "coupler")]
-assert abs(float(t[0]) - 0.11) < 1e-9 and abs(float(t[-1]) - 0.15) < 1e-9, "in another folder: %s" % t
+t = column("other-folder", "coupler", "t [s]")
+assert abs(t[0] - 0.11) < 1e-9 and abs(t[-1] - 0.15) < 1e-9, "in another folder: %s" % t
 # all participants have snapshots at the multiples of 0.05 s and at the end, at which there is one where it is a multiple, too
 for label, expected in {"whole": [0, 0.05, 0.1], "longer-kept": [0, 0.05, 0.1], "other-folder": [0.15], "longer": [0, 0.02]}.items():
     for name in ("fluid.velocity", "coupler", "solid"):
         at = times(label, name)
         assert len(at) == len(expected) and all(abs(a - b) < 1e-9 for a, b in zip(at, expected)), "%s of %s: snapshots at %s s" % (name, label, at)
-assert abs(float(rows("whole", "coupler")[-1]["u_y [m/s]"]) + 0.2419) < 0.01
+assert abs(column("whole", "coupler", "u_y [m/s]")[-1] + 0.2419) < 0.01
 E2

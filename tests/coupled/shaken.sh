@@ -27,10 +27,9 @@ for run in rising late slosh; do
   "$python" "$root/scripts/momentum.py" "$scratch/$run" --bound 1e-9 >"$scratch/report" || { cat "$scratch/report"; exit 1; }
 done
 "$python" - "$scratch" <<'E2'
-import csv, sys
+from results import column
 def last(run):
-    rows = list(csv.DictReader(open("%s/%s/solid.csv" % (sys.argv[1], run))))
-    return float(rows[-1]["u0 [m/s]"])
+    return column(run, "solid", "u0 [m/s]")[-1]
 constant = last("constant")
 assert last("rows") == constant, "rows of one value: %.17g m/s, the value %.17g" % (last("rows"), constant)
 for run, part, tolerance in ("rising", 0.5, 0.01), ("half", 0.5, 0.01), ("late", 0.55, 0.01), ("neutral", 0.0, 3e-3):

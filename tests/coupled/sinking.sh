@@ -9,9 +9,7 @@ for dt in 0.004 0.001; do
     --set "solid.bodies[0].centre=[0.2, 0.12]"
 done
 "$python" - "$scratch" <<'E2'
-import csv, sys
-def depth(dt):
-    return 0.12 - float(list(csv.DictReader(open("%s/%s/solid.csv" % (sys.argv[1], dt))))[-1]["y0 [m]"])
-long, short = depth("0.004"), depth("0.001")
+from results import column
+long, short = (0.12 - column(dt, "solid", "y0 [m]")[-1] for dt in ("0.004", "0.001"))
 assert long > 0.03 and abs(short / long - 1.0) < 0.03, "depth with long and short steps: %g, %g m" % (long, short)
 E2

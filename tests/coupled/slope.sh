@@ -17,18 +17,17 @@ done
 must slides_beneath_air 1:1:1 --set "$phases" --set time.dt_max=0.0025 --set solid.materials.rock.friction=0.2
 "$python" "$root/scripts/momentum.py" "$scratch/slides" --bound 1e-10 >"$scratch/report" || { cat "$scratch/report"; exit 1; }
 "$python" - "$scratch" <<'E2'
-import csv, math, sys
-def column(run, name):
-    return [float(row[name]) for row in csv.DictReader(open("%s/%s/solid.csv" % (sys.argv[1], run)))]
+import math
+from results import column
 angle, mass, displaced = 0.2618, 2600.0 * 0.08**2, 1000.0 * 0.08**2
 def speed(run):
-    return [u * math.cos(angle) - v * math.sin(angle) for u, v in zip(column(run, "u1 [m/s]"), column(run, "v1 [m/s]"))]
+    return [u * math.cos(angle) - v * math.sin(angle) for u, v in zip(column(run, "solid", "u1 [m/s]"), column(run, "solid", "v1 [m/s]"))]
 def acceleration(run):
-    t, u = column(run, "t [s]"), speed(run)
+    t, u = column(run, "solid", "t [s]"), speed(run)
     first = next(k for k in range(len(t)) if t[k] > 0.15)
     return (u[-1] - u[first]) / (t[-1] - t[first])
 for run, bound in ("stands", 0.02), ("ranks", 0.02), ("beneath_air", 0.04):
-    force, u = column(run, "fy1 [N/m]")[-1], speed(run)[-1]
+    force, u = column(run, "solid", "fy1 [N/m]")[-1], speed(run)[-1]
     print("%s: %.2f N/m of %.2f from the fluid, %g m/s" % (run, force, displaced * 9.81, u))
     assert abs(force / (displaced * 9.81) - 1.0) < bound and abs(u) < 1e-4, run
 # friction takes a part of the weight, and the added mass is what the smooth slope shows

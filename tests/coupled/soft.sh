@@ -13,9 +13,7 @@ disc="--set time.end=0.08 --set time.dt_max=0.0025 --set output.every=0.08"
 must disc 1:1:1 $disc --set solid.materials.disc.youngs_modulus=1e4
 must stiff 1:1:1 $disc
 "$python" - "$scratch" <<'E2'
-import csv, sys
-def column(run, series, name):
-    return [float(row[name]) for row in csv.DictReader(open("%s/%s/%s.csv" % (sys.argv[1], run, series)))]
+from results import column
 for soft, stiff, most in (("skin", "fine", 0.03), ("disc", "stiff", 0.3)):
     speed = {run: max(column(run, "fluid", "max speed [m/s]")) for run in (soft, stiff)}
     assert abs(speed[soft] / speed[stiff] - 1.0) < most, "%s: largest speed %.3f of %.3f m/s" % (soft, speed[soft], speed[stiff])

@@ -6,8 +6,8 @@ source "$(dirname "$0")/run.sh"
 case=$here/spin.yaml
 for ranks in 1:1:1 2:1:2; do must "spin $ranks" $ranks; done
 "$python" - "$scratch" <<'E2'
-import csv, sys
 import numpy as np
+from results import rows
 
 RADIUS, NU, SPIN = 0.3, 0.05, 1.0
 ZEROS = np.array([3.8317059702, 7.0155866698, 10.1734681351, 13.3236919363, 16.4706300509])  # of J1
@@ -24,12 +24,12 @@ def theory(r, t):
 
 
 for ranks in "1:1:1", "2:1:2":
-    for row in csv.DictReader(open("%s/spin %s/fluid_probes.csv" % (sys.argv[1], ranks))):
-        t = float(row["t [s]"])
+    for row in rows("spin " + ranks, "fluid_probes"):
+        t = row["t [s]"]
         if t < 0.1:
             continue
         for name, r, column, sign in ("near", 0.25, "v", 1.0), ("half", 0.15, "u", -1.0), ("middle", 0.0, "u", 1.0):
-            found, expected = sign * float(row["%s_%s [m/s]" % (name, column)]), theory(r, t)
+            found, expected = sign * row["%s_%s [m/s]" % (name, column)], theory(r, t)
             report = "%s, t %.3f s, %s: %.5f m/s, theory %.5f" % (ranks, t, name, found, expected)
             assert abs(found - expected) < 0.01 * SPIN * RADIUS, report
     print(report)

@@ -5,9 +5,8 @@ set -euo pipefail
 source "$(dirname "$0")/run.sh"
 case=$here/springs.yaml must spring 1:1:1
 "$python" - "$scratch" <<'E2'
-import csv, sys
-rows = list(csv.DictReader(open(sys.argv[1] + "/spring/coupler.csv")))
-force = [float(r["F_x [N]"]) for r in rows if 2.0 < float(r["t [s]"]) < 3.5]
+from results import rows
+force = [r["F_x [N]"] for r in rows("spring", "coupler") if 2.0 < r["t [s]"] < 3.5]
 noise = max(abs(a - 2.0 * b + c) / 4.0 for a, b, c in zip(force, force[1:], force[2:]))
 drag = sum(force) / len(force)
 # vortices change the drag by its own size in seconds, so by some (dt/s)^2 of it from the mean of its neighbours

@@ -13,16 +13,14 @@ for density in 1000 2000 4000; do
     --set time.dt_max=0.002 --set time.end=0.004
 done
 "$python" - "$scratch" <<'E2'
-import csv, sys
+from results import rows
 for density in ("200", "1000", "3000"):
-    rows = list(csv.DictReader(open("%s/%s/coupler.csv" % (sys.argv[1], density))))
-    for row in rows:
-        u, v, f = float(row["u_x [m/s]"]), float(row["u_y [m/s]"]), abs(float(row["F_x [N]"]))
+    for row in rows(density, "coupler"):
+        u, v, f = row["u_x [m/s]"], row["u_y [m/s]"], abs(row["F_x [N]"])
         assert abs(u - 0.5) < 5e-4 and abs(v) < 5e-4 and f < 1, "density %s, t %s: velocity (%g, %g), force %g" % (density, row["t [s]"], u, v, f)
 # m v = (m + C_a m_f) v1: the same C_a whatever the density, 1.0 in an unbounded fluid, more in a box and with elements a third of the disc's radius
 added = []
 for density in (1000, 2000, 4000):
-    first = next(csv.DictReader(open("%s/thrown-%d/coupler.csv" % (sys.argv[1], density))))
-    added.append(density / 1000 * (0.5 / float(first["u_x [m/s]"]) - 1))
+    added.append(density / 1000 * (0.5 / rows("thrown-%d" % density, "coupler")[0]["u_x [m/s]"] - 1))
 assert 1.0 < added[0] < 1.35 and max(added) / min(added) < 1.03, "added mass over displaced mass: %s" % added
 E2

@@ -22,21 +22,20 @@ must long 1:1:1 --set time.end=0.1 "${adapt[@]}"
 if run few 1:1:1 "${light[@]}" --set coupler.max_iterations=2; then echo "two iterations were enough"; exit 1; fi
 grep -q 'error: the step from t = .* does not converge' "$scratch/few.log" || { cat "$scratch/few.log"; exit 1; }
 "$python" - "$scratch" <<'E2'
-import json, sys
-from results import rows
+from results import column, rows, summary
 def speeds(label):
-    return [r["u_y [m/s]"] for r in rows(label, "coupler")]
+    return column(label, "coupler", "u_y [m/s]")
 for label in ("one", "three", "adaptive"):
-    u, iterations = speeds(label)[5:], [r["iterations"] for r in rows(label, "coupler")]
+    u, iterations = speeds(label)[5:], column(label, "coupler", "iterations")
     assert u[-1] > 0.5 and all(b > a for a, b in zip(u, u[1:])), "%s: velocities %s" % (label, u)
     assert 1.5 < sum(iterations) / len(iterations) < 4, "%s: %s iterations" % (label, iterations)
-    summary = json.load(open("%s/%s/summary.json" % (sys.argv[1], label)))
-    assert summary["largest_momentum_imbalance"] < 1e-10 and summary["iterations"] == sum(iterations), "%s: %s" % (label, summary)
+    totals = summary(label)
+    assert totals["largest_momentum_imbalance"] < 1e-10 and totals["iterations"] == sum(iterations), "%s: %s" % (label, totals)
     assert len(rows(label, "fluid")) == len(rows(label, "solid")) == len(iterations), "%s: rows for iterations that do not stand" % label
 for label in ("cracks-1-1-1", "cracks-1-2-2"):
-    solid, iterations = rows(label, "solid"), [r["iterations"] for r in rows(label, "coupler")]
+    solid, iterations = rows(label, "solid"), column(label, "coupler", "iterations")
     assert solid[-1]["broken joints"] >= 3 and max(iterations) > 1, "%s: %g broken joints, iterations %s" % (label, solid[-1]["broken joints"], iterations)
-    assert json.load(open("%s/%s/summary.json" % (sys.argv[1], label)))["largest_momentum_imbalance"] < 1e-10
+    assert summary(label)["largest_momentum_imbalance"] < 1e-10
 broken = [rows(label, "solid")[-1]["broken joints"] for label in ("cracks-1-1-1", "cracks-1-2-2")]
 assert broken[0] == broken[1], "broken joints: %s" % broken
 # a step of more than thirty iterations is one that was halved; from then on steps grow by at most 1.3

@@ -5,7 +5,7 @@ source "$(dirname "$0")/run.sh"
 must ours 1:1:1 --set time.end=0.3
 must other 1:1:2 --set time.end=0.3 --solid "$build/tests/route/rigid_disc"
 "$python" - "$scratch" <<'E2'
-import csv, sys
-u = [float(list(csv.DictReader(open("%s/%s/coupler.csv" % (sys.argv[1], k))))[-1]["u_y [m/s]"]) for k in ("ours", "other")]
+from results import column
+u = [column(k, "coupler", "u_y [m/s]")[-1] for k in ("ours", "other")]
 assert abs(u[0] / u[1] - 1) < 0.01, "ours falls at %g, the other at %g" % tuple(u)
 E2

@@ -14,8 +14,8 @@ fast=(--set time.end=1 --set time.dt_max=0.04 --set fluid.viscosity=2.278 --set 
 must fast 1:1:1 "${fast[@]}"
 must fast_long 1:1:1 "${fast[@]}" --set time.cfl=3
 "$python" - "$scratch" <<'E2'
-import csv, sys
-u = [float(list(csv.DictReader(open("%s/%s/coupler.csv" % (sys.argv[1], label))))[-1]["u_y [m/s]"]) for label in ("long", "short", "fast", "fast_long")]
+from results import column
+u = [column(label, "coupler", "u_y [m/s]")[-1] for label in ("long", "short", "fast", "fast_long")]
 assert abs(u[1] / u[0] - 1) < 0.006, "velocities with long and short steps: %s" % u[:2]
 assert abs(u[3] / u[2] - 1) < 0.045, "velocities of the fast disc, with short and long steps: %s" % u[2:]
 E2

@@ -12,9 +12,9 @@ must rest 2:1:2 --set time.end=0.5
 must fixed 1:1:1 --set time.end=0.5 --set "solid.bodies[0]={shape: rectangle, centre: [0.3, 0.35], width: 0.1, height: 0.7, size: 0.02, material: steel, fixed: true}"
 must tension 1:1:1 --set time.end=0.5 --set fluid.surface_tension=0.072
 "$python" - "$scratch" <<'E2'
-import csv, sys
+from results import column
 for run in "rest", "fixed", "tension":
-    kinetic = max(float(row["kinetic energy [J/m]"]) for row in csv.DictReader(open("%s/%s/fluid.csv" % (sys.argv[1], run))))
+    kinetic = max(column(run, "fluid", "kinetic energy [J/m]"))
     print("%s: kinetic energy %.1e J/m" % (run, kinetic))
     assert kinetic < 1e-2, "%s: water in motion, kinetic energy %g J/m" % (run, kinetic)
 E2

@@ -11,10 +11,10 @@ must free 1:1:1 "${coarse[@]}" "${free[@]}"
 must heaviest 2:1:1 "${coarse[@]}" "${free[@]}" --set solid.materials.steel.density=1e9 --set solid.materials.steel.youngs_modulus=1e13 --set time.end=0.2
 must short 1:1:1 "${coarse[@]}" "${free[@]}" --set time.dt_max=0.004
 "$python" - "$scratch" <<'E2'
-import csv, sys
+from results import rows
 def drag(label):
-    rows = [r for r in csv.DictReader(open("%s/%s/solid.csv" % (sys.argv[1], label))) if float(r["t [s]"]) > 0.8]
-    return sum(500.0 * float(r["fx0 [N/m]"]) for r in rows) / len(rows)
+    force = [r["fx0 [N/m]"] for r in rows(label, "solid") if r["t [s]"] > 0.8]
+    return 500.0 * sum(force) / len(force)
 fixed = drag("fixed")
 for label in "free", "short":
     print("%s: drag %.4f, fixed %.4f" % (label, drag(label), fixed))
