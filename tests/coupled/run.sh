@@ -11,7 +11,7 @@ export PYTHONPATH=$here${PYTHONPATH:+:$PYTHONPATH} PYTHONDONTWRITEBYTECODE=1 # r
 run() {
   local label=$1 ranks=$2
   shift 2
-  timeout -k 5 "${limit:-120}" "$root/scripts/launch.sh" --bin "$build" --ranks "$ranks" "${case:-$here/disc.yaml}" \
+  timeout -k 5 $((${limit:-120} * ${TEST_SLOWER:-1})) "$root/scripts/launch.sh" --bin "$build" --ranks "$ranks" "${case:-$here/disc.yaml}" \
     --set "output.folder=$scratch/$label" "$@" >"$scratch/$label.log" 2>&1
 }
 must() { run "$@" || { echo "$1 failed:"; cat "$scratch/$1.log"; exit 1; }; }
