@@ -34,4 +34,4 @@ export PKG_CONFIG_PATH=$there/usr/lib/pkgconfig
 mpicc "$("$coracle" cases)/adapters/template_c/rigid_disc.c" -o rigid_disc $(pkg-config --define-prefix --cflags --libs coracle-client) -lm >log 2>&1 ||
   say 'an outside solid does not compile'
 LD_LIBRARY_PATH=$there/usr/lib "$coracle" conform --solid ./rigid_disc --ranks 1 disc.yaml >log 2>&1 || say 'coracle conform failed'
-"$root/tests/route/languages.sh" "$root" "$build" "$there/usr" >log 2>&1 || say 'a client in another language fails'
+"$root/tests/route/languages.sh" "$root" "$build" "$there/usr" gnu >log 2>&1 || say 'a client in another language fails'
