@@ -8,7 +8,7 @@ step='[[0.0, 0.3], [0.4, 0.303]]'
 tide='[[0.0, 0.3], [3.0, 0.36], [6.0, 0.24]]'
 tank=(--set 'fluid.mesh.upper=[0.5, 0.5]' --set 'fluid.probes=[{name: near, surface: {from: [0.125, 0.0], to: [0.125, 0.5], phase: water}}, {name: far, surface: {from: [0.375, 0.0], to: [0.375, 0.5], phase: water}}]')
 must step 1:1:1 --set "fluid.boundaries.left.level=$step"
-must tide 2:1:1 "${tank[@]}" --set "fluid.boundaries.left.level=$tide" --set time.end=7
+must tide 2:1:1 --set time.dt_max=0.02 "${tank[@]}" --set "fluid.boundaries.left.level=$tide" --set time.end=7
 "$python" "$here/level.py" "$scratch/step" 4.0 "$step" 0.1
 "$python" "$here/level.py" "$scratch/tide" 0.5 "$tide" 0.1
 # steps that add up without round-off, to the same ones until the end of a run; one mesh
