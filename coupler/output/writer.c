@@ -17,46 +17,22 @@ struct Writer_s {
   WriterTotals totals;
 };
 
-/* A number of the writer that checkpoints hold, by name. */
-typedef struct {
-  const char *name;
-  double *value;
-} SavedNumber;
-enum { NSAVED = 7 };
-
-/* count[2]: steps and iterations as doubles. */
-static void SavedNumbers(Writer r, double count[2], SavedNumber saved[NSAVED])
-{
-  count[0] = (double)r->totals.steps;
-  count[1] = (double)r->totals.iterations;
-  const SavedNumber all[NSAVED] = {{"steps", &count[0]},         {"iterations", &count[1]},
-                                   {"fall end", &r->fall_end},   {"fall sum", &r->fall_sum},
-                                   {"fall time", &r->fall_time}, {"imbalance", &r->totals.imbalance},
-                                   {"end", &r->totals.end}};
-  for (int k = 0; k < NSAVED; k++) saved[k] = all[k];
-}
-
-/* The largest of all ranks, as in the summary. */
-static PetscErrorCode PutSeconds(Writer r, Checkpoint to)
+/* Seconds as in the summary: the largest of all ranks. */
+PetscErrorCode WriterSave(Writer r, Checkpoint to)
 {
   double largest[2] = {r->totals.overlap, r->totals.force};
 
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, r->comm));
+  PetscCall(CheckpointPutNumber(to, "steps", (double)r->totals.steps));
+  PetscCall(CheckpointPutNumber(to, "iterations", (double)r->totals.iterations));
+  PetscCall(CheckpointPutNumber(to, "fall end", r->fall_end));
+  PetscCall(CheckpointPutNumber(to, "fall sum", r->fall_sum));
+  PetscCall(CheckpointPutNumber(to, "fall time", r->fall_time));
+  PetscCall(CheckpointPutNumber(to, "imbalance", r->totals.imbalance));
+  PetscCall(CheckpointPutNumber(to, "end", r->totals.end));
   PetscCall(CheckpointPutNumber(to, "seconds of overlap", largest[0]));
   PetscCall(CheckpointPutNumber(to, "seconds of force", largest[1]));
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode WriterSave(Writer r, Checkpoint to)
-{
-  SavedNumber saved[NSAVED];
-  double count[2];
-
-  PetscFunctionBeginUser;
-  SavedNumbers(r, count, saved);
-  for (int k = 0; k < NSAVED; k++) PetscCall(CheckpointPutNumber(to, saved[k].name, *saved[k].value));
-  PetscCall(PutSeconds(r, to));
   PetscCall(OutputSave(r->output, to));
   PetscCall(SeriesSave(r->series, to));
   PetscFunctionReturn(0);
@@ -64,18 +40,22 @@ PetscErrorCode WriterSave(Writer r, Checkpoint to)
 
 static PetscErrorCode Load(Writer r, Checkpoint from)
 {
-  SavedNumber saved[NSAVED];
-  double count[2];
+  double steps, iterations;
 
   PetscFunctionBeginUser;
-  SavedNumbers(r, count, saved);
-  for (int k = 0; k < NSAVED; k++) PetscCall(CheckpointGetNumber(from, saved[k].name, saved[k].value));
+  PetscCall(CheckpointGetNumber(from, "steps", &steps));
+  PetscCall(CheckpointGetNumber(from, "iterations", &iterations));
+  PetscCall(CheckpointGetNumber(from, "fall end", &r->fall_end));
+  PetscCall(CheckpointGetNumber(from, "fall sum", &r->fall_sum));
+  PetscCall(CheckpointGetNumber(from, "fall time", &r->fall_time));
+  PetscCall(CheckpointGetNumber(from, "imbalance", &r->totals.imbalance));
+  PetscCall(CheckpointGetNumber(from, "end", &r->totals.end));
   PetscCall(CheckpointGetNumber(from, "seconds of overlap", &r->totals.overlap));
   PetscCall(CheckpointGetNumber(from, "seconds of force", &r->totals.force));
   if (r->fall_end != r->end) r->fall_sum = r->fall_time = 0.0;
   r->fall_end = r->end;
-  r->totals.steps = (long long)count[0];
-  r->totals.iterations = (long long)count[1];
+  r->totals.steps = (long long)steps;
+  r->totals.iterations = (long long)iterations;
   r->totals.resumed = r->totals.end;
   if (!r->rank) printf("coracle: resumes from t = %.5g s, step %lld\n", r->totals.resumed, r->totals.steps);
   PetscFunctionReturn(0);
