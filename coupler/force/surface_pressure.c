@@ -105,15 +105,14 @@ PetscErrorCode SurfacePressureHead(Overlap o, const ElementTerm element[], const
     const int outermost = OutermostVertex((const double(*)[2])o->x[pair->b], t->normal);
     const double *x = o->x[pair->b][outermost];
     if (IsCovered(o, k, x)) continue;
-    const double part = pair->area * element[o->coupled_index[k]].open,
-                 rho = o->rho[pair->b] + element[o->coupled_index[k]].outside,
+    const double rho = o->rho[pair->b] + element[o->coupled_index[k]].outside,
                  head = p[6 * pair->b + outermost] - rho * (gravity[0] * x[0] + gravity[1] * x[1]);
     for (int i = 0; i < 3; i++) {
-      source[pair->a][i][SURFACE_HEAD] += part * head;
-      source[pair->a][i][SURFACE_DENSITY] += part * rho;
-      source[pair->a][i][SURFACE_SPECIFIC_VOLUME] += part / rho;
-      source[pair->a][i][SURFACE_VISCOSITY] += part * o->mu[pair->b];
-      source[pair->a][i][SURFACE_REACHED] += part;
+      source[pair->a][i][SURFACE_HEAD] += pair->area * head;
+      source[pair->a][i][SURFACE_DENSITY] += pair->area * rho;
+      source[pair->a][i][SURFACE_SPECIFIC_VOLUME] += pair->area / rho;
+      source[pair->a][i][SURFACE_VISCOSITY] += pair->area * o->mu[pair->b];
+      source[pair->a][i][SURFACE_REACHED] += pair->area;
     }
   }
   PetscCall(OverlapSourcesToNodes(o, SURFACE_HEAD_FIELDS, (const double *)source, nnodes, (double *)node));

@@ -17,8 +17,7 @@ PetscErrorCode SurfacePressureSums(Overlap overlap, const double p[], double own
 PetscErrorCode SurfacePressureNodes(Overlap overlap, const double owned[][SURFACE_SUMS], int nnodes,
                                     char is_given[], double value[][2]);
 /* At nodes of the surface: p_o - rho_o g.x, Pa, x where p_o is, rho_o, the density beside the solid (outside.h), kg/m3, 1/rho_o, and the viscosity
- * of the elements there, Pa s, means over the shell around the node where no solid is at x, weighted by what of the elements is beside the solid: in one that
- * the solid has just left the fluid has not flowed in yet; 1 where there is some, all 0 elsewhere. */
+ * of the elements there, Pa s, means over the shell around the node where no solid is at x; 1 where there is some, all 0 elsewhere. */
 enum {
   SURFACE_HEAD,
   SURFACE_DENSITY,

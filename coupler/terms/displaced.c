@@ -13,7 +13,7 @@ static PetscErrorCode SumsAtNodes(const Overlap o, int nnodes, const ElementTerm
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
     const ElementTerm *k = &element[o->coupled_index[p]];
-    if (!source[pair->a].held || k->open == 0.0) continue;
+    if (!source[pair->a].held || !k->open) continue;
     for (int v = 0; v < 3; v++) {
       vertex[pair->a][v][DENSITY] += pair->area * k->outside;
       vertex[pair->a][v][AREA] += pair->area;

@@ -19,11 +19,10 @@ void SlipTensors(const Overlap o, const SourceTerm term[], ElementTerm element[]
       yy += pair->area * n[1] * n[1];
     }
     const double area = o->area[o->coupled_element[e]];
-    const double open = 1.0 - solid / area;
-    const PetscBool shared = (PetscBool)(open <= OUTSIDE_LEAST && solid + all > (1.0 + OUTSIDE_LEAST) * area);
-    element[e].open = open > OUTSIDE_LEAST ? open : 0.0;
+    const PetscBool open = element[e].open = (PetscBool)(solid < (1.0 - OUTSIDE_LEAST) * area),
+                    shared = (PetscBool)(!open && solid + all > (1.0 + OUTSIDE_LEAST) * area);
     element[e].along = element[e].tangential = WallCoefficientIsotropic(0.0);
-    if (shell > 0.0 && (element[e].open > 0.0 || shared))
+    if (shell > 0.0 && (open || shared))
       element[e].along = (WallCoefficient){1.0 - xx / shell, -xy / shell, 1.0 - yy / shell};
     if (!o->phases) element[e].tangential = element[e].along;
     element[e].shared = (PetscBool)(o->phases && shared && shell > 0.0);
@@ -48,7 +47,7 @@ void SlipCorrection(const Overlap o, const ElementTerm element[], CoracleCorrect
 {
   for (int e = 0; e < o->ncoupled; e++) {
     double(*r)[3] = correction[e].r;
-    if (element[e].open == 0.0 || WallIsZero(&element[e].tangential)) continue;
+    if (!element[e].open || WallIsZero(&element[e].tangential)) continue;
     for (int i = 0; i < 3; i++) {
       const double ri[2] = {r[0][i], r[1][i]};
       double kept[2];

@@ -90,7 +90,7 @@ typedef struct {
   WallCoefficient freed;      /* of the inertia, (1 - k) D (inertia.h), without unit */
   PetscBool covered;          /* K lies in the solid as a whole (inertia.h) */
   PetscBool shared;           /* two solids in K, one of which is held, share the reaction (slip.h) */
-  double open;                /* the part of K beside the solid, 0 where it is less than OUTSIDE_LEAST */
+  PetscBool open;             /* K has fluid beside the solid */
   double outside;             /* rho_o - rho_f of that (outside.h), kg/m3 */
 } ElementTerm;
 
@@ -127,7 +127,7 @@ static inline LinearField PairBodyForce(const PairTerm *term, const ElementTerm 
                                         const double centre[2])
 {
   const double excess = fmax(term->rho - source->density, 0.0);
-  if (IsHeldByInertia(source) && element->open > 0.0) /* the weight of displaced.h, less the fluid's own */
+  if (IsHeldByInertia(source) && element->open) /* the weight of displaced.h, less the fluid's own */
     return (LinearField){{element->outside * gravity[0], element->outside * gravity[1]}, {{0.0}}};
   const LinearField force = LinearFieldAt(&source->force, centre);
   if (IsHeldByInertia(source)) return force;
