@@ -90,7 +90,8 @@ static PetscBool IsCovered(const Overlap o, const SourceTerm source[], int e)
 }
 
 /* k of element e: from its pairs with inertia, their area, and that times what the solid has beyond the fluid's density. */
-static double KeptPart(const Overlap o, const SourceTerm source[], const ElementTerm *element, int e)
+static double KeptPart(const Overlap o, const SourceTerm source[], const ElementTerm *element, double ratio,
+                       int e)
 {
   const int k = o->coupled_element[e];
   double area = 0.0, excess = 0.0;
@@ -102,7 +103,7 @@ static double KeptPart(const Overlap o, const SourceTerm source[], const Element
     excess += pair->area * fmax(density - o->rho[pair->b], 0.0);
   }
   if (excess == 0.0 || area > (1.0 - OUTSIDE_LEAST) * o->area[k]) return 1.0;
-  return fmin(1.0, INERTIA_KEPT_RATIO * (o->rho[k] + element->outside) * area / excess);
+  return fmin(1.0, ratio * (o->rho[k] + element->outside) * area / excess);
 }
 
 static PetscBool IsHeld(const Overlap o, const SourceTerm source[], int e)
@@ -126,7 +127,7 @@ void InertiaStart(Overlap o, const SourceTerm source[], double dt, ElementTerm e
 {
   for (int e = 0; e < o->ncoupled; e++) {
     const PetscBool held = IsHeld(o, source, e);
-    const double kept = KeptPart(o, source, &element[e], e);
+    const double kept = KeptPart(o, source, &element[e], held ? INERTIA_HELD_RATIO : INERTIA_KEPT_RATIO, e);
     const WallCoefficient along = Sharpened(held ? &element[e].along : &element[e].tangential, kept);
     element[e].covered =
         (PetscBool)(!o->phases && WallIsZero(&element[e].tangential) && IsCovered(o, source, e));

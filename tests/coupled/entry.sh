@@ -16,7 +16,6 @@ enter() { # label deadrise depth [launch.sh arguments]
   must "$2:$1" 1:1:1 --set "${arguments[0]}" --set "${arguments[1]}" "${@:4}"
 }
 coarse=(--set fluid.adapt.size_min=0.02 --set fluid.adapt.interface_size=0.04)
-fine=(--set fluid.adapt.size_min=0.005 --set fluid.adapt.interface_size=0.01)
 case ${1:-} in
   fall) enter fall 30 0.1 --set time.end=0.14 --set "solid.bodies[0]={mesh: 30.msh, material: wedge, velocity: [0.0, -1.0], prescribed: [{velocity: [0, 0], component: x}]}" "${@:2}" ;;
   [0-9]*) enter tried "$1" "$2" "${@:3}" ;;
@@ -25,7 +24,6 @@ case ${1:-} in
     enter "le 0.01" 30 0.1
     enter "le 0.01" 20 0.06
     enter "le 0.01" 45 0.15
-    enter "le 0.005" 30 0.1 "${fine[@]}"
     ;;
 esac
 "$python" "$here/entry.py" "$scratch"
