@@ -45,5 +45,5 @@ for k in range(1, round(run[-1]["t [s]"] / 0.1) + 1):
     speed = late[-1]["u0 [m/s]"] * math.cos(slope) + late[-1]["v0 [m/s]"] * math.sin(slope)
     contact = 250.0 * 9.81 / math.sqrt(2.0) - fluid
     print("%s, %.1f s: contact %.0f N/m, %.4f m/s along the slope" % (kind, 0.1 * k, contact, speed))
-    assert k > 1 or kind == "wall" or abs(contact / expected - 1.0) < 0.15, "%.0f N/m expected" % expected
+    assert k > 1 or abs(contact / expected - 1.0) < (0.2 if kind in ("wall", "air") else 0.15), "%.0f N/m expected" % expected
 E2
