@@ -37,8 +37,8 @@ typedef struct {
 typedef struct {
   jmp_buf next;
   int n;
-  bool
-      stuck; /* a key was refused again although its value had been set aside, or a file, on which others depend */
+  /* A key was refused again although its value had been set aside, or a file, on which others depend. */
+  bool stuck;
   char *key[CASE_FAULTS], *message[CASE_FAULTS];
 } CaseFaults;
 

@@ -72,8 +72,8 @@
  *
  * Where nodes have no mobility the solid is held: in one fluid by sigma towards v, among phases as one of INERTIA_MOST times the density of
  * the phase that fills it, whose inertia counts along the surface as that of other heavy ones does in one fluid (P, with D = I - mean of
- * its n n), but as at most INERTIA_HELD_RATIO times the fluid's mass.  Held by sigma it is to the pressure what fills it, air: a caisson in still water 0.5 m deep set the water and the air beside it in
- * motion with 6 m/s.  (With 1e5 times, 4e-4 of the water that a wall holds back 0.5 m deep passes it in a second, with 1e6 nothing.)  Where
+ * its n n), but as at most INERTIA_HELD_RATIO times the fluid's mass.  Held by sigma it is to the pressure what fills it, air: a caisson in
+ * still water 0.5 m deep set the water and the air beside it in motion with 6 m/s.  (With 1e5 times, 4e-4 of the water that a wall holds back 0.5 m deep passes it in a second, with 1e6 nothing.)  Where
  * surface tension is resolved, elements at the interface being smaller than the capillary length sqrt(tension/(density g)), it is held by
  * sigma all the same: a line's force in an element that is held by inertia does not balance the pressure of the drop beside it (a drop at
  * 120 degrees on a block stood at 108 and never came to rest). */

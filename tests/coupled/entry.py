@@ -3,7 +3,7 @@ import os
 import sys
 import numpy as np
 from entry_reference import Entry
-from results import rows, snapshots
+from results import column, rows, snapshots
 
 LEAST, MOST = (0.98, 0.93, 0.96), (1.11, 1.07, 1.04)  # force, pressure, place of the jet's root, over theory
 RHO, GAP, PLACES = 1000.0, 0.005, 0.02 * np.arange(1, 13)  # kg/m3; m, from the apex to the water at the start; m, x of the gauges
@@ -13,10 +13,6 @@ def keys(deadrise, depth):
     print("time.end=%g" % (depth + GAP))
     print("fluid.probes=[%s]" % ", ".join(
         "{name: g%d, solid_point: [%.9f, %.9f]}" % (i, x, GAP + x * np.tan(np.radians(deadrise))) for i, x in enumerate(PLACES)))
-
-
-def column(label, part, name):
-    return np.array([row[name] for row in rows(label, part)])
 
 
 def inside(label):
@@ -31,7 +27,8 @@ def inside(label):
 def gauges(label, deadrise, theory, depth):
     """Over theory: the pressure where the largest one has passed, mean over gauges and time; the largest one, mean over gauges, and its rms deviation; the
     depth at which half of it comes, mean over gauges."""
-    found = np.array([column(label, "fluid_probes", "g%d_p [Pa]" % i) for i in range(len(PLACES))]) / RHO
+    series = rows(label, "fluid_probes")
+    found = np.array([[row["g%d_p [Pa]" % i] for row in series] for i in range(len(PLACES))]) / RHO
     place = PLACES[:, None] / np.cos(deadrise)
     exact = np.interp(place / np.maximum(depth, 1e-9), theory.s, theory.pressure, right=0.0)
     after = depth > 1.2 * place / theory.s[theory.pressure > 0.5 * theory.pressure.max()][-1]
@@ -48,14 +45,14 @@ def entry(label):
     theory = Entry(deadrise, 0.4)
     assert abs(theory.far) < 3e-3 and abs(theory.apex / theory.pressure[0] - 1.0) < 0.02, "theory: surface far off at %g, pressure at the apex %g, %g" % (
         theory.far, theory.pressure[0], theory.apex)
-    t, dt, force, aside = (column(label, "coupler", n) for n in ("t [s]", "dt [s]", "F_y [N]", "F_x [N]"))
+    t, dt, force, aside = (np.array(column(label, "coupler", n)) for n in ("t [s]", "dt [s]", "F_y [N]", "F_x [N]"))
     depth = t - GAP
     exact, late = theory.force * RHO * depth, depth > 0.4 * depth[-1]
     mean = (force * dt)[late].sum() / (exact * dt)[late].sum()
     noise = np.sqrt(((force - mean * exact)[late] ** 2).mean()) / exact[late].mean()
     pressure, largest, scatter, first = gauges(label, deadrise, theory, depth)
     energy, work = column(label, "fluid", "kinetic energy [J/m]")[-1], (force * dt).sum()
-    water, imbalance = inside(label), column(label, "coupler", "imbalance").max()
+    water, imbalance = inside(label), max(column(label, "coupler", "imbalance"))
     report = "%s: force %.3f of theory, rms of steps %.3f, aside %.3f; pressure %.3f, largest %.2f +- %.2f, half of it at %.3f; work %.3f, kinetic energy %.2f of it; " \
         "water inside %.1e, imbalance %.1e, %d steps" % (label, mean, noise, abs(aside[late].mean()) / exact[late].mean(), pressure, largest, scatter, first,
                                                          work / (0.5 * exact[-1] * depth[-1]), energy / work, water, imbalance, len(t))
@@ -66,8 +63,8 @@ def entry(label):
 
 def fall(label):
     """With the momentum of the water, F V t/2 of the constant velocity, the wedge has V = 1/(1 + F z^2/(2 m)) of its first velocity at the depth z."""
-    y, v, mass = (column(label, "solid", n) for n in ("y0 [m]", "v0 [m/s]", "mass0 [kg/m]"))
-    z = y[0] - y - GAP + column(label, "solid", "t [s]")[0]  # as fast as at the start until the first row
+    t, y, v, mass = (np.array(column(label, "solid", n)) for n in ("t [s]", "y0 [m]", "v0 [m/s]", "mass0 [kg/m]"))
+    z = y[0] - y - GAP + t[0]  # as fast as at the start until the first row
     theory = 1.0 / (1.0 + Entry(np.radians(30.0)).force * RHO * np.maximum(z, 0.0) ** 2 / (2.0 * mass[0]))
     for depth in (0.0, 0.02, 0.04, 0.06, 0.08, 0.1):
         print("%s: at %.2f m %.4f m/s, theory %.4f" % (label, depth, np.interp(depth, z, -v), np.interp(depth, z, theory)))

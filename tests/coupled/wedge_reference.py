@@ -1,11 +1,11 @@
 """The wedge of wedge.sh by potential flow: it slides without friction on a slope of 45 degrees, in units of SI, turned so that the slope is level.
 
     div grad f = 0,   df/dn = n_x on the wedge, 0 on slope and sides,   f = 0 on the water's surface, if there is one
-    u' (m + M) = W - N_2 u^2 ...,   M = rho int f n_x ds,   p = -rho (u' f + u^2 (df/ds - df/dx + |grad f|^2/2))
+    p = -rho (u' f + u^2 (df/ds - df/dx + |grad f|^2/2)),    m u' = W + int p n_x ds,    contact = W - int p n_y ds,    n into the wedge
 
-u: speed; s: its way, df/ds at a place that stays.  Under the wedge p is linear between its values at both ends of the gap (uplift.h).  The surface stays where it is:
+m: mass; u: speed; s: its way, df/ds at a place that stays; W: weight less the displaced water's, as much along the slope as across it.  Under the wedge p is linear between its values at both ends of the gap (uplift.h).  The surface stays where it is:
 right for as long as waves take to rise.  Flow that separates at the upper edge sucks less: there contact bears more the farther the wedge has come.
-Usage: wedge_reference.py WATER SIDES TIME...   WATER: depth above the slope's foot, m, or tank"""
+Usage: wedge_reference.py WATER TIME...   WATER: depth above the slope's foot, m, or tank"""
 import subprocess
 import sys
 import tempfile
@@ -18,7 +18,7 @@ TURN = LENGTH * np.array([[1.0, 1.0], [-1.0, 1.0]])  # to the level frame: row v
 
 
 def corners(water, s):
-    """Of the fluid, the wedge's three last, from its rear over its upper edge to its front; the surface's height in the frame that is not turned."""
+    """Of the fluid, counter-clockwise: those at sides and surface, and the wedge's, from its rear over its upper edge to its front."""
     rear, front = 0.41 / LENGTH + s, 0.91 / LENGTH + s
     wedge = [(rear, 0.0), (0.5 * (rear + front), 0.5 * (front - rear)), (front, 0.0)]
     if water == "tank":
@@ -63,8 +63,8 @@ class Flow:
         edges = edges[np.argsort(x[edges].mean(1)[:, 0])]
         along = x[edges[:, 1]] - x[edges[:, 0]]
         self.length = np.hypot(*along.T)
-        top = x[edges].mean(1)[:, 0] < s + 0.66 / LENGTH
-        self.normal = LENGTH * np.where(top[:, None], [1.0, -1.0], [-1.0, -1.0])  # into the wedge
+        rear = x[edges].mean(1)[:, 0] < s + 0.66 / LENGTH
+        self.normal = LENGTH * np.where(rear[:, None], [1.0, -1.0], [-1.0, -1.0])  # into the wedge
         np.add.at(load, edges, 0.5 * (self.length * self.normal[:, 0])[:, None])
         height = (x @ TURN.T)[:, 1] + 1.4
         fixed = height > float(water) - 1e-9 if water != "tank" else np.arange(len(x)) == 0
