@@ -21,7 +21,6 @@ static const CoracleCaseKey KEYS[] = {
     {"coupler.mode", "", "how fluid and solid are coupled"},
     {"coupler.shell_thickness", "m",
      "dr: thickness of the shell around the solid in which wall friction acts"},
-    {"coupler.relaxation", "", "sigma dt/rho: how firmly the fluid inside follows the solid"},
     {"coupler.max_iterations", "", "most coupling iterations of a step; 1: the first is accepted"},
     {"coupler.tolerance", "", "on the solid's velocity, when iterations have converged"},
     {"coupler.petsc", "", "options for PETSc"},

@@ -241,7 +241,7 @@ int CoracleSetInertia(CoracleClient c, const double mobility[], const double acc
 /* What the solid does to one fluid element K (S the solid; i, j vertices; c, d components; in 2D per metre): */
 enum {
   CORACLE_HAS_SHELL = 1,   /* K overlaps the shell around the solid's surface */
-  CORACLE_HAS_INERTIA = 2, /* implicit_inertia is in use: K overlaps nodes with a mobility */
+  CORACLE_HAS_INERTIA = 2, /* implicit_inertia is in use */
   /* K lies in the solid as a whole, which moves freely: the step begins with the solid's velocity there, which s has, and
    * u start counts as 0 in rho M/dt (u* - u start); what CoracleSetFlow gives is the fluid's own all the same */
   CORACLE_IS_COVERED = 4,
@@ -256,17 +256,17 @@ typedef struct {
    * implicit_inertia (inertia_tensor u* - kept u start) beside rho M/dt (u* - u start), and under the pressure
    * u projected = u* - dt W^-1 M grad phi with W = rho M/dt + implicit_inertia inertia_tensor */
   double implicit_inertia[CORACLE_VERTICES][CORACLE_VERTICES];
-  /* symmetric, positive definite: what of the velocity moves with that inertia: all of it, I, but along the surface beside a fluid
-   * that is much lighter than the solid */
+  /* symmetric, positive semidefinite: what of the velocity moves with that inertia: all of it, I, but along the surface beside a fluid
+   * that is much lighter than the solid, or of a solid that is held */
   double inertia_tensor[CORACLE_DIM][CORACLE_DIM];
   /* what the inertia keeps of u start: its part along the surface; the rest is the solid's velocity, which s has */
   double kept[CORACLE_DIM][CORACLE_DIM];
   /* N: int_K (a u_s)_c N_i, the explicit part of s_c */
   double s[CORACLE_DIM][CORACLE_VERTICES];
-  /* m2: int_{K and S} N_i N_j, sub-cell solid mass, where the solid is held: has no mobility; 0 where implicit_inertia
-   * holds it */
+  /* m2: int_{K and S} N_i N_j, sub-cell solid mass, where what is to be free of divergence is the solid's velocity: the bulk velocity is
+   * u + M^-1 (us - ms u).  So it is where the solid has no mobility, in one fluid; such elements may have implicit_inertia, too */
   double ms[CORACLE_VERTICES][CORACLE_VERTICES];
-  /* m3/s: int_{K and S} N_i (u_s)_c, where the solid is held */
+  /* m3/s: int_{K and S} N_i (u_s)_c, where ms is not 0 */
   double us[CORACLE_DIM][CORACLE_VERTICES];
   /* m/s: mean over what K overlaps, solid and shell, of the solid's velocity at the start of the step.  A run's first step (t = 0)
    * begins with u += alpha (velocity - u): a body that begins with a velocity has its whole momentum */

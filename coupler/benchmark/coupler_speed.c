@@ -112,8 +112,7 @@ static PetscErrorCode Measure(Coupler c, const SolidState *solid, int nfluid, in
 
 int main(int argc, char **argv)
 {
-  const CouplerOptions options = {
-      .mode = COUPLER_REACTION, .thickness = 0.0005, .relaxation = 10.0, .gravity = {0.0, -9.81}};
+  const CouplerOptions options = {.mode = COUPLER_REACTION, .thickness = 0.0005, .gravity = {0.0, -9.81}};
   FluidElements elements;
   SolidState solid;
   Coupler c;

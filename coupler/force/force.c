@@ -16,8 +16,7 @@ static ElementFlow FlowAt(const Overlap o, const SupermeshPair *pair, const Elem
 
 /* R's density, at the pair's centre; inside solids a or the inertia is mostly 0. */
 static LinearField Reaction(const PairTerm *term, const ElementTerm *element, const SourceTerm *source,
-                            const double gravity[2], const ElementFlow *flow, const LinearField *start,
-                            const double d[2])
+                            const double gravity[2], const ElementFlow *flow, const double d[2])
 {
   LinearField reaction = {{0.0}, {{0.0}}};
   if (!WallIsZero(&term->a)) {
@@ -37,8 +36,9 @@ static LinearField Reaction(const PairTerm *term, const ElementTerm *element, co
     WallAdd(&freed, &change, &reaction);
   }
   if (!WallIsZero(&term->start)) {
+    const LinearField begins = LinearFieldAt(InertiaBegins(source), d);
     LinearField difference = flow->start;
-    LinearFieldAdd(-1.0, start, &difference);
+    LinearFieldAdd(-1.0, &begins, &difference);
     WallAdd(&term->start, &difference, &reaction);
   }
   return reaction;
@@ -56,9 +56,7 @@ static void MeanReaction(const Overlap o, const PairTerm term[], const ElementTe
     const SupermeshPair *pair = &o->pairs.pair[p];
     if (o->source[pair->a].is_shell) continue;
     const ElementFlow at = FlowAt(o, pair, flow);
-    const LinearField start = LinearFieldAt(&source[pair->a].start, pair->centre),
-                      density =
-                          Reaction(&term[p], element, &source[pair->a], gravity, &at, &start, pair->centre);
+    const LinearField density = Reaction(&term[p], element, &source[pair->a], gravity, &at, pair->centre);
     VectorMomentsAdd(pair, &density, pair->centre, &sum);
     area += pair->area;
   }
@@ -120,7 +118,7 @@ PetscErrorCode ForceOfPairs(const Overlap o, const PairTerm term[], const Elemen
       const double *d = pair->centre;
       const ElementFlow at = FlowAt(o, pair, &on[e]);
       const LinearField start = LinearFieldAt(&source[t].start, d);
-      LinearField density = Reaction(&term[p], &element[e], &source[t], gravity, &at, &start, d);
+      LinearField density = Reaction(&term[p], &element[e], &source[t], gravity, &at, d);
       if (element[e].shared && !o->source[t].is_shell) ShareAlong(&element[e], &mean[e], &density);
       VectorMomentsAdd(pair, &density, d, &reaction);
       if (o->source[t].is_shell) continue;

@@ -71,10 +71,9 @@ static void ReadOptions(CoracleCase file, CouplerOptions *o)
   o->mode = (CouplerMode)CoracleCaseWord(file, "coupler.mode", COUPLER_REACTION, COUPLER_MODES);
   o->thickness = CoracleCasePositive(file, "coupler.shell_thickness");
   GravityRead(file, o->gravity, &o->gravity_table);
-  CouplerModesReadOptions(file, o);
   ReadUplift(file, o);
-  o->sigma_among_phases = (PetscBool)(CoracleCaseHas(file, "fluid.surface_tension") &&
-                                      InterfaceSize(file) < CapillaryLength(file, o->gravity));
+  o->capillary = (PetscBool)(CoracleCaseHas(file, "fluid.surface_tension") &&
+                             InterfaceSize(file) < CapillaryLength(file, o->gravity));
 }
 
 PetscErrorCode CouplerCaseRead(CoracleCase file, CouplerCase *c)

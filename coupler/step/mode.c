@@ -9,10 +9,3 @@ const CouplerModeTable *CouplerModeGet(CouplerMode mode)
 {
   return TABLES[mode];
 }
-
-void CouplerModesReadOptions(CoracleCase file, CouplerOptions *options)
-{
-  for (int mode = 0; COUPLER_MODES[mode]; mode++) {
-    if (TABLES[mode]->read_options) TABLES[mode]->read_options(file, options);
-  }
-}

@@ -1,9 +1,8 @@
 /* Coupling modes: everything that distinguishes one way to couple solid and fluid from another.
  *
- *     reaction         default.  The fluid inside the solid has the solid's inertia (inertia.h), or is held
- *                      by sigma = relaxation rho_f/dt where nodes have no mobility; the surface is held by
- *                      the wall term.  The force is the reaction to both, plus the inertia of the fluid
- *                      inside and buoyancy.  Conservative.
+ *     reaction         default.  The fluid inside the solid has the solid's inertia (inertia.h), much of it where nodes have
+ *                      no mobility; the surface is held by the wall term.  The force is the reaction to both, plus the
+ *                      inertia of the fluid inside and buoyancy.  Conservative.
  *     stress_shell     Yang et al. 2016, literal: wall term in the shell only, from the viscosity
  *                      projected to the surface; force by the surface integral of [43], [44].  Not conservative.
  *     penalty_shell    Vire, Xiang, Pain 2015: a = rho_f/dt I in the shell only; the force is the reaction to
@@ -16,7 +15,6 @@
  * 10.1016/j.jcp.2016.05.035. */
 #ifndef CORACLE_COUPLER_MODE_H
 #define CORACLE_COUPLER_MODE_H
-#include "common/link/case_file.h"
 #include "common/program/gravity.h"
 #include "coupler/geometry/solid_state.h"
 
@@ -28,13 +26,12 @@ extern const char *const COUPLER_MODES[];
 
 typedef struct {
   CouplerMode mode;
-  double thickness;             /* of the shell, dr, m */
-  double relaxation;            /* sigma dt / rho_f, used by the mode reaction */
-  double gravity[2];            /* m/s2, of the current step */
-  TimeTable gravity_table;      /* of t, s, and gravity in its place, borrowed (gravity.h); nrows 0: none */
-  PetscBool sigma_among_phases; /* what is held among phases is held by sigma, too (inertia.h) */
-  PetscBool uplift;             /* the solid may touch walls or itself (uplift.h) */
-  double lower[2], upper[2];    /* m; the walls, infinite where there are none */
+  double thickness;          /* of the shell, dr, m */
+  double gravity[2];         /* m/s2, of the current step */
+  TimeTable gravity_table;   /* of t, s, and gravity in its place, borrowed (gravity.h); nrows 0: none */
+  PetscBool capillary;       /* surface tension is resolved (inertia.h) */
+  PetscBool uplift;          /* the solid may touch walls or itself (uplift.h) */
+  double lower[2], upper[2]; /* m; the walls, infinite where there are none */
 } CouplerOptions;
 
 /* Which of the solid's velocities over the last step u_s is: the one at its end, without vibrations, or the
@@ -46,9 +43,6 @@ typedef enum { COUPLER_VELOCITY_END, COUPLER_VELOCITY_MEAN } CouplerVelocity;
 typedef struct {
   CouplerVelocity velocity;
   PetscBool needs_pressure; /* the fluid sends p with its flow */
-  /* Reads the mode's own keys from the case; NULL: it has none.  Called for all modes whichever is chosen, so
-   * that one case file serves every mode. */
-  void (*read_options)(CoracleCase file, CouplerOptions *options);
   PetscErrorCode (*coefficients)(Coupler coupler, const SolidState *solid); /* sets every pair's a */
   PetscErrorCode (*force)(Coupler coupler);                                 /* sets node from the flow */
 } CouplerModeTable;
@@ -56,5 +50,4 @@ typedef struct {
 extern const CouplerModeTable COUPLER_MODE_REACTION, COUPLER_MODE_STRESS_SHELL, COUPLER_MODE_PENALTY_SHELL;
 
 const CouplerModeTable *CouplerModeGet(CouplerMode mode);
-void CouplerModesReadOptions(CoracleCase file, CouplerOptions *options);
 #endif

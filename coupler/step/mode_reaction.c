@@ -1,16 +1,9 @@
-/* Mode reaction: the solid's inertia, or sigma, in its volume, the wall term in its shell, slip in the elements
- * that the surface crosses, and the force as the reaction to all. */
+/* Mode reaction: the solid's inertia in its volume, the wall term in its shell, slip in the elements that the surface crosses,
+ * and the force as the reaction to all. */
 #include "coupler/step/coupler_impl.h"
 #include "coupler/terms/inertia.h"
 #include "coupler/terms/outside.h"
 #include "coupler/terms/slip.h"
-
-static void ReadOptions(CoracleCase file, CouplerOptions *o)
-{
-  o->relaxation = CoracleCaseNumberOr(file, "coupler.relaxation", 10.0, 0.0, HUGE_VAL);
-  if (o->relaxation <= 0.0)
-    CoracleCaseRefuse(file, "coupler.relaxation", "expected a number > 0, found %g", o->relaxation);
-}
 
 static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
 {
@@ -20,15 +13,11 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
   for (int p = 0; p < o->pairs.n; p++) {
     const int k = o->pairs.pair[p].b;
     const SourceTriangle *source = &o->source[o->pairs.pair[p].a];
-    if (source->is_shell) {
-      const double dxw = WallExtent((const double(*)[2])o->x[k], source->normal);
-      c->term[p].a =
-          WallCoefficientOf(WALL_PENALTY * o->mu[k] / (c->options.thickness * dxw), source->normal);
-    } else {
-      c->term[p].a = WallCoefficientIsotropic(c->options.relaxation * o->rho[k] / c->dt);
-    }
+    if (!source->is_shell) continue;
+    const double dxw = WallExtent((const double(*)[2])o->x[k], source->normal);
+    c->term[p].a = WallCoefficientOf(WALL_PENALTY * o->mu[k] / (c->options.thickness * dxw), source->normal);
   }
-  PetscCall(InertiaCoefficients(o, solid, c->dt, c->options.sigma_among_phases, c->term, c->source));
+  PetscCall(InertiaCoefficients(o, solid, c->dt, c->options.capillary, c->term, c->source));
   OutsideDensity(o, c->element);
   SlipTensors(o, c->source, c->element);
   PetscCall(DisplacedDensity(o, solid, c->element, c->source, &c->harmonic, c->displaced));
@@ -37,7 +26,5 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
   PetscFunctionReturn(0);
 }
 
-const CouplerModeTable COUPLER_MODE_REACTION = {.velocity = COUPLER_VELOCITY_END,
-                                                .read_options = ReadOptions,
-                                                .coefficients = Coefficients,
-                                                .force = CouplerConservativeForce};
+const CouplerModeTable COUPLER_MODE_REACTION = {
+    .velocity = COUPLER_VELOCITY_END, .coefficients = Coefficients, .force = CouplerConservativeForce};

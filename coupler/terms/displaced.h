@@ -10,7 +10,7 @@
 #include "coupler/geometry/harmonic.h"
 #include "coupler/terms/wall_term.h"
 
-/* Collective, after OutsideDensity and SlipTensors: displaced[nnodes], kg/m3, rho_o - rho_f inside what is held by inertia; 0 where nothing
+/* Collective, after OutsideDensity and SlipTensors: displaced[nnodes], kg/m3, rho_o - rho_f inside what is held among phases; 0 where nothing
  * is, and in solids without fluid beside them.  *harmonic: of the solid's elements, NULL: not known yet; the caller destroys it. */
 PetscErrorCode DisplacedDensity(const Overlap overlap, const SolidState *solid, const ElementTerm element[],
                                 const SourceTerm source[], Harmonic *harmonic, double displaced[]);

@@ -40,29 +40,30 @@ static double TriangleDensity(const double rho[3])
   return n ? sum / n : 0.0;
 }
 
-PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt,
-                                   PetscBool sigma_among_phases, PairTerm term[], SourceTerm source[])
+PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt, PetscBool capillary,
+                                   PairTerm term[], SourceTerm source[])
 {
-  const PetscBool heavy = (PetscBool)(o->phases && !sigma_among_phases);
   double *rho, (*vertex)[3];
 
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2(solid->nnodes, &rho, o->nsources, &vertex));
   PetscCall(NodeDensities(o, solid, rho));
   PetscCall(OverlapNodesToSources(o, 1, rho, (double *)vertex));
+  const double of_held = capillary ? INERTIA_HELD_CAPILLARY : INERTIA_HELD;
   const double heaviest = o->pairs.n ? INERTIA_MOST * o->rho[o->pairs.pair[0].b] : HUGE_VAL;
   for (int t = 0; t < o->nsources; t++) {
     const double density = TriangleDensity(vertex[t]);
     const PetscBool is_shell = o->source[t].is_shell ? PETSC_TRUE : PETSC_FALSE;
     source[t].held = (PetscBool)(density == 0.0);
-    source[t].density = is_shell ? 0.0 : source[t].held && heavy ? heaviest : fmin(density, heaviest);
+    source[t].bulk = (PetscBool)(source[t].held && !is_shell && (!o->phases || capillary));
+    source[t].density = is_shell ? 0.0 : source[t].held ? heaviest : fmin(density, heaviest);
   }
   for (int p = 0; p < o->pairs.n; p++) {
     const double rho_f = o->rho[o->pairs.pair[p].b], rho_s = source[o->pairs.pair[p].a].density;
     if (rho_s == 0.0) continue;
-    term[p].a = WallCoefficientIsotropic(0.0);
     term[p].rho = rho_f;
-    term[p].inertia = (fmax(rho_s, rho_f) - rho_f) / dt;
+    const PetscBool bulk = source[o->pairs.pair[p].a].bulk;
+    term[p].inertia = (bulk ? of_held * rho_f : fmax(rho_s, rho_f) - rho_f) / dt;
   }
   PetscCall(PetscFree2(rho, vertex));
   PetscFunctionReturn(0);
@@ -106,11 +107,14 @@ static double KeptPart(const Overlap o, const SourceTerm source[], const Element
   return fmin(1.0, ratio * (o->rho[k] + element->outside) * area / excess);
 }
 
-static PetscBool IsHeld(const Overlap o, const SourceTerm source[], int e)
+/* A source that is held and overlaps element e, or NULL. */
+static const SourceTerm *HeldIn(const Overlap o, const SourceTerm source[], int e)
 {
-  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++)
-    if (IsHeldByInertia(&source[o->pairs.pair[o->of_element[i]].a])) return PETSC_TRUE;
-  return PETSC_FALSE;
+  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
+    const SourceTerm *s = &source[o->pairs.pair[o->of_element[i]].a];
+    if (IsHeldInside(s)) return s;
+  }
+  return NULL;
 }
 
 /* P of D, whose trace is 1 and the difference of whose principal values 1 - 2 s, or which is 0. */
@@ -126,11 +130,13 @@ static WallCoefficient Sharpened(const WallCoefficient *d, double k)
 void InertiaStart(Overlap o, const SourceTerm source[], double dt, ElementTerm element[], PairTerm term[])
 {
   for (int e = 0; e < o->ncoupled; e++) {
-    const PetscBool held = IsHeld(o, source, e);
-    const double kept = KeptPart(o, source, &element[e], held ? INERTIA_HELD_RATIO : INERTIA_KEPT_RATIO, e);
-    const WallCoefficient along = Sharpened(held ? &element[e].along : &element[e].tangential, kept);
+    const SourceTerm *held = HeldIn(o, source, e);
+    const double ratio = !held ? INERTIA_KEPT_RATIO : held->bulk ? 0.0 : INERTIA_HELD_RATIO;
+    const double kept = KeptPart(o, source, &element[e], ratio, e);
+    const WallCoefficient along =
+        Sharpened(held && !held->bulk ? &element[e].along : &element[e].tangential, kept);
     element[e].covered =
-        (PetscBool)(!o->phases && WallIsZero(&element[e].tangential) && IsCovered(o, source, e));
+        (PetscBool)(!o->phases && !held && WallIsZero(&element[e].tangential) && IsCovered(o, source, e));
     element[e].kept = o->phases && !held && !element[e].shared ? WallCoefficientIsotropic(kept)
                                                                : WallCoefficientScaled(&along, kept);
     element[e].freed = WallCoefficientScaled(&along, 1.0 - kept);
@@ -199,7 +205,8 @@ PetscErrorCode InertiaExplicitFraction(Overlap o, const SolidState *solid, const
   for (int p = 0; p < o->pairs.n; p++) {
     const SupermeshPair *pair = &o->pairs.pair[p];
     if (o->source[pair->a].is_shell) continue;
-    const double fraction = fmax(0.0, 1.0 - source[pair->a].density / o->rho[pair->b]);
+    const SourceTerm *s = &source[pair->a];
+    const double fraction = s->bulk ? 1.0 : fmax(0.0, 1.0 - s->density / o->rho[pair->b]);
     for (int i = 0; i < 3; i++) {
       vertex[pair->a][i][AREA] += pair->area;
       vertex[pair->a][i][EXPLICIT] += fraction * pair->area;

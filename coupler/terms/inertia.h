@@ -70,13 +70,21 @@
  * for 15 % more steps.)  In one fluid q is of a: with a~ the tip of the beam of cases/flexible_beam, FSI1 with le 0.008, is 0.30
  * instead of 0.70 mm high after 6 s (reference 0.82).
  *
- * Where nodes have no mobility the solid is held: in one fluid by sigma towards v, among phases as one of INERTIA_MOST times the density of
- * the phase that fills it, whose inertia counts along the surface as that of other heavy ones does in one fluid (P, with D = I - mean of
- * its n n), but as at most INERTIA_HELD_RATIO times the fluid's mass.  Held by sigma it is to the pressure what fills it, air: a caisson in
- * still water 0.5 m deep set the water and the air beside it in motion with 6 m/s.  (With 1e5 times, 4e-4 of the water that a wall holds back 0.5 m deep passes it in a second, with 1e6 nothing.)  Where
- * surface tension is resolved, elements at the interface being smaller than the capillary length sqrt(tension/(density g)), it is held by
- * sigma all the same: a line's force in an element that is held by inertia does not balance the pressure of the drop beside it (a drop at
- * 120 degrees on a block stood at 108 and never came to rest). */
+ * Where nodes have no mobility the solid is held: the fluid does not move it.
+ *
+ *   One fluid.  m = INERTIA_HELD rho_f/dt, across the surface alone (G = I - P, with k = 0), which begins with the velocity u_s that is predicted for
+ *   the step's end in place of v.  The solid's velocity is also the bulk velocity there
+ *   (ms, us of wall_term.h), which the pressure makes free of divergence: what an element that the surface crosses conducts is what of it is open.
+ *   u itself yields to the pressure's increment phi by 1/INERTIA_HELD of what the fluid would, so that a flow past narrow gaps is steady as soon as
+ *   viscosity lets it be, and what the solid resists is in its reaction.  (Held in the momentum equation alone, by a penalty, it was to phi what the fluid is: where a
+ *   part w/H of a channel was open, a step took off w/H of what the pressure lacked.)
+ *
+ *   Among phases, where phi is not an increment, what is held is one of INERTIA_MOST times the density of the phase that fills it.
+ *   Its inertia counts along the surface as that of other heavy ones does in one fluid (P, with D = I - mean of its n n), but as at most
+ *   INERTIA_HELD_RATIO times the fluid's mass.  (With 1e5 times, 4e-4 of the water that a wall holds back 0.5 m deep passes it in a second, with 1e6 nothing.)
+ *   Where surface tension is resolved, elements at the interface being smaller than the capillary length sqrt(tension/(density g)), it is held
+ *   as in one fluid, but by INERTIA_HELD_CAPILLARY and along the surface, too: a line's force in an element of so much inertia does not balance the pressure of the drop beside it
+ *   (a drop at 120 degrees on a block stood at 108 and never came to rest). */
 #ifndef CORACLE_INERTIA_H
 #define CORACLE_INERTIA_H
 #include "coupler/geometry/overlap.h"
@@ -94,17 +102,26 @@
 
 #define INERTIA_MOST 1e6
 
-/* Collective.  Density and held of source[nsources]: rho_s of volume triangles, at most INERTIA_MOST times rho_f; 0 for the shell's, and where all
- * nodes are held by sigma.  Where it is not 0, term[pairs.n] gets the inertia above and a = 0. */
-PetscErrorCode InertiaCoefficients(Overlap overlap, const SolidState *solid, double dt,
-                                   PetscBool sigma_among_phases, PairTerm term[], SourceTerm source[]);
+/* What is held in one fluid counts as so many times the fluid's density more than it.  With 10, 100 and 1000 the drag of 2D-1 (tests/coupled/channel.sh)
+ * is - 0.17, - 0.07 and + 0.03 % off, the largest lift of 2D-2 - 0.5, - 0.2 and + 0.3 %, and a gap of 4 elements is 0.16, 0.14 and 0.13 of one too wide
+ * (gap.sh).  With 30 000 a crossed element holds the fluid beside the solid, too: an array of discs has a quarter more drag. */
+#define INERTIA_HELD 100.0
+
+/* The same where surface tension is resolved.  On meshes of 5 elements a radius a drop at 120 degrees comes to rest at 120 to 122 with 10, wherever it lies in
+ * its elements; with 20 at 124 to 130, with 100 at 115 to 122 (tests/coupled/wetting.sh). */
+#define INERTIA_HELD_CAPILLARY 10.0
+
+/* Collective.  Density, held and bulk of source[nsources]: rho_s of volume triangles, at most INERTIA_MOST times rho_f, and so many times where all
+ * nodes are held; 0 for the shell's.  term[pairs.n] gets the inertia above.  capillary: surface tension is resolved. */
+PetscErrorCode InertiaCoefficients(Overlap overlap, const SolidState *solid, double dt, PetscBool capillary,
+                                   PairTerm term[], SourceTerm source[]);
 /* Local, after InertiaCoefficients, OutsideDensity and SlipTensors: start of term[pairs.n], kept and covered of element[ncoupled]. */
 void InertiaStart(Overlap overlap, const SourceTerm source[], double dt, ElementTerm element[],
                   PairTerm term[]);
 /* Collective: a~ of acceleration[nnodes][2], in place, where the fluid has phases. */
 PetscErrorCode InertiaNodalForces(Overlap overlap, const SolidState *solid, double acceleration[]);
 /* Collective.  explicit_fraction[nnodes], 0 .. 1: how much of a node's motion the fluid's solve takes from the
- * interface velocity: 1 where the node is held, 1 - rho_s/rho_f where the solid is lighter than the fluid,
+ * interface velocity: 1 where the node is held in one fluid, 1 - rho_s/rho_f where the solid is lighter than the fluid,
  * else 0. */
 PetscErrorCode InertiaExplicitFraction(Overlap overlap, const SolidState *solid, const SourceTerm source[],
                                        double explicit_fraction[]);

@@ -37,9 +37,7 @@ void SlipCoefficients(const Overlap o, const ElementTerm element[], PairTerm ter
     const WallCoefficient *d = &element[o->coupled_index[p]].tangential;
     if (WallIsZero(d)) continue;
     const double friction = SLIP_FRICTION * o->mu[pair->b] / o->area[pair->b];
-    WallCoefficient *a = &term[p].a;
-    const double difference = friction - a->xx; /* a is isotropic */
-    *a = (WallCoefficient){a->xx + difference * d->xx, difference * d->xy, a->yy + difference * d->yy};
+    term[p].a = WallCoefficientScaled(d, friction);
   }
 }
 

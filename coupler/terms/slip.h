@@ -48,7 +48,7 @@
 
 /* Local, after InertiaCoefficients: D, along, shared and open of element[overlap->ncoupled]. */
 void SlipTensors(const Overlap overlap, const SourceTerm source[], ElementTerm element[]);
-/* Local: a of the pairs in the solid's volume, isotropic so far, becomes (I - D) a + SLIP_FRICTION mu/|K| D. */
+/* Local: a of the pairs in the solid's volume becomes SLIP_FRICTION mu/|K| D. */
 void SlipCoefficients(const Overlap overlap, const ElementTerm element[], PairTerm term[]);
 /* Local: r -= D r of all corrections[overlap->ncoupled]. */
 void SlipCorrection(const Overlap overlap, const ElementTerm element[], CoracleCorrection correction[]);

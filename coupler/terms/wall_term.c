@@ -38,7 +38,7 @@ static void AddInertia(const SupermeshPair *pair, const PairTerm *term, const El
   LinearFieldAdd(1.0, &body, density);
   for (int c = 0; c < 2; c++) density->value[c] -= element->outside * gravity[c];
   if (!WallIsZero(&term->start)) {
-    const LinearField start = LinearFieldAt(&source->start, pair->centre);
+    const LinearField start = LinearFieldAt(InertiaBegins(source), pair->centre);
     WallAdd(&term->start, &start, density);
   }
   MassMomentsAdd(term->inertia, mass, &k->inertia);
@@ -52,7 +52,7 @@ static void AddPair(const SupermeshPair *pair, const PairTerm *term, const Eleme
                     ElementSums *k, WallSums *w)
 {
   const PetscBool is_free = source->density > 0.0 ? PETSC_TRUE : PETSC_FALSE,
-                  held = (PetscBool)(!is_shell && !is_free);
+                  held = (PetscBool)(!is_shell && (!is_free || source->bulk));
   if (source->held && !is_shell) k->flags |= CORACLE_IS_HELD;
   const MassMoments mass = PairMass(pair, d);
   LinearField density = {{0.0}, {{0.0}}};

@@ -1,6 +1,6 @@
 /* The coupling term s_c = a (u_s - u) in the fluid [37]-[39], assembled pair by pair.
  *
- * Each pair of the overlap (T, K) has one symmetric 2 x 2 coefficient a, kg/(m3 s): sigma I where T belongs
+ * Each pair of the overlap (T, K) has one symmetric 2 x 2 coefficient a, kg/(m3 s): in mode reaction the friction of slip.h where T belongs
  * to the solid's volume, the wall term where it belongs to the shell,
  *
  *     a = mu / (dr dxw) (I + n n / 3)          [37], dr the shell's thickness, dxw the extent of K along n
@@ -11,10 +11,10 @@
  *
  *     a                 =  a B                s   =  a C^T u_s + C^T q + start C^T v
  *     implicit inertia  =  m B, with a tensor of the element (inertia.h)
- *     ms                =  B                  us  =  C^T u_s          T in the solid's volume, held by sigma
+ *     ms                =  B                  us  =  C^T u_s          T in the solid's volume: its velocity is the bulk's
  *
  * with q a body force, linear on T, m the solid's inertia in the fluid's solve and start the inertia that begins with the
- * solid's velocity v (inertia.h); T is held where it has none.  The reaction (force.h) is made of the same coefficients and
+ * solid's velocity v (inertia.h); the velocity of T is the bulk's where it has no inertia, or is held (SourceTerm.bulk).  The reaction (force.h) is made of the same coefficients and
  * integrals, so what the fluid gains the solid loses.  No field is projected, so none undershoots: a sum of
  * positive semidefinite coefficients times Gram matrices is positive semidefinite. */
 #ifndef CORACLE_WALL_TERM_H
@@ -96,18 +96,25 @@ typedef struct {
 
 /* What a source triangle's vertices have, with its basis as the origin. */
 typedef struct {
-  double density;                     /* rho_s, kg/m3; 0: of the shell, or held by sigma (inertia.h) */
-  PetscBool held;                     /* its nodes have no mobility; shells, too */
-  LinearField velocity;               /* u_s, that the fluid couples to, m/s */
-  LinearField start;                  /* v, the solid's at the step's start, m/s */
-  LinearField force;                  /* rho_s a of the body force (inertia.h); weight of displaced.h; N/m3 */
+  double density;       /* rho_s, kg/m3 (inertia.h); 0: of the shell, or in other modes than reaction */
+  PetscBool held;       /* its nodes have no mobility; shells, too */
+  PetscBool bulk;       /* held, and its velocity is the bulk velocity there: ms, us */
+  LinearField velocity; /* u_s, that the fluid couples to, m/s */
+  LinearField start;    /* v, the solid's at the step's start, m/s */
+  LinearField force;    /* rho_s a of the body force (inertia.h); weight of displaced.h; N/m3 */
   LinearField interface_acceleration; /* a' of the body force, m/s2 */
 } SourceTerm;
 
-/* What is held among phases (inertia.h). */
-static inline int IsHeldByInertia(const SourceTerm *source)
+/* What is held, in mode reaction (inertia.h), but for its shell. */
+static inline int IsHeldInside(const SourceTerm *source)
 {
   return source->held && source->density > 0.0;
+}
+
+/* The velocity that the solid's inertia begins with (inertia.h). */
+static inline const LinearField *InertiaBegins(const SourceTerm *source)
+{
+  return source->bulk ? &source->velocity : &source->start;
 }
 
 /* to += a q */
@@ -121,16 +128,16 @@ static inline void WallAdd(const WallCoefficient *a, const LinearField *q, Linea
   }
 }
 
-/* The body force q on a pair with a triangle that is not held by sigma, seen from the pair's centre. */
+/* The body force q on a pair with a triangle that has inertia, seen from the pair's centre. */
 static inline LinearField PairBodyForce(const PairTerm *term, const ElementTerm *element,
                                         const SourceTerm *source, const double gravity[2],
                                         const double centre[2])
 {
   const double excess = fmax(term->rho - source->density, 0.0);
-  if (IsHeldByInertia(source) && element->open) /* the weight of displaced.h, less the fluid's own */
+  if (IsHeldInside(source) && element->open) /* the weight of displaced.h, less the fluid's own */
     return (LinearField){{element->outside * gravity[0], element->outside * gravity[1]}, {{0.0}}};
   const LinearField force = LinearFieldAt(&source->force, centre);
-  if (IsHeldByInertia(source)) return force;
+  if (IsHeldInside(source)) return force;
   LinearField q = force;
   if (!WallIsZero(&element->freed) && !element->shared) { /* the solid is heavier */
     const WallCoefficient freed = WallCoefficientScaled(&element->freed, term->rho / source->density - 1.0);

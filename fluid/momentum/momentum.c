@@ -109,7 +109,7 @@ static PetscBool IsHeavy(const MomentumSolver s, const MomentumStep *step, const
 }
 
 /* The largest ratio, over all ranks, of the inertia of what fills an element to the fluid's, 1 among phases, where solids are compared
- * with the water's; *heavy: some elements are. */
+ * with the water's, and of what is held, whose velocity is known; *heavy: some elements are. */
 static PetscErrorCode LargestInertia(const MomentumSolver s, const MomentumStep *step, double *ratio,
                                      PetscBool *heavy)
 {
@@ -119,7 +119,7 @@ static PetscErrorCode LargestInertia(const MomentumSolver s, const MomentumStep 
   PetscFunctionBeginUser;
   for (int k = 0; k < n; k++) {
     if (IsHeavy(s, step, entry + k)) most[1] = 1.0;
-    if (step->inverse_density) continue;
+    if (step->inverse_density || entry[k].flags & CORACLE_IS_HELD) continue;
     most[0] = PetscMax(most[0], 1.0 + SolidDensity(s, step, entry + k) / step->rho[entry[k].element]);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, s->domain->mesh->comm));

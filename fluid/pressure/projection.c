@@ -127,16 +127,17 @@ static PetscErrorCode Contrast(const Mesh *m, const double rho[], double *contra
 static PetscErrorCode Assemble(ProjectionSolver s, const ProjectionStep *step)
 {
   const WeightedProjectionStep weighted = {step->dt, step->rho, step->solid, step->inertia};
-  PetscBool inertia;
-  double contrast;
+  const PetscBool had_inertia = s->inertia;
+  WeightedProjectionFound found;
+  double contrast = 1.0;
   PetscFunctionBeginUser;
-  PetscCall(WeightedProjectionPrepare(s->weighted, &weighted, &inertia));
-  const PetscBool current = (PetscBool)(HasCoefficient(s, step) && !s->inertia);
-  s->inertia = (PetscBool)(inertia && step->inertia);
-  if (current && !s->inertia) PetscFunctionReturn(0);
+  PetscCall(WeightedProjectionPrepare(s->weighted, &weighted, &found));
+  s->inertia = (PetscBool)(found.active && step->inertia);
+  if (HasCoefficient(s, step) && had_inertia == s->inertia && (found.same || !s->inertia))
+    PetscFunctionReturn(0);
   SetBlocks(s, step);
   PetscCall(Contrast(s->domain->mesh, step->rho, &contrast));
-  PetscCall(PressureSolverSetMatrix(s->solver, (PetscBool)(inertia || step->revision > 0), contrast));
+  PetscCall(PressureSolverSetMatrix(s->solver, (PetscBool)(found.moves || step->revision > 0), contrast));
   s->revision = step->revision;
   s->tensor = (PetscBool) !!step->inverse_density;
   PetscFunctionReturn(0);

@@ -7,8 +7,8 @@
  * u_hat* = u* + M^-1 (us - ms u*): inside the solid the flow that must be free of divergence is the solid's.
  * Where the solid has implicit inertia weighted_projection.h replaces dt/rho.
  *
- * The matrix is made once, and again when the density's revision changes (material.h) or the solid has
- * implicit inertia; how it is solved: pressure_solver.h. */
+ * The matrix is made once, and again when the density's revision (material.h) or the solid's implicit inertia times dt
+ * changes; how it is solved: pressure_solver.h. */
 #ifndef FLUID_PROJECTION_H
 #define FLUID_PROJECTION_H
 #include "fluid/discretization/domain.h"

@@ -1,6 +1,9 @@
 #include "fluid/pressure/weighted_projection.h"
 #include "fluid/adapt/metric_tensor.h"
 
+/* Inertia times dt is the same where its entries differ by no more than this of the largest. */
+#define SAME 1e-12
+
 enum { N = 3 }; /* velocity unknowns of an element and component */
 
 /* The inertia tensor's principal values, of the unit vector `axis` and of what is across, axis turned by a right angle. */
@@ -10,14 +13,23 @@ typedef struct {
 
 typedef struct {
   Principal tensor;
-  double along[2][N][N]; /* W^-1 M of the components along the axis and across */
+  double along[2][N][N]; /* W^-1 M/dt of the components along the axis and across */
 } Response;
+
+/* What a response is made of. */
+typedef struct {
+  int element;
+  double density;                    /* the fluid's, kg/m3 */
+  double times_dt[N * N], tensor[4]; /* the implicit inertia and its tensor */
+} EntryInertia;
 
 struct WeightedProjection_s {
   const FluidDomain *domain; /* borrowed */
   SolidCoupling solid;       /* borrowed: of the current step */
   double dt;
-  Response *response; /* [entries of solid] */
+  int n;                 /* entries of solid, -1: there are no responses yet */
+  EntryInertia *inertia; /* [n], element -1 where there is none */
+  Response *response;    /* [n] */
 };
 
 PetscErrorCode WeightedProjectionCreate(const FluidDomain *domain, WeightedProjection *w)
@@ -25,6 +37,7 @@ PetscErrorCode WeightedProjectionCreate(const FluidDomain *domain, WeightedProje
   PetscFunctionBeginUser;
   PetscCall(PetscNew(w));
   (*w)->domain = domain;
+  (*w)->n = -1;
   PetscFunctionReturn(0);
 }
 
@@ -32,7 +45,7 @@ PetscErrorCode WeightedProjectionDestroy(WeightedProjection *w)
 {
   PetscFunctionBeginUser;
   if (!*w) PetscFunctionReturn(0);
-  PetscCall(PetscFree((*w)->response));
+  PetscCall(PetscFree2((*w)->response, (*w)->inertia));
   PetscCall(PetscFree(*w));
   PetscFunctionReturn(0);
 }
@@ -130,7 +143,7 @@ PetscErrorCode WeightedProjectionSolve(double area, double rho_dt, const Coracle
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode FindResponse(double area, double rho_dt, const CoracleCoupling *k, Response *r)
+static PetscErrorCode FindResponse(double area, double rho, double dt, const CoracleCoupling *k, Response *r)
 {
   PetscFunctionBeginUser;
   r->tensor = PrincipalOf(k->inertia_tensor);
@@ -140,12 +153,12 @@ static PetscErrorCode FindResponse(double area, double rho_dt, const CoracleCoup
       continue;
     }
     MassMatrix(area, r->along[c]);
-    PetscCall(DivideColumns(area, rho_dt, r->tensor.value[c], k->implicit_inertia, r->along[c]));
+    PetscCall(DivideColumns(area, rho, dt * r->tensor.value[c], k->implicit_inertia, r->along[c]));
   }
   PetscFunctionReturn(0);
 }
 
-/* u[2][N] of grad[N][2], values at the element's vertices */
+/* u[2][N], over dt, of grad[N][2], values at the element's vertices */
 static void Respond(const Response *r, const double grad[N][2], double u[2 * N])
 {
   double v[2 * N];
@@ -164,24 +177,85 @@ static PetscBool IsWeighted(const CoracleCoupling *k)
   return k && k->flags & CORACLE_HAS_INERTIA ? PETSC_TRUE : PETSC_FALSE;
 }
 
-PetscErrorCode WeightedProjectionPrepare(WeightedProjection w, const WeightedProjectionStep *s,
-                                         PetscBool *active)
+/* Held, and not moving as prescribed. */
+static PetscBool IsAtRest(const CoracleCoupling *k)
 {
-  int n, any = 0;
+  return (PetscBool)(k->flags & CORACLE_IS_HELD && k->velocity[0] == 0.0 && k->velocity[1] == 0.0);
+}
+
+static EntryInertia InertiaOf(const CoracleCoupling *k, const WeightedProjectionStep *s)
+{
+  EntryInertia inertia = {.element = -1};
+  if (!IsWeighted(k)) return inertia;
+  inertia.element = k->element;
+  inertia.density = s->rho[k->element];
+  for (int i = 0; i < N * N; i++) inertia.times_dt[i] = s->dt * k->implicit_inertia[i / N][i % N];
+  for (int i = 0; i < 4; i++) inertia.tensor[i] = k->inertia_tensor[i / 2][i % 2];
+  return inertia;
+}
+
+static PetscBool AreClose(int n, const double a[], const double b[])
+{
+  double largest = 0.0, difference = 0.0;
+  for (int i = 0; i < n; i++) {
+    largest = PetscMax(largest, fabs(a[i]));
+    difference = PetscMax(difference, fabs(a[i] - b[i]));
+  }
+  return (PetscBool)(difference <= SAME * largest);
+}
+
+static PetscBool IsSame(const EntryInertia *a, const EntryInertia *b)
+{
+  return (PetscBool)(a->element == b->element && a->density == b->density &&
+                     AreClose(N * N, a->times_dt, b->times_dt) && AreClose(4, a->tensor, b->tensor));
+}
+
+/* Whether the entries' inertia times dt, and the density there, are those of the last responses, on this rank. */
+static PetscBool HasSame(WeightedProjection w, int n, const CoracleCoupling entry[],
+                         const WeightedProjectionStep *s)
+{
+  PetscBool same = (PetscBool)(n == w->n);
+  for (int k = 0; k < n && same; k++) {
+    const EntryInertia inertia = InertiaOf(&entry[k], s);
+    same = IsSame(&inertia, &w->inertia[k]);
+  }
+  return same;
+}
+
+static PetscErrorCode SetResponses(WeightedProjection w, int n, const CoracleCoupling entry[],
+                                   const WeightedProjectionStep *s)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscFree2(w->response, w->inertia));
+  PetscCall(PetscMalloc2(n, &w->response, n, &w->inertia));
+  w->n = n;
+  for (int k = 0; k < n; k++) {
+    const int e = entry[k].element;
+    w->inertia[k] = InertiaOf(&entry[k], s);
+    if (IsWeighted(&entry[k]))
+      PetscCall(FindResponse(w->domain->geometry[e].area, s->rho[e], s->dt, &entry[k], &w->response[k]));
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode WeightedProjectionPrepare(WeightedProjection w, const WeightedProjectionStep *s,
+                                         WeightedProjectionFound *found)
+{
+  enum { ACTIVE, MOVES, OTHER, NFLAGS };
+  int n, flag[NFLAGS] = {0};
   const CoracleCoupling *entry = SolidCouplingEntries(s->solid, &n);
   PetscFunctionBeginUser;
-  for (int k = 0; k < n; k++) any |= IsWeighted(entry + k);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_LOR, w->domain->mesh->comm));
-  *active = (PetscBool)any;
+  for (int k = 0; k < n; k++) {
+    flag[ACTIVE] |= IsWeighted(entry + k);
+    flag[MOVES] |= IsWeighted(entry + k) && !IsAtRest(entry + k);
+  }
+  flag[OTHER] = s->inertia && !HasSame(w, n, entry, s);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, flag, NFLAGS, MPI_INT, MPI_LOR, w->domain->mesh->comm));
+  *found =
+      (WeightedProjectionFound){(PetscBool)flag[ACTIVE], (PetscBool)flag[MOVES], (PetscBool)!flag[OTHER]};
   w->solid = s->solid;
   w->dt = s->dt;
-  PetscCall(PetscFree(w->response));
-  PetscCall(PetscMalloc1(n, &w->response));
-  for (int k = 0; k < n && s->inertia; k++) {
-    const int e = entry[k].element;
-    if (!IsWeighted(entry + k)) continue;
-    PetscCall(FindResponse(w->domain->geometry[e].area, s->rho[e] / s->dt, entry + k, &w->response[k]));
-  }
+  if (flag[OTHER]) PetscCall(SetResponses(w, n, entry, s));
   PetscFunctionReturn(0);
 }
 
@@ -201,7 +275,7 @@ PetscBool WeightedProjectionBlock(WeightedProjection w, int e, double block[6][6
     basis[r] = 1.0;
     P2Gradient(g->g, basis, grad);
     Respond(response, (const double(*)[2])grad, u);
-    for (int c = 0; c < 2; c++) P1MassApply(g->area / w->dt, u + 3 * c, moved[c]);
+    for (int c = 0; c < 2; c++) P1MassApply(g->area, u + 3 * c, moved[c]);
     for (int q = 0; q < 6; q++) block[r][q] = 0.0;
     P2GradientTranspose(g->g, (const double(*)[3])moved, block[r]);
   }
@@ -214,6 +288,6 @@ PetscBool WeightedProjectionVelocity(WeightedProjection w, int e, const double g
   double change[2 * N];
   if (!response) return PETSC_FALSE;
   Respond(response, grad, change);
-  for (int i = 0; i < 2 * N; i++) u[i] -= change[i];
+  for (int i = 0; i < 2 * N; i++) u[i] -= w->dt * change[i];
   return PETSC_TRUE;
 }

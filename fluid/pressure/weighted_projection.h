@@ -22,9 +22,17 @@ typedef struct {
 
 PetscErrorCode WeightedProjectionCreate(const FluidDomain *domain, WeightedProjection *w);
 PetscErrorCode WeightedProjectionDestroy(WeightedProjection *w);
-/* Responses of the current step; *active: some element of any rank has implicit inertia.  Collective. */
+/* Of the elements with implicit inertia, on any rank. */
+typedef struct {
+  PetscBool active; /* there are some */
+  PetscBool moves;  /* not all of them are of solids that are held at rest */
+  PetscBool
+      same; /* their inertia times dt, and the density there, are those of the last Prepare, and so are the blocks */
+} WeightedProjectionFound;
+
+/* Responses of the current step.  Collective. */
 PetscErrorCode WeightedProjectionPrepare(WeightedProjection w, const WeightedProjectionStep *step,
-                                         PetscBool *active);
+                                         WeightedProjectionFound *found);
 /* block[q][r] = int of grad N_q . M W^-1 M grad N_r/dt over the P2 basis of element e; false, and nothing written,
  * where it has no implicit inertia. */
 PetscBool WeightedProjectionBlock(WeightedProjection w, int e, double block[6][6]);

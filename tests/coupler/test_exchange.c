@@ -166,8 +166,8 @@ static void RunCoupler(int argc, char **argv, const char *folder, double end, do
   WriterTotals totals;
   Server server;
   MPI_Comm comm;
-  c.options = (CouplerOptions){
-      .mode = COUPLER_REACTION, .thickness = 0.002, .relaxation = 10.0, .gravity = {GRAVITY[0], GRAVITY[1]}};
+  c.options =
+      (CouplerOptions){.mode = COUPLER_REACTION, .thickness = 0.002, .gravity = {GRAVITY[0], GRAVITY[1]}};
   c.folder = folder;
   CHECK(!ServerOpen(argc, argv, &comm, &server), "open");
   PETSC_COMM_WORLD = comm;

@@ -2,6 +2,7 @@
 /* Nodes with a mobility: momentum is conserved to round-off, fluid and solid move together however light the
  * solid is, and fall freely together. */
 #include "coupler/step/coupler_impl.h"
+#include "coupler/terms/inertia.h"
 #include "tests/coupler/synthetic.h"
 #include "tests/coupler/synthetic_momentum.h"
 
@@ -33,8 +34,7 @@ static void MakeSolid(double density, int rigid)
  * how far that is from free fall, of what free fall has added. */
 static double Step(double kick, ForceTotals *totals, double v[2])
 {
-  const CouplerOptions options = {
-      .mode = COUPLER_REACTION, .thickness = 0.002, .relaxation = 10.0, .gravity = {0.0, 0.0}};
+  const CouplerOptions options = {.mode = COUPLER_REACTION, .thickness = 0.002, .gravity = {0.0, 0.0}};
   const CoracleCoupling *coupling;
   const double *force;
   double total[3] = {0.0};
@@ -76,8 +76,7 @@ static double Step(double kick, ForceTotals *totals, double v[2])
 static void CheckSurface(double ratio, double kept)
 {
   static const double WIND[2] = {1.0, 2.0};
-  const CouplerOptions options = {
-      .mode = COUPLER_REACTION, .thickness = 0.002, .relaxation = 10.0, .gravity = {0.0, 0.0}};
+  const CouplerOptions options = {.mode = COUPLER_REACTION, .thickness = 0.002, .gravity = {0.0, 0.0}};
   const CoracleCoupling *coupling;
   Coupler c;
   int n, rank, size, crossed = 0;
@@ -140,8 +139,12 @@ int main(int argc, char **argv)
   CheckSurface(20.0, 1.0);
   CheckSurface(1e6, 0.0);
   MakeSolid(2.0, 1);
-  (void)Step(0.3, &totals, v);
+  (void)Step(0.0, &totals, v);
   CHECK(hypot(totals.reaction[0], totals.reaction[1]) < 1e-9,
-        "a rigid solid with the fluid's velocity: reaction (%g, %g)", totals.reaction[0], totals.reaction[1]);
+        "a held solid with the fluid's velocity: reaction (%g, %g)", totals.reaction[0], totals.reaction[1]);
+  (void)Step(0.3, &totals, v);
+  CHECK(totals.imbalance < 1e-12, "a held solid that the pressure acts on: imbalance %g", totals.imbalance);
+  CHECK(totals.reaction[1] > INERTIA_HELD / DT * RHO * SyntheticArea(&all_solid) * 0.3,
+        "it resists with %g N/m", totals.reaction[1]);
   return PetscFinalize();
 }

@@ -65,8 +65,7 @@ static int GlobalNode(long long gid)
 /* One step; two, so that the viscosities of the flow count in the wall term. */
 static void Run(MPI_Comm comm, CouplerMode mode, Result *r)
 {
-  const CouplerOptions options = {
-      .mode = mode, .thickness = 0.004, .relaxation = 10.0, .gravity = {0.3, -9.81}};
+  const CouplerOptions options = {.mode = mode, .thickness = 0.004, .gravity = {0.3, -9.81}};
   const CoracleCoupling *coupling;
   const CoracleCorrection *correction;
   const double *force;
