@@ -139,7 +139,7 @@ static PetscErrorCode SetSourceTerms(Coupler c, const double u[])
     const LinearField a = LinearFieldOf(basis, p + ACCELERATION, q + ACCELERATION, r + ACCELERATION);
     c->source[t].force = (LinearField){{0.0}, {{0.0}}};
     LinearFieldAdd(c->source[t].density, &a, &c->source[t].force);
-    if (IsHeldInside(&c->source[t]))
+    if (IsHeldByInertia(&c->source[t]))
       c->source[t].force = LinearFieldOf(basis, p + WEIGHT, q + WEIGHT, r + WEIGHT);
     c->source[t].interface_acceleration = LinearFieldOf(basis, p + INTERFACE, q + INTERFACE, r + INTERFACE);
   }

@@ -36,7 +36,7 @@ PetscErrorCode DisplacedDensity(const Overlap o, const SolidState *solid, const 
   PetscFunctionBeginUser;
   PetscCall(PetscArrayzero(displaced, n));
   if (!o->phases) PetscFunctionReturn(0);
-  for (int t = 0; t < o->nsources; t++) any |= IsHeldInside(&source[t]);
+  for (int t = 0; t < o->nsources; t++) any |= IsHeldByInertia(&source[t]);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_LOR, o->comm));
   if (!any) PetscFunctionReturn(0);
   PetscCall(PetscMalloc2(n, &node, n, &is_given));

@@ -49,21 +49,23 @@ PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt
   PetscCall(PetscMalloc2(solid->nnodes, &rho, o->nsources, &vertex));
   PetscCall(NodeDensities(o, solid, rho));
   PetscCall(OverlapNodesToSources(o, 1, rho, (double *)vertex));
-  const double of_held = capillary ? INERTIA_HELD_CAPILLARY : INERTIA_HELD;
   const double heaviest = o->pairs.n ? INERTIA_MOST * o->rho[o->pairs.pair[0].b] : HUGE_VAL;
   for (int t = 0; t < o->nsources; t++) {
     const double density = TriangleDensity(vertex[t]);
     const PetscBool is_shell = o->source[t].is_shell ? PETSC_TRUE : PETSC_FALSE;
     source[t].held = (PetscBool)(density == 0.0);
-    source[t].bulk = (PetscBool)(source[t].held && !is_shell && (!o->phases || capillary));
-    source[t].density = is_shell ? 0.0 : source[t].held ? heaviest : fmin(density, heaviest);
+    source[t].bulk = (PetscBool)(source[t].held && !is_shell && !o->phases);
+    const PetscBool none = (PetscBool)(is_shell || (source[t].held && capillary));
+    source[t].density = none ? 0.0 : source[t].held ? heaviest : fmin(density, heaviest);
   }
   for (int p = 0; p < o->pairs.n; p++) {
-    const double rho_f = o->rho[o->pairs.pair[p].b], rho_s = source[o->pairs.pair[p].a].density;
-    if (rho_s == 0.0) continue;
+    const int t = o->pairs.pair[p].a;
+    const double rho_f = o->rho[o->pairs.pair[p].b], rho_s = source[t].density;
     term[p].rho = rho_f;
-    const PetscBool bulk = source[o->pairs.pair[p].a].bulk;
-    term[p].inertia = (bulk ? of_held * rho_f : fmax(rho_s, rho_f) - rho_f) / dt;
+    if (rho_s > 0.0)
+      term[p].inertia = (source[t].bulk ? INERTIA_HELD * rho_f : fmax(rho_s, rho_f) - rho_f) / dt;
+    else if (!o->source[t].is_shell)
+      term[p].a = WallCoefficientIsotropic(HELD_PENALTY * rho_f / dt);
   }
   PetscCall(PetscFree2(rho, vertex));
   PetscFunctionReturn(0);
@@ -112,7 +114,7 @@ static const SourceTerm *HeldIn(const Overlap o, const SourceTerm source[], int 
 {
   for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
     const SourceTerm *s = &source[o->pairs.pair[o->of_element[i]].a];
-    if (IsHeldInside(s)) return s;
+    if (IsHeldByInertia(s)) return s;
   }
   return NULL;
 }

@@ -1,90 +1,99 @@
-/* The solid's own inertia in the fluid's solve (mode reaction), for solids that send their nodes' mobility and
- * acceleration (CoracleSetInertia).
+/* The solid's own inertia in the fluid's solve (mode reaction), for solids that send their nodes' mobility and acceleration
+ * (CoracleSetInertia).
  *
- * Fluid is everywhere, inside the solid too.  There it is given the solid's density rho_s (its mass per area
- * now) and the forces that act on the solid: with u^n its velocity at the step's start and a the solid's acceleration by all
- * forces but the fluid's,
+ * 1. Inside the solid the fluid has the solid's inertia.
  *
- *     rho_s (u - u^n)/dt  =  rho_s a - grad p + div tau            inside the solid,
+ * The fluid fills the whole domain, the inside of solids too.  There it is given the solid's density rho_s (its mass per area now) and the
+ * forces that act on the solid.  With u^n the fluid's velocity at the step's start and a the solid's acceleration by all forces but the fluid's,
  *
- * so that the fluid's solve moves fluid and solid together, by pressure too (implicit inertia in coracle.h),
- * and one coupling iteration is right at any density ratio >= 1.  As inertia and body force of the pairs
- * (wall_term.h), beside the fluid's own rho_f (u - u^n)/dt - rho_f g:
+ *     rho_s (u - u^n)/dt  =  rho_s a - grad p + div tau            inside the solid.
  *
- *     inertia  m = (rho_s - rho_f)/dt,     body force  q = rho_s a - rho_f g,
+ * So one solve moves fluid and solid together, the pressure's too (implicit inertia in coracle.h), and one coupling iteration is right at any
+ * density ratio >= 1.  The pairs (wall_term.h) add what this has beyond the fluid's own rho_f (u - u^n)/dt - rho_f g:
  *
- * and the force on the solid is the reaction to both plus the added inertia and buoyancy of force.h, together
+ *     inertia  m = (rho_s - rho_f)/dt,     body force  q = rho_s a - rho_f g.
+ *
+ * The force on the solid is the reaction to both plus the added inertia and the buoyancy of force.h, together
  * F = int rho_s N ((u+ - u^n)/dt - a).
  *
- * What of u^n is not the solid's velocity v is of the fluid that was there before, or, along the surface, slip (slip.h).  The
- * solid's inertia begins with v but for the slip, in elements that lie in the solid as a whole the fluid's, too:
+ * 2. The velocity that the inertia begins with.
  *
- *     m (u - D u^n - (I - D) v):   start  =  m (I - D) (+ rho_f/dt in covered elements),
+ * In u^n there is more than the solid's velocity v: the fluid's slip along the surface (slip.h), and, where the solid has come to since the last
+ * step, what the fluid did there.  The solid's inertia begins with v and the slip; in elements that lie in the solid as a whole (covered) that of the
+ * fluid begins with v, too:
  *
- * D of slip.h, 0 in covered elements.  Beside a fluid much lighter than the solid an element that its surface comes to cannot carry
- * the solid's mass along the surface: whatever velocity it begins with there, the fluid's is momentum that the fluid never had (a disc of
- * 2500 kg/m3 and 2 m/s in a fluid of 1 kg/m3, radius 0.02 m, le 0.006 m, made it as fast as 424 m/s, and itself 10 % faster within 0.1 s,
- * and a wall of rubber that swung in it was torn), the solid's holds the fluid to the surface, the more the shorter the steps (a cylinder of
- * 1000 and 10 000 times the fluid's density in the channel of tests/coupled/channel.yaml, le D/12, free to move, has 9 and 13 % more
- * drag than a fixed one).  So there only as much of the inertia counts along the surface as a light solid's:
+ *     m (u - D u^n - (I - D) v):   start  =  m (I - D) (+ rho_f/dt in covered elements),     D of slip.h, 0 in covered elements.
+ *
+ *   - If m began with u^n, an element that the surface crosses could keep a velocity through it.  The correction (force.h) takes a part of
+ *     that away in each step, so that the solid would leak the more the longer the steps are: FSI2 of cases/flexible_beam, a beam of ten times the
+ *     fluid's density, swung by 92, 78, 69 mm with steps of 4, 2, 1 ms (le 0.008 m; 71, 66, 62 with v).
+ *   - In covered elements the pressure displaces the fluid that was there within the step.  Otherwise the correction alone would give its momentum
+ *     to the solid, after the step, and the drag would grow with dt: a disc at Re 180 (row Yc20-200 of cases/falling_cylinder, U dt = le/2) is at
+ *     2 s 0.5 % slower than with half of the step; with it 0.2 %, and 0.6 % faster.
+ *
+ * 3. Solids much heavier than the fluid.
+ *
+ * An element that the surface of a heavy solid comes to cannot carry the solid's mass along the surface, whatever velocity that begins with.  With the
+ * fluid's it is momentum that the fluid never had: a disc of 2500 kg/m3 and 2 m/s in a fluid of 1 kg/m3 (radius 0.02 m, le 0.006 m) made it
+ * as fast as 424 m/s, and itself 10 % faster within 0.1 s, and a wall of rubber that swung in it was torn.  With the solid's the fluid is held to the
+ * surface, the more the shorter the steps: a cylinder of 1000 and 10 000 times the fluid's density in the channel of tests/coupled/channel.yaml
+ * (le D/12, free to move) has 9 and 13 % more drag than a fixed one.  So along the surface no more of the inertia counts than a light solid has:
  *
  *     m (G u - k P u^n - (I - P) v),     G  =  I - (1 - k) P   (CoracleCoupling.inertia_tensor),     kept  =  k P,
- *     k  =  min(1, INERTIA_KEPT_RATIO rho_o |K and S| / int_{K and S} (rho_s - rho_f)),     rho_o of outside.h, else rho_f,
+ *     k  =  min(1, INERTIA_KEPT_RATIO rho_o |K and S| / int_{K and S} (rho_s - rho_f)),     rho_o of outside.h, else rho_f.
  *
- * the rest, (1 - k) P, is moved by the forces on the solid alone, so that q there is rho_s a - rho_f g - (rho_s - rho_f) (1 - k) P a.
- * P is D where k = 1.  Of a heavy solid it is nearly the projector t t along the surface, t its direction in K: what D, a mean over
- * normals, lacks of it where the surface is curved is little, but little of a large m,
+ * The rest, (1 - k) P, is moved by the forces on the solid alone: q there is rho_s a - rho_f g - (rho_s - rho_f) (1 - k) P a.
+ * P is D where k = 1.  Of a heavy solid it is nearly the projector t t along the surface, t its direction in K, for D, a mean over normals, lacks
+ * little of that where the surface is curved, but little of a large m:
  *
  *     P  =  k D + (1 - k) min(1, CORNER (1 - 2 s)) t t,     s the mean of sin^2 of the normals' angle to the mean one.
  *
- * The cylinder's drag is then that of a fixed one within 1 % (k up to 21 times the fluid's density is 1; tests/coupled/wind.sh).
+ * The cylinder's drag is then that of a fixed one within 1 % (k is 1 up to 21 times the fluid's density; tests/coupled/wind.sh).  A solid of more
+ * than INERTIA_MOST times the fluid's density counts as one of so many times, on both sides of the coupling: beyond that round-off decides
+ * what is left along the surface.
  *
- * A solid of more than INERTIA_MOST times the fluid's density counts as one of so many times, on both sides of the coupling: beyond that
- * round-off decides what is left along the surface.
+ * Among phases D is 0, G is I and kept is k I; k is 1 in elements that the solid all but covers.
  *
- * Were m to begin with u^n, an element that the surface crosses could keep a velocity through
- * it: the correction (force.h) takes a part of that away in each step, so that the solid leaked the more the longer the steps are.
- * FSI2 of cases/flexible_beam, a beam of ten times the fluid's density, swung by 92, 78, 69 mm with steps of 4, 2, 1 ms (le 0.008 m;
- * 71, 66, 62 with v).  In covered elements the pressure displaces the fluid that was there within the step.  Without that its
- * momentum is given to the solid by the correction alone, after the step, and the drag grows with dt: a disc at Re 180 (row
- * Yc20-200 of cases/falling_cylinder, U dt = le/2) is at 2 s 0.5 % slower than with half of the step; with it 0.2 %, and 0.6 %
- * faster.
+ * 4. Solids lighter than the fluid.
  *
- * Among phases D is 0, G is I and kept is k, 1 in elements that the solid all but covers.
- *
- * A solid lighter than the fluid is filled with rho_f, which keeps m positive; the inertia in
- * excess, rho_f - rho_s, acts with the acceleration a' = (v - v^n)/dt of the interface velocity v,
+ * They are filled with rho_f, which keeps m positive.  The inertia in excess, rho_f - rho_s, acts with the acceleration a' = (v' - v)/dt of the
+ * interface velocity v',
  *
  *     q = rho_s a + (rho_f - rho_s) a' - rho_f g,
  *
- * and coupling iterations find v (coupling_iteration.h).
+ * and coupling iterations find v' (coupling_iteration.h).
  *
- * A solid sends a as forces on its nodes over their masses, m_l a; that field's forces are M a, M = int rho_s N N.  Where a
- * varies over few elements the two differ: the fluid inside is accelerated in each step by what the forces lack, and a body
- * that floats, whose a goes from 2 g below the water to 0 above, is pushed about.  Among phases q is therefore of
+ * 5. Forces that vary over few elements.
  *
- *     a~ = a + (1 - m_l^-1 M) a + ... + (1 - m_l^-1 M)^3 a,         M a~ -> m_l a
+ * A solid sends a as forces on its nodes over their masses, m_l a; the forces of the field a are M a, M = int rho_s N N.  Where a varies over few
+ * elements the two differ.  What the forces lack accelerates the fluid inside in each step, and a body that floats, whose a goes from 2 g
+ * below the water to 0 above, is pushed about.  So among phases q is of
  *
- * Not more of the series: forces that no fluid element sees, between nodes closer than its size, would be kept for ever; so a part of
- * them is let go in each step.  (With 16 terms the air beside a block at rest, of elements of half the fluid's size, is fast enough
- * for 15 % more steps.)  In one fluid q is of a: with a~ the tip of the beam of cases/flexible_beam, FSI1 with le 0.008, is 0.30
- * instead of 0.70 mm high after 6 s (reference 0.82).
+ *     a~ = a + (1 - m_l^-1 M) a + ... + (1 - m_l^-1 M)^3 a,         M a~ -> m_l a.
  *
- * Where nodes have no mobility the solid is held: the fluid does not move it.
+ * Not more of the series: forces between nodes closer than a fluid element, which it does not see, would be kept for ever; so a part of them is let
+ * go in each step.  (With 16 terms the air beside a block at rest, of elements of half the fluid's size, is fast enough for 15 % more steps.)
+ * In one fluid q is of a: with a~ the tip of the beam of cases/flexible_beam, FSI1 with le 0.008, is 0.30 instead of 0.70 mm high after
+ * 6 s (reference 0.82).
  *
- *   One fluid.  m = INERTIA_HELD rho_f/dt, across the surface alone (G = I - P, with k = 0), which begins with the velocity u_s that is predicted for
- *   the step's end in place of v.  The solid's velocity is also the bulk velocity there
- *   (ms, us of wall_term.h), which the pressure makes free of divergence: what an element that the surface crosses conducts is what of it is open.
- *   u itself yields to the pressure's increment phi by 1/INERTIA_HELD of what the fluid would, so that a flow past narrow gaps is steady as soon as
- *   viscosity lets it be, and what the solid resists is in its reaction.  (Held in the momentum equation alone, by a penalty, it was to phi what the fluid is: where a
- *   part w/H of a channel was open, a step took off w/H of what the pressure lacked.)
+ * 6. Solids that are held: their nodes have no mobility, the fluid does not move them.
  *
- *   Among phases, where phi is not an increment, what is held is one of INERTIA_MOST times the density of the phase that fills it.
- *   Its inertia counts along the surface as that of other heavy ones does in one fluid (P, with D = I - mean of its n n), but as at most
- *   INERTIA_HELD_RATIO times the fluid's mass.  (With 1e5 times, 4e-4 of the water that a wall holds back 0.5 m deep passes it in a second, with 1e6 nothing.)
- *   Where surface tension is resolved, elements at the interface being smaller than the capillary length sqrt(tension/(density g)), it is held
- *   as in one fluid, but by INERTIA_HELD_CAPILLARY and along the surface, too: a line's force in an element of so much inertia does not balance the pressure of the drop beside it
- *   (a drop at 120 degrees on a block stood at 108 and never came to rest). */
+ * In one fluid m = INERTIA_HELD rho_f/dt, across the surface alone (G = I - P, with k = 0), which begins with the velocity u_s that is predicted
+ * for the step's end in place of v.  The solid's velocity is also the bulk velocity there (ms, us of wall_term.h), which the pressure makes free of
+ * divergence: an element that the surface crosses conducts with what of it is open.  u itself yields to the pressure's increment phi by
+ * 1/INERTIA_HELD of what the fluid would, so that a flow past narrow gaps is steady as soon as viscosity lets it be, and what the solid resists is in
+ * its reaction.  (Held in the momentum equation alone, by a penalty, it was to phi what the fluid is: where a part w/H of a channel was open, a step
+ * took off w/H of what the pressure lacked.)
+ *
+ * Among phases, where phi is not an increment, what is held is one of INERTIA_MOST times the density of the phase that fills it.  Along the
+ * surface its inertia counts as that of other heavy solids does in one fluid (P, with D = I - mean of its n n), but as at most INERTIA_HELD_RATIO
+ * times the fluid's mass.  (With 1e5 times, 4e-4 of the water that a wall holds back 0.5 m deep passes it in a second, with 1e6 nothing.)
+ *
+ * Where surface tension is resolved, elements at the interface being smaller than the capillary length sqrt(tension/(density g)), it is held by a
+ * penalty in the momentum equation, a = HELD_PENALTY rho_f/dt, without inertia, and its velocity is the bulk velocity: a line's force in an
+ * element with a held solid's inertia does not balance the pressure of the drop beside it.  A drop at 120 degrees on a block, of nine elements a
+ * radius, comes to rest at 120 to 122, wherever it lies in its elements; held by 10 times the fluid's inertia at 117, by 100 times at 120
+ * to 128, by INERTIA_MOST it never came to rest (tests/coupled/wetting.sh). */
 #ifndef CORACLE_INERTIA_H
 #define CORACLE_INERTIA_H
 #include "coupler/geometry/overlap.h"
@@ -107,12 +116,11 @@
  * (gap.sh).  With 30 000 a crossed element holds the fluid beside the solid, too: an array of discs has a quarter more drag. */
 #define INERTIA_HELD 100.0
 
-/* The same where surface tension is resolved.  On meshes of 5 elements a radius a drop at 120 degrees comes to rest at 120 to 122 with 10, wherever it lies in
- * its elements; with 20 at 124 to 130, with 100 at 115 to 122 (tests/coupled/wetting.sh). */
-#define INERTIA_HELD_CAPILLARY 10.0
+#define HELD_PENALTY 10.0
 
 /* Collective.  Density, held and bulk of source[nsources]: rho_s of volume triangles, at most INERTIA_MOST times rho_f, and so many times where all
- * nodes are held; 0 for the shell's.  term[pairs.n] gets the inertia above.  capillary: surface tension is resolved. */
+ * nodes are held; 0 for the shell's, and what the penalty holds.  term[pairs.n] gets the inertia above, or the penalty.  capillary: surface tension is
+ * resolved. */
 PetscErrorCode InertiaCoefficients(Overlap overlap, const SolidState *solid, double dt, PetscBool capillary,
                                    PairTerm term[], SourceTerm source[]);
 /* Local, after InertiaCoefficients, OutsideDensity and SlipTensors: start of term[pairs.n], kept and covered of element[ncoupled]. */

@@ -1,45 +1,51 @@
 /* The fluid's slip along the solid's surface in elements that the surface crosses (mode reaction).
  *
- * Such an element K has one linear velocity for the fluid beside the solid and for what fills the part of K inside
- * the solid.  Were all of that part given the solid's velocity after each step (force.h), the fluid beside it would be
- * slowed down by as much in each step, however short: the solid would become thicker as dt shrinks.  So in K the
- * correction is to the normal velocity alone; tangentially the flow beside the solid continues into it,
+ * 1. One fluid.
+ *
+ * Such an element K has one linear velocity for the fluid beside the solid and for what fills its part inside the solid.  Were all of that part
+ * given the solid's velocity after each step (force.h), the fluid beside it would be slowed down by as much in each step, however short: the
+ * solid would become thicker as dt shrinks.  So in K the correction is to the normal velocity alone, and along the surface the flow beside the solid
+ * continues into it:
  *
  *     r_K  =  (I - D) (C^T u_s^{n+1} - B u+),     D = I - mean of n n over the shell in K;  D = 0 where K is in the
- *                                                 solid as a whole
+ *                                                 solid as a whole.
  *
- * and what brings it to rest is viscous: the wall term (wall_term.h) and, in the part of K inside the solid,
+ * What brings the slip to rest is viscous, without dt and without a density: the wall term (wall_term.h) and, in the part of K inside the solid,
  *
- *     a    =  SLIP_FRICTION mu/|K| D,
+ *     a    =  SLIP_FRICTION mu/|K| D.
  *
- * which has neither dt nor a density in it.  What the inner part keeps of its slip, rho_f int N_T D (u+ - u_s), is
- * momentum of the fluid: the added inertia of the next step, which takes the inner part to begin with the solid's
- * velocity, is less by it.
+ * The slip that the inner part keeps, rho_f int N_T D (u+ - u_s), is momentum of the fluid.  The next step's added inertia, which takes the inner part to
+ * begin with the solid's velocity, is less by it.
  *
- * An element that two solids which touch cover together has surfaces in it, too, and D as above: with D = 0 there the two were
- * held to each other's mean velocity by a part of their momentum in each step (a block on a slope slid with 0.09 of its acceleration when steps
- * were a quarter as long; tests/coupled/slope.sh).  The shell of one solid overlaps the other there.  But the correction is whole: it takes the element to the
- * mean of the two solids' velocities, and what that changes of its momentum the next step's added inertia gives to both.  Left to itself what is in
- * such elements runs along the gap, ten times as fast as the solid that slides, and its pressure presses the two together or apart.
+ * SLIP_FRICTION moves the place of no slip by a small part of an element.  The disc of cases/falling_cylinder, against body-fitted elements in the
+ * reference's tank (le 0.01 m, top at 20 m): with 0 it is 0.8, 0.7, 0.4, -0.1 % fast at 0.1, 0.2, 0.5 and 2.5 s, with 2 0.3, 0.2, 0.1
+ * and -0.1 %.
  *
- * The same among phases where one of the two is held: its inertia, INERTIA_MOST, would hold the other, too.  Along the surface the inertia begins
- * with the fluid's velocity, the mean that the correction left there, and each pair gets the mean of the reaction (ElementTerm.shared), which is what the
- * pressure's gradient gives to both: with its own, what drives one of them would be held there and would move the other.  Across the surface each has its
- * own: with the mean, a part of the contact's force, much of which acts in these elements, would go to the other solid in each step, and contact could not
- * take over what the pressure has beyond the head (uplift.h).  Normals are those of what is held alone: an
- * element at the foot of a block on a slope slides along the slope.  Two that are free accelerate together there, which lets them slide.
+ * 2. Two solids that touch, in one fluid.
  *
- * Where the fluid says that it has phases (Overlap.phases) D = 0: what such an element, of one velocity, one density and one pressure,
- * leaves of forces along a solid adds up where nothing stops it, and water is not viscous enough to.  With slip where what is beside
- * the solid is water, a block that rolls gets water that runs along its bottom at 0.95 m/s, inside elements that are nearly covered
- * (steps of 1 ms, le 0.008 m), and with slip in air, too, the air beside a block at rest reaches 2.9 m/s.  With slip that goes from 0
- * to D while what is outside goes from 0.1 to 0.5 of the element nothing grew; a disc of 1500 kg/m3 sinks 0.9 % less with steps of
- * 1 ms than of 4 ms (1.6 % without slip, 0.7 % in one fluid), a block rolls 3.6 % slow (3.0 % without), a block at rest turns by 0.003
- * (0.002 without).
+ * An element that both cover together (shared) has surfaces in it, too, and D as above.  With D = 0 there the two were held to each other's mean
+ * velocity by a part of their momentum in each step: a block on a slope slid with 0.09 of its acceleration when steps were a quarter as long
+ * (tests/coupled/slope.sh).  The shell of one solid overlaps the other there.  But the correction is whole: it takes the element to the mean of the two
+ * solids' velocities, and what that changes of its momentum the next step's added inertia gives to both.  Left to itself, what is in such elements
+ * runs along the gap ten times as fast as the solid that slides, and its pressure presses the two together or apart.
  *
- * SLIP_FRICTION moves the place of no slip by a small part of an element.  The disc of cases/falling_cylinder, against
- * body-fitted elements in the reference's tank (le 0.01 m, top at 20 m): with 0 it is 0.8, 0.7, 0.4, -0.1 % fast at
- * 0.1, 0.2, 0.5 and 2.5 s, with 2 0.3, 0.2, 0.1 and -0.1 %. */
+ * 3. Two solids that touch, one of them held, among phases.
+ *
+ * The same, for the inertia of the one that is held, INERTIA_MOST, would hold the other, too.  Along the surface the inertia begins with the fluid's
+ * velocity, the mean that the correction left there, and each pair gets the mean of the reaction (ElementTerm.shared), which is what the
+ * pressure's gradient gives to both: with its own, what drives one of them would be held there and would move the other.  Across the surface each has
+ * its own: with the mean, a part of the contact's force, much of which acts in these elements, would go to the other solid in each step, and contact
+ * could not take over what the pressure has beyond the head (uplift.h).  Normals are those of what is held alone: an element at the foot of a
+ * block on a slope slides along the slope.  Two solids that are free accelerate together there, which lets them slide.
+ *
+ * 4. Otherwise among phases (Overlap.phases) D = 0.
+ *
+ * What such an element, of one velocity, one density and one pressure, leaves of forces along a solid adds up where nothing stops it, and water is not
+ * viscous enough to.  With slip where what is beside the solid is water, a block that rolls gets water that runs along its bottom at 0.95 m/s,
+ * inside elements that are nearly covered (steps of 1 ms, le 0.008 m); with slip in air, too, the air beside a block at rest reaches 2.9 m/s.
+ * With slip that goes from 0 to D while what is outside goes from 0.1 to 0.5 of the element nothing grew, and little was gained: a disc of 1500 kg/m3
+ * sinks 0.9 % less with steps of 1 ms than of 4 ms (1.6 % without slip, 0.7 % in one fluid), a block rolls 3.6 % slow (3.0 % without), a
+ * block at rest turns by 0.003 (0.002 without). */
 #ifndef CORACLE_SLIP_H
 #define CORACLE_SLIP_H
 #include "coupler/terms/wall_term.h"

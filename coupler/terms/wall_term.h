@@ -1,7 +1,7 @@
 /* The coupling term s_c = a (u_s - u) in the fluid [37]-[39], assembled pair by pair.
  *
- * Each pair of the overlap (T, K) has one symmetric 2 x 2 coefficient a, kg/(m3 s): in mode reaction the friction of slip.h where T belongs
- * to the solid's volume, the wall term where it belongs to the shell,
+ * Each pair of the overlap (T, K) has one symmetric 2 x 2 coefficient a, kg/(m3 s): in mode reaction the friction of slip.h (or a penalty, inertia.h)
+ * where T belongs to the solid's volume, the wall term where it belongs to the shell,
  *
  *     a = mu / (dr dxw) (I + n n / 3)          [37], dr the shell's thickness, dxw the extent of K along n
  *
@@ -96,17 +96,18 @@ typedef struct {
 
 /* What a source triangle's vertices have, with its basis as the origin. */
 typedef struct {
-  double density;       /* rho_s, kg/m3 (inertia.h); 0: of the shell, or in other modes than reaction */
-  PetscBool held;       /* its nodes have no mobility; shells, too */
-  PetscBool bulk;       /* held, and its velocity is the bulk velocity there: ms, us */
-  LinearField velocity; /* u_s, that the fluid couples to, m/s */
-  LinearField start;    /* v, the solid's at the step's start, m/s */
-  LinearField force;    /* rho_s a of the body force (inertia.h); weight of displaced.h; N/m3 */
+  double
+      density; /* rho_s, kg/m3 (inertia.h); 0: of the shell, held by a penalty, or in other modes than reaction */
+  PetscBool held;                     /* its nodes have no mobility; shells, too */
+  PetscBool bulk;                     /* held, and its velocity is the bulk velocity there: ms, us */
+  LinearField velocity;               /* u_s, that the fluid couples to, m/s */
+  LinearField start;                  /* v, the solid's at the step's start, m/s */
+  LinearField force;                  /* rho_s a of the body force (inertia.h); weight of displaced.h; N/m3 */
   LinearField interface_acceleration; /* a' of the body force, m/s2 */
 } SourceTerm;
 
-/* What is held, in mode reaction (inertia.h), but for its shell. */
-static inline int IsHeldInside(const SourceTerm *source)
+/* What is held by inertia (inertia.h). */
+static inline int IsHeldByInertia(const SourceTerm *source)
 {
   return source->held && source->density > 0.0;
 }
@@ -134,10 +135,10 @@ static inline LinearField PairBodyForce(const PairTerm *term, const ElementTerm 
                                         const double centre[2])
 {
   const double excess = fmax(term->rho - source->density, 0.0);
-  if (IsHeldInside(source) && element->open) /* the weight of displaced.h, less the fluid's own */
+  if (IsHeldByInertia(source) && element->open) /* the weight of displaced.h, less the fluid's own */
     return (LinearField){{element->outside * gravity[0], element->outside * gravity[1]}, {{0.0}}};
   const LinearField force = LinearFieldAt(&source->force, centre);
-  if (IsHeldInside(source)) return force;
+  if (IsHeldByInertia(source)) return force;
   LinearField q = force;
   if (!WallIsZero(&element->freed) && !element->shared) { /* the solid is heavier */
     const WallCoefficient freed = WallCoefficientScaled(&element->freed, term->rho / source->density - 1.0);
