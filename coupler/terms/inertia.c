@@ -109,14 +109,11 @@ static double KeptPart(const Overlap o, const SourceTerm source[], const Element
   return fmin(1.0, ratio * (o->rho[k] + element->outside) * area / excess);
 }
 
-/* A source that is held and overlaps element e, or NULL. */
-static const SourceTerm *HeldIn(const Overlap o, const SourceTerm source[], int e)
+static PetscBool IsHeld(const Overlap o, const SourceTerm source[], int e)
 {
-  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
-    const SourceTerm *s = &source[o->pairs.pair[o->of_element[i]].a];
-    if (IsHeldByInertia(s)) return s;
-  }
-  return NULL;
+  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++)
+    if (IsHeldByInertia(&source[o->pairs.pair[o->of_element[i]].a])) return PETSC_TRUE;
+  return PETSC_FALSE;
 }
 
 /* P of D, whose trace is 1 and the difference of whose principal values 1 - 2 s, or which is 0. */
@@ -132,11 +129,10 @@ static WallCoefficient Sharpened(const WallCoefficient *d, double k)
 void InertiaStart(Overlap o, const SourceTerm source[], double dt, ElementTerm element[], PairTerm term[])
 {
   for (int e = 0; e < o->ncoupled; e++) {
-    const SourceTerm *held = HeldIn(o, source, e);
-    const double ratio = !held ? INERTIA_KEPT_RATIO : held->bulk ? 0.0 : INERTIA_HELD_RATIO;
+    const PetscBool held = IsHeld(o, source, e);
+    const double ratio = !held ? INERTIA_KEPT_RATIO : o->phases ? INERTIA_HELD_RATIO : 0.0;
     const double kept = KeptPart(o, source, &element[e], ratio, e);
-    const WallCoefficient along =
-        Sharpened(held && !held->bulk ? &element[e].along : &element[e].tangential, kept);
+    const WallCoefficient along = Sharpened(held ? &element[e].along : &element[e].tangential, kept);
     element[e].covered =
         (PetscBool)(!o->phases && !held && WallIsZero(&element[e].tangential) && IsCovered(o, source, e));
     element[e].kept = o->phases && !held && !element[e].shared ? WallCoefficientIsotropic(kept)
