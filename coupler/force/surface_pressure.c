@@ -91,8 +91,8 @@ static PetscBool IsCovered(const Overlap o, int k, const double v[2])
   return PETSC_FALSE;
 }
 
-PetscErrorCode SurfacePressureHead(Overlap o, const ElementTerm element[], const double gravity[2],
-                                   const double p[], int nnodes, double node[][SURFACE_HEAD_FIELDS])
+PetscErrorCode SurfacePressureHead(Overlap o, const double gravity[2], const double p[], int nnodes,
+                                   double node[][SURFACE_HEAD_FIELDS])
 {
   double(*source)[3][SURFACE_HEAD_FIELDS];
 
@@ -105,7 +105,7 @@ PetscErrorCode SurfacePressureHead(Overlap o, const ElementTerm element[], const
     const int outermost = OutermostVertex((const double(*)[2])o->x[pair->b], t->normal);
     const double *x = o->x[pair->b][outermost];
     if (IsCovered(o, k, x)) continue;
-    const double rho = o->rho[pair->b] + element[o->coupled_index[k]].outside,
+    const double rho = fmax(o->rho_beside[pair->b], o->rho[pair->b]),
                  head = p[6 * pair->b + outermost] - rho * (gravity[0] * x[0] + gravity[1] * x[1]);
     for (int i = 0; i < 3; i++) {
       source[pair->a][i][SURFACE_HEAD] += pair->area * head;

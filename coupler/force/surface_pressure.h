@@ -6,7 +6,7 @@
  * All functions are collective; p[nelements][6], Pa, of the overlap's elements. */
 #ifndef CORACLE_COUPLER_SURFACE_PRESSURE_H
 #define CORACLE_COUPLER_SURFACE_PRESSURE_H
-#include "coupler/terms/wall_term.h"
+#include "coupler/geometry/overlap.h"
 
 /* Sums over the pairs of a triangle: their area, m2, int p and, of the shell's, int p_o, N. */
 enum { SURFACE_AREA, SURFACE_INSIDE, SURFACE_OUTSIDE, SURFACE_SUMS };
@@ -16,8 +16,9 @@ PetscErrorCode SurfacePressureSums(Overlap overlap, const double p[], double own
 /* value[nnodes][2]: p_s and p_o, Pa, where is_given[nnodes], on the surface where the fluid covers some of the shell; else 0. */
 PetscErrorCode SurfacePressureNodes(Overlap overlap, const double owned[][SURFACE_SUMS], int nnodes,
                                     char is_given[], double value[][2]);
-/* At nodes of the surface: p_o - rho_o g.x, Pa, x where p_o is, rho_o, the density beside the solid (outside.h), kg/m3, 1/rho_o, and the viscosity
- * of the elements there, Pa s, means over the shell around the node where no solid is at x; 1 where there is some, all 0 elsewhere. */
+/* At nodes of the surface: p_o - rho_o g.x, Pa, x where p_o is, rho_o, the mean density of the phases beside the solid, kg/m3, 1/rho_o, and the
+ * viscosity of the elements there, Pa s, means over the shell around the node where no solid is at x; 1 where there is some, all 0 elsewhere.
+ * (Not rho_o of outside.h, the density of the element's mass spread over what is beside the solid: where the solid leaves, the water fills that late.) */
 enum {
   SURFACE_HEAD,
   SURFACE_DENSITY,
@@ -26,8 +27,8 @@ enum {
   SURFACE_REACHED,
   SURFACE_HEAD_FIELDS
 };
-PetscErrorCode SurfacePressureHead(Overlap overlap, const ElementTerm element[], const double gravity[2],
-                                   const double p[], int nnodes, double node[][SURFACE_HEAD_FIELDS]);
+PetscErrorCode SurfacePressureHead(Overlap overlap, const double gravity[2], const double p[], int nnodes,
+                                   double node[][SURFACE_HEAD_FIELDS]);
 /* node[nnodes]: p, linear from each pair of the solid's volume around the node, their mean by area, Pa; size[nnodes]: the square root of
  * twice the fluid elements' area, m, likewise; area[nnodes]: of those pairs, m2.  Of all ranks' pairs; 0 where there are none. */
 PetscErrorCode SurfacePressureInside(Overlap overlap, const double p[], int nnodes, double node[],

@@ -238,8 +238,7 @@ static PetscErrorCode SetFilm(Uplift u, const Gap *gap, const double excess[], d
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode UpliftAdd(Uplift u, Overlap o, const ElementTerm element[], const double p[], double dt,
-                         double force[], double total[2])
+PetscErrorCode UpliftAdd(Uplift u, Overlap o, const double p[], double dt, double force[], double total[2])
 {
   const size_t n = (size_t)u->solid.nnodes;
   double *excess, *part, *size, *area;
@@ -254,7 +253,7 @@ PetscErrorCode UpliftAdd(Uplift u, Overlap o, const ElementTerm element[], const
   PetscCall(PetscMalloc5(n, &excess, n, &part, n, &size, n, &area, n, &outside));
   PetscCall(PetscMalloc3(n, &gap.is_free, n, &gap.value, n, &gap.profile));
   PetscCall(SurfacePressureInside(o, p, (int)n, excess, size, area));
-  PetscCall(SurfacePressureHead(o, element, u->gravity, p, (int)n, outside));
+  PetscCall(SurfacePressureHead(o, u->gravity, p, (int)n, outside));
   KeepClose(u, size);
   PetscCall(FindKnown(u, o, (const Fields *)outside, &gap));
   PetscCall(GapHeadSolve(&u->points, &u->solid, u->shell, o->nodes, gap.is_free, gap.value, gap.profile));

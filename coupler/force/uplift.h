@@ -5,7 +5,7 @@
  * on a floor stands on the water, without friction, and a heap of stones flows.  But water gets in between, and what it has there is the
  * pressure of the water around: the head
  *
- *     h  =  p_o - rho_o g.x        p_o at x beside the solid, rho_o the density there (outside.h),
+ *     h  =  p_o - rho_o g.x        p_o at x beside the solid, rho_o the density of the phases there,
  *
  * known where the fluid beside the surface is resolved, is harmonic between such places: linear along the surface, as of a slow flow
  * through the gap, and nearly the same on both sides of it.  What p has beyond that is taken from the force in part,
@@ -26,7 +26,7 @@
  * the columns `uplift` of coupler.csv. */
 #ifndef CORACLE_COUPLER_UPLIFT_H
 #define CORACLE_COUPLER_UPLIFT_H
-#include "coupler/terms/wall_term.h"
+#include "coupler/geometry/overlap.h"
 
 #define UPLIFT_REACH 0.5
 #define UPLIFT_TAKEN 0.1
@@ -41,10 +41,10 @@ PetscErrorCode UpliftCreate(MPI_Comm comm, const double lower[2], const double u
 PetscErrorCode UpliftDestroy(Uplift *uplift);
 /* Collective: the solid of the step to come (copied), its shell, borrowed until the next call, and their overlap: what is close. */
 PetscErrorCode UpliftBuild(Uplift uplift, const SolidState *solid, const Shell shell, const Overlap overlap);
-/* Collective: force[nnodes][2] += the above, N, to each copy of a node what its facets do; total[2]: of all ranks.  element[ncoupled] of the step
- * of dt that was built; p[nelements][6], Pa, of the overlap's elements. */
-PetscErrorCode UpliftAdd(Uplift uplift, Overlap overlap, const ElementTerm element[], const double p[],
-                         double dt, double force[], double total[2]);
+/* Collective: force[nnodes][2] += the above, N, to each copy of a node what its facets do; total[2]: of all ranks.  dt: of the step that was
+ * built; p[nelements][6], Pa, of the overlap's elements. */
+PetscErrorCode UpliftAdd(Uplift uplift, Overlap overlap, const double p[], double dt, double force[],
+                         double total[2]);
 /* Not collective, after UpliftAdd: where films yield, on any rank, CoracleGetFilm's load[nnodes][2], N, and resistance[nnodes][2][2], N s/m,
  * borrowed until the next call; else NULL. */
 void UpliftFilm(Uplift uplift, const double **load, const double **resistance);

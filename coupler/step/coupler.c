@@ -180,8 +180,7 @@ PetscErrorCode CouplerComputeForce(Coupler c, const CoracleFlow *flow, const dou
   }
   PetscCall(ForceSum(c->overlap, c->dt, c->coupling, flow, c->nnodes, c->node, totals));
   if (c->pressure_load) PetscCall(PressureLoadAdd(c->pressure_load, c->overlap, flow->p, c->force));
-  if (c->uplift)
-    PetscCall(UpliftAdd(c->uplift, c->overlap, c->element, flow->p, c->dt, c->force, totals->uplift));
+  if (c->uplift) PetscCall(UpliftAdd(c->uplift, c->overlap, flow->p, c->dt, c->force, totals->uplift));
   *force = c->force;
   PetscFunctionReturn(0);
 }
