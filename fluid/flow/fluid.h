@@ -40,7 +40,7 @@ typedef struct Fluid_s *Fluid;
 
 typedef struct {
   int momentum_iterations, pressure_iterations;
-  double t, dt, max_speed;
+  double t, dt, max_speed; /* max_speed: of this rank (FluidTimeStep), m/s */
   double
       seconds[6]; /* assembly, momentum, pressure, coupling; adaptation with transfer, set-up on new meshes */
 } FluidStats;

@@ -3,9 +3,9 @@
 #include "common/supermesh/geometry.h"
 #include <stdlib.h>
 
-/* The piece [s0, s1] of the segment, m from its start; what of the segment lies in the element of the piece. */
+/* The piece [s0, s1] of the segment, m from its start; the size of its element. */
 typedef struct {
-  double s0, s1, chord;
+  double s0, s1, size;
 } Piece;
 
 /* Of an edge's length: a segment along a wall is in its elements whatever round-off says. */
@@ -33,16 +33,18 @@ static PetscErrorCode ElementPiece(Phases phases, const Mesh *m, int e, int phas
                                    const double to[2], Piece *piece, PetscBool *counts)
 {
   const double length = hypot(to[0] - from[0], to[1] - from[1]);
-  double x[3][2], whole[2], part[2];
+  double x[3][2], whole[2], part[2], area;
   Polygon polygon;
   PetscFunctionBeginUser;
   *counts = PETSC_FALSE;
   MeshCorners(m, e, x);
   if (!Clip(3, (const double(*)[2])x, from, to, whole)) PetscFunctionReturn(0);
   PetscCall(PhasesGetPolygon(phases, e, phase, &polygon));
+  area = GeometryArea((const double(*)[2])x);
+  if (PolygonArea(&polygon) < SURFACE_SLIVER * SURFACE_SLIVER * area) PetscFunctionReturn(0);
   if (!Clip(polygon.n, (const double(*)[2])polygon.x, from, to, part)) PetscFunctionReturn(0);
-  *piece = (Piece){length * part[0], length * part[1], length * (whole[1] - whole[0])};
-  *counts = (PetscBool)(piece->s1 - piece->s0 > SURFACE_SLIVER * piece->chord);
+  *piece = (Piece){length * fmax(part[0], whole[0]), length * fmin(part[1], whole[1]), sqrt(area)};
+  *counts = (PetscBool)(piece->s1 - piece->s0 > SURFACE_SLIVER * length * (whole[1] - whole[0]));
   PetscFunctionReturn(0);
 }
 
@@ -59,7 +61,7 @@ static SurfacePlace Join(int n, const Piece piece[])
   for (int k = 0; k < n; k++) {
     const Piece *p = &piece[k];
     const double gap = p->s0 - place.last;
-    if (gap <= SURFACE_SLIVER * p->chord && place.first == place.last) place.first = fmax(place.first, p->s1);
+    if (gap <= SURFACE_SLIVER * p->size && place.first == place.last) place.first = fmax(place.first, p->s1);
     place.length += fmax(0.0, p->s1 - fmax(p->s0, place.last));
     place.last = fmax(place.last, p->s1);
   }

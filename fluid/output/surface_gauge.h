@@ -8,7 +8,8 @@
 #define FLUID_SURFACE_GAUGE_H
 #include "fluid/phases/phases.h"
 
-/* A piece shorter than this part of what the segment has in the element, and a gap as short, do not count. */
+/* A piece shorter than this part of what the segment has in the element does not count, nor a polygon of less than its square of the element's
+ * area, nor a gap of less than this part of the size of the element beyond it. */
 #define SURFACE_SLIVER 0.01
 
 typedef struct {

@@ -168,13 +168,13 @@ PetscErrorCode WriterStep(Writer r, Fluid f)
   const Mesh *m = FluidMesh(f);
   const FluidBudget *budget = FluidGetBudget(f);
   PetscMPIInt size;
-  int most;
+  double most[2] = {m->ne, s->max_speed}; /* of all ranks */
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_size(m->comm, &size));
-  PetscCallMPI(MPI_Allreduce(&m->ne, &most, 1, MPI_INT, MPI_MAX, m->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, m->comm));
   double row[ROW_MAX] = {s->t,
                          s->dt,
-                         s->max_speed,
+                         most[1],
                          budget->momentum[0],
                          budget->momentum[1],
                          BudgetDefect(budget),
@@ -188,7 +188,7 @@ PetscErrorCode WriterStep(Writer r, Fluid f)
                          s->seconds[4],
                          s->seconds[5],
                          m->nglobal,
-                         (double)most * size / m->nglobal};
+                         most[0] * size / m->nglobal};
   PetscCall(AddPhases(f, row + NCOLUMNS));
   PetscCall(SeriesRow(r->series, row));
   PetscCall(ForceSeriesStep(r->forces, f));
