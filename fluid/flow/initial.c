@@ -117,6 +117,26 @@ PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldF
   PetscFunctionReturn(0);
 }
 
+/* The solid's mean position in the elements of the coupling, [ne][2], m: by the integrals of N N^T over its part of them, of its inertia or its bulk
+ * velocity. */
+static void SolidCentres(Fluid f, double centre[][2])
+{
+  const Mesh *m = f->domain.mesh;
+  int n;
+  const CoracleCoupling *entry = SolidCouplingEntries(f->solid, &n);
+  for (int k = 0; k < n; k++) {
+    const CoracleCoupling *c = &entry[k];
+    const double(*gram)[3] = c->flags & CORACLE_HAS_INERTIA ? c->implicit_inertia : c->ms;
+    double x[3][2], weight[3], all = 0.0;
+    MeshCorners(m, c->element, x);
+    for (int i = 0; i < 3; i++) all += weight[i] = gram[i][0] + gram[i][1] + gram[i][2];
+    for (int d = 0; d < 2; d++)
+      centre[c->element][d] = all > 0.0
+                                  ? (weight[0] * x[0][d] + weight[1] * x[1][d] + weight[2] * x[2][d]) / all
+                                  : (x[0][d] + x[1][d] + x[2][d]) / 3.0;
+  }
+}
+
 PetscErrorCode FluidStartInside(Fluid f)
 {
   const CoracleCoupling *entry;
@@ -124,7 +144,12 @@ PetscErrorCode FluidStartInside(Fluid f)
   int n;
   PetscFunctionBeginUser;
   if (f->phases) {
-    PetscCall(PhaseTransportStartSolid(f->phases, SolidCouplingFraction(f->solid)));
+    double(*centre)[2];
+    PetscCall(PetscCalloc1(f->domain.mesh->ne, &centre));
+    SolidCentres(f, centre);
+    PetscCall(
+        PhaseTransportStartSolid(f->phases, SolidCouplingFraction(f->solid), (const double(*)[2])centre));
+    PetscCall(PetscFree(centre));
     PetscCall(FluidPhasesChanged(f));
   }
   entry = SolidCouplingEntries(f->solid, &n);

@@ -77,7 +77,7 @@ PetscErrorCode PhaseTransportDestroy(PhaseTransport *transport)
 }
 
 /* volume[n], m2, of compressible phases mass, kg, of all ranks. */
-static PetscErrorCode SumVolumes(PhaseTransport t, double volume[])
+PetscErrorCode PhaseTransportSumVolumes(PhaseTransport t, double volume[])
 {
   int n;
   const double *v = PhaseTransportVolumes(t, &n), *mass = PhasesMasses(t->phases);
@@ -157,55 +157,6 @@ void PhaseTransportSettle(PhaseTransport t)
   for (int e = 0; e < t->stars->ne; e++) t->inverse_density[e] = t->end[e];
 }
 
-/* The volumes are those of the run's start. */
-static PetscErrorCode StartVolumes(PhaseTransport t)
-{
-  PetscFunctionBeginUser;
-  if (PhasesMasses(t->phases)) PhasesStartMasses(t->phases);
-  PetscCall(SumVolumes(t, t->budget.initial));
-  PetscCall(PhaseTransportReconstruct(t));
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode PhaseTransportFill(PhaseTransport t, int nregions, const Region region[])
-{
-  PetscFunctionBeginUser;
-  PetscCall(PhasesFill(t->phases, nregions, region));
-  PetscCall(StartVolumes(t));
-  PetscFunctionReturn(0);
-}
-
-/* volume[n] of an element: heavier phases than `light` no more than room, m2, all by the same factor. */
-static void MakeRoom(int n, int light, double room, double volume[])
-{
-  double heavy = 0.0;
-  for (int k = 0; k < n; k++)
-    if (k != light) heavy += volume[k];
-  if (heavy <= room) return;
-  for (int k = 0; k < n; k++)
-    if (k != light) volume[k] *= room / heavy;
-  volume[light] += heavy - room;
-}
-
-PetscErrorCode PhaseTransportStartSolid(PhaseTransport t, const double solid[])
-{
-  const int light = PhaseLightest(&t->properties);
-  int n;
-  const double *filled = PhaseTransportVolumes(t, &n);
-  double *volume;
-  PetscFunctionBeginUser;
-  PetscCall(PhaseTransportSetSolid(t, solid, NULL));
-  PetscCall(PetscMalloc1((size_t)n * (size_t)t->stars->ne, &volume));
-  PetscCall(PetscArraycpy(volume, filled, (size_t)n * (size_t)t->stars->ne));
-  for (int e = 0; e < t->stars->ne; e++)
-    if (solid[e] > 0.0)
-      MakeRoom(n, light, fmax(1.0 - solid[e], 0.0) * t->domain->geometry[e].area, volume + n * e);
-  PetscCall(PhasesSetVolumes(t->phases, volume));
-  PetscCall(PetscFree(volume));
-  PetscCall(StartVolumes(t));
-  PetscFunctionReturn(0);
-}
-
 void PhaseTransportMaterial(PhaseTransport t, double rho[], double mu[])
 {
   int n;
@@ -267,7 +218,7 @@ PetscErrorCode PhaseTransportBudget(PhaseTransport t, PhaseBudget *budget)
 {
   PetscFunctionBeginUser;
   *budget = t->budget;
-  PetscCall(SumVolumes(t, budget->volume));
+  PetscCall(PhaseTransportSumVolumes(t, budget->volume));
   PetscCall(SumGap(t, &budget->gap));
   PetscFunctionReturn(0);
 }

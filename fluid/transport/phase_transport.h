@@ -43,9 +43,10 @@ PetscErrorCode PhaseTransportDestroy(PhaseTransport *t);
 PetscErrorCode PhaseTransportSetGravity(PhaseTransport t, const double gravity[2]);
 /* The initial state; errors of PhasesFill. */
 PetscErrorCode PhaseTransportFill(PhaseTransport t, int nregions, const Region region[]);
-/* At the run's start: the lightest phase takes the place of heavier ones where the solid is, solid[ne] = alpha_s.  An element that
- * its surface crosses keeps what fits beside it. */
-PetscErrorCode PhaseTransportStartSolid(PhaseTransport t, const double solid[]);
+/* At the run's start: the lightest phase takes the place of heavier ones where the solid is, solid[ne] = alpha_s, centre[ne][2] the mean of x over
+ * its part of an element where that is some, but not all.  In an element that its surface crosses that is what the line of cut_of_moment.h cuts off, so
+ * that regions may end at a solid's faces; where it is another shape, the element keeps no more than fits beside it. */
+PetscErrorCode PhaseTransportStartSolid(PhaseTransport t, const double solid[], const double centre[][2]);
 /* The volumes from those on another mesh. */
 PetscErrorCode PhaseTransportRemap(PhaseTransport from, Transfer transfer, PhaseTransport to);
 /* From t^n over dt along u[ne][6], m/s, extrapolated from t^n by `extrapolated` times the step before, dt_before; prescribed

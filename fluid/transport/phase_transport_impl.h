@@ -21,6 +21,8 @@ struct PhaseTransport_s {
 
 /* The solid of the step to come: alpha[ne] and moves[ne] as in PhaseStep, NULL: nothing moves; of none, if there has never been one, nothing is kept.  Collective. */
 PetscErrorCode PhaseTransportSetSolid(PhaseTransport t, const double alpha[], const char moves[]);
+/* volume[n]: of all ranks, m2.  Collective. */
+PetscErrorCode PhaseTransportSumVolumes(PhaseTransport t, double volume[]);
 /* Lines, and what follows from them.  Collective. */
 PetscErrorCode PhaseTransportReconstruct(PhaseTransport t);
 #endif
