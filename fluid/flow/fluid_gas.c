@@ -54,3 +54,37 @@ PetscErrorCode FluidLeaveCompressible(Fluid f)
   }
   PetscFunctionReturn(0);
 }
+
+/* Of element e the mass of phase p, kg, and its volume, m2. */
+static double PhaseMass(Fluid f, int e, int p, double *volume)
+{
+  const PhaseProperties *properties = PhaseTransportProperties(f->phases);
+  int n;
+  *volume = PhaseTransportVolumes(f->phases, &n)[properties->n * e + p];
+  return properties->state[p].pressure > 0.0
+             ? PhasesMasses(PhaseTransportPhases(f->phases))[properties->n * e + p]
+             : properties->rho[p] * *volume;
+}
+
+PetscErrorCode FluidCheckDensity(Fluid f, const double rho[])
+{
+  const PhaseProperties *properties = PhaseTransportProperties(f->phases);
+  PetscFunctionBeginUser;
+  for (int e = 0; e < f->domain.mesh->ne; e++) {
+    const Mesh *m = f->domain.mesh;
+    double center[2] = {0.0, 0.0}, volume;
+    int least = 0;
+    if (rho[e] > 0.0) continue;
+    for (int p = 1; p < properties->n; p++)
+      if (PhaseMass(f, e, p, &volume) < PhaseMass(f, e, least, &volume)) least = p;
+    const double mass = PhaseMass(f, e, least, &volume);
+    for (int k = 0; k < 6; k++) center[k % 2] += m->x[2 * m->vertex[3 * e + k / 2] + k % 2] / 3.0;
+    SETERRQ(PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
+            "phase '%s' has %g kg and %g m2 of the element at (%.4g, %.4g), which has a density of %g "
+            "kg/m3%s: expected more than "
+            "0; take shorter steps (time.cfl, time.dt_max) or smaller elements there (fluid.adapt.size_min)",
+            properties->name[least], mass, volume, center[0], center[1], rho[e],
+            properties->state[least].pressure > 0.0 ? " (an absolute pressure below 0)" : "");
+  }
+  PetscFunctionReturn(0);
+}

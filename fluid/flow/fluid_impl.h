@@ -55,6 +55,8 @@ void FluidSetTarget(Fluid f, double old);
 void FluidSetCompressibility(Fluid f);
 /* The same for a velocity that is to be free of divergence where there is no compressible phase, and left alone where there is. */
 PetscErrorCode FluidLeaveCompressible(Fluid f);
+/* Refuses elements whose density rho[ne] is not positive: says which phase, where, and what helps. */
+PetscErrorCode FluidCheckDensity(Fluid f, const double rho[]);
 /* Moves the phases over dt with the velocity in mass_flux, extrapolated by s steps, and makes it the mass flux.  Collective. */
 PetscErrorCode FluidMovePhases(Fluid f, double dt, double s);
 /* After that: the density of what elements have beside the solid (f->outside).  Collective. */

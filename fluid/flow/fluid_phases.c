@@ -15,6 +15,7 @@ static PetscErrorCode SetPhaseMaterial(Fluid f, MaterialLevel level)
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc2(f->domain.mesh->ne, &rho, f->domain.mesh->ne, &mu));
   PhaseTransportMaterial(f->phases, rho, mu);
+  PetscCall(FluidCheckDensity(f, rho));
   PetscCall(MaterialSet(f->material, level, rho, mu));
   PetscCall(PetscFree2(rho, mu));
   PetscFunctionReturn(0);

@@ -4,6 +4,8 @@
 /* Of an element's area: less of a phase has no density of its own; less is no gap. */
 #define VOLUME_TINY 1e-9
 #define GAP_TINY 1e-13
+/* In which masses follow their volumes, one face each. */
+#define ROUNDS 1000
 
 PetscErrorCode PhasesSetStates(Phases f, const EquationOfState state[])
 {
@@ -53,16 +55,94 @@ PetscErrorCode PhasesUpdateDensities(Phases f)
   PetscFunctionReturn(0);
 }
 
-void PhasesMoveMasses(Phases f, const double before[], const double swept[], double swept_mass[])
+/* What an element has of a gas, m2 and kg, and what of it is still to leave through its faces, m2. */
+typedef struct {
+  double volume, mass, due[3];
+} GasStore;
+
+/* What leaves through face i in this round, m2: what is due, as far as the element has it. */
+static double Leaves(const GasStore *g, int i)
 {
-  for (int k = 0; k < 3 * f->stars->ne * f->np; k++) {
-    const int face = k / f->np, e = face / 3, p = k % f->np, o = f->stars->neighbor[e][face % 3];
-    const double moved = swept[k] - before[k];
-    if (!IsGas(f, p) || moved == 0.0) continue;
-    const double mass = moved * f->density[(moved > 0.0 ? e : o) * f->np + p];
-    f->mass[e * f->np + p] -= mass;
-    swept_mass[k] += mass;
+  const double due = g->due[0] + g->due[1] + g->due[2];
+  return g->volume > 0.0 && g->due[i] > 0.0 ? g->due[i] * fmin(1.0, g->volume / due) : 0.0;
+}
+
+static double LeavingMass(const GasStore *g, int i)
+{
+  const double volume = Leaves(g, i);
+  return volume > 0.0 ? volume * (g->mass / g->volume) : 0.0;
+}
+
+/* Gas p before its volumes moved. */
+static void SetStores(Phases f, int p, const double before[], const double swept[], GasStore store[])
+{
+  for (int e = 0; e < f->stars->ne; e++) {
+    GasStore *g = &store[e];
+    const size_t own = (size_t)e * (size_t)f->np + (size_t)p;
+    g->volume = f->volume[own];
+    g->mass = f->mass[own];
+    for (int i = 0; i < 3; i++) {
+      const size_t k = (3 * (size_t)e + (size_t)i) * (size_t)f->np + (size_t)p;
+      g->volume += swept[k] - before[k];
+      g->due[i] = fmax(swept[k] - before[k], 0.0);
+    }
   }
+}
+
+/* Element e gives and receives; next: its store afterwards; swept_mass[3][np] of its faces.  1: it gave something. */
+static int Pass(Phases f, int p, int e, const GasStore store[], GasStore *next, double swept_mass[])
+{
+  const Stars *s = f->stars;
+  int gave = 0;
+  *next = store[e];
+  for (int i = 0; i < 3; i++) {
+    const double volume = Leaves(&store[e], i);
+    double in = 0.0, mass = LeavingMass(&store[e], i);
+    const int o = s->neighbor[e][i];
+    if (o >= 0) {
+      in = Leaves(&store[o], StarsFaceTo(s, o, e));
+      mass -= LeavingMass(&store[o], StarsFaceTo(s, o, e));
+    }
+    next->due[i] -= volume;
+    next->volume += in - volume;
+    next->mass -= mass;
+    swept_mass[i * f->np + p] += mass;
+    gave |= volume > GAP_TINY * StarsArea(s, e);
+  }
+  return gave;
+}
+
+/* What elements give at first is theirs, then what has come; until all has left, or, in a circle without gas, nothing can. */
+static PetscErrorCode MoveMass(Phases f, int p, GasStore store[], GasStore next[], double swept_mass[])
+{
+  const Stars *s = f->stars;
+  int more = 1;
+  PetscFunctionBeginUser;
+  for (int round = 0; more && round < ROUNDS; round++) {
+    PetscCall(StarsExchange(s, sizeof *store, store));
+    more = 0;
+    for (int e = 0; e < s->ne; e++)
+      more |= Pass(f, p, e, store, &next[e], &swept_mass[3 * (size_t)e * (size_t)f->np]);
+    PetscCall(PetscArraycpy(store, next, s->ne));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &more, 1, MPI_INT, MPI_LOR, s->mesh->comm));
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PhasesMoveMasses(Phases f, const double before[], const double swept[], double swept_mass[])
+{
+  const Stars *s = f->stars;
+  GasStore *store, *next;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(s->nl, &store, s->ne, &next));
+  for (int p = 0; p < f->np; p++) {
+    if (!IsGas(f, p)) continue;
+    SetStores(f, p, before, swept, store);
+    PetscCall(MoveMass(f, p, store, next, swept_mass));
+    for (int e = 0; e < s->ne; e++) f->mass[(size_t)e * (size_t)f->np + (size_t)p] = store[e].mass;
+  }
+  PetscCall(PetscFree2(store, next));
+  PetscFunctionReturn(0);
 }
 
 double PhasesCompressibility(Phases f, int e, double solid, double *pressure)
@@ -100,7 +180,8 @@ static void TakeGaps(Phases f, int gas)
   }
 }
 
-/* Gas has between half and twice the volume that its mass is expected to have; what is beyond is exchanged for a liquid. */
+/* Gas has between half and twice the volume that its mass is expected to have, in its element; what is beyond is exchanged for a
+ * liquid. */
 static PetscErrorCode Bound(Phases f, int gas, int liquid, const double expected[], double swept[])
 {
   const Stars *s = f->stars;
@@ -116,7 +197,8 @@ static PetscErrorCode Bound(Phases f, int gas, int liquid, const double expected
   PetscCall(PhasesExpel(f, liquid, gas, capacity, swept));
   for (int e = 0; e < s->ne; e++) {
     const size_t k = (size_t)e * (size_t)f->np + (size_t)gas;
-    capacity[e] = 2.0 * fmax(f->mass[k], 0.0) / expected[k];
+    capacity[e] = fmin(2.0 * fmax(f->mass[k], 0.0) / expected[k],
+                       f->volume[k] + f->volume[(size_t)e * (size_t)f->np + (size_t)liquid]);
   }
   PetscCall(PhasesExpel(f, gas, liquid, capacity, swept));
   PetscCall(PetscFree(capacity));

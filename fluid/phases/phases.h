@@ -50,9 +50,11 @@ const double *PhasesDensities(Phases phases);
 double PhasesCompressibility(Phases phases, int e, double solid, double *pressure);
 /* Densities of all local elements, from volumes and masses; PhasesReconstruct has this.  Collective. */
 PetscErrorCode PhasesUpdateDensities(Phases phases);
-/* With the volumes that passed faces beyond `before` to make swept (PhasesExpel) goes their mass, also in swept_mass; all
- * [ne][3][nphases].  Needs the densities from before. */
-void PhasesMoveMasses(Phases phases, const double before[], const double swept[], double swept_mass[]);
+/* Collective: with the volumes that passed faces beyond `before` to make swept (PhasesExpel) goes their mass, also in swept_mass; all
+ * [ne][3][nphases].  An element gives what it has and passes on what comes to it: its density stays between those that there were, and no mass
+ * becomes negative. */
+PetscErrorCode PhasesMoveMasses(Phases phases, const double before[], const double swept[],
+                                double swept_mass[]);
 /* Collective, after PhasesAdvect along fluxes with divergence: compressible phases take the volume that elements lack or have too
  * much, which goes to the nearest ones that have some; expected[ne][nphases]: density near which theirs stays, kg/m3 (within a
  * factor of 2).  Added to swept of PhasesAdvect. */

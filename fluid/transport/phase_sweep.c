@@ -110,7 +110,7 @@ static PetscErrorCode LeaveSolid(PhaseSweep s, const double solid[])
     PetscCall(PhasesExpel(s->phases, order[k], order[n - 1], capacity, s->swept));
     for (int e = 0; e < s->stars->ne; e++) capacity[e] = fmax(capacity[e] - volume[n * e + order[k]], 0.0);
   }
-  if (s->mass) PhasesMoveMasses(s->phases, s->part, s->swept, s->mass);
+  if (s->mass) PetscCall(PhasesMoveMasses(s->phases, s->part, s->swept, s->mass));
   PetscCall(PetscFree(capacity));
   PetscFunctionReturn(0);
 }

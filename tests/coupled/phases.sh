@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A square among water and air, among water, oil and air, among water and compressible air, among water and air with compressive advection: few coupling iterations, momentum and water kept, hardly any energy made, no water inside, the same on other ranks and after a resume.
+# A square among water and air, among water, oil and air, among water and compressible air, a plate among these, a square among water and air with compressive advection: few coupling iterations, momentum and water kept, hardly any energy made, no water inside, the same on other ranks and after a resume.
 # Usage: phases.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
@@ -14,6 +14,11 @@ must three 2:1:1 --set 'fluid.phases=[{name: air, density: 1.2, viscosity: 1.8e-
 for end in 0.06 0.12; do # a closed box of compressible air
   must gas 2:1:1 --set 'fluid.phases[1].sound_speed=340' --set fluid.boundaries.top=free_slip --set "time.end=$end" --set resume=last
 done
+# a plate that is pushed down in water: gas goes to where it was past elements of water
+must plate 2:1:1 --set 'fluid.phases[1].gas={pressure: 2.0e4}' \
+  --set 'fluid.regions=[{phase: air}, {phase: water, lower: [-1, -1], upper: [0.7, 0.295]}, {phase: air, lower: [0.10, 0.17], upper: [0.14, 0.19]}]' \
+  --set 'solid.bodies[0]={shape: rectangle, centre: [0.3, 0.12], width: 0.3, height: 0.04, size: 0.01, material: square, prescribed: [{velocity: [0.0, -0.5]}]}' \
+  --set fluid.boundaries.top=free_slip
 for end in 0.06 0.12; do must compressive 2:1:1 --set fluid.phases_advection=compressive --set "time.end=$end" --set resume=last; done
 "$python" - "$scratch" ${1:+print} <<'E2'
 import numpy as np, sys
@@ -61,6 +66,11 @@ for row in rows("gas", "fluid"):
     assert abs(row["water made [m2]"]) < 1e-13 and abs(row["air made [kg]"]) < 1e-13, "gas: made %s" % row
     assert abs(row["air [kg]"] - 1.2 * (0.24 - 0.039)) < 1e-11, "gas: %s kg" % row["air [kg]"]
 assert 0.15 < rows("gas", "solid")[-1]["y0 [m]"] < 0.19, rows("gas", "solid")[-1]
+for _, _, _, cell in snapshots("plate"):
+    gas = (cell["cell/density"][:] - 1000.0 * cell["cell/water"][:]).min() # both rounded to 31 bits
+    assert gas > -1e-6, "plate: %g kg of gas in a m2" % gas
+for row in rows("plate", "fluid"):
+    assert abs(row["water made [m2]"]) < 1e-13 and abs(row["air made [kg]"]) < 1e-13, "plate: made %s" % row
 for label, bound in (("two", 5e-4), ("half", 5e-4), ("compressive", 1e-3)):
     assert abs(place[label] - place["one"]).max() < bound, "%s: at %s, one rank at %s" % (label, place[label], place["one"])
 if len(sys.argv) > 2: print(place)

@@ -1,7 +1,9 @@
 // ranks: 1 2 3
 /* Compressible phases in a closed box: the period of a standing wave of sound; a column of water that falls onto a cushion of gas
  * against the equation of motion of its mass between two springs (Bagnold 1939), on a mesh that stays and on one that adapts, and
- * with compressive advection; mass and volumes to round-off.  gas n steps: prints the standing wave; gas n dt steps: the cushion. */
+ * with compressive advection; mass and volumes to round-off.  A mass below 0 is refused.
+ * gas n steps: prints the standing wave; gas n dt steps: the cushion. */
+#include "fluid/flow/fluid_impl.h"
 #include "tests/fluid/adapting_tank.h"
 
 #define SOUND 340.0
@@ -182,6 +184,43 @@ static PetscErrorCode Cushion(int n, double dt, int steps, PetscBool adapts, int
   PetscFunctionReturn(0);
 }
 
+static char reason[1024];
+
+static PetscErrorCode Catch(MPI_Comm comm, int line, const char *function, const char *file,
+                            PetscErrorCode code, PetscErrorType type, const char *message, void *context)
+{
+  if (message && type == PETSC_ERROR_INITIAL) snprintf(reason, sizeof reason, "%s", message);
+  return code;
+}
+
+/* A mass below 0 is refused, with the phase and the place. */
+static PetscErrorCode Impossible(void)
+{
+  const PhaseProperties p = {.n = 2,
+                             .rho = {1000.0, 1.2},
+                             .mu = {1e-3, 1.8e-5},
+                             .state = {{0.0, 0.0, 0.0}, {0.0, PRESSURE, EXPONENT}},
+                             .name = {"water", "air"}};
+  const Region region = {.shape = REGION_BOX, .phase = 1, .a = {-1, -1}, .b = {2, 2}};
+  PetscErrorCode code;
+  char place[64];
+  Tank t;
+  PetscFunctionBeginUser;
+  PetscCall(TankCreatePhases(6, 2u, &p, 1, &region, NULL, &t));
+  double center[2] = {0.0, 0.0};
+  for (int k = 0; k < 6; k++) center[k % 2] += t.mesh->x[2 * t.mesh->vertex[k / 2] + k % 2] / 3.0;
+  PetscCall(PetscSNPrintf(place, sizeof place, "(%.4g, %.4g)", center[0], center[1]));
+  PhasesMasses(PhaseTransportPhases(FluidPhases(t.fluid)))[1] = -1e-3;
+  PetscCall(PetscPushErrorHandler(Catch, NULL));
+  code = FluidPhasesChanged(t.fluid);
+  PetscCall(PetscPopErrorHandler());
+  CHECK(code == PETSC_ERR_ARG_OUTOFRANGE && strstr(reason, "'air' has -0.001 kg") && strstr(reason, place) &&
+            strstr(reason, "time.dt_max"),
+        "error %d: %s", (int)code, reason);
+  PetscCall(TankDestroy(&t));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
@@ -191,6 +230,7 @@ int main(int argc, char **argv)
     PetscCall(Cushion(atoi(argv[1]), atof(argv[2]), atoi(argv[3]), PETSC_FALSE, 1));
     PetscCall(Cushion(atoi(argv[1]), atof(argv[2]), atoi(argv[3]), PETSC_TRUE, 1));
   } else {
+    PetscCall(Impossible());
     PetscCall(Standing(14, 100, 0));
     PetscCall(Cushion(12, 0.002, 150, PETSC_FALSE, 0));
     PetscCall(Cushion(8, 0.002, 80, PETSC_TRUE, 0));
