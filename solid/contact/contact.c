@@ -150,10 +150,12 @@ PetscErrorCode ContactCreate(Solid s, Contact *contact)
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&c));
   if (s->size > 1) PetscCall(HaloCreate(s->comm, &c->halo));
-  PetscCall(PetscCalloc4((size_t)s->nbodies, &c->height, (size_t)s->nbodies, &c->compliance,
-                         (size_t)s->nbodies, &c->mass, (size_t)s->nbodies, &c->areal_mass));
+  const size_t nbodies = (size_t)s->nbodies;
+  PetscCall(PetscCalloc5(nbodies, &c->height, nbodies, &c->compliance, nbodies, &c->intact_compliance,
+                         nbodies, &c->mass, nbodies, &c->areal_mass));
   c->rough = AnyRough(s);
   PetscCall(ContactRenew(c, s));
+  PetscCall(PetscArraycpy(c->intact_compliance, c->compliance, nbodies));
   *contact = c;
   PetscFunctionReturn(0);
 }
@@ -202,7 +204,8 @@ PetscErrorCode ContactDestroy(Contact *c)
   PetscFunctionBeginUser;
   if (!*c) PetscFunctionReturn(0);
   PetscCall(HaloDestroy(&(*c)->halo));
-  PetscCall(PetscFree4((*c)->height, (*c)->compliance, (*c)->mass, (*c)->areal_mass));
+  PetscCall(
+      PetscFree5((*c)->height, (*c)->compliance, (*c)->intact_compliance, (*c)->mass, (*c)->areal_mass));
   PetscCall(PetscFree((*c)->searched));
   PetscCall(PetscFree((*c)->first_pair));
   PetscCall(PetscFree((*c)->target));

@@ -20,17 +20,27 @@ static double Together(double one, double other)
   return one * other / (one + other);
 }
 
-/* Tangential spring half as stiff as the normal contact of the whole edge, 3 p L/height; damping as a
- * fraction of the critical 2 sqrt(k m).  *rate: its viscous rate per metre and mass, c/L. */
-static ContactLaw LawOf(const Solid s, int facet, double friction, double damping, double penalty,
-                        double height, double mass, double areal_mass, double *rate)
+/* Damping as a fraction of the critical 2 sqrt(k m), a metre: c/L.  now, intact: its part of 2 xi omega as it is, and before
+ * bodies cracked (a corner of one element that cracks have freed has a third to a sixth of a node's mass, while the mass behind an
+ * edge is still its body's); omega: of contact's stiffness.  Cracks make damping ask for no shorter substeps than it did before, or than
+ * half of what the stiffness allows: 4/(d + sqrt(d^2 + 4 w^2)) with d = 3/2 w is 1/w. */
+static double ViscosityOf(double damping, double stiffness, double areal_mass, double now, double intact,
+                          double omega)
+{
+  if (!(damping > 0.0) || areal_mass == HUGE_VAL) return 0.0;
+  const double critical = 2.0 * damping * sqrt(stiffness * areal_mass);
+  return critical * fmin(1.0, fmax(intact, 1.5 * omega / critical) / now);
+}
+
+/* Tangential spring half as stiff as the normal contact of the whole edge, 3 p L/height. */
+static ContactLaw LawOf(const Solid s, int facet, double friction, double stiffness, double viscosity,
+                        double mass, double areal_mass)
 {
   const Point d =
       PointMinus(PointAt(s->rest, s->facet[2 * facet + 1]), PointAt(s->rest, s->facet[2 * facet]));
-  const double length = hypot(d.x, d.y), stiffness = 3.0 * penalty / height;
-  *rate = damping > 0.0 && areal_mass < HUGE_VAL ? 2.0 * damping * sqrt(stiffness * areal_mass) : 0.0;
-  return (ContactLaw){friction, friction > 0.0 ? 0.5 * stiffness * length : 0.0, *rate * length,
-                      *rate > 0.0 ? mass / (areal_mass * length) : 1.0};
+  const double length = hypot(d.x, d.y);
+  return (ContactLaw){friction, friction > 0.0 ? 0.5 * stiffness * length : 0.0, viscosity * length,
+                      viscosity > 0.0 ? mass / (areal_mass * length) : 1.0};
 }
 
 static PetscErrorCode AddCandidate(Contact c, Solid s, int facet, int target)
@@ -38,7 +48,7 @@ static PetscErrorCode AddCandidate(Contact c, Solid s, int facet, int target)
   const Target *t = &c->target[target];
   const int element = s->facet_element[facet], body = s->elements.body[element];
   const Material *own = &s->material[s->elements.material[element]], *other = &s->material[t->material];
-  double friction, damping, viscous;
+  double friction, damping;
   int pair;
   PetscFunctionBeginUser;
   if (c->ncandidates == c->candidate_capacity) {
@@ -47,19 +57,23 @@ static PetscErrorCode AddCandidate(Contact c, Solid s, int facet, int target)
   }
   const double penalty = fmin(own->penalty, other->penalty) * fmin(own->thickness, other->thickness);
   const double compliance = fmax(c->compliance[body], c->compliance[t->body]);
+  const double intact = fmax(c->intact_compliance[body], c->intact_compliance[t->body]);
   const PetscBool joined = ContactJoined(s, facet, t);
   ContactMaterials(s, s->elements.material[element], t->material, &friction, &damping);
   if (joined) friction = fmin(own->internal_friction, other->internal_friction);
-  const ContactLaw law = LawOf(s, facet, friction, damping, penalty, c->height[t->body],
-                               Together(c->mass[body], c->mass[t->body]),
-                               Together(c->areal_mass[body], c->areal_mass[t->body]), &viscous);
-  PetscCall(ContactPairOf(c, s, facet, joined ? JOINED : t->body, law, &pair));
-  c->candidate[c->ncandidates++] = (Candidate){facet, target, pair, penalty * t->twice_area};
   /* d(p phi)/dx = 3 p/height; a node takes half of its edges, |u_c - u_t|^2 <= 2 |u_c|^2 + 2 |u_t|^2, and
    * both bodies are contactor and target */
-  c->rate[0] =
-      fmax(c->rate[0], 6.0 * penalty * compliance * (1.0 / c->height[body] + 1.0 / c->height[t->body]));
-  c->rate[2] = fmax(c->rate[2], 4.0 * viscous * compliance);
+  const double rate = 6.0 * penalty * compliance * (1.0 / c->height[body] + 1.0 / c->height[t->body]);
+  const double stiffness = 3.0 * penalty / c->height[t->body];
+  const double areal_mass = Together(c->areal_mass[body], c->areal_mass[t->body]);
+  const double viscosity =
+      ViscosityOf(damping, stiffness, areal_mass, 4.0 * compliance, 4.0 * intact, sqrt(rate));
+  const ContactLaw law =
+      LawOf(s, facet, friction, stiffness, viscosity, Together(c->mass[body], c->mass[t->body]), areal_mass);
+  PetscCall(ContactPairOf(c, s, facet, joined ? JOINED : t->body, law, &pair));
+  c->candidate[c->ncandidates++] = (Candidate){facet, target, pair, penalty * t->twice_area};
+  c->rate[0] = fmax(c->rate[0], rate);
+  c->rate[2] = fmax(c->rate[2], 4.0 * viscosity * compliance);
   PetscFunctionReturn(0);
 }
 
@@ -115,7 +129,9 @@ static PetscErrorCode AddWall(Contact c, Solid s, int facet, int axis, double ou
   const int element = s->facet_element[facet], body = s->elements.body[element];
   const Material *m = &s->material[s->elements.material[element]];
   const int wall = WALL_LEFT + 2 * axis + (outward > 0.0);
-  double friction, damping, viscous;
+  const double penalty = m->penalty * m->thickness, stiffness = 3.0 * penalty / c->height[body];
+  const double compliance = c->compliance[body], intact = c->intact_compliance[body];
+  double friction, damping;
   PetscFunctionBeginUser;
   if (c->nwalls == c->wall_capacity) {
     c->wall_capacity = 2 * c->wall_capacity + 64;
@@ -124,10 +140,12 @@ static PetscErrorCode AddWall(Contact c, Solid s, int facet, int axis, double ou
   WallCandidate *w = &c->wall[c->nwalls++];
   *w = (WallCandidate){facet, axis, -1, outward, at};
   ContactMaterials(s, s->elements.material[element], wall, &friction, &damping);
-  const ContactLaw law = LawOf(s, facet, friction, damping, m->penalty * m->thickness, c->height[body],
-                               c->mass[body], c->areal_mass[body], &viscous);
+  const double viscosity =
+      ViscosityOf(damping, stiffness, c->areal_mass[body], 2.0 * compliance, 2.0 * intact,
+                  sqrt(stiffness * compliance)); /* in a corner two walls act */
+  const ContactLaw law = LawOf(s, facet, friction, stiffness, viscosity, c->mass[body], c->areal_mass[body]);
   PetscCall(ContactPairOf(c, s, facet, wall, law, &w->pair));
-  c->rate[3] = fmax(c->rate[3], 2.0 * viscous * c->compliance[body]); /* in a corner two walls act */
+  c->rate[3] = fmax(c->rate[3], 2.0 * viscosity * compliance);
   PetscFunctionReturn(0);
 }
 
