@@ -22,7 +22,9 @@ static const CoracleCaseKey KEYS[] = {
     {"solid.materials.*.friction", "",
      "coefficient of friction in contact; of two materials the geometric mean, 0 if one has 0"},
     {"solid.materials.*.contact_damping", "",
-     "part of the critical damping in contact; of two materials the geometric mean"},
+     "part of the critical damping in contact, with which bodies come to rest; of two materials the "
+     "geometric mean; not a "
+     "coefficient of restitution: a rebound is set by damping_ratio"},
     {"solid.materials.*.plane", "", "plane strain or plane stress"},
     {"solid.materials.*.law", "", "stress from strain"},
     {"solid.materials.*.thickness", "m", "across the plane; absent: 1; the fluid sees one metre"},

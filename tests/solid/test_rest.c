@@ -1,5 +1,6 @@
 /* What lies stays: a block on the floor and a stack of three come to rest and keep their potential energy; a
- * small heap of blocks that fall on each other comes to rest (hundreds: test_rest 300).  A corner that strikes is damped. */
+ * small heap of blocks that fall on each other comes to rest (hundreds: test_rest 300).  A corner that strikes is damped.  How a
+ * disc rebounds follows from its material's damping ratio, on any mesh. */
 #include "tests/solid/build.h"
 
 static const double G = 9.81;
@@ -126,6 +127,46 @@ static PetscErrorCode Corners(void)
   return 0;
 }
 
+/* A disc strikes a wall without gravity: what part of its speed it leaves with.  Its own deformation carries the rebound, half a
+ * period of 45 Hz long. */
+static PetscErrorCode Rebound(double size, double ratio, double *restitution)
+{
+  const double radius = 0.1, speed = 1.4;
+  const SolidSetup options = {.courant = 0.8, .walls = PETSC_TRUE, .lower = {-1.0, 0.0}, .upper = {1.0, 2.0}};
+  Material stone = MaterialOf(2600.0, 1.0e7, 0.2, 0.0);
+  Model a = {0};
+  Solid s;
+  double energy;
+  stone.damping_ratio = ratio;
+  stone.damping_frequency = 45.0;
+  BodySetup setup = BodyAtRest(stone);
+  setup.velocity[1] = -speed;
+  AddDisc(&a, 0.0, 1.02 * radius, radius, size, &setup);
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, &s));
+  PetscCall(Run(s, 0.03, 0.001));
+  PetscCall(Potential(s, 1, &energy, restitution));
+  *restitution /= speed;
+  PetscCall(ModelDestroy(&a));
+  return SolidDestroy(&s);
+}
+
+/* As an oscillator that leaves after half a period: exp(-pi xi), 0.73, give or take how far a strike on a disc is from one. */
+static PetscErrorCode Rebounds(void)
+{
+  double elastic, coarse, fine;
+  PetscCall(Rebound(0.03, 0.0, &elastic));
+  PetscCall(Rebound(0.03, 0.1, &coarse));
+  PetscCall(Rebound(0.015, 0.1, &fine));
+  if (getenv("VERBOSE"))
+    printf("a disc leaves with %.3f of its speed, damped %.3f, %.3f on a finer mesh\n", elastic, coarse,
+           fine);
+  CHECK(elastic > 0.96 && elastic < 1.01, "a disc without damping leaves with %g of its speed", elastic);
+  CHECK(fabs(coarse / exp(-0.1 * M_PI) - 1.0) < 0.1 && fabs(fine / exp(-0.1 * M_PI) - 1.0) < 0.1 &&
+            fabs(fine / coarse - 1.0) < 0.07,
+        "a disc of damping ratio 0.1 leaves with %g of its speed, %g on a finer mesh", coarse, fine);
+  return 0;
+}
+
 int main(int argc, char **argv)
 {
   const int n = argc > 1 ? atoi(argv[1]) : 0;
@@ -134,6 +175,7 @@ int main(int argc, char **argv)
     PetscCall(Heap(n, 6.0));
   } else {
     PetscCall(Corners());
+    PetscCall(Rebounds());
     PetscCall(Stack(1));
     PetscCall(Stack(3));
     PetscCall(Heap(20, 2.0));
