@@ -4,6 +4,7 @@
 #include "common/output/claim.h"
 #include "common/output/folder.h"
 #include "common/output/time_reached.h"
+#include "common/program/program.h"
 #include "common/program/run_case.h"
 #include "solid/solid_case.h"
 #include "solid/writer.h"
@@ -168,13 +169,16 @@ int Alone(int argc, char **argv)
   CoracleCase c;
   Run m = {0};
   Claim claim;
+  ProgramErrors errors = {Refuse, NULL};
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
+  PetscCall(ProgramTellErrors(&errors));
   PetscCall(CoracleCaseOpen(argc, argv, Refuse, NULL, &c));
   PetscCall(Begin(c, &m, &claim));
   PetscCall(Advance(&m));
   PetscCall(WriterDestroy(&m.writer));
   PetscCall(ClaimRelease(&claim));
   PetscCall(SolidDestroy(&m.solid));
+  PetscCall(PetscPopErrorHandler());
   PetscCall(CoracleCaseClose(&c)); /* the folder's name and gravity's rows are in it */
   return PetscFinalize();
 }

@@ -9,10 +9,11 @@ void ProgramFail(void *context, const char *message)
   CoracleFail(p->client, "%s", message);
 }
 
-/* PETSc's error handler. */
+/* PETSc's error handler; errors: a ProgramErrors. */
 static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const char *file,
-                            PetscErrorCode code, PetscErrorType type, const char *message, void *program)
+                            PetscErrorCode code, PetscErrorType type, const char *message, void *errors)
 {
+  const ProgramErrors *to = errors;
   char text[2048];
   struct rusage usage;
   if (code == PETSC_ERR_MEM ||
@@ -22,12 +23,17 @@ static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const
                    "out of memory: this rank has had up to %.0f MB; a coarser mesh needs less, and so do "
                    "more ranks on more computers (in %s, %s:%d)",
                    (double)usage.ru_maxrss / 1024.0, function, file, line);
-    ProgramFail(program, text);
+    to->fail(to->context, text);
   }
   (void)snprintf(text, sizeof text, "%s (in %s, %s:%d)", message ? message : "an error of PETSc", function,
                  file, line);
-  ProgramFail(program, text);
+  to->fail(to->context, text);
   return code;
+}
+
+PetscErrorCode ProgramTellErrors(ProgramErrors *errors)
+{
+  return PetscPushErrorHandler(Abort, errors);
 }
 
 PetscErrorCode ProgramStart(const char *role, int argc, char **argv, Program *p)
@@ -42,7 +48,8 @@ PetscErrorCode ProgramStart(const char *role, int argc, char **argv, Program *p)
   PetscCall(PetscOptionsSetValue(NULL, "-no_signal_handler", NULL));
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
   PetscFunctionBeginUser;
-  PetscCall(PetscPushErrorHandler(Abort, p));
+  p->errors = (ProgramErrors){ProgramFail, p};
+  PetscCall(ProgramTellErrors(&p->errors));
   CoracleCaseOpen(argc, argv, ProgramFail, p, &p->c);
   PetscFunctionReturn(0);
 }

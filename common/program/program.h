@@ -14,18 +14,27 @@
 #include "common/link/server.h"
 #include <petscsys.h>
 
+/* Whom an error of PETSc is told; fail must not return. */
+typedef struct {
+  void (*fail)(void *context, const char *message);
+  void *context;
+} ProgramErrors;
+
 typedef struct {
   const char *role;     /* "fluid", "coupler" or "solid" */
   CoracleClient client; /* of a fluid or a solid, else NULL */
   Server server;        /* of the coupler, else NULL */
   MPI_Comm comm;        /* the participant's; PETSC_COMM_WORLD is the same */
   CoracleCase c;        /* the case file */
+  ProgramErrors errors;
 } Program;
 
 /* Collective over the job. */
 PetscErrorCode ProgramStart(const char *role, int argc, char **argv, Program *program);
 /* Collective over the job: after CORACLE_STOP. */
 PetscErrorCode ProgramEnd(Program *program);
+/* Errors of PETSc go to errors->fail as one line, until PetscPopErrorHandler; errors: borrowed as long.  ProgramStart does so itself. */
+PetscErrorCode ProgramTellErrors(ProgramErrors *errors);
 /* Without a job: answers as CommandAnswer, with PETSc for what reads the case; returns the program's exit status. */
 int ProgramAnswer(Command command, const CommandAnswers *answers, int argc, char **argv);
 /* Ends the job with the message (context: a Program); what case files and others call back. */

@@ -33,6 +33,12 @@ if "$2/solid/coracle-solid" --alone "$1/tests/solid/alone.yaml" --set output.fol
   echo "a run that has ended was resumed"; exit 1
 fi
 grep -q "key 'time.end': the checkpoint to resume from is at t = 0.2 s already" "$folder/bad.log" || { cat "$folder/bad.log"; exit 1; }
+if "$2/solid/coracle-solid" --alone "$1/tests/solid/alone.yaml" --set output.folder="$folder/resumed" --set resume=last --set time.end=0.3 \
+  --set 'solid.bodies[1]={shape: disc, centre: [0.5, 0.2], radius: 0.1, size: 0.05, material: stone}' >"$folder/bad.log" 2>&1; then
+  echo "a checkpoint of other bodies was taken"; exit 1
+fi
+grep -q "^coracle solid.0.: error: cannot resume from .*it has 1 bodies, the case has 2" "$folder/bad.log" && ! grep -qi petsc "$folder/bad.log" ||
+  { cat "$folder/bad.log"; exit 1; }
 # what is wrong is said once, by name
 if "$2/solid/coracle-solid" --alone "$1/tests/solid/alone.yaml" --set time.end=-1 >"$folder/bad.log" 2>&1; then
   echo "a negative end was taken"; exit 1
