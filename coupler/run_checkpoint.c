@@ -1,5 +1,5 @@
 #include "common/output/folder.h"
-#include "coupler/input/case_copy.h"
+#include "common/program/case_copy.h"
 #include "coupler/run_state.h"
 
 enum { MONITOR_NUMBERS = 7 };
@@ -9,12 +9,16 @@ PetscErrorCode RunOpenOutput(RunState *run)
   TimeLoop *loop = run->loop;
   const char *resume = ServerResumePath(loop->server), *folder = loop->c->folder;
   const PetscBool resumes = resume ? FolderHolds(PETSC_COMM_WORLD, folder, resume) : PETSC_FALSE;
+  const CouplerCase *c = loop->c;
+  char ranks[80];
   CaseCopy copy;
 
   PetscFunctionBeginUser;
-  PetscCall(CaseCopyTake(loop->c, &copy));
+  PetscCall(CaseCopyTake(c->argc, c->argv, &copy));
   PetscCall(ClaimFolder(PETSC_COMM_WORLD, folder, resumes, &loop->claim));
-  PetscCall(CaseCopyWrite(loop->server, loop->c, &copy));
+  snprintf(ranks, sizeof ranks, "ranks of fluid, coupler, solid %d:%d:%d", ServerRanks(loop->server, "fluid"),
+           ServerRanks(loop->server, "coupler"), ServerRanks(loop->server, "solid"));
+  PetscCall(CaseCopyWrite(folder, ranks, c->argc, c->argv, &copy));
   PetscCall(CheckpointsCreate(PETSC_COMM_WORLD, loop->server, loop->c, &run->checkpoints));
   PetscCall(WriterCreate(PETSC_COMM_WORLD, loop->c, loop->from, &loop->writer));
   PetscFunctionReturn(0);

@@ -40,6 +40,9 @@ file=$(realpath "$file") out=$(realpath -m "${out:-out/$name}")
 mkdir -p "$out"
 "$root/scripts/launch.sh" "${alone[@]}" --bin "${bin:-$root/build}" --ranks "$ranks" "$file" --set "output.folder=$out" "${sets[@]}"
 
-figures=$root/cases/$name/figures.sh
-if [ -f "$figures" ]; then bash "$figures" "$out"; fi
-echo "results: $out (summary.json, *.csv, *.xdmf for ParaView, *.png)"
+figures=$root/cases/$name/figures.sh pictures=""
+if [ -f "$figures" ] && [ "${#alone[@]}" -eq 0 ]; then # they show the fluid
+  bash "$figures" "$out"
+  pictures=", *.png"
+fi
+echo "results: $out (summary.json, *.csv, *.xdmf for ParaView$pictures)"

@@ -4,8 +4,10 @@
 #include "common/output/claim.h"
 #include "common/output/folder.h"
 #include "common/output/time_reached.h"
+#include "common/program/case_copy.h"
 #include "common/program/program.h"
 #include "common/program/run_case.h"
+#include "solid/alone_summary.h"
 #include "solid/solid_case.h"
 #include "solid/writer.h"
 #include <stdio.h>
@@ -34,7 +36,7 @@ typedef struct {
   RunCase keys;
   char run[CHECKPOINT_RUN];
   double longest, every; /* s, the largest step; by the clock from one checkpoint to the next, 0: none */
-  long long steps;       /* also those of runs that this one resumes from */
+  AloneTotals totals;
   Solid solid;
   Writer writer;
 } Run;
@@ -50,7 +52,8 @@ static void Say(const Run *m, double dt, double begun, double start, double *sai
   if (rank || (now - *said < 1.0 && left > 0.5 * dt)) return;
   *said = now;
   printf("coracle: t %.5g s of %g, step %lld, dt %.3g s, %d substeps, %.0f s done, about %.0f s to go\n",
-         stats->t, m->keys.end, m->steps, dt, stats->substeps, spent, spent * left / (stats->t - begun));
+         stats->t, m->keys.end, m->totals.steps, dt, stats->substeps, spent,
+         spent * left / (stats->t - begun));
   fflush(stdout);
 }
 
@@ -58,13 +61,12 @@ static void Say(const Run *m, double dt, double begun, double start, double *sai
 
 static PetscErrorCode Load(Run *m, Checkpoint from)
 {
-  double steps;
+  PetscBool alone;
   PetscFunctionBeginUser;
-  if (!CheckpointHasNumber(from, "steps alone"))
-    Fail(NULL, "key 'resume': that is a checkpoint of a run with a fluid");
-  PetscCall(CheckpointGetNumber(from, "steps alone", &steps));
-  m->steps = (long long)steps;
+  PetscCall(AloneTotalsLoad(&m->totals, from, &alone));
+  if (!alone) Refuse(NULL, "key 'resume': that is a checkpoint of a run with a fluid");
   PetscCall(SolidLoad(m->solid, from));
+  m->totals.resumed = SolidGetStats(m->solid)->t;
   PetscFunctionReturn(0);
 }
 
@@ -75,11 +77,11 @@ static PetscErrorCode Save(const Run *m)
   PetscMPIInt rank;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  snprintf(path, sizeof path, "%s/" CORACLE_CHECKPOINT ".%lld", m->keys.folder, m->steps);
-  if (!rank) PetscCall(CheckpointFolderMake(path, m->run, m->steps, SolidGetStats(m->solid)->t));
+  snprintf(path, sizeof path, "%s/" CORACLE_CHECKPOINT ".%lld", m->keys.folder, m->totals.steps);
+  if (!rank) PetscCall(CheckpointFolderMake(path, m->run, m->totals.steps, SolidGetStats(m->solid)->t));
   PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
   PetscCall(CheckpointCreate(PETSC_COMM_WORLD, path, "solid", &to));
-  PetscCall(CheckpointPutNumber(to, "steps alone", (double)m->steps));
+  PetscCall(AloneTotalsSave(&m->totals, to));
   PetscCall(SolidSave(m->solid, to));
   PetscCall(WriterSave(m->writer, 0.0, to));
   PetscCall(CheckpointClose(&to));
@@ -111,7 +113,7 @@ static PetscErrorCode Advance(Run *m)
     while (SolidRemaining(m->solid)) PetscCall(SolidSubstep(m->solid, &h));
     PetscCall(SolidRebalance(m->solid));
     PetscCall(WriterStep(m->writer, m->solid, 0.0));
-    m->steps++;
+    m->totals.steps++;
     Say(m, dt, begun, start, &said);
     PetscCall(SaveIfDue(m, step == steps, &saved));
   }
@@ -140,12 +142,28 @@ static PetscErrorCode ReadRun(CoracleCase c, Run *m, char resume[PETSC_MAX_PATH_
                           "coracle: there is no %s/" CORACLE_CHECKPOINT ": begins at the start\n",
                           m->keys.folder));
   CheckpointFolderRun(m->run);
+  m->totals.folder = m->keys.folder;
+  m->totals.name = CoracleCaseStringOr(c, "case", "");
+  m->totals.note = CoracleCaseStringOr(c, "note", "");
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Begin(CoracleCase c, Run *m, Claim *claim)
+static PetscErrorCode WriteCase(const char *folder, int argc, char **argv, CaseCopy *copy)
+{
+  char ranks[64];
+  PetscMPIInt size;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
+  snprintf(ranks, sizeof ranks, "the solid alone, ranks %d", size);
+  PetscCall(CaseCopyWrite(folder, ranks, argc, argv, copy));
+  PetscFunctionReturn(0);
+}
+
+/* argc, argv: the command line, for case.yaml. */
+static PetscErrorCode Begin(CoracleCase c, int argc, char **argv, Run *m, Claim *claim)
 {
   Checkpoint from = NULL;
+  CaseCopy copy;
   char resume[PETSC_MAX_PATH_LEN];
   PetscFunctionBeginUser;
   PetscCall(ReadRun(c, m, resume));
@@ -158,7 +176,9 @@ static PetscErrorCode Begin(CoracleCase c, Run *m, Claim *claim)
   if (TimeReached(t, m->keys.end))
     CoracleCaseRefuse(c, "time.end", "the checkpoint to resume from is at t = %g s already", t);
   const PetscBool resumes = (PetscBool)(from && FolderHolds(PETSC_COMM_WORLD, m->keys.folder, resume));
+  PetscCall(CaseCopyTake(argc, argv, &copy));
   PetscCall(ClaimFolder(PETSC_COMM_WORLD, m->keys.folder, resumes, claim));
+  PetscCall(WriteCase(m->keys.folder, argc, argv, &copy));
   PetscCall(WriterCreate(c, PETSC_COMM_WORLD, m->solid, from, &m->writer));
   PetscCall(CheckpointClose(&from));
   PetscFunctionReturn(0);
@@ -173,8 +193,10 @@ int Alone(int argc, char **argv)
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
   PetscCall(ProgramTellErrors(&errors));
   PetscCall(CoracleCaseOpen(argc, argv, Refuse, NULL, &c));
-  PetscCall(Begin(c, &m, &claim));
+  m.totals.start = MPI_Wtime();
+  PetscCall(Begin(c, argc, argv, &m, &claim));
   PetscCall(Advance(&m));
+  PetscCall(AloneSummaryWrite(m.solid, &m.totals));
   PetscCall(WriterDestroy(&m.writer));
   PetscCall(ClaimRelease(&claim));
   PetscCall(SolidDestroy(&m.solid));

@@ -37,29 +37,33 @@ PetscErrorCode SolidRunSave(const SolidRun *m)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Report(const Program *program, Solid solid)
+PetscErrorCode SolidReport(Solid solid, SolidTell tell, void *context)
 {
   static const char *const PHASES[] = {"seconds_elements", "seconds_contact", "seconds_exchange",
                                        "seconds_limit",    "seconds_joints",  "seconds_response"};
-  const CoracleClient client = program->client;
   const SolidStats *stats = SolidGetStats(solid);
   SolidView v;
   PetscFunctionBeginUser;
   SolidGetView(solid, &v);
-  PetscCall(CoracleReport(client, "elements", v.nelements, 1));
-  PetscCall(CoracleReport(client, "bodies", v.nbodies, 0));
-  PetscCall(CoracleReport(client, "substeps", (double)stats->total, 0));
-  PetscCall(CoracleReport(client, "contact_searches", stats->searches, 0));
-  PetscCall(CoracleReport(client, "response_iterations", (double)stats->response_iterations, 0));
-  PetscCall(CoracleReport(client, "rebalanced", stats->rebalanced, 0));
-  PetscCall(ProgramReportSeconds(program, 6, PHASES, stats->seconds));
+  PetscCall(tell(context, "elements", v.nelements, 1));
+  PetscCall(tell(context, "bodies", v.nbodies, 0));
+  PetscCall(tell(context, "substeps", (double)stats->total, 0));
+  PetscCall(tell(context, "contact_searches", stats->searches, 0));
+  PetscCall(tell(context, "response_iterations", (double)stats->response_iterations, 0));
+  PetscCall(tell(context, "rebalanced", stats->rebalanced, 0));
+  for (int k = 0; k < 6; k++) PetscCall(tell(context, PHASES[k], stats->seconds[k], 0));
   PetscFunctionReturn(0);
+}
+
+static int Tell(void *client, const char *key, double value, int sum)
+{
+  return CoracleReport(client, key, value, sum);
 }
 
 PetscErrorCode SolidRunDestroy(SolidRun *m)
 {
   PetscFunctionBeginUser;
-  PetscCall(Report(m->program, m->solid));
+  PetscCall(SolidReport(m->solid, Tell, m->program->client));
   PetscCall(WriterDestroy(&m->writer));
   PetscCall(ExchangeDestroy(&m->exchange));
   PetscCall(SolidDestroy(&m->solid));

@@ -21,4 +21,7 @@ PetscErrorCode SolidRunOpenOutput(SolidRun *run);
 PetscErrorCode SolidRunSave(const SolidRun *run);
 /* Reports what the run has cost, and frees. */
 PetscErrorCode SolidRunDestroy(SolidRun *run);
+/* Hears of a number that summary.json has; sum: of the ranks' values, else the largest of them.  Nonzero: an error. */
+typedef int (*SolidTell)(void *context, const char *key, double value, int sum);
+PetscErrorCode SolidReport(Solid solid, SolidTell tell, void *context);
 #endif

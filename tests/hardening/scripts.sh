@@ -16,7 +16,8 @@ grep -q "there is no field 'colour': .*solid:stress" "$scratch/log" || { cat "$s
 [ "$(wc -l <"$scratch/scaling/scaling.csv")" -eq 3 ] && [ -s "$scratch/scaling/scaling.png" ] || { cat "$scratch/log"; exit 1; }
 # options stand before the case or after it; what is not one is told as such, and a usage ends with its last line
 for order in "--alone $root/tests/solid/alone.yaml" "$root/tests/solid/alone.yaml --alone"; do
-  "$root/scripts/run.sh" --bin "$build" --out "$scratch/alone" --set time.end=0.001 $order >"$scratch/log" 2>&1 && [ -s "$scratch/alone/solid.csv" ] || { cat "$scratch/log"; exit 1; }
+  "$root/scripts/run.sh" --bin "$build" --out "$scratch/alone" --set time.end=0.001 $order >"$scratch/log" 2>&1 && [ -s "$scratch/alone/summary.json" ] || { cat "$scratch/log"; exit 1; }
+  tail -1 "$scratch/log" | grep -q '^results: .*alone (summary.json, \*.csv, \*.xdmf for ParaView)$' || { cat "$scratch/log"; exit 1; }
   rm -r "$scratch/alone"
 done
 if "$root/scripts/run.sh" --bin "$build" --allone "$root/tests/solid/alone.yaml" 2>"$scratch/log"; then echo 'an unknown option was taken'; exit 1; fi

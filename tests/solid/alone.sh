@@ -9,6 +9,10 @@ for ranks in 1 2; do
     --set output.folder="$folder/$ranks" >"$folder/$ranks.log"
   grep -q 'coracle: t 0.2 s of 0.2, step 20' "$folder/$ranks.log" || { echo "no progress line in $folder/$ranks.log"; exit 1; }
   [ -s "$folder/$ranks/solid.h5" ] || { echo "no $folder/$ranks/solid.h5"; exit 1; }
+  head -1 "$folder/$ranks/case.yaml" | grep -q "^# coracle .*, the solid alone, ranks $ranks$" || { echo "case.yaml does not say what ran"; exit 1; }
+  for part in '"mode": "alone"' '"steps": 20' '"elements": {"solid": 16, "surface": 12}' '"solid": {"elements": 16, "bodies": 1, "substeps": [1-9]' "\"ranks\": $ranks,"; do
+    grep -q "$part" "$folder/$ranks/summary.json" || { echo "no $part:"; cat "$folder/$ranks/summary.json"; exit 1; }
+  done
 done
 # u0 is column 4; 5 - 0.2 * 8 = 3.4 m/s2 once it slides
 tail -n 2 "$folder/1/solid.csv" | awk -F, '
@@ -28,6 +32,7 @@ for ranks in 1 2; do
     if ($(1 + n) == "") { print "no row", NR; exit 1 }
     for (k = 1; k <= 10; k++) if (($k - $(k + n)) ^ 2 > 1e-16) { print "resumed: row", NR, "column", k ":", $k, "and", $(k + n); exit 1 } }'
 done
+grep -q '"resumed_at": 0[.]\(0999\|1\)' "$folder/resumed/summary.json" || { cat "$folder/resumed/summary.json"; exit 1; }
 [ ! -e "$folder/resumed/checkpoint.10" ] && [ -e "$folder/resumed/checkpoint/solid.h5" ] || { echo "checkpoints:"; ls "$folder/resumed"; exit 1; }
 if "$2/solid/coracle-solid" --alone "$1/tests/solid/alone.yaml" --set output.folder="$folder/resumed" --set resume=last >"$folder/bad.log" 2>&1; then
   echo "a run that has ended was resumed"; exit 1

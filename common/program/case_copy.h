@@ -4,16 +4,15 @@
  *     CaseCopyWrite    once the folder is this run's */
 #ifndef CORACLE_CASE_COPY_H
 #define CORACLE_CASE_COPY_H
-#include "common/link/server.h"
-#include "coupler/input/coupler_case.h"
 #include <petscsys.h>
 
 typedef struct {
   size_t n;
-  char *text; /* [n], on rank 0 of the coupler */
+  char *text; /* [n], on rank 0 */
 } CaseCopy;
 
-/* Collective over the coupler, both; errors: a file that cannot be read or written.  CaseCopyWrite frees the copy. */
-PetscErrorCode CaseCopyTake(const CouplerCase *c, CaseCopy *copy);
-PetscErrorCode CaseCopyWrite(Server server, const CouplerCase *c, CaseCopy *copy);
+/* Collective over PETSC_COMM_WORLD, both; argv: program, case file, settings; ranks: for the first line.  Errors: a file that cannot be
+ * read or written.  CaseCopyWrite frees the copy. */
+PetscErrorCode CaseCopyTake(int argc, char **argv, CaseCopy *copy);
+PetscErrorCode CaseCopyWrite(const char *folder, const char *ranks, int argc, char **argv, CaseCopy *copy);
 #endif
