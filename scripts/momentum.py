@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The momentum of a run, fluid and solids together, step by step, from fluid_forces.csv, solid.csv and coupler.csv.
+"""The momentum of a run, fluid and solids together, step by step, from fluid_forces.csv, solid.csv and coupler.csv; of a solid alone, from
+solid.csv, without the first step, whose length it does not say.
 
 Usage: scripts/momentum.py FOLDER [--bound NUMBER]
 Prints, for each component, the largest of what each term has given in a step, N s/m, and what is left over.  With --bound it fails where
@@ -13,6 +14,7 @@ import numpy as np
 
 from series import read_series
 
+SERIES = ("fluid_forces", "solid", "coupler")
 FLUID_TERMS = ("weight", "divergence", "interface", "absorption", "adaptation", "correction")  # of fluid_forces.csv, but for `solid` and `rest`
 BOUNDARY_PARTS = ("pressure", "viscous", "convection")
 
@@ -27,6 +29,26 @@ def change(start, end):
     return end - np.concatenate([start[:1], end[:-1]])
 
 
+def vector(series, name, between="_"):
+    return np.stack([series[name + between + axis] for axis in "xy"], axis=1)
+
+
+def terms_of_solids(folder):
+    """{term: [steps][2]} of a solid alone, the budget that solid/budget.c keeps; from the second step on."""
+    solid = read_series(os.path.join(folder, "solid.csv"))
+    if len(solid["t"]) < 2:
+        sys.exit(f"{folder}: solid.csv has fewer than two steps")
+    dt = np.diff(solid["t"])[:, None]
+    parts = {"solids' weight": dt * vector(solid, "weight")[1:], "solids' load": dt * vector(solid, "load")[1:],
+             "solids' walls": vector(solid, "walls")[1:], "solids' supports": vector(solid, "reaction")[1:]}
+    terms = {"change": change(vector(solid, "start_momentum"), vector(solid, "momentum"))[1:], **parts}
+    terms["rest"] = terms["change"] - sum(parts.values())
+    bodies = [k for k in range(len(solid)) if f"mass{k}" in solid]  # what they have and bear may cancel in the sum, as of two platens
+    parts.update({k: solid[f"mass{k}"][1:, None] * np.stack([solid[f"{u}{k}"][1:] for u in "uv"], axis=1) for k in bodies})
+    terms["scale"] = sum(np.linalg.norm(part, axis=1) for part in parts.values())
+    return terms
+
+
 def terms_of(folder):
     """{term: [steps][2]}: the impulses of all steps, N s/m.
 
@@ -35,27 +57,27 @@ def terms_of(folder):
     of it; with `correction` it is the change of that fluid's momentum less its weight.  `uplift` is what walls beneath solids give back
     (coupler/force/uplift.h).  What fluid and solids exchange cancels:
     `exchange`, the fluid's gain and the coupler's reaction, and `load`, the coupler's force and the solids' load, are left over."""
-    fluid, solid, coupler = (read_series(os.path.join(folder, name + ".csv")) for name in ("fluid_forces", "solid", "coupler"))
+    fluid, solid, coupler = (read_series(os.path.join(folder, name + ".csv")) for name in SERIES)
     for other in (solid, coupler):
         if len(other["t"]) != len(fluid["t"]) or abs(other["t"] - fluid["t"]).max() > 1e-9 * fluid["t"][-1]:
             sys.exit(f"{folder}: the series are not of the same steps")
     dt = fluid["dt"][:, None]
-    vector = lambda series, name, between=" ": np.stack([series[name + between + axis] for axis in "xy"], axis=1)
-    terms = {"change": change(vector(fluid, "start momentum"), vector(fluid, "momentum")) +
-                       change(vector(solid, "start_momentum", "_"), vector(solid, "momentum", "_"))}
+    of_fluid = lambda name: vector(fluid, name, " ")
+    terms = {"change": change(of_fluid("start momentum"), of_fluid("momentum")) +
+                       change(vector(solid, "start_momentum"), vector(solid, "momentum"))}
     for name in FLUID_TERMS:
-        terms[name] = dt * vector(fluid, name)
+        terms[name] = dt * of_fluid(name)
     for name in boundaries(fluid):
-        terms[name] = -dt * sum(vector(fluid, name + " " + part) for part in BOUNDARY_PARTS)
-    terms["solids' weight"] = dt * vector(solid, "weight", "_")
-    terms["solids' walls"], terms["solids' supports"] = vector(solid, "walls", "_"), vector(solid, "reaction", "_")
-    terms["uplift"] = dt * vector(coupler, "uplift", "_")
-    terms["inside"] = dt * (vector(coupler, "F", "_") - vector(coupler, "R", "_"))
+        terms[name] = -dt * sum(of_fluid(name + " " + part) for part in BOUNDARY_PARTS)
+    terms["solids' weight"] = dt * vector(solid, "weight")
+    terms["solids' walls"], terms["solids' supports"] = vector(solid, "walls"), vector(solid, "reaction")
+    terms["uplift"] = dt * vector(coupler, "uplift")
+    terms["inside"] = dt * (vector(coupler, "F") - vector(coupler, "R"))
     terms["rest"] = terms["change"] - sum(value for name, value in terms.items() if name != "change")
-    terms["exchange"] = dt * (vector(fluid, "solid") + vector(coupler, "R", "_"))
-    terms["load"] = dt * (vector(solid, "load", "_") - vector(coupler, "F", "_") - vector(coupler, "uplift", "_"))
-    parts = [dt * vector(fluid, name + " " + part) for name in boundaries(fluid) for part in BOUNDARY_PARTS]
-    parts += [dt * vector(fluid, "solid"), dt * vector(solid, "load", "_")]
+    terms["exchange"] = dt * (of_fluid("solid") + vector(coupler, "R"))
+    terms["load"] = dt * (vector(solid, "load") - vector(coupler, "F") - vector(coupler, "uplift"))
+    parts = [dt * of_fluid(name + " " + part) for name in boundaries(fluid) for part in BOUNDARY_PARTS]
+    parts += [dt * of_fluid("solid"), dt * vector(solid, "load")]
     parts += [terms[name] for name in (*FLUID_TERMS, "solids' weight", "solids' walls", "solids' supports", "uplift")]
     terms["scale"] = sum(np.linalg.norm(part, axis=1) for part in parts)
     return terms
@@ -71,12 +93,16 @@ def main():
     parser.add_argument("folder")
     parser.add_argument("--bound", type=float)
     options = parser.parse_args()
-    terms = terms_of(options.folder)
+    has = [name for name in SERIES if os.path.exists(os.path.join(options.folder, name + ".csv"))]
+    if "solid" not in has or len(has) == 2:
+        missing = ", ".join(name + ".csv" for name in SERIES if name not in has)
+        sys.exit(f"{options.folder}: there is no {missing}; of fluid and solids all three are needed, of a solid alone solid.csv")
+    terms = terms_of(options.folder) if len(has) == 3 else terms_of_solids(options.folder)
     for name, value in terms.items():
         if name != "scale":
             print("%-20s %11.3e %11.3e" % (name, *abs(value).max(axis=0)))
     largest = defect(terms).max()
-    print("left over, of all terms of a step: %.1e" % largest)
+    print("left over, of %sall terms of a step: %.1e" % ("" if len(has) == 3 else "the bodies' momenta and ", largest))
     return options.bound is not None and not largest < options.bound
 
 

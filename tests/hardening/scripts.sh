@@ -18,8 +18,12 @@ grep -q "there is no field 'colour': .*solid:stress" "$scratch/log" || { cat "$s
 for order in "--alone $root/tests/solid/alone.yaml" "$root/tests/solid/alone.yaml --alone"; do
   "$root/scripts/run.sh" --bin "$build" --out "$scratch/alone" --set time.end=0.001 $order >"$scratch/log" 2>&1 && [ -s "$scratch/alone/summary.json" ] || { cat "$scratch/log"; exit 1; }
   tail -1 "$scratch/log" | grep -q '^results: .*alone (summary.json, \*.csv, \*.xdmf for ParaView)$' || { cat "$scratch/log"; exit 1; }
+  momentum=$("$python" "$root/scripts/momentum.py" "$scratch/alone" 2>&1) && status=0 || status=$?
+  [ "$status $momentum" = "1 $scratch/alone: solid.csv has fewer than two steps" ] || { echo "momentum.py: $momentum"; exit 1; }
   rm -r "$scratch/alone"
 done
+if "$python" "$root/scripts/momentum.py" "$scratch" 2>"$scratch/log"; then echo 'a budget of no run'; exit 1; fi
+[ "$(wc -l <"$scratch/log")" -eq 1 ] && grep -q 'there is no fluid_forces.csv, solid.csv, coupler.csv;' "$scratch/log" || { cat "$scratch/log"; exit 1; }
 if "$root/scripts/run.sh" --bin "$build" --allone "$root/tests/solid/alone.yaml" 2>"$scratch/log"; then echo 'an unknown option was taken'; exit 1; fi
 grep -q "^run.sh: unknown option '--allone'" "$scratch/log" || { cat "$scratch/log"; exit 1; }
 if "$root/scripts/check.sh" --help | grep '^t '; then echo 'more than the usage is shown'; exit 1; fi
