@@ -12,6 +12,7 @@ import numpy as np
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.tri import Triangulation
 
+ROUND_OFF = 1e-6  # of the largest value: what volume fractions have below 0
 # A six-node triangle (midpoints of 01, 12, 20 are 3, 4, 5) as four straight ones.
 QUARTERS = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]])
 
@@ -136,6 +137,11 @@ def centred(low, high, even=True):
     return LinearSegmentedColormap.from_list("centred", matplotlib.colormaps["RdBu_r"](place))
 
 
+def colours(low, high):
+    """A colour map of values from low to high: a diverging one if they have both signs, but for round-off."""
+    return centred(low, high, even=False) if min(-low, high) > ROUND_OFF * max(-low, high) else "viridis"
+
+
 def paint(axes, grid, values, window, limits, colour_map, label, body=None, ticks=None, cover=False):
     """Gouraud shading of nodal values in the window, a colour bar above, the bodies' outline; their inside grey if `cover`."""
     shade = axes.tripcolor(window.triangulation(grid), values, shading="gouraud", cmap=colour_map,
@@ -150,8 +156,9 @@ def paint(axes, grid, values, window, limits, colour_map, label, body=None, tick
 
 
 def paint_mesh(axes, grid, window, body=None, linewidth=0.4, inside=False):
-    """The fluid's triangles in the window and the bodies' outline; their own triangles too if `inside`."""
-    axes.triplot(window.triangulation(grid), color="0.35", linewidth=linewidth)
+    """The fluid's triangles (if any: grid) in the window and the bodies' outline; their own triangles too if `inside`."""
+    if grid is not None:
+        axes.triplot(window.triangulation(grid), color="0.35", linewidth=linewidth)
     if body is not None:
         if inside:
             axes.triplot(Triangulation(*body.points.T, body.cells), color="C3", linewidth=linewidth, alpha=0.6)

@@ -10,7 +10,7 @@ import os
 import matplotlib.pyplot as plt
 import numpy as np
 
-from snapshot import Window, centred, paint, read_snapshot, save
+from snapshot import Window, colours, paint, read_snapshot, save
 
 
 def parse_arguments():
@@ -86,8 +86,7 @@ def draw(arguments):
     high = high if high > low else low + 1.0
     width = 8.0 * np.sqrt(window.size[0] / window.size[1])
     figure, axes = plt.subplots(figsize=(width, 1.0 + width * window.size[1] / window.size[0]), layout="constrained")
-    colours = centred(low, high, even=False) if low < 0.0 < high else "viridis"
-    paint(axes, grid, values, window, (low, high), colours, label, grids.get("solid"))
+    paint(axes, grid, values, window, (low, high), colours(low, high), label, grids.get("solid"))
     axes.set(xlabel="x [m]", ylabel="y [m]", title=f"t = {time:.4g} s")
     return figure
 

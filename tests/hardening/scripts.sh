@@ -8,6 +8,11 @@ for field in velocity.y solid:stress; do
   "$root/scripts/view.sh" "$scratch/x" --field $field --time 0.01 --out "$scratch/$field.png" >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
   [ -s "$scratch/$field.png" ] || { echo "no picture of $field"; exit 1; }
 done
+# colours of both signs only where there are both
+PYTHONPATH=$root/scripts "$python" - <<'E2'
+from snapshot import colours
+assert colours(-2e-15, 1.0) == colours(0.0, 1.0) == colours(-1.0, 0.0) == colours(-1.0, 1e-12) == "viridis" and colours(-1e-3, 1.0) != "viridis"
+E2
 "$python" "$root/scripts/plot_field.py" "$scratch/x" >"$scratch/log" 2>&1 && [ -s "$scratch/x/field.png" ] || { cat "$scratch/log"; exit 1; }
 if "$root/scripts/view.sh" "$scratch/x" --field colour 2>"$scratch/log"; then echo 'a field that is not there was drawn'; exit 1; fi
 grep -q "there is no field 'colour': .*solid:stress" "$scratch/log" || { cat "$scratch/log"; exit 1; }
