@@ -93,7 +93,7 @@ PetscErrorCode CouplerCaseRead(CoracleCase file, CouplerCase *c)
   (void)CoracleCaseBoolOr(file, "output.trace", false); /* the library's */
   c->dt_max = CoracleCasePositive(file, "time.dt_max");
   /* the fluid's, read here so that the whole section can be checked */
-  (void)CoracleCaseNumberOr(file, "time.cfl", 0.5, 0.0, HUGE_VAL);
+  if (CoracleCaseHas(file, "time.cfl")) (void)CoracleCasePositive(file, "time.cfl");
   ReadOptions(file, &c->options);
   GaugesReadCase(file, &c->gauges);
   CoracleCaseRenamed(file, "coupler.tries", "coupler.max_iterations");

@@ -17,6 +17,8 @@ accepted() {
   timeout -k 5 60 "$build/$part/coracle-$part" --check "$case" "$@" >"$scratch/log" 2>&1 || { echo "refused: $*"; cat "$scratch/log"; exit 1; }
 }
 
+for part in fluid coupler; do refused $part "'time.cfl': expected a number > 0" --set time.cfl=0; done
+
 # counts are made before the work, and in doubles
 for size in 3.5e-6 1e-11 1e-300; do refused solid "'solid.bodies\[0\].size': .* elements" --set "solid.bodies[0].size=$size"; done
 rectangle='{shape: rectangle, centre: [1, 1], width: 0.2, height: 0.1, material: disc, size: '
