@@ -36,6 +36,17 @@ static void CheckFolder(CoracleCase c, const char *folder)
   if (access(there, W_OK | X_OK)) CoracleCaseRefuse(c, "output.folder", "%s: %s", there, strerror(errno));
 }
 
+/* A twentieth of the fluid's elements is usual (cases/GUIDE.md). */
+static void NoteShell(CoracleCase c, double thickness)
+{
+  if (!CoracleCaseHas(c, "fluid.adapt.size_min")) return;
+  const double size = CoracleCasePositive(c, "fluid.adapt.size_min");
+  if (thickness > size)
+    printf("note: coupler.shell_thickness, %g m, is more than fluid.adapt.size_min, %g m: it thickens the "
+           "bodies; a twentieth of that is usual\n",
+           thickness, size);
+}
+
 static void Read(CoracleCase c, void *command)
 {
   static CouplerCase k;
@@ -46,6 +57,8 @@ static void Read(CoracleCase c, void *command)
   if (*(const Command *)command == COMMAND_KEYS || !CoracleCaseFaultless(c)) return;
   printf("coupler: to t = %g s in at least %.0f steps, %.0f snapshots into %s\n", k.end,
          TimeSteps(k.end, k.dt_max), TimeSteps(k.end, k.every) + 1.0, k.folder);
+  RunCaseNoteSteps(&(RunCase){.end = k.end}, k.dt_max);
+  NoteShell(c, k.options.thickness);
 }
 
 int CouplerAnswer(Command command, int argc, char **argv)

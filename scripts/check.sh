@@ -2,7 +2,7 @@
 # All faults of a case at once, without a run: what is wrong, or what a run would be made of and a picture of it.
 # Usage: scripts/check.sh [options] CASE [--set key=value]...
 #   --bin DIR     programs that are there already (default: they are built, as by run.sh)
-#   --alone       the solid alone (launch.sh --alone): no fluid, no coupler, no picture
+#   --alone       the solid alone (launch.sh --alone): no fluid, no coupler
 #   --png FILE    where the picture goes (default: none)
 # Touches no output folder.  Exit status: 0, or 1 when the case has faults.
 set -euo pipefail
@@ -46,9 +46,10 @@ if [ "$faults" -ne 0 ]; then
   cat "${parts[@]/#/$scratch/}" | grep '^coracle ' | sed 's/^coracle [a-z]*: //' | awk '!seen[$0]++' || cat "$scratch"/*
   exit 1
 fi
-cat "${parts[@]/#/$scratch/}"
-if [ -n "$png" ] && [ "${#parts[@]}" -eq 3 ]; then
-  for part in fluid solid; do
+cat "${parts[@]/#/$scratch/}" | awk '!/^note: / || !seen[$0]++'
+if [ -n "$png" ]; then
+  for part in "${parts[@]}"; do
+    [ "$part" != coupler ] || continue
     "$(program $part)" --draw "$case" "${sets[@]}" --set "output.folder=$scratch/run" >"$scratch/$part" 2>&1 ||
       { cat "$scratch/$part"; exit 1; }
   done

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""The meshes of a case before its run.  Usage: plot_case.py FOLDER PICTURE, where FOLDER has fluid.h5 and solid.h5 as --draw writes them.
+"""The meshes of a case before its run.  Usage: plot_case.py FOLDER PICTURE, where FOLDER has fluid.h5 and solid.h5 as --draw writes them, or one of
+them.
 
-Left the whole domain, right the bodies; warns of bodies that reach out of the fluid.
+Left the whole domain, right the bodies.
 """
 import os
 import sys
@@ -12,18 +13,33 @@ import numpy as np
 from snapshot import Window, paint_mesh, read_snapshot
 
 
-def main(folder, picture):
-    fluid = read_snapshot(os.path.join(folder, "fluid.h5"))[1]["velocity"]
-    solid = read_snapshot(os.path.join(folder, "solid.h5"))[1]["solid"]
-    domain, bodies = Window.around(fluid.points), Window.around(solid.points)
-    if (bodies.lower < domain.lower).any() or (bodies.upper > domain.upper).any():
-        print(f"note: bodies in {bodies.lower} .. {bodies.upper} m reach out of the fluid's {domain.lower} .. {domain.upper} m")
+def read_grid(folder, part, name):
+    """None where the case has no such part."""
+    path = os.path.join(folder, part + ".h5")
+    grid = read_snapshot(path)[1][name] if os.path.exists(path) else None
+    return grid if grid is not None and len(grid.cells) else None
+
+
+def around_bodies(solid, domain):
+    """The bodies and what is near them."""
+    bodies = Window.around(solid.points)
     margin = 0.25 * bodies.size.max()
-    near = Window(np.maximum(bodies.lower - margin, domain.lower), np.minimum(bodies.upper + margin, domain.upper))
-    figure, axes = plt.subplots(1, 2, figsize=(12, 6), layout="constrained")
-    paint_mesh(axes[0], fluid, domain, solid)
-    paint_mesh(axes[1], fluid, near, solid, inside=True)
-    for axis, title in zip(axes, ("fluid: %d triangles" % len(fluid.cells), "bodies: %d triangles" % len(solid.cells))):
+    lower, upper = bodies.lower - margin, bodies.upper + margin
+    return Window(lower, upper) if domain is None else Window(np.maximum(lower, domain.lower), np.minimum(upper, domain.upper))
+
+
+def main(folder, picture):
+    fluid, solid = read_grid(folder, "fluid", "velocity"), read_grid(folder, "solid", "solid")
+    domain, panels = Window.around(fluid.points) if fluid else None, []  # of a panel: what is painted, its title
+    if fluid:
+        panels.append((lambda axes: paint_mesh(axes, fluid, domain, solid), "fluid: %d triangles" % len(fluid.cells)))
+    if solid:
+        panels.append((lambda axes: paint_mesh(axes, fluid, around_bodies(solid, domain), solid, inside=True), "bodies: %d triangles" % len(solid.cells)))
+    if not panels:
+        sys.exit("the case has neither a fluid nor bodies to draw")
+    figure, axes = plt.subplots(1, len(panels), figsize=(6 * len(panels), 6), layout="constrained", squeeze=False)
+    for axis, (draw, title) in zip(axes[0], panels):
+        draw(axis)
         axis.set(title=title, xlabel="x, m", ylabel="y, m")
     figure.savefig(picture, dpi=120)
 

@@ -2,6 +2,7 @@
 #include "common/program/program.h"
 #include "common/program/run_case.h"
 #include "solid/bodies/case_body.h"
+#include "solid/check_domain.h"
 #include "solid/probes.h"
 #include "solid/solid_case.h"
 #include "solid/solid_impl.h"
@@ -91,7 +92,9 @@ static const CoracleCaseKey KEYS[] = {
     {"solid.bodies[].joints[].lower", "m",
      "lower left corner of a box: edges between two elements with centres in it can crack"},
     {"solid.bodies[].joints[].upper", "m", "upper right corner of the box"},
-    {"solid.bodies[].velocity", "m/s", "at the start"},
+    {"solid.bodies[].velocity", "m/s",
+     "at the start; a submerged body loses a part of it in the first step to the fluid around it, which is "
+     "at rest then (added mass)"},
     {"solid.bodies[].angular_velocity", "rad/s", "at the start, about the centre of mass"},
     {"solid.bodies[].repeat.n", "", "how often the body is there along x and y"},
     {"solid.bodies[].repeat.step", "m", "distance from one to the next along x and y"},
@@ -135,44 +138,6 @@ static void Fail(void *context, const char *message)
   exit(1);
 }
 
-/* The fluid's domain, as far as the case says it: the box, or the mesh in a file.  What is wrong with these the fluid tells. */
-static PetscErrorCode FluidDomain(CoracleCase c, double lower[2], double upper[2], PetscBool *known)
-{
-  const char *why;
-  MeshSerial mesh;
-  PetscFunctionBeginUser;
-  *known = (PetscBool)(CoracleCaseVectorOptional(c, "fluid.mesh.lower", 2, lower) &&
-                       CoracleCaseVectorOptional(c, "fluid.mesh.upper", 2, upper));
-  if (*known || !CoracleCaseHas(c, "fluid.mesh.file")) PetscFunctionReturn(0);
-  if (MeshReadGmsh(CoracleCaseFile(c, "fluid.mesh.file"), &mesh, &why)) PetscFunctionReturn(0);
-  for (int k = 0; k < 2 * mesh.nv; k++) {
-    lower[k % 2] = k < 2 ? mesh.x[k] : fmin(lower[k % 2], mesh.x[k]);
-    upper[k % 2] = k < 2 ? mesh.x[k] : fmax(upper[k % 2], mesh.x[k]);
-  }
-  *known = PETSC_TRUE;
-  PetscCall(MeshSerialDestroy(&mesh));
-  PetscFunctionReturn(0);
-}
-
-/* As the coupler at the start of a run (run_checks.c): no node may be outside. */
-static PetscErrorCode CheckInside(CoracleCase c, Solid s)
-{
-  double lower[2], upper[2];
-  PetscBool known;
-  char key[CASE_KEY];
-  PetscFunctionBeginUser;
-  PetscCall(FluidDomain(c, lower, upper, &known));
-  for (int n = 0; n < s->nnodes && known; n++) {
-    const double *x = s->x + 2 * n;
-    if (x[0] >= lower[0] && x[0] <= upper[0] && x[1] >= lower[1] && x[1] <= upper[1]) continue;
-    CoracleCaseRefuse(
-        c, BodyKey(key, s->body[s->node_body[n]].entry, ""),
-        "the solid's node %lld at (%g, %g) lies outside of the fluid domain [%g, %g] x [%g, %g]", s->gid[n],
-        x[0], x[1], lower[0], upper[0], lower[1], upper[1]);
-  }
-  PetscFunctionReturn(0);
-}
-
 /* JointsDirections of Gmsh's meshes: at most 0.15 by its Delaunay algorithm, 0.35 to 0.9 by its frontal one; 0.8 to 1 of rectangles. */
 #define FEW_DIRECTIONS 0.3
 
@@ -200,10 +165,17 @@ static PetscErrorCode Expect(CoracleCase c, Solid s, Command command)
     lower[n % 2] = fmin(lower[n % 2], v.x[n]);
     upper[n % 2] = fmax(upper[n % 2], v.x[n]);
   }
+  if (v.nbodies == 0)
+    printf("solid: no bodies\n");
+  else
+    printf(
+        "solid: %d bodies of %d triangles, %d nodes and %d surface edges in [%.4g, %.4g] x [%.4g, %.4g] m\n",
+        v.nbodies, v.nelements, v.nnodes, v.nfacets, lower[0], upper[0], lower[1], upper[1]);
   PetscCall(SolidLimit(s, &limit));
-  printf("solid: %d bodies of %d triangles, %d nodes and %d surface edges in [%.4g, %.4g] x [%.4g, %.4g] m\n",
-         v.nbodies, v.nelements, v.nnodes, v.nfacets, lower[0], upper[0], lower[1], upper[1]);
-  printf("solid: substeps of at most %.3g s\n", limit);
+  if (isfinite(limit))
+    printf("solid: substeps of at most %.3g s\n", limit);
+  else if (v.nbodies > 0)
+    printf("solid: all bodies are fixed\n");
   ExpectCracks(s);
   if (command == COMMAND_DRAW) {
     PetscCall(WriterCreate(c, PETSC_COMM_SELF, s, NULL, &writer));
@@ -219,11 +191,14 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
   PetscFunctionBeginUser;
   RunCaseDescribe(c, KEYS);
   RunCaseRead(c, &run);
+  const double longest = CoracleCasePositive(c, "time.dt_max"); /* of a solid alone */
   PetscCall(SolidFromCase(c, PETSC_COMM_SELF, Fail, NULL, &solid));
   if (command != COMMAND_KEYS && CoracleCaseFaultless(c)) {
-    PetscCall(CheckInside(c, solid));
+    PetscCall(CheckDomain(c, solid));
     PetscCall(ProbesCheckPoints(c, PETSC_COMM_SELF, solid));
     PetscCall(Expect(c, solid, command));
+    RunCaseNoteSteps(&run, longest);
+    NoteWalls(c, solid);
   }
   PetscCall(SolidDestroy(&solid));
   PetscFunctionReturn(0);

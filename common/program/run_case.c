@@ -1,4 +1,5 @@
 #include "common/program/run_case.h"
+#include <stdio.h>
 #include <string.h>
 
 /* Open MPI's shared file pointers (4.1) write names of files into buffers of 256 characters. */
@@ -13,6 +14,13 @@ void RunCaseRead(CoracleCase c, RunCase *r)
                       strlen(r->folder), (int)FOLDER_LENGTH);
   r->every = CoracleCasePositive(c, "output.every");
   r->end = CoracleCasePositive(c, "time.end");
+}
+
+void RunCaseNoteSteps(const RunCase *r, double longest)
+{
+  if (longest > r->end)
+    printf("note: time.dt_max, %g s, is more than time.end, %g s: one step may be all of the run\n", longest,
+           r->end);
 }
 
 void RunCaseDescribe(CoracleCase c, const CoracleCaseKey own[])

@@ -9,6 +9,8 @@ typedef struct {
 } RunCase;
 
 void RunCaseRead(CoracleCase c, RunCase *r);
+/* Prints a note if steps of at most `longest` are longer than the run, s. */
+void RunCaseNoteSteps(const RunCase *r, double longest);
 /* The program's own table and that of gravity, time and output (CoracleCaseDescribe). */
 void RunCaseDescribe(CoracleCase c, const CoracleCaseKey own[]);
 #endif

@@ -46,6 +46,26 @@ done
 [ "$(head -c 4 "$scratch/case.png" | tail -c 3)" = PNG ] || fail "there is no picture"
 [ ! -e "$scratch/out" ] || fail "output was made"
 
+# what is no fault but hardly meant: walls that hold no body, one step for all of a run, a shell of more than an element
+notes() { [ "$(grep -c '^note: ' "$scratch/log")" -eq "$1" ] || fail "not $1 notes"; }
+notes 1
+grep -q 'no solid.walls: solid.bodies\[0\] may leave through the sides' "$scratch/log" || fail "not that the body may leave"
+tank=(--set 'solid.walls={lower: [0, 0], upper: [2, 2]}')
+check "$case" "${tank[@]}" && notes 0 || fail "notes of a good case"
+for set in 'gravity=[0, 0]' 'solid.bodies[0].fixed=true' 'solid.bodies[0].prescribed=[{velocity: [0, 1]}]' \
+  'solid.springs=[{name: line, point: [1.0, 1.1], anchor: [1.0, 2.0], stiffness: 1.0}]' 'fluid.boundaries={left: open, right: {pressure: 0}, bottom: open, top: open}'; do
+  "$build/solid/coracle-solid" --check "$case" --set "$set" >"$scratch/log" 2>&1 && notes 0 || fail "a note with $set"
+done
+check "$case" "${tank[@]}" --set time.dt_max=0.2 --set 'fluid.adapt={size_min: 0.05, size_max: 0.2, velocity_error: 0.1}' --set coupler.shell_thickness=0.06 || fail "a good case has faults"
+notes 2
+grep -q 'time.dt_max, 0.2 s, is more than time.end, 0.1 s' "$scratch/log" && grep -q 'shell_thickness, 0.06 m, is more than fluid.adapt.size_min, 0.05 m' "$scratch/log" || fail "other notes"
+
+# no bodies, or none that moves
+png() { rm -f "$scratch/case.png"; check "$@" --png "$scratch/case.png" && [ -s "$scratch/case.png" ]; }
+png "$case" --set 'solid.bodies=[]' && grep -qx 'solid: no bodies' "$scratch/log" || fail "a fluid alone"
+png "$case" --set 'solid.bodies[0].fixed=true' && grep -qx 'solid: all bodies are fixed' "$scratch/log" || fail "a fixed body"
+! grep -qw inf "$scratch/log" || fail "substeps of a fixed body"
+
 # the solid alone needs no keys of the others, and is told whether its mesh resolves cracks
 cat >"$scratch/alone.yaml" <<'E2'
 gravity: [0, 0]
@@ -55,7 +75,7 @@ solid:
   bodies: [{shape: rectangle, centre: [0, 0], width: 0.2, height: 0.2, size: 0.1, material: rock, joints: all}]
 output: {folder: out, every: 1.0}
 E2
-check --alone "$scratch/alone.yaml" || fail "a case of the solid alone has faults"
+png --alone "$scratch/alone.yaml" || fail "a case of the solid alone has faults"
 [ "$(wc -l <"$scratch/log")" -eq 4 ] || fail "not four lines"
 grep -q 'these edges have few directions' "$scratch/log" || fail "not that cracks zigzag"
 grep -q 'edges can crack; .* is 0.7[0-9]* edges long (less than one' "$scratch/log" || fail "not how long cracks are"
@@ -63,6 +83,10 @@ check --alone "$scratch/alone.yaml" --set solid.materials.rock.fracture_energy=1
 grep -q ' is 7.[0-9]* edges long$' "$scratch/log" || fail "warned of cracks that the mesh resolves"
 check --alone "$scratch/alone.yaml" --set "solid.bodies=[{mesh: $root/cases/breaking_block/block.msh, material: rock, joints: all}]" || fail "a case of the solid alone has faults"
 ! grep -q 'few directions' "$scratch/log" || fail "warned of a mesh of all directions"
+! check --alone "$scratch/alone.yaml" --set time.dt_max=-1 || fail "a step below 0 is accepted"
+[ "$(wc -l <"$scratch/log")" -eq 1 ] && grep -q "key 'time.dt_max'" "$scratch/log" || fail "not one line"
+! png --alone "$scratch/alone.yaml" --set 'solid.bodies=[]' || fail "a picture of nothing"
+grep -q 'neither a fluid nor bodies' "$scratch/log" || fail "not why there is no picture"
 ! check --alone "$scratch/alone.yaml" --set 'solid.bodies[0].size=-1' || fail "a size below 0 is accepted"
 [ "$(wc -l <"$scratch/log")" -eq 1 ] && grep -q "key 'solid.bodies\[0\].size'" "$scratch/log" || fail "not one line"
 

@@ -1,0 +1,88 @@
+#include "solid/check_domain.h"
+#include "solid/bodies/case_body.h"
+#include <stdio.h>
+
+/* The fluid's domain, as far as the case says it: the box, or the mesh in a file.  What is wrong with these the fluid tells. */
+static PetscErrorCode FluidDomain(CoracleCase c, double lower[2], double upper[2], PetscBool *known)
+{
+  const char *why;
+  MeshSerial mesh;
+  PetscFunctionBeginUser;
+  *known = (PetscBool)(CoracleCaseVectorOptional(c, "fluid.mesh.lower", 2, lower) &&
+                       CoracleCaseVectorOptional(c, "fluid.mesh.upper", 2, upper));
+  if (*known || !CoracleCaseHas(c, "fluid.mesh.file")) PetscFunctionReturn(0);
+  if (MeshReadGmsh(CoracleCaseFile(c, "fluid.mesh.file"), &mesh, &why)) PetscFunctionReturn(0);
+  for (int k = 0; k < 2 * mesh.nv; k++) {
+    lower[k % 2] = k < 2 ? mesh.x[k] : fmin(lower[k % 2], mesh.x[k]);
+    upper[k % 2] = k < 2 ? mesh.x[k] : fmax(upper[k % 2], mesh.x[k]);
+  }
+  *known = PETSC_TRUE;
+  PetscCall(MeshSerialDestroy(&mesh));
+  PetscFunctionReturn(0);
+}
+
+/* As the coupler at the start of a run (run_checks.c): no node may be outside. */
+PetscErrorCode CheckDomain(CoracleCase c, Solid s)
+{
+  double lower[2], upper[2];
+  PetscBool known;
+  char key[CASE_KEY];
+  PetscFunctionBeginUser;
+  PetscCall(FluidDomain(c, lower, upper, &known));
+  for (int n = 0; n < s->nnodes && known; n++) {
+    const double *x = s->x + 2 * n;
+    if (x[0] >= lower[0] && x[0] <= upper[0] && x[1] >= lower[1] && x[1] <= upper[1]) continue;
+    CoracleCaseRefuse(
+        c, BodyKey(key, s->body[s->node_body[n]].entry, ""),
+        "the solid's node %lld at (%g, %g) lies outside of the fluid domain [%g, %g] x [%g, %g]", s->gid[n],
+        x[0], x[1], lower[0], upper[0], lower[1], upper[1]);
+  }
+  PetscFunctionReturn(0);
+}
+
+/* --- whether a body may leave --------------------------------------------------------------------------- */
+
+typedef struct {
+  CoracleCase c;
+  int closed; /* sides */
+} Sides;
+
+static void CountClosed(void *context, const char *name)
+{
+  static const char *const WORDS[] = {"no_slip", "free_slip", "open", NULL}, *const OTHERS[] = {
+                                                                                 "velocity", "pressure",
+                                                                                 "level", NULL};
+  Sides *sides = context;
+  char side[CASE_KEY], key[CASE_KEY];
+  CaseKey(side, "fluid.boundaries.%s", name);
+  for (int k = 0; OTHERS[k]; k++)
+    if (CoracleCaseHas(sides->c, CaseKey(key, "%s.%s", side, OTHERS[k]))) return;
+  sides->closed += CoracleCaseHas(sides->c, CaseKey(key, "%s.wall", side)) ||
+                   CoracleCaseWord(sides->c, side, -1, WORDS) < 2;
+}
+
+/* The entry of a body that nothing holds, prescribes or ties to a spring; -1: there is none. */
+static int LooseBody(Solid s)
+{
+  for (int b = 0; b < s->nbodies; b++) {
+    int held = 0;
+    for (int n = 0; n < s->nnodes; n++)
+      held |= s->node_body[n] == b && (s->inverse_mass[n] == 0.0 || s->is_prescribed[n]);
+    for (int k = 0; k < s->setup.nsprings; k++)
+      held |= s->spring_element[k] >= 0 && s->elements.body[s->spring_element[k]] == b;
+    if (!held) return s->body[b].entry;
+  }
+  return -1;
+}
+
+void NoteWalls(CoracleCase c, Solid s)
+{
+  Sides sides = {.c = c};
+  const int loose = LooseBody(s);
+  if (s->setup.walls || loose < 0 || !GravityActs(s->setup.gravity, &s->setup.gravity_table)) return;
+  CoracleCaseKeys(c, "fluid.boundaries", CountClosed, &sides);
+  if (sides.closed > 0)
+    printf("note: there are no solid.walls: solid.bodies[%d] may leave through the sides of the fluid's "
+           "domain, which hold the fluid alone\n",
+           loose);
+}

@@ -1,0 +1,11 @@
+/* What a case's check asks of the solid in the fluid's domain.  On one rank. */
+#ifndef SOLID_CHECK_DOMAIN_H
+#define SOLID_CHECK_DOMAIN_H
+#include "common/link/case_file.h"
+#include "solid/solid_impl.h"
+
+/* Refuses a body that reaches out of the domain. */
+PetscErrorCode CheckDomain(CoracleCase c, Solid s);
+/* Prints a note if a body may leave it: gravity acts, nothing holds the body, the fluid has closed sides and the solid no walls. */
+void NoteWalls(CoracleCase c, Solid s);
+#endif
