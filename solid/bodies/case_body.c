@@ -179,6 +179,29 @@ static void ReadRegion(void *context, const char *name)
       (RegionMaterial){name, MaterialAt(r->c, CaseKey(key, "solid.bodies[%d].regions.%s", r->body, name))};
 }
 
+static PetscBool HasRegion(const Regions *r, const char *name)
+{
+  for (int k = 0; k < r->n; k++)
+    if (!strcmp(r->region[k].region, name)) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* That of what is in none of the regions; where they are everywhere it may be absent, and is that of one of them. */
+static Material ReadBodyMaterial(const Regions *r, const MeshSerial *m)
+{
+  char key[CASE_KEY];
+  BodyKey(key, r->body, "material");
+  if (r->n == 0 || CoracleCaseHas(r->c, key)) return MaterialAt(r->c, key);
+  for (int e = 0; e < m->ne; e++) {
+    const int region = m->region ? m->region[e] : -1;
+    if (region < 0) CoracleCaseRefuse(r->c, key, "expected a material: the mesh has triangles of no surface");
+    if (!HasRegion(r, m->region_name[region]))
+      CoracleCaseRefuse(r->c, key, "expected a material: regions have none for the mesh's surface '%s'",
+                        m->region_name[region]);
+  }
+  return r->region[0].material;
+}
+
 /* An item of a list of joints: a box, or the name of a physical surface or curve. */
 static void ReadJointItem(CoracleCase c, const char *key, JointSetup *joints, double (*box)[4],
                           const char **name)
@@ -250,11 +273,11 @@ PetscErrorCode CaseReadBody(CoracleCase c, int body, Model *a)
   CaseLoads loads;
   char key[CASE_KEY];
   PetscFunctionBeginUser;
-  setup.material = MaterialAt(c, BodyKey(key, body, "material"));
   CoracleCaseKeys(c, BodyKey(key, body, "regions"), ReadRegion, &regions);
   setup.nregions = regions.n;
   setup.region = regions.region;
   PetscCall(CaseReadShape(c, body, &mesh));
+  setup.material = ReadBodyMaterial(&regions, &mesh);
   PetscCall(ReadFixed(c, body, &setup, &name));
   PetscCall(ReadPrescribed(c, body, &setup, &prescribed, &steady));
   PetscCall(CaseReadLoads(c, body, &setup, &loads));

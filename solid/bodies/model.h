@@ -58,7 +58,7 @@ typedef struct {
 
 typedef struct {
   int entry;               /* in the case file, for messages */
-  Material material;       /* of all elements in none of the regions */
+  Material material;       /* of all elements in none of the regions; one of theirs if there are none */
   double stretch[2];       /* current = centre + stretch (rest - centre): 1, 1 for a body at rest */
   const double *position;  /* [mesh nv][2] instead of that; or NULL */
   double velocity[2];      /* m/s */

@@ -231,7 +231,7 @@ static void Full(void)
       "    hard: {density: 2000, youngs_modulus: 1e8, poisson_ratio: 0.2, plane: stress, thickness: 0.01,\n"
       "      law: corotated}\n"
       "  bodies:\n"
-      "    - {mesh: " SOURCE_FOLDER "/regions.msh, material: soft, regions: {hard: hard},\n"
+      "    - {mesh: " SOURCE_FOLDER "/regions.msh, regions: {soft: soft, hard: hard},\n"
       "       prescribed: [{boundary: clamp, component: x, table: [[0, 1, 0], [2, 3, 0]]}]}\n"
       "    - {shape: ring, centre: [5, 0], radius: 1, thickness: 0.1, size: 0.2, layers: 2, material: soft,\n"
       "       stretch: [1.5, 1.0]}\n"
@@ -279,6 +279,9 @@ static void Refusals(void)
 {
   CheckCase(HEAD "  bodies:\n    - {mesh: " SOURCE_FOLDER "/regions.msh, material: m, regions: {wood: m}}\n",
             NULL, Read, ":6: key 'solid.bodies[0]': the body has no region 'wood'; it has soft, hard");
+  CheckCase(HEAD "  bodies:\n    - {mesh: " SOURCE_FOLDER "/regions.msh, regions: {hard: m}}\n", NULL, Read,
+            ":6: key 'solid.bodies[0].material': expected a material: regions have none for the mesh's "
+            "surface 'soft'");
   CheckCase(HEAD "  contact: [{between: [m, stone], friction: 1}]\n  bodies:\n" DISC, NULL, Read,
             ":5: key 'solid.contact[0].between[1]': there is no material 'stone' in solid.materials");
   CheckCase(HEAD
