@@ -123,7 +123,10 @@ static const CoracleCaseKey KEYS[] = {
     {"fluid.probes[].line.points", "", "number of points on it, evenly spaced"},
     {"fluid.probes[].surface.from", "m", "where the segment of a free-surface gauge begins"},
     {"fluid.probes[].surface.to", "m", "where it ends"},
-    {"fluid.probes[].surface.phase", "", "the phase whose places along the segment are recorded"},
+    {"fluid.probes[].surface.phase", "",
+     "the phase whose places along the segment are recorded: where it first ends, its last point, and how "
+     "much of the segment it has; of a wave, along a line that rises from the water, last is the top of the "
+     "water, drops included, and first is lower where there is air beneath"},
     {"fluid.probes[].phase", "", "a phase: its area, centre, velocity and the length of its interface"},
     {"fluid.probes[].solid_point", "m",
      "a point of the solid's surface at the start: a pressure gauge that moves with it"},
