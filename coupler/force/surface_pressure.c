@@ -128,7 +128,7 @@ PetscErrorCode SurfacePressureHead(Overlap o, const double gravity[2], const dou
 PetscErrorCode SurfacePressureInside(Overlap o, const double p[], int nnodes, double node[], double size[],
                                      double area[])
 {
-  enum { AREA, PRESSURE, SIZE, NSUMS };
+  enum { AREA, WEIGHT, PRESSURE, SIZE, NSUMS };
   double(*source)[3][NSUMS], (*sum)[NSUMS];
 
   PetscFunctionBeginUser;
@@ -137,15 +137,19 @@ PetscErrorCode SurfacePressureInside(Overlap o, const double p[], int nnodes, do
   for (int k = 0; k < o->pairs.n; k++) {
     const SupermeshPair *pair = &o->pairs.pair[k];
     const SourceTriangle *t = &o->source[pair->a];
-    double gradient[2], n[3];
+    double gradient[2], n[3], near[3], x[2];
     if (t->is_shell) continue;
+    for (int c = 0; c < 2; c++) x[c] = t->x[0][c] + pair->centre[c];
+    GeometryBarycentric((const double(*)[2])t->x, x, near);
     CentreIn(o, pair, n);
     const double at = PressureAt(&o->basis[pair->b], &p[6 * pair->b], n, gradient);
     for (int i = 0; i < 3; i++) {
+      const double weight = pair->area * pow(near[i], SURFACE_NEARNESS);
       double value = at;
-      for (int c = 0; c < 2; c++) value += gradient[c] * (t->x[i][c] - t->x[0][c] - pair->centre[c]);
+      for (int c = 0; c < 2; c++) value += gradient[c] * (t->x[i][c] - x[c]);
       source[pair->a][i][AREA] += pair->area;
-      source[pair->a][i][PRESSURE] += pair->area * value;
+      source[pair->a][i][WEIGHT] += weight;
+      source[pair->a][i][PRESSURE] += weight * value;
       source[pair->a][i][SIZE] += pair->area * sqrt(2.0 * o->area[pair->b]);
     }
   }
@@ -153,7 +157,7 @@ PetscErrorCode SurfacePressureInside(Overlap o, const double p[], int nnodes, do
   PetscCall(CopiesSum(o->nodes, NSUMS, (double *)sum));
   for (int i = 0; i < nnodes; i++) {
     area[i] = sum[i][AREA];
-    node[i] = area[i] > 0.0 ? sum[i][PRESSURE] / area[i] : 0.0;
+    node[i] = area[i] > 0.0 ? sum[i][PRESSURE] / sum[i][WEIGHT] : 0.0;
     size[i] = area[i] > 0.0 ? sum[i][SIZE] / area[i] : 0.0;
   }
   PetscCall(PetscFree(sum));

@@ -80,7 +80,7 @@
  *
  * In one fluid m = INERTIA_HELD rho_f/dt, across the surface alone (G = I - P, with k = 0), which begins with the velocity u_s that is predicted
  * for the step's end in place of v.  The solid's velocity is also the bulk velocity there (ms, us of wall_term.h), which the pressure makes free of
- * divergence: an element that the surface crosses conducts with what of it is open.  u itself yields to the pressure's increment phi by
+ * divergence: an element that the surface crosses conducts with what of it is open, but at least with BULK_LEAST of it.  u itself yields to the pressure's increment phi by
  * 1/INERTIA_HELD of what the fluid would, so that a flow past narrow gaps is steady as soon as viscosity lets it be, and what the solid resists is in
  * its reaction.  (Held in the momentum equation alone, by a penalty, it was to phi what the fluid is: where a part w/H of a channel was open, a step
  * took off w/H of what the pressure lacked.)

@@ -113,6 +113,10 @@ static void SetCoupling(const Overlap o, const ElementSums *sums, const WallSums
   SetTensor(basis, &w->xy, 1, 0, k);
   MassMomentsMatrix(basis, &w->solid, k->ms);
   SetVectors(basis, &w->us, k->us);
+  if (WallIsZero(&element->along)) return;
+  const double part = fmin(1.0, (1.0 - BULK_LEAST) * area / w->solid.zero);
+  for (int i = 0; i < 9; i++) k->ms[i / 3][i % 3] *= part;
+  for (int i = 0; i < 6; i++) k->us[i / 3][i % 3] *= part;
 }
 
 PetscErrorCode WallTermAssemble(const Overlap o, const PairTerm term[], const ElementTerm element[],
