@@ -137,14 +137,14 @@ PetscErrorCode SurfacePressureInside(Overlap o, const double p[], int nnodes, do
   for (int k = 0; k < o->pairs.n; k++) {
     const SupermeshPair *pair = &o->pairs.pair[k];
     const SourceTriangle *t = &o->source[pair->a];
-    double gradient[2], n[3], near[3], x[2];
+    double gradient[2], n[3], shape[3], x[2];
     if (t->is_shell) continue;
     for (int c = 0; c < 2; c++) x[c] = t->x[0][c] + pair->centre[c];
-    GeometryBarycentric((const double(*)[2])t->x, x, near);
+    GeometryBarycentric((const double(*)[2])t->x, x, shape);
     CentreIn(o, pair, n);
     const double at = PressureAt(&o->basis[pair->b], &p[6 * pair->b], n, gradient);
     for (int i = 0; i < 3; i++) {
-      const double weight = pair->area * pow(near[i], SURFACE_NEARNESS);
+      const double weight = pair->area * pow(shape[i], SURFACE_NEARNESS);
       double value = at;
       for (int c = 0; c < 2; c++) value += gradient[c] * (t->x[i][c] - x[c]);
       source[pair->a][i][AREA] += pair->area;
