@@ -108,6 +108,18 @@ static void Compare(const char *what, int mode, int n, const double a[], const d
   }
 }
 
+/* How much of the solid in an element of so many m2 has the bulk's velocity: all, but where less than BULK_LEAST is open. */
+static double PartOfBulk(const CoracleCoupling *element, double area)
+{
+  double sum = 0.0;
+  for (int i = 0; i < 9; i++) sum += element->ms[i / 3][i % 3];
+  if (element->alpha <= 1.0 - BULK_LEAST) return 1.0;
+  const double part = sum / (element->alpha * area);
+  CHECK(fabs(part - 1.0) < 1e-14 || fabs(sum / area - (1.0 - BULK_LEAST)) < 1e-14,
+        "%g of the solid's %g have the bulk's velocity", part, element->alpha);
+  return part;
+}
+
 /* With all_solid where it is in the middle of the step.  Sums over the fluid: mass and momentum of the solid, and what the couplings gave to the fluid, of density 1. */
 static void CheckConservation(const Result *r)
 {
@@ -115,14 +127,16 @@ static void CheckConservation(const Result *r)
   for (int k = 0; k < all_fluid.n; k++) {
     CoracleCoupling element;
     memcpy(element.a, r->coupling[k], sizeof r->coupling[k]);
+    const double part = PartOfBulk(&element, GeometryArea((const double(*)[2])all_fluid.x[k]));
     area += element.alpha * GeometryArea((const double(*)[2])all_fluid.x[k]);
     for (int i = 0; i < 6; i++) {
-      us[i / 3] += element.us[i / 3][i % 3];
+      us[i / 3] += element.us[i / 3][i % 3] / part;
       after[i / 3] += r->correction[k][i];
     }
     for (int i = 0; i < 9; i++) {
-      mass += element.ms[i / 3][i % 3];
-      for (int c = 0; c < 2; c++) after[c] += element.ms[i / 3][i % 3] * all_fluid.u_projected[k][c][i % 3];
+      const double gram = element.ms[i / 3][i % 3] / part;
+      mass += gram;
+      for (int c = 0; c < 2; c++) after[c] += gram * all_fluid.u_projected[k][c][i % 3];
     }
   }
   for (int t = 0; t < all_solid.nelements; t++) {
