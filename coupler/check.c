@@ -57,7 +57,7 @@ static void Read(CoracleCase c, void *command)
   if (*(const Command *)command == COMMAND_KEYS || !CoracleCaseFaultless(c)) return;
   printf("coupler: to t = %g s in at least %.0f steps, %.0f snapshots into %s\n", k.end,
          TimeSteps(k.end, k.dt_max), TimeSteps(k.end, k.every) + 1.0, k.folder);
-  RunCaseNoteSteps(&(RunCase){.end = k.end}, k.dt_max);
+  RunCaseNoteSteps(k.end, k.dt_max);
   NoteShell(c, k.options.thickness);
 }
 

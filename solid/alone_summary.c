@@ -1,10 +1,10 @@
 #include "solid/alone_summary.h"
+#include "common/link/resources.h"
 #include "common/program/summary_file.h"
 #include "solid/run.h"
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/resource.h>
 
 static const char *const ROLES[] = {"solid"};
 static const char STEPS[] = "steps alone", *const USED[ALONE_NUSED] = {"cpu seconds alone", "seconds alone"};
@@ -12,11 +12,8 @@ static const char STEPS[] = "steps alone", *const USED[ALONE_NUSED] = {"cpu seco
 /* The same on all ranks. */
 static PetscErrorCode UsedSoFar(const AloneTotals *t, double used[ALONE_NUSED])
 {
-  struct rusage use;
   PetscFunctionBeginUser;
-  (void)getrusage(RUSAGE_SELF, &use);
-  used[ALONE_CPU] = (double)(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
-                    1e-6 * (double)(use.ru_utime.tv_usec + use.ru_stime.tv_usec);
+  used[ALONE_CPU] = ProcessorSeconds();
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, used, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
   used[ALONE_WALL] = MPI_Wtime() - t->start;
   PetscCallMPI(MPI_Bcast(used + ALONE_WALL, 1, MPI_DOUBLE, 0, PETSC_COMM_WORLD));
@@ -56,15 +53,13 @@ static int Tell(void *reports, const char *key, double value, int sum)
 
 static PetscErrorCode TellResources(SummaryReports *reports, const AloneTotals *t)
 {
-  struct rusage use;
   double used[ALONE_NUSED];
   PetscFunctionBeginUser;
-  (void)getrusage(RUSAGE_SELF, &use);
   PetscCall(UsedSoFar(t, used));
   PetscCall(Tell(reports, "ranks", 1.0, 1));
   PetscCall(Tell(reports, "seconds_cpu", used[ALONE_CPU], 0));
   PetscCall(Tell(reports, "seconds_wall", used[ALONE_WALL], 0));
-  PetscCall(Tell(reports, "peak_memory_mb", (double)use.ru_maxrss / 1024.0, 1));
+  PetscCall(Tell(reports, "peak_memory_mb", PeakMemory(), 1));
   PetscFunctionReturn(0);
 }
 

@@ -198,7 +198,7 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
     PetscCall(CheckDomain(c, solid));
     PetscCall(ProbesCheckPoints(c, PETSC_COMM_SELF, solid));
     PetscCall(Expect(c, solid, command));
-    RunCaseNoteSteps(&run, longest);
+    RunCaseNoteSteps(run.end, longest);
     NoteWalls(c, solid);
   }
   PetscCall(SolidDestroy(&solid));

@@ -1,9 +1,9 @@
 /* What a participant has used of processors and time, also in the runs that it resumes. */
 #include "common/link/participant.h"
+#include "common/link/resources.h"
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/resource.h>
 
 static void UsedPath(const Participant *p, const char *folder, size_t size, char path[])
 {
@@ -12,11 +12,7 @@ static void UsedPath(const Participant *p, const char *folder, size_t size, char
 
 void ParticipantUsed(const Participant *p, double used[NUSED])
 {
-  struct rusage use;
-  getrusage(RUSAGE_SELF, &use);
-  const double now[NUSED] = {(double)(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
-                                 1e-6 * (double)(use.ru_utime.tv_usec + use.ru_stime.tv_usec),
-                             WaitClock() - p->start, p->waiter.waited};
+  const double now[NUSED] = {ProcessorSeconds(), WaitClock() - p->start, p->waiter.waited};
   for (int k = 0; k < NUSED; k++) used[k] = p->used[k] + now[k];
 }
 

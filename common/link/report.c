@@ -1,7 +1,7 @@
 #include "common/link/report.h"
+#include "common/link/resources.h"
 #include <stdio.h>
 #include <string.h>
-#include <sys/resource.h>
 
 static Report *Find(Buffer *list, const char *key)
 {
@@ -48,13 +48,11 @@ void ReportMerge(Buffer *list, size_t n, const Report other[])
 
 void ReportResources(Buffer *list, const Participant *p)
 {
-  struct rusage use;
   double used[NUSED];
-  getrusage(RUSAGE_SELF, &use);
   ParticipantUsed(p, used);
   ReportSet(list, "ranks", 1.0, true);
   ReportSet(list, "seconds_cpu", used[USED_CPU], true);
   ReportSet(list, "seconds_wall", used[USED_WALL], false);
   ReportSet(list, "seconds_waiting", used[USED_WAITING], false);
-  ReportSet(list, "peak_memory_mb", (double)use.ru_maxrss / 1024.0, true);
+  ReportSet(list, "peak_memory_mb", PeakMemory(), true);
 }

@@ -6,10 +6,6 @@
 #include <string.h>
 #include <time.h>
 
-#ifndef CORACLE_REVISION
-#define CORACLE_REVISION "unknown"
-#endif
-
 PetscErrorCode CaseCopyTake(int argc, char **argv, CaseCopy *copy)
 {
   PetscMPIInt rank;

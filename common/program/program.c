@@ -1,6 +1,6 @@
 #include "common/program/program.h"
+#include "common/link/resources.h"
 #include <string.h>
-#include <sys/resource.h>
 
 void ProgramFail(void *context, const char *message)
 {
@@ -15,14 +15,12 @@ static PetscErrorCode Abort(MPI_Comm comm, int line, const char *function, const
 {
   const ProgramErrors *to = errors;
   char text[2048];
-  struct rusage usage;
   if (code == PETSC_ERR_MEM ||
       !strcmp(function, "PetscMallocAlign")) { /* whose code is a line number in PETSc 3.18 */
-    (void)getrusage(RUSAGE_SELF, &usage);
     (void)snprintf(text, sizeof text,
                    "out of memory: this rank has had up to %.0f MB; a coarser mesh needs less, and so do "
                    "more ranks on more computers (in %s, %s:%d)",
-                   (double)usage.ru_maxrss / 1024.0, function, file, line);
+                   PeakMemory(), function, file, line);
     to->fail(to->context, text);
   }
   (void)snprintf(text, sizeof text, "%s (in %s, %s:%d)", message ? message : "an error of PETSc", function,

@@ -16,11 +16,11 @@ void RunCaseRead(CoracleCase c, RunCase *r)
   r->end = CoracleCasePositive(c, "time.end");
 }
 
-void RunCaseNoteSteps(const RunCase *r, double longest)
+void RunCaseNoteSteps(double end, double longest)
 {
-  if (longest > r->end)
+  if (longest > end)
     printf("note: time.dt_max, %g s, is more than time.end, %g s: one step may be all of the run\n", longest,
-           r->end);
+           end);
 }
 
 void RunCaseDescribe(CoracleCase c, const CoracleCaseKey own[])

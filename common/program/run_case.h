@@ -9,8 +9,8 @@ typedef struct {
 } RunCase;
 
 void RunCaseRead(CoracleCase c, RunCase *r);
-/* Prints a note if steps of at most `longest` are longer than the run, s. */
-void RunCaseNoteSteps(const RunCase *r, double longest);
+/* Prints a note if steps of at most `longest` are longer than a run to `end`, s. */
+void RunCaseNoteSteps(double end, double longest);
 /* The program's own table and that of gravity, time and output (CoracleCaseDescribe). */
 void RunCaseDescribe(CoracleCase c, const CoracleCaseKey own[]);
 #endif

@@ -3,10 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#ifndef CORACLE_REVISION
-#define CORACLE_REVISION "unknown"
-#endif
-
 void SummaryReport(void *reports, const char *role, const char *key, double value)
 {
   SummaryReports *r = reports;

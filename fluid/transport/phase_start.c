@@ -37,18 +37,15 @@ static void MakeRoom(int n, int light, double room, double volume[])
 static PetscErrorCode TakeInside(PhaseTransport t, int e, int n, int light, double solid,
                                  const double centre[2], double volume[])
 {
-  const double(*x)[2] = (const double(*)[2])t->stars->element[e].x, *origin = x[0];
-  const double mean[2] = {centre[0] - origin[0], centre[1] - origin[1]};
+  const double(*x)[2] = (const double(*)[2])t->stars->element[e].x, origin[2] = {0.0, 0.0};
   Polygon whole, part, inside;
   HalfPlane cut;
   PetscFunctionBeginUser;
   PolygonTriangle(x, origin, &whole);
-  cut = CutOfMoment(&whole, solid, mean);
+  cut = CutOfMoment(&whole, solid, centre);
   for (int k = 0; k < n; k++) {
     if (k == light || !(volume[k] > 0.0)) continue;
     PetscCall(PhasesGetPolygon(t->phases, e, k, &part));
-    for (int i = 0; i < part.n; i++)
-      for (int c = 0; c < 2; c++) part.x[i][c] -= origin[c];
     PolygonClip(&part, &cut, &inside);
     const double displaced = fmin(PolygonArea(&inside), volume[k]);
     volume[k] -= displaced;

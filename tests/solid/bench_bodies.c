@@ -4,22 +4,15 @@
  * velocities, the check of the balance), and a redistribution; memory in kB a body of the rank that has most.
  *
  *     [mpirun -n 2] bench_bodies [blocks along a side ...] */
+#include "common/link/resources.h"
 #include "solid/solid_impl.h"
 #include "tests/solid/build.h"
-#include <sys/resource.h>
 #include <time.h>
 
 /* s */
 static double Processor(void)
 {
   return (double)clock() / CLOCKS_PER_SEC;
-}
-
-static double Memory(void)
-{
-  struct rusage usage;
-  (void)getrusage(RUSAGE_SELF, &usage);
-  return (double)usage.ru_maxrss; /* kB */
 }
 
 static void Build(Model *a, int side)
@@ -73,7 +66,7 @@ static PetscErrorCode Measure(int side)
                               .walls = PETSC_TRUE,
                               .lower = {0.0, 0.0},
                               .upper = {0.1 * side, 0.1 * side + 1.0}};
-  const double n = (double)side * side, memory = Memory();
+  const double n = (double)side * side, memory = 1024.0 * PeakMemory();
   double t[6], grown;
   Model a = {0};
   Solid s;
@@ -90,7 +83,7 @@ static PetscErrorCode Measure(int side)
   PetscCall(Substeps(s, 10 + (int)(1e5 / n), &t[3]));
   PetscCall(OncePerStep(s, &t[4]));
   PetscCall(Redistribute(s, &t[5]));
-  grown = Memory() - memory;
+  grown = 1024.0 * PeakMemory() - memory;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &grown, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%7d %9.2f %8.2f %8.2f %8.3f %8.3f %8.2f %8.2f\n", side * side,
                         1e6 * t[0] / n, 1e6 * t[1] / n, 1e6 * t[2] / n, 1e6 * t[3] / n, 1e6 * t[4] / n,

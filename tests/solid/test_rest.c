@@ -91,26 +91,33 @@ static PetscErrorCode Heap(int n, double time)
   return SolidDestroy(&s);
 }
 
+/* The one body of a, which comes to a wall with `speed`, m/s: what part of it it has after time, s.  Destroys a. */
+static PetscErrorCode Strike(Model *a, double speed, double time, double *restitution)
+{
+  const SolidSetup options = {.courant = 0.8, .walls = PETSC_TRUE, .lower = {-1.0, 0.0}, .upper = {1.0, 2.0}};
+  Solid s;
+  double energy;
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, a, &options, &s));
+  PetscCall(Run(s, time, 0.001));
+  PetscCall(Potential(s, 1, &energy, restitution));
+  *restitution /= speed;
+  PetscCall(ModelDestroy(a));
+  return SolidDestroy(&s);
+}
+
 /* A block of 45 degrees strikes a wall with a corner: what part of its speed it leaves with. */
 static PetscErrorCode Corner(double damping, double *restitution)
 {
-  const SolidSetup options = {.courant = 0.8, .walls = PETSC_TRUE, .lower = {-1.0, 0.0}, .upper = {1.0, 2.0}};
+  const double speed = 0.2;
   Material stone = Stone(1.0e8);
   Model a = {0};
-  Solid s;
-  double energy;
   stone.damping = 0.0;
   stone.friction = 0.0;
   stone.contact_damping = damping;
   BodySetup setup = BodyAtRest(stone);
-  setup.velocity[1] = -0.2;
+  setup.velocity[1] = -speed;
   AddRectangle(&a, 0.0, 0.0568, 0.08, 0.08, 0.25 * M_PI, 0.02, 0, &setup);
-  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, &s));
-  PetscCall(Run(s, 0.05, 0.001));
-  PetscCall(Potential(s, 1, &energy, restitution));
-  *restitution /= 0.2;
-  PetscCall(ModelDestroy(&a));
-  return SolidDestroy(&s);
+  return Strike(&a, speed, 0.05, restitution);
 }
 
 /* The damping is that of a body, not of the edges beside its corner (which left 0.96 and 0.88 of the speed). */
@@ -132,22 +139,14 @@ static PetscErrorCode Corners(void)
 static PetscErrorCode Rebound(double size, double ratio, double *restitution)
 {
   const double radius = 0.1, speed = 1.4;
-  const SolidSetup options = {.courant = 0.8, .walls = PETSC_TRUE, .lower = {-1.0, 0.0}, .upper = {1.0, 2.0}};
   Material stone = MaterialOf(2600.0, 1.0e7, 0.2, 0.0);
   Model a = {0};
-  Solid s;
-  double energy;
   stone.damping_ratio = ratio;
   stone.damping_frequency = 45.0;
   BodySetup setup = BodyAtRest(stone);
   setup.velocity[1] = -speed;
   AddDisc(&a, 0.0, 1.02 * radius, radius, size, &setup);
-  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, &s));
-  PetscCall(Run(s, 0.03, 0.001));
-  PetscCall(Potential(s, 1, &energy, restitution));
-  *restitution /= speed;
-  PetscCall(ModelDestroy(&a));
-  return SolidDestroy(&s);
+  return Strike(&a, speed, 0.03, restitution);
 }
 
 /* As an oscillator that leaves after half a period: exp(-pi xi), 0.73, give or take how far a strike on a disc is from one. */
