@@ -30,7 +30,7 @@ enum {
 PetscErrorCode SurfacePressureHead(Overlap overlap, const double gravity[2], const double p[], int nnodes,
                                    double node[][SURFACE_HEAD_FIELDS]);
 /* Of the pairs' weights in what follows.  With 0, 4 and 8 the force beneath a caisson of 0.4 m on the floor between water of 0.5 and 0.3 m, its triangles as wide as
- * three fluid elements, is 20, 7 and 1 % too large after 60 steps; with 8 a stone on a pile (tests/coupled/stones.sh) does not come to rest. */
+ * three fluid elements, is 21, 6 and 1 % too large after 60 steps (floor.sh ROOT BUILD caisson); with 8 a stone on a pile (tests/coupled/stones.sh) does not come to rest. */
 #define SURFACE_NEARNESS 4
 /* node[nnodes]: p, linear from each pair of the solid's volume around the node, their mean, by area times the SURFACE_NEARNESS-th power of the node's
  * shape function, which keeps to the pairs at the node where a triangle of the solid has many, Pa; size[nnodes]: the square root of

@@ -1,10 +1,22 @@
 #!/usr/bin/env bash
 # A block that stands on a floor under water presses on it with its weight less the displaced water's (coupler/force/uplift.h), in one fluid and beneath
 # air, also let down with a gap, and friction stops one that slides (before, the water carried it: no force on the floor, 0.13 m in 0.3 s); what
-# the floor gives back is in the budget of momentum.  Water leaves the gap beneath one that comes down alike with long and short steps.  One that is held at first presses on it once it is let go.  Usage: floor.sh ROOT BUILD
+# the floor gives back is in the budget of momentum.  Water leaves the gap beneath one that comes down alike with long and short steps.  One that is held at first presses on it once it is let go.  Usage: floor.sh ROOT BUILD [caisson]
+# caisson: prints the water's force up on one that holds 0.5 m of water against 0.3 m, which is 1570 N/m: a row of SOLIDS_AMONG_PHASES.md
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
 case=$here/floor.yaml
+if [[ ${1:-} == caisson ]]; then
+  must caisson 1:1:1 --set time.end=0.71 --set 'fluid.regions=[{phase: air}, {phase: water, lower: [-1.0, -1.0], upper: [1.0, 0.5]}, {phase: water, lower: [1.0, -1.0], upper: [3.0, 0.3]}]' \
+    --set 'fluid.mesh={lower: [0.0, 0.0], upper: [2.0, 0.8], size_max: 0.1}' --set fluid.adapt.size_min=0.015 --set fluid.adapt.velocity_error=0.03 --set fluid.boundaries.top=open \
+    --set 'solid.materials.rock={density: 2200.0, youngs_modulus: 1.0e8, poisson_ratio: 0.3, damping: 0.2, friction: 0.6, contact_damping: 0.3}' \
+    --set 'solid.bodies=[{shape: rectangle, centre: [1.0, 0.3], width: 0.4, height: 0.6, size: 0.04, material: rock}]' --set 'solid.walls={lower: [0.0, 0.0], upper: [2.0, 2.0]}'
+  "$python" - "$scratch" <<'E2'
+from results import rows
+print(", ".join("%.0f N/m at %.1f s" % (next(row for row in rows("caisson", "solid") if row["t [s]"] > t - 1e-6)["fy0 [N/m]"], t) for t in (0.2, 0.3, 0.7)))
+E2
+  exit
+fi
 end="--set time.end=0.6"
 must stands 1:1:1 $end
 must ranks 2:2:2 $end
