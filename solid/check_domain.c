@@ -69,7 +69,10 @@ static int LooseBody(Solid s)
     for (int n = 0; n < s->nnodes; n++)
       held |= s->node_body[n] == b && (s->inverse_mass[n] == 0.0 || s->is_prescribed[n]);
     for (int k = 0; k < s->setup.nsprings; k++)
-      held |= s->spring_element[k] >= 0 && s->elements.body[s->spring_element[k]] == b;
+      for (int i = 0; i < 2; i++) {
+        const int e = s->spring_element[k][i];
+        held |= e >= 0 && s->elements.body[e] == b;
+      }
     if (!held) return s->body[b].entry;
   }
   return -1;

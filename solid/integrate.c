@@ -22,7 +22,7 @@ PetscErrorCode SolidForces(Solid s, const double **force)
   if (s->joints) JointsAddForces(s->joints, s);
   const double joints = Clock();
   PetscCall(ContactAddForces(s->contact, s));
-  SpringsAddForces(s);
+  PetscCall(SpringsAddForces(s));
   LoadsAddForces(s);
   const double contact = Clock();
   PetscCall(CopiesSum(s->copies, 2, s->force));

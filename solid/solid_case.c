@@ -17,33 +17,52 @@ static void ReadWallContact(CoracleCase c, SolidSetup *setup)
   setup->wall_damping = damping ? CoracleCaseNumber(c, "solid.walls.contact_damping", 0.0, 10.0) : -1.0;
 }
 
-/* The element of the model that is at the point at the start, and the point in it. */
-static PetscBool FindElement(const Model *a, const double point[2], Spring *spring)
+/* The element of the model that is at the point at the start, and the point in it; not of body `except`. */
+static PetscBool FindElement(const Model *a, const double point[2], int except, SpringEnd *end)
 {
   for (int e = 0; e < a->nelements; e++) {
-    double corner[3][2], *w = spring->weight;
+    double corner[3][2], *w = end->weight;
+    if (a->element_body[e] == except) continue;
     for (int i = 0; i < 3; i++)
       for (int c = 0; c < 2; c++) corner[i][c] = a->x[2 * a->element[3 * e + i] + c];
     GeometryBarycentric((const double(*)[2])corner, point, w);
-    spring->element = e;
+    end->element = e;
     if (fmin(w[0], fmin(w[1], w[2])) > -ON_EDGE) return PETSC_TRUE;
   }
   return PETSC_FALSE;
 }
 
+/* Both ends; other[2]: where the other one is at the start. */
+static void ReadSpringEnds(CoracleCase c, const Model *a, int k, Spring *s, double point[2], double other[2])
+{
+  char key[CASE_KEY], anchor[CASE_KEY];
+  CoracleCaseVector(c, CaseKey(key, "solid.springs[%d].point", k), 2, point);
+  if (!FindElement(a, point, -1, &s->end[0]))
+    CoracleCaseRefuse(c, key, "no body is at (%g, %g)", point[0], point[1]);
+  s->anchored = CoracleCaseHas(c, CaseKey(anchor, "solid.springs[%d].anchor", k));
+  CaseKey(key, "solid.springs[%d].other_point", k);
+  if (s->anchored == CoracleCaseHas(c, key))
+    CoracleCaseRefuse(c, s->anchored ? key : anchor, "expected an anchor or an other_point");
+  CoracleCaseVector(c, s->anchored ? anchor : key, 2, other);
+  for (int i = 0; i < 2; i++) s->anchor[i] = s->anchored ? other[i] : 0.0;
+  if (!s->anchored && !FindElement(a, other, a->element_body[s->end[0].element], &s->end[1]))
+    CoracleCaseRefuse(c, key, "no other body is at (%g, %g)", other[0], other[1]);
+}
+
 static void ReadSpring(CoracleCase c, const Model *a, int k, Spring *s)
 {
+  static const char *const ACTS[] = {"both", "pull", "push", NULL};
   char key[CASE_KEY];
-  double point[2];
-  CoracleCaseVector(c, CaseKey(key, "solid.springs[%d].anchor", k), 2, s->anchor);
+  double point[2], other[2];
+  ReadSpringEnds(c, a, k, s, point, other);
   s->stiffness = CoracleCasePositive(c, CaseKey(key, "solid.springs[%d].stiffness", k));
   s->damping = CoracleCaseNumberOr(c, CaseKey(key, "solid.springs[%d].damping", k), 0.0, 0.0, HUGE_VAL);
-  s->slack = CoracleCaseBoolOr(c, CaseKey(key, "solid.springs[%d].slack", k), false);
-  CoracleCaseVector(c, CaseKey(key, "solid.springs[%d].point", k), 2, point);
-  if (!FindElement(a, point, s)) CoracleCaseRefuse(c, key, "no body is at (%g, %g)", point[0], point[1]);
   s->length = CoracleCaseHas(c, CaseKey(key, "solid.springs[%d].length", k))
                   ? CoracleCaseNumber(c, key, 0.0, HUGE_VAL)
-                  : hypot(s->anchor[0] - point[0], s->anchor[1] - point[1]);
+                  : hypot(other[0] - point[0], other[1] - point[1]);
+  s->acts = (SpringActs)CoracleCaseWord(c, CaseKey(key, "solid.springs[%d].acts", k), 0, ACTS);
+  if (s->length == 0.0 && s->acts != SPRING_PULLS_AND_PUSHES)
+    CoracleCaseRefuse(c, key, "a spring of length 0 acts in all directions");
 }
 
 static void ReadSprings(CoracleCase c, const Model *a, SolidSetup *setup)

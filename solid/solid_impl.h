@@ -99,9 +99,10 @@ struct Solid_s {
   BoundaryLoad *boundary_load;
   LoadedSide *loaded;           /* [nloaded] local elements */
   double (*loaded_force)[3][2]; /* [nloaded] in the last forces, N */
-  /* of the setup's springs: this rank's element, or -1, and what it does in the last forces */
-  int spring_element[MAX_SPRINGS];
-  double spring_force[MAX_SPRINGS][2]; /* N */
+  /* of the setup's springs: this rank's elements at their ends, or -1, what they do in the last forces, and whether some are between two bodies */
+  int spring_element[MAX_SPRINGS][2];
+  double spring_force[MAX_SPRINGS][2]; /* N, on the first end */
+  PetscBool linked;
   /* the current step */
   double dt, done, h, moved_for; /* moved_for: length of the last substep made, s */
   double *start;                 /* [nnodes][2] positions when it began */

@@ -4,90 +4,142 @@
 PetscErrorCode SpringsFind(Solid s)
 {
   PetscFunctionBeginUser;
+  s->linked = PETSC_FALSE;
   for (int k = 0; k < s->setup.nsprings; k++) {
-    s->spring_element[k] = -1;
-    for (int e = 0; e < s->elements.n; e++)
-      if (s->elements.number[e] == s->setup.spring[k].element) s->spring_element[k] = e;
+    const Spring *spring = &s->setup.spring[k];
+    if (!spring->anchored) s->linked = PETSC_TRUE;
+    for (int i = 0; i < 2; i++) {
+      s->spring_element[k][i] = -1;
+      for (int e = 0; (i == 0 || !spring->anchored) && e < s->elements.n; e++)
+        if (s->elements.number[e] == spring->end[i].element) s->spring_element[k][i] = e;
+    }
   }
   PetscFunctionReturn(0);
 }
 
-/* The nodes of spring k's element; NULL: another rank has it. */
-static const int *NodesOf(const Solid s, int k)
+/* The nodes of the element at end i of spring k; NULL: another rank has it, or it is the anchor. */
+static const int *NodesAt(const Solid s, int k, int i)
 {
-  return s->spring_element[k] < 0 ? NULL : s->element + 3 * s->spring_element[k];
+  return s->spring_element[k][i] < 0 ? NULL : s->element + 3 * s->spring_element[k][i];
 }
 
-/* value[nnodes][2] at the point of spring k */
-static void AtPoint(const Solid s, int k, const double value[], double at[2])
+/* value[nnodes][2] at that end, 0 where NodesAt is NULL */
+static void AtEnd(const Solid s, int k, int i, const double value[], double at[2])
 {
-  const int *node = NodesOf(s, k);
+  const int *node = NodesAt(s, k, i);
   for (int c = 0; c < 2; c++) {
     at[c] = 0.0;
-    for (int i = 0; i < 3; i++) at[c] += s->setup.spring[k].weight[i] * value[2 * node[i] + c];
+    for (int j = 0; node && j < 3; j++) at[c] += s->setup.spring[k].end[i].weight[j] * value[2 * node[j] + c];
   }
 }
 
-static SpringState Act(const Solid s, int k, double force[2])
+/* difference[nsprings][2]: value[nnodes][2] at the other end less that at the point; an anchor has 0.  Of all springs where `all`, else at least of those
+ * with an end here.  Collective. */
+static PetscErrorCode Difference(Solid s, PetscBool all, const double value[], double difference[][2])
 {
-  double x[2], v[2];
-  AtPoint(s, k, s->x, x);
-  AtPoint(s, k, s->v, v);
-  return SpringForce(&s->setup.spring[k], x, v, force);
-}
-
-void SpringsAddForces(Solid s)
-{
+  PetscFunctionBeginUser;
   for (int k = 0; k < s->setup.nsprings; k++) {
-    const int *node = NodesOf(s, k);
-    if (!node) continue;
-    (void)Act(s, k, s->spring_force[k]);
-    for (int i = 0; i < 3; i++)
-      for (int c = 0; c < 2; c++)
-        s->force[2 * node[i] + c] += s->setup.spring[k].weight[i] * s->spring_force[k][c];
+    double at[2][2];
+    for (int i = 0; i < 2; i++) AtEnd(s, k, i, value, at[i]);
+    for (int c = 0; c < 2; c++) difference[k][c] = at[1][c] - at[0][c];
   }
+  if (s->size > 1 && (all || s->linked))
+    PetscCallMPI(
+        MPI_Allreduce(MPI_IN_PLACE, difference, 2 * s->setup.nsprings, MPI_DOUBLE, MPI_SUM, s->comm));
+  PetscFunctionReturn(0);
+}
+
+/* at[nsprings], likewise */
+static PetscErrorCode Extents(Solid s, PetscBool all, SpringExtent at[])
+{
+  double d[MAX_SPRINGS][2], rate[MAX_SPRINGS][2];
+  PetscFunctionBeginUser;
+  PetscCall(Difference(s, all, s->x, d));
+  PetscCall(Difference(s, all, s->v, rate));
+  for (int k = 0; k < s->setup.nsprings; k++)
+    for (int c = 0; c < 2; c++) {
+      at[k].d[c] = d[k][c] + (s->setup.spring[k].anchored ? s->setup.spring[k].anchor[c] : 0.0);
+      at[k].rate[c] = rate[k][c];
+    }
+  PetscFunctionReturn(0);
+}
+
+/* vector[nnodes][2] += force, on the point of spring k, and the opposite on its other end */
+static void Act(const Solid s, int k, const double force[2], double vector[])
+{
+  for (int i = 0; i < 2; i++) {
+    const int *node = NodesAt(s, k, i);
+    for (int j = 0; node && j < 3; j++)
+      for (int c = 0; c < 2; c++)
+        vector[2 * node[j] + c] += (i ? -force[c] : force[c]) * s->setup.spring[k].end[i].weight[j];
+  }
+}
+
+PetscErrorCode SpringsAddForces(Solid s)
+{
+  SpringExtent at[MAX_SPRINGS];
+  PetscFunctionBeginUser;
+  if (s->setup.nsprings == 0) PetscFunctionReturn(0);
+  PetscCall(Extents(s, PETSC_FALSE, at));
+  for (int k = 0; k < s->setup.nsprings; k++) {
+    (void)SpringForce(&s->setup.spring[k], &at[k], s->spring_force[k]);
+    Act(s, k, s->spring_force[k], s->force);
+  }
+  PetscFunctionReturn(0);
 }
 
 void SpringsAddBudget(Solid s)
 {
-  for (int k = 0; k < s->setup.nsprings; k++) {
-    double v[2];
-    const int *node = NodesOf(s, k);
-    if (!node) continue;
-    AtPoint(s, k, s->v, v);
-    for (int c = 0; c < 2; c++) {
-      s->reaction[s->node_body[node[0]]][c] += s->h * s->spring_force[k][c];
-      s->budget.reaction_work += s->h * s->spring_force[k][c] * v[c];
+  for (int k = 0; k < s->setup.nsprings; k++)
+    for (int i = 0; i < 2; i++) {
+      const int *node = NodesAt(s, k, i);
+      double v[2];
+      if (!node) continue;
+      AtEnd(s, k, i, s->v, v);
+      for (int c = 0; c < 2; c++) {
+        const double impulse = s->h * (i ? -s->spring_force[k][c] : s->spring_force[k][c]);
+        s->reaction[s->node_body[node[0]]][c] += impulse;
+        s->budget.reaction_work += impulse * v[c];
+      }
     }
-  }
 }
 
-PetscBool SpringsStiffness(Solid s, int k, int node[3], double stiffness[6][6])
+PetscErrorCode SpringsStiffness(Solid s, double stiffness[][4])
 {
-  const double *w = s->setup.spring[k].weight;
-  double x[2], v[2], at_point[4];
-  if (!NodesOf(s, k)) return PETSC_FALSE;
-  AtPoint(s, k, s->x, x);
-  AtPoint(s, k, s->v, v);
-  SpringStiffness(&s->setup.spring[k], x, v, at_point);
-  for (int i = 0; i < 3; i++) node[i] = NodesOf(s, k)[i];
-  for (int i = 0; i < 36; i++) {
-    const int row = i / 6, column = i % 6;
-    stiffness[row][column] = w[row / 2] * w[column / 2] * at_point[2 * (row % 2) + column % 2];
+  SpringExtent at[MAX_SPRINGS];
+  PetscFunctionBeginUser;
+  if (s->setup.nsprings == 0) PetscFunctionReturn(0);
+  PetscCall(Extents(s, PETSC_FALSE, at));
+  for (int k = 0; k < s->setup.nsprings; k++) SpringStiffness(&s->setup.spring[k], &at[k], stiffness[k]);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SpringsMultiply(Solid s, double stiffness[][4], const double d[], double kd[])
+{
+  double stretch[MAX_SPRINGS][2];
+  PetscFunctionBeginUser;
+  if (s->setup.nsprings == 0) PetscFunctionReturn(0);
+  PetscCall(Difference(s, PETSC_FALSE, d, stretch));
+  for (int k = 0; k < s->setup.nsprings; k++) {
+    double force[2];
+    for (int c = 0; c < 2; c++)
+      force[c] = -(stiffness[k][2 * c] * stretch[k][0] + stiffness[k][2 * c + 1] * stretch[k][1]);
+    Act(s, k, force, kd);
   }
-  return PETSC_TRUE;
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode SpringsRate(Solid s, ElementRates *rates)
 {
   double sum[2] = {0.0, 0.0};
   PetscFunctionBeginUser;
-  for (int k = 0; k < s->setup.nsprings; k++) {
-    const int *node = NodesOf(s, k);
+  for (int k = 0; k < 2 * s->setup.nsprings; k++) {
+    const Spring *spring = &s->setup.spring[k / 2];
+    const int *node = NodesAt(s, k / 2, k % 2);
     for (int i = 0; node && i < 3; i++) {
-      const double w = s->setup.spring[k].weight[i];
-      sum[0] += s->setup.spring[k].stiffness * w * w * s->inverse_mass[node[i]];
-      sum[1] += s->setup.spring[k].damping * w * w * s->inverse_mass[node[i]];
+      const double w = spring->end[k % 2].weight[i], mobility = w * w * s->inverse_mass[node[i]];
+      sum[0] += spring->stiffness * mobility;
+      sum[1] += spring->damping * mobility;
     }
   }
   if (s->size > 1 && s->setup.nsprings)
@@ -99,17 +151,10 @@ PetscErrorCode SpringsRate(Solid s, ElementRates *rates)
 
 PetscErrorCode SolidSprings(Solid s, SpringState state[])
 {
-  double sum[MAX_SPRINGS][2] = {{0.0}};
+  SpringExtent at[MAX_SPRINGS];
+  double force[2];
   PetscFunctionBeginUser;
-  for (int k = 0; k < s->setup.nsprings; k++) {
-    double force[2];
-    if (!NodesOf(s, k)) continue;
-    const SpringState now = Act(s, k, force);
-    sum[k][0] = now.length;
-    sum[k][1] = now.tension;
-  }
-  if (s->size > 1)
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2 * s->setup.nsprings, MPI_DOUBLE, MPI_SUM, s->comm));
-  for (int k = 0; k < s->setup.nsprings; k++) state[k] = (SpringState){sum[k][0], sum[k][1]};
+  PetscCall(Extents(s, PETSC_TRUE, at));
+  for (int k = 0; k < s->setup.nsprings; k++) state[k] = SpringForce(&s->setup.spring[k], &at[k], force);
   PetscFunctionReturn(0);
 }

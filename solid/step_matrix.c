@@ -166,16 +166,6 @@ PetscErrorCode StepMatrixAddJoints(StepResponse a, Solid s)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode StepMatrixAddSprings(StepResponse a, Solid s)
-{
-  double stiffness[6][6];
-  int node[3];
-  PetscFunctionBeginUser;
-  for (int k = 0; k < s->setup.nsprings; k++)
-    if (SpringsStiffness(s, k, node, stiffness)) PetscCall(AddNodes(a, 3, node, stiffness[0]));
-  PetscFunctionReturn(0);
-}
-
 PetscErrorCode StepMatrixMultiply(StepResponse a, Solid s, const double d[], double kd[])
 {
   PetscFunctionBeginUser;
@@ -189,6 +179,7 @@ PetscErrorCode StepMatrixMultiply(StepResponse a, Solid s, const double d[], dou
     kd[2 * i] = x;
     kd[2 * i + 1] = y;
   }
+  PetscCall(SpringsMultiply(s, a->spring, d, kd));
   PetscCall(CopiesSum(s->copies, 2, kd));
   for (int k = 0; k < 2 * a->nnodes; k++)
     if (a->held[k]) kd[k] = 0.0;

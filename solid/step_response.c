@@ -1,3 +1,4 @@
+#include "solid/springs.h"
 #include "solid/step_response_impl.h"
 
 /* Of the conjugate gradients: after so many the result, then smoothed less, is taken as it is. */
@@ -129,7 +130,7 @@ PetscErrorCode StepResponseUpdate(Solid s)
   if (!a->njoints) PetscCall(FactorAtRest(a, s));
   PetscCall(StepMatrixAssemble(a, s, s->x));
   PetscCall(StepMatrixAddJoints(a, s));
-  PetscCall(StepMatrixAddSprings(a, s));
+  PetscCall(SpringsStiffness(s, a->spring));
   if (a->njoints) PetscCall(StepFactorUpdate(a, s, a->c));
   StepFactorTurn(a, s, a->njoints ? PETSC_FALSE : PETSC_TRUE);
   PetscFunctionReturn(0);

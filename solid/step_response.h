@@ -1,6 +1,6 @@
 /* S d = (M + c K)^-1 M d, c = dt^2/4: the response of one implicit step (interface_motion.c), by conjugate gradients.
  *
- * K is assembled once a step, in 2 x 2 blocks, with elements, joints and springs where they are.  The preconditioner is a
+ * K is assembled once a step, in 2 x 2 blocks, with elements and joints where they are; springs are beside it.  The preconditioner is a
  * Cholesky factor of the rank's own part of M + c K at rest, turned with the material,
  *
  *     P^-1 = sum over ranks  W R (M/n + c0 K0)^-1 R^T W,    W = 1/n,
@@ -9,8 +9,8 @@
  * tangent of a body that has turned and bent without much strain, so that the factor serves all steps whose c is within
  * 5 % of c0 = 1.1^k; only other lengths of step need a new one.  While joints are active, their stiffness changes by
  * orders of magnitude: then the factor is that of the present K, and R = 1.  P follows from the state alone: a step that
- * is redone or resumed has the same bits.  Springs are in the factor only then: each is of rank one, and
- * costs a few iterations.  PETSc's options of the factor have the prefix response_ (solid.petsc). */
+ * is redone or resumed has the same bits.  Springs, each of rank one or two, are not in
+ * the factor and cost a few iterations.  PETSc's options of the factor have the prefix response_ (solid.petsc). */
 #ifndef SOLID_STEP_RESPONSE_H
 #define SOLID_STEP_RESPONSE_H
 #include "solid/solid_impl.h"

@@ -12,7 +12,8 @@ struct StepResponse_s {
   int *slot,
       *six_slot;      /* [nelements][9] block of corners i, j at 3 i + j; [nsix][36] the same of six nodes */
   double (*block)[4]; /* [nblocks] of K: xx, xy, yx, yy, N/m */
-  double c, c0;       /* s2; c0 0: no factor */
+  double spring[MAX_SPRINGS][4]; /* SpringsStiffness */
+  double c, c0;                  /* s2; c0 0: no factor */
   PC factor;
   Mat matrix;
   Vec right, left;        /* of the factor */
@@ -26,10 +27,9 @@ struct StepResponse_s {
 PetscErrorCode StepMatrixCreate(StepResponse a);
 /* K of this rank's elements with the nodes at x[nnodes][2]; not collective. */
 PetscErrorCode StepMatrixAssemble(StepResponse a, Solid s, const double x[]);
-/* Adds that of the joints; of the springs, each in the nodes of its element.  Not collective. */
+/* Adds that of the joints; not collective. */
 PetscErrorCode StepMatrixAddJoints(StepResponse a, Solid s);
-PetscErrorCode StepMatrixAddSprings(StepResponse a, Solid s);
-/* kd = K d of all ranks; 0 where it is held.  Collective. */
+/* kd = K d of all ranks, springs included; 0 where it is held.  Collective. */
 PetscErrorCode StepMatrixMultiply(StepResponse a, Solid s, const double d[], double kd[]);
 
 /* step_factor.c: the matrix M/n + c0 K0, two rows a node, and what factors it; not collective, nor the next two. */

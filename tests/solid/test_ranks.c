@@ -44,15 +44,22 @@ static PetscErrorCode Step(Solid s, int step)
 /* x and v, by global number, of the nodes that comm has */
 static PetscErrorCode Simulate(MPI_Comm comm, int redo, double *all, int nnodes, int *searches)
 {
-  const SolidSetup options = {
-      .gravity = {0.0, -9.81},
-      .courant = 0.8,
-      .walls = PETSC_TRUE,
-      .lower = {-0.5, 0.0},
-      .upper = {0.6, 1.0},
-      .nsprings = 1,
-      .spring = {
-          {.element = 7, .weight = {0.2, 0.3, 0.5}, .anchor = {-0.3, 0.4}, .stiffness = 1e4, .length = 0.1}}};
+  const SolidSetup options = {.gravity = {0.0, -9.81},
+                              .courant = 0.8,
+                              .walls = PETSC_TRUE,
+                              .lower = {-0.5, 0.0},
+                              .upper = {0.6, 1.0},
+                              .nsprings = 2,
+                              .spring = {{.end = {{.element = 7, .weight = {0.2, 0.3, 0.5}}},
+                                          .anchored = 1,
+                                          .anchor = {-0.3, 0.4},
+                                          .stiffness = 1e4,
+                                          .length = 0.1},
+                                         {.end = {{.element = 3, .weight = {0.2, 0.3, 0.5}},
+                                                  {.element = 60, .weight = {0.4, 0.4, 0.2}}},
+                                          .stiffness = 1e3,
+                                          .damping = 1.0,
+                                          .length = 0.3}}};
   Model a = {0};
   Solid s;
   Bodies(&a);

@@ -26,8 +26,10 @@ static PetscErrorCode Disc(int nsprings, const Spring spring[], const BoundaryMo
   AddDisc(&a, 0.0, 0.0, 0.5, 0.1, &body);
   for (int k = 0; k < nsprings; k++) {
     setup.spring[k] = spring[k];
-    setup.spring[k].element = a.nelements / 2;
-    for (int i = 0; i < 3; i++) setup.spring[k].weight[i] = 1.0 / 3.0;
+    SpringEnd *end = setup.spring[k].end;
+    end[0].element = a.nelements / 2;
+    end[1].element = a.nelements - 1;
+    for (int i = 0; i < 3; i++) end[0].weight[i] = end[1].weight[i] = 1.0 / 3.0;
   }
   PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &setup, s));
   PetscCall(ModelDestroy(&a));
@@ -90,26 +92,29 @@ static PetscErrorCode CheckResponse(Solid s, const int held[2], const char *what
   return 0;
 }
 
-/* Springs with omega dt of 4 and more: of length 0, pulling to one side, pushing to nowhere, and slack. */
+/* Springs with omega dt of 4 and more: of length 0, pulling to one side, slack, and between two places of the disc. */
 static PetscErrorCode Springs(void)
 {
-  static const Spring SPRING[] = {{.anchor = {0.0, 0.0}, .stiffness = 2e4},
-                                  {.anchor = {1.5, 1.0}, .stiffness = 1e5, .length = 0.8},
-                                  {.anchor = {-2.0, 0.5}, .stiffness = 1e6, .length = 3.0, .slack = 1}};
+  static const Spring SPRING[] = {
+      {.anchored = 1, .anchor = {0.0, 0.0}, .stiffness = 2e4},
+      {.anchored = 1, .anchor = {1.5, 1.0}, .stiffness = 1e5, .length = 0.8},
+      {.anchored = 1, .anchor = {-2.0, 0.5}, .stiffness = 1e6, .length = 3.0, .acts = SPRING_PULLS},
+      {.stiffness = 1e5, .length = 0.1}};
   Solid s;
   PetscCall(Disc(0, NULL, NULL, &s));
   PetscCall(CheckResponse(s, FREE, "no spring"));
   PetscCall(SolidDestroy(&s));
-  for (int k = 0; k < 3; k++) {
+  for (int k = 0; k < 4; k++) {
     PetscCall(Disc(1, SPRING + k, NULL, &s));
     PetscCall(CheckResponse(s, FREE,
                             k == 0   ? "a spring of length 0"
                             : k == 1 ? "a taut spring"
-                                     : "a slack spring"));
+                            : k == 2 ? "a slack spring"
+                                     : "a spring within"));
     PetscCall(SolidDestroy(&s));
   }
-  PetscCall(Disc(3, SPRING, NULL, &s));
-  PetscCall(CheckResponse(s, FREE, "three springs"));
+  PetscCall(Disc(4, SPRING, NULL, &s));
+  PetscCall(CheckResponse(s, FREE, "four springs"));
   PetscCall(SolidDestroy(&s));
   return 0;
 }
