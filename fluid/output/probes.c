@@ -9,6 +9,8 @@
 
 /* The numbers of a point (u, v, p, rho), of a gauge or a surface, of a phase. */
 enum { VALUES = 4, FOLLOWING = 3, WHOLE = 6, COLUMN_LENGTH = SERIES_NAME_MAX + 24 };
+#define BEHIND                                                                                               \
+  0.05 /* of a gauge's distance: a body that stands on the floor may be in it by what its contact needs */
 
 struct Probes_s {
   MPI_Comm comm;
@@ -42,18 +44,32 @@ static PetscErrorCode Values(const Places *places, Fluid fluid, double value[][V
   PetscFunctionReturn(0);
 }
 
-/* The pressure before each gauge, at value[n][2]. */
-static PetscErrorCode GaugeValues(Probes p, Fluid fluid, const CoracleGauge gauge[], double value[][VALUES])
+/* x[ngauges][2]: by `part` of its distance before each gauge, of those alone that are outside where outside is given. */
+static void GaugePoints(const Probes p, const CoracleGauge gauge[], double part, const double outside[],
+                        double x[][2])
 {
-  double x[PROBES_MAX][2];
-  PetscFunctionBeginUser;
   for (int k = 0; k < p->list.n; k++) {
     const Probe *probe = &p->list.probe[k];
-    if (probe->kind != PROBE_GAUGE) continue;
+    if (probe->kind != PROBE_GAUGE || (outside && outside[probe->first] == 0.0)) continue;
     const CoracleGauge *g = &gauge[probe->first];
-    for (int c = 0; c < 2; c++) x[probe->first][c] = g->x[c] + probe->distance * g->normal[c];
+    for (int c = 0; c < 2; c++) x[probe->first][c] = g->x[c] + part * probe->distance * g->normal[c];
   }
-  PetscCall(PlacesLocate(FluidMesh(fluid), p->list.ngauges, (const double(*)[2])x, &p->moving));
+}
+
+/* The pressure before each gauge, at value[n][2]; where that is not in the mesh, behind its face. */
+static PetscErrorCode GaugeValues(Probes p, Fluid fluid, const CoracleGauge gauge[], double value[][VALUES])
+{
+  const int n = p->list.ngauges;
+  double x[PROBES_MAX][2];
+  int nout = 0;
+  PetscFunctionBeginUser;
+  GaugePoints(p, gauge, 1.0, NULL, x);
+  PetscCall(PlacesLocate(FluidMesh(fluid), n, (const double(*)[2])x, &p->moving));
+  for (int k = 0; k < n; k++) nout += p->moving.outside[k] > 0.0;
+  if (nout) {
+    GaugePoints(p, gauge, -BEHIND, p->moving.outside, x);
+    PetscCall(PlacesLocate(FluidMesh(fluid), n, (const double(*)[2])x, &p->moving));
+  }
   PetscCall(Values(&p->moving, fluid, value));
   PetscFunctionReturn(0);
 }

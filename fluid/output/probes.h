@@ -4,8 +4,8 @@
  *   point        name_u, name_v [m/s], name_p [Pa]; of several phases also name_rho [kg/m3], the density of the element
  *   line         the same of each of its points, name0_u, ...
  *   solid_point  name_x, name_y [m], where the point of the solid is, and name_p [Pa], the pressure of the fluid before it:
- *                at x + distance n, n out of the solid (by default one edge of fluid.adapt.size_min); nan where that is not
- *                in the mesh
+ *                at x + distance n, n out of the solid (by default one edge of fluid.adapt.size_min); where that is not
+ *                in the mesh, beneath a body that stands on a floor, at x - 0.05 distance n; nan if that is not either
  *   surface      name_first, name_last, name_length [m]: where the phase first ends along the segment, its
  *                farthest point, and how much of the segment it has (surface_gauge.h)
  *

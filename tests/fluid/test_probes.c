@@ -1,6 +1,6 @@
 // ranks: 1 2 3
 /* Probes give linear velocities and quadratic pressures exactly, in elements, on faces, vertices, walls and corners and
- * before a gauge on a solid; also on another mesh and after a checkpoint.  What lies outside of the mesh is refused. */
+ * before a gauge on a solid, behind its face where that is not in the mesh; also on another mesh and after a checkpoint.  What lies outside of the mesh is refused. */
 #include "fluid/input/fluid_case.h"
 #include "fluid/output/probes.h"
 #include "tests/fluid/box_mesh.h"
@@ -18,10 +18,12 @@ static const char *const CASE = "gravity: [0.0, 0.0]\n"
                                 "    - {name: before, solid_point: [0.5, 0.5], distance: 0.125}\n"
                                 "    - {name: cut, line: {from: [0.0, 0.0], to: [2.0, 1.0], points: 9}}\n"
                                 "    - {name: wall, point: [2.0, 0.61]}\n"
-                                "    - {name: outside, solid_point: [0.0, 0.5], distance: 0.5}\n";
+                                "    - {name: beneath, solid_point: [0.0, 0.5], distance: 0.5}\n"
+                                "    - {name: outside, solid_point: [-1.0, 0.5], distance: 0.5}\n";
 
-enum { POINTS = 11, COLUMNS = 1 + 3 * (POINTS + 2) };
-static const CoracleGauge GAUGE[2] = {{{1.5, 0.5}, {0.6, -0.8}}, {{0.0, 0.5}, {-1.0, 0.0}}};
+enum { POINTS = 11, COLUMNS = 1 + 3 * (POINTS + 3) };
+static const CoracleGauge GAUGE[3] = {
+    {{1.5, 0.5}, {0.6, -0.8}}, {{0.0, 0.5}, {-1.0, 0.0}}, {{-1.0, 0.5}, {-1.0, 0.0}}};
 static char folder[256];
 static PetscMPIInt rank;
 
@@ -48,7 +50,7 @@ static PetscErrorCode Row(CoracleCase c, Probes probes, double size)
   PetscCall(FluidCreate(mesh, &setup, &fluid));
   PetscCall(FluidSetInitial(fluid, 0.0, Velocity, Pressure, NULL));
   PetscCall(ProbesNewMesh(probes, mesh));
-  PetscCall(ProbesStep(probes, fluid, 2, GAUGE));
+  PetscCall(ProbesStep(probes, fluid, 3, GAUGE));
   PetscCall(PetscFree(setup.boundary));
   PetscCall(FluidDestroy(&fluid));
   PetscCall(MeshDestroy(&mesh));
@@ -122,13 +124,15 @@ static void CheckPoint(const double value[3], double x, double y)
 static void CheckRow(const double value[COLUMNS])
 {
   double p;
-  const double before[2] = {1.5 + 0.125 * 0.6, 0.5 - 0.125 * 0.8};
+  const double before[2] = {1.5 + 0.125 * 0.6, 0.5 - 0.125 * 0.8}, behind[2] = {0.05 * 0.5, 0.5};
   Pressure(NULL, 0.0, before, &p);
   CheckPoint(value + 1, 0.813, 0.377);
   CHECK(value[4] == 1.5 && value[5] == 0.5 && fabs(value[6] - p) < 1e-8);
   for (int i = 0; i < 9; i++) CheckPoint(value + 7 + 3 * i, 0.25 * i, 0.125 * i);
   CheckPoint(value + 34, 2.0, 0.61);
-  CHECK(value[37] == 0.0 && value[38] == 0.5 && isnan(value[39]));
+  Pressure(NULL, 0.0, behind, &p);
+  CHECK(value[37] == 0.0 && value[38] == 0.5 && fabs(value[39] - p) < 1e-8);
+  CHECK(value[40] == -1.0 && value[41] == 0.5 && isnan(value[42]));
 }
 
 static void CheckFile(void)
@@ -141,9 +145,9 @@ static void CheckFile(void)
   CHECK(file && fgets(line, sizeof line, file));
   CHECK(strstr(line, "t [s],inside_u [m/s],inside_v [m/s],inside_p [Pa],before_x [m],before_y [m],before_p "
                      "[Pa],cut0_u [m/s],") == line);
-  CHECK(strstr(
-      line,
-      ",cut8_p [Pa],wall_u [m/s],wall_v [m/s],wall_p [Pa],outside_x [m],outside_y [m],outside_p [Pa]\n"));
+  CHECK(strstr(line, ",cut8_p [Pa],wall_u [m/s],wall_v [m/s],wall_p [Pa],beneath_x [m],beneath_y "
+                     "[m],beneath_p [Pa],outside_x [m],outside_y "
+                     "[m],outside_p [Pa]\n"));
   while (fgets(line, sizeof line, file)) {
     double value[COLUMNS];
     char *at = line;
