@@ -1,6 +1,7 @@
 /* One body and its materials, from the case. */
 #include "solid/bodies/case_body.h"
 #include "solid/bodies/case_shape.h"
+#include <limits.h>
 
 const char *BodyKey(char key[CASE_KEY], int body, const char *name)
 {
@@ -26,6 +27,9 @@ static void ReadStrength(CoracleCase c, const char *name, Material *m)
   m->internal_friction = CoracleCaseNumberOr(c, MaterialKey(key, name, "internal_friction"), 0.0, 0.0, 10.0);
   if (CoracleCaseHas(c, MaterialKey(key, name, "shear_fracture_energy")))
     m->fracture_energy[1] = CoracleCasePositive(c, key);
+  if (CoracleCaseHas(c, MaterialKey(key, name, "weibull_modulus")))
+    m->weibull_modulus = CoracleCaseNumber(c, key, 1.0, HUGE_VAL);
+  m->weibull_seed = CoracleCaseIntegerOr(c, MaterialKey(key, name, "weibull_seed"), 0, 0, INT_MAX);
 }
 
 static Material ReadMaterial(CoracleCase c, const char *name)

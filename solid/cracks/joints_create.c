@@ -1,5 +1,6 @@
 /* The joints of this rank, from the model. */
 #include "solid/cracks/joints_impl.h"
+#include <stdint.h>
 #include <stdlib.h>
 
 typedef struct {
@@ -129,6 +130,23 @@ static PetscErrorCode GatherBonds(Joints j, const Making *m, const int index[])
 
 /* --- joints ------------------------------------------------------------------------------------------- */
 
+/* 0 < U < 1 of a joint, by its number alone (SplitMix64), whatever the ranks. */
+static double Uniform(int seed, int joint)
+{
+  uint64_t z = ((uint64_t)(uint32_t)seed << 32 | (uint32_t)joint) + 0x9e3779b97f4a7c15u;
+  z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+  z ^= z >> 31;
+  return ((double)(z >> 11) + 0.5) / 9007199254740992.0; /* 2^53 */
+}
+
+/* Weibull's distribution with mean 1: P(factor < f) = 1 - exp(-(f Gamma(1 + 1/m))^m). */
+static double StrengthFactor(const Material *material, int joint)
+{
+  const double m = material->weibull_modulus;
+  return m == 0.0 ? 1.0 : pow(-log(Uniform(material->weibull_seed, joint)), 1.0 / m) / tgamma(1.0 + 1.0 / m);
+}
+
 /* Between two materials the weaker one counts.  All is times the thickness, as the elements' stresses are. It
  * is pressed as contact presses: an edge on both sides of which phi = 3 depth/height acts with the penalty.
  */
@@ -137,9 +155,10 @@ static JointLaw LawOf(const Model *a, const InteriorEdge *edge, double length)
   const Material *one = &a->material[a->element_material[edge->element[0]]];
   const Material *two = &a->material[a->element_material[edge->element[1]]];
   const double thickness = fmin(one->thickness, two->thickness);
+  const double of_one = StrengthFactor(one, edge->joint), of_two = StrengthFactor(two, edge->joint);
   JointLaw law = {.friction = fmin(one->internal_friction, two->internal_friction)};
   for (int i = 0; i < 2; i++) {
-    law.strength[i] = thickness * fmin(one->strength[i], two->strength[i]);
+    law.strength[i] = thickness * fmin(of_one * one->strength[i], of_two * two->strength[i]);
     law.energy[i] = thickness * fmin(one->fracture_energy[i], two->fracture_energy[i]);
     law.stiffness += 3.0 * thickness * fmin(one->penalty, two->penalty) * length /
                      TensorDeterminant(ModelRestEdges(a, edge->element[i]));
