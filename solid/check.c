@@ -34,7 +34,8 @@ static const CoracleCaseKey KEYS[] = {
     {"solid.materials.*.internal_friction", "",
      "what pressure adds to the shear strength, over the pressure"},
     {"solid.materials.*.weibull_modulus", "",
-     "strengths of edges scatter about their means by Weibull's distribution of this modulus (5 to 20 of rock)"},
+     "strengths of edges scatter about their means by Weibull's distribution of this modulus (5 to 20 of "
+     "rock)"},
     {"solid.materials.*.weibull_seed", "", "another number, another sample"},
     {"solid.materials.*.fracture_energy", "J/m2", "of opening; required with tensile_strength"},
     {"solid.materials.*.shear_fracture_energy", "J/m2", "of sliding; absent: fracture_energy"},

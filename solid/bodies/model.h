@@ -25,8 +25,8 @@ typedef struct {
   int plane_stress;                        /* else plane strain */
   int law;                                 /* ElementLawKind (element_law.h) */
   double strength[2];                      /* of joints: in tension and in shear, Pa */
-  double internal_friction;  /* of joints: what pressure adds to the shear strength, over the pressure */
-  double weibull_modulus;    /* of joints: how little their strengths scatter; 0: not at all */
+  double internal_friction; /* of joints: what pressure adds to the shear strength, over the pressure */
+  double weibull_modulus;   /* of joints: how little their strengths scatter; 0: not at all */
   int weibull_seed;
   double fracture_energy[2]; /* per unit of new surface, mode I and mode II, J/m2 */
   char name[MATERIAL_NAME];  /* bodies with equal names share the material; "" is always one of its own */
