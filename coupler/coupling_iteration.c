@@ -16,7 +16,7 @@ PetscErrorCode CouplingIterationCreate(MPI_Comm comm, int max_iterations, double
 static PetscErrorCode FreeNodes(CouplingIteration *t)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscFree3(t->iterate, t->result, t->explicit_fraction));
+  PetscCall(PetscFree4(t->iterate, t->result, t->explicit_fraction, t->given));
   PetscFunctionReturn(0);
 }
 
@@ -36,7 +36,7 @@ static PetscErrorCode Resize(CouplingIteration *t, const SolidState *solid)
   PetscFunctionBeginUser;
   if (!solid->changed && t->n >= 0) PetscFunctionReturn(0);
   PetscCall(FreeNodes(t));
-  PetscCall(PetscMalloc3(2 * n, &t->iterate, 2 * n, &t->result, n, &t->explicit_fraction));
+  PetscCall(PetscMalloc4(2 * n, &t->iterate, 2 * n, &t->result, n, &t->explicit_fraction, n, &t->given));
   t->n = solid->nnodes;
   PetscCall(QuasiNewtonBegin(t->quasi_newton, -1));
   PetscFunctionReturn(0);
@@ -59,12 +59,14 @@ static PetscErrorCode Residual(const CouplingIteration *t, double *residual, dou
 }
 
 PetscErrorCode CouplingIterationBegin(CouplingIteration *t, const SolidState *solid, double dt,
-                                      const double predicted[], const double explicit_fraction[])
+                                      const double predicted[], const double explicit_fraction[],
+                                      const char given[])
 {
   PetscFunctionBeginUser;
   PetscCall(Resize(t, solid));
   PetscCall(PetscArraycpy(t->iterate, predicted, 2 * (size_t)t->n));
   PetscCall(PetscArraycpy(t->explicit_fraction, explicit_fraction, (size_t)t->n));
+  PetscCall(PetscArraycpy(t->given, given, (size_t)t->n));
   t->dt = dt;
   if (t->failures > 1) PetscCall(QuasiNewtonBegin(t->quasi_newton, -1));
   PetscCall(QuasiNewtonBegin(t->quasi_newton, 2 * t->n));
@@ -81,6 +83,8 @@ PetscErrorCode CouplingIterationHasConverged(CouplingIteration *t, int iteration
   if (t->max_iterations == 1 || solid->lost) PetscFunctionReturn(0);
   PetscCall(PetscArraycpy(t->result, t->iterate, 2 * (size_t)t->n));
   PetscCall(SolidStateOnStartNodes(solid, solid->u, t->n, t->result));
+  for (int k = 0; k < 2 * t->n; k++)
+    if (t->given[k / 2]) t->result[k] = t->iterate[k];
   PetscCall(Residual(t, &t->residual, &size));
   /* false for NaN */
   *converged = t->residual <= fmax(t->tolerance * size, NEGLIGIBLE_DISPLACEMENT * t->thickness / t->dt)

@@ -26,6 +26,7 @@ typedef struct {
   double *iterate;           /* [n][2] v_k, the velocity that the fluid couples to, m/s */
   double *result;            /* [n][2] H(v_k), m/s */
   double *explicit_fraction; /* [n] e */
+  char *given;               /* [n] */
   double dt;                 /* of the step, s */
   double residual;           /* rms(e (H(v_k) - v_k)) of the last iteration, m/s */
   int failures;              /* so often in a row a step has not converged */
@@ -35,11 +36,12 @@ typedef struct {
 PetscErrorCode CouplingIterationCreate(MPI_Comm comm, int max_iterations, double tolerance, double thickness,
                                        CouplingIteration *t);
 PetscErrorCode CouplingIterationDestroy(CouplingIteration *t);
-/* Starts a step of dt seconds from the solid as it is; predicted[n][2] v_0, m/s, and explicit_fraction[n] are
- * copied.  When a step has not converged twice the quasi-Newton method begins
+/* Starts a step of dt seconds from the solid as it is; predicted[n][2] v_0, m/s, explicit_fraction[n] and given[n], whose nodes
+ * keep v_0, are copied.  When a step has not converged twice the quasi-Newton method begins
  * anew. */
 PetscErrorCode CouplingIterationBegin(CouplingIteration *t, const SolidState *solid, double dt,
-                                      const double predicted[], const double explicit_fraction[]);
+                                      const double predicted[], const double explicit_fraction[],
+                                      const char given[]);
 /* Has the step converged with `solid` as the result of iteration number `iteration` (from 1)?  Always true
  * when at most one is allowed or the nodes of the start are lost.  In a step in which cracks open they may do so in one iteration and
  * not, or at another time, in the next: it converges over a part of dt (time_loop.c). */

@@ -73,7 +73,7 @@ static PetscErrorCode SendCoupling(RunState *run)
   PetscCall(CouplerBuild(loop->coupler, &run->start, run->t, run->dt, &n, &coupling));
   PetscCall(CouplingIterationBegin(&run->iteration, &run->start, run->dt,
                                    CouplerPredictedVelocity(loop->coupler),
-                                   CouplerExplicitFraction(loop->coupler)));
+                                   CouplerExplicitFraction(loop->coupler), CouplerGiven(loop->coupler)));
   PetscCall(ServerSendCoupling(loop->server, n, coupling));
   PetscFunctionReturn(0);
 }

@@ -49,28 +49,60 @@ static void DampUnresolved(Solid s, const double resolved[], const double total[
   }
 }
 
+/* The rate of a prescribed rotation at the step's end: of the last substep. */
+static double SpinNow(Solid s, const PrescribedMotion *d)
+{
+  return s->stats.h > 0.0 ? PrescribedRotation(d, s->stats.t - s->stats.h, s->stats.h) : 0.0;
+}
+
+/* interface_velocity of nodes that a rotation is prescribed for. */
+static void RotatePrescribed(Solid s)
+{
+  const double t = s->stats.t, h = s->stats.h;
+  for (int k = 0; k < s->nprescribed && h > 0.0; k++) {
+    const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
+    const int n = s->prescribed[k].node;
+    double pivot[2];
+    if (!PrescribedActs(d, t) || d->angular_velocity == 0.0) continue;
+    PrescribedPivot(d, t, pivot);
+    const double spin = SpinNow(s, d);
+    const double turned[2] = {-spin * (s->x[2 * n + 1] - pivot[1]), spin * (s->x[2 * n] - pivot[0])};
+    for (int c = 0; c < 2; c++)
+      if (d->prescribed[c]) s->interface_velocity[2 * n + c] = PrescribedVelocity(d, c, t - h, h) + turned[c];
+  }
+}
+
 /* What moves prescribed nodes acts beside the fluid: their whole acceleration is that of the prescribed velocity, and the fluid does not
- * move them.  Of a rotation it is what makes it faster: what leads it around is no part of a rigid velocity. */
+ * move them.  The coupler has the solid where it is half a step later, at x + dt/2 v (coupler/step/coupler.c).  A rotation w about the pivot is a rigid
+ * velocity there, at the rate w' that it has at the step's end, if
+ *
+ *     v  =  V + w x r,   a  =  V' + (w' - w)/dt x r - w w' r/2,     r from the pivot,
+ *
+ * v exactly, not its mean over the last substep: a velocity that is not free of divergence would add to the pressure in what is held in each step. */
 static void AcceleratePrescribed(Solid s)
 {
-  const double t = s->stats.t, dt = s->dt;
+  const double t = s->stats.t, h = s->stats.h,
+               dt = h > 0.0 ? s->dt : 0.0; /* velocities: means over a substep */
   for (int k = 0; k < s->nprescribed; k++) {
     const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
     if (!PrescribedActs(d, t)) continue;
     const int n = s->prescribed[k].node;
-    double pivot[2] = {0.0, 0.0}, spin_up = 0.0;
+    double pivot[2] = {0.0, 0.0}, spin_up = 0.0, around = 0.0;
     if (d->prescribed[0] && d->prescribed[1]) s->mobility[n] = 0.0;
     if (d->angular_velocity != 0.0 && dt > 0.0) {
       PrescribedPivot(d, t, pivot);
-      spin_up = (PrescribedRotation(d, t, dt) - PrescribedRotation(d, t - dt, dt)) / dt;
+      const double spin = SpinNow(s, d);
+      spin_up = (PrescribedRotation(d, t + dt - h, h) - spin) / dt;
+      around = 0.5 * spin * (spin + dt * spin_up);
     }
-    const double turned[2] = {-(s->x[2 * n + 1] - pivot[1]) * spin_up, (s->x[2 * n] - pivot[0]) * spin_up};
+    const double r[2] = {s->x[2 * n] - pivot[0], s->x[2 * n + 1] - pivot[1]};
+    const double turned[2] = {-r[1] * spin_up - r[0] * around, r[0] * spin_up - r[1] * around};
     for (int c = 0; c < 2; c++)
       if (d->prescribed[c])
         s->acceleration[2 * n + c] =
-            dt > 0.0
-                ? (PrescribedVelocity(d, c, t, dt) - PrescribedVelocity(d, c, t - dt, dt)) / dt + turned[c]
-                : 0.0;
+            dt > 0.0 ? (PrescribedVelocity(d, c, t + dt - h, h) - PrescribedVelocity(d, c, t - h, h)) / dt +
+                           turned[c]
+                     : 0.0;
   }
 }
 
@@ -120,6 +152,7 @@ PetscErrorCode SolidUpdateInterfaceMotion(Solid s, InterfaceMotion *interface)
     PetscCall(SteadyVelocity(s, resolved));
   else
     PetscCall(PetscArraycpy(s->interface_velocity, s->v, n));
+  RotatePrescribed(s);
   DampUnresolved(s, resolved, total);
   PetscCall(PetscFree2(resolved, total));
   for (int k = 0; k < 2 * s->nnodes; k++)

@@ -230,7 +230,9 @@ int CoracleSetVelocity(CoracleClient c, const double u[]);
  *                         elements together; 0 where it is held and does not respond
  *   acceleration[n][dim]  m/s2, by all forces but the fluid's, gravity included; of a node that the rest of
  *                         its body holds against the fluid this is about minus the fluid's force of the last
- *                         step over the node's mass; where mobility is 0 that of the motion it is held to
+ *                         step over the node's mass; where mobility is 0 that of the motion it is held to, in the coming
+ *                         step, which then is not asked for again: of a rotation w, w' at the step's end, (w' - w)/dt x r -
+ *                         w w' r/2.  All 0 there: not given
  * The coupler then takes the solid's inertia into the fluid's solve: one coupling iteration suffices for
  * solids as dense as the fluid or denser, and lighter ones need few.  Without it, or where mobility is 0, the
  * velocity predicted for the step's end is prescribed to the fluid.  For the next step only. */

@@ -1,5 +1,6 @@
 #include "coupler/step/coupler_impl.h"
 #include "coupler/terms/inertia.h"
+#include "coupler/terms/viscous_response.h"
 
 PetscErrorCode CouplerCreate(MPI_Comm comm, const CouplerOptions *options, Coupler *coupler)
 {
@@ -38,7 +39,7 @@ static PetscErrorCode FreeStep(Coupler c)
   PetscCall(PetscFree3(c->term, c->coupling, c->element));
   PetscCall(PetscFree3(c->vertex, c->source, c->force));
   PetscCall(PetscFree5(c->node, c->start, c->predicted, c->acceleration, c->explicit_fraction));
-  PetscCall(PetscFree2(c->mobility, c->displaced));
+  PetscCall(PetscFree3(c->mobility, c->displaced, c->given));
   PetscFunctionReturn(0);
 }
 
@@ -53,7 +54,7 @@ static PetscErrorCode NewStep(Coupler c, const SolidState *solid)
   PetscCall(PetscMalloc3(3 * nsources, &c->vertex, nsources, &c->source, 2 * n, &c->force));
   PetscCall(PetscMalloc5(n, &c->node, 2 * n, &c->start, 2 * n, &c->predicted, 2 * n, &c->acceleration, n,
                          &c->explicit_fraction));
-  PetscCall(PetscCalloc2(n, &c->mobility, n, &c->displaced));
+  PetscCall(PetscCalloc3(n, &c->mobility, n, &c->displaced, n, &c->given));
   PetscCall(PetscArrayzero(c->term, o->pairs.n));
   PetscCall(PetscArrayzero(c->element, o->ncoupled));
   PetscCall(PetscArrayzero(c->source, nsources));
@@ -65,14 +66,18 @@ static PetscErrorCode NewStep(Coupler c, const SolidState *solid)
   PetscFunctionReturn(0);
 }
 
-/* From the step before: the velocity at the end of this one, and the acceleration by all but the fluid inside
+/* From the step before, or, of a node that is held, from the motion it is held to: the velocity at the end of this one, and the acceleration by all but the fluid inside
  * the solid, which the shell's reaction and the pressure outside are part of. */
 static void Predict(Coupler c, const SolidState *solid)
 {
   const History *h = &c->history;
   const PetscBool known = h->known && c->options.mode == COUPLER_REACTION ? PETSC_TRUE : PETSC_FALSE;
   for (int k = 0; k < 2 * c->nnodes; k++) {
-    c->predicted[k] = c->start[k] + (known ? c->dt * h->lasting[k / 2][k % 2] : 0.0);
+    const int i = k / 2;
+    const double *a = solid->acceleration + 2 * i;
+    c->given[i] =
+        c->options.mode == COUPLER_REACTION && solid->mobility[i] == 0.0 && (a[0] != 0.0 || a[1] != 0.0);
+    c->predicted[k] = c->start[k] + c->dt * (c->given[i] ? a[k % 2] : known ? h->lasting[i][k % 2] : 0.0);
     c->acceleration[k] = solid->acceleration[k] + (known ? h->outside[k / 2][k % 2] : 0.0);
   }
 }
@@ -90,10 +95,17 @@ static PetscErrorCode BuildAt(Coupler c, const SolidState *solid, const double x
   PetscCall(NewStep(c, &at));
   if (c->pressure_load) PetscCall(PressureLoadBuild(c->pressure_load, &at));
   if (c->uplift) PetscCall(UpliftBuild(c->uplift, &at, c->shell, c->overlap));
-  if (new_mesh) PetscCall(HarmonicDestroy(&c->harmonic));
+  if (new_mesh) {
+    PetscCall(HarmonicDestroy(&c->harmonic));
+    PetscCall(CopiesDestroy(&c->parts));
+    PetscCall(SolidPartsCreate(c->comm, &at, c->overlap->nodes, &c->parts));
+  }
   c->built = 1;
   PetscCall(c->mode->coefficients(c, &at));
   PetscCall(InertiaExplicitFraction(c->overlap, &at, c->source, c->explicit_fraction));
+  if (c->options.mode == COUPLER_REACTION)
+    PetscCall(ViscousExplicitFraction(c->parts, c->overlap, &at, c->term, c->options.thickness, c->dt,
+                                      c->explicit_fraction));
   PetscFunctionReturn(0);
 }
 
@@ -116,10 +128,26 @@ PetscErrorCode CouplerBuild(Coupler c, const SolidState *solid, double t, double
   PetscFunctionReturn(0);
 }
 
+/* What SetSourceTerms takes from nodes to the vertices of source triangles. */
+enum { VELOCITY, ACCELERATION = 2, INTERFACE = 4, WEIGHT = 6, GIVEN = 8, FREE, NVALUES };
+
+/* Of a triangle with both, held vertices get the mean acceleration of the free ones: what holds the free ones against the fluid holds all of it. */
+static void HoldAsTheRest(double vertex[3][NVALUES])
+{
+  double sum[2] = {0.0, 0.0};
+  int n = 0;
+  for (int i = 0; i < 3; i++) {
+    if (vertex[i][FREE] == 0.0) continue;
+    for (int d = 0; d < 2; d++) sum[d] += vertex[i][ACCELERATION + d];
+    n++;
+  }
+  for (int i = 0; i < 3 && n > 0; i++)
+    for (int d = 0; d < 2 && vertex[i][FREE] == 0.0; d++) vertex[i][ACCELERATION + d] = sum[d] / n;
+}
+
 /* The source triangles' velocity, force and interface acceleration of this rank's nodes. */
 static PetscErrorCode SetSourceTerms(Coupler c, const double u[])
 {
-  enum { VELOCITY, ACCELERATION = 2, INTERFACE = 4, WEIGHT = 6, NVALUES = 8 };
   const Overlap o = c->overlap;
   double(*node)[NVALUES], (*vertex)[3][NVALUES];
 
@@ -130,12 +158,16 @@ static PetscErrorCode SetSourceTerms(Coupler c, const double u[])
     node[k / 2][ACCELERATION + k % 2] = c->acceleration[k];
     node[k / 2][INTERFACE + k % 2] = (u[k] - c->start[k]) / c->dt;
     node[k / 2][WEIGHT + k % 2] = c->displaced[k / 2] * c->options.gravity[k % 2];
+    node[k / 2][GIVEN] = c->given[k / 2];
+    node[k / 2][FREE] = c->mobility[k / 2] > 0.0;
   }
   PetscCall(OverlapNodesToSources(o, NVALUES, (const double *)node, (double *)vertex));
   for (int t = 0; t < o->nsources; t++) {
     const SupermeshBasis *basis = &o->source_basis[t];
     const double *p = vertex[t][0], *q = vertex[t][1], *r = vertex[t][2];
+    HoldAsTheRest(vertex[t]);
     c->source[t].velocity = LinearFieldOf(basis, p + VELOCITY, q + VELOCITY, r + VELOCITY);
+    c->source[t].given = (PetscBool)(p[GIVEN] * q[GIVEN] * r[GIVEN] > 0.0);
     const LinearField a = LinearFieldOf(basis, p + ACCELERATION, q + ACCELERATION, r + ACCELERATION);
     c->source[t].force = (LinearField){{0.0}, {{0.0}}};
     LinearFieldAdd(c->source[t].density, &a, &c->source[t].force);
@@ -240,6 +272,11 @@ const double *CouplerPredictedVelocity(Coupler c)
 {
   return c->predicted;
 }
+const char *CouplerGiven(Coupler c)
+{
+  return c->given;
+}
+
 const double *CouplerExplicitFraction(Coupler c)
 {
   return c->explicit_fraction;
@@ -276,6 +313,7 @@ PetscErrorCode CouplerDestroy(Coupler *coupler)
   PetscCall(PressureLoadDestroy(&(*coupler)->pressure_load));
   PetscCall(UpliftDestroy(&(*coupler)->uplift));
   PetscCall(HarmonicDestroy(&(*coupler)->harmonic));
+  PetscCall(CopiesDestroy(&(*coupler)->parts));
   PetscCall(PetscFree((*coupler)->correction));
   PetscCall(ShellDestroy(&(*coupler)->shell));
   PetscCall(OverlapDestroy(&(*coupler)->overlap));

@@ -46,6 +46,8 @@ PetscErrorCode CouplerSetAcceleration(Coupler coupler, const SolidState *end);
  * and how much of each node's motion depends on that prediction [nnodes], 0 .. 1 (inertia.h). */
 const double *CouplerPredictedVelocity(Coupler coupler);
 const double *CouplerExplicitFraction(Coupler coupler);
+/* [nnodes] nodes without mobility whose acceleration is given: the predicted velocity is theirs, whatever the fluid does. */
+const char *CouplerGiven(Coupler coupler);
 /* Not collective, after CouplerComputeForce: CoracleGetFilm's load[nnodes][2] and resistance[nnodes][2][2], borrowed until the next one; NULL, on
  * all ranks, where no film yields (squeeze_film.h). */
 void CouplerFilm(Coupler coupler, const double **load, const double **resistance);

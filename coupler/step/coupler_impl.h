@@ -22,7 +22,9 @@ struct Coupler_s {
   double *predicted;             /* [nnodes][2] velocity at the step's end, m/s */
   double *acceleration;          /* [nnodes][2] a: by all but the fluid inside the solid, m/s2 (inertia.h) */
   double *explicit_fraction;     /* [nnodes] (inertia.h) */
+  char *given;                   /* [nnodes] CouplerGiven */
   double *displaced;             /* [nnodes] kg/m3 (displaced.h) */
+  Copies parts;                  /* of the solid (viscous_response.h) */
   Harmonic harmonic;             /* of the solid's elements, for displaced; NULL: not needed so far */
   History history;               /* of the steps before */
   PressureLoad pressure_load;    /* NULL: none */

@@ -103,11 +103,12 @@ typedef struct {
 typedef struct {
   double
       density; /* rho_s, kg/m3 (inertia.h); 0: of the shell, held by a penalty, or in other modes than reaction */
-  PetscBool held;                     /* its nodes have no mobility; shells, too */
-  PetscBool bulk;                     /* held, and its velocity is the bulk velocity there: ms, us */
-  LinearField velocity;               /* u_s, that the fluid couples to, m/s */
-  LinearField start;                  /* v, the solid's at the step's start, m/s */
-  LinearField force;                  /* rho_s a of the body force (inertia.h); weight of displaced.h; N/m3 */
+  PetscBool held;       /* its nodes have no mobility; shells, too */
+  PetscBool bulk;       /* held, and its velocity is the bulk velocity there: ms, us */
+  PetscBool given;      /* held, and velocity is that of a prescribed motion, whatever the fluid does */
+  LinearField velocity; /* u_s, that the fluid couples to, m/s */
+  LinearField start;    /* v, the solid's at the step's start, m/s */
+  LinearField force;    /* rho_s a of the body force (inertia.h); weight of displaced.h; N/m3 */
   LinearField interface_acceleration; /* a' of the body force, m/s2 */
 } SourceTerm;
 
@@ -120,7 +121,7 @@ static inline int IsHeldByInertia(const SourceTerm *source)
 /* The velocity that the solid's inertia begins with (inertia.h). */
 static inline const LinearField *InertiaBegins(const SourceTerm *source)
 {
-  return source->bulk ? &source->velocity : &source->start;
+  return source->bulk || source->given ? &source->velocity : &source->start;
 }
 
 /* to += a q */

@@ -1,0 +1,100 @@
+#include "coupler/terms/viscous_response.h"
+
+/* The local root of node i. */
+static int Root(int root[], int i)
+{
+  while (root[i] != i) i = root[i] = root[root[i]];
+  return i;
+}
+
+/* label[nnodes]: the least number of the nodes that elements of any rank connect a node with. */
+static PetscErrorCode Label(MPI_Comm comm, const SolidState *solid, Copies nodes, double label[])
+{
+  int *root, changed = 1;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(solid->nnodes, &root));
+  for (int i = 0; i < solid->nnodes; i++) {
+    root[i] = i;
+    label[i] = (double)solid->gid[i];
+  }
+  for (int k = 0; k < 3 * solid->nelements; k++)
+    root[Root(root, solid->element[k])] = Root(root, solid->element[k / 3 * 3]);
+  while (changed) {
+    changed = 0;
+    for (int i = 0; i < solid->nnodes; i++) {
+      double *least = &label[Root(root, i)];
+      *least = fmin(*least, label[i]);
+    }
+    for (int i = 0; i < solid->nnodes; i++) {
+      const double least = label[Root(root, i)];
+      if (label[i] > least) changed = 1;
+      label[i] = least;
+    }
+    PetscCall(CopiesMin(nodes, 1, label));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, comm));
+  }
+  PetscCall(PetscFree(root));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SolidPartsCreate(MPI_Comm comm, const SolidState *solid, Copies nodes, Copies *parts)
+{
+  double *label;
+  long long *number;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(solid->nnodes, &label, solid->nnodes, &number));
+  PetscCall(Label(comm, solid, nodes, label));
+  for (int i = 0; i < solid->nnodes; i++) number[i] = (long long)label[i];
+  PetscCall(CopiesCreateByNumber(comm, solid->nnodes, number, parts));
+  PetscCall(PetscFree2(label, number));
+  PetscFunctionReturn(0);
+}
+
+/* friction[nnodes], N s/m: int N f of the shell's pairs, of all ranks. */
+static PetscErrorCode Friction(Overlap o, const PairTerm term[], double thickness, double dt, int nnodes,
+                               double friction[])
+{
+  double(*vertex)[3];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(o->nsources, &vertex));
+  for (int p = 0; p < o->pairs.n; p++) {
+    const SupermeshPair *pair = &o->pairs.pair[p];
+    if (!o->source[pair->a].is_shell) continue;
+    const double a = 0.5 * (term[p].a.xx + term[p].a.yy), mu = o->mu[pair->b];
+    const double layer = o->phases ? 0.0 : sqrt(mu * dt / o->rho_mean[pair->b]);
+    const double f = mu > 0.0 ? a / (1.0 + a * thickness * layer / mu) : 0.0;
+    for (int i = 0; i < 3; i++) vertex[pair->a][i] += pair->area * f / 3.0;
+  }
+  PetscCall(OverlapSourcesToNodes(o, 1, (const double *)vertex, nnodes, friction));
+  PetscCall(CopiesSum(o->nodes, 1, friction));
+  PetscCall(PetscFree(vertex));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ViscousExplicitFraction(Copies parts, Overlap o, const SolidState *solid,
+                                       const PairTerm term[], double thickness, double dt,
+                                       double explicit_fraction[])
+{
+  enum { FRICTION, MASS, NSUMS };
+  double *friction, (*sum)[NSUMS];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(solid->nnodes, &friction, solid->nnodes, &sum));
+  PetscCall(Friction(o, term, thickness, dt, solid->nnodes, friction));
+  for (int i = 0; i < solid->nnodes; i++) {
+    const PetscBool counts = (PetscBool)(solid->mobility[i] > 0.0 && CopiesIsFirst(o->nodes, i));
+    sum[i][FRICTION] = counts ? friction[i] : 0.0;
+    sum[i][MASS] = counts ? 1.0 / solid->mobility[i] : 0.0;
+  }
+  PetscCall(CopiesSum(parts, NSUMS, (double *)sum));
+  for (int i = 0; i < solid->nnodes; i++) {
+    const double chi = sum[i][MASS] > 0.0 ? 2.0 * dt * sum[i][FRICTION] / sum[i][MASS] : 0.0;
+    if (solid->mobility[i] > 0.0 && chi > VISCOUS_LIMIT)
+      explicit_fraction[i] = fmax(explicit_fraction[i], 1.0 - VISCOUS_LIMIT / chi);
+  }
+  PetscCall(PetscFree2(friction, sum));
+  PetscFunctionReturn(0);
+}
