@@ -81,13 +81,11 @@ void ParticipantFail(Participant *p, const char *format, ...)
   ParticipantFailList(p, format, list);
 }
 
-/* Before there is a board: rank 0 of the job reports for all, the others wait for the end. */
-static _Noreturn void RefuseToStart(int world_rank, const char *role, const char *message)
+/* Before there is a board: the first rank of the job that is there reports for all and ends it, the others wait for that. */
+static _Noreturn void RefuseToStart(int rank, const char *role, const char *message)
 {
-  if (world_rank == 0)
-    Report(role, 0, message);
-  else
-    sleep(5);
+  if (rank) sleep(4 + (unsigned)rank);
+  Report(role, 0, message);
   Abort(message);
 }
 
@@ -140,23 +138,22 @@ static void Describe(const char *role, bool client, int argc, char **argv, Hands
 /* Every rank sends its entry to rank 0, which ends the job if they cannot run together. */
 static void Handshake(MPI_Comm job, const HandshakeEntry *mine, Waiter *waiter)
 {
-  char message[HANDSHAKE_MESSAGE];
+  char absent[128], message[HANDSHAKE_MESSAGE];
   int rank, size;
   MPI_Request request;
   MPI_Comm_rank(job, &rank);
   MPI_Comm_size(job, &size);
   HandshakeEntry *entry = rank ? NULL : calloc((size_t)size, sizeof *entry);
+  snprintf(absent, sizeof absent,
+           "not all %d ranks of this job have called CoracleOpen within %g s (CORACLE_TIMEOUT)", size,
+           waiter->timeout);
   MPI_Igather(mine, sizeof *mine, MPI_BYTE, entry, sizeof *entry, MPI_BYTE, 0, job, &request);
-  if (!WaitRequest(waiter, &request, false)) {
-    snprintf(message, sizeof message, "not all %d ranks of this job have called CoracleOpen within %g s",
-             size, waiter->timeout);
-    RefuseToStart(rank, mine->role, message);
-  }
+  if (!WaitRequest(waiter, &request, false)) RefuseToStart(rank, mine->role, absent);
   if (rank == 0 && !HandshakeCheck(size, entry, message)) RefuseToStart(0, mine->role, message);
   if (rank == 0 && HandshakeNote(size, entry, message)) fprintf(stderr, "coracle: note: %s\n", message);
   free(entry);
   MPI_Ibarrier(job, &request); /* no rank continues before rank 0 has agreed */
-  if (!WaitRequest(waiter, &request, false)) RefuseToStart(1, mine->role, "");
+  if (!WaitRequest(waiter, &request, false)) RefuseToStart(rank, mine->role, absent);
 }
 
 static void MapRoles(Participant *p, const HandshakeEntry *mine)
@@ -232,13 +229,15 @@ int ParticipantOpen(MPI_Comm job, const char *role, bool client, int argc, char 
   p->started_mpi = StartMpi();
   p->job = job == MPI_COMM_NULL ? MPI_COMM_WORLD : job;
   p->start = WaitClock();
-  AffinityGet(p->job, &share);
-  p->shared = share.shared;
-  const char *wrong = WaiterInit(&p->waiter, share.shared);
+  /* until all have come nothing else may wait for them, and so nobody knows whether they share cores */
+  const char *wrong = WaiterInit(&p->waiter, true);
   Describe(role, client, argc, argv, &mine);
   if (ExitGuardWatched()) wrong = "this process has joined already";
   if (wrong) snprintf(mine.problem, sizeof mine.problem, "%s", wrong);
   Handshake(p->job, &mine, &p->waiter);
+  AffinityGet(p->job, &share);
+  p->shared = share.shared;
+  WaiterInit(&p->waiter, share.shared);
   MapRoles(p, &mine);
   /* when one hangs all wait: the coupler, whose partners they all are, gives up first and so names the one */
   if (client) p->waiter.timeout = 1.1 * p->waiter.timeout + 1.0;

@@ -35,6 +35,12 @@ case $scenario in
   different_sets) solid+=(--set time.end=1); expect='different settings: the --set arguments of solid rank 0' ;;
   wrong_role) extra=(TEST_SOLID_ROLE=solids) expect="'solids' is no role" ;;
   coupler_as_client) extra=(TEST_SOLID_ROLE=coupler) expect='CoracleOpen joins a fluid or a solid' ;;
+  solid_absent) solid=("$bin/absent" "$good") extra=(CORACLE_TIMEOUT=2)
+    expect='fluid.0.: error: not all 4 ranks of this job have called CoracleOpen within 2 s' ;;
+  fluid_absent) f=1 fluid=("$bin/absent" "$good") extra=(CORACLE_TIMEOUT=2) limit=15
+    expect='coupler.0.: error: not all 3 ranks of this job have called CoracleOpen within 2 s' ;;
+  solid_leaves) solid=("$bin/absent" "$good" leaves) extra=(CORACLE_TIMEOUT=2)
+    expect='fluid.0.: error: not all 4 ranks of this job have called CoracleOpen within 2 s' ;;
   no_case_file) rm "$good"; expect='case.yaml.: No such file or directory' ;;
   no_argument) fluid=("${fluid[0]}") coupler=("${coupler[0]}") solid=("${solid[0]}") expect='no case file' ;;
   bad_yaml) echo 'time: [1, 2' >>"$good"; expect='case.yaml:[0-9]*: not valid YAML' ;;
