@@ -93,6 +93,16 @@ PetscErrorCode SolidSave(Solid s, Checkpoint to)
   PetscFunctionReturn(0);
 }
 
+/* What is fixed now may have moved before: in itself, and as the fluid sees it. */
+static void StopFixed(Solid s)
+{
+  for (int n = 0; n < s->nnodes; n++) {
+    if (s->inverse_mass[n] > 0.0) continue;
+    s->mobility[n] = 0.0;
+    for (int k = 2 * n; k < 2 * n + 2; k++) s->v[k] = s->interface_velocity[k] = s->acceleration[k] = 0.0;
+  }
+}
+
 PetscErrorCode SolidLoad(Solid s, Checkpoint from)
 {
   const StateSource file = StateFromFile(from);
@@ -103,6 +113,7 @@ PetscErrorCode SolidLoad(Solid s, Checkpoint from)
   if (s->part && ranks == s->size) PetscCall(StateTakePartition(s, from));
   PetscCall(SolidTakeState(s, &file));
   PetscCall(GetNumbers(s, from));
+  StopFixed(s);
   if (s->part && ranks != s->size) PetscCall(SolidDealOut(s));
   PetscFunctionReturn(0);
 }

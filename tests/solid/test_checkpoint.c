@@ -1,7 +1,7 @@
 // ranks: 1 2 3
 /* A solid that is saved while it slides, has a prescribed motion and breaks, and loaded into a new one: it continues with the
  * same bits on as many ranks, whoever had which elements, a step that is redone too; on other ranks to
- * round-off.  A checkpoint of other bodies is refused. */
+ * round-off.  What is fixed from there on stays.  A checkpoint of other bodies is refused. */
 #include "solid/contact/contact_impl.h"
 #include "solid/cracks/joints_impl.h"
 #include "tests/remove_folder.h"
@@ -198,6 +198,38 @@ static PetscErrorCode Other(MPI_Comm before, MPI_Comm after, const char *name)
   return SolidDestroy(&two);
 }
 
+/* --- bodies that are fixed from there on ------------------------------------------------------------------ */
+
+/* All bodies have moved when they are saved, and stay where they are loaded. */
+static PetscErrorCode Fixed(void)
+{
+  Model a, b;
+  Solid one, two;
+  double moved = 0.0, gone = 0.0;
+  PetscCall(Create(PETSC_COMM_WORLD, INTACT, &a, &one));
+  PetscCall(Steps(one, &a, INTACT, 0, BEFORE));
+  PetscCall(Save(one, PETSC_COMM_WORLD, "free"));
+  const SolidSetup options = {.courant = 0.8, .gravity = {0.0, -10.0}};
+  b = (Model){0};
+  Bodies(&b);
+  memset(b.jointed, 0, (size_t)b.nelements * sizeof *b.jointed);
+  for (int n = 0; n < b.nnodes; n++) b.fixed[n] = 1;
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &b, &options, &two));
+  PetscCall(Load(two, PETSC_COMM_WORLD, "free"));
+  double *x = malloc(2 * (size_t)two->nnodes * sizeof *x);
+  memcpy(x, two->x, 2 * (size_t)two->nnodes * sizeof *x);
+  for (int k = 0; k < 2 * one->nnodes; k++) moved = fmax(moved, fabs(one->v[k]));
+  PetscCall(PushStep(two, 0.0));
+  for (int k = 0; k < 2 * two->nnodes; k++)
+    if (!two->is_prescribed[k / 2]) gone = fmax(gone, fabs(two->x[k] - x[k]));
+  CHECK(moved > 1.0 && gone == 0.0, "fixed nodes that were %g m/s fast have moved by %g m", moved, gone);
+  free(x);
+  PetscCall(ModelDestroy(&a));
+  PetscCall(ModelDestroy(&b));
+  PetscCall(SolidDestroy(&one));
+  return SolidDestroy(&two);
+}
+
 /* --- other bodies ------------------------------------------------------------------------------------- */
 
 static char reported[512];
@@ -255,6 +287,7 @@ int main(int argc, char **argv)
   PetscCall(Same(INTACT, 1));
   PetscCall(Other(PETSC_COMM_WORLD, PETSC_COMM_SELF, "parted"));
   PetscCall(Other(PETSC_COMM_SELF, PETSC_COMM_WORLD, "joined"));
+  PetscCall(Fixed());
   PetscCall(Refused());
   MPI_Barrier(PETSC_COMM_WORLD);
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
