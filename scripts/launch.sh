@@ -108,7 +108,7 @@ lines() {
 case $print in
   "")
     [ -z "$write" ] || die "--write goes with --print"
-    exec mpirun "${options[@]}" "${colon[@]}" ;;
+    exec mpirun "${options[@]}" "${colon[@]}" </dev/null ;; # not what a loop around this script reads
   colon)
     text=$(printf '%q ' mpirun "${options[@]}" "${colon[@]}") use="bash $write" ;;
   appfile)

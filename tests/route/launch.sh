@@ -23,6 +23,10 @@ expect srun "0-1 $fluid
 3-4 $solid"
 
 timeout -k 5 30 "${run[@]}" "$case" --set time.end=1 >"$scratch/log" 2>&1 || fail 'the run failed'
+runs=$(printf '1\n2\n' | while read -r end; do
+  timeout -k 5 30 "${run[@]}" "$case" --set time.end="$end" >>"$scratch/log" 2>&1 && echo "$end"
+done | wc -l)
+[ "$runs" -eq 2 ] || fail "the launcher has read its caller's input: $runs runs of 2"
 forms=(colon hydra)
 ! mpirun --version | grep -qi "open mpi" || forms=(colon appfile)
 for form in "${forms[@]}"; do
