@@ -2,6 +2,7 @@
 # All faults of a case at once, without a run: what is wrong, or what a run would be made of and a picture of it.
 # Usage: scripts/check.sh [options] CASE [--set key=value]...
 #   --bin DIR     programs that are there already (default: they are built, as by run.sh)
+#   --fluid, --coupler, --solid PROGRAM   another program for that part (launch.sh): its keys are not checked
 #   --alone       the solid alone (launch.sh --alone): no fluid, no coupler
 #   --png FILE    where the picture goes (default: none)
 # Touches no output folder.  Exit status: 0, or 1 when the case has faults.
@@ -9,19 +10,24 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 die() { echo "check.sh: $*" >&2; exit 2; }
 
-bin="" png="" case="" sets=() parts=(coupler fluid solid)
+bin="" png="" case="" sets=() parts=(coupler fluid solid) others=""
 while [ $# -gt 0 ]; do
   case "$1" in
     --bin) bin=${2:?--bin needs a folder}; shift 2 ;;
+    --fluid | --coupler | --solid) [ $# -ge 2 ] || die "$1 needs a program"; others+=" ${1#--} "; shift 2 ;;
     --alone) parts=(solid); shift ;;
     --png) png=${2:?--png needs a file}; shift 2 ;;
     --set) sets+=(--set "${2:?--set needs key=value}"); shift 2 ;;
-    -h | --help) sed -n '2,7p' "$0" | cut -c3-; exit 0 ;;
+    -h | --help) sed -n '2,8p' "$0" | cut -c3-; exit 0 ;;
     -*) die "unknown option '$1' (see --help)" ;;
     *) [ -z "$case" ] || die "two case files: '$case' and '$1'"; case=$1; shift ;;
   esac
 done
 [ -n "$case" ] || die "no case file (see --help)"
+ours=()
+for part in "${parts[@]}"; do [[ $others == *" $part "* ]] || ours+=("$part"); done
+[ "${#ours[@]}" -gt 0 ] || die "nothing to check: all parts are other programs"
+parts=("${ours[@]}")
 [ -n "$bin" ] || "$root/scripts/build.sh" >&2
 bin=${bin:-$root/build}
 

@@ -90,6 +90,13 @@ grep -q 'neither a fluid nor bodies' "$scratch/log" || fail "not why there is no
 ! check --alone "$scratch/alone.yaml" --set 'solid.bodies[0].size=-1' || fail "a size below 0 is accepted"
 [ "$(wc -l <"$scratch/log")" -eq 1 ] && grep -q "key 'solid.bodies\[0\].size'" "$scratch/log" || fail "not one line"
 
+# keys of another program are its own
+! check "$case" --set solid.colour=red || fail "a key that the solid does not know is accepted"
+check "$case" --set solid.colour=red --solid ./my_solid || fail "a key of another solid is a fault"
+! grep -q '^solid:' "$scratch/log" && grep -q '^fluid:' "$scratch/log" || fail "not of the fluid alone"
+! check "$case" --set solid.colour=red --set time.end=soon --solid ./my_solid || fail "a fault beside another solid is accepted"
+! check "$case" --alone --solid ./my_solid && grep -q 'nothing to check' "$scratch/log" || fail "nothing is checked"
+
 for part in fluid coupler solid; do
   "$build/$part/coracle-$part" --version | grep -q "^coracle-$part [0-9.]*$" || fail "--version of $part"
   "$build/$part/coracle-$part" --help | grep -q -- "--set key=value" || fail "--help of $part"
