@@ -178,7 +178,10 @@ PetscErrorCode SolidFromCase(CoracleCase c, MPI_Comm comm, void (*fail)(void *co
   PetscCall(CoracleCaseFinish(c, SECTIONS));
   PetscCall(SolidCreate(comm, &model, &setup, solid));
   PetscCall(OptionsUnused(CoracleCaseStringOr(c, "solid.petsc", ""), sizeof option, option));
-  if (option[0]) CoracleCaseRefuse(c, "solid.petsc", "nothing in the solid has the option %s", option);
+  if (option[0])
+    CoracleCaseRefuse(c, "solid.petsc",
+                      "nothing in the solid has the option %s: those of its solver begin with -response_",
+                      option);
   PetscCall(ModelDestroy(&model));
   PetscFunctionReturn(0);
 }

@@ -190,6 +190,11 @@ PetscErrorCode FluidCaseCheckOptions(CoracleCase c)
   char option[256];
   PetscFunctionBeginUser;
   PetscCall(OptionsUnused(CoracleCaseStringOr(c, "fluid.petsc", ""), sizeof option, option));
-  if (option[0]) CoracleCaseRefuse(c, "fluid.petsc", "no solver of the fluid has the option %s", option);
+  if (option[0])
+    CoracleCaseRefuse(
+        c, "fluid.petsc",
+        "no solver that this run has takes the option %s: theirs begin with -momentum_, -momentum_factor_, "
+        "-momentum_multigrid_, -pressure_, -pressure_varying_, -pressure_coarse_ or -pressure_patch_",
+        option);
   PetscFunctionReturn(0);
 }

@@ -53,7 +53,7 @@ case $scenario in
   overlapping) with 'solid.bodies[1]={shape: disc, centre: [1.05, 1.1], radius: 0.1, size: 0.05, material: disc}'
     expect="solid.*overlap" ;;
   bad_option) with 'fluid.petsc=-momentum_ksp_type nonsense'; expect="fluid.*nonsense" ;;
-  unused_option) with 'fluid.petsc=-momentum_kps_type gmres'; expect="'fluid.petsc'.*-momentum_kps_type" ;;
+  unused_option) with 'fluid.petsc=-momentum_kps_type gmres'; expect="'fluid.petsc'.*-momentum_kps_type: theirs begin with -momentum_, .*-pressure_" ;;
   adapt_sizes) with 'fluid.adapt={size_min: 0.1, size_max: 0.05, velocity_error: 0.01}'; expect="'fluid.adapt.size_max'" ;;
   adapt_nothing) with 'fluid.adapt={size_min: 0.1, size_max: 0.2}'; expect="'fluid.adapt.velocity_error'" ;;
   adapt_budget) with 'fluid.adapt={size_min: 0.01, size_max: 0.2, velocity_error: 0.1, elements_max: 500}'
