@@ -79,6 +79,13 @@ static void WeighLevels(Material m)
   m->revision++;
 }
 
+void MaterialSetTheta(Material m, double theta)
+{
+  if (theta == m->theta) return;
+  m->theta = theta;
+  if (m->varies) WeighLevels(m);
+}
+
 PetscErrorCode MaterialSet(Material m, MaterialLevel level, const double rho[], const double mu[])
 {
   PetscScalar *v;

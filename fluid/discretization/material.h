@@ -21,6 +21,8 @@ typedef struct Material_s *Material;
 
 /* rho, kg/m3, and mu, Pa s, on all elements at all levels; mesh is borrowed.  Collective over mesh->comm. */
 PetscErrorCode MaterialCreate(const Mesh *mesh, double theta, double rho, double mu, Material *m);
+/* Of the coming step, in place of the one before.  Not collective. */
+void MaterialSetTheta(Material m, double theta);
 PetscErrorCode MaterialDestroy(Material *m);
 /* rho[ne], mu[ne] of the owned elements at MATERIAL_OLD or MATERIAL_NEW; ghosts follow.  Density must be
  * positive, viscosity not negative.  Collective. */

@@ -219,7 +219,7 @@ PetscErrorCode FluidBudgetEnd(Fluid f, double dt)
 {
   BudgetStep s = {.t = f->t,
                   .dt = dt,
-                  .theta = f->setup.theta,
+                  .theta = f->theta,
                   .old = MaterialDensity(f->material, MATERIAL_OLD),
                   .new = MaterialDensity(f->material, MATERIAL_NEW),
                   .step = MaterialDensity(f->material, MATERIAL_STEP),

@@ -35,7 +35,7 @@ static PetscErrorCode DestroyVectors(Fluid f)
 
 PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *fluid)
 {
-  const MomentumSetup momentum = {setup->theta, setup->source, setup->source_context, setup->absorption};
+  const MomentumSetup momentum = {setup->source, setup->source_context, setup->absorption};
   Fluid f;
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&f));

@@ -25,11 +25,14 @@ struct Fluid_s {
   ProjectionSolver projection;
   /* the flow; ghosted, velocities in blocks [2][3] an element, pressure on P2 nodes */
   double t, dt_previous;
+  int damped;   /* coming steps of backward Euler, whatever the setup's theta */
+  double theta; /* of the current step */
   Vec u, u_previous, u_star, u_projected, mass_flux;
   PetscBool prepared; /* FluidPrepareMomentum has been called for the step */
   Vec p;
   struct {
     double t, dt_previous;
+    int damped;
     Vec u, u_previous, p;
     double momentum[2], budget_start[2];
   } saved;

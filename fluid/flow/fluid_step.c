@@ -5,6 +5,8 @@
 /* How much of the pressure that a step's compression starts from is the last one's; what is left keeps it at the equation of
  * state.  (0 is on the edge of stability: phases/README.md.) */
 #define GAS_OLD 0.98
+/* Of backward Euler, with which an abrupt start begins. */
+#define DAMPED_STEPS 2
 
 PetscErrorCode FluidSetMaterial(Fluid f, MaterialLevel level, const double rho[], const double mu[])
 {
@@ -21,7 +23,7 @@ PetscErrorCode FluidSetCoupling(Fluid f, int n, const CoracleCoupling coupling[]
 static PetscErrorCode Extrapolate(Fluid f, double dt)
 {
   const double r = f->dt_previous > 0.0 ? fmin(dt / f->dt_previous, 2.0) : 0.0,
-               s = (f->phases ? 0.5 : f->setup.theta) * r;
+               s = (f->phases ? 0.5 : f->theta) * r;
   const double *rho = MaterialDensity(f->material, MATERIAL_STEP);
   PetscScalar *flux;
   PetscFunctionBeginUser;
@@ -66,10 +68,53 @@ static PetscErrorCode SetGravity(Fluid f, double dt)
   PetscFunctionReturn(0);
 }
 
+/* Whether the velocity at t is not the one that boundaries prescribe: of fluid at rest beside a wall that moves at once, or of fluid that
+ * moves beside a wall at rest. */
+static PetscErrorCode IsAbrupt(Fluid f, PetscBool *abrupt)
+{
+  const FluidDomain *d = &f->domain;
+  double most[2] = {0.0}; /* difference, velocity */
+  const PetscScalar *u;
+  PetscFunctionBeginUser;
+  PetscCall(VecGetArrayRead(f->u, &u));
+  for (int k = 0; k < 3 * d->mesh->ne; k++) {
+    const int e = k / 3;
+    if (d->mesh->neighbor[k] >= 0 || BoundaryOfFace(d, e, k % 3)->kind != BOUNDARY_VELOCITY) continue;
+    for (int i = 1; i < 3; i++) {
+      const int node = (k + i) % 3;
+      const double now[2] = {u[6 * e + node], u[6 * e + 3 + node]};
+      double v[2];
+      BoundaryVelocity(BoundaryOfFace(d, e, k % 3), f->t, ElementVertex(d->mesh, e, node), v);
+      most[0] = fmax(most[0], hypot(now[0] - v[0], now[1] - v[1]));
+      most[1] = fmax(most[1], fmax(hypot(now[0], now[1]), hypot(v[0], v[1])));
+    }
+  }
+  PetscCall(VecRestoreArrayRead(f->u, &u));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, d->mesh->comm));
+  *abrupt = (PetscBool)(most[0] > 0.01 * most[1]);
+  PetscFunctionReturn(0);
+}
+
+/* Rannacher's start: with a theta of 1/2 what viscosity levels within a step is turned over in each and hardly decays; the first
+ * steps of an abrupt start are of backward Euler, which takes it away. */
+static PetscErrorCode SetTheta(Fluid f)
+{
+  PetscBool abrupt = PETSC_FALSE;
+  PetscFunctionBeginUser;
+  if (f->dt_previous == 0.0) {
+    PetscCall(IsAbrupt(f, &abrupt));
+    f->damped = abrupt ? DAMPED_STEPS : 0;
+  }
+  f->theta = f->damped > 0 ? 1.0 : f->setup.theta;
+  MaterialSetTheta(f->material, f->theta);
+  PetscFunctionReturn(0);
+}
+
 static MomentumStep StepOfMomentum(Fluid f, double dt, const double outside[])
 {
   return (MomentumStep){f->t,
                         dt,
+                        f->theta,
                         {f->setup.gravity[0], f->setup.gravity[1]},
                         MaterialDensity(f->material, MATERIAL_STEP),
                         MaterialViscosity(f->material, MATERIAL_STEP),
@@ -88,6 +133,7 @@ PetscErrorCode FluidPrepareMomentum(Fluid f, double dt)
   const PetscScalar *outside = NULL;
   PetscFunctionBeginUser;
   f->stats.dt = dt;
+  PetscCall(SetTheta(f));
   PetscCall(SetGravity(f, dt));
   FluidSetTarget(f, f->dt_previous > 0.0 ? GAS_OLD : 0.0);
   PetscCall(Extrapolate(f, dt));
@@ -185,6 +231,7 @@ PetscErrorCode FluidCorrect(Fluid f, double dt, const CoracleCorrection correcti
   f->u_projected = oldest;
   PetscCall(MaterialAdvance(f->material));
   f->dt_previous = dt;
+  if (f->damped > 0) f->damped--;
   f->t += dt;
   f->stats.t = f->t;
   f->stats.seconds[COUPLING] += MPI_Wtime() - start;

@@ -72,6 +72,7 @@ PetscErrorCode FluidSave(Fluid f, Checkpoint to)
   PetscFunctionBeginUser;
   PetscCall(CheckpointPutNumber(to, "time", f->t));
   PetscCall(CheckpointPutNumber(to, "previous step", f->dt_previous));
+  PetscCall(CheckpointPutNumber(to, "damped steps", f->damped));
   PetscCall(SaveMomentum(f, to));
   PetscCall(SaveVelocity(f->u, f->domain.mesh->ne, "velocity", to));
   PetscCall(SaveVelocity(f->u_previous, f->domain.mesh->ne, "previous velocity", to));
@@ -99,9 +100,12 @@ static PetscErrorCode LoadSeconds(Fluid f, Checkpoint from)
 
 PetscErrorCode FluidLoad(Fluid f, const PetscInt row[], Checkpoint from)
 {
+  double damped;
   PetscFunctionBeginUser;
   PetscCall(CheckpointGetNumber(from, "time", &f->t));
   PetscCall(CheckpointGetNumber(from, "previous step", &f->dt_previous));
+  PetscCall(CheckpointGetNumber(from, "damped steps", &damped));
+  f->damped = (int)damped;
   PetscCall(CheckpointGetDoubles(from, "momentum", 0, 1, 2, f->budget.momentum));
   PetscCall(CheckpointGetDoubles(from, "starting momentum", 0, 1, 2, f->budget_start));
   PetscCall(LoadVelocity(f, row, from, "velocity", f->u));

@@ -21,7 +21,7 @@ PetscErrorCode FluidSaveState(Fluid f)
   PetscCall(CopyWithGhosts(f->p, f->saved.p));
   PetscCall(MaterialSave(f->material));
   if (f->phases) PetscCall(PhaseTransportSaveState(f->phases));
-  f->saved.t = f->t, f->saved.dt_previous = f->dt_previous;
+  f->saved.t = f->t, f->saved.dt_previous = f->dt_previous, f->saved.damped = f->damped;
   PetscCall(PetscArraycpy(f->saved.momentum, f->budget.momentum, 2));
   PetscCall(PetscArraycpy(f->saved.budget_start, f->budget_start, 2));
   PetscFunctionReturn(0);
@@ -35,7 +35,7 @@ PetscErrorCode FluidRestoreState(Fluid f)
   PetscCall(CopyWithGhosts(f->saved.p, f->p));
   PetscCall(MaterialRestore(f->material));
   if (f->phases) PetscCall(PhaseTransportRestoreState(f->phases));
-  f->t = f->saved.t, f->dt_previous = f->saved.dt_previous;
+  f->t = f->saved.t, f->dt_previous = f->saved.dt_previous, f->damped = f->saved.damped;
   PetscCall(PetscArraycpy(f->budget.momentum, f->saved.momentum, 2));
   PetscCall(PetscArraycpy(f->budget_start, f->saved.budget_start, 2));
   PetscFunctionReturn(0);

@@ -158,6 +158,7 @@ PetscErrorCode FluidTransfer(Fluid from, Fluid to)
   PetscCall(TransferDestroy(&to->transfer));
   PetscCall(VecCopy(to->u, to->u_projected));
   to->dt_previous = from->dt_previous;
+  to->damped = from->damped;
   PetscCall(PetscArraycpy(to->budget.momentum, from->budget.momentum, 2));
   PetscCall(FluidBudgetChanged(to));
   to->stats = from->stats;

@@ -205,7 +205,7 @@ static PetscErrorCode SolveCorrection(MomentumSolver s, const MomentumStep *step
 PetscErrorCode MomentumSolverSolve(MomentumSolver s, const MomentumStep *step, Vec u_star,
                                    MomentumReport *report)
 {
-  const double w = (1.0 - s->setup.theta) / s->setup.theta, start = MPI_Wtime();
+  const double w = (1.0 - s->theta) / s->theta, start = MPI_Wtime();
   PetscFunctionBeginUser;
   PetscCall(MomentumAssembleSolid(s, step));
   PetscCall(VecWAXPY(s->sum, w, step->u, u_star));

@@ -18,7 +18,6 @@ typedef struct MomentumSolver_s *MomentumSolver;
 
 /* What stays from step to step. */
 typedef struct {
-  double theta;         /* 0.5 Crank-Nicolson .. 1 backward Euler */
   FieldFunction source; /* body force per volume, N/m3, or NULL */
   void *source_context;
   Absorption absorption;
@@ -27,6 +26,7 @@ typedef struct {
 /* One step.  Vectors have a block [2][3] an element (component, vertex) and ghosts; those of mass_flux and p are up to date. */
 typedef struct {
   double t, dt;      /* from t to t + dt, s */
+  double theta;      /* 0.5 Crank-Nicolson .. 1 backward Euler */
   double gravity[2]; /* m/s2 */
   const double *rho; /* [ne + ng] density of inertia and weight, kg/m3 */
   const double *mu;  /* [ne + ng] Pa s */

@@ -11,7 +11,7 @@ static void BoundaryLoad(MomentumSolver s, const MomentumStep *step, const Bound
                          double load[6])
 {
   const int node[2] = {side->a, side->b};
-  const double weight = (1.0 - s->setup.theta) / s->setup.theta;
+  const double weight = (1.0 - s->theta) / s->theta;
   if (b->kind != BOUNDARY_VELOCITY) return;
   for (int r = 0; r < 2; r++) {
     double now[2], next[2];
@@ -38,8 +38,8 @@ static inline void Sides(MomentumSolver s, const double mu[], int e, int i, Face
 {
   const FluidDomain *d = s->domain;
   const int nb = d->mesh->neighbor[3 * e + i], j = d->mesh->neighbor_face[3 * e + i];
-  *k = FaceSideOf(d, mu, e, i, s->setup.theta, PENALTY_INTERIOR);
-  *o = FaceSideOf(d, mu, nb, j, s->setup.theta, PENALTY_INTERIOR);
+  *k = FaceSideOf(d, mu, e, i, s->theta, PENALTY_INTERIOR);
+  *o = FaceSideOf(d, mu, nb, j, s->theta, PENALTY_INTERIOR);
   const int swap = o->a;
   o->a = o->b, o->b = swap;
 }
@@ -54,7 +54,7 @@ AssembleViscous(MomentumSolver s, const MomentumStep *step, int e, int i, double
   FaceSide k, o;
   if (nb < 0) return;
   Sides(s, step->mu, e, i, &k, &o);
-  o.eta += s->setup.theta * InterfacePenalty(step, e, nb, d->geometry[e].area, d->geometry[nb].area);
+  o.eta += s->theta * InterfacePenalty(step, e, nb, d->geometry[e].area, d->geometry[nb].area);
   ScalarFace(d->geometry[e].face + i, &k, &o, none, own, other);
 }
 
@@ -83,7 +83,7 @@ static inline void AssembleInflow(MomentumSolver s, const double mu[], int e, in
   mn[1] = 0.5 * (face->n[0] * (mk[k.b] + mo[o.b]) + face->n[1] * (mk[3 + k.b] + mo[3 + o.b]));
   FluxDivergenceFace(face->length, mn, k.a, k.b, s->divergence[e]);
   if (mn[0] >= 0.0 && mn[1] >= 0.0) return;
-  FaceInflow(s->setup.theta, face->length, mn, inflow);
+  FaceInflow(s->theta, face->length, mn, inflow);
   const int row[2] = {k.a, k.b}, col[2] = {o.a, o.b};
   for (int q = 0; q < 2; q++)
     for (int r = 0; r < 2; r++) {
@@ -102,7 +102,7 @@ static PetscBool AssembleBoundary(MomentumSolver s, const MomentumStep *step, in
   const FluidDomain *d = s->domain;
   const FaceGeometry *face = d->geometry[e].face + i;
   const Boundary *b = BoundaryOfFace(d, e, i);
-  const FaceSide k = FaceSideOf(d, step->mu, e, i, s->setup.theta, PENALTY_BOUNDARY);
+  const FaceSide k = FaceSideOf(d, step->mu, e, i, s->theta, PENALTY_BOUNDARY);
   const PetscBool half = (PetscBool)(b->kind == BOUNDARY_OPEN && !step->inverse_density);
   double project[2][2], lift[4][6], mn[2], inflow[2][2] = {{0}};
   BoundaryProjection(b, face->n, project);
@@ -111,7 +111,7 @@ static PetscBool AssembleBoundary(MomentumSolver s, const MomentumStep *step, in
   FluxDivergenceFace(face->length, mn, k.a, k.b, s->divergence[e]);
   if (b->kind != BOUNDARY_FREE_SLIP) {
     if (b->kind == BOUNDARY_OPEN && mn[0] >= 0.0 && mn[1] >= 0.0) return PETSC_FALSE;
-    FaceInflow(s->setup.theta * (half ? 0.5 : 1.0), face->length, mn, inflow);
+    FaceInflow(s->theta * (half ? 0.5 : 1.0), face->length, mn, inflow);
   }
   MomentumBoundaryFace(face, &k, (const double(*)[2])project, inflow, dense, lift);
   BoundaryLoad(s, step, b, (const double(*)[2])project, e, &k, (const double(*)[6])lift, load);
@@ -146,8 +146,7 @@ static void ElementLoad(MomentumSolver s, const MomentumStep *step, int e, const
       s->setup.source(s->setup.source_context, step->t + step->dt, ElementVertex(m, e, i), next);
     }
     for (int c = 0; c < 2; c++)
-      q[c][i] = force[c] + step->rho[e] * absorption.push[c] + s->setup.theta * next[c] +
-                (1.0 - s->setup.theta) * now[c];
+      q[c][i] = force[c] + step->rho[e] * absorption.push[c] + s->theta * next[c] + (1.0 - s->theta) * now[c];
   }
   for (int c = 0; c < 2; c++) {
     double mq[3];
@@ -164,7 +163,7 @@ static void ElementInertia(MomentumSolver s, const MomentumStep *step, int e, co
   for (int c = 0; c < 2; c++) {
     double mu[3];
     P1MassApply(s->domain->geometry[e].area, u + 3 * c, mu);
-    for (int i = 0; i < 3; i++) load[3 * c + i] += step->rho[e] / (step->dt * s->setup.theta) * mu[i];
+    for (int i = 0; i < 3; i++) load[3 * c + i] += step->rho[e] / (step->dt * s->theta) * mu[i];
   }
 }
 
@@ -172,7 +171,7 @@ static void ElementInertia(MomentumSolver s, const MomentumStep *step, int e, co
 static void AssembleEntry(MomentumSolver s, const MomentumStep *step, const CoracleCoupling *k,
                           const double u[6], double dense[36], double load[6])
 {
-  const double w = (1.0 - s->setup.theta) / s->setup.theta;
+  const double w = (1.0 - s->theta) / s->theta;
   const int e = k->element;
   double matrix[6][6];
   SolidCouplingMatrix(k, matrix);
@@ -214,19 +213,20 @@ static void AssembleScalar(MomentumSolver s, const MomentumStep *step, int e, co
     AssembleFaces(s, step, e, block);
   const double mass =
       step->rho[e] *
-      (1.0 / step->dt + s->setup.theta * AbsorptionOfElement(&s->setup.absorption, s->domain->mesh, e).rate);
-  ScalarVolume(s->domain->geometry + e, mass, s->setup.theta, s->op.theta_mu[e], flux + 6 * e, volume);
+      (1.0 / step->dt + s->theta * AbsorptionOfElement(&s->setup.absorption, s->domain->mesh, e).rate);
+  ScalarVolume(s->domain->geometry + e, mass, s->theta, s->op.theta_mu[e], flux + 6 * e, volume);
   for (int k = 0; k < 9; k++) block[0][k] += volume[k];
   FluxDivergenceVolume(s->domain->geometry + e, flux + 6 * e, s->divergence[e]);
   for (int i = 0; i < 3; i++) AssembleInflow(s, step->mu, e, i, flux, block);
 }
 
-/* The faces' blocks are kept while the viscosity is that of the beginning. */
+/* The faces' blocks are kept while theta stays and the viscosity is that of the beginning. */
 static PetscErrorCode KeepFaces(MomentumSolver s, const MomentumStep *step)
 {
   const int ne = s->domain->mesh->ne;
   PetscFunctionBeginUser;
-  if (step->revision > 0) PetscCall(PetscFree(s->faces));
+  if (step->revision > 0 || step->theta != s->theta) PetscCall(PetscFree(s->faces));
+  s->theta = step->theta;
   if (step->revision > 0 || s->faces) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1(ne, &s->faces));
   for (int e = 0; e < ne; e++) AssembleFaces(s, step, e, s->faces[e]);
@@ -266,7 +266,7 @@ PetscErrorCode MomentumSolverAssemble(MomentumSolver s, const MomentumStep *step
   s->op.ndense = 0;
   s->op.diffusion = 0.0;
   s->advected[0] = s->advected[1] = 0.0;
-  for (int e = 0; e < m->ne + m->ng; e++) s->op.theta_mu[e] = s->setup.theta * step->mu[e];
+  for (int e = 0; e < m->ne + m->ng; e++) s->op.theta_mu[e] = s->theta * step->mu[e];
   PetscCall(GhostedGetArrayRead(step->mass_flux, &flux));
   PetscCall(GhostedGetArrayRead(step->p, &p));
   PetscCall(VecGetArrayRead(step->u, &u));

@@ -9,8 +9,9 @@
 struct MomentumSolver_s {
   const FluidDomain *domain; /* borrowed */
   MomentumSetup setup;
+  double theta; /* of the step */
   MomentumOperator op;
-  ScalarBlocks *faces;     /* [ne] what viscosity makes of interior faces; NULL while it varies */
+  ScalarBlocks *faces; /* [ne] what viscosity makes of interior faces, times theta; NULL while it varies */
   double (*divergence)[3]; /* [ne] of the step's mass flux (kernels.h) */
   double advected[2];      /* this rank's sum of divergence u^n */
   SingleOperator single;
