@@ -205,7 +205,7 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
     PetscCall(ProbesCheckPoints(c, PETSC_COMM_SELF, solid));
     PetscCall(Expect(c, solid, command));
     RunCaseNoteSteps(run.end, longest);
-    NoteWalls(c, solid);
+    NoteWalls(c, solid, run.end);
   }
   PetscCall(SolidDestroy(&solid));
   PetscFunctionReturn(0);

@@ -42,32 +42,16 @@ PetscErrorCode CheckDomain(CoracleCase c, Solid s)
 
 /* --- whether a body may leave --------------------------------------------------------------------------- */
 
-typedef struct {
-  CoracleCase c;
-  int closed; /* sides */
-} Sides;
-
-static void CountClosed(void *context, const char *name)
-{
-  static const char *const WORDS[] = {"no_slip", "free_slip", "open", NULL}, *const OTHERS[] = {
-                                                                                 "velocity", "pressure",
-                                                                                 "level", NULL};
-  Sides *sides = context;
-  char side[CASE_KEY], key[CASE_KEY];
-  CaseKey(side, "fluid.boundaries.%s", name);
-  for (int k = 0; OTHERS[k]; k++)
-    if (CoracleCaseHas(sides->c, CaseKey(key, "%s.%s", side, OTHERS[k]))) return;
-  sides->closed += CoracleCaseHas(sides->c, CaseKey(key, "%s.wall", side)) ||
-                   CoracleCaseWord(sides->c, side, -1, WORDS) < 2;
-}
-
-/* The entry of a body that nothing holds, prescribes or ties to a spring; -1: there is none. */
-static int LooseBody(Solid s)
+/* The entry of a body that nothing holds, prescribes until the end or ties to a spring; -1: there is none. */
+static int LooseBody(Solid s, double end)
 {
   for (int b = 0; b < s->nbodies; b++) {
     int held = 0;
-    for (int n = 0; n < s->nnodes; n++)
-      held |= s->node_body[n] == b && (s->inverse_mass[n] == 0.0 || s->is_prescribed[n]);
+    for (int n = 0; n < s->nnodes; n++) held |= s->node_body[n] == b && s->inverse_mass[n] == 0.0;
+    for (int k = 0; k < s->nprescribed; k++) {
+      const double release = s->motion[s->prescribed[k].motion].release;
+      held |= s->node_body[s->prescribed[k].node] == b && (release <= 0.0 || release >= end);
+    }
     for (int k = 0; k < s->setup.nsprings; k++)
       for (int i = 0; i < 2; i++) {
         const int e = s->spring_element[k][i];
@@ -78,14 +62,12 @@ static int LooseBody(Solid s)
   return -1;
 }
 
-void NoteWalls(CoracleCase c, Solid s)
+void NoteWalls(CoracleCase c, Solid s, double end)
 {
-  Sides sides = {.c = c};
-  const int loose = LooseBody(s);
+  const int loose = LooseBody(s, end);
   if (s->setup.walls || loose < 0 || !GravityActs(s->setup.gravity, &s->setup.gravity_table)) return;
-  CoracleCaseKeys(c, "fluid.boundaries", CountClosed, &sides);
-  if (sides.closed > 0)
+  if (CoracleCaseHas(c, "fluid.boundaries"))
     printf("note: there are no solid.walls: solid.bodies[%d] may leave through the sides of the fluid's "
-           "domain, which hold the fluid alone\n",
+           "domain, closed ones too, which hold the fluid alone\n",
            loose);
 }

@@ -6,6 +6,6 @@
 
 /* Refuses a body that reaches out of the domain. */
 PetscErrorCode CheckDomain(CoracleCase c, Solid s);
-/* Prints a note if a body may leave it: gravity acts, nothing holds the body, the fluid has closed sides and the solid no walls. */
-void NoteWalls(CoracleCase c, Solid s);
+/* Prints a note if a body may leave it before the end, s: gravity acts, nothing holds the body until then and the solid has no walls. */
+void NoteWalls(CoracleCase c, Solid s, double end);
 #endif

@@ -53,8 +53,12 @@ grep -q 'no solid.walls: solid.bodies\[0\] may leave through the sides' "$scratc
 tank=(--set 'solid.walls={lower: [0, 0], upper: [2, 2]}')
 check "$case" "${tank[@]}" && notes 0 || fail "notes of a good case"
 for set in 'gravity=[0, 0]' 'solid.bodies[0].fixed=true' 'solid.bodies[0].prescribed=[{velocity: [0, 1]}]' \
-  'solid.springs=[{name: line, point: [1.0, 1.1], anchor: [1.0, 2.0], stiffness: 1.0}]' 'fluid.boundaries={left: open, right: {pressure: 0}, bottom: open, top: open}'; do
+  'solid.springs=[{name: line, point: [1.0, 1.1], anchor: [1.0, 2.0], stiffness: 1.0}]' \
+  'solid.bodies[0].prescribed=[{velocity: [0, 1], release: 0.1}]'; do
   "$build/solid/coracle-solid" --check "$case" --set "$set" >"$scratch/log" 2>&1 && notes 0 || fail "a note with $set"
+done
+for set in 'fluid.boundaries={left: open, right: {pressure: 0}, bottom: open, top: open}' 'solid.bodies[0].prescribed=[{velocity: [0, 1], release: 0.05}]'; do
+  "$build/solid/coracle-solid" --check "$case" --set "$set" >"$scratch/log" 2>&1 && notes 1 || fail "no note with $set"
 done
 check "$case" "${tank[@]}" --set time.dt_max=0.2 --set 'fluid.adapt={size_min: 0.05, size_max: 0.2, velocity_error: 0.1}' --set coupler.shell_thickness=0.06 || fail "a good case has faults"
 notes 2
