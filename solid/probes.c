@@ -93,16 +93,35 @@ void ProbesCheckCase(CoracleCase c)
   (void)ReadProbes(c, point, sizeof columns, columns);
 }
 
+/* Collective: how far the nearest body is from the point, which is in none, m. */
+static PetscErrorCode Distance(Probes p, Solid s, const double point[2], double *nearest)
+{
+  SolidView v;
+  PetscFunctionBeginUser;
+  SolidGetView(s, &v);
+  *nearest = HUGE_VAL;
+  for (int e = 0; e < v.nelements; e++) {
+    double rest[3][2];
+    for (int i = 0; i < 3; i++)
+      for (int c = 0; c < 2; c++) rest[i][c] = v.rest[2 * v.element[3 * e + i] + c];
+    *nearest = fmin(*nearest, GeometrySideDistance((const double(*)[2])rest, point));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, nearest, 1, MPI_DOUBLE, MPI_MIN, p->comm));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode CheckPoints(CoracleCase c, Probes p, Solid solid)
 {
   char key[CASE_KEY];
-  double value[MAX_PROBES][VALUES];
+  double value[MAX_PROBES][VALUES], distance;
   int missing;
   PetscFunctionBeginUser;
   PetscCall(Values(p, solid, value, &missing));
   if (missing < 0) PetscFunctionReturn(0);
-  CoracleCaseRefuse(c, CaseKey(key, "solid.probes[%d].point", missing), "no body is at (%g, %g) at rest",
-                    p->point[missing][0], p->point[missing][1]);
+  PetscCall(Distance(p, solid, p->point[missing], &distance));
+  CoracleCaseRefuse(c, CaseKey(key, "solid.probes[%d].point", missing),
+                    "no body is at (%g, %g) at rest; the nearest is %.3g m away", p->point[missing][0],
+                    p->point[missing][1], distance);
 }
 
 PetscErrorCode ProbesCheckPoints(CoracleCase c, MPI_Comm comm, Solid solid)

@@ -17,9 +17,11 @@ static void ReadWallContact(CoracleCase c, SolidSetup *setup)
   setup->wall_damping = damping ? CoracleCaseNumber(c, "solid.walls.contact_damping", 0.0, 10.0) : -1.0;
 }
 
-/* The element of the model that is at the point at the start, and the point in it; not of body `except`. */
-static PetscBool FindElement(const Model *a, const double point[2], int except, SpringEnd *end)
+/* The element of the model that is at the point at the start, and the point in it; not of body `except`.  How far the nearest one is, m: 0
+ * if there is one. */
+static double FindElement(const Model *a, const double point[2], int except, SpringEnd *end)
 {
+  double nearest = HUGE_VAL;
   for (int e = 0; e < a->nelements; e++) {
     double corner[3][2], *w = end->weight;
     if (a->element_body[e] == except) continue;
@@ -27,9 +29,10 @@ static PetscBool FindElement(const Model *a, const double point[2], int except, 
       for (int c = 0; c < 2; c++) corner[i][c] = a->x[2 * a->element[3 * e + i] + c];
     GeometryBarycentric((const double(*)[2])corner, point, w);
     end->element = e;
-    if (fmin(w[0], fmin(w[1], w[2])) > -ON_EDGE) return PETSC_TRUE;
+    if (fmin(w[0], fmin(w[1], w[2])) > -ON_EDGE) return 0.0;
+    nearest = fmin(nearest, GeometrySideDistance((const double(*)[2])corner, point));
   }
-  return PETSC_FALSE;
+  return nearest;
 }
 
 /* Both ends; other[2]: where the other one is at the start. */
@@ -37,16 +40,20 @@ static void ReadSpringEnds(CoracleCase c, const Model *a, int k, Spring *s, doub
 {
   char key[CASE_KEY], anchor[CASE_KEY];
   CoracleCaseVector(c, CaseKey(key, "solid.springs[%d].point", k), 2, point);
-  if (!FindElement(a, point, -1, &s->end[0]))
-    CoracleCaseRefuse(c, key, "no body is at (%g, %g)", point[0], point[1]);
+  double distance = FindElement(a, point, -1, &s->end[0]);
+  if (distance > 0.0)
+    CoracleCaseRefuse(c, key, "no body is at (%g, %g); the nearest is %.3g m away", point[0], point[1],
+                      distance);
   s->anchored = CoracleCaseHas(c, CaseKey(anchor, "solid.springs[%d].anchor", k));
   CaseKey(key, "solid.springs[%d].other_point", k);
   if (s->anchored == CoracleCaseHas(c, key))
     CoracleCaseRefuse(c, s->anchored ? key : anchor, "expected an anchor or an other_point");
   CoracleCaseVector(c, s->anchored ? anchor : key, 2, other);
   for (int i = 0; i < 2; i++) s->anchor[i] = s->anchored ? other[i] : 0.0;
-  if (!s->anchored && !FindElement(a, other, a->element_body[s->end[0].element], &s->end[1]))
-    CoracleCaseRefuse(c, key, "no other body is at (%g, %g)", other[0], other[1]);
+  if (!s->anchored) distance = FindElement(a, other, a->element_body[s->end[0].element], &s->end[1]);
+  if (distance > 0.0)
+    CoracleCaseRefuse(c, key, "no other body is at (%g, %g); the nearest is %.3g m away", other[0], other[1],
+                      distance);
 }
 
 static void ReadSpring(CoracleCase c, const Model *a, int k, Spring *s)

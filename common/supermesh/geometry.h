@@ -104,6 +104,19 @@ static inline void GeometryBarycentric(const double x[3][2], const double p[2], 
   n[0] = 1.0 - n[1] - n[2];
 }
 
+/* Of a point from the triangle's sides, m. */
+static inline double GeometrySideDistance(const double x[3][2], const double p[2])
+{
+  double least = HUGE_VAL;
+  for (int i = 0; i < 3; i++) {
+    const double *a = x[i], *b = x[(i + 1) % 3];
+    const double d[2] = {b[0] - a[0], b[1] - a[1]}, r[2] = {p[0] - a[0], p[1] - a[1]};
+    const double s = fmin(fmax((r[0] * d[0] + r[1] * d[1]) / (d[0] * d[0] + d[1] * d[1]), 0.0), 1.0);
+    least = fmin(least, hypot(r[0] - s * d[0], r[1] - s * d[1]));
+  }
+  return least;
+}
+
 /* Keeps of *polygon, n vertices, what lies on the left of the line p -> q (Sutherland and Hodgman 1974): a polygon
  * that lies there as a whole stays where it is, else *polygon becomes out.  A vertex on the line stays
  * and cuts no edge; a crossing is a convex combination of the edge's ends, so it never leaves the edge. */
