@@ -177,26 +177,31 @@ static void AddStrainEnergy(const Solid s, int n, double sum[][NSUMS])
   }
 }
 
-/* What is about the mass centres: angular momentum, moment of inertia, the load's moment. */
+/* What is about the mass centres: angular momentum, moment of inertia, the load's moment; the sums of m X x x and m X.x, X at rest, whose
+ * ratio is the tangent of the rotation's angle. */
 static PetscErrorCode AboutCentres(const Solid s, int n, BodyState state[])
 {
-  double(*sum)[3];
+  double(*sum)[5];
   PetscFunctionBeginUser;
   PetscCall(PetscCalloc1((size_t)n, &sum));
   for (int i = 0; i < s->nnodes; i++) {
     const int b = s->node_body[i];
     if (b >= n || !SolidOwns(s, i)) continue;
     const Point r = {s->x[2 * i] - state[b].x[0], s->x[2 * i + 1] - state[b].x[1]};
+    const Point rest = {s->rest[2 * i] - state[b].x[0], s->rest[2 * i + 1] - state[b].x[1]};
     const Point v = {s->v[2 * i] - state[b].v[0], s->v[2 * i + 1] - state[b].v[1]};
     sum[b][0] += s->mass[i] * PointCross(r, v);
     sum[b][1] += s->mass[i] * (r.x * r.x + r.y * r.y);
     sum[b][2] += r.x * s->load[2 * i + 1] - r.y * s->load[2 * i];
+    sum[b][3] += s->mass[i] * PointCross(rest, r);
+    sum[b][4] += s->mass[i] * (rest.x * r.x + rest.y * r.y);
   }
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3 * n, MPI_DOUBLE, MPI_SUM, s->comm));
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 5 * n, MPI_DOUBLE, MPI_SUM, s->comm));
   for (int b = 0; b < n; b++) {
     state[b].moment = sum[b][2];
     state[b].inertia = sum[b][1];
     state[b].angular_velocity = sum[b][0] / sum[b][1];
+    state[b].angle = atan2(sum[b][3], sum[b][4]);
   }
   PetscCall(PetscFree(sum));
   PetscFunctionReturn(0);

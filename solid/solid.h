@@ -137,6 +137,7 @@ typedef struct {
   double inertia;          /* kg m about the mass centre */
   double x[2], v[2];       /* mass centre, m, and its velocity, m/s */
   double angular_velocity; /* rad/s: angular momentum over moment of inertia, about the mass centre */
+  double angle;            /* rad, from -pi to pi: of the rotation that is nearest to its motion since rest */
   double load[2];          /* what the fluid does, N/m */
   double moment;           /* of it about the mass centre, counter-clockwise, N m/m */
   double kinetic, strain;  /* J/m; kinetic at the time of x: sum m v.(v + h a)/2 */

@@ -5,7 +5,7 @@
 #include "solid/probes.h"
 #include <stdio.h>
 
-enum { MAX_BODIES = 1000, PER_BODY = 13, COMMON = 24 };
+enum { MAX_BODIES = 1000, PER_BODY = 14, COMMON = 24 };
 
 struct Writer_s {
   MPI_Comm comm;
@@ -29,8 +29,8 @@ static PetscErrorCode CreateSeries(Writer r, const char *folder, Checkpoint from
     used += (size_t)snprintf(columns + used, size - used,
                              ",x%d [m],y%d [m],u%d [m/s],v%d [m/s],omega%d [rad/s],fx%d [N/m],fy%d "
                              "[N/m],moment%d [N],kinetic%d [J/m],"
-                             "strain%d [J/m],mass%d [kg/m],rx%d [N/m],ry%d [N/m]",
-                             b, b, b, b, b, b, b, b, b, b, b, b, b);
+                             "strain%d [J/m],mass%d [kg/m],rx%d [N/m],ry%d [N/m],angle%d [rad]",
+                             b, b, b, b, b, b, b, b, b, b, b, b, b, b);
   (void)snprintf(columns + used, size - used,
                  ",fracture [J/m],debonded [J/m],broken joints,cracks [m],pieces,walls_x [N s/m],walls_y [N "
                  "s/m],reaction_x [N s/m],"
@@ -188,8 +188,8 @@ PetscErrorCode WriterStep(Writer r, Solid s, double waited)
   for (int b = 0; b < r->nbodies; b++) {
     const BodyState *k = &state[b];
     const double value[PER_BODY] = {
-        k->x[0],   k->x[1],    k->v[0],   k->v[1], k->angular_velocity, k->load[0],    k->load[1],
-        k->moment, k->kinetic, k->strain, k->mass, k->reaction[0],      k->reaction[1]};
+        k->x[0],   k->x[1],    k->v[0],   k->v[1], k->angular_velocity, k->load[0],     k->load[1],
+        k->moment, k->kinetic, k->strain, k->mass, k->reaction[0],      k->reaction[1], k->angle};
     for (int i = 0; i < PER_BODY; i++) row[n++] = value[i];
   }
   PetscCall(SolidFracture(s, &fracture));

@@ -1,6 +1,6 @@
 // ranks: 1 2
 /* A plate whose rotation is prescribed, about a pivot that moves: after any time its nodes are where a rigid plate's are, and so are
- * its velocities; also when the rotation swings and rises.  And the moment of a load. */
+ * its velocities, and the angle that it has turned; also when the rotation swings and rises.  And the moment of a load. */
 #include "tests/solid/build.h"
 
 #define SPIN 3.0
@@ -38,6 +38,9 @@ static PetscErrorCode Rotate(const Way *w)
   const double factor = Turned(w, t), angle = SPIN * factor,
                rate = (Turned(w, t) - Turned(w, t - 1e-4)) / 1e-4;
   const SolidView v = ViewOf(s, NULL, NULL);
+  BodyState state;
+  PetscCall(SolidBodies(s, 1, &state));
+  CHECK(fabs(state.angle - angle) < 1e-8, "turned by %.12g, expected %.12g", state.angle, angle);
   for (int n = 0; n < v.nnodes; n++) {
     const double r[2] = {v.rest[2 * n] - 0.3, v.rest[2 * n + 1] - 0.1};
     const double arm[2] = {cos(angle) * r[0] - sin(angle) * r[1], sin(angle) * r[0] + cos(angle) * r[1]};
