@@ -80,6 +80,11 @@ phases "'fluid.regions': expected a list of where"
 phases "'fluid.regions': the first region is everywhere" --set 'fluid.regions=[{phase: water, lower: [0, 0], upper: [1, 1]}]'
 phases "'fluid.regions\[0\].phase': expected a phase (water, air), found 'oil'" --set 'fluid.regions=[{phase: oil}]'
 phases "'fluid.regions\[1\].upper': the box is empty" --set 'fluid.regions=[{phase: air}, {phase: water, lower: [0, 0], upper: [0, 1]}]'
+polygon() { phases "'fluid.regions\[1\].polygon': the polygon meets itself: side $1" --set "fluid.regions=[{phase: air}, {phase: water, polygon: $2}]"; } # sides, corners
+polygon '0, from (0, 0), and side 2, from (1, 0)' '[[0, 0], [1, 1], [1, 0], [0, 1]]'
+polygon '1, from (1, 0), and side 3, from (0, 1)' '[[0, 0], [1, 0], [1, 1], [0, 1], [1, 0.5], [0, 0.5]]'
+polygon '0, from (0, 0), and side 3, from (0, 1)' '[[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]]' # closed twice
+accepted fluid --set "$water" --set 'fluid.regions=[{phase: air}, {phase: water, polygon: [[0, 0], [2, 0], [2, 1], [1, 0.5], [0.5, 1]]}]' --set 'solid.bodies=[]'
 refused fluid "'fluid.boundaries.left.level': there are no phases" --set 'fluid.boundaries.left={level: 1}' --set fluid.density=1 --set fluid.viscosity=1
 phases "'fluid.boundaries.left.level': expected a number" --set 'fluid.regions=[{phase: air}]' --set 'fluid.boundaries.left={level: high}'
 level() { phases "$1" --set 'fluid.regions=[{phase: air}]' --set "fluid.boundaries.left={$2}"; } # expected, keys
