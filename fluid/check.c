@@ -1,6 +1,7 @@
 #include "fluid/check.h"
 #include "common/program/program.h"
 #include "common/program/run_case.h"
+#include "fluid/check_boundaries.h"
 #include "fluid/input/fluid_case.h"
 #include "fluid/output/probes.h"
 #include "fluid/output/writer.h"
@@ -156,7 +157,8 @@ static void Expect(const Mesh *m, PetscBool adapts, const AdaptationSetup *s)
     printf("fluid: adapted every %d steps, edges from %g to %g m, at most %.0f triangles\n", s->every,
            s->size_min, s->size_max, s->elements_max);
   const double most = adapts ? fmax(s->elements_max, (double)m->nglobal) : (double)m->nglobal;
-  printf("fluid: memory about %.0f MB%s\n", MB_PROGRAM + MB_TRIANGLE * most, adapts ? " at most" : "");
+  printf("fluid: memory about %.0f MB%s\n", MB_PROGRAM + MB_TRIANGLE * most,
+         adapts ? ", if it reaches fluid.adapt.elements_max" : "");
 }
 
 static PetscErrorCode Draw(CoracleCase c, Mesh *mesh, const FluidSetup *setup, int nregions,
@@ -196,7 +198,10 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
   PetscCall(ProbesCreate(c, mesh, &probes));
   PetscCall(ProbesDestroy(&probes));
   PetscCall(CoracleCaseFinish(c, SECTIONS));
-  if (command != COMMAND_KEYS && CoracleCaseFaultless(c)) Expect(mesh, adapts, &adaptation);
+  if (command != COMMAND_KEYS && CoracleCaseFaultless(c)) {
+    Expect(mesh, adapts, &adaptation);
+    NoteBoundaries(mesh, &setup);
+  }
   if (command == COMMAND_DRAW && CoracleCaseFaultless(c)) PetscCall(Draw(c, mesh, &setup, nregions, region));
   PetscCall(FluidCaseFreeRegions(nregions, &region));
   PetscCall(PetscFree(setup.boundary));

@@ -64,6 +64,21 @@ check "$case" "${tank[@]}" --set time.dt_max=0.2 --set 'fluid.adapt={size_min: 0
 notes 2
 grep -q 'time.dt_max, 0.2 s, is more than time.end, 0.1 s' "$scratch/log" && grep -q 'shell_thickness, 0.06 m, is more than fluid.adapt.size_min, 0.05 m' "$scratch/log" || fail "other notes"
 
+grep -q 'fluid: memory about [0-9]* MB, if it reaches fluid.adapt.elements_max$' "$scratch/log" || fail "not what the memory is of"
+
+# levels that the domain does not have, and a phase that flows in unsaid
+level() { "$build/fluid/coracle-fluid" --check "$root/tests/coupled/level.yaml" "${@:2}" >"$scratch/log" 2>&1 && notes "$1" || fail "not $1 notes with ${*:2}"; }
+level 0
+level 0 --set 'fluid.boundaries.left={level: [{phase: water, height: 0.2}, {phase: air, height: 9.0}]}'
+level 1 --set 'fluid.boundaries.left={level: [[0, 0.3], [1, 0.6]]}'
+grep -q 'boundaries.left: the level, 0.6 m, is above the top of the fluid.s domain, 0.5 m' "$scratch/log" || fail "another note"
+level 1 --set 'fluid.boundaries.left={level: -0.1}'
+grep -q 'boundaries.left: the level, -0.1 m, is below the bottom of the fluid.s domain, 0 m' "$scratch/log" || fail "another note"
+level 1 --set 'fluid.boundaries.left={velocity: [0.1, 0]}'
+grep -q 'boundaries.left: what flows in is air, the lightest phase' "$scratch/log" || fail "another note"
+for set in 'velocity: [0.1, 0], phase: water' 'velocity: [-0.1, 0]' 'velocity: [0, 1]'; do level 0 --set "fluid.boundaries.left={$set}"; done
+level 1 --set 'fluid.boundaries.left={velocity: [-0.1, 0], period: 1.0}'
+
 # no bodies, or none that moves
 png() { rm -f "$scratch/case.png"; check "$@" --png "$scratch/case.png" && [ -s "$scratch/case.png" ]; }
 png "$case" --set 'solid.bodies=[]' && grep -qx 'solid: no bodies' "$scratch/log" || fail "a fluid alone"

@@ -1,0 +1,72 @@
+#include "fluid/check_boundaries.h"
+#include <stdio.h>
+
+/* The lowest and the highest vertex, against gravity, m. */
+static void Heights(const Mesh *m, const double gravity[2], double range[2])
+{
+  const double g = hypot(gravity[0], gravity[1]);
+  range[0] = HUGE_VAL, range[1] = -HUGE_VAL;
+  for (int v = 0; v < m->nv; v++) {
+    const double height = 0.0 - (gravity[0] * m->x[2 * v] + gravity[1] * m->x[2 * v + 1]) / g;
+    range[0] = fmin(range[0], height);
+    range[1] = fmax(range[1], height);
+  }
+}
+
+/* The lowest and the highest that layer k is, m. */
+static void Levels(const BoundaryPhases *b, int k, double range[2])
+{
+  range[0] = range[1] = b->level_table[k].nrows ? TimeTableAt(&b->level_table[k], 0, 1) : b->level[k];
+  for (int row = 1; row < b->level_table[k].nrows; row++) {
+    range[0] = fmin(range[0], TimeTableAt(&b->level_table[k], row, 1));
+    range[1] = fmax(range[1], TimeTableAt(&b->level_table[k], row, 1));
+  }
+}
+
+/* Of layers the lowest is not to be above all, the highest not below. */
+static void NoteLevel(const char *name, const BoundaryPhases *b, const double mesh[2])
+{
+  double low[2], high[2];
+  if (!b->nlevels) return;
+  Levels(b, 0, low);
+  Levels(b, b->nlevels - 1, high);
+  if (low[1] > mesh[1])
+    printf("note: fluid.boundaries.%s: the level, %g m, is above the top of the fluid's domain, %g m\n", name,
+           low[1], mesh[1]);
+  if (high[0] < mesh[0])
+    printf("note: fluid.boundaries.%s: the level, %g m, is below the bottom of the fluid's domain, %g m\n",
+           name, high[0], mesh[0]);
+}
+
+/* Whether the velocity leads into the domain somewhere on the boundary, or does when it turns. */
+static PetscBool FlowsIn(const Mesh *m, int tag, const Boundary *b)
+{
+  const PetscBool turns = (PetscBool)(b->period > 0.0 || b->factor.nrows > 0);
+  for (int k = 0; k < 3 * m->ne && b->kind == BOUNDARY_VELOCITY; k++) {
+    if (m->tag[k] != tag) continue;
+    const double *p = m->x + 2 * m->vertex[k / 3 * 3 + (k + 1) % 3],
+                 *q = m->x + 2 * m->vertex[k / 3 * 3 + (k + 2) % 3];
+    const double flux = b->velocity[0] * (q[1] - p[1]) - b->velocity[1] * (q[0] - p[0]);
+    const double least = 1e-9 * hypot(b->velocity[0], b->velocity[1]) * hypot(q[0] - p[0], q[1] - p[1]);
+    if ((turns ? -fabs(flux) : flux) < -least) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
+void NoteBoundaries(const Mesh *m, const FluidSetup *setup)
+{
+  const PhaseProperties *phases = &setup->phases;
+  double heights[2];
+  if (!phases->n) return;
+  Heights(m, setup->gravity, heights);
+  for (int b = 0; b < m->ntags; b++) {
+    const Boundary *boundary = &setup->boundary[b];
+    double inflow = 0.0;
+    for (int p = 0; p < phases->n; p++) inflow += boundary->phases.inflow[p];
+    NoteLevel(m->tag_name[b], &boundary->phases, heights);
+    if (inflow == 0.0 && FlowsIn(m, b, boundary))
+      printf("note: fluid.boundaries.%s: what flows in is %s, the lightest phase: neither phase nor "
+             "fractions are given\n",
+             m->tag_name[b], phases->name[PhaseLightest(phases)]);
+  }
+}
