@@ -131,6 +131,11 @@ static const CoracleCaseKey KEYS[] = {
      "the phase whose places along the segment are recorded: where it first ends, its last point, and how "
      "much of the segment it has; of a wave, along a line that rises from the water, last is the top of the "
      "water, drops included, and first is lower where there is air beneath"},
+    {"fluid.probes[].flow.from", "m", "where a segment begins through which the flow is recorded"},
+    {"fluid.probes[].flow.to", "m",
+     "where it ends; flow to the right as one goes there is positive: along x through a segment that goes "
+     "upwards"},
+    {"fluid.probes[].flow.phase", "", "the phase whose volume flows; if not given all that does"},
     {"fluid.probes[].phase", "", "a phase: its area, centre, velocity and the length of its interface"},
     {"fluid.probes[].solid_point", "m",
      "a point of the solid's surface at the start: a pressure gauge that moves with it"},

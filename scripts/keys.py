@@ -138,6 +138,7 @@ def named_in_sources():
                 text = re.sub(r"/\*.*?\*/|CoracleCaseRenamed\([^;]*;", "", source.read(), flags=re.S)
             for key in re.findall(r'Case\w*\([^;]*?"((?:fluid|solid|coupler|time|output)\.[\w.\[\]%]+)(?<!%s)"', text):
                 found.add(re.sub(r"%[.\d]*s", "*", key.replace("[%d]", "[]")))
+            found.update("fluid.probes[]." + key for key in re.findall(r'\bKey\(k, "([\w.]+)"\)', text))
             for reader, place in (("BodyKey", "solid.bodies[]."), ("MaterialKey", "solid.materials.*.")):
                 found.update(place + key for key in re.findall(reader + r'\(\w+, [^,]+, "([\w.]+)"\)', text))
     return found

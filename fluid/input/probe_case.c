@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const KINDS[] = {"point", "line", "solid_point", "surface", "phase", NULL};
+static const char *const KINDS[] = {"point", "line", "solid_point", "surface", "phase", "flow", NULL};
 
 static const char *Key(int k, const char *what)
 {
@@ -27,7 +27,7 @@ static ProbeKind ReadKind(CoracleCase c, int k)
   }
   if (n != 1)
     CoracleCaseRefuse(c, Key(k, ""),
-                      "expected one of point, line, solid_point, surface, phase, found %d of them", n);
+                      "expected one of point, line, solid_point, surface, phase, flow, found %d of them", n);
   return (ProbeKind)kind;
 }
 
@@ -67,16 +67,18 @@ static double ReadDistance(CoracleCase c, int k)
 
 static void ReadEnds(CoracleCase c, int k, Probe *p)
 {
-  const PetscBool line = (PetscBool)(p->kind == PROBE_LINE);
-  CoracleCaseVector(c, Key(k, line ? "line.from" : "surface.from"), 2, p->from);
-  CoracleCaseVector(c, Key(k, line ? "line.to" : "surface.to"), 2, p->to);
+  static const char *const
+      FROM[] = {[PROBE_LINE] = "line.from", [PROBE_SURFACE] = "surface.from", [PROBE_FLOW] = "flow.from"},
+      *const TO[] = {[PROBE_LINE] = "line.to", [PROBE_SURFACE] = "surface.to", [PROBE_FLOW] = "flow.to"};
+  CoracleCaseVector(c, Key(k, FROM[p->kind]), 2, p->from);
+  CoracleCaseVector(c, Key(k, TO[p->kind]), 2, p->to);
 }
 
 /* Where probe k of this kind is. */
 static void ReadPlace(CoracleCase c, const PhaseNames *names, ProbeCase *list, int k)
 {
   Probe *p = &list->probe[k];
-  if (p->kind == PROBE_LINE || p->kind == PROBE_SURFACE)
+  if (p->kind == PROBE_LINE || p->kind == PROBE_SURFACE || p->kind == PROBE_FLOW)
     ReadEnds(c, k, p);
   else if (p->kind != PROBE_PHASE)
     CoracleCaseVector(c, Key(k, KINDS[p->kind]), 2, p->from);
@@ -96,7 +98,13 @@ static void ReadPlace(CoracleCase c, const PhaseNames *names, ProbeCase *list, i
   case PROBE_PHASE:
     if (!list->nphases)
       CoracleCaseRefuse(c, Key(k, KINDS[p->kind]), "there are no phases: expected fluid.phases");
-    p->phase = PhaseCaseIndex(c, Key(k, p->kind == PROBE_PHASE ? "phase" : "surface.phase"), names);
+    p->phase = p->kind == PROBE_PHASE ? PhaseCaseIndex(c, Key(k, "phase"), names)
+                                      : PhaseCaseIndex(c, Key(k, "surface.phase"), names);
+    break;
+  case PROBE_FLOW:
+    p->phase = -1;
+    if (list->nphases && CoracleCaseHas(c, Key(k, "flow.phase")))
+      p->phase = PhaseCaseIndex(c, Key(k, "flow.phase"), names);
     break;
   }
 }

@@ -2,6 +2,7 @@
 #include "common/output/output.h"
 #include "common/space/p2.h"
 #include "fluid/input/probe_case.h"
+#include "fluid/output/flow_gauge.h"
 #include "fluid/output/locate.h"
 #include "fluid/output/phase_gauge.h"
 #include "fluid/output/surface_gauge.h"
@@ -78,6 +79,7 @@ static PetscErrorCode GaugeValues(Probes p, Fluid fluid, const CoracleGauge gaug
 static int Width(const Probes p, const Probe *probe)
 {
   if (probe->kind == PROBE_PHASE) return WHOLE;
+  if (probe->kind == PROBE_FLOW) return 1;
   return probe->kind == PROBE_POINT || probe->kind == PROBE_LINE ? 3 + (p->list.nphases > 0) : FOLLOWING;
 }
 
@@ -115,6 +117,9 @@ static PetscErrorCode ProbeValues(Probes p, const Probe *probe, Fluid fluid, con
   switch (probe->kind) {
   case PROBE_SURFACE:
     PetscCall(SurfaceValues(probe, fluid, row));
+    break;
+  case PROBE_FLOW:
+    PetscCall(FlowMeasure(fluid, probe->phase, probe->from, probe->to, row));
     break;
   case PROBE_PHASE:
     PetscCall(PhaseValues(probe, fluid, row));
@@ -169,13 +174,14 @@ static void Refuse(Probes p, CoracleCase c, const Mesh *m, int k, const double x
                     x[0], x[1], m->lower[0], m->upper[0], m->lower[1], m->upper[1]);
 }
 
-/* A probe with a point outside of the mesh is an error of the case; of a surface, with an end out of its bounds. */
+/* A probe with a point outside of the mesh is an error of the case; of a surface or a flow, with an end out of its bounds. */
 static void Check(Probes p, CoracleCase c, const Mesh *m)
 {
   for (int k = 0; k < p->list.n; k++) {
     const Probe *probe = &p->list.probe[k];
-    if (probe->kind == PROBE_SURFACE && !LocateInBounds(m, probe->from)) Refuse(p, c, m, k, probe->from);
-    if (probe->kind == PROBE_SURFACE && !LocateInBounds(m, probe->to)) Refuse(p, c, m, k, probe->to);
+    const PetscBool segment = (PetscBool)(probe->kind == PROBE_SURFACE || probe->kind == PROBE_FLOW);
+    if (segment && !LocateInBounds(m, probe->from)) Refuse(p, c, m, k, probe->from);
+    if (segment && !LocateInBounds(m, probe->to)) Refuse(p, c, m, k, probe->to);
     for (int i = 0; (probe->kind == PROBE_POINT || probe->kind == PROBE_LINE) && i < probe->n; i++)
       if (p->fixed.outside[probe->first + i] > 0.0) Refuse(p, c, m, k, p->list.fixed[probe->first + i]);
   }
@@ -205,8 +211,9 @@ static void AddColumns(const Probes p, const Probe *probe, int i, char **end)
                            *const GAUGE[] = {"x [m]", "y [m]", "p [Pa]"},
                            *const SURFACE[] = {"first [m]", "last [m]", "length [m]"},
                            *const PHASE[] = {"area [m2]", "x [m]",   "y [m]",
-                                             "u [m/s]",   "v [m/s]", "interface [m]"};
-  static const char *const *const COLUMNS[] = {FLOW, FLOW, GAUGE, SURFACE, PHASE};
+                                             "u [m/s]",   "v [m/s]", "interface [m]"},
+                           *const THROUGH[] = {"flow [m2/s]"};
+  static const char *const *const COLUMNS[] = {FLOW, FLOW, GAUGE, SURFACE, PHASE, THROUGH};
   char number[16] = "";
   if (probe->kind == PROBE_LINE) (void)snprintf(number, sizeof number, "%d", i);
   for (int k = 0; k < Width(p, probe); k++)

@@ -8,6 +8,10 @@
  *                in the mesh, beneath a body that stands on a floor, at x - 0.05 distance n; nan if that is not either
  *   surface      name_first, name_last, name_length [m]: where the phase first ends along the segment, its
  *                farthest point, and how much of the segment it has (surface_gauge.h)
+ *   phase        name_area [m2], name_x, name_y [m], name_u, name_v [m/s], name_interface [m]: of the whole phase its area,
+ *                the means of place and velocity over it, and the length of its interface (phase_gauge.h)
+ *   flow         name_flow [m2/s]: the volume of the phase, or of all, that flows through the segment, to the right as one
+ *                goes from `from` to `to`; what solids displace counts as the lightest phase (flow_gauge.h)
  *
  * Velocity is P1DG (on a face or a vertex the mean over the elements there), pressure P2, both as of the step's end. */
 #ifndef FLUID_PROBES_H

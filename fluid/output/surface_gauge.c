@@ -11,16 +11,18 @@ typedef struct {
 /* Of an edge's length: a segment along a wall is in its elements whatever round-off says. */
 #define ON_EDGE 1e-9
 
-/* The part of from + s (to - from), 0 <= s <= 1, within a convex polygon, counter-clockwise; whether there is any. */
-static PetscBool Clip(int n, const double x[][2], const double from[2], const double to[2], double s[2])
+PetscBool SegmentClip(int n, const double x[][2], const double from[2], const double to[2], double s[2],
+                      int *along)
 {
   s[0] = 0.0, s[1] = 1.0;
+  *along = -1;
   for (int k = 0; k < n; k++) {
     const double *p = x[k], *q = x[(k + 1) % n];
     const double square = (q[0] - p[0]) * (q[0] - p[0]) + (q[1] - p[1]) * (q[1] - p[1]);
     double a = GeometryTurn(p, q, from), b = GeometryTurn(p, q, to); /* positive inside */
     if (fabs(a) < ON_EDGE * square) a = 0.0;
     if (fabs(b) < ON_EDGE * square) b = 0.0;
+    if (a == 0.0 && b == 0.0) *along = k;
     if (a < 0.0 && b < 0.0) return PETSC_FALSE;
     if (a < 0.0) s[0] = fmax(s[0], a / (a - b));
     if (b < 0.0) s[1] = fmin(s[1], a / (a - b));
@@ -35,14 +37,15 @@ static PetscErrorCode ElementPiece(Phases phases, const Mesh *m, int e, int phas
   const double length = hypot(to[0] - from[0], to[1] - from[1]);
   double x[3][2], whole[2], part[2], area;
   Polygon polygon;
+  int along;
   PetscFunctionBeginUser;
   *counts = PETSC_FALSE;
   MeshCorners(m, e, x);
-  if (!Clip(3, (const double(*)[2])x, from, to, whole)) PetscFunctionReturn(0);
+  if (!SegmentClip(3, (const double(*)[2])x, from, to, whole, &along)) PetscFunctionReturn(0);
   PetscCall(PhasesGetPolygon(phases, e, phase, &polygon));
   area = GeometryArea((const double(*)[2])x);
   if (PolygonArea(&polygon) < SURFACE_SLIVER * SURFACE_SLIVER * area) PetscFunctionReturn(0);
-  if (!Clip(polygon.n, (const double(*)[2])polygon.x, from, to, part)) PetscFunctionReturn(0);
+  if (!SegmentClip(polygon.n, (const double(*)[2])polygon.x, from, to, part, &along)) PetscFunctionReturn(0);
   *piece = (Piece){length * fmax(part[0], whole[0]), length * fmin(part[1], whole[1]), sqrt(area)};
   *counts = (PetscBool)(piece->s1 - piece->s0 > SURFACE_SLIVER * length * (whole[1] - whole[0]));
   PetscFunctionReturn(0);

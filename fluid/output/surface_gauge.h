@@ -19,4 +19,8 @@ typedef struct {
 /* Collective over mesh->comm, whose owned elements the phases are on.  first is 0 where another phase is at `from`. */
 PetscErrorCode SurfaceMeasure(Phases phases, const Mesh *mesh, int phase, const double from[2],
                               const double to[2], SurfacePlace *place);
+/* Not collective.  The part of from + s (to - from), 0 <= s <= 1, within a convex polygon x[n], counter-clockwise; whether there is any.
+ * *along: the side, from that corner on, that the segment lies along, or -1. */
+PetscBool SegmentClip(int n, const double x[][2], const double from[2], const double to[2], double s[2],
+                      int *along);
 #endif

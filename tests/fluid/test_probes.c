@@ -1,6 +1,7 @@
 // ranks: 1 2 3
 /* Probes give linear velocities and quadratic pressures exactly, in elements, on faces, vertices, walls and corners and
- * before a gauge on a solid, behind its face where that is not in the mesh; also on another mesh and after a checkpoint.  What lies outside of the mesh is refused. */
+ * before a gauge on a solid, behind its face where that is not in the mesh; flows through segments across elements, along their faces and a
+ * wall are exact; also on another mesh and after a checkpoint.  What lies outside of the mesh is refused. */
 #include "fluid/input/fluid_case.h"
 #include "fluid/output/probes.h"
 #include "tests/fluid/box_mesh.h"
@@ -19,9 +20,12 @@ static const char *const CASE = "gravity: [0.0, 0.0]\n"
                                 "    - {name: cut, line: {from: [0.0, 0.0], to: [2.0, 1.0], points: 9}}\n"
                                 "    - {name: wall, point: [2.0, 0.61]}\n"
                                 "    - {name: beneath, solid_point: [0.0, 0.5], distance: 0.5}\n"
-                                "    - {name: outside, solid_point: [-1.0, 0.5], distance: 0.5}\n";
+                                "    - {name: outside, solid_point: [-1.0, 0.5], distance: 0.5}\n"
+                                "    - {name: across, flow: {from: [0.313, 0.1], to: [1.77, 0.93]}}\n"
+                                "    - {name: along, flow: {from: [1.0, 0.0], to: [1.0, 1.0]}}\n"
+                                "    - {name: out, flow: {from: [2.0, 0.0], to: [2.0, 1.0]}}\n";
 
-enum { POINTS = 11, COLUMNS = 1 + 3 * (POINTS + 3) };
+enum { POINTS = 11, FLOWS = 1 + 3 * (POINTS + 3), COLUMNS = FLOWS + 3 };
 static const CoracleGauge GAUGE[3] = {
     {{1.5, 0.5}, {0.6, -0.8}}, {{0.0, 0.5}, {-1.0, 0.0}}, {{-1.0, 0.5}, {-1.0, 0.0}}};
 static char folder[256];
@@ -121,6 +125,15 @@ static void CheckPoint(const double value[3], double x, double y)
   for (int i = 0; i < 3; i++) CHECK(fabs(value[i] - exact[i]) < 1e-8);
 }
 
+/* The velocity is linear: the flow is that of the segment's middle. */
+static void CheckFlow(double flow, double x0, double y0, double x1, double y1)
+{
+  const double middle[2] = {0.5 * (x0 + x1), 0.5 * (y0 + y1)};
+  double u[2];
+  Velocity(NULL, 0.0, middle, u);
+  CHECK(fabs(flow - (u[0] * (y1 - y0) - u[1] * (x1 - x0))) < 1e-8);
+}
+
 static void CheckRow(const double value[COLUMNS])
 {
   double p;
@@ -133,6 +146,9 @@ static void CheckRow(const double value[COLUMNS])
   Pressure(NULL, 0.0, behind, &p);
   CHECK(value[37] == 0.0 && value[38] == 0.5 && fabs(value[39] - p) < 1e-8);
   CHECK(value[40] == -1.0 && value[41] == 0.5 && isnan(value[42]));
+  CheckFlow(value[FLOWS], 0.313, 0.1, 1.77, 0.93);
+  CheckFlow(value[FLOWS + 1], 1.0, 0.0, 1.0, 1.0);
+  CheckFlow(value[FLOWS + 2], 2.0, 0.0, 2.0, 1.0);
 }
 
 static void CheckFile(void)
@@ -147,7 +163,8 @@ static void CheckFile(void)
                      "[Pa],cut0_u [m/s],") == line);
   CHECK(strstr(line, ",cut8_p [Pa],wall_u [m/s],wall_v [m/s],wall_p [Pa],beneath_x [m],beneath_y "
                      "[m],beneath_p [Pa],outside_x [m],outside_y "
-                     "[m],outside_p [Pa]\n"));
+                     "[m],outside_p [Pa],across_flow "
+                     "[m2/s],along_flow [m2/s],out_flow [m2/s]\n"));
   while (fgets(line, sizeof line, file)) {
     double value[COLUMNS];
     char *at = line;
@@ -174,8 +191,9 @@ static void CheckRefused(const char *set_folder)
                {"fluid.probes[3].name=inside",
                 "--set fluid.probes[3].name=inside: key 'fluid.probes[3].name': fluid.probes[0] has the name "
                 "'inside', too"},
-               {"fluid.probes[3].solid_point=[0, 0]", ":12: key 'fluid.probes[3]': expected one of point, "
-                                                      "line, solid_point, surface, phase, found 2 of them"}};
+               {"fluid.probes[3].solid_point=[0, 0]",
+                ":12: key 'fluid.probes[3]': expected one of point, "
+                "line, solid_point, surface, phase, flow, found 2 of them"}};
   for (int k = 0; k < (int)(sizeof fault / sizeof *fault); k++)
     CheckCase(CASE, (const char *const[]){set_folder, fault[k].set, NULL}, OnlyOpen, fault[k].message);
 }

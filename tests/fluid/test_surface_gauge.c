@@ -1,7 +1,8 @@
 // ranks: 1 2 3
 /* A free-surface gauge finds a straight surface exactly on a mesh that knows nothing of it, a drop above it, and nothing where the phase is
- * not. */
+ * not; a flow is divided between phases. */
 #include "fluid/flow/fluid.h"
+#include "fluid/output/flow_gauge.h"
 #include "fluid/output/surface_gauge.h"
 #include "tests/check.h"
 #include "tests/fluid/box_mesh.h"
@@ -19,6 +20,25 @@ static void Expect(const SurfacePlace *p, double first, double last, double leng
   CHECK(fabs(p->first - first) < error && fabs(p->last - last) < error && fabs(p->length - length) < error,
         "%s: first %.12g of %.12g, last %.12g of %.12g, length %.12g of %.12g", what, p->first, first,
         p->last, last, p->length, length);
+}
+
+static void Velocity(void *context, double t, const double x[2], double u[])
+{
+  u[0] = 1.0 + x[1];
+  u[1] = -1.0;
+}
+
+/* Of each phase below and above the surface at 0.403, and of both. */
+static PetscErrorCode CheckFlows(Fluid fluid)
+{
+  const double from[2] = {0.9, 0.0}, to[2] = {0.9, 1.0}, water = 0.403 + 0.5 * 0.403 * 0.403;
+  double flow[3];
+  PetscFunctionBeginUser;
+  PetscCall(FluidSetInitial(fluid, 0.0, Velocity, NULL, NULL));
+  for (int k = 0; k < 3; k++) PetscCall(FlowMeasure(fluid, k - 1, from, to, &flow[k]));
+  CHECK(fabs(flow[0] - 1.5) < 1e-9 && fabs(flow[1] - 1.5 + water) < 1e-5 && fabs(flow[2] - water) < 1e-5,
+        "flows %.12g, %.12g, %.12g", flow[0], flow[1], flow[2]);
+  PetscFunctionReturn(0);
 }
 
 int main(int argc, char **argv)
@@ -58,6 +78,7 @@ int main(int argc, char **argv)
   Expect(&p, 0.0, 0.0, 0.0, 1e-15, "none");
   PetscCall(Measure(fluid, 1, 0.0, -1e-16, 1.0, -1e-16, &p));
   Expect(&p, 1.0, 1.0, 1.0, 1e-12, "the floor");
+  PetscCall(CheckFlows(fluid));
   PetscCall(FluidDestroy(&fluid));
   PetscCall(MeshDestroy(&mesh));
   return PetscFinalize();
