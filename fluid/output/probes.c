@@ -45,15 +45,20 @@ static PetscErrorCode Values(const Places *places, Fluid fluid, double value[][V
   PetscFunctionReturn(0);
 }
 
-/* x[ngauges][2]: by `part` of its distance before each gauge, of those alone that are outside where outside is given. */
-static void GaugePoints(const Probes p, const CoracleGauge gauge[], double part, const double outside[],
-                        double x[][2])
+/* x[ngauges][2]: by `part` of its distance before each gauge, of those alone that are outside where outside is given; one that is out of
+ * the mesh's bounds by no more than contact needs, as at the corner of a body that stands on the floor, is put on them. */
+static void GaugePoints(const Probes p, const Mesh *m, const CoracleGauge gauge[], double part,
+                        const double outside[], double x[][2])
 {
   for (int k = 0; k < p->list.n; k++) {
     const Probe *probe = &p->list.probe[k];
     if (probe->kind != PROBE_GAUGE || (outside && outside[probe->first] == 0.0)) continue;
     const CoracleGauge *g = &gauge[probe->first];
-    for (int c = 0; c < 2; c++) x[probe->first][c] = g->x[c] + part * probe->distance * g->normal[c];
+    for (int c = 0; c < 2; c++) {
+      const double at = g->x[c] + part * probe->distance * g->normal[c],
+                   inside = fmin(fmax(at, m->lower[c]), m->upper[c]);
+      x[probe->first][c] = fabs(at - inside) <= BEHIND * probe->distance ? inside : at;
+    }
   }
 }
 
@@ -64,11 +69,11 @@ static PetscErrorCode GaugeValues(Probes p, Fluid fluid, const CoracleGauge gaug
   double x[PROBES_MAX][2];
   int nout = 0;
   PetscFunctionBeginUser;
-  GaugePoints(p, gauge, 1.0, NULL, x);
+  GaugePoints(p, FluidMesh(fluid), gauge, 1.0, NULL, x);
   PetscCall(PlacesLocate(FluidMesh(fluid), n, (const double(*)[2])x, &p->moving));
   for (int k = 0; k < n; k++) nout += p->moving.outside[k] > 0.0;
   if (nout) {
-    GaugePoints(p, gauge, -BEHIND, p->moving.outside, x);
+    GaugePoints(p, FluidMesh(fluid), gauge, -BEHIND, p->moving.outside, x);
     PetscCall(PlacesLocate(FluidMesh(fluid), n, (const double(*)[2])x, &p->moving));
   }
   PetscCall(Values(&p->moving, fluid, value));

@@ -6,6 +6,7 @@
  *   solid_point  name_x, name_y [m], where the point of the solid is, and name_p [Pa], the pressure of the fluid before it:
  *                at x + distance n, n out of the solid (by default one edge of fluid.adapt.size_min); where that is not
  *                in the mesh, beneath a body that stands on a floor, at x - 0.05 distance n; nan if that is not either
+ *                (by more than contact needs)
  *   surface      name_first, name_last, name_length [m]: where the phase first ends along the segment, its
  *                farthest point, and how much of the segment it has (surface_gauge.h)
  *   phase        name_area [m2], name_x, name_y [m], name_u, name_v [m/s], name_interface [m]: of the whole phase its area,

@@ -1,6 +1,7 @@
 // ranks: 1 2 3
 /* Probes give linear velocities and quadratic pressures exactly, in elements, on faces, vertices, walls and corners and
- * before a gauge on a solid, behind its face where that is not in the mesh; flows through segments across elements, along their faces and a
+ * before a gauge on a solid, behind its face where that is not in the mesh, on the floor where contact has pushed
+ * a corner through it; flows through segments across elements, along their faces and a
  * wall are exact; also on another mesh and after a checkpoint.  What lies outside of the mesh is refused. */
 #include "fluid/input/fluid_case.h"
 #include "fluid/output/probes.h"
@@ -21,13 +22,16 @@ static const char *const CASE = "gravity: [0.0, 0.0]\n"
                                 "    - {name: wall, point: [2.0, 0.61]}\n"
                                 "    - {name: beneath, solid_point: [0.0, 0.5], distance: 0.5}\n"
                                 "    - {name: outside, solid_point: [-1.0, 0.5], distance: 0.5}\n"
+                                "    - {name: corner, solid_point: [1.5, 0.0], distance: 0.3}\n"
                                 "    - {name: across, flow: {from: [0.313, 0.1], to: [1.77, 0.93]}}\n"
                                 "    - {name: along, flow: {from: [1.0, 0.0], to: [1.0, 1.0]}}\n"
                                 "    - {name: out, flow: {from: [2.0, 0.0], to: [2.0, 1.0]}}\n";
 
-enum { POINTS = 11, FLOWS = 1 + 3 * (POINTS + 3), COLUMNS = FLOWS + 3 };
-static const CoracleGauge GAUGE[3] = {
-    {{1.5, 0.5}, {0.6, -0.8}}, {{0.0, 0.5}, {-1.0, 0.0}}, {{-1.0, 0.5}, {-1.0, 0.0}}};
+enum { POINTS = 11, FLOWS = 1 + 3 * (POINTS + 4), COLUMNS = FLOWS + 3 };
+static const CoracleGauge GAUGE[4] = {{{1.5, 0.5}, {0.6, -0.8}},
+                                      {{0.0, 0.5}, {-1.0, 0.0}},
+                                      {{-1.0, 0.5}, {-1.0, 0.0}},
+                                      {{1.5, -0.01}, {1.0, 0.0}}};
 static char folder[256];
 static PetscMPIInt rank;
 
@@ -54,7 +58,7 @@ static PetscErrorCode Row(CoracleCase c, Probes probes, double size)
   PetscCall(FluidCreate(mesh, &setup, &fluid));
   PetscCall(FluidSetInitial(fluid, 0.0, Velocity, Pressure, NULL));
   PetscCall(ProbesNewMesh(probes, mesh));
-  PetscCall(ProbesStep(probes, fluid, 3, GAUGE));
+  PetscCall(ProbesStep(probes, fluid, 4, GAUGE));
   PetscCall(PetscFree(setup.boundary));
   PetscCall(FluidDestroy(&fluid));
   PetscCall(MeshDestroy(&mesh));
@@ -137,7 +141,8 @@ static void CheckFlow(double flow, double x0, double y0, double x1, double y1)
 static void CheckRow(const double value[COLUMNS])
 {
   double p;
-  const double before[2] = {1.5 + 0.125 * 0.6, 0.5 - 0.125 * 0.8}, behind[2] = {0.05 * 0.5, 0.5};
+  const double before[2] = {1.5 + 0.125 * 0.6, 0.5 - 0.125 * 0.8}, behind[2] = {0.05 * 0.5, 0.5},
+               corner[2] = {1.8, 0.0};
   Pressure(NULL, 0.0, before, &p);
   CheckPoint(value + 1, 0.813, 0.377);
   CHECK(value[4] == 1.5 && value[5] == 0.5 && fabs(value[6] - p) < 1e-8);
@@ -146,6 +151,8 @@ static void CheckRow(const double value[COLUMNS])
   Pressure(NULL, 0.0, behind, &p);
   CHECK(value[37] == 0.0 && value[38] == 0.5 && fabs(value[39] - p) < 1e-8);
   CHECK(value[40] == -1.0 && value[41] == 0.5 && isnan(value[42]));
+  Pressure(NULL, 0.0, corner, &p);
+  CHECK(value[43] == 1.5 && value[44] == -0.01 && fabs(value[45] - p) < 1e-8);
   CheckFlow(value[FLOWS], 0.313, 0.1, 1.77, 0.93);
   CheckFlow(value[FLOWS + 1], 1.0, 0.0, 1.0, 1.0);
   CheckFlow(value[FLOWS + 2], 2.0, 0.0, 2.0, 1.0);
@@ -163,7 +170,7 @@ static void CheckFile(void)
                      "[Pa],cut0_u [m/s],") == line);
   CHECK(strstr(line, ",cut8_p [Pa],wall_u [m/s],wall_v [m/s],wall_p [Pa],beneath_x [m],beneath_y "
                      "[m],beneath_p [Pa],outside_x [m],outside_y "
-                     "[m],outside_p [Pa],across_flow "
+                     "[m],outside_p [Pa],corner_x [m],corner_y [m],corner_p [Pa],across_flow "
                      "[m2/s],along_flow [m2/s],out_flow [m2/s]\n"));
   while (fgets(line, sizeof line, file)) {
     double value[COLUMNS];
