@@ -35,12 +35,12 @@ PetscErrorCode FluidPotentialEnergy(Fluid f, double *energy)
   for (int k = 0; k < n * f->domain.mesh->ne; k++) {
     const EquationOfState *state = &f->setup.phases.state[k % n];
     Polygon part;
-    double moment[2];
+    double moment[2], share;
     if (!(volume[k] > 0.0)) continue;
-    PetscCall(PhasesGetPolygon(phases, k / n, k % n, &part));
+    PetscCall(PhasesGetExtent(phases, k / n, k % n, &part, &share));
     PolygonMoment(&part, moment);
     const double rho = state->pressure > 0.0 ? mass[k] / volume[k] : f->setup.phases.rho[k % n];
-    *energy -= rho * (g[0] * moment[0] + g[1] * moment[1]);
+    *energy -= share * rho * (g[0] * moment[0] + g[1] * moment[1]);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, energy, 1, MPI_DOUBLE, MPI_SUM, f->domain.mesh->comm));
   PetscFunctionReturn(0);

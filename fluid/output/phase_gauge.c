@@ -10,15 +10,16 @@ static void Barycentric(const ElementGeometry *g, const double corner[2], const 
     n[i] = (i == 0) + g->g[i][0] * (x[0] - corner[0]) + g->g[i][1] * (x[1] - corner[1]);
 }
 
-/* The polygon in element e, of velocity u[2][3]. */
-static void AddPolygon(const Mesh *m, int e, const Polygon *part, const double u[6], double sum[SUMS])
+/* This share of the polygon in element e, of velocity u[2][3]. */
+static void AddPolygon(const Mesh *m, int e, const Polygon *part, double share, const double u[6],
+                       double sum[SUMS])
 {
   ElementGeometry g;
   const double *corner = ElementVertex(m, e, 0);
   ElementGeometryCompute(corner, ElementVertex(m, e, 1), ElementVertex(m, e, 2), &g);
   for (int k = 1; k + 1 < part->n; k++) {
     const double *x[3] = {part->x[0], part->x[k], part->x[k + 1]};
-    const double area = 0.5 * GeometryTurn(x[0], x[1], x[2]);
+    const double area = 0.5 * share * GeometryTurn(x[0], x[1], x[2]);
     double n[3];
     sum[AREA] += area;
     for (int i = 0; i < 3; i++) {
@@ -40,8 +41,9 @@ PetscErrorCode PhaseMeasureOf(Fluid fluid, int phase, PhaseMeasure *measure)
   PetscFunctionBeginUser;
   for (int e = 0; e < m->ne; e++) {
     Polygon part;
-    PetscCall(PhasesGetPolygon(phases, e, phase, &part));
-    if (part.n) AddPolygon(m, e, &part, u + 6 * e, sum);
+    double share;
+    PetscCall(PhasesGetExtent(phases, e, phase, &part, &share));
+    if (part.n) AddPolygon(m, e, &part, share, u + 6 * e, sum);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, SUMS, MPI_DOUBLE, MPI_SUM, m->comm));
   *measure = (PhaseMeasure){.area = sum[AREA]};

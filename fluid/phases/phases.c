@@ -12,6 +12,7 @@ PetscErrorCode PhasesCreate(const Stars *stars, int np, Phases *phases)
   PetscCall(PetscCalloc1((size_t)stars->nl * (size_t)np, &f->volume));
   PetscCall(PetscCalloc1((size_t)stars->nl * (size_t)(np - 1), &f->line));
   PetscCall(PetscCalloc1(stars->nl, &f->single));
+  PetscCall(PetscCalloc1(stars->nl, &f->spread));
   *phases = f;
   PetscFunctionReturn(0);
 }
@@ -24,6 +25,7 @@ PetscErrorCode PhasesDestroy(Phases *phases)
   PetscCall(PetscFree(f->volume));
   PetscCall(PetscFree(f->line));
   PetscCall(PetscFree(f->single));
+  PetscCall(PetscFree(f->spread));
   PetscCall(PetscFree(f->state));
   PetscCall(PetscFree(f->mass));
   PetscCall(PetscFree(f->density));
@@ -71,6 +73,11 @@ PetscErrorCode PhasesGetVolumes(Phases f, const double *volume[])
 int PhasesSingle(Phases f, int e)
 {
   return f->single[e];
+}
+
+int PhasesSpread(Phases f, int e)
+{
+  return f->spread[e];
 }
 
 static int IsTrivial(const HalfPlane *h)
@@ -132,6 +139,20 @@ PetscErrorCode PhasesGetPolygon(Phases f, int e, int p, Polygon *polygon)
   PhasesPart(f, e, p, x, polygon);
   for (int k = 0; k < polygon->n; k++) {
     for (int c = 0; c < 2; c++) polygon->x[k][c] += x[c];
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PhasesGetExtent(Phases f, int e, int p, Polygon *polygon, double *share)
+{
+  static const double ORIGIN[2] = {0.0, 0.0};
+  PetscFunctionBeginUser;
+  *share = 1.0;
+  if (f->spread[e]) {
+    PolygonTriangle((const double(*)[2])f->stars->element[e].x, ORIGIN, polygon);
+    *share = f->volume[(size_t)e * (size_t)f->np + (size_t)p] / StarsArea(f->stars, e);
+  } else {
+    PetscCall(PhasesGetPolygon(f, e, p, polygon));
   }
   PetscFunctionReturn(0);
 }
@@ -235,6 +256,12 @@ void PhasesSplitBy(int np, int single, const HalfPlane line[], const double x0[2
 void PhasesSplit(Phases f, int e, const Polygon *polygon, const double origin[2], double weight,
                  double area[])
 {
+  if (f->spread[e]) {
+    const double *volume = &f->volume[(size_t)e * (size_t)f->np];
+    const double share = weight * PolygonArea(polygon) / StarsArea(f->stars, e);
+    for (int p = 0; p < f->np; p++) area[p] += share * volume[p];
+    return;
+  }
   PhasesSplitBy(f->np, f->single[e], &f->line[(size_t)e * (size_t)(f->np - 1)], f->stars->element[e].x[0],
                 polygon, origin, weight, area);
 }

@@ -74,6 +74,11 @@ PetscErrorCode PhasesReconstruct(Phases phases);
 PetscErrorCode PhasesGetPolygon(Phases phases, int e, int p, Polygon *polygon);
 /* Not collective.  The single phase of local element e, -1 if it is cut, as of the last PhasesReconstruct. */
 int PhasesSingle(Phases phases, int e);
+/* Not collective.  Whether local element e has a fragment of no known place in it, which moves as if it were everywhere, as of the
+ * last PhasesReconstruct. */
+int PhasesSpread(Phases phases, int e);
+/* Not collective.  Where phase p of owned element e is when it moves: *share of this polygon, 1 unless it is spread. */
+PetscErrorCode PhasesGetExtent(Phases phases, int e, int p, Polygon *polygon, double *share);
 
 /* Not collective.  The inertia of owned element e with phases of density rho[nphases], kg/m3.  condense: with
  * a ridge for each line (inertia.h). */

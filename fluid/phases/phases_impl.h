@@ -24,6 +24,8 @@ struct Phases_s {
   double *volume;  /* [nl][np] m2 */
   HalfPlane *line; /* [nl][np - 1] */
   int *single;     /* [nl] the only phase, or -1 */
+  char *
+      spread; /* [nl] whether what is moved has the phases' shares everywhere, not by lines (reconstruct.c) */
   /* NULL: all phases are incompressible */
   EquationOfState *state;        /* [np] */
   double *mass, *density;        /* [nl][np] kg, kg/m3; of incompressible phases nothing, and theirs */

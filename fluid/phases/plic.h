@@ -112,4 +112,18 @@ static inline HalfPlane PlicFit(int n, const PlicCell cell[])
   }
   return best.line;
 }
+
+/* Whether the line tells the cells around no better than none would: E above that of A_J = 0 and that of A_J = rest_J. */
+static inline int PlicIsBlind(int n, const PlicCell cell[], const HalfPlane *line)
+{
+  double energy = 0.0, none = 0.0, all = 0.0;
+  for (int j = 1; j < n; j++) {
+    const PlicCell *c = &cell[j];
+    const double e = (PolygonCutBy(&c->part, c->rest, line).area - c->volume) / c->area;
+    energy += e * e;
+    none += c->volume * c->volume / (c->area * c->area);
+    all += (c->rest - c->volume) * (c->rest - c->volume) / (c->area * c->area);
+  }
+  return energy > PLIC_CURVED + fmin(none, all);
+}
 #endif

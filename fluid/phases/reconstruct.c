@@ -1,5 +1,12 @@
 /* Lines in cut elements, one phase after the other: line p is fitted to what lines 0 .. p - 1 leave in the
- * element and around it, so that layers and T-junctions of straight interfaces are found as well. */
+ * element and around it, so that layers and T-junctions of straight interfaces are found as well.
+ *
+ * Of a phase of which the element K and those around it hold less than one element, the fragment,
+ *
+ *     sum_J V_J < |K| sum_J open_J |J| / sum_J |J|,     open: what a solid leaves, 0 .. 1
+ *
+ * the elements around may say nothing (PlicIsBlind).  Its line would be at the same corner of K in each step, wherever the fragment has got
+ * to.  It is spread: what a face sweeps of K holds V_p/|K| of each phase p. */
 #include "fluid/phases/phases_impl.h"
 
 static double *VolumeOf(Phases f, int e)
@@ -43,6 +50,23 @@ static void SetCell(Phases f, int e, int p, const double origin[2], PlicCell *ce
   cell->volume = VolumeOf(f, e)[p];
 }
 
+/* The elements that share a vertex with e, and e. */
+static int ListAround(const Stars *s, int e, int list[PLIC_CELLS])
+{
+  int n = 1;
+  list[0] = e;
+  for (int i = 0; i < 3; i++) {
+    const int v = s->vertex[e][i];
+    for (int k = s->start[v]; k < s->start[v + 1] && n < PLIC_CELLS; k++) {
+      const int j = s->around[k] / 3;
+      int known = 0;
+      for (int m = 0; m < n; m++) known |= list[m] == j;
+      if (!known) list[n++] = j;
+    }
+  }
+  return n;
+}
+
 /* Owned element e and those around it that earlier phases leave something of; around an element without a solid as if what solids cover were
  * like what they leave. */
 static int Gather(Phases f, int e, int p, PlicCell cell[PLIC_CELLS])
@@ -50,23 +74,36 @@ static int Gather(Phases f, int e, int p, PlicCell cell[PLIC_CELLS])
   const Stars *s = f->stars;
   const double *origin = s->element[e].x[0];
   const int beside = PhasesOpen(f, e) == 1.0;
-  int n = 1, seen[PLIC_CELLS] = {e};
+  int around[PLIC_CELLS], n = 1;
+  const int m = ListAround(s, e, around);
   SetCell(f, e, p, origin, &cell[0]);
-  for (int i = 0; i < 3; i++) {
-    const int v = s->vertex[e][i];
-    for (int k = s->start[v]; k < s->start[v + 1] && n < PLIC_CELLS; k++) {
-      const int j = s->around[k] / 3;
-      int known = 0;
-      for (int m = 0; m < n; m++) known |= seen[m] == j;
-      if (known) continue;
-      if (beside && PhasesOpen(f, j) < PHASES_LEAST_OPEN) continue;
-      SetCell(f, j, p, origin, &cell[n]);
-      if (beside && PhasesOpen(f, j) < 1.0) cell[n].volume = fmin(cell[n].rest, PhasesVolumeBeside(f, j, p));
-      if (!(cell[n].rest > PHASES_TINY * cell[n].area)) continue;
-      seen[n++] = j;
-    }
+  for (int k = 1; k < m; k++) {
+    const int j = around[k];
+    if (beside && PhasesOpen(f, j) < PHASES_LEAST_OPEN) continue;
+    SetCell(f, j, p, origin, &cell[n]);
+    if (beside && PhasesOpen(f, j) < 1.0) cell[n].volume = fmin(cell[n].rest, PhasesVolumeBeside(f, j, p));
+    if (cell[n].rest > PHASES_TINY * cell[n].area) n++;
   }
   return n;
+}
+
+/* Whether all phases but one that owned element e has, at most, are fragments. */
+static int HasFragments(Phases f, int e)
+{
+  const Stars *s = f->stars;
+  const double own = StarsArea(s, e);
+  double sum[PHASES_MAX] = {0.0}, room = 0.0, all = 0.0;
+  int list[PLIC_CELLS], others = 0;
+  const int n = ListAround(s, e, list);
+  for (int k = 0; k < n; k++) {
+    const double area = StarsArea(s, list[k]);
+    room += PhasesOpen(f, list[k]) * area;
+    all += area;
+    for (int p = 0; p < f->np; p++) sum[p] += VolumeOf(f, list[k])[p];
+  }
+  for (int p = 0; p < f->np; p++)
+    others += VolumeOf(f, e)[p] >= PHASES_TINY * own && sum[p] * all >= own * room;
+  return others <= 1;
 }
 
 static HalfPlane FitLine(Phases f, int e, int p, PlicCell cell[])
@@ -77,7 +114,9 @@ static HalfPlane FitLine(Phases f, int e, int p, PlicCell cell[])
   if (v[p] < PHASES_TINY * area) return (HalfPlane){{0.0, 0.0}, -1.0};
   if (behind < PHASES_TINY * area) return (HalfPlane){{0.0, 0.0}, 1.0};
   const int n = Gather(f, e, p, cell);
-  return PlicFit(n, cell);
+  const HalfPlane line = PlicFit(n, cell);
+  if (HasFragments(f, e)) f->spread[e] |= PlicIsBlind(n, cell, &line);
+  return line;
 }
 
 PetscErrorCode PhasesReconstruct(Phases f)
@@ -87,6 +126,7 @@ PetscErrorCode PhasesReconstruct(Phases f)
   PetscFunctionBeginUser;
   PetscCall(StarsExchange(s, (size_t)f->np * sizeof *f->volume, f->volume));
   for (int e = 0; e < s->nl; e++) f->single[e] = SingleOf(f, e);
+  PetscCall(PetscArrayzero(f->spread, s->nl));
   PetscCall(PhasesUpdateDensities(f));
   PetscCall(PetscMalloc1(PLIC_CELLS, &cell));
   for (int p = 0; p + 1 < f->np; p++) {
@@ -96,6 +136,7 @@ PetscErrorCode PhasesReconstruct(Phases f)
     PetscCall(StarsExchange(s, (size_t)(f->np - 1) * sizeof *f->line, f->line));
   }
   PetscCall(PetscFree(cell));
+  PetscCall(StarsExchange(s, sizeof *f->spread, f->spread));
   f->has_lines = PETSC_TRUE;
   PetscFunctionReturn(0);
 }

@@ -9,7 +9,8 @@ typedef struct {
   int single;
   double area;
   double volume[PHASES_MAX];
-  double defect[PHASES_MAX]; /* volume less that of the polygon, over the element's area */
+  double defect
+      [PHASES_MAX]; /* volume less that of the polygon, over the element's area; all of what is spread */
   double mass[PHASES_MAX];
   HalfPlane line[PHASES_MAX - 1];
 } Load;
@@ -19,15 +20,16 @@ static void SetLoad(Phases f, int e, Load *load)
   const double(*x)[2] = (const double(*)[2])f->stars->element[e].x;
   Polygon whole;
   double area[PHASES_MAX] = {0.0};
-  *load = (Load){.single = f->single[e], .area = StarsArea(f->stars, e)};
+  const HalfPlane *line = &f->line[(size_t)e * (size_t)(f->np - 1)];
+  *load = (Load){.single = f->spread[e] ? 0 : f->single[e], .area = StarsArea(f->stars, e)};
   PolygonTriangle(x, x[0], &whole);
-  PhasesSplit(f, e, &whole, x[0], 1.0, area);
+  PhasesSplitBy(f->np, load->single, line, x[0], &whole, x[0], 1.0, area);
   for (int p = 0; p < f->np; p++) {
     load->volume[p] = f->volume[(size_t)e * (size_t)f->np + (size_t)p];
     load->defect[p] = (load->volume[p] - area[p]) / load->area;
     if (f->mass) load->mass[p] = f->mass[(size_t)e * (size_t)f->np + (size_t)p];
   }
-  for (int p = 0; p + 1 < f->np; p++) load->line[p] = f->line[(size_t)e * (size_t)(f->np - 1) + (size_t)p];
+  for (int p = 0; p + 1 < f->np; p++) load->line[p] = line[p];
 }
 
 /* mass[np] += by the share of each phase's volume in `common`, or, of what has hardly any volume, by its share of the element. */

@@ -3,7 +3,7 @@
 #include "common/supermesh/search.h"
 #include "fluid/flow/fluid_impl.h"
 
-/* Of an element, what of all phases but one is the tail of a smeared interface. */
+/* Of an element, what of all phases but one is the tail of a smeared interface or of a spread fragment. */
 #define TAIL 1e-3
 
 /* Where a piece of the surface is and where it will be at the next adaptation, and the size that it wants. */
@@ -25,7 +25,7 @@ static double DensityRange(Fluid f, int e)
   return low + high;
 }
 
-/* Whether element e has more than one phase; of a smeared interface, more than its tail. */
+/* Whether element e has more than one phase; of what is smeared, more than its tail. */
 static PetscBool OfInterface(Fluid f, int e)
 {
   int n;
@@ -33,7 +33,8 @@ static PetscBool OfInterface(Fluid f, int e)
   double most = 0.0;
   if (PhasesSingle(PhaseTransportPhases(f->phases), e) >= 0) return PETSC_FALSE;
   for (int p = 0; p < n; p++) most = fmax(most, volume[n * e + p]);
-  return (PetscBool)(f->setup.phases.advection == PHASES_GEOMETRIC ||
+  return (PetscBool)((f->setup.phases.advection == PHASES_GEOMETRIC &&
+                      !PhasesSpread(PhaseTransportPhases(f->phases), e)) ||
                      most < (1.0 - TAIL) * f->domain.geometry[e].area);
 }
 
