@@ -1,12 +1,9 @@
 /* Lines in cut elements, one phase after the other: line p is fitted to what lines 0 .. p - 1 leave in the
  * element and around it, so that layers and T-junctions of straight interfaces are found as well.
  *
- * Of a phase of which the element K and those around it hold less than one element, the fragment,
- *
- *     sum_J V_J < |K| sum_J open_J |J| / sum_J |J|,     open: what a solid leaves, 0 .. 1
- *
- * the elements around may say nothing (PlicIsBlind).  Its line would be at the same corner of K in each step, wherever the fragment has got
- * to.  It is spread: what a face sweeps of K holds V_p/|K| of each phase p. */
+ * Of a phase of which the element K and those around it hold less than |K|, a fragment, the elements around may say nothing (PlicIsBlind).
+ * Its line would be at the same corner of K in each step, wherever the fragment has got to.  It is spread: what a face sweeps of K holds
+ * V_p/|K| of each phase p.  Beside a solid lines stay: what its surface cuts has slivers of phases that are at rest. */
 #include "fluid/phases/phases_impl.h"
 
 static double *VolumeOf(Phases f, int e)
@@ -87,22 +84,18 @@ static int Gather(Phases f, int e, int p, PlicCell cell[PLIC_CELLS])
   return n;
 }
 
-/* Whether all phases but one that owned element e has, at most, are fragments. */
+/* Whether all phases but one that owned element e has, at most, are fragments; beside a solid none is. */
 static int HasFragments(Phases f, int e)
 {
-  const Stars *s = f->stars;
-  const double own = StarsArea(s, e);
-  double sum[PHASES_MAX] = {0.0}, room = 0.0, all = 0.0;
+  const double area = StarsArea(f->stars, e);
+  double sum[PHASES_MAX] = {0.0};
   int list[PLIC_CELLS], others = 0;
-  const int n = ListAround(s, e, list);
+  const int n = ListAround(f->stars, e, list);
   for (int k = 0; k < n; k++) {
-    const double area = StarsArea(s, list[k]);
-    room += PhasesOpen(f, list[k]) * area;
-    all += area;
+    if (PhasesOpen(f, list[k]) < 1.0) return 0;
     for (int p = 0; p < f->np; p++) sum[p] += VolumeOf(f, list[k])[p];
   }
-  for (int p = 0; p < f->np; p++)
-    others += VolumeOf(f, e)[p] >= PHASES_TINY * own && sum[p] * all >= own * room;
+  for (int p = 0; p < f->np; p++) others += VolumeOf(f, e)[p] >= PHASES_TINY * area && sum[p] >= area;
   return others <= 1;
 }
 
