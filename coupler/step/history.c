@@ -9,8 +9,9 @@ static PetscErrorCode Resize(History *h, const SolidState *solid)
 
   PetscFunctionBeginUser;
   PetscCall(HistoryDestroy(h));
-  PetscCall(PetscMalloc6(n, &h->gid, n, &h->acceleration, n, &h->earlier, n, &h->lasting, n, &h->outside, n,
-                         &h->retained));
+  PetscCall(PetscMalloc7(n, &h->gid, n, &h->acceleration, n, &h->earlier, n, &h->lasting, n, &h->outside, n,
+                         &h->against, n, &h->retained));
+  PetscCall(PetscArrayzero(h->against, n));
   PetscCall(PetscArraycpy(h->gid, solid->gid, n));
   PetscCall(PetscArrayzero(h->acceleration, n));
   PetscCall(PetscArrayzero(h->earlier, n));
@@ -29,7 +30,7 @@ static double Common(const double a[2], const double b[2])
 }
 
 PetscErrorCode HistoryStep(History *h, const SolidState *moved, double dt, const double start[],
-                           const double outside[])
+                           const double outside[], const double against[])
 {
   int changed = moved->changed;
   double(*before)[2][2]; /* a^{n-1}, a^{n-2} */
@@ -50,6 +51,7 @@ PetscErrorCode HistoryStep(History *h, const SolidState *moved, double dt, const
     for (int c = 0; c < 2; c++) {
       a[c] = (moved->u[2 * i + c] - start[2 * i + c]) / dt;
       h->outside[i][c] = outside[2 * i + c];
+      h->against[i][c] = against[2 * i + c];
     }
     const double part = same ? fmin(Common(a, before[i][0]), Common(a, before[i][1])) : 1.0;
     for (int c = 0; c < 2; c++) {
@@ -66,7 +68,8 @@ enum {
   EARLIER = ACCELERATION + 2,
   LASTING = EARLIER + 2,
   OUTSIDE = LASTING + 2,
-  RETAINED = OUTSIDE + 2,
+  AGAINST = OUTSIDE + 2,
+  RETAINED = AGAINST + 2,
   NCOLUMNS = RETAINED + 2
 };
 
@@ -94,6 +97,7 @@ PetscErrorCode HistorySave(const History *h, Checkpoint to)
       value[i][EARLIER + c] = h->earlier[i][c];
       value[i][LASTING + c] = h->lasting[i][c];
       value[i][OUTSIDE + c] = h->outside[i][c];
+      value[i][AGAINST + c] = h->against[i][c];
       value[i][RETAINED + c] = h->retained[i][c];
     }
   PetscCall(CheckpointPutIndices(to, "history nodes", h->n, 1, h->gid));
@@ -145,6 +149,7 @@ PetscErrorCode HistoryLoad(History *h, const SolidState *solid, Checkpoint from)
       h->earlier[i][c] = found->value[EARLIER + c];
       h->lasting[i][c] = found->value[LASTING + c];
       h->outside[i][c] = found->value[OUTSIDE + c];
+      h->against[i][c] = found->value[AGAINST + c];
       for (const Row *r = found; CopiesIsFirst(copies, i) && r < end && r->gid == key.gid; r++)
         h->retained[i][c] += r->value[RETAINED + c];
     }
@@ -157,7 +162,7 @@ PetscErrorCode HistoryLoad(History *h, const SolidState *solid, Checkpoint from)
 PetscErrorCode HistoryDestroy(History *h)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscFree6(h->gid, h->acceleration, h->earlier, h->lasting, h->outside, h->retained));
+  PetscCall(PetscFree7(h->gid, h->acceleration, h->earlier, h->lasting, h->outside, h->against, h->retained));
   h->n = 0;
   h->known = PETSC_FALSE;
   PetscFunctionReturn(0);

@@ -3,7 +3,8 @@
  *     min(1, max(0, a^n.a^{n-1}/|a^n|^2), max(0, a^n.a^{n-2}/|a^n|^2)) a^n,
  *
  * which predicts the velocity at the end of the coming step; their acceleration by what is outside of the solid but moves its inside
- * too, the shell's reaction (inertia.h) and the load of the pressure outside, if there is one (pressure_load.h); and the
+ * too, the shell's reaction (inertia.h) and the load of the pressure outside, if there is one (pressure_load.h); that which holds them against
+ * the fluid inside, minus the rest of the fluid's force over their mass; and the
  * momentum that the fluid inside has kept of its slip (slip.h), which the caller adds after HistoryStep.  In checkpoints.
  *
  * With all of a^n vibrations that alternate from step to step grow where the fluid's friction stops a wall within a step (a skin of
@@ -24,14 +25,15 @@ typedef struct {
   double (*earlier)[2];      /* [n] of the step before, m/s2 */
   double (*lasting)[2];      /* [n] m/s2 */
   double (*outside)[2];      /* [n] m/s2 */
+  double (*against)[2];      /* [n] m/s2 */
   double (*retained)[2];     /* [n] kg m/s, known after cracks, too; each copy of a node has a part of it */
 } History;                   /* zero-initialise but for comm: nothing is known */
 
 /* Collective: a step of dt seconds has ended with `moved`; start[n][2]: the velocity at its start, m/s;
- * outside[n][2]: that acceleration by what is outside, m/s2.  After cracks, which make other nodes, nothing
+ * outside[n][2], against[n][2]: those accelerations, m/s2.  After cracks, which make other nodes, nothing
  * is known but what is retained, 0 at first. */
 PetscErrorCode HistoryStep(History *h, const SolidState *moved, double dt, const double start[],
-                           const double outside[]);
+                           const double outside[], const double against[]);
 /* Collective.  Load gives this rank's nodes, those of `solid`, what any rank has saved of them; 0 for nodes
  * that nobody has. */
 PetscErrorCode HistorySave(const History *h, Checkpoint to);
