@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# A drop smaller than an element falls, as far with a quarter of the step and on two ranks and after a resume, and as its velocity says; its volume
+# A drop smaller than an element falls, as far with half of the step and on two ranks and after a resume, and as its velocity says; its volume
 # is kept, and kinetic and potential energy together do not grow.  Usage: fragment.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
 case=$here/fragment.yaml
 must long 1:1:1
-must short 1:1:1 --set time.dt_max=0.0005
+must short 1:1:1 --set time.dt_max=0.001
 must two 2:1:1
 must half 1:1:1 --set time.end=0.07
 must half 1:1:1 --set resume=last

@@ -204,7 +204,7 @@ int main(int argc, char **argv)
 {
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   print = argc > 1;
-  for (int steps = 16; steps <= 256; steps *= 4) {
+  for (int steps = 16; steps <= 64; steps *= 4) {
     PetscCall(MovesAlike("drop", 2, 0, 1, steps));
     PetscCall(MovesAlike("bubble", 2, 1, 0, steps));
     PetscCall(MovesAlike("second of three", 3, 1, 2, steps));
