@@ -1,4 +1,5 @@
 #include "common/mesh/mesh.h"
+#include "common/exchange/union_find.h"
 #include <string.h>
 
 int MeshTagIndex(const Mesh *mesh, const char *name)
@@ -27,13 +28,6 @@ PetscErrorCode MeshDestroy(Mesh **mesh)
   PetscFunctionReturn(0);
 }
 
-/* The first vertex of the component that v is known to belong to; the way there is shortened. */
-static int Root(int root[], int v)
-{
-  while (root[v] != v) v = root[v] = root[root[v]];
-  return v;
-}
-
 PetscErrorCode MeshSerialComponents(const MeshSerial *mesh, int *components)
 {
   int *root;
@@ -41,11 +35,8 @@ PetscErrorCode MeshSerialComponents(const MeshSerial *mesh, int *components)
   PetscCall(PetscMalloc1(mesh->nv, &root));
   for (int v = 0; v < mesh->nv; v++) root[v] = v;
   *components = mesh->nv;
-  for (int k = 0; k < 3 * mesh->ne; k++) {
-    const int a = Root(root, mesh->vertex[k]), b = Root(root, mesh->vertex[k - k % 3]);
-    if (a != b) --*components;
-    root[a > b ? a : b] = a > b ? b : a;
-  }
+  for (int k = 0; k < 3 * mesh->ne; k++)
+    *components -= UnionFindJoin(root, mesh->vertex[k], mesh->vertex[k - k % 3]);
   PetscCall(PetscFree(root));
   PetscFunctionReturn(0);
 }

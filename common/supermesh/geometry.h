@@ -104,15 +104,26 @@ static inline void GeometryBarycentric(const double x[3][2], const double p[2], 
   n[0] = 1.0 - n[1] - n[2];
 }
 
+/* The place s on a + s (b - a), 0 .. 1, that is nearest to p; 0 where b is a. */
+static inline double GeometrySegmentPlace(const double a[2], const double b[2], const double p[2])
+{
+  const double d[2] = {b[0] - a[0], b[1] - a[1]}, square = d[0] * d[0] + d[1] * d[1];
+  return fmin(fmax(((p[0] - a[0]) * d[0] + (p[1] - a[1]) * d[1]) / fmax(square, 1e-300), 0.0), 1.0);
+}
+
+/* Of p from a + s (b - a), m. */
+static inline double GeometryDistanceAt(const double a[2], const double b[2], double s, const double p[2])
+{
+  return hypot(p[0] - a[0] - s * (b[0] - a[0]), p[1] - a[1] - s * (b[1] - a[1]));
+}
+
 /* Of a point from the triangle's sides, m. */
 static inline double GeometrySideDistance(const double x[3][2], const double p[2])
 {
   double least = HUGE_VAL;
   for (int i = 0; i < 3; i++) {
     const double *a = x[i], *b = x[(i + 1) % 3];
-    const double d[2] = {b[0] - a[0], b[1] - a[1]}, r[2] = {p[0] - a[0], p[1] - a[1]};
-    const double s = fmin(fmax((r[0] * d[0] + r[1] * d[1]) / (d[0] * d[0] + d[1] * d[1]), 0.0), 1.0);
-    least = fmin(least, hypot(r[0] - s * d[0], r[1] - s * d[1]));
+    least = fmin(least, GeometryDistanceAt(a, b, GeometrySegmentPlace(a, b, p), p));
   }
   return least;
 }

@@ -1,5 +1,6 @@
 #include "coupler/geometry/gauges.h"
 #include "common/link/case_key.h"
+#include "common/supermesh/geometry.h"
 #include <limits.h>
 #include <math.h>
 
@@ -43,12 +44,9 @@ static const double *End(const SolidState *solid, int facet, int i)
 static double Nearest(const SolidState *solid, int facet, const double point[2], double *s, double *length)
 {
   const double *a = End(solid, facet, 0), *b = End(solid, facet, 1);
-  const double along[2] = {b[0] - a[0], b[1] - a[1]};
-  const double square = along[0] * along[0] + along[1] * along[1];
-  const double place = ((point[0] - a[0]) * along[0] + (point[1] - a[1]) * along[1]) / fmax(square, 1e-300);
-  *s = fmin(fmax(place, 0.0), 1.0);
-  *length = sqrt(square);
-  return hypot(a[0] + *s * along[0] - point[0], a[1] + *s * along[1] - point[1]);
+  *s = GeometrySegmentPlace(a, b, point);
+  *length = hypot(b[0] - a[0], b[1] - a[1]);
+  return GeometryDistanceAt(a, b, *s, point);
 }
 
 /* Collective: the nearest facet on all ranks, of equally near ones that with the smallest id of its first node. */

@@ -66,8 +66,8 @@ static PetscErrorCode NewStep(Coupler c, const SolidState *solid)
   PetscFunctionReturn(0);
 }
 
-/* From the step before, or, of a node that is held, from the motion it is held to: the velocity at the end of this one, and the acceleration by all but the fluid inside
- * the solid, which the shell's reaction and the pressure outside are part of. */
+/* From the step before, or, of a node that is held, from the motion it is held to: the velocity at the end of this one; and the
+ * acceleration by all but the fluid inside the solid, which the shell's reaction and the pressure outside are part of. */
 static void Predict(Coupler c, const SolidState *solid)
 {
   const History *h = &c->history;
@@ -286,6 +286,7 @@ const double *CouplerPredictedVelocity(Coupler c)
 {
   return c->predicted;
 }
+
 const char *CouplerGiven(Coupler c)
 {
   return c->given;
@@ -295,6 +296,7 @@ const double *CouplerExplicitFraction(Coupler c)
 {
   return c->explicit_fraction;
 }
+
 PetscErrorCode CouplerSave(Coupler c, Checkpoint to)
 {
   PetscFunctionBeginUser;

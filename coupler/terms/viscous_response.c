@@ -1,11 +1,5 @@
 #include "coupler/terms/viscous_response.h"
-
-/* The local root of node i. */
-static int Root(int root[], int i)
-{
-  while (root[i] != i) i = root[i] = root[root[i]];
-  return i;
-}
+#include "common/exchange/union_find.h"
 
 /* label[nnodes]: the least number of the nodes that elements of any rank connect a node with. */
 static PetscErrorCode Label(MPI_Comm comm, const SolidState *solid, Copies nodes, double label[])
@@ -19,15 +13,15 @@ static PetscErrorCode Label(MPI_Comm comm, const SolidState *solid, Copies nodes
     label[i] = (double)solid->gid[i];
   }
   for (int k = 0; k < 3 * solid->nelements; k++)
-    root[Root(root, solid->element[k])] = Root(root, solid->element[k / 3 * 3]);
+    (void)UnionFindJoin(root, solid->element[k], solid->element[k - k % 3]);
   while (changed) {
     changed = 0;
     for (int i = 0; i < solid->nnodes; i++) {
-      double *least = &label[Root(root, i)];
+      double *least = &label[UnionFindRoot(root, i)];
       *least = fmin(*least, label[i]);
     }
     for (int i = 0; i < solid->nnodes; i++) {
-      const double least = label[Root(root, i)];
+      const double least = label[UnionFindRoot(root, i)];
       if (label[i] > least) changed = 1;
       label[i] = least;
     }

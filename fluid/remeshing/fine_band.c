@@ -123,11 +123,7 @@ static PetscErrorCode Sweeps(Fluid f, const FineBand *b, double near, int nv, in
 
 static double Distance(const Sweep *s, const double x[2])
 {
-  const double d[2] = {s->to[0] - s->from[0], s->to[1] - s->from[1]};
-  const double r[2] = {x[0] - s->from[0], x[1] - s->from[1]};
-  const double square = d[0] * d[0] + d[1] * d[1];
-  const double k = square > 0.0 ? fmin(fmax((r[0] * d[0] + r[1] * d[1]) / square, 0.0), 1.0) : 0.0;
-  return hypot(r[0] - k * d[0], r[1] - k * d[1]);
+  return GeometryDistanceAt(s->from, s->to, GeometrySegmentPlace(s->from, s->to, x), x);
 }
 
 PetscErrorCode FineBandSizes(Fluid f, const FineBand *b, int nv, double size[])
