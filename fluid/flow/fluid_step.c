@@ -6,7 +6,7 @@
  * state.  (0 is on the edge of stability: phases/README.md.) */
 #define GAS_OLD 0.98
 /* Of backward Euler, with which an abrupt start begins. */
-#define DAMPED_STEPS 2
+#define DAMPED_STEPS 4
 
 PetscErrorCode FluidSetMaterial(Fluid f, MaterialLevel level, const double rho[], const double mu[])
 {
@@ -225,6 +225,11 @@ PetscErrorCode FluidCorrect(Fluid f, double dt, const CoracleCorrection correcti
     PetscCall(VecRestoreArray(f->u_projected, &u));
   }
   PetscCall(FluidBudgetEnd(f, dt));
+  if (!f->phases) {
+    const ProjectionStep step = EndProjection(f, dt);
+    const double *mu = MaterialViscosity(f->material, MATERIAL_STEP);
+    PetscCall(ProjectionSolverAddRotational(f->projection, &step, mu, f->theta, f->p));
+  }
   SolidCouplingSetStarting(f->solid, PETSC_FALSE);
   f->u_previous = f->u;
   f->u = f->u_projected;

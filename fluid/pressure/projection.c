@@ -2,6 +2,7 @@
 #include "fluid/discretization/ghosted.h"
 #include "fluid/pressure/bulk_divergence.h"
 #include "fluid/pressure/pressure_solver.h"
+#include "fluid/pressure/rotational_increment.h"
 #include "fluid/pressure/weighted_projection.h"
 
 struct ProjectionSolver_s {
@@ -15,6 +16,7 @@ struct ProjectionSolver_s {
   int *fixed;     /* local P2 nodes (owned) where phi = 0 */
   char *is_fixed; /* [n] of the P2 space */
   WeightedProjection weighted;
+  RotationalIncrement rotational;
   char *is_weighted; /* [ne] whose block has the solid's inertia */
 };
 
@@ -157,6 +159,7 @@ PetscErrorCode ProjectionSolverCreate(const FluidDomain *domain, Vec like, Petsc
   PetscCall(FindFixed(s, &closed));
   PetscCall(PressureSolverCreate(domain, s->is_fixed, (PetscBool)(closed && !compressible), &s->solver));
   PetscCall(WeightedProjectionCreate(domain, &s->weighted));
+  PetscCall(RotationalIncrementCreate(domain, like, s->is_fixed, &s->rotational));
   PetscCall(PetscCalloc1(domain->mesh->ne, &s->is_weighted));
   *solver = s;
   PetscFunctionReturn(0);
@@ -174,6 +177,7 @@ PetscErrorCode ProjectionSolverDestroy(ProjectionSolver *solver)
   PetscCall(PetscFree(s->is_fixed));
   PetscCall(PetscFree(s->is_weighted));
   PetscCall(WeightedProjectionDestroy(&s->weighted));
+  PetscCall(RotationalIncrementDestroy(&s->rotational));
   PetscCall(PetscFree(*solver));
   PetscFunctionReturn(0);
 }
@@ -275,5 +279,13 @@ PetscErrorCode ProjectionSolverSubtract(ProjectionSolver s, const ProjectionStep
   }
   PetscCall(VecRestoreArray(velocity, &u));
   PetscCall(GhostedRestoreArrayRead(s->phi, &phi));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ProjectionSolverAddRotational(ProjectionSolver s, const ProjectionStep *step,
+                                             const double mu[], double theta, Vec p)
+{
+  PetscFunctionBeginUser;
+  PetscCall(RotationalIncrementAdd(s->rotational, s->divergence, mu, theta * step->dt, p));
   PetscFunctionReturn(0);
 }

@@ -42,4 +42,7 @@ PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *s
                                      int *iterations);
 /* velocity -= dt/rho grad phi (or the response of the solid's inertia), phi being that of the last solve. */
 PetscErrorCode ProjectionSolverSubtract(ProjectionSolver s, const ProjectionStep *step, Vec velocity);
+/* p += the rotational increment (rotational_increment.h) of the velocity of the last solve; mu[ne], Pa s; theta: of the viscous stress. */
+PetscErrorCode ProjectionSolverAddRotational(ProjectionSolver s, const ProjectionStep *step,
+                                             const double mu[], double theta, Vec p);
 #endif
