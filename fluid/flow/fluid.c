@@ -20,6 +20,7 @@ static PetscErrorCode CreateVectors(Fluid f)
   PetscCall(
       VecCreateGhost(m->comm, p2->nowned, PETSC_DETERMINE, p2->n - p2->nowned, p2->gid + p2->nowned, &f->p));
   PetscCall(VecDuplicate(f->p, &f->saved.p));
+  if (f->phases) PetscCall(VecDuplicate(f->p, &f->dynamic));
   PetscFunctionReturn(0);
 }
 
@@ -27,7 +28,7 @@ static PetscErrorCode DestroyVectors(Fluid f)
 {
   Vec *all[] = {&f->bulk,        &f->bulk_previous, &f->u,       &f->u_previous,       &f->u_star,
                 &f->u_projected, &f->mass_flux,     &f->saved.u, &f->saved.u_previous, &f->p,
-                &f->saved.p,     &f->outside};
+                &f->saved.p,     &f->outside,       &f->dynamic};
   PetscFunctionBeginUser;
   for (size_t k = 0; k < sizeof all / sizeof *all; k++) PetscCall(VecDestroy(all[k]));
   PetscFunctionReturn(0);

@@ -30,6 +30,8 @@ struct Fluid_s {
   Vec u, u_previous, u_star, u_projected, mass_flux;
   PetscBool prepared; /* FluidPrepareMomentum has been called for the step */
   Vec p;
+  Vec dynamic,
+      carried; /* with phases: what of p is not p_0, after a step; its share that the step begins with (viscous_share.h) */
   struct {
     double t, dt_previous;
     int damped;
@@ -71,6 +73,10 @@ PetscErrorCode FluidBalancePressure(Fluid f);
 PetscErrorCode FluidSetOpenPressure(Fluid f, double t);
 /* The same with the solid, whose inertia and motion of the coming step over dt take part. */
 PetscErrorCode FluidPredictPressure(Fluid f, double dt);
+/* Of a step with phases (viscous_share.h): the momentum equation, which is assembled, gets a share of the last dynamic pressure; velocity, what
+ * it has made of u, loses that again.  Not collective. */
+PetscErrorCode FluidLendPressure(Fluid f, double dt);
+PetscErrorCode FluidReturnPressure(Fluid f, double dt, Vec velocity);
 /* bulk = velocity + M^-1 (us - ms velocity), with ghosts left alone.  Not collective. */
 PetscErrorCode FluidBulkVelocity(Fluid f, Vec velocity, Vec bulk);
 /* budget.c, not collective. */

@@ -1,6 +1,7 @@
 /* What a fluid of several phases does differently. */
 #include "fluid/discretization/ghosted.h"
 #include "fluid/flow/fluid_impl.h"
+#include "fluid/pressure/viscous_share.h"
 #include "fluid/pressure/weighted_projection.h"
 
 /* Of an element, less than which beside a solid is none. */
@@ -250,6 +251,52 @@ PetscErrorCode FluidPredictPressure(Fluid f, double dt)
     PetscCall(SolvePressure(f, &step, from_zero, solid ? f->bulk : NULL));
   else
     PetscCall(Balance(f, PETSC_FALSE));
+  PetscFunctionReturn(0);
+}
+
+/* q[c][i] = chi grad p of the last dynamic pressure at the vertices of element e; false where it has no share. */
+static PetscBool ShareOfGradient(Fluid f, int e, double dt, const PetscScalar p[], double q[2][3])
+{
+  const double *rho = MaterialDensity(f->material, MATERIAL_STEP),
+               *mu = MaterialViscosity(f->material, MATERIAL_STEP);
+  const double share = ViscousShare(f->domain.geometry[e].area, rho[e], mu[e], dt);
+  double grad[3][2];
+  if (f->compressible || SolidCouplingAt(f->solid, e)) return PETSC_FALSE;
+  DomainGradient(&f->domain, e, p, grad);
+  for (int k = 0; k < 6; k++) q[k / 3][k % 3] = share * grad[k % 3][k / 3];
+  return PETSC_TRUE;
+}
+
+PetscErrorCode FluidLendPressure(Fluid f, double dt)
+{
+  const PetscScalar *p;
+  PetscFunctionBeginUser;
+  PetscCall(GhostedGetArrayRead(f->dynamic, &p));
+  for (int e = 0; e < f->domain.mesh->ne; e++) {
+    double q[2][3], load[6];
+    if (!ShareOfGradient(f, e, dt, p, q)) continue;
+    for (int c = 0; c < 2; c++) P1MassApply(-f->domain.geometry[e].area, q[c], load + 3 * c);
+    PetscCall(MomentumSolverAddLoad(f->momentum, e, load));
+  }
+  PetscCall(GhostedRestoreArrayRead(f->dynamic, &p));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode FluidReturnPressure(Fluid f, double dt, Vec velocity)
+{
+  const double *rho = MaterialDensity(f->material, MATERIAL_NEW);
+  const PetscScalar *p;
+  PetscScalar *u;
+  PetscFunctionBeginUser;
+  PetscCall(GhostedGetArrayRead(f->dynamic, &p));
+  PetscCall(VecGetArray(velocity, &u));
+  for (int e = 0; e < f->domain.mesh->ne; e++) {
+    double q[2][3];
+    if (!ShareOfGradient(f, e, dt, p, q)) continue;
+    for (int k = 0; k < 6; k++) u[6 * e + k] += dt / rho[e] * q[k / 3][k % 3];
+  }
+  PetscCall(VecRestoreArray(velocity, &u));
+  PetscCall(GhostedRestoreArrayRead(f->dynamic, &p));
   PetscFunctionReturn(0);
 }
 

@@ -146,7 +146,10 @@ PetscErrorCode FluidPrepareMomentum(Fluid f, double dt)
   }
   const MomentumStep step = StepOfMomentum(f, dt, outside);
   PetscCall(MomentumSolverAssemble(f->momentum, &step));
-  if (f->phases) PetscCall(GhostedRestoreArrayRead(f->outside, &outside));
+  if (f->phases) {
+    PetscCall(GhostedRestoreArrayRead(f->outside, &outside));
+    PetscCall(FluidLendPressure(f, dt));
+  }
   f->prepared = PETSC_TRUE;
   f->stats.seconds[ASSEMBLY] += MPI_Wtime() - start;
   PetscFunctionReturn(0);
@@ -195,8 +198,9 @@ PetscErrorCode FluidProject(Fluid f, double dt)
   const ProjectionStep step = EndProjection(f, dt);
   Vec phi;
   PetscFunctionBeginUser;
-  PetscCall(ProjectionSolverSolve(f->projection, &step, f->u_star, &phi, &f->stats.pressure_iterations));
   PetscCall(VecCopy(f->u_star, f->u_projected));
+  if (f->phases) PetscCall(FluidReturnPressure(f, dt, f->u_projected));
+  PetscCall(ProjectionSolverSolve(f->projection, &step, f->u_projected, &phi, &f->stats.pressure_iterations));
   PetscCall(ProjectionSolverSubtract(f->projection, &step, f->u_projected));
   PetscCall(VecAXPY(f->p, 1.0, phi));
   PetscCall(GhostedUpdate(f->p));
@@ -213,6 +217,7 @@ PetscErrorCode FluidCorrect(Fluid f, double dt, const CoracleCorrection correcti
     /* that of u_projected is not free of divergence where a held solid fills a part of an element */
     const ProjectionStep step = EndProjection(f, dt);
     PetscCall(FluidBulkVelocity(f, f->u_star, oldest_bulk));
+    PetscCall(FluidReturnPressure(f, dt, oldest_bulk));
     PetscCall(ProjectionSolverSubtract(f->projection, &step, oldest_bulk));
     f->bulk_previous = f->bulk;
     f->bulk = oldest_bulk;
@@ -225,7 +230,10 @@ PetscErrorCode FluidCorrect(Fluid f, double dt, const CoracleCorrection correcti
     PetscCall(VecRestoreArray(f->u_projected, &u));
   }
   PetscCall(FluidBudgetEnd(f, dt));
-  if (!f->phases) {
+  if (f->phases) {
+    PetscCall(VecCopy(ProjectionSolverLast(f->projection), f->dynamic));
+    PetscCall(GhostedUpdate(f->dynamic));
+  } else {
     const ProjectionStep step = EndProjection(f, dt);
     const double *mu = MaterialViscosity(f->material, MATERIAL_STEP);
     PetscCall(ProjectionSolverAddRotational(f->projection, &step, mu, f->theta, f->p));

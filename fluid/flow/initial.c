@@ -100,6 +100,7 @@ PetscErrorCode FluidSetInitial(Fluid f, double t, FieldFunction velocity, FieldF
   if (f->phases) {
     PetscCall(VecCopy(f->u, f->bulk));
     PetscCall(VecCopy(f->u, f->bulk_previous));
+    PetscCall(VecZeroEntries(f->dynamic));
   }
   PetscCall(GhostedGetArray(f->p, &p));
   for (int e = 0; e < m->ne; e++)

@@ -27,31 +27,34 @@ static PetscErrorCode LoadVelocity(Fluid f, const PetscInt row[], Checkpoint fro
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SavePressure(Fluid f, Checkpoint to)
+static PetscErrorCode SavePressure(Fluid f, Vec pressure, const char *name, Checkpoint to)
 {
   const Mesh *m = f->domain.mesh;
-  const double *p = FluidPressure(f);
+  const PetscScalar *p;
   double *nodes;
   PetscFunctionBeginUser;
+  PetscCall(GhostedGetArrayRead(pressure, &p));
   PetscCall(PetscMalloc1(6 * m->ne, &nodes));
   for (int k = 0; k < 6 * m->ne; k++) nodes[k] = p[f->domain.p2->node[k]];
-  PetscCall(CheckpointPutDoubles(to, "pressure", m->ne, 6, nodes));
+  PetscCall(CheckpointPutDoubles(to, name, m->ne, 6, nodes));
+  PetscCall(GhostedRestoreArrayRead(pressure, &p));
   PetscCall(PetscFree(nodes));
   PetscFunctionReturn(0);
 }
 
 /* Elements of this rank have all of its nodes, also those of other ranks. */
-static PetscErrorCode LoadPressure(Fluid f, const PetscInt row[], Checkpoint from)
+static PetscErrorCode LoadPressure(Fluid f, const PetscInt row[], Checkpoint from, const char *name,
+                                   Vec pressure)
 {
   const Mesh *m = f->domain.mesh;
   double *nodes;
   PetscScalar *p;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(6 * m->ne, &nodes));
-  PetscCall(MeshLoadDoubles(m, row, from, "pressure", 6, nodes));
-  PetscCall(GhostedGetArray(f->p, &p));
+  PetscCall(MeshLoadDoubles(m, row, from, name, 6, nodes));
+  PetscCall(GhostedGetArray(pressure, &p));
   for (int k = 0; k < 6 * m->ne; k++) p[f->domain.p2->node[k]] = nodes[k];
-  PetscCall(GhostedRestoreArray(f->p, &p));
+  PetscCall(GhostedRestoreArray(pressure, &p));
   PetscCall(PetscFree(nodes));
   PetscFunctionReturn(0);
 }
@@ -76,8 +79,9 @@ PetscErrorCode FluidSave(Fluid f, Checkpoint to)
   PetscCall(SaveMomentum(f, to));
   PetscCall(SaveVelocity(f->u, f->domain.mesh->ne, "velocity", to));
   PetscCall(SaveVelocity(f->u_previous, f->domain.mesh->ne, "previous velocity", to));
-  PetscCall(SavePressure(f, to));
+  PetscCall(SavePressure(f, f->p, "pressure", to));
   if (f->phases) {
+    PetscCall(SavePressure(f, f->dynamic, "dynamic pressure", to));
     PetscCall(PhaseTransportSave(f->phases, to));
     PetscCall(SaveVelocity(f->bulk, f->domain.mesh->ne, "bulk velocity", to));
     PetscCall(SaveVelocity(f->bulk_previous, f->domain.mesh->ne, "previous bulk velocity", to));
@@ -110,8 +114,9 @@ PetscErrorCode FluidLoad(Fluid f, const PetscInt row[], Checkpoint from)
   PetscCall(CheckpointGetDoubles(from, "starting momentum", 0, 1, 2, f->budget_start));
   PetscCall(LoadVelocity(f, row, from, "velocity", f->u));
   PetscCall(LoadVelocity(f, row, from, "previous velocity", f->u_previous));
-  PetscCall(LoadPressure(f, row, from));
+  PetscCall(LoadPressure(f, row, from, "pressure", f->p));
   if (f->phases) {
+    PetscCall(LoadPressure(f, row, from, "dynamic pressure", f->dynamic));
     PetscCall(PhaseTransportLoad(f->phases, row, from));
     PetscCall(LoadVelocity(f, row, from, "bulk velocity", f->bulk));
     PetscCall(LoadVelocity(f, row, from, "previous bulk velocity", f->bulk_previous));

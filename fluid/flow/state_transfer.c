@@ -29,16 +29,17 @@ static PetscErrorCode Velocities(Fluid from, Fluid to, Transfer transfer)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Pressure(Fluid from, Fluid to, Transfer transfer)
+/* of, a P2 field of `from`, to `into`, one of `to`. */
+static PetscErrorCode Pressure(Fluid from, Vec of, Fluid to, Vec into, Transfer transfer)
 {
   const PetscScalar *p;
   PetscScalar *q;
   PetscFunctionBeginUser;
-  PetscCall(GhostedGetArrayRead(from->p, &p));
-  PetscCall(GhostedGetArray(to->p, &q));
+  PetscCall(GhostedGetArrayRead(of, &p));
+  PetscCall(GhostedGetArray(into, &q));
   PetscCall(TransferP2(transfer, from->domain.p2, to->domain.p2, p, q));
-  PetscCall(GhostedRestoreArray(to->p, &q));
-  PetscCall(GhostedRestoreArrayRead(from->p, &p));
+  PetscCall(GhostedRestoreArray(into, &q));
+  PetscCall(GhostedRestoreArrayRead(of, &p));
   PetscFunctionReturn(0);
 }
 
@@ -110,7 +111,8 @@ static PetscErrorCode PhasePressure(Fluid from, Fluid to, Transfer transfer)
   PetscCall(VecCopy(to->p, still));
   PetscCall(VecAXPY(from->p, -1.0, p));
   PetscCall(GhostedUpdate(from->p));
-  PetscCall(Pressure(from, to, transfer));
+  PetscCall(Pressure(from, from->p, to, to->p, transfer));
+  PetscCall(Pressure(from, from->dynamic, to, to->dynamic, transfer));
   PetscCall(VecAYPX(to->p, -1.0, still));
   PetscCall(GhostedUpdate(to->p));
   PetscCall(VecDestroy(&p));
@@ -152,7 +154,7 @@ PetscErrorCode FluidTransfer(Fluid from, Fluid to)
     PetscCall(PhaseFlow(from, to, to->transfer));
   } else {
     PetscCall(Velocities(from, to, to->transfer));
-    PetscCall(Pressure(from, to, to->transfer));
+    PetscCall(Pressure(from, from->p, to, to->p, to->transfer));
     PetscCall(FluidSetOpenPressure(to, to->t)); /* to the last bit what a run that resumes sets */
   }
   PetscCall(TransferDestroy(&to->transfer));

@@ -278,3 +278,13 @@ PetscErrorCode MomentumSolverAssemble(MomentumSolver s, const MomentumStep *step
   PetscCall(GhostedRestoreArrayRead(step->mass_flux, &flux));
   PetscFunctionReturn(0);
 }
+
+PetscErrorCode MomentumSolverAddLoad(MomentumSolver s, int e, const double load[6])
+{
+  PetscScalar *sum;
+  PetscFunctionBeginUser;
+  PetscCall(VecGetArray(s->load, &sum));
+  for (int k = 0; k < 6; k++) sum[6 * e + k] += load[k];
+  PetscCall(VecRestoreArray(s->load, &sum));
+  PetscFunctionReturn(0);
+}

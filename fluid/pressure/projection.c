@@ -289,3 +289,8 @@ PetscErrorCode ProjectionSolverAddRotational(ProjectionSolver s, const Projectio
   PetscCall(RotationalIncrementAdd(s->rotational, s->divergence, mu, theta * step->dt, p));
   PetscFunctionReturn(0);
 }
+
+Vec ProjectionSolverLast(ProjectionSolver s)
+{
+  return s->phi;
+}

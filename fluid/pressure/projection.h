@@ -40,6 +40,8 @@ PetscErrorCode ProjectionSolverKeepFixed(ProjectionSolver s, Vec p);
 /* phi (borrowed, Pa, ghosts up to date) for the velocity u* (blocks [2][3] an element). */
 PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *step, Vec velocity, Vec *phi,
                                      int *iterations);
+/* phi of the last solve, borrowed. */
+Vec ProjectionSolverLast(ProjectionSolver s);
 /* velocity -= dt/rho grad phi (or the response of the solid's inertia), phi being that of the last solve. */
 PetscErrorCode ProjectionSolverSubtract(ProjectionSolver s, const ProjectionStep *step, Vec velocity);
 /* p += the rotational increment (rotational_increment.h) of the velocity of the last solve; mu[ne], Pa s; theta: of the viscous stress. */
