@@ -24,7 +24,7 @@ def speed(run):
     return [u * math.cos(angle) - v * math.sin(angle) for u, v in zip(column(run, "solid", "u1 [m/s]"), column(run, "solid", "v1 [m/s]"))]
 def acceleration(run):
     t, u = column(run, "solid", "t [s]"), speed(run)
-    first = next(k for k in range(len(t)) if t[k] > 0.15)
+    first = next(k for k in range(len(t)) if t[k] > 0.1)
     return (u[-1] - u[first]) / (t[-1] - t[first])
 for run, bound in ("stands", 0.02), ("ranks", 0.02), ("beneath_air", 0.04):
     force, u = column(run, "solid", "fy1 [N/m]")[-1], speed(run)[-1]
