@@ -3,6 +3,7 @@
 # another solid; and what cannot go on says so.  Usage: resume.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
+export OMPI_MCA_odls_base_sigkill_timeout=0 # s that mpirun waits for the other programs of one that was killed
 
 # kill_and_resume LABEL RANKS RANKS_AFTER [launch.sh arguments]: LABEL is killed after some steps and resumed.
 kill_and_resume() {
@@ -16,7 +17,7 @@ kill_and_resume() {
   pkill -9 -f "^[^ ]*coracle-coupler .*output.folder=$scratch/$label( |$)" || { echo "$label has ended before it could be killed"; exit 1; }
   wait $! && { echo "$label has survived"; exit 1; }
   cp "$scratch/$label.log" "$scratch/$label.killed.log"
-  must "$label" "$after" "$@" --set output.checkpoint=1e-9 --set resume=last
+  must "$label" "$after" "$@" --set resume=last
   grep -q "resumes from t" "$scratch/$label.log" || { echo "$label has begun anew:"; cat "$scratch/$label.log"; exit 1; }
 }
 
