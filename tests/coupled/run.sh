@@ -6,6 +6,8 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 python=$(command -v /usr/bin/python3 || command -v python3)
+# mpirun ends the other programs of a run that fails at once, not after a second; with that second: tests/route/bad_start.sh
+export OMPI_MCA_odls_base_sigkill_timeout=0
 export PYTHONPATH=$here${PYTHONPATH:+:$PYTHONPATH} PYTHONDONTWRITEBYTECODE=1 # results.py
 
 run() {
