@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Clients in C, C++ (11 and 20), Fortran and Python, compiled against an installed library alone, run and move as one another.
-# Usage: languages.sh ROOT BUILD PREFIX [gnu]     PREFIX: where the library is installed;  BUILD: whose fluid and coupler run;  gnu: one compiler a language
+# Usage: languages.sh ROOT BUILD PREFIX [gnu]     PREFIX: where the library is installed;  BUILD: whose fluid and coupler run;  gnu: one compiler and standard a language
 # Compilers and packages that are not there are passed over.
 set -euo pipefail
-prefix=$3 compilers=${4:-gnu clang}
+prefix=$3 compilers=${4:-gnu clang} standards=${4:+20}
 source "$1/tests/coupled/run.sh"
 templates=$root/cases/adapters
 PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name coracle-client.pc)")
@@ -24,7 +24,7 @@ compile() { # NAME COMPILER ARGUMENTS...: by MPI's wrapper of that compiler
 declare -A c=([gnu]=gcc [clang]=clang) cxx=([gnu]=g++ [clang]=clang++)
 for compiler in $compilers; do
   compile "c-$compiler" ${c[$compiler]} mpicc -std=gnu11 "$templates/template_c/rigid_disc.c"
-  for standard in 11 20; do
+  for standard in ${standards:-11 20}; do
     compile "c++$standard-$compiler" ${cxx[$compiler]} mpicxx -std=c++$standard -Wall -Wextra -Werror -Wno-unused-parameter \
       -I"$templates/template_c" "$root/tests/route/rigid_disc.cc"
   done
