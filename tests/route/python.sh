@@ -6,6 +6,7 @@ root=$1 build=$2 case=$3
 shift 3
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
+export OMPI_MCA_odls_base_sigkill_timeout=0 # s that mpirun waits for the other programs of one that failed
 start=$("$root/cases/adapters/build.sh" template_python "$build") # 77: packages are missing
 packages=$(dirname "$start")/installed/lib/python3/dist-packages
 
