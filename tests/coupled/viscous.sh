@@ -25,7 +25,7 @@ E2
 fi
 must turns 1:1:1
 must ranks 2:2:2
-must falls 2:2:2 --set time.end=0.15 --set 'gravity=[0.0, -1000.0]' --set time.cfl=1 --set 'fluid={density: 1000.0, viscosity: 1.0e4, mesh: {lower: [-0.5, -1.2], upper: [0.5, 1.2], size_max: 0.1}, adapt: {size_min: 0.015, size_max: 0.1, velocity_error: 0.001, every: 20}, boundaries: {left: no_slip, right: no_slip, bottom: no_slip, top: no_slip}}' \
+must falls 2:1:1 --set time.end=0.15 --set 'gravity=[0.0, -1000.0]' --set time.cfl=1 --set 'fluid={density: 1000.0, viscosity: 1.0e4, mesh: {lower: [-0.5, -1.2], upper: [0.5, 1.2], size_max: 0.1}, adapt: {size_min: 0.015, size_max: 0.1, velocity_error: 0.001, every: 20}, boundaries: {left: no_slip, right: no_slip, bottom: no_slip, top: no_slip}}' \
   --set solid.materials.m.density=1200 --set 'solid.bodies=[{shape: disc, centre: [0, 0], radius: 0.1, size: 0.025, material: m}]' --set coupler.shell_thickness=0.00075
 must rotates 1:1:1 "${ring[@]}" --set 'fluid={density: 1000.0, viscosity: 100.0, mesh: {lower: [-0.6, -0.6], upper: [0.6, 0.6], size_max: 0.06}, adapt: {size_min: 0.02, size_max: 0.06, velocity_error: 0.005, every: 20}, boundaries: {left: no_slip, right: no_slip, bottom: no_slip, top: no_slip}}'
 must holds 1:1:1 --set time.end=5 --set time.dt_max=0.02 --set time.cfl=1 --set 'fluid={density: 1000.0, viscosity: 1.0, mesh: {lower: [-0.6, 0.0], upper: [0.6, 1.0], size_max: 0.08}, adapt: {size_min: 0.02, size_max: 0.08, velocity_error: 0.005, every: 20}, probes: [{name: L, line: {from: [0.4, 0.0], to: [0.4, 1.0], points: 101}}], boundaries: {left: {pressure: 100.0, rise: 0.5}, right: open, bottom: no_slip, top: no_slip}}' \

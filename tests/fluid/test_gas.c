@@ -1,4 +1,4 @@
-// ranks: 1 2 3
+// ranks: 1 2
 /* Compressible phases in a closed box: the period of a standing wave of sound; a column of water that falls onto a cushion of gas
  * against the equation of motion of its mass between two springs (Bagnold 1939), on a mesh that stays and on one that adapts, and
  * with compressive advection; mass and volumes to round-off.  A mass below 0 is refused.

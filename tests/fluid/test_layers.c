@@ -1,4 +1,4 @@
-// ranks: 1 2 3
+// ranks: 1 2
 /* Three phases, 1060 : 800 : 1.2 kg/m3: layers at rest stay at rest in any order of the phases, also where the middle one is
  * thinner than an element, between walls and with sides open to the same layers, and through adaptations; two phases written
  * as three, one of them empty, are two; a drop of one phase rises out of another one into the third; with either advection of the

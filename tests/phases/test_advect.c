@@ -1,4 +1,4 @@
-// ranks: 1 2 3
+// ranks: 1 2
 /* Advection with prescribed flows: a straight interface moves exactly, across open boundaries too, with two
  * and three phases; the vortex and Zalesak's disc come back within the errors stated, converge, keep their
  * area and stay within bounds; the volumes that pass faces sum to the fluxes; a step that is too long is

@@ -1,4 +1,4 @@
-// ranks: 1 2 3
+// ranks: 1 2
 /* Fragments smaller than an element, in a uniform flow: a drop, a bubble and the second of three phases go with it whatever the step, on any number
  * of ranks; all volumes are kept and bounded, through an adaptation of the mesh, too.  With a line from the elements around, which say nothing, a
  * fragment hangs where it is.  A film on a wall, thinner still, has its

@@ -1,4 +1,4 @@
-// ranks: 1 2 3
+// ranks: 1 2
 /* What the fluid sees of a disc that moves (and spins) and swells: all of it while the step resolves the
  * swelling, hardly more than the rigid motion when it does not, and what an implicit step makes of it in between;
  * and of a bar that has come apart: each piece's own momentum. */
