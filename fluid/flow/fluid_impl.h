@@ -30,8 +30,7 @@ struct Fluid_s {
   Vec u, u_previous, u_star, u_projected, mass_flux;
   PetscBool prepared; /* FluidPrepareMomentum has been called for the step */
   Vec p;
-  Vec dynamic,
-      carried; /* with phases: what of p is not p_0, after a step; its share that the step begins with (viscous_share.h) */
+  Vec dynamic; /* with phases: phi of the last step, Pa (viscous_share.h) */
   struct {
     double t, dt_previous;
     int damped;

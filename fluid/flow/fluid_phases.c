@@ -270,14 +270,17 @@ static PetscBool ShareOfGradient(Fluid f, int e, double dt, const PetscScalar p[
 PetscErrorCode FluidLendPressure(Fluid f, double dt)
 {
   const PetscScalar *p;
+  PetscScalar *load;
   PetscFunctionBeginUser;
   PetscCall(GhostedGetArrayRead(f->dynamic, &p));
+  PetscCall(VecGetArray(MomentumSolverLoad(f->momentum), &load));
   for (int e = 0; e < f->domain.mesh->ne; e++) {
-    double q[2][3], load[6];
+    double q[2][3], force[6];
     if (!ShareOfGradient(f, e, dt, p, q)) continue;
-    for (int c = 0; c < 2; c++) P1MassApply(-f->domain.geometry[e].area, q[c], load + 3 * c);
-    PetscCall(MomentumSolverAddLoad(f->momentum, e, load));
+    for (int c = 0; c < 2; c++) P1MassApply(f->domain.geometry[e].area, q[c], force + 3 * c);
+    for (int k = 0; k < 6; k++) load[6 * e + k] -= force[k];
   }
+  PetscCall(VecRestoreArray(MomentumSolverLoad(f->momentum), &load));
   PetscCall(GhostedRestoreArrayRead(f->dynamic, &p));
   PetscFunctionReturn(0);
 }

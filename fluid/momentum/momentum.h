@@ -55,8 +55,8 @@ PetscErrorCode MomentumSolverDestroy(MomentumSolver *s);
 const double (*MomentumSolverDivergence(MomentumSolver s, double advected[2]))[3];
 /* Operator and load of the step but for the solid's coupling, which may not be known yet. */
 PetscErrorCode MomentumSolverAssemble(MomentumSolver s, const MomentumStep *step);
-/* After that: one more load [2][3] of element e, N.  Not collective. */
-PetscErrorCode MomentumSolverAddLoad(MomentumSolver s, int e, const double load[6]);
+/* After that, borrowed, to be added to: the load, blocks [2][3] of the elements, N.  Not collective. */
+Vec MomentumSolverLoad(MomentumSolver s);
 /* After that, for the same step.  u_star: the first guess in, the solution out. */
 PetscErrorCode MomentumSolverSolve(MomentumSolver s, const MomentumStep *step, Vec u_star,
                                    MomentumReport *report);

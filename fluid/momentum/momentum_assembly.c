@@ -279,12 +279,7 @@ PetscErrorCode MomentumSolverAssemble(MomentumSolver s, const MomentumStep *step
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode MomentumSolverAddLoad(MomentumSolver s, int e, const double load[6])
+Vec MomentumSolverLoad(MomentumSolver s)
 {
-  PetscScalar *sum;
-  PetscFunctionBeginUser;
-  PetscCall(VecGetArray(s->load, &sum));
-  for (int k = 0; k < 6; k++) sum[6 * e + k] += load[k];
-  PetscCall(VecRestoreArray(s->load, &sum));
-  PetscFunctionReturn(0);
+  return s->load;
 }

@@ -286,7 +286,7 @@ PetscErrorCode ProjectionSolverAddRotational(ProjectionSolver s, const Projectio
                                              const double mu[], double theta, Vec p)
 {
   PetscFunctionBeginUser;
-  PetscCall(RotationalIncrementAdd(s->rotational, s->divergence, mu, theta * step->dt, p));
+  PetscCall(RotationalIncrementAdd(s->rotational, s->divergence, mu, step->revision, theta * step->dt, p));
   PetscFunctionReturn(0);
 }
 

@@ -4,10 +4,11 @@
 struct RotationalIncrement_s {
   const FluidDomain *domain; /* borrowed */
   const char *is_fixed;      /* borrowed */
+  int revision;              /* of the viscosity in coefficient, -1: there is none */
   int (*end)
-      [2]; /* [nowned] local vertices of the edge that an owned node is in the middle of; twice itself: a vertex */
-  Vec mass, viscous,
-      value; /* sums over the elements at a vertex: |K|/3, m2, and mu |K|/3; what is added at all nodes, Pa */
+      [2]; /* [nowned] local vertices of the edge with an owned node in its middle; twice itself: a vertex */
+  /* at vertices: mean viscosity over the lumped mass, 0 where the pressure is prescribed, Pa s/m2; div u times viscosity, Pa */
+  Vec coefficient, value;
 };
 
 /* On owners: the sum over the elements at a vertex of weight |K|/3; weight[ne], NULL: 1. */
@@ -34,8 +35,8 @@ PetscErrorCode RotationalIncrementCreate(const FluidDomain *domain, Vec like, co
   PetscCall(PetscNew(&r));
   r->domain = domain;
   r->is_fixed = is_fixed;
-  PetscCall(VecDuplicate(like, &r->mass));
-  PetscCall(VecDuplicate(like, &r->viscous));
+  r->revision = -1;
+  PetscCall(VecDuplicate(like, &r->coefficient));
   PetscCall(VecDuplicate(like, &r->value));
   PetscCall(PetscMalloc1(p2->nowned, &r->end));
   for (int k = 0; k < p2->nowned; k++) r->end[k][0] = r->end[k][1] = k;
@@ -43,7 +44,6 @@ PetscErrorCode RotationalIncrementCreate(const FluidDomain *domain, Vec like, co
     const int *node = p2->node + 6 * (k / 3), middle = node[3 + k % 3];
     for (int i = 0; i < 2 && middle < p2->nowned; i++) r->end[middle][i] = node[(k + 1 + i) % 3];
   }
-  PetscCall(SumToVertices(domain, NULL, r->mass));
   *increment = r;
   PetscFunctionReturn(0);
 }
@@ -53,8 +53,7 @@ PetscErrorCode RotationalIncrementDestroy(RotationalIncrement *increment)
   RotationalIncrement r = *increment;
   PetscFunctionBeginUser;
   if (!r) PetscFunctionReturn(0);
-  PetscCall(VecDestroy(&r->mass));
-  PetscCall(VecDestroy(&r->viscous));
+  PetscCall(VecDestroy(&r->coefficient));
   PetscCall(VecDestroy(&r->value));
   PetscCall(PetscFree(r->end));
   PetscCall(PetscFree(*increment));
@@ -78,37 +77,41 @@ static PetscErrorCode SumToLinear(RotationalIncrement r, Vec divergence)
   PetscFunctionReturn(0);
 }
 
-/* value, on owners: of a sum the field at vertices, 0 where the pressure is prescribed. */
-static PetscErrorCode Evaluate(RotationalIncrement r, double factor)
+/* sum of mu |K|/3 over the elements at a vertex, over the square of the sum of |K|/3 */
+static PetscErrorCode SetCoefficient(RotationalIncrement r, const double mu[])
 {
-  const PetscScalar *mass, *viscous;
-  PetscScalar *value;
+  const PetscScalar *mass;
+  PetscScalar *c;
+  Vec lumped;
   PetscFunctionBeginUser;
-  PetscCall(VecGetArrayRead(r->mass, &mass));
-  PetscCall(VecGetArrayRead(r->viscous, &viscous));
-  PetscCall(VecGetArray(r->value, &value));
+  PetscCall(VecDuplicate(r->coefficient, &lumped));
+  PetscCall(SumToVertices(r->domain, NULL, lumped));
+  PetscCall(SumToVertices(r->domain, mu, r->coefficient));
+  PetscCall(VecGetArrayRead(lumped, &mass));
+  PetscCall(VecGetArray(r->coefficient, &c));
   for (int k = 0; k < r->domain->p2->nowned; k++)
-    if (r->end[k][0] == k) value[k] *= r->is_fixed[k] ? 0.0 : factor * viscous[k] / PetscSqr(mass[k]);
-  PetscCall(VecRestoreArray(r->value, &value));
-  PetscCall(VecRestoreArrayRead(r->viscous, &viscous));
-  PetscCall(VecRestoreArrayRead(r->mass, &mass));
+    c[k] = r->is_fixed[k] || r->end[k][0] != k ? 0.0 : c[k] / PetscSqr(mass[k]);
+  PetscCall(VecRestoreArray(r->coefficient, &c));
+  PetscCall(VecRestoreArrayRead(lumped, &mass));
+  PetscCall(VecDestroy(&lumped));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode RotationalIncrementAdd(RotationalIncrement r, Vec divergence, const double mu[], double factor,
-                                      Vec p)
+PetscErrorCode RotationalIncrementAdd(RotationalIncrement r, Vec divergence, const double mu[], int revision,
+                                      double factor, Vec p)
 {
   const PetscScalar *value;
   PetscScalar *sum;
   PetscFunctionBeginUser;
-  PetscCall(SumToVertices(r->domain, mu, r->viscous));
+  if (revision != r->revision) PetscCall(SetCoefficient(r, mu));
+  r->revision = revision;
   PetscCall(SumToLinear(r, divergence));
-  PetscCall(Evaluate(r, factor));
+  PetscCall(VecPointwiseMult(r->value, r->value, r->coefficient));
   PetscCall(GhostedUpdate(r->value));
   PetscCall(GhostedGetArrayRead(r->value, &value));
   PetscCall(VecGetArray(p, &sum));
   for (int k = 0; k < r->domain->p2->nowned; k++)
-    if (!r->is_fixed[k]) sum[k] += 0.5 * (value[r->end[k][0]] + value[r->end[k][1]]);
+    if (!r->is_fixed[k]) sum[k] += 0.5 * factor * (value[r->end[k][0]] + value[r->end[k][1]]);
   PetscCall(VecRestoreArray(p, &sum));
   PetscCall(GhostedRestoreArrayRead(r->value, &value));
   PetscCall(GhostedUpdate(p));

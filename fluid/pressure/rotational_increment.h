@@ -26,7 +26,8 @@ typedef struct RotationalIncrement_s *RotationalIncrement;
 PetscErrorCode RotationalIncrementCreate(const FluidDomain *domain, Vec like, const char is_fixed[],
                                          RotationalIncrement *increment);
 PetscErrorCode RotationalIncrementDestroy(RotationalIncrement *increment);
-/* p -= factor mu div u, its copies, too; divergence: of u as in bulk_divergence.h, over the factor, on owners; mu[ne], Pa s. */
+/* p -= factor mu div u, its copies, too; divergence: of u as in bulk_divergence.h, over the factor, on owners; mu[ne], Pa s,
+ * another one where its revision (material.h) is another. */
 PetscErrorCode RotationalIncrementAdd(RotationalIncrement increment, Vec divergence, const double mu[],
-                                      double factor, Vec p);
+                                      int revision, double factor, Vec p);
 #endif

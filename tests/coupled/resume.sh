@@ -3,7 +3,6 @@
 # another solid; and what cannot go on says so.  Usage: resume.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
-export OMPI_MCA_odls_base_sigkill_timeout=0 # s that mpirun waits for the other programs of one that was killed
 
 # kill_and_resume LABEL RANKS RANKS_AFTER [launch.sh arguments]: LABEL is killed after some steps and resumed.
 kill_and_resume() {

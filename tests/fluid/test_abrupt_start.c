@@ -4,9 +4,7 @@
  * fluid and a checkpoint. */
 #include "tests/check.h"
 #include "tests/fluid/exact.h"
-#include "tests/remove_folder.h"
-#include <string.h>
-#include <unistd.h>
+#include "tests/fluid/through_checkpoint.h"
 
 #define H 0.1
 #define DT 0.1
@@ -43,28 +41,6 @@ static PetscErrorCode Redo(Fluid fluid)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Resume(Fluid from, Mesh *mesh, Fluid to)
-{
-  char folder[64];
-  Checkpoint c;
-  PetscMPIInt rank;
-  PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(mesh->comm, &rank));
-  snprintf(folder, sizeof folder, "/tmp/coracle_abrupt_%d", (int)getpid());
-  PetscCallMPI(MPI_Bcast(folder, sizeof folder, MPI_CHAR, 0, mesh->comm));
-  if (rank == 0) PetscCall(PetscMkdir(folder));
-  PetscCallMPI(MPI_Barrier(mesh->comm));
-  PetscCall(CheckpointCreate(mesh->comm, folder, "fluid", &c));
-  PetscCall(FluidSave(from, c));
-  PetscCall(CheckpointClose(&c));
-  PetscCall(CheckpointOpen(mesh->comm, folder, "fluid", &c));
-  PetscCall(FluidLoad(to, mesh->egid, c));
-  PetscCall(CheckpointClose(&c));
-  PetscCallMPI(MPI_Barrier(mesh->comm));
-  if (rank == 0) RemoveFolder(folder);
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode Run(Mesh *mesh, int steps, Variant variant, Fluid *fluid)
 {
   Fluid next;
@@ -79,7 +55,7 @@ static PetscErrorCode Run(Mesh *mesh, int steps, Variant variant, Fluid *fluid)
     if (variant == TRANSFERRED)
       PetscCall(FluidTransfer(*fluid, next));
     else
-      PetscCall(Resume(*fluid, mesh, next));
+      PetscCall(ThroughCheckpoint(*fluid, mesh, next));
     PetscCall(FluidDestroy(fluid));
     *fluid = next;
   }
