@@ -65,10 +65,12 @@ static PetscErrorCode WhereSolidMoves(Fluid f, char moves[])
 double FluidCapillaryStep(Fluid f)
 {
   const PhaseProperties *p = &f->setup.phases;
+  Phases phases = f->phases ? PhaseTransportPhases(f->phases) : NULL;
   double area = HUGE_VAL, least = HUGE_VAL;
-  if (!f->phases || !PhaseHasTension(p) || f->setup.capillary_cfl == 0.0) return HUGE_VAL;
+  if (!phases || !PhaseHasTension(p) || f->setup.capillary_cfl == 0.0) return HUGE_VAL;
   for (int e = 0; e < f->domain.mesh->ne; e++)
-    if (PhasesSingle(PhaseTransportPhases(f->phases), e) < 0) area = fmin(area, f->domain.geometry[e].area);
+    if (PhasesSingle(phases, e) < 0 && !PhasesSpread(phases, e))
+      area = fmin(area, f->domain.geometry[e].area);
   for (int k = 0; k < p->n; k++)
     for (int j = 0; j < k; j++)
       if (p->surface_tension.value[j][k] != 0.0)

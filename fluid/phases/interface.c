@@ -62,7 +62,8 @@ static double Length(Phases f, int e, int p)
   for (int k = 0; k + 1 < f->np; k++)
     if (PhasesHasLine(f, e, k)) line = k, n++;
   if (n > 1) return InnerOutline(f, e, p);
-  return n && (p == line || p == PhasesBehind(f, e, line)) ? LineLength(f, e, line) : 0.0;
+  if (!n || PhasesHasFragments(f, e)) return 0.0;
+  return p == line || p == PhasesBehind(f, e, line) ? LineLength(f, e, line) : 0.0;
 }
 
 PetscErrorCode PhasesInterfaceLength(Phases f, int phase, double *length)

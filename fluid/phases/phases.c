@@ -163,23 +163,37 @@ PetscErrorCode PhasesGetInertia(Phases f, int e, const double rho[], PetscBool c
   Polygon part;
   PetscFunctionBeginUser;
   InertiaBegin(x, inertia);
+  if (f->spread[e]) PolygonTriangle(x, x[0], &part);
   for (int p = 0; p < f->np; p++) {
-    PhasesPart(f, e, p, x[0], &part);
-    InertiaAdd(&part, rho[p], inertia);
+    const double share =
+        f->spread[e] ? f->volume[(size_t)e * (size_t)f->np + (size_t)p] / StarsArea(f->stars, e) : 1.0;
+    if (!f->spread[e]) PhasesPart(f, e, p, x[0], &part);
+    InertiaAdd(&part, share * rho[p], inertia);
   }
-  for (int p = 0; p + 1 < f->np && condense && f->single[e] < 0; p++) {
+  for (int p = 0; p + 1 < f->np && condense; p++) {
     const HalfPlane h = PhasesLine(f, e, p, x[0]);
-    if (!IsTrivial(&h)) InertiaRidge(&h, inertia);
+    if (PhasesHasLine(f, e, p)) InertiaRidge(&h, inertia);
   }
   PetscCheck(!InertiaCondense(inertia), PETSC_COMM_SELF, PETSC_ERR_NOT_CONVERGED,
              "the element at (%g, %g) has no positive mass", x[0][0], x[0][1]);
   PetscFunctionReturn(0);
 }
 
+/* The phase of most volume in local element e. */
+static int Largest(Phases f, int e)
+{
+  const double *v = &f->volume[(size_t)e * (size_t)f->np];
+  int found = 0;
+  for (int p = 1; p < f->np; p++)
+    if (v[p] > v[found]) found = p;
+  return found;
+}
+
 int PhasesOnly(Phases f, int e)
 {
   const double tiny = PHASES_TINY * StarsArea(f->stars, e), *v = &f->volume[(size_t)e * (size_t)f->np];
   int found = -1;
+  if (f->spread[e]) return Largest(f, e);
   if (f->single[e] >= 0 || !f->first) return f->single[e];
   for (int p = f->first; p < f->np; p++) {
     if (v[p] < tiny) continue;
@@ -191,7 +205,7 @@ int PhasesOnly(Phases f, int e)
 
 int PhasesSide(Phases f, int e, int k)
 {
-  const int p = f->single[e];
+  const int p = f->spread[e] ? Largest(f, e) : f->single[e];
   if (p >= 0) return p == k ? -1 : p > k;
   if (PhasesHasLine(f, e, k)) return 0;
   const double tiny = PHASES_TINY * StarsArea(f->stars, e), *v = &f->volume[(size_t)e * (size_t)f->np];
@@ -224,11 +238,11 @@ PetscErrorCode PhasesGetKink(Phases f, int e, const double rho[], const double g
   Inertia m;
   PetscFunctionBeginUser;
   for (int k = 0; k < INERTIA_NU; k++) force[k] = 0.0;
-  if (f->single[e] >= 0) PetscFunctionReturn(0);
+  if (f->single[e] >= 0 || f->spread[e]) PetscFunctionReturn(0);
   InertiaBegin(x, &m);
   for (int p = 0; p + 1 < f->np; p++) {
     const HalfPlane h = PhasesLine(f, e, p, x[0]);
-    if (IsTrivial(&h)) continue;
+    if (!PhasesHasLine(f, e, p)) continue;
     InertiaRidge(&h, &m);
     InertiaKink(&m, h.n, rho[p], rho[PhasesBehind(f, e, p)], gravity, force);
   }

@@ -65,18 +65,20 @@ static inline double PhasesVolumeBeside(Phases f, int e, int p)
   return fmin(fmax((f->volume[(size_t)e * (size_t)f->np + (size_t)p] - filled) / open, 0.0), area);
 }
 
-/* Whether line k divides local element e. */
+/* Whether line k divides local element e; what is spread has no place, and none does. */
 static inline int PhasesHasLine(Phases f, int e, int k)
 {
   const HalfPlane *h = &f->line[(size_t)e * (size_t)(f->np - 1) + (size_t)k];
-  return f->single[e] < 0 && (h->n[0] != 0.0 || h->n[1] != 0.0);
+  return f->single[e] < 0 && !f->spread[e] && (h->n[0] != 0.0 || h->n[1] != 0.0);
 }
+/* Whether all phases but one that owned element e has, at most, are fragments (reconstruct.c); beside a solid none is. */
+int PhasesHasFragments(Phases phases, int e);
 /* The next phase behind k that element e has: what its line k divides phase k from. */
 int PhasesBehind(Phases phases, int e, int k);
 /* Of local element e, which line k does not divide: -1 below it (the last of its phases is k), 1 above it (all are behind k); else,
  * and where line k divides it, 0. */
 int PhasesSide(Phases phases, int e, int k);
-/* The phase that local element e has to itself, beside a solid, too; -1: it has several; below `first`: it has none. */
+/* The phase that local element e has to itself, beside a solid, too, or that has most of it, where others are spread; -1: it has several; below `first`: it has none. */
 int PhasesOnly(Phases phases, int e);
 /* The segment of line k of cut element e in what earlier lines leave, and *line, relative to origin. */
 PolygonCut PhasesSegment(Phases phases, int e, int k, const double origin[2], HalfPlane *line);

@@ -3,8 +3,12 @@
  *
  * Of a phase of which the element K and those around it hold less than |K|, a fragment, the elements around may say nothing (PlicIsBlind).
  * Its line would be at the same corner of K in each step, wherever the fragment has got to.  It is spread: what a face sweeps of K holds
- * V_p/|K| of each phase p.  Beside a solid lines stay: what its surface cuts has slivers of phases that are at rest. */
+ * V_p/|K| of each phase p.  So is what round-off has left (DUST).  Beside a solid lines stay: what its surface cuts has slivers of phases
+ * that are at rest. */
 #include "fluid/phases/phases_impl.h"
+
+/* Of |K|: less of a phase in it and around it has no surface, also where a line fits, which at a wall any does. */
+#define DUST 1e-9
 
 static double *VolumeOf(Phases f, int e)
 {
@@ -84,19 +88,28 @@ static int Gather(Phases f, int e, int p, PlicCell cell[PLIC_CELLS])
   return n;
 }
 
-/* Whether all phases but one that owned element e has, at most, are fragments; beside a solid none is. */
-static int HasFragments(Phases f, int e)
+/* What owned element e and those around it hold of its phase of which they hold second most, over |K|; HUGE_VAL beside a solid. */
+static double SecondAround(Phases f, int e)
 {
   const double area = StarsArea(f->stars, e);
-  double sum[PHASES_MAX] = {0.0};
-  int list[PLIC_CELLS], others = 0;
+  double sum[PHASES_MAX] = {0.0}, first = 0.0, second = 0.0;
+  int list[PLIC_CELLS];
   const int n = ListAround(f->stars, e, list);
   for (int k = 0; k < n; k++) {
-    if (PhasesOpen(f, list[k]) < 1.0) return 0;
+    if (PhasesOpen(f, list[k]) < 1.0) return HUGE_VAL;
     for (int p = 0; p < f->np; p++) sum[p] += VolumeOf(f, list[k])[p];
   }
-  for (int p = 0; p < f->np; p++) others += VolumeOf(f, e)[p] >= PHASES_TINY * area && sum[p] >= area;
-  return others <= 1;
+  for (int p = 0; p < f->np; p++) {
+    if (VolumeOf(f, e)[p] < PHASES_TINY * area) continue;
+    second = fmax(second, fmin(sum[p], first));
+    first = fmax(first, sum[p]);
+  }
+  return second / area;
+}
+
+int PhasesHasFragments(Phases f, int e)
+{
+  return SecondAround(f, e) < 1.0;
 }
 
 static HalfPlane FitLine(Phases f, int e, int p, PlicCell cell[])
@@ -108,7 +121,8 @@ static HalfPlane FitLine(Phases f, int e, int p, PlicCell cell[])
   if (behind < PHASES_TINY * area) return (HalfPlane){{0.0, 0.0}, 1.0};
   const int n = Gather(f, e, p, cell);
   const HalfPlane line = PlicFit(n, cell);
-  if (HasFragments(f, e)) f->spread[e] |= PlicIsBlind(n, cell, &line);
+  const double second = SecondAround(f, e);
+  if (second < 1.0) f->spread[e] |= second < DUST || PlicIsBlind(n, cell, &line);
   return line;
 }
 

@@ -2,7 +2,7 @@
 /* Fragments smaller than an element, in a uniform flow: a drop, a bubble and the second of three phases go with it whatever the step, on any number
  * of ranks; all volumes are kept and bounded, through an adaptation of the mesh, too.  With a line from the elements around, which say nothing, a
  * fragment hangs where it is.  A film on a wall, thinner still, has its
- * lines and stays as it is.
+ * lines and stays as it is; dust has no surface.
  *
  * fragments print: also says how well. */
 #include "tests/phases/flows.h"
@@ -128,7 +128,15 @@ static PetscErrorCode Moves(MPI_Comm comm, const char *name, int np, int phase, 
   PetscCall(PhasesGetVolumes(s.phases, &volume));
   Centre(mesh, np, phase, volume, centre);
   const double off = hypot(centre[0] - start[0] - 0.8 * SHIFT, centre[1] - start[1] - 0.6 * SHIFT);
-  if (print) PetscCall(PetscPrintf(comm, "%-16s %4d steps: off by %.3f of an edge\n", name, steps, off / H));
+  double length;
+  PetscCall(PhasesReconstruct(s.phases));
+  PetscCall(PhasesInterfaceLength(s.phases, phase, &length));
+  length /= 2.0 * M_PI * region[1].radius;
+  if (print)
+    PetscCall(PetscPrintf(comm,
+                          "%-16s %4d steps: off by %.3f of an edge, interface %.2f of its circumference\n",
+                          name, steps, off / H, length));
+  CHECK(length < 2.0, "%s, %d steps: its interface is %g times its circumference", name, steps, length);
   CHECK(off < 0.5 * H, "%s, %d steps: it is %g of an edge from where the flow takes it", name, steps,
         off / H);
   Kept(name, np, &first, out, &now);
@@ -156,6 +164,35 @@ static PetscErrorCode MovesAlike(const char *name, int np, int phase, int around
   CHECK(hypot(all[0] - alone[0], all[1] - alone[1]) < 1e-9 * H,
         "%s, %d steps: it is %g m from where one rank has it", name, steps,
         hypot(all[0] - alone[0], all[1] - alone[1]));
+  PetscFunctionReturn(0);
+}
+
+/* What round-off has left of a phase over many elements, uneven, has no surface: no tension and no length. */
+static PetscErrorCode Dust(void)
+{
+  const PhasesPairs tension = {{{0.0, 1.0}, {1.0, 0.0}}};
+  double *volume, *force, length, most = 0.0;
+  Mesh *mesh;
+  Set s;
+  PetscFunctionBeginUser;
+  PetscCall(UnstructuredMesh(PETSC_COMM_WORLD, H, &mesh));
+  PetscCall(SetMake(mesh, 2, &s));
+  PetscCall(PetscMalloc2(2 * mesh->ne, &volume, 2 * mesh->ne, &force));
+  for (int e = 0; e < mesh->ne; e++) {
+    const double *x = Corner(mesh, e, 0), area = ElementArea(mesh, e);
+    volume[2 * e] = fabs(x[0] - 0.5) < 0.3 ? (2.0 + sin(40.0 * x[0]) * sin(70.0 * x[1])) * 1e-12 * area : 0.0;
+    volume[2 * e + 1] = area - volume[2 * e];
+  }
+  PetscCall(PhasesSetVolumes(s.phases, volume));
+  PetscCall(PhasesReconstruct(s.phases));
+  PetscCall(PhasesGetSurfaceForce(s.phases, &tension, NULL, force));
+  PetscCall(PhasesInterfaceLength(s.phases, 0, &length));
+  for (int k = 0; k < 2 * mesh->ne; k++) most = fmax(most, fabs(force[k]));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, mesh->comm));
+  CHECK(most == 0.0 && length == 0.0, "dust has a tension of %g of 1/h^2, %g m of interface", most * H * H,
+        length);
+  PetscCall(PetscFree2(volume, force));
+  PetscCall(SetDestroy(&s));
   PetscFunctionReturn(0);
 }
 
@@ -210,5 +247,6 @@ int main(int argc, char **argv)
     PetscCall(MovesAlike("second of three", 3, 1, 2, steps));
   }
   PetscCall(Film());
+  PetscCall(Dust());
   return PetscFinalize();
 }
