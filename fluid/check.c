@@ -90,7 +90,11 @@ static const CoracleCaseKey KEYS[] = {
     {"fluid.boundaries.*", "",
      "what holds on the mesh's boundary of this name; a box has left, right, bottom, top"},
     {"fluid.boundaries.*.velocity", "m/s", "prescribed velocity; in the middle, of a parabolic profile"},
-    {"fluid.boundaries.*.profile", "", "of the velocity along the boundary"},
+    {"fluid.boundaries.*.profile", "",
+     "of the velocity along the boundary; or rows of place and factor, linear between them"},
+    {"fluid.boundaries.*.profile[]", "m, 1",
+     "x, or y if the boundary is higher than wide, and a factor; constant before the first and after the "
+     "last"},
     {"fluid.boundaries.*.rise", "s",
      "time in which the velocity, or the pressure, rises from zero, as 1 - cos(pi t/rise)"},
     {"fluid.boundaries.*.period", "s",

@@ -41,7 +41,7 @@ static void NoteLevel(const char *name, const BoundaryPhases *b, const double me
 /* Whether the velocity leads into the domain somewhere on the boundary, or does when it turns. */
 static PetscBool FlowsIn(const Mesh *m, int tag, const Boundary *b)
 {
-  const PetscBool turns = (PetscBool)(b->period > 0.0 || b->factor.nrows > 0);
+  const PetscBool turns = (PetscBool)(b->period > 0.0 || b->factor.nrows > 0 || b->profile.nrows > 0);
   for (int k = 0; k < 3 * m->ne && b->kind == BOUNDARY_VELOCITY; k++) {
     if (m->tag[k] != tag) continue;
     const double *p = m->x + 2 * m->vertex[k / 3 * 3 + (k + 1) % 3],

@@ -133,7 +133,7 @@ const double *CoracleCaseTable(CoracleCase c, const char *key, int n, int *nrows
     double *v = table + (size_t)k * (size_t)n;
     snprintf(row, sizeof row, "%s[%d]", key, k);
     CoracleCaseVector(c, row, n, v);
-    if (k > 0 && !(v[0] > v[-n])) CoracleCaseRefuse(c, row, "the table's times must rise");
+    if (k > 0 && !(v[0] > v[-n])) CoracleCaseRefuse(c, row, "the first numbers of the rows must rise");
   }
   return table;
 }

@@ -47,18 +47,25 @@ PetscBool BoundaryVaries(const Boundary *b)
   return (PetscBool)(b->rise > 0.0 || b->factor.nrows || b->period > 0.0);
 }
 
+/* The coordinate along b. */
+static int Along(const Boundary *b)
+{
+  return b->upper[0] - b->lower[0] > b->upper[1] - b->lower[1] ? 0 : 1;
+}
+
 void BoundaryVelocity(const Boundary *b, double t, const double x[2], double v[2])
 {
   if (b->function) {
     b->function(b->context, t, x, v);
     return;
   }
+  const int along = Along(b);
   double scale = BoundaryFactor(b, t);
   if (b->parabolic) {
-    const int c = b->upper[0] - b->lower[0] > b->upper[1] - b->lower[1] ? 0 : 1;
-    const double s = (x[c] - b->lower[c]) / (b->upper[c] - b->lower[c]);
+    const double s = (x[along] - b->lower[along]) / (b->upper[along] - b->lower[along]);
     scale *= 4.0 * s * (1.0 - s);
   }
+  if (b->profile.nrows) scale *= TimeTableValue(&b->profile, 1, x[along]);
   for (int c = 0; c < 2; c++) v[c] = scale * b->velocity[c];
 }
 
@@ -71,19 +78,36 @@ void BoundaryProjection(const Boundary *b, const double n[2], double project[2][
                                                      : 0.0;
 }
 
-/* The volume that b takes through edge i of element e, m2/s, by Simpson's rule, which is exact for a parabolic profile. */
-static double EdgeFlux(const Mesh *m, const Boundary *b, int e, int i, double t)
+/* The volume that b takes through the part `begin` .. `end`, 0 .. 1, of the edge from -> to, m2/s, by Simpson's rule. */
+static double PartFlux(const Boundary *b, const double from[2], const double to[2], double begin, double end,
+                       double t)
 {
   static const double WEIGHT[3] = {1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
-  const double *from = m->x + 2 * m->vertex[3 * e + (i + 1) % 3],
-               *to = m->x + 2 * m->vertex[3 * e + (i + 2) % 3];
   double flux = 0.0, v[2];
   for (int k = 0; k < 3; k++) {
-    const double x[2] = {from[0] + 0.5 * k * (to[0] - from[0]), from[1] + 0.5 * k * (to[1] - from[1])};
+    const double s = begin + 0.5 * k * (end - begin);
+    const double x[2] = {from[0] + s * (to[0] - from[0]), from[1] + s * (to[1] - from[1])};
     BoundaryVelocity(b, t, x, v);
     flux += WEIGHT[k] * (v[0] * (to[1] - from[1]) - v[1] * (to[0] - from[0]));
   }
-  return flux;
+  return (end - begin) * flux;
+}
+
+/* The same of edge i of element e, exact for all profiles: in parts between the rows of a table. */
+static double EdgeFlux(const Mesh *m, const Boundary *b, int e, int i, double t)
+{
+  const double *from = m->x + 2 * m->vertex[3 * e + (i + 1) % 3],
+               *to = m->x + 2 * m->vertex[3 * e + (i + 2) % 3];
+  const int c = Along(b), n = b->profile.nrows;
+  double flux = 0.0, at = 0.0;
+  for (int k = 0; k < n; k++) {
+    const double row = TimeTableAt(&b->profile, to[c] > from[c] ? k : n - 1 - k, 0),
+                 s = (row - from[c]) / (to[c] - from[c]);
+    if (!(s > at && s < 1.0)) continue;
+    flux += PartFlux(b, from, to, at, s, t);
+    at = s;
+  }
+  return flux + PartFlux(b, from, to, at, 1.0, t);
 }
 
 PetscErrorCode BoundaryPrescribedFlux(const Mesh *m, Boundary boundary[], double t, double *net,

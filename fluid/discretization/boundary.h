@@ -41,6 +41,7 @@ typedef struct {
   BoundaryKind kind;
   double velocity[2];        /* m/s */
   PetscBool parabolic;       /* velocity times 4 s (1 - s), s along the boundary's bounding box */
+  TimeTable profile;         /* of x or y, m, along that box's longer side, and a factor; nrows 0: none */
   double lower[2], upper[2]; /* that box, m; set by BoundaryBoxes */
   double pressure;           /* where open: above hydrostatic, Pa */
   double rise;               /* s: until then velocity, pressure times (1 - cos(pi t/rise))/2; 0: at once */

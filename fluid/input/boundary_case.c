@@ -28,7 +28,7 @@ static void ReadPhases(CoracleCase c, const char *key, const PhaseNames *names, 
   ReadFractions(c, sub, names, b);
 }
 
-/* Rows of time and value; period, s: in which they repeat themselves, 0: they do not. */
+/* Rows of time (or place) and value; period, s: in which they repeat themselves, 0: they do not. */
 static void ReadTable(CoracleCase c, const char *key, double period, TimeTable *table)
 {
   table->width = 2;
@@ -146,12 +146,23 @@ static PetscBool ReadOpen(CoracleCase c, const char *key, const PhaseNames *name
   return PETSC_TRUE;
 }
 
+/* Along the boundary: a word, or rows of place and factor. */
+static void ReadProfile(CoracleCase c, const char *key, Boundary *b)
+{
+  static const char *const PROFILES[] = {"uniform", "parabolic", NULL};
+  char first[CASE_KEY];
+  if (CoracleCaseHas(c, CaseKey(first, "%s[0]", key)))
+    ReadTable(c, key, 0.0, &b->profile);
+  else
+    b->parabolic = (PetscBool)(CoracleCaseWord(c, key, 0, PROFILES) == 1);
+}
+
 static void ReadBoundary(CoracleCase c, const char *name, const PhaseNames *names, const PhaseProperties *p,
                          Boundary *b)
 {
-  static const char *const WORDS[] = {"no_slip", "free_slip", "open", NULL},
-                           *const PROFILES[] = {"uniform", "parabolic", NULL},
-                           *const WALLS[] = {"no_slip", "free_slip", NULL};
+  static const char *const WORDS[] = {"no_slip", "free_slip", "open", NULL}, *const WALLS[] = {"no_slip",
+                                                                                               "free_slip",
+                                                                                               NULL};
   static const BoundaryKind KINDS[] = {BOUNDARY_VELOCITY, BOUNDARY_FREE_SLIP, BOUNDARY_OPEN};
   char key[CASE_KEY], sub[CASE_KEY];
   memset(b, 0, sizeof *b);
@@ -159,7 +170,7 @@ static void ReadBoundary(CoracleCase c, const char *name, const PhaseNames *name
   if (CoracleCaseHas(c, CaseKey(sub, "%s.velocity", key))) {
     b->kind = BOUNDARY_VELOCITY;
     CoracleCaseVector(c, sub, 2, b->velocity);
-    b->parabolic = (PetscBool)(CoracleCaseWord(c, CaseKey(sub, "%s.profile", key), 0, PROFILES) == 1);
+    ReadProfile(c, CaseKey(sub, "%s.profile", key), b);
     ReadVariation(c, key, b);
     return;
   }

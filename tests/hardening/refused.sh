@@ -34,7 +34,7 @@ loads "'solid.bodies\[0\]': the body has no boundary 'roof'; it has " '[{boundar
 loads "'solid.bodies\[0\].loads\[0\].boundary' is missing" '[{pressure: 1}]'
 loads "'solid.bodies\[0\].loads\[0\]': expected a pressure or a traction" '[{boundary: left}]'
 loads "'solid.bodies\[0\].loads\[0\].pressure': expected a number, found 'high'" '[{boundary: left, pressure: high}]'
-loads "'solid.bodies\[0\].loads\[1\].pressure\[1\]': the table's times must rise" '[{boundary: left, pressure: 1}, {boundary: left, pressure: [[1, 0], [1, 2]]}]'
+loads "'solid.bodies\[0\].loads\[1\].pressure\[1\]': the first numbers of the rows must rise" '[{boundary: left, pressure: 1}, {boundary: left, pressure: [[1, 0], [1, 2]]}]'
 loads "'solid.bodies\[0\].loads\[0\].traction': expected a list of 2 numbers, found '1'" '[{boundary: left, traction: 1}]'
 loads "'solid.bodies\[0\].loads': expected a list, found a map" '{boundary: left, pressure: 1}'
 accepted solid --set "solid.bodies[0]=${rectangle} 0.05, loads: [{boundary: left, pressure: [[0, 1], [1, 2]], traction: [1, 2]}]}"
@@ -53,14 +53,15 @@ refused fluid "'fluid.boundaries': .* 2 m2/s more into the domain" --set "$left"
 refused fluid "'fluid.boundaries': .* 1 m2/s more into the domain" --set "$left" --set 'fluid.boundaries.right={velocity: [0.5, 0]}'
 refused fluid "'fluid.boundaries': .* at 0 s .* more into the domain" --set "$left" --set 'fluid.boundaries.right={velocity: [1, 0], rise: 1}'
 refused fluid "'fluid.boundaries.left.factor': expected times from 0 to the period, 1 s, found 0 to 2 s" --set 'fluid.boundaries.left={velocity: [1, 0], period: 1, factor: [[0, 1], [2, 1]]}' --set fluid.boundaries.right=open
-refused fluid "'fluid.boundaries.left.factor\[1\]': the table's times must rise" --set 'fluid.boundaries.left={velocity: [1, 0], factor: [[0, 1], [0, 2]]}' --set fluid.boundaries.right=open
+refused fluid "'fluid.boundaries.left.factor\[1\]': the first numbers of the rows must rise" --set 'fluid.boundaries.left={velocity: [1, 0], factor: [[0, 1], [0, 2]]}' --set fluid.boundaries.right=open
+refused fluid "'fluid.boundaries.left.profile\[1\]': the first numbers of the rows must rise" --set 'fluid.boundaries.left={velocity: [1, 0], profile: [[0, 1], [0, 2]]}' --set fluid.boundaries.right=open
 accepted fluid --set "$left" --set 'fluid.boundaries.right={velocity: [1.5, 0], profile: parabolic}'
 accepted fluid --set "$left" --set fluid.boundaries.right=open
 accepted fluid --set 'fluid.boundaries.top={velocity: [1, 0]}'
 
 # gravity in time
 for part in fluid solid coupler; do
-  refused $part "'gravity\[1\]': the table's times must rise" --set 'gravity=[[0, 0, -9.81], [0, 1, -9.81]]'
+  refused $part "'gravity\[1\]': the first numbers of the rows must rise" --set 'gravity=[[0, 0, -9.81], [0, 1, -9.81]]'
   refused $part "'gravity\[0\]': expected a list of 3 numbers, found a list of 2" --set 'gravity=[[0, 0], [1, 1]]'
   accepted $part --set 'gravity=[[0, 0, -9.81], [1, 1, -9.81]]'
 done
@@ -88,7 +89,7 @@ accepted fluid --set "$water" --set 'fluid.regions=[{phase: air}, {phase: water,
 refused fluid "'fluid.boundaries.left.level': there are no phases" --set 'fluid.boundaries.left={level: 1}' --set fluid.density=1 --set fluid.viscosity=1
 phases "'fluid.boundaries.left.level': expected a number" --set 'fluid.regions=[{phase: air}]' --set 'fluid.boundaries.left={level: high}'
 level() { phases "$1" --set 'fluid.regions=[{phase: air}]' --set "fluid.boundaries.left={$2}"; } # expected, keys
-level "left={level: \[\[0, 1\], \[2, 1\], \[2, 3\]\]}: key 'fluid.boundaries.left.level\[2\]': the table's times must rise" 'level: [[0, 1], [2, 1], [2, 3]]'
+level "left={level: \[\[0, 1\], \[2, 1\], \[2, 3\]\]}: key 'fluid.boundaries.left.level\[2\]': the first numbers of the rows must rise" 'level: [[0, 1], [2, 1], [2, 3]]'
 level "'fluid.boundaries.left.level': expected a number, found a list of 0" 'level: []'
 level "'fluid.boundaries.left.level\[0\]': expected a list of 2 numbers, found '0'" 'level: [0, 1]'
 level "'fluid.boundaries.left.level\[1\]': expected a list of 2 numbers, found 'high'" 'level: [[0, 1], [1, high]]'

@@ -294,7 +294,8 @@ static void Refusals(void)
   CheckCase(
       HEAD "  bodies:\n    - {shape: disc, centre: [0, 0], radius: 0.1, size: 0.05, material: m, prescribed: "
            "[{boundary: boundary, table: [[1, 0, 0], [1, 0, 0]]}]}\n",
-      NULL, Read, ":6: key 'solid.bodies[0].prescribed[0].table[1]': the table's times must rise");
+      NULL, Read,
+      ":6: key 'solid.bodies[0].prescribed[0].table[1]': the first numbers of the rows must rise");
   CheckCase(HEAD
             "  bodies:\n    - {shape: disc, centre: [0, 0], radius: 0.1, size: 0.05, material: m, driven: "
             "[{boundary: boundary, velocity: [1, 0]}]}\n",
