@@ -1,4 +1,4 @@
-/* A table in time: rows of a time and values, the times rising; linear between rows, constant before the first and after the last.
+/* A table in time, or along a boundary: rows of a time (a place) and values, the times rising; linear between rows, constant before the first and after the last.
  * Tables may be records of thousands of rows: the row is found by bisection.  Kernel: no memory, no errors. */
 #ifndef CORACLE_TIME_TABLE_H
 #define CORACLE_TIME_TABLE_H

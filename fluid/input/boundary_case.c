@@ -160,9 +160,8 @@ static void ReadProfile(CoracleCase c, const char *key, Boundary *b)
 static void ReadBoundary(CoracleCase c, const char *name, const PhaseNames *names, const PhaseProperties *p,
                          Boundary *b)
 {
-  static const char *const WORDS[] = {"no_slip", "free_slip", "open", NULL}, *const WALLS[] = {"no_slip",
-                                                                                               "free_slip",
-                                                                                               NULL};
+  static const char *const WORDS[] = {"no_slip", "free_slip", "open", NULL};
+  static const char *const WALLS[] = {"no_slip", "free_slip", NULL};
   static const BoundaryKind KINDS[] = {BOUNDARY_VELOCITY, BOUNDARY_FREE_SLIP, BOUNDARY_OPEN};
   char key[CASE_KEY], sub[CASE_KEY];
   memset(b, 0, sizeof *b);

@@ -143,17 +143,21 @@ PetscErrorCode PhasesGetPolygon(Phases f, int e, int p, Polygon *polygon)
   PetscFunctionReturn(0);
 }
 
+/* What phase p of local element e has of where it is: all, of the element its share if it is spread. */
+static double Share(Phases f, int e, int p)
+{
+  return f->spread[e] ? f->volume[(size_t)e * (size_t)f->np + (size_t)p] / StarsArea(f->stars, e) : 1.0;
+}
+
 PetscErrorCode PhasesGetExtent(Phases f, int e, int p, Polygon *polygon, double *share)
 {
   static const double ORIGIN[2] = {0.0, 0.0};
   PetscFunctionBeginUser;
-  *share = 1.0;
-  if (f->spread[e]) {
+  *share = Share(f, e, p);
+  if (f->spread[e])
     PolygonTriangle((const double(*)[2])f->stars->element[e].x, ORIGIN, polygon);
-    *share = f->volume[(size_t)e * (size_t)f->np + (size_t)p] / StarsArea(f->stars, e);
-  } else {
+  else
     PetscCall(PhasesGetPolygon(f, e, p, polygon));
-  }
   PetscFunctionReturn(0);
 }
 
@@ -163,38 +167,39 @@ PetscErrorCode PhasesGetInertia(Phases f, int e, const double rho[], PetscBool c
   Polygon part;
   PetscFunctionBeginUser;
   InertiaBegin(x, inertia);
-  if (f->spread[e]) PolygonTriangle(x, x[0], &part);
   for (int p = 0; p < f->np; p++) {
-    const double share =
-        f->spread[e] ? f->volume[(size_t)e * (size_t)f->np + (size_t)p] / StarsArea(f->stars, e) : 1.0;
-    if (!f->spread[e]) PhasesPart(f, e, p, x[0], &part);
-    InertiaAdd(&part, share * rho[p], inertia);
+    if (f->spread[e])
+      PolygonTriangle(x, x[0], &part);
+    else
+      PhasesPart(f, e, p, x[0], &part);
+    InertiaAdd(&part, Share(f, e, p) * rho[p], inertia);
   }
   for (int p = 0; p + 1 < f->np && condense; p++) {
+    if (!PhasesHasLine(f, e, p)) continue;
     const HalfPlane h = PhasesLine(f, e, p, x[0]);
-    if (PhasesHasLine(f, e, p)) InertiaRidge(&h, inertia);
+    InertiaRidge(&h, inertia);
   }
   PetscCheck(!InertiaCondense(inertia), PETSC_COMM_SELF, PETSC_ERR_NOT_CONVERGED,
              "the element at (%g, %g) has no positive mass", x[0][0], x[0][1]);
   PetscFunctionReturn(0);
 }
 
-/* The phase of most volume in local element e. */
-static int Largest(Phases f, int e)
+/* The phase that local element e has to itself, that has most of it where others are spread, or -1. */
+static int Alone(Phases f, int e)
 {
   const double *v = &f->volume[(size_t)e * (size_t)f->np];
-  int found = 0;
+  int most = 0;
+  if (!f->spread[e]) return f->single[e];
   for (int p = 1; p < f->np; p++)
-    if (v[p] > v[found]) found = p;
-  return found;
+    if (v[p] > v[most]) most = p;
+  return most;
 }
 
 int PhasesOnly(Phases f, int e)
 {
   const double tiny = PHASES_TINY * StarsArea(f->stars, e), *v = &f->volume[(size_t)e * (size_t)f->np];
-  int found = -1;
-  if (f->spread[e]) return Largest(f, e);
-  if (f->single[e] >= 0 || !f->first) return f->single[e];
+  int found = Alone(f, e);
+  if (found >= 0 || !f->first) return found;
   for (int p = f->first; p < f->np; p++) {
     if (v[p] < tiny) continue;
     if (found >= 0) return -1;
@@ -205,7 +210,7 @@ int PhasesOnly(Phases f, int e)
 
 int PhasesSide(Phases f, int e, int k)
 {
-  const int p = f->spread[e] ? Largest(f, e) : f->single[e];
+  const int p = Alone(f, e);
   if (p >= 0) return p == k ? -1 : p > k;
   if (PhasesHasLine(f, e, k)) return 0;
   const double tiny = PHASES_TINY * StarsArea(f->stars, e), *v = &f->volume[(size_t)e * (size_t)f->np];
@@ -238,11 +243,11 @@ PetscErrorCode PhasesGetKink(Phases f, int e, const double rho[], const double g
   Inertia m;
   PetscFunctionBeginUser;
   for (int k = 0; k < INERTIA_NU; k++) force[k] = 0.0;
-  if (f->single[e] >= 0 || f->spread[e]) PetscFunctionReturn(0);
+  if (f->single[e] >= 0) PetscFunctionReturn(0);
   InertiaBegin(x, &m);
   for (int p = 0; p + 1 < f->np; p++) {
-    const HalfPlane h = PhasesLine(f, e, p, x[0]);
     if (!PhasesHasLine(f, e, p)) continue;
+    const HalfPlane h = PhasesLine(f, e, p, x[0]);
     InertiaRidge(&h, &m);
     InertiaKink(&m, h.n, rho[p], rho[PhasesBehind(f, e, p)], gravity, force);
   }

@@ -110,8 +110,8 @@ PetscErrorCode PhasesGetSurfaceForce(Phases phases, const PhasesPairs *tension, 
 
 /* Collective.  Length of the interfaces between a phase and others, m: of the polygon through the means of the points in which
  * the lines of neighbours cross their common face.  (The lines themselves turn too much in curved interfaces: 1 % at edges of
- * R/20.)  Where an element has several lines: of these.  A fragment, a phase of which
- * the element and those around it hold less than its area, has none: lines do not tell its place.  Needs the lines. */
+ * R/20.)  Where an element has several lines: of these.  A fragment, a phase of which the element and those
+ * around it hold less than its area, has none: lines do not tell its place.  Needs the lines. */
 PetscErrorCode PhasesInterfaceLength(Phases phases, int phase, double *length);
 
 /* Layers outside of a boundary: phase[k] alone flows in where n.x < d[k], and not n.x < d[k - 1]. */

@@ -78,7 +78,8 @@ int PhasesBehind(Phases phases, int e, int k);
 /* Of local element e, which line k does not divide: -1 below it (the last of its phases is k), 1 above it (all are behind k); else,
  * and where line k divides it, 0. */
 int PhasesSide(Phases phases, int e, int k);
-/* The phase that local element e has to itself, beside a solid, too, or that has most of it, where others are spread; -1: it has several; below `first`: it has none. */
+/* The phase that local element e has to itself, beside a solid, too, or that has most of it, where others are spread; -1: it has several;
+ * below `first`: it has none. */
 int PhasesOnly(Phases phases, int e);
 /* The segment of line k of cut element e in what earlier lines leave, and *line, relative to origin. */
 PolygonCut PhasesSegment(Phases phases, int e, int k, const double origin[2], HalfPlane *line);
