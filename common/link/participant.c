@@ -2,6 +2,7 @@
 #include "common/link/affinity.h"
 #include "common/link/exit_guard.h"
 #include "common/link/fields.h"
+#include "common/link/launcher_watch.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,6 +46,7 @@ void ParticipantAbort(void)
   fflush(NULL);
   AwaitReader(STDOUT_FILENO);
   AwaitReader(STDERR_FILENO);
+  LauncherWatch();
   MPI_Abort(MPI_COMM_WORLD, 1);
   for (;;) pause(); /* until the launcher has ended this process */
 }
