@@ -41,21 +41,23 @@ static inline double TimeTableValue(const TimeTable *t, int column, double time)
   return TimeTableBetween(t, TimeTableNext(t, time), column, time);
 }
 
-/* The mean of a column from `time` to time + length, by the trapezoids between rows, which is exact; length 0: the value. */
+/* The mean of a column from `time` to time + length, by the trapezoids between rows, which is exact, of a constant
+ * to the last bit; length 0: the value. */
 static inline double TimeTableMean(const TimeTable *t, int column, double time, double length)
 {
   const double end = time + length;
   int next = TimeTableNext(t, time);
-  double at = time, value = TimeTableBetween(t, next, column, time), sum = 0.0;
-  if (!(length > 0.0)) return value;
+  const double first = TimeTableBetween(t, next, column, time);
+  double at = time, value = first, sum = 0.0;
+  if (!(length > 0.0)) return first;
   while (at < end) {
     const double to = next < t->nrows && TimeTableAt(t, next, 0) < end ? TimeTableAt(t, next, 0) : end;
     const double reached = TimeTableBetween(t, next, column, to);
-    sum += 0.5 * (value + reached) * (to - at);
+    sum += 0.5 * (value - first + (reached - first)) * (to - at);
     at = to;
     value = reached;
     if (next < t->nrows) next++;
   }
-  return sum / length;
+  return first + sum / length;
 }
 #endif

@@ -16,5 +16,5 @@ SqueezeFilmYield SqueezeFilmYieldOf(const SqueezeFilm *f, double dt)
   /* rho k^2 + 2 friction k = e/profile */
   const double root = sqrt(friction * friction + f->density * e / f->profile),
                resistance = fmax(f->profile * (friction + root) / h, e * dt / (MOST_CLOSED * h));
-  return (SqueezeFilmYield){fmax(e - resistance * closing, 0.0), resistance};
+  return (SqueezeFilmYield){fmax(f->closing < 0.0 ? 0.0 : e - resistance * closing, 0.0), resistance};
 }

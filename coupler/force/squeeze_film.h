@@ -13,8 +13,9 @@
  *     load_i  =  int N_i r (w - v) n  >=  0,       resistance_i  =  int N_i r/share (n n + SQUEEZE_FILM_ALONG t t),       r = e/w,
  *
  * whose balance over a body gives its rigid motion beside its velocity (CoracleGetFilm): the fluid and the forces do not see it.  v is the velocity with
- * which the sides come together as it is.  A film that holds sides together, e < 0, does not yield: bodies that lie on each other under water would
- * be lifted off their contacts.  So an e that swings about 0 draws a body to a wall that it is close to.
+ * which the sides come together as it is; sides that part have no load: there e > 0 is what stops the fluid that comes in (rho k^2 is the same for k < 0), and a film that
+ * yielded to it held a light block down that rises from a floor.  A film that holds sides together, e < 0, does not yield: bodies that lie on each other under water
+ * would be lifted off their contacts.  So an e that swings about 0 draws a body that does not part to a wall that it is close to.
  * share: 1/2 where both sides are free to move.  The part along the surface, t, which a film has not, is for facets of one gap whose normals
  * differ by little: their loads would move a body along it.  A step closes at most half of a gap. */
 #ifndef CORACLE_COUPLER_SQUEEZE_FILM_H

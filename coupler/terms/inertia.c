@@ -3,8 +3,10 @@
 
 /* An element is covered where its pairs add up to it to this part. */
 #define COVERED 1e-10
-/* Normals whose mean of sin^2 is below 0.1 count as one: 1/(1 - 2 0.1) (P of inertia.h). */
+/* Normals whose mean of sin^2 is below 0.1, s above 0.8, count as one (P of inertia.h). */
 #define CORNER 1.25
+/* Of s^2: below this D has no direction, and P is k D. */
+#define CORNER_LEAST 1e-12
 /* Terms of the series of a~ after the first. */
 enum { NTERMS = 3 };
 
@@ -116,13 +118,13 @@ static PetscBool IsHeld(const Overlap o, const SourceTerm source[], int e)
   return PETSC_FALSE;
 }
 
-/* P of D, whose trace is 1 and the difference of whose principal values 1 - 2 s, or which is 0. */
+/* P of D = I - s^2 n n. */
 static WallCoefficient Sharpened(const WallCoefficient *d, double k)
 {
-  const double spread = hypot(d->xx - d->yy, 2.0 * d->xy); /* of D's principal values */
-  if (k == 1.0 || spread == 0.0) return *d;
-  const double part = (1.0 - k) * fmin(1.0, CORNER * spread), share = part / spread + k,
-               rest = 0.5 * (part + k - share);
+  const double square = hypot(d->xx - d->yy, 2.0 * d->xy); /* s^2 */
+  if (k == 1.0 || square < CORNER_LEAST) return WallCoefficientScaled(d, k);
+  const double part = (1.0 - k) * fmin(1.0, CORNER * sqrt(square)), share = k + part / square,
+               rest = -part * (1.0 - square) / square;
   return (WallCoefficient){share * d->xx + rest, share * d->xy, share * d->yy + rest};
 }
 

@@ -43,10 +43,10 @@
  *     k  =  min(1, INERTIA_KEPT_RATIO rho_o |K and S| / int_{K and S} (rho_s - rho_f)),     rho_o of outside.h, else rho_f.
  *
  * The rest, (1 - k) P, is moved by the forces on the solid alone: q there is rho_s a - rho_f g - (rho_s - rho_f) (1 - k) P a.
- * P is D where k = 1.  Of a heavy solid it is nearly the projector t t along the surface, t its direction in K, for D, a mean over normals, lacks
- * little of that where the surface is curved, but little of a large m:
+ * P is D where k = 1.  Of a heavy solid it is nearly the projector t t along the surface, t its direction in K, for D, of a mean over normals, has
+ * little of a large m too much or too little where the surface is curved:
  *
- *     P  =  k D + (1 - k) min(1, CORNER (1 - 2 s)) t t,     s the mean of sin^2 of the normals' angle to the mean one.
+ *     P  =  k D + (1 - k) min(1, CORNER s) t t,     s of slip.h.
  *
  * The cylinder's drag is then that of a fixed one within 1 % (k is 1 up to 21 times the fluid's density; tests/coupled/wind.sh).  A solid of more
  * than INERTIA_MOST times the fluid's density counts as one of so many times, on both sides of the coupling: beyond that round-off decides
@@ -86,7 +86,7 @@
  * took off w/H of what the pressure lacked.)
  *
  * Among phases, where phi is not an increment, what is held is one of INERTIA_MOST times the density of the phase that fills it.  Along the
- * surface its inertia counts as that of other heavy solids does in one fluid (P, with D = I - mean of its n n), but as at most INERTIA_HELD_RATIO
+ * surface its inertia counts as that of other heavy solids does in one fluid (P, of its normals alone), but as at most INERTIA_HELD_RATIO
  * times the fluid's mass.  (With 1e5 times, 4e-4 of the water that a wall holds back 0.5 m deep passes it in a second, with 1e6 nothing.)
  *
  * Where surface tension is resolved, elements at the interface being smaller than the capillary length sqrt(tension/(density g)), it is held by a

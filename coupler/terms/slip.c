@@ -1,5 +1,13 @@
 #include "coupler/terms/slip.h"
 #include "coupler/terms/outside.h"
+#include <math.h>
+
+/* D of M, a mean of n n. */
+static WallCoefficient SlipTensor(double xx, double xy, double yy)
+{
+  const double s = hypot(xx - yy, 2.0 * xy), rest = 1.0 + 0.5 * s * (1.0 - s);
+  return (WallCoefficient){rest - s * xx, -s * xy, rest - s * yy};
+}
 
 void SlipTensors(const Overlap o, const SourceTerm term[], ElementTerm element[])
 {
@@ -23,7 +31,7 @@ void SlipTensors(const Overlap o, const SourceTerm term[], ElementTerm element[]
                     shared = (PetscBool)(!open && solid + all > (1.0 + OUTSIDE_LEAST) * area);
     element[e].along = element[e].tangential = WallCoefficientIsotropic(0.0);
     if (shell > 0.0 && (open || shared))
-      element[e].along = (WallCoefficient){1.0 - xx / shell, -xy / shell, 1.0 - yy / shell};
+      element[e].along = SlipTensor(xx / shell, xy / shell, yy / shell);
     if (!o->phases) element[e].tangential = element[e].along;
     element[e].shared = (PetscBool)(o->phases && shared && shell > 0.0);
   }
