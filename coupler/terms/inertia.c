@@ -1,11 +1,12 @@
 #include "coupler/terms/inertia.h"
 #include "coupler/terms/outside.h"
+#include "coupler/terms/slip.h"
 
 /* An element is covered where its pairs add up to it to this part. */
 #define COVERED 1e-10
 /* Normals whose mean of sin^2 is below 0.1, s above 0.8, count as one (P of inertia.h). */
 #define CORNER 1.25
-/* Of s^2: below this D has no direction, and P is k D. */
+/* Of s^SLIP_PLANE: below this D has no direction, and P is k D. */
 #define CORNER_LEAST 1e-12
 /* Terms of the series of a~ after the first. */
 enum { NTERMS = 3 };
@@ -118,13 +119,13 @@ static PetscBool IsHeld(const Overlap o, const SourceTerm source[], int e)
   return PETSC_FALSE;
 }
 
-/* P of D = I - s^2 n n. */
+/* P of D. */
 static WallCoefficient Sharpened(const WallCoefficient *d, double k)
 {
-  const double square = hypot(d->xx - d->yy, 2.0 * d->xy); /* s^2 */
-  if (k == 1.0 || square < CORNER_LEAST) return WallCoefficientScaled(d, k);
-  const double part = (1.0 - k) * fmin(1.0, CORNER * sqrt(square)), share = k + part / square,
-               rest = -part * (1.0 - square) / square;
+  const double normal = hypot(d->xx - d->yy, 2.0 * d->xy); /* s^SLIP_PLANE: what D lacks of I along n */
+  if (k == 1.0 || normal < CORNER_LEAST) return WallCoefficientScaled(d, k);
+  const double part = (1.0 - k) * fmin(1.0, CORNER * pow(normal, 1.0 / SLIP_PLANE)),
+               share = k + part / normal, rest = -part * (1.0 - normal) / normal;
   return (WallCoefficient){share * d->xx + rest, share * d->xy, share * d->yy + rest};
 }
 

@@ -5,8 +5,9 @@
 /* D of M, a mean of n n. */
 static WallCoefficient SlipTensor(double xx, double xy, double yy)
 {
-  const double s = hypot(xx - yy, 2.0 * xy), rest = 1.0 + 0.5 * s * (1.0 - s);
-  return (WallCoefficient){rest - s * xx, -s * xy, rest - s * yy};
+  const double s = hypot(xx - yy, 2.0 * xy), part = pow(s, SLIP_PLANE - 1.0),
+               rest = 1.0 + 0.5 * part * (1.0 - s);
+  return (WallCoefficient){rest - part * xx, -part * xy, rest - part * yy};
 }
 
 void SlipTensors(const Overlap o, const SourceTerm term[], ElementTerm element[])
@@ -30,8 +31,7 @@ void SlipTensors(const Overlap o, const SourceTerm term[], ElementTerm element[]
     const PetscBool open = element[e].open = (PetscBool)(solid < (1.0 - OUTSIDE_LEAST) * area),
                     shared = (PetscBool)(!open && solid + all > (1.0 + OUTSIDE_LEAST) * area);
     element[e].along = element[e].tangential = WallCoefficientIsotropic(0.0);
-    if (shell > 0.0 && (open || shared))
-      element[e].along = SlipTensor(xx / shell, xy / shell, yy / shell);
+    if (shell > 0.0 && (open || shared)) element[e].along = SlipTensor(xx / shell, xy / shell, yy / shell);
     if (!o->phases) element[e].tangential = element[e].along;
     element[e].shared = (PetscBool)(o->phases && shared && shell > 0.0);
   }
