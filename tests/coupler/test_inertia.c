@@ -8,6 +8,8 @@
 
 static SyntheticSolid all_solid, solid;
 static SyntheticFluid all_fluid, fluid;
+/* Of the velocity across a curved surface, what D keeps at most: 1 - s^8 (slip.h). */
+#define CURVED 0.15
 static const double RHO = 2.0, DT = 0.01, OWN[2] = {3.0, -7.0}, START[2] = {0.2, -0.1};
 
 /* Lumped masses of the solid and its start; rigid: mobility 0. */
@@ -97,8 +99,8 @@ static void CheckSurface(double ratio, double kept)
     if (!(k->flags & CORACLE_HAS_INERTIA)) continue;
     const double moves = k->inertia_tensor[0][0] + k->inertia_tensor[1][1],
                  free_part = is_crossed && kept == 0.0 ? 1.0 : 0.0;
-    CHECK(fabs(trace - is_crossed * kept) < 1e-3, "an element %g of which is solid keeps %g", k->alpha,
-          trace);
+    CHECK(trace > is_crossed * kept - 1e-3 && trace < is_crossed * kept * (1.0 + CURVED) + 1e-3,
+          "an element %g of which is solid keeps %g", k->alpha, trace);
     CHECK(fabs(moves - (2.0 - free_part)) < 1e-3, "an element %g of which is solid moves %g", k->alpha,
           moves);
     if (kept > 0.0 || k->alpha < 0.3) continue;
