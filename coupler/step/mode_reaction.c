@@ -19,7 +19,7 @@ static PetscErrorCode Coefficients(Coupler c, const SolidState *solid)
   }
   PetscCall(InertiaCoefficients(o, solid, c->dt, c->options.capillary, c->term, c->source));
   OutsideDensity(o, c->element);
-  SlipTensors(o, c->source, c->element);
+  SlipTensors(o, c->source, c->options.gravity, c->dt, c->element);
   PetscCall(DisplacedDensity(o, solid, c->element, c->source, &c->harmonic, c->displaced));
   InertiaStart(o, c->source, c->dt, c->element, c->term);
   SlipCoefficients(o, c->element, c->term);

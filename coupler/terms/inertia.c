@@ -95,12 +95,13 @@ static PetscBool IsCovered(const Overlap o, const SourceTerm source[], int e)
   return fabs(covered - area) < COVERED * area ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* k of element e: from its pairs with inertia, their area, and that times what the solid has beyond the fluid's density. */
-static double KeptPart(const Overlap o, const SourceTerm source[], const ElementTerm *element, double ratio,
-                       int e)
+double InertiaKept(const Overlap o, const SourceTerm source[], const ElementTerm *element, double ratio,
+                   int e)
 {
   const int k = o->coupled_element[e];
-  double area = 0.0, excess = 0.0;
+  double area = 0.0,
+         excess =
+             0.0; /* of pairs with inertia, and that times what the solid has beyond the fluid's density */
   for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
     const SupermeshPair *pair = &o->pairs.pair[o->of_element[i]];
     const double density = source[pair->a].density;
@@ -134,7 +135,7 @@ void InertiaStart(Overlap o, const SourceTerm source[], double dt, ElementTerm e
   for (int e = 0; e < o->ncoupled; e++) {
     const PetscBool held = IsHeld(o, source, e);
     const double ratio = !held ? INERTIA_KEPT_RATIO : o->phases ? INERTIA_HELD_RATIO : 0.0;
-    const double kept = KeptPart(o, source, &element[e], ratio, e);
+    const double kept = InertiaKept(o, source, &element[e], ratio, e);
     const WallCoefficient along = Sharpened(held ? &element[e].along : &element[e].tangential, kept);
     element[e].covered =
         (PetscBool)(!o->phases && !held && WallIsZero(&element[e].tangential) && IsCovered(o, source, e));

@@ -52,7 +52,7 @@
  * than INERTIA_MOST times the fluid's density counts as one of so many times, on both sides of the coupling: beyond that round-off decides
  * what is left along the surface.
  *
- * Among phases D is 0, G is I and kept is k I; k is 1 in elements that the solid all but covers.
+ * Among phases G is I and kept is k I; k is 1 in elements that the solid all but covers.
  *
  * 4. Solids lighter than the fluid.
  *
@@ -123,6 +123,9 @@
  * resolved. */
 PetscErrorCode InertiaCoefficients(Overlap overlap, const SolidState *solid, double dt, PetscBool capillary,
                                    PairTerm term[], SourceTerm source[]);
+/* Local, after OutsideDensity: k of element e with INERTIA_KEPT_RATIO, or another ratio. */
+double InertiaKept(const Overlap overlap, const SourceTerm source[], const ElementTerm *element, double ratio,
+                   int e);
 /* Local, after InertiaCoefficients, OutsideDensity and SlipTensors: start of term[pairs.n], kept and covered of element[ncoupled]. */
 void InertiaStart(Overlap overlap, const SourceTerm source[], double dt, ElementTerm element[],
                   PairTerm term[]);

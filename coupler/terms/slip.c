@@ -1,6 +1,9 @@
 #include "coupler/terms/slip.h"
+#include "coupler/terms/inertia.h"
 #include "coupler/terms/outside.h"
 #include <math.h>
+
+#define DENSE_LEAST 0.1
 
 /* D of M, a mean of n n. */
 static WallCoefficient SlipTensor(double xx, double xy, double yy)
@@ -10,30 +13,68 @@ static WallCoefficient SlipTensor(double xx, double xy, double yy)
   return (WallCoefficient){rest - part * xx, -part * xy, rest - part * yy};
 }
 
-void SlipTensors(const Overlap o, const SourceTerm term[], ElementTerm element[])
+/* The part of the slip that an element among phases keeps over dt, of an area. */
+static double PhasesKept(double gravity, double area, double dt)
 {
+  return gravity > 0.0 ? exp(-SLIP_RATE * dt * sqrt(gravity / sqrt(2.0 * area))) : 0.0;
+}
+
+/* All but DENSE_LEAST of what is open is of phases denser than what fills the solid. */
+static PetscBool IsBesideDense(const Overlap o, const ElementTerm *element, int e)
+{
+  const int k = o->coupled_element[e];
+  const double denser = o->rho_beside[k] - o->rho[k];
+  return (PetscBool)(denser > 0.0 && element->outside > (1.0 - DENSE_LEAST) * denser);
+}
+
+/* Areas of an element's pairs, and integrals of n n over those of the shell. */
+typedef struct {
+  double solid, shell, xx, xy, yy;
+} SlipSums;
+
+static void AddNormal(double area, const double n[2], SlipSums *sums)
+{
+  sums->shell += area;
+  sums->xx += area * n[0] * n[0];
+  sums->xy += area * n[0] * n[1];
+  sums->yy += area * n[1] * n[1];
+}
+
+static WallCoefficient TensorOf(const SlipSums *sums)
+{
+  if (sums->shell == 0.0) return WallCoefficientIsotropic(0.0);
+  return SlipTensor(sums->xx / sums->shell, sums->xy / sums->shell, sums->yy / sums->shell);
+}
+
+void SlipTensors(const Overlap o, const SourceTerm term[], const double gravity[2], double dt,
+                 ElementTerm element[])
+{
+  const double g = hypot(gravity[0], gravity[1]);
   for (int e = 0; e < o->ncoupled; e++) {
-    double solid = 0.0, all = 0.0, shell = 0.0, xx = 0.0, xy = 0.0, yy = 0.0; /* areas */
+    SlipSums all = {.solid = 0.0}, held = {.solid = 0.0};
     for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
       const SupermeshPair *pair = &o->pairs.pair[o->of_element[i]];
       const SourceTriangle *source = &o->source[pair->a];
-      const double *n = source->normal;
-      if (!source->is_shell) solid += pair->area;
-      if (!source->is_shell) continue;
-      all += pair->area;
-      if (o->phases && !term[pair->a].held) continue;
-      shell += pair->area;
-      xx += pair->area * n[0] * n[0];
-      xy += pair->area * n[0] * n[1];
-      yy += pair->area * n[1] * n[1];
+      if (!source->is_shell)
+        all.solid += pair->area;
+      else
+        AddNormal(pair->area, source->normal, &all);
+      if (source->is_shell && term[pair->a].held) AddNormal(pair->area, source->normal, &held);
     }
+    ElementTerm *k = &element[e];
     const double area = o->area[o->coupled_element[e]];
-    const PetscBool open = element[e].open = (PetscBool)(solid < (1.0 - OUTSIDE_LEAST) * area),
-                    shared = (PetscBool)(!open && solid + all > (1.0 + OUTSIDE_LEAST) * area);
-    element[e].along = element[e].tangential = WallCoefficientIsotropic(0.0);
-    if (shell > 0.0 && (open || shared)) element[e].along = SlipTensor(xx / shell, xy / shell, yy / shell);
-    if (!o->phases) element[e].tangential = element[e].along;
-    element[e].shared = (PetscBool)(o->phases && shared && shell > 0.0);
+    const PetscBool shared = (PetscBool)(all.solid >= (1.0 - OUTSIDE_LEAST) * area &&
+                                         all.solid + all.shell > (1.0 + OUTSIDE_LEAST) * area);
+    k->open = (PetscBool)(all.solid < (1.0 - OUTSIDE_LEAST) * area);
+    k->along = k->tangential = WallCoefficientIsotropic(0.0);
+    k->shared = (PetscBool)(o->phases && shared && held.shell > 0.0);
+    if (!k->open && !shared) continue;
+    k->along = TensorOf(o->phases ? &held : &all);
+    if (!o->phases) k->tangential = k->along;
+    if (!o->phases || !k->open || held.shell > 0.0 || !IsBesideDense(o, k, e)) continue;
+    if (InertiaKept(o, term, k, INERTIA_KEPT_RATIO, e) < 1.0) continue;
+    const WallCoefficient d = TensorOf(&all);
+    k->tangential = WallCoefficientScaled(&d, PhasesKept(g, area, dt));
   }
 }
 

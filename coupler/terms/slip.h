@@ -43,14 +43,23 @@
  * could not take over what the pressure has beyond the head (uplift.h).  Normals are those of what is held alone: an element at the foot of a
  * block on a slope slides along the slope.  Two solids that are free accelerate together there, which lets them slide.
  *
- * 4. Otherwise among phases (Overlap.phases) D = 0.
+ * 4. Otherwise among phases (Overlap.phases).
  *
  * What such an element, of one velocity, one density and one pressure, leaves of forces along a solid adds up where nothing stops it, and water is not
- * viscous enough to.  With slip where what is beside the solid is water, a block that rolls gets water that runs along its bottom at 0.95 m/s,
- * inside elements that are nearly covered (steps of 1 ms, le 0.008 m); with slip in air, too, the air beside a block at rest reaches 2.9 m/s.
- * With slip that goes from 0 to D while what is outside goes from 0.1 to 0.5 of the element nothing grew, and little was gained: a disc of 1500 kg/m3
- * sinks 0.9 % less with steps of 1 ms than of 4 ms (1.6 % without slip, 0.7 % in one fluid), a block rolls 3.6 % slow (3.0 % without), a
- * block at rest turns by 0.003 (0.002 without). */
+ * viscous enough to.  So slip ends with a rate, that with which gravity moves what is in an element by its size:
+ *
+ *     D  =  exp(-SLIP_RATE dt sqrt(g/le)) (I - s^8 n n),     le = sqrt(2 |K|),
+ *
+ * where all of what is open is of phases denser than what fills the solid and the solid is not much heavier (k = 1 in inertia.h).  D = 0 beside air, at an interface,
+ * beside what is held, and without gravity.  With D = 0 everywhere all slip was lost in each step, and the coupling depended on dt.  The roll of tests/coupled/roll.sh,
+ * error of half a period with le 0.008 m and steps of 2 and 0.5 ms, with le 0.004 m and 1 ms, and the fluid's largest speed with 0.5 ms:
+ *
+ *     SLIP_RATE         0              1              2              4              8              D = 0
+ *     2, 0.5 ms, %      8.3, -         4.2, 4.4       3.6, 3.9       3.9, 3.4       4.1, 3.1       4.0, 2.7
+ *     le 0.004 m, %     -              2.3            2.3            2.5            2.7            3.2
+ *     speed, m/s        (unstable)     1.06           1.16           0.47           0.88           1.22
+ *
+ * At an interface, too, the kinetic energy with 0.5 ms is three times as large; in air without a rate what is beside a block at rest reaches 2.9 m/s. */
 #ifndef CORACLE_SLIP_H
 #define CORACLE_SLIP_H
 #include "coupler/terms/wall_term.h"
@@ -58,9 +67,12 @@
 #define SLIP_FRICTION 2.0
 /* The power of s in D. */
 #define SLIP_PLANE 8.0
+/* Of sqrt(g/le): the rate at which slip ends among phases (4). */
+#define SLIP_RATE 4.0
 
-/* Local, after InertiaCoefficients: D, along, shared and open of element[overlap->ncoupled]. */
-void SlipTensors(const Overlap overlap, const SourceTerm source[], ElementTerm element[]);
+/* Local, after InertiaCoefficients and OutsideDensity: D, along, shared and open of element[overlap->ncoupled]. */
+void SlipTensors(const Overlap overlap, const SourceTerm source[], const double gravity[2], double dt,
+                 ElementTerm element[]);
 /* Local: a of the pairs in the solid's volume becomes SLIP_FRICTION mu/|K| D. */
 void SlipCoefficients(const Overlap overlap, const ElementTerm element[], PairTerm term[]);
 /* Local: r -= D r of all corrections[overlap->ncoupled]. */
