@@ -30,10 +30,13 @@ static bool Look(long pid, char name[16], char *state)
   return ReadText(path, sizeof text, text) && sscanf(text, "%*d (%15[^)]) %c", name, state) == 2;
 }
 
-static bool IsOpenMpi(const char *name)
+/* Whether a process lives and is a launcher of Open MPI. */
+static bool IsLauncher(pid_t pid)
 {
-  return !strcmp(name, "mpirun") || !strcmp(name, "mpiexec") || !strcmp(name, "orterun") ||
-         !strcmp(name, "orted");
+  char name[16], state;
+  return Look(pid, name, &state) && state != 'Z' &&
+         (!strcmp(name, "mpirun") || !strcmp(name, "mpiexec") || !strcmp(name, "orterun") ||
+          !strcmp(name, "orted"));
 }
 
 /* Whether none of the processes that it started lives; false where the kernel does not list them. */
@@ -60,12 +63,10 @@ static void Leave(void)
 
 void LauncherWatch(void)
 {
-  char name[16], state;
   const pid_t launcher = getppid();
-  if (!Look(launcher, name, &state) || !IsOpenMpi(name) || fork()) return;
+  if (!IsLauncher(launcher) || fork()) return;
   Leave();
-  for (int poll = 0, still = 0;
-       poll < WATCH && Look(launcher, name, &state) && IsOpenMpi(name) && state != 'Z'; poll++) {
+  for (int poll = 0, still = 0; poll < WATCH && IsLauncher(launcher); poll++) {
     still = IsChildless(launcher) ? still + 1 : 0;
     if (still > PATIENCE) kill(launcher, SIGKILL);
     nanosleep(&(struct timespec){.tv_nsec = 1000000000 / POLLS_PER_SECOND}, NULL);

@@ -5,14 +5,6 @@
 
 #define DENSE_LEAST 0.1
 
-/* D of M, a mean of n n. */
-static WallCoefficient SlipTensor(double xx, double xy, double yy)
-{
-  const double s = hypot(xx - yy, 2.0 * xy), part = pow(s, SLIP_PLANE - 1.0),
-               rest = 1.0 + 0.5 * part * (1.0 - s);
-  return (WallCoefficient){rest - part * xx, -part * xy, rest - part * yy};
-}
-
 /* The part of the slip that an element among phases keeps over dt, of an area. */
 static double PhasesKept(double gravity, double area, double dt)
 {
@@ -27,23 +19,27 @@ static PetscBool IsBesideDense(const Overlap o, const ElementTerm *element, int 
   return (PetscBool)(denser > 0.0 && element->outside > (1.0 - DENSE_LEAST) * denser);
 }
 
-/* Areas of an element's pairs, and integrals of n n over those of the shell. */
+/* Area of an element's pairs of the shell, and the integral of n n over it. */
 typedef struct {
-  double solid, shell, xx, xy, yy;
-} SlipSums;
+  double area, xx, xy, yy;
+} NormalSums;
 
-static void AddNormal(double area, const double n[2], SlipSums *sums)
+static void AddNormal(double area, const double n[2], NormalSums *sums)
 {
-  sums->shell += area;
+  sums->area += area;
   sums->xx += area * n[0] * n[0];
   sums->xy += area * n[0] * n[1];
   sums->yy += area * n[1] * n[1];
 }
 
-static WallCoefficient TensorOf(const SlipSums *sums)
+/* I - s^SLIP_PLANE n n; 0 without a surface. */
+static WallCoefficient SlipTensor(const NormalSums *sums)
 {
-  if (sums->shell == 0.0) return WallCoefficientIsotropic(0.0);
-  return SlipTensor(sums->xx / sums->shell, sums->xy / sums->shell, sums->yy / sums->shell);
+  if (sums->area == 0.0) return WallCoefficientIsotropic(0.0);
+  const double xx = sums->xx / sums->area, xy = sums->xy / sums->area, yy = sums->yy / sums->area;
+  const double s = hypot(xx - yy, 2.0 * xy), part = pow(s, SLIP_PLANE - 1.0),
+               rest = 1.0 + 0.5 * part * (1.0 - s);
+  return (WallCoefficient){rest - part * xx, -part * xy, rest - part * yy};
 }
 
 void SlipTensors(const Overlap o, const SourceTerm term[], const double gravity[2], double dt,
@@ -51,29 +47,30 @@ void SlipTensors(const Overlap o, const SourceTerm term[], const double gravity[
 {
   const double g = hypot(gravity[0], gravity[1]);
   for (int e = 0; e < o->ncoupled; e++) {
-    SlipSums all = {.solid = 0.0}, held = {.solid = 0.0};
+    NormalSums all = {.area = 0.0}, held = {.area = 0.0};
+    double solid = 0.0;
     for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
       const SupermeshPair *pair = &o->pairs.pair[o->of_element[i]];
       const SourceTriangle *source = &o->source[pair->a];
       if (!source->is_shell)
-        all.solid += pair->area;
+        solid += pair->area;
       else
         AddNormal(pair->area, source->normal, &all);
       if (source->is_shell && term[pair->a].held) AddNormal(pair->area, source->normal, &held);
     }
     ElementTerm *k = &element[e];
     const double area = o->area[o->coupled_element[e]];
-    const PetscBool shared = (PetscBool)(all.solid >= (1.0 - OUTSIDE_LEAST) * area &&
-                                         all.solid + all.shell > (1.0 + OUTSIDE_LEAST) * area);
-    k->open = (PetscBool)(all.solid < (1.0 - OUTSIDE_LEAST) * area);
+    const PetscBool shared =
+        (PetscBool)(solid >= (1.0 - OUTSIDE_LEAST) * area && solid + all.area > (1.0 + OUTSIDE_LEAST) * area);
+    k->open = (PetscBool)(solid < (1.0 - OUTSIDE_LEAST) * area);
     k->along = k->tangential = WallCoefficientIsotropic(0.0);
-    k->shared = (PetscBool)(o->phases && shared && held.shell > 0.0);
+    k->shared = (PetscBool)(o->phases && shared && held.area > 0.0);
     if (!k->open && !shared) continue;
-    k->along = TensorOf(o->phases ? &held : &all);
+    k->along = SlipTensor(o->phases ? &held : &all);
     if (!o->phases) k->tangential = k->along;
-    if (!o->phases || !k->open || held.shell > 0.0 || !IsBesideDense(o, k, e)) continue;
+    if (!o->phases || !k->open || held.area > 0.0 || !IsBesideDense(o, k, e)) continue;
     if (InertiaKept(o, term, k, INERTIA_KEPT_RATIO, e) < 1.0) continue;
-    const WallCoefficient d = TensorOf(&all);
+    const WallCoefficient d = SlipTensor(&all);
     k->tangential = WallCoefficientScaled(&d, PhasesKept(g, area, dt));
   }
 }

@@ -13,8 +13,9 @@ for le in "${sizes[@]}"; do
 done
 phases='[{name: air, density: 1.2, viscosity: 1.8e-5}, {name: water, density: 1000.0, viscosity: 1.0e-3}]'
 regions='[{phase: air}, {phase: water, lower: [-9.0, -9.0], upper: [9.0, 0.4]}]'
-for dt in "${steps[@]}"; do # water beneath air
-  sed '/^  density:/d; /^  viscosity:/d; s/, top: {pressure: 0.0}/, top: {pressure: 0.0, phase: air}/' "$case" >"$scratch/phases.yaml"
+# water beneath air
+sed '/^  density:/d; /^  viscosity:/d; s/, top: {pressure: 0.0}/, top: {pressure: 0.0, phase: air}/' "$case" >"$scratch/phases.yaml"
+for dt in "${steps[@]}"; do
   case=$scratch/phases.yaml must "phases $dt" 1:1:1 --set "fluid.phases=$phases" --set "fluid.regions=$regions" --set fluid.adapt.size_min=0.0125 --set fluid.adapt.interface_size=0.025 \
     --set "time.dt_max=$dt"
 done
