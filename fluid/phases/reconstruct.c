@@ -3,8 +3,8 @@
  *
  * Of a phase of which the element K and those around it hold less than |K|, a fragment, the elements around may say nothing (PlicIsBlind).
  * Its line would be at the same corner of K in each step, wherever the fragment has got to.  It is spread: what a face sweeps of K holds
- * V_p/|K| of each phase p.  So is what round-off has left (DUST).  Beside a solid lines stay: what its surface cuts has slivers of phases
- * that are at rest. */
+ * V_p/|K| of each phase p.  So is what round-off has left (DUST), and the inside of a cloud of fragments, where all elements around are cut,
+ * which no line does.  Beside a solid lines stay: what its surface cuts has slivers of phases that are at rest. */
 #include "fluid/phases/phases_impl.h"
 
 /* Of |K|: less of a phase in it and around it has no surface, also where a line fits, which at a wall any does. */
@@ -112,6 +112,26 @@ int PhasesHasFragments(Phases f, int e)
   return SecondAround(f, e) < 1.0;
 }
 
+/* Whether none of the elements around e has a phase to itself. */
+static int AllAreCut(Phases f, int e)
+{
+  int list[PLIC_CELLS];
+  const int n = ListAround(f->stars, e, list);
+  for (int k = 0; k < n; k++)
+    if (f->single[list[k]] >= 0) return 0;
+  return 1;
+}
+
+/* A line that keeps the volume, for the phases behind, where p has no place. */
+static HalfPlane AnyLine(Phases f, int e, int p)
+{
+  HalfPlane line = {{1.0, 0.0}, 0.0};
+  PlicCell cell;
+  SetCell(f, e, p, f->stars->element[e].x[0], &cell);
+  line.d = PolygonFindOffset(&cell.part, line.n, cell.volume);
+  return line;
+}
+
 static HalfPlane FitLine(Phases f, int e, int p, PlicCell cell[])
 {
   const double area = StarsArea(f->stars, e), *v = VolumeOf(f, e);
@@ -119,10 +139,14 @@ static HalfPlane FitLine(Phases f, int e, int p, PlicCell cell[])
   for (int k = p + 1; k < f->np; k++) behind += v[k];
   if (v[p] < PHASES_TINY * area) return (HalfPlane){{0.0, 0.0}, -1.0};
   if (behind < PHASES_TINY * area) return (HalfPlane){{0.0, 0.0}, 1.0};
+  const double second = SecondAround(f, e);
+  if (second < DUST || (second < 1.0 && AllAreCut(f, e))) {
+    f->spread[e] = 1;
+    return AnyLine(f, e, p);
+  }
   const int n = Gather(f, e, p, cell);
   const HalfPlane line = PlicFit(n, cell);
-  const double second = SecondAround(f, e);
-  if (second < 1.0) f->spread[e] |= second < DUST || PlicIsBlind(n, cell, &line);
+  if (second < 1.0) f->spread[e] |= PlicIsBlind(n, cell, &line);
   return line;
 }
 

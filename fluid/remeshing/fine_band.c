@@ -3,8 +3,10 @@
 #include "common/supermesh/search.h"
 #include "fluid/flow/fluid_impl.h"
 
-/* Of an element, what of all phases but one is the tail of a smeared interface or of a spread fragment. */
+/* Of an element, what of all phases but one is the tail of a smeared interface, or a cloud that a spread fragment has become: finer
+ * elements would not find its drops again. */
 #define TAIL 1e-3
+#define CLOUD 0.1
 
 /* Where a piece of the surface is and where it will be at the next adaptation, and the size that it wants. */
 typedef struct {
@@ -25,17 +27,20 @@ static double DensityRange(Fluid f, int e)
   return low + high;
 }
 
-/* Whether element e has more than one phase; of what is smeared, more than its tail. */
+/* Whether element e has more than one phase; of what is smeared or spread, more than its tail or a cloud. */
 static PetscBool OfInterface(Fluid f, int e)
 {
+  const Phases phases = PhaseTransportPhases(f->phases);
   int n;
   const double *volume = PhaseTransportVolumes(f->phases, &n);
-  double most = 0.0;
-  if (PhasesSingle(PhaseTransportPhases(f->phases), e) >= 0) return PETSC_FALSE;
+  double most = 0.0, others = 0.0;
+  if (PhasesSingle(phases, e) >= 0) return PETSC_FALSE;
+  if (f->setup.phases.advection != PHASES_GEOMETRIC)
+    others = TAIL;
+  else if (PhasesSpread(phases, e))
+    others = CLOUD;
   for (int p = 0; p < n; p++) most = fmax(most, volume[n * e + p]);
-  return (PetscBool)((f->setup.phases.advection == PHASES_GEOMETRIC &&
-                      !PhasesSpread(PhaseTransportPhases(f->phases), e)) ||
-                     most < (1.0 - TAIL) * f->domain.geometry[e].area);
+  return (PetscBool)(others == 0.0 || most < (1.0 - others) * f->domain.geometry[e].area);
 }
 
 /* Mean velocity of element e in the flow of the current step, if the interface cuts it; light elements follow the others,
