@@ -42,6 +42,7 @@ while [ $# -gt 0 ]; do
   esac
 done
 [ -n "$case" ] || usage 2
+[ ! -d "$case" ] || die "'$case' is a folder: name its case file, as in ${case%/}/case.yaml"
 [ -f "$case" ] || die "no case file '$case'"
 [[ $ranks =~ ^([1-9][0-9]*):([1-9][0-9]*):([1-9][0-9]*)$ ]] || die "--ranks '$ranks': expected F:C:S, each at least 1"
 declare -A n=([fluid]=${BASH_REMATCH[1]} [coupler]=${BASH_REMATCH[2]} [solid]=${BASH_REMATCH[3]})

@@ -42,6 +42,7 @@ refuse() { # EXPECTED ARGUMENTS...
   grep -q "$expected" "$scratch/log" || fail "another refusal than '$expected'"
 }
 refuse "no case file" "$scratch/none.yaml"
+refuse "is a folder" "$scratch"
 refuse "expected F:C:S" "$case" --ranks 1:0:1
 refuse "unknown option" "$case" --rank 1:1:1
 refuse "no coracle-fluid under" "$case" --bin "$scratch" --fluid ""
