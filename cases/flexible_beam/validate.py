@@ -88,6 +88,7 @@ ROWS = {
     "fsi2-0.008": Row("FSI2", FSI2 + ["time.cfl=2"], 12.0, 10.5),
     "fsi2-0.004": Row("FSI2", FSI2 + ["fluid.adapt.size_min=0.004", "time.cfl=2"], 18.6, 17.5, after="fsi2-0.008"),
     "fsi2-0.002": Row("FSI2", FSI2 + FINE, 18.6, 17.5, after="fsi2-0.008"),
+    "fsi2-0.002-step": Row("FSI2", FSI2 + FINE + ["time.dt_max=0.002"], 21.2, 20.1, after="fsi2-0.002"),
     "fsi3-0.008": Row("FSI3", [], 5.5, 4.6),
     "fsi3-0.008-six-2": Row("FSI3", [], 5.5, 4.6, 6, 2),
     "fsi3-0.008-six-8": Row("FSI3", [], 5.5, 4.6, 6, 8),
