@@ -33,14 +33,12 @@ static PetscBool OfInterface(Fluid f, int e)
   const Phases phases = PhaseTransportPhases(f->phases);
   int n;
   const double *volume = PhaseTransportVolumes(f->phases, &n);
-  double most = 0.0, others = 0.0;
+  const PetscBool smeared = (PetscBool)(f->setup.phases.advection != PHASES_GEOMETRIC);
+  double most = 0.0;
   if (PhasesSingle(phases, e) >= 0) return PETSC_FALSE;
-  if (f->setup.phases.advection != PHASES_GEOMETRIC)
-    others = TAIL;
-  else if (PhasesSpread(phases, e))
-    others = CLOUD;
+  if (!smeared && !PhasesSpread(phases, e)) return PETSC_TRUE;
   for (int p = 0; p < n; p++) most = fmax(most, volume[n * e + p]);
-  return (PetscBool)(others == 0.0 || most < (1.0 - others) * f->domain.geometry[e].area);
+  return (PetscBool)(most < (1.0 - (smeared ? TAIL : CLOUD)) * f->domain.geometry[e].area);
 }
 
 /* Mean velocity of element e in the flow of the current step, if the interface cuts it; light elements follow the others,
