@@ -115,6 +115,8 @@ static const CoracleCaseKey KEYS[] = {
     {"fluid.adapt.size_min", "m", "le: shortest edge wanted; that around the solid"},
     {"fluid.adapt.size_max", "m", "Le: longest edge wanted"},
     {"fluid.adapt.velocity_error", "m/s", "wanted error of linear interpolation, each component"},
+    {"fluid.adapt.corner_size", "m",
+     "edge wanted at corners of solids, from size_min/1000 to size_min; size_min if not given"},
     {"fluid.adapt.interface_size", "m",
      "edge wanted at the interface between phases, from size_min to size_max; size_min if not given"},
     {"fluid.adapt.light_velocity_error", "m/s", "wanted error in the lighter phase; 0: as coarse as may be"},
@@ -164,7 +166,7 @@ static void Expect(const Mesh *m, PetscBool adapts, const AdaptationSetup *s)
          (long long)m->nglobal, m->lower[0], m->upper[0], m->lower[1], m->upper[1], shortest, longest);
   if (adapts)
     printf("fluid: adapted every %d steps, edges from %g to %g m, at most %.0f triangles\n", s->every,
-           s->size_min, s->size_max, s->elements_max);
+           s->corner_size, s->size_max, s->elements_max);
   const double most = adapts ? fmax(s->elements_max, (double)m->nglobal) : (double)m->nglobal;
   printf("fluid: memory about %.0f MB%s\n", MB_PROGRAM + MB_TRIANGLE * most,
          adapts ? ", if it reaches fluid.adapt.elements_max" : "");

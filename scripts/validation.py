@@ -47,6 +47,11 @@ def percent(measured, reference, digits=1):
     return "%+.*f %%" % (digits, 100.0 * (measured / reference - 1.0))
 
 
+def cost(there, name, of):
+    """Processor time of a run over that of run `of`, "" where one has none; both of one machine, or it says little."""
+    return "%.2g" % (there[name].cpu / there[of].cpu) if of in there and there[name].cpu else ""
+
+
 def build():
     """Installs what is missing and builds the programs; stops where that fails."""
     subprocess.run([ROOT / "scripts" / "setup.sh"], check=True)

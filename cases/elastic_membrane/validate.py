@@ -59,7 +59,7 @@ class Result:
         self.summary = json.load(open(self.folder / "summary.json"))
         self.shape = membrane.history(self.folder)
         parts = self.summary["participants"].values()
-        self.cpu, self.wall = sum(p["seconds_cpu"] for p in parts), max(p["seconds_wall"] for p in parts)
+        self.cpu = sum(p["seconds_cpu"] for p in parts)
         self.le = next((float(k.split("=")[1]) for k in RUNS[name][0] if "size_min" in k), 0.008)
         self.triangles = int(membrane.last_row(self.folder / "fluid.csv")["triangles"])
 
@@ -74,7 +74,7 @@ def results(names):
 
 
 def rows_table(there):
-    yield "| run | le | dr | triangles | steps | CPU s | area | t | rx | ry | mean radius | jump | thin shell | error |"
+    yield "| run | le | dr | triangles | steps | cost | area | t | rx | ry | mean radius | jump | thin shell | error |"
     yield "|" + "---|" * 14
     for name, r in there.items():
         if name.startswith("line"):
@@ -82,8 +82,8 @@ def rows_table(there):
         s, t = r.shape, r.shape["t"][-1]
         jump, shell = membrane.jump(r.folder, t), membrane.ring_tension(s["length"][-1] / membrane.REST_LENGTH) / s["radius"][-1]
         thickness = next((k.split("=")[1] for k in RUNS[name][0] if "shell_thickness" in k), "0.0005")
-        yield "| %s | %g | %s | %d | %d | %.0f | %+.2f %% | %g | %.4f | %.4f | %.5f | %.4f | %.4f | %s |" % (
-            name, r.le, thickness, r.triangles, r.summary["steps"], r.cpu, 100.0 * (s["area"][-1] / s["area"][0] - 1.0), t, s["rx"][-1],
+        yield "| %s | %g | %s | %d | %d | %s | %+.2f %% | %g | %.4f | %.4f | %.5f | %.4f | %.4f | %s |" % (
+            name, r.le, thickness, r.triangles, r.summary["steps"], validation.cost(there, name, "y1"), 100.0 * (s["area"][-1] / s["area"][0] - 1.0), t, s["rx"][-1],
             s["ry"][-1], s["radius"][-1], jump, shell, percent(jump, shell))
 
 
@@ -91,7 +91,7 @@ def line_table(there):
     reference = membrane.reference()
     times = (0.1, 0.19, 0.3, 0.5, 0.8, 1.2, 1.47, 2.0)
     crossings = membrane.crossings(reference)
-    yield "| run | " + " | ".join("rx(%g)" % t for t in times) + " | rx = ry at | area | p(0) - p(1.4, 0) | CPU s |"
+    yield "| run | " + " | ".join("rx(%g)" % t for t in times) + " | rx = ry at | area | p(0) - p(1.4, 0) | cost |"
     yield "|" + "---|" * (len(times) + 5)
     yield "| body-fitted | " + " | ".join("%.4f" % membrane.at(reference, "rx", t) for t in times) + " | %s | | %.3f | |" % (
         ", ".join("%.4f" % c for c in crossings), membrane.at(reference, "drop", 2.0))
@@ -103,9 +103,9 @@ def line_table(there):
             rx = membrane.at(r.shape, "rx", t)
             cells.append("%.4f (%s)" % (rx, percent(rx, membrane.at(reference, "rx", t))))
         found = membrane.crossings(r.shape)
-        yield "| %s | %s | %s | %+.2f %% | %.3f | %.0f |" % (
+        yield "| %s | %s | %s | %+.2f %% | %.3f | %s |" % (
             name, " | ".join(cells), ", ".join("%.4f (%s)" % (a, percent(a, b)) for a, b in zip(found, crossings)),
-            100.0 * (r.shape["area"][-1] / r.shape["area"][0] - 1.0), membrane.drop(r.folder, 2.0), r.cpu)
+            100.0 * (r.shape["area"][-1] / r.shape["area"][0] - 1.0), membrane.drop(r.folder, 2.0), validation.cost(there, name, "y1"))
 
 
 def profiles_table(there):

@@ -181,15 +181,8 @@ def cell(q, value):
     return "%.4g +- %.4g" % value if isinstance(value, tuple) else "%.4g" % value
 
 
-def cost(there, r):
-    """Processor time for a second, over that of the case as it is."""
-    if r.row.alone or "fsi3-0.008" not in there:
-        return ""
-    return "%.2g" % (r.cpu / there["fsi3-0.008"].cpu)
-
-
 def table(tests, there):
-    """A row a run, those of each test under its reference."""
+    """A row a run, those of each test under its reference; cost: processor time for a second, over that of the case as it is."""
     yield "| run | triangles through the beam | x [mm] | y [mm] | drag [N/m] | lift [N/m] | frequency [Hz] | iterations a step | cost |"
     yield "|" + "---|" * 9
     for test in tests:
@@ -200,7 +193,7 @@ def table(tests, there):
                 cells = [cell(q, r.found[q] if q in expected else None) for q in (*QUANTITIES, "frequency")]
                 layers = "" if r.row.held else "%d of %d nodes" % (r.row.layers, r.row.nodes)
                 yield "| " + " | ".join([name, layers, *cells, "" if r.row.alone else "%.2f" % r.passes,
-                                              cost(there, r)]) + " |"
+                                              validation.cost(there, name, "fsi3-0.008")]) + " |"
 
 
 def bound(test, what):

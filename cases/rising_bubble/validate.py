@@ -71,7 +71,7 @@ def table(there):
         b = r.bubble
         yield "| " + " | ".join([name, "%.4f" % b.least, "%.4f" % b.fastest(0, 3)[0], "%.3f" % b.fastest(0, 3)[1], "%.4f" % b.y[-1],
                                  *("%.2f %%" % (100.0 * d) for d in b.differences()), "%.0e" % abs(b.area[-1] / b.area[0] - 1.0),
-                                 str(r.triangles), str(r.steps), "%.2g" % (r.cpu / there[COARSEST].cpu) if COARSEST in there else ""]) + " |"
+                                 str(r.triangles), str(r.steps), validation.cost(there, name, COARSEST)]) + " |"
 
 
 def table_2(there):

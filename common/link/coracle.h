@@ -247,7 +247,9 @@ enum {
   /* K lies in the solid as a whole, which moves freely: the step begins with the solid's velocity there, which s has, and
    * u start counts as 0 in rho M/dt (u* - u start); what CoracleSetFlow gives is the fluid's own all the same */
   CORACLE_IS_COVERED = 4,
-  CORACLE_IS_HELD = 8 /* K overlaps nodes without a mobility, which the fluid does not move */
+  CORACLE_IS_HELD = 8, /* K overlaps nodes without a mobility, which the fluid does not move */
+  CORACLE_HAS_CORNER =
+      16 /* the surface turns in K, at a corner or where two solids meet: small elements pay there */
 };
 typedef struct {
   int element; /* index into the elements last given by region */

@@ -32,13 +32,18 @@ static void AddNormal(double area, const double n[2], NormalSums *sums)
   sums->yy += area * n[1] * n[1];
 }
 
+/* s: 1 where the surface is plane. */
+static double Planeness(const NormalSums *sums)
+{
+  return hypot(sums->xx - sums->yy, 2.0 * sums->xy) / sums->area;
+}
+
 /* I - s^SLIP_PLANE n n; 0 without a surface. */
 static WallCoefficient SlipTensor(const NormalSums *sums)
 {
   if (sums->area == 0.0) return WallCoefficientIsotropic(0.0);
   const double xx = sums->xx / sums->area, xy = sums->xy / sums->area, yy = sums->yy / sums->area;
-  const double s = hypot(xx - yy, 2.0 * xy), part = pow(s, SLIP_PLANE - 1.0),
-               rest = 1.0 + 0.5 * part * (1.0 - s);
+  const double s = Planeness(sums), part = pow(s, SLIP_PLANE - 1.0), rest = 1.0 + 0.5 * part * (1.0 - s);
   return (WallCoefficient){rest - part * xx, -part * xy, rest - part * yy};
 }
 
@@ -63,6 +68,7 @@ void SlipTensors(const Overlap o, const SourceTerm term[], const double gravity[
     const PetscBool shared =
         (PetscBool)(solid >= (1.0 - OUTSIDE_LEAST) * area && solid + all.area > (1.0 + OUTSIDE_LEAST) * area);
     k->open = (PetscBool)(solid < (1.0 - OUTSIDE_LEAST) * area);
+    k->corner = (PetscBool)(all.area > 0.0 && Planeness(&all) < SLIP_CORNER);
     k->along = k->tangential = WallCoefficientIsotropic(0.0);
     k->shared = (PetscBool)(o->phases && shared && held.area > 0.0);
     if (!k->open && !shared) continue;

@@ -67,10 +67,12 @@
 #define SLIP_FRICTION 2.0
 /* The power of s in D. */
 #define SLIP_PLANE 8.0
+/* There is a corner in K where s is less: 2.5 % of the surface is of a face at right angles.  A disc has none with four elements or more across. */
+#define SLIP_CORNER 0.95
 /* Of sqrt(g/le): the rate at which slip ends among phases (4). */
 #define SLIP_RATE 4.0
 
-/* Local, after InertiaCoefficients and OutsideDensity: D, along, shared and open of element[overlap->ncoupled]. */
+/* Local, after InertiaCoefficients and OutsideDensity: D, along, shared, open and corner of element[overlap->ncoupled]. */
 void SlipTensors(const Overlap overlap, const SourceTerm source[], const double gravity[2], double dt,
                  ElementTerm element[]);
 /* Local: a of the pairs in the solid's volume becomes SLIP_FRICTION mu/|K| D. */

@@ -93,7 +93,8 @@ static void SetCoupling(const Overlap o, const ElementSums *sums, const WallSums
 {
   const SupermeshBasis *basis = &o->basis[k->element];
   const double area = o->area[k->element];
-  k->flags = sums->flags | (element->covered ? CORACLE_IS_COVERED : 0);
+  k->flags =
+      sums->flags | (element->covered ? CORACLE_IS_COVERED : 0) | (element->corner ? CORACLE_HAS_CORNER : 0);
   k->alpha = sums->alpha / area;
   k->shell = sums->shell / area;
   for (int c = 0; c < 2; c++) k->velocity[c] = sums->velocity[c] / (sums->alpha + sums->shell);

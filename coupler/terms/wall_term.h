@@ -96,6 +96,7 @@ typedef struct {
   PetscBool covered;          /* K lies in the solid as a whole (inertia.h) */
   PetscBool shared;           /* two solids in K, one of which is held, share the reaction (slip.h) */
   PetscBool open;             /* K has fluid beside the solid */
+  PetscBool corner;           /* the surface turns in K (slip.h) */
   double outside;             /* rho_o - rho_f of that (outside.h), kg/m3 */
 } ElementTerm;
 

@@ -29,6 +29,8 @@ static double SizeAt(void *context, const double x[2])
 
 /* More triangles than any computer that this is meant for holds (100 GB): a slip in a size. */
 #define TRIANGLES_MAX 2e7
+/* Of size_min: the least edge at corners. */
+#define CORNER_LEAST 1e-3
 
 static void CheckCount(CoracleCase c, const char *key, const double lower[2], const double upper[2],
                        double size)
@@ -171,6 +173,8 @@ PetscErrorCode FluidCaseAdaptation(CoracleCase c, const FluidSetup *setup, Petsc
     CoracleCaseRefuse(c, "fluid.adapt.size_max", "expected at least fluid.adapt.size_min, %g, found %g",
                       s->size_min, s->size_max);
   s->velocity_error = CoracleCasePositive(c, "fluid.adapt.velocity_error");
+  s->corner_size =
+      CoracleCaseNumberOr(c, "fluid.adapt.corner_size", s->size_min, CORNER_LEAST * s->size_min, s->size_min);
   s->interface_size = s->size_min;
   s->light_velocity_error = 0.0;
   if (setup->phases.n) {

@@ -81,7 +81,7 @@ PetscErrorCode AdaptationDue(Adaptation a, Fluid f, PetscBool *due)
   a->history.steps = 0;
   a->history.moved = 0.0;
   /* at rest the solid may start with an acceleration that nobody knows here: hence the least */
-  a->history.reach = fmax(speed * a->setup.every * f->stats.dt, FINE_BAND * a->setup.size_min);
+  a->history.reach = fmax(speed * a->setup.every * f->stats.dt, FINE_BAND * a->setup.corner_size);
   PetscFunctionReturn(0);
 }
 
@@ -153,7 +153,7 @@ static PetscErrorCode Compose(const AdaptationSetup *s, MPI_Comm comm, const Siz
   PetscCall(MetricIntersect(nv, sizing->other, metric));
   PetscCall(MetricIntersect(nv, sizing->near, metric));
   PetscCall(MetricGradeParallel(comm, &sizing->part, &sizing->shared, s->growth, metric));
-  PetscCall(MetricBound(nv, s->size_min, s->size_max, s->anisotropy, metric));
+  PetscCall(MetricBound(nv, s->corner_size, s->size_max, s->anisotropy, metric));
   PetscFunctionReturn(0);
 }
 
@@ -162,8 +162,14 @@ static PetscErrorCode SizingCreate(Adaptation a, Fluid f, Sizing *n)
   const AdaptationSetup *s = &a->setup;
   const Mesh *m = f->domain.mesh;
   const FineBand band = {
-      s->size_min,     s->size_max, s->interface_size, log(s->growth), (s->every + 1) * f->stats.dt,
-      a->history.reach};
+      .size_min = s->size_min,
+      .size_max = s->size_max,
+      .interface_size = s->interface_size,
+      .corner_size = s->corner_size,
+      .slope = log(s->growth),
+      .ahead = (s->every + 1) * f->stats.dt,
+      .reach = a->history.reach,
+  };
   /* with the ghosts, which lend their values to the second derivatives */
   const MeshSerial view = {.nv = m->nv, .ne = m->ne + m->ng, .x = m->x, .vertex = m->vertex};
   double *mean[2], *scratch;

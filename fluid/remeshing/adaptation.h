@@ -8,6 +8,7 @@ typedef struct {
   double size_min, size_max;   /* le, Le: lengths of edges, m */
   double velocity_error;       /* of linear interpolation, for each component, m/s */
   double interface_size;       /* of edges at an interface between phases, m */
+  double corner_size;          /* of edges at corners of solids, m: at most size_min */
   double light_velocity_error; /* that wanted in the lighter phase; 0: any */
   double growth;               /* of sizes from one edge to the next, > 1 */
   double anisotropy;           /* longest by shortest size of an element, >= 1 */

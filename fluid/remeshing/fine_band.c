@@ -88,7 +88,8 @@ static int LocalSweeps(Fluid f, const FineBand *b, Sweep sweep[])
   const CoracleCoupling *entry = SolidCouplingEntries(f->solid, &nentries);
   for (int k = 0; k < nentries; k++)
     if (entry[k].flags & CORACLE_HAS_SHELL)
-      sweep[n++] = SweepOf(m, entry[k].element, entry[k].velocity, b->ahead, b->size_min);
+      sweep[n++] = SweepOf(m, entry[k].element, entry[k].velocity, b->ahead,
+                           entry[k].flags & CORACLE_HAS_CORNER ? b->corner_size : b->size_min);
   for (int e = 0; e < m->ne; e++) {
     double velocity[2];
     if (InterfaceVelocity(f, e, velocity)) sweep[n++] = SweepOf(m, e, velocity, b->ahead, b->interface_size);

@@ -11,6 +11,7 @@
 typedef struct {
   double size_min, size_max; /* le, Le, m */
   double interface_size;     /* of elements at the interface, m */
+  double corner_size;        /* of elements at corners of the solid, m */
   double slope;              /* by which sizes grow with the distance from the band */
   double ahead;              /* until the next adaptation, s */
   double reach;              /* how far the surface may move until then, m */

@@ -12,6 +12,7 @@ typedef struct {
 } AdaptingTank;
 
 static const AdaptationSetup TANK_ADAPTATION = {.size_min = 0.03,
+                                                .corner_size = 0.03,
                                                 .size_max = 0.3,
                                                 .interface_size = 0.03,
                                                 .velocity_error = 0.05,

@@ -53,6 +53,7 @@ static PetscErrorCode Destroy(RunState *m)
 static PetscErrorCode Vortex(double asked, double *velocity, double *pressure, PetscInt *triangles)
 {
   const AdaptationSetup setup = {.size_min = 0.01,
+                                 .corner_size = 0.01,
                                  .size_max = 0.3,
                                  .velocity_error = asked,
                                  .growth = 1.5,
@@ -76,6 +77,7 @@ static PetscErrorCode Vortex(double asked, double *velocity, double *pressure, P
 static PetscErrorCode Rest(void)
 {
   const AdaptationSetup setup = {.size_min = 0.02,
+                                 .corner_size = 0.02,
                                  .size_max = 0.3,
                                  .velocity_error = 0.01,
                                  .growth = 1.5,

@@ -180,7 +180,7 @@ static PetscErrorCode Column(const PhaseProperties *phases, const char *what)
   AdaptingTank m = {0};
   PetscFunctionBeginUser;
   PetscCall(TankCreatePhases(12, 5u, phases, 2, region, NULL, &m.tank));
-  setup.size_min = setup.interface_size = 0.06;
+  setup.size_min = setup.corner_size = setup.interface_size = 0.06;
   PetscCall(AdaptationCreate(&setup, &m.adaptation));
   for (int k = 0; k < 12; k++) {
     PetscCall(AdaptingTankStep(&m, 0.002));

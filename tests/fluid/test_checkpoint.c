@@ -28,6 +28,7 @@ typedef struct {
 static PetscErrorCode Create(Mesh *mesh, RunState *m)
 {
   const AdaptationSetup adaptation = {.size_min = 0.02,
+                                      .corner_size = 0.02,
                                       .size_max = 0.3,
                                       .velocity_error = 0.02,
                                       .growth = 1.5,

@@ -53,7 +53,7 @@ static PetscErrorCode Create(int n, double viscosity, const Region region[2], Ad
 {
   AdaptationSetup setup = TANK_ADAPTATION;
   PetscFunctionBeginUser;
-  setup.size_min = setup.interface_size = 1.0 / n;
+  setup.size_min = setup.corner_size = setup.interface_size = 1.0 / n;
   setup.every = 10;
   *m = (AdaptingTank){0};
   PetscCall(TankCreate(n, 5u, viscosity, 2, region, &m->tank));

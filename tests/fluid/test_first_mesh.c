@@ -28,6 +28,7 @@ static PetscErrorCode CheckLevel(double level)
   const Region region[] = {{.shape = REGION_BOX, .phase = 0, .a = {-10.0, -10.0}, .b = {10.0, 10.0}},
                            {.shape = REGION_BOX, .phase = 1, .a = {-10.0, -10.0}, .b = {10.0, level}}};
   const AdaptationSetup setup = {.size_min = SIZE,
+                                 .corner_size = SIZE,
                                  .size_max = 0.25,
                                  .velocity_error = 1.0,
                                  .interface_size = SIZE,

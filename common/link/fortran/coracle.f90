@@ -16,6 +16,7 @@ module coracle
     enumerator :: CORACLE_RUN, CORACLE_REDO, CORACLE_STOP
   end enum
   integer(c_int), parameter :: CORACLE_HAS_SHELL = 1, CORACLE_HAS_INERTIA = 2, CORACLE_IS_COVERED = 4, CORACLE_IS_HELD = 8
+  integer(c_int), parameter :: CORACLE_HAS_CORNER = 16
 
   type, bind(c) :: CoracleElements
     integer(c_int) :: n
