@@ -41,6 +41,9 @@ static const CoracleCaseKey KEYS[] = {
      "largest time step over sqrt((sum of the densities) h^3/surface tension), h^2 twice the least area of "
      "the "
      "interface's elements; 0.4 if not given; large: no limit"},
+    {"fluid.gravity_cfl", "",
+     "largest time step over sqrt(h (sum of the densities)/(pi g difference)), of the shortest waves of the "
+     "interface's elements, h^2 twice their area; 0.5 if not given; large: no limit"},
     {"fluid.regions", "",
      "where the phases are at the start, the first one everywhere, later ones over earlier ones; solids hold "
      "the lightest"},
@@ -136,7 +139,8 @@ static const CoracleCaseKey KEYS[] = {
     {"fluid.probes[].surface.phase", "",
      "the phase whose places along the segment are recorded: where it first ends, its last point, and how "
      "much of the segment it has; of a wave, along a line that rises from the water, last is the top of the "
-     "water, drops included, and first is lower where there is air beneath"},
+     "water, drops included (clouds of less than a hundredth of an element not), and first is lower where "
+     "there is air beneath"},
     {"fluid.probes[].flow.from", "m", "where a segment begins through which the flow is recorded"},
     {"fluid.probes[].flow.to", "m",
      "where it ends; flow to the right as one goes there is positive: along x through a segment that goes "

@@ -206,6 +206,7 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
     PetscCall(Expect(c, solid, command));
     RunCaseNoteSteps(run.end, longest);
     NoteWalls(c, solid, run.end);
+    PetscCall(NoteThin(c, solid));
   }
   PetscCall(SolidDestroy(&solid));
   PetscFunctionReturn(0);

@@ -131,5 +131,5 @@ double FluidTimeStep(Fluid f)
   (void)VecRestoreArrayRead(f->u_projected, &u);
   f->stats.max_speed = sqrt(speed);
   const double dt = rate * f->setup.dt_max > f->setup.cfl ? f->setup.cfl / rate : f->setup.dt_max;
-  return fmin(dt, FluidCapillaryStep(f));
+  return fmin(dt, FluidInterfaceStep(f));
 }

@@ -49,8 +49,10 @@ ProjectionStep FluidProjectionStep(Fluid f, double t, double dt, PetscBool inert
 const InverseDensity *FluidInverseDensity(Fluid f);
 /* After the phases' volumes were set: density and viscosity at both levels.  Collective. */
 PetscErrorCode FluidPhasesChanged(Fluid f);
-/* The limit of capillary waves (fluid.h) on this rank, s; HUGE_VAL without.  Not collective. */
-double FluidCapillaryStep(Fluid f);
+/* Of the phases that element e has, the smallest and the largest density, kg/m3.  Not collective. */
+void FluidDensityRange(Fluid f, int e, double *low, double *high);
+/* The limit of the interface's waves (fluid.h) on this rank, s; HUGE_VAL without.  Not collective. */
+double FluidInterfaceStep(Fluid f);
 /* fluid_gas.c: *pressure[ne] of the elements, Pa, is allocated.  Not collective, like what follows. */
 PetscErrorCode FluidMeanPressure(Fluid f, double **pressure);
 /* Of f->compressible: before the phases move, the target is the share `old` of the pressure and the rest of that of the equations of

@@ -62,20 +62,48 @@ static PetscErrorCode WhereSolidMoves(Fluid f, char moves[])
   PetscFunctionReturn(0);
 }
 
-double FluidCapillaryStep(Fluid f)
+/* The least (sum of densities)/tension of all pairs of phases. */
+static double LeastDensityPerTension(const PhaseProperties *p)
 {
-  const PhaseProperties *p = &f->setup.phases;
-  Phases phases = f->phases ? PhaseTransportPhases(f->phases) : NULL;
-  double area = HUGE_VAL, least = HUGE_VAL;
-  if (!phases || !PhaseHasTension(p) || f->setup.capillary_cfl == 0.0) return HUGE_VAL;
-  for (int e = 0; e < f->domain.mesh->ne; e++)
-    if (PhasesSingle(phases, e) < 0 && !PhasesSpread(phases, e))
-      area = fmin(area, f->domain.geometry[e].area);
+  double least = HUGE_VAL;
   for (int k = 0; k < p->n; k++)
     for (int j = 0; j < k; j++)
       if (p->surface_tension.value[j][k] != 0.0)
         least = fmin(least, (p->rho[j] + p->rho[k]) / p->surface_tension.value[j][k]);
-  return f->setup.capillary_cfl * sqrt(least) * pow(2.0 * area, 0.75);
+  return least;
+}
+
+void FluidDensityRange(Fluid f, int e, double *low, double *high)
+{
+  int n;
+  const double *volume = PhaseTransportVolumes(f->phases, &n), *rho = f->setup.phases.rho;
+  *low = HUGE_VAL;
+  *high = 0.0;
+  for (int p = 0; p < n; p++) {
+    if (!(volume[n * e + p] > 0.0)) continue;
+    *low = fmin(*low, rho[p]);
+    *high = fmax(*high, rho[p]);
+  }
+}
+
+double FluidInterfaceStep(Fluid f)
+{
+  const FluidSetup *s = &f->setup;
+  Phases phases = f->phases ? PhaseTransportPhases(f->phases) : NULL;
+  double area = HUGE_VAL, rate = 0.0, dt = HUGE_VAL; /* rate: of contrast/h, 1/m */
+  if (!phases) return HUGE_VAL;
+  for (int e = 0; e < f->domain.mesh->ne; e++) {
+    double low, high;
+    if (PhasesSingle(phases, e) >= 0 || PhasesSpread(phases, e)) continue;
+    area = fmin(area, f->domain.geometry[e].area);
+    FluidDensityRange(f, e, &low, &high);
+    rate = fmax(rate, (high - low) / (high + low) / sqrt(2.0 * f->domain.geometry[e].area));
+  }
+  rate *= PETSC_PI * hypot(s->gravity[0], s->gravity[1]);
+  if (s->gravity_cfl > 0.0 && rate > 0.0) dt = s->gravity_cfl / sqrt(rate);
+  if (s->capillary_cfl > 0.0 && PhaseHasTension(&s->phases))
+    dt = fmin(dt, s->capillary_cfl * sqrt(LeastDensityPerTension(&s->phases)) * pow(2.0 * area, 0.75));
+  return dt;
 }
 
 PetscErrorCode FluidMovePhases(Fluid f, double dt, double s)

@@ -134,6 +134,11 @@ static void ReadAbsorption(CoracleCase c, Absorption *a)
   for (int k = 0; k < a->n; k++) ReadZone(c, k, &a->zone[k]);
 }
 
+static double PositiveOr(CoracleCase c, const char *key, double fallback)
+{
+  return CoracleCaseHas(c, key) ? CoracleCasePositive(c, key) : fallback;
+}
+
 PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup)
 {
   PhaseNames names;
@@ -153,9 +158,8 @@ PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup
   ReadAbsorption(c, &setup->absorption);
   setup->cfl = CoracleCasePositive(c, "time.cfl");
   setup->dt_max = CoracleCasePositive(c, "time.dt_max");
-  setup->capillary_cfl = CAPILLARY_CFL;
-  if (CoracleCaseHas(c, "fluid.capillary_cfl"))
-    setup->capillary_cfl = CoracleCasePositive(c, "fluid.capillary_cfl");
+  setup->capillary_cfl = PositiveOr(c, "fluid.capillary_cfl", CAPILLARY_CFL);
+  setup->gravity_cfl = PositiveOr(c, "fluid.gravity_cfl", GRAVITY_CFL);
   PetscCall(PetscMalloc1(mesh->ntags, &setup->boundary));
   PetscCall(BoundaryCaseRead(c, mesh, &names, &setup->phases, setup->boundary));
   PetscFunctionReturn(0);

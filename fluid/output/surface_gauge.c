@@ -42,9 +42,10 @@ static PetscErrorCode ElementPiece(Phases phases, const Mesh *m, int e, int phas
   *counts = PETSC_FALSE;
   MeshCorners(m, e, x);
   if (!SegmentClip(3, (const double(*)[2])x, from, to, whole, &along)) PetscFunctionReturn(0);
+  const double least = PhasesSpread(phases, e) ? PHASES_CLOUD : SURFACE_SLIVER * SURFACE_SLIVER;
   PetscCall(PhasesGetPolygon(phases, e, phase, &polygon));
   area = GeometryArea((const double(*)[2])x);
-  if (PolygonArea(&polygon) < SURFACE_SLIVER * SURFACE_SLIVER * area) PetscFunctionReturn(0);
+  if (PolygonArea(&polygon) < least * area) PetscFunctionReturn(0);
   if (!SegmentClip(polygon.n, (const double(*)[2])polygon.x, from, to, part, &along)) PetscFunctionReturn(0);
   *piece = (Piece){length * fmax(part[0], whole[0]), length * fmin(part[1], whole[1]), sqrt(area)};
   *counts = (PetscBool)(piece->s1 - piece->s0 > SURFACE_SLIVER * length * (whole[1] - whole[0]));

@@ -9,7 +9,7 @@
 #include "fluid/phases/phases.h"
 
 /* A piece shorter than this part of what the segment has in the element does not count, nor a polygon of less than its square of the element's
- * area, nor a gap of less than this part of the size of the element beyond it. */
+ * area, nor a gap of less than this part of the size of the element beyond it, nor a cloud (PHASES_CLOUD). */
 #define SURFACE_SLIVER 0.01
 
 typedef struct {

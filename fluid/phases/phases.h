@@ -77,6 +77,9 @@ int PhasesSingle(Phases phases, int e);
 /* Not collective.  Whether local element e has a fragment of no known place in it, which moves as if it were everywhere, as of the
  * last PhasesReconstruct. */
 int PhasesSpread(Phases phases, int e);
+/* Of such an element, less than which is a cloud that fragments have become: no surface, and nothing to refine for.  (With a tenth a drop of 0.3 of an
+ * element falls half as far, coupled.fragment.) */
+#define PHASES_CLOUD 1e-2
 /* Not collective.  Where phase p of owned element e is when it moves: *share of this polygon, 1 unless it is spread. */
 PetscErrorCode PhasesGetExtent(Phases phases, int e, int p, Polygon *polygon, double *share);
 

@@ -3,29 +3,13 @@
 #include "common/supermesh/search.h"
 #include "fluid/flow/fluid_impl.h"
 
-/* Of an element, what of all phases but one is the tail of a smeared interface, or of a cloud that a spread fragment has become.  (A tenth in
- * place of CLOUD: a drop of 0.3 of an element falls half as far, coupled.fragment.) */
+/* Of an element, what of all phases but one is the tail of a smeared interface. */
 #define TAIL 1e-3
-#define CLOUD 1e-2
 
 /* Where a piece of the surface is and where it will be at the next adaptation, and the size that it wants. */
 typedef struct {
   double from[2], to[2], size;
 } Sweep;
-
-/* The sum of the densities of the lightest and the heaviest phase that element e has, kg/m3. */
-static double DensityRange(Fluid f, int e)
-{
-  int n;
-  const double *volume = PhaseTransportVolumes(f->phases, &n), *rho = f->setup.phases.rho;
-  double low = HUGE_VAL, high = 0.0;
-  for (int p = 0; p < n; p++) {
-    if (!(volume[n * e + p] > 0.0)) continue;
-    low = fmin(low, rho[p]);
-    high = fmax(high, rho[p]);
-  }
-  return low + high;
-}
 
 /* Whether element e has more than one phase; of what is smeared or spread, more than its tail or a cloud. */
 static PetscBool OfInterface(Fluid f, int e)
@@ -38,7 +22,7 @@ static PetscBool OfInterface(Fluid f, int e)
   if (PhasesSingle(phases, e) >= 0) return PETSC_FALSE;
   if (!smeared && !PhasesSpread(phases, e)) return PETSC_TRUE;
   for (int p = 0; p < n; p++) most = fmax(most, volume[n * e + p]);
-  return (PetscBool)(most < (1.0 - (smeared ? TAIL : CLOUD)) * f->domain.geometry[e].area);
+  return (PetscBool)(most < (1.0 - (smeared ? TAIL : PHASES_CLOUD)) * f->domain.geometry[e].area);
 }
 
 /* Mean velocity of element e in the flow of the current step, if the interface cuts it; light elements follow the others,
@@ -46,8 +30,10 @@ static PetscBool OfInterface(Fluid f, int e)
 static PetscBool InterfaceVelocity(Fluid f, int e, double velocity[2])
 {
   const double *u = FluidVelocityProjected(f) + 6 * e;
+  double low, high;
   if (!f->phases || !OfInterface(f, e)) return PETSC_FALSE;
-  const double heavy = FluidDensity(f)[e] < 0.25 * DensityRange(f, e) ? 0.0 : 1.0;
+  FluidDensityRange(f, e, &low, &high);
+  const double heavy = FluidDensity(f)[e] < 0.25 * (low + high) ? 0.0 : 1.0;
   for (int c = 0; c < 2; c++) velocity[c] = heavy / 3.0 * (u[3 * c] + u[3 * c + 1] + u[3 * c + 2]);
   return PETSC_TRUE;
 }

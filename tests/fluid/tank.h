@@ -36,6 +36,7 @@ static inline PetscErrorCode TankCreatePhases(int n, unsigned seed, const PhaseP
                       .cfl = 0.5,
                       .dt_max = 1.0,
                       .capillary_cfl = CAPILLARY_CFL,
+                      .gravity_cfl = GRAVITY_CFL,
                       .boundary = boundary};
   PetscFunctionBeginUser;
   setup.phases.advection = tank_advection;

@@ -235,6 +235,28 @@ static PetscErrorCode Rise(int print)
   PetscFunctionReturn(0);
 }
 
+/* The step at rest is that of the shortest waves of the interface with the greatest contrast that cuts elements, and of no other. */
+static PetscErrorCode ShortestWave(void)
+{
+  const PhaseProperties p = {.n = 3, .rho = {1000.0, 990.0, 1.2}, .mu = {1e-3, 1e-3, 1.8e-5}};
+  const int n = 16;
+  PetscFunctionBeginUser;
+  for (int light = 1; light < 3; light++) {
+    const double contrast = (p.rho[0] - p.rho[light]) / (p.rho[0] + p.rho[light]);
+    const Region region[2] = {{.shape = REGION_BOX, .phase = light, .a = {-1, -1}, .b = {2, 2}},
+                              {.shape = REGION_HALF_PLANE, .phase = 0, .a = {0.5, 0.513}, .b = {0.0, 1.0}}};
+    Tank tank;
+    PetscCall(TankCreatePhases(n, 6u, &p, 2, region, NULL, &tank));
+    double dt = FluidTimeStep(tank.fluid);
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &dt, 1, MPI_DOUBLE, MPI_MIN, PETSC_COMM_WORLD));
+    const double even = GRAVITY_CFL / sqrt(9.81 * PETSC_PI * n * contrast); /* of elements all alike */
+    CHECK(dt > 0.5 * even && dt < even, "contrast %g: a step of %g s, %g on an even mesh", contrast, dt,
+          even);
+    PetscCall(TankDestroy(&tank));
+  }
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode All(int print)
 {
   const int order[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
@@ -245,6 +267,7 @@ static PetscErrorCode All(int print)
   PetscCall(Adapted(print));
   PetscCall(Empty(print));
   PetscCall(Rise(print));
+  PetscCall(ShortestWave());
   PetscFunctionReturn(0);
 }
 
