@@ -51,6 +51,7 @@ static void ReadSpringEnds(CoracleCase c, const Model *a, int k, Spring *s, doub
   CoracleCaseVector(c, s->anchored ? anchor : key, 2, other);
   for (int i = 0; i < 2; i++) s->anchor[i] = s->anchored ? other[i] : 0.0;
   if (!s->anchored) distance = FindElement(a, other, a->element_body[s->end[0].element], &s->end[1]);
+  if (distance == HUGE_VAL) CoracleCaseRefuse(c, key, "there is no other body");
   if (distance > 0.0)
     CoracleCaseRefuse(c, key, "no other body is at (%g, %g); the nearest is %.3g m away", other[0], other[1],
                       distance);
@@ -146,11 +147,44 @@ static void CheckPressureLoad(CoracleCase c, const Model *a)
         "not possible with joints: the load belongs to elements and to a surface that cracks change");
 }
 
+/* Which of the bodies that `repeat` makes of an entry, from 0. */
+static int CopyOf(const Model *a, int body)
+{
+  int copy = 0;
+  while (copy < body && a->body[body - copy - 1].entry == a->body[body].entry) copy++;
+  return copy;
+}
+
+static PetscErrorCode CheckOverlap(CoracleCase c, const Model *a)
+{
+  ModelPair pair;
+  int body[2], own[2];
+  char key[CASE_KEY];
+  PetscFunctionBeginUser;
+  PetscCall(ModelOverlap(a, &pair));
+  if (pair.element[0] < 0) PetscFunctionReturn(0);
+  for (int i = 0; i < 2; i++) {
+    body[i] = a->element_body[pair.element[i]];
+    own[i] = pair.element[i] - a->body[body[i]].first_element;
+  }
+  const Body *one = &a->body[body[0]], *other = &a->body[body[1]];
+  const Point at = pair.centre[1];
+  BodyKey(key, other->entry, "");
+  if (body[0] == body[1])
+    CoracleCaseRefuse(
+        c, key,
+        "its elements %d at (%g, %g) and %d at (%g, %g) overlap and share no node: surfaces of the mesh "
+        "that lie over one another must be made one, or apart",
+        own[0], pair.centre[0].x, pair.centre[0].y, own[1], at.x, at.y);
+  if (one->entry == other->entry)
+    CoracleCaseRefuse(c, key, "its copies %d and %d of repeat, counted from 0, overlap at (%g, %g)",
+                      CopyOf(a, body[0]), CopyOf(a, body[1]), at.x, at.y);
+  CoracleCaseRefuse(c, key, "the body overlaps solid.bodies[%d] at (%g, %g)", one->entry, at.x, at.y);
+}
+
 PetscErrorCode SolidCaseRead(CoracleCase c, Model *a, SolidSetup *setup)
 {
   const int nbodies = CoracleCaseCount(c, "solid.bodies");
-  int first, second;
-  char key[CASE_KEY];
   PetscFunctionBeginUser;
   GravityRead(c, setup->gravity, &setup->gravity_table);
   setup->courant = CoracleCaseNumberOr(c, "solid.courant", 0.8, 0.01, 1.0);
@@ -165,10 +199,7 @@ PetscErrorCode SolidCaseRead(CoracleCase c, Model *a, SolidSetup *setup)
   ReadRules(c, setup);
   ReadSprings(c, a, setup);
   ProbesCheckCase(c);
-  PetscCall(ModelOverlap(a, &first, &second));
-  if (first >= 0)
-    CoracleCaseRefuse(c, BodyKey(key, a->body[second].entry, ""), "the body overlaps solid.bodies[%d]",
-                      a->body[first].entry);
+  PetscCall(CheckOverlap(c, a));
   PetscFunctionReturn(0);
 }
 

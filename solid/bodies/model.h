@@ -108,12 +108,18 @@ typedef struct {
   LoadedSide *loaded; /* [nloaded] they add up where several are on a side */
 } Model;
 
+typedef struct {
+  int element[2]; /* the lower one first */
+  Point centre[2];
+} ModelPair;
+
 /* Adds a body; mesh holds its rest coordinates and is not kept.  On failure *error (a static buffer) says
  * why: a degenerate element, one that starts inside out, an edge with more than two triangles, a boundary or
  * region that does not exist; the model is then of no use any more. */
 PetscErrorCode ModelAdd(Model *a, const MeshSerial *mesh, const BodySetup *setup, const char **error);
-/* The first pair of bodies one of which reaches into the other; *first = -1 if there is none. */
-PetscErrorCode ModelOverlap(const Model *a, int *first, int *second);
+/* A pair of elements that overlap, of two bodies or of one in which they share no node; element[0] = -1 if there is none.  One of them
+ * is at the surface. */
+PetscErrorCode ModelOverlap(const Model *a, ModelPair *pair);
 /* Edges of an element at rest, m; its law, times its thickness. */
 Tensor ModelRestEdges(const Model *a, int element);
 ElementLaw ModelElementLaw(const Model *a, int element);

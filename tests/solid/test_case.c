@@ -79,7 +79,9 @@ static void Repeated(void)
   CheckCase(HEAD "  bodies:\n" DISC
                  "    - {shape: disc, centre: [1, 0], radius: 0.1, size: 0.05, material: m, "
                  "repeat: {n: [3, 1], step: [0.1, 0]}}\n",
-            NULL, Read, ":7: key 'solid.bodies[1]': the body overlaps solid.bodies[1]");
+            NULL, Read,
+            ":7: key 'solid.bodies[1]': its copies 0 and 1 of repeat, counted from 0, overlap at (1.01223, "
+            "0.0115175)");
   CheckCase(HEAD "  bodies:\n    - {shape: disc, centre: [1, 0], radius: 0.1, size: 0.05, material: m, "
                  "repeat: {n: [3, 0.5], step: [1, 1]}}\n",
             NULL, Read, ":6: key 'solid.bodies[0].repeat.n': expected two integers >= 1");
@@ -320,7 +322,8 @@ static void Refusals(void)
             ":6: key 'solid.bodies[0].material': there is no material 'steel' in solid.materials");
   CheckCase(HEAD "  bodies:\n" DISC
                  "    - {shape: disc, centre: [0.15, 0], radius: 0.1, size: 0.05, material: m}\n",
-            NULL, Read, ":7: key 'solid.bodies[1]': the body overlaps solid.bodies[0]");
+            NULL, Read,
+            ":7: key 'solid.bodies[1]': the body overlaps solid.bodies[0] at (0.0622311, 0.0115175)");
   CheckCase(
       HEAD "  bodies:\n    - {shape: rectangle, centre: [0, 0], width: 1, height: 1, size: 1, "
            "material: m, fixed: [lid]}\n",

@@ -139,17 +139,45 @@ static PetscErrorCode Grid(void)
 
 /* --- overlap at the start ----------------------------------------------------------------------------- */
 
+/* The second mesh's triangles, on nodes of their own, behind those of the first. */
+static PetscErrorCode Join(MeshSerial *m, const MeshSerial *other)
+{
+  const size_t nv = (size_t)m->nv, ne = (size_t)m->ne;
+  PetscCall(PetscRealloc(2 * (nv + (size_t)other->nv) * sizeof *m->x, &m->x));
+  PetscCall(PetscRealloc(3 * (ne + (size_t)other->ne) * sizeof *m->vertex, &m->vertex));
+  PetscCall(PetscArraycpy(m->x + 2 * nv, other->x, 2 * (size_t)other->nv));
+  for (int k = 0; k < 3 * other->ne; k++) m->vertex[3 * m->ne + k] = m->nv + other->vertex[k];
+  m->nv += other->nv;
+  m->ne += other->ne;
+  return 0;
+}
+
+/* As two bodies, and as two parts of one mesh. */
 static PetscErrorCode Overlap(double x, double radius, int expected)
 {
   const BodySetup setup = BodyAtRest(MaterialOf(1000.0, 1e6, 0.3, 0.0));
-  Model a = {0};
-  int first, second;
+  const double centre[2][2] = {{0.0, 0.0}, {x, 0.0}};
+  Model a = {0}, b = {0};
+  MeshSerial part[2];
+  ModelPair pair;
   AddRectangle(&a, 0.0, 0.0, 1.0, 1.0, 0.0, 0.125, 0, &setup);
   AddRectangle(&a, x, 0.0, 2.0 * radius, 2.0 * radius, 0.0, 0.125, 0, &setup);
-  PetscCall(ModelOverlap(&a, &first, &second));
-  CHECK((first == 0 && second == 1) == expected, "x = %g, radius %g: bodies %d and %d", x, radius, first,
-        second);
-  return ModelDestroy(&a);
+  PetscCall(ModelOverlap(&a, &pair));
+  CHECK((pair.element[0] >= 0) == expected, "x = %g, radius %g: elements %d and %d", x, radius,
+        pair.element[0], pair.element[1]);
+  CHECK(!expected || (a.element_body[pair.element[0]] == 0 && a.element_body[pair.element[1]] == 1),
+        "bodies");
+  for (int k = 0; k < 2; k++)
+    PetscCall(
+        ShapeRectangle(centre[k], k ? 2.0 * radius : 1.0, k ? 2.0 * radius : 1.0, 0.0, 0.125, &part[k]));
+  PetscCall(Join(&part[0], &part[1]));
+  PetscCall(MeshSerialDestroy(&part[1]));
+  AddMesh(&b, &part[0], &setup);
+  PetscCall(ModelOverlap(&b, &pair));
+  CHECK((pair.element[0] >= 0) == expected, "parts, x = %g, radius %g: elements %d and %d", x, radius,
+        pair.element[0], pair.element[1]);
+  PetscCall(ModelDestroy(&a));
+  return ModelDestroy(&b);
 }
 
 int main(int argc, char **argv)
