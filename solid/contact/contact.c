@@ -122,7 +122,7 @@ static PetscErrorCode Measure(Contact c, Solid s)
   PetscCall(CopiesSum(s->copies, 2, half));
   for (int n = 0; n < s->nnodes; n++) {
     double *compliance = &c->compliance[s->node_body[n]];
-    *compliance = fmax(*compliance, half[2 * n] / s->mass[n]);
+    *compliance = fmax(*compliance, half[2 * n] * s->inverse_mass[n]);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->height, s->nbodies, MPI_DOUBLE, MPI_MIN, s->comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->compliance, s->nbodies, MPI_DOUBLE, MPI_MAX, s->comm));

@@ -83,11 +83,11 @@ struct Contact_s {
   int npressed, *pressed; /* [pair_capacity] pairs whose sums and response are not 0 */
   int *first_pair;        /* [nfaces] -1: none */
   Slips history, saved;
-  PetscBool restored;        /* history, not the pairs, holds the slips */
-  PetscBool rough;           /* any friction or damping: velocities are needed */
-  Halo halo;                 /* NULL on one rank */
-  double *height;            /* [nbodies] smallest height of the surface elements at rest, m */
-  double *compliance;        /* [nbodies] largest (half the edges' lengths at a node)/(its mass), m/kg */
+  PetscBool restored; /* history, not the pairs, holds the slips */
+  PetscBool rough;    /* any friction or damping: velocities are needed */
+  Halo halo;          /* NULL on one rank */
+  double *height;     /* [nbodies] smallest height of the surface elements at rest, m */
+  double *compliance; /* [nbodies] largest (half the edges' lengths at a node)/(its mass), m/kg; 0: fixed */
   double *intact_compliance; /* [nbodies] that before any crack */
   double *mass;              /* [nbodies] kg/m; HUGE_VAL: fixed */
   double *areal_mass; /* [nbodies] mass behind a metre of surface, 4 M/perimeter, kg/m2; HUGE_VAL: fixed */

@@ -180,6 +180,38 @@ static PetscErrorCode Overlap(double x, double radius, int expected)
   return ModelDestroy(&b);
 }
 
+/* --- substeps ----------------------------------------------------------------------------------------- */
+
+/* The limit of a block on a fixed one, which has this density. */
+static PetscErrorCode LimitOnFixed(double density, double *limit)
+{
+  const SolidSetup options = {.courant = 0.8};
+  BodySetup block = BodyAtRest(MaterialOf(1000.0, 1e6, 0.3, 0.0)), fixed = block;
+  Model a = {0};
+  Solid s;
+  fixed.material.density = density;
+  fixed.fixed = 1;
+  AddRectangle(&a, 0.0, 1.001, 1.0, 1.0, 0.0, 0.125, 0, &block);
+  AddRectangle(&a, 0.0, 0.0, 2.0, 1.0, 0.0, 0.125, 0, &fixed);
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, &s));
+  PetscCall(RunStep(s, 1e-6, NULL));
+  PetscCall(SolidLimit(s, limit));
+  CHECK(SolidGetStats(s)->searches > 0, "no search");
+  PetscCall(SolidDestroy(&s));
+  return ModelDestroy(&a);
+}
+
+/* Nodes that cannot move ask for no short substeps, however light they are. */
+static PetscErrorCode HeldNodes(void)
+{
+  double light, heavy;
+  PetscCall(LimitOnFixed(1.0, &light));
+  PetscCall(LimitOnFixed(1e6, &heavy));
+  CHECK(fabs(light / heavy - 1.0) < 1e-12, "limit %g s on a light fixed body, %g s on a heavy one", light,
+        heavy);
+  return 0;
+}
+
 int main(int argc, char **argv)
 {
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
@@ -190,5 +222,6 @@ int main(int argc, char **argv)
   PetscCall(Overlap(0.99, 0.5, 1));
   PetscCall(Overlap(0.0, 0.1, 1)); /* one within the other */
   PetscCall(Overlap(0.0, 0.5, 1)); /* one exactly over the other */
+  PetscCall(HeldNodes());
   return PetscFinalize();
 }
