@@ -135,7 +135,7 @@ def named_in_sources():
             if not name.endswith(".c") or name == "check.c":
                 continue
             with open(os.path.join(folder, name)) as source:
-                text = re.sub(r"/\*.*?\*/|CoracleCaseRenamed\([^;]*;", "", source.read(), flags=re.S)
+                text = re.sub(r"/\*.*?\*/|CoracleCase(?:Renamed|NotBeside)\([^;]*;", "", source.read(), flags=re.S)
             for key in re.findall(r'Case\w*\([^;]*?"((?:fluid|solid|coupler|time|output)\.[\w.\[\]%]+)(?<!%s)"', text):
                 found.add(re.sub(r"%[.\d]*s", "*", key.replace("[%d]", "[]")))
             found.update("fluid.probes[]." + key for key in re.findall(r'\bKey\(k, "([\w.]+)"\)', text))

@@ -152,6 +152,19 @@ void CoracleCaseRenamed(CoracleCase c, const char *old, const char *new_name)
   if (node && !CaseExcused(c, old)) CaseDie(c, node, old, "key '%s' is now called '%s'", old, new_name);
 }
 
+void CoracleCaseNotBeside(CoracleCase c, const char *map, const char *name, const char *const others[])
+{
+  char key[CASE_KEY];
+  CaseUse(c, "CoracleCaseNotBeside", map);
+  CaseUse(c, "CoracleCaseNotBeside", name);
+  if (!CaseTreeFind(c->root, CaseKey(key, "%s.%s", map, name))) return;
+  for (int i = 0; others[i]; i++) {
+    const CaseNode *node = CaseTreeFind(c->root, CaseKey(key, "%s.%s", map, others[i]));
+    if (node && !CaseExcused(c, key))
+      CaseDie(c, node, key, "key '%s': expected %s or %s, not both", key, name, others[i]);
+  }
+}
+
 bool CoracleCaseHas(CoracleCase c, const char *key)
 {
   CaseUse(c, "CoracleCaseHas", key);

@@ -64,6 +64,8 @@ CASE_NORETURN void CoracleCaseRefuse(CoracleCase c, const char *key, const char 
     __attribute__((format(printf, 3, 4)));
 /* A key that was called `old` in earlier versions: refused where it is found, with its name of today. */
 void CoracleCaseRenamed(CoracleCase c, const char *old, const char *new_name);
+/* Refuses the keys of the null-terminated list in a map (its path) that has `name`, too. */
+void CoracleCaseNotBeside(CoracleCase c, const char *map, const char *name, const char *const others[]);
 /* Checks that every key under the sections (null-terminated list) has been read, and that no unknown
  * top-level section exists. */
 int CoracleCaseFinish(CoracleCase c, const char *const sections[]);

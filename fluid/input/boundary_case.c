@@ -18,13 +18,14 @@ static void ReadFractions(CoracleCase c, const char *key, const PhaseNames *name
 /* With phases: which ones come in through a boundary, and the contact angles there. */
 static void ReadPhases(CoracleCase c, const char *key, const PhaseNames *names, BoundaryPhases *b)
 {
+  static const char *const FRACTIONS[] = {"fractions", NULL};
   char sub[CASE_KEY];
   if (!names->name[0]) return;
+  CoracleCaseNotBeside(c, key, "phase", FRACTIONS);
   PhaseCaseAngles(c, CaseKey(sub, "%s.contact_angle", key), names, &b->contact_cosine);
   const PetscBool single = (PetscBool)CoracleCaseHas(c, CaseKey(sub, "%s.phase", key));
   if (single) b->inflow[PhaseCaseIndex(c, sub, names)] = 1.0;
-  if (!CoracleCaseHas(c, CaseKey(sub, "%s.fractions", key))) return;
-  if (single) CoracleCaseRefuse(c, sub, "expected phase or fractions, not both");
+  if (single || !CoracleCaseHas(c, CaseKey(sub, "%s.fractions", key))) return;
   ReadFractions(c, sub, names, b);
 }
 
@@ -163,9 +164,13 @@ static void ReadBoundary(CoracleCase c, const char *name, const PhaseNames *name
   static const char *const WORDS[] = {"no_slip", "free_slip", "open", NULL};
   static const char *const WALLS[] = {"no_slip", "free_slip", NULL};
   static const BoundaryKind KINDS[] = {BOUNDARY_VELOCITY, BOUNDARY_FREE_SLIP, BOUNDARY_OPEN};
+  static const char *const OPEN[] = {"level", "pressure", "wall", NULL}, *const *const WALL = OPEN + 2;
   char key[CASE_KEY], sub[CASE_KEY];
   memset(b, 0, sizeof *b);
   ReadPhases(c, CaseKey(key, "fluid.boundaries.%s", name), names, &b->phases);
+  CoracleCaseNotBeside(c, key, "velocity", OPEN);
+  CoracleCaseNotBeside(c, key, "level", WALL);
+  CoracleCaseNotBeside(c, key, "pressure", WALL);
   if (CoracleCaseHas(c, CaseKey(sub, "%s.velocity", key))) {
     b->kind = BOUNDARY_VELOCITY;
     CoracleCaseVector(c, sub, 2, b->velocity);

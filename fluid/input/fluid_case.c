@@ -141,9 +141,11 @@ static double PositiveOr(CoracleCase c, const char *key, double fallback)
 
 PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup)
 {
+  static const char *const SINGLE[] = {"density", "viscosity", NULL};
   PhaseNames names;
   PetscFunctionBeginUser;
   memset(setup, 0, sizeof *setup);
+  CoracleCaseNotBeside(c, "fluid", "phases", SINGLE);
   PhaseCaseRead(c, &names, &setup->phases);
   if (setup->phases.n) {
     setup->rho = setup->phases.rho[PhaseLightest(&setup->phases)];

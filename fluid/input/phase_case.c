@@ -8,12 +8,13 @@
 /* Of phase k, which is incompressible unless it says otherwise. */
 static void ReadState(CoracleCase c, int k, double density, EquationOfState *state)
 {
+  static const char *const SPEED[] = {"sound_speed", NULL};
   char key[CASE_KEY], gas[CASE_KEY];
+  CoracleCaseNotBeside(c, CaseKey(key, "fluid.phases[%d]", k), "gas", SPEED);
   *state = (EquationOfState){density, 0.0, 1.0};
   (void)CaseKey(gas, "fluid.phases[%d].gas", k);
   if (CoracleCaseHas(c, CaseKey(key, "fluid.phases[%d].sound_speed", k))) {
     const double speed = CoracleCasePositive(c, key);
-    if (CoracleCaseHas(c, gas)) CoracleCaseRefuse(c, key, "expected sound_speed or gas, not both");
     state->pressure = density * speed * speed;
   }
   if (!CoracleCaseHas(c, gas)) return;
@@ -128,6 +129,8 @@ static double CosineOfDegrees(double angle)
 void PhaseCaseAngles(CoracleCase c, const char *key, const PhaseNames *names, PhasesPairs *cosine)
 {
   const PhasePairsKey angle = {key, 0.0, 180.0, CosineOfDegrees, PETSC_TRUE};
+  if (CoracleCaseHas(c, key) && !CoracleCaseHas(c, "fluid.surface_tension"))
+    CoracleCaseRefuse(c, key, "without fluid.surface_tension interfaces have no contact angle");
   PhaseCasePairs(c, &angle, names, cosine);
 }
 
@@ -211,8 +214,11 @@ static PetscBool HasShape(CoracleCase c, int k)
 /* The shape follows from the keys that are there. */
 static PetscErrorCode ReadRegion(CoracleCase c, const PhaseNames *names, int k, Region *r)
 {
+  static const char *const FIRST[] = {"lower", "centre", "polygon", "point", NULL};
   char key[CASE_KEY];
   PetscFunctionBeginUser;
+  for (int i = 0; FIRST[i]; i++)
+    CoracleCaseNotBeside(c, CaseKey(key, "fluid.regions[%d]", k), FIRST[i], FIRST + i + 1);
   *r = (Region){.phase = PhaseCaseIndex(c, KeyOf(k, "phase", key), names)};
   if (!HasShape(c, k)) {
     r->shape = REGION_BOX;

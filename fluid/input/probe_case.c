@@ -72,6 +72,9 @@ static void ReadEnds(CoracleCase c, int k, Probe *p)
       *const TO[] = {[PROBE_LINE] = "line.to", [PROBE_SURFACE] = "surface.to", [PROBE_FLOW] = "flow.to"};
   CoracleCaseVector(c, Key(k, FROM[p->kind]), 2, p->from);
   CoracleCaseVector(c, Key(k, TO[p->kind]), 2, p->to);
+  if (p->to[0] == p->from[0] && p->to[1] == p->from[1])
+    CoracleCaseRefuse(c, Key(k, TO[p->kind]), "expected another point than from, (%g, %g)", p->to[0],
+                      p->to[1]);
 }
 
 /* Where probe k of this kind is. */

@@ -34,9 +34,12 @@ static void CheckCount(CoracleCase c, int body, const char *name, double element
 static PetscErrorCode ReadMeshFile(CoracleCase c, int body, MeshSerial *mesh)
 {
   char key[CASE_KEY];
-  const char *path = CoracleCaseFile(c, BodyKey(key, body, "mesh")), *why = NULL;
+  const char *path, *why = NULL;
+  static const char *const SHAPED[] = {"shape", "centre", "size", "angle", NULL};
   double translate[2] = {0.0, 0.0};
   PetscFunctionBeginUser;
+  CoracleCaseNotBeside(c, BodyKey(key, body, ""), "mesh", SHAPED);
+  path = CoracleCaseFile(c, BodyKey(key, body, "mesh"));
   if (MeshReadGmsh(path, mesh, &why)) CoracleCaseRefuse(c, key, "%s", why);
   CheckCount(c, body, "mesh", mesh->ne);
   (void)CoracleCaseVectorOptional(c, BodyKey(key, body, "translate"), 2, translate);
@@ -47,9 +50,11 @@ static PetscErrorCode ReadMeshFile(CoracleCase c, int body, MeshSerial *mesh)
 
 static PetscErrorCode ReadRing(CoracleCase c, int body, const double centre[2], double size, MeshSerial *mesh)
 {
+  static const char *const RADII[] = {"outer_radius", "inner_radius", NULL};
   double inner, outer;
   char key[CASE_KEY];
   PetscFunctionBeginUser;
+  CoracleCaseNotBeside(c, BodyKey(key, body, ""), "radius", RADII);
   if (CoracleCaseHas(c, BodyKey(key, body, "radius"))) { /* of the wall's middle */
     const double radius = CoracleCasePositive(c, key),
                  thickness = CoracleCasePositive(c, BodyKey(key, body, "thickness"));

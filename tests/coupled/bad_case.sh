@@ -43,9 +43,9 @@ case $scenario in
   bad_boundary) with fluid.boundaries.top=slippery; expect="'fluid.boundaries.top'.*no_slip" ;;
   upside_down) with 'fluid.mesh.upper=[-1, 2]'; expect="'fluid.mesh.upper'" ;;
   fluid_mesh) with fluid.mesh.file=nowhere.msh; expect="fluid.*nowhere.msh" ;;
-  solid_mesh) with 'solid.bodies[0].mesh=nowhere.msh'; expect="solid.*nowhere.msh" ;;
-  flat_element) msh '1 3 3'; with "solid.bodies[0].mesh=$scratch/mesh.msh"; expect="mesh.msh.*2" ;;
-  missing_vertex) msh '1 3 9'; with "solid.bodies[0].mesh=$scratch/mesh.msh"; expect="mesh.msh.*2" ;;
+  solid_mesh) with 'solid.bodies[0]={mesh: nowhere.msh, material: disc}'; expect="solid.*nowhere.msh" ;;
+  flat_element) msh '1 3 3'; with "solid.bodies[0]={mesh: $scratch/mesh.msh, material: disc}"; expect="mesh.msh.*2" ;;
+  missing_vertex) msh '1 3 9'; with "solid.bodies[0]={mesh: $scratch/mesh.msh, material: disc}"; expect="mesh.msh.*2" ;;
   outside) with 'solid.bodies[0].centre=[1.95, 1.1]'; expect="coupler.*node [0-9]* at .* outside of the fluid domain" ;;
   unknown_material) with 'solid.bodies[0].material=cheese'; expect="solid.*cheese" ;;
   bad_poisson) with 'solid.materials.disc.poisson_ratio=0.5'; expect="poisson_ratio" ;;

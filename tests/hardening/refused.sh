@@ -107,8 +107,9 @@ liquids "'fluid.surface_tension\[0\].between\[1\]': expected a phase (water, oil
 liquids "'fluid.surface_tension\[0\].between\[1\]': expected another phase" --set 'fluid.surface_tension=[{between: [oil, oil], value: 1}]'
 liquids "'fluid.surface_tension\[1\].between\[1\]': an item before this one" --set 'fluid.surface_tension=[{between: [oil, air], value: 1}, {between: [air, oil], value: 1}]'
 liquids "'fluid.surface_tension\[0\].value': expected a number >= 0" --set 'fluid.surface_tension=[{between: [oil, air], value: -1}]'
-liquids "'fluid.boundaries.left.contact_angle\[0\].value': expected a number from 0 to 180" --set 'fluid.boundaries.left={wall: no_slip, contact_angle: [{between: [oil, air], value: 190}]}'
-liquids "'fluid.contact_angle': expected a number from 0 to 180" --set fluid.contact_angle=190
+liquids "'fluid.boundaries.left.contact_angle\[0\].value': expected a number from 0 to 180" --set fluid.surface_tension=1 --set 'fluid.boundaries.left={wall: no_slip, contact_angle: [{between: [oil, air], value: 190}]}'
+liquids "'fluid.contact_angle': expected a number from 0 to 180" --set fluid.surface_tension=1 --set fluid.contact_angle=190
+liquids "'fluid.contact_angle': without fluid.surface_tension" --set fluid.contact_angle=90
 liquids "'fluid.boundaries.left.level\[1\].height': expected layers from below: more than 2, found 1.5 at 3 s" --set 'fluid.boundaries.left={level: [{phase: water, height: [[0, 1], [3, 2]]}, {phase: oil, height: 1.5}]}'
 liquids "'fluid.boundaries.left.level\[1\].height': expected layers from below: more than 2, found 1" --set 'fluid.boundaries.left={level: [{phase: water, height: 2}, {phase: oil, height: 1}]}'
 liquids "'fluid.boundaries.left.fractions': expected fractions whose sum is 1, found 0.9" --set 'fluid.boundaries.left={velocity: [0, 0], fractions: [{phase: water, value: 0.4}, {phase: oil, value: 0.5}]}'
@@ -116,9 +117,23 @@ liquids "'fluid.boundaries.left.fractions\[1\].phase': an item before this one" 
 liquids "'fluid.boundaries.left.fractions': expected phase or fractions, not both" --set 'fluid.boundaries.left={velocity: [0, 0], phase: oil, fractions: [{phase: oil, value: 1}]}'
 gas='{name: air, density: 1.2, viscosity: 1.8e-5'
 liquids "'fluid.phases\[2\].sound_speed': expected a number > 0" --set "fluid.phases[2]=$gas, sound_speed: 0}"
-liquids "'fluid.phases\[2\].sound_speed': expected sound_speed or gas, not both" --set "fluid.phases[2]=$gas, sound_speed: 340, gas: {pressure: 1.0e5}}"
+liquids "'fluid.phases\[2\].sound_speed': expected gas or sound_speed, not both" --set "fluid.phases[2]=$gas, sound_speed: 340, gas: {pressure: 1.0e5}}"
 liquids "'fluid.phases\[2\].gas.pressure' is missing" --set "fluid.phases[2]=$gas, gas: {exponent: 1.4}}"
 liquids "'fluid.phases\[2\].gas.exponent': expected a number from 1 to 10" --set "fluid.phases[2]=$gas, gas: {pressure: 1.0e5, exponent: 0.9}}"
+# keys that exclude each other
+phases "'fluid.density': expected phases or density, not both" --set 'fluid.regions=[{phase: air}]' --set fluid.density=1
+phases "'fluid.boundaries.left.level': expected velocity or level, not both" --set 'fluid.regions=[{phase: air}]' --set 'fluid.boundaries.left={velocity: [0, 0], level: 1}'
+phases "'fluid.boundaries.left.wall': expected pressure or wall, not both" --set 'fluid.regions=[{phase: air}]' --set 'fluid.boundaries.left={wall: no_slip, pressure: 1}'
+phases "'fluid.regions\[1\].centre': expected lower or centre, not both" --set 'fluid.regions=[{phase: air}, {phase: water, lower: [0, 0], upper: [1, 1], centre: [0, 0]}]'
+refused solid "'solid.bodies\[0\].shape': expected mesh or shape, not both" --set 'solid.bodies[0].mesh=nowhere.msh'
+refused solid "'solid.bodies\[0\].inner_radius': expected radius or inner_radius, not both" --set "solid.bodies[0]=$ring 0.05, inner_radius: 0.1}"
+
+# what has nothing to hold or to measure
+refused solid "'solid.springs\[0\].other_point': there is no other body" --set 'solid.springs=[{point: [1, 1.1], other_point: [1, 1.5], stiffness: 1}]'
+for what in line surface flow; do
+  phases "'fluid.probes\[0\].$what.to': expected another point than from, (1, 1)" --set 'fluid.regions=[{phase: air}]' --set "fluid.probes=[{name: P, $what: {from: [1, 1], to: [1, 1]}}]"
+done
+
 # a gauge outside, a body across a wall
 phases "'fluid.probes\[0\].point': expected what lies in the mesh, (9, 1) does not" --set 'fluid.regions=[{phase: air}]' --set 'fluid.probes=[{name: P, point: [9, 1]}]'
 refused solid "'solid.bodies\[0\]': the body reaches through solid.walls at" --set 'solid.walls={lower: [1, 0], upper: [2, 4]}'

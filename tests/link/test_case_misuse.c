@@ -44,6 +44,7 @@ WRONG(WordNone, (CoracleCaseWord(c, "fluid.x", -1, NONE)))
 WRONG(WordNull, (CoracleCaseWord(c, "fluid.x", 0, NULL)))
 WRONG(RefuseNull, (CoracleCaseRefuse(c, NULL, "wrong"), 0))
 WRONG(RenamedNull, (CoracleCaseRenamed(c, "fluid.x", NULL), 0))
+WRONG(BesideNull, (CoracleCaseNotBeside(c, NULL, "x", WORDS), 0))
 WRONG(FinishNull, CoracleCaseFinish(c, NULL))
 WRONG(DescribeNull, (CoracleCaseDescribe(c, NULL), 0))
 static void DescribeMany(CoracleCase c)
@@ -85,6 +86,7 @@ static void Open(void)
       {WordNull, "CoracleCaseWord: key 'fluid.x': there must be words"},
       {RefuseNull, "CoracleCaseRefuse: the key is NULL"},
       {RenamedNull, "CoracleCaseRenamed: the key is NULL"},
+      {BesideNull, "CoracleCaseNotBeside: the key is NULL"},
       {FinishNull, "CoracleCaseFinish: there must be a list of sections"},
       {DescribeNull, "CoracleCaseDescribe: there must be a table"},
       {DescribeMany, "CoracleCaseDescribe: more than 8 tables"}};

@@ -72,6 +72,12 @@ static void Renamed(CoracleCase c)
   CoracleCaseRenamed(c, "fluid.tries", "fluid.max_iterations");
 }
 
+static void NotBoth(CoracleCase c)
+{
+  static const char *const OTHERS[] = {"density", "viscosity", NULL};
+  CoracleCaseNotBeside(c, "fluid", "phases", OTHERS);
+}
+
 /* Large files are read or refused in a time that grows with their size, not with its square. */
 static void Large(void)
 {
@@ -106,6 +112,9 @@ static void Syntax(void)
   CheckCase("fluid:\n  tries: 3\n", NULL, Renamed,
             ":2: key 'fluid.tries' is now called 'fluid.max_iterations'");
   CheckCase("fluid:\n  max_iterations: 3\n", NULL, Renamed, NULL);
+  CheckCase("fluid:\n  viscosity: 3\n  phases: []\n", NULL, NotBoth,
+            ":2: key 'fluid.viscosity': expected phases or viscosity, not both");
+  CheckCase("fluid:\n  density: 3\n", NULL, NotBoth, NULL);
   CheckCase("", NULL, Nothing, ": is empty");
   CheckCase("- a\n- b\n", NULL, Nothing, ":1: expected sections (key: ...) at the top level");
   CheckCase("fluid:\n  a: 1\n  a: 2\n", NULL, Nothing, ":3: key 'a' is given twice (first in line 2)");
