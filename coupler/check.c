@@ -1,4 +1,5 @@
 #include "coupler/check.h"
+#include "common/link/participant.h"
 #include "common/output/time_reached.h"
 #include "common/program/program.h"
 #include "common/program/run_case.h"
@@ -50,8 +51,9 @@ static void NoteShell(CoracleCase c, double thickness)
 static void Read(CoracleCase c, void *command)
 {
   static CouplerCase k;
+  char checkpoint[PETSC_MAX_PATH_LEN];
   RunCaseDescribe(c, KEYS);
-  (void)CoracleCaseStringOr(c, "resume", "");
+  (void)ParticipantFindResume(c, sizeof checkpoint, checkpoint);
   if (CouplerCaseRead(c, &k)) return;
   CheckFolder(c, k.folder);
   if (*(const Command *)command == COMMAND_KEYS || !CoracleCaseFaultless(c)) return;

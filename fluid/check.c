@@ -176,6 +176,17 @@ static void Expect(const Mesh *m, PetscBool adapts, const AdaptationSetup *s)
          adapts ? ", if it reaches fluid.adapt.elements_max" : "");
 }
 
+static PetscErrorCode CheckBudget(CoracleCase c, const Mesh *m, const AdaptationSetup *s)
+{
+  double least;
+  PetscFunctionBeginUser;
+  PetscCall(AdaptationLeastCount(s, m, &least));
+  if (least > s->elements_max)
+    CoracleCaseRefuse(c, "fluid.adapt.elements_max",
+                      "edges of fluid.adapt.size_max, %g m, alone take %.0f triangles", s->size_max, least);
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode Draw(CoracleCase c, Mesh *mesh, const FluidSetup *setup, int nregions,
                            const Region region[])
 {
@@ -214,6 +225,7 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
   PetscCall(ProbesDestroy(&probes));
   PetscCall(CoracleCaseFinish(c, SECTIONS));
   if (command != COMMAND_KEYS && CoracleCaseFaultless(c)) {
+    if (adapts) PetscCall(CheckBudget(c, mesh, &adaptation));
     Expect(mesh, adapts, &adaptation);
     NoteBoundaries(mesh, &setup);
   }

@@ -202,6 +202,7 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
   PetscCall(SolidFromCase(c, PETSC_COMM_SELF, Fail, NULL, &solid));
   if (command != COMMAND_KEYS && CoracleCaseFaultless(c)) {
     PetscCall(CheckDomain(c, solid));
+    CheckGauges(c, solid);
     PetscCall(ProbesCheckPoints(c, PETSC_COMM_SELF, solid));
     PetscCall(Expect(c, solid, command));
     RunCaseNoteSteps(run.end, longest);

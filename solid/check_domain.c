@@ -44,6 +44,37 @@ PetscErrorCode CheckDomain(CoracleCase c, Solid s)
   PetscFunctionReturn(0);
 }
 
+/* Whether the nearest facet is within half of its length. */
+static PetscBool IsAtSurface(const SolidView *v, const double point[2], double *distance)
+{
+  PetscBool at = PETSC_FALSE;
+  *distance = HUGE_VAL;
+  for (int k = 0; k < v->nfacets; k++) {
+    const double *a = v->x + 2 * v->facet[2 * k], *b = v->x + 2 * v->facet[2 * k + 1];
+    const double d = GeometryDistanceAt(a, b, GeometrySegmentPlace(a, b, point), point);
+    if (d >= *distance) continue;
+    *distance = d;
+    at = (PetscBool)(d <= 0.5 * hypot(b[0] - a[0], b[1] - a[1]));
+  }
+  return at;
+}
+
+/* As the coupler at the start of a run (geometry/gauges.c). */
+void CheckGauges(CoracleCase c, Solid s)
+{
+  SolidView v;
+  double point[2], distance;
+  char key[CASE_KEY];
+  SolidGetView(s, &v);
+  for (int k = 0; k < CoracleCaseCount(c, "fluid.probes"); k++)
+    if (CoracleCaseVectorOptional(c, CaseKey(key, "fluid.probes[%d].solid_point", k), 2, point) &&
+        !IsAtSurface(&v, point, &distance))
+      CoracleCaseRefuse(c, key,
+                        v.nfacets ? "expected a point of the solid's surface, (%g, %g) is %.3g m away from it"
+                                  : "there are no bodies",
+                        point[0], point[1], distance);
+}
+
 /* --- whether a body may leave --------------------------------------------------------------------------- */
 
 /* The entry of a body that nothing holds, prescribes until the end or ties to a spring; -1: there is none. */

@@ -6,6 +6,8 @@
 
 /* Refuses a body that reaches out of the domain. */
 PetscErrorCode CheckDomain(CoracleCase c, Solid s);
+/* Refuses a pressure gauge of the fluid that is not on the surface. */
+void CheckGauges(CoracleCase c, Solid s);
 /* Prints a note if a body may leave it before the end, s: gravity acts, nothing holds the body until then and the solid has no walls. */
 void NoteWalls(CoracleCase c, Solid s, double end);
 /* Prints a note of the first body that water passes through beside air: one thinner than two of the fluid's elements. */

@@ -37,6 +37,8 @@ typedef struct {
 /* Collective, first_mesh.c: the mesh with le in the boxes and the interface's size at the interface, where it is coarser. */
 PetscErrorCode AdaptationFirstMesh(Adaptation adaptation, const Mesh *initial, const AdaptationStart *start,
                                    Mesh **mesh);
+/* Collective: the triangles that edges of size_max everywhere take. */
+PetscErrorCode AdaptationLeastCount(const AdaptationSetup *setup, const Mesh *mesh, double *triangles);
 /* Collective: refuses `count` elements beyond the budget. */
 PetscErrorCode AdaptationCheckBudget(const AdaptationSetup *setup, MPI_Comm comm, double count);
 /* Borrowed.  Not collective. */

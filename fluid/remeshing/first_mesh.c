@@ -13,12 +13,26 @@
 PetscErrorCode AdaptationCheckBudget(const AdaptationSetup *s, MPI_Comm comm, double count)
 {
   PetscFunctionBeginUser;
-  PetscCheck(
-      count <= s->elements_max, comm, PETSC_ERR_ARG_OUTOFRANGE,
-      "fluid.adapt.elements_max is %g: sizes up to %g m and the bands of solid and interface alone take %.0f "
-      "triangles; raise it, "
-      "or fluid.adapt.size_min",
-      s->elements_max, s->size_max, count);
+  PetscCheck(count <= s->elements_max, comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "fluid.adapt.elements_max is %.0f: sizes up to %g m and the bands of solid and interface alone "
+             "take %.0f "
+             "triangles; raise it, "
+             "or fluid.adapt.size_min",
+             s->elements_max, s->size_max, count);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode AdaptationLeastCount(const AdaptationSetup *s, const Mesh *m, double *triangles)
+{
+  const MeshSerial part = {.nv = m->nv, .ne = m->ne, .x = m->x, .vertex = m->vertex};
+  double *size, *metric;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(m->nv, &size, 3 * m->nv, &metric));
+  for (int v = 0; v < m->nv; v++) size[v] = s->size_max;
+  PetscCall(MetricFromSizes(m->nv, size, metric));
+  PetscCall(MetricCount(&part, metric, triangles));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, triangles, 1, MPI_DOUBLE, MPI_SUM, m->comm));
+  PetscCall(PetscFree2(size, metric));
   PetscFunctionReturn(0);
 }
 

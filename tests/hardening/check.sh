@@ -28,6 +28,14 @@ check "$case" "${square[@]}" --set 'solid.bodies[0].centre=[0.5, 0.5]' || fail "
 grep -q "solid.probes\[1\].point.: no body is at (1.2, 1.1) at rest; the nearest is 0.07[0-9]* m away" "$scratch/log" && [ "$(wc -l <"$scratch/log")" -eq 1 ] ||
   fail "not where the probe is"
 
+# likewise a gauge off the surface, a checkpoint that is not there, a budget of triangles below that of the largest edges
+refuses() { ! check "$case" --set "$2" || fail "accepted: $2"; grep -q "$1" "$scratch/log" && [ "$(wc -l <"$scratch/log")" -eq 1 ] || fail "not '$1' alone"; }
+refuses "fluid.probes\[0\].solid_point.: expected a point of the solid.s surface, (1, 1.3) is 0.07[0-9]* m away from it" 'fluid.probes=[{name: P, solid_point: [1.0, 1.3], distance: 0.1}]'
+check "$case" --set 'fluid.probes=[{name: P, solid_point: [1.0, 1.225], distance: 0.1}]' || fail "a gauge on the surface has faults"
+refuses "'resume': there is no checkpoint 'nowhere'" resume=nowhere
+check "$case" --set resume=last || fail "a run that begins at the start has faults"
+refuses "'fluid.adapt.elements_max': edges of fluid.adapt.size_max, 0.2 m, alone take 231 triangles" 'fluid.adapt={size_min: 0.1, size_max: 0.2, velocity_error: 0.1, elements_max: 100}'
+
 # what depends on a refused mesh is not told: the keys of a box or a shape, names of boundaries
 for set in 'fluid.mesh={file: nowhere.msh}' 'solid.bodies=[{mesh: nowhere.msh, material: disc, translate: [1.0, 1.1]}]'; do
   ! check "$case" --set "$set" || fail "a mesh that is not there is accepted"
