@@ -39,10 +39,10 @@ class Grid:
 
 
 class Window:
-    """A rectangle of the plane, m."""
+    """A rectangle of the plane between two opposite corners, m."""
 
-    def __init__(self, lower, upper):
-        self.lower, self.upper = np.asarray(lower, float), np.asarray(upper, float)
+    def __init__(self, one, other):
+        self.lower, self.upper = np.sort(np.array([one, other], float), axis=0)
 
     @classmethod
     def around(cls, points):
@@ -60,16 +60,18 @@ class Window:
         axes.set(xlim=(self.lower[0], self.upper[0]), ylim=(self.lower[1], self.upper[1]), aspect="equal")
 
     def triangulation(self, grid):
-        """The grid's triangles that reach into the window."""
+        """The grid's triangles that reach into the window; LookupError where there is none."""
         triangles = grid.triangles()
         corners = grid.points[triangles]
         inside = ((corners.max(axis=1) >= self.lower) & (corners.min(axis=1) <= self.upper)).all(axis=1)
+        if not inside.any() or not (self.size > 0.0).all():
+            low, high = (f"({x:g}, {y:g})" for x, y in (np.nanmin(grid.points, axis=0), np.nanmax(grid.points, axis=0)))
+            raise LookupError(f"there is nothing in the window {(*self.lower, *self.upper)}: all lies from {low} to {high}")
         return Triangulation(*grid.points.T, triangles[inside])
 
     def percentiles(self, grid, values, *percents):
-        """Percentiles of nodal values over the window's points."""
-        inside = ((grid.points >= self.lower) & (grid.points <= self.upper)).all(axis=1)
-        return np.percentile(values[inside], percents)
+        """Percentiles of nodal values over the points of the triangles that reach into the window."""
+        return np.percentile(values[np.unique(self.triangulation(grid).triangles)], percents)
 
 
 def read_snapshot(path, time=None):
@@ -85,14 +87,14 @@ def read_snapshot(path, time=None):
 
 
 def read_bodies(folder, time):
-    """The solid's grid at this time; None where the run has no solid."""
+    """The solid's grid at this time; None where the run has no bodies."""
     path = os.path.join(folder, "solid.h5")
     if not os.path.exists(path):
         return None
     found, grids = read_snapshot(path, time)
     if abs(found - time) > 1e-6 * max(1.0, abs(time)):
         raise LookupError(f"{path}: the solid is of t = {found:g} s, the fluid of {time:g} s")
-    return grids["solid"]
+    return grids["solid"] if len(grids["solid"].points) else None
 
 
 def outline(grid):
@@ -173,5 +175,9 @@ def save(draw, arguments, path, name):
     except LookupError as error:
         sys.exit(f"{name}: {error}")
     path = arguments.out or path
-    figure.savefig(path, dpi=150)
+    try:
+        os.makedirs(os.path.dirname(path) or ".", exist_ok=True)
+        figure.savefig(path, dpi=150)
+    except (OSError, ValueError) as error:  # of the folder, and of what the name ends with
+        sys.exit(f"{name}: {path}: {error}")
     print(path)

@@ -2,7 +2,7 @@
 """A picture of any field of a run: fluid or solid, at any time.
 
 Reads fluid.h5 and solid.h5 of the output folder RUN; without --field lists what there is and draws the speed of the fluid with the bodies'
-outline.  A vector is drawn as its length, or one component with --field velocity.x.  Needs numpy, h5py and matplotlib.
+outline.  A vector is drawn as its length, or one component with --field velocity.x; a stress likewise, with xx, yy and xy.  Needs numpy, h5py and matplotlib.
 """
 import argparse
 import os
@@ -12,14 +12,16 @@ import numpy as np
 
 from snapshot import Window, colours, paint, read_snapshot, save
 
+COMPONENTS = {3: {"x": 0, "y": 1}, 6: {"xx": 0, "yy": 3, "xy": 1}}  # by the number of a field's columns: those in the plane
+
 
 def parse_arguments():
     parser = argparse.ArgumentParser(prog="view.sh", description=__doc__)
     parser.add_argument("run", help="output folder")
-    parser.add_argument("--field", help="e.g. velocity, velocity.y, pressure, solid:stress.x")
+    parser.add_argument("--field", help="e.g. velocity, velocity.y, pressure, solid:stress.xx")
     parser.add_argument("--time", type=float, help="the snapshot nearest to this time, s (default the last)")
-    parser.add_argument("--window", type=float, nargs=4, metavar=("X0", "Y0", "X1", "Y1"), help="what to show, m")
-    parser.add_argument("--out", help="picture (default RUN/view.png)")
+    parser.add_argument("--window", type=float, nargs=4, metavar=("X0", "Y0", "X1", "Y1"), help="what to show: two opposite corners, m")
+    parser.add_argument("--out", help="picture (default RUN/view.png); its folder is made if missing")
     return parser.parse_args()
 
 
@@ -55,13 +57,15 @@ def select(found, wanted):
         there = ", ".join(f"{p}:{n}" for p, n in found)
         raise LookupError(f"there is no field '{wanted}': {there}")
     grid, values = found[keys[0]]
+    if not len(values):
+        raise LookupError(f"there is nothing to draw of '{wanted}': the run has no bodies")
     if values.ndim == 1:
         return grid, values, f"{keys[0][0]}: {name}"
     if component:
-        k = "xyz".find(component) if component in "xyz" else -1
-        if not 0 <= k < values.shape[1]:
-            raise LookupError(f"{name} has the components {', '.join('xyz'[:values.shape[1]])}")
-        return grid, values[:, k], f"{keys[0][0]}: {name}, {component}"
+        columns = COMPONENTS[values.shape[1]]
+        if component not in columns:
+            raise LookupError(f"{name} has the components {', '.join(columns)}")
+        return grid, values[:, columns[component]], f"{keys[0][0]}: {name}, {component}"
     return grid, np.linalg.norm(values, axis=1), f"{keys[0][0]}: |{name}|"
 
 

@@ -8,6 +8,18 @@ for field in velocity.y solid:stress; do
   "$root/scripts/view.sh" "$scratch/x" --field $field --time 0.01 --out "$scratch/$field.png" >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
   [ -s "$scratch/$field.png" ] || { echo "no picture of $field"; exit 1; }
 done
+# components by their names, a folder that is made, corners of a window in any order
+"$root/scripts/view.sh" "$scratch/x" --field solid:stress.xy --window 1.2 1.2 0.8 0.8 --out "$scratch/new/xy.png" >"$scratch/log" 2>&1 && [ -s "$scratch/new/xy.png" ] || { cat "$scratch/log"; exit 1; }
+no_picture() { # EXPECTED RUN options: one line
+  if "$root/scripts/view.sh" "${@:2}" >/dev/null 2>"$scratch/log"; then echo "a picture of ${*:2}"; exit 1; fi
+  [ "$(wc -l <"$scratch/log")" -eq 1 ] && grep -q "$1" "$scratch/log" || { cat "$scratch/log"; exit 1; }
+}
+no_picture 'stress has the components xx, yy, xy' "$scratch/x" --field solid:stress.z
+no_picture 'nothing in the window (3.0, 3.0, 4.0, 4.0): all lies from (0, 0) to (2, 2)' "$scratch/x" --window 3 3 4 4
+no_picture "Format 'none' is not supported" "$scratch/x" --out "$scratch/x.none"
+must bodiless 1:1:1 --set 'solid.bodies=[]' --set time.end=0.02
+no_picture "nothing to draw of 'solid:stress': the run has no bodies" "$scratch/bodiless" --field solid:stress
+"$python" "$root/scripts/plot_field.py" "$scratch/bodiless" >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
 # colours of both signs only where there are both
 PYTHONPATH=$root/scripts "$python" - <<'E2'
 from snapshot import colours
