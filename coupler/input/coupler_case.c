@@ -69,7 +69,10 @@ static void ReadUplift(CoracleCase file, CouplerOptions *o)
 static void ReadOptions(CoracleCase file, CouplerOptions *o)
 {
   o->mode = (CouplerMode)CoracleCaseWord(file, "coupler.mode", COUPLER_REACTION, COUPLER_MODES);
-  o->thickness = CoracleCasePositive(file, "coupler.shell_thickness");
+  const PetscBool empty =
+      (PetscBool)(CoracleCaseHas(file, "solid.bodies") && CoracleCaseCount(file, "solid.bodies") == 0);
+  const PetscBool needed = (PetscBool)(!empty || CoracleCaseHas(file, "coupler.shell_thickness"));
+  o->thickness = needed ? CoracleCasePositive(file, "coupler.shell_thickness") : 0.0;
   GravityRead(file, o->gravity, &o->gravity_table);
   ReadUplift(file, o);
   o->capillary = (PetscBool)(CoracleCaseHas(file, "fluid.surface_tension") &&

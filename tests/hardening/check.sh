@@ -90,6 +90,9 @@ level 1 --set 'fluid.boundaries.left={velocity: [-0.1, 0], period: 1.0}'
 # no bodies, or none that moves
 png() { rm -f "$scratch/case.png"; check "$@" --png "$scratch/case.png" && [ -s "$scratch/case.png" ]; }
 png "$case" --set 'solid.bodies=[]' && grep -qx 'solid: no bodies' "$scratch/log" || fail "a fluid alone"
+sed '/^coupler:/d' "$case" >"$scratch/fluid.yaml"
+check "$scratch/fluid.yaml" --set 'solid.bodies=[]' || fail "a fluid alone needs keys of the coupler"
+! check "$scratch/fluid.yaml" && grep -q "key 'coupler.shell_thickness' is missing" "$scratch/log" || fail "a body needs no shell"
 png "$case" --set 'solid.bodies[0].fixed=true' && grep -qx 'solid: all bodies are fixed' "$scratch/log" || fail "a fixed body"
 ! grep -qw inf "$scratch/log" || fail "substeps of a fixed body"
 
