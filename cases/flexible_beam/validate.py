@@ -33,7 +33,7 @@ FSI1 = [SOFT, "fluid.boundaries.left.velocity=[0.3, 0.0]", "fluid.adapt.velocity
 FSI2 = [SOFT, HEAVY, SLOW, "time.dt_max=0.004"]
 FINE = ["fluid.adapt.size_min=0.002", "coupler.shell_thickness=0.0001", "time.cfl=4"]
 FINEST = FINE + ["fluid.adapt.size_min=0.001", "coupler.shell_thickness=0.00005"]
-FLUID, STEP = ["fluid.adapt.velocity_error=0.001"], ["time.dt_max=0.0025"]
+CORNERS = ["fluid.adapt.corner_size=0.000125"]
 
 
 def mesh(layers):
@@ -78,13 +78,13 @@ ROWS = {
     **solid_alone(3, 8), **solid_alone(3, 16), **solid_alone(6, 1), **solid_alone(6, 2), **solid_alone(6, 4),
     **solid_alone(6, 8),
     "fsi1-0.004": Row("FSI1", FSI1 + ["fluid.adapt.size_min=0.004"], 22.0, 21.9),
-    "fsi1-0.004-mesh": Row("FSI1", FSI1 + ["fluid.adapt.size_min=0.004", "fluid.mesh.size_max=0.043"], 10.0, 9.9),
     "fsi1-0.002": Row("FSI1", FSI1 + FINE, 25.0, 24.9, after="fsi1-0.004"),
-    "fsi1-0.002-fluid": Row("FSI1", FSI1 + FINE + FLUID, 27.5, 27.4, after="fsi1-0.002"),
-    "fsi1-0.002-fluid-step": Row("FSI1", FSI1 + FINE + FLUID + STEP, 29.0, 28.9, after="fsi1-0.002-fluid"),
     "fsi1-0.001": Row("FSI1", FSI1 + FINEST, 28.0, 27.9, after="fsi1-0.002"),
-    "fsi1-0.001-fluid": Row("FSI1", FSI1 + FINEST + FLUID, 30.5, 30.4, after="fsi1-0.001"),
-    "fsi1-0.001-fluid-step": Row("FSI1", FSI1 + FINEST + FLUID + STEP, 32.0, 31.9, after="fsi1-0.001-fluid"),
+    "fsi1-0.004-corners": Row("FSI1", FSI1 + ["fluid.adapt.size_min=0.004"] + CORNERS, 27.0, 26.9, after="fsi1-0.004"),
+    "fsi1-0.002-corners": Row("FSI1", FSI1 + FINE + CORNERS, 30.0, 29.9, after="fsi1-0.002"),
+    "fsi1-0.001-corners": Row("FSI1", FSI1 + FINEST + CORNERS, 33.0, 32.9, after="fsi1-0.001"),
+    "fsi1-0.002-corners-fine": Row("FSI1", FSI1 + FINE + ["fluid.adapt.corner_size=0.0000625"], 30.0, 29.9, after="fsi1-0.002"),
+    "fsi1-0.004-corners-growth": Row("FSI1", FSI1 + ["fluid.adapt.size_min=0.004", "fluid.adapt.growth=1.3"] + CORNERS, 27.0, 26.9, after="fsi1-0.004"),
     "fsi2-0.008": Row("FSI2", FSI2 + ["time.cfl=2"], 12.0, 10.5),
     "fsi2-0.004": Row("FSI2", FSI2 + ["fluid.adapt.size_min=0.004", "time.cfl=2"], 18.6, 17.5, after="fsi2-0.008"),
     "fsi2-0.002": Row("FSI2", FSI2 + FINE, 18.6, 17.5, after="fsi2-0.008"),
