@@ -87,6 +87,13 @@ grep -q 'boundaries.left: what flows in is air, the lightest phase' "$scratch/lo
 for set in 'velocity: [0.1, 0], phase: water' 'velocity: [-0.1, 0]' 'velocity: [0, 1]'; do level 0 --set "fluid.boundaries.left={$set}"; done
 level 1 --set 'fluid.boundaries.left={velocity: [-0.1, 0], period: 1.0}'
 
+# walls that water passes through, beside air alone
+wall() { "$build/solid/coracle-solid" --check "$root/tests/coupled/fixed.yaml" --set "solid.bodies[0].width=$2" "${@:3}" >"$scratch/log" 2>&1 && notes "$1" || fail "not $1 notes of a wall of $2 m"; }
+wall 0 0.03
+wall 1 0.02
+grep -q 'solid.bodies\[0\] is about 0.02 m thick, fluid.adapt.size_min is 0.013 m' "$scratch/log" || fail "another note"
+wall 0 0.02 --set fluid.adapt.size_min=0.01
+
 # no bodies, or none that moves
 png() { rm -f "$scratch/case.png"; check "$@" --png "$scratch/case.png" && [ -s "$scratch/case.png" ]; }
 png "$case" --set 'solid.bodies=[]' && grep -qx 'solid: no bodies' "$scratch/log" || fail "a fluid alone"
