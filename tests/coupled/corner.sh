@@ -12,7 +12,7 @@ import numpy as np
 from results import column, snapshots
 SIZE, CORNER, HALF = 0.02, 0.0025, 0.125
 def longest(corners, at):
-    """The longest edge of the elements that have a vertex or their middle within an element of a point."""
+    """The longest edge of the elements whose middles are within CORNER of a point."""
     near = np.hypot(*(corners.mean(axis=1) - at).T) < CORNER
     assert near.any(), "no element has its middle within %g m of (%g, %g)" % (CORNER, *at)
     edges = corners[near] - np.roll(corners[near], 1, axis=1)
