@@ -10,19 +10,37 @@ typedef struct {
 /* A line shorter than this, over the root of the element's area, cuts off no more than a corner, where it has to be if advection has
  * left a trace of a phase there: it says little of where the interface is. */
 #define CORNER 0.01
+/* The least barycentric coordinate of a line's middle that counts. */
+#define LEAST 1e-6
 /* Beside a solid, of what it leaves of an element: less of a phase may be a film along the surface. */
 #define FILM 0.01
 
-/* Line k of cut element e as seen from local vertex v: its length there is the weight. */
-static void AddLine(Phases f, int e, int k, int v, VertexDistance *d)
+/* Of the barycentric coordinates of local element e, 1/m. */
+static void Gradients(const Stars *s, int e, double grad[3][2])
 {
-  const double *origin = f->stars->element[e].x[0];
+  const double(*x)[2] = (const double(*)[2])s->element[e].x, twice = StarsTwiceArea(s, e);
+  for (int i = 0; i < 3; i++) {
+    const double *a = x[(i + 1) % 3], *b = x[(i + 2) % 3];
+    grad[i][0] = (a[1] - b[1]) / twice;
+    grad[i][1] = (b[0] - a[0]) / twice;
+  }
+}
+
+/* Line k of cut element e as its vertex `corner` sees it.  The weight is the integral of the vertex's barycentric coordinate along the line: with it the
+ * vertices' distances have the volumes of the lines, sum of weight times distance. */
+static void AddLine(Phases f, int e, int k, int corner, VertexDistance *sum)
+{
+  const double(*x)[2] = (const double(*)[2])f->stars->element[e].x;
+  double grad[3][2];
   HalfPlane h;
-  const double length = PhasesSegment(f, e, k, origin, &h).length;
-  const double weight = length * fmin(1.0, length * length / (CORNER * CORNER * StarsArea(f->stars, e)));
-  const double *x = f->stars->point[v];
-  d->sum += weight * (h.n[0] * (x[0] - origin[0]) + h.n[1] * (x[1] - origin[1]) - h.d);
-  d->weight += weight;
+  const PolygonCut cut = PhasesSegment(f, e, k, x[0], &h);
+  Gradients(f->stars, e, grad);
+  const double middle[2] = {h.d * h.n[0] - cut.middle * h.n[1], h.d * h.n[1] + cut.middle * h.n[0]};
+  const double lambda = (corner == 0) + grad[corner][0] * middle[0] + grad[corner][1] * middle[1];
+  const double trace = cut.length * cut.length / (CORNER * CORNER * StarsArea(f->stars, e));
+  const double weight = cut.length * fmax(lambda, LEAST) * fmin(1.0, trace);
+  sum->sum += weight * (h.n[0] * (x[corner][0] - x[0][0]) + h.n[1] * (x[corner][1] - x[0][1]) - h.d);
+  sum->weight += weight;
 }
 
 /* Line k of cut element e is a trace's: a corner's, and the lines around leave its vertices, at distances d, on one side. */
@@ -48,9 +66,9 @@ double PhasesDistance(Phases f, int line, int v, double *inside)
   const Stars *s = f->stars;
   VertexDistance d = {0};
   for (int k = s->start[v]; k < s->start[v + 1]; k++) {
-    const int e = s->around[k] / 3, has_solid = PhasesOpen(f, e) < 1.0,
+    const int e = s->around[k] / 3, corner = s->around[k] % 3, has_solid = PhasesOpen(f, e) < 1.0,
               side = has_solid ? SideBeside(f, e, line) : PhasesSide(f, e, line);
-    if (side == 0 && !has_solid && PhasesHasLine(f, e, line)) AddLine(f, e, line, v, &d);
+    if (side == 0 && !has_solid && PhasesHasLine(f, e, line)) AddLine(f, e, line, corner, &d);
     d.below |= side < 0;
     d.above |= side > 0;
   }
@@ -65,17 +83,12 @@ double PhasesDistance(Phases f, int line, int v, double *inside)
 static void Element(Phases f, int e, const double distance[], const double rho[], const double gravity[2],
                     InverseDensity *inverse)
 {
-  const double(*x)[2] = (const double(*)[2])f->stars->element[e].x,
-        *v = &f->volume[(size_t)e * (size_t)f->np];
+  const double *v = &f->volume[(size_t)e * (size_t)f->np];
   const double twice = StarsTwiceArea(f->stars, e);
   DensityLine line[PHASES_MAX - 1];
   double grad[3][2], mass = 0.0;
   int n = 0;
-  for (int i = 0; i < 3; i++) {
-    const double *a = x[(i + 1) % 3], *b = x[(i + 2) % 3];
-    grad[i][0] = (a[1] - b[1]) / twice;
-    grad[i][1] = (b[0] - a[0]) / twice;
-  }
+  Gradients(f->stars, e, grad);
   for (int p = 0; p < f->np; p++) mass += rho[p] * v[p];
   for (int k = 0; k + 1 < f->np; k++) {
     if (!PhasesHasLine(f, e, k)) continue;
@@ -88,6 +101,8 @@ static void Element(Phases f, int e, const double distance[], const double rho[]
     InverseDensityCut((const double(*)[2])grad, n, line, 2.0 * mass / twice, gravity, inverse);
   else
     InverseDensityUniform(2.0 * mass / twice, gravity, inverse);
+  if (n == 1 && PhasesOpen(f, e) == 1.0)
+    InverseDensityAddSurplus(&line[0], 2.0 * mass / twice, gravity, inverse);
 }
 
 PetscErrorCode PhasesGetInverseDensity(Phases f, const double rho[], const double gravity[2],

@@ -17,12 +17,20 @@
  * elements, and errors of the distances do not set the light phase in motion (the densities of edges of Kang, Fedkiw
  * and Liu 2000 on squares have the same property).  Along the line R has the mean density of the element.
  *
+ * What differs from one element to the next is lost in such distances: the flow raises water in one and lowers it in another, and no
+ * weight restores them.  (Without the following still water was unstable: tests/phases/README.md, "Still water".)  So a part of what the
+ * element holds beyond the volume that the distances give it weighs: of b g,  b = SURPLUS (rho_K - rho_d)/rho_heavy,  rho_d the density of
+ * the linear d.  0 at rest on any mesh, of order h times the curvature else; over the heavier density, as light elements would leap.
+ *
  * Of several lines in an element the last one has the normal n, and rho_i d_i becomes the integral of the density along it from
  * that line to the vertex: rho_i d_i + sum [rho]_k min(d_ki, 0) cos_k over the other lines k, [rho]_k = below - above and
  * cos_k = n_k.n.  This is exact for layers. */
 #ifndef CORACLE_PHASES_EFFECTIVE_DENSITY_H
 #define CORACLE_PHASES_EFFECTIVE_DENSITY_H
 #include <math.h>
+
+/* The part of an element's surplus that weighs. */
+#define EFFECTIVE_DENSITY_SURPLUS 0.25
 
 /* How much lighter than its part along the line R may be across it; beyond, an obtuse element's pressure cannot be
  * balanced by any such R. */
@@ -106,6 +114,27 @@ static inline void DensityAddLine(const double grad[3][2], const DensityLine *li
   if (!(square > 0.0)) return;
   const double weight = (line->rho[0] - line->rho[1]) * (m[0] * last[0] + m[1] * last[1]) / square;
   for (int i = 0; i < 3; i++) integral[i] += weight * fmin(line->d[i], 0.0);
+}
+
+/* The share of a triangle's area in which a linear d is negative. */
+static inline double DensityShareBelow(const double d[3])
+{
+  const int below = (d[0] < 0.0) + (d[1] < 0.0) + (d[2] < 0.0);
+  if (below == 0 || below == 3) return below / 3;
+  int odd = 0; /* alone on its side */
+  while ((d[odd] < 0.0) != (below == 1)) odd++;
+  const double a = d[odd], b = d[(odd + 1) % 3], c = d[(odd + 2) % 3], share = a * a / ((a - b) * (a - c));
+  return below == 1 ? share : 1.0 - share;
+}
+
+/* The weight of the surplus of an element with one line; mean: density of its content, kg/m3. */
+static inline void InverseDensityAddSurplus(const DensityLine *line, double mean, const double gravity[2],
+                                            InverseDensity *r)
+{
+  const double share = DensityShareBelow(line->d), *rho = line->rho;
+  const double surplus = mean - share * rho[0] - (1.0 - share) * rho[1];
+  for (int c = 0; c < 2; c++)
+    r->weight[c] += EFFECTIVE_DENSITY_SURPLUS * surplus / fmax(rho[0], rho[1]) * gravity[c];
 }
 
 /* grad[i]: of the barycentric coordinates; line[n_lines], at least one; mean: density of the element's content, kg/m3. */

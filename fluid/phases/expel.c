@@ -15,7 +15,7 @@
 
 enum { PASSES = 100, FAR = INT_MAX };
 
-/* In units of an element's area: less excess is not moved, less room attracts none, with less capacity a solid covers it. */
+/* In units of an element's area: less excess is not moved, less room attracts none, with less capacity it is covered. */
 #define EXCESS_TINY 1e-13
 #define ROOM_TINY 1e-6
 #define CAPACITY_TINY 1e-6
@@ -29,6 +29,7 @@ typedef struct {
   Phases f;
   int phase, filler;
   const double *capacity; /* [ne] */
+  const char *covered;    /* [ne] or NULL */
   int uncovers;           /* the first pass */
   Balance *balance;       /* [nl] */
   int *distance;          /* [nl] */
@@ -51,8 +52,8 @@ static void AddActive(Expel *x, int from, int to)
     if (x->balance[e].excess > 0.0) x->active[x->nactive++] = e;
 }
 
-/* *share: of the excess of all elements, what there is room for; 0: nothing is to be moved, or nothing can be; *covered: that of covered ones, m2. */
-static PetscErrorCode SetBalance(Expel *x, double *share, double *covered)
+/* *share: of the excess of all elements, what there is room for; 0: nothing is to be moved, or nothing can be; *inside: that of covered ones, m2. */
+static PetscErrorCode SetBalance(Expel *x, double *share, double *inside)
 {
   const Stars *s = x->f->stars;
   double sum[3] = {0.0, 0.0, 0.0};
@@ -60,15 +61,16 @@ static PetscErrorCode SetBalance(Expel *x, double *share, double *covered)
   for (int e = 0; e < s->ne; e++) {
     const double *v = VolumeOf(x->f, e), area = StarsArea(s, e);
     const double over = v[x->phase] - x->capacity[e], room = fmin(-over, v[x->filler]);
-    x->balance[e] = (Balance){over > EXCESS_TINY * area ? over : 0.0, room > ROOM_TINY * area ? room : 0.0,
-                              x->capacity[e] < CAPACITY_TINY * area};
+    const int covered = x->covered ? x->covered[e] : x->capacity[e] < CAPACITY_TINY * area;
+    x->balance[e] =
+        (Balance){over > EXCESS_TINY * area ? over : 0.0, room > ROOM_TINY * area ? room : 0.0, covered};
     sum[0] += x->balance[e].excess;
     sum[1] += x->balance[e].room;
     sum[2] += x->balance[e].covered ? x->balance[e].excess : 0.0;
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_DOUBLE, MPI_SUM, s->mesh->comm));
   *share = sum[0] > 0.0 ? fmin(1.0, sum[1] / sum[0]) : 0.0;
-  *covered = sum[2];
+  *inside = sum[2];
   for (int e = 0; e < s->ne; e++) x->balance[e].excess *= *share;
   if (*share > 0.0) PetscCall(StarsExchange(s, sizeof *x->balance, x->balance));
   x->nactive = 0;
@@ -218,19 +220,20 @@ static PetscErrorCode Hop(Expel *x, double swept[])
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PhasesExpel(Phases f, int phase, int filler, const double capacity[], double swept[])
+PetscErrorCode PhasesExpel(Phases f, int phase, int filler, const double capacity[], const char covered[],
+                           double swept[])
 {
   const int ne = f->stars->ne, nl = f->stars->nl;
-  Expel x = {.f = f, .phase = phase, .filler = filler, .capacity = capacity};
-  double share = 0.0, covered = 0.0;
+  Expel x = {.f = f, .phase = phase, .filler = filler, .capacity = capacity, .covered = covered};
+  double share = 0.0, inside = 0.0;
   int levels;
   PetscFunctionBeginUser;
   PetscCall(
       PetscMalloc6(nl, &x.balance, nl, &x.distance, nl, &x.active, nl, &x.front, nl, &x.next, ne, &x.come));
   for (int pass = 0; pass < PASSES; pass++) {
-    PetscCall(SetBalance(&x, &share, &covered));
+    PetscCall(SetBalance(&x, &share, &inside));
     if (!(share > 0.0)) break;
-    x.uncovers = pass == 0 && share == 1.0 && covered > 0.0;
+    x.uncovers = pass == 0 && share == 1.0 && inside > 0.0;
     PetscCall(SetDistances(&x, &levels));
     PetscCall(PetscArrayzero(x.next, nl));
     for (int hop = 0; hop < levels; hop++) PetscCall(Hop(&x, swept));

@@ -194,13 +194,13 @@ static PetscErrorCode Bound(Phases f, int gas, int liquid, const double expected
         StarsArea(s, e) - f->volume[k] - f->volume[(size_t)e * (size_t)f->np + (size_t)liquid];
     capacity[e] = fmax(StarsArea(s, e) - others - 0.5 * f->mass[k] / expected[k], 0.0);
   }
-  PetscCall(PhasesExpel(f, liquid, gas, capacity, swept));
+  PetscCall(PhasesExpel(f, liquid, gas, capacity, NULL, swept));
   for (int e = 0; e < s->ne; e++) {
     const size_t k = (size_t)e * (size_t)f->np + (size_t)gas;
     capacity[e] = fmin(2.0 * fmax(f->mass[k], 0.0) / expected[k],
                        f->volume[k] + f->volume[(size_t)e * (size_t)f->np + (size_t)liquid]);
   }
-  PetscCall(PhasesExpel(f, gas, liquid, capacity, swept));
+  PetscCall(PhasesExpel(f, gas, liquid, capacity, NULL, swept));
   PetscCall(PetscFree(capacity));
   PetscFunctionReturn(0);
 }

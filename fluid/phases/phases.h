@@ -142,9 +142,10 @@ PetscErrorCode PhasesAdvect(Phases phases, double dt, const double flux[], const
 
 /* Collective.  What an element holds of `phase` beyond capacity[ne], m2, is exchanged for the filler of the nearest elements that
  * hold filler beside it and have capacity left, however far they are: each phase's volume is conserved, that of elements, too.
- * Where all together have less room than there is excess, or in unconnected meshes, some is left.  Elements without capacity are
- * passed only where there is no other way.  Added to swept[ne][3][nphases] of PhasesAdvect. */
-PetscErrorCode PhasesExpel(Phases phases, int phase, int filler, const double capacity[], double swept[]);
+ * Where all together have less room than there is excess, or in unconnected meshes, some is left.  Elements that are covered[ne] (NULL: those
+ * without capacity) are passed only where there is no other way.  Added to swept[ne][3][nphases] of PhasesAdvect. */
+PetscErrorCode PhasesExpel(Phases phases, int phase, int filler, const double capacity[],
+                           const char covered[], double swept[]);
 
 /* Volumes of `to` from lines and volumes of `from`, both on the meshes that the transfer was made of: copies
  * where elements are the same, else exact intersections of each phase's polygons with the new elements.

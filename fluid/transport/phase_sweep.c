@@ -1,5 +1,6 @@
 #include "fluid/transport/phase_sweep.h"
 #include "fluid/phases/flux.h"
+#include "fluid/transport/phase_solid.h"
 
 /* Outflow from an element near an interface in one go, as a share of its area. */
 #define COURANT_MAX 0.9
@@ -78,43 +79,6 @@ static PetscErrorCode CountParts(PhaseSweep s, double dt, int *parts)
   PetscFunctionReturn(0);
 }
 
-/* The phases from the heaviest to the lightest: PhaseLightest is the last. */
-static void SortByDensity(const PhaseProperties *p, int order[])
-{
-  for (int k = 0; k < p->n; k++) {
-    int at = k;
-    for (; at > 0 && p->rho[order[at - 1]] <= p->rho[k]; at--) order[at] = order[at - 1];
-    order[at] = k;
-  }
-}
-
-/* The heavier phases leave what the solid fills of elements, which the lightest one fills with it: one after the other, each has
- * the room that heavier ones leave. */
-static PetscErrorCode LeaveSolid(PhaseSweep s, const double solid[])
-{
-  const int n = s->properties->n;
-  const double *volume;
-  double *capacity;
-  int order[PHASES_MAX];
-  PetscFunctionBeginUser;
-  SortByDensity(s->properties, order);
-  PetscCall(PetscMalloc1(s->stars->ne, &capacity));
-  for (int e = 0; e < s->stars->ne; e++)
-    capacity[e] = fmax(1.0 - solid[e], 0.0) * s->domain->geometry[e].area;
-  PetscCall(PhasesGetVolumes(s->phases, &volume));
-  if (s->mass) {
-    PetscCall(PhasesUpdateDensities(s->phases));
-    PetscCall(PetscArraycpy(s->part, s->swept, 3 * n * s->stars->ne));
-  }
-  for (int k = 0; k + 1 < n; k++) {
-    PetscCall(PhasesExpel(s->phases, order[k], order[n - 1], capacity, s->swept));
-    for (int e = 0; e < s->stars->ne; e++) capacity[e] = fmax(capacity[e] - volume[n * e + order[k]], 0.0);
-  }
-  if (s->mass) PetscCall(PhasesMoveMasses(s->phases, s->part, s->swept, s->mass));
-  PetscCall(PetscFree(capacity));
-  PetscFunctionReturn(0);
-}
-
 /* Adds what this step has swept through the boundary. */
 static PetscErrorCode AddOut(PhaseSweep s, double total[])
 {
@@ -145,6 +109,19 @@ static PetscErrorCode Advect(PhaseSweep s, double dt)
     for (int i = 0; i < n && s->mass; i++) s->mass[i] += s->mass_part[i];
     if (s->mass) PetscCall(PhasesFillGaps(s->phases, s->expected, s->swept));
   }
+  PetscFunctionReturn(0);
+}
+
+/* With the masses of compressible phases, which move with what is exchanged. */
+static PetscErrorCode LeaveSolid(PhaseSweep s, const double solid[])
+{
+  PetscFunctionBeginUser;
+  if (s->mass) {
+    PetscCall(PhasesUpdateDensities(s->phases));
+    PetscCall(PetscArraycpy(s->part, s->swept, 3 * s->properties->n * s->stars->ne));
+  }
+  PetscCall(PhaseLeaveSolid(s->properties, s->stars, s->phases, solid, s->swept));
+  if (s->mass) PetscCall(PhasesMoveMasses(s->phases, s->part, s->swept, s->mass));
   PetscFunctionReturn(0);
 }
 

@@ -228,7 +228,7 @@ int main(int argc, char **argv)
     PetscCall(Balance(1.0));
     PetscCall(Balance(1000.0));
     PetscCall(Rest(20, 1.0, 120.0, 30, 5e-5, 3e-3, 0));
-    PetscCall(Rest(20, 1000.0, 12000.0, 30, 1e-4, 3e-3, 0));
+    PetscCall(Rest(32, 1000.0, 12000.0, 30, 1e-4, 3e-3, 0));
     PetscCall(Wave(16, 4.0, 0.1, 0));
   }
   return PetscFinalize();

@@ -91,7 +91,7 @@ static PetscErrorCode Check(const Set *s, const Situation *is)
     sum[0] += volume[NPHASES * e + WATER];
   }
   PetscCall(PhasesSetVolumes(s->phases, volume));
-  PetscCall(PhasesExpel(s->phases, WATER, FILLER, capacity, swept));
+  PetscCall(PhasesExpel(s->phases, WATER, FILLER, capacity, NULL, swept));
   PetscCall(PhasesGetVolumes(s->phases, &now));
   for (int e = 0; e < ne; e++) {
     CheckElement(s, e, is, now, swept);

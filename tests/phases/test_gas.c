@@ -110,7 +110,7 @@ static PetscErrorCode Expelled(Set *s, Work *w)
   PetscCall(Start(s, w, 1.0, gas));
   for (int e = 0; e < s->mesh->ne; e++) start[e] = PhasesMasses(s->phases)[NPHASES * e + GAS];
   PetscCall(Sum(s, sum[0]));
-  PetscCall(PhasesExpel(s->phases, WATER, GAS, w->capacity, w->swept));
+  PetscCall(PhasesExpel(s->phases, WATER, GAS, w->capacity, NULL, w->swept));
   PetscCall(PhasesMoveMasses(s->phases, w->before, w->swept, w->mass));
   PetscCall(Sum(s, sum[1]));
   PetscCall(PhasesGetVolumes(s->phases, &volume));
