@@ -8,8 +8,9 @@ typedef struct {
   const Stars *stars;
   Phases phases;
   const double *solid, *volume; /* [ne], [ne][n] */
-  double *capacity;             /* [ne] */
+  double *capacity;             /* [ne] scratch */
   char *covered;                /* [ne] */
+  int *around;                  /* [ne]: the phase around an element that the surface crosses; else SEVERAL */
   double *swept;
 } Leave;
 
@@ -34,21 +35,7 @@ static double Solid(const Leave *x, int e)
   return fmin(fmax(x->solid[e], 0.0), 1.0) * StarsArea(x->stars, e);
 }
 
-/* --- heavier phases leave the solid ---------------------------------------------------------------------- */
-
-static PetscErrorCode LeaveSolid(Leave *x)
-{
-  PetscFunctionBeginUser;
-  for (int e = 0; e < x->stars->ne; e++) x->capacity[e] = StarsArea(x->stars, e) - Solid(x, e);
-  for (int k = 0; k + 1 < x->n; k++) {
-    PetscCall(PhasesExpel(x->phases, x->order[k], x->order[x->n - 1], x->capacity, NULL, x->swept));
-    for (int e = 0; e < x->stars->ne; e++)
-      x->capacity[e] = fmax(x->capacity[e] - VolumeOf(x, e, x->order[k]), 0.0);
-  }
-  PetscFunctionReturn(0);
-}
-
-/* --- gaps beside it -------------------------------------------------------------------------------------- */
+/* --- what is around elements that the surface crosses ----------------------------------------------------- */
 
 enum { NONE = -1, SEVERAL = -2 };
 
@@ -76,6 +63,53 @@ static int FullAround(const Leave *x, int e, const int full[])
   return found;
 }
 
+static PetscErrorCode FindAround(Leave *x)
+{
+  const Stars *s = x->stars;
+  int *full;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(s->nl, &full));
+  for (int e = 0; e < s->ne; e++) full[e] = FullOf(x, e);
+  PetscCall(StarsExchange(s, sizeof *full, full));
+  for (int e = 0; e < s->ne; e++) {
+    const int crossed = full[e] == NONE && !x->covered[e], p = crossed ? FullAround(x, e, full) : SEVERAL;
+    x->around[e] = p == NONE ? SEVERAL : p;
+  }
+  PetscCall(PetscFree(full));
+  PetscFunctionReturn(0);
+}
+
+/* --- heavier phases leave the solid ---------------------------------------------------------------------- */
+
+/* room[ne], m2, for phase p.  What is in excess of it goes first into gaps in the same phase beside the solid: most of what a step puts into some elements of
+ * a surface it has taken from others.  (By way of the nearest room, often at the water's surface, floats among three phases swayed more and more.) */
+static PetscErrorCode LeaveTo(Leave *x, int p, const double room[])
+{
+  const int filler = x->order[x->n - 1];
+  PetscFunctionBeginUser;
+  for (int e = 0; e < x->stars->ne; e++)
+    x->capacity[e] = x->around[e] == p ? room[e] : fmin(room[e], VolumeOf(x, e, p));
+  PetscCall(PhasesExpel(x->phases, p, filler, x->capacity, x->covered, x->swept));
+  PetscCall(PhasesExpel(x->phases, p, filler, room, NULL, x->swept));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode LeaveSolid(Leave *x)
+{
+  double *room;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(x->stars->ne, &room));
+  for (int e = 0; e < x->stars->ne; e++) room[e] = StarsArea(x->stars, e) - Solid(x, e);
+  for (int k = 0; k + 1 < x->n; k++) {
+    PetscCall(LeaveTo(x, x->order[k], room));
+    for (int e = 0; e < x->stars->ne; e++) room[e] = fmax(room[e] - VolumeOf(x, e, x->order[k]), 0.0);
+  }
+  PetscCall(PetscFree(room));
+  PetscFunctionReturn(0);
+}
+
+/* --- gaps that are left ----------------------------------------------------------------------------------- */
+
 /* What element e has beside the solid of phases lighter than order[k], m2. */
 static double Lighter(const Leave *x, int e, int k)
 {
@@ -84,47 +118,28 @@ static double Lighter(const Leave *x, int e, int k)
   return lighter;
 }
 
-/* around[ne]: the phase around elements that the surface crosses, else SEVERAL.  A gap in phase order[0] goes up to the next lighter phase, from there to
- * the one after it, and so on: kept[ne], m2, of the lightest phase is not part of it. */
-static PetscErrorCode CloseGaps(Leave *x, const int around[], const double kept[])
+/* A gap in phase order[0] goes up to the next lighter phase, from there to the one after it, and so on. */
+static PetscErrorCode CloseGaps(Leave *x)
 {
   const int filler = x->order[x->n - 1];
+  double *kept; /* of the lightest phase, m2: no gap */
   PetscFunctionBeginUser;
-  for (int e = 0; e < x->stars->ne; e++) x->covered[e] = x->solid[e] > 1.0 - COVERED;
+  PetscCall(PetscMalloc1(x->stars->ne, &kept));
+  for (int e = 0; e < x->stars->ne; e++) kept[e] = VolumeOf(x, e, filler);
   for (int k = 0; k + 1 < x->n; k++) {
     const int p = x->order[k];
     for (int e = 0; e < x->stars->ne; e++) {
-      const double area = StarsArea(x->stars, e);
-      if (around[e] == p)
+      const double all = VolumeOf(x, e, filler), least = PHASES_CLOUD * StarsArea(x->stars, e);
+      if (x->around[e] == p)
         x->capacity[e] = Solid(x, e);
-      else if (around[e] == SEVERAL && !x->covered[e] && Lighter(x, e, k) > PHASES_CLOUD * area)
-        x->capacity[e] = VolumeOf(x, e, filler) + VolumeOf(x, e, p);
+      else if (x->around[e] == SEVERAL && !x->covered[e] && Lighter(x, e, k) > least)
+        x->capacity[e] = all + VolumeOf(x, e, p);
       else
-        x->capacity[e] =
-            around[e] == SEVERAL ? fmin(kept[e], VolumeOf(x, e, filler)) : VolumeOf(x, e, filler);
+        x->capacity[e] = x->around[e] == SEVERAL ? fmin(kept[e], all) : all;
     }
     PetscCall(PhasesExpel(x->phases, filler, p, x->capacity, x->covered, x->swept));
   }
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode FindGaps(Leave *x)
-{
-  const Stars *s = x->stars;
-  int *full, *around;
-  double *kept;
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc3(s->nl, &full, s->ne, &around, s->ne, &kept));
-  for (int e = 0; e < s->ne; e++) full[e] = FullOf(x, e);
-  PetscCall(StarsExchange(s, sizeof *full, full));
-  for (int e = 0; e < s->ne; e++) {
-    const int crossed = full[e] == NONE && x->solid[e] < 1.0 - COVERED,
-              p = crossed ? FullAround(x, e, full) : SEVERAL;
-    around[e] = p == NONE ? SEVERAL : p;
-    kept[e] = VolumeOf(x, e, x->order[x->n - 1]);
-  }
-  PetscCall(CloseGaps(x, around, kept));
-  PetscCall(PetscFree3(full, around, kept));
+  PetscCall(PetscFree(kept));
   PetscFunctionReturn(0);
 }
 
@@ -135,9 +150,11 @@ PetscErrorCode PhaseLeaveSolid(const PhaseProperties *properties, const Stars *s
   PetscFunctionBeginUser;
   SortByDensity(properties, x.order);
   PetscCall(PhasesGetVolumes(phases, &x.volume));
-  PetscCall(PetscMalloc2(stars->ne, &x.capacity, stars->ne, &x.covered));
+  PetscCall(PetscMalloc3(stars->ne, &x.capacity, stars->ne, &x.covered, stars->ne, &x.around));
+  for (int e = 0; e < stars->ne; e++) x.covered[e] = solid[e] > 1.0 - COVERED;
+  PetscCall(FindAround(&x));
   PetscCall(LeaveSolid(&x));
-  PetscCall(FindGaps(&x));
-  PetscCall(PetscFree2(x.capacity, x.covered));
+  PetscCall(CloseGaps(&x));
+  PetscCall(PetscFree3(x.capacity, x.covered, x.around));
   PetscFunctionReturn(0);
 }
