@@ -1,4 +1,6 @@
 /* Distances of the vertices from the lines around them, and the effective densities that follow. */
+#include "common/space/p1.h"
+#include "common/supermesh/geometry.h"
 #include "fluid/phases/phases_impl.h"
 
 /* What is known of a vertex: the weighted sum of its distances from the lines around, and what they cannot be. */
@@ -15,30 +17,19 @@ typedef struct {
 /* Beside a solid, of what it leaves of an element: less of a phase may be a film along the surface. */
 #define FILM 0.01
 
-/* Of the barycentric coordinates of local element e, 1/m. */
-static void Gradients(const Stars *s, int e, double grad[3][2])
-{
-  const double(*x)[2] = (const double(*)[2])s->element[e].x, twice = StarsTwiceArea(s, e);
-  for (int i = 0; i < 3; i++) {
-    const double *a = x[(i + 1) % 3], *b = x[(i + 2) % 3];
-    grad[i][0] = (a[1] - b[1]) / twice;
-    grad[i][1] = (b[0] - a[0]) / twice;
-  }
-}
-
 /* Line k of cut element e as its vertex `corner` sees it.  The weight is the integral of the vertex's barycentric coordinate along the line: with it the
  * vertices' distances have the volumes of the lines, sum of weight times distance. */
 static void AddLine(Phases f, int e, int k, int corner, VertexDistance *sum)
 {
   const double(*x)[2] = (const double(*)[2])f->stars->element[e].x;
-  double grad[3][2];
   HalfPlane h;
   const PolygonCut cut = PhasesSegment(f, e, k, x[0], &h);
-  Gradients(f->stars, e, grad);
-  const double middle[2] = {h.d * h.n[0] - cut.middle * h.n[1], h.d * h.n[1] + cut.middle * h.n[0]};
-  const double lambda = (corner == 0) + grad[corner][0] * middle[0] + grad[corner][1] * middle[1];
+  const double middle[2] = {x[0][0] + h.d * h.n[0] - cut.middle * h.n[1],
+                            x[0][1] + h.d * h.n[1] + cut.middle * h.n[0]};
+  double lambda[3];
+  GeometryBarycentric(x, middle, lambda);
   const double trace = cut.length * cut.length / (CORNER * CORNER * StarsArea(f->stars, e));
-  const double weight = cut.length * fmax(lambda, LEAST) * fmin(1.0, trace);
+  const double weight = cut.length * fmax(lambda[corner], LEAST) * fmin(1.0, trace);
   sum->sum += weight * (h.n[0] * (x[corner][0] - x[0][0]) + h.n[1] * (x[corner][1] - x[0][1]) - h.d);
   sum->weight += weight;
 }
@@ -84,12 +75,11 @@ static void Element(Phases f, int e, const double distance[], const double rho[]
                     InverseDensity *inverse)
 {
   const double *v = &f->volume[(size_t)e * (size_t)f->np];
-  const double twice = StarsTwiceArea(f->stars, e);
   DensityLine line[PHASES_MAX - 1];
-  double grad[3][2], mass = 0.0;
+  double grad[3][2], mean = 0.0;
   int n = 0;
-  Gradients(f->stars, e, grad);
-  for (int p = 0; p < f->np; p++) mass += rho[p] * v[p];
+  const double area = P1Gradients((const double(*)[2])f->stars->element[e].x, grad);
+  for (int p = 0; p < f->np; p++) mean += rho[p] * v[p] / area;
   for (int k = 0; k + 1 < f->np; k++) {
     if (!PhasesHasLine(f, e, k)) continue;
     const double *d = distance + (size_t)k * (size_t)f->stars->nowned;
@@ -98,11 +88,10 @@ static void Element(Phases f, int e, const double distance[], const double rho[]
     n += !IsTrace(f, e, k, line[n].d);
   }
   if (n)
-    InverseDensityCut((const double(*)[2])grad, n, line, 2.0 * mass / twice, gravity, inverse);
+    InverseDensityCut((const double(*)[2])grad, n, line, mean, gravity, inverse);
   else
-    InverseDensityUniform(2.0 * mass / twice, gravity, inverse);
-  if (n == 1 && PhasesOpen(f, e) == 1.0)
-    InverseDensityAddSurplus(&line[0], 2.0 * mass / twice, gravity, inverse);
+    InverseDensityUniform(mean, gravity, inverse);
+  if (n == 1 && PhasesOpen(f, e) == 1.0) InverseDensityAddSurplus(&line[0], mean, gravity, inverse);
 }
 
 PetscErrorCode PhasesGetInverseDensity(Phases f, const double rho[], const double gravity[2],
