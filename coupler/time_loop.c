@@ -177,6 +177,7 @@ static PetscErrorCode FindSupport(RunState *run, StepRecord *step)
     }
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &change, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
     if (i == 0) first = change;
+    PetscCall(CouplerBuild(loop->coupler, &run->start, run->t, run->dt, &ncoupling, &coupling));
     if (!lost) PetscCall(CouplerSetAcceleration(loop->coupler, &run->solid));
     PetscCall(SendRedo(run));
     PetscCall(CouplerSetInterfaceVelocity(loop->coupler, CouplerPredictedVelocity(loop->coupler), &ncoupling,

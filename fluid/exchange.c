@@ -9,7 +9,7 @@ struct Exchange_s {
   int *element;                                          /* [n] the fluid's local elements near the solid */
   double *x;                                             /* [n][3][2] m */
   double *u_start, *u_star, *u_projected, *p, *rho, *mu; /* as in CoracleFlow */
-  double *inside, *beside;                               /* rho_inside, rho_beside; NULL: one fluid */
+  double *inside, *beside, *remainder; /* rho_inside, rho_beside, remainder; NULL: one fluid */
   CoracleCoupling *coupling;
   int coupling_capacity;
 };
@@ -18,7 +18,7 @@ static PetscErrorCode FreeArrays(Exchange x)
 {
   PetscFunctionBeginUser;
   PetscCall(PetscFree2(x->element, x->x));
-  PetscCall(PetscFree2(x->inside, x->beside));
+  PetscCall(PetscFree3(x->inside, x->beside, x->remainder));
   PetscCall(PetscFree6(x->u_start, x->u_star, x->u_projected, x->p, x->rho, x->mu));
   PetscFunctionReturn(0);
 }
@@ -30,7 +30,7 @@ static PetscErrorCode Reserve(Exchange x, int n)
   const int c = x->capacity = n + n / 4;
   PetscCall(FreeArrays(x));
   PetscCall(PetscMalloc2(c, &x->element, 6 * c, &x->x));
-  if (FluidPhases(x->fluid)) PetscCall(PetscMalloc2(c, &x->inside, c, &x->beside));
+  if (FluidPhases(x->fluid)) PetscCall(PetscMalloc3(c, &x->inside, c, &x->beside, 2 * c, &x->remainder));
   PetscCall(PetscMalloc6(6 * c, &x->u_start, 6 * c, &x->u_star, 6 * c, &x->u_projected, 6 * c, &x->p, c,
                          &x->rho, c, &x->mu));
   PetscFunctionReturn(0);
@@ -133,10 +133,13 @@ static PetscErrorCode SetFlow(Exchange x)
   const int *node = FluidPressureSpace(x->fluid)->node;
   const double *u_star = FluidVelocityStar(x->fluid), *u_projected = FluidVelocityProjected(x->fluid);
   const PetscBool needs_pressure = CoracleNeedsPressure(x->client) ? PETSC_TRUE : PETSC_FALSE;
-  const CoracleFlow flow = {x->u_start, x->u_star, x->u_projected, needs_pressure ? x->p : NULL,
-                            x->rho,     x->mu,     x->inside,      x->beside};
+  const CoracleFlow flow = {x->u_start,  x->u_star, x->u_projected, needs_pressure ? x->p : NULL,
+                            x->rho,      x->mu,     x->inside,      x->beside,
+                            x->remainder};
   PetscFunctionBeginUser;
   for (int k = 0; k < x->n; k++) {
+    if (x->remainder)
+      PetscCall(PetscArraycpy(x->remainder + 2 * k, FluidRemainder(x->fluid) + 2 * x->element[k], 2));
     FluidStartVelocity(x->fluid, x->element[k], x->u_start + 6 * k);
     PetscCall(PetscArraycpy(x->u_star + 6 * k, u_star + 6 * x->element[k], 6));
     PetscCall(PetscArraycpy(x->u_projected + 6 * k, u_projected + 6 * x->element[k], 6));

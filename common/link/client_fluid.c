@@ -157,6 +157,13 @@ int CoracleGetGauges(CoracleClient c, int *n, const CoracleGauge **gauge)
 
 /* --- flow ----------------------------------------------------------------------------------------------- */
 
+static const double *Zeros(ClientFluid *f, size_t n)
+{
+  BufferResize(&f->zeros, n * sizeof(double));
+  memset(f->zeros.data, 0, n * sizeof(double));
+  return (const double *)(void *)f->zeros.data;
+}
+
 int CoracleSetFlow(CoracleClient c, const CoracleFlow *flow)
 {
   ClientFluid *f = &c->fluid;
@@ -175,6 +182,7 @@ int CoracleSetFlow(CoracleClient c, const CoracleFlow *flow)
         f->n, c->p->step);
   if (!all.rho_inside) all.rho_inside = all.rho;
   if (!all.rho_beside) all.rho_beside = all.rho;
+  if (!all.remainder) all.remainder = Zeros(f, (size_t)f->n * DIM);
   FieldsPack(c->p, &c->out, &FIELDS_FLOW, (size_t)f->n, &all);
   f->flow_set = true;
   return 0;
@@ -198,4 +206,5 @@ void FluidFree(CoracleClient c)
   BufferFree(&c->fluid.coupling);
   BufferFree(&c->fluid.correction);
   BufferFree(&c->fluid.gauge);
+  BufferFree(&c->fluid.zeros);
 }

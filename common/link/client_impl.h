@@ -50,7 +50,7 @@ typedef struct {
   bool awaits_coupling; /* of the step that the coupler has announced */
   int ncoupling, ncorrection;
   int ngauges;
-  Buffer coupling, correction, gauge;
+  Buffer coupling, correction, gauge, zeros;
 } ClientFluid;
 
 typedef struct {

@@ -304,6 +304,9 @@ typedef struct {
   const double *rho; /* [n] kg/m3 */
   const double *mu;  /* [n] Pa s */
   const double *rho_inside, *rho_beside; /* [n] kg/m3, as in CoracleElements; NULL: rho */
+  /* [n][dim] N: the part of weight and pressure on the element that the flow has not been given, so that water at rest stays at rest, and
+   * that acts on the solid in it instead (among phases, beside a solid at rest); read where the element overlaps a solid.  NULL: 0 */
+  const double *remainder;
 } CoracleFlow;
 
 /* Between CoracleBegin and CoracleEnd: waits for the coupling of the step, which the coupler computes meanwhile: call it as

@@ -59,6 +59,7 @@ static const Field FLOW[] = {
   {"velocity before the projection", "m/s", FIELD_REAL, P1_VECTOR,  AT(u_star),      0, FIELD_ANY},
   {"projected velocity", "m/s",   FIELD_REAL, P1_VECTOR,         AT(u_projected), 0, FIELD_ANY},
   {"pressure",           "Pa",    FIELD_REAL, {EXTENT_PRESSURE}, AT(p), FLAG_PRESSURE, FIELD_ANY},
+  {"remainder of the force", "N", FIELD_REAL, VECTOR,            AT(remainder),   0, FIELD_ANY},
   PROPERTIES};
 #undef AT
 

@@ -3,6 +3,7 @@
 /* The flow on one coupled element. */
 typedef struct {
   LinearField star, start, projected;
+  double remainder[2]; /* of CoracleFlow, over the solid's area, N/m2 */
 } ElementFlow;
 
 /* The element's flow seen from the centre of one of its pairs. */
@@ -10,8 +11,10 @@ static ElementFlow FlowAt(const Overlap o, const SupermeshPair *pair, const Elem
 {
   double d[2];
   SupermeshCentreInB(pair, &o->source_basis[pair->a], &o->basis[pair->b], d);
-  return (ElementFlow){LinearFieldAt(&flow->star, d), LinearFieldAt(&flow->start, d),
-                       LinearFieldAt(&flow->projected, d)};
+  return (ElementFlow){LinearFieldAt(&flow->star, d),
+                       LinearFieldAt(&flow->start, d),
+                       LinearFieldAt(&flow->projected, d),
+                       {flow->remainder[0], flow->remainder[1]}};
 }
 
 /* R's density, at the pair's centre; inside solids a or the inertia is mostly 0. */
@@ -71,11 +74,12 @@ static void ShareAlong(const ElementTerm *element, const LinearField *mean, Line
   WallAdd(&element->along, &difference, density);
 }
 
-/* The density of F_i + F_b. */
+/* The density of F_i + F_b + F_r. */
 static LinearField Other(double rho, double dt, const double gravity[2], const ElementFlow *flow,
                          const LinearField *start)
 {
-  LinearField other = {{-rho * gravity[0], -rho * gravity[1]}, {{0.0}}};
+  LinearField other = {{flow->remainder[0] - rho * gravity[0], flow->remainder[1] - rho * gravity[1]},
+                       {{0.0}}};
   LinearFieldAdd(rho / dt, &flow->projected, &other);
   LinearFieldAdd(-rho / dt, start, &other);
   return other;
@@ -94,6 +98,17 @@ static void SetVertices(const SupermeshBasis *basis, const VectorMoments *reacti
     }
 }
 
+/* density[2] of the remainder, N, that acts on the solid in the e-th coupled element. */
+static void SpreadRemainder(const Overlap o, const double remainder[2], int e, double density[2])
+{
+  double area = 0.0;
+  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
+    const SupermeshPair *pair = &o->pairs.pair[o->of_element[i]];
+    if (!o->source[pair->a].is_shell) area += pair->area;
+  }
+  for (int c = 0; c < 2 && area > 0.0; c++) density[c] = remainder[c] / area;
+}
+
 PetscErrorCode ForceOfPairs(const Overlap o, const PairTerm term[], const ElementTerm element[],
                             const SourceTerm source[], const double gravity[2], double dt,
                             const CoracleFlow *flow, ForceVertex vertex[])
@@ -107,7 +122,9 @@ PetscErrorCode ForceOfPairs(const Overlap o, const PairTerm term[], const Elemen
     const int k = o->coupled_element[e];
     on[e] = (ElementFlow){LinearFieldOnElement(&o->basis[k], &flow->u_star[6 * k]),
                           LinearFieldOnElement(&o->basis[k], &flow->u_start[6 * k]),
-                          LinearFieldOnElement(&o->basis[k], &flow->u_projected[6 * k])};
+                          LinearFieldOnElement(&o->basis[k], &flow->u_projected[6 * k]),
+                          {0.0, 0.0}};
+    if (flow->remainder) SpreadRemainder(o, &flow->remainder[2 * k], e, on[e].remainder);
     if (element[e].shared) MeanReaction(o, term, &element[e], source, gravity, &on[e], e, &mean[e]);
   }
   for (int t = 0, p = 0; t < o->nsources; t++) {

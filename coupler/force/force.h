@@ -10,7 +10,9 @@
  *    added inertia    F_i =  int N_T rho_f (u+ - v)/dt       pairs in S: change of the inner fluid's momentum
  *    buoyancy         F_b = -int N_T rho_f g                 pairs in S: the pressure is total, also inside S
  *
- *    F = sum over pairs of R + F_i + F_b
+ *    remainder        F_r =  r |pair|/|K and S|              pairs in S: CoracleFlow.remainder r of K, which is 0 in one fluid
+ *
+ *    F = sum over pairs of R + F_i + F_b + F_r
  *
  * which is the momentum balance of the fluid inside S.  The correction of element K is
  *
@@ -40,7 +42,7 @@ typedef struct {
   long long npairs;
 } ForceTotals;
 
-/* Local: vertex[nsources][3] of all pairs (overwritten): R, and F_i + F_b. */
+/* Local: vertex[nsources][3] of all pairs (overwritten): R, and F_i + F_b + F_r. */
 PetscErrorCode ForceOfPairs(const Overlap overlap, const PairTerm term[], const ElementTerm element[],
                             const SourceTerm source[], const double gravity[2], double dt,
                             const CoracleFlow *flow, ForceVertex vertex[]);

@@ -4,6 +4,9 @@
 #include <math.h>
 
 #define DENSE_LEAST 0.1
+/* Less than this of an element beside a solid at rest among phases is nothing.  Its content, and with it the density of all of the element, would be that of a sliver, and
+ * the flow along the surface that this drives, in an element that conducts as a whole, raised the water beside a block that was held. */
+#define RESTING_LEAST 0.1
 
 /* The part of the slip that an element among phases keeps over dt, of an area. */
 static double PhasesKept(double gravity, double area, double dt)
@@ -17,6 +20,18 @@ static PetscBool IsBesideDense(const Overlap o, const ElementTerm *element, int 
   const int k = o->coupled_element[e];
   const double denser = o->rho_beside[k] - o->rho[k];
   return (PetscBool)(denser > 0.0 && element->outside > (1.0 - DENSE_LEAST) * denser);
+}
+
+/* Of the e-th coupled element: less of it beside the solid is nothing. */
+static double LeastOpen(const Overlap o, int e)
+{
+  PetscBool rests = o->phases;
+  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1] && rests; i++) {
+    const SourceTriangle *source = &o->source[o->pairs.pair[o->of_element[i]].a];
+    for (int v = 0; v < 3; v++)
+      rests = (PetscBool)(rests && source->u[v][0] == 0.0 && source->u[v][1] == 0.0);
+  }
+  return rests ? RESTING_LEAST : OUTSIDE_LEAST;
 }
 
 /* Area of an element's pairs of the shell, and the integral of n n over it. */
@@ -67,7 +82,7 @@ void SlipTensors(const Overlap o, const SourceTerm term[], const double gravity[
     const double area = o->area[o->coupled_element[e]];
     const PetscBool shared =
         (PetscBool)(solid >= (1.0 - OUTSIDE_LEAST) * area && solid + all.area > (1.0 + OUTSIDE_LEAST) * area);
-    k->open = (PetscBool)(solid < (1.0 - OUTSIDE_LEAST) * area);
+    k->open = (PetscBool)(solid < (1.0 - LeastOpen(o, e)) * area);
     k->corner = (PetscBool)(all.area > 0.0 && Planeness(&all) < SLIP_CORNER);
     k->along = k->tangential = WallCoefficientIsotropic(0.0);
     k->shared = (PetscBool)(o->phases && shared && held.area > 0.0);

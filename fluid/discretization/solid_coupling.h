@@ -22,6 +22,11 @@ const CoracleCoupling *SolidCouplingEntries(SolidCoupling s, int *n);
 /* The index of element e's entry, or -1; the entry, or NULL. */
 int SolidCouplingIndex(SolidCoupling s, int e);
 const CoracleCoupling *SolidCouplingAt(SolidCoupling s, int e);
+/* Held, and not moving as prescribed. */
+static inline int SolidCouplingIsAtRest(const CoracleCoupling *entry)
+{
+  return entry->flags & CORACLE_IS_HELD && entry->velocity[0] == 0.0 && entry->velocity[1] == 0.0;
+}
 /* Whether the solid begins to move in the coming step (false at first): see SolidCouplingStart. */
 void SolidCouplingSetStarting(SolidCoupling s, PetscBool starting);
 /* start[2][3]: where the implicit inertia of element e starts from: the fluid's velocity u[2][3] at

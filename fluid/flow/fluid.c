@@ -53,6 +53,7 @@ PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *flu
     PetscCall(PhaseTransportCreate(&f->domain, &setup->phases, setup->gravity, &f->phases));
   }
   if (PhaseHasGas(&setup->phases)) PetscCall(PetscCalloc1(mesh->ne, &f->compressible));
+  if (f->phases) PetscCall(PetscCalloc1(2 * (size_t)mesh->ne, &f->remainder));
   PetscCall(CreateVectors(f));
   PetscCall(FluidBudgetCreate(f));
   PetscCall(MomentumSolverCreate(&f->domain, &momentum, f->u, &f->momentum));
@@ -84,6 +85,7 @@ PetscErrorCode FluidDestroy(Fluid *fluid)
   PetscCall(PhaseTransportDestroy(&f->phases));
   PetscCall(MaterialDestroy(&f->material));
   PetscCall(PetscFree(f->compressible));
+  PetscCall(PetscFree(f->remainder));
   PetscCall(DomainDestroy(&f->domain));
   PetscCall(PetscFree(*fluid));
   PetscFunctionReturn(0);

@@ -116,6 +116,8 @@ const double *FluidViscosity(Fluid fluid); /* [ne] */
 void FluidStartVelocity(Fluid fluid, int e, double start[]);
 const double *FluidSolidFraction(Fluid fluid); /* [ne] alpha_s */
 PhaseTransport FluidPhases(Fluid fluid);       /* NULL: one fluid */
+/* [ne][2] N/m, with phases: CoracleFlow.remainder of the step. */
+const double *FluidRemainder(Fluid fluid);
 const FluidStats *FluidGetStats(Fluid fluid);
 const Mesh *FluidMesh(Fluid fluid);
 const P2Space *FluidPressureSpace(Fluid fluid);

@@ -38,15 +38,23 @@ PetscErrorCode FluidSetPhases(Fluid f, int nregions, const Region region[])
   PetscFunctionReturn(0);
 }
 
-/* Where the solid has implicit inertia the weighted projection knows one density an element. */
-static void UniformInSolid(Fluid f)
+/* Elements with a solid's inertia have one density; beside a solid that is held at rest water at rest stays at rest there. */
+static PetscErrorCode SetInSolid(Fluid f)
 {
+  const double *alpha = SolidCouplingFraction(f->solid), *rho = MaterialDensity(f->material, MATERIAL_STEP);
   int n;
   const CoracleCoupling *entry = SolidCouplingEntries(f->solid, &n);
-  for (int k = 0; k < n; k++)
-    if (entry[k].flags & CORACLE_HAS_INERTIA)
-      PhaseTransportSetUniform(f->phases, entry[k].element,
-                               MaterialDensity(f->material, MATERIAL_STEP)[entry[k].element]);
+  PetscFunctionBeginUser;
+  PetscCall(PetscArrayzero(f->remainder, 2 * (size_t)f->domain.mesh->ne));
+  for (int k = 0; k < n; k++) {
+    const int e = entry[k].element;
+    double *remainder = f->remainder + 2 * e;
+    if (!(entry[k].flags & CORACLE_HAS_INERTIA)) continue;
+    PhaseTransportSetUniform(f->phases, e, rho[e], SolidCouplingIsAtRest(entry + k) ? alpha[e] : 1.0,
+                             remainder);
+    for (int c = 0; c < 2; c++) remainder[c] *= f->domain.geometry[e].area;
+  }
+  PetscFunctionReturn(0);
 }
 
 /* moves[ne]: elements with the volume of a solid that is not held. */
@@ -130,7 +138,7 @@ PetscErrorCode FluidMovePhases(Fluid f, double dt, double s)
   PetscCall(PetscFree2(u, moves));
   PetscCall(PetscFree(pressure));
   PetscCall(SetPhaseMaterial(f, MATERIAL_NEW));
-  UniformInSolid(f);
+  PetscCall(SetInSolid(f));
   PetscFunctionReturn(0);
 }
 

@@ -59,3 +59,8 @@ const P2Space *FluidPressureSpace(Fluid f)
 {
   return f->domain.p2;
 }
+
+const double *FluidRemainder(Fluid f)
+{
+  return f->remainder;
+}

@@ -17,9 +17,9 @@ typedef struct {
 /* Beside a solid, of what it leaves of an element: less of a phase may be a film along the surface. */
 #define FILM 0.01
 
-/* Line k of cut element e as its vertex `corner` sees it.  The weight is the integral of the vertex's barycentric coordinate along the line: with it the
+/* Line k of cut element e as point v sees it.  The weight is the integral along the line of the barycentric coordinate of the element's vertex `corner`: with it,
  * vertices' distances have the volumes of the lines, sum of weight times distance. */
-static void AddLine(Phases f, int e, int k, int corner, VertexDistance *sum)
+static void AddLine(Phases f, int e, int k, int corner, const double v[2], VertexDistance *sum)
 {
   const double(*x)[2] = (const double(*)[2])f->stars->element[e].x;
   HalfPlane h;
@@ -30,8 +30,30 @@ static void AddLine(Phases f, int e, int k, int corner, VertexDistance *sum)
   GeometryBarycentric(x, middle, lambda);
   const double trace = cut.length * cut.length / (CORNER * CORNER * StarsArea(f->stars, e));
   const double weight = cut.length * fmax(lambda[corner], LEAST) * fmin(1.0, trace);
-  sum->sum += weight * (h.n[0] * (x[corner][0] - x[0][0]) + h.n[1] * (x[corner][1] - x[0][1]) - h.d);
+  sum->sum += weight * (h.n[0] * (v[0] - x[0][0]) + h.n[1] * (v[1] - x[0][1]) - h.d);
   sum->weight += weight;
+}
+
+/* The lines k of the elements around `vertex` that have no solid, as point v sees them. */
+static void AddLinesAround(Phases f, int k, int vertex, const double v[2], VertexDistance *sum)
+{
+  const Stars *s = f->stars;
+  for (int j = s->start[vertex]; j < s->start[vertex + 1]; j++) {
+    const int e = s->around[j] / 3;
+    if (PhasesOpen(f, e) == 1.0 && PhasesSide(f, e, k) == 0 && PhasesHasLine(f, e, k))
+      AddLine(f, e, k, s->around[j] % 3, v, sum);
+  }
+}
+
+/* Of a vertex in or at a solid, without such elements around it, the lines around its neighbours. */
+static void AddLinesNear(Phases f, int k, int vertex, VertexDistance *sum)
+{
+  const Stars *s = f->stars;
+  for (int j = s->start[vertex]; j < s->start[vertex + 1]; j++) {
+    const int *corner = s->vertex[s->around[j] / 3];
+    for (int i = 0; i < 3; i++)
+      if (corner[i] != vertex) AddLinesAround(f, k, corner[i], s->point[vertex], sum);
+  }
 }
 
 /* Line k of cut element e is a trace's: a corner's, and the lines around leave its vertices, at distances d, on one side. */
@@ -56,13 +78,16 @@ double PhasesDistance(Phases f, int line, int v, double *inside)
 {
   const Stars *s = f->stars;
   VertexDistance d = {0};
+  int at_solid = 0;
   for (int k = s->start[v]; k < s->start[v + 1]; k++) {
-    const int e = s->around[k] / 3, corner = s->around[k] % 3, has_solid = PhasesOpen(f, e) < 1.0,
+    const int e = s->around[k] / 3, has_solid = PhasesOpen(f, e) < 1.0,
               side = has_solid ? SideBeside(f, e, line) : PhasesSide(f, e, line);
-    if (side == 0 && !has_solid && PhasesHasLine(f, e, line)) AddLine(f, e, line, corner, &d);
     d.below |= side < 0;
     d.above |= side > 0;
+    at_solid |= has_solid;
   }
+  AddLinesAround(f, line, v, s->point[v], &d);
+  if (at_solid && !(d.weight > 0.0)) AddLinesNear(f, line, v, &d);
   double distance = d.weight > 0.0 ? d.sum / d.weight : 0.0;
   if (d.below) distance = fmin(distance, 0.0);
   if (d.above) distance = fmax(distance, 0.0);
@@ -70,16 +95,25 @@ double PhasesDistance(Phases f, int line, int v, double *inside)
   return distance;
 }
 
+/* The density of element e: of what is beside a solid in it, where that is enough. */
+static double DensityOf(Phases f, int e, const double rho[])
+{
+  const double area = StarsArea(f->stars, e), *v = &f->volume[(size_t)e * (size_t)f->np];
+  const int beside = PhasesOpen(f, e) < 1.0 && PhasesOpen(f, e) >= PHASES_LEAST_OPEN;
+  double density = 0.0;
+  for (int p = 0; p < f->np; p++) density += rho[p] * (beside ? PhasesVolumeBeside(f, e, p) : v[p]) / area;
+  return density;
+}
+
 /* distance[np - 1][nowned] */
 static void Element(Phases f, int e, const double distance[], const double rho[], const double gravity[2],
                     InverseDensity *inverse)
 {
-  const double *v = &f->volume[(size_t)e * (size_t)f->np];
+  const double mean = DensityOf(f, e, rho);
   DensityLine line[PHASES_MAX - 1];
-  double grad[3][2], mean = 0.0;
+  double grad[3][2];
   int n = 0;
-  const double area = P1Gradients((const double(*)[2])f->stars->element[e].x, grad);
-  for (int p = 0; p < f->np; p++) mean += rho[p] * v[p] / area;
+  (void)P1Gradients((const double(*)[2])f->stars->element[e].x, grad);
   for (int k = 0; k + 1 < f->np; k++) {
     if (!PhasesHasLine(f, e, k)) continue;
     const double *d = distance + (size_t)k * (size_t)f->stars->nowned;

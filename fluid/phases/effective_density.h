@@ -74,6 +74,15 @@ static inline void SymmetricInvert(const double a[3], double inverse[3])
   inverse[2] = a[0] / det;
 }
 
+/* R weight less the surface tension: the weight that the pressure at rest bears, N/m3. */
+static inline void InverseDensityBears(const InverseDensity *r, double borne[2])
+{
+  double density[3];
+  SymmetricInvert(r->inverse, density);
+  for (int c = 0; c < 2; c++)
+    borne[c] = density[c] * r->weight[0] + density[c + 1] * r->weight[1] - r->surface[c];
+}
+
 /* Of the mean of two R and of their loads R weight: the middle of a step, between its ends. */
 static inline void InverseDensityMiddle(const InverseDensity *a, const InverseDensity *b,
                                         InverseDensity *middle)

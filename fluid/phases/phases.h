@@ -80,6 +80,8 @@ int PhasesSpread(Phases phases, int e);
 /* Of such an element, less than which is a cloud that fragments have become: no surface, and nothing to refine for.  (With a tenth a drop of 0.3 of an
  * element falls half as far, coupled.fragment.) */
 #define PHASES_CLOUD 1e-2
+/* What a solid leaves of an element, if less, says nothing of where lines are. */
+#define PHASES_LEAST_OPEN 0.1
 /* Not collective.  Where phase p of owned element e is when it moves: *share of this polygon, 1 unless it is spread. */
 PetscErrorCode PhasesGetExtent(Phases phases, int e, int p, Polygon *polygon, double *share);
 

@@ -10,8 +10,7 @@ typedef struct {
   int found;
 } WettingContact;
 
-/* Of an element: what a solid leaves, if less, says nothing of where lines are; less of a solid is none. */
-#define PHASES_LEAST_OPEN 0.1
+/* Of an element: less of a solid is none. */
 #define PHASES_LEAST_SOLID 1e-6
 /* An element within this fraction of empty or full of a phase counts as such when lines are made. */
 #define PHASES_TINY 1e-12

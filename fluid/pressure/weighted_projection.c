@@ -177,12 +177,6 @@ static PetscBool IsWeighted(const CoracleCoupling *k)
   return k && k->flags & CORACLE_HAS_INERTIA ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Held, and not moving as prescribed. */
-static PetscBool IsAtRest(const CoracleCoupling *k)
-{
-  return (PetscBool)(k->flags & CORACLE_IS_HELD && k->velocity[0] == 0.0 && k->velocity[1] == 0.0);
-}
-
 static EntryInertia InertiaOf(const CoracleCoupling *k, const WeightedProjectionStep *s)
 {
   EntryInertia inertia = {.element = -1};
@@ -247,7 +241,7 @@ PetscErrorCode WeightedProjectionPrepare(WeightedProjection w, const WeightedPro
   PetscFunctionBeginUser;
   for (int k = 0; k < n; k++) {
     flag[ACTIVE] |= IsWeighted(entry + k);
-    flag[MOVES] |= IsWeighted(entry + k) && !IsAtRest(entry + k);
+    flag[MOVES] |= IsWeighted(entry + k) && !SolidCouplingIsAtRest(entry + k);
   }
   flag[OTHER] = s->inertia && !HasSame(w, n, entry, s);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, flag, NFLAGS, MPI_INT, MPI_LOR, w->domain->mesh->comm));

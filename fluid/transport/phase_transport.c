@@ -145,11 +145,21 @@ PetscErrorCode PhaseTransportReconstruct(PhaseTransport t)
   PetscFunctionReturn(0);
 }
 
-void PhaseTransportSetUniform(PhaseTransport t, int e, double rho)
+void PhaseTransportSetUniform(PhaseTransport t, int e, double rho, double alpha, double remainder[2])
 {
-  const double surface[2] = {t->inverse_density[e].surface[0], t->inverse_density[e].surface[1]};
-  InverseDensityUniform(rho, t->gravity, &t->inverse_density[e]);
-  if (PhaseHasTension(&t->properties)) InverseDensityAddSurface(surface, &t->inverse_density[e]);
+  const double *g = t->gravity,
+               beside = fmax(rho - alpha * t->properties.rho[PhaseLightest(&t->properties)], 0.0);
+  InverseDensity *r = &t->inverse_density[e];
+  const double surface[2] = {r->surface[0], r->surface[1]};
+  double borne[2];
+  InverseDensityBears(r, borne);
+  InverseDensityUniform(rho, g, r);
+  remainder[0] = remainder[1] = 0.0;
+  for (int c = 0; c < 2 && alpha < 1.0 - PHASES_LEAST_OPEN; c++) {
+    remainder[c] = beside / (1.0 - alpha) * g[c] - borne[c];
+    r->weight[c] -= remainder[c] / rho;
+  }
+  if (PhaseHasTension(&t->properties)) InverseDensityAddSurface(surface, r);
 }
 
 void PhaseTransportSettle(PhaseTransport t)
@@ -229,7 +239,7 @@ PetscErrorCode PhaseTransportStep(PhaseTransport t, const PhaseStep *s)
 {
   PetscFunctionBeginUser;
   if (s->solid) PetscCall(PhaseTransportSetSolid(t, s->solid, s->moves));
-  if (PhaseTensionMoves(t->tension)) PetscCall(SetEnd(t)); /* with the solid of this step */
+  if (PhasesSolid(t->phases)) PetscCall(SetEnd(t)); /* with the solid of this step */
   for (int e = 0; e < t->stars->ne; e++) t->begin[e] = t->end[e];
   PetscCall(PhaseSweepStep(t->sweep, s, t->budget.out));
   PetscCall(PhaseTransportReconstruct(t));

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# A block let go where it floats stays there: the air that steps leave below it does not lift it.
+# A block let go where it floats stays there: the air that steps leave below it does not lift it.  Held there it bears the weight of the water that it displaces, and
+# the water beside it stays at rest, wherever its sides are in their elements.
 # Usage: afloat.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
@@ -17,4 +18,23 @@ air = (areas * (1.0 - grid["cell/water"][:] - grid["cell/alpha"][:]))[deep].sum(
 report = "rises by %.4f mm, drifts by %.3f mm, %.2f mm2 of air under water" % (1e3 * rises, 1e3 * drifts, 1e6 * air)
 print(report)
 assert abs(rises) < 1.5e-4 and drifts < 2e-3 and abs(air) < 5e-6, report
+E2
+places=(0.20001 0.201 0.209)
+for x in "${places[@]}"; do
+  must "held $x" 1:1:1 --set time.end=1 \
+    --set "solid.bodies[0]={shape: rectangle, centre: [$x, 0.154], width: 0.08, height: 0.04, size: 0.015, material: foam, fixed: true}"
+done
+"$python" - "$scratch" "${places[@]}" <<'E2'
+import sys
+from results import column
+expected = 9.81 * 0.08 * (0.02 * 1000.0 + 0.02 * 1.2)
+for place in sys.argv[2:]:
+    label = "held " + place
+    kinetic = max(column(label, "fluid", "kinetic energy [J/m]"))
+    t, force = (column(label, "solid", name) for name in ("t [s]", "fy0 [N/m]"))
+    late = [f for at, f in zip(t, force) if at > 0.2]
+    error = sum(late) / len(late) / expected - 1.0
+    report = "held at %s m: kinetic energy %.1e J/m, force %+.2f %% of the displaced fluids' weight" % (place, kinetic, 100.0 * error)
+    print(report)
+    assert kinetic < 2e-5 and abs(error) < 1e-2, report
 E2

@@ -150,6 +150,7 @@ static inline void SyntheticFluidView(SyntheticFluid *f)
                           f->rho,
                           f->mu,
                           NULL,
+                          NULL,
                           NULL};
 }
 

@@ -85,6 +85,7 @@ static void FluidStep(CoracleClient client, double dt)
                             region.rho,
                             region.mu,
                             NULL,
+                            NULL,
                             NULL};
   CHECK(!CoracleNeedsPressure(client), "the mode reaction asks for the pressure");
   CHECK(!CoracleSetFlow(client, &flow), "flow");

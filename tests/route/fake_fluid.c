@@ -107,6 +107,7 @@ static void SetFlow(Fluid *f)
                             rho,
                             mu,
                             NULL,
+                            NULL,
                             NULL};
   CoracleSetFlow(f->client, &flow);
 }

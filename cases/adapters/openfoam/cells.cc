@@ -116,7 +116,7 @@ void Cells::give(CoracleClient client, const vectorField &start, const vectorFie
   pressure_.clear();
   for (const int t : near_)
     for (int i = 0; i < CORACLE_PRESSURE_NODES; i++) pressure_.push_back(rho_ * at(t, i, p, grad_p));
-  const CoracleFlow flow = {start_.data(), star_.data(), projected_.data(), pressure_.data(), density_.data(), viscosity_.data(), nullptr, nullptr};
+  const CoracleFlow flow = {start_.data(), star_.data(), projected_.data(), pressure_.data(), density_.data(), viscosity_.data(), nullptr, nullptr, nullptr};
   CoracleSetFlow(client, &flow);
 }
 

@@ -42,6 +42,7 @@ module coracle
   type, bind(c) :: CoracleFlow
     type(c_ptr) :: u_start, u_star, u_projected, p, rho, mu  ! (vertices, dim, n) m/s, thrice; (6, n) Pa; (n); (n)
     type(c_ptr) :: rho_inside = c_null_ptr, rho_beside = c_null_ptr  ! as in CoracleElements
+    type(c_ptr) :: remainder = c_null_ptr  ! (dim, n) N; null: 0
   end type
 
   ! private to coracle_open and the like, with C's strings and arguments
