@@ -106,6 +106,32 @@ static void CheckBuoyancy(double radius, double share)
   CHECK(!CouplerDestroy(&c), "destroy");
 }
 
+/* 0.3, 0.7 N in each fluid element act on the solid where it covers a part of one. */
+static void CheckRemainder(void)
+{
+  static double remainder[SYNTHETIC_MAX][2];
+  const double *force;
+  double covered = 0.0;
+  Coupler c;
+  ForceTotals without, with;
+  SetSolid(Hydrostatic);
+  SetFlow(Hydrostatic, all_fluid.u_star);
+  SetFlow(Hydrostatic, all_fluid.u_projected);
+  Step(COUPLER_REACTION, 0.002, 0.01, &c, &without);
+  CoracleFlow flow = fluid.flow;
+  for (int k = 0; k < fluid.n; k++) {
+    remainder[k][0] = 0.3;
+    remainder[k][1] = 0.7;
+  }
+  flow.remainder = &remainder[0][0];
+  CHECK(!CouplerComputeForce(c, &flow, &force, &with), "force");
+  for (int e = 0; e < c->overlap->ncoupled; e++) covered += c->coupling[e].alpha > 0.0;
+  MPI_Allreduce(MPI_IN_PLACE, &covered, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  const double more[2] = {with.force[0] - without.force[0], with.force[1] - without.force[1]};
+  CheckTotal("remainder", more, 0.3 * covered, 0.7 * covered, 1e-10);
+  CHECK(!CouplerDestroy(&c), "destroy");
+}
+
 /* u* = u+ = u_s, turning: no reaction, buoyancy only.  u+ accelerated by du: M_f du/dt more.  Without
  * viscosity, because the shell's outer nodes carry the surface's velocity: in a rotation they slip by dr
  * omega. */
@@ -251,6 +277,7 @@ int main(int argc, char **argv)
   SyntheticDisc(&all_solid, centre, 0.3, 5, 48);
   CheckBuoyancy(0.3, 1.0);
   CheckMotion();
+  CheckRemainder();
   CheckWeights();
   SyntheticDisc(&all_solid, floor, 0.3, 5, 48);
   CheckBuoyancy(0.3, 0.5);
