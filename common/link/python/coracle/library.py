@@ -23,7 +23,7 @@ class Elements(ctypes.Structure):
 
 
 class Flow(ctypes.Structure):
-    _fields_ = [(name, c_void_p) for name in ("u_start", "u_star", "u_projected", "p", "rho", "mu", "rho_inside", "rho_beside")]
+    _fields_ = [(name, c_void_p) for name in ("u_start", "u_star", "u_projected", "p", "rho", "mu", "rho_inside", "rho_beside", "remainder")]
 
 
 STATE_FUNCTION = ctypes.CFUNCTYPE(c_int, c_void_p, c_int)
