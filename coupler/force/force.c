@@ -124,7 +124,8 @@ PetscErrorCode ForceOfPairs(const Overlap o, const PairTerm term[], const Elemen
                           LinearFieldOnElement(&o->basis[k], &flow->u_start[6 * k]),
                           LinearFieldOnElement(&o->basis[k], &flow->u_projected[6 * k]),
                           {0.0, 0.0}};
-    if (flow->remainder) SpreadRemainder(o, &flow->remainder[2 * k], e, on[e].remainder);
+    if (flow->remainder && (flow->remainder[2 * k] != 0.0 || flow->remainder[2 * k + 1] != 0.0))
+      SpreadRemainder(o, &flow->remainder[2 * k], e, on[e].remainder);
     if (element[e].shared) MeanReaction(o, term, &element[e], source, gravity, &on[e], e, &mean[e]);
   }
   for (int t = 0, p = 0; t < o->nsources; t++) {

@@ -5,7 +5,8 @@
 
 #define DENSE_LEAST 0.1
 /* Less than this of an element beside a solid at rest among phases is nothing.  Its content, and with it the density of all of the element, would be that of a sliver, and
- * the flow along the surface that this drives, in an element that conducts as a whole, raised the water beside a block that was held. */
+ * the flow along the surface that this drives, in an element that conducts as a whole, raised the water beside a block that was held.  PHASES_LEAST_OPEN is
+ * the fluid's for the same elements. */
 #define RESTING_LEAST 0.1
 
 /* The part of the slip that an element among phases keeps over dt, of an area. */

@@ -40,8 +40,7 @@ static void AddLinesAround(Phases f, int k, int vertex, const double v[2], Verte
   const Stars *s = f->stars;
   for (int j = s->start[vertex]; j < s->start[vertex + 1]; j++) {
     const int e = s->around[j] / 3;
-    if (PhasesOpen(f, e) == 1.0 && PhasesSide(f, e, k) == 0 && PhasesHasLine(f, e, k))
-      AddLine(f, e, k, s->around[j] % 3, v, sum);
+    if (PhasesHasLine(f, e, k) && PhasesOpen(f, e) == 1.0) AddLine(f, e, k, s->around[j] % 3, v, sum);
   }
 }
 

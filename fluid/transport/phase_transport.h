@@ -65,8 +65,8 @@ PetscErrorCode PhaseTransportStep(PhaseTransport t, const PhaseStep *step);
 void PhaseTransportMaterial(PhaseTransport t, double rho[], double mu[]);
 /* How elements respond to a pressure gradient, [ne], borrowed: in the middle of the last step.  Not collective. */
 const InverseDensity *PhaseTransportInverseDensity(PhaseTransport t);
-/* Until the next step element e has one density, rho, kg/m3.  Where a solid covers the part alpha < 1 of it, its weight is that which the pressure of still water bears,
- * as without a solid (effective_density.h); remainder, N/m3: what the water beside the solid, if it filled all of the element, would weigh beyond that, else 0; it acts on
+/* Until the next step element e has one density, rho, kg/m3.  Where a solid covers the part alpha of it and leaves PHASES_LEAST_OPEN, its weight is that which the pressure of
+ * still water bears, as without a solid (effective_density.h); remainder, N/m3: what the water beside the solid, if it filled all of the element, would weigh beyond that, else 0; it acts on
  * the solid.  Not collective. */
 void PhaseTransportSetUniform(PhaseTransport t, int e, double rho, double alpha, double remainder[2]);
 /* From now on, until the next step, it is that of its end; the density's revision is the caller's affair. */

@@ -19,8 +19,7 @@ def of_c(header, name):
     body = re.search(r"typedef struct \{([^}]*)\} %s;" % name, re.sub(r"/\*.*?\*/", "", header, flags=re.S)).group(1)
     members = []
     for statement in filter(str.strip, body.split(";")):
-        kind, *rest = re.match(r"\s*(?:const )?(int|double)\s*(.*)", statement, flags=re.S).groups()
-        members += names(rest[0])
+        members += names(re.match(r"\s*(?:const )?(?:int|double)\s*(.*)", statement, flags=re.S).group(1))
     return members
 
 
@@ -31,7 +30,7 @@ def of_fortran(module, name):
 
 def of_python(module, name):
     body = re.search(r"^(?:class )?%s\b.*?(?=^\S*\s*=|^\w|\Z)" % name, module, flags=re.S | re.M).group(0)
-    return [member for member in re.findall(r'"(\w+)"', body)]
+    return re.findall(r'"(\w+)"', body)
 
 
 HEADER, FORTRAN, PYTHON = text("coracle.h"), text("fortran/coracle.f90"), text("python/coracle/library.py")
