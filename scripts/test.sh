@@ -15,7 +15,7 @@ cmake --build --preset "$preset"
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=0}
 export OPENBLAS_NUM_THREADS=1
 # What Open MPI's start spends on networks that one computer does not use is half of it, 0.2 s a run
-export OMPI_MCA_pml=ob1 OMPI_MCA_ess_singleton_isolated=1
+export OMPI_MCA_pml=ob1
 # and what a run's ranks are told at its start needs no memory that they share, 0.1 s a run
 export PMIX_MCA_gds=hash
 [ $# -gt 0 ] || set -- -LE 'validation|adapters' -j 2

@@ -1,4 +1,5 @@
 #include "solid/alone.h"
+#include "common/link/affinity.h"
 #include "common/link/participant.h"
 #include "common/output/checkpoint_folder.h"
 #include "common/output/claim.h"
@@ -190,6 +191,7 @@ int Alone(int argc, char **argv)
   Run m = {0};
   Claim claim;
   ProgramErrors errors = {Refuse, NULL};
+  AffinityAlone();
   PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
   PetscCall(ProgramTellErrors(&errors));
   PetscCall(CoracleCaseOpen(argc, argv, Refuse, NULL, &c));

@@ -30,6 +30,13 @@ void AffinityEnvironment(void)
   if (set_threads) set_threads(1);
 }
 
+void AffinityAlone(void)
+{
+  if (LocalRanks() || getenv("PMIX_RANK") || getenv("PMI_RANK")) return;
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
+}
+
 static bool Within(const cpu_set_t *inner, const cpu_set_t *outer)
 {
   cpu_set_t both;

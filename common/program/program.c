@@ -1,4 +1,5 @@
 #include "common/program/program.h"
+#include "common/link/affinity.h"
 #include "common/link/resources.h"
 #include <string.h>
 
@@ -63,6 +64,7 @@ PetscErrorCode ProgramEnd(Program *p)
 int ProgramAnswer(Command command, const CommandAnswers *answers, int argc, char **argv)
 {
   const PetscBool reads = (PetscBool)(command != COMMAND_HELP && command != COMMAND_VERSION);
+  if (reads) AffinityAlone();
   if (reads && PetscInitialize(NULL, NULL, NULL, NULL)) return 1;
   const int status = CommandAnswer(command, answers, argc, argv);
   if (reads) (void)PetscFinalize();
