@@ -53,7 +53,7 @@ static void MeanReaction(const Overlap o, const PairTerm term[], const ElementTe
                          LinearField *mean)
 {
   VectorMoments sum = {{0.0}, {{0.0}}};
-  double area = 0.0;
+  const double area = o->solid_area[e];
   for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
     const int p = o->of_element[i];
     const SupermeshPair *pair = &o->pairs.pair[p];
@@ -61,7 +61,6 @@ static void MeanReaction(const Overlap o, const PairTerm term[], const ElementTe
     const ElementFlow at = FlowAt(o, pair, flow);
     const LinearField density = Reaction(&term[p], element, &source[pair->a], gravity, &at, pair->centre);
     VectorMomentsAdd(pair, &density, pair->centre, &sum);
-    area += pair->area;
   }
   *mean = (LinearField){{sum.zero[0] / area, sum.zero[1] / area}, {{0.0}}};
 }
@@ -98,17 +97,6 @@ static void SetVertices(const SupermeshBasis *basis, const VectorMoments *reacti
     }
 }
 
-/* density[2] of the remainder, N, that acts on the solid in the e-th coupled element. */
-static void SpreadRemainder(const Overlap o, const double remainder[2], int e, double density[2])
-{
-  double area = 0.0;
-  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
-    const SupermeshPair *pair = &o->pairs.pair[o->of_element[i]];
-    if (!o->source[pair->a].is_shell) area += pair->area;
-  }
-  for (int c = 0; c < 2 && area > 0.0; c++) density[c] = remainder[c] / area;
-}
-
 PetscErrorCode ForceOfPairs(const Overlap o, const PairTerm term[], const ElementTerm element[],
                             const SourceTerm source[], const double gravity[2], double dt,
                             const CoracleFlow *flow, ForceVertex vertex[])
@@ -124,8 +112,8 @@ PetscErrorCode ForceOfPairs(const Overlap o, const PairTerm term[], const Elemen
                           LinearFieldOnElement(&o->basis[k], &flow->u_start[6 * k]),
                           LinearFieldOnElement(&o->basis[k], &flow->u_projected[6 * k]),
                           {0.0, 0.0}};
-    if (flow->remainder && (flow->remainder[2 * k] != 0.0 || flow->remainder[2 * k + 1] != 0.0))
-      SpreadRemainder(o, &flow->remainder[2 * k], e, on[e].remainder);
+    for (int c = 0; c < 2 && flow->remainder && o->solid_area[e] > 0.0; c++)
+      on[e].remainder[c] = flow->remainder[2 * k + c] / o->solid_area[e];
     if (element[e].shared) MeanReaction(o, term, &element[e], source, gravity, &on[e], e, &mean[e]);
   }
   for (int t = 0, p = 0; t < o->nsources; t++) {

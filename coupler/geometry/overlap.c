@@ -132,9 +132,11 @@ static PetscErrorCode FindCoupledElements(Overlap o)
   int *index_of;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscFree4(o->coupled_element, o->coupled_index, o->first_of_element, o->of_element));
-  PetscCall(PetscMalloc4(o->nelements, &o->coupled_element, o->pairs.n, &o->coupled_index,
-                         (size_t)o->nelements + 2, &o->first_of_element, o->pairs.n, &o->of_element));
+  PetscCall(
+      PetscFree5(o->coupled_element, o->coupled_index, o->first_of_element, o->of_element, o->solid_area));
+  PetscCall(PetscMalloc5(o->nelements, &o->coupled_element, o->pairs.n, &o->coupled_index,
+                         (size_t)o->nelements + 2, &o->first_of_element, o->pairs.n, &o->of_element,
+                         o->nelements, &o->solid_area));
   PetscCall(PetscCalloc1(o->nelements, &index_of));
   for (int p = 0; p < o->pairs.n; p++) index_of[o->pairs.pair[p].b] = 1;
   o->ncoupled = 0;
@@ -146,6 +148,9 @@ static PetscErrorCode FindCoupledElements(Overlap o)
   for (int p = 0; p < o->pairs.n; p++) o->coupled_index[p] = index_of[o->pairs.pair[p].b];
   PetscCall(PetscFree(index_of));
   ListPairsOfElements(o);
+  PetscCall(PetscArrayzero(o->solid_area, o->ncoupled));
+  for (int p = 0; p < o->pairs.n; p++)
+    if (!o->source[o->pairs.pair[p].a].is_shell) o->solid_area[o->coupled_index[p]] += o->pairs.pair[p].area;
   PetscFunctionReturn(0);
 }
 
@@ -235,7 +240,8 @@ PetscErrorCode OverlapDestroy(Overlap *overlap)
   PetscCall(PetscFree(o->node));
   PetscCall(PetscFree(o->source));
   PetscCall(PetscFree(o->source_basis));
-  PetscCall(PetscFree4(o->coupled_element, o->coupled_index, o->first_of_element, o->of_element));
+  PetscCall(
+      PetscFree5(o->coupled_element, o->coupled_index, o->first_of_element, o->of_element, o->solid_area));
   PetscCall(ScatterDestroy(&o->scatter));
   PetscCall(CopiesDestroy(&o->nodes));
   PetscCall(PetscFree(*overlap));

@@ -62,6 +62,7 @@ typedef struct {
   int *coupled_element;               /* [ncoupled] */
   int *coupled_index;                 /* [pairs.n] */
   int *first_of_element, *of_element; /* [ncoupled + 1], [pairs.n] */
+  double *solid_area;                 /* [ncoupled] m2, of the pairs in the solid's volume */
 } * Overlap;
 
 PetscErrorCode OverlapCreate(MPI_Comm comm, Overlap *overlap);

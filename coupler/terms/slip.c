@@ -69,15 +69,13 @@ void SlipTensors(const Overlap o, const SourceTerm term[], const double gravity[
   const double g = hypot(gravity[0], gravity[1]);
   for (int e = 0; e < o->ncoupled; e++) {
     NormalSums all = {.area = 0.0}, held = {.area = 0.0};
-    double solid = 0.0;
+    const double solid = o->solid_area[e];
     for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
       const SupermeshPair *pair = &o->pairs.pair[o->of_element[i]];
       const SourceTriangle *source = &o->source[pair->a];
-      if (!source->is_shell)
-        solid += pair->area;
-      else
-        AddNormal(pair->area, source->normal, &all);
-      if (source->is_shell && term[pair->a].held) AddNormal(pair->area, source->normal, &held);
+      if (!source->is_shell) continue;
+      AddNormal(pair->area, source->normal, &all);
+      if (term[pair->a].held) AddNormal(pair->area, source->normal, &held);
     }
     ElementTerm *k = &element[e];
     const double area = o->area[o->coupled_element[e]];
