@@ -3,6 +3,12 @@
 /* Of an element's area: where less is free a solid covers it, where it has less of the element it is none. */
 #define COVERED 1e-6
 
+/* Of some elements, by the places of phases in order; heavier than all others and lighter: none. */
+typedef struct {
+  int heaviest, lightest;
+} Content;
+#define NOTHING ((Content){PHASES_MAX, -1})
+
 typedef struct {
   int n, order[PHASES_MAX]; /* from the heaviest to the lightest, the filler */
   const Stars *stars;
@@ -10,7 +16,7 @@ typedef struct {
   const double *solid, *volume; /* [ne], [ne][n] */
   double *capacity;             /* [ne] scratch */
   char *covered;                /* [ne] */
-  int *around;                  /* [ne]: the phase around an element that the surface crosses; else SEVERAL */
+  Content *around;              /* [ne]: of an element that the surface crosses; of others all phases */
   double *swept;
 } Leave;
 
@@ -37,27 +43,29 @@ static double Solid(const Leave *x, int e)
 
 /* --- what is around elements that the surface crosses ----------------------------------------------------- */
 
-enum { NONE = -1, SEVERAL = -2 };
-
-/* The phase that element e, without a solid, is full of, but for a cloud; SEVERAL; NONE with a solid. */
-static int FullOf(const Leave *x, int e)
+/* Places in order: what element e, without a solid, has, but for a cloud. */
+static Content ContentOf(const Leave *x, int e)
 {
-  if (x->solid[e] > COVERED) return NONE;
-  for (int p = 0; p < x->n; p++)
-    if (VolumeOf(x, e, p) > (1.0 - PHASES_CLOUD) * StarsArea(x->stars, e)) return p;
-  return SEVERAL;
+  Content c = NOTHING;
+  for (int k = 0; k < x->n && !(x->solid[e] > COVERED); k++)
+    if (VolumeOf(x, e, x->order[k]) > PHASES_CLOUD * StarsArea(x->stars, e)) {
+      c.heaviest = c.heaviest < k ? c.heaviest : k;
+      c.lightest = k;
+    }
+  return c;
 }
 
-/* The phase that all elements without a solid around e are full of; full[nl]: FullOf. */
-static int FullAround(const Leave *x, int e, const int full[])
+/* Of all elements without a solid around e together; content[nl]: ContentOf. */
+static Content ContentAround(const Leave *x, int e, const Content content[])
 {
   const Stars *s = x->stars;
-  int found = NONE;
+  Content found = NOTHING;
   for (int i = 0; i < 3; i++) {
     const int v = s->vertex[e][i];
     for (int k = s->start[v]; k < s->start[v + 1]; k++) {
-      const int p = full[s->around[k] / 3];
-      if (p != NONE) found = found == NONE || found == p ? p : SEVERAL;
+      const Content c = content[s->around[k] / 3];
+      if (c.heaviest < found.heaviest) found.heaviest = c.heaviest;
+      if (c.lightest > found.lightest) found.lightest = c.lightest;
     }
   }
   return found;
@@ -66,29 +74,39 @@ static int FullAround(const Leave *x, int e, const int full[])
 static PetscErrorCode FindAround(Leave *x)
 {
   const Stars *s = x->stars;
-  int *full;
+  Content *content;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(s->nl, &full));
-  for (int e = 0; e < s->ne; e++) full[e] = FullOf(x, e);
-  PetscCall(StarsExchange(s, sizeof *full, full));
+  PetscCall(PetscMalloc1(s->nl, &content));
+  for (int e = 0; e < s->ne; e++) content[e] = ContentOf(x, e);
+  PetscCall(StarsExchange(s, sizeof *content, content));
   for (int e = 0; e < s->ne; e++) {
-    const int crossed = full[e] == NONE && !x->covered[e], p = crossed ? FullAround(x, e, full) : SEVERAL;
-    x->around[e] = p == NONE ? SEVERAL : p;
+    const int crossed = x->solid[e] > COVERED && !x->covered[e];
+    x->around[e] = crossed ? ContentAround(x, e, content) : NOTHING;
+    if (x->around[e].lightest < 0) x->around[e] = (Content){0, x->n - 1};
   }
-  PetscCall(PetscFree(full));
+  PetscCall(PetscFree(content));
   PetscFunctionReturn(0);
+}
+
+/* What element e has of the lightest phase beside the solid is a gap: around it that is not. */
+static int HasGap(const Leave *x, int e)
+{
+  return x->around[e].lightest < x->n - 1;
 }
 
 /* --- heavier phases leave the solid ---------------------------------------------------------------------- */
 
-/* room[ne], m2, for phase p.  What is in excess of it goes first into gaps in the same phase beside the solid: most of what a step puts into some elements of
- * a surface it has taken from others.  (By way of the nearest room, often at the water's surface, floats among three phases swayed more and more.) */
-static PetscErrorCode LeaveTo(Leave *x, int p, const double room[])
+/* room[ne], m2, for phase order[k].  What is in excess of it goes first into gaps beside the solid where that phase is alone: most of what a step puts into
+ * some elements of a surface it has taken from others.  (By way of the nearest room, often at the water's surface, floats among three phases swayed more and
+ * more; so they did with gaps at the surface of two phases, which raised the heavier one there.) */
+static PetscErrorCode LeaveTo(Leave *x, int k, const double room[])
 {
-  const int filler = x->order[x->n - 1];
+  const int p = x->order[k], filler = x->order[x->n - 1];
   PetscFunctionBeginUser;
-  for (int e = 0; e < x->stars->ne; e++)
-    x->capacity[e] = x->around[e] == p ? room[e] : fmin(room[e], VolumeOf(x, e, p));
+  for (int e = 0; e < x->stars->ne; e++) {
+    const int alone = x->around[e].heaviest == k && x->around[e].lightest == k;
+    x->capacity[e] = alone ? room[e] : fmin(room[e], VolumeOf(x, e, p));
+  }
   PetscCall(PhasesExpel(x->phases, p, filler, x->capacity, x->covered, x->swept));
   PetscCall(PhasesExpel(x->phases, p, filler, room, NULL, x->swept));
   PetscFunctionReturn(0);
@@ -101,7 +119,7 @@ static PetscErrorCode LeaveSolid(Leave *x)
   PetscCall(PetscMalloc1(x->stars->ne, &room));
   for (int e = 0; e < x->stars->ne; e++) room[e] = StarsArea(x->stars, e) - Solid(x, e);
   for (int k = 0; k + 1 < x->n; k++) {
-    PetscCall(LeaveTo(x, x->order[k], room));
+    PetscCall(LeaveTo(x, k, room));
     for (int e = 0; e < x->stars->ne; e++) room[e] = fmax(room[e] - VolumeOf(x, e, x->order[k]), 0.0);
   }
   PetscCall(PetscFree(room));
@@ -118,24 +136,23 @@ static double Lighter(const Leave *x, int e, int k)
   return lighter;
 }
 
-/* A gap in phase order[0] goes up to the next lighter phase, from there to the one after it, and so on. */
+/* A gap in phase order[0] goes up to the next lighter phase, from there to the one after it, and so on; one beside several phases is the lightest one's. */
 static PetscErrorCode CloseGaps(Leave *x)
 {
   const int filler = x->order[x->n - 1];
   double *kept; /* of the lightest phase, m2: no gap */
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(x->stars->ne, &kept));
-  for (int e = 0; e < x->stars->ne; e++) kept[e] = VolumeOf(x, e, filler);
+  for (int e = 0; e < x->stars->ne; e++) kept[e] = HasGap(x, e) ? Solid(x, e) : VolumeOf(x, e, filler);
   for (int k = 0; k + 1 < x->n; k++) {
     const int p = x->order[k];
     for (int e = 0; e < x->stars->ne; e++) {
       const double all = VolumeOf(x, e, filler), least = PHASES_CLOUD * StarsArea(x->stars, e);
-      if (x->around[e] == p)
-        x->capacity[e] = Solid(x, e);
-      else if (x->around[e] == SEVERAL && !x->covered[e] && Lighter(x, e, k) > least)
+      const Content around = x->around[e];
+      if (around.heaviest <= k && k < around.lightest && !x->covered[e] && Lighter(x, e, k) > least)
         x->capacity[e] = all + VolumeOf(x, e, p);
       else
-        x->capacity[e] = x->around[e] == SEVERAL ? fmin(kept[e], all) : all;
+        x->capacity[e] = around.heaviest <= k && k <= around.lightest ? fmin(kept[e], all) : all;
     }
     PetscCall(PhasesExpel(x->phases, filler, p, x->capacity, x->covered, x->swept));
   }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A block let go where it floats stays there: the air that steps leave below it does not lift it.  Held there it bears the weight of the water that it displaces, and
-# the water beside it stays at rest, wherever its sides are in their elements.
+# the water beside it stays at rest, wherever its sides are in their elements; between two liquids it stays at rest, too.
 # Usage: afloat.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
@@ -19,6 +19,7 @@ report = "rises by %.4f mm, drifts by %.3f mm, %.2f mm2 of air under water" % (1
 print(report)
 assert abs(rises) < 1.5e-4 and drifts < 2e-3 and abs(air) < 5e-6, report
 E2
+"$python" "$root/scripts/energy.py" "$scratch/afloat" --bound 1e-2 || { echo "it gains energy"; exit 1; }
 places=(0.20001 0.201 0.209)
 for x in "${places[@]}"; do
   must "held $x" 1:1:1 --set time.end=1 \
@@ -37,4 +38,17 @@ for place in sys.argv[2:]:
     report = "held at %s m: kinetic energy %.1e J/m, force %+.2f %% of the displaced fluids' weight" % (place, kinetic, 100.0 * error)
     print(report)
     assert kinetic < 2e-5 and abs(error) < 1e-2, report
+E2
+# between two liquids no air gathers beside it where they meet (with it the block swayed more and more)
+must "two liquids" 1:1:1 --set time.end=2.5 --set solid.materials.foam.density=925 \
+  --set 'fluid.phases=[{name: air, density: 1.2, viscosity: 1.8e-5}, {name: oil, density: 850, viscosity: 0.5}, {name: water, density: 1000, viscosity: 1.0e-3}]' \
+  --set 'fluid.regions=[{phase: air}, {phase: oil, lower: [0, 0.154], upper: [0.4, 0.3]}, {phase: water, lower: [0, 0], upper: [0.4, 0.154]}]'
+"$python" - "$scratch" <<'E2'
+from results import column, snapshots
+kinetic = max(column("two liquids", "fluid", "kinetic energy [J/m]"))
+*_, (_, corners, areas, grid) = snapshots("two liquids")
+air = (areas * abs(grid["cell/air"][:] - grid["cell/alpha"][:]))[corners[:, :, 1].mean(axis=1) < 0.25].sum()
+report = "between two liquids: kinetic energy %.1e J/m, %.2f mm2 of air beside it" % (kinetic, 1e6 * air)
+print(report)
+assert kinetic < 6e-4 and air < 2e-7, report
 E2

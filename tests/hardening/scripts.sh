@@ -40,6 +40,9 @@ for order in "--alone $root/tests/solid/alone.yaml" "$root/tests/solid/alone.yam
   [ "$status $momentum" = "1 $scratch/alone: solid.csv has fewer than two steps" ] || { echo "momentum.py: $momentum"; exit 1; }
   rm -r "$scratch/alone"
 done
+if "$python" "$root/scripts/energy.py" "$scratch" 2>"$scratch/log"; then echo 'an energy of no run'; exit 1; fi
+[ "$(cat "$scratch/log")" = "$scratch: there is no solid.csv" ] || { cat "$scratch/log"; exit 1; }
+"$python" "$root/scripts/energy.py" "$scratch/x" --from 0.01 >"$scratch/log" && grep -q '^body 0: at most' "$scratch/log" && ! grep -q '^all' "$scratch/log" || { cat "$scratch/log"; exit 1; }
 if "$python" "$root/scripts/momentum.py" "$scratch" 2>"$scratch/log"; then echo 'a budget of no run'; exit 1; fi
 [ "$(wc -l <"$scratch/log")" -eq 1 ] && grep -q 'there is no fluid_forces.csv, solid.csv, coupler.csv;' "$scratch/log" || { cat "$scratch/log"; exit 1; }
 if "$root/scripts/run.sh" --bin "$build" --allone "$root/tests/solid/alone.yaml" 2>"$scratch/log"; then echo 'an unknown option was taken'; exit 1; fi

@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""The energy of a run, fluid and solids together, and how far its bodies go from where they start; from fluid.csv and solid.csv, of a
+solid alone from solid.csv.
+
+Usage: scripts/energy.py FOLDER [--from TIME] [--bound NUMBER]
+Prints each kind of energy, J/m: at the first step (from TIME, s), at the last, the least and the most between; and of each body the
+farthest that its centre has been from its place at the first step, m, and the largest angle by which it has turned since, rad.  `all`, of phases
+and solids together or of a solid alone, falls by friction, damping and what flows out, and rises by what loads, springs and prescribed motions
+do; one fluid that solids displace has a potential energy that nothing tells, and no `all`.  With --bound it fails where `all` grows by more
+than that, J/m.
+"""
+import argparse
+import os
+import sys
+
+import numpy as np
+
+from series import read_series
+
+
+def gravity_of(solid, bodies):
+    """The acceleration by gravity, m/s2, [2]: the weight of all bodies over their mass."""
+    mass = sum(solid[f"mass{k}"] for k in bodies)
+    gravity = np.stack([solid["weight_x"], solid["weight_y"]], axis=1) / mass[:, None]
+    if abs(gravity - gravity[0]).max() > 1e-6 * np.linalg.norm(gravity[0]) + 1e-12:
+        sys.exit("gravity changes during the run: there is no potential energy")
+    return gravity[0]
+
+
+def energies(fluid, solid):
+    """{kind: [steps]} J/m; fluid: None for a solid alone."""
+    bodies = bodies_of(solid)
+    kinds = {}
+    if fluid is not None:
+        kinds["fluid, kinetic"] = fluid["kinetic energy"]
+        if "potential energy" in fluid:
+            kinds["fluid, potential"] = fluid["potential energy"]
+    if bodies:
+        gravity = gravity_of(solid, bodies)
+        kinds["solids, kinetic"] = sum(solid[f"kinetic{k}"] for k in bodies)
+        kinds["solids, strain"] = sum(solid[f"strain{k}"] for k in bodies)
+        kinds["solids, potential"] = -sum(solid[f"mass{k}"] * (gravity[0] * solid[f"x{k}"] + gravity[1] * solid[f"y{k}"]) for k in bodies)
+        kinds["solids, cracks"] = solid["fracture"]
+    if fluid is None or "potential energy" in fluid:
+        kinds["all"] = sum(kinds.values())
+    return kinds
+
+
+def bodies_of(solid):
+    return [int(name[4:]) for name in solid if name.startswith("mass") and name[4:].isdigit()]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder")
+    parser.add_argument("--from", type=float, default=0.0, dest="begin")
+    parser.add_argument("--bound", type=float)
+    options = parser.parse_args()
+    path = lambda name: os.path.join(options.folder, name + ".csv")
+    if not os.path.exists(path("solid")):
+        sys.exit(f"{options.folder}: there is no solid.csv")
+    series = [read_series(path(name)) if os.path.exists(path(name)) else None for name in ("fluid", "solid")]
+    first = int(np.searchsorted(series[1]["t"], options.begin))
+    if len(series[1]["t"]) < first + 2:
+        sys.exit(f"{options.folder}: solid.csv has fewer than two steps from {options.begin:g} s on")
+    fluid, solid = ({name: value[first:] for name, value in s.items()} if s else None for s in series)
+    if fluid is not None and (len(fluid["t"]) != len(solid["t"]) or abs(fluid["t"] - solid["t"]).max() > 1e-9 * solid["t"][-1]):
+        sys.exit(f"{options.folder}: the series are not of the same steps")
+    kinds = energies(fluid, solid)
+    print("%-18s %12s %12s %12s %12s" % ("J/m", "first", "last", "least", "most"))
+    for name, value in kinds.items():
+        print("%-18s %12.5g %12.5g %12.5g %12.5g" % (name, value[0], value[-1], value.min(), value.max()))
+    for k in bodies_of(solid):
+        distance = np.hypot(solid[f"x{k}"] - solid[f"x{k}"][0], solid[f"y{k}"] - solid[f"y{k}"][0])
+        turned = np.unwrap(solid[f"angle{k}"])
+        print("body %d: at most %.3g m from its place, turned by at most %.3g rad" % (k, distance.max(), abs(turned - turned[0]).max()))
+    if "all" not in kinds:
+        return options.bound is not None and "no sum of all energies with one fluid"
+    gained = (kinds["all"] - np.minimum.accumulate(kinds["all"])).max()
+    print("the most that all has grown by: %.3g J/m" % gained)
+    return options.bound is not None and not gained < options.bound
+
+
+if __name__ == "__main__":
+    sys.exit(main())
