@@ -3,7 +3,7 @@
 solid alone from solid.csv.
 
 Usage: scripts/energy.py FOLDER [--from TIME] [--bound NUMBER]
-Prints each kind of energy, J/m: at the first step (from TIME, s), at the last, the least and the most between; and of each body the
+Prints each kind of energy, J/m: at the first step (from TIME, s), at the last, its change, the least and the most between; and of each body the
 farthest that its centre has been from its place at the first step, m, and the largest angle by which it has turned since, rad.  `all`, of phases
 and solids together or of a solid alone, falls by friction, damping and what flows out, and rises by what loads, springs and prescribed motions
 do; one fluid that solids displace has a potential energy that nothing tells, and no `all`.  With --bound it fails where `all` grows by more
@@ -67,9 +67,9 @@ def main():
     if fluid is not None and (len(fluid["t"]) != len(solid["t"]) or abs(fluid["t"] - solid["t"]).max() > 1e-9 * solid["t"][-1]):
         sys.exit(f"{options.folder}: the series are not of the same steps")
     kinds = energies(fluid, solid)
-    print("%-18s %12s %12s %12s %12s" % ("J/m", "first", "last", "least", "most"))
+    print("%-18s" % "J/m" + "".join("%13s" % name for name in ("first", "last", "change", "least", "most")))
     for name, value in kinds.items():
-        print("%-18s %12.5g %12.5g %12.5g %12.5g" % (name, value[0], value[-1], value.min(), value.max()))
+        print("%-18s" % name + "".join("%13.5g" % x for x in (value[0], value[-1], value[-1] - value[0], value.min(), value.max())))
     for k in bodies_of(solid):
         distance = np.hypot(solid[f"x{k}"] - solid[f"x{k}"][0], solid[f"y{k}"] - solid[f"y{k}"][0])
         turned = np.unwrap(solid[f"angle{k}"])
