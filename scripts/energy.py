@@ -15,7 +15,10 @@ import sys
 
 import numpy as np
 
-from series import read_series
+from series import bodies_of, check_same_steps, read_series
+
+
+MOST_BODIES = 1000  # of solid.csv
 
 
 def gravity_of(solid, bodies):
@@ -46,10 +49,6 @@ def energies(fluid, solid):
     return kinds
 
 
-def bodies_of(solid):
-    return [int(name[4:]) for name in solid if name.startswith("mass") and name[4:].isdigit()]
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder")
@@ -64,8 +63,10 @@ def main():
     if len(series[1]["t"]) < first + 2:
         sys.exit(f"{options.folder}: solid.csv has fewer than two steps from {options.begin:g} s on")
     fluid, solid = ({name: value[first:] for name, value in s.items()} if s else None for s in series)
-    if fluid is not None and (len(fluid["t"]) != len(solid["t"]) or abs(fluid["t"] - solid["t"]).max() > 1e-9 * solid["t"][-1]):
-        sys.exit(f"{options.folder}: the series are not of the same steps")
+    if fluid is not None:
+        check_same_steps(options.folder, fluid, solid)
+    if len(bodies_of(solid)) >= MOST_BODIES:
+        sys.exit(f"{options.folder}: solid.csv has no more than {MOST_BODIES} bodies, and there may be others")
     kinds = energies(fluid, solid)
     print("%-18s" % "J/m" + "".join("%13s" % name for name in ("first", "last", "change", "least", "most")))
     for name, value in kinds.items():

@@ -12,7 +12,7 @@ import sys
 
 import numpy as np
 
-from series import read_series
+from series import bodies_of, check_same_steps, read_series
 
 SERIES = ("fluid_forces", "solid", "coupler")
 FLUID_TERMS = ("weight", "divergence", "interface", "absorption", "adaptation", "correction")  # of fluid_forces.csv, but for `solid` and `rest`
@@ -43,8 +43,8 @@ def terms_of_solids(folder):
              "solids' walls": vector(solid, "walls")[1:], "solids' supports": vector(solid, "reaction")[1:]}
     terms = {"change": change(vector(solid, "start_momentum"), vector(solid, "momentum"))[1:], **parts}
     terms["rest"] = terms["change"] - sum(parts.values())
-    bodies = [k for k in range(len(solid)) if f"mass{k}" in solid]  # what they have and bear may cancel in the sum, as of two platens
-    parts.update({k: solid[f"mass{k}"][1:, None] * np.stack([solid[f"{u}{k}"][1:] for u in "uv"], axis=1) for k in bodies})
+    # what bodies have and bear may cancel in the sum, as of two platens
+    parts.update({k: solid[f"mass{k}"][1:, None] * np.stack([solid[f"{u}{k}"][1:] for u in "uv"], axis=1) for k in bodies_of(solid)})
     terms["scale"] = sum(np.linalg.norm(part, axis=1) for part in parts.values())
     return terms
 
@@ -59,8 +59,7 @@ def terms_of(folder):
     `exchange`, the fluid's gain and the coupler's reaction, and `load`, the coupler's force and the solids' load, are left over."""
     fluid, solid, coupler = (read_series(os.path.join(folder, name + ".csv")) for name in SERIES)
     for other in (solid, coupler):
-        if len(other["t"]) != len(fluid["t"]) or abs(other["t"] - fluid["t"]).max() > 1e-9 * fluid["t"][-1]:
-            sys.exit(f"{folder}: the series are not of the same steps")
+        check_same_steps(folder, fluid, other)
     dt = fluid["dt"][:, None]
     of_fluid = lambda name: vector(fluid, name, " ")
     terms = {"change": change(of_fluid("start momentum"), of_fluid("momentum")) +

@@ -1,5 +1,6 @@
 """Series of a run (fluid.csv, solid.csv, ...), and what is periodic in them; needs numpy."""
 import csv
+import sys
 
 import numpy as np
 
@@ -12,6 +13,17 @@ def read_series(path):
         rows = list(csv.reader(file))
     values = np.array(rows[1:], float)
     return {name.split(" [")[0]: values[:, k] for k, name in enumerate(rows[0])}
+
+
+def bodies_of(solid):
+    """The numbers of the bodies that solid.csv has: of the first 1000."""
+    return [k for k in range(len(solid)) if f"mass{k}" in solid]
+
+
+def check_same_steps(folder, first, other):
+    """Ends the program if two series are not of the same steps."""
+    if len(first["t"]) != len(other["t"]) or abs(first["t"] - other["t"]).max() > 1e-9 * first["t"][-1]:
+        sys.exit(f"{folder}: the series are not of the same steps")
 
 
 def upward(t, values):

@@ -64,8 +64,10 @@ PetscErrorCode ProgramEnd(Program *p)
 int ProgramAnswer(Command command, const CommandAnswers *answers, int argc, char **argv)
 {
   const PetscBool reads = (PetscBool)(command != COMMAND_HELP && command != COMMAND_VERSION);
-  if (reads) AffinityAlone();
-  if (reads && PetscInitialize(NULL, NULL, NULL, NULL)) return 1;
+  if (reads) {
+    AffinityAlone();
+    if (PetscInitialize(NULL, NULL, NULL, NULL)) return 1;
+  }
   const int status = CommandAnswer(command, answers, argc, argv);
   if (reads) (void)PetscFinalize();
   return status;

@@ -47,11 +47,12 @@ static double Solid(const Leave *x, int e)
 static Content ContentOf(const Leave *x, int e)
 {
   Content c = NOTHING;
-  for (int k = 0; k < x->n && !(x->solid[e] > COVERED); k++)
-    if (VolumeOf(x, e, x->order[k]) > PHASES_CLOUD * StarsArea(x->stars, e)) {
-      c.heaviest = c.heaviest < k ? c.heaviest : k;
-      c.lightest = k;
-    }
+  if (x->solid[e] > COVERED) return c;
+  for (int k = 0; k < x->n; k++) {
+    if (!(VolumeOf(x, e, x->order[k]) > PHASES_CLOUD * StarsArea(x->stars, e))) continue;
+    if (c.lightest < 0) c.heaviest = k;
+    c.lightest = k;
+  }
   return c;
 }
 
@@ -149,10 +150,10 @@ static PetscErrorCode CloseGaps(Leave *x)
     for (int e = 0; e < x->stars->ne; e++) {
       const double all = VolumeOf(x, e, filler), least = PHASES_CLOUD * StarsArea(x->stars, e);
       const Content around = x->around[e];
-      if (around.heaviest <= k && k < around.lightest && !x->covered[e] && Lighter(x, e, k) > least)
-        x->capacity[e] = all + VolumeOf(x, e, p);
-      else
-        x->capacity[e] = around.heaviest <= k && k <= around.lightest ? fmin(kept[e], all) : all;
+      const int is_around = around.heaviest <= k && k <= around.lightest;
+      const int meets_lighter =
+          is_around && k < around.lightest && !x->covered[e] && Lighter(x, e, k) > least;
+      x->capacity[e] = meets_lighter ? all + VolumeOf(x, e, p) : is_around ? fmin(kept[e], all) : all;
     }
     PetscCall(PhasesExpel(x->phases, filler, p, x->capacity, x->covered, x->swept));
   }
