@@ -38,6 +38,9 @@ typedef struct {
   int nfront, *front;     /* those of the largest distance so far; in a hop, owned ones that change */
   int *next;              /* [nl] scratch */
   double *come;           /* [ne] what a hop brings */
+  int nchanged, *changed; /* owned elements that the hops of a pass have changed */
+  char *is_changed;       /* [ne] */
+  double room;            /* m2, of this rank's elements */
 } Expel;
 
 static double *VolumeOf(Phases f, int e)
@@ -52,29 +55,37 @@ static void AddActive(Expel *x, int from, int to)
     if (x->balance[e].excess > 0.0) x->active[x->nactive++] = e;
 }
 
-/* *share: of the excess of all elements, what there is room for; 0: nothing is to be moved, or nothing can be; *inside: that of covered ones, m2. */
+/* The balance of owned element e; what it changes is added to the sums of room and excess, and to that of excess in covered elements. */
+static void SetElementBalance(Expel *x, int e, double *excess, double *inside)
+{
+  const double *v = VolumeOf(x->f, e), area = StarsArea(x->f->stars, e);
+  const double over = v[x->phase] - x->capacity[e], room = fmin(-over, v[x->filler]);
+  Balance *b = &x->balance[e];
+  x->room -= b->room;
+  *b = (Balance){over > EXCESS_TINY * area ? over : 0.0, room > ROOM_TINY * area ? room : 0.0,
+                 x->covered ? x->covered[e] : x->capacity[e] < CAPACITY_TINY * area};
+  x->room += b->room;
+  *excess += b->excess;
+  *inside += b->covered ? b->excess : 0.0;
+}
+
+/* After a pass those of elements that it has changed, among which are all with an excess.  *share: of the excess of all elements, what there is
+ * room for; 0: nothing is to be moved, or nothing can be; *inside: that of covered ones, m2. */
 static PetscErrorCode SetBalance(Expel *x, double *share, double *inside)
 {
   const Stars *s = x->f->stars;
-  double sum[3] = {0.0, 0.0, 0.0};
+  double sum[3] = {0.0, 0.0, 0.0}; /* excess, that of covered ones, room */
   PetscFunctionBeginUser;
-  for (int e = 0; e < s->ne; e++) {
-    const double *v = VolumeOf(x->f, e), area = StarsArea(s, e);
-    const double over = v[x->phase] - x->capacity[e], room = fmin(-over, v[x->filler]);
-    const int covered = x->covered ? x->covered[e] : x->capacity[e] < CAPACITY_TINY * area;
-    x->balance[e] =
-        (Balance){over > EXCESS_TINY * area ? over : 0.0, room > ROOM_TINY * area ? room : 0.0, covered};
-    sum[0] += x->balance[e].excess;
-    sum[1] += x->balance[e].room;
-    sum[2] += x->balance[e].covered ? x->balance[e].excess : 0.0;
-  }
+  for (int k = 0; k < x->nchanged; k++) SetElementBalance(x, x->changed[k], &sum[0], &sum[1]);
+  sum[2] = x->room;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_DOUBLE, MPI_SUM, s->mesh->comm));
-  *share = sum[0] > 0.0 ? fmin(1.0, sum[1] / sum[0]) : 0.0;
-  *inside = sum[2];
-  for (int e = 0; e < s->ne; e++) x->balance[e].excess *= *share;
+  *share = sum[0] > 0.0 ? fmin(1.0, sum[2] / sum[0]) : 0.0;
+  *inside = sum[1];
+  for (int k = 0; k < x->nchanged; k++) x->balance[x->changed[k]].excess *= *share;
   if (*share > 0.0) PetscCall(StarsExchange(s, sizeof *x->balance, x->balance));
   x->nactive = 0;
-  AddActive(x, 0, s->nl);
+  for (int k = 0; k < x->nchanged; k++) AddActive(x, x->changed[k], x->changed[k] + 1);
+  AddActive(x, s->ne, s->nl);
   PetscFunctionReturn(0);
 }
 
@@ -208,7 +219,12 @@ static PetscErrorCode Hop(Expel *x, double swept[])
   const Stars *s = x->f->stars;
   const int n = ListChanging(x);
   PetscFunctionBeginUser;
-  for (int k = 0; k < n; k++) Exchange(x, x->front[k], swept);
+  for (int k = 0; k < n; k++) {
+    const int e = x->front[k];
+    Exchange(x, e, swept);
+    if (!x->is_changed[e]) x->changed[x->nchanged++] = e;
+    x->is_changed[e] = 1;
+  }
   x->nactive = 0;
   for (int k = 0; k < n; k++) {
     const int e = x->front[k];
@@ -220,25 +236,38 @@ static PetscErrorCode Hop(Expel *x, double swept[])
   PetscFunctionReturn(0);
 }
 
+/* Every excess goes to the nearest element with room, or that is not covered. */
+static PetscErrorCode MakePass(Expel *x, double swept[])
+{
+  int levels;
+  PetscFunctionBeginUser;
+  PetscCall(SetDistances(x, &levels));
+  for (int k = 0; k < x->nchanged; k++) x->is_changed[x->changed[k]] = 0;
+  x->nchanged = 0;
+  PetscCall(PetscArrayzero(x->next, x->f->stars->nl));
+  for (int hop = 0; hop < levels; hop++) PetscCall(Hop(x, swept));
+  x->f->has_lines = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PhasesExpel(Phases f, int phase, int filler, const double capacity[], const char covered[],
                            double swept[])
 {
   const int ne = f->stars->ne, nl = f->stars->nl;
   Expel x = {.f = f, .phase = phase, .filler = filler, .capacity = capacity, .covered = covered};
   double share = 0.0, inside = 0.0;
-  int levels;
   PetscFunctionBeginUser;
   PetscCall(
-      PetscMalloc6(nl, &x.balance, nl, &x.distance, nl, &x.active, nl, &x.front, nl, &x.next, ne, &x.come));
+      PetscMalloc6(nl, &x.distance, nl, &x.active, nl, &x.front, nl, &x.next, ne, &x.come, ne, &x.changed));
+  PetscCall(PetscCalloc2(nl, &x.balance, ne, &x.is_changed));
+  for (int e = 0; e < ne; e++) x.changed[x.nchanged++] = e;
   for (int pass = 0; pass < PASSES; pass++) {
     PetscCall(SetBalance(&x, &share, &inside));
     if (!(share > 0.0)) break;
     x.uncovers = pass == 0 && share == 1.0 && inside > 0.0;
-    PetscCall(SetDistances(&x, &levels));
-    PetscCall(PetscArrayzero(x.next, nl));
-    for (int hop = 0; hop < levels; hop++) PetscCall(Hop(&x, swept));
-    f->has_lines = PETSC_FALSE;
+    PetscCall(MakePass(&x, swept));
   }
-  PetscCall(PetscFree6(x.balance, x.distance, x.active, x.front, x.next, x.come));
+  PetscCall(PetscFree2(x.balance, x.is_changed));
+  PetscCall(PetscFree6(x.distance, x.active, x.front, x.next, x.come, x.changed));
   PetscFunctionReturn(0);
 }

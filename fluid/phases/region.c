@@ -2,7 +2,9 @@
 #include "common/supermesh/search.h"
 #include "fluid/phases/phases_impl.h"
 
-enum { SIDES = 2048 };
+/* A piece of an element with more than so many triangles of regions is quartered where that divides them, so many times at most: what a
+ * piece costs grows with the square of their number. */
+enum { SIDES = 2048, PIECE_MOST = 64, QUARTERED_MOST = 12 };
 
 typedef struct {
   int n;
@@ -167,14 +169,25 @@ static PetscErrorCode AddPart(Parts *list, const Polygon *polygon, int phase)
   PetscFunctionReturn(0);
 }
 
+/* Not if one of the triangle's sides has all of the polygon outside. */
+static int MayReach(const HalfPlane side[3], const Polygon *p)
+{
+  for (int i = 0; i < 3; i++) {
+    int k = 0;
+    while (k < p->n && side[i].n[0] * p->x[k][0] + side[i].n[1] * p->x[k][1] >= side[i].d) k++;
+    if (k == p->n) return 0;
+  }
+  return 1;
+}
+
 /* Part k becomes what lies in the triangle, with its phase; what lies outside is added. */
 static PetscErrorCode PaintPart(Parts *list, int k, const HalfPlane side[3], int phase)
 {
+  if (list->part[k].phase == phase || !MayReach(side, &list->part[k].polygon)) return 0;
   const Part whole = list->part[k];
   const int n = list->n;
   Polygon in = whole.polygon, next, out;
   PetscFunctionBeginUser;
-  if (whole.phase == phase) PetscFunctionReturn(0);
   for (int i = 0; i < 3; i++) {
     const HalfPlane other = HalfPlaneOther(&side[i]);
     PolygonClip(&in, &other, &out);
@@ -202,29 +215,92 @@ static PetscErrorCode Paint(Parts *list, const double x[3][2], const double orig
   PetscFunctionReturn(0);
 }
 
-/* All regions on one element: volume[np]; *bare is the area in no region. */
-static PetscErrorCode FillElement(const Stars *s, int e, int nregions, const Region region[],
-                                  const Triangles triangles[], Search search[], Parts *list, int np,
-                                  double volume[], double *bare)
+/* All regions, and the parts of the piece that is filled. */
+typedef struct {
+  int n;
+  const Region *region;
+  Triangles *triangles; /* [n] */
+  Search *search;       /* [n] */
+  Parts parts;
+} Filling;
+
+/* By the middles of its sides. */
+static void Quarter(const double x[3][2], double quarter[4][3][2])
 {
-  const double(*x)[2] = (const double(*)[2])s->element[e].x;
+  double middle[3][2];
+  for (int i = 0; i < 3; i++) {
+    for (int d = 0; d < 2; d++) middle[i][d] = 0.5 * (x[i][d] + x[(i + 1) % 3][d]);
+  }
+  for (int i = 0; i < 3; i++) Set(quarter[i], x[i], middle[i], middle[(i + 2) % 3]);
+  Set(quarter[3], middle[0], middle[1], middle[2]);
+}
+
+/* Triangles of region r that may reach the triangle x. */
+static PetscErrorCode FindTriangles(Filling *f, int r, const double x[3][2], const int **hit, int *n)
+{
   const GeometryBox box = GeometryBoxOf(x);
-  Polygon element;
   PetscFunctionBeginUser;
-  list->n = 0;
-  PolygonTriangle(x, x[0], &element);
-  PetscCall(AddPart(list, &element, -1));
-  for (int r = 0; r < nregions; r++) {
-    const int *hit, n = SearchQuery(search[r], &box, &hit);
-    PetscCheck(n >= 0, PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory to search a region");
+  *n = SearchQuery(f->search[r], &box, hit);
+  PetscCheck(*n >= 0, PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory to search a region");
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CountTriangles(Filling *f, const double x[3][2], int *count)
+{
+  PetscFunctionBeginUser;
+  *count = 0;
+  for (int r = 0; r < f->n; r++) {
+    const int *hit;
+    int n;
+    PetscCall(FindTriangles(f, r, x, &hit, &n));
+    *count += n;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* All regions on the triangle x: adds to volume[np], and to *bare the area in no region. */
+static PetscErrorCode PaintPiece(Filling *f, const double x[3][2], double volume[], double *bare)
+{
+  Polygon piece;
+  PetscFunctionBeginUser;
+  f->parts.n = 0;
+  PolygonTriangle(x, x[0], &piece);
+  PetscCall(AddPart(&f->parts, &piece, -1));
+  for (int r = 0; r < f->n; r++) {
+    const int *hit;
+    int n;
+    PetscCall(FindTriangles(f, r, x, &hit, &n));
     for (int k = 0; k < n; k++)
-      PetscCall(Paint(list, (const double(*)[2])triangles[r].x[hit[k]], x[0], region[r].phase));
+      PetscCall(Paint(&f->parts, (const double(*)[2])f->triangles[r].x[hit[k]], x[0], f->region[r].phase));
   }
-  for (int p = 0; p < np; p++) volume[p] = 0.0;
-  for (int k = 0; k < list->n; k++) {
-    double *to = list->part[k].phase < 0 ? bare : &volume[list->part[k].phase];
-    *to += PolygonArea(&list->part[k].polygon);
+  for (int k = 0; k < f->parts.n; k++) {
+    double *to = f->parts.part[k].phase < 0 ? bare : &volume[f->parts.part[k].phase];
+    *to += PolygonArea(&f->parts.part[k].polygon);
   }
+  PetscFunctionReturn(0);
+}
+
+/* The same, of a triangle that `count` triangles of regions may reach, quarter by quarter where most of them reach few quarters.  (Not where many
+ * meet at a corner, as in a polygon that is a fan.) */
+static PetscErrorCode FillPiece(Filling *f, const double x[3][2], int count, int quartered, double volume[],
+                                double *bare)
+{
+  double quarter[4][3][2];
+  int of_quarter[4], all = 0;
+  PetscFunctionBeginUser;
+  if (count > PIECE_MOST && quartered < QUARTERED_MOST) {
+    Quarter(x, quarter);
+    for (int k = 0; k < 4; k++) {
+      PetscCall(CountTriangles(f, (const double(*)[2])quarter[k], &of_quarter[k]));
+      all += of_quarter[k];
+    }
+    if (all <= 2 * count) {
+      for (int k = 0; k < 4; k++)
+        PetscCall(FillPiece(f, (const double(*)[2])quarter[k], of_quarter[k], quartered + 1, volume, bare));
+      PetscFunctionReturn(0);
+    }
+  }
+  PetscCall(PaintPiece(f, x, volume, bare));
   PetscFunctionReturn(0);
 }
 
@@ -242,31 +318,34 @@ static void Close(double area, int np, double volume[])
 PetscErrorCode PhasesFill(Phases f, int nregions, const Region region[])
 {
   const Stars *s = f->stars;
-  Triangles *triangles;
-  Search *search;
-  Parts list = {0};
+  Filling filling = {.n = nregions, .region = region};
   double bare = 0.0, total = 0.0;
+  int count;
   PetscFunctionBeginUser;
-  PetscCall(PetscCalloc2(nregions, &triangles, nregions, &search));
+  PetscCall(PetscCalloc2(nregions, &filling.triangles, nregions, &filling.search));
   for (int r = 0; r < nregions; r++) {
     PetscCheck(region[r].phase >= 0 && region[r].phase < f->np, s->mesh->comm, PETSC_ERR_ARG_OUTOFRANGE,
                "region %d is of phase %d, but there are %d phases", r, region[r].phase, f->np);
-    PetscCall(MakeTriangles(s->mesh, &region[r], &triangles[r]));
-    PetscCheck(!SearchCreateTriangles(triangles[r].n, (const double(*)[3][2])triangles[r].x, &search[r]),
-               PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory for a region of %d triangles", triangles[r].n);
+    Triangles *t = &filling.triangles[r];
+    PetscCall(MakeTriangles(s->mesh, &region[r], t));
+    PetscCheck(!SearchCreateTriangles(t->n, (const double(*)[3][2])t->x, &filling.search[r]), PETSC_COMM_SELF,
+               PETSC_ERR_MEM, "no memory for a region of %d triangles", t->n);
   }
   for (int e = 0; e < s->ne; e++) {
     double *v = &f->volume[(size_t)e * (size_t)f->np];
-    PetscCall(FillElement(s, e, nregions, region, triangles, search, &list, f->np, v, &bare));
+    for (int p = 0; p < f->np; p++) v[p] = 0.0;
+    const double(*x)[2] = (const double(*)[2])s->element[e].x;
+    PetscCall(CountTriangles(&filling, x, &count));
+    PetscCall(FillPiece(&filling, x, count, 0, v, &bare));
     Close(StarsArea(s, e), f->np, v);
     total += StarsArea(s, e);
   }
   for (int r = 0; r < nregions; r++) {
-    PetscCall(PetscFree(triangles[r].x));
-    SearchDestroy(&search[r]);
+    PetscCall(PetscFree(filling.triangles[r].x));
+    SearchDestroy(&filling.search[r]);
   }
-  PetscCall(PetscFree2(triangles, search));
-  PetscCall(PetscFree(list.part));
+  PetscCall(PetscFree2(filling.triangles, filling.search));
+  PetscCall(PetscFree(filling.parts.part));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &bare, 1, MPI_DOUBLE, MPI_SUM, s->mesh->comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_DOUBLE, MPI_SUM, s->mesh->comm));
   f->has_lines = PETSC_FALSE;

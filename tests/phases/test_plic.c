@@ -139,6 +139,43 @@ static PetscErrorCode Circle(int n, double *distance)
   PetscFunctionReturn(0);
 }
 
+/* Drops, each with a bubble in it, that are small beside elements: pieces of elements are filled one by one. */
+static PetscErrorCode Drops(void)
+{
+  enum { ROWS = 8, WATER = 0, BUBBLE = 1, AROUND = 2 };
+  const Shaken shaken = {.n = 2, .seed = 3u, .radius = 1.0};
+  const double radius[2] = {0.04, 0.02};
+  Region region[1 + 2 * ROWS * ROWS] = {HalfPlaneRegion(AROUND, 0.0, 9.0, 0.0)};
+  double all[3] = {0.0}, expected[2];
+  const double *volume;
+  int n = 1;
+  Mesh *mesh;
+  Stars *stars;
+  Phases f;
+  PetscFunctionBeginUser;
+  for (int k = 0; k < 2 * ROWS * ROWS; k++)
+    region[n++] = (Region){.shape = REGION_DISC,
+                           .phase = k % 2 ? BUBBLE : WATER,
+                           .a = {(k / 2 % ROWS + 0.5) / ROWS, (k / 2 / ROWS + 0.5) / ROWS},
+                           .radius = radius[k % 2]};
+  PetscCall(ShakenMesh(PETSC_COMM_WORLD, &shaken, &mesh));
+  PetscCall(StarsCreate(mesh, &stars));
+  PetscCall(PhasesCreate(stars, 3, &f));
+  PetscCall(PhasesFill(f, n, region));
+  PetscCall(PhasesGetVolumes(f, &volume));
+  for (int e = 0; e < mesh->ne; e++)
+    for (int p = 0; p < 3; p++) all[p] += volume[3 * e + p];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, all, 3, MPI_DOUBLE, MPI_SUM, mesh->comm));
+  expected[BUBBLE] = ROWS * ROWS * M_PI * radius[1] * radius[1];
+  expected[WATER] = ROWS * ROWS * M_PI * radius[0] * radius[0] - expected[BUBBLE];
+  for (int p = 0; p < 2; p++)
+    CHECK(fabs(all[p] - expected[p]) < 1e-12, "phase %d has %.15g m2, not %.15g", p, all[p], expected[p]);
+  PetscCall(PhasesDestroy(&f));
+  PetscCall(StarsDestroy(&stars));
+  PetscCall(MeshDestroy(&mesh));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   double d[2];
@@ -149,6 +186,7 @@ int main(int argc, char **argv)
       PetscCall(Straight(kind, seed, 2.0));
     }
   }
+  PetscCall(Drops());
   PetscCall(Circle(24, &d[0]));
   PetscCall(Circle(48, &d[1]));
   if (argc > 1) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "circle: %g, %g m\n", d[0], d[1]));
