@@ -15,7 +15,7 @@ import sys
 
 import numpy as np
 
-from series import bodies_of, check_same_steps, read_series
+from series import bodies_of, of_same_steps, read_series
 
 
 MOST_BODIES = 1000  # of solid.csv
@@ -58,13 +58,12 @@ def main():
     path = lambda name: os.path.join(options.folder, name + ".csv")
     if not os.path.exists(path("solid")):
         sys.exit(f"{options.folder}: there is no solid.csv")
-    series = [read_series(path(name)) if os.path.exists(path(name)) else None for name in ("fluid", "solid")]
-    first = int(np.searchsorted(series[1]["t"], options.begin))
-    if len(series[1]["t"]) < first + 2:
-        sys.exit(f"{options.folder}: solid.csv has fewer than two steps from {options.begin:g} s on")
-    fluid, solid = ({name: value[first:] for name, value in s.items()} if s else None for s in series)
-    if fluid is not None:
-        check_same_steps(options.folder, fluid, solid)
+    series = of_same_steps(options.folder, *(read_series(path(name)) for name in ("solid", "fluid") if os.path.exists(path(name))))
+    first = int(np.searchsorted(series[0]["t"], options.begin))
+    if len(series[0]["t"]) < first + 2:
+        sys.exit(f"{options.folder}: there are fewer than two steps from {options.begin:g} s on")
+    solid, *rest = ({name: value[first:] for name, value in one.items()} for one in series)
+    fluid = rest[0] if rest else None
     if len(bodies_of(solid)) >= MOST_BODIES:
         sys.exit(f"{options.folder}: solid.csv has no more than {MOST_BODIES} bodies, and there may be others")
     kinds = energies(fluid, solid)

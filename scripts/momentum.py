@@ -12,7 +12,7 @@ import sys
 
 import numpy as np
 
-from series import bodies_of, check_same_steps, read_series
+from series import bodies_of, of_same_steps, read_series
 
 SERIES = ("fluid_forces", "solid", "coupler")
 FLUID_TERMS = ("weight", "divergence", "interface", "absorption", "adaptation", "correction")  # of fluid_forces.csv, but for `solid` and `rest`
@@ -57,9 +57,7 @@ def terms_of(folder):
     of it; with `correction` it is the change of that fluid's momentum less its weight.  `uplift` is what walls beneath solids give back
     (coupler/force/uplift.h).  What fluid and solids exchange cancels:
     `exchange`, the fluid's gain and the coupler's reaction, and `load`, the coupler's force and the solids' load, are left over."""
-    fluid, solid, coupler = (read_series(os.path.join(folder, name + ".csv")) for name in SERIES)
-    for other in (solid, coupler):
-        check_same_steps(folder, fluid, other)
+    fluid, solid, coupler = of_same_steps(folder, *(read_series(os.path.join(folder, name + ".csv")) for name in SERIES))
     dt = fluid["dt"][:, None]
     of_fluid = lambda name: vector(fluid, name, " ")
     terms = {"change": change(of_fluid("start momentum"), of_fluid("momentum")) +

@@ -20,10 +20,14 @@ def bodies_of(solid):
     return [k for k in range(len(solid)) if f"mass{k}" in solid]
 
 
-def check_same_steps(folder, first, other):
-    """Ends the program if two series are not of the same steps."""
-    if len(first["t"]) != len(other["t"]) or abs(first["t"] - other["t"]).max() > 1e-9 * first["t"][-1]:
+def of_same_steps(folder, *series):
+    """The series, of the steps that all have: of a run that was stopped some have a row more.  Ends the program if they are not of the same
+    steps."""
+    n = min(len(one["t"]) for one in series)
+    shared = [{name: values[:n] for name, values in one.items()} for one in series]
+    if n == 0 or any(abs(one["t"] - shared[0]["t"]).max() > 1e-9 * shared[0]["t"][-1] for one in shared):
         sys.exit(f"{folder}: the series are not of the same steps")
+    return shared
 
 
 def upward(t, values):
