@@ -48,11 +48,20 @@ static double *VolumeOf(Phases f, int e)
   return &f->volume[(size_t)e * (size_t)f->np];
 }
 
-/* Of the elements from `from` on those with an excess are active. */
-static void AddActive(Expel *x, int from, int to)
+/* Element e, if it has an excess. */
+static void AddActive(Expel *x, int e)
 {
-  for (int e = from; e < to; e++)
-    if (x->balance[e].excess > 0.0) x->active[x->nactive++] = e;
+  if (x->balance[e].excess > 0.0) x->active[x->nactive++] = e;
+}
+
+/* What other ranks have of balances, and which of their elements have an excess. */
+static PetscErrorCode ExchangeBalance(Expel *x)
+{
+  const Stars *s = x->f->stars;
+  PetscFunctionBeginUser;
+  PetscCall(StarsExchange(s, sizeof *x->balance, x->balance));
+  for (int e = s->ne; e < s->nl; e++) AddActive(x, e);
+  PetscFunctionReturn(0);
 }
 
 /* The balance of owned element e; what it changes is added to the sums of room and excess, and to that of excess in covered elements. */
@@ -81,11 +90,13 @@ static PetscErrorCode SetBalance(Expel *x, double *share, double *inside)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_DOUBLE, MPI_SUM, s->mesh->comm));
   *share = sum[0] > 0.0 ? fmin(1.0, sum[2] / sum[0]) : 0.0;
   *inside = sum[1];
-  for (int k = 0; k < x->nchanged; k++) x->balance[x->changed[k]].excess *= *share;
-  if (*share > 0.0) PetscCall(StarsExchange(s, sizeof *x->balance, x->balance));
   x->nactive = 0;
-  for (int k = 0; k < x->nchanged; k++) AddActive(x, x->changed[k], x->changed[k] + 1);
-  AddActive(x, s->ne, s->nl);
+  if (!(*share > 0.0)) PetscFunctionReturn(0);
+  for (int k = 0; k < x->nchanged; k++) {
+    x->balance[x->changed[k]].excess *= *share;
+    AddActive(x, x->changed[k]);
+  }
+  PetscCall(ExchangeBalance(x));
   PetscFunctionReturn(0);
 }
 
@@ -216,7 +227,6 @@ static void Exchange(Expel *x, int e, double swept[])
 /* Every excess crosses one face. */
 static PetscErrorCode Hop(Expel *x, double swept[])
 {
-  const Stars *s = x->f->stars;
   const int n = ListChanging(x);
   PetscFunctionBeginUser;
   for (int k = 0; k < n; k++) {
@@ -229,10 +239,9 @@ static PetscErrorCode Hop(Expel *x, double swept[])
   for (int k = 0; k < n; k++) {
     const int e = x->front[k];
     if (x->distance[e] != FAR) x->balance[e].excess = x->distance[e] ? x->come[e] : 0.0;
-    if (x->balance[e].excess > 0.0) x->active[x->nactive++] = e;
+    AddActive(x, e);
   }
-  PetscCall(StarsExchange(s, sizeof *x->balance, x->balance));
-  AddActive(x, s->ne, s->nl);
+  PetscCall(ExchangeBalance(x));
   PetscFunctionReturn(0);
 }
 

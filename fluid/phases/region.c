@@ -2,9 +2,11 @@
 #include "common/supermesh/search.h"
 #include "fluid/phases/phases_impl.h"
 
+enum { SIDES = 2048 };
+
 /* A piece of an element with more than so many triangles of regions is quartered where that divides them, so many times at most: what a
  * piece costs grows with the square of their number. */
-enum { SIDES = 2048, PIECE_MOST = 64, QUARTERED_MOST = 12 };
+enum { PIECE_MOST = 64, QUARTERED_MOST = 12 };
 
 typedef struct {
   int n;
