@@ -111,6 +111,26 @@ PetscErrorCode MaterialSet(Material m, MaterialLevel level, const double rho[], 
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode MaterialRaiseViscosity(Material m, const double least[])
+{
+  double *mu = m->value[MATERIAL_STEP] + Count(m);
+  PetscScalar *v;
+  PetscFunctionBeginUser;
+  PetscCall(SeparateLevels(m));
+  PetscCall(VecGetArrayWrite(m->ghosted, &v));
+  for (int e = 0; e < m->mesh->ne; e++) {
+    v[NFIELDS * e + RHO] = 0.0;
+    v[NFIELDS * e + MU] = least[e];
+  }
+  PetscCall(VecRestoreArrayWrite(m->ghosted, &v));
+  PetscCall(GhostedUpdate(m->ghosted));
+  PetscCall(GhostedGetArray(m->ghosted, &v));
+  for (size_t e = 0; e < Count(m); e++) mu[e] = fmax(mu[e], v[NFIELDS * e + MU]);
+  PetscCall(GhostedRestoreArray(m->ghosted, &v));
+  m->revision++;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode MaterialAdvance(Material m)
 {
   PetscFunctionBeginUser;

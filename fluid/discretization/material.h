@@ -27,6 +27,8 @@ PetscErrorCode MaterialDestroy(Material *m);
 /* rho[ne], mu[ne] of the owned elements at MATERIAL_OLD or MATERIAL_NEW; ghosts follow.  Density must be
  * positive, viscosity not negative.  Collective. */
 PetscErrorCode MaterialSet(Material m, MaterialLevel level, const double rho[], const double mu[]);
+/* At MATERIAL_STEP viscosity is at least least[ne], Pa s, until any level is set or advanced.  Collective. */
+PetscErrorCode MaterialRaiseViscosity(Material m, const double least[]);
 /* The step is complete: new becomes old.  Collective. */
 PetscErrorCode MaterialAdvance(Material m);
 /* Both levels are kept, or what was kept is put back: for a step that is redone.  Collective. */

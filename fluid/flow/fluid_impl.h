@@ -66,6 +66,8 @@ PetscErrorCode FluidLeaveCompressible(Fluid f);
 PetscErrorCode FluidCheckDensity(Fluid f, const double rho[]);
 /* Moves the phases over dt with the velocity in mass_flux, extrapolated by s steps, and makes it the mass flux.  Collective. */
 PetscErrorCode FluidMovePhases(Fluid f, double dt, double s);
+/* interface_viscosity.c, as part of that: MATERIAL_STEP's viscosity; u[ne][6]: that velocity, like u of flux.h, m/s.  Collective. */
+PetscErrorCode FluidDampInterface(Fluid f, const double u[]);
 /* After that: the density of what elements have beside the solid (f->outside).  Collective. */
 PetscErrorCode FluidSetOutside(Fluid f);
 /* p becomes the pressure that, with its values on open boundaries as they are, makes the acceleration weight - R^-1 grad p

@@ -135,9 +135,10 @@ PetscErrorCode FluidMovePhases(Fluid f, double dt, double s)
   step.pressure = pressure;
   PetscCall(PhaseTransportStep(f->phases, &step));
   PetscCall(VecRestoreArray(f->mass_flux, &flux));
-  PetscCall(PetscFree2(u, moves));
   PetscCall(PetscFree(pressure));
   PetscCall(SetPhaseMaterial(f, MATERIAL_NEW));
+  PetscCall(FluidDampInterface(f, u));
+  PetscCall(PetscFree2(u, moves));
   PetscCall(SetInSolid(f));
   PetscFunctionReturn(0);
 }

@@ -18,7 +18,7 @@
  * and Liu 2000 on squares have the same property).  Along the line R has the mean density of the element.
  *
  * What differs from one element to the next is lost in such distances: the flow raises water in one and lowers it in another, and no
- * weight restores them.  (Without the following still water was unstable: tests/phases/README.md, "Still water".)  So a part of what the
+ * weight restores them.  So a part of what the
  * element holds beyond the volume that the distances give it weighs: of b g,  b = SURPLUS (rho_K - rho_d)/rho_heavy,  rho_d the density of
  * the linear d.  0 at rest on any mesh, of order h times the curvature else; over the heavier density, as light elements would leap.
  *
