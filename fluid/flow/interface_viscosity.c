@@ -2,7 +2,7 @@
  *
  * What upwinding takes from a flow goes with its speed: from water that stands nothing.  There waves as short as an element, of which the volumes of elements,
  * the vertices' distances (phases/effective_density.h) and the extrapolation in time know too little, grow until they are fast enough for upwinding to end
- * them, at some 0.1 m/s in elements of 5 cm (tests/phases/README.md, "Still water").  So elements that are cut, and beside them lighter ones, have at least
+ * them, at some 0.1 m/s in elements of 5 cm (tests/phases/README.md, "Still water").  So elements that are cut, and those on the other side of their faces, have at least
  *
  *     nu  =  h max(DAMPING c - |u|, 0),     c  =  sqrt(g h [rho]/(rho_1 + rho_2)),     h^2 twice an element's area,
  *
@@ -70,7 +70,7 @@ PetscErrorCode FluidDampInterface(Fluid f, const double u[])
     double largest = a[e];
     for (int i = 0; i < 3; i++) {
       const int nb = m->neighbor[3 * e + i];
-      if (nb >= 0 && rho[e] < rho[nb]) largest = fmax(largest, a[nb]);
+      if (nb >= 0) largest = fmax(largest, a[nb]);
     }
     least[e] = rho[e] * h * fmax(DAMPING * sqrt(g * h * largest) - Speed(u + 6 * e), 0.0);
   }
