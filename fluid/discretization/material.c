@@ -86,47 +86,51 @@ void MaterialSetTheta(Material m, double theta)
   if (m->varies) WeighLevels(m);
 }
 
-PetscErrorCode MaterialSet(Material m, MaterialLevel level, const double rho[], const double mu[])
+/* m->ghosted = rho[ne] and mu[ne], and the ghosts'. */
+static PetscErrorCode FillGhosts(Material m, const double rho[], const double mu[])
 {
   PetscScalar *v;
   PetscFunctionBeginUser;
-  PetscCheck(level == MATERIAL_OLD || level == MATERIAL_NEW, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-             "material is set at the beginning or the end of a step (MATERIAL_OLD, MATERIAL_NEW)");
-  PetscCall(SeparateLevels(m));
   PetscCall(VecGetArrayWrite(m->ghosted, &v));
   for (int e = 0; e < m->mesh->ne; e++) {
-    PetscCheck(rho[e] > 0.0 && mu[e] >= 0.0, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-               "element %d: expected a positive density and a viscosity, found %g kg/m3 and %g Pa s", e,
-               rho[e], mu[e]);
     v[NFIELDS * e + RHO] = rho[e];
     v[NFIELDS * e + MU] = mu[e];
   }
   PetscCall(VecRestoreArrayWrite(m->ghosted, &v));
   PetscCall(GhostedUpdate(m->ghosted));
-  PetscCall(GhostedGetArray(m->ghosted, &v));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode MaterialSet(Material m, MaterialLevel level, const double rho[], const double mu[])
+{
+  const PetscScalar *v;
+  PetscFunctionBeginUser;
+  PetscCheck(level == MATERIAL_OLD || level == MATERIAL_NEW, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
+             "material is set at the beginning or the end of a step (MATERIAL_OLD, MATERIAL_NEW)");
+  for (int e = 0; e < m->mesh->ne; e++)
+    PetscCheck(rho[e] > 0.0 && mu[e] >= 0.0, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
+               "element %d: expected a positive density and a viscosity, found %g kg/m3 and %g Pa s", e,
+               rho[e], mu[e]);
+  PetscCall(SeparateLevels(m));
+  PetscCall(FillGhosts(m, rho, mu));
+  PetscCall(GhostedGetArrayRead(m->ghosted, &v));
   for (size_t e = 0; e < Count(m); e++)
     for (int k = 0; k < NFIELDS; k++) m->value[level][k * Count(m) + e] = v[NFIELDS * e + k];
-  PetscCall(GhostedRestoreArray(m->ghosted, &v));
+  PetscCall(GhostedRestoreArrayRead(m->ghosted, &v));
   WeighLevels(m);
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode MaterialRaiseViscosity(Material m, const double least[])
 {
-  double *mu = m->value[MATERIAL_STEP] + Count(m);
-  PetscScalar *v;
+  const PetscScalar *v;
   PetscFunctionBeginUser;
   PetscCall(SeparateLevels(m));
-  PetscCall(VecGetArrayWrite(m->ghosted, &v));
-  for (int e = 0; e < m->mesh->ne; e++) {
-    v[NFIELDS * e + RHO] = 0.0;
-    v[NFIELDS * e + MU] = least[e];
-  }
-  PetscCall(VecRestoreArrayWrite(m->ghosted, &v));
-  PetscCall(GhostedUpdate(m->ghosted));
-  PetscCall(GhostedGetArray(m->ghosted, &v));
+  double *rho = m->value[MATERIAL_STEP], *mu = rho + Count(m);
+  PetscCall(FillGhosts(m, rho, least));
+  PetscCall(GhostedGetArrayRead(m->ghosted, &v));
   for (size_t e = 0; e < Count(m); e++) mu[e] = fmax(mu[e], v[NFIELDS * e + MU]);
-  PetscCall(GhostedRestoreArray(m->ghosted, &v));
+  PetscCall(GhostedRestoreArrayRead(m->ghosted, &v));
   m->revision++;
   PetscFunctionReturn(0);
 }

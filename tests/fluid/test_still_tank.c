@@ -120,7 +120,7 @@ static PetscErrorCode Still(int n, unsigned seed, int steps, double viscosity, P
 
 enum { TENTHS = 10 };
 
-/* Water that is not quite level moves no faster at the end than at the start.  (Without viscosity beside the interface 1e4 to 1e5 times as fast.) */
+/* Water that is not quite level moves no faster at the end than at the start.  (Without viscosity beside the interface 140 and 37 000 times as fast on the meshes of seeds 4 and 7.) */
 static PetscErrorCode Swaying(int n, unsigned seed, double dt, double end, int print)
 {
   const Region region[2] = {{.shape = REGION_BOX, .phase = 1, .a = {-1, -1}, .b = {2, 2}},
@@ -162,6 +162,7 @@ int main(int argc, char **argv)
       for (unsigned seed = 1u; seed < 4u; seed++) PetscCall(Dry(8, seed));
     }
     tank_advection = PHASES_GEOMETRIC;
+    PetscCall(Swaying(20, 6u, 0.01, 8.0, 0));
     PetscCall(Swaying(20, 4u, 0.02, 8.0, 0));
     PetscCall(Swaying(20, 7u, 0.02, 8.0, 0));
   }
