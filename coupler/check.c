@@ -15,7 +15,6 @@ static const CoracleCaseKey KEYS[] = {
     {"note", "", "what a reader of the results must know"},
     {"resume", "",
      "a checkpoint's folder from which the run resumes, or last: that of output.folder, if there is one"},
-    {"output.checkpoint", "s", "by the clock, from one checkpoint to the next; 0: none"},
     {"output.trace", "", "trace.json: what each rank did when, for ui.perfetto.dev"},
     {"fluid.probes[].solid_point", "m",
      "a point of the solid's surface at the start: a pressure gauge that moves with it"},

@@ -19,6 +19,7 @@ PetscErrorCode RunOpenOutput(RunState *run)
   snprintf(ranks, sizeof ranks, "ranks of fluid, coupler, solid %d:%d:%d", ServerRanks(loop->server, "fluid"),
            ServerRanks(loop->server, "coupler"), ServerRanks(loop->server, "solid"));
   PetscCall(CaseCopyWrite(folder, ranks, c->argc, c->argv, &copy));
+  PetscCall(EarlyStopBegin(folder, c->walltime, ServerWall(loop->server), &run->early_stop));
   PetscCall(CheckpointsCreate(PETSC_COMM_WORLD, loop->server, loop->c, &run->checkpoints));
   PetscCall(WriterCreate(PETSC_COMM_WORLD, loop->c, loop->from, &loop->writer));
   PetscFunctionReturn(0);

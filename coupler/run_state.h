@@ -3,6 +3,7 @@
  * time_loop.c; everything is collective. */
 #ifndef CORACLE_RUN_STATE_H
 #define CORACLE_RUN_STATE_H
+#include "common/program/early_stop.h"
 #include "coupler/checkpoints.h"
 #include "coupler/coupling_iteration.h"
 #include "coupler/divergence_monitor.h"
@@ -17,8 +18,10 @@ typedef struct {
   CouplingIteration iteration;
   DivergenceMonitor monitor;
   Checkpoints checkpoints;
+  EarlyStop early_stop;
   Gauges gauges;
   double t, dt;       /* start and length of the current step, s */
+  PetscBool ends;     /* with the accepted step: at time.end, or before */
   PetscBool has_left; /* a node has been seen outside of the fluid's domain */
   int ncorrection;
   const CoracleCorrection *correction; /* [ncorrection] of the last accepted step, not sent yet; borrowed */

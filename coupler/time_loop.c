@@ -236,6 +236,8 @@ static PetscErrorCode AcceptStep(RunState *run, StepRecord *step)
   PetscCall(MoveGauges(run));
   PetscCall(BulkMotionOf(PETSC_COMM_WORLD, &run->solid, &step->motion));
   run->t = TimeReached(t, end) ? end : t;
+  run->ends = (PetscBool)(run->t >= end);
+  if (!run->ends) PetscCall(EarlyStopDue(&run->early_stop, run->t, &run->ends));
   step->t = run->t;
   step->dt = run->dt;
   PetscCall(RunCheckDivergence(run, step));
@@ -288,13 +290,13 @@ PetscErrorCode TimeLoopRun(TimeLoop *loop)
 
   PetscFunctionBeginUser;
   PetscCall(Start(&run));
-  while (run.t < loop->c->end) {
+  while (!run.ends) {
     const double waited = ServerWaited(loop->server);
     StepRecord step = {0};
     if (NeedsSupport(&run)) PetscCall(FindSupport(&run, &step));
     PetscCall(SolveStep(&run, &step));
     PetscCall(AcceptStep(&run, &step));
-    if (run.t < loop->c->end) PetscCall(BeginStep(&run, &step));
+    if (!run.ends) PetscCall(BeginStep(&run, &step));
     step.waiting = ServerWaited(loop->server) - waited;
     PetscCall(ServerPhase(loop->server, "output"));
     PetscCall(WriterStep(loop->writer, &step));

@@ -12,6 +12,7 @@ bin=$coracle/build           # of an installed package: /usr/bin
 
 export OPENBLAS_NUM_THREADS=1
 programs=coracle-$SLURM_JOB_ID.conf
+# the run ends five minutes before the job does, with a checkpoint; sbatch slurm.sh my_case.yaml --set resume=last goes on
+[ -z "${SLURM_JOB_END_TIME:-}" ] || set -- "$@" --set time.walltime=$((SLURM_JOB_END_TIME - $(date +%s) - 300))
 "$coracle/scripts/launch.sh" --bin "$bin" --ranks "$ranks" --print srun --write "$programs" "$@"
-# the job is ended a little before its time: a checkpoint every ten minutes (output.checkpoint); --set resume=last resumes
 srun -n "$SLURM_NTASKS" --multi-prog "$programs"

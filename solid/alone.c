@@ -6,6 +6,7 @@
 #include "common/output/folder.h"
 #include "common/output/time_reached.h"
 #include "common/program/case_copy.h"
+#include "common/program/early_stop.h"
 #include "common/program/program.h"
 #include "common/program/run_case.h"
 #include "solid/alone_summary.h"
@@ -36,7 +37,7 @@ static void Refuse(void *context, const char *message)
 typedef struct {
   RunCase keys;
   char run[CHECKPOINT_RUN];
-  double longest, every; /* s, the largest step; by the clock from one checkpoint to the next, 0: none */
+  double longest; /* s, the largest step */
   AloneTotals totals;
   Solid solid;
   Writer writer;
@@ -93,8 +94,8 @@ static PetscErrorCode Save(const Run *m)
 static PetscErrorCode SaveIfDue(const Run *m, PetscBool ends, double *last)
 {
   PetscFunctionBeginUser;
-  if (m->every <= 0.0) PetscFunctionReturn(0);
-  int due = ends || MPI_Wtime() - *last >= m->every;
+  if (m->keys.checkpoint <= 0.0) PetscFunctionReturn(0);
+  int due = ends || MPI_Wtime() - *last >= m->keys.checkpoint;
   PetscCallMPI(MPI_Bcast(&due, 1, MPI_INT, 0, PETSC_COMM_WORLD));
   if (!due) PetscFunctionReturn(0);
   PetscCall(Save(m));
@@ -108,15 +109,20 @@ static PetscErrorCode Advance(Run *m)
   const int steps = (int)TimeSteps(length, m->longest);
   const double dt = length / steps;
   double said = start, saved = start, h;
+  EarlyStop early_stop;
+  PetscBool ends = PETSC_FALSE;
   PetscFunctionBeginUser;
-  for (int step = 1; step <= steps; step++) {
+  PetscCall(EarlyStopBegin(m->keys.folder, m->keys.walltime, start - m->totals.start, &early_stop));
+  for (int step = 1; !ends; step++) {
     PetscCall(SolidStart(m->solid, dt, NULL));
     while (SolidRemaining(m->solid)) PetscCall(SolidSubstep(m->solid, &h));
     PetscCall(SolidRebalance(m->solid));
     PetscCall(WriterStep(m->writer, m->solid, 0.0));
     m->totals.steps++;
     Say(m, dt, begun, start, &said);
-    PetscCall(SaveIfDue(m, step == steps, &saved));
+    ends = (PetscBool)(step == steps);
+    if (!ends) PetscCall(EarlyStopDue(&early_stop, SolidGetStats(m->solid)->t, &ends));
+    PetscCall(SaveIfDue(m, ends, &saved));
   }
   PetscFunctionReturn(0);
 }
@@ -137,7 +143,6 @@ static PetscErrorCode ReadRun(CoracleCase c, Run *m, char resume[PETSC_MAX_PATH_
   PetscFunctionBeginUser;
   RunCaseRead(c, &m->keys);
   m->longest = CoracleCasePositive(c, "time.dt_max");
-  m->every = CoracleCaseNumberOr(c, "output.checkpoint", 600.0, 0.0, HUGE_VAL);
   if (ParticipantFindResume(c, PETSC_MAX_PATH_LEN, resume))
     PetscCall(PetscPrintf(PETSC_COMM_WORLD,
                           "coracle: there is no %s/" CORACLE_CHECKPOINT ": begins at the start\n",

@@ -1,4 +1,5 @@
 #include "common/program/run_case.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -14,6 +15,8 @@ void RunCaseRead(CoracleCase c, RunCase *r)
                       strlen(r->folder), (int)FOLDER_LENGTH);
   r->every = CoracleCasePositive(c, "output.every");
   r->end = CoracleCasePositive(c, "time.end");
+  r->checkpoint = CoracleCaseNumberOr(c, "output.checkpoint", 600.0, 0.0, HUGE_VAL);
+  r->walltime = CoracleCaseHas(c, "time.walltime") ? CoracleCasePositive(c, "time.walltime") : 0.0;
 }
 
 void RunCaseNoteSteps(double end, double longest)
@@ -30,10 +33,15 @@ void RunCaseDescribe(CoracleCase c, const CoracleCaseKey own[])
       {"gravity[]", "s, m/s2",
        "time, x and y, linear between rows; of an accelerated frame gravity less its acceleration"},
       {"time.end", "s", "when the run ends"},
+      {"time.walltime", "s",
+       "by the clock from the start, after which the run ends with a checkpoint, as it does within a second "
+       "when there is a file stop in "
+       "output.folder; absent: at time.end"},
       {"time.dt_max", "s", "largest time step"},
       {"time.cfl", "",
        "largest time step over the time that the flow takes through an element, largest over the mesh"},
       {"output.folder", "", "where results go; made if missing"},
+      {"output.checkpoint", "s", "by the clock, from one checkpoint to the next; 0: none"},
       {"output.every", "s", "time from one snapshot of the fields to the next; there is one at the end, too"},
       {NULL, NULL, NULL}};
   CoracleCaseDescribe(c, own);

@@ -6,6 +6,9 @@
 typedef struct {
   const char *folder; /* output.folder, borrowed until CoracleCaseClose */
   double every, end;  /* s: output.every, time.end */
+  double checkpoint;  /* s by the clock: from one checkpoint to the next, 0: none (output.checkpoint) */
+  double
+      walltime; /* s by the clock: after which the run ends with a checkpoint, 0: at time.end (time.walltime) */
 } RunCase;
 
 void RunCaseRead(CoracleCase c, RunCase *r);

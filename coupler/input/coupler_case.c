@@ -92,7 +92,8 @@ PetscErrorCode CouplerCaseRead(CoracleCase file, CouplerCase *c)
   c->folder = run.folder;
   c->every = run.every;
   c->end = run.end;
-  c->checkpoint = CoracleCaseNumberOr(file, "output.checkpoint", 600.0, 0.0, HUGE_VAL);
+  c->checkpoint = run.checkpoint;
+  c->walltime = run.walltime;
   (void)CoracleCaseBoolOr(file, "output.trace", false); /* the library's */
   c->dt_max = CoracleCasePositive(file, "time.dt_max");
   /* the fluid's, read here so that the whole section can be checked */

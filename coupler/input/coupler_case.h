@@ -11,6 +11,7 @@ typedef struct {
   const char *folder;        /* output.folder, borrowed until CoracleCaseClose */
   double end, dt_max, every; /* s */
   double checkpoint;         /* wall-clock seconds from one to the next, 0: none */
+  double walltime;           /* wall-clock seconds after which the run ends with a checkpoint, 0: at `end` */
   int max_iterations;        /* coupling iterations of a step; 1: the first is accepted */
   double tolerance;          /* of the coupling iterations, relative (coupling_iteration.h) */
   CouplerOptions options;

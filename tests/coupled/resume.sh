@@ -56,6 +56,28 @@ must whole 1:1:1 --set time.end=0.1 "${probes[@]}"
 # ... on more ranks of the solid than of the coupler, which then has nodes twice
 must longer-spread 1:1:3 --set time.end=0.1 --set resume=last "${probes[@]}"
 
+# ... and one that ends before time.end: its time by the clock has passed after a step (fluid and solid, the solid alone), or somebody makes a file
+ends_early() {
+  grep -q "ends at t = .* s, before time.end: $2" "$scratch/$1.log" || { echo "$1 has not ended early:"; cat "$scratch/$1.log"; exit 1; }
+}
+must late 1:1:1 --set time.end=0.1 --set time.walltime=1e-6 "${probes[@]}"
+ends_early late "time.walltime has passed"
+must late 1:2:1 --set time.end=0.1 --set resume=last "${probes[@]}"
+without=(--alone --set fluid=null --set coupler=null)
+must alone 1:1:1 "${without[@]}" --set time.end=0.1
+must alone-late 1:1:2 "${without[@]}" --set time.end=0.1 --set time.walltime=1e-6
+ends_early alone-late "time.walltime has passed"
+must alone-late 1:1:1 "${without[@]}" --set time.end=0.1 --set resume=last
+run asked 1:1:1 --set time.end=1000 &
+for _ in $(seq 600); do
+  [ ! -e "$scratch/asked/coupler.csv" ] || [ "$(wc -l <"$scratch/asked/coupler.csv")" -le 2 ] || break
+  sleep 0.05
+done
+touch "$scratch/asked/stop"
+wait $! || { echo "asked to end it has failed:"; cat "$scratch/asked.log"; exit 1; }
+ends_early asked "asked to by a file"
+[ -e "$scratch/asked/checkpoint/coupler.h5" ] && [ ! -e "$scratch/asked/stop" ] || { ls "$scratch/asked"; exit 1; }
+
 # fails LABEL MESSAGE [launch.sh arguments]: LABEL ends with an error.
 fails() {
   local label=$1 message=$2
@@ -103,6 +125,10 @@ compare("other", "other-again", {"coupler": ["t [s]", "u_y [m/s]"]}, 1e-7)  # wh
 compare("strong", "strong-again", {"coupler": ["t [s]", "u_y [m/s]"]}, 1e-3)  # quasi-Newton columns are not saved
 compare("wet", "wet-again", {"coupler": ["t [s]", "u_y [m/s]", "F_y [N]"], "fluid": ["t [s]", "kinetic energy [J/m]"], "solid": ["t [s]", "omega0 [rad/s]"]}, 1e-6)
 compare("whole", "longer-kept", {"solid_probes": ["t [s]", "middle_y [m]", "middle_v [m/s]"]}, 1e-9)
+compare("whole", "late", dict(motion, solid_probes=["t [s]", "middle_y [m]", "middle_v [m/s]"]), 1e-7)
+for key in ("t [s]", "y0 [m]", "v0 [m/s]"):
+    a, b = (column(label, "solid", key) for label in ("alone", "alone-late"))
+    assert len(a) == len(b) and all(abs(p - q) <= 1e-12 for p, q in zip(a, b)), "the solid alone, %s: %s, after resuming %s" % (key, a, b)
 compare("whole", "longer-spread", {"solid_probes": ["t [s]", "middle_y [m]", "middle_v [m/s]"]}, 1e-7)
 t = column("other-folder", "coupler", "t [s]")
 assert abs(t[0] - 0.11) < 1e-9 and abs(t[-1] - 0.15) < 1e-9, "in another folder: %s" % t
