@@ -74,15 +74,41 @@ static PetscErrorCode ReadRing(CoracleCase c, int body, const double centre[2], 
   PetscFunctionReturn(0);
 }
 
-typedef enum { SHAPE_DISC, SHAPE_RECTANGLE, SHAPE_RING, SHAPE_FILE } Shape;
+typedef enum { SHAPE_DISC, SHAPE_ELLIPSE, SHAPE_RECTANGLE, SHAPE_RING, SHAPE_FILE } Shape;
 
 static Shape ReadShapeName(CoracleCase c, int body)
 {
-  static const char *const SHAPES[] = {"disc", "rectangle", "ring", NULL};
+  static const char *const SHAPES[] = {"disc", "ellipse", "rectangle", "ring", NULL};
   char key[CASE_KEY];
   return CoracleCaseHas(c, BodyKey(key, body, "mesh"))
              ? SHAPE_FILE
              : (Shape)CoracleCaseWord(c, BodyKey(key, body, "shape"), -1, SHAPES);
+}
+
+/* 6 rings^2 triangles fill a disc, or an ellipse with that larger radius. */
+static void CheckRings(CoracleCase c, int body, double radius, double size)
+{
+  const double rings = M_PI * radius / (3.0 * size);
+  CheckCount(c, body, "size", 6.0 * rings * rings);
+}
+
+static PetscErrorCode ReadSides(CoracleCase c, int body, Shape shape, const double centre[2], double size,
+                                MeshSerial *mesh)
+{
+  char key[CASE_KEY];
+  const double width = CoracleCasePositive(c, BodyKey(key, body, "width")),
+               height = CoracleCasePositive(c, BodyKey(key, body, "height")),
+               angle = CoracleCaseNumberOr(c, BodyKey(key, body, "angle"), 0.0, -2.0 * M_PI, 2.0 * M_PI),
+               radii[2] = {0.5 * width, 0.5 * height};
+  PetscFunctionBeginUser;
+  if (shape == SHAPE_ELLIPSE) {
+    CheckRings(c, body, PetscMax(radii[0], radii[1]), size);
+    PetscCall(ShapeEllipse(centre, radii, angle, size, mesh));
+  } else {
+    CheckCount(c, body, "size", 2.0 * (width / size + 1.0) * (height / size + 1.0));
+    PetscCall(ShapeRectangle(centre, width, height, angle, size, mesh));
+  }
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode CaseReadShape(CoracleCase c, int body, MeshSerial *mesh)
@@ -98,18 +124,13 @@ PetscErrorCode CaseReadShape(CoracleCase c, int body, MeshSerial *mesh)
   CoracleCaseVector(c, BodyKey(key, body, "centre"), 2, centre);
   const double size = CoracleCasePositive(c, BodyKey(key, body, "size"));
   if (shape == SHAPE_DISC) {
-    const double radius = CoracleCasePositive(c, BodyKey(key, body, "radius")),
-                 rings = M_PI * radius / (3.0 * size);
-    CheckCount(c, body, "size", 6.0 * rings * rings);
+    const double radius = CoracleCasePositive(c, BodyKey(key, body, "radius"));
+    CheckRings(c, body, radius, size);
     PetscCall(ShapeDisc(centre, radius, size, mesh));
-  } else if (shape == SHAPE_RECTANGLE) {
-    const double width = CoracleCasePositive(c, BodyKey(key, body, "width"));
-    const double height = CoracleCasePositive(c, BodyKey(key, body, "height"));
-    const double angle = CoracleCaseNumberOr(c, BodyKey(key, body, "angle"), 0.0, -2.0 * M_PI, 2.0 * M_PI);
-    CheckCount(c, body, "size", 2.0 * (width / size + 1.0) * (height / size + 1.0));
-    PetscCall(ShapeRectangle(centre, width, height, angle, size, mesh));
-  } else {
+  } else if (shape == SHAPE_RING) {
     PetscCall(ReadRing(c, body, centre, size, mesh));
+  } else {
+    PetscCall(ReadSides(c, body, shape, centre, size, mesh));
   }
   PetscFunctionReturn(0);
 }

@@ -54,24 +54,35 @@ static int FillRing(MeshSerial *m, int k, int e)
   return e;
 }
 
-PetscErrorCode ShapeDisc(const double centre[2], double radius, double size, MeshSerial *mesh)
+PetscErrorCode ShapeEllipse(const double centre[2], const double radii[2], double turned, double size,
+                            MeshSerial *mesh)
 {
   static const char *const NAMES[] = {"boundary"};
-  const int rings = PetscMax(2, (int)ceil(M_PI * radius / (3.0 * size))), sides = 6 * rings;
+  const int rings = PetscMax(2, (int)ceil(M_PI * PetscMax(radii[0], radii[1]) / (3.0 * size))),
+            sides = 6 * rings;
   /* polygon of n sides and circumradius R: area n R^2 sin(2 pi/n)/2 */
-  const double circumradius = radius * sqrt(2.0 * M_PI / (sides * sin(2.0 * M_PI / sides)));
+  const double outside = sqrt(2.0 * M_PI / (sides * sin(2.0 * M_PI / sides))), cosine = cos(turned),
+               sine = sin(turned);
   PetscFunctionBeginUser;
   PetscCall(Allocate(1 + 3 * rings * (rings + 1), 6 * rings * rings, sides, 1, NAMES, mesh));
   for (int k = 0, e = 0; k <= rings; k++) {
     for (int i = 0; i < PetscMax(1, 6 * k); i++) {
-      const double angle = k ? 2.0 * M_PI * i / (6 * k) : 0.0, r = circumradius * k / rings;
-      mesh->x[2 * RingNode(k, i)] = centre[0] + r * cos(angle);
-      mesh->x[2 * RingNode(k, i) + 1] = centre[1] + r * sin(angle);
+      const double angle = k ? 2.0 * M_PI * i / (6 * k) : 0.0,
+                   x = radii[0] * outside * k / rings * cos(angle),
+                   y = radii[1] * outside * k / rings * sin(angle);
+      mesh->x[2 * RingNode(k, i)] = centre[0] + cosine * x - sine * y;
+      mesh->x[2 * RingNode(k, i) + 1] = centre[1] + sine * x + cosine * y;
     }
     if (k) e = FillRing(mesh, k, e);
   }
   for (int i = 0; i < sides; i++) SetFacet(mesh, i, RingNode(rings, i), RingNode(rings, i + 1), 0);
   PetscFunctionReturn(0);
+}
+
+PetscErrorCode ShapeDisc(const double centre[2], double radius, double size, MeshSerial *mesh)
+{
+  const double radii[2] = {radius, radius};
+  return ShapeEllipse(centre, radii, 0.0, size, mesh);
 }
 
 static void FillCells(MeshSerial *m, int nx, int ny)

@@ -8,6 +8,10 @@
  * size whose *area is pi r^2* (the corners lie slightly outside the circle, by r pi^2/(3 (6m)^2)), so that
  * mass and displaced fluid are the disc's.  Boundary name: boundary. */
 PetscErrorCode ShapeDisc(const double centre[2], double radius, double size, MeshSerial *mesh);
+/* The affine image of a disc's mesh, of area pi times the product of the radii along its axes, turned (rad): edges of the boundary no longer
+ * than size, the others shorter along the shorter axis. */
+PetscErrorCode ShapeEllipse(const double centre[2], const double radii[2], double turned, double size,
+                            MeshSerial *mesh);
 /* A rectangle of width by height about centre, turned by angle (rad), with edges no longer than size along
  * its sides; diagonals alternate.  Boundary names: left, right, bottom, top, as before turning. */
 PetscErrorCode ShapeRectangle(const double centre[2], double width, double height, double angle, double size,

@@ -49,6 +49,27 @@ static PetscErrorCode Disc(double radius, double size)
   return MeshSerialDestroy(&m);
 }
 
+/* Area; where it ends along its axes, which are turned; edges of the boundary. */
+static PetscErrorCode Ellipse(void)
+{
+  const double centre[2] = {0.3, -0.2}, radii[2] = {0.25, 1.0}, turned = 0.4;
+  double area, angle, longest, extent[2] = {0.0, 0.0};
+  MeshSerial m;
+  PetscCall(ShapeEllipse(centre, radii, turned, 0.1, &m));
+  Quality(&m, &area, &angle, &longest);
+  CHECK(fabs(area / (M_PI * radii[0] * radii[1]) - 1.0) < 1e-12, "area %.15g", area);
+  for (int b = 0; b < m.nb; b++) {
+    const Point p = At(&m, m.facet[2 * b]), q = At(&m, m.facet[2 * b + 1]),
+                d = {p.x - centre[0], p.y - centre[1]};
+    extent[0] = fmax(extent[0], d.x * cos(turned) + d.y * sin(turned));
+    extent[1] = fmax(extent[1], d.y * cos(turned) - d.x * sin(turned));
+    CHECK(hypot(q.x - p.x, q.y - p.y) < 0.1 * 1.02, "edge %g", hypot(q.x - p.x, q.y - p.y));
+  }
+  for (int k = 0; k < 2; k++)
+    CHECK(fabs(extent[k] / radii[k] - 1.0) < 2e-3, "it ends %g from its centre, not %g", extent[k], radii[k]);
+  return MeshSerialDestroy(&m);
+}
+
 static PetscErrorCode Rectangle(void)
 {
   const double centre[2] = {0.3, -0.2};
@@ -114,6 +135,7 @@ int main(int argc, char **argv)
   PetscCall(Disc(0.125, 0.015));
   PetscCall(Disc(0.125, 0.2));
   PetscCall(Disc(2.0, 0.05));
+  PetscCall(Ellipse());
   PetscCall(Rectangle());
   PetscCall(Surface());
   Refused(4, 0.6, NULL, "is inverted: its area is");
