@@ -32,6 +32,7 @@ PetscErrorCode RunLoad(RunState *run, Checkpoint from)
   PetscFunctionBeginUser;
   PetscCall(CheckpointGetNumber(from, "t", &run->t));
   PetscCall(CheckpointGetNumber(from, "dt", &run->dt)); /* 0 from the end of a run: not chosen yet */
+  PetscCall(CheckpointGetNumber(from, "dt before", &run->dt_before));
   PetscCall(CheckpointGetDoubles(from, "divergence monitor", 0, 1, MONITOR_NUMBERS, row));
   run->monitor = (DivergenceMonitor){(int)row[0], (int)row[1], {row[2], row[3]}, {row[4], row[5]}, row[6]};
   if (run->t >= run->loop->c->end)
@@ -54,6 +55,7 @@ PetscErrorCode RunSave(const RunState *run)
   PetscCall(CheckpointCreate(PETSC_COMM_WORLD, run->checkpoints.due, "coupler", &to));
   PetscCall(CheckpointPutNumber(to, "t", run->t));
   PetscCall(CheckpointPutNumber(to, "dt", run->dt));
+  PetscCall(CheckpointPutNumber(to, "dt before", run->dt_before));
   PetscCall(CheckpointPutDoubles(to, "divergence monitor", rank ? 0 : 1, MONITOR_NUMBERS, row));
   PetscCall(WriterSave(run->loop->writer, to));
   PetscCall(CouplerSave(run->loop->coupler, to));

@@ -34,7 +34,8 @@ PetscErrorCode RunFail(const RunState *run, const char *format, ...)
 PetscErrorCode RunChooseStep(RunState *run, double proposed)
 {
   const CouplerCase *c = run->loop->c;
-  const double remaining = c->end - run->t, longest = run->dt > 0.0 ? MAX_GROWTH * run->dt : HUGE_VAL;
+  const double remaining = c->end - run->t,
+               longest = run->dt_before > 0.0 ? MAX_GROWTH * run->dt_before : HUGE_VAL;
   const double wanted = fmin(fmin(proposed, c->dt_max), longest);
 
   PetscFunctionBeginUser;

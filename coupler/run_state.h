@@ -20,14 +20,15 @@ typedef struct {
   Checkpoints checkpoints;
   EarlyStop early_stop;
   Gauges gauges;
-  double t, dt;       /* start and length of the current step, s */
+  double t, dt;       /* start and length of the current step, s; dt 0 when the run has ended */
+  double dt_before;   /* of the step before it, s; 0: there was none */
   PetscBool ends;     /* with the accepted step: at time.end, or before */
   PetscBool has_left; /* a node has been seen outside of the fluid's domain */
   int ncorrection;
   const CoracleCorrection *correction; /* [ncorrection] of the last accepted step, not sent yet; borrowed */
 } RunState;
 
-/* dt for the coming step: the fluid's proposal, at most time.dt_max and 1.3 of the last step's.  The last step ends exactly at time.end,
+/* dt for the coming step: the proposal, at most time.dt_max and 1.3 of dt_before.  The last step ends exactly at time.end,
  * and the one before it is shortened so that the last is not much smaller.  A proposal below 1e-6 of
  * time.dt_max ends the job: the flow diverges and would take ever shorter steps. */
 PetscErrorCode RunChooseStep(RunState *run, double proposed);

@@ -75,6 +75,7 @@ static PetscErrorCode SendCoupling(RunState *run)
                                    CouplerPredictedVelocity(loop->coupler),
                                    CouplerExplicitFraction(loop->coupler), CouplerGiven(loop->coupler)));
   PetscCall(ServerSendCoupling(loop->server, n, coupling));
+  run->start.changed = 0; /* a shorter step from here has the same mesh */
   PetscFunctionReturn(0);
 }
 
@@ -252,6 +253,7 @@ static PetscErrorCode BeginStep(RunState *run, StepRecord *step)
   const double start = MPI_Wtime() - ServerWaited(loop->server);
 
   PetscFunctionBeginUser;
+  run->dt_before = run->dt;
   PetscCall(RunChooseStep(run, ServerProposedStep(loop->server)));
   PetscCall(UpdateElements(run));
   PetscCall(CheckpointsRequest(&run->checkpoints, WriterSteps(loop->writer) + 1, run->t, PETSC_FALSE));
@@ -267,6 +269,7 @@ static PetscErrorCode Stop(RunState *run)
   double *zero;
 
   PetscFunctionBeginUser;
+  run->dt_before = run->dt;
   run->dt = 0.0;
   PetscCall(CheckpointsRequest(&run->checkpoints, WriterSteps(run->loop->writer), run->t, PETSC_TRUE));
   PetscCall(PetscCalloc1(2 * (size_t)run->solid.nnodes, &zero));

@@ -100,7 +100,7 @@ static int LooseBody(Solid s, double end)
 void NoteWalls(CoracleCase c, Solid s, double end)
 {
   const int loose = LooseBody(s, end);
-  if (s->setup.walls || loose < 0 || !GravityActs(s->setup.gravity, &s->setup.gravity_table)) return;
+  if (s->setup.walls || loose < 0 || GravityLargest(s->setup.gravity, &s->setup.gravity_table) == 0.0) return;
   if (CoracleCaseHas(c, "fluid.boundaries"))
     printf("note: there are no solid.walls: solid.bodies[%d] may leave through the sides of the fluid's "
            "domain, closed ones too, which hold the fluid alone\n",

@@ -123,6 +123,7 @@ PetscErrorCode SolidMoveFilms(Solid s)
   for (int k = 0; k < n; k++) motion[k] = MotionOf(place[k], film[k]);
   for (int i = 0; i < s->nnodes; i++) {
     const RigidMotion m = motion[piece[i]];
+    if (m.u[0] == 0.0 && m.u[1] == 0.0 && m.omega == 0.0) continue;
     const double cosine = cos(s->dt * m.omega), sine = sin(s->dt * m.omega),
                  r[2] = {s->x[2 * i] - m.centre[0], s->x[2 * i + 1] - m.centre[1]};
     s->x[2 * i] = m.centre[0] + s->dt * m.u[0] + cosine * r[0] - sine * r[1];

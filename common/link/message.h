@@ -15,7 +15,7 @@
  *                                  gauges
  *     COUPLING  fluid <- coupler   couplings                       couplings                          GetCoupling
  *     FLOW      fluid -> coupler   elements                        flow                               End
- *     CLOSE     both  -> coupler   reports                         reports                            Close
+ *     CLOSE     both  -> coupler   reports, spans of the trace     reports, spans                     Close
  *
  * FORCE and STEP carry the coming step (action, t, dt) and
  * the path of the checkpoint that is due in it; ELEMENTS and FLOW carry in dt the step that the fluid proposes.

@@ -155,17 +155,22 @@ static void ReceiveClose(Server s, ClientList *clients, Role role)
   }
 }
 
-/* On rank 0 the lists of the other coupler ranks behind its own, in the order of the ranks. */
-static void GatherBuffer(Server s, Buffer *mine)
+/* On rank 0 the lists of the other coupler ranks behind its own, in the order of the ranks; of items of `size` bytes, at most INT_MAX in all. */
+static void GatherBuffer(Server s, size_t size, Buffer *mine)
 {
-  const int bytes = (int)mine->size;
+  const int n = (int)(mine->size / size);
+  MPI_Datatype item;
   int *count = calloc((size_t)s->p->size, sizeof *count),
       *start = calloc((size_t)s->p->size + 1, sizeof *start);
-  MPI_Gather(&bytes, 1, MPI_INT, count, 1, MPI_INT, 0, s->p->app);
+  MPI_Type_contiguous((int)size, MPI_BYTE, &item);
+  MPI_Type_commit(&item);
+  MPI_Gather(&n, 1, MPI_INT, count, 1, MPI_INT, 0, s->p->app);
   for (int i = 0; i < s->p->size; i++) start[i + 1] = start[i] + count[i];
-  char *all = malloc((size_t)start[s->p->size] + 1);
-  MPI_Gatherv(mine->data, bytes, MPI_BYTE, all, count, start, MPI_BYTE, 0, s->p->app);
-  if (s->p->rank == 0) memcpy(BufferResize(mine, (size_t)start[s->p->size]), all, (size_t)start[s->p->size]);
+  const size_t bytes = size * (size_t)start[s->p->size];
+  char *all = malloc(bytes + 1);
+  MPI_Gatherv(mine->data, n, item, all, count, start, item, 0, s->p->app);
+  if (s->p->rank == 0) memcpy(BufferResize(mine, bytes), all, bytes);
+  MPI_Type_free(&item);
   free(all);
   free(start);
   free(count);
@@ -176,7 +181,7 @@ static void GatherReports(Server s, Role role)
 {
   Buffer all = {0};
   memcpy(BufferResize(&all, s->reports[role].size), s->reports[role].data, s->reports[role].size);
-  GatherBuffer(s, &all);
+  GatherBuffer(s, sizeof(Report), &all);
   const size_t own = s->reports[role].size;
   if (s->p->rank == 0)
     ReportMerge(&s->reports[role], (all.size - own) / sizeof(Report),
@@ -195,7 +200,7 @@ int ServerFinish(Server s)
   TraceEnd(&s->p->trace);
   const size_t own = s->p->trace.spans.size;
   if (own) memcpy(BufferExtend(&s->spans, own), s->p->trace.spans.data, own);
-  GatherBuffer(s, &s->spans);
+  GatherBuffer(s, sizeof(TraceSpan), &s->spans);
   return 0;
 }
 

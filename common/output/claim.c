@@ -63,23 +63,30 @@ static PetscErrorCode Sign(const char *path, int lock)
 
 /* --- earlier results ------------------------------------------------------------------------------------ */
 
-/* <participant>.<kind>, and <participant>.<grid>.xdmf. */
+static PetscBool EndsWith(const char *name, const char *ending)
+{
+  const size_t n = strlen(name), m = strlen(ending);
+  return (PetscBool)(n >= m && !strcmp(name + n - m, ending));
+}
+
+/* <participant>.<kind>, <participant>_<name>.csv and <participant>.<grid>.xdmf. */
 static PetscBool IsOf(const char *name, const char *participant)
 {
   static const char *const KINDS[] = {".h5", ".xdmf", ".xdmf.part", ".csv"};
-  const size_t n = strlen(name), led = strlen(participant), index = strlen(KINDS[1]);
+  const size_t led = strlen(participant);
   if (strncmp(name, participant, led)) return PETSC_FALSE;
   for (int k = 0; k < 4; k++)
     if (!strcmp(name + led, KINDS[k])) return PETSC_TRUE;
-  return name[led] == '.' && n > led + index && !strcmp(name + n - index, KINDS[1]) ? PETSC_TRUE
-                                                                                    : PETSC_FALSE;
+  return (PetscBool)((name[led] == '_' && EndsWith(name + led, ".csv")) ||
+                     (name[led] == '.' && EndsWith(name + led, ".xdmf")));
 }
 
-/* What runs leave: files of each participant, summary.json, case.yaml, checkpoints. */
+/* What runs leave: files of each participant, summary.json, trace.json, case.yaml, checkpoints. */
 static PetscBool IsResult(const char *name)
 {
   static const char CHECKPOINT[] = "checkpoint";
-  if (!strcmp(name, "summary.json") || !strcmp(name, "case.yaml")) return PETSC_TRUE;
+  if (!strcmp(name, "summary.json") || !strcmp(name, "trace.json") || !strcmp(name, "case.yaml"))
+    return PETSC_TRUE;
   if (!strncmp(name, CHECKPOINT, sizeof CHECKPOINT - 1) &&
       (!name[sizeof CHECKPOINT - 1] || name[sizeof CHECKPOINT - 1] == '.'))
     return PETSC_TRUE;

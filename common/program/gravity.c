@@ -1,4 +1,5 @@
 #include "common/program/gravity.h"
+#include <math.h>
 
 void GravityRead(CoracleCase c, double gravity[2], TimeTable *table)
 {
@@ -11,10 +12,10 @@ void GravityRead(CoracleCase c, double gravity[2], TimeTable *table)
   GravityOver(table, 0.0, 0.0, gravity);
 }
 
-int GravityActs(const double gravity[2], const TimeTable *table)
+double GravityLargest(const double gravity[2], const TimeTable *table)
 {
-  int acts = gravity[0] != 0.0 || gravity[1] != 0.0;
+  double largest = hypot(gravity[0], gravity[1]);
   for (int k = 0; k < table->nrows; k++)
-    acts |= TimeTableAt(table, k, 1) != 0.0 || TimeTableAt(table, k, 2) != 0.0;
-  return acts;
+    largest = fmax(largest, hypot(TimeTableAt(table, k, 1), TimeTableAt(table, k, 2)));
+  return largest;
 }

@@ -8,8 +8,8 @@
 /* The key `gravity`, m/s2: two numbers, or rows of time and both, borrowed until CoracleCaseClose.  gravity: that at 0 s; table: with
  * nrows 0 where it is constant. */
 void GravityRead(CoracleCase c, double gravity[2], TimeTable *table);
-/* Whether there is any at any time. */
-int GravityActs(const double gravity[2], const TimeTable *table);
+/* Its largest magnitude at any time, m/s2. */
+double GravityLargest(const double gravity[2], const TimeTable *table);
 /* gravity becomes the mean from t to t + dt, s, that at t for dt = 0; it stays as it is where it is constant. */
 static inline void GravityOver(const TimeTable *table, double t, double dt, double gravity[2])
 {

@@ -1,4 +1,5 @@
 #include "coupler/force/force.h"
+#include "common/link/coupling_gain.h"
 
 /* The flow on one coupled element. */
 typedef struct {
@@ -144,36 +145,6 @@ PetscErrorCode ForceAssembleToOwners(Overlap o, const ForceVertex vertex[], int 
   PetscFunctionReturn(0);
 }
 
-/* gain[c] -= sum over i of a u*; where a has nothing on its diagonal it has nothing at all, inside solids. */
-static void SubtractWall(const CoracleCoupling *k, const double u[6], double gain[2])
-{
-  if (k->a[0][0][0][0] == 0.0 && k->a[1][0][1][0] == 0.0) return;
-  for (int c = 0; c < 2; c++)
-    for (int i = 0; i < 3; i++)
-      for (int j = 0; j < 6; j++) gain[c] -= k->a[c][i][j / 3][j % 3] * u[j];
-}
-
-/* One element's gain, the sum over its functions of s - a u* - I (G u+ - kept u start), where it is covered less rho_f M/dt u start;
- * mass: rho_f |K|/dt. */
-static void ElementGain(const CoracleCoupling *k, double mass, const CoracleFlow *flow, double gain[2])
-{
-  const int covered = k->flags & CORACLE_IS_COVERED;
-  const size_t first = 6 * (size_t)k->element;
-  const double *u_projected = flow->u_projected + first, *u_start = flow->u_start + first;
-  for (int c = 0; c < 2; c++) {
-    gain[c] = k->s[c][0] + k->s[c][1] + k->s[c][2];
-    for (int j = 0; j < 3; j++) {
-      const double inertia =
-          k->implicit_inertia[0][j] + k->implicit_inertia[1][j] + k->implicit_inertia[2][j];
-      for (int d = 0; d < 2; d++)
-        gain[c] -=
-            inertia * (k->inertia_tensor[c][d] * u_projected[3 * d + j] - k->kept[c][d] * u_start[3 * d + j]);
-    }
-    if (covered) gain[c] -= mass / 3.0 * (u_start[3 * c] + u_start[3 * c + 1] + u_start[3 * c + 2]);
-  }
-  SubtractWall(k, flow->u_star + first, gain);
-}
-
 static double DisplacedMass(const Overlap o)
 {
   double mass = 0.0;
@@ -202,8 +173,10 @@ PetscErrorCode ForceSum(const Overlap o, double dt, const CoracleCoupling coupli
   PetscFunctionBeginUser;
   for (int e = 0; e < o->ncoupled; e++) {
     const int k = coupling[e].element;
-    double gain[2];
-    ElementGain(&coupling[e], o->rho[k] * o->area[k] / dt, flow, gain);
+    const size_t first = 6 * (size_t)k;
+    double gain[2] = {0.0, 0.0};
+    CouplingAddGain(&coupling[e], o->rho[k] * o->area[k] / dt, flow->u_start + first, flow->u_star + first,
+                    flow->u_projected + first, gain);
     for (int c = 0; c < 2; c++) sum[GAIN + c] += gain[c];
     sum[SCALE] += sqrt(gain[0] * gain[0] + gain[1] * gain[1]);
   }

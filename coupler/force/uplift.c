@@ -211,7 +211,8 @@ static PetscErrorCode SetFilm(Uplift u, const Gap *gap, const double excess[], d
 
   PetscFunctionBeginUser;
   PetscCall(PetscFree2(u->film_load, u->film_resistance));
-  PetscCall(PetscCalloc2(n, &u->film_load, n, &u->film_resistance));
+  /* one more: NULL says that no film yields, on all ranks, also where there are no nodes */
+  PetscCall(PetscCalloc2(n + 1, &u->film_load, n + 1, &u->film_resistance));
   PetscCall(PetscMalloc1(ScatterArriving(u->points.scatter), &there));
   PetscCall(ClosePointsForward(&u->points, &u->solid, 2, u->solid.u, (double *)there));
   *any = 0;

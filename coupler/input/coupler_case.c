@@ -14,7 +14,7 @@ static double OfItem(CoracleCase file, const char *list, int k, const char *item
 }
 
 /* sqrt(largest surface tension/(range of the densities g)), m: water rises so far at a wall.  Infinite without gravity. */
-static double CapillaryLength(CoracleCase file, const double gravity[2])
+static double CapillaryLength(CoracleCase file, double gravity)
 {
   const char *const tensions = "fluid.surface_tension", *const phases = "fluid.phases";
   double least = HUGE_VAL, largest = 0.0, tension = 0.0;
@@ -28,18 +28,25 @@ static double CapillaryLength(CoracleCase file, const double gravity[2])
   else
     for (int k = 0; k < CoracleCaseCount(file, tensions); k++)
       tension = fmax(tension, OfItem(file, tensions, k, "value"));
-  const double weight = (largest - least) * hypot(gravity[0], gravity[1]);
+  const double weight = (largest - least) * gravity;
   return weight > 0.0 ? sqrt(tension / weight) : HUGE_VAL;
 }
 
-/* Of the elements at the interface, m; 0: the case does not say. */
+/* Of the elements at the interface, m; infinite: the case does not say, the mesh is a file's. */
 static double InterfaceSize(CoracleCase file)
 {
   static const char *const KEYS[] = {"fluid.adapt.interface_size", "fluid.adapt.size_min",
                                      "fluid.mesh.size_max", NULL};
   for (int k = 0; KEYS[k]; k++)
     if (CoracleCaseHas(file, KEYS[k])) return CoracleCasePositive(file, KEYS[k]);
-  return 0.0;
+  return HUGE_VAL;
+}
+
+/* Of a case with surface tension: whether elements resolve it, as all do without gravity. */
+static PetscBool ResolvesTension(CoracleCase file, double gravity)
+{
+  const double length = CapillaryLength(file, gravity);
+  return (PetscBool)(length == HUGE_VAL || InterfaceSize(file) < length);
 }
 
 /* One body without joints has nothing to touch but walls; a solid of others counts as one. */
@@ -63,7 +70,7 @@ static void ReadUplift(CoracleCase file, CouplerOptions *o)
     o->upper[d] = HUGE_VAL;
   }
   o->uplift = (PetscBool)(o->mode == COUPLER_REACTION && (walls || !IsOneBody(file)) &&
-                          GravityActs(o->gravity, &o->gravity_table));
+                          GravityLargest(o->gravity, &o->gravity_table) > 0.0);
 }
 
 static void ReadOptions(CoracleCase file, CouplerOptions *o)
@@ -76,7 +83,7 @@ static void ReadOptions(CoracleCase file, CouplerOptions *o)
   GravityRead(file, o->gravity, &o->gravity_table);
   ReadUplift(file, o);
   o->capillary = (PetscBool)(CoracleCaseHas(file, "fluid.surface_tension") &&
-                             InterfaceSize(file) < CapillaryLength(file, o->gravity));
+                             ResolvesTension(file, GravityLargest(o->gravity, &o->gravity_table)));
 }
 
 PetscErrorCode CouplerCaseRead(CoracleCase file, CouplerCase *c)

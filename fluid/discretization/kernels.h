@@ -64,14 +64,16 @@ static inline void Traction(const double g[3][2], double mu, const double n[2], 
   }
 }
 
+/* The two Gauss points of a face, from its first node. */
+static const double FACE_GAUSS[2] = {0.21132486540518712, 0.78867513459481288};
+
 /* w[i][j] = -theta int_F min(m.n, 0) N_i N_j over the two nodes of a face, by its two Gauss points; mn: m.n at the
  * nodes. */
 static inline void FaceInflow(double theta, double length, const double mn[2], double w[2][2])
 {
-  const double GAUSS = 0.21132486540518712; /* (1 - 1/sqrt 3)/2 */
   memset(w, 0, 4 * sizeof(double));
   for (int q = 0; q < 2; q++) {
-    const double s = q ? 1.0 - GAUSS : GAUSS, n0 = 1.0 - s, n1 = s;
+    const double n0 = 1.0 - FACE_GAUSS[q], n1 = FACE_GAUSS[q];
     const double flux = n0 * mn[0] + n1 * mn[1], in = flux < 0.0 ? -theta * 0.5 * length * flux : 0.0;
     w[0][0] += in * n0 * n0;
     w[0][1] += in * n0 * n1;

@@ -1,4 +1,5 @@
 #include "fluid/flow/budget.h"
+#include "common/link/coupling_gain.h"
 #include "fluid/discretization/ghosted.h"
 #include "fluid/flow/budget_step.h"
 
@@ -73,28 +74,6 @@ PetscErrorCode FluidBudgetBegin(Fluid f)
   PetscFunctionReturn(0);
 }
 
-/* gain[2] += that of an entry over the step, N/m; start[2][3] of SolidCouplingStart; mass: rho |K|/dt. */
-static void AddGain(const CoracleCoupling *k, double mass, const double start[6], const double u_star[6],
-                    const double u_projected[6], double gain[2])
-{
-  const double third = k->flags & CORACLE_IS_COVERED ? mass / 3.0 : 0.0;
-  double inertia[3];
-  for (int j = 0; j < 3; j++)
-    inertia[j] = k->implicit_inertia[0][j] + k->implicit_inertia[1][j] + k->implicit_inertia[2][j];
-  for (int c = 0; c < 2; c++) {
-    gain[c] += k->s[c][0] + k->s[c][1] + k->s[c][2];
-    for (int j = 0; j < 3; j++) gain[c] -= third * start[3 * c + j];
-    for (int d = 0; d < 2; d++)
-      for (int j = 0; j < 3; j++)
-        gain[c] -= inertia[j] *
-                   (k->inertia_tensor[c][d] * u_projected[3 * d + j] - k->kept[c][d] * start[3 * d + j]);
-  }
-  if (k->a[0][0][0][0] == 0.0 && k->a[1][0][1][0] == 0.0) return; /* a has nothing at all */
-  for (int c = 0; c < 2; c++)
-    for (int i = 0; i < 3; i++)
-      for (int j = 0; j < 6; j++) gain[c] -= k->a[c][i][j / 3][j % 3] * u_star[j];
-}
-
 PetscErrorCode FluidBudgetSolid(Fluid f, double dt, const CoracleCorrection correction[])
 {
   const double *rho = MaterialDensity(f->material, MATERIAL_STEP),
@@ -110,8 +89,8 @@ PetscErrorCode FluidBudgetSolid(Fluid f, double dt, const CoracleCorrection corr
     const int e = entry[k].element;
     double start[6];
     SolidCouplingStart(f->solid, e, u + 6 * e, start);
-    AddGain(&entry[k], rho[e] * f->domain.geometry[e].area / dt, start, u_star + 6 * e, u_projected + 6 * e,
-            Term(f, BUDGET_SOLID));
+    CouplingAddGain(&entry[k], rho[e] * f->domain.geometry[e].area / dt, start, u_star + 6 * e,
+                    u_projected + 6 * e, Term(f, BUDGET_SOLID));
     for (int i = 0; i < 6 && correction; i++)
       Term(f, BUDGET_CORRECTION)[i / 3] += end[e] / dt * correction[k].r[i / 3][i % 3];
   }

@@ -25,12 +25,11 @@ static void FaceConvection(Fluid f, const BudgetStep *s, const Boundary *b, cons
                            const double m[2][2], const double u[2][2], const double slip[2][2],
                            double force[2])
 {
-  static const double GAUSS[2] = {0.21132486540518712, 0.78867513459481288};
   const double share = b->kind == BOUNDARY_FREE_SLIP            ? 0.0
                        : b->kind == BOUNDARY_OPEN && !f->phases ? 0.5
                                                                 : 1.0;
   for (int q = 0; q < 2; q++) {
-    const double n[2] = {1.0 - GAUSS[q], GAUSS[q]};
+    const double n[2] = {1.0 - FACE_GAUSS[q], FACE_GAUSS[q]};
     const double out = 0.5 * face->length *
                        (n[0] * (m[0][0] * face->n[0] + m[0][1] * face->n[1]) +
                         n[1] * (m[1][0] * face->n[0] + m[1][1] * face->n[1]));

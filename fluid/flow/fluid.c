@@ -52,8 +52,9 @@ PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *flu
         SolverDefaultOption("momentum_", "ksp_rtol", "1e-6")); /* the norm hardly sees the lighter phase */
     PetscCall(PhaseTransportCreate(&f->domain, &setup->phases, setup->gravity, &f->phases));
   }
-  if (PhaseHasGas(&setup->phases)) PetscCall(PetscCalloc1(mesh->ne, &f->compressible));
-  if (f->phases) PetscCall(PetscCalloc1(2 * (size_t)mesh->ne, &f->remainder));
+  /* one more: whether they are NULL is the same on all ranks, also where there are no elements */
+  if (PhaseHasGas(&setup->phases)) PetscCall(PetscCalloc1((size_t)mesh->ne + 1, &f->compressible));
+  if (f->phases) PetscCall(PetscCalloc1(2 * (size_t)mesh->ne + 1, &f->remainder));
   PetscCall(CreateVectors(f));
   PetscCall(FluidBudgetCreate(f));
   PetscCall(MomentumSolverCreate(&f->domain, &momentum, f->u, &f->momentum));

@@ -76,6 +76,9 @@ void PhaseCaseRead(CoracleCase c, PhaseNames *names, PhaseProperties *p)
   if (p->n > 2) SortByDensity(names, p);
   for (int k = 0; k < p->n; k++) (void)snprintf(p->name[k], sizeof p->name[k], "%s", names->name[k]);
   PhaseCasePairs(c, &tension, names, &p->surface_tension);
+  if (p->n == PHASES_MAX && CoracleCaseHas(c, "fluid.surface_tension"))
+    CoracleCaseRefuse(c, "fluid.surface_tension",
+                      "with it there are at most %d phases, the solid being one more", PHASES_MAX - 1);
   PhaseCaseAngles(c, "fluid.contact_angle", names, &p->solid_cosine);
   p->advection = (PhasesAdvection)CoracleCaseWord(c, "fluid.phases_advection", PHASES_GEOMETRIC, ADVECTIONS);
 }

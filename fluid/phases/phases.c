@@ -50,7 +50,7 @@ PetscErrorCode PhasesSetVolumes(Phases f, const double volume[])
 PetscErrorCode PhasesSetSolid(Phases f, int filler, const double solid[])
 {
   PetscFunctionBeginUser;
-  if (!f->solid) PetscCall(PetscMalloc1(f->stars->nl, &f->solid));
+  if (!f->solid) PetscCall(PetscMalloc1(f->stars->nl + 1, &f->solid));
   f->filler = filler;
   for (int e = 0; e < f->stars->ne; e++)
     f->solid[e] = solid[e] < PHASES_LEAST_SOLID ? 0.0 : fmin(solid[e], 1.0);
@@ -161,29 +161,6 @@ PetscErrorCode PhasesGetExtent(Phases f, int e, int p, Polygon *polygon, double 
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PhasesGetInertia(Phases f, int e, const double rho[], PetscBool condense, Inertia *inertia)
-{
-  const double(*x)[2] = (const double(*)[2])f->stars->element[e].x;
-  Polygon part;
-  PetscFunctionBeginUser;
-  InertiaBegin(x, inertia);
-  for (int p = 0; p < f->np; p++) {
-    if (f->spread[e])
-      PolygonTriangle(x, x[0], &part);
-    else
-      PhasesPart(f, e, p, x[0], &part);
-    InertiaAdd(&part, Share(f, e, p) * rho[p], inertia);
-  }
-  for (int p = 0; p + 1 < f->np && condense; p++) {
-    if (!PhasesHasLine(f, e, p)) continue;
-    const HalfPlane h = PhasesLine(f, e, p, x[0]);
-    InertiaRidge(&h, inertia);
-  }
-  PetscCheck(!InertiaCondense(inertia), PETSC_COMM_SELF, PETSC_ERR_NOT_CONVERGED,
-             "the element at (%g, %g) has no positive mass", x[0][0], x[0][1]);
-  PetscFunctionReturn(0);
-}
-
 /* The phase that local element e has to itself, that has most of it where others are spread, or -1. */
 static int Alone(Phases f, int e)
 {
@@ -235,23 +212,6 @@ int PhasesBehind(Phases f, int e, int p)
     if (f->volume[(size_t)e * (size_t)f->np + (size_t)p] >= tiny) break;
   }
   return p;
-}
-
-PetscErrorCode PhasesGetKink(Phases f, int e, const double rho[], const double gravity[2], double force[6])
-{
-  const double(*x)[2] = (const double(*)[2])f->stars->element[e].x;
-  Inertia m;
-  PetscFunctionBeginUser;
-  for (int k = 0; k < INERTIA_NU; k++) force[k] = 0.0;
-  if (f->single[e] >= 0) PetscFunctionReturn(0);
-  InertiaBegin(x, &m);
-  for (int p = 0; p + 1 < f->np; p++) {
-    if (!PhasesHasLine(f, e, p)) continue;
-    const HalfPlane h = PhasesLine(f, e, p, x[0]);
-    InertiaRidge(&h, &m);
-    InertiaKink(&m, h.n, rho[p], rho[PhasesBehind(f, e, p)], gravity, force);
-  }
-  PetscFunctionReturn(0);
 }
 
 void PhasesSplitBy(int np, int single, const HalfPlane line[], const double x0[2], const Polygon *polygon,

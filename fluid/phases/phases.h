@@ -16,7 +16,6 @@
 #include "common/transfer/transfer.h"
 #include "fluid/phases/effective_density.h"
 #include "fluid/phases/gas.h"
-#include "fluid/phases/inertia.h"
 #include "fluid/phases/plic.h"
 #include "fluid/phases/stars.h"
 
@@ -84,16 +83,6 @@ int PhasesSpread(Phases phases, int e);
 #define PHASES_LEAST_OPEN 0.1
 /* Not collective.  Where phase p of owned element e is when it moves: *share of this polygon, 1 unless it is spread. */
 PetscErrorCode PhasesGetExtent(Phases phases, int e, int p, Polygon *polygon, double *share);
-
-/* Not collective.  The inertia of owned element e with phases of density rho[nphases], kg/m3.  condense: with
- * a ridge for each line (inertia.h). */
-PetscErrorCode PhasesGetInertia(Phases phases, int e, const double rho[], PetscBool condense,
-                                Inertia *inertia);
-/* Not collective.  force[6], N/m: minus the gradient of the hydrostatic pressure's kinks in owned element e,
- * tested with the velocity's functions; each line divides its phase from the next one that the element has.
- * */
-PetscErrorCode PhasesGetKink(Phases phases, int e, const double rho[], const double gravity[2],
-                             double force[6]);
 
 /* Not collective.  How the owned elements respond to a pressure gradient: inverse[ne], of phases of density rho[nphases].
  * Needs the lines. */

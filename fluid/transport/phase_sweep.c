@@ -35,8 +35,8 @@ PetscErrorCode PhaseSweepCreate(const FluidDomain *domain, const PhaseProperties
   PetscCall(PetscMalloc3(3 * ne, &s->flux, 6 * ne, &s->beta, 6 * ne, &s->velocity));
   PetscCall(PetscMalloc3(3 * n * ne, &s->swept, 3 * n * ne, &s->part, stars->nl, &s->single));
   if (PhaseHasGas(properties))
-    PetscCall(PetscMalloc5(3 * n * ne, &s->mass, 3 * n * ne, &s->mass_part, stars->nl, &s->weight, stars->nl,
-                           &s->solid, n * ne, &s->expected));
+    PetscCall(PetscMalloc5(3 * n * ne + 1, &s->mass, 3 * n * ne, &s->mass_part, stars->nl, &s->weight,
+                           stars->nl, &s->solid, n * ne, &s->expected));
   *sweep = s;
   PetscFunctionReturn(0);
 }

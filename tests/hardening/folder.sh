@@ -16,7 +16,7 @@ refused() {
   same "$*"
 }
 
-must x 1:1:1 --set time.end=0.05
+must x 1:1:1 --set time.end=0.05 --set output.trace=true --set 'fluid.probes=[{name: middle, point: [1.0, 1.0]}]' --set 'solid.probes=[{name: top, point: [1.0, 1.2]}]'
 before=$(sums)
 # the copy of the case says what it was run with, and is the case
 head -1 "$scratch/x/case.yaml" | grep -q '^# coracle .* ranks of fluid, coupler, solid 1:1:1$' || fail "case.yaml does not say what ran"
@@ -47,6 +47,10 @@ cmp <(grep -v '^#' "$scratch/y/case.yaml") <(grep -v '^#' "$scratch/y/earlier.1/
 # a new run keeps the old results
 must x 1:1:1 --set time.end=0.03
 [ -e "$scratch/x/earlier.1/checkpoint/fluid.h5" ] && [ -s "$scratch/x/earlier.1/solid.h5" ] || fail "earlier results are lost"
+for file in trace.json fluid_forces.csv fluid_probes.csv solid_probes.csv; do
+  [ -s "$scratch/x/earlier.1/$file" ] || fail "$file is not with the earlier results"
+done
+[ ! -e "$scratch/x/fluid_probes.csv" ] || fail "probes of the earlier run are among the new results"
 [ ! -e "$scratch/x/running" ] || fail "the folder is still locked"
 
 # a name that Open MPI cannot take
