@@ -14,9 +14,11 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.tri import Triangulation
 
 from series import read_series
-from snapshot import Window, outline, read_bodies, read_snapshot
+from snapshot import Window, outline, read_bodies, read_snapshot, read_times, vertices
 
 AIR, WATER = (0.93, 0.96, 0.98), (0.10, 0.35, 0.65)
+INTERFACE = "C3"
+DENSE = 0.3  # of the heaviest phase's density, what a dense phase has at least: liquids, not gases
 COLOURS = LinearSegmentedColormap.from_list("air to water", [AIR, WATER])
 
 
@@ -41,9 +43,57 @@ def crossing(t, values, level):
 
 
 def snapshot_times(folder):
-    with h5py.File(os.path.join(folder, "fluid.h5"), "r") as file:
-        groups = [file["snapshot"][name] for name in sorted(file["snapshot"])]
-        return [group.attrs["time"] for group in groups if len(group)]
+    return read_times(os.path.join(folder, "fluid.h5"))
+
+
+def find_phases(grid):
+    """Phases of this grid; None where there is one fluid."""
+    return Phases(grid) if "density" in grid.cell else None
+
+
+class Phases:
+    """The phases of a grid of the fluid's elements, the lightest first: names, fractions [n, elements]."""
+
+    def __init__(self, grid):
+        names = [name for name in grid.cell if name not in ("alpha", "density", "rank")]
+        fractions = np.array([grid.cell[name].ravel() for name in names])
+        densities = np.linalg.lstsq(fractions.T, grid.cell["density"].ravel(), rcond=None)[0]
+        order = np.argsort(densities)
+        self.grid, self.names, self.fractions = grid, [names[k] for k in order], fractions[order]
+        self.lightest_dense = int(np.argmax(densities[order] >= DENSE * densities.max()))
+        self.solid = grid.cell["alpha"].ravel()
+
+    def heavier(self, k):
+        """Of the fluid in each element, what is of phase k > 0 or of heavier ones; inside bodies the fluid is of the lightest."""
+        return np.minimum(1.0, self.fractions[k:].sum(axis=0) / np.maximum(1e-3, 1.0 - self.solid))
+
+    def shades(self):
+        """Of each element: 0 of the lightest phase, 1 of the heaviest, others evenly between."""
+        return sum(self.heavier(k) for k in range(1, len(self.names))) / max(1, len(self.names) - 1)
+
+    def dense(self):
+        """Names of the dense phases, and elements that are mostly of them and outside of bodies; all where they are of like densities."""
+        k = self.lightest_dense
+        return self.names[k:], (self.fractions[k:].sum(axis=0) > 0.5) & (self.solid < 0.5)
+
+    def limits(self, window, grid, values):
+        """Of colours of a velocity or pressure: percentiles in the dense phases, from or to 0 where hardly any values have the other sign."""
+        low, high = window.percentiles(grid, values, 0.5, 99.5, cells=self.dense()[1])
+        return (0.0 if -0.05 * high < low < 0.0 else low), (0.0 if 0.0 < high < -0.05 * low else high)
+
+    def paint(self, axes, pale):
+        """The interfaces: lines where half of the fluid around a vertex is of heavier phases; `pale`: what is not of the dense phases is paler."""
+        points, triangles = vertices(self.grid)
+        a, b, c = points[triangles].transpose(1, 0, 2)
+        fluid = abs(np.cross(b - a, c - a)) * np.maximum(1e-3, 1.0 - self.solid)
+        around = lambda values: np.bincount(triangles.ravel(), np.repeat(values, 3))
+        triangulation = Triangulation(*points.T, triangles, mask=self.solid > 0.9)
+        for k in range(1, len(self.names)):
+            mean = around(fluid * self.heavier(k)) / around(fluid)
+            if mean.min() < 0.5 < mean.max():
+                if pale and k == self.lightest_dense:
+                    axes.tricontourf(triangulation, mean, levels=[-1.0, 0.5], colors="w", alpha=0.6)
+                axes.tricontour(triangulation, mean, levels=[0.5], colors=INTERFACE, linewidths=1.2)
 
 
 COLUMNS = ("water out", "water made", "imbalance", "iterations", "triangles", "steps", "cost")  # of Run.cells

@@ -2,15 +2,16 @@
 """A snapshot of a coupled run: vertical velocity, pressure without its hydrostatic part, and the mesh near the body.
 
 Reads fluid.h5 and, if there, solid.h5 of OUTPUT_FOLDER; writes OUTPUT_FOLDER/field.png.  A domain more than three times as long
-as wide is shown around the body and its wake.  Needs numpy, h5py and matplotlib.
+as wide is shown around the body and its wake.  Of several phases the pressure is drawn as it is,
+with lines at interfaces.  Needs numpy, h5py and matplotlib.
 """
 import argparse
 import os
 
-import matplotlib.pyplot as plt
 import numpy as np
 
-from snapshot import Window, centred, paint, paint_mesh, read_bodies, read_snapshot, save, without_hydrostatic
+from phases import find_phases
+from snapshot import Window, centred, paint_bodies, paint_field, paint_mesh, panels, read_bodies, read_snapshot, save, without_hydrostatic
 
 LENGTH, AHEAD = 1.8, 0.3  # of the window along a long domain: its length in widths, the part of it ahead of the body
 
@@ -30,54 +31,68 @@ def view(domain, body):
 
 
 def near(window, body):
-    """A square about the bodies, or the window where there is none."""
+    """A square about the bodies, what of it lies in the window; the window where there are none."""
     if body is None:
         return window
     box = Window.around(body.points)
-    return Window(box.centre - box.size.max(), box.centre + box.size.max())
+    return Window(box.centre - box.size.max(), box.centre + box.size.max()).cut(window)
 
 
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", help="output folder of the run")
     parser.add_argument("--time", type=float, help="the snapshot nearest to this time, s (default the last)")
-    parser.add_argument("--weight", type=float, help="rho g, N/m3 (default: fitted along the side walls)")
+    parser.add_argument("--weight", type=float, help="rho g, N/m3 (default: fitted along the side walls; none of several phases)")
     parser.add_argument("--whole", action="store_true", help="the whole domain, however long")
     parser.add_argument("--window", type=float, nargs=4, metavar=("X0", "Y0", "X1", "Y1"), help="what to show, m")
     parser.add_argument("--out", help="picture (default FOLDER/field.png)")
     return parser.parse_args()
 
 
-def panels(window):
-    """Figure and axes of two fields in this window and the mesh: side by side, or one above the other where it is wide."""
-    if window.size[0] > 1.5 * window.size[1]:
-        return plt.subplots(3, 1, figsize=(9, 13), layout="constrained")
-    width = 7.0 * window.size[0] / window.size[1]
-    return plt.subplots(1, 3, figsize=(2.0 * width + 8.5, 8.0), width_ratios=[width + 0.6, width + 0.6, 6.2], layout="constrained")
+def symmetric(window, grid, values, cells):
+    """Limits of colours on both sides of 0, of these elements where there are any in the window."""
+    limit = window.percentiles(grid, abs(values), 99.9, cells=cells)[0]
+    limit = limit if limit > 1e-9 * max(abs(field).max() for field in grid.node.values()) else 1.0  # nothing but round-off
+    return (-limit, limit), centred(-1.0, 1.0)
+
+
+def pressure_of(window, grid, phases, weight):
+    """Values, label, limits and colour map: as it is of several phases, which have no weight in common, unless one is given."""
+    if phases and weight is None:
+        p = grid.node["pressure"]
+        return p, "p [Pa]", phases.limits(window, grid, p), "viridis"
+    p, weight = without_hydrostatic(grid, weight)
+    return p, f"p + {weight:.5g} y, mean 0 [Pa]", *symmetric(window, grid, p, None)
+
+
+def choose(arguments, domain, body):
+    """The window to show."""
+    if arguments.window:
+        return Window(arguments.window[:2], arguments.window[2:])
+    return domain if arguments.whole else view(domain, body)
 
 
 def draw(arguments):
     time, fluid = read_snapshot(os.path.join(arguments.folder, "fluid.h5"), arguments.time)
-    body = read_bodies(arguments.folder, time)
+    body, phases = read_bodies(arguments.folder, time), find_phases(fluid["velocity"])
     velocity, pressure = fluid["velocity"], fluid["pressure"]
-    domain = Window.around(velocity.points)
-    window = domain if arguments.whole else view(domain, body)
-    if arguments.window:
-        window = Window(arguments.window[:2], arguments.window[2:])
-    figure, axes = panels(window)
+    window = choose(arguments, Window.around(velocity.points), body)
     v = velocity.node["velocity"][:, 1]
-    p, weight = without_hydrostatic(pressure, arguments.weight)
-    for axis, grid, values, label in ((axes[0], velocity, v, "vertical velocity [m/s]"),
-                                      (axes[1], pressure, p, f"p + {weight:.5g} y, mean 0 [Pa]")):
-        limit = window.percentiles(grid, abs(values), 99.9)[0]
-        if limit < 1e-9 * max(abs(field).max() for field in grid.node.values()) or limit == 0.0:
-            limit = 1.0  # nothing but round-off
-        paint(axis, grid, values, window, (-limit, limit), centred(-1.0, 1.0), label, body)
-    paint_mesh(axes[2], velocity, near(window, body), body, inside=True)
-    axes[2].set_title("mesh: fluid grey, solid red")
-    for axis in axes:
-        axis.set(xlabel="x [m]", ylabel="y [m]")
-    figure.suptitle(f"t = {time:.4g} s")
+    v = v, "vertical velocity [m/s]", *symmetric(window, velocity, v, phases.dense()[1] if phases else None)
+    p = pressure_of(window, pressure, phases, arguments.weight)
+    mesh_window = near(window, body)
+    figure, made = panels(window, window, mesh_window, beside=window.size[0] <= 1.5 * window.size[1])
+    for panel, grid, (values, label, limits, colour_map) in zip(made, (velocity, pressure), (v, p)):
+        panel.colour_bar(paint_field(panel.axes, grid, values, window, limits, colour_map), label)
+        if phases:
+            phases.paint(panel.axes, pale=False)
+        if body:
+            paint_bodies(panel.axes, body, cover=bool(phases))
+        window.frame(panel.axes)
+    paint_mesh(made[2].axes, velocity, mesh_window, body, inside=True)
+    made[2].bar.remove()
+    for panel, title in zip(made, (f"t = {time:.4g} s", "", "mesh: fluid grey, solid red")):
+        panel.axes.set(xlabel="x [m]", ylabel="y [m]", aspect="auto", title=title)
     return figure
 
 

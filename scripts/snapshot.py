@@ -8,6 +8,7 @@ import h5py
 import matplotlib
 
 matplotlib.use("Agg")
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.tri import Triangulation
@@ -59,29 +60,47 @@ class Window:
     def frame(self, axes):
         axes.set(xlim=(self.lower[0], self.upper[0]), ylim=(self.lower[1], self.upper[1]), aspect="equal")
 
-    def triangulation(self, grid):
-        """The grid's triangles that reach into the window; LookupError where there is none."""
+    def cut(self, other):
+        """The part of the window that lies in the other; the other where they have nothing in common."""
+        lower, upper = np.maximum(self.lower, other.lower), np.minimum(self.upper, other.upper)
+        return Window(lower, upper) if (upper > lower).all() else other
+
+    def triangulation(self, grid, cells=None):
+        """The grid's triangles that reach into the window, only those of `cells` (bool [ne]) where there are any; LookupError where there is none."""
         triangles = grid.triangles()
         corners = grid.points[triangles]
         inside = ((corners.max(axis=1) >= self.lower) & (corners.min(axis=1) <= self.upper)).all(axis=1)
         if not inside.any() or not (self.size > 0.0).all():
             low, high = (f"({x:g}, {y:g})" for x, y in (np.nanmin(grid.points, axis=0), np.nanmax(grid.points, axis=0)))
             raise LookupError(f"there is nothing in the window {(*self.lower, *self.upper)}: all lies from {low} to {high}")
+        if cells is not None:
+            chosen = inside & np.repeat(cells, len(triangles) // len(cells))
+            inside = chosen if chosen.any() else inside
         return Triangulation(*grid.points.T, triangles[inside])
 
-    def percentiles(self, grid, values, *percents):
-        """Percentiles of nodal values over the points of the triangles that reach into the window."""
-        return np.percentile(values[np.unique(self.triangulation(grid).triangles)], percents)
+    def percentiles(self, grid, values, *percents, cells=None):
+        """Percentiles of nodal values over the points of triangulation(grid, cells)."""
+        return np.percentile(values[np.unique(self.triangulation(grid, cells).triangles)], percents)
+
+
+def whole_snapshots(file, path):
+    """Groups of the snapshots of this open file, and their times; LookupError where there is none."""
+    snapshots = [file["snapshot"][name] for name in sorted(file["snapshot"])]
+    snapshots = [s for s in snapshots if len(s) and len(s) == len(snapshots[0])]  # a running case's last may be in the making
+    if not snapshots:
+        raise LookupError(f"{path} has no snapshot yet")
+    return snapshots, np.array([s.attrs["time"] for s in snapshots])
+
+
+def read_times(path):
+    with h5py.File(path, "r") as file:
+        return whole_snapshots(file, path)[1]
 
 
 def read_snapshot(path, time=None):
     """Time and grids of the snapshot nearest to `time`, or of the last one; LookupError where there is none."""
     with h5py.File(path, "r") as file:
-        snapshots = [file["snapshot"][name] for name in sorted(file["snapshot"])]
-        snapshots = [s for s in snapshots if len(s) and len(s) == len(snapshots[0])]  # a running case's last may be in the making
-        if not snapshots:
-            raise LookupError(f"{path} has no snapshot yet")
-        times = np.array([s.attrs["time"] for s in snapshots])
+        snapshots, times = whole_snapshots(file, path)
         k = len(times) - 1 if time is None else int(np.argmin(abs(times - time)))
         return times[k], {name: Grid(group) for name, group in snapshots[k].items()}
 
@@ -117,19 +136,25 @@ def without_hydrostatic(grid, weight):
     return p - np.average(p, weights=grid.node_areas()), weight
 
 
+def vertices(grid):
+    """The points where triangles meet, each once, and the triangles' numbers of them: elements of the fluid have points of their own."""
+    points, place = np.unique(np.round(grid.points[:, :2], 9), axis=0, return_inverse=True)
+    return points, place.reshape(-1)[grid.cells]
+
+
 def vorticity(grid):
     """At the vertices, dv/dx - du/dy: mean over the triangles there by their areas; and the triangulation of the vertices."""
     x, u, cells = grid.points[:, :2], grid.node["velocity"][:, :2], grid.cells
-    vertices, place = np.unique(np.round(x, 9), axis=0, return_inverse=True)
+    points, triangles = vertices(grid)
     corner, speed = x[cells], u[cells]
     d1, d2 = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
     twice = d1[:, 0] * d2[:, 1] - d1[:, 1] * d2[:, 0]
     u1, u2 = speed[:, 1] - speed[:, 0], speed[:, 2] - speed[:, 0]
     dvdx = (u1[:, 1] * d2[:, 1] - u2[:, 1] * d1[:, 1]) / twice
     dudy = (u2[:, 0] * d1[:, 0] - u1[:, 0] * d2[:, 0]) / twice
-    at, weight = place.reshape(-1)[cells].ravel(), np.repeat(abs(twice), 3)
+    at, weight = triangles.ravel(), np.repeat(abs(twice), 3)
     values = np.bincount(at, weight * np.repeat(dvdx - dudy, 3)) / np.bincount(at, weight)
-    return Triangulation(*vertices.T, place.reshape(-1)[cells]), values
+    return Triangulation(*points.T, triangles), values
 
 
 def centred(low, high, even=True):
@@ -144,16 +169,56 @@ def colours(low, high):
     return centred(low, high, even=False) if min(-low, high) > ROUND_OFF * max(-low, high) else "viridis"
 
 
+class Panel:
+    """Axes of this box of a figure, and a colour bar below them or, of what is not wide, on their right; lengths in inches."""
+
+    def __init__(self, figure, left, bottom, width, height, wide):
+        bar = (left, bottom - 0.75, width, 0.15) if wide else (left + width + 0.15, bottom, 0.15, height)
+        scale = np.tile(figure.get_size_inches(), 2)
+        self.axes = figure.add_axes(np.array([left, bottom, width, height]) / scale)
+        self.bar = figure.add_axes(np.array(bar) / scale)
+        self.orientation = "horizontal" if wide else "vertical"
+
+    def colour_bar(self, shade, label, ticks=None, extend="both"):
+        return self.axes.figure.colorbar(shade, cax=self.bar, orientation=self.orientation, label=label, ticks=ticks, extend=extend, extendfrac=0.02)
+
+
+def panels(*windows, beside=False):
+    """A figure and its Panels, one below the other or beside it, each filled by its window.
+
+    A window more than eleven times as long as wide is stretched across.
+    """
+    edge = 7.5 / np.sqrt(len(windows))
+    sizes = [np.maximum(1.0, w.size * min(edge / np.sqrt(w.size.prod()), 11.0 / w.size.max())) for w in windows]
+    wide = [width > 1.5 * height for width, height in sizes]
+    boxes = np.array(sizes) + [(1.3, 1.8) if w else (2.2, 1.1) for w in wide]  # with labels and colour bar
+    extent = np.where([beside, not beside], boxes.sum(axis=0), boxes.max(axis=0))
+    corner, made, figure = np.array([0.0, extent[1]]), [], plt.figure(figsize=extent)  # upper left
+    for size, w, box in zip(sizes, wide, boxes):
+        middle = 0.5 * (extent[1] - box[1]) if beside else 0.0
+        made.append(Panel(figure, corner[0] + 0.9, corner[1] - middle - 0.4 - size[1], *size, w))
+        corner += (box[0], 0.0) if beside else (0.0, -box[1])
+    return figure, made
+
+
+def paint_field(axes, grid, values, window, limits, colour_map):
+    """Gouraud shading of nodal values in the window."""
+    return axes.tripcolor(window.triangulation(grid), values, shading="gouraud", cmap=colour_map, vmin=limits[0], vmax=limits[1])
+
+
+def paint_bodies(axes, body, cover=False):
+    """The bodies' outline; their inside grey if `cover`."""
+    if cover and len(body.cells):
+        axes.tripcolor(Triangulation(*body.points.T, body.cells), np.zeros(len(body.points)), cmap="Greys", vmin=-0.3, vmax=1.0, zorder=2)
+    axes.plot(*outline(body).T, "k", linewidth=0.8)
+
+
 def paint(axes, grid, values, window, limits, colour_map, label, body=None, ticks=None, cover=False):
-    """Gouraud shading of nodal values in the window, a colour bar above, the bodies' outline; their inside grey if `cover`."""
-    shade = axes.tripcolor(window.triangulation(grid), values, shading="gouraud", cmap=colour_map,
-                           vmin=limits[0], vmax=limits[1])
-    axes.figure.colorbar(shade, ax=axes, label=label, location="top", fraction=0.03, pad=0.01, shrink=0.85, extend="both",
-                         ticks=ticks)
+    """A field in the window, a colour bar above, the bodies."""
+    shade = paint_field(axes, grid, values, window, limits, colour_map)
+    axes.figure.colorbar(shade, ax=axes, label=label, location="top", fraction=0.03, pad=0.01, shrink=0.85, extend="both", ticks=ticks)
     if body is not None:
-        if cover:
-            axes.tripcolor(Triangulation(*body.points.T, body.cells), np.zeros(len(body.points)), cmap="Greys", vmin=-0.3, vmax=1.0)
-        axes.plot(*outline(body).T, "k", linewidth=0.8)
+        paint_bodies(axes, body, cover)
     window.frame(axes)
 
 
@@ -168,16 +233,20 @@ def paint_mesh(axes, grid, window, body=None, linewidth=0.4, inside=False):
     window.frame(axes)
 
 
-def save(draw, arguments, path, name):
-    """The figure that draw(arguments) makes into arguments.out, or else `path`; what is not there ends the script called `name`."""
+def write_figure(figure, path):
+    figure.savefig(path, dpi=150, bbox_inches="tight")
+
+
+def save(draw, arguments, path, name, write=write_figure):
+    """What draw(arguments) makes into arguments.out, or else `path`; what is not there ends the script called `name`."""
     try:
-        figure = draw(arguments)
+        made = draw(arguments)
     except LookupError as error:
         sys.exit(f"{name}: {error}")
     path = arguments.out or path
     try:
         os.makedirs(os.path.dirname(path) or ".", exist_ok=True)
-        figure.savefig(path, dpi=150)
+        write(made, path)
     except (OSError, ValueError) as error:  # of the folder, and of what the name ends with
         sys.exit(f"{name}: {path}: {error}")
     print(path)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Scripts beside a run do what their usage says, on a small case: pictures of fields, scaling, options before the case.  Usage: scripts.sh ROOT BUILD
+# Scripts beside a run do what their usage says, on small cases: pictures of fields and phases, animations, scaling, options before the case.  Usage: scripts.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/../coupled/run.sh"
 "$python" -c 'import numpy, h5py, matplotlib' 2>/dev/null || { echo 'needs numpy, h5py and matplotlib'; exit 77; }
@@ -27,6 +27,24 @@ from snapshot import colours
 assert colours(-2e-15, 1.0) == colours(0.0, 1.0) == colours(-1.0, 0.0) == colours(-1.0, 1e-12) == "viridis" and colours(-1e-3, 1.0) != "viridis"
 E2
 "$python" "$root/scripts/plot_field.py" "$scratch/x" >"$scratch/log" 2>&1 && [ -s "$scratch/x/field.png" ] || { cat "$scratch/log"; exit 1; }
+# phases: the lightest first whatever the case's order, drawn by both; an animation has a frame a snapshot
+case=$here/phases.yaml must phases 1:1:1 --set time.end=0.02 --set output.every=0.01
+for options in '--field phases --out phases.png' '--field phases --animate' '--animate --range 0 1 --out speed.gif'; do
+  (cd "$scratch/phases" && "$root/scripts/view.sh" . $options) >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
+done
+"$python" "$root/scripts/plot_field.py" "$scratch/phases" >"$scratch/log" 2>&1 && [ -s "$scratch/phases/field.png" ] || { cat "$scratch/log"; exit 1; }
+PYTHONPATH=$root/scripts "$python" - "$scratch/phases" <<'E3'
+import sys
+from PIL import Image
+from phases import Phases, snapshot_times
+from snapshot import read_snapshot
+folder = sys.argv[1]
+phases = Phases(read_snapshot(folder + "/fluid.h5")[1]["velocity"])
+assert phases.names == ["air", "water"] and phases.dense()[0] == ["water"] and abs(phases.shades().min()) < 1e-9 and abs(phases.shades().max() - 1.0) < 1e-9
+frames = [Image.open(f"{folder}/{name}.gif").n_frames for name in ("view", "speed")]
+assert frames == [len(snapshot_times(folder))] * 2 == [3, 3] and Image.open(folder + "/phases.png").width > 900, frames
+E3
+no_picture 'has no fluid.h5 and no solid.h5' "$scratch" --animate
 if "$root/scripts/view.sh" "$scratch/x" --field colour 2>"$scratch/log"; then echo 'a field that is not there was drawn'; exit 1; fi
 grep -q "there is no field 'colour': .*solid:stress" "$scratch/log" || { cat "$scratch/log"; exit 1; }
 "$python" "$root/scripts/scaling.py" "$here/disc.yaml" --bin "$build" --splits 1:1:1,2:1:1 --out "$scratch/scaling" --set time.end=0.02 >"$scratch/log" 2>&1 ||
