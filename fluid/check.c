@@ -176,6 +176,20 @@ static void Expect(const Mesh *m, PetscBool adapts, const AdaptationSetup *s)
          adapts ? ", if it reaches fluid.adapt.elements_max" : "");
 }
 
+/* The rate rises from `from` to `to`: where `to` is outside, it is nowhere what was asked for. */
+static void NoteAbsorption(const Mesh *m, const Absorption *a)
+{
+  for (int k = 0; k < a->n; k++)
+    for (int c = 0; c < 2; c++) {
+      const double *to = a->zone[k].to, least = 1e-9 * (m->upper[c] - m->lower[c]);
+      if (to[c] >= m->lower[c] - least && to[c] <= m->upper[c] + least) continue;
+      printf(
+          "note: fluid.absorption[%d].to, (%g, %g), lies outside of the domain: its rate is nowhere %g 1/s\n",
+          k, to[0], to[1], a->zone[k].rate);
+      break;
+    }
+}
+
 static PetscErrorCode CheckBudget(CoracleCase c, const Mesh *m, const AdaptationSetup *s)
 {
   double least;
@@ -228,6 +242,7 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
     if (adapts) PetscCall(CheckBudget(c, mesh, &adaptation));
     Expect(mesh, adapts, &adaptation);
     NoteBoundaries(mesh, &setup);
+    NoteAbsorption(mesh, &setup.absorption);
   }
   if (command == COMMAND_DRAW && CoracleCaseFaultless(c)) PetscCall(Draw(c, mesh, &setup, nregions, region));
   PetscCall(FluidCaseFreeRegions(nregions, &region));

@@ -6,8 +6,10 @@ void BudgetStart(Solid s)
 {
   s->budget = (SolidBudget){.work = 0.0};
   memset(s->reaction, 0, (size_t)s->nbodies * sizeof *s->reaction);
+  memset(s->momentum, 0, (size_t)s->nbodies * sizeof *s->momentum);
   for (int n = 0; n < s->nnodes; n++)
-    for (int c = 0; c < 2 && SolidOwns(s, n); c++) s->budget.start[c] += s->mass[n] * s->v[2 * n + c];
+    for (int c = 0; c < 2 && SolidOwns(s, n); c++)
+      s->momentum[s->node_body[n]][c] += s->mass[n] * s->v[2 * n + c];
 }
 
 /* What holds a fixed node takes all that would accelerate it. */
@@ -62,10 +64,12 @@ PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget)
     COUNT = LOAD + 2
   };
   const SolidBudget *b = &s->budget;
-  double sum[COUNT] = {b->walls[0], b->walls[1], [REACTION_WORK] = b->reaction_work, [START] = b->start[0],
-                       b->start[1]};
+  double sum[COUNT] = {b->walls[0], b->walls[1], [REACTION_WORK] = b->reaction_work};
   PetscFunctionBeginUser;
-  for (int k = 0; k < 2 * s->nbodies; k++) sum[REACTION + k % 2] += s->reaction[k / 2][k % 2];
+  for (int k = 0; k < 2 * s->nbodies; k++) {
+    sum[REACTION + k % 2] += s->reaction[k / 2][k % 2];
+    sum[START + k % 2] += s->momentum[k / 2][k % 2];
+  }
   for (int n = 0; n < s->nnodes; n++) {
     if (!SolidOwns(s, n)) continue;
     sum[MASS] += s->mass[n];

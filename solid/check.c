@@ -3,6 +3,7 @@
 #include "common/program/run_case.h"
 #include "solid/bodies/case_body.h"
 #include "solid/check_domain.h"
+#include "solid/check_materials.h"
 #include "solid/probes.h"
 #include "solid/solid_case.h"
 #include "solid/solid_impl.h"
@@ -105,7 +106,9 @@ static const CoracleCaseKey KEYS[] = {
     {"solid.bodies[].repeat.step", "m", "distance from one to the next along x and y"},
     {"solid.walls.lower", "m", "lower left corner of four rigid walls around all bodies"},
     {"solid.walls.upper", "m", "upper right corner of the walls"},
-    {"solid.walls.friction", "", "coefficient of friction; absent: that of what touches"},
+    {"solid.walls.friction", "",
+     "of the walls' side: the coefficient of a contact is the geometric mean of both sides'; absent: that of "
+     "what touches"},
     {"solid.walls.contact_damping", "", "part of the critical damping; absent: that of what touches"},
     {"solid.contact", "", "list of pairs of materials with a friction or damping of their own"},
     {"solid.contact[].between", "", "two names of materials, or walls"},
@@ -183,6 +186,7 @@ static PetscErrorCode Expect(CoracleCase c, Solid s, Command command)
     printf("solid: substeps of at most %.3g s\n", limit);
   else if (v.nbodies > 0)
     printf("solid: all bodies are fixed\n");
+  PetscCall(ExpectBodies(s));
   ExpectCracks(s);
   if (command == COMMAND_DRAW) {
     PetscCall(WriterCreate(c, PETSC_COMM_SELF, s, NULL, &writer));
@@ -208,6 +212,8 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
     RunCaseNoteSteps(run.end, longest);
     NoteWalls(c, solid, run.end);
     PetscCall(NoteThin(c, solid));
+    NoteFriction(solid);
+    NoteStrengths(solid);
   }
   PetscCall(SolidDestroy(&solid));
   PetscFunctionReturn(0);

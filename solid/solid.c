@@ -60,6 +60,7 @@ PetscErrorCode SolidFreeSubdomain(Solid s)
       PetscFree7(s->element, s->facet, s->facet_element, s->facet_side, s->facet_across, s->base, s->body));
   PetscCall(PetscFree(s->is_prescribed));
   PetscCall(PetscFree(s->reaction));
+  PetscCall(PetscFree(s->momentum));
   PetscCall(PetscFree(s->material));
   PetscCall(PetscFree2(s->motion, s->motion_rows));
   PetscCall(PetscFree(s->prescribed));
@@ -144,8 +145,8 @@ PetscErrorCode SolidState(Solid s, int save)
 
 /* --- sums over bodies --------------------------------------------------------------------------------- */
 
-/* First sums: mass, mass x, mass v, load, kinetic energy; then strain energy, impulse of the reaction. */
-enum { M, MX, MY, MU, MV, FX, FY, KINETIC, STRAIN, RX, RY, NSUMS };
+/* First sums: mass, mass x, mass v, load, kinetic energy; then strain energy, impulse of the reaction, momentum before the last step. */
+enum { M, MX, MY, MU, MV, FX, FY, KINETIC, STRAIN, RX, RY, BEFORE, NSUMS = BEFORE + 2 };
 
 static void AddNodes(const Solid s, int n, double sum[][NSUMS])
 {
@@ -216,7 +217,10 @@ PetscErrorCode SolidBodies(Solid s, int n, BodyState state[])
   PetscCall(PetscCalloc1((size_t)n, &sum));
   AddNodes(s, n, sum);
   AddStrainEnergy(s, n, sum);
-  for (int k = 0; k < 2 * n; k++) sum[k / 2][RX + k % 2] = s->reaction[k / 2][k % 2];
+  for (int k = 0; k < 2 * n; k++) {
+    sum[k / 2][RX + k % 2] = s->reaction[k / 2][k % 2];
+    sum[k / 2][BEFORE + k % 2] = s->momentum[k / 2][k % 2];
+  }
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, NSUMS * n, MPI_DOUBLE, MPI_SUM, s->comm));
   for (int b = 0; b < n; b++) {
     const double *k = sum[b];
@@ -225,7 +229,10 @@ PetscErrorCode SolidBodies(Solid s, int n, BodyState state[])
       state[b].x[c] = k[MX + c] / k[M];
       state[b].v[c] = k[MU + c] / k[M];
       state[b].load[c] = k[FX + c];
-      state[b].reaction[c] = s->dt > 0.0 ? k[RX + c] / s->dt : 0.0;
+      if (s->dt <= 0.0) continue;
+      state[b].reaction[c] = k[RX + c] / s->dt;
+      state[b].contact[c] =
+          (k[MU + c] - k[BEFORE + c] - k[RX + c]) / s->dt - k[FX + c] - k[M] * s->setup.gravity[c];
     }
   }
   PetscCall(AboutCentres(s, n, state));

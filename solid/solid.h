@@ -142,6 +142,8 @@ typedef struct {
   double moment;           /* of it about the mass centre, counter-clockwise, N m/m */
   double kinetic, strain;  /* J/m; kinetic at the time of x: sum m v.(v + h a)/2 */
   double reaction[2];      /* SolidBudget's of this body, mean over the last step, N/m */
+  double contact
+      [2]; /* the force of walls and other bodies, mean over the last step: what is left of its momentum's change, N/m */
 } BodyState;
 /* state[n]: of the first n bodies. */
 PetscErrorCode SolidBodies(Solid s, int n, BodyState state[]);

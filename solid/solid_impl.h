@@ -114,6 +114,7 @@ struct Solid_s {
   int remaining, until_check; /* substeps */
   SolidBudget budget;         /* this rank's part, but for the reaction */
   double (*reaction)[2];      /* [nbodies] this rank's part of what budget.reaction is of all, N s/m */
+  double (*momentum)[2];      /* [nbodies] the same of budget.start */
   PetscBool force_valid;      /* force belongs to x and v */
   PetscBool unsynchronised;   /* after SolidState(0): JointsSynchronise is due */
   SolidStats stats;

@@ -5,7 +5,7 @@
 #include "solid/probes.h"
 #include <stdio.h>
 
-enum { MAX_BODIES = 1000, PER_BODY = 14, COMMON = 24 };
+enum { MAX_BODIES = 1000, PER_BODY = 16, COMMON = 24 };
 
 struct Writer_s {
   MPI_Comm comm;
@@ -19,18 +19,19 @@ struct Writer_s {
 
 static PetscErrorCode CreateSeries(Writer r, const char *folder, Checkpoint from)
 {
-  const size_t size = (size_t)r->nbodies * 260 + 512;
+  const size_t size = (size_t)r->nbodies * 300 + 512;
   char *columns;
   size_t used;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(size, &columns));
   used = (size_t)snprintf(columns, size, "t [s]");
   for (int b = 0; b < r->nbodies; b++)
-    used += (size_t)snprintf(columns + used, size - used,
-                             ",x%d [m],y%d [m],u%d [m/s],v%d [m/s],omega%d [rad/s],fx%d [N/m],fy%d "
-                             "[N/m],moment%d [N],kinetic%d [J/m],"
-                             "strain%d [J/m],mass%d [kg/m],rx%d [N/m],ry%d [N/m],angle%d [rad]",
-                             b, b, b, b, b, b, b, b, b, b, b, b, b, b);
+    used += (size_t)snprintf(
+        columns + used, size - used,
+        ",x%d [m],y%d [m],u%d [m/s],v%d [m/s],omega%d [rad/s],fx%d [N/m],fy%d "
+        "[N/m],moment%d [N],kinetic%d [J/m],"
+        "strain%d [J/m],mass%d [kg/m],rx%d [N/m],ry%d [N/m],angle%d [rad],cx%d [N/m],cy%d [N/m]",
+        b, b, b, b, b, b, b, b, b, b, b, b, b, b, b, b);
   (void)snprintf(columns + used, size - used,
                  ",fracture [J/m],debonded [J/m],broken joints,cracks [m],pieces,walls_x [N s/m],walls_y [N "
                  "s/m],reaction_x [N s/m],"
@@ -188,8 +189,9 @@ PetscErrorCode WriterStep(Writer r, Solid s, double waited)
   for (int b = 0; b < r->nbodies; b++) {
     const BodyState *k = &state[b];
     const double value[PER_BODY] = {
-        k->x[0],   k->x[1],    k->v[0],   k->v[1], k->angular_velocity, k->load[0],     k->load[1],
-        k->moment, k->kinetic, k->strain, k->mass, k->reaction[0],      k->reaction[1], k->angle};
+        k->x[0],       k->x[1],      k->v[0],   k->v[1], k->angular_velocity, k->load[0],     k->load[1],
+        k->moment,     k->kinetic,   k->strain, k->mass, k->reaction[0],      k->reaction[1], k->angle,
+        k->contact[0], k->contact[1]};
     for (int i = 0; i < PER_BODY; i++) row[n++] = value[i];
   }
   PetscCall(SolidFracture(s, &fracture));

@@ -129,7 +129,7 @@ PetscErrorCode CheckpointGetNumber(Checkpoint c, const char *name, double *value
 {
   PetscFunctionBeginUser;
   PetscCheck(CheckpointHasNumber(c, name), PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED,
-             "%s has no number '%s'", c->path, name);
+             "%s has no number '%s': another version of the program made it", c->path, name);
   PetscCall(Hdf5ReadAttribute(c->file, "/", name, value));
   PetscFunctionReturn(0);
 }
@@ -159,8 +159,8 @@ static PetscErrorCode Find(Checkpoint c, const char *name, int ncol, long long *
 {
   int found;
   PetscFunctionBeginUser;
-  PetscCheck(Hdf5Has(c->file, name), PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED, "%s has no table '%s'",
-             c->path, name);
+  PetscCheck(Hdf5Has(c->file, name), PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED,
+             "%s has no table '%s': another version of the program made it", c->path, name);
   PetscCall(Hdf5Shape(c->file, name, total, &found));
   PetscCheck(!ncol || found == ncol, PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED,
              "%s: table '%s' has %d columns instead of %d", c->path, name, found, ncol);

@@ -62,6 +62,7 @@ static PetscErrorCode Allocate(Solid s)
   PetscCall(PetscMalloc7(3 * ne, &s->element, 2 * nf, &s->facet, nf, &s->facet_element, nf, &s->facet_side,
                          nf, &s->facet_across, nn, &s->base, (size_t)s->nbodies, &s->body));
   PetscCall(PetscCalloc1((size_t)s->nbodies, &s->reaction));
+  PetscCall(PetscCalloc1((size_t)s->nbodies, &s->momentum));
   PetscCall(PetscCalloc1(nn, &s->is_prescribed));
   PetscCall(PetscMalloc1(nn, &s->fixed));
   PetscCall(PetscMalloc3(ne, &e->node[0], ne, &e->node[1], ne, &e->node[2]));

@@ -80,6 +80,7 @@ static void TakeTime(const Solid s, Solid fresh)
   fresh->stats = s->stats;
   fresh->budget = s->budget;
   memcpy(fresh->reaction, s->reaction, (size_t)s->nbodies * sizeof *s->reaction);
+  memcpy(fresh->momentum, s->momentum, (size_t)s->nbodies * sizeof *s->momentum);
   fresh->balance = s->balance;
   fresh->model = s->model;
   fresh->before = s->before;

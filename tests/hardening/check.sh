@@ -94,6 +94,17 @@ wall 1 0.02
 grep -q 'solid.bodies\[0\] is about 0.02 m thick, fluid.adapt.size_min is 0.013 m' "$scratch/log" || fail "another note"
 wall 0 0.02 --set fluid.adapt.size_min=0.01
 
+# keys without an effect: friction of one side alone, strengths without joints, a zone that absorbs outside of the domain; and what bodies weigh
+solid() { "$build/solid/coracle-solid" --check "$root/tests/coupled/fixed.yaml" "${@:2}" >"$scratch/log" 2>&1 && notes "$1" || fail "not $1 notes with ${*:2}"; }
+solid 1 --set 'solid.walls={lower: [-9, -9], upper: [9, 9], friction: 0.5}'
+grep -q "no friction between material '.*' and walls: one side has the coefficient 0.5" "$scratch/log" || fail "another note"
+solid 0 --set 'solid.walls={lower: [-9, -9], upper: [9, 9], friction: 0.5}' --set 'solid.contact=[{between: [square, walls], friction: 0}]'
+solid 1 --set solid.materials.square.tensile_strength=1e6 --set solid.materials.square.shear_strength=1e6 --set solid.materials.square.fracture_energy=1
+grep -q "material 'square' has strengths, but no body has joints" "$scratch/log" || fail "another note"
+grep -q '^solid: body 0: .* m2, .* kg/m, weight .* N/m, centre' "$scratch/log" || fail "bodies without weight"
+level 1 --set 'fluid.absorption=[{from: [1, 0], to: [99, 0], rate: 1}]'
+grep -q 'fluid.absorption\[0\].to, (99, 0), lies outside of the domain' "$scratch/log" || fail "another note"
+
 # no bodies, or none that moves
 png() { rm -f "$scratch/case.png"; check "$@" --png "$scratch/case.png" && [ -s "$scratch/case.png" ]; }
 png "$case" --set 'solid.bodies=[]' && grep -qx 'solid: no bodies' "$scratch/log" || fail "a fluid alone"
@@ -113,7 +124,7 @@ solid:
 output: {folder: out, every: 1.0}
 E2
 png --alone "$scratch/alone.yaml" || fail "a case of the solid alone has faults"
-[ "$(wc -l <"$scratch/log")" -eq 4 ] || fail "not four lines"
+[ "$(wc -l <"$scratch/log")" -eq 5 ] || fail "not five lines"
 grep -q 'these edges have few directions' "$scratch/log" || fail "not that cracks zigzag"
 grep -q 'edges can crack; .* is 0.7[0-9]* edges long (less than one' "$scratch/log" || fail "not how long cracks are"
 check --alone "$scratch/alone.yaml" --set solid.materials.rock.fracture_energy=100 || fail "a case of the solid alone has faults"

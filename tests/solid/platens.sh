@@ -34,7 +34,10 @@ for rows in runs:
         dt = r["t"] - before["t"]
         total = sum(r["ry%d" % b] for b in range(4))
         assert abs(total * dt - r["reaction_y"]) < 1e-9, "%g s: %g N/m on the bodies, %g of all" % (r["t"], total, r["reaction_y"] / dt)
+        touch = sum(r["cy%d" % b] for b in range(4))
+        assert abs(touch * dt - r["walls_y"]) < 1e-9, "%g s: contact pushes bodies by %g N/m, walls by %g" % (r["t"], touch, r["walls_y"] / dt)
     weight = [r["mass%d" % b] for b in range(4)]
+    assert abs(r["cy0"] / weight[0] - 1.0) < 1e-3, "contact bears %g of %g N/m" % (r["cy0"], weight[0])
     assert r["ry0"] == 0.0, "a free body is held by %g" % r["ry0"]
     bears, presses = r["ry1"] - weight[1], weight[2] - r["ry2"]
     assert abs(bears - presses - weight[0]) < 1e-4 * bears, "the platens' forces %g and %g" % (bears, presses)

@@ -325,6 +325,10 @@ static void Refusals(void)
             NULL, Read,
             ":7: key 'solid.bodies[1]': the body overlaps solid.bodies[0] at (0.0622311, 0.0115175)");
   CheckCase(
+      HEAD "  bodies:\n    - {shape: rectangle, centre: [0, 0], width: 4, height: 4, size: 1, material: m}\n"
+           "    - {shape: rectangle, centre: [3, 0], width: 4, height: 4, size: 1, material: m}\n",
+      NULL, Read, ":7: key 'solid.bodies[1]': the body overlaps solid.bodies[0] at (1.66667, -1.66667)");
+  CheckCase(
       HEAD "  bodies:\n    - {shape: rectangle, centre: [0, 0], width: 1, height: 1, size: 1, "
            "material: m, fixed: [lid]}\n",
       NULL, Read,
