@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The motion of a piston wave-maker, as the prescribed motion of a body in a case file.
 
-Usage: scripts/wavemaker.py regular   --height H --period T --depth D --end TIME [--rise PERIODS]
+Usage: scripts/wavemaker.py regular   --height H --period T --depth D --end TIME [--rise TIME]
        scripts/wavemaker.py solitary  --height H --depth D [--start TIME]
        scripts/wavemaker.py irregular --height HS --period TP --depth D --end TIME [--gamma 3.3] [--seed 1] [--components 100] [--rise TIME]
 all with [--rows DT] [--gravity 9.81] [--line].  Lengths in m, times in s.
@@ -89,7 +89,7 @@ def jonswap(f, peak, gamma):
 
 
 def regular(o):
-    omega, rise = 2.0 * np.pi / o.period, (o.rise or 2.0) * o.period
+    omega, rise = 2.0 * np.pi / o.period, o.rise or 2.0 * o.period
     k = wave_number_below_breaking(o)
     stroke = o.height / height_over_stroke(k * o.depth)
     t = times(o.end + rise, o.rows, o.period / 50.0)
@@ -172,7 +172,7 @@ def main():
         else:
             kind.add_argument("--period", type=positive, required=True, help="s; of irregular waves that of the spectrum's peak")
             kind.add_argument("--end", type=positive, required=True, help="until when there are waves, s; then the piston comes to rest")
-            kind.add_argument("--rise", type=positive, help="default two periods; of regular waves in periods, of irregular ones in s")
+            kind.add_argument("--rise", type=positive, help="in which waves become as high as asked for, s; default two periods")
     kind.add_argument("--gamma", type=positive, default=3.3, help="peak enhancement of the spectrum")
     kind.add_argument("--seed", type=count, default=1)
     kind.add_argument("--components", type=count, default=100)
