@@ -7,6 +7,7 @@ void BudgetStart(Solid s)
   s->budget = (SolidBudget){.work = 0.0};
   memset(s->reaction, 0, (size_t)s->nbodies * sizeof *s->reaction);
   memset(s->momentum, 0, (size_t)s->nbodies * sizeof *s->momentum);
+  memset(s->motion_impulse, 0, (size_t)s->nmotions * sizeof *s->motion_impulse);
   for (int n = 0; n < s->nnodes; n++)
     for (int c = 0; c < 2 && SolidOwns(s, n); c++)
       s->momentum[s->node_body[n]][c] += s->mass[n] * s->v[2 * n + c];
@@ -45,9 +46,22 @@ void BudgetAddDecay(Solid s)
     }
 }
 
-void BudgetAddPrescribed(Solid s, int n, int c, double v)
+void BudgetAddPrescribed(Solid s, int motion, int n, int c, double v)
 {
-  BudgetAddImpulse(s, n, c, s->mass[n] * (v - s->v[2 * n + c]), v);
+  const double impulse = s->mass[n] * (v - s->v[2 * n + c]);
+  BudgetAddImpulse(s, n, c, impulse, v);
+  if (SolidOwns(s, n)) s->motion_impulse[motion][c] += impulse;
+}
+
+PetscErrorCode SolidMotionForce(Solid s, const char *name, double force[2])
+{
+  PetscFunctionBeginUser;
+  force[0] = force[1] = 0.0;
+  for (int k = 0; k < s->nmotions; k++)
+    for (int c = 0; c < 2 && s->dt > 0.0 && !strcmp(s->motion[k].name, name); c++)
+      force[c] += s->motion_impulse[k][c] / s->dt;
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, force, 2, MPI_DOUBLE, MPI_SUM, s->comm));
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget)

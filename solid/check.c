@@ -70,6 +70,9 @@ static const CoracleCaseKey KEYS[] = {
     {"solid.bodies[].prescribed", "",
      "list of boundaries whose motion is prescribed, or of the motion of the whole body"},
     {"solid.bodies[].prescribed[].boundary", "", "name of the boundary; absent: the whole body"},
+    {"solid.bodies[].prescribed[].name", "",
+     "leads the columns of the force that holds or moves it, in solid_probes.csv (of all bodies of repeat "
+     "together)"},
     {"solid.bodies[].prescribed[].component", "", "which component is prescribed; the other stays free"},
     {"solid.bodies[].prescribed[].table", "", "list of rows of time and velocity, linear between them"},
     {"solid.bodies[].prescribed[].table[]", "s, m/s", "time, velocity along x and y"},

@@ -198,7 +198,7 @@ static void MovePrescribed(Solid s, int before)
       if (before) {
         s->position_before[2 * k + c] = s->x[2 * n + c];
       } else if (d->prescribed[c]) {
-        BudgetAddPrescribed(s, n, c, v[c]);
+        BudgetAddPrescribed(s, s->prescribed[k].motion, n, c, v[c]);
         s->v[2 * n + c] = v[c];
         s->x[2 * n + c] = s->position_before[2 * k + c] + s->h * v[c];
       }

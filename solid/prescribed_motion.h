@@ -5,6 +5,8 @@
 #ifndef SOLID_PRESCRIBED_MOTION_H
 #define SOLID_PRESCRIBED_MOTION_H
 
+enum { MOTION_NAME = 48 };
+
 typedef struct {
   int prescribed[2];                 /* which components; the others stay free */
   int nrows;                         /* at least 1 */
@@ -12,6 +14,7 @@ typedef struct {
   double release;                    /* s: from then on the nodes are free; 0: never */
   double period, rise;               /* s, of one row; 0: constant, at once */
   double angular_velocity, pivot[2]; /* rad/s, of one row; m, at t = 0 */
+  char name[MOTION_NAME];            /* leads the columns of its force (probes.h); "": it has none */
 } PrescribedMotion;
 
 typedef struct {

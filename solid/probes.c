@@ -2,16 +2,19 @@
 #include "common/link/case_key.h"
 #include "common/output/output.h"
 #include "common/supermesh/geometry.h"
+#include "solid/prescribed_motion.h"
 #include <stdio.h>
 
-enum { MAX_PROBES = 64, VALUES = 4, SUMS = VALUES + 1, COLUMNS = (MAX_PROBES + MAX_SPRINGS) * 220 };
+enum { MAX_PROBES = 64, MAX_MOTIONS = 64, VALUES = 4, SUMS = VALUES + 1 };
+enum { COLUMNS = (MAX_PROBES + MAX_SPRINGS + MAX_MOTIONS) * 220 };
 #define ON_EDGE 1e-9 /* barycentric coordinate of a point that counts as inside */
 
 struct Probes_s {
   MPI_Comm comm;
   Series series;
-  int n, nsprings;
-  double point[MAX_PROBES][2]; /* m, at rest */
+  int n, nsprings, nmotions;
+  double point[MAX_PROBES][2];           /* m, at rest */
+  char motion[MAX_MOTIONS][MOTION_NAME]; /* names of prescribed motions */
 };
 
 /* sum += displacement, velocity and 1 for each element of this rank that has the point at rest. */
@@ -60,37 +63,56 @@ static const char *ReadName(CoracleCase c, const char *list, int k)
   return name;
 }
 
-/* Reads probe k and adds its columns behind those before it. */
-static void ReadProbe(CoracleCase c, int k, double point[2], size_t size, char columns[])
+/* The name of item k, if it has one that is new. */
+static void ReadMotionName(CoracleCase c, const char *list, int k, Probes p)
 {
   char key[CASE_KEY];
-  CoracleCaseVector(c, CaseKey(key, "solid.probes[%d].point", k), 2, point);
-  const char *name = ReadName(c, "solid.probes", k);
-  const size_t used = strlen(columns);
-  (void)snprintf(columns + used, size - used, ",%s_x [m],%s_y [m],%s_u [m/s],%s_v [m/s]", name, name, name,
-                 name);
+  if (!CoracleCaseHas(c, CaseKey(key, "%s[%d].name", list, k))) return;
+  const char *name = ReadName(c, list, k);
+  for (int i = 0; i < p->nmotions; i++)
+    if (!strcmp(p->motion[i], name)) return;
+  if (p->nmotions == MAX_MOTIONS) CoracleCaseRefuse(c, key, "more than %d names of motions", MAX_MOTIONS);
+  (void)snprintf(p->motion[p->nmotions++], MOTION_NAME, "%s", name);
 }
 
-/* Both lists' columns; point: of the probes. */
-static int ReadProbes(CoracleCase c, double point[][2], size_t size, char columns[])
+static void ReadMotionNames(CoracleCase c, Probes p)
 {
-  const int n = CoracleCaseCount(c, "solid.probes"), nsprings = CoracleCaseCount(c, "solid.springs");
-  if (n > MAX_PROBES) CoracleCaseRefuse(c, "solid.probes", "more than %d probes", MAX_PROBES);
-  (void)snprintf(columns, size, "t [s]");
-  for (int k = 0; k < n; k++) ReadProbe(c, k, point[k], size, columns);
-  for (int k = 0; k < nsprings; k++) {
-    const char *name = ReadName(c, "solid.springs", k);
-    const size_t used = strlen(columns);
-    (void)snprintf(columns + used, size - used, ",%s_length [m],%s_tension [N/m]", name, name);
+  char list[CASE_KEY];
+  for (int b = 0; b < CoracleCaseCount(c, "solid.bodies"); b++) {
+    CaseKey(list, "solid.bodies[%d].prescribed", b);
+    for (int k = 0; k < CoracleCaseCount(c, list); k++) ReadMotionName(c, list, k, p);
   }
-  return n;
+}
+
+/* The lists and their columns. */
+static void ReadLists(CoracleCase c, Probes p, char columns[COLUMNS])
+{
+  char key[CASE_KEY];
+  p->n = CoracleCaseCount(c, "solid.probes");
+  p->nsprings = CoracleCaseCount(c, "solid.springs");
+  if (p->n > MAX_PROBES) CoracleCaseRefuse(c, "solid.probes", "more than %d probes", MAX_PROBES);
+  size_t used = (size_t)snprintf(columns, COLUMNS, "t [s]");
+  for (int k = 0; k < p->n; k++) {
+    CoracleCaseVector(c, CaseKey(key, "solid.probes[%d].point", k), 2, p->point[k]);
+    const char *name = ReadName(c, "solid.probes", k);
+    used += (size_t)snprintf(columns + used, COLUMNS - used, ",%s_x [m],%s_y [m],%s_u [m/s],%s_v [m/s]", name,
+                             name, name, name);
+  }
+  for (int k = 0; k < p->nsprings; k++) {
+    const char *name = ReadName(c, "solid.springs", k);
+    used += (size_t)snprintf(columns + used, COLUMNS - used, ",%s_length [m],%s_tension [N/m]", name, name);
+  }
+  ReadMotionNames(c, p);
+  for (int k = 0; k < p->nmotions; k++)
+    used += (size_t)snprintf(columns + used, COLUMNS - used, ",%s_force_x [N/m],%s_force_y [N/m]",
+                             p->motion[k], p->motion[k]);
 }
 
 void ProbesCheckCase(CoracleCase c)
 {
-  double point[MAX_PROBES][2];
+  struct Probes_s p = {.n = 0};
   char columns[COLUMNS];
-  (void)ReadProbes(c, point, sizeof columns, columns);
+  ReadLists(c, &p, columns);
 }
 
 /* Collective: how far the nearest body is from the point, which is in none, m. */
@@ -129,7 +151,7 @@ PetscErrorCode ProbesCheckPoints(CoracleCase c, MPI_Comm comm, Solid solid)
   struct Probes_s p = {.comm = comm};
   char columns[COLUMNS];
   PetscFunctionBeginUser;
-  p.n = ReadProbes(c, p.point, sizeof columns, columns);
+  ReadLists(c, &p, columns);
   PetscCall(CheckPoints(c, &p, solid));
   PetscFunctionReturn(0);
 }
@@ -140,12 +162,13 @@ PetscErrorCode ProbesCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoin
   Probes p;
   PetscFunctionBeginUser;
   *probes = NULL;
-  const int nsprings = CoracleCaseCount(c, "solid.springs");
-  if (CoracleCaseCount(c, "solid.probes") + nsprings == 0) PetscFunctionReturn(0);
   PetscCall(PetscNew(&p));
   p->comm = comm;
-  p->nsprings = nsprings;
-  p->n = ReadProbes(c, p->point, sizeof columns, columns);
+  ReadLists(c, p, columns);
+  if (p->n + p->nsprings + p->nmotions == 0) {
+    PetscCall(PetscFree(p));
+    PetscFunctionReturn(0);
+  }
   PetscCall(CheckPoints(c, p, solid));
   PetscCall(
       SeriesCreate(comm, CoracleCaseString(c, "output.folder"), "solid_probes", columns, from, &p->series));
@@ -171,20 +194,21 @@ PetscErrorCode ProbesSave(Probes p, Checkpoint to)
 
 PetscErrorCode ProbesStep(Probes p, Solid solid)
 {
-  double row[1 + MAX_PROBES * VALUES + 2 * MAX_SPRINGS], value[MAX_PROBES][VALUES];
+  double row[1 + MAX_PROBES * VALUES + 2 * MAX_SPRINGS + 2 * MAX_MOTIONS], value[MAX_PROBES][VALUES];
   SpringState spring[MAX_SPRINGS];
-  int missing;
+  int missing, n = 0;
   PetscFunctionBeginUser;
   if (!p) PetscFunctionReturn(0);
   PetscCall(Values(p, solid, value, &missing));
-  row[0] = SolidGetStats(solid)->t;
+  row[n++] = SolidGetStats(solid)->t;
   for (int k = 0; k < p->n; k++)
-    for (int i = 0; i < VALUES; i++) row[1 + VALUES * k + i] = value[k][i];
+    for (int i = 0; i < VALUES; i++) row[n++] = value[k][i];
   PetscCall(SolidSprings(solid, spring));
   for (int k = 0; k < p->nsprings; k++) {
-    row[1 + VALUES * p->n + 2 * k] = spring[k].length;
-    row[2 + VALUES * p->n + 2 * k] = spring[k].tension;
+    row[n++] = spring[k].length;
+    row[n++] = spring[k].tension;
   }
+  for (int k = 0; k < p->nmotions; k++, n += 2) PetscCall(SolidMotionForce(solid, p->motion[k], &row[n]));
   PetscCall(SeriesRow(p->series, row));
   PetscFunctionReturn(0);
 }

@@ -61,6 +61,7 @@ PetscErrorCode SolidFreeSubdomain(Solid s)
   PetscCall(PetscFree(s->is_prescribed));
   PetscCall(PetscFree(s->reaction));
   PetscCall(PetscFree(s->momentum));
+  PetscCall(PetscFree(s->motion_impulse));
   PetscCall(PetscFree(s->material));
   PetscCall(PetscFree2(s->motion, s->motion_rows));
   PetscCall(PetscFree(s->prescribed));

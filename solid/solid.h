@@ -160,6 +160,8 @@ typedef struct {
   double load[2], weight[2];    /* the fluid's and gravity's force, N/m */
 } SolidBudget;
 PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget);
+/* Collective.  The force with which the prescribed motions of this name hold and move their nodes, mean over the last step, N/m. */
+PetscErrorCode SolidMotionForce(Solid s, const char *name, double force[2]);
 /* state[springs of the setup] now. */
 PetscErrorCode SolidSprings(Solid s, SpringState state[]);
 

@@ -126,6 +126,10 @@ static void ReadMotion(CoracleCase c, const char *item, BoundaryMotion *d, doubl
   static const char *const COMPONENTS[] = {"both", "x", "y", NULL};
   char key[CASE_KEY];
   d->boundary = CoracleCaseHas(c, CaseKey(key, "%s.boundary", item)) ? CoracleCaseString(c, key) : NULL;
+  const char *name = CoracleCaseStringOr(c, CaseKey(key, "%s.name", item), "");
+  if (strlen(name) >= sizeof d->motion.name)
+    CoracleCaseRefuse(c, key, "expected a name of at most %d characters", MOTION_NAME - 1);
+  strncpy(d->motion.name, name, sizeof d->motion.name - 1);
   const int component = CoracleCaseWord(c, CaseKey(key, "%s.component", item), 0, COMPONENTS);
   d->motion.prescribed[0] = component != 2;
   d->motion.prescribed[1] = component != 1;

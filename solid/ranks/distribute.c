@@ -226,6 +226,7 @@ static PetscErrorCode TakeMotions(Solid s, const Model *a, const int local[])
   s->nmotions = a->nmotions;
   for (int k = 0; k < a->nmotions; k++) nrows += a->motion[k].nrows;
   PetscCall(PetscMalloc2((size_t)a->nmotions, &s->motion, 3 * (size_t)nrows, &s->motion_rows));
+  PetscCall(PetscCalloc1((size_t)a->nmotions, &s->motion_impulse));
   PetscCall(PetscMalloc1((size_t)a->nprescribed, &s->prescribed));
   PetscCall(PetscMalloc1(2 * (size_t)a->nprescribed, &s->position_before));
   for (int k = 0, row = 0; k < a->nmotions; row += a->motion[k++].nrows) {

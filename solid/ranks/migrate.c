@@ -81,6 +81,8 @@ static void TakeTime(const Solid s, Solid fresh)
   fresh->budget = s->budget;
   memcpy(fresh->reaction, s->reaction, (size_t)s->nbodies * sizeof *s->reaction);
   memcpy(fresh->momentum, s->momentum, (size_t)s->nbodies * sizeof *s->momentum);
+  for (int k = 0; k < s->nmotions; k++)
+    memcpy(fresh->motion_impulse[k], s->motion_impulse[k], sizeof s->motion_impulse[k]);
   fresh->balance = s->balance;
   fresh->model = s->model;
   fresh->before = s->before;

@@ -17,7 +17,7 @@ solid:
   bodies:
     - {shape: rectangle, centre: [0.0, 0.1], width: 0.1, height: 0.2, size: 0.05, material: stone}
     - {shape: rectangle, centre: [0.0, -0.05], width: 0.3, height: 0.1, size: 0.05, material: steel, fixed: true}
-    - {shape: rectangle, centre: [0.0, 0.25], width: 0.3, height: 0.1, size: 0.05, material: steel, prescribed: [{velocity: [0.0, -0.004], rise: 0.1}]}
+    - {shape: rectangle, centre: [0.0, 0.25], width: 0.3, height: 0.1, size: 0.05, material: steel, prescribed: [{velocity: [0.0, -0.004], rise: 0.1, name: ram}]}
     - {shape: rectangle, centre: [1.0, 0.0], width: 0.1, height: 0.1, size: 0.05, material: steel}
   springs: [{name: rope, point: [1.0, 0.0], anchor: [1.0, 1.0], stiffness: 10.0, damping: 2.0}]
 output: {folder: out/platens, every: 1.0}
@@ -28,12 +28,15 @@ for ranks in 1 2; do
 done
 "$(command -v /usr/bin/python3 || command -v python3)" - "$scratch" <<'E2'
 import csv, sys
-runs = [[{k.split(" [")[0]: float(v) for k, v in r.items()} for r in csv.DictReader(open("%s/%s/solid.csv" % (sys.argv[1], n)))] for n in "12"]
+def read(n, series):
+    return [{k.split(" [")[0]: float(v) for k, v in r.items()} for r in csv.DictReader(open("%s/%s/%s.csv" % (sys.argv[1], n, series)))]
+runs = [[{**r, **probe} for r, probe in zip(read(n, "solid"), read(n, "solid_probes"))] for n in "12"]
 for rows in runs:
     for before, r in zip(rows, rows[1:]):
         dt = r["t"] - before["t"]
         total = sum(r["ry%d" % b] for b in range(4))
         assert abs(total * dt - r["reaction_y"]) < 1e-9, "%g s: %g N/m on the bodies, %g of all" % (r["t"], total, r["reaction_y"] / dt)
+        assert abs(r["ram_force_y"] - r["ry2"]) < 1e-9 * abs(r["ry2"]) + 1e-12, "the ram has %g of %g N/m" % (r["ram_force_y"], r["ry2"])
         touch = sum(r["cy%d" % b] for b in range(4))
         assert abs(touch * dt - r["walls_y"]) < 1e-9, "%g s: contact pushes bodies by %g N/m, walls by %g" % (r["t"], touch, r["walls_y"] / dt)
     weight = [r["mass%d" % b] for b in range(4)]

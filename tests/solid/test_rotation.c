@@ -26,7 +26,7 @@ static PetscErrorCode Rotate(const Way *w)
 {
   const SolidSetup setup = {.courant = 0.8, .rebalance = 200.0, .gravity = {0.0, -9.81}};
   const double row[3] = {0.0, 0.4, -0.2}, t = 0.7;
-  const BoundaryMotion motion = {NULL, {{1, 1}, 1, row, 0.0, w->period, w->rise, SPIN, {0.3, 0.1}}};
+  const BoundaryMotion motion = {NULL, {{1, 1}, 1, row, 0.0, w->period, w->rise, SPIN, {0.3, 0.1}, ""}};
   BodySetup body = BodyAtRest(MaterialOf(1000.0, 1e6, 0.3, 0.1));
   Model a = {0};
   Solid s;
