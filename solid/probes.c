@@ -2,12 +2,12 @@
 #include "common/link/case_key.h"
 #include "common/output/output.h"
 #include "common/supermesh/geometry.h"
+#include "solid/point_in_body.h"
 #include "solid/prescribed_motion.h"
 #include <stdio.h>
 
 enum { MAX_PROBES = 64, MAX_MOTIONS = 64, VALUES = 4, SUMS = VALUES + 1 };
 enum { COLUMNS = (MAX_PROBES + MAX_SPRINGS + MAX_MOTIONS) * 220 };
-#define ON_EDGE 1e-9 /* barycentric coordinate of a point that counts as inside */
 
 struct Probes_s {
   MPI_Comm comm;
@@ -25,7 +25,7 @@ static void AddElements(const SolidView *v, const double point[2], double sum[SU
     for (int i = 0; i < 3; i++)
       for (int c = 0; c < 2; c++) rest[i][c] = v->rest[2 * v->element[3 * e + i] + c];
     GeometryBarycentric((const double(*)[2])rest, point, weight);
-    if (fmin(weight[0], fmin(weight[1], weight[2])) < -ON_EDGE) continue;
+    if (fmin(weight[0], fmin(weight[1], weight[2])) < -POINT_ON_EDGE) continue;
     for (int i = 0; i < 3; i++)
       for (int c = 0; c < 2; c++) {
         const int k = 2 * v->element[3 * e + i] + c;
@@ -115,35 +115,61 @@ void ProbesCheckCase(CoracleCase c)
   ReadLists(c, &p, columns);
 }
 
-/* Collective: how far the nearest body is from the point, which is in none, m. */
-static PetscErrorCode Distance(Probes p, Solid s, const double point[2], double *nearest)
+/* The point of the bodies' sides at rest that is nearest to one that is in none: how far it is, m, the side's length, where. */
+typedef struct {
+  double distance, length, place[2];
+} NearestSide;
+
+static NearestSide NearestSideOf(const SolidView *v, const double point[2])
 {
+  NearestSide nearest = {.distance = HUGE_VAL};
+  for (int k = 0; k < 3 * v->nelements; k++) {
+    const double *a = v->rest + 2 * v->element[k], *b = v->rest + 2 * v->element[k % 3 == 2 ? k - 2 : k + 1],
+                 s = GeometrySegmentPlace(a, b, point), distance = GeometryDistanceAt(a, b, s, point);
+    if (distance >= nearest.distance) continue;
+    nearest = (NearestSide){
+        distance, hypot(b[0] - a[0], b[1] - a[1]), {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])}};
+  }
+  return nearest;
+}
+
+/* Collective: of all ranks. */
+static PetscErrorCode Nearest(Probes p, Solid s, const double point[2], NearestSide *nearest)
+{
+  struct {
+    double distance;
+    int rank;
+  } least;
   SolidView v;
   PetscFunctionBeginUser;
   SolidGetView(s, &v);
-  *nearest = HUGE_VAL;
-  for (int e = 0; e < v.nelements; e++) {
-    double rest[3][2];
-    for (int i = 0; i < 3; i++)
-      for (int c = 0; c < 2; c++) rest[i][c] = v.rest[2 * v.element[3 * e + i] + c];
-    *nearest = fmin(*nearest, GeometrySideDistance((const double(*)[2])rest, point));
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, nearest, 1, MPI_DOUBLE, MPI_MIN, p->comm));
+  *nearest = NearestSideOf(&v, point);
+  least.distance = nearest->distance;
+  PetscCallMPI(MPI_Comm_rank(p->comm, &least.rank));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE_INT, MPI_MINLOC, p->comm));
+  PetscCallMPI(MPI_Bcast(nearest, sizeof *nearest, MPI_BYTE, least.rank, p->comm));
   PetscFunctionReturn(0);
 }
 
+/* A point that is in no body moves to the nearest side, or is refused if that is far. */
 static PetscErrorCode CheckPoints(CoracleCase c, Probes p, Solid solid)
 {
   char key[CASE_KEY];
-  double value[MAX_PROBES][VALUES], distance;
+  double value[MAX_PROBES][VALUES];
+  NearestSide nearest;
   int missing;
   PetscFunctionBeginUser;
-  PetscCall(Values(p, solid, value, &missing));
-  if (missing < 0) PetscFunctionReturn(0);
-  PetscCall(Distance(p, solid, p->point[missing], &distance));
-  CoracleCaseRefuse(c, CaseKey(key, "solid.probes[%d].point", missing),
-                    "no body is at (%g, %g) at rest; the nearest is %.3g m away", p->point[missing][0],
-                    p->point[missing][1], distance);
+  for (int moved = 0;; moved++) {
+    PetscCall(Values(p, solid, value, &missing));
+    if (missing < 0) PetscFunctionReturn(0);
+    double *point = p->point[missing];
+    PetscCall(Nearest(p, solid, point, &nearest));
+    if (!(nearest.distance <= POINT_NEAR * nearest.length) || moved == p->n)
+      CoracleCaseRefuse(c, CaseKey(key, "solid.probes[%d].point", missing),
+                        "no body is at (%g, %g) at rest; the nearest is %.3g m away", point[0], point[1],
+                        nearest.distance);
+    PetscCall(PetscArraycpy(point, nearest.place, 2));
+  }
 }
 
 PetscErrorCode ProbesCheckPoints(CoracleCase c, MPI_Comm comm, Solid solid)

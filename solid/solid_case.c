@@ -2,10 +2,9 @@
 #include "common/output/options.h"
 #include "common/supermesh/geometry.h"
 #include "solid/bodies/case_body.h"
+#include "solid/point_in_body.h"
 #include "solid/probes.h"
 #include <stdio.h>
-
-#define ON_EDGE 1e-9 /* barycentric coordinate of a point that counts as inside */
 
 /* Friction and damping of walls; absent: those of what touches them. */
 static void ReadWallContact(CoracleCase c, SolidSetup *setup)
@@ -17,22 +16,27 @@ static void ReadWallContact(CoracleCase c, SolidSetup *setup)
   setup->wall_damping = damping ? CoracleCaseNumber(c, "solid.walls.contact_damping", 0.0, 10.0) : -1.0;
 }
 
-/* The element of the model that is at the point at the start, and the point in it; not of body `except`.  How far the nearest one is, m: 0
+/* The element of the model that is at the point at the start, or nearly, and the point in it; not of body `except`.  How far the nearest one is, m: 0
  * if there is one. */
 static double FindElement(const Model *a, const double point[2], int except, SpringEnd *end)
 {
-  double nearest = HUGE_VAL;
+  double nearest = HUGE_VAL, size = 0.0;
   for (int e = 0; e < a->nelements; e++) {
-    double corner[3][2], *w = end->weight;
+    double corner[3][2], w[3];
     if (a->element_body[e] == except) continue;
     for (int i = 0; i < 3; i++)
       for (int c = 0; c < 2; c++) corner[i][c] = a->x[2 * a->element[3 * e + i] + c];
     GeometryBarycentric((const double(*)[2])corner, point, w);
+    const PetscBool inside = (PetscBool)(fmin(w[0], fmin(w[1], w[2])) > -POINT_ON_EDGE);
+    const double distance = inside ? 0.0 : GeometrySideDistance((const double(*)[2])corner, point);
+    if (distance >= nearest) continue;
+    nearest = distance;
+    size = sqrt(2.0 * GeometryArea((const double(*)[2])corner));
     end->element = e;
-    if (fmin(w[0], fmin(w[1], w[2])) > -ON_EDGE) return 0.0;
-    nearest = fmin(nearest, GeometrySideDistance((const double(*)[2])corner, point));
+    for (int i = 0; i < 3; i++) end->weight[i] = w[i];
+    if (inside) break;
   }
-  return nearest;
+  return nearest <= POINT_NEAR * size ? 0.0 : nearest;
 }
 
 /* Both ends; other[2]: where the other one is at the start. */

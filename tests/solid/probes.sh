@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A disc that flies freely: its probes say where it is and how fast, on one rank and on two; a probe outside of all bodies is refused.  So for a spring, its length and its tension.
+# A disc that flies freely: its probes, one on the circle outside of its polygon, say where it is and how fast, on one rank and on two; a probe outside of all bodies is refused.  So for a spring, its length and its tension.
 # Usage: probes.sh ROOT BUILD
 set -euo pipefail
 root=$1 build=$2 scratch=$(mktemp -d)
@@ -9,7 +9,7 @@ fly() {
   "$root/scripts/launch.sh" --bin "$build" --alone --ranks "1:1:$1" "$root/tests/solid/alone.yaml" --set "output.folder=$scratch/$1" \
     --set 'solid.bodies=[{shape: disc, centre: [0, 0], radius: 0.1, size: 0.02, material: m, velocity: [1.0, -0.5]}]' \
     --set 'solid.materials={m: {density: 1000.0, youngs_modulus: 1.0e6, poisson_ratio: 0.3}}' --set 'gravity=[0, 0]' --set 'solid.walls.lower=[-1, -1]' \
-    --set time.end=0.1 --set time.dt_max=0.01 --set "solid.probes=[{name: middle, point: [0, 0]}, {name: rim, point: [0.07, 0.03]}]" "${@:2}"
+    --set time.end=0.1 --set time.dt_max=0.01 --set "solid.probes=[{name: middle, point: [0, 0]}, {name: rim, point: [0.0996195, 0.0087156]}]" "${@:2}"
 }
 for ranks in 1 2; do
   fly $ranks >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
