@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Vibration modes from a time series: the strongest frequencies in a column of solid.csv.
 
-    scripts/modes.py out/beam/solid.csv --column v0 --modes 3
+    scripts/modes.py out/beam --column v0 --modes 3       # its solid.csv, or another file: out/beam/solid_probes.csv --column tip_y
 
 Rows need not be equally spaced (they are brought to equal steps by linear interpolation).  The mean is taken off,
 a Hann window laid over the series, its spectrum searched for the highest peaks, and each peak refined where the
@@ -12,13 +12,17 @@ import argparse
 import cmath
 import csv
 import math
+import os
 import sys
 
 
 def read_column(path, wanted):
     """Times and values; wanted with or without its unit."""
-    with open(path) as lines:
-        rows = list(csv.reader(line.lstrip("#") for line in lines if line.strip()))
+    try:
+        with open(path) as lines:
+            rows = list(csv.reader(line.lstrip("#") for line in lines if line.strip()))
+    except OSError as error:
+        sys.exit(f"modes: {path}: {error.strerror}")
     names = [name.strip() for name in rows[0]]
     places = [k for k, name in enumerate(names) if wanted in (name, name.split("[")[0].strip())]
     if not places:
@@ -86,12 +90,13 @@ def find_modes(t, values, count):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("series", help="a CSV file whose first column is the time, s")
+    parser.add_argument("series", help="a run's folder, or a CSV file whose first column is the time, s")
     parser.add_argument("--column", default="v0", help="default v0: velocity across of the first body's mass centre")
     parser.add_argument("--modes", type=int, default=3)
     parser.add_argument("--start", type=float, default=0.0, help="leave out what is before, s")
     arguments = parser.parse_args()
-    t, values = read_column(arguments.series, arguments.column)
+    path = os.path.join(arguments.series, "solid.csv") if os.path.isdir(arguments.series) else arguments.series
+    t, values = read_column(path, arguments.column)
     kept = [(a, b) for a, b in zip(t, values) if a >= arguments.start]
     if len(kept) < 16:
         sys.exit(f"modes: {len(kept)} rows are too few")

@@ -45,8 +45,7 @@ void NoteFriction(Solid s)
       ContactMaterials(s, m, other, &friction, &damping);
       if (friction > 0.0 || given <= 0.0) continue;
       printf("note: there is no friction between material '%s' and %s%s%s: one side has the coefficient %g, "
-             "the other "
-             "none, and it is their geometric mean (or that of solid.contact)\n",
+             "the other none, and it is their geometric mean (or that of solid.contact)\n",
              s->material[m].name, other < 0 ? "walls" : "material '",
              other < 0 ? "" : s->material[other].name, other < 0 ? "" : "'", given);
       return;

@@ -77,8 +77,9 @@ static void ReadMotionName(CoracleCase c, const char *list, int k, Probes p)
 
 static void ReadMotionNames(CoracleCase c, Probes p)
 {
+  const int nbodies = CoracleCaseCount(c, "solid.bodies");
   char list[CASE_KEY];
-  for (int b = 0; b < CoracleCaseCount(c, "solid.bodies"); b++) {
+  for (int b = 0; b < nbodies; b++) {
     CaseKey(list, "solid.bodies[%d].prescribed", b);
     for (int k = 0; k < CoracleCaseCount(c, list); k++) ReadMotionName(c, list, k, p);
   }

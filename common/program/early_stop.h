@@ -10,8 +10,8 @@ typedef struct {
       looked; /* by the clock, s: time.walltime (0: none); MPI_Wtime of the run's start, of the last look */
 } EarlyStop;
 
-/* Removes the file that an earlier run has been sent.  folder: output.folder, which has been claimed; elapsed: what of walltime has
- * passed, s.  Of one rank or more; collective over PETSC_COMM_WORLD. */
+/* Removes a file that an earlier run has left.  folder: output.folder, which has been claimed; elapsed: what of walltime has passed, s.
+ * Collective over PETSC_COMM_WORLD. */
 PetscErrorCode EarlyStopBegin(const char *folder, double walltime, double elapsed, EarlyStop *s);
 /* After each step.  Rank 0 looks at the file about once a second; it removes it, and says at which time t, s, the run ends.  Collective over
  * PETSC_COMM_WORLD. */
