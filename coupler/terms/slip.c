@@ -6,7 +6,7 @@
 #define DENSE_LEAST 0.1
 /* Faces oppose each other where their mean normal is shorter: not the two of a corner of more than 74 degrees. */
 #define OPPOSED 0.6
-/* What is open of an element between such faces, if less, counts in part as open (w of slip.h). */
+/* What is open of an element between such faces, if less, counts in part as open. */
 #define CORNER_OPEN 0.3
 /* Less than this of an element beside a solid at rest among phases is nothing.  Its content, and with it the density of all of the element, would be that of a sliver, and
  * the flow along the surface that this drives, in an element that conducts as a whole, raised the water beside a block that was held.  PHASES_LEAST_OPEN is
@@ -60,20 +60,21 @@ static double Planeness(const NormalSums *sums)
   return hypot(sums->xx - sums->yy, 2.0 * sums->xy) / sums->area;
 }
 
-/* (w + (1 - w) s^SLIP_PLANE) I - s^SLIP_PLANE n n; 0 without a surface. */
-static WallCoefficient SlipTensor(const NormalSums *sums, double w)
+/* I - s^SLIP_PLANE n n; 0 without a surface. */
+static WallCoefficient SlipTensor(const NormalSums *sums)
 {
   if (sums->area == 0.0) return WallCoefficientIsotropic(0.0);
   const double xx = sums->xx / sums->area, xy = sums->xy / sums->area, yy = sums->yy / sums->area;
-  const double s = Planeness(sums), part = pow(s, SLIP_PLANE - 1.0),
-               rest = w + (1.0 - w) * s * part + 0.5 * part * (1.0 - s);
+  const double s = Planeness(sums), part = pow(s, SLIP_PLANE - 1.0), rest = 1.0 + 0.5 * part * (1.0 - s);
   return (WallCoefficient){rest - part * xx, -part * xy, rest - part * yy};
 }
 
-/* w: the part of the slip in both directions that is kept between faces that oppose each other, `open` of the element being open. */
+/* q of slip.h: the part of the slip that is kept between faces that oppose each other, `open` of the element being open. */
 static double KeptBetween(const NormalSums *sums, double open)
 {
-  return hypot(sums->x, sums->y) < OPPOSED * sums->area ? fmin(1.0, open / CORNER_OPEN) : 1.0;
+  if (sums->area == 0.0 || hypot(sums->x, sums->y) >= OPPOSED * sums->area) return 1.0;
+  const double s = Planeness(sums);
+  return fmin(1.0, open / CORNER_OPEN + 2.0 * s * s);
 }
 
 void SlipTensors(const Overlap o, const SourceTerm term[], const double gravity[2], double dt,
@@ -99,12 +100,12 @@ void SlipTensors(const Overlap o, const SourceTerm term[], const double gravity[
     k->along = k->tangential = WallCoefficientIsotropic(0.0);
     k->shared = (PetscBool)(o->phases && shared && held.area > 0.0);
     if (!k->open && !shared) continue;
-    k->along = SlipTensor(o->phases ? &held : &all, 1.0);
+    k->along = SlipTensor(o->phases ? &held : &all);
     if (!o->phases)
-      k->tangential = k->open ? SlipTensor(&all, KeptBetween(&all, 1.0 - solid / area)) : k->along;
+      k->tangential = WallCoefficientScaled(&k->along, k->open ? KeptBetween(&all, 1.0 - solid / area) : 1.0);
     if (!o->phases || !k->open || held.area > 0.0 || !IsBesideDense(o, k, e)) continue;
     if (InertiaKept(o, term, k, INERTIA_KEPT_RATIO, e) < 1.0) continue;
-    const WallCoefficient d = SlipTensor(&all, 1.0);
+    const WallCoefficient d = SlipTensor(&all);
     k->tangential = WallCoefficientScaled(&d, PhasesKept(g, area, dt));
   }
 }

@@ -17,11 +17,11 @@
  *
  * Between fragments that are as small as elements nearly all elements have faces in several directions.  With D = I in all of them nothing held the water to debris at rest,
  * and it was set in motion again (tests/coupled/debris.sh: from 0.2 to 2 m/s).  So where the mean of the normals in K is shorter than 0.6, faces
- * opposing each other, and less than 0.3 of K is open,
+ * opposing each other,
  *
- *     D  =  (w + (1 - w) s^8) I - s^8 n n,     w = what is open/0.3.
+ *     D  =  q (I - s^8 n n),     q  =  min(1, what is open of K/0.3 + 2 s^2).
  *
- * A corner of a single body of more than 74 degrees has a longer mean, and a plane slot, s = 1, the same D.
+ * A corner of a single body of more than 74 degrees has a longer mean, and a slot, s near 1, the same D.
  *
  * What brings the slip to rest is viscous, without dt and without a density: the wall term (wall_term.h) and, in the part of K inside the solid,
  *
