@@ -16,7 +16,7 @@
  * D = 0 where K is in the solid as a whole.
  *
  * Between fragments that are as small as elements nearly all elements have faces in several directions.  With D = I in all of them nothing held the water to debris at rest,
- * and it was set in motion again (tests/coupled/debris.sh: from 0.2 to 2 m/s).  So where the mean of the normals in K is shorter than 0.6, faces
+ * and it was set in motion again (tests/coupled/debris.sh: to 3.5 m/s within a second).  So where the mean of the normals in K is shorter than 0.6, faces
  * opposing each other,
  *
  *     D  =  q (I - s^8 n n),     q  =  min(1, what is open of K/0.3 + 2 s^2).
