@@ -28,7 +28,7 @@ typedef struct {
   const CoracleCorrection *correction; /* [ncorrection] of the last accepted step, not sent yet; borrowed */
 } RunState;
 
-/* dt for the coming step: the proposal, at most time.dt_max and 1.3 of dt_before.  The last step ends exactly at time.end,
+/* dt for the coming step: the proposal, at most time.dt_max and 1.3 of dt_before, and shorter where that spares coupling iterations.  The last step ends exactly at time.end,
  * and the one before it is shortened so that the last is not much smaller.  A proposal below 1e-6 of
  * time.dt_max ends the job: the flow diverges and would take ever shorter steps. */
 PetscErrorCode RunChooseStep(RunState *run, double proposed);

@@ -101,11 +101,12 @@ static PetscErrorCode BuildAt(Coupler c, const SolidState *solid, const double x
     PetscCall(SolidPartsCreate(c->comm, &at, c->overlap->nodes, &c->parts));
   }
   c->built = 1;
+  c->single_iteration_step = 0.0;
   PetscCall(c->mode->coefficients(c, &at));
   PetscCall(InertiaExplicitFraction(c->overlap, &at, c->source, c->explicit_fraction));
   if (c->options.mode == COUPLER_REACTION)
     PetscCall(ViscousExplicitFraction(c->parts, c->overlap, &at, c->term, c->options.thickness, c->dt,
-                                      c->explicit_fraction));
+                                      c->explicit_fraction, &c->single_iteration_step));
   PetscFunctionReturn(0);
 }
 
@@ -295,6 +296,11 @@ const char *CouplerGiven(Coupler c)
 const double *CouplerExplicitFraction(Coupler c)
 {
   return c->explicit_fraction;
+}
+
+double CouplerSingleIterationStep(Coupler c)
+{
+  return c->single_iteration_step;
 }
 
 PetscErrorCode CouplerSave(Coupler c, Checkpoint to)

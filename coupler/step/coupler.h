@@ -46,6 +46,8 @@ PetscErrorCode CouplerSetAcceleration(Coupler coupler, const SolidState *end);
  * and how much of each node's motion depends on that prediction [nnodes], 0 .. 1 (inertia.h). */
 const double *CouplerPredictedVelocity(Coupler coupler);
 const double *CouplerExplicitFraction(Coupler coupler);
+/* Not collective; of the step that was built: the longest step from there that one coupling iteration would be enough for, s (viscous_response.h); 0: unknown, or none. */
+double CouplerSingleIterationStep(Coupler coupler);
 /* [nnodes] nodes without mobility whose acceleration is given: the predicted velocity is theirs, whatever the fluid does. */
 const char *CouplerGiven(Coupler coupler);
 /* Not collective, after CouplerComputeForce: CoracleGetFilm's load[nnodes][2] and resistance[nnodes][2][2], borrowed until the next one; NULL, on

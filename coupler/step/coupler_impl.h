@@ -22,6 +22,7 @@ struct Coupler_s {
   double *predicted;             /* [nnodes][2] velocity at the step's end, m/s */
   double *acceleration;          /* [nnodes][2] a: by all but the fluid inside the solid, m/s2 (inertia.h) */
   double *explicit_fraction;     /* [nnodes] (inertia.h) */
+  double single_iteration_step;  /* s (viscous_response.h) */
   char *given;                   /* [nnodes] CouplerGiven */
   double *displaced;             /* [nnodes] kg/m3 (displaced.h) */
   Copies parts;                  /* of the solid (viscous_response.h) */

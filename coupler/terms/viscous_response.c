@@ -70,7 +70,7 @@ static PetscErrorCode Friction(Overlap o, const PairTerm term[], double thicknes
 
 PetscErrorCode ViscousExplicitFraction(Copies parts, Overlap o, const SolidState *solid,
                                        const PairTerm term[], double thickness, double dt,
-                                       double explicit_fraction[])
+                                       double explicit_fraction[], double *single)
 {
   enum { FRICTION, MASS, NSUMS };
   double *friction, (*sum)[NSUMS];
@@ -84,11 +84,15 @@ PetscErrorCode ViscousExplicitFraction(Copies parts, Overlap o, const SolidState
     sum[i][MASS] = counts ? 1.0 / solid->mobility[i] : 0.0;
   }
   PetscCall(CopiesSum(parts, NSUMS, (double *)sum));
+  *single = HUGE_VAL;
   for (int i = 0; i < solid->nnodes; i++) {
     const double chi = sum[i][MASS] > 0.0 ? 2.0 * dt * sum[i][FRICTION] / sum[i][MASS] : 0.0;
-    if (solid->mobility[i] > 0.0 && chi > VISCOUS_LIMIT)
-      explicit_fraction[i] = fmax(explicit_fraction[i], 1.0 - VISCOUS_LIMIT / chi);
+    if (solid->mobility[i] == 0.0) continue;
+    *single =
+        explicit_fraction[i] > 0.0 ? 0.0 : fmin(*single, chi > 0.0 ? dt * VISCOUS_LIMIT / chi : HUGE_VAL);
+    if (chi > VISCOUS_LIMIT) explicit_fraction[i] = fmax(explicit_fraction[i], 1.0 - VISCOUS_LIMIT / chi);
   }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, single, 1, MPI_DOUBLE, MPI_MIN, o->comm));
   PetscCall(PetscFree2(friction, sum));
   PetscFunctionReturn(0);
 }
