@@ -1,6 +1,9 @@
 #include "coupler/terms/viscous_response.h"
 #include "common/exchange/union_find.h"
 
+/* Nodes with a larger explicit fraction of the inertia need several coupling iterations over any step. */
+#define LIGHT 0.01
+
 /* label[nnodes]: the least number of the nodes that elements of any rank connect a node with. */
 static PetscErrorCode Label(MPI_Comm comm, const SolidState *solid, Copies nodes, double label[])
 {
@@ -89,7 +92,7 @@ PetscErrorCode ViscousExplicitFraction(Copies parts, Overlap o, const SolidState
     const double chi = sum[i][MASS] > 0.0 ? 2.0 * dt * sum[i][FRICTION] / sum[i][MASS] : 0.0;
     if (solid->mobility[i] == 0.0) continue;
     *single =
-        explicit_fraction[i] > 0.0 ? 0.0 : fmin(*single, chi > 0.0 ? dt * VISCOUS_LIMIT / chi : HUGE_VAL);
+        explicit_fraction[i] > LIGHT ? 0.0 : fmin(*single, chi > 0.0 ? dt * VISCOUS_LIMIT / chi : HUGE_VAL);
     if (chi > VISCOUS_LIMIT) explicit_fraction[i] = fmax(explicit_fraction[i], 1.0 - VISCOUS_LIMIT / chi);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, single, 1, MPI_DOUBLE, MPI_MIN, o->comm));
