@@ -27,12 +27,15 @@ PetscErrorCode RunOpenOutput(RunState *run)
 
 PetscErrorCode RunLoad(RunState *run, Checkpoint from)
 {
-  double row[MONITOR_NUMBERS];
+  double row[MONITOR_NUMBERS], shortened;
 
   PetscFunctionBeginUser;
   PetscCall(CheckpointGetNumber(from, "t", &run->t));
   PetscCall(CheckpointGetNumber(from, "dt", &run->dt)); /* 0 from the end of a run: not chosen yet */
   PetscCall(CheckpointGetNumber(from, "dt before", &run->dt_before));
+  PetscCall(CheckpointGetNumber(from, "shortened", &shortened));
+  PetscCall(CheckpointGetNumber(from, "iterations taken", &run->iterations_taken));
+  run->shortened = (PetscBool)(shortened != 0.0);
   PetscCall(CheckpointGetDoubles(from, "divergence monitor", 0, 1, MONITOR_NUMBERS, row));
   run->monitor = (DivergenceMonitor){(int)row[0], (int)row[1], {row[2], row[3]}, {row[4], row[5]}, row[6]};
   if (run->t >= run->loop->c->end)
@@ -56,6 +59,8 @@ PetscErrorCode RunSave(const RunState *run)
   PetscCall(CheckpointPutNumber(to, "t", run->t));
   PetscCall(CheckpointPutNumber(to, "dt", run->dt));
   PetscCall(CheckpointPutNumber(to, "dt before", run->dt_before));
+  PetscCall(CheckpointPutNumber(to, "shortened", run->shortened));
+  PetscCall(CheckpointPutNumber(to, "iterations taken", run->iterations_taken));
   PetscCall(CheckpointPutDoubles(to, "divergence monitor", rank ? 0 : 1, MONITOR_NUMBERS, row));
   PetscCall(WriterSave(run->loop->writer, to));
   PetscCall(CouplerSave(run->loop->coupler, to));

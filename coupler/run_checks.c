@@ -8,8 +8,11 @@
 /* A step over the one before it, at most: what is extrapolated over it stays near. */
 #define MAX_GROWTH 1.3
 
-/* What a step takes where friction asks for several: steps that take one may be shorter by as much. */
-#define VISCOUS_ITERATIONS 3.0
+/* Coupling iterations where friction asks for several: what a step takes at least, and what more are counted as, for where bodies touch it takes 10 to 30, else 3 to 5; and what
+ * remains, a step later, of how many the last one took that was not shortened: now and then one is tried anew. */
+#define FEW_ITERATIONS 3.0
+#define MANY_ITERATIONS 8.0
+#define REMEMBERED 0.99
 
 /* Of the domain's smaller extent: a node farther outside has left it. */
 #define LEAVES 0.01
@@ -34,12 +37,21 @@ PetscErrorCode RunFail(const RunState *run, const char *format, ...)
   PetscFunctionReturn(0);
 }
 
-/* At most `longest`; where friction asks for several coupling iterations over that (viscous_response.h), the shorter step that takes one, if that is less work. */
-static double ShortenedStep(const RunState *run, double longest)
+/* At most `longest`; where friction asks for several coupling iterations over that (viscous_response.h), the shorter step that takes one, if as many of those as make up
+ * `longest` are less work. */
+static double ShortenedStep(RunState *run, double longest)
 {
   const double single =
       run->loop->c->max_iterations > 1 ? CouplerSingleIterationStep(run->loop->coupler) : 0.0;
-  return single < longest && VISCOUS_ITERATIONS * single > longest ? single : longest;
+  const double spared = fmin(fmax(run->iterations_taken, FEW_ITERATIONS), MANY_ITERATIONS);
+  run->shortened = (PetscBool)(single < longest && spared * single > longest);
+  return run->shortened ? single : longest;
+}
+
+void RunRememberIterations(RunState *run, int iterations)
+{
+  const PetscBool tried = (PetscBool)(iterations > 1 && !run->shortened);
+  run->iterations_taken = tried ? iterations : REMEMBERED * run->iterations_taken;
 }
 
 PetscErrorCode RunChooseStep(RunState *run, double proposed)

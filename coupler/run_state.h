@@ -20,9 +20,12 @@ typedef struct {
   Checkpoints checkpoints;
   EarlyStop early_stop;
   Gauges gauges;
-  double t, dt;       /* start and length of the current step, s; dt 0 when the run has ended */
-  double dt_before;   /* of the step before it, s; 0: there was none */
-  PetscBool ends;     /* with the accepted step: at time.end, or before */
+  double t, dt;        /* start and length of the current step, s; dt 0 when the run has ended */
+  double dt_before;    /* of the step before it, s; 0: there was none */
+  PetscBool shortened; /* dt, so that it takes one coupling iteration */
+  double
+      iterations_taken; /* by the last step that took several and was not shortened; less with each step since */
+  PetscBool ends;       /* with the accepted step: at time.end, or before */
   PetscBool has_left; /* a node has been seen outside of the fluid's domain */
   int ncorrection;
   const CoracleCorrection *correction; /* [ncorrection] of the last accepted step, not sent yet; borrowed */
@@ -32,6 +35,8 @@ typedef struct {
  * and the one before it is shortened so that the last is not much smaller.  A proposal below 1e-6 of
  * time.dt_max ends the job: the flow diverges and would take ever shorter steps. */
 PetscErrorCode RunChooseStep(RunState *run, double proposed);
+/* Not collective: of a step that has converged, coupling iterations, also those over more of it than dt. */
+void RunRememberIterations(RunState *run, int iterations);
 /* Ends the job when a node of the solid is outside of the fluid's domain. */
 PetscErrorCode RunCheckInside(const RunState *run);
 /* Ends the job when the solid asks for the load of the pressure where there is none: in modes other than reaction and among phases. */

@@ -213,6 +213,7 @@ static PetscErrorCode SolveOverStep(RunState *run, StepRecord *step, PetscBool *
 /* Until the step has converged, over half of dt where it has not. */
 static PetscErrorCode SolveStep(RunState *run, StepRecord *step)
 {
+  const int before = step->iterations;
   PetscBool converged;
 
   PetscFunctionBeginUser;
@@ -223,6 +224,7 @@ static PetscErrorCode SolveStep(RunState *run, StepRecord *step)
     PetscCall(SendRedo(run));
     PetscCall(SendCoupling(run));
   }
+  RunRememberIterations(run, step->iterations - before);
   PetscFunctionReturn(0);
 }
 

@@ -14,7 +14,8 @@
 /* What the calls that read them do not say of the solid's keys. */
 static const CoracleCaseKey KEYS[] = {
     {"solid.materials.*.density", "kg/m3", "density"},
-    {"solid.materials.*.youngs_modulus", "Pa", "Young's modulus"},
+    {"solid.materials.*.youngs_modulus", "Pa",
+     "Young's modulus; rigid materials need it, or penalty, for contact alone"},
     {"solid.materials.*.poisson_ratio", "", "Poisson's ratio"},
     {"solid.materials.*.damping", "", "part of the critical damping of the stiffest mode of an element"},
     {"solid.materials.*.damping_ratio", "",
@@ -28,7 +29,7 @@ static const CoracleCaseKey KEYS[] = {
      "geometric mean; not a "
      "coefficient of restitution: a rebound is set by damping_ratio"},
     {"solid.materials.*.plane", "", "plane strain or plane stress"},
-    {"solid.materials.*.law", "", "stress from strain"},
+    {"solid.materials.*.law", "", "stress from strain; rigid: none, its bodies keep their shape"},
     {"solid.materials.*.thickness", "m", "across the plane; absent: 1; the fluid sees one metre"},
     {"solid.materials.*.tensile_strength", "Pa", "with it the material can crack where there are joints"},
     {"solid.materials.*.shear_strength", "Pa", "without pressure; required with tensile_strength"},

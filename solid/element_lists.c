@@ -8,12 +8,18 @@ PetscBool SolidElementHeld(const Elements *e, int k, const double inverse_mass[]
   return mobility == 0.0 ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Strips of elements, and nodes, that cannot move. */
+/* Its forces are zero, or act on nodes that cannot move. */
+static PetscBool Idle(const Solid s, int k)
+{
+  const Elements *e = &s->elements;
+  return (PetscBool)(s->body[e->body[k]].rigid.mass > 0.0 || SolidElementHeld(e, k, s->inverse_mass));
+}
+
+/* Strips of elements whose forces stay, and nodes that cannot move. */
 static void FindHeld(Solid s)
 {
   Elements *e = &s->elements;
-  for (int k = 0; k < e->n; k++)
-    e->held[k / STRIP] = SolidElementHeld(e, k, s->inverse_mass) && (k % STRIP == 0 || e->held[k / STRIP]);
+  for (int k = 0; k < e->n; k++) e->held[k / STRIP] = Idle(s, k) && (k % STRIP == 0 || e->held[k / STRIP]);
   e->held_known = PETSC_FALSE;
   s->nfixed = 0;
   for (int n = 0; n < s->nnodes; n++)

@@ -230,7 +230,8 @@ static WIDE double Limit(const Elements *e, const double x[], const double inver
 
 double SolidElementLimit(Solid s, ElementRates contact)
 {
-  return Limit(&s->elements, s->x, s->inverse_mass, contact);
+  const double rigid = s->nrigid > 0 ? ElementStableStep(contact) : HUGE_VAL;
+  return fmin(rigid, Limit(&s->elements, s->x, s->inverse_mass, contact));
 }
 
 ElementLaw ElementsLaw(const Elements *e, int k)

@@ -1,6 +1,7 @@
 /* Time stepping: forces, substeps, and how long a substep may be. */
 #include "common/output/time_reached.h"
 #include "solid/loads.h"
+#include "solid/rigid.h"
 #include "solid/springs.h"
 
 enum { CHECK_EVERY = 20 }; /* substeps between two checks of the stability limit, at most */
@@ -26,10 +27,12 @@ PetscErrorCode SolidForces(Solid s, const double **force)
   LoadsAddForces(s);
   const double contact = Clock();
   PetscCall(CopiesSum(s->copies, 2, s->force));
+  const double copies = Clock();
+  PetscCall(RigidConstrain(s));
   s->force_valid = PETSC_TRUE;
-  s->stats.seconds[0] += elements - start;
+  s->stats.seconds[0] += elements - start + Clock() - copies;
   s->stats.seconds[1] += contact - joints;
-  s->stats.seconds[2] += Clock() - contact;
+  s->stats.seconds[2] += copies - contact;
   s->stats.seconds[4] += joints - elements;
   PetscFunctionReturn(0);
 }
@@ -130,7 +133,7 @@ static PetscErrorCode Plan(Solid s)
   double limit;
   PetscFunctionBeginUser;
   PetscCall(CheckContact(s, &limit, &s->until_check));
-  const double length = ChooseLength(s, s->setup.courant * limit);
+  const double length = ChooseLength(s, fmin(s->setup.courant * limit, RigidLongestSubstep(s)));
   s->remaining = (int)TimeSteps(rest, length);
   s->h = rest / s->remaining;
   s->stats.seconds[3] += Clock() - start;
@@ -251,6 +254,7 @@ PetscErrorCode SolidSubstep(Solid s, double *h)
   BudgetAddSubstep(s);
   MovePrescribed(s, 1);
   Move(s);
+  PetscCall(RigidMove(s));
   BudgetAddDecay(s);
   SpringsAddBudget(s);
   LoadsAddBudget(s);

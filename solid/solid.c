@@ -1,5 +1,6 @@
 #include "solid/loads.h"
 #include "solid/ranks/partition.h"
+#include "solid/rigid.h"
 #include "solid/step_response.h"
 
 /* The first subdomain; elements that may change ranks later need the model. */
@@ -67,6 +68,7 @@ PetscErrorCode SolidFreeSubdomain(Solid s)
   PetscCall(PetscFree(s->prescribed));
   PetscCall(PetscFree(s->position_before));
   PetscCall(LoadsFree(s));
+  PetscCall(RigidFree(s));
   PetscCall(PetscFree(e->held));
   PetscCall(PetscFree(e->bends));
   PetscCall(PetscFree5(e->six_node, e->six_first, e->far[0], e->far[1], e->far[2]));

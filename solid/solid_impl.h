@@ -33,7 +33,7 @@ typedef struct {
   double *force[2];     /* [3][n]: corner i of element e at i n + e; [nsix][6]: vertices, nodes after them */
   double *stress[3];    /* NULL without joints: elastic xx, yy, xy of the last forces, Pa times thickness */
   PetscBool damped;     /* any eta > 0 */
-  char *held;           /* [n / STRIP + 1] all nodes of the strip's elements are fixed: */
+  char *held;           /* [n / STRIP + 1] all nodes of the strip's elements are fixed, or of rigid bodies: */
   PetscBool held_known; /* their forces are where they stay */
   char *bends;          /* [n / STRIP + 1] the strip has corners of six-node triangles */
   ElementLaws laws;     /* that any element has */
@@ -95,6 +95,9 @@ struct Solid_s {
   PrescribedMotion *motion;
   double *motion_rows, *position_before; /* [nprescribed][2] room for places before a substep */
   int nmotions;
+  /* rigid bodies (rigid.h): their number; of each body which it is, or -1; this rank's nodes in them; the largest angular velocity, 1/s */
+  int nrigid, *rigid_index, nrigid_nodes, *rigid_node;
+  double rigid_spin;
   int nboundary_loads, nloaded; /* of the model; this rank's sides that have one */
   BoundaryLoad *boundary_load;
   LoadedSide *loaded;           /* [nloaded] local elements */

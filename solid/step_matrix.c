@@ -1,4 +1,5 @@
 /* K of the step's response: 2 x 2 blocks in compressed rows. */
+#include "solid/rigid.h"
 #include "solid/six_node_kernel.h"
 #include "solid/springs.h"
 #include "solid/step_response_impl.h"
@@ -181,6 +182,7 @@ PetscErrorCode StepMatrixMultiply(StepResponse a, Solid s, const double d[], dou
   }
   PetscCall(SpringsMultiply(s, a->spring, d, kd));
   PetscCall(CopiesSum(s->copies, 2, kd));
+  if (s->setup.nsprings > 0) PetscCall(RigidDistribute(s, kd)); /* what else acts in rigid bodies is zero */
   for (int k = 0; k < 2 * a->nnodes; k++)
     if (a->held[k]) kd[k] = 0.0;
   PetscFunctionReturn(0);

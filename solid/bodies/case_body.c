@@ -32,26 +32,37 @@ static void ReadStrength(CoracleCase c, const char *name, Material *m)
   m->weibull_seed = CoracleCaseIntegerOr(c, MaterialKey(key, name, "weibull_seed"), 0, 0, INT_MAX);
 }
 
+/* Stiffness of bodies and of contact; a rigid material needs that of contact alone. */
+static void ReadStiffness(CoracleCase c, const char *name, Material *m)
+{
+  char key[CASE_KEY];
+  if (!m->rigid || CoracleCaseHas(c, MaterialKey(key, name, "youngs_modulus")))
+    m->youngs_modulus = CoracleCasePositive(c, MaterialKey(key, name, "youngs_modulus"));
+  if (!m->rigid || CoracleCaseHas(c, MaterialKey(key, name, "poisson_ratio")))
+    m->poisson_ratio = CoracleCaseNumber(c, MaterialKey(key, name, "poisson_ratio"), 0.0, 0.499);
+  (void)MaterialKey(key, name, "penalty");
+  m->penalty =
+      m->youngs_modulus > 0.0 && !CoracleCaseHas(c, key) ? m->youngs_modulus : CoracleCasePositive(c, key);
+}
+
 static Material ReadMaterial(CoracleCase c, const char *name)
 {
   static const char *const PLANES[] = {"strain", "stress", NULL};
   /* in the order of ElementLawKind */
-  static const char *const LAWS[] = {"neo_hookean", "corotated", "st_venant_kirchhoff", NULL};
+  static const char *const LAWS[] = {"neo_hookean", "corotated", "st_venant_kirchhoff", "rigid", NULL};
   Material m = {0};
   char key[CASE_KEY];
+  m.law = CoracleCaseWord(c, MaterialKey(key, name, "law"), 0, LAWS);
+  m.rigid = m.law > LAW_ST_VENANT_KIRCHHOFF;
   m.density = CoracleCasePositive(c, MaterialKey(key, name, "density"));
-  m.youngs_modulus = CoracleCasePositive(c, MaterialKey(key, name, "youngs_modulus"));
-  m.poisson_ratio = CoracleCaseNumber(c, MaterialKey(key, name, "poisson_ratio"), 0.0, 0.499);
+  ReadStiffness(c, name, &m);
   m.damping = CoracleCaseNumberOr(c, MaterialKey(key, name, "damping"), 0.0, 0.0, 0.999);
   m.damping_ratio = CoracleCaseNumberOr(c, MaterialKey(key, name, "damping_ratio"), 0.0, 0.0, 1.0);
   if (CoracleCaseHas(c, key))
     m.damping_frequency = CoracleCasePositive(c, MaterialKey(key, name, "damping_frequency"));
-  m.penalty =
-      CoracleCaseHas(c, MaterialKey(key, name, "penalty")) ? CoracleCasePositive(c, key) : m.youngs_modulus;
   m.friction = CoracleCaseNumberOr(c, MaterialKey(key, name, "friction"), 0.0, 0.0, HUGE_VAL);
   m.contact_damping = CoracleCaseNumberOr(c, MaterialKey(key, name, "contact_damping"), 0.0, 0.0, 10.0);
   m.plane_stress = CoracleCaseWord(c, MaterialKey(key, name, "plane"), 0, PLANES);
-  m.law = CoracleCaseWord(c, MaterialKey(key, name, "law"), 0, LAWS);
   m.thickness = CoracleCaseHas(c, MaterialKey(key, name, "thickness")) ? CoracleCasePositive(c, key) : 1.0;
   ReadStrength(c, name, &m);
   if (strlen(name) >= MATERIAL_NAME || !strcmp(name, CONTACT_WALLS))

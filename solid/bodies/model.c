@@ -273,5 +273,6 @@ PetscErrorCode ModelAdd(Model *a, const MeshSerial *mesh, const BodySetup *setup
   PetscCall(PetscRealloc((size_t)(a->nbodies + 1) * sizeof *a->body, &a->body));
   a->body[a->nbodies++] = body;
   code = AddSurface(a, body.first_element); /* a refusal carries no trace-back */
+  if (!code) code = ModelMeasureRigid(a, setup, body.first_element, &a->body[a->nbodies - 1]);
   PetscFunctionReturn(code);
 }

@@ -24,6 +24,7 @@ typedef struct {
   double thickness;                        /* m; 0 stands for 1: per metre of depth */
   int plane_stress;                        /* else plane strain */
   int law;                                 /* ElementLawKind (element_law.h) */
+  int rigid;                               /* bodies of it keep their shape: no law, no joints */
   double strength[2];                      /* of joints: in tension and in shear, Pa */
   double internal_friction; /* of joints: what pressure adds to the shear strength, over the pressure */
   double weibull_modulus;   /* of joints: how little their strengths scatter; 0: not at all */
@@ -78,11 +79,19 @@ typedef struct {
   const NamedLoad *load; /* likewise */
 } BodySetup;
 
+/* A body that keeps its shape. */
+typedef struct {
+  double mass, inertia; /* kg/m; about the mass centre, kg m */
+  double
+      surface_compliance; /* m2/kg: bound of the squared frequency on a bed of unit stiffness per area (rigid.h) */
+} RigidBody;
+
 typedef struct {
   Material material;
   int first_element; /* in the model */
   int entry;         /* of its setup */
   double centre[2];  /* of mass, at the start */
+  RigidBody rigid;   /* mass 0: it deforms, or is held as a whole */
 } Body;
 
 typedef struct {

@@ -44,6 +44,7 @@ ElementLaw ModelElementLaw(const Model *a, int e)
 {
   const Material *m = &a->material[a->element_material[e]];
   ElementLaw law = MaterialLaw(m);
+  if (m->rigid) return (ElementLaw){.kind = LAW_NEO_HOOKEAN};
   law.mu *= m->thickness;
   law.lambda *= m->thickness;
   law.eta = m->thickness * Viscosity(a, e);

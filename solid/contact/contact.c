@@ -127,6 +127,8 @@ static PetscErrorCode Measure(Contact c, Solid s)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->height, s->nbodies, MPI_DOUBLE, MPI_MIN, s->comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->compliance, s->nbodies, MPI_DOUBLE, MPI_MAX, s->comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->comm));
+  for (int b = 0; b < s->nbodies; b++)
+    if (s->body[b].rigid.mass > 0.0) c->compliance[b] = s->body[b].rigid.surface_compliance;
   c->shortest_buffer = 0.5 * sum[0] / sum[1];
   PetscCall(PetscFree(half));
   PetscFunctionReturn(0);

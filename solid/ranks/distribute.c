@@ -1,5 +1,6 @@
 /* This rank's subdomain of the model, which every rank has: nothing is sent. */
 #include "solid/loads.h"
+#include "solid/rigid.h"
 #include "solid/six_node_kernel.h"
 #include "solid/solid_impl.h"
 #include "solid/springs.h"
@@ -267,6 +268,7 @@ PetscErrorCode SolidTakeSubdomain(Solid s, const Model *a, const int part[])
   PetscCall(TakeMotions(s, a, local));
   PetscCall(LoadsTake(s, a, part, renumber));
   PetscCall(SpringsFind(s));
+  PetscCall(RigidFind(s));
   PetscCall(PetscCalloc5(2 * s->node_capacity, &s->start, 2 * s->node_capacity, &s->interface_velocity,
                          s->node_capacity, &s->mobility, 2 * s->node_capacity, &s->acceleration,
                          s->node_capacity, &s->piece));

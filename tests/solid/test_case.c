@@ -177,6 +177,37 @@ static void JointsOnCurve(void)
       ":8: key 'solid.bodies[0]': the body has no region or curve inside 'clamp'; it has soft, hard, seam");
 }
 
+#define RIGID                                                                                                \
+  "gravity: [0, -9.81]\nsolid:\n  materials:\n    m: {density: 1000, law: rigid, penalty: 1e6}\n  "          \
+  "bodies:\n    - "
+#define SLAB "shape: rectangle, centre: [0.1, 0.2], width: 0.4, height: 0.2, size: 0.05, material: m"
+
+/* What a rigid body is made of, and what it cannot have. */
+static void RigidBodies(void)
+{
+  CheckCase(RIGID "{" SLAB "}\n", NULL, Read, NULL);
+  const RigidBody *rigid = &model.body[0].rigid;
+  const double mass = 1000.0 * 0.08, inertia = mass * (0.16 + 0.04) / 12.0;
+  CHECK(fabs(rigid->mass - mass) < 1e-10 && fabs(rigid->inertia / inertia - 1.0) < 0.06, "%g kg/m, %g kg m",
+        rigid->mass, rigid->inertia);
+  const double turned = 2.0 * (0.4 * 0.4 * 0.4 + 0.2 * 0.2 * 0.2) / 12.0; /* int (r x n)^2 */
+  CHECK(fabs(rigid->surface_compliance - 1.2 / mass - turned / rigid->inertia) < 1e-12, "compliance %g",
+        rigid->surface_compliance);
+  CheckCase(RIGID "{" SLAB ", fixed: true}\n", NULL, Read, NULL);
+  CHECK(model.body[0].rigid.mass == 0.0, "held as a whole it is not a rigid body");
+  CheckCase(RIGID "{" SLAB ", fixed: [left]}\n", NULL, Read,
+            ":6: key 'solid.bodies[0]': a rigid body is held as a whole (fixed: true) or not at all");
+  CheckCase(RIGID "{" SLAB ", joints: all}\n", NULL, Read,
+            ":6: key 'solid.bodies[0]': joints need tensile_strength, shear_strength and fracture_energy, "
+            "which material 'm' has not");
+  CheckCase(RIGID "{" SLAB ", prescribed: [{boundary: left, velocity: [0, 1]}]}\n", NULL, Read,
+            ":6: key 'solid.bodies[0]': a rigid body moves as prescribed as a whole: without a boundary");
+  CheckCase(
+      "gravity: [0, -9.81]\nsolid:\n  materials:\n    m: {density: 1000, law: rigid}\n  bodies:\n    - {" SLAB
+      "}\n",
+      NULL, Read, ":4: key 'solid.materials.m.penalty' is missing");
+}
+
 /* The mean velocity over intervals within, before, after and over several rows of a table. */
 static void CheckTable(void)
 {
@@ -302,11 +333,12 @@ static void Refusals(void)
             "  bodies:\n    - {shape: disc, centre: [0, 0], radius: 0.1, size: 0.05, material: m, driven: "
             "[{boundary: boundary, velocity: [1, 0]}]}\n",
             NULL, Read, ":6: key 'solid.bodies[0].driven' is now called 'solid.bodies[0].prescribed'");
-  CheckCase("gravity: [0, 0]\nsolid:\n  materials:\n    m: {density: 1, youngs_modulus: 1, poisson_ratio: 0, "
-            "law: hooke}\n",
-            NULL, Read,
-            ":4: key 'solid.materials.m.law': expected one of neo_hookean, corotated, st_venant_kirchhoff, "
-            "found 'hooke'");
+  CheckCase(
+      "gravity: [0, 0]\nsolid:\n  materials:\n    m: {density: 1, youngs_modulus: 1, poisson_ratio: 0, "
+      "law: hooke}\n",
+      NULL, Read,
+      ":4: key 'solid.materials.m.law': expected one of neo_hookean, corotated, st_venant_kirchhoff, rigid, "
+      "found 'hooke'");
   CheckCase(HEAD "  bodies:\n" DISC, NULL, Read, NULL);
   CheckCase(HEAD, NULL, Read,
             ":2: key 'solid.bodies': expected a list of bodies; of a fluid alone an empty one, []");
@@ -352,6 +384,7 @@ int main(int argc, char **argv)
   MeshFile();
   Joints();
   JointsOnCurve();
+  RigidBodies();
   Full();
   Refusals();
   PetscCall(ModelDestroy(&model));

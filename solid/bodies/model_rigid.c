@@ -1,0 +1,76 @@
+/* Bodies that keep their shape. */
+#include "solid/bodies/model_impl.h"
+#include <math.h>
+
+static Point RestAt(const Model *a, int node)
+{
+  return PointAt(a->rest, node);
+}
+
+/* Lumped as the solid lumps it: a third of each element's mass at each corner. */
+static double CornerMass(const Model *a, int e)
+{
+  const Material *m = &a->material[a->element_material[e]];
+  return m->density * m->thickness * TensorDeterminant(ModelRestEdges(a, e)) / 6.0;
+}
+
+static void AddMass(const Model *a, int first, RigidBody *rigid, double centre[2])
+{
+  double sum[2] = {0.0, 0.0};
+  for (int k = 3 * first; k < 3 * a->nelements; k++) {
+    const double m = CornerMass(a, k / 3);
+    const Point x = RestAt(a, a->element[k]);
+    rigid->mass += m;
+    sum[0] += m * x.x;
+    sum[1] += m * x.y;
+  }
+  for (int c = 0; c < 2; c++) centre[c] = sum[c] / rigid->mass;
+  for (int k = 3 * first; k < 3 * a->nelements; k++) {
+    const Point r = PointMinus(RestAt(a, a->element[k]), (Point){centre[0], centre[1]});
+    rigid->inertia += CornerMass(a, k / 3) * (r.x * r.x + r.y * r.y);
+  }
+}
+
+/* int 1/M + (r x n)^2/I over the surface. */
+static double SurfaceCompliance(const Model *a, int first, const RigidBody *rigid, const double centre[2])
+{
+  double sum = 0.0;
+  for (int k = 0; k < a->nfacets; k++) {
+    if (a->facet_element[k] < first) continue;
+    const Point p = PointMinus(RestAt(a, a->facet[2 * k]), (Point){centre[0], centre[1]}),
+                q = PointMinus(RestAt(a, a->facet[2 * k + 1]), (Point){centre[0], centre[1]}),
+                d = PointMinus(q, p);
+    const double length = hypot(d.x, d.y), at_p = p.x * d.x + p.y * d.y, at_q = q.x * d.x + q.y * d.y;
+    sum += length / rigid->mass + (at_p * at_p + at_p * at_q + at_q * at_q) / (3.0 * length * rigid->inertia);
+  }
+  return sum;
+}
+
+static PetscErrorCode CheckRigid(const Model *a, const BodySetup *setup, int first, PetscBool *rigid)
+{
+  int n = 0;
+  for (int e = first; e < a->nelements; e++) n += a->material[a->element_material[e]].rigid != 0;
+  *rigid = (PetscBool)(n > 0);
+  if (n == 0) return 0;
+  if (n < a->nelements - first)
+    return ModelRefuse("a body is rigid as a whole: all of its regions have a rigid material, or none");
+  if (setup->nfixed > 0) return ModelRefuse("a rigid body is held as a whole (fixed: true) or not at all");
+  if (setup->position || setup->stretch[0] != 1.0 || setup->stretch[1] != 1.0)
+    return ModelRefuse("a rigid body has no stretch");
+  for (int k = 0; k < setup->nprescribed; k++)
+    if (setup->prescribed[k].boundary)
+      return ModelRefuse("a rigid body moves as prescribed as a whole: without a boundary");
+  for (int e = first; e < a->nelements; e++)
+    if (a->jointed[e]) return ModelRefuse("a rigid body has no joints: it does not crack");
+  return 0;
+}
+
+PetscErrorCode ModelMeasureRigid(const Model *a, const BodySetup *setup, int first, Body *body)
+{
+  PetscBool rigid;
+  const PetscErrorCode code = CheckRigid(a, setup, first, &rigid);
+  if (code || !rigid || setup->fixed) return code;
+  AddMass(a, first, &body->rigid, body->centre);
+  body->rigid.surface_compliance = SurfaceCompliance(a, first, &body->rigid, body->centre);
+  return 0;
+}

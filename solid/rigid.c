@@ -1,0 +1,176 @@
+#include "solid/rigid.h"
+
+#define FEWEST_SUBSTEPS 10.0 /* of a step */
+#define MOST_TURN 0.05       /* of a substep, rad */
+
+/* Over a body's nodes, of forces or momenta q of them, first the sums and then what they make of the body as a whole. */
+typedef struct {
+  double centre[2]; /* sum m x; the mass centre, m */
+  double linear[2]; /* sum q; over the mass */
+  double angular;   /* sum x x q; that about the centre over the moment of inertia */
+} RigidSums;
+
+PetscErrorCode RigidFind(Solid s)
+{
+  const size_t nbodies = (size_t)s->nbodies;
+  PetscFunctionBeginUser;
+  s->nrigid = s->nrigid_nodes = 0;
+  PetscCall(PetscMalloc1(nbodies, &s->rigid_index));
+  for (int b = 0; b < s->nbodies; b++) s->rigid_index[b] = s->body[b].rigid.mass > 0.0 ? s->nrigid++ : -1;
+  for (int i = 0; i < s->nnodes; i++) s->nrigid_nodes += s->rigid_index[s->node_body[i]] >= 0;
+  PetscCall(PetscMalloc1((size_t)s->nrigid_nodes, &s->rigid_node));
+  for (int i = 0, k = 0; i < s->nnodes; i++)
+    if (s->rigid_index[s->node_body[i]] >= 0) s->rigid_node[k++] = i;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RigidFree(Solid s)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscFree(s->rigid_index));
+  PetscCall(PetscFree(s->rigid_node));
+  PetscFunctionReturn(0);
+}
+
+static void Add(const Solid s, int node, Point x, Point q, RigidSums sum[])
+{
+  RigidSums *k = &sum[s->rigid_index[s->node_body[node]]];
+  const double m = s->mass[node];
+  k->centre[0] += m * x.x;
+  k->centre[1] += m * x.y;
+  k->linear[0] += q.x;
+  k->linear[1] += q.y;
+  k->angular += PointCross(x, q);
+}
+
+/* Bodies with nodes here that move as prescribed, if only in one component, do not turn by themselves. */
+static void HoldTurns(const Solid s, RigidSums sum[])
+{
+  for (int k = 0; k < s->nprescribed; k++) {
+    const int b = s->rigid_index[s->node_body[s->prescribed[k].node]];
+    if (b >= 0 && PrescribedActs(&s->motion[s->prescribed[k].motion], s->stats.t)) sum[b].angular = 0.0;
+  }
+}
+
+/* Over all ranks, and of the bodies. */
+static PetscErrorCode Complete(Solid s, RigidSums sum[])
+{
+  PetscFunctionBeginUser;
+  if (s->size > 1)
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, s->nrigid * (int)(sizeof *sum / sizeof(double)), MPI_DOUBLE,
+                               MPI_SUM, s->comm));
+  for (int b = 0; b < s->nbodies; b++) {
+    if (s->rigid_index[b] < 0) continue;
+    const RigidBody *body = &s->body[b].rigid;
+    RigidSums *k = &sum[s->rigid_index[b]];
+    for (int c = 0; c < 2; c++) k->centre[c] /= body->mass;
+    k->angular = (k->angular - PointCross(PointAt(k->centre, 0), PointAt(k->linear, 0))) / body->inertia;
+    for (int c = 0; c < 2; c++) k->linear[c] /= body->mass;
+  }
+  HoldTurns(s, sum);
+  PetscFunctionReturn(0);
+}
+
+/* m (A + a x r) in a node, of forces that accelerate its body so. */
+static Point RigidForce(const Solid s, int node, const RigidSums *k)
+{
+  const Point r = PointMinus(PointAt(s->x, node), PointAt(k->centre, 0));
+  const double m = s->mass[node];
+  return (Point){m * (k->linear[0] - k->angular * r.y), m * (k->linear[1] + k->angular * r.x)};
+}
+
+PetscErrorCode RigidDistribute(Solid s, double value[])
+{
+  RigidSums *sum;
+  PetscFunctionBeginUser;
+  if (s->nrigid == 0) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc1((size_t)s->nrigid, &sum));
+  for (int k = 0; k < s->nrigid_nodes; k++) {
+    const int i = s->rigid_node[k];
+    if (SolidOwns(s, i)) Add(s, i, PointAt(s->x, i), PointAt(value, i), sum);
+  }
+  PetscCall(Complete(s, sum));
+  for (int k = 0; k < s->nrigid_nodes; k++) {
+    const int i = s->rigid_node[k];
+    const Point f = RigidForce(s, i, &sum[s->rigid_index[s->node_body[i]]]);
+    value[2 * i] = f.x;
+    value[2 * i + 1] = f.y;
+  }
+  PetscCall(PetscFree(sum));
+  PetscFunctionReturn(0);
+}
+
+/* Forces and momenta, of all rigid bodies one after the other. */
+static PetscErrorCode SumForces(Solid s, RigidSums force[], RigidSums momentum[])
+{
+  PetscFunctionBeginUser;
+  for (int k = 0; k < s->nrigid_nodes; k++) {
+    const int i = s->rigid_node[k];
+    if (!SolidOwns(s, i)) continue;
+    const Point x = PointAt(s->x, i);
+    Add(s, i, x, (Point){s->force[2 * i] + s->load[2 * i], s->force[2 * i + 1] + s->load[2 * i + 1]}, force);
+    Add(s, i, x, (Point){s->mass[i] * s->v[2 * i], s->mass[i] * s->v[2 * i + 1]}, momentum);
+  }
+  PetscCall(Complete(s, force));
+  PetscCall(Complete(s, momentum));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RigidConstrain(Solid s)
+{
+  RigidSums *force, *momentum;
+  PetscFunctionBeginUser;
+  if (s->nrigid == 0) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc2((size_t)s->nrigid, &force, (size_t)s->nrigid, &momentum));
+  PetscCall(SumForces(s, force, momentum));
+  s->rigid_spin = 0.0;
+  for (int k = 0; k < s->nrigid; k++) s->rigid_spin = fmax(s->rigid_spin, fabs(momentum[k].angular));
+  for (int k = 0; k < s->nrigid_nodes; k++) {
+    const int i = s->rigid_node[k], b = s->rigid_index[s->node_body[i]];
+    const Point f = RigidForce(s, i, &force[b]),
+                r = PointMinus(PointAt(s->x, i), PointAt(force[b].centre, 0));
+    const double inward = s->mass[i] * momentum[b].angular * momentum[b].angular;
+    s->force[2 * i] = f.x - inward * r.x - s->load[2 * i];
+    s->force[2 * i + 1] = f.y - inward * r.y - s->load[2 * i + 1];
+  }
+  PetscCall(PetscFree2(force, momentum));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RigidMove(Solid s)
+{
+  const double h = s->h;
+  RigidSums *sum;
+  double(*turn)[2]; /* [nrigid] sine and cosine - 1, over h */
+  PetscFunctionBeginUser;
+  if (s->nrigid == 0) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc2((size_t)s->nrigid, &sum, (size_t)s->nrigid, &turn));
+  for (int k = 0; k < s->nrigid_nodes; k++) {
+    const int i = s->rigid_node[k];
+    const Point v = PointAt(s->v, i);
+    s->x[2 * i] -= h * v.x;
+    s->x[2 * i + 1] -= h * v.y;
+    if (SolidOwns(s, i)) Add(s, i, PointAt(s->x, i), (Point){s->mass[i] * v.x, s->mass[i] * v.y}, sum);
+  }
+  PetscCall(Complete(s, sum));
+  for (int b = 0; b < s->nrigid; b++) {
+    const double sine = Lesser(1.0, Greater(-1.0, h * sum[b].angular));
+    turn[b][0] = sine / h;
+    turn[b][1] = -sine * sine / (1.0 + sqrt(1.0 - sine * sine)) / h;
+  }
+  for (int k = 0; k < s->nrigid_nodes; k++) {
+    const int i = s->rigid_node[k], b = s->rigid_index[s->node_body[i]];
+    const Point r = PointMinus(PointAt(s->x, i), PointAt(sum[b].centre, 0));
+    s->v[2 * i] = sum[b].linear[0] + turn[b][1] * r.x - turn[b][0] * r.y;
+    s->v[2 * i + 1] = sum[b].linear[1] + turn[b][0] * r.x + turn[b][1] * r.y;
+    for (int c = 0; c < 2; c++) s->x[2 * i + c] += h * s->v[2 * i + c];
+  }
+  PetscCall(PetscFree2(sum, turn));
+  PetscFunctionReturn(0);
+}
+
+double RigidLongestSubstep(Solid s)
+{
+  if (s->nrigid == 0) return HUGE_VAL;
+  return fmin(s->dt / FEWEST_SUBSTEPS, s->rigid_spin > 0.0 ? MOST_TURN / s->rigid_spin : HUGE_VAL);
+}
