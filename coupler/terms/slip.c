@@ -10,7 +10,8 @@
 #define CORNER_OPEN 0.3
 /* Less than this of an element beside a solid at rest among phases is nothing.  Its content, and with it the density of all of the element, would be that of a sliver, and
  * the flow along the surface that this drives, in an element that conducts as a whole, raised the water beside a block that was held.  PHASES_LEAST_OPEN is
- * the fluid's for the same elements. */
+ * the fluid's for the same elements.  A fluid so viscous that friction crosses the element within the step stays at rest without it, and with it kept a jump of the
+ * pressure over a thin held ring, which drove 13 m/s beside the ring (tests/coupled/viscous.sh, rows). */
 #define RESTING_LEAST 0.1
 
 /* The part of the slip that an element among phases keeps over dt, of an area. */
@@ -28,9 +29,10 @@ static PetscBool IsBesideDense(const Overlap o, const ElementTerm *element, int 
 }
 
 /* Of the e-th coupled element: less of it beside the solid is nothing. */
-static double LeastOpen(const Overlap o, int e)
+static double LeastOpen(const Overlap o, double dt, int e)
 {
-  PetscBool rests = o->phases;
+  const int k = o->coupled_element[e];
+  PetscBool rests = (PetscBool)(o->phases && o->mu[k] * dt < o->rho_mean[k] * o->area[k]);
   for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1] && rests; i++) {
     const SourceTriangle *source = &o->source[o->pairs.pair[o->of_element[i]].a];
     for (int v = 0; v < 3; v++)
@@ -95,7 +97,7 @@ void SlipTensors(const Overlap o, const SourceTerm term[], const double gravity[
     const double area = o->area[o->coupled_element[e]];
     const PetscBool shared =
         (PetscBool)(solid >= (1.0 - OUTSIDE_LEAST) * area && solid + all.area > (1.0 + OUTSIDE_LEAST) * area);
-    k->open = (PetscBool)(solid < (1.0 - LeastOpen(o, e)) * area);
+    k->open = (PetscBool)(solid < (1.0 - LeastOpen(o, dt, e)) * area);
     k->corner = (PetscBool)(all.area > 0.0 && Planeness(&all) < SLIP_CORNER);
     k->along = k->tangential = WallCoefficientIsotropic(0.0);
     k->shared = (PetscBool)(o->phases && shared && held.area > 0.0);
