@@ -1,5 +1,5 @@
 // ranks: 1 2 3
-/* Rigid bodies: a slab that is thrown and spins keeps its shape, its momentum and its angular momentum to round-off, and turns by the angle that
+/* Rigid bodies: a slab that is thrown and spins keeps its shape, its momentum and its angular momentum to round-off, also where its elements change ranks, and turns by the angle that
  * it should; on a spring that holds its end it is a pendulum of its own inertia; on the floor it comes to rest with its weight on the floor; what is redone has the same bits. */
 #include "tests/solid/build.h"
 
@@ -26,6 +26,18 @@ static double Strained(Solid s)
   return largest;
 }
 
+/* Elements to ranks in turns. */
+static PetscErrorCode Redistribute(Solid s, int n)
+{
+  PetscMPIInt size;
+  int *part = malloc((size_t)n * sizeof *part);
+  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
+  for (int e = 0; e < n; e++) part[e] = e % size;
+  PetscCall(SolidRedistribute(s, part));
+  free(part);
+  return 0;
+}
+
 static PetscErrorCode Flies(void)
 {
   const SolidSetup setup = {.gravity = {0.0, -9.81}, .courant = 0.8, .rebalance = 200.0};
@@ -39,7 +51,10 @@ static PetscErrorCode Flies(void)
   AddRectangle(&a, 3.0, 1.0, 0.4, 0.1, 0.3, 0.03, 1, &body);
   PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &setup, &s));
   PetscCall(SolidBodies(s, 1, &before));
-  for (int k = 0; k < 100; k++) PetscCall(RunStep(s, dt, NULL));
+  for (int k = 0; k < 100; k++) {
+    if (k == 50) PetscCall(Redistribute(s, a.nelements));
+    PetscCall(RunStep(s, dt, NULL));
+  }
   PetscCall(SolidBodies(s, 1, &now));
   CHECK(Strained(s) < 1e-12, "strained by %g m", Strained(s));
   CHECK(fabs(now.v[0] - 0.7) < 1e-11 && fabs(now.v[1] + 9.81) < 1e-10, "velocity (%.14g, %.14g)", now.v[0],
