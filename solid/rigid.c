@@ -43,7 +43,7 @@ static void Add(const Solid s, int node, Point x, Point q, RigidSums sum[])
   k->angular += PointCross(x, q);
 }
 
-/* Bodies with nodes here that move as prescribed, if only in one component, do not turn by themselves. */
+/* Bodies that move as prescribed, if only in one component, do not turn by themselves: known where they have nodes. */
 static void HoldTurns(const Solid s, RigidSums sum[])
 {
   for (int k = 0; k < s->nprescribed; k++) {
@@ -52,13 +52,18 @@ static void HoldTurns(const Solid s, RigidSums sum[])
   }
 }
 
-/* Over all ranks, and of the bodies. */
-static PetscErrorCode Complete(Solid s, RigidSums sum[])
+/* sum[vectors][nrigid] over all ranks. */
+static PetscErrorCode SumOverRanks(Solid s, int vectors, RigidSums sum[])
 {
+  const int count = vectors * s->nrigid * (int)(sizeof *sum / sizeof(double));
   PetscFunctionBeginUser;
-  if (s->size > 1)
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, s->nrigid * (int)(sizeof *sum / sizeof(double)), MPI_DOUBLE,
-                               MPI_SUM, s->comm));
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, count, MPI_DOUBLE, MPI_SUM, s->comm));
+  PetscFunctionReturn(0);
+}
+
+/* What the sums of a vector make of the bodies. */
+static void Complete(Solid s, RigidSums sum[])
+{
   for (int b = 0; b < s->nbodies; b++) {
     if (s->rigid_index[b] < 0) continue;
     const RigidBody *body = &s->body[b].rigid;
@@ -67,8 +72,6 @@ static PetscErrorCode Complete(Solid s, RigidSums sum[])
     k->angular = (k->angular - PointCross(PointAt(k->centre, 0), PointAt(k->linear, 0))) / body->inertia;
     for (int c = 0; c < 2; c++) k->linear[c] /= body->mass;
   }
-  HoldTurns(s, sum);
-  PetscFunctionReturn(0);
 }
 
 /* m (A + a x r) in a node, of forces that accelerate its body so. */
@@ -89,7 +92,9 @@ PetscErrorCode RigidDistribute(Solid s, double value[])
     const int i = s->rigid_node[k];
     if (SolidOwns(s, i)) Add(s, i, PointAt(s->x, i), PointAt(value, i), sum);
   }
-  PetscCall(Complete(s, sum));
+  PetscCall(SumOverRanks(s, 1, sum));
+  Complete(s, sum);
+  HoldTurns(s, sum);
   for (int k = 0; k < s->nrigid_nodes; k++) {
     const int i = s->rigid_node[k];
     const Point f = RigidForce(s, i, &sum[s->rigid_index[s->node_body[i]]]);
@@ -100,10 +105,9 @@ PetscErrorCode RigidDistribute(Solid s, double value[])
   PetscFunctionReturn(0);
 }
 
-/* Forces and momenta, of all rigid bodies one after the other. */
-static PetscErrorCode SumForces(Solid s, RigidSums force[], RigidSums momentum[])
+/* This rank's part. */
+static void SumForces(Solid s, RigidSums force[], RigidSums momentum[])
 {
-  PetscFunctionBeginUser;
   for (int k = 0; k < s->nrigid_nodes; k++) {
     const int i = s->rigid_node[k];
     if (!SolidOwns(s, i)) continue;
@@ -111,9 +115,6 @@ static PetscErrorCode SumForces(Solid s, RigidSums force[], RigidSums momentum[]
     Add(s, i, x, (Point){s->force[2 * i] + s->load[2 * i], s->force[2 * i + 1] + s->load[2 * i + 1]}, force);
     Add(s, i, x, (Point){s->mass[i] * s->v[2 * i], s->mass[i] * s->v[2 * i + 1]}, momentum);
   }
-  PetscCall(Complete(s, force));
-  PetscCall(Complete(s, momentum));
-  PetscFunctionReturn(0);
 }
 
 PetscErrorCode RigidConstrain(Solid s)
@@ -121,10 +122,16 @@ PetscErrorCode RigidConstrain(Solid s)
   RigidSums *force, *momentum;
   PetscFunctionBeginUser;
   if (s->nrigid == 0) PetscFunctionReturn(0);
-  PetscCall(PetscCalloc2((size_t)s->nrigid, &force, (size_t)s->nrigid, &momentum));
-  PetscCall(SumForces(s, force, momentum));
+  PetscCall(PetscCalloc1(2 * (size_t)s->nrigid, &force));
+  momentum = force + s->nrigid;
+  SumForces(s, force, momentum);
+  PetscCall(SumOverRanks(s, 2, force));
+  Complete(s, force);
+  Complete(s, momentum);
   s->rigid_spin = 0.0;
   for (int k = 0; k < s->nrigid; k++) s->rigid_spin = fmax(s->rigid_spin, fabs(momentum[k].angular));
+  HoldTurns(s, force);
+  HoldTurns(s, momentum);
   for (int k = 0; k < s->nrigid_nodes; k++) {
     const int i = s->rigid_node[k], b = s->rigid_index[s->node_body[i]];
     const Point f = RigidForce(s, i, &force[b]),
@@ -133,7 +140,7 @@ PetscErrorCode RigidConstrain(Solid s)
     s->force[2 * i] = f.x - inward * r.x - s->load[2 * i];
     s->force[2 * i + 1] = f.y - inward * r.y - s->load[2 * i + 1];
   }
-  PetscCall(PetscFree2(force, momentum));
+  PetscCall(PetscFree(force));
   PetscFunctionReturn(0);
 }
 
@@ -152,7 +159,9 @@ PetscErrorCode RigidMove(Solid s)
     s->x[2 * i + 1] -= h * v.y;
     if (SolidOwns(s, i)) Add(s, i, PointAt(s->x, i), (Point){s->mass[i] * v.x, s->mass[i] * v.y}, sum);
   }
-  PetscCall(Complete(s, sum));
+  PetscCall(SumOverRanks(s, 1, sum));
+  Complete(s, sum);
+  HoldTurns(s, sum);
   for (int b = 0; b < s->nrigid; b++) {
     const double sine = Lesser(1.0, Greater(-1.0, h * sum[b].angular));
     turn[b][0] = sine / h;

@@ -52,6 +52,18 @@ static inline void AddRectangle(Model *a, double x, double y, double width, doub
   AddMesh(a, &mesh, setup);
 }
 
+/* The node at x is an end of the spring. */
+static inline void EndAt(const Model *a, double x, double y, SpringEnd *end)
+{
+  for (int e = 0; e < a->nelements; e++)
+    for (int i = 0; i < 3; i++) {
+      const double *at = a->x + 2 * a->element[3 * e + i];
+      if (fabs(at[0] - x) + fabs(at[1] - y) > 1e-12) continue;
+      end->element = e;
+      for (int k = 0; k < 3; k++) end->weight[k] = k == i;
+    }
+}
+
 /* One rank's solid, writable. */
 static inline SolidView ViewOf(Solid s, double **x, double **v)
 {

@@ -158,12 +158,7 @@ static PetscErrorCode Swings(void)
     a.x[2 * n] = cos(start) * r[0] - sin(start) * r[1];
     a.x[2 * n + 1] = 0.5 * length + sin(start) * r[0] + cos(start) * r[1];
   }
-  for (int k = 0; k < 3 * a.nelements; k++) {
-    const double *rest = a.rest + 2 * a.element[k];
-    if (fabs(rest[0]) + fabs(rest[1] - 0.5 * length) > 1e-9) continue;
-    setup.spring[0].end[0].element = k / 3;
-    for (int i = 0; i < 3; i++) setup.spring[0].end[0].weight[i] = i == k % 3;
-  }
+  EndAt(&a, 0.0, 0.5 * length, &setup.spring[0].end[0]);
   PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &setup, &s));
   PetscCall(SolidBodies(s, 1, &now));
   const double arm = 0.5 * length, omega = sqrt(now.mass * 9.81 * arm / (now.inertia + now.mass * arm * arm));
@@ -189,6 +184,33 @@ static PetscErrorCode Swings(void)
   return SolidDestroy(&s);
 }
 
+/* One of two turns as prescribed: all ranks make the same substeps, and it is where it should be. */
+static PetscErrorCode Turns(void)
+{
+  const SolidSetup setup = {.courant = 0.8, .rebalance = 200.0};
+  const double row[3] = {0.0, 0.0, 0.0}, spin = 100.0, t = 0.1;
+  const BoundaryMotion motion = {NULL, {{1, 1}, 1, row, 0.0, 0.0, 0.0, spin, {0.0, 0.0}, ""}};
+  BodySetup body = BodyAtRest(Rigid());
+  Model a = {0};
+  BodyState state[2];
+  Solid s;
+  AddRectangle(&a, 2.0, 0.0, 0.4, 0.1, 0.0, 0.05, 0, &body);
+  body.nprescribed = 1;
+  body.prescribed = &motion;
+  AddRectangle(&a, 0.0, 0.0, 0.4, 0.1, 0.0, 0.05, 0, &body);
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &setup, &s));
+  PetscCall(Run(s, t, 0.01));
+  PetscCall(SolidBodies(s, 2, state));
+  long long total[2] = {SolidGetStats(s)->total, -SolidGetStats(s)->total};
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, total, 2, MPI_LONG_LONG, MPI_MAX, PETSC_COMM_WORLD));
+  CHECK(total[0] == -total[1], "ranks make %lld to %lld substeps", -total[1], total[0]);
+  CHECK(fabs(remainder(state[1].angle - spin * t, 2.0 * M_PI)) < 1e-9, "turned by %g, expected %g",
+        state[1].angle, spin * t);
+  CHECK(fabs(state[0].x[0] - 2.0) < 1e-13, "the other is at %.17g", state[0].x[0]);
+  PetscCall(ModelDestroy(&a));
+  return SolidDestroy(&s);
+}
+
 int main(int argc, char **argv)
 {
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
@@ -196,5 +218,6 @@ int main(int argc, char **argv)
   PetscCall(Stands());
   PetscCall(Answers());
   PetscCall(Swings());
+  PetscCall(Turns());
   return PetscFinalize();
 }

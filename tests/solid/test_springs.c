@@ -9,18 +9,6 @@
 #define STIFFNESS 1e4               /* N/m: 31.6 rad/s, where the block's own lowest is 7000 */
 #define DT 1e-3
 
-/* The node at x is an end of the spring. */
-static void EndAt(const Model *a, double x, double y, SpringEnd *end)
-{
-  for (int e = 0; e < a->nelements; e++)
-    for (int i = 0; i < 3; i++) {
-      const double *at = a->x + 2 * a->element[3 * e + i];
-      if (fabs(at[0] - x) + fabs(at[1] - y) > 1e-12) continue;
-      end->element = e;
-      for (int k = 0; k < 3; k++) end->weight[k] = k == i;
-    }
-}
-
 /* A block in the origin, with an anchored spring in its middle. */
 static PetscErrorCode Block(const Spring *spring, const double velocity[2], Solid *s)
 {
