@@ -132,6 +132,8 @@ PetscErrorCode ModelOverlap(const Model *a, ModelPair *pair);
 /* Edges of an element at rest, m; its law, times its thickness. */
 Tensor ModelRestEdges(const Model *a, int element);
 ElementLaw ModelElementLaw(const Model *a, int element);
+/* What each of its corners has of its mass, kg/m: a third. */
+double ModelCornerMass(const Model *a, int element);
 /* With rows of its own. */
 PetscErrorCode BoundaryLoadCopy(const BoundaryLoad *from, BoundaryLoad *to);
 PetscErrorCode BoundaryLoadFree(BoundaryLoad *load);

@@ -16,6 +16,12 @@ Tensor ModelRestEdges(const Model *a, int e)
   return TensorOfEdges(PointAt(a->rest, n[0]), PointAt(a->rest, n[1]), PointAt(a->rest, n[2]));
 }
 
+double ModelCornerMass(const Model *a, int e)
+{
+  const Material *m = &a->material[a->element_material[e]];
+  return m->density * m->thickness * TensorDeterminant(ModelRestEdges(a, e)) / 6.0;
+}
+
 /* Of the damping ratio xi at frequency f in tension along one axis: 2 xi E'/(2 pi f) = eta (1 + q^2), E' the modulus and
  * q the contraction across the axis over the stretch along it. */
 static double MaterialViscosity(const Material *m)

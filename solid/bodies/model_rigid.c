@@ -2,43 +2,32 @@
 #include "solid/bodies/model_impl.h"
 #include <math.h>
 
-static Point RestAt(const Model *a, int node)
-{
-  return PointAt(a->rest, node);
-}
-
-/* Lumped as the solid lumps it: a third of each element's mass at each corner. */
-static double CornerMass(const Model *a, int e)
-{
-  const Material *m = &a->material[a->element_material[e]];
-  return m->density * m->thickness * TensorDeterminant(ModelRestEdges(a, e)) / 6.0;
-}
-
 static void AddMass(const Model *a, int first, RigidBody *rigid, double centre[2])
 {
   double sum[2] = {0.0, 0.0};
   for (int k = 3 * first; k < 3 * a->nelements; k++) {
-    const double m = CornerMass(a, k / 3);
-    const Point x = RestAt(a, a->element[k]);
+    const double m = ModelCornerMass(a, k / 3);
+    const Point x = PointAt(a->rest, a->element[k]);
     rigid->mass += m;
     sum[0] += m * x.x;
     sum[1] += m * x.y;
   }
   for (int c = 0; c < 2; c++) centre[c] = sum[c] / rigid->mass;
   for (int k = 3 * first; k < 3 * a->nelements; k++) {
-    const Point r = PointMinus(RestAt(a, a->element[k]), (Point){centre[0], centre[1]});
-    rigid->inertia += CornerMass(a, k / 3) * (r.x * r.x + r.y * r.y);
+    const Point r = PointMinus(PointAt(a->rest, a->element[k]), (Point){centre[0], centre[1]});
+    rigid->inertia += ModelCornerMass(a, k / 3) * (r.x * r.x + r.y * r.y);
   }
 }
 
-/* int 1/M + (r x n)^2/I over the surface. */
+/* int 1/M + (r x n)^2/I over the surface, whose facets are the model's last. */
 static double SurfaceCompliance(const Model *a, int first, const RigidBody *rigid, const double centre[2])
 {
   double sum = 0.0;
-  for (int k = 0; k < a->nfacets; k++) {
-    if (a->facet_element[k] < first) continue;
-    const Point p = PointMinus(RestAt(a, a->facet[2 * k]), (Point){centre[0], centre[1]}),
-                q = PointMinus(RestAt(a, a->facet[2 * k + 1]), (Point){centre[0], centre[1]}),
+  int k = a->nfacets;
+  while (k > 0 && a->facet_element[k - 1] >= first) k--;
+  for (; k < a->nfacets; k++) {
+    const Point p = PointMinus(PointAt(a->rest, a->facet[2 * k]), (Point){centre[0], centre[1]}),
+                q = PointMinus(PointAt(a->rest, a->facet[2 * k + 1]), (Point){centre[0], centre[1]}),
                 d = PointMinus(q, p);
     const double length = hypot(d.x, d.y), at_p = p.x * d.x + p.y * d.y, at_q = q.x * d.x + q.y * d.y;
     sum += length / rigid->mass + (at_p * at_p + at_p * at_q + at_q * at_q) / (3.0 * length * rigid->inertia);

@@ -103,8 +103,7 @@ static void TakeNodes(Solid s, const Model *a, const int local[])
 static void LumpMass(Solid s, const Model *a, const int local[])
 {
   for (int e = 0; e < a->nelements; e++) {
-    const Material *of = &a->material[a->element_material[e]];
-    const double m = of->density * of->thickness * TensorDeterminant(ModelRestEdges(a, e)) / 6.0;
+    const double m = ModelCornerMass(a, e);
     for (int i = 0; i < 3; i++) {
       const int n = local[a->element[3 * e + i]];
       if (n >= 0) s->mass[n] += m;
