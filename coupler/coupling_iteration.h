@@ -29,7 +29,7 @@ typedef struct {
   char *given;               /* [n] */
   double dt;                 /* of the step, s */
   double residual;           /* rms(e (H(v_k) - v_k)) of the last iteration, m/s */
-  int failures;              /* so often in a row a step has not converged */
+  int failures;              /* so often in a row a step has not converged, or could not be made */
   QuasiNewton quasi_newton;
 } CouplingIteration;
 

@@ -17,7 +17,7 @@
 /* Of the domain's smaller extent: a node farther outside has left it. */
 #define LEAVES 0.01
 
-/* How often a step that does not converge is halved before the run is given up. */
+/* How often a step that does not converge, or that a participant cannot make, is halved before the run is given up. */
 enum { MAX_HALVINGS = 6 };
 
 PetscErrorCode RunFail(const RunState *run, const char *format, ...)
@@ -54,20 +54,52 @@ void RunRememberIterations(RunState *run, int iterations)
   run->iterations_taken = tried ? iterations : REMEMBERED * run->iterations_taken;
 }
 
+/* Halves dt while the solid's elements, where they are expected in the middle of the step, would be inside out. */
+static PetscErrorCode KeepElements(const RunState *run, double *dt)
+{
+  const SolidState *solid = &run->solid;
+  int element, inverted;
+
+  PetscFunctionBeginUser;
+  for (int halvings = 0;; halvings++, *dt *= 0.5) {
+    element = SolidStateInverted(solid, 0.5 * *dt);
+    inverted = element >= 0;
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &inverted, 1, MPI_INT, MPI_LOR, PETSC_COMM_WORLD));
+    if (!inverted || halvings == MAX_HALVINGS) break;
+  }
+  if (!inverted) PetscFunctionReturn(0);
+  if (element >= 0) {
+    const int node = solid->element[3 * element];
+    ServerFail(
+        run->loop->server,
+        "at t = %g s the solid's velocity turns the element of node %lld at (%g, %g) inside out within %g s",
+        run->t, solid->gid[node], solid->x[2 * node], solid->x[2 * node + 1], 0.5 * *dt);
+  }
+  /* the other ranks wait here for the end of the job */
+  PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode RunChooseStep(RunState *run, double proposed)
 {
   const CouplerCase *c = run->loop->c;
   const double remaining = c->end - run->t,
                longest = run->dt_before > 0.0 ? MAX_GROWTH * run->dt_before : HUGE_VAL;
-  const double wanted = fmin(ShortenedStep(run, fmin(proposed, c->dt_max)), longest);
+  double wanted = fmin(ShortenedStep(run, fmin(proposed, c->dt_max)), longest);
 
   PetscFunctionBeginUser;
-  if (!(wanted > MIN_STEP * c->dt_max)) { /* NaN, too */
+  const double least = MIN_STEP * c->dt_max;
+  if (!(proposed > least)) /* NaN, too */
     PetscCall(RunFail(run,
                       "at t = %g s the fluid proposes a time step of %g s, less than %g of time.dt_max: its "
                       "velocity runs away",
-                      run->t, wanted, MIN_STEP));
-  }
+                      run->t, proposed, MIN_STEP));
+  if (wanted < least)
+    PetscCall(RunFail(
+        run,
+        "at t = %g s the steps that converge have become shorter than %g of time.dt_max, the last one %g s",
+        run->t, MIN_STEP, run->dt_before));
+  PetscCall(KeepElements(run, &wanted));
   run->dt = remaining < 2.0 * wanted ? 0.5 * remaining : wanted;
   if (TimeReached(wanted, remaining)) run->dt = remaining;
   PetscFunctionReturn(0);
@@ -167,10 +199,16 @@ PetscErrorCode RunCheckDivergence(RunState *run, const StepRecord *step)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode RunHalveStep(RunState *run, int halvings)
+PetscErrorCode RunHalveStep(RunState *run)
 {
+  const char *why = ServerRejection(run->loop->server);
+  PetscMPIInt rank;
+
   PetscFunctionBeginUser;
-  if (halvings == MAX_HALVINGS)
+  if (run->halvings == MAX_HALVINGS && why)
+    PetscCall(
+        RunFail(run, "the step from t = %g s cannot be made, not even over %g s: %s", run->t, run->dt, why));
+  if (run->halvings++ == MAX_HALVINGS)
     PetscCall(
         RunFail(run,
                 "the step from t = %g s does not converge: even over %g s, after %d coupling iterations, "
@@ -178,5 +216,11 @@ PetscErrorCode RunHalveStep(RunState *run, int halvings)
                 "with; a larger coupler.max_iterations may help",
                 run->t, run->dt, run->iteration.max_iterations, run->iteration.residual));
   run->dt *= 0.5;
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  if (why && !run->has_rejected && !rank)
+    printf("coracle: note: at t = %g s a step over %g s cannot be made; it is made over half of that, as are "
+           "later ones: %s\n",
+           run->t, 2.0 * run->dt, why);
+  run->has_rejected = (PetscBool)(run->has_rejected || why);
   PetscFunctionReturn(0);
 }

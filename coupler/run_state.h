@@ -20,13 +20,16 @@ typedef struct {
   Checkpoints checkpoints;
   EarlyStop early_stop;
   Gauges gauges;
-  double t, dt;        /* start and length of the current step, s; dt 0 when the run has ended */
-  double dt_before;    /* of the step before it, s; 0: there was none */
-  PetscBool shortened; /* dt, so that it takes one coupling iteration */
+  double t, dt;              /* start and length of the current step, s; dt 0 when the run has ended */
+  double dt_before;          /* of the step before it, s; 0: there was none */
+  int halvings;              /* of the current step so far */
+  PetscBool solid_has_begun; /* the current step: the next attempt is a REDO to it */
+  PetscBool shortened;       /* dt, so that it takes one coupling iteration */
   double
       iterations_taken; /* by the last step that took several and was not shortened; less with each step since */
   PetscBool ends;       /* with the accepted step: at time.end, or before */
-  PetscBool has_left; /* a node has been seen outside of the fluid's domain */
+  PetscBool has_left;     /* a node has been seen outside of the fluid's domain */
+  PetscBool has_rejected; /* a participant has asked for a shorter step */
   int ncorrection;
   const CoracleCorrection *correction; /* [ncorrection] of the last accepted step, not sent yet; borrowed */
 } RunState;
@@ -48,9 +51,9 @@ PetscErrorCode RunNoteLeaving(RunState *run);
 PetscErrorCode RunCreateGauges(RunState *run);
 /* Ends the job when the accepted step shows that the coupling diverges. */
 PetscErrorCode RunCheckDivergence(RunState *run, const StepRecord *step);
-/* The current step has not converged within coupler.max_iterations: dt is halved, or the job ends if it has been
- * halved often enough.  halvings: how often. */
-PetscErrorCode RunHalveStep(RunState *run, int halvings);
+/* The current step has not converged within coupler.max_iterations, or a participant cannot make it: dt is halved, or the job ends if it
+ * has been halved often enough. */
+PetscErrorCode RunHalveStep(RunState *run);
 /* Ends the job with one message of rank 0 about what all ranks have found. */
 PetscErrorCode RunFail(const RunState *run, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -3,7 +3,7 @@
  *     repeat     fluid   -- u*, u+, rho, mu -->  force     -- force -->  solid
  *                solid   -- x, u_s ---------->  converged?
  *                           if not:             next u_s  -- REDO, coupling -->  fluid
- *     until converged; where that takes too many iterations, from the start over half of dt
+ *     until converged; where that takes too many iterations, or fluid or solid cannot make the step, from the start over half of dt
  *     correction of the fluid to the solid's new velocity
  *     choose dt                                 correction, RUN -->  fluid
  *     shell, overlap and coupling at the solid's new position
@@ -86,6 +86,8 @@ static PetscErrorCode SendStep(RunState *run)
 
   PetscFunctionBeginUser;
   PetscCall(SolidStateCopy(&run->solid, &run->start));
+  run->halvings = 0;
+  run->solid_has_begun = PETSC_FALSE;
   PetscCall(ServerSendStep(loop->server, run->t, run->dt, CORACLE_RUN, run->ncorrection, run->correction));
   PetscCall(ServerPhase(loop->server, "overlap"));
   PetscCall(SendCoupling(run));
@@ -117,23 +119,29 @@ static PetscErrorCode Start(RunState *run)
   PetscFunctionReturn(0);
 }
 
-/* One coupling iteration: the fluid's flow becomes the solid's force, which makes the solid's motion. */
-static PetscErrorCode Iterate(RunState *run, CoracleAction action, StepRecord *step)
+/* One coupling iteration: the fluid's flow becomes the solid's force, which makes the solid's motion, unless one of them cannot make the step. */
+static PetscErrorCode Iterate(RunState *run, StepRecord *step, PetscBool *rejected)
 {
   const TimeLoop *loop = run->loop;
   const double *force, *film, *resistance;
   CoracleFlow flow;
 
   PetscFunctionBeginUser;
+  step->iterations++;
   PetscCall(ServerReceiveFlow(loop->server, &flow));
+  *rejected = (PetscBool)(ServerRejection(loop->server) != NULL);
+  if (*rejected) PetscFunctionReturn(0);
   const double start = MPI_Wtime();
   PetscCall(ServerPhase(loop->server, "force"));
   PetscCall(CouplerComputeForce(loop->coupler, &flow, &force, &step->totals));
   step->force += MPI_Wtime() - start;
   CouplerFilm(loop->coupler, &film, &resistance);
   PetscCall(ServerSetFilm(loop->server, film, resistance));
-  PetscCall(ServerSendForce(loop->server, run->t, run->dt, action, force));
+  PetscCall(ServerSendForce(loop->server, run->t, run->dt, run->solid_has_begun ? CORACLE_REDO : CORACLE_RUN,
+                            force));
+  run->solid_has_begun = PETSC_TRUE;
   PetscCall(ExchangeReceiveSolid(loop->server, run->mode, &run->solid));
+  *rejected = (PetscBool)(ServerRejection(loop->server) != NULL);
   PetscFunctionReturn(0);
 }
 
@@ -153,6 +161,16 @@ static PetscErrorCode RepeatStep(RunState *run)
   PetscFunctionReturn(0);
 }
 
+/* From the start of the step over half of dt. */
+static PetscErrorCode HalveStep(RunState *run)
+{
+  PetscFunctionBeginUser;
+  PetscCall(RunHalveStep(run));
+  PetscCall(SendRedo(run));
+  PetscCall(SendCoupling(run));
+  PetscFunctionReturn(0);
+}
+
 /* The first step knows nothing of how the solid holds against the fluid: with the acceleration of a free fall everywhere, what is
  * inside it would move like a fluid (a block at rest in water would lack a seventh of its weight).  So the step is made again
  * with the acceleration at its end until the velocity does not change; from then on the last step's serves. */
@@ -167,8 +185,15 @@ static PetscErrorCode FindSupport(RunState *run, StepRecord *step)
   PetscCall(PetscArraycpy(u, CouplerPredictedVelocity(loop->coupler), n));
   for (int i = 0; i < SUPPORT_ATTEMPTS && change > SUPPORT_TOLERANCE * first; i++) {
     const CoracleCoupling *coupling;
+    PetscBool rejected;
     int ncoupling, lost;
-    PetscCall(Iterate(run, step->iterations++ ? CORACLE_REDO : CORACLE_RUN, step));
+    PetscCall(Iterate(run, step, &rejected));
+    if (rejected) {
+      PetscCall(HalveStep(run));
+      PetscCall(PetscArraycpy(u, CouplerPredictedVelocity(loop->coupler), n));
+      i = -1;
+      continue;
+    }
     lost = run->solid.changed || run->solid.lost;
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &lost, 1, MPI_INT, MPI_LOR, PETSC_COMM_WORLD));
     change = 0.0;
@@ -197,12 +222,17 @@ static PetscBool NeedsSupport(const RunState *run)
                      c->max_iterations > 1 && CouplerOverlap(run->loop->coupler)->phases);
 }
 
-/* Coupling iterations over dt, at most as many as are allowed. */
+/* Coupling iterations over dt, at most as many as are allowed; not converged, too, where one of them is rejected. */
 static PetscErrorCode SolveOverStep(RunState *run, StepRecord *step, PetscBool *converged)
 {
+  PetscBool rejected;
+
   PetscFunctionBeginUser;
+  *converged = PETSC_FALSE;
   for (int i = 1;; i++) {
-    PetscCall(Iterate(run, step->iterations++ ? CORACLE_REDO : CORACLE_RUN, step));
+    PetscCall(Iterate(run, step, &rejected));
+    run->iteration.failures += rejected;
+    if (rejected) break;
     PetscCall(CouplingIterationHasConverged(&run->iteration, i, &run->solid, converged));
     if (*converged || i == run->iteration.max_iterations) break;
     PetscCall(RepeatStep(run));
@@ -217,12 +247,10 @@ static PetscErrorCode SolveStep(RunState *run, StepRecord *step)
   PetscBool converged;
 
   PetscFunctionBeginUser;
-  for (int halvings = 0;; halvings++) {
+  for (;;) {
     PetscCall(SolveOverStep(run, step, &converged));
     if (converged) break;
-    PetscCall(RunHalveStep(run, halvings));
-    PetscCall(SendRedo(run));
-    PetscCall(SendCoupling(run));
+    PetscCall(HalveStep(run));
   }
   RunRememberIterations(run, step->iterations - before);
   PetscFunctionReturn(0);

@@ -154,6 +154,14 @@ static PetscErrorCode SetFlow(Exchange x)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode ExchangeReject(Exchange x, const char *why)
+{
+  PetscFunctionBeginUser;
+  PetscCall(CoracleRejectStep(x->client, why));
+  PetscCall(CoracleEnd(x->client, NULL));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode ExchangeFlow(Exchange x, Fluid next, PetscBool *accepted, const CoracleCorrection **correction)
 {
   int n;

@@ -2,7 +2,8 @@
  *
  *     ExchangeCreate           elements near the solid, rho, mu           -->  first coupling
  *     ExchangeReceiveCoupling  a, s, ... of the coming step               -->  FluidSetCoupling
- *     ExchangeFlow             u*, u projected, rho, mu (, p) of the step -->  correction, or: to be redone */
+ *     ExchangeFlow             u*, u projected, rho, mu (, p) of the step -->  correction, or: to be redone
+ *     ExchangeReject           in its place: why the step cannot be made  -->  to be redone, shorter */
 #ifndef FLUID_EXCHANGE_H
 #define FLUID_EXCHANGE_H
 #include "fluid/flow/fluid.h"
@@ -18,5 +19,7 @@ PetscErrorCode ExchangeReceiveCoupling(Exchange x);
  * over if the step is accepted (borrowed), or NULL when the mesh stays. */
 PetscErrorCode ExchangeFlow(Exchange x, Fluid next, PetscBool *accepted,
                             const CoracleCorrection **correction);
+/* Instead of that: the step cannot be made (CoracleRejectStep). */
+PetscErrorCode ExchangeReject(Exchange x, const char *why);
 PetscErrorCode ExchangeDestroy(Exchange *x);
 #endif

@@ -5,6 +5,7 @@
  *         assembly without the solid, while the coupler computes
  *         coupling of the solid        -->  u*, u projected, p; another mesh when it is due
  *         flow near the solid          -->  coupler, solid  -->  correction inside the solid, or: to be redone
+ *                                                                (or, where an equation has not converged: over a shorter step)
  *     report, end */
 #include "fluid/check.h"
 #include "fluid/input/fluid_case.h"
@@ -27,7 +28,11 @@ static PetscErrorCode Step(FluidRun *m, double dt)
   PetscCall(CoraclePhase(m->program->client, "momentum"));
   PetscCall(FluidMomentum(m->fluid, dt));
   PetscCall(CoraclePhase(m->program->client, "pressure"));
-  PetscCall(FluidProject(m->fluid, dt));
+  if (!FluidStepFailure(m->fluid)) PetscCall(FluidProject(m->fluid, dt));
+  if (FluidStepFailure(m->fluid)) {
+    PetscCall(ExchangeReject(m->exchange, FluidStepFailure(m->fluid)));
+    PetscFunctionReturn(0);
+  }
   PetscCall(CoraclePhase(m->program->client, "adaptation"));
   PetscCall(FluidRunRemesh(m, &mesh, &next));
   PetscCall(CoraclePhase(m->program->client, NULL));

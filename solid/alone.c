@@ -110,12 +110,15 @@ static PetscErrorCode Advance(Run *m)
   const double dt = length / steps;
   double said = start, saved = start, h;
   EarlyStop early_stop;
+  const char *why;
   PetscBool ends = PETSC_FALSE;
   PetscFunctionBeginUser;
   PetscCall(EarlyStopBegin(m->keys.folder, m->keys.walltime, start - m->totals.start, &early_stop));
   for (int step = 1; !ends; step++) {
     PetscCall(SolidStart(m->solid, dt, NULL));
     while (SolidRemaining(m->solid)) PetscCall(SolidSubstep(m->solid, &h));
+    PetscCall(SolidStepFailure(m->solid, &why));
+    if (why) Refuse(NULL, why);
     PetscCall(SolidRebalance(m->solid));
     PetscCall(WriterStep(m->writer, m->solid, 0.0));
     m->totals.steps++;
@@ -173,7 +176,7 @@ static PetscErrorCode Begin(CoracleCase c, int argc, char **argv, Run *m, Claim 
   char resume[PETSC_MAX_PATH_LEN];
   PetscFunctionBeginUser;
   PetscCall(ReadRun(c, m, resume));
-  PetscCall(SolidFromCase(c, PETSC_COMM_WORLD, Fail, NULL, &m->solid));
+  PetscCall(SolidFromCase(c, PETSC_COMM_WORLD, &m->solid));
   if (resume[0]) {
     PetscCall(CheckpointOpen(PETSC_COMM_WORLD, resume, "solid", &from));
     PetscCall(Load(m, from));

@@ -146,13 +146,6 @@ static const CoracleCaseKey KEYS[] = {
     {"solid.petsc", "", "options for PETSc"},
     {NULL, NULL, NULL}};
 
-static void Fail(void *context, const char *message)
-{
-  (void)context;
-  fprintf(stderr, "coracle solid: error: %s\n", message);
-  exit(1);
-}
-
 /* JointsDirections of Gmsh's meshes: at most 0.15 by its Delaunay algorithm, 0.35 to 0.9 by its frontal one; 0.8 to 1 of rectangles. */
 #define FEW_DIRECTIONS 0.3
 
@@ -208,7 +201,7 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
   RunCaseDescribe(c, KEYS);
   RunCaseRead(c, &run);
   const double longest = CoracleCasePositive(c, "time.dt_max"); /* of a solid alone */
-  PetscCall(SolidFromCase(c, PETSC_COMM_SELF, Fail, NULL, &solid));
+  PetscCall(SolidFromCase(c, PETSC_COMM_SELF, &solid));
   if (command != COMMAND_KEYS && CoracleCaseFaultless(c)) {
     PetscCall(CheckDomain(c, solid));
     CheckGauges(c, solid);

@@ -149,12 +149,10 @@ static void SumCorners(const Solid s)
   }
 }
 
-/* Names the first element that is inside out, and ends the job. */
-static PetscErrorCode FailOnElement(const Solid s)
+/* The step cannot be made: names the first element that is inside out. */
+static void NoteFailure(Solid s)
 {
   const Elements *e = &s->elements;
-  char message[320];
-  PetscFunctionBeginUser;
   for (int k = 0; k < e->n; k++) {
     Tensor edges, f;
     SolidElementShape(e, k, s->x, &edges, &f);
@@ -162,7 +160,7 @@ static PetscErrorCode FailOnElement(const Solid s)
     if (ElementAdmissible(f, j, ElementsLaw(e, k))) continue;
     const Point p = PointAt(s->x, e->node[0][k]);
     (void)snprintf(
-        message, sizeof message,
+        s->failure, sizeof s->failure,
         "body %d: element %d at (%g, %g) %s at t = %.9g s (area %.3g of its rest area): the load is too "
         "large for its stiffness, or solid.courant too large",
         e->body[k], e->number[k] - s->body[e->body[k]].first_element, p.x, p.y,
@@ -170,19 +168,31 @@ static PetscErrorCode FailOnElement(const Solid s)
         : j == j ? "has turned inside out"
                  : "is not a number any more",
         s->stats.t, j);
-    break;
+    return;
   }
-  if (s->setup.fail) s->setup.fail(s->setup.context, message);
-  (void)fprintf(stderr, "%s\n", message);
-  PetscCallMPI(MPI_Abort(s->comm, 1));
-  PetscFunctionReturn(PETSC_ERR_FP);
+}
+
+/* What the rank goes on with until all have heard of it: the step's start, at rest, without forces. */
+static PetscErrorCode Stand(Solid s)
+{
+  const size_t n = 2 * (size_t)s->nnodes;
+  PetscFunctionBeginUser;
+  PetscCall(PetscArraycpy(s->x, s->start, n));
+  PetscCall(PetscArrayzero(s->v, n));
+  PetscCall(PetscArrayzero(s->force, n));
+  for (int c = 0; c < 3 && s->elements.stress[0]; c++)
+    PetscCall(PetscArrayzero(s->elements.stress[c], (size_t)s->elements.n));
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode SolidInternalForces(Solid s)
 {
   PetscFunctionBeginUser;
-  const int bad = AllForces(&s->elements, s->x, s->v);
-  if (bad) PetscCall(FailOnElement(s));
+  if (!s->failure[0] && AllForces(&s->elements, s->x, s->v)) NoteFailure(s);
+  if (s->failure[0]) {
+    PetscCall(Stand(s));
+    PetscFunctionReturn(0);
+  }
   ReturnForces(&s->elements);
   s->elements.held_known = PETSC_TRUE;
   SumCorners(s);

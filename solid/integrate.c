@@ -51,15 +51,16 @@ PetscErrorCode SolidLimit(Solid s, double *limit)
 }
 
 /* moved: how far the farthest surface node is from its place at the last search; speed, acceleration: largest
- * now. */
+ * now; failed: some rank cannot make the step. */
 typedef struct {
   double moved, speed, acceleration;
+  PetscBool failed;
 } BulkMotion;
 
 static PetscErrorCode MotionNow(Solid s, BulkMotion *m)
 {
   const double *force;
-  double largest[3] = {0.0, 0.0, 0.0};
+  double largest[4] = {0.0, 0.0, 0.0, 0.0};
   PetscFunctionBeginUser;
   PetscCall(SolidForces(s, &force));
   for (int n = 0; n < s->nnodes; n++) {
@@ -74,8 +75,9 @@ static PetscErrorCode MotionNow(Solid s, BulkMotion *m)
     largest[2] = fmax(largest[2], acceleration);
   }
   largest[0] = ContactMoved(s->contact, s);
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 3, MPI_DOUBLE, MPI_MAX, s->comm));
-  *m = (BulkMotion){largest[0], sqrt(largest[1]), sqrt(largest[2])};
+  largest[3] = s->failure[0] ? 1.0 : 0.0;
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 4, MPI_DOUBLE, MPI_MAX, s->comm));
+  *m = (BulkMotion){largest[0], sqrt(largest[1]), sqrt(largest[2]), (PetscBool)(largest[3] > 0.0)};
   PetscFunctionReturn(0);
 }
 
@@ -94,8 +96,8 @@ static int SafeSubsteps(const BulkMotion *m, double skin, double h)
 
 /* Searches anew always at the start of a step, so that candidates follow from x alone and a step that is
  * redone has the same bits, and when the candidates may not last.  *limit: of stability; *substeps: how many
- * until the next check. */
-static PetscErrorCode CheckContact(Solid s, double *limit, int *substeps)
+ * until the next check; *failed: none. */
+static PetscErrorCode CheckContact(Solid s, double *limit, int *substeps, PetscBool *failed)
 {
   BulkMotion m;
   PetscFunctionBeginUser;
@@ -105,9 +107,11 @@ static PetscErrorCode CheckContact(Solid s, double *limit, int *substeps)
   }
   PetscCall(SolidLimit(s, limit));
   PetscCall(MotionNow(s, &m));
+  *failed = m.failed;
+  if (*failed) PetscFunctionReturn(0);
   const double h = PetscMin(s->setup.courant * *limit, s->dt);
   if (Travel(&m, CHECK_EVERY, h) > ContactSkin(s->contact)) {
-    const BulkMotion from_here = {0.0, m.speed, m.acceleration};
+    const BulkMotion from_here = {0.0, m.speed, m.acceleration, PETSC_FALSE};
     PetscCall(ContactSearch(s->contact, s, 2.0 * Travel(&from_here, 2, h)));
     PetscCall(SolidLimit(s, limit));
     s->force_valid = PETSC_FALSE;
@@ -126,13 +130,18 @@ static double ChooseLength(const Solid s, double allowed)
   return s->moved_for <= allowed && s->moved_for > KEEP * allowed ? s->moved_for : allowed;
 }
 
-/* Substeps for the rest of the step, none longer than courant times the limit. */
+/* Substeps for the rest of the step, none longer than courant times the limit; none where a rank cannot make it. */
 static PetscErrorCode Plan(Solid s)
 {
   const double start = Clock(), rest = s->dt - s->done;
   double limit;
+  PetscBool failed;
   PetscFunctionBeginUser;
-  PetscCall(CheckContact(s, &limit, &s->until_check));
+  PetscCall(CheckContact(s, &limit, &s->until_check, &failed));
+  if (failed) {
+    s->remaining = 0;
+    PetscFunctionReturn(0);
+  }
   const double length = ChooseLength(s, fmin(s->setup.courant * limit, RigidLongestSubstep(s)));
   s->remaining = (int)TimeSteps(rest, length);
   s->h = rest / s->remaining;
@@ -172,6 +181,7 @@ PetscErrorCode SolidStart(Solid s, double dt, const double load[])
   PetscCall(PetscArraycpy(s->start, s->x, 2 * (size_t)s->nnodes));
   s->dt = dt;
   s->done = 0.0;
+  s->failure[0] = '\0';
   GravityOver(&s->setup.gravity_table, s->stats.t, dt, s->setup.gravity);
   s->stats.substeps = 0;
   PetscCall(SolidMoveFilms(s));
@@ -247,9 +257,12 @@ PetscErrorCode SolidSubstep(Solid s, double *h)
 {
   const double *force;
   PetscFunctionBeginUser;
+  *h = s->h;
   if (s->until_check == 0) PetscCall(Plan(s));
-  PetscCall(SolidForces(s, &force));
-  if (s->joints) PetscCall(Crack(s));
+  if (s->remaining > 0) PetscCall(SolidForces(s, &force));
+  if (s->remaining > 0 && s->joints) PetscCall(Crack(s));
+  if (s->size == 1 && s->failure[0]) s->remaining = 0;
+  if (s->remaining == 0) PetscFunctionReturn(0);
   ContactCommit(s->contact);
   BudgetAddSubstep(s);
   MovePrescribed(s, 1);
@@ -269,5 +282,18 @@ PetscErrorCode SolidSubstep(Solid s, double *h)
   s->stats.total++;
   s->remaining--;
   s->until_check--;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SolidStepFailure(Solid s, const char **why)
+{
+  const double *force;
+  PetscMPIInt has_failed;
+  PetscFunctionBeginUser;
+  PetscCall(SolidForces(s, &force)); /* of the step's end */
+  has_failed = s->failure[0] ? s->rank + 1 : 0;
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &has_failed, 1, MPI_INT, MPI_MAX, s->comm));
+  *why = has_failed ? s->failure : NULL;
+  if (has_failed) PetscCallMPI(MPI_Bcast(s->failure, sizeof s->failure, MPI_CHAR, has_failed - 1, s->comm));
   PetscFunctionReturn(0);
 }

@@ -2,7 +2,7 @@
  *
  *     start; solid, first exchange
  *     each step over dt
- *         force on the nodes  -->  substeps  -->  position, velocity, inertia
+ *         force on the nodes  -->  substeps  -->  position, velocity, inertia, or: the step cannot be made
  *     report, end
  *
  * coracle-solid --alone case.yaml [--set key=value]...: the solid without coupler and fluid (alone.h). */
@@ -13,12 +13,19 @@
 static PetscErrorCode Step(SolidRun *m, CoracleClient client, double dt, const double load[])
 {
   InterfaceMotion interface;
+  const char *why;
   double h;
   PetscFunctionBeginUser;
   PetscCall(CoraclePhase(client, "substeps"));
   PetscCall(SolidStart(m->solid, dt, load));
   while (SolidRemaining(m->solid)) {
     PetscCall(SolidSubstep(m->solid, &h));
+  }
+  PetscCall(SolidStepFailure(m->solid, &why));
+  if (why) {
+    PetscCall(CoracleRejectStep(client, why));
+    PetscCall(CoracleEnd(client, NULL));
+    PetscFunctionReturn(0);
   }
   PetscCall(CoraclePhase(client, "interface"));
   PetscCall(SolidUpdateInterfaceMotion(m->solid, &interface)); /* while contact is known */

@@ -6,7 +6,7 @@ PetscErrorCode SolidRunCreate(const Program *program, SolidRun *m)
   const char *resume = CoracleResumePath(program->client);
   PetscFunctionBeginUser;
   *m = (SolidRun){.program = program};
-  PetscCall(SolidFromCase(program->c, program->comm, ProgramFail, (void *)program, &m->solid));
+  PetscCall(SolidFromCase(program->c, program->comm, &m->solid));
   if (resume) {
     PetscCall(CheckpointOpen(program->comm, resume, "solid", &m->from));
     PetscCall(SolidLoad(m->solid, m->from));

@@ -5,6 +5,7 @@
  *     SolidStart(s, dt, load)                 what the fluid does is constant over the step
  *     while (SolidRemaining(s))
  *       SolidSubstep(s, &h)                   v += h (f/m + g);  x += h v
+ *     SolidStepFailure(s, &why)               not if an element has turned inside out
  *
  *     f = internal (element.h) + contact (contact_kernel.h) + load        [1] of method.md
  *
@@ -45,9 +46,6 @@ typedef struct {
   ContactRule rule[MAX_RULES]; /* [nrules] the last that fits holds */
   int nsprings;
   Spring spring[MAX_SPRINGS]; /* [nsprings] */
-  /* called on the rank that finds an element inside out; must not return.  NULL: message and MPI_Abort */
-  void (*fail)(void *context, const char *message);
-  void *context;
 } SolidSetup;
 
 /* model is borrowed during the call; the same on all ranks. */
@@ -61,8 +59,11 @@ PetscErrorCode SolidStart(Solid s, double dt, const double load[]);
  * resistance[nnodes][2][2], N s/m, borrowed until the step has begun; NULL on all ranks or on none. */
 void SolidSetFilm(Solid s, const double load[], const double resistance[]);
 PetscBool SolidRemaining(Solid s); /* not collective, the same on all ranks */
-/* *h: the substep just made; SolidVelocity then is the displacement over it divided by h. */
+/* *h: the substep just made. */
 PetscErrorCode SolidSubstep(Solid s, double *h);
+/* After the last substep: *why is NULL, or says which element, of any rank, has turned inside out; then the step is not made, and the solid good
+ * for SolidState(s, 0) and SolidDestroy alone.  Borrowed until SolidStart, the same on all ranks. */
+PetscErrorCode SolidStepFailure(Solid s, const char **why);
 /* After the last substep: deals the elements out anew if the work has got out of balance, or bodies have come
  * to touch across ranks, so far that `rebalance` substeps of a perfectly shared solid have been lost since
  * the last check that was better.  Counts decide, never clocks: the same run does the same.  All local

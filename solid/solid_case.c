@@ -207,11 +207,10 @@ PetscErrorCode SolidCaseRead(CoracleCase c, Model *a, SolidSetup *setup)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SolidFromCase(CoracleCase c, MPI_Comm comm, void (*fail)(void *context, const char *message),
-                             void *context, Solid *solid)
+PetscErrorCode SolidFromCase(CoracleCase c, MPI_Comm comm, Solid *solid)
 {
   static const char *const SECTIONS[] = {"solid", NULL};
-  SolidSetup setup = {.fail = fail, .context = context};
+  SolidSetup setup = {0};
   Model model = {0};
   char option[256];
   PetscFunctionBeginUser;

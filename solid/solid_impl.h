@@ -115,6 +115,7 @@ struct Solid_s {
   StepResponse response;      /* NULL before the first SolidUpdateInterfaceMotion */
   int npieces, *piece;        /* [nnodes] SolidPieces has found; npieces 0: since the last crack not yet */
   int remaining, until_check; /* substeps */
+  char failure[320];          /* why this rank cannot make the step, or "" */
   SolidBudget budget;         /* this rank's part, but for the reaction */
   double (*reaction)[2];      /* [nbodies] this rank's part of what budget.reaction is of all, N s/m */
   double (*momentum)[2];      /* [nbodies] the same of budget.start */
@@ -139,7 +140,8 @@ static inline PetscBool SolidOwns(const Solid s, int node)
   return (PetscBool)(s->size == 1 || CopiesIsFirst(s->copies, node));
 }
 
-/* forces.c: internal forces of this rank's elements into force; fails on an element with J <= 0. */
+/* forces.c: internal forces of this rank's elements into force.  An element with J <= 0 is the rank's failure; from then on it stands, without
+ * forces, where the step began, until all have heard of it. */
 PetscErrorCode SolidInternalForces(Solid s);
 /* corner_start, corner, elements.held and fixed, from element and inverse_mass */
 void SolidListCorners(Solid s);

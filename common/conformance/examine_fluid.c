@@ -115,12 +115,13 @@ static void CheckProjection(const Fluid *f, int step)
 
 /* --- the run -------------------------------------------------------------------------------------------- */
 
-static void Receive(Fluid *f, Kind kind)
+static void Receive(Fluid *f, int step, Kind kind)
 {
   CoracleFlow flow;
   const size_t bytes = 6 * (size_t)f->patch.n * sizeof(double);
   Flow *to = &f->flow[kind];
   ServerReceiveFlow(f->kit->server, &flow);
+  KitRefuseRejection(f->kit, step);
   to->u_start = realloc(to->u_start, bytes + 1);
   to->u_star = realloc(to->u_star, bytes + 1);
   to->u_projected = realloc(to->u_projected, bytes + 1);
@@ -169,7 +170,7 @@ static void Accept(Fluid *f, int step)
 static void Step(Fluid *f, int step)
 {
   for (int kind = HELD; kind < KINDS; kind++) {
-    Receive(f, (Kind)kind);
+    Receive(f, step, (Kind)kind);
     MoveSolid(f, (Kind)kind);
     if (!KitRepeats(step) || kind == AGAIN) break;
     AttemptSend(f, (Kind)(kind + 1), CORACLE_REDO, 0);

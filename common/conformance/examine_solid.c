@@ -17,10 +17,11 @@ static void AskElements(Kit *k)
   ServerAskElements(k->server, 1, box, &e);
 }
 
-static void Receive(Solid *s)
+static void Receive(Solid *s, int step)
 {
   ServerSolid solid;
   ServerReceiveSolid(s->kit->server, &solid);
+  KitRefuseRejection(s->kit, step);
   MotionTake(&s->now, &solid);
   s->kit->changed += solid.changed;
 }
@@ -84,7 +85,7 @@ static void Attempt(Solid *s, int step, int attempt)
   CoracleFlow flow;
   ServerReceiveFlow(k->server, &flow);
   SendForce(s, attempt ? CORACLE_REDO : CORACLE_RUN, attempt == 1);
-  Receive(s);
+  Receive(s, step);
   if (attempt == 0) MotionCopy(&s->attempt, &s->now);
   if (attempt == 1) MotionCopy(&s->other, &s->now);
   if (attempt == 2) CheckRepeats(s, step);
@@ -111,7 +112,7 @@ void ExamineSolid(Kit *k)
 {
   Solid s = {.kit = k};
   KitOpenRows(k, "area [m2],x [m],y [m],x2 [m2],y2 [m2],u_x [m/s],u_y [m/s],given_x [m/s],given_y [m/s]");
-  Receive(&s);
+  Receive(&s, k->first - 1);
   k->changed = 0;
   AskElements(k);
   Row(&s, k->first - 1);

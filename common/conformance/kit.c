@@ -74,6 +74,16 @@ int KitClose(Kit *k)
   return ServerClose(&k->server);
 }
 
+void KitRefuseRejection(const Kit *k, int step)
+{
+  const char *why = ServerRejection(k->server);
+  if (why)
+    ServerFail(
+        k->server,
+        "conformance: step %d, over %g s, is rejected (CoracleRejectStep) by the %s; a smaller time.dt_max?",
+        step, k->dt, why);
+}
+
 double KitStepSize(const Kit *k, int step)
 {
   static const double PART[] = {1.0, 1.0 / 3.0, 1.0 / 7.0, 0.9};

@@ -31,6 +31,9 @@ void KitOpen(int argc, char **argv, Kit *k);
 /* Leaves after CORACLE_STOP has been sent to both. */
 int KitClose(Kit *k);
 
+/* After a flow or a motion has been received: a participant that cannot make the step is refused. */
+void KitRefuseRejection(const Kit *k, int step);
+
 double KitStepSize(const Kit *k, int step);
 /* Whether the step is made several times. */
 static inline bool KitRepeats(int step)

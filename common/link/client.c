@@ -92,6 +92,16 @@ void ClientSend(CoracleClient c)
   MessageFinish(c->p, &c->out);
 }
 
+MessageHeader *ClientReject(CoracleClient c, MessageKind kind)
+{
+  MessageHeader *h = MessageStart(&c->out, kind, c->p->step);
+  h->count[3] = (int64_t)c->rejection.size;
+  h->flag = ClientFlags(c);
+  MessageAdd(&c->out, c->rejection.data, c->rejection.size);
+  BufferResize(&c->rejection, 0);
+  return MessageHeaderOf(&c->out);
+}
+
 void ClientTakeStep(CoracleClient c, const MessageHeader *h)
 {
   c->action = (CoracleAction)h->action;
@@ -176,6 +186,15 @@ int CoracleEnd(CoracleClient c, const double x[])
   return 0;
 }
 
+int CoracleRejectStep(CoracleClient c, const char *why)
+{
+  ClientExpect(c, "CoracleRejectStep", ROLE_ANY, STAGE_STEP, STAGE_STEP);
+  if (!why) ClientMisuse(c, "CoracleRejectStep", "it must say why");
+  const size_t bytes = strlen(why) + 1;
+  memcpy(BufferResize(&c->rejection, bytes), why, bytes);
+  return 0;
+}
+
 int CoracleReport(CoracleClient c, const char *key, double value, int sum)
 {
   ClientMustBe(c, "CoracleReport");
@@ -214,6 +233,7 @@ int CoracleClose(CoracleClient *client)
   StateFree(c);
   BufferFree(&c->reports);
   BufferFree(&c->save);
+  BufferFree(&c->rejection);
   free(c);
   *client = NULL;
   return 0;

@@ -190,8 +190,10 @@ int CoracleSetFlow(CoracleClient c, const CoracleFlow *flow)
 
 void FluidEnd(CoracleClient c)
 {
-  MessageHeader *h = MessageHeaderOf(&c->out);
-  if (!c->fluid.flow_set) ClientMisuse(c, "CoracleEnd", "CoracleSetFlow comes first, in every step");
+  const bool rejects = c->rejection.size > 0;
+  if (!rejects && !c->fluid.flow_set)
+    ClientMisuse(c, "CoracleEnd", "CoracleSetFlow comes first, in every step");
+  MessageHeader *h = rejects ? ClientReject(c, KIND_FLOW) : MessageHeaderOf(&c->out);
   h->flag |= ClientFlags(c) | (c->fluid.changed ? FLAG_CHANGED : 0);
   h->dt = c->fluid.proposed;
   c->fluid.flow_set = false;

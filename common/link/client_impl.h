@@ -64,7 +64,8 @@ struct CoracleClient_s {
   Participant *p;
   Message in, out; /* from and to the coupler rank that owns this one */
   Stage stage;
-  Buffer save; /* path of the checkpoint due in this step, or empty */
+  Buffer save;      /* path of the checkpoint due in this step, or empty */
+  Buffer rejection; /* why the step cannot be made, or empty */
   bool asked_save, asked_resume;
   double t, dt; /* of the step, s */
   CoracleAction action;
@@ -97,6 +98,8 @@ _Noreturn void ClientMisuse(CoracleClient c, const char *function, const char *w
 
 /* Sends c->out and waits until it has gone. */
 void ClientSend(CoracleClient c);
+/* Writes a message that has, in place of its blocks, why the step cannot be made; returns its header. */
+MessageHeader *ClientReject(CoracleClient c, MessageKind kind);
 /* Takes t, dt and action of the coming step from the coupler; checks that they make sense. */
 void ClientTakeStep(CoracleClient c, const MessageHeader *h);
 

@@ -204,6 +204,12 @@ void SolidEnd(CoracleClient c, const double x[])
 {
   ClientSolid *s = &c->solid;
   const SolidMesh *m = &s->mesh;
+  if (c->rejection.size) {
+    s->has_inertia = false;
+    ClientReject(c, KIND_MOTION);
+    ClientSend(c);
+    return;
+  }
   if (!(fabs(s->elapsed - c->dt) <= 1e-9 * c->dt))
     ParticipantFail(c->p, "the substeps of step %d sum up to %.12g s, the step is %.12g s", c->p->step,
                     s->elapsed, c->dt);

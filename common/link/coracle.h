@@ -30,7 +30,8 @@
  *                                                         if CoracleStepAccepted(c): CoracleGetCorrection
  *     CoracleClose                                      CoracleClose
  *
- * The coupler decides t, dt and the action; the library restores bound state when a step is redone, so that
+ * A participant that cannot make the step (its iteration diverges, an element turns inside out) calls CoracleRejectStep before
+ * CoracleEnd, and is asked for a shorter one.  The coupler decides t, dt and the action; the library restores bound state when a step is redone, so that
  * an adapter need not keep what a step changes.  Arrays are in C order, units are SI.
  * All functions return 0, or end the whole job with one message: there is no partial failure to handle.  A call
  * out of order is such an error; its message says where the call belongs.  Ranks that own nothing are normal:
@@ -190,6 +191,11 @@ int CoracleReady(CoracleClient c);
 int CoracleBegin(CoracleClient c, double *t, double *dt, CoracleAction *action);
 /* Ends the step.  Solid: x[n][dim] new positions, m; fluid: NULL, waits for the correction. */
 int CoracleEnd(CoracleClient c, const double x[]);
+
+/* Between CoracleBegin and CoracleEnd, on any rank for all: the step cannot be made with what has been received.  CoracleEnd is called all the
+ * same (a solid's x may be NULL, CoracleSetFlow may be missing), what has been given in the step is dropped, and the next action is
+ * CORACLE_REDO over half of dt; after six halvings the job ends with `why`, one line that says what has failed, where (copied). */
+int CoracleRejectStep(CoracleClient c, const char *why);
 
 /* A checkpoint, from which another run can resume (keys output.checkpoint and resume of the case): the
  * folder into which to save the participant's state at t, when one is due in the step that CoracleBegin

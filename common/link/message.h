@@ -7,17 +7,17 @@
  *
  *     kind      direction          count[0], [1], [2], [3]         blocks                             sent within
  *     SURFACE   solid -> coupler   nodes, facets, elements         nodes, motion, facets, elements    Ready; End after a change
- *     MOTION    solid -> coupler   nodes                           motion                             End
+ *     MOTION    solid -> coupler   nodes, -, -, bytes of reason    motion; or reason                  End
  *     FORCE     solid <- coupler   nodes, -, bytes of path         force; path                        Begin
  *     ASK       fluid <- coupler   boxes                           boxes                              GetRegion, Ready, End
  *     ELEMENTS  fluid -> coupler   elements                        domain, elements                   answers ASK
  *     STEP      fluid <- coupler   corrections, -, bytes of path,  corrections, gauges; path          ends Ready, End
  *                                  gauges
  *     COUPLING  fluid <- coupler   couplings                       couplings                          GetCoupling
- *     FLOW      fluid -> coupler   elements                        flow                               End
+ *     FLOW      fluid -> coupler   elements, -, -, bytes of reason flow; or reason                    End
  *     CLOSE     both  -> coupler   reports, spans of the trace     reports, spans                     Close
  *
- * FORCE and STEP carry the coming step (action, t, dt) and
+ * A reason (CoracleRejectStep) says why the step cannot be made.  FORCE and STEP carry the coming step (action, t, dt) and
  * the path of the checkpoint that is due in it; ELEMENTS and FLOW carry in dt the step that the fluid proposes.
  * Kind and step travel with every message: one that does not fit ends the job with both sides' names. */
 #ifndef CORACLE_MESSAGE_H

@@ -91,6 +91,32 @@ void ClientListFlags(Server s, Role role, ClientRank *client, const MessageHeade
       s->p->resume, ROLE_NAMES[role]);
 }
 
+bool ClientListRejects(Server s, Role role, ClientRank *client)
+{
+  const size_t bytes = (size_t)MessageHeaderOf(&client->in)->count[3];
+  if (!bytes) return false;
+  const char *why = MessageTake(s->p, &client->in, bytes);
+  const size_t length = bytes + strlen(ROLE_NAMES[role]) + 2;
+  snprintf(BufferResize(&s->rejection, length), length, "%s: %s", ROLE_NAMES[role], why);
+  return true;
+}
+
+void ServerAgree(Server s, int *changed)
+{
+  int largest[2] = {*changed, s->rejection.size ? s->p->rank + 1 : 0};
+  int bytes = (int)s->rejection.size;
+  MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_INT, MPI_MAX, s->p->app);
+  *changed = largest[0];
+  if (!largest[1]) return;
+  MPI_Bcast(&bytes, 1, MPI_INT, largest[1] - 1, s->p->app);
+  MPI_Bcast(BufferResize(&s->rejection, (size_t)bytes), bytes, MPI_CHAR, largest[1] - 1, s->p->app);
+}
+
+const char *ServerRejection(Server s)
+{
+  return s->rejection.size ? s->rejection.data : NULL;
+}
+
 const char *ServerUnsaved(Server s)
 {
   int missing[NROLES] = {0};
@@ -251,7 +277,8 @@ int ServerClose(Server *server)
   if (!s) return 0;
   if (!s->fluid.stopped || !s->solid.stopped)
     ServerFail(s, "closed in step %d, before CORACLE_STOP to both clients", s->p->step);
-  Buffer *all[] = {&s->save, &s->gid, &s->facet, &s->element, &s->start_gid, &s->start_element, &s->owner};
+  Buffer *all[] = {&s->save,    &s->rejection, &s->gid,           &s->facet,
+                   &s->element, &s->start_gid, &s->start_element, &s->owner};
   for (size_t k = 0; k < sizeof all / sizeof *all; k++) BufferFree(all[k]);
   FieldListsFree(&s->motion);
   FieldListsFree(&s->elements);

@@ -70,6 +70,10 @@ int ServerSendCoupling(Server s, int n, const CoracleCoupling coupling[]);
 int ServerSetGauges(Server s, int n, const CoracleGauge gauge[]);
 /* Matches the first half of the fluid's CoracleEnd. */
 int ServerReceiveFlow(Server s, CoracleFlow *flow);
+/* After ServerReceiveFlow and ServerReceiveSolid of a step: NULL, or, the same on all coupler ranks, which client cannot make it, and why
+ * (CoracleRejectStep): what was received is nothing then, and the step is to be redone by those who have begun it.  Borrowed until the
+ * next of these two. */
+const char *ServerRejection(Server s);
 /* The films of the next ServerSendForce (CoracleGetFilm): load[nnodes][2], N, resistance[nnodes][2][2], N s/m, on its nodes, borrowed until then;
  * all coupler ranks call it or none does. */
 int ServerSetFilm(Server s, const double load[], const double resistance[]);

@@ -102,11 +102,12 @@ double ServerProposedStep(Server s)
 static double ReceiveFlow(Server s, ClientRank *client, int *changed)
 {
   const MessageHeader *h = MessageReceive(s->p, &client->in, KIND_FLOW, KIND_FLOW, s->fluid.step);
+  if (ClientListRejects(s, ROLE_FLUID, client)) return HUGE_VAL;
   if (h->count[0] != client->n)
     ServerFail(s, "fluid rank %d has sent the flow on %lld elements instead of %d", client->in.rank,
                (long long)h->count[0], client->n);
-  FieldsAppend(s->p, &client->in, &FIELDS_FLOW, (size_t)client->n, &s->flow);
   ClientListFlags(s, ROLE_FLUID, client, h);
+  FieldsAppend(s->p, &client->in, &FIELDS_FLOW, (size_t)client->n, &s->flow);
   *changed |= h->flag & FLAG_CHANGED;
   return h->dt;
 }
@@ -118,12 +119,15 @@ int ServerReceiveFlow(Server s, CoracleFlow *flow)
   if (s->owes_step || s->owes_coupling)
     ServerFail(s, "ServerReceiveFlow: the fluid waits for ServerSendStep and ServerSendCoupling");
   FieldListsClear(&s->flow);
+  BufferResize(&s->rejection, 0);
   for (int i = 0; i < s->fluid.n; i++)
     proposed = fmin(proposed, ReceiveFlow(s, &s->fluid.client[i], &changed));
-  ReduceProposed(s, proposed);
-  MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, s->p->app);
-  s->elements_changed = changed;
+  ServerAgree(s, &changed);
   s->owes_step = true;
+  *flow = (CoracleFlow){0};
+  if (s->rejection.size) return 0;
+  ReduceProposed(s, proposed);
+  s->elements_changed = changed;
   FieldsView(&FIELDS_FLOW, &s->flow, s->needs_pressure ? FLAG_PRESSURE : 0, flow);
   return 0;
 }

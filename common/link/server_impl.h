@@ -27,7 +27,8 @@ struct Server_s {
   ClientList fluid, solid;
   bool received_solid, asked, elements_changed, owes_step, owes_coupling, needs_pressure, pressure_load;
   double proposed;
-  Buffer save; /* path of the checkpoint that is due, or empty */
+  Buffer rejection; /* why a client cannot make the step that has been received last, or empty */
+  Buffer save;      /* path of the checkpoint that is due, or empty */
   /* solid's lists */
   FieldLists motion;
   Buffer gid, facet, element;
@@ -52,6 +53,10 @@ void ClientListSend(Server s, ClientList *clients);
 void ClientListAskSave(Server s, ClientRank *client, CoracleAction action);
 /* Takes note of what the flags of a client's message say. */
 void ClientListFlags(Server s, Role role, ClientRank *client, const MessageHeader *h);
+/* The reason of a client that cannot make its step, if its message, received last, has one; whether it has. */
+bool ClientListRejects(Server s, Role role, ClientRank *client);
+/* Collective: *changed is or-ed over the coupler's ranks, which all have the reason of one that has one. */
+void ServerAgree(Server s, int *changed);
 /* Counts a new step when it is one; fails when a client is asked to go on after STOP. */
 void ClientListStep(Server s, ClientList *clients, CoracleAction action);
 #endif

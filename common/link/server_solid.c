@@ -15,9 +15,13 @@ static int ReceiveMotion(Server s, ClientRank *client, int *nnodes)
   const bool whole = h->kind == KIND_SURFACE;
   ClientListFlags(s, ROLE_SOLID, client, h);
   s->pressure_load |= (h->flag & FLAG_PRESSURE_LOAD) != 0;
+  client->first = *nnodes;
+  if (ClientListRejects(s, ROLE_SOLID, client)) {
+    *nnodes += client->n;
+    return 0;
+  }
   if (!whole && (int)h->count[0] != client->n)
     ServerFail(s, "solid rank %d moves %d nodes but has %d", m->rank, (int)h->count[0], client->n);
-  client->first = *nnodes;
   client->n = (int)h->count[0];
   if (whole) {
     FieldListsClear(&client->nodes);
@@ -114,9 +118,12 @@ int ServerReceiveSolid(Server s, ServerSolid *solid)
   const bool first = !s->received_solid;
   int nnodes = 0, changed = 0;
   FieldListsClear(&s->motion);
+  BufferResize(&s->rejection, 0);
   for (int i = 0; i < s->solid.n; i++) changed |= ReceiveMotion(s, &s->solid.client[i], &nnodes);
   if (changed || first) AssembleMesh(s);
-  MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, s->p->app);
+  ServerAgree(s, &changed);
+  *solid = (ServerSolid){0};
+  if (s->rejection.size) return 0;
   if (first) MPI_Allreduce(MPI_IN_PLACE, &s->pressure_load, 1, MPI_C_BOOL, MPI_LOR, s->p->app);
   s->received_solid = true;
   const bool mine = changed && !first && s->kept_start;

@@ -44,6 +44,25 @@ PetscErrorCode SolidStateCopy(const SolidState *solid, SolidState *copy)
   PetscFunctionReturn(0);
 }
 
+/* Twice the area of an element with its nodes at x + ahead u. */
+static double Area(const SolidState *solid, const int node[3], double ahead)
+{
+  double side[2][2];
+  for (int k = 0; k < 2; k++)
+    for (int c = 0; c < 2; c++) {
+      const int a = 2 * node[0] + c, b = 2 * node[1 + k] + c;
+      side[k][c] = solid->x[b] - solid->x[a] + ahead * (solid->u[b] - solid->u[a]);
+    }
+  return side[0][0] * side[1][1] - side[0][1] * side[1][0];
+}
+
+int SolidStateInverted(const SolidState *solid, double ahead)
+{
+  for (int e = 0; e < solid->nelements; e++)
+    if (Area(solid, solid->element + 3 * e, ahead) < 0.1 * Area(solid, solid->element + 3 * e, 0.0)) return e;
+  return -1;
+}
+
 PetscErrorCode SolidStateOnStartNodes(const SolidState *solid, const double value[], int n, double start[])
 {
   double(*sum)[3]; /* of the corners' values, and their number */

@@ -30,6 +30,9 @@ typedef struct {
 PetscErrorCode SolidStateCopy(const SolidState *solid, SolidState *copy);
 PetscErrorCode SolidStateDestroy(SolidState *copy);
 
+/* Not collective.  An element of which less than a tenth is left where the velocity brings it within `ahead` s, -1: none. */
+int SolidStateInverted(const SolidState *solid, double ahead);
+
 /* Not collective.  Maps nodal values value[nnodes][2] to the n nodes that the step started with,
  * start[n][2]: where a crack has split a node, the mean over the corners of its elements.  Nodes without
  * elements keep their value in start. */

@@ -18,7 +18,7 @@ PetscErrorCode SolverDefaultOption(const char *prefix, const char *option, const
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SolverSolve(KSP ksp, const char *equation, double t, Vec rhs, Vec x, int *iterations)
+PetscErrorCode SolverSolve(KSP ksp, const char *equation, double t, Vec rhs, Vec x, SolverReport *report)
 {
   PetscInt count;
   KSPConvergedReason reason;
@@ -26,10 +26,11 @@ PetscErrorCode SolverSolve(KSP ksp, const char *equation, double t, Vec rhs, Vec
   PetscCall(KSPSolve(ksp, rhs, x));
   PetscCall(KSPGetConvergedReason(ksp, &reason));
   PetscCall(KSPGetIterationNumber(ksp, &count));
-  PetscCheck(reason > 0, PetscObjectComm((PetscObject)ksp), PETSC_ERR_NOT_CONVERGED,
-             "the %s equation did not converge at t = %g s: %s after %d iterations", equation, t,
-             KSPConvergedReasons[reason], (int)count);
-  *iterations = (int)count;
+  *report = (SolverReport){.iterations = (int)count};
+  if (reason <= 0)
+    (void)snprintf(report->failure, sizeof report->failure,
+                   "the %s equation did not converge at t = %g s: %s after %d iterations", equation, t,
+                   KSPConvergedReasons[reason], report->iterations);
   PetscFunctionReturn(0);
 }
 

@@ -5,8 +5,12 @@
 
 /* Sets an option of PETSc that nobody has set: for solvers that are made inside of others.  Not collective. */
 PetscErrorCode SolverDefaultOption(const char *prefix, const char *option, const char *value);
-/* Solves and counts the iterations; no convergence is an error that names the equation and t, s.  Collective. */
-PetscErrorCode SolverSolve(KSP ksp, const char *equation, double t, Vec rhs, Vec x, int *iterations);
+typedef struct {
+  int iterations;
+  char failure[160]; /* "": has converged; else equation, t, s, and PETSc's reason */
+} SolverReport;
+/* Collective. */
+PetscErrorCode SolverSolve(KSP ksp, const char *equation, double t, Vec rhs, Vec x, SolverReport *report);
 /* A solver with a direct factor as preconditioner; operators, tolerances and options are still to be set.
  * One rank has the factor (PETSc's own Cholesky, whose two triangular solves are twice as fast here as those of
  * the supernodal packages): its solve costs less than a distributed one until the mesh is large;

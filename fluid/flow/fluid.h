@@ -89,6 +89,9 @@ PetscErrorCode FluidPrepareMomentum(Fluid fluid, double dt);
 /* u*, then u_projected and p, from t to t + dt, s. */
 PetscErrorCode FluidMomentum(Fluid fluid, double dt);
 PetscErrorCode FluidProject(Fluid fluid, double dt);
+/* NULL, or which equation of the step has not converged: the step, from FluidMakeSolenoidal on, cannot be made, and the fluid is good for
+ * FluidRestoreState and FluidDestroy alone.  Borrowed until then; not collective, the same on all ranks. */
+const char *FluidStepFailure(Fluid fluid);
 /* Gives the inside of the solid its new velocity; correction: one entry a coupling entry, or NULL without a
  * solid. Ends the step: t becomes t + dt. */
 PetscErrorCode FluidCorrect(Fluid fluid, double dt, const CoracleCorrection correction[]);

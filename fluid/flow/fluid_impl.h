@@ -39,6 +39,7 @@ struct Fluid_s {
     double momentum[2], budget_start[2];
   } saved;
   FluidStats stats;
+  char failure[160]; /* of FluidStepFailure, or "" */
   FluidBudget budget;
   double budget_start[2]; /* momentum when the next step begins, kg/s */
   double *budget_sum;     /* this rank's part of the current step's (budget.c) */
@@ -52,6 +53,8 @@ const InverseDensity *FluidInverseDensity(Fluid f);
 PetscErrorCode FluidPhasesChanged(Fluid f);
 /* Of the phases that element e has, the smallest and the largest density, kg/m3.  Not collective. */
 void FluidDensityRange(Fluid f, int e, double *low, double *high);
+/* Not collective: takes note of a solver's failure; its iterations. */
+int FluidTakeReport(Fluid f, const SolverReport *report);
 /* The limit of the interface's waves (fluid.h) on this rank, s; HUGE_VAL without.  Not collective. */
 double FluidInterfaceStep(Fluid f);
 /* fluid_gas.c: *pressure[ne] of the elements, Pa, is allocated.  Not collective, like what follows. */

@@ -241,6 +241,7 @@ static PetscErrorCode HasSolid(Fluid f, PetscBool *solid)
  * pressure through a solid that is held, and the pressure of a drop on it would drive the fluid there in each step. */
 static PetscErrorCode SolvePressure(Fluid f, ProjectionStep *step, PetscBool from_zero, Vec start)
 {
+  SolverReport report;
   Vec velocity, phi;
   PetscFunctionBeginUser;
   step->inverse_density = FluidInverseDensity(f);
@@ -251,7 +252,8 @@ static PetscErrorCode SolvePressure(Fluid f, ProjectionStep *step, PetscBool fro
     PetscCall(AccelerateSolid(f, step->dt, velocity));
     PetscCall(VecAXPY(velocity, 1.0, start));
   }
-  PetscCall(ProjectionSolverSolve(f->projection, step, velocity, &phi, &f->stats.pressure_iterations));
+  PetscCall(ProjectionSolverSolve(f->projection, step, velocity, &phi, &report));
+  f->stats.pressure_iterations = FluidTakeReport(f, &report);
   PetscCall(VecAXPY(f->p, 1.0, phi));
   PetscCall(GhostedUpdate(f->p));
   PetscCall(VecDestroy(&velocity));

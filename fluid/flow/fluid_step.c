@@ -155,6 +155,18 @@ PetscErrorCode FluidPrepareMomentum(Fluid f, double dt)
   PetscFunctionReturn(0);
 }
 
+int FluidTakeReport(Fluid f, const SolverReport *report)
+{
+  if (report->failure[0] && !f->failure[0])
+    (void)snprintf(f->failure, sizeof f->failure, "%s", report->failure);
+  return report->iterations;
+}
+
+const char *FluidStepFailure(Fluid f)
+{
+  return f->failure[0] ? f->failure : NULL;
+}
+
 PetscErrorCode FluidMomentum(Fluid f, double dt)
 {
   MomentumReport report;
@@ -164,7 +176,7 @@ PetscErrorCode FluidMomentum(Fluid f, double dt)
   PetscCall(FluidBudgetBegin(f));
   const MomentumStep step = StepOfMomentum(f, dt, NULL);
   PetscCall(MomentumSolverSolve(f->momentum, &step, f->u_star, &report));
-  f->stats.momentum_iterations = report.iterations;
+  f->stats.momentum_iterations = FluidTakeReport(f, &report.solver);
   f->stats.seconds[MOMENTUM] += report.seconds_solve;
   f->stats.seconds[ASSEMBLY] += report.seconds_assembly;
   PetscFunctionReturn(0);
@@ -196,11 +208,13 @@ PetscErrorCode FluidProject(Fluid f, double dt)
 {
   const double start = MPI_Wtime();
   const ProjectionStep step = EndProjection(f, dt);
+  SolverReport report;
   Vec phi;
   PetscFunctionBeginUser;
   PetscCall(VecCopy(f->u_star, f->u_projected));
   if (f->phases) PetscCall(FluidReturnPressure(f, dt, f->u_projected));
-  PetscCall(ProjectionSolverSolve(f->projection, &step, f->u_projected, &phi, &f->stats.pressure_iterations));
+  PetscCall(ProjectionSolverSolve(f->projection, &step, f->u_projected, &phi, &report));
+  f->stats.pressure_iterations = FluidTakeReport(f, &report);
   PetscCall(ProjectionSolverSubtract(f->projection, &step, f->u_projected));
   PetscCall(VecAXPY(f->p, 1.0, phi));
   PetscCall(GhostedUpdate(f->p));
@@ -256,6 +270,7 @@ PetscErrorCode FluidStep(Fluid f, double dt)
   PetscFunctionBeginUser;
   PetscCall(FluidMomentum(f, dt));
   PetscCall(FluidProject(f, dt));
+  PetscCheck(!FluidStepFailure(f), f->domain.mesh->comm, PETSC_ERR_NOT_CONVERGED, "%s", f->failure);
   PetscCall(FluidCorrect(f, dt, NULL));
   PetscFunctionReturn(0);
 }
@@ -264,11 +279,13 @@ PetscErrorCode FluidStep(Fluid f, double dt)
 static PetscErrorCode SubtractDivergence(Fluid f, double t, Vec velocity, Vec also)
 {
   ProjectionStep step = FluidProjectionStep(f, t, 1.0, PETSC_FALSE); /* any dt: it cancels */
+  SolverReport report;
   Vec phi;
   PetscFunctionBeginUser;
   step.pressure = NULL;
   if (f->compressible) PetscCall(FluidLeaveCompressible(f));
-  PetscCall(ProjectionSolverSolve(f->projection, &step, velocity, &phi, &f->stats.pressure_iterations));
+  PetscCall(ProjectionSolverSolve(f->projection, &step, velocity, &phi, &report));
+  f->stats.pressure_iterations = FluidTakeReport(f, &report);
   PetscCall(ProjectionSolverSubtract(f->projection, &step, velocity));
   if (also) PetscCall(ProjectionSolverSubtract(f->projection, &step, also));
   PetscFunctionReturn(0);

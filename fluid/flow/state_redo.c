@@ -35,6 +35,7 @@ PetscErrorCode FluidRestoreState(Fluid f)
   PetscCall(CopyWithGhosts(f->saved.p, f->p));
   PetscCall(MaterialRestore(f->material));
   if (f->phases) PetscCall(PhaseTransportRestoreState(f->phases));
+  f->failure[0] = '\0';
   f->t = f->saved.t, f->dt_previous = f->saved.dt_previous, f->damped = f->saved.damped;
   PetscCall(PetscArraycpy(f->budget.momentum, f->saved.momentum, 2));
   PetscCall(PetscArraycpy(f->budget_start, f->saved.budget_start, 2));

@@ -165,25 +165,26 @@ static PetscErrorCode SolveHeavy(MomentumSolver s, const MomentumStep *step, Vec
 /* A d = load for the correction d of u_star, and u_star += d; *more: d, found in single precision, is too large for the
  * tolerance.  The tolerance is relative to the velocity, which the preconditioned load is close to; to the first
  * residual where that is larger, as in a flow that starts from rest. */
-static PetscErrorCode SolveOnce(MomentumSolver s, double t, double tolerance, Vec u_star, int *iterations,
-                                PetscBool *more)
+static PetscErrorCode SolveOnce(MomentumSolver s, double t, double tolerance, Vec u_star,
+                                SolverReport *report, PetscBool *more)
 {
   PetscReal norm, correction;
   PetscFunctionBeginUser;
   PetscCall(VecNorm(u_star, NORM_2, &norm));
   PetscCall(KSPSetTolerances(s->ksp, PetscMax(tolerance, SINGLE_PRECISION), PetscMax(tolerance * norm, 1e-50),
                              PETSC_DEFAULT, PETSC_DEFAULT));
-  PetscCall(SolverSolve(s->ksp, "momentum", t, s->load, s->product, iterations));
+  PetscCall(SolverSolve(s->ksp, "momentum", t, s->load, s->product, report));
   PetscCall(VecAXPY(u_star, 1.0, s->product));
   PetscCall(VecNorm(u_star, NORM_2, &norm));
   PetscCall(VecNorm(s->product, NORM_2, &correction));
-  *more = (PetscBool)(SINGLE_PRECISION * correction > tolerance * norm);
+  *more = (PetscBool)(!report->failure[0] && SINGLE_PRECISION * correction > tolerance * norm);
   PetscFunctionReturn(0);
 }
 
 /* Until the load, which is load - A (u_star + w u^n) first, is small enough: once, but for a tolerance that is much smaller than usual;
  * then of heavy elements. */
-static PetscErrorCode SolveCorrection(MomentumSolver s, const MomentumStep *step, Vec u_star, int *iterations)
+static PetscErrorCode SolveCorrection(MomentumSolver s, const MomentumStep *step, Vec u_star,
+                                      SolverReport *report)
 {
   PetscBool more = PETSC_TRUE, heavy;
   double ratio;
@@ -191,13 +192,13 @@ static PetscErrorCode SolveCorrection(MomentumSolver s, const MomentumStep *step
   PetscCall(LargestInertia(s, step, &ratio, &heavy));
   const double tolerance =
       PetscMin(s->tolerance, PetscMax(VELOCITY_TOLERANCE * HEAVY / ratio, ROUND_OFF * ratio));
-  *iterations = 0;
+  int iterations = 0;
   for (int k = 0; k < REFINEMENTS_MAX && more; k++) {
-    int n;
     if (k > 0) PetscCall(UpdateLoad(s));
-    PetscCall(SolveOnce(s, step->t, tolerance, u_star, &n, &more));
-    *iterations += n;
+    PetscCall(SolveOnce(s, step->t, tolerance, u_star, report, &more));
+    iterations += report->iterations;
   }
+  report->iterations = iterations;
   if (heavy) PetscCall(SolveHeavy(s, step, u_star));
   PetscFunctionReturn(0);
 }
@@ -214,7 +215,7 @@ PetscErrorCode MomentumSolverSolve(MomentumSolver s, const MomentumStep *step, V
   PetscCall(SingleOperatorUpdate(s->single));
   PetscCall(PreconditionerUpdate(s->preconditioner));
   const double assembled = MPI_Wtime();
-  PetscCall(SolveCorrection(s, step, u_star, &report->iterations));
+  PetscCall(SolveCorrection(s, step, u_star, &report->solver));
   report->seconds_assembly = assembled - start;
   report->seconds_solve = MPI_Wtime() - assembled;
   PetscFunctionReturn(0);

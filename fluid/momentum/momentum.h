@@ -11,6 +11,7 @@
 #include "fluid/discretization/absorption.h"
 #include "fluid/discretization/domain.h"
 #include "fluid/discretization/solid_coupling.h"
+#include "fluid/discretization/solver_options.h"
 #include "fluid/transport/phase_transport.h"
 #include <petscksp.h>
 
@@ -42,7 +43,7 @@ typedef struct {
 } MomentumStep;
 
 typedef struct {
-  int iterations;
+  SolverReport solver;
   double seconds_assembly, seconds_solve;
 } MomentumReport;
 

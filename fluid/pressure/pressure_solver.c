@@ -166,23 +166,24 @@ PetscErrorCode PressureSolverSetMatrix(PressureSolver s, PetscBool varying, doub
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Iterate(PressureSolver s, const PressureProblem *problem, Vec phi, int *iterations)
+static PetscErrorCode Iterate(PressureSolver s, const PressureProblem *problem, Vec phi, SolverReport *report)
 {
   const double tolerance = s->tolerance / s->contrast;
   PetscFunctionBeginUser;
   PetscCall(KSPSetTolerances(s->iterative, tolerance, OF_VELOCITY * tolerance * problem->size, PETSC_DEFAULT,
                              PETSC_DEFAULT));
-  PetscCall(SolverSolve(s->iterative, "pressure", problem->t, problem->rhs, phi, iterations));
-  PressurePreconditionerCount(s->preconditioner, *iterations);
+  PetscCall(SolverSolve(s->iterative, "pressure", problem->t, problem->rhs, phi, report));
+  PressurePreconditionerCount(s->preconditioner, report->iterations);
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PressureSolverSolve(PressureSolver s, const PressureProblem *problem, Vec phi, int *iterations)
+PetscErrorCode PressureSolverSolve(PressureSolver s, const PressureProblem *problem, Vec phi,
+                                   SolverReport *report)
 {
   PetscFunctionBeginUser;
   if (s->iterates)
-    PetscCall(Iterate(s, problem, phi, iterations));
+    PetscCall(Iterate(s, problem, phi, report));
   else
-    PetscCall(SolverSolve(s->direct, "pressure", problem->t, problem->rhs, phi, iterations));
+    PetscCall(SolverSolve(s->direct, "pressure", problem->t, problem->rhs, phi, report));
   PetscFunctionReturn(0);
 }

@@ -12,6 +12,7 @@
 #ifndef FLUID_PRESSURE_SOLVER_H
 #define FLUID_PRESSURE_SOLVER_H
 #include "fluid/discretization/domain.h"
+#include "fluid/discretization/solver_options.h"
 #include <petscksp.h>
 
 typedef struct PressureSolver_s *PressureSolver;
@@ -36,5 +37,5 @@ double *PressureSolverUnevenness(PressureSolver s);
 /* The matrix is the sum of the blocks; varying: it will be another one soon.  contrast: square root of the fluid's largest density over its least. */
 PetscErrorCode PressureSolverSetMatrix(PressureSolver s, PetscBool varying, double contrast);
 PetscErrorCode PressureSolverSolve(PressureSolver s, const PressureProblem *problem, Vec phi,
-                                   int *iterations);
+                                   SolverReport *report);
 #endif

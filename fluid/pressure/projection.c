@@ -234,7 +234,7 @@ PetscErrorCode ProjectionSolverKeepFixed(ProjectionSolver s, Vec p)
 }
 
 PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *step, Vec velocity, Vec *phi,
-                                     int *iterations)
+                                     SolverReport *report)
 {
   PressureProblem problem = {step->t, 0.0, s->divergence};
   PetscFunctionBeginUser;
@@ -242,7 +242,7 @@ PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *s
   PetscCall(Divergence(s, step, velocity));
   /* volumes of phases add up as far as the divergence is removed: its solver may not stop sooner for them */
   if (step->revision == 0) PetscCall(Size(s, step, velocity, &problem.size));
-  PetscCall(PressureSolverSolve(s->solver, &problem, s->phi, iterations));
+  PetscCall(PressureSolverSolve(s->solver, &problem, s->phi, report));
   PetscCall(GhostedUpdate(s->phi));
   *phi = s->phi;
   PetscFunctionReturn(0);

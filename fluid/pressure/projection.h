@@ -13,6 +13,7 @@
 #define FLUID_PROJECTION_H
 #include "fluid/discretization/domain.h"
 #include "fluid/discretization/solid_coupling.h"
+#include "fluid/discretization/solver_options.h"
 #include "fluid/phases/effective_density.h"
 #include "fluid/pressure/compressibility.h"
 #include <petscksp.h>
@@ -39,7 +40,7 @@ PetscErrorCode ProjectionSolverDestroy(ProjectionSolver *s);
 PetscErrorCode ProjectionSolverKeepFixed(ProjectionSolver s, Vec p);
 /* phi (borrowed, Pa, ghosts up to date) for the velocity u* (blocks [2][3] an element). */
 PetscErrorCode ProjectionSolverSolve(ProjectionSolver s, const ProjectionStep *step, Vec velocity, Vec *phi,
-                                     int *iterations);
+                                     SolverReport *report);
 /* phi of the last solve, borrowed. */
 Vec ProjectionSolverLast(ProjectionSolver s);
 /* velocity -= dt/rho grad phi (or the response of the solid's inertia), phi being that of the last solve. */

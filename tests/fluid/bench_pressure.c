@@ -38,13 +38,13 @@ static PetscErrorCode Step(const FluidDomain *d, const Bench *b, int k, Projecti
   const ProjectionStep step = {0.0, DT, rho, b->constant ? 0 : k + 1, none, NULL, PETSC_FALSE, NULL, NULL};
   double time[NTIMES];
   Vec phi;
-  int iterations;
+  SolverReport report;
   PetscFunctionBeginUser;
   for (int e = 0; e < d->mesh->ne; e++)
     rho[e] = LayerDensity(&b->layer, d, e, b->constant || b->still ? 0 : k);
   PetscCall(LayerFall(d->mesh, u));
   Start(time);
-  PetscCall(ProjectionSolverSolve(s, &step, u, &phi, &iterations));
+  PetscCall(ProjectionSolverSolve(s, &step, u, &phi, &report));
   PetscCall(ProjectionSolverSubtract(s, &step, u));
   Stop(time);
   for (int c = 0; c < NTIMES; c++)
@@ -53,8 +53,8 @@ static PetscErrorCode Step(const FluidDomain *d, const Bench *b, int k, Projecti
     else
       cost->step[c] = fmin(cost->step[c], time[c]);
   if (k == 0) PetscFunctionReturn(0);
-  cost->iterations += iterations;
-  cost->most = PetscMax(cost->most, iterations);
+  cost->iterations += report.iterations;
+  cost->most = PetscMax(cost->most, report.iterations);
   PetscFunctionReturn(0);
 }
 

@@ -57,6 +57,7 @@ static PetscErrorCode Project(const FluidDomain *d, const Layer *l, PetscBool pl
                               double dt, ProjectionSolver s, Vec u, int *iterations)
 {
   SolidCoupling solid;
+  SolverReport report;
   double *rho;
   Vec phi;
   PetscFunctionBeginUser;
@@ -66,7 +67,9 @@ static PetscErrorCode Project(const FluidDomain *d, const Layer *l, PetscBool pl
   if (plate) PetscCall(SetPlate(d, HEAVY * fmin(1.0, l->contrast), dt, solid));
   const ProjectionStep step = {0.0, dt, rho, revision, solid, NULL, plate, NULL, NULL};
   PetscCall(LayerFall(d->mesh, u));
-  PetscCall(ProjectionSolverSolve(s, &step, u, &phi, iterations));
+  PetscCall(ProjectionSolverSolve(s, &step, u, &phi, &report));
+  PetscCheck(!report.failure[0], PETSC_COMM_SELF, PETSC_ERR_NOT_CONVERGED, "%s", report.failure);
+  *iterations = report.iterations;
   PetscCall(ProjectionSolverSubtract(s, &step, u));
   PetscCall(SolidCouplingDestroy(&solid));
   PetscCall(PetscFree(rho));

@@ -5,7 +5,7 @@ enum { MAX = 64 };
 
 typedef struct {
   CoracleClient client;
-  int rank, adapted, step, asked;
+  int rank, adapted, step, attempt, asked;
   int n, id[MAX];          /* elements last given */
   int n_old, id_old[MAX];  /* elements of the step just made */
   int coupled, entry[MAX]; /* elements' ids by entry of the step just made */
@@ -116,6 +116,7 @@ static void Step(Fluid *f, CoracleAction action)
 {
   const double start = f->step + (action == CORACLE_RUN);
   if (action == CORACLE_RUN) f->step++;
+  f->attempt = action == CORACLE_RUN ? 0 : f->attempt + 1;
   if (f->memory[0] != start - 1.0)
     CoracleFail(f->client, "the state of step %d has not been put back", f->step);
   if (f->step == f->fault_step) Misbehave(f->fault);
@@ -123,7 +124,9 @@ static void Step(Fluid *f, CoracleAction action)
   f->memory[0] += 1.0;
   f->n_old = f->n;
   memcpy(f->id_old, f->id, sizeof f->id);
-  if (f->fault != FAULT_ORDER || f->step != f->fault_step) SetFlow(f);
+  const bool rejects = f->rank == 0 && FluidRejects(f->step, f->attempt);
+  if (rejects) CoracleRejectStep(f->client, REASON);
+  if (!rejects && (f->fault != FAULT_ORDER || f->step != f->fault_step)) SetFlow(f);
   if (f->step == ADAPT_STEP) {
     f->adapted = 1;
     CoracleElementsChanged(f->client);

@@ -4,7 +4,7 @@
 
 typedef struct {
   CoracleClient client;
-  int rank, n, remeshed, step, redone;
+  int rank, n, remeshed, step, attempt;
   double x[64][2], u[64][2]; /* [n] */
   double memory[16];         /* state that a step changes beyond recognition */
   double shadow[16];         /* what it was when the step began */
@@ -89,11 +89,11 @@ static void CheckFilm(const Solid *s)
 static void CheckState(Solid *s, CoracleAction action)
 {
   if (action == CORACLE_RUN) {
-    s->redone = 0;
+    s->attempt = 0;
     s->step++;
     memcpy(s->shadow, s->memory, sizeof s->memory);
   } else {
-    s->redone++;
+    s->attempt++;
     s->remeshed = s->step > REMESH_STEP;
     s->n = NodeCount(s->rank, s->remeshed);
   }
@@ -134,7 +134,9 @@ static void Step(Solid *s, double t, double dt)
   if (s->fault == FAULT_DRIFT && s->step == s->fault_step && s->n) s->x[s->n - 1][1] += 0.1;
   for (int k = 0; k < 16; k++) s->memory[k] = sin(1e3 * s->memory[k] + t + k);
   s->function_state++;
-  CoracleEnd(s->client, &s->x[0][0]);
+  const bool rejects = s->rank == 0 && SolidRejects(s->step, s->attempt);
+  if (rejects) CoracleRejectStep(s->client, REASON);
+  CoracleEnd(s->client, rejects ? NULL : &s->x[0][0]);
 }
 
 static const char *const SECTIONS[] = {"solid", NULL};

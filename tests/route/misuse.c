@@ -85,6 +85,7 @@ static void Nobody(void)
   NOBODY(CoraclePhase, (c, "a phase"));
   NOBODY(CoracleProposeStep, (c, 0.1));
   NOBODY(CoracleReady, (c));
+  NOBODY(CoracleRejectStep, (c, "a reason"));
   NOBODY(CoracleReport, (c, "a key", 0.0, 0));
   NOBODY(CoracleResumePath, (c));
   NOBODY(CoracleSetFlow, (c, &flow));
@@ -128,6 +129,7 @@ static void Setup(CoracleClient c)
   REFUSED(CoracleGetForce(c, &force), "CoracleGetForce was called before CoracleReady");
   REFUSED(CoracleSubstep(c, 0.1, ZERO), "CoracleSubstep was called before CoracleReady");
   REFUSED(CoracleSetVelocity(c, ZERO), "CoracleSetVelocity was called before CoracleReady");
+  REFUSED(CoracleRejectStep(c, "a reason"), "CoracleRejectStep was called before CoracleReady");
   REFUSED(CoracleCheckpointPath(c), "CoracleCheckpointPath was called before CoracleReady: its place is "
                                     "between CoracleBegin and CoracleEnd or after");
   REFUSED(CoracleClose(&c), "closed in step 0, before the end of the run (CORACLE_STOP)");
@@ -181,6 +183,7 @@ static void InStep(CoracleClient c)
   REFUSED(CoracleSetPressureLoad(c), "its place is before CoracleReady");
   CoracleBegin(c, &t, &dt, &action);
   REFUSED(CoracleBegin(c, &t, &dt, &action), "CoracleBegin was called between CoracleBegin and CoracleEnd");
+  REFUSED(CoracleRejectStep(c, NULL), "CoracleRejectStep: it must say why");
   REFUSED(CoracleBindState(c, &t, sizeof t), "CoracleBindState: state is bound before the first step");
   REFUSED(CoracleSubstep(c, 0.0, ZERO), "CoracleSubstep: h is 0 s in step 1");
   REFUSED(CoracleSubstep(c, NAN, ZERO), "CoracleSubstep: h is nan s in step 1");

@@ -14,9 +14,21 @@ typedef struct {
   int n, id[MAX];                         /* fluid elements */
   int ncoupled, entry[MAX];               /* ids by coupling entry */
   double motion[4 * MAX], flow[26 * MAX]; /* of the first try of a step */
+  bool kept_motion, kept_flow, solid_has_begun;
   bool needs_pressure;
   Fault fault;
 } Stub;
+
+/* Whether the attempt is rejected, as it must be, by a role. */
+static bool IsRejected(const Stub *s, const char *role, int expected)
+{
+  const char *why = ServerRejection(s->server);
+  char right[80];
+  (void)snprintf(right, sizeof right, "%s: " REASON, role);
+  if (expected ? !why || strcmp(why, right) : why != NULL)
+    ServerFail(s->server, "step %d is rejected because of '%s'", s->step, why ? why : "nothing");
+  return expected;
+}
 
 /* --- the solid ------------------------------------------------------------------------------------------ */
 
@@ -71,23 +83,25 @@ static void CheckFit(const Stub *s, const ServerSolid *solid)
     }
 }
 
-static void ReceiveSolid(Stub *s, int redo)
+static void ReceiveSolid(Stub *s, int attempt)
 {
   ServerSolid solid;
   ServerReceiveSolid(s->server, &solid);
+  if (IsRejected(s, "solid", SolidRejects(s->step, attempt))) return;
   const size_t bytes = 2 * (size_t)solid.nnodes * sizeof(double);
   if (solid.changed != (s->step == 0 || s->step == REMESH_STEP))
     ServerFail(s->server, "changed is %d in step %d", solid.changed, s->step);
   CheckMesh(s, &solid, s->step >= REMESH_STEP);
   CheckMotion(s, &solid, s->step ? s->t + 0.5 * StepSize(s->step) : 0.0);
   if (s->step != REMESH_STEP) CheckFit(s, &solid); /* a new node's line is not known */
-  if (redo && (memcmp(s->motion, solid.x, bytes) || memcmp(s->motion + 2 * MAX, solid.u, bytes)))
+  if (s->kept_motion && (memcmp(s->motion, solid.x, bytes) || memcmp(s->motion + 2 * MAX, solid.u, bytes)))
     ServerFail(s->server, "the redone motion of step %d is another", s->step);
   memcpy(s->motion, solid.x, bytes);
   memcpy(s->motion + 2 * MAX, solid.u, bytes);
+  s->kept_motion = true;
 }
 
-static void SendForce(Stub *s, CoracleAction action)
+static void SendForce(Stub *s)
 {
   double force[MAX][2], load[MAX][2], resistance[MAX][4];
   int n = 0;
@@ -99,7 +113,9 @@ static void SendForce(Stub *s, CoracleAction action)
     }
   if (HasFilm(s->step)) ServerSetFilm(s->server, load[0], resistance[0]);
   if (s->fault == FAULT_NAN && s->step == 4 && n) force[0][0] = NAN;
-  ServerSendForce(s->server, s->t, StepSize(s->step), action, &force[0][0]);
+  ServerSendForce(s->server, s->t, StepSize(s->step), s->solid_has_begun ? CORACLE_REDO : CORACLE_RUN,
+                  &force[0][0]);
+  s->solid_has_begun = true;
 }
 
 /* --- the fluid ------------------------------------------------------------------------------------------ */
@@ -141,21 +157,25 @@ static void CheckFlow(const Stub *s, const CoracleFlow *f)
   }
 }
 
-static void ReceiveFlow(Stub *s, int redo)
+/* Whether there is one. */
+static bool ReceiveFlow(Stub *s, int attempt)
 {
   CoracleFlow f;
   ServerReceiveFlow(s->server, &f);
+  if (IsRejected(s, "fluid", FluidRejects(s->step, attempt))) return false;
   CheckFlow(s, &f);
   const double *lists[] = {f.u_start, f.u_star, f.u_projected, f.p, f.rho, f.mu};
   for (int k = 0; k < 6; k++) {
     const size_t bytes = (k < 4 ? 6 : 1) * (size_t)s->n * sizeof(double);
     double *first = s->flow + (k < 4 ? 6 * k : 20 + k) * MAX;
     if (!lists[k]) continue;
-    if (redo && memcmp(first, lists[k], bytes)) ServerFail(s->server, "the redone flow is another");
+    if (s->kept_flow && memcmp(first, lists[k], bytes)) ServerFail(s->server, "the redone flow is another");
     memcpy(first, lists[k], bytes);
   }
+  s->kept_flow = true;
   if (ServerProposedStep(s->server) != CellProposal(0, s->step)) ServerFail(s->server, "proposed step");
   if (ServerElementsChanged(s->server) != (s->step == ADAPT_STEP)) ServerFail(s->server, "elements changed");
+  return true;
 }
 
 /* Entries in an order that mixes the fluid's ranks: from both ends to the middle. */
@@ -183,15 +203,17 @@ static void SendCoupling(Stub *s, CoracleAction action, int coming)
 
 /* --- the run -------------------------------------------------------------------------------------------- */
 
-/* Step s->step, the `redo`th time; the fluid has its coupling already. */
-static void Step(Stub *s, int redo)
+/* An attempt of step s->step, from 0; the fluid has its coupling already. */
+static void Step(Stub *s, int attempt)
 {
-  const int last = redo == Redos(s->step);
+  const int last = attempt == Redos(s->step);
+  if (attempt == 0) s->kept_motion = s->kept_flow = s->solid_has_begun = false;
   if (s->fault != FAULT_NONE && s->fault != FAULT_NAN && s->step == 4 && s->rank == s->size - 1)
     Misbehave(s->fault);
-  ReceiveFlow(s, redo);
-  SendForce(s, redo ? CORACLE_REDO : CORACLE_RUN);
-  ReceiveSolid(s, redo);
+  if (ReceiveFlow(s, attempt)) {
+    SendForce(s);
+    ReceiveSolid(s, attempt);
+  }
   if (ServerElementsChanged(s->server)) AskElements(s);
   if (last) s->t += StepSize(s->step);
   SendCoupling(s,
@@ -244,7 +266,7 @@ int main(int argc, char **argv)
   if (ServerProposedStep(s.server) != CellProposal(0, 0)) ServerFail(s.server, "first proposed step");
   SendCoupling(&s, CORACLE_RUN, 1);
   for (s.step = 1; s.step <= STEPS; s.step++)
-    for (int redo = 0; redo <= Redos(s.step); redo++) Step(&s, redo);
+    for (int attempt = 0; attempt <= Redos(s.step); attempt++) Step(&s, attempt);
   ServerSendForce(s.server, s.t, 0.0, CORACLE_STOP, NULL);
   ServerFinish(s.server);
   s.n = 0;

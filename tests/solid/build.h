@@ -74,12 +74,21 @@ static inline SolidView ViewOf(Solid s, double **x, double **v)
   return view;
 }
 
-/* One step with this load[nnodes][2] on the nodes; NULL: none. */
-static inline PetscErrorCode RunStep(Solid s, double dt, const double load[])
+/* One step with this load[nnodes][2] on the nodes; NULL: none.  *why as of SolidStepFailure. */
+static inline PetscErrorCode TryStep(Solid s, double dt, const double load[], const char **why)
 {
   double h;
   PetscCall(SolidStart(s, dt, load));
   while (SolidRemaining(s)) PetscCall(SolidSubstep(s, &h));
+  return SolidStepFailure(s, why);
+}
+
+/* The same of a step that must be made. */
+static inline PetscErrorCode RunStep(Solid s, double dt, const double load[])
+{
+  const char *why;
+  PetscCall(TryStep(s, dt, load, &why));
+  CHECK(!why, "%s", why);
   return 0;
 }
 

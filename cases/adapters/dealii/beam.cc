@@ -138,7 +138,7 @@ struct Beam {
     const auto acceleration = [&](std::size_t k) { return factor * (next[k] - x[k] - dt * v[k]); };
     if (x.empty()) return; // UMFPACK wants a matrix
     for (int iteration = 0;; iteration++) {
-      if (iteration == 20) CoracleFail(client, "Newton's method has not converged in 20 iterations");
+      if (iteration == 20 && !CoracleRejectStep(client, "Newton's method has not converged in 20 iterations")) return;
       Assemble(next);
       for (std::size_t k = 0; k < next.size(); k++) {
         const types::global_dof_index row = dof[k / 2][k % 2];

@@ -111,7 +111,8 @@ class Beam:
             self.u.x.scatter_forward()
             if self.step.norm() <= 1e-10 * (1e-6 + self.u.vector.norm()):
                 return
-        CLIENT.fail("Newton's method has not converged in 20 iterations")
+        CLIENT.reject_step("Newton's method has not converged in 20 iterations")
+        self.u.x.array[:] = self.start.x.array
 
     def advance(self, dt, force, state, own):
         """state: displacement, velocity [2][n][2], own: acceleration by all but the fluid; both in place."""

@@ -55,6 +55,9 @@ module coracle
     subroutine c_fail(client, message) bind(c, name="CoracleFailMessage")
       import; type(c_ptr), value :: client; character(c_char), intent(in) :: message(*)
     end subroutine
+    integer(c_int) function c_reject_step(client, why) bind(c, name="CoracleRejectStep")
+      import; type(c_ptr), value :: client; character(c_char), intent(in) :: why(*)
+    end function
     integer(c_int) function c_report(client, key, number, total) bind(c, name="CoracleReport")
       import; type(c_ptr), value :: client; character(c_char), intent(in) :: key(*)
       real(c_double), value :: number; integer(c_int), value :: total
@@ -228,6 +231,14 @@ contains
     type(c_ptr), intent(in) :: client
     character(*), intent(in) :: message
     call c_fail(client, trim(message)//c_null_char)
+  end subroutine
+
+  !> The step cannot be made; CoracleEnd follows all the same.
+  subroutine coracle_reject_step(client, why)
+    type(c_ptr), intent(in) :: client
+    character(*), intent(in) :: why
+    integer(c_int) :: ignored
+    ignored = c_reject_step(client, trim(why)//c_null_char)
   end subroutine
 
   subroutine coracle_report(client, key, number, total)

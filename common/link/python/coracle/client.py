@@ -108,6 +108,10 @@ class Client:
         """A solid's new positions x[n][2], m; nothing for a fluid."""
         call("End", self._handle, array("x", x, (self.n, 2)))
 
+    def reject_step(self, why):
+        """The step cannot be made; end() follows all the same, a solid's without positions."""
+        call("RejectStep", self._handle, why.encode())
+
     def checkpoint_path(self):
         path = call("CheckpointPath", self._handle)
         return path.decode() if path else None

@@ -39,7 +39,7 @@ _SIGNATURES = {
     "SetInertia": (c_int, _C, _A, _A), "SetPressureLoad": (c_int, _C), "SetVelocity": (c_int, _C, _A), "Substep": (c_int, _C, c_double, _A),
     "GetForce": (c_int, _C, POINTER(_A)), "BindState": (c_int, _C, _A, c_size_t),
     "BindStateFunction": (c_int, _C, STATE_FUNCTION, _A), "Ready": (c_int, _C),
-    "Begin": (c_int, _C, POINTER(c_double), POINTER(c_double), POINTER(c_int)), "End": (c_int, _C, _A),
+    "Begin": (c_int, _C, POINTER(c_double), POINTER(c_double), POINTER(c_int)), "End": (c_int, _C, _A), "RejectStep": (c_int, _C, c_char_p),
     "CheckpointPath": (c_char_p, _C), "ResumePath": (c_char_p, _C),
     "GetRegion": (c_int, _C, POINTER(c_int), POINTER(_A)), "SetRegion": (c_int, _C, c_int, _A, _A, REGION_FUNCTION, _A),
     "ElementsChanged": (c_int, _C), "ProposeStep": (c_int, _C, c_double), "NeedsPressure": (c_int, _C),
