@@ -183,7 +183,8 @@ static PetscErrorCode Expect(CoracleCase c, Solid s, Command command)
   if (isfinite(limit))
     printf("solid: substeps of at most %.3g s\n", limit);
   else if (v.nbodies > 0)
-    printf("solid: all bodies are fixed\n");
+    printf("solid: all bodies are %s\n",
+           s->nfixed == v.nnodes ? "fixed" : "fixed or rigid: substeps are as contact asks for");
   PetscCall(ExpectBodies(s));
   ExpectCracks(s);
   if (command == COMMAND_DRAW) {

@@ -113,6 +113,7 @@ check "$scratch/fluid.yaml" --set 'solid.bodies=[]' || fail "a fluid alone needs
 ! check "$scratch/fluid.yaml" && grep -q "key 'coupler.shell_thickness' is missing" "$scratch/log" || fail "a body needs no shell"
 png "$case" --set 'solid.bodies[0].fixed=true' && grep -qx 'solid: all bodies are fixed' "$scratch/log" || fail "a fixed body"
 ! grep -qw inf "$scratch/log" || fail "substeps of a fixed body"
+png "$case" --set 'solid.materials.disc.law=rigid' && grep -qx 'solid: all bodies are fixed or rigid: substeps are as contact asks for' "$scratch/log" || fail "a rigid body"
 
 # the solid alone needs no keys of the others, and is told whether its mesh resolves cracks
 cat >"$scratch/alone.yaml" <<'E2'
