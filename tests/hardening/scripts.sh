@@ -72,3 +72,29 @@ if "$python" "$root/scripts/momentum.py" "$scratch" 2>"$scratch/log"; then echo 
 if "$root/scripts/run.sh" --bin "$build" --allone "$root/tests/solid/alone.yaml" 2>"$scratch/log"; then echo 'an unknown option was taken'; exit 1; fi
 grep -q "^run.sh: unknown option '--allone'" "$scratch/log" || { cat "$scratch/log"; exit 1; }
 if "$root/scripts/check.sh" --help | grep '^t '; then echo 'more than the usage is shown'; exit 1; fi
+# fragments: of a beam that breaks, on any ranks, as many as the solver counts; together they are where the body is, and those there were go on
+brittle='{density: 2000.0, youngs_modulus: 1.0e6, poisson_ratio: 0.3, damping: 0.2, tensile_strength: 6.0e3, shear_strength: 1.2e4, fracture_energy: 1.0}'
+bar='{shape: rectangle, centre: [1.0, 1.1], width: 0.3, height: 0.1, size: 0.025, material: disc, joints: all, fixed: [left]}'
+for ranks in 1:1:1 1:1:2; do
+  must "cracks-${ranks//:/-}" "$ranks" --set "solid.materials.disc=$brittle" --set "solid.bodies[0]=$bar" --set time.end=0.4 --set output.every=0.1 --set solid.rebalance=1
+  "$python" "$root/scripts/fragments.py" "$scratch/cracks-${ranks//:/-}" --png >"$scratch/log" && [ -s "$scratch/cracks-${ranks//:/-}/fragments.png" ] || { cat "$scratch/log"; exit 1; }
+done
+"$python" - "$scratch" <<'E4'
+from results import rows
+area, tables = 0.03, [rows(label, "fragments") for label in ("cracks-1-1-1", "cracks-1-1-2")]
+for label, table in zip(("cracks-1-1-1", "cracks-1-1-2"), tables):
+    solid = {row["t [s]"]: row for row in rows(label, "solid")}
+    before = {0.0}
+    for t in sorted({row["t [s]"] for row in table}):
+        mine = [row for row in table if row["t [s]"] == t]
+        now = {row["fragment"] for row in mine}
+        assert len(now) == len(mine) and before <= now and {row["parent"] for row in mine} <= before, "%s: %s after %s" % (label, mine, before)
+        assert abs(sum(row["area [m2]"] for row in mine) / area - 1) < 1e-9
+        row = solid.get(min(solid, key=lambda s: abs(s - t)))
+        for name, key in (("x0 [m]", "x [m]"), ("y0 [m]", "y [m]")):
+            centre = sum(r["area [m2]"] * r[key] for r in mine) / area
+            assert t == 0.0 or abs(centre - row[name]) < 1e-9, "%s: %g at %g s, in solid.csv %g" % (label, centre, t, row[name])
+        before = now
+    assert len(before) == solid[max(solid)]["pieces"] >= 2
+assert [[row[key] for key in ("t [s]", "fragment", "parent", "elements")] for row in tables[0]] == [[row[key] for key in ("t [s]", "fragment", "parent", "elements")] for row in tables[1]]
+E4
