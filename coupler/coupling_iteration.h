@@ -7,7 +7,7 @@
  *     until  rms(e (H(v_k) - v_k)) <= max(tolerance rms(H(v_k)), 1e-4 dr/dt).
  *
  * e is the explicit fraction (inertia.h): 0 at nodes whose inertia is in the fluid's solve, so where all are
- * such the first iteration is accepted.  The geometry is that of the step's start.  All functions are
+ * such the first iteration is accepted.  The geometry is built once, for all iterations over the same dt.  All functions are
  * collective. */
 #ifndef CORACLE_COUPLING_ITERATION_H
 #define CORACLE_COUPLING_ITERATION_H

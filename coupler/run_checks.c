@@ -99,7 +99,7 @@ PetscErrorCode RunChooseStep(RunState *run, double proposed)
         run,
         "at t = %g s the steps that converge have become shorter than %g of time.dt_max, the last one %g s",
         run->t, MIN_STEP, run->dt_before));
-  PetscCall(KeepElements(run, &wanted));
+  if (c->options.mode == COUPLER_REACTION) PetscCall(KeepElements(run, &wanted));
   run->dt = remaining < 2.0 * wanted ? 0.5 * remaining : wanted;
   if (TimeReached(wanted, remaining)) run->dt = remaining;
   PetscFunctionReturn(0);

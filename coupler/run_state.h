@@ -34,9 +34,10 @@ typedef struct {
   const CoracleCorrection *correction; /* [ncorrection] of the last accepted step, not sent yet; borrowed */
 } RunState;
 
-/* dt for the coming step: the proposal, at most time.dt_max and 1.3 of dt_before, and shorter where that spares coupling iterations.  The last step ends exactly at time.end,
- * and the one before it is shortened so that the last is not much smaller.  A proposal below 1e-6 of
- * time.dt_max ends the job: the flow diverges and would take ever shorter steps. */
+/* dt for the coming step: the proposal, at most time.dt_max and 1.3 of dt_before, and shorter where that spares coupling iterations, and where in
+ * mode reaction the solid's elements would be inside out in its middle.  The last step ends exactly at time.end, and the one before it is shortened so
+ * that the last is not much smaller.  The job ends when the flow diverges, or steps are halved again and again: a proposal, or steps, below 1e-6
+ * of time.dt_max; and when an element would be inside out even in a 64th of the step. */
 PetscErrorCode RunChooseStep(RunState *run, double proposed);
 /* Not collective: of a step that has converged, coupling iterations, also those over more of it than dt. */
 void RunRememberIterations(RunState *run, int iterations);

@@ -86,6 +86,7 @@ static PetscErrorCode SendStep(RunState *run)
 
   PetscFunctionBeginUser;
   PetscCall(SolidStateCopy(&run->solid, &run->start));
+  PetscCall(OverlapKeepProperties(CouplerOverlap(loop->coupler)));
   run->halvings = 0;
   run->solid_has_begun = PETSC_FALSE;
   PetscCall(ServerSendStep(loop->server, run->t, run->dt, CORACLE_RUN, run->ncorrection, run->correction));
@@ -111,7 +112,9 @@ static PetscErrorCode Start(RunState *run)
   PetscCall(RequestElements(run));
   PetscCall(RunCheckPressureLoad(run));
   if (!loop->from) PetscCall(RunCheckInside(run));
+  const PetscBool shortened = run->shortened; /* of the step that is to come, where a checkpoint has it */
   PetscCall(RunChooseStep(run, run->dt > 0.0 ? run->dt : ServerProposedStep(loop->server)));
+  run->shortened = shortened;
   PetscCall(RunCreateGauges(run));
   PetscCall(RunOpenOutput(run));
   PetscCall(MoveGauges(run));
@@ -166,6 +169,7 @@ static PetscErrorCode HalveStep(RunState *run)
 {
   PetscFunctionBeginUser;
   PetscCall(RunHalveStep(run));
+  PetscCall(OverlapRestoreProperties(CouplerOverlap(run->loop->coupler)));
   PetscCall(SendRedo(run));
   PetscCall(SendCoupling(run));
   PetscFunctionReturn(0);
@@ -248,6 +252,7 @@ static PetscErrorCode SolveStep(RunState *run, StepRecord *step)
 
   PetscFunctionBeginUser;
   for (;;) {
+    if (NeedsSupport(run)) PetscCall(FindSupport(run, step));
     PetscCall(SolveOverStep(run, step, &converged));
     if (converged) break;
     PetscCall(HalveStep(run));
@@ -296,16 +301,14 @@ static PetscErrorCode BeginStep(RunState *run, StepRecord *step)
 static PetscErrorCode Stop(RunState *run)
 {
   const Server server = run->loop->server;
-  double *zero;
 
   PetscFunctionBeginUser;
   run->dt_before = run->dt;
   run->dt = 0.0;
+  run->shortened = PETSC_FALSE;
   PetscCall(CheckpointsRequest(&run->checkpoints, WriterSteps(run->loop->writer), run->t, PETSC_TRUE));
-  PetscCall(PetscCalloc1(2 * (size_t)run->solid.nnodes, &zero));
   PetscCall(ServerSendStep(server, run->t, 0.0, CORACLE_STOP, run->ncorrection, run->correction));
-  PetscCall(ServerSendForce(server, run->t, 0.0, CORACLE_STOP, zero));
-  PetscCall(PetscFree(zero));
+  PetscCall(ServerSendForce(server, run->t, 0.0, CORACLE_STOP, NULL));
   PetscCall(ShellExtrude(CouplerShell(run->loop->coupler), &run->solid, run->solid.changed));
   PetscCall(WriterShell(run->loop->writer, run->t, run->loop->coupler, &run->solid));
   PetscCall(RunSave(run));
@@ -326,7 +329,6 @@ PetscErrorCode TimeLoopRun(TimeLoop *loop)
   while (!run.ends) {
     const double waited = ServerWaited(loop->server);
     StepRecord step = {0};
-    if (NeedsSupport(&run)) PetscCall(FindSupport(&run, &step));
     PetscCall(SolveStep(&run, &step));
     PetscCall(AcceptStep(&run, &step));
     if (!run.ends) PetscCall(BeginStep(&run, &step));

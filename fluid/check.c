@@ -70,7 +70,7 @@ static const CoracleCaseKey KEYS[] = {
     {"fluid.boundaries.*.contact_angle[].value", "degrees",
      "contact angle of the interface between them, through the one that is named first"},
     {"fluid.theta", "",
-     "0.5 Crank-Nicolson ... 1 backward Euler; by default 0.5, with surface tension 1; the first two steps "
+     "0.5 Crank-Nicolson ... 1 backward Euler; by default 0.5, with surface tension 1; the first four steps "
      "have 1 where the velocity does "
      "not begin as boundaries prescribe it"},
     {"fluid.petsc", "", "options for PETSc's solvers: -momentum_ksp_monitor"},

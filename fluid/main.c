@@ -26,7 +26,7 @@ static PetscErrorCode Step(FluidRun *m, double dt)
   if (m->not_solenoidal) PetscCall(FluidMakeSolenoidal(m->fluid));
   if (m->first) PetscCall(FluidStartInside(m->fluid));
   PetscCall(CoraclePhase(m->program->client, "momentum"));
-  PetscCall(FluidMomentum(m->fluid, dt));
+  if (!FluidStepFailure(m->fluid)) PetscCall(FluidMomentum(m->fluid, dt));
   PetscCall(CoraclePhase(m->program->client, "pressure"));
   if (!FluidStepFailure(m->fluid)) PetscCall(FluidProject(m->fluid, dt));
   if (FluidStepFailure(m->fluid)) {

@@ -1,6 +1,6 @@
 /* The solid alone: the same case file, outputs and substeps, but neither coupler nor fluid.  Its steps are
- * time.dt_max long (the rows of solid.csv) and end with time.end; nothing but gravity, walls, drives and
- * contact acts on the bodies.  Checkpoints are those of other runs, with the solid's part alone. */
+ * time.dt_max long (the rows of solid.csv) and end with time.end; there is no
+ * fluid around the bodies.  Checkpoints are those of other runs, with the solid's part alone. */
 #ifndef SOLID_ALONE_H
 #define SOLID_ALONE_H
 

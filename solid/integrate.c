@@ -100,6 +100,7 @@ static int SafeSubsteps(const BulkMotion *m, double skin, double h)
 static PetscErrorCode CheckContact(Solid s, double *limit, int *substeps, PetscBool *failed)
 {
   BulkMotion m;
+  double after;
   PetscFunctionBeginUser;
   if (s->done == 0.0) {
     PetscCall(ContactSearch(s->contact, s, 0.0));
@@ -109,11 +110,12 @@ static PetscErrorCode CheckContact(Solid s, double *limit, int *substeps, PetscB
   PetscCall(MotionNow(s, &m));
   *failed = m.failed;
   if (*failed) PetscFunctionReturn(0);
-  const double h = PetscMin(s->setup.courant * *limit, s->dt);
+  const double h = fmin(fmin(s->setup.courant * *limit, RigidLongestSubstep(s)), s->dt);
   if (Travel(&m, CHECK_EVERY, h) > ContactSkin(s->contact)) {
     const BulkMotion from_here = {0.0, m.speed, m.acceleration, PETSC_FALSE};
     PetscCall(ContactSearch(s->contact, s, 2.0 * Travel(&from_here, 2, h)));
-    PetscCall(SolidLimit(s, limit));
+    PetscCall(SolidLimit(s, &after));
+    *limit = fmin(*limit, after); /* contact has been searched for substeps of h */
     s->force_valid = PETSC_FALSE;
     m.moved = 0.0;
   }

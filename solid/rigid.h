@@ -11,7 +11,7 @@
  *
  * A body that moves as prescribed in one component alone (a guide) does not turn.
  *
- * Substeps are a tenth of the step at most, and turn a body by no more than a twentieth; else contact alone limits them.  On a bed of stiffness k per area the squared frequency is at
+ * Substeps are a tenth of the step at most, and turn a body by no more than a twentieth; else contact and springs limit them.  On a bed of stiffness k per area the squared frequency is at
  * most k int (1/M + (r x n)^2/I) over the surface, the trace of M^-1 K (RigidBody.surface_compliance). */
 #ifndef SOLID_RIGID_H
 #define SOLID_RIGID_H

@@ -1,4 +1,4 @@
-/* The solid's part of the case file: sections solid and gravity.  All keys are listed in README.md. */
+/* The solid's part of the case file: sections solid and gravity.  All keys are in cases/KEYS.md. */
 #ifndef SOLID_CASE_H
 #define SOLID_CASE_H
 #include "common/link/case_file.h"

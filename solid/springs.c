@@ -129,6 +129,20 @@ PetscErrorCode SpringsMultiply(Solid s, double stiffness[][4], const double d[],
   PetscFunctionReturn(0);
 }
 
+/* Of the point at an end: velocity per impulse there, at most. */
+static double EndMobility(const Solid s, const SpringEnd *end, const int node[3])
+{
+  const Body *body = &s->body[s->node_body[node[0]]];
+  double sum = 0.0, arm[2] = {-body->centre[0], -body->centre[1]};
+  for (int i = 0; i < 3; i++) {
+    const double w = end->weight[i];
+    sum += w * w * s->inverse_mass[node[i]];
+    for (int c = 0; c < 2; c++) arm[c] += w * s->rest[2 * node[i] + c];
+  }
+  if (body->rigid.mass == 0.0) return sum;
+  return 1.0 / body->rigid.mass + (arm[0] * arm[0] + arm[1] * arm[1]) / body->rigid.inertia;
+}
+
 PetscErrorCode SpringsRate(Solid s, ElementRates *rates)
 {
   double sum[2] = {0.0, 0.0};
@@ -136,11 +150,10 @@ PetscErrorCode SpringsRate(Solid s, ElementRates *rates)
   for (int k = 0; k < 2 * s->setup.nsprings; k++) {
     const Spring *spring = &s->setup.spring[k / 2];
     const int *node = NodesAt(s, k / 2, k % 2);
-    for (int i = 0; node && i < 3; i++) {
-      const double w = spring->end[k % 2].weight[i], mobility = w * w * s->inverse_mass[node[i]];
-      sum[0] += spring->stiffness * mobility;
-      sum[1] += spring->damping * mobility;
-    }
+    if (!node) continue;
+    const double mobility = EndMobility(s, &spring->end[k % 2], node);
+    sum[0] += spring->stiffness * mobility;
+    sum[1] += spring->damping * mobility;
   }
   if (s->size > 1 && s->setup.nsprings)
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->comm));

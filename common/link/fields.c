@@ -8,8 +8,8 @@
 #define P1_TENSOR {EXTENT_DIM, EXTENT_VERTICES, EXTENT_DIM, EXTENT_VERTICES}
 #define P1_MATRIX {EXTENT_VERTICES, EXTENT_VERTICES}
 #define NUMBER_OF(list) (int)(sizeof(list) / sizeof *(list))
-#define ARRAYS(entity, direction, list) {entity, direction, 0, NUMBER_OF(list), list}
-#define ENTRIES(entity, direction, type, list) {entity, direction, sizeof(type), NUMBER_OF(list), list}
+#define ARRAYS(entity, list) {entity, 0, NUMBER_OF(list), list}
+#define ENTRIES(entity, type, list) {entity, sizeof(type), NUMBER_OF(list), list}
 
 #define AT(member) offsetof(ServerSolid, member)
 static const Field NODES[] = {
@@ -92,18 +92,18 @@ static const Field GAUGES[] = {
 #undef AT
 /* clang-format on */
 
-const FieldGroup FIELDS_NODES = ARRAYS("node", "solid -> coupler", NODES);
-const FieldGroup FIELDS_MOTION = ARRAYS("node", "solid -> coupler", MOTION);
-const FieldGroup FIELDS_FACETS = ARRAYS("facet", "solid -> coupler", FACETS);
-const FieldGroup FIELDS_SIMPLICES = ARRAYS("element", "solid -> coupler", SIMPLICES);
-const FieldGroup FIELDS_FORCE = ARRAYS("node", "coupler -> solid", FORCE);
-const FieldGroup FIELDS_BOXES = ARRAYS("box", "coupler -> fluid", BOXES);
-const FieldGroup FIELDS_DOMAIN = ENTRIES("corner", "fluid -> coupler", FieldsDomain, DOMAIN_BOUNDS);
-const FieldGroup FIELDS_ELEMENTS = ARRAYS("element", "fluid -> coupler", ELEMENTS);
-const FieldGroup FIELDS_FLOW = ARRAYS("element", "fluid -> coupler", FLOW);
-const FieldGroup FIELDS_CORRECTION = ENTRIES("entry", "coupler -> fluid", CoracleCorrection, CORRECTION);
-const FieldGroup FIELDS_COUPLING = ENTRIES("entry", "coupler -> fluid", CoracleCoupling, COUPLING);
-const FieldGroup FIELDS_GAUGES = ENTRIES("gauge", "coupler -> fluid", CoracleGauge, GAUGES);
+const FieldGroup FIELDS_NODES = ARRAYS("node", NODES);
+const FieldGroup FIELDS_MOTION = ARRAYS("node", MOTION);
+const FieldGroup FIELDS_FACETS = ARRAYS("facet", FACETS);
+const FieldGroup FIELDS_SIMPLICES = ARRAYS("element", SIMPLICES);
+const FieldGroup FIELDS_FORCE = ARRAYS("node", FORCE);
+const FieldGroup FIELDS_BOXES = ARRAYS("box", BOXES);
+const FieldGroup FIELDS_DOMAIN = ENTRIES("corner", FieldsDomain, DOMAIN_BOUNDS);
+const FieldGroup FIELDS_ELEMENTS = ARRAYS("element", ELEMENTS);
+const FieldGroup FIELDS_FLOW = ARRAYS("element", FLOW);
+const FieldGroup FIELDS_CORRECTION = ENTRIES("entry", CoracleCorrection, CORRECTION);
+const FieldGroup FIELDS_COUPLING = ENTRIES("entry", CoracleCoupling, COUPLING);
+const FieldGroup FIELDS_GAUGES = ENTRIES("gauge", CoracleGauge, GAUGES);
 
 void FieldsExtents(int dim, int extent[NEXTENTS])
 {

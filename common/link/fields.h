@@ -46,8 +46,8 @@ typedef struct {
 } Field;
 
 struct FieldGroup {
-  const char *entity, *direction; /* "node", "solid -> coupler" */
-  size_t entry;                   /* bytes of the C structure of one entity; 0: a structure of arrays */
+  const char *entity; /* "node" */
+  size_t entry;       /* bytes of the C structure of one entity; 0: a structure of arrays */
   int nfields;
   const Field *field; /* [nfields] */
 };

@@ -277,8 +277,8 @@ int ServerClose(Server *server)
   if (!s) return 0;
   if (!s->fluid.stopped || !s->solid.stopped)
     ServerFail(s, "closed in step %d, before CORACLE_STOP to both clients", s->p->step);
-  Buffer *all[] = {&s->save,    &s->rejection, &s->gid,           &s->facet,
-                   &s->element, &s->start_gid, &s->start_element, &s->owner};
+  Buffer *all[] = {&s->save,      &s->rejection,   &s->gid,           &s->facet, &s->element,
+                   &s->start_gid, &s->start_facet, &s->start_element, &s->owner};
   for (size_t k = 0; k < sizeof all / sizeof *all; k++) BufferFree(all[k]);
   FieldListsFree(&s->motion);
   FieldListsFree(&s->elements);

@@ -102,11 +102,11 @@ double ServerProposedStep(Server s)
 static double ReceiveFlow(Server s, ClientRank *client, int *changed)
 {
   const MessageHeader *h = MessageReceive(s->p, &client->in, KIND_FLOW, KIND_FLOW, s->fluid.step);
+  ClientListFlags(s, ROLE_FLUID, client, h);
   if (ClientListRejects(s, ROLE_FLUID, client)) return HUGE_VAL;
   if (h->count[0] != client->n)
     ServerFail(s, "fluid rank %d has sent the flow on %lld elements instead of %d", client->in.rank,
                (long long)h->count[0], client->n);
-  ClientListFlags(s, ROLE_FLUID, client, h);
   FieldsAppend(s->p, &client->in, &FIELDS_FLOW, (size_t)client->n, &s->flow);
   *changed |= h->flag & FLAG_CHANGED;
   return h->dt;

@@ -32,8 +32,8 @@ struct Server_s {
   /* solid's lists */
   FieldLists motion;
   Buffer gid, facet, element;
-  bool kept_start;                 /* the solid's mesh has changed on this rank in the step */
-  Buffer start_gid, start_element; /* what it was when the step began */
+  bool kept_start;                              /* the solid's mesh has changed on this rank in the step */
+  Buffer start_gid, start_facet, start_element; /* what it was when the step began */
   /* fluid's lists */
   FieldLists elements, flow;
   int nelements;

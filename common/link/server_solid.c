@@ -58,6 +58,7 @@ static void AssembleMesh(Server s)
 {
   if (!s->kept_start) {
     Swap(&s->gid, &s->start_gid);
+    Swap(&s->facet, &s->start_facet);
     Swap(&s->element, &s->start_element);
   }
   s->kept_start = true;
@@ -71,6 +72,18 @@ static void AssembleMesh(Server s)
     AppendShifted(&s->facet, &client->facets.list[0], client->first);
     AppendShifted(&s->element, &client->elements.list[0], client->first);
   }
+}
+
+static bool Same(const Buffer *a, const Buffer *b)
+{
+  return a->size == b->size && (a->size == 0 || !memcmp(a->data, b->data, a->size));
+}
+
+/* A step is made again, and this time the solid has kept its mesh. */
+static bool IsThatOfStart(const Server s)
+{
+  return s->kept_start && Same(&s->gid, &s->start_gid) && Same(&s->facet, &s->start_facet) &&
+         Same(&s->element, &s->start_element);
 }
 
 static int CompareIds(const void *a, const void *b)
@@ -121,6 +134,7 @@ int ServerReceiveSolid(Server s, ServerSolid *solid)
   BufferResize(&s->rejection, 0);
   for (int i = 0; i < s->solid.n; i++) changed |= ReceiveMotion(s, &s->solid.client[i], &nnodes);
   if (changed || first) AssembleMesh(s);
+  if (!first && IsThatOfStart(s)) changed = 0;
   ServerAgree(s, &changed);
   *solid = (ServerSolid){0};
   if (s->rejection.size) return 0;

@@ -138,13 +138,6 @@ PetscErrorCode ForceOfPairs(const Overlap o, const PairTerm term[], const Elemen
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ForceAssembleToOwners(Overlap o, const ForceVertex vertex[], int nnodes, ForceVertex node[])
-{
-  PetscFunctionBeginUser;
-  PetscCall(OverlapSourcesToNodes(o, 4, (const double *)vertex, nnodes, (double *)node));
-  PetscFunctionReturn(0);
-}
-
 static double DisplacedMass(const Overlap o)
 {
   double mass = 0.0;
@@ -191,7 +184,6 @@ PetscErrorCode ForceSum(const Overlap o, double dt, const CoracleCoupling coupli
   sum[PAIRS] = o->pairs.n;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, COUNT, MPI_DOUBLE, MPI_SUM, o->comm));
   for (int c = 0; c < 2; c++) {
-    totals->gain[c] = sum[GAIN + c];
     totals->reaction[c] = sum[REACTION + c];
     totals->force[c] = sum[FORCE + c];
   }

@@ -30,15 +30,15 @@ typedef struct {
 
 /* Totals over all ranks of one step. */
 typedef struct {
-  /* N, momentum per time given to the fluid, evaluated on the fluid's side: the sum over K of
-   * s - a u* - I (G u+ - kept u start), I the implicit inertia, G its tensor; where K is covered, less rho_f M/dt u start */
-  double gain[2];
   double reaction[2]; /* N, the reaction summed over the solid's nodes */
   double force[2];    /* N, the whole force on the solid, but for uplift */
   double uplift[2];   /* N, what the solid has beside it where it stands on a wall (uplift.h) */
-  double imbalance;   /* |gain + reaction| / sum over K of |K's gain| */
-  double displaced;   /* kg, fluid mass inside the solid */
-  double speed;       /* m/s, root mean square of u* near the solid */
+  double
+      imbalance; /* |gain + reaction| / sum over K of |K's gain|, the momentum per time given to the fluid, evaluated on
+                         * the fluid's side: sum over K of s - a u* - I (G u+ - kept u start), I the implicit inertia, G its
+                         * tensor; where K is covered, less rho_f M/dt u start */
+  double displaced; /* kg, fluid mass inside the solid */
+  double speed;     /* m/s, root mean square of u* near the solid */
   long long npairs;
 } ForceTotals;
 
@@ -46,9 +46,6 @@ typedef struct {
 PetscErrorCode ForceOfPairs(const Overlap overlap, const PairTerm term[], const ElementTerm element[],
                             const SourceTerm source[], const double gravity[2], double dt,
                             const CoracleFlow *flow, ForceVertex vertex[]);
-/* Collective: sums the vertices' forces on the nodes of their owner ranks, node[nnodes] (overwritten). */
-PetscErrorCode ForceAssembleToOwners(Overlap overlap, const ForceVertex vertex[], int nnodes,
-                                     ForceVertex node[]);
 /* Collective: the totals; coupling[ncoupled] is what the fluid was sent, flow what came back. */
 PetscErrorCode ForceSum(const Overlap overlap, double dt, const CoracleCoupling coupling[],
                         const CoracleFlow *flow, int nnodes, const ForceVertex node[], ForceTotals *totals);

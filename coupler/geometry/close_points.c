@@ -63,16 +63,6 @@ static void PointOn(const Facet *f, double s, double x[2])
   for (int c = 0; c < 2; c++) x[c] = (1.0 - s) * f->x[0][c] + s * f->x[1][c];
 }
 
-/* *s of the point of f nearest to x, and its distance. */
-static double Nearest(const Facet *f, const double x[2], double *s)
-{
-  double along = 0.0, at[2];
-  for (int c = 0; c < 2; c++) along += (x[c] - f->x[0][c]) * (f->x[1][c] - f->x[0][c]);
-  *s = fmax(0.0, fmin(1.0, along / (f->length * f->length)));
-  PointOn(f, *s, at);
-  return hypot(x[0] - at[0], x[1] - at[1]);
-}
-
 /* y is in front of f, whose point x is. */
 static PetscBool InFront(const Facet *f, const double x[2], const double y[2])
 {
@@ -95,9 +85,10 @@ static void CloseToWall(const Facet *f, const double x[2], const double lower[2]
 
 static void CloseToFacet(const Facet *f, const double x[2], const Facet *g, int index, ClosePoint *point)
 {
-  double s, y[2];
+  double y[2];
   if (g->length == 0.0 || f->normal[0] * g->normal[0] + f->normal[1] * g->normal[1] > -FACING) return;
-  const double gap = Nearest(g, x, &s);
+  const double s = GeometrySegmentPlace(g->x[0], g->x[1], x),
+               gap = GeometryDistanceAt(g->x[0], g->x[1], s, x);
   if (gap > point->gap) return;
   PointOn(g, s, y);
   if (!InFront(f, x, y) || !InFront(g, y, x)) return;

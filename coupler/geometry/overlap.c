@@ -1,5 +1,6 @@
 #include "coupler/geometry/overlap.h"
 #include "common/exchange/box_scatter.h"
+#include "coupler/geometry/solid_parts.h"
 
 PetscErrorCode OverlapCreate(MPI_Comm comm, Overlap *overlap)
 {
@@ -25,6 +26,13 @@ static PetscErrorCode SetProperties(Overlap o, const double rho[], const double 
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode FreeElements(Overlap o)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscFree5(o->x, o->area, o->basis, o->rho, o->kept));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode OverlapSetElements(Overlap o, const FluidElements *elements)
 {
   const size_t n = (size_t)elements->n;
@@ -33,12 +41,10 @@ PetscErrorCode OverlapSetElements(Overlap o, const FluidElements *elements)
 
   PetscFunctionBeginUser;
   SearchDestroy(&o->search);
-  PetscCall(PetscFree7(o->x, o->area, o->basis, o->rho, o->mu, o->rho_mean, o->rho_beside));
-  PetscCall(PetscMalloc7(n, &o->x, n, &o->area, n, &o->basis, n, &o->rho, n, &o->mu, n, &o->rho_mean, n,
-                         &o->rho_beside));
+  PetscCall(FreeElements(o));
+  PetscCall(PetscMalloc5(n, &o->x, n, &o->area, n, &o->basis, 4 * n, &o->rho, 4 * n, &o->kept));
+  o->mu = o->rho + n, o->rho_mean = o->mu + n, o->rho_beside = o->rho_mean + n;
   PetscCall(PetscMemcpy(o->x, elements->x, n * sizeof *o->x));
-  PetscCall(PetscArraycpy(o->lower, elements->lower, 2));
-  PetscCall(PetscArraycpy(o->upper, elements->upper, 2));
   o->nelements = elements->n;
   PetscCall(SetProperties(o, elements->rho, elements->mu, elements->rho_inside, elements->rho_beside));
   o->pairs.n = o->ncoupled = 0;
@@ -63,17 +69,36 @@ PetscErrorCode OverlapSetProperties(Overlap o, const CoracleFlow *flow)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode OverlapKeepProperties(Overlap o)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscArraycpy(o->kept, o->rho, 4 * (size_t)o->nelements));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode OverlapRestoreProperties(Overlap o)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscArraycpy(o->rho, o->kept, 4 * (size_t)o->nelements));
+  PetscFunctionReturn(0);
+}
+
 /* The triangles that this rank owns: volume elements, then the shell's. */
 static PetscErrorCode OwnedTriangles(Overlap o, const SolidState *solid, const Shell shell,
                                      SourceTriangle owned[])
 {
+  double *part;
+
   PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(solid->nnodes, &part));
+  PetscCall(SolidPartsAreas(solid, o->parts, part));
   for (int t = 0; t < o->nowned; t++) {
     SourceTriangle *source = &owned[t];
     const int s = t - o->nvolume;
     source->is_shell = s >= 0;
     source->pad = 0;
     PetscCall(PetscArraycpy(o->node[t], s >= 0 ? shell->node[s] : solid->element + 3 * t, 3));
+    source->part = part[o->node[t][0]];
     for (int c = 0; c < 2; c++) {
       for (int i = 0; i < 3; i++) {
         source->x[i][c] = s >= 0 ? shell->x[s][i][c] : solid->x[2 * o->node[t][i] + c];
@@ -82,6 +107,7 @@ static PetscErrorCode OwnedTriangles(Overlap o, const SolidState *solid, const S
       source->normal[c] = s >= 0 ? shell->normal[s / 2][c] : 0.0;
     }
   }
+  PetscCall(PetscFree(part));
   PetscFunctionReturn(0);
 }
 
@@ -162,6 +188,8 @@ PetscErrorCode OverlapBuild(Overlap o, const SolidState *solid, const Shell shel
   if (new_mesh) {
     PetscCall(CopiesDestroy(&o->nodes));
     PetscCall(CopiesCreateByNumber(o->comm, solid->nnodes, solid->gid, &o->nodes));
+    PetscCall(CopiesDestroy(&o->parts));
+    PetscCall(SolidPartsCreate(o->comm, solid, o->nodes, &o->parts));
   }
   o->nvolume = solid->nelements;
   o->nowned = solid->nelements + 2 * shell->nfacets;
@@ -236,7 +264,7 @@ PetscErrorCode OverlapDestroy(Overlap *overlap)
   SearchDestroy(&o->search);
   SupermeshPairsDestroy(&o->pairs);
   PetscCall(PetscFree(o->bounds));
-  PetscCall(PetscFree7(o->x, o->area, o->basis, o->rho, o->mu, o->rho_mean, o->rho_beside));
+  PetscCall(FreeElements(o));
   PetscCall(PetscFree(o->node));
   PetscCall(PetscFree(o->source));
   PetscCall(PetscFree(o->source_basis));
@@ -244,6 +272,7 @@ PetscErrorCode OverlapDestroy(Overlap *overlap)
       PetscFree5(o->coupled_element, o->coupled_index, o->first_of_element, o->of_element, o->solid_area));
   PetscCall(ScatterDestroy(&o->scatter));
   PetscCall(CopiesDestroy(&o->nodes));
+  PetscCall(CopiesDestroy(&o->parts));
   PetscCall(PetscFree(*overlap));
   PetscFunctionReturn(0);
 }

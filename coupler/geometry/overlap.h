@@ -32,6 +32,7 @@
 typedef struct {
   double x[3][2], u[3][2]; /* vertices, m; the solid's velocity there at the step's start, m/s */
   double normal[2];        /* shell: unit, out of the solid; else 0 */
+  double part;             /* m2, the area of the connected part of the solid that it belongs to */
   int is_shell, pad;
 } SourceTriangle;
 
@@ -44,10 +45,11 @@ typedef struct {
   /* [nelements] kg/m3, Pa s, of the last flow or exchange of elements (copied): rho of what fills the solid, rho_mean of the
    * element, rho_beside of the other phases; all equal with one fluid */
   double *rho, *mu, *rho_mean, *rho_beside;
-  PetscBool phases;          /* the fluid has several, on any rank */
-  double lower[2], upper[2]; /* bounds of the fluid's whole domain, m */
-  GeometryBox *bounds;       /* [size] bounding box of each rank's elements */
+  double *kept;        /* [4][nelements] them as the step began */
+  PetscBool phases;    /* the fluid has several, on any rank */
+  GeometryBox *bounds; /* [size] bounding box of each rank's elements */
   Search search;
+  Copies parts; /* of the solid (solid_parts.h) */
   Copies nodes; /* of the solid's nodes on this rank, by gid: sums over the ranks that have a node */
   /* the solid's triangles that this rank owns, and the scatter from there to the source triangles */
   int nowned, nvolume; /* nvolume volume elements, then the shell's triangles */
@@ -71,6 +73,9 @@ PetscErrorCode OverlapDestroy(Overlap *overlap);
 PetscErrorCode OverlapSetElements(Overlap overlap, const FluidElements *elements);
 /* Local: densities and viscosity of the fluid's last flow (copied). */
 PetscErrorCode OverlapSetProperties(Overlap overlap, const CoracleFlow *flow);
+/* Local: densities and viscosities of the step's start are kept, and are there again when the step is made again from there. */
+PetscErrorCode OverlapKeepProperties(Overlap o);
+PetscErrorCode OverlapRestoreProperties(Overlap o);
 /* Distributes the solid and its shell as they are now and finds all pairs.  new_mesh: nodes are others than at
  * the last call, not just moved. */
 PetscErrorCode OverlapBuild(Overlap overlap, const SolidState *solid, const Shell shell, PetscBool new_mesh);

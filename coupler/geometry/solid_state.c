@@ -1,4 +1,5 @@
 #include "coupler/geometry/solid_state.h"
+#include "common/supermesh/geometry.h"
 
 PetscErrorCode SolidStateDestroy(SolidState *copy)
 {
@@ -47,13 +48,12 @@ PetscErrorCode SolidStateCopy(const SolidState *solid, SolidState *copy)
 /* Twice the area of an element with its nodes at x + ahead u. */
 static double Area(const SolidState *solid, const int node[3], double ahead)
 {
-  double side[2][2];
-  for (int k = 0; k < 2; k++)
-    for (int c = 0; c < 2; c++) {
-      const int a = 2 * node[0] + c, b = 2 * node[1 + k] + c;
-      side[k][c] = solid->x[b] - solid->x[a] + ahead * (solid->u[b] - solid->u[a]);
-    }
-  return side[0][0] * side[1][1] - side[0][1] * side[1][0];
+  double x[3][2];
+  for (int k = 0; k < 6; k++) {
+    const int at = 2 * node[k / 2] + k % 2;
+    x[k / 2][k % 2] = solid->x[at] + ahead * solid->u[at];
+  }
+  return GeometryTurn(x[0], x[1], x[2]);
 }
 
 int SolidStateInverted(const SolidState *solid, double ahead)

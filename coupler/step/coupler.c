@@ -97,15 +97,13 @@ static PetscErrorCode BuildAt(Coupler c, const SolidState *solid, const double x
   if (c->uplift) PetscCall(UpliftBuild(c->uplift, &at, c->shell, c->overlap));
   if (new_mesh) {
     PetscCall(HarmonicDestroy(&c->harmonic));
-    PetscCall(CopiesDestroy(&c->parts));
-    PetscCall(SolidPartsCreate(c->comm, &at, c->overlap->nodes, &c->parts));
   }
   c->built = 1;
   c->single_iteration_step = 0.0;
   PetscCall(c->mode->coefficients(c, &at));
   PetscCall(InertiaExplicitFraction(c->overlap, &at, c->source, c->explicit_fraction));
   if (c->options.mode == COUPLER_REACTION)
-    PetscCall(ViscousExplicitFraction(c->parts, c->overlap, &at, c->term, c->options.thickness, c->dt,
+    PetscCall(ViscousExplicitFraction(c->overlap, &at, c->term, c->options.thickness, c->dt,
                                       c->explicit_fraction, &c->single_iteration_step));
   PetscFunctionReturn(0);
 }
@@ -335,7 +333,6 @@ PetscErrorCode CouplerDestroy(Coupler *coupler)
   PetscCall(PressureLoadDestroy(&(*coupler)->pressure_load));
   PetscCall(UpliftDestroy(&(*coupler)->uplift));
   PetscCall(HarmonicDestroy(&(*coupler)->harmonic));
-  PetscCall(CopiesDestroy(&(*coupler)->parts));
   PetscCall(PetscFree((*coupler)->correction));
   PetscCall(ShellDestroy(&(*coupler)->shell));
   PetscCall(OverlapDestroy(&(*coupler)->overlap));

@@ -25,7 +25,6 @@ struct Coupler_s {
   double single_iteration_step;  /* s (viscous_response.h) */
   char *given;                   /* [nnodes] CouplerGiven */
   double *displaced;             /* [nnodes] kg/m3 (displaced.h) */
-  Copies parts;                  /* of the solid (viscous_response.h) */
   Harmonic harmonic;             /* of the solid's elements, for displaced; NULL: not needed so far */
   History history;               /* of the steps before */
   PressureLoad pressure_load;    /* NULL: none */

@@ -7,7 +7,7 @@ PetscErrorCode CouplerConservativeForce(Coupler c)
   PetscFunctionBeginUser;
   PetscCall(ForceOfPairs(c->overlap, c->term, c->element, c->source, c->options.gravity, c->dt, &c->flow,
                          c->vertex));
-  PetscCall(ForceAssembleToOwners(c->overlap, c->vertex, c->nnodes, c->node));
+  PetscCall(OverlapSourcesToNodes(c->overlap, 4, (const double *)c->vertex, c->nnodes, (double *)c->node));
   for (int i = 0; i < c->history.n; i++)
     for (int d = 0; d < 2; d++) c->node[i].other[d] -= c->history.retained[i][d] / c->dt;
   PetscFunctionReturn(0);

@@ -41,6 +41,10 @@ static double LeastOpen(const Overlap o, double dt, int e)
   return rests ? RESTING_LEAST : OUTSIDE_LEAST;
 }
 
+/* Parts of the solid, over an element's area: no slip is kept at the corners of those up to SMALL, all of it from LARGE on. */
+#define SMALL 4.0
+#define LARGE 16.0
+
 /* Area of an element's pairs of the shell, and the integrals of n and n n over it. */
 typedef struct {
   double area, x, y, xx, xy, yy;
@@ -79,6 +83,12 @@ static double KeptBetween(const NormalSums *sums, double open)
   return fmin(1.0, open / CORNER_OPEN + 2.0 * s * s);
 }
 
+/* The part of the slip that is kept at a corner of a part of the solid, `size` over the element's area. */
+static double KeptAtCorner(double size)
+{
+  return fmin(1.0, fmax(0.0, (size - SMALL) / (LARGE - SMALL)));
+}
+
 void SlipTensors(const Overlap o, const SourceTerm term[], const double gravity[2], double dt,
                  ElementTerm element[])
 {
@@ -86,10 +96,12 @@ void SlipTensors(const Overlap o, const SourceTerm term[], const double gravity[
   for (int e = 0; e < o->ncoupled; e++) {
     NormalSums all = {.area = 0.0}, held = {.area = 0.0};
     const double solid = o->solid_area[e];
+    double part = HUGE_VAL;
     for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1]; i++) {
       const SupermeshPair *pair = &o->pairs.pair[o->of_element[i]];
       const SourceTriangle *source = &o->source[pair->a];
       if (!source->is_shell) continue;
+      part = fmin(part, source->part);
       AddNormal(pair->area, source->normal, &all);
       if (term[pair->a].held) AddNormal(pair->area, source->normal, &held);
     }
@@ -103,8 +115,11 @@ void SlipTensors(const Overlap o, const SourceTerm term[], const double gravity[
     k->shared = (PetscBool)(o->phases && shared && held.area > 0.0);
     if (!k->open && !shared) continue;
     k->along = SlipTensor(o->phases ? &held : &all);
-    if (!o->phases)
-      k->tangential = WallCoefficientScaled(&k->along, k->open ? KeptBetween(&all, 1.0 - solid / area) : 1.0);
+    if (!o->phases) {
+      const double kept = k->open ? KeptBetween(&all, 1.0 - solid / area) : 1.0;
+      k->tangential =
+          WallCoefficientScaled(&k->along, kept * (k->open && k->corner ? KeptAtCorner(part / area) : 1.0));
+    }
     if (!o->phases || !k->open || held.area > 0.0 || !IsBesideDense(o, k, e)) continue;
     if (InertiaKept(o, term, k, INERTIA_KEPT_RATIO, e) < 1.0) continue;
     const WallCoefficient d = SlipTensor(&all);

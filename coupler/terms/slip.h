@@ -23,6 +23,14 @@
  *
  * A corner of a single body of more than 74 degrees has a longer mean, and a slot, s near 1, the same D.
  *
+ * At a corner (s < 0.95) of a part of the solid that is itself of the size of K, what the solid's forces, one for each of its nodes, leave in K drove a slip that nothing
+ * but viscosity stopped: the water of tests/coupled/debris.sh was set in motion after all in two of four runs that differ in round-off, to 2.6 m/s, with a fifth of the viscosity to
+ * 7 m/s.  There D is less by the factor
+ *
+ *     min(1, max(0, (|part|/|K| - 4)/12)),
+ *
+ * 0 for fragments of up to four elements, 1 from sixteen on.
+ *
  * What brings the slip to rest is viscous, without dt and without a density: the wall term (wall_term.h) and, in the part of K inside the solid,
  *
  *     a    =  SLIP_FRICTION mu/|K| D.

@@ -1,53 +1,7 @@
 #include "coupler/terms/viscous_response.h"
-#include "common/exchange/union_find.h"
 
 /* Nodes with a larger explicit fraction of the inertia need several coupling iterations over any step. */
 #define LIGHT 0.01
-
-/* label[nnodes]: the least number of the nodes that elements of any rank connect a node with. */
-static PetscErrorCode Label(MPI_Comm comm, const SolidState *solid, Copies nodes, double label[])
-{
-  int *root, changed = 1;
-
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(solid->nnodes, &root));
-  for (int i = 0; i < solid->nnodes; i++) {
-    root[i] = i;
-    label[i] = (double)solid->gid[i];
-  }
-  for (int k = 0; k < 3 * solid->nelements; k++)
-    (void)UnionFindJoin(root, solid->element[k], solid->element[k - k % 3]);
-  while (changed) {
-    changed = 0;
-    for (int i = 0; i < solid->nnodes; i++) {
-      double *least = &label[UnionFindRoot(root, i)];
-      *least = fmin(*least, label[i]);
-    }
-    for (int i = 0; i < solid->nnodes; i++) {
-      const double least = label[UnionFindRoot(root, i)];
-      if (label[i] > least) changed = 1;
-      label[i] = least;
-    }
-    PetscCall(CopiesMin(nodes, 1, label));
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, comm));
-  }
-  PetscCall(PetscFree(root));
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode SolidPartsCreate(MPI_Comm comm, const SolidState *solid, Copies nodes, Copies *parts)
-{
-  double *label;
-  long long *number;
-
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2(solid->nnodes, &label, solid->nnodes, &number));
-  PetscCall(Label(comm, solid, nodes, label));
-  for (int i = 0; i < solid->nnodes; i++) number[i] = (long long)label[i];
-  PetscCall(CopiesCreateByNumber(comm, solid->nnodes, number, parts));
-  PetscCall(PetscFree2(label, number));
-  PetscFunctionReturn(0);
-}
 
 /* friction[nnodes], N s/m: int N f of the shell's pairs, of all ranks. */
 static PetscErrorCode Friction(Overlap o, const PairTerm term[], double thickness, double dt, int nnodes,
@@ -71,9 +25,9 @@ static PetscErrorCode Friction(Overlap o, const PairTerm term[], double thicknes
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ViscousExplicitFraction(Copies parts, Overlap o, const SolidState *solid,
-                                       const PairTerm term[], double thickness, double dt,
-                                       double explicit_fraction[], double *single)
+PetscErrorCode ViscousExplicitFraction(Overlap o, const SolidState *solid, const PairTerm term[],
+                                       double thickness, double dt, double explicit_fraction[],
+                                       double *single)
 {
   enum { FRICTION, MASS, NSUMS };
   double *friction, (*sum)[NSUMS];
@@ -86,7 +40,7 @@ PetscErrorCode ViscousExplicitFraction(Copies parts, Overlap o, const SolidState
     sum[i][FRICTION] = counts ? friction[i] : 0.0;
     sum[i][MASS] = counts ? 1.0 / solid->mobility[i] : 0.0;
   }
-  PetscCall(CopiesSum(parts, NSUMS, (double *)sum));
+  PetscCall(CopiesSum(o->parts, NSUMS, (double *)sum));
   *single = HUGE_VAL;
   for (int i = 0; i < solid->nnodes; i++) {
     const double chi = sum[i][MASS] > 0.0 ? 2.0 * dt * sum[i][FRICTION] / sum[i][MASS] : 0.0;

@@ -20,12 +20,10 @@
 
 #define VISCOUS_LIMIT 0.7
 
-/* Collective.  The connected parts of the solid, on all ranks: its nodes as copies of the part that they belong to.  nodes: the solid's own copies. */
-PetscErrorCode SolidPartsCreate(MPI_Comm comm, const SolidState *solid, Copies nodes, Copies *parts);
 /* Collective.  explicit_fraction[nnodes] of free nodes becomes at least that of their part; term[pairs.n]: the wall term of the shell's pairs;
  * thickness: of the shell, m; *single: the longest step that one iteration would be enough for, s, on all ranks: infinite without viscosity, 0 where free nodes need
  * several over any step. */
-PetscErrorCode ViscousExplicitFraction(Copies parts, Overlap overlap, const SolidState *solid,
-                                       const PairTerm term[], double thickness, double dt,
-                                       double explicit_fraction[], double *single);
+PetscErrorCode ViscousExplicitFraction(Overlap overlap, const SolidState *solid, const PairTerm term[],
+                                       double thickness, double dt, double explicit_fraction[],
+                                       double *single);
 #endif

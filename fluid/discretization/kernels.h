@@ -141,12 +141,6 @@ typedef struct {
   Lanes c[2];
 } ElementVector;
 
-static inline void ElementVectorLoad(const double u[6], ElementVector *v)
-{
-  v->c[0] = (Lanes){u[0], u[1], u[2], 0.0};
-  v->c[1] = (Lanes){u[3], u[4], u[5], 0.0};
-}
-
 static inline void ElementVectorStore(const ElementVector *v, double u[6])
 {
   memcpy(u, &v->c[0], 3 * sizeof *u);

@@ -21,9 +21,8 @@ static void FaceVelocities(Fluid f, const BudgetStep *s, const Boundary *b, int 
 }
 
 /* With the points of FaceInflow. */
-static void FaceConvection(Fluid f, const BudgetStep *s, const Boundary *b, const FaceGeometry *face,
-                           const double m[2][2], const double u[2][2], const double slip[2][2],
-                           double force[2])
+static void FaceConvection(Fluid f, const Boundary *b, const FaceGeometry *face, const double m[2][2],
+                           const double u[2][2], const double slip[2][2], double force[2])
 {
   const double share = b->kind == BOUNDARY_FREE_SLIP            ? 0.0
                        : b->kind == BOUNDARY_OPEN && !f->phases ? 0.5
@@ -61,7 +60,7 @@ static void AddFace(Fluid f, const BudgetStep *s, int e, int i, double force[FOR
     force[FORCE_PRESSURE][c] += face->length * pressure * face->n[c];
     force[FORCE_VISCOUS][c] += face->length * (project[c][0] * stress[0] + project[c][1] * stress[1]);
   }
-  FaceConvection(f, s, b, face, (const double(*)[2])m, (const double(*)[2])u, (const double(*)[2])slip,
+  FaceConvection(f, b, face, (const double(*)[2])m, (const double(*)[2])u, (const double(*)[2])slip,
                  force[FORCE_CONVECTION]);
 }
 

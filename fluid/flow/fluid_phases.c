@@ -278,6 +278,7 @@ PetscErrorCode FluidBalancePressure(Fluid f)
   PetscFunctionBeginUser;
   PetscCall(HasSolid(f, &solid));
   PetscCall(Balance(f, (PetscBool)(solid || f->compressible)));
+  PetscCheck(!FluidStepFailure(f), f->domain.mesh->comm, PETSC_ERR_NOT_CONVERGED, "%s", f->failure);
   PetscFunctionReturn(0);
 }
 

@@ -61,27 +61,14 @@ static void SortByDensity(PhaseNames *names, PhaseProperties *p)
     }
 }
 
-void PhaseCaseRead(CoracleCase c, PhaseNames *names, PhaseProperties *p)
-{
-  static const char *const ADVECTIONS[] = {
-      [PHASES_GEOMETRIC] = "geometric", [PHASES_COMPRESSIVE] = "compressive", NULL};
-  const PhasePairsKey tension = {"fluid.surface_tension", 0.0, HUGE_VAL, NULL, PETSC_FALSE};
-  *names = (PhaseNames){{NULL}};
-  *p = (PhaseProperties){0};
-  if (!CoracleCaseHas(c, "fluid.phases")) return;
-  p->n = CoracleCaseCount(c, "fluid.phases");
-  if (p->n < 2 || p->n > PHASES_MAX)
-    CoracleCaseRefuse(c, "fluid.phases", "expected from 2 to %d phases, found %d", PHASES_MAX, p->n);
-  for (int k = 0; k < p->n; k++) ReadPhase(c, k, names, p);
-  if (p->n > 2) SortByDensity(names, p);
-  for (int k = 0; k < p->n; k++) (void)snprintf(p->name[k], sizeof p->name[k], "%s", names->name[k]);
-  PhaseCasePairs(c, &tension, names, &p->surface_tension);
-  if (p->n == PHASES_MAX && CoracleCaseHas(c, "fluid.surface_tension"))
-    CoracleCaseRefuse(c, "fluid.surface_tension",
-                      "with it there are at most %d phases, the solid being one more", PHASES_MAX - 1);
-  PhaseCaseAngles(c, "fluid.contact_angle", names, &p->solid_cosine);
-  p->advection = (PhasesAdvection)CoracleCaseWord(c, "fluid.phases_advection", PHASES_GEOMETRIC, ADVECTIONS);
-}
+/* A number for each pair of phases: that at key for all, or its list of items {between: [first, second], value}, 0 for the others.
+ * antisymmetric: value[second][first] = -value[first][second].  convert(number): what is kept; NULL: itself. */
+typedef struct {
+  const char *key;
+  double lower, upper;
+  double (*convert)(double);
+  PetscBool antisymmetric;
+} PhasePairsKey;
 
 static void SetPair(const PhasePairsKey *key, int first, int second, double number, PhasesPairs *pairs)
 {
@@ -110,7 +97,7 @@ static void ReadPair(CoracleCase c, const PhasePairsKey *key, int k, const Phase
           CoracleCaseNumber(c, CaseKey(sub, "%s[%d].value", key->key, k), key->lower, key->upper), pairs);
 }
 
-void PhaseCasePairs(CoracleCase c, const PhasePairsKey *key, const PhaseNames *names, PhasesPairs *pairs)
+static void ReadPairs(CoracleCase c, const PhasePairsKey *key, const PhaseNames *names, PhasesPairs *pairs)
 {
   PetscBool seen[PHASES_MAX][PHASES_MAX] = {{PETSC_FALSE}};
   char first[CASE_KEY];
@@ -134,7 +121,7 @@ void PhaseCaseAngles(CoracleCase c, const char *key, const PhaseNames *names, Ph
   const PhasePairsKey angle = {key, 0.0, 180.0, CosineOfDegrees, PETSC_TRUE};
   if (CoracleCaseHas(c, key) && !CoracleCaseHas(c, "fluid.surface_tension"))
     CoracleCaseRefuse(c, key, "without fluid.surface_tension interfaces have no contact angle");
-  PhaseCasePairs(c, &angle, names, cosine);
+  ReadPairs(c, &angle, names, cosine);
 }
 
 int PhaseCaseIndex(CoracleCase c, const char *key, const PhaseNames *names)
@@ -269,4 +256,26 @@ PetscErrorCode FluidCaseFreeRegions(int nregions, Region **region)
   for (int k = 0; k < nregions; k++) PetscCall(PetscFree((*region)[k].x));
   PetscCall(PetscFree(*region));
   PetscFunctionReturn(0);
+}
+
+void PhaseCaseRead(CoracleCase c, PhaseNames *names, PhaseProperties *p)
+{
+  static const char *const ADVECTIONS[] = {
+      [PHASES_GEOMETRIC] = "geometric", [PHASES_COMPRESSIVE] = "compressive", NULL};
+  const PhasePairsKey tension = {"fluid.surface_tension", 0.0, HUGE_VAL, NULL, PETSC_FALSE};
+  *names = (PhaseNames){{NULL}};
+  *p = (PhaseProperties){0};
+  if (!CoracleCaseHas(c, "fluid.phases")) return;
+  p->n = CoracleCaseCount(c, "fluid.phases");
+  if (p->n < 2 || p->n > PHASES_MAX)
+    CoracleCaseRefuse(c, "fluid.phases", "expected from 2 to %d phases, found %d", PHASES_MAX, p->n);
+  for (int k = 0; k < p->n; k++) ReadPhase(c, k, names, p);
+  if (p->n > 2) SortByDensity(names, p);
+  for (int k = 0; k < p->n; k++) (void)snprintf(p->name[k], sizeof p->name[k], "%s", names->name[k]);
+  ReadPairs(c, &tension, names, &p->surface_tension);
+  if (p->n == PHASES_MAX && CoracleCaseHas(c, "fluid.surface_tension"))
+    CoracleCaseRefuse(c, "fluid.surface_tension",
+                      "with it there are at most %d phases, the solid being one more", PHASES_MAX - 1);
+  PhaseCaseAngles(c, "fluid.contact_angle", names, &p->solid_cosine);
+  p->advection = (PhasesAdvection)CoracleCaseWord(c, "fluid.phases_advection", PHASES_GEOMETRIC, ADVECTIONS);
 }

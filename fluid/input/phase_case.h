@@ -10,15 +10,6 @@ typedef struct {
   const char *name[PHASES_MAX + 1];
 } PhaseNames;
 
-/* A number for each pair of phases: that at key for all, or its list of items {between: [first, second], value}, 0 for the others.
- * antisymmetric: value[second][first] = -value[first][second].  convert(number): what is kept; NULL: itself.  Not collective. */
-typedef struct {
-  const char *key;
-  double lower, upper;
-  double (*convert)(double);
-  PetscBool antisymmetric;
-} PhasePairsKey;
-void PhaseCasePairs(CoracleCase c, const PhasePairsKey *key, const PhaseNames *names, PhasesPairs *pairs);
 /* Cosines of the angles at key, degrees from 0 to 180, through the first phase of each pair.  Not collective. */
 void PhaseCaseAngles(CoracleCase c, const char *key, const PhaseNames *names, PhasesPairs *cosine);
 /* The phase that the string at key names.  Not collective. */

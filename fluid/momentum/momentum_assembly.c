@@ -6,9 +6,8 @@
 #define INTERFACE_PENALTY 0.5
 
 /* load += lift (g^{n+1} + (1 - theta)/theta g^n) */
-static void BoundaryLoad(MomentumSolver s, const MomentumStep *step, const Boundary *b,
-                         const double project[2][2], int e, const FaceSide *side, const double lift[4][6],
-                         double load[6])
+static void BoundaryLoad(MomentumSolver s, const MomentumStep *step, const Boundary *b, int e,
+                         const FaceSide *side, const double lift[4][6], double load[6])
 {
   const int node[2] = {side->a, side->b};
   const double weight = (1.0 - s->theta) / s->theta;
@@ -114,13 +113,12 @@ static PetscBool AssembleBoundary(MomentumSolver s, const MomentumStep *step, in
     FaceInflow(s->theta * (half ? 0.5 : 1.0), face->length, mn, inflow);
   }
   MomentumBoundaryFace(face, &k, (const double(*)[2])project, inflow, dense, lift);
-  BoundaryLoad(s, step, b, (const double(*)[2])project, e, &k, (const double(*)[6])lift, load);
+  BoundaryLoad(s, step, b, e, &k, (const double(*)[6])lift, load);
   return PETSC_TRUE;
 }
 
 /* rho g - grad p, or with phases rho (weight - R^-1 grad p), N/m3 */
-static void WeightAndPressure(MomentumSolver s, const MomentumStep *step, int e, const double grad[2],
-                              double q[2])
+static void WeightAndPressure(const MomentumStep *step, int e, const double grad[2], double q[2])
 {
   if (!step->inverse_density) {
     for (int c = 0; c < 2; c++) q[c] = step->rho[e] * step->gravity[c] - grad[c];
@@ -140,7 +138,7 @@ static void ElementLoad(MomentumSolver s, const MomentumStep *step, int e, const
   DomainGradient(s->domain, e, p, grad);
   for (int i = 0; i < 3; i++) {
     double now[2] = {0}, next[2] = {0}, force[2];
-    WeightAndPressure(s, step, e, grad[i], force);
+    WeightAndPressure(step, e, grad[i], force);
     if (s->setup.source) {
       s->setup.source(s->setup.source_context, step->t, ElementVertex(m, e, i), now);
       s->setup.source(s->setup.source_context, step->t + step->dt, ElementVertex(m, e, i), next);

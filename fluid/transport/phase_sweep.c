@@ -147,11 +147,10 @@ static PetscErrorCode SetGas(PhaseSweep s, const PhaseStep *step)
 PetscErrorCode PhaseSweepStep(PhaseSweep s, const PhaseStep *step, double out[])
 {
   const FluxBoundary boundary = {s->boundaries->open, s->boundaries->moment, s->weight};
-  FluxReport report;
   PetscFunctionBeginUser;
   PhaseBoundariesSetStep(s->boundaries, step);
   if (s->mass) PetscCall(SetGas(s, step));
-  PetscCall(FluxEquilibrate(s->stars, step->u, &boundary, s->flux, s->beta, &report));
+  PetscCall(FluxEquilibrate(s->stars, step->u, &boundary, s->flux, s->beta, NULL));
   PetscCall(FluxVertexVelocity(s->stars, s->beta, s->velocity));
   for (int e = 0; e < s->stars->nl; e++) s->single[e] = PhasesSingle(s->phases, e);
   PetscCall(Advect(s, step->dt));

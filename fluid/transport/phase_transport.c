@@ -55,8 +55,9 @@ PetscErrorCode PhaseTransportCreate(const FluidDomain *domain, const PhaseProper
   PetscCall(PhaseBoundariesCreate(domain, &t->properties, gravity, &t->boundaries));
   PetscCall(PhaseTensionCreate(t->stars, &t->properties, &t->boundaries, &t->tension));
   PetscCall(PhaseSweepCreate(domain, &t->properties, t->stars, &t->boundaries, t->phases, &t->sweep));
-  PetscCall(PetscMalloc5(m->ne, &t->begin, m->ne, &t->end, m->ne, &t->inverse_density,
-                         (size_t)n * (size_t)m->ne, &t->saved, (size_t)n * (size_t)m->ne, &t->saved_mass));
+  PetscCall(PetscMalloc6(m->ne, &t->begin, m->ne, &t->end, m->ne, &t->inverse_density,
+                         (size_t)n * (size_t)m->ne, &t->saved, (size_t)n * (size_t)m->ne, &t->saved_mass,
+                         2 * (size_t)m->ne, &t->saved_solid));
   *transport = t;
   PetscFunctionReturn(0);
 }
@@ -71,7 +72,7 @@ PetscErrorCode PhaseTransportDestroy(PhaseTransport *transport)
   PetscCall(PhaseBoundariesDestroy(&t->boundaries));
   PetscCall(PhasesDestroy(&t->phases));
   PetscCall(StarsDestroy(&t->stars));
-  PetscCall(PetscFree5(t->begin, t->end, t->inverse_density, t->saved, t->saved_mass));
+  PetscCall(PetscFree6(t->begin, t->end, t->inverse_density, t->saved, t->saved_mass, t->saved_solid));
   PetscCall(PetscFree(*transport));
   PetscFunctionReturn(0);
 }

@@ -15,7 +15,8 @@ struct PhaseTransport_s {
   PhaseSweep sweep;
   PhaseTension tension;
   InverseDensity *begin, *end, *inverse_density; /* [ne] at the ends of the step, and what the step sees */
-  double *saved, *saved_mass;                    /* [ne][n] volumes, masses */
+  double *saved, *saved_mass,
+      *saved_solid; /* [ne][n] volumes, masses; [ne][2] the solid that lines were made with */
   PhaseBudget budget, saved_budget;
 };
 

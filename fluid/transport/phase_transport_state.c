@@ -71,6 +71,7 @@ PetscErrorCode PhaseTransportSaveState(PhaseTransport t)
   if (PhasesMasses(t->phases))
     PetscCall(PetscArraycpy(t->saved_mass, PhasesMasses(t->phases),
                             (size_t)t->properties.n * (size_t)t->stars->ne));
+  GetSolid(t, (double(*)[SOLID_FIELDS])t->saved_solid);
   t->saved_budget = t->budget;
   PetscFunctionReturn(0);
 }
@@ -83,6 +84,7 @@ PetscErrorCode PhaseTransportRestoreState(PhaseTransport t)
     PetscCall(PetscArraycpy(PhasesMasses(t->phases), t->saved_mass,
                             (size_t)t->properties.n * (size_t)t->stars->ne));
   t->budget = t->saved_budget;
+  if (PhasesSolid(t->phases)) PetscCall(SetSolid(t, (const double(*)[SOLID_FIELDS])t->saved_solid));
   PetscCall(PhaseTransportReconstruct(t));
   PetscFunctionReturn(0);
 }

@@ -66,6 +66,12 @@ static PetscErrorCode GrowNodes(Model *a, int n)
   PetscFunctionReturn(0);
 }
 
+static void RestNodes(Model *a, const MeshSerial *m, const int renumber[])
+{
+  for (int v = 0; v < m->nv; v++)
+    for (int c = 0; c < 2 && renumber[v] >= 0; c++) a->rest[2 * renumber[v] + c] = m->x[2 * v + c];
+}
+
 /* Stretched positions, and the velocity of a rigid motion. */
 static void PlaceNodes(Model *a, const MeshSerial *m, const BodySetup *setup, const double centre[2],
                        const int renumber[])
@@ -74,7 +80,6 @@ static void PlaceNodes(Model *a, const MeshSerial *m, const BodySetup *setup, co
     const int n = renumber[v];
     if (n < 0) continue;
     for (int c = 0; c < 2; c++) {
-      a->rest[2 * n + c] = m->x[2 * v + c];
       a->x[2 * n + c] = setup->position ? setup->position[2 * v + c]
                                         : centre[c] + setup->stretch[c] * (m->x[2 * v + c] - centre[c]);
     }
@@ -137,17 +142,16 @@ static PetscErrorCode PrescribeNodes(Model *a, const MeshSerial *m, const BodySe
   PetscFunctionReturn(0);
 }
 
-static void MassCentre(const MeshSerial *m, double centre[2])
+/* Of the elements from `first` on. */
+static void MassCentre(const Model *a, int first, double centre[2])
 {
-  double area = 0.0, sum[2] = {0.0, 0.0};
-  for (int e = 0; e < m->ne; e++) {
-    const Point a = ModelVertex(m, e, 0), b = ModelVertex(m, e, 1), c = ModelVertex(m, e, 2);
-    const double w = 0.5 * TensorDeterminant(TensorOfEdges(a, b, c));
-    area += w;
-    sum[0] += w * (a.x + b.x + c.x) / 3.0;
-    sum[1] += w * (a.y + b.y + c.y) / 3.0;
+  double mass = 0.0, sum[2] = {0.0, 0.0};
+  for (int k = 3 * first; k < 3 * a->nelements; k++) {
+    const double m = ModelCornerMass(a, k / 3);
+    mass += m;
+    for (int c = 0; c < 2; c++) sum[c] += m * a->rest[2 * a->element[k] + c];
   }
-  for (int c = 0; c < 2; c++) centre[c] = sum[c] / area;
+  for (int c = 0; c < 2; c++) centre[c] = sum[c] / mass;
 }
 
 /* --- elements and surface ----------------------------------------------------------------------------- */
@@ -257,16 +261,17 @@ PetscErrorCode ModelAdd(Model *a, const MeshSerial *mesh, const BodySetup *setup
   PetscFunctionBeginUser;
   *error = ModelReason();
   if ((code = ModelCheck(mesh, setup))) PetscFunctionReturn(code);
-  MassCentre(mesh, body.centre);
   PetscCall(PetscMalloc1((size_t)mesh->nv, &renumber));
   NumberNodes(a, mesh, renumber);
   PetscCall(GrowNodes(a, a->nnodes + CountNodes(mesh, renumber)));
+  RestNodes(a, mesh, renumber);
+  PetscCall(AddElements(a, mesh, setup, renumber));
+  PetscCall(GiveMaterials(a, mesh, setup, body.first_element));
+  MassCentre(a, body.first_element, body.centre);
   PlaceNodes(a, mesh, setup, body.centre, renumber);
   FixNodes(a, mesh, setup, renumber);
   PetscCall(PrescribeNodes(a, mesh, setup, renumber));
-  PetscCall(AddElements(a, mesh, setup, renumber));
   PetscCall(ModelAddLoads(a, mesh, setup, body.first_element, renumber));
-  PetscCall(GiveMaterials(a, mesh, setup, body.first_element));
   code = GiveJoints(a, mesh, &setup->joints, body.first_element);
   if (code) PetscFunctionReturn(code);
   PetscCall(PetscFree(renumber));

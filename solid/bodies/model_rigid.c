@@ -2,20 +2,13 @@
 #include "solid/bodies/model_impl.h"
 #include <math.h>
 
-static void AddMass(const Model *a, int first, RigidBody *rigid, double centre[2])
+static void AddMass(const Model *a, int first, const double centre[2], RigidBody *rigid)
 {
-  double sum[2] = {0.0, 0.0};
   for (int k = 3 * first; k < 3 * a->nelements; k++) {
     const double m = ModelCornerMass(a, k / 3);
-    const Point x = PointAt(a->rest, a->element[k]);
-    rigid->mass += m;
-    sum[0] += m * x.x;
-    sum[1] += m * x.y;
-  }
-  for (int c = 0; c < 2; c++) centre[c] = sum[c] / rigid->mass;
-  for (int k = 3 * first; k < 3 * a->nelements; k++) {
     const Point r = PointMinus(PointAt(a->rest, a->element[k]), (Point){centre[0], centre[1]});
-    rigid->inertia += ModelCornerMass(a, k / 3) * (r.x * r.x + r.y * r.y);
+    rigid->mass += m;
+    rigid->inertia += m * (r.x * r.x + r.y * r.y);
   }
 }
 
@@ -59,7 +52,7 @@ PetscErrorCode ModelMeasureRigid(const Model *a, const BodySetup *setup, int fir
   PetscBool rigid;
   const PetscErrorCode code = CheckRigid(a, setup, first, &rigid);
   if (code || !rigid || setup->fixed) return code;
-  AddMass(a, first, &body->rigid, body->centre);
+  AddMass(a, first, body->centre, &body->rigid);
   body->rigid.surface_compliance = SurfaceCompliance(a, first, &body->rigid, body->centre);
   return 0;
 }

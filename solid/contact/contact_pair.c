@@ -31,15 +31,6 @@ static int CompareSlips(const void *a, const void *b)
                             : (p->other > q->other) - (p->other < q->other);
 }
 
-/* The facet's edge by a number that stays when facets are added: 3 element + corner it starts from. */
-static int EdgeOf(const Solid s, int facet)
-{
-  const int e = s->facet_element[facet], *node = s->element + 3 * e;
-  int i = 0;
-  while (i < 2 && node[i] != s->facet[2 * facet]) i++;
-  return 3 * e + i;
-}
-
 static PetscErrorCode Reserve(Slips *h, int n)
 {
   PetscFunctionBeginUser;
@@ -104,7 +95,7 @@ PetscErrorCode ContactPairOf(Contact c, Solid s, int facet, int other, ContactLa
     PetscCall(PetscRealloc((size_t)c->pair_capacity * sizeof *c->pair, &c->pair));
     PetscCall(PetscRealloc((size_t)c->pair_capacity * sizeof *c->pressed, &c->pressed));
   }
-  const Slip key = {EdgeOf(s, facet), other, 0.0};
+  const Slip key = {3 * s->facet_element[facet] + s->facet_side[facet], other, 0.0};
   const Slip *found = c->history.n ? bsearch(&key, c->history.slip, (size_t)c->history.n,
                                              sizeof *c->history.slip, CompareSlips)
                                    : NULL;

@@ -138,11 +138,11 @@ PetscErrorCode JointsApply(Joints j, Solid s, int n, const int event[])
   for (int k = 0; k < n; k++) ApplyEvent(j, s, s->revision, event[k]);
   PetscCall(SplitMarked(j, s));
   SolidListCorners(s);
-  JointsList(j, s);
+  JointsList(j);
   PlaceFacets(j, s);
   JointsBeginEnds(j, s);
   JointsFindCrackTips(j, s, PETSC_FALSE);
-  JointsList(j, s);
+  JointsList(j);
   ClearMarks(j);
   s->force_valid = PETSC_FALSE;
   PetscCall(JointsSynchronise(j, s));
@@ -156,7 +156,7 @@ static void ListAgain(Joints j, Solid s)
 {
   SolidListCorners(s);
   JointsFindCrackTips(j, s, PETSC_TRUE);
-  JointsList(j, s);
+  JointsList(j);
   PlaceFacets(j, s);
 }
 

@@ -17,7 +17,7 @@ static void InitiationAdd(InitiationList *w, const Joints j, int k)
   w->friction[w->n++] = joint->law.friction;
 }
 
-void JointsList(Joints j, Solid s)
+void JointsList(Joints j)
 {
   j->nactive = j->initiation.n = 0;
   for (int k = 0; k < j->n; k++) {

@@ -71,8 +71,7 @@ static PetscErrorCode GatherCorners(Joints j, const Making *m)
   for (int k = 0; k < 3 * a->nelements; k++) {
     const int e = k / 3, star = m->star[a->element[k]];
     if (star < 0) continue;
-    const Material *of = &a->material[a->element_material[e]];
-    const double mass = of->density * of->thickness * TensorDeterminant(ModelRestEdges(a, e)) / 6.0;
+    const double mass = ModelCornerMass(a, e);
     j->corner[start[star]++] = (Corner){e, k % 3, m->place[e], m->local[a->element[k]], mass};
   }
   PetscFunctionReturn(0);
@@ -235,7 +234,7 @@ PetscErrorCode JointsCreate(Solid s, const Model *a, const InteriorEdges *edges,
   PetscCall(PetscCalloc2((size_t)j->nstars, &j->marked, (size_t)j->nstars, &j->cut));
   j->first_gid = a->nnodes;
   JointsFindCrackTips(j, s, PETSC_TRUE);
-  JointsList(j, s);
+  JointsList(j);
   PetscCall(PetscFree3(m.place, m.star, index));
   *joints = j;
   PetscFunctionReturn(0);

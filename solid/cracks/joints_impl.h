@@ -111,7 +111,7 @@ Point JointsCrackTipTraction(Joints j, Solid s, const CrackTip *b);
 CrackTip JointsPartedCrackTip(Joints j, int joint, int end);
 
 /* joints.c: lists of active and of intact joints, and the ends that have just parted. */
-void JointsList(Joints j, Solid s);
+void JointsList(Joints j);
 void JointsBeginEnds(Joints j, Solid s);
 PetscErrorCode JointsMeasureRate(Joints j, Solid s);
 

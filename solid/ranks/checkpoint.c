@@ -4,7 +4,7 @@
 
 /* --- numbers ------------------------------------------------------------------------------------------ */
 
-enum { T, H, REVISION, SUBSTEPS, TOTAL, SEARCHES, REBALANCED, BEST, LOSS, NNUMBERS };
+enum { T, H, REVISION, SUBSTEPS, TOTAL, SEARCHES, REBALANCED, ITERATIONS, BEST, LOSS, NNUMBERS };
 static const char *const NUMBERS[NNUMBERS] = {"solid t",
                                               "solid h",
                                               "solid revision",
@@ -12,6 +12,7 @@ static const char *const NUMBERS[NNUMBERS] = {"solid t",
                                               "solid substeps so far",
                                               "solid searches",
                                               "solid rebalanced",
+                                              "solid response iterations",
                                               "solid best balance",
                                               "solid loss of balance"};
 enum { NSECONDS = 6 };
@@ -27,6 +28,7 @@ static PetscErrorCode PutNumbers(Solid s, Checkpoint to)
                                   [TOTAL] = (double)stats->total,
                                   [SEARCHES] = stats->searches,
                                   [REBALANCED] = stats->rebalanced,
+                                  [ITERATIONS] = (double)stats->response_iterations,
                                   [BEST] = s->balance.best,
                                   [LOSS] = s->balance.loss};
   double seconds[NSECONDS];
@@ -50,7 +52,8 @@ static PetscErrorCode GetNumbers(Solid s, Checkpoint from)
                           .h = value[H],
                           .total = (long long)value[TOTAL],
                           .searches = (int)value[SEARCHES],
-                          .rebalanced = (int)value[REBALANCED]};
+                          .rebalanced = (int)value[REBALANCED],
+                          .response_iterations = (long long)value[ITERATIONS]};
   PetscCall(CheckpointGetDoubles(from, "solid seconds", 0, NSECONDS, 1, s->stats.seconds));
   PetscFunctionReturn(0);
 }

@@ -218,7 +218,7 @@ static void TakeElements(Solid s, const Model *a, const int part[], const int lo
   SolidListCorners(s);
 }
 
-/* The drives, and which of this rank's nodes they move. */
+/* The prescribed motions, and which of this rank's nodes they move. */
 static PetscErrorCode TakeMotions(Solid s, const Model *a, const int local[])
 {
   int nrows = 0;

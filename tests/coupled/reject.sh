@@ -7,7 +7,8 @@ source "$(dirname "$0")/run.sh"
 disc=(--solid "$build/tests/coupled/reluctant_disc")
 must short 1:1:1 --solid "$build/tests/route/rigid_disc" --set time.dt_max=0.002
 must solid 1:2:2 "${disc[@]}"
-must fluid 2:1:1 --set "fluid.petsc=-momentum_ksp_max_it 3"
+must fluid 2:1:1 --set "fluid.petsc=-momentum_ksp_max_it 3" --set output.checkpoint=1e-9 # due in every step, also in those that the fluid rejects at first
+[ -e "$scratch/fluid/checkpoint" ] && ! grep -q 'no checkpoints' "$scratch/fluid.log" || { cat "$scratch/fluid.log"; exit 1; }
 fails() { # LABEL REASON RANKS [launch.sh arguments]
   local label=$1 reason=$2
   shift 2

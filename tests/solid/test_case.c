@@ -87,6 +87,42 @@ static void Repeated(void)
             NULL, Read, ":6: key 'solid.bodies[0].repeat.n': expected two integers >= 1");
 }
 
+/* Copies of a stretched ring are as it is, each at its place. */
+static void RepeatedStretch(void)
+{
+  CheckCase(HEAD "  bodies:\n    - {shape: ring, centre: [0, 0], radius: 0.4, thickness: 0.1, size: 0.1, "
+                 "layers: 2, material: m,\n"
+                 "       stretch: [1.2, 1.0], repeat: {n: [2, 2], step: [1.5, 2]}}\n",
+            NULL, Read, NULL);
+  const int n = model.nnodes / 4;
+  CHECK(model.nbodies == 4, "%d bodies", model.nbodies);
+  for (int k = 0; k < 8 * n; k++) {
+    const int b = k / (2 * n), c = k % 2;
+    const double by = c ? 2.0 * (b / 2) : 1.5 * (b % 2), moved = model.x[k] - model.x[k % (2 * n)];
+    CHECK(fabs(moved - by) < 1e-13 && fabs(model.rest[k] - model.rest[k % (2 * n)] - by) < 1e-13,
+          "body %d: a node is moved by %g, not by %g", b, moved, by);
+  }
+}
+
+/* A body of two densities that turns about its mass centre has no momentum. */
+static void TurnsAboutMass(void)
+{
+  double momentum[2] = {0.0, 0.0}, size = 0.0;
+  CheckCase("gravity: [0, 0]\nsolid:\n  materials:\n    soft: {density: 1000, youngs_modulus: 1e5, "
+            "poisson_ratio: 0.4}\n"
+            "    hard: {density: 8000, youngs_modulus: 1e8, poisson_ratio: 0.2}\n  bodies:\n    - "
+            "{mesh: " SOURCE_FOLDER "/regions.msh, regions: {soft: soft, hard: hard}, angular_velocity: 3}\n",
+            NULL, Read, NULL);
+  for (int k = 0; k < 3 * model.nelements; k++)
+    for (int c = 0; c < 2; c++) {
+      const double p = ModelCornerMass(&model, k / 3) * model.u[2 * model.element[k] + c];
+      momentum[c] += p;
+      size += fabs(p);
+    }
+  CHECK(size > 0.0 && hypot(momentum[0], momentum[1]) < 1e-13 * size, "momentum (%g, %g) of %g", momentum[0],
+        momentum[1], size);
+}
+
 static void MeshFile(void)
 {
   CheckCase(HEAD "  bodies:\n    - {mesh: " SOURCE_FOLDER
@@ -381,6 +417,8 @@ int main(int argc, char **argv)
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   Everything();
   Repeated();
+  RepeatedStretch();
+  TurnsAboutMass();
   MeshFile();
   Joints();
   JointsOnCurve();
