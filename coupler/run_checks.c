@@ -199,28 +199,38 @@ PetscErrorCode RunCheckDivergence(RunState *run, const StepRecord *step)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode RunHalveStep(RunState *run)
+/* Of the current step, why not NULL; said of the first one in a run. */
+static PetscErrorCode NoteRejection(RunState *run, const char *why)
 {
-  const char *why = ServerRejection(run->loop->server);
   PetscMPIInt rank;
 
   PetscFunctionBeginUser;
-  if (run->halvings == MAX_HALVINGS && why)
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  if (!run->has_rejected && !rank)
+    printf("coracle: note: at t = %g s a step over %g s cannot be made; it is made over half of that, as are "
+           "later ones: %s\n",
+           run->t, run->dt, why);
+  run->has_rejected = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RunHalveStep(RunState *run)
+{
+  const char *why = ServerRejection(run->loop->server);
+  const PetscBool last = (PetscBool)(run->halvings++ == MAX_HALVINGS);
+
+  PetscFunctionBeginUser;
+  if (last && why)
     PetscCall(
         RunFail(run, "the step from t = %g s cannot be made, not even over %g s: %s", run->t, run->dt, why));
-  if (run->halvings++ == MAX_HALVINGS)
+  if (last)
     PetscCall(
         RunFail(run,
                 "the step from t = %g s does not converge: even over %g s, after %d coupling iterations, "
                 "the solid's velocity at its end differs by %g m/s from the one that the fluid was solved "
                 "with; a larger coupler.max_iterations may help",
                 run->t, run->dt, run->iteration.max_iterations, run->iteration.residual));
+  if (why) PetscCall(NoteRejection(run, why));
   run->dt *= 0.5;
-  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  if (why && !run->has_rejected && !rank)
-    printf("coracle: note: at t = %g s a step over %g s cannot be made; it is made over half of that, as are "
-           "later ones: %s\n",
-           run->t, 2.0 * run->dt, why);
-  run->has_rejected = (PetscBool)(run->has_rejected || why);
   PetscFunctionReturn(0);
 }

@@ -15,23 +15,15 @@
 #include <stdio.h>
 #include <unistd.h>
 
-static void Fail(void *context, const char *message)
-{
-  PetscMPIInt rank;
-  (void)context;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  fflush(stdout);
-  fprintf(stderr, "coracle solid[%d]: error: %s\n", rank, message);
-  ParticipantAbort();
-}
-
 /* What concerns every rank is said by the first; the others wait for their end. */
 static void Refuse(void *context, const char *message)
 {
   PetscMPIInt rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   if (rank) sleep(5);
-  Fail(context, message);
+  fflush(stdout);
+  fprintf(stderr, "coracle solid[%d]: error: %s\n", rank, message);
+  ParticipantAbort();
 }
 
 typedef struct {

@@ -162,6 +162,14 @@ PetscErrorCode ExchangeMotion(Exchange *x)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode ExchangeReject(Exchange *x, const char *why)
+{
+  PetscFunctionBeginUser;
+  PetscCall(CoracleRejectStep(x->client, why));
+  PetscCall(CoracleEnd(x->client, NULL));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode ExchangeDestroy(Exchange *x)
 {
   PetscFunctionBeginUser;

@@ -29,5 +29,7 @@ PetscErrorCode ExchangeCreate(CoracleClient client, Solid solid, Exchange *x);
 PetscErrorCode ExchangeBegin(Exchange *x, double *dt, CoracleAction *action, const double **load);
 /* Sends the new positions. */
 PetscErrorCode ExchangeMotion(Exchange *x);
+/* Instead of that: the step cannot be made (CoracleRejectStep). */
+PetscErrorCode ExchangeReject(Exchange *x, const char *why);
 PetscErrorCode ExchangeDestroy(Exchange *x);
 #endif

@@ -153,6 +153,8 @@ static void SumCorners(const Solid s)
 static void NoteFailure(Solid s)
 {
   const Elements *e = &s->elements;
+  /* of an area of 0 but for round-off none is found again */
+  (void)snprintf(s->failure, sizeof s->failure, "an element has turned inside out at t = %.9g s", s->stats.t);
   for (int k = 0; k < e->n; k++) {
     Tensor edges, f;
     SolidElementShape(e, k, s->x, &edges, &f);

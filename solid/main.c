@@ -23,8 +23,7 @@ static PetscErrorCode Step(SolidRun *m, CoracleClient client, double dt, const d
   }
   PetscCall(SolidStepFailure(m->solid, &why));
   if (why) {
-    PetscCall(CoracleRejectStep(client, why));
-    PetscCall(CoracleEnd(client, NULL));
+    PetscCall(ExchangeReject(&m->exchange, why));
     PetscFunctionReturn(0);
   }
   PetscCall(CoraclePhase(client, "interface"));

@@ -10,11 +10,12 @@ with 1 when a number is out of its bounds.
 import pathlib
 import subprocess
 
-import h5py
 import numpy as np
 
 from budget import Budget  # puts scripts/ on the path
+from fragments import Elements
 from series import read_series
+from snapshot import read_snapshot
 import validation
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -54,13 +55,8 @@ class Result:
     @staticmethod
     def _pieces(folder):
         """Areas of the block's fragments in the last snapshot, parts of the whole, the largest first."""
-        with h5py.File(folder / "solid.h5") as file:
-            solid = file["snapshot"][sorted(file["snapshot"])[-1]]["solid"]
-            x, body = solid["points"][()] - solid["node/displacement"][:, :2], solid["cell/body"][()].ravel()
-            corner, fragment = x[solid["cells"][()]], solid["cell/fragment"][()].ravel().astype(int)
-        d1, d2 = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
-        area = np.where(body == 0, 0.5 * (d1[:, 0] * d2[:, 1] - d1[:, 1] * d2[:, 0]), 0.0)
-        areas = np.sort(np.bincount(fragment, area))[::-1]
+        solid = Elements(read_snapshot(folder / "solid.h5")[1]["solid"])
+        areas = np.sort(np.bincount(solid.fragment, np.where(solid.body == 0, solid.area, 0.0)))[::-1]
         return areas[areas > 0.0] / areas.sum()
 
     def at(self, values, t):

@@ -33,10 +33,9 @@ typedef struct {
   double reaction[2]; /* N, the reaction summed over the solid's nodes */
   double force[2];    /* N, the whole force on the solid, but for uplift */
   double uplift[2];   /* N, what the solid has beside it where it stands on a wall (uplift.h) */
-  double
-      imbalance; /* |gain + reaction| / sum over K of |K's gain|, the momentum per time given to the fluid, evaluated on
-                         * the fluid's side: sum over K of s - a u* - I (G u+ - kept u start), I the implicit inertia, G its
-                         * tensor; where K is covered, less rho_f M/dt u start */
+  /* |gain + reaction| / sum over K of |K's gain|, the momentum per time given to the fluid, evaluated on the fluid's side: the sum over K of
+   * s - a u* - I (G u+ - kept u start), I the implicit inertia, G its tensor; where K is covered, less rho_f M/dt u start */
+  double imbalance;
   double displaced; /* kg, fluid mass inside the solid */
   double speed;     /* m/s, root mean square of u* near the solid */
   long long npairs;

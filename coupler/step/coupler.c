@@ -95,9 +95,7 @@ static PetscErrorCode BuildAt(Coupler c, const SolidState *solid, const double x
   PetscCall(NewStep(c, &at));
   if (c->pressure_load) PetscCall(PressureLoadBuild(c->pressure_load, &at));
   if (c->uplift) PetscCall(UpliftBuild(c->uplift, &at, c->shell, c->overlap));
-  if (new_mesh) {
-    PetscCall(HarmonicDestroy(&c->harmonic));
-  }
+  if (new_mesh) PetscCall(HarmonicDestroy(&c->harmonic));
   c->built = 1;
   c->single_iteration_step = 0.0;
   PetscCall(c->mode->coefficients(c, &at));

@@ -116,9 +116,9 @@ void SlipTensors(const Overlap o, const SourceTerm term[], const double gravity[
     if (!k->open && !shared) continue;
     k->along = SlipTensor(o->phases ? &held : &all);
     if (!o->phases) {
-      const double kept = k->open ? KeptBetween(&all, 1.0 - solid / area) : 1.0;
-      k->tangential =
-          WallCoefficientScaled(&k->along, kept * (k->open && k->corner ? KeptAtCorner(part / area) : 1.0));
+      double kept = k->open ? KeptBetween(&all, 1.0 - solid / area) : 1.0;
+      if (k->open && k->corner) kept *= KeptAtCorner(part / area);
+      k->tangential = WallCoefficientScaled(&k->along, kept);
     }
     if (!o->phases || !k->open || held.area > 0.0 || !IsBesideDense(o, k, e)) continue;
     if (InertiaKept(o, term, k, INERTIA_KEPT_RATIO, e) < 1.0) continue;

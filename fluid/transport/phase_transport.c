@@ -57,7 +57,7 @@ PetscErrorCode PhaseTransportCreate(const FluidDomain *domain, const PhaseProper
   PetscCall(PhaseSweepCreate(domain, &t->properties, t->stars, &t->boundaries, t->phases, &t->sweep));
   PetscCall(PetscMalloc6(m->ne, &t->begin, m->ne, &t->end, m->ne, &t->inverse_density,
                          (size_t)n * (size_t)m->ne, &t->saved, (size_t)n * (size_t)m->ne, &t->saved_mass,
-                         2 * (size_t)m->ne, &t->saved_solid));
+                         m->ne, &t->saved_solid));
   *transport = t;
   PetscFunctionReturn(0);
 }

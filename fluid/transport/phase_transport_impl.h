@@ -5,6 +5,9 @@
 #include "fluid/transport/phase_tension.h"
 #include "fluid/transport/phase_transport.h"
 
+/* The solid as fields: alpha, and alpha where it moves. */
+enum { SOLID, MOVING, SOLID_FIELDS };
+
 struct PhaseTransport_s {
   const FluidDomain *domain; /* borrowed */
   PhaseProperties properties;
@@ -15,8 +18,8 @@ struct PhaseTransport_s {
   PhaseSweep sweep;
   PhaseTension tension;
   InverseDensity *begin, *end, *inverse_density; /* [ne] at the ends of the step, and what the step sees */
-  double *saved, *saved_mass,
-      *saved_solid; /* [ne][n] volumes, masses; [ne][2] the solid that lines were made with */
+  double *saved, *saved_mass;                    /* [ne][n] volumes, masses */
+  double (*saved_solid)[SOLID_FIELDS];           /* [ne] that the lines were made with */
   PhaseBudget budget, saved_budget;
 };
 

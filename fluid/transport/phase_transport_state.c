@@ -2,9 +2,6 @@
 #include "common/mesh/mesh_checkpoint.h"
 #include "fluid/transport/phase_transport_impl.h"
 
-/* The solid as fields: alpha, and alpha where it moves. */
-enum { SOLID, MOVING, SOLID_FIELDS };
-
 static void GetSolid(PhaseTransport t, double field[][SOLID_FIELDS])
 {
   const double *solid = PhasesSolid(t->phases);
@@ -71,7 +68,7 @@ PetscErrorCode PhaseTransportSaveState(PhaseTransport t)
   if (PhasesMasses(t->phases))
     PetscCall(PetscArraycpy(t->saved_mass, PhasesMasses(t->phases),
                             (size_t)t->properties.n * (size_t)t->stars->ne));
-  GetSolid(t, (double(*)[SOLID_FIELDS])t->saved_solid);
+  GetSolid(t, t->saved_solid);
   t->saved_budget = t->budget;
   PetscFunctionReturn(0);
 }

@@ -3,8 +3,6 @@
 # round-off, and any number of ranks gives the same answer.  Usage: fracture.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
-brittle='{density: 2000.0, youngs_modulus: 1.0e6, poisson_ratio: 0.3, damping: 0.2, tensile_strength: 6.0e3, shear_strength: 1.2e4, fracture_energy: 1.0}'
-bar='{shape: rectangle, centre: [1.0, 1.1], width: 0.3, height: 0.1, size: 0.025, material: disc, joints: all, fixed: [left]}'
 for ranks in 1:1:1 1:2:2; do
   must "${ranks//:/-}" "$ranks" --set "solid.materials.disc=$brittle" --set "solid.bodies[0]=$bar" --set time.end=0.4
 done

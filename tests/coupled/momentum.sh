@@ -6,8 +6,6 @@ source "$(dirname "$0")/run.sh"
 tight=(--set "fluid.petsc=-momentum_ksp_rtol 1e-13")
 must disc 1:1:1 "${tight[@]}"
 must two 2:1:2 "${tight[@]}"
-brittle='{density: 2000.0, youngs_modulus: 1.0e6, poisson_ratio: 0.3, damping: 0.2, tensile_strength: 6.0e3, shear_strength: 1.2e4, fracture_energy: 1.0}'
-bar='{shape: rectangle, centre: [1.0, 1.1], width: 0.3, height: 0.1, size: 0.025, material: disc, joints: all, fixed: [left]}'
 must crack 1:1:1 "${tight[@]}" --set "solid.materials.disc=$brittle" --set "solid.bodies[0]=$bar" --set time.end=0.3
 case=$here/phases.yaml
 must column 1:1:1 "${tight[@]}" --set time.end=0.06

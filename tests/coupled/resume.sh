@@ -24,8 +24,6 @@ kill_and_resume() {
 far=(--set "fluid.petsc=-pressure_varying_ksp_rtol 1e-12 -momentum_ksp_rtol 1e-9")
 adapt=("${far[@]}" --set time.end=0.14 --set time.dt_max=0.004 --set fluid.adapt.size_min=0.02 --set fluid.adapt.size_max=0.25 --set fluid.adapt.velocity_error=0.005
   --set fluid.adapt.every=7 --set "solid.bodies[0].size=0.03" --set output.every=0.02 --set "solid.probes=[{name: top, point: [1.0, 1.2]}]")
-brittle='{density: 2000.0, youngs_modulus: 1.0e6, poisson_ratio: 0.3, damping: 0.2, tensile_strength: 6.0e3, shear_strength: 1.2e4, fracture_energy: 1.0}'
-bar='{shape: rectangle, centre: [1.0, 1.1], width: 0.3, height: 0.1, size: 0.025, material: disc, joints: all, fixed: [left]}'
 cracks=(--set "solid.materials.disc=$brittle" --set "solid.bodies[0]=$bar" --set time.end=0.4)
 other=("${far[@]}" --set time.end=0.3 --solid "$build/tests/route/rigid_disc")
 

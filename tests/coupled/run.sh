@@ -10,6 +10,10 @@ python=$(command -v /usr/bin/python3 || command -v python3)
 export OMPI_MCA_odls_base_sigkill_timeout=0
 export PYTHONPATH=$here${PYTHONPATH:+:$PYTHONPATH} PYTHONDONTWRITEBYTECODE=1 # results.py
 
+# A beam held at its left end, and its material, with which it cracks there under its weight.
+bar='{shape: rectangle, centre: [1.0, 1.1], width: 0.3, height: 0.1, size: 0.025, material: disc, joints: all, fixed: [left]}'
+brittle='{density: 2000.0, youngs_modulus: 1.0e6, poisson_ratio: 0.3, damping: 0.2, tensile_strength: 6.0e3, shear_strength: 1.2e4, fracture_energy: 1.0}'
+
 run() {
   local label=$1 ranks=$2
   shift 2

@@ -10,7 +10,6 @@ must one 1:1:1 "${light[@]}"
 must three 2:3:2 "${light[@]}"
 must adaptive 1:1:1 "${light[@]}" "${adapt[@]}"
 brittle='{density: 900.0, youngs_modulus: 1.0e6, poisson_ratio: 0.3, damping: 0.2, tensile_strength: 6.0e2, shear_strength: 1.2e3, fracture_energy: 0.05}'
-bar='{shape: rectangle, centre: [1.0, 1.1], width: 0.3, height: 0.1, size: 0.025, material: disc, joints: all, fixed: [left]}'
 for ranks in 1:1:1 1:2:2; do
   must "cracks-${ranks//:/-}" "$ranks" --set "solid.materials.disc=$brittle" --set "solid.bodies[0]=$bar" --set time.end=0.4 --set coupler.max_iterations=30
 done

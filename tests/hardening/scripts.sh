@@ -73,8 +73,6 @@ if "$root/scripts/run.sh" --bin "$build" --allone "$root/tests/solid/alone.yaml"
 grep -q "^run.sh: unknown option '--allone'" "$scratch/log" || { cat "$scratch/log"; exit 1; }
 if "$root/scripts/check.sh" --help | grep '^t '; then echo 'more than the usage is shown'; exit 1; fi
 # fragments: of a beam that breaks, on any ranks, as many as the solver counts; together they are where the body is, and those there were go on
-brittle='{density: 2000.0, youngs_modulus: 1.0e6, poisson_ratio: 0.3, damping: 0.2, tensile_strength: 6.0e3, shear_strength: 1.2e4, fracture_energy: 1.0}'
-bar='{shape: rectangle, centre: [1.0, 1.1], width: 0.3, height: 0.1, size: 0.025, material: disc, joints: all, fixed: [left]}'
 for ranks in 1:1:1 1:1:2; do
   must "cracks-${ranks//:/-}" "$ranks" --set "solid.materials.disc=$brittle" --set "solid.bodies[0]=$bar" --set time.end=0.4 --set output.every=0.1 --set solid.rebalance=1
   "$python" "$root/scripts/fragments.py" "$scratch/cracks-${ranks//:/-}" --png >"$scratch/log" && [ -s "$scratch/cracks-${ranks//:/-}/fragments.png" ] || { cat "$scratch/log"; exit 1; }

@@ -4,8 +4,6 @@
 set -euo pipefail
 source "$(dirname "$0")/../coupled/run.sh"
 case=$here/../coupled/disc.yaml
-brittle='{density: 2000.0, youngs_modulus: 1.0e6, poisson_ratio: 0.3, damping: 0.2, tensile_strength: 6.0e3, shear_strength: 1.2e4, fracture_energy: 1.0}'
-bar='{shape: rectangle, centre: [1.0, 1.1], width: 0.3, height: 0.1, size: 0.025, material: disc, joints: all, fixed: [left]}'
 for loss in 0 0.001; do
   must "$loss" 1:2:3 --set "solid.materials.disc=$brittle" --set "solid.bodies[0]=$bar" --set time.end=0.3 --set "solid.rebalance=$loss"
   must "light-$loss" 1:2:3 --set "solid.materials.disc=${brittle/2000.0/200.0}" --set "solid.bodies[0]=$bar" --set time.end=0.08 --set "solid.rebalance=$loss"
