@@ -9,6 +9,7 @@ import numpy as np
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent.parent / "scripts"))
 import phases
+import waves
 from potential import motion
 from series import read_series
 
@@ -27,10 +28,7 @@ def harmonic(t, values):
     there = (t >= WINDOW[0]) & (t <= WINDOW[1])
     if t[-1] < WINDOW[1] - 0.1 * PERIOD:
         return complex("nan")
-    phase, slow = OMEGA * t[there], (t[there] - WINDOW[0]) / (WINDOW[1] - WINDOW[0])
-    columns = [np.cos(phase), np.sin(phase), np.cos(2.0 * phase), np.sin(2.0 * phase), np.ones_like(slow), slow, slow**2]
-    fit = np.linalg.lstsq(np.array(columns).T, np.asarray(values)[there], rcond=None)[0]
-    return fit[0] + 1j * fit[1]
+    return waves.harmonic(t[there], np.asarray(values)[there], OMEGA)[0]
 
 
 class Motion:
@@ -84,11 +82,9 @@ class Flume:
         values = np.array(list(elevation.values()))
         best = np.inf
         for k in np.linspace(0.8, 1.2, 401) * 2.0 * np.pi / theory().length:
-            waves = np.exp(1j * k * np.outer(place - PLACE, (1.0, -1.0)))
-            fit = np.linalg.lstsq(waves, values, rcond=None)[0]
-            left = np.abs(waves @ fit - values).sum()
-            if left < best:
-                best, self.length, self.reflected = left, 2.0 * np.pi / k, abs(fit[1] / fit[0])
+            incident, reflected, left = waves.split(place - PLACE, values, k)
+            if np.abs(left).sum() < best:
+                best, self.length, self.reflected = np.abs(left).sum(), 2.0 * np.pi / k, abs(reflected / incident)
 
 
 class Moored(Motion):
