@@ -218,7 +218,7 @@ PetscErrorCode SolidFromCase(CoracleCase c, MPI_Comm comm, Solid *solid)
   PetscCall(SolidCaseRead(c, &model, &setup));
   PetscCall(CoracleCaseFinish(c, SECTIONS));
   PetscCall(SolidCreate(comm, &model, &setup, solid));
-  PetscCall(OptionsUnused(CoracleCaseStringOr(c, "solid.petsc", ""), sizeof option, option));
+  PetscCall(OptionsUnused(CoracleCaseStringOr(c, "solid.petsc", ""), NULL, sizeof option, option));
   if (option[0])
     CoracleCaseRefuse(c, "solid.petsc",
                       "nothing in the solid has the option %s: those of its solver begin with -response_",

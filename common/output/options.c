@@ -12,7 +12,14 @@ static PetscBool Gives(const char *given, const char *option)
   return PETSC_FALSE;
 }
 
-PetscErrorCode OptionsUnused(const char *given, size_t size, char option[])
+static PetscBool IsOfLater(const char *option, const char *const later[])
+{
+  for (int k = 0; later && later[k]; k++)
+    if (!strncmp(option, later[k], strlen(later[k]))) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+PetscErrorCode OptionsUnused(const char *given, const char *const later[], size_t size, char option[])
 {
   PetscInt n;
   char **names, **values, name[256];
@@ -21,7 +28,7 @@ PetscErrorCode OptionsUnused(const char *given, size_t size, char option[])
   PetscCall(PetscOptionsLeftGet(NULL, &n, &names, &values));
   for (PetscInt k = 0; k < n && !option[0]; k++) {
     (void)snprintf(name, sizeof name, "-%s", names[k]);
-    if (Gives(given, name)) (void)snprintf(option, size, "%s", name);
+    if (Gives(given, name) && !IsOfLater(name, later)) (void)snprintf(option, size, "%s", name);
   }
   PetscCall(PetscOptionsLeftRestore(NULL, &n, &names, &values));
   PetscFunctionReturn(0);

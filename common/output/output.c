@@ -39,6 +39,12 @@ static PetscErrorCode CutLater(Output o)
   PetscFunctionReturn(0);
 }
 
+/* After the last snapshot, at a multiple of `every`, which may be another one than that of the run that this one resumes. */
+static void SetNext(Output o)
+{
+  o->next = o->every * (floor(o->last / (o->every * TIME_NEARLY)) + 1.0);
+}
+
 PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name, double every, double end,
                             Checkpoint from, Output *out)
 {
@@ -52,7 +58,8 @@ PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name,
   PetscCallMPI(MPI_Comm_rank(comm, &o->rank));
   o->every = every;
   o->end = end;
-  if (from) PetscCall(CheckpointGetNumber(from, "output next", &o->next));
+  if (from) PetscCall(CheckpointGetNumber(from, "output last", &o->last));
+  if (from) SetNext(o);
   snprintf(path, sizeof path, "%s/%s.h5", folder, name);
   PetscCall(PetscStrncpy(o->path, path, sizeof o->path));
   if (FolderGoesOn(comm, folder, path, from)) {
@@ -79,7 +86,7 @@ PetscErrorCode OutputSave(Output o, Checkpoint to)
 {
   PetscFunctionBeginUser;
   PetscCheck(!o->open, o->comm, PETSC_ERR_ORDER, "OutputSave: the last snapshot has no OutputEnd");
-  PetscCall(CheckpointPutNumber(to, "output next", o->next));
+  PetscCall(CheckpointPutNumber(to, "output last", o->last));
   PetscCall(CheckpointPutNumber(to, "output snapshots", (double)o->nsnapshot));
   PetscFunctionReturn(0);
 }
@@ -95,7 +102,8 @@ PetscErrorCode OutputBegin(Output o, double t)
   PetscFunctionBeginUser;
   PetscCheck(!o->open, o->comm, PETSC_ERR_ORDER, "OutputBegin: the last snapshot has no OutputEnd");
   o->open = PETSC_TRUE;
-  o->next = o->every * (floor(t / (o->every * TIME_NEARLY)) + 1.0);
+  o->last = t;
+  SetNext(o);
   o->current = -1;
   if (o->later) PetscCall(CutLater(o));
   snprintf(path, sizeof path, "/snapshot/%06lld", o->nsnapshot);

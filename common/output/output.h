@@ -28,6 +28,8 @@ PetscErrorCode OutputBegin(Output out, double t);
  * but refer to the first. */
 PetscErrorCode OutputGrid(Output out, const char *grid, int revision, int n, const double x[], int ne,
                           int nodes_per_cell, const int connectivity[]);
+/* Not collective: whether a field can have this name: of 1 to 63 letters, digits, '_', '-' and blanks. */
+PetscBool OutputCanName(const char *name);
 /* Collective: a field on the grid last given: value[n or ne][ncomp]; ncomp 1 scalar, 2 vector (a third 0 is
  * added), 3 symmetric tensor (xx, yy, xy).  Cells or nodes of a rank may be none. */
 PetscErrorCode OutputField(Output out, const char *field, OutputCentre centre, int ncomp,

@@ -6,14 +6,18 @@
 #include <string.h>
 
 /* Names become parts of paths and XML. */
+PetscBool OutputCanName(const char *name)
+{
+  for (const char *c = name; *c; c++)
+    if (!isalnum((unsigned char)*c) && !strchr("_- ", *c)) return PETSC_FALSE;
+  return (PetscBool)(*name && strlen(name) < 64);
+}
+
 static PetscErrorCode CheckName(const Output o, const char *name)
 {
   PetscFunctionBeginUser;
-  for (const char *c = name; *c; c++) {
-    PetscCheck(isalnum((unsigned char)*c) || strchr("_- ", *c), o->comm, PETSC_ERR_ARG_WRONG,
-               "name '%s': letters, digits, '_', '-' and blanks are allowed", name);
-  }
-  PetscCheck(*name && strlen(name) < 64, o->comm, PETSC_ERR_ARG_WRONG, "name '%s': 1 to 63 characters", name);
+  PetscCheck(OutputCanName(name), o->comm, PETSC_ERR_ARG_WRONG,
+             "name '%s': 1 to 63 letters, digits, '_', '-' and blanks are allowed", name);
   PetscFunctionReturn(0);
 }
 

@@ -23,9 +23,9 @@ struct Output_s {
   char path[PETSC_MAX_PATH_LEN];
   Xdmf xdmf; /* rank 0 only */
   long long nsnapshot;
-  double every, next, end; /* s; next: when a snapshot is due */
-  PetscBool open;          /* between Begin and End */
-  PetscBool later;         /* there are snapshots from after the checkpoint */
+  double every, last, next, end; /* s; last: when the last snapshot was made; next: when one is due */
+  PetscBool open;                /* between Begin and End */
+  PetscBool later;               /* there are snapshots from after the checkpoint */
   int ngrid, current;
   Grid grid[GRIDS_MAX];
 };

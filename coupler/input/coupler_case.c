@@ -112,7 +112,7 @@ PetscErrorCode CouplerCaseRead(CoracleCase file, CouplerCase *c)
   c->tolerance = CoracleCaseNumberOr(file, "coupler.tolerance", 1e-4, 1e-12, 1.0);
   PetscCall(PetscOptionsInsertString(NULL, CoracleCaseStringOr(file, "coupler.petsc", "")));
   PetscCall(CoracleCaseFinish(file, SECTIONS));
-  PetscCall(OptionsUnused(CoracleCaseStringOr(file, "coupler.petsc", ""), sizeof option, option));
+  PetscCall(OptionsUnused(CoracleCaseStringOr(file, "coupler.petsc", ""), NULL, sizeof option, option));
   if (option[0]) CoracleCaseRefuse(file, "coupler.petsc", "nothing in the coupler has the option %s", option);
   PetscFunctionReturn(0);
 }

@@ -4,7 +4,7 @@
 #include "common/mesh/part.h"
 #include "fluid/adapt/adapt_impl.h"
 
-/* Distances are counted in edges from the nearest frozen vertex; from NEAR_IDLE on, vertices look right. */
+/* Distances are counted in edges from the nearest frozen vertex; from NEAR_INACTIVE on, vertices look right. */
 enum { NEAR_INACTIVE = 4, NEAR_FAR = 9 };
 
 /* The distance[nv] of the new vertices, at most NEAR_FAR; frozen[] is of the vertices of MeshAdapt's input.

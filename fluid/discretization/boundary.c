@@ -88,7 +88,7 @@ static double PartFlux(const Boundary *b, const double from[2], const double to[
     const double s = begin + 0.5 * k * (end - begin);
     const double x[2] = {from[0] + s * (to[0] - from[0]), from[1] + s * (to[1] - from[1])};
     BoundaryVelocity(b, t, x, v);
-    flux += WEIGHT[k] * (v[0] * (to[1] - from[1]) - v[1] * (to[0] - from[0]));
+    flux += WEIGHT[k] * BoundaryNormalPart(v, (const double[2]){to[1] - from[1], from[0] - to[0]});
   }
   return (end - begin) * flux;
 }

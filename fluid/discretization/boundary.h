@@ -62,6 +62,12 @@ double BoundaryLevel(const BoundaryPhases *b, int k, double t);
 PetscBool BoundaryVaries(const Boundary *b);
 /* The velocity v, m/s, that a BOUNDARY_VELOCITY prescribes at x and t. */
 void BoundaryVelocity(const Boundary *b, double t, const double x[2], double v[2]);
+/* v.n, and 0 where that is round-off: a wall that moves along itself is closed.  n: of any length. */
+static inline double BoundaryNormalPart(const double v[2], const double n[2])
+{
+  const double part = v[0] * n[0] + v[1] * n[1];
+  return fabs(part) > 1e-9 * hypot(v[0], v[1]) * hypot(n[0], n[1]) ? part : 0.0;
+}
 /* project[c][d]: the directions in which a boundary with outward unit normal n prescribes the velocity: I, n n or 0. */
 void BoundaryProjection(const Boundary *b, const double n[2], double project[2][2]);
 /* Volume that the prescribed velocities of all BOUNDARY_VELOCITY take out of the domain at time t, m2/s: net, and the

@@ -14,7 +14,7 @@ PetscErrorCode SolidCouplingCreate(int ne, SolidCoupling *coupling)
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&s));
   PetscCall(PetscMalloc1(ne, &s->index));
-  PetscCall(PetscCalloc1(ne, &s->alpha));
+  PetscCall(PetscCalloc1((size_t)ne + 1, &s->alpha)); /* one more: not NULL on ranks without elements */
   for (int e = 0; e < ne; e++) s->index[e] = -1;
   *coupling = s;
   PetscFunctionReturn(0);

@@ -262,8 +262,8 @@ static PetscErrorCode SolvePressure(Fluid f, ProjectionStep *step, PetscBool fro
 
 static PetscErrorCode Balance(Fluid f, PetscBool from_zero)
 {
-  const double dt =
-      f->compressible ? 1.0 : 1e8; /* large: what prescribed velocities contribute goes with 1/dt */
+  /* large: what prescribed velocities contribute goes with 1/dt */
+  const double dt = f->compressible ? f->setup.dt_max : 1e8;
   ProjectionStep step = FluidProjectionStep(f, f->t, dt, PETSC_FALSE);
   PetscFunctionBeginUser;
   FluidSetTarget(f, 0.0);

@@ -110,6 +110,7 @@ PetscErrorCode FluidLoad(Fluid f, const PetscInt row[], Checkpoint from)
   PetscCall(CheckpointGetNumber(from, "previous step", &f->dt_previous));
   PetscCall(CheckpointGetNumber(from, "damped steps", &damped));
   f->damped = (int)damped;
+  GravityOver(&f->setup.gravity_table, f->t - f->dt_previous, f->dt_previous, f->setup.gravity);
   PetscCall(CheckpointGetDoubles(from, "momentum", 0, 1, 2, f->budget.momentum));
   PetscCall(CheckpointGetDoubles(from, "starting momentum", 0, 1, 2, f->budget_start));
   PetscCall(LoadVelocity(f, row, from, "velocity", f->u));
@@ -118,6 +119,7 @@ PetscErrorCode FluidLoad(Fluid f, const PetscInt row[], Checkpoint from)
   if (f->phases) {
     PetscCall(LoadPressure(f, row, from, "dynamic pressure", f->dynamic));
     PetscCall(PhaseTransportLoad(f->phases, row, from));
+    if (f->setup.gravity_table.nrows) PetscCall(PhaseTransportSetGravity(f->phases, f->setup.gravity));
     PetscCall(LoadVelocity(f, row, from, "bulk velocity", f->bulk));
     PetscCall(LoadVelocity(f, row, from, "previous bulk velocity", f->bulk_previous));
     PetscCall(FluidPhasesChanged(f));

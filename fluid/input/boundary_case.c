@@ -247,23 +247,40 @@ static double CheckTime(const Boundary *b, int k)
   return b->rise + TimeTableAt(&b->factor, k - 3, 0);
 }
 
-/* Without an open boundary what is prescribed must neither fill nor empty the domain, at any time. */
+static int CompareTimes(const void *a, const void *b)
+{
+  const double d = *(const double *)a - *(const double *)b;
+  return d < 0.0 ? -1 : d > 0.0;
+}
+
+/* Without an open boundary what is prescribed must neither fill nor empty the domain, at any time: looked for at the times of all boundaries and
+ * between them. */
 static PetscErrorCode CheckFlux(CoracleCase c, const Mesh *mesh, Boundary boundary[])
 {
-  double net, gross, largest[2] = {0.0, 0.0}, at = 0.0; /* of net, gross; when */
+  double *time, largest[2] = {0.0, 0.0}, at = 0.0; /* of net, gross; when */
+  int n = 0;
   PetscFunctionBeginUser;
-  for (int b = 0; b < mesh->ntags; b++)
+  for (int b = 0; b < mesh->ntags; b++) {
     if (boundary[b].kind == BOUNDARY_OPEN) PetscFunctionReturn(0);
+    n += CheckTimes(&boundary[b]);
+  }
+  PetscCall(PetscMalloc1(2 * n, &time));
+  n = 0;
   for (int b = 0; b < mesh->ntags; b++)
-    for (int k = 0; k < CheckTimes(&boundary[b]); k++) {
-      const double t = CheckTime(&boundary[b], k);
-      PetscCall(BoundaryPrescribedFlux(mesh, boundary, t, &net, &gross));
-      if (fabs(net) > fabs(largest[0])) {
-        largest[0] = net;
-        at = t;
-      }
-      largest[1] = PetscMax(largest[1], gross);
+    for (int k = 0; k < CheckTimes(&boundary[b]); k++) time[n++] = CheckTime(&boundary[b], k);
+  qsort(time, (size_t)n, sizeof *time, CompareTimes);
+  for (int k = 0; k + 1 < n; k++) time[n + k] = 0.5 * (time[k] + time[k + 1]);
+  for (int k = 0; k < 2 * n - 1; k++) {
+    double net, gross;
+    if (k > 0 && time[k] == time[k - 1]) continue;
+    PetscCall(BoundaryPrescribedFlux(mesh, boundary, time[k], &net, &gross));
+    if (fabs(net) > fabs(largest[0])) {
+      largest[0] = net;
+      at = time[k];
     }
+    largest[1] = PetscMax(largest[1], gross);
+  }
+  PetscCall(PetscFree(time));
   if (fabs(largest[0]) > 1e-6 * largest[1])
     CoracleCaseRefuse(
         c, "fluid.boundaries",
@@ -277,7 +294,12 @@ PetscErrorCode BoundaryCaseRead(CoracleCase c, const Mesh *mesh, const PhaseName
 {
   BoundaryCheck check = {.c = c, .mesh = mesh};
   PetscFunctionBeginUser;
-  for (int b = 0; b < mesh->ntags; b++) ReadBoundary(c, mesh->tag_name[b], names, p, boundary + b);
+  for (int b = 0; b < mesh->ntags; b++) {
+    if (strpbrk(mesh->tag_name[b], ",\"\n"))
+      CoracleCaseRefuse(c, "fluid.mesh.file", "boundary '%s': expected a name without commas and quotes",
+                        mesh->tag_name[b]);
+    ReadBoundary(c, mesh->tag_name[b], names, p, boundary + b);
+  }
   CoracleCaseKeys(c, "fluid.boundaries", CheckBoundaryName, &check);
   PetscCall(CheckFlux(c, mesh, boundary));
   PetscFunctionReturn(0);

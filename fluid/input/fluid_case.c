@@ -53,6 +53,23 @@ static void CheckRefined(CoracleCase c, int k, const RefinedBox *box, double siz
   CheckCount(c, CaseKey(key, "fluid.mesh.refine[%d].size", k), box->at.lower, box->at.upper, size);
 }
 
+/* Of the sizes at the middles of a grid of the box. */
+static void CheckRefinedCount(CoracleCase c, const double lower[2], const double upper[2], SizeField *f)
+{
+  enum { CELLS = 200 };
+  double count = 0.0;
+  const double step[2] = {(upper[0] - lower[0]) / CELLS, (upper[1] - lower[1]) / CELLS};
+  for (int k = 0; k < CELLS * CELLS; k++) {
+    const double x[2] = {lower[0] + step[0] * (k % CELLS + 0.5), lower[1] + step[1] * (k / CELLS + 0.5)},
+                 size = SizeAt(f, x);
+    count += 2.0 * step[0] * step[1] / (size * size);
+  }
+  if (count > TRIANGLES_MAX)
+    CoracleCaseRefuse(c, "fluid.mesh.refine",
+                      "with a growth of %g m a metre the mesh has about %.2g triangles, more than %g",
+                      f->growth, count, TRIANGLES_MAX);
+}
+
 static PetscErrorCode BoxMesh(CoracleCase c, PetscBool make, MeshSerial *serial)
 {
   SizeField f = {0};
@@ -76,6 +93,7 @@ static PetscErrorCode BoxMesh(CoracleCase c, PetscBool make, MeshSerial *serial)
     f.box[k].size = CoracleCasePositive(c, CaseKey(key, "fluid.mesh.refine[%d].size", k));
     CheckRefined(c, k, &f.box[k], fmin(f.box[k].size, f.size_max));
   }
+  if (f.n) CheckRefinedCount(c, lower, upper, &f);
   if (make) PetscCall(MeshBox(lower, upper, f.size_max, SizeAt, &f, serial));
   PetscCall(PetscFree(f.box));
   PetscFunctionReturn(0);
@@ -197,9 +215,10 @@ PetscErrorCode FluidCaseAdaptation(CoracleCase c, const FluidSetup *setup, Petsc
 
 PetscErrorCode FluidCaseCheckOptions(CoracleCase c)
 {
+  static const char *const LATER[] = {"-momentum_factor_", "-momentum_multigrid_", NULL};
   char option[256];
   PetscFunctionBeginUser;
-  PetscCall(OptionsUnused(CoracleCaseStringOr(c, "fluid.petsc", ""), sizeof option, option));
+  PetscCall(OptionsUnused(CoracleCaseStringOr(c, "fluid.petsc", ""), LATER, sizeof option, option));
   if (option[0])
     CoracleCaseRefuse(
         c, "fluid.petsc",

@@ -3,8 +3,6 @@
 #include "common/supermesh/geometry.h"
 #include "fluid/input/fluid_case.h"
 
-#define EVERYWHERE 1e6 /* m: half the side of a box that holds any domain */
-
 /* Of phase k, which is incompressible unless it says otherwise. */
 static void ReadState(CoracleCase c, int k, double density, EquationOfState *state)
 {
@@ -25,11 +23,16 @@ static void ReadState(CoracleCase c, int k, double density, EquationOfState *sta
 /* Item k of fluid.phases becomes phase k. */
 static void ReadPhase(CoracleCase c, int k, PhaseNames *names, PhaseProperties *p)
 {
+  static const char *const FIELDS[] = {"alpha", "density", "pressure", "rank", "velocity"};
   char key[CASE_KEY];
   names->name[k] = CoracleCaseString(c, CaseKey(key, "fluid.phases[%d].name", k));
-  if (!SeriesCanName(names->name[k]) || strlen(names->name[k]) >= sizeof p->name[k])
-    CoracleCaseRefuse(c, key, "expected a name of at most %d letters, without commas and quotes",
+  if (!SeriesCanName(names->name[k]) || !OutputCanName(names->name[k]) ||
+      strlen(names->name[k]) >= sizeof p->name[k])
+    CoracleCaseRefuse(c, key, "expected a name of at most %d letters, digits, '_', '-' and blanks",
                       (int)sizeof p->name[k] - 1);
+  for (size_t j = 0; j < sizeof FIELDS / sizeof *FIELDS; j++)
+    if (!strcmp(FIELDS[j], names->name[k]))
+      CoracleCaseRefuse(c, key, "fluid.h5 has another field of the name '%s'", names->name[k]);
   for (int j = 0; j < k; j++)
     if (!strcmp(names->name[j], names->name[k]))
       CoracleCaseRefuse(c, key, "two phases are called '%s'", names->name[k]);
@@ -212,7 +215,7 @@ static PetscErrorCode ReadRegion(CoracleCase c, const PhaseNames *names, int k, 
   *r = (Region){.phase = PhaseCaseIndex(c, KeyOf(k, "phase", key), names)};
   if (!HasShape(c, k)) {
     r->shape = REGION_BOX;
-    for (int d = 0; d < 2; d++) r->a[d] = -EVERYWHERE, r->b[d] = EVERYWHERE;
+    for (int d = 0; d < 2; d++) r->a[d] = -HUGE_VAL, r->b[d] = HUGE_VAL;
   } else if (CoracleCaseHas(c, KeyOf(k, "lower", key)) || CoracleCaseHas(c, KeyOf(k, "upper", key))) {
     r->shape = REGION_BOX;
     ReadBox(c, k, r);

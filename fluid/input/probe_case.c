@@ -56,6 +56,9 @@ static void AddFixed(CoracleCase c, ProbeCase *list, int k)
   list->nfixed += p->n;
 }
 
+/* Of a gauge's distance, or of the finest mesh. */
+#define BEHIND 0.05
+
 /* The pressure of an element that the face crosses mixes both of its sides: by default one edge of the finest mesh
  * away from the face. */
 static double ReadDistance(CoracleCase c, int k)
@@ -95,6 +98,9 @@ static void ReadPlace(CoracleCase c, const PhaseNames *names, ProbeCase *list, i
     break;
   case PROBE_GAUGE:
     p->distance = ReadDistance(c, k);
+    p->behind =
+        BEHIND * (p->distance > 0.0 ? p->distance
+                                    : CoracleCaseNumberOr(c, "fluid.adapt.size_min", 0.0, 0.0, HUGE_VAL));
     p->first = list->ngauges++;
     break;
   case PROBE_SURFACE:

@@ -22,6 +22,7 @@ typedef struct {
   double from[2], to[2]; /* m */
   int phase;             /* of a surface or a flow (-1: all), or the phase itself */
   double distance;       /* m, from the solid's face to where a gauge's pressure is taken */
+  double behind;         /* m, as far as contact may press a body that stands on the floor into it */
 } Probe;
 
 typedef struct {

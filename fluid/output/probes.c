@@ -10,8 +10,8 @@
 
 /* The numbers of a point (u, v, p, rho), of a gauge or a surface, of a phase. */
 enum { VALUES = 4, FOLLOWING = 3, WHOLE = 6, COLUMN_LENGTH = SERIES_NAME_MAX + 24 };
-#define BEHIND                                                                                               \
-  0.05 /* of a gauge's distance: a body that stands on the floor may be in it by what its contact needs */
+/* Of an element: a gauge's place in it is not in the fluid. */
+#define MOSTLY_SOLID 0.9
 
 struct Probes_s {
   MPI_Comm comm;
@@ -45,35 +45,52 @@ static PetscErrorCode Values(const Places *places, Fluid fluid, double value[][V
   PetscFunctionReturn(0);
 }
 
-/* x[ngauges][2]: by `part` of its distance before each gauge, of those alone that are outside where outside is given; one that is out of
+/* x[ngauges][2]: before each gauge, or behind its face, of those alone that are blocked where that is given; one that is out of
  * the mesh's bounds by no more than contact needs, as at the corner of a body that stands on the floor, is put on them. */
-static void GaugePoints(const Probes p, const Mesh *m, const CoracleGauge gauge[], double part,
-                        const double outside[], double x[][2])
+static void GaugePoints(const Probes p, const Mesh *m, const CoracleGauge gauge[], PetscBool before,
+                        const double blocked[], double x[][2])
 {
   for (int k = 0; k < p->list.n; k++) {
     const Probe *probe = &p->list.probe[k];
-    if (probe->kind != PROBE_GAUGE || (outside && outside[probe->first] == 0.0)) continue;
+    if (probe->kind != PROBE_GAUGE || (blocked && blocked[probe->first] == 0.0)) continue;
     const CoracleGauge *g = &gauge[probe->first];
     for (int c = 0; c < 2; c++) {
-      const double at = g->x[c] + part * probe->distance * g->normal[c],
+      const double at = g->x[c] + (before ? probe->distance : -probe->behind) * g->normal[c],
                    inside = fmin(fmax(at, m->lower[c]), m->upper[c]);
-      x[probe->first][c] = fabs(at - inside) <= BEHIND * probe->distance ? inside : at;
+      x[probe->first][c] = fabs(at - inside) <= probe->behind ? inside : at;
     }
   }
 }
 
-/* The pressure before each gauge, at value[n][2]; where that is not in the mesh, behind its face. */
+/* blocked[n]: whether a place is outside of the mesh, or a solid has most of its element; *any becomes 1 if one is. */
+static PetscErrorCode Blocked(const Places *places, Fluid fluid, double blocked[], int *any)
+{
+  const double *alpha = FluidSolidFraction(fluid);
+  PetscFunctionBeginUser;
+  PetscCall(PetscArrayzero(blocked, places->npoints));
+  for (int k = 0; k < places->n; k++)
+    blocked[places->place[k].point] += alpha[places->place[k].element] > MOSTLY_SOLID;
+  PetscCallMPI(
+      MPI_Allreduce(MPI_IN_PLACE, blocked, places->npoints, MPI_DOUBLE, MPI_SUM, FluidMesh(fluid)->comm));
+  for (int k = 0; k < places->npoints; k++) {
+    blocked[k] += places->outside[k];
+    *any |= blocked[k] > 0.0;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The pressure before each gauge, at value[n][2]; where a floor or another solid is, behind its face. */
 static PetscErrorCode GaugeValues(Probes p, Fluid fluid, const CoracleGauge gauge[], double value[][VALUES])
 {
   const int n = p->list.ngauges;
-  double x[PROBES_MAX][2];
-  int nout = 0;
+  double x[PROBES_MAX][2], blocked[PROBES_MAX];
+  int any = 0;
   PetscFunctionBeginUser;
-  GaugePoints(p, FluidMesh(fluid), gauge, 1.0, NULL, x);
+  GaugePoints(p, FluidMesh(fluid), gauge, PETSC_TRUE, NULL, x);
   PetscCall(PlacesLocate(FluidMesh(fluid), n, (const double(*)[2])x, &p->moving));
-  for (int k = 0; k < n; k++) nout += p->moving.outside[k] > 0.0;
-  if (nout) {
-    GaugePoints(p, FluidMesh(fluid), gauge, -BEHIND, p->moving.outside, x);
+  PetscCall(Blocked(&p->moving, fluid, blocked, &any));
+  if (any) {
+    GaugePoints(p, FluidMesh(fluid), gauge, PETSC_FALSE, blocked, x);
     PetscCall(PlacesLocate(FluidMesh(fluid), n, (const double(*)[2])x, &p->moving));
   }
   PetscCall(Values(&p->moving, fluid, value));

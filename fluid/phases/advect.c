@@ -81,7 +81,8 @@ static void Balance(Step *t, int e, double uncovered, double swept, const SweptO
       double inside[PHASES_MAX];
       memcpy(inside, c->area, sizeof inside);
       OutsideShare(&t->outside, f->np, rest, parts, c->area);
-      for (int p = 0; p < f->np && f->mass; p++) c->mass[p] += (c->area[p] - inside[p]) * f->state[p].density;
+      for (int p = 0; p < f->np && f->mass; p++)
+        c->mass[p] += (c->area[p] - inside[p]) * PhasesIncoming(f, t->outside.inflow, e, p);
       return;
     }
     t->lost = fmax(t->lost, uncovered);
@@ -95,7 +96,7 @@ static void SweepCalm(const Step *t, int e, int i, int p, double swept, Content 
   const Phases f = t->f;
   const int donor = swept > 0.0 ? e : t->s->neighbor[e][i];
   const double density = !f->mass    ? 0.0
-                         : donor < 0 ? f->state[p].density
+                         : donor < 0 ? PhasesIncoming(f, t->outside.inflow, e, p)
                                      : f->density[(size_t)donor * (size_t)f->np + (size_t)p];
   Add(c, p, swept, density);
 }

@@ -194,7 +194,7 @@ static void Pass(Compressive *t, int e, int i, double swept[], double mass[])
   passes[largest] += rest;
   for (int p = 0; p < f->np; p++) {
     const double density = !mass || f->state[p].pressure == 0.0 ? 0.0
-                           : all < 0.0 && o < 0                 ? f->state[p].density
+                           : all < 0.0 && o < 0                 ? PhasesIncoming(f, t->inflow, e, p)
                                                 : f->density[(size_t)donor * (size_t)f->np + (size_t)p];
     f->volume[(size_t)e * (size_t)f->np + (size_t)p] -= passes[p];
     swept[p] += passes[p];

@@ -9,7 +9,8 @@
 
 PetscErrorCode PhasesSetStates(Phases f, const EquationOfState state[])
 {
-  const size_t n = (size_t)f->stars->nl * (size_t)f->np;
+  const size_t n =
+      (size_t)f->stars->nl * (size_t)f->np + 1; /* one more: not NULL on ranks without elements */
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(f->np, &f->state));
   PetscCall(PetscArraycpy(f->state, state, f->np));

@@ -75,6 +75,17 @@ int PhasesSingle(Phases f, int e)
   return f->single[e];
 }
 
+PetscBool PhasesEndAt(Phases f, int e)
+{
+  const int single = f->single[e];
+  if (single < 0 || PhasesOpen(f, e) < 1.0) return PETSC_FALSE;
+  for (int i = 0; i < 3; i++) {
+    const int o = f->stars->neighbor[e][i];
+    if (o >= 0 && f->single[o] > single && PhasesOpen(f, o) == 1.0) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
 int PhasesSpread(Phases f, int e)
 {
   return f->spread[e];

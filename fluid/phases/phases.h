@@ -5,7 +5,7 @@
  *         /  \           of the rest, what n_1.x <= d_1 holds is phase 1; the last phase is what remains.
  *        / 0 .\
  *       /   . 1\         Volumes are in m2 (per metre of depth).  Sum over the phases = area of the element,
- *      /  . `.  \        to round-off, at all times.
+ *      /  . `.  \        to round-off in each step.
  *     / .  2  `. \
  *    /__________`_\
  *
@@ -73,6 +73,8 @@ PetscErrorCode PhasesReconstruct(Phases phases);
 PetscErrorCode PhasesGetPolygon(Phases phases, int e, int p, Polygon *polygon);
 /* Not collective.  The single phase of local element e, -1 if it is cut, as of the last PhasesReconstruct. */
 int PhasesSingle(Phases phases, int e);
+/* The interface lies along a face of local element e, whose only phase ends there: across it is one that comes after it, and no solid. */
+PetscBool PhasesEndAt(Phases phases, int e);
 /* Not collective.  Whether local element e has a fragment of no known place in it, which moves as if it were everywhere, as of the
  * last PhasesReconstruct. */
 int PhasesSpread(Phases phases, int e);
@@ -118,6 +120,8 @@ typedef struct {
 typedef struct {
   const double (*fraction)[PHASES_MAX]; /* [ntags][nphases], sum 1; NULL: boundaries are closed */
   const PhasesLevels *levels;           /* [ntags], borrowed; NULL: none */
+  const double *
+      density; /* [nl][nphases] kg/m3, of compressible phases that flow into an element; phases without masses: NULL */
 } PhasesInflow;
 
 /* One step of dt, s, along fluxes flux[ne][3] (outward through face i, m2/s; what leaves an element enters

@@ -114,6 +114,12 @@ void PhasesSplitBy(int np, int single, const HalfPlane line[], const double x0[2
                    const double origin[2], double weight, double area[]);
 /* share[np] of what comes in through boundary face i: of each layer outside its part of the face, of the rest the boundary's. */
 void InflowShares(const PhasesInflow *inflow, const StarElement *element, int i, int np, double share[]);
+/* Density of phase p, kg/m3, that flows into local element e through the boundary. */
+static inline double PhasesIncoming(Phases f, const PhasesInflow *inflow, int e, int p)
+{
+  return inflow && inflow->density ? inflow->density[(size_t)e * (size_t)f->np + (size_t)p]
+                                   : f->state[p].density;
+}
 /* The two ways of PhasesAdvect; inflow: NULL where boundaries are closed; swept is written, mass, too, unless it is NULL.  Lines are
  * those of the start, or none.  The compressive one divides its step where an element would lose too much of its content. */
 PetscErrorCode GeometricAdvect(Phases phases, double dt, const double flux[], const double velocity[],

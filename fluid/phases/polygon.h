@@ -220,6 +220,6 @@ static inline double PolygonFindOffset(const Polygon *p, const double n[2], doub
     }
     below += strip;
   }
-  return s[m - 1];
+  return m > 0 ? s[m - 1] : 0.0;
 }
 #endif

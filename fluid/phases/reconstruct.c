@@ -145,6 +145,8 @@ static HalfPlane FitLine(Phases f, int e, int p, PlicCell cell[])
     return AnyLine(f, e, p);
   }
   const int n = Gather(f, e, p, cell);
+  if (cell[0].rest < PHASES_TINY * area)
+    return (HalfPlane){{0.0, 0.0}, -1.0}; /* those before it have left no place */
   const HalfPlane line = PlicFit(n, cell);
   if (second < 1.0) f->spread[e] |= PlicIsBlind(n, cell, &line);
   return line;

@@ -133,6 +133,22 @@ static PetscErrorCode PolygonTriangles(const Region *r, Triangles *t, int *simpl
   PetscFunctionReturn(0);
 }
 
+/* Of the part of the box in the mesh's bounds, widened by their size. */
+static PetscErrorCode BoxTriangles(const Mesh *m, const Region *r, Triangles *t)
+{
+  const double size = hypot(m->upper[0] - m->lower[0], m->upper[1] - m->lower[1]);
+  double lower[2], upper[2];
+  PetscFunctionBeginUser;
+  for (int c = 0; c < 2; c++) {
+    lower[c] = fmax(r->a[c], m->lower[c] - size);
+    upper[c] = fmin(r->b[c], m->upper[c] + size);
+    if (!(upper[c] > lower[c])) PetscFunctionReturn(0);
+  }
+  const Polygon box = BoxPolygon(lower, upper);
+  PetscCall(Fan(&box, t));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode MakeTriangles(const Mesh *m, const Region *r, Triangles *t)
 {
   int simple = 1;
@@ -141,8 +157,7 @@ static PetscErrorCode MakeTriangles(const Mesh *m, const Region *r, Triangles *t
   if (r->shape == REGION_BOX) {
     PetscCheck(r->b[0] > r->a[0] && r->b[1] > r->a[1], PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
                "the box from (%g, %g) to (%g, %g) has no area", r->a[0], r->a[1], r->b[0], r->b[1]);
-    const Polygon box = BoxPolygon(r->a, r->b);
-    PetscCall(Fan(&box, t));
+    PetscCall(BoxTriangles(m, r, t));
   } else if (r->shape == REGION_HALF_PLANE) {
     PetscCheck(hypot(r->b[0], r->b[1]) > 0.0, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
                "the half plane at (%g, %g) has the normal (0, 0)", r->a[0], r->a[1]);

@@ -11,10 +11,10 @@ typedef enum { REGION_BOX, REGION_HALF_PLANE, REGION_DISC, REGION_POLYGON } Regi
 typedef struct {
   RegionShape shape;
   int phase;
-  double a[2];          /* box: lower corner; half plane: a point of its edge; disc: centre, m */
-  double b[2];          /* box: upper corner, m; half plane: outward normal, any length */
-  double radius;        /* disc, m */
-  int n;                /* polygon: corners, at least 3 */
+  double a[2];   /* box: lower corner, may be infinite; half plane: a point of its edge; disc: centre, m */
+  double b[2];   /* box: upper corner, m; half plane: outward normal, any length */
+  double radius; /* disc, m */
+  int n;         /* polygon: corners, at least 3 */
   const double (*x)[2]; /* polygon: [n] in either sense, simple; borrowed */
 } Region;
 

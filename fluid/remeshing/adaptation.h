@@ -34,7 +34,7 @@ typedef struct {
   int nphases, nregions;
   const Region *region;
 } AdaptationStart;
-/* Collective, first_mesh.c: the mesh with le in the boxes and the interface's size at the interface, where it is coarser. */
+/* Collective, first_mesh.c: the mesh with le in the boxes and the interface's size at the interface; elsewhere the largest. */
 PetscErrorCode AdaptationFirstMesh(Adaptation adaptation, const Mesh *initial, const AdaptationStart *start,
                                    Mesh **mesh);
 /* Collective: the triangles that edges of size_max everywhere take. */

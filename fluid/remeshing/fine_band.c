@@ -11,7 +11,7 @@ typedef struct {
   double from[2], to[2], size;
 } Sweep;
 
-/* Whether element e has more than one phase; of what is smeared or spread, more than its tail or a cloud. */
+/* Whether element e has more than one phase, or the interface lies along its faces; of what is smeared or spread, more than its tail or a cloud. */
 static PetscBool OfInterface(Fluid f, int e)
 {
   const Phases phases = PhaseTransportPhases(f->phases);
@@ -19,7 +19,7 @@ static PetscBool OfInterface(Fluid f, int e)
   const double *volume = PhaseTransportVolumes(f->phases, &n);
   const PetscBool smeared = (PetscBool)(f->setup.phases.advection != PHASES_GEOMETRIC);
   double most = 0.0;
-  if (PhasesSingle(phases, e) >= 0) return PETSC_FALSE;
+  if (PhasesSingle(phases, e) >= 0) return PhasesEndAt(phases, e);
   if (!smeared && !PhasesSpread(phases, e)) return PETSC_TRUE;
   for (int p = 0; p < n; p++) most = fmax(most, volume[n * e + p]);
   return (PetscBool)(most < (1.0 - (smeared ? TAIL : PHASES_CLOUD)) * f->domain.geometry[e].area);

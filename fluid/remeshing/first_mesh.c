@@ -37,13 +37,13 @@ PetscErrorCode AdaptationLeastCount(const AdaptationSetup *s, const Mesh *m, dou
 }
 
 /* Whether an interface cuts owned element e, or runs along a face between it and another element of this rank. */
-static PetscBool IsAtInterface(const Mesh *m, Phases phases, int e)
+static PetscBool IsAtInterface(const Stars *s, Phases phases, int e)
 {
   const int single = PhasesSingle(phases, e);
   PetscBool at = (PetscBool)(single < 0);
   for (int i = 0; i < 3; i++) {
-    const int k = m->neighbor[3 * e + i];
-    if (k >= 0 && k < m->ne && PhasesSingle(phases, k) != single) at = PETSC_TRUE;
+    const int k = s->neighbor[e][i];
+    if (k >= 0 && PhasesSingle(phases, k) != single) at = PETSC_TRUE;
   }
   return at;
 }
@@ -60,7 +60,7 @@ static PetscErrorCode CutBoxes(const Mesh *m, const AdaptationStart *start, int 
   PetscCall(PhasesReconstruct(phases));
   *n = 0;
   for (int e = 0; e < m->ne; e++)
-    if (IsAtInterface(m, phases, e)) box[(*n)++] = GeometryBoxOf((const double(*)[2])stars->element[e].x);
+    if (IsAtInterface(stars, phases, e)) box[(*n)++] = GeometryBoxOf((const double(*)[2])stars->element[e].x);
   PetscCall(PhasesDestroy(&phases));
   PetscCall(StarsDestroy(&stars));
   PetscFunctionReturn(0);
@@ -113,7 +113,7 @@ static PetscErrorCode RefineInterface(const AdaptationSetup *s, const Mesh *m, c
   PetscFunctionReturn(0);
 }
 
-/* One pass: le in the boxes, the interface's size around it, and elsewhere what the mesh has. */
+/* One pass: le in the boxes, the interface's size around it, and elsewhere the largest. */
 static PetscErrorCode Refine(const AdaptationSetup *s, const Mesh *m, const AdaptationStart *start,
                              Mesh **mesh)
 {

@@ -45,7 +45,7 @@ static double PrescribedNormal(const PhaseStep *s, const Boundary *b, const doub
   BoundaryVelocity(b, s->time, x, now);
   if (s->extrapolated != 0.0) BoundaryVelocity(b, s->time - s->dt_before, x, before);
   for (int c = 0; c < 2; c++) now[c] += s->extrapolated * (now[c] - before[c]);
-  return now[0] * n[0] + now[1] * n[1];
+  return BoundaryNormalPart(now, n);
 }
 
 /* With the projection's quadrature (Simpson's rule). */

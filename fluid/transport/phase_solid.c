@@ -2,6 +2,12 @@
 
 /* Of an element's area: where less is free a solid covers it, where it has less of the element it is none. */
 #define COVERED 1e-6
+/* Of what fills the solid, at most, in an element beside the surface that had it from there; more was there before. */
+#define LEAK_MOST 0.05
+
+/* CROSSED by the surface, or it lies along their faces or vertices: what fills covered elements comes into those beside them.  BESIDE: shares a vertex
+ * with these. */
+typedef enum { AWAY, BESIDE, CROSSED, INSIDE } Where;
 
 /* Of some elements, by the places of phases in order; heavier than all others and lighter: none. */
 typedef struct {
@@ -15,8 +21,9 @@ typedef struct {
   Phases phases;
   const double *solid, *volume; /* [ne], [ne][n] */
   double *capacity;             /* [ne] scratch */
-  char *covered;                /* [ne] */
-  Content *around;              /* [ne]: of an element that the surface crosses; of others all phases */
+  char *covered, *beside;       /* [ne]; beside: scratch */
+  char *where;                  /* [nl] Where */
+  Content *around; /* [ne] of all elements around that are farther from the solid; of others all phases */
   double *swept;
 } Leave;
 
@@ -41,13 +48,44 @@ static double Solid(const Leave *x, int e)
   return fmin(fmax(x->solid[e], 0.0), 1.0) * StarsArea(x->stars, e);
 }
 
-/* --- what is around elements that the surface crosses ----------------------------------------------------- */
+/* --- what is around elements of the surface --------------------------------------------------------------- */
 
-/* Places in order: what element e, without a solid, has, but for a cloud. */
+/* Whether an element around e is at this place. */
+static int Touches(const Leave *x, int e, Where where)
+{
+  const Stars *s = x->stars;
+  for (int i = 0; i < 3; i++) {
+    const int v = s->vertex[e][i];
+    for (int k = s->start[v]; k < s->start[v + 1]; k++)
+      if (x->where[s->around[k] / 3] == (char)where) return 1;
+  }
+  return 0;
+}
+
+static PetscErrorCode FindPlaces(Leave *x)
+{
+  const Stars *s = x->stars;
+  PetscFunctionBeginUser;
+  for (int e = 0; e < s->ne; e++) {
+    x->covered[e] = x->solid[e] > 1.0 - COVERED;
+    x->where[e] = x->covered[e] ? INSIDE : x->solid[e] > COVERED ? CROSSED : AWAY;
+  }
+  PetscCall(StarsExchange(s, sizeof *x->where, x->where));
+  for (int e = 0; e < s->ne; e++) x->beside[e] = x->where[e] == AWAY && Touches(x, e, INSIDE);
+  for (int e = 0; e < s->ne; e++)
+    if (x->beside[e]) x->where[e] = CROSSED;
+  PetscCall(StarsExchange(s, sizeof *x->where, x->where));
+  for (int e = 0; e < s->ne; e++) x->beside[e] = x->where[e] == AWAY && Touches(x, e, CROSSED);
+  for (int e = 0; e < s->ne; e++)
+    if (x->beside[e]) x->where[e] = BESIDE;
+  PetscCall(StarsExchange(s, sizeof *x->where, x->where));
+  PetscFunctionReturn(0);
+}
+
+/* Places in order: what element e has, but for a cloud. */
 static Content ContentOf(const Leave *x, int e)
 {
   Content c = NOTHING;
-  if (x->solid[e] > COVERED) return c;
   for (int k = 0; k < x->n; k++) {
     if (!(VolumeOf(x, e, x->order[k]) > PHASES_CLOUD * StarsArea(x->stars, e))) continue;
     if (c.lightest < 0) c.heaviest = k;
@@ -56,7 +94,7 @@ static Content ContentOf(const Leave *x, int e)
   return c;
 }
 
-/* Of all elements without a solid around e together; content[nl]: ContentOf. */
+/* content[nl]: ContentOf. */
 static Content ContentAround(const Leave *x, int e, const Content content[])
 {
   const Stars *s = x->stars;
@@ -64,9 +102,10 @@ static Content ContentAround(const Leave *x, int e, const Content content[])
   for (int i = 0; i < 3; i++) {
     const int v = s->vertex[e][i];
     for (int k = s->start[v]; k < s->start[v + 1]; k++) {
-      const Content c = content[s->around[k] / 3];
-      if (c.heaviest < found.heaviest) found.heaviest = c.heaviest;
-      if (c.lightest > found.lightest) found.lightest = c.lightest;
+      const int o = s->around[k] / 3;
+      if (x->where[o] >= x->where[e]) continue;
+      if (content[o].heaviest < found.heaviest) found.heaviest = content[o].heaviest;
+      if (content[o].lightest > found.lightest) found.lightest = content[o].lightest;
     }
   }
   return found;
@@ -81,8 +120,7 @@ static PetscErrorCode FindAround(Leave *x)
   for (int e = 0; e < s->ne; e++) content[e] = ContentOf(x, e);
   PetscCall(StarsExchange(s, sizeof *content, content));
   for (int e = 0; e < s->ne; e++) {
-    const int crossed = x->solid[e] > COVERED && !x->covered[e];
-    x->around[e] = crossed ? ContentAround(x, e, content) : NOTHING;
+    x->around[e] = x->where[e] == CROSSED || x->where[e] == BESIDE ? ContentAround(x, e, content) : NOTHING;
     if (x->around[e].lightest < 0) x->around[e] = (Content){0, x->n - 1};
   }
   PetscCall(PetscFree(content));
@@ -92,7 +130,7 @@ static PetscErrorCode FindAround(Leave *x)
 /* What element e has of the lightest phase beside the solid is a gap: around it that is not. */
 static int HasGap(const Leave *x, int e)
 {
-  return x->around[e].lightest < x->n - 1;
+  return x->where[e] == CROSSED && x->around[e].lightest < x->n - 1;
 }
 
 /* --- heavier phases leave the solid ---------------------------------------------------------------------- */
@@ -105,7 +143,8 @@ static PetscErrorCode LeaveTo(Leave *x, int k, const double room[])
   const int p = x->order[k], filler = x->order[x->n - 1];
   PetscFunctionBeginUser;
   for (int e = 0; e < x->stars->ne; e++) {
-    const int alone = x->around[e].heaviest == k && x->around[e].lightest == k;
+    const int leaks = x->where[e] != BESIDE || VolumeOf(x, e, filler) < LEAK_MOST * StarsArea(x->stars, e);
+    const int alone = leaks && x->around[e].heaviest == k && x->around[e].lightest == k;
     x->capacity[e] = alone ? room[e] : fmin(room[e], VolumeOf(x, e, p));
   }
   PetscCall(PhasesExpel(x->phases, p, filler, x->capacity, x->covered, x->swept));
@@ -149,7 +188,7 @@ static PetscErrorCode CloseGaps(Leave *x)
     const int p = x->order[k];
     for (int e = 0; e < x->stars->ne; e++) {
       const double all = VolumeOf(x, e, filler), least = PHASES_CLOUD * StarsArea(x->stars, e);
-      const Content around = x->around[e];
+      const Content around = x->where[e] == CROSSED ? x->around[e] : (Content){0, x->n - 1};
       const int is_around = around.heaviest <= k && k <= around.lightest;
       const int meets_lighter =
           is_around && k < around.lightest && !x->covered[e] && Lighter(x, e, k) > least;
@@ -168,11 +207,12 @@ PetscErrorCode PhaseLeaveSolid(const PhaseProperties *properties, const Stars *s
   PetscFunctionBeginUser;
   SortByDensity(properties, x.order);
   PetscCall(PhasesGetVolumes(phases, &x.volume));
-  PetscCall(PetscMalloc3(stars->ne, &x.capacity, stars->ne, &x.covered, stars->ne, &x.around));
-  for (int e = 0; e < stars->ne; e++) x.covered[e] = solid[e] > 1.0 - COVERED;
+  PetscCall(PetscMalloc5(stars->ne, &x.capacity, stars->ne, &x.covered, stars->ne, &x.beside, stars->nl,
+                         &x.where, stars->ne, &x.around));
+  PetscCall(FindPlaces(&x));
   PetscCall(FindAround(&x));
   PetscCall(LeaveSolid(&x));
   PetscCall(CloseGaps(&x));
-  PetscCall(PetscFree3(x.capacity, x.covered, x.around));
+  PetscCall(PetscFree5(x.capacity, x.covered, x.beside, x.where, x.around));
   PetscFunctionReturn(0);
 }

@@ -15,7 +15,7 @@ struct PhaseSweep_s {
   double *swept, *part;           /* [ne][3][n] of the step and of its part, m2 */
   double *mass, *mass_part;       /* the same of compressible phases, kg */
   double *weight, *solid;         /* [nl] of fluxes' divergence; the solid's share */
-  double *expected;               /* [ne][n] densities, kg/m3 */
+  double *expected;               /* [nl][n] densities, kg/m3 */
   int *single;                    /* [nl] at the start of the step */
 };
 
@@ -36,7 +36,7 @@ PetscErrorCode PhaseSweepCreate(const FluidDomain *domain, const PhaseProperties
   PetscCall(PetscMalloc3(3 * n * ne, &s->swept, 3 * n * ne, &s->part, stars->nl, &s->single));
   if (PhaseHasGas(properties))
     PetscCall(PetscMalloc5(3 * n * ne + 1, &s->mass, 3 * n * ne, &s->mass_part, stars->nl, &s->weight,
-                           stars->nl, &s->solid, n * ne, &s->expected));
+                           stars->nl, &s->solid, n * stars->nl, &s->expected));
   *sweep = s;
   PetscFunctionReturn(0);
 }
@@ -96,7 +96,8 @@ static PetscErrorCode AddOut(PhaseSweep s, double total[])
 static PetscErrorCode Advect(PhaseSweep s, double dt)
 {
   const int n = 3 * s->properties->n * s->stars->ne;
-  const PhasesInflow inflow = {(const double(*)[PHASES_MAX])s->boundaries->inflow, s->boundaries->levels};
+  const PhasesInflow inflow = {(const double(*)[PHASES_MAX])s->boundaries->inflow, s->boundaries->levels,
+                               s->mass ? s->expected : NULL};
   int parts;
   PetscFunctionBeginUser;
   PetscCall(CountParts(s, dt, &parts));
@@ -141,6 +142,7 @@ static PetscErrorCode SetGas(PhaseSweep s, const PhaseStep *step)
     s->expected[k] = state->pressure > 0.0 ? GasDensity(state, step->pressure[k / n]) : state->density;
     if (s->solid[k / n] > 0.0) s->expected[k] = PhasesDensities(s->phases)[k];
   }
+  PetscCall(StarsExchange(s->stars, (size_t)n * sizeof *s->expected, s->expected));
   PetscFunctionReturn(0);
 }
 

@@ -55,7 +55,8 @@ PetscErrorCode PhaseTransportCreate(const FluidDomain *domain, const PhaseProper
   PetscCall(PhaseBoundariesCreate(domain, &t->properties, gravity, &t->boundaries));
   PetscCall(PhaseTensionCreate(t->stars, &t->properties, &t->boundaries, &t->tension));
   PetscCall(PhaseSweepCreate(domain, &t->properties, t->stars, &t->boundaries, t->phases, &t->sweep));
-  PetscCall(PetscMalloc6(m->ne, &t->begin, m->ne, &t->end, m->ne, &t->inverse_density,
+  /* one more inverse density: not NULL on ranks without elements */
+  PetscCall(PetscMalloc6(m->ne, &t->begin, m->ne, &t->end, m->ne + 1, &t->inverse_density,
                          (size_t)n * (size_t)m->ne, &t->saved, (size_t)n * (size_t)m->ne, &t->saved_mass,
                          m->ne, &t->saved_solid));
   *transport = t;

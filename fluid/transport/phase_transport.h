@@ -1,6 +1,6 @@
 /* The phases of the fluid in a step: they move with the velocity, and momentum with their mass (phases/README.md).
  *
- *     u at t + theta dt, free of divergence --> fluxes F, beta --> V^{n+1}, swept volumes
+ *     u in the middle of the step, free of divergence --> fluxes F, beta --> V^{n+1}, swept volumes
  *       --> rho, mu of the elements at t^{n+1}          rho = sum of rho_p V_p/|K|
  *           mass flux m, sum_f m_f = -(rho^{n+1} - rho^n) |K|/dt to round-off
  *           R^-1 and the weight of cut elements          effective_density.h */

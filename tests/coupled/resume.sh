@@ -51,6 +51,16 @@ cp -r "$scratch/longer" "$scratch/longer-spread"
 must longer 1:1:1 --set time.end=0.1 --set resume=last "${probes[@]}"
 cp -r "$scratch/longer" "$scratch/longer-kept"
 must whole 1:1:1 --set time.end=0.1 "${probes[@]}"
+# ... with snapshots as the case says now, from the last one on
+cp -r "$scratch/longer-kept" "$scratch/oftener"
+must oftener 1:1:1 --set time.end=0.13 --set resume=last --set output.every=0.01 "${probes[@]}"
+"$python" - "$scratch" <<'E9'
+import sys
+import h5py
+file = h5py.File(sys.argv[1] + "/oftener/fluid.h5")["snapshot"]
+times = sorted(float(file[key].attrs["time"]) for key in file)
+assert sum(t > 0.1001 for t in times) == 3, times
+E9
 # ... on more ranks of the solid than of the coupler, which then has nodes twice
 must longer-spread 1:1:3 --set time.end=0.1 --set resume=last "${probes[@]}"
 

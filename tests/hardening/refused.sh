@@ -45,6 +45,7 @@ refused solid "'solid.bodies\[0\].size': .* elements" --set "solid.bodies[0]=${r
 refused solid "'solid.bodies\[0\].repeat.n': 9e+06 bodies" --set 'solid.bodies[0].repeat={n: [3000, 3000], step: [1, 1]}'
 refused fluid "'fluid.mesh.refine\[0\].size': .* triangles" --set 'fluid.mesh.refine[0].size=1e-5'
 refused fluid "'fluid.mesh.size_max': .* triangles" --set fluid.mesh.size_max=1e-6
+refused fluid "'fluid.mesh.refine': with a growth of 0 m a metre" --set fluid.mesh.growth=0 --set 'fluid.mesh.refine[0].size=4e-4'
 refused fluid "'fluid.mesh.refine\[0\].upper': the box is empty" --set 'fluid.mesh.refine[0].upper=[0, 0]'
 
 # what is prescribed all around must balance
@@ -55,6 +56,8 @@ refused fluid "'fluid.boundaries': .* at 0 s .* more into the domain" --set "$le
 refused fluid "'fluid.boundaries.left.factor': expected times from 0 to the period, 1 s, found 0 to 2 s" --set 'fluid.boundaries.left={velocity: [1, 0], period: 1, factor: [[0, 1], [2, 1]]}' --set fluid.boundaries.right=open
 refused fluid "'fluid.boundaries.left.factor\[1\]': the first numbers of the rows must rise" --set 'fluid.boundaries.left={velocity: [1, 0], factor: [[0, 1], [0, 2]]}' --set fluid.boundaries.right=open
 refused fluid "'fluid.boundaries.left.profile\[1\]': the first numbers of the rows must rise" --set 'fluid.boundaries.left={velocity: [1, 0], profile: [[0, 1], [0, 2]]}' --set fluid.boundaries.right=open
+refused fluid "'fluid.boundaries': .* at 0.25 s .* m2/s more into the domain\|'fluid.boundaries': .* at 0.25 s .* m2/s less into the domain" \
+  --set 'fluid.boundaries.left={velocity: [1, 0], rise: 1}' --set 'fluid.boundaries.right={velocity: [1, 0], factor: [[0, 0], [1, 1]]}'
 accepted fluid --set "$left" --set 'fluid.boundaries.right={velocity: [1.5, 0], profile: parabolic}'
 accepted fluid --set "$left" --set fluid.boundaries.right=open
 accepted fluid --set 'fluid.boundaries.top={velocity: [1, 0]}'
@@ -78,6 +81,8 @@ phases() { local expect=$1; shift; refused fluid "$expect" --set "$water" "$@"; 
 sed '/^  \(density\|viscosity\):/d' "$case" >"$scratch/phases.yaml"
 case=$scratch/phases.yaml
 phases "'fluid.regions': expected a list of where" 
+phases "'fluid.phases\[0\].name': expected a name of at most" --set 'fluid.phases[0].name="oil (crude)"'
+phases "'fluid.phases\[0\].name': fluid.h5 has another field of the name 'density'" --set 'fluid.phases[0].name=density'
 phases "'fluid.regions': the first region is everywhere" --set 'fluid.regions=[{phase: water, lower: [0, 0], upper: [1, 1]}]'
 phases "'fluid.regions\[0\].phase': expected a phase (water, air), found 'oil'" --set 'fluid.regions=[{phase: oil}]'
 phases "'fluid.regions\[1\].upper': the box is empty" --set 'fluid.regions=[{phase: air}, {phase: water, lower: [0, 0], upper: [0, 1]}]'
