@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
-"""The motion of a piston wave-maker, as the prescribed motion of a body in a case file.
+"""The motion of a piston or a flap that makes waves, as the prescribed motion of a body in a case file.
 
 Usage: scripts/wavemaker.py regular   --height H --period T --depth D --end TIME [--rise TIME]
        scripts/wavemaker.py solitary  --height H --depth D [--start TIME]
        scripts/wavemaker.py irregular --height HS --period TP --depth D --end TIME [--gamma 3.3] [--seed 1] [--components 100] [--rise TIME]
-all with [--rows DT] [--gravity 9.81] [--line].  Lengths in m, times in s.
+all with [--rows DT] [--gravity 9.81] [--line], regular and irregular with [--flap X Y].  Lengths in m, times in s.
 
 Prints `prescribed` with its table of time and velocity, to paste into the body's item of solid.bodies; the waves and the stroke are told in comments.
 With --line only the table, in one line without comments:
     scripts/launch.sh CASE --set "solid.bodies[0].prescribed=[{table: $(scripts/wavemaker.py solitary --height 0.06 --depth 0.4 --line)}]"
-The piston moves along x and stands in the water from the floor to above the crests; the waves go to larger x.
+The piston moves along x and stands in the water from the floor to above the crests; the waves go to larger x.  --flap: instead of it a flap that turns
+about a hinge at the floor, (X, Y); the table is one of time and angular velocity, for `angular_velocity`.
 
-regular    first order: the stroke by the transfer function of Biesel, H/S = 4 sinh^2 kd/(sinh 2kd + 2kd), omega^2 = g k tanh kd
+regular    first order: the stroke by the transfer function of Biesel, H/S = 4 sinh^2 kd/(sinh 2kd + 2kd), omega^2 = g k tanh kd; of a flap
+           H/S = 4 sinh kd (sinh kd - (cosh kd - 1)/kd)/(sinh 2kd + 2kd), S its stroke at still water's level
 solitary   Goring (1978): the piston moves with the mean velocity of the water beside it in the wave H sech^2 kappa (c t - x) of Boussinesq
 irregular  the spectrum of JONSWAP from 0.5 to 3 times the frequency of its peak: components of equal energy with random phases, the frequency of
            each at random within its band, the stroke of each by Biesel; long waves of second order are not corrected for
@@ -42,9 +44,11 @@ def wave_number(omega, depth, gravity):
     return y / depth
 
 
-def height_over_stroke(kd):
+def height_over_stroke(kd, flap=False):
+    """Of a piston; of a flap hinged at the floor at still water's level."""
     q = np.exp(-2.0 * kd)
-    return 2.0 * (1.0 - q)**2 / (1.0 - q**2 + 4.0 * kd * q)
+    other = (1.0 - np.exp(-kd))**2 / kd if flap else 0.0  # 2 e^-kd (cosh kd - 1)/kd
+    return 2.0 * (1.0 - q) * (1.0 - q - other) / (1.0 - q**2 + 4.0 * kd * q)
 
 
 def smooth(t, rise):
@@ -91,12 +95,13 @@ def jonswap(f, peak, gamma):
 def regular(o):
     omega, rise = 2.0 * np.pi / o.period, o.rise or 2.0 * o.period
     k = wave_number_below_breaking(o)
-    stroke = o.height / height_over_stroke(k * o.depth)
+    stroke = o.height / height_over_stroke(k * o.depth, bool(o.flap))
     t = times(o.end + rise, o.rows, o.period / 50.0)
     text = ["regular waves, H %g m, T %g s, in water %g m deep" % (o.height, o.period, o.depth),
             "k %.6g 1/m, wave length %.6g m, steepness H/L %.4g, kd %.4g" % (k, 2.0 * np.pi / k, o.height * k / (2.0 * np.pi), k * o.depth),
-            "stroke S %.6g m, H/S %.6g" % (stroke, o.height / stroke),
-            "the same with a linear rise, and no end: {velocity: [%.6g, 0], period: %g, rise: %g}" % (0.5 * stroke * omega, o.period, rise)]
+            "stroke S %.6g m, H/S %.6g" % (stroke, o.height / stroke)]
+    if not o.flap:
+        text.append("the same with a linear rise, and no end: {velocity: [%.6g, 0], period: %g, rise: %g}" % (0.5 * stroke * omega, o.period, rise))
     return (t, *piston(t, [omega], [stroke], [0.0], rise, o.end), text)
 
 
@@ -135,13 +140,13 @@ def irregular(o):
     amplitude = 0.25 * o.height * np.sqrt(2.0 / o.components)
     k = wave_number(omega, o.depth, o.gravity)
     t = times(o.end + rise, o.rows, o.period / 50.0)
-    x, u = piston(t, omega, 2.0 * amplitude / height_over_stroke(k * o.depth), phase, rise, o.end)
+    x, u = piston(t, omega, 2.0 * amplitude / height_over_stroke(k * o.depth, bool(o.flap)), phase, rise, o.end)
     full = t[(t >= rise) & (t <= o.end)]
     eta = sum(amplitude * np.sin(w * full + p) for w, p in zip(omega, phase))
     text = ["irregular waves, Hs %g m, Tp %g s, in water %g m deep: JONSWAP, gamma %g, %d components, seed %d" %
             (o.height, o.period, o.depth, o.gamma, o.components, o.seed),
             "at the peak: wave length %.6g m" % (2.0 * np.pi / peak),
-            "four standard deviations of the elevation beside the piston, %g s to %g s: %.4g m (Hs %g m)" % (rise, o.end, 4.0 * eta.std(), o.height)]
+            "four standard deviations of the elevation beside it, %g s to %g s: %.4g m (Hs %g m)" % (rise, o.end, 4.0 * eta.std(), o.height)]
     return t, x, u, text
 
 
@@ -172,19 +177,25 @@ def main():
         else:
             kind.add_argument("--period", type=positive, required=True, help="s; of irregular waves that of the spectrum's peak")
             kind.add_argument("--end", type=positive, required=True, help="until when there are waves, s; then the piston comes to rest")
+            kind.add_argument("--flap", type=float, nargs=2, metavar=("X", "Y"), help="a flap's hinge, at the floor")
             kind.add_argument("--rise", type=positive, help="in which waves become as high as asked for, s; default two periods")
     kind.add_argument("--gamma", type=positive, default=3.3, help="peak enhancement of the spectrum")
     kind.add_argument("--seed", type=count, default=1)
     kind.add_argument("--components", type=count, default=100)
     options = parser.parse_args()
     t, x, u, text = options.make(options)
-    rows = ["[%.9g, %.6g, 0]" % row for row in zip(t, np.round(u, 9) + 0.0)]
+    flap = getattr(options, "flap", None)
+    if flap:  # x = d tan of the angle, which is clockwise
+        u = -u * options.depth / (options.depth**2 + x**2)
+    rows = [("[%.9g, %.6g]" if flap else "[%.9g, %.6g, 0]") % row for row in zip(t, np.round(u, 9) + 0.0)]
     if options.line:
         print("[%s]" % ", ".join(rows))
         return
-    text.append("the piston is between %.4g m and %.4g m from where it begins, at most as fast as %.4g m/s" % (x.min(), x.max(), abs(u).max()))
+    what = "the flap at still water's level" if flap else "the piston"
+    text.append("%s is between %.4g m and %.4g m from where it begins, at most as fast as %.4g %s" % (what, x.min(), x.max(), abs(u).max(), "rad/s" if flap else "m/s"))
     print("\n".join("      # " + line for line in text))
-    print("      prescribed:\n        - table:   # s, m/s")
+    print("      prescribed:")
+    print("        - pivot: [%.9g, %.9g]\n          angular_velocity:   # s, rad/s" % tuple(flap) if flap else "        - table:   # s, m/s")
     print("\n".join("            - " + row for row in rows))
 
 

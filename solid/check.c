@@ -80,7 +80,11 @@ static const CoracleCaseKey KEYS[] = {
     {"solid.bodies[].prescribed[].velocity", "m/s",
      "instead of a table: constant, or the amplitude of one that swings"},
     {"solid.bodies[].prescribed[].angular_velocity", "rad/s",
-     "with the velocity or without it: a rotation about the pivot, which moves with the velocity"},
+     "with the velocity or without it: a rotation about the pivot, which moves with the velocity, "
+     "counter-clockwise; "
+     "a number, or rows of time and angular velocity, linear between them"},
+    {"solid.bodies[].prescribed[].angular_velocity[]", "s, rad/s",
+     "time, angular velocity; constant before the first and after the last"},
     {"solid.bodies[].prescribed[].pivot", "m", "at the start; required with angular_velocity"},
     {"solid.bodies[].prescribed[].period", "s", "both swing: times sin(2 pi t/period)"},
     {"solid.bodies[].prescribed[].rise", "s", "time in which both rise from zero, linearly"},
@@ -105,7 +109,7 @@ static const CoracleCaseKey KEYS[] = {
     {"solid.bodies[].velocity", "m/s",
      "at the start; a submerged body loses a part of it in the first step to the fluid around it, which is "
      "at rest then (added mass)"},
-    {"solid.bodies[].angular_velocity", "rad/s", "at the start, about the centre of mass"},
+    {"solid.bodies[].angular_velocity", "rad/s", "at the start, about the centre of mass, counter-clockwise"},
     {"solid.bodies[].repeat.n", "", "how often the body is there along x and y"},
     {"solid.bodies[].repeat.step", "m", "distance from one to the next along x and y"},
     {"solid.walls.lower", "m", "lower left corner of four rigid walls around all bodies"},

@@ -22,6 +22,7 @@ PetscErrorCode ExpectBodies(Solid s)
   for (int b = 0; b < n; b++)
     printf("solid: body %d: %.4g m2, %.4g kg/m, weight %.4g N/m, centre (%.4g, %.4g) m\n", b, area[b],
            state[b].mass, g * state[b].mass, state[b].x[0], state[b].x[1]);
+  if (s->nbodies > n) printf("solid: and %d bodies more\n", s->nbodies - n);
   for (int k = 0; k < nsprings; k++)
     printf("solid: spring %d: %.4g m long at the start, tension %.4g N/m\n", k, spring[k].length,
            spring[k].tension);

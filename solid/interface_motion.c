@@ -63,7 +63,7 @@ static void RotatePrescribed(Solid s)
     const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
     const int n = s->prescribed[k].node;
     double pivot[2];
-    if (!PrescribedActs(d, t) || d->angular_velocity == 0.0) continue;
+    if (!PrescribedActs(d, t) || !PrescribedTurns(d)) continue;
     PrescribedPivot(d, t, pivot);
     const double spin = SpinNow(s, d);
     const double turned[2] = {-spin * (s->x[2 * n + 1] - pivot[1]), spin * (s->x[2 * n] - pivot[0])};
@@ -89,7 +89,7 @@ static void AcceleratePrescribed(Solid s)
     const int n = s->prescribed[k].node;
     double pivot[2] = {0.0, 0.0}, spin_up = 0.0, around = 0.0;
     if (d->prescribed[0] && d->prescribed[1]) s->mobility[n] = 0.0;
-    if (d->angular_velocity != 0.0 && dt > 0.0) {
+    if (PrescribedTurns(d) && dt > 0.0) {
       PrescribedPivot(d, t, pivot);
       const double spin = SpinNow(s, d);
       spin_up = (PrescribedRotation(d, t + dt - h, h) - spin) / dt;

@@ -1,5 +1,4 @@
 #include "solid/prescribed_motion.h"
-#include "common/program/time_table.h"
 #include <math.h>
 
 static TimeTable Table(const PrescribedMotion *d)
@@ -36,6 +35,7 @@ double PrescribedVelocity(const PrescribedMotion *d, int c, double from, double 
 double PrescribedRotation(const PrescribedMotion *d, double from, double h)
 {
   const double to = from + h;
+  if (d->spin.nrows) return TimeTableMean(&d->spin, 1, from, h);
   return d->angular_velocity == 0.0
              ? 0.0
              : d->angular_velocity * (IntegralOfOneRow(d, to) - IntegralOfOneRow(d, from)) / (to - from);
@@ -50,7 +50,7 @@ PrescribedSubstep PrescribedSubstepOf(const PrescribedMotion *d, double from, do
 {
   PrescribedSubstep s = {
       {PrescribedVelocity(d, 0, from, h), PrescribedVelocity(d, 1, from, h)}, {0.0, 0.0}, 0.0, 0.0};
-  if (d->angular_velocity == 0.0) return s;
+  if (!PrescribedTurns(d)) return s;
   const double turn = h * PrescribedRotation(d, from, h);
   PrescribedPivot(d, from, s.pivot);
   s.parallel = -2.0 * sin(0.5 * turn) * sin(0.5 * turn) / h;

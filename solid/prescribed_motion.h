@@ -1,9 +1,10 @@
 /* Prescribed motion of nodes: a velocity, a table in time, linear between its rows and constant before the first and after the
  * last; one row: times sin(2 pi t/period), if there is a period, and from 0 at t = 0 on in proportion to t until `rise`; so is a
- * rotation, about a pivot that moves with the velocity.  A substep moves a prescribed node by the integral of its velocity, so
+ * rotation, about a pivot that moves with the velocity, or it is a table, too.  A substep moves a prescribed node by the integral of its velocity, so
  * that where it gets does not depend on the substeps. */
 #ifndef SOLID_PRESCRIBED_MOTION_H
 #define SOLID_PRESCRIBED_MOTION_H
+#include "common/program/time_table.h"
 
 enum { MOTION_NAME = 48 };
 
@@ -13,7 +14,8 @@ typedef struct {
   const double *row;                 /* [nrows][3] t, u, v; s and m/s, t rising */
   double release;                    /* s: from then on the nodes are free; 0: never */
   double period, rise;               /* s, of one row; 0: constant, at once */
-  double angular_velocity, pivot[2]; /* rad/s, of one row; m, at t = 0 */
+  double angular_velocity, pivot[2]; /* rad/s, counter-clockwise, of one row; m, at t = 0 */
+  TimeTable spin;                    /* of s and rad/s, instead of the angular velocity; nrows 0: none */
   char name[MOTION_NAME];            /* leads the columns of its force (probes.h); "": it has none */
 } PrescribedMotion;
 
@@ -25,6 +27,11 @@ typedef struct {
 static inline int PrescribedActs(const PrescribedMotion *d, double t)
 {
   return d->release <= 0.0 || t < d->release * (1.0 - 1e-12);
+}
+/* It has a rotation, or may have one. */
+static inline int PrescribedTurns(const PrescribedMotion *d)
+{
+  return d->spin.nrows > 0 || d->angular_velocity != 0.0;
 }
 /* The velocity's mean over from .. from + h, h > 0; where there is a rotation, the pivot's. */
 double PrescribedVelocity(const PrescribedMotion *d, int component, double from, double h);

@@ -114,13 +114,30 @@ static PetscErrorCode ReadFixed(CoracleCase c, int body, BodySetup *setup, const
   PetscFunctionReturn(0);
 }
 
+/* A number, or rows of time and angular velocity. */
+static void ReadSpin(CoracleCase c, const char *item, PrescribedMotion *d)
+{
+  static const char *const SWINGS[] = {"period", "rise", NULL};
+  char key[CASE_KEY], first[CASE_KEY];
+  (void)CaseKey(key, "%s.angular_velocity", item);
+  if (!CoracleCaseHas(c, CaseKey(first, "%s[0]", key))) {
+    d->angular_velocity = CoracleCaseNumber(c, key, -HUGE_VAL, HUGE_VAL);
+    return;
+  }
+  d->spin.width = 2;
+  d->spin.row = CoracleCaseTable(c, key, 2, &d->spin.nrows);
+  for (int k = 0; SWINGS[k]; k++)
+    if (CoracleCaseHas(c, CaseKey(key, "%s.%s", item, SWINGS[k])))
+      CoracleCaseRefuse(c, key, "an angular velocity in rows depends on time by them alone");
+}
+
 /* Of one row: velocity, rotation, and how they depend on time. */
 static void ReadSteady(CoracleCase c, const char *item, PrescribedMotion *d, double velocity[2])
 {
   char key[CASE_KEY];
   const PetscBool turns = (PetscBool)CoracleCaseHas(c, CaseKey(key, "%s.angular_velocity", item));
   if (turns) {
-    d->angular_velocity = CoracleCaseNumber(c, key, -HUGE_VAL, HUGE_VAL);
+    ReadSpin(c, item, d);
     if (!d->prescribed[0] || !d->prescribed[1])
       CoracleCaseRefuse(c, key, "a rotation prescribes both components");
     CoracleCaseVector(c, CaseKey(key, "%s.pivot", item), 2, d->pivot);

@@ -33,7 +33,10 @@ PetscErrorCode ModelCopy(const Model *from, Model *to)
   COPY(material, from->nmaterials);
   COPY(motion, from->nmotions);
   COPY(prescribed, from->nprescribed);
-  for (int k = 0; k < from->nmotions; k++) COPY(motion[k].row, 3 * from->motion[k].nrows);
+  for (int k = 0; k < from->nmotions; k++) {
+    COPY(motion[k].row, 3 * from->motion[k].nrows);
+    COPY(motion[k].spin.row, 2 * from->motion[k].spin.nrows);
+  }
   COPY(load, from->nloads);
   COPY(loaded, from->nloaded);
   for (int k = 0; k < from->nloads; k++) PetscCall(BoundaryLoadCopy(&from->load[k], &to->load[k]));
@@ -52,7 +55,10 @@ PetscErrorCode ModelDestroy(Model *a)
   PetscCall(PetscFree(a->element_body));
   PetscCall(PetscFree(a->jointed));
   PetscCall(PetscFree(a->six_node));
-  for (int k = 0; k < a->nmotions; k++) PetscCall(PetscFree(a->motion[k].row));
+  for (int k = 0; k < a->nmotions; k++) {
+    PetscCall(PetscFree(a->motion[k].row));
+    PetscCall(PetscFree(a->motion[k].spin.row));
+  }
   PetscCall(PetscFree(a->motion));
   PetscCall(PetscFree(a->prescribed));
   for (int k = 0; k < a->nloads; k++) PetscCall(BoundaryLoadFree(&a->load[k]));

@@ -6,6 +6,7 @@ source "$(dirname "$0")/../coupled/run.sh"
 "$python" -c 'import numpy' 2>/dev/null || { echo 'needs numpy'; exit 77; }
 maker="$root/scripts/wavemaker.py"
 "$python" "$maker" regular --height 0.04 --period 1.2 --depth 0.5 --end 9.6 >"$scratch/regular"
+"$python" "$maker" regular --height 0.04 --period 1.2 --depth 0.5 --end 9.6 --flap 0.3 0.1 >"$scratch/flap"
 "$python" "$maker" solitary --height 0.06 --depth 0.4 --start 1 >"$scratch/solitary"
 "$python" "$maker" irregular --height 0.06 --period 1.5 --depth 0.4 --end 1500 --rows 0.1 >"$scratch/irregular"
 PYTHONPATH=$root/scripts "$python" - "$scratch" <<'E2'
@@ -48,6 +49,16 @@ close("regular: velocity", fit[0], np.pi * stroke / 1.2, 1e-4)
 close("regular: velocity of the linear rise", float(re.search(r"velocity: \[(\S+),", text).group(1)), np.pi * stroke / 1.2, 1e-5)
 close("regular: velocity of cases/floating_platform", fit[0], 0.0738, 0.005)
 assert abs(x[-1]) < 1e-3 * stroke, "regular: the piston does not come back"
+
+# a flap: H/S as Dean and Dalrymple (1991) give it, the angle by the table, clockwise as the waves go; its rows are linear, as the piston's
+k = wavemaker.wave_number(2.0 * np.pi / 1.2, 0.5, G)
+kd = 0.5 * k
+stroke = 0.04 * (np.sinh(2.0 * kd) + 2.0 * kd) / (4.0 * np.sinh(kd) / kd * (kd * np.sinh(kd) - np.cosh(kd) + 1.0))
+flap = open(f"{sys.argv[1]}/flap").read()
+at, spin = np.array(re.findall(r"^ +- \[(\S+), (\S+)\]$", flap, flags=re.M), float).T
+angle = np.append(0.0, np.cumsum(0.5 * np.diff(at) * (spin[1:] + spin[:-1])))
+close("flap: its angle", -np.interp(2.4 + 0.6, at, angle), np.arctan(0.5 * stroke / 0.5), 2.0 * (2.0 * np.pi / 50)**2 / 12.0)
+assert "pivot: [0.3, 0.1]" in flap and np.corrcoef(spin[(at > 2.4) & (at < 9.6)], u[whole])[0, 1] < -0.999, "flap: it does not turn as the piston moves"
 
 # solitary: the stroke is the wave's volume 2 H/kappa over d, less what tails below 1e-3 of the height have: 1 - sqrt(1 - 1e-3) of it
 t, u, x, text = table("solitary")

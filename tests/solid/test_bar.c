@@ -21,7 +21,7 @@ static PetscErrorCode WaveSpeed(int plane_stress, double *speed)
 {
   const SolidSetup options = {.courant = 0.8};
   const double row[3] = {0.0, SPEED, 0.0}, at[2] = {0.3, 0.7};
-  const BoundaryMotion motion = {"left", {{1, 0}, 1, row, 0.0, 0.0, 0.0, 0.0, {0.0, 0.0}, ""}};
+  const BoundaryMotion motion = {"left", {{1, 0}, 1, row, 0.0, 0.0, 0.0, 0.0, {0.0, 0.0}, {0}, ""}};
   BodySetup setup = BodyAtRest(MaterialOf(DENSITY, YOUNG, POISSON, 0.0));
   Model a = {0};
   double passed[2] = {0.0, 0.0}, before[2] = {0.0, 0.0}, h;
@@ -59,7 +59,7 @@ static PetscErrorCode Thrown(void)
 {
   const SolidSetup options = {.courant = 0.8, .gravity = {0.0, -10.0}};
   const double row[6] = {0.1, 0.0, 0.0, 0.2, 3.0, 0.0};
-  const BoundaryMotion motion = {"boundary", {{1, 1}, 2, row, 0.2, 0.0, 0.0, 0.0, {0.0, 0.0}, ""}};
+  const BoundaryMotion motion = {"boundary", {{1, 1}, 2, row, 0.2, 0.0, 0.0, 0.0, {0.0, 0.0}, {0}, ""}};
   BodySetup setup = BodyAtRest(MaterialOf(DENSITY, 1e8, POISSON, 0.3));
   Model a = {0};
   double impulse[2] = {0.0, 0.0}, work = 0.0;

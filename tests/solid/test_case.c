@@ -248,7 +248,7 @@ static void RigidBodies(void)
 static void CheckTable(void)
 {
   const double row[] = {0.0, 0.0, 1.0, 1.0, 4.0, 1.0, 1.5, -2.0, 0.0, 3.0, 1.0, 0.0};
-  const PrescribedMotion motion = {{1, 1}, 4, row, 0.0, 0.0, 0.0, 0.0, {0.0, 0.0}, ""};
+  const PrescribedMotion motion = {{1, 1}, 4, row, 0.0, 0.0, 0.0, 0.0, {0.0, 0.0}, {0}, ""};
   static const double CASE[][4] = {
       {-2.0, 1.0, 0.0, 1.0}, {-1.0, 5.0, 0.55, 0.45}, /* from, length, mean of u, v */
       {0.25, 0.5, 2.0, 1.0}, {1.0, 0.25, 2.5, 0.75},  {0.5, 2.5, 0.5, 0.3},
@@ -270,7 +270,7 @@ static void CheckSwing(void)
   for (size_t k = 0; k < sizeof PERIOD_RISE / sizeof *PERIOD_RISE; k++)
     for (double from = 0.0; from < 2.0; from += 0.9) {
       const double period = PERIOD_RISE[k][0], rise = PERIOD_RISE[k][1], h = 0.8;
-      const PrescribedMotion motion = {{1, 1}, 1, row, 0.0, period, rise, 0.0, {0.0, 0.0}, ""};
+      const PrescribedMotion motion = {{1, 1}, 1, row, 0.0, period, rise, 0.0, {0.0, 0.0}, {0}, ""};
       double sum = 0.0;
       for (int i = 0; i < MANY; i++) {
         const double t = from + h * (i + 0.5) / MANY;

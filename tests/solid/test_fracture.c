@@ -134,7 +134,7 @@ static PetscErrorCode Balance(void)
 static PetscErrorCode PulledSheet(void)
 {
   static const double row[3] = {0.0, -3.0, 0.0};
-  const BoundaryMotion prescribed = {"left", {{1, 0}, 1, row, 0.0, 0.0, 0.0, 0.0, {0.0, 0.0}, ""}};
+  const BoundaryMotion prescribed = {"left", {{1, 0}, 1, row, 0.0, 0.0, 0.0, 0.0, {0.0, 0.0}, {0}, ""}};
   BodySetup setup = BodyAtRest(RockOf(3e6, 9e6, 10.0, 0.0));
   const SolidSetup options = {.courant = 0.8};
   Model a = {0};

@@ -189,7 +189,7 @@ static PetscErrorCode Turns(void)
 {
   const SolidSetup setup = {.courant = 0.8, .rebalance = 200.0};
   const double row[3] = {0.0, 0.0, 0.0}, spin = 100.0, t = 0.1;
-  const BoundaryMotion motion = {NULL, {{1, 1}, 1, row, 0.0, 0.0, 0.0, spin, {0.0, 0.0}, ""}};
+  const BoundaryMotion motion = {NULL, {{1, 1}, 1, row, 0.0, 0.0, 0.0, spin, {0.0, 0.0}, {0}, ""}};
   BodySetup body = BodyAtRest(Rigid());
   Model a = {0};
   BodyState state[2];

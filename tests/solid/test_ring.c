@@ -45,7 +45,7 @@ static PetscErrorCode Pinch(double friction)
   AddRing(&a, 0.0, 0.0, &ring);
   for (int k = -1; k <= 1; k += 2) { /* both discs go `way` and stop */
     const double row[6] = {way / speed, 0.0, -k * speed, way / speed + 1e-6, 0.0, 0.0};
-    const BoundaryMotion motion = {"boundary", {{1, 1}, 2, row, 0.0, 0.0, 0.0, 0.0, {0.0, 0.0}, ""}};
+    const BoundaryMotion motion = {"boundary", {{1, 1}, 2, row, 0.0, 0.0, 0.0, 0.0, {0.0, 0.0}, {0}, ""}};
     disc.prescribed = &motion;
     AddDisc(&a, 0.0, k * (RADIUS + 0.5 * WALL + start + radius), radius, 0.008, &disc);
   }

@@ -1,21 +1,26 @@
 // ranks: 1 2
 /* A plate whose rotation is prescribed, about a pivot that moves: after any time its nodes are where a rigid plate's are, and so are
- * its velocities, and the angle that it has turned; also when the rotation swings and rises.  And the moment of a load. */
+ * its velocities, and the angle that it has turned; also when the rotation swings and rises, or is a table.  And the moment of a load. */
 #include "tests/solid/build.h"
 
 #define SPIN 3.0
 
 typedef struct {
   double period, rise;
+  TimeTable spin; /* over SPIN */
 } Way;
 
-/* How far it has turned, over SPIN: by short intervals. */
-static double Turned(const Way *w, double t)
+/* How far the pivot has moved, over its velocity, by short intervals; or how far the plate has turned, over SPIN. */
+static double Integral(const Way *w, double t, int of_spin)
 {
   enum { MANY = 100000 };
   double sum = 0.0;
   for (int i = 0; i < MANY; i++) {
     const double at = t * (i + 0.5) / MANY;
+    if (of_spin && w->spin.nrows) {
+      sum += TimeTableValue(&w->spin, 1, at) / SPIN * t / MANY;
+      continue;
+    }
     sum += (w->period > 0.0 ? sin(2.0 * M_PI * at / w->period) : 1.0) * (at < w->rise ? at / w->rise : 1.0) *
            t / MANY;
   }
@@ -26,7 +31,8 @@ static PetscErrorCode Rotate(const Way *w)
 {
   const SolidSetup setup = {.courant = 0.8, .rebalance = 200.0, .gravity = {0.0, -9.81}};
   const double row[3] = {0.0, 0.4, -0.2}, t = 0.7;
-  const BoundaryMotion motion = {NULL, {{1, 1}, 1, row, 0.0, w->period, w->rise, SPIN, {0.3, 0.1}, ""}};
+  const BoundaryMotion motion = {NULL,
+                                 {{1, 1}, 1, row, 0.0, w->period, w->rise, SPIN, {0.3, 0.1}, w->spin, ""}};
   BodySetup body = BodyAtRest(MaterialOf(1000.0, 1e6, 0.3, 0.1));
   Model a = {0};
   Solid s;
@@ -35,8 +41,9 @@ static PetscErrorCode Rotate(const Way *w)
   AddRectangle(&a, 0.0, 0.0, 0.2, 0.1, 0.0, 0.05, 1, &body);
   PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &setup, &s));
   PetscCall(Run(s, t, 0.01));
-  const double factor = Turned(w, t), angle = SPIN * factor,
-               rate = (Turned(w, t) - Turned(w, t - 1e-4)) / 1e-4;
+  const double moved = Integral(w, t, 0), angle = SPIN * Integral(w, t, 1),
+               speed = (moved - Integral(w, t - 1e-4, 0)) / 1e-4,
+               rate = (angle - SPIN * Integral(w, t - 1e-4, 1)) / 1e-4;
   const SolidView v = ViewOf(s, NULL, NULL);
   BodyState state;
   PetscCall(SolidBodies(s, 1, &state));
@@ -44,8 +51,8 @@ static PetscErrorCode Rotate(const Way *w)
   for (int n = 0; n < v.nnodes; n++) {
     const double r[2] = {v.rest[2 * n] - 0.3, v.rest[2 * n + 1] - 0.1};
     const double arm[2] = {cos(angle) * r[0] - sin(angle) * r[1], sin(angle) * r[0] + cos(angle) * r[1]};
-    const double x[2] = {0.3 + 0.4 * factor + arm[0], 0.1 - 0.2 * factor + arm[1]};
-    const double u[2] = {0.4 * rate - SPIN * rate * arm[1], -0.2 * rate + SPIN * rate * arm[0]};
+    const double x[2] = {0.3 + 0.4 * moved + arm[0], 0.1 - 0.2 * moved + arm[1]};
+    const double u[2] = {0.4 * speed - rate * arm[1], -0.2 * speed + rate * arm[0]};
     for (int c = 0; c < 2; c++) {
       CHECK(fabs(v.x[2 * n + c] - x[c]) < 1e-8, "node %d at (%g, %g), expected (%g, %g)", n, v.x[2 * n],
             v.x[2 * n + 1], x[0], x[1]);
@@ -90,7 +97,9 @@ static PetscErrorCode Moment(void)
 
 int main(int argc, char **argv)
 {
-  static const Way WAYS[] = {{0.0, 0.0}, {0.0, 0.3}, {0.5, 0.0}, {0.5, 0.3}};
+  static const double SPINS[] = {0.0, 0.0, 0.3, SPIN, 0.45, -0.5 * SPIN};
+  static const Way WAYS[] = {
+      {0.0, 0.0, {0}}, {0.0, 0.3, {0}}, {0.5, 0.0, {0}}, {0.5, 0.3, {0}}, {0.0, 0.0, {3, 2, SPINS}}};
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   for (size_t k = 0; k < sizeof WAYS / sizeof *WAYS; k++) PetscCall(Rotate(&WAYS[k]));
   PetscCall(Moment());
