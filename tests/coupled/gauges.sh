@@ -7,6 +7,9 @@ gauges=(--set 'fluid.probes=[{name: foot, solid_point: [1.0, 0.9756]}, {name: he
 falling=("${gauges[@]}" --set fluid.adapt.size_min=0.03 --set fluid.adapt.size_max=0.25 --set fluid.adapt.velocity_error=0.01 --set fluid.adapt.every=4)
 still=("${gauges[@]}" --set 'fluid.probes[0].distance=0.04' --set 'fluid.probes[1].distance=0.02')
 must held 1:1:1 "${still[@]}" --set 'solid.bodies[0].fixed=true'
+# on a block, the gauge's distance away from its foot is in that: the pressure is that between them
+must "on a block" 1:1:1 "${still[@]}" --set 'solid.bodies[0].fixed=true' \
+  --set 'solid.bodies[1]={shape: rectangle, centre: [1.0, 0.875], width: 0.4, height: 0.2, size: 0.05, material: disc, fixed: true}'
 must moving 2:1:2 "${still[@]}" --set fluid.viscosity=0.1 --set 'solid.bodies[0].prescribed=[{boundary: boundary, velocity: [0.05, -0.05]}]'
 must falling 1:1:1 "${falling[@]}"
 must spread 2:2:2 "${falling[@]}"
@@ -30,6 +33,8 @@ def above(r, name, distance):
     return r[name + "_p [Pa]"] - r["wall_p [Pa]"] - WEIGHT * (1.0 - y)
 for r in rows("held"):
     assert abs(above(r, "foot", 0.04)) < 0.01 and abs(above(r, "head", 0.02)) < 0.01, "held: %s" % r
+for r in rows("on a block"):
+    assert abs(above(r, "foot", 0.0)) < 0.1 * WEIGHT * 0.04, "on a block: %s" % r
 moving = rows("moving")
 for name, distance in (("foot", 0.04), ("head", 0.02)):
     start = moving[0][name + "_y [m]"] + 0.0005
