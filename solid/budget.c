@@ -46,21 +46,25 @@ void BudgetAddDecay(Solid s)
     }
 }
 
-void BudgetAddPrescribed(Solid s, int motion, int n, int c, double v)
+void BudgetAddPrescribed(Solid s, int motion, int n, int c, double v, double arm)
 {
   const double impulse = s->mass[n] * (v - s->v[2 * n + c]);
+  double *sum = s->motion_impulse[motion];
   BudgetAddImpulse(s, n, c, impulse, v);
-  if (SolidOwns(s, n)) s->motion_impulse[motion][c] += impulse;
+  if (!SolidOwns(s, n)) return;
+  sum[c] += impulse;
+  sum[2] += arm * impulse;
+  sum[3] += impulse * v;
 }
 
-PetscErrorCode SolidMotionForce(Solid s, const char *name, double force[2])
+PetscErrorCode SolidMotionReaction(Solid s, const char *name, double reaction[4])
 {
   PetscFunctionBeginUser;
-  force[0] = force[1] = 0.0;
+  PetscCall(PetscArrayzero(reaction, 4));
   for (int k = 0; k < s->nmotions; k++)
-    for (int c = 0; c < 2 && s->dt > 0.0 && !strcmp(s->motion[k].name, name); c++)
-      force[c] += s->motion_impulse[k][c] / s->dt;
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, force, 2, MPI_DOUBLE, MPI_SUM, s->comm));
+    for (int i = 0; i < 4 && s->dt > 0.0 && !strcmp(s->motion[k].name, name); i++)
+      reaction[i] += s->motion_impulse[k][i] / s->dt;
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, reaction, 4, MPI_DOUBLE, MPI_SUM, s->comm));
   PetscFunctionReturn(0);
 }
 

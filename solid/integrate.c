@@ -208,12 +208,15 @@ static void MovePrescribed(Solid s, int before)
     const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
     if (!PrescribedActs(d, s->stats.t)) continue;
     if (!before && motion != s->prescribed[k].motion) substep = PrescribedSubstepOf(d, s->stats.t, s->h);
-    if (!before) PrescribedNodeVelocity(&substep, s->position_before + 2 * k, v);
+    const double *at = s->position_before + 2 * k;
+    if (!before) PrescribedNodeVelocity(&substep, at, v);
+    const double half = 0.5 * s->h, arm[2] = {substep.pivot[1] - at[1] + half * (substep.velocity[1] - v[1]),
+                                              at[0] - substep.pivot[0] + half * (v[0] - substep.velocity[0])};
     for (int c = 0; c < 2; c++) {
       if (before) {
         s->position_before[2 * k + c] = s->x[2 * n + c];
       } else if (d->prescribed[c]) {
-        BudgetAddPrescribed(s, s->prescribed[k].motion, n, c, v[c]);
+        BudgetAddPrescribed(s, s->prescribed[k].motion, n, c, v[c], arm[c]);
         s->v[2 * n + c] = v[c];
         s->x[2 * n + c] = s->position_before[2 * k + c] + s->h * v[c];
       }

@@ -6,8 +6,8 @@
 #include "solid/prescribed_motion.h"
 #include <stdio.h>
 
-enum { MAX_PROBES = 64, MAX_MOTIONS = 64, VALUES = 4, SUMS = VALUES + 1 };
-enum { COLUMNS = (MAX_PROBES + MAX_SPRINGS + MAX_MOTIONS) * 220 };
+enum { MAX_PROBES = 64, MAX_MOTIONS = 64, VALUES = 4, SUMS = VALUES + 1, REACTION = 4 };
+enum { COLUMNS = (MAX_PROBES + MAX_SPRINGS + MAX_MOTIONS) * 280 };
 
 struct Probes_s {
   MPI_Comm comm;
@@ -105,8 +105,9 @@ static void ReadLists(CoracleCase c, Probes p, char columns[COLUMNS])
   }
   ReadMotionNames(c, p);
   for (int k = 0; k < p->nmotions; k++)
-    used += (size_t)snprintf(columns + used, COLUMNS - used, ",%s_force_x [N/m],%s_force_y [N/m]",
-                             p->motion[k], p->motion[k]);
+    used += (size_t)snprintf(columns + used, COLUMNS - used,
+                             ",%s_force_x [N/m],%s_force_y [N/m],%s_moment [N],%s_power [W/m]", p->motion[k],
+                             p->motion[k], p->motion[k], p->motion[k]);
 }
 
 void ProbesCheckCase(CoracleCase c)
@@ -221,7 +222,7 @@ PetscErrorCode ProbesSave(Probes p, Checkpoint to)
 
 PetscErrorCode ProbesStep(Probes p, Solid solid)
 {
-  double row[1 + MAX_PROBES * VALUES + 2 * MAX_SPRINGS + 2 * MAX_MOTIONS], value[MAX_PROBES][VALUES];
+  double row[1 + MAX_PROBES * VALUES + 2 * MAX_SPRINGS + REACTION * MAX_MOTIONS], value[MAX_PROBES][VALUES];
   SpringState spring[MAX_SPRINGS];
   int missing, n = 0;
   PetscFunctionBeginUser;
@@ -235,7 +236,8 @@ PetscErrorCode ProbesStep(Probes p, Solid solid)
     row[n++] = spring[k].length;
     row[n++] = spring[k].tension;
   }
-  for (int k = 0; k < p->nmotions; k++, n += 2) PetscCall(SolidMotionForce(solid, p->motion[k], &row[n]));
+  for (int k = 0; k < p->nmotions; k++, n += REACTION)
+    PetscCall(SolidMotionReaction(solid, p->motion[k], &row[n]));
   PetscCall(SeriesRow(p->series, row));
   PetscFunctionReturn(0);
 }

@@ -161,8 +161,9 @@ typedef struct {
   double load[2], weight[2];    /* the fluid's and gravity's force, N/m */
 } SolidBudget;
 PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget);
-/* Collective.  The force with which the prescribed motions of this name hold and move their nodes, mean over the last step, N/m. */
-PetscErrorCode SolidMotionForce(Solid s, const char *name, double force[2]);
+/* Collective.  With what the prescribed motions of this name hold and move their nodes, mean over the last step: force, N/m, its moment about the pivot, of
+ * motions that do not turn about the origin, counter-clockwise, N, and its power, W/m. */
+PetscErrorCode SolidMotionReaction(Solid s, const char *name, double reaction[4]);
 /* state[springs of the setup] now. */
 PetscErrorCode SolidSprings(Solid s, SpringState state[]);
 

@@ -119,9 +119,9 @@ struct Solid_s {
   SolidBudget budget;         /* this rank's part, but for the reaction */
   double (*reaction)[2];      /* [nbodies] this rank's part of what budget.reaction is of all, N s/m */
   double (*momentum)[2];      /* [nbodies] the same of budget.start */
-  double (
-      *motion_impulse)[2]; /* [nmotions] the part of the reaction that each motion has, of this rank, N s/m */
-  PetscBool force_valid;   /* force belongs to x and v */
+  double (*motion_impulse)
+      [4]; /* [nmotions] the part of the reaction that each motion has, of this rank, N s/m, its moment, N s, and work, J/m */
+  PetscBool force_valid;    /* force belongs to x and v */
   PetscBool unsynchronised; /* after SolidState(0): JointsSynchronise is due */
   SolidStats stats;
   SavedState saved;
@@ -169,7 +169,7 @@ void BudgetAddSubstep(Solid s);
 /* An impulse on component c of node n that is neither the fluid's nor a wall's, N s/m; v: where its work is done, m/s. */
 void BudgetAddImpulse(Solid s, int n, int c, double impulse, double v);
 /* Component c of node n, free so far, is going to move with the prescribed v. */
-void BudgetAddPrescribed(Solid s, int motion, int n, int c, double v);
+void BudgetAddPrescribed(Solid s, int motion, int n, int c, double v, double arm);
 /* What the decay rate has done in the substep, after its nodes have moved. */
 void BudgetAddDecay(Solid s);
 

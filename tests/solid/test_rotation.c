@@ -1,9 +1,11 @@
 // ranks: 1 2
 /* A plate whose rotation is prescribed, about a pivot that moves: after any time its nodes are where a rigid plate's are, and so are
- * its velocities, and the angle that it has turned; also when the rotation swings and rises, or is a table.  And the moment of a load. */
+ * its velocities, and the angle that it has turned; also when the rotation swings and rises, or is a table; what turns it has
+ * the moment of its weight.  And the moment of a load. */
 #include "tests/solid/build.h"
 
 #define SPIN 3.0
+#define DT 0.01 /* s */
 
 typedef struct {
   double period, rise;
@@ -27,12 +29,25 @@ static double Integral(const Way *w, double t, int of_spin)
   return sum;
 }
 
+/* Of a plate that turns steadily: the moment of its weight, and the power of force and moment.  middle: its angle in the middle of the last step. */
+static PetscErrorCode CheckReaction(Solid s, double mass, double middle, double rate, double speed)
+{
+  const double weight = 9.81 * mass, arm = -0.3 * cos(middle) + 0.1 * sin(middle);
+  double q[4];
+  PetscFunctionBeginUser;
+  PetscCall(SolidMotionReaction(s, "spin", q));
+  const double power = q[2] * rate + speed * (0.4 * q[0] - 0.2 * q[1]);
+  CHECK(fabs(q[2] - weight * arm) < 1e-3 * weight * 0.3, "moment %g, expected %g", q[2], weight * arm);
+  CHECK(fabs(q[3] - power) < 1e-3 * weight, "power %g, expected %g", q[3], power);
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode Rotate(const Way *w)
 {
   const SolidSetup setup = {.courant = 0.8, .rebalance = 200.0, .gravity = {0.0, -9.81}};
   const double row[3] = {0.0, 0.4, -0.2}, t = 0.7;
-  const BoundaryMotion motion = {NULL,
-                                 {{1, 1}, 1, row, 0.0, w->period, w->rise, SPIN, {0.3, 0.1}, w->spin, ""}};
+  const BoundaryMotion motion = {
+      NULL, {{1, 1}, 1, row, 0.0, w->period, w->rise, SPIN, {0.3, 0.1}, w->spin, "spin"}};
   BodySetup body = BodyAtRest(MaterialOf(1000.0, 1e6, 0.3, 0.1));
   Model a = {0};
   Solid s;
@@ -40,7 +55,7 @@ static PetscErrorCode Rotate(const Way *w)
   body.prescribed = &motion;
   AddRectangle(&a, 0.0, 0.0, 0.2, 0.1, 0.0, 0.05, 1, &body);
   PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &setup, &s));
-  PetscCall(Run(s, t, 0.01));
+  PetscCall(Run(s, t, DT));
   const double moved = Integral(w, t, 0), angle = SPIN * Integral(w, t, 1),
                speed = (moved - Integral(w, t - 1e-4, 0)) / 1e-4,
                rate = (angle - SPIN * Integral(w, t - 1e-4, 1)) / 1e-4;
@@ -48,6 +63,7 @@ static PetscErrorCode Rotate(const Way *w)
   BodyState state;
   PetscCall(SolidBodies(s, 1, &state));
   CHECK(fabs(state.angle - angle) < 1e-8, "turned by %.12g, expected %.12g", state.angle, angle);
+  if (w->period == 0.0) PetscCall(CheckReaction(s, state.mass, angle - 0.5 * DT * rate, rate, speed));
   for (int n = 0; n < v.nnodes; n++) {
     const double r[2] = {v.rest[2 * n] - 0.3, v.rest[2 * n + 1] - 0.1};
     const double arm[2] = {cos(angle) * r[0] - sin(angle) * r[1], sin(angle) * r[0] + cos(angle) * r[1]};
