@@ -81,6 +81,7 @@ static const CoracleCaseKey KEYS[] = {
      "a point from which on it has its whole rate; in between the rate rises with the square of the way"},
     {"fluid.absorption[].rate", "1/s", "with which the fluid is drawn to the velocity"},
     {"fluid.absorption[].velocity", "m/s", "to which; at rest if not given"},
+    {"fluid.absorption[].phase", "", "the phase that is drawn; all of the fluid if not given"},
     {"fluid.mesh.file", "", "a Gmsh mesh, instead of a box; a relative path starts at the case file"},
     {"fluid.mesh.lower", "m", "lower left corner of a box"},
     {"fluid.mesh.upper", "m", "upper right corner of the box"},

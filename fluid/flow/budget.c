@@ -122,7 +122,7 @@ static double Sum(const double v[3])
 static void AddAbsorption(Fluid f, const BudgetStep *s)
 {
   for (int e = 0; e < f->domain.mesh->ne; e++) {
-    const AbsorptionAt a = AbsorptionOfElement(&f->setup.absorption, f->domain.mesh, e);
+    const AbsorptionAt a = f->absorption[e];
     for (int c = 0; c < 2; c++) {
       const double u =
           ((1.0 - s->theta) * Sum(s->u + 6 * e + 3 * c) + s->theta * Sum(s->u_star + 6 * e + 3 * c)) / 3.0;

@@ -36,7 +36,7 @@ static PetscErrorCode DestroyVectors(Fluid f)
 
 PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *fluid)
 {
-  const MomentumSetup momentum = {setup->source, setup->source_context, setup->absorption};
+  const MomentumSetup momentum = {setup->source, setup->source_context};
   Fluid f;
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&f));
@@ -55,6 +55,7 @@ PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *flu
   /* one more: whether they are NULL is the same on all ranks, also where there are no elements */
   if (PhaseHasGas(&setup->phases)) PetscCall(PetscCalloc1((size_t)mesh->ne + 1, &f->compressible));
   if (f->phases) PetscCall(PetscCalloc1(2 * (size_t)mesh->ne + 1, &f->remainder));
+  if (setup->absorption.n) PetscCall(PetscCalloc1((size_t)mesh->ne + 1, &f->absorption));
   PetscCall(CreateVectors(f));
   PetscCall(FluidBudgetCreate(f));
   PetscCall(MomentumSolverCreate(&f->domain, &momentum, f->u, &f->momentum));
@@ -87,6 +88,7 @@ PetscErrorCode FluidDestroy(Fluid *fluid)
   PetscCall(MaterialDestroy(&f->material));
   PetscCall(PetscFree(f->compressible));
   PetscCall(PetscFree(f->remainder));
+  PetscCall(PetscFree(f->absorption));
   PetscCall(DomainDestroy(&f->domain));
   PetscCall(PetscFree(*fluid));
   PetscFunctionReturn(0);

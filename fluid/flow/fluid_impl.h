@@ -30,8 +30,9 @@ struct Fluid_s {
   Vec u, u_previous, u_star, u_projected, mass_flux;
   PetscBool prepared; /* FluidPrepareMomentum has been called for the step */
   Vec p;
-  Vec dynamic;       /* with phases: phi of the last step, Pa (viscous_share.h) */
-  double *remainder; /* with phases: FluidRemainder */
+  Vec dynamic;              /* with phases: phi of the last step, Pa (viscous_share.h) */
+  AbsorptionAt *absorption; /* [ne] of the step; NULL: none */
+  double *remainder;        /* with phases: FluidRemainder */
   struct {
     double t, dt_previous;
     int damped;

@@ -124,7 +124,22 @@ static MomentumStep StepOfMomentum(Fluid f, double dt, const double outside[])
                         f->p,
                         f->solid,
                         outside,
-                        FluidInverseDensity(f)};
+                        FluidInverseDensity(f),
+                        f->absorption};
+}
+
+/* With the shares that phases have after they have moved. */
+static void SetAbsorption(Fluid f)
+{
+  double share[PHASES_MAX];
+  int n = 0;
+  const double *volume = f->phases ? PhaseTransportVolumes(f->phases, &n) : NULL;
+  for (int e = 0; e < f->domain.mesh->ne && f->absorption; e++) {
+    double mass = 0.0;
+    for (int p = 0; p < n; p++) mass += share[p] = f->setup.phases.rho[p] * fmax(volume[n * e + p], 0.0);
+    for (int p = 0; p < n; p++) share[p] /= mass;
+    f->absorption[e] = AbsorptionOfElement(&f->setup.absorption, f->domain.mesh, e, n ? share : NULL);
+  }
 }
 
 PetscErrorCode FluidPrepareMomentum(Fluid f, double dt)
@@ -144,6 +159,7 @@ PetscErrorCode FluidPrepareMomentum(Fluid f, double dt)
     PetscCall(FluidSetOutside(f));
     PetscCall(GhostedGetArrayRead(f->outside, &outside));
   }
+  SetAbsorption(f);
   const MomentumStep step = StepOfMomentum(f, dt, outside);
   PetscCall(MomentumSolverAssemble(f->momentum, &step));
   if (f->phases) {

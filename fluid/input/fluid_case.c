@@ -133,11 +133,14 @@ PetscErrorCode FluidCaseMesh(CoracleCase c, MPI_Comm comm, Checkpoint from, Mesh
 
 /* --- the flow, its numbers and its adaptation ----------------------------------------------------------- */
 
-static void ReadZone(CoracleCase c, int k, AbsorptionZone *z)
+static void ReadZone(CoracleCase c, int k, const PhaseNames *names, AbsorptionZone *z)
 {
   char key[CASE_KEY];
   z->rate = CoracleCaseNumber(c, CaseKey(key, "fluid.absorption[%d].rate", k), 0.0, HUGE_VAL);
   z->velocity[0] = z->velocity[1] = 0.0;
+  z->phase = names->name[0] && CoracleCaseHas(c, CaseKey(key, "fluid.absorption[%d].phase", k))
+                 ? PhaseCaseIndex(c, key, names)
+                 : -1;
   (void)CoracleCaseVectorOptional(c, CaseKey(key, "fluid.absorption[%d].velocity", k), 2, z->velocity);
   CoracleCaseVector(c, CaseKey(key, "fluid.absorption[%d].from", k), 2, z->from);
   CoracleCaseVector(c, CaseKey(key, "fluid.absorption[%d].to", k), 2, z->to);
@@ -145,11 +148,11 @@ static void ReadZone(CoracleCase c, int k, AbsorptionZone *z)
     CoracleCaseRefuse(c, key, "expected another point than from, (%g, %g)", z->to[0], z->to[1]);
 }
 
-static void ReadAbsorption(CoracleCase c, Absorption *a)
+static void ReadAbsorption(CoracleCase c, const PhaseNames *names, Absorption *a)
 {
   a->n = CoracleCaseCount(c, "fluid.absorption");
   if (a->n > ABSORPTION_MAX) CoracleCaseRefuse(c, "fluid.absorption", "more than %d zones", ABSORPTION_MAX);
-  for (int k = 0; k < a->n; k++) ReadZone(c, k, &a->zone[k]);
+  for (int k = 0; k < a->n; k++) ReadZone(c, k, names, &a->zone[k]);
 }
 
 static double PositiveOr(CoracleCase c, const char *key, double fallback)
@@ -175,7 +178,7 @@ PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup
   setup->theta = CoracleCaseNumberOr(c, "fluid.theta", PhaseHasTension(&setup->phases) ? 1.0 : 0.5, 0.5, 1.0);
   GravityRead(c, setup->gravity, &setup->gravity_table);
   if (CoracleCaseHas(c, "fluid.initial")) CoracleCaseVector(c, "fluid.initial.velocity", 2, setup->velocity);
-  ReadAbsorption(c, &setup->absorption);
+  ReadAbsorption(c, &names, &setup->absorption);
   setup->cfl = CoracleCasePositive(c, "time.cfl");
   setup->dt_max = CoracleCasePositive(c, "time.dt_max");
   setup->capillary_cfl = PositiveOr(c, "fluid.capillary_cfl", CAPILLARY_CFL);

@@ -21,7 +21,6 @@ typedef struct MomentumSolver_s *MomentumSolver;
 typedef struct {
   FieldFunction source; /* body force per volume, N/m3, or NULL */
   void *source_context;
-  Absorption absorption;
 } MomentumSetup;
 
 /* One step.  Vectors have a block [2][3] an element (component, vertex) and ghosts; those of mass_flux and p are up to date. */
@@ -40,6 +39,7 @@ typedef struct {
   /* [ne] with phases: the pressure acts as rho R^-1 grad p and gravity is the weight (effective_density.h), and what comes
    * in through open boundaries is at rest; NULL: one fluid */
   const InverseDensity *inverse_density;
+  const AbsorptionAt *absorption; /* [ne]; NULL: none */
 } MomentumStep;
 
 typedef struct {

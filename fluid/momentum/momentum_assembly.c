@@ -133,7 +133,7 @@ static void ElementLoad(MomentumSolver s, const MomentumStep *step, int e, const
 {
   const Mesh *m = s->domain->mesh;
   const ElementGeometry *g = s->domain->geometry + e;
-  const AbsorptionAt absorption = AbsorptionOfElement(&s->setup.absorption, s->domain->mesh, e);
+  const AbsorptionAt absorption = step->absorption ? step->absorption[e] : (AbsorptionAt){0.0, {0.0, 0.0}};
   double grad[3][2], q[2][3];
   DomainGradient(s->domain, e, p, grad);
   for (int i = 0; i < 3; i++) {
@@ -209,9 +209,8 @@ static void AssembleScalar(MomentumSolver s, const MomentumStep *step, int e, co
     memcpy(block, s->faces[e], sizeof s->faces[e]);
   else
     AssembleFaces(s, step, e, block);
-  const double mass =
-      step->rho[e] *
-      (1.0 / step->dt + s->theta * AbsorptionOfElement(&s->setup.absorption, s->domain->mesh, e).rate);
+  const double rate = step->absorption ? step->absorption[e].rate : 0.0;
+  const double mass = step->rho[e] * (1.0 / step->dt + s->theta * rate);
   ScalarVolume(s->domain->geometry + e, mass, s->theta, s->op.theta_mu[e], flux + 6 * e, volume);
   for (int k = 0; k < 9; k++) block[0][k] += volume[k];
   FluxDivergenceVolume(s->domain->geometry + e, flux + 6 * e, s->divergence[e]);

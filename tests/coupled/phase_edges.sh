@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Phases in unusual domains: on ranks without elements, with a gas and a checkpoint; far from the origin; with an interface that lies along the cut between ranks, which is
 # refined all the same; beside a slanted wall that moves along itself, which is a wall, in a closed tank, too; gas that comes in has the density of the pressure there; and where
-# gravity changes, the first step after a resume is that of the run without a stop.
+# gravity changes, the first step after a resume is that of the run without a stop.  A zone of absorption draws the phase that it names alone.
 # Usage: phase_edges.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
@@ -73,3 +73,11 @@ from results import column
 step = lambda label: next(dt for t, dt in zip(column(label, "fluid", "t [s]"), column(label, "fluid", "dt [s]")) if t > 0.2741)
 assert step("stopped") < 1.1 * step("whole"), "gravity in time: the step after a resume is %.6g s, without a stop %.6g s" % (step("stopped"), step("whole"))
 E6
+# the force on fluid at rest: rate times velocity times the mass of what is drawn, in a box that keeps it at rest
+for phase in water air; do must "drawn $phase" 1:1:1 --set fluid.mesh.size_max=0.2 --set "fluid.absorption=[{from: [-2, 0], to: [-1, 0], rate: 1, velocity: [0.1, 0], phase: $phase}]"; done
+"$python" - "$scratch" <<'E7'
+from results import column
+for phase, expected in (("water", 0.1 * 1000.0 * 0.4), ("air", 0.1 * 1.2 * 0.6)):
+    force = column("drawn " + phase, "fluid_forces", "absorption x [N/m]")[0]
+    assert abs(force / expected - 1.0) < 0.01, "%s is drawn with %g N/m, expected %g" % (phase, force, expected)
+E7

@@ -21,7 +21,7 @@ static PetscErrorCode Stream(const Mesh *mesh, double target, Fluid *fluid)
                       .cfl = 1.0,
                       .dt_max = 0.05,
                       .boundary = boundary,
-                      .absorption = {1, {{{BEGIN, 0.0}, {BEGIN + LENGTH, 0.0}, {target, 0.0}, RATE}}}};
+                      .absorption = {1, {{{BEGIN, 0.0}, {BEGIN + LENGTH, 0.0}, {target, 0.0}, RATE, -1}}}};
   PetscFunctionBeginUser;
   for (int b = 0; b < mesh->ntags; b++) {
     boundary[b].kind = !strcmp(mesh->tag_name[b], "right")  ? BOUNDARY_OPEN

@@ -64,7 +64,7 @@ static PetscErrorCode Stream(double theta)
                       .cfl = 1.0,
                       .dt_max = 1.0,
                       .source = BodyForce,
-                      .absorption = {1, {{{1.0, 0.0}, {1.7, 0.3}, {0.5, 0.2}, 3.0}}},
+                      .absorption = {1, {{{1.0, 0.0}, {1.7, 0.3}, {0.5, 0.2}, 3.0, 0}}},
                       .boundary = boundary};
   Mesh *mesh;
   Fluid fluid;
