@@ -25,31 +25,59 @@ static PetscErrorCode Friction(Overlap o, const PairTerm term[], double thicknes
   PetscFunctionReturn(0);
 }
 
+/* chi[nnodes]: of a node's part.  turn: int f r^2, int r^2 dm about the part's centre. */
+static PetscErrorCode Response(Overlap o, const SolidState *solid, const double friction[], double dt,
+                               double chi[])
+{
+  enum { FRICTION, MASS, CENTRE, NSUMS = CENTRE + 2 };
+  double(*sum)[NSUMS], (*turn)[2];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc2(solid->nnodes, &sum, solid->nnodes, &turn));
+  for (int i = 0; i < solid->nnodes; i++) {
+    if (!(solid->mobility[i] > 0.0 && CopiesIsFirst(o->nodes, i))) continue;
+    const double mass = 1.0 / solid->mobility[i];
+    sum[i][FRICTION] = friction[i];
+    sum[i][MASS] = mass;
+    for (int c = 0; c < 2; c++) sum[i][CENTRE + c] = mass * solid->x[2 * i + c];
+  }
+  PetscCall(CopiesSum(o->parts, NSUMS, (double *)sum));
+  for (int i = 0; i < solid->nnodes; i++) {
+    if (!(solid->mobility[i] > 0.0 && CopiesIsFirst(o->nodes, i))) continue;
+    const double r[2] = {solid->x[2 * i] - sum[i][CENTRE] / sum[i][MASS],
+                         solid->x[2 * i + 1] - sum[i][CENTRE + 1] / sum[i][MASS]};
+    turn[i][0] = friction[i] * (r[0] * r[0] + r[1] * r[1]);
+    turn[i][1] = (r[0] * r[0] + r[1] * r[1]) / solid->mobility[i];
+  }
+  PetscCall(CopiesSum(o->parts, 2, (double *)turn));
+  for (int i = 0; i < solid->nnodes; i++) {
+    chi[i] = sum[i][MASS] > 0.0 ? dt * sum[i][FRICTION] / sum[i][MASS] : 0.0;
+    if (turn[i][1] > 0.0) chi[i] = fmax(chi[i], dt * turn[i][0] / turn[i][1]);
+  }
+  PetscCall(PetscFree2(sum, turn));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode ViscousExplicitFraction(Overlap o, const SolidState *solid, const PairTerm term[],
                                        double thickness, double dt, double explicit_fraction[],
                                        double *single)
 {
-  enum { FRICTION, MASS, NSUMS };
-  double *friction, (*sum)[NSUMS];
+  double *friction, *chi;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2(solid->nnodes, &friction, solid->nnodes, &sum));
+  PetscCall(PetscMalloc2(solid->nnodes, &friction, solid->nnodes, &chi));
   PetscCall(Friction(o, term, thickness, dt, solid->nnodes, friction));
-  for (int i = 0; i < solid->nnodes; i++) {
-    const PetscBool counts = (PetscBool)(solid->mobility[i] > 0.0 && CopiesIsFirst(o->nodes, i));
-    sum[i][FRICTION] = counts ? friction[i] : 0.0;
-    sum[i][MASS] = counts ? 1.0 / solid->mobility[i] : 0.0;
-  }
-  PetscCall(CopiesSum(o->parts, NSUMS, (double *)sum));
+  PetscCall(Response(o, solid, friction, dt, chi));
   *single = HUGE_VAL;
   for (int i = 0; i < solid->nnodes; i++) {
-    const double chi = sum[i][MASS] > 0.0 ? 2.0 * dt * sum[i][FRICTION] / sum[i][MASS] : 0.0;
     if (solid->mobility[i] == 0.0) continue;
-    *single =
-        explicit_fraction[i] > LIGHT ? 0.0 : fmin(*single, chi > 0.0 ? dt * VISCOUS_LIMIT / chi : HUGE_VAL);
-    if (chi > VISCOUS_LIMIT) explicit_fraction[i] = fmax(explicit_fraction[i], 1.0 - VISCOUS_LIMIT / chi);
+    *single = explicit_fraction[i] > LIGHT
+                  ? 0.0
+                  : fmin(*single, chi[i] > 0.0 ? dt * VISCOUS_LIMIT / chi[i] : HUGE_VAL);
+    if (chi[i] > VISCOUS_LIMIT)
+      explicit_fraction[i] = fmax(explicit_fraction[i], 1.0 - VISCOUS_LIMIT / chi[i]);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, single, 1, MPI_DOUBLE, MPI_MIN, o->comm));
-  PetscCall(PetscFree2(friction, sum));
+  PetscCall(PetscFree2(friction, chi));
   PetscFunctionReturn(0);
 }

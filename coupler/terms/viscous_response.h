@@ -2,12 +2,12 @@
  *
  * The wall term (wall_term.h) pulls the solid with the velocity that was predicted for it.  An error v - v* of that changes the velocity that the solid gets
  * within the step by - chi (v - v*), so that with chi > 1 the errors of successive steps alternate and grow, whatever the solid's density.  A solid that
- * moves as a whole has
+ * moves and turns as a whole has the larger one of
  *
- *     chi  =  2 dt int f dGamma/m,     f  =  1/(dxw/(WALL_PENALTY mu) + delta/mu),     delta  =  sqrt(mu dt/rho_f),
+ *     chi  =  dt int f dGamma/m,  dt int f r^2 dGamma/int r^2 dm,     f  =  1/(dxw/(WALL_PENALTY mu) + delta/mu),     delta  =  sqrt(mu dt/rho_f),
  *
- * m its mass, f the friction of the wall term in series with that of the layer that viscosity reaches within the step (delta is 0 among phases, where an
- * element that the surface crosses moves with the solid), and 2 for rotation, of which a disc's inertia is half of m r^2.  Beyond VISCOUS_LIMIT coupling iterations find the velocity (coupling_iteration.h), whose explicit fraction is at least
+ * m its mass, r from its centre (the second is twice the first for a disc or a square, and the same for a ring), f the friction of the wall term in series with that of the layer that viscosity reaches within the step (delta is 0 among phases, where an
+ * element that the surface crosses moves with the solid).  Beyond VISCOUS_LIMIT coupling iterations find the velocity (coupling_iteration.h), whose explicit fraction is at least
  *
  *     1 - VISCOUS_LIMIT/chi.
  *
