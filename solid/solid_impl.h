@@ -119,8 +119,8 @@ struct Solid_s {
   SolidBudget budget;         /* this rank's part, but for the reaction */
   double (*reaction)[2];      /* [nbodies] this rank's part of what budget.reaction is of all, N s/m */
   double (*momentum)[2];      /* [nbodies] the same of budget.start */
-  double (*motion_impulse)
-      [4]; /* [nmotions] the part of the reaction that each motion has, of this rank, N s/m, its moment, N s, and work, J/m */
+  /* [nmotions] the part of the reaction that each motion has, of this rank, N s/m, its moment, N s, and work, J/m */
+  double (*motion_impulse)[4];
   PetscBool force_valid;    /* force belongs to x and v */
   PetscBool unsynchronised; /* after SolidState(0): JointsSynchronise is due */
   SolidStats stats;

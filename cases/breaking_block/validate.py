@@ -128,7 +128,7 @@ def runs_table(there):
 
 
 def ranks_table(there):
-    yield "| run | differs from base by more than 1e-9 | 1e-6 | 1e-3 | 1e-1 of the force | projectile at %g s [mm] |" % END
+    yield "| run | time in the run from which it differs from base by more than 1e-9 | 1e-6 | 1e-3 | 1e-1 of the force | projectile at %g s [mm] |" % END
     yield "|" + "---|" * 6
     for name in ("solid-2", "solid-3", "ranks-2", "ranks-3"):
         if name not in there or "base" not in there:

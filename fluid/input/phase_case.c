@@ -23,6 +23,7 @@ static void ReadState(CoracleCase c, int k, double density, EquationOfState *sta
 /* Item k of fluid.phases becomes phase k. */
 static void ReadPhase(CoracleCase c, int k, PhaseNames *names, PhaseProperties *p)
 {
+  /* what fluid/output/writer.c writes beside them */
   static const char *const FIELDS[] = {"alpha", "density", "pressure", "rank", "velocity"};
   char key[CASE_KEY];
   names->name[k] = CoracleCaseString(c, CaseKey(key, "fluid.phases[%d].name", k));

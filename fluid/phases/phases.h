@@ -120,8 +120,8 @@ typedef struct {
 typedef struct {
   const double (*fraction)[PHASES_MAX]; /* [ntags][nphases], sum 1; NULL: boundaries are closed */
   const PhasesLevels *levels;           /* [ntags], borrowed; NULL: none */
-  const double *
-      density; /* [nl][nphases] kg/m3, of compressible phases that flow into an element; phases without masses: NULL */
+  /* [nl][nphases] kg/m3, of compressible phases that flow into an element; phases without masses: NULL */
+  const double *density;
 } PhasesInflow;
 
 /* One step of dt, s, along fluxes flux[ne][3] (outward through face i, m2/s; what leaves an element enters

@@ -36,7 +36,7 @@ PetscErrorCode AdaptationLeastCount(const AdaptationSetup *s, const Mesh *m, dou
   PetscFunctionReturn(0);
 }
 
-/* Whether an interface cuts owned element e, or runs along a face between it and another element of this rank. */
+/* Whether an interface cuts owned element e, or runs along one of its faces. */
 static PetscBool IsAtInterface(const Stars *s, Phases phases, int e)
 {
   const int single = PhasesSingle(phases, e);

@@ -62,6 +62,18 @@ static int Touches(const Leave *x, int e, Where where)
   return 0;
 }
 
+/* Of elements that are away from the solid, those around ones at `where` become the place before it. */
+static PetscErrorCode MarkAround(Leave *x, Where where)
+{
+  const Stars *s = x->stars;
+  PetscFunctionBeginUser;
+  for (int e = 0; e < s->ne; e++) x->beside[e] = x->where[e] == AWAY && Touches(x, e, where);
+  for (int e = 0; e < s->ne; e++)
+    if (x->beside[e]) x->where[e] = (char)(where - 1);
+  PetscCall(StarsExchange(s, sizeof *x->where, x->where));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode FindPlaces(Leave *x)
 {
   const Stars *s = x->stars;
@@ -71,14 +83,8 @@ static PetscErrorCode FindPlaces(Leave *x)
     x->where[e] = x->covered[e] ? INSIDE : x->solid[e] > COVERED ? CROSSED : AWAY;
   }
   PetscCall(StarsExchange(s, sizeof *x->where, x->where));
-  for (int e = 0; e < s->ne; e++) x->beside[e] = x->where[e] == AWAY && Touches(x, e, INSIDE);
-  for (int e = 0; e < s->ne; e++)
-    if (x->beside[e]) x->where[e] = CROSSED;
-  PetscCall(StarsExchange(s, sizeof *x->where, x->where));
-  for (int e = 0; e < s->ne; e++) x->beside[e] = x->where[e] == AWAY && Touches(x, e, CROSSED);
-  for (int e = 0; e < s->ne; e++)
-    if (x->beside[e]) x->where[e] = BESIDE;
-  PetscCall(StarsExchange(s, sizeof *x->where, x->where));
+  PetscCall(MarkAround(x, INSIDE));
+  PetscCall(MarkAround(x, CROSSED));
   PetscFunctionReturn(0);
 }
 

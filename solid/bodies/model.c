@@ -118,25 +118,14 @@ static void PrescribeNode(Model *a, int n)
     if (motion->prescribed[c]) a->u[2 * n + c] = v[c];
 }
 
-/* *row[n] becomes a copy of its own. */
-static PetscErrorCode CopyRows(size_t n, const double **row)
-{
-  double *copy;
-  PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(n, &copy));
-  PetscCall(PetscArraycpy(copy, *row, n));
-  *row = copy;
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode PrescribeNodes(Model *a, const MeshSerial *m, const BodySetup *setup,
                                      const int renumber[])
 {
   PetscFunctionBeginUser;
   for (int k = 0; k < setup->nprescribed; k++) {
     PrescribedMotion motion = setup->prescribed[k].motion;
-    PetscCall(CopyRows(3 * (size_t)motion.nrows, &motion.row));
-    PetscCall(CopyRows(2 * (size_t)motion.spin.nrows, &motion.spin.row));
+    PetscCall(ModelCopyRows(3 * motion.nrows, &motion.row));
+    PetscCall(ModelCopyRows(2 * motion.spin.nrows, &motion.spin.row));
     PetscCall(PetscRealloc((size_t)(a->nmotions + 1) * sizeof *a->motion, &a->motion));
     a->motion[a->nmotions] = motion;
     const char *boundary = setup->prescribed[k].boundary;

@@ -137,6 +137,8 @@ double ModelCornerMass(const Model *a, int element);
 /* With rows of its own. */
 PetscErrorCode BoundaryLoadCopy(const BoundaryLoad *from, BoundaryLoad *to);
 PetscErrorCode BoundaryLoadFree(BoundaryLoad *load);
+/* *row, [n] numbers that are borrowed, becomes a copy of its own. */
+PetscErrorCode ModelCopyRows(int n, const double **row);
 PetscErrorCode ModelCopy(const Model *from, Model *to);
 PetscErrorCode ModelDestroy(Model *a);
 #endif

@@ -2,14 +2,13 @@
 #include "solid/bodies/element_edges.h"
 #include "solid/bodies/model_impl.h"
 
-static PetscErrorCode CopyRows(TimeTable *table)
+PetscErrorCode ModelCopyRows(int n, const double **row)
 {
-  const size_t n = (size_t)table->nrows * (size_t)table->width;
-  double *row;
+  double *copy;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(n, &row));
-  if (n) PetscCall(PetscArraycpy(row, table->row, n));
-  table->row = row;
+  PetscCall(PetscMalloc1(n, &copy));
+  if (n) PetscCall(PetscArraycpy(copy, *row, n));
+  *row = copy;
   PetscFunctionReturn(0);
 }
 
@@ -17,8 +16,8 @@ PetscErrorCode BoundaryLoadCopy(const BoundaryLoad *from, BoundaryLoad *to)
 {
   PetscFunctionBeginUser;
   *to = *from;
-  PetscCall(CopyRows(&to->pressure));
-  PetscCall(CopyRows(&to->traction));
+  PetscCall(ModelCopyRows(to->pressure.nrows * to->pressure.width, &to->pressure.row));
+  PetscCall(ModelCopyRows(to->traction.nrows * to->traction.width, &to->traction.row));
   PetscFunctionReturn(0);
 }
 
