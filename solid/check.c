@@ -63,7 +63,16 @@ static const CoracleCaseKey KEYS[] = {
     {"solid.bodies[].layers", "", "elements through a ring's wall; absent: as many as its size wants"},
     {"solid.bodies[].width", "m", "of a rectangle, or an ellipse"},
     {"solid.bodies[].height", "m", "of a rectangle, or an ellipse"},
-    {"solid.bodies[].angle", "rad", "by which a rectangle or an ellipse is turned, counter-clockwise"},
+    {"solid.bodies[].angle", "rad",
+     "by which a rectangle, an ellipse or a polygon is turned about its centre (of area), counter-clockwise"},
+    {"solid.bodies[].corners", "m",
+     "of a polygon, in either sense; its elements have edges of about size, smaller ones beside its smaller "
+     "features"},
+    {"solid.bodies[].corners[]", "m", "x and y"},
+    {"solid.bodies[].sides", "",
+     "names of a polygon's sides, the first from the first corner to the second; absent: all are called "
+     "boundary"},
+    {"solid.bodies[].sides[]", "", "several may have one name"},
     {"solid.bodies[].stretch", "", "factors along x and y by which the body is stretched at the start"},
     {"solid.bodies[].fixed", "",
      "true, or a list of names of boundaries and physical surfaces that do not move"},

@@ -1,4 +1,5 @@
 #include "solid/check_domain.h"
+#include "common/program/outline_case.h"
 #include "common/supermesh/geometry.h"
 #include "solid/bodies/case_body.h"
 #include <stdio.h>
@@ -6,22 +7,36 @@
 /* Elements of the fluid through a wall that holds water. */
 #define THICK 1.99
 
-/* The fluid's domain, as far as the case says it: the box, or the mesh in a file.  What is wrong with these the fluid tells. */
+static void Bound(int n, const double x[][2], double lower[2], double upper[2])
+{
+  GeometryBox box = GeometryBoxEmpty();
+  for (int k = 0; k < n; k++) GeometryBoxGrow(&box, x[k]);
+  memcpy(lower, box.lower, sizeof box.lower);
+  memcpy(upper, box.upper, sizeof box.upper);
+}
+
+/* The fluid's domain, as far as the case says it: the bounds of the box, the polygon, or the mesh in a file.  What is wrong with these the fluid tells. */
 static PetscErrorCode FluidDomain(CoracleCase c, double lower[2], double upper[2], PetscBool *known)
 {
   const char *why;
   MeshSerial mesh;
   PetscFunctionBeginUser;
-  *known = (PetscBool)(CoracleCaseVectorOptional(c, "fluid.mesh.lower", 2, lower) &&
-                       CoracleCaseVectorOptional(c, "fluid.mesh.upper", 2, upper));
-  if (*known || !CoracleCaseHas(c, "fluid.mesh.file")) PetscFunctionReturn(0);
-  if (MeshReadGmsh(CoracleCaseFile(c, "fluid.mesh.file"), &mesh, &why)) PetscFunctionReturn(0);
-  for (int k = 0; k < 2 * mesh.nv; k++) {
-    lower[k % 2] = k < 2 ? mesh.x[k] : fmin(lower[k % 2], mesh.x[k]);
-    upper[k % 2] = k < 2 ? mesh.x[k] : fmax(upper[k % 2], mesh.x[k]);
-  }
   *known = PETSC_TRUE;
-  PetscCall(MeshSerialDestroy(&mesh));
+  if (CoracleCaseHas(c, "fluid.mesh.corners")) {
+    int n;
+    double(*corner)[2];
+    PetscCall(CaseReadOutline(c, "fluid.mesh.corners", &n, &corner));
+    Bound(n, (const double(*)[2])corner, lower, upper);
+    PetscCall(PetscFree(corner));
+  } else if (!CoracleCaseHas(c, "fluid.mesh.file")) {
+    *known = (PetscBool)(CoracleCaseVectorOptional(c, "fluid.mesh.lower", 2, lower) &&
+                         CoracleCaseVectorOptional(c, "fluid.mesh.upper", 2, upper));
+  } else if (MeshReadGmsh(CoracleCaseFile(c, "fluid.mesh.file"), &mesh, &why)) {
+    *known = PETSC_FALSE;
+  } else {
+    Bound(mesh.nv, (const double(*)[2])mesh.x, lower, upper);
+    PetscCall(MeshSerialDestroy(&mesh));
+  }
   PetscFunctionReturn(0);
 }
 

@@ -65,6 +65,11 @@ typedef struct {
  * left, right, bottom, top.  Not collective. */
 PetscErrorCode MeshBox(const double lower[2], const double upper[2], double size_max,
                        double (*size)(void *context, const double x[2]), void *context, MeshSerial *mesh);
+/* A mesh of edges of about size, m, of a polygon that does not meet itself: corners in either sense; name[n]: of the sides, side k from corner k to the
+ * next one, those of one name a boundary.  Sides have edges not longer than size; beside features that are smaller than it, down to a hundredth,
+ * edges are, too.  It repeats itself to the last bit.  Not collective. */
+PetscErrorCode MeshPolygon(int n, const double corner[][2], const char *const name[], double size,
+                           MeshSerial *mesh);
 /* Gmsh .msh, ASCII or binary, formats 2.2 and 4.1: triangles, of first order or all of second, boundary edges from physical curves (their
  * names; a boundary edge without one is called "boundary"), and those between triangles.  Triangles given clockwise are turned; a
  * degenerate or repeated one, or one with a vertex that does not exist, is an error that names file and

@@ -1,6 +1,6 @@
 #include "fluid/input/phase_case.h"
 #include "common/output/output.h"
-#include "common/supermesh/geometry.h"
+#include "common/program/outline_case.h"
 #include "fluid/input/fluid_case.h"
 
 /* Of phase k, which is incompressible unless it says otherwise. */
@@ -146,41 +146,13 @@ static const char *KeyOf(int k, const char *what, char key[CASE_KEY])
   return CaseKey(key, "fluid.regions[%d].%s", k, what);
 }
 
-/* Whether the closed segments a b and c d have a point in common. */
-static PetscBool Meet(const double a[2], const double b[2], const double c[2], const double d[2])
-{
-  GeometryBox one = GeometryBoxEmpty(), other = GeometryBoxEmpty();
-  GeometryBoxGrow(&one, a), GeometryBoxGrow(&one, b);
-  GeometryBoxGrow(&other, c), GeometryBoxGrow(&other, d);
-  return (PetscBool)(GeometryBoxOverlap(&one, &other) &&
-                     GeometryTurn(a, b, c) * GeometryTurn(a, b, d) <= 0.0 &&
-                     GeometryTurn(c, d, a) * GeometryTurn(c, d, b) <= 0.0);
-}
-
-/* Sides that are not neighbours have no point in common. */
-static void CheckSimple(CoracleCase c, const char *key, int n, const double x[][2])
-{
-  for (int i = 0; i < n; i++)
-    for (int j = i + 2; j < n - (i == 0); j++)
-      if (Meet(x[i], x[i + 1], x[j], x[(j + 1) % n]))
-        CoracleCaseRefuse(c, key,
-                          "the polygon meets itself: side %d, from (%g, %g), and side %d, from (%g, %g)", i,
-                          x[i][0], x[i][1], j, x[j][0], x[j][1]);
-}
-
 static PetscErrorCode ReadPolygon(CoracleCase c, int k, Region *r)
 {
   double(*x)[2];
   char key[CASE_KEY];
   PetscFunctionBeginUser;
-  r->n = CoracleCaseCount(c, KeyOf(k, "polygon", key));
-  if (r->n < 3) CoracleCaseRefuse(c, key, "expected at least three corners, found %d", r->n);
-  PetscCall(PetscMalloc1(r->n, &x));
-  for (int i = 0; i < r->n; i++) {
-    CoracleCaseVector(c, CaseKey(key, "fluid.regions[%d].polygon[%d]", k, i), 2, x[i]);
-  }
+  PetscCall(CaseReadOutline(c, KeyOf(k, "polygon", key), &r->n, &x));
   r->x = (const double(*)[2])x;
-  CheckSimple(c, KeyOf(k, "polygon", key), r->n, r->x);
   PetscFunctionReturn(0);
 }
 

@@ -1,4 +1,5 @@
 #include "fluid/phases/region.h"
+#include "common/supermesh/outline.h"
 #include "common/supermesh/search.h"
 #include "fluid/phases/phases_impl.h"
 
@@ -87,49 +88,15 @@ static PetscErrorCode DiscTriangles(const Region *r, Triangles *t)
   PetscFunctionReturn(0);
 }
 
-static int Inside(const double x[3][2], const double p[2])
+static PetscErrorCode PolygonTriangles(const Region *r, Triangles *t)
 {
-  return GeometryTurn(x[0], x[1], p) >= 0.0 && GeometryTurn(x[1], x[2], p) >= 0.0 &&
-         GeometryTurn(x[2], x[0], p) >= 0.0;
-}
-
-/* An ear: corner k of those left, in front of which no other corner lies. */
-static int IsEar(int n, const int left[], const double x[][2], int k)
-{
-  double t[3][2];
-  const int a = left[(k + n - 1) % n], b = left[k], c = left[(k + 1) % n];
-  Set(t, x[a], x[b], x[c]);
-  if (GeometryArea((const double(*)[2])t) <= 0.0) return 0;
-  for (int i = 0; i < n; i++) {
-    const int v = left[i];
-    if (v != a && v != b && v != c && Inside((const double(*)[2])t, x[v])) return 0;
-  }
-  return 1;
-}
-
-/* Ear clipping (Meisters 1975); *simple is 0 when no ear is left before the end. */
-static PetscErrorCode PolygonTriangles(const Region *r, Triangles *t, int *simple)
-{
-  int *left, n = r->n;
-  double twice = 0.0;
+  int(*corner)[3];
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(n, &t->x));
-  PetscCall(PetscMalloc1(n, &left));
-  for (int k = 0; k < n; k++) {
-    const double *p = r->x[k], *q = r->x[(k + 1) % n];
-    twice += (p[0] - r->x[0][0]) * (q[1] - r->x[0][1]) - (p[1] - r->x[0][1]) * (q[0] - r->x[0][0]);
-  }
-  for (int k = 0; k < n; k++) left[k] = twice > 0.0 ? k : n - 1 - k;
-  *simple = 1;
-  while (n > 2 && *simple) {
-    int k = 0;
-    while (k < n && !IsEar(n, left, r->x, k)) k++;
-    *simple = k < n;
-    if (!*simple) break;
-    Set(t->x[t->n++], r->x[left[(k + n - 1) % n]], r->x[left[k]], r->x[left[(k + 1) % n]]);
-    for (n--; k < n; k++) left[k] = left[k + 1];
-  }
-  PetscCall(PetscFree(left));
+  PetscCall(PetscMalloc1(r->n, &t->x));
+  PetscCall(PetscMalloc1(r->n, &corner));
+  t->n = OutlineTriangles(r->n, r->x, corner);
+  for (int k = 0; k < t->n; k++) Set(t->x[k], r->x[corner[k][0]], r->x[corner[k][1]], r->x[corner[k][2]]);
+  PetscCall(PetscFree(corner));
   PetscFunctionReturn(0);
 }
 
@@ -151,7 +118,6 @@ static PetscErrorCode BoxTriangles(const Mesh *m, const Region *r, Triangles *t)
 
 static PetscErrorCode MakeTriangles(const Mesh *m, const Region *r, Triangles *t)
 {
-  int simple = 1;
   PetscFunctionBeginUser;
   *t = (Triangles){0};
   if (r->shape == REGION_BOX) {
@@ -168,8 +134,8 @@ static PetscErrorCode MakeTriangles(const Mesh *m, const Region *r, Triangles *t
     PetscCall(DiscTriangles(r, t));
   } else {
     PetscCheck(r->n >= 3, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "a polygon of %d corners", r->n);
-    PetscCall(PolygonTriangles(r, t, &simple));
-    PetscCheck(simple, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
+    PetscCall(PolygonTriangles(r, t));
+    PetscCheck(t->n == r->n - 2, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
                "the polygon that begins at (%g, %g) crosses itself or has no area", r->x[0][0], r->x[0][1]);
   }
   PetscFunctionReturn(0);

@@ -1,4 +1,6 @@
 #include "solid/bodies/case_shape.h"
+#include "common/program/outline_case.h"
+#include "common/supermesh/geometry.h"
 #include "solid/bodies/shape.h"
 
 BodyRepeat CaseReadRepeat(CoracleCase c, int body)
@@ -35,7 +37,7 @@ static PetscErrorCode ReadMeshFile(CoracleCase c, int body, MeshSerial *mesh)
 {
   char key[CASE_KEY];
   const char *path, *why = NULL;
-  static const char *const SHAPED[] = {"shape", "centre", "size", "angle", NULL};
+  static const char *const SHAPED[] = {"shape", "centre", "size", "angle", "corners", NULL};
   double translate[2] = {0.0, 0.0};
   PetscFunctionBeginUser;
   CoracleCaseNotBeside(c, BodyKey(key, body, ""), "mesh", SHAPED);
@@ -74,11 +76,52 @@ static PetscErrorCode ReadRing(CoracleCase c, int body, const double centre[2], 
   PetscFunctionReturn(0);
 }
 
-typedef enum { SHAPE_DISC, SHAPE_ELLIPSE, SHAPE_RECTANGLE, SHAPE_RING, SHAPE_FILE } Shape;
+static double ReadAngle(CoracleCase c, int body)
+{
+  char key[CASE_KEY];
+  return CoracleCaseNumberOr(c, BodyKey(key, body, "angle"), 0.0, -2.0 * M_PI, 2.0 * M_PI);
+}
+
+/* Turns a polygon about its centre of area; its signed area, m2. */
+static double TurnAboutCentre(int n, double x[][2], double angle)
+{
+  double area = 0.0, centre[2] = {0.0, 0.0};
+  for (int k = 0; k < n; k++) {
+    const double *a = x[k], *b = x[(k + 1) % n], part = 0.5 * GeometryTurn(x[0], a, b);
+    for (int c = 0; c < 2; c++) centre[c] += part * (a[c] - x[0][c] + b[c] - x[0][c]) / 3.0;
+    area += part;
+  }
+  for (int c = 0; c < 2; c++) centre[c] = x[0][c] + centre[c] / area;
+  for (int k = 0; k < n && angle != 0.0; k++) {
+    const double dx = x[k][0] - centre[0], dy = x[k][1] - centre[1];
+    x[k][0] = centre[0] + cos(angle) * dx - sin(angle) * dy;
+    x[k][1] = centre[1] + sin(angle) * dx + cos(angle) * dy;
+  }
+  return area;
+}
+
+/* About 0.26 size^2 a triangle. */
+static PetscErrorCode ReadPolygon(CoracleCase c, int body, double size, MeshSerial *mesh)
+{
+  int n;
+  double(*corner)[2];
+  const char **side;
+  char key[CASE_KEY];
+  PetscFunctionBeginUser;
+  PetscCall(CaseReadOutline(c, BodyKey(key, body, "corners"), &n, &corner));
+  PetscCall(CaseReadSides(c, BodyKey(key, body, "sides"), n, &side));
+  CheckCount(c, body, "size", 4.0 * fabs(TurnAboutCentre(n, corner, ReadAngle(c, body))) / (size * size));
+  PetscCall(MeshPolygon(n, (const double(*)[2])corner, side, size, mesh));
+  PetscCall(PetscFree(side));
+  PetscCall(PetscFree(corner));
+  PetscFunctionReturn(0);
+}
+
+typedef enum { SHAPE_DISC, SHAPE_ELLIPSE, SHAPE_RECTANGLE, SHAPE_RING, SHAPE_POLYGON, SHAPE_FILE } Shape;
 
 static Shape ReadShapeName(CoracleCase c, int body)
 {
-  static const char *const SHAPES[] = {"disc", "ellipse", "rectangle", "ring", NULL};
+  static const char *const SHAPES[] = {"disc", "ellipse", "rectangle", "ring", "polygon", NULL};
   char key[CASE_KEY];
   return CoracleCaseHas(c, BodyKey(key, body, "mesh"))
              ? SHAPE_FILE
@@ -97,8 +140,7 @@ static PetscErrorCode ReadSides(CoracleCase c, int body, Shape shape, const doub
 {
   char key[CASE_KEY];
   const double width = CoracleCasePositive(c, BodyKey(key, body, "width")),
-               height = CoracleCasePositive(c, BodyKey(key, body, "height")),
-               angle = CoracleCaseNumberOr(c, BodyKey(key, body, "angle"), 0.0, -2.0 * M_PI, 2.0 * M_PI),
+               height = CoracleCasePositive(c, BodyKey(key, body, "height")), angle = ReadAngle(c, body),
                radii[2] = {0.5 * width, 0.5 * height};
   PetscFunctionBeginUser;
   if (shape == SHAPE_ELLIPSE) {
@@ -121,8 +163,12 @@ PetscErrorCode CaseReadShape(CoracleCase c, int body, MeshSerial *mesh)
     PetscCall(ReadMeshFile(c, body, mesh));
     PetscFunctionReturn(0);
   }
-  CoracleCaseVector(c, BodyKey(key, body, "centre"), 2, centre);
   const double size = CoracleCasePositive(c, BodyKey(key, body, "size"));
+  if (shape == SHAPE_POLYGON) {
+    PetscCall(ReadPolygon(c, body, size, mesh));
+    PetscFunctionReturn(0);
+  }
+  CoracleCaseVector(c, BodyKey(key, body, "centre"), 2, centre);
   if (shape == SHAPE_DISC) {
     const double radius = CoracleCasePositive(c, BodyKey(key, body, "radius"));
     CheckRings(c, body, radius, size);

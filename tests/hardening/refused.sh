@@ -29,6 +29,13 @@ rock='{density: 1, youngs_modulus: 1, poisson_ratio: 0, tensile_strength: 1, she
 thin="${rectangle} 0.05, joints: [{lower: [0.999, 0], upper: [1.001, 2]}]}" # between the centres
 refused solid "'solid.bodies\[0\]': no element's centre is in the joints' box \[0.999, 1.001\] x \[0, 2\]" --set "solid.bodies[0]=$thin" --set "solid.materials.disc=$rock"
 refused solid "'solid.bodies\[0\].prescribed\[1\]': an item before this one" --set "solid.bodies[0]=${rectangle} 0.05, prescribed: [{velocity: [1, 0], component: x}, {velocity: [0, 1]}]}"
+polygon() { refused "$1" "$2" --set "$3"; }
+polygon solid "'solid.bodies\[0\].corners': the polygon meets itself: side 0" 'solid.bodies[0]={shape: polygon, corners: [[0.9, 0.9], [1.1, 1.1], [1.1, 0.9], [0.9, 1.1]], size: 0.05, material: disc}'
+polygon solid "'solid.bodies\[0\].corners': the polygon has no area" 'solid.bodies[0]={shape: polygon, corners: [[0.9, 0.9], [1.1, 0.9], [1.0, 0.9]], size: 0.05, material: disc}'
+polygon solid "'solid.bodies\[0\].size': .* elements" 'solid.bodies[0]={shape: polygon, corners: [[0.9, 0.9], [1.1, 0.9], [0.9, 1.1]], size: 1e-6, material: disc}'
+polygon fluid "'fluid.mesh.sides': expected a name of each of the 3 sides, found 2" 'fluid.mesh={corners: [[0, 0], [2, 0], [0, 2]], sides: [a, b], size_max: 0.1}'
+polygon fluid "'fluid.mesh.corners': expected at least three corners" 'fluid.mesh={corners: [[0, 0], [2, 0]], size_max: 0.1}'
+polygon fluid "'fluid.mesh.*lower" 'fluid.mesh={corners: [[0, 0], [2, 0], [0, 2]], lower: [0, 0], size_max: 0.1}'
 loads() { refused solid "$1" --set "solid.bodies[0]=${rectangle} 0.05, loads: $2}"; } # expected, loads
 loads "'solid.bodies\[0\]': the body has no boundary 'roof'; it has " '[{boundary: roof, pressure: 1}]'
 loads "'solid.bodies\[0\].loads\[0\].boundary' is missing" '[{pressure: 1}]'
