@@ -1,7 +1,7 @@
 #include "fluid/check.h"
 #include "common/program/program.h"
 #include "common/program/run_case.h"
-#include "fluid/check_boundaries.h"
+#include "fluid/check_phases.h"
 #include "fluid/input/fluid_case.h"
 #include "fluid/output/probes.h"
 #include "fluid/output/writer.h"
@@ -252,6 +252,7 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
     if (adapts) PetscCall(CheckBudget(c, mesh, &adaptation));
     Expect(mesh, adapts, &adaptation);
     NoteBoundaries(mesh, &setup);
+    NoteRegions(&setup, nregions, region);
     NoteAbsorption(mesh, &setup.absorption);
   }
   if (command == COMMAND_DRAW && CoracleCaseFaultless(c)) PetscCall(Draw(c, mesh, &setup, nregions, region));

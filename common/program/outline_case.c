@@ -11,8 +11,7 @@ static PetscErrorCode CheckSimple(CoracleCase c, const char *key, int n, const d
     CoracleCaseRefuse(c, key, "the polygon meets itself: side %d, from (%g, %g), and side %d, from (%g, %g)",
                       i, x[i][0], x[i][1], j, x[j][0], x[j][1]);
   PetscCall(PetscMalloc1(n, &triangle));
-  if (OutlineTriangles(n, x, triangle) != n - 2)
-    CoracleCaseRefuse(c, key, "the polygon has no area");
+  if (OutlineTriangles(n, x, triangle) != n - 2) CoracleCaseRefuse(c, key, "the polygon has no area");
   PetscCall(PetscFree(triangle));
   PetscFunctionReturn(0);
 }

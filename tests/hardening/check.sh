@@ -87,6 +87,12 @@ grep -q 'boundaries.left: what flows in is air, the lightest phase' "$scratch/lo
 for set in 'velocity: [0.1, 0], phase: water' 'velocity: [-0.1, 0]' 'velocity: [0, 1]'; do level 0 --set "fluid.boundaries.left={$set}"; done
 level 1 --set 'fluid.boundaries.left={velocity: [-0.1, 0], period: 1.0}'
 
+# the wrong way up
+half='fluid.regions=[{phase: air}, {phase: water, point: [0, 0.2], normal: [0, 1]}]'
+level 0 --set "$half"
+level 1 --set "${half/, 1]/, -1]}"
+grep -q 'fluid.regions\[1\]: the half plane of water lies above its edge' "$scratch/log" || fail "another note"
+
 # walls that water passes through, beside air alone
 wall() { "$build/solid/coracle-solid" --check "$root/tests/coupled/fixed.yaml" --set "solid.bodies[0].width=$2" "${@:3}" >"$scratch/log" 2>&1 && notes "$1" || fail "not $1 notes of a wall of $2 m"; }
 wall 0 0.03

@@ -1,4 +1,4 @@
-#include "fluid/check_boundaries.h"
+#include "fluid/check_phases.h"
 #include <stdio.h>
 
 /* The lowest and the highest vertex, against gravity, m. */
@@ -68,5 +68,20 @@ void NoteBoundaries(const Mesh *m, const FluidSetup *setup)
       printf("note: fluid.boundaries.%s: what flows in is %s, the lightest phase: neither phase nor "
              "fractions are given\n",
              m->tag_name[b], phases->name[PhaseLightest(phases)]);
+  }
+}
+
+void NoteRegions(const FluidSetup *setup, int nregions, const Region region[])
+{
+  const double *g = setup->gravity;
+  for (int k = 0; k < nregions; k++) {
+    const Region *r = &region[k];
+    if (r->shape != REGION_HALF_PLANE || r->phase == PhaseLightest(&setup->phases) ||
+        r->b[0] * g[0] + r->b[1] * g[1] <= 0.0)
+      continue;
+    printf("note: fluid.regions[%d]: the half plane of %s lies above its edge: its normal, (%g, %g), which "
+           "leads out "
+           "of it, points down\n",
+           k, setup->phases.name[r->phase], r->b[0], r->b[1]);
   }
 }
