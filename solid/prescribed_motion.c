@@ -1,11 +1,6 @@
 #include "solid/prescribed_motion.h"
 #include <math.h>
 
-static TimeTable Table(const PrescribedMotion *d)
-{
-  return (TimeTable){d->nrows, 3, d->row};
-}
-
 /* The integral from 0 to t > 0 of min(t/rise, 1), or of that times sin(2 pi t/period). */
 static double IntegralOfOneRow(const PrescribedMotion *d, double t)
 {
@@ -19,17 +14,9 @@ static double IntegralOfOneRow(const PrescribedMotion *d, double t)
 double PrescribedVelocity(const PrescribedMotion *d, int c, double from, double h)
 {
   const double to = from + h;
-  const TimeTable table = Table(d);
-  if (d->nrows == 1)
-    return d->row[1 + c] * (IntegralOfOneRow(d, to) - IntegralOfOneRow(d, from)) / (to - from);
-  double sum = 0.0;
-  int next = TimeTableNext(&table, from);
-  for (double start = from, end; start < to; start = end, next++) {
-    end = next < d->nrows ? fmin(TimeTableAt(&table, next, 0), to) : to;
-    sum += 0.5 * (end - start) *
-           (TimeTableBetween(&table, next, 1 + c, start) + TimeTableBetween(&table, next, 1 + c, end));
-  }
-  return sum / (to - from);
+  const TimeTable table = {d->nrows, 3, d->row};
+  return d->nrows > 1 ? TimeTableMean(&table, 1 + c, from, h)
+                      : d->row[1 + c] * (IntegralOfOneRow(d, to) - IntegralOfOneRow(d, from)) / (to - from);
 }
 
 double PrescribedRotation(const PrescribedMotion *d, double from, double h)

@@ -19,16 +19,6 @@ struct Search_s {
   Node *node;
 };
 
-static GeometryBox Join(const GeometryBox *a, const GeometryBox *b)
-{
-  GeometryBox r;
-  for (int c = 0; c < 2; c++) {
-    r.lower[c] = a->lower[c] < b->lower[c] ? a->lower[c] : b->lower[c];
-    r.upper[c] = a->upper[c] > b->upper[c] ? a->upper[c] : b->upper[c];
-  }
-  return r;
-}
-
 /* 16 bits spread to every other position. */
 static uint32_t Spread(uint32_t v)
 {
@@ -42,7 +32,7 @@ static void MortonKeys(int n, const GeometryBox box[], uint32_t key[])
 {
   GeometryBox all = GeometryBoxEmpty();
   double scale[2];
-  for (int i = 0; i < n; i++) all = Join(&all, &box[i]);
+  for (int i = 0; i < n; i++) GeometryBoxJoin(&all, &box[i]);
   for (int c = 0; c < 2; c++) {
     const double extent = all.upper[c] - all.lower[c];
     scale[c] = extent > 0.0 ? 65535.0 / extent : 0.0;
@@ -101,7 +91,7 @@ static GeometryBox LaneBox(const Search s, int l, int i, const GeometryBox box[]
   GeometryBox all = GeometryBoxEmpty();
   for (int k = 0; k < WIDTH; k++) {
     const GeometryBox part = Lane(&s->node[s->first[l - 1] + i], k);
-    all = Join(&all, &part);
+    GeometryBoxJoin(&all, &part);
   }
   return all;
 }

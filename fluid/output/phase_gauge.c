@@ -1,29 +1,21 @@
 #include "fluid/output/phase_gauge.h"
 #include "common/supermesh/geometry.h"
-#include "fluid/discretization/domain.h"
 
 enum { AREA, CENTRE, VELOCITY = CENTRE + 2, SUMS = VELOCITY + 2 };
-
-static void Barycentric(const ElementGeometry *g, const double corner[2], const double x[2], double n[3])
-{
-  for (int i = 0; i < 3; i++)
-    n[i] = (i == 0) + g->g[i][0] * (x[0] - corner[0]) + g->g[i][1] * (x[1] - corner[1]);
-}
 
 /* This share of the polygon in element e, of velocity u[2][3]. */
 static void AddPolygon(const Mesh *m, int e, const Polygon *part, double share, const double u[6],
                        double sum[SUMS])
 {
-  ElementGeometry g;
-  const double *corner = ElementVertex(m, e, 0);
-  ElementGeometryCompute(corner, ElementVertex(m, e, 1), ElementVertex(m, e, 2), &g);
+  double corner[3][2];
+  MeshCorners(m, e, corner);
   for (int k = 1; k + 1 < part->n; k++) {
     const double *x[3] = {part->x[0], part->x[k], part->x[k + 1]};
     const double area = 0.5 * share * GeometryTurn(x[0], x[1], x[2]);
     double n[3];
     sum[AREA] += area;
     for (int i = 0; i < 3; i++) {
-      Barycentric(&g, corner, x[i], n);
+      GeometryBarycentric((const double(*)[2])corner, x[i], n);
       for (int c = 0; c < 2; c++) {
         sum[CENTRE + c] += area / 3.0 * x[i][c];
         for (int j = 0; j < 3; j++) sum[VELOCITY + c] += area / 3.0 * n[j] * u[3 * c + j];
