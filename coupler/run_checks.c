@@ -165,11 +165,10 @@ PetscErrorCode RunCreateGauges(RunState *run)
   PetscFunctionBeginUser;
   PetscCall(GaugesCreate(PETSC_COMM_WORLD, c, &run->solid, run->loop->from, &run->gauges, &fault, &distance));
   if (fault >= 0)
-    PetscCall(RunFail(
-        run,
-        "%s: key 'fluid.probes[%d].solid_point': expected a point of the solid's surface, (%g, %g) is "
-        "%g m away from it",
-        c->path, c->probe[fault], c->point[fault][0], c->point[fault][1], distance));
+    PetscCall(RunFail(run,
+                      "%s: key 'fluid.probes[%d]': expected a point of the solid's surface, (%g, %g) is "
+                      "%g m away from it",
+                      c->path, c->probe[fault], c->point[fault][0], c->point[fault][1], distance));
   PetscFunctionReturn(0);
 }
 

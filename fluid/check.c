@@ -159,6 +159,11 @@ static const CoracleCaseKey KEYS[] = {
     {"fluid.probes[].phase", "", "a phase: its area, centre, velocity and the length of its interface"},
     {"fluid.probes[].solid_point", "m",
      "a point of the solid's surface at the start: a pressure gauge that moves with it"},
+    {"fluid.probes[].solid_line.from", "m",
+     "first end of a straight side of a solid, at the start: gauges along it, and the force of the pressure "
+     "on it"},
+    {"fluid.probes[].solid_line.to", "m", "its other end"},
+    {"fluid.probes[].solid_line.points", "", "number of gauges, at the middles of equal parts"},
     {"fluid.probes[].distance", "m",
      "from the solid's face to where the gauge's pressure is taken; by default fluid.adapt.size_min"},
     {NULL, NULL, NULL}};

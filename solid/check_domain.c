@@ -1,4 +1,5 @@
 #include "solid/check_domain.h"
+#include "common/program/gauge_case.h"
 #include "common/program/outline_case.h"
 #include "common/supermesh/geometry.h"
 #include "solid/bodies/case_body.h"
@@ -78,16 +79,18 @@ static PetscBool IsAtSurface(const SolidView *v, const double point[2], double *
 void CheckGauges(CoracleCase c, Solid s)
 {
   SolidView v;
-  double point[2], distance;
-  char key[CASE_KEY];
+  double point[CASE_GAUGES_MAX][2], distance;
   SolidGetView(s, &v);
-  for (int k = 0; k < CoracleCaseCount(c, "fluid.probes"); k++)
-    if (CoracleCaseVectorOptional(c, CaseKey(key, "fluid.probes[%d].solid_point", k), 2, point) &&
-        !IsAtSurface(&v, point, &distance))
-      CoracleCaseRefuse(c, key,
-                        v.nfacets ? "expected a point of the solid's surface, (%g, %g) is %.3g m away from it"
-                                  : "there are no bodies",
-                        point[0], point[1], distance);
+  for (int k = 0; k < CoracleCaseCount(c, "fluid.probes"); k++) {
+    const int n = CaseGauges(c, k, point);
+    for (int i = 0; i < n; i++)
+      if (!IsAtSurface(&v, point[i], &distance))
+        CoracleCaseRefuse(c, CaseGaugeKey(c, k),
+                          v.nfacets
+                              ? "expected a point of the solid's surface, (%g, %g) is %.3g m away from it"
+                              : "there are no bodies",
+                          point[i][0], point[i][1], distance);
+  }
 }
 
 /* --- whether a body may leave --------------------------------------------------------------------------- */

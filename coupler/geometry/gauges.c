@@ -1,5 +1,4 @@
 #include "coupler/geometry/gauges.h"
-#include "common/link/case_key.h"
 #include "common/supermesh/geometry.h"
 #include <limits.h>
 #include <math.h>
@@ -15,21 +14,23 @@ typedef struct {
 struct Gauges_s {
   MPI_Comm comm;
   int n;
-  Anchor anchor[GAUGES_MAX];
-  CoracleGauge gauge[GAUGES_MAX];
+  Anchor anchor[CASE_GAUGES_MAX];
+  CoracleGauge gauge[CASE_GAUGES_MAX];
 };
 
 void GaugesReadCase(CoracleCase file, GaugesCase *c)
 {
-  const int n = CoracleCaseCount(file, "fluid.probes");
-  char key[CASE_KEY];
+  double point[CASE_GAUGES_MAX][2];
   c->n = 0;
   c->path = CoracleCasePath(file);
-  for (int k = 0; k < n; k++) {
-    if (!CoracleCaseHas(file, CaseKey(key, "fluid.probes[%d].solid_point", k))) continue;
-    if (c->n == GAUGES_MAX) CoracleCaseRefuse(file, key, "more than %d gauges on solids", GAUGES_MAX);
-    CoracleCaseVector(file, key, 2, c->point[c->n]);
-    c->probe[c->n++] = k;
+  for (int k = 0; k < CoracleCaseCount(file, "fluid.probes"); k++) {
+    const int n = CaseGauges(file, k, point);
+    if (c->n + n > CASE_GAUGES_MAX)
+      CoracleCaseRefuse(file, CaseGaugeKey(file, k), "more than %d gauges on solids", CASE_GAUGES_MAX);
+    for (int i = 0; i < n; i++) {
+      memcpy(c->point[c->n], point[i], sizeof point[i]);
+      c->probe[c->n++] = k;
+    }
   }
 }
 
@@ -132,7 +133,7 @@ static PetscErrorCode Places(Gauges g, const SolidState *solid, double value[][5
 
 PetscErrorCode GaugesMove(Gauges g, const SolidState *solid)
 {
-  double value[GAUGES_MAX][5], distance, length;
+  double value[CASE_GAUGES_MAX][5], distance, length;
   PetscBool lost = PETSC_FALSE;
 
   PetscFunctionBeginUser;
@@ -162,8 +163,8 @@ const CoracleGauge *GaugesGet(Gauges g, int *n)
 
 static PetscErrorCode Load(Gauges g, Checkpoint from)
 {
-  long long end[GAUGES_MAX][2], rows;
-  double place[GAUGES_MAX];
+  long long end[CASE_GAUGES_MAX][2], rows;
+  double place[CASE_GAUGES_MAX];
 
   PetscFunctionBeginUser;
   PetscCall(CheckpointRows(from, "gauge facets", &rows));
@@ -198,8 +199,8 @@ PetscErrorCode GaugesCreate(MPI_Comm comm, const GaugesCase *c, const SolidState
 
 PetscErrorCode GaugesSave(Gauges g, Checkpoint to)
 {
-  long long end[GAUGES_MAX][2];
-  double place[GAUGES_MAX];
+  long long end[CASE_GAUGES_MAX][2];
+  double place[CASE_GAUGES_MAX];
   PetscMPIInt rank;
 
   PetscFunctionBeginUser;

@@ -1,4 +1,4 @@
-/* Pressure gauges on the solid: the entries of fluid.probes with a solid_point.  The coupler follows the points, for
+/* Pressure gauges on the solid: the entries of fluid.probes with a solid_point or a solid_line.  The coupler follows the points, for
  * it has the surface of any solid; the fluid gets them with the coupling and has the pressure there.
  *
  *      solid (on the left of a -> b)
@@ -10,17 +10,15 @@
  * given the facet another node, the nearest facet holds it from then on. */
 #ifndef CORACLE_GAUGES_H
 #define CORACLE_GAUGES_H
-#include "common/link/case_file.h"
 #include "common/link/coracle.h"
 #include "common/output/checkpoint.h"
+#include "common/program/gauge_case.h"
 #include "coupler/geometry/solid_state.h"
 
-enum { GAUGES_MAX = 64 };
-
 typedef struct {
-  const char *path;            /* of the case file, borrowed */
-  int n, probe[GAUGES_MAX];    /* index in fluid.probes */
-  double point[GAUGES_MAX][2]; /* m, at the start of the run */
+  const char *path;                 /* of the case file, borrowed */
+  int n, probe[CASE_GAUGES_MAX];    /* index in fluid.probes */
+  double point[CASE_GAUGES_MAX][2]; /* m, at the start of the run */
 } GaugesCase;
 
 /* Not collective. */

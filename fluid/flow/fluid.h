@@ -117,6 +117,7 @@ const double *FluidDensity(Fluid fluid);   /* [ne] */
 const double *FluidViscosity(Fluid fluid); /* [ne] */
 /* start[2][3]: where the implicit inertia of element e starts from in the current step (solid_coupling.h). */
 void FluidStartVelocity(Fluid fluid, int e, double start[]);
+const double *FluidGravity(Fluid fluid);       /* [2] m/s2, of the step */
 const double *FluidSolidFraction(Fluid fluid); /* [ne] alpha_s */
 PhaseTransport FluidPhases(Fluid fluid);       /* NULL: one fluid */
 /* [ne][2] N/m, with phases: CoracleFlow.remainder of the step. */

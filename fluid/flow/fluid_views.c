@@ -39,6 +39,11 @@ void FluidStartVelocity(Fluid f, int e, double start[])
 {
   SolidCouplingStart(f->solid, e, FluidVelocity(f) + 6 * e, start);
 }
+const double *FluidGravity(Fluid f)
+{
+  return f->setup.gravity;
+}
+
 const double *FluidSolidFraction(Fluid f)
 {
   return SolidCouplingFraction(f->solid);

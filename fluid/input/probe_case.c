@@ -4,7 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const KINDS[] = {"point", "line", "solid_point", "surface", "phase", "flow", NULL};
+static const char *const KINDS[] = {"point",   "line",  "solid_point", "solid_line",
+                                    "surface", "phase", "flow",        NULL};
 
 static const char *Key(int k, const char *what)
 {
@@ -26,8 +27,9 @@ static ProbeKind ReadKind(CoracleCase c, int k)
     n++;
   }
   if (n != 1)
-    CoracleCaseRefuse(c, Key(k, ""),
-                      "expected one of point, line, solid_point, surface, phase, flow, found %d of them", n);
+    CoracleCaseRefuse(
+        c, Key(k, ""),
+        "expected one of point, line, solid_point, solid_line, surface, phase, flow, found %d of them", n);
   return (ProbeKind)kind;
 }
 
@@ -84,9 +86,10 @@ static void ReadEnds(CoracleCase c, int k, Probe *p)
 static void ReadPlace(CoracleCase c, const PhaseNames *names, ProbeCase *list, int k)
 {
   Probe *p = &list->probe[k];
+  double gauge[CASE_GAUGES_MAX][2];
   if (p->kind == PROBE_LINE || p->kind == PROBE_SURFACE || p->kind == PROBE_FLOW)
     ReadEnds(c, k, p);
-  else if (p->kind != PROBE_PHASE)
+  else if (p->kind == PROBE_POINT)
     CoracleCaseVector(c, Key(k, KINDS[p->kind]), 2, p->from);
   switch (p->kind) {
   case PROBE_LINE:
@@ -97,11 +100,16 @@ static void ReadPlace(CoracleCase c, const PhaseNames *names, ProbeCase *list, i
     AddFixed(c, list, k);
     break;
   case PROBE_GAUGE:
+  case PROBE_FACE:
     p->distance = ReadDistance(c, k);
     p->behind =
         BEHIND * (p->distance > 0.0 ? p->distance
                                     : CoracleCaseNumberOr(c, "fluid.adapt.size_min", 0.0, 0.0, HUGE_VAL));
-    p->first = list->ngauges++;
+    p->first = list->ngauges;
+    p->n = CaseGauges(c, k, gauge);
+    list->ngauges += p->n;
+    if (list->ngauges > CASE_GAUGES_MAX)
+      CoracleCaseRefuse(c, CaseGaugeKey(c, k), "more than %d gauges on solids", CASE_GAUGES_MAX);
     break;
   case PROBE_SURFACE:
   case PROBE_PHASE:

@@ -1,17 +1,16 @@
 #include "fluid/output/probes.h"
 #include "common/output/output.h"
-#include "common/space/p2.h"
 #include "fluid/input/probe_case.h"
 #include "fluid/output/flow_gauge.h"
 #include "fluid/output/locate.h"
 #include "fluid/output/phase_gauge.h"
+#include "fluid/output/place_values.h"
+#include "fluid/output/solid_gauge.h"
 #include "fluid/output/surface_gauge.h"
 #include <stdio.h>
 
-/* The numbers of a point (u, v, p, rho), of a gauge or a surface, of a phase. */
-enum { VALUES = 4, FOLLOWING = 3, WHOLE = 6, COLUMN_LENGTH = SERIES_NAME_MAX + 24 };
-/* Of an element: a gauge's place in it is not in the fluid. */
-#define MOSTLY_SOLID 0.9
+/* The numbers of a gauge or a surface, of a phase, of a force and its moment. */
+enum { FOLLOWING = 3, WHOLE = 6, FORCE = 3, COLUMN_LENGTH = SERIES_NAME_MAX + 24 };
 
 struct Probes_s {
   MPI_Comm comm;
@@ -21,81 +20,6 @@ struct Probes_s {
 };
 
 /* --- values --------------------------------------------------------------------------------------------- */
-
-/* value[npoints][VALUES] at the places, on all ranks; nan outside of the mesh. */
-static PetscErrorCode Values(const Places *places, Fluid fluid, double value[][VALUES])
-{
-  const Mesh *m = FluidMesh(fluid);
-  const double *u = FluidVelocity(fluid), *p = FluidPressure(fluid), *rho = FluidDensity(fluid);
-  const int *node = FluidPressureSpace(fluid)->node;
-  PetscFunctionBeginUser;
-  PetscCall(PetscArrayzero(&value[0][0], VALUES * (size_t)places->npoints));
-  for (int k = 0; k < places->n; k++) {
-    const Place *at = &places->place[k];
-    double nodal[6], *sum = value[at->point];
-    for (int i = 0; i < 6; i++) nodal[i] = p[node[6 * at->element + i]];
-    for (int c = 0; c < 2; c++)
-      for (int i = 0; i < 3; i++) sum[c] += at->share * at->n[i] * u[6 * at->element + 3 * c + i];
-    sum[2] += at->share * P2Evaluate(nodal, at->n);
-    sum[3] += at->share * rho[at->element];
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, value, VALUES * places->npoints, MPI_DOUBLE, MPI_SUM, m->comm));
-  for (int k = 0; k < places->npoints; k++)
-    for (int i = 0; i < VALUES && places->outside[k] > 0.0; i++) value[k][i] = NAN;
-  PetscFunctionReturn(0);
-}
-
-/* x[ngauges][2]: before each gauge, or behind its face, of those alone that are blocked where that is given; one that is out of
- * the mesh's bounds by no more than contact needs, as at the corner of a body that stands on the floor, is put on them. */
-static void GaugePoints(const Probes p, const Mesh *m, const CoracleGauge gauge[], PetscBool before,
-                        const double blocked[], double x[][2])
-{
-  for (int k = 0; k < p->list.n; k++) {
-    const Probe *probe = &p->list.probe[k];
-    if (probe->kind != PROBE_GAUGE || (blocked && blocked[probe->first] == 0.0)) continue;
-    const CoracleGauge *g = &gauge[probe->first];
-    for (int c = 0; c < 2; c++) {
-      const double at = g->x[c] + (before ? probe->distance : -probe->behind) * g->normal[c],
-                   inside = fmin(fmax(at, m->lower[c]), m->upper[c]);
-      x[probe->first][c] = fabs(at - inside) <= probe->behind ? inside : at;
-    }
-  }
-}
-
-/* blocked[n]: whether a place is outside of the mesh, or a solid has most of its element; *any becomes 1 if one is. */
-static PetscErrorCode Blocked(const Places *places, Fluid fluid, double blocked[], int *any)
-{
-  const double *alpha = FluidSolidFraction(fluid);
-  PetscFunctionBeginUser;
-  PetscCall(PetscArrayzero(blocked, places->npoints));
-  for (int k = 0; k < places->n; k++)
-    blocked[places->place[k].point] += alpha[places->place[k].element] > MOSTLY_SOLID;
-  PetscCallMPI(
-      MPI_Allreduce(MPI_IN_PLACE, blocked, places->npoints, MPI_DOUBLE, MPI_SUM, FluidMesh(fluid)->comm));
-  for (int k = 0; k < places->npoints; k++) {
-    blocked[k] += places->outside[k];
-    *any |= blocked[k] > 0.0;
-  }
-  PetscFunctionReturn(0);
-}
-
-/* The pressure before each gauge, at value[n][2]; where a floor or another solid is, behind its face. */
-static PetscErrorCode GaugeValues(Probes p, Fluid fluid, const CoracleGauge gauge[], double value[][VALUES])
-{
-  const int n = p->list.ngauges;
-  double x[PROBES_MAX][2], blocked[PROBES_MAX];
-  int any = 0;
-  PetscFunctionBeginUser;
-  GaugePoints(p, FluidMesh(fluid), gauge, PETSC_TRUE, NULL, x);
-  PetscCall(PlacesLocate(FluidMesh(fluid), n, (const double(*)[2])x, &p->moving));
-  PetscCall(Blocked(&p->moving, fluid, blocked, &any));
-  if (any) {
-    GaugePoints(p, FluidMesh(fluid), gauge, PETSC_FALSE, blocked, x);
-    PetscCall(PlacesLocate(FluidMesh(fluid), n, (const double(*)[2])x, &p->moving));
-  }
-  PetscCall(Values(&p->moving, fluid, value));
-  PetscFunctionReturn(0);
-}
 
 /* The numbers of a point in a row. */
 static int Width(const Probes p, const Probe *probe)
@@ -131,9 +55,22 @@ static PetscErrorCode PhaseValues(const Probe *probe, Fluid fluid, double value[
   PetscFunctionReturn(0);
 }
 
-/* The numbers of a probe in a row: fixed and moving are the values at the fixed points and before the gauges. */
+static void GaugeValues(const Probe *probe, const CoracleGauge gauge[], const GaugeReading reading[],
+                        double row[])
+{
+  const GaugeReading *of = reading + probe->first;
+  for (int i = 0; i < probe->n; i++, row += FOLLOWING) {
+    row[0] = of[i].x[0];
+    row[1] = of[i].x[1];
+    row[2] = of[i].pressure;
+  }
+  if (probe->kind == PROBE_FACE) SolidGaugeForce(probe->n, gauge + probe->first, of, row);
+}
+
+/* The numbers of a probe in a row; fixed: the values at the fixed points. */
 static PetscErrorCode ProbeValues(Probes p, const Probe *probe, Fluid fluid, const CoracleGauge gauge[],
-                                  const double fixed[][VALUES], const double moving[][VALUES], double row[])
+                                  const GaugeReading reading[], const double fixed[][PLACE_VALUES],
+                                  double row[])
 {
   PetscFunctionBeginUser;
   switch (probe->kind) {
@@ -147,8 +84,8 @@ static PetscErrorCode ProbeValues(Probes p, const Probe *probe, Fluid fluid, con
     PetscCall(PhaseValues(probe, fluid, row));
     break;
   case PROBE_GAUGE:
-    PetscCall(PetscArraycpy(row, gauge[probe->first].x, 2));
-    row[2] = moving[probe->first][2];
+  case PROBE_FACE:
+    GaugeValues(probe, gauge, reading, row);
     break;
   case PROBE_POINT:
   case PROBE_LINE:
@@ -160,21 +97,21 @@ static PetscErrorCode ProbeValues(Probes p, const Probe *probe, Fluid fluid, con
 
 PetscErrorCode ProbesStep(Probes p, Fluid fluid, int n, const CoracleGauge gauge[])
 {
-  double fixed[PROBE_POINTS_MAX][VALUES], moving[PROBES_MAX][VALUES],
-      row[1 + VALUES * PROBE_POINTS_MAX + WHOLE * PROBES_MAX];
+  double fixed[PROBE_POINTS_MAX][PLACE_VALUES],
+      row[1 + PLACE_VALUES * PROBE_POINTS_MAX + FOLLOWING * CASE_GAUGES_MAX + WHOLE * PROBES_MAX];
+  GaugeReading reading[CASE_GAUGES_MAX];
   double *next = row;
   PetscFunctionBeginUser;
   if (!p) PetscFunctionReturn(0);
   PetscCheck(n == p->list.ngauges, p->comm, PETSC_ERR_PLIB,
              "the coupler gives %d gauges on the solid, the case has %d", n, p->list.ngauges);
-  PetscCall(Values(&p->fixed, fluid, fixed));
-  if (n) PetscCall(GaugeValues(p, fluid, gauge, moving));
+  PetscCall(PlacesValues(&p->fixed, fluid, fixed));
+  if (n) PetscCall(SolidGaugeRead(&p->list, fluid, gauge, &p->moving, reading));
   *next++ = FluidGetStats(fluid)->t;
   for (int k = 0; k < p->list.n; k++) {
     const Probe *probe = &p->list.probe[k];
-    PetscCall(ProbeValues(p, probe, fluid, gauge, (const double(*)[VALUES])fixed,
-                          (const double(*)[VALUES])moving, next));
-    next += probe->n * Width(p, probe);
+    PetscCall(ProbeValues(p, probe, fluid, gauge, reading, (const double(*)[PLACE_VALUES])fixed, next));
+    next += probe->n * Width(p, probe) + (probe->kind == PROBE_FACE ? FORCE : 0);
   }
   PetscCall(SeriesRow(p->series, row));
   PetscFunctionReturn(0);
@@ -235,11 +172,17 @@ static void AddColumns(const Probes p, const Probe *probe, int i, char **end)
                            *const PHASE[] = {"area [m2]", "x [m]",   "y [m]",
                                              "u [m/s]",   "v [m/s]", "interface [m]"},
                            *const THROUGH[] = {"flow [m2/s]"};
-  static const char *const *const COLUMNS[] = {FLOW, FLOW, GAUGE, SURFACE, PHASE, THROUGH};
+  static const char *const *const COLUMNS[] = {FLOW, FLOW, GAUGE, GAUGE, SURFACE, PHASE, THROUGH};
   char number[16] = "";
-  if (probe->kind == PROBE_LINE) (void)snprintf(number, sizeof number, "%d", i);
+  if (probe->kind == PROBE_LINE || probe->kind == PROBE_FACE) (void)snprintf(number, sizeof number, "%d", i);
   for (int k = 0; k < Width(p, probe); k++)
     *end += snprintf(*end, COLUMN_LENGTH, ",%s%s_%s", probe->name, number, COLUMNS[probe->kind][k]);
+}
+
+static void AddForce(const Probe *probe, char **end)
+{
+  static const char *const COLUMNS[FORCE] = {"force_x [N/m]", "force_y [N/m]", "moment [N]"};
+  for (int k = 0; k < FORCE; k++) *end += snprintf(*end, COLUMN_LENGTH, ",%s_%s", probe->name, COLUMNS[k]);
 }
 
 PetscErrorCode ProbesOpen(Probes p, CoracleCase c, Checkpoint from)
@@ -247,10 +190,13 @@ PetscErrorCode ProbesOpen(Probes p, CoracleCase c, Checkpoint from)
   char *columns, *end;
   PetscFunctionBeginUser;
   if (!p) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc1(COLUMN_LENGTH * (1 + WHOLE * (size_t)(p->list.nfixed + p->list.n)), &columns));
+  PetscCall(PetscMalloc1(COLUMN_LENGTH * (1 + WHOLE * (size_t)(p->list.nfixed + p->list.ngauges + p->list.n)),
+                         &columns));
   end = columns + sprintf(columns, "t [s]");
-  for (int k = 0; k < p->list.n; k++)
+  for (int k = 0; k < p->list.n; k++) {
     for (int i = 0; i < p->list.probe[k].n; i++) AddColumns(p, &p->list.probe[k], i, &end);
+    if (p->list.probe[k].kind == PROBE_FACE) AddForce(&p->list.probe[k], &end);
+  }
   PetscCall(SeriesCreate(p->comm, CoracleCaseString(c, "output.folder"), "fluid_probes", columns, from,
                          &p->series));
   PetscCall(PetscFree(columns));
