@@ -98,15 +98,14 @@ static PetscErrorCode SaveIfDue(const Run *m, PetscBool ends, double *last)
 static PetscErrorCode Advance(Run *m)
 {
   const double start = MPI_Wtime(), begun = SolidGetStats(m->solid)->t, length = m->keys.end - begun;
-  const int steps = (int)TimeSteps(length, m->longest);
-  const double dt = length / steps;
+  const double steps = TimeSteps(length, m->longest), dt = length / steps;
   double said = start, saved = start, h;
   EarlyStop early_stop;
   const char *why;
   PetscBool ends = PETSC_FALSE;
   PetscFunctionBeginUser;
   PetscCall(EarlyStopBegin(m->keys.folder, m->keys.walltime, start - m->totals.start, &early_stop));
-  for (int step = 1; !ends; step++) {
+  for (double step = 1.0; !ends; step += 1.0) {
     PetscCall(SolidStart(m->solid, dt, NULL));
     while (SolidRemaining(m->solid)) PetscCall(SolidSubstep(m->solid, &h));
     PetscCall(SolidStepFailure(m->solid, &why));
@@ -115,7 +114,7 @@ static PetscErrorCode Advance(Run *m)
     PetscCall(WriterStep(m->writer, m->solid, 0.0));
     m->totals.steps++;
     Say(m, dt, begun, start, &said);
-    ends = (PetscBool)(step == steps);
+    ends = (PetscBool)(step >= steps);
     if (!ends) PetscCall(EarlyStopDue(&early_stop, SolidGetStats(m->solid)->t, &ends));
     PetscCall(SaveIfDue(m, ends, &saved));
   }

@@ -7,7 +7,7 @@ void BudgetStart(Solid s)
   s->budget = (SolidBudget){.work = 0.0};
   memset(s->reaction, 0, (size_t)s->nbodies * sizeof *s->reaction);
   memset(s->momentum, 0, (size_t)s->nbodies * sizeof *s->momentum);
-  memset(s->motion_impulse, 0, (size_t)s->nmotions * sizeof *s->motion_impulse);
+  for (int k = 0; k < s->nmotions; k++) memset(s->motion_impulse[k], 0, sizeof s->motion_impulse[k]);
   for (int n = 0; n < s->nnodes; n++)
     for (int c = 0; c < 2 && SolidOwns(s, n); c++)
       s->momentum[s->node_body[n]][c] += s->mass[n] * s->v[2 * n + c];
@@ -17,14 +17,14 @@ void BudgetStart(Solid s)
 void BudgetAddSubstep(Solid s)
 {
   const Point walls = ContactWalls(s->contact);
-  s->budget.walls[0] += s->h * walls.x;
-  s->budget.walls[1] += s->h * walls.y;
+  s->budget.walls[0] += s->kick * walls.x;
+  s->budget.walls[1] += s->kick * walls.y;
   for (int k = 0; k < s->nfixed; k++) {
     const int n = s->fixed[k];
     if (!SolidOwns(s, n)) continue;
     for (int c = 0; c < 2; c++)
       s->reaction[s->node_body[n]][c] -=
-          s->h * (s->force[2 * n + c] + s->load[2 * n + c] + s->mass[n] * s->setup.gravity[c]);
+          s->kick * s->force[2 * n + c] + s->h * (s->load[2 * n + c] + s->mass[n] * s->setup.gravity[c]);
   }
 }
 

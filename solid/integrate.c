@@ -6,6 +6,7 @@
 
 enum { CHECK_EVERY = 20 }; /* substeps between two checks of the stability limit, at most */
 #define KEEP 0.75          /* of the allowed length, down to which the last one is kept */
+#define LENGTHEN 1.003     /* from one plan to the next, at most */
 
 static double Clock(void)
 {
@@ -51,13 +52,31 @@ PetscErrorCode SolidLimit(Solid s, double *limit)
 }
 
 /* moved: how far the farthest surface node is from its place at the last search; speed, acceleration: largest
- * now; failed: some rank cannot make the step. */
+ * now, or of what is prescribed until the next check; failed: some rank cannot make the step. */
 typedef struct {
   double moved, speed, acceleration;
   PetscBool failed;
 } BulkMotion;
 
-static PetscErrorCode MotionNow(Solid s, BulkMotion *m)
+/* The largest speed that a motion will give a node within the window, s: it may change at once. */
+static double PrescribedSpeed(const Solid s, double window)
+{
+  double largest = 0.0, velocity = 0.0, turn = 0.0, pivot[2] = {0.0, 0.0};
+  for (int k = 0, motion = -1; k < s->nprescribed; k++) {
+    const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
+    const double *x = s->x + 2 * s->prescribed[k].node;
+    if (!PrescribedActs(d, s->stats.t)) continue;
+    if (motion != s->prescribed[k].motion) {
+      motion = s->prescribed[k].motion;
+      PrescribedLargest(d, s->stats.t, window, &velocity, &turn);
+      PrescribedPivot(d, s->stats.t, pivot);
+    }
+    largest = fmax(largest, velocity + turn * hypot(x[0] - pivot[0], x[1] - pivot[1]));
+  }
+  return largest;
+}
+
+static PetscErrorCode MotionNow(Solid s, double window, BulkMotion *m)
 {
   const double *force;
   double largest[4] = {0.0, 0.0, 0.0, 0.0};
@@ -74,6 +93,8 @@ static PetscErrorCode MotionNow(Solid s, BulkMotion *m)
     largest[1] = fmax(largest[1], speed);
     largest[2] = fmax(largest[2], acceleration);
   }
+  const double prescribed = PrescribedSpeed(s, window);
+  largest[1] = fmax(largest[1], prescribed * prescribed);
   largest[0] = ContactMoved(s->contact, s);
   largest[3] = s->failure[0] ? 1.0 : 0.0;
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 4, MPI_DOUBLE, MPI_MAX, s->comm));
@@ -99,6 +120,7 @@ static int SafeSubsteps(const BulkMotion *m, double skin, double h)
  * until the next check; *failed: none. */
 static PetscErrorCode CheckContact(Solid s, double *limit, int *substeps, PetscBool *failed)
 {
+  const double *force;
   BulkMotion m;
   double after;
   PetscFunctionBeginUser;
@@ -107,10 +129,11 @@ static PetscErrorCode CheckContact(Solid s, double *limit, int *substeps, PetscB
     s->force_valid = PETSC_FALSE;
   }
   PetscCall(SolidLimit(s, limit));
-  PetscCall(MotionNow(s, &m));
+  PetscCall(SolidForces(s, &force)); /* with how fast rigid bodies turn */
+  const double h = fmin(fmin(s->setup.courant * *limit, RigidLongestSubstep(s)), s->dt);
+  PetscCall(MotionNow(s, CHECK_EVERY * h, &m));
   *failed = m.failed;
   if (*failed) PetscFunctionReturn(0);
-  const double h = fmin(fmin(s->setup.courant * *limit, RigidLongestSubstep(s)), s->dt);
   if (Travel(&m, CHECK_EVERY, h) > ContactSkin(s->contact)) {
     const BulkMotion from_here = {0.0, m.speed, m.acceleration, PETSC_FALSE};
     PetscCall(ContactSearch(s->contact, s, 2.0 * Travel(&from_here, 2, h)));
@@ -119,17 +142,22 @@ static PetscErrorCode CheckContact(Solid s, double *limit, int *substeps, PetscB
     s->force_valid = PETSC_FALSE;
     m.moved = 0.0;
   }
-  *substeps = SafeSubsteps(&m, ContactSkin(s->contact), h);
+  *substeps = (int)fmin(SafeSubsteps(&m, ContactSkin(s->contact), h),
+                        fmax(1.0, LoadsSteadyFor(s, CHECK_EVERY * h) / h));
   ContactSetTravel(s->contact, Travel(&m, *substeps, h));
   PetscFunctionReturn(0);
 }
 
-/* Keeps the last substep's length while that is allowed and not much shorter than what is: every change of
- * length costs the scheme some of its energy conservation, and changes in time with a vibration would feed
- * it. */
-static double ChooseLength(const Solid s, double allowed)
+/* At once as short as is allowed, kept while that is not much less than what is allowed, and slowly longer: every change
+ * of length costs the scheme some of its energy conservation, and a length that goes up and down with a vibration, as the
+ * limit does where bodies deform, feeds it (a ball of rubber that fell from 1 m rose to 4 m). */
+static double ChooseLength(Solid s, double allowed)
 {
-  return s->moved_for <= allowed && s->moved_for > KEEP * allowed ? s->moved_for : allowed;
+  if (s->planned <= 0.0 || s->planned > allowed)
+    s->planned = allowed;
+  else if (s->planned < KEEP * allowed)
+    s->planned *= LENGTHEN;
+  return s->planned;
 }
 
 /* Substeps for the rest of the step, none longer than courant times the limit; none where a rank cannot make it. */
@@ -145,7 +173,17 @@ static PetscErrorCode Plan(Solid s)
     PetscFunctionReturn(0);
   }
   const double length = ChooseLength(s, fmin(s->setup.courant * limit, RigidLongestSubstep(s)));
-  s->remaining = (int)TimeSteps(rest, length);
+  const double substeps = TimeSteps(rest, length);
+  if (substeps > INT_MAX) {
+    (void)snprintf(
+        s->failure, sizeof s->failure,
+        "a step of %g s would take %.3g substeps of %g s, which the smallest and stiffest elements need: "
+        "shorten time.dt_max",
+        s->dt, substeps, length);
+    s->remaining = 0;
+    PetscFunctionReturn(0);
+  }
+  s->remaining = (int)substeps;
   s->h = rest / s->remaining;
   s->stats.seconds[3] += Clock() - start;
   PetscFunctionReturn(0);
@@ -198,37 +236,47 @@ PetscBool SolidRemaining(Solid s)
   return (PetscBool)(s->remaining > 0);
 }
 
-/* Prescribed nodes go their own way: from where they were (before: 1, puts it down) by their velocity's mean. */
-static void MovePrescribed(Solid s, int before)
+/* Where prescribed nodes are before they move. */
+static void KeepPrescribed(Solid s)
+{
+  for (int k = 0; k < s->nprescribed; k++)
+    for (int c = 0; c < 2; c++) {
+      s->position_before[2 * k + c] = s->x[2 * s->prescribed[k].node + c];
+      s->is_taken[2 * s->prescribed[k].node + c] = 0;
+    }
+}
+
+/* They go their own way: from there by their velocity's mean; of several motions of a node the last one that acts has it. */
+static void MovePrescribed(Solid s)
 {
   PrescribedSubstep substep = {0}; /* of the motion of the node before */
-  double v[2] = {0.0, 0.0};
-  for (int k = 0, motion = -1; k < s->nprescribed; k++) {
+  double v[2];
+  for (int k = s->nprescribed - 1, motion = -1; k >= 0; k--) {
     const int n = s->prescribed[k].node;
     const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
     if (!PrescribedActs(d, s->stats.t)) continue;
-    if (!before && motion != s->prescribed[k].motion) substep = PrescribedSubstepOf(d, s->stats.t, s->h);
-    const double *at = s->position_before + 2 * k;
-    if (!before) PrescribedNodeVelocity(&substep, at, v);
-    const double half = 0.5 * s->h, arm[2] = {substep.pivot[1] - at[1] + half * (substep.velocity[1] - v[1]),
-                                              at[0] - substep.pivot[0] + half * (v[0] - substep.velocity[0])};
+    if (motion != s->prescribed[k].motion) substep = PrescribedSubstepOf(d, s->stats.t, s->h);
+    motion = s->prescribed[k].motion;
+    const double *at = s->position_before + 2 * k, half = 0.5 * s->h;
+    PrescribedNodeVelocity(&substep, at, v);
+    const double arm[2] = {substep.pivot[1] - at[1] + half * (substep.velocity[1] - v[1]),
+                           at[0] - substep.pivot[0] + half * (v[0] - substep.velocity[0])};
     for (int c = 0; c < 2; c++) {
-      if (before) {
-        s->position_before[2 * k + c] = s->x[2 * n + c];
-      } else if (d->prescribed[c]) {
-        BudgetAddPrescribed(s, s->prescribed[k].motion, n, c, v[c], arm[c]);
-        s->v[2 * n + c] = v[c];
-        s->x[2 * n + c] = s->position_before[2 * k + c] + s->h * v[c];
-      }
+      if (!d->prescribed[c] || s->is_taken[2 * n + c]) continue;
+      s->is_taken[2 * n + c] = 1;
+      BudgetAddPrescribed(s, motion, n, c, v[c], arm[c]);
+      s->v[2 * n + c] = v[c];
+      s->x[2 * n + c] = at[c] + s->h * v[c];
     }
-    if (!before) motion = s->prescribed[k].motion;
   }
 }
 
-/* v += h (f/m + g - d v), d the decay rate and v that at the end; x += h v; fixed nodes stay. */
+/* v += k f/m + h (l/m + g - d v), f internal and contact forces, l the fluid's, d the decay rate and v that at the end; x += h v; fixed nodes stay.
+ * k: half of this substep and of the one before: v is of the middle of a substep, which makes the scheme of second order where h changes, too, and
+ * vibrations keep their energy.  The fluid's momentum is the load times the step, whatever h did before it. */
 static void Move(Solid s)
 {
-  const double h = s->h, *restrict force = s->force, *restrict load = s->load,
+  const double h = s->h, k = s->kick, *restrict force = s->force, *restrict load = s->load,
                *restrict inverse_mass = s->inverse_mass;
   const double kept = 1.0 / (1.0 + h * s->setup.decay_rate);
   double *restrict x = s->x, *restrict v = s->v;
@@ -236,7 +284,7 @@ static void Move(Solid s)
     const double free_node = inverse_mass[n] > 0.0 ? h : 0.0;
     for (int c = 0; c < 2; c++) {
       v[2 * n + c] +=
-          h * inverse_mass[n] * (force[2 * n + c] + load[2 * n + c]) + free_node * s->setup.gravity[c];
+          inverse_mass[n] * (k * force[2 * n + c] + h * load[2 * n + c]) + free_node * s->setup.gravity[c];
       v[2 * n + c] *= kept;
       x[2 * n + c] += h * v[2 * n + c];
     }
@@ -268,15 +316,16 @@ PetscErrorCode SolidSubstep(Solid s, double *h)
   if (s->remaining > 0 && s->joints) PetscCall(Crack(s));
   if (s->size == 1 && s->failure[0]) s->remaining = 0;
   if (s->remaining == 0) PetscFunctionReturn(0);
+  s->kick = s->moved_for > 0.0 ? 0.5 * (s->moved_for + s->h) : s->h;
   ContactCommit(s->contact);
   BudgetAddSubstep(s);
-  MovePrescribed(s, 1);
+  KeepPrescribed(s);
   Move(s);
   PetscCall(RigidMove(s));
   BudgetAddDecay(s);
   SpringsAddBudget(s);
   LoadsAddBudget(s);
-  MovePrescribed(s, 0);
+  MovePrescribed(s);
   s->force_valid = PETSC_FALSE;
   s->moved_for = s->h;
   *h = s->h;

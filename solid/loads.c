@@ -61,13 +61,37 @@ void LoadsAddForces(Solid s)
   }
 }
 
+/* The same of a table. */
+static double SteadyFor(const TimeTable *table, double t, double window)
+{
+  double until = t;
+  if (!table->nrows) return window;
+  for (int k = TimeTableNext(table, t); k < table->nrows && TimeTableAt(table, k, 0) < t + window; k++) {
+    for (int c = 1; c < table->width; c++)
+      if (fabs(TimeTableAt(table, k, c)) > 2.0 * fabs(TimeTableValue(table, c, t))) return until - t;
+    until = TimeTableAt(table, k, 0);
+  }
+  return window;
+}
+
+double LoadsSteadyFor(const Solid s, double window)
+{
+  double least = window;
+  for (int k = 0; k < s->nboundary_loads; k++) {
+    const BoundaryLoad *load = &s->boundary_load[k];
+    least = fmin(least, fmin(SteadyFor(&load->pressure, s->stats.t, window),
+                             SteadyFor(&load->traction, s->stats.t, window)));
+  }
+  return least;
+}
+
 void LoadsAddBudget(Solid s)
 {
   for (int k = 0; k < s->nloaded; k++) {
     int node[3];
     const int n = EdgeNodes(s, &s->loaded[k], node);
     for (int i = 0; i < 2 * n; i++) {
-      const double impulse = s->h * s->loaded_force[k][i / 2][i % 2];
+      const double impulse = s->kick * s->loaded_force[k][i / 2][i % 2];
       s->reaction[s->node_body[node[i / 2]]][i % 2] += impulse;
       s->budget.reaction_work += impulse * s->v[2 * node[i / 2] + i % 2];
     }

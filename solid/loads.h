@@ -9,6 +9,9 @@ PetscErrorCode LoadsTake(Solid s, const Model *a, const int part[], const int lo
 PetscErrorCode LoadsFree(Solid s);
 /* Not collective: adds to force what they are at the present time and positions. */
 void LoadsAddForces(Solid s);
+/* Not collective, the same on all ranks: how long, s, of the coming window no load becomes more than twice what it is now, by the rows of its table:
+ * until the row before the first that is. */
+double LoadsSteadyFor(const Solid s, double window);
 /* Not collective: what the last forces do in the substep, after its nodes have moved. */
 void LoadsAddBudget(Solid s);
 #endif

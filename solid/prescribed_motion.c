@@ -33,6 +33,24 @@ void PrescribedPivot(const PrescribedMotion *d, double t, double pivot[2])
   for (int c = 0; c < 2; c++) pivot[c] = d->pivot[c] + d->row[1 + c] * IntegralOfOneRow(d, t);
 }
 
+/* Of a column's absolute values. */
+static double LargestOf(const TimeTable *t, int column, double from, double length)
+{
+  double largest =
+      fmax(fabs(TimeTableValue(t, column, from)), fabs(TimeTableValue(t, column, from + length)));
+  for (int k = TimeTableNext(t, from); k < t->nrows && TimeTableAt(t, k, 0) < from + length; k++)
+    largest = fmax(largest, fabs(TimeTableAt(t, k, column)));
+  return largest;
+}
+
+void PrescribedLargest(const PrescribedMotion *d, double from, double length, double *velocity,
+                       double *angular_velocity)
+{
+  const TimeTable table = {d->nrows, 3, d->row};
+  *velocity = hypot(LargestOf(&table, 1, from, length), LargestOf(&table, 2, from, length));
+  *angular_velocity = d->spin.nrows ? LargestOf(&d->spin, 1, from, length) : fabs(d->angular_velocity);
+}
+
 PrescribedSubstep PrescribedSubstepOf(const PrescribedMotion *d, double from, double h)
 {
   PrescribedSubstep s = {

@@ -38,6 +38,9 @@ double PrescribedVelocity(const PrescribedMotion *d, int component, double from,
 /* The mean of the angular velocity, rad/s, and where the pivot is at t, m. */
 double PrescribedRotation(const PrescribedMotion *d, double from, double h);
 void PrescribedPivot(const PrescribedMotion *d, double t, double pivot[2]);
+/* No less than the largest velocity, m/s, and angular velocity, rad/s, that it has over from .. from + length. */
+void PrescribedLargest(const PrescribedMotion *d, double from, double length, double *velocity,
+                       double *angular_velocity);
 /* What a substep of h has for all nodes of a motion: the mean velocity of the pivot, where it begins, and (turn - 1)/h. */
 typedef struct {
   double velocity[2], pivot[2], parallel, normal;

@@ -3,11 +3,12 @@
 #define FEWEST_SUBSTEPS 10.0 /* of a step */
 #define MOST_TURN 0.05       /* of a substep, rad */
 
-/* Over a body's nodes, of forces or momenta q of them, first the sums and then what they make of the body as a whole. */
+/* Over a body's nodes, of forces or momenta q of them, first the sums and then what they make of the body as a whole; y = x less where the mass centre was
+ * at the start, so that moments do not cancel where coordinates are large. */
 typedef struct {
-  double centre[2]; /* sum m x; the mass centre, m */
+  double centre[2]; /* sum m y; the mass centre, m */
   double linear[2]; /* sum q; over the mass */
-  double angular;   /* sum x x q; that about the centre over the moment of inertia */
+  double angular;   /* sum y x q; that about the centre over the moment of inertia */
 } RigidSums;
 
 PetscErrorCode RigidFind(Solid s)
@@ -34,13 +35,15 @@ PetscErrorCode RigidFree(Solid s)
 
 static void Add(const Solid s, int node, Point x, Point q, RigidSums sum[])
 {
-  RigidSums *k = &sum[s->rigid_index[s->node_body[node]]];
+  const int body = s->node_body[node];
+  RigidSums *k = &sum[s->rigid_index[body]];
+  const Point y = PointMinus(x, PointAt(s->body[body].centre, 0));
   const double m = s->mass[node];
-  k->centre[0] += m * x.x;
-  k->centre[1] += m * x.y;
+  k->centre[0] += m * y.x;
+  k->centre[1] += m * y.y;
   k->linear[0] += q.x;
   k->linear[1] += q.y;
-  k->angular += PointCross(x, q);
+  k->angular += PointCross(y, q);
 }
 
 /* Bodies that move as prescribed, if only in one component, do not turn by themselves: known where they have nodes. */
@@ -70,7 +73,10 @@ static void Complete(Solid s, RigidSums sum[])
     RigidSums *k = &sum[s->rigid_index[b]];
     for (int c = 0; c < 2; c++) k->centre[c] /= body->mass;
     k->angular = (k->angular - PointCross(PointAt(k->centre, 0), PointAt(k->linear, 0))) / body->inertia;
-    for (int c = 0; c < 2; c++) k->linear[c] /= body->mass;
+    for (int c = 0; c < 2; c++) {
+      k->centre[c] += s->body[b].centre[c];
+      k->linear[c] /= body->mass;
+    }
   }
 }
 

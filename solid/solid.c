@@ -60,11 +60,16 @@ PetscErrorCode SolidFreeSubdomain(Solid s)
   PetscCall(
       PetscFree7(s->element, s->facet, s->facet_element, s->facet_side, s->facet_across, s->base, s->body));
   PetscCall(PetscFree(s->is_prescribed));
+  PetscCall(PetscFree(s->is_taken));
   PetscCall(PetscFree(s->reaction));
   PetscCall(PetscFree(s->momentum));
   PetscCall(PetscFree(s->motion_impulse));
   PetscCall(PetscFree(s->material));
-  PetscCall(PetscFree2(s->motion, s->motion_rows));
+  for (int k = 0; k < s->nmotions; k++) {
+    PetscCall(PetscFree(s->motion[k].row));
+    PetscCall(PetscFree(s->motion[k].spin.row));
+  }
+  PetscCall(PetscFree(s->motion));
   PetscCall(PetscFree(s->prescribed));
   PetscCall(PetscFree(s->position_before));
   PetscCall(LoadsFree(s));
@@ -135,11 +140,13 @@ PetscErrorCode SolidState(Solid s, int save)
     k->h = s->h;
     k->t = s->stats.t;
     k->moved_for = s->moved_for;
+    k->planned = s->planned;
   } else {
     s->balance = k->balance;
     s->h = k->h;
     s->stats.t = k->t;
     s->moved_for = k->moved_for;
+    s->planned = k->planned;
     s->force_valid = PETSC_FALSE;
   }
   PetscCall(ContactState(s->contact, save));

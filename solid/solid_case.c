@@ -4,6 +4,7 @@
 #include "solid/bodies/case_body.h"
 #include "solid/point_in_body.h"
 #include "solid/probes.h"
+#include <float.h>
 #include <stdio.h>
 
 /* Friction and damping of walls; absent: those of what touches them. */
@@ -128,9 +129,11 @@ static void ReadWalls(CoracleCase c, const Model *a, SolidSetup *setup)
   CoracleCaseVector(c, "solid.walls.lower", 2, setup->lower);
   CoracleCaseVector(c, "solid.walls.upper", 2, setup->upper);
   ReadWallContact(c, setup);
+  /* a body on a wall is not beyond it by the round-off of its coordinates */
   for (int n = 0; n < a->nnodes; n++)
     for (int k = 0; k < 2; k++)
-      if (a->x[2 * n + k] < setup->lower[k] || a->x[2 * n + k] > setup->upper[k])
+      if (fmax(setup->lower[k] - a->x[2 * n + k], a->x[2 * n + k] - setup->upper[k]) >
+          8.0 * DBL_EPSILON * fmax(fabs(a->x[2 * n]), fabs(a->x[2 * n + 1])))
         CoracleCaseRefuse(c, BodyKey(key, a->body[a->node_body[n]].entry, ""),
                           "the body reaches through solid.walls at (%g, %g)", a->x[2 * n], a->x[2 * n + 1]);
 }

@@ -52,7 +52,7 @@ typedef struct {
 
 /* What a step changes. */
 typedef struct {
-  double *x, *v, h, t, moved_for;
+  double *x, *v, h, t, moved_for, planned;
   int nnodes, nfacets, revision;
   Balance balance;
 } SavedState;
@@ -93,7 +93,8 @@ struct Solid_s {
   int nprescribed, nprescribed_first; /* now, and at the start: parts of split nodes come last */
   PrescribedNode *prescribed;         /* [nprescribed] */
   PrescribedMotion *motion;
-  double *motion_rows, *position_before; /* [nprescribed][2] room for places before a substep */
+  double *position_before; /* [nprescribed][2] room for places before a substep */
+  char *is_taken;          /* [nnodes][2] within a substep: a motion has moved it */
   int nmotions;
   /* rigid bodies (rigid.h): their number; of each body which it is, or -1; this rank's nodes in them; the largest angular velocity, 1/s */
   int nrigid, *rigid_index, nrigid_nodes, *rigid_node;
@@ -108,6 +109,8 @@ struct Solid_s {
   PetscBool linked;
   /* the current step */
   double dt, done, h, moved_for; /* moved_for: length of the last substep made, s */
+  double kick;                   /* s: what internal forces act for in a substep */
+  double planned;                /* s, of a substep; the step is divided into whole ones */
   double *start;                 /* [nnodes][2] positions when it began */
   double *interface_velocity, *mobility,
       *acceleration; /* [nnodes][2], [nnodes], [nnodes][2] of SolidUpdateInterfaceMotion; within a step the first is

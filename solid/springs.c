@@ -97,7 +97,7 @@ void SpringsAddBudget(Solid s)
       if (!node) continue;
       AtEnd(s, k, i, s->v, v);
       for (int c = 0; c < 2; c++) {
-        const double impulse = s->h * (i ? -s->spring_force[k][c] : s->spring_force[k][c]);
+        const double impulse = s->kick * (i ? -s->spring_force[k][c] : s->spring_force[k][c]);
         s->reaction[s->node_body[node[0]]][c] += impulse;
         s->budget.reaction_work += impulse * v[c];
       }

@@ -272,19 +272,20 @@ static PetscErrorCode ReadJoints(CoracleCase c, int body, JointSetup *joints, do
   PetscFunctionReturn(0);
 }
 
-/* position: of BodySetup, or NULL. */
-static void Shift(MeshSerial *mesh, double position[], JointSetup *joints, double (*box)[4], double dx,
-                  double dy)
+/* What of a body has a place: position: of BodySetup, or NULL; boxes of joints; pivots of motions. */
+static void Shift(MeshSerial *mesh, double position[], BodySetup *setup, double (*box)[4],
+                  BoundaryMotion prescribed[], double dx, double dy)
 {
   const double by[2] = {dx, dy};
   for (int k = 0; k < 2 * mesh->nv; k++) mesh->x[k] += by[k % 2];
   for (int k = 0; position && k < 2 * mesh->nv; k++) position[k] += by[k % 2];
-  for (int k = 0; k < 4 * joints->nboxes; k++) box[k / 4][k % 4] += by[k % 2];
+  for (int k = 0; k < 4 * setup->joints.nboxes; k++) box[k / 4][k % 4] += by[k % 2];
+  for (int k = 0; k < 2 * setup->nprescribed; k++) prescribed[k / 2].motion.pivot[k % 2] += by[k % 2];
 }
 
 /* Row after row. */
 static PetscErrorCode AddRepeated(CoracleCase c, Model *a, MeshSerial *mesh, BodySetup *setup,
-                                  double position[], double (*box)[4])
+                                  double position[], double (*box)[4], BoundaryMotion prescribed[])
 {
   const BodyRepeat r = CaseReadRepeat(c, setup->entry);
   const char *why = NULL;
@@ -293,9 +294,9 @@ static PetscErrorCode AddRepeated(CoracleCase c, Model *a, MeshSerial *mesh, Bod
   for (int k = 0; k < r.n[1]; k++) {
     for (int i = 0; i < r.n[0]; i++) {
       if (ModelAdd(a, mesh, setup, &why)) CoracleCaseRefuse(c, BodyKey(key, setup->entry, ""), "%s", why);
-      Shift(mesh, position, &setup->joints, box, r.step[0], 0.0);
+      Shift(mesh, position, setup, box, prescribed, r.step[0], 0.0);
     }
-    Shift(mesh, position, &setup->joints, box, -r.n[0] * r.step[0], r.step[1]);
+    Shift(mesh, position, setup, box, prescribed, -r.n[0] * r.step[0], r.step[1]);
   }
   PetscFunctionReturn(0);
 }
@@ -333,7 +334,7 @@ PetscErrorCode CaseReadBody(CoracleCase c, int body, Model *a)
   if (setup.fixed && setup.angular_velocity != 0.0) CoracleCaseRefuse(c, key, "a fixed body does not turn");
   if (setup.fixed && setup.nprescribed > 0)
     CoracleCaseRefuse(c, BodyKey(key, body, "prescribed"), "a fixed body has no prescribed motion");
-  PetscCall(AddRepeated(c, a, &mesh, &setup, position, joint_box));
+  PetscCall(AddRepeated(c, a, &mesh, &setup, position, joint_box, prescribed));
   PetscCall(PetscFree2(prescribed, steady));
   PetscCall(PetscFree(name));
   PetscCall(PetscFree(position));

@@ -106,9 +106,10 @@ static void FixNodes(Model *a, const MeshSerial *m, const BodySetup *setup, cons
     if (renumber[v] >= 0 && a->fixed[renumber[v]]) a->u[2 * renumber[v]] = a->u[2 * renumber[v] + 1] = 0.0;
 }
 
-/* Node n moves as the last of the motions. */
+/* Node n moves as the last of the motions, unless it is fixed. */
 static void PrescribeNode(Model *a, int n)
 {
+  if (a->fixed[n]) return;
   const PrescribedMotion *motion = &a->motion[a->nmotions];
   a->prescribed[a->nprescribed++] = (PrescribedNode){n, a->nmotions};
   double v[2];

@@ -2,8 +2,11 @@
 #include "solid/bodies/model.h"
 #include "solid/contact/cell_grid.h"
 #include "solid/contact/contact_kernel.h"
+#include <float.h>
 
-#define TOUCH 1e-9 /* phi up to which parts that touch are not yet said to overlap */
+/* phi up to which parts that touch are not yet said to overlap, and so many units of round-off of their coordinates */
+#define TOUCH 1e-9
+#define UNITS 8.0
 
 typedef struct {
   const Model *a;
@@ -34,6 +37,12 @@ static Point InnerPoint(const Model *a, int e)
   return inner;
 }
 
+static double Squared(Point p, Point q)
+{
+  const Point d = PointMinus(p, q);
+  return d.x * d.x + d.y * d.y;
+}
+
 /* The facet's edge, or a point of the triangle behind it (which tells a part laid exactly over another),
  * lies in element e. */
 static int Penetrates(const Model *a, int facet, int e)
@@ -42,9 +51,15 @@ static int Penetrates(const Model *a, int facet, int e)
   ContactIntegrals f[2];
   Point t[3];
   for (int i = 0; i < 3; i++) t[i] = PointAt(a->x, a->element[3 * e + i]);
+  const double twice = TensorDeterminant(TensorOfEdges(t[0], t[1], t[2])),
+               longest = sqrt(fmax(Squared(t[0], t[1]), fmax(Squared(t[1], t[2]), Squared(t[2], t[0])))),
+               round_off = UNITS * DBL_EPSILON * fmax(fabs(inner.x), fabs(inner.y)),
+               allowed = TOUCH +
+                         3.0 * round_off * longest / twice; /* phi is three times the depth over the height */
   f[0] = ContactEdgeTriangle(inner, inner, t);
   f[1] = ContactEdgeTriangle(PointAt(a->x, a->facet[2 * facet]), PointAt(a->x, a->facet[2 * facet + 1]), t);
-  return (f[0].inside > 0.0 && f[0].largest_phi >= TOUCH) || (f[1].inside > 0.0 && f[1].largest_phi >= TOUCH);
+  return (f[0].inside > 0.0 && f[0].largest_phi >= allowed) ||
+         (f[1].inside > 0.0 && f[1].largest_phi >= allowed);
 }
 
 static int HaveCommonNode(const Model *a, int e, int f)

@@ -177,7 +177,7 @@ PetscErrorCode ContactRenew(Contact c, Solid s)
 
 double ContactSkin(Contact c)
 {
-  return 0.5 * c->buffer;
+  return 0.5 * fmin(c->buffer, c->waiting);
 }
 
 double ContactMoved(Contact c, Solid s)

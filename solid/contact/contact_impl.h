@@ -93,7 +93,9 @@ struct Contact_s {
   double *areal_mass; /* [nbodies] mass behind a metre of surface, 4 M/perimeter, kg/m2; HUGE_VAL: fixed */
   double *searched;   /* [nnodes][2] positions of the last search */
   double buffer, shortest_buffer;
-  Point walls;    /* what they did to this rank's edges, N */
+  double
+      waiting; /* m: the least distance of a pair of one body that is no candidate yet; the next search is before it can have closed */
+  Point walls; /* what they did to this rank's edges, N */
   double rate[4]; /* bounds of omega^2 by bodies and by walls, 1/s2; of 2 xi omega by both, 1/s */
 };
 

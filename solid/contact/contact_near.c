@@ -55,7 +55,10 @@ PetscBool ContactMayBeActive(const Contact c, const Solid s, int facet, const Ta
     return PETSC_TRUE;
   *distance = Distance(PointAt(s->x, edge[0]), PointAt(s->x, edge[1]), now);
   if (t->body != body) return (PetscBool)(*distance <= c->buffer);
-  if (*distance > c->shortest_buffer) return PETSC_FALSE;
-  const double apart = Distance(PointAt(s->rest, edge[0]), PointAt(s->rest, edge[1]), rest);
-  return (PetscBool)(apart == 0.0 || apart > c->shortest_buffer || *distance < APPROACH * apart);
+  if (*distance <= c->shortest_buffer) {
+    const double apart = Distance(PointAt(s->rest, edge[0]), PointAt(s->rest, edge[1]), rest);
+    if (apart == 0.0 || apart > c->shortest_buffer || *distance < APPROACH * apart) return PETSC_TRUE;
+  }
+  c->waiting = fmin(c->waiting, *distance);
+  return PETSC_FALSE;
 }

@@ -256,6 +256,7 @@ PetscErrorCode ContactSearch(Contact c, Solid s, double min_buffer)
   for (int k = 0; k < s->nfaces; k++) c->first_pair[k] = -1;
   c->buffer = fmax(c->shortest_buffer, min_buffer);
   for (int k = 0; k < 4; k++) c->rate[k] = 0.0;
+  c->waiting = HUGE_VAL;
   PetscCall(PetscMalloc1((size_t)s->nfaces, &edge));
   for (int k = 0; k < s->nfaces; k++)
     edge[k] = GeometryBoxWidened(GeometryBoxOfNodes(2, s->facet + 2 * k, s->x), c->buffer);
@@ -263,6 +264,7 @@ PetscErrorCode ContactSearch(Contact c, Solid s, double min_buffer)
   PetscCall(FindPairs(c, s, edge));
   ContactSetTravel(c, HUGE_VAL);
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->rate, 4, MPI_DOUBLE, MPI_MAX, s->comm));
+  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->waiting, 1, MPI_DOUBLE, MPI_MIN, s->comm));
   PetscCall(PetscArraycpy(c->searched, s->x, 2 * (size_t)s->nnodes));
   PetscCall(PetscFree(edge));
   s->stats.searches++;

@@ -4,9 +4,10 @@
 
 /* --- numbers ------------------------------------------------------------------------------------------ */
 
-enum { T, H, REVISION, SUBSTEPS, TOTAL, SEARCHES, REBALANCED, ITERATIONS, BEST, LOSS, NNUMBERS };
+enum { T, H, PLANNED, REVISION, SUBSTEPS, TOTAL, SEARCHES, REBALANCED, ITERATIONS, BEST, LOSS, NNUMBERS };
 static const char *const NUMBERS[NNUMBERS] = {"solid t",
                                               "solid h",
+                                              "solid planned h",
                                               "solid revision",
                                               "solid substeps",
                                               "solid substeps so far",
@@ -17,12 +18,13 @@ static const char *const NUMBERS[NNUMBERS] = {"solid t",
                                               "solid loss of balance"};
 enum { NSECONDS = 6 };
 
-/* Between two steps the last substep's length is all that there is of one. */
+/* Between two steps the last substep's length and what the next one may be is all that there is of one. */
 static PetscErrorCode PutNumbers(Solid s, Checkpoint to)
 {
   const SolidStats *stats = &s->stats;
   const double value[NNUMBERS] = {[T] = stats->t,
                                   [H] = s->moved_for,
+                                  [PLANNED] = s->planned,
                                   [REVISION] = s->revision,
                                   [SUBSTEPS] = stats->substeps,
                                   [TOTAL] = (double)stats->total,
@@ -45,6 +47,7 @@ static PetscErrorCode GetNumbers(Solid s, Checkpoint from)
   PetscFunctionBeginUser;
   for (int k = 0; k < NNUMBERS; k++) PetscCall(CheckpointGetNumber(from, NUMBERS[k], &value[k]));
   s->h = s->moved_for = value[H];
+  s->planned = value[PLANNED];
   s->revision = (int)value[REVISION];
   s->balance = (Balance){value[BEST], value[LOSS]};
   s->stats = (SolidStats){.t = value[T],

@@ -65,6 +65,7 @@ static PetscErrorCode Allocate(Solid s)
   PetscCall(PetscCalloc1((size_t)s->nbodies, &s->reaction));
   PetscCall(PetscCalloc1((size_t)s->nbodies, &s->momentum));
   PetscCall(PetscCalloc1(nn, &s->is_prescribed));
+  PetscCall(PetscCalloc1(2 * nn, &s->is_taken));
   PetscCall(PetscMalloc1(nn, &s->fixed));
   PetscCall(PetscMalloc3(ne, &e->node[0], ne, &e->node[1], ne, &e->node[2]));
   PetscCall(PetscMalloc4(ne, &e->inverse[0], ne, &e->inverse[1], ne, &e->inverse[2], ne, &e->inverse[3]));
@@ -221,18 +222,16 @@ static void TakeElements(Solid s, const Model *a, const int part[], const int lo
 /* The prescribed motions, and which of this rank's nodes they move. */
 static PetscErrorCode TakeMotions(Solid s, const Model *a, const int local[])
 {
-  int nrows = 0;
   PetscFunctionBeginUser;
   s->nmotions = a->nmotions;
-  for (int k = 0; k < a->nmotions; k++) nrows += a->motion[k].nrows;
-  PetscCall(PetscMalloc2((size_t)a->nmotions, &s->motion, 3 * (size_t)nrows, &s->motion_rows));
+  PetscCall(PetscMalloc1((size_t)a->nmotions, &s->motion));
   PetscCall(PetscCalloc1((size_t)a->nmotions, &s->motion_impulse));
   PetscCall(PetscMalloc1((size_t)a->nprescribed, &s->prescribed));
   PetscCall(PetscMalloc1(2 * (size_t)a->nprescribed, &s->position_before));
-  for (int k = 0, row = 0; k < a->nmotions; row += a->motion[k++].nrows) {
+  for (int k = 0; k < a->nmotions; k++) {
     s->motion[k] = a->motion[k];
-    s->motion[k].row = s->motion_rows + 3 * row;
-    PetscCall(PetscArraycpy(s->motion_rows + 3 * row, a->motion[k].row, 3 * (size_t)a->motion[k].nrows));
+    PetscCall(ModelCopyRows(3 * s->motion[k].nrows, &s->motion[k].row));
+    PetscCall(ModelCopyRows(2 * s->motion[k].spin.nrows, &s->motion[k].spin.row));
   }
   for (int k = 0; k < a->nprescribed; k++)
     if (local[a->prescribed[k].node] >= 0)

@@ -77,6 +77,7 @@ static void TakeTime(const Solid s, Solid fresh)
   fresh->dt = s->dt;
   fresh->done = s->done;
   fresh->moved_for = s->moved_for;
+  fresh->planned = s->planned;
   fresh->stats = s->stats;
   fresh->budget = s->budget;
   memcpy(fresh->reaction, s->reaction, (size_t)s->nbodies * sizeof *s->reaction);

@@ -283,9 +283,10 @@ static void CheckMomentum(int pieces, double sum[][2][4])
     const double *now = sum[k][0], *shown = sum[k][1];
     slowest = fmin(slowest, shown[1] / shown[0]);
     fastest = fmax(fastest, shown[1] / shown[0]);
-    /* rigid motions pass unchanged but for round-off, which the stiffness amplifies by (omega STEP / 2)^2 */
+    /* rigid motions pass unchanged but for round-off, which the stiffness amplifies by (omega STEP / 2)^2, and the
+     * tolerance of the iteration, which is of all pieces together */
     for (int c = 1; c < 4; c++)
-      CHECK(fabs(shown[c] - now[c]) < 1e-9 * now[0], "piece %d: momentum %d %.15g, seen %.15g", k, c, now[c],
+      CHECK(fabs(shown[c] - now[c]) < 1e-7 * now[0], "piece %d: momentum %d %.15g, seen %.15g", k, c, now[c],
             shown[c]);
   }
   CHECK(slowest < -1.5 && fastest > 1.5, "pieces fly at %g to %g m/s", slowest, fastest);

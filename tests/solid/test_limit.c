@@ -1,5 +1,5 @@
 /* The stability limit of all laws, three and six nodes: at it, 1e5 substeps of free vibration keep the energy, with and without
- * damping; the bound is not idle, three quarters above it (twice, damped) the motion blows up; SolidStepFailure
+ * damping; the bound is not idle, two and a half times as long ones (three times, damped) blow up, though they are shortened as the disc deforms; SolidStepFailure
  * names the element that turns inside out. */
 #include "tests/solid/build.h"
 
@@ -126,8 +126,8 @@ int main(int argc, char **argv)
     PetscCall(Conserves(kind));
     PetscCall(Decays(kind, 0.05));
     PetscCall(Decays(kind, 0.9));
-    PetscCall(Explodes(kind, 1.75, 0.0));
-    PetscCall(Explodes(kind, 2.0, 0.5));
+    PetscCall(Explodes(kind, 2.5, 0.0));
+    PetscCall(Explodes(kind, 3.0, 0.5));
   }
   PetscCall(Swings(0));
   PetscCall(Swings(1));
