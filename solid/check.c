@@ -223,6 +223,7 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
     PetscCall(Expect(c, solid, command));
     RunCaseNoteSteps(run.end, longest);
     NoteWalls(c, solid, run.end);
+    NoteFar(solid);
     PetscCall(NoteThin(c, solid));
     NoteFriction(solid);
     NoteStrengths(solid);

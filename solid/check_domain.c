@@ -125,6 +125,25 @@ void NoteWalls(CoracleCase c, Solid s, double end)
            loose);
 }
 
+/* Coordinates over the shortest edge.  A stiff body (E 5e10 Pa, edges of 2 cm) at 4e6 m has 0.006 J/m of vibration after 0.2 s, which goes on growing. */
+#define FAR 1e7
+
+void NoteFar(Solid s)
+{
+  double farthest = 0.0, shortest = HUGE_VAL;
+  for (int k = 0; k < 2 * s->nnodes; k++) farthest = fmax(farthest, fabs(s->x[k]));
+  for (int e = 0; e < s->elements.n; e++)
+    for (int i = 0; i < 3 && s->body[s->elements.body[e]].rigid.mass == 0.0; i++) {
+      const double *a = s->x + 2 * s->element[3 * e + i], *b = s->x + 2 * s->element[3 * e + (i + 1) % 3];
+      shortest = fmin(shortest, hypot(a[0] - b[0], a[1] - b[1]));
+    }
+  if (farthest > FAR * shortest)
+    printf("note: bodies are up to %.3g m from the origin, with edges of %.3g m: positions are rounded by so "
+           "much that they "
+           "begin to vibrate; move the case to the origin\n",
+           farthest, shortest);
+}
+
 /* --- whether it holds water ----------------------------------------------------------------------------- */
 
 /* The shorter side of the rectangle with a body's area and perimeter; of a compact one about that of a square. */

@@ -10,6 +10,8 @@ PetscErrorCode CheckDomain(CoracleCase c, Solid s);
 void CheckGauges(CoracleCase c, Solid s);
 /* Prints a note if a body may leave it before the end, s: gravity acts, nothing holds the body until then and the solid has no walls. */
 void NoteWalls(CoracleCase c, Solid s, double end);
+/* Prints a note if bodies are so far from the origin, for their elements, that round-off of the positions makes them vibrate. */
+void NoteFar(Solid s);
 /* Prints a note of the first body that water passes through beside air: one thinner than two of the fluid's elements. */
 PetscErrorCode NoteThin(CoracleCase c, Solid s);
 #endif

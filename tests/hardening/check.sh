@@ -87,6 +87,11 @@ grep -q 'boundaries.left: what flows in is air, the lightest phase' "$scratch/lo
 for set in 'velocity: [0.1, 0], phase: water' 'velocity: [-0.1, 0]' 'velocity: [0, 1]'; do level 0 --set "fluid.boundaries.left={$set}"; done
 level 1 --set 'fluid.boundaries.left={velocity: [-0.1, 0], period: 1.0}'
 
+far() { "$build/solid/coracle-solid" --check "$root/tests/solid/alone.yaml" --set "solid.bodies=[{shape: rectangle, centre: [$2, 0.5], width: 0.4, height: 0.2, size: 0.05, material: $3}]" "${@:4}" >"$scratch/log" 2>&1 && notes "$1" || fail "not $1 notes of a body at $2 m"; }
+far 0 500.0 stone --set 'solid.walls={lower: [0, 0], upper: [1e6, 1]}'
+far 1 500000.5 stone --set 'solid.walls={lower: [0, 0], upper: [1e6, 1]}'
+grep -q 'bodies are up to 5e+05 m from the origin, with edges of 0.05 m' "$scratch/log" || fail "another note"
+
 # the wrong way up
 half='fluid.regions=[{phase: air}, {phase: water, point: [0, 0.2], normal: [0, 1]}]'
 level 0 --set "$half"
