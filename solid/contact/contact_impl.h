@@ -30,10 +30,11 @@ typedef struct {
   double outward, at; /* -1 or 1, and the wall's coordinate */
 } WallCandidate;
 
-/* One edge and all that it touches of one body (its own too) or wall: friction has its history here, so that
+/* One edge and all that it touches of one material of one body (its own too) or of a wall: friction has its history here, so that
  * it does not start anew when the edge slides from one element of the other to the next. */
 typedef struct {
   int facet, other; /* other: a body, or a wall < 0 */
+  int material;     /* the other's; 0 of a wall */
   int edge;         /* 3 element + side: the facet, whatever its number becomes */
   int next;         /* pair of the same facet, -1: none */
   ContactLaw law;
@@ -47,7 +48,7 @@ typedef struct {
 
 /* What is kept of a pair while candidates are searched or a step is redone. */
 typedef struct {
-  int edge, other;
+  int edge, other, material;
   double slip;
 } Slip;
 
@@ -120,8 +121,9 @@ PetscBool ContactMayBeActive(const Contact c, const Solid s, int facet, const Ta
 int ContactSeparatingSide(const Contact c, const Solid s, const Couple *k);
 
 /* contact_pair.c */
-/* The pair of the facet and the other, made with the slip that history has of it. */
-PetscErrorCode ContactPairOf(Contact c, Solid s, int facet, int other, ContactLaw law, int *pair);
+/* The pair of the facet and the other's material, made with the slip that history has of it. */
+PetscErrorCode ContactPairOf(Contact c, Solid s, int facet, int other, int material, ContactLaw law,
+                             int *pair);
 /* The slips that there are, sorted; borrowed until the next search. */
 PetscErrorCode ContactSlips(Contact c, int *n, const Slip **slip);
 /* Puts the pairs' slips into history, for those that the next search makes; there are none till then. */

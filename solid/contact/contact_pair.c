@@ -1,4 +1,4 @@
-/* The memory of friction: one spring for every edge and what it touches, which survives new candidates and
+/* The memory of friction: one spring for every edge and each material that it touches, which survives new candidates and
  * steps that are redone. */
 #include "solid/contact/contact_impl.h"
 #include <stdlib.h>
@@ -27,8 +27,9 @@ void ContactMaterials(const Solid s, int material, int other, double *friction, 
 static int CompareSlips(const void *a, const void *b)
 {
   const Slip *p = a, *q = b;
-  return p->edge != q->edge ? (p->edge > q->edge) - (p->edge < q->edge)
-                            : (p->other > q->other) - (p->other < q->other);
+  if (p->edge != q->edge) return (p->edge > q->edge) - (p->edge < q->edge);
+  if (p->other != q->other) return (p->other > q->other) - (p->other < q->other);
+  return (p->material > q->material) - (p->material < q->material);
 }
 
 static PetscErrorCode Reserve(Slips *h, int n)
@@ -48,7 +49,7 @@ static PetscErrorCode Collect(const Contact c, Slips *h)
   h->n = 0;
   for (int k = 0; k < c->npairs; k++) {
     const Pair *p = &c->pair[k];
-    if (p->slip != 0.0) h->slip[h->n++] = (Slip){p->edge, p->other, p->slip};
+    if (p->slip != 0.0) h->slip[h->n++] = (Slip){p->edge, p->other, p->material, p->slip};
   }
   if (h->n > 1) qsort(h->slip, (size_t)h->n, sizeof *h->slip, CompareSlips);
   PetscFunctionReturn(0);
@@ -85,23 +86,25 @@ PetscErrorCode ContactTakeSlips(Contact c, int n, Slip slip[])
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ContactPairOf(Contact c, Solid s, int facet, int other, ContactLaw law, int *pair)
+PetscErrorCode ContactPairOf(Contact c, Solid s, int facet, int other, int material, ContactLaw law,
+                             int *pair)
 {
   PetscFunctionBeginUser;
   for (*pair = c->first_pair[facet]; *pair >= 0; *pair = c->pair[*pair].next)
-    if (c->pair[*pair].other == other) PetscFunctionReturn(0);
+    if (c->pair[*pair].other == other && c->pair[*pair].material == material) PetscFunctionReturn(0);
   if (c->npairs == c->pair_capacity) {
     c->pair_capacity = 2 * c->pair_capacity + 64;
     PetscCall(PetscRealloc((size_t)c->pair_capacity * sizeof *c->pair, &c->pair));
     PetscCall(PetscRealloc((size_t)c->pair_capacity * sizeof *c->pressed, &c->pressed));
   }
-  const Slip key = {3 * s->facet_element[facet] + s->facet_side[facet], other, 0.0};
+  const Slip key = {3 * s->facet_element[facet] + s->facet_side[facet], other, material, 0.0};
   const Slip *found = c->history.n ? bsearch(&key, c->history.slip, (size_t)c->history.n,
                                              sizeof *c->history.slip, CompareSlips)
                                    : NULL;
   *pair = c->npairs++;
   c->pair[*pair] = (Pair){.facet = facet,
                           .other = other,
+                          .material = material,
                           .edge = key.edge,
                           .next = c->first_pair[facet],
                           .law = law,

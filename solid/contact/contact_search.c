@@ -70,7 +70,7 @@ static PetscErrorCode AddCandidate(Contact c, Solid s, int facet, int target)
       ViscosityOf(damping, stiffness, areal_mass, 4.0 * compliance, 4.0 * intact, sqrt(rate));
   const ContactLaw law =
       LawOf(s, facet, friction, stiffness, viscosity, Together(c->mass[body], c->mass[t->body]), areal_mass);
-  PetscCall(ContactPairOf(c, s, facet, joined ? JOINED : t->body, law, &pair));
+  PetscCall(ContactPairOf(c, s, facet, joined ? JOINED : t->body, t->material, law, &pair));
   c->candidate[c->ncandidates++] = (Candidate){facet, target, pair, penalty * t->twice_area};
   c->rate[0] = fmax(c->rate[0], rate);
   c->rate[2] = fmax(c->rate[2], 4.0 * viscosity * compliance);
@@ -144,7 +144,7 @@ static PetscErrorCode AddWall(Contact c, Solid s, int facet, int axis, double ou
       ViscosityOf(damping, stiffness, c->areal_mass[body], 2.0 * compliance, 2.0 * intact,
                   sqrt(stiffness * compliance)); /* in a corner two walls act */
   const ContactLaw law = LawOf(s, facet, friction, stiffness, viscosity, c->mass[body], c->areal_mass[body]);
-  PetscCall(ContactPairOf(c, s, facet, wall, law, &w->pair));
+  PetscCall(ContactPairOf(c, s, facet, wall, 0, law, &w->pair));
   c->rate[3] = fmax(c->rate[3], 2.0 * viscosity * compliance);
   PetscFunctionReturn(0);
 }

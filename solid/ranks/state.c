@@ -52,7 +52,8 @@ PetscErrorCode StateOfSlips(Solid s, int *n, Slip **slip)
   PetscCall(ContactSlips(s->contact, n, &own));
   PetscCall(PetscMalloc1((size_t)*n, slip));
   for (int k = 0; k < *n; k++)
-    (*slip)[k] = (Slip){3 * s->elements.number[own[k].edge / 3] + own[k].edge % 3, own[k].other, own[k].slip};
+    (*slip)[k] = (Slip){3 * s->elements.number[own[k].edge / 3] + own[k].edge % 3, own[k].other,
+                        own[k].material, own[k].slip};
   PetscFunctionReturn(0);
 }
 

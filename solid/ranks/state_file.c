@@ -4,7 +4,7 @@
  *     element    number in the model, rank          the subdomain that was
  *     node       gid                                   NodeState
  *     joint      number, since (JointMemory)           both ends; of joints that are not intact
- *     spring     3 element + side, other               slip */
+ *     spring     3 element + side, other, material     slip */
 #include "solid/ranks/node_names.h"
 #include "solid/ranks/state.h"
 
@@ -18,7 +18,7 @@ typedef struct {
 static const Table ELEMENTS = {"element", NULL, 2, 0};
 static const Table NODES = {"node", "node state", 1, sizeof(NodeState) / sizeof(double)};
 static const Table JOINTS = {"joint", "joint ends", MAX_KEYS, 2 * sizeof(JointEnd) / sizeof(double)};
-static const Table SPRINGS = {"spring", "spring slip", 2, 1};
+static const Table SPRINGS = {"spring", "spring slip", MAX_KEYS, 1};
 
 static PetscErrorCode PutRows(Checkpoint to, const Table *t, int n, const long long key[], const void *value)
 {
@@ -180,10 +180,11 @@ static PetscErrorCode PutSlips(Solid s, Checkpoint to)
   int n;
   PetscFunctionBeginUser;
   PetscCall(StateOfSlips(s, &n, &slip));
-  PetscCall(PetscMalloc2(2 * (size_t)n, &key, (size_t)n, &value));
+  PetscCall(PetscMalloc2(MAX_KEYS * (size_t)n, &key, (size_t)n, &value));
   for (int k = 0; k < n; k++) {
-    key[2 * k] = slip[k].edge;
-    key[2 * k + 1] = slip[k].other;
+    key[MAX_KEYS * k] = slip[k].edge;
+    key[MAX_KEYS * k + 1] = slip[k].other;
+    key[MAX_KEYS * k + 2] = slip[k].material;
     value[k] = slip[k].slip;
   }
   PetscCall(PutRows(to, &SPRINGS, n, key, value));
@@ -201,7 +202,8 @@ typedef struct {
 static void TakeSlip(void *found, const long long key[], const double value[])
 {
   FoundSlips *f = found;
-  if (StateElement(f->to, key[0] / 3) >= 0) f->slip[f->n++] = (Slip){(int)key[0], (int)key[1], value[0]};
+  if (StateElement(f->to, key[0] / 3) >= 0)
+    f->slip[f->n++] = (Slip){(int)key[0], (int)key[1], (int)key[2], value[0]};
 }
 
 static PetscErrorCode GetSlips(void *checkpoint, Solid to, int *n, Slip **slip)

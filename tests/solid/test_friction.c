@@ -1,9 +1,10 @@
 // ranks: 1 2
 /* Coulomb friction: a block on a slope sticks below the friction angle and slides above it with
  * g (sin a - mu cos a) within 1 %, on a wall and on another body; a friction pair of discs keeps momentum and
- * angular momentum to round-off while its energy only falls; what friction holds it holds over a redone step.
- */
+ * angular momentum to round-off while its energy only falls; what friction holds it holds over a redone step;
+ * a floor of two materials has the friction of the one that is beneath. */
 #include "tests/solid/build.h"
+#include <string.h>
 
 static const double G = 9.81, YOUNG = 1.0e7;
 
@@ -56,6 +57,66 @@ static PetscErrorCode Slopes(int wall)
   CHECK(fabs(acceleration / coulomb - 1.0) < 0.01, "acceleration %g, Coulomb %g", acceleration, coulomb);
   PetscCall(Slope(wall, 0.5, 0.0, &acceleration, &slid));
   CHECK(fabs(acceleration / (G * sin(0.5)) - 1.0) < 1e-4, "without friction %g", acceleration);
+  return 0;
+}
+
+/* A floor, smooth to the left of x = 0 and rough to the right. */
+static void AddFloor(Model *a, Material smooth, Material rough)
+{
+  const RegionMaterial region[2] = {{"smooth", smooth}, {"rough", rough}};
+  const double centre[2] = {0.0, -0.05};
+  BodySetup floor = BodyAtRest(smooth);
+  MeshSerial mesh;
+  floor.fixed = 1;
+  floor.nregions = 2;
+  floor.region = region;
+  (void)ShapeRectangle(centre, 1.2, 0.1, 0.0, 0.05, &mesh);
+  mesh.nregions = 2;
+  (void)PetscMalloc1((size_t)mesh.ne, &mesh.region);
+  (void)PetscMalloc1(2, &mesh.region_name);
+  for (int k = 0; k < 2; k++) strcpy(mesh.region_name[k], region[k].region);
+  for (int e = 0; e < mesh.ne; e++) {
+    const int *v = mesh.vertex + 3 * e;
+    mesh.region[e] = mesh.x[2 * v[0]] + mesh.x[2 * v[1]] + mesh.x[2 * v[2]] > 0.0;
+  }
+  AddMesh(a, &mesh, &floor);
+}
+
+/* A block of one edge that slides at x beside the other half: what it loses of its speed, m/s. */
+static PetscErrorCode SlideBeside(double x, double *lost)
+{
+  const SolidSetup options = {.gravity = {0.0, -G}, .courant = 0.8};
+  const double speed = 0.2;
+  Material smooth = Rough(0.0), rough = Rough(0.5), block = Rough(0.5);
+  BodySetup setup;
+  Model a = {0};
+  BodyState b[2];
+  Solid s;
+  strcpy(smooth.name, "smooth");
+  strcpy(rough.name, "rough");
+  block.rigid = 1;
+  setup = BodyAtRest(block);
+  setup.velocity[0] = speed;
+  AddFloor(&a, smooth, rough);
+  AddRectangle(&a, x, 0.1, 0.2, 0.2, 0.0, 0.2, 0, &setup);
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, &s));
+  PetscCall(Run(s, 0.05, 1e-3));
+  PetscCall(SolidBodies(s, 2, b));
+  *lost = speed - b[1].v[0];
+  if (getenv("VERBOSE")) printf("a block at %g loses %.3g m/s\n", x, *lost);
+  PetscCall(ModelDestroy(&a));
+  return SolidDestroy(&s);
+}
+
+static PetscErrorCode Halves(void)
+{
+  double lost;
+  for (int side = -1; side <= 1;
+       side += 2) { /* 2 cm from the other half it may touch it before the next search */
+    PetscCall(SlideBeside(0.12 * side, &lost));
+    CHECK(side < 0 ? fabs(lost) < 1e-4 : lost > 0.19, "beside the %s half a block loses %g m/s",
+          side < 0 ? "rough" : "smooth", lost);
+  }
   return 0;
 }
 
@@ -186,6 +247,7 @@ int main(int argc, char **argv)
   } else {
     PetscCall(Rub(0.4, 0.3, &turned, &lost));
   }
+  PetscCall(Halves());
   PetscCall(History());
   return PetscFinalize();
 }
