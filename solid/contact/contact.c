@@ -77,31 +77,45 @@ static double TargetHeight(const Target *t)
   return t->twice_area / longest;
 }
 
-/* A body's mass, and that behind a metre of its surface, as if it were a square lying on a side. */
-static PetscErrorCode MeasureMass(Contact c, Solid s)
+/* Until the step's end. */
+static PetscBool Holds(const Solid s, const PrescribedMotion *d)
 {
-  double *sum; /* [nbodies][3] mass, perimeter, fixed nodes */
-  PetscFunctionBeginUser;
-  PetscCall(PetscCalloc1(3 * (size_t)s->nbodies, &sum));
-  for (int n = 0; n < s->nnodes; n++) {
-    if (!SolidOwns(s, n)) continue;
-    sum[3 * s->node_body[n]] += s->mass[n];
-    sum[3 * s->node_body[n] + 2] += s->inverse_mass[n] == 0.0;
+  return (PetscBool)PrescribedActs(d, s->stats.t + s->dt - s->done);
+}
+
+/* held[nnodes]: no force moves them: they are fixed, or prescribed in both components. */
+static void MarkHeld(const Contact c, const Solid s, char held[])
+{
+  for (int n = 0; n < s->nnodes; n++) held[n] = s->inverse_mass[n] == 0.0 ? 3 : 0;
+  for (int k = 0; c->nholding > 0 && k < s->nprescribed; k++) {
+    const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
+    for (int i = 0; i < 2; i++)
+      if (d->prescribed[i] && Holds(s, d)) held[s->prescribed[k].node] |= (char)(1 << i);
   }
+  for (int n = 0; n < s->nnodes; n++) held[n] = held[n] == 3;
+}
+
+/* A body's mass that can move, and that behind a metre of its surface, as if it were a square lying on a side. */
+static PetscErrorCode MeasureMass(Contact c, Solid s, const char held[])
+{
+  double *sum; /* [nbodies][2] mass, perimeter */
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(2 * (size_t)s->nbodies, &sum));
+  for (int n = 0; n < s->nnodes; n++)
+    if (SolidOwns(s, n) && !held[n]) sum[2 * s->node_body[n]] += s->mass[n];
   for (int k = 0; k < s->nfacets; k++)
-    sum[3 * s->elements.body[s->facet_element[k]] + 1] += FacetLength(s, k);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 3 * s->nbodies, MPI_DOUBLE, MPI_SUM, s->comm));
+    sum[2 * s->elements.body[s->facet_element[k]] + 1] += FacetLength(s, k);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2 * s->nbodies, MPI_DOUBLE, MPI_SUM, s->comm));
   for (int b = 0; b < s->nbodies; b++) {
-    const PetscBool fixed = (PetscBool)(sum[3 * b + 2] > 0.0);
-    c->mass[b] = fixed ? HUGE_VAL : sum[3 * b];
-    c->areal_mass[b] = fixed ? HUGE_VAL : 4.0 * sum[3 * b] / sum[3 * b + 1];
+    c->mass[b] = sum[2 * b] > 0.0 ? sum[2 * b] : HUGE_VAL;
+    c->areal_mass[b] = 4.0 * c->mass[b] / sum[2 * b + 1];
   }
   PetscCall(PetscFree(sum));
   PetscFunctionReturn(0);
 }
 
 /* height, compliance and the shortest buffer, over all ranks. */
-static PetscErrorCode Measure(Contact c, Solid s)
+static PetscErrorCode MeasureSurface(Contact c, Solid s, const char held[])
 {
   double sum[2] = {0.0, s->nfaces}, *half;
   PetscFunctionBeginUser;
@@ -122,15 +136,40 @@ static PetscErrorCode Measure(Contact c, Solid s)
   PetscCall(CopiesSum(s->copies, 2, half));
   for (int n = 0; n < s->nnodes; n++) {
     double *compliance = &c->compliance[s->node_body[n]];
-    *compliance = fmax(*compliance, half[2 * n] * s->inverse_mass[n]);
+    if (!held[n]) *compliance = fmax(*compliance, half[2 * n] * s->inverse_mass[n]);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->height, s->nbodies, MPI_DOUBLE, MPI_MIN, s->comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->compliance, s->nbodies, MPI_DOUBLE, MPI_MAX, s->comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->comm));
   for (int b = 0; b < s->nbodies; b++)
-    if (s->body[b].rigid.mass > 0.0) c->compliance[b] = s->body[b].rigid.surface_compliance;
+    if (s->body[b].rigid.mass > 0.0 && c->compliance[b] > 0.0)
+      c->compliance[b] = s->body[b].rigid.surface_compliance;
   c->shortest_buffer = 0.5 * sum[0] / sum[1];
   PetscCall(PetscFree(half));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Measure(Contact c, Solid s)
+{
+  char *held;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1((size_t)s->nnodes, &held));
+  MarkHeld(c, s, held);
+  PetscCall(MeasureSurface(c, s, held));
+  PetscCall(MeasureMass(c, s, held));
+  PetscCall(PetscFree(held));
+  PetscFunctionReturn(0);
+}
+
+/* Motions are released for good, so that their number tells which hold. */
+PetscErrorCode ContactHold(Contact c, Solid s)
+{
+  int nholding = 0;
+  PetscFunctionBeginUser;
+  for (int k = 0; k < s->nmotions; k++) nholding += Holds(s, &s->motion[k]);
+  if (nholding == c->nholding) PetscFunctionReturn(0);
+  c->nholding = nholding;
+  PetscCall(Measure(c, s));
   PetscFunctionReturn(0);
 }
 
@@ -171,7 +210,6 @@ PetscErrorCode ContactRenew(Contact c, Solid s)
   PetscCall(FindTargets(c, s));
   PetscCall(ListFacets(c, s));
   PetscCall(Measure(c, s));
-  PetscCall(MeasureMass(c, s));
   PetscFunctionReturn(0);
 }
 

@@ -88,10 +88,11 @@ struct Contact_s {
   PetscBool rough;    /* any friction or damping: velocities are needed */
   Halo halo;          /* NULL on one rank */
   double *height;     /* [nbodies] smallest height of the surface elements at rest, m */
-  double *compliance; /* [nbodies] largest (half the edges' lengths at a node)/(its mass), m/kg; 0: fixed */
-  double *intact_compliance; /* [nbodies] that before any crack */
-  double *mass;              /* [nbodies] kg/m; HUGE_VAL: fixed */
-  double *areal_mass; /* [nbodies] mass behind a metre of surface, 4 M/perimeter, kg/m2; HUGE_VAL: fixed */
+  int nholding;       /* prescribed motions that hold their nodes, in what follows */
+  double *compliance; /* [nbodies] largest (half the edges' lengths at a node)/(its mass), m/kg; 0: held */
+  double *intact_compliance; /* [nbodies] that before any crack, of prescribed bodies too */
+  double *mass;              /* [nbodies] of what can move, kg/m; HUGE_VAL: held as a whole */
+  double *areal_mass; /* [nbodies] mass behind a metre of surface, 4 M/perimeter, kg/m2; HUGE_VAL: likewise */
   double *searched;   /* [nnodes][2] positions of the last search */
   double buffer, shortest_buffer;
   double
@@ -110,6 +111,9 @@ static inline PetscBool ContactJoined(const Solid s, int facet, const Target *t)
 {
   return (PetscBool)(s->facet_across[facet] == t->number);
 }
+
+/* contact.c: collective, before a search: masses are those of what prescribed motions hold until the step's end. */
+PetscErrorCode ContactHold(Contact c, Solid s);
 
 /* contact_near.c */
 /* Farther than the buffer they cannot touch before the next search.  Of one body: a pair that shares a node

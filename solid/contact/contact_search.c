@@ -20,6 +20,12 @@ static double Together(double one, double other)
   return one * other / (one + other);
 }
 
+/* Before cracks, of a body that is not held. */
+static double IntactCompliance(const Contact c, int body)
+{
+  return c->compliance[body] > 0.0 ? c->intact_compliance[body] : 0.0;
+}
+
 /* Damping as a fraction of the critical 2 sqrt(k m), a metre: c/L.  now, intact: its part of 2 xi omega as it is, and before
  * bodies cracked (a corner of one element that cracks have freed has a third to a sixth of a node's mass, while the mass behind an
  * edge is still its body's); omega: of contact's stiffness.  Cracks make damping ask for no shorter substeps than it did before, or than
@@ -57,7 +63,7 @@ static PetscErrorCode AddCandidate(Contact c, Solid s, int facet, int target)
   }
   const double penalty = fmin(own->penalty, other->penalty) * fmin(own->thickness, other->thickness);
   const double compliance = fmax(c->compliance[body], c->compliance[t->body]);
-  const double intact = fmax(c->intact_compliance[body], c->intact_compliance[t->body]);
+  const double intact = fmax(IntactCompliance(c, body), IntactCompliance(c, t->body));
   const PetscBool joined = ContactJoined(s, facet, t);
   ContactMaterials(s, s->elements.material[element], t->material, &friction, &damping);
   if (joined) friction = fmin(own->internal_friction, other->internal_friction);
@@ -130,7 +136,7 @@ static PetscErrorCode AddWall(Contact c, Solid s, int facet, int axis, double ou
   const Material *m = &s->material[s->elements.material[element]];
   const int wall = WALL_LEFT + 2 * axis + (outward > 0.0);
   const double penalty = m->penalty * m->thickness, stiffness = 3.0 * penalty / c->height[body];
-  const double compliance = c->compliance[body], intact = c->intact_compliance[body];
+  const double compliance = c->compliance[body], intact = IntactCompliance(c, body);
   double friction, damping;
   PetscFunctionBeginUser;
   if (c->nwalls == c->wall_capacity) {
@@ -252,6 +258,7 @@ PetscErrorCode ContactSearch(Contact c, Solid s, double min_buffer)
   GeometryBox *edge;
   PetscFunctionBeginUser;
   PetscCall(ContactForgetPairs(c));
+  PetscCall(ContactHold(c, s));
   c->restored = PETSC_FALSE;
   for (int k = 0; k < s->nfaces; k++) c->first_pair[k] = -1;
   c->buffer = fmax(c->shortest_buffer, min_buffer);

@@ -1,5 +1,6 @@
 /* What lies stays: a block on the floor and a stack of three come to rest and keep their potential energy; a
- * small heap of blocks that fall on each other comes to rest (hundreds: test_rest 300).  A corner that strikes is damped.  How a
+ * small heap of blocks that fall on each other comes to rest (hundreds: test_rest 300).  A corner that strikes is damped, and a
+ * body of which a part is held, on what is held or prescribed too.  How a
  * disc rebounds follows from its material's damping ratio, on any mesh. */
 #include "tests/solid/build.h"
 
@@ -134,6 +135,91 @@ static PetscErrorCode Corners(void)
   return 0;
 }
 
+/* A block strikes a plate that is held so: its velocity after. */
+static PetscErrorCode OnPlate(int fixed, double release, double *rebound)
+{
+  const SolidSetup options = {.courant = 0.8};
+  const double still[3] = {0.0, 0.0, 0.0};
+  const BoundaryMotion motion = {NULL, {.prescribed = {1, 1}, .nrows = 1, .row = still, .release = release}};
+  Material rigid = {.density = 2000.0, .penalty = 1e6, .contact_damping = 0.3, .rigid = 1};
+  BodySetup block = BodyAtRest(rigid);
+  BodyState state;
+  Model a = {0};
+  Solid s;
+  rigid.density = 1.0;
+  BodySetup plate = BodyAtRest(rigid);
+  block.velocity[1] = -1.0;
+  plate.fixed = fixed;
+  plate.nprescribed = release >= 0.0;
+  plate.prescribed = &motion;
+  AddRectangle(&a, 0.0, 0.11, 0.2, 0.2, 0.0, 0.05, 0, &block);
+  AddRectangle(&a, 0.0, -0.05, 0.4, 0.1, 0.0, 0.05, 0, &plate);
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, &s));
+  PetscCall(Run(s, 0.05, 0.001));
+  PetscCall(SolidBodies(s, 1, &state));
+  *rebound = state.v[1];
+  PetscCall(ModelDestroy(&a));
+  return SolidDestroy(&s);
+}
+
+/* A prescribed plate is as heavy as a fixed one, till it is released. */
+static PetscErrorCode Plates(void)
+{
+  double fixed, prescribed, released, loose;
+  PetscCall(OnPlate(1, -1.0, &fixed));
+  PetscCall(OnPlate(0, 0.0, &prescribed));
+  PetscCall(OnPlate(0, 0.005, &released));
+  PetscCall(OnPlate(0, -1.0, &loose));
+  if (getenv("VERBOSE"))
+    printf("a block leaves a fixed plate with %.4f m/s, a prescribed one %.4f, has %.4f and %.4f after a "
+           "loose one\n",
+           fixed, prescribed, released, loose);
+  CHECK(fixed > 0.3 && fixed < 0.5 && fabs(prescribed - fixed) < 1e-9,
+        "a block leaves a fixed plate with %g m/s, a prescribed one with %g m/s", fixed, prescribed);
+  CHECK(loose < -0.99 && fabs(released - loose) < 1e-9,
+        "after a plate that is let go %g m/s, a loose one %g m/s", released, loose);
+  return 0;
+}
+
+/* A beam that is held at its left strikes another one, held at its right, or a wall: the energy that is left. */
+static PetscErrorCode Clamped(int wall, double damping, double *energy)
+{
+  static const char *const END[2] = {"left", "right"};
+  const SolidSetup options = {
+      .courant = 0.8, .walls = (PetscBool)wall, .lower = {-1.0, -0.07}, .upper = {1.0, 1.0}};
+  Material soft = MaterialOf(2000.0, 1.0e8, 0.25, 0.0);
+  Model a = {0};
+  Solid s;
+  soft.penalty = 1e7;
+  soft.contact_damping = damping;
+  BodySetup beam = BodyAtRest(soft);
+  beam.nfixed = 1;
+  for (int k = 0; k < (wall ? 1 : 2); k++) {
+    beam.fixed_name = &END[k];
+    beam.velocity[1] = k ? 0.0 : -2.0;
+    AddRectangle(&a, 0.2 * k, -0.12 * k, 1.0, 0.1, 0.0, 0.05, 0, &beam);
+  }
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, &s));
+  PetscCall(Run(s, 0.1, 0.001));
+  PetscCall(TotalEnergy(s, wall ? 1 : 2, energy));
+  PetscCall(ModelDestroy(&a));
+  return SolidDestroy(&s);
+}
+
+static PetscErrorCode Clamps(void)
+{
+  double elastic, damped;
+  for (int wall = 0; wall < 2; wall++) {
+    PetscCall(Clamped(wall, 0.0, &elastic));
+    PetscCall(Clamped(wall, 0.5, &damped));
+    if (getenv("VERBOSE"))
+      printf("clamped beams, wall %d: %.4g J/m, damped %.4g J/m\n", wall, elastic, damped);
+    CHECK(damped < 0.98 * elastic, "a clamped beam on a %s has %g J/m with damping, %g J/m without",
+          wall ? "wall" : "beam", damped, elastic);
+  }
+  return 0;
+}
+
 /* A disc strikes a wall without gravity: what part of its speed it leaves with.  Its own deformation carries the rebound, half a
  * period of 45 Hz long. */
 static PetscErrorCode Rebound(double size, double ratio, double *restitution)
@@ -174,6 +260,8 @@ int main(int argc, char **argv)
     PetscCall(Heap(n, 6.0));
   } else {
     PetscCall(Corners());
+    PetscCall(Plates());
+    PetscCall(Clamps());
     PetscCall(Rebounds());
     PetscCall(Stack(1));
     PetscCall(Stack(3));
