@@ -5,6 +5,7 @@
 #include "solid/springs.h"
 
 enum { CHECK_EVERY = 20 }; /* substeps between two checks of the stability limit, at most */
+enum { FEW = 2 };          /* that a fast body's skin is for */
 #define KEEP 0.75          /* of the allowed length, down to which the last one is kept */
 #define LENGTHEN 1.003     /* from one plan to the next, at most */
 
@@ -51,17 +52,16 @@ PetscErrorCode SolidLimit(Solid s, double *limit)
   PetscFunctionReturn(0);
 }
 
-/* moved: how far the farthest surface node is from its place at the last search; speed, acceleration: largest
- * now, or of what is prescribed until the next check; failed: some rank cannot make the step. */
+/* Of a body's surface nodes: how far the farthest is from its place at the last search; largest speed, acceleration now, or of
+ * what is prescribed until the next check. */
 typedef struct {
   double moved, speed, acceleration;
-  PetscBool failed;
 } BulkMotion;
 
-/* The largest speed that a motion will give a node within the window, s: it may change at once. */
-static double PrescribedSpeed(const Solid s, double window)
+/* The largest speeds, squared, that motions will give nodes within the window, s: they may change at once. */
+static void PrescribedSpeeds(const Solid s, double window, BulkMotion m[])
 {
-  double largest = 0.0, velocity = 0.0, turn = 0.0, pivot[2] = {0.0, 0.0};
+  double velocity = 0.0, turn = 0.0, pivot[2] = {0.0, 0.0};
   for (int k = 0, motion = -1; k < s->nprescribed; k++) {
     const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
     const double *x = s->x + 2 * s->prescribed[k].node;
@@ -71,16 +71,18 @@ static double PrescribedSpeed(const Solid s, double window)
       PrescribedLargest(d, s->stats.t, window, &velocity, &turn);
       PrescribedPivot(d, s->stats.t, pivot);
     }
-    largest = fmax(largest, velocity + turn * hypot(x[0] - pivot[0], x[1] - pivot[1]));
+    BulkMotion *of = &m[s->node_body[s->prescribed[k].node]];
+    const double speed = velocity + turn * hypot(x[0] - pivot[0], x[1] - pivot[1]);
+    of->speed = fmax(of->speed, speed * speed);
   }
-  return largest;
 }
 
-static PetscErrorCode MotionNow(Solid s, double window, BulkMotion *m)
+/* m[nbodies + 1], room for one behind the bodies; failed: some rank cannot make the step. */
+static PetscErrorCode MotionNow(Solid s, double window, BulkMotion m[], PetscBool *failed)
 {
   const double *force;
-  double largest[4] = {0.0, 0.0, 0.0, 0.0};
   PetscFunctionBeginUser;
+  PetscCall(PetscArrayzero(m, (size_t)s->nbodies + 1));
   PetscCall(SolidForces(s, &force));
   for (int n = 0; n < s->nnodes; n++) {
     if (!s->surface[n]) continue;
@@ -90,15 +92,18 @@ static PetscErrorCode MotionNow(Solid s, double window, BulkMotion *m)
       speed += s->v[2 * n + c] * s->v[2 * n + c];
       acceleration += a * a;
     }
-    largest[1] = fmax(largest[1], speed);
-    largest[2] = fmax(largest[2], acceleration);
+    BulkMotion *of = &m[s->node_body[n]];
+    of->moved = fmax(of->moved, ContactMovedSquared(s->contact, s, n));
+    of->speed = fmax(of->speed, speed);
+    of->acceleration = fmax(of->acceleration, acceleration);
   }
-  const double prescribed = PrescribedSpeed(s, window);
-  largest[1] = fmax(largest[1], prescribed * prescribed);
-  largest[0] = ContactMoved(s->contact, s);
-  largest[3] = s->failure[0] ? 1.0 : 0.0;
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 4, MPI_DOUBLE, MPI_MAX, s->comm));
-  *m = (BulkMotion){largest[0], sqrt(largest[1]), sqrt(largest[2]), (PetscBool)(largest[3] > 0.0)};
+  PrescribedSpeeds(s, window, m);
+  m[s->nbodies].moved = s->failure[0] ? 1.0 : 0.0;
+  if (s->size > 1)
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, m, 3 * s->nbodies + 1, MPI_DOUBLE, MPI_MAX, s->comm));
+  *failed = (PetscBool)(m[s->nbodies].moved > 0.0);
+  for (int b = 0; b < s->nbodies; b++)
+    m[b] = (BulkMotion){sqrt(m[b].moved), sqrt(m[b].speed), sqrt(m[b].acceleration)};
   PetscFunctionReturn(0);
 }
 
@@ -108,11 +113,46 @@ static double Travel(const BulkMotion *m, int k, double h)
   return m->moved + 2.0 * k * h * (m->speed + k * h * m->acceleration);
 }
 
-static int SafeSubsteps(const BulkMotion *m, double skin, double h)
+/* In k substeps no body leaves its skin.  One that is struck may get as fast as what strikes it, so that in more than a few substeps
+ * all are to stay within the shortest skin. */
+static PetscBool StayWithinSkins(const Solid s, const BulkMotion m[], int k, double h)
+{
+  const double *skin = ContactSkins(s->contact);
+  double shortest = HUGE_VAL;
+  for (int b = 0; b < s->nbodies; b++) shortest = fmin(shortest, skin[b]);
+  for (int b = 0; b < s->nbodies; b++)
+    if (Travel(&m[b], k, h) > (k > FEW ? shortest : skin[b])) return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+static int SafeSubsteps(const Solid s, const BulkMotion m[], double h)
 {
   int k = CHECK_EVERY;
-  while (k > 1 && Travel(m, k, h) > skin) k /= 2;
+  while (k > 1 && !StayWithinSkins(s, m, k, h)) k /= 2;
   return k;
+}
+
+static double LargestTravel(const Solid s, const BulkMotion m[], int k, double h)
+{
+  double largest = 0.0;
+  for (int b = 0; b < s->nbodies; b++) largest = fmax(largest, Travel(&m[b], k, h));
+  return largest;
+}
+
+/* Candidates for the coming substeps of h, from where the bodies are. */
+static PetscErrorCode SearchAgain(Solid s, BulkMotion m[], double h)
+{
+  double *least;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1((size_t)s->nbodies, &least));
+  for (int b = 0; b < s->nbodies; b++) {
+    m[b].moved = 0.0;
+    least[b] = Travel(&m[b], FEW, h);
+  }
+  PetscCall(ContactSearch(s->contact, s, least));
+  PetscCall(PetscFree(least));
+  s->force_valid = PETSC_FALSE;
+  PetscFunctionReturn(0);
 }
 
 /* Searches anew always at the start of a step, so that candidates follow from x alone and a step that is
@@ -121,30 +161,26 @@ static int SafeSubsteps(const BulkMotion *m, double skin, double h)
 static PetscErrorCode CheckContact(Solid s, double *limit, int *substeps, PetscBool *failed)
 {
   const double *force;
-  BulkMotion m;
+  BulkMotion *m;
   double after;
   PetscFunctionBeginUser;
   if (s->done == 0.0) {
-    PetscCall(ContactSearch(s->contact, s, 0.0));
+    PetscCall(ContactSearch(s->contact, s, NULL));
     s->force_valid = PETSC_FALSE;
   }
   PetscCall(SolidLimit(s, limit));
   PetscCall(SolidForces(s, &force)); /* with how fast rigid bodies turn */
   const double h = fmin(fmin(s->setup.courant * *limit, RigidLongestSubstep(s)), s->dt);
-  PetscCall(MotionNow(s, CHECK_EVERY * h, &m));
-  *failed = m.failed;
-  if (*failed) PetscFunctionReturn(0);
-  if (Travel(&m, CHECK_EVERY, h) > ContactSkin(s->contact)) {
-    const BulkMotion from_here = {0.0, m.speed, m.acceleration, PETSC_FALSE};
-    PetscCall(ContactSearch(s->contact, s, 2.0 * Travel(&from_here, 2, h)));
+  PetscCall(PetscMalloc1((size_t)s->nbodies + 1, &m));
+  PetscCall(MotionNow(s, CHECK_EVERY * h, m, failed));
+  if (!*failed && !StayWithinSkins(s, m, CHECK_EVERY, h)) {
+    PetscCall(SearchAgain(s, m, h));
     PetscCall(SolidLimit(s, &after));
     *limit = fmin(*limit, after); /* contact has been searched for substeps of h */
-    s->force_valid = PETSC_FALSE;
-    m.moved = 0.0;
   }
-  *substeps = (int)fmin(SafeSubsteps(&m, ContactSkin(s->contact), h),
-                        fmax(1.0, LoadsSteadyFor(s, CHECK_EVERY * h) / h));
-  ContactSetTravel(s->contact, Travel(&m, *substeps, h));
+  *substeps = (int)fmin(SafeSubsteps(s, m, h), fmax(1.0, LoadsSteadyFor(s, CHECK_EVERY * h) / h));
+  ContactSetTravel(s->contact, LargestTravel(s, m, *substeps, h));
+  PetscCall(PetscFree(m));
   PetscFunctionReturn(0);
 }
 

@@ -37,7 +37,7 @@ PetscErrorCode SolidCreate(MPI_Comm comm, const Model *model, const SolidSetup *
   PetscCallMPI(MPI_Comm_size(comm, &s->size));
   PetscCall(Distribute(s, model));
   PetscCall(ContactCreate(s, &s->contact));
-  PetscCall(ContactSearch(s->contact, s, 0.0));
+  PetscCall(ContactSearch(s->contact, s, NULL));
   *solid = s;
   PetscFunctionReturn(0);
 }

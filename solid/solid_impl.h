@@ -224,17 +224,18 @@ PetscErrorCode ContactCreate(Solid s, Contact *contact);
 /* Collective: nodes, elements or facets have changed; a search must follow.  Slips stay with element and
  * side. */
 PetscErrorCode ContactRenew(Contact c, Solid s);
-/* Collective: new candidates, for motions of surface nodes up to ContactSkin. */
-PetscErrorCode ContactSearch(Contact c, Solid s, double min_buffer);
+/* Collective: new candidates, for motions of each body's surface nodes up to its ContactSkins: of least[nbodies], NULL: none,
+ * where its own pairs allow that. */
+PetscErrorCode ContactSearch(Contact c, Solid s, const double least[]);
 /* Not collective: until the next call or search no surface node is going to be farther than `travel` from where it was
  * at the search: what was farther apart than twice that is not looked at. */
 void ContactSetTravel(Contact c, double travel);
 /* Adds to force; every rank's edges against its own targets and those of other ranks. */
 PetscErrorCode ContactAddForces(Contact c, Solid s);
-/* Not collective: how far a node may move before a new search, and how far the farthest has; bounds of
- * omega^2 and 2 xi omega. */
-double ContactSkin(Contact c);
-double ContactMoved(Contact c, Solid s);
+/* Not collective: how far the nodes of each body may move before a new search, [nbodies], and how far this one has, squared;
+ * bounds of omega^2 and 2 xi omega. */
+const double *ContactSkins(Contact c);
+double ContactMovedSquared(Contact c, Solid s, int node);
 /* Not collective: the force of the walls on this rank's edges in the last ContactAddForces, N. */
 Point ContactWalls(Contact c);
 ElementRates ContactRate(Contact c);

@@ -192,8 +192,9 @@ PetscErrorCode ContactCreate(Solid s, Contact *contact)
   PetscCall(PetscNew(&c));
   if (s->size > 1) PetscCall(HaloCreate(s->comm, &c->halo));
   const size_t nbodies = (size_t)s->nbodies;
-  PetscCall(PetscCalloc5(nbodies, &c->height, nbodies, &c->compliance, nbodies, &c->intact_compliance,
-                         nbodies, &c->mass, nbodies, &c->areal_mass));
+  PetscCall(PetscCalloc7(nbodies, &c->height, nbodies, &c->compliance, nbodies, &c->intact_compliance,
+                         nbodies, &c->mass, nbodies, &c->areal_mass, nbodies, &c->skin, nbodies,
+                         &c->waiting));
   c->rough = AnyRough(s);
   PetscCall(ContactRenew(c, s));
   PetscCall(PetscArraycpy(c->intact_compliance, c->compliance, nbodies));
@@ -213,20 +214,15 @@ PetscErrorCode ContactRenew(Contact c, Solid s)
   PetscFunctionReturn(0);
 }
 
-double ContactSkin(Contact c)
+const double *ContactSkins(Contact c)
 {
-  return 0.5 * fmin(c->buffer, c->waiting);
+  return c->skin;
 }
 
-double ContactMoved(Contact c, Solid s)
+double ContactMovedSquared(Contact c, Solid s, int n)
 {
-  double largest = 0.0;
-  for (int n = 0; n < s->nnodes; n++) {
-    if (!s->surface[n]) continue;
-    const double dx = s->x[2 * n] - c->searched[2 * n], dy = s->x[2 * n + 1] - c->searched[2 * n + 1];
-    largest = fmax(largest, dx * dx + dy * dy);
-  }
-  return sqrt(largest);
+  const double dx = s->x[2 * n] - c->searched[2 * n], dy = s->x[2 * n + 1] - c->searched[2 * n + 1];
+  return dx * dx + dy * dy;
 }
 
 ElementRates ContactRate(Contact c)
@@ -244,8 +240,8 @@ PetscErrorCode ContactDestroy(Contact *c)
   PetscFunctionBeginUser;
   if (!*c) PetscFunctionReturn(0);
   PetscCall(HaloDestroy(&(*c)->halo));
-  PetscCall(
-      PetscFree5((*c)->height, (*c)->compliance, (*c)->intact_compliance, (*c)->mass, (*c)->areal_mass));
+  PetscCall(PetscFree7((*c)->height, (*c)->compliance, (*c)->intact_compliance, (*c)->mass, (*c)->areal_mass,
+                       (*c)->skin, (*c)->waiting));
   PetscCall(PetscFree((*c)->searched));
   PetscCall(PetscFree((*c)->first_pair));
   PetscCall(PetscFree((*c)->target));

@@ -18,9 +18,10 @@ typedef struct {
 typedef struct Halo_s *Halo;
 
 PetscErrorCode HaloCreate(MPI_Comm comm, Halo *h);
-/* Collective: offers own targets to the ranks whose edges' box they touch.  Received ones: HaloTargets. */
-PetscErrorCode HaloBuild(Halo h, int nnodes, const double x[], const GeometryBox *edges, int n,
-                         const Target target[]);
+/* Collective: offers own targets, widened by their body's skin, to the ranks whose edges' box they touch.  Received ones:
+ * HaloTargets. */
+PetscErrorCode HaloBuild(Halo h, int nnodes, const double x[], const double skin[], const GeometryBox *edges,
+                         int n, const Target target[]);
 /* Collective: forgets those with keep[k] = 0; index[k] becomes the new place of target k or -1. */
 PetscErrorCode HaloKeep(Halo h, const char keep[], int index[]);
 int HaloTargets(Halo h, const Target **target);

@@ -94,11 +94,11 @@ struct Contact_s {
   double *mass;              /* [nbodies] of what can move, kg/m; HUGE_VAL: held as a whole */
   double *areal_mass; /* [nbodies] mass behind a metre of surface, 4 M/perimeter, kg/m2; HUGE_VAL: likewise */
   double *searched;   /* [nnodes][2] positions of the last search */
-  double buffer, shortest_buffer;
-  double
-      waiting; /* m: the least distance of a pair of one body that is no candidate yet; the next search is before it can have closed */
-  Point walls; /* what they did to this rank's edges, N */
-  double rate[4]; /* bounds of omega^2 by bodies and by walls, 1/s2; of 2 xi omega by both, 1/s */
+  double shortest_buffer;
+  double *skin;    /* [nbodies] half of it, or what a fast body needs: candidates lie within both bodies' */
+  double *waiting; /* [nbodies] m: least distance of the body's pairs that are no candidates yet */
+  Point walls;     /* what they did to this rank's edges, N */
+  double rate[4];  /* bounds of omega^2 by bodies and by walls, 1/s2; of 2 xi omega by both, 1/s */
 };
 
 static inline Point ContactPosition(const Contact c, const Solid s, int node)
@@ -116,7 +116,7 @@ static inline PetscBool ContactJoined(const Solid s, int facet, const Target *t)
 PetscErrorCode ContactHold(Contact c, Solid s);
 
 /* contact_near.c */
-/* Farther than the buffer they cannot touch before the next search.  Of one body: a pair that shares a node
+/* Farther than both bodies' skins they cannot touch before the next search.  Of one body: a pair that shares a node
  * never touches by itself, neighbours at rest only once they have come closer, and a buffer that is long
  * because the body as a whole is fast is not needed.  *distance: not less is between them. */
 PetscBool ContactMayBeActive(const Contact c, const Solid s, int facet, const Target *t, double *distance);

@@ -54,11 +54,11 @@ PetscBool ContactMayBeActive(const Contact c, const Solid s, int facet, const Ta
   if (t->body == body && Parted(s, edge, t, now) <= c->shortest_buffer * c->shortest_buffer)
     return PETSC_TRUE;
   *distance = Distance(PointAt(s->x, edge[0]), PointAt(s->x, edge[1]), now);
-  if (t->body != body) return (PetscBool)(*distance <= c->buffer);
+  if (t->body != body) return (PetscBool)(*distance <= c->skin[body] + c->skin[t->body]);
   if (*distance <= c->shortest_buffer) {
     const double apart = Distance(PointAt(s->rest, edge[0]), PointAt(s->rest, edge[1]), rest);
     if (apart == 0.0 || apart > c->shortest_buffer || *distance < APPROACH * apart) return PETSC_TRUE;
   }
-  c->waiting = fmin(c->waiting, *distance);
+  c->waiting[body] = fmin(c->waiting[body], *distance);
   return PETSC_FALSE;
 }

@@ -5,7 +5,7 @@
 typedef struct {
   Contact c;
   Solid s;
-  const GeometryBox *facet;     /* [nfaces] with the buffer around them */
+  const GeometryBox *facet;     /* [nfaces] with their body's skin around them, as the others */
   const GeometryBox *contactor; /* [ncontactors] of their facets */
   const GeometryBox *target;    /* [nall] */
   char *keep;                   /* [halo targets] */
@@ -163,8 +163,10 @@ static PetscErrorCode FindWalls(Contact c, Solid s, const GeometryBox edge[])
     const int element = s->facet_element[k], body = s->elements.body[element], before = c->nwalls;
     const Material *m = &s->material[s->elements.material[element]];
     for (int axis = 0; axis < 2; axis++) {
-      if (edge[k].lower[axis] < lower[axis]) PetscCall(AddWall(c, s, k, axis, -1.0, lower[axis]));
-      if (edge[k].upper[axis] > upper[axis]) PetscCall(AddWall(c, s, k, axis, 1.0, upper[axis]));
+      if (edge[k].lower[axis] - c->skin[body] < lower[axis])
+        PetscCall(AddWall(c, s, k, axis, -1.0, lower[axis]));
+      if (edge[k].upper[axis] + c->skin[body] > upper[axis])
+        PetscCall(AddWall(c, s, k, axis, 1.0, upper[axis]));
     }
     /* in a corner two walls act */
     c->rate[1] = fmax(c->rate[1], 3.0 * (c->nwalls - before) * m->penalty * m->thickness *
@@ -182,7 +184,7 @@ static PetscErrorCode BringTargets(Contact c, Solid s, const GeometryBox edge[])
   c->nall = c->ntargets;
   if (!c->halo) PetscFunctionReturn(0);
   for (int k = 0; k < s->nfaces; k++) GeometryBoxJoin(&all, &edge[k]);
-  PetscCall(HaloBuild(c->halo, s->nnodes, s->x, &all, c->ntargets, c->target));
+  PetscCall(HaloBuild(c->halo, s->nnodes, s->x, c->skin, &all, c->ntargets, c->target));
   PetscCall(HaloForward(c->halo, s->x, NULL));
   const int n = HaloTargets(c->halo, &foreign);
   c->nall += n;
@@ -216,7 +218,7 @@ static PetscErrorCode DropTargets(Contact c, const char keep[])
   PetscFunctionReturn(0);
 }
 
-/* Every pair closer than the buffer. */
+/* Every pair closer than its skins. */
 static PetscErrorCode FindPairs(Contact c, Solid s, const GeometryBox edge[])
 {
   GeometryBox *contactor, *target;
@@ -231,6 +233,7 @@ static PetscErrorCode FindPairs(Contact c, Solid s, const GeometryBox edge[])
       const Point at = ContactPosition(c, s, c->target[k].node[i]);
       GeometryBoxGrow(&target[k], (const double[]){at.x, at.y});
     }
+    target[k] = GeometryBoxWidened(target[k], c->skin[c->target[k].body]);
   }
   for (int k = 0; k < c->ncontactors; k++) {
     const int own = c->contactor[k];
@@ -253,7 +256,7 @@ void ContactSetTravel(Contact c, double travel)
     if (c->couple[k].distance <= 2.0 * travel) c->near[c->nnear++] = k;
 }
 
-PetscErrorCode ContactSearch(Contact c, Solid s, double min_buffer)
+PetscErrorCode ContactSearch(Contact c, Solid s, const double least[])
 {
   GeometryBox *edge;
   PetscFunctionBeginUser;
@@ -261,17 +264,22 @@ PetscErrorCode ContactSearch(Contact c, Solid s, double min_buffer)
   PetscCall(ContactHold(c, s));
   c->restored = PETSC_FALSE;
   for (int k = 0; k < s->nfaces; k++) c->first_pair[k] = -1;
-  c->buffer = fmax(c->shortest_buffer, min_buffer);
+  for (int b = 0; b < s->nbodies; b++) {
+    c->skin[b] = fmax(0.5 * c->shortest_buffer, least ? least[b] : 0.0);
+    c->waiting[b] = HUGE_VAL;
+  }
   for (int k = 0; k < 4; k++) c->rate[k] = 0.0;
-  c->waiting = HUGE_VAL;
   PetscCall(PetscMalloc1((size_t)s->nfaces, &edge));
   for (int k = 0; k < s->nfaces; k++)
-    edge[k] = GeometryBoxWidened(GeometryBoxOfNodes(2, s->facet + 2 * k, s->x), c->buffer);
+    edge[k] = GeometryBoxWidened(GeometryBoxOfNodes(2, s->facet + 2 * k, s->x),
+                                 c->skin[s->elements.body[s->facet_element[k]]]);
   if (s->setup.walls) PetscCall(FindWalls(c, s, edge));
   PetscCall(FindPairs(c, s, edge));
   ContactSetTravel(c, HUGE_VAL);
   if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->rate, 4, MPI_DOUBLE, MPI_MAX, s->comm));
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->waiting, 1, MPI_DOUBLE, MPI_MIN, s->comm));
+  if (s->size > 1)
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->waiting, s->nbodies, MPI_DOUBLE, MPI_MIN, s->comm));
+  for (int b = 0; b < s->nbodies; b++) c->skin[b] = fmin(c->skin[b], 0.5 * c->waiting[b]);
   PetscCall(PetscArraycpy(c->searched, s->x, 2 * (size_t)s->nnodes));
   PetscCall(PetscFree(edge));
   s->stats.searches++;

@@ -127,7 +127,7 @@ PetscErrorCode JointsSynchronise(Joints j, Solid s)
   PetscCall(MarkSurface(s));
   PetscCall(JointsMeasureRate(j, s));
   PetscCall(ContactRenew(s->contact, s));
-  PetscCall(ContactSearch(s->contact, s, 0.0));
+  PetscCall(ContactSearch(s->contact, s, NULL));
   PetscFunctionReturn(0);
 }
 

@@ -103,6 +103,6 @@ PetscErrorCode SolidTakeState(Solid s, const StateSource *from)
   if (s->joints)
     PetscCall(JointsSynchronise(s->joints, s));
   else
-    PetscCall(ContactSearch(s->contact, s, 0.0));
+    PetscCall(ContactSearch(s->contact, s, NULL));
   PetscFunctionReturn(0);
 }

@@ -78,7 +78,7 @@ static PetscErrorCode Measure(int side)
   t[1] = Processor() - t[1];
   PetscCall(Substeps(s, 20, &t[3])); /* some overlap */
   t[2] = Processor();
-  PetscCall(ContactSearch(s->contact, s, 0.0));
+  PetscCall(ContactSearch(s->contact, s, NULL));
   t[2] = Processor() - t[2];
   PetscCall(Substeps(s, 10 + (int)(1e5 / n), &t[3]));
   PetscCall(OncePerStep(s, &t[4]));

@@ -30,7 +30,7 @@ static PetscErrorCode Measure(int side)
   PetscCall(SolidLimit(s, &limit));
   PetscCall(Run(s, 20.0 * limit, 20.0 * limit)); /* some overlap */
   double start = Processor();
-  for (int k = 0; k < repeats; k++) PetscCall(ContactSearch(s->contact, s, 0.0));
+  for (int k = 0; k < repeats; k++) PetscCall(ContactSearch(s->contact, s, NULL));
   const double search = (Processor() - start) / repeats;
   PetscCall(SolidStart(s, 10.0 * repeats * limit, NULL));
   const long long before = SolidGetStats(s)->total;

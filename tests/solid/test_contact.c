@@ -1,9 +1,9 @@
 /* Contact forces: against a brute-force energy, dF = -dU/dx, U = p sum over (C, T) of the integral of
  * phi_T/J_T over the common part of contactor C and target T; equal and opposite; the same through the cell
- * grid as over all pairs. */
+ * grid as over all pairs, whatever the sizes of the boxes.  A fast body is found in time, and costs others nothing. */
 #include "common/supermesh/geometry.h"
 #include "solid/contact/cell_grid.h"
-#include "solid/contact/contact_kernel.h"
+#include "solid/contact/contact_impl.h"
 #include "tests/solid/build.h"
 
 /* int phi over the triangle part: phi is linear on the target's three thirds between its centre and its
@@ -212,6 +212,67 @@ static PetscErrorCode HeldNodes(void)
   return 0;
 }
 
+/* --- fast bodies -------------------------------------------------------------------------------------- */
+
+enum { SIDE = 5 };
+
+/* Discs in rows and another one, far away: the candidates after a step, and its substeps. */
+static PetscErrorCode Flier(double speed, int *candidates, int *substeps)
+{
+  const SolidSetup options = {.courant = 0.8};
+  BodySetup disc = BodyAtRest(MaterialOf(2000.0, 1e6, 0.2, 0.0));
+  Model a = {0};
+  Solid s;
+  for (int k = 0; k < SIDE * SIDE; k++)
+    AddDisc(&a, 0.05 * (k % SIDE), 0.05 * (int)(k / SIDE), 0.02, 0.02, &disc);
+  disc.velocity[1] = speed;
+  AddDisc(&a, 5.0, 0.0, 0.02, 0.02, &disc);
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, &s));
+  PetscCall(RunStep(s, 0.002, NULL));
+  *candidates = s->contact->ncandidates;
+  *substeps = SolidGetStats(s)->substeps;
+  PetscCall(SolidDestroy(&s));
+  return ModelDestroy(&a);
+}
+
+/* A fast body is no reason to look at more pairs of others. */
+static PetscErrorCode Fliers(void)
+{
+  int slow[2], fast[2];
+  PetscCall(Flier(0.0, &slow[0], &slow[1]));
+  PetscCall(Flier(100.0, &fast[0], &fast[1]));
+  CHECK(fast[0] == slow[0] && fast[1] == slow[1],
+        "%d candidates and %d substeps beside a fast disc, %d and %d beside a slow one", fast[0], fast[1],
+        slow[0], slow[1]);
+  return 0;
+}
+
+/* A rigid square flies at two that stand side by side, a little apart: the last one leaves with its velocity. */
+static PetscErrorCode Strike(double speed)
+{
+  const SolidSetup options = {.courant = 0.2};
+  const double side = 0.02;
+  const Material rigid = {.density = 2000.0, .penalty = 1e9, .rigid = 1};
+  BodySetup square = BodyAtRest(rigid);
+  Model a = {0};
+  BodyState b[3];
+  Solid s;
+  AddRectangle(&a, 0.0, 0.0, side, side, 0.0, side, 0, &square);
+  AddRectangle(&a, 1.02 * side, 0.0, side, side, 0.0, side, 0, &square);
+  square.velocity[0] = speed;
+  AddRectangle(&a, -10.5 * side, 0.0, side, side, 0.0, side, 0, &square);
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, &s));
+  PetscCall(Run(s, 20.0 * side / speed, 2.0 * side / speed));
+  PetscCall(SolidBodies(s, 3, b));
+  if (getenv("VERBOSE"))
+    printf("struck with %g m/s: %.4f, %.4f, %.4f m/s\n", speed, b[2].v[0], b[0].v[0], b[1].v[0]);
+  CHECK(fabs(b[1].v[0] / speed - 1.0) < 0.05 && fabs(b[0].v[0] / speed) < 0.05 &&
+            fabs(b[2].v[0] / speed) < 0.05,
+        "after %g m/s the squares have %g, %g and %g m/s", speed, b[2].v[0], b[0].v[0], b[1].v[0]);
+  PetscCall(SolidDestroy(&s));
+  return ModelDestroy(&a);
+}
+
 int main(int argc, char **argv)
 {
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
@@ -223,5 +284,8 @@ int main(int argc, char **argv)
   PetscCall(Overlap(0.0, 0.1, 1)); /* one within the other */
   PetscCall(Overlap(0.0, 0.5, 1)); /* one exactly over the other */
   PetscCall(HeldNodes());
+  PetscCall(Strike(100.0));
+  PetscCall(Strike(1.0));
+  PetscCall(Fliers());
   return PetscFinalize();
 }
