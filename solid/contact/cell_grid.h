@@ -1,7 +1,7 @@
 /* Pairs of overlapping boxes of two sets, in time linear in boxes and pairs: boxes of the first set are
  * entered in the square cells that they touch, those of the second look into theirs (NBS, Munjiza and Andrews
  * 1998, with hashed cells instead of lists of columns).  Cells are as large as the first set's boxes on
- * average.
+ * average; those that are much larger have a grid of their own, with larger cells, and so on.
  *
  *     +---+---+---+     a pair that shares several cells is reported in one of them only: the one
  *     |   |a a|a  |     with the lower left corner of the boxes' common part

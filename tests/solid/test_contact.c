@@ -137,6 +137,36 @@ static PetscErrorCode Grid(void)
   return 0;
 }
 
+static int large_pairs, other_pairs;
+
+static PetscErrorCode CountLarge(void *context, int i, int j)
+{
+  const int *nlarge = context;
+  if (i < *nlarge || j < *nlarge)
+    large_pairs++;
+  else
+    other_pairs += i != j;
+  return 0;
+}
+
+/* A few boxes of 1000 over very many of 0.001, which lie apart: cells of the mean size are 2e8 in one. */
+static PetscErrorCode GridOfAllSizes(void)
+{
+  const int nsmall = 40000, nlarge = 3, n = nlarge + nsmall, side = 200;
+  GeometryBox *box = malloc((size_t)n * sizeof *box);
+  for (int k = 0; k < n; k++) {
+    const double size = k < nlarge ? 1000.0 : 0.001;
+    const double x = k < nlarge ? -500.0 + k : 0.002 * ((k - nlarge) % side);
+    const double y = k < nlarge ? -500.0 : 0.002 * (int)((k - nlarge) / side);
+    box[k] = (GeometryBox){{x, y}, {x + size, y + size}};
+  }
+  PetscCall(CellGridPairs(n, box, n, box, CountLarge, (void *)(size_t)&nlarge));
+  CHECK(large_pairs == nlarge * (nlarge + 2 * nsmall) && other_pairs == 0,
+        "%d pairs with a large box, %d of two small ones", large_pairs, other_pairs);
+  free(box);
+  return 0;
+}
+
 /* --- overlap at the start ----------------------------------------------------------------------------- */
 
 /* The second mesh's triangles, on nodes of their own, behind those of the first. */
@@ -278,6 +308,7 @@ int main(int argc, char **argv)
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   PetscCall(EnergyGradient());
   PetscCall(Grid());
+  PetscCall(GridOfAllSizes());
   PetscCall(Overlap(1.2, 0.5, 0));
   PetscCall(Overlap(1.0, 0.5, 0)); /* side by side, touching */
   PetscCall(Overlap(0.99, 0.5, 1));
