@@ -41,10 +41,10 @@ static int TellHolders(const Arrival arrival[], int first, int end, const int ra
                        Holder holder[], int to[])
 {
   int n = 0;
-  for (int i = first; i < end && end - first > 1; i++) {
-    for (int j = first; j < end; j++) {
-      const int r = rank[arrival[j].place];
-      if (j > first && r == rank[arrival[j - 1].place]) continue;
+  for (int j = first; j < end && end - first > 1; j++) {
+    const int r = rank[arrival[j].place];
+    if (j > first && r == rank[arrival[j - 1].place]) continue;
+    for (int i = first; i < end; i++) {
       if (holder) {
         holder[n] = (Holder){thing, arrival[i].item, r};
         to[n] = rank[arrival[i].place];

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { ROWS = 50, ITEMS = 200, THINGS = 40, COPIES = 30 };
+enum { ROWS = 50, ITEMS = 200, THINGS = 40, COPIES = 30, MANY = 40000 };
 
 static PetscMPIInt rank, size;
 
@@ -225,6 +225,28 @@ static void CheckCopies(void)
   CHECK(!CopiesDestroy(&c) && !c, "not destroyed");
 }
 
+/* A thing with very many copies on each rank (the nodes of one body) takes records in proportion to them, not to their square. */
+static void CheckMany(void)
+{
+  const double all = 0.5 * MANY * size * (size + 1);
+  long long *number = malloc(MANY * sizeof *number);
+  double *value = malloc(MANY * sizeof *value);
+  Copies c;
+  for (int k = 0; k < MANY; k++) {
+    number[k] = 7;
+    value[k] = 1.0 + rank;
+  }
+  CHECK(!CopiesCreateByNumber(PETSC_COMM_WORLD, MANY, number, &c), "not made");
+  CHECK(!CopiesSum(c, 1, value), "not summed");
+  for (int k = 0; k < MANY; k++) {
+    CHECK(value[k] == all, "copy %d: %.17g, not %.17g", k, value[k], all);
+    CHECK(CopiesOwner(c, k) == 0 && CopiesIsFirst(c, k) == (rank == 0 && k == 0), "copy %d is wrong", k);
+  }
+  CHECK(!CopiesDestroy(&c), "not destroyed");
+  free(number);
+  free(value);
+}
+
 /* A ring: item 0 is shared with the rank below, item 2 with the one above, item 1 with all and said twice, item 3 with none. */
 static void CheckMatched(void)
 {
@@ -261,6 +283,7 @@ int main(int argc, char **argv)
   CheckGather();
   CheckBoxes();
   CheckCopies();
+  CheckMany();
   CheckMatched();
   return PetscFinalize();
 }
