@@ -1,4 +1,5 @@
 #include "common/mesh/part_partition.h"
+#include "common/mesh/kept_signals.h"
 
 /* A mesh of more triangles, if no rank has more than an eighth of them, is partitioned by clusters: of some ten
  * triangles at least, some thirty a part where these are enough. */
@@ -25,12 +26,15 @@ static PetscErrorCode Metis(idx_t n, idx_t first[], idx_t list[], idx_t size[], 
                             int target[])
 {
   idx_t ncon = 1, cut, options[METIS_NOPTIONS], *metis_part;
+  KeptSignals signals;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(n, &metis_part));
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 1;
+  SignalsKeep(&signals);
   const int status = (nparts <= 8 ? METIS_PartGraphRecursive : METIS_PartGraphKway)(
       &n, &ncon, first, list, size, NULL, weight, &nparts, NULL, NULL, options, &cut, metis_part);
+  SignalsRestore(&signals);
   for (int e = 0; e < n && status == METIS_OK; e++) target[e] = (int)metis_part[e];
   PetscCall(PetscFree(metis_part));
   PetscCheck(status == METIS_OK, PETSC_COMM_SELF, PETSC_ERR_LIB,

@@ -1,4 +1,5 @@
 #include "solid/ranks/partition.h"
+#include "common/mesh/kept_signals.h"
 #include <metis.h>
 #include <stdlib.h>
 
@@ -51,14 +52,17 @@ static PetscErrorCode Metis(const PartitionGraph *g, int n, int parts, int part[
 {
   idx_t nv = n, constraints = 1, nparts = parts, cut, *start, *to, *w, *work, *of;
   const size_t room = 2 * (size_t)g->nlinks;
+  KeptSignals signals;
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc5((size_t)n + 1, &start, room, &to, room, &w, (size_t)n, &work, (size_t)n, &of));
   PetscCall(Rows(g, n, start, to, w));
   for (int e = 0; e < n; e++) work[e] = g->work[e];
+  SignalsKeep(&signals);
   const int code = parts > 8 ? METIS_PartGraphKway(&nv, &constraints, start, to, work, NULL, w, &nparts, NULL,
                                                    NULL, NULL, &cut, of)
                              : METIS_PartGraphRecursive(&nv, &constraints, start, to, work, NULL, w, &nparts,
                                                         NULL, NULL, NULL, &cut, of);
+  SignalsRestore(&signals);
   PetscCheck(code == METIS_OK, PETSC_COMM_SELF, PETSC_ERR_LIB, "METIS failed with %d", code);
   for (int e = 0; e < n; e++) part[e] = (int)of[e];
   PetscCall(PetscFree5(start, to, w, work, of));
