@@ -15,7 +15,7 @@
 typedef struct {
   CoracleClient client;             /* borrowed */
   Solid solid;                      /* borrowed */
-  double waited;                    /* seconds within the link */
+  double waited;                    /* seconds within the link since the output is open */
   double dt;                        /* of the step, s */
   NodeDirectory registered, before; /* before: NULL unless this step has registered a new mesh */
   double *load, *film_load,

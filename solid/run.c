@@ -21,6 +21,7 @@ PetscErrorCode SolidRunOpenOutput(SolidRun *m)
   PetscFunctionBeginUser;
   PetscCall(WriterCreate(m->program->c, m->program->comm, m->solid, m->from, &m->writer));
   PetscCall(CheckpointClose(&m->from));
+  m->exchange.waited = 0.0; /* the output's seconds begin here, too */
   PetscFunctionReturn(0);
 }
 

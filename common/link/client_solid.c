@@ -214,6 +214,8 @@ void SolidEnd(CoracleClient c, const double x[])
     ParticipantFail(c->p, "the substeps of step %d sum up to %.12g s, the step is %.12g s", c->p->step,
                     s->elapsed, c->dt);
   if (!x && m->n) ClientMisuse(c, "CoracleEnd", "a solid gives its positions");
+  if (s->has_given && s->given.size != m->x.size)
+    ClientMisuse(c, "CoracleSetVelocity", "it comes after CoracleSetNodes");
   MessageCheckFinite(c->p, "position", "node", NULL, (size_t)m->n, DIM, x);
   CheckDisplacement(c, x);
   Velocities(s);

@@ -229,7 +229,7 @@ int CoracleGetFilm(CoracleClient c, const double **load, const double **resistan
  * the velocities, evaluated at the last substep, for couplings that need the velocity at the step's end. */
 int CoracleSubstep(CoracleClient c, double h, const double u[]);
 /* Optional, between the last substep and CoracleEnd: u[n][dim], m/s, replaces the fitted line's value, from a
- * solid that can separate its motion from its vibration.  For this step only. */
+ * solid that can separate its motion from its vibration.  For this step only; after CoracleSetNodes where the mesh changes. */
 int CoracleSetVelocity(CoracleClient c, const double u[]);
 /* Optional, before CoracleReady and where CoracleSetVelocity is: how nodes respond to the fluid's force.
  *   mobility[n]           1/kg, velocity per unit of impulse on the node: one over its mass, all ranks'

@@ -40,6 +40,8 @@ static void Accepted(const char *call, const char *expected, const char *found)
 static const double X[] = {0, 0, 1, 0, 0, 1}, ZERO[6], BAD[] = {0, 0, 0, NAN, 0, 0};
 static const long long GID[] = {1, 2, 3}, SAME[] = {1, 2, 1};
 static const int FACET[] = {0, 1, 1, 2, 2, 0}, TRIANGLE[] = {0, 1, 2}, FAR[] = {0, 1, 3}, BACK[] = {0, 2, 1};
+static const double MORE_X[] = {0, 0, 1, 0, 0, 1, 1, 1}, MORE_ZERO[8];
+static const long long MORE_GID[] = {1, 2, 3, 4};
 static const double ONE[] = {1, 1, 1}, NEGATIVE[] = {1, -1, 1};
 
 static int Region(void *context, int nbox, const double box[], CoracleElements *e)
@@ -198,6 +200,9 @@ static void InStep(CoracleClient c)
   REFUSED(CoracleEnd(c, NULL), "CoracleEnd: a solid gives its positions");
   REFUSED(CoracleEnd(c, BAD), "position is nan at node 1, component 1, in step 1");
   REFUSED(CoracleClose(&c), "closed in step 1, before the end of the run");
+  CoracleSetVelocity(c, ZERO);
+  CoracleSetNodes(c, 2, 4, MORE_GID, MORE_X, MORE_ZERO);
+  REFUSED(CoracleEnd(c, MORE_X), "CoracleSetVelocity: it comes after CoracleSetNodes");
 }
 
 /* --- the fluid ------------------------------------------------------------------------------------------ */
