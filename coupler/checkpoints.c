@@ -31,12 +31,18 @@ PetscErrorCode CheckpointsRequest(Checkpoints *k, long long steps, double t, Pet
   PetscCall(IsRoot(k, &root));
   due = end || MPI_Wtime() - k->last >= k->every;
   PetscCallMPI(MPI_Bcast(&due, 1, MPI_INT, 0, k->comm));
+  k->rejected = PETSC_FALSE;
   if (!due) PetscFunctionReturn(0);
   snprintf(k->due, sizeof k->due, "%s/" CORACLE_CHECKPOINT ".%lld", k->folder, steps);
   if (root) PetscCall(CheckpointFolderMake(k->due, k->run, steps, t));
   PetscCallMPI(MPI_Barrier(k->comm)); /* the folder exists before a client is told to save there */
   PetscCall(ServerSave(k->server, k->due));
   PetscFunctionReturn(0);
+}
+
+void CheckpointsReject(Checkpoints *k)
+{
+  k->rejected = PETSC_TRUE;
 }
 
 PetscErrorCode CheckpointsFinish(Checkpoints *k)
@@ -47,13 +53,11 @@ PetscErrorCode CheckpointsFinish(Checkpoints *k)
   if (!k->due[0]) PetscFunctionReturn(0);
   PetscCall(IsRoot(k, &root));
   const char *unsaved = ServerUnsaved(k->server);
-  if (unsaved && root) {
-    fprintf(stderr, "coracle: note: no checkpoints: the %s saves none\n", unsaved);
-    CheckpointFolderRemove(k->due);
-  }
+  k->impossible = (PetscBool)(unsaved && !k->rejected);
+  if (k->impossible && root) fprintf(stderr, "coracle: note: no checkpoints: the %s saves none\n", unsaved);
+  if (unsaved && root) CheckpointFolderRemove(k->due);
   if (!unsaved && root) PetscCall(CheckpointFolderPublish(k->due));
-  k->impossible = unsaved ? PETSC_TRUE : PETSC_FALSE;
+  if (!unsaved) k->last = MPI_Wtime();
   k->due[0] = 0;
-  k->last = MPI_Wtime();
   PetscFunctionReturn(0);
 }

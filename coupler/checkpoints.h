@@ -17,6 +17,7 @@ typedef struct {
   char run[CHECKPOINT_RUN]; /* of the coupler's rank 0 */
   double every, last;       /* wall-clock seconds: between two (0: none), and when the last was made */
   char due[600];            /* folder of the one due in the current step, or "" */
+  PetscBool rejected;       /* an attempt at the current step has been */
   PetscBool impossible;     /* a participant saves nothing */
 } Checkpoints;
 
@@ -25,6 +26,9 @@ PetscErrorCode CheckpointsCreate(MPI_Comm comm, Server server, const CouplerCase
 /* Before the step after `steps` steps, at t, or the end, is sent: if a checkpoint is due, requests it from all
  * clients and sets `due`. */
 PetscErrorCode CheckpointsRequest(Checkpoints *k, long long steps, double t, PetscBool end);
-/* After that step, or when all clients have closed: publishes the checkpoint if all have saved. */
+/* A participant rejects an attempt at the current step: it may not have come to where it saves. */
+void CheckpointsReject(Checkpoints *k);
+/* After that step, or when all clients have closed: publishes the checkpoint if all have saved; after a rejection one that has not
+ * may do so in the next step. */
 PetscErrorCode CheckpointsFinish(Checkpoints *k);
 #endif

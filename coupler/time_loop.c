@@ -122,6 +122,14 @@ static PetscErrorCode Start(RunState *run)
   PetscFunctionReturn(0);
 }
 
+/* The same on all ranks. */
+static PetscBool IsRejected(RunState *run)
+{
+  if (!ServerRejection(run->loop->server)) return PETSC_FALSE;
+  CheckpointsReject(&run->checkpoints);
+  return PETSC_TRUE;
+}
+
 /* One coupling iteration: the fluid's flow becomes the solid's force, which makes the solid's motion, unless one of them cannot make the step. */
 static PetscErrorCode Iterate(RunState *run, StepRecord *step, PetscBool *rejected)
 {
@@ -132,7 +140,7 @@ static PetscErrorCode Iterate(RunState *run, StepRecord *step, PetscBool *reject
   PetscFunctionBeginUser;
   step->iterations++;
   PetscCall(ServerReceiveFlow(loop->server, &flow));
-  *rejected = (PetscBool)(ServerRejection(loop->server) != NULL);
+  *rejected = IsRejected(run);
   if (*rejected) PetscFunctionReturn(0);
   const double start = MPI_Wtime();
   PetscCall(ServerPhase(loop->server, "force"));
@@ -144,7 +152,7 @@ static PetscErrorCode Iterate(RunState *run, StepRecord *step, PetscBool *reject
                             force));
   run->solid_has_begun = PETSC_TRUE;
   PetscCall(ExchangeReceiveSolid(loop->server, run->mode, &run->solid));
-  *rejected = (PetscBool)(ServerRejection(loop->server) != NULL);
+  *rejected = IsRejected(run);
   PetscFunctionReturn(0);
 }
 

@@ -38,7 +38,7 @@ file=$(realpath "$file") out=$(realpath -m "${out:-out/$name}")
 
 [ -n "$bin" ] || "$root/scripts/build.sh"
 mkdir -p "$out"
-"$root/scripts/launch.sh" "${alone[@]}" --bin "${bin:-$root/build}" --ranks "$ranks" "$file" --set "output.folder=$out" "${sets[@]}"
+"$root/scripts/launch.sh" "${alone[@]}" --bin "${bin:-$root/build}" --ranks "$ranks" "$file" --set "output.folder='${out//\'/\'\'}'" "${sets[@]}"
 
 figures=$root/cases/$name/figures.sh pictures=""
 if [ -f "$figures" ] && [ "${#alone[@]}" -eq 0 ]; then # they show the fluid

@@ -200,7 +200,8 @@ int CoracleRejectStep(CoracleClient c, const char *why);
 /* A checkpoint, from which another run can resume (keys output.checkpoint and resume of the case): the
  * folder into which to save the participant's state at t, when one is due in the step that CoracleBegin
  * has begun (or at CORACLE_STOP), else NULL.  A participant that calls this must have saved, on all ranks, by
- * CoracleEnd, in files named after its role; while one participant never calls it there are no checkpoints.
+ * CoracleEnd, in files named after its role.  It asks before it may reject the step (CoracleRejectStep): a step that is redone has no
+ * path, and is without a checkpoint if the path was not asked for.  While one participant never calls it there are no checkpoints.
  * The same on all ranks; borrowed until CoracleEnd. */
 const char *CoracleCheckpointPath(CoracleClient c);
 /* After CoracleOpen: the checkpoint's folder from which this run resumes, or NULL: from the start.  A

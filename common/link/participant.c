@@ -3,6 +3,8 @@
 #include "common/link/exit_guard.h"
 #include "common/link/fields.h"
 #include "common/link/launcher_watch.h"
+#include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -93,13 +95,57 @@ static _Noreturn void RefuseToStart(int rank, const char *role, const char *mess
 
 /* --- joining -------------------------------------------------------------------------------------------- */
 
-static bool StartMpi(void)
+/* The launcher takes its time to start all programs. */
+static const double STARTING = 10.0; /* s */
+
+static char UNSTARTED[256];
+
+static void OnUnstarted(int signal_number)
+{
+  const ssize_t written = write(STDERR_FILENO, UNSTARTED, strlen(UNSTARTED));
+  _exit(written < 0 ? 2 : 1);
+}
+
+/* The rank as launchers tell it before MPI_Init. */
+static int LaunchedRank(void)
+{
+  static const char *const NAMES[] = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID"};
+  for (size_t k = 0; k < sizeof NAMES / sizeof *NAMES; k++) {
+    const char *value = getenv(NAMES[k]);
+    if (value) return atoi(value);
+  }
+  return 0;
+}
+
+/* MPI_Init waits for all ranks of the job, also for a program that never calls it: an alarm ends the wait, on the first rank first. */
+static void InitWithin(const char *role, double seconds)
+{
+  const struct sigaction action = {.sa_handler = OnUnstarted};
+  struct sigaction before;
+  snprintf(UNSTARTED, sizeof UNSTARTED,
+           "coracle %s[0]: error: not all programs of this job have called MPI_Init within %g s "
+           "(CORACLE_TIMEOUT, and %g s "
+           "to start)\n",
+           role, seconds, STARTING);
+  const int later = LaunchedRank() < 10 ? LaunchedRank() : 10;
+  sigaction(SIGALRM, &action, &before);
+  const unsigned left = alarm((unsigned)ceil(seconds) + 2 * (unsigned)later);
+  MPI_Init(NULL, NULL);
+  alarm(left);
+  sigaction(SIGALRM, &before, NULL);
+}
+
+static bool StartMpi(const char *role)
 {
   int initialized;
+  Waiter w;
   MPI_Initialized(&initialized);
   if (initialized) return false;
   AffinityEnvironment();
-  MPI_Init(NULL, NULL);
+  if (!WaiterInit(&w, true) && w.timeout < 1e6)
+    InitWithin(role, w.timeout + STARTING);
+  else
+    MPI_Init(NULL, NULL);
   return true;
 }
 
@@ -228,7 +274,7 @@ int ParticipantOpen(MPI_Comm job, const char *role, bool client, int argc, char 
   p->dim = CORACLE_DIM;
   HandshakeEntry mine;
   Affinity share;
-  p->started_mpi = StartMpi();
+  p->started_mpi = StartMpi(role);
   p->job = job == MPI_COMM_NULL ? MPI_COMM_WORLD : job;
   p->start = WaitClock();
   /* until all have come nothing else may wait for them, and so nobody knows whether they share cores */

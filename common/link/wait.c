@@ -7,6 +7,8 @@
 
 static const double SPIN = 20e-6, YIELD = 100e-6, SHORT = 200e-6, LONG = 1e-3; /* s */
 static const double RUNG = 50e-3; /* s: the longest sleep of one that will be woken */
+static const double STOPPED =
+    1.0; /* s: more between two looks than any pause; a signal has stopped the process */
 
 /* Grows fast to 200 us, and after 20 ms to 1 ms: a wake-up is at most 1 % late. */
 static double Pause(double waited)
@@ -43,7 +45,8 @@ const char *WaiterInit(Waiter *w, bool shares_core)
 
 Wait WaitStart(Waiter *w, WaitFor what, bool rings)
 {
-  Wait wait = {.waiter = w, .start = WaitClock(), .what = what, .rings = w->doorbell && rings};
+  const double now = WaitClock();
+  Wait wait = {.waiter = w, .start = now, .looked = now, .what = what, .rings = w->doorbell && rings};
   if (wait.rings) wait.rung = DoorbellRings(w->doorbell);
   return wait;
 }
@@ -65,8 +68,10 @@ bool WaitPause(Wait *wait)
 {
   const WaitPolicy policy = wait->waiter->policy;
   if (policy == WAIT_SPIN && ++wait->looks % 1024) return true; /* the clock is dearer than a look */
-  const double waited = WaitClock() - wait->start;
-  if (waited > wait->waiter->timeout) return false;
+  const double now = WaitClock(), waited = now - wait->start;
+  if (now - wait->looked > STOPPED) wait->stopped += now - wait->looked;
+  wait->looked = now;
+  if (waited - wait->stopped > wait->waiter->timeout) return false;
   if (policy == WAIT_SPIN || waited < SPIN) return true;
   if (policy == WAIT_SLEEP && wait->rings)
     SleepUntilRung(wait, waited);

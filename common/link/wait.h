@@ -23,7 +23,8 @@ typedef struct {
 /* One wait in progress. */
 typedef struct {
   Waiter *waiter;
-  double start;
+  double start, looked,
+      stopped; /* s, by the clock; of the last look; between looks while this process did not run */
   long looks;
   WaitFor what;
   bool rings;    /* the partner rings the doorbell */
@@ -37,7 +38,7 @@ double WaitClock(void);
 const char *WaiterInit(Waiter *w, bool shares_core);
 /* rings: who ends the wait rings the doorbell then. */
 Wait WaitStart(Waiter *w, WaitFor what, bool rings);
-/* Called between two looks; false when the time-out has passed. */
+/* Called between two looks; false when the time-out has passed, without what the process was stopped for (SIGSTOP; SIGCONT). */
 bool WaitPause(Wait *wait);
 void WaitEnd(Wait *wait);
 /* Waits for a request; false when the time-out has passed. */

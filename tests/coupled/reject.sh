@@ -9,6 +9,8 @@ must short 1:1:1 --solid "$build/tests/route/rigid_disc" --set time.dt_max=0.002
 must solid 1:2:2 "${disc[@]}"
 must fluid 2:1:1 --set "fluid.petsc=-momentum_ksp_max_it 3" --set output.checkpoint=1e-9 # due in every step, also in those that the fluid rejects at first
 [ -e "$scratch/fluid/checkpoint" ] && ! grep -q 'no checkpoints' "$scratch/fluid.log" || { cat "$scratch/fluid.log"; exit 1; }
+TEST_LATE=1 must late 1:1:1 "${disc[@]}" --set output.checkpoint=1e-9 # not of steps that the solid rejects before it asks where to save
+[ -e "$scratch/late/checkpoint" ] && ! grep -q 'no checkpoints' "$scratch/late.log" || { cat "$scratch/late.log"; exit 1; }
 fails() { # LABEL REASON RANKS [launch.sh arguments]
   local label=$1 reason=$2
   shift 2

@@ -41,6 +41,8 @@ case $scenario in
     expect='coupler.0.: error: not all 3 ranks of this job have called CoracleOpen within 2 s' ;;
   solid_leaves) solid=("$bin/absent" "$good" leaves) extra=(CORACLE_TIMEOUT=2)
     expect='fluid.0.: error: not all 4 ranks of this job have called CoracleOpen within 2 s' ;;
+  solid_unstarted) solid=("$bin/absent" "$good" unstarted) extra=(CORACLE_TIMEOUT=1) limit=20
+    expect='fluid.0.: error: not all programs of this job have called MPI_Init within 11 s' ;;
   no_case_file) rm "$good"; expect='case.yaml.: No such file or directory' ;;
   no_argument) fluid=("${fluid[0]}") coupler=("${coupler[0]}") solid=("${solid[0]}") expect='no case file' ;;
   bad_yaml) echo 'time: [1, 2' >>"$good"; expect='case.yaml:[0-9]*: not valid YAML' ;;
