@@ -6,6 +6,7 @@
 # Built for this processor (preset native).  Times are of this machine, now: compare ratios within one run, or with the
 # triad's bandwidth, which is printed first and which the fractions are of.
 set -euo pipefail
+unset CDPATH # with it cd prints where it goes
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
 scripts/setup.sh

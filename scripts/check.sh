@@ -7,6 +7,7 @@
 #   --png FILE    where the picture goes (default: none)
 # Touches no output folder.  Exit status: 0, or 1 when the case has faults.
 set -euo pipefail
+unset CDPATH # with it cd prints where it goes
 root=$(cd "$(dirname "$0")/.." && pwd)
 die() { echo "check.sh: $*" >&2; exit 2; }
 

@@ -2,6 +2,7 @@
 # Unpacks the source of a Debian package, as its authors released it: by apt's own sources with deb turned into deb-src.
 # Usage: scripts/debian_source.sh NAME FOLDER [arguments of tar, e.g. --wildcards '*/src/*']
 set -euo pipefail
+unset CDPATH # with it cd prints where it goes
 [ $# -ge 2 ] || { sed -n '2,3p' "$0" | cut -c3-; exit 2; }
 name=$1 folder=$(realpath -m "$2")
 shift 2

@@ -12,6 +12,7 @@
 #   --cluster       ranks have cores of their own: leave binding and slots to mpirun (default within a batch job)
 # The case and the --set arguments go to all three programs, as they must.
 set -euo pipefail
+unset CDPATH # with it cd prints where it goes
 root=$(cd "$(dirname "$0")/.." && pwd)
 
 die() { echo "launch.sh: $*" >&2; exit 2; }

@@ -4,6 +4,7 @@
 # Debian's PETSc is built with Open MPI, so the first time one with MPICH is built from Debian's source package (with hypre; some twenty minutes of
 # two cores).  All of it is in build-mpich; JOBS (default 2) compilers run at once, through ccache where it is.
 set -euo pipefail
+unset CDPATH # with it cd prints where it goes
 cd "$(dirname "$0")/.."
 scripts/setup.sh
 top=$PWD/build-mpich petsc=$PWD/build-mpich/petsc jobs=${JOBS:-2}

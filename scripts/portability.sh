@@ -7,6 +7,7 @@
 #   the rest goes to ctest (default: -R with the tests that round-off could decide: cracks, contact, near ties, adaptation)
 # A line for each run and each test that fails; kernels that this processor cannot run are left out and named.
 set -euo pipefail
+unset CDPATH # with it cd prints where it goes
 root=$(cd "$(dirname "$0")/.." && pwd)
 rounds=2 out=$root/build-portability
 delicate='^(coupled\.(breaking|fracture|adaptive|ranks)$|solid\.(contact|friction|fracture|fracture_ranks|collision|rebalance)(\.|$)|adapt\.(near_ties|keep|parallel))'

@@ -9,6 +9,7 @@
 #   --alone  the solid alone: no fluid, no coupler
 #   --bin  programs that are there already: nothing is installed or built
 set -euo pipefail
+unset CDPATH # with it cd prints where it goes
 root=$(cd "$(dirname "$0")/.." && pwd)
 
 usage() { sed -n '2,10p' "$0" | cut -c3-; }

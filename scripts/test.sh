@@ -3,6 +3,7 @@
 #   With CI set in the environment warnings are errors.
 #   PRESET: release (default), native, debug, sanitize.  Long validation runs: scripts/test.sh -L validation
 set -euo pipefail
+unset CDPATH # with it cd prints where it goes
 cd "$(dirname "$0")/.."
 preset=release
 case "${1:-}" in release | native | debug | sanitize) preset=$1; shift ;; esac

@@ -58,6 +58,10 @@ for order in "--alone $root/tests/solid/alone.yaml" "$root/tests/solid/alone.yam
   [ "$status $momentum" = "1 $scratch/alone: solid.csv has fewer than two steps" ] || { echo "momentum.py: $momentum"; exit 1; }
   rm -r "$scratch/alone"
 done
+# folders of any name, also where the shell's cd prints
+odd="$scratch/it's #1: x"
+(cd "$root" && CDPATH=$root:/ "scripts/run.sh" --bin "$build" --out "$odd" --set time.end=0.001 --alone tests/solid/alone.yaml) >"$scratch/log" 2>&1 && [ -s "$odd/summary.json" ] || { cat "$scratch/log"; exit 1; }
+rm -r "$odd"
 if "$python" "$root/scripts/energy.py" "$scratch" 2>"$scratch/log"; then echo 'an energy of no run'; exit 1; fi
 [ "$(cat "$scratch/log")" = "$scratch: there is no solid.csv" ] || { cat "$scratch/log"; exit 1; }
 "$python" "$root/scripts/energy.py" "$scratch/x" --from 0.01 >"$scratch/log" && grep -q '^body 0: at most' "$scratch/log" && ! grep -q '^all' "$scratch/log" || { cat "$scratch/log"; exit 1; }
