@@ -61,9 +61,10 @@ static void Read(CoracleCase c, void *command)
   if (CouplerCaseRead(c, &k)) return;
   CheckFolder(c, k.folder);
   if (*(const Command *)command == COMMAND_KEYS || !CoracleCaseFaultless(c)) return;
-  printf("coupler: to t = %g s in at least %.0f steps, %.0f snapshots into %s\n", k.end,
+  printf("coupler: to t = %g s in at least %.15g steps, %.15g snapshots into %s\n", k.end,
          TimeSteps(k.end, k.dt_max), TimeSteps(k.end, k.every) + 1.0, k.folder);
   RunCaseNoteSteps(k.end, k.dt_max);
+  RunCaseNoteUnsaved(k.walltime, k.checkpoint);
   NoteShell(c, k.options.thickness);
 }
 

@@ -14,12 +14,13 @@ PetscErrorCode RunOpenOutput(RunState *run)
   CaseCopy copy;
 
   PetscFunctionBeginUser;
-  PetscCall(CaseCopyTake(c->argc, c->argv, &copy));
+  PetscCall(CaseCopyTake(c->path, &copy));
   PetscCall(ClaimFolder(PETSC_COMM_WORLD, folder, resumes, &loop->claim));
   snprintf(ranks, sizeof ranks, "ranks of fluid, coupler, solid %d:%d:%d", ServerRanks(loop->server, "fluid"),
            ServerRanks(loop->server, "coupler"), ServerRanks(loop->server, "solid"));
   PetscCall(CaseCopyWrite(folder, ranks, c->argc, c->argv, &copy));
-  PetscCall(EarlyStopBegin(folder, c->walltime, ServerWall(loop->server), &run->early_stop));
+  PetscCall(EarlyStopBegin(folder, c->walltime, (PetscBool)(c->checkpoint > 0.0), ServerWall(loop->server),
+                           &run->early_stop));
   PetscCall(CheckpointsCreate(PETSC_COMM_WORLD, loop->server, loop->c, &run->checkpoints));
   PetscCall(WriterCreate(PETSC_COMM_WORLD, loop->c, loop->from, &loop->writer));
   PetscFunctionReturn(0);

@@ -104,7 +104,8 @@ static PetscErrorCode Advance(Run *m)
   const char *why;
   PetscBool ends = PETSC_FALSE;
   PetscFunctionBeginUser;
-  PetscCall(EarlyStopBegin(m->keys.folder, m->keys.walltime, start - m->totals.start, &early_stop));
+  PetscCall(EarlyStopBegin(m->keys.folder, m->keys.walltime, (PetscBool)(m->keys.checkpoint > 0.0),
+                           start - m->totals.start, &early_stop));
   for (double step = 1.0; !ends; step += 1.0) {
     PetscCall(SolidStart(m->solid, dt, NULL));
     while (SolidRemaining(m->solid)) PetscCall(SolidSubstep(m->solid, &h));
@@ -176,7 +177,7 @@ static PetscErrorCode Begin(CoracleCase c, int argc, char **argv, Run *m, Claim 
   if (TimeReached(t, m->keys.end))
     CoracleCaseRefuse(c, "time.end", "the checkpoint to resume from is at t = %g s already", t);
   const PetscBool resumes = (PetscBool)(from && FolderHolds(PETSC_COMM_WORLD, m->keys.folder, resume));
-  PetscCall(CaseCopyTake(argc, argv, &copy));
+  PetscCall(CaseCopyTake(CoracleCasePath(c), &copy));
   PetscCall(ClaimFolder(PETSC_COMM_WORLD, m->keys.folder, resumes, claim));
   PetscCall(WriteCase(m->keys.folder, argc, argv, &copy));
   PetscCall(WriterCreate(c, PETSC_COMM_WORLD, m->solid, from, &m->writer));

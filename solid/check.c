@@ -222,6 +222,7 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
     PetscCall(ProbesCheckPoints(c, PETSC_COMM_SELF, solid));
     PetscCall(Expect(c, solid, command));
     RunCaseNoteSteps(run.end, longest);
+    RunCaseNoteUnsaved(run.walltime, run.checkpoint);
     NoteWalls(c, solid, run.end);
     NoteFar(solid);
     PetscCall(NoteThin(c, solid));

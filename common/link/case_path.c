@@ -156,7 +156,9 @@ bool CaseTreeSet(CaseNode *root, const char *argument, char problem[])
     return false;
   }
   snprintf(key, sizeof key, "%.*s", (int)(equals - argument), argument);
-  CaseNode *value = CaseTreeParse(equals + 1, strlen(equals + 1), label, problem);
+  const char *text =
+      equals[1 + strspn(equals + 1, " \t\n")] ? equals + 1 : "''"; /* as an empty value of a file */
+  CaseNode *value = CaseTreeParse(text, strlen(text), label, problem);
   if (!value) {
     snprintf(problem, CASE_MESSAGE, "%s: the value is not valid YAML", label);
     return false;

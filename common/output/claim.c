@@ -69,7 +69,8 @@ static PetscBool EndsWith(const char *name, const char *ending)
   return (PetscBool)(n >= m && !strcmp(name + n - m, ending));
 }
 
-/* <participant>.<kind>, <participant>_<name>.csv and <participant>.<grid>.xdmf. */
+/* <participant>.<kind>, <participant>_<name>.csv and <participant>.<grid>.xdmf; <participant>.h5-<number>.lock, which Open MPI leaves of a run that
+ * is killed. */
 static PetscBool IsOf(const char *name, const char *participant)
 {
   static const char *const KINDS[] = {".h5", ".xdmf", ".xdmf.part", ".csv"};
@@ -77,6 +78,7 @@ static PetscBool IsOf(const char *name, const char *participant)
   if (strncmp(name, participant, led)) return PETSC_FALSE;
   for (int k = 0; k < 4; k++)
     if (!strcmp(name + led, KINDS[k])) return PETSC_TRUE;
+  if (!strncmp(name + led, ".h5-", 4) && EndsWith(name + led, ".lock")) return PETSC_TRUE;
   return (PetscBool)((name[led] == '_' && EndsWith(name + led, ".csv")) ||
                      (name[led] == '.' && EndsWith(name + led, ".xdmf")));
 }

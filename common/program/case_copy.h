@@ -7,12 +7,13 @@
 #include <petscsys.h>
 
 typedef struct {
+  const char *path; /* of the case file, borrowed */
   size_t n;
   char *text; /* [n], on rank 0 */
 } CaseCopy;
 
-/* Collective over PETSC_COMM_WORLD, both; argv: program, case file, settings; ranks: for the first line.  Errors: a file that cannot be
- * read or written.  CaseCopyWrite frees the copy. */
-PetscErrorCode CaseCopyTake(int argc, char **argv, CaseCopy *copy);
+/* Collective over PETSC_COMM_WORLD, both; path: of the case file; argv: program, case file, settings, in any order; ranks: for the first
+ * line.  Errors: a file that cannot be read or written.  CaseCopyWrite frees the copy. */
+PetscErrorCode CaseCopyTake(const char *path, CaseCopy *copy);
 PetscErrorCode CaseCopyWrite(const char *folder, const char *ranks, int argc, char **argv, CaseCopy *copy);
 #endif

@@ -9,6 +9,8 @@ enum { FOLDER_LENGTH = 200 };
 void RunCaseRead(CoracleCase c, RunCase *r)
 {
   r->folder = CoracleCaseString(c, "output.folder");
+  if (!r->folder[0])
+    CoracleCaseRefuse(c, "output.folder", "expected the name of a folder, found an empty one");
   if (strlen(r->folder) > FOLDER_LENGTH)
     CoracleCaseRefuse(c, "output.folder",
                       "its name has %zu characters, more than %d: use a relative path or a link",
@@ -24,6 +26,13 @@ void RunCaseNoteSteps(double end, double longest)
   if (longest > end)
     printf("note: time.dt_max, %g s, is more than time.end, %g s: one step may be all of the run\n", longest,
            end);
+}
+
+void RunCaseNoteUnsaved(double walltime, double checkpoint)
+{
+  if (walltime > 0.0 && checkpoint <= 0.0)
+    printf(
+        "note: output.checkpoint is 0: a run that time.walltime ends leaves no checkpoint to resume from\n");
 }
 
 void RunCaseDescribe(CoracleCase c, const CoracleCaseKey own[])

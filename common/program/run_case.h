@@ -14,6 +14,8 @@ typedef struct {
 void RunCaseRead(CoracleCase c, RunCase *r);
 /* Prints a note if steps of at most `longest` are longer than a run to `end`, s. */
 void RunCaseNoteSteps(double end, double longest);
+/* A note where a run may end early, with all that it has made lost: walltime and checkpoint, s, 0: none. */
+void RunCaseNoteUnsaved(double walltime, double checkpoint);
 /* The program's own table and that of gravity, time and output (CoracleCaseDescribe). */
 void RunCaseDescribe(CoracleCase c, const CoracleCaseKey own[]);
 #endif

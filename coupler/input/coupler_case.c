@@ -96,6 +96,7 @@ PetscErrorCode CouplerCaseRead(CoracleCase file, CouplerCase *c)
   snprintf(c->name, sizeof c->name, "%s", CoracleCaseString(file, "case"));
   snprintf(c->note, sizeof c->note, "%s", CoracleCaseStringOr(file, "note", ""));
   RunCaseRead(file, &run);
+  c->path = CoracleCasePath(file);
   c->folder = run.folder;
   c->every = run.every;
   c->end = run.end;

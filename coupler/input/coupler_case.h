@@ -8,7 +8,7 @@
 
 typedef struct {
   char name[128], note[512];
-  const char *folder;        /* output.folder, borrowed until CoracleCaseClose */
+  const char *path, *folder; /* of the case file; output.folder; borrowed until CoracleCaseClose */
   double end, dt_max, every; /* s */
   double checkpoint;         /* wall-clock seconds from one to the next, 0: none */
   double walltime;           /* wall-clock seconds after which the run ends with a checkpoint, 0: at `end` */

@@ -33,6 +33,10 @@ refuses() { ! check "$case" --set "$2" || fail "accepted: $2"; grep -q "$1" "$sc
 refuses "fluid.probes\[0\].solid_point.: expected a point of the solid.s surface, (1, 1.3) is 0.07[0-9]* m away from it" 'fluid.probes=[{name: P, solid_point: [1.0, 1.3], distance: 0.1}]'
 check "$case" --set 'fluid.probes=[{name: P, solid_point: [1.0, 1.225], distance: 0.1}]' || fail "a gauge on the surface has faults"
 refuses "'resume': there is no checkpoint 'nowhere'" resume=nowhere
+refuses "'output.folder': expected the name of a folder" output.folder=
+check "$case" --set note= && check "$case" --set 'note= ' || fail "an empty value is not one"
+check "$case" --set time.dt_max=1e-300 && grep -q 'in at least [0-9.]*e+298 steps\|in at least 1e+299 steps' "$scratch/log" || fail "numbers of hundreds of digits"
+check "$case" --set time.walltime=9 --set output.checkpoint=0 && grep -q '^note: output.checkpoint is 0: ' "$scratch/log" || fail "not that a run that ends early is lost"
 check "$case" --set resume=last || fail "a run that begins at the start has faults"
 refuses "'fluid.adapt.elements_max': edges of fluid.adapt.size_max, 0.2 m, alone take 231 triangles" 'fluid.adapt={size_min: 0.1, size_max: 0.2, velocity_error: 0.1, elements_max: 100}'
 

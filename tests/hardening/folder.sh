@@ -46,12 +46,14 @@ case=$scratch/y/case.yaml must y 1:1:1 --set time.end=0.02
 cmp "$here/../coupled/disc.yaml" "$scratch/y/earlier.1/case.yaml" || fail "the user's case is lost"
 cmp <(grep -v '^#' "$scratch/y/case.yaml") <(grep -v '^#' "$scratch/y/earlier.1/case.yaml") || fail "the copy is another"
 
-# a new run keeps the old results
+# a new run keeps the old results, with what Open MPI leaves of a run that is killed
+touch "$scratch/x/coupler.h5-1234.lock"
 must x 1:1:1 --set time.end=0.03
 [ -e "$scratch/x/earlier.1/checkpoint/fluid.h5" ] && [ -s "$scratch/x/earlier.1/solid.h5" ] || fail "earlier results are lost"
 for file in trace.json fluid_forces.csv fluid_probes.csv solid_probes.csv; do
   [ -s "$scratch/x/earlier.1/$file" ] || fail "$file is not with the earlier results"
 done
+[ -e "$scratch/x/earlier.1/coupler.h5-1234.lock" ] && [ ! -e "$scratch/x/coupler.h5-1234.lock" ] || fail "a lock of the earlier run is left"
 [ ! -e "$scratch/x/fluid_probes.csv" ] || fail "probes of the earlier run are among the new results"
 [ ! -e "$scratch/x/running" ] || fail "the folder is still locked"
 
