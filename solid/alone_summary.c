@@ -76,7 +76,7 @@ static void WriteAll(FILE *f, double end, const AloneTotals *t, const long long 
 
 PetscErrorCode AloneSummaryWrite(Solid solid, const AloneTotals *t)
 {
-  static SummaryReports reports;
+  SummaryReports reports = {0};
   char path[PETSC_MAX_PATH_LEN];
   SolidView v;
   PetscMPIInt rank;
@@ -84,15 +84,18 @@ PetscErrorCode AloneSummaryWrite(Solid solid, const AloneTotals *t)
   SolidGetView(solid, &v);
   long long count[2] = {v.nelements, v.nfacets};
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, count, 2, MPI_LONG_LONG, MPI_SUM, PETSC_COMM_WORLD));
-  reports.n = 0;
   PetscCall(SolidReport(solid, Tell, &reports));
   PetscCall(TellResources(&reports, t));
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  if (rank) PetscFunctionReturn(0);
+  if (rank) {
+    SummaryReportsFree(&reports);
+    PetscFunctionReturn(0);
+  }
   snprintf(path, sizeof path, "%s/summary.json", t->folder);
   FILE *f = fopen(path, "w");
   PetscCheck(f, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "%s: %s", path, strerror(errno));
   WriteAll(f, SolidGetStats(solid)->t, t, count, &reports);
+  SummaryReportsFree(&reports);
   const int bad = ferror(f);
   PetscCheck(!fclose(f) && !bad, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "%s: %s", path, strerror(errno));
   PetscFunctionReturn(0);

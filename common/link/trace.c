@@ -1,4 +1,5 @@
 #include "common/link/trace.h"
+#include "common/link/json.h"
 #include "common/link/wait.h"
 #include <math.h>
 #include <stdio.h>
@@ -15,6 +16,16 @@ void TraceOpen(Trace *t, MPI_Comm job, Role role, int rank, bool first_host)
   t->rank = rank;
 }
 
+/* As much of the name as there is room for, in whole characters of UTF-8. */
+static void CopyName(char to[sizeof((TraceSpan *)0)->name], const char *name)
+{
+  size_t n = strnlen(name, sizeof((TraceSpan *)0)->name - 1);
+  if (name[n])
+    while (n > 0 && ((unsigned char)name[n] & 0xC0) == 0x80) n--;
+  memcpy(to, name, n);
+  to[n] = 0;
+}
+
 static void Add(Trace *t, TraceKind kind, const char *name, double start, double end)
 {
   if (!t->on || (kind != TRACE_STEP && end - start < SHORT)) return;
@@ -25,7 +36,7 @@ static void Add(Trace *t, TraceKind kind, const char *name, double start, double
                    .kind = (int16_t)kind,
                    .rank = t->rank,
                    .step = t->step};
-  snprintf(s->name, sizeof s->name, "%s", name);
+  CopyName(s->name, name);
 }
 
 static void EndPhase(Trace *t, double now)
@@ -48,7 +59,7 @@ void TracePhase(Trace *t, const char *name)
 {
   const double now = WaitClock();
   EndPhase(t, now);
-  snprintf(t->phase, sizeof t->phase, "%s", name ? name : "");
+  CopyName(t->phase, name ? name : "");
   t->phase_start = now;
 }
 
@@ -71,8 +82,9 @@ void TraceEnd(Trace *t)
 static void Event(FILE *f, const TraceSpan *s, const char *prefix, const char *name, double start, double end)
 {
   const long long from = llround(1e9 * start), to = llround(1e9 * end);
-  fprintf(f, ",\n{\"ph\": \"X\", \"pid\": %d, \"tid\": %d, \"ts\": %.3f, \"dur\": %.3f, \"name\": \"%s%s",
-          s->role, s->rank, 1e-3 * (double)from, 1e-3 * (double)(to - from), prefix, name);
+  fprintf(f, ",\n{\"ph\": \"X\", \"pid\": %d, \"tid\": %d, \"ts\": %.3f, \"dur\": %.3f, \"name\": \"%s",
+          s->role, s->rank, 1e-3 * (double)from, 1e-3 * (double)(to - from), prefix);
+  JsonCharacters(f, name);
   if (s->kind == TRACE_STEP && s->step) fprintf(f, " %d", s->step);
   fprintf(f, "\", \"args\": {\"step\": %d}}", s->step);
 }

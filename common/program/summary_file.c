@@ -1,15 +1,26 @@
 #include "common/program/summary_file.h"
 #include "common/link/coracle.h"
+#include "common/link/json.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 void SummaryReport(void *reports, const char *role, const char *key, double value)
 {
   SummaryReports *r = reports;
-  if (r->n == SUMMARY_REPORTS) return;
+  if (r->n == r->capacity) {
+    r->capacity = r->capacity ? 2 * r->capacity : 64;
+    r->report = realloc(r->report, (size_t)r->capacity * sizeof *r->report);
+  }
   snprintf(r->report[r->n].role, sizeof r->report->role, "%s", role);
   snprintf(r->report[r->n].key, sizeof r->report->key, "%s", key);
   r->report[r->n++].value = value;
+}
+
+void SummaryReportsFree(SummaryReports *reports)
+{
+  free(reports->report);
+  *reports = (SummaryReports){0};
 }
 
 /* null for NaN and infinity, which JSON does not have. */
@@ -25,14 +36,7 @@ static void WriteNumber(FILE *f, double value)
 static void WriteString(FILE *f, const char *s)
 {
   fputc('"', f);
-  for (; *s; s++) {
-    if (*s == '"' || *s == '\\') fputc('\\', f);
-    if ((unsigned char)*s < 0x20) {
-      fprintf(f, "\\u%04x", (unsigned)*s);
-    } else {
-      fputc(*s, f);
-    }
-  }
+  JsonCharacters(f, s);
   fputc('"', f);
 }
 

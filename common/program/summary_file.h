@@ -9,18 +9,20 @@
 #define CORACLE_SUMMARY_FILE_H
 #include <stdio.h>
 
-enum { SUMMARY_REPORTS = 256 };
-
 typedef struct {
-  int n;
-  struct {
-    char role[32], key[64];
-    double value;
-  } report[SUMMARY_REPORTS]; /* [n] */
+  char role[32], key[64];
+  double value;
+} SummaryRow;
+
+/* {0}: none yet. */
+typedef struct {
+  int n, capacity;
+  SummaryRow *report; /* [n] */
 } SummaryReports;
 
-/* Adds a report (reports: SummaryReports; as ServerReports calls it); none beyond SUMMARY_REPORTS. */
+/* Adds a report (reports: SummaryReports; as ServerReports calls it). */
 void SummaryReport(void *reports, const char *role, const char *key, double value);
+void SummaryReportsFree(SummaryReports *reports);
 void SummaryFileHead(FILE *file, const char *name, const char *note, const char *mode);
 /* NaN and infinity become null. */
 void SummaryFileField(FILE *file, const char *key, double value);

@@ -38,17 +38,19 @@ static void Advise(Server server, SummaryReports *reports, double wall)
 
 PetscErrorCode SummaryWrite(Server server, const CouplerCase *c, const WriterTotals *t)
 {
-  static SummaryReports reports;
+  SummaryReports reports = {0};
   char path[600];
   PetscMPIInt rank;
 
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  reports.n = 0;
   SummaryReport(&reports, "coupler", "seconds_overlap", t->overlap);
   SummaryReport(&reports, "coupler", "seconds_force", t->force);
   PetscCall(ServerReports(server, SummaryReport, &reports));
-  if (rank) PetscFunctionReturn(0);
+  if (rank) {
+    SummaryReportsFree(&reports);
+    PetscFunctionReturn(0);
+  }
   snprintf(path, sizeof path, "%s/trace.json", c->folder);
   PetscCall(ServerWriteTrace(server, path));
   Advise(server, &reports, ServerWall(server));
@@ -56,6 +58,7 @@ PetscErrorCode SummaryWrite(Server server, const CouplerCase *c, const WriterTot
   FILE *f = fopen(path, "w");
   if (!f) ServerFail(server, "%s: %s", path, strerror(errno));
   WriteAll(f, c, t, &reports);
+  SummaryReportsFree(&reports);
   if (fclose(f)) ServerFail(server, "%s: %s", path, strerror(errno));
   PetscFunctionReturn(0);
 }
