@@ -55,6 +55,8 @@ struct CoracleCase_s {
   bool listing; /* readings are kept, for CaseListKeys */
   int nreadings, readings_capacity;
   CaseReading *reading; /* [nreadings] */
+  int nreading_slots;
+  int *reading_slot; /* [nreading_slots] hashed places in reading, by key and type, -1: empty */
   int nopen, open_capacity;
   char **open; /* [nopen] maps whose names are the user's: materials, boundaries */
   int ntables;

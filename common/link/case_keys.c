@@ -6,25 +6,50 @@
 
 /* --- keeping -------------------------------------------------------------------------------------------- */
 
+/* Where the reading of a key as this type is, or would be. */
+static int *SlotOf(const CoracleCase c, const char *key, const char *type)
+{
+  const unsigned long long n = (unsigned long long)c->nreading_slots,
+                           hash = CaseFnv1a(CASE_FNV_START, key, strlen(key) + 1);
+  unsigned long long k = CaseFnv1a(hash, type, strlen(type)) % n;
+  for (int i; (i = c->reading_slot[k]) >= 0; k = (k + 1) % n)
+    if (!strcmp(c->reading[i].key, key) && !strcmp(c->reading[i].type, type)) break;
+  return &c->reading_slot[k];
+}
+
+/* Room for one more reading. */
+static void Grow(CoracleCase c)
+{
+  if (c->nreadings < c->readings_capacity) return;
+  c->readings_capacity = c->readings_capacity ? 2 * c->readings_capacity : 64;
+  c->reading = realloc(c->reading, (size_t)c->readings_capacity * sizeof *c->reading);
+  c->nreading_slots = 2 * c->readings_capacity;
+  c->reading_slot = realloc(c->reading_slot, (size_t)c->nreading_slots * sizeof *c->reading_slot);
+  for (int k = 0; k < c->nreading_slots; k++) c->reading_slot[k] = -1;
+  for (int i = 0; i < c->nreadings; i++) *SlotOf(c, c->reading[i].key, c->reading[i].type) = i;
+}
+
 void CaseNote(CoracleCase c, const char *key, bool required, const char *type, const char *range,
               const char *fallback)
 {
   if (!c->listing) return;
-  for (int i = 0; i < c->nreadings; i++)
-    if (!strcmp(c->reading[i].key, key) && !strcmp(c->reading[i].type, type)) return;
-  if (c->nreadings == c->readings_capacity) {
-    c->readings_capacity = c->readings_capacity ? 2 * c->readings_capacity : 64;
-    c->reading = realloc(c->reading, (size_t)c->readings_capacity * sizeof *c->reading);
-  }
-  CaseReading *r = &c->reading[c->nreadings++];
-  *r = (CaseReading){.key = strdup(key), .required = required};
-  snprintf(r->type, sizeof r->type, "%s", type);
+  CaseReading note = {.key = NULL, .required = required};
+  snprintf(note.type, sizeof note.type, "%s", type);
+  Grow(c);
+  int *slot = SlotOf(c, key, note.type);
+  if (*slot >= 0) return;
+  *slot = c->nreadings++;
+  CaseReading *r = &c->reading[*slot];
+  *r = note;
+  r->key = strdup(key);
   snprintf(r->range, sizeof r->range, "%s", range + strspn(range, " "));
   snprintf(r->fallback, sizeof r->fallback, "%s", fallback);
 }
 
 void CaseNoteMap(CoracleCase c, const char *key)
 {
+  for (int i = 0; i < c->nopen; i++)
+    if (!strcmp(c->open[i], key)) return;
   if (c->listing) CasePush(&c->open, &c->nopen, &c->open_capacity, strdup(key));
 }
 
@@ -33,6 +58,7 @@ void CaseNotesFree(CoracleCase c)
   for (int i = 0; i < c->nreadings; i++) free(c->reading[i].key);
   for (int i = 0; i < c->nopen; i++) free(c->open[i]);
   free(c->reading);
+  free(c->reading_slot);
   free(c->open);
 }
 
