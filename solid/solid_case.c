@@ -105,7 +105,7 @@ static void ReadRules(CoracleCase c, SolidSetup *setup)
       CoracleCaseRefuse(c, key, "expected two names");
     for (int i = 0; i < 2; i++) {
       const char *name = CoracleCaseString(c, CaseKey(key, "solid.contact[%d].between[%d]", k, i));
-      if (strcmp(name, CONTACT_WALLS)) CaseMaterialExists(c, key, name);
+      CaseMaterialExists(c, key, name, PETSC_TRUE);
       (void)snprintf(r->between[i], sizeof r->between[i], "%s", name);
     }
     for (int i = 0; i < k; i++)

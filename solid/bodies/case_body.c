@@ -78,17 +78,35 @@ void CaseCheckMaterial(void *c, const char *name)
   (void)ReadMaterial(c, name);
 }
 
-void CaseMaterialExists(CoracleCase c, const char *key, const char *name)
+/* The names of materials as they are listed in a message, cut where it is full. */
+typedef struct {
+  char text[256];
+} Names;
+
+static void AddName(void *names, const char *name)
+{
+  Names *n = names;
+  const size_t used = strlen(n->text);
+  (void)snprintf(n->text + used, sizeof n->text - used, "%s%s", used ? ", " : "", name);
+}
+
+void CaseMaterialExists(CoracleCase c, const char *key, const char *name, PetscBool walls)
 {
   char material[CASE_KEY];
-  if (!CoracleCaseHas(c, CaseKey(material, "solid.materials.%s", name)))
-    CoracleCaseRefuse(c, key, "there is no material '%s' in solid.materials", name);
+  Names names = {""};
+  if ((walls && !strcmp(name, CONTACT_WALLS)) ||
+      CoracleCaseHas(c, CaseKey(material, "solid.materials.%s", name)))
+    return;
+  CoracleCaseKeys(c, "solid.materials", AddName, &names);
+  if (walls) AddName(&names, CONTACT_WALLS);
+  CoracleCaseRefuse(c, key, "there is no material '%s' in solid.materials%s%s", name,
+                    names.text[0] ? ": expected one of " : "", names.text);
 }
 
 static Material MaterialAt(CoracleCase c, const char *key)
 {
   const char *name = CoracleCaseString(c, key);
-  CaseMaterialExists(c, key, name);
+  CaseMaterialExists(c, key, name, PETSC_FALSE);
   return ReadMaterial(c, name);
 }
 

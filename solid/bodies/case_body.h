@@ -9,8 +9,8 @@
 const char *BodyKey(char key[CASE_KEY], int body, const char *name);
 /* Reads all keys of a material (c: the Case; for CoracleCaseKeys). */
 void CaseCheckMaterial(void *c, const char *name);
-/* Refuses key when there is no material of that name. */
-void CaseMaterialExists(CoracleCase c, const char *key, const char *name);
+/* Refuses key when there is no material of that name; walls: `walls` may be there, too. */
+void CaseMaterialExists(CoracleCase c, const char *key, const char *name, PetscBool walls);
 /* The loads of solid.bodies[body] into its setup, which borrows them until CaseFreeLoads. */
 typedef struct {
   NamedLoad *load;

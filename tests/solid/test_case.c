@@ -352,7 +352,8 @@ static void Refusals(void)
             ":6: key 'solid.bodies[0].material': expected a material: regions have none for the mesh's "
             "surface 'soft'");
   CheckCase(HEAD "  contact: [{between: [m, stone], friction: 1}]\n  bodies:\n" DISC, NULL, Read,
-            ":5: key 'solid.contact[0].between[1]': there is no material 'stone' in solid.materials");
+            ":5: key 'solid.contact[0].between[1]': there is no material 'stone' in solid.materials: "
+            "expected one of m, walls");
   CheckCase(HEAD
             "  bodies:\n    - {shape: ring, centre: [0, 0], radius: 1, thickness: 3, size: 1, material: m}\n",
             NULL, Read, ":6: key 'solid.bodies[0].thickness': the ring has no hole or no wall");
@@ -387,7 +388,8 @@ static void Refusals(void)
       ":4: key 'solid.materials.m.poisson_ratio': expected a number from 0 to 0.499, found '0.5'");
   CheckCase(HEAD "  bodies:\n    - {shape: disc, centre: [0, 0], radius: 0.1, size: 0.05, material: steel}\n",
             NULL, Read,
-            ":6: key 'solid.bodies[0].material': there is no material 'steel' in solid.materials");
+            ":6: key 'solid.bodies[0].material': there is no material 'steel' in solid.materials: expected "
+            "one of m");
   CheckCase(HEAD "  bodies:\n" DISC
                  "    - {shape: disc, centre: [0.15, 0], radius: 0.1, size: 0.05, material: m}\n",
             NULL, Read,
