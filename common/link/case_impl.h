@@ -59,6 +59,8 @@ struct CoracleCase_s {
   int *reading_slot; /* [nreading_slots] hashed places in reading, by key and type, -1: empty */
   int nopen, open_capacity;
   char **open; /* [nopen] maps whose names are the user's: materials, boundaries */
+  int nopen_slots;
+  int *open_slot; /* [nopen_slots] hashed places in open, -1: empty */
   int ntables;
   const CoracleCaseKey *table[CASE_TABLES]; /* borrowed: of CoracleCaseDescribe */
   CaseFaults *faults;                       /* borrowed; NULL: the first fault ends the run */

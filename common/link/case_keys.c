@@ -46,11 +46,32 @@ void CaseNote(CoracleCase c, const char *key, bool required, const char *type, c
   snprintf(r->fallback, sizeof r->fallback, "%s", fallback);
 }
 
+/* Where the open map that the first n characters of a key name is, or would be. */
+static int *OpenSlotOf(const CoracleCase c, const char *key, size_t n)
+{
+  const unsigned long long nslots = (unsigned long long)c->nopen_slots;
+  unsigned long long k = CaseFnv1a(CASE_FNV_START, key, n) % nslots;
+  for (int i; (i = c->open_slot[k]) >= 0; k = (k + 1) % nslots)
+    if (!strncmp(c->open[i], key, n) && !c->open[i][n]) break;
+  return &c->open_slot[k];
+}
+
+static void HashOpen(CoracleCase c)
+{
+  c->nopen_slots = 4 * c->nopen + 16;
+  c->open_slot = realloc(c->open_slot, (size_t)c->nopen_slots * sizeof *c->open_slot);
+  for (int k = 0; k < c->nopen_slots; k++) c->open_slot[k] = -1;
+  for (int i = 0; i < c->nopen; i++) *OpenSlotOf(c, c->open[i], strlen(c->open[i])) = i;
+}
+
 void CaseNoteMap(CoracleCase c, const char *key)
 {
-  for (int i = 0; i < c->nopen; i++)
-    if (!strcmp(c->open[i], key)) return;
-  if (c->listing) CasePush(&c->open, &c->nopen, &c->open_capacity, strdup(key));
+  if (!c->listing) return;
+  if (2 * c->nopen + 2 > c->nopen_slots) HashOpen(c);
+  int *slot = OpenSlotOf(c, key, strlen(key));
+  if (*slot >= 0) return;
+  *slot = c->nopen;
+  CasePush(&c->open, &c->nopen, &c->open_capacity, strdup(key));
 }
 
 void CaseNotesFree(CoracleCase c)
@@ -59,6 +80,7 @@ void CaseNotesFree(CoracleCase c)
   for (int i = 0; i < c->nopen; i++) free(c->open[i]);
   free(c->reading);
   free(c->reading_slot);
+  free(c->open_slot);
   free(c->open);
 }
 
@@ -78,11 +100,9 @@ static void Pattern(CoracleCase c, const char *key, char pattern[CASE_KEY])
   size_t n = 0;
   for (const char *k = key; *k && n + 2 < CASE_KEY;) {
     pattern[n] = '\0';
-    bool users = false; /* the name that starts here */
-    for (int i = 0; i < c->nopen && k > key && k[-1] == '.'; i++) {
-      const size_t above = (size_t)(k - key) - 1;
-      users = users || (strlen(c->open[i]) == above && !strncmp(c->open[i], key, above));
-    }
+    /* whether the name that starts here is the user's */
+    const bool users =
+        c->nopen > 0 && k > key && k[-1] == '.' && *OpenSlotOf(c, key, (size_t)(k - key) - 1) >= 0;
     if (users) {
       pattern[n++] = '*';
       k += strcspn(k, ".[");
