@@ -76,6 +76,7 @@ check "$case" "${tank[@]}" --set time.dt_max=0.2 --set 'fluid.adapt={size_min: 0
 notes 2
 grep -q 'time.dt_max, 0.2 s, is more than time.end, 0.1 s' "$scratch/log" && grep -q 'shell_thickness, 0.06 m, is more than fluid.adapt.size_min, 0.05 m' "$scratch/log" || fail "other notes"
 
+grep -q 'fluid: starts from a mesh of [0-9]* triangles' "$scratch/log" || fail "not which mesh it names"
 grep -q 'fluid: memory about [0-9]* MB, if it reaches fluid.adapt.elements_max$' "$scratch/log" || fail "not what the memory is of"
 
 # levels that the domain does not have, and a phase that flows in unsaid
