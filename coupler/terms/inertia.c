@@ -120,13 +120,14 @@ static PetscBool IsHeld(const Overlap o, const SourceTerm source[], int e)
   return PETSC_FALSE;
 }
 
-/* P of D. */
+/* P of D = q (I - s^SLIP_PLANE n n). */
 static WallCoefficient Sharpened(const WallCoefficient *d, double k)
 {
-  const double normal = hypot(d->xx - d->yy, 2.0 * d->xy); /* s^SLIP_PLANE: what D lacks of I along n */
-  if (k == 1.0 || normal < CORNER_LEAST) return WallCoefficientScaled(d, k);
-  const double part = (1.0 - k) * fmin(1.0, CORNER * pow(normal, 1.0 / SLIP_PLANE)),
-               share = k + part / normal, rest = -part * (1.0 - normal) / normal;
+  const double normal = hypot(d->xx - d->yy, 2.0 * d->xy), q = 0.5 * (d->xx + d->yy + normal);
+  if (k == 1.0 || normal <= CORNER_LEAST * q) return WallCoefficientScaled(d, k);
+  const double plane = normal / q; /* s^SLIP_PLANE: what D lacks of q along n, over q */
+  const double part = (1.0 - k) * fmin(1.0, CORNER * pow(plane, 1.0 / SLIP_PLANE)), share = k + part / plane,
+               rest = -q * part * (1.0 - plane) / plane;
   return (WallCoefficient){share * d->xx + rest, share * d->xy, share * d->yy + rest};
 }
 
