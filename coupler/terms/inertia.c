@@ -52,14 +52,15 @@ PetscErrorCode InertiaCoefficients(Overlap o, const SolidState *solid, double dt
   PetscCall(PetscMalloc2(solid->nnodes, &rho, o->nsources, &vertex));
   PetscCall(NodeDensities(o, solid, rho));
   PetscCall(OverlapNodesToSources(o, 1, rho, (double *)vertex));
-  const double heaviest = o->pairs.n ? INERTIA_MOST * o->rho[o->pairs.pair[0].b] : HUGE_VAL;
+  const double fluid = o->pairs.n ? o->rho[o->pairs.pair[0].b] : HUGE_VAL, heaviest = INERTIA_MOST * fluid,
+               heaviest_free = o->phases ? heaviest : INERTIA_FREE_MOST * fluid;
   for (int t = 0; t < o->nsources; t++) {
     const double density = TriangleDensity(vertex[t]);
     const PetscBool is_shell = o->source[t].is_shell ? PETSC_TRUE : PETSC_FALSE;
     source[t].held = (PetscBool)(density == 0.0);
     source[t].bulk = (PetscBool)(source[t].held && !is_shell && !o->phases);
     const PetscBool none = (PetscBool)(is_shell || (source[t].held && capillary));
-    source[t].density = none ? 0.0 : source[t].held ? heaviest : fmin(density, heaviest);
+    source[t].density = none ? 0.0 : source[t].held ? heaviest : fmin(density, heaviest_free);
   }
   for (int p = 0; p < o->pairs.n; p++) {
     const int t = o->pairs.pair[p].a;
