@@ -15,7 +15,7 @@ PetscErrorCode CaseCopyTake(const char *path, CaseCopy *copy)
   copy->n = 0;
   copy->text = NULL;
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  if (rank) PetscFunctionReturn(0);
+  if (rank || !path) PetscFunctionReturn(0);
   FILE *file = fopen(path, "rb");
   PetscCheck(file && !fseek(file, 0, SEEK_END), PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "%s: %s", path,
              strerror(errno));

@@ -7,7 +7,7 @@
 #include <petscsys.h>
 
 typedef struct {
-  const char *path; /* of the case file, borrowed */
+  const char *path; /* of the case file, borrowed; NULL: there is none */
   size_t n;
   char *text; /* [n], on rank 0 */
 } CaseCopy;
