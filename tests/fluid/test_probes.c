@@ -200,7 +200,7 @@ static void CheckRefused(const char *set_folder)
                 "'inside', too"},
                {"fluid.probes[3].solid_point=[0, 0]",
                 ":12: key 'fluid.probes[3]': expected one of point, "
-                "line, solid_point, surface, phase, flow, found 2 of them"}};
+                "line, solid_point, solid_line, surface, phase, flow, found 2 of them"}};
   for (int k = 0; k < (int)(sizeof fault / sizeof *fault); k++)
     CheckCase(CASE, (const char *const[]){set_folder, fault[k].set, NULL}, OnlyOpen, fault[k].message);
 }
