@@ -78,12 +78,11 @@ static void PrescribedSpeeds(const Solid s, double window, BulkMotion m[])
 }
 
 /* m[nbodies + 1], room for one behind the bodies; failed: some rank cannot make the step. */
-static PetscErrorCode MotionNow(Solid s, double window, BulkMotion m[], PetscBool *failed)
+static PetscErrorCode MotionNow(Solid s, const double force[], double window, BulkMotion m[],
+                                PetscBool *failed)
 {
-  const double *force;
   PetscFunctionBeginUser;
   PetscCall(PetscArrayzero(m, (size_t)s->nbodies + 1));
-  PetscCall(SolidForces(s, &force));
   for (int n = 0; n < s->nnodes; n++) {
     if (!s->surface[n]) continue;
     double speed = 0.0, acceleration = 0.0;
@@ -172,7 +171,7 @@ static PetscErrorCode CheckContact(Solid s, double *limit, int *substeps, PetscB
   PetscCall(SolidForces(s, &force)); /* with how fast rigid bodies turn */
   const double h = fmin(fmin(s->setup.courant * *limit, RigidLongestSubstep(s)), s->dt);
   PetscCall(PetscMalloc1((size_t)s->nbodies + 1, &m));
-  PetscCall(MotionNow(s, CHECK_EVERY * h, m, failed));
+  PetscCall(MotionNow(s, force, CHECK_EVERY * h, m, failed));
   if (!*failed && !StayWithinSkins(s, m, CHECK_EVERY, h)) {
     PetscCall(SearchAgain(s, m, h));
     PetscCall(SolidLimit(s, &after));

@@ -70,6 +70,8 @@ PetscErrorCode MeshBox(const double lower[2], const double upper[2], double size
  * edges are, too.  It repeats itself to the last bit.  Not collective. */
 PetscErrorCode MeshPolygon(int n, const double corner[][2], const char *const name[], double size,
                            MeshSerial *mesh);
+/* Not collective: about how many triangles it has, beside small features more. */
+double MeshPolygonCount(int n, const double corner[][2], double size);
 /* Gmsh .msh, ASCII or binary, formats 2.2 and 4.1: triangles, of first order or all of second, boundary edges from physical curves (their
  * names; a boundary edge without one is called "boundary"), and those between triangles.  Triangles given clockwise are turned; a
  * degenerate or repeated one, or one with a vertex that does not exist, is an error that names file and

@@ -4,6 +4,7 @@
 #include "common/mesh/mesh.h"
 #include "common/mesh/mesh_delaunay.h"
 #include "common/supermesh/geometry.h"
+#include "common/supermesh/outline.h"
 
 #define LARGE 0.6     /* radius of the largest circle over the wanted size */
 #define MISSHAPEN 1.2 /* radius over the shortest edge: an angle below 24.6 degrees */
@@ -20,6 +21,16 @@ typedef struct {
 
 /* --- sides ---------------------------------------------------------------------------------------------- */
 
+/* At this share of the way along face i of triangle t. */
+static PetscErrorCode SplitSide(Refined *r, int t, int i, double share)
+{
+  const double *from = DelaunayCorner(&r->d, t, i + 1), *to = DelaunayCorner(&r->d, t, i + 2),
+               at[2] = {from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])};
+  PetscFunctionBeginUser;
+  PetscCall(DelaunaySplitSide(&r->d, t, i, at));
+  PetscFunctionReturn(0);
+}
+
 /* Each side into the fewest equal parts that are not longer than the size; here at the middle one. */
 static PetscErrorCode DivideSide(Refined *r, int t, int i)
 {
@@ -30,9 +41,7 @@ static PetscErrorCode DivideSide(Refined *r, int t, int i)
                parts = round(hypot(to[0] - from[0], to[1] - from[1]) / part);
   PetscFunctionBeginUser;
   if (parts < 2.0) PetscFunctionReturn(0);
-  const double share = floor(0.5 * parts) / parts,
-               at[2] = {from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])};
-  PetscCall(DelaunaySplitSide(&r->d, t, i, at));
+  PetscCall(SplitSide(r, t, i, floor(0.5 * parts) / parts));
   PetscFunctionReturn(0);
 }
 
@@ -62,8 +71,7 @@ static PetscErrorCode HalveSide(Refined *r, int t, int i)
     share = r->size * exp2(round(log2(0.5 * length / r->size))) / length;
     if (second) share = 1.0 - share;
   }
-  const double at[2] = {from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])};
-  PetscCall(DelaunaySplitSide(&r->d, t, i, at));
+  PetscCall(SplitSide(r, t, i, share));
   PetscFunctionReturn(0);
 }
 
@@ -234,6 +242,12 @@ static PetscErrorCode Fill(const Refined *r, const char *const name[], MeshSeria
     }
   PetscCall(PetscFree(tag));
   PetscFunctionReturn(0);
+}
+
+/* 0.26 size^2 a triangle. */
+double MeshPolygonCount(int n, const double corner[][2], double size)
+{
+  return 4.0 * fabs(OutlineArea(n, corner)) / (size * size);
 }
 
 PetscErrorCode MeshPolygon(int n, const double corner[][2], const char *const name[], double size,

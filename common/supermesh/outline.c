@@ -2,6 +2,13 @@
 #include "common/supermesh/geometry.h"
 #include <stdlib.h>
 
+double OutlineArea(int n, const double x[][2])
+{
+  double area = 0.0;
+  for (int k = 0; k < n; k++) area += 0.5 * GeometryTurn(x[0], x[k], x[(k + 1) % n]);
+  return area;
+}
+
 /* Whether the closed segments a b and c d have a point in common. */
 static int Meet(const double a[2], const double b[2], const double c[2], const double d[2])
 {
@@ -40,10 +47,9 @@ static int IsEar(int n, const int left[], const double x[][2], int k)
 int OutlineTriangles(int n, const double x[][2], int triangle[][3])
 {
   int *left = malloc((size_t)n * sizeof *left), count = 0;
-  double twice = 0.0;
   if (!left) return 0;
-  for (int k = 0; k < n; k++) twice += GeometryTurn(x[0], x[k], x[(k + 1) % n]);
-  for (int k = 0; k < n; k++) left[k] = twice > 0.0 ? k : n - 1 - k;
+  const int turns = OutlineArea(n, x) > 0.0;
+  for (int k = 0; k < n; k++) left[k] = turns ? k : n - 1 - k;
   while (n > 2) {
     int k = 0;
     while (k < n && !IsEar(n, left, x, k)) k++;

@@ -33,16 +33,14 @@ static double SizeAt(void *context, const double x[2])
 /* Of size_min: the least edge at corners. */
 #define CORNER_LEAST 1e-3
 
-/* Twice its area: a cell is two triangles. */
-static double BoxTwice(const double lower[2], const double upper[2])
+/* A cell is two triangles. */
+static double BoxCount(const double lower[2], const double upper[2], double size)
 {
-  return 2.0 * (upper[0] - lower[0]) * (upper[1] - lower[1]);
+  return 2.0 * (upper[0] - lower[0]) * (upper[1] - lower[1]) / (size * size);
 }
 
-/* A triangle has size^2 of the area. */
-static void CheckCount(CoracleCase c, const char *key, double area, double size)
+static void CheckCount(CoracleCase c, const char *key, double count, double size)
 {
-  const double count = area / (size * size);
   if (count > TRIANGLES_MAX)
     CoracleCaseRefuse(c, key, "cells of %g m make a mesh of about %.2g triangles, more than %g", size, count,
                       TRIANGLES_MAX);
@@ -57,7 +55,8 @@ static void CheckRefined(CoracleCase c, int k, const RefinedBox *box, double siz
                       "the box is empty: expected a corner above and right of lower (%g, %g), found (%g, %g)",
                       box->at.lower[0], box->at.lower[1], box->at.upper[0], box->at.upper[1]);
   }
-  CheckCount(c, CaseKey(key, "fluid.mesh.refine[%d].size", k), BoxTwice(box->at.lower, box->at.upper), size);
+  CheckCount(c, CaseKey(key, "fluid.mesh.refine[%d].size", k), BoxCount(box->at.lower, box->at.upper, size),
+             size);
 }
 
 /* Of the sizes at the middles of a grid of the box. */
@@ -90,7 +89,7 @@ static PetscErrorCode BoxMesh(CoracleCase c, PetscBool make, MeshSerial *serial)
                       "expected a corner above and right of lower (%g, %g), found (%g, %g)", lower[0],
                       lower[1], upper[0], upper[1]);
   f.size_max = CoracleCasePositive(c, "fluid.mesh.size_max");
-  CheckCount(c, "fluid.mesh.size_max", BoxTwice(lower, upper), f.size_max);
+  CheckCount(c, "fluid.mesh.size_max", BoxCount(lower, upper, f.size_max), f.size_max);
   f.growth = CoracleCaseNumberOr(c, "fluid.mesh.growth", 0.25, 0.0, HUGE_VAL);
   f.n = CoracleCaseCount(c, "fluid.mesh.refine");
   PetscCall(PetscMalloc1(f.n, &f.box));
@@ -106,20 +105,18 @@ static PetscErrorCode BoxMesh(CoracleCase c, PetscBool make, MeshSerial *serial)
   PetscFunctionReturn(0);
 }
 
-/* About 0.26 size^2 a triangle. */
 static PetscErrorCode PolygonMesh(CoracleCase c, PetscBool make, MeshSerial *serial)
 {
   static const char *const OF_BOX[] = {"lower", "upper", "refine", "growth", NULL};
   int n;
-  double(*corner)[2], area = 0.0;
+  double(*corner)[2];
   const char **side;
   PetscFunctionBeginUser;
   CoracleCaseNotBeside(c, "fluid.mesh", "corners", OF_BOX);
   PetscCall(CaseReadOutline(c, "fluid.mesh.corners", &n, &corner));
   PetscCall(CaseReadSides(c, "fluid.mesh.sides", n, &side));
   const double size = CoracleCasePositive(c, "fluid.mesh.size_max");
-  for (int k = 0; k < n; k++) area += 0.5 * GeometryTurn(corner[0], corner[k], corner[(k + 1) % n]);
-  CheckCount(c, "fluid.mesh.size_max", 4.0 * fabs(area), size);
+  CheckCount(c, "fluid.mesh.size_max", MeshPolygonCount(n, (const double(*)[2])corner, size), size);
   if (make) PetscCall(MeshPolygon(n, (const double(*)[2])corner, side, size, serial));
   PetscCall(PetscFree(side));
   PetscCall(PetscFree(corner));

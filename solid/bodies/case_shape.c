@@ -1,6 +1,7 @@
 #include "solid/bodies/case_shape.h"
 #include "common/program/outline_case.h"
 #include "common/supermesh/geometry.h"
+#include "common/supermesh/outline.h"
 #include "solid/bodies/shape.h"
 
 BodyRepeat CaseReadRepeat(CoracleCase c, int body)
@@ -82,25 +83,23 @@ static double ReadAngle(CoracleCase c, int body)
   return CoracleCaseNumberOr(c, BodyKey(key, body, "angle"), 0.0, -2.0 * M_PI, 2.0 * M_PI);
 }
 
-/* Turns a polygon about its centre of area; its signed area, m2. */
-static double TurnAboutCentre(int n, double x[][2], double angle)
+/* Turns a polygon about its centre of area. */
+static void TurnAboutCentre(int n, double x[][2], double angle)
 {
-  double area = 0.0, centre[2] = {0.0, 0.0};
-  for (int k = 0; k < n; k++) {
-    const double *a = x[k], *b = x[(k + 1) % n], part = 0.5 * GeometryTurn(x[0], a, b);
+  const double area = OutlineArea(n, (const double(*)[2])x);
+  double centre[2] = {x[0][0], x[0][1]};
+  if (angle == 0.0) return;
+  for (int k = 1; k + 1 < n; k++) {
+    const double *a = x[k], *b = x[k + 1], part = 0.5 * GeometryTurn(x[0], a, b) / area;
     for (int c = 0; c < 2; c++) centre[c] += part * (a[c] - x[0][c] + b[c] - x[0][c]) / 3.0;
-    area += part;
   }
-  for (int c = 0; c < 2; c++) centre[c] = x[0][c] + centre[c] / area;
-  for (int k = 0; k < n && angle != 0.0; k++) {
+  for (int k = 0; k < n; k++) {
     const double dx = x[k][0] - centre[0], dy = x[k][1] - centre[1];
     x[k][0] = centre[0] + cos(angle) * dx - sin(angle) * dy;
     x[k][1] = centre[1] + sin(angle) * dx + cos(angle) * dy;
   }
-  return area;
 }
 
-/* About 0.26 size^2 a triangle. */
 static PetscErrorCode ReadPolygon(CoracleCase c, int body, double size, MeshSerial *mesh)
 {
   int n;
@@ -110,7 +109,8 @@ static PetscErrorCode ReadPolygon(CoracleCase c, int body, double size, MeshSeri
   PetscFunctionBeginUser;
   PetscCall(CaseReadOutline(c, BodyKey(key, body, "corners"), &n, &corner));
   PetscCall(CaseReadSides(c, BodyKey(key, body, "sides"), n, &side));
-  CheckCount(c, body, "size", 4.0 * fabs(TurnAboutCentre(n, corner, ReadAngle(c, body))) / (size * size));
+  TurnAboutCentre(n, corner, ReadAngle(c, body));
+  CheckCount(c, body, "size", MeshPolygonCount(n, (const double(*)[2])corner, size));
   PetscCall(MeshPolygon(n, (const double(*)[2])corner, side, size, mesh));
   PetscCall(PetscFree(side));
   PetscCall(PetscFree(corner));

@@ -1,8 +1,8 @@
 // ranks: 1 2 3 5
 /* Distribution: the same triangles on any number of ranks, neighbours that agree, vertices numbered without gaps,
  * ranks without elements. */
+#include "tests/handlers.h"
 #include "tests/mesh/distributed.h"
-#include <signal.h>
 
 static PetscErrorCode Distributed(BoxCase *box, Mesh **mesh)
 {
@@ -31,29 +31,13 @@ static void CheckQuality(const Mesh *m)
   CHECK(far < 6.0 * sqrt((double)m->nglobal), "bandwidth %g of %d elements", far, m->ne);
 }
 
-static void OnSignal(int number, siginfo_t *info, void *context) {}
-
-/* METIS has handlers of its own while it works. */
-static void CheckSignals(void)
-{
-  static const int NUMBER[] = {SIGTERM, SIGABRT};
-  struct sigaction now;
-  for (int k = 0; k < 2; k++) {
-    CHECK(!sigaction(NUMBER[k], NULL, &now) && now.sa_sigaction == OnSignal, "another handler of signal %d",
-          NUMBER[k]);
-    CHECK((now.sa_flags & (SA_SIGINFO | SA_ONSTACK)) == (SA_SIGINFO | SA_ONSTACK), "flags %d of signal %d",
-          now.sa_flags, NUMBER[k]);
-  }
-}
-
 int main(int argc, char **argv)
 {
   /* a graded mesh, and two triangles: from three ranks on some have none */
   BoxCase box[] = {{{2.5, 5.5}, 0.1, {0.02, {1.08, 1.0}, {1.42, 4.95}, 0.25}},
                    {{1.0, 1.0}, 10.0, {10.0, {0, 0}, {1, 1}, 0.0}}};
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
-  const struct sigaction action = {.sa_sigaction = OnSignal, .sa_flags = SA_SIGINFO | SA_ONSTACK};
-  CHECK(!sigaction(SIGTERM, &action, NULL) && !sigaction(SIGABRT, &action, NULL), "no handlers");
+  HandlersSet();
   for (int k = 0; k < 2; k++) {
     MeshSerial serial;
     Mesh *mesh;
@@ -68,6 +52,6 @@ int main(int argc, char **argv)
     PetscCall(MeshSerialDestroy(&serial));
     PetscCall(MeshDestroy(&mesh));
   }
-  CheckSignals();
+  HandlersCheck();
   return PetscFinalize();
 }

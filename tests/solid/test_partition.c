@@ -1,8 +1,8 @@
 /* Which rank gets what: many bodies whole, a body that is larger than a share cut, few that do not balance cut; all with
  * shares of equal work, and bodies that are dealt out by where they are. */
 #include "solid/ranks/partition.h"
+#include "tests/handlers.h"
 #include "tests/solid/build.h"
-#include <signal.h>
 
 /* Cuts the model; the bodies that are cut, and the largest share over the mean. */
 static PetscErrorCode Partition(const Model *a, int parts, int part[], int *cut, double *largest)
@@ -56,26 +56,10 @@ static PetscErrorCode Bodies(int nx, int ny, double pitch, double beam, int part
   PetscFunctionReturn(0);
 }
 
-static void OnSignal(int number, siginfo_t *info, void *context) {}
-
-/* METIS has handlers of its own while it works. */
-static void CheckSignals(void)
-{
-  static const int NUMBER[] = {SIGTERM, SIGABRT};
-  struct sigaction now;
-  for (int k = 0; k < 2; k++) {
-    CHECK(!sigaction(NUMBER[k], NULL, &now) && now.sa_sigaction == OnSignal, "another handler of signal %d",
-          NUMBER[k]);
-    CHECK((now.sa_flags & (SA_SIGINFO | SA_ONSTACK)) == (SA_SIGINFO | SA_ONSTACK), "flags %d of signal %d",
-          now.sa_flags, NUMBER[k]);
-  }
-}
-
 int main(int argc, char **argv)
 {
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
-  const struct sigaction action = {.sa_sigaction = OnSignal, .sa_flags = SA_SIGINFO | SA_ONSTACK};
-  CHECK(!sigaction(SIGTERM, &action, NULL) && !sigaction(SIGABRT, &action, NULL), "no handlers");
+  HandlersSet();
   for (int parts = 1; parts <= 5; parts++) {
     PetscCall(Bodies(12, 12, 0.0105, 0.0, parts, 0, WHOLE_EXCESS)); /* packed */
     PetscCall(Bodies(12, 12, 0.03, 0.0, parts, 0, WHOLE_EXCESS));   /* apart */
@@ -84,6 +68,6 @@ int main(int argc, char **argv)
   PetscCall(Bodies(2, 2, 0.0105, 0.0, 4, 0, WHOLE_EXCESS));  /* a disc each */
   PetscCall(Bodies(3, 1, 0.0105, 0.0, 2, 1, WHOLE_EXCESS));  /* whole they would be two and one */
   PetscCall(Bodies(1, 1, 0.0105, 0.0, 3, 1, 0.5));
-  CheckSignals();
+  HandlersCheck();
   return PetscFinalize();
 }
