@@ -121,6 +121,12 @@ static void ReadRules(CoracleCase c, SolidSetup *setup)
   }
 }
 
+/* By how much x is beyond a wall; a body on a wall is not by the round-off of its coordinates. */
+static double Beyond(const SolidSetup *setup, int axis, const double x[2])
+{
+  return fmax(setup->lower[axis] - x[axis], x[axis] - setup->upper[axis]);
+}
+
 static void ReadWalls(CoracleCase c, const Model *a, SolidSetup *setup)
 {
   char key[CASE_KEY];
@@ -129,13 +135,14 @@ static void ReadWalls(CoracleCase c, const Model *a, SolidSetup *setup)
   CoracleCaseVector(c, "solid.walls.lower", 2, setup->lower);
   CoracleCaseVector(c, "solid.walls.upper", 2, setup->upper);
   ReadWallContact(c, setup);
-  /* a body on a wall is not beyond it by the round-off of its coordinates */
-  for (int n = 0; n < a->nnodes; n++)
+  for (int n = 0; n < a->nnodes; n++) {
+    const Body *body = &a->body[a->node_body[n]];
+    const double *x = body->circle > 0.0 ? body->centre : a->x + 2 * n;
     for (int k = 0; k < 2; k++)
-      if (fmax(setup->lower[k] - a->x[2 * n + k], a->x[2 * n + k] - setup->upper[k]) >
-          8.0 * DBL_EPSILON * fmax(fabs(a->x[2 * n]), fabs(a->x[2 * n + 1])))
-        CoracleCaseRefuse(c, BodyKey(key, a->body[a->node_body[n]].entry, ""),
+      if (Beyond(setup, k, x) + body->circle > 8.0 * DBL_EPSILON * fmax(fabs(x[0]), fabs(x[1])))
+        CoracleCaseRefuse(c, BodyKey(key, body->entry, ""),
                           "the body reaches through solid.walls at (%g, %g)", a->x[2 * n], a->x[2 * n + 1]);
+  }
 }
 
 PetscBool SolidCasePressureLoad(CoracleCase c)

@@ -334,7 +334,7 @@ PetscErrorCode CaseReadBody(CoracleCase c, int body, Model *a)
   CoracleCaseKeys(c, BodyKey(key, body, "regions"), ReadRegion, &regions);
   setup.nregions = regions.n;
   setup.region = regions.region;
-  PetscCall(CaseReadShape(c, body, &mesh));
+  PetscCall(CaseReadShape(c, body, &mesh, &setup.circle));
   setup.material = ReadBodyMaterial(&regions, &mesh);
   PetscCall(ReadFixed(c, body, &setup, &name));
   PetscCall(ReadPrescribed(c, body, &setup, &prescribed, &steady));

@@ -153,12 +153,13 @@ static PetscErrorCode ReadSides(CoracleCase c, int body, Shape shape, const doub
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CaseReadShape(CoracleCase c, int body, MeshSerial *mesh)
+PetscErrorCode CaseReadShape(CoracleCase c, int body, MeshSerial *mesh, double *circle)
 {
   const Shape shape = ReadShapeName(c, body);
   double centre[2];
   char key[CASE_KEY];
   PetscFunctionBeginUser;
+  *circle = 0.0;
   if (shape == SHAPE_FILE) {
     PetscCall(ReadMeshFile(c, body, mesh));
     PetscFunctionReturn(0);
@@ -170,9 +171,9 @@ PetscErrorCode CaseReadShape(CoracleCase c, int body, MeshSerial *mesh)
   }
   CoracleCaseVector(c, BodyKey(key, body, "centre"), 2, centre);
   if (shape == SHAPE_DISC) {
-    const double radius = CoracleCasePositive(c, BodyKey(key, body, "radius"));
-    CheckRings(c, body, radius, size);
-    PetscCall(ShapeDisc(centre, radius, size, mesh));
+    *circle = CoracleCasePositive(c, BodyKey(key, body, "radius"));
+    CheckRings(c, body, *circle, size);
+    PetscCall(ShapeDisc(centre, *circle, size, mesh));
   } else if (shape == SHAPE_RING) {
     PetscCall(ReadRing(c, body, centre, size, mesh));
   } else {

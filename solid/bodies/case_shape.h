@@ -9,8 +9,8 @@ typedef struct {
   double step[2]; /* m */
 } BodyRepeat;
 BodyRepeat CaseReadRepeat(CoracleCase c, int body);
-/* The body's mesh, from its shape or its file. */
-PetscErrorCode CaseReadShape(CoracleCase c, int body, MeshSerial *mesh);
+/* The body's mesh, from its shape or its file; *circle: the radius of a disc, m, or 0. */
+PetscErrorCode CaseReadShape(CoracleCase c, int body, MeshSerial *mesh, double *circle);
 /* A ring keeps its wall (*position is allocated), other shapes are stretched as they are. */
 PetscErrorCode CaseReadStretch(CoracleCase c, int body, const MeshSerial *mesh, BodySetup *setup,
                                double **position);

@@ -146,7 +146,7 @@ static void MassCentre(const Model *a, int first, double centre[2])
 {
   double mass = 0.0, sum[2] = {0.0, 0.0};
   for (int k = 3 * first; k < 3 * a->nelements; k++) {
-    const double m = ModelCornerMass(a, k / 3);
+    const double m = ModelElementMass(a, k / 3) / 3.0;
     mass += m;
     for (int c = 0; c < 2; c++) sum[c] += m * a->rest[2 * a->element[k] + c];
   }

@@ -67,6 +67,7 @@ typedef struct {
   double velocity[2];      /* m/s */
   double angular_velocity; /* rad/s about the mass centre, counter-clockwise */
   int fixed;               /* whole body */
+  double circle;           /* its radius if it is a disc about its mass centre, m; else 0 */
   int six_node;            /* its mesh has been split into six-node triangles (SixNodeSplit) */
   int nfixed;              /* or these boundaries and regions of the mesh */
   const char *const *fixed_name;
@@ -82,6 +83,9 @@ typedef struct {
 /* A body that keeps its shape. */
 typedef struct {
   double mass, inertia; /* kg/m; about the mass centre, kg m */
+  double mass_factor
+      [4]; /* masses at nodes have the body's moment of inertia: a third of their elements' times 1 + f_0 + f_1 y_1 + f_2 y_2 + f_3 y.y,
+                            y from the mass centre */
   double
       surface_compliance; /* m2/kg: bound of the squared frequency on a bed of unit stiffness per area (rigid.h) */
 } RigidBody;
@@ -92,6 +96,7 @@ typedef struct {
   int entry;         /* of its setup */
   double centre[2];  /* of mass, at the start */
   RigidBody rigid;   /* mass 0: it deforms, or is held as a whole */
+  double circle;     /* of a rigid disc: its radius, with which it touches others, m; else 0 */
 } Body;
 
 typedef struct {
@@ -132,8 +137,9 @@ PetscErrorCode ModelOverlap(const Model *a, ModelPair *pair);
 /* Edges of an element at rest, m; its law, times its thickness. */
 Tensor ModelRestEdges(const Model *a, int element);
 ElementLaw ModelElementLaw(const Model *a, int element);
-/* What each of its corners has of its mass, kg/m: a third. */
-double ModelCornerMass(const Model *a, int element);
+double ModelElementMass(const Model *a, int element); /* kg/m */
+/* What a corner, 3 e + i, has of its element's mass, kg/m: a third, but in rigid bodies (RigidBody.mass_factor). */
+double ModelCornerMass(const Model *a, int corner);
 /* With rows of its own. */
 PetscErrorCode BoundaryLoadCopy(const BoundaryLoad *from, BoundaryLoad *to);
 PetscErrorCode BoundaryLoadFree(BoundaryLoad *load);

@@ -17,7 +17,7 @@ static inline Point ModelVertex(const MeshSerial *m, int e, int i)
 /* The centre of element e of a body's mesh lies in the box (lower x, y, upper x, y). */
 PetscBool ModelInBox(const MeshSerial *m, int e, const double box[4]);
 /* The last body of the model, of elements `first` and on, if it is rigid: its RigidBody; refuses what such a body cannot have. */
-PetscErrorCode ModelMeasureRigid(const Model *a, const BodySetup *setup, int first, Body *body);
+PetscErrorCode ModelMeasureRigid(Model *a, const BodySetup *setup, int first, Body *body);
 /* The setup's loads, and the sides of elements `first` and on that are edges of their boundaries; renumber[m->nv]: the model's nodes. */
 PetscErrorCode ModelAddLoads(Model *a, const MeshSerial *m, const BodySetup *setup, int first,
                              const int renumber[]);

@@ -16,10 +16,18 @@ Tensor ModelRestEdges(const Model *a, int e)
   return TensorOfEdges(PointAt(a->rest, n[0]), PointAt(a->rest, n[1]), PointAt(a->rest, n[2]));
 }
 
-double ModelCornerMass(const Model *a, int e)
+double ModelElementMass(const Model *a, int e)
 {
   const Material *m = &a->material[a->element_material[e]];
-  return m->density * m->thickness * TensorDeterminant(ModelRestEdges(a, e)) / 6.0;
+  return 0.5 * m->density * m->thickness * TensorDeterminant(ModelRestEdges(a, e));
+}
+
+double ModelCornerMass(const Model *a, int corner)
+{
+  const Body *body = &a->body[a->element_body[corner / 3]];
+  const double *k = body->rigid.mass_factor, third = ModelElementMass(a, corner / 3) / 3.0;
+  const Point y = PointMinus(PointAt(a->rest, a->element[corner]), PointAt(body->centre, 0));
+  return third * (1.0 + k[0] + k[1] * y.x + k[2] * y.y + k[3] * (y.x * y.x + y.y * y.y));
 }
 
 /* Of the damping ratio xi at frequency f in tension along one axis: 2 xi E'/(2 pi f) = eta (1 + q^2), E' the modulus and

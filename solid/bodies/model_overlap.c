@@ -43,6 +43,23 @@ static double Squared(Point p, Point q)
   return d.x * d.x + d.y * d.y;
 }
 
+/* By how much a rigid disc's corners lie outside of its circle. */
+static double Protrusion(const Model *a, int e)
+{
+  const Body *body = &a->body[a->element_body[e]];
+  double squared = 0.0;
+  if (body->circle == 0.0) return 0.0;
+  for (int i = 0; i < 3; i++)
+    squared = fmax(squared, Squared(PointAt(a->x, a->element[3 * e + i]), PointAt(body->centre, 0)));
+  return fmax(0.0, sqrt(squared) - body->circle);
+}
+
+static int CirclesOverlap(const Body *one, const Body *other)
+{
+  const double least = (1.0 - TOUCH) * (one->circle + other->circle);
+  return Squared(PointAt(one->centre, 0), PointAt(other->centre, 0)) < least * least;
+}
+
 /* The facet's edge, or a point of the triangle behind it (which tells a part laid exactly over another),
  * lies in element e. */
 static int Penetrates(const Model *a, int facet, int e)
@@ -54,8 +71,9 @@ static int Penetrates(const Model *a, int facet, int e)
   const double twice = TensorDeterminant(TensorOfEdges(t[0], t[1], t[2])),
                longest = sqrt(fmax(Squared(t[0], t[1]), fmax(Squared(t[1], t[2]), Squared(t[2], t[0])))),
                round_off = UNITS * DBL_EPSILON * fmax(fabs(inner.x), fabs(inner.y)),
-               allowed = TOUCH +
-                         3.0 * round_off * longest / twice; /* phi is three times the depth over the height */
+               depth = round_off + Protrusion(a, e) + Protrusion(a, a->facet_element[facet]),
+               allowed =
+                   TOUCH + 3.0 * depth * longest / twice; /* phi is three times the depth over the height */
   f[0] = ContactEdgeTriangle(inner, inner, t);
   f[1] = ContactEdgeTriangle(PointAt(a->x, a->facet[2 * facet]), PointAt(a->x, a->facet[2 * facet + 1]), t);
   return (f[0].inside > 0.0 && f[0].largest_phi >= allowed) ||
@@ -74,7 +92,10 @@ static PetscErrorCode OverlapFound(void *context, int facet, int e)
   OverlapSearch *s = context;
   const Model *a = s->a;
   const int behind = a->facet_element[facet], first = PetscMin(behind, e), second = PetscMax(behind, e);
-  if (s->pair->element[0] >= 0 || HaveCommonNode(a, behind, e) || !Penetrates(a, facet, e)) return 0;
+  const Body *one = &a->body[a->element_body[behind]], *other = &a->body[a->element_body[e]];
+  if (s->pair->element[0] >= 0 || HaveCommonNode(a, behind, e)) return 0;
+  const int circles = one != other && one->circle > 0.0 && other->circle > 0.0;
+  if (circles ? !CirclesOverlap(one, other) : !Penetrates(a, facet, e)) return 0;
   *s->pair = (ModelPair){{first, second}, {Centre(a, first), Centre(a, second)}};
   return 0;
 }

@@ -21,7 +21,7 @@ static PetscErrorCode FindTargets(Contact c, Solid s)
     const int node[3] = {e->node[0][k], e->node[1][k], e->node[2][k]};
     if (!s->surface[node[0]] && !s->surface[node[1]] && !s->surface[node[2]]) continue;
     Target *t = &c->target[c->ntargets++];
-    *t = (Target){.body = e->body[k], .material = e->material[k], .number = e->number[k]};
+    *t = (Target){.body = e->body[k], .material = e->material[k], .number = e->number[k], .sector = -1};
     for (int i = 0; i < 3; i++) {
       t->node[i] = node[i];
       t->gid[i] = s->gid[node[i]];
@@ -39,18 +39,21 @@ static PetscErrorCode ListFacets(Contact c, Solid s)
   const size_t n = (size_t)c->ntargets;
   int *target, *start; /* [elements] */
   PetscFunctionBeginUser;
-  PetscCall(PetscFree4(c->facet_start, c->facet, c->contactor, c->contactor_of));
-  PetscCall(PetscCalloc4(n + 2, &c->facet_start, (size_t)s->nfaces, &c->facet, n, &c->contactor, n,
-                         &c->contactor_of));
+  PetscCall(PetscFree5(c->facet_start, c->facet, c->contactor, c->contactor_of, c->facet_target));
+  PetscCall(PetscCalloc5(n + 2, &c->facet_start, (size_t)s->nfaces, &c->facet, n, &c->contactor, n,
+                         &c->contactor_of, (size_t)s->nfaces, &c->facet_target));
   PetscCall(PetscMalloc1((size_t)s->elements.n, &target));
   for (int k = 0, t = 0; k < s->elements.n; k++) {
     target[k] = t;
     t += t < c->ntargets && c->target[t].number == s->elements.number[k];
   }
   start = c->facet_start + 1; /* shifted: filling moves it to where it belongs */
-  for (int k = 0; k < s->nfaces; k++) start[target[s->facet_element[k]] + 1]++;
+  for (int k = 0; k < s->nfaces; k++) {
+    c->facet_target[k] = target[s->facet_element[k]];
+    start[c->facet_target[k] + 1]++;
+  }
   for (int t = 0; t < c->ntargets; t++) start[t + 1] += start[t];
-  for (int k = 0; k < s->nfaces; k++) c->facet[start[target[s->facet_element[k]]]++] = k;
+  for (int k = 0; k < s->nfaces; k++) c->facet[start[c->facet_target[k]]++] = k;
   c->ncontactors = 0;
   for (int t = 0; t < c->ntargets; t++) {
     const PetscBool any = (PetscBool)(c->facet_start[t + 1] > c->facet_start[t]);
@@ -59,12 +62,6 @@ static PetscErrorCode ListFacets(Contact c, Solid s)
   }
   PetscCall(PetscFree(target));
   PetscFunctionReturn(0);
-}
-
-static double FacetLength(const Solid s, int k)
-{
-  const Point d = PointMinus(PointAt(s->rest, s->facet[2 * k + 1]), PointAt(s->rest, s->facet[2 * k]));
-  return hypot(d.x, d.y);
 }
 
 static double TargetHeight(const Target *t)
@@ -104,7 +101,7 @@ static PetscErrorCode MeasureMass(Contact c, Solid s, const char held[])
   for (int n = 0; n < s->nnodes; n++)
     if (SolidOwns(s, n) && !held[n]) sum[2 * s->node_body[n]] += s->mass[n];
   for (int k = 0; k < s->nfacets; k++)
-    sum[2 * s->elements.body[s->facet_element[k]] + 1] += FacetLength(s, k);
+    sum[2 * s->elements.body[s->facet_element[k]] + 1] += ContactRestLength(s, k);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2 * s->nbodies, MPI_DOUBLE, MPI_SUM, s->comm));
   for (int b = 0; b < s->nbodies; b++) {
     c->mass[b] = sum[2 * b] > 0.0 ? sum[2 * b] : HUGE_VAL;
@@ -129,7 +126,7 @@ static PetscErrorCode MeasureSurface(Contact c, Solid s, const char held[])
     c->height[b] = fmin(c->height[b], TargetHeight(&c->target[k]));
   }
   for (int k = 0; k < s->nfaces; k++) {
-    const double length = FacetLength(s, k);
+    const double length = ContactRestLength(s, k);
     sum[0] += length;
     for (int i = 0; i < 2; i++) half[2 * s->facet[2 * k + i]] += 0.5 * length;
   }
@@ -195,6 +192,7 @@ PetscErrorCode ContactCreate(Solid s, Contact *contact)
   PetscCall(PetscCalloc7(nbodies, &c->height, nbodies, &c->compliance, nbodies, &c->intact_compliance,
                          nbodies, &c->mass, nbodies, &c->areal_mass, nbodies, &c->skin, nbodies,
                          &c->waiting));
+  PetscCall(PetscCalloc2(nbodies, &c->bulge, nbodies, &c->margin));
   c->rough = AnyRough(s);
   PetscCall(ContactRenew(c, s));
   PetscCall(PetscArraycpy(c->intact_compliance, c->compliance, nbodies));
@@ -210,6 +208,7 @@ PetscErrorCode ContactRenew(Contact c, Solid s)
   PetscCall(PetscRealloc((size_t)s->nfaces * sizeof *c->first_pair, &c->first_pair));
   PetscCall(FindTargets(c, s));
   PetscCall(ListFacets(c, s));
+  PetscCall(DiscsMeasure(c, s));
   PetscCall(Measure(c, s));
   PetscFunctionReturn(0);
 }
@@ -245,7 +244,9 @@ PetscErrorCode ContactDestroy(Contact *c)
   PetscCall(PetscFree((*c)->searched));
   PetscCall(PetscFree((*c)->first_pair));
   PetscCall(PetscFree((*c)->target));
-  PetscCall(PetscFree4((*c)->facet_start, (*c)->facet, (*c)->contactor, (*c)->contactor_of));
+  PetscCall(
+      PetscFree5((*c)->facet_start, (*c)->facet, (*c)->contactor, (*c)->contactor_of, (*c)->facet_target));
+  PetscCall(PetscFree2((*c)->bulge, (*c)->margin));
   PetscCall(PetscFree((*c)->candidate));
   PetscCall(PetscFree((*c)->couple));
   PetscCall(PetscFree((*c)->pressed));

@@ -8,7 +8,7 @@ enum { MOST_CANDIDATES = 6 }; /* of a couple: the sides of both */
 
 static PetscBool Separated(const Contact c, const Solid s, const Couple *k)
 {
-  if (k->separating < 0) return PETSC_FALSE;
+  if (k->separating < 0) return PETSC_FALSE; /* discs: of triangles alone */
   const int i = k->separating % 3, *a = k->node[k->separating / 3], *b = k->node[1 - k->separating / 3];
   const Point side[2] = {ContactPosition(c, s, a[(i + 1) % 3]), ContactPosition(c, s, a[(i + 2) % 3])};
   for (int n = 0; n < 3; n++)
@@ -19,6 +19,7 @@ static PetscBool Separated(const Contact c, const Solid s, const Couple *k)
 int ContactSeparatingSide(const Contact c, const Solid s, const Couple *couple)
 {
   Couple k = *couple;
+  if (k.discs) return -1;
   for (k.separating = 5; k.separating >= 0 && !Separated(c, s, &k);) k.separating--;
   return k.separating;
 }
@@ -30,19 +31,20 @@ static Point VelocityOf(const Contact c, const Solid s, int node)
 
 /* --- what touches ------------------------------------------------------------------------------------- */
 
-/* Relative velocity at the force's place, into the pair's sums with the normal force as weight; edge[2], target[3]: velocities
+/* Relative velocity at the force's place, into the pair's sums with the normal force as weight; contactor[3], from the edge's start on, target[3]: velocities
  * of the nodes, the latter NULL at a wall. */
-static void AddMotion(Contact c, const ActivePair *active, const Point edge[2], const Point target[3])
+static void AddMotion(Contact c, const ActivePair *active, const Point contactor[3], const Point target[3])
 {
   const ContactIntegrals *k = &active->integrals;
   const Point d = active->along;
-  const double sum = k->edge[0] + k->edge[1], normal = active->scale * sum * sqrt(d.x * d.x + d.y * d.y);
+  const double weight[3] = {k->edge[0], k->edge[1], k->opposite}, sum = ContactSum(k),
+               normal = active->scale * sum * sqrt(d.x * d.x + d.y * d.y);
   Pair *pair = &c->pair[active->pair];
   Point v = {0.0, 0.0}; /* times the sum */
   if (!(normal > 0.0)) return;
-  for (int i = 0; i < 2; i++) {
-    v.x += k->edge[i] * edge[i].x;
-    v.y += k->edge[i] * edge[i].y;
+  for (int i = 0; i < 3; i++) {
+    v.x += weight[i] * contactor[i].x;
+    v.y += weight[i] * contactor[i].y;
   }
   for (int i = 0; target && i < 3; i++) {
     v.x -= k->target[i] * target[i].x;
@@ -55,6 +57,16 @@ static void AddMotion(Contact c, const ActivePair *active, const Point edge[2], 
   pair->largest_phi = Greater(pair->largest_phi, k->largest_phi);
   pair->vn += active->scale * (v.x * d.y - v.y * d.x);
   pair->vt += active->scale * (v.x * d.x + v.y * d.y);
+}
+
+static void AddMotionOfCouple(Contact c, const Solid s, const Couple *couple, const ActivePair *a)
+{
+  Point contactor[3], target[3];
+  for (int i = 0; i < 3; i++) {
+    contactor[i] = VelocityOf(c, s, couple->node[a->of][(a->side + i) % 3]);
+    target[i] = VelocityOf(c, s, couple->node[1 - a->of][i]);
+  }
+  AddMotion(c, a, contactor, target);
 }
 
 /* Candidates whose integrals are made side by side. */
@@ -116,12 +128,7 @@ static void AddActive(Contact c, const Solid s, const Strip *strip, int k, Activ
                                     .largest_phi = strip->largest_phi[k],
                                     .inside = strip->inside[k],
                                     .twice_area = strip->twice_area[k]};
-  if (!c->rough) return;
-  const int *edge = s->facet + 2 * candidate->facet;
-  const Point v[2] = {PointAt(s->v, edge[0]), PointAt(s->v, edge[1])};
-  Point target[3];
-  for (int i = 0; i < 3; i++) target[i] = VelocityOf(c, s, couple->node[1 - a->of][i]);
-  AddMotion(c, a, v, target);
+  if (c->rough) AddMotionOfCouple(c, s, couple, a);
 }
 
 /* Adds those that touch to active[n]; returns their number.  The strip is empty then. */
@@ -139,20 +146,48 @@ static int FindActive(Contact c, const Solid s, Strip *strip, ActivePair active[
   return n;
 }
 
+/* Discs' candidates that touch, to active[]; returns their number. */
+static int FindActiveDiscs(Contact c, const Solid s, int couple, ActivePair active[])
+{
+  const Couple *k = &c->couple[couple];
+  int n = 0;
+  for (int i = k->first; i < k->first + k->n; i++) {
+    const Candidate *candidate = &c->candidate[i];
+    ActivePair *a = &active[n];
+    a->couple = couple;
+    a->of = candidate->target == k->target[0];
+    a->side = s->facet_side[candidate->facet];
+    a->pair = candidate->pair;
+    if (!DiscActive(c, s, candidate, k->target[a->of], a)) continue;
+    if (c->rough) AddMotionOfCouple(c, s, k, a);
+    n++;
+  }
+  return n;
+}
+
+static int OppositeNode(const Solid s, int facet)
+{
+  return s->elements.node[(s->facet_side[facet] + 2) % 3][s->facet_element[facet]];
+}
+
 static int ActiveWall(const Contact c, Solid s, int wall, ActivePair *active)
 {
   const WallCandidate *w = &c->wall[wall];
   const int *edge = s->facet + 2 * w->facet, element = s->facet_element[w->facet];
+  const int body = s->elements.body[element], opposite = OppositeNode(s, w->facet);
   const Material *m = &s->material[s->elements.material[element]];
-  const Point v[2] = {PointAt(s->v, edge[0]), PointAt(s->v, edge[1])};
-  const double depth_p = w->outward * (s->x[2 * edge[0] + w->axis] - w->at);
-  const double depth_q = w->outward * (s->x[2 * edge[1] + w->axis] - w->at);
-  const double height = c->height[s->elements.body[element]];
-  if (!ContactEdgeWall(depth_p, depth_q, height, &active->integrals)) return 0;
+  const Point v[3] = {PointAt(s->v, edge[0]), PointAt(s->v, edge[1]), PointAt(s->v, opposite)};
   active->couple = -1 - wall;
   active->pair = w->pair;
   active->scale = m->penalty * m->thickness;
   active->along = PointMinus(PointAt(s->x, edge[1]), PointAt(s->x, edge[0]));
+  if (ContactIsDisc(s, body)) {
+    if (!DiscActiveAtWall(c, s, w, active)) return 0;
+  } else {
+    const double depth_p = w->outward * (s->x[2 * edge[0] + w->axis] - w->at);
+    const double depth_q = w->outward * (s->x[2 * edge[1] + w->axis] - w->at);
+    if (!ContactEdgeWall(depth_p, depth_q, c->height[body], &active->integrals)) return 0;
+  }
   if (c->rough) AddMotion(c, active, v, NULL);
   return 1;
 }
@@ -181,6 +216,10 @@ static PetscErrorCode FindActivePairs(Contact c, Solid s, int *nactive)
   ForgetSums(c);
   strip.n = 0;
   for (int k = 0; k < c->nnear; k++) {
+    if (c->couple[c->near[k]].discs) {
+      n += FindActiveDiscs(c, s, c->near[k], c->active + n);
+      continue;
+    }
     if (Separated(c, s, &c->couple[c->near[k]])) continue;
     AddToStrip(c, s, c->near[k], &strip);
     if (strip.n > STRIP - MOST_CANDIDATES) n += FindActive(c, s, &strip, c->active + n);
@@ -224,13 +263,13 @@ static Point ForceOf(const Contact c, const ActivePair *active)
 
 static void AddWall(Contact c, Solid s, const ActivePair *active)
 {
-  const int *edge = s->facet + 2 * c->wall[-1 - active->couple].facet;
+  const int facet = c->wall[-1 - active->couple].facet, *edge = s->facet + 2 * facet;
   const Point f = ForceOf(c, active);
-  for (int i = 0; i < 2; i++) {
-    Add(s->force, edge[i], active->integrals.edge[i], f);
-    c->walls.x += active->integrals.edge[i] * f.x;
-    c->walls.y += active->integrals.edge[i] * f.y;
-  }
+  const double sum = ContactSum(&active->integrals);
+  for (int i = 0; i < 2; i++) Add(s->force, edge[i], active->integrals.edge[i], f);
+  Add(s->force, OppositeNode(s, facet), active->integrals.opposite, f);
+  c->walls.x += sum * f.x;
+  c->walls.y += sum * f.y;
 }
 
 /* All active pairs of the first one's couple, in its nodes; returns their number. */
@@ -244,6 +283,7 @@ static int AddCouple(Contact c, Solid s, int n, const ActivePair active[])
     const Point f = ForceOf(c, a);
     Add(force[a->of], a->side, a->integrals.edge[0], f);
     Add(force[a->of], (a->side + 1) % 3, a->integrals.edge[1], f);
+    Add(force[a->of], (a->side + 2) % 3, a->integrals.opposite, f);
     for (int i = 0; i < 3; i++) Add(force[1 - a->of], i, -a->integrals.target[i], f);
   }
   for (int i = 0; i < 6; i++) {

@@ -28,9 +28,9 @@ PetscErrorCode HaloCreate(MPI_Comm comm, Halo *halo)
   PetscFunctionReturn(0);
 }
 
-static PetscBool Wanted(const GeometryBox *edges, const Target *t, const double x[], const double skin[])
+static PetscBool Wanted(const GeometryBox *edges, const Target *t, const double x[], const double margin[])
 {
-  const GeometryBox box = GeometryBoxWidened(GeometryBoxOfNodes(3, t->node, x), skin[t->body]);
+  const GeometryBox box = GeometryBoxWidened(GeometryBoxOfNodes(3, t->node, x), margin[t->body]);
   return (PetscBool)GeometryBoxOverlap(edges, &box);
 }
 
@@ -59,13 +59,13 @@ static PetscErrorCode ReserveTargets(Halo h, int n)
 
 /* Targets near the edges of other ranks, edges[size]: target row[k] goes to rank to[k].  Returns their number;
  * counts alone if to is NULL. */
-static int Offer(Halo h, const double x[], const double skin[], const GeometryBox edges[], int n,
+static int Offer(Halo h, const double x[], const double margin[], const GeometryBox edges[], int n,
                  const Target target[], int to[], int row[])
 {
   int rows = 0;
   for (int r = 0; r < h->size; r++)
     for (int k = 0; k < n && r != h->rank; k++) {
-      if (!Wanted(&edges[r], &target[k], x, skin)) continue;
+      if (!Wanted(&edges[r], &target[k], x, margin)) continue;
       if (to) {
         to[rows] = r;
         row[rows] = k;
@@ -107,8 +107,8 @@ static PetscErrorCode Renew(Halo h)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode HaloBuild(Halo h, int nnodes, const double x[], const double skin[], const GeometryBox *edges,
-                         int n, const Target target[])
+PetscErrorCode HaloBuild(Halo h, int nnodes, const double x[], const double margin[],
+                         const GeometryBox *edges, int n, const Target target[])
 {
   GeometryBox *all;
   int *to, *row;
@@ -116,9 +116,9 @@ PetscErrorCode HaloBuild(Halo h, int nnodes, const double x[], const double skin
   h->nnodes = nnodes;
   PetscCall(PetscMalloc1((size_t)h->size, &all));
   PetscCallMPI(MPI_Allgather(edges, sizeof *edges, MPI_BYTE, all, sizeof *all, MPI_BYTE, h->comm));
-  const int nrows = Offer(h, x, skin, all, n, target, NULL, NULL);
+  const int nrows = Offer(h, x, margin, all, n, target, NULL, NULL);
   PetscCall(PetscMalloc2((size_t)nrows, &to, (size_t)nrows, &row));
-  Offer(h, x, skin, all, n, target, to, row);
+  Offer(h, x, margin, all, n, target, to, row);
   PetscCall(Exchange(h, nrows, to, row, target));
   PetscCall(Renew(h));
   PetscCall(PetscFree2(to, row));

@@ -13,15 +13,17 @@ typedef struct {
   long long gid[3];           /* of its nodes */
   double rest[6];             /* [3][2] rest coordinates, m */
   double twice_area;          /* at rest, m2 */
+  int sector;                 /* of a rigid disc: its side on the circle; -1: there is none */
+  double at_centre[3];        /* then, barycentric coordinates of the disc's centre */
 } Target;
 
 typedef struct Halo_s *Halo;
 
 PetscErrorCode HaloCreate(MPI_Comm comm, Halo *h);
-/* Collective: offers own targets, widened by their body's skin, to the ranks whose edges' box they touch.  Received ones:
+/* Collective: offers own targets, widened by their body's margin, to the ranks whose edges' box they touch.  Received ones:
  * HaloTargets. */
-PetscErrorCode HaloBuild(Halo h, int nnodes, const double x[], const double skin[], const GeometryBox *edges,
-                         int n, const Target target[]);
+PetscErrorCode HaloBuild(Halo h, int nnodes, const double x[], const double margin[],
+                         const GeometryBox *edges, int n, const Target target[]);
 /* Collective: forgets those with keep[k] = 0; index[k] becomes the new place of target k or -1. */
 PetscErrorCode HaloKeep(Halo h, const char keep[], int index[]);
 int HaloTargets(Halo h, const Target **target);

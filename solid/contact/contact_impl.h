@@ -22,6 +22,7 @@ typedef struct {
   int first, n;    /* candidates */
   int separating;  /* side i, opposite to node i, of target[0], or 3 + i of target[1]; -1: none is known */
   double distance; /* when searched, not less is between them, m */
+  PetscBool discs; /* one is of a rigid disc, or both */
 } Couple;
 
 /* An edge that may touch a wall. */
@@ -73,6 +74,7 @@ struct Contact_s {
   int *facet_start, *facet;    /* [ntargets + 1], [nfaces] a target's facets */
   int ncontactors, *contactor; /* [ncontactors] targets that have facets */
   int *contactor_of;           /* [ntargets] its place among them, or -1 */
+  int *facet_target;           /* [nfaces] */
   int ncandidates, candidate_capacity, nwalls, wall_capacity, npairs, pair_capacity, active_capacity;
   int ncouples, couple_capacity;
   Candidate *candidate;
@@ -96,6 +98,8 @@ struct Contact_s {
   double *searched;   /* [nnodes][2] positions of the last search */
   double shortest_buffer;
   double *skin;    /* [nbodies] half of it, or what a fast body needs: candidates lie within both bodies' */
+  double *bulge;   /* [nbodies] of a rigid disc: by how much the circle lies beyond its edges, m; else 0 */
+  double *margin;  /* [nbodies] skin and bulge */
   double *waiting; /* [nbodies] m: least distance of the body's pairs that are no candidates yet */
   Point walls;     /* what they did to this rank's edges, N */
   double rate[4];  /* bounds of omega^2 by bodies and by walls, 1/s2; of 2 xi omega by both, 1/s */
@@ -112,6 +116,18 @@ static inline PetscBool ContactJoined(const Solid s, int facet, const Target *t)
   return (PetscBool)(s->facet_across[facet] == t->number);
 }
 
+static inline double ContactRestLength(const Solid s, int facet)
+{
+  const Point d =
+      PointMinus(PointAt(s->rest, s->facet[2 * facet + 1]), PointAt(s->rest, s->facet[2 * facet]));
+  return sqrt(d.x * d.x + d.y * d.y);
+}
+
+static inline PetscBool ContactIsDisc(const Solid s, int body)
+{
+  return (PetscBool)(s->body[body].circle > 0.0);
+}
+
 /* contact.c: collective, before a search: masses are those of what prescribed motions hold until the step's end. */
 PetscErrorCode ContactHold(Contact c, Solid s);
 
@@ -120,6 +136,14 @@ PetscErrorCode ContactHold(Contact c, Solid s);
  * never touches by itself, neighbours at rest only once they have come closer, and a buffer that is long
  * because the body as a whole is fast is not needed.  *distance: not less is between them. */
 PetscBool ContactMayBeActive(const Contact c, const Solid s, int facet, const Target *t, double *distance);
+
+/* contact_discs.c */
+/* The sector of each target of rigid discs, and c->bulge: collective. */
+PetscErrorCode DiscsMeasure(Contact c, const Solid s);
+/* Scale, direction and integrals of a candidate, one of whose targets at least is a disc's; contactor: the target of its edge.  0: they do not touch. */
+int DiscActive(const Contact c, const Solid s, const Candidate *candidate, int contactor, ActivePair *a);
+/* Direction and integrals. */
+int DiscActiveAtWall(const Contact c, const Solid s, const WallCandidate *w, ActivePair *a);
 
 /* contact_forces.c: Couple.separating as it is now. */
 int ContactSeparatingSide(const Contact c, const Solid s, const Couple *k);

@@ -20,12 +20,19 @@
 /* Integrals over the part of the edge inside, in the edge's own measure (times its length they are lengths).
  */
 typedef struct {
-  double edge[2];     /* of phi (1 - s), phi s: the shares of the edge's ends */
+  double edge[2]; /* of phi (1 - s), phi s: the shares of the edge's ends */
+  double
+      opposite; /* the share of the third node of the contactor's element: 0 but of discs (circle_kernel.h) */
   double target[3];   /* of phi lambda_i: the shares of the target's nodes */
   double largest_phi; /* at the ends of the part inside and at the kinks */
   double inside;      /* how much of the edge is inside, 0 .. 1 */
   double twice_area;  /* of the target now, m2 */
 } ContactIntegrals;
+
+static inline double ContactSum(const ContactIntegrals *c)
+{
+  return c->edge[0] + c->edge[1] + c->opposite;
+}
 
 /* int phi (1 - s) ds and int phi s ds over s in [s0, s1], phi linear from f0 to f1 there (Simpson: exact). */
 static inline void ContactPiece(double s0, double s1, double f0, double f1, double integral[2])
@@ -139,7 +146,7 @@ static inline int ContactTouches(Point p, Point q, const Point t[3])
 static inline int ContactEdgeWall(double depth_p, double depth_q, double height, ContactIntegrals *c)
 {
   const double a = 3.0 * depth_p / height, b = 3.0 * depth_q / height;
-  c->edge[0] = c->edge[1] = 0.0;
+  c->edge[0] = c->edge[1] = c->opposite = 0.0;
   if (a <= 0.0 && b <= 0.0) return 0;
   const double cut = a / (a - b);
   const double s0 = a >= 0.0 ? 0.0 : cut, s1 = b >= 0.0 ? 1.0 : cut;

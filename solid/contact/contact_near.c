@@ -54,6 +54,7 @@ PetscBool ContactMayBeActive(const Contact c, const Solid s, int facet, const Ta
   if (t->body == body && Parted(s, edge, t, now) <= c->shortest_buffer * c->shortest_buffer)
     return PETSC_TRUE;
   *distance = Distance(PointAt(s->x, edge[0]), PointAt(s->x, edge[1]), now);
+  *distance = fmax(0.0, *distance - c->bulge[body] - c->bulge[t->body]);
   if (t->body != body) return (PetscBool)(*distance <= c->skin[body] + c->skin[t->body]);
   if (*distance <= c->shortest_buffer) {
     const double apart = Distance(PointAt(s->rest, edge[0]), PointAt(s->rest, edge[1]), rest);

@@ -5,7 +5,7 @@
 typedef struct {
   Contact c;
   Solid s;
-  const GeometryBox *facet;     /* [nfaces] with their body's skin around them, as the others */
+  const GeometryBox *facet;     /* [nfaces] with their body's margin around them, as the others */
   const GeometryBox *contactor; /* [ncontactors] of their facets */
   const GeometryBox *target;    /* [nall] */
   char *keep;                   /* [halo targets] */
@@ -42,9 +42,7 @@ static double ViscosityOf(double damping, double stiffness, double areal_mass, d
 static ContactLaw LawOf(const Solid s, int facet, double friction, double stiffness, double viscosity,
                         double mass, double areal_mass)
 {
-  const Point d =
-      PointMinus(PointAt(s->rest, s->facet[2 * facet + 1]), PointAt(s->rest, s->facet[2 * facet]));
-  const double length = hypot(d.x, d.y);
+  const double length = ContactRestLength(s, facet);
   return (ContactLaw){friction, friction > 0.0 ? 0.5 * stiffness * length : 0.0, viscosity * length,
                       viscosity > 0.0 ? mass / (areal_mass * length) : 1.0};
 }
@@ -83,12 +81,21 @@ static PetscErrorCode AddCandidate(Contact c, Solid s, int facet, int target)
   PetscFunctionReturn(0);
 }
 
+/* Of a disc and another body the edges of that are enough, and a disc is all of its sectors. */
+static PetscBool Considered(const Contact c, const Solid s, int own, int target)
+{
+  const Target *t = &c->target[target];
+  if (!ContactIsDisc(s, t->body)) return (PetscBool)!ContactIsDisc(s, c->target[own].body);
+  return (PetscBool)(t->sector >= 0 && t->body != c->target[own].body);
+}
+
 /* The facets of target `own` that may touch the target. */
 static PetscErrorCode AddCandidates(const SearchContext *x, int own, int target, Couple *couple)
 {
   const Contact c = x->c;
   double distance;
   PetscFunctionBeginUser;
+  if (!Considered(c, x->s, own, target)) PetscFunctionReturn(0);
   for (int k = c->facet_start[own]; k < c->facet_start[own + 1]; k++) {
     const int facet = c->facet[k];
     if (!GeometryBoxOverlap(&x->facet[facet], &x->target[target])) continue;
@@ -97,6 +104,7 @@ static PetscErrorCode AddCandidates(const SearchContext *x, int own, int target,
     couple->distance = fmin(couple->distance, distance);
   }
   couple->n = c->ncandidates - couple->first;
+  couple->discs = (PetscBool)(couple->discs || ContactIsDisc(x->s, c->target[target].body));
   PetscFunctionReturn(0);
 }
 
@@ -184,7 +192,7 @@ static PetscErrorCode BringTargets(Contact c, Solid s, const GeometryBox edge[])
   c->nall = c->ntargets;
   if (!c->halo) PetscFunctionReturn(0);
   for (int k = 0; k < s->nfaces; k++) GeometryBoxJoin(&all, &edge[k]);
-  PetscCall(HaloBuild(c->halo, s->nnodes, s->x, c->skin, &all, c->ntargets, c->target));
+  PetscCall(HaloBuild(c->halo, s->nnodes, s->x, c->margin, &all, c->ntargets, c->target));
   PetscCall(HaloForward(c->halo, s->x, NULL));
   const int n = HaloTargets(c->halo, &foreign);
   c->nall += n;
@@ -233,7 +241,7 @@ static PetscErrorCode FindPairs(Contact c, Solid s, const GeometryBox edge[])
       const Point at = ContactPosition(c, s, c->target[k].node[i]);
       GeometryBoxGrow(&target[k], (const double[]){at.x, at.y});
     }
-    target[k] = GeometryBoxWidened(target[k], c->skin[c->target[k].body]);
+    target[k] = GeometryBoxWidened(target[k], c->margin[c->target[k].body]);
   }
   for (int k = 0; k < c->ncontactors; k++) {
     const int own = c->contactor[k];
@@ -266,13 +274,14 @@ PetscErrorCode ContactSearch(Contact c, Solid s, const double least[])
   for (int k = 0; k < s->nfaces; k++) c->first_pair[k] = -1;
   for (int b = 0; b < s->nbodies; b++) {
     c->skin[b] = fmax(0.5 * c->shortest_buffer, least ? least[b] : 0.0);
+    c->margin[b] = c->skin[b] + c->bulge[b];
     c->waiting[b] = HUGE_VAL;
   }
   for (int k = 0; k < 4; k++) c->rate[k] = 0.0;
   PetscCall(PetscMalloc1((size_t)s->nfaces, &edge));
   for (int k = 0; k < s->nfaces; k++)
     edge[k] = GeometryBoxWidened(GeometryBoxOfNodes(2, s->facet + 2 * k, s->x),
-                                 c->skin[s->elements.body[s->facet_element[k]]]);
+                                 c->margin[s->elements.body[s->facet_element[k]]]);
   if (s->setup.walls) PetscCall(FindWalls(c, s, edge));
   PetscCall(FindPairs(c, s, edge));
   ContactSetTravel(c, HUGE_VAL);

@@ -71,7 +71,7 @@ static PetscErrorCode GatherCorners(Joints j, const Making *m)
   for (int k = 0; k < 3 * a->nelements; k++) {
     const int e = k / 3, star = m->star[a->element[k]];
     if (star < 0) continue;
-    const double mass = ModelCornerMass(a, e);
+    const double mass = ModelCornerMass(a, k);
     j->corner[start[star]++] = (Corner){e, k % 3, m->place[e], m->local[a->element[k]], mass};
   }
   PetscFunctionReturn(0);

@@ -104,10 +104,9 @@ static void TakeNodes(Solid s, const Model *a, const int local[])
 static void LumpMass(Solid s, const Model *a, const int local[])
 {
   for (int e = 0; e < a->nelements; e++) {
-    const double m = ModelCornerMass(a, e);
     for (int i = 0; i < 3; i++) {
       const int n = local[a->element[3 * e + i]];
-      if (n >= 0) s->mass[n] += m;
+      if (n >= 0) s->mass[n] += ModelCornerMass(a, 3 * e + i);
     }
   }
   for (int n = 0; n < a->nnodes; n++)

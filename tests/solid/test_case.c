@@ -115,7 +115,7 @@ static void TurnsAboutMass(void)
             NULL, Read, NULL);
   for (int k = 0; k < 3 * model.nelements; k++)
     for (int c = 0; c < 2; c++) {
-      const double p = ModelCornerMass(&model, k / 3) * model.u[2 * model.element[k] + c];
+      const double p = ModelCornerMass(&model, k) * model.u[2 * model.element[k] + c];
       momentum[c] += p;
       size += fabs(p);
     }
