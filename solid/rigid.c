@@ -33,17 +33,46 @@ PetscErrorCode RigidFree(Solid s)
   PetscFunctionReturn(0);
 }
 
-static void Add(const Solid s, int node, Point x, Point q, RigidSums sum[])
+/* y and q of a node of mass m. */
+static inline void Add(double m, Point y, Point q, RigidSums *k)
 {
-  const int body = s->node_body[node];
-  RigidSums *k = &sum[s->rigid_index[body]];
-  const Point y = PointMinus(x, PointAt(s->body[body].centre, 0));
-  const double m = s->mass[node];
   k->centre[0] += m * y.x;
   k->centre[1] += m * y.y;
   k->linear[0] += q.x;
   k->linear[1] += q.y;
   k->angular += PointCross(y, q);
+}
+
+/* The place in rigid_node after those from k on that are of one body, which there are. */
+static int SameBody(const Solid s, int k)
+{
+  const int body = s->node_body[s->rigid_node[k]];
+  while (k < s->nrigid_nodes && s->node_body[s->rigid_node[k]] == body) k++;
+  return k;
+}
+
+static void AddSums(const RigidSums *from, RigidSums *to)
+{
+  for (int c = 0; c < 2; c++) {
+    to->centre[c] += from->centre[c];
+    to->linear[c] += from->linear[c];
+  }
+  to->angular += from->angular;
+}
+
+/* value[nnodes][2] of this rank's nodes. */
+static void AddVector(const Solid s, const double value[], RigidSums sum[])
+{
+  for (int k = 0; k < s->nrigid_nodes;) {
+    const int body = s->node_body[s->rigid_node[k]], end = SameBody(s, k);
+    const Point start = PointAt(s->body[body].centre, 0);
+    RigidSums own = {{0.0, 0.0}, {0.0, 0.0}, 0.0};
+    for (; k < end; k++) {
+      const int i = s->rigid_node[k];
+      if (SolidOwns(s, i)) Add(s->mass[i], PointMinus(PointAt(s->x, i), start), PointAt(value, i), &own);
+    }
+    AddSums(&own, &sum[s->rigid_index[body]]);
+  }
 }
 
 /* Bodies that move as prescribed, if only in one component, do not turn by themselves: known where they have nodes. */
@@ -94,10 +123,7 @@ PetscErrorCode RigidDistribute(Solid s, double value[])
   PetscFunctionBeginUser;
   if (s->nrigid == 0) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1((size_t)s->nrigid, &sum));
-  for (int k = 0; k < s->nrigid_nodes; k++) {
-    const int i = s->rigid_node[k];
-    if (SolidOwns(s, i)) Add(s, i, PointAt(s->x, i), PointAt(value, i), sum);
-  }
+  AddVector(s, value, sum);
   PetscCall(SumOverRanks(s, 1, sum));
   Complete(s, sum);
   HoldTurns(s, sum);
@@ -114,12 +140,20 @@ PetscErrorCode RigidDistribute(Solid s, double value[])
 /* This rank's part. */
 static void SumForces(Solid s, RigidSums force[], RigidSums momentum[])
 {
-  for (int k = 0; k < s->nrigid_nodes; k++) {
-    const int i = s->rigid_node[k];
-    if (!SolidOwns(s, i)) continue;
-    const Point x = PointAt(s->x, i);
-    Add(s, i, x, (Point){s->force[2 * i] + s->load[2 * i], s->force[2 * i + 1] + s->load[2 * i + 1]}, force);
-    Add(s, i, x, (Point){s->mass[i] * s->v[2 * i], s->mass[i] * s->v[2 * i + 1]}, momentum);
+  for (int k = 0; k < s->nrigid_nodes;) {
+    const int body = s->node_body[s->rigid_node[k]], end = SameBody(s, k);
+    const Point start = PointAt(s->body[body].centre, 0);
+    RigidSums own[2] = {{{0.0, 0.0}, {0.0, 0.0}, 0.0}, {{0.0, 0.0}, {0.0, 0.0}, 0.0}};
+    for (; k < end; k++) {
+      const int i = s->rigid_node[k];
+      if (!SolidOwns(s, i)) continue;
+      const Point y = PointMinus(PointAt(s->x, i), start);
+      const double m = s->mass[i], *f = s->force + 2 * i, *l = s->load + 2 * i, *v = s->v + 2 * i;
+      Add(m, y, (Point){f[0] + l[0], f[1] + l[1]}, &own[0]);
+      Add(m, y, (Point){m * v[0], m * v[1]}, &own[1]);
+    }
+    AddSums(&own[0], &force[s->rigid_index[body]]);
+    AddSums(&own[1], &momentum[s->rigid_index[body]]);
   }
 }
 
@@ -158,12 +192,19 @@ PetscErrorCode RigidMove(Solid s)
   PetscFunctionBeginUser;
   if (s->nrigid == 0) PetscFunctionReturn(0);
   PetscCall(PetscCalloc2((size_t)s->nrigid, &sum, (size_t)s->nrigid, &turn));
-  for (int k = 0; k < s->nrigid_nodes; k++) {
-    const int i = s->rigid_node[k];
-    const Point v = PointAt(s->v, i);
-    s->x[2 * i] -= h * v.x;
-    s->x[2 * i + 1] -= h * v.y;
-    if (SolidOwns(s, i)) Add(s, i, PointAt(s->x, i), (Point){s->mass[i] * v.x, s->mass[i] * v.y}, sum);
+  for (int k = 0; k < s->nrigid_nodes;) {
+    const int body = s->node_body[s->rigid_node[k]], end = SameBody(s, k);
+    const Point start = PointAt(s->body[body].centre, 0);
+    RigidSums own = {{0.0, 0.0}, {0.0, 0.0}, 0.0};
+    for (; k < end; k++) {
+      const int i = s->rigid_node[k];
+      const Point v = PointAt(s->v, i);
+      const double m = s->mass[i];
+      s->x[2 * i] -= h * v.x;
+      s->x[2 * i + 1] -= h * v.y;
+      if (SolidOwns(s, i)) Add(m, PointMinus(PointAt(s->x, i), start), (Point){m * v.x, m * v.y}, &own);
+    }
+    AddSums(&own, &sum[s->rigid_index[body]]);
   }
   PetscCall(SumOverRanks(s, 1, sum));
   Complete(s, sum);

@@ -86,6 +86,9 @@ static int IntersectCircles(const Contact c, const Solid s, int facet, const Tar
   Positions(c, s, own, x);
   Positions(c, s, t, y);
   const Sector one = SectorOf(c, s, own, x), other = SectorOf(c, s, t, y);
+  const Point d = PointMinus(other.centre, one.centre);
+  const double apart = one.radius + other.radius;
+  if (d.x * d.x + d.y * d.y >= apart * apart) return 0;
   const Chord chord = ChordOfDiscs(one.centre, one.radius, other.centre, other.radius);
   if (!ContactChord(&chord, &one, &other, other.height, length, &at, &integral, k)) return 0;
   WeightNodes(x, a->side, at, integral, k);
