@@ -29,7 +29,10 @@ static const CoracleCaseKey KEYS[] = {
      "geometric mean; not a "
      "coefficient of restitution: a rebound is set by damping_ratio"},
     {"solid.materials.*.plane", "", "plane strain or plane stress"},
-    {"solid.materials.*.law", "", "stress from strain; rigid: none, its bodies keep their shape"},
+    {"solid.materials.*.law", "",
+     "stress from strain; rigid: none, its bodies keep their shape; joint: of named joints alone, with "
+     "strengths, "
+     "energies and frictions"},
     {"solid.materials.*.thickness", "m", "across the plane; absent: 1; the fluid sees one metre"},
     {"solid.materials.*.tensile_strength", "Pa", "with it the material can crack where there are joints"},
     {"solid.materials.*.shear_strength", "Pa", "without pressure; required with tensile_strength"},
@@ -112,6 +115,10 @@ static const CoracleCaseKey KEYS[] = {
     {"solid.bodies[].joints[]", "",
      "name of a physical surface in which edges can crack, or of a physical curve inside, along which they "
      "can"},
+    {"solid.bodies[].joints[].name", "", "of a physical curve whose joints have a material of their own"},
+    {"solid.bodies[].joints[].material", "",
+     "of these joints: strengths, energies and internal_friction, and once parted friction and "
+     "contact_damping between their faces; else those of the weaker material beside them"},
     {"solid.bodies[].joints[].lower", "m",
      "lower left corner of a box: edges between two elements with centres in it can crack"},
     {"solid.bodies[].joints[].upper", "m", "upper right corner of the box"},

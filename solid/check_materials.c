@@ -44,7 +44,9 @@ void NoteFriction(Solid s)
       const double given = Given(s, m, other);
       double friction, damping;
       ContactMaterials(s, m, other, &friction, &damping);
-      if (friction > 0.0 || given <= 0.0) continue;
+      if (friction > 0.0 || given <= 0.0 || s->material[m].joints_alone ||
+          (other >= 0 && s->material[other].joints_alone))
+        continue;
       printf("note: there is no friction between material '%s' and %s%s%s: one side has the coefficient %g, "
              "the other none, and it is their geometric mean (or that of solid.contact)\n",
              s->material[m].name, other < 0 ? "walls" : "material '",

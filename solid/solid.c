@@ -59,6 +59,7 @@ PetscErrorCode SolidFreeSubdomain(Solid s)
   PetscCall(PetscFree5(s->start, s->interface_velocity, s->mobility, s->acceleration, s->piece));
   PetscCall(
       PetscFree7(s->element, s->facet, s->facet_element, s->facet_side, s->facet_across, s->base, s->body));
+  PetscCall(PetscFree(s->facet_material));
   PetscCall(PetscFree(s->is_prescribed));
   PetscCall(PetscFree(s->is_taken));
   PetscCall(PetscFree(s->reaction));

@@ -85,7 +85,8 @@ struct Solid_s {
   int nfaces;   /* the surface's nfacets, and after them the faces of active joints: what contact sees */
   int *facet, *facet_element; /* [nfaces][2], [nfaces] */
   int *facet_side;            /* [nfaces] from that corner of the element to the next */
-  int *facet_across; /* [nfaces] the element, in the model, that an active joint holds there; -1: none */
+  int *facet_across;   /* [nfaces] the element, in the model, that an active joint holds there; -1: none */
+  int *facet_material; /* [nfaces] of a joint with a material of its own, that; else -1 */
   SharedNodes shared;
   Copies copies; /* of the nodes: what acts on one is the sum of what its ranks' elements do */
   Contact contact;

@@ -45,25 +45,35 @@ static void ReadStiffness(CoracleCase c, const char *name, Material *m)
       m->youngs_modulus > 0.0 && !CoracleCaseHas(c, key) ? m->youngs_modulus : CoracleCasePositive(c, key);
 }
 
-static Material ReadMaterial(CoracleCase c, const char *name)
+/* What bodies are made of, not joints. */
+static void ReadBulk(CoracleCase c, const char *name, Material *m)
 {
   static const char *const PLANES[] = {"strain", "stress", NULL};
-  /* in the order of ElementLawKind */
-  static const char *const LAWS[] = {"neo_hookean", "corotated", "st_venant_kirchhoff", "rigid", NULL};
+  char key[CASE_KEY];
+  m->density = CoracleCasePositive(c, MaterialKey(key, name, "density"));
+  ReadStiffness(c, name, m);
+  m->damping = CoracleCaseNumberOr(c, MaterialKey(key, name, "damping"), 0.0, 0.0, 0.999);
+  m->damping_ratio = CoracleCaseNumberOr(c, MaterialKey(key, name, "damping_ratio"), 0.0, 0.0, 1.0);
+  if (CoracleCaseHas(c, key))
+    m->damping_frequency = CoracleCasePositive(c, MaterialKey(key, name, "damping_frequency"));
+  m->plane_stress = CoracleCaseWord(c, MaterialKey(key, name, "plane"), 0, PLANES);
+  m->thickness = CoracleCaseHas(c, MaterialKey(key, name, "thickness")) ? CoracleCasePositive(c, key) : 1.0;
+}
+
+static Material ReadMaterial(CoracleCase c, const char *name)
+{
+  /* in the order of ElementLawKind, then those that are none */
+  enum { RIGID = LAW_ST_VENANT_KIRCHHOFF + 1, JOINT };
+  static const char *const LAWS[] = {"neo_hookean", "corotated", "st_venant_kirchhoff",
+                                     "rigid",       "joint",     NULL};
   Material m = {0};
   char key[CASE_KEY];
   m.law = CoracleCaseWord(c, MaterialKey(key, name, "law"), 0, LAWS);
-  m.rigid = m.law > LAW_ST_VENANT_KIRCHHOFF;
-  m.density = CoracleCasePositive(c, MaterialKey(key, name, "density"));
-  ReadStiffness(c, name, &m);
-  m.damping = CoracleCaseNumberOr(c, MaterialKey(key, name, "damping"), 0.0, 0.0, 0.999);
-  m.damping_ratio = CoracleCaseNumberOr(c, MaterialKey(key, name, "damping_ratio"), 0.0, 0.0, 1.0);
-  if (CoracleCaseHas(c, key))
-    m.damping_frequency = CoracleCasePositive(c, MaterialKey(key, name, "damping_frequency"));
+  m.rigid = m.law == RIGID;
+  m.joints_alone = m.law == JOINT;
+  if (!m.joints_alone) ReadBulk(c, name, &m);
   m.friction = CoracleCaseNumberOr(c, MaterialKey(key, name, "friction"), 0.0, 0.0, HUGE_VAL);
   m.contact_damping = CoracleCaseNumberOr(c, MaterialKey(key, name, "contact_damping"), 0.0, 0.0, 10.0);
-  m.plane_stress = CoracleCaseWord(c, MaterialKey(key, name, "plane"), 0, PLANES);
-  m.thickness = CoracleCaseHas(c, MaterialKey(key, name, "thickness")) ? CoracleCasePositive(c, key) : 1.0;
   ReadStrength(c, name, &m);
   if (strlen(name) >= MATERIAL_NAME || !strcmp(name, CONTACT_WALLS))
     CoracleCaseRefuse(c, key, "a material's name must be shorter than %d characters and not '%s'",
@@ -103,11 +113,17 @@ void CaseMaterialExists(CoracleCase c, const char *key, const char *name, PetscB
                     names.text[0] ? ": expected one of " : "", names.text);
 }
 
-static Material MaterialAt(CoracleCase c, const char *key)
+static Material MaterialAt(CoracleCase c, const char *key, PetscBool of_joints)
 {
   const char *name = CoracleCaseString(c, key);
   CaseMaterialExists(c, key, name, PETSC_FALSE);
-  return ReadMaterial(c, name);
+  const Material m = ReadMaterial(c, name);
+  if (m.joints_alone && !of_joints)
+    CoracleCaseRefuse(c, key, "material '%s' is of joints (law: joint): bodies need another one", name);
+  if (of_joints && m.strength[0] == 0.0)
+    CoracleCaseRefuse(
+        c, key, "material '%s' of joints needs tensile_strength, shear_strength and fracture_energy", name);
+  return m;
 }
 
 /* --- bodies ------------------------------------------------------------------------------------------- */
@@ -229,8 +245,8 @@ static void ReadRegion(void *context, const char *name)
   char key[CASE_KEY];
   if (r->n == MAX_REGIONS)
     CoracleCaseRefuse(r->c, BodyKey(key, r->body, "regions"), "more than %d regions", MAX_REGIONS);
-  r->region[r->n++] =
-      (RegionMaterial){name, MaterialAt(r->c, CaseKey(key, "solid.bodies[%d].regions.%s", r->body, name))};
+  r->region[r->n++] = (RegionMaterial){
+      name, MaterialAt(r->c, CaseKey(key, "solid.bodies[%d].regions.%s", r->body, name), PETSC_FALSE)};
 }
 
 static PetscBool HasRegion(const Regions *r, const char *name)
@@ -245,7 +261,7 @@ static Material ReadBodyMaterial(const Regions *r, const MeshSerial *m)
 {
   char key[CASE_KEY];
   BodyKey(key, r->body, "material");
-  if (r->n == 0 || CoracleCaseHas(r->c, key)) return MaterialAt(r->c, key);
+  if (r->n == 0 || CoracleCaseHas(r->c, key)) return MaterialAt(r->c, key, PETSC_FALSE);
   for (int e = 0; e < m->ne; e++) {
     const int region = m->region ? m->region[e] : -1;
     if (region < 0) CoracleCaseRefuse(r->c, key, "expected a material: the mesh has triangles of no surface");
@@ -256,37 +272,46 @@ static Material ReadBodyMaterial(const Regions *r, const MeshSerial *m)
   return r->region[0].material;
 }
 
-/* An item of a list of joints: a box, or the name of a physical surface or curve. */
+/* An item of a list of joints: a box, or the name of a physical surface or curve, that of a curve alone or with a material. */
 static void ReadJointItem(CoracleCase c, const char *key, JointSetup *joints, double (*box)[4],
-                          const char **name)
+                          NamedJoints named[])
 {
   char lower[CASE_KEY], upper[CASE_KEY];
+  NamedJoints *next = &named[joints->nnames];
+  if (CoracleCaseHas(c, CaseKey(lower, "%s.material", key))) {
+    next->has_material = 1;
+    next->material = MaterialAt(c, lower, PETSC_TRUE);
+    next->name = CoracleCaseString(c, CaseKey(lower, "%s.name", key));
+    joints->nnames++;
+    return;
+  }
   const bool has_lower = CoracleCaseHas(c, CaseKey(lower, "%s.lower", key)),
              has_upper = CoracleCaseHas(c, CaseKey(upper, "%s.upper", key));
   if (!has_lower && !has_upper) {
-    name[joints->nnames++] = CoracleCaseString(c, key);
+    next->name = CoracleCaseString(c, key);
+    joints->nnames++;
     return;
   }
   CoracleCaseVector(c, lower, 2, box[joints->nboxes]);
   CoracleCaseVector(c, upper, 2, box[joints->nboxes++] + 2);
 }
 
-/* all, none, or a list (*box and *name are allocated). */
+/* all, none, or a list (*box and *named are allocated). */
 static PetscErrorCode ReadJoints(CoracleCase c, int body, JointSetup *joints, double (**box)[4],
-                                 const char ***name)
+                                 NamedJoints **named)
 {
   static const char *const WORDS[] = {"none", "all", NULL};
   char key[CASE_KEY], item[CASE_KEY];
   PetscFunctionBeginUser;
   BodyKey(key, body, "joints");
   const int n = CoracleCaseHas(c, CaseKey(item, "%s[0]", key)) ? CoracleCaseCount(c, key) : 0;
-  PetscCall(PetscMalloc2((size_t)n, box, (size_t)n, name));
+  PetscCall(PetscCalloc2((size_t)n, box, (size_t)n, named));
   if (n == 0) joints->all = CoracleCaseWord(c, key, 0, WORDS);
   for (int k = 0; k < n; k++) {
-    ReadJointItem(c, CaseKey(item, "%s[%d]", key, k), joints, *box, *name);
+    ReadJointItem(c, CaseKey(item, "%s[%d]", key, k), joints, *box, *named);
   }
   joints->box = *box;
-  joints->name = *name;
+  joints->named = *named;
   PetscFunctionReturn(0);
 }
 
@@ -326,7 +351,8 @@ PetscErrorCode CaseReadBody(CoracleCase c, int body, Model *a)
   MeshSerial mesh = {0};
   BoundaryMotion *prescribed;
   double(*steady)[3];
-  const char **name, **joint_name;
+  const char **name;
+  NamedJoints *joint_name;
   double(*joint_box)[4], *position;
   CaseLoads loads;
   char key[CASE_KEY];

@@ -206,6 +206,7 @@ static PetscErrorCode AddElements(Model *a, const MeshSerial *m, const BodySetup
   PetscCall(PetscRealloc(3 * (size_t)n * sizeof *a->element, &a->element));
   PetscCall(PetscRealloc((size_t)n * sizeof *a->element_body, &a->element_body));
   PetscCall(PetscRealloc((size_t)n * sizeof *a->jointed, &a->jointed));
+  PetscCall(PetscRealloc(3 * (size_t)n * sizeof *a->joint_material, &a->joint_material));
   PetscCall(PetscRealloc((size_t)n * sizeof *a->element_material, &a->element_material));
   PetscCall(PetscRealloc((size_t)n * sizeof *a->six_node, &a->six_node));
   for (int k = 0; k < 3 * m->ne; k++) a->element[3 * first + k] = renumber[m->vertex[k]];
@@ -228,26 +229,66 @@ static int SidesWithJoints(const MeshSerial *m, int e, const JointSetup *j)
   int inside = j->all, sides = 0;
   for (int k = 0; k < j->nboxes; k++) inside |= ModelInBox(m, e, j->box[k]);
   for (int k = 0; k < j->nnames; k++) {
-    inside |= m->region && Named(m->region[e], m->region_name, j->name[k]);
+    inside |= m->region && Named(m->region[e], m->region_name, j->named[k].name);
     for (int i = 0; i < 3 && m->curve; i++)
-      sides |= Named(m->curve[3 * e + i], m->curve_name, j->name[k]) << i;
+      sides |= Named(m->curve[3 * e + i], m->curve_name, j->named[k].name) << i;
   }
   return inside ? ALL_SIDES : sides;
 }
 
+/* place[nnames]: of the materials of named joints in the model, or -1. */
+static PetscErrorCode AddJointMaterials(Model *a, const JointSetup *joints, int place[])
+{
+  PetscFunctionBeginUser;
+  for (int k = 0; k < joints->nnames; k++) {
+    place[k] = -1;
+    if (joints->named[k].has_material) PetscCall(AddMaterial(a, &joints->named[k].material, &place[k]));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Whether joints across sides of an element may have its material's strengths. */
+static int CheckStrengths(const Material *m)
+{
+  for (int k = 0; k < 2; k++)
+    if (!(m->strength[k] > 0.0 && m->fracture_energy[k] > 0.0)) return 0;
+  return 1;
+}
+
 static PetscErrorCode GiveJoints(Model *a, const MeshSerial *m, const JointSetup *joints, int first)
 {
+  int *place;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1((size_t)joints->nnames, &place));
+  PetscCall(AddJointMaterials(a, joints, place));
   for (int e = 0; e < m->ne; e++) {
-    const Material *of = &a->material[a->element_material[first + e]];
+    int *own = a->joint_material + 3 * (first + e);
     a->jointed[first + e] = SidesWithJoints(m, e, joints);
-    if (a->jointed[first + e] && a->six_node[first + e])
+    for (int i = 0; i < 3; i++) {
+      own[i] = -1;
+      for (int k = 0; k < joints->nnames && m->curve; k++)
+        if (place[k] >= 0 && Named(m->curve[3 * e + i], m->curve_name, joints->named[k].name))
+          own[i] = place[k];
+    }
+  }
+  PetscCall(PetscFree(place));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CheckJoints(const Model *a, int first)
+{
+  for (int e = first; e < a->nelements; e++) {
+    if (a->jointed[e] && a->six_node[e])
       return ModelRefuse("six-node triangles (order 2) have no joints: they do not crack");
-    for (int k = 0; k < 2 && a->jointed[first + e]; k++)
-      if (!(of->strength[k] > 0.0 && of->fracture_energy[k] > 0.0))
+    for (int i = 0; i < 3; i++) {
+      const int own = a->joint_material[3 * e + i];
+      const Material *of = &a->material[own >= 0 ? own : a->element_material[e]];
+      if ((a->jointed[e] >> i & 1) && !CheckStrengths(of))
         return ModelRefuse(
             "joints need tensile_strength, shear_strength and fracture_energy, which material '%s' has "
             "not",
             of->name);
+    }
   }
   return 0;
 }
@@ -271,8 +312,8 @@ PetscErrorCode ModelAdd(Model *a, const MeshSerial *mesh, const BodySetup *setup
   FixNodes(a, mesh, setup, renumber);
   PetscCall(PrescribeNodes(a, mesh, setup, renumber));
   PetscCall(ModelAddLoads(a, mesh, setup, body.first_element, renumber));
-  code = GiveJoints(a, mesh, &setup->joints, body.first_element);
-  if (code) PetscFunctionReturn(code);
+  PetscCall(GiveJoints(a, mesh, &setup->joints, body.first_element));
+  if ((code = CheckJoints(a, body.first_element))) PetscFunctionReturn(code);
   PetscCall(PetscFree(renumber));
   PetscCall(PetscRealloc((size_t)(a->nbodies + 1) * sizeof *a->body, &a->body));
   a->body[a->nbodies++] = body;

@@ -25,6 +25,7 @@ typedef struct {
   int plane_stress;                        /* else plane strain */
   int law;                                 /* ElementLawKind (element_law.h) */
   int rigid;                               /* bodies of it keep their shape: no law, no joints */
+  int joints_alone;                        /* it is of joints: no body is of it */
   double strength[2];                      /* of joints: in tension and in shear, Pa */
   double internal_friction; /* of joints: what pressure adds to the shear strength, over the pressure */
   double weibull_modulus;   /* of joints: how little their strengths scatter; 0: not at all */
@@ -36,12 +37,19 @@ typedef struct {
 /* Without viscosity, per metre of thickness. */
 ElementLaw MaterialLaw(const Material *m);
 
+/* Joints in a physical surface of the mesh, or on a physical curve between its triangles. */
+typedef struct {
+  const char *name;
+  int has_material; /* of a curve: strengths, energies and frictions are those of */
+  Material material;
+} NamedJoints;
+
 /* Where a body may crack: the edges between two elements that lie in one of the boxes or regions, and those on a curve. */
 typedef struct {
   int all;
   int nboxes, nnames;
-  const double (*box)[4];  /* lower x, y, upper x, y: holds the element's centre at rest */
-  const char *const *name; /* physical surfaces of the mesh, or physical curves between its triangles */
+  const double (*box)[4]; /* lower x, y, upper x, y: holds the element's centre at rest */
+  const NamedJoints *named;
 } JointSetup;
 
 typedef struct {
@@ -108,10 +116,12 @@ typedef struct {
   int *element_body;     /* [nelements] */
   int *element_material; /* [nelements] */
   int *jointed;          /* [nelements] bit i: may part across side i, if the neighbour may */
-  int *six_node;         /* [nelements] SixNodePart */
-  int *facet;            /* [nfacets][2] surface edges, the solid on their left */
-  int *facet_element;    /* [nfacets] the element behind */
-  Body *body;            /* [nbodies] */
+  int *
+      joint_material; /* [nelements][3] that of the joint across side i; -1: the weaker one of the elements' */
+  int *six_node;      /* [nelements] SixNodePart */
+  int *facet;         /* [nfacets][2] surface edges, the solid on their left */
+  int *facet_element; /* [nfacets] the element behind */
+  Body *body;         /* [nbodies] */
   int nmaterials, nmotions, nprescribed;
   Material *material;       /* [nmaterials] */
   PrescribedMotion *motion; /* [nmotions] */

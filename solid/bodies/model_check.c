@@ -85,7 +85,7 @@ static PetscErrorCode CheckNames(const MeshSerial *m, const BodySetup *setup)
   for (int k = 0; k < setup->nregions && !code; k++)
     code = CheckName("region", setup->region[k].region, regions, none);
   for (int k = 0; k < setup->joints.nnames && !code; k++)
-    code = CheckName("region or curve inside", setup->joints.name[k], regions, curves);
+    code = CheckName("region or curve inside", setup->joints.named[k].name, regions, curves);
   return code;
 }
 

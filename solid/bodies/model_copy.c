@@ -26,6 +26,7 @@ PetscErrorCode ModelCopy(const Model *from, Model *to)
   COPY(element_body, from->nelements);
   COPY(element_material, from->nelements);
   COPY(jointed, from->nelements);
+  COPY(joint_material, 3 * from->nelements);
   COPY(six_node, from->nelements);
   COPY(facet, 2 * from->nfacets);
   COPY(facet_element, from->nfacets);
@@ -54,6 +55,7 @@ PetscErrorCode ModelDestroy(Model *a)
   PetscCall(PetscFree(a->element));
   PetscCall(PetscFree(a->element_body));
   PetscCall(PetscFree(a->jointed));
+  PetscCall(PetscFree(a->joint_material));
   PetscCall(PetscFree(a->six_node));
   for (int k = 0; k < a->nmotions; k++) {
     PetscCall(PetscFree(a->motion[k].row));

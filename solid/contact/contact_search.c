@@ -47,6 +47,21 @@ static ContactLaw LawOf(const Solid s, int facet, double friction, double stiffn
                       viscosity > 0.0 ? mass / (areal_mass * length) : 1.0};
 }
 
+/* Faces of a joint with a material of its own have its friction and damping on their body. */
+static void FrictionOf(const Solid s, int facet, const Target *t, PetscBool joined, double *friction,
+                       double *damping)
+{
+  const int element = s->facet_element[facet], material = s->elements.material[element];
+  const Material *own = &s->material[material], *other = &s->material[t->material];
+  ContactMaterials(s, material, t->material, friction, damping);
+  if (s->facet_material[facet] >= 0 && t->body == s->elements.body[element]) {
+    own = other = &s->material[s->facet_material[facet]];
+    *friction = own->friction;
+    *damping = own->contact_damping;
+  }
+  if (joined) *friction = fmin(own->internal_friction, other->internal_friction);
+}
+
 static PetscErrorCode AddCandidate(Contact c, Solid s, int facet, int target)
 {
   const Target *t = &c->target[target];
@@ -63,8 +78,7 @@ static PetscErrorCode AddCandidate(Contact c, Solid s, int facet, int target)
   const double compliance = fmax(c->compliance[body], c->compliance[t->body]);
   const double intact = fmax(IntactCompliance(c, body), IntactCompliance(c, t->body));
   const PetscBool joined = ContactJoined(s, facet, t);
-  ContactMaterials(s, s->elements.material[element], t->material, &friction, &damping);
-  if (joined) friction = fmin(own->internal_friction, other->internal_friction);
+  FrictionOf(s, facet, t, joined, &friction, &damping);
   /* d(p phi)/dx = 3 p/height; a node takes half of its edges, |u_c - u_t|^2 <= 2 |u_c|^2 + 2 |u_t|^2, and
    * both bodies are contactor and target */
   const double rate = 6.0 * penalty * compliance * (1.0 / c->height[body] + 1.0 / c->height[t->body]);

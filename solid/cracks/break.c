@@ -25,6 +25,7 @@ static void AddFacets(Solid s, const Joint *joint, PetscBool held, int *n)
     if (joint->place[i] < 0 || joint->place[i] >= s->elements.n) continue;
     s->facet_element[*n] = joint->place[i];
     s->facet_across[*n] = !held ? -1 : i ? joint->first : joint->second;
+    s->facet_material[*n] = joint->material;
     s->facet_side[(*n)++] = joint->side[i];
   }
 }

@@ -146,20 +146,23 @@ static double StrengthFactor(const Material *material, int joint)
   return m == 0.0 ? 1.0 : pow(-log(Uniform(material->weibull_seed, joint)), 1.0 / m) / tgamma(1.0 + 1.0 / m);
 }
 
-/* Between two materials the weaker one counts.  All is times the thickness, as the elements' stresses are. It
+/* Between two materials the weaker one counts, unless the joint has one of its own.  All is times the thickness, as the elements' stresses are. It
  * is pressed as contact presses: an edge on both sides of which phi = 3 depth/height acts with the penalty.
  */
 static JointLaw LawOf(const Model *a, const InteriorEdge *edge, double length)
 {
-  const Material *one = &a->material[a->element_material[edge->element[0]]];
-  const Material *two = &a->material[a->element_material[edge->element[1]]];
-  const double thickness = fmin(one->thickness, two->thickness);
+  const Material *beside[2], *one, *two;
+  const int own = a->joint_material[3 * edge->element[0] + edge->side[0]];
+  for (int i = 0; i < 2; i++) beside[i] = &a->material[a->element_material[edge->element[i]]];
+  const double thickness = fmin(beside[0]->thickness, beside[1]->thickness);
+  one = own < 0 ? beside[0] : &a->material[own];
+  two = own < 0 ? beside[1] : one;
   const double of_one = StrengthFactor(one, edge->joint), of_two = StrengthFactor(two, edge->joint);
   JointLaw law = {.friction = fmin(one->internal_friction, two->internal_friction)};
   for (int i = 0; i < 2; i++) {
     law.strength[i] = thickness * fmin(of_one * one->strength[i], of_two * two->strength[i]);
     law.energy[i] = thickness * fmin(one->fracture_energy[i], two->fracture_energy[i]);
-    law.stiffness += 3.0 * thickness * fmin(one->penalty, two->penalty) * length /
+    law.stiffness += 3.0 * thickness * fmin(beside[0]->penalty, beside[1]->penalty) * length /
                      TensorDeterminant(ModelRestEdges(a, edge->element[i]));
   }
   return law;
@@ -173,6 +176,7 @@ static Joint JointOf(const Joints j, const Making *m, const InteriorEdge *edge)
                  .first = edge->element[0],
                  .second = edge->element[1],
                  .body = a->element_body[edge->element[0]],
+                 .material = a->joint_material[3 * edge->element[0] + edge->side[0]],
                  .length = hypot(d.x, d.y)};
   joint.law = LawOf(a, edge, joint.length);
   for (int i = 0; i < 2; i++) {

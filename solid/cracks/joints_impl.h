@@ -52,6 +52,7 @@ typedef struct {
   int number;        /* the same on all ranks */
   int first, second; /* its elements, in the model */
   int body;
+  int material;       /* its own, -1: it has none */
   int place[2];       /* its elements, as in Corner */
   int side[2];        /* of its elements */
   int star[2];        /* of its ends, -1: not on this rank */

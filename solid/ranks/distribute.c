@@ -62,6 +62,7 @@ static PetscErrorCode Allocate(Solid s)
                          2 * nn, &s->saved.x, 2 * nn, &s->saved.v));
   PetscCall(PetscMalloc7(3 * ne, &s->element, 2 * nf, &s->facet, nf, &s->facet_element, nf, &s->facet_side,
                          nf, &s->facet_across, nn, &s->base, (size_t)s->nbodies, &s->body));
+  PetscCall(PetscMalloc1(nf, &s->facet_material));
   PetscCall(PetscCalloc1((size_t)s->nbodies, &s->reaction));
   PetscCall(PetscCalloc1((size_t)s->nbodies, &s->momentum));
   PetscCall(PetscCalloc1(nn, &s->is_prescribed));
@@ -212,7 +213,7 @@ static void TakeElements(Solid s, const Model *a, const int part[], const int lo
     const int *node = a->element + 3 * a->facet_element[from];
     for (int i = 0; i < 2; i++) s->facet[2 * k + i] = local[a->facet[2 * from + i]];
     s->facet_side[k] = a->facet[2 * from] == node[0] ? 0 : a->facet[2 * from] == node[1] ? 1 : 2;
-    s->facet_across[k] = -1;
+    s->facet_across[k] = s->facet_material[k] = -1;
     s->facet_element[k++] = renumber[a->facet_element[from]];
   }
   SolidListCorners(s);

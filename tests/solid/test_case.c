@@ -204,6 +204,10 @@ static void JointsOnCurve(void)
   CHECK(!InteriorEdgesFind(&model, &edges) && edges.n == 3 && edges.njoints == 1, "%d joints in %d edges",
         edges.njoints, edges.n);
   CHECK(!InteriorEdgesDestroy(&edges), "destroyed");
+  (void)snprintf(text + n, sizeof text - (size_t)n, CURVED, "{name: seam, material: m}", "");
+  CheckCase(text, NULL, Read,
+            ":8: key 'solid.bodies[0].joints[0].material': material 'm' of joints needs tensile_strength, "
+            "shear_strength and fracture_energy");
   (void)snprintf(text + n, sizeof text - (size_t)n, CURVED, "seam", ", order: 2");
   CheckCase(text, NULL, Read,
             ":8: key 'solid.bodies[0]': six-node triangles (order 2) have no joints: they do not crack");
@@ -370,12 +374,12 @@ static void Refusals(void)
             "  bodies:\n    - {shape: disc, centre: [0, 0], radius: 0.1, size: 0.05, material: m, driven: "
             "[{boundary: boundary, velocity: [1, 0]}]}\n",
             NULL, Read, ":6: key 'solid.bodies[0].driven' is now called 'solid.bodies[0].prescribed'");
-  CheckCase(
-      "gravity: [0, 0]\nsolid:\n  materials:\n    m: {density: 1, youngs_modulus: 1, poisson_ratio: 0, "
-      "law: hooke}\n",
-      NULL, Read,
-      ":4: key 'solid.materials.m.law': expected one of neo_hookean, corotated, st_venant_kirchhoff, rigid, "
-      "found 'hooke'");
+  CheckCase("gravity: [0, 0]\nsolid:\n  materials:\n    m: {density: 1, youngs_modulus: 1, poisson_ratio: 0, "
+            "law: hooke}\n",
+            NULL, Read,
+            ":4: key 'solid.materials.m.law': expected one of neo_hookean, corotated, st_venant_kirchhoff, "
+            "rigid, joint, "
+            "found 'hooke'");
   CheckCase(HEAD "  bodies:\n" DISC, NULL, Read, NULL);
   CheckCase(HEAD, NULL, Read,
             ":2: key 'solid.bodies': expected a list of bodies; of a fluid alone an empty one, []");
