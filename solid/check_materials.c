@@ -3,6 +3,15 @@
 
 enum { MOST_LINES = 8 };
 
+/* Between an element's own nodes: the four parts of a six-node triangle make its area, not the triangles on which
+ * their laws are evaluated (six_node_kernel.h). */
+static double AreaOf(const Solid s, int e)
+{
+  Point corner[3];
+  for (int i = 0; i < 3; i++) corner[i] = PointAt(s->x, s->elements.node[i][e]);
+  return 0.5 * TensorDeterminant(TensorOfEdges(corner[0], corner[1], corner[2]));
+}
+
 PetscErrorCode ExpectBodies(Solid s)
 {
   const int n = PetscMin(s->nbodies, MOST_LINES), nsprings = PetscMin(s->setup.nsprings, MOST_LINES);
@@ -13,12 +22,8 @@ PetscErrorCode ExpectBodies(Solid s)
   PetscFunctionBeginUser;
   PetscCall(SolidBodies(s, n, state));
   PetscCall(SolidSprings(s, spring));
-  for (int e = 0; e < s->elements.n; e++) {
-    Tensor edges, f;
-    if (s->elements.body[e] >= n) continue;
-    SolidElementShape(&s->elements, e, s->x, &edges, &f);
-    area[s->elements.body[e]] += 0.5 * TensorDeterminant(edges);
-  }
+  for (int e = 0; e < s->elements.n; e++)
+    if (s->elements.body[e] < n) area[s->elements.body[e]] += AreaOf(s, e);
   for (int b = 0; b < n; b++)
     printf("solid: body %d: %.4g m2, %.4g kg/m, weight %.4g N/m, centre (%.4g, %.4g) m\n", b, area[b],
            state[b].mass, g * state[b].mass, state[b].x[0], state[b].x[1]);

@@ -118,6 +118,10 @@ solid 0 --set 'solid.walls={lower: [-9, -9], upper: [9, 9], friction: 0.5}' --se
 solid 1 --set solid.materials.square.tensile_strength=1e6 --set solid.materials.square.shear_strength=1e6 --set solid.materials.square.fracture_energy=1
 grep -q "material 'square' has strengths, but no body has joints" "$scratch/log" || fail "another note"
 grep -q '^solid: body 0: .* m2, .* kg/m, weight .* N/m, centre' "$scratch/log" || fail "bodies without weight"
+for order in 1 2; do
+  solid 0 --set "solid.bodies[0].order=$order"
+  grep -q '^solid: body 0: 0.0036 m2, 1.8 kg/m, ' "$scratch/log" || fail "another area of triangles of order $order"
+done
 level 1 --set 'fluid.absorption=[{from: [1, 0], to: [99, 0], rate: 1}]'
 grep -q 'fluid.absorption\[0\].to, (99, 0), lies outside of the domain' "$scratch/log" || fail "another note"
 
