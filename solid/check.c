@@ -87,18 +87,20 @@ static const CoracleCaseKey KEYS[] = {
      "leads the columns of the force that holds or moves it, in solid_probes.csv (of all bodies of repeat "
      "together)"},
     {"solid.bodies[].prescribed[].component", "", "which component is prescribed; the other stays free"},
-    {"solid.bodies[].prescribed[].table", "", "list of rows of time and velocity, linear between them"},
+    {"solid.bodies[].prescribed[].table", "",
+     "list of rows of time and velocity, linear between them; beside it no period and no rise"},
     {"solid.bodies[].prescribed[].table[]", "s, m/s", "time, velocity along x and y"},
     {"solid.bodies[].prescribed[].velocity", "m/s",
      "instead of a table: constant, or the amplitude of one that swings"},
     {"solid.bodies[].prescribed[].angular_velocity", "rad/s",
-     "with the velocity or without it: a rotation about the pivot, which moves with the velocity, "
+     "with the velocity, the table or without them: a rotation about the pivot, which moves with them, "
      "counter-clockwise; "
      "a number, or rows of time and angular velocity, linear between them"},
     {"solid.bodies[].prescribed[].angular_velocity[]", "s, rad/s",
      "time, angular velocity; constant before the first and after the last"},
     {"solid.bodies[].prescribed[].pivot", "m", "at the start; required with angular_velocity"},
-    {"solid.bodies[].prescribed[].period", "s", "both swing: times sin(2 pi t/period)"},
+    {"solid.bodies[].prescribed[].period", "s",
+     "both swing: times sin(2 pi t/period), from one end of the way: 0 to velocity period/pi further on"},
     {"solid.bodies[].prescribed[].rise", "s", "time in which both rise from zero, linearly"},
     {"solid.bodies[].prescribed[].release", "s", "when the boundary becomes free; absent: never"},
     {"solid.bodies[].loads", "",

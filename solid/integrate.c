@@ -69,7 +69,7 @@ static void PrescribedSpeeds(const Solid s, double window, BulkMotion m[])
     if (motion != s->prescribed[k].motion) {
       motion = s->prescribed[k].motion;
       PrescribedLargest(d, s->stats.t, window, &velocity, &turn);
-      PrescribedPivot(d, s->stats.t, pivot);
+      if (PrescribedTurns(d)) PrescribedPivot(d, s->stats.t, pivot);
     }
     BulkMotion *of = &m[s->node_body[s->prescribed[k].node]];
     const double speed = velocity + turn * hypot(x[0] - pivot[0], x[1] - pivot[1]);

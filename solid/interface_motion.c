@@ -59,12 +59,13 @@ static double SpinNow(Solid s, const PrescribedMotion *d)
 static void RotatePrescribed(Solid s)
 {
   const double t = s->stats.t, h = s->stats.h;
-  for (int k = 0; k < s->nprescribed && h > 0.0; k++) {
+  double pivot[2] = {0.0, 0.0};
+  for (int k = 0, motion = -1; k < s->nprescribed && h > 0.0; k++) {
     const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
     const int n = s->prescribed[k].node;
-    double pivot[2];
     if (!PrescribedActs(d, t) || !PrescribedTurns(d)) continue;
-    PrescribedPivot(d, t, pivot);
+    if (motion != s->prescribed[k].motion) PrescribedPivot(d, t, pivot);
+    motion = s->prescribed[k].motion;
     const double spin = SpinNow(s, d);
     const double turned[2] = {-spin * (s->x[2 * n + 1] - pivot[1]), spin * (s->x[2 * n] - pivot[0])};
     for (int c = 0; c < 2; c++)
@@ -83,14 +84,16 @@ static void AcceleratePrescribed(Solid s)
 {
   const double t = s->stats.t, h = s->stats.h,
                dt = h > 0.0 ? s->dt : 0.0; /* velocities: means over a substep */
-  for (int k = 0; k < s->nprescribed; k++) {
+  double pivot[2] = {0.0, 0.0};
+  for (int k = 0, motion = -1; k < s->nprescribed; k++) {
     const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
     if (!PrescribedActs(d, t)) continue;
     const int n = s->prescribed[k].node;
-    double pivot[2] = {0.0, 0.0}, spin_up = 0.0, around = 0.0;
+    double spin_up = 0.0, around = 0.0;
     if (d->prescribed[0] && d->prescribed[1]) s->mobility[n] = 0.0;
     if (PrescribedTurns(d) && dt > 0.0) {
-      PrescribedPivot(d, t, pivot);
+      if (motion != s->prescribed[k].motion) PrescribedPivot(d, t, pivot);
+      motion = s->prescribed[k].motion;
       const double spin = SpinNow(s, d);
       spin_up = (PrescribedRotation(d, t + dt - h, h) - spin) / dt;
       around = 0.5 * spin * (spin + dt * spin_up);

@@ -30,7 +30,7 @@ double PrescribedRotation(const PrescribedMotion *d, double from, double h)
 
 void PrescribedPivot(const PrescribedMotion *d, double t, double pivot[2])
 {
-  for (int c = 0; c < 2; c++) pivot[c] = d->pivot[c] + d->row[1 + c] * IntegralOfOneRow(d, t);
+  for (int c = 0; c < 2; c++) pivot[c] = d->pivot[c] + (t > 0.0 ? t * PrescribedVelocity(d, c, 0.0, t) : 0.0);
 }
 
 /* Of a column's absolute values. */

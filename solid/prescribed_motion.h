@@ -1,6 +1,6 @@
 /* Prescribed motion of nodes: a velocity, a table in time, linear between its rows and constant before the first and after the
  * last; one row: times sin(2 pi t/period), if there is a period, and from 0 at t = 0 on in proportion to t until `rise`; so is a
- * rotation, about a pivot that moves with the velocity, or it is a table, too.  A substep moves a prescribed node by the integral of its velocity, so
+ * rotation, about a pivot that moves with the velocity, or it is a table of its own.  A substep moves a prescribed node by the integral of its velocity, so
  * that where it gets does not depend on the substeps. */
 #ifndef SOLID_PRESCRIBED_MOTION_H
 #define SOLID_PRESCRIBED_MOTION_H
@@ -9,12 +9,12 @@
 enum { MOTION_NAME = 48 };
 
 typedef struct {
-  int prescribed[2];                 /* which components; the others stay free */
-  int nrows;                         /* at least 1 */
-  const double *row;                 /* [nrows][3] t, u, v; s and m/s, t rising */
-  double release;                    /* s: from then on the nodes are free; 0: never */
-  double period, rise;               /* s, of one row; 0: constant, at once */
-  double angular_velocity, pivot[2]; /* rad/s, counter-clockwise, of one row; m, at t = 0 */
+  int prescribed[2];   /* which components; the others stay free */
+  int nrows;           /* at least 1 */
+  const double *row;   /* [nrows][3] t, u, v; s and m/s, t rising */
+  double release;      /* s: from then on the nodes are free; 0: never */
+  double period, rise; /* s, of one row and the angular velocity beside it; 0: constant, at once */
+  double angular_velocity, pivot[2]; /* rad/s, counter-clockwise; m, at t = 0 */
   TimeTable spin;                    /* of s and rad/s, instead of the angular velocity; nrows 0: none */
   char name[MOTION_NAME];            /* leads the columns of its force (probes.h); "": it has none */
 } PrescribedMotion;
@@ -35,7 +35,7 @@ static inline int PrescribedTurns(const PrescribedMotion *d)
 }
 /* The velocity's mean over from .. from + h, h > 0; where there is a rotation, the pivot's. */
 double PrescribedVelocity(const PrescribedMotion *d, int component, double from, double h);
-/* The mean of the angular velocity, rad/s, and where the pivot is at t, m. */
+/* The mean of the angular velocity, rad/s, and where the pivot is at t, m: of a table of velocities by all its rows before t. */
 double PrescribedRotation(const PrescribedMotion *d, double from, double h);
 void PrescribedPivot(const PrescribedMotion *d, double t, double pivot[2]);
 /* No less than the largest velocity, m/s, and angular velocity, rad/s, that it has over from .. from + length. */

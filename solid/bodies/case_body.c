@@ -165,17 +165,22 @@ static void ReadSpin(CoracleCase c, const char *item, PrescribedMotion *d)
       CoracleCaseRefuse(c, key, "an angular velocity in rows depends on time by them alone");
 }
 
-/* Of one row: velocity, rotation, and how they depend on time. */
-static void ReadSteady(CoracleCase c, const char *item, PrescribedMotion *d, double velocity[2])
+static PetscBool ReadRotation(CoracleCase c, const char *item, PrescribedMotion *d)
 {
   char key[CASE_KEY];
-  const PetscBool turns = (PetscBool)CoracleCaseHas(c, CaseKey(key, "%s.angular_velocity", item));
-  if (turns) {
-    ReadSpin(c, item, d);
-    if (!d->prescribed[0] || !d->prescribed[1])
-      CoracleCaseRefuse(c, key, "a rotation prescribes both components");
-    CoracleCaseVector(c, CaseKey(key, "%s.pivot", item), 2, d->pivot);
-  }
+  if (!CoracleCaseHas(c, CaseKey(key, "%s.angular_velocity", item))) return PETSC_FALSE;
+  ReadSpin(c, item, d);
+  if (!d->prescribed[0] || !d->prescribed[1])
+    CoracleCaseRefuse(c, key, "a rotation prescribes both components");
+  CoracleCaseVector(c, CaseKey(key, "%s.pivot", item), 2, d->pivot);
+  return PETSC_TRUE;
+}
+
+/* A velocity of one row, unless there is a rotation alone, and how both depend on time. */
+static void ReadSteady(CoracleCase c, const char *item, PetscBool turns, PrescribedMotion *d,
+                       double velocity[2])
+{
+  char key[CASE_KEY];
   (void)CaseKey(key, "%s.velocity", item);
   if (!turns || CoracleCaseHas(c, key)) CoracleCaseVector(c, key, 2, velocity);
   if (CoracleCaseHas(c, CaseKey(key, "%s.period", item))) d->period = CoracleCasePositive(c, key);
@@ -195,9 +200,10 @@ static void ReadMotion(CoracleCase c, const char *item, BoundaryMotion *d, doubl
   const int component = CoracleCaseWord(c, CaseKey(key, "%s.component", item), 0, COMPONENTS);
   d->motion.prescribed[0] = component != 2;
   d->motion.prescribed[1] = component != 1;
+  const PetscBool turns = ReadRotation(c, item, &d->motion);
   d->motion.row = CoracleCaseTable(c, CaseKey(key, "%s.table", item), 3, &d->motion.nrows);
   if (!d->motion.row) {
-    ReadSteady(c, item, &d->motion, steady + 1);
+    ReadSteady(c, item, turns, &d->motion, steady + 1);
     d->motion.row = steady;
     d->motion.nrows = 1;
   }

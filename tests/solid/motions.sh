@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Prescribed motions of a case file: a rotation in rows, copies of a body that turn about pivots of their own, a piston that starts at once, sides that
+# Prescribed motions of a case file: a rotation in rows, beside a table of velocities, too, copies of a body that turn about pivots of their own, a piston that starts at once, sides that
 # share a corner with each other and with a fixed one; their work is the body's energy.  Usage: motions.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run_alone.sh"
@@ -15,6 +15,8 @@ output: {folder: out/motions, every: 1.0, checkpoint: 0}
 E2
 bar='{shape: rectangle, centre: [0, 0], width: 0.4, height: 0.1, size: 0.05, material: rubber, prescribed: '
 alone turning "$scratch/case.yaml" --set "solid.bodies=[$bar [{velocity: [0, 0], angular_velocity: [[0, 1], [1, 1]], pivot: [0, 0]}], repeat: {n: [2, 1], step: [1, 0]}}]"
+# a heaving and pitching foil: both in rows
+alone foil "$scratch/case.yaml" --set "solid.bodies=[$bar [{name: foil, table: [[0, 0, 0.5], [0.02, 0, 1], [0.05, 0, -0.5]], angular_velocity: [[0, 0], [0.04, 2]], pivot: [-0.1, 0]}]}]"
 # a rigid block that is struck by a rigid piston, 50 m/s from 0.1 s on; a force that sets in at once likewise
 block='{shape: rectangle, centre: [0.3, 0], width: 0.1, height: 0.3, size: 0.05, material: stone}'
 piston='{shape: rectangle, centre: [0, 0], width: 0.1, height: 0.4, size: 0.05, material: stone, '
@@ -24,10 +26,15 @@ alone pushed "$scratch/case.yaml" --set time.end=0.13 --set "solid.bodies=[$pist
 alone corner "$scratch/case.yaml" --set "solid.bodies=[$bar [{name: hold, boundary: left, velocity: [0.001, 0]}, {name: floor, boundary: bottom, velocity: [0, 0], component: y}, {name: pull, boundary: top, velocity: [0, 0]}]}]"
 alone fixed "$scratch/case.yaml" --set "solid.bodies=[$bar [{boundary: bottom, velocity: [0, -0.1]}], fixed: [left]}]" --set 'solid.probes=[{name: corner, point: [-0.2, -0.05]}]'
 "$python" - "$scratch" <<'E2'
+from math import cos, sin
 from results import column
 spins = [column("turning", "solid", "omega%d [rad/s]" % b)[-1] for b in (0, 1)]
 ways = [column("turning", "solid", "%s%d [m]" % (c, b))[-1] - at for b, at in ((0, 0.0), (1, 1.0)) for c, at in (("x", at), ("y", 0.0))]
 assert all(abs(w - 1.0) < 1e-3 for w in spins) and max(map(abs, ways)) < 1e-9, "turning: %s rad/s, moved by %s" % (spins, ways)
+angle = 0.5 * 2.0 * 0.04 + 2.0 * 0.01
+foil = [column("foil", "solid", key)[-1] for key in ("angle0 [rad]", "x0 [m]", "y0 [m]", "v0 [m/s]")]
+wanted = [angle, -0.1 + 0.1 * cos(angle), 0.015 + 0.0075 + 0.1 * sin(angle), -0.5 + 2.0 * 0.1 * cos(angle)]
+assert all(abs(f - w) < e for f, w, e in zip(foil, wanted, (1e-4, 1e-4, 1e-4, 0.05))), "foil: %s, expected %s" % (foil, wanted)
 for label in ("struck", "pushed"):
     ahead = min(b - a for a, b in zip(column(label, "solid", "x0 [m]"), column(label, "solid", "x1 [m]")))
     assert ahead > 0.05, "%s: the block's centre is %g m from the piston's" % (label, ahead)

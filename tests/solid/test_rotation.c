@@ -1,6 +1,6 @@
 // ranks: 1 2
 /* A plate whose rotation is prescribed, about a pivot that moves: after any time its nodes are where a rigid plate's are, and so are
- * its velocities, and the angle that it has turned; also when the rotation swings and rises, or is a table; what turns it has
+ * its velocities, and the angle that it has turned; also when the rotation swings and rises, or is a table, or the velocity is one; what turns it has
  * the moment of its weight.  And the moment of a load. */
 #include "tests/solid/build.h"
 
@@ -10,6 +10,7 @@
 typedef struct {
   double period, rise;
   TimeTable spin; /* over SPIN */
+  TimeTable path; /* of the pivot's velocity; nrows 0: constant */
 } Way;
 
 /* How far the pivot has moved, over its velocity, by short intervals; or how far the plate has turned, over SPIN. */
@@ -21,6 +22,10 @@ static double Integral(const Way *w, double t, int of_spin)
     const double at = t * (i + 0.5) / MANY;
     if (of_spin && w->spin.nrows) {
       sum += TimeTableValue(&w->spin, 1, at) / SPIN * t / MANY;
+      continue;
+    }
+    if (!of_spin && w->path.nrows) {
+      sum += TimeTableValue(&w->path, 1, at) / 0.4 * t / MANY;
       continue;
     }
     sum += (w->period > 0.0 ? sin(2.0 * M_PI * at / w->period) : 1.0) * (at < w->rise ? at / w->rise : 1.0) *
@@ -46,8 +51,17 @@ static PetscErrorCode Rotate(const Way *w)
 {
   const SolidSetup setup = {.courant = 0.8, .rebalance = 200.0, .gravity = {0.0, -9.81}};
   const double row[3] = {0.0, 0.4, -0.2}, t = 0.7;
-  const BoundaryMotion motion = {
-      NULL, {{1, 1}, 1, row, 0.0, w->period, w->rise, SPIN, {0.3, 0.1}, w->spin, "spin"}};
+  const BoundaryMotion motion = {NULL,
+                                 {{1, 1},
+                                  w->path.nrows ? w->path.nrows : 1,
+                                  w->path.nrows ? w->path.row : row,
+                                  0.0,
+                                  w->period,
+                                  w->rise,
+                                  SPIN,
+                                  {0.3, 0.1},
+                                  w->spin,
+                                  "spin"}};
   BodySetup body = BodyAtRest(MaterialOf(1000.0, 1e6, 0.3, 0.1));
   Model a = {0};
   Solid s;
@@ -114,8 +128,14 @@ static PetscErrorCode Moment(void)
 int main(int argc, char **argv)
 {
   static const double SPINS[] = {0.0, 0.0, 0.3, SPIN, 0.45, -0.5 * SPIN};
-  static const Way WAYS[] = {
-      {0.0, 0.0, {0}}, {0.0, 0.3, {0}}, {0.5, 0.0, {0}}, {0.5, 0.3, {0}}, {0.0, 0.0, {3, 2, SPINS}}};
+  static const double PATH[] = {0.0, 0.0, 0.0, 0.2, 0.4, -0.2, 0.55, -0.2, 0.1};
+  static const Way WAYS[] = {{0.0, 0.0, {0}, {0}},
+                             {0.0, 0.3, {0}, {0}},
+                             {0.5, 0.0, {0}, {0}},
+                             {0.5, 0.3, {0}, {0}},
+                             {0.0, 0.0, {3, 2, SPINS}, {0}},
+                             {0.0, 0.0, {0}, {3, 3, PATH}},
+                             {0.0, 0.0, {3, 2, SPINS}, {3, 3, PATH}}};
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   for (size_t k = 0; k < sizeof WAYS / sizeof *WAYS; k++) PetscCall(Rotate(&WAYS[k]));
   PetscCall(Moment());
