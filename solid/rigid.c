@@ -75,12 +75,15 @@ static void AddVector(const Solid s, const double value[], RigidSums sum[])
   }
 }
 
-/* Bodies that move as prescribed, if only in one component, do not turn by themselves: known where they have nodes. */
+/* Bodies that move as prescribed in one component alone do not turn by themselves: known where they have nodes.  Where both are prescribed
+ * nodes move so whatever forces make of them, and what moves them has the whole moment (BudgetAddPrescribed). */
 static void HoldTurns(const Solid s, RigidSums sum[])
 {
   for (int k = 0; k < s->nprescribed; k++) {
     const int b = s->rigid_index[s->node_body[s->prescribed[k].node]];
-    if (b >= 0 && PrescribedActs(&s->motion[s->prescribed[k].motion], s->stats.t)) sum[b].angular = 0.0;
+    const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
+    if (b >= 0 && !(d->prescribed[0] && d->prescribed[1]) && PrescribedActs(d, s->stats.t))
+      sum[b].angular = 0.0;
   }
 }
 

@@ -17,6 +17,10 @@ bar='{shape: rectangle, centre: [0, 0], width: 0.4, height: 0.1, size: 0.05, mat
 alone turning "$scratch/case.yaml" --set "solid.bodies=[$bar [{velocity: [0, 0], angular_velocity: [[0, 1], [1, 1]], pivot: [0, 0]}], repeat: {n: [2, 1], step: [1, 0]}}]"
 # a heaving and pitching foil: both in rows
 alone foil "$scratch/case.yaml" --set "solid.bodies=[$bar [{name: foil, table: [[0, 0, 0.5], [0.02, 0, 1], [0.05, 0, -0.5]], angular_velocity: [[0, 0], [0.04, 2]], pivot: [-0.1, 0]}]}]"
+# rigid: it is set turning, about a pivot outside of it; and it is held in place against a moment
+bar_of() { echo "solid.bodies=[{shape: rectangle, centre: [0, 0], width: 0.4, height: 0.1, size: 0.05, material: stone, $1}]"; }
+alone spun "$scratch/case.yaml" --set "$(bar_of 'prescribed: [{name: spun, angular_velocity: [[0, 0], [1, 20]], pivot: [-0.3, 0]}]')"
+alone held "$scratch/case.yaml" --set "$(bar_of 'prescribed: [{name: held, velocity: [0, 0]}], loads: [{boundary: right, traction: [0, 1000]}]')"
 # a rigid block that is struck by a rigid piston, 50 m/s from 0.1 s on; a force that sets in at once likewise
 block='{shape: rectangle, centre: [0.3, 0], width: 0.1, height: 0.3, size: 0.05, material: stone}'
 piston='{shape: rectangle, centre: [0, 0], width: 0.1, height: 0.4, size: 0.05, material: stone, '
@@ -35,6 +39,16 @@ angle = 0.5 * 2.0 * 0.04 + 2.0 * 0.01
 foil = [column("foil", "solid", key)[-1] for key in ("angle0 [rad]", "x0 [m]", "y0 [m]", "v0 [m/s]")]
 wanted = [angle, -0.1 + 0.1 * cos(angle), 0.015 + 0.0075 + 0.1 * sin(angle), -0.5 + 2.0 * 0.1 * cos(angle)]
 assert all(abs(f - w) < e for f, w, e in zip(foil, wanted, (1e-4, 1e-4, 1e-4, 0.05))), "foil: %s, expected %s" % (foil, wanted)
+kinetic, omega = column("spun", "solid", "kinetic0 [J/m]"), column("spun", "solid", "omega0 [rad/s]")[-1]
+work, moment = sum(column("spun", "solid", "reaction work [J/m]")[1:]), column("spun", "solid_probes", "spun_moment [N]")[-1]
+power = column("spun", "solid_probes", "spun_power [W/m]")[-1]
+wanted = 20.0 * 2.0 * kinetic[-1] / omega**2  # the moment of inertia times the angular acceleration
+energy = kinetic[-1] - kinetic[0]  # the work is by velocities at the ends of 50 substeps
+assert abs(work / energy - 1.0) < 0.02, "spun: work %g J/m, energy %g" % (work, energy)
+assert abs(moment / wanted - 1.0) < 0.01, "spun: moment %g N, expected %g" % (moment, wanted)
+assert abs(power / (moment * 20.0 * 0.045) - 1.0) < 0.01, "spun: power %g W/m, expected %g" % (power, moment * 0.9)
+moment = column("held", "solid_probes", "held_moment [N]")[-1]
+assert abs(moment + 0.2 * 100.0) < 1e-6, "held: moment %g N, expected -20" % moment
 for label in ("struck", "pushed"):
     ahead = min(b - a for a, b in zip(column(label, "solid", "x0 [m]"), column(label, "solid", "x1 [m]")))
     assert ahead > 0.05, "%s: the block's centre is %g m from the piston's" % (label, ahead)
