@@ -230,6 +230,7 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
     CheckGauges(c, solid);
     PetscCall(ProbesCheckPoints(c, PETSC_COMM_SELF, solid));
     PetscCall(Expect(c, solid, command));
+    ExpectMotions(solid, run.end);
     RunCaseNoteSteps(run.end, longest);
     RunCaseNoteUnsaved(run.walltime, run.checkpoint);
     NoteWalls(c, solid, run.end);

@@ -125,6 +125,12 @@ done
 level 1 --set 'fluid.absorption=[{from: [1, 0], to: [99, 0], rate: 1}]'
 grep -q 'fluid.absorption\[0\].to, (99, 0), lies outside of the domain' "$scratch/log" || fail "another note"
 
+# from where to where prescribed motions get: one that swings begins at an end of its way
+solid 0 --set 'solid.bodies[0].fixed=false' --set 'solid.bodies[0].prescribed=[{name: foil, velocity: [0, 3.14159265], angular_velocity: -1.57079633, pivot: [0.3, 0.1], period: 0.02}]'
+grep -qF 'solid: body 0 is moved as foil by 0 to 0 m along x, by 0 to 0.02 m along y, turned by -0.01 to 0 rad about (0.3, 0.1) m, which moves with it' "$scratch/log" || fail "not where a motion gets"
+solid 0 --set 'solid.bodies[0].fixed=false' --set 'solid.bodies[0].prescribed=[{velocity: [0, 0]}]'
+! grep -q 'is moved' "$scratch/log" || fail "a body at rest is moved"
+
 # no bodies, or none that moves
 png() { rm -f "$scratch/case.png"; check "$@" --png "$scratch/case.png" && [ -s "$scratch/case.png" ]; }
 png "$case" --set 'solid.bodies=[]' && grep -qx 'solid: no bodies' "$scratch/log" || fail "a fluid alone"
