@@ -165,7 +165,8 @@ static const CoracleCaseKey KEYS[] = {
     {"fluid.probes[].solid_line.to", "m", "its other end"},
     {"fluid.probes[].solid_line.points", "", "number of gauges, at the middles of equal parts"},
     {"fluid.probes[].distance", "m",
-     "from the solid's face to where the gauge's pressure is taken; by default fluid.adapt.size_min"},
+     "from the solid's face to where the gauge's pressure is taken; by default fluid.adapt.size_min, "
+     "required without fluid.adapt"},
     {NULL, NULL, NULL}};
 
 /* Measured on one rank (`peak_memory_mb`), from 41 000 to 190 000 triangles: of tests/coupled/disc.yaml and of phases,
