@@ -14,7 +14,7 @@ PetscErrorCode FluidMeanPressure(Fluid f, double **pressure)
 static double ElementCompressibility(Fluid f, int e, double *pressure)
 {
   return PhasesCompressibility(PhaseTransportPhases(f->phases), e, SolidCouplingFraction(f->solid)[e],
-                               pressure);
+                               PhaseLightest(&f->setup.phases), pressure);
 }
 
 void FluidSetTarget(Fluid f, double old)

@@ -103,8 +103,9 @@ static PetscErrorCode PhasePressure(Fluid from, Fluid to, Transfer transfer)
   PetscCall(VecDuplicate(from->p, &p));
   PetscCall(VecDuplicate(to->p, &still));
   PetscCall(VecCopy(from->p, p));
-  /* with surface tension a step begins from this pressure (FluidPredictPressure): the new mesh knows no coupling yet */
-  if (PhaseHasTension(&from->setup.phases)) PetscCall(FluidSetCoupling(from, 0, NULL));
+  /* with surface tension a step begins from this pressure (FluidPredictPressure), and of a gas it is what its compression starts from
+   * (FluidSetTarget): the new mesh knows no coupling yet, and the old one must not either, or what a solid changes would be left in it */
+  if (PhaseHasTension(&from->setup.phases) || from->compressible) PetscCall(FluidSetCoupling(from, 0, NULL));
   PetscCall(FluidBalancePressure(from));
   PetscCall(FluidSetOpenPressure(to, from->t + 0.5 * from->stats.dt));
   PetscCall(FluidBalancePressure(to));

@@ -146,20 +146,21 @@ PetscErrorCode PhasesMoveMasses(Phases f, const double before[], const double sw
   PetscFunctionReturn(0);
 }
 
-double PhasesCompressibility(Phases f, int e, double solid, double *pressure)
+double PhasesCompressibility(Phases f, int e, double solid, int filler, double *pressure)
 {
   const double area = StarsArea(f->stars, e);
   double sum = 0.0, weight = 0.0;
   *pressure = 0.0;
   for (int p = 0; f->mass && p < f->np; p++) {
     const size_t k = (size_t)e * (size_t)f->np + (size_t)p;
-    if (!IsGas(f, p) || !(f->volume[k] > VOLUME_TINY * area)) continue;
-    sum += f->volume[k] / area * GasCompressibility(&f->state[p], f->density[k]);
-    weight += f->volume[k];
-    *pressure += f->volume[k] * GasPressure(&f->state[p], f->density[k]);
+    const double outside = f->volume[k] - (p == filler ? solid * area : 0.0);
+    if (!IsGas(f, p) || !(outside > VOLUME_TINY * area)) continue;
+    sum += outside / area * GasCompressibility(&f->state[p], f->density[k]);
+    weight += outside;
+    *pressure += outside * GasPressure(&f->state[p], f->density[k]);
   }
   if (weight > 0.0) *pressure /= weight;
-  return weight > solid * area ? sum * (1.0 - solid * area / weight) : 0.0;
+  return sum;
 }
 
 /* Compressible phases of each element take its gap by their volumes; where there is none, `gas` becomes that, also negative. */

@@ -45,8 +45,9 @@ double *PhasesMasses(Phases phases);
 /* [nl][nphases], borrowed, kg/m3, as of the last PhasesReconstruct; NULL without. */
 const double *PhasesDensities(Phases phases);
 /* Share of local element e, outside of the solid's share of it, that is compressible times its mean compressibility, 1/Pa; its
- * pressure by the equation of state, Pa.  Of volumes and densities as of the last PhasesReconstruct or PhasesUpdateDensities. */
-double PhasesCompressibility(Phases phases, int e, double solid, double *pressure);
+ * pressure by the equation of state, Pa.  filler: the phase that the solid's part has.  Of volumes and densities as of the last
+ * PhasesReconstruct or PhasesUpdateDensities.  Not collective. */
+double PhasesCompressibility(Phases phases, int e, double solid, int filler, double *pressure);
 /* Densities of all local elements, from volumes and masses; PhasesReconstruct has this.  Collective. */
 PetscErrorCode PhasesUpdateDensities(Phases phases);
 /* Collective: with the volumes that passed faces beyond `before` to make swept (PhasesExpel) goes their mass, also in swept_mass; all

@@ -136,7 +136,8 @@ static PetscErrorCode SetGas(PhaseSweep s, const PhaseStep *step)
   if (step->solid) PetscCall(PetscArraycpy(s->solid, step->solid, s->stars->ne));
   PetscCall(StarsExchange(s->stars, sizeof *s->solid, s->solid));
   for (int e = 0; e < s->stars->nl; e++)
-    s->weight[e] = StarsArea(s->stars, e) * PhasesCompressibility(s->phases, e, s->solid[e], &pressure);
+    s->weight[e] = StarsArea(s->stars, e) *
+                   PhasesCompressibility(s->phases, e, s->solid[e], PhaseLightest(s->properties), &pressure);
   for (int k = 0; k < n * s->stars->ne; k++) {
     const EquationOfState *state = &s->properties->state[k % n];
     s->expected[k] = state->pressure > 0.0 ? GasDensity(state, step->pressure[k / n]) : state->density;

@@ -1,7 +1,8 @@
 // ranks: 1 2 3
 /* Water that is expelled, or fills gaps, among a gas.  The gas's mass goes with the volumes that are exchanged, also through elements that
  * have none of it: it is kept, nowhere negative, in elements of water there is none, and densities stay between those that there were.
- * Gas that fills gaps among water does not take more of an element than there is. */
+ * Gas that fills gaps among water does not take more of an element than there is.  Beside a solid all of a gas
+ * counts that does not fill the solid. */
 #include "tests/phases/flows.h"
 #include "tests/phases/set.h"
 
@@ -156,6 +157,29 @@ static PetscErrorCode Gaps(Set *s, Work *w)
   PetscFunctionReturn(0);
 }
 
+/* The solid's part of an element is its filler's: what is compressible beside a tenth of a solid that water, or gas, fills. */
+static PetscErrorCode Beside(Set *s, Work *w)
+{
+  double *gas, pressure;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(s->mesh->ne, &gas));
+  for (int e = 0; e < s->mesh->ne; e++) gas[e] = 0.6;
+  PetscCall(Start(s, w, 0.4, gas));
+  for (int e = 0; e < s->mesh->ne; e++) {
+    for (int filler = 0; filler < NPHASES; filler++) {
+      const double rho = PhasesDensities(s->phases)[NPHASES * e + GAS];
+      const double expected = (filler == GAS ? 0.5 : 0.6) * GasCompressibility(&STATES[GAS], rho);
+      const double found = PhasesCompressibility(s->phases, e, 0.1, filler, &pressure);
+      CHECK(fabs(found - expected) < 1e-12 * expected,
+            "element %d beside a solid full of phase %d: %g 1/Pa, expected %g", e, filler, found, expected);
+      CHECK(fabs(pressure - GasPressure(&STATES[GAS], rho)) < 1e-9 * STATES[GAS].pressure,
+            "element %d: %g Pa", e, pressure);
+    }
+  }
+  PetscCall(PetscFree(gas));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   const Shaken shaken = {.n = 14, .seed = 3u, .radius = 1.0};
@@ -169,6 +193,7 @@ int main(int argc, char **argv)
   PetscCall(WorkMake(mesh->ne, &w));
   PetscCall(Expelled(&s, &w));
   PetscCall(Gaps(&s, &w));
+  PetscCall(Beside(&s, &w));
   PetscCall(WorkDestroy(&w));
   PetscCall(SetDestroy(&s));
   return PetscFinalize();
