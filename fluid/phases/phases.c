@@ -216,13 +216,20 @@ PolygonCut PhasesSegment(Phases f, int e, int k, const double origin[2], HalfPla
   return PolygonCutBy(&rest, 0.0, line);
 }
 
+/* The next phase behind p of which element e has at least `least`, m2, or -1. */
+static int NextBehind(Phases f, int e, int p, double least)
+{
+  for (p++; p < f->np; p++)
+    if (f->volume[(size_t)e * (size_t)f->np + (size_t)p] >= least) return p;
+  return -1;
+}
+
 int PhasesBehind(Phases f, int e, int p)
 {
-  const double tiny = PHASES_TINY * StarsArea(f->stars, e);
-  for (p++; p + 1 < f->np; p++) {
-    if (f->volume[(size_t)e * (size_t)f->np + (size_t)p] >= tiny) break;
-  }
-  return p;
+  const double area = StarsArea(f->stars, e);
+  int behind = NextBehind(f, e, p, PHASES_DUST * area);
+  if (behind < 0) behind = NextBehind(f, e, p, PHASES_TINY * area);
+  return behind < 0 ? f->np - 1 : behind;
 }
 
 void PhasesSplitBy(int np, int single, const HalfPlane line[], const double x0[2], const Polygon *polygon,

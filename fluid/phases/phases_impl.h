@@ -14,6 +14,8 @@ typedef struct {
 #define PHASES_LEAST_SOLID 1e-6
 /* An element within this fraction of empty or full of a phase counts as such when lines are made. */
 #define PHASES_TINY 1e-12
+/* Less may be what round-off has left. */
+#define PHASES_DUST 1e-9
 
 /* Lines of a cut element, relative to its first vertex.  A line of n = 0 takes all (d >= 0) or nothing. */
 struct Phases_s {
@@ -64,15 +66,34 @@ static inline double PhasesVolumeBeside(Phases f, int e, int p)
   return fmin(fmax((f->volume[(size_t)e * (size_t)f->np + (size_t)p] - filled) / open, 0.0), area);
 }
 
-/* Whether line k divides local element e; what is spread has no place, and none does. */
+/* Whether line k of local element e divides no more than dust from the rest. */
+static inline int PhasesIsThin(Phases f, int e, int k)
+{
+  const double *v = &f->volume[(size_t)e * (size_t)f->np];
+  double behind = 0.0;
+  for (int p = k + 1; p < f->np; p++) behind += v[p];
+  return fmin(v[k], behind) < PHASES_DUST * StarsArea(f->stars, e);
+}
+
+/* Whether it does where another line divides more: of three phases or more, what round-off has left of one of them in an element of the
+ * interface of two others.  The place of its line says nothing. */
+static inline int PhasesIsDust(Phases f, int e, int k)
+{
+  if (f->np - f->first < 3 || k < f->first || !PhasesIsThin(f, e, k)) return 0;
+  for (int j = f->first; j + 1 < f->np; j++)
+    if (!PhasesIsThin(f, e, j)) return 1;
+  return 0;
+}
+
+/* Whether line k divides local element e; what is spread has no place, and none does; dust has none, either. */
 static inline int PhasesHasLine(Phases f, int e, int k)
 {
   const HalfPlane *h = &f->line[(size_t)e * (size_t)(f->np - 1) + (size_t)k];
-  return f->single[e] < 0 && !f->spread[e] && (h->n[0] != 0.0 || h->n[1] != 0.0);
+  return f->single[e] < 0 && !f->spread[e] && (h->n[0] != 0.0 || h->n[1] != 0.0) && !PhasesIsDust(f, e, k);
 }
 /* Whether all phases but one that owned element e has, at most, are fragments (reconstruct.c); beside a solid none is. */
 int PhasesHasFragments(Phases phases, int e);
-/* The next phase behind k that element e has: what its line k divides phase k from. */
+/* The next phase behind k that element e has, if it can be more than dust: what its line k divides phase k from. */
 int PhasesBehind(Phases phases, int e, int k);
 /* Of local element e, which line k does not divide: -1 below it (the last of its phases is k), 1 above it (all are behind k); else,
  * and where line k divides it, 0. */

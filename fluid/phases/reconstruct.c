@@ -3,12 +3,10 @@
  *
  * Of a phase of which the element K and those around it hold less than |K|, a fragment, the elements around may say nothing (PlicIsBlind).
  * Its line would be at the same corner of K in each step, wherever the fragment has got to.  It is spread: what a face sweeps of K holds
- * V_p/|K| of each phase p.  So is what round-off has left (DUST), and the inside of a cloud of fragments, where all elements around are cut,
+ * V_p/|K| of each phase p.  So is what round-off has left (PHASES_DUST: less of a phase in K and around it has no
+ * surface, also where a line fits, which at a wall any does), and the inside of a cloud of fragments, where all elements around are cut,
  * which no line does.  Beside a solid lines stay: what its surface cuts has slivers of phases that are at rest. */
 #include "fluid/phases/phases_impl.h"
-
-/* Of |K|: less of a phase in it and around it has no surface, also where a line fits, which at a wall any does. */
-#define DUST 1e-9
 
 static double *VolumeOf(Phases f, int e)
 {
@@ -140,7 +138,7 @@ static HalfPlane FitLine(Phases f, int e, int p, PlicCell cell[])
   if (v[p] < PHASES_TINY * area) return (HalfPlane){{0.0, 0.0}, -1.0};
   if (behind < PHASES_TINY * area) return (HalfPlane){{0.0, 0.0}, 1.0};
   const double second = SecondAround(f, e);
-  if (second < DUST || (second < 1.0 && AllAreCut(f, e))) {
+  if (second < PHASES_DUST || (second < 1.0 && AllAreCut(f, e))) {
     f->spread[e] = 1;
     return AnyLine(f, e, p);
   }

@@ -2,7 +2,8 @@
 /* Fragments smaller than an element, in a uniform flow: a drop, a bubble and the second of three phases go with it whatever the step, on any number
  * of ranks; all volumes are kept and bounded, through an adaptation of the mesh, too.  With a line from the elements around, which say nothing, a
  * fragment hangs where it is.  A film on a wall, thinner still, has its
- * lines and stays as it is; dust has no surface.
+ * lines and stays as it is; dust has no surface, and on the interface of two other
+ * phases no line.
  *
  * fragments print: also says how well. */
 #include "tests/phases/flows.h"
@@ -237,6 +238,45 @@ static PetscErrorCode Film(void)
   PetscFunctionReturn(0);
 }
 
+/* What round-off has left of one phase on the interface of two others does not change how elements respond. */
+static PetscErrorCode DustOnInterface(MPI_Comm comm, int phase)
+{
+  enum { NP = 3 };
+  static const double RHO[NP] = {1000.0, 1.3, 1.2}, GRAVITY[2] = {0.0, -9.81};
+  const Shaken shaken = {.n = N, .seed = 21u, .radius = 1.0};
+  const Region region[2] = {{.shape = REGION_BOX, .phase = 3 - phase, .a = {-1.0, -1.0}, .b = {2.0, 2.0}},
+                            {.shape = REGION_HALF_PLANE, .phase = 0, .a = {0.5, 0.5}, .b = {0.1, 1.0}}};
+  InverseDensity *clean, *dusty;
+  const double *found;
+  double *volume;
+  Mesh *mesh;
+  Set s;
+  PetscFunctionBeginUser;
+  PetscCall(ShakenMesh(comm, &shaken, &mesh));
+  PetscCall(SetMake(mesh, NP, &s));
+  PetscCall(PetscMalloc3(mesh->ne + 1, &clean, mesh->ne + 1, &dusty, NP * mesh->ne, &volume));
+  PetscCall(PhasesFill(s.phases, 2, region));
+  PetscCall(PhasesReconstruct(s.phases));
+  PetscCall(PhasesGetInverseDensity(s.phases, RHO, GRAVITY, clean));
+  PetscCall(PhasesGetVolumes(s.phases, &found));
+  PetscCall(PetscArraycpy(volume, found, NP * mesh->ne));
+  for (int e = 0; e < mesh->ne; e++) {
+    if (PhasesSingle(s.phases, e) < 0 && e % 3 == 0) volume[NP * e + phase] = 2e-12 * StarsArea(s.stars, e);
+  }
+  PetscCall(PhasesSetVolumes(s.phases, volume));
+  PetscCall(PhasesReconstruct(s.phases));
+  PetscCall(PhasesGetInverseDensity(s.phases, RHO, GRAVITY, dusty));
+  for (int e = 0; e < mesh->ne; e++)
+    for (int k = 0; k < 3; k++)
+      CHECK(fabs(dusty[e].inverse[k] - clean[e].inverse[k]) <
+                1e-6 * (clean[e].inverse[0] + clean[e].inverse[2]),
+            "dust of phase %d: element %d has %g m3/kg in place of %g", phase, e, dusty[e].inverse[k],
+            clean[e].inverse[k]);
+  PetscCall(PetscFree3(clean, dusty, volume));
+  PetscCall(SetDestroy(&s));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
@@ -248,5 +288,6 @@ int main(int argc, char **argv)
   }
   PetscCall(Film());
   PetscCall(Dust());
+  for (int phase = 1; phase < 3; phase++) PetscCall(DustOnInterface(PETSC_COMM_WORLD, phase));
   return PetscFinalize();
 }
