@@ -261,6 +261,7 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
     Expect(mesh, (PetscBool)(setup.phases.n > 0), adapts, &adaptation);
     NoteBoundaries(mesh, &setup);
     NoteRegions(&setup, nregions, region);
+    NoteLightest(&setup);
     NoteAbsorption(mesh, &setup.absorption);
   }
   if (command == COMMAND_DRAW && CoracleCaseFaultless(c)) PetscCall(Draw(c, mesh, &setup, nregions, region));

@@ -85,3 +85,15 @@ void NoteRegions(const FluidSetup *setup, int nregions, const Region region[])
            k, setup->phases.name[r->phase], r->b[0], r->b[1]);
   }
 }
+
+void NoteLightest(const FluidSetup *setup)
+{
+  const PhaseProperties *phases = &setup->phases;
+  const int lightest = phases->n ? PhaseLightest(phases) : 0;
+  for (int p = lightest + 1; p < phases->n; p++)
+    if (phases->rho[p] == phases->rho[lightest])
+      printf("note: fluid.phases: %s and %s have the same density, the least: %s counts as the lightest "
+             "phase, which fills solids and "
+             "comes in through open boundaries where no phase is given; give the other a little more\n",
+             phases->name[lightest], phases->name[p], phases->name[lightest]);
+}

@@ -7,4 +7,6 @@
 void NoteBoundaries(const Mesh *mesh, const FluidSetup *setup);
 /* On each half plane of another phase than the lightest that lies above its edge. */
 void NoteRegions(const FluidSetup *setup, int nregions, const Region region[]);
+/* On another phase that is as light as the lightest: only one of them fills solids and flows in. */
+void NoteLightest(const FluidSetup *setup);
 #endif

@@ -103,6 +103,12 @@ level 0 --set "$half"
 level 1 --set "${half/, 1]/, -1]}"
 grep -q 'fluid.regions\[1\]: the half plane of water lies above its edge' "$scratch/log" || fail "another note"
 
+# which of two phases of the least density fills solids
+third='fluid.phases=[{name: water, density: 1000.0, viscosity: 1.0e-3}, {name: air, density: 1.2, viscosity: 1.8e-5}, {name: gas, density: 1.2, viscosity: 1.8e-5}]'
+level 1 --set "$third"
+grep -q 'air and gas have the same density, the least: air counts as the lightest' "$scratch/log" || fail "another note"
+level 0 --set "${third/gas, density: 1.2/gas, density: 1.21}"
+
 # walls that water passes through, beside air alone
 wall() { "$build/solid/coracle-solid" --check "$root/tests/coupled/fixed.yaml" --set "solid.bodies[0].width=$2" "${@:3}" >"$scratch/log" 2>&1 && notes "$1" || fail "not $1 notes of a wall of $2 m"; }
 wall 0 0.03
