@@ -21,6 +21,9 @@ static const CoracleCaseKey KEYS[] = {
      "density that given"},
     {"fluid.phases[].gas.exponent", "",
      "of the density in pressure ~ density^exponent: 1 isothermal, 1.4 adiabatic air"},
+    {"fluid.phases[].gas.initial_pressure", "Pa",
+     "the fluid's pressure in the gas at the start, whose density follows from it; of a gas beneath water, "
+     "what the water weighs"},
     {"fluid.phases_advection", "",
      "how phases move: geometric, a sharp line in each cut element; compressive, the limited shares of the "
      "paper"},

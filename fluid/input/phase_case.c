@@ -4,7 +4,7 @@
 #include "fluid/input/fluid_case.h"
 
 /* Of phase k, which is incompressible unless it says otherwise. */
-static void ReadState(CoracleCase c, int k, double density, EquationOfState *state)
+static void ReadState(CoracleCase c, int k, double density, EquationOfState *state, double *initial_pressure)
 {
   static const char *const SPEED[] = {"sound_speed", NULL};
   char key[CASE_KEY], gas[CASE_KEY];
@@ -18,6 +18,11 @@ static void ReadState(CoracleCase c, int k, double density, EquationOfState *sta
   if (!CoracleCaseHas(c, gas)) return;
   state->pressure = CoracleCasePositive(c, CaseKey(key, "%s.pressure", gas));
   state->exponent = CoracleCaseNumberOr(c, CaseKey(key, "%s.exponent", gas), 1.0, 1.0, 10.0);
+  *initial_pressure =
+      CoracleCaseNumberOr(c, CaseKey(key, "%s.initial_pressure", gas), 0.0, -HUGE_VAL, HUGE_VAL);
+  if (state->pressure + *initial_pressure <= 0.0)
+    CoracleCaseRefuse(c, key, "expected more than %g Pa, with which the absolute pressure is 0, found %g",
+                      -state->pressure, *initial_pressure);
 }
 
 /* Item k of fluid.phases becomes phase k. */
@@ -39,7 +44,7 @@ static void ReadPhase(CoracleCase c, int k, PhaseNames *names, PhaseProperties *
       CoracleCaseRefuse(c, key, "two phases are called '%s'", names->name[k]);
   p->rho[k] = CoracleCasePositive(c, CaseKey(key, "fluid.phases[%d].density", k));
   p->mu[k] = CoracleCasePositive(c, CaseKey(key, "fluid.phases[%d].viscosity", k));
-  ReadState(c, k, p->rho[k], &p->state[k]);
+  ReadState(c, k, p->rho[k], &p->state[k], &p->initial_pressure[k]);
 }
 
 static void Swap(double *a, double *b)
@@ -59,6 +64,7 @@ static void SortByDensity(PhaseNames *names, PhaseProperties *p)
       names->name[j - 1] = name;
       Swap(&p->rho[j], &p->rho[j - 1]);
       Swap(&p->mu[j], &p->mu[j - 1]);
+      Swap(&p->initial_pressure[j], &p->initial_pressure[j - 1]);
       const EquationOfState state = p->state[j];
       p->state[j] = p->state[j - 1];
       p->state[j - 1] = state;

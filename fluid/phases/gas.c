@@ -24,10 +24,12 @@ static int IsGas(Phases f, int p)
   return f->state && f->state[p].pressure > 0.0;
 }
 
-void PhasesStartMasses(Phases f)
+void PhasesStartMasses(Phases f, const double pressure[])
 {
-  for (int k = 0; k < f->stars->ne * f->np; k++)
-    f->mass[k] = IsGas(f, k % f->np) ? f->volume[k] * f->state[k % f->np].density : 0.0;
+  for (int k = 0; k < f->stars->ne * f->np; k++) {
+    const int p = k % f->np;
+    f->mass[k] = IsGas(f, p) ? f->volume[k] * GasDensity(&f->state[p], pressure[p]) : 0.0;
+  }
 }
 
 double *PhasesMasses(Phases f)

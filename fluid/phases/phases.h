@@ -36,10 +36,10 @@ PetscErrorCode PhasesSetVolumes(Phases phases, const double volume[]);
 /* Borrowed: [ne][nphases].  Not collective. */
 PetscErrorCode PhasesGetVolumes(Phases phases, const double *volume[]);
 
-/* From now on phases have masses: state[nphases], incompressible where its pressure is 0.  At the start their densities are those of
- * pressure 0: PhasesStartMasses, after the volumes are set.  Not collective. */
+/* From now on phases have masses: state[nphases], incompressible where its pressure is 0.  Not collective. */
 PetscErrorCode PhasesSetStates(Phases phases, const EquationOfState state[]);
-void PhasesStartMasses(Phases phases);
+/* Those of a start, after the volumes are set, from the densities at pressure[nphases], Pa.  Not collective. */
+void PhasesStartMasses(Phases phases, const double pressure[]);
 /* [ne][nphases], borrowed, of compressible phases: masses, kg, to be read and set; NULL without. */
 double *PhasesMasses(Phases phases);
 /* [nl][nphases], borrowed, kg/m3, as of the last PhasesReconstruct; NULL without. */

@@ -6,7 +6,7 @@
 static PetscErrorCode StartVolumes(PhaseTransport t)
 {
   PetscFunctionBeginUser;
-  if (PhasesMasses(t->phases)) PhasesStartMasses(t->phases);
+  if (PhasesMasses(t->phases)) PhasesStartMasses(t->phases, t->properties.initial_pressure);
   PetscCall(PhaseTransportSumVolumes(t, t->budget.initial));
   PetscCall(PhaseTransportReconstruct(t));
   PetscFunctionReturn(0);

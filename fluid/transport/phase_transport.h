@@ -21,7 +21,8 @@ typedef struct {
   PhasesPairs surface_tension;            /* N/m */
   PhasesPairs solid_cosine; /* of contact angles at solids, through the first phase of each pair */
   PhasesAdvection advection;
-  EquationOfState state[PHASES_MAX]; /* pressure 0: incompressible, of density rho */
+  EquationOfState state[PHASES_MAX];   /* pressure 0: incompressible, of density rho */
+  double initial_pressure[PHASES_MAX]; /* of gases, Pa: what their densities are those of at the start */
   char name[PHASES_MAX][32];
 } PhaseProperties;
 
