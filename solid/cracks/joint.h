@@ -6,7 +6,7 @@
  *        :   o ^     :                       n to its right, out of element 1
  *        a1----------b1    element 1         opening o = d.n,  slip s = d.e
  *
- *     O = max(o + o0, 0),  S = s + s0,  a = F_t/k + D r_t,  b = F_s/k + D r_s,  r_i = G_i/(A F_i)
+ *     O = max(o + c' + o0, 0),  S = s + s0,  a = F_t/k + D r_t,  b = F_s/k + D r_s,  r_i = G_i/(A F_i)
  *     intact      (O/a)^2 + (S/b)^2 <= 1 at D = 0     sigma = k O, tau = k S
  *     softening   D = the least in 0 .. 1 with (O/a)^2 + (S/b)^2 <= 1, never less than before
  *                 sigma = z(D) F_t O/a,  tau = z(D) F_s S/b
@@ -101,16 +101,26 @@ static inline JointEnd JointBegin(const JointLaw *law, double normal, double she
   return end;
 }
 
-/* The damage that brings (O, S) onto the ellipse of half axes start + D range: Newton's method, which comes
- * from below, for the function is convex and falls. */
-static inline double JointDamage(double damage, double opening, double slip, const double start[2],
+/* O at a damage: what is left of the pressure with which the end activated is to be opened, too. */
+static inline double JointOpening(const JointEnd *end, double damage, double opening)
+{
+  return Greater(opening + end->offset[2] * (1.0 - damage) + end->offset[0], 0.0);
+}
+
+/* The least damage, not less than the end's, that brings (O, S) onto the ellipse of half axes start + D range: a function of where the end
+ * is, so that asked twice it is the same.  Newton's method, which comes from below: O/a falls with D and is convex, or, where less is damaged
+ * by the opening than pressure goes, rises, and is taken as if O stayed. */
+static inline double JointDamage(const JointEnd *end, double opening, double slip, const double start[2],
                                  const double range[2])
 {
+  const double growth = -end->offset[2];
+  double damage = end->damage;
   for (int k = 0; k < 50 && damage < 1.0; k++) {
     const double a = start[0] + damage * range[0], b = start[1] + damage * range[1];
-    const double x = opening / a, y = slip / b, beyond = x * x + y * y - 1.0;
+    const double x = JointOpening(end, damage, opening) / a, y = slip / b, beyond = x * x + y * y - 1.0;
     if (beyond <= 1e-14) break;
-    damage += 0.5 * beyond / (x * x * range[0] / a + y * y * range[1] / b);
+    const double falls = x * range[0] > growth ? x * range[0] - growth : x * range[0];
+    damage += 0.5 * beyond / (x * falls / a + y * y * range[1] / b);
   }
   return Lesser(damage, 1.0);
 }
@@ -129,11 +139,10 @@ static inline JointTraction JointTension(const JointLaw *law, JointEnd *end, dou
   const double start[2] = {f[0] / k, f[1] / k};
   const double range[2] = {law->energy[0] / (JOINT_SOFTENING_AREA * f[0]),
                            law->energy[1] / (JOINT_SOFTENING_AREA * f[1])};
-  const double preload = end->offset[2] * (1.0 - end->damage);
-  const double o = Greater(opening + preload + end->offset[0], 0.0), s = slip + end->offset[1];
-  const double damage = JointDamage(end->damage, o, s, start, range);
+  const double s = slip + end->offset[1], damage = JointDamage(end, opening, s, start, range);
   if (damage > end->damage) end->residual = damage < 1.0 ? JointSoftening(damage) : 0.0;
   end->damage = damage;
+  const double o = JointOpening(end, damage, opening);
   const double tension = end->residual * f[0] * o / (start[0] + end->damage * range[0]);
   const double shear = end->residual * f[1] * s / (start[1] + end->damage * range[1]);
   end->absorbed += 0.5 * (end->tension + tension) * (opening - end->opening) +

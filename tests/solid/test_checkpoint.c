@@ -183,9 +183,8 @@ static PetscErrorCode Other(MPI_Comm before, MPI_Comm after, const char *name)
   PetscCall(Load(two, after, name));
   CHECK(size[0] == size[1] || size[1] == 1 || two->stats.rebalanced == one->stats.rebalanced + 1,
         "rebalanced %d times, %d before", two->stats.rebalanced, one->stats.rebalanced);
-  /* one step: in the next a joint's stiffness, where it has just opened, multiplies the difference by 1e5 */
-  PetscCall(Steps(one, &a, STAY, BEFORE, 1));
-  PetscCall(Steps(two, &b, STAY, BEFORE, 1));
+  PetscCall(Steps(one, &a, STAY, BEFORE, AFTER));
+  PetscCall(Steps(two, &b, STAY, BEFORE, AFTER));
   const int nids = a.nnodes + 3 * a.nelements;
   double *all = malloc(8 * (size_t)nids * sizeof *all);
   PetscCall(Gather(one, before, nids, all));

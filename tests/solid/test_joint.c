@@ -245,6 +245,25 @@ static void FrictionCase(void)
   }
 }
 
+/* An end that activated under a pressure and opens: its damage and traction follow from where it is, not from how often that was asked. */
+static void OpenedAfterPressure(double shear)
+{
+  const JointLaw law = Law(120.0, 300.0);
+  const double far = OpeningRange(&law, 0, 0.4), slip = OpeningRange(&law, 1, 0.1);
+  JointEnd once = JointBegin(&law, -6.0 * STRENGTH[0], shear), often = once;
+  JointTraction direct = {0.0, 0.0}, gradual = direct;
+  for (int k = 1; k <= 2; k++) direct = JointTractionAt(&law, &once, 0.5 * k * far, 0.5 * k * slip);
+  const JointEnd before = once;
+  const JointTraction again = JointTractionAt(&law, &once, far, slip);
+  CHECK(once.damage > 0.3 && once.damage < 0.9, "D = %g", once.damage);
+  CHECK(once.damage == before.damage && again.normal == direct.normal && again.shear == direct.shear,
+        "asked again: D = %.15g instead of %.15g, traction %.15g instead of %.15g Pa", once.damage,
+        before.damage, again.normal, direct.normal);
+  for (int k = 1; k <= 1000; k++) gradual = JointTractionAt(&law, &often, 1e-3 * k * far, 1e-3 * k * slip);
+  CHECK(fabs(often.damage - once.damage) < 1e-9 && fabs(gradual.normal - direct.normal) < 1e-8 * STRENGTH[0],
+        "D = %.12g in 1000 steps, %.12g in 2", often.damage, once.damage);
+}
+
 int main(void)
 {
   Stiffness();
@@ -255,5 +274,7 @@ int main(void)
   Continuity();
   Forces();
   FrictionCase();
+  OpenedAfterPressure(0.0);
+  OpenedAfterPressure(-STRENGTH[1]);
   return 0;
 }
