@@ -31,17 +31,29 @@ PetscErrorCode StepFactorUpdate(StepResponse a, Solid s, double c)
 {
   double *value;
   PetscFunctionBeginUser;
+  for (int i = 0; i < a->nnodes; i++) a->diagonal[i] = 0.0;
   PetscCall(MatSeqAIJGetArray(a->matrix, &value));
   for (int row = 0, at = 0; row < 2 * a->nnodes; row++) {
     const int i = row / 2, held = a->held[row];
     for (int k = 2 * a->start[i]; k < 2 * a->start[i + 1]; k++, at++) {
       const int column = 2 * a->column[k / 2] + k % 2;
       value[at] = held || a->held[column] ? 0.0 : c * a->block[k / 2][2 * (row % 2) + k % 2];
-      if (column == row) value[at] += held ? 1.0 : a->weight[i] * s->mass[i];
+      if (column != row) continue;
+      a->diagonal[i] += c * a->block[k / 2][3 * (row % 2)] + a->part[i] * s->mass[i];
+      value[at] += held ? 1.0 : a->part[i] * s->mass[i];
     }
   }
   PetscCall(MatSeqAIJRestoreArray(a->matrix, &value));
   PetscCall(PCSetUp(a->factor));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode StepFactorWeigh(StepResponse a, Solid s)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscArraycpy(a->weight, a->diagonal, (size_t)a->nnodes));
+  PetscCall(CopiesSum(s->copies, 1, a->weight));
+  for (int i = 0; i < a->nnodes; i++) a->weight[i] = a->diagonal[i] / a->weight[i];
   PetscFunctionReturn(0);
 }
 

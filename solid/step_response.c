@@ -18,7 +18,7 @@ static PetscErrorCode Create(Solid s, StepResponse *response)
   a->nsix = s->elements.nsix;
   PetscCall(PetscMalloc4(3 * ne, &a->element, 4 * most, &a->joint, n + 1, &a->start, 9 * ne, &a->slot));
   PetscCall(PetscMalloc2(6 * nsix, &a->six, 36 * nsix, &a->six_slot));
-  PetscCall(PetscMalloc3(n, &a->weight, n, &a->owned, n, &a->turn));
+  PetscCall(PetscMalloc5(n, &a->part, n, &a->owned, n, &a->diagonal, n, &a->weight, n, &a->turn));
   PetscCall(PetscCalloc1(2 * n, &a->held));
   PetscCall(PetscMalloc4(2 * n, &a->r, 2 * n, &a->z, 2 * n, &a->p, 2 * n, &a->q));
   PetscCall(PetscArraycpy(a->element, s->element, 3 * ne));
@@ -43,7 +43,7 @@ PetscErrorCode StepResponseDestroy(StepResponse *response)
   PetscCall(VecDestroy(&a->left));
   PetscCall(PetscFree4(a->element, a->joint, a->start, a->slot));
   PetscCall(PetscFree2(a->six, a->six_slot));
-  PetscCall(PetscFree3(a->weight, a->owned, a->turn));
+  PetscCall(PetscFree5(a->part, a->owned, a->diagonal, a->weight, a->turn));
   PetscCall(PetscFree4(a->r, a->z, a->p, a->q));
   PetscCall(PetscFree(a->held));
   PetscCall(PetscFree(a->column));
@@ -68,10 +68,10 @@ static PetscErrorCode CountRanks(StepResponse a, Solid s)
   PetscFunctionBeginUser;
   for (int i = 0; i < a->nnodes; i++) {
     a->owned[i] = SolidOwns(s, i) ? 1.0 : 0.0;
-    a->weight[i] = 1.0;
+    a->part[i] = 1.0;
   }
-  PetscCall(CopiesSum(s->copies, 1, a->weight));
-  for (int i = 0; i < a->nnodes; i++) a->weight[i] = 1.0 / a->weight[i];
+  PetscCall(CopiesSum(s->copies, 1, a->part));
+  for (int i = 0; i < a->nnodes; i++) a->part[i] = 1.0 / a->part[i];
   PetscFunctionReturn(0);
 }
 
@@ -132,6 +132,7 @@ PetscErrorCode StepResponseUpdate(Solid s)
   PetscCall(StepMatrixAddJoints(a, s));
   PetscCall(SpringsStiffness(s, a->spring));
   if (a->njoints) PetscCall(StepFactorUpdate(a, s, a->c));
+  PetscCall(StepFactorWeigh(a, s));
   StepFactorTurn(a, s, a->njoints ? PETSC_FALSE : PETSC_TRUE);
   PetscFunctionReturn(0);
 }

@@ -3,9 +3,11 @@
  * K is assembled once a step, in 2 x 2 blocks, with elements and joints where they are; springs are beside it.  The preconditioner is a
  * Cholesky factor of the rank's own part of M + c K at rest, turned with the material,
  *
- *     P^-1 = sum over ranks  W R (M/n + c0 K0)^-1 R^T W,    W = 1/n,
+ *     P^-1 = sum over ranks  W R (M/n + c0 K0)^-1 R^T W,
  *
- * R the mean rotation of the elements around each node (1 where a component is held), n the number of ranks that have it.  Turned that way K0 is the
+ * R the mean rotation of the elements around each node (1 where a component is held), n the number of ranks that have it, W what of the
+ * diagonal of the sum over ranks of M/n + c0 K0 is this rank's: a joint is its owner's alone and may be a hundred times as stiff as what other ranks have at
+ * its nodes (with W = 1/n five times the iterations).  Turned that way K0 is the
  * tangent of a body that has turned and bent without much strain, so that the factor serves all steps whose c is within
  * 5 % of c0 = 1.1^k; only other lengths of step need a new one.  While joints are active, their stiffness changes by
  * orders of magnitude: then the factor is that of the present K, and R = 1.  P follows from the state alone: a step that

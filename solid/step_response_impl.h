@@ -16,11 +16,12 @@ struct StepResponse_s {
   double c, c0;                  /* s2; c0 0: no factor */
   PC factor;
   Mat matrix;
-  Vec right, left;        /* of the factor */
-  char *held;             /* [nnodes][2] StepResponseHolds */
-  double *weight, *owned; /* [nnodes] 1/n; 1 on the rank that owns the node, else 0 */
-  double (*turn)[2];      /* [nnodes] cosine and sine of R */
-  double *r, *z, *p, *q;  /* [nnodes][2] */
+  Vec right, left;           /* of the factor */
+  char *held;                /* [nnodes][2] StepResponseHolds */
+  double *part, *owned;      /* [nnodes] 1/n; 1 on the rank that owns the node, else 0 */
+  double *diagonal, *weight; /* [nnodes] of the factored matrix, both rows, kg/m; W */
+  double (*turn)[2];         /* [nnodes] cosine and sine of R */
+  double *r, *z, *p, *q;     /* [nnodes][2] */
 };
 
 /* step_matrix.c: the blocks' places, for element and joint; not collective. */
@@ -32,11 +33,13 @@ PetscErrorCode StepMatrixAddJoints(StepResponse a, Solid s);
 /* kd = K d of all ranks, springs included; 0 where it is held.  Collective. */
 PetscErrorCode StepMatrixMultiply(StepResponse a, Solid s, const double d[], double kd[]);
 
-/* step_factor.c: the matrix M/n + c0 K0, two rows a node, and what factors it; not collective, nor the next two. */
+/* step_factor.c: the matrix M/n + c0 K0, two rows a node, and what factors it; not collective, nor the next one. */
 PetscErrorCode StepFactorCreate(StepResponse a);
 /* Of M/n + c times the blocks as they are, with 1 on the diagonal of what is held and nothing that couples it. */
 PetscErrorCode StepFactorUpdate(StepResponse a, Solid s, double c);
-/* R with the nodes where they are; 1 where `turned` is false, and of a node with a component that is held. */
+/* W of the factors as they are.  Collective. */
+PetscErrorCode StepFactorWeigh(StepResponse a, Solid s);
+/* Not collective: R with the nodes where they are; 1 where `turned` is false, and of a node with a component that is held. */
 void StepFactorTurn(StepResponse a, Solid s, PetscBool turned);
 /* z = P^-1 r.  Collective. */
 PetscErrorCode StepFactorApply(StepResponse a, Solid s, const double r[], double z[]);

@@ -183,8 +183,12 @@ static PetscErrorCode Other(MPI_Comm before, MPI_Comm after, const char *name)
   PetscCall(Load(two, after, name));
   CHECK(size[0] == size[1] || size[1] == 1 || two->stats.rebalanced == one->stats.rebalanced + 1,
         "rebalanced %d times, %d before", two->stats.rebalanced, one->stats.rebalanced);
+  const long long iterations = one->stats.response_iterations + two->stats.response_iterations;
   PetscCall(Steps(one, &a, STAY, BEFORE, AFTER));
   PetscCall(Steps(two, &b, STAY, BEFORE, AFTER));
+  CHECK(one->stats.response_iterations + two->stats.response_iterations < iterations + 200 * AFTER,
+        "%lld iterations of the step's response",
+        one->stats.response_iterations + two->stats.response_iterations - iterations);
   const int nids = a.nnodes + 3 * a.nelements;
   double *all = malloc(8 * (size_t)nids * sizeof *all);
   PetscCall(Gather(one, before, nids, all));
