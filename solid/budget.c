@@ -46,15 +46,56 @@ void BudgetAddDecay(Solid s)
     }
 }
 
-void BudgetAddPrescribed(Solid s, int motion, int n, int c, double v, double arm)
+void SolidFindMoved(Solid s, char moved[])
+{
+  for (int k = 0; k < s->nprescribed; k++) {
+    const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
+    for (int c = 0; c < 2 && PrescribedActs(d, s->stats.t - s->stats.h); c++)
+      if (d->prescribed[c]) moved[2 * s->prescribed[k].node + c] = 1;
+  }
+}
+
+/* Half of a substep's work that the solid's own forces, s->force, do at what prescribed motions move, J/m. */
+static PetscErrorCode HalfSubstepWork(Solid s, double *work)
+{
+  char *moved;
+  PetscFunctionBeginUser;
+  *work = 0.0;
+  PetscCall(PetscCalloc1(2 * (size_t)s->nnodes, &moved));
+  SolidFindMoved(s, moved);
+  for (int k = 0; k < 2 * s->nnodes; k++)
+    if (moved[k] && s->inverse_mass[k / 2] > 0.0 && SolidOwns(s, k / 2))
+      *work += 0.5 * s->stats.h * s->force[k] * s->v[k];
+  PetscCall(PetscFree(moved));
+  PetscFunctionReturn(0);
+}
+
+/* A motion holds against the force of each substep's start over the whole of it, the solid against the mean of that and the one at its
+ * end: half of the last substep's work is that of the step before, half of this step's last one that of the next. */
+PetscErrorCode BudgetStartForces(Solid s)
+{
+  const double *force;
+  double half;
+  PetscFunctionBeginUser;
+  PetscCall(SolidForces(s, &force));
+  PetscCall(HalfSubstepWork(s, &half));
+  s->budget.reaction_work += half;
+  PetscFunctionReturn(0);
+}
+
+void BudgetAddPrescribed(Solid s, int motion, int n, int c, double before, double v, double arm)
 {
   const double impulse = s->mass[n] * (v - s->v[2 * n + c]);
+  /* load and gravity work along the way of the substep, the rest at the mean of the velocities before and after */
+  const double steady = s->h * (s->load[2 * n + c] + s->mass[n] * s->setup.gravity[c]);
+  const double work = 0.5 * (impulse * (v + before) - steady * (v - before));
   double *sum = s->motion_impulse[motion];
-  BudgetAddImpulse(s, n, c, impulse, v);
   if (!SolidOwns(s, n)) return;
+  s->reaction[s->node_body[n]][c] += impulse;
+  s->budget.reaction_work += work;
   sum[c] += impulse;
   sum[2] += arm * impulse;
-  sum[3] += impulse * v;
+  sum[3] += work;
 }
 
 PetscErrorCode SolidMotionReaction(Solid s, const char *name, double reaction[4])
@@ -82,8 +123,12 @@ PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget)
     COUNT = LOAD + 2
   };
   const SolidBudget *b = &s->budget;
-  double sum[COUNT] = {b->walls[0], b->walls[1], [REACTION_WORK] = b->reaction_work};
+  const double *force;
+  double half, sum[COUNT] = {b->walls[0], b->walls[1]};
   PetscFunctionBeginUser;
+  PetscCall(SolidForces(s, &force));
+  PetscCall(HalfSubstepWork(s, &half));
+  sum[REACTION_WORK] = b->reaction_work - half;
   for (int k = 0; k < 2 * s->nbodies; k++) {
     sum[REACTION + k % 2] += s->reaction[k / 2][k % 2];
     sum[START + k % 2] += s->momentum[k / 2][k % 2];

@@ -262,6 +262,7 @@ PetscErrorCode SolidStart(Solid s, double dt, const double load[])
   PetscCall(SolidMoveFilms(s));
   BudgetStart(s);
   PetscCall(Plan(s));
+  PetscCall(BudgetStartForces(s));
   PetscCall(ExtrapolateVelocity(s));
   PetscFunctionReturn(0);
 }
@@ -277,6 +278,7 @@ static void KeepPrescribed(Solid s)
   for (int k = 0; k < s->nprescribed; k++)
     for (int c = 0; c < 2; c++) {
       s->position_before[2 * k + c] = s->x[2 * s->prescribed[k].node + c];
+      s->velocity_before[2 * k + c] = s->v[2 * s->prescribed[k].node + c];
       s->is_taken[2 * s->prescribed[k].node + c] = 0;
     }
 }
@@ -299,7 +301,7 @@ static void MovePrescribed(Solid s)
     for (int c = 0; c < 2; c++) {
       if (!d->prescribed[c] || s->is_taken[2 * n + c]) continue;
       s->is_taken[2 * n + c] = 1;
-      BudgetAddPrescribed(s, motion, n, c, v[c], arm[c]);
+      BudgetAddPrescribed(s, motion, n, c, s->velocity_before[2 * k + c], v[c], arm[c]);
       s->v[2 * n + c] = v[c];
       s->x[2 * n + c] = at[c] + s->h * v[c];
     }
@@ -358,9 +360,9 @@ PetscErrorCode SolidSubstep(Solid s, double *h)
   Move(s);
   PetscCall(RigidMove(s));
   BudgetAddDecay(s);
+  MovePrescribed(s);
   SpringsAddBudget(s);
   LoadsAddBudget(s);
-  MovePrescribed(s);
   s->force_valid = PETSC_FALSE;
   s->moved_for = s->h;
   *h = s->h;

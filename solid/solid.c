@@ -73,6 +73,7 @@ PetscErrorCode SolidFreeSubdomain(Solid s)
   PetscCall(PetscFree(s->motion));
   PetscCall(PetscFree(s->prescribed));
   PetscCall(PetscFree(s->position_before));
+  PetscCall(PetscFree(s->velocity_before));
   PetscCall(LoadsFree(s));
   PetscCall(RigidFree(s));
   PetscCall(PetscFree(e->held));
@@ -159,7 +160,8 @@ PetscErrorCode SolidState(Solid s, int save)
 /* First sums: mass, mass x, mass v, load, kinetic energy; then strain energy, impulse of the reaction, momentum before the last step. */
 enum { M, MX, MY, MU, MV, FX, FY, KINETIC, STRAIN, RX, RY, BEFORE, NSUMS = BEFORE + 2 };
 
-static void AddNodes(const Solid s, int n, double sum[][NSUMS])
+/* moved[nnodes][2]: components that have their own velocity, whatever acts on them. */
+static void AddNodes(const Solid s, int n, const char moved[], double sum[][NSUMS])
 {
   for (int i = 0; i < s->nnodes; i++) {
     if (s->node_body[i] >= n || !SolidOwns(s, i)) continue;
@@ -168,7 +170,7 @@ static void AddNodes(const Solid s, int n, double sum[][NSUMS])
     k[M] += m;
     for (int c = 0; c < 2; c++) {
       const double f = s->force[2 * i + c] + s->load[2 * i + c];
-      const double a = s->inverse_mass[i] > 0.0 ? f / m + s->setup.gravity[c] : 0.0;
+      const double a = s->inverse_mass[i] > 0.0 && !moved[2 * i + c] ? f / m + s->setup.gravity[c] : 0.0;
       k[MX + c] += m * s->x[2 * i + c];
       k[MU + c] += m * v[c];
       k[FX + c] += s->load[2 * i + c];
@@ -223,10 +225,12 @@ PetscErrorCode SolidBodies(Solid s, int n, BodyState state[])
 {
   double(*sum)[NSUMS];
   const double *force;
+  char *moved;
   PetscFunctionBeginUser;
   PetscCall(SolidForces(s, &force));
-  PetscCall(PetscCalloc1((size_t)n, &sum));
-  AddNodes(s, n, sum);
+  PetscCall(PetscCalloc2((size_t)n, &sum, 2 * (size_t)s->nnodes, &moved));
+  SolidFindMoved(s, moved);
+  AddNodes(s, n, moved, sum);
   AddStrainEnergy(s, n, sum);
   for (int k = 0; k < 2 * n; k++) {
     sum[k / 2][RX + k % 2] = s->reaction[k / 2][k % 2];
@@ -247,6 +251,6 @@ PetscErrorCode SolidBodies(Solid s, int n, BodyState state[])
     }
   }
   PetscCall(AboutCentres(s, n, state));
-  PetscCall(PetscFree(sum));
+  PetscCall(PetscFree2(sum, moved));
   PetscFunctionReturn(0);
 }

@@ -141,8 +141,9 @@ typedef struct {
   double angle;            /* rad, from -pi to pi: of the rotation that is nearest to its motion since rest */
   double load[2];          /* what the fluid does, N/m */
   double moment;           /* of it about the mass centre, counter-clockwise, N m/m */
-  double kinetic, strain;  /* J/m; kinetic at the time of x: sum m v.(v + h a)/2 */
-  double reaction[2];      /* SolidBudget's of this body, mean over the last step, N/m */
+  double kinetic,
+      strain; /* J/m; kinetic at the time of x: sum m v.(v + h a)/2, a 0 where motions are prescribed */
+  double reaction[2]; /* SolidBudget's of this body, mean over the last step, N/m */
   double contact
       [2]; /* the force of walls and other bodies, mean over the last step: what is left of its momentum's change, N/m */
 } BodyState;

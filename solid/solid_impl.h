@@ -94,8 +94,8 @@ struct Solid_s {
   int nprescribed, nprescribed_first; /* now, and at the start: parts of split nodes come last */
   PrescribedNode *prescribed;         /* [nprescribed] */
   PrescribedMotion *motion;
-  double *position_before; /* [nprescribed][2] room for places before a substep */
-  char *is_taken;          /* [nnodes][2] within a substep: a motion has moved it */
+  double *position_before, *velocity_before; /* [nprescribed][2] before a substep */
+  char *is_taken;                            /* [nnodes][2] within a substep: a motion has moved it */
   int nmotions;
   /* rigid bodies (rigid.h): their number; of each body which it is, or -1; this rank's nodes in them; the largest angular velocity, 1/s */
   int nrigid, *rigid_index, nrigid_nodes, *rigid_node;
@@ -166,14 +166,17 @@ PetscErrorCode SolidPieces(Solid s, int *n, const int **piece);
 /* film.c, collective, at the start of a step: films yield. */
 PetscErrorCode SolidMoveFilms(Solid s);
 
-/* budget.c, not collective: a step begins. */
+/* budget.c, not collective: a step begins; then, as soon as its first forces are known. */
 void BudgetStart(Solid s);
+PetscErrorCode BudgetStartForces(Solid s);
+/* moved[nnodes][2]: a prescribed motion has moved the component in the last substep. */
+void SolidFindMoved(Solid s, char moved[]);
 /* What the walls and what holds fixed nodes do in the substep to come. */
 void BudgetAddSubstep(Solid s);
 /* An impulse on component c of node n that is neither the fluid's nor a wall's, N s/m; v: where its work is done, m/s. */
 void BudgetAddImpulse(Solid s, int n, int c, double impulse, double v);
-/* Component c of node n, free so far, is going to move with the prescribed v. */
-void BudgetAddPrescribed(Solid s, int motion, int n, int c, double v, double arm);
+/* Component c of node n, free so far, is going to move with the prescribed v; before: with that of the last substep. */
+void BudgetAddPrescribed(Solid s, int motion, int n, int c, double before, double v, double arm);
 /* What the decay rate has done in the substep, after its nodes have moved. */
 void BudgetAddDecay(Solid s);
 

@@ -105,5 +105,6 @@ PetscErrorCode JointsPrescribeParts(Solid s)
         s->prescribed[s->nprescribed++] = (PrescribedNode){n, s->prescribed[k].motion};
   }
   PetscCall(PetscRealloc(2 * (size_t)s->nprescribed * sizeof *s->position_before, &s->position_before));
+  PetscCall(PetscRealloc(2 * (size_t)s->nprescribed * sizeof *s->velocity_before, &s->velocity_before));
   PetscFunctionReturn(0);
 }

@@ -228,6 +228,7 @@ static PetscErrorCode TakeMotions(Solid s, const Model *a, const int local[])
   PetscCall(PetscCalloc1((size_t)a->nmotions, &s->motion_impulse));
   PetscCall(PetscMalloc1((size_t)a->nprescribed, &s->prescribed));
   PetscCall(PetscMalloc1(2 * (size_t)a->nprescribed, &s->position_before));
+  PetscCall(PetscMalloc1(2 * (size_t)a->nprescribed, &s->velocity_before));
   for (int k = 0; k < a->nmotions; k++) {
     s->motion[k] = a->motion[k];
     PetscCall(ModelCopyRows(3 * s->motion[k].nrows, &s->motion[k].row));

@@ -90,10 +90,55 @@ static PetscErrorCode Thrown(void)
   PetscFunctionReturn(0);
 }
 
+/* A block whose left side, or all of it where it is rigid, is pushed from rest against a force on its nodes: its kinetic energy is not negative, and
+ * with that of its strain it is what force and prescribed motion have given. */
+static PetscErrorCode Pushed(int rigid)
+{
+  const SolidSetup options = {.courant = 0.8, .gravity = {0.0, -10.0}};
+  const double row[9] = {0.0, 0.3, 0.1, 0.02, 0.3, 0.1, 0.05, 0.6, -0.2}, width = 0.1;
+  const BoundaryMotion motion = {rigid ? NULL : "left", {.prescribed = {1, 1}, .nrows = 3, .row = row}};
+  BodySetup setup = BodyAtRest(MaterialOf(DENSITY, 1e7, POISSON, 0.0));
+  double work = 0.0, given = 0.0, before = 0.0, first = 0.0, *load;
+  Model a = {0};
+  BodyState b;
+  SolidBudget budget;
+  Solid s;
+  PetscFunctionBeginUser;
+  if (rigid) setup.material.rigid = 1;
+  setup.nprescribed = 1;
+  setup.prescribed = &motion;
+  AddRectangle(&a, 0.0, 0.0, width, width, 0.0, 0.02, 0, &setup);
+  PetscCall(SolidCreate(PETSC_COMM_SELF, &a, &options, &s));
+  const SolidView v = ViewOf(s, NULL, NULL);
+  PetscCall(PetscCalloc1(2 * (size_t)v.nnodes, &load));
+  for (int k = 0; k < v.nnodes; k++) load[2 * k] = -1e4 / v.nnodes;
+  for (int k = 0; k < 50; k++) {
+    PetscCall(RunStep(s, 1e-3, load));
+    PetscCall(SolidGetBudget(s, &budget));
+    PetscCall(SolidBodies(s, 1, &b));
+    work += budget.reaction_work;
+    given += budget.work - 10.0 * b.mass * (b.x[1] - before);
+    before = b.x[1];
+    const double square = b.v[0] * b.v[0] + b.v[1] * b.v[1];
+    CHECK(b.kinetic > 0.0 && (!rigid || fabs(b.kinetic - 0.5 * b.mass * square) < 1e-12 * b.kinetic),
+          "kinetic energy %g J at %g, %g m/s", b.kinetic, b.v[0], b.v[1]);
+    const double excess = b.kinetic + b.strain - work - given;
+    if (k == 0) first = excess; /* what it began with, and of a force that begins at once */
+    CHECK(fabs(excess - first) < 2e-5 * work,
+          "energy %g J of kinetic, %g of strain; %g of work, %g of the force: %g J more", b.kinetic, b.strain,
+          work, given, excess - first);
+  }
+  PetscCall(PetscFree(load));
+  PetscCall(ModelDestroy(&a));
+  PetscCall(SolidDestroy(&s));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   PetscCall(Thrown());
+  for (int rigid = 0; rigid < 2; rigid++) PetscCall(Pushed(rigid));
   for (int stress = 0; stress < 2; stress++) {
     const double modulus = stress ? YOUNG : YOUNG / (1.0 - POISSON * POISSON),
                  exact = sqrt(modulus / DENSITY);
