@@ -72,7 +72,7 @@ struct Solid_s {
   /* nodes */
   long long *gid;
   int *node_body, *surface; /* [nnodes]; surface: some rank has a facet there */
-  int *is_prescribed;       /* [nnodes] a prescribed motion moves it */
+  int *is_prescribed;       /* [nnodes] a prescribed motion moves it until its release */
   int *base;                /* [nnodes] the node of the start that it was then, on this rank */
   double *rest, *x, *v;     /* [nnodes][2] */
   double *force, *load;     /* [nnodes][2] internal and contact; the fluid's, summed over ranks */

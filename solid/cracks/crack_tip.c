@@ -44,6 +44,23 @@ static double Width(const Joints j, int star, const CornerSet corners[2], int in
   return width;
 }
 
+/* A prescribed motion acts on the node, or on the one that it is a part of. */
+static PetscBool IsMoved(const Solid s, int node)
+{
+  for (int k = 0; k < s->nprescribed_first && s->is_prescribed[node]; k++)
+    if (s->prescribed[k].node == s->base[node] &&
+        PrescribedActs(&s->motion[s->prescribed[k].motion], s->stats.t))
+      return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+static int CountActing(const Solid s)
+{
+  int n = 0;
+  for (int k = 0; k < s->nmotions; k++) n += PrescribedActs(&s->motion[k], s->stats.t);
+  return n;
+}
+
 static PetscBool AtCrackTip(const Joints j, const Solid s, int k, int end, CrackTip *b)
 {
   const Joint *joint = &j->joint[k];
@@ -51,8 +68,7 @@ static PetscBool AtCrackTip(const Joints j, const Solid s, int k, int end, Crack
   const int one = joint->corner[end][0] - first, two = joint->corner[end][1] - first;
   *b = (CrackTip){.joint = k, .end = end};
   const int node = j->corner[first + one].node;
-  if (s->inverse_mass[node] == 0.0 || s->is_prescribed[node])
-    return PETSC_FALSE; /* its parts stay together */
+  if (s->inverse_mass[node] == 0.0 || IsMoved(s, node)) return PETSC_FALSE; /* its parts stay together */
   b->corners[0] = CornerSetOf(j, star, one, k);
   if (b->corners[0] & (CornerSet)1 << two) return PETSC_FALSE;
   b->corners[1] = CornerSetOf(j, star, two, k);
@@ -63,6 +79,7 @@ static PetscBool AtCrackTip(const Joints j, const Solid s, int k, int end, Crack
 void JointsFindCrackTips(Joints j, Solid s, PetscBool all)
 {
   CrackTip b;
+  if (all) j->nacting = CountActing(s);
   for (int k = 0; k < j->n; k++) {
     const Joint *joint = &j->joint[k];
     for (int end = 0; end < 2 && joint->mine; end++)
@@ -73,6 +90,13 @@ void JointsFindCrackTips(Joints j, Solid s, PetscBool all)
   for (int k = 0; k < j->n; k++)
     for (int end = 0; end < 2 && j->joint[k].mine && j->memory[k].stage == JOINT_INTACT; end++)
       if (j->at_tip[k][end] && AtCrackTip(j, s, k, end, &b)) j->tip[j->ntips++] = b;
+}
+
+void JointsFollowMotions(Joints j, Solid s)
+{
+  if (CountActing(s) == j->nacting) return;
+  JointsFindCrackTips(j, s, PETSC_TRUE);
+  JointsList(j);
 }
 
 CrackTip JointsPartedCrackTip(Joints j, int k, int end)

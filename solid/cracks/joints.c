@@ -212,6 +212,7 @@ PetscErrorCode JointsAdvance(Joints j, Solid s, PetscBool *changed)
   int *event, n, total, any[NKINDS];
   void *all;
   PetscFunctionBeginUser;
+  JointsFollowMotions(j, s);
   JointsGhostForces(j, s);
   any[LAST_ENDS] = FindLastEnds(j, s);
   PetscCall(FindEvents(j, s, &n, &event));

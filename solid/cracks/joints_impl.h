@@ -92,6 +92,7 @@ struct Joints_s {
   int nactive;
   int *active; /* [n] followed joints that are active */
   InitiationList initiation;
+  int nacting; /* prescribed motions that acted when all crack tips were found */
   int ntips;
   CrackTip *tip;       /* [2 n] */
   char (*at_tip)[2];   /* [n] that end is at a crack tip or the surface, while its joint is intact */
@@ -104,6 +105,8 @@ struct Joints_s {
 /* crack_tip.c */
 /* Finds anew the crack-tip ends of the marked stars, or of all. */
 void JointsFindCrackTips(Joints j, Solid s, PetscBool all);
+/* The same of all where prescribed motions have let go of their nodes since, or, in a step that is redone, have not yet. */
+void JointsFollowMotions(Joints j, Solid s);
 /* Forces and stresses of other ranks' elements, as SolidInternalForces has left this rank's. */
 void JointsGhostForces(Joints j, Solid s);
 /* The traction, Pa, that element 1's corner set exerts on element 0's at an end: of the intact joint at the

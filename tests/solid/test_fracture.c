@@ -246,6 +246,55 @@ static PetscErrorCode Intact(void)
   return 0;
 }
 
+/* What a sheet becomes that is torn at its left side, which stood still as prescribed until nothing had moved yet, or was always free. */
+static PetscErrorCode Torn(int held, FractureState *f, double *sum)
+{
+  static const double ROW[3] = {0.0, 0.0, 0.0};
+  static const BoundaryMotion HELD = {"left",
+                                      {.prescribed = {1, 1}, .nrows = 1, .row = ROW, .release = 1e-5}};
+  const SolidSetup options = {.courant = 0.8};
+  BodySetup setup = BodyAtRest(RockOf(3e6, 9e6, 20.0, 0.1));
+  Model a = {0};
+  Solid s;
+  setup.joints.all = 1;
+  setup.nprescribed = held;
+  setup.prescribed = &HELD;
+  AddRectangle(&a, 0.0, 0.0, 0.1, 0.1, 0.0, 0.01, 1, &setup);
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &options, &s));
+  PetscCall(RunStep(s, 1e-5, NULL));
+  for (int step = 0; step < 30; step++) {
+    const SolidView v = ViewOf(s, NULL, NULL);
+    double *load = calloc(2 * (size_t)v.nnodes + 1, sizeof *load);
+    for (int k = 0; k < 2 * v.nfacets; k++)
+      if (v.rest[2 * v.facet[k]] < -0.0499)
+        load[2 * v.facet[k]] -= 3e4 * (1.0 + v.rest[2 * v.facet[k] + 1] / 0.05);
+    PetscCall(RunStep(s, 1e-5, load));
+    free(load);
+  }
+  PetscCall(SolidFracture(s, f));
+  *sum = 0.0;
+  const SolidView v = ViewOf(s, NULL, NULL);
+  for (int k = 0; k < 2 * v.nnodes; k++) *sum += v.x[k] * v.x[k];
+  PetscCall(ModelDestroy(&a));
+  return SolidDestroy(&s);
+}
+
+/* A side that has been let go cracks as one that was never held. */
+static PetscErrorCode Released(void)
+{
+  FractureState f[2];
+  double sum[2];
+  for (int held = 0; held < 2; held++) PetscCall(Torn(held, &f[held], &sum[held]));
+  if (getenv("VERBOSE"))
+    printf("free: %d broken, %d active, %g J/m; let go: %d, %d, %g J/m\n", f[0].broken, f[0].active,
+           f[0].energy, f[1].broken, f[1].active, f[1].energy);
+  CHECK(f[0].broken > 3 && f[0].broken == f[1].broken && f[0].active == f[1].active &&
+            fabs(f[0].energy / f[1].energy - 1.0) < 1e-9 && fabs(sum[0] / sum[1] - 1.0) < 1e-12,
+        "free: %d broken, %d active, %.15g J/m; let go: %d, %d, %.15g J/m", f[0].broken, f[0].active,
+        f[0].energy, f[1].broken, f[1].active, f[1].energy);
+  return 0;
+}
+
 int main(int argc, char **argv)
 {
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
@@ -256,6 +305,7 @@ int main(int argc, char **argv)
   PetscCall(Balance());
   PetscCall(Collision());
   PetscCall(Intact());
+  PetscCall(Released());
   PetscCall(PulledSheet());
   return PetscFinalize();
 }
