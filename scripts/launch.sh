@@ -61,9 +61,9 @@ for part in "${parts[@]}"; do
 done
 
 # Files of launchers know no quotes: an argument with a blank cannot be written into them.
-plain() {
+plain() { # WORDS: others that are written
   local word
-  for word in "$case" "${sets[@]}" "${program[@]}"; do
+  for word in "$case" "${sets[@]}" "${program[@]}" "$@"; do
     [[ $word != *[[:space:]\"\'\\]* ]] || die "--print $print cannot hold '$word': it has blanks or quotes; use colon"
   done
 }
@@ -114,7 +114,7 @@ case $print in
   colon)
     text=$(printf '%q ' mpirun "${options[@]}" "${colon[@]}") use="bash $write" ;;
   appfile)
-    plain; text=$(lines appfile) use="mpirun ${options[*]} --app $write" ;;
+    plain "${each[@]}"; text=$(lines appfile) use="mpirun ${options[*]} --app $write" ;;
   hydra)
     plain; text=$(lines hydra) use="mpiexec -configfile $write" ;;
   srun)

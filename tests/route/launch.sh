@@ -47,3 +47,4 @@ refuse "expected F:C:S" "$case" --ranks 1:0:1
 refuse "unknown option" "$case" --rank 1:1:1
 refuse "no coracle-fluid under" "$case" --bin "$scratch" --fluid ""
 refuse "has blanks or quotes" "$case" --print srun --set "case='a b'"
+PYTHONPATH="/a b" refuse "cannot hold 'PYTHONPATH=/a b'" "$case" --print appfile
