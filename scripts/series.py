@@ -8,10 +8,12 @@ HARMONICS = 8  # of its frequency, that what is periodic is made of; what is fas
 
 
 def read_series(path):
-    """Columns of a CSV by their names without units."""
+    """Columns of a CSV by their names without units; without the last row of a running case, if it is half written."""
     with open(path, encoding="utf-8") as file:
-        rows = list(csv.reader(file))
-    values = np.array(rows[1:], float)
+        rows = list(csv.reader(line for line in file if line.endswith("\n")))
+    if not rows:
+        sys.exit(f"{path}: there is no row yet")
+    values = np.array(rows[1:], float).reshape(-1, len(rows[0]))
     return {name.split(" [")[0]: values[:, k] for k, name in enumerate(rows[0])}
 
 
