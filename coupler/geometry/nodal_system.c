@@ -102,6 +102,7 @@ static PetscErrorCode CreateSolver(NodalSystem s)
   PetscCall(KSPCreate(s->comm, &s->solver));
   PetscCall(KSPSetType(s->solver, KSPCG));
   PetscCall(KSPSetNormType(s->solver, KSP_NORM_NATURAL));
+  PetscCall(KSPSetErrorIfNotConverged(s->solver, PETSC_TRUE));
   PetscCall(KSPSetTolerances(s->solver, TOLERANCE, PETSC_DEFAULT, PETSC_DEFAULT, s->nall));
   PetscCall(KSPSetOperators(s->solver, s->matrix, shifted));
   PetscCall(MatDestroy(&shifted));
