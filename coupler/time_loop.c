@@ -255,12 +255,14 @@ static PetscErrorCode SolveOverStep(RunState *run, StepRecord *step, PetscBool *
 /* Until the step has converged, over half of dt where it has not. */
 static PetscErrorCode SolveStep(RunState *run, StepRecord *step)
 {
-  const int before = step->iterations;
+  int before = step->iterations; /* without those that find the support */
   PetscBool converged;
 
   PetscFunctionBeginUser;
   for (;;) {
+    const int begun = step->iterations;
     if (NeedsSupport(run)) PetscCall(FindSupport(run, step));
+    before += step->iterations - begun;
     PetscCall(SolveOverStep(run, step, &converged));
     if (converged) break;
     PetscCall(HalveStep(run));
