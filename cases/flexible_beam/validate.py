@@ -11,6 +11,7 @@ import dataclasses
 import json
 import pathlib
 import subprocess
+import threading
 
 from beam import QUANTITIES, Run  # puts scripts/ on the path
 from series import read_series
@@ -117,19 +118,33 @@ def ended(name):
     folder = OUT / name
     if not ROWS[name].alone:
         return (folder / "summary.json").exists()
-    return (folder / "solid.csv").exists() and read_series(folder / "solid.csv")["t"][-1] > ROWS[name].end - 1e-6
+    return (folder / "solid.csv").exists() and (read_series(folder / "solid.csv")["t"] > ROWS[name].end - 1e-6).any()
+
+
+LOCKS = {key: threading.Lock() for name, row in ROWS.items() for key in (name, row.layers)}  # of runs and meshes that several jobs may need
+
+
+def make_mesh(layers):
+    with LOCKS[layers]:
+        if mesh(layers).exists():
+            return
+        OUT.mkdir(parents=True, exist_ok=True)
+        subprocess.run(["gmsh", "-2", "-v", "1", "-format", "msh41", HERE / "beam.geo", "-setnumber", "layers", str(layers), "-o", mesh(layers)],
+                       check=True)
 
 
 def run(name):
+    with LOCKS[name]:
+        run_locked(name)
+
+
+def run_locked(name):
     row, folder = ROWS[name], OUT / name
     if ended(name):
         return
     if row.after:
         run(row.after)
-    if not mesh(row.layers).exists():
-        OUT.mkdir(parents=True, exist_ok=True)
-        subprocess.run(["gmsh", "-2", "-v", "1", "-format", "msh41", HERE / "beam.geo", "-setnumber", "layers", str(row.layers),
-                        "-o", mesh(row.layers)], check=True)
+    make_mesh(row.layers)
     if row.alone:
         failed = validation.launch(["--alone", HERE / "csm3.yaml"], folder, row.settings)
         print("FAILED " + name if failed else "done " + name, flush=True)

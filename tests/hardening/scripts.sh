@@ -101,3 +101,22 @@ for label, table in zip(("cracks-1-1-1", "cracks-1-1-2"), tables):
     assert len(before) == solid[max(solid)]["pieces"] >= 2
 assert [[row[key] for key in ("t [s]", "fragment", "parent", "elements")] for row in tables[0]] == [[row[key] for key in ("t [s]", "fragment", "parent", "elements")] for row in tables[1]]
 E4
+# runs that resume from the same one, in several jobs at a time: it is run once
+"$python" -B - "$root" "$scratch/jobs" <<'E2'
+import concurrent.futures, pathlib, sys, time
+sys.path[:0] = [sys.argv[1] + "/cases/flexible_beam", sys.argv[1] + "/scripts"]
+import validate, validation
+validate.OUT, begun = pathlib.Path(sys.argv[2]), []
+validate.OUT.mkdir()
+for row in validate.ROWS.values():
+    validate.mesh(row.layers).touch()
+def run(case, folder, keys, ranks, after=None):
+    begun.append(folder.name)
+    folder.mkdir(exist_ok=True)
+    time.sleep(0.2)
+    (folder / "summary.json").touch()
+validation.run = run
+with concurrent.futures.ThreadPoolExecutor(3) as pool:
+    list(pool.map(validate.run, ["fsi1-0.004", "fsi1-0.002", "fsi1-0.004-corners"]))
+assert begun[0] == "fsi1-0.004" and len(begun) == 3, "runs begun: %s" % begun
+E2
