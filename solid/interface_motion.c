@@ -139,7 +139,7 @@ PetscErrorCode SolidUpdateInterfaceMotion(Solid s, InterfaceMotion *interface)
   const double start = MPI_Wtime();
   for (int k = 0; k < 2 * s->nnodes; k++) {
     const double by_mass = s->inverse_mass[k / 2];
-    s->mobility[k / 2] = by_mass;
+    s->mobility[k / 2] = by_mass * BodyMassFactor(&s->body[s->node_body[k / 2]], PointAt(s->rest, k / 2));
     s->acceleration[k] =
         by_mass > 0.0 ? by_mass * (force[k] + s->load[k]) + gravity[k % 2] - s->setup.decay_rate * s->v[k]
                       : 0.0;
@@ -158,8 +158,7 @@ PetscErrorCode SolidUpdateInterfaceMotion(Solid s, InterfaceMotion *interface)
   RotatePrescribed(s);
   DampUnresolved(s, resolved, total);
   PetscCall(PetscFree2(resolved, total));
-  for (int k = 0; k < 2 * s->nnodes; k++)
-    if (s->mobility[k / 2] > 0.0) s->acceleration[k] -= s->load[k] / s->mass[k / 2];
+  for (int k = 0; k < 2 * s->nnodes; k++) s->acceleration[k] -= s->load[k] * s->mobility[k / 2];
   s->stats.seconds[5] += MPI_Wtime() - start;
   SolidGetInterfaceMotion(s, interface);
   PetscFunctionReturn(0);

@@ -77,7 +77,7 @@ PetscErrorCode SolidRedistribute(Solid s, const int part[]);
 typedef struct {
   const double *u;            /* [nnodes][2] velocity, without the vibrations that steps of dt do not
                                  resolve, m/s */
-  const double *mobility;     /* [nnodes] 1/kg, one over the node's mass; 0 where it is fixed */
+  const double *mobility;     /* [nnodes] 1/kg, one over a third of its elements' mass; 0 where it is fixed */
   const double *acceleration; /* [nnodes][2] by all forces but the fluid's, m/s2 */
 } InterfaceMotion;
 /* Collective, after the last substep, when all is as at the step's end; borrowed until the next SolidStart.

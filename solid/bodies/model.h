@@ -107,6 +107,14 @@ typedef struct {
   double circle;     /* of a rigid disc: its radius, with which it touches others, m; else 0 */
 } Body;
 
+/* At a place of rest: 1 but in rigid bodies. */
+static inline double BodyMassFactor(const Body *b, Point rest)
+{
+  const double *f = b->rigid.mass_factor;
+  const Point y = PointMinus(rest, PointAt(b->centre, 0));
+  return 1.0 + f[0] + f[1] * y.x + f[2] * y.y + f[3] * (y.x * y.x + y.y * y.y);
+}
+
 typedef struct {
   int nnodes, nelements, nfacets, nbodies;
   double *rest, *x, *u;  /* [nnodes][2] rest coordinates X0, initial positions, m, and velocities, m/s */

@@ -25,9 +25,7 @@ double ModelElementMass(const Model *a, int e)
 double ModelCornerMass(const Model *a, int corner)
 {
   const Body *body = &a->body[a->element_body[corner / 3]];
-  const double *k = body->rigid.mass_factor, third = ModelElementMass(a, corner / 3) / 3.0;
-  const Point y = PointMinus(PointAt(a->rest, a->element[corner]), PointAt(body->centre, 0));
-  return third * (1.0 + k[0] + k[1] * y.x + k[2] * y.y + k[3] * (y.x * y.x + y.y * y.y));
+  return ModelElementMass(a, corner / 3) / 3.0 * BodyMassFactor(body, PointAt(a->rest, a->element[corner]));
 }
 
 /* Of the damping ratio xi at frequency f in tension along one axis: 2 xi E'/(2 pi f) = eta (1 + q^2), E' the modulus and

@@ -9,8 +9,9 @@ must disc_rigid 1:1:1 "${fall[@]}" --set solid.materials.disc.law=rigid
 must disc_ranks 2:2:3 "${fall[@]}" --set solid.materials.disc.law=rigid
 case=$here/floating.yaml
 moored=(--set time.end=0.4 --set 'solid.springs=[{name: line, point: [0.25, 0.2], anchor: [0.1, 0.0], stiffness: 500.0, length: 0.22, acts: pull}]'
-  --set 'solid.bodies=[{shape: rectangle, centre: [0.3, 0.2], width: 0.12, height: 0.06, angle: 0.1, size: 0.02, material: block}]')
-must moored_elastic 1:1:1 "${moored[@]}"
+  --set 'solid.bodies=[{shape: rectangle, centre: [0.3, 0.2], width: 0.12, height: 0.06, angle: 0.1, size: 0.01, material: block}]')
+# its lumped moment of inertia is 2 % too large with these elements
+must moored_elastic 1:1:1 "${moored[@]}" --set solid.materials.block.youngs_modulus=2.0e7
 must moored_rigid 1:1:1 "${moored[@]}" --set solid.materials.block.law=rigid
 "$python" - "$scratch" <<'E2'
 from results import column
