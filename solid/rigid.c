@@ -17,6 +17,7 @@ PetscErrorCode RigidFind(Solid s)
   PetscFunctionBeginUser;
   s->nrigid = s->nrigid_nodes = 0;
   PetscCall(PetscMalloc1(nbodies, &s->rigid_index));
+  PetscCall(PetscCalloc1(nbodies, &s->rigid_turn));
   for (int b = 0; b < s->nbodies; b++) s->rigid_index[b] = s->body[b].rigid.mass > 0.0 ? s->nrigid++ : -1;
   for (int i = 0; i < s->nnodes; i++) s->nrigid_nodes += s->rigid_index[s->node_body[i]] >= 0;
   PetscCall(PetscMalloc1((size_t)s->nrigid_nodes, &s->rigid_node));
@@ -29,6 +30,7 @@ PetscErrorCode RigidFree(Solid s)
 {
   PetscFunctionBeginUser;
   PetscCall(PetscFree(s->rigid_index));
+  PetscCall(PetscFree(s->rigid_turn));
   PetscCall(PetscFree(s->rigid_node));
   PetscFunctionReturn(0);
 }
@@ -75,15 +77,36 @@ static void AddVector(const Solid s, const double value[], RigidSums sum[])
   }
 }
 
+/* Entry k of s->prescribed moves its node in one component alone now. */
+static PetscBool Guides(const Solid s, int k)
+{
+  const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
+  return (PetscBool)(!(d->prescribed[0] && d->prescribed[1]) && PrescribedActs(d, s->stats.t));
+}
+
 /* Bodies that move as prescribed in one component alone do not turn by themselves: known where they have nodes.  Where both are prescribed
  * nodes move so whatever forces make of them, and what moves them has the whole moment (BudgetAddPrescribed). */
 static void HoldTurns(const Solid s, RigidSums sum[])
 {
   for (int k = 0; k < s->nprescribed; k++) {
     const int b = s->rigid_index[s->node_body[s->prescribed[k].node]];
-    const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
-    if (b >= 0 && !(d->prescribed[0] && d->prescribed[1]) && PrescribedActs(d, s->stats.t))
-      sum[b].angular = 0.0;
+    if (b >= 0 && Guides(s, k)) sum[b].angular = 0.0;
+  }
+}
+
+/* What that takes over a substep, N s: of the last of a body's motions, shared among its nodes, and so among ranks, by their mass. */
+static void AddHeldMoments(const Solid s, const RigidSums momentum[])
+{
+  for (int k = s->nprescribed - 1, body = -1, holds = -1; k >= 0; k--) {
+    const int n = s->prescribed[k].node, motion = s->prescribed[k].motion,
+              b = s->rigid_index[s->node_body[n]];
+    if (b < 0 || !Guides(s, k)) continue;
+    if (s->node_body[n] != body) holds = motion;
+    body = s->node_body[n];
+    if (motion != holds || !SolidOwns(s, n)) continue;
+    const RigidBody *rigid = &s->body[body].rigid;
+    s->motion_impulse[motion][2] -=
+        s->mass[n] / rigid->mass * rigid->inertia * (s->kick * s->rigid_turn[b] + momentum[b].angular);
   }
 }
 
@@ -172,7 +195,10 @@ PetscErrorCode RigidConstrain(Solid s)
   Complete(s, force);
   Complete(s, momentum);
   s->rigid_spin = 0.0;
-  for (int k = 0; k < s->nrigid; k++) s->rigid_spin = fmax(s->rigid_spin, fabs(momentum[k].angular));
+  for (int k = 0; k < s->nrigid; k++) {
+    s->rigid_spin = fmax(s->rigid_spin, fabs(momentum[k].angular));
+    s->rigid_turn[k] = force[k].angular;
+  }
   HoldTurns(s, force);
   HoldTurns(s, momentum);
   for (int k = 0; k < s->nrigid_nodes; k++) {
@@ -211,6 +237,7 @@ PetscErrorCode RigidMove(Solid s)
   }
   PetscCall(SumOverRanks(s, 1, sum));
   Complete(s, sum);
+  AddHeldMoments(s, sum);
   HoldTurns(s, sum);
   for (int b = 0; b < s->nrigid; b++) {
     const double sine = Lesser(1.0, Greater(-1.0, h * sum[b].angular));

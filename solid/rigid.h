@@ -9,7 +9,7 @@
  *
  * the chords of a rotation, with which sum m_i r_i x v_i about the new centre is I w again: both momenta are kept to round-off.
  *
- * A body that moves as prescribed in one component alone (a guide) does not turn, and the moment that this takes is in no reaction.
+ * A body that moves as prescribed in one component alone (a guide) does not turn; the moment that this takes is the motion's.
  *
  * Substeps are a tenth of the step at most, and turn a body by no more than a twentieth; else contact and springs limit them.  On a bed of stiffness k per area the squared frequency is at
  * most k int (1/M + (r x n)^2/I) over the surface, the trace of M^-1 K (RigidBody.surface_compliance). */

@@ -99,7 +99,8 @@ struct Solid_s {
   int nmotions;
   /* rigid bodies (rigid.h): their number; of each body which it is, or -1; this rank's nodes in them; the largest angular velocity, 1/s */
   int nrigid, *rigid_index, nrigid_nodes, *rigid_node;
-  double rigid_spin;
+  double rigid_spin,
+      *rigid_turn; /* [nrigid] angular acceleration by the last forces, were they not held, 1/s2 */
   int nboundary_loads, nloaded; /* of the model; this rank's sides that have one */
   BoundaryLoad *boundary_load;
   LoadedSide *loaded;           /* [nloaded] local elements */

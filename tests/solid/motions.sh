@@ -21,6 +21,7 @@ alone foil "$scratch/case.yaml" --set "solid.bodies=[$bar [{name: foil, table: [
 bar_of() { echo "solid.bodies=[{shape: rectangle, centre: [0, 0], width: 0.4, height: 0.1, size: 0.05, material: stone, $1}]"; }
 alone spun "$scratch/case.yaml" --set "$(bar_of 'prescribed: [{name: spun, angular_velocity: [[0, 0], [1, 20]], pivot: [-0.3, 0]}]')"
 alone held "$scratch/case.yaml" --set "$(bar_of 'prescribed: [{name: held, velocity: [0, 0]}], loads: [{boundary: right, traction: [0, 1000]}]')"
+alone rail "$scratch/case.yaml" --set "$(bar_of 'prescribed: [{name: rail, velocity: [0, 0], component: x}], loads: [{boundary: right, traction: [0, 1000]}]')"
 # a rigid block that is struck by a rigid piston, 50 m/s from 0.1 s on; a force that sets in at once likewise
 block='{shape: rectangle, centre: [0.3, 0], width: 0.1, height: 0.3, size: 0.05, material: stone}'
 piston='{shape: rectangle, centre: [0, 0], width: 0.1, height: 0.4, size: 0.05, material: stone, '
@@ -50,6 +51,8 @@ turning = 20.0 * (0.045 - 0.5 * column("spun", "solid", "dt_s [s]")[-1])  # velo
 assert abs(power / (moment * turning) - 1.0) < 1e-3, "spun: power %g W/m, expected %g" % (power, moment * turning)
 moment = column("held", "solid_probes", "held_moment [N]")[-1]
 assert abs(moment + 0.2 * 100.0) < 1e-6, "held: moment %g N, expected -20" % moment
+moment = column("rail", "solid_probes", "rail_moment [N]")[-1]
+assert abs(moment + 0.2 * 100.0) < 1e-6, "rail: moment %g N, expected -20" % moment
 for label in ("struck", "pushed"):
     ahead = min(b - a for a, b in zip(column(label, "solid", "x0 [m]"), column(label, "solid", "x1 [m]")))
     assert ahead > 0.05, "%s: the block's centre is %g m from the piston's" % (label, ahead)

@@ -211,6 +211,37 @@ static PetscErrorCode Turns(void)
   return SolidDestroy(&s);
 }
 
+/* On rails along x it rises with the load, and does not turn: the motion has the load's moment. */
+static PetscErrorCode Guided(void)
+{
+  const SolidSetup setup = {.courant = 0.8};
+  const double row[3] = {0.0, 0.5, 0.0};
+  const BoundaryMotion motion = {NULL, {{1, 0}, 1, row, 0.0, 0.0, 0.0, 0.0, {0.0, 0.0}, {0}, "rail"}};
+  BodySetup body = BodyAtRest(Rigid());
+  Model a = {0};
+  BodyState now;
+  Solid s;
+  double reaction[4];
+  body.nprescribed = 1;
+  body.prescribed = &motion;
+  AddRectangle(&a, 0.0, 0.0, 0.4, 0.1, 0.0, 0.05, 0, &body);
+  PetscCall(SolidCreate(PETSC_COMM_WORLD, &a, &setup, &s));
+  const SolidView v = ViewOf(s, NULL, NULL);
+  double *load = calloc(2 * (size_t)v.nnodes, sizeof *load);
+  for (int n = 0; n < v.nnodes; n++) load[2 * n + 1] = 40.0 * (v.rest[2 * n] > 0.1);
+  for (int k = 1; k <= 3; k++) { /* steps of several lengths */
+    PetscCall(RunStep(s, 0.001 * k, load));
+    PetscCall(SolidBodies(s, 1, &now));
+    PetscCall(SolidMotionReaction(s, "rail", reaction));
+    CHECK(now.moment > 1.0 && fabs(reaction[2] + now.moment) < 1e-9 * now.moment,
+          "the rail has the moment %.14g N, the load %.14g", reaction[2], now.moment);
+    CHECK(fabs(now.angle) < 1e-14, "turned by %g", now.angle);
+  }
+  free(load);
+  PetscCall(ModelDestroy(&a));
+  return SolidDestroy(&s);
+}
+
 int main(int argc, char **argv)
 {
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
@@ -219,5 +250,6 @@ int main(int argc, char **argv)
   PetscCall(Answers());
   PetscCall(Swings());
   PetscCall(Turns());
+  PetscCall(Guided());
   return PetscFinalize();
 }
