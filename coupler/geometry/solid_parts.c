@@ -2,8 +2,14 @@
 #include "common/exchange/union_find.h"
 #include "common/supermesh/geometry.h"
 
+static void Least(void *into, const void *next)
+{
+  long long *least = into;
+  *least = PetscMin(*least, *(const long long *)next);
+}
+
 /* label[nnodes]: the least number of the nodes that elements of any rank connect a node with. */
-static PetscErrorCode Label(MPI_Comm comm, const SolidState *solid, Copies nodes, double label[])
+static PetscErrorCode Label(MPI_Comm comm, const SolidState *solid, Copies nodes, long long label[])
 {
   int *root, changed = 1;
 
@@ -11,22 +17,21 @@ static PetscErrorCode Label(MPI_Comm comm, const SolidState *solid, Copies nodes
   PetscCall(PetscMalloc1(solid->nnodes, &root));
   for (int i = 0; i < solid->nnodes; i++) {
     root[i] = i;
-    label[i] = (double)solid->gid[i];
+    label[i] = solid->gid[i];
   }
   for (int k = 0; k < 3 * solid->nelements; k++)
     (void)UnionFindJoin(root, solid->element[k], solid->element[k - k % 3]);
   while (changed) {
     changed = 0;
     for (int i = 0; i < solid->nnodes; i++) {
-      double *least = &label[UnionFindRoot(root, i)];
-      *least = fmin(*least, label[i]);
+      Least(&label[UnionFindRoot(root, i)], &label[i]);
     }
     for (int i = 0; i < solid->nnodes; i++) {
-      const double least = label[UnionFindRoot(root, i)];
+      const long long least = label[UnionFindRoot(root, i)];
       if (label[i] > least) changed = 1;
       label[i] = least;
     }
-    PetscCall(CopiesMin(nodes, 1, label));
+    PetscCall(CopiesReduce(nodes, sizeof *label, Least, label));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, comm));
   }
   PetscCall(PetscFree(root));
@@ -35,15 +40,13 @@ static PetscErrorCode Label(MPI_Comm comm, const SolidState *solid, Copies nodes
 
 PetscErrorCode SolidPartsCreate(MPI_Comm comm, const SolidState *solid, Copies nodes, Copies *parts)
 {
-  double *label;
-  long long *number;
+  long long *label;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc2(solid->nnodes, &label, solid->nnodes, &number));
+  PetscCall(PetscMalloc1(solid->nnodes, &label));
   PetscCall(Label(comm, solid, nodes, label));
-  for (int i = 0; i < solid->nnodes; i++) number[i] = (long long)label[i];
-  PetscCall(CopiesCreateByNumber(comm, solid->nnodes, number, parts));
-  PetscCall(PetscFree2(label, number));
+  PetscCall(CopiesCreateByNumber(comm, solid->nnodes, label, parts));
+  PetscCall(PetscFree(label));
   PetscFunctionReturn(0);
 }
 
