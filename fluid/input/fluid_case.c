@@ -203,7 +203,7 @@ PetscErrorCode FluidCaseSetup(CoracleCase c, const Mesh *mesh, FluidSetup *setup
   }
   setup->theta = CoracleCaseNumberOr(c, "fluid.theta", PhaseHasTension(&setup->phases) ? 1.0 : 0.5, 0.5, 1.0);
   GravityRead(c, setup->gravity, &setup->gravity_table);
-  if (CoracleCaseHas(c, "fluid.initial")) CoracleCaseVector(c, "fluid.initial.velocity", 2, setup->velocity);
+  (void)CoracleCaseVectorOptional(c, "fluid.initial.velocity", 2, setup->velocity);
   ReadAbsorption(c, &names, &setup->absorption);
   setup->cfl = CoracleCasePositive(c, "time.cfl");
   setup->dt_max = CoracleCasePositive(c, "time.dt_max");

@@ -78,6 +78,8 @@ done
 case=$here/../coupled/level.yaml refused fluid "'fluid.boundaries.left.level': with a gravity that depends on time levels outside would slope" --set 'gravity=[[0, 0, -9.81], [1, 1, -9.81]]'
 ! grep -q "'fluid.boundaries.left':" "$scratch/log" || { echo "a fault is told again of the map that it is in:"; cat "$scratch/log"; exit 1; }
 
+refused fluid "unknown key 'fluid.initial.pressure'" --set 'fluid.initial={pressure: 100.0}'
+
 # options that nobody reads, folders that are none
 for part in solid coupler; do refused $part "'$part.petsc': nothing in the $part has the option -nonsense" --set "$part.petsc=-nonsense 1"; done
 for part in fluid solid coupler; do refused $part "'output.folder': expected a string, found 'null'" --set output.folder=null; done
