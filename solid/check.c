@@ -231,6 +231,7 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
     PetscCall(ProbesCheckPoints(c, PETSC_COMM_SELF, solid));
     PetscCall(Expect(c, solid, command));
     ExpectMotions(solid, run.end);
+    NoteTurns(solid, run.end, longest);
     RunCaseNoteSteps(run.end, longest);
     RunCaseNoteUnsaved(run.walltime, run.checkpoint);
     NoteWalls(c, solid, run.end);

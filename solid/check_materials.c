@@ -74,6 +74,25 @@ void ExpectMotions(Solid s, double end)
   }
 }
 
+/* rad: the fluid beside a body that turns by more in a step is not resolved in time. */
+#define FAR_TURN 1.0
+
+void NoteTurns(Solid s, double end, double dt_max)
+{
+  for (int k = 0; k < s->nprescribed; k++) {
+    const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
+    double velocity, turn;
+    PrescribedLargest(d, 0.0, d->release > 0.0 ? fmin(d->release, end) : end, &velocity, &turn);
+    turn *= d->period > 0.0 ? fmin(dt_max, d->period / PETSC_PI) : dt_max; /* there and back */
+    if (turn <= FAR_TURN) continue;
+    printf(
+        "note: solid.bodies[%d] is turned by up to %.3g rad in time.dt_max, %g s: the fluid around it needs "
+        "steps in which that is a few degrees\n",
+        s->body[s->node_body[s->prescribed[k].node]].entry, turn, dt_max);
+    return;
+  }
+}
+
 /* The coefficient that is given for a material's contacts with another, or with walls (other -1). */
 static double Given(Solid s, int m, int other)
 {

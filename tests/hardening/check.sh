@@ -136,6 +136,13 @@ solid 0 --set 'solid.bodies[0].fixed=false' --set 'solid.bodies[0].prescribed=[{
 grep -qF 'solid: body 0 is moved as foil by 0 to 0 m along x, by 0 to 0.02 m along y, turned by -0.01 to 0 rad about (0.3, 0.1) m, which moves with it' "$scratch/log" || fail "not where a motion gets"
 solid 0 --set 'solid.bodies[0].fixed=false' --set 'solid.bodies[0].prescribed=[{velocity: [0, 0]}]'
 ! grep -q 'is moved' "$scratch/log" || fail "a body at rest is moved"
+# one that turns by more than a radian in a step, which is 0.01 s
+turns() { solid "$1" --set time.dt_max=0.01 --set 'solid.bodies[0].fixed=false' --set "solid.bodies[0].prescribed=[{angular_velocity: $2, pivot: [0.3, 0.1]}]"; }
+turns 0 90
+turns 1 110
+grep -qF 'solid.bodies[0] is turned by up to 1.1 rad in time.dt_max, 0.01 s' "$scratch/log" || fail "another note"
+turns 0 '110, period: 0.02'
+turns 1 '[[0, 0], [0.01, -110]]'
 
 # no bodies, or none that moves
 png() { rm -f "$scratch/case.png"; check "$@" --png "$scratch/case.png" && [ -s "$scratch/case.png" ]; }
