@@ -264,6 +264,9 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
     Expect(mesh, (PetscBool)(setup.phases.n > 0), adapts, &adaptation);
     NoteBoundaries(mesh, &setup);
     NoteRegions(&setup, nregions, region);
+    NoteOutside(mesh, &setup, nregions, region);
+    NoteAbsent(mesh, &setup, nregions, region);
+    NoteGases(mesh, &setup);
     NoteLightest(&setup);
     NoteAbsorption(mesh, &setup.absorption);
   }

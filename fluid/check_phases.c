@@ -1,4 +1,6 @@
 #include "fluid/check_phases.h"
+#include "common/program/gravity.h"
+#include "common/supermesh/geometry.h"
 #include <stdio.h>
 
 /* The lowest and the highest vertex, against gravity, m. */
@@ -83,6 +85,86 @@ void NoteRegions(const FluidSetup *setup, int nregions, const Region region[])
            "leads out "
            "of it, points down\n",
            k, setup->phases.name[r->phase], r->b[0], r->b[1]);
+  }
+}
+
+/* The smallest box around a region; of a half plane the mesh's, empty if none of its corners is in it. */
+static GeometryBox BoxOf(const Mesh *m, const Region *r)
+{
+  GeometryBox box = GeometryBoxEmpty();
+  if (r->shape == REGION_BOX) {
+    GeometryBoxGrow(&box, r->a);
+    GeometryBoxGrow(&box, r->b);
+  }
+  for (int k = 0; r->shape == REGION_POLYGON && k < r->n; k++) GeometryBoxGrow(&box, r->x[k]);
+  for (int k = 0; k < 4; k++) {
+    const double disc[2] = {r->a[0] + (k % 2 ? r->radius : -r->radius),
+                            r->a[1] + (k / 2 ? r->radius : -r->radius)},
+                 corner[2] = {k % 2 ? m->upper[0] : m->lower[0], k / 2 ? m->upper[1] : m->lower[1]};
+    if (r->shape == REGION_DISC) GeometryBoxGrow(&box, disc);
+    if (r->shape != REGION_HALF_PLANE ||
+        (corner[0] - r->a[0]) * r->b[0] + (corner[1] - r->a[1]) * r->b[1] >= 0.0)
+      continue;
+    GeometryBoxGrow(&box, m->lower);
+    GeometryBoxGrow(&box, m->upper);
+  }
+  return box;
+}
+
+void NoteOutside(const Mesh *m, const FluidSetup *setup, int nregions, const Region region[])
+{
+  for (int k = 0; k < nregions; k++) {
+    const GeometryBox box = BoxOf(m, &region[k]);
+    if (box.lower[0] < m->upper[0] && box.upper[0] > m->lower[0] && box.lower[1] < m->upper[1] &&
+        box.upper[1] > m->lower[1])
+      continue;
+    printf("note: fluid.regions[%d], of %s, lies outside of the domain, [%g, %g] x [%g, %g] m\n", k,
+           setup->phases.name[region[k].phase], m->lower[0], m->upper[0], m->lower[1], m->upper[1]);
+  }
+}
+
+static PetscBool ComesIn(const Mesh *m, const FluidSetup *setup, int phase)
+{
+  for (int b = 0; b < m->ntags; b++) {
+    const BoundaryPhases *at = &setup->boundary[b].phases;
+    if (at->inflow[phase] > 0.0) return PETSC_TRUE;
+    for (int k = 0; k < at->nlevels; k++)
+      if (at->level_phase[k] == phase) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
+void NoteAbsent(const Mesh *m, const FluidSetup *setup, int nregions, const Region region[])
+{
+  const PhaseProperties *phases = &setup->phases;
+  for (int p = 0; p < phases->n; p++) {
+    PetscBool there = (PetscBool)(p == PhaseLightest(phases) || ComesIn(m, setup, p));
+    for (int k = 0; k < nregions; k++) there = (PetscBool)(there || region[k].phase == p);
+    if (!there)
+      printf(
+          "note: fluid.phases: there is no %s: it is in none of fluid.regions and comes in at no boundary\n",
+          phases->name[p]);
+  }
+}
+
+void NoteGases(const Mesh *m, const FluidSetup *setup)
+{
+  const PhaseProperties *phases = &setup->phases;
+  const double g = GravityLargest(setup->gravity, &setup->gravity_table);
+  double heights[2], heaviest = 0.0;
+  if (g == 0.0) return;
+  if (hypot(setup->gravity[0], setup->gravity[1]) > 0.0)
+    Heights(m, setup->gravity, heights);
+  else
+    heights[0] = 0.0, heights[1] = hypot(m->upper[0] - m->lower[0], m->upper[1] - m->lower[1]);
+  for (int p = 0; p < phases->n; p++) heaviest = fmax(heaviest, phases->rho[p]);
+  const double weight = heaviest * g * (heights[1] - heights[0]);
+  for (int p = 0; p < phases->n; p++) {
+    const double pressure = phases->state[p].pressure + phases->initial_pressure[p];
+    if (phases->state[p].pressure == 0.0 || pressure >= weight) continue;
+    printf("note: fluid.phases: %s has an absolute pressure of %.3g Pa at the start, and what the domain may "
+           "hold above it weighs up to %.3g Pa: caught beneath it is compressed to less than half\n",
+           phases->name[p], pressure, weight);
   }
 }
 

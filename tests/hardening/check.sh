@@ -105,9 +105,28 @@ grep -q 'fluid.regions\[1\]: the half plane of water lies above its edge' "$scra
 
 # which of two phases of the least density fills solids
 third='fluid.phases=[{name: water, density: 1000.0, viscosity: 1.0e-3}, {name: air, density: 1.2, viscosity: 1.8e-5}, {name: gas, density: 1.2, viscosity: 1.8e-5}]'
-level 1 --set "$third"
+somewhere='fluid.regions=[{phase: air}, {phase: water, lower: [-1.0, -1.0], upper: [9.0, 0.3]}, {phase: gas, centre: [2.0, 0.1], radius: 0.05}]'
+level 1 --set "$third" --set "$somewhere"
 grep -q 'air and gas have the same density, the least: air counts as the lightest' "$scratch/log" || fail "another note"
-level 0 --set "${third/gas, density: 1.2/gas, density: 1.21}"
+level 0 --set "${third/gas, density: 1.2/gas, density: 1.21}" --set "$somewhere"
+
+# regions outside of the domain, a phase that is nowhere, a gas that is weaker than the water that may lie above it
+for shape in 'lower: [5, 0], upper: [6, 1]' 'centre: [2, -1], radius: 0.9' 'point: [9, 0], normal: [-1, 0]' 'polygon: [[4.1, 0], [5, 0], [5, 1]]'; do
+  level 1 --set "fluid.regions=[{phase: air}, {phase: water, lower: [-1.0, -1.0], upper: [9.0, 0.3]}, {phase: water, $shape}]"
+  grep -qF 'fluid.regions[2], of water, lies outside of the domain, [0, 4] x [0, 0.5] m' "$scratch/log" || fail "another note"
+done
+level 0 --set 'fluid.regions=[{phase: air}, {phase: water, centre: [2, -1], radius: 1.1}, {phase: water, point: [0, 0.1], normal: [0, 1]}]'
+oil='fluid.phases=[{name: air, density: 1.2, viscosity: 1.8e-5}, {name: water, density: 1000.0, viscosity: 1.0e-3}, {name: oil, density: 800.0, viscosity: 1.0e-3}]'
+level 1 --set "$oil"
+grep -q 'there is no oil: it is in none of fluid.regions and comes in at no boundary' "$scratch/log" || fail "another note"
+level 0 --set "$oil" --set 'fluid.boundaries.left={level: [{phase: water, height: 0.2}, {phase: oil, height: 0.3}]}'
+level 0 --set "$oil" --set 'fluid.boundaries.left={velocity: [0.1, 0], phase: oil}'
+level 0 --set 'fluid.regions=[{phase: water}]'
+gas='fluid.phases=[{name: air, density: 1.2, viscosity: 1.8e-5, gas: {pressure: 4900.0}}, {name: water, density: 1000.0, viscosity: 1.0e-3}]'
+level 1 --set "$gas"
+grep -q 'air has an absolute pressure of 4.9e+03 Pa at the start, and what the domain may hold above it weighs up to 4.9e+03 Pa' "$scratch/log" || fail "another note"
+level 0 --set "${gas/4900.0/4900.0, initial_pressure: 10.0}"
+level 0 --set "$gas" --set 'gravity=[0, 0]' --set fluid.boundaries.left=open
 
 # walls that water passes through, beside air alone
 wall() { "$build/solid/coracle-solid" --check "$root/tests/coupled/fixed.yaml" --set "solid.bodies[0].width=$2" "${@:3}" >"$scratch/log" 2>&1 && notes "$1" || fail "not $1 notes of a wall of $2 m"; }
