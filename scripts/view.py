@@ -43,11 +43,21 @@ def find_files(run):
     return paths
 
 
+def common_times(run):
+    """Those of the snapshots that all of the run's files have: of a run that goes on, or was stopped, one may have a snapshot more."""
+    times, *others = (read_times(path) for path in find_files(run).values())
+    times = [t for t in times if all(abs(other - t).min() <= 1e-6 * max(1.0, abs(t)) for other in others)]
+    if not times:
+        raise LookupError(f"{run}: fluid.h5 and solid.h5 have no snapshot of the same time")
+    return np.array(times)
+
+
 def read_grids(run, time):
     """Time and {"fluid velocity": Grid, ..., "solid": Grid} of what the run has."""
-    grids, found = {}, time
+    grids, times = {}, common_times(run)
+    found = times[-1] if time is None else times[np.argmin(abs(times - time))]
     for part, path in find_files(run).items():
-        found, parts = read_snapshot(path, found)
+        _, parts = read_snapshot(path, found)
         grids.update({part if part == name else f"{part} {name}": grid for name, grid in parts.items()})
     return found, grids
 
@@ -73,6 +83,8 @@ def select(found, wanted):
     grid, values = found[keys[0]]
     if not len(values):
         raise LookupError(f"there is nothing to draw of '{wanted}': the run has no bodies")
+    if component and values.ndim == 1:
+        raise LookupError(f"{name} has no components")
     if values.ndim == 1:
         return grid, values, f"{keys[0][0]}: {name}"
     if component:
@@ -164,7 +176,7 @@ def draw(arguments):
 
 
 def animation(arguments):
-    times = read_times(next(iter(find_files(arguments.run).values())))
+    times = common_times(arguments.run)
     view = lambda time: View(arguments.run, arguments.field, time)
     figure, axes, window, limits, _ = start(arguments, map(view, times))
 

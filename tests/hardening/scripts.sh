@@ -15,6 +15,8 @@ no_picture() { # EXPECTED RUN options: one line
   [ "$(wc -l <"$scratch/log")" -eq 1 ] && grep -q "$1" "$scratch/log" || { cat "$scratch/log"; exit 1; }
 }
 no_picture 'stress has the components xx, yy, xy' "$scratch/x" --field solid:stress.z
+no_picture 'velocity has the components x, y' "$scratch/x" --field velocity.z
+no_picture 'pressure has no components' "$scratch/x" --field pressure.x
 no_picture 'nothing in the window (3.0, 3.0, 4.0, 4.0): all lies from (0, 0) to (2, 2)' "$scratch/x" --window 3 3 4 4
 no_picture "Format 'none' is not supported" "$scratch/x" --out "$scratch/x.none"
 sed '/^coupler:/d' "$here/disc.yaml" >"$scratch/bodiless.yaml"
@@ -44,6 +46,11 @@ assert phases.names == ["air", "water"] and phases.dense()[0] == ["water"] and a
 frames = [Image.open(f"{folder}/{name}.gif").n_frames for name in ("view", "speed")]
 assert frames == [len(snapshot_times(folder))] * 2 == [3, 3] and Image.open(folder + "/phases.png").width > 900, frames
 E3
+# of a run whose fluid has written a snapshot more those that the solid has, too
+mkdir "$scratch/ahead" && cp "$scratch/x/"*.h5 "$scratch/ahead"
+"$python" -c 'import h5py, sys; file = h5py.File(sys.argv[1], "a"); del file["snapshot"][max(file["snapshot"])]' "$scratch/ahead/solid.h5"
+"$root/scripts/view.sh" "$scratch/ahead" --animate >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
+"$python" -c 'import sys; from PIL import Image; frames = Image.open(sys.argv[1]).n_frames; assert frames == 2, frames' "$scratch/ahead/view.gif"
 no_picture 'has no fluid.h5 and no solid.h5' "$scratch" --animate
 if "$root/scripts/view.sh" "$scratch/x" --field colour 2>"$scratch/log"; then echo 'a field that is not there was drawn'; exit 1; fi
 grep -q "there is no field 'colour': .*solid:stress" "$scratch/log" || { cat "$scratch/log"; exit 1; }
