@@ -47,10 +47,13 @@ class Kit:
         for item in [*self.arguments.set, *(f"coupler.conformance.{key}={value}" for key, value in given.items())]:
             command += ["--set", item]
         start = time.time()
-        try:
-            done = subprocess.run(command, capture_output=True, text=True, timeout=self.arguments.timeout, check=False)
-            return done.returncode, done.stdout + done.stderr, time.time() - start
-        except subprocess.TimeoutExpired:
+        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as launched:
+            try:
+                output = "".join(launched.communicate(timeout=self.arguments.timeout))
+                return launched.returncode, output, time.time() - start
+            except subprocess.TimeoutExpired:
+                launched.terminate()  # mpirun ends its ranks then; killed it would leave them
+                launched.communicate()
             return 1, f"error: it has not ended within {self.arguments.timeout} s", self.arguments.timeout
 
     def say(self, name, good, text):

@@ -108,6 +108,12 @@ for label, table in zip(("cracks-1-1-1", "cracks-1-1-2"), tables):
     assert len(before) == solid[max(solid)]["pieces"] >= 2
 assert [[row[key] for key in ("t [s]", "fragment", "parent", "elements")] for row in tables[0]] == [[row[key] for key in ("t [s]", "fragment", "parent", "elements")] for row in tables[1]]
 E4
+# an outside solid that does not end is ended with its run
+printf '#!/bin/sh\necho $$ >%q\nexec sleep 600\n' "$scratch/pid" >"$scratch/endless" && chmod +x "$scratch/endless"
+if "$python" "$root/scripts/conform.py" --solid "$scratch/endless" --bin "$build" --ranks 1 --timeout 10 "$here/disc.yaml" >"$scratch/log" 2>&1; then echo 'a solid that does not end conforms'; exit 1; fi
+grep -q 'it has not ended within 10' "$scratch/log" || { cat "$scratch/log"; exit 1; }
+for try in $(seq 100); do kill -0 "$(cat "$scratch/pid")" 2>/dev/null || break; sleep 0.1; done
+[ "$try" -lt 100 ] || { kill "$(cat "$scratch/pid")"; echo 'a solid that does not end was left'; exit 1; }
 # runs that resume from the same one, in several jobs at a time: it is run once
 "$python" -B - "$root" "$scratch/jobs" <<'E2'
 import concurrent.futures, pathlib, sys, time
