@@ -20,15 +20,17 @@ def read_column(path, wanted):
     """Times and values; wanted with or without its unit."""
     try:
         with open(path) as lines:
-            rows = list(csv.reader(line.lstrip("#") for line in lines if line.strip()))
+            # the last row of a running case may be half written
+            rows = list(csv.reader(line.lstrip("#") for line in lines if line.strip() and line.endswith("\n")))
     except OSError as error:
         sys.exit(f"modes: {path}: {error.strerror}")
+    if not rows:
+        sys.exit(f"modes: {path}: there is no row yet")
     names = [name.strip() for name in rows[0]]
     places = [k for k, name in enumerate(names) if wanted in (name, name.split("[")[0].strip())]
     if not places:
         sys.exit(f"modes: {path} has no column {wanted}: it has {', '.join(names)}")
-    rows = [row for row in rows[1:] if len(row) == len(names)]  # the last one of a running case may be half written
-    return [float(row[0]) for row in rows], [float(row[places[0]]) for row in rows]
+    return [float(row[0]) for row in rows[1:]], [float(row[places[0]]) for row in rows[1:]]
 
 
 def resample(t, values):

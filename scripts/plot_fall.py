@@ -19,6 +19,8 @@ def read_table(path):
     names, rows = None, []
     with open(path) as lines:
         for line in lines:
+            if not line.endswith("\n"):
+                break  # the last row of a running case may be half written
             fields = line.strip().lstrip("#").split(",")
             try:
                 rows.append([float(field) for field in fields])
@@ -27,7 +29,7 @@ def read_table(path):
                     names = [field.strip() for field in fields]
     if names is None or not rows:
         sys.exit(f"plot_fall: {path} has {'no rows' if names else 'no line with column names'}")
-    rows = [row for row in rows if len(row) == len(names)]  # the last one of a running case may be half written
+    rows = [row for row in rows if len(row) == len(names)]
     return dict(zip(names, np.array(rows).T))
 
 

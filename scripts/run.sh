@@ -17,7 +17,9 @@ usage() { sed -n '2,10p' "$0" | cut -c3-; }
 case="" ranks=1:1:1 out="" bin="" sets=() alone=()
 while [ $# -gt 0 ]; do
   case "$1" in
-    --set) sets+=(--set "${2:?--set needs key=value}"); shift 2 ;;
+    --set)
+      case "${2:?--set needs key=value}" in output.folder=*) echo "run.sh: the output folder is that of --out (see --help)" >&2; exit 2 ;; esac
+      sets+=(--set "$2"); shift 2 ;;
     --ranks) ranks=${2:?--ranks needs F:C:S}; shift 2 ;;
     --alone) alone=(--alone); shift ;;
     --resume) sets+=(--set resume=last); shift ;;

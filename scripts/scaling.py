@@ -114,6 +114,8 @@ def main():
             print(scaling_model.describe(rows[-1]), flush=True)
     path = pathlib.Path(arguments.out)
     rows = write(path / "scaling.csv", rows)
+    if not rows:
+        sys.exit(f"scaling.py: {path}/scaling.csv has no rows yet: expected --splits or --weak")
     tables, models = scaling_model.tables(rows)
     for mark, lines in tables.items():
         print("\n".join(lines) + "\n")

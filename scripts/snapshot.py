@@ -238,10 +238,10 @@ def write_figure(figure, path):
 
 
 def save(draw, arguments, path, name, write=write_figure):
-    """What draw(arguments) makes into arguments.out, or else `path`; what is not there ends the script called `name`."""
+    """What draw(arguments) makes into arguments.out, or else `path`; what is not there or cannot be read ends the script called `name`."""
     try:
         made = draw(arguments)
-    except LookupError as error:
+    except (LookupError, OSError) as error:
         sys.exit(f"{name}: {error}")
     path = arguments.out or path
     try:

@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# Scripts that read what a run has left behind, on what they hardly ever meet: files that are empty, half written or none, gauges that are dry, blocks
+# that do not crack, meshes of round numbers, jobs that need the same run.  No run.  Usage: readers.sh ROOT BUILD
+set -euo pipefail
+source "$(dirname "$0")/../coupled/run.sh"
+"$python" -c 'import numpy, h5py, matplotlib' 2>/dev/null || { echo 'needs numpy, h5py and matplotlib'; exit 77; }
+says() { # LINE COMMAND ...: it fails with this last line, and no trace of Python's
+  if "${@:2}" >/dev/null 2>"$scratch/log"; then echo "accepted: ${*:2}"; exit 1; fi
+  tail -1 "$scratch/log" | grep -qF "$1" && ! grep -q Traceback "$scratch/log" || { echo "${*:2}: expected '$1', got:"; cat "$scratch/log"; exit 1; }
+}
+
+odd="$scratch/a folder"
+mkdir "$odd"
+touch "$odd/solid.csv" "$odd/fluid.h5"
+says 'there is no row yet' "$python" "$root/scripts/modes.py" "$odd"
+says 'has no line with column names' "$python" "$root/scripts/plot_fall.py" "$odd"
+says 'Unable to open file' "$root/scripts/view.sh" "$odd"
+says 'Unable to open file' "$python" "$root/scripts/plot_field.py" "$odd"
+says 'scaling.csv has no rows yet: expected --splits or --weak' "$python" "$root/scripts/scaling.py" "$here/disc.yaml" --out "$odd"
+says 'the output folder is that of --out' "$root/scripts/run.sh" --bin "$build" "$root/tests/solid/alone.yaml" --alone --set "output.folder=$odd"
+
+# a row that is half written has numbers that are cut off
+{ echo 't [s],v0 [m/s]'; for k in $(seq 10 40); do echo "0.$k,-0.$k"; done; printf '0.41,-0.4'; } >"$odd/solid.csv"
+"$python" "$root/scripts/plot_fall.py" "$odd" >/dev/null
+PYTHONPATH=$root/scripts "$python" - "$odd/solid.csv" <<'E2'
+import sys
+import modes, plot_fall
+assert modes.read_column(sys.argv[1], "v0")[1][-1] == -0.40 and plot_fall.fall_speed(sys.argv[1])[1][-1] == 0.40
+E2
