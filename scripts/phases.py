@@ -33,12 +33,12 @@ def read_probes(folder):
 
 
 def crossing(t, values, level):
-    """When the values first reach the level from below, linear between rows; nan if they do not."""
+    """When the values first reach the level from below, linear between rows, nan if they do not; values may be nan, as of a gauge that is dry."""
     k = int(np.argmax(values >= level))
-    if values[k] < level:
+    if not values[k] >= level:
         return float("nan")
-    if k == 0:
-        return float(t[0])
+    if k == 0 or np.isnan(values[k - 1]):
+        return float(t[k])
     return float(t[k - 1] + (level - values[k - 1]) / (values[k] - values[k - 1]) * (t[k] - t[k - 1]))
 
 

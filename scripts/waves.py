@@ -80,6 +80,8 @@ def irregular(t, elevation, places, depth, gravity):
     variance = 0.5 * (abs(values)**2).mean(axis=0)
     smooth = np.convolve(variance, np.ones(SMOOTHED), "same")
     smooth[0] = 0.0
+    if not smooth.max() > 0.0:
+        refuse("there are no waves at the gauges")
     peak = f[smooth.argmax()]
     band = (f >= BAND[0] * peak) & (f <= BAND[1] * peak)
     if band.sum() < 2 * SMOOTHED:
@@ -197,6 +199,8 @@ def main():
         values = columns[name + "_last"]
         if not np.isfinite(values[keep]).all():
             refuse("gauge '%s' has no surface in some rows: expected one that is never dry" % name)
+        if o.level is None and not np.isfinite(values[0]):
+            refuse("gauge '%s' has no surface in its first row: expected --level" % name)
         elevation.append(values[keep] - (values[0] if o.level is None else o.level))
     report_gauges(o.gauges, t, elevation)
     rows = None

@@ -27,3 +27,19 @@ import sys
 import modes, plot_fall
 assert modes.read_column(sys.argv[1], "v0")[1][-1] == -0.40 and plot_fall.fall_speed(sys.argv[1])[1][-1] == 0.40
 E2
+
+# a gauge that is dry at the start, that never has water, and still water
+PYTHONPATH=$root/scripts "$python" - "$odd" <<'E2'
+import sys
+import numpy as np
+from phases import crossing
+dry, t = np.nan, np.arange(4.0)
+found = [crossing(t, np.array(v), 1.0) for v in ([dry] * 4, [dry, 0.0, 0.2, 0.4], [dry, dry, 2.0, 3.0], [0.0, 0.5, 1.5, 2.0], [1.0, 1.0, 1.0, 1.0])]
+assert np.array_equal(found, [np.nan, np.nan, 2.0, 1.5, 0.0], equal_nan=True), found
+t = np.linspace(0.0, 20.0, 400)
+wave = np.where(t > 0.0, 0.5 + 0.01 * np.cos(5.0 * t), dry)
+np.savetxt(sys.argv[1] + "/fluid_probes.csv", np.array([t, wave, 0.5 + 0.0 * t, 0.5 + 0.0 * t]).T, "%.9g", ",", header="t [s],dry_last [m],a_last [m],b_last [m]", comments="")
+E2
+says "gauge 'dry' has no surface in its first row: expected --level" "$python" "$root/scripts/waves.py" "$odd" --depth 0.5 dry=1 --from 1
+"$python" "$root/scripts/waves.py" "$odd" --depth 0.5 dry=1 --from 1 --level 0.5 >/dev/null
+says 'there are no waves at the gauges' "$python" "$root/scripts/waves.py" "$odd" --depth 0.5 a=1 b=1.3
