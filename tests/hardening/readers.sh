@@ -43,3 +43,18 @@ E2
 says "gauge 'dry' has no surface in its first row: expected --level" "$python" "$root/scripts/waves.py" "$odd" --depth 0.5 dry=1 --from 1
 "$python" "$root/scripts/waves.py" "$odd" --depth 0.5 dry=1 --from 1 --level 0.5 >/dev/null
 says 'there are no waves at the gauges' "$python" "$root/scripts/waves.py" "$odd" --depth 0.5 a=1 b=1.3
+
+# elements of a regular mesh are the same in all snapshots, wherever their nodes are
+PYTHONPATH=$root/scripts "$python" - <<'E2'
+import types
+import numpy as np
+from fragments import Elements
+x, y = np.append(0.015 * np.arange(213), 3.2), 0.015 * np.arange(3)
+rest, m = np.array([[a, b] for b in y for a in x]), len(x)
+cells = np.array([t for j in range(2) for a in range(j * m, j * m + m - 1) for t in ((a, a + 1, a + m), (a + 1, a + m + 1, a + m))])
+def at(displacement):
+    field = {"fragment": np.zeros(len(cells)), "body": np.zeros(len(cells)), "damage": np.zeros(len(cells))}
+    return Elements(types.SimpleNamespace(points=rest + displacement, cells=cells, node={"displacement": displacement, "velocity": displacement}, cell=field))
+rng, first = np.random.default_rng(1), at(0.0 * rest)
+assert all(at(rng.random(rest.shape)).same_as(first) for _ in range(5))
+E2
