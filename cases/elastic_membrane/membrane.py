@@ -9,7 +9,7 @@ import numpy as np
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent.parent / "scripts"))
-from snapshot import read_snapshot
+from snapshot import read_snapshot, whole_snapshots
 
 RADIUS, THICKNESS = 0.5, 0.005  # m, of the middle line and of the wall at rest
 REST_LENGTH = 2.0 * np.pi * RADIUS
@@ -55,10 +55,9 @@ def history(folder):
     """Arrays t, rx, ry, area, length (of the middle line), radius (of the circle with that area)."""
     rows = []
     with h5py.File(folder / "solid.h5", "r") as file:
-        for name in sorted(file["snapshot"]):
-            group = file["snapshot"][name]
+        for group, time in zip(*whole_snapshots(file, folder / "solid.h5")):
             x = middle_line(group["solid"])
-            rows.append((group.attrs["time"], half_axis(x, 0), half_axis(x, 1), closed_area(x),
+            rows.append((time, half_axis(x, 0), half_axis(x, 1), closed_area(x),
                          np.sum(np.hypot(*(np.roll(x, -1, axis=0) - x).T))))
     shape = dict(zip(("t", "rx", "ry", "area", "length"), np.array(rows).T))
     shape["radius"] = np.sqrt(shape["area"] / np.pi)

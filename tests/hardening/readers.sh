@@ -58,3 +58,19 @@ def at(displacement):
 rng, first = np.random.default_rng(1), at(0.0 * rest)
 assert all(at(rng.random(rest.shape)).same_as(first) for _ in range(5))
 E2
+
+# a membrane whose last snapshot is in the making
+"$python" - "$root" "$odd" <<'E2'
+import pathlib, sys
+sys.path[:0] = [sys.argv[1] + "/cases/elastic_membrane", sys.argv[1] + "/scripts"]
+import h5py, numpy as np
+import membrane
+angle = np.linspace(-3.0, 3.0, 20)
+ring = np.concatenate([r * np.column_stack([np.cos(angle), np.sin(angle)]) for r in (0.49, 0.51)])
+with h5py.File(sys.argv[2] + "/solid.h5", "w") as file:
+    group = file.create_group("snapshot/000000")
+    group.attrs["time"] = 0.0
+    group["solid/points"], group["solid/node/displacement"] = ring, 0.0 * ring
+    file.create_group("snapshot/000001")
+assert list(membrane.history(pathlib.Path(sys.argv[2]))["t"]) == [0.0]
+E2
