@@ -49,9 +49,13 @@ class Budget:
         return energy - energy[0]
 
     def first_crack(self):
-        """Time at which the first joint has broken, s; None: none has."""
+        """Time at which the first joint has broken, s; inf: none has."""
         broken = np.flatnonzero(self.broken > 0)
-        return self.t[broken[0]] if len(broken) else None
+        return self.t[broken[0]] if len(broken) else np.inf
+
+    def crack_energy(self, k=-1):
+        """Fracture energy over the length of the cracks at row k, J/m2; nan: there are none."""
+        return self.debonded[k] / self.cracks[k] if self.cracks[k] > 0.0 else np.nan
 
 
 def cumulative(steps):

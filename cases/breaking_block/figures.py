@@ -12,7 +12,6 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
 
-import h5py
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.animation import PillowWriter
@@ -20,18 +19,13 @@ from matplotlib.colors import ListedColormap
 from matplotlib.tri import Triangulation
 
 from budget import Budget
-from snapshot import Window, outline, read_snapshot, vorticity
+from snapshot import Window, outline, read_snapshot, read_times, vorticity
 
 STRONGEST = 40.0  # 1/s, end of the colour scale of the vorticity
 SERIES = (0.4, 0.7, 0.76, 0.86, 1.1, 1.4, 1.8, 2.2)  # s
 SMALL = 2  # triangles: fragments of no more are all of one colour
 COLOURS = [plt.colormaps["Set2"](k) for k in range(7)] + [plt.colormaps["Set3"](k) for k in (0, 2, 3, 4, 5, 6, 9, 11)]
 SAND, STEEL = (0.80, 0.72, 0.55, 1.0), (0.35, 0.35, 0.38, 1.0)
-
-
-def snapshot_times(folder):
-    with h5py.File(os.path.join(folder, "solid.h5"), "r") as file:
-        return [file["snapshot"][name].attrs["time"] for name in sorted(file["snapshot"]) if len(file["snapshot"][name])]
 
 
 def element_colours(folder, end):
@@ -95,7 +89,7 @@ def draw_budget(folder):
     middle.set(ylabel="energy [J/m]")
     right.plot(b.t, b.pieces, label=f"pieces, {b.pieces[-1]:.0f} in the end")
     right.plot(b.t, b.broken, label=f"broken joints, {b.broken[-1]:.0f} in the end")
-    first = b.first_crack() or 0.0
+    first = min(b.first_crack(), b.t[-1])
     for axis, span, place in ((left, (0.0, b.t[-1]), (1.0, 0.31)), (middle, (0.0, b.t[-1]), (1.0, 0.5)),
                               (right, (max(first - 0.01, 0.0), first + 0.05), (1.0, 0.5))):
         axis.set(xlabel="t [s]", xlim=span)
@@ -122,7 +116,7 @@ def main():
     parser.add_argument("--still", action="store_true", help="no animation")
     arguments = parser.parse_args()
     folder = arguments.folder
-    times = snapshot_times(folder)
+    times = read_times(os.path.join(folder, "solid.h5"))
     colours = element_colours(folder, times[-1])
     for figure, name in ((draw_series(folder, colours), "breaking.png"), (draw_budget(folder), "budget.png")):
         path = os.path.join(folder, name)

@@ -122,7 +122,7 @@ def runs_table(there):
             continue
         yield "| " + " | ".join([
             name, "%.4f" % b.first_crack(), "%.1f" % r.stream, "%.1f" % r.lost, "%.0f" % r.foot, "%.2f" % b.cracks[n],
-            "%.2f" % (b.debonded[n] / b.cracks[n]), "%.0f" % (b.pieces[n] - 1), ", ".join("%.0f %%" % (100 * p) for p in r.pieces[:3]),
+            "%.2f" % b.crack_energy(n), "%.0f" % (b.pieces[n] - 1), ", ".join("%.0f %%" % (100 * p) for p in r.pieces[:3]),
             "%.0e" % max(b.momentum_error(0), b.momentum_error(1)), "%.2g" % max(b.excess.max(), 0.0), "%.0e" % r.imbalance,
             str(r.triangles), str(len(r.t))]) + " |"
 
@@ -154,7 +154,7 @@ def claims(there):
             yield name + ": momentum of the solids, " + "xy"[c], b.momentum_error(c), 1e-6
         yield name + ": imbalance of fluid and solids", r.imbalance, 1e-10
         yield name + ": energy from nothing, of the thrower's", b.excess.max() / b.reaction_work[-1], 1e-3
-        yield name + ": cracks cost G_f", abs(b.debonded[-1] / b.cracks[-1] / TOUGHNESS - 1.0), ramp()
+        yield name + ": cracks cost G_f", abs(b.crack_energy() / TOUGHNESS - 1.0), ramp()
     if "base" not in there:
         return
     base = there["base"]
