@@ -11,9 +11,11 @@ import concurrent.futures
 import fnmatch
 import pathlib
 import subprocess
+import threading
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 OUT = ROOT / "out" / "validation"
+LOCKS = {}  # of the runs' folders
 PROGRAMS = ("coracle-fluid", "coracle-coupler", "coracle-solid")
 
 
@@ -36,10 +38,11 @@ def launch_coupled(case, folder, keys, ranks, after=None):
 
 
 def run(case, folder, keys, ranks, after=None):
-    """launch_coupled() of what has not come to its end before: its summary.json is not there."""
-    if (folder / "summary.json").exists():
-        return
-    failed = launch_coupled(case, folder, keys, ranks, after)
+    """launch_coupled() of what has not come to its end before: its summary.json is not there.  Of several jobs that need it one runs it."""
+    with LOCKS.setdefault(folder, threading.Lock()):
+        if (folder / "summary.json").exists():
+            return
+        failed = launch_coupled(case, folder, keys, ranks, after)
     print("FAILED %s: see %s/log.txt" % (folder.name, folder) if failed else "done " + folder.name, flush=True)
 
 

@@ -93,3 +93,20 @@ assert " inf " in list(validate.runs_table(there))[2]
 claims = {what: measured <= bound for what, measured, bound in validate.claims(there)}
 assert not claims["solid-2: first crack as in base, s"] and not claims["base: cracks cost G_f"] and claims["base: comes to its end"], claims
 E2
+
+# runs that resume from the same one, in several jobs at a time: it is run once
+"$python" -B - "$root" "$scratch/jobs" <<'E2'
+import concurrent.futures, pathlib, sys, time
+sys.path[:0] = [sys.argv[1] + "/cases/vibrating_cylinder", sys.argv[1] + "/scripts"]
+import validate, validation
+validate.OUT, begun = pathlib.Path(sys.argv[2]), []
+def launch_coupled(case, folder, keys, ranks, after=None):
+    begun.append(folder.name)
+    folder.mkdir(parents=True)
+    time.sleep(0.2)
+    (folder / "summary.json").touch()
+validation.launch_coupled = launch_coupled
+with concurrent.futures.ThreadPoolExecutor(2) as pool:
+    list(pool.map(validate.run, ["u5-0.025", "u5-0.05"]))
+assert begun == ["u5-0.05", "u5-0.025"], "runs begun: %s" % begun
+E2
