@@ -12,7 +12,10 @@ bin=$coracle/build           # of an installed package: /usr/bin
 
 export OPENBLAS_NUM_THREADS=1
 programs=coracle-$SLURM_JOB_ID.conf
-# the run ends five minutes before the job does, with a checkpoint; sbatch slurm.sh my_case.yaml --set resume=last goes on
-[ -z "${SLURM_JOB_END_TIME:-}" ] || set -- "$@" --set time.walltime=$((SLURM_JOB_END_TIME - $(date +%s) - 300))
+# the run ends five minutes before the job does, or half way if that is sooner, with a checkpoint; sbatch slurm.sh my_case.yaml --set resume=last goes on
+if [ -n "${SLURM_JOB_END_TIME:-}" ]; then
+  left=$((SLURM_JOB_END_TIME - $(date +%s)))
+  set -- "$@" --set time.walltime=$((left > 600 ? left - 300 : left > 2 ? left / 2 : 1))
+fi
 "$coracle/scripts/launch.sh" --bin "$bin" --ranks "$ranks" --print srun --write "$programs" "$@"
 srun -n "$SLURM_NTASKS" --multi-prog "$programs"

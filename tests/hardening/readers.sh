@@ -110,3 +110,14 @@ with concurrent.futures.ThreadPoolExecutor(2) as pool:
     list(pool.map(validate.run, ["u5-0.025", "u5-0.05"]))
 assert begun == ["u5-0.05", "u5-0.025"], "runs begun: %s" % begun
 E2
+
+# a batch job of any length ends before it is over
+mkdir -p "$scratch/coracle" "$scratch/bin"
+ln -s "$root/scripts" "$scratch/coracle/scripts" && ln -s "$build" "$scratch/coracle/build"
+printf '#!/bin/sh\n' >"$scratch/bin/srun" && chmod +x "$scratch/bin/srun"
+for left in 3600:3300 600:300 200:100 1:1; do
+  (cd "$scratch" && env HOME="$scratch" PATH="$scratch/bin:$PATH" SLURM_JOB_ID=7 SLURM_NTASKS=21 SLURM_JOB_END_TIME=$(($(date +%s) + ${left%:*})) \
+    "$root/scripts/slurm.sh" "$here/disc.yaml" >"$scratch/log" 2>&1) || { cat "$scratch/log"; exit 1; }
+  wall=$(sed -n 's/.*time.walltime=//p' "$scratch/coracle-7.conf" | sort -u)
+  [ "$wall" -ge 1 ] && [ "$wall" -le "${left#*:}" ] && [ "$wall" -ge $((${left#*:} - 5)) ] || { echo "of a job of ${left%:*} s: time.walltime=$wall"; exit 1; }
+done
