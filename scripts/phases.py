@@ -14,7 +14,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.tri import Triangulation
 
 from series import read_series
-from snapshot import Window, outline, read_bodies, read_snapshot, read_times, vertices
+from snapshot import Window, common_times, outline, read_run, run_files, vertices
 
 AIR, WATER = (0.93, 0.96, 0.98), (0.10, 0.35, 0.65)
 INTERFACE = "C3"
@@ -43,7 +43,8 @@ def crossing(t, values, level):
 
 
 def snapshot_times(folder):
-    return read_times(os.path.join(folder, "fluid.h5"))
+    """Of the snapshots that have the bodies, too, where there are any."""
+    return common_times(*run_files(folder))
 
 
 def find_phases(grid):
@@ -161,8 +162,8 @@ def paint_arrows(axes, grid, spacing):
 
 def paint_phases(axes, folder, time, phase, arrows=0.0, mesh=False):
     """The fraction of the phase of this name by elements, bodies white; arrows: spacing of velocities, m; returns the time found."""
-    found, fluid = read_snapshot(os.path.join(folder, "fluid.h5"), time)
-    grid, body = fluid["velocity"], read_bodies(folder, found)
+    found, fluid, body = read_run(folder, time)
+    grid = fluid["velocity"]
     triangulation = Triangulation(*grid.points[:, :2].T, grid.cells)
     axes.tripcolor(triangulation, facecolors=grid.cell[phase].ravel(), cmap=COLOURS, vmin=0.0, vmax=1.0,
                    edgecolors="0.6" if mesh else "none", linewidth=0.15 if mesh else 0.0)

@@ -11,7 +11,7 @@ import os
 import numpy as np
 
 from phases import find_phases
-from snapshot import Window, centred, paint_bodies, paint_field, paint_mesh, panels, read_bodies, read_snapshot, save, without_hydrostatic
+from snapshot import Window, centred, paint_bodies, paint_field, paint_mesh, panels, read_run, save, without_hydrostatic
 
 LENGTH, AHEAD = 1.8, 0.3  # of the window along a long domain: its length in widths, the part of it ahead of the body
 
@@ -73,8 +73,8 @@ def choose(arguments, domain, body):
 
 
 def draw(arguments):
-    time, fluid = read_snapshot(os.path.join(arguments.folder, "fluid.h5"), arguments.time)
-    body, phases = read_bodies(arguments.folder, time), find_phases(fluid["velocity"])
+    time, fluid, body = read_run(arguments.folder, arguments.time)
+    phases = find_phases(fluid["velocity"])
     velocity, pressure = fluid["velocity"], fluid["pressure"]
     window = choose(arguments, Window.around(velocity.points), body)
     v = velocity.node["velocity"][:, 1]

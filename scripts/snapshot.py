@@ -14,6 +14,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.tri import Triangulation
 
 ROUND_OFF = 1e-6  # of the largest value: what volume fractions have below 0
+SAME_TIME = 1e-6  # s, and of the time
 # A six-node triangle (midpoints of 01, 12, 20 are 3, 4, 5) as four straight ones.
 QUARTERS = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]])
 
@@ -97,23 +98,41 @@ def read_times(path):
         return whole_snapshots(file, path)[1]
 
 
+def common_times(*paths):
+    """Times of the snapshots that all of a run's files have: of a run that goes on, or was stopped, one may have a snapshot more."""
+    times, *others = (read_times(path) for path in paths)
+    times = [t for t in times if all(abs(other - t).min() <= SAME_TIME * max(1.0, abs(t)) for other in others)]
+    if not times:
+        raise LookupError(f"{' and '.join(map(str, paths))} have no snapshot of the same time")
+    return np.array(times)
+
+
+def nearest(times, time):
+    """The one of these times that is nearest to `time`, or the last."""
+    return times[-1] if time is None else times[int(np.argmin(abs(times - time)))]
+
+
 def read_snapshot(path, time=None):
     """Time and grids of the snapshot nearest to `time`, or of the last one; LookupError where there is none."""
     with h5py.File(path, "r") as file:
         snapshots, times = whole_snapshots(file, path)
-        k = len(times) - 1 if time is None else int(np.argmin(abs(times - time)))
-        return times[k], {name: Grid(group) for name, group in snapshots[k].items()}
+        found = nearest(times, time)
+        return found, {name: Grid(group) for name, group in snapshots[list(times).index(found)].items()}
 
 
-def read_bodies(folder, time):
-    """The solid's grid at this time; None where the run has no bodies."""
-    path = os.path.join(folder, "solid.h5")
-    if not os.path.exists(path):
-        return None
-    found, grids = read_snapshot(path, time)
-    if abs(found - time) > 1e-6 * max(1.0, abs(time)):
-        raise LookupError(f"{path}: the solid is of t = {found:g} s, the fluid of {time:g} s")
-    return grids["solid"] if len(grids["solid"].points) else None
+def run_files(folder):
+    """fluid.h5 and, where the run has a solid, solid.h5."""
+    fluid, solid = (os.path.join(folder, name) for name in ("fluid.h5", "solid.h5"))
+    return (fluid, solid) if os.path.exists(solid) else (fluid,)
+
+
+def read_run(folder, time=None):
+    """Time, the fluid's grids and the solid's (None where the run has no bodies) of the snapshot nearest to `time`, or of the last one, of those that
+    both have."""
+    files = run_files(folder)
+    found = nearest(common_times(*files), time)
+    bodies = read_snapshot(files[1], found)[1]["solid"] if len(files) > 1 else None
+    return found, read_snapshot(files[0], found)[1], bodies if bodies is not None and len(bodies.points) else None
 
 
 def outline(grid):

@@ -16,7 +16,7 @@ import numpy as np
 from matplotlib.animation import FuncAnimation, PillowWriter
 
 from phases import COLOURS, find_phases
-from snapshot import Window, colours, paint_bodies, paint_field, panels, read_snapshot, read_times, save
+from snapshot import Window, colours, common_times, nearest, paint_bodies, paint_field, panels, read_snapshot, save
 
 COMPONENTS = {3: {"x": 0, "y": 1}, 6: {"xx": 0, "yy": 3, "xy": 1}}  # by the number of a field's columns: those in the plane
 
@@ -43,20 +43,11 @@ def find_files(run):
     return paths
 
 
-def common_times(run):
-    """Those of the snapshots that all of the run's files have: of a run that goes on, or was stopped, one may have a snapshot more."""
-    times, *others = (read_times(path) for path in find_files(run).values())
-    times = [t for t in times if all(abs(other - t).min() <= 1e-6 * max(1.0, abs(t)) for other in others)]
-    if not times:
-        raise LookupError(f"{run}: fluid.h5 and solid.h5 have no snapshot of the same time")
-    return np.array(times)
-
-
 def read_grids(run, time):
     """Time and {"fluid velocity": Grid, ..., "solid": Grid} of what the run has."""
-    grids, times = {}, common_times(run)
-    found = times[-1] if time is None else times[np.argmin(abs(times - time))]
-    for part, path in find_files(run).items():
+    grids, files = {}, find_files(run)
+    found = nearest(common_times(*files.values()), time)
+    for part, path in files.items():
         _, parts = read_snapshot(path, found)
         grids.update({part if part == name else f"{part} {name}": grid for name, grid in parts.items()})
     return found, grids
@@ -176,7 +167,7 @@ def draw(arguments):
 
 
 def animation(arguments):
-    times = common_times(arguments.run)
+    times = common_times(*find_files(arguments.run).values())
     view = lambda time: View(arguments.run, arguments.field, time)
     figure, axes, window, limits, _ = start(arguments, map(view, times))
 

@@ -15,7 +15,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import membrane  # puts scripts/ on the path
-from snapshot import Window, centred, paint, paint_mesh, read_bodies, read_snapshot
+from snapshot import Window, centred, paint, paint_mesh, read_run
 
 TIMES = (0.19, 0.80, 1.47)  # s, the paper's
 ROWS = (("y1", "dr 0.0005 m", "C0", "-"), ("y2", "dr 0.001 m", "C1", "--"), ("y3", "dr 0.002 m", "C2", ":"))
@@ -24,9 +24,9 @@ ROWS = (("y1", "dr 0.0005 m", "C0", "-"), ("y2", "dr 0.001 m", "C1", "--"), ("y3
 def snapshots(folder):
     """Time, fluid and body at the paper's times that the run has reached."""
     for t in TIMES:
-        time, fluid = read_snapshot(folder / "fluid.h5", t)
+        time, fluid, body = read_run(folder, t)
         if abs(time - t) < 0.03:
-            yield time, fluid, read_bodies(folder, time)
+            yield time, fluid, body
 
 
 def panels(times, draw):

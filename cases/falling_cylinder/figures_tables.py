@@ -16,7 +16,7 @@ import validate
 
 sys.path.insert(0, str(validate.ROOT / "scripts"))
 from plot_fall import read_table
-from snapshot import Window, centred, paint, paint_mesh, read_bodies, read_snapshot, without_hydrostatic
+from snapshot import Window, centred, paint, paint_mesh, read_run, without_hydrostatic
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -123,9 +123,8 @@ class Fields:
 
     def __init__(self, folder, name, time=None):
         self.row, self.name = validate.TABLES[name], name
-        self.time, grids = read_snapshot(folder / name / "fluid.h5", time)
+        self.time, grids, self.body = read_run(folder / name, time)
         self.velocity, self.pressure = grids["velocity"], grids["pressure"]
-        self.body = read_bodies(folder / name, self.time)
         centre = Window.around(self.body.points).centre
         self.window = Window(centre - DIAMETER * np.array([ASIDE, AHEAD]), centre + DIAMETER * np.array([ASIDE, WAKE]))
         self.v = self.velocity.node["velocity"][:, 1]
@@ -145,7 +144,7 @@ class Fields:
 
 def snapshot_there(folder, name):
     try:
-        read_snapshot(folder / name / "fluid.h5")
+        read_run(folder / name)
         return True
     except (LookupError, OSError):
         return False

@@ -14,7 +14,7 @@ from matplotlib.animation import PillowWriter
 import beam  # puts scripts/ on the path
 import phases
 from series import upward
-from snapshot import Window, paint, read_bodies, read_snapshot
+from snapshot import Window, paint, read_run
 
 LABELS = {"x": "x of the tip [mm]", "y": "y of the tip [mm]", "drag": "drag [N/m]", "lift": "lift [N/m]"}
 PERIODS = 4  # that are shown
@@ -54,11 +54,10 @@ def draw_period(run, path):
 
 
 def draw_field(folder, time, axes, limits):
-    found, fluid = read_snapshot(folder / "fluid.h5", time)
+    found, fluid, body = read_run(folder, time)
     grid = fluid["velocity"]
     speed = np.hypot(*grid.node["velocity"][:, :2].T)
-    paint(axes, grid, speed, WINDOW, limits or (0.0, speed.max()), "viridis", "speed [m/s], t = %.3f s" % found, read_bodies(folder, found),
-          cover=True)
+    paint(axes, grid, speed, WINDOW, limits or (0.0, speed.max()), "viridis", "speed [m/s], t = %.3f s" % found, body, cover=True)
     return speed.max()
 
 

@@ -1,5 +1,4 @@
 """What a run of the floating square says: how much of its surface is wet, and when the water is where the paper says it is."""
-import os
 import pathlib
 import sys
 
@@ -8,7 +7,7 @@ import numpy as np
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent.parent / "scripts"))
 import phases
-from snapshot import outline, read_bodies, read_snapshot
+from snapshot import outline, read_run
 
 WIDTH, HEIGHT = 0.6, 0.4  # m, of the tank
 DISTANCE = 0.006  # m, from the square's faces to where they are looked at
@@ -29,8 +28,8 @@ def fraction(grid, phase, x):
 
 def wet(folder, time):
     """Part of the square's faces with water before them."""
-    found, fluid = read_snapshot(os.path.join(folder, "fluid.h5"), time)
-    grid, body = fluid["velocity"], read_bodies(folder, found)
+    _, fluid, body = read_run(folder, time)
+    grid = fluid["velocity"]
     body.points = body.points[:, :2]
     edges = outline(body).reshape(-1, 3, 2)[:, :2]
     middle, along = edges.mean(axis=1), edges[:, 1] - edges[:, 0]

@@ -9,14 +9,13 @@ import sys
 import matplotlib.pyplot as plt
 
 from cylinder import Run  # puts scripts/ on the path
-from snapshot import Window, outline, read_bodies, read_snapshot, vorticity
+from snapshot import Window, outline, read_run, vorticity
 
 WINDOW, STRONGEST = Window((-3.0, -4.0), (17.0, 4.0)), 2.0  # D; U/D, end of the colour scale
 
 
 def draw_wake(folder, path):
-    found, fluid = read_snapshot(folder / "fluid.h5")
-    body = read_bodies(folder, found)
+    _, fluid, body = read_run(folder)
     body.points = body.points[:, :2]
     figure, axes = plt.subplots(figsize=(8.0, 3.6), layout="constrained")
     shade = axes.tripcolor(*vorticity(fluid["velocity"]), shading="gouraud", cmap="RdBu_r", vmin=-STRONGEST, vmax=STRONGEST)

@@ -47,10 +47,18 @@ frames = [Image.open(f"{folder}/{name}.gif").n_frames for name in ("view", "spee
 assert frames == [len(snapshot_times(folder))] * 2 == [3, 3] and Image.open(folder + "/phases.png").width > 900, frames
 E3
 # of a run whose fluid has written a snapshot more those that the solid has, too
-mkdir "$scratch/ahead" && cp "$scratch/x/"*.h5 "$scratch/ahead"
+mkdir "$scratch/ahead" && cp "$scratch/phases/"*.h5 "$scratch/ahead"
 "$python" -c 'import h5py, sys; file = h5py.File(sys.argv[1], "a"); del file["snapshot"][max(file["snapshot"])]' "$scratch/ahead/solid.h5"
-"$root/scripts/view.sh" "$scratch/ahead" --animate >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
-"$python" -c 'import sys; from PIL import Image; frames = Image.open(sys.argv[1]).n_frames; assert frames == 2, frames' "$scratch/ahead/view.gif"
+"$root/scripts/view.sh" "$scratch/ahead" --animate >"$scratch/log" 2>&1 && "$python" "$root/scripts/plot_field.py" "$scratch/ahead" >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
+PYTHONPATH=$root/scripts "$python" - "$scratch/ahead" <<'E3'
+import sys
+from PIL import Image
+import phases
+phases.animate(sys.argv[1], "water", sys.argv[1] + "/phases.gif")
+phases.draw_times(sys.argv[1], [9.0], "water", sys.argv[1] + "/phases.png")
+frames = [Image.open(f"{sys.argv[1]}/{name}.gif").n_frames for name in ("view", "phases")]
+assert frames == [2, 2], frames
+E3
 no_picture 'has no fluid.h5 and no solid.h5' "$scratch" --animate
 if "$root/scripts/view.sh" "$scratch/x" --field colour 2>"$scratch/log"; then echo 'a field that is not there was drawn'; exit 1; fi
 grep -q "there is no field 'colour': .*solid:stress" "$scratch/log" || { cat "$scratch/log"; exit 1; }
