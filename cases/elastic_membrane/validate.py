@@ -131,7 +131,8 @@ def claims(there):
     if "line" in there:
         s = there["line"].shape
         yield "line: rx(t), largest error", max(abs(s["rx"] / np.interp(s["t"], reference["t"], reference["rx"]) - 1.0)[1:]), 0.015
-        yield "line: crossings", max(abs(a / b - 1.0) for a, b in zip(membrane.crossings(s), membrane.crossings(reference))), 0.02
+        found, known = membrane.crossings(s), membrane.crossings(reference)
+        yield "line: crossings", max(abs(a / b - 1.0) for a, b in zip(found, known)) if len(found) == len(known) else np.inf, 0.02
     if "y1-le-0.008" in there:
         shape = there["y1-le-0.008"].shape
         for key in ("rx", "ry"):

@@ -28,10 +28,13 @@ class Run:
         self.work, self.mass = np.cumsum(solid["fy0"] * np.diff(solid["y0"], prepend=solid["y0"][0])), solid["mass0"][-1]
 
     def periodic(self, end=np.inf):
-        """{quantity: value} over the last PERIODS before `end`; damping: the ratio with which a spring's damper would take the fluid's work."""
+        """{quantity: value} over the last PERIODS before `end`, nan where it does not swing; damping: the ratio with which a spring's damper would
+        take the fluid's work."""
         late, late_force = ((t > 0.4 * t[-1]) & (t <= end) for t in (self.t, self.t_force))
         moves = np.ptp(self.y[late]) > HELD
         crossings = (upward(self.t[late], self.y[late]) if moves else upward(self.t_force[late_force], self.lift[late_force]))[-PERIODS - 1:]
+        if len(crossings) < 2:
+            return dict.fromkeys((*QUANTITIES, "damping"), np.nan)
         frequency = (len(crossings) - 1) / (crossings[-1] - crossings[0])
         whole, whole_force = ((t > crossings[0]) & (t <= crossings[-1]) for t in (self.t, self.t_force))
         forces = {name: (self.t_force[whole_force], values[whole_force], frequency) for name, values in (("drag", self.drag), ("lift", self.lift))}

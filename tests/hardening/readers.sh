@@ -6,7 +6,7 @@ source "$(dirname "$0")/../coupled/run.sh"
 "$python" -c 'import numpy, h5py, matplotlib' 2>/dev/null || { echo 'needs numpy, h5py and matplotlib'; exit 77; }
 says() { # LINE COMMAND ...: it fails with this last line, and no trace of Python's
   if "${@:2}" >/dev/null 2>"$scratch/log"; then echo "accepted: ${*:2}"; exit 1; fi
-  tail -1 "$scratch/log" | grep -qF "$1" && ! grep -q Traceback "$scratch/log" || { echo "${*:2}: expected '$1', got:"; cat "$scratch/log"; exit 1; }
+  tail -1 "$scratch/log" | grep -qF -- "$1" && ! grep -q Traceback "$scratch/log" || { echo "${*:2}: expected '$1', got:"; cat "$scratch/log"; exit 1; }
 }
 
 odd="$scratch/a folder"
@@ -74,6 +74,11 @@ with h5py.File(sys.argv[2] + "/solid.h5", "w") as file:
     file.create_group("snapshot/000001")
 assert list(membrane.history(pathlib.Path(sys.argv[2]))["t"]) == [0.0]
 E2
+
+# a cylinder that has not swung for a period
+{ echo 't [s],centre_y [m]'; for k in 1 2 3 4; do echo "$k,0.01"; done; } >"$odd/solid_probes.csv"
+{ echo 't [s],fx0 [N/m],fy0 [N/m],y0 [m],mass0 [kg/m]'; for k in 1 2 3 4; do echo "$k,1,0,0,1"; done; } >"$odd/solid.csv"
+"$python" "$root/cases/vibrating_cylinder/cylinder.py" "$odd" | grep -c nan | grep -qx 2
 
 # a block that has not cracked has its row, and its claims fail
 "$python" - "$root" "$odd" <<'E2'
