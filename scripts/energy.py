@@ -66,6 +66,8 @@ def main():
     fluid = rest[0] if rest else None
     if len(bodies_of(solid)) >= MOST_BODIES:
         sys.exit(f"{options.folder}: solid.csv has no more than {MOST_BODIES} bodies, and there may be others")
+    if fluid is None and not bodies_of(solid):
+        sys.exit(f"{options.folder}: the run has no bodies")
     kinds = energies(fluid, solid)
     print("%-18s" % "J/m" + "".join("%13s" % name for name in ("first", "last", "change", "least", "most")))
     for name, value in kinds.items():

@@ -88,9 +88,10 @@ def fragments(path):
     with h5py.File(path, "r") as file:
         snapshots, times = whole_snapshots(file, path)
         for t, group in zip(times, snapshots):
-            elements = Elements(Grid(group["solid"]))
-            if len(elements.area) == 0:
+            grid = Grid(group["solid"])
+            if len(grid.cells) == 0:
                 raise LookupError(f"{path}: the run has no bodies")
+            elements = Elements(grid)
             if last is not None and not elements.same_as(last):
                 raise LookupError(f"{path}: the elements at t = {t:g} s are not those of the snapshot before")
             before, parent = numbers(elements, before)

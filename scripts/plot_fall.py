@@ -17,16 +17,18 @@ import numpy as np
 def read_table(path):
     """Columns of a CSV file by name; the names stand in the last line before the numbers, '#' or not."""
     names, rows = None, []
-    with open(path) as lines:
-        for line in lines:
-            if not line.endswith("\n"):
-                break  # the last row of a running case may be half written
-            fields = line.strip().lstrip("#").split(",")
-            try:
-                rows.append([float(field) for field in fields])
-            except ValueError:
-                if not rows and line.strip():
-                    names = [field.strip() for field in fields]
+    try:
+        with open(path) as file:
+            lines = [line for line in file if line.endswith("\n")]  # the last row of a running case may be half written
+    except OSError as error:
+        sys.exit(f"plot_fall: {path}: {error.strerror}")
+    for line in lines:
+        fields = line.strip().lstrip("#").split(",")
+        try:
+            rows.append([float(field) for field in fields])
+        except ValueError:
+            if not rows and line.strip():
+                names = [field.strip() for field in fields]
     if names is None or not rows:
         sys.exit(f"plot_fall: {path} has {'no rows' if names else 'no line with column names'}")
     rows = [row for row in rows if len(row) == len(names)]
@@ -51,11 +53,19 @@ def fall_speed(path):
     return t[first], -v[first]
 
 
+def terminal(text):
+    name, equal, value = text.rpartition("=")
+    try:
+        return name, float(value if equal else "")
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"expected NAME=VALUE with a value in m/s, found '{text}'")
+
+
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", help="output folder of the run, with solid.csv")
     parser.add_argument("--reference", action="append", default=[], metavar="FILE", help="CSV with columns t and U_fall")
-    parser.add_argument("--terminal", action="append", default=[], metavar="NAME=VALUE", help="terminal speed, m/s")
+    parser.add_argument("--terminal", action="append", default=[], type=terminal, metavar="NAME=VALUE", help="terminal speed, m/s")
     parser.add_argument("--out", help="picture (default FOLDER/fall.png)")
     return parser.parse_args()
 
@@ -69,9 +79,8 @@ def main():
         name = os.path.splitext(os.path.basename(path))[0]
         axes.plot(column(table, path, "t"), column(table, path, "U_fall"), "--", color="k", linewidth=1.0, zorder=3,
                   label=f"reference {name}")
-    for k, terminal in enumerate(arguments.terminal):
-        name, value = terminal.rsplit("=", 1)
-        axes.axhline(float(value), color=f"C{k + 1}", linewidth=0.8, label=f"{name}: {float(value):.4g} m/s")
+    for k, (name, value) in enumerate(arguments.terminal):
+        axes.axhline(value, color=f"C{k + 1}", linewidth=0.8, label=f"{name}: {value:.4g} m/s")
     axes.plot(t, speed, color="C0", label=f"Coracle, {speed[-1]:.4f} m/s at {t[-1]:.3g} s")
     axes.set(xlabel="t [s]", ylabel="fall speed [m/s]", xlim=(0.0, 1.05 * max(t[-1], 1e-12)), ylim=(min(0.0, speed.min()), None))
     axes.legend(loc="lower right", frameon=False)

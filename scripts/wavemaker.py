@@ -109,7 +109,7 @@ def solitary(o):
     """X = H/(kappa d) tanh theta with theta = kappa (c t - X); theta by Newton's method."""
     if o.height > HIGHEST * o.depth:
         refuse("--height %g: a solitary wave in water %g m deep breaks above %.4g m" % (o.height, o.depth, HIGHEST * o.depth))
-    if not o.start >= 0.0:
+    if not 0.0 <= o.start < np.inf:
         refuse("--start %g: expected a number >= 0" % o.start)
     kappa, c, ratio = np.sqrt(0.75 * o.height / o.depth**3), np.sqrt(o.gravity * (o.depth + o.height)), o.height / o.depth
     first = np.arccosh(SMALLEST**-0.5)

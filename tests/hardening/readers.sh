@@ -19,6 +19,25 @@ says 'Unable to open file' "$python" "$root/scripts/plot_field.py" "$odd"
 says 'scaling.csv has no rows yet: expected --splits or --weak' "$python" "$root/scripts/scaling.py" "$here/disc.yaml" --out "$odd"
 says 'the output folder is that of --out' "$root/scripts/run.sh" --bin "$build" "$root/tests/solid/alone.yaml" --alone --set "output.folder=$odd"
 
+says 'nowhere/solid.csv: No such file' "$python" "$root/scripts/plot_fall.py" "$scratch/nowhere"
+says "expected NAME=VALUE with a value in m/s, found '3'" "$python" "$root/scripts/plot_fall.py" "$odd" --terminal 3
+says '--start inf: expected a number >= 0' "$python" "$root/scripts/wavemaker.py" solitary --height 0.06 --depth 0.4 --start inf
+
+# a run without bodies
+printf 't [s],weight_x [N/m],weight_y [N/m]\n0.1,0,0\n0.2,0,0\n' >"$odd/solid.csv"
+"$python" - "$odd/solid.h5" <<'E2'
+import sys
+import h5py, numpy as np
+with h5py.File(sys.argv[1], "w") as file:
+    solid = file.create_group("snapshot/000000/solid")
+    file["snapshot/000000"].attrs["time"] = 0.0
+    solid["points"], solid["cells"] = np.zeros((0, 3)), np.zeros((0, 3), int)
+    solid.create_group("cell")
+    solid["node/displacement"] = np.zeros((0, 3))
+E2
+says 'the run has no bodies' "$python" "$root/scripts/energy.py" "$odd"
+says 'the run has no bodies' "$python" "$root/scripts/fragments.py" "$odd"
+
 # a row that is half written has numbers that are cut off
 { echo 't [s],v0 [m/s]'; for k in $(seq 10 40); do echo "0.$k,-0.$k"; done; printf '0.41,-0.4'; } >"$odd/solid.csv"
 "$python" "$root/scripts/plot_fall.py" "$odd" >/dev/null
