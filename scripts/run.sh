@@ -32,7 +32,7 @@ while [ $# -gt 0 ]; do
 done
 [ -n "$case" ] || { echo "run.sh: no case (see --help)" >&2; exit 2; }
 if [ -f "$case" ]; then
-  file=$case name=$(basename "${case%.*}")
+  file=$case name=$(basename "$case") name=${name%.*}
 else
   file=$root/cases/$case/case.yaml name=$case
 fi

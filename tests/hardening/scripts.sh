@@ -77,6 +77,9 @@ done
 odd="$scratch/it's #1: x"
 (cd "$root" && CDPATH=$root:/ "scripts/run.sh" --bin "$build" --out "$odd" --set time.end=0.001 --alone tests/solid/alone.yaml) >"$scratch/log" 2>&1 && [ -s "$odd/summary.json" ] || { cat "$scratch/log"; exit 1; }
 rm -r "$odd"
+# the default output folder has the case file's name, wherever that lies
+mkdir "$scratch/my.cases" && cp "$root/tests/solid/alone.yaml" "$scratch/my.cases/block"
+(cd "$scratch" && "$root/scripts/run.sh" --bin "$build" --set time.end=0.001 --alone my.cases/block) >"$scratch/log" 2>&1 && [ -s "$scratch/out/block/summary.json" ] || { cat "$scratch/log"; exit 1; }
 if "$python" "$root/scripts/energy.py" "$scratch" 2>"$scratch/log"; then echo 'an energy of no run'; exit 1; fi
 [ "$(cat "$scratch/log")" = "$scratch: there is no solid.csv" ] || { cat "$scratch/log"; exit 1; }
 "$python" "$root/scripts/energy.py" "$scratch/x" --from 0.01 >"$scratch/log" && grep -q '^body 0: at most' "$scratch/log" && ! grep -q '^all' "$scratch/log" || { cat "$scratch/log"; exit 1; }
