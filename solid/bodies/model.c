@@ -229,7 +229,7 @@ static int SidesWithJoints(const MeshSerial *m, int e, const JointSetup *j)
   int inside = j->all, sides = 0;
   for (int k = 0; k < j->nboxes; k++) inside |= ModelInBox(m, e, j->box[k]);
   for (int k = 0; k < j->nnames; k++) {
-    inside |= m->region && Named(m->region[e], m->region_name, j->named[k].name);
+    inside |= m->region && !j->named[k].has_material && Named(m->region[e], m->region_name, j->named[k].name);
     for (int i = 0; i < 3 && m->curve; i++)
       sides |= Named(m->curve[3 * e + i], m->curve_name, j->named[k].name) << i;
   }

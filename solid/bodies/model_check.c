@@ -84,8 +84,11 @@ static PetscErrorCode CheckNames(const MeshSerial *m, const BodySetup *setup)
     code = CheckName("boundary", setup->load[k].boundary, boundaries, none);
   for (int k = 0; k < setup->nregions && !code; k++)
     code = CheckName("region", setup->region[k].region, regions, none);
-  for (int k = 0; k < setup->joints.nnames && !code; k++)
-    code = CheckName("region or curve inside", setup->joints.named[k].name, regions, curves);
+  for (int k = 0; k < setup->joints.nnames && !code; k++) {
+    const NamedJoints *joints = &setup->joints.named[k];
+    code = joints->has_material ? CheckName("curve inside", joints->name, curves, none)
+                                : CheckName("region or curve inside", joints->name, regions, curves);
+  }
   return code;
 }
 

@@ -208,6 +208,8 @@ static void JointsOnCurve(void)
   CheckCase(text, NULL, Read,
             ":8: key 'solid.bodies[0].joints[0].material': material 'm' of joints needs tensile_strength, "
             "shear_strength and fracture_energy");
+  (void)snprintf(text + n, sizeof text - (size_t)n, CURVED, "{name: soft, material: r}", "");
+  CheckCase(text, NULL, Read, ":8: key 'solid.bodies[0]': the body has no curve inside 'soft'; it has seam");
   (void)snprintf(text + n, sizeof text - (size_t)n, CURVED, "seam", ", order: 2");
   CheckCase(text, NULL, Read,
             ":8: key 'solid.bodies[0]': six-node triangles (order 2) have no joints: they do not crack");
