@@ -92,22 +92,28 @@ static void MarkHeld(const Contact c, const Solid s, char held[])
   for (int n = 0; n < s->nnodes; n++) held[n] = held[n] == 3;
 }
 
-/* A body's mass that can move, and that behind a metre of its surface, as if it were a square lying on a side. */
+/* A body's mass that can move, and that behind a metre of its surface, as if it were a square lying on a side; its extent. */
 static PetscErrorCode MeasureMass(Contact c, Solid s, const char held[])
 {
-  double *sum; /* [nbodies][2] mass, perimeter */
+  double *sum, *longest; /* [nbodies][2] mass, perimeter; [nbodies] */
   PetscFunctionBeginUser;
-  PetscCall(PetscCalloc1(2 * (size_t)s->nbodies, &sum));
+  PetscCall(PetscCalloc2(2 * (size_t)s->nbodies, &sum, (size_t)s->nbodies, &longest));
   for (int n = 0; n < s->nnodes; n++)
     if (SolidOwns(s, n) && !held[n]) sum[2 * s->node_body[n]] += s->mass[n];
-  for (int k = 0; k < s->nfacets; k++)
-    sum[2 * s->elements.body[s->facet_element[k]] + 1] += ContactRestLength(s, k);
+  for (int k = 0; k < s->nfaces; k++) { /* the surface first, then the sides of joints */
+    const int body = s->elements.body[s->facet_element[k]];
+    const double length = ContactRestLength(s, k);
+    if (k < s->nfacets) sum[2 * body + 1] += length;
+    longest[body] = fmax(longest[body], length);
+  }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2 * s->nbodies, MPI_DOUBLE, MPI_SUM, s->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, longest, s->nbodies, MPI_DOUBLE, MPI_MAX, s->comm));
   for (int b = 0; b < s->nbodies; b++) {
     c->mass[b] = sum[2 * b] > 0.0 ? sum[2 * b] : HUGE_VAL;
     c->areal_mass[b] = 4.0 * c->mass[b] / sum[2 * b + 1];
+    c->extent[b] = (Extent){longest[b], 0.25 * sum[2 * b + 1]};
   }
-  PetscCall(PetscFree(sum));
+  PetscCall(PetscFree2(sum, longest));
   PetscFunctionReturn(0);
 }
 
@@ -192,7 +198,7 @@ PetscErrorCode ContactCreate(Solid s, Contact *contact)
   PetscCall(PetscCalloc7(nbodies, &c->height, nbodies, &c->compliance, nbodies, &c->intact_compliance,
                          nbodies, &c->mass, nbodies, &c->areal_mass, nbodies, &c->skin, nbodies,
                          &c->waiting));
-  PetscCall(PetscCalloc2(nbodies, &c->bulge, nbodies, &c->margin));
+  PetscCall(PetscCalloc3(nbodies, &c->bulge, nbodies, &c->margin, nbodies, &c->extent));
   c->rough = AnyRough(s);
   PetscCall(ContactRenew(c, s));
   PetscCall(PetscArraycpy(c->intact_compliance, c->compliance, nbodies));
@@ -246,7 +252,7 @@ PetscErrorCode ContactDestroy(Contact *c)
   PetscCall(PetscFree((*c)->target));
   PetscCall(
       PetscFree5((*c)->facet_start, (*c)->facet, (*c)->contactor, (*c)->contactor_of, (*c)->facet_target));
-  PetscCall(PetscFree2((*c)->bulge, (*c)->margin));
+  PetscCall(PetscFree3((*c)->bulge, (*c)->margin, (*c)->extent));
   PetscCall(PetscFree((*c)->candidate));
   PetscCall(PetscFree((*c)->couple));
   PetscCall(PetscFree((*c)->pressed));

@@ -47,6 +47,12 @@ typedef struct {
   ContactResponse response;
 } Pair;
 
+/* Of a body's surface at rest, m. */
+typedef struct {
+  double longest; /* edge */
+  double side;    /* a quarter of its perimeter */
+} Extent;
+
 /* What is kept of a pair while candidates are searched or a step is redone. */
 typedef struct {
   int edge, other, material;
@@ -90,6 +96,7 @@ struct Contact_s {
   PetscBool rough;    /* any friction or damping: velocities are needed */
   Halo halo;          /* NULL on one rank */
   double *height;     /* [nbodies] smallest height of the surface elements at rest, m */
+  Extent *extent;     /* [nbodies] */
   int nholding;       /* prescribed motions that hold their nodes, in what follows */
   double *compliance; /* [nbodies] largest (half the edges' lengths at a node)/(its mass), m/kg; 0: held */
   double *intact_compliance; /* [nbodies] that before any crack, of prescribed bodies too */

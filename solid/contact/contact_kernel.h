@@ -164,6 +164,7 @@ typedef struct {
   double stiffness; /* of the tangential spring, N/m */
   double viscosity; /* N s/m, for the whole edge with the mass behind it */
   double bodies;    /* the mass of the bodies over that behind the edge */
+  double part;      /* of the edge, that at most lies along the other body: `whole edge` above is this part */
 } ContactLaw;
 
 typedef struct {
@@ -180,8 +181,8 @@ static inline double ContactClamp(double value, double bound)
  * edge's stiffness, and behind a corner is the mass of its body, not of its length.  Not more than that of the whole edge. */
 static inline double ContactViscosity(ContactLaw law, double inside, double full)
 {
-  const double mass = 1.0 + Greater(1.0 - inside, 0.0) * Greater(law.bodies - 1.0, 0.0);
-  return law.viscosity * Lesser(sqrt(full * mass), 1.0);
+  const double mass = 1.0 + Greater(1.0 - inside / law.part, 0.0) * Greater(law.bodies - 1.0, 0.0);
+  return law.viscosity * Lesser(sqrt(full / law.part * mass), 1.0);
 }
 
 /* Viscous force c v.n, no larger than N, so that nothing sticks and nothing jumps at first touch; tangential

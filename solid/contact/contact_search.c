@@ -38,13 +38,16 @@ static double ViscosityOf(double damping, double stiffness, double areal_mass, d
   return critical * fmin(1.0, fmax(intact, 1.5 * omega / critical) / now);
 }
 
-/* Tangential spring half as stiff as the normal contact of the whole edge, 3 p L/height. */
-static ContactLaw LawOf(const Solid s, int facet, double friction, double stiffness, double viscosity,
-                        double mass, double areal_mass)
+/* The tangential spring is half as stiff as the normal contact of the whole edge, 3 p L/height.  Of an edge that is longer than those of what it touches, spring and
+ * damper are those of a part that lies along the other body (NULL: a wall): substeps are stable for that body's own surface and mass.  The spring, that may act on
+ * one of its nodes, has the length of its longest edge, the damper, that is scaled by what is inside, the length of a side of it. */
+static ContactLaw LawOf(const Solid s, int facet, const Extent *other, double friction, double stiffness,
+                        double viscosity, double mass, double areal_mass)
 {
-  const double length = ContactRestLength(s, facet);
-  return (ContactLaw){friction, friction > 0.0 ? 0.5 * stiffness * length : 0.0, viscosity * length,
-                      viscosity > 0.0 ? mass / (areal_mass * length) : 1.0};
+  const double length = ContactRestLength(s, facet), edge = other ? fmin(length, other->longest) : length,
+               side = other ? fmin(length, fmax(other->longest, other->side)) : length;
+  return (ContactLaw){friction, friction > 0.0 ? 0.5 * stiffness * edge : 0.0, viscosity * side,
+                      viscosity > 0.0 ? mass / (areal_mass * side) : 1.0, side / length};
 }
 
 /* Faces of a joint with a material of its own have its friction and damping on their body. */
@@ -86,8 +89,8 @@ static PetscErrorCode AddCandidate(Contact c, Solid s, int facet, int target)
   const double areal_mass = Together(c->areal_mass[body], c->areal_mass[t->body]);
   const double viscosity =
       ViscosityOf(damping, stiffness, areal_mass, 4.0 * compliance, 4.0 * intact, sqrt(rate));
-  const ContactLaw law =
-      LawOf(s, facet, friction, stiffness, viscosity, Together(c->mass[body], c->mass[t->body]), areal_mass);
+  const ContactLaw law = LawOf(s, facet, &c->extent[t->body], friction, stiffness, viscosity,
+                               Together(c->mass[body], c->mass[t->body]), areal_mass);
   PetscCall(ContactPairOf(c, s, facet, joined ? JOINED : t->body, t->material, law, &pair));
   c->candidate[c->ncandidates++] = (Candidate){facet, target, pair, penalty * t->twice_area};
   c->rate[0] = fmax(c->rate[0], rate);
@@ -171,7 +174,8 @@ static PetscErrorCode AddWall(Contact c, Solid s, int facet, int axis, double ou
   const double viscosity =
       ViscosityOf(damping, stiffness, c->areal_mass[body], 2.0 * compliance, 2.0 * intact,
                   sqrt(stiffness * compliance)); /* in a corner two walls act */
-  const ContactLaw law = LawOf(s, facet, friction, stiffness, viscosity, c->mass[body], c->areal_mass[body]);
+  const ContactLaw law =
+      LawOf(s, facet, NULL, friction, stiffness, viscosity, c->mass[body], c->areal_mass[body]);
   PetscCall(ContactPairOf(c, s, facet, wall, 0, law, &w->pair));
   c->rate[3] = fmax(c->rate[3], 2.0 * viscosity * compliance);
   PetscFunctionReturn(0);
