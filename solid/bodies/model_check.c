@@ -88,6 +88,9 @@ static PetscErrorCode CheckNames(const MeshSerial *m, const BodySetup *setup)
     const NamedJoints *joints = &setup->joints.named[k];
     code = joints->has_material ? CheckName("curve inside", joints->name, curves, none)
                                 : CheckName("region or curve inside", joints->name, regions, curves);
+    for (int i = 0; i < k && joints->has_material && !code; i++)
+      if (setup->joints.named[i].has_material && !strcmp(setup->joints.named[i].name, joints->name))
+        code = ModelRefuse("the joints of curve '%s' have two materials", joints->name);
   }
   return code;
 }

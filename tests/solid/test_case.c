@@ -210,6 +210,9 @@ static void JointsOnCurve(void)
             "shear_strength and fracture_energy");
   (void)snprintf(text + n, sizeof text - (size_t)n, CURVED, "{name: soft, material: r}", "");
   CheckCase(text, NULL, Read, ":8: key 'solid.bodies[0]': the body has no curve inside 'soft'; it has seam");
+  (void)snprintf(text + n, sizeof text - (size_t)n, CURVED,
+                 "{name: seam, material: r}, {name: seam, material: r}", "");
+  CheckCase(text, NULL, Read, ":8: key 'solid.bodies[0]': the joints of curve 'seam' have two materials");
   (void)snprintf(text + n, sizeof text - (size_t)n, CURVED, "seam", ", order: 2");
   CheckCase(text, NULL, Read,
             ":8: key 'solid.bodies[0]': six-node triangles (order 2) have no joints: they do not crack");
