@@ -167,7 +167,7 @@ PetscErrorCode SolidPieces(Solid s, int *n, const int **piece);
 /* film.c, collective, at the start of a step: films yield. */
 PetscErrorCode SolidMoveFilms(Solid s);
 
-/* budget.c, not collective: a step begins; then, as soon as its first forces are known. */
+/* budget.c: a step begins (not collective); then, as soon as its first forces are known (collective). */
 void BudgetStart(Solid s);
 PetscErrorCode BudgetStartForces(Solid s);
 /* moved[nnodes][2]: a prescribed motion has moved the component in the last substep. */
