@@ -43,8 +43,8 @@ file=$(realpath "$file") out=$(realpath -m "${out:-out/$name}")
 mkdir -p "$out"
 "$root/scripts/launch.sh" "${alone[@]}" --bin "${bin:-$root/build}" --ranks "$ranks" "$file" --set "output.folder='${out//\'/\'\'}'" "${sets[@]}"
 
-figures=$root/cases/$name/figures.sh pictures=""
-if [ -f "$figures" ] && [ "${#alone[@]}" -eq 0 ]; then # they show the fluid
+figures=$(dirname "$file")/figures.sh pictures=""
+if [ "$(basename "$file")" = case.yaml ] && [ -f "$figures" ] && [ "${#alone[@]}" -eq 0 ]; then # they show the fluid
   bash "$figures" "$out"
   pictures=", *.png"
 fi

@@ -54,7 +54,7 @@ def launch(arguments, split, sets, counter):
 
 def run(arguments, name, split, scale, counter):
     """A row of the table: per step, of the busiest rank."""
-    lengths = [f"{key}={scale * float(value):.12g}" for key, value in (item.split("=") for item in arguments.length)]
+    lengths = [f"{key}={scale * value:.12g}" for key, value in arguments.length]
     sets = arguments.set + lengths
     summary, counts = launch(arguments, split, sets, counter)
     who, steps = summary["participants"], summary["steps"]
@@ -88,12 +88,17 @@ def write(path, rows):
     return rows
 
 
+def length(text):
+    key, _, value = text.partition("=")
+    return key, float(value)  # its ValueError is a message of argparse
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("case")
     parser.add_argument("--splits", default="")
     parser.add_argument("--weak", default="")
-    parser.add_argument("--length", action="append", default=[])
+    parser.add_argument("--length", action="append", type=length, default=[])
     parser.add_argument("--skip", type=float, default=0.0)
     parser.add_argument("--name", default="strong", help="of the set of --splits in the tables")
     parser.add_argument("--bin", default=ROOT / "build")
