@@ -53,27 +53,26 @@ static int SameBody(const Solid s, int k)
   return k;
 }
 
-static void AddSums(const RigidSums *from, RigidSums *to)
-{
-  for (int c = 0; c < 2; c++) {
-    to->centre[c] += from->centre[c];
-    to->linear[c] += from->linear[c];
-  }
-  to->angular += from->angular;
-}
-
-/* value[nnodes][2] of this rank's nodes. */
-static void AddVector(const Solid s, const double value[], RigidSums sum[])
+/* Of this rank's nodes: q is value[nnodes][2] or, with by_mass, a node's mass times it, and, unless that is NULL, `more`. */
+static void AddVector(const Solid s, const double value[], const double more[], PetscBool by_mass,
+                      RigidSums sum[])
 {
   for (int k = 0; k < s->nrigid_nodes;) {
     const int body = s->node_body[s->rigid_node[k]], end = SameBody(s, k);
     const Point start = PointAt(s->body[body].centre, 0);
-    RigidSums own = {{0.0, 0.0}, {0.0, 0.0}, 0.0};
+    RigidSums own = {{0.0, 0.0}, {0.0, 0.0}, 0.0}, *of = &sum[s->rigid_index[body]];
     for (; k < end; k++) {
       const int i = s->rigid_node[k];
-      if (SolidOwns(s, i)) Add(s->mass[i], PointMinus(PointAt(s->x, i), start), PointAt(value, i), &own);
+      if (!SolidOwns(s, i)) continue;
+      const double by = by_mass ? s->mass[i] : 1.0, *v = value + 2 * i, *w = more ? more + 2 * i : NULL;
+      Add(s->mass[i], PointMinus(PointAt(s->x, i), start),
+          (Point){by * v[0] + (w ? w[0] : 0.0), by * v[1] + (w ? w[1] : 0.0)}, &own);
     }
-    AddSums(&own, &sum[s->rigid_index[body]]);
+    for (int c = 0; c < 2; c++) {
+      of->centre[c] += own.centre[c];
+      of->linear[c] += own.linear[c];
+    }
+    of->angular += own.angular;
   }
 }
 
@@ -149,7 +148,7 @@ PetscErrorCode RigidDistribute(Solid s, double value[])
   PetscFunctionBeginUser;
   if (s->nrigid == 0) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1((size_t)s->nrigid, &sum));
-  AddVector(s, value, sum);
+  AddVector(s, value, NULL, PETSC_FALSE, sum);
   PetscCall(SumOverRanks(s, 1, sum));
   Complete(s, sum);
   HoldTurns(s, sum);
@@ -163,26 +162,6 @@ PetscErrorCode RigidDistribute(Solid s, double value[])
   PetscFunctionReturn(0);
 }
 
-/* This rank's part. */
-static void SumForces(Solid s, RigidSums force[], RigidSums momentum[])
-{
-  for (int k = 0; k < s->nrigid_nodes;) {
-    const int body = s->node_body[s->rigid_node[k]], end = SameBody(s, k);
-    const Point start = PointAt(s->body[body].centre, 0);
-    RigidSums own[2] = {{{0.0, 0.0}, {0.0, 0.0}, 0.0}, {{0.0, 0.0}, {0.0, 0.0}, 0.0}};
-    for (; k < end; k++) {
-      const int i = s->rigid_node[k];
-      if (!SolidOwns(s, i)) continue;
-      const Point y = PointMinus(PointAt(s->x, i), start);
-      const double m = s->mass[i], *f = s->force + 2 * i, *l = s->load + 2 * i, *v = s->v + 2 * i;
-      Add(m, y, (Point){f[0] + l[0], f[1] + l[1]}, &own[0]);
-      Add(m, y, (Point){m * v[0], m * v[1]}, &own[1]);
-    }
-    AddSums(&own[0], &force[s->rigid_index[body]]);
-    AddSums(&own[1], &momentum[s->rigid_index[body]]);
-  }
-}
-
 PetscErrorCode RigidConstrain(Solid s)
 {
   RigidSums *force, *momentum;
@@ -190,7 +169,8 @@ PetscErrorCode RigidConstrain(Solid s)
   if (s->nrigid == 0) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1(2 * (size_t)s->nrigid, &force));
   momentum = force + s->nrigid;
-  SumForces(s, force, momentum);
+  AddVector(s, s->force, s->load, PETSC_FALSE, force);
+  AddVector(s, s->v, NULL, PETSC_TRUE, momentum);
   PetscCall(SumOverRanks(s, 2, force));
   Complete(s, force);
   Complete(s, momentum);
@@ -221,20 +201,11 @@ PetscErrorCode RigidMove(Solid s)
   PetscFunctionBeginUser;
   if (s->nrigid == 0) PetscFunctionReturn(0);
   PetscCall(PetscCalloc2((size_t)s->nrigid, &sum, (size_t)s->nrigid, &turn));
-  for (int k = 0; k < s->nrigid_nodes;) {
-    const int body = s->node_body[s->rigid_node[k]], end = SameBody(s, k);
-    const Point start = PointAt(s->body[body].centre, 0);
-    RigidSums own = {{0.0, 0.0}, {0.0, 0.0}, 0.0};
-    for (; k < end; k++) {
-      const int i = s->rigid_node[k];
-      const Point v = PointAt(s->v, i);
-      const double m = s->mass[i];
-      s->x[2 * i] -= h * v.x;
-      s->x[2 * i + 1] -= h * v.y;
-      if (SolidOwns(s, i)) Add(m, PointMinus(PointAt(s->x, i), start), (Point){m * v.x, m * v.y}, &own);
-    }
-    AddSums(&own, &sum[s->rigid_index[body]]);
+  for (int k = 0; k < s->nrigid_nodes; k++) {
+    const int i = s->rigid_node[k];
+    for (int c = 0; c < 2; c++) s->x[2 * i + c] -= h * s->v[2 * i + c];
   }
+  AddVector(s, s->v, NULL, PETSC_TRUE, sum);
   PetscCall(SumOverRanks(s, 1, sum));
   Complete(s, sum);
   AddHeldMoments(s, sum);

@@ -121,11 +121,11 @@ def ended(name):
     return (folder / "solid.csv").exists() and (read_series(folder / "solid.csv")["t"] > ROWS[name].end - 1e-6).any()
 
 
-LOCKS = {key: threading.Lock() for name, row in ROWS.items() for key in (name, row.layers)}  # of runs and meshes that several jobs may need
+MESHES = {row.layers: threading.Lock() for row in ROWS.values()}  # several jobs may need one
 
 
 def make_mesh(layers):
-    with LOCKS[layers]:
+    with MESHES[layers]:
         if mesh(layers).exists():
             return
         OUT.mkdir(parents=True, exist_ok=True)
@@ -134,11 +134,6 @@ def make_mesh(layers):
 
 
 def run(name):
-    with LOCKS[name]:
-        run_locked(name)
-
-
-def run_locked(name):
     row, folder = ROWS[name], OUT / name
     if ended(name):
         return

@@ -120,19 +120,34 @@ E2
 
 # runs that resume from the same one, in several jobs at a time: it is run once
 "$python" -B - "$root" "$scratch/jobs" <<'E2'
-import concurrent.futures, pathlib, sys, time
-sys.path[:0] = [sys.argv[1] + "/cases/vibrating_cylinder", sys.argv[1] + "/scripts"]
-import validate, validation
-validate.OUT, begun = pathlib.Path(sys.argv[2]), []
+import concurrent.futures, importlib, pathlib, sys, time
+sys.path.insert(0, sys.argv[1] + "/scripts")
+import validation
+begun = []
 def launch_coupled(case, folder, keys, ranks, after=None):
     begun.append(folder.name)
     folder.mkdir(parents=True)
     time.sleep(0.2)
     (folder / "summary.json").touch()
 validation.launch_coupled = launch_coupled
-with concurrent.futures.ThreadPoolExecutor(2) as pool:
-    list(pool.map(validate.run, ["u5-0.025", "u5-0.05"]))
+def case_of(name):
+    sys.path.insert(0, "%s/cases/%s" % (sys.argv[1], name))
+    sys.modules.pop("validate", None)
+    validate = importlib.import_module("validate")
+    validate.OUT = pathlib.Path(sys.argv[2]) / name
+    validate.OUT.mkdir(parents=True)
+    return validate
+def run(validate, names):
+    begun.clear()
+    with concurrent.futures.ThreadPoolExecutor(len(names)) as pool:
+        list(pool.map(validate.run, names))
+cylinder, beam = case_of("vibrating_cylinder"), case_of("flexible_beam")
+run(cylinder, ["u5-0.025", "u5-0.05"])
 assert begun == ["u5-0.05", "u5-0.025"], "runs begun: %s" % begun
+for row in beam.ROWS.values():
+    beam.mesh(row.layers).touch()
+run(beam, ["fsi1-0.004", "fsi1-0.002", "fsi1-0.004-corners"])
+assert begun[0] == "fsi1-0.004" and len(begun) == 3, "runs begun: %s" % begun
 E2
 
 # a batch job of any length ends before it is over

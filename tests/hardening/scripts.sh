@@ -125,22 +125,3 @@ if "$python" "$root/scripts/conform.py" --solid "$scratch/endless" --bin "$build
 grep -q 'it has not ended within 10' "$scratch/log" || { cat "$scratch/log"; exit 1; }
 for try in $(seq 100); do kill -0 "$(cat "$scratch/pid")" 2>/dev/null || break; sleep 0.1; done
 [ "$try" -lt 100 ] || { kill "$(cat "$scratch/pid")"; echo 'a solid that does not end was left'; exit 1; }
-# runs that resume from the same one, in several jobs at a time: it is run once
-"$python" -B - "$root" "$scratch/jobs" <<'E2'
-import concurrent.futures, pathlib, sys, time
-sys.path[:0] = [sys.argv[1] + "/cases/flexible_beam", sys.argv[1] + "/scripts"]
-import validate, validation
-validate.OUT, begun = pathlib.Path(sys.argv[2]), []
-validate.OUT.mkdir()
-for row in validate.ROWS.values():
-    validate.mesh(row.layers).touch()
-def run(case, folder, keys, ranks, after=None):
-    begun.append(folder.name)
-    folder.mkdir(exist_ok=True)
-    time.sleep(0.2)
-    (folder / "summary.json").touch()
-validation.run = run
-with concurrent.futures.ThreadPoolExecutor(3) as pool:
-    list(pool.map(validate.run, ["fsi1-0.004", "fsi1-0.002", "fsi1-0.004-corners"]))
-assert begun[0] == "fsi1-0.004" and len(begun) == 3, "runs begun: %s" % begun
-E2
