@@ -39,6 +39,12 @@ typedef struct {
   double least[3], most[3];
 } MotionRange;
 
+/* When a motion ends of a run that ends then. */
+static double EndOf(const PrescribedMotion *d, double end)
+{
+  return d->release > 0.0 ? fmin(d->release, end) : end;
+}
+
 static MotionRange RangeOf(const PrescribedMotion *d, double end)
 {
   MotionRange range = {{0.0}, {0.0}};
@@ -61,7 +67,7 @@ void ExpectMotions(Solid s, double end)
     if (s->prescribed[k].motion == motion) continue;
     motion = s->prescribed[k].motion;
     const PrescribedMotion *d = &s->motion[motion];
-    const MotionRange r = RangeOf(d, d->release > 0.0 ? fmin(d->release, end) : end);
+    const MotionRange r = RangeOf(d, EndOf(d, end));
     if (r.most[0] - r.least[0] + r.most[1] - r.least[1] + r.most[2] - r.least[2] == 0.0) continue;
     printf("solid: body %d is moved%s%s by %.3g to %.3g m along x, by %.3g to %.3g m along y",
            s->node_body[s->prescribed[k].node], d->name[0] ? " as " : "", d->name, r.least[0], r.most[0],
@@ -82,7 +88,7 @@ void NoteTurns(Solid s, double end, double dt_max)
   for (int k = 0; k < s->nprescribed; k++) {
     const PrescribedMotion *d = &s->motion[s->prescribed[k].motion];
     double velocity, turn;
-    PrescribedLargest(d, 0.0, d->release > 0.0 ? fmin(d->release, end) : end, &velocity, &turn);
+    PrescribedLargest(d, 0.0, EndOf(d, end), &velocity, &turn);
     turn *= d->period > 0.0 ? fmin(dt_max, d->period / PETSC_PI) : dt_max; /* there and back */
     if (turn <= FAR_TURN) continue;
     printf(

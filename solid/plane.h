@@ -31,6 +31,11 @@ static inline Point PointMinus(Point a, Point b)
   return (Point){a.x - b.x, a.y - b.y};
 }
 
+static inline double PointSquared(Point a)
+{
+  return a.x * a.x + a.y * a.y;
+}
+
 static inline double PointCross(Point a, Point b)
 {
   return a.x * b.y - a.y * b.x;

@@ -39,8 +39,7 @@ static Point InnerPoint(const Model *a, int e)
 
 static double Squared(Point p, Point q)
 {
-  const Point d = PointMinus(p, q);
-  return d.x * d.x + d.y * d.y;
+  return PointSquared(PointMinus(p, q));
 }
 
 /* By how much a rigid disc's corners lie outside of its circle. */

@@ -5,11 +5,6 @@
 #define LEAST_FACTOR 0.1 /* of a node's mass */
 #define SINGULAR 1e-9    /* of a pivot of the moments' matrix */
 
-static double Squared(Point r)
-{
-  return r.x * r.x + r.y * r.y;
-}
-
 /* r.r over a triangle of mass m is m/12 (the sum over the corners, and that of the corners' sum). */
 static void AddMass(const Model *a, int first, const double centre[2], RigidBody *rigid)
 {
@@ -19,10 +14,10 @@ static void AddMass(const Model *a, int first, const double centre[2], RigidBody
     rigid->mass += m;
     for (int i = 0; i < 3; i++) {
       const Point r = PointMinus(PointAt(a->rest, a->element[3 * e + i]), (Point){centre[0], centre[1]});
-      rigid->inertia += m / 12.0 * Squared(r);
+      rigid->inertia += m / 12.0 * PointSquared(r);
       sum = (Point){sum.x + r.x, sum.y + r.y};
     }
-    rigid->inertia += m / 12.0 * Squared(sum);
+    rigid->inertia += m / 12.0 * PointSquared(sum);
   }
 }
 
@@ -57,8 +52,8 @@ static void MatchInertia(Model *a, int first, Body *body)
   for (int k = 3 * first; k < 3 * a->nelements; k++) {
     const Point r = PointMinus(PointAt(a->rest, a->element[k]), PointAt(body->centre, 0));
     const double m = ModelElementMass(a, k / 3) / (3.0 * rigid->mass),
-                 p[4] = {1.0, r.x / length, r.y / length, Squared(r) / (length * length)};
-    lumped += m * rigid->mass * Squared(r);
+                 p[4] = {1.0, r.x / length, r.y / length, PointSquared(r) / (length * length)};
+    lumped += m * rigid->mass * PointSquared(r);
     for (int i = 0; i < 16; i++) moment[i / 4][i % 4] += m * p[i / 4] * p[i % 4];
   }
   x[3] = (rigid->inertia - lumped) / (rigid->mass * length * length);

@@ -88,7 +88,7 @@ static int IntersectCircles(const Contact c, const Solid s, int facet, const Tar
   const Sector one = SectorOf(c, s, own, x), other = SectorOf(c, s, t, y);
   const Point d = PointMinus(other.centre, one.centre);
   const double apart = one.radius + other.radius;
-  if (d.x * d.x + d.y * d.y >= apart * apart) return 0;
+  if (PointSquared(d) >= apart * apart) return 0;
   const Chord chord = ChordOfDiscs(one.centre, one.radius, other.centre, other.radius);
   if (!ContactChord(&chord, &one, &other, other.height, length, &at, &integral, k)) return 0;
   WeightNodes(x, a->side, at, integral, k);

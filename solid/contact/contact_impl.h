@@ -125,9 +125,8 @@ static inline PetscBool ContactJoined(const Solid s, int facet, const Target *t)
 
 static inline double ContactRestLength(const Solid s, int facet)
 {
-  const Point d =
-      PointMinus(PointAt(s->rest, s->facet[2 * facet + 1]), PointAt(s->rest, s->facet[2 * facet]));
-  return sqrt(d.x * d.x + d.y * d.y);
+  const int *edge = s->facet + 2 * facet;
+  return sqrt(PointSquared(PointMinus(PointAt(s->rest, edge[1]), PointAt(s->rest, edge[0]))));
 }
 
 static inline PetscBool ContactIsDisc(const Solid s, int body)
