@@ -59,12 +59,12 @@ static void Read(CoracleCase c, void *command)
   RunCaseDescribe(c, KEYS);
   (void)ParticipantFindResume(c, sizeof checkpoint, checkpoint);
   if (CouplerCaseRead(c, &k)) return;
-  CheckFolder(c, k.folder);
+  CheckFolder(c, k.run.folder);
   if (*(const Command *)command == COMMAND_KEYS || !CoracleCaseFaultless(c)) return;
-  printf("coupler: to t = %g s in at least %.15g steps, %.15g snapshots into %s\n", k.end,
-         TimeSteps(k.end, k.dt_max), TimeSteps(k.end, k.every) + 1.0, k.folder);
-  RunCaseNoteSteps(k.end, k.dt_max);
-  RunCaseNoteUnsaved(k.walltime, k.checkpoint);
+  printf("coupler: to t = %g s in at least %.15g steps, %.15g snapshots into %s\n", k.run.end,
+         TimeSteps(k.run.end, k.dt_max), TimeSteps(k.run.end, k.run.every) + 1.0, k.run.folder);
+  RunCaseNoteSteps(k.run.end, k.dt_max);
+  RunCaseNoteUnsaved(k.run.walltime, k.run.checkpoint);
   NoteShell(c, k.options.thickness);
 }
 

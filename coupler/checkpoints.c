@@ -15,8 +15,11 @@ static PetscErrorCode IsRoot(const Checkpoints *k, PetscBool *root)
 PetscErrorCode CheckpointsCreate(MPI_Comm comm, Server server, const CouplerCase *c, Checkpoints *k)
 {
   PetscFunctionBeginUser;
-  *k = (Checkpoints){
-      .comm = comm, .server = server, .folder = c->folder, .every = c->checkpoint, .last = MPI_Wtime()};
+  *k = (Checkpoints){.comm = comm,
+                     .server = server,
+                     .folder = c->run.folder,
+                     .every = c->run.checkpoint,
+                     .last = MPI_Wtime()};
   CheckpointFolderRun(k->run);
   PetscFunctionReturn(0);
 }

@@ -7,7 +7,7 @@ enum { MONITOR_NUMBERS = 7 };
 PetscErrorCode RunOpenOutput(RunState *run)
 {
   TimeLoop *loop = run->loop;
-  const char *resume = ServerResumePath(loop->server), *folder = loop->c->folder;
+  const char *resume = ServerResumePath(loop->server), *folder = loop->c->run.folder;
   const PetscBool resumes = resume ? FolderHolds(PETSC_COMM_WORLD, folder, resume) : PETSC_FALSE;
   const CouplerCase *c = loop->c;
   char ranks[80];
@@ -19,8 +19,8 @@ PetscErrorCode RunOpenOutput(RunState *run)
   snprintf(ranks, sizeof ranks, "ranks of fluid, coupler, solid %d:%d:%d", ServerRanks(loop->server, "fluid"),
            ServerRanks(loop->server, "coupler"), ServerRanks(loop->server, "solid"));
   PetscCall(CaseCopyWrite(folder, ranks, c->argc, c->argv, &copy));
-  PetscCall(EarlyStopBegin(folder, c->walltime, (PetscBool)(c->checkpoint > 0.0), ServerWall(loop->server),
-                           &run->early_stop));
+  PetscCall(EarlyStopBegin(folder, c->run.walltime, (PetscBool)(c->run.checkpoint > 0.0),
+                           ServerWall(loop->server), &run->early_stop));
   PetscCall(CheckpointsCreate(PETSC_COMM_WORLD, loop->server, loop->c, &run->checkpoints));
   PetscCall(WriterCreate(PETSC_COMM_WORLD, loop->c, loop->from, &loop->writer));
   PetscFunctionReturn(0);
@@ -39,9 +39,9 @@ PetscErrorCode RunLoad(RunState *run, Checkpoint from)
   run->shortened = (PetscBool)(shortened != 0.0);
   PetscCall(CheckpointGetDoubles(from, "divergence monitor", 0, 1, MONITOR_NUMBERS, row));
   run->monitor = (DivergenceMonitor){(int)row[0], (int)row[1], {row[2], row[3]}, {row[4], row[5]}, row[6]};
-  if (run->t >= run->loop->c->end)
+  if (run->t >= run->loop->c->run.end)
     PetscCall(RunFail(run, "the checkpoint to resume from is at t = %g s already, time.end is %g s", run->t,
-                      run->loop->c->end));
+                      run->loop->c->run.end));
   PetscFunctionReturn(0);
 }
 

@@ -83,7 +83,7 @@ static PetscErrorCode KeepElements(const RunState *run, double *dt)
 PetscErrorCode RunChooseStep(RunState *run, double proposed)
 {
   const CouplerCase *c = run->loop->c;
-  const double remaining = c->end - run->t,
+  const double remaining = c->run.end - run->t,
                longest = run->dt_before > 0.0 ? MAX_GROWTH * run->dt_before : HUGE_VAL;
   double wanted = fmin(ShortenedStep(run, fmin(proposed, c->dt_max)), longest);
 

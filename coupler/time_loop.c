@@ -275,7 +275,7 @@ static PetscErrorCode SolveStep(RunState *run, StepRecord *step)
 static PetscErrorCode AcceptStep(RunState *run, StepRecord *step)
 {
   const TimeLoop *loop = run->loop;
-  const double end = loop->c->end, t = run->t + run->dt;
+  const double end = loop->c->run.end, t = run->t + run->dt;
 
   PetscFunctionBeginUser;
   PetscCall(CouplerCorrect(loop->coupler, &run->solid, &run->ncorrection, &run->correction));

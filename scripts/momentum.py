@@ -59,6 +59,8 @@ def terms_of(folder):
     `exchange`, the fluid's gain and the coupler's reaction, and `load`, the coupler's force and the solids' load, are left over."""
     fluid, solid, coupler = of_same_steps(folder, *(read_series(os.path.join(folder, name + ".csv")) for name in SERIES))
     dt = fluid["dt"][:, None]
+    if (np.diff(fluid["t"]) > 1.001 * fluid["dt"][1:]).any():
+        sys.exit(f"{folder}: the series do not have every step, which the budget needs: run without output.series_every")
     of_fluid = lambda name: vector(fluid, name, " ")
     terms = {"change": change(of_fluid("start momentum"), of_fluid("momentum")) +
                        change(vector(solid, "start_momentum"), vector(solid, "momentum"))}

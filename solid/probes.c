@@ -1,6 +1,7 @@
 #include "solid/probes.h"
 #include "common/link/case_key.h"
 #include "common/output/output.h"
+#include "common/program/run_case.h"
 #include "common/supermesh/geometry.h"
 #include "solid/point_in_body.h"
 #include "solid/prescribed_motion.h"
@@ -187,6 +188,7 @@ PetscErrorCode ProbesCheckPoints(CoracleCase c, MPI_Comm comm, Solid solid)
 PetscErrorCode ProbesCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoint from, Probes *probes)
 {
   char columns[COLUMNS];
+  RunCase run;
   Probes p;
   PetscFunctionBeginUser;
   *probes = NULL;
@@ -198,8 +200,8 @@ PetscErrorCode ProbesCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoin
     PetscFunctionReturn(0);
   }
   PetscCall(CheckPoints(c, p, solid));
-  PetscCall(
-      SeriesCreate(comm, CoracleCaseString(c, "output.folder"), "solid_probes", columns, from, &p->series));
+  RunCaseRead(c, &run);
+  PetscCall(SeriesCreate(comm, run.folder, "solid_probes", columns, run.series_every, from, &p->series));
   *probes = p;
   PetscFunctionReturn(0);
 }

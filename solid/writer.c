@@ -3,6 +3,7 @@
 #include "common/output/output.h"
 #include "common/program/run_case.h"
 #include "solid/probes.h"
+#include <stddef.h>
 #include <stdio.h>
 
 enum { MAX_BODIES = 1000, PER_BODY = 16, COMMON = 24 };
@@ -12,12 +13,13 @@ struct Writer_s {
   Output output;
   Series series;
   Probes probes; /* NULL: the case has none */
-  int nbodies, revision;
+  int nbodies;   /* that the series has */
+  int revision;  /* of the snapshots' grids */
   double start;  /* s, by the clock, as if runs that this one resumes from had been just before it; */
   double waited; /* s, theirs */
 };
 
-static PetscErrorCode CreateSeries(Writer r, const char *folder, Checkpoint from)
+static PetscErrorCode CreateSeries(Writer r, const RunCase *run, Checkpoint from)
 {
   const size_t size = (size_t)r->nbodies * 300 + 512;
   char *columns;
@@ -39,7 +41,7 @@ static PetscErrorCode CreateSeries(Writer r, const char *folder, Checkpoint from
                  "s/m],momentum_y [N s/m],load_x [N/m],load_y "
                  "[N/m],weight_x [N/m],weight_y [N/m],"
                  "work [J/m],reaction work [J/m],substeps,dt_s [s],computing [s],waiting [s]");
-  PetscCall(SeriesCreate(r->comm, folder, "solid", columns, from, &r->series));
+  PetscCall(SeriesCreate(r->comm, run->folder, "solid", columns, run->series_every, from, &r->series));
   PetscCall(PetscFree(columns));
   PetscFunctionReturn(0);
 }
@@ -106,6 +108,50 @@ static PetscErrorCode SnapshotFieldsCreate(const SolidView *v, SnapshotFields *w
   PetscFunctionReturn(0);
 }
 
+typedef struct {
+  const char *name;
+  size_t offset; /* of a BodyState */
+  int ncomp;
+} BodyField;
+
+/* The mass centres of all bodies as points, with the body's numbers: the first rank's. */
+static PetscErrorCode SnapshotBodies(Writer r, Solid s, int nbodies)
+{
+  static const BodyField FIELD[] = {{"velocity", offsetof(BodyState, v), 2},
+                                    {"angular_velocity", offsetof(BodyState, angular_velocity), 1},
+                                    {"angle", offsetof(BodyState, angle), 1},
+                                    {"force", offsetof(BodyState, load), 2},
+                                    {"moment", offsetof(BodyState, moment), 1},
+                                    {"contact", offsetof(BodyState, contact), 2},
+                                    {"reaction", offsetof(BodyState, reaction), 2},
+                                    {"mass", offsetof(BodyState, mass), 1},
+                                    {"kinetic", offsetof(BodyState, kinetic), 1},
+                                    {"strain", offsetof(BodyState, strain), 1}};
+  PetscMPIInt rank;
+  BodyState *state;
+  double *value; /* [nbodies][2] */
+  int *point;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(r->comm, &rank));
+  const int n = rank == 0 ? nbodies : 0;
+  PetscCall(PetscMalloc3((size_t)nbodies, &state, 2 * (size_t)nbodies, &value, (size_t)nbodies, &point));
+  PetscCall(SolidBodies(s, nbodies, state));
+  for (int b = 0; b < n; b++) {
+    point[b] = b;
+    PetscCall(PetscArraycpy(value + 2 * b, state[b].x, 2));
+  }
+  PetscCall(OutputGrid(r->output, "bodies", r->revision, n, value, n, 1, point));
+  for (size_t k = 0; k < sizeof FIELD / sizeof *FIELD; k++) {
+    const BodyField *f = &FIELD[k];
+    for (int b = 0; b < n; b++)
+      PetscCall(PetscArraycpy(value + f->ncomp * b, (const double *)((const char *)&state[b] + f->offset),
+                              (size_t)f->ncomp));
+    PetscCall(OutputField(r->output, f->name, OUTPUT_NODE, f->ncomp, value));
+  }
+  PetscCall(PetscFree3(state, value, point));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode Snapshot(Writer r, Solid s)
 {
   SolidView v;
@@ -117,11 +163,13 @@ static PetscErrorCode Snapshot(Writer r, Solid s)
   PetscCall(PetscMalloc1(3 * (size_t)v.nelements, &stress));
   SolidStress(s, stress);
   PetscCall(OutputBegin(r->output, SolidGetStats(s)->t));
-  PetscCall(OutputGrid(r->output, "solid", r->revision++, w.n, w.x, v.nelements, 3, w.element));
+  PetscCall(OutputGrid(r->output, "solid", r->revision, w.n, w.x, v.nelements, 3, w.element));
   PetscCall(OutputField(r->output, "velocity", OUTPUT_NODE, 2, w.velocity));
   PetscCall(OutputField(r->output, "displacement", OUTPUT_NODE, 2, w.displacement));
   PetscCall(OutputField(r->output, "stress", OUTPUT_CELL, 3, stress));
   PetscCall(CellFields(r, s, &v, stress));
+  PetscCall(SnapshotBodies(r, s, v.nbodies));
+  r->revision++;
   PetscCall(OutputEnd(r->output));
   PetscCall(PetscFree(stress));
   PetscCall(PetscFree4(w.element, w.x, w.velocity, w.displacement));
@@ -167,7 +215,7 @@ PetscErrorCode WriterCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoin
   PetscCall(OutputCreate(comm, run.folder, "solid", run.every, run.end, from, &r->output));
   PetscCall(OutputText(r->output, "case", CoracleCaseStringOr(c, "case", "")));
   PetscCall(OutputText(r->output, "version", CORACLE_VERSION));
-  PetscCall(CreateSeries(r, run.folder, from));
+  PetscCall(CreateSeries(r, &run, from));
   PetscCall(ProbesCreate(c, comm, solid, from, &r->probes));
   PetscCall(from ? Load(r, from) : Snapshot(r, solid));
   *record = r;

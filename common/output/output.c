@@ -39,12 +39,6 @@ static PetscErrorCode CutLater(Output o)
   PetscFunctionReturn(0);
 }
 
-/* After the last snapshot, at a multiple of `every`, which may be another one than that of the run that this one resumes. */
-static void SetNext(Output o)
-{
-  o->next = o->every * (floor(o->last / (o->every * TIME_NEARLY)) + 1.0);
-}
-
 PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name, double every, double end,
                             Checkpoint from, Output *out)
 {
@@ -59,7 +53,7 @@ PetscErrorCode OutputCreate(MPI_Comm comm, const char *folder, const char *name,
   o->every = every;
   o->end = end;
   if (from) PetscCall(CheckpointGetNumber(from, "output last", &o->last));
-  if (from) SetNext(o);
+  if (from) o->next = TimeNext(o->last, every); /* that of this run */
   snprintf(path, sizeof path, "%s/%s.h5", folder, name);
   PetscCall(PetscStrncpy(o->path, path, sizeof o->path));
   if (FolderGoesOn(comm, folder, path, from)) {
@@ -103,7 +97,7 @@ PetscErrorCode OutputBegin(Output o, double t)
   PetscCheck(!o->open, o->comm, PETSC_ERR_ORDER, "OutputBegin: the last snapshot has no OutputEnd");
   o->open = PETSC_TRUE;
   o->last = t;
-  SetNext(o);
+  o->next = TimeNext(t, o->every);
   o->current = -1;
   if (o->later) PetscCall(CutLater(o));
   snprintf(path, sizeof path, "/snapshot/%06lld", o->nsnapshot);

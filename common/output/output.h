@@ -23,7 +23,7 @@ PetscBool OutputDue(Output out, double t);
 /* Collective: starts the snapshot of time t, s, due or not. */
 PetscErrorCode OutputBegin(Output out, double t);
 /* Collective: a grid of this snapshot: nodes x[n][2], cells connectivity[ne][nodes_per_cell] in this rank's
- * node indices.  nodes_per_cell: 2 Polyline/edge, 3 Triangle, 6 Triangle_6 (VTK order: midpoints of 01, 12,
+ * node indices.  nodes_per_cell: 1 Polyvertex/point, 2 Polyline/edge, 3 Triangle, 6 Triangle_6 (VTK order: midpoints of 01, 12,
  * 20). revision: while the same number is given for a grid name, topology and points are not written again
  * but refer to the first. */
 PetscErrorCode OutputGrid(Output out, const char *grid, int revision, int n, const double x[], int ne,
@@ -38,7 +38,8 @@ PetscErrorCode OutputEnd(Output out);
 PetscErrorCode OutputDestroy(Output *out);
 
 /* A time series, rank 0's numbers: <folder>/<name>.csv; the header is `columns` (comma-separated, with units:
- * "t [s],U [m/s]").  Collective; `from` and SeriesSave as above. */
+ * "t [s],U [m/s]"), the first of which is the time.  A row is written at the first time and whenever a multiple of `every`, s, has come since
+ * the last one, with 0 at each, and the last one when the series is destroyed.  Collective; `from` and SeriesSave as above. */
 typedef struct Series_s *Series;
 enum { SERIES_NAME_MAX = 40 };
 /* Not collective: whether a name, of a probe say, can lead the names of columns: neither empty nor longer than that, without
@@ -46,9 +47,9 @@ enum { SERIES_NAME_MAX = 40 };
 PetscBool SeriesCanName(const char *name);
 /* A file to go on with must have these columns. */
 PetscErrorCode SeriesCreate(MPI_Comm comm, const char *folder, const char *name, const char *columns,
-                            Checkpoint from, Series *s);
+                            double every, Checkpoint from, Series *s);
 PetscErrorCode SeriesSave(Series s, Checkpoint to);
-/* Not collective: rank 0 appends one row of as many numbers as columns; others return at once. */
+/* Not collective: a row of as many numbers as columns, rank 0's, which appends it if it is due; others return at once. */
 PetscErrorCode SeriesRow(Series s, const double value[]);
 PetscErrorCode SeriesDestroy(Series *s);
 #endif

@@ -105,9 +105,9 @@ PetscErrorCode OutputGrid(Output o, const char *name, int revision, int n, const
   Hdf5Rows node, cell;
   PetscFunctionBeginUser;
   PetscCheck(o->open, o->comm, PETSC_ERR_ORDER, "OutputGrid '%s' comes before OutputBegin", name);
-  PetscCheck(nodes_per_cell == 2 || nodes_per_cell == 3 || nodes_per_cell == 6, o->comm,
-             PETSC_ERR_ARG_OUTOFRANGE, "grid '%s' has %d nodes a cell: 2, 3 and 6 are known", name,
-             nodes_per_cell);
+  PetscCheck(nodes_per_cell == 1 || nodes_per_cell == 2 || nodes_per_cell == 3 || nodes_per_cell == 6,
+             o->comm, PETSC_ERR_ARG_OUTOFRANGE, "grid '%s' has %d nodes a cell: 1, 2, 3 and 6 are known",
+             name, nodes_per_cell);
   PetscCall(CheckName(o, name));
   PetscCall(FindGrid(o, name, &g));
   PetscCall(Hdf5Place(o->comm, n, 1, &node));
@@ -159,9 +159,22 @@ static double Rounded(double value)
 /* A field of one name has one unit in all files. */
 static PetscErrorCode WriteUnit(Output o, const char *path, const char *field)
 {
-  static const char *const UNITS[][2] = {
-      {"velocity", "m/s"},          {"pressure", "Pa"},           {"displacement", "m"},    {"stress", "Pa"},
-      {"principal_stress_1", "Pa"}, {"principal_stress_2", "Pa"}, {"strain_energy", "J/m3"}};
+  static const char *const UNITS[][2] = {{"velocity", "m/s"},
+                                         {"pressure", "Pa"},
+                                         {"displacement", "m"},
+                                         {"stress", "Pa"},
+                                         {"principal_stress_1", "Pa"},
+                                         {"principal_stress_2", "Pa"},
+                                         {"strain_energy", "J/m3"},
+                                         {"angular_velocity", "rad/s"},
+                                         {"angle", "rad"},
+                                         {"force", "N/m"},
+                                         {"moment", "N"},
+                                         {"contact", "N/m"},
+                                         {"reaction", "N/m"},
+                                         {"mass", "kg/m"},
+                                         {"kinetic", "J/m"},
+                                         {"strain", "J/m"}};
   PetscFunctionBeginUser;
   for (size_t k = 0; k < sizeof UNITS / sizeof *UNITS; k++)
     if (!strcmp(field, UNITS[k][0])) PetscCall(Hdf5Text(o->file, path, "unit", UNITS[k][1]));

@@ -11,6 +11,12 @@ static inline int TimeReached(double t, double time)
   return t >= time * TIME_NEARLY;
 }
 
+/* The first multiple of `every`, >= 0, after t. */
+static inline double TimeNext(double t, double every)
+{
+  return every > 0.0 ? every * (floor(t / (every * TIME_NEARLY)) + 1.0) : 0.0;
+}
+
 /* The fewest steps of at most `longest` that make up `length`: 1 or more. */
 static inline double TimeSteps(double length, double longest)
 {

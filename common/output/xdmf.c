@@ -198,7 +198,8 @@ static PetscErrorCode CloseGrid(Xdmf x)
 PetscErrorCode XdmfGrid(Xdmf x, const char *grid, const char *points, long long n, const char *cells,
                         long long ne, int nodes_per_cell, int index_bytes)
 {
-  const char *type = nodes_per_cell == 2   ? "Polyline\" NodesPerElement=\"2"
+  const char *type = nodes_per_cell == 1   ? "Polyvertex\" NodesPerElement=\"1"
+                     : nodes_per_cell == 2 ? "Polyline\" NodesPerElement=\"2"
                      : nodes_per_cell == 3 ? "Triangle"
                                            : "Triangle_6";
   PetscFunctionBeginUser;

@@ -16,6 +16,7 @@ void RunCaseRead(CoracleCase c, RunCase *r)
                       "its name has %zu characters, more than %d: use a relative path or a link",
                       strlen(r->folder), (int)FOLDER_LENGTH);
   r->every = CoracleCasePositive(c, "output.every");
+  r->series_every = CoracleCaseNumberOr(c, "output.series_every", 0.0, 0.0, HUGE_VAL);
   r->end = CoracleCasePositive(c, "time.end");
   r->checkpoint = CoracleCaseNumberOr(c, "output.checkpoint", 600.0, 0.0, HUGE_VAL);
   r->walltime = CoracleCaseHas(c, "time.walltime") ? CoracleCasePositive(c, "time.walltime") : 0.0;
@@ -52,6 +53,9 @@ void RunCaseDescribe(CoracleCase c, const CoracleCaseKey own[])
       {"output.folder", "", "where results go; made if missing"},
       {"output.checkpoint", "s", "by the clock, from one checkpoint to the next; 0: none"},
       {"output.every", "s", "time from one snapshot of the fields to the next; there is one at the end, too"},
+      {"output.series_every", "s",
+       "time from one row of the CSV series to the next, for long runs and many bodies; there is one at the "
+       "end, too; 0: each step"},
       {NULL, NULL, NULL}};
   CoracleCaseDescribe(c, own);
   CoracleCaseDescribe(c, KEYS);

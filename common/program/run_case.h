@@ -4,9 +4,10 @@
 #include "common/link/case_file.h"
 
 typedef struct {
-  const char *folder; /* output.folder, borrowed until CoracleCaseClose */
-  double every, end;  /* s: output.every, time.end */
-  double checkpoint;  /* s by the clock: from one checkpoint to the next, 0: none (output.checkpoint) */
+  const char *folder;  /* output.folder, borrowed until CoracleCaseClose */
+  double every, end;   /* s: output.every, time.end */
+  double series_every; /* s, 0: each step (output.series_every) */
+  double checkpoint;   /* s by the clock: from one checkpoint to the next, 0: none (output.checkpoint) */
   double
       walltime; /* s by the clock: after which the run ends with a checkpoint, 0: at time.end (time.walltime) */
 } RunCase;

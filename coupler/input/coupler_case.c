@@ -90,18 +90,12 @@ PetscErrorCode CouplerCaseRead(CoracleCase file, CouplerCase *c)
 {
   static const char *const SECTIONS[] = {"case", "note", "gravity", "time", "coupler", "output", NULL};
   char option[256];
-  RunCase run;
 
   PetscFunctionBeginUser;
   snprintf(c->name, sizeof c->name, "%s", CoracleCaseString(file, "case"));
   snprintf(c->note, sizeof c->note, "%s", CoracleCaseStringOr(file, "note", ""));
-  RunCaseRead(file, &run);
+  RunCaseRead(file, &c->run);
   c->path = CoracleCasePath(file);
-  c->folder = run.folder;
-  c->every = run.every;
-  c->end = run.end;
-  c->checkpoint = run.checkpoint;
-  c->walltime = run.walltime;
   (void)CoracleCaseBoolOr(file, "output.trace", false); /* the library's */
   c->dt_max = CoracleCasePositive(file, "time.dt_max");
   /* the fluid's, read here so that the whole section can be checked */

@@ -2,18 +2,17 @@
  * solids. */
 #ifndef CORACLE_COUPLER_CASE_H
 #define CORACLE_COUPLER_CASE_H
-#include "common/link/case_file.h"
+#include "common/program/run_case.h"
 #include "coupler/geometry/gauges.h"
 #include "coupler/step/coupler.h"
 
 typedef struct {
   char name[128], note[512];
-  const char *path, *folder; /* of the case file; output.folder; borrowed until CoracleCaseClose */
-  double end, dt_max, every; /* s */
-  double checkpoint;         /* wall-clock seconds from one to the next, 0: none */
-  double walltime;           /* wall-clock seconds after which the run ends with a checkpoint, 0: at `end` */
-  int max_iterations;        /* coupling iterations of a step; 1: the first is accepted */
-  double tolerance;          /* of the coupling iterations, relative (coupling_iteration.h) */
+  const char *path; /* of the case file, borrowed until CoracleCaseClose */
+  RunCase run;
+  double dt_max;      /* s */
+  int max_iterations; /* coupling iterations of a step; 1: the first is accepted */
+  double tolerance;   /* of the coupling iterations, relative (coupling_iteration.h) */
   CouplerOptions options;
   GaugesCase gauges;
   int argc; /* the command line, borrowed: program, case file, settings */

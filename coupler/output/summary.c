@@ -51,10 +51,10 @@ PetscErrorCode SummaryWrite(Server server, const CouplerCase *c, const WriterTot
     SummaryReportsFree(&reports);
     PetscFunctionReturn(0);
   }
-  snprintf(path, sizeof path, "%s/trace.json", c->folder);
+  snprintf(path, sizeof path, "%s/trace.json", c->run.folder);
   PetscCall(ServerWriteTrace(server, path));
   Advise(server, &reports, ServerWall(server));
-  snprintf(path, sizeof path, "%s/summary.json", c->folder);
+  snprintf(path, sizeof path, "%s/summary.json", c->run.folder);
   FILE *f = fopen(path, "w");
   if (!f) ServerFail(server, "%s: %s", path, strerror(errno));
   WriteAll(f, c, t, &reports);

@@ -18,7 +18,7 @@ static void AddColumns(const char *name, const char *part, const char *unit, cha
     *end += sprintf(*end, ",%s%s%s %c [%s]", name, part ? " " : "", part ? part : "", "xy"[c], unit);
 }
 
-PetscErrorCode ForceSeriesCreate(CoracleCase c, Fluid fluid, Checkpoint from, ForceSeries *series)
+PetscErrorCode ForceSeriesCreate(const RunCase *run, Fluid fluid, Checkpoint from, ForceSeries *series)
 {
   const Mesh *m = FluidMesh(fluid);
   const size_t nvectors = 2 + BUDGET_TERMS + 1 + FORCE_PARTS * (size_t)m->ntags;
@@ -35,8 +35,7 @@ PetscErrorCode ForceSeriesCreate(CoracleCase c, Fluid fluid, Checkpoint from, Fo
   for (int k = 0; k <= BUDGET_TERMS; k++) AddColumns(TERM[k], NULL, "N/m", &end);
   for (int b = 0; b < m->ntags; b++)
     for (int k = 0; k < FORCE_PARTS; k++) AddColumns(m->tag_name[b], PART[k], "N/m", &end);
-  PetscCall(SeriesCreate(m->comm, CoracleCaseString(c, "output.folder"), "fluid_forces", columns, from,
-                         &s->series));
+  PetscCall(SeriesCreate(m->comm, run->folder, "fluid_forces", columns, run->series_every, from, &s->series));
   PetscCall(PetscFree(columns));
   PetscCall(PetscMalloc1(2 + 2 * nvectors, &s->row));
   *series = s;

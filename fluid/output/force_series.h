@@ -5,13 +5,13 @@
  *   NAME pressure, NAME viscous, NAME convection                             of each boundary, on it */
 #ifndef FLUID_FORCE_SERIES_H
 #define FLUID_FORCE_SERIES_H
-#include "common/link/case_file.h"
+#include "common/program/run_case.h"
 #include "fluid/flow/fluid.h"
 
 typedef struct ForceSeries_s *ForceSeries;
 
 /* Collective: the series in output.folder; with a checkpoint (else NULL) as it was at ForceSeriesSave. */
-PetscErrorCode ForceSeriesCreate(CoracleCase c, Fluid fluid, Checkpoint from, ForceSeries *s);
+PetscErrorCode ForceSeriesCreate(const RunCase *run, Fluid fluid, Checkpoint from, ForceSeries *s);
 /* Collective, between two steps. */
 PetscErrorCode ForceSeriesSave(ForceSeries s, Checkpoint to);
 /* Not collective, after every step. */

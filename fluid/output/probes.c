@@ -1,5 +1,6 @@
 #include "fluid/output/probes.h"
 #include "common/output/output.h"
+#include "common/program/run_case.h"
 #include "fluid/input/probe_case.h"
 #include "fluid/output/flow_gauge.h"
 #include "fluid/output/locate.h"
@@ -187,9 +188,11 @@ static void AddForce(const Probe *probe, char **end)
 
 PetscErrorCode ProbesOpen(Probes p, CoracleCase c, Checkpoint from)
 {
+  RunCase run;
   char *columns, *end;
   PetscFunctionBeginUser;
   if (!p) PetscFunctionReturn(0);
+  RunCaseRead(c, &run);
   PetscCall(PetscMalloc1(COLUMN_LENGTH * (1 + WHOLE * (size_t)(p->list.nfixed + p->list.ngauges + p->list.n)),
                          &columns));
   end = columns + sprintf(columns, "t [s]");
@@ -197,8 +200,7 @@ PetscErrorCode ProbesOpen(Probes p, CoracleCase c, Checkpoint from)
     for (int i = 0; i < p->list.probe[k].n; i++) AddColumns(p, &p->list.probe[k], i, &end);
     if (p->list.probe[k].kind == PROBE_FACE) AddForce(&p->list.probe[k], &end);
   }
-  PetscCall(SeriesCreate(p->comm, CoracleCaseString(c, "output.folder"), "fluid_probes", columns, from,
-                         &p->series));
+  PetscCall(SeriesCreate(p->comm, run.folder, "fluid_probes", columns, run.series_every, from, &p->series));
   PetscCall(PetscFree(columns));
   PetscFunctionReturn(0);
 }

@@ -146,8 +146,8 @@ PetscErrorCode WriterCreate(CoracleCase c, Fluid f, Checkpoint from, Writer *wri
   PetscCall(OutputText(r->output, "case", CoracleCaseStringOr(c, "case", "")));
   PetscCall(OutputText(r->output, "version", CORACLE_VERSION));
   PetscCall(SetColumns(f, sizeof columns, columns));
-  PetscCall(SeriesCreate(m->comm, run.folder, "fluid", columns, from, &r->series));
-  PetscCall(ForceSeriesCreate(c, f, from, &r->forces));
+  PetscCall(SeriesCreate(m->comm, run.folder, "fluid", columns, run.series_every, from, &r->series));
+  PetscCall(ForceSeriesCreate(&run, f, from, &r->forces));
   if (!from) PetscCall(Snapshot(r, f));
   *writer = r;
   PetscFunctionReturn(0);

@@ -162,14 +162,16 @@ static void RunSolid(int argc, char **argv, double end, double momentum[2])
 
 static void RunCoupler(int argc, char **argv, const char *folder, double end, double momentum[2])
 {
-  CouplerCase c = {.name = "exchange", .end = end, .dt_max = 2.0 * DT, .every = 0.2, .max_iterations = 1};
+  CouplerCase c = {.name = "exchange",
+                   .run = {.folder = folder, .every = 0.2, .end = end},
+                   .dt_max = 2.0 * DT,
+                   .max_iterations = 1};
   TimeLoop loop = {.c = &c};
   WriterTotals totals;
   Server server;
   MPI_Comm comm;
   c.options =
       (CouplerOptions){.mode = COUPLER_REACTION, .thickness = 0.002, .gravity = {GRAVITY[0], GRAVITY[1]}};
-  c.folder = folder;
   CHECK(!ServerOpen(argc, argv, &comm, &server), "open");
   PETSC_COMM_WORLD = comm;
   CHECK(!PetscInitialize(NULL, NULL, NULL, NULL), "PETSc");

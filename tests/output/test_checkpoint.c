@@ -95,7 +95,7 @@ static PetscErrorCode Run(PetscBool resume, int from)
   PetscFunctionBeginUser;
   if (resume) PetscCall(CheckpointOpen(PETSC_COMM_WORLD, inside, "files", &c));
   PetscCall(OutputCreate(PETSC_COMM_WORLD, folder, "run", 0.2, resume ? 1.1 : 0.9, c, &out));
-  PetscCall(SeriesCreate(PETSC_COMM_WORLD, folder, "run", "t [s],k", c, &s));
+  PetscCall(SeriesCreate(PETSC_COMM_WORLD, folder, "run", "t [s],k", 0.0, c, &s));
   PetscCall(CheckpointClose(&c));
   PetscCall(Write(out, s, from, resume ? 12 : 5));
   if (!resume) {
