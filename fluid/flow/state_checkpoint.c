@@ -76,6 +76,7 @@ PetscErrorCode FluidSave(Fluid f, Checkpoint to)
   PetscCall(CheckpointPutNumber(to, "time", f->t));
   PetscCall(CheckpointPutNumber(to, "previous step", f->dt_previous));
   PetscCall(CheckpointPutNumber(to, "damped steps", f->damped));
+  PetscCall(CheckpointPutNumber(to, "number of phases", f->setup.phases.n));
   PetscCall(SaveMomentum(f, to));
   PetscCall(SaveVelocity(f->u, f->domain.mesh->ne, "velocity", to));
   PetscCall(SaveVelocity(f->u_previous, f->domain.mesh->ne, "previous velocity", to));
@@ -102,10 +103,22 @@ static PetscErrorCode LoadSeconds(Fluid f, Checkpoint from)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode CheckPhases(Fluid f, Checkpoint from)
+{
+  double n;
+  PetscFunctionBeginUser;
+  PetscCall(CheckpointGetNumber(from, "number of phases", &n));
+  PetscCheck((int)n == f->setup.phases.n, PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED,
+             "fluid.phases: expected %d, as in %s/fluid.h5 (0: one fluid), found %d", (int)n,
+             CheckpointFolder(from), f->setup.phases.n);
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode FluidLoad(Fluid f, const PetscInt row[], Checkpoint from)
 {
   double damped;
   PetscFunctionBeginUser;
+  PetscCall(CheckPhases(f, from));
   PetscCall(CheckpointGetNumber(from, "time", &f->t));
   PetscCall(CheckpointGetNumber(from, "previous step", &f->dt_previous));
   PetscCall(CheckpointGetNumber(from, "damped steps", &damped));

@@ -87,6 +87,7 @@ PetscErrorCode PhaseTransportBudget(PhaseTransport t, PhaseBudget *budget);
 /* For a step that is redone. */
 PetscErrorCode PhaseTransportSaveState(PhaseTransport t);
 PetscErrorCode PhaseTransportRestoreState(PhaseTransport t);
+/* To and from a checkpoint, in which phases have their names: they may come in another order, not with other names, and stay compressible or not. */
 PetscErrorCode PhaseTransportSave(PhaseTransport t, Checkpoint to);
 PetscErrorCode PhaseTransportLoad(PhaseTransport t, const PetscInt row[], Checkpoint from);
 #endif

@@ -86,6 +86,61 @@ PetscErrorCode PhaseTransportRestoreState(PhaseTransport t)
   PetscFunctionReturn(0);
 }
 
+/* --- checkpoints ---------------------------------------------------------------------------------------- */
+
+/* What a checkpoint says of a phase: its name, a letter a column, and whether it is compressible. */
+enum { NAME_LENGTH = sizeof((PhaseProperties *)NULL)->name[0], DESCRIPTION = NAME_LENGTH + 1 };
+
+static void Describe(const PhaseProperties *p, int k, long long row[DESCRIPTION])
+{
+  memset(row, 0, DESCRIPTION * sizeof *row);
+  for (int i = 0; i < NAME_LENGTH && p->name[k][i]; i++) row[i] = (unsigned char)p->name[k][i];
+  row[NAME_LENGTH] = p->state[k].pressure > 0.0;
+}
+
+static PetscErrorCode SaveDescriptions(PhaseTransport t, PetscBool first_rank, Checkpoint to)
+{
+  long long row[PHASES_MAX][DESCRIPTION];
+  PetscFunctionBeginUser;
+  for (int k = 0; k < t->properties.n; k++) Describe(&t->properties, k, row[k]);
+  PetscCall(
+      CheckpointPutIndices(to, "phases' names", first_rank ? t->properties.n : 0, DESCRIPTION, &row[0][0]));
+  PetscFunctionReturn(0);
+}
+
+/* column[n]: of a checkpoint's tables, where the phases are.  Their order is that of the case, or of densities, which may be others now. */
+static PetscErrorCode FindColumns(PhaseTransport t, Checkpoint from, int column[])
+{
+  const int n = t->properties.n;
+  long long saved[PHASES_MAX][DESCRIPTION], own[DESCRIPTION];
+  PetscFunctionBeginUser;
+  PetscCall(CheckpointGetIndices(from, "phases' names", 0, n, DESCRIPTION, &saved[0][0]));
+  for (int k = 0; k < n; k++) {
+    const char *name = t->properties.name[k];
+    Describe(&t->properties, k, own);
+    column[k] = k;
+    for (int j = 0; j < n && memcmp(own, saved[column[k]], NAME_LENGTH * sizeof *own); j++) column[k] = j;
+    const long long *found = saved[column[k]];
+    PetscCheck(!memcmp(own, found, NAME_LENGTH * sizeof *own), PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED,
+               "fluid.phases: expected the names of the phases in %s/fluid.h5, where '%s' is none",
+               CheckpointFolder(from), name);
+    PetscCheck(own[NAME_LENGTH] == found[NAME_LENGTH], PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED,
+               "fluid.phases: expected '%s' %s gas or sound_speed, as in %s/fluid.h5", name,
+               found[NAME_LENGTH] ? "with" : "without", CheckpointFolder(from));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* value[rows][n]: from the checkpoint's columns to the phases'. */
+static void SortColumns(int rows, int n, const int column[], double value[])
+{
+  for (int r = 0; r < rows; r++) {
+    double saved[PHASES_MAX];
+    for (int k = 0; k < n; k++) saved[k] = value[r * n + k];
+    for (int k = 0; k < n; k++) value[r * n + k] = saved[column[k]];
+  }
+}
+
 PetscErrorCode PhaseTransportSave(PhaseTransport t, Checkpoint to)
 {
   int n;
@@ -95,6 +150,7 @@ PetscErrorCode PhaseTransportSave(PhaseTransport t, Checkpoint to)
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(t->domain->mesh->comm, &rank));
   PetscCall(PetscMalloc1(t->stars->ne, &solid));
+  PetscCall(SaveDescriptions(t, (PetscBool)(rank == 0), to));
   GetSolid(t, solid);
   PetscCall(CheckpointPutDoubles(to, "solid", t->stars->ne, SOLID_FIELDS, (const double *)solid));
   PetscCall(PetscFree(solid));
@@ -108,21 +164,28 @@ PetscErrorCode PhaseTransportSave(PhaseTransport t, Checkpoint to)
 
 PetscErrorCode PhaseTransportLoad(PhaseTransport t, const PetscInt row[], Checkpoint from)
 {
+  const int n = t->properties.n;
   double *volume, (*solid)[SOLID_FIELDS];
+  int column[PHASES_MAX];
   PetscFunctionBeginUser;
+  PetscCall(FindColumns(t, from, column));
   PetscCall(PetscMalloc1(t->stars->ne, &solid));
   PetscCall(MeshLoadDoubles(t->domain->mesh, row, from, "solid", SOLID_FIELDS, (double *)solid));
   PetscCall(SetSolid(t, (const double(*)[SOLID_FIELDS])solid));
   PetscCall(PetscFree(solid));
-  PetscCall(PetscMalloc1((size_t)t->properties.n * (size_t)t->stars->ne, &volume));
-  PetscCall(MeshLoadDoubles(t->domain->mesh, row, from, "phases", t->properties.n, volume));
+  PetscCall(PetscMalloc1((size_t)n * (size_t)t->stars->ne, &volume));
+  PetscCall(MeshLoadDoubles(t->domain->mesh, row, from, "phases", n, volume));
+  SortColumns(t->stars->ne, n, column, volume);
   PetscCall(PhasesSetVolumes(t->phases, volume));
   PetscCall(PetscFree(volume));
-  if (PhasesMasses(t->phases))
-    PetscCall(MeshLoadDoubles(t->domain->mesh, row, from, "phases' masses", t->properties.n,
-                              PhasesMasses(t->phases)));
-  PetscCall(CheckpointGetDoubles(from, "initial phases", 0, 1, t->properties.n, t->budget.initial));
-  PetscCall(CheckpointGetDoubles(from, "phases out", 0, 1, t->properties.n, t->budget.out));
+  if (PhasesMasses(t->phases)) {
+    PetscCall(MeshLoadDoubles(t->domain->mesh, row, from, "phases' masses", n, PhasesMasses(t->phases)));
+    SortColumns(t->stars->ne, n, column, PhasesMasses(t->phases));
+  }
+  PetscCall(CheckpointGetDoubles(from, "initial phases", 0, 1, n, t->budget.initial));
+  PetscCall(CheckpointGetDoubles(from, "phases out", 0, 1, n, t->budget.out));
+  SortColumns(1, n, column, t->budget.initial);
+  SortColumns(1, n, column, t->budget.out);
   PetscCall(PhaseTransportReconstruct(t));
   PetscFunctionReturn(0);
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Phases in unusual domains: on ranks without elements, with a gas and a checkpoint; far from the origin; with an interface that lies along the cut between ranks, which is
+# Phases in unusual domains: on ranks without elements, with a gas and a checkpoint, from which a run with other phases does not go on; far from the origin; with an interface that lies along the cut between ranks, which is
 # refined all the same; beside a slanted wall that moves along itself, which is a wall, in a closed tank, too; gas that comes in has the density of the pressure there; and where
 # gravity changes, the first step after a resume is that of the run without a stop.  A zone of absorption draws the phase that it names alone.
 # Usage: phase_edges.sh ROOT BUILD
@@ -10,6 +10,25 @@ gas='{name: air, density: 1.2, viscosity: 1.8e-5, gas: {pressure: 1.0e5, exponen
 must empty 4:1:1 --set output.checkpoint=1e-9
 must "empty gas" 4:1:1 --set output.checkpoint=1e-9 --set "fluid.phases[1]=$gas"
 must "empty gas again" 3:1:1 --set "resume=$scratch/empty gas/checkpoint" --set time.end=0.006 --set "fluid.phases[1]=$gas"
+# phases in another order are those of the same names; with other names, another number of them, or one compressible that was not, the run does not go on
+water='{name: water, density: 1000.0, viscosity: 1.0e-3}' air='{name: air, density: 1.2, viscosity: 1.8e-5}'
+on() { local label=$1; shift; run "$label" 1:1:1 --set "resume=$scratch/empty/checkpoint" --set time.end=0.006 "$@"; }
+on order --set "fluid.phases=[$air, $water]" || { cat "$scratch/order.log"; exit 1; }
+"$python" - "$scratch" <<'E7'
+from results import rows
+last = rows("order", "fluid")[-1]
+assert abs(last["water [m2]"] - 0.4) < 1e-9 and abs(last["water made [m2]"]) < 1e-12, "resumed with phases in another order: %s" % last
+E7
+refused() {
+  on "$1" "${@:3}" && { echo "resumed with $1 it has run"; exit 1; }
+  grep -q "error: fluid.phases: $2" "$scratch/$1.log" || { cat "$scratch/$1.log"; exit 1; }
+}
+refused names "expected the names .*empty/checkpoint/fluid.h5, where 'steam' is none" --set fluid.phases[1].name=steam --set fluid.regions[0].phase=steam
+refused masses "expected 'air' without gas" --set "fluid.phases[1]=$gas"
+refused number "expected 2, as in .*found 3" --set "fluid.phases=[$water, $air, {name: oil, density: 850.0, viscosity: 0.05}]"
+sed -e '/^  phases:/,/phase: water, lower/d' -e 's/^fluid:/fluid: {density: 1000.0, viscosity: 1.0e-3,/' -e 's/^  mesh: \(.*\)/  mesh: \1,/' -e 's/^  boundaries: \(.*\)/  boundaries: \1}/' \
+  "$case" >"$scratch/single.yaml"
+case=$scratch/single.yaml refused single "expected 2, as in .*found 0"
 # northings of maps
 must far 1:1:1 --set fluid.mesh.lower='[500000, 4200000]' --set fluid.mesh.upper='[500001, 4200001]' --set fluid.mesh.size_max=0.2 \
   --set 'fluid.regions[1]={phase: water, lower: [499999, 4199999], upper: [500002, 4200000.4]}'
