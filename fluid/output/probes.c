@@ -9,6 +9,8 @@
 #include "fluid/output/solid_gauge.h"
 #include "fluid/output/surface_gauge.h"
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* The numbers of a gauge or a surface, of a phase, of a force and its moment. */
 enum { FOLLOWING = 3, WHOLE = 6, FORCE = 3, COLUMN_LENGTH = SERIES_NAME_MAX + 24 };
@@ -118,6 +120,69 @@ PetscErrorCode ProbesStep(Probes p, Fluid fluid, int n, const CoracleGauge gauge
   PetscFunctionReturn(0);
 }
 
+/* --- columns -------------------------------------------------------------------------------------------- */
+
+/* The columns of point i of a probe. */
+static void AddColumns(const Probes p, const Probe *probe, int i, char **end)
+{
+  static const char *const FLOW[] = {"u [m/s]", "v [m/s]", "p [Pa]", "rho [kg/m3]"},
+                           *const GAUGE[] = {"x [m]", "y [m]", "p [Pa]"},
+                           *const SURFACE[] = {"first [m]", "last [m]", "length [m]"},
+                           *const PHASE[] = {"area [m2]", "x [m]",   "y [m]",
+                                             "u [m/s]",   "v [m/s]", "interface [m]"},
+                           *const THROUGH[] = {"flow [m2/s]"};
+  static const char *const *const COLUMNS[] = {FLOW, FLOW, GAUGE, GAUGE, SURFACE, PHASE, THROUGH};
+  char number[16] = "";
+  if (probe->kind == PROBE_LINE || probe->kind == PROBE_FACE) (void)snprintf(number, sizeof number, "%d", i);
+  for (int k = 0; k < Width(p, probe); k++)
+    *end += snprintf(*end, COLUMN_LENGTH, ",%s%s_%s", probe->name, number, COLUMNS[probe->kind][k]);
+}
+
+static void AddForce(const Probe *probe, char **end)
+{
+  static const char *const COLUMNS[FORCE] = {"force_x [N/m]", "force_y [N/m]", "moment [N]"};
+  for (int k = 0; k < FORCE; k++) *end += snprintf(*end, COLUMN_LENGTH, ",%s_%s", probe->name, COLUMNS[k]);
+}
+
+/* *columns of fluid_probes.csv is allocated. */
+static PetscErrorCode SetColumns(Probes p, char **columns)
+{
+  const size_t most = 1 + WHOLE * (size_t)(p->list.nfixed + p->list.ngauges + p->list.n);
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(COLUMN_LENGTH * most, columns));
+  char *end = *columns + sprintf(*columns, "t [s]");
+  for (int k = 0; k < p->list.n; k++) {
+    for (int i = 0; i < p->list.probe[k].n; i++) AddColumns(p, &p->list.probe[k], i, &end);
+    if (p->list.probe[k].kind == PROBE_FACE) AddForce(&p->list.probe[k], &end);
+  }
+  PetscFunctionReturn(0);
+}
+
+static int CompareNames(const void *a, const void *b)
+{
+  return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+/* Point 1 of a line "a" has the columns of a point "a1". */
+static PetscErrorCode CheckColumns(Probes p, CoracleCase c)
+{
+  char *columns, **name;
+  int n = 0;
+  PetscFunctionBeginUser;
+  PetscCall(SetColumns(p, &columns));
+  PetscCall(PetscMalloc1(strlen(columns), &name));
+  for (char *at = strtok(columns, ","); at; at = strtok(NULL, ",")) name[n++] = at;
+  qsort(name, (size_t)n, sizeof *name, CompareNames);
+  for (int k = 1; k < n; k++)
+    if (!strcmp(name[k - 1], name[k]))
+      CoracleCaseRefuse(
+          c, "fluid.probes",
+          "two columns are called '%s': expected names that differ by more than a point's number", name[k]);
+  PetscCall(PetscFree(name));
+  PetscCall(PetscFree(columns));
+  PetscFunctionReturn(0);
+}
+
 /* --- start, checkpoints, end ---------------------------------------------------------------------------- */
 
 PetscErrorCode ProbesNewMesh(Probes p, const Mesh *mesh)
@@ -157,6 +222,7 @@ PetscErrorCode ProbesCreate(CoracleCase c, const Mesh *mesh, Probes *probes)
   p->comm = mesh->comm;
   PetscCall(ProbesNewMesh(p, mesh));
   Check(p, c, mesh);
+  PetscCall(CheckColumns(p, c));
   if (p->list.n)
     *probes = p;
   else
@@ -164,42 +230,14 @@ PetscErrorCode ProbesCreate(CoracleCase c, const Mesh *mesh, Probes *probes)
   PetscFunctionReturn(0);
 }
 
-/* The columns of point i of a probe. */
-static void AddColumns(const Probes p, const Probe *probe, int i, char **end)
-{
-  static const char *const FLOW[] = {"u [m/s]", "v [m/s]", "p [Pa]", "rho [kg/m3]"},
-                           *const GAUGE[] = {"x [m]", "y [m]", "p [Pa]"},
-                           *const SURFACE[] = {"first [m]", "last [m]", "length [m]"},
-                           *const PHASE[] = {"area [m2]", "x [m]",   "y [m]",
-                                             "u [m/s]",   "v [m/s]", "interface [m]"},
-                           *const THROUGH[] = {"flow [m2/s]"};
-  static const char *const *const COLUMNS[] = {FLOW, FLOW, GAUGE, GAUGE, SURFACE, PHASE, THROUGH};
-  char number[16] = "";
-  if (probe->kind == PROBE_LINE || probe->kind == PROBE_FACE) (void)snprintf(number, sizeof number, "%d", i);
-  for (int k = 0; k < Width(p, probe); k++)
-    *end += snprintf(*end, COLUMN_LENGTH, ",%s%s_%s", probe->name, number, COLUMNS[probe->kind][k]);
-}
-
-static void AddForce(const Probe *probe, char **end)
-{
-  static const char *const COLUMNS[FORCE] = {"force_x [N/m]", "force_y [N/m]", "moment [N]"};
-  for (int k = 0; k < FORCE; k++) *end += snprintf(*end, COLUMN_LENGTH, ",%s_%s", probe->name, COLUMNS[k]);
-}
-
 PetscErrorCode ProbesOpen(Probes p, CoracleCase c, Checkpoint from)
 {
   RunCase run;
-  char *columns, *end;
+  char *columns;
   PetscFunctionBeginUser;
   if (!p) PetscFunctionReturn(0);
   RunCaseRead(c, &run);
-  PetscCall(PetscMalloc1(COLUMN_LENGTH * (1 + WHOLE * (size_t)(p->list.nfixed + p->list.ngauges + p->list.n)),
-                         &columns));
-  end = columns + sprintf(columns, "t [s]");
-  for (int k = 0; k < p->list.n; k++) {
-    for (int i = 0; i < p->list.probe[k].n; i++) AddColumns(p, &p->list.probe[k], i, &end);
-    if (p->list.probe[k].kind == PROBE_FACE) AddForce(&p->list.probe[k], &end);
-  }
+  PetscCall(SetColumns(p, &columns));
   PetscCall(SeriesCreate(p->comm, run.folder, "fluid_probes", columns, run.series_every, from, &p->series));
   PetscCall(PetscFree(columns));
   PetscFunctionReturn(0);

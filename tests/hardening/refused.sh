@@ -150,5 +150,9 @@ done
 
 # a gauge outside, a body across a wall
 phases "'fluid.probes\[0\].point': expected what lies in the mesh, (9, 1) does not" --set 'fluid.regions=[{phase: air}]' --set 'fluid.probes=[{name: P, point: [9, 1]}]'
+# point 1 of a line a has the columns of a point a1
+line='{name: a, line: {from: [0.5, 0.5], to: [1, 1], points: 2}}'
+phases "'fluid.probes': two columns are called 'a1_" --set 'fluid.regions=[{phase: air}]' --set "fluid.probes=[$line, {name: a1, point: [0.5, 0.5]}]"
+accepted fluid --set "$water" --set 'fluid.regions=[{phase: air}]' --set 'solid.bodies=[]' --set "fluid.probes=[$line, {name: a2, point: [0.5, 0.5]}]"
 refused solid "'solid.bodies\[0\]': the body reaches through solid.walls at" --set 'solid.walls={lower: [1, 0], upper: [2, 4]}'
 accepted fluid --set "$water" --set 'fluid.regions=[{phase: air}, {phase: water, lower: [0, 0], upper: [1, 1]}]' --set 'solid.bodies=[]'
