@@ -105,7 +105,7 @@ PetscErrorCode SolidMotionReaction(Solid s, const char *name, double reaction[4]
   for (int k = 0; k < s->nmotions; k++)
     for (int i = 0; i < 4 && s->dt > 0.0 && !strcmp(s->motion[k].name, name); i++)
       reaction[i] += s->motion_impulse[k][i] / s->dt;
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, reaction, 4, MPI_DOUBLE, MPI_SUM, s->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, reaction, 4, MPI_DOUBLE, MPI_SUM, s->comm));
   PetscFunctionReturn(0);
 }
 
@@ -143,7 +143,7 @@ PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget)
       sum[LOAD + c] += s->load[k];
     }
   }
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, COUNT, MPI_DOUBLE, MPI_SUM, s->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, COUNT, MPI_DOUBLE, MPI_SUM, s->comm));
   *budget = (SolidBudget){{sum[WALLS], sum[WALLS + 1]},
                           {sum[REACTION], sum[REACTION + 1]},
                           sum[WORK],

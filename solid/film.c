@@ -19,13 +19,6 @@ typedef struct {
   double centre[2], u[2], omega;
 } RigidMotion;
 
-static PetscErrorCode SumOverRanks(const Solid s, int n, double sum[])
-{
-  PetscFunctionBeginUser;
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, n, MPI_DOUBLE, MPI_SUM, s->comm));
-  PetscFunctionReturn(0);
-}
-
 static void AddPlace(const Solid s, const int piece[], double place[][NPLACE])
 {
   for (int i = 0; i < s->nnodes; i++) {
@@ -117,9 +110,9 @@ PetscErrorCode SolidMoveFilms(Solid s)
   PetscCall(SolidPieces(s, &n, &piece));
   PetscCall(PetscCalloc3((size_t)n, &place, (size_t)n, &film, (size_t)n, &motion));
   AddPlace(s, piece, place);
-  PetscCall(SumOverRanks(s, n * NPLACE, place[0]));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, place, n * NPLACE, MPI_DOUBLE, MPI_SUM, s->comm));
   AddFilm(s, piece, (const double(*)[NPLACE])place, film);
-  PetscCall(SumOverRanks(s, n * NFILM, film[0]));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, film, n * NFILM, MPI_DOUBLE, MPI_SUM, s->comm));
   for (int k = 0; k < n; k++) motion[k] = MotionOf(place[k], film[k]);
   for (int i = 0; i < s->nnodes; i++) {
     const RigidMotion m = motion[piece[i]];

@@ -48,7 +48,7 @@ PetscErrorCode SolidLimit(Solid s, double *limit)
   if (s->joints) rates.stiffness += JointsRate(s->joints);
   PetscCall(SpringsRate(s, &rates));
   *limit = SolidElementLimit(s, rates);
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, limit, 1, MPI_DOUBLE, MPI_MIN, s->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, limit, 1, MPI_DOUBLE, MPI_MIN, s->comm));
   PetscFunctionReturn(0);
 }
 
@@ -98,8 +98,7 @@ static PetscErrorCode MotionNow(Solid s, const double force[], double window, Bu
   }
   PrescribedSpeeds(s, window, m);
   m[s->nbodies].moved = s->failure[0] ? 1.0 : 0.0;
-  if (s->size > 1)
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, m, 3 * s->nbodies + 1, MPI_DOUBLE, MPI_MAX, s->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, m, 3 * s->nbodies + 1, MPI_DOUBLE, MPI_MAX, s->comm));
   *failed = (PetscBool)(m[s->nbodies].moved > 0.0);
   for (int b = 0; b < s->nbodies; b++)
     m[b] = (BulkMotion){sqrt(m[b].moved), sqrt(m[b].speed), sqrt(m[b].acceleration)};
@@ -383,7 +382,7 @@ PetscErrorCode SolidStepFailure(Solid s, const char **why)
   PetscFunctionBeginUser;
   PetscCall(SolidForces(s, &force)); /* of the step's end */
   has_failed = s->failure[0] ? s->rank + 1 : 0;
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &has_failed, 1, MPI_INT, MPI_MAX, s->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &has_failed, 1, MPI_INT, MPI_MAX, s->comm));
   *why = has_failed ? s->failure : NULL;
   if (has_failed) PetscCallMPI(MPI_Bcast(s->failure, sizeof s->failure, MPI_CHAR, has_failed - 1, s->comm));
   PetscFunctionReturn(0);

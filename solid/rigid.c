@@ -114,7 +114,7 @@ static PetscErrorCode SumOverRanks(Solid s, int vectors, RigidSums sum[])
 {
   const int count = vectors * s->nrigid * (int)(sizeof *sum / sizeof(double));
   PetscFunctionBeginUser;
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, count, MPI_DOUBLE, MPI_SUM, s->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, count, MPI_DOUBLE, MPI_SUM, s->comm));
   PetscFunctionReturn(0);
 }
 

@@ -210,7 +210,7 @@ static PetscErrorCode AboutCentres(const Solid s, int n, BodyState state[])
     sum[b][3] += s->mass[i] * PointCross(rest, r);
     sum[b][4] += s->mass[i] * (rest.x * r.x + rest.y * r.y);
   }
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 5 * n, MPI_DOUBLE, MPI_SUM, s->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 5 * n, MPI_DOUBLE, MPI_SUM, s->comm));
   for (int b = 0; b < n; b++) {
     state[b].moment = sum[b][2];
     state[b].inertia = sum[b][1];
@@ -236,7 +236,7 @@ PetscErrorCode SolidBodies(Solid s, int n, BodyState state[])
     sum[k / 2][RX + k % 2] = s->reaction[k / 2][k % 2];
     sum[k / 2][BEFORE + k % 2] = s->momentum[k / 2][k % 2];
   }
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, NSUMS * n, MPI_DOUBLE, MPI_SUM, s->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, NSUMS * n, MPI_DOUBLE, MPI_SUM, s->comm));
   for (int b = 0; b < n; b++) {
     const double *k = sum[b];
     state[b] = (BodyState){.mass = k[M], .kinetic = k[KINETIC], .strain = k[STRAIN]};

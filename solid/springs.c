@@ -43,7 +43,7 @@ static PetscErrorCode Difference(Solid s, PetscBool all, const double value[], d
     for (int i = 0; i < 2; i++) AtEnd(s, k, i, value, at[i]);
     for (int c = 0; c < 2; c++) difference[k][c] = at[1][c] - at[0][c];
   }
-  if (s->size > 1 && (all || s->linked))
+  if (all || s->linked)
     PetscCallMPI(
         MPI_Allreduce(MPI_IN_PLACE, difference, 2 * s->setup.nsprings, MPI_DOUBLE, MPI_SUM, s->comm));
   PetscFunctionReturn(0);
@@ -155,8 +155,7 @@ PetscErrorCode SpringsRate(Solid s, ElementRates *rates)
     sum[0] += spring->stiffness * mobility;
     sum[1] += spring->damping * mobility;
   }
-  if (s->size > 1 && s->setup.nsprings)
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->comm));
+  if (s->setup.nsprings) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->comm));
   rates->stiffness += sum[0];
   rates->damping += sum[1];
   PetscFunctionReturn(0);

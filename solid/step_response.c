@@ -145,7 +145,7 @@ static PetscErrorCode Dot(StepResponse r, Solid s, const double a[], const doubl
   PetscFunctionBeginUser;
   for (int i = 0; i < r->nnodes; i++)
     sum += r->owned[i] * (weight ? weight[i] : 1.0) * (a[2 * i] * b[2 * i] + a[2 * i + 1] * b[2 * i + 1]);
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm));
   *dot = sum;
   PetscFunctionReturn(0);
 }

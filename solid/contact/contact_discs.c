@@ -26,8 +26,7 @@ PetscErrorCode DiscsMeasure(Contact c, const Solid s)
     ContactCoordinates(rest, 1.0 / t->twice_area, centre, t->at_centre);
     c->bulge[t->body] = fmax(c->bulge[t->body], body->circle - FacetDistance(s, k, centre));
   }
-  if (s->size > 1)
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->bulge, s->nbodies, MPI_DOUBLE, MPI_MAX, s->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->bulge, s->nbodies, MPI_DOUBLE, MPI_MAX, s->comm));
   PetscFunctionReturn(0);
 }
 

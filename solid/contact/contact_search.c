@@ -303,9 +303,8 @@ PetscErrorCode ContactSearch(Contact c, Solid s, const double least[])
   if (s->setup.walls) PetscCall(FindWalls(c, s, edge));
   PetscCall(FindPairs(c, s, edge));
   ContactSetTravel(c, HUGE_VAL);
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->rate, 4, MPI_DOUBLE, MPI_MAX, s->comm));
-  if (s->size > 1)
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->waiting, s->nbodies, MPI_DOUBLE, MPI_MIN, s->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->rate, 4, MPI_DOUBLE, MPI_MAX, s->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->waiting, s->nbodies, MPI_DOUBLE, MPI_MIN, s->comm));
   for (int b = 0; b < s->nbodies; b++) c->skin[b] = fmin(c->skin[b], 0.5 * c->waiting[b]);
   PetscCall(PetscArraycpy(c->searched, s->x, 2 * (size_t)s->nnodes));
   PetscCall(PetscFree(edge));

@@ -25,7 +25,7 @@ PetscErrorCode SolidFracture(Solid s, FractureState *state)
       sum[4] += energy;
     }
   }
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 5, MPI_DOUBLE, MPI_SUM, s->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 5, MPI_DOUBLE, MPI_SUM, s->comm));
   state->active = (int)sum[0];
   state->broken = (int)sum[1];
   state->length = sum[2];
@@ -87,7 +87,7 @@ static PetscErrorCode LabelNodes(Solid s, double label[])
     while (Sweep(s, label)) changed = PETSC_TRUE;
     PetscCall(CopiesMin(s->copies, 1, label));
     any = changed;
-    if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, s->comm));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, s->comm));
   }
   PetscFunctionReturn(0);
 }

@@ -217,7 +217,7 @@ PetscErrorCode JointsAdvance(Joints j, Solid s, PetscBool *changed)
   any[LAST_ENDS] = FindLastEnds(j, s);
   PetscCall(FindEvents(j, s, &n, &event));
   any[EVENTS] = n;
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, any, NKINDS, MPI_INT, MPI_MAX, s->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, any, NKINDS, MPI_INT, MPI_MAX, s->comm));
   *changed = (PetscBool)(any[EVENTS] > 0 || any[LAST_ENDS] > 0);
   if (*changed && !any[EVENTS]) PetscCall(JointsMeasureRate(j, s));
   if (any[EVENTS]) {
@@ -251,7 +251,7 @@ PetscErrorCode JointsMeasureRate(Joints j, Solid s)
   PetscCall(CopiesSum(s->copies, 2, sum));
   j->rate = 0.0;
   for (int n = 0; n < s->nnodes; n++) j->rate = fmax(j->rate, sum[2 * n] * s->inverse_mass[n]);
-  if (s->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &j->rate, 1, MPI_DOUBLE, MPI_MAX, s->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &j->rate, 1, MPI_DOUBLE, MPI_MAX, s->comm));
   PetscCall(PetscFree(sum));
   PetscFunctionReturn(0);
 }
