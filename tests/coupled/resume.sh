@@ -142,7 +142,7 @@ t = column("other-folder", "coupler", "t [s]")
 assert abs(t[0] - 0.11) < 1e-9 and abs(t[-1] - 0.15) < 1e-9, "in another folder: %s" % t
 # all participants have snapshots at the multiples of 0.05 s and at the end, at which there is one where it is a multiple, too
 for label, expected in {"whole": [0, 0.05, 0.1], "longer-kept": [0, 0.05, 0.1], "other-folder": [0.15], "longer": [0, 0.02]}.items():
-    for name in ("fluid.velocity", "coupler", "solid"):
+    for name in ("fluid.velocity", "coupler", "solid.solid"):
         at = times(label, name)
         assert len(at) == len(expected) and all(abs(a - b) < 1e-9 for a, b in zip(at, expected)), "%s of %s: snapshots at %s s" % (name, label, at)
 assert abs(column("whole", "coupler", "u_y [m/s]")[-1] + 0.2419) < 0.01

@@ -9,7 +9,7 @@
 #include "tests/link/catch.h"
 
 static const char *const CASE = "gravity: [0.0, 0.0]\n"
-                                "time: {cfl: 0.5, dt_max: 0.01}\n"
+                                "time: {cfl: 0.5, dt_max: 0.01, end: 1.0}\n"
                                 "fluid:\n"
                                 "  density: 1.0\n"
                                 "  viscosity: 1.0\n"
@@ -25,7 +25,8 @@ static const char *const CASE = "gravity: [0.0, 0.0]\n"
                                 "    - {name: corner, solid_point: [1.5, 0.0], distance: 0.3}\n"
                                 "    - {name: across, flow: {from: [0.313, 0.1], to: [1.77, 0.93]}}\n"
                                 "    - {name: along, flow: {from: [1.0, 0.0], to: [1.0, 1.0]}}\n"
-                                "    - {name: out, flow: {from: [2.0, 0.0], to: [2.0, 1.0]}}\n";
+                                "    - {name: out, flow: {from: [2.0, 0.0], to: [2.0, 1.0]}}\n"
+                                "output: {every: 1.0}\n";
 
 enum { POINTS = 11, FLOWS = 1 + 3 * (POINTS + 4), COLUMNS = FLOWS + 3 };
 static const CoracleGauge GAUGE[4] = {{{1.5, 0.5}, {0.6, -0.8}},

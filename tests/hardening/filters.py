@@ -23,7 +23,7 @@ def check(folder):
             print(f"paraview: error: {folder}: {what}")
             sys.exit(1)
 
-    readers = {name: OpenDataFile(f"{folder}/{name}.xdmf") for name in ("fluid.velocity", "fluid.pressure", "solid", "coupler")}
+    readers = {name: OpenDataFile(f"{folder}/{name}.xdmf") for name in ("fluid.velocity", "fluid.pressure", "solid.solid", "coupler")}
     last = readers["fluid.velocity"].TimestepValues[-1]
     readers = {name: reader for name, reader in readers.items() if points(reader, last) > 0}  # a case may have no solid
     must({"fluid.velocity", "fluid.pressure"} <= set(readers), "a fluid's file is empty")
@@ -46,9 +46,9 @@ def check(folder):
     must(points(tracer, last) > 10, "StreamTracer")
     filters.append(tracer)
     if "solid" in readers:
-        both = GroupDatasets(Input=[readers["fluid.velocity"], readers["solid"]], BlockNames=["fluid", "solid"])
+        both = GroupDatasets(Input=[readers["fluid.velocity"], readers["solid.solid"]], BlockNames=["fluid", "solid"])
         block = ExtractBlock(Input=both, Selectors=["/Root/solid"])
-        must(0 < points(block, last) == points(readers["solid"], last), "ExtractBlock")
+        must(0 < points(block, last) == points(readers["solid.solid"], last), "ExtractBlock")
         filters += [block, both]
     for proxy in (*filters, *readers.values()):
         Delete(proxy)
