@@ -75,12 +75,12 @@ static WallCoefficient SlipTensor(const NormalSums *sums)
   return (WallCoefficient){rest - part * xx, -part * xy, rest - part * yy};
 }
 
-/* q of slip.h: the part of the slip that is kept between faces that oppose each other, `open` of the element being open. */
-static double KeptBetween(const NormalSums *sums, double open)
+/* q of slip.h: the part of the slip that is kept between faces that oppose each other, some of which are held, `open` of the element being open. */
+static double KeptBetween(const NormalSums *sums, const NormalSums *held, double open)
 {
   if (sums->area == 0.0 || hypot(sums->x, sums->y) >= OPPOSED * sums->area) return 1.0;
   const double s = Planeness(sums);
-  return fmin(1.0, open / CORNER_OPEN + 2.0 * s * s);
+  return fmin(1.0, open / CORNER_OPEN + (held->area < sums->area ? 2.0 * s * s : 0.0));
 }
 
 /* The part of the slip that is kept at a corner of a part of the solid, `size` over the element's area. */
@@ -116,7 +116,7 @@ void SlipTensors(const Overlap o, const SourceTerm term[], const double gravity[
     if (!k->open && !shared) continue;
     k->along = SlipTensor(o->phases ? &held : &all);
     if (!o->phases) {
-      double kept = k->open ? KeptBetween(&all, 1.0 - solid / area) : 1.0;
+      double kept = k->open ? KeptBetween(&all, &held, 1.0 - solid / area) : 1.0;
       if (k->open && k->corner) kept *= KeptAtCorner(part / area);
       k->tangential = WallCoefficientScaled(&k->along, kept);
     }

@@ -21,7 +21,9 @@
  *
  *     D  =  q (I - s^8 n n),     q  =  min(1, what is open of K/0.3 + 2 s^2).
  *
- * A corner of a single body of more than 74 degrees has a longer mean, and a slot, s near 1, the same D.
+ * A corner of a single body of more than 74 degrees has a longer mean, and a slot, s near 1, the same D.  Where all of these faces are held there is no body that D = 0 could
+ * hold, and q = min(1, what is open of K/0.3): through the gaps of a row of held discs, which are far narrower than K, a difference of the pressure drove what fills K,
+ * the solid's part too, with 2.2 m/s (tests/coupled/row.sh), and in a heap of stones on such a row without limit.
  *
  * At a corner (s < 0.95) of a part of the solid that is itself of the size of K, what the solid's forces, one for each of its nodes, leave in K drove a slip that nothing
  * but viscosity stopped: the water of tests/coupled/debris.sh was set in motion after all in two of four runs that differ in round-off, to 2.6 m/s, with a fifth of the viscosity to
