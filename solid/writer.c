@@ -8,6 +8,33 @@
 
 enum { MAX_BODIES = 1000, PER_BODY = 16, COMMON = 24 };
 
+/* What the output has of a body, PER_BODY numbers: names of the columns of the series and of the field of the snapshots' points. */
+typedef struct {
+  const char *name; /* NULL: the points themselves */
+  const char *column[2], *unit;
+  size_t offset; /* of a BodyState */
+  int n;
+} BodyField;
+
+static const BodyField BODY_FIELD[] = {
+    {NULL, {"x", "y"}, "m", offsetof(BodyState, x), 2},
+    {"velocity", {"u", "v"}, "m/s", offsetof(BodyState, v), 2},
+    {"angular_velocity", {"omega"}, "rad/s", offsetof(BodyState, angular_velocity), 1},
+    {"force", {"fx", "fy"}, "N/m", offsetof(BodyState, load), 2},
+    {"moment", {"moment"}, "N", offsetof(BodyState, moment), 1},
+    {"kinetic", {"kinetic"}, "J/m", offsetof(BodyState, kinetic), 1},
+    {"strain", {"strain"}, "J/m", offsetof(BodyState, strain), 1},
+    {"mass", {"mass"}, "kg/m", offsetof(BodyState, mass), 1},
+    {"reaction", {"rx", "ry"}, "N/m", offsetof(BodyState, reaction), 2},
+    {"angle", {"angle"}, "rad", offsetof(BodyState, angle), 1},
+    {"contact", {"cx", "cy"}, "N/m", offsetof(BodyState, contact), 2}};
+enum { BODY_FIELDS = sizeof BODY_FIELD / sizeof *BODY_FIELD };
+
+static const double *BodyValues(const BodyState *body, const BodyField *f)
+{
+  return (const double *)((const char *)body + f->offset);
+}
+
 struct Writer_s {
   MPI_Comm comm;
   Output output;
@@ -28,12 +55,9 @@ static PetscErrorCode CreateSeries(Writer r, const RunCase *run, Checkpoint from
   PetscCall(PetscMalloc1(size, &columns));
   used = (size_t)snprintf(columns, size, "t [s]");
   for (int b = 0; b < r->nbodies; b++)
-    used += (size_t)snprintf(
-        columns + used, size - used,
-        ",x%d [m],y%d [m],u%d [m/s],v%d [m/s],omega%d [rad/s],fx%d [N/m],fy%d "
-        "[N/m],moment%d [N],kinetic%d [J/m],"
-        "strain%d [J/m],mass%d [kg/m],rx%d [N/m],ry%d [N/m],angle%d [rad],cx%d [N/m],cy%d [N/m]",
-        b, b, b, b, b, b, b, b, b, b, b, b, b, b, b, b);
+    for (const BodyField *f = BODY_FIELD; f < BODY_FIELD + BODY_FIELDS; f++)
+      for (int i = 0; i < f->n; i++)
+        used += (size_t)snprintf(columns + used, size - used, ",%s%d [%s]", f->column[i], b, f->unit);
   (void)snprintf(columns + used, size - used,
                  ",fracture [J/m],debonded [J/m],broken joints,cracks [m],pieces,walls_x [N s/m],walls_y [N "
                  "s/m],reaction_x [N s/m],"
@@ -108,25 +132,9 @@ static PetscErrorCode SnapshotFieldsCreate(const SolidView *v, SnapshotFields *w
   PetscFunctionReturn(0);
 }
 
-typedef struct {
-  const char *name;
-  size_t offset; /* of a BodyState */
-  int ncomp;
-} BodyField;
-
 /* The mass centres of all bodies as points, with the body's numbers: the first rank's. */
 static PetscErrorCode SnapshotBodies(Writer r, Solid s, int nbodies)
 {
-  static const BodyField FIELD[] = {{"velocity", offsetof(BodyState, v), 2},
-                                    {"angular_velocity", offsetof(BodyState, angular_velocity), 1},
-                                    {"angle", offsetof(BodyState, angle), 1},
-                                    {"force", offsetof(BodyState, load), 2},
-                                    {"moment", offsetof(BodyState, moment), 1},
-                                    {"contact", offsetof(BodyState, contact), 2},
-                                    {"reaction", offsetof(BodyState, reaction), 2},
-                                    {"mass", offsetof(BodyState, mass), 1},
-                                    {"kinetic", offsetof(BodyState, kinetic), 1},
-                                    {"strain", offsetof(BodyState, strain), 1}};
   PetscMPIInt rank;
   BodyState *state;
   double *value; /* [nbodies][2] */
@@ -141,12 +149,10 @@ static PetscErrorCode SnapshotBodies(Writer r, Solid s, int nbodies)
     PetscCall(PetscArraycpy(value + 2 * b, state[b].x, 2));
   }
   PetscCall(OutputGrid(r->output, "bodies", r->revision, n, value, n, 1, point));
-  for (size_t k = 0; k < sizeof FIELD / sizeof *FIELD; k++) {
-    const BodyField *f = &FIELD[k];
-    for (int b = 0; b < n; b++)
-      PetscCall(PetscArraycpy(value + f->ncomp * b, (const double *)((const char *)&state[b] + f->offset),
-                              (size_t)f->ncomp));
-    PetscCall(OutputField(r->output, f->name, OUTPUT_NODE, f->ncomp, value));
+  for (int k = 1; k < BODY_FIELDS; k++) {
+    const BodyField *f = &BODY_FIELD[k];
+    for (int b = 0; b < n; b++) PetscCall(PetscArraycpy(value + f->n * b, BodyValues(&state[b], f), f->n));
+    PetscCall(OutputField(r->output, f->name, OUTPUT_NODE, f->n, value));
   }
   PetscCall(PetscFree3(state, value, point));
   PetscFunctionReturn(0);
@@ -234,14 +240,9 @@ PetscErrorCode WriterStep(Writer r, Solid s, double waited)
   PetscCall(PetscMalloc2(r->nbodies, &state, COMMON + PER_BODY * r->nbodies, &row));
   PetscCall(SolidBodies(s, r->nbodies, state));
   row[n++] = stats->t;
-  for (int b = 0; b < r->nbodies; b++) {
-    const BodyState *k = &state[b];
-    const double value[PER_BODY] = {
-        k->x[0],       k->x[1],      k->v[0],   k->v[1], k->angular_velocity, k->load[0],     k->load[1],
-        k->moment,     k->kinetic,   k->strain, k->mass, k->reaction[0],      k->reaction[1], k->angle,
-        k->contact[0], k->contact[1]};
-    for (int i = 0; i < PER_BODY; i++) row[n++] = value[i];
-  }
+  for (int b = 0; b < r->nbodies; b++)
+    for (const BodyField *f = BODY_FIELD; f < BODY_FIELD + BODY_FIELDS; f++)
+      for (int i = 0; i < f->n; i++) row[n++] = BodyValues(&state[b], f)[i];
   PetscCall(SolidFracture(s, &fracture));
   row[n++] = fracture.energy;
   row[n++] = fracture.debonded;
