@@ -105,7 +105,7 @@ PetscErrorCode SeriesSave(Series s, Checkpoint to)
   PetscFunctionReturn(0);
 }
 
-/* Each row is flushed, so that a run can be followed and a crash loses nothing. */
+/* Each row in the file is flushed, so that a run can be followed and a crash loses no row that was due. */
 static PetscErrorCode Append(Series s, const double value[])
 {
   PetscFunctionBeginUser;

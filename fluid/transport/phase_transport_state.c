@@ -118,15 +118,15 @@ static PetscErrorCode FindColumns(PhaseTransport t, Checkpoint from, int column[
   for (int k = 0; k < n; k++) {
     const char *name = t->properties.name[k];
     Describe(&t->properties, k, own);
-    column[k] = k;
-    for (int j = 0; j < n && memcmp(own, saved[column[k]], NAME_LENGTH * sizeof *own); j++) column[k] = j;
-    const long long *found = saved[column[k]];
-    PetscCheck(!memcmp(own, found, NAME_LENGTH * sizeof *own), PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED,
+    int i = 0; /* its own place first: so phases without names keep theirs */
+    while (i < n && memcmp(own, saved[(k + i) % n], NAME_LENGTH * sizeof *own)) i++;
+    PetscCheck(i < n, PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED,
                "fluid.phases: expected the names of the phases in %s/fluid.h5, where '%s' is none",
                CheckpointFolder(from), name);
-    PetscCheck(own[NAME_LENGTH] == found[NAME_LENGTH], PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED,
+    column[k] = (k + i) % n;
+    PetscCheck(own[NAME_LENGTH] == saved[column[k]][NAME_LENGTH], PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED,
                "fluid.phases: expected '%s' %s gas or sound_speed, as in %s/fluid.h5", name,
-               found[NAME_LENGTH] ? "with" : "without", CheckpointFolder(from));
+               saved[column[k]][NAME_LENGTH] ? "with" : "without", CheckpointFolder(from));
   }
   PetscFunctionReturn(0);
 }
