@@ -16,23 +16,15 @@ static void CheckConnectivity(CoracleClient c, const char *what, int ne, int per
                         conn[per * e + i], c->solid.mesh.n, c->p->step);
 }
 
-static int CompareIds(const void *a, const void *b)
-{
-  const long long x = *(const long long *)a, y = *(const long long *)b;
-  return (x > y) - (x < y);
-}
-
 static void CheckIds(CoracleClient c)
 {
   const SolidMesh *m = &c->solid.mesh;
-  long long *sorted = malloc((size_t)m->n * sizeof *sorted + 1);
-  if (m->n) memcpy(sorted, m->gid.data, (size_t)m->n * sizeof *sorted);
-  qsort(sorted, (size_t)m->n, sizeof *sorted, CompareIds);
+  const long long **sorted = SolidMeshSortIds(m);
   for (int i = 1; i < m->n; i++)
-    if (sorted[i] == sorted[i - 1])
+    if (*sorted[i] == *sorted[i - 1])
       ParticipantFail(
           c->p, "CoracleSetNodes: two nodes of this rank have the id %lld in step %d: ids must be unique",
-          sorted[i], c->p->step);
+          *sorted[i], c->p->step);
   free(sorted);
 }
 

@@ -124,6 +124,8 @@ void SolidReady(CoracleClient c);
 void SolidBegin(CoracleClient c); /* waits for the force */
 void SolidEnd(CoracleClient c, const double x[]);
 void SolidMeshFree(SolidMesh *mesh);
+/* [n] pointers to the ids, in the ids' order; the caller frees them. */
+const long long **SolidMeshSortIds(const SolidMesh *mesh);
 void SolidFree(CoracleClient c);
 
 void FluidReady(CoracleClient c);

@@ -42,12 +42,11 @@ static int CompareIds(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-/* Pointers to the ids, in the ids' order. */
-static const long long **SortIds(const long long gid[], int n)
+const long long **SolidMeshSortIds(const SolidMesh *m)
 {
-  const long long **sorted = malloc(((size_t)n + 1) * sizeof *sorted);
-  for (int i = 0; i < n; i++) sorted[i] = &gid[i];
-  qsort(sorted, (size_t)n, sizeof *sorted, CompareIds);
+  const long long **sorted = malloc(((size_t)m->n + 1) * sizeof *sorted);
+  for (int i = 0; i < m->n; i++) sorted[i] = &Ids(&m->gid)[i];
+  qsort(sorted, (size_t)m->n, sizeof *sorted, CompareIds);
   return sorted;
 }
 
@@ -57,7 +56,7 @@ static void CarrySums(const ClientSolid *s, int n, const long long gid[], const 
                       double sums[], double start[])
 {
   const SolidMesh *m = &s->mesh;
-  const long long **sorted = SortIds(Ids(&m->gid), m->n);
+  const long long **sorted = SolidMeshSortIds(m);
   for (int i = 0; i < n; i++) {
     const long long *id = &gid[i];
     const long long **found = bsearch(&id, sorted, (size_t)m->n, sizeof *sorted, CompareIds);

@@ -44,14 +44,9 @@ void MessageAdd(Message *m, const void *block, size_t bytes)
   memset(to + bytes, 0, Padded(bytes) - bytes);
 }
 
-MessageHeader *MessageHeaderOf(Message *m)
+MessageHeader *MessageHeaderOf(const Message *m)
 {
   return (MessageHeader *)(void *)m->buffer.data;
-}
-
-static const MessageHeader *Header(const Message *m)
-{
-  return (const MessageHeader *)(const void *)m->buffer.data;
 }
 
 static const char *KindName(int kind)
@@ -75,7 +70,7 @@ void MessageSend(Participant *p, Message *m)
   const size_t units = m->buffer.size / UNIT;
   if (units > INT32_MAX)
     ParticipantFail(p, "%s of %zu bytes for %s rank %d is too long for one message: use more ranks",
-                    KindName(Header(m)->kind), m->buffer.size, ROLE_NAMES[m->role], m->rank);
+                    KindName(MessageHeaderOf(m)->kind), m->buffer.size, ROLE_NAMES[m->role], m->rank);
   MPI_Isend(m->buffer.data, (int)units, MPI_UINT64_T, p->world[m->role][m->rank], TAG, p->link, &m->request);
   Wake(p, m);
 }
@@ -91,8 +86,8 @@ void MessageFinish(Participant *p, Message *m)
   if (!WaitRequest(&p->waiter, &m->request, PartnerRings(p, m)))
     ParticipantFail(
         p, "%s rank %d on %s has not taken %s of step %d within %g s: does it hang? (CORACLE_TIMEOUT)",
-        ROLE_NAMES[m->role], m->rank, Host(p, m), KindName(Header(m)->kind), Header(m)->step,
-        p->waiter.timeout);
+        ROLE_NAMES[m->role], m->rank, Host(p, m), KindName(MessageHeaderOf(m)->kind),
+        MessageHeaderOf(m)->step, p->waiter.timeout);
   ParticipantWaited(p, m->role, m->rank, "to take it", start);
 }
 
@@ -131,7 +126,7 @@ const MessageHeader *MessageReceive(Participant *p, Message *m, MessageKind kind
   BufferResize(&m->buffer, (size_t)units * UNIT);
   MPI_Mrecv(m->buffer.data, units, MPI_UINT64_T, &arrived, MPI_STATUS_IGNORE);
   Wake(p, m);
-  const MessageHeader *h = Header(m);
+  const MessageHeader *h = MessageHeaderOf(m);
   if (m->buffer.size < sizeof *h || h->magic != MAGIC)
     ParticipantFail(p, "what came from %s rank %d is no message of Coracle's", ROLE_NAMES[m->role], m->rank);
   if ((h->kind != (int)kind && h->kind != (int)other) || h->step != step)
@@ -146,7 +141,8 @@ const void *MessageTake(Participant *p, Message *m, size_t bytes)
   const char *block = m->buffer.data + m->at;
   if (m->at + Padded(bytes) > m->buffer.size)
     ParticipantFail(p, "%s of step %d from %s rank %d is shorter than its counts say",
-                    KindName(Header(m)->kind), Header(m)->step, ROLE_NAMES[m->role], m->rank);
+                    KindName(MessageHeaderOf(m)->kind), MessageHeaderOf(m)->step, ROLE_NAMES[m->role],
+                    m->rank);
   m->at += Padded(bytes);
   return block;
 }

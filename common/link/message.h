@@ -89,7 +89,7 @@ void MessageFree(Message *m);
 /* Writing: a header, then blocks. */
 MessageHeader *MessageStart(Message *m, MessageKind kind, int step);
 /* The header of the message being written, or received last; moves when the message grows. */
-MessageHeader *MessageHeaderOf(Message *m);
+MessageHeader *MessageHeaderOf(const Message *m);
 /* Copies a block; NULL: its bytes are to be written. */
 void MessageAdd(Message *m, const void *block, size_t bytes);
 /* Sending is done when MessageFinish returns; the message must stay as it is until then. */

@@ -205,13 +205,10 @@ static void GatherBuffer(Server s, size_t size, Buffer *mine)
 /* Rank 0 takes in what the other coupler ranks have of a role. */
 static void GatherReports(Server s, Role role)
 {
-  Buffer all = {0};
-  memcpy(BufferResize(&all, s->reports[role].size), s->reports[role].data, s->reports[role].size);
+  Buffer all = s->reports[role];
+  s->reports[role] = (Buffer){0};
   GatherBuffer(s, sizeof(Report), &all);
-  const size_t own = s->reports[role].size;
-  if (s->p->rank == 0)
-    ReportMerge(&s->reports[role], (all.size - own) / sizeof(Report),
-                (const Report *)(const void *)(all.data + own));
+  ReportMerge(&s->reports[role], ReportCount(&all), (const Report *)(const void *)all.data);
   BufferFree(&all);
 }
 
