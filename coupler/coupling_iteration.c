@@ -96,13 +96,8 @@ PetscErrorCode CouplingIterationHasConverged(CouplingIteration *t, int iteration
 
 PetscErrorCode CouplingIterationNext(CouplingIteration *t, const double **u)
 {
-  double *next;
-
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc1(2 * (size_t)t->n, &next));
-  PetscCall(QuasiNewtonNext(t->quasi_newton, t->iterate, t->result, next));
-  PetscCall(PetscArraycpy(t->iterate, next, 2 * (size_t)t->n));
-  PetscCall(PetscFree(next));
+  PetscCall(QuasiNewtonNext(t->quasi_newton, t->iterate, t->result, t->iterate));
   *u = t->iterate;
   PetscFunctionReturn(0);
 }

@@ -16,7 +16,7 @@ PetscErrorCode QuasiNewtonCreate(MPI_Comm comm, QuasiNewton *a);
 /* Starts another solve with n unknowns on this rank (-1: none);  V and W are kept if n is unchanged on all
  * ranks. */
 PetscErrorCode QuasiNewtonBegin(QuasiNewton a, int n);
-/* next[n] from x[n] and hx[n] = H(x). */
+/* next[n], which may be x, from x[n] and hx[n] = H(x). */
 PetscErrorCode QuasiNewtonNext(QuasiNewton a, const double x[], const double hx[], double next[]);
 PetscErrorCode QuasiNewtonDestroy(QuasiNewton *a);
 #endif
