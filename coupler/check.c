@@ -16,13 +16,6 @@ static const CoracleCaseKey KEYS[] = {
     {"resume", "",
      "a checkpoint's folder from which the run resumes, or last: that of output.folder, if there is one"},
     {"output.trace", "", "trace.json: what each rank did when, for ui.perfetto.dev"},
-    {"fluid.probes[].solid_point", "m",
-     "a point of the solid's surface at the start: a pressure gauge that moves with it"},
-    {"fluid.probes[].solid_line.from", "m",
-     "first end of a straight side of a solid, at the start: gauges along it, and the force of the pressure "
-     "on it"},
-    {"fluid.probes[].solid_line.to", "m", "its other end"},
-    {"fluid.probes[].solid_line.points", "", "number of gauges, at the middles of equal parts"},
     {"coupler.mode", "", "how fluid and solid are coupled"},
     {"coupler.shell_thickness", "m",
      "dr: thickness of the shell around the solid in which wall friction acts"},

@@ -160,13 +160,6 @@ static const CoracleCaseKey KEYS[] = {
      "upwards"},
     {"fluid.probes[].flow.phase", "", "the phase whose volume flows; if not given all that does"},
     {"fluid.probes[].phase", "", "a phase: its area, centre, velocity and the length of its interface"},
-    {"fluid.probes[].solid_point", "m",
-     "a point of the solid's surface at the start: a pressure gauge that moves with it"},
-    {"fluid.probes[].solid_line.from", "m",
-     "first end of a straight side of a solid, at the start: gauges along it, and the force of the pressure "
-     "on it"},
-    {"fluid.probes[].solid_line.to", "m", "its other end"},
-    {"fluid.probes[].solid_line.points", "", "number of gauges, at the middles of equal parts"},
     {"fluid.probes[].distance", "m",
      "from the solid's face to where the gauge's pressure is taken; by default fluid.adapt.size_min, "
      "required without fluid.adapt"},

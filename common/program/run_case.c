@@ -56,6 +56,14 @@ void RunCaseDescribe(CoracleCase c, const CoracleCaseKey own[])
       {"output.series_every", "s",
        "time from one row of the CSV series to the next, for long runs and many bodies; there is one at the "
        "end, too; 0: each step"},
+      {"fluid.probes[].solid_point", "m",
+       "a point of the solid's surface at the start: a pressure gauge that moves with it"},
+      {"fluid.probes[].solid_line.from", "m",
+       "first end of a straight side of a solid, at the start: gauges along it, and the force of the "
+       "pressure "
+       "on it"},
+      {"fluid.probes[].solid_line.to", "m", "its other end"},
+      {"fluid.probes[].solid_line.points", "", "number of gauges, at the middles of equal parts"},
       {NULL, NULL, NULL}};
   CoracleCaseDescribe(c, own);
   CoracleCaseDescribe(c, KEYS);
