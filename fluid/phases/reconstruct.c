@@ -54,15 +54,7 @@ static int ListAround(const Stars *s, int e, int list[PLIC_CELLS])
 {
   int n = 1;
   list[0] = e;
-  for (int i = 0; i < 3; i++) {
-    const int v = s->vertex[e][i];
-    for (int k = s->start[v]; k < s->start[v + 1] && n < PLIC_CELLS; k++) {
-      const int j = s->around[k] / 3;
-      int known = 0;
-      for (int m = 0; m < n; m++) known |= list[m] == j;
-      if (!known) list[n++] = j;
-    }
-  }
+  for (int i = 0; i < 3; i++) n = StarsAddAround(s, s->vertex[e][i], n, PLIC_CELLS, list);
   return n;
 }
 

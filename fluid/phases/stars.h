@@ -60,4 +60,14 @@ static inline int StarsFaceTo(const Stars *s, int o, int e)
 {
   return s->neighbor[o][0] == e ? 0 : s->neighbor[o][1] == e ? 1 : 2;
 }
+/* Adds the elements around vertex v that are not among list[n], up to `most` of all; returns their number. */
+static inline int StarsAddAround(const Stars *s, int v, int n, int most, int list[])
+{
+  for (int k = s->start[v]; k < s->start[v + 1] && n < most; k++) {
+    int known = 0;
+    for (int j = 0; j < n && !known; j++) known = list[j] == s->around[k] / 3;
+    if (!known) list[n++] = s->around[k] / 3;
+  }
+  return n;
+}
 #endif

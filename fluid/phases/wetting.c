@@ -176,14 +176,7 @@ static int TwoRings(const Stars *s, int e, int around[AROUND_MAX])
   for (int ring = 0; ring < 2; ring++) {
     const int end = n;
     for (; begin < end; begin++)
-      for (int i = 0; i < 3; i++) {
-        const int v = s->vertex[around[begin]][i];
-        for (int m = s->start[v]; m < s->start[v + 1]; m++) {
-          int known = 0;
-          for (int j = 0; j < n && !known; j++) known = around[j] == s->around[m] / 3;
-          if (!known && n < AROUND_MAX) around[n++] = s->around[m] / 3;
-        }
-      }
+      for (int i = 0; i < 3; i++) n = StarsAddAround(s, s->vertex[around[begin]][i], n, AROUND_MAX, around);
   }
   return n;
 }
