@@ -172,21 +172,4 @@ static inline int GeometryClip(const double a[3][2], const double b[3][2],
     for (int c = 0; c < 2; c++) polygon[i][c] = now[i][c];
   return n < 3 ? 0 : n;
 }
-
-/* Triangle k = 0 .. n - 3 of the fan around the polygon's first vertex. */
-static inline void GeometryFan(const double polygon[][2], int k, double x[3][2])
-{
-  for (int c = 0; c < 2; c++) {
-    x[0][c] = polygon[0][c];
-    x[1][c] = polygon[k + 1][c];
-    x[2][c] = polygon[k + 2][c];
-  }
-}
-
-static inline double GeometryPolygonArea(int n, const double polygon[][2])
-{
-  double area = 0.0;
-  for (int k = 0; k + 2 < n; k++) area += 0.5 * GeometryTurn(polygon[0], polygon[k + 1], polygon[k + 2]);
-  return area;
-}
 #endif

@@ -170,13 +170,6 @@ static inline JointTraction JointPress(const JointLaw *law, JointEnd *end, doubl
   return (JointTraction){pressure, end->friction};
 }
 
-/* The traction of an end by itself. */
-static inline JointTraction JointTractionAt(const JointLaw *law, JointEnd *end, double opening, double slip)
-{
-  const JointTraction t = JointTension(law, end, opening, slip), p = JointPress(law, end, opening, slip);
-  return (JointTraction){t.normal + p.normal, t.shear + p.shear};
-}
-
 /* --- the edge in the plane ---------------------------------------------------------------------------- */
 
 typedef struct {

@@ -4,6 +4,7 @@
 #include "common/supermesh/geometry.h"
 #include "solid/contact/cell_grid.h"
 #include "solid/contact/contact_impl.h"
+#include "tests/quadrature.h"
 #include "tests/solid/build.h"
 
 /* int phi over the triangle part: phi is linear on the target's three thirds between its centre and its
@@ -19,7 +20,7 @@ static double PotentialIntegral(const double c[3][2], const double t[3][2])
     const int n = GeometryClip(c, third, polygon);
     for (int k = 0; k + 2 < n; k++) {
       double x[3][2], mean = 0.0, lambda[3];
-      GeometryFan((const double(*)[2])polygon, k, x);
+      PolygonFan((const double(*)[2])polygon, k, x);
       for (int v = 0; v < 3; v++) {
         GeometryBarycentric(t, x[v], lambda);
         mean += lambda[i];

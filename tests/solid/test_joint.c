@@ -13,6 +13,13 @@ static JointLaw Law(double mode_one, double mode_two)
   return (JointLaw){{STRENGTH[0], STRENGTH[1]}, {mode_one, mode_two}, 6e13, 0.0};
 }
 
+/* Of an end by itself. */
+static JointTraction TractionAt(const JointLaw *law, JointEnd *end, double opening, double slip)
+{
+  const JointTraction t = JointTension(law, end, opening, slip), p = JointPress(law, end, opening, slip);
+  return (JointTraction){t.normal + p.normal, t.shear + p.shear};
+}
+
 /* The opening or slip at which one mode alone has damage D, from activation on. */
 static double OpeningRange(const JointLaw *law, int mode, double damage)
 {
@@ -22,7 +29,7 @@ static double OpeningRange(const JointLaw *law, int mode, double damage)
 /* The traction on an end, with that of contact between its faces. */
 static JointTraction WithContact(const JointLaw *law, JointEnd *end, double opening, double slip)
 {
-  JointTraction t = JointTractionAt(law, end, opening, slip);
+  JointTraction t = TractionAt(law, end, opening, slip);
   t.normal += law->stiffness * fmin(opening, 0.0);
   return t;
 }
@@ -40,7 +47,7 @@ static double Work(const JointLaw *law, double angle, int bent)
     const double part = (bent ? 3.0 : 1.1) * k / STEPS, slip_part = bent ? fmin(0.3, 2.0 * part) : part;
     const double next_o = x * OpeningRange(law, 0, part), next_s = y * OpeningRange(law, 1, slip_part),
                  damage = end.damage;
-    const JointTraction now = JointTractionAt(law, &end, next_o, next_s);
+    const JointTraction now = TractionAt(law, &end, next_o, next_s);
     work +=
         0.5 * (before.normal + now.normal) * (next_o - o) + 0.5 * (before.shear + now.shear) * (next_s - s);
     CHECK(bent || fabs(end.damage - fmin(part, 1.0)) < 1e-9, "D = %g instead of %g", end.damage, part);
@@ -78,17 +85,17 @@ static void NoHealing(void)
   const JointLaw law = Law(120.0, 120.0);
   const double range = law.energy[0] / (JOINT_SOFTENING_AREA * STRENGTH[0]);
   JointEnd end = JointBegin(&law, STRENGTH[0], 0.0);
-  const double peak = JointTractionAt(&law, &end, 0.3 * range, 0.0).normal, damage = end.damage;
+  const double peak = TractionAt(&law, &end, 0.3 * range, 0.0).normal, damage = end.damage;
   CHECK(fabs(peak / (STRENGTH[0] * JointSoftening(0.3)) - 1.0) < 1e-12, "%g Pa", peak);
   const double zero = -end.offset[0];
   for (int back = 0; back < 2; back++)
     for (int k = 0; k <= 10; k++) {
       const double part = back ? 0.1 * k : 1.0 - 0.1 * k, o = zero + part * (0.3 * range - zero);
-      const double traction = JointTractionAt(&law, &end, o, 0.0).normal;
+      const double traction = TractionAt(&law, &end, o, 0.0).normal;
       CHECK(fabs(traction - part * peak) < 1e-9 * peak, "%g Pa instead of %g", traction, part * peak);
       CHECK(end.damage == damage, "D = %g", end.damage);
     }
-  const double further = JointTractionAt(&law, &end, 0.6 * range, 0.0).normal;
+  const double further = TractionAt(&law, &end, 0.6 * range, 0.0).normal;
   CHECK(fabs(further / (STRENGTH[0] * JointSoftening(0.6)) - 1.0) < 1e-12, "%g Pa", further);
 }
 
@@ -97,15 +104,15 @@ static void Pressed(void)
 {
   const JointLaw law = Law(120.0, 300.0);
   JointEnd end = JointBegin(&law, STRENGTH[0], 0.0);
-  (void)JointTractionAt(&law, &end, 1.0, 0.0);
-  const JointTraction t = JointTractionAt(&law, &end, -1e-7, 0.0);
+  (void)TractionAt(&law, &end, 1.0, 0.0);
+  const JointTraction t = TractionAt(&law, &end, -1e-7, 0.0);
   CHECK(t.normal == 0.0 && t.shear == 0.0, "a broken end: %g Pa", t.normal);
   /* sheared under pressure: the pressure stays while the shear goes, its joint closing a little */
   end = JointBegin(&law, -2e6, STRENGTH[1]);
-  const JointTraction first = JointTractionAt(&law, &end, 0.0, 0.0);
+  const JointTraction first = TractionAt(&law, &end, 0.0, 0.0);
   CHECK(fabs(first.normal / -2e6 - 1.0) < 1e-12 && fabs(first.shear / STRENGTH[1] - 1.0) < 1e-12, "%g %g",
         first.normal, first.shear);
-  (void)JointTractionAt(&law, &end, 0.0, 1.0);
+  (void)TractionAt(&law, &end, 0.0, 1.0);
   const JointTraction last = WithContact(&law, &end, -2e6 / law.stiffness, 1.0);
   CHECK(end.damage == 1.0 && last.shear == 0.0 && fabs(last.normal / -2e6 - 1.0) < 1e-12, "%g", last.normal);
 }
@@ -117,7 +124,7 @@ static void Continuity(void)
   const double normal[4] = {1e6, 2e6, -4e6, 5e6}, shear[4] = {2e6, -7e6, 7.5e6, 1e6};
   for (int k = 0; k < 4; k++) {
     JointEnd end = JointBegin(&law, normal[k], shear[k]);
-    const JointTraction t = JointTractionAt(&law, &end, 0.0, 0.0);
+    const JointTraction t = TractionAt(&law, &end, 0.0, 0.0);
     CHECK(fabs(t.normal - normal[k]) < 1e-3 && fabs(t.shear - shear[k]) < 1e-3, "%g %g", t.normal, t.shear);
     CHECK(end.damage < 1e-12, "D = %g", end.damage);
   }
@@ -229,18 +236,18 @@ static void FrictionCase(void)
     CHECK(JointLoad(&law, -p, 0.999 * sign * bears) < 1.0 && JointLoad(&law, -p, 1.001 * sign * bears) > 1.0,
           "bears %g Pa", bears);
     JointEnd end = JointBegin(&law, -p, sign * bears);
-    JointTraction t = JointTractionAt(&law, &end, 0.0, 0.0);
+    JointTraction t = TractionAt(&law, &end, 0.0, 0.0);
     CHECK(fabs(t.normal + p) + fabs(t.shear - sign * bears) < 1e-6 * p && end.strong == 1.0,
           "begins with %g, %g", t.normal, t.shear);
     for (int k = 1; k <= STEPS; k++) { /* pressed as hard, whatever its damage: contact's part is p D */
       const double opening = -p / law.stiffness - end.offset[2] * (1.0 - end.damage);
-      t = JointTractionAt(&law, &end, opening, sign * 1.1 * other_weight * k / STEPS);
+      t = TractionAt(&law, &end, opening, sign * 1.1 * other_weight * k / STEPS);
       const double cohesion = end.residual * STRENGTH[1];
       CHECK(fabs(t.shear - sign * (cohesion - 0.7 * t.normal)) < 1e-5 * bears, "%g Pa at D = %g", t.shear,
             end.damage);
     }
     CHECK(end.damage == 1.0 && fabs(end.absorbed / 300.0 - 1.0) < 1e-5, "absorbed %g J/m2", end.absorbed);
-    t = JointTractionAt(&law, &end, -p / law.stiffness, 0.9 * sign * other_weight);
+    t = TractionAt(&law, &end, -p / law.stiffness, 0.9 * sign * other_weight);
     CHECK(t.normal == 0.0 && t.shear == 0.0, "%g, %g Pa when broken", t.normal, t.shear);
   }
 }
@@ -252,14 +259,14 @@ static void OpenedAfterPressure(double shear)
   const double far = OpeningRange(&law, 0, 0.4), slip = OpeningRange(&law, 1, 0.1);
   JointEnd once = JointBegin(&law, -6.0 * STRENGTH[0], shear), often = once;
   JointTraction direct = {0.0, 0.0}, gradual = direct;
-  for (int k = 1; k <= 2; k++) direct = JointTractionAt(&law, &once, 0.5 * k * far, 0.5 * k * slip);
+  for (int k = 1; k <= 2; k++) direct = TractionAt(&law, &once, 0.5 * k * far, 0.5 * k * slip);
   const JointEnd before = once;
-  const JointTraction again = JointTractionAt(&law, &once, far, slip);
+  const JointTraction again = TractionAt(&law, &once, far, slip);
   CHECK(once.damage > 0.3 && once.damage < 0.9, "D = %g", once.damage);
   CHECK(once.damage == before.damage && again.normal == direct.normal && again.shear == direct.shear,
         "asked again: D = %.15g instead of %.15g, traction %.15g instead of %.15g Pa", once.damage,
         before.damage, again.normal, direct.normal);
-  for (int k = 1; k <= 1000; k++) gradual = JointTractionAt(&law, &often, 1e-3 * k * far, 1e-3 * k * slip);
+  for (int k = 1; k <= 1000; k++) gradual = TractionAt(&law, &often, 1e-3 * k * far, 1e-3 * k * slip);
   CHECK(fabs(often.damage - once.damage) < 1e-9 && fabs(gradual.normal - direct.normal) < 1e-8 * STRENGTH[0],
         "D = %.12g in 1000 steps, %.12g in 2", often.damage, once.damage);
 }

@@ -3,8 +3,8 @@
 #include "common/space/element.h"
 #include "common/space/p1.h"
 #include "common/space/p2.h"
-#include "common/space/quadrature.h"
 #include "tests/check.h"
+#include "tests/quadrature.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

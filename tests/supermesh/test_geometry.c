@@ -1,4 +1,5 @@
 /* Clipping neither makes nor loses area, also when edges and vertices coincide. */
+#include "tests/quadrature.h"
 #include "tests/supermesh/random_mesh.h"
 
 static void RandomTriangle(double x[3][2])
@@ -12,9 +13,13 @@ static void RandomTriangle(double x[3][2])
 
 static double ClipArea(const double a[3][2], const double b[3][2])
 {
-  double polygon[GEOMETRY_CLIP_MAX][2];
+  double polygon[GEOMETRY_CLIP_MAX][2], x[3][2], area = 0.0;
   const int n = GeometryClip(a, b, polygon);
-  return GeometryPolygonArea(n, (const double(*)[2])polygon);
+  for (int k = 0; k + 2 < n; k++) {
+    PolygonFan((const double(*)[2])polygon, k, x);
+    area += GeometryArea((const double(*)[2])x);
+  }
+  return area;
 }
 
 /* Cut b by a in the four parts that the lines from a point of b to its vertices make of it: parts sum to the

@@ -1,7 +1,7 @@
 /* Pair integrals against quadrature, partition of unity, and Galerkin projection between random meshes. */
-#include "common/space/quadrature.h"
 #include "common/supermesh/projection.h"
 #include "common/supermesh/supermesh.h"
+#include "tests/quadrature.h"
 #include "tests/supermesh/random_mesh.h"
 
 enum { NA = 13, NB = 21 };
@@ -19,7 +19,7 @@ static double QuadratureAB(const SupermeshPair *pair, int i, int j)
   const int n = GeometryClip(ta, tb, polygon);
   for (int k = 0; k + 2 < n; k++) {
     double x[3][2];
-    GeometryFan((const double(*)[2])polygon, k, x);
+    PolygonFan((const double(*)[2])polygon, k, x);
     for (int q = 0; q < rule->n; q++) {
       double p[2] = {0, 0}, fa[3], fb[3];
       for (int v = 0; v < 3; v++) {

@@ -9,8 +9,8 @@
  * a transfer is O(h^4). */
 #ifndef TESTS_TRANSFER_VORTEX_H
 #define TESTS_TRANSFER_VORTEX_H
-#include "common/space/quadrature.h"
 #include "common/transfer/transfer.h"
+#include "tests/quadrature.h"
 #include "tests/transfer/shaken.h"
 
 typedef double VortexValues[2][3];

@@ -1,7 +1,6 @@
-/* Quadrature on a triangle: int_K f = area sum_k weight[k] f(point[k]).  No mesh, no MPI, no PETSc objects.
- * */
-#ifndef CORACLE_QUADRATURE_H
-#define CORACLE_QUADRATURE_H
+/* Quadrature on a triangle, and the triangles of a convex polygon: int_K f = area sum_k weight[k] f(point[k]). */
+#ifndef TESTS_QUADRATURE_H
+#define TESTS_QUADRATURE_H
 
 typedef struct {
   int n;
@@ -29,5 +28,15 @@ static inline const Quadrature *QuadratureOf(int degree)
        0.1099517436553219}};
 #undef QUADRATURE_ORBIT
   return degree <= 2 ? &TWO : degree == 3 ? &THREE : &FOUR;
+}
+
+/* Triangle k = 0 .. n - 3 of the fan around the polygon's first vertex. */
+static inline void PolygonFan(const double polygon[][2], int k, double x[3][2])
+{
+  for (int c = 0; c < 2; c++) {
+    x[0][c] = polygon[0][c];
+    x[1][c] = polygon[k + 1][c];
+    x[2][c] = polygon[k + 2][c];
+  }
 }
 #endif
