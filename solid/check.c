@@ -4,6 +4,7 @@
 #include "solid/bodies/case_body.h"
 #include "solid/check_domain.h"
 #include "solid/check_materials.h"
+#include "solid/check_motions.h"
 #include "solid/probes.h"
 #include "solid/solid_case.h"
 #include "solid/solid_impl.h"
