@@ -2,19 +2,17 @@
 # A bar held at one end swings lengthwise with the damping ratio that the case asks for: by its material (damping_ratio at damping_frequency, plane strain and
 # plane stress) and by a resistance (decay_rate, half of it over the angular frequency); the budget of momentum has the latter.  Usage: damping.sh ROOT BUILD
 set -euo pipefail
-root=$1 build=$2 scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OPENBLAS_NUM_THREADS=1
+source "$(dirname "$0")/run_alone.sh"
 swing() {
-  "$root/scripts/launch.sh" --bin "$build" --alone "$root/tests/solid/alone.yaml" --set "output.folder=$scratch/$1" --set 'gravity=[0, 0]' \
+  alone "$1" "$root/tests/solid/alone.yaml" --set 'gravity=[0, 0]' \
     --set 'solid.bodies=[{shape: rectangle, centre: [0.2, 0], width: 0.4, height: 0.04, size: 0.02, material: m, velocity: [0.01, 0], fixed: [left]}]' \
     --set "solid.materials={m: {density: 1000.0, youngs_modulus: 1.0e6, poisson_ratio: 0.3, $2}}" --set 'solid.walls.lower=[-1, -1]' --set 'solid.walls.upper=[1, 1]' \
-    --set time.end=0.4 --set time.dt_max=0.001 --set "solid.probes=[{name: tip, point: [0.4, 0]}]" "${@:3}" >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
+    --set time.end=0.4 --set time.dt_max=0.001 --set "solid.probes=[{name: tip, point: [0.4, 0]}]" "${@:3}"
 }
 swing stress "plane: stress, damping_ratio: 0.02, damping_frequency: 19.764"
 swing strain "plane: strain, damping_ratio: 0.02, damping_frequency: 20.718"
 swing decay "plane: stress, damping_ratio: 0.01, damping_frequency: 19.764" --set solid.decay_rate=5
-"$(command -v /usr/bin/python3 || command -v python3)" - "$scratch" <<'E2'
+"$python" - "$scratch" <<'E2'
 import csv, math, sys
 def rows(label, name):
     return [{k: float(v) for k, v in r.items()} for r in csv.DictReader(open("%s/%s/%s.csv" % (sys.argv[1], label, name)))]

@@ -3,9 +3,7 @@
 # block's stress and of the work that is done; a body hangs on a spring; all together are the budget's impulse.  On one rank, and on two that exchange elements.
 # Usage: platens.sh ROOT BUILD
 set -euo pipefail
-root=$1 build=$2 scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OPENBLAS_NUM_THREADS=1
+source "$(dirname "$0")/run_alone.sh"
 cat >"$scratch/platens.yaml" <<'E2'
 case: platens
 gravity: [0.0, -1.0]
@@ -23,10 +21,9 @@ solid:
 output: {folder: out/platens, every: 1.0}
 E2
 for ranks in 1 2; do
-  "$root/scripts/launch.sh" --bin "$build" --alone --ranks "1:1:$ranks" "$scratch/platens.yaml" --set "output.folder=$scratch/$ranks" --set solid.rebalance=1 \
-    >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
+  alone "$ranks" "$scratch/platens.yaml" --ranks "1:1:$ranks" --set solid.rebalance=1
 done
-"$(command -v /usr/bin/python3 || command -v python3)" - "$scratch" <<'E2'
+"$python" - "$scratch" <<'E2'
 import csv, sys
 def read(n, series):
     return [{k.split(" [")[0]: float(v) for k, v in r.items()} for r in csv.DictReader(open("%s/%s/%s.csv" % (sys.argv[1], n, series)))]

@@ -2,10 +2,9 @@
 # The strength of a jointed rock pressed between platens without friction, over Mohr and Coulomb's: a row of README.md.
 # Usage: pressed.sh ROOT BUILD G_II EDGE SIDES [launch.sh arguments]      J/m2, m, MPa on the sides; peak of the mean of five rows of solid.csv
 set -euo pipefail
-root=$1 build=$2 energy=$3 edge=$4 sides=$5 scratch=$(mktemp -d)
+source "$(dirname "$0")/run_alone.sh"
+energy=$3 edge=$4 sides=$5
 shift 5
-trap 'rm -rf "$scratch"' EXIT
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OPENBLAS_NUM_THREADS=1
 cat >"$scratch/rock.geo" <<'E2'
 w = 0.05; h = 0.1;
 Point(1) = {-w/2, -h/2, 0, s}; Point(2) = {w/2, -h/2, 0, s}; Point(3) = {w/2, h/2, 0, s}; Point(4) = {-w/2, h/2, 0, s};
@@ -31,7 +30,7 @@ solid:
 output: {folder: out/pressed, every: 1.0}
 E2
 "$root/scripts/launch.sh" --bin "$build" --alone --ranks 1:1:1 "$scratch/pressed.yaml" --set "output.folder=$scratch/out" "$@" >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
-"$(command -v /usr/bin/python3 || command -v python3)" - "$scratch/out/solid.csv" "$sides" <<'E2'
+"$python" - "$scratch/out/solid.csv" "$sides" <<'E2'
 import csv, math, sys
 force = [-float(row["ry2 [N/m]"]) for row in csv.DictReader(open(sys.argv[1]))]
 peak = max(sum(force[k:k + 5]) for k in range(len(force) - 4)) / 5 / 0.05

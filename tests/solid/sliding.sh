@@ -2,19 +2,17 @@
 # Newmark's sliding block (Geotechnique 15, 1965): on a floor that is shaken by a pulse of A for T, above its friction mu g, a rigid block moves by
 # (A - mu g) T^2 A/(2 mu g), relative to the floor; it stays where it is before, and under a pulse below mu g.  Usage: sliding.sh ROOT BUILD
 set -euo pipefail
-root=$1 build=$2 scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OPENBLAS_NUM_THREADS=1
+source "$(dirname "$0")/run_alone.sh"
 slide() { # LABEL A
-  "$root/scripts/launch.sh" --bin "$build" --alone "$root/tests/solid/alone.yaml" --set "output.folder=$scratch/$1" \
+  alone "$1" "$root/tests/solid/alone.yaml" \
     --set "gravity=[[0, 0, -9.81], [0.1, 0, -9.81], [0.1000001, $2, -9.81], [0.3, $2, -9.81], [0.3000001, 0, -9.81]]" \
     --set 'solid.bodies=[{shape: rectangle, centre: [0, 0.05], width: 0.3, height: 0.1, size: 0.05, material: m}]' \
     --set 'solid.materials={m: {density: 2500.0, youngs_modulus: 1.0e8, poisson_ratio: 0.2, friction: 0.3, damping: 0.1, contact_damping: 0.3}}' \
-    --set 'solid.walls={lower: [-1, 0], upper: [3, 1], friction: 0.3}' --set time.end=0.6 --set time.dt_max=0.005 >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
+    --set 'solid.walls={lower: [-1, 0], upper: [3, 1], friction: 0.3}' --set time.end=0.6 --set time.dt_max=0.005
 }
 slide strong 4.905
 slide weak 2.7
-"$(command -v /usr/bin/python3 || command -v python3)" - "$scratch" <<'E2'
+"$python" - "$scratch" <<'E2'
 import csv, sys
 def places(label):
     with open("%s/%s/solid.csv" % (sys.argv[1], label)) as file:
