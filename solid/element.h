@@ -5,8 +5,8 @@
  *          /   \                F = D D0^-1
  *         a-----b
  *
- *     Cauchy stress   T = elastic (element_law.h) + eta sym(grad v)                       (method.md 1, 8)
- *     nodal force     f_i = -int grad N_i . T dA over the current triangle                            [3]
+ *     Cauchy stress   T = elastic (element_law.h) + eta sym(grad v)
+ *     nodal force     f_i = -int grad N_i . T dA over the current triangle               [3] of the paper
  *
  * Without eta f = -d(sum W A0)/dx, and elastic motion conserves energy. */
 #ifndef SOLID_ELEMENT_H

@@ -3,7 +3,7 @@
  *
  * All laws have an energy W per unit of rest volume, T = dW/dF F^T/J, so that nodal forces are -d(sum W A0)/dx.
  *
- * Neo-Hookean (method.md 1):
+ * Neo-Hookean:
  *     W = mu/2 (tr B - 2 - 2 ln J) + lambda/4 (J^2 - 1 - 2 ln J),    T = mu/J (B - I) + lambda/2 (J - 1/J) I
  * (B_33 = 1).  In plane stress the thickness stretch l_3 is such that T_33 = 0:
  *     mu (l_3^2 - 1) + lambda/2 (J^2 l_3^2 - 1) = 0,   l_3^2 = (mu + lambda/2)/(mu + lambda/2 J^2),

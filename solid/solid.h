@@ -7,7 +7,7 @@
  *       SolidSubstep(s, &h)                   v += h (f/m + g);  x += h v
  *     SolidStepFailure(s, &why)               not if an element has turned inside out
  *
- *     f = internal (element.h) + contact (contact_kernel.h) + load        [1] of method.md
+ *     f = internal (element.h) + contact (contact_kernel.h) + load        [1] of the paper
  *
  * h = courant x the stability limit (SolidLimit), less so that the substeps fill dt.  Units are SI, per metre
  * of depth. All functions are collective over the communicator unless said otherwise; ranks without elements

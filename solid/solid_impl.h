@@ -148,10 +148,6 @@ static inline PetscBool SolidOwns(const Solid s, int node)
 /* forces.c: internal forces of this rank's elements into force.  An element with J <= 0 is the rank's failure; from then on it stands, without
  * forces, where the step began, until all have heard of it. */
 PetscErrorCode SolidInternalForces(Solid s);
-/* corner_start, corner, elements.held and fixed, from element and inverse_mass */
-void SolidListCorners(Solid s);
-/* No node that its forces act on can move. */
-PetscBool SolidElementHeld(const Elements *e, int k, const double inverse_mass[]);
 /* The smallest stable step over this rank's elements that can move, each with contact's rates added. */
 double SolidElementLimit(Solid s, ElementRates contact);
 ElementLaw ElementsLaw(const Elements *e, int k);
@@ -159,6 +155,11 @@ ElementLaw ElementsLaw(const Elements *e, int k);
 Tensor SolidElementEdges(const Elements *e, int k, const double value[]);
 /* F where its law is evaluated (six_node_kernel.h), and the edges that make it of D0^-1. */
 void SolidElementShape(const Elements *e, int k, const double x[], Tensor *edges, Tensor *f);
+
+/* element_lists.c: corner_start, corner, elements.held and fixed, from element and inverse_mass */
+void SolidListCorners(Solid s);
+/* No node that its forces act on can move. */
+PetscBool SolidElementHeld(const Elements *e, int k, const double inverse_mass[]);
 
 /* fragments.c, collective: piece[nnodes], borrowed: 0 .. *n - 1 as in SolidFragments; kept until nodes split.
  */
@@ -187,9 +188,10 @@ PetscErrorCode SolidTakeSubdomain(Solid s, const Model *a, const int part[]);
 /* balance.c, collective: elements to ranks as suits the solid as it is now.  Needs rebalance > 0. */
 PetscErrorCode SolidDealOut(Solid s);
 
-/* migrate.c: all but the model. */
+/* solid.c: all but the model. */
 PetscErrorCode SolidFreeSubdomain(Solid s);
-/* Not collective: the subdomain that the saved state belongs to is the present one again. */
+
+/* migrate.c, not collective: the subdomain that the saved state belongs to is the present one again. */
 PetscErrorCode SolidRestoreSubdomain(Solid s);
 /* Not collective: the present subdomain is that of the state which is about to be saved. */
 PetscErrorCode SolidKeepSubdomain(Solid s);
@@ -224,7 +226,7 @@ PetscErrorCode JointsReplay(Joints j, Solid s);
 /* Collective: after JointsState(0) and JointsReplay, what needs messages. */
 PetscErrorCode JointsSynchronise(Joints j, Solid s);
 
-/* contact.c */
+/* contact.c, contact_search.c, contact_forces.c, contact_pair.c */
 PetscErrorCode ContactCreate(Solid s, Contact *contact);
 /* Collective: nodes, elements or facets have changed; a search must follow.  Slips stay with element and
  * side. */

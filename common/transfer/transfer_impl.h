@@ -34,7 +34,7 @@ struct Transfer_s {
   Projection projection; /* migrated elements -> changed */
 };
 
-/* Unchanged elements: copy_route and copy; the changed ones of both meshes are left. */
+/* Unchanged elements: copy_scatter and copy; the changed ones of both meshes are left. */
 PetscErrorCode TransferMatch(Transfer transfer, TransferElements *old);
 /* Sends changed old elements where changed new ones may touch them: moved_scatter, moved and search. */
 PetscErrorCode TransferMigrate(Transfer transfer, const TransferElements *old);

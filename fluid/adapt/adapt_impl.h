@@ -122,7 +122,7 @@ static inline bool AdaptIsShort(const Adapt *a, int p, int q)
 PetscErrorCode AdaptCreate(const MeshSerial *mesh, const double metric[], const AdaptOptions *options,
                            Adapt *a);
 PetscErrorCode AdaptDestroy(Adapt *a);
-PetscErrorCode AdaptExtract(const Adapt *a, AdaptResult *result);
+PetscErrorCode AdaptExtract(const Adapt *a, AdaptResult *result); /* adapt_extract.c */
 /* adapt_faces.c: the corner across each face, NONE on the boundary, and the tag of its facet, NONE without.
  */
 PetscErrorCode AdaptFaces(const MeshSerial *mesh, int across[], int mark[]);

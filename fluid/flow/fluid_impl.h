@@ -48,14 +48,14 @@ struct Fluid_s {
 
 /* fluid_step.c: what the projection of a velocity at t over dt sees.  Not collective. */
 ProjectionStep FluidProjectionStep(Fluid f, double t, double dt, PetscBool inertia);
+/* Not collective: takes note of a solver's failure; its iterations. */
+int FluidTakeReport(Fluid f, const SolverReport *report);
 /* fluid_phases.c: [ne], borrowed; NULL for one fluid.  Not collective. */
 const InverseDensity *FluidInverseDensity(Fluid f);
 /* After the phases' volumes were set: density and viscosity at both levels.  Collective. */
 PetscErrorCode FluidPhasesChanged(Fluid f);
 /* Of the phases that element e has, the smallest and the largest density, kg/m3.  Not collective. */
 void FluidDensityRange(Fluid f, int e, double *low, double *high);
-/* Not collective: takes note of a solver's failure; its iterations. */
-int FluidTakeReport(Fluid f, const SolverReport *report);
 /* The limit of the interface's waves (fluid.h) on this rank, s; HUGE_VAL without.  Not collective. */
 double FluidInterfaceStep(Fluid f);
 /* fluid_gas.c: *pressure[ne] of the elements, Pa, is allocated.  Not collective, like what follows. */
@@ -68,16 +68,16 @@ void FluidSetCompressibility(Fluid f);
 PetscErrorCode FluidLeaveCompressible(Fluid f);
 /* Refuses elements whose density rho[ne] is not positive: says which phase, where, and what helps. */
 PetscErrorCode FluidCheckDensity(Fluid f, const double rho[]);
-/* Moves the phases over dt with the velocity in mass_flux, extrapolated by s steps, and makes it the mass flux.  Collective. */
+/* fluid_phases.c: moves the phases over dt with the velocity in mass_flux, extrapolated by s steps, and makes it the mass flux.  Collective. */
 PetscErrorCode FluidMovePhases(Fluid f, double dt, double s);
 /* interface_viscosity.c, as part of that: MATERIAL_STEP's viscosity; u[ne][6]: that velocity, like u of flux.h, m/s.  Collective. */
 PetscErrorCode FluidDampInterface(Fluid f, const double u[]);
-/* After that: the density of what elements have beside the solid (f->outside).  Collective. */
+/* fluid_phases.c, after that: the density of what elements have beside the solid (f->outside).  Collective. */
 PetscErrorCode FluidSetOutside(Fluid f);
 /* p becomes the pressure that, with its values on open boundaries as they are, makes the acceleration weight - R^-1 grad p
  * free of divergence: that of the first instant of phases at rest.  Collective. */
 PetscErrorCode FluidBalancePressure(Fluid f);
-/* p on open boundaries, and nowhere else: hydrostatic, with their pressures at t and levels.  Collective. */
+/* initial.c: p on open boundaries, and nowhere else: hydrostatic, with their pressures at t and levels.  Collective. */
 PetscErrorCode FluidSetOpenPressure(Fluid f, double t);
 /* The same with the solid, whose inertia and motion of the coming step over dt take part. */
 PetscErrorCode FluidPredictPressure(Fluid f, double dt);

@@ -24,7 +24,7 @@ typedef struct {
   double t, dt;        /* of the boundaries' velocity, s; the step, s */
   const double *rho;   /* [ne] that the pressure moves, kg/m3 */
   int revision;        /* of rho */
-  SolidCoupling solid; /* borrowed until ProjectionSubtract */
+  SolidCoupling solid; /* borrowed until ProjectionSolverSubtract */
   /* [ne] of phases, in place of 1/rho (effective_density.h), for the pressure that gravity makes; NULL: 1/rho */
   const InverseDensity *inverse_density;
   PetscBool inertia;                       /* whether the solid's implicit inertia takes part */

@@ -15,7 +15,7 @@
  *     friction    q += k ds, cut back to |q| <= f |sigma| where pressed, as contact's is; tau is the value above plus q,
  *                 so that an intact edge bears F_s + f |sigma| (Mohr and Coulomb)
  *
- * with z(D) of method.md 8 and A = int_0^1 z dD.  Strength and residual strength are ellipses: (sigma/F_t)^2
+ * with z(D) of JointSoftening and A = int_0^1 z dD.  Strength and residual strength are ellipses: (sigma/F_t)^2
  * + (tau/F_s)^2 = z^2 while D grows; unloading goes straight to the origin.  (o0, s0) and c are chosen when
  * the joint activates: its traction then is that of the elements (JointBegin), and it needs no compliance before.
  *

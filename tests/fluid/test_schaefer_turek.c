@@ -1,6 +1,6 @@
 // ranks: 2
-/* Schaefer & Turek (1996), benchmark 2D-1: steady flow around a cylinder at Re 20.  Reference values of
- * validation.md: C_D 5.579535, C_L 0.0106189, pressure drop 0.117520 Pa.  The mesh is made by gmsh from
+/* Schaefer & Turek (1996), benchmark 2D-1: steady flow around a cylinder at Re 20.  Reference values:
+ * C_D 5.579535, C_L 0.0106189, pressure drop 0.117520 Pa.  The mesh is made by gmsh from
  * schaefer_turek.geo.  The drag's error falls with the square of its size h at the cylinder; bounds for any h are those of 0.004 times that (lift) and h
  * (pressure drop): both are erratic from mesh to mesh.  schaefer_turek -h 0.0028 */
 #include "common/space/p2.h"
