@@ -113,13 +113,23 @@ PetscErrorCode FluidErrors(Fluid f, double t, FieldFunction velocity, FieldFunct
   PetscFunctionReturn(0);
 }
 
+static void SetCflElement(Fluid f, int e, double speed)
+{
+  double x[3][2];
+  MeshCorners(f->domain.mesh, e, x);
+  for (int c = 0; c < 2; c++) f->stats.cfl_centre[c] = (x[0][c] + x[1][c] + x[2][c]) / 3.0;
+  f->stats.cfl_speed = speed;
+}
+
 double FluidTimeStep(Fluid f)
 {
   const Mesh *m = f->domain.mesh;
   const PetscScalar *u;
-  double rate = 0.0, speed = 0.0;
+  double rate = 0.0, largest = 0.0;
   if (VecGetArrayRead(f->u_projected, &u)) return 0.0;
-  for (int e = 0; e < m->ne; e++)
+  for (int e = 0; e < m->ne; e++) {
+    const double before = rate;
+    double speed = 0.0;
     for (int i = 0; i < 3; i++) {
       const double *v = u + 6 * e + i;
       double sum = 0.0; /* of |u.grad lambda|: twice the inverse of the time to cross the element */
@@ -128,8 +138,12 @@ double FluidTimeStep(Fluid f)
       rate = fmax(rate, 0.5 * sum);
       speed = fmax(speed, v[0] * v[0] + v[3] * v[3]);
     }
+    largest = fmax(largest, speed);
+    if (rate > before) SetCflElement(f, e, sqrt(speed));
+  }
   (void)VecRestoreArrayRead(f->u_projected, &u);
-  f->stats.max_speed = sqrt(speed);
+  f->stats.max_speed = sqrt(largest);
+  f->stats.cfl_rate = rate / f->setup.cfl;
   const double dt = rate * f->setup.dt_max > f->setup.cfl ? f->setup.cfl / rate : f->setup.dt_max;
   return fmin(dt, FluidInterfaceStep(f));
 }

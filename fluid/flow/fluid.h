@@ -40,7 +40,10 @@ typedef struct Fluid_s *Fluid;
 
 typedef struct {
   int momentum_iterations, pressure_iterations;
-  double t, dt, max_speed; /* max_speed: of this rank (FluidTimeStep), m/s */
+  double t, dt;
+  /* Of this rank, by FluidTimeStep: m/s; the most steps a second that the CFL condition asks for, and the element that does: its centre, m, and its
+   * largest speed, m/s. */
+  double max_speed, cfl_rate, cfl_centre[2], cfl_speed;
   double
       seconds[6]; /* assembly, momentum, pressure, coupling; adaptation with transfer, set-up on new meshes */
 } FluidStats;

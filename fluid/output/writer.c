@@ -16,7 +16,9 @@ struct Writer_s {
   Output output;
   Series series;
   ForceSeries forces;
-  int revision; /* of the mesh */
+  int revision;            /* of the mesh */
+  double longest;          /* step so far, s */
+  PetscBool has_shortened; /* NoteShortSteps has said so */
 };
 
 /* Points, cells and scratch of the two grids of a snapshot. */
@@ -162,16 +164,34 @@ PetscErrorCode WriterSave(Writer r, Checkpoint to)
   PetscFunctionReturn(0);
 }
 
+/* Of the longest step: where the flow makes steps shorter than that, something may be wrong with it. */
+#define SHORT 1e-3
+
+/* rate: the most of all ranks that the CFL condition asks for, 1/s.  Said once a run. */
+static void NoteShortSteps(Writer r, Fluid f, double rate)
+{
+  const FluidStats *s = FluidGetStats(f);
+  r->longest = fmax(r->longest, s->dt);
+  if (r->has_shortened || !(rate * SHORT * r->longest > 1.0)) return;
+  r->has_shortened = PETSC_TRUE;
+  if (s->cfl_rate == rate)
+    printf("coracle: note: at t = %g s the flow at (%g, %g), %g m/s, makes steps as short as %.2g s; the "
+           "longest "
+           "so far was of %g s\n",
+           s->t, s->cfl_centre[0], s->cfl_centre[1], s->cfl_speed, 1.0 / rate, r->longest);
+}
+
 PetscErrorCode WriterStep(Writer r, Fluid f)
 {
   const FluidStats *s = FluidGetStats(f);
   const Mesh *m = FluidMesh(f);
   const FluidBudget *budget = FluidGetBudget(f);
   PetscMPIInt size;
-  double most[2] = {m->ne, s->max_speed}; /* of all ranks */
+  double most[3] = {m->ne, s->max_speed, s->cfl_rate}; /* of all ranks */
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_size(m->comm, &size));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, m->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most, 3, MPI_DOUBLE, MPI_MAX, m->comm));
+  NoteShortSteps(r, f, most[2]);
   double row[ROW_MAX] = {s->t,
                          s->dt,
                          most[1],
