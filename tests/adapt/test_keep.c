@@ -167,7 +167,7 @@ static void Refuse(const MeshSerial *m, const double metric[], PetscErrorCode co
   PetscLogDouble before, after;
   AdaptResult r;
   PetscMallocGetCurrentUsage(&before);
-  PetscPushErrorHandler(PetscIgnoreErrorHandler, NULL);
+  PetscPushErrorHandler(PetscReturnErrorHandler, NULL);
   CHECK(MeshAdapt(m, metric, NULL, &r) == code, "%s is taken", what);
   PetscPopErrorHandler();
   PetscMallocGetCurrentUsage(&after);

@@ -233,7 +233,7 @@ static void CheckRefused(void)
   const Given good[] = {{{0, 1, 2}, 0}, {{0, 2, 3}, 1}}, same_side[] = {{{0, 1, 2}, 0}, {{0, 1, 3}, 1}};
   const Given three[] = {{{0, 1, 2}, 0}, {{0, 2, 3}, 1}, {{0, 2, 4}, 2}};
   CHECK(!Build(2, good, 1), "two triangles are refused");
-  PetscPushErrorHandler(PetscIgnoreErrorHandler, NULL);
+  PetscPushErrorHandler(PetscReturnErrorHandler, NULL);
   CHECK(Build(0, good, 1) == PETSC_ERR_ARG_WRONG, "no triangles are taken");
   CHECK(Build(2, good, 0) == PETSC_ERR_ARG_WRONG, "a boundary without a name is taken");
   CHECK(Build(2, same_side, 1) == PETSC_ERR_ARG_WRONG, "overlapping triangles are taken");
