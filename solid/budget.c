@@ -8,6 +8,7 @@ void BudgetStart(Solid s)
   memset(s->reaction, 0, (size_t)s->nbodies * sizeof *s->reaction);
   memset(s->momentum, 0, (size_t)s->nbodies * sizeof *s->momentum);
   for (int k = 0; k < s->nmotions; k++) memset(s->motion_impulse[k], 0, sizeof s->motion_impulse[k]);
+  memset(s->contact_impulse, 0, sizeof s->contact_impulse);
   for (int n = 0; n < s->nnodes; n++)
     for (int c = 0; c < 2 && SolidOwns(s, n); c++)
       s->momentum[s->node_body[n]][c] += s->mass[n] * s->v[2 * n + c];
@@ -19,6 +20,7 @@ void BudgetAddSubstep(Solid s)
   const Point walls = ContactWalls(s->contact);
   s->budget.walls[0] += s->kick * walls.x;
   s->budget.walls[1] += s->kick * walls.y;
+  ContactAddImpulses(s->contact, s, s->contact_impulse);
   for (int k = 0; k < s->nfixed; k++) {
     const int n = s->fixed[k];
     if (!SolidOwns(s, n)) continue;

@@ -159,6 +159,16 @@ static const CoracleCaseKey KEYS[] = {
     {"solid.probes[].name", "", "leads the names of its columns"},
     {"solid.probes[].point", "m",
      "where it is in the bodies at rest, or nearly: less than a tenth of a side away from one"},
+    {"solid.contact_probes", "",
+     "list of contacts between two bodies, or of a body and walls, whose forces, means over the step, and "
+     "place are in solid_probes.csv"},
+    {"solid.contact_probes[].name", "", "leads the names of its columns"},
+    {"solid.contact_probes[].body", "",
+     "number of the body on which the forces act, as in solid.csv: bodies are numbered from 0 as they come "
+     "in the case, those of repeat "
+     "along x first"},
+    {"solid.contact_probes[].other", "",
+     "number of the body that it touches, or a wall: left, right, bottom, top; absent: all that it touches"},
     {"solid.courant", "", "substep over the limit of stability"},
     {"solid.decay_rate", "1/s", "of velocities, by a resistance over the mass: leads to the static state"},
     {"solid.pressure_load", "",

@@ -7,13 +7,13 @@
 #include "solid/prescribed_motion.h"
 #include <stdio.h>
 
-enum { MAX_PROBES = 64, MAX_MOTIONS = 64, VALUES = 4, SUMS = VALUES + 1, REACTION = 4 };
-enum { COLUMNS = (MAX_PROBES + MAX_SPRINGS + MAX_MOTIONS) * 280 };
+enum { MAX_PROBES = 64, MAX_MOTIONS = 64, VALUES = 4, SUMS = VALUES + 1, REACTION = 4, CONTACT = 6 };
+enum { COLUMNS = (MAX_PROBES + MAX_SPRINGS + MAX_MOTIONS + MAX_CONTACT_PROBES) * 380 };
 
 struct Probes_s {
   MPI_Comm comm;
   Series series;
-  int n, nsprings, nmotions;
+  int n, nsprings, nmotions, ncontacts;
   double point[MAX_PROBES][2];           /* m, at rest */
   char motion[MAX_MOTIONS][MOTION_NAME]; /* names of prescribed motions */
 };
@@ -109,6 +109,14 @@ static void ReadLists(CoracleCase c, Probes p, char columns[COLUMNS])
     used += (size_t)snprintf(columns + used, COLUMNS - used,
                              ",%s_force_x [N/m],%s_force_y [N/m],%s_moment [N],%s_power [W/m]", p->motion[k],
                              p->motion[k], p->motion[k], p->motion[k]);
+  p->ncontacts = PetscMin(CoracleCaseCount(c, "solid.contact_probes"), MAX_CONTACT_PROBES);
+  for (int k = 0; k < p->ncontacts; k++) {
+    const char *name = ReadName(c, "solid.contact_probes", k);
+    used += (size_t)snprintf(columns + used, COLUMNS - used,
+                             ",%s_normal_x [N/m],%s_normal_y [N/m],%s_friction_x [N/m],%s_friction_y [N/m],"
+                             "%s_place_x [m],%s_place_y [m]",
+                             name, name, name, name, name, name);
+  }
 }
 
 void ProbesCheckCase(CoracleCase c)
@@ -195,7 +203,7 @@ PetscErrorCode ProbesCreate(CoracleCase c, MPI_Comm comm, Solid solid, Checkpoin
   PetscCall(PetscNew(&p));
   p->comm = comm;
   ReadLists(c, p, columns);
-  if (p->n + p->nsprings + p->nmotions == 0) {
+  if (p->n + p->nsprings + p->nmotions + p->ncontacts == 0) {
     PetscCall(PetscFree(p));
     PetscFunctionReturn(0);
   }
@@ -224,8 +232,11 @@ PetscErrorCode ProbesSave(Probes p, Checkpoint to)
 
 PetscErrorCode ProbesStep(Probes p, Solid solid)
 {
-  double row[1 + MAX_PROBES * VALUES + 2 * MAX_SPRINGS + REACTION * MAX_MOTIONS], value[MAX_PROBES][VALUES];
+  double
+      row[1 + MAX_PROBES * VALUES + 2 * MAX_SPRINGS + REACTION * MAX_MOTIONS + CONTACT * MAX_CONTACT_PROBES],
+      value[MAX_PROBES][VALUES];
   SpringState spring[MAX_SPRINGS];
+  BodyContact contact[MAX_CONTACT_PROBES];
   int missing, n = 0;
   PetscFunctionBeginUser;
   if (!p) PetscFunctionReturn(0);
@@ -240,6 +251,11 @@ PetscErrorCode ProbesStep(Probes p, Solid solid)
   }
   for (int k = 0; k < p->nmotions; k++, n += REACTION)
     PetscCall(SolidMotionReaction(solid, p->motion[k], &row[n]));
+  PetscCall(SolidContactProbes(solid, contact));
+  for (int k = 0; k < p->ncontacts; k++) {
+    const double *const vector[] = {contact[k].normal, contact[k].friction, contact[k].place};
+    for (int i = 0; i < CONTACT; i++) row[n++] = vector[i / 2][i % 2];
+  }
   PetscCall(SeriesRow(p->series, row));
   PetscFunctionReturn(0);
 }

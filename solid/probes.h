@@ -1,7 +1,8 @@
-/* What is followed of the solid: points, the list solid.probes of the case, the list solid.springs, and prescribed motions that have a name.  solid_probes.csv has a row a step: the
+/* What is followed of the solid: points, the list solid.probes of the case, the lists solid.springs and solid.contact_probes, and prescribed motions that have a name.  solid_probes.csv has a row a step: the
  * time, for each probe its displacement from rest, m, and its velocity, m/s, interpolated in the element that has
- * the point at rest; on an edge or a node, the mean over the elements there; for each spring its length, m, and tension, N/m; last, for each name of a
- * motion the force that holds or moves its nodes, N/m, its moment about the pivot (or the origin), N, and its power, W/m. */
+ * the point at rest; on an edge or a node, the mean over the elements there; for each spring its length, m, and tension, N/m; for each name of a
+ * motion the force that holds or moves its nodes, N/m, its moment about the pivot (or the origin), N, and its power, W/m; last, for each contact probe what SolidContactProbes
+ * has. */
 #ifndef SOLID_PROBES_H
 #define SOLID_PROBES_H
 #include "common/link/case_file.h"

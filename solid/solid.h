@@ -30,7 +30,15 @@ typedef struct {
   double friction, damping; /* < 0: not overridden */
 } ContactRule;
 
-enum { MAX_RULES = 32 };
+enum { MAX_RULES = 32, MAX_CONTACT_PROBES = 64 };
+
+/* In place of the number of another body: the walls, or all that a body touches. */
+enum { CONTACT_ANY = -6, WALL_LEFT = -4, WALL_RIGHT, WALL_BOTTOM, WALL_TOP };
+
+/* Two of which SolidContactProbes tells what they do to each other; body: the number of one. */
+typedef struct {
+  int body, other;
+} ContactProbe;
 
 typedef struct {
   double gravity[2];         /* m/s2, of the current step */
@@ -46,6 +54,8 @@ typedef struct {
   ContactRule rule[MAX_RULES]; /* [nrules] the last that fits holds */
   int nsprings;
   Spring spring[MAX_SPRINGS]; /* [nsprings] */
+  int ncontact_probes;
+  ContactProbe contact_probe[MAX_CONTACT_PROBES]; /* [ncontact_probes] */
 } SolidSetup;
 
 /* model is borrowed during the call; the same on all ranks. */
@@ -149,6 +159,17 @@ typedef struct {
 } BodyState;
 /* state[n]: of the first n bodies. */
 PetscErrorCode SolidBodies(Solid s, int n, BodyState state[]);
+
+/* The contact of two bodies, or of a body and a wall. */
+typedef struct {
+  int body, other;
+  double normal[2], friction[2]; /* force on the first, N/m; contact damping is in the normal one */
+  double place[2]; /* mean of where the normal force acts, weighted with it, m; NaN where nothing touches */
+} BodyContact;
+/* Collective: of all that touch now, on the first rank; no contact within a body.  The lesser number is `body`.  The caller frees it. */
+PetscErrorCode SolidContacts(Solid s, int *n, BodyContact **contact);
+/* Collective: contact[contact probes of the setup], means over the last step. */
+PetscErrorCode SolidContactProbes(Solid s, BodyContact contact[]);
 
 /* What acted on all bodies over the last step.  Momentum: the change of sum m v is load dt + walls + reaction + m
  * g dt, to round-off. */

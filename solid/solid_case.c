@@ -86,6 +86,43 @@ static void ReadSprings(CoracleCase c, const Model *a, SolidSetup *setup)
   for (int k = 0; k < setup->nsprings; k++) ReadSpring(c, a, k, &setup->spring[k]);
 }
 
+/* Another body than `body`, or a wall. */
+static int ReadOther(CoracleCase c, const char *key, int body, int nbodies, PetscBool walls)
+{
+  static const char *const WALLS[] = {"left", "right", "bottom", "top"}; /* from WALL_LEFT on */
+  const char *other = CoracleCaseString(c, key);
+  char *end;
+  for (int k = 0; k < 4; k++)
+    if (!strcmp(other, WALLS[k])) {
+      if (!walls) CoracleCaseRefuse(c, key, "there are no solid.walls");
+      return WALL_LEFT + k;
+    }
+  const long number = strtol(other, &end, 10);
+  if (end == other || *end || number < 0 || number >= nbodies || number == body)
+    CoracleCaseRefuse(c, key, "expected left, right, bottom, top or the number of another body, less than %d",
+                      nbodies);
+  return (int)number;
+}
+
+static void ReadContactProbes(CoracleCase c, const Model *a, SolidSetup *setup)
+{
+  const PetscBool walls = (PetscBool)CoracleCaseHas(c, "solid.walls");
+  char key[CASE_KEY];
+  setup->ncontact_probes = CoracleCaseCount(c, "solid.contact_probes");
+  if (setup->ncontact_probes > MAX_CONTACT_PROBES)
+    CoracleCaseRefuse(c, "solid.contact_probes", "more than %d probes", MAX_CONTACT_PROBES);
+  for (int k = 0; k < setup->ncontact_probes; k++) {
+    ContactProbe *p = &setup->contact_probe[k];
+    const double body =
+        CoracleCaseNumber(c, CaseKey(key, "solid.contact_probes[%d].body", k), 0.0, a->nbodies - 1.0);
+    if (body != floor(body)) CoracleCaseRefuse(c, key, "expected a whole number");
+    p->body = (int)body;
+    p->other = CoracleCaseHas(c, CaseKey(key, "solid.contact_probes[%d].other", k))
+                   ? ReadOther(c, key, p->body, a->nbodies, walls)
+                   : CONTACT_ANY;
+  }
+}
+
 static PetscBool IsSamePair(const ContactRule *a, const ContactRule *b)
 {
   const int crossed = strcmp(a->between[0], b->between[0]) != 0;
@@ -212,6 +249,7 @@ PetscErrorCode SolidCaseRead(CoracleCase c, Model *a, SolidSetup *setup)
   ReadWalls(c, a, setup);
   ReadRules(c, setup);
   ReadSprings(c, a, setup);
+  ReadContactProbes(c, a, setup);
   ProbesCheckCase(c);
   PetscCall(CheckOverlap(c, a));
   PetscFunctionReturn(0);

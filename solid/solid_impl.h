@@ -15,6 +15,8 @@ typedef struct {
   int elements, nodes, joints; /* nodes of the start */
 } GlobalSizes;
 
+enum { CONTACT_SUMS = 7 }; /* of a contact: normal and friction force, places, weight (contact_between.c) */
+
 enum { STRIP = 64 }; /* elements that are gathered at a time: they stay in the first cache */
 
 /* Structure of arrays, so that the element loop is vectorised. */
@@ -126,6 +128,8 @@ struct Solid_s {
   double (*momentum)[2];      /* [nbodies] the same of budget.start */
   /* [nmotions] the part of the reaction that each motion has, of this rank, N s/m, its moment, N s, and work, J/m */
   double (*motion_impulse)[4];
+  /* of the setup's contact probes over the step, this rank's part (ContactAddImpulses) */
+  double contact_impulse[MAX_CONTACT_PROBES][CONTACT_SUMS];
   PetscBool force_valid;    /* force belongs to x and v */
   PetscBool unsynchronised; /* after SolidState(0): JointsSynchronise is due */
   SolidStats stats;
@@ -226,7 +230,7 @@ PetscErrorCode JointsReplay(Joints j, Solid s);
 /* Collective: after JointsState(0) and JointsReplay, what needs messages. */
 PetscErrorCode JointsSynchronise(Joints j, Solid s);
 
-/* contact.c, contact_search.c, contact_forces.c, contact_pair.c */
+/* contact.c, contact_search.c, contact_forces.c, contact_pair.c, contact_between.c */
 PetscErrorCode ContactCreate(Solid s, Contact *contact);
 /* Collective: nodes, elements or facets have changed; a search must follow.  Slips stay with element and
  * side. */
@@ -246,6 +250,8 @@ double ContactMovedSquared(Contact c, Solid s, int node);
 /* Not collective: the force of the walls on this rank's edges in the last ContactAddForces, N. */
 Point ContactWalls(Contact c);
 ElementRates ContactRate(Contact c);
+/* Not collective: sum[contact probes of the setup] += the last forces times s->kick. */
+void ContactAddImpulses(Contact c, const Solid s, double sum[][CONTACT_SUMS]);
 /* Not collective: the springs of friction keep what the forces just used; saved and put back with the state.
  * After that there is no contact force until the next search, which SolidStart makes. */
 void ContactCommit(Contact c);

@@ -158,6 +158,40 @@ static PetscErrorCode SnapshotBodies(Writer r, Solid s, int nbodies)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode ContactField(Writer r, const char *name, int n, const BodyContact contact[],
+                                   size_t offset, double value[])
+{
+  PetscFunctionBeginUser;
+  for (int k = 0; k < n; k++) memcpy(value + 2 * k, (const char *)&contact[k] + offset, 2 * sizeof *value);
+  PetscCall(OutputField(r->output, name, OUTPUT_NODE, 2, value));
+  PetscFunctionReturn(0);
+}
+
+/* What bodies do to each other, and walls to them, as points where they touch: the first rank's. */
+static PetscErrorCode SnapshotContacts(Writer r, Solid s)
+{
+  BodyContact *contact;
+  double *value; /* [n][2] */
+  int n, *point;
+  PetscFunctionBeginUser;
+  PetscCall(SolidContacts(s, &n, &contact));
+  PetscCall(PetscMalloc2(2 * (size_t)n, &value, (size_t)n, &point));
+  for (int k = 0; k < n; k++) {
+    point[k] = k;
+    PetscCall(PetscArraycpy(value + 2 * k, contact[k].place, 2));
+  }
+  PetscCall(OutputGrid(r->output, "contacts", r->revision, n, value, n, 1, point));
+  PetscCall(ContactField(r, "normal_force", n, contact, offsetof(BodyContact, normal), value));
+  PetscCall(ContactField(r, "friction_force", n, contact, offsetof(BodyContact, friction), value));
+  for (int k = 0; k < n; k++) value[k] = contact[k].body;
+  PetscCall(OutputField(r->output, "body", OUTPUT_NODE, 1, value));
+  for (int k = 0; k < n; k++) value[k] = contact[k].other;
+  PetscCall(OutputField(r->output, "other", OUTPUT_NODE, 1, value));
+  PetscCall(PetscFree2(value, point));
+  PetscCall(PetscFree(contact));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode Snapshot(Writer r, Solid s)
 {
   SolidView v;
@@ -175,6 +209,7 @@ static PetscErrorCode Snapshot(Writer r, Solid s)
   PetscCall(OutputField(r->output, "stress", OUTPUT_CELL, 3, stress));
   PetscCall(CellFields(r, s, &v, stress));
   PetscCall(SnapshotBodies(r, s, v.nbodies));
+  PetscCall(SnapshotContacts(r, s));
   r->revision++;
   PetscCall(OutputEnd(r->output));
   PetscCall(PetscFree(stress));

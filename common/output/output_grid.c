@@ -171,6 +171,8 @@ static PetscErrorCode WriteUnit(Output o, const char *path, const char *field)
                                          {"force", "N/m"},
                                          {"moment", "N"},
                                          {"contact", "N/m"},
+                                         {"normal_force", "N/m"},
+                                         {"friction_force", "N/m"},
                                          {"reaction", "N/m"},
                                          {"mass", "kg/m"},
                                          {"kinetic", "J/m"},

@@ -203,7 +203,7 @@ static void ForgetSums(Contact c)
 }
 
 /* All that touches now; the pairs' sums. */
-static PetscErrorCode FindActivePairs(Contact c, Solid s, int *nactive)
+static PetscErrorCode FindActivePairs(Contact c, Solid s)
 {
   const int most = c->ncandidates + c->nwalls;
   Strip strip;
@@ -226,7 +226,7 @@ static PetscErrorCode FindActivePairs(Contact c, Solid s, int *nactive)
   }
   n += FindActive(c, s, &strip, c->active + n);
   for (int k = 0; k < c->nwalls; k++) n += ActiveWall(c, s, k, &c->active[n]);
-  *nactive = n;
+  c->nactive = n;
   PetscFunctionReturn(0);
 }
 
@@ -299,17 +299,16 @@ static int AddCouple(Contact c, Solid s, int n, const ActivePair active[])
 
 PetscErrorCode ContactAddForces(Contact c, Solid s)
 {
-  int n = 0;
   PetscFunctionBeginUser;
   if (c->halo) PetscCall(HaloForward(c->halo, s->x, c->rough ? s->v : NULL));
-  PetscCall(FindActivePairs(c, s, &n));
+  PetscCall(FindActivePairs(c, s));
   Respond(c, s);
   c->walls = (Point){0.0, 0.0};
-  for (int k = 0; k < n;)
+  for (int k = 0; k < c->nactive;)
     if (c->active[k].couple < 0)
       AddWall(c, s, &c->active[k++]);
     else
-      k += AddCouple(c, s, n - k, &c->active[k]);
+      k += AddCouple(c, s, c->nactive - k, &c->active[k]);
   if (c->halo) PetscCall(HaloReverse(c->halo, s->force));
   PetscFunctionReturn(0);
 }

@@ -5,7 +5,7 @@
 #include "solid/contact/contact_kernel.h"
 #include "solid/solid_impl.h"
 
-enum { WALL_LEFT = -4, WALL_RIGHT, WALL_BOTTOM, WALL_TOP, JOINED = -5 };
+enum { JOINED = -5 }; /* in place of a wall: an active joint holds both */
 
 /* An edge that may touch a target before the next search. */
 typedef struct {
@@ -81,13 +81,13 @@ struct Contact_s {
   int ncontactors, *contactor; /* [ncontactors] targets that have facets */
   int *contactor_of;           /* [ntargets] its place among them, or -1 */
   int *facet_target;           /* [nfaces] */
-  int ncandidates, candidate_capacity, nwalls, wall_capacity, npairs, pair_capacity, active_capacity;
+  int ncandidates, candidate_capacity, nwalls, wall_capacity, npairs, pair_capacity, nactive, active_capacity;
   int ncouples, couple_capacity;
   Candidate *candidate;
   Couple *couple;
   WallCandidate *wall;
   Pair *pair;
-  ActivePair *active;
+  ActivePair *active;     /* [nactive] */
   int nnear, *near;       /* [couple_capacity] couples that may touch before the next check of motion */
   int npressed, *pressed; /* [pair_capacity] pairs whose sums and response are not 0 */
   int *first_pair;        /* [nfaces] -1: none */

@@ -84,6 +84,7 @@ static void TakeTime(const Solid s, Solid fresh)
   memcpy(fresh->momentum, s->momentum, (size_t)s->nbodies * sizeof *s->momentum);
   for (int k = 0; k < s->nmotions; k++)
     memcpy(fresh->motion_impulse[k], s->motion_impulse[k], sizeof s->motion_impulse[k]);
+  memcpy(fresh->contact_impulse, s->contact_impulse, sizeof s->contact_impulse);
   fresh->balance = s->balance;
   fresh->model = s->model;
   fresh->before = s->before;

@@ -144,6 +144,11 @@ refused solid "'solid.bodies\[0\].inner_radius': expected radius or inner_radius
 
 # what has nothing to hold or to measure
 refused solid "'solid.springs\[0\].other_point': there is no other body" --set 'solid.springs=[{point: [1, 1.1], other_point: [1, 1.5], stiffness: 1}]'
+refused solid "'solid.contact_probes\[0\].other': there are no solid.walls" --set 'solid.contact_probes=[{name: base, body: 0, other: bottom}]'
+for other in 0 7 -1 floor 0.5; do
+  refused solid "'solid.contact_probes\[0\].other': expected left, right, bottom, top or the number of another body" --set "solid.contact_probes=[{name: base, body: 0, other: $other}]"
+done
+refused solid "'solid.contact_probes\[0\].body'" --set 'solid.contact_probes=[{name: base, body: 3}]'
 for what in line surface flow; do
   phases "'fluid.probes\[0\].$what.to': expected another point than from, (1, 1)" --set 'fluid.regions=[{phase: air}]' --set "fluid.probes=[{name: P, $what: {from: [1, 1], to: [1, 1]}}]"
 done
