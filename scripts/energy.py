@@ -3,8 +3,9 @@
 solid alone from solid.csv.
 
 Usage: scripts/energy.py FOLDER [--from TIME] [--bound NUMBER]
-Prints each kind of energy, J/m: at the first step (from TIME, s), at the last, its change, the least and the most between; and of each body the
-farthest that its centre has been from its place at the first step, m, and the largest angle by which it has turned since, rad.  `all`, of phases
+Prints each kind of energy, J/m: at the first step (from TIME, s), at the last, its change, the least and the most between; what friction and damping of
+contact have taken since (of blows within some 2 %, by the substeps' length; with output.series_every it is not known); and of each body the farthest that its
+centre has been from its place at the first step, m, and the largest angle by which it has turned since, rad.  `all`, of phases
 and solids together or of a solid alone, falls by friction, damping and what flows out, and rises by what loads, springs and prescribed motions
 do; one fluid that solids displace has a potential energy that nothing tells, and no `all`.  With --bound it fails where `all` grows by more
 than that, J/m.
@@ -15,7 +16,7 @@ import sys
 
 import numpy as np
 
-from series import bodies_of, of_same_steps, read_series
+from series import bodies_of, has_every_step, of_same_steps, read_series
 
 
 MOST_BODIES = 1000  # of solid.csv
@@ -72,6 +73,8 @@ def main():
     print("%-18s" % "J/m" + "".join("%13s" % name for name in ("first", "last", "change", "least", "most")))
     for name, value in kinds.items():
         print("%-18s" % name + "".join("%13.5g" % x for x in (value[0], value[-1], value[-1] - value[0], value.min(), value.max())))
+    if bodies_of(solid) and has_every_step(solid["t"], solid["dt"]):
+        print("friction and damping of contact have taken %.5g J/m" % solid["contact loss"][1:].sum())
     for k in bodies_of(solid):
         distance = np.hypot(solid[f"x{k}"] - solid[f"x{k}"][0], solid[f"y{k}"] - solid[f"y{k}"][0])
         turned = np.unwrap(solid[f"angle{k}"])

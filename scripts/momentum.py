@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The momentum of a run, fluid and solids together, step by step, from fluid_forces.csv, solid.csv and coupler.csv; of a solid alone, from
-solid.csv, without the first step, whose length it does not say.
+solid.csv.
 
 Usage: scripts/momentum.py FOLDER [--bound NUMBER]
 Prints, for each component, the largest of what each term has given in a step, N s/m, and what is left over.  With --bound it fails where
@@ -12,7 +12,7 @@ import sys
 
 import numpy as np
 
-from series import bodies_of, of_same_steps, read_series
+from series import bodies_of, has_every_step, of_same_steps, read_series
 
 SERIES = ("fluid_forces", "solid", "coupler")
 FLUID_TERMS = ("weight", "divergence", "interface", "absorption", "adaptation", "correction")  # of fluid_forces.csv, but for `solid` and `rest`
@@ -33,18 +33,24 @@ def vector(series, name, between="_"):
     return np.stack([series[name + between + axis] for axis in "xy"], axis=1)
 
 
+def need_every_step(folder, t, dt):
+    if not has_every_step(t, dt):
+        sys.exit(f"{folder}: the series do not have every step, which the budget needs: run without output.series_every")
+
+
 def terms_of_solids(folder):
-    """{term: [steps][2]} of a solid alone, the budget that solid/budget.c keeps; from the second step on."""
+    """{term: [steps][2]} of a solid alone, the budget that solid/budget.c keeps."""
     solid = read_series(os.path.join(folder, "solid.csv"))
-    if len(solid["t"]) < 2:
-        sys.exit(f"{folder}: solid.csv has fewer than two steps")
-    dt = np.diff(solid["t"])[:, None]
-    parts = {"solids' weight": dt * vector(solid, "weight")[1:], "solids' load": dt * vector(solid, "load")[1:],
-             "solids' walls": vector(solid, "walls")[1:], "solids' supports": vector(solid, "reaction")[1:]}
-    terms = {"change": change(vector(solid, "start_momentum"), vector(solid, "momentum"))[1:], **parts}
+    if not len(solid["t"]):
+        sys.exit(f"{folder}: solid.csv has no step")
+    need_every_step(folder, solid["t"], solid["dt"])
+    dt = solid["dt"][:, None]
+    parts = {"solids' weight": dt * vector(solid, "weight"), "solids' load": dt * vector(solid, "load"),
+             "solids' walls": vector(solid, "walls"), "solids' supports": vector(solid, "reaction")}
+    terms = {"change": change(vector(solid, "start_momentum"), vector(solid, "momentum")), **parts}
     terms["rest"] = terms["change"] - sum(parts.values())
     # what bodies have and bear may cancel in the sum, as of two platens
-    parts.update({k: solid[f"mass{k}"][1:, None] * np.stack([solid[f"{u}{k}"][1:] for u in "uv"], axis=1) for k in bodies_of(solid)})
+    parts.update({k: solid[f"mass{k}"][:, None] * np.stack([solid[f"{u}{k}"] for u in "uv"], axis=1) for k in bodies_of(solid)})
     terms["scale"] = sum(np.linalg.norm(part, axis=1) for part in parts.values())
     return terms
 
@@ -58,9 +64,8 @@ def terms_of(folder):
     (coupler/force/uplift.h).  What fluid and solids exchange cancels:
     `exchange`, the fluid's gain and the coupler's reaction, and `load`, the coupler's force and the solids' load, are left over."""
     fluid, solid, coupler = of_same_steps(folder, *(read_series(os.path.join(folder, name + ".csv")) for name in SERIES))
+    need_every_step(folder, fluid["t"], fluid["dt"])
     dt = fluid["dt"][:, None]
-    if (np.diff(fluid["t"]) > 1.001 * fluid["dt"][1:]).any():
-        sys.exit(f"{folder}: the series do not have every step, which the budget needs: run without output.series_every")
     of_fluid = lambda name: vector(fluid, name, " ")
     terms = {"change": change(of_fluid("start momentum"), of_fluid("momentum")) +
                        change(vector(solid, "start_momentum"), vector(solid, "momentum"))}

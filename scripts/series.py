@@ -22,6 +22,11 @@ def bodies_of(solid):
     return [k for k in range(len(solid)) if f"mass{k}" in solid]
 
 
+def has_every_step(t, dt):
+    """Whether output.series_every has left out no step; dt[k]: the length of the one that ends at t[k]."""
+    return not (np.diff(t) > 1.001 * dt[1:]).any()
+
+
 def of_same_steps(folder, *series):
     """The series, of the steps that all have: of a run that was stopped some have a row more.  Ends the program if they are not of the same
     steps."""

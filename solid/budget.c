@@ -20,6 +20,7 @@ void BudgetAddSubstep(Solid s)
   const Point walls = ContactWalls(s->contact);
   s->budget.walls[0] += s->kick * walls.x;
   s->budget.walls[1] += s->kick * walls.y;
+  s->budget.contact_loss += s->kick * ContactLoss(s->contact);
   ContactAddImpulses(s->contact, s, s->contact_impulse);
   for (int k = 0; k < s->nfixed; k++) {
     const int n = s->fixed[k];
@@ -118,6 +119,7 @@ PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget)
     REACTION = 2,
     WORK = 4,
     REACTION_WORK,
+    CONTACT_LOSS,
     MASS,
     START,
     MOMENTUM = START + 2,
@@ -131,6 +133,7 @@ PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget)
   PetscCall(SolidForces(s, &force));
   PetscCall(HalfSubstepWork(s, &half));
   sum[REACTION_WORK] = b->reaction_work - half;
+  sum[CONTACT_LOSS] = b->contact_loss;
   for (int k = 0; k < 2 * s->nbodies; k++) {
     sum[REACTION + k % 2] += s->reaction[k / 2][k % 2];
     sum[START + k % 2] += s->momentum[k / 2][k % 2];
@@ -150,6 +153,7 @@ PetscErrorCode SolidGetBudget(Solid s, SolidBudget *budget)
                           {sum[REACTION], sum[REACTION + 1]},
                           sum[WORK],
                           sum[REACTION_WORK],
+                          sum[CONTACT_LOSS],
                           {sum[START], sum[START + 1]},
                           {sum[MOMENTUM], sum[MOMENTUM + 1]},
                           {sum[LOAD], sum[LOAD + 1]},

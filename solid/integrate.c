@@ -253,7 +253,7 @@ PetscErrorCode SolidStart(Solid s, double dt, const double load[])
     PetscCall(PetscArrayzero(s->load, 2 * (size_t)s->nnodes));
   }
   PetscCall(PetscArraycpy(s->start, s->x, 2 * (size_t)s->nnodes));
-  s->dt = dt;
+  s->dt = s->stats.dt = dt;
   s->done = 0.0;
   s->failure[0] = '\0';
   GravityOver(&s->setup.gravity_table, s->stats.t, dt, s->setup.gravity);

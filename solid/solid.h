@@ -127,7 +127,7 @@ typedef struct {
 void SolidGetView(Solid s, SolidView *view);
 
 typedef struct {
-  double t;          /* s */
+  double t, dt;      /* s; dt: of the last step */
   int substeps;      /* of the last step */
   double h;          /* last substep, s */
   long long total;   /* substeps so far */
@@ -178,7 +178,9 @@ typedef struct {
       reaction
           [2]; /* impulse of the tank's walls; of what holds fixed and prescribed nodes, of springs, loads, of the
                       * decay rate and of damping (interface_motion.c), N s/m */
-  double work, reaction_work;   /* of the fluid; of what drives nodes, J/m */
+  double work, reaction_work; /* of the fluid; of what drives nodes, J/m */
+  double
+      contact_loss; /* what friction and damping of contact took, with what springs of friction hold, J/m */
   double start[2], momentum[2]; /* of all bodies, what it begins and ends with, N s/m */
   double load[2], weight[2];    /* the fluid's and gravity's force, N/m */
 } SolidBudget;

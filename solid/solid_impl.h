@@ -250,6 +250,8 @@ double ContactMovedSquared(Contact c, Solid s, int node);
 /* Not collective: the force of the walls on this rank's edges in the last ContactAddForces, N. */
 Point ContactWalls(Contact c);
 ElementRates ContactRate(Contact c);
+/* Not collective: the power that friction and damping took at the last substep's velocities, of this rank's edges, W/m. */
+double ContactLoss(const Contact c);
 /* Not collective: sum[contact probes of the setup] += the last forces times s->kick. */
 void ContactAddImpulses(Contact c, const Solid s, double sum[][CONTACT_SUMS]);
 /* Not collective: the springs of friction keep what the forces just used; saved and put back with the state.

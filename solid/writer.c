@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-enum { MAX_BODIES = 1000, PER_BODY = 16, COMMON = 24 };
+enum { MAX_BODIES = 1000, PER_BODY = 16, COMMON = 26 };
 
 /* What the output has of a body, PER_BODY numbers: names of the columns of the series and of the field of the snapshots' points. */
 typedef struct {
@@ -58,13 +58,14 @@ static PetscErrorCode CreateSeries(Writer r, const RunCase *run, Checkpoint from
     for (const BodyField *f = BODY_FIELD; f < BODY_FIELD + BODY_FIELDS; f++)
       for (int i = 0; i < f->n; i++)
         used += (size_t)snprintf(columns + used, size - used, ",%s%d [%s]", f->column[i], b, f->unit);
-  (void)snprintf(columns + used, size - used,
-                 ",fracture [J/m],debonded [J/m],broken joints,cracks [m],pieces,walls_x [N s/m],walls_y [N "
-                 "s/m],reaction_x [N s/m],"
-                 "reaction_y [N s/m],start_momentum_x [N s/m],start_momentum_y [N s/m],momentum_x [N "
-                 "s/m],momentum_y [N s/m],load_x [N/m],load_y "
-                 "[N/m],weight_x [N/m],weight_y [N/m],"
-                 "work [J/m],reaction work [J/m],substeps,dt_s [s],computing [s],waiting [s]");
+  (void)snprintf(
+      columns + used, size - used,
+      ",fracture [J/m],debonded [J/m],broken joints,cracks [m],pieces,walls_x [N s/m],walls_y [N "
+      "s/m],reaction_x [N s/m],"
+      "reaction_y [N s/m],start_momentum_x [N s/m],start_momentum_y [N s/m],momentum_x [N "
+      "s/m],momentum_y [N s/m],load_x [N/m],load_y "
+      "[N/m],weight_x [N/m],weight_y [N/m],"
+      "work [J/m],reaction work [J/m],contact loss [J/m],dt [s],substeps,dt_s [s],computing [s],waiting [s]");
   PetscCall(SeriesCreate(r->comm, run->folder, "solid", columns, run->series_every, from, &r->series));
   PetscCall(PetscFree(columns));
   PetscFunctionReturn(0);
@@ -290,6 +291,8 @@ PetscErrorCode WriterStep(Writer r, Solid s, double waited)
   for (int k = 0; k < 12; k++) row[n++] = vector[k / 2][k % 2];
   row[n++] = budget.work;
   row[n++] = budget.reaction_work;
+  row[n++] = budget.contact_loss;
+  row[n++] = stats->dt;
   row[n++] = stats->substeps;
   row[n++] = stats->h;
   waited += r->waited;

@@ -246,6 +246,16 @@ static void Respond(Contact c, const Solid s)
   }
 }
 
+double ContactLoss(const Contact c)
+{
+  double loss = 0.0;
+  for (int k = 0; k < c->npressed; k++) {
+    const Pair *p = &c->pair[c->pressed[k]];
+    loss += p->response.normal * p->vn - p->response.tangential * p->vt;
+  }
+  return loss;
+}
+
 static void Add(double force[], int node, double scale, Point f)
 {
   force[2 * node] += scale * f.x;

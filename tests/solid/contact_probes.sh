@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # What bodies do to each other: a block on the floor that bears a disc and is pushed from the left.  At rest normal force, friction and their places are those of statics; in each step all
-# contacts of a body together are what is left of its momentum's change (cx, cy); snapshots have the same pairs; ranks agree.  Usage: contact_probes.sh ROOT BUILD
+# contacts of a body together are what is left of its momentum's change (cx, cy); snapshots have the same pairs; ranks agree.  Friction takes the kinetic energy of a block that slides till it stops, damping most of that of
+# a disc that falls; budgets say so where series are thinned.  Usage: contact_probes.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run_alone.sh"
 cat >"$scratch/case.yaml" <<'E2'
@@ -21,6 +22,16 @@ solid:
 output: {folder: out/contact_probes, every: 1.0, checkpoint: 0}
 E2
 for ranks in 1 2 3; do alone "r$ranks" "$scratch/case.yaml" --ranks "1:1:$ranks"; done
+slides='{shape: rectangle, centre: [1.0, 0.1], width: 0.4, height: 0.2, size: 0.05, material: stone, velocity: [1.0, 0.0]}'
+falls='{shape: disc, centre: [0.3, 0.3], radius: 0.1, size: 0.03, material: stone}'
+for every in 0 0.1; do
+  alone "slides_$every" "$scratch/case.yaml" --set "solid.bodies=[$slides, $falls]" --set solid.contact_probes=[] --set output.series_every=$every
+  "$python" "$root/scripts/energy.py" "$scratch/slides_$every" >"$scratch/energy_$every"
+done
+if grep taken "$scratch/energy_0.1" || "$python" "$root/scripts/momentum.py" "$scratch/slides_0.1" >"$scratch/log" 2>&1 || ! grep 'do not have every step' "$scratch/log" >"$scratch/said"; then
+  echo 'budgets of thinned series'; cat "$scratch/log"; exit 1
+fi
+"$python" "$root/scripts/momentum.py" "$scratch/slides_0" --bound 1e-11 >"$scratch/log" || { cat "$scratch/log"; exit 1; }
 "$python" - "$scratch" <<'E2'
 from math import isnan
 import sys
@@ -53,6 +64,11 @@ for ranks in (1, 2, 3):
     near(label, "snapshot, friction of the floor", found[0, -2][2][0], -push, 5e-3*both)
     near(label, "snapshot, normal force of the disc", found[0, 1][1][1], -weight[1], 5e-3*both)
     near(label, "snapshot, place on the floor", found[0, -2][0][0], place, 1e-3)
+energy = {line.split()[0]: line.split() for line in open(sys.argv[1] + "/energy_0")}
+taken, lost = float(energy["friction"][-2]), -float(energy["all"][3])
+near("slides", "energy that contact took", taken, lost, 0.03*lost)
+left = column("slides_0", "solid", "kinetic0 [J/m]")[-1]
+assert left < 1.0, "the block still slides: %g J/m" % left
 for ranks in (2, 3):
     for name in ("base_normal_y [N/m]", "disc_normal_y [N/m]"):
         near("r%d" % ranks, name, column("r%d" % ranks, "solid_probes", name)[20], column("r1", "solid_probes", name)[20], 1e-6*both)
