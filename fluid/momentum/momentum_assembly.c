@@ -260,7 +260,7 @@ PetscErrorCode MomentumSolverAssemble(MomentumSolver s, const MomentumStep *step
   PetscScalar *load;
   PetscFunctionBeginUser;
   PetscCall(KeepFaces(s, step));
-  s->op.ndense = 0;
+  MomentumOperatorClearDense(&s->op);
   s->op.diffusion = 0.0;
   s->advected[0] = s->advected[1] = 0.0;
   for (int e = 0; e < m->ne + m->ng; e++) s->op.theta_mu[e] = s->theta * step->mu[e];

@@ -10,8 +10,9 @@ PetscErrorCode MomentumOperatorCreate(const FluidDomain *domain, Vec like, Momen
   PetscCallMPI(MPI_Comm_size(m->comm, &size));
   op->alone = (PetscBool)(size == 1);
   op->domain = domain;
-  PetscCall(PetscMalloc4(m->ne + 1, &op->block, m->ne, &op->volume, m->ne + m->ng, &op->theta_mu,
-                         m->ne + m->ng, &op->stress));
+  PetscCall(PetscMalloc5(m->ne + 1, &op->block, m->ne, &op->volume, m->ne + m->ng, &op->theta_mu,
+                         m->ne + m->ng, &op->stress, m->ne, &op->dense_at));
+  for (int e = 0; e < m->ne; e++) op->dense_at[e] = -1;
   PetscCall(VecDuplicate(like, &op->ghosted));
   PetscFunctionReturn(0);
 }
@@ -19,7 +20,7 @@ PetscErrorCode MomentumOperatorCreate(const FluidDomain *domain, Vec like, Momen
 PetscErrorCode MomentumOperatorDestroy(MomentumOperator *op)
 {
   PetscFunctionBeginUser;
-  PetscCall(PetscFree4(op->block, op->volume, op->theta_mu, op->stress));
+  PetscCall(PetscFree5(op->block, op->volume, op->theta_mu, op->stress, op->dense_at));
   PetscCall(PetscFree(op->dense_element));
   PetscCall(PetscFree(op->dense));
   PetscCall(VecDestroy(&op->ghosted));
@@ -47,10 +48,10 @@ static PetscBool IsScalar(const double block[36])
   return (PetscBool)same;
 }
 
-static PetscBool IsAtBoundary(const MomentumOperator *op, int e)
+void MomentumOperatorClearDense(MomentumOperator *op)
 {
-  const int *neighbor = op->domain->mesh->neighbor + 3 * e;
-  return (PetscBool)(neighbor[0] < 0 || neighbor[1] < 0 || neighbor[2] < 0);
+  for (int k = 0; k < op->ndense; k++) op->dense_at[op->dense_element[k]] = -1;
+  op->ndense = 0;
 }
 
 PetscErrorCode MomentumOperatorAddDense(MomentumOperator *op, int e, const double block[36])
@@ -63,14 +64,13 @@ PetscErrorCode MomentumOperatorAddDense(MomentumOperator *op, int e, const doubl
       if (scalar) op->block[e][0][3 * j + i] += block[6 * j + i];
     }
   if (scalar) PetscFunctionReturn(0);
-  for (int k = 0; k < op->ndense && IsAtBoundary(op, e); k++)
-    if (op->dense_element[k] == e) {
-      for (int i = 0; i < 36; i++) op->dense[k][i] += block[i];
-      PetscFunctionReturn(0);
-    }
-  PetscCall(Reserve(op));
-  memcpy(op->dense[op->ndense], block, 36 * sizeof *block);
-  op->dense_element[op->ndense++] = e;
+  if (op->dense_at[e] < 0) {
+    PetscCall(Reserve(op));
+    PetscCall(PetscArrayzero(op->dense[op->ndense], 36));
+    op->dense_at[e] = op->ndense;
+    op->dense_element[op->ndense++] = e;
+  }
+  for (int i = 0; i < 36; i++) op->dense[op->dense_at[e]][i] += block[i];
   PetscFunctionReturn(0);
 }
 

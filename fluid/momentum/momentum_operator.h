@@ -22,7 +22,7 @@ typedef struct {
   ScalarBlocks *block;       /* [ne + 1], the last one is only read over */
   double (*volume)[9]; /* [ne] of block[e][0] all but interior faces: its part in continuous functions */
   int ndense, dense_capacity;
-  int *dense_element;
+  int *dense_element, *dense_at; /* [ndense]; [ne] the index of an element's dense block, or -1 */
   double (*dense)[36];
   double diffusion;    /* largest theta mu dt/(rho |K|) of this rank's elements */
   double *theta_mu;    /* [ne + ng] theta times viscosity, Pa s */
@@ -37,6 +37,8 @@ PetscErrorCode MomentumOperatorDestroy(MomentumOperator *op);
 /* Adds the dense block (6 x 6, column-major) of element e: to S where it is the same for both components, else to D; to volume the mean of
  * its xx and yy parts.  Not collective. */
 PetscErrorCode MomentumOperatorAddDense(MomentumOperator *op, int e, const double block[36]);
+/* There are none, for the next step.  Not collective. */
+void MomentumOperatorClearDense(MomentumOperator *op);
 /* y = A x.  Collective. */
 PetscErrorCode MomentumOperatorApply(MomentumOperator *op, Vec x, Vec y);
 /* y += D x, [ne][2][3].  Not collective. */

@@ -5,8 +5,8 @@
 struct Preconditioner_s {
   MomentumOperator *op; /* borrowed */
   SingleBlocks
-      *block; /* [ne + 1] S_ee^-1, then -S_ee^-1 S_en of the neighbours; the last is only read over */
-  int *dense; /* [ne] the index of the element's dense block, or -1 */
+      *block;       /* [ne + 1] S_ee^-1, then -S_ee^-1 S_en of the neighbours; the last is only read over */
+  const int *dense; /* [ne] the index of the element's dense block, or -1; borrowed */
   int dense_capacity;
   float (*response)[36]; /* [dense_capacity] (S_ee + D_e)^-1 S_ee, column-major */
   SingleVector *start;   /* [ne] S_ee^-1 r_e */
@@ -112,7 +112,8 @@ PetscErrorCode PreconditionerCreate(MomentumOperator *op, KSP ksp, Preconditione
   PetscCall(PetscNew(&p));
   p->op = op;
   PetscCall(PetscCalloc1(m->ne + 1, &p->block));
-  PetscCall(PetscMalloc3(m->ne, &p->start, m->ne + m->ng, &p->z, m->ne, &p->dense));
+  PetscCall(PetscMalloc2(m->ne, &p->start, m->ne + m->ng, &p->z));
+  p->dense = op->dense_at;
   if (!op->alone) PetscCall(VecDuplicate(op->ghosted, &p->ghosted));
   PetscCall(KSPGetPC(ksp, &shell));
   PetscCall(PCSetType(shell, PCSHELL));
@@ -159,7 +160,6 @@ static void FindResponse(Preconditioner p, int k)
   const int e = p->op->dense_element[k];
   const double *scalar = p->op->block[e][0];
   double a[36], response[36] = {0.0};
-  p->dense[e] = k;
   memcpy(a, p->op->dense[k], sizeof a);
   for (int c = 0; c < 2; c++)
     for (int i = 0; i < 9; i++) {
@@ -179,7 +179,6 @@ static PetscErrorCode FindResponses(Preconditioner p)
     PetscCall(PetscFree(p->response));
     PetscCall(PetscMalloc1(p->dense_capacity, &p->response));
   }
-  for (int e = 0; e < p->op->domain->mesh->ne; e++) p->dense[e] = -1;
   for (int k = 0; k < p->op->ndense; k++) FindResponse(p, k);
   PetscFunctionReturn(0);
 }
@@ -219,7 +218,7 @@ PetscErrorCode PreconditionerDestroy(Preconditioner *preconditioner)
   PetscCall(VecDestroy(&p->ghosted));
   PetscCall(PetscFree(p->block));
   PetscCall(PetscFree(p->response));
-  PetscCall(PetscFree3(p->start, p->z, p->dense));
+  PetscCall(PetscFree2(p->start, p->z));
   PetscCall(PetscFree(*preconditioner));
   PetscFunctionReturn(0);
 }
