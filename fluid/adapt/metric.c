@@ -124,15 +124,3 @@ PetscErrorCode MetricCount(const MeshSerial *mesh, const double metric[], double
   *triangles = 4.0 / sqrt(3.0) * sum;
   PetscFunctionReturn(0);
 }
-
-PetscErrorCode MetricScaleTo(const MeshSerial *mesh, double triangles, double metric[], double *factor)
-{
-  double count;
-  PetscFunctionBeginUser;
-  PetscCall(MetricCount(mesh, metric, &count));
-  PetscCheck(triangles > 0.0 && count > 0.0, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-             "from %g to %g triangles: both must be positive", count, triangles);
-  for (int k = 0; k < 3 * mesh->nv; k++) metric[k] *= triangles / count;
-  if (factor) *factor = sqrt(count / triangles);
-  PetscFunctionReturn(0);
-}

@@ -1,9 +1,8 @@
 /* Metrics on the vertices of a MeshSerial: metric[nv][3] = {xx, xy, yy}, 1/m^2; see metric_tensor.h for one
  * tensor.  A mesh fits its metric when every edge is about 1 long in it.  A usual route:
  *
- *   field -> HessianRecover -> MetricFromHessian -> MetricIntersect (with another field's, or sizes near a
- * body)
- *         -> MetricBound -> MetricGrade -> MetricScaleTo -> MeshAdapt (adapt.h)
+ *   field -> HessianRecover -> MetricFromHessian -> MetricBound -> MetricIntersect (with another field's, or
+ *         sizes near a body) -> MetricGrade -> MeshAdapt (adapt.h)
  *
  * Nothing here is collective.  Errors: PETSC_ERR_ARG_OUTOFRANGE for an argument without sense. */
 #ifndef CORACLE_METRIC_H
@@ -41,7 +40,4 @@ PetscErrorCode MetricGrade(const MeshSerial *mesh, double growth, double metric[
 /* Triangles that a mesh of equilateral unit triangles would have: 4/sqrt 3 times the integral of sqrt(det M).
  * MeshAdapt makes 0.9 to 1.25 times as many. */
 PetscErrorCode MetricCount(const MeshSerial *mesh, const double metric[], double *triangles);
-/* metric is multiplied so that MetricCount is `triangles`; *factor (or NULL) is by what sizes were
- * multiplied. */
-PetscErrorCode MetricScaleTo(const MeshSerial *mesh, double triangles, double metric[], double *factor);
 #endif

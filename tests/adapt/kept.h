@@ -28,6 +28,14 @@ static inline void Box(const double lower[2], const double upper[2], double size
   CHECK(!MeshBox(lower, upper, size, UniformSize, &size, mesh), "no box");
 }
 
+/* metric is multiplied so that a mesh of it has so many triangles (MetricCount). */
+static inline void ScaleTo(const MeshSerial *mesh, double triangles, double metric[])
+{
+  double count;
+  CHECK(!MetricCount(mesh, metric, &count), "not counted");
+  for (int k = 0; k < 3 * mesh->nv; k++) metric[k] *= triangles / count;
+}
+
 static inline double Area(const MeshSerial *m, int e)
 {
   const double *a = &m->x[2 * m->vertex[3 * e]], *b = &m->x[2 * m->vertex[3 * e + 1]];
