@@ -173,9 +173,8 @@ int PhasesCurvature(Phases f, int k, int v, const PhasesPairs cosine[], double *
 {
   const Stars *s = f->stars;
   Neighbourhood h = {.k = k, .nearest = HUGE_VAL};
-  CurvatureData data = {.n = 0};
   if (!Frame(f, v, &h)) return 0;
-  data.length = h.length;
+  CurvatureData data = {.n = 0, .length = h.length};
   for (int j = s->start[v]; j < s->start[v + 1]; j++)
     for (int i = 0; i < 3; i++) AddCut(f, s->vertex[s->around[j] / 3][i], &h);
   for (int j = 0; j < h.n; j++) AddCell(f, h.element[j], &h, cosine, &data);
