@@ -96,7 +96,7 @@ static PetscErrorCode CreateSolver(CoarseCorrection c)
   c->setup = (int)PetscMin(sqrt((double)size) / 25.0, 6.0);
   PetscCall(SolverCreateDirect(c->domain->mesh->comm, "pressure_coarse_", KSPPREONLY, &c->solver));
 #if defined(PETSC_HAVE_HYPRE)
-  if (size * ranks > FACTOR_MAX) { /* multigrid is distributed, a factor is not */
+  if (size > FACTOR_MAX / ranks) { /* multigrid is distributed, a factor is not */
     PetscCall(KSPGetPC(c->solver, &pc));
     PetscCall(PCSetType(pc, PCHYPRE));
     PetscCall(PCHYPRESetType(pc, "boomeramg"));
