@@ -37,6 +37,6 @@ PetscErrorCode MaterialRestore(Material m);
 /* [ne + ng], borrowed, valid until the next call that changes the material.  Not collective. */
 const double *MaterialDensity(Material m, MaterialLevel level);
 const double *MaterialViscosity(Material m, MaterialLevel level);
-/* Grows whenever the density at MATERIAL_STEP may have changed; the same on all ranks. */
+/* Grows whenever density or viscosity may have changed; the same on all ranks. */
 int MaterialRevision(Material m);
 #endif

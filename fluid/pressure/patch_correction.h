@@ -17,7 +17,7 @@ PetscErrorCode PatchCorrectionDestroy(PatchCorrection *p);
 /* A has other values, and the patches are row[n], ascending, owned by this rank, global, some on any rank; held[own rows]: l. */
 PetscErrorCode PatchCorrectionUpdate(PatchCorrection p, PetscInt n, const PetscInt row[],
                                      const double held[]);
-/* There are no patches.  Not collective. */
+/* There are no patches. */
 PetscErrorCode PatchCorrectionClear(PatchCorrection p);
 /* There are.  Not collective. */
 PetscBool PatchCorrectionActive(PatchCorrection p);
