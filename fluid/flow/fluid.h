@@ -138,7 +138,4 @@ PetscErrorCode FluidMomentumTotal(Fluid fluid, double momentum[2], double *energ
 PetscErrorCode FluidPotentialEnergy(Fluid fluid, double *energy);
 /* Force of the fluid on a boundary over the last step, N/m: pressure and viscous part of budget.h.  Not collective. */
 PetscErrorCode FluidBoundaryForce(Fluid fluid, const char *boundary, double force[2]);
-/* L2 errors against exact fields (any NULL skipped); pressure up to a constant. */
-PetscErrorCode FluidErrors(Fluid fluid, double t, FieldFunction velocity, FieldFunction pressure,
-                           void *context, double *velocity_error, double *pressure_error);
 #endif

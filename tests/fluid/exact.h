@@ -1,8 +1,9 @@
-/* A manufactured solution on the unit square and the set-up of a fluid that has it. */
+/* A manufactured solution on the unit square and the set-up of a fluid that has it; its errors. */
 #ifndef TEST_FLUID_EXACT_H
 #define TEST_FLUID_EXACT_H
 #include "fluid/flow/fluid.h"
 #include "tests/fluid/box_mesh.h"
+#include "tests/quadrature.h"
 #include <math.h>
 
 #define RHO 2.0
@@ -59,6 +60,48 @@ static inline PetscErrorCode ExactFluid(const Mesh *mesh, Exact *exact, FieldFun
   }
   PetscCall(FluidCreate(mesh, &setup, fluid));
   PetscCall(FluidSetInitial(*fluid, 0.0, ExactVelocity, ExactPressure, exact));
+  PetscFunctionReturn(0);
+}
+
+/* sum[4] += of an element: squared error of the velocity u; error of the pressure p, its square; area.  Exact at t[2]. */
+static inline void AddErrors(double area, const double x[3][2], Exact *exact, const double t[2],
+                             const double u[6], const double p[6], double sum[4])
+{
+  const Quadrature *rule = QuadratureOf(4);
+  for (int q = 0; q < rule->n; q++) {
+    const double *l = rule->point[q], w = rule->weight[q] * area;
+    double at[2], v[2], d;
+    for (int c = 0; c < 2; c++) at[c] = l[0] * x[0][c] + l[1] * x[1][c] + l[2] * x[2][c];
+    ExactVelocity(exact, t[0], at, v);
+    ExactPressure(exact, t[1], at, &d);
+    for (int c = 0; c < 2; c++) v[c] -= l[0] * u[3 * c] + l[1] * u[3 * c + 1] + l[2] * u[3 * c + 2];
+    for (int i = 0; i < 3; i++)
+      d -= p[i] * l[i] * (2.0 * l[i] - 1.0) + p[3 + i] * 4.0 * l[(i + 1) % 3] * l[(i + 2) % 3];
+    sum[0] += w * (v[0] * v[0] + v[1] * v[1]);
+    sum[1] += w * d;
+    sum[2] += w * d * d;
+    sum[3] += w;
+  }
+}
+
+/* L2 errors of the velocity and, up to a constant, of the pressure, against what they are at t[0] and t[1].  Collective. */
+static inline PetscErrorCode ExactErrors(Fluid fluid, Exact *exact, const double t[2], double *velocity,
+                                         double *pressure)
+{
+  const Mesh *m = FluidMesh(fluid);
+  double sum[4] = {0.0};
+  PetscFunctionBeginUser;
+  for (int e = 0; e < m->ne; e++) {
+    ElementGeometry g;
+    double x[3][2], p[6];
+    MeshCorners(m, e, x);
+    ElementGeometryCompute(x[0], x[1], x[2], &g);
+    for (int k = 0; k < 6; k++) p[k] = FluidPressure(fluid)[FluidPressureSpace(fluid)->node[6 * e + k]];
+    AddErrors(g.area, (const double(*)[2])x, exact, t, FluidVelocity(fluid) + 6 * e, p, sum);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 4, MPI_DOUBLE, MPI_SUM, m->comm));
+  *velocity = sqrt(sum[0]);
+  *pressure = sqrt(fmax(sum[2] - sum[1] * sum[1] / sum[3], 0.0));
   PetscFunctionReturn(0);
 }
 
