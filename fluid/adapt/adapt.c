@@ -1,6 +1,7 @@
 #include "fluid/adapt/adapt_impl.h"
 #include <string.h>
 
+/* The first is more than any metric met so far needed. */
 enum { MAX_ROUNDS = 60, LAST_ROUNDS = 6 };
 
 /* What the mesh looks like to the next sweep of one kind: what has changed since its own last one. */
@@ -39,12 +40,12 @@ static PetscErrorCode Round(Adapt *a, Since *since, bool smooth, int *done)
 
 /* Coarse changes first; once a round splits and collapses little, it also moves.  The last rounds run until
  * hardly anything happens. */
-static PetscErrorCode Rounds(Adapt *a, int most)
+static PetscErrorCode Rounds(Adapt *a)
 {
   Since since = {0, 0, 0, 0};
   int calm = 0;
   PetscFunctionBeginUser;
-  for (int round = 0; round < most && calm < LAST_ROUNDS; round++) {
+  for (int round = 0; round < MAX_ROUNDS && calm < LAST_ROUNDS; round++) {
     int done;
     PetscCall(Round(a, &since, calm > 0, &done));
     if (calm > 0 || 20 * (long)done < a->nv) calm++;
@@ -66,7 +67,7 @@ PetscErrorCode MeshAdapt(const MeshSerial *mesh, const double metric[], const Ad
     PetscCall(AdaptDestroy(&a));
     PetscFunctionReturn(refused);
   }
-  PetscCall(Rounds(&a, options->rounds > 0 ? options->rounds : MAX_ROUNDS));
+  PetscCall(Rounds(&a));
   PetscCall(AdaptExtract(&a, result));
   PetscCall(AdaptDestroy(&a));
   PetscFunctionReturn(0);

@@ -18,8 +18,6 @@
 #include "common/mesh/mesh.h"
 
 typedef struct {
-  int rounds;             /* at most so many; 0: 60, which is more than any metric met so far needed */
-  double straight;        /* a line that turns by less, radians, is straight; 0: 1e-8 */
   const char *frozen;     /* [nv] or NULL, borrowed: nonzero vertices neither move nor go */
   const char *frozen_tag; /* [ntags] or NULL, borrowed: facets of these tags stay as they are, inside too */
   const char *inactive; /* [nv] or NULL, borrowed: nonzero vertices are not looked at unless something changes

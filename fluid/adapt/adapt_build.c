@@ -1,6 +1,9 @@
 #include "fluid/adapt/adapt_impl.h"
 #include <string.h>
 
+/* A line that turns by less, radians, is straight. */
+#define STRAIGHT 1e-8
+
 static PetscErrorCode CheckTriangle(const MeshSerial *m, int e)
 {
   const int *v = &m->vertex[3 * e];
@@ -53,11 +56,11 @@ static void AddEnd(Ends *e, int end, int mark, bool frozen)
   e->frozen = e->frozen || frozen;
 }
 
-/* Does the line p - v - q turn by less than `straight`, radians? */
-static bool IsStraight(const double p[2], const double v[2], const double q[2], double straight)
+/* Does the line p - v - q turn by less than STRAIGHT? */
+static bool IsStraight(const double p[2], const double v[2], const double q[2])
 {
   const double ax = v[0] - p[0], ay = v[1] - p[1], bx = q[0] - v[0], by = q[1] - v[1];
-  return fabs(atan2(ax * by - ay * bx, ax * bx + ay * by)) < straight;
+  return fabs(atan2(ax * by - ay * bx, ax * bx + ay * by)) < STRAIGHT;
 }
 
 static VertexKind Kind(const MeshSerial *m, const Ends *e, int v, const AdaptOptions *o)
@@ -65,8 +68,7 @@ static VertexKind Kind(const MeshSerial *m, const Ends *e, int v, const AdaptOpt
   if (e->frozen || (o->frozen && o->frozen[v])) return FIXED;
   if (e->count == 0) return FREE;
   if (e->count != 2 || e->mark[0] != e->mark[1]) return FIXED;
-  const double straight = o->straight > 0.0 ? o->straight : 1e-8;
-  return IsStraight(&m->x[2 * e->end[0]], &m->x[2 * v], &m->x[2 * e->end[1]], straight) ? ON_LINE : FIXED;
+  return IsStraight(&m->x[2 * e->end[0]], &m->x[2 * v], &m->x[2 * e->end[1]]) ? ON_LINE : FIXED;
 }
 
 static PetscErrorCode Classify(Adapt *a, const MeshSerial *m, const AdaptOptions *options)

@@ -155,17 +155,13 @@ static PetscErrorCode Judge(Parallel *p, const char frozen[], AdaptResult *r, bo
 }
 
 /* One adaptation with frozen cuts; *fits: another pass would change little. */
-static PetscErrorCode Pass(Parallel *p, const AdaptOptions *options, bool *fits)
+static PetscErrorCode Pass(Parallel *p, bool *fits)
 {
   Frozen f;
   AdaptResult r = {0};
   PetscFunctionBeginUser;
   PetscCall(Freeze(p, &f));
-  const AdaptOptions own = {.rounds = options->rounds,
-                            .straight = options->straight,
-                            .frozen = f.frozen,
-                            .frozen_tag = f.frozen_tag,
-                            .inactive = f.inactive};
+  const AdaptOptions own = {f.frozen, f.frozen_tag, f.inactive};
   const PetscErrorCode failed = CollectiveError(p->comm, MeshAdapt(&f.mesh, f.metric, &own, &r));
   if (!failed) PetscCall(Judge(p, f.frozen, &r, fits));
   PetscCall(AdaptResultDestroy(&r));
@@ -207,14 +203,14 @@ static PetscErrorCode IsBalanced(const Parallel *p, bool *balanced)
 }
 
 /* The parts of the last pass are equal, but keep away from old cuts at the price of longer ones. */
-static PetscErrorCode Passes(Parallel *p, const AdaptOptions *options)
+static PetscErrorCode Passes(Parallel *p)
 {
   bool fits = false, balanced = true;
   int pass = 0;
   PetscFunctionBeginUser;
   for (; pass < MAX_PASSES && !fits; pass++) {
     if (pass > 0) PetscCall(Repartition(p, (long long)SMALL_PART << pass));
-    const PetscErrorCode failed = Pass(p, options, &fits);
+    const PetscErrorCode failed = Pass(p, &fits);
     if (failed) PetscFunctionReturn(failed);
   }
   PetscCall(IsBalanced(p, &balanced));
@@ -239,14 +235,12 @@ static PetscErrorCode ParallelCreate(const Mesh *mesh, const double metric[], Pa
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode MeshAdaptParallel(const Mesh *mesh, const double metric[], const AdaptOptions *options,
-                                 Mesh **adapted, AdaptReport *report)
+PetscErrorCode MeshAdaptParallel(const Mesh *mesh, const double metric[], Mesh **adapted, AdaptReport *report)
 {
-  const AdaptOptions usual = {0};
   Parallel p;
   PetscFunctionBeginUser;
   PetscCall(ParallelCreate(mesh, metric, &p));
-  const PetscErrorCode failed = Passes(&p, options ? options : &usual);
+  const PetscErrorCode failed = Passes(&p);
   if (!failed) PetscCall(MeshBuild(p.comm, &p.part, adapted));
   if (!failed && report) *report = p.report;
   PetscCall(PetscFree(p.data));

@@ -12,12 +12,11 @@
 #include "fluid/adapt/adapt.h"
 
 /* Collective.  metric[mesh->nv][3] as in metric.h, on the vertices of owned elements (those of ghosts alone
- * are not read), the same on all ranks that have a vertex.  options may be NULL; `frozen`, `frozen_tag` and
- * `inactive` in it are ignored.  Parts of *adapted have at most 3 % more triangles than the mean, as far as
- * METIS can.  On one rank it is the mesh of MeshAdapt, on several another one that fits as well.  *report, or
- * NULL, is of the whole mesh and the same everywhere: sums of operations, and for each pass the most rounds
- * that a rank made.  The same input on as many ranks gives the same bits.  Errors are those of MeshAdapt,
- * returned on all ranks. */
-PetscErrorCode MeshAdaptParallel(const Mesh *mesh, const double metric[], const AdaptOptions *options,
-                                 Mesh **adapted, AdaptReport *report);
+ * are not read), the same on all ranks that have a vertex.  Parts of *adapted have at most 3 % more
+ * triangles than the mean, as far as METIS can.  On one rank it is the mesh of MeshAdapt, on several
+ * another one that fits as well.  *report, or NULL, is of the whole mesh and the same everywhere: sums of
+ * operations, and for each pass the most rounds that a rank made.  The same input on as many ranks gives
+ * the same bits.  Errors are those of MeshAdapt, returned on all ranks. */
+PetscErrorCode MeshAdaptParallel(const Mesh *mesh, const double metric[], Mesh **adapted,
+                                 AdaptReport *report);
 #endif

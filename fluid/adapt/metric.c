@@ -67,14 +67,14 @@ static int Grow(const double x[], int p, int q, double log_growth, double metric
   return MetricIntersectTensor(grown, 1e-3, &metric[3 * q]);
 }
 
-PetscErrorCode MetricGrade(const MeshSerial *mesh, double growth, double metric[], int *sweeps)
+PetscErrorCode MetricGrade(const MeshSerial *mesh, double growth, double metric[])
 {
-  int *changed, sweep = 0, active = 1; /* the sweep in which a vertex changed last */
+  int *changed, active = 1; /* the sweep in which a vertex changed last */
   PetscFunctionBeginUser;
   PetscCheck(growth > 1.0, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "growth %g, not above 1", growth);
   const double log_growth = log(growth);
   PetscCall(PetscCalloc1(mesh->nv + 1, &changed));
-  for (sweep = 1; active; sweep++) {
+  for (int sweep = 1; active; sweep++) {
     active = 0;
     for (int k = 0; k < 3 * mesh->ne; k++) {
       /* every other sweep runs backwards, so that fine sizes spread both ways */
@@ -84,7 +84,6 @@ PetscErrorCode MetricGrade(const MeshSerial *mesh, double growth, double metric[
       if (changed[q] >= sweep - 1 && Grow(mesh->x, q, p, log_growth, metric)) changed[p] = sweep, active = 1;
     }
   }
-  if (sweeps) *sweeps = sweep - 1;
   PetscCall(PetscFree(changed));
   PetscFunctionReturn(0);
 }

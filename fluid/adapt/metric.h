@@ -34,8 +34,8 @@ PetscErrorCode MetricIntersect(int nv, const double other[], double metric[]);
 
 /* Sizes grow by at most `growth` > 1 over a unit edge: on every edge pq,
  *   M_q >= M_p / (1 + l_p ln growth)^2,  l_p = sqrt(e^T M_p e),  and the same from q to p (Alauzet, 2010),
- * to a relative 1e-3.  Refines only.  *sweeps (or NULL): passes over the edges that this took. */
-PetscErrorCode MetricGrade(const MeshSerial *mesh, double growth, double metric[], int *sweeps);
+ * to a relative 1e-3.  Refines only. */
+PetscErrorCode MetricGrade(const MeshSerial *mesh, double growth, double metric[]);
 
 /* Triangles that a mesh of equilateral unit triangles would have: 4/sqrt 3 times the integral of sqrt(det M).
  * MeshAdapt makes 0.9 to 1.25 times as many. */

@@ -66,7 +66,7 @@ PetscErrorCode MetricGradeParallel(MPI_Comm comm, const MeshSerial *part, const 
   PetscBool changed = PETSC_TRUE;
   PetscFunctionBeginUser;
   while (changed) {
-    PetscCall(MetricGrade(part, growth, metric, NULL));
+    PetscCall(MetricGrade(part, growth, metric));
     PetscCall(Share(comm, shared, metric, &changed));
   }
   PetscFunctionReturn(0);

@@ -224,7 +224,7 @@ PetscErrorCode AdaptationMesh(Adaptation a, Fluid f, Mesh **mesh)
   PetscCall(SizingCreate(a, f, &sizing));
   PetscCall(PetscMalloc1(3 * f->domain.mesh->nv, &metric));
   PetscCall(Metric(&a->setup, f->domain.mesh->comm, &sizing, metric));
-  PetscCall(MeshAdaptParallel(f->domain.mesh, metric, NULL, mesh, NULL));
+  PetscCall(MeshAdaptParallel(f->domain.mesh, metric, mesh, NULL));
   PetscCall(PetscFree(metric));
   PetscCall(SizingDestroy(&sizing));
   f->stats.seconds[ADAPTATION] += MPI_Wtime() - start;

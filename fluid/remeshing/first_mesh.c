@@ -131,7 +131,7 @@ static PetscErrorCode Refine(const AdaptationSetup *s, const Mesh *m, const Adap
   PetscCall(MetricCount(&part, metric, &count));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_DOUBLE, MPI_SUM, m->comm));
   PetscCall(AdaptationCheckBudget(s, m->comm, count));
-  PetscCall(MeshAdaptParallel(m, metric, NULL, mesh, NULL));
+  PetscCall(MeshAdaptParallel(m, metric, mesh, NULL));
   PetscCall(SharedVerticesDestroy(&shared));
   PetscCall(PetscFree2(size, metric));
   PetscFunctionReturn(0);

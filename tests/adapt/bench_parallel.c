@@ -34,7 +34,7 @@ static PetscErrorCode Step(Mesh **mesh, double size, double center)
   PetscCall(Sample(*mesh, size, center, metric));
   PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
   const double t0 = MPI_Wtime();
-  PetscCall(MeshAdaptParallel(*mesh, metric, NULL, &adapted, &r));
+  PetscCall(MeshAdaptParallel(*mesh, metric, &adapted, &r));
   const double t = MPI_Wtime() - t0;
   PetscCallMPI(MPI_Allreduce(&adapted->ng, &ghosts, 1, MPI_INT, MPI_SUM, PETSC_COMM_WORLD));
   PetscCall(PetscPrintf(

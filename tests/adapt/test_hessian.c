@@ -88,7 +88,7 @@ static void CheckFront(void)
     CHECK(!HessianRecover(from, 1, (const double *const[]){f}, (double *const[]){m}) &&
               !MetricFromHessian(from->nv, m, 1e-3, 0.2, m),
           "no metric");
-    CHECK(!MetricBound(from->nv, 1e-4, 0.2, 1000.0, m) && !MetricGrade(from, 2.0, m, NULL), "no bounds");
+    CHECK(!MetricBound(from->nv, 1e-4, 0.2, 1000.0, m) && !MetricGrade(from, 2.0, m), "no bounds");
     CHECK(!MeshAdapt(from, m, NULL, &result), "not adapted");
     CheckKept(from, &result);
     AdaptResultDestroy(&last);

@@ -103,7 +103,7 @@ static void CheckGradation(void)
   double worst = INFINITY, count;
   Box(lower, upper, 0.03, &mesh);
   double *before = SampleMetric(&mesh, Spots, NULL), *after = SampleMetric(&mesh, Spots, NULL);
-  CHECK(!MetricGrade(&mesh, growth, after, NULL), "not graded");
+  CHECK(!MetricGrade(&mesh, growth, after), "not graded");
   for (int c = 0; c < 3 * mesh.ne; c++) {
     const int p = mesh.vertex[c], q = mesh.vertex[c - c % 3 + (c + 1) % 3];
     const double ex = mesh.x[2 * q] - mesh.x[2 * p], ey = mesh.x[2 * q + 1] - mesh.x[2 * p + 1];
@@ -133,7 +133,7 @@ static void CheckCount(void)
   AdaptResult result;
   Box(lower, upper, 0.015, &mesh);
   double *metric = SampleMetric(&mesh, Spots, NULL);
-  CHECK(!MetricGrade(&mesh, 1.5, metric, NULL), "not graded");
+  CHECK(!MetricGrade(&mesh, 1.5, metric), "not graded");
   ScaleTo(&mesh, 4000.0, metric);
   CHECK(!MeshAdapt(&mesh, metric, NULL, &result), "not adapted");
   CHECK(abs(result.mesh.ne - 4000) < 1000, "%d triangles, 4000 wanted", result.mesh.ne);

@@ -42,7 +42,7 @@ static void StructuredMetric(Seed *seed, const MeshSerial *m, double metric[])
     const double h = far < radius ? base / ratio : base;
     MetricOf(h, h / stretch, 0.0, &metric[3 * v]);
   }
-  if (graded) CHECK(!MetricGrade(m, 1.5, metric, NULL), "not graded");
+  if (graded) CHECK(!MetricGrade(m, 1.5, metric), "not graded");
 }
 
 /* Sizes and direction are waves, stretched up to 100 times. */

@@ -122,7 +122,7 @@ static void Adapt(Mesh **mesh, MetricAt at, const void *context, AdaptReport *re
 {
   double *metric = SampleOn(*mesh, at, context);
   Mesh *adapted;
-  CHECK(!MeshAdaptParallel(*mesh, metric, NULL, &adapted, report), "adaptation failed");
+  CHECK(!MeshAdaptParallel(*mesh, metric, &adapted, report), "adaptation failed");
   CheckMesh(adapted);
   CHECK(report->edges == (int)(adapted->nv_global + adapted->nglobal - 1), "%d edges in the report",
         report->edges);
@@ -206,7 +206,7 @@ static void CheckRefused(void)
   double *metric = SampleOn(mesh, RingAt, &ring);
   if (rank == size - 1) metric[0] = -1.0;
   PetscPushErrorHandler(PetscReturnErrorHandler, NULL);
-  CHECK(MeshAdaptParallel(mesh, metric, NULL, &adapted, NULL) == PETSC_ERR_ARG_OUTOFRANGE, "it is taken");
+  CHECK(MeshAdaptParallel(mesh, metric, &adapted, NULL) == PETSC_ERR_ARG_OUTOFRANGE, "it is taken");
   PetscPopErrorHandler();
   free(metric);
   CHECK(!MeshDestroy(&mesh), "not freed");

@@ -50,7 +50,7 @@ static double *MakeMetric(Seed *seed, const MeshSerial *m, double triangles)
     MetricOf(h, h / ratio, rough ? Between(seed, 0.0, 3.0) : turn + sin(wave), &metric[3 * v]);
   }
   ScaleTo(m, triangles, metric);
-  if (graded) CHECK(!MetricGrade(m, 1.5, metric, NULL), "not graded");
+  if (graded) CHECK(!MetricGrade(m, 1.5, metric), "not graded");
   if (graded) ScaleTo(m, triangles, metric);
   return metric;
 }

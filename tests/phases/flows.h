@@ -120,7 +120,7 @@ static inline PetscErrorCode UnstructuredMesh(MPI_Comm comm, double h, Mesh **me
   PetscCall(PetscMalloc2(first->nv, &size, 3 * first->nv, &metric));
   for (int v = 0; v < first->nv; v++) size[v] = h;
   PetscCall(MetricFromSizes(first->nv, size, metric));
-  PetscCall(MeshAdaptParallel(first, metric, NULL, mesh, NULL));
+  PetscCall(MeshAdaptParallel(first, metric, mesh, NULL));
   PetscCall(PetscFree2(size, metric));
   PetscCall(MeshDestroy(&first));
   PetscFunctionReturn(0);

@@ -82,7 +82,7 @@ static PetscErrorCode Adapt(int np, Set *s)
   PetscCall(PetscMalloc2(s->mesh->nv, &size, 3 * s->mesh->nv, &metric));
   for (int v = 0; v < s->mesh->nv; v++) size[v] = 0.8 * H;
   PetscCall(MetricFromSizes(s->mesh->nv, size, metric));
-  PetscCall(MeshAdaptParallel(s->mesh, metric, NULL, &mesh, NULL));
+  PetscCall(MeshAdaptParallel(s->mesh, metric, &mesh, NULL));
   PetscCall(SetMake(mesh, np, &next));
   PetscCall(PhasesReconstruct(s->phases));
   PetscCall(TransferCreate(s->mesh, mesh, &transfer));

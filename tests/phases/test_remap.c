@@ -25,7 +25,7 @@ static PetscErrorCode Adapt(int k, int np, Set *s, TransferStats *stats)
     metric[3 * v] = metric[3 * v + 2] = 1.0 / (h * h);
     metric[3 * v + 1] = 0.0;
   }
-  PetscCall(MeshAdaptParallel(s->mesh, metric, NULL, &mesh, NULL));
+  PetscCall(MeshAdaptParallel(s->mesh, metric, &mesh, NULL));
   PetscCall(SetMake(mesh, np, &next));
   PetscCall(PhasesReconstruct(s->phases));
   PetscCall(TransferCreate(s->mesh, mesh, &transfer));
