@@ -85,9 +85,9 @@ PetscErrorCode AdaptResultDestroy(AdaptResult *result)
 
 static void MeasureEdge(const MeshSerial *m, const double metric[], int p, int q, AdaptReport *r)
 {
-  const double l = MetricLength(&m->x[2 * p], &m->x[2 * q], &metric[3 * p], &metric[3 * q]);
+  const double l = AdaptMeshLength(m, metric, p, q);
   r->edges++;
-  r->edges_unit += l >= SHORT_EDGE && l <= LONG_EDGE;
+  r->edges_unit += AdaptIsUnit(l);
   r->shortest = fmin(r->shortest, l);
   r->longest = fmax(r->longest, l);
 }
@@ -107,11 +107,7 @@ static void MeasureTriangles(const MeshSerial *m, const double metric[], AdaptRe
   double sum = 0.0;
   r->quality_worst = INFINITY;
   for (int e = 0; e < m->ne; e++) {
-    const int *v = &m->vertex[3 * e];
-    const double *const x[3] = {&m->x[2 * v[0]], &m->x[2 * v[1]], &m->x[2 * v[2]]};
-    const double *const t[3] = {&metric[3 * v[0]], &metric[3 * v[1]], &metric[3 * v[2]]};
-    double square;
-    const double quality = MetricQuality(x, t, &square);
+    const double quality = AdaptMeshQuality(m, metric, e);
     r->quality_worst = fmin(r->quality_worst, quality);
     sum += quality;
   }

@@ -118,6 +118,26 @@ static inline bool AdaptIsShort(const Adapt *a, int p, int q)
   return AdaptLength(a, p, q) < SHORT_EDGE;
 }
 
+/* Of an edge and a triangle of a mesh with metric[nv][3]. */
+static inline double AdaptMeshLength(const MeshSerial *m, const double metric[], int p, int q)
+{
+  return MetricLength(&m->x[2 * p], &m->x[2 * q], &metric[3 * p], &metric[3 * q]);
+}
+
+static inline double AdaptMeshQuality(const MeshSerial *m, const double metric[], int e)
+{
+  const int *v = &m->vertex[3 * e];
+  const double *const x[3] = {&m->x[2 * v[0]], &m->x[2 * v[1]], &m->x[2 * v[2]]};
+  const double *const t[3] = {&metric[3 * v[0]], &metric[3 * v[1]], &metric[3 * v[2]]};
+  double square;
+  return MetricQuality(x, t, &square);
+}
+
+static inline bool AdaptIsUnit(double length)
+{
+  return length >= SHORT_EDGE && length <= LONG_EDGE;
+}
+
 /* adapt_build.c: from and to a MeshSerial. */
 PetscErrorCode AdaptCreate(const MeshSerial *mesh, const double metric[], const AdaptOptions *options,
                            Adapt *a);

@@ -30,28 +30,6 @@ void NearDistances(const AdaptResult *r, const char frozen[], int distance[])
   Spread(&r->mesh, distance);
 }
 
-static double Length(const AdaptResult *r, int p, int q)
-{
-  return MetricLength(&r->mesh.x[2 * p], &r->mesh.x[2 * q], &r->metric[3 * p], &r->metric[3 * q]);
-}
-
-static bool IsUnit(double length)
-{
-  return length >= SHORT_EDGE && length <= LONG_EDGE;
-}
-
-static double Quality(const AdaptResult *r, int e)
-{
-  const int *v = &r->mesh.vertex[3 * e];
-  const double *x[3], *m[3];
-  double square;
-  for (int i = 0; i < 3; i++) {
-    x[i] = &r->mesh.x[2 * v[i]];
-    m[i] = &r->metric[3 * v[i]];
-  }
-  return MetricQuality(x, m, &square);
-}
-
 /* Halved with every edge away, from `most` on. */
 static void AddWeights(const MeshSerial *m, const int distance[], int most, int weight[])
 {
@@ -68,7 +46,9 @@ PetscErrorCode NearWeights(const AdaptResult *r, const int distance[], int weigh
   for (int v = 0; v < m->nv; v++) poor[v] = NEAR_FAR;
   for (int c = 0; c < 3 * m->ne; c++) {
     const int p = m->vertex[Next(c)], q = m->vertex[Prev(c)];
-    if ((distance[p] && distance[q]) || (IsUnit(Length(r, p, q)) && Quality(r, c / 3) > POOR)) continue;
+    if ((distance[p] && distance[q]) ||
+        (AdaptIsUnit(AdaptMeshLength(m, r->metric, p, q)) && AdaptMeshQuality(m, r->metric, c / 3) > POOR))
+      continue;
     if (!distance[p]) poor[p] = 0;
     if (!distance[q]) poor[q] = 0;
   }
@@ -87,13 +67,13 @@ static void MeasureTriangle(const AdaptResult *r, int e, const int distance[], N
   for (int i = 0; i < 3; i++) {
     const int p = v[(i + 1) % 3], q = v[(i + 2) % 3];
     if (distance[p] && distance[q]) continue;
-    const double length = Length(r, p, q);
+    const double length = AdaptMeshLength(&r->mesh, r->metric, p, q);
     near->edges++;
-    near->unit += IsUnit(length);
+    near->unit += AdaptIsUnit(length);
     near->shortest = fmin(near->shortest, length);
     near->longest = fmax(near->longest, length);
   }
-  near->quality_worst = fmin(near->quality_worst, Quality(r, e));
+  near->quality_worst = fmin(near->quality_worst, AdaptMeshQuality(&r->mesh, r->metric, e));
 }
 
 void NearMeasure(const AdaptResult *r, const int distance[], int cut, Near *near)
@@ -106,7 +86,8 @@ void NearMeasure(const AdaptResult *r, const int distance[], int cut, Near *near
   for (int k = 0; k < r->mesh.nb; k++) {
     if (r->mesh.facet_tag[k] != cut) continue;
     near->cut++;
-    near->cut_unit += IsUnit(Length(r, r->mesh.facet[2 * k], r->mesh.facet[2 * k + 1]));
+    near->cut_unit +=
+        AdaptIsUnit(AdaptMeshLength(&r->mesh, r->metric, r->mesh.facet[2 * k], r->mesh.facet[2 * k + 1]));
   }
 }
 
