@@ -195,6 +195,14 @@ static void ExpectCracks(Solid s)
            "-algo del2d)\n");
 }
 
+static void ExpectElements(Solid s, const SolidView *v, const double lower[2], const double upper[2])
+{
+  printf("solid: %d bodies of %d triangles", v->nbodies, v->nelements);
+  if (s->elements.nsix > 0) printf(" (%d of six nodes, each counts as four)", s->elements.nsix);
+  printf(", %d nodes and %d surface edges in [%.4g, %.4g] x [%.4g, %.4g] m\n", v->nnodes, v->nfacets,
+         lower[0], upper[0], lower[1], upper[1]);
+}
+
 static PetscErrorCode Expect(CoracleCase c, Solid s, Command command)
 {
   SolidView v;
@@ -209,9 +217,7 @@ static PetscErrorCode Expect(CoracleCase c, Solid s, Command command)
   if (v.nbodies == 0)
     printf("solid: no bodies\n");
   else
-    printf(
-        "solid: %d bodies of %d triangles, %d nodes and %d surface edges in [%.4g, %.4g] x [%.4g, %.4g] m\n",
-        v.nbodies, v.nelements, v.nnodes, v.nfacets, lower[0], upper[0], lower[1], upper[1]);
+    ExpectElements(s, &v, lower, upper);
   PetscCall(SolidLimit(s, &limit));
   if (isfinite(limit))
     printf("solid: substeps of at most %.3g s\n", limit);

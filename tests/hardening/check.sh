@@ -55,6 +55,8 @@ for line in "coupler: to t = 0.1 s in at least 10 steps" "fluid: mesh of [0-9]* 
   "solid: substeps of at most"; do
   grep -q "$line" "$scratch/log" || fail "it does not say '$line'"
 done
+check "$case" --set 'solid.bodies[0].order=2' && grep -q "solid: 1 bodies of 216 triangles (54 of six nodes, each counts as four)" "$scratch/log" ||
+  fail "not how many triangles of six nodes there are"
 [ "$(head -c 4 "$scratch/case.png" | tail -c 3)" = PNG ] || fail "there is no picture"
 [ ! -e "$scratch/out" ] || fail "output was made"
 
