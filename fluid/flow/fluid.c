@@ -39,6 +39,9 @@ PetscErrorCode FluidCreate(const Mesh *mesh, const FluidSetup *setup, Fluid *flu
   const MomentumSetup momentum = {setup->source, setup->source_context};
   Fluid f;
   PetscFunctionBeginUser;
+  /* PETSc from 3.21 on: products of several vectors by BLAS, which round by where the vectors lie, so that a step that is redone or resumed had
+   * other bits */
+  PetscCall(SolverDefaultOption("", "vec_mdot_use_gemv", "0"));
   PetscCall(PetscNew(&f));
   f->setup = *setup;
   PetscCall(DomainCreate(mesh, setup->boundary, &f->domain));

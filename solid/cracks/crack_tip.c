@@ -39,7 +39,7 @@ static double Width(const Joints j, int star, const CornerSet corners[2], int in
     const PetscBool between =
         (PetscBool)(((corners[0] & one) && (corners[1] & two)) || ((corners[0] & two) && (corners[1] & one)));
     const int end = j->joint[joint].star[0] == star ? 0 : 1;
-    if (between && j->memory[joint].end[end].strong == 0.0) width += 0.5 * j->joint[joint].length;
+    if (between && j->memory[joint].end[end].begun == 0.0) width += 0.5 * j->joint[joint].length;
   }
   return width;
 }

@@ -74,7 +74,7 @@ void JointsBeginEnds(Joints j, Solid s)
   int n = 0;
   for (int k = 0; k < j->nactive; k++)
     for (int end = 0; end < 2; end++)
-      if (j->memory[j->active[k]].end[end].strong == 0.0 && Parted(j, &j->joint[j->active[k]], end))
+      if (j->memory[j->active[k]].end[end].begun == 0.0 && Parted(j, &j->joint[j->active[k]], end))
         parted[n++] = JointsPartedCrackTip(j, j->active[k], end);
   for (int k = 0; k < n; k++) {
     const Joint *joint = &j->joint[parted[k].joint];
@@ -138,7 +138,7 @@ static void StiffnessColumn(const Joint *joint, const JointEnd end[2], const Joi
   opening[i / 4] = side * (i % 2 ? n.y : n.x);
   slip[i / 4] = side * (i % 2 ? e.y : e.x);
   for (int k = 0; k < 2; k++)
-    if (end[k].strong > 0.0) JointAddStiffness(&joint->law, end, shape, k, opening, slip, normal, shear);
+    if (end[k].begun > 0.0) JointAddStiffness(&joint->law, end, shape, k, opening, slip, normal, shear);
   for (int row = 0; row < 8; row++) {
     const double on_second = row / 2 % 2 ? 1.0 : -1.0;
     stiffness[row][i] = on_second * half *
@@ -167,7 +167,7 @@ static int FindLastEnds(const Joints j, Solid s)
     JointEnd *end = j->memory[j->active[k]].end;
     for (int i = 0; i < 2; i++) {
       if (end[1 - i].damage < 1.0 || end[i].damage >= 1.0) continue;
-      if (end[i].strong == 0.0 || end[i].other_weight > 0.0) continue;
+      if (end[i].begun == 0.0 || end[i].other_weight > 0.0) continue;
       const JointShape shape = ShapeOf(j, s, &j->joint[j->active[k]]);
       const double own[2] = {shape.opening[i], shape.slip[i]};
       const double theirs[2] = {shape.opening[1 - i], shape.slip[1 - i]};
@@ -244,7 +244,7 @@ PetscErrorCode JointsMeasureRate(Joints j, Solid s)
     const JointEnd *ends = j->memory[j->active[k]].end;
     const double last = ends[0].other_weight > 0.0 || ends[1].other_weight > 0.0 ? 2.0 : 1.0;
     for (int end = 0; end < 2; end++)
-      for (int i = 0; i < 2 && joint->mine && ends[end].strong > 0.0; i++)
+      for (int i = 0; i < 2 && joint->mine && ends[end].begun > 0.0; i++)
         sum[2 * j->corner[joint->corner[end][i]].node] +=
             last * (joint->law.friction > 0.0 ? 2.0 : 1.0) * joint->law.stiffness * joint->length;
   }

@@ -44,8 +44,8 @@ typedef enum { JOINT_INTACT, JOINT_ACTIVE, JOINT_BROKEN } JointStage;
 /* What a step changes. */
 typedef struct {
   JointStage stage;
-  int since[2];    /* revisions of the solid with which it activated, and with which it broke; 0: not yet */
-  JointEnd end[2]; /* strong = 0: its nodes are still one */
+  int since[2]; /* revisions of the solid with which it activated, and with which it broke; 0: not yet */
+  JointEnd end[2];
 } JointMemory;
 
 typedef struct {
