@@ -8,7 +8,7 @@
 #define OPPOSED 0.6
 /* What is open of an element between such faces, if less, counts in part as open. */
 #define CORNER_OPEN 0.3
-/* Less than this of an element beside a solid among phases is nothing.  Its content, and with it the density of all of the element, would be that of a sliver
+/* Less than this of an element beside a solid among phases that is held, moved by a prescribed motion or at rest is nothing.  Its content, and with it the density of all of the element, would be that of a sliver
  * that the phases have not filled yet, and the flow along the surface that this drives, in an element that conducts as a whole, raised the water beside a block that was held, and where the
  * face of a piston passed a line of vertices pushed 28 N for a step into a force of 90 N (le 0.02 m, waves of 0.04 m; now 6 N; a jet of 3.3 m/s with le 0.0125 m, now 0.14).
  * PHASES_LEAST_OPEN is the fluid's for the same elements.  A fluid so viscous that friction crosses the element within the step stays at rest without it, and with it kept a
@@ -29,11 +29,17 @@ static PetscBool IsBesideDense(const Overlap o, const ElementTerm *element, int 
   return (PetscBool)(denser > 0.0 && element->outside > (1.0 - DENSE_LEAST) * denser);
 }
 
-/* Of the e-th coupled element: less of it beside the solid is nothing. */
-static double LeastOpen(const Overlap o, double dt, int e)
+/* Of the e-th coupled element: less of it beside the solid is nothing.  Where a free solid slides on one that is held it is the gap between them. */
+static double LeastOpen(const Overlap o, const SourceTerm term[], double dt, int e)
 {
   const int k = o->coupled_element[e];
-  return o->phases && o->mu[k] * dt < o->rho_mean[k] * o->area[k] ? PHASES_LEAST : OUTSIDE_LEAST;
+  PetscBool covers = (PetscBool)(o->phases && o->mu[k] * dt < o->rho_mean[k] * o->area[k]);
+  for (int i = o->first_of_element[e]; i < o->first_of_element[e + 1] && covers; i++) {
+    const int a = o->pairs.pair[o->of_element[i]].a;
+    for (int v = 0; v < 3 && !term[a].held; v++)
+      covers = (PetscBool)(covers && o->source[a].u[v][0] == 0.0 && o->source[a].u[v][1] == 0.0);
+  }
+  return covers ? PHASES_LEAST : OUTSIDE_LEAST;
 }
 
 /* Parts of the solid, over an element's area: no slip is kept at the corners of those up to SMALL, all of it from LARGE on. */
@@ -104,7 +110,7 @@ void SlipTensors(const Overlap o, const SourceTerm term[], const double gravity[
     const double area = o->area[o->coupled_element[e]];
     const PetscBool shared =
         (PetscBool)(solid >= (1.0 - OUTSIDE_LEAST) * area && solid + all.area > (1.0 + OUTSIDE_LEAST) * area);
-    k->open = (PetscBool)(solid < (1.0 - LeastOpen(o, dt, e)) * area);
+    k->open = (PetscBool)(solid < (1.0 - LeastOpen(o, term, dt, e)) * area);
     k->corner = (PetscBool)(all.area > 0.0 && Planeness(&all) < SLIP_CORNER);
     k->along = k->tangential = WallCoefficientIsotropic(0.0);
     k->shared = (PetscBool)(o->phases && shared && held.area > 0.0);
