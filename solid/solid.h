@@ -162,7 +162,7 @@ PetscErrorCode SolidBodies(Solid s, int n, BodyState state[]);
 
 /* The contact of two bodies, or of a body and a wall. */
 typedef struct {
-  int body, other;
+  int body, other;               /* other: a body, or WALL_LEFT to WALL_TOP; of a probe also CONTACT_ANY */
   double normal[2], friction[2]; /* force on the first, N/m; contact damping is in the normal one */
   double place[2]; /* mean of where the normal force acts, weighted with it, m; NaN where nothing touches */
 } BodyContact;
