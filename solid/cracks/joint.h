@@ -86,9 +86,8 @@ static inline double JointLoad(const JointLaw *law, double normal, double shear)
 }
 
 /* An end activates under the traction that the edge carries, or, where that is more than its strength, on the
- * ellipse: in an impact one in ten carries 5 % more, when the nodes of another edge part, one in a hundred 70 %; where strengths
- * have been lowered (resume) all may.  Stronger by that much, with a traction that is continuous, a dam stood on a lift joint
- * that had a fraction of the strength that it needed (tests/solid/lowered.sh). */
+ * ellipse: so it is in an impact, when the nodes of another edge part, and after a resume with lower strengths (tests/solid/lowered.sh).
+ * Stronger by that much, with a traction that is continuous, what cannot bear its load stood. */
 static inline JointEnd JointBegin(const JointLaw *law, double normal, double shear)
 {
   const double friction = JointFriction(law, normal, shear);
