@@ -95,16 +95,19 @@ void CheckGauges(CoracleCase c, Solid s)
 
 /* --- whether a body may leave --------------------------------------------------------------------------- */
 
-/* The entry of a body that nothing holds, prescribes until the end or ties to a spring; -1: there is none. */
+/* The entry of a body that nothing holds, prescribes in both components until the end or ties to a spring; -1: there is none. */
 static int LooseBody(Solid s, double end)
 {
   for (int b = 0; b < s->nbodies; b++) {
-    int held = 0;
+    int held = 0, prescribed[2] = {0, 0};
     for (int n = 0; n < s->nnodes; n++) held |= s->node_body[n] == b && s->inverse_mass[n] == 0.0;
     for (int k = 0; k < s->nprescribed; k++) {
-      const double release = s->motion[s->prescribed[k].motion].release;
-      held |= s->node_body[s->prescribed[k].node] == b && (release <= 0.0 || release >= end);
+      const PrescribedMotion *motion = &s->motion[s->prescribed[k].motion];
+      const int acts = motion->release <= 0.0 || motion->release >= end;
+      for (int c = 0; c < 2 && s->node_body[s->prescribed[k].node] == b; c++)
+        prescribed[c] |= acts && motion->prescribed[c];
     }
+    held |= prescribed[0] && prescribed[1];
     for (int k = 0; k < s->setup.nsprings; k++)
       for (int i = 0; i < 2; i++) {
         const int e = s->spring_element[k][i];

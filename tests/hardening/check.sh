@@ -71,7 +71,8 @@ for set in 'gravity=[0, 0]' 'solid.bodies[0].fixed=true' 'solid.bodies[0].prescr
   'solid.bodies[0].prescribed=[{velocity: [0, 1], release: 0.1}]'; do
   "$build/solid/coracle-solid" --check "$case" --set "$set" >"$scratch/log" 2>&1 && notes 0 || fail "a note with $set"
 done
-for set in 'fluid.boundaries={left: open, right: {pressure: 0}, bottom: open, top: open}' 'solid.bodies[0].prescribed=[{velocity: [0, 1], release: 0.05}]'; do
+for set in 'fluid.boundaries={left: open, right: {pressure: 0}, bottom: open, top: open}' 'solid.bodies[0].prescribed=[{velocity: [0, 1], release: 0.05}]' \
+  'solid.bodies[0].prescribed=[{velocity: [0, 0], component: x}]'; do
   "$build/solid/coracle-solid" --check "$case" --set "$set" >"$scratch/log" 2>&1 && notes 1 || fail "no note with $set"
 done
 check "$case" "${tank[@]}" --set time.dt_max=0.2 --set 'fluid.adapt={size_min: 0.05, size_max: 0.2, velocity_error: 0.1}' --set coupler.shell_thickness=0.06 || fail "a good case has faults"
