@@ -2,7 +2,7 @@
 """The meshes of a case before its run.  Usage: plot_case.py FOLDER PICTURE, where FOLDER has fluid.h5 and solid.h5 as --draw writes them, or one of
 them.
 
-Left the whole domain, right the bodies.
+Left the whole domain, of several phases coloured by phase, right the bodies.
 """
 import os
 import sys
@@ -10,6 +10,7 @@ import sys
 import matplotlib.pyplot as plt
 import numpy as np
 
+from phases import COLOURS, find_phases
 from snapshot import Window, paint_mesh, read_snapshot
 
 
@@ -28,11 +29,26 @@ def around_bodies(solid, domain):
     return Window(lower, upper) if domain is None else Window(np.maximum(lower, domain.lower), np.minimum(upper, domain.upper))
 
 
+def paint_phases(axes, phases):
+    """The elements' phases, of the colours of view.sh --field phases, and their names."""
+    grid, names = phases.grid, phases.names
+    shade = axes.tripcolor(*grid.points.T, grid.cells, facecolors=phases.shades(), cmap=COLOURS, vmin=0.0, vmax=1.0)
+    bar = axes.figure.colorbar(shade, ax=axes, location="bottom", shrink=0.5, ticks=np.linspace(0.0, 1.0, len(names)))
+    bar.set_ticklabels(names)
+
+
+def paint_domain(axes, fluid, domain, solid):
+    phases = find_phases(fluid)
+    if phases:
+        paint_phases(axes, phases)
+    paint_mesh(axes, fluid, domain, solid)
+
+
 def main(folder, picture):
     fluid, solid = read_grid(folder, "fluid", "velocity"), read_grid(folder, "solid", "solid")
     domain, panels = Window.around(fluid.points) if fluid else None, []  # of a panel: what is painted, its title
     if fluid:
-        panels.append((lambda axes: paint_mesh(axes, fluid, domain, solid), "fluid: %d triangles" % len(fluid.cells)))
+        panels.append((lambda axes: paint_domain(axes, fluid, domain, solid), "fluid: %d triangles" % len(fluid.cells)))
     if solid:
         panels.append((lambda axes: paint_mesh(axes, fluid, around_bodies(solid, domain), solid, inside=True), "bodies: %d triangles" % len(solid.cells)))
     if not panels:

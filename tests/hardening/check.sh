@@ -176,6 +176,17 @@ png "$case" --set 'solid.bodies[0].fixed=true' && grep -qx 'solid: all bodies ar
 ! grep -qw inf "$scratch/log" || fail "substeps of a fixed body"
 png "$case" --set 'solid.materials.disc.law=rigid' && grep -qx 'solid: all bodies are fixed or rigid: substeps are as contact asks for' "$scratch/log" || fail "a rigid body"
 
+# the picture shows where the phases are: pixels of the water's colour, in 10 000
+water() {
+  png "$root/tests/coupled/level.yaml" --set "fluid.regions=[{phase: air}, {phase: water, lower: [0, 0], upper: [4, $1]}]" || fail "two phases have faults"
+  PYTHONPATH=$root/scripts "$python" -c '
+import sys, matplotlib.pyplot as plt
+from phases import WATER
+print(int(1e4 * (abs(plt.imread(sys.argv[1])[..., :3] - WATER).max(axis=2) < 0.02).mean()))' "$scratch/case.png"
+}
+shallow=$(water 0.1) deep=$(water 0.4)
+[ "$shallow" -gt 50 ] && [ "$deep" -gt $((3 * shallow)) ] || fail "not where the water is: $shallow pixels of 0.1 m, $deep of 0.4 m"
+
 # the solid alone needs no keys of the others, and is told whether its mesh resolves cracks
 cat >"$scratch/alone.yaml" <<'E2'
 gravity: [0, 0]
