@@ -7,8 +7,8 @@ Prints each kind of energy, J/m: at the first step (from TIME, s), at the last, 
 contact have taken since (of blows within some 2 %, by the substeps' length; with output.series_every it is not known); and of each body the farthest that its
 centre has been from its place at the first step, m, and the largest angle by which it has turned since, rad.  `all`, of phases
 and solids together or of a solid alone, falls by friction, damping and what flows out, and rises by what loads, springs and prescribed motions
-do; one fluid that solids displace has a potential energy that nothing tells, and no `all`.  With --bound it fails where `all` grows by more
-than that, J/m.
+do; what contact stores is not in it: in a blow it falls, and rises again as the bodies part.  One fluid that solids displace has a potential energy that
+nothing tells, and no `all`.  With --bound it fails where `all` grows by more than that, J/m.
 """
 import argparse
 import os
