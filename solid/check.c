@@ -251,7 +251,7 @@ static PetscErrorCode ReadCase(CoracleCase c, Command command)
     NoteTurns(solid, run.end, longest);
     RunCaseNoteSteps(run.end, longest);
     RunCaseNoteUnsaved(run.walltime, run.checkpoint);
-    NoteWalls(c, solid, run.end);
+    PetscCall(NoteWalls(c, solid, run.end));
     NoteFar(solid);
     PetscCall(NoteThin(c, solid));
     NoteFriction(solid);

@@ -8,55 +8,123 @@
 /* Elements of the fluid through a wall that holds water. */
 #define THICK 1.99
 
-static void Bound(int n, const double x[][2], double lower[2], double upper[2])
+/* Of the domain's smaller extent: a node is at a side within that, and farther outside it is meant to be there, or a mistake. */
+#define AT_SIDE 1e-3
+
+typedef struct {
+  PetscBool known;
+  double lower[2], upper[2];
+  int nsides;
+  double (*side)[2][2]; /* [nsides] from, to; in any order */
+} Domain;
+
+static void AddSide(Domain *d, const double from[2], const double to[2])
 {
-  GeometryBox box = GeometryBoxEmpty();
-  for (int k = 0; k < n; k++) GeometryBoxGrow(&box, x[k]);
-  memcpy(lower, box.lower, sizeof box.lower);
-  memcpy(upper, box.upper, sizeof box.upper);
+  for (int c = 0; c < 2; c++) {
+    d->side[d->nsides][0][c] = from[c];
+    d->side[d->nsides][1][c] = to[c];
+    d->lower[c] = fmin(d->lower[c], from[c]);
+    d->upper[c] = fmax(d->upper[c], from[c]);
+  }
+  d->nsides++;
 }
 
-/* The fluid's domain, as far as the case says it: the bounds of the box, the polygon, or the mesh in a file.  What is wrong with these the fluid tells. */
-static PetscErrorCode FluidDomain(CoracleCase c, double lower[2], double upper[2], PetscBool *known)
+static PetscErrorCode AddOutline(Domain *d, int n, const double corner[][2])
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(n, &d->side));
+  for (int k = 0; k < n; k++) AddSide(d, corner[k], corner[(k + 1) % n]);
+  PetscFunctionReturn(0);
+}
+
+/* The fluid's domain, as far as the case says it: the box, the polygon, or the mesh in a file.  What is wrong with these the fluid tells. */
+static PetscErrorCode FluidDomain(CoracleCase c, Domain *d)
 {
   const char *why;
+  double box[2][2];
   MeshSerial mesh;
   PetscFunctionBeginUser;
-  *known = PETSC_TRUE;
+  *d = (Domain){PETSC_TRUE, {HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}, 0, NULL};
   if (CoracleCaseHas(c, "fluid.mesh.corners")) {
     int n;
     double(*corner)[2];
     PetscCall(CaseReadOutline(c, "fluid.mesh.corners", &n, &corner));
-    Bound(n, (const double(*)[2])corner, lower, upper);
+    PetscCall(AddOutline(d, n, (const double(*)[2])corner));
     PetscCall(PetscFree(corner));
   } else if (!CoracleCaseHas(c, "fluid.mesh.file")) {
-    *known = (PetscBool)(CoracleCaseVectorOptional(c, "fluid.mesh.lower", 2, lower) &&
-                         CoracleCaseVectorOptional(c, "fluid.mesh.upper", 2, upper));
+    d->known = (PetscBool)(CoracleCaseVectorOptional(c, "fluid.mesh.lower", 2, box[0]) &&
+                           CoracleCaseVectorOptional(c, "fluid.mesh.upper", 2, box[1]));
+    if (d->known)
+      PetscCall(AddOutline(d, 4,
+                           (const double[4][2]){{box[0][0], box[0][1]},
+                                                {box[1][0], box[0][1]},
+                                                {box[1][0], box[1][1]},
+                                                {box[0][0], box[1][1]}}));
   } else if (MeshReadGmsh(CoracleCaseFile(c, "fluid.mesh.file"), &mesh, &why)) {
-    *known = PETSC_FALSE;
+    d->known = PETSC_FALSE;
   } else {
-    Bound(mesh.nv, (const double(*)[2])mesh.x, lower, upper);
+    PetscCall(PetscMalloc1(mesh.nb, &d->side));
+    for (int k = 0; k < mesh.nb; k++)
+      AddSide(d, mesh.x + 2 * mesh.facet[2 * k], mesh.x + 2 * mesh.facet[2 * k + 1]);
     PetscCall(MeshSerialDestroy(&mesh));
   }
   PetscFunctionReturn(0);
 }
 
-/* As the coupler at the start of a run (run_checks.c): no node may be outside. */
+static double AtSide(const Domain *d)
+{
+  return AT_SIDE * fmin(d->upper[0] - d->lower[0], d->upper[1] - d->lower[1]);
+}
+
+/* How far x is from the sides, m; below 0 inside. */
+static double Outside(const Domain *d, const double x[2])
+{
+  PetscBool inside = PETSC_FALSE;
+  double distance = HUGE_VAL;
+  for (int k = 0; k < d->nsides; k++) {
+    const double *a = d->side[k][0], *b = d->side[k][1];
+    distance = fmin(distance, GeometryDistanceAt(a, b, GeometrySegmentPlace(a, b, x), x));
+    if ((a[1] > x[1]) == (b[1] > x[1])) continue;
+    if (x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) inside = (PetscBool)!inside;
+  }
+  return inside ? -distance : distance;
+}
+
+/* The node that is farthest out of the domain, within its bounds: a run takes it, and what is outside is not in the fluid. */
+static void NoteOutside(const Domain *d, Solid s)
+{
+  double farthest = AtSide(d);
+  int node = -1;
+  for (int n = 0; n < s->nnodes; n++) {
+    const double outside = Outside(d, s->x + 2 * n);
+    if (outside <= farthest) continue;
+    farthest = outside;
+    node = n;
+  }
+  if (node >= 0)
+    printf(
+        "note: solid.bodies[%d] reaches out of the fluid's domain, at (%g, %g) by %.3g m: there is no fluid "
+        "there\n",
+        s->body[s->node_body[node]].entry, s->x[2 * node], s->x[2 * node + 1], farthest);
+}
+
+/* As the coupler at the start of a run (run_checks.c): no node may be outside of the domain's bounds. */
 PetscErrorCode CheckDomain(CoracleCase c, Solid s)
 {
-  double lower[2], upper[2];
-  PetscBool known;
+  Domain d;
   char key[CASE_KEY];
   PetscFunctionBeginUser;
-  PetscCall(FluidDomain(c, lower, upper, &known));
-  for (int n = 0; n < s->nnodes && known; n++) {
+  PetscCall(FluidDomain(c, &d));
+  for (int n = 0; n < s->nnodes && d.known; n++) {
     const double *x = s->x + 2 * n;
-    if (x[0] >= lower[0] && x[0] <= upper[0] && x[1] >= lower[1] && x[1] <= upper[1]) continue;
+    if (x[0] >= d.lower[0] && x[0] <= d.upper[0] && x[1] >= d.lower[1] && x[1] <= d.upper[1]) continue;
     CoracleCaseRefuse(
         c, BodyKey(key, s->body[s->node_body[n]].entry, ""),
         "the solid's node %lld at (%g, %g) lies outside of the fluid domain [%g, %g] x [%g, %g]", s->gid[n],
-        x[0], x[1], lower[0], upper[0], lower[1], upper[1]);
+        x[0], x[1], d.lower[0], d.upper[0], d.lower[1], d.upper[1]);
   }
+  if (d.known && CoracleCaseFaultless(c)) NoteOutside(&d, s);
+  PetscCall(PetscFree(d.side));
   PetscFunctionReturn(0);
 }
 
@@ -95,37 +163,69 @@ void CheckGauges(CoracleCase c, Solid s)
 
 /* --- whether a body may leave --------------------------------------------------------------------------- */
 
-/* The entry of a body that nothing holds, prescribes in both components until the end or ties to a spring; -1: there is none. */
+/* Nothing holds the body, prescribes both components of its motion until the end or ties it to a spring. */
+static PetscBool IsLoose(Solid s, int b, double end)
+{
+  int held = 0, prescribed[2] = {0, 0};
+  for (int n = 0; n < s->nnodes; n++) held |= s->node_body[n] == b && s->inverse_mass[n] == 0.0;
+  for (int k = 0; k < s->nprescribed; k++) {
+    const PrescribedMotion *motion = &s->motion[s->prescribed[k].motion];
+    const int acts = motion->release <= 0.0 || motion->release >= end;
+    for (int c = 0; c < 2 && s->node_body[s->prescribed[k].node] == b; c++)
+      prescribed[c] |= acts && motion->prescribed[c];
+  }
+  for (int k = 0; k < s->setup.nsprings; k++)
+    for (int i = 0; i < 2; i++) {
+      const int e = s->spring_element[k][i];
+      held |= e >= 0 && s->elements.body[e] == b;
+    }
+  return (PetscBool) !(held || (prescribed[0] && prescribed[1]));
+}
+
+/* The first loose body; -1: there is none. */
 static int LooseBody(Solid s, double end)
 {
-  for (int b = 0; b < s->nbodies; b++) {
-    int held = 0, prescribed[2] = {0, 0};
-    for (int n = 0; n < s->nnodes; n++) held |= s->node_body[n] == b && s->inverse_mass[n] == 0.0;
-    for (int k = 0; k < s->nprescribed; k++) {
-      const PrescribedMotion *motion = &s->motion[s->prescribed[k].motion];
-      const int acts = motion->release <= 0.0 || motion->release >= end;
-      for (int c = 0; c < 2 && s->node_body[s->prescribed[k].node] == b; c++)
-        prescribed[c] |= acts && motion->prescribed[c];
-    }
-    held |= prescribed[0] && prescribed[1];
-    for (int k = 0; k < s->setup.nsprings; k++)
-      for (int i = 0; i < 2; i++) {
-        const int e = s->spring_element[k][i];
-        held |= e >= 0 && s->elements.body[e] == b;
-      }
-    if (!held) return s->body[b].entry;
+  for (int b = 0; b < s->nbodies; b++)
+    if (IsLoose(s, b, end)) return b;
+  return -1;
+}
+
+/* The first node of a loose body at a side of the domain where there is no wall; -1: there is none. */
+static int NodeWithoutWall(Solid s, double end, const Domain *d)
+{
+  const double *lower = s->setup.lower, *upper = s->setup.upper, near = AtSide(d);
+  int held = -1; /* the last body that is not loose */
+  for (int n = 0; n < s->nnodes; n++) {
+    const double *x = s->x + 2 * n;
+    const int b = s->node_body[n];
+    if (b == held || fabs(Outside(d, x)) > near || fabs(x[0] - lower[0]) <= near ||
+        fabs(x[0] - upper[0]) <= near || fabs(x[1] - lower[1]) <= near || fabs(x[1] - upper[1]) <= near)
+      continue;
+    if (IsLoose(s, b, end)) return n;
+    held = b;
   }
   return -1;
 }
 
-void NoteWalls(CoracleCase c, Solid s, double end)
+PetscErrorCode NoteWalls(CoracleCase c, Solid s, double end)
 {
-  const int loose = LooseBody(s, end);
-  if (s->setup.walls || loose < 0 || GravityLargest(s->setup.gravity, &s->setup.gravity_table) == 0.0) return;
-  if (CoracleCaseHas(c, "fluid.boundaries"))
+  Domain d;
+  PetscFunctionBeginUser;
+  if (GravityLargest(s->setup.gravity, &s->setup.gravity_table) == 0.0) PetscFunctionReturn(0);
+  if (!CoracleCaseHas(c, "fluid.boundaries")) PetscFunctionReturn(0);
+  PetscCall(FluidDomain(c, &d));
+  const int body = s->setup.walls ? -1 : LooseBody(s, end);
+  const int node = s->setup.walls && d.known ? NodeWithoutWall(s, end, &d) : -1;
+  if (body >= 0)
     printf("note: there are no solid.walls: solid.bodies[%d] may leave through the sides of the fluid's "
            "domain, closed ones too, which hold the fluid alone\n",
-           loose);
+           s->body[body].entry);
+  if (node >= 0)
+    printf("note: solid.bodies[%d] begins at a side of the fluid's domain, at (%g, %g), where there are no "
+           "solid.walls: it may leave through that, a closed one too, which holds the fluid alone\n",
+           s->body[s->node_body[node]].entry, s->x[2 * node], s->x[2 * node + 1]);
+  PetscCall(PetscFree(d.side));
+  PetscFunctionReturn(0);
 }
 
 /* Coordinates over the shortest edge.  A stiff body (E 5e10 Pa, edges of 2 cm) at 4e6 m has 0.006 J/m of vibration after 0.2 s, which goes on growing. */

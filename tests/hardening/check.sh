@@ -75,6 +75,17 @@ for set in 'fluid.boundaries={left: open, right: {pressure: 0}, bottom: open, to
   'solid.bodies[0].prescribed=[{velocity: [0, 0], component: x}]'; do
   "$build/solid/coracle-solid" --check "$case" --set "$set" >"$scratch/log" 2>&1 && notes 1 || fail "no note with $set"
 done
+# a body on a sloping side of the domain, or out of it, within its bounds and the walls
+on_slope() {
+  "$build/solid/coracle-solid" --check "$case" "${tank[@]}" --set 'fluid.mesh={corners: [[0, 2], [2, 0], [2, 2]], size_max: 0.2}' \
+    --set "solid.bodies=[{shape: polygon, corners: [[$2, $3], [1.2, 0.8], [1.2, 1.2]], size: 0.1, material: disc${4:-}}]" >"$scratch/log" 2>&1 && notes "$1" || fail "not $1 notes of a body at ($2, $3)"
+}
+on_slope 1 0.8 1.2
+grep -q 'solid.bodies\[0\] begins at a side of the fluid.s domain, at (.*), where there are no solid.walls' "$scratch/log" || fail "another note"
+on_slope 0 0.8 1.2 ', fixed: true'
+on_slope 0 1.1 1.1 ', fixed: true'
+on_slope 1 0.7 1.1 ', fixed: true'
+grep -q 'solid.bodies\[0\] reaches out of the fluid.s domain, at (0.7, 1.1) by 0.141 m' "$scratch/log" || fail "another note"
 check "$case" "${tank[@]}" --set time.dt_max=0.2 --set 'fluid.adapt={size_min: 0.05, size_max: 0.2, velocity_error: 0.1}' --set coupler.shell_thickness=0.06 || fail "a good case has faults"
 notes 2
 grep -q 'time.dt_max, 0.2 s, is more than time.end, 0.1 s' "$scratch/log" && grep -q 'shell_thickness, 0.06 m, is more than fluid.adapt.size_min, 0.05 m' "$scratch/log" || fail "other notes"
