@@ -40,6 +40,17 @@ static int Differ(const Compressive *t, const Shares *a, const Shares *b)
   return 0;
 }
 
+/* What is across face i of element e: on the boundary what comes in, or, where nothing does, what the element has. */
+static Shares Beyond(const Compressive *t, int e, int i)
+{
+  const int o = t->s->neighbor[e][i];
+  Shares inflow;
+  if (o >= 0) return t->now[o];
+  if (!t->inflow || !(t->flux[3 * e + i] < 0.0)) return t->now[e];
+  InflowShares(t->inflow, &t->s->element[e], i, t->f->np, inflow.share);
+  return inflow;
+}
+
 /* --- values on faces ------------------------------------------------------------------------------------ */
 
 static void SetMeans(Compressive *t)
@@ -111,15 +122,11 @@ static void SetFace(Compressive *t, int e, int i)
                *ub = &t->velocity[2 * (3 * e + (i + 2) % 3)];
   const double u[2] = {0.5 * (ua[0] + ub[0]), 0.5 * (ua[1] + ub[1])};
   double value[PHASES_MAX];
-  const Shares *donor = swept > 0.0 || o < 0 ? &t->now[e] : &t->now[o];
-  Shares *upwind = &t->upwind[3 * e + i], *more = &t->more[3 * e + i], inflow;
+  Shares *upwind = &t->upwind[3 * e + i], *more = &t->more[3 * e + i];
   for (int p = 0; p < np; p++) upwind->share[p] = more->share[p] = 0.0;
   if (swept == 0.0) return;
-  if (o < 0 && swept < 0.0 && t->inflow) {
-    InflowShares(t->inflow, &s->element[e], i, np, inflow.share);
-    donor = &inflow;
-  }
-  for (int p = 0; p < np; p++) value[p] = donor->share[p];
+  const Shares donor = swept > 0.0 ? t->now[e] : Beyond(t, e, i);
+  for (int p = 0; p < np; p++) value[p] = donor.share[p];
   if (o >= 0 && Differ(t, &t->now[e], &t->now[o])) {
     if (swept > 0.0)
       FaceValues(t, e, i, o, u, value);
@@ -127,8 +134,8 @@ static void SetFace(Compressive *t, int e, int i)
       FaceValues(t, o, StarsFaceTo(s, o, e), e, u, value);
   }
   for (int p = 0; p < np; p++) {
-    upwind->share[p] = swept * donor->share[p];
-    more->share[p] = swept * (value[p] - donor->share[p]);
+    upwind->share[p] = swept * donor.share[p];
+    more->share[p] = swept * (value[p] - donor.share[p]);
   }
 }
 
@@ -236,7 +243,7 @@ static PetscErrorCode Substep(Compressive *t, double swept[], double mass[])
   PetscFunctionReturn(0);
 }
 
-/* Sets courant for the whole step; *largest: of elements that have, or have beside them, more than one phase. */
+/* Sets courant for the whole step; *largest: of elements that have beside them, or let in, other shares than theirs. */
 static PetscErrorCode SetCourant(Compressive *t, double *largest)
 {
   const Stars *s = t->s;
@@ -246,9 +253,9 @@ static PetscErrorCode SetCourant(Compressive *t, double *largest)
     int mixed = 0;
     t->courant[e] = 0.0;
     for (int i = 0; i < 3; i++) {
-      const int o = s->neighbor[e][i];
+      const Shares beyond = Beyond(t, e, i);
       t->courant[e] += fmax(t->flux[3 * e + i], 0.0) * t->dt / StarsArea(s, e);
-      mixed |= o >= 0 && Differ(t, &t->now[e], &t->now[o]);
+      mixed |= Differ(t, &t->now[e], &beyond);
     }
     if (mixed) *largest = fmax(*largest, t->courant[e]);
   }
