@@ -2,22 +2,21 @@
 #include "common/supermesh/geometry.h"
 #include "fluid/output/surface_gauge.h"
 
-/* s: of the segment what is in owned element e and in the phase's part of it; whether there is any. */
+/* s: of the segment what is in owned element e and where the phase moves in it; *share: what this has of that, 0 where it is not. */
 static PetscErrorCode ClipToPhase(Fluid fluid, int e, int phase, const double from[2], const double to[2],
-                                  double s[2], PetscBool *any)
+                                  double s[2], double *share)
 {
   Polygon polygon;
   double part[2];
   int along;
   PetscFunctionBeginUser;
-  *any = PETSC_TRUE;
+  *share = 1.0;
   if (phase < 0) PetscFunctionReturn(0);
-  PetscCall(PhasesGetPolygon(PhaseTransportPhases(FluidPhases(fluid)), e, phase, &polygon));
-  *any = SegmentClip(polygon.n, (const double(*)[2])polygon.x, from, to, part, &along);
-  if (!*any) PetscFunctionReturn(0);
+  PetscCall(PhasesGetExtent(PhaseTransportPhases(FluidPhases(fluid)), e, phase, &polygon, share));
+  if (!SegmentClip(polygon.n, (const double(*)[2])polygon.x, from, to, part, &along)) *share = 0.0;
   s[0] = fmax(s[0], part[0]);
   s[1] = fmin(s[1], part[1]);
-  *any = (PetscBool)(s[1] > s[0]);
+  if (!(s[1] > s[0])) *share = 0.0;
   PetscFunctionReturn(0);
 }
 
@@ -29,14 +28,13 @@ PetscErrorCode FlowMeasure(Fluid fluid, int phase, const double from[2], const d
   *flow = 0.0;
   for (int e = 0; e < m->ne; e++) {
     const double *u = FluidVelocity(fluid) + 6 * e;
-    double x[3][2], s[2], middle[2], n[3];
+    double x[3][2], s[2], share, middle[2], n[3];
     int along;
-    PetscBool any;
     MeshCorners(m, e, x);
     if (!SegmentClip(3, (const double(*)[2])x, from, to, s, &along)) continue;
-    PetscCall(ClipToPhase(fluid, e, phase, from, to, s, &any));
-    if (!any) continue;
-    const double share = along >= 0 && m->neighbor[3 * e + (along + 2) % 3] >= 0 ? 0.5 : 1.0;
+    PetscCall(ClipToPhase(fluid, e, phase, from, to, s, &share));
+    if (share == 0.0) continue;
+    if (along >= 0 && m->neighbor[3 * e + (along + 2) % 3] >= 0) share *= 0.5;
     for (int c = 0; c < 2; c++) middle[c] = from[c] + 0.5 * (s[0] + s[1]) * (to[c] - from[c]);
     GeometryBarycentric((const double(*)[2])x, middle, n);
     for (int c = 0; c < 2; c++)
