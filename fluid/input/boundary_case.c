@@ -244,7 +244,9 @@ static int CheckTimes(const Boundary *b)
 static double CheckTime(const Boundary *b, int k)
 {
   if (k < 3) return k == 0 ? 2.0 * b->rise : k == 1 ? 0.5 * b->rise : b->rise + 0.25 * b->period;
-  return b->rise + TimeTableAt(&b->factor, k - 3, 0);
+  const double time = fmax(TimeTableAt(&b->factor, k - 3, 0), 0.0);
+  if (b->period == 0.0) return time;
+  return time + b->period * ceil(b->rise / b->period); /* again, after the rise */
 }
 
 static int CompareTimes(const void *a, const void *b)

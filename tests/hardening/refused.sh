@@ -65,6 +65,8 @@ refused fluid "'fluid.boundaries.left.factor\[1\]': the first numbers of the row
 refused fluid "'fluid.boundaries.left.profile\[1\]': the first numbers of the rows must rise" --set 'fluid.boundaries.left={velocity: [1, 0], profile: [[0, 1], [0, 2]]}' --set fluid.boundaries.right=open
 refused fluid "'fluid.boundaries': .* at 0.25 s .* m2/s more into the domain\|'fluid.boundaries': .* at 0.25 s .* m2/s less into the domain" \
   --set 'fluid.boundaries.left={velocity: [1, 0], rise: 1}' --set 'fluid.boundaries.right={velocity: [1, 0], factor: [[0, 0], [1, 1]]}'
+refused fluid "'fluid.boundaries': .* at 1.1 s .* 2 m2/s more into the domain" --set 'fluid.boundaries.left={velocity: [1, 0], rise: 0.5, factor: [[0, 0], [1, 0], [1.1, 1], [1.2, 0]]}'
+refused fluid "'fluid.boundaries': .* at 0.82 s .* 2 m2/s more into the domain" --set 'fluid.boundaries.left={velocity: [1, 0], rise: 0.5, period: 0.4, factor: [[0, 0], [0.01, 0], [0.02, 1], [0.03, 0]]}'
 accepted fluid --set "$left" --set 'fluid.boundaries.right={velocity: [1.5, 0], profile: parabolic}'
 accepted fluid --set "$left" --set fluid.boundaries.right=open
 accepted fluid --set 'fluid.boundaries.top={velocity: [1, 0]}'
