@@ -1,7 +1,7 @@
 /* The series fluid_forces.csv: the budget of momentum (budget.h) and the forces on the boundaries, a row a step:
  *
- *   t, dt [s], momentum x, y [kg/s], then of x and y [N/m]
- *   weight, solid, correction, divergence, interface, adaptation, rest       on the fluid
+ *   t, dt [s]; start momentum, momentum, x and y of each [kg/s]; then x and y of each [N/m]
+ *   weight, solid, correction, divergence, interface, absorption, adaptation, rest       on the fluid
  *   NAME pressure, NAME viscous, NAME convection                             of each boundary, on it */
 #ifndef FLUID_FORCE_SERIES_H
 #define FLUID_FORCE_SERIES_H

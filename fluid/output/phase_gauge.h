@@ -1,4 +1,4 @@
-/* What a phase is as a whole, from its polygons in the elements: its place, its motion.*/
+/* What a phase is as a whole, from its polygons in the elements: its place, its motion. */
 #ifndef FLUID_PHASE_GAUGE_H
 #define FLUID_PHASE_GAUGE_H
 #include "fluid/flow/fluid.h"

@@ -5,8 +5,8 @@
  *   line         the same of each of its points, name0_u, ...
  *   solid_point  name_x, name_y [m], where the point of the solid is, and name_p [Pa], the pressure of the fluid before it:
  *                at x + distance n, n out of the solid (by default one edge of fluid.adapt.size_min); where that is not
- *                in the mesh, beneath a body that stands on a floor, at x - 0.05 distance n; nan if that is not either
- *                (by more than contact needs)
+ *                in the mesh or in another solid, beneath a body that stands on a floor or on another, at x - 0.05 distance n;
+ *                nan if that is not in the mesh either (by more than contact needs)
  *   solid_line   the same of each of its gauges, name0_x, ..., then name_force_x, name_force_y [N/m] and name_moment [N]: the force of
  *                the pressure on that side and its moment about the side's first end, where that is (solid_gauge.h)
  *   surface      name_first, name_last, name_length [m]: where the phase first ends along the segment, its
