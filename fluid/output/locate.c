@@ -1,5 +1,5 @@
 #include "fluid/output/locate.h"
-#include "common/supermesh/geometry.h"
+#include "common/supermesh/search.h"
 
 #define EQUAL 1e-9 /* barycentric coordinates that count as equally far outside */
 
@@ -32,22 +32,40 @@ static PetscErrorCode Add(Places *p, const Place *place)
   PetscFunctionReturn(0);
 }
 
+/* Of the points. */
+static PetscErrorCode CreateSearch(int npoints, const double point[][2], Search *search)
+{
+  GeometryBox *box;
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(npoints, &box));
+  for (int k = 0; k < npoints; k++)
+    box[k] = (GeometryBox){{point[k][0], point[k][1]}, {point[k][0], point[k][1]}};
+  PetscCheck(!SearchCreate(npoints, box, search), PETSC_COMM_SELF, PETSC_ERR_MEM,
+             "no memory to search %d points", npoints);
+  PetscCall(PetscFree(box));
+  PetscFunctionReturn(0);
+}
+
 /* Each point in each element that it is in or near. */
 static PetscErrorCode FindNear(const Mesh *m, int npoints, const double point[][2], Places *p)
 {
+  Search search;
   PetscFunctionBeginUser;
+  PetscCall(CreateSearch(npoints, point, &search));
   p->n = 0;
   for (int e = 0; e < m->ne; e++) {
     double x[3][2];
     MeshCorners(m, e, x);
     const GeometryBox box = Around((const double(*)[2])x);
-    for (int k = 0; k < npoints; k++) {
-      Place place = {.point = k, .element = e};
-      if (GeometryBoxDistance(&box, point[k]) > 0.0) continue;
-      GeometryBarycentric((const double(*)[2])x, point[k], place.n);
+    const int *hit, n = SearchQuery(search, &box, &hit);
+    PetscCheck(n >= 0, PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory to search %d points", npoints);
+    for (int k = 0; k < n; k++) {
+      Place place = {.point = hit[k], .element = e};
+      GeometryBarycentric((const double(*)[2])x, point[place.point], place.n);
       if (Least(place.n) >= -LOCATE_REACH) PetscCall(Add(p, &place));
     }
   }
+  SearchDestroy(&search);
   PetscFunctionReturn(0);
 }
 
