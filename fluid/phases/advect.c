@@ -10,6 +10,7 @@ typedef struct {
   const Stars *s;
   TraceFlow flow;
   Outside outside;
+  char *on_boundary;  /* [nv] */
   int *calm;          /* [nowned] phase of all elements two rings around, or -1 */
   double (*shift)[2]; /* [nowned] */
   SweptSearch search;
@@ -17,29 +18,32 @@ typedef struct {
 } Step;
 
 /* The phase that all elements around v have to themselves, and that may flow in there, or -1. */
-static int PureAt(const Step *t, int v, char on_boundary)
+static int PureAt(const Step *t, int v)
 {
   const Stars *s = t->s;
   const int p = t->f->single[s->around[s->start[v]] / 3];
   for (int k = s->start[v]; k < s->start[v + 1]; k++) {
     if (t->f->single[s->around[k] / 3] != p) return -1;
   }
-  return p < 0 || !on_boundary || OutsideIsOnly(&t->outside, v, p) ? p : -1;
+  return p < 0 || !t->on_boundary[v] || OutsideIsOnly(&t->outside, v, p) ? p : -1;
+}
+
+static void MarkBoundary(Step *t)
+{
+  const Stars *s = t->s;
+  for (int k = 0; k < 3 * s->nl; k++) {
+    if (s->element[k / 3].tag[k % 3] < 0) continue;
+    t->on_boundary[s->vertex[k / 3][(k + 1) % 3]] = t->on_boundary[s->vertex[k / 3][(k + 2) % 3]] = 1;
+  }
 }
 
 static PetscErrorCode FindCalm(Step *t)
 {
   const Stars *s = t->s;
   int *pure, *around;
-  char *boundary;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc3(s->nwhole, &pure, s->nl, &around, s->nv, &boundary));
-  PetscCall(PetscArrayzero(boundary, s->nv));
-  for (int k = 0; k < 3 * s->nl; k++) {
-    if (s->element[k / 3].tag[k % 3] < 0) continue;
-    boundary[s->vertex[k / 3][(k + 1) % 3]] = boundary[s->vertex[k / 3][(k + 2) % 3]] = 1;
-  }
-  for (int v = 0; v < s->nwhole; v++) pure[v] = PureAt(t, v, boundary[v]);
+  PetscCall(PetscMalloc2(s->nwhole, &pure, s->nl, &around));
+  for (int v = 0; v < s->nwhole; v++) pure[v] = PureAt(t, v);
   for (int e = 0; e < s->nl; e++) {
     const int *v = s->vertex[e];
     if (s->element[e].ring > 1) continue;
@@ -51,7 +55,7 @@ static PetscErrorCode FindCalm(Step *t)
       if (around[s->around[k] / 3] != t->calm[v]) t->calm[v] = -1;
     }
   }
-  PetscCall(PetscFree3(pure, around, boundary));
+  PetscCall(PetscFree2(pure, around));
   PetscFunctionReturn(0);
 }
 
@@ -122,7 +126,8 @@ static void SweepFace(Step *t, int e, int i, Content *c)
   Swept region;
   SweptMake(s, a, b, (const double(*)[2])t->shift, swept, &region);
   SweptOutside parts;
-  OutsideDivide(&t->outside, a, b, region.origin, &parts);
+  parts.n = 0;
+  if (t->on_boundary[a] || t->on_boundary[b]) OutsideDivide(&t->outside, a, b, region.origin, &parts);
   double uncovered = SweptCollect(&t->search, a, b, 0, &region, &parts, c->area, c->mass);
   if (uncovered > OUTSIDE) {
     *c = (Content){{0.0}, {0.0}};
@@ -196,9 +201,11 @@ static PetscErrorCode StepBegin(Phases f, double dt, const double flux[], const 
   PetscCall(StarsExchange(s, sizeof *all_velocity, all_velocity));
   t->flow = (TraceFlow){s, dt, (const double(*)[3])all_flux, (const double(*)[3][2])all_velocity};
   PetscCall(PetscMalloc2(s->nowned, &t->calm, s->nowned, &t->shift));
+  PetscCall(PetscCalloc1(s->nv, &t->on_boundary));
   t->outside.flux = t->flow.flux;
   t->outside.shift = (const double(*)[2])t->shift;
   PetscCall(SweptSearchCreate(f, &t->search));
+  MarkBoundary(t);
   PetscCall(FindCalm(t));
   for (int v = 0; v < s->nowned; v++) {
     t->shift[v][0] = t->shift[v][1] = 0.0;
@@ -212,6 +219,7 @@ static PetscErrorCode StepEnd(Step *t)
   PetscFunctionBeginUser;
   PetscCall(PetscFree2(t->flow.flux, t->flow.velocity));
   PetscCall(PetscFree2(t->calm, t->shift));
+  PetscCall(PetscFree(t->on_boundary));
   PetscCall(SweptSearchDestroy(&t->search));
   PetscFunctionReturn(0);
 }
