@@ -34,7 +34,6 @@ PetscBool SegmentClip(int n, const double x[][2], const double from[2], const do
 static PetscErrorCode ElementPiece(Phases phases, const Mesh *m, int e, int phase, const double from[2],
                                    const double to[2], Piece *piece, PetscBool *counts)
 {
-  const double length = hypot(to[0] - from[0], to[1] - from[1]);
   double x[3][2], whole[2], part[2], area;
   Polygon polygon;
   int along;
@@ -47,6 +46,7 @@ static PetscErrorCode ElementPiece(Phases phases, const Mesh *m, int e, int phas
   area = GeometryArea((const double(*)[2])x);
   if (PolygonArea(&polygon) < least * area) PetscFunctionReturn(0);
   if (!SegmentClip(polygon.n, (const double(*)[2])polygon.x, from, to, part, &along)) PetscFunctionReturn(0);
+  const double length = hypot(to[0] - from[0], to[1] - from[1]);
   *piece = (Piece){length * fmax(part[0], whole[0]), length * fmin(part[1], whole[1]), sqrt(area)};
   *counts = (PetscBool)(piece->s1 - piece->s0 > SURFACE_SLIVER * length * (whole[1] - whole[0]));
   PetscFunctionReturn(0);
