@@ -13,6 +13,7 @@ static void ReadFractions(CoracleCase c, const char *key, const PhaseNames *name
     sum += b->inflow[p] = CoracleCaseNumber(c, CaseKey(sub, "%s[%d].value", key, k), 0.0, 1.0);
   }
   if (fabs(sum - 1.0) > 1e-9) CoracleCaseRefuse(c, key, "expected fractions whose sum is 1, found %g", sum);
+  for (int p = 0; p < PHASES_MAX; p++) b->inflow[p] /= sum;
 }
 
 /* With phases: which ones come in through a boundary, and the contact angles there. */

@@ -2,6 +2,7 @@
 # Phases in unusual domains: on ranks without elements, with a gas and a checkpoint, from which a run with other phases does not go on; far from the origin; with an interface that lies along the cut between ranks, which is
 # refined all the same; beside a slanted wall that moves along itself, which is a wall, in a closed tank, too; gas that comes in has the density of the pressure there; and where
 # gravity changes, the first step after a resume is that of the run without a stop.  A zone of absorption draws the phase that it names alone.
+# Fractions of what comes in whose decimals are cut off fill elements all the same.
 # Usage: phase_edges.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
@@ -100,3 +101,10 @@ for phase, expected in (("water", 0.1 * 1000.0 * 0.4), ("air", 0.1 * 1.2 * 0.6))
     force = column("drawn " + phase, "fluid_forces", "absorption x [N/m]")[0]
     assert abs(force / expected - 1.0) < 0.01, "%s is drawn with %g N/m, expected %g" % (phase, force, expected)
 E7
+must thirds 1:1:1 --set time.end=0.02 --set fluid.mesh.size_max=0.2 --set fluid.boundaries.right=open \
+  --set 'fluid.boundaries.left={velocity: [1, 0], fractions: [{phase: water, value: 0.333333333}, {phase: air, value: 0.666666666}]}'
+"$python" - "$scratch" <<'E8'
+from results import column
+gap = abs(column("thirds", "fluid", "volume gap [m2]")[-1])
+assert gap < 1e-13, "fractions whose sum is not quite 1 leave a gap of %g m2" % gap
+E8
