@@ -8,7 +8,7 @@ source "$(dirname "$0")/run.sh"
 case=$here/waves.yaml
 must waves 1:1:1 --set "solid.bodies[0].prescribed=[{table: $("$python" "$here/waves.py")}]"
 "$python" "$here/waves.py" "$scratch/waves" 0.1
-must rest 2:1:2 --set time.end=0.25
+must rest 2:1:2 --set time.end=0.1
 must fixed 1:1:1 --set time.end=0.25 --set "solid.bodies[0]={shape: rectangle, centre: [0.3, 0.35], width: 0.1, height: 0.7, size: 0.02, material: steel, fixed: true}"
 must tension 1:1:1 --set time.end=0.5 --set fluid.surface_tension=0.072
 "$python" - "$scratch" <<'E2'
