@@ -41,7 +41,7 @@ def gauges(label, deadrise, theory, depth):
 
 
 def entry(label):
-    deadrise = np.radians(float(label.split(":")[0]))
+    deadrise = np.radians(float(label.split()[0]))
     theory = Entry(deadrise, 0.4)
     assert abs(theory.far) < 3e-3 and abs(theory.apex / theory.pressure[0] - 1.0) < 0.02, "theory: surface far off at %g, pressure at the apex %g, %g" % (
         theory.far, theory.pressure[0], theory.apex)

@@ -13,7 +13,7 @@ enter() { # label deadrise depth [launch.sh arguments]
   sed "s/entry.msh/$2.msh/" "$scratch/entry.yaml" >"$case"
   local arguments=()
   mapfile -t arguments < <("$python" "$here/entry.py" "$2" "$3")
-  must "$2:$1" 1:1:1 --set "${arguments[0]}" --set "${arguments[1]}" "${@:4}"
+  must "$2 $1" 1:1:1 --set "${arguments[0]}" --set "${arguments[1]}" "${@:4}"
 }
 coarse=(--set fluid.adapt.size_min=0.02 --set fluid.adapt.interface_size=0.04)
 case ${1:-} in

@@ -8,7 +8,7 @@ source "$(dirname "$0")/run.sh"
 case=$here/heave.yaml limit=1800
 half=(--set fluid.adapt.size_min=0.005 --set fluid.adapt.interface_size=0.01 --set time.dt_max=0.002 --set "solid.bodies[0].size=0.005")
 square() { # label height [launch.sh arguments]
-  must "$1:$2" 1:1:1 --set time.end=1.6 --set "solid.bodies=[{shape: rectangle, centre: [1.5, $(awk "BEGIN { print 1.0 + $2 }")], width: 0.2, height: 0.2, size: 0.02, material: disc, prescribed: [{velocity: [0, 0], component: x}]}]" \
+  must "$1 $2" 1:1:1 --set time.end=1.6 --set "solid.bodies=[{shape: rectangle, centre: [1.5, $(awk "BEGIN { print 1.0 + $2 }")], width: 0.2, height: 0.2, size: 0.02, material: disc, prescribed: [{velocity: [0, 0], component: x}]}]" \
     --set solid.materials.disc.law=rigid "${@:3}"
 }
 case ${1:-} in
@@ -36,14 +36,14 @@ def square_theory():
     coarse, fine = [np.array(marks(t, Tank(3.0, 1.0, 1.5, 0.2, 0.2, 0.1, 0.5, 9.81, size).motion.released(t, 1))) for size in (0.05, 0.025)]
     return fine + (fine - coarse) / (2.0 ** (4.0 / 3.0) - 1.0)
 
-squares = glob.glob(sys.argv[1] + "/*:*/")
+squares = glob.glob(sys.argv[1] + "/* */")
 theory = square_theory() if squares else None
 for label in sorted(folder.split("/")[-2] for folder in squares):
     time, z = np.array([[row["t [s]"], row["y0 [m]"] - LEVEL] for row in rows(label, "solid") if row["t [s]"] < 1.2]).T
-    found = np.array(marks(time, z / float(label.split(":")[1])))
-    report = "square, le %s, height %s m: 0 at %.4f and %.4f s, minimum %.3f, maximum %.3f; theory %.4f, %.4f, %.3f, %.3f" % (*label.split(":"), *found, *theory)
+    found = np.array(marks(time, z / float(label.split()[1])))
+    report = "square, le %s, height %s m: 0 at %.4f and %.4f s, minimum %.3f, maximum %.3f; theory %.4f, %.4f, %.3f, %.3f" % (*label.split(), *found, *theory)
     print(report)
-    if label.endswith(":0.005"): assert (abs(found / theory - 1.0)[:2] < 0.015).all() and (abs(found - theory)[2:] < 0.015).all(), report
+    if label.endswith(" 0.005"): assert (abs(found / theory - 1.0)[:2] < 0.015).all() and (abs(found - theory)[2:] < 0.015).all(), report
 if squares and not os.path.exists(sys.argv[1] + "/0.01"): sys.exit()
 t = np.linspace(0.0, 8.4, 841)
 for w in 0.5, 1.0, 2.0, 4.0:

@@ -3,7 +3,7 @@
 # gains is what the solid loses, to round-off.  Usage: ranks.sh ROOT BUILD
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
-for ranks in 1:1:1 2:1:1 1:2:2 3:3:3; do must "${ranks//:/-}" "$ranks" --set 'fluid.petsc=-momentum_ksp_rtol 1e-9'; done # MPICH reads a name before a colon as a kind of file system
+for ranks in 1:1:1 2:1:1 1:2:2 3:3:3; do must "${ranks//:/-}" "$ranks" --set 'fluid.petsc=-momentum_ksp_rtol 1e-9'; done
 "$python" - "$scratch" <<'E2'
 from results import rows, summary
 def last(label):

@@ -17,6 +17,7 @@ brittle='{density: 2000.0, youngs_modulus: 1.0e6, poisson_ratio: 0.3, damping: 0
 run() {
   local label=$1 ranks=$2
   shift 2
+  [[ $label != *:* ]] || { echo "label '$label': MPICH reads what is before a colon of a file's name as a file system"; exit 1; }
   timeout -k 5 $((${limit:-120} * ${TEST_SLOWER:-1})) "$root/scripts/launch.sh" --bin "$build" --ranks "$ranks" "${case:-$here/disc.yaml}" \
     --set "output.folder=$scratch/$label" "$@" >"$scratch/$label.log" 2>&1
 }

@@ -4,7 +4,7 @@
 set -euo pipefail
 source "$(dirname "$0")/run.sh"
 case=$here/spin.yaml
-for ranks in 1:1:1 2:1:2; do must "spin $ranks" $ranks; done
+for ranks in 1:1:1 2:1:2; do must "spin ${ranks//:/-}" $ranks; done
 "$python" - "$scratch" <<'E2'
 import numpy as np
 from results import rows
@@ -23,7 +23,7 @@ def theory(r, t):
     return SPIN * (r + 2.0 * RADIUS * sum(bessel(1, z * r / RADIUS) / (z * bessel(0, z)) * d for z, d in zip(ZEROS, decay)))
 
 
-for ranks in "1:1:1", "2:1:2":
+for ranks in "1-1-1", "2-1-2":
     for row in rows("spin " + ranks, "fluid_probes"):
         t = row["t [s]"]
         if t < 0.1:
